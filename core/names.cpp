@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/names.hpp"
+#include <algorithm>
+#include <cctype>
+#include <numeric>
+
+namespace fretwork::core {
+namespace {
+
+std::string lower(std::string_view text) {
+  std::string out(text);
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return out;
+}
+
+/// Levenshtein distance, one row at a time.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t above = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0u : 1u)});
+      diagonal = above;
+    }
+  }
+  return row[b.size()];
+}
+
+} // namespace
+
+std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
+  const std::string wanted = lower(name);
+  std::string best;
+  std::size_t best_distance = std::max<std::size_t>(1, wanted.size() / 3) + 1;
+  for (const auto& candidate : candidates) {
+    const std::size_t distance = edit_distance(wanted, lower(candidate));
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+std::string list_names(const std::vector<std::string>& names, std::size_t most) {
+  if (names.empty())
+    return "none";
+  std::string out;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
+    out += (i ? ", \"" : "\"") + names[i] + "\"";
+  if (names.size() > most)
+    out += " and " + std::to_string(names.size() - most) + " more";
+  return out;
+}
+
+std::string name_help(std::string_view name, const std::vector<std::string>& candidates,
+                      std::string_view existing) {
+  std::string out;
+  if (const std::string near = nearest_name(name, candidates); !near.empty())
+    out += "; did you mean \"" + near + "\"?";
+  return out + (out.empty() ? "; " : " ") + std::string(existing) + ": " + list_names(candidates);
+}
+
+} // namespace fretwork::core

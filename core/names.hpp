@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Help for messages about names that do not exist.
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fretwork::core {
+
+/// The candidate nearest to `name` (edit distance, case ignored), or an empty string where none resembles it: more than a
+/// third of the characters would have to change.
+[[nodiscard]] std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
+
+/// `"a", "b", "c"`, or `none` for an empty list; at most `most` names, then how many more there are.
+[[nodiscard]] std::string list_names(const std::vector<std::string>& names, std::size_t most = 20);
+
+/// `; did you mean "b"? existing: "a", "b"`: what follows a message about an unknown name.
+[[nodiscard]] std::string name_help(std::string_view name, const std::vector<std::string>& candidates,
+                                    std::string_view existing = "existing");
+
+} // namespace fretwork::core

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Fields over a whole model (6 values a node), made element by element without a matrix.
+#pragma once
+#include "fem/model.hpp"
+#include <Eigen/Core>
+#include <span>
+
+namespace fretwork::fem {
+
+/// M u over all dofs, restrained ones included (base motion and gravity need their columns). Shapes 6 * nodes.
+[[nodiscard]] Eigen::VectorXd mass_times(const Model& model, const Eigen::VectorXd& field);
+
+/// K u over all dofs, restrained ones included: the reactions of a displacement field.
+[[nodiscard]] Eigen::VectorXd stiffness_times(const Model& model, const Eigen::VectorXd& field);
+
+/// A rigid translation: `direction` at the three translations of every node.
+[[nodiscard]] Eigen::VectorXd translation_field(const Model& model, const Vec3& direction);
+
+/// The full force (N), or moment (N m), at each of the nodes.
+[[nodiscard]] Eigen::VectorXd point_forces(const Model& model, std::span<const Index> nodes, const Vec3& value,
+                                           bool moment);
+
+/// Consistent nodal forces of a uniform line force (N/m, global direction) on the beams.
+/// @param beams numbers in model.beams
+[[nodiscard]] Eigen::VectorXd line_forces(const Model& model, std::span<const Index> beams, const Vec3& force_per_length);
+
+} // namespace fretwork::fem

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The mechanical model: beams, lumped masses, springs and dampers on nodes with restrained dofs. Plain data, SI units, global
+/// axes unless said otherwise. Fields over the model are vectors of 6 values a node: ux uy uz rx ry rz.
+#pragma once
+#include "core/types.hpp"
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fretwork::fem {
+
+using core::Index;
+using core::Vec3;
+using core::dofs_per_node;
+
+/// An isotropic elastic material.
+struct Material {
+  double young_modulus; ///< Pa, > 0
+  double poisson_ratio; ///< -1 < nu < 0.5
+  double density;       ///< kg/m3, >= 0
+};
+
+/// A cross-section in its principal axes y, z.
+struct Section {
+  double area;             ///< m2, > 0
+  double iy;               ///< m4, > 0: second moment about y (bending in the plane x-z)
+  double iz;               ///< m4, > 0: about z (bending in the plane x-y)
+  double torsion_constant; ///< m4, > 0
+  double polar_inertia;    ///< m4, >= 0: iy + iz for a solid section; rotary inertia about the axis is density times this
+};
+
+/// The direction in which added (fluid) mass acts.
+enum class AddedMass { transverse, all };
+
+/// What a beam is made of.
+struct BeamProperty {
+  Material material;
+  Section section;
+  double added_mass = 0.0; ///< kg/m, >= 0
+  AddedMass added_mass_direction = AddedMass::transverse;
+  std::optional<Vec3> orientation; ///< a vector in the local x-y plane; required where iy != iz
+};
+
+/// A straight two-node beam between nodes a and b.
+struct Beam {
+  Index a, b;
+  Index property;
+};
+
+/// A rigid body at a node.
+struct LumpedMass {
+  Index node;
+  double mass;                  ///< kg, >= 0
+  Vec3 inertia = Vec3::Zero();  ///< kg m2 about the body's own centre, >= 0
+  Vec3 arm = Vec3::Zero();      ///< m, from the node to the body's centre
+};
+
+/// Springs and dampers along the six dofs, grounded (other = -1) or between two nodes.
+struct Spring {
+  Index node;
+  Index other = -1;
+  std::array<double, 6> stiffness{}; ///< N/m, N m/rad, >= 0
+  std::array<double, 6> damping{};   ///< N s/m, N m s/rad, >= 0
+};
+
+struct Model {
+  std::vector<Vec3> nodes;
+  std::vector<BeamProperty> properties;
+  std::vector<Beam> beams;
+  std::vector<LumpedMass> masses;
+  std::vector<Spring> springs;
+  std::vector<std::uint8_t> fixed; ///< per node: bit d set = dof d restrained
+
+  [[nodiscard]] bool is_fixed(Index node, int dof) const { return (fixed[static_cast<std::size_t>(node)] >> dof) & 1u; }
+};
+
+/// A connected part of a model (through beams and springs between nodes) and the numbering of its free dofs.
+struct Structure {
+  std::vector<Index> nodes;     ///< ascending
+  std::vector<Index> beams;     ///< ascending
+  std::vector<Index> masses;
+  std::vector<Index> springs;
+  std::vector<Index> equation;  ///< 6 per entry of `nodes`: number of the free dof, -1 where restrained
+  Index equations = 0;
+};
+
+/// The connected parts of the model, by ascending first node.
+/// @throws core::Error for a dof with neither mass nor restraint, naming node, dof and cure
+[[nodiscard]] std::vector<Structure> structures(const Model& model);
+
+/// Mass of beams (added mass included), kg, and of lumped masses.
+[[nodiscard]] double total_mass(const Model& model);
+
+} // namespace fretwork::fem

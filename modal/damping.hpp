@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Modal damping.
+#pragma once
+#include "modal/basis.hpp"
+#include <variant>
+#include <vector>
+
+namespace fretwork::modal {
+
+/// C = stiffness K + mass M.
+struct Rayleigh {
+  double stiffness = 0.0; ///< s, >= 0
+  double mass = 0.0;      ///< 1/s, >= 0
+};
+
+/// One ratio for all modes, a ratio a mode (the last one holds for the modes after it), or Rayleigh.
+using Damping = std::variant<double, std::vector<double>, Rayleigh>;
+
+/// Sets basis.damping and adds the modal damping to basis.damping_matrix where dampers made one. Rayleigh's mass term damps
+/// rigid modes too: where there are rigid modes and a mass term, damping_matrix is made.
+void apply_damping(Basis& basis, const Damping& damping);
+
+} // namespace fretwork::modal

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// A study as typed, checked values: what the study file says, before anything is read or computed. Groups are still names.
+/// The contract with users is doc/study-file.md; keys, defaults and units are given there.
+#pragma once
+#include "fem/model.hpp"
+#include "mesh/read.hpp"
+#include "modal/damping.hpp"
+#include "transient/time_function.hpp"
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fretwork::study {
+
+using core::Vec3;
+
+struct Beams {
+  std::string group;
+  std::string material;
+  std::string section;
+  std::optional<Vec3> orientation;
+  double added_mass = 0.0;
+  fem::AddedMass added_mass_direction = fem::AddedMass::transverse;
+};
+
+struct Restraint {
+  std::string group;
+  std::uint8_t fixed; ///< bit d set = dof d (ux uy uz rx ry rz) restrained
+};
+
+struct Mass {
+  std::string group;
+  double mass = 0.0;
+  Vec3 inertia = Vec3::Zero();
+  Vec3 arm = Vec3::Zero();
+};
+
+struct Spring {
+  std::string group;
+  std::optional<std::string> other;
+  std::array<double, 6> stiffness{};
+  std::array<double, 6> damping{};
+};
+
+struct Modes {
+  std::optional<int> count = 40;  ///< exactly one of count and up_to_hz is set
+  std::optional<double> up_to_hz;
+  modal::Damping damping = 0.0;
+  std::optional<bool> distributed; ///< solve one structure over all ranks; default: by size
+};
+
+/// Obstacles of one node (doc/contact.md).
+enum class ObstacleKind { circle, plane_y, plane_z, stop_y, stop_z };
+enum class FrictionMemory { return_map, reference };
+
+struct Contact {
+  std::string name;
+  std::string group;
+  ObstacleKind obstacle = ObstacleKind::circle;
+  double gap = 0.0;
+  std::optional<Vec3> axis;
+  std::optional<Vec3> y_axis;   ///< instead of angle
+  double angle = 0.0;           ///< degrees
+  std::optional<Vec3> origin;
+  std::array<double, 2> offset{};
+  double normal_stiffness = 0.0;
+  double normal_damping = 0.0;
+  double tangential_stiffness = 0.0;
+  std::optional<double> tangential_damping; ///< none: the automatic value
+  double friction_static = 0.0;
+  double friction_dynamic = 0.0;
+  FrictionMemory memory = FrictionMemory::return_map;
+};
+
+struct Load {
+  std::string group;
+  bool per_length = false;
+  bool moment = false;
+  Vec3 direction; ///< unit
+  transient::TimeFunction function;
+};
+
+struct BaseMotion {
+  Vec3 direction; ///< unit
+  transient::TimeFunction acceleration;
+};
+
+struct Initial {
+  std::string group;
+  Vec3 displacement = Vec3::Zero();
+  Vec3 velocity = Vec3::Zero();
+  Vec3 rotation_rate = Vec3::Zero();
+  Vec3 centre = Vec3::Zero();
+};
+
+enum class Scheme { automatic, splitting, euler };
+
+struct Transient {
+  double duration = 0.0;
+  Scheme scheme = Scheme::automatic;
+  double accuracy = 0.01;
+  std::optional<double> step;
+};
+
+struct Output {
+  std::optional<double> every;   ///< s; default duration / 5000
+  std::vector<std::string> nodes;
+  double statistics_from = 0.0;
+};
+
+struct Study {
+  std::filesystem::path file;      ///< absolute; relative paths of the study start from its folder
+  std::string text;                ///< as read, overrides written at the end as comments: kept in the results
+  std::vector<std::string> overrides;
+  std::string title;
+  mesh::Source mesh;
+  std::map<std::string, fem::Material> materials;
+  std::map<std::string, fem::Section> sections;
+  std::vector<Beams> beams;
+  std::vector<Restraint> restraints;
+  std::vector<Mass> masses;
+  std::vector<Spring> springs;
+  Modes modes;
+  std::vector<Contact> contacts;
+  std::vector<Load> loads;
+  std::optional<Vec3> gravity;     ///< m/s2
+  std::vector<BaseMotion> base_motions;
+  std::vector<Initial> initial;
+  std::optional<Transient> transient; ///< needed by `run` and `transient` only
+  Output output;
+};
+
+/// Read and check a study file; `overrides` are `key=value` texts of `--set` (`contacts.tsp1.gap=3e-4`: arrays of tables are
+/// addressed by name, group or index from 0).
+/// @throws core::Error naming file, line, key, value and cure
+[[nodiscard]] Study read(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+/// The tables of the study that a stage depends on, as canonical TOML text (keys sorted, overrides applied): what is hashed to tell
+/// whether the stage must be computed again. Names are the top-level keys, e.g. {"mesh"}.
+[[nodiscard]] std::string canonical_text(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                                         const std::vector<std::string>& tables);
+
+} // namespace fretwork::study

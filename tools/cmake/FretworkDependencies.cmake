@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Third-party libraries, all packages of Debian 12.
+find_package(MPI REQUIRED COMPONENTS CXX)   # slepc.pc does not name the MPI include directory
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(PkgConfig REQUIRED)
+pkg_search_module(SLEPC REQUIRED IMPORTED_TARGET slepc SLEPc)
+pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-openmpi)   # the flavour PETSc uses: never two HDF5 in one process
+pkg_check_modules(SODIUM REQUIRED IMPORTED_TARGET libsodium)
+pkg_check_modules(FFTW REQUIRED IMPORTED_TARGET fftw3)
+find_package(tomlplusplus REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(fmt REQUIRED)
+find_path(GMSH_INCLUDE_DIR gmsh.h REQUIRED)
+find_library(GMSH_LIBRARY gmsh REQUIRED)
+add_library(gmsh_api INTERFACE)
+target_include_directories(gmsh_api SYSTEM INTERFACE ${GMSH_INCLUDE_DIR})
+target_link_libraries(gmsh_api INTERFACE ${GMSH_LIBRARY})
+if(FRETWORK_TESTS)
+  find_package(GTest REQUIRED)
+endif()
+if(FRETWORK_BENCH)
+  find_package(benchmark REQUIRED)
+endif()

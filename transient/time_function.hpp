@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Functions of time that loads and base motions follow.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <variant>
+#include <vector>
+
+namespace fretwork::transient {
+
+struct Constant {
+  double value;
+  bool operator==(const Constant&) const = default;
+};
+
+/// amplitude * sin(2 pi frequency t + phase)
+struct Harmonic {
+  double amplitude;
+  double frequency; ///< Hz, > 0
+  double phase = 0; ///< rad
+  bool operator==(const Harmonic&) const = default;
+};
+
+/// Linear between the points, constant outside; two points of equal time make a jump (the second value holds from there).
+struct Table {
+  std::vector<double> time;  ///< s, not decreasing, at least one
+  std::vector<double> value; ///< as many
+  bool operator==(const Table&) const = default;
+};
+
+/// Band-limited Gaussian noise of zero mean: a flat spectrum between two frequencies. The realisation is fixed by the seed, the
+/// band and the duration of the run.
+struct Random {
+  double rms;           ///< of the ensemble
+  double low, high;     ///< Hz, 0 <= low < high
+  std::uint64_t seed = 1;
+  bool operator==(const Random&) const = default;
+};
+
+using TimeFunction = std::variant<Constant, Harmonic, Table, Random>;
+
+/// A time function made ready for a run of `duration` seconds: values at any instant of it.
+class Signal {
+public:
+  Signal(const TimeFunction& function, double duration);
+
+  /// Value at `time` (from the right at a jump). No allocation.
+  [[nodiscard]] double operator()(double time) const;
+
+  /// True where the value never changes.
+  [[nodiscard]] bool is_constant() const { return std::holds_alternative<Constant>(function_); }
+  /// Highest frequency to be resolved, Hz: 0 for constants and tables.
+  [[nodiscard]] double highest_frequency() const;
+
+private:
+  TimeFunction function_;
+  double grid_step_ = 0;        ///< s, spacing of the samples of a random signal
+  std::vector<double> samples_; ///< value and slope times grid_step, interleaved: cubic Hermite between samples
+};
+
+} // namespace fretwork::transient
