@@ -40,6 +40,9 @@ struct Random {
 
 using TimeFunction = std::variant<Constant, Harmonic, Table, Random>;
 
+/// Highest frequency to be resolved, Hz: 0 for constants and tables.
+[[nodiscard]] double highest_frequency(const TimeFunction& function);
+
 /// A time function made ready for a run of `duration` seconds: values at any instant of it.
 class Signal {
 public:
@@ -50,8 +53,6 @@ public:
 
   /// True where the value never changes.
   [[nodiscard]] bool is_constant() const { return std::holds_alternative<Constant>(function_); }
-  /// Highest frequency to be resolved, Hz: 0 for constants and tables.
-  [[nodiscard]] double highest_frequency() const;
 
 private:
   TimeFunction function_;

@@ -13,7 +13,8 @@ function(fretwork_publish target folder)
 endfunction()
 
 function(fretwork_compile_options target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+                         -Wno-maybe-uninitialized)   # g++ 12 sees it where Eigen's kernels have been inlined
   if(FRETWORK_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()

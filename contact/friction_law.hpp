@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Coulomb friction with a tangential spring and damper and memory. All vectors have two components in the contact's tangent plane, along
+/// x_loc and t = n x x_loc: a memory kept in these components turns with the normal when the contact point moves round its obstacle.
+///
+/// `return_map`: a Kelvin-Voigt element (K_T, C_T) in series with a Coulomb slider. The memory T is the force of the spring.
+///     trial = T - C_T v;  bound = (sliding ? mu_d : mu_s) F_N
+///     |trial| <= bound: F = trial (stick)          else: F = mu_d F_N trial/|trial| (slip)
+///     stick: T' = -K_T v;  slip and open: T' = -(K_T/C_T)(T - F), F = 0 when open.
+///   In stick it is the reference's law; in slip T relaxes to F instead of being set to it, so that the force is continuous in time and
+///   every scheme converges to the same result.
+/// `reference`: R5.06.03 eq. 3.2-3 and 3.2-4 to the letter. F0, d0 = force and position at which the contact last slid (0 when open):
+///     trial = F0 - K_T (d - d0) - C_T v;   |trial| > bound: F = -mu_d F_N v/|v| (v = 0: along the trial);  open: memory 0.
+/// The memory changes only when a step is accepted: every function here is pure.
+#pragma once
+#include "contact/vec2.hpp"
+
+namespace fretwork::contact {
+
+enum class FrictionMemoryKind { return_map, reference };
+
+struct FrictionLaw {
+  double stiffness = 0.0;  ///< K_T, N/m, > 0 with friction
+  double damping = 0.0;    ///< C_T, N s/m, >= 0
+  double mu_static = 0.0;  ///< >= mu_dynamic
+  double mu_dynamic = 0.0; ///< >= 0; 0: no friction
+  FrictionMemoryKind kind = FrictionMemoryKind::return_map;
+
+  [[nodiscard]] bool active() const { return mu_static > 0.0; }
+};
+
+/// What a contact remembers of its tangential past.
+struct FrictionMemory {
+  Vec2 spring;          ///< N: T of return_map, F0 of reference
+  bool sliding = false;
+};
+
+/// Friction over one step.
+struct FrictionStep {
+  FrictionMemory memory; ///< at the end of the step, to be committed
+  Vec2 slip;             ///< m: displacement of the slider (0 in stick)
+  double friction_work = 0.0; ///< J >= 0, dissipated by the slider
+  double damper_work = 0.0;   ///< J >= 0, dissipated by C_T (and given up by the spring of an open contact)
+};
+
+struct Friction {
+  Vec2 force; ///< N, on the node
+  bool slides;
+};
+
+/// The law at one instant: what explicit schemes use. `dx` is the tangential displacement since the memory was committed, m.
+[[nodiscard]] Friction evaluate(const FrictionLaw& law, const FrictionMemory& memory, double normal_force, Vec2 dx, Vec2 velocity);
+
+/// What a law needs of a step of length h, made once.
+struct FrictionTable {
+  double gradient;   ///< G h = K_T h/2 + C_T, N s/m: the mean force of a sticking step is T - G h times its mean velocity
+  double relaxation; ///< exp(-K_T h/C_T): what is left after h of the spring's distance to its goal (0 without damper)
+};
+[[nodiscard]] FrictionTable friction_table(const FrictionLaw& law, double h);
+
+/// Closes a step in which the mean force was `force` and the displacement `dx`: advances the memory and shares out the energy.
+[[nodiscard]] FrictionStep close_step(const FrictionLaw& law, const FrictionTable& table, const FrictionMemory& memory,
+                                      Friction friction, Vec2 dx);
+
+/// An open contact over a step: the spring's force dies out through the damper (return_map) or is forgotten (reference).
+[[nodiscard]] FrictionStep open_step(const FrictionLaw& law, const FrictionTable& table, const FrictionMemory& memory);
+
+/// Energy of the tangential spring, J.
+[[nodiscard]] inline double spring_energy(const FrictionLaw& law, const FrictionMemory& memory) {
+  return law.stiffness > 0.0 ? 0.5 * dot(memory.spring, memory.spring) / law.stiffness : 0.0;
+}
+
+/// Implicit friction of one contact over a step: the mean velocity answers the force, v = free_velocity + A F (A = (h/2) W_tt, symmetric,
+/// >= 0). Stick: (I + G h A) F = T - G h free_velocity. Slip: F of length mu_d F_N along the trial T - G h v; with M = I + G h A and
+/// b = T - G h free_velocity that is (M + s I) F = b for the s >= 0 at which |F| is the bound, found by Newton's method on 1/|F|.
+/// For `reference` the slip force is
+/// opposite to v: with M = A and b = -free_velocity the same equation.
+struct Mobility {
+  double xx, xt, tt; ///< m/s per N
+};
+[[nodiscard]] Friction step_friction(const FrictionLaw& law, const FrictionTable& table, const FrictionMemory& memory,
+                                     double normal_force, Vec2 free_velocity, const Mobility& mobility);
+
+} // namespace fretwork::contact

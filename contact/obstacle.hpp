@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Obstacles of one node, in the plane y_loc, z_loc, their centre at the origin. `locate` turns a position into a gap and a normal.
+///
+/// Sign rule of the whole program: gap > 0 open, gap < 0 penetrates; the normal n is the gradient of the gap (into free space).
+///     circle       gap = g - r,            n = -e_r       hole of radial clearance g
+///     plane pair   gap = g - |c|,          n = -sign(c) e two planes at c = +-g, c = y or z
+///     stop         gap = g - c,            n = -e         one plane: contact where c exceeds g
+/// Source: R5.06.03 sections 4.1.1 and 4.1.2 (whose normals are opposite to each other).
+#pragma once
+#include <array>
+#include <cmath>
+#include <variant>
+
+namespace fretwork::contact {
+
+enum class PlaneAxis { y, z };
+
+struct Circle {
+  double gap; ///< m, >= 0
+};
+struct PlanePair {
+  double gap; ///< m, >= 0
+  PlaneAxis axis;
+};
+struct Stop {
+  double gap; ///< m, >= 0
+  PlaneAxis axis;
+};
+using Obstacle = std::variant<Circle, PlanePair, Stop>;
+
+/// Where a node is against its obstacle; the contact's tangent directions are x_loc and t = n x x_loc = (0, nz, -ny).
+struct Location {
+  double gap;    ///< m
+  double ny, nz; ///< unit normal in local axes
+};
+
+/// Direction taken for a node at the very centre of a circle, where every direction is as good.
+inline constexpr Location centred(double gap) { return {gap, -1.0, 0.0}; }
+
+[[nodiscard]] inline Location locate(const Circle& circle, double y, double z) {
+  const double r = std::sqrt(y * y + z * z);
+  if (!(r > 0.0))
+    return centred(circle.gap);
+  return {circle.gap - r, -y / r, -z / r};
+}
+
+[[nodiscard]] inline Location locate(const PlanePair& plane, double y, double z) {
+  const bool along_y = plane.axis == PlaneAxis::y;
+  const double c = along_y ? y : z;
+  const double n = c < 0.0 ? 1.0 : -1.0;
+  return {plane.gap - std::abs(c), along_y ? n : 0.0, along_y ? 0.0 : n};
+}
+
+[[nodiscard]] inline Location locate(const Stop& stop, double y, double z) {
+  const bool along_y = stop.axis == PlaneAxis::y;
+  return {stop.gap - (along_y ? y : z), along_y ? -1.0 : 0.0, along_y ? 0.0 : -1.0};
+}
+
+[[nodiscard]] inline Location locate(const Obstacle& obstacle, double y, double z) {
+  return std::visit([&](const auto& shape) { return locate(shape, y, z); }, obstacle);
+}
+
+/// A bound that tells cheaply that a node is out of reach: the gap is at least
+///     limit - sqrt(wy y^2 + wz z^2),
+/// and its rate at least -sqrt(wy vy^2 + wz vz^2).
+struct Reach {
+  double wy, wz, limit;
+};
+[[nodiscard]] Reach reach(const Obstacle& obstacle);
+
+/// Local directions (y, z) the normal can take: those whose stiffness counts in the contact frequency.
+[[nodiscard]] std::array<bool, 2> normal_directions(const Obstacle& obstacle);
+
+} // namespace fretwork::contact

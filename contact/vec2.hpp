@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// A vector of the tangent plane, components along x_loc and t.
+#pragma once
+#include <cmath>
+
+namespace fretwork::contact {
+
+struct Vec2 {
+  double x = 0.0, t = 0.0;
+};
+inline Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.t + b.t}; }
+inline Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.t - b.t}; }
+inline Vec2 operator*(double s, Vec2 a) { return {s * a.x, s * a.t}; }
+inline double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.t * b.t; }
+inline double norm(Vec2 a) { return std::sqrt(dot(a, a)); }
+
+} // namespace fretwork::contact

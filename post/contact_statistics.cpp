@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "post/contact_statistics.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace fretwork::post {
+
+ContactStatistics::ContactStatistics(std::size_t contacts, double from) : from_(from), sums_(contacts) {
+  for (auto* v : {&motion_.y0, &motion_.z0, &motion_.y, &motion_.z, &motion_.y2, &motion_.z2, &motion_.y_min, &motion_.y_max,
+                  &motion_.z_min, &motion_.z_max, &motion_.r2, &motion_.r2_max})
+    v->assign(contacts, 0.0);
+}
+
+void ContactStatistics::step(const transient::Record& record) {
+  const std::int64_t now = number_++;
+  const bool inside = record.time >= from_;
+  for (const int c : record.active) {
+    const transient::ContactState& state = record.states[static_cast<std::size_t>(c)];
+    Sums& s = sums_[static_cast<std::size_t>(c)];
+    if (s.last_closed != now - 1) { // an impact starts
+      s.duration = 0.0;
+      s.counted = inside;
+      if (inside) {
+        ++s.impacts;
+        s.speed += state.approach;
+        s.speed_max = std::max(s.speed_max, state.approach);
+      }
+    }
+    s.last_closed = now;
+    s.duration += record.step;
+    if (s.counted) {
+      s.impact_time += record.step;
+      s.longest = std::max(s.longest, s.duration);
+    }
+    if (!inside)
+      continue;
+    s.closed_time += record.step;
+    const double n = state.normal_force, t2 = dot(state.friction, state.friction);
+    s.normal += n;
+    s.normal2 += n * n;
+    s.normal_max = std::max(s.normal_max, n);
+    s.tangential2 += t2;
+    s.tangential_max = std::max(s.tangential_max, t2);
+    if (state.slides)
+      s.slid += n * norm(state.displacement);
+    s.friction += state.friction_work;
+  }
+  if (!inside)
+    return;
+  watch_motion(record);
+  time_ += record.step;
+  ++seen_;
+}
+
+void ContactStatistics::watch_motion(const transient::Record& record) {
+  const std::size_t n = sums_.size();
+  Motion& m = motion_;
+  if (seen_ == 0)
+    for (std::size_t c = 0; c < n; ++c) {
+      m.y0[c] = m.y_min[c] = m.y_max[c] = record.uy[c];
+      m.z0[c] = m.z_min[c] = m.z_max[c] = record.uz[c];
+    }
+  for (std::size_t c = 0; c < n; ++c) {
+    const double y = record.uy[c], z = record.uz[c];
+    const double dy = y - m.y0[c], dz = z - m.z0[c], r2 = y * y + z * z;
+    m.y[c] += dy;
+    m.z[c] += dz;
+    m.y2[c] += dy * dy;
+    m.z2[c] += dz * dz;
+    m.y_min[c] = std::min(m.y_min[c], y);
+    m.y_max[c] = std::max(m.y_max[c], y);
+    m.z_min[c] = std::min(m.z_min[c], z);
+    m.z_max[c] = std::max(m.z_max[c], z);
+    m.r2[c] += r2;
+    m.r2_max[c] = std::max(m.r2_max[c], r2);
+  }
+}
+
+std::vector<ContactSummary> ContactStatistics::summaries() const {
+  std::vector<ContactSummary> out(sums_.size());
+  if (seen_ == 0)
+    return out;
+  const auto n = static_cast<double>(seen_);
+  const auto moments = [&](double first, double sum, double squares, double low, double high) {
+    const double shift = sum / n;
+    return Moments{first + shift, std::sqrt(std::max(0.0, squares / n - shift * shift)), low, high};
+  };
+  for (std::size_t c = 0; c < out.size(); ++c) {
+    const Sums& s = sums_[c];
+    const Motion& m = motion_;
+    ContactSummary& o = out[c];
+    o.impacts = s.impacts;
+    o.contact_time_ratio = s.closed_time / time_;
+    o.normal_mean = s.normal / n;
+    o.normal_rms = std::sqrt(s.normal2 / n);
+    o.normal_max = s.normal_max;
+    if (s.closed_time > 0.0) {
+      const double closed = n * o.contact_time_ratio; // steps in contact
+      o.normal_in_contact_mean = s.normal / closed;
+      o.normal_in_contact_rms = std::sqrt(s.normal2 / closed);
+    }
+    o.tangential_rms = std::sqrt(s.tangential2 / n);
+    o.tangential_max = std::sqrt(s.tangential_max);
+    o.y = moments(m.y0[c], m.y[c], m.y2[c], m.y_min[c], m.y_max[c]);
+    o.z = moments(m.z0[c], m.z[c], m.z2[c], m.z_min[c], m.z_max[c]);
+    o.radial_rms = std::sqrt(m.r2[c] / n);
+    o.radial_max = std::sqrt(m.r2_max[c]);
+    o.work_rate = s.slid / time_;
+    o.friction_power = s.friction / time_;
+    if (s.impacts > 0) {
+      o.impact_velocity_mean = s.speed / static_cast<double>(s.impacts);
+      o.impact_velocity_max = s.speed_max;
+      o.contact_duration_mean = s.impact_time / static_cast<double>(s.impacts);
+      o.contact_duration_max = s.longest;
+    }
+  }
+  return out;
+}
+
+} // namespace fretwork::post

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Statistics of the displacement of observed nodes over every step of a window.
+#pragma once
+#include "post/moments.hpp"
+#include "transient/kernels.hpp"
+#include "transient/run.hpp"
+#include <array>
+#include <vector>
+
+namespace fretwork::post {
+
+/// Displacement along the global axes, m.
+struct NodeSummary {
+  std::array<Moments, 3> displacement;
+};
+
+class NodeStatistics final : public transient::Observer {
+public:
+  /// @param rows  for each node its 3 x n translations of the modes   @param from  start of the window, s
+  NodeStatistics(const std::vector<Eigen::MatrixXd>& rows, double from);
+  void step(const transient::Record& record) override;
+  [[nodiscard]] std::vector<NodeSummary> summaries() const;
+
+private:
+  double from_;
+  int modes_ = 0, width_ = 0;
+  transient::kernels::Array gather_, u_, unused_;
+  std::vector<std::array<Accumulator, 3>> sums_;
+};
+
+} // namespace fretwork::post

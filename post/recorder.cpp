@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "post/recorder.hpp"
+#include "contact/obstacle.hpp"
+#include <algorithm>
+
+namespace fretwork::post {
+
+Recorder::Recorder(const transient::Scene& scene, std::vector<ObservedNode> nodes, const transient::OutputGrid& grid)
+    : scene_(scene), nodes_(std::move(nodes)), acceleration_(scene.system.size()) {
+  const Eigen::Index nt = grid.count;
+  out_.time.setZero(nt);
+  out_.modal_displacement.setZero(scene.system.size(), nt);
+  out_.modal_velocity.setZero(scene.system.size(), nt);
+  for (const auto& point : scene.contacts)
+    out_.contacts.push_back({point.name, {}, {}, Eigen::VectorXd::Zero(nt), Eigen::VectorXd::Zero(nt), Eigen::MatrixXd::Zero(nt, 2)});
+  for (const auto& node : nodes_)
+    out_.nodes.push_back({node.name, {}, {}, Eigen::MatrixXd::Zero(nt, 3)});
+}
+
+void Recorder::state(std::int64_t index, double time, const double* q, const double* v) {
+  out_.time(index) = time;
+  std::copy_n(q, scene_.system.size(), out_.modal_displacement.col(index).data());
+  std::copy_n(v, scene_.system.size(), out_.modal_velocity.col(index).data());
+  for (std::size_t c = 0; c < scene_.contacts.size(); ++c) {
+    const auto& point = scene_.contacts[c];
+    const double y = point.rest.y() + point.b.row(1).dot(out_.modal_displacement.col(index));
+    const double z = point.rest.z() + point.b.row(2).dot(out_.modal_displacement.col(index));
+    out_.contacts[c].gap(index) = contact::locate(point.support.obstacle, y, z).gap;
+  }
+}
+
+void Recorder::forces(std::int64_t index, double, const double* load, std::span<const transient::ContactForce> contacts) {
+  const bool wanted = !nodes_.empty();
+  if (wanted) {
+    const auto& system = scene_.system;
+    const auto q = out_.modal_displacement.col(index), v = out_.modal_velocity.col(index);
+    acceleration_ = Eigen::Map<const Eigen::VectorXd>(load, system.size());
+    acceleration_.array() -= system.stiffness.array() * q.array();
+    if (system.damping_matrix.size() > 0)
+      acceleration_.noalias() -= system.damping_matrix * v;
+    else
+      acceleration_.array() -= system.damping.array() * v.array();
+  }
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    ContactSeries& series = out_.contacts[c];
+    if (series.gap(index) > 0.0)
+      continue; // open at this instant, whatever the steps around it
+    const auto& f = contacts[c];
+    series.normal_force(index) = f.normal;
+    series.tangential_force(index, 0) = f.friction.x;
+    series.tangential_force(index, 1) = f.friction.t;
+    if (wanted) {
+      const auto& b = scene_.contacts[c].b;
+      acceleration_ += f.friction.x * b.row(0).transpose() + (f.normal * f.ny + f.friction.t * f.nz) * b.row(1).transpose() +
+                       (f.normal * f.nz - f.friction.t * f.ny) * b.row(2).transpose();
+    }
+  }
+  for (std::size_t k = 0; k < nodes_.size(); ++k)
+    out_.nodes[k].acceleration.row(index) = (nodes_[k].rows * acceleration_).transpose();
+  served_ = index + 1;
+}
+
+TimeSeries Recorder::series() && {
+  if (served_ < out_.time.size()) { // a run that was cut short
+    out_.time.conservativeResize(served_);
+    out_.modal_displacement.conservativeResize(Eigen::NoChange, served_);
+    out_.modal_velocity.conservativeResize(Eigen::NoChange, served_);
+    for (auto& c : out_.contacts) {
+      c.gap.conservativeResize(served_);
+      c.normal_force.conservativeResize(served_);
+      c.tangential_force.conservativeResize(served_, Eigen::NoChange);
+    }
+    for (auto& n : out_.nodes)
+      n.acceleration.conservativeResize(served_, Eigen::NoChange);
+  }
+  for (std::size_t c = 0; c < scene_.contacts.size(); ++c) {
+    out_.contacts[c].displacement = (scene_.contacts[c].b * out_.modal_displacement).transpose();
+    out_.contacts[c].velocity = (scene_.contacts[c].b * out_.modal_velocity).transpose();
+  }
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    out_.nodes[k].displacement = (nodes_[k].rows * out_.modal_displacement).transpose();
+    out_.nodes[k].velocity = (nodes_[k].rows * out_.modal_velocity).transpose();
+  }
+  return std::move(out_);
+}
+
+} // namespace fretwork::post

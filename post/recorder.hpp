@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Time series at the output instants.
+#pragma once
+#include "transient/run.hpp"
+#include <string>
+#include <vector>
+
+namespace fretwork::post {
+
+/// Local axes of the contact.
+struct ContactSeries {
+  std::string name;
+  Eigen::MatrixXd displacement, velocity; ///< nt x 3, m and m/s
+  Eigen::VectorXd gap;                    ///< nt, m
+  Eigen::VectorXd normal_force;           ///< nt, N
+  Eigen::MatrixXd tangential_force;       ///< nt x 2, N: along x_loc, along n x x_loc
+};
+
+/// Global axes.
+struct NodeSeries {
+  std::string name;
+  Eigen::MatrixXd displacement, velocity, acceleration; ///< nt x 3
+};
+
+struct TimeSeries {
+  Eigen::VectorXd time;                                 ///< nt, s
+  std::vector<ContactSeries> contacts;
+  std::vector<NodeSeries> nodes;
+  Eigen::MatrixXd modal_displacement, modal_velocity;   ///< n x nt (one output a column)
+};
+
+/// A node whose motion is wanted.
+struct ObservedNode {
+  std::string name;
+  Eigen::MatrixXd rows; ///< 3 x n, global axes
+};
+
+class Recorder final : public transient::Sampler {
+public:
+  Recorder(const transient::Scene& scene, std::vector<ObservedNode> nodes, const transient::OutputGrid& grid);
+  void state(std::int64_t index, double time, const double* q, const double* v) override;
+  void forces(std::int64_t index, double time, const double* load, std::span<const transient::ContactForce> contacts) override;
+
+  /// The series of the outputs served so far, displacements and velocities made from the modes.
+  [[nodiscard]] TimeSeries series() &&;
+
+private:
+  const transient::Scene& scene_;
+  std::vector<ObservedNode> nodes_;
+  TimeSeries out_;
+  Eigen::VectorXd acceleration_; ///< modal
+  std::int64_t served_ = 0;
+};
+
+} // namespace fretwork::post

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// All that a run leaves: plain data, gathered by the application, written by the other files of this folder.
+#pragma once
+#include "modal/basis.hpp"
+#include "post/contact_statistics.hpp"
+#include "post/node_statistics.hpp"
+#include "post/recorder.hpp"
+#include "transient/step_rule.hpp"
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fretwork::results {
+
+/// Where results come from: carried by every result file.
+struct RunRecord {
+  std::string version;
+  std::string title;
+  std::string study_text;                       ///< the study file, overrides appended as comments
+  std::string input_sha256;                     ///< of the canonical study and of the files it reads
+  std::vector<std::uint64_t> seeds;             ///< of the random loads
+  std::map<std::string, std::string> libraries; ///< name -> version
+  std::string vector_width;
+  int ranks = 1;
+};
+
+struct ModelFacts {
+  std::int64_t nodes = 0, elements = 0, dofs = 0;
+  double mass_kg = 0.0;
+};
+
+/// A contact as it was set up.
+struct ContactFacts {
+  std::string name;
+  core::Index node = 0;         ///< of the model
+  Eigen::Matrix3d axes;         ///< rows x_loc y_loc z_loc
+  std::string obstacle;         ///< as in the study file
+  double gap = 0.0;             ///< m
+  core::Vec3 rest;              ///< m, node at rest from the obstacle's centre, local axes
+  double normal_stiffness = 0.0, normal_damping = 0.0, tangential_stiffness = 0.0, tangential_damping = 0.0;
+  double friction_static = 0.0, friction_dynamic = 0.0;
+};
+
+/// One independent transient (a connected structure with its contacts).
+struct TransientFacts {
+  transient::StepChoice choice;
+  transient::Report report;
+};
+
+struct Timings { ///< s
+  double read = 0, mesh = 0, assembly = 0, modes = 0, basis = 0, transient = 0, output = 0, total = 0;
+};
+
+struct RunResults {
+  RunRecord record;
+  ModelFacts model;
+  std::vector<core::Vec3> nodes;                  ///< m
+  std::vector<std::array<core::Index, 2>> lines;  ///< beams
+  std::vector<modal::Basis> bases;                ///< by structure
+  std::vector<ContactFacts> contacts;
+  std::vector<post::ContactSummary> contact_summaries; ///< as `contacts`; empty without a transient
+  std::vector<std::string> node_names;
+  std::vector<post::NodeSummary> node_summaries;
+  std::vector<TransientFacts> transients;         ///< by structure that was run
+  double statistics_from = 0.0, duration = 0.0;   ///< s
+  post::TimeSeries series;                        ///< of all structures; modal series stacked in the order of `bases`
+  Timings timings;
+  std::vector<std::string> warnings;
+};
+
+} // namespace fretwork::results

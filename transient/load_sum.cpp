@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/load_sum.hpp"
+#include <algorithm>
+
+namespace fretwork::transient {
+
+LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double duration)
+    : padded_modes_(kernels::padded(static_cast<int>(modes))) {
+  std::vector<const TimeFunction*> functions;
+  for (const Load& load : loads) {
+    if (load.modal_force.isZero(0.0))
+      continue;
+    const auto same = std::find_if(functions.begin(), functions.end(), [&](const auto* f) { return *f == load.function; });
+    const auto source = static_cast<std::size_t>(same - functions.begin());
+    if (same == functions.end()) {
+      functions.push_back(&load.function);
+      signals_.emplace_back(load.function, duration);
+      shapes_.resize(shapes_.size() + static_cast<std::size_t>(padded_modes_), 0.0);
+      constant_ = constant_ && signals_.back().is_constant();
+    }
+    for (Eigen::Index i = 0; i < modes; ++i)
+      shapes_[source * padded_modes_ + i] += load.modal_force(i);
+  }
+  values_.resize(signals_.size());
+}
+
+void LoadSum::at(double time, double* force) {
+  for (std::size_t s = 0; s < signals_.size(); ++s)
+    values_[s] = signals_[s](time);
+  kernels::combine(padded_modes_, static_cast<int>(signals_.size()), shapes_.data(), values_.data(), force);
+}
+
+} // namespace fretwork::transient

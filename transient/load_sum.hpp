@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The loads of a scene as one modal force: loads that follow the same function of time are added before the run.
+#pragma once
+#include "transient/kernels.hpp"
+#include "transient/scene.hpp"
+
+namespace fretwork::transient {
+
+class LoadSum {
+public:
+  LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double duration);
+  [[nodiscard]] bool empty() const { return signals_.empty(); }
+  /// True where the force never changes.
+  [[nodiscard]] bool constant() const { return constant_; }
+  /// Modal force at a time, padded. No allocation.
+  void at(double time, double* force);
+
+private:
+  int padded_modes_;
+  bool constant_ = true;
+  std::vector<Signal> signals_;
+  kernels::Array shapes_, values_;
+};
+
+} // namespace fretwork::transient

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/oscillator.hpp"
+#include <array>
+#include <cmath>
+
+namespace fretwork::transient {
+namespace {
+
+/// Below this value of sqrt(k) t and c t the closed forms of the load responses cancel; their power series then
+/// needs fewer than 24 terms for full precision.
+constexpr double series_limit = 0.5;
+
+/// Load responses by the power series of g: g = sum g_j t^j with g_0 = 0, g_1 = 1, (j+1)(j+2) g_{j+2} = -c (j+1) g_{j+1} - k g_j.
+struct LoadResponse {
+  double r0, r1; ///< int g, int (t - s) g(s) ds: to a constant unit load, to a load of unit slope
+  double d0, d1; ///< their derivatives
+  double i0, i1; ///< their integrals
+};
+
+LoadResponse series_response(double k, double c, double t) {
+  LoadResponse out{};
+  double g_now = 0.0, g_next = 1.0, power = 1.0; // g_j, g_{j+1}, t^j
+  for (int j = 0; j < 24; ++j) {
+    const double term = g_now * power; // g_j t^j
+    out.d0 += term;
+    out.r0 += term * t / (j + 1);
+    out.d1 += term * t / (j + 1);
+    out.r1 += term * t * t / ((j + 1) * (j + 2));
+    out.i0 += term * t * t / ((j + 1) * (j + 2));
+    out.i1 += term * t * t * t / ((j + 1.0) * (j + 2) * (j + 3));
+    const double g_after = -(c * (j + 1) * g_next + k * g_now) / ((j + 1.0) * (j + 2.0));
+    g_now = g_next;
+    g_next = g_after;
+    power *= t;
+  }
+  return out;
+}
+
+/// k > 0: particular solutions (1 for a constant load k, t - c/k for a slope k) less the homogeneous motion that starts from them.
+LoadResponse closed_response(double k, double c, double t, const Impulse& im) {
+  const double a = im.rate + c * im.g;
+  LoadResponse out{};
+  out.r0 = (1.0 - a) / k;
+  out.d0 = im.g;
+  out.r1 = (t - im.g - c * out.r0) / k; // from the equation integrated once: g + c r0 + k r1 = t
+  out.d1 = out.r0;
+  out.i0 = out.r1;
+  out.i1 = (0.5 * t * t - out.r0 - c * out.r1) / k; // integrated twice
+  return out;
+}
+
+/// k = 0, c t not small: g = (1 - exp(-c t))/c.
+LoadResponse drag_response(double c, double t, const Impulse& im) {
+  LoadResponse out{};
+  out.d0 = im.g;
+  out.r0 = (t - im.g) / c;
+  out.d1 = out.r0;
+  out.r1 = (0.5 * t * t - out.r0) / c;
+  out.i0 = out.r1;
+  out.i1 = (t * t * t / 6.0 - out.r1) / c;
+  return out;
+}
+
+LoadResponse load_response(double k, double c, double t, const Impulse& im) {
+  if (k * t * t < series_limit * series_limit && c * t < series_limit)
+    return series_response(k, c, t);
+  return k > 0.0 ? closed_response(k, c, t, im) : drag_response(c, t, im);
+}
+
+} // namespace
+
+Impulse impulse_response(double k, double c, double t) {
+  const double decay = 0.5 * c;
+  const double discriminant = k - decay * decay;
+  const double x2 = discriminant * t * t;
+  if (std::abs(x2) < 1e-4) { // near critical damping: sin(x)/x and cos(x) by their series, error below x2^3/5040
+    const double e = std::exp(-decay * t);
+    const double sinc = 1.0 - x2 / 6.0 * (1.0 - x2 / 20.0);
+    const double cosine = 1.0 - 0.5 * x2 * (1.0 - x2 / 12.0);
+    return {e * t * sinc, e * (cosine - decay * t * sinc)};
+  }
+  if (discriminant > 0.0) {
+    const double wd = std::sqrt(discriminant), e = std::exp(-decay * t);
+    const double s = std::sin(wd * t) / wd;
+    return {e * s, e * (std::cos(wd * t) - decay * s)};
+  }
+  // overdamped: two decaying exponentials, the slow root from the product of roots (no cancellation)
+  const double root = std::sqrt(-discriminant);
+  const double fast = decay + root, slow = k / fast;
+  const double es = std::exp(-slow * t), ef = std::exp(-fast * t);
+  return {(es - ef) / (2.0 * root), (fast * ef - slow * es) / (2.0 * root)};
+}
+
+StepCoefficients step_coefficients(double k, double c, double h) {
+  const Impulse im = impulse_response(k, c, h);
+  const LoadResponse r = load_response(k, c, h, im);
+  StepCoefficients s{};
+  s.qq = im.rate + c * im.g;
+  s.qv = im.g;
+  s.qf1 = r.r1 / h;
+  s.qf0 = r.r0 - s.qf1;
+  s.vq = -k * im.g;
+  s.vv = im.rate;
+  s.vf1 = r.d1 / h;
+  s.vf0 = r.d0 - s.vf1;
+  // means: int a = g + c int g
+  s.mq = (im.g + c * r.r0) / h;
+  s.mv = r.r0 / h;
+  s.mf1 = r.i1 / (h * h);
+  s.mf0 = r.i0 / h - s.mf1;
+  return s;
+}
+
+DenseCoefficients dense_coefficients(double k, double c, double t) {
+  const Impulse im = impulse_response(k, c, t);
+  const LoadResponse r = load_response(k, c, t, im);
+  return {im.rate + c * im.g, im.g, r.r0, r.r1, -k * im.g, im.rate, r.d0, r.d1};
+}
+
+} // namespace fretwork::transient

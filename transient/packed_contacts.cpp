@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/packed_contacts.hpp"
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace fretwork::transient {
+namespace {
+
+/// Local component (x y z of a ContactPoint's b) stored in block y, z, x.
+constexpr std::array<int, 3> stored = {1, 2, 0};
+
+} // namespace
+
+PackedContacts::PackedContacts(const std::vector<ContactPoint>& contacts, Eigen::Index mode_count)
+    : count(static_cast<int>(contacts.size())), width(kernels::padded(static_cast<int>(contacts.size()))),
+      modes(static_cast<int>(mode_count)), padded_modes(kernels::padded(static_cast<int>(mode_count))) {
+  const bool along_x = std::any_of(contacts.begin(), contacts.end(), [](const ContactPoint& c) {
+    return c.support.friction.active() && c.b.row(0).cwiseAbs().maxCoeff() > 0.0;
+  });
+  components = along_x ? 3 : 2;
+  const auto lanes = static_cast<std::size_t>(width);
+  gather.assign(static_cast<std::size_t>(modes) * stride(), 0.0);
+  rows.assign(static_cast<std::size_t>(count) * 3 * padded_modes, 0.0);
+  mobility.assign(static_cast<std::size_t>(count) * 3 * stride(), 0.0);
+  rest_y.assign(lanes, 0.0);
+  rest_z = reach_y = reach_z = rest_y;
+  reach_limit.assign(lanes, std::numeric_limits<double>::infinity()); // a lane of padding is never near
+
+  for (int c = 0; c < count; ++c) {
+    const ContactPoint& point = contacts[static_cast<std::size_t>(c)];
+    supports.push_back(point.support);
+    const contact::Reach r = contact::reach(point.support.obstacle);
+    rest_y[c] = point.rest.y();
+    rest_z[c] = point.rest.z();
+    reach_y[c] = r.wy;
+    reach_z[c] = r.wz;
+    reach_limit[c] = r.limit;
+    for (int k = 0; k < components; ++k)
+      for (int i = 0; i < modes; ++i) {
+        gather[static_cast<std::size_t>(i) * stride() + k * width + c] = point.b(stored[k], i);
+        rows[(static_cast<std::size_t>(c) * 3 + k) * padded_modes + i] = point.b(stored[k], i);
+      }
+    for (int from = 0; from < components; ++from)
+      for (int other = 0; other < count; ++other)
+        for (int to = 0; to < components; ++to)
+          mobility[(static_cast<std::size_t>(c) * 3 + from) * stride() + to * width + other] =
+              contacts[static_cast<std::size_t>(other)].b.row(stored[to]).dot(point.b.row(stored[from]));
+  }
+}
+
+} // namespace fretwork::transient

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/run.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fretwork::transient {
+namespace {
+
+/// A run whose energy residual passes this many times all the energy put in is unstable: physics cannot recover from it.
+constexpr double hopeless = 100.0;
+
+std::unique_ptr<Scheme> make_scheme(const Scene& scene, const StepChoice& choice) {
+  switch (choice.scheme) {
+  case SchemeKind::splitting:
+    return make_splitting(scene, choice.step);
+  case SchemeKind::euler:
+    return make_euler(scene, choice.step);
+  }
+  return nullptr;
+}
+
+/// Serves the output instants that lie before the next record.
+class OutputQueue {
+public:
+  OutputQueue(const Scene& scene, Sampler* sampler, const OutputGrid& grid)
+      : sampler_(sampler), grid_(grid), size_(static_cast<std::size_t>(scene.system.size())), q_(size_), v_(size_), load_(size_),
+        last_(scene.contacts.size()), now_(last_), mixed_(last_) {
+    if (!sampler)
+      grid_.count = 0;
+  }
+
+  /// States at the instants before `limit`; their forces wait for the next record.
+  void states(Scheme& scheme, double limit) {
+    first_ = next_;
+    while (next_ < grid_.count && time(next_) < limit) {
+      scheme.state_at(time(next_), q_.data(), v_.data());
+      sampler_->state(next_, time(next_), q_.data(), v_.data());
+      ++next_;
+    }
+  }
+
+  void forces(Scheme& scheme, const Record& record) {
+    if (first_ == next_)
+      return;
+    fresh(record);
+    for (std::int64_t j = first_; j < next_; ++j)
+      serve(scheme, j, last_time_ < 0.0 ? 1.0 : (time(j) - last_time_) / (record.time - last_time_));
+  }
+
+  /// Keeps the forces of a record that output instants will follow before the one after it.
+  void keep(const Record& record) {
+    if (grid_.count == 0)
+      return;
+    last_time_ = record.time;
+    if (next_ < grid_.count && time(next_) < record.time + 1.5 * record.step) {
+      fresh(record);
+      last_.swap(now_);
+    }
+  }
+
+  /// After the last record: the instants up to the end.
+  void finish(Scheme& scheme) {
+    const std::int64_t begin = next_;
+    states(scheme, std::numeric_limits<double>::infinity());
+    now_ = last_;
+    for (std::int64_t j = begin; j < next_; ++j)
+      serve(scheme, j, 0.0);
+  }
+
+private:
+  [[nodiscard]] double time(std::int64_t j) const { return static_cast<double>(j) * grid_.every; }
+
+  void fresh(const Record& record) {
+    for (std::size_t c = 0; c < now_.size(); ++c) {
+      const ContactState& s = record.states[c];
+      now_[c] = {s.normal_force, s.friction, s.ny, s.nz};
+    }
+  }
+
+  void serve(Scheme& scheme, std::int64_t j, double share) {
+    scheme.load_at(time(j), load_.data());
+    sampler_->forces(j, time(j), load_.data(), between(share));
+  }
+
+  std::span<const ContactForce> between(double share) {
+    for (std::size_t c = 0; c < now_.size(); ++c) {
+      const ContactForce &a = last_[c], &b = now_[c];
+      const ContactForce& direction = b.normal > 0.0 ? b : a;
+      mixed_[c] = {a.normal + share * (b.normal - a.normal), a.friction + share * (b.friction - a.friction), direction.ny,
+                   direction.nz};
+    }
+    return mixed_;
+  }
+
+  Sampler* sampler_;
+  OutputGrid grid_;
+  std::size_t size_;
+  std::vector<double> q_, v_, load_;
+  std::vector<ContactForce> last_, now_, mixed_;
+  std::int64_t first_ = 0, next_ = 0;
+  double last_time_ = -1.0;
+};
+
+} // namespace
+
+OutputGrid output_grid(double duration, double every) {
+  return {every, static_cast<std::int64_t>(std::floor(duration / every * (1.0 + 1e-12) + 1e-9)) + 1};
+}
+
+Report run(const Scene& scene, const StepChoice& choice, std::span<Observer* const> observers, Sampler* sampler,
+           const OutputGrid& grid) {
+  const std::unique_ptr<Scheme> scheme = make_scheme(scene, choice);
+  OutputQueue outputs(scene, sampler, grid);
+  Report report;
+  double largest_residual = 0.0, largest_throughput = 0.0;
+  double next_time = choice.scheme == SchemeKind::splitting ? 0.5 * choice.step : 0.0;
+  for (std::int64_t k = 0; k < choice.steps; ++k) {
+    outputs.states(*scheme, next_time);
+    const Record& record = scheme->advance();
+    outputs.forces(*scheme, record);
+    outputs.keep(record);
+    next_time = record.time + choice.step;
+    const double residual = std::abs(record.energy.residual());
+    largest_residual = std::max(largest_residual, residual);
+    largest_throughput = std::max(largest_throughput, record.energy.throughput);
+    report.steps = k + 1;
+    report.end_time = record.time;
+    report.energy = record.energy;
+    for (Observer* observer : observers)
+      observer->step(record);
+    if (!(residual <= hopeless * largest_throughput)) {
+      report.outcome = Outcome::diverged;
+      break;
+    }
+  }
+  if (report.outcome == Outcome::done)
+    outputs.finish(*scheme);
+  report.evaluations = scene.contacts.empty() ? 0 : report.steps;
+  report.unconverged = scheme->unconverged();
+  report.residual_relative = largest_throughput > 0.0 ? largest_residual / largest_throughput : 0.0;
+  return report;
+}
+
+} // namespace fretwork::transient

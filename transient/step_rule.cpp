@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/step_rule.hpp"
+#include "core/error.hpp"
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace fretwork::transient {
+namespace {
+
+constexpr double least_steps = 100.0;          ///< per run
+constexpr double points_per_period = 20.0;     ///< of the excitation
+constexpr double resolved = 1.0;               ///< above this value of w_c h statistics are wrong however stable the run (doc/schemes.md)
+
+/// Largest eigenvalue of D B B^T D over the rows chosen, D the square roots of the weights: that of the smaller of the two products.
+double largest_eigenvalue(const Eigen::MatrixXd& rows) {
+  if (rows.rows() == 0)
+    return 0.0;
+  const Eigen::MatrixXd product = rows.rows() <= rows.cols() ? Eigen::MatrixXd(rows * rows.transpose())
+                                                             : Eigen::MatrixXd(rows.transpose() * rows);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(product, Eigen::EigenvaluesOnly);
+  return std::max(0.0, solver.eigenvalues().maxCoeff());
+}
+
+template <class Weight, class Directions>
+Eigen::MatrixXd weighted_rows(const Scene& scene, Weight weight, Directions directions) {
+  Eigen::MatrixXd rows(3 * static_cast<Eigen::Index>(scene.contacts.size()), scene.system.size());
+  Eigen::Index used = 0;
+  for (const ContactPoint& point : scene.contacts) {
+    const double w = weight(point.support);
+    const std::array<bool, 3> along = directions(point.support);
+    for (int k = 0; k < 3; ++k)
+      if (along[static_cast<std::size_t>(k)] && w > 0.0)
+        rows.row(used++) = std::sqrt(w) * point.b.row(k);
+  }
+  rows.conservativeResize(used, Eigen::NoChange);
+  return rows;
+}
+
+std::array<bool, 3> normal_rows(const contact::Support& support) {
+  const auto [y, z] = contact::normal_directions(support.obstacle);
+  return {false, y, z};
+}
+
+/// x_loc, and every direction across it that a tangent can take: all but the normal of a plane.
+std::array<bool, 3> tangent_rows(const contact::Support& support) {
+  const auto [y, z] = contact::normal_directions(support.obstacle);
+  return {true, !y || (y && z), !z || (y && z)};
+}
+
+struct Term {
+  double limit; ///< s, before eps
+  std::string reason;
+};
+
+std::vector<Term> terms(const StepChoice& c) {
+  const bool splitting = c.scheme == SchemeKind::splitting;
+  const double damper = splitting ? 4.0 : 1.0, mode = splitting ? 5.0 : 1.0;
+  std::vector<Term> out;
+  const auto add = [&](double factor, double rate, const std::string& reason) {
+    if (rate > 0.0)
+      out.push_back({factor / rate, reason});
+  };
+  add(1.0, c.contact_frequency, fmt::format("the contact frequency {:.4g} rad/s", c.contact_frequency));
+  add(1.0, c.stick_frequency, fmt::format("the frequency of sticking contacts {:.4g} rad/s", c.stick_frequency));
+  add(damper, c.damper_rate, fmt::format("the tangential dampers' rate {:.4g} 1/s", c.damper_rate));
+  add(mode, c.highest_mode, fmt::format("the highest mode {:.4g} rad/s", c.highest_mode));
+  return out;
+}
+
+void warn(StepChoice& c) {
+  const auto add = [&](double value, double limit, const char* name, const char* what) {
+    if (value > limit)
+      c.warnings.push_back(fmt::format("the step {:.3g} s does not resolve {}: {} = {:.3g}, at most {} for results that can be "
+                                       "trusted; take a smaller step or leave it out",
+                                       c.step, what, name, value, limit));
+  };
+  const bool splitting = c.scheme == SchemeKind::splitting;
+  add(c.contact_frequency * c.step, resolved, "w_c h", "the contact frequency");
+  add(c.damper_rate * c.step, splitting ? 4.0 : 1.0, "r_t h", "the tangential dampers");
+  add(c.highest_mode * c.step, splitting ? 3.0 : 1.8, "w_max h", "the highest mode");
+  add(c.excitation * c.step * points_per_period, 2.0, "20 f h", "the excitation");
+}
+
+} // namespace
+
+std::string name_of(SchemeKind kind) {
+  switch (kind) {
+  case SchemeKind::splitting:
+    return "splitting";
+  case SchemeKind::euler:
+    return "euler";
+  }
+  return {};
+}
+
+StepChoice choose_step(const Scene& scene, const StepOptions& options) {
+  StepChoice c;
+  const bool full_damping = scene.system.damping_matrix.size() > 0;
+  c.scheme = options.scheme.value_or(full_damping ? SchemeKind::euler : SchemeKind::splitting);
+  if (full_damping && c.scheme == SchemeKind::splitting)
+    throw core::Error("scheme = \"splitting\" takes diagonal modal damping only, and the dampers of this study couple the modes; use "
+                      "scheme = \"euler\"");
+  const auto stiffness_n = [](const contact::Support& s) { return s.normal.stiffness; };
+  const auto stiffness_t = [](const contact::Support& s) { return s.friction.active() ? s.friction.stiffness : 0.0; };
+  const auto damping_t = [](const contact::Support& s) { return s.friction.active() ? s.friction.damping : 0.0; };
+  c.contact_frequency = std::sqrt(largest_eigenvalue(weighted_rows(scene, stiffness_n, normal_rows)));
+  c.stick_frequency = std::sqrt(largest_eigenvalue(weighted_rows(scene, stiffness_t, tangent_rows)));
+  c.damper_rate = largest_eigenvalue(weighted_rows(scene, damping_t, tangent_rows));
+  if (scene.system.size() > 0)
+    c.highest_mode = std::sqrt(scene.system.stiffness.maxCoeff());
+  for (const Load& load : scene.loads)
+    c.excitation = std::max(c.excitation, highest_frequency(load.function));
+
+  if (options.step) {
+    c.step = *options.step;
+    c.steps = static_cast<std::int64_t>(std::ceil(scene.duration / c.step * (1.0 - 1e-12)));
+    c.reason = "given in the study";
+    warn(c);
+    return c;
+  }
+  const double eps = 0.5 * std::sqrt(options.accuracy / 0.01);
+  c.step = scene.duration / least_steps;
+  c.reason = "a hundredth of the duration";
+  if (const double limit = c.excitation > 0.0 ? 1.0 / (points_per_period * c.excitation) : c.step; limit < c.step) {
+    c.step = limit;
+    c.reason = fmt::format("a twentieth of the shortest period of the excitation ({:.4g} Hz)", c.excitation);
+  }
+  // Without contacts the flow of the splitting scheme is exact: only the loads ask for a step.
+  if (c.scheme == SchemeKind::euler || !scene.contacts.empty())
+    for (const Term& term : terms(c))
+      if (eps * term.limit < c.step) {
+        c.step = eps * term.limit;
+        c.reason = fmt::format("{} resolved for an accuracy of {}", term.reason, options.accuracy);
+      }
+  c.steps = static_cast<std::int64_t>(std::ceil(scene.duration / c.step));
+  c.step = scene.duration / static_cast<double>(c.steps);
+  return c;
+}
+
+} // namespace fretwork::transient

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The time step and its reason.
+///
+///     h = eps min{ 1/w_c, 1/w_t, a/r_t, b/w_max },  eps = 0.5 sqrt(accuracy / 0.01)
+/// over the terms that exist, never above duration/100 nor 1/20 of the shortest period of the excitation:
+///     w_c    contact frequency: w_c^2 = largest eigenvalue of K_N^1/2 W K_N^1/2, W = B B^T over all normal directions of all contacts
+///     w_t    the same with K_T over the tangent directions
+///     r_t    rate of the tangential dampers, largest eigenvalue of C_T^1/2 W C_T^1/2
+///     w_max  highest mode
+/// a = 4 and b = 5 for the splitting scheme, 1 and 1 for explicit Euler (whose limits are r_t h < 1 and w_max h < 2).
+#pragma once
+#include "transient/scheme.hpp"
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fretwork::transient {
+
+struct StepOptions {
+  std::optional<SchemeKind> scheme; ///< none: chosen
+  std::optional<double> step;       ///< s: fixed
+  double accuracy = 0.01;           ///< target relative error of statistics
+};
+
+struct StepChoice {
+  SchemeKind scheme = SchemeKind::splitting;
+  double step = 0.0;              ///< s
+  std::int64_t steps = 0;         ///< that cover the duration
+  double contact_frequency = 0.0; ///< w_c, rad/s
+  double stick_frequency = 0.0;   ///< w_t, rad/s
+  double damper_rate = 0.0;       ///< r_t, 1/s
+  double highest_mode = 0.0;      ///< rad/s
+  double excitation = 0.0;        ///< Hz
+  std::string reason;             ///< one line for the user
+  std::vector<std::string> warnings; ///< what a fixed step does not resolve
+};
+
+/// @throws core::Error where the scheme asked for cannot take the scene (a full damping matrix with splitting)
+[[nodiscard]] StepChoice choose_step(const Scene& scene, const StepOptions& options);
+
+} // namespace fretwork::transient

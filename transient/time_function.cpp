@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/time_function.hpp"
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <complex>
+#include <fftw3.h>
+#include <memory>
+#include <numbers>
+#include <random>
+
+namespace fretwork::transient {
+namespace {
+
+/// Samples per period of the highest frequency: cubic Hermite interpolation between them errs by (2 pi / 32)^4 / 384 = 4e-6.
+constexpr double samples_per_period = 32.0;
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+struct FftwFree {
+  void operator()(void* p) const { fftw_free(p); }
+};
+
+/// Two standard normal numbers by Box and Muller from the 53 upper bits of the generator: std::normal_distribution differs between libraries.
+std::complex<double> normal_pair(std::mt19937_64& generator) {
+  const auto uniform = [&] { return (static_cast<double>(generator() >> 11) + 0.5) * 0x1p-53; };
+  const double radius = std::sqrt(-2.0 * std::log(uniform()));
+  const double angle = two_pi * uniform();
+  return {radius * std::cos(angle), radius * std::sin(angle)};
+}
+
+/// Real inverse transform: x_j = sum over k of Re(c_k exp(i 2 pi k j / n)), c_k given for k <= n/2.
+std::vector<double> synthesise(const std::vector<std::complex<double>>& lines, std::size_t n) {
+  std::unique_ptr<fftw_complex, FftwFree> in(
+      static_cast<fftw_complex*>(fftw_malloc(sizeof(fftw_complex) * (n / 2 + 1))));
+  std::unique_ptr<double, FftwFree> out(static_cast<double*>(fftw_malloc(sizeof(double) * n)));
+  fftw_plan plan = fftw_plan_dft_c2r_1d(static_cast<int>(n), in.get(), out.get(), FFTW_ESTIMATE);
+  for (std::size_t k = 0; k <= n / 2; ++k) {
+    const std::complex<double> value = k < lines.size() ? 0.5 * lines[k] : 0.0; // c2r adds the conjugate
+    in.get()[k][0] = value.real();
+    in.get()[k][1] = value.imag();
+  }
+  fftw_execute(plan);
+  fftw_destroy_plan(plan);
+  return {out.get(), out.get() + n};
+}
+
+} // namespace
+
+Signal::Signal(const TimeFunction& function, double duration) : function_(function) {
+  const auto* random = std::get_if<Random>(&function);
+  if (!random)
+    return;
+  // Lines at multiples of 1/period; at least 8 of them in the band, so that a run shorter than the band's memory is still Gaussian.
+  const double period = std::max(1.05 * duration, 8.0 / (random->high - random->low));
+  auto first = static_cast<std::size_t>(std::ceil(random->low * period));
+  const auto last = static_cast<std::size_t>(std::floor(random->high * period));
+  first = std::max<std::size_t>(first, 1); // zero mean
+  std::mt19937_64 generator(random->seed);
+  std::vector<std::complex<double>> lines(last + 1), slopes(last + 1);
+  const double scale = random->rms / std::sqrt(static_cast<double>(last - first + 1));
+  for (std::size_t k = first; k <= last; ++k) {
+    lines[k] = scale * normal_pair(generator);
+    slopes[k] = lines[k] * std::complex<double>(0.0, two_pi * static_cast<double>(k) / period);
+  }
+  std::size_t n = 2; // a power of two: fast, and the same plan everywhere
+  while (static_cast<double>(n) < samples_per_period * random->high * period)
+    n *= 2;
+  grid_step_ = period / static_cast<double>(n);
+  const std::vector<double> value = synthesise(lines, n), slope = synthesise(slopes, n);
+  samples_.resize(2 * (n + 1));
+  for (std::size_t j = 0; j <= n; ++j) {
+    samples_[2 * j] = value[j % n];
+    samples_[2 * j + 1] = slope[j % n] * grid_step_;
+  }
+}
+
+double Signal::operator()(double time) const {
+  struct Visitor {
+    double time;
+    const Signal& self;
+    double operator()(const Constant& f) const { return f.value; }
+    double operator()(const Harmonic& f) const {
+      return f.amplitude * std::sin(two_pi * f.frequency * time + f.phase);
+    }
+    double operator()(const Table& f) const {
+      const auto after = std::upper_bound(f.time.begin(), f.time.end(), time); // the first point later than `time`
+      if (after == f.time.begin())
+        return f.value.front();
+      if (after == f.time.end())
+        return f.value.back();
+      const auto i = static_cast<std::size_t>(after - f.time.begin());
+      const double share = (time - f.time[i - 1]) / (f.time[i] - f.time[i - 1]);
+      return f.value[i - 1] + share * (f.value[i] - f.value[i - 1]);
+    }
+    double operator()(const Random&) const {
+      const double position = time / self.grid_step_;
+      const auto last = self.samples_.size() / 2 - 2;
+      const auto j = std::min(static_cast<std::size_t>(std::max(0.0, position)), last);
+      const double s = position - static_cast<double>(j);
+      const double* p = &self.samples_[2 * j]; // value, slope, next value, next slope
+      const double difference = p[2] - p[0];
+      return p[0] + s * (p[1] + s * (3.0 * difference - 2.0 * p[1] - p[3] + s * (p[1] + p[3] - 2.0 * difference)));
+    }
+  };
+  return std::visit(Visitor{time, *this}, function_);
+}
+
+double highest_frequency(const TimeFunction& function) {
+  if (const auto* harmonic = std::get_if<Harmonic>(&function))
+    return harmonic->frequency;
+  if (const auto* random = std::get_if<Random>(&function))
+    return random->high;
+  return 0.0;
+}
+
+} // namespace fretwork::transient
