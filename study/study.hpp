@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// A study as typed, checked values: what the study file says, before anything is read or computed. Groups are still names.
-/// The contract with users is doc/study-file.md; keys, defaults and units are given there.
+/// A study as typed, checked values: what the study file says, before anything is read or computed. Groups
+/// are still names. The contract with users is doc/study-file.md; keys, defaults and units are given there.
 #pragma once
 #include "fem/model.hpp"
 #include "mesh/read.hpp"
@@ -47,7 +47,7 @@ struct Spring {
 };
 
 struct Modes {
-  std::optional<int> count = 40;  ///< exactly one of count and up_to_hz is set
+  std::optional<int> count = 40; ///< exactly one of count and up_to_hz is set
   std::optional<double> up_to_hz;
   modal::Damping damping = 0.0;
   std::optional<bool> distributed; ///< solve one structure over all ranks; default: by size
@@ -58,13 +58,13 @@ enum class ObstacleKind { circle, plane_y, plane_z, stop_y, stop_z };
 enum class FrictionMemory { return_map, reference };
 
 struct Contact {
-  std::string name;
+  std::string name; ///< default: the group; no two contacts have the same
   std::string group;
   ObstacleKind obstacle = ObstacleKind::circle;
   double gap = 0.0;
   std::optional<Vec3> axis;
-  std::optional<Vec3> y_axis;   ///< instead of angle
-  double angle = 0.0;           ///< degrees
+  std::optional<Vec3> y_axis; ///< instead of angle
+  double angle = 0.0;         ///< degrees
   std::optional<Vec3> origin;
   std::array<double, 2> offset{};
   double normal_stiffness = 0.0;
@@ -107,17 +107,17 @@ struct Transient {
 };
 
 struct Output {
-  std::optional<double> every;   ///< s; default duration / 5000
+  std::optional<double> every; ///< s; default duration / 5000
   std::vector<std::string> nodes;
   double statistics_from = 0.0;
 };
 
 struct Study {
-  std::filesystem::path file;      ///< absolute; relative paths of the study start from its folder
-  std::string text;                ///< as read, overrides written at the end as comments: kept in the results
+  std::filesystem::path file; ///< absolute; relative paths of the study start from its folder
+  std::string text;           ///< as read, overrides written at the end as comments: kept in the results
   std::vector<std::string> overrides;
   std::string title;
-  mesh::Source mesh;
+  mesh::Source mesh; ///< its file is absolute
   std::map<std::string, fem::Material> materials;
   std::map<std::string, fem::Section> sections;
   std::vector<Beams> beams;
@@ -127,21 +127,26 @@ struct Study {
   Modes modes;
   std::vector<Contact> contacts;
   std::vector<Load> loads;
-  std::optional<Vec3> gravity;     ///< m/s2
+  std::optional<Vec3> gravity; ///< m/s2
   std::vector<BaseMotion> base_motions;
   std::vector<Initial> initial;
   std::optional<Transient> transient; ///< needed by `run` and `transient` only
   Output output;
 };
 
-/// Read and check a study file; `overrides` are `key=value` texts of `--set` (`contacts.tsp1.gap=3e-4`: arrays of tables are
-/// addressed by name, group or index from 0).
-/// @throws core::Error naming file, line, key, value and cure
+/// Read and check a study file and the files of its load tables; the mesh is not opened. `overrides` are the
+/// `key=value` texts of `--set`, as document.hpp says.
+/// @throws core::Error naming file, line (or the override), key, value and cure
 [[nodiscard]] Study read(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
-/// The tables of the study that a stage depends on, as canonical TOML text (keys sorted, overrides applied): what is hashed to tell
-/// whether the stage must be computed again. Names are the top-level keys, e.g. {"mesh"}.
-[[nodiscard]] std::string canonical_text(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+/// The tables of the study that a stage depends on, as canonical TOML text (keys sorted, overrides applied,
+/// 17 digits, load tables of files by their rows): what is hashed to tell whether the stage must be computed
+/// again. The mesh appears by its file's name only.
+/// @param tables  top-level keys, e.g. {"mesh"}; those that the study does not have are left out
+/// @throws        core::Error if a file cannot be read or is not TOML, or an override has no valid address;
+///                nothing else is checked
+[[nodiscard]] std::string canonical_text(const std::filesystem::path& file,
+                                         const std::vector<std::string>& overrides,
                                          const std::vector<std::string>& tables);
 
 } // namespace fretwork::study

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The study file as a tree of values, overrides applied, nothing checked yet but that it is TOML.
+#pragma once
+#include "study/value.hpp"
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fretwork::study {
+
+struct Document {
+  std::filesystem::path file; ///< absolute
+  std::string text;           ///< as read
+  Value root;                 ///< a table
+};
+
+/// Parse a study file and apply overrides (`key=value`), in their order.
+/// @throws core::Error if the file cannot be read or is not TOML, or an override has no valid address or
+/// value
+[[nodiscard]] Document load(const std::filesystem::path& file, const std::vector<std::string>& overrides);
+
+/// Whether the values remember their lines: an override has none.
+enum class Lines { kept, none };
+
+/// TOML text as a tree of values; `origin` names the source in messages.
+/// @throws core::Error naming the line and what is wrong
+[[nodiscard]] Value parse_toml(std::string_view text, std::shared_ptr<const std::string> origin,
+                               Lines lines = Lines::kept);
+
+/// Apply one override to the tree. The address is split at dots; a part with dots in it is put between double
+/// quotes. An entry of an array of tables is found by its name, else its group, else its index from 0. The
+/// last part may be a new key of an existing table; the tables [mesh], [modes], [gravity], [transient] and
+/// [output] are made where the study has none.
+/// @throws core::Error for an address that leads nowhere (listing what exists) and for a value that is not
+/// TOML
+void apply_override(Value& root, const std::string& override_text);
+
+} // namespace fretwork::study

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "study/document.hpp"
+#include "study/readers.hpp"
+#include "study/time_functions.hpp"
+#include <algorithm>
+#include <cassert>
+
+namespace fretwork::study {
+namespace {
+
+const Keys study_keys{{"title", "mesh", "materials", "sections", "beams", "restraints", "masses", "springs",
+                       "modes", "contacts", "loads", "gravity", "base_motion", "initial", "transient",
+                       "output"},
+                      {"ties"}};
+
+[[maybe_unused]] bool is_key(const std::string& name) {
+  return std::find(study_keys.known.begin(), study_keys.known.end(), name) != study_keys.known.end();
+}
+
+} // namespace
+
+Study read(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  const Document document = load(file, overrides);
+  const std::filesystem::path folder = document.file.parent_path();
+  const TableReader root(document.root, "", study_keys);
+  Study study;
+  study.file = document.file;
+  study.text = document.text;
+  if (!overrides.empty() && !study.text.ends_with('\n'))
+    study.text += '\n';
+  for (const std::string& text : overrides)
+    study.text += "# --set " + text + "\n";
+  study.overrides = overrides;
+  study.title = root.optional_text("title").value_or("");
+  study.mesh = read_mesh(root, folder);
+  study.materials = read_materials(root);
+  study.sections = read_sections(root);
+  study.beams = read_beams(root, study);
+  study.restraints = read_restraints(root);
+  study.masses = read_masses(root);
+  study.springs = read_springs(root);
+  study.modes = read_modes(root);
+  study.contacts = read_contacts(root);
+  study.loads = read_loads(root, folder);
+  study.gravity = read_gravity(root);
+  study.base_motions = read_base_motions(root, folder);
+  study.initial = read_initial(root);
+  study.transient = read_transient(root);
+  study.output = read_output(root, study.transient);
+  return study;
+}
+
+std::string canonical_text(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                           const std::vector<std::string>& tables) {
+  Document document = load(file, overrides);
+  const std::filesystem::path folder = document.file.parent_path();
+  auto& root = std::get<Table>(document.root.data);
+  assert(std::all_of(tables.begin(), tables.end(), is_key));
+  std::string text;
+  for (const auto& name : study_keys.known) {
+    const auto at = root.find(name);
+    if (at == root.end() || std::find(tables.begin(), tables.end(), name) == tables.end())
+      continue;
+    if (auto* entries = std::get_if<Array>(&at->second.data);
+        entries && (name == "loads" || name == "base_motion"))
+      for (std::size_t i = 0; i < entries->size(); ++i)
+        inline_time_table((*entries)[i], name + "." + std::to_string(i), folder);
+    text += name + " = " + toml_text(at->second, Digits::seventeen) + "\n";
+  }
+  return text;
+}
+
+} // namespace fretwork::study

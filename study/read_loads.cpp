@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "study/readers.hpp"
+#include "study/time_functions.hpp"
+
+namespace fretwork::study {
+namespace {
+
+Keys with_time_function(std::vector<std::string> known, std::vector<std::string> unavailable = {}) {
+  known.insert(known.end(), time_function_keys.begin(), time_function_keys.end());
+  return {std::move(known), std::move(unavailable)};
+}
+
+} // namespace
+
+std::vector<Load> read_loads(const TableReader& root, const std::filesystem::path& folder) {
+  std::vector<Load> all;
+  for (const Entry& entry : array_entries(root, "loads")) {
+    const TableReader table(*entry.value, entry.path,
+                            with_time_function({"group", "per_length", "moment", "direction"}));
+    Load load;
+    load.group = table.text("group", "the name of a physical point or curve of the mesh");
+    load.per_length = table.optional_flag("per_length").value_or(false);
+    load.moment = table.optional_flag("moment").value_or(false);
+    if (load.per_length && load.moment)
+      table.fail_at(
+          "moment",
+          "a moment per length is not available in this version; keep one of per_length and moment");
+    load.direction = table.direction("direction");
+    load.function = read_time_function(table, folder, load.moment ? "N m" : (load.per_length ? "N/m" : "N"));
+    all.push_back(load);
+  }
+  return all;
+}
+
+std::optional<Vec3> read_gravity(const TableReader& root) {
+  const Value* found = root.find("gravity");
+  if (!found)
+    return std::nullopt;
+  const TableReader table(*found, "gravity", {{"acceleration"}});
+  (void)table.required("acceleration", "a vector [x, y, z] in m/s2");
+  return table.optional_vector("acceleration", {Range::any, "m/s2"});
+}
+
+std::vector<BaseMotion> read_base_motions(const TableReader& root, const std::filesystem::path& folder) {
+  std::vector<BaseMotion> all;
+  for (const Entry& entry : array_entries(root, "base_motion")) {
+    const TableReader table(*entry.value, entry.path,
+                            with_time_function({"direction"}, {"velocity0", "displacement0"}));
+    all.push_back({table.direction("direction"), read_time_function(table, folder, "m/s2")});
+  }
+  return all;
+}
+
+std::vector<Initial> read_initial(const TableReader& root) {
+  std::vector<Initial> all;
+  for (const Entry& entry : array_entries(root, "initial")) {
+    const TableReader table(*entry.value, entry.path,
+                            {{"group", "displacement", "velocity", "rotation_rate", "centre"}});
+    Initial initial;
+    initial.group = table.text("group", "the name of a physical point or curve of the mesh");
+    if (!table.has("displacement") && !table.has("velocity") && !table.has("rotation_rate"))
+      table.fail_table("no initial state; give displacement, velocity or rotation_rate");
+    if (table.has("centre") && !table.has("rotation_rate"))
+      table.fail_at("centre",
+                    "a centre without rotation_rate has no effect; give rotation_rate or leave centre out");
+    initial.displacement = table.optional_vector("displacement", {Range::any, "m"}).value_or(Vec3::Zero());
+    initial.velocity = table.optional_vector("velocity", {Range::any, "m/s"}).value_or(Vec3::Zero());
+    initial.rotation_rate =
+        table.optional_vector("rotation_rate", {Range::any, "rad/s"}).value_or(Vec3::Zero());
+    initial.centre = table.optional_vector("centre", {Range::any, "m"}).value_or(Vec3::Zero());
+    all.push_back(initial);
+  }
+  return all;
+}
+
+} // namespace fretwork::study

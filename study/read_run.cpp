@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "study/readers.hpp"
+#include <algorithm>
+#include <limits>
+
+namespace fretwork::study {
+namespace {
+
+modal::Damping read_damping(const TableReader& modes) {
+  const Value* found = modes.find("damping");
+  if (!found)
+    return 0.0;
+  const std::string path = modes.path("damping");
+  if (found->array())
+    return to_numbers(*found, path, 0, {Range::at_least_zero});
+  if (!found->table())
+    return to_number(*found, path, {Range::at_least_zero});
+  const TableReader table(*found, path, {{"stiffness", "mass"}});
+  if (!table.has("stiffness") && !table.has("mass"))
+    table.fail_table("neither stiffness nor mass; write { stiffness = 1.0e-5, mass = 0.5 } or one of them");
+  return modal::Rayleigh{table.number_or("stiffness", 0.0, {Range::at_least_zero, "s"}),
+                         table.number_or("mass", 0.0, {Range::at_least_zero, "1/s"})};
+}
+
+} // namespace
+
+Modes read_modes(const TableReader& root) {
+  Modes modes;
+  const Value* found = root.find("modes");
+  if (!found)
+    return modes;
+  const TableReader table(*found, "modes", {{"count", "up_to_hz", "damping", "static_modes", "distributed"}});
+  modes.up_to_hz = table.optional_number("up_to_hz", {Range::above_zero, "Hz"});
+  if (const auto count = table.optional_integer("count", 1)) {
+    if (modes.up_to_hz)
+      table.fail_at("up_to_hz", "count and up_to_hz both say how many modes; keep one");
+    if (*count > std::numeric_limits<int>::max())
+      table.fail_at("count", "more modes than a structure can have");
+    modes.count = static_cast<int>(*count);
+  } else if (modes.up_to_hz) {
+    modes.count.reset();
+  }
+  modes.damping = read_damping(table);
+  if (const Value* static_modes = table.find("static_modes"))
+    (void)to_choice(*static_modes, table.path("static_modes"), {"none"}, {"auto", "all"});
+  modes.distributed = table.optional_flag("distributed");
+  return modes;
+}
+
+std::optional<Transient> read_transient(const TableReader& root) {
+  const Value* found = root.find("transient");
+  if (!found)
+    return std::nullopt;
+  const TableReader table(*found, "transient",
+                          {{"duration", "start", "scheme", "accuracy", "step"}, {"tolerance"}});
+  Transient transient;
+  transient.duration = table.number("duration", {Range::above_zero, "s"});
+  if (const Value* start = table.find("start"))
+    (void)to_choice(*start, table.path("start"), {"rest"}, {"static"});
+  transient.scheme = table.choice(
+      "scheme", Scheme::automatic,
+      Choices<Scheme>{
+          {{"auto", Scheme::automatic}, {"splitting", Scheme::splitting}, {"euler", Scheme::euler}},
+          {"collocation", "energy_conserving", "devogelaere", "runge_kutta_54"}});
+  transient.accuracy = table.number_or("accuracy", 0.01, {Range::above_zero});
+  if (transient.accuracy >= 1.0)
+    table.fail_at("accuracy", "a relative error below 1 is expected");
+  transient.step = table.optional_number("step", {Range::above_zero, "s"});
+  if (transient.step && *transient.step > transient.duration)
+    table.fail_at("step",
+                  "longer than the duration; give a step well below the shortest period of the modes");
+  return transient;
+}
+
+Output read_output(const TableReader& root, const std::optional<Transient>& transient) {
+  Output output;
+  const Value* found = root.find("output");
+  if (!found)
+    return output;
+  const TableReader table(*found, "output", {{"every", "nodes", "statistics_from"}});
+  output.every = table.optional_number("every", {Range::above_zero, "s"});
+  if (transient && output.every && *output.every > transient->duration)
+    table.fail_at("every", "longer than transient.duration; give the time between two samples");
+  if (const Value* nodes = table.find("nodes")) {
+    for (const Value& node : to_array(*nodes, table.path("nodes"), "an array of group names")) {
+      const std::string name = to_text(node, table.path("nodes"));
+      if (std::find(output.nodes.begin(), output.nodes.end(), name) != output.nodes.end())
+        fail(node, table.path("nodes"), "named twice; name each group once");
+      output.nodes.push_back(name);
+    }
+  }
+  output.statistics_from = table.number_or("statistics_from", 0.0, {Range::at_least_zero, "s"});
+  if (transient && output.statistics_from >= transient->duration)
+    table.fail_at("statistics_from", "the statistics must start before the end, transient.duration");
+  return output;
+}
+
+} // namespace fretwork::study

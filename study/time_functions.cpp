@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "study/time_functions.hpp"
+#include "core/error.hpp"
+#include "core/names.hpp"
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <string_view>
+
+namespace fretwork::study {
+namespace {
+
+/// Appends a row.
+/// @return what is wrong with its time, or an empty string
+std::string append_row(transient::Table& table, double time, double value) {
+  const std::size_t n = table.time.size();
+  if (n >= 1 && time < table.time[n - 1])
+    return "the time decreases; sort the rows by time";
+  if (n >= 2 && time == table.time[n - 2])
+    return "a third row at the same time; two rows of equal time make a jump, remove the one between";
+  table.time.push_back(time);
+  table.value.push_back(value);
+  return {};
+}
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos)
+    return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::optional<double> to_real(std::string_view cell) {
+  cell = trimmed(cell);
+  if (!cell.empty() && cell.front() == '+')
+    cell.remove_prefix(1);
+  double number = 0.0;
+  const auto [end, failure] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
+  if (failure != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(number))
+    return std::nullopt;
+  return number;
+}
+
+/// A line without any number at its cells: what a header is.
+bool is_header(std::string_view line) {
+  const auto comma = line.find(',');
+  return comma != std::string_view::npos && !to_real(line.substr(0, comma)) &&
+         !to_real(line.substr(comma + 1));
+}
+
+transient::Table rows_of(const Value& value, const std::string& path, const char* unit) {
+  const Array& rows = to_array(value, path, "an array of rows [t, value]");
+  transient::Table table;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::string row_path = path + "[" + std::to_string(i) + "]";
+    const auto row = to_numbers(rows[i], row_path, 2, {Range::any, unit});
+    if (const auto problem = append_row(table, row[0], row[1]); !problem.empty())
+      fail(rows[i], row_path, problem);
+  }
+  return table;
+}
+
+transient::Table table_of(const Value& value, const std::string& path, const std::filesystem::path& folder,
+                          const char* unit) {
+  if (value.array())
+    return rows_of(value, path, unit);
+  if (!value.string())
+    fail(value, path,
+         "the name of a file of rows t,value or an array of rows [t, value] is expected, not " +
+             kind_of(value));
+  try {
+    return read_time_table(folder / to_text(value, path));
+  } catch (const core::Error& error) {
+    fail(value, path, error.what());
+  }
+}
+
+transient::Harmonic read_harmonic(const TableReader& entry, const char* unit) {
+  const TableReader table(*entry.find("harmonic"), entry.path("harmonic"),
+                          {{"amplitude", "frequency", "phase"}});
+  return {table.number("amplitude", {Range::any, unit}), table.number("frequency", {Range::above_zero, "Hz"}),
+          table.number_or("phase", 0.0, {Range::any, "rad"})};
+}
+
+transient::Random read_random(const TableReader& entry, const char* unit) {
+  const TableReader table(*entry.find("random"), entry.path("random"), {{"rms", "band", "seed"}});
+  (void)table.required("band", "two frequencies [low, high] in Hz");
+  const double rms = table.number("rms", {Range::at_least_zero, unit});
+  const auto band = *table.optional_numbers("band", 2, {Range::at_least_zero, "Hz"});
+  if (band[0] >= band[1])
+    table.fail_at("band",
+                  "the lower frequency is expected first, and below the upper one; write [low, high]");
+  return {rms, band[0], band[1], static_cast<std::uint64_t>(table.optional_integer("seed", 0).value_or(1))};
+}
+
+} // namespace
+
+transient::Table read_time_table(const std::filesystem::path& file) {
+  std::error_code ignored;
+  std::ifstream stream(file);
+  if (!stream || std::filesystem::is_directory(file, ignored))
+    throw core::Error("file " + file.string() +
+                      " does not exist or cannot be read; paths start from the folder of the study");
+  transient::Table table;
+  bool header_allowed = true;
+  std::string text;
+  for (int number = 1; std::getline(stream, text); ++number) {
+    const std::string_view line = trimmed(text);
+    if (line.empty() || line.front() == '#')
+      continue;
+    const bool header = header_allowed && is_header(line);
+    header_allowed = false;
+    if (header)
+      continue;
+    const auto refuse = [&](const std::string& problem) {
+      throw core::Error(file.string() + ":" + std::to_string(number) + ": \"" + std::string(line) +
+                        "\": " + problem);
+    };
+    const auto comma = line.find(',');
+    const auto time = to_real(line.substr(0, comma));
+    const auto value = comma == std::string_view::npos ? std::nullopt : to_real(line.substr(comma + 1));
+    if (!time || !value)
+      refuse("a row is two finite numbers, t,value");
+    if (const auto problem = append_row(table, *time, *value); !problem.empty())
+      refuse(problem);
+  }
+  if (table.time.empty())
+    throw core::Error("file " + file.string() + " has no row; give rows t,value");
+  return table;
+}
+
+transient::TimeFunction read_time_function(const TableReader& entry, const std::filesystem::path& folder,
+                                           const char* unit) {
+  std::vector<std::string> given;
+  for (const std::string& key : time_function_keys)
+    if (entry.has(key))
+      given.push_back(key);
+  if (given.empty())
+    entry.fail_table("no time function; give exactly one of " + core::list_names(time_function_keys));
+  if (given.size() > 1)
+    entry.fail_at(given[1], "several time functions: " + core::list_names(given) + "; keep one");
+  const std::string& key = given[0];
+  if (key == "constant")
+    return transient::Constant{entry.number(key, {Range::any, unit})};
+  if (key == "harmonic")
+    return read_harmonic(entry, unit);
+  if (key == "table")
+    return table_of(*entry.find(key), entry.path(key), folder, unit);
+  return read_random(entry, unit);
+}
+
+void inline_time_table(Value& entry, const std::string& path, const std::filesystem::path& folder) {
+  auto* keys = std::get_if<Table>(&entry.data);
+  if (!keys)
+    return;
+  const auto at = keys->find("table");
+  if (at == keys->end() || !at->second.string())
+    return;
+  const transient::Table table = table_of(at->second, path + ".table", folder, "");
+  Array rows;
+  for (std::size_t i = 0; i < table.time.size(); ++i)
+    rows.push_back({Array{{table.time[i], {}}, {table.value[i], {}}}, {}});
+  at->second.data = std::move(rows);
+}
+
+} // namespace fretwork::study
