@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Fields over a whole model (6 values a node), made element by element without a matrix.
+/// Fields over a whole model (6 values a node) or over a structure (6 values for each of structure.nodes, in
+/// that order; one field a column), made element by element without a matrix, restrained dofs included.
 #pragma once
 #include "fem/model.hpp"
 #include <Eigen/Core>
@@ -8,21 +9,35 @@
 
 namespace fretwork::fem {
 
-/// M u over all dofs, restrained ones included (base motion and gravity need their columns). Shapes 6 * nodes.
+/// M u over all dofs, restrained ones included (base motion and gravity need their columns). Shapes 6 *
+/// nodes.
 [[nodiscard]] Eigen::VectorXd mass_times(const Model& model, const Eigen::VectorXd& field);
 
 /// K u over all dofs, restrained ones included: the reactions of a displacement field.
 [[nodiscard]] Eigen::VectorXd stiffness_times(const Model& model, const Eigen::VectorXd& field);
 
+/// The same two for fields over a structure.
+[[nodiscard]] Eigen::MatrixXd mass_times(const Model& model, const Structure& structure,
+                                         const Eigen::MatrixXd& fields);
+[[nodiscard]] Eigen::MatrixXd stiffness_times(const Model& model, const Structure& structure,
+                                              const Eigen::MatrixXd& fields);
+
+/// u^T K u of each field over a structure, J, from strains and spring elongations: for smooth fields on a
+/// fine mesh far more accurate than the product with K u.
+[[nodiscard]] Eigen::VectorXd twice_strain_energy(const Model& model, const Structure& structure,
+                                                  const Eigen::MatrixXd& fields);
+
 /// A rigid translation: `direction` at the three translations of every node.
 [[nodiscard]] Eigen::VectorXd translation_field(const Model& model, const Vec3& direction);
 
 /// The full force (N), or moment (N m), at each of the nodes.
-[[nodiscard]] Eigen::VectorXd point_forces(const Model& model, std::span<const Index> nodes, const Vec3& value,
-                                           bool moment);
+[[nodiscard]] Eigen::VectorXd point_forces(const Model& model, std::span<const Index> nodes,
+                                           const Vec3& value, bool moment);
 
-/// Consistent nodal forces of a uniform line force (N/m, global direction) on the beams.
+/// Consistent nodal forces of a uniform line force (N/m, global direction) on the beams: f L / 2 at each end,
+/// and the end moments L^2 / 12 x cross f at a, its opposite at b.
 /// @param beams numbers in model.beams
-[[nodiscard]] Eigen::VectorXd line_forces(const Model& model, std::span<const Index> beams, const Vec3& force_per_length);
+[[nodiscard]] Eigen::VectorXd line_forces(const Model& model, std::span<const Index> beams,
+                                          const Vec3& force_per_length);
 
 } // namespace fretwork::fem

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// The mechanical model: beams, lumped masses, springs and dampers on nodes with restrained dofs. Plain data, SI units, global
-/// axes unless said otherwise. Fields over the model are vectors of 6 values a node: ux uy uz rx ry rz.
+/// The mechanical model: beams, lumped masses, springs and dampers on nodes with restrained dofs. Plain data,
+/// SI units, global axes unless said otherwise. Fields over the model are vectors of 6 values a node: ux uy
+/// uz rx ry rz.
 #pragma once
 #include "core/types.hpp"
 #include <array>
@@ -12,9 +13,9 @@
 
 namespace fretwork::fem {
 
+using core::dofs_per_node;
 using core::Index;
 using core::Vec3;
-using core::dofs_per_node;
 
 /// An isotropic elastic material.
 struct Material {
@@ -29,7 +30,8 @@ struct Section {
   double iy;               ///< m4, > 0: second moment about y (bending in the plane x-z)
   double iz;               ///< m4, > 0: about z (bending in the plane x-y)
   double torsion_constant; ///< m4, > 0
-  double polar_inertia;    ///< m4, >= 0: iy + iz for a solid section; rotary inertia about the axis is density times this
+  double polar_inertia; ///< m4, >= 0: iy + iz for a solid section; rotary inertia about the axis is density
+                        ///< times this
 };
 
 /// The direction in which added (fluid) mass acts.
@@ -41,7 +43,8 @@ struct BeamProperty {
   Section section;
   double added_mass = 0.0; ///< kg/m, >= 0
   AddedMass added_mass_direction = AddedMass::transverse;
-  std::optional<Vec3> orientation; ///< a vector in the local x-y plane; required where iy != iz
+  std::optional<Vec3> orientation =
+      std::nullopt; ///< a vector in the local x-y plane; required where iy != iz
 };
 
 /// A straight two-node beam between nodes a and b.
@@ -53,9 +56,9 @@ struct Beam {
 /// A rigid body at a node.
 struct LumpedMass {
   Index node;
-  double mass;                  ///< kg, >= 0
-  Vec3 inertia = Vec3::Zero();  ///< kg m2 about the body's own centre, >= 0
-  Vec3 arm = Vec3::Zero();      ///< m, from the node to the body's centre
+  double mass;                 ///< kg, >= 0
+  Vec3 inertia = Vec3::Zero(); ///< kg m2 about the body's own centre, >= 0
+  Vec3 arm = Vec3::Zero();     ///< m, from the node to the body's centre
 };
 
 /// Springs and dampers along the six dofs, grounded (other = -1) or between two nodes.
@@ -74,22 +77,34 @@ struct Model {
   std::vector<Spring> springs;
   std::vector<std::uint8_t> fixed; ///< per node: bit d set = dof d restrained
 
-  [[nodiscard]] bool is_fixed(Index node, int dof) const { return (fixed[static_cast<std::size_t>(node)] >> dof) & 1u; }
+  [[nodiscard]] bool is_fixed(Index node, int dof) const {
+    return (fixed[static_cast<std::size_t>(node)] >> dof) & 1u;
+  }
 };
 
 /// A connected part of a model (through beams and springs between nodes) and the numbering of its free dofs.
 struct Structure {
-  std::vector<Index> nodes;     ///< ascending
-  std::vector<Index> beams;     ///< ascending
+  std::vector<Index> nodes; ///< ascending
+  std::vector<Index> beams; ///< ascending
   std::vector<Index> masses;
   std::vector<Index> springs;
-  std::vector<Index> equation;  ///< 6 per entry of `nodes`: number of the free dof, -1 where restrained
+  std::vector<Index> equation; ///< 6 per entry of `nodes`: number of the free dof, -1 where restrained
   Index equations = 0;
 };
 
-/// The connected parts of the model, by ascending first node.
-/// @throws core::Error for a dof with neither mass nor restraint, naming node, dof and cure
+/// The connected parts of the model, by ascending first node; a node that nothing touches is one by itself
+/// (without equations where it is restrained). Equations are numbered by ascending nodes. Checks the whole
+/// model on the way.
+/// @throws core::Error for a property, mass or spring without sense, a beam without axes, and a free dof that
+/// nothing gives mass
+///         (a beam may have stiff dofs without mass), naming node, dof and cure
 [[nodiscard]] std::vector<Structure> structures(const Model& model);
+
+/// Where `node` is in structure.nodes, or -1.
+[[nodiscard]] Index position_of(const Structure& structure, Index node);
+
+/// `(1, 0.5, 0)`: a point or vector in a message.
+[[nodiscard]] std::string place(const Vec3& point);
 
 /// Mass of beams (added mass included), kg, and of lumped masses.
 [[nodiscard]] double total_mass(const Model& model);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// K, M and C of a structure as PETSc matrices over its free dofs.
+/// K and M of a structure as PETSc matrices over its free dofs, and its static solution.
 #pragma once
 #include "fem/model.hpp"
 #include <petscmat.h>
 
 namespace fretwork::fem {
 
-/// Owns one PETSc object; move only. Raw handle by get().
+/// Owns one PETSc matrix; move only. Raw handle by get().
 class PetscMatrix {
 public:
   PetscMatrix() = default;
@@ -22,16 +22,25 @@ private:
 };
 
 struct SystemMatrices {
-  PetscMatrix stiffness, mass; ///< AIJ, symmetric, structure.equations square
-  PetscMatrix damping;         ///< of the dampers; null where there are none
+  PetscMatrix stiffness, mass; ///< AIJ, symmetric, structure.equations square, of one pattern
 };
 
-/// Collective over `comm`: rows are distributed in equal blocks, each rank assembles the elements of its rows.
+/// Collective over `comm`: rows are distributed in equal blocks, each rank assembles the elements of its
+/// rows.
 [[nodiscard]] SystemMatrices assemble(MPI_Comm comm, const Model& model, const Structure& structure);
 
-/// Static displacement of a structure under `force` (6 values a model node): K u = f on the free dofs, serial.
+/// L D L^T of a symmetric matrix: PETSc's own on one rank (`chain`: nodes eliminated in their order,
+/// otherwise by nested dissection), MUMPS on several. Collective.
+/// @throws core::ComputationError where a pivot vanishes
+[[nodiscard]] PetscMatrix factorise(Mat matrix, bool chain);
+
+/// Static displacement of a structure under `force` (6 values a model node): K u = f on the free dofs,
+/// serial.
 /// @return 6 values a model node, zero outside the structure and at restrained dofs
-/// @throws core::ComputationError if the structure is not held (K is singular)
-[[nodiscard]] Eigen::VectorXd static_solution(const Model& model, const Structure& structure, const Eigen::VectorXd& force);
+/// @throws core::Error if the structure is not held (a motion that strains nothing), core::ComputationError
+/// if K is singular to
+///         working precision
+[[nodiscard]] Eigen::VectorXd static_solution(const Model& model, const Structure& structure,
+                                              const Eigen::VectorXd& force);
 
 } // namespace fretwork::fem

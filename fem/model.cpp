@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/model.hpp"
+#include "core/error.hpp"
+#include "fem/beam_element.hpp"
+#include "fem/disjoint_sets.hpp"
+#include "fem/lumped.hpp"
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fretwork::fem {
+namespace {
+
+constexpr std::array<const char*, dofs_per_node> dof_names{"ux", "uy", "uz", "rx", "ry", "rz"};
+
+const Vec3& node_at(const Model& model, Index node) { return model.nodes[static_cast<std::size_t>(node)]; }
+
+const BeamProperty& property_of(const Model& model, const Beam& beam) {
+  return model.properties[static_cast<std::size_t>(beam.property)];
+}
+
+void require(bool fine, const std::string& object, const char* name, double value, const char* cure) {
+  if (!fine || !std::isfinite(value))
+    throw core::Error(fmt::format("{}: {} = {:g} makes no sense; give {}", object, name, value, cure));
+}
+
+void check_properties(const Model& model) {
+  for (std::size_t i = 0; i < model.properties.size(); ++i) {
+    const BeamProperty& p = model.properties[i];
+    const std::string what = fmt::format("beam property {}", i);
+    require(p.material.young_modulus > 0.0, what, "young_modulus", p.material.young_modulus,
+            "a value > 0 (Pa)");
+    require(p.material.poisson_ratio > -1.0 && p.material.poisson_ratio < 0.5, what, "poisson_ratio",
+            p.material.poisson_ratio, "a value between -1 and 0.5");
+    require(p.material.density >= 0.0, what, "density", p.material.density, "a value >= 0 (kg/m3)");
+    require(p.section.area > 0.0, what, "area", p.section.area, "a value > 0 (m2)");
+    require(p.section.iy > 0.0, what, "iy", p.section.iy, "a value > 0 (m4)");
+    require(p.section.iz > 0.0, what, "iz", p.section.iz, "a value > 0 (m4)");
+    require(p.section.torsion_constant > 0.0, what, "torsion_constant", p.section.torsion_constant,
+            "a value > 0 (m4)");
+    require(p.section.polar_inertia >= 0.0, what, "polar_inertia", p.section.polar_inertia,
+            "a value >= 0 (m4)");
+    require(p.added_mass >= 0.0, what, "added_mass", p.added_mass, "a value >= 0 (kg/m)");
+  }
+}
+
+void check_lumped(const Model& model) {
+  for (const LumpedMass& m : model.masses) {
+    const std::string what = "mass at " + place(node_at(model, m.node));
+    require(m.mass >= 0.0, what, "mass", m.mass, "a value >= 0 (kg)");
+    for (const double j : m.inertia)
+      require(j >= 0.0, what, "inertia", j, "values >= 0 (kg m2)");
+  }
+  for (const Spring& s : model.springs) {
+    const std::string what = "spring at " + place(node_at(model, s.node));
+    for (const double k : s.stiffness)
+      require(k >= 0.0, what, "stiffness", k, "values >= 0 (N/m, N m/rad)");
+    for (const double c : s.damping)
+      require(c >= 0.0, what, "damping", c, "values >= 0 (N s/m, N m s/rad)");
+  }
+}
+
+/// What is on the diagonals of M and of the beams' K, and which nodes have beams.
+struct Diagonals {
+  std::vector<double> mass, stiffness;
+  std::vector<std::uint8_t> has_beam;
+};
+
+Diagonals diagonals(const Model& model) {
+  const std::size_t nodes = model.nodes.size();
+  Diagonals d{std::vector<double>(nodes * dofs_per_node), std::vector<double>(nodes * dofs_per_node),
+              std::vector<std::uint8_t>(nodes)};
+  for (const Beam& beam : model.beams) {
+    const ElementMatrices e =
+        beam_element(node_at(model, beam.a), node_at(model, beam.b), property_of(model, beam));
+    for (int i = 0; i < 2 * dofs_per_node; ++i) {
+      const auto node = static_cast<std::size_t>(i < dofs_per_node ? beam.a : beam.b);
+      const std::size_t row = node * dofs_per_node + static_cast<std::size_t>(i % dofs_per_node);
+      d.mass[row] += e.mass(i, i);
+      d.stiffness[row] += e.stiffness(i, i);
+      d.has_beam[node] = 1;
+    }
+  }
+  for (const LumpedMass& body : model.masses) {
+    const Matrix6 m = lumped_mass_matrix(body);
+    for (int i = 0; i < dofs_per_node; ++i)
+      d.mass[static_cast<std::size_t>(body.node * dofs_per_node + i)] += m(i, i);
+  }
+  return d;
+}
+
+/// A free dof without mass makes no mode: on a node of beams it follows the others statically, elsewhere it
+/// is a mistake.
+void check_mass(const Model& model) {
+  const Diagonals d = diagonals(model);
+  for (std::size_t node = 0; node < model.nodes.size(); ++node)
+    for (int dof = 0; dof < dofs_per_node; ++dof) {
+      const std::size_t row = node * dofs_per_node + static_cast<std::size_t>(dof);
+      if (model.is_fixed(static_cast<Index>(node), dof) || d.mass[row] > 0.0 ||
+          (d.has_beam[node] && d.stiffness[row] > 0.0))
+        continue;
+      const auto name = dof_names[static_cast<std::size_t>(dof)];
+      throw core::Error(
+          fmt::format("node {} at {}: {} is free but nothing there has {}; restrain it ([[restraints]] "
+                      "fixed = [\"{}\"]) or give the node {}",
+                      node, place(model.nodes[node]), name, dof < 3 ? "mass" : "rotary inertia", name,
+                      dof < 3 ? "a mass ([[masses]])" : "an inertia ([[masses]] inertia)"));
+    }
+}
+
+void number_equations(const Model& model, Structure& structure) {
+  structure.equation.reserve(structure.nodes.size() * dofs_per_node);
+  for (const Index node : structure.nodes)
+    for (int dof = 0; dof < dofs_per_node; ++dof)
+      structure.equation.push_back(model.is_fixed(node, dof) ? -1 : structure.equations++);
+}
+
+} // namespace
+
+std::string place(const Vec3& point) {
+  return fmt::format("({:g}, {:g}, {:g})", point.x(), point.y(), point.z());
+}
+
+Index position_of(const Structure& structure, Index node) {
+  const auto found = std::lower_bound(structure.nodes.begin(), structure.nodes.end(), node);
+  return found != structure.nodes.end() && *found == node
+             ? static_cast<Index>(found - structure.nodes.begin())
+             : -1;
+}
+
+std::vector<Structure> structures(const Model& model) {
+  assert(model.fixed.size() == model.nodes.size());
+  check_properties(model);
+  check_lumped(model);
+  check_mass(model);
+  DisjointSets sets(model.nodes.size());
+  for (const Beam& beam : model.beams)
+    sets.join(beam.a, beam.b);
+  for (const Spring& spring : model.springs)
+    if (spring.other >= 0)
+      sets.join(spring.node, spring.other);
+
+  std::size_t count = 0;
+  const std::vector<std::size_t> part_of = sets.labels(count);
+  std::vector<Structure> parts(count);
+  for (std::size_t node = 0; node < model.nodes.size(); ++node)
+    parts[part_of[node]].nodes.push_back(static_cast<Index>(node));
+  const auto part = [&](Index node) -> Structure& { return parts[part_of[static_cast<std::size_t>(node)]]; };
+  for (std::size_t i = 0; i < model.beams.size(); ++i)
+    part(model.beams[i].a).beams.push_back(static_cast<Index>(i));
+  for (std::size_t i = 0; i < model.masses.size(); ++i)
+    part(model.masses[i].node).masses.push_back(static_cast<Index>(i));
+  for (std::size_t i = 0; i < model.springs.size(); ++i)
+    part(model.springs[i].node).springs.push_back(static_cast<Index>(i));
+  for (Structure& structure : parts)
+    number_equations(model, structure);
+  return parts;
+}
+
+double total_mass(const Model& model) {
+  double sum = 0.0;
+  for (const Beam& beam : model.beams) {
+    const BeamProperty& p = property_of(model, beam);
+    sum += (p.material.density * p.section.area + p.added_mass) *
+           (node_at(model, beam.b) - node_at(model, beam.a)).norm();
+  }
+  for (const LumpedMass& m : model.masses)
+    sum += m.mass;
+  return sum;
+}
+
+} // namespace fretwork::fem

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/petsc_assembly.hpp"
+#include "core/error.hpp"
+#include "core/petsc.hpp"
+#include "fem/fields.hpp"
+#include "fem/node_blocks.hpp"
+#include "fem/rigid_motions.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
+#include <utility>
+
+namespace fretwork::fem {
+namespace {
+
+/// Compressed rows [begin, end) of K and M.
+struct Rows {
+  std::vector<PetscInt> start{0}, column;
+  std::vector<PetscScalar> stiffness, mass;
+};
+
+Rows compress(const Structure& structure, const NodeBlocks& blocks, PetscInt begin, PetscInt end) {
+  const auto equation = [&](Index position, int d) {
+    return structure
+        .equation[static_cast<std::size_t>(position) * dofs_per_node + static_cast<std::size_t>(d)];
+  };
+  Rows rows;
+  for (std::size_t i = 0; i + 1 < blocks.start.size(); ++i)
+    for (int d = 0; d < dofs_per_node; ++d) {
+      const Index row = equation(blocks.first + static_cast<Index>(i), d);
+      if (row < begin || row >= end)
+        continue;
+      for (std::size_t b = blocks.start[i]; b < blocks.start[i + 1]; ++b)
+        for (int e = 0; e < dofs_per_node; ++e)
+          if (const Index column = equation(blocks.column[b], e); column >= 0) {
+            rows.column.push_back(column);
+            rows.stiffness.push_back(blocks.stiffness[b](d, e));
+            rows.mass.push_back(blocks.mass[b](d, e));
+          }
+      rows.start.push_back(static_cast<PetscInt>(rows.column.size()));
+    }
+  return rows;
+}
+
+/// Positions of the nodes that have one of the equations [begin, end).
+std::pair<Index, Index> nodes_of(const Structure& structure, PetscInt begin, PetscInt end) {
+  auto first = static_cast<Index>(structure.nodes.size());
+  Index last = 0;
+  for (std::size_t i = 0; i < structure.equation.size(); ++i)
+    if (structure.equation[i] >= begin && structure.equation[i] < end) {
+      first = std::min(first, static_cast<Index>(i / dofs_per_node));
+      last = static_cast<Index>(i / dofs_per_node) + 1;
+    }
+  return {std::min(first, last), last};
+}
+
+PetscMatrix make_matrix(MPI_Comm comm, PetscInt local, PetscInt global, const Rows& rows,
+                        const std::vector<PetscScalar>& values) {
+  Mat handle = nullptr;
+  FW_PETSC(MatCreate(comm, &handle));
+  PetscMatrix matrix(handle);
+  FW_PETSC(MatSetSizes(handle, local, local, global, global));
+  FW_PETSC(MatSetType(handle, MATAIJ));
+  FW_PETSC(MatSeqAIJSetPreallocationCSR(handle, rows.start.data(), rows.column.data(), values.data()));
+  FW_PETSC(MatMPIAIJSetPreallocationCSR(handle, rows.start.data(), rows.column.data(), values.data()));
+  FW_PETSC(MatSetOption(handle, MAT_SYMMETRIC, PETSC_TRUE));
+  FW_PETSC(MatSetOption(handle, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
+  return matrix;
+}
+
+/// Owns a pair of orderings.
+struct Ordering {
+  IS row = nullptr, column = nullptr;
+  ~Ordering() {
+    ISDestroy(&row);
+    ISDestroy(&column);
+  }
+};
+
+/// Owns a vector.
+struct Vector {
+  Vec handle = nullptr;
+  ~Vector() { VecDestroy(&handle); }
+};
+
+Eigen::VectorXd solve(Mat matrix, Mat factor, const Eigen::VectorXd& right) {
+  Vector b, x;
+  FW_PETSC(MatCreateVecs(matrix, &x.handle, &b.handle));
+  PetscScalar* values = nullptr;
+  FW_PETSC(VecGetArray(b.handle, &values));
+  Eigen::Map<Eigen::VectorXd>(values, right.size()) = right;
+  FW_PETSC(VecRestoreArray(b.handle, &values));
+  FW_PETSC(MatSolve(factor, b.handle, x.handle));
+  const PetscScalar* result = nullptr;
+  FW_PETSC(VecGetArrayRead(x.handle, &result));
+  Eigen::VectorXd solution = Eigen::Map<const Eigen::VectorXd>(result, right.size());
+  FW_PETSC(VecRestoreArrayRead(x.handle, &result));
+  return solution;
+}
+
+/// sum of K_ii u_i^2: a scale of u^T K u that has no unit to choose.
+double diagonal_energy(Mat matrix, const Eigen::VectorXd& solution) {
+  Vector diagonal;
+  FW_PETSC(MatCreateVecs(matrix, nullptr, &diagonal.handle));
+  FW_PETSC(MatGetDiagonal(matrix, diagonal.handle));
+  const PetscScalar* values = nullptr;
+  FW_PETSC(VecGetArrayRead(diagonal.handle, &values));
+  const double sum =
+      (Eigen::Map<const Eigen::ArrayXd>(values, solution.size()) * solution.array().square()).sum();
+  FW_PETSC(VecRestoreArrayRead(diagonal.handle, &values));
+  return sum;
+}
+
+} // namespace
+
+PetscMatrix& PetscMatrix::operator=(PetscMatrix&& other) noexcept {
+  std::swap(handle_, other.handle_);
+  return *this;
+}
+
+PetscMatrix::~PetscMatrix() { MatDestroy(&handle_); }
+
+SystemMatrices assemble(MPI_Comm comm, const Model& model, const Structure& structure) {
+  const PetscInt global = structure.equations;
+  PetscInt local = PETSC_DECIDE, total = global;
+  FW_PETSC(PetscSplitOwnership(comm, &local, &total));
+  PetscInt end = 0;
+  MPI_Scan(&local, &end, 1, MPIU_INT, MPI_SUM, comm);
+  const auto [first, last] = nodes_of(structure, end - local, end);
+  const Rows rows = compress(structure, node_blocks(model, structure, first, last), end - local, end);
+  return {make_matrix(comm, local, global, rows, rows.stiffness),
+          make_matrix(comm, local, global, rows, rows.mass)};
+}
+
+PetscMatrix factorise(Mat matrix, bool chain) {
+  int ranks = 1;
+  MPI_Comm_size(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), &ranks);
+  Mat handle = nullptr;
+  FW_PETSC(MatGetFactor(matrix, ranks == 1 ? MATSOLVERPETSC : MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &handle));
+  PetscMatrix factor(handle);
+  if (ranks > 1)
+    FW_PETSC(MatMumpsSetIcntl(handle, 13, 1)); // no ScaLAPACK at the root: it hides the signs of the pivots
+  Ordering ordering;
+  FW_PETSC(
+      MatGetOrdering(matrix, chain ? MATORDERINGNATURAL : MATORDERINGND, &ordering.row, &ordering.column));
+  MatFactorInfo info;
+  FW_PETSC(MatFactorInfoInitialize(&info));
+  FW_PETSC(MatCholeskyFactorSymbolic(handle, matrix, ordering.row, &info));
+  FW_PETSC(MatCholeskyFactorNumeric(handle, matrix, &info));
+  MatFactorError outcome = MAT_FACTOR_NOERROR;
+  FW_PETSC(MatFactorGetError(handle, &outcome));
+  if (outcome != MAT_FACTOR_NOERROR)
+    throw core::ComputationError("factorisation of the stiffness: a pivot vanishes, the matrix is singular");
+  return factor;
+}
+
+Eigen::VectorXd static_solution(const Model& model, const Structure& structure,
+                                const Eigen::VectorXd& force) {
+  const std::string what = "static solution of the structure that starts at node " +
+                           place(model.nodes[static_cast<std::size_t>(structure.nodes.front())]);
+  Eigen::VectorXd result =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.nodes.size()) * dofs_per_node);
+  if (structure.equations == 0)
+    return result;
+  if (const Eigen::Index motions = rigid_motions(model, structure).cols(); motions > 0)
+    throw core::Error(
+        fmt::format("{}: it is not held: {} motion(s) strain nothing; restrain them", what, motions));
+
+  const auto model_row = [&](std::size_t i) {
+    return Eigen::Index{structure.nodes[i / dofs_per_node]} * dofs_per_node +
+           static_cast<Eigen::Index>(i % dofs_per_node);
+  };
+  Eigen::VectorXd right(structure.equations);
+  for (std::size_t i = 0; i < structure.equation.size(); ++i)
+    if (structure.equation[i] >= 0)
+      right[structure.equation[i]] = force[model_row(i)];
+  const SystemMatrices system = assemble(PETSC_COMM_SELF, model, structure);
+  const PetscMatrix factor = factorise(system.stiffness.get(), is_chain(model, structure));
+  const Eigen::VectorXd solution = solve(system.stiffness.get(), factor.get(), right);
+
+  Eigen::MatrixXd field = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(structure.equation.size()), 1);
+  for (std::size_t i = 0; i < structure.equation.size(); ++i)
+    if (structure.equation[i] >= 0)
+      result[model_row(i)] = field(static_cast<Eigen::Index>(i), 0) = solution[structure.equation[i]];
+  // Along a null vector the strain energy is round-off squared of its diagonal scale; the softest mesh that
+  // makes sense (thousands of elements) has at least round-off to the power one.
+  const double energy = twice_strain_energy(model, structure, field)[0];
+  if (!solution.allFinite() ||
+      energy < std::numeric_limits<double>::epsilon() * diagonal_energy(system.stiffness.get(), solution))
+    throw core::ComputationError(
+        what + ": the stiffness is singular to working precision; look for parts that are hardly held, "
+               "or mesh more coarsely");
+  return result;
+}
+
+} // namespace fretwork::fem
