@@ -8,17 +8,19 @@
 
 namespace fretwork::modal {
 
-/// Mode shapes are M-orthonormal (modal mass 1 in kg, kg m2 ...) and in canonical form (see canonical.hpp), so that neither
-/// the number of ranks nor the numbering of nodes shows in them.
+/// Mode shapes are M-orthonormal (modal mass 1 in kg, kg m2 ...) and in canonical form (see canonical.hpp),
+/// so that neither the number of ranks nor the numbering of nodes shows in them.
 struct Basis {
   std::vector<core::Index> nodes; ///< model nodes of the structure, ascending
-  Eigen::MatrixXd shapes;         ///< (6 * nodes.size()) x n: ux uy uz rx ry rz of each node; 0 at restrained dofs
-  Eigen::VectorXd omega;          ///< n, rad/s, ascending; 0 exactly for rigid-body modes
-  Eigen::VectorXd damping;        ///< n, ratio to critical (for a rigid mode: of no effect)
-  Eigen::MatrixXd damping_matrix; ///< n x n, 1/s: Phi^T C Phi, all damping included; empty where it is the diagonal 2 zeta omega
-  Eigen::VectorXd residuals;      ///< n, |K x - lambda M x| / |K x| (rigid: |K x| over the largest term of the product)
-  double orthogonality = 0.0;     ///< max |Phi^T M Phi - I|
-  bool distributed = false;       ///< solved over all ranks
+  Eigen::MatrixXd shapes;  ///< (6 * nodes.size()) x n: ux uy uz rx ry rz of each node; 0 at restrained dofs
+  Eigen::VectorXd omega;   ///< n, rad/s, ascending; 0 exactly for rigid-body modes
+  Eigen::VectorXd damping; ///< n, ratio to critical (for a rigid mode: of no effect)
+  Eigen::MatrixXd damping_matrix; ///< n x n, 1/s: Phi^T C Phi, all damping included; empty where it is the
+                                  ///< diagonal 2 zeta omega
+  Eigen::VectorXd
+      residuals; ///< n, |K x - lambda M x| / |K x| (rigid: |K x| over the largest term of the product)
+  double orthogonality = 0.0; ///< max |Phi^T M Phi - I|
+  bool distributed = false;   ///< solved over all ranks
 
   [[nodiscard]] Eigen::Index size() const { return omega.size(); }
   /// Row of `node` in `shapes` (6 rows from there), or -1 where the structure does not have it.

@@ -8,17 +8,19 @@
 
 namespace fretwork::modal {
 
-/// C = stiffness K + mass M.
+/// C = stiffness K + mass M: ratio (stiffness omega + mass / omega) / 2.
 struct Rayleigh {
   double stiffness = 0.0; ///< s, >= 0
   double mass = 0.0;      ///< 1/s, >= 0
 };
 
-/// One ratio for all modes, a ratio a mode (the last one holds for the modes after it), or Rayleigh.
+/// One ratio for all modes, a ratio a mode (at least as many as there are modes), or Rayleigh.
 using Damping = std::variant<double, std::vector<double>, Rayleigh>;
 
-/// Sets basis.damping and adds the modal damping to basis.damping_matrix where dampers made one. Rayleigh's mass term damps
-/// rigid modes too: where there are rigid modes and a mass term, damping_matrix is made.
+/// Sets basis.damping (the modal damping alone, without dampers) and adds the modal damping to
+/// basis.damping_matrix where dampers made one. Rayleigh's mass term damps rigid modes too: where there are
+/// rigid modes and a mass term, damping_matrix is made.
+/// @throws core::Error for a negative value and for a list shorter than the number of modes
 void apply_damping(Basis& basis, const Damping& damping);
 
 } // namespace fretwork::modal

@@ -10,13 +10,19 @@
 namespace fretwork::modal {
 
 struct Wanted {
-  std::optional<int> count;        ///< > 0: so many modes, fewer where the structure has fewer
-  std::optional<double> up_to_hz;  ///< > 0: all modes up to this frequency (exactly one of the two)
+  std::optional<int> count;       ///< > 0: so many modes, fewer where the structure has fewer
+  std::optional<double> up_to_hz; ///< > 0: all modes up to this frequency (exactly one of the two)
 };
 
-/// Collective over `comm` (MPI_COMM_SELF: one rank solves alone). Lowest modes, mass-normalised and canonical; rigid-body modes exact
-/// with omega = 0; damping zero, damping_matrix the projected dampers (empty without dampers).
-/// @throws core::ComputationError where fewer modes converge than wanted
+/// Collective over `comm` (MPI_COMM_SELF: one rank solves alone; the Basis is the same on every rank, to the
+/// last bit). Lowest modes, mass-normalised and canonical; motions without strain exact with omega = 0;
+/// damping zero, damping_matrix the projected dampers (empty without dampers). Small structures, and requests
+/// for more than a third of all modes, are solved densely on one rank; the others by Krylov-Schur, and no
+/// mode is missing: the count is checked by the inertia of K - s M. Fewer modes come back where the structure
+/// has fewer. A `count` that cuts a cluster of equal frequencies keeps the first of its canonical modes.
+/// @throws core::Error for a wrong request or a motion with neither stiffness nor mass;
+/// core::ComputationError where modes do not converge,
+///         stay missing, or are made of round-off
 [[nodiscard]] Basis solve_modes(MPI_Comm comm, const fem::Model& model, const fem::Structure& structure,
                                 const Wanted& wanted);
 

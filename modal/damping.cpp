@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "modal/damping.hpp"
+#include "core/error.hpp"
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fretwork::modal {
+namespace {
+
+void require_not_negative(double value, const std::string& name) {
+  if (!(value >= 0.0) || !std::isfinite(value))
+    throw core::Error(fmt::format("[modes] damping: {} = {:g}; give a value >= 0", name, value));
+}
+
+/// Ratios of all modes; for a rigid mode whatever the list says: it has no effect there.
+struct Ratios {
+  const Eigen::VectorXd& omega;
+
+  Eigen::VectorXd operator()(double ratio) const {
+    require_not_negative(ratio, "ratio");
+    return Eigen::VectorXd::Constant(omega.size(), ratio);
+  }
+
+  Eigen::VectorXd operator()(const std::vector<double>& ratios) const {
+    if (static_cast<Eigen::Index>(ratios.size()) < omega.size())
+      throw core::Error(fmt::format(
+          "[modes] damping: a list of {} ratios for {} modes; give a ratio for every mode, or one "
+          "ratio for all",
+          ratios.size(), omega.size()));
+    for (std::size_t i = 0; i < ratios.size(); ++i)
+      require_not_negative(ratios[i], fmt::format("ratio of mode {}", i + 1));
+    return Eigen::Map<const Eigen::VectorXd>(ratios.data(), omega.size());
+  }
+
+  Eigen::VectorXd operator()(const Rayleigh& rayleigh) const {
+    require_not_negative(rayleigh.stiffness, "stiffness");
+    require_not_negative(rayleigh.mass, "mass");
+    Eigen::VectorXd ratios = Eigen::VectorXd::Zero(omega.size());
+    for (Eigen::Index i = 0; i < omega.size(); ++i)
+      if (omega[i] > 0.0)
+        ratios[i] = 0.5 * (rayleigh.stiffness * omega[i] + rayleigh.mass / omega[i]);
+    return ratios;
+  }
+};
+
+} // namespace
+
+void apply_damping(Basis& basis, const Damping& damping) {
+  basis.damping = std::visit(Ratios{basis.omega}, damping);
+  Eigen::VectorXd diagonal = 2.0 * basis.damping.cwiseProduct(basis.omega);
+  if (const auto* rayleigh = std::get_if<Rayleigh>(&damping); rayleigh && rayleigh->mass > 0.0)
+    for (Eigen::Index i = 0; i < basis.size(); ++i)
+      if (basis.omega[i] == 0.0) { // a ratio to omega = 0 cannot say it
+        diagonal[i] = rayleigh->mass;
+        if (basis.damping_matrix.size() == 0)
+          basis.damping_matrix = Eigen::MatrixXd::Zero(basis.size(), basis.size());
+      }
+  if (basis.damping_matrix.size() > 0)
+    basis.damping_matrix.diagonal() += diagonal;
+}
+
+} // namespace fretwork::modal

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "modal/finish.hpp"
+#include "core/error.hpp"
+#include "fem/fields.hpp"
+#include "modal/canonical.hpp"
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numeric>
+
+namespace fretwork::modal {
+namespace {
+
+/// Relative difference of the solver's lambda and the Rayleigh quotient beyond which the shape too is made of
+/// round-off. (At 5000 elements a span, where the difference is 3e-3, shapes still give lambda to 3e-7.)
+constexpr double round_off_limit = 0.05;
+/// The range in which an eigensolver in double precision resolves anything: higher modes of a dense solve are
+/// not looked at.
+constexpr double resolved_range = 1e12;
+
+/// Makes the columns M-orthonormal, in order: G = L L^T, Phi <- Phi L^-T.
+void orthonormalise(const fem::Model& model, const fem::Structure& structure, Eigen::MatrixXd& shapes) {
+  const Eigen::MatrixXd gram = shapes.transpose() * fem::mass_times(model, structure, shapes);
+  const Eigen::LLT<Eigen::MatrixXd> factor(gram);
+  if (factor.info() != Eigen::Success)
+    throw core::ComputationError(
+        "modes: the shapes found are not independent; ask for fewer ([modes] count)");
+  factor.matrixL().transpose().solveInPlace<Eigen::OnTheRight>(shapes);
+}
+
+void check_round_off(const Eigen::VectorXd& solver, const Eigen::VectorXd& strain) {
+  for (Eigen::Index i = 0; i < solver.size() && solver[i] < resolved_range * solver[0]; ++i)
+    if (!(std::abs(strain[i] - solver[i]) <= round_off_limit * strain[i]))
+      throw core::ComputationError(
+          fmt::format("modes: round-off spoils elastic mode {} (omega^2 = {:.6g} by the solver, {:.6g} by "
+                      "its strain energy): too many "
+                      "elements between supports, or parts hardly held; mesh more coarsely or restrain them",
+                      i + 1, solver[i], strain[i]));
+}
+
+void canonicalise_clusters(Eigen::MatrixXd& shapes, Eigen::VectorXd& lambda, Eigen::Index rigid,
+                           const std::vector<core::Vec3>& positions) {
+  Eigen::Index begin = 0;
+  for (const Eigen::Index end : cluster_ends(lambda, rigid)) {
+    canonicalise(shapes.middleCols(begin, end - begin), positions);
+    lambda.segment(begin, end - begin).setConstant(lambda.segment(begin, end - begin).mean());
+    begin = end;
+  }
+}
+
+Eigen::VectorXd residuals(const fem::Model& model, const fem::Structure& structure, const Basis& basis,
+                          const Eigen::MatrixXd& inertia) {
+  const auto free_norm = [&](const auto& column) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < structure.equation.size(); ++i)
+      if (structure.equation[i] >= 0)
+        sum += column[static_cast<Eigen::Index>(i)] * column[static_cast<Eigen::Index>(i)];
+    return std::sqrt(sum);
+  };
+  const Eigen::MatrixXd elastic = fem::stiffness_times(model, structure, basis.shapes);
+  Eigen::VectorXd result(basis.size());
+  for (Eigen::Index j = 0; j < basis.size(); ++j) {
+    const Eigen::VectorXd difference = elastic.col(j) - basis.omega[j] * basis.omega[j] * inertia.col(j);
+    const double size = free_norm(Eigen::VectorXd(elastic.col(j)));
+    result[j] = size > 0.0 ? free_norm(difference) / size : 0.0;
+  }
+  return result;
+}
+
+Eigen::MatrixXd projected_dampers(const fem::Model& model, const fem::Structure& structure,
+                                  const Basis& basis) {
+  Eigen::MatrixXd matrix;
+  for (const core::Index number : structure.springs) {
+    const fem::Spring& spring = model.springs[static_cast<std::size_t>(number)];
+    for (int d = 0; d < core::dofs_per_node; ++d) {
+      const double c = spring.damping[static_cast<std::size_t>(d)];
+      if (c == 0.0)
+        continue;
+      Eigen::VectorXd stretch = basis.shapes.row(basis.row_of(spring.node) + d).transpose();
+      if (spring.other >= 0)
+        stretch -= basis.shapes.row(basis.row_of(spring.other) + d).transpose();
+      if (matrix.size() == 0)
+        matrix = Eigen::MatrixXd::Zero(basis.size(), basis.size());
+      matrix += c * stretch * stretch.transpose();
+    }
+  }
+  return matrix;
+}
+
+} // namespace
+
+Basis finish(const fem::Model& model, const fem::Structure& structure, const Eigen::MatrixXd& rigid,
+             const Pairs& pairs, const Cut& cut) {
+  const Eigen::MatrixXd elastic = all_rows(structure, pairs.vectors);
+  const Eigen::VectorXd energies = fem::twice_strain_energy(model, structure, elastic);
+  const Eigen::MatrixXd moved = fem::mass_times(model, structure, elastic);
+  const Eigen::VectorXd quotients =
+      energies.array() / elastic.cwiseProduct(moved).colwise().sum().transpose().array();
+  check_round_off(pairs.lambda, quotients);
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(quotients.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Eigen::Index i, Eigen::Index j) { return quotients[i] < quotients[j]; });
+
+  Basis basis;
+  basis.nodes = structure.nodes;
+  basis.shapes.resize(elastic.rows(), rigid.cols() + elastic.cols());
+  basis.shapes << rigid, elastic(Eigen::all, order);
+  Eigen::VectorXd lambda = Eigen::VectorXd::Zero(basis.shapes.cols());
+  lambda.tail(quotients.size()) = quotients(order);
+  std::vector<core::Vec3> positions;
+  for (const core::Index node : structure.nodes)
+    positions.push_back(model.nodes[static_cast<std::size_t>(node)]);
+  orthonormalise(model, structure, basis.shapes);
+  canonicalise_clusters(basis.shapes, lambda, rigid.cols(), positions);
+
+  Eigen::Index kept = 0;
+  while (kept < std::min(lambda.size(), cut.count) && std::sqrt(lambda[kept]) <= cut.omega)
+    ++kept;
+  basis.shapes.conservativeResize(Eigen::NoChange, kept);
+  basis.omega = lambda.head(kept).cwiseSqrt();
+  basis.damping = Eigen::VectorXd::Zero(kept);
+  basis.damping_matrix = projected_dampers(model, structure, basis);
+  const Eigen::MatrixXd inertia = fem::mass_times(model, structure, basis.shapes);
+  basis.orthogonality =
+      kept > 0
+          ? (basis.shapes.transpose() * inertia - Eigen::MatrixXd::Identity(kept, kept)).cwiseAbs().maxCoeff()
+          : 0.0;
+  basis.residuals = residuals(model, structure, basis, inertia);
+  return basis;
+}
+
+} // namespace fretwork::modal

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// From eigenvectors to a Basis: frequencies from strain energies, canonical clusters, orthonormality,
+/// residuals, dampers.
+#pragma once
+#include "fem/model.hpp"
+#include "modal/basis.hpp"
+#include "modal/dense_modes.hpp"
+#include <limits>
+
+namespace fretwork::modal {
+
+/// What to keep of the modes, canonical form made before the cut.
+struct Cut {
+  Eigen::Index count = std::numeric_limits<Eigen::Index>::max();
+  double omega = std::numeric_limits<double>::infinity(); ///< rad/s
+};
+
+/// lambda of a mode is its Rayleigh quotient with the strain energy (not K u): on a fine mesh this regains
+/// the digits that the round-off of K takes from the eigensolver. Modes of a cluster share their mean lambda.
+/// @param rigid M-orthonormal motions without strain, @param pairs elastic modes, clusters complete
+/// @throws core::ComputationError where round-off makes the solver's lambda differ from the Rayleigh quotient
+/// by per cents
+[[nodiscard]] Basis finish(const fem::Model& model, const fem::Structure& structure,
+                           const Eigen::MatrixXd& rigid, const Pairs& pairs, const Cut& cut);
+
+} // namespace fretwork::modal
