@@ -49,20 +49,24 @@ const Choices<Shape> shapes{
      {"rectangle", {{"height_y", "height_z"}, read_rectangle}},
      {"general", {{"area", "iy", "iz", "torsion_constant", "polar_inertia"}, read_general}}}};
 
+/// Only the keys of the section's shape are known; those of all shapes where it has none, to tell a misspelt
+/// `shape`.
 fem::Section read_section(const Entry& entry) {
-  Keys all{{"shape"}};
   std::vector<std::string> names;
-  for (const auto& [name, shape] : shapes.available) {
-    all.known.insert(all.known.end(), shape.keys.begin(), shape.keys.end());
-    names.push_back(name);
-  }
-  const TableReader any_shape(*entry.value, entry.path, all);
-  (void)any_shape.required("shape", "one of " + core::list_names(names));
-  const Shape shape = any_shape.choice("shape", Shape{}, shapes);
-  Keys own{shape.keys};
-  own.known.insert(own.known.begin(), "shape");
-  const TableReader table(*entry.value, entry.path, own);
-  return shape.read(table);
+  for (const auto& choice : shapes.available)
+    names.push_back(choice.first);
+  const auto& values = *entry.value->table();
+  const auto given = values.find("shape");
+  const Shape* shape = nullptr;
+  if (given != values.end())
+    shape = &shapes.available[to_choice(given->second, entry.path + ".shape", names)].second;
+  Keys keys{{"shape"}};
+  for (const auto& choice : shapes.available)
+    if (!shape || shape == &choice.second)
+      keys.known.insert(keys.known.end(), choice.second.keys.begin(), choice.second.keys.end());
+  const TableReader table(*entry.value, entry.path, keys);
+  (void)table.required("shape", "one of " + core::list_names(names));
+  return shape->read(table);
 }
 
 template <class T>

@@ -249,6 +249,16 @@ TEST(ReadStudy, KeepsAnAbsolutePathOfTheMesh) {
   EXPECT_EQ(read_text("[mesh]\nfile = \"/some/where/a.msh\"\n").mesh.file, "/some/where/a.msh");
 }
 
+TEST(ReadStudy, TakesTheExampleOfTheReference) {
+  std::ifstream stream(FRETWORK_SOURCE_DIR "/doc/study-file.md");
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const std::string opening = "```toml\n";
+  const auto begin = text.find(opening);
+  ASSERT_NE(begin, std::string::npos);
+  const auto from = begin + opening.size();
+  EXPECT_EQ(message_of(text.substr(from, text.find("```", from) - from)), "");
+}
+
 TEST(ReadStudy, RefusesAFileThatIsNotThere) {
   const Folder folder;
   for (const auto& [file, problem] :
