@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/child_process.hpp"
+#include "core/error.hpp"
+#include "mesh/meshio_script.hpp"
+#include "mesh/read.hpp"
+#include <algorithm>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <regex>
+
+namespace fretwork::mesh {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int not_started = 127;
+
+/// What a child wrote, without terminal colours and the empty lines at its end.
+std::string trimmed(const std::string& output) {
+  std::string text = std::regex_replace(output, std::regex("\x1b\\[[0-9;]*m"), "");
+  while (!text.empty() && (text.back() == '\n' || text.back() == ' '))
+    text.pop_back();
+  return text.empty() ? "no message" : text;
+}
+
+std::string geometry_program() {
+  if (const char* given = std::getenv("FRETWORK_GEOMETRY")) {
+    if (!fs::exists(given))
+      throw core::Error(fmt::format(
+          "FRETWORK_GEOMETRY = \"{}\" does not exist; it names the program fretwork-geometry", given));
+    return given;
+  }
+  const fs::path here = core::executable_directory();
+  for (const fs::path& candidate :
+       {here / "fretwork-geometry", here / "../libexec/fretwork/fretwork-geometry"})
+    if (fs::exists(candidate))
+      return candidate.lexically_normal().string();
+  throw core::Error(fmt::format(
+      "fretwork-geometry, which meshes geometries, is neither in {} nor in ../libexec/fretwork; install "
+      "it or name it in FRETWORK_GEOMETRY",
+      here.string()));
+}
+
+std::vector<std::string> pythons() {
+  if (const char* given = std::getenv("FRETWORK_PYTHON"))
+    return {given};
+  return {"python3", "/usr/bin/python3"};
+}
+
+} // namespace
+
+bool is_geometry(const fs::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending == ".geo" || ending == ".step" || ending == ".stp" || ending == ".brep";
+}
+
+void mesh_geometry(const Source& source, const fs::path& msh_file) {
+  std::vector<std::string> arguments{geometry_program(), source.file.string(), msh_file.string()};
+  if (source.element_size) {
+    arguments.emplace_back("--size");
+    arguments.push_back(fmt::format("{}", *source.element_size / source.scale));
+  }
+  const core::ChildResult child = core::run_child(arguments);
+  if (child.status == not_started)
+    throw core::Error(fmt::format("{} cannot be started: {}", arguments[0], trimmed(child.output)));
+  if (child.status != 0 || !fs::exists(msh_file))
+    throw core::Error(fmt::format("{}: gmsh cannot mesh the geometry: {}", source.file.string(),
+                                  child.status > 128
+                                      ? fmt::format("it crashed (signal {})", child.status - 128)
+                                      : trimmed(child.output)));
+}
+
+void convert_with_meshio(const fs::path& file, const fs::path& msh_file) {
+  std::string tried;
+  for (const std::string& python : pythons()) {
+    const core::ChildResult child =
+        core::run_child({python, "-c", meshio_script, file.string(), msh_file.string()});
+    if (child.status == 0)
+      return;
+    if (child.status != no_meshio && child.status != not_started) {
+      const bool needs_h5py = child.output.find("'h5py'") != std::string::npos;
+      throw core::Error(fmt::format("{}: meshio cannot read the mesh: {}{}", file.string(),
+                                    trimmed(child.output),
+                                    needs_h5py ? "; install the package python3-h5py" : ""));
+    }
+    tried += fmt::format("; {}: {}", python, trimmed(child.output));
+  }
+  throw core::Error(fmt::format(
+      "{}: this format is read through meshio, and no Python with it was found; install the package "
+      "python3-meshio (and python3-h5py for .med and .xdmf) or name an interpreter in FRETWORK_PYTHON{}",
+      file.string(), tried));
+}
+
+} // namespace fretwork::mesh

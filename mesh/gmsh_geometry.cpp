@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// fretwork-geometry GEOMETRY MSH [--size S]: mesh the curves of a geometry by gmsh and write .msh 4.1,
+/// binary. A program of its own, so that gmsh (slow to load, and able to crash on a bad file) stays out of
+/// the main program.
+///
+/// - Curves are meshed with the sizes of the file, or with elements of about S (units of the file) where S is
+/// given;
+///   Transfinite Curve keeps its count. Order 2 stays where a .geo asks for it (Mesh.ElementOrder = 2).
+/// - STEP: units become metres (the file says which it has); curves that meet come disconnected and are
+/// joined, here and
+///   in BREP. Their curves and points that carry a label become physical groups of that name.
+/// - Where a file names physical groups only these are written.
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <gmsh.h>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+struct Options {
+  std::string geometry, msh;
+  double size = 0.0; ///< 0: the sizes of the file
+};
+
+constexpr int status_wrong_use = 2;
+constexpr const char* usage = "usage: fretwork-geometry GEOMETRY MSH [--size S]\n";
+
+bool parse(int argc, char** argv, Options& options) {
+  if (argc != 3 && argc != 5)
+    return false;
+  options.geometry = argv[1];
+  options.msh = argv[2];
+  if (argc == 5) {
+    char* end = nullptr;
+    options.size = std::strtod(argv[4], &end);
+    return std::string(argv[3]) == "--size" && *end == '\0' && options.size > 0.0;
+  }
+  return true;
+}
+
+bool is_exchange_file(const std::string& file) {
+  std::string ending = file.substr(std::min(file.rfind('.'), file.size()));
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending == ".step" || ending == ".stp" || ending == ".brep";
+}
+
+/// A label "Shapes/assembly/tube" names the group "tube".
+void name_labelled_entities() {
+  std::map<std::pair<int, std::string>, std::vector<int>> labelled;
+  gmsh::vectorpair entities;
+  gmsh::model::getEntities(entities);
+  for (const auto& [dimension, tag] : entities) {
+    std::string label;
+    if (dimension < 2)
+      gmsh::model::getEntityName(dimension, tag, label);
+    if (!label.empty())
+      labelled[{dimension, label.substr(label.rfind('/') + 1)}].push_back(tag);
+  }
+  for (const auto& [key, tags] : labelled)
+    gmsh::model::setPhysicalName(key.first, gmsh::model::addPhysicalGroup(key.first, tags), key.second);
+}
+
+void mesh_curves(const Options& options) {
+  const bool exchange = is_exchange_file(options.geometry);
+  gmsh::option::setString("Geometry.OCCTargetUnit", "M");
+  gmsh::open(options.geometry);
+  if (exchange) {
+    gmsh::model::occ::removeAllDuplicates();
+    gmsh::model::occ::synchronize();
+    name_labelled_entities();
+  }
+  gmsh::vectorpair entities;
+  gmsh::model::getEntities(entities);
+  if (entities.empty())
+    throw std::runtime_error("the file holds no geometry that gmsh can read");
+  if (options.size > 0.0) {
+    gmsh::option::setNumber("Mesh.CharacteristicLengthMin", options.size);
+    gmsh::option::setNumber("Mesh.CharacteristicLengthMax", options.size);
+  }
+  gmsh::model::mesh::generate(1);
+  if (exchange)
+    gmsh::model::mesh::removeDuplicateNodes();
+  gmsh::option::setNumber("Mesh.MshFileVersion", 4.1);
+  gmsh::option::setNumber("Mesh.Binary", 1);
+  gmsh::write(options.msh);
+}
+
+/// gmsh goes on after some errors; a geometry with an error is not meshed. @return true where there was one
+bool print_logged_errors(const std::string& already_printed) {
+  const std::string mark = "Error: ";
+  std::vector<std::string> log;
+  gmsh::logger::get(log);
+  bool found = false;
+  for (const std::string& message : log) {
+    if (message.rfind(mark, 0) != 0)
+      continue;
+    found = true;
+    if (message.substr(mark.size()) != already_printed)
+      std::fprintf(stderr, "%s\n", message.c_str());
+  }
+  return found;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  if (!parse(argc, argv, options)) {
+    std::fputs(usage, stderr);
+    return status_wrong_use;
+  }
+  gmsh::initialize(0, nullptr, false);
+  gmsh::option::setNumber("General.Terminal", 0);
+  gmsh::logger::start();
+  std::string failure;
+  try {
+    mesh_curves(options);
+  } catch (const std::exception& error) {
+    failure = error.what();
+  } catch (const std::string& error) { // gmsh throws its messages bare in some versions
+    failure = error;
+  }
+  if (!failure.empty())
+    std::fprintf(stderr, "%s\n", failure.c_str());
+  const bool logged = print_logged_errors(failure);
+  gmsh::finalize();
+  return failure.empty() && !logged ? 0 : 1;
+}
