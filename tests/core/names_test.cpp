@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/names.hpp"
+#include <gtest/gtest.h>
+
+using namespace fretwork::core;
+
+TEST(NearestName, FindsASlipOfTheHand) {
+  const std::vector<std::string> names = {"gap", "offset", "origin", "normal_stiffness"};
+  EXPECT_EQ(nearest_name("gpa", names), "gap");
+  EXPECT_EQ(nearest_name("Offset", names), "offset");
+  EXPECT_EQ(nearest_name("normal_stifness", names), "normal_stiffness");
+}
+
+TEST(NearestName, SaysNothingWhereNothingResembles) {
+  EXPECT_EQ(nearest_name("friction", {"gap", "offset"}), "");
+  EXPECT_EQ(nearest_name("x", {}), "");
+}
+
+TEST(ListNames, QuotesAndCutsLongLists) {
+  EXPECT_EQ(list_names({}), "none");
+  EXPECT_EQ(list_names({"a", "b"}), "\"a\", \"b\"");
+  EXPECT_EQ(list_names({"a", "b", "c"}, 2), "\"a\", \"b\" and 1 more");
+}
+
+TEST(NameHelp, GivesTheNearestAndTheList) {
+  EXPECT_EQ(name_help("endz", {"ends", "leg"}), "; did you mean \"ends\"? existing: \"ends\", \"leg\"");
+  EXPECT_EQ(name_help("middle", {"ends"}, "groups"), "; groups: \"ends\"");
+}
