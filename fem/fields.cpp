@@ -149,6 +149,25 @@ Eigen::VectorXd twice_strain_energy(const Model& model, const Structure& structu
   return energy;
 }
 
+Eigen::VectorXd stiffness_diagonal(const Model& model, const Structure& structure) {
+  const Part part(structure);
+  Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(part.rows);
+  for (const Index number : part.beams) {
+    const Beam& beam = model.beams[static_cast<std::size_t>(number)];
+    const Vector12 k = beam_element(constants_of(model, number)).stiffness.diagonal();
+    diagonal.segment<6>(part.row(beam.a)) += k.head<6>();
+    diagonal.segment<6>(part.row(beam.b)) += k.tail<6>();
+  }
+  for (const Index number : part.springs) {
+    const Spring& spring = model.springs[static_cast<std::size_t>(number)];
+    const Eigen::Map<const Eigen::Matrix<double, 6, 1>> k(spring.stiffness.data());
+    diagonal.segment<6>(part.row(spring.node)) += k;
+    if (spring.other >= 0)
+      diagonal.segment<6>(part.row(spring.other)) += k;
+  }
+  return diagonal;
+}
+
 Eigen::VectorXd translation_field(const Model& model, const Vec3& direction) {
   Eigen::VectorXd field = Eigen::VectorXd::Zero(Whole(model).rows);
   for (Index node = 0; node < static_cast<Index>(model.nodes.size()); ++node)

@@ -27,6 +27,9 @@ namespace fretwork::fem {
 [[nodiscard]] Eigen::VectorXd twice_strain_energy(const Model& model, const Structure& structure,
                                                   const Eigen::MatrixXd& fields);
 
+/// The diagonal of K over a structure (6 values a node, restrained dofs included).
+[[nodiscard]] Eigen::VectorXd stiffness_diagonal(const Model& model, const Structure& structure);
+
 /// A rigid translation: `direction` at the three translations of every node.
 [[nodiscard]] Eigen::VectorXd translation_field(const Model& model, const Vec3& direction);
 

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/mpi.hpp"
+#include "core/petsc.hpp"
+#include "expect_error.hpp"
+#include "fem/fields.hpp"
+#include "fem/petsc_assembly.hpp"
+#include "model_builder.hpp"
+
+using namespace fretwork;
+using namespace fretwork::tests;
+
+namespace {
+
+/// A portal with a bracing and a spring, restrained here and there.
+ModelBuilder portal() {
+  ModelBuilder b;
+  const Index p = b.property(tube_property());
+  const auto left = b.line({0, 0, 0}, {0, 0, 2}, 7, p);
+  const auto beam = b.line_from(left.back(), {1.5, 0.2, 2}, 5, p);
+  const auto right = b.line_from(beam.back(), {1.5, 0, 0}, 7, p);
+  b.model.beams.push_back({left[3], right[3], p});
+  b.model.masses.push_back({beam[2], 4.0, Vec3(0.1, 0.1, 0.1), Vec3(0, 0, -0.2)});
+  b.model.springs.push_back({left[2], right[5], {1e4, 0, 0, 0, 1e2, 0}, {}});
+  b.fix(left.front(), all);
+  b.fix(right.back(), ux | uy | uz);
+  b.fix(beam[1], uy);
+  return b;
+}
+
+/// A x with x_i = sin(i + 1), on every rank.
+Eigen::VectorXd product(Mat matrix) {
+  Vec x = nullptr, y = nullptr, whole = nullptr;
+  VecScatter scatter = nullptr;
+  FW_PETSC(MatCreateVecs(matrix, &x, &y));
+  PetscInt begin = 0, end = 0, size = 0;
+  FW_PETSC(VecGetOwnershipRange(x, &begin, &end));
+  FW_PETSC(VecGetSize(x, &size));
+  for (PetscInt i = begin; i < end; ++i)
+    FW_PETSC(VecSetValue(x, i, std::sin(i + 1.0), INSERT_VALUES));
+  FW_PETSC(VecAssemblyBegin(x));
+  FW_PETSC(VecAssemblyEnd(x));
+  FW_PETSC(MatMult(matrix, x, y));
+  FW_PETSC(VecScatterCreateToAll(y, &scatter, &whole));
+  FW_PETSC(VecScatterBegin(scatter, y, whole, INSERT_VALUES, SCATTER_FORWARD));
+  FW_PETSC(VecScatterEnd(scatter, y, whole, INSERT_VALUES, SCATTER_FORWARD));
+  const PetscScalar* values = nullptr;
+  FW_PETSC(VecGetArrayRead(whole, &values));
+  Eigen::VectorXd result = Eigen::Map<const Eigen::VectorXd>(values, size);
+  FW_PETSC(VecRestoreArrayRead(whole, &values));
+  FW_PETSC(VecScatterDestroy(&scatter));
+  FW_PETSC(VecDestroy(&whole));
+  FW_PETSC(VecDestroy(&x));
+  FW_PETSC(VecDestroy(&y));
+  return result;
+}
+
+/// The same from fields, restrained dofs 0.
+Eigen::VectorXd expected(const fem::Model& model, const fem::Structure& part, bool stiffness) {
+  Eigen::MatrixXd u = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(part.equation.size()), 1);
+  for (std::size_t i = 0; i < part.equation.size(); ++i)
+    if (part.equation[i] >= 0)
+      u(static_cast<Eigen::Index>(i), 0) = std::sin(part.equation[i] + 1.0);
+  const Eigen::MatrixXd f =
+      stiffness ? fem::stiffness_times(model, part, u) : fem::mass_times(model, part, u);
+  Eigen::VectorXd result(part.equations);
+  for (std::size_t i = 0; i < part.equation.size(); ++i)
+    if (part.equation[i] >= 0)
+      result[part.equation[i]] = f(static_cast<Eigen::Index>(i), 0);
+  return result;
+}
+
+} // namespace
+
+TEST(Assembly, IsTheSameForAnyNumberOfRanks) {
+  constexpr double round_off = 1e-13; // sums in another order
+  const auto b = portal();
+  const auto part = fem::structures(b.model).at(0);
+  const auto system = fem::assemble(MPI_COMM_WORLD, b.model, part);
+  const Eigen::VectorXd k = expected(b.model, part, true), m = expected(b.model, part, false);
+  EXPECT_LT((product(system.stiffness.get()) - k).norm(), round_off * k.norm());
+  EXPECT_LT((product(system.mass.get()) - m).norm(), round_off * m.norm());
+}
+
+TEST(Assembly, IsSymmetricAndAllocatedExactly) {
+  const auto b = portal();
+  const auto part = fem::structures(b.model).at(0);
+  const auto system = fem::assemble(MPI_COMM_WORLD, b.model, part);
+  PetscBool symmetric = PETSC_FALSE;
+  FW_PETSC(MatIsTranspose(system.stiffness.get(), system.stiffness.get(), 1e-6, &symmetric)); // of 1e8 N/m
+  EXPECT_TRUE(symmetric);
+  MatInfo info;
+  FW_PETSC(MatGetInfo(system.stiffness.get(), MAT_GLOBAL_SUM, &info));
+  EXPECT_EQ(info.nz_unneeded, 0.0);
+  EXPECT_EQ(info.mallocs, 0.0);
+}
+
+TEST(Assembly, LeavesRanksWithoutRowsWhereThereAreFewDofs) {
+  ModelBuilder b;
+  b.model.masses.push_back({b.node({0, 0, 0}), 2.0});
+  b.fix(0, all & ~static_cast<unsigned>(ux));
+  b.model.springs.push_back({0, -1, {5.0}, {}});
+  const auto system = fem::assemble(MPI_COMM_WORLD, b.model, fem::structures(b.model).at(0));
+  EXPECT_NEAR(product(system.stiffness.get())[0], 5.0 * std::sin(1.0), 1e-15);
+  EXPECT_NEAR(product(system.mass.get())[0], 2.0 * std::sin(1.0), 1e-15);
+}
+
+// A portal with clamped feet, height h, width w, horizontal force F at each top corner; beam and posts alike:
+// sway by the slope-deflection method: corner rotation and displacement in closed form.
+TEST(StaticSolution, IsTheClosedFormOfAPortalFrame) {
+  constexpr double h = 2.0, w = 3.0, force = 100.0;
+  ModelBuilder b;
+  auto p = tube_property();
+  p.section.area = 0.05; // hardly any axial strain, as in the formula: its share is iy / (area h^2) = 1e-8
+  const Index number = b.property(p);
+  const auto left = b.line({0, 0, 0}, {0, 0, h}, 6, number);
+  const auto beam = b.line_from(left.back(), {w, 0, h}, 6, number);
+  const auto right = b.line_from(beam.back(), {w, 0, 0}, 6, number);
+  b.fix_everywhere(uy | rx | rz);
+  b.fix(left.front(), all);
+  b.fix(right.back(), all);
+  const std::vector<Index> corners{left.back(), beam.back()};
+  const auto part = fem::structures(b.model).at(0);
+  const Eigen::VectorXd u =
+      fem::static_solution(b.model, part, fem::point_forces(b.model, corners, {force, 0, 0}, false));
+  const double ei = p.material.young_modulus * p.section.iy;
+  // moments at a corner: EI (4 t/h - 6 d/h^2 + 6 t/w) = 0; shear of a post: EI (12 d/h^3 - 6 t/h^2) = F
+  const double rotation_per_sway = (6 / (h * h)) / (4 / h + 6 / w);
+  const double sway = force / ei / (12 / (h * h * h) - 6 / (h * h) * rotation_per_sway);
+  constexpr double tolerance = 5e-7; // axial strain, and round-off of so different stiffnesses
+  for (const Index corner : corners) {
+    EXPECT_NEAR(u[6 * corner] / sway, 1.0, tolerance);
+    EXPECT_NEAR(u[6 * corner + 4] / (rotation_per_sway * sway), 1.0, tolerance);
+  }
+  EXPECT_EQ(u.head(6), Eigen::VectorXd::Zero(6));
+}
+
+TEST(StaticSolution, OfAUniformLoadIsExactAtTheNodes) {
+  constexpr double length = 2.0, q = 50.0;
+  ModelBuilder b;
+  const auto p = tube_property();
+  const auto nodes = b.line({0, 0, 0}, {0, length, 0}, 10, b.property(p));
+  b.fix(nodes.front(), all);
+  std::vector<Index> beams(10);
+  for (Index i = 0; i < 10; ++i)
+    beams[static_cast<std::size_t>(i)] = i;
+  const Eigen::VectorXd u = fem::static_solution(b.model, fem::structures(b.model).at(0),
+                                                 fem::line_forces(b.model, beams, {0, 0, -q}));
+  const double ei = p.material.young_modulus * p.section.iy;
+  for (const Index n : nodes) {
+    const double x = b.model.nodes[static_cast<std::size_t>(n)].y();
+    const double deflection = -q * x * x * (6 * length * length - 4 * length * x + x * x) / (24 * ei);
+    EXPECT_NEAR(u[6 * n + 2], deflection,
+                1e-10 * q * std::pow(length, 4) / (8 * ei)); // round-off of ten elements
+  }
+}
+
+TEST(StaticSolution, RefusesAStructureThatIsNotHeld) {
+  ModelBuilder b;
+  const auto nodes = b.line({0, 0, 0}, {1, 0, 0}, 4, b.property(tube_property()));
+  b.fix(nodes.front(), ux | uy | uz);
+  b.fix(nodes.back(), uy | uz);
+  const auto part = fem::structures(b.model).at(0);
+  const Eigen::VectorXd force = fem::point_forces(b.model, nodes, {0, 1, 0}, false);
+  expect_error([&] { (void)fem::static_solution(b.model, part, force); },
+               {"static solution", "(0, 0, 0)", "1 motion(s)", "restrain"});
+}
+
+TEST(StaticSolution, RefusesAStiffnessSingularToWorkingPrecision) {
+  ModelBuilder b;
+  const auto nodes = b.line({0, 0, 0}, {1, 0, 0}, 4, b.property(tube_property()));
+  b.model.springs.push_back({nodes.front(), -1, {1e-12, 1e-12, 1e-12, 1e-12, 1e-12, 1e-12}, {}});
+  const auto part = fem::structures(b.model).at(0);
+  const Eigen::VectorXd force = fem::point_forces(b.model, nodes, {0, 1, 0}, false);
+  EXPECT_THROW((void)fem::static_solution(b.model, part, force), core::ComputationError);
+}
+
+TEST(StaticSolution, OfAFineMeshIsNotTakenForSingular) {
+  constexpr int elements = 1000;
+  ModelBuilder b;
+  const auto p = tube_property();
+  const auto nodes = b.line({0, 0, 0}, {1, 0, 0}, elements, b.property(p));
+  b.fix(nodes.front(), all);
+  const std::vector<Index> tip{nodes.back()};
+  const Eigen::VectorXd u = fem::static_solution(b.model, fem::structures(b.model).at(0),
+                                                 fem::point_forces(b.model, tip, {0, 1, 0}, false));
+  constexpr double conditioned = 1e-3; // round-off times elements^4, with a margin
+  EXPECT_NEAR(u[6 * nodes.back() + 1] * 3 * p.material.young_modulus * p.section.iy, 1.0, conditioned);
+}
