@@ -78,7 +78,19 @@ struct FrictionTable {
 struct Mobility {
   double xx, xt, tt; ///< m/s per N
 };
-[[nodiscard]] Friction step_friction(const FrictionLaw& law, const FrictionTable& table, const FrictionMemory& memory,
-                                     double normal_force, Vec2 free_velocity, const Mobility& mobility);
+[[nodiscard]] Friction step_friction_plane(const FrictionLaw& law, const FrictionTable& table, const FrictionMemory& memory,
+                                           double normal_force, Vec2 free_velocity, const Mobility& mobility);
+
+/// The same where nothing moves along x_loc (the memory, the velocity and the coupling are 0 there): a scalar problem with F on a line.
+[[nodiscard]] inline Friction step_friction_line(const FrictionLaw& law, const FrictionTable& table, const FrictionMemory& memory,
+                                                 double normal_force, double free_velocity, double mobility) {
+  const double b = memory.spring.t - table.gradient * free_velocity;
+  const double m = 1.0 + table.gradient * mobility;
+  const double bound = (memory.sliding ? law.mu_dynamic : law.mu_static) * normal_force;
+  if (std::abs(b) <= bound * m)
+    return {{0.0, b / m}, false};
+  const double along = law.kind == FrictionMemoryKind::reference && free_velocity != 0.0 ? -free_velocity : b;
+  return {{0.0, std::copysign(law.mu_dynamic * normal_force, along)}, true};
+}
 
 } // namespace fretwork::contact

@@ -82,18 +82,21 @@ FrictionStep close_step(const FrictionLaw& law, const FrictionTable& table, cons
   const Vec2 before = memory.spring;
   Vec2 after = before - law.stiffness * dx;
   Vec2 stretch = dx; // of the spring and damper; the slider takes the rest
-  if (slides) {
-    const bool relaxes = law.kind == FrictionMemoryKind::return_map;
-    const Vec2 relaxed = force + (relaxes ? table.relaxation : 0.0) * (before - force);
+  if (slides && law.kind == FrictionMemoryKind::reference) { // the spring is set, whatever it held; all motion is sliding
+    after = force;
+    stretch = {};
+    step.slip = dx;
+  } else if (slides) {
+    const Vec2 relaxed = force + table.relaxation * (before - force);
     const Vec2 relaxed_stretch = (1.0 / law.stiffness) * (before - relaxed);
     // A slider that would move with the force did not move: the bound only clipped a spring that was letting go by itself.
-    if (!relaxes || dot(force, dx - relaxed_stretch) < 0.0) {
+    if (dot(force, dx - relaxed_stretch) < 0.0) {
       after = relaxed;
       stretch = relaxed_stretch;
       step.slip = dx - stretch;
-      step.friction_work = -dot(force, step.slip);
     }
   }
+  step.friction_work = -dot(force, step.slip);
   step.memory.spring = after;
   step.damper_work = -dot(force, stretch) - (dot(after, after) - dot(before, before)) / (2.0 * law.stiffness);
   return step;
@@ -106,8 +109,8 @@ FrictionStep open_step(const FrictionLaw& law, const FrictionTable& table, const
   return step;
 }
 
-Friction step_friction(const FrictionLaw& law, const FrictionTable& table, const FrictionMemory& memory, double normal_force,
-                       Vec2 free_velocity, const Mobility& a) {
+Friction step_friction_plane(const FrictionLaw& law, const FrictionTable& table, const FrictionMemory& memory, double normal_force,
+                             Vec2 free_velocity, const Mobility& a) {
   const double gh = table.gradient;
   const Mobility m{1.0 + gh * a.xx, gh * a.xt, 1.0 + gh * a.tt};
   const Vec2 b = memory.spring - gh * free_velocity;

@@ -67,7 +67,8 @@ struct RunResults {
   double statistics_from = 0.0, duration = 0.0;   ///< s
   post::TimeSeries series;                        ///< of all structures; modal series stacked in the order of `bases`
   Timings timings;
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings; ///< what makes the results doubtful
+  std::vector<std::string> notes;    ///< what the user may want to know
 };
 
 } // namespace fretwork::results

@@ -26,7 +26,7 @@ namespace {
 /// low) at w_c h near 1; below w_c h = 0.4 its effect is less than 1 %.
 constexpr double window = 0.7;
 /// Sweeps stop when no force changes by more than this share of its bound: far below the law's own accuracy.
-constexpr double sweep_tolerance = 1e-8;
+constexpr double sweep_tolerance = 1e-6;
 constexpr int most_sweeps = 60;
 /// A spring that has relaxed to this share of what it had when its contact opened is forgotten (round-off of the energy).
 constexpr double forgotten = 1e-12;
@@ -40,6 +40,7 @@ struct Working {
 
 struct Memory {
   contact::FrictionMemory friction;
+  contact::Vec2 force;       ///< friction of the step that committed it: a good first guess for the next
   double ny = 0.0, nz = 0.0; ///< normal when it was committed
   double left = 0.0;         ///< share of the spring's force left since the contact opened; 0: nothing remembered
 };
@@ -264,50 +265,58 @@ private:
     bool coupled = false;
     for (const int c : shut_) {
       const contact::Support& support = contacts_.supports[c];
-      change(c, contact::step_normal(support.normal, working_[c].mean, states_[c].approach, working_[c].damped), {});
+      const double normal = contact::step_normal(support.normal, working_[c].mean, states_[c].approach, working_[c].damped);
+      const contact::Vec2 guess = memory_[c].left == 1.0 ? memory_[c].force : contact::Vec2{};
+      const double bound = support.friction.mu_dynamic * normal, size = contact::norm(guess);
+      change(c, normal, size > bound ? (bound / size) * guess : guess);
       coupled = coupled || support.friction.active() || support.normal.damping > 0.0;
     }
     if (!coupled)
       return;
     for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-      double worst = 0.0;
+      bool settled = true;
       for (const int c : shut_)
-        worst = std::max(worst, improve(c));
-      if (worst <= sweep_tolerance)
+        settled = improve(c) && settled;
+      if (settled)
         return;
     }
     ++unconverged_;
   }
 
-  /// One contact solved with all others held. Returns its change as a share of its force.
-  double improve(int c) {
+  /// One contact solved with all others held. Returns whether its forces stayed within the tolerance.
+  bool improve(int c) {
     const contact::Support& support = contacts_.supports[c];
     const Working& work = working_[c];
-    ContactState& state = states_[c];
+    const ContactState& state = states_[c];
     const int width = contacts_.width;
-    double change_share = 0.0;
+    double normal = 0.0;
     if (support.normal.damping > 0.0) {
-      const double rate = -(state.ny * w_[c] + state.nz * w_[width + c]);
-      const double normal =
-          contact::step_normal(support.normal, work.mean, rate + work.damped * state.normal_force, work.damped);
-      const double change_n = normal - state.normal_force;
-      change_share = std::abs(change_n) / std::max({normal, state.normal_force, support.normal.stiffness * work.mean});
-      change(c, change_n, {});
+      const double rate = -(state.ny * w_[c] + state.nz * w_[width + c]) + work.damped * state.normal_force;
+      normal = contact::step_normal(support.normal, work.mean, rate, work.damped) - state.normal_force;
     }
-    if (!support.friction.active())
-      return change_share;
-    const contact::Vec2 slip = slip_velocity(c);
-    const contact::Vec2 f = state.friction;
-    const contact::Vec2 free{slip.x - work.slip.xx * f.x - work.slip.xt * f.t, slip.t - work.slip.xt * f.x - work.slip.tt * f.t};
-    const auto friction =
-        contact::step_friction(support.friction, tables_[c], memory_[c].friction, state.normal_force, free, work.slip);
-    state.slides = friction.slides;
-    const contact::Vec2 change_t = friction.force - f;
-    const double bound = support.friction.mu_static * state.normal_force;
-    if (bound > 0.0)
-      change_share = std::max(change_share, contact::norm(change_t) / bound);
-    change(c, 0.0, change_t);
-    return change_share;
+    const bool normal_settled = std::abs(normal) <= sweep_tolerance * support.normal.stiffness * work.mean;
+    if (!support.friction.active()) {
+      if (normal != 0.0)
+        change(c, normal, {});
+      return normal_settled;
+    }
+    const contact::Friction friction = friction_of(c, state.normal_force + normal);
+    states_[c].slides = friction.slides;
+    const contact::Vec2 tangential = friction.force - state.friction;
+    change(c, normal, tangential);
+    const double limit = sweep_tolerance * support.friction.mu_static * support.normal.stiffness * work.mean;
+    return normal_settled && contact::dot(tangential, tangential) <= limit * limit;
+  }
+
+  /// Friction of one contact under a normal force, all other forces held.
+  [[nodiscard]] contact::Friction friction_of(int c, double normal_force) const {
+    const contact::FrictionLaw& law = contacts_.supports[c].friction;
+    const contact::Mobility& a = working_[c].slip;
+    const contact::Vec2 slip = slip_velocity(c), f = states_[c].friction;
+    if (contacts_.components == 2)
+      return contact::step_friction_line(law, tables_[c], memory_[c].friction, normal_force, slip.t - a.tt * f.t, a.tt);
+    const contact::Vec2 free{slip.x - a.xx * f.x - a.xt * f.t, slip.t - a.xt * f.x - a.tt * f.t};
+    return contact::step_friction_plane(law, tables_[c], memory_[c].friction, normal_force, free, a);
   }
 
   [[nodiscard]] contact::Vec2 slip_velocity(int c) const {
@@ -346,7 +355,7 @@ private:
       springs_ += contact::spring_energy(support.friction, step.memory) - before;
       if (!(memory.left > 0.0))
         remember(c);
-      memory = {step.memory, state.ny, state.nz, 1.0};
+      memory = {step.memory, state.friction, state.ny, state.nz, 1.0};
       state.friction_work = step.friction_work;
       state.damper_work += step.damper_work;
       step_friction_ += step.friction_work;

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The transient of one connected structure, in modal coordinates.
+#pragma once
+#include "app/build_contacts.hpp"
+#include "modal/basis.hpp"
+#include "post/recorder.hpp"
+#include "transient/scene.hpp"
+
+namespace fretwork::app {
+
+struct BuiltScene {
+  transient::Scene scene;
+  std::vector<std::size_t> contacts;       ///< numbers of its contacts among the placed ones
+  std::vector<post::ObservedNode> nodes;   ///< observed nodes of this structure
+  std::vector<std::size_t> node_numbers;   ///< their numbers among all observed nodes
+  std::vector<std::string> notes;          ///< to be told the user (initial overlap)
+  std::vector<std::string> warnings;       ///< (a lost share of the initial field)
+};
+
+/// A node of `[output] nodes` and its name: the group's, with [i] where it has several nodes.
+struct NamedNode {
+  std::string name;
+  core::Index node;
+};
+[[nodiscard]] std::vector<NamedNode> observed_nodes(const study::Study& study, const mesh::LineMesh& mesh);
+
+/// Everything of a study over the whole model that does not depend on modes: nodal forces, initial fields (6 values a node).
+struct Fields {
+  struct Load {
+    transient::TimeFunction function;
+    Eigen::VectorXd force;
+  };
+  std::vector<Load> loads;
+  bool moves_at_start = false;
+  Eigen::VectorXd displacement, velocity; ///< where moves_at_start
+  Eigen::VectorXd displacement_momentum, velocity_momentum; ///< M times them
+};
+[[nodiscard]] Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh, const BuiltModel& built);
+
+[[nodiscard]] BuiltScene build_scene(const study::Study& study, const Fields& fields, const modal::Basis& basis,
+                                     const std::vector<PlacedContact>& contacts, const std::vector<NamedNode>& nodes);
+
+} // namespace fretwork::app

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/chain.hpp"
+#include "app/jobs.hpp"
+#include "app/progress.hpp"
+#include "app/python_report.hpp"
+#include "core/error.hpp"
+#include "core/mpi.hpp"
+#include "core/petsc.hpp"
+#include "results/write.hpp"
+#include "transient/kernels.hpp"
+#include <chrono>
+#include <fmt/format.h>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <petscversion.h>
+#include <slepcversion.h>
+
+namespace fretwork::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Seconds since it was made, or since the last lap.
+class Stopwatch {
+public:
+  double lap() {
+    const auto now = Clock::now();
+    const double seconds = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    return seconds;
+  }
+  [[nodiscard]] double total() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
+
+private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point begin_ = Clock::now(), last_ = begin_;
+};
+
+results::RunRecord make_record(const Inputs& inputs, int ranks) {
+  results::RunRecord record;
+  record.version = FRETWORK_VERSION;
+  record.title = inputs.study.title;
+  record.study_text = inputs.study.text;
+  record.input_sha256 = inputs.whole_key;
+  for (const auto& load : inputs.study.loads)
+    if (const auto* random = std::get_if<transient::Random>(&load.function))
+      record.seeds.push_back(random->seed);
+  for (const auto& motion : inputs.study.base_motions)
+    if (const auto* random = std::get_if<transient::Random>(&motion.acceleration))
+      record.seeds.push_back(random->seed);
+  record.libraries = {{"PETSc", fmt::format("{}.{}.{}", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR)},
+                      {"SLEPc", fmt::format("{}.{}.{}", SLEPC_VERSION_MAJOR, SLEPC_VERSION_MINOR, SLEPC_VERSION_SUBMINOR)},
+                      {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
+  record.vector_width = transient::kernels::vector_width();
+  record.ranks = ranks;
+  return record;
+}
+
+void describe_model(const fem::Model& model, const std::vector<fem::Structure>& structures, results::RunResults& out) {
+  out.nodes = model.nodes;
+  for (const auto& beam : model.beams)
+    out.lines.push_back({beam.a, beam.b});
+  out.model.nodes = static_cast<std::int64_t>(model.nodes.size());
+  out.model.elements = static_cast<std::int64_t>(model.beams.size());
+  for (const auto& structure : structures)
+    out.model.dofs += structure.equations;
+  out.model.mass_kg = fem::total_mass(model);
+}
+
+results::ContactFacts facts_of(const study::Contact& contact, const PlacedContact& placed, const contact::Support& support) {
+  results::ContactFacts facts;
+  facts.name = placed.name;
+  facts.node = placed.node;
+  facts.axes = placed.frame.rotation();
+  facts.obstacle = name_of(contact.obstacle);
+  facts.gap = contact.gap;
+  facts.rest = placed.rest;
+  facts.normal_stiffness = support.normal.stiffness;
+  facts.normal_damping = support.normal.damping;
+  facts.tangential_stiffness = support.friction.stiffness;
+  facts.tangential_damping = support.friction.damping;
+  facts.friction_static = support.friction.mu_static;
+  facts.friction_dynamic = support.friction.mu_dynamic;
+  return facts;
+}
+
+/// What the modes make of contacts and loads, for every structure that can move.
+std::vector<BuiltScene> build_scenes(const study::Study& study, const mesh::LineMesh& mesh, const BuiltModel& built,
+                                     const std::vector<modal::Basis>& bases, const std::vector<PlacedContact>& placed,
+                                     const std::vector<NamedNode>& nodes, results::RunResults& out) {
+  const Fields fields = build_fields(study, mesh, built);
+  std::vector<BuiltScene> scenes;
+  out.contacts.resize(placed.size());
+  std::vector<bool> met(placed.size(), false);
+  for (const auto& basis : bases) {
+    scenes.push_back(build_scene(study, fields, basis, placed, nodes));
+    const BuiltScene& scene = scenes.back();
+    for (std::size_t k = 0; k < scene.contacts.size(); ++k) {
+      const std::size_t c = scene.contacts[k];
+      out.contacts[c] = facts_of(study.contacts[placed[c].entry], placed[c], scene.scene.contacts[k].support);
+      met[c] = true;
+    }
+    out.warnings.insert(out.warnings.end(), scene.warnings.begin(), scene.warnings.end());
+    out.notes.insert(out.notes.end(), scene.notes.begin(), scene.notes.end());
+  }
+  for (std::size_t c = 0; c < placed.size(); ++c)
+    if (!met[c])
+      throw core::Error(fmt::format("contact \"{}\" is at a node that cannot move; release it in [[restraints]] or give it a mass", placed[c].name));
+  for (const NamedNode& node : nodes) {
+    const auto has = [&](const modal::Basis& basis) { return basis.row_of(node.node) >= 0; };
+    if (std::none_of(bases.begin(), bases.end(), has))
+      throw core::Error(fmt::format("[output] nodes: \"{}\" belongs to no structure that moves; observe another node", node.name));
+  }
+  return scenes;
+}
+
+/// True where the summary in the folder was computed from the same inputs.
+bool up_to_date(const Inputs& inputs) {
+  std::ifstream in(inputs.directory / "summary.json");
+  if (!in || !fs::exists(inputs.directory / "results.h5"))
+    return false;
+  const auto summary = nlohmann::json::parse(in, nullptr, false);
+  return summary.is_object() && summary.contains("transient") && summary.value("input_sha256", "") == inputs.whole_key &&
+         summary.value("version", "") == FRETWORK_VERSION;
+}
+
+void make_directory(const fs::path& directory) {
+  std::error_code failure;
+  fs::create_directories(directory, failure);
+  if (failure)
+    throw core::Error(fmt::format("the results folder \"{}\" cannot be made ({}); give another with -o", directory.string(), failure.message()));
+}
+
+void report_coincident(const mesh::LineMesh& mesh, results::RunResults& out) {
+  if (!mesh.coincident.empty())
+    out.notes.push_back(fmt::format("{} pairs of nodes are at the same place and are not joined (mesh.merge_tolerance would join them)",
+                                    mesh.coincident.size()));
+}
+
+} // namespace
+
+void run_chain(MPI_Comm comm, const Request& request, Stage last) {
+  Stopwatch watch;
+  const bool first_rank = core::rank(comm) == 0;
+  Progress progress(first_rank && !request.quiet);
+  const auto say = [&](const std::string& text) {
+    if (first_rank && !request.quiet)
+      fmt::print("{}", text);
+  };
+  Inputs inputs;
+  core::agree(comm, [&] {
+    inputs = read_inputs(request);
+    if (last == Stage::transient && !inputs.study.transient)
+      throw core::Error("the study has no [transient]; add it, or compute its modes with: fretwork modes STUDY");
+    make_directory(inputs.directory);
+  });
+  int current = first_rank && last == Stage::transient && !request.force && up_to_date(inputs) ? 1 : 0;
+  MPI_Bcast(&current, 1, MPI_INT, 0, comm);
+  if (current)
+    return say(fmt::format("Nothing has changed: the results in {} are up to date (--force computes them again).\n", inputs.directory.string()));
+
+  results::RunResults out;
+  out.timings.read = watch.lap();
+  progress.stage("mesh");
+  const mesh::LineMesh mesh = mesh_stage(comm, inputs, request.force);
+  out.timings.mesh = watch.lap();
+  out.record = make_record(inputs, core::size(comm));
+  BuiltModel built;
+  std::vector<PlacedContact> placed;
+  std::vector<NamedNode> nodes;
+  core::agree(comm, [&] {
+    built = build_model(inputs.study, mesh);
+    placed = place_contacts(inputs.study, mesh, built.model);
+    nodes = observed_nodes(inputs.study, mesh);
+  });
+  report_coincident(mesh, out);
+  out.timings.assembly = watch.lap();
+  if (last == Stage::mesh)
+    return say(fmt::format("{} nodes, {} lines, groups: {}\n", mesh.nodes.size(), mesh.lines.size(), fmt::join(mesh::group_names(mesh), ", ")));
+
+  progress.stage("modes");
+  {
+    const core::PetscSession petsc;
+    ModesStage modes = modes_stage(comm, inputs, built.model, out.record, request.force);
+    describe_model(built.model, modes.structures, out);
+    out.bases = std::move(modes.bases);
+  }
+  out.timings.modes = watch.lap();
+  if (last == Stage::transient) {
+    progress.stage("basis");
+    std::vector<BuiltScene> scenes;
+    core::agree(comm, [&] { scenes = build_scenes(inputs.study, mesh, built, out.bases, placed, nodes, out); });
+    for (const NamedNode& node : nodes)
+      out.node_names.push_back(node.name);
+    out.duration = inputs.study.transient->duration;
+    out.statistics_from = inputs.study.output.statistics_from;
+    out.timings.basis = watch.lap();
+    progress.stage("transient");
+    const ProgressCallback callback = progress.shown() ? ProgressCallback([&](double share, double time) { progress.update(share, time); })
+                                                       : ProgressCallback();
+    run_jobs(comm, inputs.study, scenes, placed.size(), nodes.size(), callback, out);
+    out.timings.transient = watch.lap();
+  }
+  progress.stage("results");
+  core::agree(comm, [&] {
+    if (!first_rank)
+      return;
+    results::write_archive(inputs.directory / "results.h5", out);
+    out.timings.output = watch.lap();
+    out.timings.total = watch.total();
+    results::write_summary(inputs.directory / "summary.json", out);
+  });
+  std::string report_line;
+  if (first_rank && request.report && last == Stage::transient) {
+    progress.stage("report");
+    try {
+      write_report(inputs.directory);
+      report_line = fmt::format("report: {}\n", (inputs.directory / "report.html").string());
+    } catch (const core::Error& error) { // the results are whole without it
+      report_line = fmt::format("no report: {}\n", error.what());
+    }
+  }
+  progress.stage("");
+  say("\r" + results::terminal_table(out) + fmt::format("results: {}\n", inputs.directory.string()) + report_line);
+}
+
+std::string check(const Request& request) {
+  const Inputs inputs = read_inputs(request);
+  const mesh::LineMesh mesh = mesh::read(inputs.study.mesh);
+  const BuiltModel built = build_model(inputs.study, mesh);
+  auto structures = fem::structures(built.model);
+  std::erase_if(structures, [](const fem::Structure& s) { return s.equations == 0; });
+  const auto placed = place_contacts(inputs.study, mesh, built.model);
+  const auto nodes = observed_nodes(inputs.study, mesh);
+  static_cast<void>(build_fields(inputs.study, mesh, built));
+  std::int64_t dofs = 0;
+  for (const auto& structure : structures)
+    dofs += structure.equations;
+  return fmt::format("{}: fine\n  {} nodes, {} beams, {} free dofs in {} structure{}, {:.6g} kg\n  {} contacts, {} loads, {} observed nodes\n",
+                     request.study.string(), mesh.nodes.size(), built.model.beams.size(), dofs, structures.size(), structures.size() == 1 ? "" : "s",
+                     fem::total_mass(built.model), placed.size(), inputs.study.loads.size(), nodes.size());
+}
+
+std::string export_results(const fs::path& directory, const std::string& format) {
+  const results::RunResults stored = results::read_archive(directory);
+  const fs::path target = directory / ("export-" + format);
+  make_directory(target);
+  if (format == "csv")
+    results::export_csv(target, stored);
+  else if (format == "vtu")
+    results::export_vtu(target, stored);
+  else
+    results::export_msh(target, stored);
+  return fmt::format("written: {}\n", target.string());
+}
+
+} // namespace fretwork::app

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/jobs.hpp"
+#include "core/error.hpp"
+#include "core/mpi.hpp"
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fmt/format.h>
+#include <type_traits>
+
+namespace fretwork::app {
+namespace {
+
+/// Output instants of a run for which the study names no interval.
+constexpr double default_outputs = 5000.0;
+/// Above this residual of the energy the results are not to be trusted, whatever they look like.
+constexpr double residual_warning = 0.05;
+
+/// What one run gives.
+struct JobResult {
+  transient::Report report{};
+  std::vector<post::ContactSummary> contacts;
+  std::vector<post::NodeSummary> nodes;
+  post::TimeSeries series;
+};
+
+/// Tells the callback now and then how far the run is.
+class ProgressObserver final : public transient::Observer {
+public:
+  ProgressObserver(const ProgressCallback& callback, double before, double share, double duration)
+      : callback_(callback), before_(before), share_(share), duration_(duration) {}
+  void step(const transient::Record& record) override {
+    if (++count_ % look_every == 0)
+      callback_(before_ + share_ * record.time / duration_, record.time);
+  }
+
+private:
+  static constexpr int look_every = 4096; ///< steps: the clock costs more than a step
+  const ProgressCallback& callback_;
+  double before_, share_, duration_;
+  int count_ = 0;
+};
+
+JobResult run_job(const study::Study& study, const BuiltScene& built, const transient::StepChoice& choice, ProgressObserver* progress) {
+  const double duration = study.transient->duration;
+  const auto grid = transient::output_grid(duration, study.output.every.value_or(duration / default_outputs));
+  post::ContactStatistics contacts(built.scene.contacts.size(), study.output.statistics_from);
+  std::vector<Eigen::MatrixXd> rows;
+  for (const auto& node : built.nodes)
+    rows.push_back(node.rows);
+  post::NodeStatistics nodes(rows, study.output.statistics_from);
+  post::Recorder recorder(built.scene, built.nodes, grid);
+  std::vector<transient::Observer*> observers;
+  if (!built.scene.contacts.empty())
+    observers.push_back(&contacts);
+  if (!built.nodes.empty())
+    observers.push_back(&nodes);
+  if (progress)
+    observers.push_back(progress);
+  JobResult out;
+  out.report = transient::run(built.scene, choice, observers, &recorder, grid);
+  out.contacts = contacts.summaries();
+  out.nodes = nodes.summaries();
+  out.series = std::move(recorder).series();
+  return out;
+}
+
+template <class T> void broadcast_plain(MPI_Comm comm, int root, std::vector<T>& values) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  int bytes = static_cast<int>(values.size() * sizeof(T));
+  MPI_Bcast(&bytes, 1, MPI_INT, root, comm);
+  values.resize(static_cast<std::size_t>(bytes) / sizeof(T));
+  MPI_Bcast(values.data(), bytes, MPI_BYTE, root, comm);
+}
+
+/// The result of a job from its rank to all. Names are known everywhere.
+void broadcast(MPI_Comm comm, int root, const BuiltScene& built, JobResult& job) {
+  static_assert(std::is_trivially_copyable_v<transient::Report>);
+  MPI_Bcast(&job.report, static_cast<int>(sizeof job.report), MPI_BYTE, root, comm);
+  broadcast_plain(comm, root, job.contacts);
+  broadcast_plain(comm, root, job.nodes);
+  core::broadcast(comm, root, job.series.time);
+  core::broadcast(comm, root, job.series.modal_displacement);
+  core::broadcast(comm, root, job.series.modal_velocity);
+  job.series.contacts.resize(built.scene.contacts.size());
+  for (std::size_t c = 0; c < built.scene.contacts.size(); ++c) {
+    auto& series = job.series.contacts[c];
+    series.name = built.scene.contacts[c].name;
+    core::broadcast(comm, root, series.displacement);
+    core::broadcast(comm, root, series.velocity);
+    core::broadcast(comm, root, series.gap);
+    core::broadcast(comm, root, series.normal_force);
+    core::broadcast(comm, root, series.tangential_force);
+  }
+  job.series.nodes.resize(built.nodes.size());
+  for (std::size_t k = 0; k < built.nodes.size(); ++k) {
+    auto& series = job.series.nodes[k];
+    series.name = built.nodes[k].name;
+    core::broadcast(comm, root, series.displacement);
+    core::broadcast(comm, root, series.velocity);
+    core::broadcast(comm, root, series.acceleration);
+  }
+}
+
+/// Puts the result of a job at its places among those of the study.
+void merge(const BuiltScene& built, JobResult&& job, const transient::StepChoice& choice, results::RunResults& out) {
+  out.transients.push_back({choice, job.report});
+  for (std::size_t c = 0; c < built.contacts.size(); ++c) {
+    out.contact_summaries[built.contacts[c]] = job.contacts[c];
+    out.series.contacts[built.contacts[c]] = std::move(job.series.contacts[c]);
+  }
+  for (std::size_t k = 0; k < built.node_numbers.size(); ++k) {
+    out.node_summaries[built.node_numbers[k]] = job.nodes[k];
+    out.series.nodes[built.node_numbers[k]] = std::move(job.series.nodes[k]);
+  }
+  const auto stack = [](Eigen::MatrixXd& all, Eigen::MatrixXd&& part) {
+    if (all.size() == 0) {
+      all = std::move(part);
+      return;
+    }
+    const Eigen::Index columns = std::min(all.cols(), part.cols()), rows = all.rows();
+    all.conservativeResize(rows + part.rows(), columns);
+    all.bottomRows(part.rows()) = part.leftCols(columns);
+  };
+  if (out.series.time.size() == 0 || job.series.time.size() < out.series.time.size())
+    out.series.time = job.series.time;
+  stack(out.series.modal_displacement, std::move(job.series.modal_displacement));
+  stack(out.series.modal_velocity, std::move(job.series.modal_velocity));
+}
+
+void judge(const transient::StepChoice& choice, const transient::Report& report, results::RunResults& out) {
+  for (const std::string& warning : choice.warnings)
+    out.warnings.push_back(warning);
+  if (report.outcome == transient::Outcome::diverged)
+    throw core::ComputationError(fmt::format("the transient diverged at t = {:.6g} s (scheme {}, step {:.3g} s): its energy has left all that was "
+                                             "put in; take a smaller step, or leave step out to have one chosen",
+                                             report.end_time, transient::name_of(choice.scheme), choice.step));
+  if (report.residual_relative > residual_warning)
+    out.warnings.push_back(fmt::format("the energy balance is off by {:.2g} % of the energy put in; take a smaller step", 100.0 * report.residual_relative));
+  if (report.unconverged > report.steps / 1000)
+    out.warnings.push_back(fmt::format("in {} of {} steps the coupled contact forces missed their tolerance; take a smaller step", report.unconverged,
+                                       report.steps));
+}
+
+} // namespace
+
+void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltScene>& scenes, std::size_t contacts, std::size_t nodes,
+              const ProgressCallback& progress, results::RunResults& out) {
+  const int ranks = core::size(comm), here = core::rank(comm);
+  transient::StepOptions options;
+  options.step = study.transient->step;
+  options.accuracy = study.transient->accuracy;
+  if (study.transient->scheme != study::Scheme::automatic)
+    options.scheme = study.transient->scheme == study::Scheme::euler ? transient::SchemeKind::euler : transient::SchemeKind::splitting;
+  std::vector<transient::StepChoice> choices;
+  core::agree(comm, [&] {
+    for (const BuiltScene& built : scenes)
+      choices.push_back(transient::choose_step(built.scene, options));
+  });
+  std::vector<JobResult> jobs(scenes.size());
+  const auto owner = [&](std::size_t s) { return static_cast<int>(s) % ranks; };
+  std::int64_t all_steps = 0, done_steps = 0;
+  for (std::size_t s = 0; s < scenes.size(); ++s)
+    all_steps += owner(s) == here ? choices[s].steps : 0;
+  core::agree(comm, [&] {
+    for (std::size_t s = 0; s < scenes.size(); ++s)
+      if (owner(s) == here) {
+        const auto part = [&](std::int64_t steps) { return static_cast<double>(steps) / static_cast<double>(all_steps); };
+        ProgressObserver observer(progress, part(done_steps), part(choices[s].steps), study.transient->duration);
+        jobs[s] = run_job(study, scenes[s], choices[s], progress ? &observer : nullptr);
+        done_steps += choices[s].steps;
+      }
+  });
+  out.contact_summaries.resize(contacts);
+  out.series.contacts.resize(contacts);
+  out.node_summaries.resize(nodes);
+  out.series.nodes.resize(nodes);
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    if (ranks > 1)
+      broadcast(comm, owner(s), scenes[s], jobs[s]);
+    judge(choices[s], jobs[s].report, out);
+    merge(scenes[s], std::move(jobs[s]), choices[s], out);
+  }
+}
+
+} // namespace fretwork::app

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The executable: command line, exit status. The only catch of the program is here.
+#include "app/chain.hpp"
+#include "app/python_report.hpp"
+#include "core/error.hpp"
+#include "core/mpi.hpp"
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <fmt/format.h>
+
+namespace {
+
+using namespace fretwork;
+
+constexpr int input_is_wrong = 1, computation_failed = 2, program_defect = 3;
+
+/// Under mpirun only the first process speaks, also where MPI is not started.
+bool speaks() {
+  const char* rank = std::getenv("OMPI_COMM_WORLD_RANK");
+  return !rank || std::string(rank) == "0";
+}
+
+int guarded(const std::function<void()>& work) {
+  try {
+    work();
+    return 0;
+  } catch (const core::Error& error) {
+    if (speaks())
+      fmt::print(stderr, "fretwork: {}\n", error.what());
+    return input_is_wrong;
+  } catch (const core::ComputationError& error) {
+    if (speaks())
+      fmt::print(stderr, "fretwork: {}\n", error.what());
+    return computation_failed;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "fretwork: this is a defect of the program, please report it: {}\n", error.what());
+    return program_defect;
+  }
+}
+
+void add_study_options(CLI::App& command, app::Request& request) {
+  command.add_option("study", request.study, "the study file (TOML)")->required();
+  command.add_option("--set", request.overrides,
+                     "override a key, e.g. --set contacts.tsp1.gap=3e-4 (arrays of tables by name, group or index)");
+}
+
+void add_run_options(CLI::App& command, app::Request& request) {
+  add_study_options(command, request);
+  command.add_option("-o,--output", request.directory, "folder of the results (default: the study's name with .results, beside it)");
+  command.add_flag("--force", request.force, "compute every stage again, also where nothing has changed");
+  command.add_flag("-q,--quiet", request.quiet, "nothing on the terminal but errors");
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  CLI::App program{"Fretwork: from a line mesh of a vibrating structure to its impacts, friction and wear.\n\n"
+                   "A study is one TOML file (doc/study-file.md). Start from an example:\n"
+                   "  fretwork run examples/u_bend/study.toml\n"
+                   "  fretwork check study.toml\n"
+                   "  mpirun -n 2 fretwork run study.toml --set transient.duration=1"};
+  program.name("fretwork");
+  program.set_version_flag("--version", FRETWORK_VERSION);
+  program.require_subcommand(1);
+  program.footer("Exit status: 0 done, 1 the input is wrong, 2 the computation failed, 3 a defect of the program.");
+
+  app::Request request;
+  bool no_report = false;
+  CLI::App* run = program.add_subcommand("run", "the whole chain: mesh, modes, transient, results, report");
+  add_run_options(*run, request);
+  run->add_flag("--no-report", no_report, "do not write report.html");
+  CLI::App* mesh = program.add_subcommand("mesh", "read or make the mesh");
+  add_run_options(*mesh, request);
+  CLI::App* modes = program.add_subcommand("modes", "up to the modes of vibration");
+  add_run_options(*modes, request);
+  CLI::App* transient = program.add_subcommand("transient", "up to the results of the transient, without report");
+  add_run_options(*transient, request);
+  CLI::App* check = program.add_subcommand("check", "read and check everything that can be checked without computing");
+  add_study_options(*check, request);
+  std::filesystem::path directory;
+  CLI::App* report = program.add_subcommand("report", "report.html with its pictures, from the results in a folder");
+  report->add_option("directory", directory, "folder of the results")->required();
+  CLI::App* exporting = program.add_subcommand("export", "results in other formats: DIR/export-<format>/");
+  std::string format = "csv";
+  exporting->add_option("directory", directory, "folder of the results")->required();
+  exporting->add_option("--format", format, "csv: time series; vtu: mode shapes and snapshots for ParaView; msh: mode shapes for gmsh")
+      ->check(CLI::IsMember({"csv", "vtu", "msh"}));
+
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? 0 : input_is_wrong;
+  }
+  request.report = !no_report;
+  if (check->parsed())
+    return guarded([&] {
+      const std::string found = app::check(request);
+      if (speaks())
+        fmt::print("{}", found);
+    });
+  if (report->parsed())
+    return guarded([&] {
+      app::write_report(directory);
+      fmt::print("written: {}\n", (directory / "report.html").string());
+    });
+  if (exporting->parsed())
+    return guarded([&] { fmt::print("{}", app::export_results(directory, format)); });
+
+  const core::MpiSession mpi(argc, argv);
+  request.report = request.report && run->parsed();
+  const app::Stage last = mesh->parsed() ? app::Stage::mesh : modes->parsed() ? app::Stage::modes : app::Stage::transient;
+  static_cast<void>(transient);
+  return guarded([&] { app::run_chain(MPI_COMM_WORLD, request, last); });
+}

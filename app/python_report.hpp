@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The HTML report, made by a Python program of ours in a child process.
+#pragma once
+#include <filesystem>
+
+namespace fretwork::app {
+
+/// Writes DIR/report.html from summary.json and results.h5.
+/// @throws core::Error with what is missing (an interpreter with h5py and matplotlib: Debian's python3-h5py, python3-matplotlib) or the report's own message
+void write_report(const std::filesystem::path& directory);
+
+} // namespace fretwork::app

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/stages.hpp"
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "core/mpi.hpp"
+#include "core/petsc.hpp"
+#include "modal/damping.hpp"
+#include "modal/slepc_modes.hpp"
+#include "results/write.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <numeric>
+
+namespace fretwork::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A structure of more free dofs than this is solved over all ranks unless the study says otherwise: below, one rank is faster (a distributed
+/// factorisation costs 5 to 7 times a serial one) and the result does not depend on the number of ranks.
+constexpr core::Index distribute_above = 300'000;
+
+std::string file_bytes(const fs::path& file, const char* what) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in)
+    throw core::Error(fmt::format("{} \"{}\" cannot be read; check the path (relative paths start from the study's folder)", what, file.string()));
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string stored_text(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return in ? std::string{std::istreambuf_iterator<char>(in), {}} : std::string{};
+}
+
+bool is_msh(const fs::path& file) { return file.extension() == ".msh"; }
+
+/// Gives every structure to a rank: the costliest first, to the rank with the least work so far.
+std::vector<int> share_out(const std::vector<fem::Structure>& structures, int ranks) {
+  std::vector<std::size_t> order(structures.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return structures[a].equations > structures[b].equations; });
+  std::vector<double> load(static_cast<std::size_t>(ranks), 0.0);
+  std::vector<int> owner(structures.size());
+  for (const std::size_t s : order) {
+    const auto rank = std::min_element(load.begin(), load.end()) - load.begin();
+    owner[s] = static_cast<int>(rank);
+    load[static_cast<std::size_t>(rank)] += structures[s].equations;
+  }
+  return owner;
+}
+
+void broadcast(MPI_Comm comm, int root, modal::Basis& basis) {
+  core::broadcast(comm, root, basis.shapes);
+  core::broadcast(comm, root, basis.omega);
+  core::broadcast(comm, root, basis.damping);
+  core::broadcast(comm, root, basis.damping_matrix);
+  core::broadcast(comm, root, basis.residuals);
+  MPI_Bcast(&basis.orthogonality, 1, MPI_DOUBLE, root, comm);
+}
+
+} // namespace
+
+Inputs read_inputs(const Request& request) {
+  Inputs in;
+  in.study = study::read(request.study, request.overrides);
+  in.directory = request.directory.value_or(fs::path(in.study.file).replace_extension(".results"));
+  const auto text = [&](const std::vector<std::string>& tables) { return study::canonical_text(request.study, request.overrides, tables); };
+  const std::string version = FRETWORK_VERSION;
+  in.mesh_key = core::sha256(version + "\n" + text({"mesh"}) + "\n" + file_bytes(in.study.mesh.file, "mesh file"));
+  in.modes_key = core::sha256(in.mesh_key + "\n" + text({"materials", "sections", "beams", "restraints", "masses", "springs", "modes"}));
+  const std::string rest = text({"title", "contacts", "loads", "gravity", "base_motion", "initial", "transient", "output"});
+  in.whole_key = core::sha256(in.modes_key + "\n" + rest);
+  return in;
+}
+
+mesh::LineMesh mesh_stage(MPI_Comm comm, const Inputs& inputs, bool force) {
+  mesh::Source source = inputs.study.mesh;
+  if (!is_msh(source.file)) {
+    const fs::path product = inputs.directory / "mesh.msh", key_file = inputs.directory / "mesh.key";
+    core::agree(comm, [&] {
+      if (core::rank(comm) != 0 || (!force && fs::exists(product) && stored_text(key_file) == inputs.mesh_key))
+        return;
+      results::write_whole(product, [&](const fs::path& temporary) {
+        if (mesh::is_geometry(source.file))
+          mesh::mesh_geometry(source, temporary);
+        else
+          mesh::convert_with_meshio(source.file, temporary);
+      });
+      results::write_whole(key_file, [&](const fs::path& temporary) { std::ofstream(temporary) << inputs.mesh_key; });
+    });
+    source.file = product;
+    source.element_size.reset();
+  }
+  mesh::LineMesh mesh;
+  core::agree(comm, [&] { mesh = mesh::read(source); });
+  return mesh;
+}
+
+ModesStage modes_stage(MPI_Comm comm, const Inputs& inputs, const fem::Model& model, const results::RunRecord& record, bool force) {
+  ModesStage out;
+  core::agree(comm, [&] { out.structures = fem::structures(model); });
+  // marks and fully restrained points are structures without equations: there is nothing to solve
+  std::erase_if(out.structures, [](const fem::Structure& s) { return s.equations == 0; });
+  if (out.structures.empty())
+    throw core::Error("nothing in the model can move: every degree of freedom is restrained; release some in [[restraints]]");
+  const int ranks = core::size(comm), here = core::rank(comm);
+  const auto distributed = [&](const fem::Structure& s) {
+    return ranks > 1 && inputs.study.modes.distributed.value_or(s.equations > distribute_above);
+  };
+  const bool any_distributed = std::any_of(out.structures.begin(), out.structures.end(), distributed);
+  const std::string key = any_distributed ? fmt::format("{} over {} ranks", inputs.modes_key, ranks) : inputs.modes_key;
+  const fs::path file = inputs.directory / "modes.h5";
+  std::optional<std::vector<modal::Basis>> stored;
+  if (!force)
+    stored = results::read_bases(file, key);
+  int here_found = stored && stored->size() == out.structures.size() ? 1 : 0, found = 0;
+  MPI_Allreduce(&here_found, &found, 1, MPI_INT, MPI_MIN, comm); // every rank reads it, or none
+  if (found) {
+    out.bases = std::move(*stored);
+    return out;
+  }
+  out.computed = true;
+  out.bases.resize(out.structures.size());
+  const modal::Wanted wanted{inputs.study.modes.count, inputs.study.modes.up_to_hz};
+  const std::vector<int> owner = share_out(out.structures, ranks);
+  const auto solve = [&](MPI_Comm group, std::size_t s) {
+    modal::Basis& basis = out.bases[s];
+    basis = modal::solve_modes(group, model, out.structures[s], wanted);
+    modal::apply_damping(basis, inputs.study.modes.damping);
+  };
+  for (std::size_t s = 0; s < out.structures.size(); ++s)
+    if (distributed(out.structures[s]))
+      core::agree(comm, [&] { solve(comm, s); });
+  core::agree(comm, [&] {
+    for (std::size_t s = 0; s < out.structures.size(); ++s)
+      if (!distributed(out.structures[s]) && owner[s] == here)
+        solve(MPI_COMM_SELF, s);
+  });
+  for (std::size_t s = 0; s < out.structures.size(); ++s) {
+    out.bases[s].nodes = out.structures[s].nodes;
+    if (!distributed(out.structures[s]))
+      broadcast(comm, owner[s], out.bases[s]);
+  }
+  core::agree(comm, [&] {
+    if (here == 0)
+      results::write_bases(file, record, out.bases, key);
+  });
+  return out;
+}
+
+} // namespace fretwork::app
