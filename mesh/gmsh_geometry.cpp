@@ -7,9 +7,10 @@
 /// - Curves are meshed with the sizes of the file, or with elements of about S (units of the file) where S is
 /// given;
 ///   Transfinite Curve keeps its count. Order 2 stays where a .geo asks for it (Mesh.ElementOrder = 2).
-/// - STEP: units become metres (the file says which it has); curves that meet come disconnected and are
-/// joined, here and
-///   in BREP. Their curves and points that carry a label become physical groups of that name.
+/// - STEP: units become metres (the file says which it has). Curves that meet come disconnected and are
+/// joined, here and in BREP.
+///   Neither format has named groups: a .geo that merges it (Merge "tube.step"; Coherence; Physical
+///   Curve("tube") = {1};) names them.
 /// - Where a file names physical groups only these are written.
 #include <algorithm>
 #include <cctype>
@@ -17,7 +18,6 @@
 #include <cstdlib>
 #include <exception>
 #include <gmsh.h>
-#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -52,22 +52,6 @@ bool is_exchange_file(const std::string& file) {
   return ending == ".step" || ending == ".stp" || ending == ".brep";
 }
 
-/// A label "Shapes/assembly/tube" names the group "tube".
-void name_labelled_entities() {
-  std::map<std::pair<int, std::string>, std::vector<int>> labelled;
-  gmsh::vectorpair entities;
-  gmsh::model::getEntities(entities);
-  for (const auto& [dimension, tag] : entities) {
-    std::string label;
-    if (dimension < 2)
-      gmsh::model::getEntityName(dimension, tag, label);
-    if (!label.empty())
-      labelled[{dimension, label.substr(label.rfind('/') + 1)}].push_back(tag);
-  }
-  for (const auto& [key, tags] : labelled)
-    gmsh::model::setPhysicalName(key.first, gmsh::model::addPhysicalGroup(key.first, tags), key.second);
-}
-
 void mesh_curves(const Options& options) {
   const bool exchange = is_exchange_file(options.geometry);
   gmsh::option::setString("Geometry.OCCTargetUnit", "M");
@@ -75,7 +59,6 @@ void mesh_curves(const Options& options) {
   if (exchange) {
     gmsh::model::occ::removeAllDuplicates();
     gmsh::model::occ::synchronize();
-    name_labelled_entities();
   }
   gmsh::vectorpair entities;
   gmsh::model::getEntities(entities);

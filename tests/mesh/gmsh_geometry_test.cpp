@@ -44,6 +44,18 @@ TEST_F(GmshGeometry, OfStepIsConnectedAndInMetres) {
               2.0); // a curve rounds its number of lines up
 }
 
+TEST_F(GmshGeometry, OfStepGetsItsNamesFromAGeoThatMergesIt) {
+  write_geometry("a.step");
+  const fs::path geo =
+      write("a.geo", "SetFactory(\"OpenCASCADE\");\nMerge \"a.step\";\nCoherence;\n"
+                     "Physical Curve(\"tube\") = Curve{:};\nPhysical Point(\"ends\") = {1};\n");
+  const LineMesh mesh = read({.file = geo, .element_size = 0.1});
+  EXPECT_EQ(mesh.nodes.size(), mesh.lines.size() + 1);
+  EXPECT_EQ(group_lines(mesh, "tube", "test").size(), mesh.lines.size());
+  EXPECT_LT((mesh.nodes.back() - Vec3(4, 1, 0)).norm(), 4 * mesher_tolerance);
+  EXPECT_EQ(group_nodes(mesh, "ends", "test").size(), 1u);
+}
+
 TEST_F(GmshGeometry, OfBrepKeepsItsUnits) {
   write_geometry("a.brep");
   const LineMesh mesh = read({.file = path("a.brep"), .element_size = 0.1, .scale = 1e-3});
