@@ -34,11 +34,11 @@ struct ModelFacts {
 /// A contact as it was set up.
 struct ContactFacts {
   std::string name;
-  core::Index node = 0;         ///< of the model
-  Eigen::Matrix3d axes;         ///< rows x_loc y_loc z_loc
-  std::string obstacle;         ///< as in the study file
-  double gap = 0.0;             ///< m
-  core::Vec3 rest;              ///< m, node at rest from the obstacle's centre, local axes
+  core::Index node = 0; ///< of the model
+  Eigen::Matrix3d axes; ///< rows x_loc y_loc z_loc
+  std::string obstacle; ///< as in the study file
+  double gap = 0.0;     ///< m
+  core::Vec3 rest;      ///< m, node at rest from the obstacle's centre, local axes
   double normal_stiffness = 0.0, normal_damping = 0.0, tangential_stiffness = 0.0, tangential_damping = 0.0;
   double friction_static = 0.0, friction_dynamic = 0.0;
 };
@@ -56,16 +56,16 @@ struct Timings { ///< s
 struct RunResults {
   RunRecord record;
   ModelFacts model;
-  std::vector<core::Vec3> nodes;                  ///< m
-  std::vector<std::array<core::Index, 2>> lines;  ///< beams
-  std::vector<modal::Basis> bases;                ///< by structure
+  std::vector<core::Vec3> nodes;                 ///< m
+  std::vector<std::array<core::Index, 2>> lines; ///< beams
+  std::vector<modal::Basis> bases;               ///< by structure
   std::vector<ContactFacts> contacts;
   std::vector<post::ContactSummary> contact_summaries; ///< as `contacts`; empty without a transient
   std::vector<std::string> node_names;
   std::vector<post::NodeSummary> node_summaries;
-  std::vector<TransientFacts> transients;         ///< by structure that was run
-  double statistics_from = 0.0, duration = 0.0;   ///< s
-  post::TimeSeries series;                        ///< of all structures; modal series stacked in the order of `bases`
+  std::vector<TransientFacts> transients;       ///< by structure that was run
+  double statistics_from = 0.0, duration = 0.0; ///< s
+  post::TimeSeries series; ///< of all structures; modal series stacked in the order of `bases`
   Timings timings;
   std::vector<std::string> warnings; ///< what makes the results doubtful
   std::vector<std::string> notes;    ///< what the user may want to know

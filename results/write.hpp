@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Result files. Each is written under a temporary name and renamed when it is whole: an interrupted run leaves the last good ones.
+/// Result files. Each is written under a temporary name and renamed when it is whole: an interrupted run
+/// leaves the last good ones.
 #pragma once
 #include "results/run_results.hpp"
 #include <filesystem>
@@ -8,33 +9,57 @@
 
 namespace fretwork::results {
 
-/// Calls `write` with a temporary name beside `file`, then renames. Removes the temporary file when `write` throws.
+/// Calls `write` with a temporary name beside `file`, then renames. Removes the temporary file when `write`
+/// throws. Makes the folder where there is none.
 /// @throws core::Error if the folder cannot be written
-void write_whole(const std::filesystem::path& file, const std::function<void(const std::filesystem::path&)>& write);
+void write_whole(const std::filesystem::path& file,
+                 const std::function<void(const std::filesystem::path&)>& write);
 
-/// summary.json: keys as in doc/study-file.md; numbers with the shortest text that reads back the same.
+/// summary.json: keys as in doc/study-file.md; numbers with the shortest text that reads back the same, null
+/// where they are not finite.
+/// @throws core::Error if it cannot be written
 void write_summary(const std::filesystem::path& file, const RunResults& results);
 
-/// The short table at the end of a run.
-[[nodiscard]] std::string terminal_table(const RunResults& results);
+/// The short table at the end of a run, about 100 columns wide; it ends with what `directory` holds (nothing
+/// where it is empty).
+[[nodiscard]] std::string terminal_table(const RunResults& results,
+                                         const std::filesystem::path& directory = {});
 
-/// results.h5: layout as in doc/study-file.md. The same results give the same bytes.
+/// results.h5: layout as in doc/study-file.md and basis_file.hpp. The same results give the same bytes,
+/// whatever the ranks and timings.
+/// @throws core::Error if it cannot be written
 void write_archive(const std::filesystem::path& file, const RunResults& results);
 
-/// modes.h5: the bases, read back bit for bit; `key` tells what they were computed from.
-void write_bases(const std::filesystem::path& file, const RunRecord& record, const std::vector<modal::Basis>& bases, const std::string& key);
+/// modes.h5: the bases, read back bit for bit; `key` tells what they were computed from. With the mesh, modes
+/// can be exported from it.
+/// @throws core::Error if it cannot be written
+void write_bases(const std::filesystem::path& file, const RunRecord& record,
+                 const std::vector<modal::Basis>& bases, const std::string& key,
+                 const std::vector<core::Vec3>& nodes = {},
+                 const std::vector<std::array<core::Index, 2>>& lines = {});
 /// The bases, if the file exists, is whole and has this key.
-[[nodiscard]] std::optional<std::vector<modal::Basis>> read_bases(const std::filesystem::path& file, const std::string& key);
+[[nodiscard]] std::optional<std::vector<modal::Basis>> read_bases(const std::filesystem::path& file,
+                                                                  const std::string& key);
 
-/// What `export` needs, read back from results.h5 (or modes.h5 only: no series).
-/// @throws core::Error if the folder holds no results
+/// What the exports need, read back from results.h5, or from modes.h5 where there is no results.h5 (no
+/// contacts, no series): all but statistics, facts of the transient, timings and warnings, which are in
+/// summary.json.
+/// @throws core::Error if the folder holds no results or the file is damaged
 [[nodiscard]] RunResults read_archive(const std::filesystem::path& directory);
 
-/// One CSV a contact and a node: time and all its series, header with units.
+/// contact_<name>.csv and node_<name>.csv: time and all series, header with units; numbers read back bit for
+/// bit.
+/// @throws core::Error without a transient
 void export_csv(const std::filesystem::path& directory, const RunResults& results);
-/// modes.vtu (one vector array a mode) and, with a transient, snapshots.pvd with its .vtu files.
+/// modes.vtu (one vector array a mode; with several structures the k-th mode of each in one array) and, with
+/// a transient, snapshots.pvd with its .vtu files: the displacement at `most_snapshots` instants at most,
+/// evenly spread.
+/// @throws core::Error without a mesh
 void export_vtu(const std::filesystem::path& directory, const RunResults& results);
-/// modes.msh: .msh 4.1 with a NodeData view a mode.
+inline constexpr Eigen::Index most_snapshots = 200;
+/// modes.msh: .msh 4.1 with a NodeData view a mode (with several structures the k-th mode of each in one
+/// view).
+/// @throws core::Error without a mesh
 void export_msh(const std::filesystem::path& directory, const RunResults& results);
 
 } // namespace fretwork::results

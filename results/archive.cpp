@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/error.hpp"
+#include "results/basis_file.hpp"
+#include "results/text_file.hpp"
+#include "results/write.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace fretwork::results {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* contact_units =
+    "position, gap, rest: m; normal_stiffness, tangential_stiffness: N/m; normal_damping, "
+    "tangential_damping: N s/m; axes: rows x_loc, y_loc, z_loc";
+
+void write_facts(const h5::Group& group, const ContactFacts& c, const core::Vec3& position) {
+  const RowMajor axes = c.axes;
+  group.set("node", std::int64_t{c.node});
+  group.set<double>("position", {position.data(), 3}, {3});
+  group.set<double>("axes", {axes.data(), 9}, {3, 3});
+  group.set("obstacle", c.obstacle);
+  group.set("gap", c.gap);
+  group.set<double>("rest", {c.rest.data(), 3}, {3});
+  group.set("normal_stiffness", c.normal_stiffness);
+  group.set("normal_damping", c.normal_damping);
+  group.set("tangential_stiffness", c.tangential_stiffness);
+  group.set("tangential_damping", c.tangential_damping);
+  group.set("friction_static", c.friction_static);
+  group.set("friction_dynamic", c.friction_dynamic);
+  group.set("units", std::string(contact_units));
+}
+
+ContactFacts read_facts(const h5::Group& group) {
+  ContactFacts c;
+  c.name = group.text("name");
+  c.node = static_cast<core::Index>(group.integer("node"));
+  const auto axes = group.values<double>("axes"), rest = group.values<double>("rest");
+  if (axes.size() != 9 || rest.size() != 3)
+    throw h5::Failure("axes or rest of a contact");
+  c.axes = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(axes.data());
+  c.rest = Eigen::Map<const core::Vec3>(rest.data());
+  c.obstacle = group.text("obstacle");
+  c.gap = group.number("gap");
+  c.normal_stiffness = group.number("normal_stiffness");
+  c.normal_damping = group.number("normal_damping");
+  c.tangential_stiffness = group.number("tangential_stiffness");
+  c.tangential_damping = group.number("tangential_damping");
+  c.friction_static = group.number("friction_static");
+  c.friction_dynamic = group.number("friction_dynamic");
+  return c;
+}
+
+void write_series(const h5::Group& group, const post::ContactSeries& s) {
+  write_matrix(group, "displacement", s.displacement, "m");
+  write_matrix(group, "velocity", s.velocity, "m/s");
+  write_vector(group, "gap", s.gap, "m");
+  write_vector(group, "normal_force", s.normal_force, "N");
+  write_matrix(group, "tangential_force", s.tangential_force, "N");
+}
+
+/// A child group that carries its name and its place among its like: HDF5 lists groups by name, with "/" as a
+/// separator.
+h5::Group create_named(const h5::Group& parent, const std::string& name, std::size_t index) {
+  h5::Group group = parent.create(path_name(name));
+  group.set("name", name);
+  group.set("index", static_cast<std::int64_t>(index));
+  return group;
+}
+
+/// The children in the order in which they were written.
+std::vector<h5::Group> in_order(const h5::Group& parent) {
+  std::vector<std::pair<std::int64_t, std::string>> order;
+  for (const std::string& name : parent.children())
+    order.emplace_back(parent.open(name).integer("index"), name);
+  std::sort(order.begin(), order.end());
+  std::vector<h5::Group> groups;
+  for (const auto& entry : order)
+    groups.push_back(parent.open(entry.second));
+  return groups;
+}
+
+void write_contacts(const h5::Group& root, const RunResults& results) {
+  const h5::Group contacts = root.create("contacts");
+  for (std::size_t c = 0; c < results.contacts.size(); ++c) {
+    const ContactFacts& facts = results.contacts[c];
+    const h5::Group group = create_named(contacts, facts.name, c);
+    write_facts(group, facts, results.nodes.at(static_cast<std::size_t>(facts.node)));
+    for (const post::ContactSeries& series : results.series.contacts)
+      if (series.name == facts.name)
+        write_series(group, series);
+  }
+}
+
+void write_transient(const h5::Group& root, const RunResults& results) {
+  const post::TimeSeries& series = results.series;
+  root.set("duration", results.duration);
+  root.set("statistics_from", results.statistics_from);
+  write_vector(root, "time", series.time, "s");
+  const h5::Group nodes = root.create("nodes");
+  for (std::size_t n = 0; n < series.nodes.size(); ++n) {
+    const h5::Group group = create_named(nodes, series.nodes[n].name, n);
+    write_matrix(group, "displacement", series.nodes[n].displacement, "m");
+    write_matrix(group, "velocity", series.nodes[n].velocity, "m/s");
+    write_matrix(group, "acceleration", series.nodes[n].acceleration, "m/s2");
+  }
+  const h5::Group modal = root.create("modal");
+  // one output is a column in memory: [nt, n] as HDF5 sees it, no copy
+  const auto write = [&](const char* name, const Eigen::MatrixXd& values, const char* units) {
+    modal.write<double>(name, {values.data(), static_cast<std::size_t>(values.size())},
+                        {static_cast<hsize_t>(values.cols()), static_cast<hsize_t>(values.rows())}, units);
+  };
+  write("displacement", series.modal_displacement, "m (modal mass 1 kg)");
+  write("velocity", series.modal_velocity, "m/s (modal mass 1 kg)");
+}
+
+void read_contacts(const h5::Group& root, RunResults& results) {
+  for (const h5::Group& group : in_order(root.open("contacts"))) {
+    results.contacts.push_back(read_facts(group));
+    if (group.has("normal_force"))
+      results.series.contacts.push_back({results.contacts.back().name, read_matrix(group, "displacement"),
+                                         read_matrix(group, "velocity"), read_vector(group, "gap"),
+                                         read_vector(group, "normal_force"),
+                                         read_matrix(group, "tangential_force")});
+  }
+}
+
+void read_transient(const h5::Group& root, RunResults& results) {
+  results.duration = root.number("duration");
+  results.statistics_from = root.number("statistics_from");
+  results.series.time = read_vector(root, "time");
+  for (const h5::Group& group : in_order(root.open("nodes"))) {
+    results.node_names.push_back(group.text("name"));
+    results.series.nodes.push_back({group.text("name"), read_matrix(group, "displacement"),
+                                    read_matrix(group, "velocity"), read_matrix(group, "acceleration")});
+  }
+  const h5::Group modal = root.open("modal");
+  results.series.modal_displacement = read_matrix(modal, "displacement").transpose();
+  results.series.modal_velocity = read_matrix(modal, "velocity").transpose();
+}
+
+} // namespace
+
+void write_archive(const fs::path& file, const RunResults& results) {
+  const h5::Quiet quiet;
+  write_whole(file, [&](const fs::path& part) {
+    try {
+      const h5::Group root = h5::Group::create_file(part);
+      write_record(root, results.record);
+      root.set("dofs", results.model.dofs);
+      root.set("mass", results.model.mass_kg);
+      write_mesh(root, results.nodes, results.lines);
+      write_modes(root, results.bases);
+      write_contacts(root, results);
+      if (!results.transients.empty())
+        write_transient(root, results);
+      root.flush();
+    } catch (const h5::Failure& failure) {
+      throw core::Error(
+          fmt::format("{}: cannot be written ({}); check the folder, its permissions and the space left",
+                      file.string(), failure.what()));
+    }
+  });
+}
+
+RunResults read_archive(const fs::path& directory) {
+  const h5::Quiet quiet;
+  const fs::path archive = directory / "results.h5";
+  const bool whole = fs::exists(archive);
+  const fs::path file = whole ? archive : directory / "modes.h5";
+  if (!fs::exists(file))
+    throw core::Error(
+        fmt::format("{}: there are no results here (neither results.h5 nor modes.h5); give the folder that "
+                    "`fretwork run` or `fretwork modes` wrote",
+                    directory.string()));
+  try {
+    const h5::Group root = h5::Group::open_file(file);
+    RunResults results;
+    results.record = read_record(root);
+    read_mesh(root, results.nodes, results.lines);
+    results.model.nodes = static_cast<std::int64_t>(results.nodes.size());
+    results.model.elements = static_cast<std::int64_t>(results.lines.size());
+    results.bases = read_modes(root);
+    if (!whole)
+      return results;
+    results.model.dofs = root.integer("dofs");
+    results.model.mass_kg = root.number("mass");
+    read_contacts(root, results);
+    if (root.has("time"))
+      read_transient(root, results);
+    return results;
+  } catch (const h5::Failure& failure) {
+    throw core::Error(fmt::format(
+        "{}: cannot be read ({}): the file is damaged or not of this program; run the study again",
+        file.string(), failure.what()));
+  }
+}
+
+} // namespace fretwork::results

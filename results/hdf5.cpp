@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/hdf5.hpp"
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace fretwork::results::h5 {
+namespace {
+
+/// Bytes of a chunk: what the library's chunk cache holds several of.
+constexpr hsize_t chunk_bytes = hsize_t{1} << 17;
+/// The fastest level; the higher ones gain little on measured motion.
+constexpr unsigned deflate_level = 1;
+
+void check(herr_t status, const std::string& what) {
+  if (status < 0)
+    throw Failure(what);
+}
+
+Handle dataspace(const Shape& shape) {
+  if (shape.empty())
+    return {H5Screate(H5S_SCALAR), H5Sclose, "dataspace"};
+  return {H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose, "dataspace"};
+}
+
+Handle text_type() {
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "text type");
+  check(H5Tset_size(type.id(), H5T_VARIABLE),
+        "text type"); // kept outside the object's header, which is limited to 64 kB
+  check(H5Tset_cset(type.id(), H5T_CSET_UTF8), "text type");
+  return type;
+}
+
+Handle properties_without_times(hid_t kind) {
+  Handle properties(H5Pcreate(kind), H5Pclose, "property list");
+  check(H5Pset_obj_track_times(properties.id(), false), "property list");
+  return properties;
+}
+
+void set_text(hid_t object, const std::string& name, const std::string& text) {
+  const Handle type = text_type(), space = dataspace({});
+  const Handle attribute(H5Acreate2(object, name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT),
+                         H5Aclose, "attribute " + name);
+  const char* const start = text.c_str();
+  check(H5Awrite(attribute.id(), type.id(), &start), "attribute " + name);
+}
+
+} // namespace
+
+std::size_t size_of(const Shape& shape) {
+  std::size_t count = 1;
+  for (const hsize_t length : shape)
+    count *= length;
+  return count;
+}
+
+Quiet::Quiet() {
+  H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+Quiet::~Quiet() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
+
+Handle::Handle(hid_t id, Close close, const std::string& what) : id_(id), close_(close) {
+  if (id < 0)
+    throw Failure(what);
+}
+
+Handle::~Handle() {
+  if (id_ >= 0)
+    close_(id_);
+}
+
+Handle::Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+
+template <> hid_t type_of<double>() { return H5T_NATIVE_DOUBLE; }
+template <> hid_t type_of<std::int32_t>() { return H5T_NATIVE_INT32; }
+template <> hid_t type_of<std::int64_t>() { return H5T_NATIVE_INT64; }
+template <> hid_t type_of<std::uint64_t>() { return H5T_NATIVE_UINT64; }
+
+Group Group::create_file(const std::filesystem::path& file) {
+  const Handle properties = properties_without_times(H5P_FILE_CREATE);
+  return Group(Handle(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, properties.id(), H5P_DEFAULT), H5Fclose,
+                      "create " + file.string()));
+}
+
+Group Group::open_file(const std::filesystem::path& file) {
+  return Group(Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "open " + file.string()));
+}
+
+Group Group::create(const std::string& name) const {
+  const Handle properties = properties_without_times(H5P_GROUP_CREATE);
+  return Group(Handle(H5Gcreate2(handle_.id(), name.c_str(), H5P_DEFAULT, properties.id(), H5P_DEFAULT),
+                      H5Gclose, "create group " + name));
+}
+
+Group Group::open(const std::string& name) const {
+  return Group(Handle(H5Gopen2(handle_.id(), name.c_str(), H5P_DEFAULT), H5Gclose, "open group " + name));
+}
+
+bool Group::has(const std::string& name) const {
+  return H5Lexists(handle_.id(), name.c_str(), H5P_DEFAULT) > 0;
+}
+
+std::vector<std::string> Group::children() const {
+  std::vector<std::string> names;
+  const auto keep = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
+    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+    return 0;
+  };
+  check(H5Literate(handle_.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, keep, &names), "list a group");
+  return names;
+}
+
+void Group::flush() const { check(H5Fflush(handle_.id(), H5F_SCOPE_LOCAL), "write to the disk"); }
+
+void Group::set(const std::string& name, const std::string& text) const {
+  set_text(handle_.id(), name, text);
+}
+
+void Group::set_values(const std::string& name, hid_t type, const void* values, std::size_t count,
+                       const Shape& shape) const {
+  assert(size_of(shape) == count);
+  const Handle space = dataspace(shape);
+  const Handle attribute(H5Acreate2(handle_.id(), name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT),
+                         H5Aclose, "attribute " + name);
+  if (count > 0)
+    check(H5Awrite(attribute.id(), type, values), "attribute " + name);
+}
+
+std::string Group::text(const std::string& name) const {
+  const Handle attribute(H5Aopen(handle_.id(), name.c_str(), H5P_DEFAULT), H5Aclose, "attribute " + name);
+  const Handle stored(H5Aget_type(attribute.id()), H5Tclose, "attribute " + name);
+  if (H5Tis_variable_str(stored.id()) <= 0)
+    throw Failure("attribute " + name + " is not a text");
+  const Handle type = text_type();
+  char* start = nullptr;
+  check(H5Aread(attribute.id(), type.id(), &start), "attribute " + name);
+  std::string out = start ? start : "";
+  H5free_memory(start);
+  return out;
+}
+
+std::size_t Group::attribute_size(const std::string& name) const {
+  const Handle attribute(H5Aopen(handle_.id(), name.c_str(), H5P_DEFAULT), H5Aclose, "attribute " + name);
+  const Handle space(H5Aget_space(attribute.id()), H5Sclose, "attribute " + name);
+  return static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.id()));
+}
+
+void Group::get_values(const std::string& name, hid_t type, void* values) const {
+  const Handle attribute(H5Aopen(handle_.id(), name.c_str(), H5P_DEFAULT), H5Aclose, "attribute " + name);
+  if (H5Aget_storage_size(attribute.id()) > 0)
+    check(H5Aread(attribute.id(), type, values), "attribute " + name);
+}
+
+void Group::write_values(const std::string& name, hid_t type, std::size_t size, const void* values,
+                         std::size_t count, const Shape& shape, const std::string& units) const {
+  assert(size_of(shape) == count);
+  const Handle properties = properties_without_times(H5P_DATASET_CREATE);
+  if (count * size >= compress_from) {
+    Shape chunk = shape;
+    const hsize_t row = count / shape[0] * size;
+    chunk[0] = std::clamp<hsize_t>(chunk_bytes / row, 1, shape[0]);
+    check(H5Pset_chunk(properties.id(), static_cast<int>(chunk.size()), chunk.data()), "chunks of " + name);
+    check(H5Pset_shuffle(properties.id()), "filter of " + name);
+    check(H5Pset_deflate(properties.id(), deflate_level), "filter of " + name);
+  }
+  const Handle space = dataspace(shape);
+  const Handle data(
+      H5Dcreate2(handle_.id(), name.c_str(), type, space.id(), H5P_DEFAULT, properties.id(), H5P_DEFAULT),
+      H5Dclose, "dataset " + name);
+  if (count > 0)
+    check(H5Dwrite(data.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "dataset " + name);
+  if (!units.empty())
+    set_text(data.id(), "units", units);
+}
+
+Shape Group::shape(const std::string& name) const {
+  const Handle data(H5Dopen2(handle_.id(), name.c_str(), H5P_DEFAULT), H5Dclose, "dataset " + name);
+  const Handle space(H5Dget_space(data.id()), H5Sclose, "dataset " + name);
+  const int dimensions = H5Sget_simple_extent_ndims(space.id());
+  check(dimensions, "dataset " + name);
+  Shape out(static_cast<std::size_t>(dimensions));
+  check(H5Sget_simple_extent_dims(space.id(), out.data(), nullptr), "dataset " + name);
+  return out;
+}
+
+void Group::read_values(const std::string& name, hid_t type, void* values) const {
+  const Handle data(H5Dopen2(handle_.id(), name.c_str(), H5P_DEFAULT), H5Dclose, "dataset " + name);
+  check(H5Dread(data.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "dataset " + name);
+}
+
+} // namespace fretwork::results::h5

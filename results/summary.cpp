@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/text_file.hpp"
+#include "results/totals.hpp"
+#include "results/write.hpp"
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace fretwork::results {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON knows no infinity and no NaN: a run that diverged leaves null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json moments(const post::Moments& m) {
+  return {{"mean", number(m.mean)}, {"std", number(m.std)}, {"min", number(m.min)}, {"max", number(m.max)}};
+}
+
+Json model(const ModelFacts& m) {
+  return {{"nodes", m.nodes}, {"elements", m.elements}, {"dofs", m.dofs}, {"mass_kg", number(m.mass_kg)}};
+}
+
+Json modes(const std::vector<modal::Basis>& bases) {
+  Json frequencies = Json::array(), residuals = Json::array(), damping = Json::array(),
+       structure = Json::array();
+  for (const ModeOf& m : sorted_modes(bases)) {
+    const modal::Basis& basis = bases[m.structure];
+    frequencies.push_back(number(m.frequency));
+    residuals.push_back(number(basis.residuals(m.mode)));
+    damping.push_back(number(basis.damping(m.mode)));
+    structure.push_back(m.structure);
+  }
+  double orthogonality = 0.0;
+  bool distributed = false;
+  for (const modal::Basis& basis : bases) {
+    orthogonality = std::max(orthogonality, basis.orthogonality);
+    distributed = distributed || basis.distributed;
+  }
+  Json out{
+      {"frequencies_hz", frequencies}, {"residuals", residuals}, {"damping", damping}, {"static_modes", 0}};
+  if (bases.size() > 1)
+    out["structure"] = structure;
+  out["orthogonality"] = number(orthogonality);
+  out["distributed"] = distributed;
+  return out;
+}
+
+Json contact(const std::string& name, const post::ContactSummary& c) {
+  return {
+      {"name", name},
+      {"impacts", c.impacts},
+      {"contact_time_ratio", number(c.contact_time_ratio)},
+      {"normal_force",
+       {{"mean", number(c.normal_mean)}, {"rms", number(c.normal_rms)}, {"max", number(c.normal_max)}}},
+      {"normal_force_in_contact",
+       {{"mean", number(c.normal_in_contact_mean)}, {"rms", number(c.normal_in_contact_rms)}}},
+      {"tangential_force", {{"rms", number(c.tangential_rms)}, {"max", number(c.tangential_max)}}},
+      {"displacement",
+       {{"y", moments(c.y)},
+        {"z", moments(c.z)},
+        {"radial", {{"rms", number(c.radial_rms)}, {"max", number(c.radial_max)}}}}},
+      {"work_rate", number(c.work_rate)},
+      {"friction_power", number(c.friction_power)},
+      {"impact_velocity", {{"mean", number(c.impact_velocity_mean)}, {"max", number(c.impact_velocity_max)}}},
+      {"contact_duration",
+       {{"mean", number(c.contact_duration_mean)}, {"max", number(c.contact_duration_max)}}}};
+}
+
+Json node(const std::string& name, const post::NodeSummary& n) {
+  return {{"name", name},
+          {"displacement",
+           {{"x", moments(n.displacement[0])},
+            {"y", moments(n.displacement[1])},
+            {"z", moments(n.displacement[2])}}}};
+}
+
+Json energy(const EnergyTotals& e) {
+  return {{"input_J", number(e.input)},
+          {"initial_J", number(e.initial)},
+          {"stored_J", number(e.stored)},
+          {"modal_damping_J", number(e.modal_damping)},
+          {"contact_damping_J", number(e.contact_damping)},
+          {"friction_J", number(e.friction)},
+          {"residual_relative", number(e.residual_relative)}};
+}
+
+Json transient(const TransientTotals& t, const RunResults& results) {
+  return {{"scheme", t.scheme},
+          {"steps", t.steps},
+          {"rejected", 0}, // the schemes keep their step
+          {"force_evaluations", t.evaluations},
+          {"step_min_s", number(t.step_min)},
+          {"step_max_s", number(t.step_max)},
+          {"step_reason", t.step_reason},
+          {"contact_frequency_rad_s", number(t.contact_frequency)},
+          {"outcome", t.diverged ? "diverged" : "done"},
+          {"unconverged_steps", t.unconverged},
+          {"duration_s", number(results.duration)},
+          {"end_time_s", number(t.end_time)},
+          {"statistics_from_s", number(results.statistics_from)}};
+}
+
+Json timings(const Timings& t) {
+  return {{"read", number(t.read)},     {"mesh", number(t.mesh)},   {"assembly", number(t.assembly)},
+          {"modes", number(t.modes)},   {"basis", number(t.basis)}, {"transient", number(t.transient)},
+          {"output", number(t.output)}, {"total", number(t.total)}};
+}
+
+void add_transient(Json& out, const RunResults& results) {
+  assert(results.contact_summaries.size() == results.contacts.size());
+  assert(results.node_summaries.size() == results.node_names.size());
+  const TransientTotals totals = add_up(results.transients);
+  out["contacts"] = Json::array();
+  for (std::size_t c = 0; c < results.contacts.size(); ++c)
+    out["contacts"].push_back(contact(results.contacts[c].name, results.contact_summaries[c]));
+  out["nodes"] = Json::array();
+  for (std::size_t n = 0; n < results.node_names.size(); ++n)
+    out["nodes"].push_back(node(results.node_names[n], results.node_summaries[n]));
+  out["energy"] = energy(totals.energy);
+  out["transient"] = transient(totals, results);
+}
+
+} // namespace
+
+void write_summary(const std::filesystem::path& file, const RunResults& results) {
+  const RunRecord& record = results.record;
+  Json out{{"version", record.version}, {"study", record.title}, {"ranks", record.ranks}};
+  out["seed"] = record.seeds.empty() ? Json(nullptr) : Json(record.seeds.front());
+  out["seeds"] = record.seeds;
+  out["input_sha256"] = record.input_sha256;
+  out["model"] = model(results.model);
+  out["modes"] = modes(results.bases);
+  if (!results.transients.empty())
+    add_transient(out, results);
+  out["timings_s"] = timings(results.timings);
+  out["warnings"] = all_warnings(results);
+  out["libraries"] = record.libraries;
+  out["vector_width"] = record.vector_width;
+  // a title may come from a file of another encoding: what is not UTF-8 is replaced, the summary is written
+  // all the same
+  write_text(file, out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+}
+
+} // namespace fretwork::results

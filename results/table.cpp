@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/totals.hpp"
+#include "results/write.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <iterator>
+#include <numeric>
+
+namespace fretwork::results {
+namespace {
+
+constexpr std::size_t text_width = 84;    // of what follows the labels: about 100 columns in all
+constexpr std::size_t name_width = 20;    // of a contact
+constexpr std::size_t most_contacts = 12; // shown one by one; of more, the ten with the largest work rate
+constexpr std::size_t most_frequencies = 8;
+constexpr std::size_t most_warnings = 6;
+
+/// Lines with a label in the first column: `  label      text`.
+class Lines {
+public:
+  void add(const std::string& label, const std::string& text) {
+    const std::vector<std::string> parts = wrapped(text);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      row(i == 0 ? label : "", parts[i]);
+  }
+  void row(const std::string& label, const std::string& text) {
+    text_ += fmt::format("  {:<11} {}\n", label, text);
+  }
+  void plain(const std::string& line) { text_ += line + '\n'; }
+  [[nodiscard]] std::string text() && { return std::move(text_); }
+
+private:
+  static std::vector<std::string> wrapped(const std::string& text) {
+    std::vector<std::string> lines(1);
+    for (std::size_t at = 0; at < text.size();) {
+      const std::size_t end = std::min(text.find(' ', at), text.size());
+      const std::string word = text.substr(at, end - at);
+      if (!lines.back().empty() && lines.back().size() + 1 + word.size() > text_width)
+        lines.emplace_back();
+      lines.back() += (lines.back().empty() ? "" : " ") + word;
+      at = end + 1;
+    }
+    return lines;
+  }
+  std::string text_;
+};
+
+/// 12 345 678
+std::string grouped(std::int64_t count) {
+  std::string digits = std::to_string(count);
+  for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3)
+    digits.insert(static_cast<std::size_t>(at), 1, ' ');
+  return digits;
+}
+
+/// The first characters of a name, "..." where it goes on; never half of a UTF-8 character.
+std::string shortened(const std::string& name) {
+  if (name.size() <= name_width)
+    return name;
+  std::size_t end = name_width - 3;
+  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80)
+    --end;
+  return name.substr(0, end) + "...";
+}
+
+std::string modes_text(const std::vector<modal::Basis>& bases) {
+  const std::vector<ModeOf> modes = sorted_modes(bases);
+  if (modes.empty())
+    return "none";
+  std::string text = fmt::format("{}", modes.size());
+  if (bases.size() > 1)
+    text += fmt::format(" of {} structures", bases.size());
+  text += ":";
+  for (std::size_t k = 0; k < std::min(most_frequencies, modes.size()); ++k)
+    text += fmt::format(" {:.5g}", modes[k].frequency);
+  if (modes.size() > most_frequencies)
+    text += fmt::format(" ... {:.5g}", modes.back().frequency);
+  double residual = 0.0;
+  for (const modal::Basis& basis : bases)
+    residual = basis.size() > 0 ? std::max(residual, basis.residuals.maxCoeff()) : residual;
+  return text + fmt::format(" Hz (largest residual {:.0e})", residual);
+}
+
+std::string contact_row(const std::string& name, const post::ContactSummary& c) {
+  return fmt::format("  {:<20} {:>8} {:>8.2f} {:>9.3g} {:>9.3g} {:>9.3g} {:>9.4g} {:>10.3g} {:>10.3g}",
+                     shortened(name), grouped(c.impacts), 100.0 * c.contact_time_ratio, c.normal_rms,
+                     c.normal_max, c.tangential_max, 1e6 * c.radial_max, c.work_rate, c.friction_power);
+}
+
+void add_contacts(Lines& lines, const RunResults& results) {
+  const auto& all = results.contact_summaries;
+  std::vector<std::size_t> shown(all.size());
+  std::iota(shown.begin(), shown.end(), std::size_t{0});
+  if (all.size() > most_contacts) {
+    std::stable_sort(shown.begin(), shown.end(),
+                     [&](std::size_t a, std::size_t b) { return all[a].work_rate > all[b].work_rate; });
+    shown.resize(10);
+  }
+  lines.plain("");
+  lines.plain(fmt::format("  {:<20} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>10} {:>10}", "contact", "impacts",
+                          "closed %", "FN rms N", "FN max N", "FT max N", "r max um", "work W",
+                          "friction W"));
+  for (const std::size_t c : shown)
+    lines.plain(contact_row(results.contacts[c].name, all[c]));
+  if (shown.size() < all.size())
+    lines.plain(fmt::format("  the 10 of {} contacts with the largest work rate", all.size()));
+  if (all.size() > 1) {
+    std::int64_t impacts = 0;
+    double work = 0.0, friction = 0.0;
+    for (const post::ContactSummary& c : all) {
+      impacts += c.impacts;
+      work += c.work_rate;
+      friction += c.friction_power;
+    }
+    lines.plain(fmt::format("  {:<20} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>10.3g} {:>10.3g}",
+                            "all contacts", grouped(impacts), "", "", "", "", "", work, friction));
+  }
+  lines.plain("");
+}
+
+std::string energy_text(const EnergyTotals& e) {
+  return fmt::format(
+      "input {:.4g} J = stored {:.4g} + modal damping {:.4g} + contact damping {:.4g} + friction {:.4g}; "
+      "balanced to {:.1e}",
+      e.input, e.stored, e.modal_damping, e.contact_damping, e.friction, e.residual_relative);
+}
+
+void add_transient(Lines& lines, const RunResults& results) {
+  const TransientTotals t = add_up(results.transients);
+  const std::string step = t.step_max > t.step_min ? fmt::format("{:.3g} to {:.3g}", t.step_min, t.step_max)
+                                                   : fmt::format("{:.3g}", t.step_min);
+  lines.add("transient",
+            fmt::format("{:.6g} s, statistics from {:.6g} s; {}, {} steps of {} s", results.duration,
+                        results.statistics_from, t.scheme, grouped(t.steps), step));
+  lines.add("step", t.step_reason);
+  if (t.diverged)
+    lines.add("DIVERGED",
+              fmt::format("at {:.6g} s: the numbers below are of no use; take a smaller step", t.end_time));
+  if (t.unconverged > 0)
+    lines.add("contacts", fmt::format("{} of {} steps missed the tolerance of the contact forces",
+                                      grouped(t.unconverged), grouped(t.steps)));
+  if (!results.contact_summaries.empty())
+    add_contacts(lines, results);
+  lines.add("energy", energy_text(t.energy));
+}
+
+void add_warnings(Lines& lines, const std::vector<std::string>& warnings) {
+  for (std::size_t i = 0; i < std::min(most_warnings, warnings.size()); ++i)
+    lines.add("warning", warnings[i]);
+  if (warnings.size() > most_warnings)
+    lines.add("", fmt::format("and {} more in summary.json", warnings.size() - most_warnings));
+}
+
+std::string timings_text(const RunResults& results) {
+  const Timings& t = results.timings;
+  std::string text = fmt::format("{:.3g} s", t.total);
+  const char* separator = ": ";
+  const std::pair<const char*, double> stages[] = {
+      {"reading", t.read}, {"mesh", t.mesh},           {"matrices", t.assembly}, {"modes", t.modes},
+      {"basis", t.basis},  {"transient", t.transient}, {"output", t.output}};
+  for (const auto& [name, seconds] : stages)
+    if (seconds >= 0.01 * t.total && seconds > 0.0) {
+      text += fmt::format("{}{} {:.2g}", separator, name, seconds);
+      separator = ", ";
+    }
+  return text + (results.record.ranks > 1 ? fmt::format(" ({} ranks)", results.record.ranks) : "");
+}
+
+} // namespace
+
+std::string terminal_table(const RunResults& results, const std::filesystem::path& directory) {
+  Lines lines;
+  if (!results.record.title.empty())
+    lines.plain(results.record.title);
+  const ModelFacts& m = results.model;
+  lines.add("model", fmt::format("{} nodes, {} beams, {} free dofs, {:.4g} kg", grouped(m.nodes),
+                                 grouped(m.elements), grouped(m.dofs), m.mass_kg));
+  lines.add("modes", modes_text(results.bases));
+  if (!results.transients.empty())
+    add_transient(lines, results);
+  add_warnings(lines, all_warnings(results));
+  lines.add("time", timings_text(results));
+  if (!directory.empty())
+    lines.row("results", directory.string());
+  return std::move(lines).text();
+}
+
+} // namespace fretwork::results

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/text_file.hpp"
+#include "core/error.hpp"
+#include "results/write.hpp"
+#include <fmt/format.h>
+#include <fstream>
+
+namespace fretwork::results {
+
+void write_text(const std::filesystem::path& file, std::string_view text) {
+  write_whole(file, [&](const std::filesystem::path& part) {
+    std::ofstream out(part, std::ios::binary);
+    out.write(text.data(), static_cast<std::streamsize>(text.size()));
+    out.close();
+    if (!out)
+      throw core::Error(fmt::format(
+          "{}: cannot be written; check the folder, its permissions and the space left", file.string()));
+  });
+}
+
+std::string path_name(std::string_view name) {
+  std::string out;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(name[i]);
+    const bool plain = byte >= 0x20 && byte != 0x7f && byte != '/' && byte != '%' && !(i == 0 && byte == '.');
+    if (plain)
+      out += name[i];
+    else
+      out += fmt::format("%{:02X}", byte);
+  }
+  return out;
+}
+
+} // namespace fretwork::results

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/totals.hpp"
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace fretwork::results {
+
+std::vector<ModeOf> sorted_modes(const std::vector<modal::Basis>& bases) {
+  std::vector<ModeOf> modes;
+  for (std::size_t s = 0; s < bases.size(); ++s)
+    for (Eigen::Index k = 0; k < bases[s].size(); ++k)
+      modes.push_back({s, k, bases[s].omega(k) / (2.0 * std::numbers::pi)});
+  std::stable_sort(modes.begin(), modes.end(),
+                   [](const ModeOf& a, const ModeOf& b) { return a.frequency < b.frequency; });
+  return modes;
+}
+
+TransientTotals add_up(const std::vector<TransientFacts>& transients) {
+  assert(!transients.empty());
+  TransientTotals sum;
+  std::vector<std::string> schemes;
+  sum.end_time = transients[0].report.end_time;
+  for (const auto& [choice, report] : transients) {
+    const std::string scheme = transient::name_of(choice.scheme);
+    if (std::find(schemes.begin(), schemes.end(), scheme) == schemes.end()) {
+      sum.scheme += (schemes.empty() ? "" : ", ") + scheme;
+      schemes.push_back(scheme);
+    }
+    sum.steps += report.steps;
+    sum.evaluations += report.evaluations;
+    sum.unconverged += report.unconverged;
+    if (sum.step_min == 0.0 || choice.step < sum.step_min) {
+      sum.step_min = choice.step;
+      sum.step_reason = choice.reason;
+    }
+    sum.step_max = std::max(sum.step_max, choice.step);
+    sum.contact_frequency = std::max(sum.contact_frequency, choice.contact_frequency);
+    sum.diverged = sum.diverged || report.outcome == transient::Outcome::diverged;
+    sum.end_time = std::min(sum.end_time, report.end_time);
+    const transient::Energy& e = report.energy;
+    sum.energy.initial += e.initial;
+    sum.energy.input += e.initial + e.load_work;
+    sum.energy.stored += e.stored;
+    sum.energy.modal_damping += e.modal_damping;
+    sum.energy.contact_damping += e.contact_damping;
+    sum.energy.friction += e.friction;
+    // a NaN must stay: std::max would drop it
+    if (!std::isnan(sum.energy.residual_relative) &&
+        !(report.residual_relative <= sum.energy.residual_relative))
+      sum.energy.residual_relative = report.residual_relative;
+  }
+  return sum;
+}
+
+std::vector<std::string> all_warnings(const RunResults& results) {
+  std::vector<std::string> out;
+  const auto add = [&](const std::string& warning) {
+    if (std::find(out.begin(), out.end(), warning) == out.end())
+      out.push_back(warning);
+  };
+  for (const std::string& warning : results.warnings)
+    add(warning);
+  for (const TransientFacts& transient : results.transients)
+    for (const std::string& warning : transient.choice.warnings)
+      add(warning);
+  return out;
+}
+
+} // namespace fretwork::results

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The run as a whole: what the structures' modes and transients give together.
+#pragma once
+#include "results/run_results.hpp"
+
+namespace fretwork::results {
+
+/// A mode among those of all structures.
+struct ModeOf {
+  std::size_t structure;
+  Eigen::Index mode;
+  double frequency; ///< Hz
+};
+
+/// All modes by ascending frequency; equal ones by structure.
+[[nodiscard]] std::vector<ModeOf> sorted_modes(const std::vector<modal::Basis>& bases);
+
+/// Energies in J over the whole run: input = stored + modal_damping + contact_damping + friction + residual.
+struct EnergyTotals {
+  double initial = 0.0; ///< in the structure at t = 0
+  double input = 0.0;   ///< initial + work of the loads
+  double stored = 0.0, modal_damping = 0.0, contact_damping = 0.0, friction = 0.0;
+  double residual_relative = 0.0; ///< the largest of the structures (not finite where one of them is not)
+  [[nodiscard]] double residual() const {
+    return input - stored - modal_damping - contact_damping - friction;
+  }
+};
+
+struct TransientTotals {
+  std::string scheme; ///< names joined by ", " where structures differ
+  std::int64_t steps = 0, evaluations = 0, unconverged = 0;
+  double step_min = 0.0, step_max = 0.0; ///< s
+  std::string step_reason;               ///< of the smallest step
+  double contact_frequency = 0.0;        ///< rad/s, the highest
+  bool diverged = false;                 ///< any of them
+  double end_time = 0.0;                 ///< s, the earliest
+  EnergyTotals energy;
+};
+
+/// @param transients at least one
+[[nodiscard]] TransientTotals add_up(const std::vector<TransientFacts>& transients);
+
+/// Warnings of the run and of the choice of steps, each once.
+[[nodiscard]] std::vector<std::string> all_warnings(const RunResults& results);
+
+} // namespace fretwork::results
