@@ -139,7 +139,7 @@ PetscMatrix factorise(Mat matrix, bool chain) {
   FW_PETSC(MatGetFactor(matrix, ranks == 1 ? MATSOLVERPETSC : MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &handle));
   PetscMatrix factor(handle);
   if (ranks > 1)
-    FW_PETSC(MatMumpsSetIcntl(handle, 13, 1)); // no ScaLAPACK at the root: it hides the signs of the pivots
+    FW_PETSC(MatMumpsSetIcntl(handle, 13, 1)); // no ScaLAPACK at the root: it hides the signs of its pivots
   Ordering ordering;
   FW_PETSC(
       MatGetOrdering(matrix, chain ? MATORDERINGNATURAL : MATORDERINGND, &ordering.row, &ordering.column));

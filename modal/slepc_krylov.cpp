@@ -209,8 +209,8 @@ std::string KrylovModes::what() const {
 
 int KrylovModes::below(double s) const {
   const fem::PetscMatrix factor = fem::factorise(shifted(system_, s).get(), chain_);
-  PetscInt negative = 0, zero = 0, positive = 0;
-  FW_PETSC(MatGetInertia(factor.get(), &negative, &zero, &positive));
+  PetscInt negative = 0;
+  FW_PETSC(MatGetInertia(factor.get(), &negative, nullptr, nullptr));
   return static_cast<int>(negative);
 }
 
