@@ -19,8 +19,8 @@ void write_whole(const fs::path& file, const std::function<void(const fs::path&)
     fs::create_directories(file.parent_path(), failure);
   if (failure)
     refuse(failure.message());
-  fs::path part = file;
-  part += ".part";
+  fs::path part = file; // the ending stays: some writers choose the format by it
+  part.replace_extension(".part" + file.extension().string());
   try {
     write(part);
   } catch (...) {

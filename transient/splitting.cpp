@@ -182,18 +182,22 @@ private:
         if (near_[c] != 0.0)
           stored += meet(c);
     relax_open();
-    double work = 0.0;
+    double work = 0.0, jump = 0.0;
     if (!shut_.empty()) {
+      before_ = w_;
       solve_forces();
-      for (const int c : shut_)
+      for (const int c : shut_) {
         work += close(c);
+        jump += velocity_jump(c);
+      }
       kernels::scatter(contacts_.padded_modes, static_cast<int>(row_.size()), row_.data(), factor_.data(), v_.data());
     }
-    // the record stands in the middle of the action: half of its work and of its losses belong to it
+    // The record stands in the middle of the action: half of its losses belong to it, and its velocity is (v- + v+)/2, whose energy is
+    // moving + work/2 - (h^2/8) f.W.f.
     Energy& energy = record_.energy;
     energy.contact_damping = contact_damping_ + 0.5 * step_damping_;
     energy.friction = friction_ + 0.5 * step_friction_;
-    energy.stored = moving_ + 0.5 * work + stored + 0.5 * (springs_before + springs_);
+    energy.stored = moving_ + 0.5 * work - 0.25 * jump + stored + 0.5 * (springs_before + springs_);
     contact_damping_ += step_damping_;
     friction_ += step_friction_;
     step_damping_ = step_friction_ = 0.0;
@@ -372,6 +376,14 @@ private:
     return work;
   }
 
+  /// h f.(w - B v-) of one contact; over all contacts (h^2/2) f.W.f.
+  [[nodiscard]] double velocity_jump(int c) const {
+    const ContactState& s = states_[c];
+    const auto change = [&](int component) { return w_[component * contacts_.width + c] - before_[component * contacts_.width + c]; };
+    const double along_x = contacts_.components == 3 ? s.friction.x * change(2) : 0.0;
+    return h_ * ((s.normal_force * s.ny + s.friction.t * s.nz) * change(0) + (s.normal_force * s.nz - s.friction.t * s.ny) * change(1) + along_x);
+  }
+
   void remember(int c) {
     if (std::find(remembering_.begin(), remembering_.end(), c) == remembering_.end())
       remembering_.push_back(c);
@@ -407,7 +419,7 @@ private:
   std::int64_t steps_ = 0, unconverged_ = 0;
   double time_ = 0.0;
   kernels::Array q_, v_, k_, f_now_, f_next_;
-  kernels::Array u_, w_, near_; ///< contact lanes: displacement, velocity
+  kernels::Array u_, w_, before_, near_; ///< contact lanes: displacement; velocity, mean and before the action
   std::vector<ContactState> states_;
   std::vector<Working> working_;
   std::vector<Memory> memory_;

@@ -12,6 +12,7 @@ namespace fretwork::transient {
 namespace {
 
 constexpr double least_steps = 100.0;          ///< per run
+constexpr double least_contact_steps = 20000;  ///< per run with contacts: they take milliseconds, and single impacts come out to 1e-4
 constexpr double points_per_period = 20.0;     ///< of the excitation
 constexpr double resolved = 1.0;               ///< above this value of w_c h statistics are wrong however stable the run (doc/schemes.md)
 
@@ -123,8 +124,9 @@ StepChoice choose_step(const Scene& scene, const StepOptions& options) {
     return c;
   }
   const double eps = 0.5 * std::sqrt(options.accuracy / 0.01);
-  c.step = scene.duration / least_steps;
-  c.reason = "a hundredth of the duration";
+  const double least = scene.contacts.empty() ? least_steps : least_contact_steps;
+  c.step = scene.duration / least;
+  c.reason = fmt::format("a run has at least {} steps", least);
   if (const double limit = c.excitation > 0.0 ? 1.0 / (points_per_period * c.excitation) : c.step; limit < c.step) {
     c.step = limit;
     c.reason = fmt::format("a twentieth of the shortest period of the excitation ({:.4g} Hz)", c.excitation);

@@ -3,7 +3,8 @@
 /// The time step and its reason.
 ///
 ///     h = eps min{ 1/w_c, 1/w_t, a/r_t, b/w_max },  eps = 0.5 sqrt(accuracy / 0.01)
-/// over the terms that exist, never above duration/100 nor 1/20 of the shortest period of the excitation:
+/// over the terms that exist, never above 1/20 of the shortest period of the excitation nor duration/100, with contacts duration/20000
+/// (so many steps take milliseconds):
 ///     w_c    contact frequency: w_c^2 = largest eigenvalue of K_N^1/2 W K_N^1/2, W = B B^T over all normal directions of all contacts
 ///     w_t    the same with K_T over the tangent directions
 ///     r_t    rate of the tangential dampers, largest eigenvalue of C_T^1/2 W C_T^1/2
