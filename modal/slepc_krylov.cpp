@@ -22,6 +22,11 @@ constexpr int reserve = 4;
 /// many.
 constexpr int search_rounds = 8;
 
+/// More modes than this are searched interval by interval on one rank.
+constexpr int largest_space = 120;
+/// An interval may hold a share of 1 / 8 more modes than asked.
+constexpr int slice_slack = 8;
+
 /// Owners of the PETSc objects used here.
 struct Solver {
   EPS handle = nullptr;
@@ -241,6 +246,42 @@ Pairs KrylovModes::solve(int count, const Eigen::MatrixXd& deflated, int start) 
   return sorted(gather(eps, k));
 }
 
+/// All elastic modes up to a limit that has at least `count` below it, interval by interval of the spectrum:
+/// many small Krylov spaces instead of one large one, whose orthogonalisation would cost the square of
+/// `count`.
+Pairs KrylovModes::slice(int count) const {
+  const int rigid = static_cast<int>(rigid_.cols()), most = rigid + count + count / slice_slack;
+  double low = eigenvalue_scale(model_, structure_), high = low;
+  while (below(high) < rigid + count) {
+    high *= 4.0;
+    if (!std::isfinite(high))
+      throw core::ComputationError(
+          fmt::format("{}: it has fewer than {} modes (masses without inertia on massless beams?); "
+                      "ask for fewer ([modes] count)",
+                      what(), count));
+  }
+  while (below(low) > rigid)
+    low /= 4.0;
+  for (double from = low; below(high) > most;) {
+    const double middle = std::sqrt(from * high); // evenly in octaves
+    (below(middle) < rigid + count ? from : high) = middle;
+    if (high - from < cluster_gap * high)
+      break; // one cluster holds all that are too many
+  }
+  Solver solver;
+  FW_PETSC(EPSCreate(comm_, &solver.handle));
+  EPS eps = solver.handle;
+  FW_PETSC(EPSSetOperators(eps, system_.stiffness.get(), system_.mass.get()));
+  FW_PETSC(EPSSetProblemType(eps, EPS_GHEP));
+  FW_PETSC(EPSSetType(eps, EPSKRYLOVSCHUR));
+  FW_PETSC(EPSSetWhichEigenpairs(eps, EPS_ALL));
+  FW_PETSC(EPSSetInterval(eps, low, high));
+  FW_PETSC(EPSSetTolerances(eps, tolerance, PETSC_DEFAULT));
+  set_factorisation(eps, system_.stiffness.get(), low, chain_);
+  FW_PETSC(EPSSolve(eps));
+  return sorted(gather(eps, system_.stiffness.get()));
+}
+
 Pairs KrylovModes::complete(Pairs pairs, int count) const {
   for (int round = 1;; ++round) {
     const std::vector<Eigen::Index> ends = cluster_ends(pairs.lambda, 0);
@@ -264,8 +305,12 @@ Pairs KrylovModes::complete(Pairs pairs, int count) const {
 }
 
 Pairs KrylovModes::lowest(int count) const {
+  int ranks = 1;
+  MPI_Comm_size(comm_, &ranks);
+  const bool can_slice = chain_ && ranks == 1;
   for (int asked = count + reserve;; asked *= 2) {
-    Pairs pairs = complete(solve(asked, rigid_, 0), count);
+    Pairs pairs =
+        complete(can_slice && asked > largest_space ? slice(asked) : solve(asked, rigid_, 0), count);
     if (pairs.lambda.size() > 0)
       return pairs;
     if (3 * asked > massive_)

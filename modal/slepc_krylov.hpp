@@ -28,6 +28,7 @@ public:
 
 private:
   [[nodiscard]] Pairs solve(int count, const Eigen::MatrixXd& deflated, int start) const;
+  [[nodiscard]] Pairs slice(int count) const;
   [[nodiscard]] Pairs complete(Pairs pairs, int count) const;
   [[nodiscard]] std::string what() const;
 

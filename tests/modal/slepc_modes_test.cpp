@@ -126,6 +126,22 @@ TEST(Modes, OfAFineMeshKeepTheirDigits) {
                   1e-9);
 }
 
+TEST(Modes, AreTheSameWhenManyAreWanted) {
+  for (const bool free : {false, true}) {
+    ModelBuilder b;
+    b.line({0, 0, 0}, {2, 0.5, 0}, 200, b.property(tube_property()));
+    b.fix(0, free ? 0u : unsigned{all});
+    const auto few = solve(b.model, 60),
+               many = solve(b.model, 170); // one Krylov space, and intervals of the spectrum
+    ASSERT_EQ(many.size(), 170);
+    EXPECT_LT((many.omega.head(60) - few.omega).cwiseAbs().maxCoeff(), 1e-10 * few.omega[59]);
+    EXPECT_LT((many.shapes.leftCols(60) - few.shapes).cwiseAbs().maxCoeff(),
+              1e-7 * few.shapes.cwiseAbs().maxCoeff());
+    EXPECT_LT(many.orthogonality, orthonormal);
+    EXPECT_EQ((many.omega.array() == 0.0).count(), free ? 6 : 0);
+  }
+}
+
 TEST(Modes, OfATooFineMeshAreRefused) {
   EXPECT_THROW((void)solve(pinned_tube(30000).model, 4), core::ComputationError);
 }
