@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Installs what is missing of the packages named in tools/packages.txt and on the command line (as root, or through sudo).
+set -euo pipefail
+cd "$(dirname "$0")/.."
+wanted=$(grep -v '^#' tools/packages.txt; printf '%s\n' "$@")
+missing=()
+for package in $wanted; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+done
+[ ${#missing[@]} -eq 0 ] && exit 0
+as_root=
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || { echo "these packages are missing and need root: ${missing[*]}" >&2; exit 1; }
+  as_root=sudo
+fi
+echo "installing: ${missing[*]}"
+$as_root apt-get update -qq
+$as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null

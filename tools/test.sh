@@ -1,0 +1,8 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# All tests on a fresh Debian 12 machine: installs what is missing, builds, tests.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+tools/install_packages.sh
+tools/build.sh release
+ctest --preset release -j "$(nproc)" "$@"
