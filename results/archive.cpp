@@ -52,12 +52,20 @@ ContactFacts read_facts(const h5::Group& group) {
   return c;
 }
 
-void write_series(const h5::Group& group, const post::ContactSeries& s) {
-  write_matrix(group, "displacement", s.displacement, "m");
-  write_matrix(group, "velocity", s.velocity, "m/s");
-  write_vector(group, "gap", s.gap, "m");
-  write_vector(group, "normal_force", s.normal_force, "N");
-  write_matrix(group, "tangential_force", s.tangential_force, "N");
+/// The first `nt` outputs: where one structure's run diverged, the others' series go further than the common
+/// time.
+void write_series(const h5::Group& group, const post::ContactSeries& s, Eigen::Index nt) {
+  write_matrix(group, "displacement", s.displacement.topRows(nt), "m");
+  write_matrix(group, "velocity", s.velocity.topRows(nt), "m/s");
+  write_vector(group, "gap", s.gap.head(nt), "m");
+  write_vector(group, "normal_force", s.normal_force.head(nt), "N");
+  write_matrix(group, "tangential_force", s.tangential_force.topRows(nt), "N");
+}
+
+void write_series(const h5::Group& group, const post::NodeSeries& s, Eigen::Index nt) {
+  write_matrix(group, "displacement", s.displacement.topRows(nt), "m");
+  write_matrix(group, "velocity", s.velocity.topRows(nt), "m/s");
+  write_matrix(group, "acceleration", s.acceleration.topRows(nt), "m/s2");
 }
 
 /// A child group that carries its name and its place among its like: HDF5 lists groups by name, with "/" as a
@@ -89,7 +97,7 @@ void write_contacts(const h5::Group& root, const RunResults& results) {
     write_facts(group, facts, results.nodes.at(static_cast<std::size_t>(facts.node)));
     for (const post::ContactSeries& series : results.series.contacts)
       if (series.name == facts.name)
-        write_series(group, series);
+        write_series(group, series, results.series.time.size());
   }
 }
 
@@ -99,12 +107,8 @@ void write_transient(const h5::Group& root, const RunResults& results) {
   root.set("statistics_from", results.statistics_from);
   write_vector(root, "time", series.time, "s");
   const h5::Group nodes = root.create("nodes");
-  for (std::size_t n = 0; n < series.nodes.size(); ++n) {
-    const h5::Group group = create_named(nodes, series.nodes[n].name, n);
-    write_matrix(group, "displacement", series.nodes[n].displacement, "m");
-    write_matrix(group, "velocity", series.nodes[n].velocity, "m/s");
-    write_matrix(group, "acceleration", series.nodes[n].acceleration, "m/s2");
-  }
+  for (std::size_t n = 0; n < series.nodes.size(); ++n)
+    write_series(create_named(nodes, series.nodes[n].name, n), series.nodes[n], series.time.size());
   const h5::Group modal = root.create("modal");
   // one output is a column in memory: [nt, n] as HDF5 sees it, no copy
   const auto write = [&](const char* name, const Eigen::MatrixXd& values, const char* units) {

@@ -137,6 +137,7 @@ void write_summary(const std::filesystem::path& file, const RunResults& results)
     add_transient(out, results);
   out["timings_s"] = timings(results.timings);
   out["warnings"] = all_warnings(results);
+  out["notes"] = results.notes;
   out["libraries"] = record.libraries;
   out["vector_width"] = record.vector_width;
   // a title may come from a file of another encoding: what is not UTF-8 is replaced, the summary is written

@@ -10,11 +10,12 @@
 namespace fretwork::results {
 namespace {
 
-constexpr std::size_t text_width = 84;    // of what follows the labels: about 100 columns in all
+constexpr std::size_t text_width = 88;    // of what follows the labels: about 100 columns in all
 constexpr std::size_t name_width = 20;    // of a contact
 constexpr std::size_t most_contacts = 12; // shown one by one; of more, the ten with the largest work rate
 constexpr std::size_t most_frequencies = 8;
-constexpr std::size_t most_warnings = 6;
+constexpr std::size_t most_warnings = 5;
+constexpr std::size_t most_notes = 3;
 
 /// Lines with a label in the first column: `  label      text`.
 class Lines {
@@ -145,11 +146,12 @@ void add_transient(Lines& lines, const RunResults& results) {
   lines.add("energy", energy_text(t.energy));
 }
 
-void add_warnings(Lines& lines, const std::vector<std::string>& warnings) {
-  for (std::size_t i = 0; i < std::min(most_warnings, warnings.size()); ++i)
-    lines.add("warning", warnings[i]);
-  if (warnings.size() > most_warnings)
-    lines.add("", fmt::format("and {} more in summary.json", warnings.size() - most_warnings));
+void add_messages(Lines& lines, const std::string& label, const std::vector<std::string>& messages,
+                  std::size_t most) {
+  for (std::size_t i = 0; i < std::min(most, messages.size()); ++i)
+    lines.add(label, messages[i]);
+  if (messages.size() > most)
+    lines.add("", fmt::format("and {} more in summary.json", messages.size() - most));
 }
 
 std::string timings_text(const RunResults& results) {
@@ -179,7 +181,8 @@ std::string terminal_table(const RunResults& results, const std::filesystem::pat
   lines.add("modes", modes_text(results.bases));
   if (!results.transients.empty())
     add_transient(lines, results);
-  add_warnings(lines, all_warnings(results));
+  add_messages(lines, "warning", all_warnings(results), most_warnings);
+  add_messages(lines, "note", results.notes, most_notes);
   lines.add("time", timings_text(results));
   if (!directory.empty())
     lines.row("results", directory.string());

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/error.hpp"
+#include "folder.hpp"
+#include "results/basis_file.hpp"
+#include "results/write.hpp"
+#include "synthetic.hpp"
+#include <chrono>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <thread>
+
+namespace fretwork::results {
+namespace {
+
+using testing::HasSubstr;
+
+RunResults there_and_back(const RunResults& results) {
+  const Folder folder;
+  write_archive(folder / "results.h5", results);
+  return read_archive(folder.path());
+}
+
+TEST(Archive, GivesBackEverySeriesBitForBit) {
+  const RunResults out = made_up({.contacts = 4, .structures = 2}), in = there_and_back(out);
+  EXPECT_EQ(in.series.time, out.series.time);
+  EXPECT_EQ(in.series.modal_displacement, out.series.modal_displacement);
+  EXPECT_EQ(in.series.modal_velocity, out.series.modal_velocity);
+  ASSERT_EQ(in.series.contacts.size(), 4u);
+  for (std::size_t c = 0; c < 4; ++c) {
+    const post::ContactSeries &a = in.series.contacts[c], &b = out.series.contacts[c];
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.displacement, b.displacement);
+    EXPECT_EQ(a.velocity, b.velocity);
+    EXPECT_EQ(a.gap, b.gap);
+    EXPECT_EQ(a.normal_force, b.normal_force);
+    EXPECT_EQ(a.tangential_force, b.tangential_force);
+  }
+  ASSERT_EQ(in.series.nodes.size(), 1u);
+  EXPECT_EQ(in.series.nodes[0].name, "apex");
+  EXPECT_EQ(in.series.nodes[0].displacement, out.series.nodes[0].displacement);
+  EXPECT_EQ(in.series.nodes[0].velocity, out.series.nodes[0].velocity);
+  EXPECT_EQ(in.series.nodes[0].acceleration, out.series.nodes[0].acceleration);
+}
+
+TEST(Archive, GivesBackTheModelAndTheRecord) {
+  const RunResults out = made_up({.structures = 2}), in = there_and_back(out);
+  EXPECT_EQ(in.nodes, out.nodes);
+  EXPECT_EQ(in.lines, out.lines);
+  EXPECT_EQ(in.model.nodes, out.model.nodes);
+  EXPECT_EQ(in.model.elements, out.model.elements);
+  EXPECT_EQ(in.model.dofs, out.model.dofs);
+  EXPECT_EQ(in.model.mass_kg, out.model.mass_kg);
+  EXPECT_EQ(in.record.version, out.record.version);
+  EXPECT_EQ(in.record.title, out.record.title);
+  EXPECT_EQ(in.record.study_text, out.record.study_text);
+  EXPECT_EQ(in.record.input_sha256, out.record.input_sha256);
+  EXPECT_EQ(in.record.seeds, out.record.seeds);
+  EXPECT_EQ(in.record.libraries, out.record.libraries);
+  EXPECT_EQ(in.duration, out.duration);
+  EXPECT_EQ(in.statistics_from, out.statistics_from);
+}
+
+TEST(Archive, GivesBackEveryContactAsItWasSetUp) {
+  RunResults out = made_up();
+  out.contacts[1].axes << 0.0, 0.6, 0.8, 1.0, 0.0, 0.0, 0.0, 0.8, -0.6;
+  out.contacts[1].friction_static = 0.4;
+  out.contacts[1].normal_damping = 7.0;
+  out.contacts[1].tangential_stiffness = 2e6;
+  const RunResults in = there_and_back(out);
+  ASSERT_EQ(in.contacts.size(), out.contacts.size());
+  for (std::size_t c = 0; c < in.contacts.size(); ++c) {
+    const ContactFacts &a = in.contacts[c], &b = out.contacts[c];
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.node, b.node);
+    EXPECT_EQ(a.axes, b.axes);
+    EXPECT_EQ(a.obstacle, b.obstacle);
+    EXPECT_EQ(a.gap, b.gap);
+    EXPECT_EQ(a.rest, b.rest);
+    EXPECT_EQ(a.normal_stiffness, b.normal_stiffness);
+    EXPECT_EQ(a.normal_damping, b.normal_damping);
+    EXPECT_EQ(a.tangential_stiffness, b.tangential_stiffness);
+    EXPECT_EQ(a.tangential_damping, b.tangential_damping);
+    EXPECT_EQ(a.friction_static, b.friction_static);
+    EXPECT_EQ(a.friction_dynamic, b.friction_dynamic);
+  }
+}
+
+TEST(Archive, KeepsTheOrderOfContactsAndNamesWithSlashes) {
+  RunResults out = made_up({.contacts = 12});
+  out.contacts[0].name = out.series.contacts[0].name = "z/first";
+  out.contacts[1].name = out.series.contacts[1].name = "z%2Ffirst";
+  const RunResults in = there_and_back(out);
+  for (std::size_t c = 0; c < 12; ++c) {
+    EXPECT_EQ(in.contacts[c].name, out.contacts[c].name);
+    EXPECT_EQ(in.series.contacts[c].displacement, out.series.contacts[c].displacement);
+  }
+}
+
+TEST(Archive, HasTheLayoutOfTheContract) {
+  const Folder folder;
+  write_archive(folder / "results.h5", made_up({.contacts = 2, .outputs = 50, .modes = 4, .elements = 10}));
+  const h5::Group root = h5::Group::open_file(folder / "results.h5");
+  EXPECT_EQ(root.shape("time"), (h5::Shape{50}));
+  const h5::Group contact = root.open("contacts").open("tsp1");
+  EXPECT_EQ(contact.shape("displacement"), (h5::Shape{50, 3}));
+  EXPECT_EQ(contact.shape("velocity"), (h5::Shape{50, 3}));
+  EXPECT_EQ(contact.shape("gap"), (h5::Shape{50}));
+  EXPECT_EQ(contact.shape("normal_force"), (h5::Shape{50}));
+  EXPECT_EQ(contact.shape("tangential_force"), (h5::Shape{50, 2}));
+  EXPECT_EQ(contact.values<double>("position").size(), 3u);
+  EXPECT_EQ(root.open("nodes").open("apex").shape("acceleration"), (h5::Shape{50, 3}));
+  EXPECT_EQ(root.open("modal").shape("displacement"), (h5::Shape{50, 4}));
+  EXPECT_EQ(root.open("modal").shape("velocity"), (h5::Shape{50, 4}));
+  const h5::Group modes = root.open("modes");
+  EXPECT_EQ(modes.shape("frequency"), (h5::Shape{4}));
+  EXPECT_EQ(modes.shape("damping"), (h5::Shape{4}));
+  EXPECT_EQ(modes.shape("mass"), (h5::Shape{4}));
+  EXPECT_EQ(modes.shape("shapes"), (h5::Shape{4, 11, 6}));
+  EXPECT_EQ(modes.shape("nodes"), (h5::Shape{11}));
+  EXPECT_EQ(root.open("mesh").shape("nodes"), (h5::Shape{11, 3}));
+  EXPECT_EQ(root.open("mesh").shape("lines"), (h5::Shape{10, 2}));
+}
+
+TEST(Archive, OrdersShapesByModeNodeAndDof) {
+  RunResults out = made_up({.outputs = 0, .modes = 2, .elements = 3});
+  for (Eigen::Index k = 0; k < 2; ++k)
+    for (Eigen::Index row = 0; row < 24; ++row)
+      out.bases[0].shapes(row, k) = static_cast<double>(100 * k + row);
+  const Folder folder;
+  write_archive(folder / "results.h5", out);
+  const auto shapes = h5::Group::open_file(folder / "results.h5").open("modes").read<double>("shapes");
+  EXPECT_EQ(shapes[(1 * 4 + 2) * 6 + 5], 117.0); // mode 1, node 2, rz
+}
+
+TEST(Archive, NumbersTheStructuresWhenThereAreSeveral) {
+  const Folder folder;
+  write_archive(folder / "results.h5", made_up({.structures = 3}));
+  const h5::Group modes = h5::Group::open_file(folder / "results.h5").open("modes");
+  EXPECT_EQ(modes.children(), (std::vector<std::string>{"0", "1", "2"}));
+  EXPECT_TRUE(modes.open("2").has("shapes"));
+}
+
+TEST(Archive, HasContactsButNoSeriesWithoutATransient) {
+  const RunResults in = there_and_back(made_up({.contacts = 2, .outputs = 0}));
+  EXPECT_EQ(in.contacts.size(), 2u);
+  EXPECT_TRUE(in.series.contacts.empty());
+  EXPECT_EQ(in.series.time.size(), 0);
+}
+
+TEST(Archive, CompressesLongSeriesWithoutLoss) {
+  RunResults out = made_up({.contacts = 1, .outputs = 60000, .modes = 4});
+  out.series.contacts[0].displacement.setZero();
+  const Folder folder;
+  write_archive(folder / "results.h5", out);
+  const RunResults in = read_archive(folder.path());
+  EXPECT_EQ(in.series.contacts[0].displacement, out.series.contacts[0].displacement);
+  EXPECT_EQ(in.series.contacts[0].velocity, out.series.contacts[0].velocity);
+  const std::size_t plain = 60000 * (1 + 10 + 9 + 8) * sizeof(double); // time, contact, node, modal
+  EXPECT_LT(std::filesystem::file_size(folder / "results.h5"), plain - 60000 * 3 * sizeof(double));
+}
+
+TEST(Archive, HasTheSameBytesForTheSameResultsAtAnotherTime) {
+  const Folder folder;
+  RunResults results = made_up({.structures = 2});
+  write_archive(folder / "results.h5", results);
+  const std::string first = bytes_of(folder / "results.h5");
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // HDF5 would store times in seconds
+  results.timings.total = 77.0;
+  results.record.ranks = 2;
+  results.record.vector_width = "SSE2 (2 doubles)";
+  write_archive(folder / "results.h5", results);
+  EXPECT_EQ(bytes_of(folder / "results.h5"), first);
+  results.series.contacts[2].gap(5) += 1e-12;
+  write_archive(folder / "results.h5", results);
+  EXPECT_NE(bytes_of(folder / "results.h5"), first);
+}
+
+TEST(Archive, KeepsAStudyLongerThanAnObjectHeader) {
+  RunResults out = made_up({.outputs = 0});
+  out.record.study_text = std::string(300000, '#');
+  EXPECT_EQ(there_and_back(out).record.study_text, out.record.study_text);
+}
+
+TEST(Archive, HoldsARunThatWasCutShort) {
+  const RunResults out = made_up({.contacts = 1, .outputs = 1}), in = there_and_back(out);
+  EXPECT_EQ(in.series.time.size(), 1);
+  EXPECT_EQ(in.series.contacts[0].displacement, out.series.contacts[0].displacement);
+}
+
+TEST(Archive, CutsSeriesToTheCommonTimeWhereOneStructureStoppedEarly) {
+  RunResults out = made_up({.contacts = 2, .outputs = 40, .structures = 2});
+  out.series.time.conservativeResize(10);
+  out.series.modal_displacement.conservativeResize(Eigen::NoChange, 10);
+  out.series.modal_velocity.conservativeResize(Eigen::NoChange, 10);
+  const RunResults in = there_and_back(out);
+  EXPECT_EQ(in.series.contacts[1].displacement, out.series.contacts[1].displacement.topRows(10));
+  EXPECT_EQ(in.series.contacts[1].normal_force, out.series.contacts[1].normal_force.head(10));
+  EXPECT_EQ(in.series.nodes[0].velocity, out.series.nodes[0].velocity.topRows(10));
+}
+
+std::string refusal(const std::filesystem::path& directory) {
+  try {
+    (void)read_archive(directory);
+  } catch (const core::Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(Archive, TellsAFolderWithoutResults) {
+  const Folder folder;
+  EXPECT_THAT(refusal(folder.path()), HasSubstr(folder.path().string() + ": there are no results here"));
+}
+
+TEST(Archive, TellsADamagedFile) {
+  const Folder folder;
+  write_archive(folder / "results.h5", made_up());
+  const std::string bytes = bytes_of(folder / "results.h5");
+  for (const std::string& damaged :
+       {bytes.substr(0, bytes.size() / 2), std::string("no HDF5"), std::string()}) {
+    write_bytes(folder / "results.h5", damaged);
+    EXPECT_THAT(refusal(folder.path()), HasSubstr("results.h5: cannot be read"));
+  }
+}
+
+TEST(Archive, TellsAFileOfAnotherProgram) {
+  const Folder folder;
+  h5::Group::create_file(folder / "results.h5").flush();
+  EXPECT_THAT(refusal(folder.path()),
+              HasSubstr("the file is damaged or not of this program; run the study again"));
+}
+
+TEST(Archive, TellsAFolderThatCannotBeWritten) {
+  const Folder folder;
+  write_bytes(folder / "a", "");
+  try {
+    write_archive(folder.path() / "a" / "results.h5", made_up());
+    FAIL() << "written into a file";
+  } catch (const core::Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("results.h5: cannot be written"));
+  }
+}
+
+TEST(Archive, TellsAFileThatHdf5CannotMake) {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "results.part.h5"); // where the new file would grow
+  try {
+    write_archive(folder / "results.h5", made_up());
+    FAIL() << "written into a folder";
+  } catch (const core::Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("results.h5: cannot be written (create "));
+  }
+}
+
+} // namespace
+} // namespace fretwork::results

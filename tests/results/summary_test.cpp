@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "folder.hpp"
+#include "results/write.hpp"
+#include "synthetic.hpp"
+#include <algorithm>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+
+namespace fretwork::results {
+namespace {
+
+using Json = nlohmann::json;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::string text_of(const RunResults& results) {
+  const Folder folder;
+  write_summary(folder / "summary.json", results);
+  return bytes_of(folder / "summary.json");
+}
+
+Json summary_of(const RunResults& results) { return Json::parse(text_of(results)); }
+
+std::set<std::string> keys(const Json& object) {
+  std::set<std::string> out;
+  for (const auto& [key, value] : object.items())
+    out.insert(key);
+  return out;
+}
+
+using Keys = std::set<std::string>;
+
+TEST(Summary, HasTheKeysOfTheContract) {
+  const Json s = summary_of(made_up());
+  EXPECT_EQ(keys(s), (Keys{"version", "study", "ranks", "seed", "seeds", "input_sha256", "model", "modes",
+                           "contacts", "nodes", "energy", "transient", "timings_s", "warnings", "notes",
+                           "libraries", "vector_width"}));
+  EXPECT_EQ(keys(s["model"]), (Keys{"nodes", "elements", "dofs", "mass_kg"}));
+  EXPECT_EQ(keys(s["modes"]),
+            (Keys{"frequencies_hz", "residuals", "damping", "static_modes", "orthogonality", "distributed"}));
+  EXPECT_EQ(keys(s["energy"]), (Keys{"input_J", "initial_J", "stored_J", "modal_damping_J",
+                                     "contact_damping_J", "friction_J", "residual_relative"}));
+  EXPECT_EQ(keys(s["transient"]),
+            (Keys{"scheme", "steps", "rejected", "force_evaluations", "step_min_s", "step_max_s",
+                  "step_reason", "contact_frequency_rad_s", "outcome", "unconverged_steps", "duration_s",
+                  "end_time_s", "statistics_from_s"}));
+  EXPECT_EQ(keys(s["timings_s"]),
+            (Keys{"read", "mesh", "assembly", "modes", "basis", "transient", "output", "total"}));
+}
+
+TEST(Summary, HasTheKeysOfTheContractForAContactAndANode) {
+  const Json s = summary_of(made_up());
+  const Json& c = s["contacts"][0];
+  EXPECT_EQ(keys(c), (Keys{"name", "impacts", "contact_time_ratio", "normal_force", "normal_force_in_contact",
+                           "tangential_force", "displacement", "work_rate", "friction_power",
+                           "impact_velocity", "contact_duration"}));
+  EXPECT_EQ(keys(c["normal_force"]), (Keys{"mean", "rms", "max"}));
+  EXPECT_EQ(keys(c["normal_force_in_contact"]), (Keys{"mean", "rms"}));
+  EXPECT_EQ(keys(c["tangential_force"]), (Keys{"rms", "max"}));
+  EXPECT_EQ(keys(c["displacement"]), (Keys{"y", "z", "radial"}));
+  EXPECT_EQ(keys(c["displacement"]["y"]), (Keys{"mean", "std", "min", "max"}));
+  EXPECT_EQ(keys(c["displacement"]["radial"]), (Keys{"rms", "max"}));
+  EXPECT_EQ(keys(c["impact_velocity"]), (Keys{"mean", "max"}));
+  EXPECT_EQ(keys(c["contact_duration"]), (Keys{"mean", "max"}));
+  EXPECT_EQ(keys(s["nodes"][0]), (Keys{"name", "displacement"}));
+  EXPECT_EQ(keys(s["nodes"][0]["displacement"]), (Keys{"x", "y", "z"}));
+  EXPECT_EQ(keys(s["nodes"][0]["displacement"]["x"]), (Keys{"mean", "std", "min", "max"}));
+}
+
+TEST(Summary, PutsEachStatisticUnderItsName) {
+  RunResults results = made_up();
+  post::ContactSummary& c = results.contact_summaries[1];
+  c = {5,  0.5, 1.0, 2.0,  3.0,  4.0,  5.0,  6.0, 7.0, {8, 9, 10, 11}, {12, 13, 14, 15},
+       16, 17,  18,  0.25, 0.75, 19.0, 20.0, 21.0};
+  c.work_rate = 18;
+  c.friction_power = 18.5;
+  c.impact_velocity_mean = 19;
+  c.impact_velocity_max = 20;
+  c.contact_duration_mean = 21;
+  c.contact_duration_max = 22;
+  EXPECT_EQ(summary_of(results)["contacts"][1], Json::parse(R"({
+    "name": "tsp2", "impacts": 5, "contact_time_ratio": 0.5,
+    "normal_force": {"mean": 1.0, "rms": 2.0, "max": 3.0}, "normal_force_in_contact": {"mean": 4.0, "rms": 5.0},
+    "tangential_force": {"rms": 6.0, "max": 7.0},
+    "displacement": {"y": {"mean": 8.0, "std": 9.0, "min": 10.0, "max": 11.0},
+                     "z": {"mean": 12.0, "std": 13.0, "min": 14.0, "max": 15.0}, "radial": {"rms": 16.0, "max": 17.0}},
+    "work_rate": 18.0, "friction_power": 18.5, "impact_velocity": {"mean": 19.0, "max": 20.0},
+    "contact_duration": {"mean": 21.0, "max": 22.0}})"));
+}
+
+TEST(Summary, HasNoTransientKeysWithoutATransient) {
+  const Keys found = keys(summary_of(made_up({.outputs = 0})));
+  for (const char* absent : {"contacts", "nodes", "energy", "transient"})
+    EXPECT_FALSE(found.contains(absent)) << absent;
+  EXPECT_TRUE(found.contains("modes"));
+}
+
+TEST(Summary, SortsTheModesOfAllStructuresAndSaysWhoseTheyAre) {
+  const Json modes = summary_of(made_up({.structures = 2, .modes = 4}))["modes"];
+  const auto f = modes["frequencies_hz"].get<std::vector<double>>();
+  ASSERT_EQ(f.size(), 8u);
+  EXPECT_TRUE(std::is_sorted(f.begin(), f.end()));
+  EXPECT_EQ(modes["structure"], Json::parse("[0, 0, 1, 1, 0, 0, 1, 1]"));
+  EXPECT_EQ(modes["residuals"].size(), 8u);
+  EXPECT_EQ(modes["damping"].size(), 8u);
+}
+
+TEST(Summary, GivesTheFirstSeedOrNull) {
+  RunResults results = made_up();
+  EXPECT_EQ(summary_of(results)["seed"], 7);
+  EXPECT_EQ(summary_of(results)["seeds"], Json::parse("[7, 18446744073709551615]"));
+  results.record.seeds.clear();
+  EXPECT_TRUE(summary_of(results)["seed"].is_null());
+}
+
+TEST(Summary, AddsTheEnergiesOfTheStructuresAndBalances) {
+  RunResults results = made_up({.structures = 2});
+  results.transients[1].report.residual_relative = 0.5;
+  results.transients[1].choice.step = 1e-5;
+  results.transients[1].choice.reason = "the smaller step";
+  const Json s = summary_of(results);
+  const Json& e = s["energy"];
+  EXPECT_EQ(e["input_J"], 3.25); // twice (0.125 + 1.5)
+  EXPECT_EQ(e["initial_J"], 0.25);
+  EXPECT_EQ(e["stored_J"].get<double>() + e["modal_damping_J"].get<double>() +
+                e["contact_damping_J"].get<double>() + e["friction_J"].get<double>(),
+            3.25); // the made-up energies are sums of powers of two: exact
+  EXPECT_EQ(e["residual_relative"], 0.5);
+  EXPECT_EQ(s["transient"]["steps"], 160000);
+  EXPECT_EQ(s["transient"]["step_min_s"], 1e-5);
+  EXPECT_EQ(s["transient"]["step_max_s"], 2.5e-5);
+  EXPECT_EQ(s["transient"]["step_reason"], "the smaller step");
+  EXPECT_EQ(s["transient"]["outcome"], "done");
+}
+
+TEST(Summary, WritesNullWhereARunDiverged) {
+  RunResults results = made_up({.structures = 2});
+  results.transients[0].report.outcome = transient::Outcome::diverged;
+  results.transients[0].report.energy.stored = nan;
+  results.transients[0].report.residual_relative = nan;
+  results.contact_summaries[0].normal_max = infinity;
+  const std::string text = text_of(results);
+  const Json s = Json::parse(text); // JSON has no NaN: parsing would fail
+  EXPECT_EQ(s["transient"]["outcome"], "diverged");
+  EXPECT_TRUE(s["energy"]["stored_J"].is_null());
+  EXPECT_TRUE(s["energy"]["residual_relative"].is_null());
+  EXPECT_TRUE(s["contacts"][0]["normal_force"]["max"].is_null());
+  for (const char* word : {"nan", "NaN", "inf\n", "Infinity"})
+    EXPECT_EQ(text.find(word), std::string::npos) << word;
+}
+
+TEST(Summary, WritesNumbersThatReadBackTheSame) {
+  RunResults results = made_up();
+  results.model.mass_kg = 0.1 + 0.2;
+  EXPECT_EQ(summary_of(results)["model"]["mass_kg"].get<double>(), 0.1 + 0.2);
+  EXPECT_THAT(text_of(made_up()), testing::HasSubstr("\"mass_kg\": 4.6\n"));
+}
+
+TEST(Summary, NamesEachWarningOnce) {
+  RunResults results = made_up();
+  results.warnings = {"a", "b"};
+  results.transients[0].choice.warnings = {"b", "c"};
+  EXPECT_EQ(summary_of(results)["warnings"], Json::parse(R"(["a", "b", "c"])"));
+}
+
+TEST(Summary, SurvivesATitleThatIsNotUtf8) {
+  RunResults results = made_up();
+  results.record.title = "caf\xe9";
+  EXPECT_EQ(summary_of(results)["study"], "caf\xef\xbf\xbd");
+}
+
+} // namespace
+} // namespace fretwork::results

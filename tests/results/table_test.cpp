@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/write.hpp"
+#include "synthetic.hpp"
+#include <algorithm>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sstream>
+
+namespace fretwork::results {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr std::size_t widest = 104; // columns a person's terminal shows without wrapping, roughly
+constexpr std::size_t longest = 40; // lines that fit a screen
+
+std::vector<std::string> lines(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> out;
+  for (std::string line; std::getline(in, line);)
+    out.push_back(line);
+  return out;
+}
+
+TEST(TerminalTable, FitsAScreen) {
+  RunResults results = made_up({.contacts = 60, .structures = 20, .modes = 40});
+  results.warnings.assign(1, std::string(30, 'w') + " " + std::string(70, 'x') + " " + std::string(60, 'y'));
+  for (int i = 0; i < 30; ++i)
+    results.warnings.push_back("warning number " + std::to_string(i));
+  results.notes = results.warnings;
+  const auto table = lines(terminal_table(results, "folder.results"));
+  EXPECT_LE(table.size(), longest);
+  for (const std::string& line : table)
+    EXPECT_LE(line.size(), widest) << line;
+}
+
+TEST(TerminalTable, ShowsEachOfAFewContactsWithoutATotalOfOne) {
+  const std::string one = terminal_table(made_up({.contacts = 1}));
+  EXPECT_THAT(one, HasSubstr("  tsp1 "));
+  EXPECT_THAT(one, Not(HasSubstr("all contacts")));
+  const std::string many = terminal_table(made_up({.contacts = 12}));
+  EXPECT_THAT(many, HasSubstr("  tsp12 "));
+  EXPECT_THAT(many, HasSubstr("all contacts"));
+}
+
+TEST(TerminalTable, ShowsTheTenContactsThatWearMostOfMany) {
+  RunResults results = made_up({.contacts = 13});
+  for (int c = 0; c < 13; ++c)
+    results.contact_summaries[static_cast<std::size_t>(c)].work_rate = c;
+  const auto table = lines(terminal_table(results));
+  const auto row = [&](const std::string& name) {
+    return std::find_if(table.begin(), table.end(),
+                        [&](const auto& l) { return l.starts_with("  " + name + " "); });
+  };
+  EXPECT_LT(row("tsp13"), row("tsp12"));
+  EXPECT_LT(row("tsp5"), row("tsp4"));
+  EXPECT_NE(row("tsp4"), table.end());
+  EXPECT_EQ(row("tsp3"), table.end());
+  const std::string text = terminal_table(results);
+  EXPECT_THAT(text, HasSubstr("the 10 of 13 contacts with the largest work rate"));
+  EXPECT_THAT(text, HasSubstr("78")); // the total work rate, 0 + 1 + ... + 12
+}
+
+TEST(TerminalTable, NamesStepReasonEnergyWarningsAndFiles) {
+  const std::string text = terminal_table(made_up(), "folder.results");
+  EXPECT_THAT(text, HasSubstr("Straight tube on loose supports\n"));
+  EXPECT_THAT(text, HasSubstr("80 000 steps of 2.5e-05 s"));
+  EXPECT_THAT(text, HasSubstr("0.5 / contact frequency"));
+  EXPECT_THAT(
+      text,
+      HasSubstr("input 1.625 J = stored 0.25 + modal damping 1 + contact damping 0.125 + friction 0.25"));
+  EXPECT_THAT(text, HasSubstr("warning     contact \"tsp2\""));
+  EXPECT_THAT(text, HasSubstr("note        made up"));
+  EXPECT_THAT(text, HasSubstr("folder.results\n"));
+  EXPECT_THAT(text, Not(HasSubstr("DIVERGED")));
+}
+
+TEST(TerminalTable, SaysWhenARunDivergedOrDidNotConverge) {
+  RunResults results = made_up();
+  results.transients[0].report.outcome = transient::Outcome::diverged;
+  results.transients[0].report.end_time = 0.5;
+  results.transients[0].report.unconverged = 1234;
+  const std::string text = terminal_table(results);
+  EXPECT_THAT(text, HasSubstr("DIVERGED    at 0.5 s"));
+  EXPECT_THAT(text, HasSubstr("1 234 of 80 000 steps missed the tolerance"));
+}
+
+TEST(TerminalTable, IsShortWithModesOnly) {
+  const std::string text = terminal_table(made_up({.outputs = 0}));
+  EXPECT_THAT(text, HasSubstr("6: 0.5 0.5 2 2 4.5 4.5 Hz"));
+  for (const char* absent : {"transient   ", "energy", "impacts"})
+    EXPECT_THAT(text, Not(HasSubstr(absent)));
+}
+
+TEST(TerminalTable, CutsLongNamesBetweenCharacters) {
+  RunResults results = made_up();
+  results.contacts[0].name = std::string(16, 'a') + "\xc3\xa9\xc3\xa9\xc3\xa9";
+  EXPECT_THAT(terminal_table(results), HasSubstr("  " + std::string(16, 'a') + "... "));
+}
+
+} // namespace
+} // namespace fretwork::results
