@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <numbers>
 #include <numeric>
 #include <slepceps.h>
 
@@ -297,7 +298,7 @@ Pairs KrylovModes::complete(Pairs pairs, int count) const {
       throw core::ComputationError(
           fmt::format("{}: {} modes found below {:.6g} Hz where there are {}; ask for another number "
                       "([modes] count), or mesh more coarsely",
-                      what(), place, std::sqrt(s) / (2.0 * 3.14159265358979), place + missing));
+                      what(), place, std::sqrt(s) / (2.0 * std::numbers::pi), place + missing));
     Eigen::MatrixXd known(pairs.vectors.rows(), rigid_.cols() + pairs.vectors.cols());
     known << rigid_, pairs.vectors;
     pairs = joined(pairs, solve(missing, known, round));
