@@ -51,6 +51,17 @@ struct Friction {
 /// The law at one instant: what explicit schemes use. `dx` is the tangential displacement since the memory was committed, m.
 [[nodiscard]] Friction evaluate(const FrictionLaw& law, const FrictionMemory& memory, double normal_force, Vec2 dx, Vec2 velocity);
 
+/// The same where nothing moves along x_loc: F on a line.
+[[nodiscard]] inline Friction evaluate_line(const FrictionLaw& law, const FrictionMemory& memory, double normal_force, double dx,
+                                            double velocity) {
+  const double trial = memory.spring.t - law.stiffness * dx - law.damping * velocity;
+  const double bound = (memory.sliding ? law.mu_dynamic : law.mu_static) * normal_force;
+  if (std::abs(trial) <= bound)
+    return {{0.0, trial}, false};
+  const double along = law.kind == FrictionMemoryKind::reference && velocity != 0.0 ? -velocity : trial;
+  return {{0.0, std::copysign(law.mu_dynamic * normal_force, along)}, true};
+}
+
 /// What a law needs of a step of length h, made once.
 struct FrictionTable {
   double gradient;   ///< G h = K_T h/2 + C_T, N s/m: the mean force of a sticking step is T - G h times its mean velocity

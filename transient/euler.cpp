@@ -139,7 +139,10 @@ private:
       }
       const contact::Vec2 velocity{contacts_.components == 3 ? w_[2 * width + c] : 0.0, at.nz * w_[c] - at.ny * w_[width + c]};
       state.displacement = h_ * velocity;
-      const auto friction = contact::evaluate(support.friction, memory.friction, normal, state.displacement, velocity);
+      const auto friction =
+          contacts_.components == 3
+              ? contact::evaluate(support.friction, memory.friction, normal, state.displacement, velocity)
+              : contact::evaluate_line(support.friction, memory.friction, normal, state.displacement.t, velocity.t);
       const auto step = contact::close_step(support.friction, tables_[c], memory.friction, friction, state.displacement);
       memory = {step.memory, at.ny, at.nz, true};
       state.friction = friction.force;
