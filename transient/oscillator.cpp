@@ -6,9 +6,10 @@
 namespace fretwork::transient {
 namespace {
 
-/// Below this value of sqrt(k) t and c t the closed forms of the load responses cancel; their power series then
-/// needs fewer than 24 terms for full precision.
+/// Below this value of sqrt(k) t and c t the closed forms of the load responses cancel; their power series is
+/// taken instead.
 constexpr double series_limit = 0.5;
+constexpr int series_terms = 18; ///< (sqrt(k) t + c t)^18 / 18! is below 2e-16 there
 
 /// Load responses by the power series of g: g = sum g_j t^j with g_0 = 0, g_1 = 1, (j+1)(j+2) g_{j+2} = -c (j+1) g_{j+1} - k g_j.
 struct LoadResponse {
@@ -20,7 +21,7 @@ struct LoadResponse {
 LoadResponse series_response(double k, double c, double t) {
   LoadResponse out{};
   double g_now = 0.0, g_next = 1.0, power = 1.0; // g_j, g_{j+1}, t^j
-  for (int j = 0; j < 24; ++j) {
+  for (int j = 0; j < series_terms; ++j) {
     const double term = g_now * power; // g_j t^j
     out.d0 += term;
     out.r0 += term * t / (j + 1);
