@@ -1,0 +1,64 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Writes report.html, one file that needs nothing else, from the results of a run: fretwork_report.py DIR [-o FILE]"""
+
+import argparse
+import importlib.util
+import os
+import sys
+from pathlib import Path
+
+PACKAGES = {"numpy": "python3-numpy", "h5py": "python3-h5py"}
+
+
+def missing_packages():
+    """Debian packages of the modules that this interpreter lacks."""
+    return [package for module, package in PACKAGES.items() if importlib.util.find_spec(module) is None]
+
+
+def build(directory):
+    """The report as HTML text."""
+    import page
+    import run_data
+    import sections
+
+    run = run_data.load(directory)
+    parts = [sections.key_figures, sections.structure, sections.modes, sections.along_the_tube, sections.contacts,
+             sections.contact_table, sections.energy, sections.computation, sections.study]
+    title = run.summary["study"] or Path(directory).resolve().stem
+    subtitle = f"Impact, friction and wear: results of Fretwork {run.summary['version']}"
+    return page.page(title, subtitle, "".join(part(run) for part in parts))
+
+
+def write_whole(path, text):
+    """The file is replaced when the new one is complete."""
+    part = path.with_name(path.name + ".part")
+    try:
+        part.write_text(text, encoding="utf-8")
+        os.replace(part, path)
+    finally:
+        part.unlink(missing_ok=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Writes report.html from the results of a run.")
+    parser.add_argument("directory", type=Path, help="folder with summary.json and results.h5")
+    parser.add_argument("-o", "--output", type=Path, help="default: report.html in the folder")
+    arguments = parser.parse_args()
+    missing = missing_packages()
+    if missing:
+        return f"the report needs {' and '.join(missing)}, which {sys.executable} does not have: apt install {' '.join(missing)}"
+    import run_data
+
+    try:
+        text = build(arguments.directory)
+        write_whole(arguments.output or arguments.directory / "report.html", text)
+    except run_data.NoResults as error:
+        return str(error)
+    except OSError as error:
+        return f"the report cannot be written: {error}"
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The frame of the report: style, sections, figures, tables."""
+
+import html
+
+STYLE = """
+:root { --ink: #1c2733; --soft: #5b6b7b; --line: #dfe5eb; --blue: #1f5fa8; --orange: #d95f0e; --pale: #f5f7fa; }
+* { box-sizing: border-box; }
+body { margin: 0 auto; max-width: 1060px; padding: 28px 32px 60px; color: var(--ink); background: #fff;
+       font: 15px/1.5 "Inter", "Segoe UI", "Helvetica Neue", "DejaVu Sans", Arial, sans-serif; }
+header { border-bottom: 3px solid var(--blue); padding-bottom: 14px; margin-bottom: 20px; }
+h1 { font-size: 27px; line-height: 1.2; margin: 0 0 6px; }
+h2 { font-size: 19px; margin: 38px 0 10px; padding-bottom: 5px; border-bottom: 1px solid var(--line); }
+h3 { font-size: 15px; margin: 18px 0 4px; }
+p { margin: 6px 0; }
+.soft, figcaption { color: var(--soft); font-size: 13px; }
+.cards { display: grid; grid-template-columns: repeat(auto-fit, minmax(190px, 1fr)); gap: 10px; margin: 18px 0; }
+.card { background: var(--pale); border: 1px solid var(--line); border-radius: 6px; padding: 9px 13px; }
+.card b { display: block; font-size: 20px; font-weight: 600; }
+.card span { color: var(--soft); font-size: 12.5px; }
+figure { margin: 8px 0 14px; break-inside: avoid; }
+figure svg { max-width: 100%; height: auto; display: block; }
+figcaption { margin-top: 3px; }
+.row { display: flex; flex-wrap: wrap; gap: 4px 12px; align-items: flex-start; break-inside: avoid; }
+.row figure { margin: 2px 0; }
+.grid3 { display: grid; grid-template-columns: repeat(3, 1fr); gap: 10px; }
+.grid2 { display: grid; grid-template-columns: repeat(2, 1fr); gap: 10px; }
+.small { display: grid; grid-template-columns: repeat(auto-fill, minmax(182px, 1fr)); gap: 8px; }
+.small h3 { margin: 2px 0 0 34px; font-size: 13px; }
+.panel { border: 1px solid var(--line); border-radius: 6px; padding: 8px 10px; break-inside: avoid; }
+section > .panel { margin-bottom: 12px; padding: 10px 14px; }
+.panel h3 { margin-top: 0; } .panel figure { margin: 0; }
+table { border-collapse: collapse; width: 100%; font-size: 13px; font-variant-numeric: tabular-nums; margin: 8px 0; }
+th { text-align: right; color: var(--soft); font-weight: 600; border-bottom: 1.5px solid var(--ink); padding: 3px 7px; vertical-align: bottom; }
+td { text-align: right; border-bottom: 1px solid var(--line); padding: 3px 7px; white-space: nowrap; }
+th:first-child, td:first-child, .text { text-align: left; white-space: normal; }
+.scroll { overflow-x: auto; }
+.warning { border-left: 4px solid var(--orange); background: #fdf3ea; padding: 6px 12px; margin: 8px 0; }
+.bad { border-left-color: #b3141e; background: #fdecec; }
+pre { background: var(--pale); border: 1px solid var(--line); border-radius: 6px; padding: 12px 14px; font-size: 12px;
+      overflow-x: auto; max-height: 460px; }
+.none { color: var(--soft); font-style: italic; padding: 60px 10px; text-align: center; }
+svg text { font-size: 11px; fill: var(--ink); } svg .tick { fill: var(--soft); font-size: 10.5px; } svg .label { fill: var(--soft); }
+.mid { text-anchor: middle; } .end { text-anchor: end; }
+.grid { stroke: #edf0f4; fill: none; } .axis { stroke: #8e9baa; fill: none; }
+.beam { stroke: var(--ink); stroke-width: 2.2; fill: none; stroke-linecap: round; stroke-linejoin: round; }
+.rest { stroke: #b9c3ce; stroke-width: 1.2; fill: none; } .moved { stroke: var(--blue); stroke-width: 2; fill: none; stroke-linejoin: round; }
+.support { fill: var(--orange); stroke: #fff; stroke-width: 1; }
+.wall { stroke: var(--ink); stroke-width: 1.4; fill: none; } .body { fill: #d8dee5; }
+.force { stroke: var(--blue); stroke-width: 1.1; fill: none; stroke-linejoin: round; }
+.friction { stroke: var(--orange); stroke-width: 1.1; fill: none; stroke-linejoin: round; }
+.stem { stroke: var(--blue); stroke-width: 2; fill: none; } .before { fill: #eef1f5; } .zoomed { fill: #fbdcc2; }
+.share { stroke: #fff; } .stored { fill: #7aa6d6; } .modal_damping { fill: #1f5fa8; } .contact_damping { fill: #f0a868; }
+.share.friction { fill: #d95f0e; stroke-width: 1; stroke: #fff; } .share.residual { fill: #b3141e; }
+.swatch { display: inline-block; width: 11px; height: 11px; border-radius: 2px; margin-right: 5px; vertical-align: -1px; }
+@media print { body { max-width: none; padding: 0; font-size: 12px; } pre { max-height: none; white-space: pre-wrap; }
+  h2 { break-after: avoid; } .panel { border-color: #ccc; } * { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
+"""
+
+
+def figure(picture, caption=""):
+    return f"<figure>{picture}" + (f"<figcaption>{caption}</figcaption>" if caption else "") + "</figure>"
+
+
+def section(title, *parts):
+    return f"<section><h2>{html.escape(title)}</h2>{''.join(parts)}</section>\n"
+
+
+def table(heads, rows, text_columns=(0,)):
+    """Cells are HTML; columns of text stand left, numbers right."""
+    def cells(tag, row):
+        kinds = [' class="text"' if i in text_columns else "" for i in range(len(row))]
+        return "".join(f"<{tag}{kind}>{cell}</{tag}>" for kind, cell in zip(kinds, row))
+
+    body = "".join(f"<tr>{cells('td', row)}</tr>" for row in rows)
+    return f'<div class="scroll"><table><thead><tr>{cells("th", heads)}</tr></thead><tbody>{body}</tbody></table></div>'
+
+
+def cards(entries):
+    return '<div class="cards">' + "".join(f"<div class=card><b>{value}</b><span>{name}</span></div>" for name, value in entries) + "</div>"
+
+
+def warning(text, bad=False):
+    return f'<p class="warning{" bad" if bad else ""}">{html.escape(text)}</p>'
+
+
+def page(title, subtitle, body):
+    return (
+        '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">'
+        f"<title>{html.escape(title)}</title><style>{STYLE}</style></head>\n"
+        f'<body><header><h1>{html.escape(title)}</h1><p class="soft">{subtitle}</p></header>\n{body}</body></html>\n'
+    )

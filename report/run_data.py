@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The results of a run as the report uses them: summary.json and results.h5 of a folder."""
+
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+
+class NoResults(Exception):
+    """The folder holds nothing to report; the message names what is missing and the cure."""
+
+
+@dataclass
+class Mode:
+    """One mode of one structure: displacement (nodes, 3) and rotation (nodes, 3) at `nodes` of the mesh."""
+
+    frequency: float
+    damping: float
+    residual: float
+    structure: int
+    nodes: np.ndarray
+    displacement: np.ndarray
+    rotation: np.ndarray
+
+
+@dataclass
+class Contact:
+    name: str
+    facts: dict  # attributes of its group: obstacle, gap, rest, stiffnesses ...
+    summary: dict | None  # its statistics
+    position: np.ndarray  # m, global axes
+    y: np.ndarray | None = None  # m, from the obstacle's centre
+    z: np.ndarray | None = None
+    normal: np.ndarray | None = None  # N
+    tangential: np.ndarray | None = None  # N, length of the vector
+    abscissa: float | None = None  # m along the tube
+
+
+@dataclass
+class Run:
+    summary: dict
+    attributes: dict
+    nodes: np.ndarray
+    lines: np.ndarray
+    modes: list
+    contacts: list
+    time: np.ndarray | None = None
+    structures: int = 1
+    window: float = field(default=0.0)  # s, start of the statistics
+
+    @property
+    def transient(self):
+        return self.summary.get("transient")
+
+    @property
+    def window_length(self):
+        """s; None where the run did not reach its statistics."""
+        end = self.transient.get("end_time_s")
+        return end - self.window if end is not None and end > self.window else None
+
+
+def _text(value):
+    return value.decode() if isinstance(value, bytes) else value
+
+
+def _attributes(item):
+    return {key: _text(value) for key, value in item.attrs.items()}
+
+
+def _structure_modes(group, structure):
+    shapes = group["shapes"][...]
+    columns = (group["frequency"][...], group["damping"][...], group["residuals"][...], shapes)
+    nodes = group["nodes"][...]
+    return [
+        Mode(float(f), float(d), float(r), structure, nodes, s[:, :3], s[:, 3:]) for f, d, r, s in zip(*columns)
+    ]
+
+
+def _modes(group):
+    if "shapes" in group:
+        return _structure_modes(group, 0), 1
+    numbers = sorted(group, key=int)
+    modes = [mode for number in numbers for mode in _structure_modes(group[number], int(number))]
+    return sorted(modes, key=lambda mode: mode.frequency), len(numbers)
+
+
+def _contact(group, summaries):
+    facts = _attributes(group)
+    contact = Contact(facts["name"], facts, summaries.get(facts["name"]), facts["position"])
+    if "normal_force" in group:
+        displacement = group["displacement"][...]
+        contact.y = facts["rest"][1] + displacement[:, 1]
+        contact.z = facts["rest"][2] + displacement[:, 2]
+        contact.normal = group["normal_force"][...]
+        contact.tangential = np.hypot(*group["tangential_force"][...].T)
+    return contact
+
+
+def _chain_abscissae(nodes, lines):
+    """Length along the line from its first end to each node, where the mesh is one open chain; else None."""
+    neighbours = [[] for _ in nodes]
+    for a, b in lines:
+        neighbours[a].append(b)
+        neighbours[b].append(a)
+    ends = [i for i, others in enumerate(neighbours) if len(others) == 1]
+    if len(ends) != 2 or any(len(others) > 2 for others in neighbours):
+        return None
+    abscissa = np.full(len(nodes), np.nan)
+    previous, node, length = -1, ends[0], 0.0
+    while node >= 0:
+        abscissa[node] = length
+        following = next((other for other in neighbours[node] if other != previous), -1)
+        if following >= 0:
+            length += float(np.linalg.norm(nodes[following] - nodes[node]))
+        previous, node = node, following
+    return abscissa
+
+
+def _place_along(contacts, nodes, lines):
+    abscissa = _chain_abscissae(nodes, lines)
+    if abscissa is None:
+        return
+    places = [float(abscissa[int(contact.facts["node"])]) for contact in contacts]
+    if all(np.isfinite(places)):
+        for contact, place in zip(contacts, places):
+            contact.abscissa = place
+
+
+def load(directory):
+    """@throws NoResults if a file is missing or damaged"""
+    folder = Path(directory)
+    for name in ("summary.json", "results.h5"):
+        if not (folder / name).exists():
+            raise NoResults(f"{folder / name} does not exist; give the folder that `fretwork run` wrote")
+    try:
+        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+        with h5py.File(folder / "results.h5", "r") as file:
+            summaries = {entry["name"]: entry for entry in summary.get("contacts", [])}
+            groups = sorted(file["contacts"].values(), key=lambda group: int(group.attrs["index"]))
+            modes, structures = _modes(file["modes"])
+            run = Run(
+                summary,
+                _attributes(file),
+                file["mesh/nodes"][...],
+                file["mesh/lines"][...],
+                modes,
+                [_contact(group, summaries) for group in groups],
+                structures=structures,
+            )
+            if "time" in file:
+                run.time = file["time"][...]
+                run.window = float(file.attrs["statistics_from"])
+    except (OSError, KeyError, ValueError) as error:
+        raise NoResults(f"{folder}: the results are damaged or of another version ({error}); run the study again") from error
+    _place_along(run.contacts, run.nodes, run.lines)
+    return run

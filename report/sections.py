@@ -1,0 +1,226 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sections of the report, each a piece of HTML."""
+
+import html
+import math
+
+import contact_view
+import structure_view
+from drawing import short, unit_for
+from page import cards, figure, section, table, warning
+
+MOST_MODES = 6  # pictures
+MOST_MODE_ROWS = 40
+MANY_CONTACTS = 12  # above, orbits are small multiples and histories are shown of a few
+HISTORIES_OF_MANY = 6
+
+
+def quantity(value, unit):
+    if value is None or not math.isfinite(value):
+        return "–"
+    factor, scaled = unit_for(abs(value), unit)
+    return f"{short(factor * value, 3)} {scaled}"
+
+
+def _known(values):
+    return [v for v in values if v is not None]
+
+
+def _work(contact):
+    value = contact.summary["work_rate"] if contact.summary else None
+    return value if value is not None else 0.0
+
+
+def key_figures(run):
+    model, transient = run.summary["model"], run.transient
+    entries = [("nodes", f"{model['nodes']}"), ("mass", f"{short(model['mass_kg'], 4)} kg")]
+    if run.modes:
+        entries.append((f"{len(run.modes)} modes, from", f"{short(run.modes[0].frequency)} Hz"))
+    if transient:
+        entries.append(("simulated", f"{short(transient['duration_s'])} s"))
+    if transient and run.contacts:
+        statistics = [c.summary for c in run.contacts]
+        work = _known(s["work_rate"] for s in statistics)
+        entries += [
+            ("work rate, all contacts", quantity(sum(work), "W")),
+            ("largest work rate, one contact", quantity(max(work, default=None), "W")),
+            ("largest normal force", quantity(max(_known(s["normal_force"]["max"] for s in statistics), default=None), "N")),
+            ("impacts", f"{sum(s['impacts'] for s in statistics)}"),
+        ]
+    out = cards(entries)
+    if transient and transient["outcome"] != "done":
+        end = quantity(transient["end_time_s"], "s")
+        out += warning(f"The run diverged at {end}: its numbers are of no use. Take a smaller step.", bad=True)
+    return out + "".join(warning(text) for text in run.summary.get("warnings", []))
+
+
+def structure(run):
+    picture, view = structure_view.structure(run)
+    supports = f"; {len(run.contacts)} contacts (orange)" if run.contacts else ""
+    facts = f"{run.summary['model']['elements']} beams, {run.summary['model']['dofs']} free degrees of freedom{supports}. View: {view}."
+    return section("Structure", figure(picture, facts))
+
+
+def modes(run):
+    if not run.modes:
+        return section("Modes", "<p>The structure has no mode.</p>")
+    several = run.structures > 1
+    heads = ["mode", "frequency [Hz]", "damping [%]", "residual", "direction"] + (["structure"] if several else [])
+    rows = [
+        [f"{i + 1}", short(m.frequency, 6), short(100 * m.damping, 3), short(m.residual, 1), structure_view.direction(m)]
+        + ([f"{m.structure}"] if several else [])
+        for i, m in enumerate(run.modes[:MOST_MODE_ROWS])
+    ]
+    panels = []
+    for i, mode in enumerate(run.modes[:MOST_MODES]):
+        picture, view = structure_view.mode_picture(run, mode)
+        caption = f"<b>mode {i + 1}</b>, {short(mode.frequency, 5)} Hz, {structure_view.direction(mode)} · {view}"
+        panels.append(f'<div class="panel">{figure(picture, caption)}</div>')
+    left = f'<p class="soft">The first {MOST_MODE_ROWS} of {len(run.modes)} modes.</p>' if len(run.modes) > MOST_MODE_ROWS else ""
+    note = '<p class="soft">Grey: at rest; blue: the mode, its amplitude chosen for the eye. Direction: share in the squared translations.</p>'
+    return section("Modes", '<div class="grid3">' + "".join(panels) + "</div>", note, table(heads, rows, (0, 4)), left)
+
+
+def _contact_line(contact):
+    s = contact.summary
+    return (
+        f"{html.escape(contact.facts['obstacle'])}, gap {quantity(float(contact.facts['gap']), 'm')} · "
+        f"{s['impacts']} impacts, in contact {short(100 * (s['contact_time_ratio'] or 0), 3)} % of the time · "
+        f"work rate {quantity(s['work_rate'], 'W')}"
+    )
+
+
+def _panel(run, contact):
+    return (
+        f'<div class="panel"><h3>{html.escape(contact.name)}</h3><p class="soft">{_contact_line(contact)}</p><div class="row">'
+        + figure(contact_view.orbit(run, contact))
+        + figure(contact_view.history(run, contact))
+        + figure(contact_view.impact(run, contact))
+        + "</div></div>"
+    )
+
+
+_EXPLANATION = (
+    '<p class="soft">Left: position of the node from the obstacle’s centre at true scale, in the statistics window; dark where it stays long, '
+    "orange where it touches; black: the obstacle’s reach. Middle: normal force (grey: before the statistics window, orange: the stretch shown at "
+    "the right). Right: the largest impact, normal force blue, tangential force orange. Pictures show the output instants; statistics see every step.</p>"
+)
+
+
+def contacts(run):
+    if not run.contacts or run.time is None or not len(run.time):
+        return ""
+    if len(run.contacts) <= MANY_CONTACTS:
+        return section("Contacts", _EXPLANATION, *[_panel(run, contact) for contact in run.contacts])
+    small = "".join(
+        f"<div><h3>{html.escape(c.name)}</h3>{figure(contact_view.orbit(run, c, 184, labels=False))}</div>" for c in run.contacts
+    )
+    worst = sorted(run.contacts, key=_work, reverse=True)[:HISTORIES_OF_MANY]
+    return section(
+        "Orbits",
+        '<p class="soft">y_loc across, z_loc upwards, µm from the obstacle’s centre, at true scale, in the statistics window. Dark where the node stays '
+        "long, orange where it touches; black: the obstacle’s reach.</p>",
+        f'<div class="small">{small}</div>',
+    ) + section(f"The {HISTORIES_OF_MANY} contacts that wear most", _EXPLANATION, *[_panel(run, contact) for contact in worst])
+
+
+def along_the_tube(run):
+    if not run.contacts or not run.transient:
+        return ""
+    statistics = [c.summary for c in run.contacts]
+    length = run.window_length
+    rates = [s["impacts"] / length if length else None for s in statistics]
+    ratio = [100 * s["contact_time_ratio"] if s["contact_time_ratio"] is not None else None for s in statistics]
+    plots = [
+        ([s["work_rate"] for s in statistics], "work rate", "W"),
+        ([s["friction_power"] for s in statistics], "friction power", "W"),
+        (ratio, "time in contact", "%"),
+        (rates, "impact rate", "1/s"),
+    ]
+    panels = "".join(figure(contact_view.along(run, *plot)) for plot in plots)
+    note = (
+        '<p class="soft">Work rate: mean over time of the normal force times the sliding speed while the contact slides (Archard’s input). Friction '
+        "power: energy that the sliders dissipate in a second.</p>"
+    )
+    where = "Along the tube" if run.contacts[0].abscissa is not None else "Contact by contact"
+    return section(where, f'<div class="grid2">{panels}</div>', note)
+
+
+def contact_table(run):
+    if not run.contacts or not run.transient:
+        return ""
+    heads = ["contact", "impacts", "in contact [%]", "F<sub>N</sub> mean [N]", "F<sub>N</sub> rms [N]", "F<sub>N</sub> max [N]",
+             "F<sub>T</sub> max [N]", "radial rms [µm]", "radial max [µm]", "work rate [mW]", "friction power [mW]",
+             "impact speed mean / max [mm/s]", "contact mean / max [ms]"]
+
+    def times(value, factor, digits=4):
+        return short(None if value is None else factor * value, digits)
+
+    rows = []
+    for c in run.contacts:
+        s = c.summary
+        force, radial = s["normal_force"], s["displacement"]["radial"]
+        speed, long = s["impact_velocity"], s["contact_duration"]
+        rows.append([
+            html.escape(c.name), f"{s['impacts']}", times(s["contact_time_ratio"], 100, 3), short(force["mean"]), short(force["rms"]),
+            short(force["max"]), short(s["tangential_force"]["max"]), times(radial["rms"], 1e6), times(radial["max"], 1e6),
+            times(s["work_rate"], 1e3), times(s["friction_power"], 1e3),
+            f"{times(speed['mean'], 1e3, 3)} / {times(speed['max'], 1e3, 3)}", f"{times(long['mean'], 1e3, 3)} / {times(long['max'], 1e3, 3)}",
+        ])
+    note = f'<p class="soft">Statistics over every step from {short(run.window)} s on. Forces over all time; displacements in the contact’s plane.</p>'
+    return section("Table of contacts", table(heads, rows), note)
+
+
+_SHARES = ("#7aa6d6", "#1f5fa8", "#f0a868", "#d95f0e", "#b3141e")  # as in the style of the bar
+
+
+def energy(run):
+    energy = run.summary.get("energy")
+    if not energy:
+        return ""
+    bar = contact_view.energy_bar(energy)
+    residual = None
+    parts = [energy[f"{kind}_J"] for kind in ("stored", "modal_damping", "contact_damping", "friction")]
+    if energy["input_J"] is not None and None not in parts:
+        residual = energy["input_J"] - sum(parts)
+    names = ["stored at the end", "modal damping", "contact damping", "friction", "residual"]
+    swatches = [f'<span class="swatch" style="background:{colour}"></span>{name}' for colour, name in zip(_SHARES, names)]
+    values = [energy["input_J"], energy["initial_J"], *parts, residual]
+    rows = [["energy [J]"] + [short(value) for value in values]]
+    if energy["input_J"]:
+        shares = [None if value is None else 100 * value / energy["input_J"] for value in values]
+        rows.append(["share of the input [%]"] + [short(share, 3) for share in shares])
+    note = f'<p class="soft">Input = stored + modal damping + contact damping + friction + residual. Largest relative residual: {short(energy["residual_relative"], 2)}.</p>'
+    return section("Energy balance", figure(bar) if bar else "", table(["", "input", "of it at t = 0", *swatches], rows), note)
+
+
+def computation(run):
+    summary, transient = run.summary, run.transient
+    rows = []
+    if transient:
+        step = short(transient["step_min_s"])
+        if transient["step_max_s"] != transient["step_min_s"]:
+            step += " to " + short(transient["step_max_s"])
+        rows += [
+            ["scheme", html.escape(transient["scheme"])],
+            ["time step", f"{step} s ({transient['steps']} steps, {transient['force_evaluations']} evaluations of the contact forces)"],
+            ["why this step", html.escape(transient["step_reason"])],
+            ["highest contact frequency", f"{short(transient['contact_frequency_rad_s'])} rad/s"],
+            ["steps not converged", f"{transient['unconverged_steps']}"],
+        ]
+    modes = summary["modes"]
+    rows.append(["orthogonality of the modes", short(modes["orthogonality"], 2)])
+    seconds = {name: value for name, value in summary["timings_s"].items() if value}
+    rows.append(["time of computation", ", ".join(f"{html.escape(name)} {short(value, 3)} s" for name, value in seconds.items())])
+    rows.append(["ranks, vector unit", f"{summary['ranks']}, {html.escape(summary['vector_width'])}"])
+    if summary["seeds"]:
+        rows.append(["random seeds", ", ".join(str(seed) for seed in summary["seeds"])])
+    libraries = ", ".join(f"{html.escape(n)} {html.escape(v)}" for n, v in summary["libraries"].items())
+    rows.append(["versions", f"Fretwork {html.escape(summary['version'])}" + (f", {libraries}" if libraries else "")])
+    rows.append(["SHA-256 of the input", f"<code>{html.escape(summary['input_sha256'])}</code>"])
+    notes = "".join(f'<p class="soft">{html.escape(text)}</p>' for text in summary.get("notes", []))
+    return section("How it was computed", table(["", ""], rows, (0, 1)), notes)
+
+
+def study(run):
+    return section("Study", f"<pre>{html.escape(run.attributes['study'])}</pre>")

@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures of the structure and of its modes."""
+
+import math
+
+import numpy as np
+
+from drawing import Plot
+
+AMPLITUDE = 0.08  # largest displacement of a drawn mode, as a share of the structure's size
+FLAT = 0.02  # a direction shorter than this share of the longest is not worth a view in depth
+AXES = "xyz"
+
+
+class View:
+    """A projection: along a global axis where the points lie (nearly) in its plane, else in depth."""
+
+    def __init__(self, points):
+        extent = np.ptp(points, axis=0) if len(points) else np.ones(3)
+        thin = int(np.argmin(extent))
+        if extent[thin] <= FLAT * extent.max():
+            flat = [axis for axis in range(3) if axis != thin]
+            # the longest direction lies across the page, unless z can stand upright at a good size
+            if flat[1] != 2 or extent[2] < 0.3 * extent[flat[0]]:
+                flat.sort(key=lambda axis: -extent[axis])
+            if extent[flat[0]] == 0:
+                flat = flat[::-1]
+            self.matrix = np.eye(3)[flat]
+            self.name = f"{AXES[flat[0]]}–{AXES[flat[1]]} plane"
+        else:
+            turn, tilt = math.radians(-35), math.radians(25)
+            c, s = math.cos(turn), math.sin(turn)
+            self.matrix = np.array([[c, s, 0], [-s * math.sin(tilt), c * math.sin(tilt), math.cos(tilt)]])
+            self.name = "in depth, z upwards"
+
+    def __call__(self, points):
+        return np.asarray(points) @ self.matrix.T
+
+
+def _plot(flat_points, width, heights):
+    """Equal scales, margins round the points, a height that suits them."""
+    low, high = flat_points.min(axis=0), flat_points.max(axis=0)
+    span = np.maximum(high - low, 1e-9 * max(1e-30, (high - low).max()) or 1.0)
+    margins = (14, 14, 22, 14)
+    inner = width - 28
+    height = float(np.clip(inner * span[1] / span[0], *heights))
+    scale = min(inner / span[0], height / span[1]) * 0.94
+    middle = (low + high) / 2
+    half = np.array([inner, height]) / scale / 2
+    return Plot(
+        (width, int(height) + 36),
+        (middle[0] - half[0], middle[0] + half[0]),
+        (middle[1] - half[1], middle[1] + half[1]),
+        margins,
+    )
+
+
+def _segments(plot, flat_points, lines, kind):
+    a, b = flat_points[lines[:, 0]], flat_points[lines[:, 1]]
+    x0, y0, x1, y1 = plot.px(a[:, 0]), plot.py(a[:, 1]), plot.px(b[:, 0]), plot.py(b[:, 1])
+    path = []
+    pen = None
+    for line, p, q, r, s in zip(lines, x0, y0, x1, y1):
+        path.append(f"L{r:.1f} {s:.1f}" if pen == line[0] else f"M{p:.1f} {q:.1f}L{r:.1f} {s:.1f}")
+        pen = line[1]
+    plot.add(f'<path class="{kind}" d="{"".join(path)}"/>')
+
+
+def _name_supports(plot, supports):
+    """A dot and a name each; above and below by turns where names would touch, left out where they still would."""
+    def room(text):
+        return 6.5 * len(text) + 8
+
+    def near(one, other):
+        (name, at), (other_name, other_at) = one, other
+        close = abs(float(plot.px(at[0]) - plot.px(other_at[0]))) < (room(name) + room(other_name)) / 2
+        return close and abs(float(plot.py(at[1]) - plot.py(other_at[1]))) < 14
+
+    crowded = any(near(*pair) for pair in zip(supports, supports[1:]))
+    written = [[], []]
+    for i, support in enumerate(supports):
+        at = support[1]
+        plot.dot(at[0], at[1], "support", 4)
+        side = i % 2 if crowded else 0
+        if not any(near(support, other) for other in written[side]):
+            plot.text(at[0], at[1], support[0], "note mid", (0, 17 if side else -9))
+            written[side].append(support)
+
+
+def structure(run, width=980):
+    """The mesh with its supports, and how it is looked at."""
+    view = View(run.nodes)
+    points = view(run.nodes)
+    plot = _plot(points, width, (70, 420))
+    _segments(plot, points, run.lines, "beam")
+    _name_supports(plot, [(contact.name, view(contact.position)) for contact in run.contacts])
+    return plot.svg("The structure and its supports"), view.name
+
+
+def shares(mode):
+    """Share of each global direction in the translations of a mode; None where it only turns."""
+    squares = (mode.displacement**2).sum(axis=0)
+    turning = float((mode.rotation**2).sum())
+    if squares.sum() <= 1e-12 * turning or squares.sum() == 0:
+        return None
+    return squares / squares.sum()
+
+
+def direction(mode):
+    found = shares(mode)
+    if found is None:
+        return "turning only"
+    order = np.argsort(-found)
+    return ", ".join(f"{AXES[i]} {100 * found[i]:.0f} %" for i in order if found[i] >= 0.05)
+
+
+def mode_picture(run, mode, width=310):
+    size = float(np.ptp(run.nodes[mode.nodes], axis=0).max()) if len(mode.nodes) else 1.0
+    largest = float(np.linalg.norm(mode.displacement, axis=1).max())
+    moved = run.nodes.copy()
+    if shares(mode) is not None:
+        moved[mode.nodes] += mode.displacement * (AMPLITUDE * (size or 1.0) / largest)
+    both = np.vstack((run.nodes, moved))
+    mirrored = np.vstack((both, 2 * run.nodes - moved))
+    view = View(mirrored)
+    plot = _plot(view(mirrored), width, (60, 190))
+    own = np.isin(run.lines[:, 0], mode.nodes)
+    _segments(plot, view(run.nodes), run.lines, "rest")
+    if own.any():
+        _segments(plot, view(moved), run.lines[own], "moved")
+    else:
+        for node in mode.nodes:
+            at = view(moved[node])
+            plot.dot(at[0], at[1], "support")
+    return plot.svg(f"Mode at {mode.frequency:.4g} Hz"), view.name

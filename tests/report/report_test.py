@@ -1,0 +1,251 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tests of the report: report_test.py WRITE_MADE_UP REPORT_FOLDER (the program that makes results up, the folder of the report)."""
+
+import json
+import re
+import sys
+import tempfile
+import time
+import unittest
+from html.parser import HTMLParser
+from pathlib import Path
+import subprocess
+
+WRITE_MADE_UP, REPORT = sys.argv.pop(1), sys.argv.pop(1)
+sys.path.insert(0, REPORT)
+
+import h5py  # noqa: E402
+import numpy as np  # noqa: E402
+
+import drawing  # noqa: E402
+import fretwork_report  # noqa: E402
+import run_data  # noqa: E402
+import structure_view  # noqa: E402
+
+LONGEST = 8.0  # s for 22 contacts and 10 000 outputs: the goal is 4 s on an idle machine, twice that beside other tests
+VOID = {"meta", "path", "rect", "circle", "image", "polyline", "br", "i"}
+
+
+class Checker(HTMLParser):
+    """Counts elements, collects links and checks that elements close in order."""
+
+    def __init__(self):
+        super().__init__()
+        self.stack, self.links, self.problems, self.counts = [], [], [], {}
+
+    def handle_starttag(self, tag, attributes):
+        self.counts[tag] = self.counts.get(tag, 0) + 1
+        self.links += [value for name, value in attributes if name in ("src", "href", "xlink:href")]
+        self.problems += [f"{tag} {name}={value}" for name, value in attributes if value and re.search(r"\b(nan|inf)\b", value)]
+        if tag not in VOID:
+            self.stack.append(tag)
+
+    def handle_startendtag(self, tag, attributes):
+        self.handle_starttag(tag, attributes)
+        if tag not in VOID:
+            self.stack.pop()
+
+    def handle_endtag(self, tag):
+        if tag not in VOID and (not self.stack or self.stack.pop() != tag):
+            self.problems.append(f"</{tag}> closes nothing")
+
+
+def made_up(folder, contacts, outputs, structures=1):
+    subprocess.run([WRITE_MADE_UP, folder, str(contacts), str(outputs), str(structures)], check=True, stdout=subprocess.DEVNULL)
+
+
+def run_report(*arguments):
+    """(exit status, what it printed) of the report as a program of its own."""
+    done = subprocess.run([sys.executable, Path(REPORT) / "fretwork_report.py", *arguments], capture_output=True, text=True, check=False)
+    return done.returncode, done.stdout + done.stderr
+
+
+class Report(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory(prefix="fretwork_report_")
+        self.folder = Path(self.temporary.name)
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+    def report(self):
+        """The report, checked: well formed, all in one file, no number that is none."""
+        text = fretwork_report.build(self.folder)
+        checker = Checker()
+        checker.feed(text)
+        self.assertEqual(checker.problems, [])
+        self.assertEqual(checker.stack, [])
+        self.assertTrue(all(link.startswith("data:image/png;base64,") for link in checker.links), checker.links)
+        self.assertNotIn("@import", text)
+        self.assertNotIn("url(http", text)
+        self.counts = checker.counts
+        return text
+
+    def headings(self, text):
+        return re.findall(r"<h2>(.*?)</h2>", text)
+
+    def change(self, change):
+        file = self.folder / "summary.json"
+        summary = json.loads(file.read_text())
+        change(summary)
+        file.write_text(json.dumps(summary))
+
+    def test_has_all_sections_for_a_few_contacts(self):
+        made_up(self.folder, 5, 400)
+        text = self.report()
+        self.assertEqual(
+            self.headings(text),
+            ["Structure", "Modes", "Along the tube", "Contacts", "Table of contacts", "Energy balance", "How it was computed", "Study"],
+        )
+        self.assertEqual(self.counts["image"], 5)  # an orbit each
+        for word in ("tsp1", "circle", "plane_y", "stop_z", "plane_z", "18446744073709551615", "PETSc 3.18.5", "a" * 64,
+                     "0.5 / contact frequency", "overlaps its obstacle", "made up for a test", "&lt;made up&gt;", "Straight tube on loose supports"):
+            self.assertIn(word, text)
+
+    def test_shows_orbits_of_all_and_histories_of_some_of_many_contacts(self):
+        made_up(self.folder, 13, 300)
+        text = self.report()
+        self.assertIn("Orbits", self.headings(text))
+        self.assertIn("The 6 contacts that wear most", self.headings(text))
+        self.assertEqual(self.counts["image"], 13 + 6)
+        self.assertEqual(text.count('aria-label="Normal force of'), 6)
+
+    def test_works_without_a_transient(self):
+        made_up(self.folder, 2, 0)
+        self.assertEqual(self.headings(self.report()), ["Structure", "Modes", "How it was computed", "Study"])
+
+    def test_works_without_contacts(self):
+        made_up(self.folder, 0, 100)
+        self.assertEqual(self.headings(self.report()), ["Structure", "Modes", "Energy balance", "How it was computed", "Study"])
+
+    def test_names_the_structure_of_each_mode_where_there_are_several(self):
+        made_up(self.folder, 3, 100, 2)
+        text = self.report()
+        self.assertIn(">structure</th>", text)
+        self.assertIn("Contact by contact", self.headings(text))
+
+    def test_says_that_a_run_diverged_and_writes_dashes(self):
+        made_up(self.folder, 2, 100)
+
+        def diverge(summary):
+            summary["transient"]["outcome"] = "diverged"
+            summary["energy"] = dict.fromkeys(summary["energy"])
+            for key, value in summary["contacts"][0].items():
+                summary["contacts"][0][key] = None if isinstance(value, float) else value
+            summary["contacts"][0]["normal_force"] = {"mean": None, "rms": None, "max": None}
+
+        self.change(diverge)
+        with h5py.File(self.folder / "results.h5", "r+") as file:
+            for name in ("displacement", "normal_force", "gap"):
+                file[f"contacts/tsp1/{name}"][50:] = np.nan
+                file[f"contacts/tsp2/{name}"][...] = np.inf
+        text = self.report()
+        self.assertIn("diverged", text)
+        self.assertIn(">–<", text)
+        self.assertNotRegex(text, r"[>\s](nan|inf)[<\s]")
+
+    def test_survives_a_run_that_stopped_at_once(self):
+        made_up(self.folder, 2, 1)
+        self.change(lambda summary: summary["transient"].update(end_time_s=0.0))
+        self.report()
+
+    def test_escapes_names(self):
+        made_up(self.folder, 1, 50)
+        self.change(lambda summary: summary.update(study="<script>x</script>"))
+        self.assertNotIn("<script>", self.report())
+
+    def test_is_quick_for_many_contacts_and_outputs(self):
+        made_up(self.folder, 22, 10000)
+        start = time.perf_counter()
+        status, said = run_report(self.folder)
+        self.assertEqual((status, said), (0, ""))
+        self.assertLess(time.perf_counter() - start, LONGEST)
+        self.assertLess((self.folder / "report.html").stat().st_size, 5e6)
+
+    def test_writes_where_it_is_told_and_nothing_else(self):
+        made_up(self.folder, 1, 50)
+        self.assertEqual(run_report(self.folder, "-o", self.folder / "other.html"), (0, ""))
+        self.assertEqual({p.name for p in self.folder.iterdir()}, {"summary.json", "results.h5", "other.html"})
+
+    def test_gives_the_same_bytes_twice(self):
+        made_up(self.folder, 3, 100)
+        run_report(self.folder, "-o", self.folder / "a.html")
+        run_report(self.folder, "-o", self.folder / "b.html")
+        self.assertEqual((self.folder / "a.html").read_bytes(), (self.folder / "b.html").read_bytes())
+
+    def test_tells_what_is_missing_or_damaged(self):
+        status, said = run_report(self.folder)
+        self.assertEqual(status, 1)
+        self.assertIn("summary.json does not exist; give the folder that `fretwork run` wrote", said)
+        made_up(self.folder, 1, 50)
+        data = (self.folder / "results.h5").read_bytes()
+        (self.folder / "results.h5").write_bytes(data[: len(data) // 2])
+        status, said = run_report(self.folder)
+        self.assertEqual(status, 1)
+        self.assertIn("damaged or of another version", said)
+        self.assertNotIn("Traceback", said)
+
+    def test_names_the_packages_that_are_missing(self):
+        found = fretwork_report.importlib.util.find_spec
+        fretwork_report.importlib.util.find_spec = lambda name: None if name == "h5py" else found(name)
+        arguments, sys.argv = sys.argv, ["fretwork_report.py", str(self.folder)]
+        try:
+            message = fretwork_report.main()
+        finally:
+            fretwork_report.importlib.util.find_spec, sys.argv = found, arguments
+        self.assertRegex(message, r"^the report needs python3-h5py, which .* does not have: apt install python3-h5py$")
+
+    def test_tells_that_it_cannot_write(self):
+        made_up(self.folder, 1, 50)
+        status, said = run_report(self.folder, "-o", self.folder / "absent" / "a.html")
+        self.assertEqual(status, 1)
+        self.assertIn("the report cannot be written: ", said)
+
+
+class Parts(unittest.TestCase):
+    def test_ticks_are_round_and_inside(self):
+        self.assertEqual(drawing.ticks(0.0, 1.0, 5), [0.0, 0.2, 0.4, 0.6000000000000001, 0.8, 1.0])
+        self.assertEqual(drawing.ticks(-210.0, 230.0, 4), [-200.0, 0.0, 200.0])
+        self.assertEqual(drawing.ticks(3.0, 3.0), [3.0])
+
+    def test_units_keep_one_to_three_digits_before_the_point(self):
+        for value, unit in ((0.302, "mW"), (2.0, "W"), (999.0, "W"), (1000.0, "kW"), (4.5e-7, "nW"), (0.0, "W")):
+            self.assertEqual(drawing.unit_for(value, "W")[1], unit)
+
+    def test_numbers_are_short(self):
+        self.assertEqual(drawing.short(0.123456), "0.1235")
+        self.assertEqual(drawing.short(-2.5), "−2.5")
+        self.assertEqual(drawing.short(3e-11), "3·10<sup>-11</sup>")
+        for none in (None, float("nan"), float("inf")):
+            self.assertEqual(drawing.short(none), "–")
+
+    def test_envelopes_keep_every_extreme(self):
+        y = np.sin(np.arange(100000) * 0.37)
+        y[54321] = 9.0
+        _, kept = drawing.envelope(np.arange(100000.0), y, 300)
+        self.assertEqual(len(kept), 600)
+        self.assertEqual((kept.max(), kept.min()), (9.0, y.min()))
+
+    def test_abscissae_follow_the_chain_not_the_numbers(self):
+        nodes = np.array([[0.0, 0, 0], [3.0, 4.0, 0], [3.0, 0, 0]])
+        abscissa = run_data._chain_abscissae(nodes, np.array([[2, 1], [0, 2]]))
+        self.assertEqual(abscissa.tolist(), [0.0, 7.0, 3.0])
+        ring = np.array([[0, 1], [1, 2], [2, 0]])
+        self.assertIsNone(run_data._chain_abscissae(nodes, ring))
+
+    def test_views_lie_in_the_plane_of_the_structure(self):
+        plane = np.array([[0.0, 0, 0], [1.0, 0, 0], [1.0, 0, 3.0]])
+        self.assertEqual(structure_view.View(plane).name, "x–z plane")
+        self.assertEqual(structure_view.View(plane[:, [1, 0, 2]]).name, "y–z plane")
+        self.assertEqual(structure_view.View(np.eye(3)).name, "in depth, z upwards")
+        self.assertEqual(structure_view.View(np.zeros((1, 3))).matrix.shape, (2, 3))
+
+    def test_pixels_become_a_png(self):
+        uri = drawing.png(np.full((3, 5, 4), 200, np.uint8))
+        data = drawing.base64.b64decode(uri.split(",")[1])
+        self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertEqual(drawing.struct.unpack(">II", data[16:24]), (5, 3))
+
+
+if __name__ == "__main__":
+    unittest.main()
