@@ -84,8 +84,8 @@ struct FrictionTable {
 /// Implicit friction of one contact over a step: the mean velocity answers the force, v = free_velocity + A F (A = (h/2) W_tt, symmetric,
 /// >= 0). Stick: (I + G h A) F = T - G h free_velocity. Slip: F of length mu_d F_N along the trial T - G h v; with M = I + G h A and
 /// b = T - G h free_velocity that is (M + s I) F = b for the s >= 0 at which |F| is the bound, found by Newton's method on 1/|F|.
-/// For `reference` the slip force is
-/// opposite to v: with M = A and b = -free_velocity the same equation.
+/// For `reference` the slip force is opposite to v: with M = A and b = -free_velocity the same equation; where less than the bound
+/// brings the node to rest, that force (a larger one would drive the node backwards).
 struct Mobility {
   double xx, xt, tt; ///< m/s per N
 };
@@ -100,8 +100,12 @@ struct Mobility {
   const double bound = (memory.sliding ? law.mu_dynamic : law.mu_static) * normal_force;
   if (std::abs(b) <= bound * m)
     return {{0.0, b / m}, false};
-  const double along = law.kind == FrictionMemoryKind::reference && free_velocity != 0.0 ? -free_velocity : b;
-  return {{0.0, std::copysign(law.mu_dynamic * normal_force, along)}, true};
+  const double slip_bound = law.mu_dynamic * normal_force;
+  if (law.kind == FrictionMemoryKind::reference && free_velocity != 0.0) {
+    const double stopping = std::abs(free_velocity); // over the mobility: the force that brings the node to rest
+    return {{0.0, std::copysign(stopping < mobility * slip_bound ? stopping / mobility : slip_bound, -free_velocity)}, true};
+  }
+  return {{0.0, std::copysign(slip_bound, b)}, true};
 }
 
 } // namespace fretwork::contact

@@ -8,6 +8,7 @@ namespace {
 
 /// Beyond this count Newton's method on the bound has long converged (it is monotone and quadratic; 4 to 6 are usual).
 constexpr int most_iterations = 50;
+constexpr double one_line = 1e-12; ///< det A / trace^2 below which the node moves along one line only: round-off of W
 constexpr double bound_tolerance = 1e-14; ///< relative: |F| meets the bound to round-off
 
 /// Solves (M + s I) f = b, M + s I symmetric positive definite.
@@ -39,6 +40,18 @@ Vec2 of_length(double length, const Mobility& m, Vec2 b) {
     f = solve(m, s, b);
   }
   return scaled_to(f, length);
+}
+
+/// The slip force of `reference`: opposite to the velocity v = free_velocity + A F it leaves, or the smaller one that makes v zero.
+Vec2 opposing(double length, const Mobility& a, Vec2 free_velocity) {
+  const double speed = norm(free_velocity), trace = a.xx + a.tt;
+  if (a.xx * a.tt - a.xt * a.xt > one_line * trace * trace) {
+    const Vec2 stopping = solve(a, 0.0, -1.0 * free_velocity);
+    return norm(stopping) <= length ? stopping : of_length(length, a, -1.0 * free_velocity);
+  }
+  const Vec2 along = (-1.0 / speed) * free_velocity; // the line the node moves on
+  const double mobility = along.x * along.x * a.xx + 2.0 * along.x * along.t * a.xt + along.t * along.t * a.tt;
+  return (speed < mobility * length ? speed / mobility : length) * along;
 }
 
 } // namespace
@@ -122,7 +135,7 @@ Friction step_friction_plane(const FrictionLaw& law, const FrictionTable& table,
   if (!(slip_bound > 0.0))
     return {{}, true};
   if (law.kind == FrictionMemoryKind::reference && norm(free_velocity) > 0.0)
-    return {of_length(slip_bound, a, -1.0 * free_velocity), true};
+    return {opposing(slip_bound, a, free_velocity), true};
   return {of_length(slip_bound, m, b), true};
 }
 
