@@ -8,7 +8,9 @@ namespace {
 
 /// Below this value of sqrt(k) t and c t the closed forms of the load responses cancel; their power series is
 /// taken instead.
-constexpr double series_limit = 0.5;
+constexpr double series_limit = 1.5;
+/// Value of k/c^2 (critical: 1/4) below which the two decays are far enough apart to be told from each other.
+constexpr double separate = 0.2;
 constexpr int series_terms = 18; ///< (sqrt(k) t + c t)^18 / 18! is below 2e-16 there
 
 /// Load responses by the power series of g: g = sum g_j t^j with g_0 = 0, g_1 = 1, (j+1)(j+2) g_{j+2} = -c (j+1) g_{j+1} - k g_j.
@@ -50,22 +52,43 @@ LoadResponse closed_response(double k, double c, double t, const Impulse& im) {
   return out;
 }
 
-/// k = 0, c t not small: g = (1 - exp(-c t))/c.
-LoadResponse drag_response(double c, double t, const Impulse& im) {
+/// phi_n = int_0^1 exp(-x (1 - s)) s^(n-1)/(n-1)! ds, n = 1, 2, 3, for x >= 0.
+struct Phi {
+  double one, two, three;
+};
+
+Phi phi(double x) {
+  if (x >= series_limit) {
+    const double one = -std::expm1(-x) / x, two = (1.0 - one) / x;
+    return {one, two, (0.5 - two) / x};
+  }
+  double three = 0.0, term = 1.0 / 6.0; // (-x)^j/(j+3)!
+  for (int j = 0; j < 24; ++j) {
+    three += term;
+    term *= -x / (j + 4);
+  }
+  const double two = 0.5 - x * three;
+  return {1.0 - x * two, two, three};
+}
+
+/// Two separate decays (k = 0 included): g = (exp(-slow t) - exp(-fast t))/(fast - slow), each integrated by itself, since k may be as
+/// small as it likes.
+LoadResponse decay_response(double k, double c, double t, const Impulse& im) {
+  const double root = std::sqrt(0.25 * c * c - k), fast = 0.5 * c + root, slow = k / fast;
+  const Phi p = phi(slow * t), q = phi(fast * t);
+  const double scale = t / (fast - slow);
   LoadResponse out{};
   out.d0 = im.g;
-  out.r0 = (t - im.g) / c;
-  out.d1 = out.r0;
-  out.r1 = (0.5 * t * t - out.r0) / c;
-  out.i0 = out.r1;
-  out.i1 = (t * t * t / 6.0 - out.r1) / c;
+  out.r0 = out.d1 = scale * (p.one - q.one);
+  out.r1 = out.i0 = scale * t * (p.two - q.two);
+  out.i1 = scale * t * t * (p.three - q.three);
   return out;
 }
 
 LoadResponse load_response(double k, double c, double t, const Impulse& im) {
   if (k * t * t < series_limit * series_limit && c * t < series_limit)
     return series_response(k, c, t);
-  return k > 0.0 ? closed_response(k, c, t, im) : drag_response(c, t, im);
+  return k < separate * c * c ? decay_response(k, c, t, im) : closed_response(k, c, t, im);
 }
 
 } // namespace
