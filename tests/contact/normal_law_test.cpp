@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/normal_law.hpp"
+#include "uniform.hpp"
+#include <gtest/gtest.h>
+
+using namespace fretwork;
+using contact::mean_penetration;
+using contact::NormalLaw;
+using contact::normal_force;
+using contact::step_normal;
+
+namespace {
+
+constexpr double round_off = 1e-14; // a handful of operations, relative
+const NormalLaw law{1e6, 300.0};
+
+} // namespace
+
+TEST(NormalForce, IsThatOfSpringAndDamper) {
+  EXPECT_DOUBLE_EQ(normal_force(law, 1e-4, 0.2), 1e6 * 1e-4 + 300.0 * 0.2);
+  EXPECT_DOUBLE_EQ(normal_force(law, 1e-4, -0.2), 1e6 * 1e-4 - 300.0 * 0.2);
+  EXPECT_DOUBLE_EQ(normal_force({1e6}, 1e-4, 99.0), 100.0);
+}
+
+TEST(NormalForce, NeverPulls) {
+  tests::Uniform uniform(6);
+  int cut = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const double p = uniform(0.0, 1e-4), rate = uniform(-1.0, 1.0), force = normal_force(law, p, rate);
+    EXPECT_GE(force, 0.0);
+    cut += force == 0.0;
+  }
+  EXPECT_GT(cut, 100); // the case was met
+}
+
+TEST(NormalForce, IsZeroWhereOpenHoweverFastTheApproach) { EXPECT_EQ(normal_force(law, -1e-300, 1e6), 0.0); }
+
+TEST(MeanPenetration, IsTheMeanOfItsPositivePart) {
+  constexpr int points = 20000;
+  constexpr double quadrature = 2e-9; // midpoint rule across the kink: 1 / (8 points^2) of a slope of at most 4
+  tests::Uniform uniform(7);
+  for (int i = 0; i < 50; ++i) {
+    const double p1 = uniform(-2, 2), p2 = uniform(-2, 2);
+    double sum = 0.0;
+    for (int k = 0; k < points; ++k)
+      sum += std::max(0.0, p1 + (p2 - p1) * (k + 0.5) / points);
+    EXPECT_NEAR(mean_penetration(p1, p2), sum / points, quadrature);
+    EXPECT_EQ(mean_penetration(p1, p2), mean_penetration(p2, p1));
+  }
+}
+
+TEST(MeanPenetration, HasItsLimitsWithoutASpeedAndAtTheEdge) {
+  EXPECT_EQ(mean_penetration(0.0, 0.0), 0.0);
+  EXPECT_EQ(mean_penetration(-1.0, -2.0), 0.0);
+  EXPECT_EQ(mean_penetration(-1.0, 0.0), 0.0);
+  EXPECT_EQ(mean_penetration(0.3, 0.3), 0.3);
+  EXPECT_EQ(mean_penetration(0.0, 0.5), 0.25);
+  EXPECT_NEAR(mean_penetration(1e-20, 0.5), 0.25, round_off); // continuous across p1 = 0
+  EXPECT_NEAR(mean_penetration(-1e-20, 0.5), 0.25, round_off);
+}
+
+TEST(StepNormal, SolvesTheLawForAVelocityThatAnswers) {
+  tests::Uniform uniform(8);
+  for (int i = 0; i < 1000; ++i) {
+    const double mean = uniform(1e-9, 1e-4), free_rate = uniform(-1, 1), mobility = uniform.scale(1e-8, 1.0);
+    const double force = step_normal(law, mean, free_rate, mobility);
+    const double rate = free_rate - mobility * force;
+    EXPECT_NEAR(force, normal_force(law, mean, rate), round_off * (law.stiffness * mean + law.damping * std::abs(free_rate)) * (1 + law.damping * mobility));
+    EXPECT_GE(force, 0.0);
+  }
+}
+
+TEST(StepNormal, TendsToTheLawOfAnInstantAsTheStepGoesToZero) {
+  constexpr double p = 1e-4, rate = 0.3, mobility = 5.0;
+  double last = 0.0;
+  for (double h = 1e-3; h > 1e-7; h *= 0.5) {
+    const double reach = 0.5 * h * rate;
+    const double error = std::abs(step_normal(law, mean_penetration(p - reach, p + reach), rate, 0.5 * h * mobility) - normal_force(law, p, rate));
+    if (h < 1e-5) { // order 1: the velocity is that of the middle of the step
+      EXPECT_NEAR(error / last, 0.5, 0.02);
+    }
+    last = error;
+  }
+}

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/obstacle.hpp"
+#include "uniform.hpp"
+#include <gtest/gtest.h>
+
+using namespace fretwork;
+using contact::Circle;
+using contact::locate;
+using contact::Obstacle;
+using contact::PlaneAxis;
+using contact::PlanePair;
+using contact::Stop;
+
+namespace {
+
+constexpr double gap = 0.3;
+constexpr double difference_step = 1e-6;
+constexpr double difference_error = 1e-9; // of central differences: step^2 times third derivatives, and round-off / step
+constexpr double round_off = 1e-15;
+
+const Obstacle all[] = {Circle{gap}, PlanePair{gap, PlaneAxis::y}, PlanePair{gap, PlaneAxis::z}, Stop{gap, PlaneAxis::y},
+                        Stop{gap, PlaneAxis::z}};
+
+} // namespace
+
+TEST(Obstacle, GapIsPositiveInsideAndNegativeBeyond) {
+  for (const Obstacle& obstacle : all) {
+    EXPECT_NEAR(locate(obstacle, 0.0, 0.0).gap, gap, round_off);
+    EXPECT_NEAR(locate(obstacle, 0.2, 0.2).gap, obstacle.index() == 0 ? gap - std::sqrt(0.08) : gap - 0.2, round_off);
+    EXPECT_LT(locate(obstacle, 0.5, 0.5).gap, 0.0);
+  }
+}
+
+TEST(Obstacle, PlanesActOnBothSidesAndStopsOnOne) {
+  EXPECT_NEAR(locate(PlanePair{gap, PlaneAxis::y}, -0.5, 9.0).gap, gap - 0.5, round_off);
+  EXPECT_NEAR(locate(PlanePair{gap, PlaneAxis::z}, 9.0, -0.5).gap, gap - 0.5, round_off);
+  EXPECT_NEAR(locate(Stop{gap, PlaneAxis::y}, -0.5, 9.0).gap, gap + 0.5, round_off);
+  EXPECT_NEAR(locate(Stop{gap, PlaneAxis::z}, 9.0, -0.5).gap, gap + 0.5, round_off);
+}
+
+TEST(Obstacle, NormalIsTheGradientOfTheGap) {
+  tests::Uniform uniform(4);
+  for (const Obstacle& obstacle : all)
+    for (int i = 0; i < 100; ++i) {
+      // away from the ridges of the gap (the centre, the middle plane), where it has no gradient
+      const double y = std::copysign(uniform(0.05, 1.0), uniform(-1, 1)), z = std::copysign(uniform(0.05, 1.0), uniform(-1, 1));
+      const double h = difference_step;
+      const auto at = locate(obstacle, y, z);
+      EXPECT_NEAR(at.ny, (locate(obstacle, y + h, z).gap - locate(obstacle, y - h, z).gap) / (2 * h), difference_error);
+      EXPECT_NEAR(at.nz, (locate(obstacle, y, z + h).gap - locate(obstacle, y, z - h).gap) / (2 * h), difference_error);
+      EXPECT_NEAR(std::hypot(at.ny, at.nz), 1.0, round_off);
+    }
+}
+
+TEST(Obstacle, NormalIsAUnitVectorAtTheVeryCentre) {
+  for (const Obstacle& obstacle : all) {
+    const auto at = locate(obstacle, 0.0, 0.0);
+    EXPECT_EQ(at.ny * at.ny + at.nz * at.nz, 1.0);
+  }
+}
+
+TEST(Obstacle, ReachBoundsTheGapAndItsRateFromBelow) {
+  tests::Uniform uniform(5);
+  for (const Obstacle& obstacle : all) {
+    const contact::Reach reach = contact::reach(obstacle);
+    for (int i = 0; i < 1000; ++i) {
+      const double y = uniform(-1, 1), z = uniform(-1, 1), vy = uniform(-1, 1), vz = uniform(-1, 1);
+      const auto at = locate(obstacle, y, z);
+      EXPECT_GE(at.gap, reach.limit - std::sqrt(reach.wy * y * y + reach.wz * z * z) - round_off);
+      EXPECT_GE(at.ny * vy + at.nz * vz, -std::sqrt(reach.wy * vy * vy + reach.wz * vz * vz) - round_off);
+    }
+    // the bound is sharp where the obstacle is approached head on
+    EXPECT_NEAR(locate(obstacle, 0.4 * reach.wy, 0.4 * reach.wz * (1 - reach.wy)).gap, reach.limit - 0.4, round_off);
+  }
+}
+
+TEST(Obstacle, NormalTakesEveryDirectionOfACircleAndOneOfAPlane) {
+  using Directions = std::array<bool, 2>;
+  EXPECT_EQ(contact::normal_directions(all[0]), (Directions{true, true}));
+  EXPECT_EQ(contact::normal_directions(all[1]), (Directions{true, false}));
+  EXPECT_EQ(contact::normal_directions(all[2]), (Directions{false, true}));
+  EXPECT_EQ(contact::normal_directions(all[3]), (Directions{true, false}));
+  EXPECT_EQ(contact::normal_directions(all[4]), (Directions{false, true}));
+}
