@@ -13,7 +13,7 @@ using core::Vec3;
 
 namespace {
 
-constexpr double round_off = 1e-15; // a few operations on numbers of size 1
+constexpr double round_off = 1e-15;    // a few operations on numbers of size 1
 constexpr double trigonometry = 1e-14; // sines and cosines of angles of a few radians, composed
 
 void expect_frame(const Frame& frame, const Vec3& x, const Vec3& y, const Vec3& z) {

@@ -71,7 +71,8 @@ TEST(FrictionEvaluate, StaysWithinTheConeForAnyInput) {
     for (int i = 0; i < 2000; ++i) {
       const double normal = uniform.scale(1e-6, 1e6);
       const FrictionMemory memory{uniform.vector(normal), uniform(-1, 1) > 0.0};
-      const Friction f = evaluate(l, memory, normal, uniform.vector(normal / l.stiffness), uniform.vector(normal / l.damping));
+      const Friction f = evaluate(l, memory, normal, uniform.vector(normal / l.stiffness),
+                                  uniform.vector(normal / l.damping));
       const double mu = f.slides || memory.sliding ? l.mu_dynamic : l.mu_static;
       EXPECT_LE(norm(f.force), mu * normal * (1.0 + bound_tolerance));
     }
@@ -105,7 +106,8 @@ TEST(FrictionMemory, DiesOutWhenOpenAndForgetsItsSliding) {
   const FrictionStep open = open_step(law, table, memory);
   EXPECT_DOUBLE_EQ(norm(open.memory.spring), 5.0 * std::exp(-0.2));
   EXPECT_FALSE(open.memory.sliding);
-  EXPECT_NEAR(open.damper_work, spring_energy(law, memory) - spring_energy(law, open.memory), round_off * open.damper_work);
+  EXPECT_NEAR(open.damper_work, spring_energy(law, memory) - spring_energy(law, open.memory),
+              round_off * open.damper_work);
   EXPECT_EQ(norm(open_step(reference(law), table, memory).memory.spring), 0.0);
 }
 
@@ -117,7 +119,8 @@ TEST(FrictionMemory, WithoutADamperFollowsAtOnce) {
 }
 
 TEST(FrictionRegimes, ASlidingNodeThatTurnsBackSticksThroughTwiceTheBound) {
-  // slow, so that the damper is of no weight: slip at -mu F_N, reversal, stick along 2 mu F_N / K_T, slip at +mu F_N
+  // slow, so that the damper is of no weight: slip at -mu F_N, reversal, stick along 2 mu F_N / K_T, slip at
+  // +mu F_N
   Driven node{law, {}, 1.0};
   const double dx = 1e-7, normal = 10.0, bound = law.mu_dynamic * normal;
   for (int i = 0; i < 100; ++i)
@@ -145,21 +148,24 @@ TEST(FrictionEnergy, OfAClosedCycleIsLost) {
       work = 0.0;
       lost = node.friction_work + node.damper_work;
       for (int i = 0; i < points; ++i) {
-        const double angle = 2.0 * std::numbers::pi * i / points, arc = 2e-4 * 2.0 * std::numbers::pi / points;
+        const double angle = 2.0 * std::numbers::pi * i / points,
+                     arc = 2e-4 * 2.0 * std::numbers::pi / points;
         const Vec2 dx{-arc * std::sin(angle), 0.5 * arc * std::cos(angle)};
         work += dot(node.move(20.0, dx).force, dx);
       }
       lost = node.friction_work + node.damper_work - lost;
     }
     EXPECT_LT(work, 0.0);
-    constexpr double settled = 1e-6; // the third cycle starts and ends with the same spring, to this share of the loss
+    constexpr double settled =
+        1e-6; // the third cycle starts and ends with the same spring, to this share of the loss
     EXPECT_NEAR(-work, lost, settled * lost);
   }
 }
 
 TEST(FrictionEnergy, SliderAndDamperNeverGiveEnergyWhateverTheNormalForceDoes) {
   tests::Uniform uniform(13);
-  for (const FrictionLaw& l : {law, two_coefficients, FrictionLaw{1e6, 0.0, 0.3, 0.3}, FrictionLaw{1e6, 5e4, 0.4, 0.1}}) {
+  for (const FrictionLaw& l :
+       {law, two_coefficients, FrictionLaw{1e6, 0.0, 0.3, 0.3}, FrictionLaw{1e6, 5e4, 0.4, 0.1}}) {
     Driven node{l};
     double falling = 10.0;
     for (int i = 0; i < 20000; ++i) {
@@ -182,8 +188,10 @@ TEST(FrictionEnergy, IsSharedOutWithoutRest) {
     const FrictionMemory memory{uniform.vector(10.0), uniform(-1, 1) > 0.0};
     const Vec2 dx = uniform.vector(2e-5);
     const Friction friction = evaluate(two_coefficients, memory, normal, dx, (1.0 / h) * dx);
-    const FrictionStep end = close_step(two_coefficients, friction_table(two_coefficients, h), memory, friction, dx);
-    const double spring = spring_energy(two_coefficients, end.memory) - spring_energy(two_coefficients, memory);
+    const FrictionStep end =
+        close_step(two_coefficients, friction_table(two_coefficients, h), memory, friction, dx);
+    const double spring =
+        spring_energy(two_coefficients, end.memory) - spring_energy(two_coefficients, memory);
     EXPECT_NEAR(-dot(friction.force, dx), end.friction_work + end.damper_work + spring, 1e-16);
   }
 }
@@ -210,7 +218,8 @@ TEST(AutomaticTangentialDamping, MakesTheStuckModeCritical) {
 
 TEST(HarmonicSliding, LosesPerCycleWhatThePenalisedLawSays) {
   // amplitude a under constant F_N: 4 mu F_N (a - mu F_N / K_T)
-  constexpr double a = 2e-4, normal = 40.0, frequency = 1.0, accuracy = 1e-4; // the damper's share at 1 Hz, C_T w / K_T
+  constexpr double a = 2e-4, normal = 40.0, frequency = 1.0,
+                   accuracy = 1e-4; // the damper's share at 1 Hz, C_T w / K_T
   const FrictionLaw l{4e5, 2.0, 0.25, 0.25};
   constexpr int points = 20000;
   Driven node{l, {}, 1.0 / (frequency * points)};

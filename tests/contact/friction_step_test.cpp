@@ -11,7 +11,7 @@ using namespace fretwork::contact;
 namespace {
 
 constexpr double bound_tolerance = 1e-12; // |F| meets its bound to round-off
-constexpr double solved = 1e-10;          // residual of (M + s I) F = b, relative to b: Newton's last step is below it
+constexpr double solved = 1e-10; // residual of (M + s I) F = b, relative to b: Newton's last step is below it
 constexpr double h = 1e-4;
 
 const FrictionLaw law{1e6, 50.0, 0.5, 0.3};
@@ -65,7 +65,8 @@ TEST(FrictionStepPlane, SolvesItsEquations) {
       EXPECT_NEAR(norm(f.force), law.mu_dynamic * c.normal, bound_tolerance * law.mu_dynamic * c.normal);
       expect_solved(m, b, f.force);
     } else {
-      EXPECT_LE(norm(f.force), (c.memory.sliding ? law.mu_dynamic : law.mu_static) * c.normal * (1.0 + bound_tolerance));
+      EXPECT_LE(norm(f.force),
+                (c.memory.sliding ? law.mu_dynamic : law.mu_static) * c.normal * (1.0 + bound_tolerance));
       EXPECT_LE(norm(b - times(m, f.force)), solved * norm(b));
     }
   }
@@ -81,7 +82,8 @@ TEST(FrictionStepPlane, OfTheReferenceOpposesTheVelocityItLeaves) {
   for (int i = 0; i < 20000; ++i) {
     const Case c = draw(uniform);
     const Friction f = step_friction_plane(l, table, c.memory, c.normal, c.free_velocity, c.mobility);
-    EXPECT_LE(norm(f.force), (f.slides || c.memory.sliding ? l.mu_dynamic : l.mu_static) * c.normal * (1.0 + bound_tolerance));
+    EXPECT_LE(norm(f.force), (f.slides || c.memory.sliding ? l.mu_dynamic : l.mu_static) * c.normal *
+                                 (1.0 + bound_tolerance));
     if (!f.slides)
       continue;
     ++slips;
@@ -122,11 +124,13 @@ TEST(FrictionStepPlane, AgreesWithTheLineWhereNothingMovesAlongX) {
       const Case c = draw(uniform);
       const FrictionMemory memory{{0.0, c.memory.spring.t}, c.memory.sliding};
       const Mobility mobility{0.0, 0.0, c.mobility.tt};
-      const Friction plane = step_friction_plane(l, table, memory, c.normal, {0.0, c.free_velocity.t}, mobility);
+      const Friction plane =
+          step_friction_plane(l, table, memory, c.normal, {0.0, c.free_velocity.t}, mobility);
       const Friction line = step_friction_line(l, table, memory, c.normal, c.free_velocity.t, c.mobility.tt);
       EXPECT_EQ(plane.slides, line.slides);
       EXPECT_EQ(plane.force.x, 0.0);
-      EXPECT_NEAR(plane.force.t, line.force.t, bound_tolerance * (std::abs(line.force.t) + l.mu_static * c.normal));
+      EXPECT_NEAR(plane.force.t, line.force.t,
+                  bound_tolerance * (std::abs(line.force.t) + l.mu_static * c.normal));
     }
   }
 }
@@ -167,7 +171,7 @@ TEST(FrictionStep, SliderOfTheReferenceNeverGivesEnergy) {
 }
 
 TEST(FrictionStep, TendsToTheLawOfAnInstantAsTheStepGoesToZero) {
-  const Mobility w{7.0, 2.0, 4.0}; // 1/kg; over a step (h/2) of it
+  const Mobility w{7.0, 2.0, 4.0};                                   // 1/kg; over a step (h/2) of it
   const std::array velocities = {Vec2{0.02, -0.01}, Vec2{0.4, 0.3}}; // stick, slip
   for (const FrictionLaw& l : {law, reference(law)})
     for (const Vec2 velocity : velocities) {
@@ -180,7 +184,8 @@ TEST(FrictionStep, TendsToTheLawOfAnInstantAsTheStepGoesToZero) {
         const Friction f = step_friction_plane(l, friction_table(l, step), memory, normal, velocity, half);
         EXPECT_EQ(f.slides, instant.slides);
         const double error = norm(f.force - instant.force);
-        if (step < 1e-6 && error > 0.0) { // order 1: the instant is the start of the step, the step's force its mean
+        if (step < 1e-6 &&
+            error > 0.0) { // order 1: the instant is the start of the step, the step's force its mean
           EXPECT_NEAR(error / last, 0.5, 0.05);
         }
         last = error;
@@ -202,15 +207,15 @@ TEST(FrictionStep, GivesTheSameBytesForUnitsScaledByPowersOfTwo) {
     const Case c = draw(uniform);
     const auto& a = c.mobility;
     const Friction f = step_friction_plane(law, table, c.memory, c.normal, c.free_velocity, a);
-    const Friction g = step_friction_plane(scaled, scaled_table, {force * c.memory.spring, c.memory.sliding}, force * c.normal,
-                                           speed * c.free_velocity,
-                                           {speed / force * a.xx, speed / force * a.xt, speed / force * a.tt});
+    const Friction g = step_friction_plane(
+        scaled, scaled_table, {force * c.memory.spring, c.memory.sliding}, force * c.normal,
+        speed * c.free_velocity, {speed / force * a.xx, speed / force * a.xt, speed / force * a.tt});
     EXPECT_EQ(g.force.x, force * f.force.x);
     EXPECT_EQ(g.force.t, force * f.force.t);
     EXPECT_EQ(g.slides, f.slides);
     const FrictionStep end = close_step(law, table, c.memory, f, h * c.free_velocity);
-    const FrictionStep other = close_step(scaled, scaled_table, {force * c.memory.spring, c.memory.sliding}, g,
-                                          (h * second) * (speed * c.free_velocity));
+    const FrictionStep other = close_step(scaled, scaled_table, {force * c.memory.spring, c.memory.sliding},
+                                          g, (h * second) * (speed * c.free_velocity));
     EXPECT_EQ(other.memory.spring.x, force * end.memory.spring.x);
     EXPECT_EQ(other.damper_work, force * metre * end.damper_work);
     EXPECT_EQ(other.friction_work, force * metre * end.friction_work);

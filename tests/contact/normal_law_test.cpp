@@ -5,8 +5,8 @@
 
 using namespace fretwork;
 using contact::mean_penetration;
-using contact::NormalLaw;
 using contact::normal_force;
+using contact::NormalLaw;
 using contact::step_normal;
 
 namespace {
@@ -37,7 +37,8 @@ TEST(NormalForce, IsZeroWhereOpenHoweverFastTheApproach) { EXPECT_EQ(normal_forc
 
 TEST(MeanPenetration, IsTheMeanOfItsPositivePart) {
   constexpr int points = 20000;
-  constexpr double quadrature = 2e-9; // midpoint rule across the kink: 1 / (8 points^2) of a slope of at most 4
+  constexpr double quadrature =
+      2e-9; // midpoint rule across the kink: 1 / (8 points^2) of a slope of at most 4
   tests::Uniform uniform(7);
   for (int i = 0; i < 50; ++i) {
     const double p1 = uniform(-2, 2), p2 = uniform(-2, 2);
@@ -65,7 +66,9 @@ TEST(StepNormal, SolvesTheLawForAVelocityThatAnswers) {
     const double mean = uniform(1e-9, 1e-4), free_rate = uniform(-1, 1), mobility = uniform.scale(1e-8, 1.0);
     const double force = step_normal(law, mean, free_rate, mobility);
     const double rate = free_rate - mobility * force;
-    EXPECT_NEAR(force, normal_force(law, mean, rate), round_off * (law.stiffness * mean + law.damping * std::abs(free_rate)) * (1 + law.damping * mobility));
+    EXPECT_NEAR(force, normal_force(law, mean, rate),
+                round_off * (law.stiffness * mean + law.damping * std::abs(free_rate)) *
+                    (1 + law.damping * mobility));
     EXPECT_GE(force, 0.0);
   }
 }
@@ -75,7 +78,9 @@ TEST(StepNormal, TendsToTheLawOfAnInstantAsTheStepGoesToZero) {
   double last = 0.0;
   for (double h = 1e-3; h > 1e-7; h *= 0.5) {
     const double reach = 0.5 * h * rate;
-    const double error = std::abs(step_normal(law, mean_penetration(p - reach, p + reach), rate, 0.5 * h * mobility) - normal_force(law, p, rate));
+    const double error =
+        std::abs(step_normal(law, mean_penetration(p - reach, p + reach), rate, 0.5 * h * mobility) -
+                 normal_force(law, p, rate));
     if (h < 1e-5) { // order 1: the velocity is that of the middle of the step
       EXPECT_NEAR(error / last, 0.5, 0.02);
     }

@@ -15,18 +15,20 @@ namespace {
 
 constexpr double gap = 0.3;
 constexpr double difference_step = 1e-6;
-constexpr double difference_error = 1e-9; // of central differences: step^2 times third derivatives, and round-off / step
+constexpr double difference_error =
+    1e-9; // of central differences: step^2 times third derivatives, and round-off / step
 constexpr double round_off = 1e-15;
 
-const Obstacle all[] = {Circle{gap}, PlanePair{gap, PlaneAxis::y}, PlanePair{gap, PlaneAxis::z}, Stop{gap, PlaneAxis::y},
-                        Stop{gap, PlaneAxis::z}};
+const Obstacle all[] = {Circle{gap}, PlanePair{gap, PlaneAxis::y}, PlanePair{gap, PlaneAxis::z},
+                        Stop{gap, PlaneAxis::y}, Stop{gap, PlaneAxis::z}};
 
 } // namespace
 
 TEST(Obstacle, GapIsPositiveInsideAndNegativeBeyond) {
   for (const Obstacle& obstacle : all) {
     EXPECT_NEAR(locate(obstacle, 0.0, 0.0).gap, gap, round_off);
-    EXPECT_NEAR(locate(obstacle, 0.2, 0.2).gap, obstacle.index() == 0 ? gap - std::sqrt(0.08) : gap - 0.2, round_off);
+    EXPECT_NEAR(locate(obstacle, 0.2, 0.2).gap, obstacle.index() == 0 ? gap - std::sqrt(0.08) : gap - 0.2,
+                round_off);
     EXPECT_LT(locate(obstacle, 0.5, 0.5).gap, 0.0);
   }
 }
@@ -43,11 +45,14 @@ TEST(Obstacle, NormalIsTheGradientOfTheGap) {
   for (const Obstacle& obstacle : all)
     for (int i = 0; i < 100; ++i) {
       // away from the ridges of the gap (the centre, the middle plane), where it has no gradient
-      const double y = std::copysign(uniform(0.05, 1.0), uniform(-1, 1)), z = std::copysign(uniform(0.05, 1.0), uniform(-1, 1));
+      const double y = std::copysign(uniform(0.05, 1.0), uniform(-1, 1)),
+                   z = std::copysign(uniform(0.05, 1.0), uniform(-1, 1));
       const double h = difference_step;
       const auto at = locate(obstacle, y, z);
-      EXPECT_NEAR(at.ny, (locate(obstacle, y + h, z).gap - locate(obstacle, y - h, z).gap) / (2 * h), difference_error);
-      EXPECT_NEAR(at.nz, (locate(obstacle, y, z + h).gap - locate(obstacle, y, z - h).gap) / (2 * h), difference_error);
+      EXPECT_NEAR(at.ny, (locate(obstacle, y + h, z).gap - locate(obstacle, y - h, z).gap) / (2 * h),
+                  difference_error);
+      EXPECT_NEAR(at.nz, (locate(obstacle, y, z + h).gap - locate(obstacle, y, z - h).gap) / (2 * h),
+                  difference_error);
       EXPECT_NEAR(std::hypot(at.ny, at.nz), 1.0, round_off);
     }
 }
@@ -70,7 +75,8 @@ TEST(Obstacle, ReachBoundsTheGapAndItsRateFromBelow) {
       EXPECT_GE(at.ny * vy + at.nz * vz, -std::sqrt(reach.wy * vy * vy + reach.wz * vz * vz) - round_off);
     }
     // the bound is sharp where the obstacle is approached head on
-    EXPECT_NEAR(locate(obstacle, 0.4 * reach.wy, 0.4 * reach.wz * (1 - reach.wy)).gap, reach.limit - 0.4, round_off);
+    EXPECT_NEAR(locate(obstacle, 0.4 * reach.wy, 0.4 * reach.wz * (1 - reach.wy)).gap, reach.limit - 0.4,
+                round_off);
   }
 }
 
