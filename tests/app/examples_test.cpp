@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every example runs and gives its headline numbers.
+#include "program.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+#include <set>
+
+namespace fretwork::app::test {
+namespace {
+
+constexpr double single_impact = 1e-4; ///< the rule's least number of steps aims at this
+constexpr double five_digits = 1e-3;   ///< of published values, which have their own time step
+constexpr double mesh_of_ninety =
+    5e-4; ///< ninety elements against exact beam modes, at the twentieth (201.488 Hz against 201.455)
+constexpr double trusted_balance = 2e-2; ///< of the energy put in: above it the step was wrong
+
+TEST(Examples, EveryFolderOfExamplesIsRunHere) {
+  std::set<std::string> found;
+  for (const auto& entry : fs::directory_iterator(fs::path(FRETWORK_SOURCE_DIR) / "examples"))
+    if (fs::exists(entry.path() / "study.toml"))
+      found.insert(entry.path().filename());
+  EXPECT_EQ(found, (std::set<std::string>{"cantilever_stop", "oscillator", "straight_tube", "u_bend"}));
+}
+
+TEST(Examples, OscillatorMeetsItsStopThreeTimes) {
+  const Workshop folder;
+  const Results run = folder.run(example("oscillator"), "results");
+  EXPECT_EQ(run.statistics("stop")["impacts"], 3);
+  EXPECT_TRUE(close_to(run.statistics("stop")["normal_force"]["max"], 9950.37, single_impact));
+  EXPECT_TRUE(run.summary["warnings"].empty()) << run.summary["warnings"];
+}
+
+TEST(Examples, CantileverReachesThePublishedForce) {
+  const Workshop folder;
+  const Results run = folder.run(example("cantilever_stop"), "results");
+  EXPECT_TRUE(close_to(run.statistics("stop")["normal_force"]["max"], 2796.8, five_digits));
+  EXPECT_TRUE(run.summary["warnings"].empty()) << run.summary["warnings"];
+}
+
+TEST(Examples, StraightTubeHasItsFrequenciesAndItsWorkRate) {
+  const Workshop folder;
+  const Results run = folder.run(example("straight_tube"), "results");
+  const auto& frequencies = run.summary["modes"]["frequencies_hz"];
+  ASSERT_EQ(frequencies.size(), 41u);
+  std::size_t bending = 0;
+  for (int n = 1; n <= 20; ++n)
+    for (int of_pair = 0; of_pair < 2; ++of_pair, ++bending) {
+      const double exact = 0.503639 * n * n;
+      if (std::abs(frequencies[bending].get<double>() - exact) > 0.01 * exact)
+        ++bending; // the torsion mode among them
+      EXPECT_TRUE(close_to(frequencies[bending], exact, mesh_of_ninety)) << "pair " << n;
+    }
+  double work = 0.0;
+  for (const auto& contact : run.summary["contacts"])
+    work += contact["work_rate"].get<double>();
+  // a chaotic run: ten runs from slightly different starts scatter by about 2 %
+  EXPECT_GT(work, 5.5);
+  EXPECT_LT(work, 6.7);
+  EXPECT_EQ(run.summary["contacts"].size(), 8u);
+  EXPECT_LT(run.summary["energy"]["residual_relative"].get<double>(), trusted_balance);
+  EXPECT_TRUE(run.summary["warnings"].empty()) << run.summary["warnings"];
+}
+
+TEST(Examples, UBendRattles) {
+  const Workshop folder;
+  const Results run = folder.run(
+      example("u_bend"), "results",
+      {"--set", "transient.duration=0.2", "--set", "output.statistics_from=0", "--set", "modes.count=60"});
+  EXPECT_EQ(run.summary["contacts"].size(), 22u);
+  int impacts = 0;
+  for (const auto& contact : run.summary["contacts"])
+    impacts += contact["impacts"].get<int>();
+  EXPECT_GT(impacts, 0);
+  EXPECT_LT(run.summary["energy"]["residual_relative"].get<double>(), trusted_balance);
+  fmt::print("U-bend: {} impacts, frequencies {}\n", impacts, run.summary["modes"]["frequencies_hz"].dump());
+}
+
+} // namespace
+} // namespace fretwork::app::test
