@@ -76,12 +76,14 @@ public:
     const auto count = static_cast<std::size_t>(contacts_.count);
     u_.assign(lanes, 0.0);
     w_.assign(lanes, 0.0);
+    before_.assign(lanes, 0.0);
     near_.assign(static_cast<std::size_t>(contacts_.width), 0.0);
     states_.resize(count);
     working_.resize(count);
     memory_.resize(count);
     active_.reserve(count);
     shut_.reserve(count);
+    remembering_.reserve(count);
     row_.reserve(3 * count);
     factor_.reserve(3 * count);
     for (const auto& support : contacts_.supports)
@@ -107,7 +109,8 @@ public:
   }
 
   void state_at(double time, double* q, double* v) override {
-    // exact flow from the last action under the load's slope of the step under way
+    // Exact flow from the last action under the load's slope of the step under way. The action stands for a force f over the step around it:
+    // its impulse is spread out, so that the velocity is of order 2 at any instant and not only in the middle between two actions.
     const double t = time - time_, span = next_time() - time_;
     if (!loads_.empty())
       loads_.at(next_time(), f_next_.data());
@@ -118,6 +121,13 @@ public:
       q[j] = d.qq * q_[i] + d.qv * v_[i] + d.qf * f + d.qs * slope;
       v[j] = d.vq * q_[i] + d.vv * v_[i] + d.vf * f + d.vs * slope;
     }
+    const double share = t / h_ - 0.5;
+    for (std::size_t r = 0; r < row_.size(); ++r)
+      for (Eigen::Index j = 0; j < system_.size(); ++j) {
+        const double impulse = factor_[r] * row_[r][j];
+        v[j] += share * impulse;
+        q[j] += 0.5 * (share * share - 0.25) * h_ * impulse; // nothing at the actions, where the forces are made from q
+      }
   }
 
   void load_at(double time, double* force) override {
