@@ -59,13 +59,11 @@ public:
     }
   }
 
-  /// After the last record: the instants up to the end.
+  /// After the last record: the instants up to the end, their forces between it and one more, which nobody else sees.
   void finish(Scheme& scheme) {
-    const std::int64_t begin = next_;
     states(scheme, std::numeric_limits<double>::infinity());
-    now_ = last_;
-    for (std::int64_t j = begin; j < next_; ++j)
-      serve(scheme, j, 0.0);
+    if (first_ < next_)
+      forces(scheme, scheme.advance());
   }
 
 private:
@@ -134,10 +132,10 @@ Report run(const Scene& scene, const StepChoice& choice, std::span<Observer* con
       break;
     }
   }
-  if (report.outcome == Outcome::done)
-    outputs.finish(*scheme);
   report.evaluations = scene.contacts.empty() ? 0 : report.steps;
   report.unconverged = scheme->unconverged();
+  if (report.outcome == Outcome::done)
+    outputs.finish(*scheme);
   report.residual_relative = largest_throughput > 0.0 ? largest_residual / largest_throughput : 0.0;
   return report;
 }
