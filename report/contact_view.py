@@ -176,8 +176,9 @@ def energy_bar(energy, size=(980, 44)):
     """One bar: where the input went; None where a share is negative or unknown."""
     kinds = ["stored", "modal_damping", "contact_damping", "friction"]
     parts = [energy[f"{kind}_J"] for kind in kinds]
-    if any(part is None or part < 0 for part in parts) or energy["input_J"] is None:
+    if None in parts or energy["input_J"] is None or min(parts) < -1e-6 * sum(map(abs, parts)):
         return None
+    parts = [max(0.0, part) for part in parts]  # round-off of a term that is zero
     residual = energy["input_J"] - sum(parts)
     total = sum(parts) + abs(residual)
     if total <= 0:

@@ -31,6 +31,8 @@ def short(value, digits=4):
     if value is None or not math.isfinite(value):
         return "–"
     text = f"{value:.{digits}g}"
+    if "e" in text and 1 <= abs(value) < 1e6:
+        text = f"{float(text):.0f}"
     if "e" in text:
         mantissa, exponent = text.split("e")
         return f"{mantissa}·10<sup>{int(exponent)}</sup>"
@@ -39,7 +41,7 @@ def short(value, digits=4):
 
 def tick_label(value, step):
     decimals = max(0, -math.floor(math.log10(step) + 1e-9)) if step > 0 else 0
-    if abs(value) >= 1e5 or decimals > 5:
+    if abs(value) >= 1e6 or decimals > 5:
         return f"{value:.3g}"
     return f"{value:.{decimals}f}".replace("-", "−") if abs(value) > 1e-12 * step else "0"
 

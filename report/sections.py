@@ -35,7 +35,7 @@ def key_figures(run):
     model, transient = run.summary["model"], run.transient
     entries = [("nodes", f"{model['nodes']}"), ("mass", f"{short(model['mass_kg'], 4)} kg")]
     if run.modes:
-        entries.append((f"{len(run.modes)} modes, from", f"{short(run.modes[0].frequency)} Hz"))
+        entries.append((f"{len(run.modes)} modes, from" if len(run.modes) > 1 else "one mode", f"{short(run.modes[0].frequency)} Hz"))
     if transient:
         entries.append(("simulated", f"{short(transient['duration_s'])} s"))
     if transient and run.contacts:
@@ -125,7 +125,7 @@ def contacts(run):
 
 
 def along_the_tube(run):
-    if not run.contacts or not run.transient:
+    if len(run.contacts) < 2 or not run.transient:
         return ""
     statistics = [c.summary for c in run.contacts]
     length = run.window_length

@@ -31,7 +31,7 @@ class View:
             turn, tilt = math.radians(-35), math.radians(25)
             c, s = math.cos(turn), math.sin(turn)
             self.matrix = np.array([[c, s, 0], [-s * math.sin(tilt), c * math.sin(tilt), math.cos(tilt)]])
-            self.name = "in depth, z upwards"
+            self.name = "in depth"
 
     def __call__(self, points):
         return np.asarray(points) @ self.matrix.T
@@ -40,7 +40,9 @@ class View:
 def _plot(flat_points, width, heights):
     """Equal scales, margins round the points, a height that suits them."""
     low, high = flat_points.min(axis=0), flat_points.max(axis=0)
-    span = np.maximum(high - low, 1e-9 * max(1e-30, (high - low).max()) or 1.0)
+    extent = float((high - low).max()) or 1.0
+    flat = high[0] - low[0] >= high[1] - low[1]
+    span = np.maximum(high - low, [extent if flat else 1e-9 * extent, 1e-9 * extent])
     margins = (14, 14, 22, 14)
     inner = width - 28
     height = float(np.clip(inner * span[1] / span[0], *heights))
@@ -66,25 +68,40 @@ def _segments(plot, flat_points, lines, kind):
     plot.add(f'<path class="{kind}" d="{"".join(path)}"/>')
 
 
+def _beside(run, view, middle, contact):
+    """The side of a support on which its name stands: "left" or "right", outwards, where the beam goes up; else None."""
+    node = int(contact.facts["node"])
+    at_node = run.lines[(run.lines == node).any(axis=1)]
+    if not len(at_node):
+        return None
+    along = np.abs(view(run.nodes[at_node[:, 1]] - run.nodes[at_node[:, 0]])).sum(axis=0)
+    if along[1] <= along[0]:
+        return None
+    return "left" if view(contact.position)[0] < middle[0] else "right"
+
+
 def _name_supports(plot, supports):
-    """A dot and a name each; above and below by turns where names would touch, left out where they still would."""
-    def room(text):
-        return 6.5 * len(text) + 8
+    """A dot and a name each; names above and below by turns where they would touch, left out where they still would."""
+    spots = {"left": ("note end", (-9, 4)), "right": ("note", (9, 4)), "above": ("note mid", (0, -9)), "below": ("note mid", (0, 17))}
 
-    def near(one, other):
-        (name, at), (other_name, other_at) = one, other
-        close = abs(float(plot.px(at[0]) - plot.px(other_at[0]))) < (room(name) + room(other_name)) / 2
-        return close and abs(float(plot.py(at[1]) - plot.py(other_at[1]))) < 14
+    def touch(one, other):
+        apart = [abs(float(a - b)) for a, b in zip(_spot(plot, one[1]), _spot(plot, other[1]))]
+        return apart[0] < 3.25 * (len(one[0]) + len(other[0])) + 8 and apart[1] < 13
 
-    crowded = any(near(*pair) for pair in zip(supports, supports[1:]))
-    written = [[], []]
+    lying = [support for support in supports if support[2] is None]
+    crowded = any(touch(*pair) for pair in zip(lying, lying[1:]))
+    written = {side: [] for side in spots}
     for i, support in enumerate(supports):
-        at = support[1]
+        name, at, beside = support
         plot.dot(at[0], at[1], "support", 4)
-        side = i % 2 if crowded else 0
-        if not any(near(support, other) for other in written[side]):
-            plot.text(at[0], at[1], support[0], "note mid", (0, 17 if side else -9))
+        side = beside or ("below" if crowded and i % 2 else "above")
+        if not any(touch(support, other) for other in written[side]):
+            plot.text(at[0], at[1], name, *spots[side])
             written[side].append(support)
+
+
+def _spot(plot, at):
+    return plot.px(at[0]), plot.py(at[1])
 
 
 def structure(run, width=980):
@@ -93,7 +110,8 @@ def structure(run, width=980):
     points = view(run.nodes)
     plot = _plot(points, width, (70, 420))
     _segments(plot, points, run.lines, "beam")
-    _name_supports(plot, [(contact.name, view(contact.position)) for contact in run.contacts])
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2
+    _name_supports(plot, [(c.name, view(c.position), _beside(run, view, middle, c)) for c in run.contacts])
     return plot.svg("The structure and its supports"), view.name
 
 

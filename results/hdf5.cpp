@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/hdf5.hpp"
-#include <algorithm>
 #include <cassert>
 #include <utility>
 
 namespace fretwork::results::h5 {
 namespace {
-
-/// Bytes of a chunk: what the library's chunk cache holds several of.
-constexpr hsize_t chunk_bytes = hsize_t{1} << 17;
-/// The fastest level; the higher ones gain little on measured motion.
-constexpr unsigned deflate_level = 1;
 
 void check(herr_t status, const std::string& what) {
   if (status < 0)
@@ -153,18 +147,10 @@ void Group::get_values(const std::string& name, hid_t type, void* values) const 
     check(H5Aread(attribute.id(), type, values), "attribute " + name);
 }
 
-void Group::write_values(const std::string& name, hid_t type, std::size_t size, const void* values,
-                         std::size_t count, const Shape& shape, const std::string& units) const {
+void Group::write_values(const std::string& name, hid_t type, const void* values, std::size_t count,
+                         const Shape& shape, const std::string& units) const {
   assert(size_of(shape) == count);
   const Handle properties = properties_without_times(H5P_DATASET_CREATE);
-  if (count * size >= compress_from) {
-    Shape chunk = shape;
-    const hsize_t row = count / shape[0] * size;
-    chunk[0] = std::clamp<hsize_t>(chunk_bytes / row, 1, shape[0]);
-    check(H5Pset_chunk(properties.id(), static_cast<int>(chunk.size()), chunk.data()), "chunks of " + name);
-    check(H5Pset_shuffle(properties.id()), "filter of " + name);
-    check(H5Pset_deflate(properties.id(), deflate_level), "filter of " + name);
-  }
   const Handle space = dataspace(shape);
   const Handle data(
       H5Dcreate2(handle_.id(), name.c_str(), type, space.id(), H5P_DEFAULT, properties.id(), H5P_DEFAULT),

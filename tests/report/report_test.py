@@ -215,6 +215,7 @@ class Parts(unittest.TestCase):
     def test_numbers_are_short(self):
         self.assertEqual(drawing.short(0.123456), "0.1235")
         self.assertEqual(drawing.short(-2.5), "−2.5")
+        self.assertEqual(drawing.short(1000.0, 3), "1000")
         self.assertEqual(drawing.short(3e-11), "3·10<sup>-11</sup>")
         for none in (None, float("nan"), float("inf")):
             self.assertEqual(drawing.short(none), "–")
@@ -237,7 +238,7 @@ class Parts(unittest.TestCase):
         plane = np.array([[0.0, 0, 0], [1.0, 0, 0], [1.0, 0, 3.0]])
         self.assertEqual(structure_view.View(plane).name, "x–z plane")
         self.assertEqual(structure_view.View(plane[:, [1, 0, 2]]).name, "y–z plane")
-        self.assertEqual(structure_view.View(np.eye(3)).name, "in depth, z upwards")
+        self.assertEqual(structure_view.View(np.eye(3)).name, "in depth")
         self.assertEqual(structure_view.View(np.zeros((1, 3))).matrix.shape, (2, 3))
 
     def test_pixels_become_a_png(self):

@@ -147,18 +147,6 @@ TEST(Archive, HasContactsButNoSeriesWithoutATransient) {
   EXPECT_EQ(in.series.time.size(), 0);
 }
 
-TEST(Archive, CompressesLongSeriesWithoutLoss) {
-  RunResults out = made_up({.contacts = 1, .outputs = 60000, .modes = 4});
-  out.series.contacts[0].displacement.setZero();
-  const Folder folder;
-  write_archive(folder / "results.h5", out);
-  const RunResults in = read_archive(folder.path());
-  EXPECT_EQ(in.series.contacts[0].displacement, out.series.contacts[0].displacement);
-  EXPECT_EQ(in.series.contacts[0].velocity, out.series.contacts[0].velocity);
-  const std::size_t plain = 60000 * (1 + 10 + 9 + 8) * sizeof(double); // time, contact, node, modal
-  EXPECT_LT(std::filesystem::file_size(folder / "results.h5"), plain - 60000 * 3 * sizeof(double));
-}
-
 TEST(Archive, HasTheSameBytesForTheSameResultsAtAnotherTime) {
   const Folder folder;
   RunResults results = made_up({.structures = 2});
