@@ -15,6 +15,8 @@ using core::Vec3;
 constexpr double negligible = 1e-8;
 /// Tangents of two beams that meet at a node give a mean this long at least; shorter: they turn back.
 constexpr double shortest_mean = 0.1;
+/// The bits of ux, uy and uz.
+constexpr std::uint8_t translations = 0b000111;
 
 /// Beams are walked along their chain, so that the tangents before and after a node point the same way.
 Vec3 mean_tangent(const fem::Model& model, Index node, const std::string& name) {
@@ -93,6 +95,8 @@ std::vector<PlacedContact> place_contacts(const study::Study& study, const mesh:
       placed.name = nodes.size() == 1 ? contact.name : fmt::format("{}[{}]", contact.name, i);
       placed.entry = e;
       placed.node = nodes[i];
+      if ((model.fixed[static_cast<std::size_t>(placed.node)] & translations) == translations)
+        throw core::Error(fmt::format("contact \"{}\" is at a node that cannot move; release it in [[restraints]] or give it a mass", placed.name));
       placed.frame = frame_of(contact, model, nodes[i], placed.name);
       const Vec3& place = model.nodes[static_cast<std::size_t>(nodes[i])];
       placed.rest = placed.frame.rotation() * (place - contact.origin.value_or(place));

@@ -16,7 +16,8 @@ struct PlacedContact {
   core::Vec3 rest;        ///< m: the node from the obstacle's centre, local axes
 };
 
-/// @throws core::Error for an axis that must be given (a node without beams, or where beams branch)
+/// @throws core::Error for a node whose three displacements are restrained, for an axis that must be given (a node without beams, or where
+///         beams branch)
 [[nodiscard]] std::vector<PlacedContact> place_contacts(const study::Study& study, const mesh::LineMesh& mesh, const fem::Model& model);
 
 /// Obstacle, laws and automatic tangential damping not yet filled in.

@@ -91,21 +91,16 @@ std::vector<BuiltScene> build_scenes(const study::Study& study, const mesh::Line
   const Fields fields = build_fields(study, mesh, built);
   std::vector<BuiltScene> scenes;
   out.contacts.resize(placed.size());
-  std::vector<bool> met(placed.size(), false);
   for (const auto& basis : bases) {
     scenes.push_back(build_scene(study, fields, basis, placed, nodes));
     const BuiltScene& scene = scenes.back();
     for (std::size_t k = 0; k < scene.contacts.size(); ++k) {
       const std::size_t c = scene.contacts[k];
       out.contacts[c] = facts_of(study.contacts[placed[c].entry], placed[c], scene.scene.contacts[k].support);
-      met[c] = true;
     }
     out.warnings.insert(out.warnings.end(), scene.warnings.begin(), scene.warnings.end());
     out.notes.insert(out.notes.end(), scene.notes.begin(), scene.notes.end());
   }
-  for (std::size_t c = 0; c < placed.size(); ++c)
-    if (!met[c])
-      throw core::Error(fmt::format("contact \"{}\" is at a node that cannot move; release it in [[restraints]] or give it a mass", placed[c].name));
   for (const NamedNode& node : nodes) {
     const auto has = [&](const modal::Basis& basis) { return basis.row_of(node.node) >= 0; };
     if (std::none_of(bases.begin(), bases.end(), has))
@@ -154,9 +149,9 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
       throw core::Error("the study has no [transient]; add it, or compute its modes with: fretwork modes STUDY");
     make_directory(inputs.directory);
   });
-  int current = first_rank && last == Stage::transient && !request.force && up_to_date(inputs) ? 1 : 0;
+  int current = first_rank && !request.force && up_to_date(inputs) ? 1 : 0;
   MPI_Bcast(&current, 1, MPI_INT, 0, comm);
-  if (current)
+  if (current && last == Stage::transient)
     return say(fmt::format("Nothing has changed: the results in {} are up to date (--force computes them again).\n", inputs.directory.string()));
 
   results::RunResults out;
@@ -203,7 +198,7 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
   }
   progress.stage("results");
   core::agree(comm, [&] {
-    if (!first_rank)
+    if (!first_rank || current) // the results of a whole run hold its modes too: `modes` leaves them
       return;
     results::write_archive(inputs.directory / "results.h5", out);
     out.timings.output = watch.lap();
@@ -221,15 +216,14 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
     }
   }
   progress.stage("");
-  say("\r" + results::terminal_table(out) + fmt::format("results: {}\n", inputs.directory.string()) + report_line);
+  say(results::terminal_table(out) + fmt::format("results: {}\n", inputs.directory.string()) + report_line);
 }
 
 std::string check(const Request& request) {
   const Inputs inputs = read_inputs(request);
   const mesh::LineMesh mesh = mesh::read(inputs.study.mesh);
   const BuiltModel built = build_model(inputs.study, mesh);
-  auto structures = fem::structures(built.model);
-  std::erase_if(structures, [](const fem::Structure& s) { return s.equations == 0; });
+  const auto structures = moving_structures(built.model);
   const auto placed = place_contacts(inputs.study, mesh, built.model);
   const auto nodes = observed_nodes(inputs.study, mesh);
   static_cast<void>(build_fields(inputs.study, mesh, built));

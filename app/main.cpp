@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
                    "  mpirun -n 2 fretwork run study.toml --set transient.duration=1"};
   program.name("fretwork");
   program.set_version_flag("--version", FRETWORK_VERSION);
-  program.require_subcommand(1);
+  program.require_subcommand(0, 1); // that there is one is checked below: a word that is no command is then named
   program.footer("Exit status: 0 done, 1 the input is wrong, 2 the computation failed, 3 a defect of the program.");
 
   app::Request request;
@@ -91,6 +91,10 @@ int main(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? 0 : input_is_wrong;
+  }
+  if (program.get_subcommands().empty()) {
+    fmt::print(stderr, "fretwork: a command is missing; give one of run, mesh, modes, transient, check, report, export (--help explains them)\n");
+    return input_is_wrong;
   }
   request.report = !no_report;
   if (check->parsed())

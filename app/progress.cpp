@@ -26,7 +26,8 @@ void Progress::stage(const std::string& name) {
   if (!shown_)
     return;
   clear();
-  fmt::print(stderr, "{} ...", stage_);
+  if (!stage_.empty())
+    fmt::print(stderr, "{} ...", stage_);
   std::fflush(stderr);
 }
 

@@ -19,10 +19,10 @@ std::string find_python() {
     candidates.emplace_back(chosen);
   candidates.insert(candidates.end(), {"python3", "/usr/bin/python3"});
   for (const std::string& python : candidates)
-    if (core::run_child({python, "-c", "import importlib.util as u, sys; sys.exit(not (u.find_spec('h5py') and u.find_spec('matplotlib')))"}).status == 0)
+    if (core::run_child({python, "-c", "import importlib.util as u, sys; sys.exit(not (u.find_spec('h5py') and u.find_spec('numpy')))"}).status == 0)
       return python;
-  throw core::Error(fmt::format("the report needs a Python with h5py and matplotlib, and {} have not both; install the packages python3-h5py "
-                                "and python3-matplotlib, or name an interpreter in FRETWORK_PYTHON",
+  throw core::Error(fmt::format("the report needs a Python with h5py and numpy, and {} have not both; install the packages python3-h5py "
+                                "and python3-numpy, or name an interpreter in FRETWORK_PYTHON",
                                 fmt::join(candidates, ", ")));
 }
 

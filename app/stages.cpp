@@ -98,13 +98,18 @@ mesh::LineMesh mesh_stage(MPI_Comm comm, const Inputs& inputs, bool force) {
   return mesh;
 }
 
+std::vector<fem::Structure> moving_structures(const fem::Model& model) {
+  std::vector<fem::Structure> structures = fem::structures(model);
+  // marks and fully restrained points are structures without equations: there is nothing to solve
+  std::erase_if(structures, [](const fem::Structure& s) { return s.equations == 0; });
+  if (structures.empty())
+    throw core::Error("nothing in the model can move: every degree of freedom is restrained; release some in [[restraints]]");
+  return structures;
+}
+
 ModesStage modes_stage(MPI_Comm comm, const Inputs& inputs, const fem::Model& model, const results::RunRecord& record, bool force) {
   ModesStage out;
-  core::agree(comm, [&] { out.structures = fem::structures(model); });
-  // marks and fully restrained points are structures without equations: there is nothing to solve
-  std::erase_if(out.structures, [](const fem::Structure& s) { return s.equations == 0; });
-  if (out.structures.empty())
-    throw core::Error("nothing in the model can move: every degree of freedom is restrained; release some in [[restraints]]");
+  core::agree(comm, [&] { out.structures = moving_structures(model); });
   const int ranks = core::size(comm), here = core::rank(comm);
   const auto distributed = [&](const fem::Structure& s) {
     return ranks > 1 && inputs.study.modes.distributed.value_or(s.equations > distribute_above);

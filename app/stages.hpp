@@ -36,6 +36,10 @@ struct Inputs {
 /// Collective. The mesh; a geometry or a foreign format is turned into DIR/mesh.msh first, by rank 0.
 [[nodiscard]] mesh::LineMesh mesh_stage(MPI_Comm comm, const Inputs& inputs, bool force);
 
+/// The connected structures that can move.
+/// @throws core::Error where there is none
+[[nodiscard]] std::vector<fem::Structure> moving_structures(const fem::Model& model);
+
 struct ModesStage {
   std::vector<fem::Structure> structures;
   std::vector<modal::Basis> bases; ///< by structure, the same bytes on every rank
