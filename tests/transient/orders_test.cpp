@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Orders of convergence on a smooth path: a node that stays pressed on a round obstacle, with the modes
+// coupled by the contact. The oracle integrates the law's own differential equations by Runge and Kutta's
+// method.
+#include "contact/friction_law.hpp"
+#include "scenes.hpp"
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+#include <numbers>
+
+using namespace fretwork;
+using namespace fretwork::tests;
+using namespace fretwork::transient;
+using contact::Vec2;
+
+namespace {
+
+constexpr double duration = 0.3;
+constexpr int outputs =
+    37; // no multiple of a step lies on an output but the last: the continuous extension is measured too
+constexpr int oracle_steps = 400 * outputs; // errors of 1e-10: step^4
+constexpr double steps_first = 64.0;
+constexpr int halvings = 5;
+
+struct Solution {
+  Eigen::MatrixXd q, v, force; ///< columns: outputs; force: normal, along x_loc, along t
+};
+
+/// State of the oracle: modes, their velocities, the friction spring's force.
+struct Oracle {
+  const Scene& scene;
+  Signal harmonic;
+  int slips = 0, sticks = 0, opens = 0;
+
+  explicit Oracle(const Scene& s) : scene(s), harmonic(s.loads[1].function, s.duration) {}
+
+  Eigen::VectorXd rate(double time, const Eigen::VectorXd& y, Vec3* force = nullptr) {
+    const Eigen::Index n = scene.system.size();
+    const auto q = y.head(n), v = y.segment(n, n);
+    const ContactPoint& point = scene.contacts[0];
+    const Vec3 u = point.rest + point.b * q, w = point.b * v;
+    const auto at = contact::locate(point.support.obstacle, u.y(), u.z());
+    opens += at.gap >= 0.0;
+    const double normal =
+        contact::normal_force(point.support.normal, -at.gap, -(at.ny * w.y() + at.nz * w.z()));
+    const Vec2 spring{y(2 * n), y(2 * n + 1)}, slip{w.x(), at.nz * w.y() - at.ny * w.z()};
+    const auto& law = point.support.friction;
+    const auto friction =
+        law.active() ? contact::evaluate(law, {spring, false}, normal, {}, slip) : contact::Friction{};
+    ++(friction.slides ? slips : sticks);
+    const Vec2 f = friction.force;
+    const Vec2 spring_rate =
+        friction.slides ? (-law.stiffness / law.damping) * (spring - f) : -law.stiffness * slip;
+    Eigen::VectorXd out(y.size());
+    out.head(n) = v;
+    out.segment(n, n) =
+        scene.loads[0].modal_force + harmonic(time) * scene.loads[1].modal_force +
+        point.b.transpose() * Vec3(f.x, normal * at.ny + f.t * at.nz, normal * at.nz - f.t * at.ny) -
+        Eigen::VectorXd(scene.system.stiffness.cwiseProduct(q) + scene.system.damping.cwiseProduct(v));
+    out.tail(2) << spring_rate.x, spring_rate.t;
+    if (force)
+      *force = {normal, f.x, f.t};
+    return out;
+  }
+
+  Solution solve() {
+    const Eigen::Index n = scene.system.size();
+    Eigen::VectorXd y(2 * n + 2);
+    y << scene.q0, scene.v0, 0.0, 0.0;
+    Solution out{Eigen::MatrixXd(n, outputs), Eigen::MatrixXd(n, outputs), Eigen::MatrixXd(3, outputs)};
+    const double h = duration / oracle_steps;
+    for (int i = 0; i < oracle_steps; ++i) {
+      const double t = i * h;
+      const Eigen::VectorXd a = rate(t, y), b = rate(t + 0.5 * h, y + 0.5 * h * a),
+                            c = rate(t + 0.5 * h, y + 0.5 * h * b), d = rate(t + h, y + h * c);
+      y += h / 6.0 * (a + 2.0 * b + 2.0 * c + d);
+      if ((i + 1) % (oracle_steps / outputs) == 0) {
+        const Eigen::Index j = (i + 1) / (oracle_steps / outputs) - 1;
+        Vec3 force;
+        (void)rate(t + h, y, &force);
+        out.q.col(j) = y.head(n);
+        out.v.col(j) = y.segment(n, n);
+        out.force.col(j) = force;
+      }
+    }
+    return out;
+  }
+};
+
+Scene pressed_on_a_circle(double normal_damping, double modal_damping, const contact::FrictionLaw& friction,
+                          const Vec3& velocity) {
+  Scene scene;
+  scene.system.stiffness = Eigen::Vector4d(4.0, 30.0, 120.0, 0.0);
+  scene.system.damping = modal_damping * Eigen::Vector4d(1.0, 2.0, 3.0, 0.5);
+  ContactPoint point;
+  point.support = {contact::Circle{1.0}, {1000.0, normal_damping}, friction};
+  point.rest = Vec3(0.0, 0.0, 1.05);
+  point.b.resize(3, 4);
+  point.b << 1.0, 0.2, -0.3, 0.5, //
+      0.1, 1.1, 0.4, -0.2,        //
+      -0.2, 0.3, 0.9, 0.6;
+  scene.contacts = {point};
+  scene.loads = {{Constant{1.0}, point.b.transpose() * Vec3(0.0, 0.0, 50.0)},
+                 {Harmonic{1.0, 3.0, 0.3}, point.b.transpose() * Vec3(4.0, 5.0, 3.0)}};
+  scene.q0 = Eigen::Vector4d::Zero();
+  scene.v0 = point.b.transpose() * (point.b * point.b.transpose()).inverse() * velocity;
+  scene.duration = duration;
+  return scene;
+}
+
+/// Errors of displacement, velocity and force, relative to their largest values.
+using Errors = std::array<double, 3>;
+
+Errors errors(const Scene& scene, const StepOptions& options, const Solution& exact) {
+  const History run = simulate(scene, options, duration / outputs);
+  Eigen::MatrixXd force(3, outputs);
+  force << run.normal.rightCols(outputs), run.along_x.rightCols(outputs), run.along_t.rightCols(outputs);
+  const auto relative = [](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+    return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
+  };
+  return {relative(run.q.rightCols(outputs), exact.q), relative(run.v.rightCols(outputs), exact.v),
+          relative(force, exact.force)};
+}
+
+constexpr const char* names[] = {"displacement", "velocity", "force"};
+
+void expect_order(const Scene& scene, SchemeKind scheme, double lower, double upper, double final_error) {
+  const Solution exact = Oracle(scene).solve();
+  Errors first{}, last{};
+  for (int k = 0; k <= halvings; ++k) {
+    last = errors(scene, {scheme, duration / (steps_first * (1 << k))}, exact);
+    if (k == 0)
+      first = last;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double order = std::log2(first[i] / last[i]) / halvings;
+    EXPECT_GT(order, lower) << names[i];
+    EXPECT_LT(order, upper) << names[i];
+    EXPECT_LT(last[i], final_error) << names[i];
+  }
+}
+
+const contact::FrictionLaw none{};
+const contact::FrictionLaw sticking{800.0, 5.0, 20.0, 20.0};
+const contact::FrictionLaw slipping{800.0, 20.0, 0.1, 0.1};
+const Vec3 slow(0.05, 0.1, 0.05), fast(1.5, 2.0, 0.0);
+
+// bounds of the measured order: the mean over five halvings, the coarsest step being w_c h = 0.2
+constexpr double second_low = 1.85, second_high = 2.2, second_final = 5e-5;
+constexpr double first_low = 0.9, first_high = 1.2, first_final = 1e-2;
+
+} // namespace
+
+TEST(OrderFixture, StaysClosedInOneRegime) {
+  for (const auto& [law, velocity, slides] :
+       {std::tuple(sticking, slow, false), std::tuple(slipping, fast, true)}) {
+    const Scene scene = pressed_on_a_circle(3.0, 1.0, law, velocity);
+    Oracle oracle(scene);
+    (void)oracle.solve();
+    EXPECT_EQ(oracle.opens, 0);
+    EXPECT_EQ(slides ? oracle.sticks : oracle.slips, 0);
+  }
+}
+
+TEST(Splitting, IsOfOrderTwoWithoutDampingAndFriction) {
+  expect_order(pressed_on_a_circle(0.0, 0.0, none, slow), SchemeKind::splitting, second_low, second_high,
+               second_final);
+}
+
+TEST(Splitting, IsOfOrderTwoWithNormalAndModalDamping) {
+  expect_order(pressed_on_a_circle(3.0, 1.0, none, slow), SchemeKind::splitting, second_low, second_high,
+               second_final);
+}
+
+TEST(Splitting, IsOfOrderTwoInStick) {
+  expect_order(pressed_on_a_circle(3.0, 1.0, sticking, slow), SchemeKind::splitting, second_low, second_high,
+               second_final);
+}
+
+TEST(Splitting, IsOfOrderTwoInSlip) {
+  expect_order(pressed_on_a_circle(3.0, 1.0, slipping, fast), SchemeKind::splitting, second_low, second_high,
+               second_final);
+}
+
+TEST(Euler, IsOfOrderOne) {
+  expect_order(pressed_on_a_circle(0.0, 0.0, none, slow), SchemeKind::euler, first_low, first_high,
+               first_final);
+  expect_order(pressed_on_a_circle(3.0, 1.0, sticking, slow), SchemeKind::euler, first_low, first_high,
+               first_final);
+  expect_order(pressed_on_a_circle(3.0, 1.0, slipping, fast), SchemeKind::euler, first_low, first_high,
+               first_final);
+}

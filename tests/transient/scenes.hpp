@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Small scenes in modal coordinates and their runs.
+#pragma once
+#include "post/contact_statistics.hpp"
+#include "transient/run.hpp"
+#include <string>
+
+namespace fretwork::tests {
+
+using core::Vec3;
+
+/// A mass point as a scene without contacts: 3 modes, along x_loc, y_loc and z_loc, q = sqrt(mass) u.
+[[nodiscard]] transient::Scene mass_point(double mass, const Vec3& stiffness, double duration);
+
+/// Initial displacement and velocity of a mass point.
+void start(transient::Scene& scene, double mass, const Vec3& displacement, const Vec3& velocity);
+
+/// A contact of the mass point.
+[[nodiscard]] transient::ContactPoint contact_of(double mass, const contact::Support& support,
+                                                 const Vec3& rest = Vec3::Zero());
+
+/// A contact of the mass point along x_loc and y_loc that is pressed along z_loc with a constant normal
+/// force, by a stop that overlaps it.
+[[nodiscard]] transient::ContactPoint pressed(double mass, double normal_force,
+                                              const contact::FrictionLaw& friction);
+
+/// A force on the mass point.
+[[nodiscard]] transient::Load force_on(double mass, const Vec3& amplitude,
+                                       const transient::TimeFunction& function);
+
+/// A tube between stops of all kinds, with damping and friction: every branch of a step is met.
+[[nodiscard]] transient::Scene rattling(int contacts, int modes, double duration);
+
+struct History {
+  transient::StepChoice choice;
+  transient::Report report;
+  Eigen::VectorXd time;                     ///< outputs
+  Eigen::MatrixXd q, v;                     ///< n x outputs
+  Eigen::MatrixXd normal, along_x, along_t; ///< N, contacts x outputs
+  std::vector<post::ContactSummary> statistics;
+};
+/// @param every  s, between outputs   @param from  s, start of the window of the statistics
+[[nodiscard]] History simulate(const transient::Scene& scene, const transient::StepOptions& options,
+                               double every, double from = 0.0);
+
+/// Options: the scheme with a step, or with the automatic one.
+[[nodiscard]] transient::StepOptions splitting(std::optional<double> step = {});
+[[nodiscard]] transient::StepOptions euler(std::optional<double> step = {});
+
+/// What a test wants to see of every step.
+struct Trace final : transient::Observer {
+  explicit Trace(std::size_t steps) { records.reserve(steps); }
+  struct Entry {
+    double time, normal, tangential, uy, uz, friction_work;
+    transient::Energy energy;
+    bool closed, slides;
+  };
+  void step(const transient::Record& record) override;
+  std::vector<Entry> records; ///< of contact 0
+};
+
+/// Runs with a trace of contact 0.
+[[nodiscard]] std::vector<Trace::Entry> trace(const transient::Scene& scene,
+                                              const transient::StepOptions& options);
+
+} // namespace fretwork::tests

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/error.hpp"
+#include "scenes.hpp"
+#include <gtest/gtest.h>
+
+using namespace fretwork;
+using namespace fretwork::tests;
+using namespace fretwork::transient;
+using contact::Circle;
+using contact::PlaneAxis;
+using contact::PlanePair;
+
+namespace {
+
+constexpr double round_off = 1e-12;
+constexpr double eps = 0.5; // at an accuracy of 1 %
+constexpr double mass = 2.0;
+
+Scene scene_with(const contact::Support& support, double duration = 1000.0,
+                 const Vec3& stiffness = Vec3::Zero()) {
+  Scene scene = mass_point(mass, stiffness, duration);
+  scene.contacts = {contact_of(mass, support)};
+  return scene;
+}
+
+bool mentions(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// The step is the limit, rounded down so that whole steps cover the duration.
+void expect_governed(const Scene& scene, const StepOptions& options, double limit,
+                     const std::string& reason) {
+  const StepChoice choice = choose_step(scene, options);
+  EXPECT_LE(choice.step, limit * (1.0 + round_off));
+  EXPECT_GT(choice.step, limit * (1.0 - 2.0 * limit / scene.duration));
+  EXPECT_NEAR(choice.step * static_cast<double>(choice.steps), scene.duration, round_off * scene.duration);
+  EXPECT_TRUE(mentions(choice.reason, reason)) << choice.reason;
+  EXPECT_TRUE(choice.warnings.empty());
+}
+
+} // namespace
+
+TEST(StepRule, ResolvesTheContactFrequency) {
+  expect_governed(scene_with({Circle{0.1}, {8e4}, {}}), splitting(), eps / std::sqrt(8e4 / mass),
+                  "the contact frequency 200 rad/s");
+}
+
+TEST(StepRule, ResolvesTheFrequencyOfStickingContacts) {
+  expect_governed(scene_with({Circle{0.1}, {2.0}, {8e4, 0.0, 0.3, 0.3}}), splitting(), eps / 200.0,
+                  "the frequency of sticking contacts 200 rad/s");
+}
+
+TEST(StepRule, ResolvesTheTangentialDampersByFourTimesTheirRate) {
+  const Scene scene = scene_with({Circle{0.1}, {2.0}, {2.0, 4e3, 0.3, 0.3}});
+  expect_governed(scene, splitting(), eps * 4.0 / 2000.0, "the tangential dampers' rate 2000 1/s");
+  expect_governed(scene, euler(), eps / 2000.0, "the tangential dampers' rate 2000 1/s");
+}
+
+TEST(StepRule, ResolvesTheHighestModeWhereContactsAct) {
+  const Scene scene = scene_with({Circle{0.1}, {2.0}, {}}, 1000.0, Vec3(0, 2.0 * 1e6, 0));
+  expect_governed(scene, splitting(), eps * 5.0 / 1000.0, "the highest mode 1000 rad/s");
+  expect_governed(scene, euler(), eps / 1000.0, "the highest mode 1000 rad/s");
+}
+
+TEST(StepRule, GivesTwentyPointsAPeriodToTheExcitation) {
+  Scene scene = mass_point(mass, Vec3(2e6, 0, 0), 1000.0);
+  scene.loads = {force_on(mass, Vec3(1, 0, 0), Harmonic{1.0, 25.0})};
+  expect_governed(scene, splitting(), 1.0 / (20.0 * 25.0), "excitation (25 Hz)");
+  scene.loads = {force_on(mass, Vec3(1, 0, 0), Random{1.0, 1.0, 40.0})};
+  expect_governed(scene, splitting(), 1.0 / (20.0 * 40.0), "excitation (40 Hz)");
+}
+
+TEST(StepRule, TakesAHundredStepsAtLeastAndTwentyThousandWithContacts) {
+  const Scene linear = mass_point(mass, Vec3(2e6, 0, 0), 3.0);
+  EXPECT_EQ(choose_step(linear, splitting()).steps, 100); // the flow is exact: no mode asks for a step
+  EXPECT_TRUE(mentions(choose_step(linear, splitting()).reason, "at least 100 steps"));
+  const Scene soft = scene_with({Circle{0.1}, {2.0}, {}}, 3.0);
+  EXPECT_NEAR(static_cast<double>(choose_step(soft, splitting()).steps), 20000.0, 1.0);
+  EXPECT_TRUE(mentions(choose_step(soft, splitting()).reason, "at least 20000 steps"));
+}
+
+TEST(StepRule, FollowsTheAccuracyByItsSquareRoot) {
+  const Scene scene = scene_with({Circle{0.1}, {8e4}, {}});
+  StepOptions coarse = splitting(), fine = splitting();
+  coarse.accuracy = 0.04;
+  fine.accuracy = 0.0025;
+  EXPECT_NEAR(choose_step(scene, coarse).step / choose_step(scene, fine).step, 4.0, 1e-4); // to whole steps
+}
+
+TEST(StepRule, CountsAllContactsTogether) {
+  // two contacts of one node act as one of twice the stiffness
+  Scene scene = scene_with({Circle{0.1}, {8e4}, {8e4, 10.0, 0.3, 0.3}});
+  const StepChoice one = choose_step(scene, {});
+  scene.contacts.push_back(scene.contacts[0]);
+  const StepChoice two = choose_step(scene, {});
+  EXPECT_NEAR(two.contact_frequency / one.contact_frequency, std::sqrt(2.0), round_off);
+  EXPECT_NEAR(two.stick_frequency / one.stick_frequency, std::sqrt(2.0), round_off);
+  EXPECT_NEAR(two.damper_rate / one.damper_rate, 2.0, round_off);
+}
+
+TEST(StepRule, LooksOnlyAlongTheDirectionsThatTheObstacleUses) {
+  Scene scene = scene_with({PlanePair{0.1, PlaneAxis::y}, {8e4}, {2e4, 0.0, 0.3, 0.3}});
+  scene.contacts[0].b.row(1) *= 2.0; // y: the normal
+  scene.contacts[0].b.row(2) *= 3.0; // z: a tangent
+  const StepChoice choice = choose_step(scene, {});
+  EXPECT_NEAR(choice.contact_frequency, 2.0 * 200.0, 1e-10);
+  EXPECT_NEAR(choice.stick_frequency, 3.0 * 100.0, 1e-10);
+  scene.contacts[0].support.friction = {};
+  EXPECT_EQ(choose_step(scene, {}).stick_frequency, 0.0);
+}
+
+TEST(StepRule, KeepsAFixedStepAndCoversTheDuration) {
+  const Scene scene = scene_with({Circle{0.1}, {8e4}, {}}, 1.0);
+  const StepChoice choice = choose_step(scene, splitting(1e-3));
+  EXPECT_EQ(choice.step, 1e-3);
+  EXPECT_EQ(choice.steps, 1000);
+  EXPECT_EQ(choice.reason, "given in the study");
+  EXPECT_TRUE(choice.warnings.empty());
+  EXPECT_EQ(choose_step(scene, splitting(0.3e-3)).steps, 3334);
+}
+
+TEST(StepRule, WarnsWhereAFixedStepDoesNotResolve) {
+  const auto warnings = [](const Scene& scene, const StepOptions& options) {
+    return choose_step(scene, options).warnings;
+  };
+  const auto only = [](const std::vector<std::string>& list, const std::string& what) {
+    ASSERT_EQ(list.size(), 1u);
+    EXPECT_TRUE(mentions(list[0], what)) << list[0];
+    EXPECT_TRUE(mentions(list[0], "take a smaller step or leave it out"));
+  };
+  only(warnings(scene_with({Circle{0.1}, {8e4}, {}}), splitting(6e-3)), "the contact frequency: w_c h = 1.2");
+  const Scene dampers = scene_with({Circle{0.1}, {2.0}, {2.0, 4e3, 0.3, 0.3}});
+  only(warnings(dampers, splitting(2.1e-3)), "the tangential dampers: r_t h = 4.2");
+  only(warnings(dampers, euler(0.6e-3)), "the tangential dampers: r_t h = 1.2");
+  const Scene mode = scene_with({Circle{0.1}, {2.0}, {}}, 1.0, Vec3(0, 2.0 * 1e6, 0));
+  only(warnings(mode, splitting(3.1e-3)), "the highest mode: w_max h = 3.1");
+  only(warnings(mode, euler(1.9e-3)), "the highest mode: w_max h = 1.9");
+  Scene excited = mass_point(mass, Vec3::Zero(), 1.0);
+  excited.loads = {force_on(mass, Vec3(1, 0, 0), Harmonic{1.0, 25.0})};
+  only(warnings(excited, splitting(5e-3)), "the excitation: 20 f h = 2.5");
+}
+
+TEST(StepRule, TakesEulerForAFullDampingMatrixAndRefusesSplitting) {
+  Scene scene = scene_with({Circle{0.1}, {8e4}, {}}, 1.0);
+  EXPECT_EQ(choose_step(scene, {}).scheme, SchemeKind::splitting);
+  scene.system.damping_matrix = Eigen::Matrix3d::Identity();
+  EXPECT_EQ(choose_step(scene, {}).scheme, SchemeKind::euler);
+  try {
+    (void)choose_step(scene, splitting());
+    ADD_FAILURE() << "no error";
+  } catch (const core::Error& error) {
+    EXPECT_STREQ(error.what(), "scheme = \"splitting\" takes diagonal modal damping only, and the dampers of "
+                               "this study couple the modes; "
+                               "use scheme = \"euler\"");
+  }
+}
+
+TEST(StepRule, NamesItsSchemes) {
+  EXPECT_EQ(name_of(SchemeKind::splitting), "splitting");
+  EXPECT_EQ(name_of(SchemeKind::euler), "euler");
+}
