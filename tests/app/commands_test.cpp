@@ -1,17 +1,190 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The commands of the program.
+// The commands of the program: what they print and leave, what they keep and compute again.
 #include "program.hpp"
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace fretwork::app::test {
 namespace {
 
+using nlohmann::json;
+
+/// The keys that scripts rely on: doc/study-file.md, Results.
+const json contract = json::parse(R"({
+  "": ["version", "study", "ranks", "seed", "input_sha256", "model", "modes", "contacts", "nodes", "energy", "transient", "timings_s"],
+  "/model": ["nodes", "elements", "dofs", "mass_kg"],
+  "/modes": ["frequencies_hz", "residuals", "damping", "static_modes"],
+  "/contacts/0": ["name", "impacts", "contact_time_ratio", "normal_force", "normal_force_in_contact", "tangential_force", "displacement",
+                  "work_rate", "friction_power", "impact_velocity", "contact_duration"],
+  "/contacts/0/normal_force": ["mean", "rms", "max"],
+  "/contacts/0/normal_force_in_contact": ["mean", "rms"],
+  "/contacts/0/tangential_force": ["rms", "max"],
+  "/contacts/0/displacement/y": ["mean", "std", "min", "max"],
+  "/contacts/0/displacement/z": ["mean", "std", "min", "max"],
+  "/contacts/0/displacement/radial": ["rms", "max"],
+  "/contacts/0/impact_velocity": ["mean", "max"],
+  "/contacts/0/contact_duration": ["mean", "max"],
+  "/nodes/0": ["name", "displacement"],
+  "/nodes/0/displacement/x": ["mean", "std", "min", "max"],
+  "/nodes/0/displacement/y": ["mean", "std", "min", "max"],
+  "/nodes/0/displacement/z": ["mean", "std", "min", "max"],
+  "/energy": ["input_J", "stored_J", "modal_damping_J", "contact_damping_J", "friction_J", "residual_relative"],
+  "/transient": ["scheme", "steps", "rejected", "force_evaluations", "step_min_s", "step_max_s"],
+  "/timings_s": ["read", "mesh", "assembly", "modes", "basis", "transient", "output", "total"]
+})");
+
+/// The tube of the example with nine observed nodes, for 0.2 s.
+std::vector<std::string> short_tube(const std::string& command, const fs::path& results) {
+  return {command, example("straight_tube").string(), "-o",    results.string(),
+          "--set", "transient.duration=0.2",          "--set", "output.statistics_from=0",
+          "--set", "output.nodes=[\"mid_spans\"]"};
+}
+
 TEST(Commands, HelpNamesThemAll) {
   const Workshop folder;
   const Outcome help = folder.fretwork({"--help"});
   EXPECT_EQ(help.status, 0);
-  for (const char* command : {"run", "mesh", "modes", "transient", "check", "report", "export"})
+  for (const char* command : {"run", "mesh", "modes", "transient", "check", "report", "export"}) {
     EXPECT_TRUE(says(help.out, command));
+    EXPECT_EQ(folder.fretwork({command, "--help"}).status, 0) << command;
+  }
+}
+
+TEST(Commands, VersionIsThatOfTheResults) {
+  const Workshop folder;
+  const std::string version = folder.fretwork({"--version"}).out;
+  const Results run = folder.run(example("oscillator"), "results");
+  EXPECT_EQ(version, run.summary["version"].get<std::string>() + "\n");
+}
+
+TEST(Commands, CheckComputesNothing) {
+  const Workshop folder;
+  const fs::path study = folder.write("study.toml", bytes_of(example("cantilever_stop")));
+  folder.write("beam.msh", bytes_of(example("cantilever_stop").parent_path() / "beam.msh"));
+  const Outcome outcome = folder.fretwork({"check", study.string()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  for (const char* part : {"fine", "11 nodes", "10 beams", "20 free dofs", "1 contact", "1 load"})
+    EXPECT_TRUE(says(outcome.out, part));
+  EXPECT_FALSE(fs::exists(folder.path("study.results")));
+}
+
+TEST(Commands, CheckReadsGeometriesToo) {
+  const Workshop folder;
+  const Outcome outcome = folder.fretwork({"check", example("straight_tube").string()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, "91 nodes"));
+}
+
+TEST(Commands, StagesFollowEachOther) {
+  const Workshop folder;
+  const fs::path results = folder.path("results");
+  const Outcome mesh = folder.fretwork(short_tube("mesh", results));
+  EXPECT_EQ(mesh.status, 0) << mesh.err;
+  EXPECT_TRUE(says(mesh.out, "91 nodes, 90 lines"));
+  EXPECT_TRUE(fs::exists(results / "mesh.msh"));
+  EXPECT_FALSE(fs::exists(results / "modes.h5"));
+  const Outcome modes = folder.fretwork(short_tube("modes", results));
+  EXPECT_EQ(modes.status, 0) << modes.err;
+  const json of_modes = json::parse(bytes_of(results / "summary.json"));
+  EXPECT_EQ(of_modes["modes"]["frequencies_hz"].size(), 41u);
+  EXPECT_FALSE(of_modes.contains("contacts"));
+  EXPECT_FALSE(fs::exists(results / "report.html"));
+  const std::string stored = bytes_of(results / "modes.h5");
+  const Outcome transient = folder.fretwork(short_tube("transient", results));
+  EXPECT_EQ(transient.status, 0) << transient.err;
+  const json whole = json::parse(bytes_of(results / "summary.json"));
+  EXPECT_EQ(whole["contacts"].size(), 8u);
+  EXPECT_EQ(whole["modes"], of_modes["modes"]);
+  EXPECT_EQ(bytes_of(results / "modes.h5"), stored);
+}
+
+TEST(Commands, ModesAfterARunLeaveItsResults) {
+  const Workshop folder;
+  const fs::path results = folder.path("results");
+  ASSERT_EQ(folder.fretwork(short_tube("transient", results)).status, 0);
+  const std::string summary = bytes_of(results / "summary.json"), series = bytes_of(results / "results.h5");
+  const Outcome modes = folder.fretwork(short_tube("modes", results));
+  EXPECT_EQ(modes.status, 0) << modes.err;
+  EXPECT_TRUE(says(modes.out, "201.4"));
+  EXPECT_EQ(bytes_of(results / "summary.json"), summary);
+  EXPECT_EQ(bytes_of(results / "results.h5"), series);
+}
+
+TEST(Commands, RunLeavesSummarySeriesAndReport) {
+  const Workshop folder;
+  const fs::path results = folder.path("results");
+  const Outcome run = folder.fretwork(short_tube("run", results));
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  for (const char* part : {"Straight tube on eight supports", "support[7]", "energy", "results: "})
+    EXPECT_TRUE(says(run.out, part));
+  EXPECT_EQ(run.out.find('\r'), std::string::npos);
+  const json summary = json::parse(bytes_of(results / "summary.json"));
+  for (const auto& [place, keys] : contract.items())
+    for (const auto& key : keys)
+      EXPECT_TRUE(summary.at(json::json_pointer(place)).contains(key)) << place << " " << key;
+  EXPECT_TRUE(says(bytes_of(results / "report.html"), "support[0]"));
+}
+
+TEST(Commands, QuietSaysNothing) {
+  const Workshop folder;
+  const Outcome run =
+      folder.fretwork({"run", example("oscillator").string(), "-q", "-o", folder.path("results").string()});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.out + run.err, "");
+}
+
+TEST(Commands, ReportIsWrittenFromResults) {
+  const Workshop folder;
+  const fs::path results = folder.path("results");
+  (void)folder.run(example("oscillator"), "results");
+  EXPECT_FALSE(fs::exists(results / "report.html"));
+  const Outcome report = folder.fretwork({"report", results.string()});
+  EXPECT_EQ(report.status, 0) << report.err;
+  EXPECT_TRUE(says(bytes_of(results / "report.html"), "Mass, spring and stop"));
+}
+
+TEST(Commands, ExportsWriteTheirFiles) {
+  const Workshop folder;
+  const fs::path results = folder.path("results");
+  ASSERT_EQ(folder.fretwork(short_tube("transient", results)).status, 0);
+  for (const char* format : {"csv", "vtu", "msh"}) {
+    const Outcome outcome = folder.fretwork({"export", results.string(), "--format", format});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+  }
+  EXPECT_TRUE(says(bytes_of(results / "export-csv" / "contact_support[3].csv"), "time"));
+  EXPECT_TRUE(says(bytes_of(results / "export-vtu" / "modes.vtu"), "VTKFile"));
+  EXPECT_TRUE(says(bytes_of(results / "export-msh" / "modes.msh"), "$NodeData"));
+}
+
+TEST(Archive, HasTheShapesOfTheContract) {
+  const Workshop folder;
+  ASSERT_EQ(folder.fretwork(short_tube("transient", folder.path("results"))).status, 0);
+  const Results run = read_results(folder.path("results"));
+  const Eigen::Index nt = run.archive.series.time.size(), n = 41;
+  EXPECT_EQ(nt, 201);
+  EXPECT_EQ(run.archive.series.time(nt - 1), 0.2);
+  ASSERT_EQ(run.archive.series.contacts.size(), 8u);
+  for (const auto& c : run.archive.series.contacts) {
+    EXPECT_EQ(c.displacement.rows(), nt);
+    EXPECT_EQ(c.displacement.cols(), 3);
+    EXPECT_EQ(c.velocity.rows(), nt);
+    EXPECT_EQ(c.velocity.cols(), 3);
+    EXPECT_EQ(c.gap.size(), nt);
+    EXPECT_EQ(c.normal_force.size(), nt);
+    EXPECT_EQ(c.tangential_force.rows(), nt);
+    EXPECT_EQ(c.tangential_force.cols(), 2);
+  }
+  ASSERT_EQ(run.archive.series.nodes.size(), 9u);
+  EXPECT_EQ(run.archive.series.nodes.front().name, "mid_spans[0]");
+  EXPECT_EQ(run.archive.series.nodes.front().acceleration.rows(), nt);
+  EXPECT_EQ(run.archive.series.modal_displacement.rows(), n);
+  EXPECT_EQ(run.archive.series.modal_displacement.cols(), nt);
+  ASSERT_EQ(run.archive.bases.size(), 1u);
+  EXPECT_EQ(run.archive.bases[0].shapes.rows(), 6 * 91);
+  EXPECT_EQ(run.archive.bases[0].shapes.cols(), n);
+  EXPECT_EQ(run.archive.record.input_sha256, run.summary["input_sha256"].get<std::string>());
+  EXPECT_TRUE(says(run.archive.record.study_text, "transient.duration=0.2"));
 }
 
 } // namespace
