@@ -52,6 +52,15 @@ std::array<bool, 3> tangent_rows(const contact::Support& support) {
   return {true, !y || (y && z), !z || (y && z)};
 }
 
+/// Largest rate of the structure's own damping, 1/s.
+double structure_rate(const System& system) {
+  if (system.size() == 0)
+    return 0.0;
+  if (system.damping_matrix.size() == 0)
+    return system.damping.maxCoeff();
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(system.damping_matrix, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+}
+
 struct Term {
   double limit; ///< s, before eps
   std::string reason;
@@ -68,6 +77,7 @@ std::vector<Term> terms(const StepChoice& c) {
   add(1.0, c.contact_frequency, fmt::format("the contact frequency {:.4g} rad/s", c.contact_frequency));
   add(1.0, c.stick_frequency, fmt::format("the frequency of sticking contacts {:.4g} rad/s", c.stick_frequency));
   add(damper, c.damper_rate, fmt::format("the tangential dampers' rate {:.4g} 1/s", c.damper_rate));
+  add(1.0, c.explicit_rate, fmt::format("the dampers' rate {:.4g} 1/s", c.explicit_rate));
   add(mode, c.highest_mode, fmt::format("the highest mode {:.4g} rad/s", c.highest_mode));
   return out;
 }
@@ -82,6 +92,7 @@ void warn(StepChoice& c) {
   const bool splitting = c.scheme == SchemeKind::splitting;
   add(c.contact_frequency * c.step, resolved, "w_c h", "the contact frequency");
   add(c.damper_rate * c.step, splitting ? 4.0 : 1.0, "r_t h", "the tangential dampers");
+  add(c.explicit_rate * c.step, 1.0, "r_e h", "the dampers");
   add(c.highest_mode * c.step, splitting ? 3.0 : 1.8, "w_max h", "the highest mode");
   add(c.excitation * c.step * points_per_period, 2.0, "20 f h", "the excitation");
 }
@@ -111,6 +122,10 @@ StepChoice choose_step(const Scene& scene, const StepOptions& options) {
   c.contact_frequency = std::sqrt(largest_eigenvalue(weighted_rows(scene, stiffness_n, normal_rows)));
   c.stick_frequency = std::sqrt(largest_eigenvalue(weighted_rows(scene, stiffness_t, tangent_rows)));
   c.damper_rate = largest_eigenvalue(weighted_rows(scene, damping_t, tangent_rows));
+  if (c.scheme == SchemeKind::euler) {
+    const auto damping_n = [](const contact::Support& s) { return s.normal.damping; };
+    c.explicit_rate = std::max(structure_rate(scene.system), largest_eigenvalue(weighted_rows(scene, damping_n, normal_rows)));
+  }
   if (scene.system.size() > 0)
     c.highest_mode = std::sqrt(scene.system.stiffness.maxCoeff());
   for (const Load& load : scene.loads)

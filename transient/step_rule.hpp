@@ -9,7 +9,9 @@
 ///     w_t    the same with K_T over the tangent directions
 ///     r_t    rate of the tangential dampers, largest eigenvalue of C_T^1/2 W C_T^1/2
 ///     w_max  highest mode
-/// a = 4 and b = 5 for the splitting scheme, 1 and 1 for explicit Euler (whose limits are r_t h < 1 and w_max h < 2).
+/// a = 4 and b = 5 for the splitting scheme, 1 and 1 for explicit Euler (whose limits are r_t h < 1 and w_max h < 2). Euler also takes the
+/// other dampers explicitly and resolves them by 1/r_e (its limit: r_e h < 2):
+///     r_e    the largest of the rates of the structure's damping and of the normal dampers (C_N in place of C_T)
 #pragma once
 #include "transient/scheme.hpp"
 #include <optional>
@@ -31,6 +33,7 @@ struct StepChoice {
   double contact_frequency = 0.0; ///< w_c, rad/s
   double stick_frequency = 0.0;   ///< w_t, rad/s
   double damper_rate = 0.0;       ///< r_t, 1/s
+  double explicit_rate = 0.0;     ///< r_e, 1/s: of the dampers that only Euler has to resolve; 0 with splitting
   double highest_mode = 0.0;      ///< rad/s
   double excitation = 0.0;        ///< Hz
   std::string reason;             ///< one line for the user
