@@ -56,7 +56,7 @@ void Recorder::forces(std::int64_t index, double, const double* load, std::span<
     }
   }
   for (std::size_t k = 0; k < nodes_.size(); ++k)
-    out_.nodes[k].acceleration.row(index) = (nodes_[k].rows * acceleration_).transpose();
+    out_.nodes[k].acceleration.row(index).transpose().noalias() = nodes_[k].rows * acceleration_;
   served_ = index + 1;
 }
 
