@@ -62,6 +62,17 @@ TEST(StepRule, ResolvesTheHighestModeWhereContactsAct) {
   expect_governed(scene, euler(), eps / 1000.0, "the highest mode 1000 rad/s");
 }
 
+TEST(StepRule, ResolvesWithEulerTheDampersThatItTakesExplicitly) {
+  Scene scene = scene_with({Circle{0.1}, {2.0, 4e3}, {}});
+  expect_governed(scene, euler(), eps / 2000.0, "the dampers' rate 2000 1/s");
+  EXPECT_EQ(choose_step(scene, splitting()).explicit_rate, 0.0);
+  scene.system.damping.setConstant(3000.0);
+  expect_governed(scene, euler(), eps / 3000.0, "the dampers' rate 3000 1/s");
+  scene.system.damping_matrix =
+      Eigen::Matrix3d{{5000.0, 3000.0, 0.0}, {3000.0, 5000.0, 0.0}, {0.0, 0.0, 1.0}};
+  expect_governed(scene, euler(), eps / 8000.0, "the dampers' rate 8000 1/s");
+}
+
 TEST(StepRule, GivesTwentyPointsAPeriodToTheExcitation) {
   Scene scene = mass_point(mass, Vec3(2e6, 0, 0), 1000.0);
   scene.loads = {force_on(mass, Vec3(1, 0, 0), Harmonic{1.0, 25.0})};
@@ -135,6 +146,7 @@ TEST(StepRule, WarnsWhereAFixedStepDoesNotResolve) {
   const Scene mode = scene_with({Circle{0.1}, {2.0}, {}}, 1.0, Vec3(0, 2.0 * 1e6, 0));
   only(warnings(mode, splitting(3.1e-3)), "the highest mode: w_max h = 3.1");
   only(warnings(mode, euler(1.9e-3)), "the highest mode: w_max h = 1.9");
+  only(warnings(scene_with({Circle{0.1}, {2.0, 4e3}, {}}), euler(0.6e-3)), "the dampers: r_e h = 1.2");
   Scene excited = mass_point(mass, Vec3::Zero(), 1.0);
   excited.loads = {force_on(mass, Vec3(1, 0, 0), Harmonic{1.0, 25.0})};
   only(warnings(excited, splitting(5e-3)), "the excitation: 20 f h = 2.5");

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The time loop allocates nothing, neither by operator new nor by malloc (Eigen's way): all come here.
+#include "post/node_statistics.hpp"
+#include "post/recorder.hpp"
+#include "scenes.hpp"
+#include <cstdlib>
+#include <gtest/gtest.h>
+#include <new>
+
+namespace {
+
+// volatile: the compiler takes it that malloc changes nothing it can see
+volatile bool watching = false;
+volatile long allocations = 0;
+
+void* note(void* p) {
+  allocations = allocations + watching;
+  return p;
+}
+
+void* counted(void* p) { return note(p) ? p : throw std::bad_alloc(); }
+
+} // namespace
+
+extern "C" {
+void* __real_malloc(std::size_t size);
+void* __real_calloc(std::size_t count, std::size_t size);
+void* __real_realloc(void* p, std::size_t size);
+void* __wrap_malloc(std::size_t size) { return note(__real_malloc(size)); }
+// compilers join malloc and memset into calloc
+void* __wrap_calloc(std::size_t count, std::size_t size) { return note(__real_calloc(count, size)); }
+void* __wrap_realloc(void* p, std::size_t size) { return note(__real_realloc(p, size)); }
+}
+
+void* operator new(std::size_t size) { return counted(__real_malloc(size)); }
+void* operator new(std::size_t size, std::align_val_t align) {
+  const auto a = static_cast<std::size_t>(align);
+  return counted(std::aligned_alloc(a, (size + a - 1) / a * a));
+}
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+
+using namespace fretwork;
+using namespace fretwork::tests;
+using namespace fretwork::transient;
+
+namespace {
+
+/// Watches from the first record to the last but one.
+struct Gate final : Observer {
+  explicit Gate(std::int64_t steps) : last(steps - 1) {}
+  void step(const Record& record) override {
+    watching = ++seen < last;
+    closed += !record.active.empty();
+  }
+  std::int64_t seen = 0, last, closed = 0;
+};
+
+long allocations_of_a_run(const Scene& scene, const StepOptions& options) {
+  const StepChoice choice = choose_step(scene, options);
+  const OutputGrid grid = output_grid(scene.duration, 7.7e-4);
+  const Eigen::MatrixXd node = Eigen::MatrixXd::Random(3, scene.system.size());
+  post::Recorder recorder(scene, {{"node", node}}, grid);
+  post::ContactStatistics contacts(scene.contacts.size(), 0.1);
+  post::NodeStatistics nodes({node}, 0.1);
+  Gate gate(choice.steps);
+  Observer* const observers[] = {&gate, &contacts, &nodes};
+  allocations = 0;
+  (void)run(scene, choice, observers, &recorder, grid);
+  watching = false;
+  EXPECT_GT(gate.closed, gate.seen / 20); // contacts opened and closed
+  EXPECT_LT(gate.closed, gate.seen);
+  return allocations;
+}
+
+} // namespace
+
+TEST(Allocation, IsSeenByThisTest) {
+  const auto seen = [](const auto& work) {
+    allocations = 0;
+    watching = true;
+    work();
+    watching = false;
+    return static_cast<long>(allocations);
+  };
+  const Eigen::MatrixXd m = Eigen::MatrixXd::Random(3, 20);
+  Eigen::MatrixXd row = Eigen::MatrixXd::Zero(1, 3);
+  Eigen::VectorXd x;
+  std::vector<double> y;
+  kernels::Array z;
+  EXPECT_EQ(seen([&] { x.setZero(20); }), 1);
+  EXPECT_EQ(seen([&] { y.resize(20); }), 1);
+  EXPECT_EQ(seen([&] { z.resize(20); }), 1);
+  EXPECT_GE(seen([&] { row.row(0) = (m * x).transpose(); }), 1); // a temporary of Eigen
+}
+
+TEST(Allocation, NeverHappensInTheLoop) {
+  Scene scene = rattling(3, 12, 1.0);
+  scene.contacts[0].b.row(0).setZero(); // two and three components
+  EXPECT_EQ(allocations_of_a_run(scene, splitting(1e-4)), 0);
+  EXPECT_EQ(allocations_of_a_run(scene, euler(2e-5)), 0);
+  for (auto& c : scene.contacts)
+    c.b.row(0).setZero();
+  EXPECT_EQ(allocations_of_a_run(scene, splitting(1e-4)), 0);
+  scene.system.damping_matrix = Eigen::MatrixXd(scene.system.damping.asDiagonal());
+  EXPECT_EQ(allocations_of_a_run(scene, euler(2e-5)), 0);
+}
+
+TEST(Allocation, NeverHappensUnderTablesAndNoise) {
+  Scene scene = rattling(3, 12, 1.0);
+  scene.loads[0].function = Random{4.0, 5.0, 60.0, 1};
+  scene.loads[1].function = Table{{0.0, 0.3, 0.3, 0.9}, {3.0, -3.0, 4.0, 1.0}};
+  EXPECT_EQ(allocations_of_a_run(scene, splitting(1e-4)), 0);
+}

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The energy ledger: its residual measures what the scheme gets wrong.
+#include "scenes.hpp"
+#include <algorithm>
+#include <gtest/gtest.h>
+
+using namespace fretwork;
+using namespace fretwork::tests;
+using namespace fretwork::transient;
+using contact::PlaneAxis;
+using contact::PlanePair;
+
+namespace {
+
+constexpr double accepted = 2e-2; // of the automatic step
+constexpr double duration = 0.5;
+
+double residual(const StepOptions& options) {
+  return simulate(rattling(5, 12, duration), options, duration).report.residual_relative;
+}
+
+/// Mean order over four halvings.
+double order(SchemeKind scheme, double step) {
+  return std::log2(residual({scheme, step}) / residual({scheme, step / 16.0})) / 4.0;
+}
+
+/// A mass that bounces between two planes, without any loss.
+Scene conservative() {
+  Scene s = mass_point(1.0, Vec3(0, 100.0, 0), 10.0);
+  start(s, 1.0, Vec3::Zero(), Vec3(0, 0.4, 0));
+  s.contacts = {contact_of(1.0, {PlanePair{0.02, PlaneAxis::y}, {1e6}, {}})};
+  return s;
+}
+
+/// Largest departure of the stored energy from the initial one outside of impacts, and the number of impacts.
+std::pair<double, int> drift(const StepOptions& options) {
+  double worst = 0.0;
+  int count = 0;
+  bool before = false;
+  for (const auto& r : trace(conservative(), options)) {
+    count += r.closed && !before;
+    before = r.closed;
+    if (!r.closed)
+      worst = std::max(worst, std::abs(r.energy.stored / r.energy.initial - 1.0));
+  }
+  return {worst, count};
+}
+
+} // namespace
+
+TEST(EnergyLedger, ResidualOfSplittingFallsWithTheSquareOfTheStep) {
+  const double measured = order(SchemeKind::splitting, 1e-4);
+  EXPECT_GT(measured, 1.7); // impacts and slips start between steps: the order scatters about 2
+  EXPECT_LT(measured, 2.5);
+}
+
+TEST(EnergyLedger, ResidualOfEulerFallsWithTheStep) {
+  const double measured = order(SchemeKind::euler, 5e-5);
+  EXPECT_GT(measured, 0.7);
+  EXPECT_LT(measured, 2.5);
+}
+
+TEST(EnergyLedger, ResidualIsSmallAtTheAutomaticStep) {
+  EXPECT_LT(residual(splitting()), accepted);
+  EXPECT_LT(residual(euler()), accepted);
+}
+
+TEST(EnergyLedger, HoldsAtEveryStepAndItsLossesNeverFall) {
+  for (const StepOptions& options : {splitting(2e-5), euler(5e-6)}) {
+    Energy last;
+    for (const auto& r : trace(rattling(5, 12, duration), options)) {
+      EXPECT_GE(r.energy.modal_damping, last.modal_damping - 1e-12);
+      EXPECT_GE(r.energy.friction, last.friction);
+      EXPECT_GE(r.energy.throughput, last.throughput);
+      EXPECT_GE(r.energy.stored, 0.0);
+      EXPECT_LE(std::abs(r.energy.residual()),
+                accepted * std::max(r.energy.throughput, last.throughput) + 1e-6);
+      last = r.energy;
+    }
+    EXPECT_GT(last.friction, 0.0);
+    EXPECT_GT(last.contact_damping, 0.0);
+    EXPECT_GT(last.modal_damping, 0.0);
+  }
+}
+
+TEST(EnergyLedger, OfALinearSceneIsExact) {
+  // every term is integrated exactly for a load that is linear over the steps
+  Scene scene = mass_point(1.0, Vec3(100.0, 400.0, 0.0), 2.0);
+  scene.system.damping = Vec3(0.5, 50.0, 1.0);
+  scene.loads = {force_on(1.0, Vec3(1, 2, 3), Constant{1.0})};
+  start(scene, 1.0, Vec3(0.1, 0.0, -0.2), Vec3(1.0, 0.0, 0.0));
+  constexpr double round_off = 1e-12;
+  EXPECT_LT(simulate(scene, splitting(0.01), 2.0).report.residual_relative, round_off);
+}
+
+TEST(ConservativeScene, KeepsItsEnergyOverManyImpacts) {
+  const auto [worst, count] = drift(splitting());
+  EXPECT_GT(count, 80);
+  constexpr double per_impact =
+      6e-4; // lost at the automatic step, w_c h = 0.5: far below any structure's damping
+  EXPECT_LT(worst, per_impact * count);
+  constexpr double finer = 0.2; // a step 4 times smaller: order 2 and some scatter of the impacts' phases
+  const double step = choose_step(conservative(), splitting()).step;
+  EXPECT_LT(drift(splitting(step / 4.0)).first, finer * worst);
+}

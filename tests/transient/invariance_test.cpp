@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What must not matter: the side of a mirror, the axes, the order of equal modes.
+#include "scenes.hpp"
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+#include <numbers>
+
+using namespace fretwork;
+using namespace fretwork::tests;
+using namespace fretwork::transient;
+using contact::Circle;
+
+namespace {
+
+constexpr double one_impact = 1e-9; // round-off grown by one impact
+constexpr double mirrored = 1e-12;  // the same arithmetic with other signs
+
+/// A mass with different stiffness along two axes that hits a round hole obliquely, with friction and
+/// damping, and leaves it.
+Scene oblique_hit() {
+  Scene s = mass_point(1.0, Vec3(50.0, 2e3, 1e3), 0.007);
+  start(s, 1.0, Vec3(0, 0.9e-3, 0.2e-3), Vec3(0.05, 0.2, 0.15));
+  s.contacts = {contact_of(1.0, {Circle{1e-3}, {1e6, 100.0}, {5e5, 200.0, 0.4, 0.3}})};
+  return s;
+}
+
+const StepOptions schemes[] = {splitting(1e-5), euler(1e-5)};
+
+double difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
+}
+
+/// The scene must have an impact that opens again, with slip.
+void expect_one_impact(const Scene& scene, const StepOptions& options) {
+  int closings = 0, openings = 0, slips = 0;
+  bool before = false;
+  for (const auto& r : trace(scene, options)) {
+    closings += r.closed && !before;
+    openings += before && !r.closed;
+    slips += r.slides;
+    before = r.closed;
+  }
+  EXPECT_EQ(closings, 1);
+  EXPECT_EQ(openings, 1);
+  EXPECT_GT(slips, 0);
+}
+
+} // namespace
+
+TEST(Invariance, FixtureHasOneImpact) {
+  for (const StepOptions& options : schemes)
+    expect_one_impact(oblique_hit(), options);
+}
+
+TEST(Invariance, OfAMirroredSceneIsTheMirroredResult) {
+  for (const StepOptions& options : schemes)
+    for (const Vec3& mirror : {Vec3(1, -1, 1), Vec3(1, 1, -1), Vec3(-1, 1, 1), Vec3(-1, -1, -1)}) {
+      const Scene scene = oblique_hit();
+      Scene other = scene;
+      other.q0 = mirror.cwiseProduct(scene.q0);
+      other.v0 = mirror.cwiseProduct(scene.v0);
+      const History a = simulate(scene, options, 1e-3), b = simulate(other, options, 1e-3);
+      EXPECT_LT(difference(mirror.asDiagonal() * b.q, a.q), mirrored);
+      EXPECT_LT(difference(mirror.asDiagonal() * b.v, a.v), mirrored);
+      EXPECT_LT(difference(b.normal, a.normal), mirrored);
+    }
+}
+
+TEST(Invariance, OfTurnedLocalAxesIsTheSameMotion) {
+  for (const StepOptions& options : schemes)
+    for (const double angle : {0.3, 1.0, std::numbers::pi / 2, 4.0}) {
+      const Scene scene = oblique_hit();
+      Scene turned = scene;
+      turned.contacts[0].b = Eigen::AngleAxisd(angle, Vec3::UnitX()).toRotationMatrix() * scene.contacts[0].b;
+      const History a = simulate(scene, options, 1e-3), b = simulate(turned, options, 1e-3);
+      EXPECT_LT(difference(b.q, a.q), one_impact);
+      EXPECT_LT(difference(b.v, a.v), one_impact);
+      EXPECT_LT(difference(b.normal, a.normal), one_impact);
+      EXPECT_NEAR(b.report.energy.friction / a.report.energy.friction, 1.0, one_impact);
+    }
+}
+
+TEST(Invariance, OfExchangedModesIsTheSameMotion) {
+  for (const StepOptions& options : schemes) {
+    Scene scene = oblique_hit();
+    scene.system.stiffness(1) = scene.system.stiffness(2); // two equal modes
+    Scene exchanged = scene;
+    exchanged.contacts[0].b.col(1).swap(exchanged.contacts[0].b.col(2));
+    std::swap(exchanged.q0(1), exchanged.q0(2));
+    std::swap(exchanged.v0(1), exchanged.v0(2));
+    const History a = simulate(scene, options, 1e-3);
+    History b = simulate(exchanged, options, 1e-3);
+    b.q.row(1).swap(b.q.row(2));
+    b.v.row(1).swap(b.v.row(2));
+    EXPECT_LT(difference(b.q, a.q), one_impact);
+    EXPECT_LT(difference(b.v, a.v), one_impact);
+    EXPECT_LT(difference(b.normal, a.normal), one_impact);
+  }
+}
+
+TEST(Invariance, OfTurnedEqualModesIsTheSameMotion) {
+  for (const StepOptions& options : schemes) {
+    Scene scene = oblique_hit();
+    scene.system.stiffness(1) = scene.system.stiffness(2);
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vec3::UnitX()).toRotationMatrix();
+    Scene turned = scene;
+    turned.contacts[0].b = scene.contacts[0].b * turn.transpose();
+    turned.q0 = turn * scene.q0;
+    turned.v0 = turn * scene.v0;
+    const History a = simulate(scene, options, 1e-3), b = simulate(turned, options, 1e-3);
+    EXPECT_LT(difference(turn.transpose() * b.q, a.q), one_impact);
+    EXPECT_LT(difference(b.normal, a.normal), one_impact);
+  }
+}
