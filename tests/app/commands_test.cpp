@@ -126,6 +126,23 @@ TEST(Commands, RunLeavesSummarySeriesAndReport) {
   EXPECT_TRUE(says(bytes_of(results / "report.html"), "support[0]"));
 }
 
+TEST(Commands, SetReachesTheRunAndTheRecord) {
+  const Workshop folder;
+  const Results run = folder.run(example("cantilever_stop"), "results",
+                                 {"--set", "modes.damping=[0.05, 0.02, 0.02, 0.02, 0.03]", "--set",
+                                  "contacts.stop.normal_stiffness=2e8", "--set", "loads.0.constant=2000",
+                                  "--set", "contacts.0.gap=2e-4"});
+  EXPECT_EQ(run.summary["modes"]["damping"], (std::vector<double>{0.05, 0.02, 0.02, 0.02, 0.03}));
+  ASSERT_EQ(run.archive.contacts.size(), 1u);
+  EXPECT_EQ(run.archive.contacts[0].normal_stiffness, 2e8);
+  EXPECT_EQ(run.archive.contacts[0].gap, 2e-4);
+  EXPECT_TRUE(says(run.archive.record.study_text, "loads.0.constant=2000"));
+  const Outcome nowhere = folder.fretwork({"run", example("cantilever_stop").string(), "-o",
+                                           folder.path("other").string(), "--set", "contacts.stp.gap=1"});
+  EXPECT_EQ(nowhere.status, 1);
+  EXPECT_TRUE(says(nowhere.err, "contacts.stp.gap=1"));
+}
+
 TEST(Commands, QuietSaysNothing) {
   const Workshop folder;
   const Outcome run =

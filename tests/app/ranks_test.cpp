@@ -171,10 +171,10 @@ duration = 0.01
   for (std::size_t i = 0; i < 12; ++i)
     EXPECT_TRUE(close_to(two.summary["modes"]["frequencies_hz"][i], one.summary["modes"]["frequencies_hz"][i],
                          distributed_solver));
-  // from its stored modes on, it is the same for any number of ranks; other numbers of ranks compute their
-  // own
-  EXPECT_EQ(folder.run(folder.path("study.toml"), "two", {"--force"}, 2).summary["modes"],
-            two.summary["modes"]);
+  // a distributed solve repeats to round-off only; from its stored modes on, all is the same
+  const Results longer =
+      folder.run(folder.path("study.toml"), "two", {"--set", "transient.duration=0.02"}, 2);
+  EXPECT_EQ(longer.summary["modes"], two.summary["modes"]);
 }
 
 TEST(Ranks, SayOneMessageAboutAWrongStudy) {

@@ -189,6 +189,11 @@ std::vector<Wrong> wrong_models() {
        with(lone_mass, "[\"uy\", \"uz\", \"rx\", \"ry\", \"rz\"]", "\"all\""),
        mass,
        {"nothing", "[[restraints]]"}},
+      {"ListOfDampingTooShort",
+       good_but("[transient]", "[modes]\ncount = 5\ndamping = [0.02, 0.01]\n[transient]"),
+       mesh,
+       {"damping", "2 ratios for 5 modes"},
+       false},
       {"SplittingWithDampersThatCouple",
        good_but("[transient]", "[[springs]]\ngroup = \"beam_end\"\ndamping = [0, 50.0, 0, 0, 0, "
                                "0]\n[transient]\nscheme = \"splitting\""),
