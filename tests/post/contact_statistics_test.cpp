@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hand_made.hpp"
+#include "post/contact_statistics.hpp"
+#include <gtest/gtest.h>
+
+using namespace fretwork;
+using namespace fretwork::tests;
+using post::ContactStatistics;
+using post::ContactSummary;
+
+namespace {
+
+constexpr double h = 0.01;
+constexpr double round_off = 1e-12;
+
+} // namespace
+
+TEST(ContactStatistics, CountMaximalIntervalsOfForceAsImpacts) {
+  ContactStatistics statistics(1, 0.0);
+  HandMade run(statistics, 1, h);
+  run.open(5);
+  run.closed(3, 10.0, 0.2);
+  run.open(1); // one open step parts two impacts
+  run.closed(1, 30.0, 0.6);
+  run.open(10);
+  const ContactSummary s = statistics.summaries()[0];
+  EXPECT_EQ(s.impacts, 2);
+  EXPECT_NEAR(s.contact_time_ratio, 4.0 / 20.0, round_off);
+  EXPECT_NEAR(s.impact_velocity_mean, 0.4, round_off);
+  EXPECT_NEAR(s.impact_velocity_max, 0.6, round_off);
+  EXPECT_NEAR(s.contact_duration_mean, 2.0 * h, round_off);
+  EXPECT_NEAR(s.contact_duration_max, 3.0 * h, round_off);
+}
+
+TEST(ContactStatistics, OfAContactThatIsClosedFromTheStartHaveOneImpact) {
+  ContactStatistics statistics(1, 0.0);
+  HandMade run(statistics, 1, h);
+  run.closed(10, 5.0, 0.1);
+  const ContactSummary s = statistics.summaries()[0];
+  EXPECT_EQ(s.impacts, 1);
+  EXPECT_NEAR(s.contact_time_ratio, 1.0, round_off);
+  EXPECT_NEAR(s.contact_duration_max, 10.0 * h, round_off);
+}
+
+TEST(ContactStatistics, AverageTheNormalForceOverAllTimeAndInContact) {
+  ContactStatistics statistics(1, 0.0);
+  HandMade run(statistics, 1, h);
+  run.closed(2, 10.0);
+  run.closed(2, 20.0);
+  run.open(6);
+  const ContactSummary s = statistics.summaries()[0];
+  EXPECT_NEAR(s.normal_mean, 60.0 / 10.0, round_off);
+  EXPECT_NEAR(s.normal_rms, std::sqrt(1000.0 / 10.0), round_off);
+  EXPECT_EQ(s.normal_max, 20.0);
+  EXPECT_NEAR(s.normal_in_contact_mean, 60.0 / 4.0, round_off);
+  EXPECT_NEAR(s.normal_in_contact_rms, std::sqrt(1000.0 / 4.0), round_off);
+}
+
+TEST(ContactStatistics, OfTheWindowLeaveOutWhatIsBeforeIt) {
+  ContactStatistics statistics(1, 0.1); // the first ten steps are before it
+  HandMade run(statistics, 1, h);
+  run.closed(2, 500.0, 9.0);
+  run.y(0) = 7.0;
+  run.open(5);
+  run.closed(6, 10.0,
+             8.0); // starts before the window: no impact of it, but its time and force in the window count
+  run.y(0) = 0.5;
+  run.open(1);
+  run.closed(2, 20.0, 0.3);
+  run.open(4);
+  const ContactSummary s = statistics.summaries()[0];
+  EXPECT_EQ(s.impacts, 1);
+  EXPECT_NEAR(s.contact_time_ratio, 5.0 / 10.0, round_off);
+  EXPECT_NEAR(s.normal_mean, (3 * 10.0 + 2 * 20.0) / 10.0, round_off);
+  EXPECT_EQ(s.normal_max, 20.0);
+  EXPECT_NEAR(s.impact_velocity_max, 0.3, round_off);
+  EXPECT_NEAR(s.contact_duration_mean, 2.0 * h, round_off);
+  EXPECT_NEAR(s.contact_duration_max, 2.0 * h, round_off);
+  EXPECT_EQ(s.y.max, 7.0); // three of its steps are in the window
+  EXPECT_NEAR(s.y.mean, (3 * 7.0 + 7 * 0.5) / 10.0, round_off);
+}
+
+TEST(ContactStatistics, OfAnEmptyWindowAreZero) {
+  ContactStatistics statistics(2, 100.0);
+  HandMade run(statistics, 2, h);
+  run.closed(5, 10.0, 0.1);
+  for (const ContactSummary& s : statistics.summaries()) {
+    EXPECT_EQ(s.impacts, 0);
+    EXPECT_EQ(s.normal_max, 0.0);
+    EXPECT_EQ(s.contact_time_ratio, 0.0);
+  }
+}
+
+TEST(ContactStatistics, CountTheWorkRateOnlyWhileTheContactSlides) {
+  ContactStatistics statistics(1, 0.0);
+  HandMade run(statistics, 1, h);
+  for (const bool slides : {true, false}) {
+    auto& state = run.contact(0);
+    state.normal_force = 10.0;
+    state.friction = {0.0, -3.0};
+    state.displacement = {3e-4, 4e-4};
+    state.slides = slides;
+    state.friction_work = slides ? 1e-3 : 0.0;
+    run.step();
+  }
+  run.open(8);
+  const ContactSummary s = statistics.summaries()[0];
+  EXPECT_NEAR(s.work_rate, 10.0 * 5e-4 / (10 * h), round_off);
+  EXPECT_NEAR(s.friction_power, 1e-3 / (10 * h), round_off);
+  EXPECT_NEAR(s.tangential_rms, std::sqrt(2.0 * 9.0 / 10.0), round_off);
+  EXPECT_NEAR(s.tangential_max, 3.0, round_off);
+}
+
+TEST(ContactStatistics, DescribeTheMotionOverAllSteps) {
+  ContactStatistics statistics(1, 0.0);
+  HandMade run(statistics, 1, h);
+  for (const double y : {3.0, -1.0, 3.0, -1.0}) {
+    run.y(0) = y;
+    run.z(0) = 4.0;
+    run.step();
+  }
+  const ContactSummary s = statistics.summaries()[0];
+  EXPECT_NEAR(s.y.mean, 1.0, round_off);
+  EXPECT_NEAR(s.y.std, 2.0, round_off);
+  EXPECT_EQ(s.y.min, -1.0);
+  EXPECT_EQ(s.y.max, 3.0);
+  EXPECT_NEAR(s.z.mean, 4.0, round_off);
+  EXPECT_EQ(s.z.std, 0.0);
+  EXPECT_NEAR(s.radial_rms, std::sqrt((9.0 + 1.0) / 2.0 + 16.0), round_off);
+  EXPECT_NEAR(s.radial_max, 5.0, round_off);
+}
+
+TEST(ContactStatistics, KeepContactsApart) {
+  ContactStatistics statistics(3, 0.0);
+  HandMade run(statistics, 3, h);
+  for (int i = 0; i < 10; ++i) {
+    if (i % 2 == 0)
+      run.contact(1).normal_force = 1.0;
+    if (i < 5)
+      run.contact(2).normal_force = 2.0;
+    run.step();
+  }
+  const auto all = statistics.summaries();
+  EXPECT_EQ(all[0].impacts, 0);
+  EXPECT_EQ(all[1].impacts, 5);
+  EXPECT_EQ(all[2].impacts, 1);
+  EXPECT_NEAR(all[1].normal_mean, 0.5, round_off);
+  EXPECT_NEAR(all[2].normal_mean, 1.0, round_off);
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Records of steps written by hand.
+#pragma once
+#include "transient/kernels.hpp"
+#include "transient/run.hpp"
+#include <vector>
+
+namespace fretwork::tests {
+
+/// Feeds an observer with steps of one length; contacts without a state are open.
+class HandMade {
+public:
+  HandMade(transient::Observer& observer, std::size_t contacts, double step)
+      : observer_(observer), states_(contacts), uy_(8, 0.0), uz_(8, 0.0), q_(8, 0.0) {
+    record_.step = step;
+    record_.contacts = static_cast<int>(contacts);
+    record_.q = q_.data();
+    record_.uy = uy_.data();
+    record_.uz = uz_.data();
+    record_.states = states_;
+  }
+  transient::ContactState& contact(std::size_t c) { return states_[c]; }
+  double& y(std::size_t c) { return uy_[c]; }
+  double& z(std::size_t c) { return uz_[c]; }
+  transient::kernels::Array& q() { return q_; }
+  /// One step; contacts with a normal force are active. The states are opened again.
+  void step() {
+    active_.clear();
+    for (std::size_t c = 0; c < states_.size(); ++c)
+      if (states_[c].normal_force > 0.0)
+        active_.push_back(static_cast<int>(c));
+    record_.active = active_;
+    record_.time = (static_cast<double>(count_++) + 0.5) * record_.step;
+    observer_.step(record_);
+    for (auto& state : states_)
+      state = {};
+  }
+  void open(int steps) {
+    for (int i = 0; i < steps; ++i)
+      step();
+  }
+  /// Steps with a normal force on contact 0, `approach` being the speed before the first.
+  void closed(int steps, double force, double approach = 0.0) {
+    for (int i = 0; i < steps; ++i) {
+      states_[0].normal_force = force;
+      states_[0].approach = i == 0 ? approach : 99.0; // only the first counts
+      step();
+    }
+  }
+
+private:
+  transient::Observer& observer_;
+  transient::Record record_;
+  std::vector<transient::ContactState> states_;
+  transient::kernels::Array uy_, uz_, q_;
+  std::vector<int> active_;
+  long count_ = 0;
+};
+
+} // namespace fretwork::tests

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "post/moments.hpp"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+using namespace fretwork::post;
+
+TEST(Accumulator, GivesMeanDeviationAndExtremes) {
+  Accumulator a;
+  for (const double x : {1.0, 2.0, 4.0, 5.0})
+    a.add(x);
+  const Moments m = a.moments();
+  EXPECT_DOUBLE_EQ(m.mean, 3.0);
+  EXPECT_DOUBLE_EQ(m.std, std::sqrt(2.5));
+  EXPECT_EQ(m.min, 1.0);
+  EXPECT_EQ(m.max, 5.0);
+}
+
+TEST(Accumulator, OfNothingIsZero) {
+  const Moments m = Accumulator().moments();
+  EXPECT_EQ(m.mean, 0.0);
+  EXPECT_EQ(m.std, 0.0);
+  EXPECT_EQ(m.min, 0.0);
+  EXPECT_EQ(m.max, 0.0);
+}
+
+TEST(Accumulator, OfOneSampleIsTheSample) {
+  Accumulator a;
+  a.add(-3.5);
+  const Moments m = a.moments();
+  EXPECT_EQ(m.mean, -3.5);
+  EXPECT_EQ(m.std, 0.0);
+  EXPECT_EQ(m.min, -3.5);
+  EXPECT_EQ(m.max, -3.5);
+}
+
+TEST(Accumulator, KeepsASmallMotionAboutALargeMean) {
+  constexpr int n = 100000;
+  constexpr double mean = 1e6, amplitude = 1e-3;
+  Accumulator a;
+  for (int i = 0; i < n; ++i)
+    a.add(mean + amplitude * std::sin(2.0 * std::numbers::pi * 10.0 * i / n));
+  constexpr double last_digit =
+      1e-6; // 1e-10 of the mean's own resolution against 1e-3: squares of it would keep nothing
+  EXPECT_NEAR(a.moments().std / (amplitude / std::numbers::sqrt2), 1.0, last_digit);
+  EXPECT_NEAR(a.moments().mean, mean, 1e-9);
+}

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "post/recorder.hpp"
+#include <gtest/gtest.h>
+
+using namespace fretwork;
+using namespace fretwork::transient;
+using post::Recorder;
+using post::TimeSeries;
+
+namespace {
+
+/// A node on three springs with dampers that is pressed on a hole's wall by a load and slides along it; a
+/// second contact far away.
+Scene pressed_node() {
+  Scene scene;
+  scene.system.stiffness = Eigen::Vector3d(40.0, 90.0, 10.0);
+  scene.system.damping = Eigen::Vector3d(0.5, 1.0, 0.2);
+  ContactPoint wall{"wall",
+                    {contact::Circle{1.0}, {1e4, 5.0}, {2e3, 20.0, 0.2, 0.2}},
+                    {0.0, 0.0, 1.002},
+                    Eigen::Matrix3d::Identity()};
+  ContactPoint far{"far", {contact::Circle{100.0}, {1e4}, {}}, {0.0, 3.0, 0.0}, Eigen::Matrix3d::Identity()};
+  scene.contacts = {wall, far};
+  scene.loads = {{Constant{20.0}, Eigen::Vector3d(0, 0, 1)},
+                 {Harmonic{30.0, 2.0}, Eigen::Vector3d(1, 0.5, 0)}};
+  scene.q0 = Eigen::Vector3d::Zero();
+  scene.v0 = Eigen::Vector3d(0.3, 0.2, 0.0);
+  scene.duration = 0.5;
+  return scene;
+}
+
+Eigen::MatrixXd node_rows() {
+  Eigen::MatrixXd rows(3, 3);
+  rows << 1, 2, 0, 0, 1, -1, 3, 0, 1;
+  return rows;
+}
+
+TimeSeries record(const Scene& scene, const StepOptions& options, double every) {
+  const StepChoice choice = choose_step(scene, options);
+  const OutputGrid grid = output_grid(scene.duration, every);
+  Recorder recorder(scene, {{"probe", node_rows()}}, grid);
+  (void)run(scene, choice, {}, &recorder, grid);
+  return std::move(recorder).series();
+}
+
+} // namespace
+
+TEST(Recorder, GivesEverySeriesTheLengthOfTheGrid) {
+  const Scene scene = pressed_node();
+  const TimeSeries s = record(scene, {SchemeKind::splitting, 1e-4}, 1e-2);
+  const Eigen::Index nt = 51;
+  EXPECT_EQ(s.time.size(), nt);
+  for (Eigen::Index j = 0; j < nt; ++j)
+    EXPECT_DOUBLE_EQ(s.time(j), static_cast<double>(j) * 1e-2);
+  EXPECT_EQ(s.modal_displacement.cols(), nt);
+  EXPECT_EQ(s.modal_velocity.cols(), nt);
+  ASSERT_EQ(s.contacts.size(), 2u);
+  ASSERT_EQ(s.nodes.size(), 1u);
+  EXPECT_EQ(s.contacts[0].name, "wall");
+  EXPECT_EQ(s.nodes[0].name, "probe");
+  for (const auto& c : s.contacts) {
+    EXPECT_EQ(c.displacement.rows(), nt);
+    EXPECT_EQ(c.velocity.rows(), nt);
+    EXPECT_EQ(c.gap.size(), nt);
+    EXPECT_EQ(c.normal_force.size(), nt);
+    EXPECT_EQ(c.tangential_force.rows(), nt);
+  }
+  EXPECT_EQ(s.nodes[0].displacement.rows(), nt);
+  EXPECT_EQ(s.nodes[0].velocity.rows(), nt);
+  EXPECT_EQ(s.nodes[0].acceleration.rows(), nt);
+}
+
+TEST(Recorder, MakesMotionsAndGapsFromTheModes) {
+  const Scene scene = pressed_node();
+  const TimeSeries s = record(scene, {SchemeKind::splitting, 1e-4}, 1e-2);
+  constexpr double round_off = 1e-14;
+  EXPECT_LT((s.nodes[0].displacement.transpose() - node_rows() * s.modal_displacement).norm(), round_off);
+  EXPECT_LT((s.nodes[0].velocity.transpose() - node_rows() * s.modal_velocity).norm(), round_off);
+  EXPECT_LT((s.contacts[0].displacement.transpose() - s.modal_displacement).norm(), round_off);
+  for (Eigen::Index j = 0; j < s.time.size(); ++j)
+    EXPECT_NEAR(s.contacts[0].gap(j),
+                1.0 - std::hypot(s.modal_displacement(1, j), 1.002 + s.modal_displacement(2, j)), round_off);
+}
+
+TEST(Recorder, GivesAnAccelerationThatIsTheRateOfTheVelocity) {
+  const Scene scene = pressed_node();
+  for (const auto scheme : {SchemeKind::splitting, SchemeKind::euler}) {
+    constexpr double every = 1e-3;
+    const TimeSeries s = record(scene, {scheme, 1e-5}, every);
+    const auto& node = s.nodes[0];
+    ASSERT_GT(s.contacts[0].normal_force.minCoeff(), 0.0); // pressed all the time: no kinks
+    const double largest = node.acceleration.cwiseAbs().maxCoeff();
+    constexpr double differences =
+        1e-2; // central differences over 2 ms of motions of 10 ms; and where slip starts, a kink
+    for (Eigen::Index j = 20; j + 1 < s.time.size(); ++j) {
+      const Eigen::RowVector3d rate = (node.velocity.row(j + 1) - node.velocity.row(j - 1)) / (2.0 * every);
+      EXPECT_LT((rate - node.acceleration.row(j)).norm(), differences * largest) << s.time(j);
+    }
+  }
+}
+
+TEST(Recorder, AgreesWithFiniteDifferencesAtAStepAsCoarseAsTheOutputs) {
+  // outputs between the steps: the velocity carries no jumps of the actions
+  const Scene scene = pressed_node();
+  constexpr double every = 0.7e-3;
+  const TimeSeries s = record(scene, {SchemeKind::splitting, 1e-3}, every);
+  const auto& node = s.nodes[0];
+  const double largest = node.acceleration.cwiseAbs().maxCoeff();
+  constexpr double of_the_step = 0.1;
+  for (Eigen::Index j = 20; j + 1 < s.time.size(); ++j) {
+    const Eigen::RowVector3d rate = (node.velocity.row(j + 1) - node.velocity.row(j - 1)) / (2.0 * every);
+    EXPECT_LT((rate - node.acceleration.row(j)).norm(), of_the_step * largest) << s.time(j);
+  }
+}
+
+TEST(Recorder, ShowsNoForceWhereTheContactIsOpen) {
+  Scene scene = pressed_node();
+  scene.loads = {};
+  scene.v0 = Eigen::Vector3d(0.0, 0.0, -1.0); // leaves the wall
+  const TimeSeries s = record(scene, {SchemeKind::splitting, 1e-3}, 1e-4);
+  int open = 0;
+  for (Eigen::Index j = 0; j < s.time.size(); ++j)
+    for (const auto& c : s.contacts)
+      if (c.gap(j) > 0.0) {
+        ++open;
+        EXPECT_EQ(c.normal_force(j), 0.0);
+        EXPECT_EQ(c.tangential_force.row(j).norm(), 0.0);
+      }
+  EXPECT_GT(open, 5000);
+  EXPECT_GT(s.contacts[0].normal_force.maxCoeff(), 0.0);
+}
+
+TEST(Recorder, CutsTheSeriesOfARunThatEndedEarly) {
+  const Scene scene = pressed_node();
+  const OutputGrid grid = output_grid(scene.duration, 1e-2);
+  Recorder recorder(scene, {{"probe", node_rows()}}, grid);
+  const Eigen::Vector3d q(1, 2, 3), v(0, 0, 0);
+  const std::vector<ContactForce> forces(2);
+  for (int j = 0; j < 4; ++j) {
+    recorder.state(j, j * grid.every, q.data(), v.data());
+    recorder.forces(j, j * grid.every, v.data(), forces);
+  }
+  recorder.state(4, 4 * grid.every, q.data(), v.data()); // its forces never came
+  const TimeSeries s = std::move(recorder).series();
+  EXPECT_EQ(s.time.size(), 4);
+  EXPECT_EQ(s.modal_displacement.cols(), 4);
+  EXPECT_EQ(s.contacts[1].gap.size(), 4);
+  EXPECT_EQ(s.contacts[1].displacement.rows(), 4);
+  EXPECT_EQ(s.contacts[1].tangential_force.rows(), 4);
+  EXPECT_EQ(s.nodes[0].acceleration.rows(), 4);
+  EXPECT_EQ(s.nodes[0].velocity.rows(), 4);
+}
