@@ -16,6 +16,22 @@ constexpr double default_outputs = 5000.0;
 /// Above this residual of the energy the results are not to be trusted, whatever they look like.
 constexpr double residual_warning = 0.05;
 
+/// Series are held in memory until they are written; a study that asks for more than this has a slip in output.every.
+constexpr double most_series_bytes = 4294967296.0;
+
+void check_size_of_series(const study::Study& study, const std::vector<BuiltScene>& scenes) {
+  const double duration = study.transient->duration, every = study.output.every.value_or(duration / default_outputs);
+  double columns = 1.0; // values at an output: modal and of contacts and nodes, as in results.h5
+  for (const BuiltScene& built : scenes)
+    columns += 2.0 * static_cast<double>(built.scene.system.size()) + 10.0 * static_cast<double>(built.contacts.size()) +
+               9.0 * static_cast<double>(built.nodes.size());
+  const double bytes = duration / every * columns * static_cast<double>(sizeof(double));
+  if (bytes > most_series_bytes)
+    throw core::Error(fmt::format("output.every = {}: {:.3g} outputs of {} values would take {:.3g} GB, at most {:.3g} are held; sample less often "
+                                  "(statistics see every step)",
+                                  every, duration / every, columns, bytes * 1e-9, most_series_bytes * 1e-9));
+}
+
 /// What one run gives.
 struct JobResult {
   transient::Report report{};
@@ -146,6 +162,7 @@ void judge(const transient::StepChoice& choice, const transient::Report& report,
 
 void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltScene>& scenes, std::size_t contacts, std::size_t nodes,
               const ProgressCallback& progress, results::RunResults& out) {
+  check_size_of_series(study, scenes);
   const int ranks = core::size(comm), here = core::rank(comm);
   transient::StepOptions options;
   options.step = study.transient->step;
