@@ -194,6 +194,11 @@ std::vector<Wrong> wrong_models() {
        mesh,
        {"damping", "2 ratios for 5 modes"},
        false},
+      {"MoreOutputsThanFit",
+       good_but("[output]\n", "[output]\nevery = 1.0e-11\n"),
+       mesh,
+       {"output.every", "GB", "sample less often"},
+       false},
       {"SplittingWithDampersThatCouple",
        good_but("[transient]", "[[springs]]\ngroup = \"beam_end\"\ndamping = [0, 50.0, 0, 0, 0, "
                                "0]\n[transient]\nscheme = \"splitting\""),
