@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/profile.hpp"
+#include "contact/obstacle.hpp"
+#include "core/error.hpp"
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <numbers>
+
+namespace fretwork::contact {
+
+namespace {
+
+constexpr double turn = 2.0 * std::numbers::pi;
+constexpr double same_angle = 1e-9;  // rad: what decimal degrees leave of one turn or half a turn
+constexpr double same_radius = 1e-9; // relative, for the same reason
+constexpr double same_point = 1e-12; // of the radius: a shorter facet has no direction in double precision
+constexpr double smallest = 1e-100, largest = 1e100; // m: squares of radii stay numbers
+constexpr double no_direction =
+    8.0 * std::numeric_limits<double>::epsilon(); // of the radius: rounding of a position
+
+std::string name(std::size_t k, const PolarPoint& p) {
+  return fmt::format("point {} ({:.12g} degrees, {:g} m)", k + 1, p.angle * 360.0 / turn, p.radius);
+}
+
+[[noreturn]] void refuse(const std::string& what) { throw core::Error("profile: " + what); }
+
+void check_values(std::span<const PolarPoint> points) {
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const auto [angle, radius] = points[k];
+    if (!std::isfinite(angle) || !std::isfinite(radius))
+      refuse(name(k, points[k]) + " is not a finite number; give an angle and a radius");
+    if (radius <= 0.0)
+      refuse(name(k, points[k]) +
+             " has no positive radius; give the distance from the obstacle's origin, > 0");
+    if (radius < smallest || radius > largest)
+      refuse(name(k, points[k]) + " is no size of a hole; give the radius in metres");
+  }
+}
+
+void check_order(std::span<const PolarPoint> points) {
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    const PolarPoint &before = points[k - 1], &p = points[k];
+    if (p.angle == before.angle && p.radius == before.radius)
+      refuse(name(k - 1, before) + " and " + name(k, p) + " are equal; leave one out");
+    if (p.angle == before.angle)
+      refuse(name(k - 1, before) + " and " + name(k, p) +
+             " have the same angle; make it a little larger in the second");
+    if (p.angle < before.angle)
+      refuse(name(k, p) + " comes after " + name(k - 1, before) + "; sort the points by increasing angle");
+    if (p.angle - points[0].angle > turn + same_angle)
+      refuse(name(k, p) + " is more than one turn after " + name(0, points[0]) +
+             "; keep the angles within 360 degrees");
+  }
+}
+
+/// Leaves out a last point that repeats the first.
+std::span<const PolarPoint> one_turn(std::span<const PolarPoint> points) {
+  const PolarPoint &first = points.front(), &last = points.back();
+  if (last.angle - first.angle < turn - same_angle)
+    return points;
+  if (std::abs(last.radius - first.radius) > same_radius * first.radius)
+    refuse(name(points.size() - 1, last) + " closes the turn but is not " + name(0, first) +
+           "; repeat the first point or leave the last out");
+  return points.first(points.size() - 1);
+}
+
+void check_number(std::size_t number) {
+  if (number < 3)
+    refuse(fmt::format(
+        "{} point{} do{} not enclose a hole; give at least 3, by increasing angle within one turn", number,
+        number == 1 ? "" : "s", number == 1 ? "es" : ""));
+}
+
+void check_inside(std::span<const PolarPoint> points, std::span<const PlanePoint> vertices) {
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const std::size_t next = (k + 1) % points.size();
+    const double between = points[next].angle - points[k].angle + (next == 0 ? turn : 0.0);
+    const std::string pair = name(k, points[k]) + " and " + name(next, points[next]);
+    if (between > std::numbers::pi - same_angle)
+      refuse(fmt::format(
+          "between {} the angle is {:.12g} degrees, so that the obstacle's origin is not inside the hole; "
+          "leave less than 180 degrees between neighbours or move the origin",
+          pair, between * 360.0 / turn));
+    const double length = std::hypot(vertices[next].y - vertices[k].y, vertices[next].z - vertices[k].z);
+    if (length <= same_point * points[k].radius)
+      refuse(pair + " are equal to rounding; leave one out");
+  }
+}
+
+/// Unit bisector to the inside of the corner between the facets `in` and `out`: along both normals, or, where
+/// the facets fold back and their normals cancel, along the difference of the directions.
+PlanePoint bisector(const Facet& in, const Facet& out) {
+  PlanePoint m{-in.uz - out.uz, in.uy + out.uy};
+  if (in.uy * out.uy + in.uz * out.uz < 0.0) {
+    const double side = in.uy * out.uz - in.uz * out.uy < 0.0 ? -1.0 : 1.0;
+    m = {side * (out.uy - in.uy), side * (out.uz - in.uz)};
+  }
+  const double length = std::sqrt(m.y * m.y + m.z * m.z);
+  return {m.y / length, m.z / length};
+}
+
+/// Against the line of a facet, `w` = node - any point of the line.
+Location on_line(const Facet& f, double wy, double wz) { return {f.uy * wz - f.uz * wy, -f.uz, f.uy}; }
+
+} // namespace
+
+Profile::Profile(std::span<const PolarPoint> points) {
+  check_number(points.size());
+  check_values(points);
+  check_order(points);
+  points = one_turn(points);
+  check_number(points.size());
+  std::vector<PlanePoint> vertices;
+  vertices.reserve(points.size());
+  for (const auto& [angle, radius] : points)
+    vertices.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+  check_inside(points, vertices);
+
+  FacetIndex index(vertices);
+  std::vector<PlanePoint> bisectors;
+  bisectors.reserve(vertices.size());
+  for (std::uint32_t k = 0; k < index.size(); ++k)
+    bisectors.push_back(bisector(index[(k == 0 ? index.size() : k) - 1], index[k]));
+  auto tables =
+      std::make_shared<Tables>(Tables{std::move(vertices), std::move(bisectors), std::move(index), 0.0});
+  tables_ = tables;
+  tables->inscribed = locate(0.0, 0.0).gap;
+}
+
+Location Profile::locate(double y, double z) const {
+  const FacetIndex& index = tables_->index;
+  const std::uint32_t k = index.nearest(y, z);
+  const Facet& f = index[k];
+  const double wy = y - f.ay, wz = z - f.az, along = wy * f.uy + wz * f.uz;
+  if (along <= 0.0)
+    return locate_at_corner(k, y, z);
+  if (along >= f.length)
+    return locate_at_corner(k + 1 == index.size() ? 0 : k + 1, y, z);
+  return on_line(f, wy, wz);
+}
+
+Location Profile::locate_at_corner(std::uint32_t corner, double y, double z) const {
+  const FacetIndex& index = tables_->index;
+  const PlanePoint v = tables_->vertices[corner], m = tables_->bisectors[corner];
+  const Facet &in = index[(corner == 0 ? index.size() : corner) - 1], &out = index[corner];
+  const double wy = y - v.y, wz = z - v.z, distance = std::sqrt(wy * wy + wz * wz);
+  const double inwards = wy * m.y + wz * m.z;
+  if (distance <= no_direction * std::sqrt(v.y * v.y + v.z * v.z))
+    return {std::copysign(distance, inwards), m.y, m.z};
+  // rounding chose the corner where the foot is on one of its facets
+  if (wy * out.uy + wz * out.uz > 0.0)
+    return on_line(out, wy, wz);
+  if (wy * in.uy + wz * in.uz < 0.0)
+    return on_line(in, wy, wz);
+  const double signed_distance = std::copysign(distance, inwards);
+  return {signed_distance, wy / signed_distance, wz / signed_distance};
+}
+
+} // namespace fretwork::contact

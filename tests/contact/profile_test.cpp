@@ -1,0 +1,470 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/obstacle.hpp"
+#include "contact/profile.hpp"
+#include "core/error.hpp"
+#include "uniform.hpp"
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <gtest/gtest.h>
+#include <limits>
+#include <new>
+
+using namespace fretwork;
+using contact::Location;
+using contact::PlanePoint;
+using contact::PolarPoint;
+using contact::Profile;
+
+namespace {
+
+std::atomic<long> allocations{0};
+
+constexpr double pi = std::numbers::pi;
+constexpr double round_off = 2e-14; // positions and radii are of order 1; a few operations
+constexpr double feet_apart = 1e-6; // two feet farther apart than this, equally near: the gap has no gradient
+constexpr double near_the_line =
+    1e-6; // closer, the direction node - foot is lost in the rounding of the foot
+constexpr double direction_error = 1e-9; // round_off / near_the_line, rounded up
+constexpr double difference_step = 1e-7;
+constexpr double difference_error =
+    1e-6; // of central differences: round_off / step, and step / distance to a corner
+
+std::vector<PolarPoint> polygon(int n, auto radius, double turned = 0.0) {
+  std::vector<PolarPoint> points;
+  for (int k = 0; k < n; ++k)
+    points.push_back({2.0 * pi * k / n + turned, radius(2.0 * pi * k / n)});
+  return points;
+}
+std::vector<PolarPoint> jagged(int n, std::uint64_t seed) {
+  tests::Uniform uniform(seed);
+  std::vector<PolarPoint> points;
+  for (int k = 0; k < n; ++k)
+    points.push_back({2.0 * pi * (k + uniform(-0.45, 0.45)) / n, uniform(0.4, 1.2)});
+  return points;
+}
+double round_hole(double) { return 1.0; }
+double trefoil(double angle) { return 0.7 + 0.4 * std::cos(3.0 * angle); }
+double quatrefoil(double angle) { return 0.8 + 0.3 * std::cos(4.0 * angle); }
+double slot(double angle) {
+  return std::min(1.0 / std::abs(std::cos(angle)), 0.05 / std::abs(std::sin(angle)));
+}
+
+/// Holes from few to many facets, convex or not, smooth or not.
+std::vector<Profile> all() {
+  return {Profile(polygon(3, round_hole)),
+          Profile(polygon(4, round_hole, 0.3)),
+          Profile(polygon(10, round_hole)),
+          Profile(polygon(997, round_hole)),
+          Profile(polygon(60, trefoil)),
+          Profile(polygon(2000, trefoil, -1.0)),
+          Profile(polygon(301, quatrefoil)),
+          Profile(polygon(400, slot, 0.01)),
+          Profile(jagged(7, 1)),
+          Profile(jagged(50, 2)),
+          Profile(jagged(400, 3))};
+}
+
+/// Every foot as near as the nearest one, by a plain look at all facets; inside by the crossings of a ray.
+struct Reference {
+  double gap;
+  std::vector<PlanePoint> feet;
+};
+Reference look_at_all(const Profile& profile, double y, double z) {
+  const auto v = profile.vertices();
+  double nearest = std::numeric_limits<double>::infinity();
+  std::vector<std::pair<double, PlanePoint>> feet;
+  bool inside = false;
+  for (std::size_t k = 0; k < v.size(); ++k) {
+    const PlanePoint a = v[k], b = v[(k + 1) % v.size()];
+    const double ey = b.y - a.y, ez = b.z - a.z;
+    const double s = std::clamp(((y - a.y) * ey + (z - a.z) * ez) / (ey * ey + ez * ez), 0.0, 1.0);
+    const PlanePoint foot{(1.0 - s) * a.y + s * b.y, (1.0 - s) * a.z + s * b.z};
+    feet.push_back({std::hypot(y - foot.y, z - foot.z), foot});
+    nearest = std::min(nearest, feet.back().first);
+    if ((a.z > z) != (b.z > z) && y < a.y + (z - a.z) / ez * ey)
+      inside = !inside;
+  }
+  Reference reference{inside ? nearest : -nearest, {}};
+  for (const auto& [distance, foot] : feet)
+    if (distance <= nearest + round_off)
+      reference.feet.push_back(foot);
+  return reference;
+}
+bool has_gradient(const Reference& reference) {
+  const PlanePoint first = reference.feet[0];
+  return std::ranges::all_of(
+      reference.feet, [&](PlanePoint f) { return std::hypot(f.y - first.y, f.z - first.z) < feet_apart; });
+}
+
+/// A node anywhere, or near a corner or a facet at any small distance.
+PlanePoint node_near(const Profile& profile, tests::Uniform& uniform, int kind) {
+  const auto v = profile.vertices();
+  if (kind % 3 == 0)
+    return {uniform(-2.0, 2.0), uniform(-2.0, 2.0)};
+  const std::size_t k = static_cast<std::size_t>(uniform(0.0, 1.0) * static_cast<double>(v.size()));
+  const PlanePoint a = v[k], b = v[(k + 1) % v.size()];
+  const double s = kind % 3 == 1 ? 0.0 : uniform(0.0, 1.0), angle = uniform(0.0, 2.0 * pi),
+               d = uniform.scale(1e-9, 0.3);
+  return {a.y + s * (b.y - a.y) + d * std::cos(angle), a.z + s * (b.z - a.z) + d * std::sin(angle)};
+}
+
+void expect_same_bytes(const Location& a, const Location& b) {
+  EXPECT_EQ(a.gap, b.gap);
+  EXPECT_EQ(a.ny, b.ny);
+  EXPECT_EQ(a.nz, b.nz);
+}
+
+std::string message_of(const std::vector<PolarPoint>& points) {
+  try {
+    const Profile profile(points);
+  } catch (const core::Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+void expect_refused(const std::vector<PolarPoint>& points, std::initializer_list<const char*> parts) {
+  const std::string message = message_of(points);
+  for (const char* part : parts)
+    EXPECT_NE(message.find(part), std::string::npos) << "\"" << part << "\" is not in: " << message;
+}
+constexpr double degree = pi / 180.0;
+
+} // namespace
+
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* p = std::malloc(size))
+    return p;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+
+TEST(Profile, GapIsTheDistanceToTheNearestOfAllFacets) {
+  tests::Uniform uniform(11);
+  for (const Profile& profile : all())
+    for (int i = 0; i < 3000; ++i) {
+      const PlanePoint p = node_near(profile, uniform, i);
+      ASSERT_NEAR(profile.locate(p.y, p.z).gap, look_at_all(profile, p.y, p.z).gap, round_off)
+          << p.y << " " << p.z;
+    }
+}
+
+TEST(Profile, NormalPointsFromTheNearestPointIntoTheHole) {
+  tests::Uniform uniform(12);
+  int seen = 0;
+  for (const Profile& profile : all())
+    for (int i = 0; i < 3000; ++i) {
+      const PlanePoint p = node_near(profile, uniform, i);
+      const Reference reference = look_at_all(profile, p.y, p.z);
+      if (std::abs(reference.gap) < near_the_line || !has_gradient(reference))
+        continue;
+      const Location at = profile.locate(p.y, p.z);
+      ASSERT_NEAR(at.ny, (p.y - reference.feet[0].y) / reference.gap, direction_error) << p.y << " " << p.z;
+      ASSERT_NEAR(at.nz, (p.z - reference.feet[0].z) / reference.gap, direction_error) << p.y << " " << p.z;
+      ++seen;
+    }
+  EXPECT_GT(seen, 20000);
+}
+
+TEST(Profile, NormalIsTheGradientOfTheGap) {
+  tests::Uniform uniform(13);
+  const double h = difference_step;
+  int seen = 0;
+  for (const Profile& profile :
+       {Profile(polygon(4, round_hole, 0.3)), Profile(polygon(60, trefoil)), Profile(jagged(50, 2))})
+    for (int i = 0; i < 3000; ++i) {
+      const PlanePoint p{uniform(-1.5, 1.5), uniform(-1.5, 1.5)};
+      const Location at = profile.locate(p.y, p.z);
+      const auto turned = [&](double y, double z) {
+        const Location other = profile.locate(y, z);
+        return std::hypot(other.ny - at.ny, other.nz - at.nz) > 0.01;
+      };
+      // a ridge, or a corner too near for the step
+      if (turned(p.y + h, p.z) || turned(p.y - h, p.z) || turned(p.y, p.z + h) || turned(p.y, p.z - h))
+        continue;
+      ASSERT_NEAR(at.ny, (profile.locate(p.y + h, p.z).gap - profile.locate(p.y - h, p.z).gap) / (2 * h),
+                  difference_error);
+      ASSERT_NEAR(at.nz, (profile.locate(p.y, p.z + h).gap - profile.locate(p.y, p.z - h).gap) / (2 * h),
+                  difference_error);
+      ++seen;
+    }
+  EXPECT_GT(seen, 8900); // of 9000: ridges are lines
+}
+
+TEST(Profile, GapNeverChangesByMoreThanTheNodeMoves) {
+  tests::Uniform uniform(14);
+  for (const Profile& profile : all())
+    for (int i = 0; i < 3000; ++i) {
+      const PlanePoint p = node_near(profile, uniform, i);
+      const double d = uniform.scale(1e-12, 0.5), angle = uniform(0.0, 2.0 * pi);
+      const Location a = profile.locate(p.y, p.z),
+                     b = profile.locate(p.y + d * std::cos(angle), p.z + d * std::sin(angle));
+      ASSERT_LE(std::abs(a.gap - b.gap), d + round_off);
+    }
+}
+
+TEST(Profile, NormalStaysTheSameThroughAFacet) {
+  for (const Profile& profile : all()) {
+    const auto v = profile.vertices();
+    for (std::size_t k = 0; k < v.size(); ++k) {
+      const PlanePoint a = v[k], b = v[(k + 1) % v.size()];
+      const double length = std::hypot(b.y - a.y, b.z - a.z), d = 1e-6 * length;
+      const double ny = (a.z - b.z) / length, nz = (b.y - a.y) / length;
+      const double y = 0.4 * a.y + 0.6 * b.y, z = 0.4 * a.z + 0.6 * b.z;
+      const Location in = profile.locate(y + d * ny, z + d * nz),
+                     out = profile.locate(y - d * ny, z - d * nz);
+      ASSERT_NEAR(in.gap, d, round_off);
+      ASSERT_NEAR(out.gap, -d, round_off);
+      ASSERT_NEAR(in.ny, ny, direction_error);
+      ASSERT_NEAR(in.nz, nz, direction_error);
+      ASSERT_EQ(in.ny, out.ny);
+      ASSERT_EQ(in.nz, out.nz);
+    }
+  }
+}
+
+TEST(Profile, NormalTurnsWithTheNodeRoundAProtrudingCorner) {
+  // the corner at (0.2, 0) protrudes; the facets that meet there leave a wedge of directions round -y
+  const Profile profile(
+      std::vector<PolarPoint>{{0.0, 0.2}, {60 * degree, 1.0}, {180 * degree, 1.0}, {300 * degree, 1.0}});
+  for (double turned = -0.15; turned < 0.15; turned += 0.01) {
+    const double angle = pi + turned;
+    const Location at = profile.locate(0.2 + 0.05 * std::cos(angle), 0.05 * std::sin(angle));
+    EXPECT_NEAR(at.gap, 0.05, round_off);
+    EXPECT_NEAR(at.ny, std::cos(angle), round_off);
+    EXPECT_NEAR(at.nz, std::sin(angle), round_off);
+  }
+}
+
+TEST(Profile, NormalOutsideACornerOfTheHolePointsToIt) {
+  const Profile square(polygon(
+      4, [](double) { return std::sqrt(2.0); }, pi / 4));
+  const Location at = square.locate(1.3, 1.4);
+  EXPECT_NEAR(at.gap, -0.5, round_off);
+  EXPECT_NEAR(at.ny, -0.6, round_off);
+  EXPECT_NEAR(at.nz, -0.8, round_off);
+}
+
+TEST(Profile, NearestFacetCountsAndNotTheOneOfTheSector) {
+  // a slot of half widths 1 and 0.05: the ray of the node ends at its far end, 0.1 away; the long sides are
+  // at 0.05
+  const double corner = std::atan2(0.05, 1.0), radius = std::hypot(1.0, 0.05);
+  const Profile profile(std::vector<PolarPoint>{
+      {corner, radius}, {pi - corner, radius}, {pi + corner, radius}, {2.0 * pi - corner, radius}});
+  const Location at = profile.locate(0.9, 0.01);
+  EXPECT_NEAR(at.gap, 0.04, round_off);
+  EXPECT_NEAR(at.ny, 0.0, round_off);
+  EXPECT_NEAR(at.nz, -1.0, round_off);
+}
+
+TEST(Profile, EveryNodeHasAUnitNormalAlsoOnCornersFacetsAndTheCentre) {
+  for (const Profile& profile : all()) {
+    const auto expect_unit = [&](double y, double z, double gap) {
+      const Location at = profile.locate(y, z);
+      ASSERT_NEAR(at.gap, gap, round_off);
+      ASSERT_NEAR(at.ny * at.ny + at.nz * at.nz, 1.0, round_off);
+    };
+    const auto v = profile.vertices();
+    for (std::size_t k = 0; k < v.size(); ++k) {
+      const PlanePoint a = v[k], b = v[(k + 1) % v.size()];
+      expect_unit(a.y, a.z, 0.0);
+      expect_unit(0.5 * (a.y + b.y), 0.5 * (a.z + b.z), 0.0);
+      expect_unit(std::nextafter(a.y, 9.0), std::nextafter(a.z, 9.0), 0.0);
+    }
+    expect_unit(0.0, 0.0, profile.inscribed());
+    const Location far = profile.locate(1e9, -1e9);
+    EXPECT_NEAR(far.gap, -std::hypot(1e9, 1e9), 2.0);
+    EXPECT_NEAR(std::hypot(far.ny, far.nz), 1.0, round_off);
+  }
+}
+
+TEST(Profile, NormalOnACornerIsItsBisector) {
+  const Profile square(polygon(4, round_hole));
+  const Location at = square.locate(square.vertices()[1].y, square.vertices()[1].z);
+  EXPECT_NEAR(at.ny, 0.0, round_off);
+  EXPECT_NEAR(at.nz, -1.0, round_off);
+}
+
+TEST(Profile, LowestOfEquallyNearFacetsCounts) {
+  // a square of 4 x 64 facets whose coordinates, and so all distances of these nodes, are exact
+  std::vector<PlanePoint> vertices;
+  const PlanePoint corners[] = {{1, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+  for (int side = 0; side < 4; ++side)
+    for (int k = 0; k < 64; ++k)
+      vertices.push_back({corners[side].y + k * (corners[side + 1].y - corners[side].y) / 64,
+                          corners[side].z + k * (corners[side + 1].z - corners[side].z) / 64});
+  const contact::FacetIndex index(vertices);
+  EXPECT_EQ(index.nearest(0.0, 0.0), 31u); // the middle of the first side, where facets 31 and 32 meet
+  EXPECT_EQ(index.nearest(-0.5, 0.5), 64u + 47u);
+  EXPECT_EQ(index.nearest(-0.5, -0.5), 128u + 47u);
+  EXPECT_EQ(index.nearest(0.5, -0.5), 15u); // before its equal of the last side
+  EXPECT_EQ(index.nearest(3.0, -3.0), 0u);  // the corner of the first and the last facet
+}
+
+TEST(Profile, CopiesAndRebuildsGiveTheSameBytes) {
+  for (const auto& points : {polygon(60, trefoil), jagged(400, 3)}) {
+    const Profile profile(points), again(points), copy(profile);
+    for (double y = -1.0; y < 1.0; y += 0.01) {
+      expect_same_bytes(profile.locate(y, 0.4 * y), again.locate(y, 0.4 * y));
+      expect_same_bytes(profile.locate(y, 0.4 * y), copy.locate(y, 0.4 * y));
+    }
+  }
+}
+
+TEST(Profile, ANodeThatIsNoNumberHasAGapThatIsNoNumber) {
+  for (const Profile& profile : all())
+    EXPECT_TRUE(std::isnan(profile.locate(std::numeric_limits<double>::quiet_NaN(), 0.1).gap));
+}
+
+TEST(Profile, TurnsWithItsPoints) {
+  tests::Uniform uniform(15);
+  const double turned = 0.7, c = std::cos(turned), s = std::sin(turned);
+  const Profile profile(polygon(60, trefoil)), other(polygon(60, trefoil, turned));
+  for (int i = 0; i < 3000; ++i) {
+    const PlanePoint p = node_near(profile, uniform, i);
+    const Location at = profile.locate(p.y, p.z), there = other.locate(c * p.y - s * p.z, s * p.y + c * p.z);
+    ASSERT_NEAR(there.gap, at.gap, round_off);
+    if (std::abs(at.gap) < near_the_line || !has_gradient(look_at_all(profile, p.y, p.z)))
+      continue;
+    ASSERT_NEAR(there.ny, c * at.ny - s * at.nz, direction_error);
+    ASSERT_NEAR(there.nz, s * at.ny + c * at.nz, direction_error);
+  }
+}
+
+TEST(Profile, IsMirroredWithItsPoints) {
+  tests::Uniform uniform(16);
+  std::vector<PolarPoint> points = jagged(50, 2), mirrored;
+  for (auto p = points.rbegin(); p != points.rend(); ++p)
+    mirrored.push_back({-p->angle, p->radius});
+  const Profile profile(points), other(mirrored);
+  for (int i = 0; i < 3000; ++i) {
+    const PlanePoint p = node_near(profile, uniform, i);
+    const Location at = profile.locate(p.y, p.z), there = other.locate(p.y, -p.z);
+    ASSERT_NEAR(there.gap, at.gap, round_off);
+    if (std::abs(at.gap) < near_the_line || !has_gradient(look_at_all(profile, p.y, p.z)))
+      continue;
+    ASSERT_NEAR(there.ny, at.ny, direction_error);
+    ASSERT_NEAR(there.nz, -at.nz, direction_error);
+  }
+}
+
+TEST(Profile, ScaledByAPowerOfTwoGivesTheSameBytes) {
+  tests::Uniform uniform(17);
+  constexpr double scale = 0x1p-13;
+  for (auto points : {polygon(2000, trefoil, -1.0), polygon(10, round_hole), jagged(400, 3)}) {
+    const Profile profile(points);
+    for (PolarPoint& p : points)
+      p.radius *= scale;
+    const Profile small(points);
+    EXPECT_EQ(small.inscribed(), scale * profile.inscribed());
+    for (int i = 0; i < 3000; ++i) {
+      const PlanePoint p = node_near(profile, uniform, i);
+      const Location at = profile.locate(p.y, p.z);
+      expect_same_bytes(small.locate(scale * p.y, scale * p.z), {scale * at.gap, at.ny, at.nz});
+    }
+  }
+}
+
+TEST(Profile, ManyFacetsTendToTheCircleAtSecondOrder) {
+  const auto error = [](int n) {
+    const Profile profile(polygon(n, round_hole));
+    tests::Uniform uniform(18);
+    double worst = 0.0;
+    for (int i = 0; i < 20000; ++i) {
+      const double angle = uniform(0.0, 2.0 * pi), r = uniform(0.3, 1.5);
+      const double y = r * std::cos(angle), z = r * std::sin(angle);
+      const Location at = profile.locate(y, z), exact = contact::locate(contact::Circle{1.0}, y, z);
+      worst = std::max(worst, std::abs(at.gap - exact.gap));
+      EXPECT_LE(std::hypot(at.ny - exact.ny, at.nz - exact.nz), 1.01 * pi / n); // half the angle of a facet
+    }
+    return worst;
+  };
+  double before = error(25);
+  for (int n = 50; n <= 400; n *= 2) {
+    const double now = error(n);
+    EXPECT_NEAR(std::log2(before / now), 2.0, 0.05);
+    EXPECT_LE(now, 1.0 - std::cos(pi / n) + round_off); // the sagitta
+    before = now;
+  }
+}
+
+TEST(Profile, InscribedBoundsTheGapFromBelow) {
+  tests::Uniform uniform(19);
+  for (const Profile& profile : all()) {
+    double sharpest = 1.0;
+    for (int i = 0; i < 3000; ++i) {
+      const PlanePoint p = node_near(profile, uniform, i);
+      const double slack = profile.locate(p.y, p.z).gap - (profile.inscribed() - std::hypot(p.y, p.z));
+      ASSERT_GE(slack, -round_off);
+      sharpest = std::min(sharpest, slack);
+    }
+    EXPECT_LT(sharpest, 0.01);
+    EXPECT_NEAR(profile.inscribed(), look_at_all(profile, 0.0, 0.0).gap, round_off);
+  }
+}
+
+TEST(Profile, LastPointThatRepeatsTheFirstIsDropped) {
+  std::vector<PolarPoint> points = jagged(50, 2);
+  const Profile open(points);
+  points.push_back({points[0].angle + 2.0 * pi, points[0].radius});
+  const Profile closed(points);
+  EXPECT_EQ(closed.vertices().size(), 50u);
+  expect_same_bytes(open.locate(0.3, -0.4), closed.locate(0.3, -0.4));
+}
+
+TEST(Profile, LooksUpWithoutAllocating) {
+  for (const Profile& profile : all()) {
+    const long before = allocations;
+    for (int i = 0; i < 100; ++i)
+      EXPECT_FALSE(std::isnan(profile.locate(0.02 * i - 1.0, 0.03 * i - 1.5).gap));
+    EXPECT_EQ(allocations, before);
+  }
+}
+
+TEST(Profile, RefusesTooFewPoints) {
+  expect_refused({}, {"0 points do not enclose a hole", "at least 3"});
+  expect_refused({{0.0, 1.0}}, {"1 point does not enclose"});
+  expect_refused({{0.0, 1.0}, {2.0, 1.0}}, {"2 points do not enclose"});
+  expect_refused({{0.0, 1.0}, {pi, 1.0}, {2.0 * pi, 1.0}}, {"2 points do not enclose"});
+}
+
+TEST(Profile, RefusesValuesThatAreNoAngleOrRadius) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  expect_refused({{0.0, 1.0}, {2.0, nan}, {4.0, 1.0}},
+                 {"point 2 (114.59", "not a finite number", "give an angle"});
+  expect_refused({{0.0, 1.0}, {2.0, 1.0}, {inf, 1.0}}, {"point 3 (inf degrees, 1 m)", "not a finite number"});
+  expect_refused({{0.0, 1.0}, {2.0, 0.0}, {4.0, 1.0}}, {"point 2", "0 m", "no positive radius", "> 0"});
+  expect_refused({{0.0, -1e-3}, {2.0, 1.0}, {4.0, 1.0}},
+                 {"point 1 (0 degrees, -0.001 m) has no positive radius"});
+  expect_refused({{0.0, 1e-200}, {2.0, 1.0}, {4.0, 1.0}}, {"point 1", "no size of a hole", "metres"});
+  expect_refused({{0.0, 1e200}, {2.0, 1.0}, {4.0, 1.0}}, {"point 1", "no size of a hole", "metres"});
+}
+
+TEST(Profile, RefusesAnglesOutOfOrder) {
+  expect_refused({{0.0, 1.0}, {120 * degree, 1.0}, {90 * degree, 1.0}, {240 * degree, 1.0}},
+                 {"point 3 (90 degrees, 1 m) comes after point 2 (120 degrees, 1 m)", "sort the points"});
+  expect_refused({{0.0, 1.0}, {2.0, 1.0}, {2.0, 1.0}, {4.0, 1.0}},
+                 {"point 2", "point 3", "are equal; leave one out"});
+  expect_refused({{0.0, 1.0}, {2.0, 1.0}, {2.0, 1.5}, {4.0, 1.0}},
+                 {"point 2", "point 3", "have the same angle"});
+  expect_refused({{0.0, 1.0}, {2.0, 1.0}, {4.0, 1.0}, {4.0 + 1e-15, 1.0}},
+                 {"point 3", "point 4", "equal to rounding"});
+}
+
+TEST(Profile, RefusesMoreThanATurn) {
+  expect_refused(
+      {{0.0, 1.0}, {120 * degree, 1.0}, {240 * degree, 1.0}, {370 * degree, 1.0}},
+      {"point 4 (370 degrees, 1 m) is more than one turn after point 1 (0 degrees, 1 m)", "360 degrees"});
+  expect_refused({{0.0, 1.0}, {120 * degree, 1.0}, {240 * degree, 1.0}, {360 * degree, 1.1}},
+                 {"point 4 (360 degrees, 1.1 m) closes the turn but is not point 1", "leave the last out"});
+}
+
+TEST(Profile, RefusesAHoleWithoutItsOrigin) {
+  expect_refused({{0.0, 1.0}, {60 * degree, 1.0}, {120 * degree, 1.0}},
+                 {"point 3 (120 degrees, 1 m) and point 1 (0 degrees, 1 m)", "240 degrees", "not inside",
+                  "move the origin"});
+  expect_refused({{0.0, 1.0}, {180 * degree, 1.0}, {270 * degree, 1.0}},
+                 {"point 1", "point 2", "180 degrees", "not inside"});
+}
