@@ -83,6 +83,25 @@ TEST(EnergyLedger, HoldsAtEveryStepAndItsLossesNeverFall) {
   }
 }
 
+TEST(EnergyLedger, StoresTheEnergyOfTheStateThatTheRecordShows) {
+  // also in the middle of an action, where the velocity is the mean of those before and after it
+  Scene scene = conservative();
+  scene.contacts[0].support.normal.damping = 50.0;
+  const auto scheme = make_splitting(scene, 5e-4);
+  Vec3 q, v;
+  int closed = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Record& record = scheme->advance();
+    scheme->state_at(record.time, q.data(), v.data());
+    const double depth = std::max(0.0, std::abs(q.y()) - 0.02);
+    const double energy = 0.5 * v.squaredNorm() + 50.0 * q.y() * q.y() + 0.5e6 * depth * depth;
+    constexpr double round_off = 1e-12;
+    ASSERT_NEAR(record.energy.stored / energy, 1.0, round_off) << "at " << record.time;
+    closed += !record.active.empty();
+  }
+  EXPECT_GT(closed, 40);
+}
+
 TEST(EnergyLedger, OfALinearSceneIsExact) {
   // every term is integrated exactly for a load that is linear over the steps
   Scene scene = mass_point(1.0, Vec3(100.0, 400.0, 0.0), 2.0);

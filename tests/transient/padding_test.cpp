@@ -85,3 +85,17 @@ TEST(Padding, OfSplittingWithoutCoupledForcesIsNotSeenToRoundOff) {
     expect_same(a, b, explicit_tolerance, size);
   }
 }
+
+TEST(PlanePair, TakesTheOppositeFaceForAnotherSurface) {
+  // a stiff tangential damper: what one face has loaded would still be there at the other
+  constexpr double h = 1e-5;
+  constexpr int steps = 1000;
+  Scene scene = mass_point(1.0, Vec3::Zero(), h * steps);
+  start(scene, 1.0, Vec3::Zero(), Vec3(0.02, 0.2, 0.01));
+  scene.contacts = {
+      contact_of(1.0, {contact::PlanePair{1e-5, contact::PlaneAxis::y}, {1e6}, {1e5, 1e3, 5.0, 5.0}})};
+  const auto scheme = make_splitting(scene, h);
+  const PlainState a = last_state(*scheme, scene, steps), b = plain_splitting(scene, h, steps);
+  expect_same(a, b, sweep_tolerance, {1, 3});
+  EXPECT_GT(b.closed, steps / 4);
+}
