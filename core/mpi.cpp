@@ -11,8 +11,11 @@ void set_mpi_defaults() {
   setenv("OPENBLAS_NUM_THREADS", "1", 0);
   setenv("OMPI_MCA_pml", "ob1", 0);
   setenv("OMPI_MCA_btl", "self,vader,tcp", 0);
-  if (!std::getenv("OMPI_COMM_WORLD_SIZE"))
+  if (!std::getenv("OMPI_COMM_WORLD_SIZE")) {
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    // isolated processes would all use one folder below the temporary one, and the first to end removes it under the others
+    setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
+  }
 }
 
 MpiSession::MpiSession(int& argc, char**& argv) {
