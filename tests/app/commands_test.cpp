@@ -151,6 +151,14 @@ TEST(Commands, QuietSaysNothing) {
   EXPECT_EQ(run.out + run.err, "");
 }
 
+TEST(Commands, RunsBesideEachOtherShareNoFolder) {
+  const Workshop folder;
+  // a temporary folder that cannot be used: a run that wanted one, as others at the same time would, fails
+  setenv("TMPDIR", folder.write("file", "").c_str(), 1);
+  (void)folder.run(example("oscillator"), "results");
+  unsetenv("TMPDIR");
+}
+
 TEST(Commands, ReportIsWrittenFromResults) {
   const Workshop folder;
   const fs::path results = folder.path("results");
