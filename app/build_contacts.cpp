@@ -24,13 +24,17 @@ Vec3 mean_tangent(const fem::Model& model, Index node, const std::string& name) 
   int beams = 0;
   for (const auto& beam : model.beams)
     if (beam.a == node || beam.b == node) {
-      sum += (model.nodes[static_cast<std::size_t>(beam.b)] - model.nodes[static_cast<std::size_t>(beam.a)]).normalized();
+      sum += (model.nodes[static_cast<std::size_t>(beam.b)] - model.nodes[static_cast<std::size_t>(beam.a)])
+                 .normalized();
       ++beams;
     }
   if (beams == 0)
-    throw core::Error(fmt::format("contact \"{}\": its node carries no beam that would give the axis; give axis = [x, y, z]", name));
+    throw core::Error(fmt::format(
+        "contact \"{}\": its node carries no beam that would give the axis; give axis = [x, y, z]", name));
   if (beams > 2 || sum.norm() < shortest_mean)
-    throw core::Error(fmt::format("contact \"{}\": {} beams meet at its node in no common direction; give axis = [x, y, z]", name, beams));
+    throw core::Error(
+        fmt::format("contact \"{}\": {} beams meet at its node in no common direction; give axis = [x, y, z]",
+                    name, beams));
   return sum.normalized();
 }
 
@@ -42,9 +46,11 @@ Vec3 oriented(const Vec3& axis) {
   return axis;
 }
 
-contact::Frame frame_of(const study::Contact& contact, const fem::Model& model, Index node, const std::string& name) {
+contact::Frame frame_of(const study::Contact& contact, const fem::Model& model, Index node,
+                        const std::string& name) {
   if (!contact.axis && !contact.y_axis && contact.obstacle != study::ObstacleKind::circle)
-    throw core::Error(fmt::format("contact \"{}\": obstacle \"{}\" has a direction; give axis or y_axis", name, name_of(contact.obstacle)));
+    throw core::Error(fmt::format("contact \"{}\": obstacle \"{}\" has a direction; give axis or y_axis",
+                                  name, name_of(contact.obstacle)));
   const Vec3 axis = contact.axis ? *contact.axis : oriented(mean_tangent(model, node, name));
   if (contact.y_axis)
     return contact::frame_from_y(axis, *contact.y_axis);
@@ -85,18 +91,22 @@ contact::Obstacle obstacle_of(const study::Contact& c) {
   return contact::Circle{c.gap};
 }
 
-std::vector<PlacedContact> place_contacts(const study::Study& study, const mesh::LineMesh& mesh, const fem::Model& model) {
+std::vector<PlacedContact> place_contacts(const study::Study& study, const mesh::LineMesh& mesh,
+                                          const fem::Model& model) {
   std::vector<PlacedContact> out;
   for (std::size_t e = 0; e < study.contacts.size(); ++e) {
     const study::Contact& contact = study.contacts[e];
-    const std::vector<Index> nodes = mesh::group_nodes(mesh, contact.group, fmt::format("contact \"{}\"", contact.name));
+    const std::vector<Index> nodes =
+        mesh::group_nodes(mesh, contact.group, fmt::format("contact \"{}\"", contact.name));
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       PlacedContact placed;
       placed.name = nodes.size() == 1 ? contact.name : fmt::format("{}[{}]", contact.name, i);
       placed.entry = e;
       placed.node = nodes[i];
       if ((model.fixed[static_cast<std::size_t>(placed.node)] & translations) == translations)
-        throw core::Error(fmt::format("contact \"{}\" is at a node that cannot move; release it in [[restraints]] or give it a mass", placed.name));
+        throw core::Error(fmt::format(
+            "contact \"{}\" is at a node that cannot move; release it in [[restraints]] or give it a mass",
+            placed.name));
       placed.frame = frame_of(contact, model, nodes[i], placed.name);
       const Vec3& place = model.nodes[static_cast<std::size_t>(nodes[i])];
       placed.rest = placed.frame.rotation() * (place - contact.origin.value_or(place));

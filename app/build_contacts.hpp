@@ -9,16 +9,18 @@
 namespace fretwork::app {
 
 struct PlacedContact {
-  std::string name;       ///< the study's, with [i] where the group has several nodes
-  std::size_t entry;      ///< in study.contacts
+  std::string name;  ///< the study's, with [i] where the group has several nodes
+  std::size_t entry; ///< in study.contacts
   core::Index node;
   contact::Frame frame;
-  core::Vec3 rest;        ///< m: the node from the obstacle's centre, local axes
+  core::Vec3 rest; ///< m: the node from the obstacle's centre, local axes
 };
 
-/// @throws core::Error for a node whose three displacements are restrained, for an axis that must be given (a node without beams, or where
+/// @throws core::Error for a node whose three displacements are restrained, for an axis that must be given (a
+/// node without beams, or where
 ///         beams branch)
-[[nodiscard]] std::vector<PlacedContact> place_contacts(const study::Study& study, const mesh::LineMesh& mesh, const fem::Model& model);
+[[nodiscard]] std::vector<PlacedContact> place_contacts(const study::Study& study, const mesh::LineMesh& mesh,
+                                                        const fem::Model& model);
 
 /// Obstacle, laws and automatic tangential damping not yet filled in.
 [[nodiscard]] contact::Obstacle obstacle_of(const study::Contact& contact);

@@ -25,14 +25,15 @@ void add_beams(const study::Study& study, const mesh::LineMesh& mesh, BuiltModel
   std::vector<Index> entry_of(mesh.lines.size(), -1);
   for (std::size_t e = 0; e < study.beams.size(); ++e) {
     const study::Beams& beams = study.beams[e];
-    out.model.properties.push_back({study.materials.at(beams.material), study.sections.at(beams.section), beams.added_mass,
-                                    beams.added_mass_direction, beams.orientation});
+    out.model.properties.push_back({study.materials.at(beams.material), study.sections.at(beams.section),
+                                    beams.added_mass, beams.added_mass_direction, beams.orientation});
     for (const Index line : mesh::group_lines(mesh, beams.group, fmt::format("[[beams]] entry {}", e + 1))) {
       Index& entry = entry_of[static_cast<std::size_t>(line)];
       if (entry >= 0 && entry != static_cast<Index>(e))
-        throw core::Error(fmt::format("a line of group \"{}\" has two [[beams]] entries, \"{}\" and \"{}\"; each line element needs "
-                                      "exactly one: make the groups disjoint",
-                                      beams.group, study.beams[static_cast<std::size_t>(entry)].group, beams.group));
+        throw core::Error(fmt::format(
+            "a line of group \"{}\" has two [[beams]] entries, \"{}\" and \"{}\"; each line element needs "
+            "exactly one: make the groups disjoint",
+            beams.group, study.beams[static_cast<std::size_t>(entry)].group, beams.group));
       entry = static_cast<Index>(e);
     }
   }
@@ -41,9 +42,10 @@ void add_beams(const study::Study& study, const mesh::LineMesh& mesh, BuiltModel
     const mesh::Line& line = mesh.lines[i];
     if (entry_of[i] < 0) {
       const auto without = std::count(entry_of.begin(), entry_of.end(), -1);
-      throw core::Error(fmt::format("{} of {} line elements have no [[beams]] entry (the first is in {}); give each line element "
-                                    "a material and a section",
-                                    without, mesh.lines.size(), curves_of(mesh, static_cast<Index>(i))));
+      throw core::Error(fmt::format(
+          "{} of {} line elements have no [[beams]] entry (the first is in {}); give each line element "
+          "a material and a section",
+          without, mesh.lines.size(), curves_of(mesh, static_cast<Index>(i))));
     }
     const auto add = [&](Index a, Index b) {
       out.beams_of_line[i].push_back(static_cast<Index>(out.model.beams.size()));
@@ -61,7 +63,9 @@ void add_beams(const study::Study& study, const mesh::LineMesh& mesh, BuiltModel
 /// The node of `others` nearest to a place.
 Index nearest(const fem::Model& model, const std::vector<Index>& others, const core::Vec3& place) {
   return *std::min_element(others.begin(), others.end(), [&](Index a, Index b) {
-    const auto distance = [&](Index n) { return (model.nodes[static_cast<std::size_t>(n)] - place).squaredNorm(); };
+    const auto distance = [&](Index n) {
+      return (model.nodes[static_cast<std::size_t>(n)] - place).squaredNorm();
+    };
     return distance(a) < distance(b);
   });
 }
@@ -78,20 +82,23 @@ void add_springs(const study::Study& study, const mesh::LineMesh& mesh, fem::Mod
     }
     const std::vector<Index> others = mesh::group_nodes(mesh, *spring.other, what);
     if (others.size() != nodes.size())
-      throw core::Error(fmt::format("{}: group \"{}\" has {} nodes and other \"{}\" has {}; springs between groups need as many nodes "
-                                    "in each",
-                                    what, spring.group, nodes.size(), *spring.other, others.size()));
+      throw core::Error(fmt::format(
+          "{}: group \"{}\" has {} nodes and other \"{}\" has {}; springs between groups need as many nodes "
+          "in each",
+          what, spring.group, nodes.size(), *spring.other, others.size()));
     for (const Index node : nodes) {
       const Index other = nearest(model, others, model.nodes[static_cast<std::size_t>(node)]);
       if (other == node)
-        throw core::Error(fmt::format("{}: a spring from \"{}\" to \"{}\" would join a node to itself; name two different nodes", what,
-                                      spring.group, *spring.other));
+        throw core::Error(fmt::format(
+            "{}: a spring from \"{}\" to \"{}\" would join a node to itself; name two different nodes", what,
+            spring.group, *spring.other));
       model.springs.push_back({node, other, spring.stiffness, spring.damping});
     }
   }
 }
 
-/// Named points that the study gives neither mass, spring nor restraint and that no line uses are marks, not structure.
+/// Named points that the study gives neither mass, spring nor restraint and that no line uses are marks, not
+/// structure.
 void leave_out_marks(fem::Model& model, const std::vector<bool>& restrained) {
   std::vector<bool> used = restrained;
   const auto use = [&](Index node) {
@@ -123,12 +130,14 @@ BuiltModel build_model(const study::Study& study, const mesh::LineMesh& mesh) {
   add_beams(study, mesh, out);
   std::vector<bool> restrained(mesh.nodes.size(), false);
   for (std::size_t e = 0; e < study.restraints.size(); ++e)
-    for (const Index node : mesh::group_nodes(mesh, study.restraints[e].group, fmt::format("[[restraints]] entry {}", e + 1))) {
+    for (const Index node :
+         mesh::group_nodes(mesh, study.restraints[e].group, fmt::format("[[restraints]] entry {}", e + 1))) {
       model.fixed[static_cast<std::size_t>(node)] |= study.restraints[e].fixed;
       restrained[static_cast<std::size_t>(node)] = true;
     }
   for (std::size_t e = 0; e < study.masses.size(); ++e)
-    for (const Index node : mesh::group_nodes(mesh, study.masses[e].group, fmt::format("[[masses]] entry {}", e + 1)))
+    for (const Index node :
+         mesh::group_nodes(mesh, study.masses[e].group, fmt::format("[[masses]] entry {}", e + 1)))
       model.masses.push_back({node, study.masses[e].mass, study.masses[e].inertia, study.masses[e].arm});
   add_springs(study, mesh, model);
   leave_out_marks(model, restrained);

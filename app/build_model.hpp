@@ -10,10 +10,12 @@ namespace fretwork::app {
 
 struct BuiltModel {
   fem::Model model;
-  std::vector<std::vector<core::Index>> beams_of_line; ///< by line of the mesh: one beam, two for a line of order 2
+  std::vector<std::vector<core::Index>>
+      beams_of_line; ///< by line of the mesh: one beam, two for a line of order 2
 };
 
-/// @throws core::Error for groups that do not exist, lines without or with two `[[beams]]` entries, springs that cannot be paired
+/// @throws core::Error for groups that do not exist, lines without or with two `[[beams]]` entries, springs
+/// that cannot be paired
 [[nodiscard]] BuiltModel build_model(const study::Study& study, const mesh::LineMesh& mesh);
 
 } // namespace fretwork::app

@@ -13,14 +13,17 @@ namespace {
 using core::Index;
 using core::Vec3;
 
-/// Above this share lost by the projection of the initial field the run starts from something else than was asked.
+/// Above this share lost by the projection of the initial field the run starts from something else than was
+/// asked.
 constexpr double lost_share_warning = 0.05;
 /// Couplings of a projected damping matrix below this share of its diagonal are round-off.
 constexpr double negligible_coupling = 1e-12;
 
-Eigen::VectorXd load_field(const study::Load& load, const std::string& what, const mesh::LineMesh& mesh, const BuiltModel& built) {
+Eigen::VectorXd load_field(const study::Load& load, const std::string& what, const mesh::LineMesh& mesh,
+                           const BuiltModel& built) {
   if (!load.per_length)
-    return fem::point_forces(built.model, mesh::group_nodes(mesh, load.group, what), load.direction, load.moment);
+    return fem::point_forces(built.model, mesh::group_nodes(mesh, load.group, what), load.direction,
+                             load.moment);
   std::vector<Index> beams;
   for (const Index line : mesh::group_lines(mesh, load.group, what))
     for (const Index beam : built.beams_of_line[static_cast<std::size_t>(line)])
@@ -28,7 +31,8 @@ Eigen::VectorXd load_field(const study::Load& load, const std::string& what, con
   return fem::line_forces(built.model, beams, load.direction);
 }
 
-void initial_field(const study::Study& study, const mesh::LineMesh& mesh, const fem::Model& model, Fields& out) {
+void initial_field(const study::Study& study, const mesh::LineMesh& mesh, const fem::Model& model,
+                   Fields& out) {
   if (study.initial.empty())
     return;
   out.moves_at_start = true;
@@ -36,11 +40,13 @@ void initial_field(const study::Study& study, const mesh::LineMesh& mesh, const 
   out.velocity = out.displacement;
   for (std::size_t e = 0; e < study.initial.size(); ++e) {
     const study::Initial& initial = study.initial[e];
-    for (const Index node : mesh::group_nodes(mesh, initial.group, fmt::format("[[initial]] entry {}", e + 1))) {
+    for (const Index node :
+         mesh::group_nodes(mesh, initial.group, fmt::format("[[initial]] entry {}", e + 1))) {
       const Eigen::Index row = static_cast<Eigen::Index>(node) * core::dofs_per_node;
       const Vec3 arm = model.nodes[static_cast<std::size_t>(node)] - initial.centre;
       out.displacement.segment<6>(row) << initial.displacement, Vec3::Zero();
-      out.velocity.segment<6>(row) << initial.velocity + initial.rotation_rate.cross(arm), initial.rotation_rate;
+      out.velocity.segment<6>(row) << initial.velocity + initial.rotation_rate.cross(arm),
+          initial.rotation_rate;
     }
   }
   for (std::size_t node = 0; node < model.nodes.size(); ++node)
@@ -57,18 +63,20 @@ void initial_field(const study::Study& study, const mesh::LineMesh& mesh, const 
 Eigen::VectorXd restricted(const modal::Basis& basis, const Eigen::VectorXd& field) {
   Eigen::VectorXd out(basis.shapes.rows());
   for (std::size_t i = 0; i < basis.nodes.size(); ++i)
-    out.segment<6>(static_cast<Eigen::Index>(6 * i)) = field.segment<6>(static_cast<Eigen::Index>(basis.nodes[i]) * 6);
+    out.segment<6>(static_cast<Eigen::Index>(6 * i)) =
+        field.segment<6>(static_cast<Eigen::Index>(basis.nodes[i]) * 6);
   return out;
 }
 
-Eigen::VectorXd project(const modal::Basis& basis, const Eigen::VectorXd& momentum, const Eigen::VectorXd& field, const char* name,
-                        BuiltScene& out) {
+Eigen::VectorXd project(const modal::Basis& basis, const Eigen::VectorXd& momentum,
+                        const Eigen::VectorXd& field, const char* name, BuiltScene& out) {
   const Eigen::VectorXd part = restricted(basis, momentum);
   const Eigen::VectorXd q = basis.shapes.transpose() * part;
   const double whole = part.dot(restricted(basis, field)), kept = q.squaredNorm();
   if (whole > 0.0) {
     const double lost = std::sqrt(std::max(0.0, 1.0 - kept / whole));
-    const std::string text = fmt::format("the modes lose {:.2g} % of the initial {} (norm in mass)", 100.0 * lost, name);
+    const std::string text =
+        fmt::format("the modes lose {:.2g} % of the initial {} (norm in mass)", 100.0 * lost, name);
     if (lost > lost_share_warning)
       out.warnings.push_back(text + "; take more modes, or a field the modes can follow");
     else
@@ -90,8 +98,10 @@ void add_system(const modal::Basis& basis, transient::System& system) {
     system.damping_matrix = c;
 }
 
-/// R5.06.03 section 6.5 with the mode that moves the contact most along its tangents, in mass-normalised local quantities.
-double automatic_damping(const study::Contact& contact, const std::string& name, const modal::Basis& basis, const transient::ContactPoint& point) {
+/// R5.06.03 section 6.5 with the mode that moves the contact most along its tangents, in mass-normalised
+/// local quantities.
+double automatic_damping(const study::Contact& contact, const std::string& name, const modal::Basis& basis,
+                         const transient::ContactPoint& point) {
   const auto [ny, nz] = contact::normal_directions(point.support.obstacle);
   const bool hole = ny && nz;
   Eigen::VectorXd size2 = point.b.row(0).cwiseAbs2();
@@ -102,15 +112,17 @@ double automatic_damping(const study::Contact& contact, const std::string& name,
   Eigen::Index mode = 0;
   const double largest = size2.size() > 0 ? size2.maxCoeff(&mode) : 0.0;
   if (!(largest > 0.0))
-    throw core::Error(fmt::format("contact \"{}\": no mode moves its node along the obstacle, so that there is no automatic tangential "
-                                  "damping; give tangential_damping a value",
-                                  name));
+    throw core::Error(fmt::format(
+        "contact \"{}\": no mode moves its node along the obstacle, so that there is no automatic tangential "
+        "damping; give tangential_damping a value",
+        name));
   const double mass = 1.0 / largest;
-  return contact::automatic_tangential_damping(contact.tangential_stiffness, basis.omega(mode) * basis.omega(mode) * mass, mass,
-                                               basis.damping(mode));
+  return contact::automatic_tangential_damping(
+      contact.tangential_stiffness, basis.omega(mode) * basis.omega(mode) * mass, mass, basis.damping(mode));
 }
 
-void add_contact(const study::Contact& contact, const PlacedContact& placed, const modal::Basis& basis, Eigen::Index row, BuiltScene& out) {
+void add_contact(const study::Contact& contact, const PlacedContact& placed, const modal::Basis& basis,
+                 Eigen::Index row, BuiltScene& out) {
   transient::ContactPoint point;
   point.name = placed.name;
   point.rest = placed.rest;
@@ -122,16 +134,20 @@ void add_contact(const study::Contact& contact, const PlacedContact& placed, con
     friction.stiffness = contact.tangential_stiffness;
     friction.mu_static = contact.friction_static;
     friction.mu_dynamic = contact.friction_dynamic;
-    friction.kind = contact.memory == study::FrictionMemory::reference ? contact::FrictionMemoryKind::reference
-                                                                      : contact::FrictionMemoryKind::return_map;
-    friction.damping = contact.tangential_damping ? *contact.tangential_damping : automatic_damping(contact, placed.name, basis, point);
+    friction.kind = contact.memory == study::FrictionMemory::reference
+                        ? contact::FrictionMemoryKind::reference
+                        : contact::FrictionMemoryKind::return_map;
+    friction.damping = contact.tangential_damping ? *contact.tangential_damping
+                                                  : automatic_damping(contact, placed.name, basis, point);
     if (!contact.tangential_damping)
-      out.notes.push_back(fmt::format("contact \"{}\": automatic tangential damping {:.4g} N s/m", placed.name, friction.damping));
+      out.notes.push_back(fmt::format("contact \"{}\": automatic tangential damping {:.4g} N s/m",
+                                      placed.name, friction.damping));
   }
   const double gap = contact::locate(point.support.obstacle, placed.rest.y(), placed.rest.z()).gap;
   if (gap < 0.0)
-    out.notes.push_back(fmt::format("contact \"{}\" starts with an overlap of {:.4g} m: it presses with {:.4g} N", placed.name, -gap,
-                                    -gap * contact.normal_stiffness));
+    out.notes.push_back(
+        fmt::format("contact \"{}\" starts with an overlap of {:.4g} m: it presses with {:.4g} N",
+                    placed.name, -gap, -gap * contact.normal_stiffness));
   out.scene.contacts.push_back(std::move(point));
 }
 
@@ -150,11 +166,15 @@ std::vector<NamedNode> observed_nodes(const study::Study& study, const mesh::Lin
 Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh, const BuiltModel& built) {
   Fields out;
   for (std::size_t e = 0; e < study.loads.size(); ++e)
-    out.loads.push_back({study.loads[e].function, load_field(study.loads[e], fmt::format("[[loads]] entry {}", e + 1), mesh, built)});
+    out.loads.push_back({study.loads[e].function,
+                         load_field(study.loads[e], fmt::format("[[loads]] entry {}", e + 1), mesh, built)});
   if (study.gravity)
-    out.loads.push_back({transient::Constant{1.0}, fem::mass_times(built.model, fem::translation_field(built.model, *study.gravity))});
+    out.loads.push_back({transient::Constant{1.0},
+                         fem::mass_times(built.model, fem::translation_field(built.model, *study.gravity))});
   for (const auto& motion : study.base_motions)
-    out.loads.push_back({motion.acceleration, -fem::mass_times(built.model, fem::translation_field(built.model, motion.direction))});
+    out.loads.push_back(
+        {motion.acceleration,
+         -fem::mass_times(built.model, fem::translation_field(built.model, motion.direction))});
   initial_field(study, mesh, built.model, out);
   return out;
 }

@@ -11,11 +11,11 @@ namespace fretwork::app {
 
 struct BuiltScene {
   transient::Scene scene;
-  std::vector<std::size_t> contacts;       ///< numbers of its contacts among the placed ones
-  std::vector<post::ObservedNode> nodes;   ///< observed nodes of this structure
-  std::vector<std::size_t> node_numbers;   ///< their numbers among all observed nodes
-  std::vector<std::string> notes;          ///< to be told the user (initial overlap)
-  std::vector<std::string> warnings;       ///< (a lost share of the initial field)
+  std::vector<std::size_t> contacts;     ///< numbers of its contacts among the placed ones
+  std::vector<post::ObservedNode> nodes; ///< observed nodes of this structure
+  std::vector<std::size_t> node_numbers; ///< their numbers among all observed nodes
+  std::vector<std::string> notes;        ///< to be told the user (initial overlap)
+  std::vector<std::string> warnings;     ///< (a lost share of the initial field)
 };
 
 /// A node of `[output] nodes` and its name: the group's, with [i] where it has several nodes.
@@ -25,7 +25,8 @@ struct NamedNode {
 };
 [[nodiscard]] std::vector<NamedNode> observed_nodes(const study::Study& study, const mesh::LineMesh& mesh);
 
-/// Everything of a study over the whole model that does not depend on modes: nodal forces, initial fields (6 values a node).
+/// Everything of a study over the whole model that does not depend on modes: nodal forces, initial fields (6
+/// values a node).
 struct Fields {
   struct Load {
     transient::TimeFunction function;
@@ -33,12 +34,14 @@ struct Fields {
   };
   std::vector<Load> loads;
   bool moves_at_start = false;
-  Eigen::VectorXd displacement, velocity; ///< where moves_at_start
+  Eigen::VectorXd displacement, velocity;                   ///< where moves_at_start
   Eigen::VectorXd displacement_momentum, velocity_momentum; ///< M times them
 };
-[[nodiscard]] Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh, const BuiltModel& built);
+[[nodiscard]] Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh,
+                                  const BuiltModel& built);
 
-[[nodiscard]] BuiltScene build_scene(const study::Study& study, const Fields& fields, const modal::Basis& basis,
-                                     const std::vector<PlacedContact>& contacts, const std::vector<NamedNode>& nodes);
+[[nodiscard]] BuiltScene build_scene(const study::Study& study, const Fields& fields,
+                                     const modal::Basis& basis, const std::vector<PlacedContact>& contacts,
+                                     const std::vector<NamedNode>& nodes);
 
 } // namespace fretwork::app

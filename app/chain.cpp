@@ -48,15 +48,17 @@ results::RunRecord make_record(const Inputs& inputs, int ranks) {
   for (const auto& motion : inputs.study.base_motions)
     if (const auto* random = std::get_if<transient::Random>(&motion.acceleration))
       record.seeds.push_back(random->seed);
-  record.libraries = {{"PETSc", fmt::format("{}.{}.{}", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR)},
-                      {"SLEPc", fmt::format("{}.{}.{}", SLEPC_VERSION_MAJOR, SLEPC_VERSION_MINOR, SLEPC_VERSION_SUBMINOR)},
-                      {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
+  record.libraries = {
+      {"PETSc", fmt::format("{}.{}.{}", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR)},
+      {"SLEPc", fmt::format("{}.{}.{}", SLEPC_VERSION_MAJOR, SLEPC_VERSION_MINOR, SLEPC_VERSION_SUBMINOR)},
+      {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
   record.vector_width = transient::kernels::vector_width();
   record.ranks = ranks;
   return record;
 }
 
-void describe_model(const fem::Model& model, const std::vector<fem::Structure>& structures, results::RunResults& out) {
+void describe_model(const fem::Model& model, const std::vector<fem::Structure>& structures,
+                    results::RunResults& out) {
   out.nodes = model.nodes;
   for (const auto& beam : model.beams)
     out.lines.push_back({beam.a, beam.b});
@@ -67,7 +69,8 @@ void describe_model(const fem::Model& model, const std::vector<fem::Structure>& 
   out.model.mass_kg = fem::total_mass(model);
 }
 
-results::ContactFacts facts_of(const study::Contact& contact, const PlacedContact& placed, const contact::Support& support) {
+results::ContactFacts facts_of(const study::Contact& contact, const PlacedContact& placed,
+                               const contact::Support& support) {
   results::ContactFacts facts;
   facts.name = placed.name;
   facts.node = placed.node;
@@ -85,8 +88,9 @@ results::ContactFacts facts_of(const study::Contact& contact, const PlacedContac
 }
 
 /// What the modes make of contacts and loads, for every structure that can move.
-std::vector<BuiltScene> build_scenes(const study::Study& study, const mesh::LineMesh& mesh, const BuiltModel& built,
-                                     const std::vector<modal::Basis>& bases, const std::vector<PlacedContact>& placed,
+std::vector<BuiltScene> build_scenes(const study::Study& study, const mesh::LineMesh& mesh,
+                                     const BuiltModel& built, const std::vector<modal::Basis>& bases,
+                                     const std::vector<PlacedContact>& placed,
                                      const std::vector<NamedNode>& nodes, results::RunResults& out) {
   const Fields fields = build_fields(study, mesh, built);
   std::vector<BuiltScene> scenes;
@@ -104,7 +108,8 @@ std::vector<BuiltScene> build_scenes(const study::Study& study, const mesh::Line
   for (const NamedNode& node : nodes) {
     const auto has = [&](const modal::Basis& basis) { return basis.row_of(node.node) >= 0; };
     if (std::none_of(bases.begin(), bases.end(), has))
-      throw core::Error(fmt::format("[output] nodes: \"{}\" belongs to no structure that moves; observe another node", node.name));
+      throw core::Error(fmt::format(
+          "[output] nodes: \"{}\" belongs to no structure that moves; observe another node", node.name));
   }
   return scenes;
 }
@@ -115,7 +120,8 @@ bool up_to_date(const Inputs& inputs) {
   if (!in || !fs::exists(inputs.directory / "results.h5"))
     return false;
   const auto summary = nlohmann::json::parse(in, nullptr, false);
-  return summary.is_object() && summary.contains("transient") && summary.value("input_sha256", "") == inputs.whole_key &&
+  return summary.is_object() && summary.contains("transient") &&
+         summary.value("input_sha256", "") == inputs.whole_key &&
          summary.value("version", "") == FRETWORK_VERSION;
 }
 
@@ -123,13 +129,43 @@ void make_directory(const fs::path& directory) {
   std::error_code failure;
   fs::create_directories(directory, failure);
   if (failure)
-    throw core::Error(fmt::format("the results folder \"{}\" cannot be made ({}); give another with -o", directory.string(), failure.message()));
+    throw core::Error(fmt::format("the results folder \"{}\" cannot be made ({}); give another with -o",
+                                  directory.string(), failure.message()));
+}
+
+/// What the user should know of the number of modes.
+void report_modes(const study::Study& study, results::RunResults& out) {
+  std::size_t split = 0, short_of = 0;
+  for (const auto& basis : out.bases) {
+    split += basis.splits_group ? 1 : 0;
+    short_of += study.modes.count && basis.size() < *study.modes.count ? 1 : 0;
+  }
+  if (split > 0)
+    out.warnings.push_back(fmt::format("modes.count = {} cuts a group of equal frequencies{}: the two planes "
+                                       "of a tube are not treated alike; take "
+                                       "one more or one less",
+                                       *study.modes.count,
+                                       split > 1 ? fmt::format(" of {} structures", split) : ""));
+  if (short_of > 0)
+    out.notes.push_back(fmt::format("{} of {} structures have fewer than modes.count = {} modes", short_of,
+                                    out.bases.size(), *study.modes.count));
+}
+
+/// The report, or why there is none: the results are whole without it.
+std::string make_report(const fs::path& directory) {
+  try {
+    write_report(directory);
+    return fmt::format("report: {}\n", (directory / "report.html").string());
+  } catch (const core::Error& error) {
+    return fmt::format("no report: {}\n", error.what());
+  }
 }
 
 void report_coincident(const mesh::LineMesh& mesh, results::RunResults& out) {
   if (!mesh.coincident.empty())
-    out.notes.push_back(fmt::format("{} pairs of nodes are at the same place and are not joined (mesh.merge_tolerance would join them)",
-                                    mesh.coincident.size()));
+    out.notes.push_back(fmt::format(
+        "{} pairs of nodes are at the same place and are not joined (mesh.merge_tolerance would join them)",
+        mesh.coincident.size()));
 }
 
 } // namespace
@@ -146,13 +182,19 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
   core::agree(comm, [&] {
     inputs = read_inputs(request);
     if (last == Stage::transient && !inputs.study.transient)
-      throw core::Error("the study has no [transient]; add it, or compute its modes with: fretwork modes STUDY");
+      throw core::Error(
+          "the study has no [transient]; add it, or compute its modes with: fretwork modes STUDY");
     make_directory(inputs.directory);
   });
   int current = first_rank && !request.force && up_to_date(inputs) ? 1 : 0;
   MPI_Bcast(&current, 1, MPI_INT, 0, comm);
-  if (current && last == Stage::transient)
-    return say(fmt::format("Nothing has changed: the results in {} are up to date (--force computes them again).\n", inputs.directory.string()));
+  if (current && last == Stage::transient) {
+    if (first_rank && request.report && !fs::exists(inputs.directory / "report.html"))
+      say(make_report(inputs.directory));
+    return say(
+        fmt::format("Nothing has changed: the results in {} are up to date (--force computes them again).\n",
+                    inputs.directory.string()));
+  }
 
   results::RunResults out;
   out.timings.read = watch.lap();
@@ -171,7 +213,8 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
   report_coincident(mesh, out);
   out.timings.assembly = watch.lap();
   if (last == Stage::mesh)
-    return say(fmt::format("{} nodes, {} lines, groups: {}\n", mesh.nodes.size(), mesh.lines.size(), fmt::join(mesh::group_names(mesh), ", ")));
+    return say(fmt::format("{} nodes, {} lines, groups: {}\n", mesh.nodes.size(), mesh.lines.size(),
+                           fmt::join(mesh::group_names(mesh), ", ")));
 
   progress.stage("modes");
   {
@@ -180,19 +223,22 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
     describe_model(built.model, modes.structures, out);
     out.bases = std::move(modes.bases);
   }
+  report_modes(inputs.study, out);
   out.timings.modes = watch.lap();
   if (last == Stage::transient) {
     progress.stage("basis");
     std::vector<BuiltScene> scenes;
-    core::agree(comm, [&] { scenes = build_scenes(inputs.study, mesh, built, out.bases, placed, nodes, out); });
+    core::agree(comm,
+                [&] { scenes = build_scenes(inputs.study, mesh, built, out.bases, placed, nodes, out); });
     for (const NamedNode& node : nodes)
       out.node_names.push_back(node.name);
     out.duration = inputs.study.transient->duration;
     out.statistics_from = inputs.study.output.statistics_from;
     out.timings.basis = watch.lap();
     progress.stage("transient");
-    const ProgressCallback callback = progress.shown() ? ProgressCallback([&](double share, double time) { progress.update(share, time); })
-                                                       : ProgressCallback();
+    const ProgressCallback callback =
+        progress.shown() ? ProgressCallback([&](double share, double time) { progress.update(share, time); })
+                         : ProgressCallback();
     run_jobs(comm, inputs.study, scenes, placed.size(), nodes.size(), callback, out);
     out.timings.transient = watch.lap();
   }
@@ -206,13 +252,12 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
     results::write_summary(inputs.directory / "summary.json", out);
   });
   std::string report_line;
-  if (first_rank && request.report && last == Stage::transient) {
-    progress.stage("report");
-    try {
-      write_report(inputs.directory);
-      report_line = fmt::format("report: {}\n", (inputs.directory / "report.html").string());
-    } catch (const core::Error& error) { // the results are whole without it
-      report_line = fmt::format("no report: {}\n", error.what());
+  if (first_rank && last == Stage::transient) {
+    std::error_code ignored;
+    fs::remove(inputs.directory / "report.html", ignored); // it told of other results
+    if (request.report) {
+      progress.stage("report");
+      report_line = make_report(inputs.directory);
     }
   }
   progress.stage("");
@@ -230,9 +275,11 @@ std::string check(const Request& request) {
   std::int64_t dofs = 0;
   for (const auto& structure : structures)
     dofs += structure.equations;
-  return fmt::format("{}: fine\n  {} nodes, {} beams, {} free dofs in {} structure{}, {:.6g} kg\n  {} contacts, {} loads, {} observed nodes\n",
-                     request.study.string(), mesh.nodes.size(), built.model.beams.size(), dofs, structures.size(), structures.size() == 1 ? "" : "s",
-                     fem::total_mass(built.model), placed.size(), inputs.study.loads.size(), nodes.size());
+  return fmt::format("{}: fine\n  {} nodes, {} beams, {} free dofs in {} structure{}, {:.6g} kg\n  {} "
+                     "contacts, {} loads, {} observed nodes\n",
+                     request.study.string(), mesh.nodes.size(), built.model.beams.size(), dofs,
+                     structures.size(), structures.size() == 1 ? "" : "s", fem::total_mass(built.model),
+                     placed.size(), inputs.study.loads.size(), nodes.size());
 }
 
 std::string export_results(const fs::path& directory, const std::string& format) {

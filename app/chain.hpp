@@ -8,7 +8,8 @@ namespace fretwork::app {
 
 enum class Stage { mesh, modes, transient };
 
-/// Collective. The chain up to a stage: mesh, modes, transient with results. `with_report`: also DIR/report.html.
+/// Collective. The chain up to a stage: mesh, modes, transient with results. `with_report`: also
+/// DIR/report.html.
 void run_chain(MPI_Comm comm, const Request& request, Stage last);
 
 /// Reads and checks all that can be checked without computing, on one process without MPI.

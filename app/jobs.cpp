@@ -16,18 +16,22 @@ constexpr double default_outputs = 5000.0;
 /// Above this residual of the energy the results are not to be trusted, whatever they look like.
 constexpr double residual_warning = 0.05;
 
-/// Series are held in memory until they are written; a study that asks for more than this has a slip in output.every.
+/// Series are held in memory until they are written; a study that asks for more than this has a slip in
+/// output.every.
 constexpr double most_series_bytes = 4294967296.0;
 
 void check_size_of_series(const study::Study& study, const std::vector<BuiltScene>& scenes) {
-  const double duration = study.transient->duration, every = study.output.every.value_or(duration / default_outputs);
+  const double duration = study.transient->duration,
+               every = study.output.every.value_or(duration / default_outputs);
   double columns = 1.0; // values at an output: modal and of contacts and nodes, as in results.h5
   for (const BuiltScene& built : scenes)
-    columns += 2.0 * static_cast<double>(built.scene.system.size()) + 10.0 * static_cast<double>(built.contacts.size()) +
+    columns += 2.0 * static_cast<double>(built.scene.system.size()) +
+               10.0 * static_cast<double>(built.contacts.size()) +
                9.0 * static_cast<double>(built.nodes.size());
   const double bytes = duration / every * columns * static_cast<double>(sizeof(double));
   if (bytes > most_series_bytes)
-    throw core::Error(fmt::format("output.every = {}: {:.3g} outputs of {} values would take {:.3g} GB, at most {:.3g} are held; sample less often "
+    throw core::Error(fmt::format("output.every = {}: {:.3g} outputs of {} values would take {:.3g} GB, at "
+                                  "most {:.3g} are held; sample less often "
                                   "(statistics see every step)",
                                   every, duration / every, columns, bytes * 1e-9, most_series_bytes * 1e-9));
 }
@@ -57,7 +61,8 @@ private:
   int count_ = 0;
 };
 
-JobResult run_job(const study::Study& study, const BuiltScene& built, const transient::StepChoice& choice, ProgressObserver* progress) {
+JobResult run_job(const study::Study& study, const BuiltScene& built, const transient::StepChoice& choice,
+                  ProgressObserver* progress) {
   const double duration = study.transient->duration;
   const auto grid = transient::output_grid(duration, study.output.every.value_or(duration / default_outputs));
   post::ContactStatistics contacts(built.scene.contacts.size(), study.output.statistics_from);
@@ -119,7 +124,8 @@ void broadcast(MPI_Comm comm, int root, const BuiltScene& built, JobResult& job)
 }
 
 /// Puts the result of a job at its places among those of the study.
-void merge(const BuiltScene& built, JobResult&& job, const transient::StepChoice& choice, results::RunResults& out) {
+void merge(const BuiltScene& built, JobResult&& job, const transient::StepChoice& choice,
+           results::RunResults& out) {
   out.transients.push_back({choice, job.report});
   for (std::size_t c = 0; c < built.contacts.size(); ++c) {
     out.contact_summaries[built.contacts[c]] = job.contacts[c];
@@ -148,27 +154,33 @@ void judge(const transient::StepChoice& choice, const transient::Report& report,
   for (const std::string& warning : choice.warnings)
     out.warnings.push_back(warning);
   if (report.outcome == transient::Outcome::diverged)
-    throw core::ComputationError(fmt::format("the transient diverged at t = {:.6g} s (scheme {}, step {:.3g} s): its energy has left all that was "
-                                             "put in; take a smaller step, or leave step out to have one chosen",
-                                             report.end_time, transient::name_of(choice.scheme), choice.step));
+    throw core::ComputationError(fmt::format(
+        "the transient diverged at t = {:.6g} s (scheme {}, step {:.3g} s): its energy has left all that was "
+        "put in; take a smaller step, or leave step out to have one chosen",
+        report.end_time, transient::name_of(choice.scheme), choice.step));
   if (report.residual_relative > residual_warning)
-    out.warnings.push_back(fmt::format("the energy balance is off by {:.2g} % of the energy put in; take a smaller step", 100.0 * report.residual_relative));
+    out.warnings.push_back(
+        fmt::format("the energy balance is off by {:.2g} % of the energy put in; take a smaller step",
+                    100.0 * report.residual_relative));
   if (report.unconverged > report.steps / 1000)
-    out.warnings.push_back(fmt::format("in {} of {} steps the coupled contact forces missed their tolerance; take a smaller step", report.unconverged,
-                                       report.steps));
+    out.warnings.push_back(fmt::format(
+        "in {} of {} steps the coupled contact forces missed their tolerance; take a smaller step",
+        report.unconverged, report.steps));
 }
 
 } // namespace
 
-void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltScene>& scenes, std::size_t contacts, std::size_t nodes,
-              const ProgressCallback& progress, results::RunResults& out) {
+void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltScene>& scenes,
+              std::size_t contacts, std::size_t nodes, const ProgressCallback& progress,
+              results::RunResults& out) {
   check_size_of_series(study, scenes);
   const int ranks = core::size(comm), here = core::rank(comm);
   transient::StepOptions options;
   options.step = study.transient->step;
   options.accuracy = study.transient->accuracy;
   if (study.transient->scheme != study::Scheme::automatic)
-    options.scheme = study.transient->scheme == study::Scheme::euler ? transient::SchemeKind::euler : transient::SchemeKind::splitting;
+    options.scheme = study.transient->scheme == study::Scheme::euler ? transient::SchemeKind::euler
+                                                                     : transient::SchemeKind::splitting;
   std::vector<transient::StepChoice> choices;
   core::agree(comm, [&] {
     for (const BuiltScene& built : scenes)
@@ -182,8 +194,11 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
   core::agree(comm, [&] {
     for (std::size_t s = 0; s < scenes.size(); ++s)
       if (owner(s) == here) {
-        const auto part = [&](std::int64_t steps) { return static_cast<double>(steps) / static_cast<double>(all_steps); };
-        ProgressObserver observer(progress, part(done_steps), part(choices[s].steps), study.transient->duration);
+        const auto part = [&](std::int64_t steps) {
+          return static_cast<double>(steps) / static_cast<double>(all_steps);
+        };
+        ProgressObserver observer(progress, part(done_steps), part(choices[s].steps),
+                                  study.transient->duration);
         jobs[s] = run_job(study, scenes[s], choices[s], progress ? &observer : nullptr);
         done_steps += choices[s].steps;
       }

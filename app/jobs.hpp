@@ -12,9 +12,11 @@ namespace fretwork::app {
 /// Called now and then with the share of all steps of this rank that are done and the simulated time.
 using ProgressCallback = std::function<void(double share, double time)>;
 
-/// Collective. Runs every scene and fills contact_summaries, node_summaries, transients and series of `out`, complete on rank 0.
+/// Collective. Runs every scene and fills contact_summaries, node_summaries, transients and series of `out`,
+/// complete on rank 0.
 /// @throws core::Error where the series would not fit in memory, core::ComputationError where a run diverged
-void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltScene>& scenes, std::size_t contacts, std::size_t nodes,
-              const ProgressCallback& progress, results::RunResults& out);
+void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltScene>& scenes,
+              std::size_t contacts, std::size_t nodes, const ProgressCallback& progress,
+              results::RunResults& out);
 
 } // namespace fretwork::app

@@ -41,13 +41,15 @@ int guarded(const std::function<void()>& work) {
 
 void add_study_options(CLI::App& command, app::Request& request) {
   command.add_option("study", request.study, "the study file (TOML)")->required();
-  command.add_option("--set", request.overrides,
-                     "override a key, e.g. --set contacts.tsp1.gap=3e-4 (arrays of tables by name, group or index)");
+  command.add_option(
+      "--set", request.overrides,
+      "override a key, e.g. --set contacts.tsp1.gap=3e-4 (arrays of tables by name, group or index)");
 }
 
 void add_run_options(CLI::App& command, app::Request& request) {
   add_study_options(command, request);
-  command.add_option("-o,--output", request.directory, "folder of the results (default: the study's name with .results, beside it)");
+  command.add_option("-o,--output", request.directory,
+                     "folder of the results (default: the study's name with .results, beside it)");
   command.add_flag("--force", request.force, "compute every stage again, also where nothing has changed");
   command.add_flag("-q,--quiet", request.quiet, "nothing on the terminal but errors");
 }
@@ -55,15 +57,18 @@ void add_run_options(CLI::App& command, app::Request& request) {
 } // namespace
 
 int main(int argc, char** argv) {
-  CLI::App program{"Fretwork: from a line mesh of a vibrating structure to its impacts, friction and wear.\n\n"
-                   "A study is one TOML file (doc/study-file.md). Start from an example:\n"
-                   "  fretwork run examples/u_bend/study.toml\n"
-                   "  fretwork check study.toml\n"
-                   "  mpirun -n 2 fretwork run study.toml --set transient.duration=1"};
+  CLI::App program{
+      "Fretwork: from a line mesh of a vibrating structure to its impacts, friction and wear.\n\n"
+      "A study is one TOML file (doc/study-file.md). Start from an example:\n"
+      "  fretwork run examples/u_bend/study.toml\n"
+      "  fretwork check study.toml\n"
+      "  mpirun -n 2 fretwork run study.toml --set transient.duration=1"};
   program.name("fretwork");
   program.set_version_flag("--version", FRETWORK_VERSION);
-  program.require_subcommand(0, 1); // that there is one is checked below: a word that is no command is then named
-  program.footer("Exit status: 0 done, 1 the input is wrong, 2 the computation failed, 3 a defect of the program.");
+  program.require_subcommand(
+      0, 1); // that there is one is checked below: a word that is no command is then named
+  program.footer(
+      "Exit status: 0 done, 1 the input is wrong, 2 the computation failed, 3 a defect of the program.");
 
   app::Request request;
   bool no_report = false;
@@ -74,17 +79,22 @@ int main(int argc, char** argv) {
   add_run_options(*mesh, request);
   CLI::App* modes = program.add_subcommand("modes", "up to the modes of vibration");
   add_run_options(*modes, request);
-  CLI::App* transient = program.add_subcommand("transient", "up to the results of the transient, without report");
+  CLI::App* transient =
+      program.add_subcommand("transient", "up to the results of the transient, without report");
   add_run_options(*transient, request);
-  CLI::App* check = program.add_subcommand("check", "read and check everything that can be checked without computing");
+  CLI::App* check =
+      program.add_subcommand("check", "read and check everything that can be checked without computing");
   add_study_options(*check, request);
   std::filesystem::path directory;
-  CLI::App* report = program.add_subcommand("report", "report.html with its pictures, from the results in a folder");
+  CLI::App* report =
+      program.add_subcommand("report", "report.html with its pictures, from the results in a folder");
   report->add_option("directory", directory, "folder of the results")->required();
   CLI::App* exporting = program.add_subcommand("export", "results in other formats: DIR/export-<format>/");
   std::string format = "csv";
   exporting->add_option("directory", directory, "folder of the results")->required();
-  exporting->add_option("--format", format, "csv: time series; vtu: mode shapes and snapshots for ParaView; msh: mode shapes for gmsh")
+  exporting
+      ->add_option("--format", format,
+                   "csv: time series; vtu: mode shapes and snapshots for ParaView; msh: mode shapes for gmsh")
       ->check(CLI::IsMember({"csv", "vtu", "msh"}));
 
   try {
@@ -93,7 +103,8 @@ int main(int argc, char** argv) {
     return program.exit(error) == 0 ? 0 : input_is_wrong;
   }
   if (program.get_subcommands().empty()) {
-    fmt::print(stderr, "fretwork: a command is missing; give one of run, mesh, modes, transient, check, report, export (--help explains them)\n");
+    fmt::print(stderr, "fretwork: a command is missing; give one of run, mesh, modes, transient, check, "
+                       "report, export (--help explains them)\n");
     return input_is_wrong;
   }
   request.report = !no_report;
@@ -113,7 +124,9 @@ int main(int argc, char** argv) {
 
   const core::MpiSession mpi(argc, argv);
   request.report = request.report && run->parsed();
-  const app::Stage last = mesh->parsed() ? app::Stage::mesh : modes->parsed() ? app::Stage::modes : app::Stage::transient;
+  const app::Stage last = mesh->parsed()    ? app::Stage::mesh
+                          : modes->parsed() ? app::Stage::modes
+                                            : app::Stage::transient;
   static_cast<void>(transient);
   return guarded([&] { app::run_chain(MPI_COMM_WORLD, request, last); });
 }

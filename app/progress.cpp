@@ -11,7 +11,8 @@ constexpr std::chrono::milliseconds between_updates{200};
 
 } // namespace
 
-Progress::Progress(bool wanted) : shown_(wanted && isatty(STDERR_FILENO)), begin_(Clock::now()), last_(begin_) {}
+Progress::Progress(bool wanted)
+    : shown_(wanted && isatty(STDERR_FILENO)), begin_(Clock::now()), last_(begin_) {}
 
 Progress::~Progress() { clear(); }
 
@@ -38,7 +39,8 @@ void Progress::update(double share, double time) {
   last_ = now;
   const double spent = std::chrono::duration<double>(now - begin_).count();
   clear();
-  fmt::print(stderr, "{} {:5.1f} %   t = {:.4g} s   {:.0f} s left", stage_, 100.0 * share, time, spent * (1.0 / share - 1.0));
+  fmt::print(stderr, "{} {:5.1f} %   t = {:.4g} s   {:.0f} s left", stage_, 100.0 * share, time,
+             spent * (1.0 / share - 1.0));
   std::fflush(stderr);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// One line on a terminal that tells how far the work is: stage, percent, simulated time, time left. Nothing where stderr is not a terminal.
+/// One line on a terminal that tells how far the work is: stage, percent, simulated time, time left. Nothing
+/// where stderr is not a terminal.
 #pragma once
 #include <chrono>
 #include <string>

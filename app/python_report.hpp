@@ -7,7 +7,8 @@
 namespace fretwork::app {
 
 /// Writes DIR/report.html from summary.json and results.h5.
-/// @throws core::Error with what is missing (an interpreter with h5py and numpy: Debian's python3-h5py, python3-numpy) or the report's own message
+/// @throws core::Error with what is missing (an interpreter with h5py and numpy: Debian's python3-h5py,
+/// python3-numpy) or the report's own message
 void write_report(const std::filesystem::path& directory);
 
 } // namespace fretwork::app

@@ -18,14 +18,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A structure of more free dofs than this is solved over all ranks unless the study says otherwise: below, one rank is faster (a distributed
-/// factorisation costs 5 to 7 times a serial one) and the result does not depend on the number of ranks.
+/// A structure of more free dofs than this is solved over all ranks unless the study says otherwise: below,
+/// one rank is faster (a distributed factorisation costs 5 to 7 times a serial one) and the result does not
+/// depend on the number of ranks.
 constexpr core::Index distribute_above = 300'000;
 
 std::string file_bytes(const fs::path& file, const char* what) {
   std::ifstream in(file, std::ios::binary);
   if (!in)
-    throw core::Error(fmt::format("{} \"{}\" cannot be read; check the path (relative paths start from the study's folder)", what, file.string()));
+    throw core::Error(
+        fmt::format("{} \"{}\" cannot be read; check the path (relative paths start from the study's folder)",
+                    what, file.string()));
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
@@ -40,7 +43,9 @@ bool is_msh(const fs::path& file) { return file.extension() == ".msh"; }
 std::vector<int> share_out(const std::vector<fem::Structure>& structures, int ranks) {
   std::vector<std::size_t> order(structures.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return structures[a].equations > structures[b].equations; });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return structures[a].equations > structures[b].equations;
+  });
   std::vector<double> load(static_cast<std::size_t>(ranks), 0.0);
   std::vector<int> owner(structures.size());
   for (const std::size_t s : order) {
@@ -58,6 +63,7 @@ void broadcast(MPI_Comm comm, int root, modal::Basis& basis) {
   core::broadcast(comm, root, basis.damping_matrix);
   core::broadcast(comm, root, basis.residuals);
   MPI_Bcast(&basis.orthogonality, 1, MPI_DOUBLE, root, comm);
+  MPI_Bcast(&basis.splits_group, 1, MPI_CXX_BOOL, root, comm);
 }
 
 } // namespace
@@ -66,11 +72,17 @@ Inputs read_inputs(const Request& request) {
   Inputs in;
   in.study = study::read(request.study, request.overrides);
   in.directory = request.directory.value_or(fs::path(in.study.file).replace_extension(".results"));
-  const auto text = [&](const std::vector<std::string>& tables) { return study::canonical_text(request.study, request.overrides, tables); };
+  const auto text = [&](const std::vector<std::string>& tables) {
+    return study::canonical_text(request.study, request.overrides, tables);
+  };
   const std::string version = FRETWORK_VERSION;
-  in.mesh_key = core::sha256(version + "\n" + text({"mesh"}) + "\n" + file_bytes(in.study.mesh.file, "mesh file"));
-  in.modes_key = core::sha256(in.mesh_key + "\n" + text({"materials", "sections", "beams", "restraints", "masses", "springs", "modes"}));
-  const std::string rest = text({"title", "contacts", "loads", "gravity", "base_motion", "initial", "transient", "output"});
+  in.mesh_key =
+      core::sha256(version + "\n" + text({"mesh"}) + "\n" + file_bytes(in.study.mesh.file, "mesh file"));
+  in.modes_key =
+      core::sha256(in.mesh_key + "\n" +
+                   text({"materials", "sections", "beams", "restraints", "masses", "springs", "modes"}));
+  const std::string rest =
+      text({"title", "contacts", "loads", "gravity", "base_motion", "initial", "transient", "output"});
   in.whole_key = core::sha256(in.modes_key + "\n" + rest);
   return in;
 }
@@ -80,7 +92,8 @@ mesh::LineMesh mesh_stage(MPI_Comm comm, const Inputs& inputs, bool force) {
   if (!is_msh(source.file)) {
     const fs::path product = inputs.directory / "mesh.msh", key_file = inputs.directory / "mesh.key";
     core::agree(comm, [&] {
-      if (core::rank(comm) != 0 || (!force && fs::exists(product) && stored_text(key_file) == inputs.mesh_key))
+      if (core::rank(comm) != 0 ||
+          (!force && fs::exists(product) && stored_text(key_file) == inputs.mesh_key))
         return;
       results::write_whole(product, [&](const fs::path& temporary) {
         if (mesh::is_geometry(source.file))
@@ -88,7 +101,8 @@ mesh::LineMesh mesh_stage(MPI_Comm comm, const Inputs& inputs, bool force) {
         else
           mesh::convert_with_meshio(source.file, temporary);
       });
-      results::write_whole(key_file, [&](const fs::path& temporary) { std::ofstream(temporary) << inputs.mesh_key; });
+      results::write_whole(key_file,
+                           [&](const fs::path& temporary) { std::ofstream(temporary) << inputs.mesh_key; });
     });
     source.file = product;
     source.element_size.reset();
@@ -103,11 +117,13 @@ std::vector<fem::Structure> moving_structures(const fem::Model& model) {
   // marks and fully restrained points are structures without equations: there is nothing to solve
   std::erase_if(structures, [](const fem::Structure& s) { return s.equations == 0; });
   if (structures.empty())
-    throw core::Error("nothing in the model can move: every degree of freedom is restrained; release some in [[restraints]]");
+    throw core::Error("nothing in the model can move: every degree of freedom is restrained; release some in "
+                      "[[restraints]]");
   return structures;
 }
 
-ModesStage modes_stage(MPI_Comm comm, const Inputs& inputs, const fem::Model& model, const results::RunRecord& record, bool force) {
+ModesStage modes_stage(MPI_Comm comm, const Inputs& inputs, const fem::Model& model,
+                       const results::RunRecord& record, bool force) {
   ModesStage out;
   core::agree(comm, [&] { out.structures = moving_structures(model); });
   const int ranks = core::size(comm), here = core::rank(comm);
@@ -115,7 +131,8 @@ ModesStage modes_stage(MPI_Comm comm, const Inputs& inputs, const fem::Model& mo
     return ranks > 1 && inputs.study.modes.distributed.value_or(s.equations > distribute_above);
   };
   const bool any_distributed = std::any_of(out.structures.begin(), out.structures.end(), distributed);
-  const std::string key = any_distributed ? fmt::format("{} over {} ranks", inputs.modes_key, ranks) : inputs.modes_key;
+  const std::string key =
+      any_distributed ? fmt::format("{} over {} ranks", inputs.modes_key, ranks) : inputs.modes_key;
   const fs::path file = inputs.directory / "modes.h5";
   std::optional<std::vector<modal::Basis>> stored;
   if (!force)

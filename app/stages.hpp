@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// The stages before the transient. A stage keeps its product in the results folder with a key, the hash of all that it was computed from;
-/// a stage whose key has not changed is read, not computed again.
+/// The stages before the transient. A stage keeps its product in the results folder with a key, the hash of
+/// all that it was computed from; a stage whose key has not changed is read, not computed again.
 #pragma once
 #include "app/build_model.hpp"
 #include "modal/basis.hpp"
@@ -18,16 +18,16 @@ struct Request {
   std::optional<std::filesystem::path> directory; ///< default: the study's name with .results, beside it
   bool force = false;                             ///< compute every stage again
   bool report = true;
-  bool quiet = false;                             ///< nothing on the terminal but errors
+  bool quiet = false; ///< nothing on the terminal but errors
 };
 
 /// The study and the hashes of what it reads.
 struct Inputs {
   study::Study study;
   std::filesystem::path directory;
-  std::string mesh_key;   ///< of the mesh file and how it is read
-  std::string modes_key;  ///< and of the model and its modes
-  std::string whole_key;  ///< and of everything else: input_sha256
+  std::string mesh_key;  ///< of the mesh file and how it is read
+  std::string modes_key; ///< and of the model and its modes
+  std::string whole_key; ///< and of everything else: input_sha256
 };
 
 /// @throws core::Error if the study, its mesh file or a table cannot be read
@@ -46,7 +46,9 @@ struct ModesStage {
   bool computed = false;           ///< false: read from DIR/modes.h5
 };
 
-/// Collective. Structures are shared out over ranks, each solved by one; one that is large, or where the study says so, is solved over all.
-[[nodiscard]] ModesStage modes_stage(MPI_Comm comm, const Inputs& inputs, const fem::Model& model, const results::RunRecord& record, bool force);
+/// Collective. Structures are shared out over ranks, each solved by one; one that is large, or where the
+/// study says so, is solved over all.
+[[nodiscard]] ModesStage modes_stage(MPI_Comm comm, const Inputs& inputs, const fem::Model& model,
+                                     const results::RunRecord& record, bool force);
 
 } // namespace fretwork::app

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Time of the modes of one structure against its size: a clamped straight tube with a lateral support each metre.
+// Time of the modes of one structure against its size: a clamped straight tube with a lateral support each
+// metre.
 #include "core/mpi.hpp"
 #include "core/petsc.hpp"
 #include "fem/section.hpp"
@@ -39,7 +40,13 @@ void modes_of_a_tube(benchmark::State& state) {
   state.counters["residual"] = residual;
 }
 
-BENCHMARK(modes_of_a_tube)->Args({200, 20})->Args({200, 100})->Args({1000, 20})->Args({1000, 100})->Args({1000, 300})->Args({10000, 20})
+BENCHMARK(modes_of_a_tube)
+    ->Args({200, 20})
+    ->Args({200, 100})
+    ->Args({1000, 20})
+    ->Args({1000, 100})
+    ->Args({1000, 300})
+    ->Args({10000, 20})
     ->Unit(benchmark::kMillisecond);
 
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cost of a step against modes and contacts, open and working, with statistics and the energy ledger; 10 s of the straight tube.
+// Cost of a step against modes and contacts, open and working, with statistics and the energy ledger; 10 s of
+// the straight tube.
 #include "bench/tube_scene.hpp"
 #include "post/contact_statistics.hpp"
 #include "transient/run.hpp"
@@ -12,7 +13,8 @@ using namespace fretwork;
 constexpr double out_of_reach = 1.0; ///< m
 
 /// One run; counters: nanoseconds a step, mean number of closed contacts.
-void run_once(benchmark::State& state, const bench::TubeScene& tube, transient::SchemeKind scheme, std::optional<double> step) {
+void run_once(benchmark::State& state, const bench::TubeScene& tube, transient::SchemeKind scheme,
+              std::optional<double> step) {
   const transient::Scene scene = bench::tube_scene(tube);
   transient::StepOptions options;
   options.scheme = scheme;
@@ -29,7 +31,8 @@ void run_once(benchmark::State& state, const bench::TubeScene& tube, transient::
     for (const auto& contact : statistics.summaries())
       closed += contact.contact_time_ratio;
   }
-  state.counters["step_ns"] = benchmark::Counter(1e-9 * steps, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["step_ns"] =
+      benchmark::Counter(1e-9 * steps, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   state.counters["closed"] = closed;
   state.counters["h_us"] = 1e6 * choice.step;
 }
@@ -44,13 +47,19 @@ bench::TubeScene tube(int modes, int supports, double gap, double duration) {
   return out;
 }
 
-void euler_straight_tube_1s(benchmark::State& state) { run_once(state, tube(41, 8, 2e-4, 1.0), transient::SchemeKind::euler, 1e-5); }
-void automatic_straight_tube_10s(benchmark::State& state) { run_once(state, tube(41, 8, 2e-4, 10.0), transient::SchemeKind::splitting, {}); }
+void euler_straight_tube_1s(benchmark::State& state) {
+  run_once(state, tube(41, 8, 2e-4, 1.0), transient::SchemeKind::euler, 1e-5);
+}
+void automatic_straight_tube_10s(benchmark::State& state) {
+  run_once(state, tube(41, 8, 2e-4, 10.0), transient::SchemeKind::splitting, {});
+}
 void splitting_working(benchmark::State& state) {
-  run_once(state, tube(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)), 2e-4, 2.0), transient::SchemeKind::splitting, 1e-4);
+  run_once(state, tube(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)), 2e-4, 2.0),
+           transient::SchemeKind::splitting, 1e-4);
 }
 void splitting_open(benchmark::State& state) {
-  run_once(state, tube(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)), out_of_reach, 2.0), transient::SchemeKind::splitting, 1e-4);
+  run_once(state, tube(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)), out_of_reach, 2.0),
+           transient::SchemeKind::splitting, 1e-4);
 }
 
 BENCHMARK(euler_straight_tube_1s)->Unit(benchmark::kMillisecond);

@@ -7,7 +7,8 @@ namespace fretwork::bench {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double outer = 0.01905, inner = outer - 2 * 0.00109, young = 2e11, poisson = 0.3, density = 12000.0, ratio = 0.01;
+constexpr double outer = 0.01905, inner = outer - 2 * 0.00109, young = 2e11, poisson = 0.3, density = 12000.0,
+                 ratio = 0.01;
 
 } // namespace
 
@@ -15,7 +16,9 @@ transient::Scene tube_scene(const TubeScene& tube) {
   const double area = pi / 4 * (outer * outer - inner * inner);
   const double inertia = pi / 64 * (std::pow(outer, 4) - std::pow(inner, 4));
   const double length = tube.length;
-  const auto shape = [&](int mode, double x) { return std::sqrt(2 / (density * area * length)) * std::sin((mode / 2 + 1) * pi * x / length); };
+  const auto shape = [&](int mode, double x) {
+    return std::sqrt(2 / (density * area * length)) * std::sin((mode / 2 + 1) * pi * x / length);
+  };
   const int bending = tube.modes - tube.modes % 2;
   transient::Scene scene;
   scene.duration = tube.duration;

@@ -7,7 +7,8 @@
 namespace fretwork::contact {
 namespace {
 
-/// A component this small against the axis is the round-off of whoever wrote the axis; it would turn y_loc by up to 90 degrees.
+/// A component this small against the axis is the round-off of whoever wrote the axis; it would turn y_loc by
+/// up to 90 degrees.
 constexpr double negligible_component = 1e-8;
 
 Vec3 unit_axis(const Vec3& axis) {

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Coulomb friction with a tangential spring and damper and memory. All vectors have two components in the contact's tangent plane, along
-/// x_loc and t = n x x_loc: a memory kept in these components turns with the normal when the contact point moves round its obstacle.
+/// Coulomb friction with a tangential spring and damper and memory. All vectors have two components in the
+/// contact's tangent plane, along x_loc and t = n x x_loc: a memory kept in these components turns with the
+/// normal when the contact point moves round its obstacle.
 ///
-/// `return_map`: a Kelvin-Voigt element (K_T, C_T) in series with a Coulomb slider. The memory T is the force of the spring.
+/// `return_map`: a Kelvin-Voigt element (K_T, C_T) in series with a Coulomb slider. The memory T is the force
+/// of the spring.
 ///     trial = T - C_T v;  bound = (sliding ? mu_d : mu_s) F_N
 ///     |trial| <= bound: F = trial (stick)          else: F = mu_d F_N trial/|trial| (slip)
 ///     stick: T' = -K_T v;  slip and open: T' = -(K_T/C_T)(T - F), F = 0 when open.
-///   In stick it is the reference's law; in slip T relaxes to F instead of being set to it, so that the force is continuous in time and
-///   every scheme converges to the same result.
-/// `reference`: R5.06.03 eq. 3.2-3 and 3.2-4 to the letter. F0, d0 = force and position at which the contact last slid (0 when open):
-///     trial = F0 - K_T (d - d0) - C_T v;   |trial| > bound: F = -mu_d F_N v/|v| (v = 0: along the trial);  open: memory 0.
+///   In stick it is the reference's law; in slip T relaxes to F instead of being set to it, so that the force
+///   is continuous in time and every scheme converges to the same result.
+/// `reference`: R5.06.03 eq. 3.2-3 and 3.2-4 to the letter. F0, d0 = force and position at which the contact
+/// last slid (0 when open):
+///     trial = F0 - K_T (d - d0) - C_T v;   |trial| > bound: F = -mu_d F_N v/|v| (v = 0: along the trial);
+///     open: memory 0.
 /// The memory changes only when a step is accepted: every function here is pure.
 #pragma once
 #include "contact/vec2.hpp"
@@ -31,14 +35,14 @@ struct FrictionLaw {
 
 /// What a contact remembers of its tangential past.
 struct FrictionMemory {
-  Vec2 spring;          ///< N: T of return_map, F0 of reference
+  Vec2 spring; ///< N: T of return_map, F0 of reference
   bool sliding = false;
 };
 
 /// Friction over one step.
 struct FrictionStep {
-  FrictionMemory memory; ///< at the end of the step, to be committed
-  Vec2 slip;             ///< m: displacement of the slider (0 in stick)
+  FrictionMemory memory;      ///< at the end of the step, to be committed
+  Vec2 slip;                  ///< m: displacement of the slider (0 in stick)
   double friction_work = 0.0; ///< J >= 0, dissipated by the slider
   double damper_work = 0.0;   ///< J >= 0, dissipated by C_T (and given up by the spring of an open contact)
 };
@@ -48,12 +52,14 @@ struct Friction {
   bool slides;
 };
 
-/// The law at one instant: what explicit schemes use. `dx` is the tangential displacement since the memory was committed, m.
-[[nodiscard]] Friction evaluate(const FrictionLaw& law, const FrictionMemory& memory, double normal_force, Vec2 dx, Vec2 velocity);
+/// The law at one instant: what explicit schemes use. `dx` is the tangential displacement since the memory
+/// was committed, m.
+[[nodiscard]] Friction evaluate(const FrictionLaw& law, const FrictionMemory& memory, double normal_force,
+                                Vec2 dx, Vec2 velocity);
 
 /// The same where nothing moves along x_loc: F on a line.
-[[nodiscard]] inline Friction evaluate_line(const FrictionLaw& law, const FrictionMemory& memory, double normal_force, double dx,
-                                            double velocity) {
+[[nodiscard]] inline Friction evaluate_line(const FrictionLaw& law, const FrictionMemory& memory,
+                                            double normal_force, double dx, double velocity) {
   const double trial = memory.spring.t - law.stiffness * dx - law.damping * velocity;
   const double bound = (memory.sliding ? law.mu_dynamic : law.mu_static) * normal_force;
   if (std::abs(trial) <= bound)
@@ -64,37 +70,47 @@ struct Friction {
 
 /// What a law needs of a step of length h, made once.
 struct FrictionTable {
-  double gradient;   ///< G h = K_T h/2 + C_T, N s/m: the mean force of a sticking step is T - G h times its mean velocity
-  double relaxation; ///< exp(-K_T h/C_T): what is left after h of the spring's distance to its goal (0 without damper)
+  double gradient;   ///< G h = K_T h/2 + C_T, N s/m: the mean force of a sticking step is T - G h times its
+                     ///< mean velocity
+  double relaxation; ///< exp(-K_T h/C_T): what is left after h of the spring's distance to its goal (0
+                     ///< without damper)
 };
 [[nodiscard]] FrictionTable friction_table(const FrictionLaw& law, double h);
 
-/// Closes a step in which the mean force was `force` and the displacement `dx`: advances the memory and shares out the energy.
-[[nodiscard]] FrictionStep close_step(const FrictionLaw& law, const FrictionTable& table, const FrictionMemory& memory,
-                                      Friction friction, Vec2 dx);
+/// Closes a step in which the mean force was `force` and the displacement `dx`: advances the memory and
+/// shares out the energy.
+[[nodiscard]] FrictionStep close_step(const FrictionLaw& law, const FrictionTable& table,
+                                      const FrictionMemory& memory, Friction friction, Vec2 dx);
 
-/// An open contact over a step: the spring's force dies out through the damper (return_map) or is forgotten (reference).
-[[nodiscard]] FrictionStep open_step(const FrictionLaw& law, const FrictionTable& table, const FrictionMemory& memory);
+/// An open contact over a step: the spring's force dies out through the damper (return_map) or is forgotten
+/// (reference).
+[[nodiscard]] FrictionStep open_step(const FrictionLaw& law, const FrictionTable& table,
+                                     const FrictionMemory& memory);
 
 /// Energy of the tangential spring, J.
 [[nodiscard]] inline double spring_energy(const FrictionLaw& law, const FrictionMemory& memory) {
   return law.stiffness > 0.0 ? 0.5 * dot(memory.spring, memory.spring) / law.stiffness : 0.0;
 }
 
-/// Implicit friction of one contact over a step: the mean velocity answers the force, v = free_velocity + A F (A = (h/2) W_tt, symmetric,
-/// >= 0). Stick: (I + G h A) F = T - G h free_velocity. Slip: F of length mu_d F_N along the trial T - G h v; with M = I + G h A and
-/// b = T - G h free_velocity that is (M + s I) F = b for the s >= 0 at which |F| is the bound, found by Newton's method on 1/|F|.
-/// For `reference` the slip force is opposite to v: with M = A and b = -free_velocity the same equation; where less than the bound
-/// brings the node to rest, that force (a larger one would drive the node backwards).
+/// Implicit friction of one contact over a step: the mean velocity answers the force, v = free_velocity + A F
+/// (A = (h/2) W_tt, symmetric,
+/// >= 0). Stick: (I + G h A) F = T - G h free_velocity. Slip: F of length mu_d F_N along the trial T - G h v;
+/// with M = I + G h A and b = T - G h free_velocity that is (M + s I) F = b for the s >= 0 at which |F| is
+/// the bound, found by Newton's method on 1/|F|. For `reference` the slip force is opposite to v: with M = A
+/// and b = -free_velocity the same equation; where less than the bound brings the node to rest, that force (a
+/// larger one would drive the node backwards).
 struct Mobility {
   double xx, xt, tt; ///< m/s per N
 };
-[[nodiscard]] Friction step_friction_plane(const FrictionLaw& law, const FrictionTable& table, const FrictionMemory& memory,
-                                           double normal_force, Vec2 free_velocity, const Mobility& mobility);
+[[nodiscard]] Friction step_friction_plane(const FrictionLaw& law, const FrictionTable& table,
+                                           const FrictionMemory& memory, double normal_force,
+                                           Vec2 free_velocity, const Mobility& mobility);
 
-/// The same where nothing moves along x_loc (the memory, the velocity and the coupling are 0 there): a scalar problem with F on a line.
-[[nodiscard]] inline Friction step_friction_line(const FrictionLaw& law, const FrictionTable& table, const FrictionMemory& memory,
-                                                 double normal_force, double free_velocity, double mobility) {
+/// The same where nothing moves along x_loc (the memory, the velocity and the coupling are 0 there): a scalar
+/// problem with F on a line.
+[[nodiscard]] inline Friction step_friction_line(const FrictionLaw& law, const FrictionTable& table,
+                                                 const FrictionMemory& memory, double normal_force,
+                                                 double free_velocity, double mobility) {
   const double b = memory.spring.t - table.gradient * free_velocity;
   const double m = 1.0 + table.gradient * mobility;
   const double bound = (memory.sliding ? law.mu_dynamic : law.mu_static) * normal_force;
@@ -102,8 +118,11 @@ struct Mobility {
     return {{0.0, b / m}, false};
   const double slip_bound = law.mu_dynamic * normal_force;
   if (law.kind == FrictionMemoryKind::reference && free_velocity != 0.0) {
-    const double stopping = std::abs(free_velocity); // over the mobility: the force that brings the node to rest
-    return {{0.0, std::copysign(stopping < mobility * slip_bound ? stopping / mobility : slip_bound, -free_velocity)}, true};
+    const double stopping =
+        std::abs(free_velocity); // over the mobility: the force that brings the node to rest
+    return {{0.0, std::copysign(stopping < mobility * slip_bound ? stopping / mobility : slip_bound,
+                                -free_velocity)},
+            true};
   }
   return {{0.0, std::copysign(slip_bound, b)}, true};
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Obstacles of one node, in the plane y_loc, z_loc, their centre at the origin. `locate` turns a position into a gap and a normal.
+/// Obstacles of one node, in the plane y_loc, z_loc, their centre at the origin. `locate` turns a position
+/// into a gap and a normal.
 ///
-/// Sign rule of the whole program: gap > 0 open, gap < 0 penetrates; the normal n is the gradient of the gap (into free space).
+/// Sign rule of the whole program: gap > 0 open, gap < 0 penetrates; the normal n is the gradient of the gap
+/// (into free space).
 ///     circle       gap = g - r,            n = -e_r       hole of radial clearance g
 ///     plane pair   gap = g - |c|,          n = -sign(c) e two planes at c = +-g, c = y or z
 ///     stop         gap = g - c,            n = -e         one plane: contact where c exceeds g
@@ -29,7 +31,8 @@ struct Stop {
 };
 using Obstacle = std::variant<Circle, PlanePair, Stop>;
 
-/// Where a node is against its obstacle; the contact's tangent directions are x_loc and t = n x x_loc = (0, nz, -ny).
+/// Where a node is against its obstacle; the contact's tangent directions are x_loc and t = n x x_loc = (0,
+/// nz, -ny).
 struct Location {
   double gap;    ///< m
   double ny, nz; ///< unit normal in local axes

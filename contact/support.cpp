@@ -6,9 +6,11 @@ namespace fretwork::contact {
 
 namespace {
 
-/// Beyond this count Newton's method on the bound has long converged (it is monotone and quadratic; 4 to 6 are usual).
+/// Beyond this count Newton's method on the bound has long converged (it is monotone and quadratic; 4 to 6
+/// are usual).
 constexpr int most_iterations = 50;
-constexpr double one_line = 1e-12; ///< det A / trace^2 below which the node moves along one line only: round-off of W
+constexpr double one_line =
+    1e-12; ///< det A / trace^2 below which the node moves along one line only: round-off of W
 constexpr double bound_tolerance = 1e-14; ///< relative: |F| meets the bound to round-off
 
 /// Solves (M + s I) f = b, M + s I symmetric positive definite.
@@ -23,10 +25,12 @@ Vec2 scaled_to(Vec2 direction, double length) {
   return size > 0.0 ? (length / size) * direction : Vec2{};
 }
 
-/// The f of given length with (M + s I) f = b for some s >= 0 (0 where even s = 0 leaves |f| below it: then along b). Newton on
-/// 1/|f(s)| - 1/length, with d|f|/ds = -f.(M + s I)^-1 f / |f|: it rises to the root without passing it.
+/// The f of given length with (M + s I) f = b for some s >= 0 (0 where even s = 0 leaves |f| below it: then
+/// along b). Newton on 1/|f(s)| - 1/length, with d|f|/ds = -f.(M + s I)^-1 f / |f|: it rises to the root
+/// without passing it.
 Vec2 of_length(double length, const Mobility& m, Vec2 b) {
-  // |b|/length - trace(M) is below the root: a start where M + s I is regular even if M is singular (a node that cannot move)
+  // |b|/length - trace(M) is below the root: a start where M + s I is regular even if M is singular (a node
+  // that cannot move)
   double s = std::max(0.0, norm(b) / length - m.xx - m.tt);
   if (!((m.xx + s) * (m.tt + s) - m.xt * m.xt > 0.0))
     return scaled_to(b, length);
@@ -42,7 +46,8 @@ Vec2 of_length(double length, const Mobility& m, Vec2 b) {
   return scaled_to(f, length);
 }
 
-/// The slip force of `reference`: opposite to the velocity v = free_velocity + A F it leaves, or the smaller one that makes v zero.
+/// The slip force of `reference`: opposite to the velocity v = free_velocity + A F it leaves, or the smaller
+/// one that makes v zero.
 Vec2 opposing(double length, const Mobility& a, Vec2 free_velocity) {
   const double speed = norm(free_velocity), trace = a.xx + a.tt;
   if (a.xx * a.tt - a.xt * a.xt > one_line * trace * trace) {
@@ -50,7 +55,8 @@ Vec2 opposing(double length, const Mobility& a, Vec2 free_velocity) {
     return norm(stopping) <= length ? stopping : of_length(length, a, -1.0 * free_velocity);
   }
   const Vec2 along = (-1.0 / speed) * free_velocity; // the line the node moves on
-  const double mobility = along.x * along.x * a.xx + 2.0 * along.x * along.t * a.xt + along.t * along.t * a.tt;
+  const double mobility =
+      along.x * along.x * a.xx + 2.0 * along.x * along.t * a.xt + along.t * along.t * a.tt;
   return (speed < mobility * length ? speed / mobility : length) * along;
 }
 
@@ -73,7 +79,8 @@ std::array<bool, 2> normal_directions(const Obstacle& obstacle) {
   return {r.wy > 0.0, r.wz > 0.0};
 }
 
-Friction evaluate(const FrictionLaw& law, const FrictionMemory& memory, double normal_force, Vec2 dx, Vec2 velocity) {
+Friction evaluate(const FrictionLaw& law, const FrictionMemory& memory, double normal_force, Vec2 dx,
+                  Vec2 velocity) {
   const Vec2 trial = memory.spring - law.stiffness * dx - law.damping * velocity;
   const double bound = (memory.sliding ? law.mu_dynamic : law.mu_static) * normal_force;
   if (norm(trial) <= bound)
@@ -84,25 +91,29 @@ Friction evaluate(const FrictionLaw& law, const FrictionMemory& memory, double n
 }
 
 FrictionTable friction_table(const FrictionLaw& law, double h) {
-  return {0.5 * law.stiffness * h + law.damping, law.damping > 0.0 ? std::exp(-law.stiffness * h / law.damping) : 0.0};
+  return {0.5 * law.stiffness * h + law.damping,
+          law.damping > 0.0 ? std::exp(-law.stiffness * h / law.damping) : 0.0};
 }
 
-FrictionStep close_step(const FrictionLaw& law, const FrictionTable& table, const FrictionMemory& memory, Friction friction,
-                        Vec2 dx) {
+FrictionStep close_step(const FrictionLaw& law, const FrictionTable& table, const FrictionMemory& memory,
+                        Friction friction, Vec2 dx) {
   const auto [force, slides] = friction;
   FrictionStep step;
   step.memory.sliding = slides;
   const Vec2 before = memory.spring;
   Vec2 after = before - law.stiffness * dx;
   Vec2 stretch = dx; // of the spring and damper; the slider takes the rest
-  if (slides && law.kind == FrictionMemoryKind::reference) { // the spring is set, whatever it held; all motion is sliding
+  if (slides &&
+      law.kind ==
+          FrictionMemoryKind::reference) { // the spring is set, whatever it held; all motion is sliding
     after = force;
     stretch = {};
     step.slip = dx;
   } else if (slides) {
     const Vec2 relaxed = force + table.relaxation * (before - force);
     const Vec2 relaxed_stretch = (1.0 / law.stiffness) * (before - relaxed);
-    // A slider that would move with the force did not move: the bound only clipped a spring that was letting go by itself.
+    // A slider that would move with the force did not move: the bound only clipped a spring that was letting
+    // go by itself.
     if (dot(force, dx - relaxed_stretch) < 0.0) {
       after = relaxed;
       stretch = relaxed_stretch;
@@ -122,8 +133,8 @@ FrictionStep open_step(const FrictionLaw& law, const FrictionTable& table, const
   return step;
 }
 
-Friction step_friction_plane(const FrictionLaw& law, const FrictionTable& table, const FrictionMemory& memory, double normal_force,
-                             Vec2 free_velocity, const Mobility& a) {
+Friction step_friction_plane(const FrictionLaw& law, const FrictionTable& table, const FrictionMemory& memory,
+                             double normal_force, Vec2 free_velocity, const Mobility& a) {
   const double gh = table.gradient;
   const Mobility m{1.0 + gh * a.xx, gh * a.xt, 1.0 + gh * a.tt};
   const Vec2 b = memory.spring - gh * free_velocity;
@@ -139,7 +150,8 @@ Friction step_friction_plane(const FrictionLaw& law, const FrictionTable& table,
   return {of_length(slip_bound, m, b), true};
 }
 
-double automatic_tangential_damping(double tangential_stiffness, double mode_stiffness, double mode_mass, double mode_damping) {
+double automatic_tangential_damping(double tangential_stiffness, double mode_stiffness, double mode_mass,
+                                    double mode_damping) {
   return 2.0 * std::sqrt((mode_stiffness + tangential_stiffness) * mode_mass) -
          2.0 * mode_damping * std::sqrt(mode_stiffness * mode_mass);
 }

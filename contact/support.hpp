@@ -14,11 +14,12 @@ struct Support {
   FrictionLaw friction;
 };
 
-/// Automatic tangential damping, N s/m: of the mode of stiffness k (N/m), mass m (kg) and damping ratio xi seen at the contact in a tangent
-/// direction, the damper that takes the stuck contact's oscillation to critical damping,
+/// Automatic tangential damping, N s/m: of the mode of stiffness k (N/m), mass m (kg) and damping ratio xi
+/// seen at the contact in a tangent direction, the damper that takes the stuck contact's oscillation to
+/// critical damping,
 ///     C_T = 2 sqrt((k + K_T) m) - 2 xi sqrt(k m).
 /// Source: R5.06.03 section 6.5.
-[[nodiscard]] double automatic_tangential_damping(double tangential_stiffness, double mode_stiffness, double mode_mass,
-                                                  double mode_damping);
+[[nodiscard]] double automatic_tangential_damping(double tangential_stiffness, double mode_stiffness,
+                                                  double mode_mass, double mode_damping);
 
 } // namespace fretwork::contact

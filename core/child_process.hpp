@@ -8,8 +8,8 @@
 namespace fretwork::core {
 
 struct ChildResult {
-  int status = 0;      ///< exit status; 128 + signal when a signal ended it; 127 when it could not be started
-  std::string output;  ///< what it wrote to standard output and standard error, in order
+  int status = 0;     ///< exit status; 128 + signal when a signal ended it; 127 when it could not be started
+  std::string output; ///< what it wrote to standard output and standard error, in order
 };
 
 /// Run `arguments[0]` (searched on PATH) with its arguments, no shell, no standard input; wait for its end.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// What may go wrong. Wrong input throws Error (the message names the object, its value and the cure); a computation that
-/// cannot give a result throws ComputationError. A defect of the program is an assert. Only `main` catches.
+/// What may go wrong. Wrong input throws Error (the message names the object, its value and the cure); a
+/// computation that cannot give a result throws ComputationError. A defect of the program is an assert. Only
+/// `main` catches.
 #pragma once
 #include <stdexcept>
 

@@ -13,7 +13,8 @@ void set_mpi_defaults() {
   setenv("OMPI_MCA_btl", "self,vader,tcp", 0);
   if (!std::getenv("OMPI_COMM_WORLD_SIZE")) {
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-    // isolated processes would all use one folder below the temporary one, and the first to end removes it under the others
+    // isolated processes would all use one folder below the temporary one, and the first to end removes it
+    // under the others
     setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
   }
 }

@@ -9,8 +9,9 @@
 
 namespace fretwork::core {
 
-/// Settings that make a start fast and a run reproducible, made before MPI starts and never over a value the user gave: the
-/// shared-memory transport without probing of network fabrics, no helper daemon for a run without mpirun, one thread in BLAS.
+/// Settings that make a start fast and a run reproducible, made before MPI starts and never over a value the
+/// user gave: the shared-memory transport without probing of network fabrics, no helper daemon for a run
+/// without mpirun, one thread in BLAS.
 void set_mpi_defaults();
 
 /// MPI_Init for the life of the object (nothing where MPI is running already).
@@ -28,8 +29,9 @@ private:
 [[nodiscard]] int rank(MPI_Comm comm);
 [[nodiscard]] int size(MPI_Comm comm);
 
-/// Collective. Runs `work` on this rank; if it threw on any rank, every rank throws what the lowest failing rank threw
-/// (core::Error, core::ComputationError, or std::runtime_error for anything else), so that no rank waits for another.
+/// Collective. Runs `work` on this rank; if it threw on any rank, every rank throws what the lowest failing
+/// rank threw (core::Error, core::ComputationError, or std::runtime_error for anything else), so that no rank
+/// waits for another.
 void agree(MPI_Comm comm, const std::function<void()>& work);
 
 /// Collective: the values of rank `root` on every rank, sizes included.

@@ -21,8 +21,8 @@ void check_petsc(PetscErrorCode code, const char* call, const char* file, int li
   std::string name(file);
   if (const auto slash = name.rfind('/'); slash != std::string::npos)
     name.erase(0, slash + 1);
-  throw ComputationError("PETSc: " + std::string(text ? text : "error") + " (code " + std::to_string(code) + ") in " +
-                         call + ", " + name + ":" + std::to_string(line));
+  throw ComputationError("PETSc: " + std::string(text ? text : "error") + " (code " + std::to_string(code) +
+                         ") in " + call + ", " + name + ":" + std::to_string(line));
 }
 
 } // namespace fretwork::core

@@ -20,6 +20,7 @@ struct Basis {
   Eigen::VectorXd
       residuals; ///< n, |K x - lambda M x| / |K x| (rigid: |K x| over the largest term of the product)
   double orthogonality = 0.0; ///< max |Phi^T M Phi - I|
+  bool splits_group = false;  ///< the last mode has others of the same frequency that were not kept
   bool distributed = false;   ///< solved over all ranks
 
   [[nodiscard]] Eigen::Index size() const { return omega.size(); }

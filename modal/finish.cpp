@@ -125,6 +125,8 @@ Basis finish(const fem::Model& model, const fem::Structure& structure, const Eig
   while (kept < std::min(lambda.size(), cut.count) && std::sqrt(lambda[kept]) <= cut.omega)
     ++kept;
   basis.shapes.conservativeResize(Eigen::NoChange, kept);
+  basis.splits_group =
+      kept > 0 && kept < lambda.size() && lambda[kept] - lambda[kept - 1] <= cluster_gap * lambda[kept];
   basis.omega = lambda.head(kept).cwiseSqrt();
   basis.damping = Eigen::VectorXd::Zero(kept);
   basis.damping_matrix = projected_dampers(model, structure, basis);

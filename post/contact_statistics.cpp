@@ -6,8 +6,8 @@
 namespace fretwork::post {
 
 ContactStatistics::ContactStatistics(std::size_t contacts, double from) : from_(from), sums_(contacts) {
-  for (auto* v : {&motion_.y0, &motion_.z0, &motion_.y, &motion_.z, &motion_.y2, &motion_.z2, &motion_.y_min, &motion_.y_max,
-                  &motion_.z_min, &motion_.z_max, &motion_.r2, &motion_.r2_max})
+  for (auto* v : {&motion_.y0, &motion_.z0, &motion_.y, &motion_.z, &motion_.y2, &motion_.z2, &motion_.y_min,
+                  &motion_.y_max, &motion_.z_min, &motion_.z_max, &motion_.r2, &motion_.r2_max})
     v->assign(contacts, 0.0);
 }
 

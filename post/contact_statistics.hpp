@@ -8,18 +8,20 @@
 
 namespace fretwork::post {
 
-/// Over the window. An impact is a maximal interval of normal force > 0; those that start in the window count.
+/// Over the window. An impact is a maximal interval of normal force > 0; those that start in the window
+/// count.
 struct ContactSummary {
   std::int64_t impacts = 0;
   double contact_time_ratio = 0.0;
-  double normal_mean = 0.0, normal_rms = 0.0, normal_max = 0.0;   ///< N, over all time
+  double normal_mean = 0.0, normal_rms = 0.0, normal_max = 0.0;     ///< N, over all time
   double normal_in_contact_mean = 0.0, normal_in_contact_rms = 0.0; ///< N
-  double tangential_rms = 0.0, tangential_max = 0.0;              ///< N, over all time
-  Moments y, z;                                                   ///< m, displacement in local axes
-  double radial_rms = 0.0, radial_max = 0.0;                      ///< m, of sqrt(y^2 + z^2)
+  double tangential_rms = 0.0, tangential_max = 0.0;                ///< N, over all time
+  Moments y, z;                                                     ///< m, displacement in local axes
+  double radial_rms = 0.0, radial_max = 0.0;                        ///< m, of sqrt(y^2 + z^2)
   double work_rate = 0.0;      ///< W: mean over time of F_N |v_T| while the contact slides (Archard's input)
   double friction_power = 0.0; ///< W: dissipated by the Coulomb slider
-  double impact_velocity_mean = 0.0, impact_velocity_max = 0.0; ///< m/s, normal approach at the start of impacts
+  double impact_velocity_mean = 0.0,
+         impact_velocity_max = 0.0; ///< m/s, normal approach at the start of impacts
   double contact_duration_mean = 0.0, contact_duration_max = 0.0; ///< s
 };
 
@@ -33,7 +35,8 @@ public:
 private:
   struct Sums {
     std::int64_t impacts = 0;
-    double closed_time = 0.0, normal = 0.0, normal2 = 0.0, normal_max = 0.0, tangential2 = 0.0, tangential_max = 0.0;
+    double closed_time = 0.0, normal = 0.0, normal2 = 0.0, normal_max = 0.0, tangential2 = 0.0,
+           tangential_max = 0.0;
     double slid = 0.0, friction = 0.0, speed = 0.0, speed_max = 0.0;
     double duration = 0.0, longest = 0.0; ///< of the impact under way; of all
     double impact_time = 0.0;             ///< of impacts that started in the window

@@ -5,14 +5,20 @@
 
 namespace fretwork::post {
 
-Recorder::Recorder(const transient::Scene& scene, std::vector<ObservedNode> nodes, const transient::OutputGrid& grid)
+Recorder::Recorder(const transient::Scene& scene, std::vector<ObservedNode> nodes,
+                   const transient::OutputGrid& grid)
     : scene_(scene), nodes_(std::move(nodes)), acceleration_(scene.system.size()) {
   const Eigen::Index nt = grid.count;
   out_.time.setZero(nt);
   out_.modal_displacement.setZero(scene.system.size(), nt);
   out_.modal_velocity.setZero(scene.system.size(), nt);
   for (const auto& point : scene.contacts)
-    out_.contacts.push_back({point.name, {}, {}, Eigen::VectorXd::Zero(nt), Eigen::VectorXd::Zero(nt), Eigen::MatrixXd::Zero(nt, 2)});
+    out_.contacts.push_back({point.name,
+                             {},
+                             {},
+                             Eigen::VectorXd::Zero(nt),
+                             Eigen::VectorXd::Zero(nt),
+                             Eigen::MatrixXd::Zero(nt, 2)});
   for (const auto& node : nodes_)
     out_.nodes.push_back({node.name, {}, {}, Eigen::MatrixXd::Zero(nt, 3)});
 }
@@ -29,7 +35,8 @@ void Recorder::state(std::int64_t index, double time, const double* q, const dou
   }
 }
 
-void Recorder::forces(std::int64_t index, double, const double* load, std::span<const transient::ContactForce> contacts) {
+void Recorder::forces(std::int64_t index, double, const double* load,
+                      std::span<const transient::ContactForce> contacts) {
   const bool wanted = !nodes_.empty();
   if (wanted) {
     const auto& system = scene_.system;
@@ -51,7 +58,8 @@ void Recorder::forces(std::int64_t index, double, const double* load, std::span<
     series.tangential_force(index, 1) = f.friction.t;
     if (wanted) {
       const auto& b = scene_.contacts[c].b;
-      acceleration_ += f.friction.x * b.row(0).transpose() + (f.normal * f.ny + f.friction.t * f.nz) * b.row(1).transpose() +
+      acceleration_ += f.friction.x * b.row(0).transpose() +
+                       (f.normal * f.ny + f.friction.t * f.nz) * b.row(1).transpose() +
                        (f.normal * f.nz - f.friction.t * f.ny) * b.row(2).transpose();
     }
   }
@@ -74,7 +82,8 @@ TimeSeries Recorder::series() && {
       n.acceleration.conservativeResize(served_, Eigen::NoChange);
   }
   // one product for all contacts and nodes: many rows at once use the processor's cache
-  const auto contacts = static_cast<Eigen::Index>(scene_.contacts.size()), nodes = static_cast<Eigen::Index>(nodes_.size());
+  const auto contacts = static_cast<Eigen::Index>(scene_.contacts.size()),
+             nodes = static_cast<Eigen::Index>(nodes_.size());
   Eigen::MatrixXd rows(3 * (contacts + nodes), scene_.system.size());
   for (Eigen::Index c = 0; c < contacts; ++c)
     rows.middleRows<3>(3 * c) = scene_.contacts[static_cast<std::size_t>(c)].b;

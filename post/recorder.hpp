@@ -24,10 +24,10 @@ struct NodeSeries {
 };
 
 struct TimeSeries {
-  Eigen::VectorXd time;                                 ///< nt, s
+  Eigen::VectorXd time; ///< nt, s
   std::vector<ContactSeries> contacts;
   std::vector<NodeSeries> nodes;
-  Eigen::MatrixXd modal_displacement, modal_velocity;   ///< n x nt (one output a column)
+  Eigen::MatrixXd modal_displacement, modal_velocity; ///< n x nt (one output a column)
 };
 
 /// A node whose motion is wanted.
@@ -40,7 +40,8 @@ class Recorder final : public transient::Sampler {
 public:
   Recorder(const transient::Scene& scene, std::vector<ObservedNode> nodes, const transient::OutputGrid& grid);
   void state(std::int64_t index, double time, const double* q, const double* v) override;
-  void forces(std::int64_t index, double time, const double* load, std::span<const transient::ContactForce> contacts) override;
+  void forces(std::int64_t index, double time, const double* load,
+              std::span<const transient::ContactForce> contacts) override;
 
   /// The series of the outputs served so far, displacements and velocities made from the modes.
   [[nodiscard]] TimeSeries series() &&;

@@ -28,6 +28,7 @@ void write_basis(const h5::Group& group, const modal::Basis& basis) {
   if (basis.damping_matrix.size() > 0)
     write_matrix(group, "damping_matrix", basis.damping_matrix, "1/s");
   group.set("orthogonality", basis.orthogonality);
+  group.set("splits_group", std::int64_t{basis.splits_group});
   group.set("distributed", std::int64_t{basis.distributed});
 }
 
@@ -50,6 +51,7 @@ modal::Basis read_basis(const h5::Group& group) {
       throw h5::Failure("damping matrix of another size");
   }
   basis.orthogonality = group.number("orthogonality");
+  basis.splits_group = group.integer("splits_group") != 0;
   basis.distributed = group.integer("distributed") != 0;
   return basis;
 }

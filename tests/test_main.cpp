@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The main of every test executable that has none of its own: sets what child processes and MPI need, where the caller has not.
+// The main of every test executable that has none of its own: sets what child processes and MPI need, where
+// the caller has not.
 #include <cstdlib>
 #include <gtest/gtest.h>
 

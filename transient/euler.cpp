@@ -2,9 +2,10 @@
 /// @file
 /// The reference's scheme of order 1 (R5.06.04: Euler; semi-implicit):
 ///     v_{n+1} = v_n + h (loads(t_n) + B^T f(q_n, v_n) - c v_n - k q_n),   q_{n+1} = q_n + h v_{n+1}
-/// The contact laws are evaluated explicitly and their memory is committed once a step. Stable for h w_max < 2 and h w_c < 2; an explicit
-/// tangential damper asks for C_T W h well below 1. It takes a full damping matrix.
-/// Energy: v_n belongs to t_n - h/2; the ledger uses (v_n + v_{n+1})/2 at t_n, and its residual is of the order of the scheme.
+/// The contact laws are evaluated explicitly and their memory is committed once a step. Stable for h w_max <
+/// 2 and h w_c < 2; an explicit tangential damper asks for C_T W h well below 1. It takes a full damping
+/// matrix. Energy: v_n belongs to t_n - h/2; the ledger uses (v_n + v_{n+1})/2 at t_n, and its residual is of
+/// the order of the scheme.
 #include "transient/load_sum.hpp"
 #include "transient/packed_contacts.hpp"
 #include "transient/scheme.hpp"
@@ -56,8 +57,8 @@ public:
     double damper_power = apply_damping_matrix();
     if (!loads_.constant())
       loads_.at(record_.time, load_.data());
-    const auto sums = kernels::euler_step(contacts_.padded_modes, h_, c_.data(), k_.data(), load_.data(), force_.data(), q_.data(),
-                                          v_.data());
+    const auto sums = kernels::euler_step(contacts_.padded_modes, h_, c_.data(), k_.data(), load_.data(),
+                                          force_.data(), q_.data(), v_.data());
     damper_power += sums.damping_power;
     book(contact, sums, damper_power);
     ++steps_;
@@ -94,20 +95,23 @@ private:
     factor_.clear();
     if (contacts_.count == 0)
       return sum;
-    kernels::gather(contacts_.modes, contacts_.stride(), contacts_.gather.data(), q_.data(), v_.data(), u_.data(), w_.data());
+    kernels::gather(contacts_.modes, contacts_.stride(), contacts_.gather.data(), q_.data(), v_.data(),
+                    u_.data(), w_.data());
     for (const int c : active_)
       states_[c] = {};
     active_.clear();
     for (int c = 0; c < contacts_.count; ++c)
       meet(c, sum);
-    kernels::scatter(contacts_.padded_modes, static_cast<int>(row_.size()), row_.data(), factor_.data(), force_.data());
+    kernels::scatter(contacts_.padded_modes, static_cast<int>(row_.size()), row_.data(), factor_.data(),
+                     force_.data());
     return sum;
   }
 
   void meet(int c, Forces& sum) {
     const contact::Support& support = contacts_.supports[c];
     const int width = contacts_.width;
-    const auto at = contact::locate(support.obstacle, u_[c] + contacts_.rest_y[c], u_[width + c] + contacts_.rest_z[c]);
+    const auto at =
+        contact::locate(support.obstacle, u_[c] + contacts_.rest_y[c], u_[width + c] + contacts_.rest_z[c]);
     const double rate = -(at.ny * w_[c] + at.nz * w_[width + c]);
     const double p = -at.gap;
     const double normal = contact::normal_force(support.normal, p, rate);
@@ -137,13 +141,16 @@ private:
         sum.damping += contact::spring_energy(support.friction, memory.friction);
         memory = {};
       }
-      const contact::Vec2 velocity{contacts_.components == 3 ? w_[2 * width + c] : 0.0, at.nz * w_[c] - at.ny * w_[width + c]};
+      const contact::Vec2 velocity{contacts_.components == 3 ? w_[2 * width + c] : 0.0,
+                                   at.nz * w_[c] - at.ny * w_[width + c]};
       state.displacement = h_ * velocity;
       const auto friction =
           contacts_.components == 3
               ? contact::evaluate(support.friction, memory.friction, normal, state.displacement, velocity)
-              : contact::evaluate_line(support.friction, memory.friction, normal, state.displacement.t, velocity.t);
-      const auto step = contact::close_step(support.friction, tables_[c], memory.friction, friction, state.displacement);
+              : contact::evaluate_line(support.friction, memory.friction, normal, state.displacement.t,
+                                       velocity.t);
+      const auto step =
+          contact::close_step(support.friction, tables_[c], memory.friction, friction, state.displacement);
       memory = {step.memory, at.ny, at.nz, true};
       state.friction = friction.force;
       state.slides = friction.slides;
@@ -154,7 +161,8 @@ private:
     }
     sum.damping += state.damper_work;
     active_.push_back(c);
-    const double force[3] = {normal * at.ny + state.friction.t * at.nz, normal * at.nz - state.friction.t * at.ny, state.friction.x};
+    const double force[3] = {normal * at.ny + state.friction.t * at.nz,
+                             normal * at.nz - state.friction.t * at.ny, state.friction.x};
     for (int k = 0; k < contacts_.components; ++k) {
       row_.push_back(contacts_.row(c, k));
       factor_.push_back(force[k]);
@@ -183,7 +191,8 @@ private:
     const bool start = steps_ == 0;
     if (start)
       energy.initial = energy.throughput = energy.stored;
-    // A record stands in the middle of its step: half of what the step brings belongs to it, at t = 0 nothing (only the second half is run).
+    // A record stands in the middle of its step: half of what the step brings belongs to it, at t = 0 nothing
+    // (only the second half is run).
     const double before = start ? 0.0 : 0.5, all = start ? 0.5 : 1.0;
     const double work = h_ * sums.load_power, loss = h_ * damper_power;
     energy.throughput += all * std::abs(work);
@@ -221,6 +230,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<Scheme> make_euler(const Scene& scene, double step) { return std::make_unique<Euler>(scene, step); }
+std::unique_ptr<Scheme> make_euler(const Scene& scene, double step) {
+  return std::make_unique<Euler>(scene, step);
+}
 
 } // namespace fretwork::transient

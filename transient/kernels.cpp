@@ -2,8 +2,8 @@
 #include "transient/kernels.hpp"
 #include <algorithm>
 
-// One copy for each width of vector unit, chosen when the program starts. Not under the sanitizers (they start after the choice is made),
-// nor with compilers that lack it.
+// One copy for each width of vector unit, chosen when the program starts. Not under the sanitizers (they
+// start after the choice is made), nor with compilers that lack it.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(FRETWORK_SANITIZED)
 #define FRETWORK_WIDTHS __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
@@ -20,11 +20,14 @@ typedef long long Mask __attribute__((vector_size(64)));
 
 FRETWORK_INLINE const Pack& at(const double* p) { return *reinterpret_cast<const Pack*>(p); }
 FRETWORK_INLINE Pack& at(double* p) { return *reinterpret_cast<Pack*>(p); }
-FRETWORK_INLINE double sum(const Pack& p) { return ((p[0] + p[4]) + (p[2] + p[6])) + ((p[1] + p[5]) + (p[3] + p[7])); }
+FRETWORK_INLINE double sum(const Pack& p) {
+  return ((p[0] + p[4]) + (p[2] + p[6])) + ((p[1] + p[5]) + (p[3] + p[7]));
+}
 
 /// `blocks` packs of contacts at once: their sums stay in registers over all modes.
 template <int blocks>
-FRETWORK_INLINE void gather_blocks(int n, int width, const double* g, const double* q, const double* v, double* u, double* w) {
+FRETWORK_INLINE void gather_blocks(int n, int width, const double* g, const double* q, const double* v,
+                                   double* u, double* w) {
   Pack su[blocks], sw[blocks];
   for (int b = 0; b < blocks; ++b) {
     su[b] = Pack{};
@@ -47,7 +50,8 @@ FRETWORK_INLINE void gather_blocks(int n, int width, const double* g, const doub
 
 const char* vector_width() {
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(FRETWORK_SANITIZED)
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq"))
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+      __builtin_cpu_supports("avx512dq"))
     return "AVX-512 (8 doubles)";
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
     return "AVX2 (4 doubles)";
@@ -55,7 +59,8 @@ const char* vector_width() {
   return "SSE2 (2 doubles)";
 }
 
-FRETWORK_WIDTHS double flow_loaded(int np, const FlowTable& t, double* q, double* v, const double* f0, const double* f1) {
+FRETWORK_WIDTHS double flow_loaded(int np, const FlowTable& t, double* q, double* v, const double* f0,
+                                   const double* f1) {
   Pack work{};
   for (int i = 0; i < np; i += lanes) {
     const Pack q0 = at(q + i), v0 = at(v + i), a = at(f0 + i), b = at(f1 + i);
@@ -93,7 +98,8 @@ FRETWORK_WIDTHS double twice_energy(int np, const double* k, const double* q, co
   return sum(s);
 }
 
-FRETWORK_WIDTHS void gather(int n, int width, const double* g, const double* q, const double* v, double* u, double* w) {
+FRETWORK_WIDTHS void gather(int n, int width, const double* g, const double* q, const double* v, double* u,
+                            double* w) {
   int at_lane = 0;
   for (; at_lane + 4 * lanes <= width; at_lane += 4 * lanes)
     gather_blocks<4>(n, width, g + at_lane, q, v, u + at_lane, w + at_lane);
@@ -118,8 +124,8 @@ FRETWORK_WIDTHS void scatter(int np, int rows, const double* const* row, const d
   }
 }
 
-FRETWORK_WIDTHS EulerSums euler_step(int np, double h, const double* c, const double* k, const double* load, const double* force,
-                                     double* q, double* v) {
+FRETWORK_WIDTHS EulerSums euler_step(int np, double h, const double* c, const double* k, const double* load,
+                                     const double* force, double* q, double* v) {
   Pack energy{}, power{}, loss{};
   for (int i = 0; i < np; i += lanes) {
     const Pack q0 = at(q + i), v0 = at(v + i), ci = at(c + i), kq = at(k + i) * q0, f = at(load + i);
@@ -134,9 +140,9 @@ FRETWORK_WIDTHS EulerSums euler_step(int np, double h, const double* c, const do
   return {sum(energy), sum(power), sum(loss)};
 }
 
-FRETWORK_WIDTHS bool near(int width, const double* uy, const double* uz, const double* vy, const double* vz, const double* rest_y,
-                          const double* rest_z, const double* wy, const double* wz, const double* limit, double half_step,
-                          double* near_flag) {
+FRETWORK_WIDTHS bool near(int width, const double* uy, const double* uz, const double* vy, const double* vz,
+                          const double* rest_y, const double* rest_z, const double* wy, const double* wz,
+                          const double* limit, double half_step, double* near_flag) {
   Mask any{};
   for (int i = 0; i < width; i += lanes) {
     const Pack y = at(uy + i) + at(rest_y + i), z = at(uz + i) + at(rest_z + i);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// The linear algebra of a step, on contiguous arrays padded to `lanes` and aligned to 64 bytes. Each kernel is compiled for several
-/// widths of vector unit and the processor picks one when the program starts; sums always run over `lanes` partial sums, so that AVX2
-/// and AVX-512 give the same bytes.
+/// The linear algebra of a step, on contiguous arrays padded to `lanes` and aligned to 64 bytes. Each kernel
+/// is compiled for several widths of vector unit and the processor picks one when the program starts; sums
+/// always run over `lanes` partial sums, so that AVX2 and AVX-512 give the same bytes.
 #pragma once
 #include <cstddef>
 #include <memory>
@@ -21,7 +21,9 @@ template <class T> struct AlignedAllocator {
   using value_type = T;
   AlignedAllocator() = default;
   template <class U> AlignedAllocator(const AlignedAllocator<U>&) {}
-  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t(alignment))); }
+  T* allocate(std::size_t n) {
+    return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t(alignment)));
+  }
   void deallocate(T* p, std::size_t) { ::operator delete(p, std::align_val_t(alignment)); }
   template <class U> bool operator==(const AlignedAllocator<U>&) const { return true; }
 };
@@ -32,7 +34,8 @@ struct FlowTable {
   Array qq, qv, qf0, qf1, vq, vv, vf0, vf1, mq, mv, mf0, mf1;
 };
 
-/// Which instruction set the kernels use here: "AVX-512 (8 doubles)", "AVX2 (4 doubles)" or "SSE2 (2 doubles)".
+/// Which instruction set the kernels use here: "AVX-512 (8 doubles)", "AVX2 (4 doubles)" or "SSE2 (2
+/// doubles)".
 [[nodiscard]] const char* vector_width();
 
 /// q, v <- exact flow under a load linear from f0 to f1. Returns the work of the load over the step, J.
@@ -52,21 +55,24 @@ void gather(int n, int width, const double* g, const double* q, const double* v,
 /// v += sum over r of factor[r] * row[r].
 void scatter(int np, int rows, const double* const* row, const double* factor, double* v);
 
-/// One step of the semi-implicit Euler scheme: v1 = v + h (f - c v - k q), q1 = q + h v1, f including the contact forces. Returns the
-/// sums over modes with vm = (v + v1)/2.
+/// One step of the semi-implicit Euler scheme: v1 = v + h (f - c v - k q), q1 = q + h v1, f including the
+/// contact forces. Returns the sums over modes with vm = (v + v1)/2.
 struct EulerSums {
-  double twice_energy;   ///< vm^2 + k q^2, at the start of the step
-  double load_power;     ///< load . vm
-  double damping_power;  ///< c vm^2
+  double twice_energy;  ///< vm^2 + k q^2, at the start of the step
+  double load_power;    ///< load . vm
+  double damping_power; ///< c vm^2
 };
-EulerSums euler_step(int np, double h, const double* c, const double* k, const double* load, const double* force, double* q, double* v);
+EulerSums euler_step(int np, double h, const double* c, const double* k, const double* load,
+                     const double* force, double* q, double* v);
 
-/// For lanes 0 .. width: near[i] = (limit - sqrt(wy y^2 + wz z^2) - half_step sqrt(wy vy^2 + wz vz^2) <= 0); positions are u + rest.
-/// Returns whether any is near.
-bool near(int width, const double* uy, const double* uz, const double* vy, const double* vz, const double* rest_y,
-          const double* rest_z, const double* wy, const double* wz, const double* limit, double half_step, double* near_flag);
+/// For lanes 0 .. width: near[i] = (limit - sqrt(wy y^2 + wz z^2) - half_step sqrt(wy vy^2 + wz vz^2) <= 0);
+/// positions are u + rest. Returns whether any is near.
+bool near(int width, const double* uy, const double* uz, const double* vy, const double* vz,
+          const double* rest_y, const double* rest_z, const double* wy, const double* wz, const double* limit,
+          double half_step, double* near_flag);
 
-/// w[b] += sum over a of column[a * 3 width ...] * f[a]: velocities of all contacts answer a change of one contact's force.
+/// w[b] += sum over a of column[a * 3 width ...] * f[a]: velocities of all contacts answer a change of one
+/// contact's force.
 void answer(int width, const double* columns, const double* f, double* w);
 
 } // namespace fretwork::transient::kernels

@@ -10,7 +10,8 @@ LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double dura
   for (const Load& load : loads) {
     if (load.modal_force.isZero(0.0))
       continue;
-    const auto same = std::find_if(functions.begin(), functions.end(), [&](const auto* f) { return *f == load.function; });
+    const auto same =
+        std::find_if(functions.begin(), functions.end(), [&](const auto* f) { return *f == load.function; });
     const auto source = static_cast<std::size_t>(same - functions.begin());
     if (same == functions.end()) {
       functions.push_back(&load.function);

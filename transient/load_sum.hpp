@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// The loads of a scene as one modal force: loads that follow the same function of time are added before the run.
+/// The loads of a scene as one modal force: loads that follow the same function of time are added before the
+/// run.
 #pragma once
 #include "transient/kernels.hpp"
 #include "transient/scene.hpp"

@@ -13,7 +13,8 @@ constexpr double series_limit = 1.5;
 constexpr double separate = 0.2;
 constexpr int series_terms = 18; ///< (sqrt(k) t + c t)^18 / 18! is below 2e-16 there
 
-/// Load responses by the power series of g: g = sum g_j t^j with g_0 = 0, g_1 = 1, (j+1)(j+2) g_{j+2} = -c (j+1) g_{j+1} - k g_j.
+/// Load responses by the power series of g: g = sum g_j t^j with g_0 = 0, g_1 = 1, (j+1)(j+2) g_{j+2} = -c
+/// (j+1) g_{j+1} - k g_j.
 struct LoadResponse {
   double r0, r1; ///< int g, int (t - s) g(s) ds: to a constant unit load, to a load of unit slope
   double d0, d1; ///< their derivatives
@@ -39,7 +40,8 @@ LoadResponse series_response(double k, double c, double t) {
   return out;
 }
 
-/// k > 0: particular solutions (1 for a constant load k, t - c/k for a slope k) less the homogeneous motion that starts from them.
+/// k > 0: particular solutions (1 for a constant load k, t - c/k for a slope k) less the homogeneous motion
+/// that starts from them.
 LoadResponse closed_response(double k, double c, double t, const Impulse& im) {
   const double a = im.rate + c * im.g;
   LoadResponse out{};
@@ -71,8 +73,8 @@ Phi phi(double x) {
   return {1.0 - x * two, two, three};
 }
 
-/// Two separate decays (k = 0 included): g = (exp(-slow t) - exp(-fast t))/(fast - slow), each integrated by itself, since k may be as
-/// small as it likes.
+/// Two separate decays (k = 0 included): g = (exp(-slow t) - exp(-fast t))/(fast - slow), each integrated by
+/// itself, since k may be as small as it likes.
 LoadResponse decay_response(double k, double c, double t, const Impulse& im) {
   const double root = std::sqrt(0.25 * c * c - k), fast = 0.5 * c + root, slow = k / fast;
   const Phi p = phi(slow * t), q = phi(fast * t);
@@ -97,7 +99,8 @@ Impulse impulse_response(double k, double c, double t) {
   const double decay = 0.5 * c;
   const double discriminant = k - decay * decay;
   const double x2 = discriminant * t * t;
-  if (std::abs(x2) < 1e-4) { // near critical damping: sin(x)/x and cos(x) by their series, error below x2^3/5040
+  if (std::abs(x2) <
+      1e-4) { // near critical damping: sin(x)/x and cos(x) by their series, error below x2^3/5040
     const double e = std::exp(-decay * t);
     const double sinc = 1.0 - x2 / 6.0 * (1.0 - x2 / 20.0);
     const double cosine = 1.0 - 0.5 * x2 * (1.0 - x2 / 12.0);

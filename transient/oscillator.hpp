@@ -2,10 +2,12 @@
 /// @file
 /// The exact motion of one mode, q'' + c q' + k q = f(t), over a step in which f is linear.
 ///
-/// With g the response to a unit impulse (g(0) = 0, g'(0) = 1) and a = g' + c g (the response to a unit displacement):
+/// With g the response to a unit impulse (g(0) = 0, g'(0) = 1) and a = g' + c g (the response to a unit
+/// displacement):
 ///     q(h) = a q0 + g v0 + R0 f0 + R1 (f1 - f0)          R_j = int_0^h g(h - t) (t/h)^j dt
 ///     v(h) = -k g q0 + g' v0 + R0' f0 + R1' (f1 - f0)    R_j' = int_0^h g'(h - t) (t/h)^j dt
-/// k >= 0 and c >= 0 are arbitrary: under-, over- and critically damped, rigid (k = 0) with and without damping.
+/// k >= 0 and c >= 0 are arbitrary: under-, over- and critically damped, rigid (k = 0) with and without
+/// damping.
 #pragma once
 #include <Eigen/Core>
 
@@ -17,7 +19,8 @@ struct Impulse {
 };
 [[nodiscard]] Impulse impulse_response(double k, double c, double t);
 
-/// One mode over one step, loads given at its two ends: q1 = qq q + qv v + qf0 f0 + qf1 f1, v1 likewise; mean = the mean of q over the step.
+/// One mode over one step, loads given at its two ends: q1 = qq q + qv v + qf0 f0 + qf1 f1, v1 likewise; mean
+/// = the mean of q over the step.
 struct StepCoefficients {
   double qq, qv, qf0, qf1;
   double vq, vv, vf0, vf1;
@@ -25,7 +28,8 @@ struct StepCoefficients {
 };
 [[nodiscard]] StepCoefficients step_coefficients(double k, double c, double h);
 
-/// State at an instant inside a step, for output: as step_coefficients, cheap enough to be made for each instant (no quadrature).
+/// State at an instant inside a step, for output: as step_coefficients, cheap enough to be made for each
+/// instant (no quadrature).
 struct DenseCoefficients {
   double qq, qv, qf, qs; ///< f and s: load and its slope at the start
   double vq, vv, vf, vs;

@@ -7,8 +7,8 @@
 
 namespace fretwork::transient {
 
-/// Velocities and displacements of all contacts are arrays of `components` blocks of `width` lanes: y of all contacts, then z, then x
-/// (x_loc only where friction acts on a contact that the modes move along it).
+/// Velocities and displacements of all contacts are arrays of `components` blocks of `width` lanes: y of all
+/// contacts, then z, then x (x_loc only where friction acts on a contact that the modes move along it).
 struct PackedContacts {
   explicit PackedContacts(const std::vector<ContactPoint>& contacts, Eigen::Index modes);
 
@@ -19,17 +19,20 @@ struct PackedContacts {
   [[nodiscard]] int stride() const { return components * width; }
 
   std::vector<contact::Support> supports;
-  kernels::Array gather;          ///< mode by mode, `stride()` lanes each
-  kernels::Array rows;            ///< contact by contact: rows y, z, x over the padded modes
-  kernels::Array mobility;        ///< contact by contact: what a unit force along y, z, x does to `stride()` lanes (W = B B^T, 1/kg)
-  kernels::Array rest_y, rest_z;  ///< m
+  kernels::Array gather;   ///< mode by mode, `stride()` lanes each
+  kernels::Array rows;     ///< contact by contact: rows y, z, x over the padded modes
+  kernels::Array mobility; ///< contact by contact: what a unit force along y, z, x does to `stride()` lanes
+                           ///< (W = B B^T, 1/kg)
+  kernels::Array rest_y, rest_z; ///< m
   kernels::Array reach_y, reach_z, reach_limit;
 
   [[nodiscard]] const double* row(int contact, int component) const {
     return &rows[(static_cast<std::size_t>(contact) * 3 + component) * padded_modes];
   }
   /// The 3 columns of contact `c`, `stride()` apart (the third is there with 2 components too, unused).
-  [[nodiscard]] const double* column(int c) const { return &mobility[static_cast<std::size_t>(c) * 3 * stride()]; }
+  [[nodiscard]] const double* column(int c) const {
+    return &mobility[static_cast<std::size_t>(c) * 3 * stride()];
+  }
   /// Velocity along component `to` of contact `c` by a unit force along `from` of the same contact, 1/kg.
   [[nodiscard]] double own_mobility(int c, int to, int from) const {
     return to < components && from < components ? column(c)[from * stride() + to * width + c] : 0.0;

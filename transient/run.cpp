@@ -7,7 +7,8 @@
 namespace fretwork::transient {
 namespace {
 
-/// A run whose energy residual passes this many times all the energy put in is unstable: physics cannot recover from it.
+/// A run whose energy residual passes this many times all the energy put in is unstable: physics cannot
+/// recover from it.
 constexpr double hopeless = 100.0;
 
 std::unique_ptr<Scheme> make_scheme(const Scene& scene, const StepChoice& choice) {
@@ -24,8 +25,8 @@ std::unique_ptr<Scheme> make_scheme(const Scene& scene, const StepChoice& choice
 class OutputQueue {
 public:
   OutputQueue(const Scene& scene, Sampler* sampler, const OutputGrid& grid)
-      : sampler_(sampler), grid_(grid), size_(static_cast<std::size_t>(scene.system.size())), q_(size_), v_(size_), load_(size_),
-        last_(scene.contacts.size()), now_(last_), mixed_(last_) {
+      : sampler_(sampler), grid_(grid), size_(static_cast<std::size_t>(scene.system.size())), q_(size_),
+        v_(size_), load_(size_), last_(scene.contacts.size()), now_(last_), mixed_(last_) {
     if (!sampler)
       grid_.count = 0;
   }
@@ -59,7 +60,8 @@ public:
     }
   }
 
-  /// After the last record: the instants up to the end, their forces between it and one more, which nobody else sees.
+  /// After the last record: the instants up to the end, their forces between it and one more, which nobody
+  /// else sees.
   void finish(Scheme& scheme) {
     states(scheme, std::numeric_limits<double>::infinity());
     if (first_ < next_)
@@ -85,8 +87,8 @@ private:
     for (std::size_t c = 0; c < now_.size(); ++c) {
       const ContactForce &a = last_[c], &b = now_[c];
       const ContactForce& direction = b.normal > 0.0 ? b : a;
-      mixed_[c] = {a.normal + share * (b.normal - a.normal), a.friction + share * (b.friction - a.friction), direction.ny,
-                   direction.nz};
+      mixed_[c] = {a.normal + share * (b.normal - a.normal), a.friction + share * (b.friction - a.friction),
+                   direction.ny, direction.nz};
     }
     return mixed_;
   }
@@ -106,8 +108,8 @@ OutputGrid output_grid(double duration, double every) {
   return {every, static_cast<std::int64_t>(std::floor(duration / every * (1.0 + 1e-12) + 1e-9)) + 1};
 }
 
-Report run(const Scene& scene, const StepChoice& choice, std::span<Observer* const> observers, Sampler* sampler,
-           const OutputGrid& grid) {
+Report run(const Scene& scene, const StepChoice& choice, std::span<Observer* const> observers,
+           Sampler* sampler, const OutputGrid& grid) {
   const std::unique_ptr<Scheme> scheme = make_scheme(scene, choice);
   OutputQueue outputs(scene, sampler, grid);
   Report report;

@@ -27,14 +27,17 @@ public:
   virtual ~Sampler() = default;
   /// State at output `index`.
   virtual void state(std::int64_t index, double time, const double* q, const double* v) = 0;
-  /// Afterwards, for the same output: modal force of the loads, and the contacts' forces (linear between the steps around it).
-  virtual void forces(std::int64_t index, double time, const double* load, std::span<const ContactForce> contacts) = 0;
+  /// Afterwards, for the same output: modal force of the loads, and the contacts' forces (linear between the
+  /// steps around it).
+  virtual void forces(std::int64_t index, double time, const double* load,
+                      std::span<const ContactForce> contacts) = 0;
 };
 
-/// The output instants of a run: from the steps' own continuous extension, the step is never changed for them.
+/// The output instants of a run: from the steps' own continuous extension, the step is never changed for
+/// them.
 struct OutputGrid {
-  double every = 0.0;      ///< s, > 0
-  std::int64_t count = 0;  ///< instants, the one at t = 0 included
+  double every = 0.0;     ///< s, > 0
+  std::int64_t count = 0; ///< instants, the one at t = 0 included
 };
 [[nodiscard]] OutputGrid output_grid(double duration, double every);
 
@@ -42,17 +45,17 @@ enum class Outcome { done, diverged };
 
 struct Report {
   Outcome outcome = Outcome::done;
-  double end_time = 0.0;            ///< s: of the last step
+  double end_time = 0.0; ///< s: of the last step
   std::int64_t steps = 0;
-  std::int64_t evaluations = 0;     ///< of the contact forces
-  std::int64_t unconverged = 0;     ///< steps whose coupled contact forces missed their tolerance
-  Energy energy;                    ///< at the last step
-  double residual_relative = 0.0;   ///< largest |residual| over largest throughput
+  std::int64_t evaluations = 0;   ///< of the contact forces
+  std::int64_t unconverged = 0;   ///< steps whose coupled contact forces missed their tolerance
+  Energy energy;                  ///< at the last step
+  double residual_relative = 0.0; ///< largest |residual| over largest throughput
 };
 
 /// Runs the scene with the step chosen. No allocation, no exception and no output in the loop.
 /// Diverged: the energy is not finite, or has grown far beyond all that was put in.
-[[nodiscard]] Report run(const Scene& scene, const StepChoice& choice, std::span<Observer* const> observers, Sampler* sampler,
-                         const OutputGrid& grid);
+[[nodiscard]] Report run(const Scene& scene, const StepChoice& choice, std::span<Observer* const> observers,
+                         Sampler* sampler, const OutputGrid& grid);
 
 } // namespace fretwork::transient

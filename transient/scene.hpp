@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// All that a transient needs, in modal coordinates: q_i'' + c_i q_i' + k_i q_i = sum of loads + sum over contacts of (B^T f)_i.
+/// All that a transient needs, in modal coordinates: q_i'' + c_i q_i' + k_i q_i = sum of loads + sum over
+/// contacts of (B^T f)_i.
 #pragma once
 #include "contact/support.hpp"
 #include "core/types.hpp"

@@ -13,23 +13,25 @@ namespace fretwork::transient {
 
 /// One contact at a step.
 struct ContactState {
-  double normal_force = 0.0;     ///< N, >= 0
-  double ny = 0.0, nz = 0.0;     ///< normal, local axes
-  contact::Vec2 friction;        ///< N, along x_loc and t = n x x_loc, on the node
-  contact::Vec2 displacement;    ///< m, tangential over the step
-  double friction_work = 0.0;    ///< J over the step, by the slider
-  double damper_work = 0.0;      ///< J over the step, by the normal and tangential dampers
-  double approach = 0.0;         ///< m/s, speed towards the obstacle before the step's force acts
+  double normal_force = 0.0;  ///< N, >= 0
+  double ny = 0.0, nz = 0.0;  ///< normal, local axes
+  contact::Vec2 friction;     ///< N, along x_loc and t = n x x_loc, on the node
+  contact::Vec2 displacement; ///< m, tangential over the step
+  double friction_work = 0.0; ///< J over the step, by the slider
+  double damper_work = 0.0;   ///< J over the step, by the normal and tangential dampers
+  double approach = 0.0;      ///< m/s, speed towards the obstacle before the step's force acts
   bool slides = false;
 };
 
-/// Energy, J, at the instant of a record: load_work = stored - initial + modal_damping + contact_damping + friction + residual.
+/// Energy, J, at the instant of a record: load_work = stored - initial + modal_damping + contact_damping +
+/// friction + residual.
 struct Energy {
-  double initial = 0.0;         ///< kinetic, strain and contact energy at t = 0
-  double load_work = 0.0;       ///< by loads and base motion
-  double stored = 0.0;          ///< kinetic + strain + contact springs
+  double initial = 0.0;   ///< kinetic, strain and contact energy at t = 0
+  double load_work = 0.0; ///< by loads and base motion
+  double stored = 0.0;    ///< kinetic + strain + contact springs
   double modal_damping = 0.0;
-  double contact_damping = 0.0; ///< normal and tangential dampers, what the positive part cuts, what a spring gives up after opening
+  double contact_damping = 0.0; ///< normal and tangential dampers, what the positive part cuts, what a spring
+                                ///< gives up after opening
   double friction = 0.0;        ///< Coulomb sliders
   double throughput = 0.0;      ///< initial + integral of |load power|: what the residual is measured against
   [[nodiscard]] double residual() const {
@@ -40,23 +42,26 @@ struct Energy {
 /// What observers see of a step. Positions, forces and energies belong to `time`.
 struct Record {
   double time = 0.0;
-  double step = 0.0;                 ///< s, the length of time this record stands for
-  const double* q = nullptr;         ///< modal displacements, padded with zeros
+  double step = 0.0;         ///< s, the length of time this record stands for
+  const double* q = nullptr; ///< modal displacements, padded with zeros
   int contacts = 0;
-  const double* uy = nullptr;        ///< displacement of contact i along y_loc, m; padded with zeros to a multiple of 8
+  const double* uy =
+      nullptr; ///< displacement of contact i along y_loc, m; padded with zeros to a multiple of 8
   const double* uz = nullptr;
   std::span<const ContactState> states;
-  std::span<const int> active;       ///< numbers of the contacts whose normal force is not zero
+  std::span<const int> active; ///< numbers of the contacts whose normal force is not zero
   Energy energy;
 };
 
-/// A time scheme set up for one scene and one step. It advances from record to record; no allocation after construction.
+/// A time scheme set up for one scene and one step. It advances from record to record; no allocation after
+/// construction.
 class Scheme {
 public:
   virtual ~Scheme() = default;
   /// Advances to the next record: the first call gives the first one.
   virtual const Record& advance() = 0;
-  /// State at `time` between the last record and the next (before the first call: between 0 and the first). Arrays of n values.
+  /// State at `time` between the last record and the next (before the first call: between 0 and the first).
+  /// Arrays of n values.
   virtual void state_at(double time, double* q, double* v) = 0;
   /// Modal force of the loads at a time, n values.
   virtual void load_at(double time, double* force) = 0;

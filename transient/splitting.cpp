@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Strang splitting of the modal motion and the contact forces, order 2 in displacement, velocity and force, with damping and friction.
+/// Strang splitting of the modal motion and the contact forces, order 2 in displacement, velocity and force,
+/// with damping and friction.
 ///
-/// Between instants t_k = (k + 1/2) h the modes move freely: exact flow, loads linear in time (oscillator.hpp). At t_k the contacts act once
-/// for the whole step, u being continuous and the velocity jumping from v- to v+:
+/// Between instants t_k = (k + 1/2) h the modes move freely: exact flow, loads linear in time
+/// (oscillator.hpp). At t_k the contacts act once for the whole step, u being continuous and the velocity
+/// jumping from v- to v+:
 ///     v+ = v- + h B^T f,    w = B (v- + v+)/2 = B v- + (h/2) W f,    W = B B^T
-///     normal    p -+ theta h p'/2: mean penetration P over the step, its open part counted as 0 (theta = 0.7; p' from v-)
+///     normal    p -+ theta h p'/2: mean penetration P over the step, its open part counted as 0 (theta =
+///     0.7; p' from v-)
 ///               F_N = <K_N P + C_N p'(w)>+     explicit in position, implicit in velocity
 ///     friction  step_friction with the mean velocity w, implicit
 /// The forces of all closed contacts are found together by Gauss-Seidel sweeps on w.
-/// Stability: w_c h < 2, w_c^2 the largest eigenvalue of K_N^1/2 W K_N^1/2; h w_max away from multiples of pi. Accuracy asks for less
-/// (step_rule.hpp). Cost: one evaluation of the contacts a step.
-/// Energy: the work of each action h f.w and of each flow are exact; the ledger's residual is what the contact laws' discrete work lacks.
+/// Stability: w_c h < 2, w_c^2 the largest eigenvalue of K_N^1/2 W K_N^1/2; h w_max away from multiples of
+/// pi. Accuracy asks for less (step_rule.hpp). Cost: one evaluation of the contacts a step. Energy: the work
+/// of each action h f.w and of each flow are exact; the ledger's residual is what the contact laws' discrete
+/// work lacks.
 #include "transient/load_sum.hpp"
 #include "transient/oscillator.hpp"
 #include "transient/packed_contacts.hpp"
@@ -22,13 +26,14 @@
 namespace fretwork::transient {
 namespace {
 
-/// Share of the step over which the penetration is averaged with the velocity before the action. Between 0 (mean force too high) and 1 (too
-/// low) at w_c h near 1; below w_c h = 0.4 its effect is less than 1 %.
+/// Share of the step over which the penetration is averaged with the velocity before the action. Between 0
+/// (mean force too high) and 1 (too low) at w_c h near 1; below w_c h = 0.4 its effect is less than 1 %.
 constexpr double window = 0.7;
 /// Sweeps stop when no force changes by more than this share of its bound: far below the law's own accuracy.
 constexpr double sweep_tolerance = 1e-6;
 constexpr int most_sweeps = 60;
-/// A spring that has relaxed to this share of what it had when its contact opened is forgotten (round-off of the energy).
+/// A spring that has relaxed to this share of what it had when its contact opened is forgotten (round-off of
+/// the energy).
 constexpr double forgotten = 1e-12;
 
 /// What a contact needs in the step besides its state.
@@ -42,13 +47,14 @@ struct Memory {
   contact::FrictionMemory friction;
   contact::Vec2 force;       ///< friction of the step that committed it: a good first guess for the next
   double ny = 0.0, nz = 0.0; ///< normal when it was committed
-  double left = 0.0;         ///< share of the spring's force left since the contact opened; 0: nothing remembered
+  double left = 0.0; ///< share of the spring's force left since the contact opened; 0: nothing remembered
 };
 
 kernels::FlowTable flow_table(const System& system, double h) {
   kernels::FlowTable t;
   const auto n = static_cast<std::size_t>(kernels::padded(static_cast<int>(system.size())));
-  for (kernels::Array* a : {&t.qq, &t.qv, &t.qf0, &t.qf1, &t.vq, &t.vv, &t.vf0, &t.vf1, &t.mq, &t.mv, &t.mf0, &t.mf1})
+  for (kernels::Array* a :
+       {&t.qq, &t.qv, &t.qf0, &t.qf1, &t.vq, &t.vv, &t.vf0, &t.vf1, &t.mq, &t.mv, &t.mf0, &t.mf1})
     a->assign(n, 0.0);
   for (Eigen::Index j = 0; j < system.size(); ++j) {
     const StepCoefficients s = step_coefficients(system.stiffness(j), system.damping(j), h);
@@ -89,8 +95,10 @@ public:
     for (const auto& support : contacts_.supports)
       tables_.push_back(contact::friction_table(support.friction, h_));
     loads_.at(0.0, f_now_.data());
-    const double moving = 0.5 * kernels::twice_energy(contacts_.padded_modes, k_.data(), q_.data(), v_.data());
-    kernels::gather(contacts_.modes, contacts_.stride(), contacts_.gather.data(), q_.data(), v_.data(), u_.data(), w_.data());
+    const double moving =
+        0.5 * kernels::twice_energy(contacts_.padded_modes, k_.data(), q_.data(), v_.data());
+    kernels::gather(contacts_.modes, contacts_.stride(), contacts_.gather.data(), q_.data(), v_.data(),
+                    u_.data(), w_.data());
     record_.energy.initial = record_.energy.throughput = moving + contact_energy();
     after_action_ = moving;
     record_.contacts = contacts_.count;
@@ -109,8 +117,9 @@ public:
   }
 
   void state_at(double time, double* q, double* v) override {
-    // Exact flow from the last action under the load's slope of the step under way. The action stands for a force f over the step around it:
-    // its impulse is spread out, so that the velocity is of order 2 at any instant and not only in the middle between two actions.
+    // Exact flow from the last action under the load's slope of the step under way. The action stands for a
+    // force f over the step around it: its impulse is spread out, so that the velocity is of order 2 at any
+    // instant and not only in the middle between two actions.
     const double t = time - time_, span = next_time() - time_;
     if (!loads_.empty())
       loads_.at(next_time(), f_next_.data());
@@ -126,7 +135,8 @@ public:
       for (Eigen::Index j = 0; j < system_.size(); ++j) {
         const double impulse = factor_[r] * row_[r][j];
         v[j] += share * impulse;
-        q[j] += 0.5 * (share * share - 0.25) * h_ * impulse; // nothing at the actions, where the forces are made from q
+        q[j] += 0.5 * (share * share - 0.25) * h_ *
+                impulse; // nothing at the actions, where the forces are made from q
       }
   }
 
@@ -157,14 +167,16 @@ private:
         f_next_ = f_now_;
       else
         loads_.at(time_, f_next_.data());
-      work = kernels::flow_loaded(contacts_.padded_modes, table, q_.data(), v_.data(), f_now_.data(), f_next_.data());
+      work = kernels::flow_loaded(contacts_.padded_modes, table, q_.data(), v_.data(), f_now_.data(),
+                                  f_next_.data());
       f_now_.swap(f_next_);
     }
     moving_ = 0.5 * kernels::twice_energy(contacts_.padded_modes, k_.data(), q_.data(), v_.data());
     Energy& energy = record_.energy;
     energy.load_work += work;
     energy.throughput += std::abs(work);
-    energy.modal_damping += work - (moving_ - after_action_); // the flow is exact: what the load gave and the modes did not keep
+    energy.modal_damping +=
+        work - (moving_ - after_action_); // the flow is exact: what the load gave and the modes did not keep
     after_action_ = moving_;
     record_.time = time_;
     record_.energy.stored = moving_;
@@ -174,7 +186,8 @@ private:
   void act() {
     if (contacts_.count == 0)
       return;
-    kernels::gather(contacts_.modes, contacts_.stride(), contacts_.gather.data(), q_.data(), v_.data(), u_.data(), w_.data());
+    kernels::gather(contacts_.modes, contacts_.stride(), contacts_.gather.data(), q_.data(), v_.data(),
+                    u_.data(), w_.data());
     for (const int c : active_)
       states_[c] = {};
     active_.clear();
@@ -183,9 +196,10 @@ private:
     factor_.clear();
     const double springs_before = springs_;
     const int width = contacts_.width;
-    const bool any = kernels::near(width, u_.data(), u_.data() + width, w_.data(), w_.data() + width, contacts_.rest_y.data(),
-                                   contacts_.rest_z.data(), contacts_.reach_y.data(), contacts_.reach_z.data(),
-                                   contacts_.reach_limit.data(), 0.5 * window * h_, near_.data());
+    const bool any = kernels::near(width, u_.data(), u_.data() + width, w_.data(), w_.data() + width,
+                                   contacts_.rest_y.data(), contacts_.rest_z.data(), contacts_.reach_y.data(),
+                                   contacts_.reach_z.data(), contacts_.reach_limit.data(), 0.5 * window * h_,
+                                   near_.data());
     double stored = 0.0;
     if (any)
       for (int c = 0; c < contacts_.count; ++c)
@@ -200,10 +214,11 @@ private:
         work += close(c);
         jump += velocity_jump(c);
       }
-      kernels::scatter(contacts_.padded_modes, static_cast<int>(row_.size()), row_.data(), factor_.data(), v_.data());
+      kernels::scatter(contacts_.padded_modes, static_cast<int>(row_.size()), row_.data(), factor_.data(),
+                       v_.data());
     }
-    // The record stands in the middle of the action: half of its losses belong to it, and its velocity is (v- + v+)/2, whose energy is
-    // moving + work/2 - (h^2/8) f.W.f.
+    // The record stands in the middle of the action: half of its losses belong to it, and its velocity is (v-
+    // + v+)/2, whose energy is moving + work/2 - (h^2/8) f.W.f.
     Energy& energy = record_.energy;
     energy.contact_damping = contact_damping_ + 0.5 * step_damping_;
     energy.friction = friction_ + 0.5 * step_friction_;
@@ -214,11 +229,13 @@ private:
     after_action_ = moving_ + work;
   }
 
-  /// A contact near its obstacle: its place, and whether it is shut in this step. Returns the energy of its normal spring.
+  /// A contact near its obstacle: its place, and whether it is shut in this step. Returns the energy of its
+  /// normal spring.
   double meet(int c) {
     const contact::Support& support = contacts_.supports[c];
     const int width = contacts_.width;
-    const auto at = contact::locate(support.obstacle, u_[c] + contacts_.rest_y[c], u_[width + c] + contacts_.rest_z[c]);
+    const auto at =
+        contact::locate(support.obstacle, u_[c] + contacts_.rest_y[c], u_[width + c] + contacts_.rest_z[c]);
     const double p = -at.gap;
     const double rate = -(at.ny * w_[c] + at.nz * w_[width + c]);
     const double reach = 0.5 * window * h_ * rate;
@@ -233,7 +250,8 @@ private:
     Working& work = working_[c];
     work.mean = mean;
     const double half = 0.5 * h_;
-    const double yy = contacts_.own_mobility(c, 0, 0), yz = contacts_.own_mobility(c, 0, 1), zz = contacts_.own_mobility(c, 1, 1);
+    const double yy = contacts_.own_mobility(c, 0, 0), yz = contacts_.own_mobility(c, 0, 1),
+                 zz = contacts_.own_mobility(c, 1, 1);
     work.damped = half * (at.ny * at.ny * yy + 2.0 * at.ny * at.nz * yz + at.nz * at.nz * zz);
     if (support.friction.active()) { // t = (nz, -ny)
       const double xy = contacts_.own_mobility(c, 2, 0), xz = contacts_.own_mobility(c, 2, 1);
@@ -279,7 +297,8 @@ private:
     bool coupled = false;
     for (const int c : shut_) {
       const contact::Support& support = contacts_.supports[c];
-      const double normal = contact::step_normal(support.normal, working_[c].mean, states_[c].approach, working_[c].damped);
+      const double normal =
+          contact::step_normal(support.normal, working_[c].mean, states_[c].approach, working_[c].damped);
       const contact::Vec2 guess = memory_[c].left == 1.0 ? memory_[c].force : contact::Vec2{};
       const double bound = support.friction.mu_dynamic * normal, size = contact::norm(guess);
       change(c, normal, size > bound ? (bound / size) * guess : guess);
@@ -328,7 +347,8 @@ private:
     const contact::Mobility& a = working_[c].slip;
     const contact::Vec2 slip = slip_velocity(c), f = states_[c].friction;
     if (contacts_.components == 2)
-      return contact::step_friction_line(law, tables_[c], memory_[c].friction, normal_force, slip.t - a.tt * f.t, a.tt);
+      return contact::step_friction_line(law, tables_[c], memory_[c].friction, normal_force,
+                                         slip.t - a.tt * f.t, a.tt);
     const contact::Vec2 free{slip.x - a.xx * f.x - a.xt * f.t, slip.t - a.xt * f.x - a.tt * f.t};
     return contact::step_friction_plane(law, tables_[c], memory_[c].friction, normal_force, free, a);
   }
@@ -364,8 +384,8 @@ private:
       state.displacement = h_ * slip_velocity(c);
       work += contact::dot(state.friction, state.displacement);
       const double before = contact::spring_energy(support.friction, memory.friction);
-      const auto step = contact::close_step(support.friction, tables_[c], memory.friction, {state.friction, state.slides},
-                                            state.displacement);
+      const auto step = contact::close_step(support.friction, tables_[c], memory.friction,
+                                            {state.friction, state.slides}, state.displacement);
       springs_ += contact::spring_energy(support.friction, step.memory) - before;
       if (!(memory.left > 0.0))
         remember(c);
@@ -389,9 +409,12 @@ private:
   /// h f.(w - B v-) of one contact; over all contacts (h^2/2) f.W.f.
   [[nodiscard]] double velocity_jump(int c) const {
     const ContactState& s = states_[c];
-    const auto change = [&](int component) { return w_[component * contacts_.width + c] - before_[component * contacts_.width + c]; };
+    const auto change = [&](int component) {
+      return w_[component * contacts_.width + c] - before_[component * contacts_.width + c];
+    };
     const double along_x = contacts_.components == 3 ? s.friction.x * change(2) : 0.0;
-    return h_ * ((s.normal_force * s.ny + s.friction.t * s.nz) * change(0) + (s.normal_force * s.nz - s.friction.t * s.ny) * change(1) + along_x);
+    return h_ * ((s.normal_force * s.ny + s.friction.t * s.nz) * change(0) +
+                 (s.normal_force * s.nz - s.friction.t * s.ny) * change(1) + along_x);
   }
 
   void remember(int c) {
@@ -429,22 +452,26 @@ private:
   std::int64_t steps_ = 0, unconverged_ = 0;
   double time_ = 0.0;
   kernels::Array q_, v_, k_, f_now_, f_next_;
-  kernels::Array u_, w_, before_, near_; ///< contact lanes: displacement; velocity, mean and before the action
+  kernels::Array u_, w_, before_,
+      near_; ///< contact lanes: displacement; velocity, mean and before the action
   std::vector<ContactState> states_;
   std::vector<Working> working_;
   std::vector<Memory> memory_;
-  std::vector<int> active_, shut_, remembering_; ///< contacts with force; with a solve in this step; with a tangential memory
+  std::vector<int> active_, shut_,
+      remembering_; ///< contacts with force; with a solve in this step; with a tangential memory
   std::vector<const double*> row_;
   std::vector<double> factor_;
 
   Record record_;
-  double moving_ = 0.0, after_action_ = 0.0;               ///< modal energy before and after the action
-  double springs_ = 0.0;                                   ///< energy of the tangential springs
+  double moving_ = 0.0, after_action_ = 0.0; ///< modal energy before and after the action
+  double springs_ = 0.0;                     ///< energy of the tangential springs
   double contact_damping_ = 0.0, friction_ = 0.0, step_damping_ = 0.0, step_friction_ = 0.0;
 };
 
 } // namespace
 
-std::unique_ptr<Scheme> make_splitting(const Scene& scene, double step) { return std::make_unique<Splitting>(scene, step); }
+std::unique_ptr<Scheme> make_splitting(const Scene& scene, double step) {
+  return std::make_unique<Splitting>(scene, step);
+}
 
 } // namespace fretwork::transient

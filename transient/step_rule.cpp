@@ -11,12 +11,15 @@
 namespace fretwork::transient {
 namespace {
 
-constexpr double least_steps = 100.0;          ///< per run
-constexpr double least_contact_steps = 20000;  ///< per run with contacts: they take milliseconds, and single impacts come out to 1e-4
-constexpr double points_per_period = 20.0;     ///< of the excitation
-constexpr double resolved = 1.0;               ///< above this value of w_c h statistics are wrong however stable the run (doc/schemes.md)
+constexpr double least_steps = 100.0; ///< per run
+constexpr double least_contact_steps =
+    20000; ///< per run with contacts: they take milliseconds, and single impacts come out to 1e-4
+constexpr double points_per_period = 20.0; ///< of the excitation
+constexpr double resolved =
+    1.0; ///< above this value of w_c h statistics are wrong however stable the run (doc/schemes.md)
 
-/// Largest eigenvalue of D B B^T D over the rows chosen, D the square roots of the weights: that of the smaller of the two products.
+/// Largest eigenvalue of D B B^T D over the rows chosen, D the square roots of the weights: that of the
+/// smaller of the two products.
 double largest_eigenvalue(const Eigen::MatrixXd& rows) {
   if (rows.rows() == 0)
     return 0.0;
@@ -58,7 +61,9 @@ double structure_rate(const System& system) {
     return 0.0;
   if (system.damping_matrix.size() == 0)
     return system.damping.maxCoeff();
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(system.damping_matrix, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(system.damping_matrix, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .maxCoeff();
 }
 
 struct Term {
@@ -75,7 +80,8 @@ std::vector<Term> terms(const StepChoice& c) {
       out.push_back({factor / rate, reason});
   };
   add(1.0, c.contact_frequency, fmt::format("the contact frequency {:.4g} rad/s", c.contact_frequency));
-  add(1.0, c.stick_frequency, fmt::format("the frequency of sticking contacts {:.4g} rad/s", c.stick_frequency));
+  add(1.0, c.stick_frequency,
+      fmt::format("the frequency of sticking contacts {:.4g} rad/s", c.stick_frequency));
   add(damper, c.damper_rate, fmt::format("the tangential dampers' rate {:.4g} 1/s", c.damper_rate));
   add(1.0, c.explicit_rate, fmt::format("the dampers' rate {:.4g} 1/s", c.explicit_rate));
   add(mode, c.highest_mode, fmt::format("the highest mode {:.4g} rad/s", c.highest_mode));
@@ -85,9 +91,10 @@ std::vector<Term> terms(const StepChoice& c) {
 void warn(StepChoice& c) {
   const auto add = [&](double value, double limit, const char* name, const char* what) {
     if (value > limit)
-      c.warnings.push_back(fmt::format("the step {:.3g} s does not resolve {}: {} = {:.3g}, at most {} for results that can be "
-                                       "trusted; take a smaller step or leave it out",
-                                       c.step, what, name, value, limit));
+      c.warnings.push_back(fmt::format(
+          "the step {:.3g} s does not resolve {}: {} = {:.3g}, at most {} for results that can be "
+          "trusted; take a smaller step or leave it out",
+          c.step, what, name, value, limit));
   };
   const bool splitting = c.scheme == SchemeKind::splitting;
   add(c.contact_frequency * c.step, resolved, "w_c h", "the contact frequency");
@@ -114,17 +121,23 @@ StepChoice choose_step(const Scene& scene, const StepOptions& options) {
   const bool full_damping = scene.system.damping_matrix.size() > 0;
   c.scheme = options.scheme.value_or(full_damping ? SchemeKind::euler : SchemeKind::splitting);
   if (full_damping && c.scheme == SchemeKind::splitting)
-    throw core::Error("scheme = \"splitting\" takes diagonal modal damping only, and the dampers of this study couple the modes; use "
+    throw core::Error("scheme = \"splitting\" takes diagonal modal damping only, and the dampers of this "
+                      "study couple the modes; use "
                       "scheme = \"euler\"");
   const auto stiffness_n = [](const contact::Support& s) { return s.normal.stiffness; };
-  const auto stiffness_t = [](const contact::Support& s) { return s.friction.active() ? s.friction.stiffness : 0.0; };
-  const auto damping_t = [](const contact::Support& s) { return s.friction.active() ? s.friction.damping : 0.0; };
+  const auto stiffness_t = [](const contact::Support& s) {
+    return s.friction.active() ? s.friction.stiffness : 0.0;
+  };
+  const auto damping_t = [](const contact::Support& s) {
+    return s.friction.active() ? s.friction.damping : 0.0;
+  };
   c.contact_frequency = std::sqrt(largest_eigenvalue(weighted_rows(scene, stiffness_n, normal_rows)));
   c.stick_frequency = std::sqrt(largest_eigenvalue(weighted_rows(scene, stiffness_t, tangent_rows)));
   c.damper_rate = largest_eigenvalue(weighted_rows(scene, damping_t, tangent_rows));
   if (c.scheme == SchemeKind::euler) {
     const auto damping_n = [](const contact::Support& s) { return s.normal.damping; };
-    c.explicit_rate = std::max(structure_rate(scene.system), largest_eigenvalue(weighted_rows(scene, damping_n, normal_rows)));
+    c.explicit_rate = std::max(structure_rate(scene.system),
+                               largest_eigenvalue(weighted_rows(scene, damping_n, normal_rows)));
   }
   if (scene.system.size() > 0)
     c.highest_mode = std::sqrt(scene.system.stiffness.maxCoeff());
@@ -142,7 +155,8 @@ StepChoice choose_step(const Scene& scene, const StepOptions& options) {
   const double least = scene.contacts.empty() ? least_steps : least_contact_steps;
   c.step = scene.duration / least;
   c.reason = fmt::format("a run has at least {} steps", least);
-  if (const double limit = c.excitation > 0.0 ? 1.0 / (points_per_period * c.excitation) : c.step; limit < c.step) {
+  if (const double limit = c.excitation > 0.0 ? 1.0 / (points_per_period * c.excitation) : c.step;
+      limit < c.step) {
     c.step = limit;
     c.reason = fmt::format("a twentieth of the shortest period of the excitation ({:.4g} Hz)", c.excitation);
   }

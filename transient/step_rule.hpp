@@ -3,15 +3,15 @@
 /// The time step and its reason.
 ///
 ///     h = eps min{ 1/w_c, 1/w_t, a/r_t, b/w_max },  eps = 0.5 sqrt(accuracy / 0.01)
-/// over the terms that exist, never above 1/20 of the shortest period of the excitation nor duration/100, with contacts duration/20000
-/// (so many steps take milliseconds):
-///     w_c    contact frequency: w_c^2 = largest eigenvalue of K_N^1/2 W K_N^1/2, W = B B^T over all normal directions of all contacts
-///     w_t    the same with K_T over the tangent directions
-///     r_t    rate of the tangential dampers, largest eigenvalue of C_T^1/2 W C_T^1/2
-///     w_max  highest mode
-/// a = 4 and b = 5 for the splitting scheme, 1 and 1 for explicit Euler (whose limits are r_t h < 1 and w_max h < 2). Euler also takes the
-/// other dampers explicitly and resolves them by 1/r_e (its limit: r_e h < 2):
-///     r_e    the largest of the rates of the structure's damping and of the normal dampers (C_N in place of C_T)
+/// over the terms that exist, never above 1/20 of the shortest period of the excitation nor duration/100,
+/// with contacts duration/20000 (so many steps take milliseconds):
+///     w_c    contact frequency: w_c^2 = largest eigenvalue of K_N^1/2 W K_N^1/2, W = B B^T over all normal
+///     directions of all contacts w_t    the same with K_T over the tangent directions r_t    rate of the
+///     tangential dampers, largest eigenvalue of C_T^1/2 W C_T^1/2 w_max  highest mode
+/// a = 4 and b = 5 for the splitting scheme, 1 and 1 for explicit Euler (whose limits are r_t h < 1 and w_max
+/// h < 2). Euler also takes the other dampers explicitly and resolves them by 1/r_e (its limit: r_e h < 2):
+///     r_e    the largest of the rates of the structure's damping and of the normal dampers (C_N in place of
+///     C_T)
 #pragma once
 #include "transient/scheme.hpp"
 #include <optional>
@@ -33,14 +33,15 @@ struct StepChoice {
   double contact_frequency = 0.0; ///< w_c, rad/s
   double stick_frequency = 0.0;   ///< w_t, rad/s
   double damper_rate = 0.0;       ///< r_t, 1/s
-  double explicit_rate = 0.0;     ///< r_e, 1/s: of the dampers that only Euler has to resolve; 0 with splitting
-  double highest_mode = 0.0;      ///< rad/s
-  double excitation = 0.0;        ///< Hz
-  std::string reason;             ///< one line for the user
+  double explicit_rate = 0.0; ///< r_e, 1/s: of the dampers that only Euler has to resolve; 0 with splitting
+  double highest_mode = 0.0;  ///< rad/s
+  double excitation = 0.0;    ///< Hz
+  std::string reason;         ///< one line for the user
   std::vector<std::string> warnings; ///< what a fixed step does not resolve
 };
 
-/// @throws core::Error where the scheme asked for cannot take the scene (a full damping matrix with splitting)
+/// @throws core::Error where the scheme asked for cannot take the scene (a full damping matrix with
+/// splitting)
 [[nodiscard]] StepChoice choose_step(const Scene& scene, const StepOptions& options);
 
 } // namespace fretwork::transient

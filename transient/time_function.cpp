@@ -12,7 +12,8 @@
 namespace fretwork::transient {
 namespace {
 
-/// Samples per period of the highest frequency: cubic Hermite interpolation between them errs by (2 pi / 32)^4 / 384 = 4e-6.
+/// Samples per period of the highest frequency: cubic Hermite interpolation between them errs by (2 pi /
+/// 32)^4 / 384 = 4e-6.
 constexpr double samples_per_period = 32.0;
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
@@ -20,7 +21,8 @@ struct FftwFree {
   void operator()(void* p) const { fftw_free(p); }
 };
 
-/// Two standard normal numbers by Box and Muller from the 53 upper bits of the generator: std::normal_distribution differs between libraries.
+/// Two standard normal numbers by Box and Muller from the 53 upper bits of the generator:
+/// std::normal_distribution differs between libraries.
 std::complex<double> normal_pair(std::mt19937_64& generator) {
   const auto uniform = [&] { return (static_cast<double>(generator() >> 11) + 0.5) * 0x1p-53; };
   const double radius = std::sqrt(-2.0 * std::log(uniform()));
@@ -50,7 +52,8 @@ Signal::Signal(const TimeFunction& function, double duration) : function_(functi
   const auto* random = std::get_if<Random>(&function);
   if (!random)
     return;
-  // Lines at multiples of 1/period; at least 8 of them in the band, so that a run shorter than the band's memory is still Gaussian.
+  // Lines at multiples of 1/period; at least 8 of them in the band, so that a run shorter than the band's
+  // memory is still Gaussian.
   const double period = std::max(1.05 * duration, 8.0 / (random->high - random->low));
   auto first = static_cast<std::size_t>(std::ceil(random->low * period));
   const auto last = static_cast<std::size_t>(std::floor(random->high * period));
@@ -83,7 +86,8 @@ double Signal::operator()(double time) const {
       return f.amplitude * std::sin(two_pi * f.frequency * time + f.phase);
     }
     double operator()(const Table& f) const {
-      const auto after = std::upper_bound(f.time.begin(), f.time.end(), time); // the first point later than `time`
+      const auto after =
+          std::upper_bound(f.time.begin(), f.time.end(), time); // the first point later than `time`
       if (after == f.time.begin())
         return f.value.front();
       if (after == f.time.end())
@@ -99,7 +103,8 @@ double Signal::operator()(double time) const {
       const double s = position - static_cast<double>(j);
       const double* p = &self.samples_[2 * j]; // value, slope, next value, next slope
       const double difference = p[2] - p[0];
-      return p[0] + s * (p[1] + s * (3.0 * difference - 2.0 * p[1] - p[3] + s * (p[1] + p[3] - 2.0 * difference)));
+      return p[0] +
+             s * (p[1] + s * (3.0 * difference - 2.0 * p[1] - p[3] + s * (p[1] + p[3] - 2.0 * difference)));
     }
   };
   return std::visit(Visitor{time, *this}, function_);

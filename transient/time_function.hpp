@@ -22,18 +22,19 @@ struct Harmonic {
   bool operator==(const Harmonic&) const = default;
 };
 
-/// Linear between the points, constant outside; two points of equal time make a jump (the second value holds from there).
+/// Linear between the points, constant outside; two points of equal time make a jump (the second value holds
+/// from there).
 struct Table {
   std::vector<double> time;  ///< s, not decreasing, at least one
   std::vector<double> value; ///< as many
   bool operator==(const Table&) const = default;
 };
 
-/// Band-limited Gaussian noise of zero mean: a flat spectrum between two frequencies. The realisation is fixed by the seed, the
-/// band and the duration of the run.
+/// Band-limited Gaussian noise of zero mean: a flat spectrum between two frequencies. The realisation is
+/// fixed by the seed, the band and the duration of the run.
 struct Random {
-  double rms;           ///< of the ensemble
-  double low, high;     ///< Hz, 0 <= low < high
+  double rms;       ///< of the ensemble
+  double low, high; ///< Hz, 0 <= low < high
   std::uint64_t seed = 1;
   bool operator==(const Random&) const = default;
 };
@@ -56,8 +57,9 @@ public:
 
 private:
   TimeFunction function_;
-  double grid_step_ = 0;        ///< s, spacing of the samples of a random signal
-  std::vector<double> samples_; ///< value and slope times grid_step, interleaved: cubic Hermite between samples
+  double grid_step_ = 0; ///< s, spacing of the samples of a random signal
+  std::vector<double>
+      samples_; ///< value and slope times grid_step, interleaved: cubic Hermite between samples
 };
 
 } // namespace fretwork::transient
