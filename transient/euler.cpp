@@ -18,7 +18,7 @@ namespace {
 class Euler final : public Scheme {
 public:
   Euler(const Scene& scene, double step)
-      : system_(scene.system), h_(step), loads_(scene.loads, scene.system.size(), scene.duration),
+      : system_(scene.system), h_(step), loads_(scene.loads, scene.system.size(), scene.duration, step),
         contacts_(scene.contacts, scene.system.size()) {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
     for (kernels::Array* a : {&q_, &v_, &k_, &c_, &load_, &force_, &before_q_, &before_v_, &scratch_})
@@ -80,7 +80,7 @@ public:
   }
 
   void load_at(double time, double* force) override {
-    loads_.at(time, scratch_.data());
+    loads_.instant(time, scratch_.data());
     std::copy_n(scratch_.begin(), system_.size(), force);
   }
 

@@ -4,8 +4,8 @@
 
 namespace fretwork::transient {
 
-LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double duration)
-    : padded_modes_(kernels::padded(static_cast<int>(modes))) {
+LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double duration, double step)
+    : padded_modes_(kernels::padded(static_cast<int>(modes))), step_(step) {
   std::vector<const TimeFunction*> functions;
   for (const Load& load : loads) {
     if (load.modal_force.isZero(0.0))
@@ -27,7 +27,17 @@ LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double dura
 
 void LoadSum::at(double time, double* force) {
   for (std::size_t s = 0; s < signals_.size(); ++s)
+    values_[s] = signals_[s].over_step(time, step_);
+  combine(force);
+}
+
+void LoadSum::instant(double time, double* force) {
+  for (std::size_t s = 0; s < signals_.size(); ++s)
     values_[s] = signals_[s](time);
+  combine(force);
+}
+
+void LoadSum::combine(double* force) const {
   kernels::combine(padded_modes_, static_cast<int>(signals_.size()), shapes_.data(), values_.data(), force);
 }
 

@@ -10,15 +10,21 @@ namespace fretwork::transient {
 
 class LoadSum {
 public:
-  LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double duration);
+  /// @param step  s: the force at a time stands for a step about it, so that what a table does inside a step keeps its impulse
+  LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double duration, double step);
   [[nodiscard]] bool empty() const { return signals_.empty(); }
   /// True where the force never changes.
   [[nodiscard]] bool constant() const { return constant_; }
-  /// Modal force at a time, padded. No allocation.
+  /// Modal force of the step about a time, padded. No allocation.
   void at(double time, double* force);
+  /// Modal force at an instant, padded. No allocation.
+  void instant(double time, double* force);
 
 private:
+  void combine(double* force) const;
+
   int padded_modes_;
+  double step_;
   bool constant_ = true;
   std::vector<Signal> signals_;
   kernels::Array shapes_, values_;

@@ -69,7 +69,7 @@ kernels::FlowTable flow_table(const System& system, double h) {
 class Splitting final : public Scheme {
 public:
   Splitting(const Scene& scene, double step)
-      : system_(scene.system), h_(step), loads_(scene.loads, scene.system.size(), scene.duration),
+      : system_(scene.system), h_(step), loads_(scene.loads, scene.system.size(), scene.duration, step),
         contacts_(scene.contacts, scene.system.size()), first_(flow_table(scene.system, 0.5 * step)),
         full_(flow_table(scene.system, step)) {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
@@ -145,7 +145,7 @@ public:
       std::fill_n(force, system_.size(), 0.0);
       return;
     }
-    loads_.at(time, f_next_.data());
+    loads_.instant(time, f_next_.data());
     std::copy_n(f_next_.data(), system_.size(), force);
   }
 

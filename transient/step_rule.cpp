@@ -12,11 +12,13 @@ namespace fretwork::transient {
 namespace {
 
 constexpr double least_steps = 100.0; ///< per run
-constexpr double least_contact_steps =
-    20000; ///< per run with contacts: they take milliseconds, and single impacts come out to 1e-4
-constexpr double points_per_period = 20.0; ///< of the excitation
-constexpr double resolved =
-    1.0; ///< above this value of w_c h statistics are wrong however stable the run (doc/schemes.md)
+/// Per run with contacts or loads that change: they take milliseconds, and single impacts come out to 1e-4.
+constexpr double least_changing_steps = 20000;
+constexpr double points_per_period = 20.0; ///< of the excitation, with contacts
+/// Without contacts nothing else limits the step: linear interpolation then errs by (2 pi/200)^2/12 = 8e-5.
+constexpr double linear_points_per_period = 200.0;
+/// Above this value of w_c h statistics are wrong however stable the run (doc/schemes.md).
+constexpr double resolved = 1.0;
 
 /// Largest eigenvalue of D B B^T D over the rows chosen, D the square roots of the weights: that of the
 /// smaller of the two products.
@@ -98,6 +100,7 @@ void warn(StepChoice& c) {
   };
   const bool splitting = c.scheme == SchemeKind::splitting;
   add(c.contact_frequency * c.step, resolved, "w_c h", "the contact frequency");
+  add(c.stick_frequency * c.step, resolved, "w_t h", "the frequency of sticking contacts");
   add(c.damper_rate * c.step, splitting ? 4.0 : 1.0, "r_t h", "the tangential dampers");
   add(c.explicit_rate * c.step, 1.0, "r_e h", "the dampers");
   add(c.highest_mode * c.step, splitting ? 3.0 : 1.8, "w_max h", "the highest mode");
@@ -152,13 +155,17 @@ StepChoice choose_step(const Scene& scene, const StepOptions& options) {
     return c;
   }
   const double eps = 0.5 * std::sqrt(options.accuracy / 0.01);
-  const double least = scene.contacts.empty() ? least_steps : least_contact_steps;
+  const bool steady = std::all_of(scene.loads.begin(), scene.loads.end(), [](const Load& load) {
+    return std::holds_alternative<Constant>(load.function);
+  });
+  const double least = scene.contacts.empty() && steady ? least_steps : least_changing_steps;
   c.step = scene.duration / least;
   c.reason = fmt::format("a run has at least {} steps", least);
-  if (const double limit = c.excitation > 0.0 ? 1.0 / (points_per_period * c.excitation) : c.step;
-      limit < c.step) {
+  const double points = scene.contacts.empty() ? linear_points_per_period : points_per_period;
+  if (const double limit = c.excitation > 0.0 ? 1.0 / (points * c.excitation) : c.step; limit < c.step) {
     c.step = limit;
-    c.reason = fmt::format("a twentieth of the shortest period of the excitation ({:.4g} Hz)", c.excitation);
+    c.reason =
+        fmt::format("{} points in the shortest period of the excitation ({:.4g} Hz)", points, c.excitation);
   }
   // Without contacts the flow of the splitting scheme is exact: only the loads ask for a step.
   if (c.scheme == SchemeKind::euler || !scene.contacts.empty())

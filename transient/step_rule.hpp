@@ -3,15 +3,17 @@
 /// The time step and its reason.
 ///
 ///     h = eps min{ 1/w_c, 1/w_t, a/r_t, b/w_max },  eps = 0.5 sqrt(accuracy / 0.01)
-/// over the terms that exist, never above 1/20 of the shortest period of the excitation nor duration/100,
-/// with contacts duration/20000 (so many steps take milliseconds):
+/// over the terms that exist, with:
 ///     w_c    contact frequency: w_c^2 = largest eigenvalue of K_N^1/2 W K_N^1/2, W = B B^T over all normal
-///     directions of all contacts w_t    the same with K_T over the tangent directions r_t    rate of the
-///     tangential dampers, largest eigenvalue of C_T^1/2 W C_T^1/2 w_max  highest mode
-/// a = 4 and b = 5 for the splitting scheme, 1 and 1 for explicit Euler (whose limits are r_t h < 1 and w_max
-/// h < 2). Euler also takes the other dampers explicitly and resolves them by 1/r_e (its limit: r_e h < 2):
-///     r_e    the largest of the rates of the structure's damping and of the normal dampers (C_N in place of
-///     C_T)
+///            directions of all contacts
+///     w_t    the same with K_T over the tangent directions
+///     r_t    rate of the tangential dampers, largest eigenvalue of C_T^1/2 W C_T^1/2
+///     w_max  highest mode
+/// a = 4 and b = 5 for the splitting scheme, 1 and 1 for explicit Euler (whose limits are r_t h < 1 and
+/// w_max h < 2). Euler also takes the other dampers explicitly and resolves them by 1/r_e (its limit: r_e h < 2):
+///     r_e    the largest of the rates of the structure's damping and of the normal dampers (C_N in place of C_T)
+/// Never above 1/20 of the shortest period of the excitation (without contacts 1/200), nor duration/20000
+/// (so many steps take milliseconds; duration/100 where neither contacts nor loads change anything).
 #pragma once
 #include "transient/scheme.hpp"
 #include <optional>

@@ -110,6 +110,31 @@ double Signal::operator()(double time) const {
   return std::visit(Visitor{time, *this}, function_);
 }
 
+double Signal::over_step(double time, double h) const {
+  if (const auto* table = std::get_if<Table>(&function_)) {
+    const double from = time - 0.5 * h, to = time + 0.5 * h;
+    const auto first = std::upper_bound(table->time.begin(), table->time.end(), from);
+    if (table->time.end() - first > 1 && *(first + 1) < to)
+      return mean(*table, from, to);
+  }
+  return (*this)(time);
+}
+
+double Signal::mean(const Table& table, double from, double to) const {
+  // trapezia between `from`, the table's points inside, and `to`; at a jump the value before it ends one and the value after starts the next
+  const auto& t = table.time;
+  auto i = static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), from) - t.begin());
+  double sum = 0.0, last_time = from, last_value = (*this)(from);
+  for (; i < t.size() && t[i] < to; ++i) {
+    sum += 0.5 * (last_value + table.value[i]) * (t[i] - last_time);
+    last_time = t[i];
+    last_value = table.value[i];
+  }
+  const bool ends_at_jump = i + 1 < t.size() && t[i] == to && t[i + 1] == to;
+  sum += 0.5 * (last_value + (ends_at_jump ? table.value[i] : (*this)(to))) * (to - last_time);
+  return sum / (to - from);
+}
+
 double highest_frequency(const TimeFunction& function) {
   if (const auto* harmonic = std::get_if<Harmonic>(&function))
     return harmonic->frequency;

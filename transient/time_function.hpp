@@ -52,10 +52,16 @@ public:
   /// Value at `time` (from the right at a jump). No allocation.
   [[nodiscard]] double operator()(double time) const;
 
+  /// Value that stands for a step of length h about `time`: the value there, but for a table with two points or more inside the step
+  /// (a jump, or points closer than steps) its mean over the step, which keeps its impulse. No allocation.
+  [[nodiscard]] double over_step(double time, double h) const;
+
   /// True where the value never changes.
   [[nodiscard]] bool is_constant() const { return std::holds_alternative<Constant>(function_); }
 
 private:
+  [[nodiscard]] double mean(const Table& table, double from, double to) const;
+
   TimeFunction function_;
   double grid_step_ = 0; ///< s, spacing of the samples of a random signal
   std::vector<double>

@@ -146,7 +146,7 @@ TEST(LoadSum, AddsLoadsWhateverTheyFollow) {
   const std::vector<Load> loads = {{same, Eigen::Vector3d(1, 2, 3)},
                                    {Constant{2.0}, Eigen::Vector3d(1, 0, 0)},
                                    {same, Eigen::Vector3d(10, 20, 30)}};
-  LoadSum sum(loads, 3, 1.0);
+  LoadSum sum(loads, 3, 1.0, 1e-3);
   kernels::Array force(8, -1.0);
   sum.at(0.05, force.data());
   const double s = std::sin(two_pi * 3.0 * 0.05);
@@ -159,14 +159,42 @@ TEST(LoadSum, AddsLoadsWhateverTheyFollow) {
   EXPECT_FALSE(sum.empty());
 }
 
+TEST(Signal, KeepsTheImpulseOfWhatATableDoesInsideAStep) {
+  constexpr double round_off = 1e-14;
+  const Signal spike(Table{{0.0, 0.41, 0.42, 0.43, 1.0}, {0.0, 0.0, 6.0, 0.0, 0.0}}, 1.0); // area 0.06
+  double impulse = 0.0;
+  for (int k = 0; k < 10; ++k)
+    impulse += 0.1 * spike.over_step(0.1 * k + 0.05, 0.1);
+  EXPECT_NEAR(impulse, 0.06, round_off);
+  const Signal jump(Table{{0.0, 0.25, 0.25, 1.0}, {1.0, 1.0, 5.0, 5.0}}, 1.0);
+  EXPECT_NEAR(jump.over_step(0.3, 0.2), 0.25 * 1.0 + 0.75 * 5.0, round_off);
+  EXPECT_EQ(jump.over_step(0.15, 0.1), 1.0); // before it
+  EXPECT_EQ(jump.over_step(0.31, 0.1), 5.0); // after it
+}
+
+TEST(Signal, LeavesASingleBendToTheInterpolationBetweenSteps) {
+  const Signal bend(Table{{0.0, 0.5, 1.0}, {0.0, 1.0, 0.0}}, 1.0);
+  EXPECT_EQ(bend.over_step(0.5, 0.1), 1.0);
+}
+
+TEST(LoadSum, TakesAnInstantAsItIsAndAStepByItsMean) {
+  LoadSum sum({{Table{{0.0, 0.5, 0.5, 1.0}, {0.0, 0.0, 2.0, 2.0}}, Eigen::Vector2d(1, 0)}}, 2, 1.0, 0.2);
+  kernels::Array force(8);
+  sum.instant(0.45, force.data());
+  EXPECT_EQ(force[0], 0.0);
+  sum.at(0.45, force.data());
+  EXPECT_NEAR(force[0], 0.5, 1e-14); // a quarter of the step is past the jump
+}
+
 TEST(LoadSum, KnowsWhenItIsConstantOrNothing) {
   const Load steady{Constant{2.0}, Eigen::Vector2d(1, 1)}, idle{Harmonic{1.0, 5.0}, Eigen::Vector2d::Zero()};
-  EXPECT_TRUE(LoadSum({steady}, 2, 1.0).constant());
-  EXPECT_TRUE(LoadSum({steady, idle}, 2, 1.0).constant()); // a load that moves no mode is left out
-  EXPECT_TRUE(LoadSum({idle}, 2, 1.0).empty());
-  EXPECT_TRUE(LoadSum({}, 2, 1.0).empty());
+  EXPECT_TRUE(LoadSum({steady}, 2, 1.0, 1e-3).constant());
+  EXPECT_TRUE(LoadSum({steady, idle}, 2, 1.0, 1e-3).constant()); // a load that moves no mode is left out
+  EXPECT_TRUE(LoadSum({idle}, 2, 1.0, 1e-3).empty());
+  EXPECT_TRUE(LoadSum({}, 2, 1.0, 1e-3).empty());
   LoadSum opposite(
-      {{Harmonic{1.0, 5.0}, Eigen::Vector2d(1, 2)}, {Harmonic{1.0, 5.0}, Eigen::Vector2d(-1, -2)}}, 2, 1.0);
+      {{Harmonic{1.0, 5.0}, Eigen::Vector2d(1, 2)}, {Harmonic{1.0, 5.0}, Eigen::Vector2d(-1, -2)}}, 2, 1.0,
+      1e-3);
   kernels::Array force(8);
   opposite.at(0.01, force.data());
   EXPECT_EQ(force[0], 0.0);
