@@ -117,8 +117,14 @@ double automatic_damping(const study::Contact& contact, const std::string& name,
         "damping; give tangential_damping a value",
         name));
   const double mass = 1.0 / largest;
-  return contact::automatic_tangential_damping(
+  const double damping = contact::automatic_tangential_damping(
       contact.tangential_stiffness, basis.omega(mode) * basis.omega(mode) * mass, mass, basis.damping(mode));
+  if (damping < 0.0)
+    throw core::Error(fmt::format(
+        "contact \"{}\": the automatic tangential damping is {:.4g} N s/m, below 0, because the mode that "
+        "moves it most is overdamped (ratio {:.3g}); give tangential_damping a value",
+        name, damping, basis.damping(mode)));
+  return damping;
 }
 
 void add_contact(const study::Contact& contact, const PlacedContact& placed, const modal::Basis& basis,
@@ -165,16 +171,17 @@ std::vector<NamedNode> observed_nodes(const study::Study& study, const mesh::Lin
 
 Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh, const BuiltModel& built) {
   Fields out;
-  for (std::size_t e = 0; e < study.loads.size(); ++e)
-    out.loads.push_back({study.loads[e].function,
-                         load_field(study.loads[e], fmt::format("[[loads]] entry {}", e + 1), mesh, built)});
+  for (std::size_t e = 0; e < study.loads.size(); ++e) {
+    const std::string name = fmt::format("[[loads]] entry {} on \"{}\"", e + 1, study.loads[e].group);
+    out.loads.push_back({name, study.loads[e].function, load_field(study.loads[e], name, mesh, built)});
+  }
+  const auto on_all_masses = [&](const core::Vec3& direction) {
+    return fem::mass_times(built.model, fem::translation_field(built.model, direction));
+  };
   if (study.gravity)
-    out.loads.push_back({transient::Constant{1.0},
-                         fem::mass_times(built.model, fem::translation_field(built.model, *study.gravity))});
+    out.loads.push_back({"[gravity]", transient::Constant{1.0}, on_all_masses(*study.gravity)});
   for (const auto& motion : study.base_motions)
-    out.loads.push_back(
-        {motion.acceleration,
-         -fem::mass_times(built.model, fem::translation_field(built.model, motion.direction))});
+    out.loads.push_back({"[[base_motion]]", motion.acceleration, -on_all_masses(motion.direction)});
   initial_field(study, mesh, built.model, out);
   return out;
 }

@@ -29,6 +29,7 @@ struct NamedNode {
 /// values a node).
 struct Fields {
   struct Load {
+    std::string name; ///< for messages
     transient::TimeFunction function;
     Eigen::VectorXd force;
   };

@@ -105,6 +105,13 @@ std::vector<BuiltScene> build_scenes(const study::Study& study, const mesh::Line
     out.warnings.insert(out.warnings.end(), scene.warnings.begin(), scene.warnings.end());
     out.notes.insert(out.notes.end(), scene.notes.begin(), scene.notes.end());
   }
+  for (std::size_t k = 0; k < fields.loads.size(); ++k) {
+    const auto idle = [&](const BuiltScene& scene) { return scene.scene.loads[k].modal_force.isZero(0.0); };
+    if (std::all_of(scenes.begin(), scenes.end(), idle))
+      out.warnings.push_back(
+          fmt::format("{} moves nothing: its nodes are restrained in its direction; apply it elsewhere",
+                      fields.loads[k].name));
+  }
   for (const NamedNode& node : nodes) {
     const auto has = [&](const modal::Basis& basis) { return basis.row_of(node.node) >= 0; };
     if (std::none_of(bases.begin(), bases.end(), has))
@@ -186,6 +193,11 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
           "the study has no [transient]; add it, or compute its modes with: fretwork modes STUDY");
     make_directory(inputs.directory);
   });
+  results::RunResults out;
+  out.timings.read = watch.lap();
+  progress.stage("mesh");
+  make_mesh_file(comm, inputs);
+  core::agree(comm, [&] { make_keys(request, inputs); });
   int current = first_rank && !request.force && up_to_date(inputs) ? 1 : 0;
   MPI_Bcast(&current, 1, MPI_INT, 0, comm);
   if (current && last == Stage::transient) {
@@ -196,10 +208,7 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
                     inputs.directory.string()));
   }
 
-  results::RunResults out;
-  out.timings.read = watch.lap();
-  progress.stage("mesh");
-  const mesh::LineMesh mesh = mesh_stage(comm, inputs, request.force);
+  const mesh::LineMesh mesh = mesh_stage(comm, inputs);
   out.timings.mesh = watch.lap();
   out.record = make_record(inputs, core::size(comm));
   BuiltModel built;
@@ -246,19 +255,20 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
   core::agree(comm, [&] {
     if (!first_rank || current) // the results of a whole run hold its modes too: `modes` leaves them
       return;
+    // whatever is interrupted from here on, no summary or report tells of other results than those in results.h5
+    for (const char* file : {"summary.json", "report.html"}) {
+      std::error_code ignored;
+      fs::remove(inputs.directory / file, ignored);
+    }
     results::write_archive(inputs.directory / "results.h5", out);
     out.timings.output = watch.lap();
     out.timings.total = watch.total();
     results::write_summary(inputs.directory / "summary.json", out);
   });
   std::string report_line;
-  if (first_rank && last == Stage::transient) {
-    std::error_code ignored;
-    fs::remove(inputs.directory / "report.html", ignored); // it told of other results
-    if (request.report) {
-      progress.stage("report");
-      report_line = make_report(inputs.directory);
-    }
+  if (first_rank && request.report && last == Stage::transient) {
+    progress.stage("report");
+    report_line = make_report(inputs.directory);
   }
   progress.stage("");
   say(results::terminal_table(out) + fmt::format("results: {}\n", inputs.directory.string()) + report_line);

@@ -186,6 +186,14 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
     for (const BuiltScene& built : scenes)
       choices.push_back(transient::choose_step(built.scene, options));
   });
+  core::agree(comm, [&] {
+    for (const auto& choice : choices)
+      if (study.output.statistics_from > study.transient->duration - 2.0 * choice.step)
+        throw core::Error(fmt::format(
+            "output.statistics_from = {} s leaves less than two steps of {:.3g} s before the end at {} s; "
+            "start the statistics earlier",
+            study.output.statistics_from, choice.step, study.transient->duration));
+  });
   std::vector<JobResult> jobs(scenes.size());
   const auto owner = [&](std::size_t s) { return static_cast<int>(s) % ranks; };
   std::int64_t all_steps = 0, done_steps = 0;

@@ -114,6 +114,8 @@ int main(int argc, char** argv) {
       if (speaks())
         fmt::print("{}", found);
     });
+  if ((report->parsed() || exporting->parsed()) && !speaks())
+    return 0; // one process writes the files
   if (report->parsed())
     return guarded([&] {
       app::write_report(directory);

@@ -23,21 +23,10 @@ namespace fs = std::filesystem;
 /// depend on the number of ranks.
 constexpr core::Index distribute_above = 300'000;
 
-std::string file_bytes(const fs::path& file, const char* what) {
+std::string file_bytes(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in)
-    throw core::Error(
-        fmt::format("{} \"{}\" cannot be read; check the path (relative paths start from the study's folder)",
-                    what, file.string()));
   return {std::istreambuf_iterator<char>(in), {}};
 }
-
-std::string stored_text(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return in ? std::string{std::istreambuf_iterator<char>(in), {}} : std::string{};
-}
-
-bool is_msh(const fs::path& file) { return file.extension() == ".msh"; }
 
 /// Gives every structure to a rank: the costliest first, to the rank with the least work so far.
 std::vector<int> share_out(const std::vector<fem::Structure>& structures, int ranks) {
@@ -72,41 +61,53 @@ Inputs read_inputs(const Request& request) {
   Inputs in;
   in.study = study::read(request.study, request.overrides);
   in.directory = request.directory.value_or(fs::path(in.study.file).replace_extension(".results"));
-  const auto text = [&](const std::vector<std::string>& tables) {
-    return study::canonical_text(request.study, request.overrides, tables);
-  };
-  const std::string version = FRETWORK_VERSION;
-  in.mesh_key =
-      core::sha256(version + "\n" + text({"mesh"}) + "\n" + file_bytes(in.study.mesh.file, "mesh file"));
-  in.modes_key =
-      core::sha256(in.mesh_key + "\n" +
-                   text({"materials", "sections", "beams", "restraints", "masses", "springs", "modes"}));
-  const std::string rest =
-      text({"title", "contacts", "loads", "gravity", "base_motion", "initial", "transient", "output"});
-  in.whole_key = core::sha256(in.modes_key + "\n" + rest);
+  in.mesh_file = in.study.mesh.file;
+  if (!std::ifstream(in.mesh_file))
+    throw core::Error(fmt::format(
+        "mesh file \"{}\" cannot be read; check the path (relative paths start from the study's folder)",
+        in.mesh_file.string()));
   return in;
 }
 
-mesh::LineMesh mesh_stage(MPI_Comm comm, const Inputs& inputs, bool force) {
-  mesh::Source source = inputs.study.mesh;
-  if (!is_msh(source.file)) {
-    const fs::path product = inputs.directory / "mesh.msh", key_file = inputs.directory / "mesh.key";
-    core::agree(comm, [&] {
-      if (core::rank(comm) != 0 ||
-          (!force && fs::exists(product) && stored_text(key_file) == inputs.mesh_key))
-        return;
-      results::write_whole(product, [&](const fs::path& temporary) {
-        if (mesh::is_geometry(source.file))
-          mesh::mesh_geometry(source, temporary);
-        else
-          mesh::convert_with_meshio(source.file, temporary);
-      });
-      results::write_whole(key_file,
-                           [&](const fs::path& temporary) { std::ofstream(temporary) << inputs.mesh_key; });
+void make_mesh_file(MPI_Comm comm, Inputs& inputs) {
+  const fs::path source = inputs.study.mesh.file;
+  if (source.extension() == ".msh")
+    return;
+  inputs.mesh_file = inputs.directory / "mesh.msh";
+  core::agree(comm, [&] {
+    if (core::rank(comm) != 0)
+      return;
+    const fs::path fresh = inputs.directory / "mesh.new.msh";
+    results::write_whole(fresh, [&](const fs::path& temporary) {
+      if (mesh::is_geometry(source))
+        mesh::mesh_geometry(inputs.study.mesh, temporary);
+      else
+        mesh::convert_with_meshio(source, temporary);
     });
-    source.file = product;
-    source.element_size.reset();
-  }
+    if (fs::exists(inputs.mesh_file) && file_bytes(fresh) == file_bytes(inputs.mesh_file))
+      fs::remove(fresh); // nothing has changed: the file keeps its date
+    else
+      fs::rename(fresh, inputs.mesh_file);
+  });
+}
+
+void make_keys(const Request& request, Inputs& inputs) {
+  const auto text = [&](const std::vector<std::string>& tables) {
+    return study::canonical_text(request.study, request.overrides, tables);
+  };
+  const std::string program = fmt::format("{} layout {}\n", FRETWORK_VERSION, results::file_layout);
+  inputs.modes_key = core::sha256(
+      program + file_bytes(inputs.mesh_file) +
+      text({"mesh", "materials", "sections", "beams", "restraints", "masses", "springs", "modes"}));
+  inputs.whole_key = core::sha256(inputs.modes_key + text({"title", "contacts", "loads", "gravity",
+                                                           "base_motion", "initial", "transient", "output"}));
+}
+
+mesh::LineMesh mesh_stage(MPI_Comm comm, const Inputs& inputs) {
+  mesh::Source source = inputs.study.mesh;
+  if (source.file != inputs.mesh_file)
+    source.element_size.reset(); // it has been obeyed
+  source.file = inputs.mesh_file;
   mesh::LineMesh mesh;
   core::agree(comm, [&] { mesh = mesh::read(source); });
   return mesh;
@@ -159,6 +160,16 @@ ModesStage modes_stage(MPI_Comm comm, const Inputs& inputs, const fem::Model& mo
     for (std::size_t s = 0; s < out.structures.size(); ++s)
       if (!distributed(out.structures[s]) && owner[s] == here)
         solve(MPI_COMM_SELF, s);
+  });
+  core::agree(comm, [&] {
+    for (std::size_t s = 0; s < out.structures.size(); ++s)
+      if ((distributed(out.structures[s]) || owner[s] == here) && out.bases[s].size() == 0)
+        throw core::Error(
+            inputs.study.modes.up_to_hz
+                ? fmt::format("no mode up to modes.up_to_hz = {} Hz; give a higher limit, or modes.count",
+                              *inputs.study.modes.up_to_hz)
+                : "a structure has no mode: nothing that moves has mass; give its material a density, "
+                  "or it a [[masses]] entry");
   });
   for (std::size_t s = 0; s < out.structures.size(); ++s) {
     out.bases[s].nodes = out.structures[s].nodes;

@@ -21,23 +21,31 @@ struct Request {
   bool quiet = false; ///< nothing on the terminal but errors
 };
 
-/// The study and the hashes of what it reads.
+/// The study and what identifies its inputs.
 struct Inputs {
   study::Study study;
   std::filesystem::path directory;
-  std::string mesh_key;  ///< of the mesh file and how it is read
-  std::string modes_key; ///< and of the model and its modes
-  std::string whole_key; ///< and of everything else: input_sha256
+  std::filesystem::path mesh_file; ///< the .msh that is read
+  std::string modes_key;           ///< hash of the mesh and of all that the modes depend on
+  std::string whole_key;           ///< and of everything else: input_sha256
 };
 
+/// The study; keys not yet made.
 /// @throws core::Error if the study, its mesh file or a table cannot be read
 [[nodiscard]] Inputs read_inputs(const Request& request);
 
-/// Collective. The mesh; a geometry or a foreign format is turned into DIR/mesh.msh first, by rank 0.
-[[nodiscard]] mesh::LineMesh mesh_stage(MPI_Comm comm, const Inputs& inputs, bool force);
+/// Collective. Rank 0 turns a geometry or a foreign format into DIR/mesh.msh: every time, because such files may include others (it takes
+/// a tenth of a second).
+void make_mesh_file(MPI_Comm comm, Inputs& inputs);
 
-/// The connected structures that can move.
-/// @throws core::Error where there is none
+/// The keys, from the mesh as it is read and the study without its comments and formatting.
+void make_keys(const Request& request, Inputs& inputs);
+
+/// Collective. The mesh.
+[[nodiscard]] mesh::LineMesh mesh_stage(MPI_Comm comm, const Inputs& inputs);
+
+/// The structures of a model that have something to solve.
+/// @throws core::Error where nothing can move, or a dof has neither mass nor restraint
 [[nodiscard]] std::vector<fem::Structure> moving_structures(const fem::Model& model);
 
 struct ModesStage {

@@ -9,6 +9,9 @@
 
 namespace fretwork::results {
 
+/// Number of the layout of the files: part of what tells whether stored results can be read. Raise it when the layout changes.
+inline constexpr int file_layout = 2;
+
 /// Calls `write` with a temporary name beside `file`, then renames. Removes the temporary file when `write`
 /// throws. Makes the folder where there is none.
 /// @throws core::Error if the folder cannot be written

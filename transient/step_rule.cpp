@@ -11,11 +11,14 @@
 namespace fretwork::transient {
 namespace {
 
-constexpr double least_steps = 100.0; ///< per run
-/// Per run with contacts or loads that change: they take milliseconds, and single impacts come out to 1e-4.
-constexpr double least_changing_steps = 20000;
-constexpr double points_per_period = 20.0; ///< of the excitation, with contacts
-/// Without contacts nothing else limits the step: linear interpolation then errs by (2 pi/200)^2/12 = 8e-5.
+/// Per run: they take milliseconds, single impacts come out to 1e-4, and statistics see the motion.
+constexpr double least_steps = 20000;
+/// More steps than this are a mistake in a value rather than a wish: days of computing.
+constexpr double most_steps = 1e12;
+/// A table whose points are closer than this share of the run does not rule the step: its mean over steps is taken.
+constexpr double finest_table = 1e-6;
+constexpr double points_per_period = 20.0; ///< of the excitation at accuracy 0.01, with contacts
+/// Without contacts little else limits the step: linear interpolation then errs by (2 pi/200)^2/12 = 8e-5.
 constexpr double linear_points_per_period = 200.0;
 /// Above this value of w_c h statistics are wrong however stable the run (doc/schemes.md).
 constexpr double resolved = 1.0;
@@ -69,25 +72,56 @@ double structure_rate(const System& system) {
 }
 
 struct Term {
-  double limit; ///< s, before eps
+  double limit; ///< s
   std::string reason;
 };
 
-std::vector<Term> terms(const StepChoice& c) {
-  const bool splitting = c.scheme == SchemeKind::splitting;
-  const double damper = splitting ? 4.0 : 1.0, mode = splitting ? 5.0 : 1.0;
+/// Shortest interval between points of the tables, s, those left out that are too fine to rule; 0 without tables.
+double table_interval(const Scene& scene) {
+  double shortest = 0.0;
+  for (const Load& load : scene.loads)
+    if (const auto* table = std::get_if<Table>(&load.function))
+      for (std::size_t i = 1; i < table->time.size(); ++i)
+        if (const double interval = table->time[i] - table->time[i - 1];
+            interval > finest_table * scene.duration && (shortest == 0.0 || interval < shortest))
+          shortest = interval;
+  return shortest;
+}
+
+/// What limits the step. `fineness` scales with the square root of the accuracy, 1 for 0.01.
+std::vector<Term> terms(const StepChoice& c, const Scene& scene, double fineness) {
+  const bool splitting = c.scheme == SchemeKind::splitting, contacts = !scene.contacts.empty();
+  const double eps = 0.5 * fineness;
   std::vector<Term> out;
   const auto add = [&](double factor, double rate, const std::string& reason) {
     if (rate > 0.0)
       out.push_back({factor / rate, reason});
   };
-  add(1.0, c.contact_frequency, fmt::format("the contact frequency {:.4g} rad/s", c.contact_frequency));
-  add(1.0, c.stick_frequency,
+  const double points = (contacts ? points_per_period : linear_points_per_period) / fineness;
+  add(1.0 / points, c.excitation, fmt::format("the excitation ({:.4g} Hz)", c.excitation));
+  if (const double interval = table_interval(scene); interval > 0.0)
+    out.push_back({interval, fmt::format("the shortest interval of a table ({:.4g} s)", interval)});
+  add(eps, c.contact_frequency, fmt::format("the contact frequency {:.4g} rad/s", c.contact_frequency));
+  add(eps, c.stick_frequency,
       fmt::format("the frequency of sticking contacts {:.4g} rad/s", c.stick_frequency));
-  add(damper, c.damper_rate, fmt::format("the tangential dampers' rate {:.4g} 1/s", c.damper_rate));
-  add(1.0, c.explicit_rate, fmt::format("the dampers' rate {:.4g} 1/s", c.explicit_rate));
-  add(mode, c.highest_mode, fmt::format("the highest mode {:.4g} rad/s", c.highest_mode));
+  add(eps * (splitting ? 4.0 : 1.0), c.damper_rate,
+      fmt::format("the tangential dampers' rate {:.4g} 1/s", c.damper_rate));
+  add(eps, c.explicit_rate, fmt::format("the dampers' rate {:.4g} 1/s", c.explicit_rate));
+  // without contacts the flow of the splitting scheme is exact: only the statistics need to see the modes, in about 20 points a period
+  const double mode = splitting ? (contacts ? 5.0 : 0.6) : 1.0;
+  add(eps * mode, c.highest_mode, fmt::format("the highest mode {:.4g} rad/s", c.highest_mode));
   return out;
+}
+
+/// @throws core::Error where there would be absurdly many
+std::int64_t count_steps(double duration, const StepChoice& c) {
+  const double steps = std::ceil(duration / c.step * (1.0 - 1e-12));
+  if (!(steps <= most_steps))
+    throw core::Error(fmt::format(
+        "the transient would take {:.3g} steps of {:.3g} s ({}); check the value that asks for them, "
+        "or the duration",
+        steps, c.step, c.reason));
+  return static_cast<std::int64_t>(steps);
 }
 
 void warn(StepChoice& c) {
@@ -149,32 +183,20 @@ StepChoice choose_step(const Scene& scene, const StepOptions& options) {
 
   if (options.step) {
     c.step = *options.step;
-    c.steps = static_cast<std::int64_t>(std::ceil(scene.duration / c.step * (1.0 - 1e-12)));
     c.reason = "given in the study";
+    c.steps = count_steps(scene.duration, c);
     warn(c);
     return c;
   }
-  const double eps = 0.5 * std::sqrt(options.accuracy / 0.01);
-  const bool steady = std::all_of(scene.loads.begin(), scene.loads.end(), [](const Load& load) {
-    return std::holds_alternative<Constant>(load.function);
-  });
-  const double least = scene.contacts.empty() && steady ? least_steps : least_changing_steps;
-  c.step = scene.duration / least;
-  c.reason = fmt::format("a run has at least {} steps", least);
-  const double points = scene.contacts.empty() ? linear_points_per_period : points_per_period;
-  if (const double limit = c.excitation > 0.0 ? 1.0 / (points * c.excitation) : c.step; limit < c.step) {
-    c.step = limit;
-    c.reason =
-        fmt::format("{} points in the shortest period of the excitation ({:.4g} Hz)", points, c.excitation);
-  }
-  // Without contacts the flow of the splitting scheme is exact: only the loads ask for a step.
-  if (c.scheme == SchemeKind::euler || !scene.contacts.empty())
-    for (const Term& term : terms(c))
-      if (eps * term.limit < c.step) {
-        c.step = eps * term.limit;
-        c.reason = fmt::format("{} resolved for an accuracy of {}", term.reason, options.accuracy);
-      }
-  c.steps = static_cast<std::int64_t>(std::ceil(scene.duration / c.step));
+  const double fineness = std::sqrt(options.accuracy / 0.01);
+  c.step = scene.duration / least_steps;
+  c.reason = fmt::format("a run has at least {} steps", least_steps);
+  for (const Term& term : terms(c, scene, fineness))
+    if (term.limit < c.step) {
+      c.step = term.limit;
+      c.reason = fmt::format("{} resolved for an accuracy of {}", term.reason, options.accuracy);
+    }
+  c.steps = count_steps(scene.duration, c);
   c.step = scene.duration / static_cast<double>(c.steps);
   return c;
 }

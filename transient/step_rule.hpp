@@ -12,8 +12,8 @@
 /// a = 4 and b = 5 for the splitting scheme, 1 and 1 for explicit Euler (whose limits are r_t h < 1 and
 /// w_max h < 2). Euler also takes the other dampers explicitly and resolves them by 1/r_e (its limit: r_e h < 2):
 ///     r_e    the largest of the rates of the structure's damping and of the normal dampers (C_N in place of C_T)
-/// Never above 1/20 of the shortest period of the excitation (without contacts 1/200), nor duration/20000
-/// (so many steps take milliseconds; duration/100 where neither contacts nor loads change anything).
+/// Never above 1/20 of the shortest period of the excitation times 2 eps (without contacts 1/200, and b = 0.6: statistics must
+/// see the modes), nor the shortest interval of a table, nor duration/20000 (so many steps take milliseconds).
 #pragma once
 #include "transient/scheme.hpp"
 #include <optional>

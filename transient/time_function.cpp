@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/time_function.hpp"
+#include "core/error.hpp"
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <complex>
 #include <fftw3.h>
+#include <fmt/format.h>
 #include <memory>
 #include <numbers>
 #include <random>
@@ -16,6 +18,9 @@ namespace {
 /// 32)^4 / 384 = 4e-6.
 constexpr double samples_per_period = 32.0;
 constexpr double two_pi = 2.0 * std::numbers::pi;
+
+/// Of a random signal: a gigabyte. An hour up to 500 Hz.
+constexpr std::size_t most_samples = std::size_t{1} << 26;
 
 struct FftwFree {
   void operator()(void* p) const { fftw_free(p); }
@@ -58,6 +63,14 @@ Signal::Signal(const TimeFunction& function, double duration) : function_(functi
   auto first = static_cast<std::size_t>(std::ceil(random->low * period));
   const auto last = static_cast<std::size_t>(std::floor(random->high * period));
   first = std::max<std::size_t>(first, 1); // zero mean
+  std::size_t n = 2;                       // a power of two: fast, and the same plan everywhere
+  while (static_cast<double>(n) < samples_per_period * random->high * period)
+    n *= 2;
+  if (n > most_samples)
+    throw core::Error(fmt::format("a random signal up to {:.4g} Hz over {:.4g} s needs {} samples, more than "
+                                  "{}; lower the upper end of its "
+                                  "band, or shorten the run",
+                                  random->high, duration, n, most_samples));
   std::mt19937_64 generator(random->seed);
   std::vector<std::complex<double>> lines(last + 1), slopes(last + 1);
   const double scale = random->rms / std::sqrt(static_cast<double>(last - first + 1));
@@ -65,9 +78,6 @@ Signal::Signal(const TimeFunction& function, double duration) : function_(functi
     lines[k] = scale * normal_pair(generator);
     slopes[k] = lines[k] * std::complex<double>(0.0, two_pi * static_cast<double>(k) / period);
   }
-  std::size_t n = 2; // a power of two: fast, and the same plan everywhere
-  while (static_cast<double>(n) < samples_per_period * random->high * period)
-    n *= 2;
   grid_step_ = period / static_cast<double>(n);
   const std::vector<double> value = synthesise(lines, n), slope = synthesise(slopes, n);
   samples_.resize(2 * (n + 1));
