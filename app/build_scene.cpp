@@ -16,6 +16,8 @@ using core::Vec3;
 /// Above this share lost by the projection of the initial field the run starts from something else than was
 /// asked.
 constexpr double lost_share_warning = 0.05;
+/// Components of shapes below this share of the largest at a contact are the eigensolver's round-off.
+constexpr double round_off_of_shapes = 1e-11;
 /// Couplings of a projected damping matrix below this share of its diagonal are round-off.
 constexpr double negligible_coupling = 1e-12;
 
@@ -133,6 +135,9 @@ void add_contact(const study::Contact& contact, const PlacedContact& placed, con
   point.name = placed.name;
   point.rest = placed.rest;
   point.b = placed.frame.rotation() * basis.shapes.middleRows<3>(row);
+  const double largest = point.b.size() > 0 ? point.b.cwiseAbs().maxCoeff() : 0.0;
+  point.b = (point.b.array().abs() > round_off_of_shapes * largest)
+                .select(point.b, 0.0); // a direction that is not used costs nothing
   point.support.obstacle = obstacle_of(contact);
   point.support.normal = {contact.normal_stiffness, contact.normal_damping};
   if (contact.friction_static > 0.0) {
