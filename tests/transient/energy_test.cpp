@@ -25,25 +25,32 @@ double order(SchemeKind scheme, double step) {
 }
 
 /// A mass that bounces between two planes, without any loss.
-Scene conservative() {
+Scene conservative(double speed = 0.4) {
   Scene s = mass_point(1.0, Vec3(0, 100.0, 0), 10.0);
-  start(s, 1.0, Vec3::Zero(), Vec3(0, 0.4, 0));
+  start(s, 1.0, Vec3::Zero(), Vec3(0, speed, 0));
   s.contacts = {contact_of(1.0, {PlanePair{0.02, PlaneAxis::y}, {1e6}, {}})};
   return s;
 }
 
-/// Largest departure of the stored energy from the initial one outside of impacts, and the number of impacts.
-std::pair<double, int> drift(const StepOptions& options) {
-  double worst = 0.0;
-  int count = 0;
-  bool before = false;
-  for (const auto& r : trace(conservative(), options)) {
-    count += r.closed && !before;
-    before = r.closed;
-    if (!r.closed)
-      worst = std::max(worst, std::abs(r.energy.stored / r.energy.initial - 1.0));
+/// Largest departure of the stored energy from the initial one outside of impacts, over the number of impacts: the mean of several
+/// speeds, because a single motion may lock its impacts to one phase of the step, where it loses five times as much or nothing.
+double loss_of_an_impact(const StepOptions& options) {
+  constexpr int speeds = 40;
+  double sum = 0.0;
+  for (int i = 0; i < speeds; ++i) {
+    double worst = 0.0;
+    int count = 0;
+    bool before = false;
+    for (const auto& r : trace(conservative(0.4 * (1.0 + 1e-3 * i)), options)) {
+      count += r.closed && !before;
+      before = r.closed;
+      if (!r.closed)
+        worst = std::max(worst, std::abs(r.energy.stored / r.energy.initial - 1.0));
+    }
+    EXPECT_GT(count, 80);
+    sum += worst / count;
   }
-  return {worst, count};
+  return sum / speeds;
 }
 
 } // namespace
@@ -113,12 +120,11 @@ TEST(EnergyLedger, OfALinearSceneIsExact) {
 }
 
 TEST(ConservativeScene, KeepsItsEnergyOverManyImpacts) {
-  const auto [worst, count] = drift(splitting());
-  EXPECT_GT(count, 80);
+  const double loss = loss_of_an_impact(splitting());
   constexpr double per_impact =
-      6e-4; // lost at the automatic step, w_c h = 0.5: far below any structure's damping
-  EXPECT_LT(worst, per_impact * count);
+      8e-4; // at the automatic step, w_c h = 0.5: far below any structure's damping; 200 speeds give 4.4e-4
+  EXPECT_LT(loss, per_impact);
   constexpr double finer = 0.2; // a step 4 times smaller: order 2 and some scatter of the impacts' phases
   const double step = choose_step(conservative(), splitting()).step;
-  EXPECT_LT(drift(splitting(step / 4.0)).first, finer * worst);
+  EXPECT_LT(loss_of_an_impact(splitting(step / 4.0)), finer * loss);
 }
