@@ -105,6 +105,16 @@ std::vector<BuiltScene> build_scenes(const study::Study& study, const mesh::Line
     out.warnings.insert(out.warnings.end(), scene.warnings.begin(), scene.warnings.end());
     out.notes.insert(out.notes.end(), scene.notes.begin(), scene.notes.end());
   }
+  for (std::size_t k = 0; k < fields.loads.size(); ++k)
+    for (std::size_t j = 0; j < k; ++j) {
+      const auto* one = std::get_if<transient::Random>(&fields.loads[j].function);
+      const auto* two = std::get_if<transient::Random>(&fields.loads[k].function);
+      if (one && two && one->seed == two->seed && one->low == two->low && one->high == two->high)
+        out.notes.push_back(
+            fmt::format("{} and {} follow one random signal: they have the same seed {} and band; give one "
+                        "another seed if they are independent",
+                        fields.loads[j].name, fields.loads[k].name, one->seed));
+    }
   for (std::size_t k = 0; k < fields.loads.size(); ++k) {
     const auto idle = [&](const BuiltScene& scene) { return scene.scene.loads[k].modal_force.isZero(0.0); };
     if (std::all_of(scenes.begin(), scenes.end(), idle))
