@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/build_contacts.hpp"
 #include "core/error.hpp"
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -48,7 +49,8 @@ Vec3 oriented(const Vec3& axis) {
 
 contact::Frame frame_of(const study::Contact& contact, const fem::Model& model, Index node,
                         const std::string& name) {
-  if (!contact.axis && !contact.y_axis && contact.obstacle != study::ObstacleKind::circle)
+  if (!contact.axis && !contact.y_axis && contact.obstacle != study::ObstacleKind::circle &&
+      contact.obstacle != study::ObstacleKind::circle_inside)
     throw core::Error(fmt::format("contact \"{}\": obstacle \"{}\" has a direction; give axis or y_axis",
                                   name, name_of(contact.obstacle)));
   const Vec3 axis = contact.axis ? *contact.axis : oriented(mean_tangent(model, node, name));
@@ -71,25 +73,83 @@ std::string name_of(study::ObstacleKind kind) {
     return "stop_y";
   case study::ObstacleKind::stop_z:
     return "stop_z";
+  case study::ObstacleKind::circle_inside:
+    return "circle_inside";
+  case study::ObstacleKind::profile:
+    return "profile";
+  case study::ObstacleKind::broached:
+    return "broached";
+  case study::ObstacleKind::egg_crate:
+    return "egg_crate";
   }
   return {};
 }
 
-contact::Obstacle obstacle_of(const study::Contact& c) {
+contact::Obstacle obstacle_of(const study::Contact& c, const PlacedContact& placed) {
+  using contact::PlaneAxis;
+  const auto plane = [&](PlaneAxis axis) -> contact::Obstacle {
+    if (placed.other < 0)
+      return contact::PlanePair{c.gap, axis};
+    const double apart = axis == PlaneAxis::y ? placed.rest.y() : placed.rest.z();
+    if (!c.side && apart == 0.0)
+      throw core::Error(fmt::format("contact \"{}\": its two nodes are at the same place across the planes, "
+                                    "so that neither has a side; give side = 1 "
+                                    "or -1",
+                                    placed.name));
+    return contact::FacingPlanes{c.distance_1 + c.distance_2, axis,
+                                 c.side ? *c.side : std::copysign(1.0, apart)};
+  };
   switch (c.obstacle) {
   case study::ObstacleKind::circle:
+    if (placed.other >= 0)
+      return contact::RoundPair{c.distance_1 + c.distance_2};
     return contact::Circle{c.gap};
+  case study::ObstacleKind::profile:
+  case study::ObstacleKind::broached:
+  case study::ObstacleKind::egg_crate:
+    return *c.shape;
+  case study::ObstacleKind::circle_inside:
+    return contact::Circle{c.distance_2 - c.distance_1};
   case study::ObstacleKind::plane_y:
-    return contact::PlanePair{c.gap, contact::PlaneAxis::y};
+    return plane(PlaneAxis::y);
   case study::ObstacleKind::plane_z:
-    return contact::PlanePair{c.gap, contact::PlaneAxis::z};
+    return plane(PlaneAxis::z);
   case study::ObstacleKind::stop_y:
-    return contact::Stop{c.gap, contact::PlaneAxis::y};
+    return contact::Stop{c.gap, PlaneAxis::y};
   case study::ObstacleKind::stop_z:
-    return contact::Stop{c.gap, contact::PlaneAxis::z};
+    return contact::Stop{c.gap, PlaneAxis::z};
   }
   return contact::Circle{c.gap};
 }
+
+namespace {
+
+/// The second nodes of a contact between two groups, paired with the first by nearest place.
+std::vector<Index> second_nodes(const study::Contact& contact, const mesh::LineMesh& mesh,
+                                const fem::Model& model, const std::vector<Index>& nodes) {
+  const std::string what = fmt::format("contact \"{}\"", contact.name);
+  const std::vector<Index> others = mesh::group_nodes(mesh, *contact.other, what);
+  if (others.size() != nodes.size())
+    throw core::Error(fmt::format("{}: group \"{}\" has {} nodes and other \"{}\" has {}; contacts between "
+                                  "groups need as many nodes in each",
+                                  what, contact.group, nodes.size(), *contact.other, others.size()));
+  std::vector<Index> paired;
+  for (const Index node : nodes) {
+    const Index other = nearest_node(model, others, model.nodes[static_cast<std::size_t>(node)]);
+    if (other == node)
+      throw core::Error(fmt::format(
+          "{}: \"{}\" and \"{}\" share a node, which cannot meet itself; name two different nodes", what,
+          contact.group, *contact.other));
+    if (std::find(paired.begin(), paired.end(), other) != paired.end())
+      throw core::Error(fmt::format(
+          "{}: two nodes of \"{}\" have the same nearest node in \"{}\"; make one contact for each pair",
+          what, contact.group, *contact.other));
+    paired.push_back(other);
+  }
+  return paired;
+}
+
+} // namespace
 
 std::vector<PlacedContact> place_contacts(const study::Study& study, const mesh::LineMesh& mesh,
                                           const fem::Model& model) {
@@ -98,6 +158,8 @@ std::vector<PlacedContact> place_contacts(const study::Study& study, const mesh:
     const study::Contact& contact = study.contacts[e];
     const std::vector<Index> nodes =
         mesh::group_nodes(mesh, contact.group, fmt::format("contact \"{}\"", contact.name));
+    const std::vector<Index> others =
+        contact.other ? second_nodes(contact, mesh, model, nodes) : std::vector<Index>(nodes.size(), -1);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       PlacedContact placed;
       placed.name = nodes.size() == 1 ? contact.name : fmt::format("{}[{}]", contact.name, i);
@@ -109,7 +171,10 @@ std::vector<PlacedContact> place_contacts(const study::Study& study, const mesh:
             placed.name));
       placed.frame = frame_of(contact, model, nodes[i], placed.name);
       const Vec3& place = model.nodes[static_cast<std::size_t>(nodes[i])];
-      placed.rest = placed.frame.rotation() * (place - contact.origin.value_or(place));
+      placed.other = others[i];
+      const Vec3 centre = placed.other >= 0 ? model.nodes[static_cast<std::size_t>(placed.other)]
+                                            : contact.origin.value_or(place);
+      placed.rest = placed.frame.rotation() * (place - centre);
       placed.rest.y() -= contact.offset[0];
       placed.rest.z() -= contact.offset[1];
       out.push_back(placed);

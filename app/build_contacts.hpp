@@ -12,8 +12,9 @@ struct PlacedContact {
   std::string name;  ///< the study's, with [i] where the group has several nodes
   std::size_t entry; ///< in study.contacts
   core::Index node;
+  core::Index other = -1; ///< the second node, -1: the obstacle is fixed
   contact::Frame frame;
-  core::Vec3 rest; ///< m: the node from the obstacle's centre, local axes
+  core::Vec3 rest; ///< m: the node from the obstacle's centre (from the second node), local axes
 };
 
 /// @throws core::Error for a node whose three displacements are restrained, for an axis that must be given (a
@@ -22,8 +23,9 @@ struct PlacedContact {
 [[nodiscard]] std::vector<PlacedContact> place_contacts(const study::Study& study, const mesh::LineMesh& mesh,
                                                         const fem::Model& model);
 
-/// Obstacle, laws and automatic tangential damping not yet filled in.
-[[nodiscard]] contact::Obstacle obstacle_of(const study::Contact& contact);
+/// `rest` tells the side on which two flat bodies start.
+/// @throws core::Error for two flat bodies whose nodes coincide where the study does not give the side
+[[nodiscard]] contact::Obstacle obstacle_of(const study::Contact& contact, const PlacedContact& placed);
 [[nodiscard]] std::string name_of(study::ObstacleKind kind);
 
 } // namespace fretwork::app

@@ -60,16 +60,6 @@ void add_beams(const study::Study& study, const mesh::LineMesh& mesh, BuiltModel
   }
 }
 
-/// The node of `others` nearest to a place.
-Index nearest(const fem::Model& model, const std::vector<Index>& others, const core::Vec3& place) {
-  return *std::min_element(others.begin(), others.end(), [&](Index a, Index b) {
-    const auto distance = [&](Index n) {
-      return (model.nodes[static_cast<std::size_t>(n)] - place).squaredNorm();
-    };
-    return distance(a) < distance(b);
-  });
-}
-
 void add_springs(const study::Study& study, const mesh::LineMesh& mesh, fem::Model& model) {
   for (std::size_t e = 0; e < study.springs.size(); ++e) {
     const study::Spring& spring = study.springs[e];
@@ -87,7 +77,7 @@ void add_springs(const study::Study& study, const mesh::LineMesh& mesh, fem::Mod
           "in each",
           what, spring.group, nodes.size(), *spring.other, others.size()));
     for (const Index node : nodes) {
-      const Index other = nearest(model, others, model.nodes[static_cast<std::size_t>(node)]);
+      const Index other = nearest_node(model, others, model.nodes[static_cast<std::size_t>(node)]);
       if (other == node)
         throw core::Error(fmt::format(
             "{}: a spring from \"{}\" to \"{}\" would join a node to itself; name two different nodes", what,
@@ -121,6 +111,15 @@ void leave_out_marks(fem::Model& model, const std::vector<bool>& restrained) {
 }
 
 } // namespace
+
+Index nearest_node(const fem::Model& model, const std::vector<Index>& others, const core::Vec3& place) {
+  return *std::min_element(others.begin(), others.end(), [&](Index a, Index b) {
+    const auto distance = [&](Index n) {
+      return (model.nodes[static_cast<std::size_t>(n)] - place).squaredNorm();
+    };
+    return distance(a) < distance(b);
+  });
+}
 
 BuiltModel build_model(const study::Study& study, const mesh::LineMesh& mesh) {
   BuiltModel out;

@@ -18,4 +18,8 @@ struct BuiltModel {
 /// that cannot be paired
 [[nodiscard]] BuiltModel build_model(const study::Study& study, const mesh::LineMesh& mesh);
 
+/// The node of `among` (not empty) nearest to a place.
+[[nodiscard]] core::Index nearest_node(const fem::Model& model, const std::vector<core::Index>& among,
+                                       const core::Vec3& place);
+
 } // namespace fretwork::app

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <numeric>
 
 namespace fretwork::app {
 namespace {
@@ -70,13 +71,24 @@ Eigen::VectorXd restricted(const modal::Basis& basis, const Eigen::VectorXd& fie
   return out;
 }
 
-Eigen::VectorXd project(const modal::Basis& basis, const Eigen::VectorXd& momentum,
+void append(Eigen::VectorXd& all, const Eigen::VectorXd& part) {
+  const Eigen::Index before = all.size();
+  all.conservativeResize(before + part.size());
+  all.tail(part.size()) = part;
+}
+
+/// Initial modal coordinates of a field, structure after structure, and the share of the field that the modes lose.
+Eigen::VectorXd project(const std::vector<const modal::Basis*>& bases, const Eigen::VectorXd& momentum,
                         const Eigen::VectorXd& field, const char* name, BuiltScene& out) {
-  const Eigen::VectorXd part = restricted(basis, momentum);
-  const Eigen::VectorXd q = basis.shapes.transpose() * part;
-  const double whole = part.dot(restricted(basis, field)), kept = q.squaredNorm();
+  Eigen::VectorXd q(0);
+  double whole = 0.0;
+  for (const modal::Basis* basis : bases) {
+    const Eigen::VectorXd part = restricted(*basis, momentum);
+    whole += part.dot(restricted(*basis, field));
+    append(q, basis->shapes.transpose() * part);
+  }
   if (whole > 0.0) {
-    const double lost = std::sqrt(std::max(0.0, 1.0 - kept / whole));
+    const double lost = std::sqrt(std::max(0.0, 1.0 - q.squaredNorm() / whole));
     const std::string text =
         fmt::format("the modes lose {:.2g} % of the initial {} (norm in mass)", 100.0 * lost, name);
     if (lost > lost_share_warning)
@@ -87,29 +99,55 @@ Eigen::VectorXd project(const modal::Basis& basis, const Eigen::VectorXd& moment
   return q;
 }
 
-void add_system(const modal::Basis& basis, transient::System& system) {
-  system.stiffness = basis.omega.cwiseAbs2();
-  system.damping = 2.0 * basis.damping.cwiseProduct(basis.omega);
-  if (basis.damping_matrix.size() == 0)
+/// The modal equations of all structures of the scene, one after the other.
+void add_system(const std::vector<const modal::Basis*>& bases, transient::System& system) {
+  bool coupled = false;
+  for (const modal::Basis* basis : bases) {
+    const bool full = basis->damping_matrix.size() > 0;
+    append(system.stiffness, basis->omega.cwiseAbs2());
+    append(system.damping, full ? Eigen::VectorXd(basis->damping_matrix.diagonal())
+                                : Eigen::VectorXd(2.0 * basis->damping.cwiseProduct(basis->omega)));
+    if (full) {
+      const Eigen::MatrixXd& c = basis->damping_matrix;
+      const double coupling = (c - Eigen::MatrixXd(c.diagonal().asDiagonal())).cwiseAbs().maxCoeff();
+      coupled = coupled || coupling > negligible_coupling * c.diagonal().cwiseAbs().maxCoeff();
+    }
+  }
+  if (!coupled)
     return;
-  const Eigen::MatrixXd& c = basis.damping_matrix;
-  const Eigen::VectorXd diagonal = c.diagonal();
-  const double coupling = (c - Eigen::MatrixXd(diagonal.asDiagonal())).cwiseAbs().maxCoeff();
-  system.damping = diagonal;
-  if (coupling > negligible_coupling * diagonal.cwiseAbs().maxCoeff())
-    system.damping_matrix = c;
+  system.damping_matrix = system.damping.asDiagonal();
+  Eigen::Index first = 0;
+  for (const modal::Basis* basis : bases) {
+    if (basis->damping_matrix.size() > 0)
+      system.damping_matrix.block(first, first, basis->size(), basis->size()) = basis->damping_matrix;
+    first += basis->size();
+  }
+}
+
+/// Translations of a node over all modes of the scene, 3 x n global axes; empty where no structure of the scene has the node.
+Eigen::MatrixXd translations(const std::vector<const modal::Basis*>& bases, Index node, Eigen::Index modes) {
+  Eigen::Index first = 0;
+  for (const modal::Basis* basis : bases) {
+    if (const Eigen::Index row = basis->row_of(node); row >= 0) {
+      Eigen::MatrixXd out = Eigen::MatrixXd::Zero(3, modes);
+      out.middleCols(first, basis->size()) = basis->shapes.middleRows<3>(row);
+      return out;
+    }
+    first += basis->size();
+  }
+  return {};
 }
 
 /// R5.06.03 section 6.5 with the mode that moves the contact most along its tangents, in mass-normalised
 /// local quantities.
-double automatic_damping(const study::Contact& contact, const std::string& name, const modal::Basis& basis,
-                         const transient::ContactPoint& point) {
+double automatic_damping(const study::Contact& contact, const std::string& name,
+                         const transient::System& system, const transient::ContactPoint& point) {
   const auto [ny, nz] = contact::normal_directions(point.support.obstacle);
-  const bool hole = ny && nz;
+  const bool round = ny && nz;
   Eigen::VectorXd size2 = point.b.row(0).cwiseAbs2();
-  if (hole || !ny)
+  if (round || !ny)
     size2 += point.b.row(1).cwiseAbs2();
-  if (hole || !nz)
+  if (round || !nz)
     size2 += point.b.row(2).cwiseAbs2();
   Eigen::Index mode = 0;
   const double largest = size2.size() > 0 ? size2.maxCoeff(&mode) : 0.0;
@@ -119,26 +157,35 @@ double automatic_damping(const study::Contact& contact, const std::string& name,
         "damping; give tangential_damping a value",
         name));
   const double mass = 1.0 / largest;
-  const double damping = contact::automatic_tangential_damping(
-      contact.tangential_stiffness, basis.omega(mode) * basis.omega(mode) * mass, mass, basis.damping(mode));
+  const double omega = std::sqrt(system.stiffness(mode));
+  const double ratio = omega > 0.0 ? 0.5 * system.damping(mode) / omega : 0.0;
+  const double damping =
+      contact::automatic_tangential_damping(contact.tangential_stiffness, omega * omega * mass, mass, ratio);
   if (damping < 0.0)
     throw core::Error(fmt::format(
         "contact \"{}\": the automatic tangential damping is {:.4g} N s/m, below 0, because the mode that "
         "moves it most is overdamped (ratio {:.3g}); give tangential_damping a value",
-        name, damping, basis.damping(mode)));
+        name, damping, ratio));
   return damping;
 }
 
-void add_contact(const study::Contact& contact, const PlacedContact& placed, const modal::Basis& basis,
-                 Eigen::Index row, BuiltScene& out) {
+void add_contact(const study::Contact& contact, const PlacedContact& placed,
+                 const std::vector<const modal::Basis*>& bases, BuiltScene& out) {
+  const Eigen::Index modes = out.scene.system.size();
   transient::ContactPoint point;
   point.name = placed.name;
   point.rest = placed.rest;
-  point.b = placed.frame.rotation() * basis.shapes.middleRows<3>(row);
+  Eigen::MatrixXd motion = translations(bases, placed.node, modes);
+  if (motion.size() == 0)
+    motion = Eigen::MatrixXd::Zero(3, modes);
+  if (placed.other >= 0)
+    if (const Eigen::MatrixXd other = translations(bases, placed.other, modes); other.size() > 0)
+      motion -= other;
+  point.b = placed.frame.rotation() * motion;
   const double largest = point.b.size() > 0 ? point.b.cwiseAbs().maxCoeff() : 0.0;
   point.b = (point.b.array().abs() > round_off_of_shapes * largest)
                 .select(point.b, 0.0); // a direction that is not used costs nothing
-  point.support.obstacle = obstacle_of(contact);
+  point.support.obstacle = obstacle_of(contact, placed);
   point.support.normal = {contact.normal_stiffness, contact.normal_damping};
   if (contact.friction_static > 0.0) {
     auto& friction = point.support.friction;
@@ -148,8 +195,9 @@ void add_contact(const study::Contact& contact, const PlacedContact& placed, con
     friction.kind = contact.memory == study::FrictionMemory::reference
                         ? contact::FrictionMemoryKind::reference
                         : contact::FrictionMemoryKind::return_map;
-    friction.damping = contact.tangential_damping ? *contact.tangential_damping
-                                                  : automatic_damping(contact, placed.name, basis, point);
+    friction.damping = contact.tangential_damping
+                           ? *contact.tangential_damping
+                           : automatic_damping(contact, placed.name, out.scene.system, point);
     if (!contact.tangential_damping)
       out.notes.push_back(fmt::format("contact \"{}\": automatic tangential damping {:.4g} N s/m",
                                       placed.name, friction.damping));
@@ -191,27 +239,73 @@ Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh, const
   return out;
 }
 
-BuiltScene build_scene(const study::Study& study, const Fields& fields, const modal::Basis& basis,
-                       const std::vector<PlacedContact>& contacts, const std::vector<NamedNode>& nodes) {
+std::vector<std::vector<std::size_t>> joined_structures(const std::vector<modal::Basis>& bases,
+                                                        const std::vector<PlacedContact>& contacts) {
+  std::vector<std::size_t> root(bases.size());
+  std::iota(root.begin(), root.end(), std::size_t{0});
+  const auto find = [&](std::size_t s) {
+    while (root[s] != s)
+      s = root[s];
+    return s;
+  };
+  const auto structure_of = [&](Index node) {
+    const auto has = [&](const modal::Basis& basis) { return basis.row_of(node) >= 0; };
+    return static_cast<std::size_t>(std::find_if(bases.begin(), bases.end(), has) - bases.begin());
+  };
+  for (const PlacedContact& contact : contacts) {
+    if (contact.other < 0)
+      continue;
+    const std::size_t a = structure_of(contact.node), b = structure_of(contact.other);
+    if (a < bases.size() && b < bases.size())
+      root[std::max(find(a), find(b))] = std::min(find(a), find(b));
+  }
+  std::vector<std::vector<std::size_t>> groups;
+  std::vector<std::size_t> group_of(bases.size());
+  for (std::size_t s = 0; s < bases.size(); ++s) {
+    const std::size_t lowest = find(s);
+    if (lowest == s) {
+      group_of[s] = groups.size();
+      groups.emplace_back();
+    }
+    groups[group_of[lowest]].push_back(s);
+  }
+  return groups;
+}
+
+BuiltScene build_scene(const study::Study& study, const Fields& fields, const std::vector<modal::Basis>& all,
+                       const std::vector<std::size_t>& structures, const std::vector<PlacedContact>& contacts,
+                       const std::vector<NamedNode>& nodes) {
   BuiltScene out;
+  out.structures = structures;
+  std::vector<const modal::Basis*> bases;
+  for (const std::size_t s : structures)
+    bases.push_back(&all[s]);
   transient::Scene& scene = out.scene;
   scene.duration = study.transient->duration;
-  add_system(basis, scene.system);
-  for (const auto& load : fields.loads)
-    scene.loads.push_back({load.function, basis.shapes.transpose() * restricted(basis, load.force)});
-  scene.q0 = scene.v0 = Eigen::VectorXd::Zero(basis.size());
-  if (fields.moves_at_start) {
-    scene.q0 = project(basis, fields.displacement_momentum, fields.displacement, "displacement", out);
-    scene.v0 = project(basis, fields.velocity_momentum, fields.velocity, "velocity", out);
+  add_system(bases, scene.system);
+  for (const auto& load : fields.loads) {
+    Eigen::VectorXd force(0);
+    for (const modal::Basis* basis : bases)
+      append(force, basis->shapes.transpose() * restricted(*basis, load.force));
+    scene.loads.push_back({load.function, force});
   }
+  scene.q0 = scene.v0 = Eigen::VectorXd::Zero(scene.system.size());
+  if (fields.moves_at_start) {
+    scene.q0 = project(bases, fields.displacement_momentum, fields.displacement, "displacement", out);
+    scene.v0 = project(bases, fields.velocity_momentum, fields.velocity, "velocity", out);
+  }
+  const auto mine = [&](Index node) {
+    return node >= 0 && std::any_of(bases.begin(), bases.end(),
+                                    [&](const modal::Basis* basis) { return basis->row_of(node) >= 0; });
+  };
   for (std::size_t c = 0; c < contacts.size(); ++c)
-    if (const Eigen::Index row = basis.row_of(contacts[c].node); row >= 0) {
-      add_contact(study.contacts[contacts[c].entry], contacts[c], basis, row, out);
+    if (mine(contacts[c].node) || mine(contacts[c].other)) {
+      add_contact(study.contacts[contacts[c].entry], contacts[c], bases, out);
       out.contacts.push_back(c);
     }
   for (std::size_t k = 0; k < nodes.size(); ++k)
-    if (const Eigen::Index row = basis.row_of(nodes[k].node); row >= 0) {
-      out.nodes.push_back({nodes[k].name, basis.shapes.middleRows<3>(row)});
+    if (mine(nodes[k].node)) {
+      out.nodes.push_back({nodes[k].name, translations(bases, nodes[k].node, scene.system.size())});
       out.node_numbers.push_back(k);
     }
   return out;

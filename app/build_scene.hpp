@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// The transient of one connected structure, in modal coordinates.
+/// The transient of one structure, or of several that meet in contacts between two nodes, in modal coordinates.
 #pragma once
 #include "app/build_contacts.hpp"
 #include "modal/basis.hpp"
@@ -11,8 +11,10 @@ namespace fretwork::app {
 
 struct BuiltScene {
   transient::Scene scene;
-  std::vector<std::size_t> contacts;     ///< numbers of its contacts among the placed ones
-  std::vector<post::ObservedNode> nodes; ///< observed nodes of this structure
+  std::vector<std::size_t>
+      structures;                    ///< numbers of its structures, ascending; their modes follow each other
+  std::vector<std::size_t> contacts; ///< numbers of its contacts among the placed ones
+  std::vector<post::ObservedNode> nodes; ///< observed nodes of these structures
   std::vector<std::size_t> node_numbers; ///< their numbers among all observed nodes
   std::vector<std::string> notes;        ///< to be told the user (initial overlap)
   std::vector<std::string> warnings;     ///< (a lost share of the initial field)
@@ -41,8 +43,14 @@ struct Fields {
 [[nodiscard]] Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh,
                                   const BuiltModel& built);
 
+/// Structures that contacts between two nodes join, by lowest member. A second node that belongs to no structure is fixed.
+[[nodiscard]] std::vector<std::vector<std::size_t>>
+joined_structures(const std::vector<modal::Basis>& bases, const std::vector<PlacedContact>& contacts);
+
 [[nodiscard]] BuiltScene build_scene(const study::Study& study, const Fields& fields,
-                                     const modal::Basis& basis, const std::vector<PlacedContact>& contacts,
+                                     const std::vector<modal::Basis>& bases,
+                                     const std::vector<std::size_t>& structures,
+                                     const std::vector<PlacedContact>& contacts,
                                      const std::vector<NamedNode>& nodes);
 
 } // namespace fretwork::app

@@ -74,9 +74,11 @@ results::ContactFacts facts_of(const study::Contact& contact, const PlacedContac
   results::ContactFacts facts;
   facts.name = placed.name;
   facts.node = placed.node;
+  facts.other = placed.other;
   facts.axes = placed.frame.rotation();
   facts.obstacle = name_of(contact.obstacle);
-  facts.gap = contact.gap;
+  facts.gap = placed.other < 0 ? (contact.shape ? contact.shape->inscribed() : contact.gap)
+                               : contact::locate(support.obstacle, placed.rest.y(), placed.rest.z()).gap;
   facts.rest = placed.rest;
   facts.normal_stiffness = support.normal.stiffness;
   facts.normal_damping = support.normal.damping;
@@ -95,8 +97,8 @@ std::vector<BuiltScene> build_scenes(const study::Study& study, const mesh::Line
   const Fields fields = build_fields(study, mesh, built);
   std::vector<BuiltScene> scenes;
   out.contacts.resize(placed.size());
-  for (const auto& basis : bases) {
-    scenes.push_back(build_scene(study, fields, basis, placed, nodes));
+  for (const auto& structures : joined_structures(bases, placed)) {
+    scenes.push_back(build_scene(study, fields, bases, structures, placed, nodes));
     const BuiltScene& scene = scenes.back();
     for (std::size_t k = 0; k < scene.contacts.size(); ++k) {
       const std::size_t c = scene.contacts[k];

@@ -135,19 +135,30 @@ void merge(const BuiltScene& built, JobResult&& job, const transient::StepChoice
     out.node_summaries[built.node_numbers[k]] = job.nodes[k];
     out.series.nodes[built.node_numbers[k]] = std::move(job.series.nodes[k]);
   }
-  const auto stack = [](Eigen::MatrixXd& all, Eigen::MatrixXd&& part) {
-    if (all.size() == 0) {
-      all = std::move(part);
-      return;
-    }
-    const Eigen::Index columns = std::min(all.cols(), part.cols()), rows = all.rows();
-    all.conservativeResize(rows + part.rows(), columns);
-    all.bottomRows(part.rows()) = part.leftCols(columns);
-  };
-  if (out.series.time.size() == 0 || job.series.time.size() < out.series.time.size())
+  // the modes of all structures are stacked in the order of the bases, whichever run they belong to
+  Eigen::Index modes = 0;
+  std::vector<Eigen::Index> first;
+  for (const auto& basis : out.bases) {
+    first.push_back(modes);
+    modes += basis.size();
+  }
+  const Eigen::Index outputs = job.series.time.size();
+  if (out.series.time.size() == 0 ||
+      outputs < out.series.time.size()) { // the first; or one that was cut short: the common time
     out.series.time = job.series.time;
-  stack(out.series.modal_displacement, std::move(job.series.modal_displacement));
-  stack(out.series.modal_velocity, std::move(job.series.modal_velocity));
+    out.series.modal_displacement.conservativeResize(modes, outputs);
+    out.series.modal_velocity.conservativeResize(modes, outputs);
+  }
+  Eigen::Index from = 0;
+  const Eigen::Index common = out.series.time.size();
+  for (const std::size_t s : built.structures) {
+    const Eigen::Index n = out.bases[s].size();
+    out.series.modal_displacement.middleRows(first[s], n) =
+        job.series.modal_displacement.middleRows(from, n).leftCols(common);
+    out.series.modal_velocity.middleRows(first[s], n) =
+        job.series.modal_velocity.middleRows(from, n).leftCols(common);
+    from += n;
+  }
 }
 
 void judge(const transient::StepChoice& choice, const transient::Report& report, results::RunResults& out) {

@@ -29,6 +29,8 @@ struct FrictionLaw {
   double mu_static = 0.0;  ///< >= mu_dynamic
   double mu_dynamic = 0.0; ///< >= 0; 0: no friction
   FrictionMemoryKind kind = FrictionMemoryKind::return_map;
+  Vec2 along{1.0, 1.0}; ///< directions in which friction acts: (1, 1) the tangent plane, (1, 0) along x_loc
+                        ///< only, (0, 1) across it only. Velocities and mobilities come multiplied by it.
 
   [[nodiscard]] bool active() const { return mu_static > 0.0; }
 };

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Obstacles of one node, in the plane y_loc, z_loc, their centre at the origin. `locate` turns a position
-/// into a gap and a normal.
+/// Obstacles in the plane y_loc, z_loc, their centre at the origin. `locate` turns a position into a gap and a normal. For a contact between two
+/// nodes the position is that of the first from the second, and a circle is a ring round the second node in which the first moves.
 ///
 /// Sign rule of the whole program: gap > 0 open, gap < 0 penetrates; the normal n is the gradient of the gap
 /// (into free space).
 ///     circle       gap = g - r,            n = -e_r       hole of radial clearance g
 ///     plane pair   gap = g - |c|,          n = -sign(c) e two planes at c = +-g, c = y or z
 ///     stop         gap = g - c,            n = -e         one plane: contact where c exceeds g
-/// Source: R5.06.03 sections 4.1.1 and 4.1.2 (whose normals are opposite to each other).
+///     round pair   gap = r - d,            n = e_r        two round bodies side by side, d = R_1 + R_2
+///     profile      signed distance to a polygon round the origin (profile.hpp)
+///     facing planes gap = s c - d,         n = s e        two flat bodies, d = D_1 + D_2; the first stays on the side s = +-1 of the second
+/// Source: R5.06.03 sections 4.1.1 and 4.1.2 (whose normals are opposite to each other), 4.2.1 (where the side follows the sign of c, so
+/// that bodies that pass through each other are pushed on), 4.2.2.
 #pragma once
+#include "contact/profile.hpp"
 #include <array>
 #include <cmath>
 #include <variant>
@@ -29,7 +34,15 @@ struct Stop {
   double gap; ///< m, >= 0
   PlaneAxis axis;
 };
-using Obstacle = std::variant<Circle, PlanePair, Stop>;
+struct RoundPair {
+  double distance; ///< m, > 0: sum of the radii
+};
+struct FacingPlanes {
+  double distance; ///< m, >= 0: sum of the half thicknesses
+  PlaneAxis axis;
+  double side; ///< +1 or -1: of the second node on which the first stays
+};
+using Obstacle = std::variant<Circle, PlanePair, Stop, RoundPair, FacingPlanes, Profile>;
 
 /// Where a node is against its obstacle; the contact's tangent directions are x_loc and t = n x x_loc = (0,
 /// nz, -ny).
@@ -60,15 +73,33 @@ inline constexpr Location centred(double gap) { return {gap, -1.0, 0.0}; }
   return {stop.gap - (along_y ? y : z), along_y ? -1.0 : 0.0, along_y ? 0.0 : -1.0};
 }
 
+[[nodiscard]] inline Location locate(const RoundPair& pair, double y, double z) {
+  const double r = std::sqrt(y * y + z * z);
+  if (!(r > 0.0))
+    return {-pair.distance, 1.0, 0.0}; // centres on each other: every direction is as good
+  return {r - pair.distance, y / r, z / r};
+}
+
+[[nodiscard]] inline Location locate(const FacingPlanes& planes, double y, double z) {
+  const bool along_y = planes.axis == PlaneAxis::y;
+  return {planes.side * (along_y ? y : z) - planes.distance, along_y ? planes.side : 0.0,
+          along_y ? 0.0 : planes.side};
+}
+
+[[nodiscard]] inline Location locate(const Profile& profile, double y, double z) {
+  return profile.locate(y, z);
+}
+
 [[nodiscard]] inline Location locate(const Obstacle& obstacle, double y, double z) {
   return std::visit([&](const auto& shape) { return locate(shape, y, z); }, obstacle);
 }
 
 /// A bound that tells cheaply that a node is out of reach: the gap is at least
-///     limit - sqrt(wy y^2 + wz z^2),
+///     limit - (radial sqrt(wy y^2 + wz z^2) + ly y + lz z),
 /// and its rate at least -sqrt(wy vy^2 + wz vz^2).
 struct Reach {
   double wy, wz, limit;
+  double radial = 1.0, ly = 0.0, lz = 0.0;
 };
 [[nodiscard]] Reach reach(const Obstacle& obstacle);
 

@@ -64,12 +64,16 @@ Vec2 opposing(double length, const Mobility& a, Vec2 free_velocity) {
 
 Reach reach(const Obstacle& obstacle) {
   struct Visitor {
-    static Reach plane(PlaneAxis axis, double gap) {
-      return axis == PlaneAxis::y ? Reach{1.0, 0.0, gap} : Reach{0.0, 1.0, gap};
+    static Reach plane(PlaneAxis axis, double limit, double radial, double linear) {
+      return axis == PlaneAxis::y ? Reach{1.0, 0.0, limit, radial, linear, 0.0}
+                                  : Reach{0.0, 1.0, limit, radial, 0.0, linear};
     }
     Reach operator()(const Circle& c) const { return {1.0, 1.0, c.gap}; }
-    Reach operator()(const PlanePair& p) const { return plane(p.axis, p.gap); }
-    Reach operator()(const Stop& s) const { return plane(s.axis, s.gap); }
+    Reach operator()(const PlanePair& p) const { return plane(p.axis, p.gap, 1.0, 0.0); }
+    Reach operator()(const Stop& s) const { return plane(s.axis, s.gap, 0.0, 1.0); }
+    Reach operator()(const Profile& p) const { return {1.0, 1.0, p.inscribed()}; }
+    Reach operator()(const RoundPair& p) const { return {1.0, 1.0, -p.distance, -1.0}; }
+    Reach operator()(const FacingPlanes& p) const { return plane(p.axis, -p.distance, 0.0, -p.side); }
   };
   return std::visit(Visitor{}, obstacle);
 }

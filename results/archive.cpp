@@ -18,6 +18,7 @@ constexpr const char* contact_units =
 void write_facts(const h5::Group& group, const ContactFacts& c, const core::Vec3& position) {
   const RowMajor axes = c.axes;
   group.set("node", std::int64_t{c.node});
+  group.set("other", std::int64_t{c.other});
   group.set<double>("position", {position.data(), 3}, {3});
   group.set<double>("axes", {axes.data(), 9}, {3, 3});
   group.set("obstacle", c.obstacle);
@@ -36,6 +37,7 @@ ContactFacts read_facts(const h5::Group& group) {
   ContactFacts c;
   c.name = group.text("name");
   c.node = static_cast<core::Index>(group.integer("node"));
+  c.other = static_cast<core::Index>(group.integer("other"));
   const auto axes = group.values<double>("axes"), rest = group.values<double>("rest");
   if (axes.size() != 9 || rest.size() != 3)
     throw h5::Failure("axes or rest of a contact");

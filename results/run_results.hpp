@@ -34,11 +34,12 @@ struct ModelFacts {
 /// A contact as it was set up.
 struct ContactFacts {
   std::string name;
-  core::Index node = 0; ///< of the model
-  Eigen::Matrix3d axes; ///< rows x_loc y_loc z_loc
-  std::string obstacle; ///< as in the study file
-  double gap = 0.0;     ///< m
-  core::Vec3 rest;      ///< m, node at rest from the obstacle's centre, local axes
+  core::Index node = 0;   ///< of the model
+  core::Index other = -1; ///< the second node; -1: the obstacle is fixed
+  Eigen::Matrix3d axes;   ///< rows x_loc y_loc z_loc
+  std::string obstacle;   ///< as in the study file
+  double gap = 0.0;       ///< m
+  core::Vec3 rest;        ///< m, node at rest from the obstacle's centre, local axes
   double normal_stiffness = 0.0, normal_damping = 0.0, tangential_stiffness = 0.0, tangential_damping = 0.0;
   double friction_static = 0.0, friction_dynamic = 0.0;
 };

@@ -3,6 +3,7 @@
 /// A study as typed, checked values: what the study file says, before anything is read or computed. Groups
 /// are still names. The contract with users is doc/study-file.md; keys, defaults and units are given there.
 #pragma once
+#include "contact/profile.hpp"
 #include "fem/model.hpp"
 #include "mesh/read.hpp"
 #include "modal/damping.hpp"
@@ -53,15 +54,29 @@ struct Modes {
   std::optional<bool> distributed; ///< solve one structure over all ranks; default: by size
 };
 
-/// Obstacles of one node (doc/contact.md).
-enum class ObstacleKind { circle, plane_y, plane_z, stop_y, stop_z };
+/// Obstacles of one node, or between two (doc/contact.md).
+enum class ObstacleKind {
+  circle,
+  plane_y,
+  plane_z,
+  stop_y,
+  stop_z,
+  circle_inside,
+  profile,
+  broached,
+  egg_crate
+};
 enum class FrictionMemory { return_map, reference };
 
 struct Contact {
-  std::string name; ///< default: the group; no two contacts have the same
+  std::string name;
   std::string group;
+  std::optional<std::string> other; ///< group of the second nodes
   ObstacleKind obstacle = ObstacleKind::circle;
-  double gap = 0.0;
+  double gap = 0.0;                          ///< one node: circle, planes, stops
+  std::optional<contact::Profile> shape;     ///< one node: profile, broached, egg_crate
+  double distance_1 = 0.0, distance_2 = 0.0; ///< two nodes: half thickness or radius round each
+  std::optional<double> side;                ///< two nodes, planes: +1 or -1
   std::optional<Vec3> axis;
   std::optional<Vec3> y_axis; ///< instead of angle
   double angle = 0.0;         ///< degrees

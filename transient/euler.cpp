@@ -110,8 +110,8 @@ private:
   void meet(int c, Forces& sum) {
     const contact::Support& support = contacts_.supports[c];
     const int width = contacts_.width;
-    const auto at =
-        contact::locate(support.obstacle, u_[c] + contacts_.rest_y[c], u_[width + c] + contacts_.rest_z[c]);
+    const auto at = contact::locate(support.obstacle, u_[c] + contacts_.reach.rest_y[c],
+                                    u_[width + c] + contacts_.reach.rest_z[c]);
     const double rate = -(at.ny * w_[c] + at.nz * w_[width + c]);
     const double p = -at.gap;
     const double normal = contact::normal_force(support.normal, p, rate);

@@ -140,20 +140,21 @@ FRETWORK_WIDTHS EulerSums euler_step(int np, double h, const double* c, const do
   return {sum(energy), sum(power), sum(loss)};
 }
 
-FRETWORK_WIDTHS bool near(int width, const double* uy, const double* uz, const double* vy, const double* vz,
-                          const double* rest_y, const double* rest_z, const double* wy, const double* wz,
-                          const double* limit, double half_step, double* near_flag) {
+FRETWORK_WIDTHS bool near(int width, const ReachLanes& reach, const double* uy, const double* uz,
+                          const double* vy, const double* vz, double half_step, double* near_flag) {
   Mask any{};
   for (int i = 0; i < width; i += lanes) {
-    const Pack y = at(uy + i) + at(rest_y + i), z = at(uz + i) + at(rest_z + i);
-    const Pack vy_i = at(vy + i), vz_i = at(vz + i), a = at(wy + i), b = at(wz + i);
-    // (r + s)^2 <= 2 r^2 + 2 s^2 would be loose; compare r + s with the limit through the two lengths
+    const Pack y = at(uy + i) + at(&reach.rest_y[i]), z = at(uz + i) + at(&reach.rest_z[i]);
+    const Pack wy = at(&reach.wy[i]), wz = at(&reach.wz[i]);
+    const Pack r2 = wy * y * y + wz * z * z, s2 = wy * at(vy + i) * at(vy + i) + wz * at(vz + i) * at(vz + i);
     Pack r{}, s{};
     for (int l = 0; l < lanes; ++l) {
-      r[l] = __builtin_sqrt(a[l] * y[l] * y[l] + b[l] * z[l] * z[l]);
-      s[l] = __builtin_sqrt(a[l] * vy_i[l] * vy_i[l] + b[l] * vz_i[l] * vz_i[l]);
+      r[l] = __builtin_sqrt(r2[l]);
+      s[l] = __builtin_sqrt(s2[l]);
     }
-    const Mask flag = r + half_step * s >= at(limit + i);
+    const Mask flag =
+        at(&reach.radial[i]) * r + at(&reach.ly[i]) * y + at(&reach.lz[i]) * z + half_step * s >=
+        at(&reach.limit[i]);
     at(near_flag + i) = flag ? Pack{} + 1.0 : Pack{};
     any |= flag;
   }

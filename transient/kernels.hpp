@@ -65,11 +65,16 @@ struct EulerSums {
 EulerSums euler_step(int np, double h, const double* c, const double* k, const double* load,
                      const double* force, double* q, double* v);
 
-/// For lanes 0 .. width: near[i] = (limit - sqrt(wy y^2 + wz z^2) - half_step sqrt(wy vy^2 + wz vz^2) <= 0);
-/// positions are u + rest. Returns whether any is near.
-bool near(int width, const double* uy, const double* uz, const double* vy, const double* vz,
-          const double* rest_y, const double* rest_z, const double* wy, const double* wz, const double* limit,
-          double half_step, double* near_flag);
+/// How far contacts are from their obstacles, one value a lane (contact::Reach).
+struct ReachLanes {
+  Array rest_y, rest_z; ///< m: position = displacement + rest
+  Array wy, wz, radial, ly, lz, limit;
+};
+
+/// For lanes 0 .. width: near[i] = 1 where radial sqrt(wy y^2 + wz z^2) + ly y + lz z + half_step sqrt(wy vy^2 + wz vz^2) >= limit,
+/// else 0. Returns whether any is near.
+bool near(int width, const ReachLanes& reach, const double* uy, const double* uz, const double* vy,
+          const double* vz, double half_step, double* near_flag);
 
 /// w[b] += sum over a of column[a * 3 width ...] * f[a]: velocities of all contacts answer a change of one
 /// contact's force.

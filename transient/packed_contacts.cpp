@@ -23,19 +23,23 @@ PackedContacts::PackedContacts(const std::vector<ContactPoint>& contacts, Eigen:
   gather.assign(static_cast<std::size_t>(modes) * stride(), 0.0);
   rows.assign(static_cast<std::size_t>(count) * 3 * padded_modes, 0.0);
   mobility.assign(static_cast<std::size_t>(count) * 3 * stride(), 0.0);
-  rest_y.assign(lanes, 0.0);
-  rest_z = reach_y = reach_z = rest_y;
-  reach_limit.assign(lanes, std::numeric_limits<double>::infinity()); // a lane of padding is never near
+  for (kernels::Array* a :
+       {&reach.rest_y, &reach.rest_z, &reach.wy, &reach.wz, &reach.radial, &reach.ly, &reach.lz})
+    a->assign(lanes, 0.0);
+  reach.limit.assign(lanes, std::numeric_limits<double>::infinity()); // a lane of padding is never near
 
   for (int c = 0; c < count; ++c) {
     const ContactPoint& point = contacts[static_cast<std::size_t>(c)];
     supports.push_back(point.support);
     const contact::Reach r = contact::reach(point.support.obstacle);
-    rest_y[c] = point.rest.y();
-    rest_z[c] = point.rest.z();
-    reach_y[c] = r.wy;
-    reach_z[c] = r.wz;
-    reach_limit[c] = r.limit;
+    reach.rest_y[c] = point.rest.y();
+    reach.rest_z[c] = point.rest.z();
+    reach.wy[c] = r.wy;
+    reach.wz[c] = r.wz;
+    reach.radial[c] = r.radial;
+    reach.ly[c] = r.ly;
+    reach.lz[c] = r.lz;
+    reach.limit[c] = r.limit;
     for (int k = 0; k < components; ++k)
       for (int i = 0; i < modes; ++i) {
         gather[static_cast<std::size_t>(i) * stride() + k * width + c] = point.b(stored[k], i);

@@ -23,8 +23,7 @@ struct PackedContacts {
   kernels::Array rows;     ///< contact by contact: rows y, z, x over the padded modes
   kernels::Array mobility; ///< contact by contact: what a unit force along y, z, x does to `stride()` lanes
                            ///< (W = B B^T, 1/kg)
-  kernels::Array rest_y, rest_z; ///< m
-  kernels::Array reach_y, reach_z, reach_limit;
+  kernels::ReachLanes reach;
 
   [[nodiscard]] const double* row(int contact, int component) const {
     return &rows[(static_cast<std::size_t>(contact) * 3 + component) * padded_modes];

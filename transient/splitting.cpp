@@ -196,10 +196,8 @@ private:
     factor_.clear();
     const double springs_before = springs_;
     const int width = contacts_.width;
-    const bool any = kernels::near(width, u_.data(), u_.data() + width, w_.data(), w_.data() + width,
-                                   contacts_.rest_y.data(), contacts_.rest_z.data(), contacts_.reach_y.data(),
-                                   contacts_.reach_z.data(), contacts_.reach_limit.data(), 0.5 * window * h_,
-                                   near_.data());
+    const bool any = kernels::near(width, contacts_.reach, u_.data(), u_.data() + width, w_.data(),
+                                   w_.data() + width, 0.5 * window * h_, near_.data());
     double stored = 0.0;
     if (any)
       for (int c = 0; c < contacts_.count; ++c)
@@ -234,8 +232,8 @@ private:
   double meet(int c) {
     const contact::Support& support = contacts_.supports[c];
     const int width = contacts_.width;
-    const auto at =
-        contact::locate(support.obstacle, u_[c] + contacts_.rest_y[c], u_[width + c] + contacts_.rest_z[c]);
+    const auto at = contact::locate(support.obstacle, u_[c] + contacts_.reach.rest_y[c],
+                                    u_[width + c] + contacts_.reach.rest_z[c]);
     const double p = -at.gap;
     const double rate = -(at.ny * w_[c] + at.nz * w_[width + c]);
     const double reach = 0.5 * window * h_ * rate;
@@ -302,7 +300,7 @@ private:
       const contact::Vec2 guess = memory_[c].left == 1.0 ? memory_[c].force : contact::Vec2{};
       const double bound = support.friction.mu_dynamic * normal, size = contact::norm(guess);
       change(c, normal, size > bound ? (bound / size) * guess : guess);
-      coupled = coupled || support.friction.active() || support.normal.damping > 0.0;
+      coupled = coupled || support.friction.active() || support.normal.damps();
     }
     if (!coupled)
       return;
@@ -323,7 +321,7 @@ private:
     const ContactState& state = states_[c];
     const int width = contacts_.width;
     double normal = 0.0;
-    if (support.normal.damping > 0.0) {
+    if (support.normal.damps()) {
       const double rate = -(state.ny * w_[c] + state.nz * w_[width + c]) + work.damped * state.normal_force;
       normal = contact::step_normal(support.normal, work.mean, rate, work.damped) - state.normal_force;
     }
@@ -434,8 +432,8 @@ private:
   [[nodiscard]] double contact_energy() const {
     double sum = 0.0;
     for (int c = 0; c < contacts_.count; ++c) {
-      const auto at = contact::locate(contacts_.supports[c].obstacle, u_[c] + contacts_.rest_y[c],
-                                      u_[contacts_.width + c] + contacts_.rest_z[c]);
+      const auto at = contact::locate(contacts_.supports[c].obstacle, u_[c] + contacts_.reach.rest_y[c],
+                                      u_[contacts_.width + c] + contacts_.reach.rest_z[c]);
       if (at.gap < 0.0)
         sum += 0.5 * contacts_.supports[c].normal.stiffness * at.gap * at.gap;
     }

@@ -185,17 +185,6 @@ TEST(Messages, OfWhatThisVersionDoesNotCompute) {
   const std::string available = " is not available in this version; available: ";
   expect_messages({
       {"[[base_motion]]", "[[ties]]", {"\"ties\"" + available + "\"title\", \"mesh\""}},
-      {"angle = 30",
-       "other = \"q\"",
-       {"contacts.tsp2.other = \"q\": \"other\"" + available + "\"name\", \"group\", \"obstacle\""}},
-      {"angle = 30", "distance_1 = 1", {"\"distance_1\"" + available}},
-      {"angle = 30", "distance_2 = 1", {"\"distance_2\"" + available}},
-      {"angle = 30", "side = 1", {"\"side\"" + available}},
-      {"angle = 30", "profile = [[0, 1]]", {"\"profile\"" + available}},
-      {"obstacle = \"plane_y\"",
-       "obstacle = \"profile\"",
-       {"\"profile\"" + available + "\"circle\", \"plane_y\""}},
-      {"obstacle = \"plane_y\"", "obstacle = \"circle_inside\"", {"\"circle_inside\"" + available}},
       {"attached_to = \"base\"",
        "attached_to = \"ground\"",
        {"contacts.tsp1.attached_to = \"ground\": \"ground\"" + available + "\"base\""}},
