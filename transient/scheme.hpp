@@ -19,7 +19,8 @@ struct ContactState {
   contact::Vec2 displacement; ///< m, tangential over the step
   double friction_work = 0.0; ///< J over the step, by the slider
   double damper_work = 0.0;   ///< J over the step, by the normal and tangential dampers
-  double approach = 0.0;      ///< m/s, speed towards the obstacle before the step's force acts
+  double approach = 0.0;      ///< m/s, speed towards the obstacle before the step's force acts; of a contact
+                              ///< that has just opened: minus the speed at which it left
   bool slides = false;
 };
 
@@ -50,6 +51,7 @@ struct Record {
   const double* uz = nullptr;
   std::span<const ContactState> states;
   std::span<const int> active; ///< numbers of the contacts whose normal force is not zero
+  std::span<const int> opened; ///< of those that had a force at the record before and have none now
   Energy energy;
 };
 
