@@ -19,6 +19,7 @@ struct ContactForce {
   double normal;
   contact::Vec2 friction;
   double ny, nz; ///< normal, local axes
+  bool slides;   ///< the friction bound is reached
 };
 
 /// Receives the output instants 0, every, 2 every ... Must not allocate or throw.
