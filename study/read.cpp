@@ -44,8 +44,8 @@ Study read(const std::filesystem::path& file, const std::vector<std::string>& ov
   study.loads = read_loads(root, folder);
   study.gravity = read_gravity(root);
   study.base_motions = read_base_motions(root, folder);
-  study.initial = read_initial(root);
   study.transient = read_transient(root);
+  study.initial = read_initial(root, study.transient);
   study.output = read_output(root, study.transient);
   return study;
 }

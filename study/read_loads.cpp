@@ -51,7 +51,8 @@ std::vector<BaseMotion> read_base_motions(const TableReader& root, const std::fi
   return all;
 }
 
-std::vector<Initial> read_initial(const TableReader& root) {
+std::vector<Initial> read_initial(const TableReader& root, const std::optional<Transient>& transient) {
+  const bool in_equilibrium = transient && transient->start == Start::equilibrium;
   std::vector<Initial> all;
   for (const Entry& entry : array_entries(root, "initial")) {
     const TableReader table(*entry.value, entry.path,
@@ -63,6 +64,9 @@ std::vector<Initial> read_initial(const TableReader& root) {
     if (table.has("centre") && !table.has("rotation_rate"))
       table.fail_at("centre",
                     "a centre without rotation_rate has no effect; give rotation_rate or leave centre out");
+    if (table.has("displacement") && in_equilibrium)
+      table.fail_at("displacement", "transient.start = \"static\" finds the displacements itself; leave them "
+                                    "out, or take start = \"rest\"");
     initial.displacement = table.optional_vector("displacement", {Range::any, "m"}).value_or(Vec3::Zero());
     initial.velocity = table.optional_vector("velocity", {Range::any, "m/s"}).value_or(Vec3::Zero());
     initial.rotation_rate =

@@ -55,8 +55,8 @@ std::optional<Transient> read_transient(const TableReader& root) {
                           {{"duration", "start", "scheme", "accuracy", "step"}, {"tolerance"}});
   Transient transient;
   transient.duration = table.number("duration", {Range::above_zero, "s"});
-  if (const Value* start = table.find("start"))
-    (void)to_choice(*start, table.path("start"), {"rest"}, {"static"});
+  transient.start = table.choice("start", Start::rest,
+                                 Choices<Start>{{{"rest", Start::rest}, {"static", Start::equilibrium}}});
   transient.scheme = table.choice(
       "scheme", Scheme::automatic,
       Choices<Scheme>{
@@ -77,7 +77,7 @@ Output read_output(const TableReader& root, const std::optional<Transient>& tran
   const Value* found = root.find("output");
   if (!found)
     return output;
-  const TableReader table(*found, "output", {{"every", "nodes", "statistics_from"}});
+  const TableReader table(*found, "output", {{"every", "nodes", "statistics_from", "impacts", "rest_time"}});
   output.every = table.optional_number("every", {Range::above_zero, "s"});
   if (transient && output.every && *output.every > transient->duration)
     table.fail_at("every", "longer than transient.duration; give the time between two samples");
@@ -92,6 +92,8 @@ Output read_output(const TableReader& root, const std::optional<Transient>& tran
   output.statistics_from = table.number_or("statistics_from", 0.0, {Range::at_least_zero, "s"});
   if (transient && output.statistics_from >= transient->duration)
     table.fail_at("statistics_from", "the statistics must start before the end, transient.duration");
+  output.impacts = table.optional_integer("impacts", 0).value_or(output.impacts);
+  output.rest_time = table.number_or("rest_time", 0.0, {Range::at_least_zero, "s"});
   return output;
 }
 

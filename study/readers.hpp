@@ -24,7 +24,8 @@ namespace fretwork::study {
 [[nodiscard]] std::optional<Vec3> read_gravity(const TableReader& root);
 [[nodiscard]] std::vector<BaseMotion> read_base_motions(const TableReader& root,
                                                         const std::filesystem::path& folder);
-[[nodiscard]] std::vector<Initial> read_initial(const TableReader& root);
+[[nodiscard]] std::vector<Initial> read_initial(const TableReader& root,
+                                                const std::optional<Transient>& transient);
 
 // Reading what is computed and kept.
 [[nodiscard]] Modes read_modes(const TableReader& root);

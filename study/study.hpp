@@ -113,9 +113,12 @@ struct Initial {
 };
 
 enum class Scheme { automatic, splitting, euler };
+/// At rest where the structure was drawn; or at rest in equilibrium with the loads at t = 0 and the contacts.
+enum class Start { rest, equilibrium };
 
 struct Transient {
   double duration = 0.0;
+  Start start = Start::rest;
   Scheme scheme = Scheme::automatic;
   double accuracy = 0.01;
   std::optional<double> step;
@@ -125,6 +128,8 @@ struct Output {
   std::optional<double> every; ///< s; default duration / 5000
   std::vector<std::string> nodes;
   double statistics_from = 0.0;
+  std::int64_t impacts = 10000; ///< rows kept of the table of impacts of each contact; 0: no table
+  double rest_time = 0.0;       ///< s; an opening shorter than this belongs to the impact it interrupts
 };
 
 struct Study {

@@ -207,6 +207,8 @@ step = 1e-5
 every = 1e-4
 nodes = ["apex", "foot"]
 statistics_from = 0.2
+impacts = 500
+rest_time = 1e-3
 )";
 
 } // namespace fretwork::study

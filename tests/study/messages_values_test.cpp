@@ -127,6 +127,9 @@ TEST(Messages, OfNumbersOutOfRange) {
       {"statistics_from = 0.2",
        "statistics_from = 2",
        {"output.statistics_from = 2: the statistics must start before the end"}},
+      {"impacts = 500", "impacts = -1", {"output.impacts = -1: an integer >= 0 is expected"}},
+      {"impacts = 500", "impacts = 1.5", {"output.impacts = 1.5: an integer >= 0 is expected, not a number"}},
+      {"rest_time = 1e-3", "rest_time = -1", {"output.rest_time = -1: a number >= 0 in s is expected"}},
   });
 }
 
@@ -173,7 +176,7 @@ TEST(Messages, OfUnknownNames) {
        {"contacts.tsp1.attached_to = \"bas\": unknown; did you mean \"base\"?"}},
       {"start = \"rest\"",
        "start = \"rests\"",
-       {"transient.start = \"rests\": unknown; did you mean \"rest\"? available: \"rest\""}},
+       {"transient.start = \"rests\": unknown; did you mean \"rest\"? available: \"rest\", \"static\""}},
       {"scheme = \"splitting\"",
        "scheme = \"eulr\"",
        {"transient.scheme = \"eulr\": unknown; did you mean \"euler\"? available: \"auto\", \"splitting\", "
@@ -190,9 +193,6 @@ TEST(Messages, OfWhatThisVersionDoesNotCompute) {
        {"contacts.tsp1.attached_to = \"ground\": \"ground\"" + available + "\"base\""}},
       {"static_modes = \"none\"", "static_modes = \"auto\"", {"\"auto\"" + available + "\"none\""}},
       {"static_modes = \"none\"", "static_modes = \"all\"", {"\"all\"" + available + "\"none\""}},
-      {"start = \"rest\"",
-       "start = \"static\"",
-       {"transient.start = \"static\": \"static\"" + available + "\"rest\""}},
       {"accuracy = 0.02",
        "tolerance = 1e-4",
        {"transient.tolerance = 0.0001: \"tolerance\"" + available + "\"duration\""}},
@@ -264,6 +264,11 @@ TEST(Messages, OfKeysThatContradictEachOther) {
       {"nodes = [\"apex\", \"foot\"]",
        "nodes = [\"apex\", \"apex\"]",
        {"output.nodes = \"apex\": named twice; name each group once"}},
+      {"start = \"rest\"",
+       "start = \"static\"",
+       {"initial.apex.displacement = [0, 0.001, 0]: transient.start = \"static\" finds the displacements "
+        "itself; leave them out, or take start = \"rest\""},
+       "displacement = [0, 1e-3, 0]"},
       {"rotation_rate = [0, 0, 3.8]",
        "",
        {"initial.apex.centre = [0, 0, 1]: a centre without rotation_rate has no effect"},

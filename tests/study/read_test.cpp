@@ -35,6 +35,8 @@ TEST(ReadStudy, GivesModesAndOutputTheirDefaults) {
   EXPECT_FALSE(study.output.every);
   EXPECT_TRUE(study.output.nodes.empty());
   EXPECT_EQ(study.output.statistics_from, 0.0);
+  EXPECT_EQ(study.output.impacts, 10000);
+  EXPECT_EQ(study.output.rest_time, 0.0);
 }
 
 TEST(ReadStudy, GivesTheTransientItsDefaults) {
@@ -43,6 +45,7 @@ TEST(ReadStudy, GivesTheTransientItsDefaults) {
   EXPECT_EQ(study.transient->duration, 3.0);
   EXPECT_EQ(study.transient->scheme, Scheme::automatic);
   EXPECT_EQ(study.transient->accuracy, 0.01);
+  EXPECT_EQ(study.transient->start, Start::rest);
   EXPECT_FALSE(study.transient->step);
 }
 
@@ -212,6 +215,8 @@ TEST(ReadStudy, ReadsEveryKeyOfTheRun) {
   EXPECT_EQ(study.output.every, 1e-4);
   EXPECT_EQ(study.output.nodes, (std::vector<std::string>{"apex", "foot"}));
   EXPECT_EQ(study.output.statistics_from, 0.2);
+  EXPECT_EQ(study.output.impacts, 500);
+  EXPECT_EQ(study.output.rest_time, 1e-3);
 }
 
 TEST(ReadStudy, ReadsRayleighDampingAndABandOfModes) {
