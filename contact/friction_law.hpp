@@ -15,6 +15,12 @@
 /// last slid (0 when open):
 ///     trial = F0 - K_T (d - d0) - C_T v;   |trial| > bound: F = -mu_d F_N v/|v| (v = 0: along the trial);
 ///     open: memory 0.
+///   The spring is set, so its energy jumps by (|F|^2 - |T|^2)/(2 K_T) in a slip that no work pays for. It is
+///   booked with the damper, whose work is negative where |F| > |T|: where C_T v tips a contact into slip or
+///   the normal force of a slip rises.
+///
+/// Friction along x_loc alone, or across it alone (`along`): every function takes what moves in the other
+/// direction as 0, so that force and memory stay exactly 0 there.
 /// The memory changes only when a step is accepted: every function here is pure.
 #pragma once
 #include "contact/vec2.hpp"
@@ -29,8 +35,8 @@ struct FrictionLaw {
   double mu_static = 0.0;  ///< >= mu_dynamic
   double mu_dynamic = 0.0; ///< >= 0; 0: no friction
   FrictionMemoryKind kind = FrictionMemoryKind::return_map;
-  Vec2 along{1.0, 1.0}; ///< directions in which friction acts: (1, 1) the tangent plane, (1, 0) along x_loc
-                        ///< only, (0, 1) across it only. Velocities and mobilities come multiplied by it.
+  Vec2 along{1.0, 1.0}; ///< directions in which friction acts, 1 or 0 each: (1, 1) the tangent plane, (1, 0)
+                        ///< along x_loc only, (0, 1) across it only
 
   [[nodiscard]] bool active() const { return mu_static > 0.0; }
 };
@@ -46,7 +52,8 @@ struct FrictionStep {
   FrictionMemory memory;      ///< at the end of the step, to be committed
   Vec2 slip;                  ///< m: displacement of the slider (0 in stick)
   double friction_work = 0.0; ///< J >= 0, dissipated by the slider
-  double damper_work = 0.0;   ///< J >= 0, dissipated by C_T (and given up by the spring of an open contact)
+  double damper_work = 0.0; ///< J, dissipated by C_T and given up by the spring of an open contact; >= 0 but
+                            ///< for the jumps of `reference`
 };
 
 struct Friction {
@@ -62,6 +69,8 @@ struct Friction {
 /// The same where nothing moves along x_loc: F on a line.
 [[nodiscard]] inline Friction evaluate_line(const FrictionLaw& law, const FrictionMemory& memory,
                                             double normal_force, double dx, double velocity) {
+  dx *= law.along.t;
+  velocity *= law.along.t;
   const double trial = memory.spring.t - law.stiffness * dx - law.damping * velocity;
   const double bound = (memory.sliding ? law.mu_dynamic : law.mu_static) * normal_force;
   if (std::abs(trial) <= bound)
@@ -69,6 +78,21 @@ struct Friction {
   const double along = law.kind == FrictionMemoryKind::reference && velocity != 0.0 ? -velocity : trial;
   return {{0.0, std::copysign(law.mu_dynamic * normal_force, along)}, true};
 }
+
+/// F of `evaluate` and its derivatives, for schemes that solve for the end of a step. With P = I - e e^T, e
+/// the direction of the force, all masked by `along`:
+///     stick                 dF/dx = -K_T I, dF/dv = -C_T I, dF/dF_N = 0
+///     slip along the trial  dF/dx = -K_T s P, dF/dv = -C_T s P, s = mu_d F_N/|trial|;  dF/dF_N = mu_d e
+///     slip along -v         dF/dx = 0, dF/dv = -(mu_d F_N/|v|) P;  dF/dF_N = mu_d e
+/// At the bound, where F bends (mu_s = mu_d) or jumps, those of the side that `evaluate` takes.
+struct FrictionSlopes {
+  Friction friction;
+  Sym2 by_displacement; ///< N/m
+  Sym2 by_velocity;     ///< N s/m
+  Vec2 by_normal_force;
+};
+[[nodiscard]] FrictionSlopes friction_slopes(const FrictionLaw& law, const FrictionMemory& memory,
+                                             double normal_force, Vec2 dx, Vec2 velocity);
 
 /// What a law needs of a step of length h, made once.
 struct FrictionTable {
@@ -95,15 +119,12 @@ struct FrictionTable {
 }
 
 /// Implicit friction of one contact over a step: the mean velocity answers the force, v = free_velocity + A F
-/// (A = (h/2) W_tt, symmetric,
-/// >= 0). Stick: (I + G h A) F = T - G h free_velocity. Slip: F of length mu_d F_N along the trial T - G h v;
-/// with M = I + G h A and b = T - G h free_velocity that is (M + s I) F = b for the s >= 0 at which |F| is
-/// the bound, found by Newton's method on 1/|F|. For `reference` the slip force is opposite to v: with M = A
-/// and b = -free_velocity the same equation; where less than the bound brings the node to rest, that force (a
-/// larger one would drive the node backwards).
-struct Mobility {
-  double xx, xt, tt; ///< m/s per N
-};
+/// (A = (h/2) W_tt, symmetric, >= 0). Stick: (I + G h A) F = T - G h free_velocity. Slip: F of length mu_d F_N
+/// along the trial T - G h v; with M = I + G h A and b = T - G h free_velocity that is (M + s I) F = b for the
+/// s >= 0 at which |F| is the bound, found by Newton's method on 1/|F|. For `reference` the slip force is
+/// opposite to v: with M = A and b = -free_velocity the same equation; where less than the bound brings the
+/// node to rest, that force (a larger one would drive the node backwards).
+using Mobility = Sym2; ///< m/s per N
 [[nodiscard]] Friction step_friction_plane(const FrictionLaw& law, const FrictionTable& table,
                                            const FrictionMemory& memory, double normal_force,
                                            Vec2 free_velocity, const Mobility& mobility);
@@ -113,8 +134,9 @@ struct Mobility {
 [[nodiscard]] inline Friction step_friction_line(const FrictionLaw& law, const FrictionTable& table,
                                                  const FrictionMemory& memory, double normal_force,
                                                  double free_velocity, double mobility) {
-  const double b = memory.spring.t - table.gradient * free_velocity;
-  const double m = 1.0 + table.gradient * mobility;
+  const double gradient = law.along.t * table.gradient;
+  const double b = memory.spring.t - gradient * free_velocity;
+  const double m = 1.0 + gradient * mobility;
   const double bound = (memory.sliding ? law.mu_dynamic : law.mu_static) * normal_force;
   if (std::abs(b) <= bound * m)
     return {{0.0, b / m}, false};

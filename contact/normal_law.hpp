@@ -3,11 +3,12 @@
 /// Normal force: a spring and a damper that never pull. With p = -gap the penetration, p' its rate,
 ///     F_N = <K_N p + c(p) p'>+  for p >= 0, 0 otherwise;   c(p) = C_N + K_N d p
 /// C_N: the damper of the reference (R5.06.03 eq. 3.1-4), whose force starts at once at C_N p'.
-/// d:   Hunt and Crossley's damper (J. Appl. Mech. 42, 1975, p. 440), F_N = K_N p <1 + d p'>+: no force at first
-///      touch, none at release, and a loss that grows with the speed of impact.
+/// d:   Hunt and Crossley's damper (J. Appl. Mech. 42, 1975, p. 440), F_N = K_N p <1 + d p'>+: no force at
+///      first touch, none at release, and a loss that grows with the speed of impact.
 /// What impacts lose: restitution.hpp.
 #pragma once
 #include <algorithm>
+#include <cmath>
 
 namespace fretwork::contact {
 
@@ -53,6 +54,21 @@ struct NormalSlopes {
   return 0.0;
 }
 
+/// The share s of the window that is closed gives its derivatives: 1/2 by both ends where s = 1, else s^2/2
+/// by the end that is open and s - s^2/2 by the one that is closed.
+struct MeanSlopes {
+  double by_p1, by_p2;
+};
+[[nodiscard]] inline MeanSlopes mean_slopes(double p1, double p2) {
+  if (p1 > 0.0 && p2 > 0.0)
+    return {0.5, 0.5};
+  if (!(p1 > 0.0 || p2 > 0.0))
+    return {0.0, 0.0};
+  const double s = std::max(p1, p2) / std::abs(p2 - p1);
+  const double open = 0.5 * s * s, closed = s - open;
+  return p1 > 0.0 ? MeanSlopes{closed, open} : MeanSlopes{open, closed};
+}
+
 /// Step form: F_N constant over a step, the damper implicit. `mean` is the mean penetration (> 0),
 /// `free_rate` the mean rate p' without this force, `mobility` = (h/2) n.W.n, what the mean normal speed
 /// changes by per newton: with p' = free_rate - mobility F_N,
@@ -61,6 +77,23 @@ struct NormalSlopes {
                                         double mobility) {
   const double c = law.damping_at(mean);
   return std::max(0.0, law.stiffness * mean + c * free_rate) / (1.0 + c * mobility);
+}
+
+/// F_N of `step_normal` and its derivatives, with p' = free_rate - mobility F_N:
+///     dF_N/dmean = K_N (1 + d p')/(1 + c mobility),  dF_N/dfree_rate = c/(1 + c mobility)
+struct StepSlopes {
+  double force;        ///< N
+  double by_mean;      ///< N/m
+  double by_free_rate; ///< N s/m
+};
+[[nodiscard]] inline StepSlopes step_slopes(const NormalLaw& law, double mean, double free_rate,
+                                            double mobility) {
+  const double force = step_normal(law, mean, free_rate, mobility);
+  if (!(force > 0.0))
+    return {0.0, 0.0, 0.0};
+  const double c = law.damping_at(mean), divisor = 1.0 + c * mobility;
+  return {force, law.stiffness * (1.0 + law.dissipation * (free_rate - mobility * force)) / divisor,
+          c / divisor};
 }
 
 } // namespace fretwork::contact

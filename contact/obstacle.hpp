@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Obstacles in the plane y_loc, z_loc, their centre at the origin. `locate` turns a position into a gap and a normal. For a contact between two
-/// nodes the position is that of the first from the second, and a circle is a ring round the second node in which the first moves.
+/// Obstacles in the plane y_loc, z_loc, their centre at the origin. `locate` turns a position into a gap and a
+/// normal. For a contact between two nodes the position is that of the first from the second, and a circle is
+/// a ring round the second node in which the first moves.
 ///
 /// Sign rule of the whole program: gap > 0 open, gap < 0 penetrates; the normal n is the gradient of the gap
 /// (into free space).
@@ -10,9 +11,10 @@
 ///     stop         gap = g - c,            n = -e         one plane: contact where c exceeds g
 ///     round pair   gap = r - d,            n = e_r        two round bodies side by side, d = R_1 + R_2
 ///     profile      signed distance to a polygon round the origin (profile.hpp)
-///     facing planes gap = s c - d,         n = s e        two flat bodies, d = D_1 + D_2; the first stays on the side s = +-1 of the second
-/// Source: R5.06.03 sections 4.1.1 and 4.1.2 (whose normals are opposite to each other), 4.2.1 (where the side follows the sign of c, so
-/// that bodies that pass through each other are pushed on), 4.2.2.
+///     facing planes gap = s c - d,         n = s e        two flat bodies, d = D_1 + D_2; the first stays on the
+///                                                 side s = +-1 of the second
+/// Source: R5.06.03 sections 4.1.1 and 4.1.2 (whose normals are opposite to each other), 4.2.1 (where the side
+/// follows the sign of c, so that bodies that pass through each other are pushed on), 4.2.2.
 #pragma once
 #include "contact/profile.hpp"
 #include <array>
@@ -93,6 +95,11 @@ inline constexpr Location centred(double gap) { return {gap, -1.0, 0.0}; }
 [[nodiscard]] inline Location locate(const Obstacle& obstacle, double y, double z) {
   return std::visit([&](const auto& shape) { return locate(shape, y, z); }, obstacle);
 }
+
+/// kappa, 1/m, with which the normal turns as the node moves: dn = kappa t (t.du), so that the Hessian of the
+/// gap is kappa t t^T. Circle -1/r, round pair 1/r, planes 0, profile: profile.hpp. Where the normal is a
+/// choice (centred tube, coincident nodes, on the corner of a profile) 0, as the choice does not turn.
+[[nodiscard]] double curvature(const Obstacle& obstacle, double y, double z);
 
 /// A bound that tells cheaply that a node is out of reach: the gap is at least
 ///     limit - (radial sqrt(wy y^2 + wz z^2) + ly y + lz z),

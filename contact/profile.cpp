@@ -140,6 +140,21 @@ Location Profile::locate(double y, double z) const {
   return on_line(f, wy, wz);
 }
 
+double Profile::curvature(double y, double z) const {
+  const FacetIndex& index = tables_->index;
+  const std::uint32_t k = index.nearest(y, z);
+  const Facet& f = index[k];
+  const double along = (y - f.ay) * f.uy + (z - f.az) * f.uz;
+  if (along > 0.0 && along < f.length)
+    return 0.0;
+  const std::uint32_t corner = along <= 0.0 ? k : (k + 1 == index.size() ? 0 : k + 1);
+  const PlanePoint v = tables_->vertices[corner];
+  const double wy = y - v.y, wz = z - v.z;
+  if (std::sqrt(wy * wy + wz * wz) <= no_direction * std::sqrt(v.y * v.y + v.z * v.z))
+    return 0.0;
+  return 1.0 / locate_at_corner(corner, y, z).gap;
+}
+
 Location Profile::locate_at_corner(std::uint32_t corner, double y, double z) const {
   const FacetIndex& index = tables_->index;
   const PlanePoint v = tables_->vertices[corner], m = tables_->bisectors[corner];

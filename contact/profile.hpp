@@ -45,6 +45,10 @@ public:
   /// are better kept off by `inscribed`.
   [[nodiscard]] Location locate(double y, double z) const;
 
+  /// How the normal turns, 1/m (contact::curvature): 0 on a facet; 1/gap where a corner is nearest, for n
+  /// then turns about it; 0 on the corner itself.
+  [[nodiscard]] double curvature(double y, double z) const;
+
   /// Gap at the origin, m, > 0: gap(y, z) >= inscribed() - sqrt(y^2 + z^2).
   [[nodiscard]] double inscribed() const { return tables_->inscribed; }
 
