@@ -34,22 +34,41 @@ void ContactStatistics::step(const transient::Record& record) {
     }
     if (!inside)
       continue;
-    s.closed_time += record.step;
-    const double n = state.normal_force, t2 = dot(state.friction, state.friction);
-    s.normal += n;
-    s.normal2 += n * n;
-    s.normal_max = std::max(s.normal_max, n);
-    s.tangential2 += t2;
-    s.tangential_max = std::max(s.tangential_max, t2);
-    if (state.slides)
-      s.slid += n * norm(state.displacement);
-    s.friction += state.friction_work;
+    s.add(state, record.step);
+  }
+  for (const int c : record.opened) {
+    Sums& s = sums_[static_cast<std::size_t>(c)];
+    if (!s.counted)
+      continue;
+    const double speed = -record.states[static_cast<std::size_t>(c)].approach;
+    s.leaving_max = s.departures == 0 ? speed : std::max(s.leaving_max, speed);
+    s.leaving += speed;
+    ++s.departures;
   }
   if (!inside)
     return;
   watch_motion(record);
   time_ += record.step;
   ++seen_;
+}
+
+void ContactStatistics::Sums::add(const transient::ContactState& state, double step) {
+  const double n = state.normal_force, t2 = dot(state.friction, state.friction);
+  closed_time += step;
+  impulse += n * step;
+  normal += n;
+  normal2 += n * n;
+  normal_max = std::max(normal_max, n);
+  tangential2 += t2;
+  tangential_max = std::max(tangential_max, t2);
+  if (state.slides) {
+    const double path = norm(state.displacement);
+    slid += n * path;
+    distance += path;
+    sliding_time += step;
+  }
+  friction += state.friction_work;
+  damping += state.damper_work;
 }
 
 void ContactStatistics::watch_motion(const transient::Record& record) {
@@ -98,6 +117,7 @@ std::vector<ContactSummary> ContactStatistics::summaries() const {
       const double closed = n * o.contact_time_ratio; // steps in contact
       o.normal_in_contact_mean = s.normal / closed;
       o.normal_in_contact_rms = std::sqrt(s.normal2 / closed);
+      o.sticking_ratio = 1.0 - s.sliding_time / s.closed_time;
     }
     o.tangential_rms = std::sqrt(s.tangential2 / n);
     o.tangential_max = std::sqrt(s.tangential_max);
@@ -107,11 +127,19 @@ std::vector<ContactSummary> ContactStatistics::summaries() const {
     o.radial_max = std::sqrt(m.r2_max[c]);
     o.work_rate = s.slid / time_;
     o.friction_power = s.friction / time_;
+    o.impulse = s.impulse;
+    o.sliding_distance = s.distance;
+    o.damping_work = s.damping;
+    o.friction_work = s.friction;
     if (s.impacts > 0) {
       o.impact_velocity_mean = s.speed / static_cast<double>(s.impacts);
       o.impact_velocity_max = s.speed_max;
       o.contact_duration_mean = s.impact_time / static_cast<double>(s.impacts);
       o.contact_duration_max = s.longest;
+    }
+    if (s.departures > 0) {
+      o.departure_velocity_mean = s.leaving / static_cast<double>(s.departures);
+      o.departure_velocity_max = s.leaving_max;
     }
   }
   return out;

@@ -23,6 +23,13 @@ struct ContactSummary {
   double impact_velocity_mean = 0.0,
          impact_velocity_max = 0.0; ///< m/s, normal approach at the start of impacts
   double contact_duration_mean = 0.0, contact_duration_max = 0.0; ///< s
+  double departure_velocity_mean = 0.0,
+         departure_velocity_max = 0.0; ///< m/s, normal, at the end of impacts that have ended
+  double impulse = 0.0;                ///< N s, integral of F_N
+  double sliding_distance = 0.0;       ///< m, sum of |dx| while the contact slides (the path of `work_rate`)
+  double sticking_ratio = 0.0;         ///< share of the time in contact in which it does not slide
+  double damping_work = 0.0;  ///< J, by the normal and tangential dampers while there is a normal force
+  double friction_work = 0.0; ///< J, by the Coulomb slider
 };
 
 class ContactStatistics final : public transient::Observer {
@@ -38,10 +45,15 @@ private:
     double closed_time = 0.0, normal = 0.0, normal2 = 0.0, normal_max = 0.0, tangential2 = 0.0,
            tangential_max = 0.0;
     double slid = 0.0, friction = 0.0, speed = 0.0, speed_max = 0.0;
+    double impulse = 0.0, distance = 0.0, sliding_time = 0.0, damping = 0.0;
+    double leaving = 0.0, leaving_max = 0.0;
+    std::int64_t departures = 0;
     double duration = 0.0, longest = 0.0; ///< of the impact under way; of all
     double impact_time = 0.0;             ///< of impacts that started in the window
     bool counted = false;                 ///< the impact under way started in the window
     std::int64_t last_closed = -2;        ///< number of the last step with force
+    /// A step with force, in the window.
+    void add(const transient::ContactState& state, double step);
   };
   /// Sums of displacements, contact by contact in vector lanes (padded as the record's arrays).
   struct Motion {

@@ -18,7 +18,8 @@ Recorder::Recorder(const transient::Scene& scene, std::vector<ObservedNode> node
                              {},
                              Eigen::VectorXd::Zero(nt),
                              Eigen::VectorXd::Zero(nt),
-                             Eigen::MatrixXd::Zero(nt, 2)});
+                             Eigen::MatrixXd::Zero(nt, 2),
+                             std::vector<std::uint8_t>(static_cast<std::size_t>(nt), open)});
   for (const auto& node : nodes_)
     out_.nodes.push_back({node.name, {}, {}, Eigen::MatrixXd::Zero(nt, 3)});
 }
@@ -54,6 +55,9 @@ void Recorder::forces(std::int64_t index, double, const double* load,
       continue; // open at this instant, whatever the steps around it
     const auto& f = contacts[c];
     series.normal_force(index) = f.normal;
+    if (f.normal > 0.0)
+      series.state[static_cast<std::size_t>(index)] =
+          f.slides || !scene_.contacts[c].support.friction.active() ? slides : sticks;
     series.tangential_force(index, 0) = f.friction.x;
     series.tangential_force(index, 1) = f.friction.t;
     if (wanted) {
@@ -77,6 +81,7 @@ TimeSeries Recorder::series() && {
       c.gap.conservativeResize(served_);
       c.normal_force.conservativeResize(served_);
       c.tangential_force.conservativeResize(served_, Eigen::NoChange);
+      c.state.resize(static_cast<std::size_t>(served_));
     }
     for (auto& n : out_.nodes)
       n.acceleration.conservativeResize(served_, Eigen::NoChange);

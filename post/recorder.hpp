@@ -8,6 +8,9 @@
 
 namespace fretwork::post {
 
+/// What a contact does at an output instant. One without friction slides whenever it is closed.
+enum ContactMode : std::uint8_t { open = 0, sticks = 1, slides = 2 };
+
 /// Local axes of the contact.
 struct ContactSeries {
   std::string name;
@@ -15,6 +18,7 @@ struct ContactSeries {
   Eigen::VectorXd gap;                    ///< nt, m
   Eigen::VectorXd normal_force;           ///< nt, N
   Eigen::MatrixXd tangential_force;       ///< nt x 2, N: along x_loc, along n x x_loc
+  std::vector<std::uint8_t> state;        ///< nt, ContactMode; open where the normal force is 0
 };
 
 /// Global axes.

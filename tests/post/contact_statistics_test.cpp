@@ -147,3 +147,42 @@ TEST(ContactStatistics, KeepContactsApart) {
   EXPECT_NEAR(all[1].normal_mean, 0.5, round_off);
   EXPECT_NEAR(all[2].normal_mean, 1.0, round_off);
 }
+
+TEST(ContactStatistics, AddUpImpulseSlidingAndLosses) {
+  ContactStatistics statistics(1, 2 * h); // two steps are before the window
+  HandMade run(statistics, 1, h);
+  for (int i = 0; i < 6; ++i) { // sticks for two steps of the window, slides for two
+    auto& state = run.contact(0);
+    state.normal_force = 10.0 + i;
+    state.displacement = {3e-4, -4e-4};
+    state.slides = i >= 4;
+    state.friction_work = state.slides ? 1e-3 : 0.0;
+    state.damper_work = 5e-4;
+    run.step();
+  }
+  run.open(4);
+  const ContactSummary s = statistics.summaries()[0];
+  EXPECT_NEAR(s.impulse, (12.0 + 13.0 + 14.0 + 15.0) * h, round_off);
+  EXPECT_NEAR(s.sliding_distance, 2 * 5e-4, round_off);
+  EXPECT_NEAR(s.sticking_ratio, 0.5, round_off);
+  EXPECT_NEAR(s.friction_work, 2e-3, round_off);
+  EXPECT_NEAR(s.damping_work, 2e-3, round_off);
+  EXPECT_NEAR(s.work_rate * 8 * h, (14.0 + 15.0) * 5e-4, round_off); // the same path
+}
+
+TEST(ContactStatistics, AverageTheDeparturesOfTheWindowsImpacts) {
+  ContactStatistics statistics(1, 0.1);
+  HandMade run(statistics, 1, h);
+  run.open(8);
+  run.closed(4, 10.0, 0.5); // starts before the window
+  run.open(2, 9.0);
+  run.closed(2, 10.0, 0.5);
+  run.open(2, 0.2);
+  run.closed(2, 10.0, 0.5);
+  run.open(2, 0.4);
+  run.closed(2, 10.0, 0.5); // has not ended
+  const ContactSummary s = statistics.summaries()[0];
+  EXPECT_EQ(s.impacts, 3);
+  EXPECT_NEAR(s.departure_velocity_mean, 0.3, round_off);
+  EXPECT_NEAR(s.departure_velocity_max, 0.4, round_off);
+}

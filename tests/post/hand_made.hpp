@@ -26,19 +26,25 @@ public:
   transient::kernels::Array& q() { return q_; }
   /// One step; contacts with a normal force are active. The states are opened again.
   void step() {
+    opened_ = active_;
     active_.clear();
     for (std::size_t c = 0; c < states_.size(); ++c)
       if (states_[c].normal_force > 0.0)
         active_.push_back(static_cast<int>(c));
+    std::erase_if(opened_, [&](int c) { return states_[static_cast<std::size_t>(c)].normal_force > 0.0; });
     record_.active = active_;
+    record_.opened = opened_;
     record_.time = (static_cast<double>(count_++) + 0.5) * record_.step;
     observer_.step(record_);
     for (auto& state : states_)
       state = {};
   }
-  void open(int steps) {
-    for (int i = 0; i < steps; ++i)
+  /// Open steps, contact 0 having left at a speed before the first.
+  void open(int steps, double leaving = 0.0) {
+    for (int i = 0; i < steps; ++i) {
+      states_[0].approach = i == 0 ? -leaving : 0.0;
       step();
+    }
   }
   /// Steps with a normal force on contact 0, `approach` being the speed before the first.
   void closed(int steps, double force, double approach = 0.0) {
@@ -54,7 +60,7 @@ private:
   transient::Record record_;
   std::vector<transient::ContactState> states_;
   transient::kernels::Array uy_, uz_, q_;
-  std::vector<int> active_;
+  std::vector<int> active_, opened_;
   long count_ = 0;
 };
 

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The impacts of every contact, one row each.
+///
+/// An impact is an interval of normal force > 0. Where the contact opens for less than `rest_time` and closes
+/// again, the impact goes on: a rebound. It ends with the last opening before a longer rest.
+///
+/// Resolution. Records stand in the middle of their step h. `start` is half a step before the first record
+/// with a force, the end half a step after the last: each within h of the truth, so that the mean duration
+/// of many impacts is right and a single one is off by h. The impulse is the sum of h times the record's
+/// forces, as good as the scheme. The peak is the largest of the record's forces; of a half sine of duration
+/// T seen as means over h it is low by (pi h/T)^2/24 where a step is centred on the peak, by up to
+/// (pi h/T)^2/6 where none is.
+#pragma once
+#include "transient/run.hpp"
+#include <limits>
+#include <vector>
+
+namespace fretwork::post {
+
+struct Impact {
+  double start = 0.0;           ///< s
+  double duration = 0.0;        ///< s, from the first touch to the last opening, rebounds included
+  double peak = 0.0;            ///< N, largest normal force
+  double impulse = 0.0;         ///< N s, integral of the normal force
+  double velocity_before = 0.0; ///< m/s, normal, towards the obstacle, at the first touch
+  /// m/s, normal, away from the obstacle, at the last opening; NaN where the run ends before the contact
+  /// opens
+  double velocity_after = std::numeric_limits<double>::quiet_NaN();
+  double energy_lost = 0.0;  ///< J, by the contact's dampers and by friction while it is closed
+  std::int64_t rebounds = 0; ///< openings shorter than `rest_time`
+};
+
+/// Of one contact, in time: the first impacts, and how many there were beyond them.
+struct ContactImpacts {
+  std::vector<Impact> rows;
+  std::int64_t left_out = 0;
+};
+
+/// Impacts that start in the window; one under way at its start is none of them.
+class ImpactTable final : public transient::Observer {
+public:
+  /// @param contacts   number of contacts   @param from  start of the window, s
+  /// @param rest_time  s, >= 0; 0: no rebounds, every interval of force is an impact
+  /// @param most       rows of each contact, reserved here; further impacts are counted
+  ImpactTable(std::size_t contacts, double from, double rest_time, std::size_t most);
+  void step(const transient::Record& record) override;
+  /// One entry a contact; impacts under way end where the run stands.
+  [[nodiscard]] std::vector<ContactImpacts> impacts() &&;
+
+private:
+  struct UnderWay {
+    Impact row;
+    double begin = 0.0, end = 0.0; ///< s: edges of the first and of the last step with a force
+    std::int64_t last_closed = -2; ///< number of the last step with a force
+    bool counted = false;          ///< it started in the window
+  };
+  void keep(std::size_t contact);
+
+  double from_, rest_time_;
+  std::size_t most_;
+  std::int64_t number_ = 0; ///< of the step
+  std::vector<UnderWay> under_way_;
+  std::vector<ContactImpacts> out_;
+};
+
+} // namespace fretwork::post
