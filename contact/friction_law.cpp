@@ -18,8 +18,8 @@ Sym2 masked(const FrictionLaw& law, const Sym2& a) {
   return {law.along.x * a.xx, law.along.x * law.along.t * a.xt, law.along.t * a.tt};
 }
 
-/// s (I - e e^T).
-Sym2 across(Vec2 e, double s) { return {s * (1.0 - e.x * e.x), -s * e.x * e.t, s * (1.0 - e.t * e.t)}; }
+/// s (I - e e^T) of a unit vector e.
+Sym2 across(Vec2 e, double s) { return {s * e.t * e.t, -s * e.x * e.t, s * e.x * e.x}; }
 
 /// Solves (M + s I) f = b, M + s I symmetric positive definite.
 Vec2 solve(const Mobility& m, double s, Vec2 b) {

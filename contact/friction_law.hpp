@@ -119,11 +119,11 @@ struct FrictionTable {
 }
 
 /// Implicit friction of one contact over a step: the mean velocity answers the force, v = free_velocity + A F
-/// (A = (h/2) W_tt, symmetric, >= 0). Stick: (I + G h A) F = T - G h free_velocity. Slip: F of length mu_d F_N
-/// along the trial T - G h v; with M = I + G h A and b = T - G h free_velocity that is (M + s I) F = b for the
-/// s >= 0 at which |F| is the bound, found by Newton's method on 1/|F|. For `reference` the slip force is
-/// opposite to v: with M = A and b = -free_velocity the same equation; where less than the bound brings the
-/// node to rest, that force (a larger one would drive the node backwards).
+/// (A = (h/2) W_tt, symmetric, >= 0). Stick: (I + G h A) F = T - G h free_velocity. Slip: F of length
+/// mu_d F_N along the trial T - G h v; with M = I + G h A and b = T - G h free_velocity that is
+/// (M + s I) F = b for the s >= 0 at which |F| is the bound, found by Newton's method on 1/|F|. For
+/// `reference` the slip force is opposite to v: with M = A and b = -free_velocity the same equation; where
+/// less than the bound brings the node to rest, that force (a larger one would drive the node backwards).
 using Mobility = Sym2; ///< m/s per N
 [[nodiscard]] Friction step_friction_plane(const FrictionLaw& law, const FrictionTable& table,
                                            const FrictionMemory& memory, double normal_force,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Obstacles in the plane y_loc, z_loc, their centre at the origin. `locate` turns a position into a gap and a
-/// normal. For a contact between two nodes the position is that of the first from the second, and a circle is
-/// a ring round the second node in which the first moves.
+/// Obstacles in the plane y_loc, z_loc, their centre at the origin. `locate` turns a position into a gap and
+/// a normal. For a contact between two nodes the position is that of the first from the second, and a circle
+/// is a ring round the second node in which the first moves.
 ///
 /// Sign rule of the whole program: gap > 0 open, gap < 0 penetrates; the normal n is the gradient of the gap
 /// (into free space).
@@ -11,10 +11,10 @@
 ///     stop         gap = g - c,            n = -e         one plane: contact where c exceeds g
 ///     round pair   gap = r - d,            n = e_r        two round bodies side by side, d = R_1 + R_2
 ///     profile      signed distance to a polygon round the origin (profile.hpp)
-///     facing planes gap = s c - d,         n = s e        two flat bodies, d = D_1 + D_2; the first stays on the
-///                                                 side s = +-1 of the second
-/// Source: R5.06.03 sections 4.1.1 and 4.1.2 (whose normals are opposite to each other), 4.2.1 (where the side
-/// follows the sign of c, so that bodies that pass through each other are pushed on), 4.2.2.
+///     facing planes gap = s c - d,         n = s e        two flat bodies, d = D_1 + D_2, the first on
+///                                                the side s = +-1 of the second
+/// Source: R5.06.03 sections 4.1.1 and 4.1.2 (whose normals are opposite to each other), 4.2.1 (where the
+/// side follows the sign of c, so that bodies that pass through each other are pushed on), 4.2.2.
 #pragma once
 #include "contact/profile.hpp"
 #include <array>

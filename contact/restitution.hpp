@@ -2,8 +2,8 @@
 /// @file
 /// Contact constants from what a user knows: the loss of an impact, the wall of a tube.
 ///
-/// A free mass m that meets the law of the reference at any speed v leaves at e v; with
-/// xi = C_N/(2 sqrt(K_N m)), the force being zero at release (R5.06.03 eq. 3.1-4, its positive part included),
+/// A free mass m that meets the law of the reference at any speed v leaves at e v, where its force is zero
+/// (R5.06.03 eq. 3.1-4, the positive part included); with xi = C_N/(2 sqrt(K_N m)),
 ///     e = exp(-2 xi acos(xi)/sqrt(1 - xi^2))   xi < 1        e = exp(-2)   xi = 1
 ///     e = exp(-2 xi acosh(xi)/sqrt(xi^2 - 1))  xi > 1
 /// e falls from 1 (xi = 0) to 0 as xi grows: the inverse is unique.
