@@ -64,6 +64,34 @@ TEST(NauticalFrame, TurnsAboutItsAxisByTheAngle) {
   }
 }
 
+TEST(NauticalFrame, IsTheTurnByItsThreeAngles) {
+  // about Z by alpha, about the new y by beta, about x_loc by the angle; each axis and an oblique one
+  const double degree = std::numbers::pi / 180.0;
+  const Vec3 oblique(1.0, 2.0, -1.0);
+  for (const Vec3& axis : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY()), Vec3(Vec3::UnitZ()), oblique})
+    for (const double angle : {0.0, 30.0 * degree, -135.0 * degree}) {
+      const Vec3 n = axis.normalized();
+      const Eigen::AngleAxisd alpha(std::atan2(n.y(), n.x()), Vec3::UnitZ()),
+          beta(-std::asin(n.z()), Vec3::UnitY()), spin(angle, Vec3::UnitX());
+      const Eigen::Matrix3d turned = (alpha * beta * spin).toRotationMatrix();
+      EXPECT_LT((nautical_frame(axis, angle).rotation() - turned.transpose()).norm(), trigonometry);
+    }
+}
+
+TEST(NauticalFrame, GivesPlacesAgainstAnObstacleThatIsShifted) {
+  // a node at 0.3 along y_loc and 0.4 along z_loc of an oblique frame, about a centre shifted by 0.1 and 0.2
+  const Vec3 axis(1.0, 2.0, -1.0), origin(5.0, -3.0, 2.0), offset(0.0, 0.1, 0.2);
+  const double alpha = std::atan2(2.0, 1.0), beta = std::asin(1.0 / std::sqrt(6.0)), angle = 0.7;
+  const Vec3 y(-std::sin(alpha), std::cos(alpha), 0.0),
+      z(std::cos(alpha) * std::sin(beta), std::sin(alpha) * std::sin(beta), std::cos(beta));
+  const Vec3 node = origin + 9.0 * axis + 0.3 * y + 0.4 * z;
+  const Vec3 local = nautical_frame(axis, angle).rotation() * (node - origin) - offset;
+  constexpr double of_coordinates = 1e-13; // of places of some 10 m
+  EXPECT_NEAR(local.y(), 0.3 * std::cos(angle) + 0.4 * std::sin(angle) - 0.1, of_coordinates);
+  EXPECT_NEAR(local.z(), 0.4 * std::cos(angle) - 0.3 * std::sin(angle) - 0.2, of_coordinates);
+  EXPECT_NEAR(local.x(), 9.0 * std::sqrt(6.0), of_coordinates);
+}
+
 TEST(NauticalFrame, DoesNotDependOnTheLengthOfTheAxis) {
   const Vec3 axis(0.3, -0.7, 0.2);
   const Frame a = nautical_frame(axis, 0.4), b = nautical_frame(1024.0 * axis, 0.4);

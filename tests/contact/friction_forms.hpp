@@ -23,10 +23,10 @@ struct StepInput {
   contact::Mobility mobility;
 };
 
-/// Any direction, any anisotropy up to 1e4, free or hardly free to move.
-inline StepInput draw_step(Uniform& uniform, double normal) {
+/// Any direction, free or hardly free to move, mobilities as unlike as 1 and `least`.
+inline StepInput draw_step(Uniform& uniform, double normal, double least) {
   const double angle = uniform(0.0, std::numbers::pi), c = std::cos(angle), s = std::sin(angle);
-  const double big = uniform.scale(1e-8, 1e2), small = big * uniform.scale(1e-4, 1.0);
+  const double big = uniform.scale(1e-8, 1e2), small = big * uniform.scale(least, 1.0);
   return {normal,
           uniform.vector(uniform.scale(1e-4, 1.0)),
           {big * c * c + small * s * s, (big - small) * c * s, big * s * s + small * c * c}};

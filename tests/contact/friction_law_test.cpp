@@ -2,7 +2,6 @@
 // The friction law at one instant, its memory and its energy, regime by regime.
 #include "contact/support.hpp"
 #include "uniform.hpp"
-#include <cstring>
 #include <gtest/gtest.h>
 
 using namespace fretwork;
@@ -63,19 +62,6 @@ TEST(FrictionEvaluate, BreaksLooseAtTheStaticBoundAndSticksAgainBelowTheDynamicO
   EXPECT_TRUE(slides(4.9, true));
   EXPECT_TRUE(slides(5.1, false));
   EXPECT_FALSE(slides(2.9, true));
-}
-
-TEST(FrictionEvaluate, StaysWithinTheConeForAnyInput) {
-  tests::Uniform uniform(11);
-  for (const FrictionLaw& l : {law, two_coefficients, reference(law), reference(two_coefficients)})
-    for (int i = 0; i < 2000; ++i) {
-      const double normal = uniform.scale(1e-6, 1e6);
-      const FrictionMemory memory{uniform.vector(normal), uniform(-1, 1) > 0.0};
-      const Friction f = evaluate(l, memory, normal, uniform.vector(normal / l.stiffness),
-                                  uniform.vector(normal / l.damping));
-      const double mu = f.slides || memory.sliding ? l.mu_dynamic : l.mu_static;
-      EXPECT_LE(norm(f.force), mu * normal * (1.0 + bound_tolerance));
-    }
 }
 
 TEST(FrictionEvaluate, OfTheReferenceSlipsAgainstTheVelocityAndWithoutOneAlongTheTrial) {
@@ -160,53 +146,6 @@ TEST(FrictionEnergy, OfAClosedCycleIsLost) {
         1e-6; // the third cycle starts and ends with the same spring, to this share of the loss
     EXPECT_NEAR(-work, lost, settled * lost);
   }
-}
-
-TEST(FrictionEnergy, SliderAndDamperNeverGiveEnergyWhateverTheNormalForceDoes) {
-  tests::Uniform uniform(13);
-  for (const FrictionLaw& l :
-       {law, two_coefficients, FrictionLaw{1e6, 0.0, 0.3, 0.3}, FrictionLaw{1e6, 5e4, 0.4, 0.1}}) {
-    Driven node{l};
-    double falling = 10.0;
-    for (int i = 0; i < 20000; ++i) {
-      falling = i % 50 == 0 ? 10.0 : 0.85 * falling; // the force falls under a loaded spring, then returns
-      const double f = node.friction_work, d = node.damper_work, scale = 1e-6;
-      const double normal = i % 2 == 0 ? falling : uniform(0.0, 10.0);
-      node.step = uniform.scale(1e-7, 1e-2);
-      node.move(normal, uniform.vector(uniform.scale(1e-8, 1e-4)));
-      EXPECT_GE(node.friction_work - f, -round_off * scale);
-      EXPECT_GE(node.damper_work - d, -round_off * scale);
-    }
-    EXPECT_GT(node.friction_work, 0.0);
-  }
-}
-
-TEST(FrictionEnergy, IsSharedOutWithoutRest) {
-  tests::Uniform uniform(14);
-  for (int i = 0; i < 5000; ++i) {
-    const double normal = uniform(0.0, 20.0);
-    const FrictionMemory memory{uniform.vector(10.0), uniform(-1, 1) > 0.0};
-    const Vec2 dx = uniform.vector(2e-5);
-    const Friction friction = evaluate(two_coefficients, memory, normal, dx, (1.0 / h) * dx);
-    const FrictionStep end =
-        close_step(two_coefficients, friction_table(two_coefficients, h), memory, friction, dx);
-    const double spring =
-        spring_energy(two_coefficients, end.memory) - spring_energy(two_coefficients, memory);
-    EXPECT_NEAR(-dot(friction.force, dx), end.friction_work + end.damper_work + spring, 1e-16);
-  }
-}
-
-TEST(FrictionLaw, IsAPureFunction) {
-  const FrictionMemory memory{{2.0, -1.0}, true};
-  const auto once = [&] {
-    const Friction f = evaluate(two_coefficients, memory, 7.0, {1e-6, 2e-6}, {0.3, 0.1});
-    return close_step(two_coefficients, friction_table(two_coefficients, h), memory, f, {3e-5, 1e-5});
-  };
-  const FrictionStep a = once(), b = once();
-  EXPECT_EQ(a.memory.spring.x, b.memory.spring.x);
-  EXPECT_EQ(a.memory.spring.t, b.memory.spring.t);
-  EXPECT_EQ(a.friction_work, b.friction_work);
-  EXPECT_EQ(a.damper_work, b.damper_work);
 }
 
 TEST(AutomaticTangentialDamping, MakesTheStuckModeCritical) {

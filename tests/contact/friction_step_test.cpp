@@ -135,41 +135,6 @@ TEST(FrictionStepPlane, AgreesWithTheLineWhereNothingMovesAlongX) {
   }
 }
 
-TEST(FrictionStep, NeverGivesEnergy) {
-  tests::Uniform uniform(24);
-  for (const FrictionLaw& l : {law, FrictionLaw{1e6, 0.0, 0.3, 0.3}, FrictionLaw{1e6, 5e4, 0.4, 0.1}}) {
-    const FrictionTable table = friction_table(l, h);
-    FrictionMemory memory;
-    double normal = 20.0;
-    for (int i = 0; i < 20000; ++i) {
-      const Case c = draw(uniform);
-      normal = i % 40 == 0 ? 20.0 : 0.8 * normal; // falling under a loaded spring
-      const Friction f = step_friction_plane(l, table, memory, normal, c.free_velocity, c.mobility);
-      const Vec2 dx = h * (c.free_velocity + times(c.mobility, f.force));
-      const FrictionStep end = close_step(l, table, memory, f, dx);
-      const double scale = norm(f.force) * norm(dx) + spring_energy(l, memory);
-      EXPECT_GE(end.friction_work, -bound_tolerance * scale);
-      EXPECT_GE(end.damper_work, -bound_tolerance * scale);
-      memory = end.memory;
-    }
-  }
-}
-
-TEST(FrictionStep, SliderOfTheReferenceNeverGivesEnergy) {
-  tests::Uniform uniform(25);
-  const FrictionLaw l = reference(law);
-  const FrictionTable table = friction_table(l, h);
-  FrictionMemory memory;
-  for (int i = 0; i < 20000; ++i) {
-    const Case c = draw(uniform);
-    const Friction f = step_friction_plane(l, table, memory, c.normal, c.free_velocity, c.mobility);
-    const Vec2 dx = h * (c.free_velocity + times(c.mobility, f.force));
-    const FrictionStep end = close_step(l, table, memory, f, dx);
-    EXPECT_GE(end.friction_work, -solved * norm(f.force) * h * norm(c.free_velocity));
-    memory = end.memory;
-  }
-}
-
 TEST(FrictionStep, TendsToTheLawOfAnInstantAsTheStepGoesToZero) {
   const Mobility w{7.0, 2.0, 4.0};                                   // 1/kg; over a step (h/2) of it
   const std::array velocities = {Vec2{0.02, -0.01}, Vec2{0.4, 0.3}}; // stick, slip
@@ -192,44 +157,4 @@ TEST(FrictionStep, TendsToTheLawOfAnInstantAsTheStepGoesToZero) {
       }
       EXPECT_LT(last, 1e-4 * norm(instant.force));
     }
-}
-
-TEST(FrictionStep, GivesTheSameBytesForUnitsScaledByPowersOfTwo) {
-  // newtons, metres and seconds scaled apart: the formulas know no unit
-  const double force = 0x1p7, metre = 0x1p-5, second = 0x1p3;
-  tests::Uniform uniform(26);
-  FrictionLaw scaled = law;
-  scaled.stiffness *= force / metre;
-  scaled.damping *= force / metre * second;
-  const FrictionTable table = friction_table(law, h), scaled_table = friction_table(scaled, h * second);
-  const double speed = metre / second;
-  for (int i = 0; i < 2000; ++i) {
-    const Case c = draw(uniform);
-    const auto& a = c.mobility;
-    const Friction f = step_friction_plane(law, table, c.memory, c.normal, c.free_velocity, a);
-    const Friction g = step_friction_plane(
-        scaled, scaled_table, {force * c.memory.spring, c.memory.sliding}, force * c.normal,
-        speed * c.free_velocity, {speed / force * a.xx, speed / force * a.xt, speed / force * a.tt});
-    EXPECT_EQ(g.force.x, force * f.force.x);
-    EXPECT_EQ(g.force.t, force * f.force.t);
-    EXPECT_EQ(g.slides, f.slides);
-    const FrictionStep end = close_step(law, table, c.memory, f, h * c.free_velocity);
-    const FrictionStep other = close_step(scaled, scaled_table, {force * c.memory.spring, c.memory.sliding},
-                                          g, (h * second) * (speed * c.free_velocity));
-    EXPECT_EQ(other.memory.spring.x, force * end.memory.spring.x);
-    EXPECT_EQ(other.damper_work, force * metre * end.damper_work);
-    EXPECT_EQ(other.friction_work, force * metre * end.friction_work);
-  }
-}
-
-TEST(FrictionStep, IsAPureFunction) {
-  tests::Uniform uniform(27);
-  const FrictionTable table = friction_table(law, h);
-  for (int i = 0; i < 100; ++i) {
-    const Case c = draw(uniform);
-    const Friction f = step_friction_plane(law, table, c.memory, c.normal, c.free_velocity, c.mobility);
-    const Friction g = step_friction_plane(law, table, c.memory, c.normal, c.free_velocity, c.mobility);
-    EXPECT_EQ(f.force.x, g.force.x);
-    EXPECT_EQ(f.force.t, g.force.t);
-  }
 }

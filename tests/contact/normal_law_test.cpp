@@ -22,17 +22,6 @@ TEST(NormalForce, IsThatOfSpringAndDamper) {
   EXPECT_DOUBLE_EQ(normal_force({1e6}, 1e-4, 99.0), 100.0);
 }
 
-TEST(NormalForce, NeverPulls) {
-  tests::Uniform uniform(6);
-  int cut = 0;
-  for (int i = 0; i < 1000; ++i) {
-    const double p = uniform(0.0, 1e-4), rate = uniform(-1.0, 1.0), force = normal_force(law, p, rate);
-    EXPECT_GE(force, 0.0);
-    cut += force == 0.0;
-  }
-  EXPECT_GT(cut, 100); // the case was met
-}
-
 TEST(NormalForce, IsZeroWhereOpenHoweverFastTheApproach) { EXPECT_EQ(normal_force(law, -1e-300, 1e6), 0.0); }
 
 TEST(MeanPenetration, IsTheMeanOfItsPositivePart) {

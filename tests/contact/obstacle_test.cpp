@@ -14,9 +14,6 @@ using contact::Stop;
 namespace {
 
 constexpr double gap = 0.3;
-constexpr double difference_step = 1e-6;
-constexpr double difference_error =
-    1e-9; // of central differences: step^2 times third derivatives, and round-off / step
 constexpr double round_off = 1e-15;
 
 const Obstacle all[] = {Circle{gap}, PlanePair{gap, PlaneAxis::y}, PlanePair{gap, PlaneAxis::z},
@@ -38,23 +35,6 @@ TEST(Obstacle, PlanesActOnBothSidesAndStopsOnOne) {
   EXPECT_NEAR(locate(PlanePair{gap, PlaneAxis::z}, 9.0, -0.5).gap, gap - 0.5, round_off);
   EXPECT_NEAR(locate(Stop{gap, PlaneAxis::y}, -0.5, 9.0).gap, gap + 0.5, round_off);
   EXPECT_NEAR(locate(Stop{gap, PlaneAxis::z}, 9.0, -0.5).gap, gap + 0.5, round_off);
-}
-
-TEST(Obstacle, NormalIsTheGradientOfTheGap) {
-  tests::Uniform uniform(4);
-  for (const Obstacle& obstacle : all)
-    for (int i = 0; i < 100; ++i) {
-      // away from the ridges of the gap (the centre, the middle plane), where it has no gradient
-      const double y = std::copysign(uniform(0.05, 1.0), uniform(-1, 1)),
-                   z = std::copysign(uniform(0.05, 1.0), uniform(-1, 1));
-      const double h = difference_step;
-      const auto at = locate(obstacle, y, z);
-      EXPECT_NEAR(at.ny, (locate(obstacle, y + h, z).gap - locate(obstacle, y - h, z).gap) / (2 * h),
-                  difference_error);
-      EXPECT_NEAR(at.nz, (locate(obstacle, y, z + h).gap - locate(obstacle, y, z - h).gap) / (2 * h),
-                  difference_error);
-      EXPECT_NEAR(std::hypot(at.ny, at.nz), 1.0, round_off);
-    }
 }
 
 TEST(Obstacle, NormalIsAUnitVectorAtTheVeryCentre) {
