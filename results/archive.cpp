@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/error.hpp"
 #include "results/basis_file.hpp"
+#include "results/impact_columns.hpp"
 #include "results/text_file.hpp"
 #include "results/write.hpp"
 #include <algorithm>
@@ -12,25 +13,32 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* contact_units =
-    "position, gap, rest: m; normal_stiffness, tangential_stiffness: N/m; normal_damping, "
-    "tangential_damping: N s/m; axes: rows x_loc, y_loc, z_loc";
+    "position, other_position, gap, rest: m; normal_stiffness, tangential_stiffness: N/m; normal_damping, "
+    "tangential_damping: N s/m; normal_dissipation: s/m; axes: rows x_loc, y_loc, z_loc; friction_along: "
+    "along x_loc, across it";
 
-void write_facts(const h5::Group& group, const ContactFacts& c, const core::Vec3& position) {
+void write_facts(const h5::Group& group, const ContactFacts& c, const std::vector<core::Vec3>& nodes) {
   const RowMajor axes = c.axes;
   group.set("node", std::int64_t{c.node});
   group.set("other", std::int64_t{c.other});
-  group.set<double>("position", {position.data(), 3}, {3});
+  group.set<double>("position", {nodes.at(static_cast<std::size_t>(c.node)).data(), 3}, {3});
+  if (c.other >= 0)
+    group.set<double>("other_position", {nodes.at(static_cast<std::size_t>(c.other)).data(), 3}, {3});
   group.set<double>("axes", {axes.data(), 9}, {3, 3});
   group.set("obstacle", c.obstacle);
   group.set("gap", c.gap);
   group.set<double>("rest", {c.rest.data(), 3}, {3});
   group.set("normal_stiffness", c.normal_stiffness);
   group.set("normal_damping", c.normal_damping);
+  group.set("normal_dissipation", c.normal_dissipation);
   group.set("tangential_stiffness", c.tangential_stiffness);
   group.set("tangential_damping", c.tangential_damping);
   group.set("friction_static", c.friction_static);
   group.set("friction_dynamic", c.friction_dynamic);
+  group.set<double>("friction_along", c.friction_along, {2});
   group.set("units", std::string(contact_units));
+  if (c.outline.size() > 0)
+    write_matrix(group, "outline", c.outline, "m");
 }
 
 ContactFacts read_facts(const h5::Group& group) {
@@ -38,19 +46,24 @@ ContactFacts read_facts(const h5::Group& group) {
   c.name = group.text("name");
   c.node = static_cast<core::Index>(group.integer("node"));
   c.other = static_cast<core::Index>(group.integer("other"));
-  const auto axes = group.values<double>("axes"), rest = group.values<double>("rest");
-  if (axes.size() != 9 || rest.size() != 3)
-    throw h5::Failure("axes or rest of a contact");
+  const auto axes = group.values<double>("axes"), rest = group.values<double>("rest"),
+             along = group.values<double>("friction_along");
+  if (axes.size() != 9 || rest.size() != 3 || along.size() != 2)
+    throw h5::Failure("axes, rest or friction_along of a contact");
   c.axes = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(axes.data());
   c.rest = Eigen::Map<const core::Vec3>(rest.data());
   c.obstacle = group.text("obstacle");
   c.gap = group.number("gap");
   c.normal_stiffness = group.number("normal_stiffness");
   c.normal_damping = group.number("normal_damping");
+  c.normal_dissipation = group.number("normal_dissipation");
   c.tangential_stiffness = group.number("tangential_stiffness");
   c.tangential_damping = group.number("tangential_damping");
   c.friction_static = group.number("friction_static");
   c.friction_dynamic = group.number("friction_dynamic");
+  c.friction_along = {along[0], along[1]};
+  if (group.has("outline"))
+    c.outline = read_matrix(group, "outline");
   return c;
 }
 
@@ -62,6 +75,44 @@ void write_series(const h5::Group& group, const post::ContactSeries& s, Eigen::I
   write_vector(group, "gap", s.gap.head(nt), "m");
   write_vector(group, "normal_force", s.normal_force.head(nt), "N");
   write_matrix(group, "tangential_force", s.tangential_force.topRows(nt), "N");
+  group.write<std::uint8_t>("state", {s.state.data(), static_cast<std::size_t>(nt)},
+                            {static_cast<hsize_t>(nt)}, "0 open, 1 sticks, 2 slides");
+}
+
+/// One dataset a column: a group that a table library reads as it is.
+void write_impacts(const h5::Group& contact, const post::ContactImpacts& impacts, double rest_time) {
+  const h5::Group group = contact.create("impacts");
+  group.set("rest_time", rest_time);
+  group.set("left_out", impacts.left_out);
+  group.set("units", std::string("rest_time: s; left_out: impacts after the last row"));
+  const h5::Shape shape{impacts.rows.size()};
+  for (const ImpactColumn& column : impact_columns) {
+    std::vector<double> values;
+    for (const post::Impact& row : impacts.rows)
+      values.push_back(row.*column.value);
+    group.write<double>(column.name, values, shape, column.units);
+  }
+  std::vector<std::int64_t> rebounds;
+  for (const post::Impact& row : impacts.rows)
+    rebounds.push_back(row.rebounds);
+  group.write<std::int64_t>("rebounds", rebounds, shape, "");
+}
+
+post::ContactImpacts read_impacts(const h5::Group& group) {
+  post::ContactImpacts impacts;
+  impacts.left_out = group.integer("left_out");
+  const auto rebounds = group.read<std::int64_t>("rebounds");
+  impacts.rows.resize(rebounds.size());
+  for (std::size_t i = 0; i < rebounds.size(); ++i)
+    impacts.rows[i].rebounds = rebounds[i];
+  for (const ImpactColumn& column : impact_columns) {
+    const auto values = group.read<double>(column.name);
+    if (values.size() != rebounds.size())
+      throw h5::Failure("columns of impacts of unequal length");
+    for (std::size_t i = 0; i < values.size(); ++i)
+      impacts.rows[i].*column.value = values[i];
+  }
+  return impacts;
 }
 
 void write_series(const h5::Group& group, const post::NodeSeries& s, Eigen::Index nt) {
@@ -96,10 +147,12 @@ void write_contacts(const h5::Group& root, const RunResults& results) {
   for (std::size_t c = 0; c < results.contacts.size(); ++c) {
     const ContactFacts& facts = results.contacts[c];
     const h5::Group group = create_named(contacts, facts.name, c);
-    write_facts(group, facts, results.nodes.at(static_cast<std::size_t>(facts.node)));
+    write_facts(group, facts, results.nodes);
     for (const post::ContactSeries& series : results.series.contacts)
       if (series.name == facts.name)
         write_series(group, series, results.series.time.size());
+    if (!results.impacts.empty())
+      write_impacts(group, results.impacts.at(c), results.rest_time);
   }
 }
 
@@ -125,10 +178,15 @@ void read_contacts(const h5::Group& root, RunResults& results) {
   for (const h5::Group& group : in_order(root.open("contacts"))) {
     results.contacts.push_back(read_facts(group));
     if (group.has("normal_force"))
-      results.series.contacts.push_back({results.contacts.back().name, read_matrix(group, "displacement"),
-                                         read_matrix(group, "velocity"), read_vector(group, "gap"),
-                                         read_vector(group, "normal_force"),
-                                         read_matrix(group, "tangential_force")});
+      results.series.contacts.push_back(
+          {results.contacts.back().name, read_matrix(group, "displacement"), read_matrix(group, "velocity"),
+           read_vector(group, "gap"), read_vector(group, "normal_force"),
+           read_matrix(group, "tangential_force"), group.read<std::uint8_t>("state")});
+    if (group.has("impacts")) {
+      const h5::Group impacts = group.open("impacts");
+      results.impacts.push_back(read_impacts(impacts));
+      results.rest_time = impacts.number("rest_time");
+    }
   }
 }
 

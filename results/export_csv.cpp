@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/error.hpp"
+#include "results/impact_columns.hpp"
 #include "results/text_file.hpp"
 #include "results/write.hpp"
+#include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
 
 namespace fretwork::results {
 namespace {
+
+using StateVector = Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 1>;
 
 struct Column {
   std::string name;
@@ -34,6 +38,19 @@ void write_columns(const std::filesystem::path& file, const std::vector<Column>&
   write_text(file, {text.data(), text.size()});
 }
 
+void write_impacts(const std::filesystem::path& file, const std::vector<post::Impact>& impacts) {
+  std::vector<Column> columns;
+  const auto add_column = [&](const std::string& header, const auto& value) {
+    columns.push_back({header, Eigen::VectorXd(static_cast<Eigen::Index>(impacts.size()))});
+    std::transform(impacts.begin(), impacts.end(), columns.back().values.begin(), value);
+  };
+  for (const ImpactColumn& column : impact_columns)
+    add_column(fmt::format("{} [{}]", column.name, column.units),
+               [&](const post::Impact& row) { return row.*column.value; });
+  add_column("rebounds", [](const post::Impact& row) { return static_cast<double>(row.rebounds); });
+  write_columns(file, columns);
+}
+
 } // namespace
 
 void export_csv(const std::filesystem::path& directory, const RunResults& results) {
@@ -51,8 +68,12 @@ void export_csv(const std::filesystem::path& directory, const RunResults& result
     columns.push_back({"gap [m]", c.gap});
     columns.push_back({"normal_force [N]", c.normal_force});
     add(columns, "tangential_force", c.tangential_force, {"x_loc", "t"}, "N");
+    columns.push_back({"state", Eigen::Map<const StateVector>(c.state.data(), c.gap.size()).cast<double>()});
     write_columns(directory / ("contact_" + path_name(c.name) + ".csv"), columns);
   }
+  for (std::size_t c = 0; c < results.impacts.size(); ++c)
+    write_impacts(directory / (path_name(results.contacts[c].name) + "_impacts.csv"),
+                  results.impacts[c].rows);
   for (const post::NodeSeries& n : series.nodes) {
     std::vector<Column> columns{{"time [s]", series.time}};
     add(columns, "displacement", n.displacement, {"x", "y", "z"}, "m");

@@ -68,6 +68,7 @@ Handle::~Handle() {
 Handle::Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
 
 template <> hid_t type_of<double>() { return H5T_NATIVE_DOUBLE; }
+template <> hid_t type_of<std::uint8_t>() { return H5T_NATIVE_UINT8; }
 template <> hid_t type_of<std::int32_t>() { return H5T_NATIVE_INT32; }
 template <> hid_t type_of<std::int64_t>() { return H5T_NATIVE_INT64; }
 template <> hid_t type_of<std::uint64_t>() { return H5T_NATIVE_UINT64; }

@@ -61,6 +61,7 @@ using Shape = std::vector<hsize_t>;
 /// Types that are stored as they are in memory.
 template <class T> [[nodiscard]] hid_t type_of();
 template <> hid_t type_of<double>();
+template <> hid_t type_of<std::uint8_t>();
 template <> hid_t type_of<std::int32_t>();
 template <> hid_t type_of<std::int64_t>();
 template <> hid_t type_of<std::uint64_t>();

@@ -4,6 +4,7 @@
 #pragma once
 #include "modal/basis.hpp"
 #include "post/contact_statistics.hpp"
+#include "post/impact_table.hpp"
 #include "post/node_statistics.hpp"
 #include "post/recorder.hpp"
 #include "transient/step_rule.hpp"
@@ -34,14 +35,17 @@ struct ModelFacts {
 /// A contact as it was set up.
 struct ContactFacts {
   std::string name;
-  core::Index node = 0;   ///< of the model
-  core::Index other = -1; ///< the second node; -1: the obstacle is fixed
-  Eigen::Matrix3d axes;   ///< rows x_loc y_loc z_loc
-  std::string obstacle;   ///< as in the study file
-  double gap = 0.0;       ///< m
-  core::Vec3 rest;        ///< m, node at rest from the obstacle's centre, local axes
+  core::Index node = 0;    ///< of the model
+  core::Index other = -1;  ///< the second node; -1: the obstacle is fixed
+  Eigen::Matrix3d axes;    ///< rows x_loc y_loc z_loc
+  std::string obstacle;    ///< as in the study file
+  double gap = 0.0;        ///< m
+  core::Vec3 rest;         ///< m, node at rest from the obstacle's centre, local axes
+  Eigen::MatrixXd outline; ///< m, n x 2: corners of a profile, local y z; empty for other obstacles
   double normal_stiffness = 0.0, normal_damping = 0.0, tangential_stiffness = 0.0, tangential_damping = 0.0;
+  double normal_dissipation = 0.0; ///< s/m, Hunt and Crossley's
   double friction_static = 0.0, friction_dynamic = 0.0;
+  std::array<double, 2> friction_along{1.0, 1.0}; ///< 1 where friction acts: along x_loc, across it
 };
 
 /// One independent transient (a connected structure with its contacts).
@@ -62,6 +66,8 @@ struct RunResults {
   std::vector<modal::Basis> bases;               ///< by structure
   std::vector<ContactFacts> contacts;
   std::vector<post::ContactSummary> contact_summaries; ///< as `contacts`; empty without a transient
+  std::vector<post::ContactImpacts> impacts;           ///< as `contacts`; empty without a table
+  double rest_time = 0.0;                              ///< s, of the table of impacts
   std::vector<std::string> node_names;
   std::vector<post::NodeSummary> node_summaries;
   std::vector<TransientFacts> transients;       ///< by structure that was run

@@ -48,9 +48,9 @@ Json modes(const std::vector<modal::Basis>& bases) {
   return out;
 }
 
-Json contact(const std::string& name, const post::ContactSummary& c) {
+Json contact(const ContactFacts& facts, const post::ContactSummary& c) {
   return {
-      {"name", name},
+      {"name", facts.name},
       {"impacts", c.impacts},
       {"contact_time_ratio", number(c.contact_time_ratio)},
       {"normal_force",
@@ -66,7 +66,14 @@ Json contact(const std::string& name, const post::ContactSummary& c) {
       {"friction_power", number(c.friction_power)},
       {"impact_velocity", {{"mean", number(c.impact_velocity_mean)}, {"max", number(c.impact_velocity_max)}}},
       {"contact_duration",
-       {{"mean", number(c.contact_duration_mean)}, {"max", number(c.contact_duration_max)}}}};
+       {{"mean", number(c.contact_duration_mean)}, {"max", number(c.contact_duration_max)}}},
+      {"departure_velocity",
+       {{"mean", number(c.departure_velocity_mean)}, {"max", number(c.departure_velocity_max)}}},
+      {"energy", {{"damping_J", number(c.damping_work)}, {"friction_J", number(c.friction_work)}}},
+      {"sliding_distance_m", number(c.sliding_distance)},
+      {"impulse_Ns", number(c.impulse)},
+      // nothing sticks or slides where there is no friction
+      {"sticking_ratio", facts.friction_static > 0.0 ? number(c.sticking_ratio) : Json(nullptr)}};
 }
 
 Json node(const std::string& name, const post::NodeSummary& n) {
@@ -115,7 +122,7 @@ void add_transient(Json& out, const RunResults& results) {
   const TransientTotals totals = add_up(results.transients);
   out["contacts"] = Json::array();
   for (std::size_t c = 0; c < results.contacts.size(); ++c)
-    out["contacts"].push_back(contact(results.contacts[c].name, results.contact_summaries[c]));
+    out["contacts"].push_back(contact(results.contacts[c], results.contact_summaries[c]));
   out["nodes"] = Json::array();
   for (std::size_t n = 0; n < results.node_names.size(); ++n)
     out["nodes"].push_back(node(results.node_names[n], results.node_summaries[n]));

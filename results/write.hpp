@@ -10,7 +10,7 @@
 namespace fretwork::results {
 
 /// Number of the layout of the files: part of what tells whether stored results can be read. Raise it when the layout changes.
-inline constexpr int file_layout = 2;
+inline constexpr int file_layout = 3;
 
 /// Calls `write` with a temporary name beside `file`, then renames. Removes the temporary file when `write`
 /// throws. Makes the folder where there is none.
@@ -50,8 +50,8 @@ void write_bases(const std::filesystem::path& file, const RunRecord& record,
 /// @throws core::Error if the folder holds no results or the file is damaged
 [[nodiscard]] RunResults read_archive(const std::filesystem::path& directory);
 
-/// contact_<name>.csv and node_<name>.csv: time and all series, header with units; numbers read back bit for
-/// bit.
+/// contact_<name>.csv and node_<name>.csv: time and all series; <name>_impacts.csv: one impact a row. Header
+/// with units; numbers read back bit for bit.
 /// @throws core::Error without a transient
 void export_csv(const std::filesystem::path& directory, const RunResults& results);
 /// modes.vtu (one vector array a mode; with several structures the k-th mode of each in one array) and, with

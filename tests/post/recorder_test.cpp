@@ -130,6 +130,49 @@ TEST(Recorder, ShowsNoForceWhereTheContactIsOpen) {
   EXPECT_GT(s.contacts[0].normal_force.maxCoeff(), 0.0);
 }
 
+TEST(Recorder, TellsWhetherAContactIsOpenSticksOrSlides) {
+  Scene scene = pressed_node();
+  scene.contacts.push_back(scene.contacts[0]);
+  scene.contacts[2].support.friction = {}; // nothing holds it: it slides
+  const OutputGrid grid = output_grid(scene.duration, 1e-2);
+  Recorder recorder(scene, {}, grid);
+  const Eigen::Vector3d shut(0, 0, 0), away(0, 0, -0.5), v(0, 0, 0);
+  const ContactForce free{0.0, {}, 0.0, 0.0, false}, held{2.0, {0.1, 0.0}, 0.0, -1.0, false},
+      moving{2.0, {0.4, 0.0}, 0.0, -1.0, true};
+  const auto serve = [&](int j, const Eigen::Vector3d& q, const ContactForce& f) {
+    recorder.state(j, j * grid.every, q.data(), v.data());
+    recorder.forces(j, j * grid.every, v.data(), std::vector<ContactForce>{f, free, f});
+  };
+  serve(0, shut, free); // shut, but held free of force by its damper
+  serve(1, shut, held);
+  serve(2, shut, moving);
+  serve(3, away, moving); // the force of a step around the instant
+  const TimeSeries s = std::move(recorder).series();
+  using State = std::vector<std::uint8_t>;
+  EXPECT_EQ(s.contacts[0].state, (State{post::open, post::sticks, post::slides, post::open}));
+  EXPECT_EQ(s.contacts[1].state, (State{post::open, post::open, post::open, post::open}));
+  EXPECT_EQ(s.contacts[2].state, (State{post::open, post::slides, post::slides, post::open}));
+}
+
+TEST(Recorder, SeesTheBlockOfARunComeToRest) {
+  Scene scene = pressed_node(); // slides along the wall at 0.3 m/s under 20 N and mu = 0.2: stops and goes
+  const TimeSeries s = record(scene, {SchemeKind::splitting, 1e-4}, 1e-3);
+  int kinds[3] = {};
+  for (std::size_t j = 0; j < s.contacts[0].state.size(); ++j) {
+    const auto i = static_cast<Eigen::Index>(j);
+    const double bound = 0.2 * s.contacts[0].normal_force(i);
+    ++kinds[s.contacts[0].state[j]];
+    constexpr double between = 1e-6; // both forces are linear between the same steps, which slide both or not
+    if (s.contacts[0].state[j] == post::slides && j > 0 && s.contacts[0].state[j - 1] == post::slides) {
+      EXPECT_NEAR(s.contacts[0].tangential_force.row(i).norm(), bound, between * bound);
+    }
+    EXPECT_LE(s.contacts[0].tangential_force.row(i).norm(), bound * (1.0 + between));
+  }
+  EXPECT_EQ(kinds[post::open], 0);
+  EXPECT_GT(kinds[post::sticks], 10);
+  EXPECT_GT(kinds[post::slides], 10);
+}
+
 TEST(Recorder, CutsTheSeriesOfARunThatEndedEarly) {
   const Scene scene = pressed_node();
   const OutputGrid grid = output_grid(scene.duration, 1e-2);

@@ -5,6 +5,7 @@
 #include "results/write.hpp"
 #include "synthetic.hpp"
 #include <chrono>
+#include <cstring>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <thread>
@@ -34,12 +35,36 @@ TEST(Archive, GivesBackEverySeriesBitForBit) {
     EXPECT_EQ(a.gap, b.gap);
     EXPECT_EQ(a.normal_force, b.normal_force);
     EXPECT_EQ(a.tangential_force, b.tangential_force);
+    EXPECT_EQ(a.state, b.state);
   }
   ASSERT_EQ(in.series.nodes.size(), 1u);
   EXPECT_EQ(in.series.nodes[0].name, "apex");
   EXPECT_EQ(in.series.nodes[0].displacement, out.series.nodes[0].displacement);
   EXPECT_EQ(in.series.nodes[0].velocity, out.series.nodes[0].velocity);
   EXPECT_EQ(in.series.nodes[0].acceleration, out.series.nodes[0].acceleration);
+}
+
+TEST(Archive, GivesBackEveryImpact) {
+  const RunResults out = made_up({.contacts = 3, .outputs = 400}), in = there_and_back(out);
+  EXPECT_EQ(in.rest_time, out.rest_time);
+  ASSERT_EQ(in.impacts.size(), 3u);
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_EQ(in.impacts[c].left_out, static_cast<std::int64_t>(c));
+    ASSERT_GT(out.impacts[c].rows.size(), 3u);
+    ASSERT_EQ(in.impacts[c].rows.size(), out.impacts[c].rows.size());
+    for (std::size_t i = 0; i < in.impacts[c].rows.size(); ++i)
+      EXPECT_EQ(std::memcmp(&in.impacts[c].rows[i], &out.impacts[c].rows[i], sizeof(post::Impact)),
+                0); // NaN too
+  }
+}
+
+TEST(Archive, HasNoTableOfImpactsWhereNoneWasKept) {
+  RunResults out = made_up({.contacts = 2});
+  out.impacts.clear();
+  EXPECT_TRUE(there_and_back(out).impacts.empty());
+  out = made_up({.contacts = 2});
+  out.impacts[1].rows.clear(); // a contact without an impact has an empty one
+  EXPECT_TRUE(there_and_back(out).impacts.at(1).rows.empty());
 }
 
 TEST(Archive, GivesBackTheModelAndTheRecord) {
@@ -66,12 +91,20 @@ TEST(Archive, GivesBackEveryContactAsItWasSetUp) {
   out.contacts[1].friction_static = 0.4;
   out.contacts[1].normal_damping = 7.0;
   out.contacts[1].tangential_stiffness = 2e6;
+  out.contacts[1].normal_dissipation = 0.6;
+  out.contacts[1].friction_along = {1.0, 0.0};
+  out.contacts[1].other = 3;
+  out.contacts[2].outline = Eigen::MatrixXd::Random(5, 2);
   const RunResults in = there_and_back(out);
   ASSERT_EQ(in.contacts.size(), out.contacts.size());
   for (std::size_t c = 0; c < in.contacts.size(); ++c) {
     const ContactFacts &a = in.contacts[c], &b = out.contacts[c];
     EXPECT_EQ(a.name, b.name);
     EXPECT_EQ(a.node, b.node);
+    EXPECT_EQ(a.other, b.other);
+    EXPECT_EQ(a.outline, b.outline);
+    EXPECT_EQ(a.normal_dissipation, b.normal_dissipation);
+    EXPECT_EQ(a.friction_along, b.friction_along);
     EXPECT_EQ(a.axes, b.axes);
     EXPECT_EQ(a.obstacle, b.obstacle);
     EXPECT_EQ(a.gap, b.gap);
@@ -107,7 +140,13 @@ TEST(Archive, HasTheLayoutOfTheContract) {
   EXPECT_EQ(contact.shape("gap"), (h5::Shape{50}));
   EXPECT_EQ(contact.shape("normal_force"), (h5::Shape{50}));
   EXPECT_EQ(contact.shape("tangential_force"), (h5::Shape{50, 2}));
+  EXPECT_EQ(contact.shape("state"), (h5::Shape{50}));
   EXPECT_EQ(contact.values<double>("position").size(), 3u);
+  const h5::Group impacts = contact.open("impacts");
+  EXPECT_EQ(impacts.children(),
+            (std::vector<std::string>{"duration", "energy_lost", "impulse", "peak_force", "rebounds", "start",
+                                      "velocity_after", "velocity_before"}));
+  EXPECT_EQ(impacts.number("rest_time"), 1e-3);
   EXPECT_EQ(root.open("nodes").open("apex").shape("acceleration"), (h5::Shape{50, 3}));
   EXPECT_EQ(root.open("modal").shape("displacement"), (h5::Shape{50, 4}));
   EXPECT_EQ(root.open("modal").shape("velocity"), (h5::Shape{50, 4}));

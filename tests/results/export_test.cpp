@@ -38,15 +38,19 @@ std::string refusal(void (*exporter)(const fs::path&, const RunResults&), const 
 TEST(ExportCsv, HasAFileForEachContactAndNodeWithUnits) {
   const Folder folder;
   RunResults results = made_up({.contacts = 2, .outputs = 20});
-  results.series.contacts[1].name = "leg/tsp";
+  results.contacts[1].name = results.series.contacts[1].name = "leg/tsp";
   export_csv(folder.path(), results);
-  EXPECT_EQ(folder.files(), 3u);
+  EXPECT_EQ(folder.files(), 5u);
   EXPECT_TRUE(fs::exists(folder / "contact_leg%2Ftsp.csv"));
+  EXPECT_TRUE(fs::exists(folder / "leg%2Ftsp_impacts.csv"));
   EXPECT_EQ(
       lines_of(folder / "contact_tsp1.csv").at(0),
       "time [s],displacement_x_loc [m],displacement_y_loc [m],displacement_z_loc [m],velocity_x_loc [m/s],"
       "velocity_y_loc [m/s],velocity_z_loc [m/s],gap [m],normal_force [N],tangential_force_x_loc [N],"
-      "tangential_force_t [N]");
+      "tangential_force_t [N],state");
+  EXPECT_EQ(lines_of(folder / "tsp1_impacts.csv").at(0),
+            "start [s],duration [s],peak_force [N],impulse [N s],velocity_before [m/s],velocity_after "
+            "[m/s],energy_lost [J],rebounds");
   EXPECT_EQ(
       lines_of(folder / "node_apex.csv").at(0),
       "time [s],displacement_x [m],displacement_y [m],displacement_z [m],velocity_x [m/s],velocity_y [m/s],"
@@ -61,11 +65,30 @@ TEST(ExportCsv, HasNumbersThatReadBackBitForBit) {
   ASSERT_EQ(lines.size(), 21u);
   const post::ContactSeries& s = results.series.contacts[0];
   for (Eigen::Index i = 0; i < 20; ++i)
-    EXPECT_EQ(numbers(lines[static_cast<std::size_t>(i + 1)]),
-              (std::vector<double>{results.series.time(i), s.displacement(i, 0), s.displacement(i, 1),
-                                   s.displacement(i, 2), s.velocity(i, 0), s.velocity(i, 1), s.velocity(i, 2),
-                                   s.gap(i), s.normal_force(i), s.tangential_force(i, 0),
-                                   s.tangential_force(i, 1)}));
+    EXPECT_EQ(
+        numbers(lines[static_cast<std::size_t>(i + 1)]),
+        (std::vector<double>{results.series.time(i), s.displacement(i, 0), s.displacement(i, 1),
+                             s.displacement(i, 2), s.velocity(i, 0), s.velocity(i, 1), s.velocity(i, 2),
+                             s.gap(i), s.normal_force(i), s.tangential_force(i, 0), s.tangential_force(i, 1),
+                             static_cast<double>(s.state[static_cast<std::size_t>(i)])}));
+  const auto impacts = lines_of(folder / "tsp1_impacts.csv");
+  const auto& rows = results.impacts[0].rows;
+  ASSERT_GT(rows.size(), 0u);
+  ASSERT_EQ(impacts.size(), rows.size() + 1);
+  for (std::size_t i = 0; i + 1 < rows.size(); ++i) { // the last may hold a NaN
+    const post::Impact& r = rows[i];
+    EXPECT_EQ(numbers(impacts[i + 1]),
+              (std::vector<double>{r.start, r.duration, r.peak, r.impulse, r.velocity_before,
+                                   r.velocity_after, r.energy_lost, static_cast<double>(r.rebounds)}));
+  }
+}
+
+TEST(ExportCsv, HasNoFilesOfImpactsWhereNoneWereKept) {
+  const Folder folder;
+  RunResults results = made_up({.contacts = 1, .outputs = 20});
+  results.impacts.clear();
+  export_csv(folder.path(), results);
+  EXPECT_EQ(folder.files(), 2u);
 }
 
 TEST(ExportCsv, NeedsSeries) {

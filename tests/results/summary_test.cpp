@@ -56,7 +56,10 @@ TEST(Summary, HasTheKeysOfTheContractForAContactAndANode) {
   const Json& c = s["contacts"][0];
   EXPECT_EQ(keys(c), (Keys{"name", "impacts", "contact_time_ratio", "normal_force", "normal_force_in_contact",
                            "tangential_force", "displacement", "work_rate", "friction_power",
-                           "impact_velocity", "contact_duration"}));
+                           "impact_velocity", "contact_duration", "departure_velocity", "energy",
+                           "sliding_distance_m", "impulse_Ns", "sticking_ratio"}));
+  EXPECT_EQ(keys(c["departure_velocity"]), (Keys{"mean", "max"}));
+  EXPECT_EQ(keys(c["energy"]), (Keys{"damping_J", "friction_J"}));
   EXPECT_EQ(keys(c["normal_force"]), (Keys{"mean", "rms", "max"}));
   EXPECT_EQ(keys(c["normal_force_in_contact"]), (Keys{"mean", "rms"}));
   EXPECT_EQ(keys(c["tangential_force"]), (Keys{"rms", "max"}));
@@ -81,6 +84,13 @@ TEST(Summary, PutsEachStatisticUnderItsName) {
   c.impact_velocity_max = 20;
   c.contact_duration_mean = 21;
   c.contact_duration_max = 22;
+  c.departure_velocity_mean = 23;
+  c.departure_velocity_max = 24;
+  c.impulse = 25;
+  c.sliding_distance = 26;
+  c.sticking_ratio = 0.125;
+  c.damping_work = 27;
+  c.friction_work = 28;
   EXPECT_EQ(summary_of(results)["contacts"][1], Json::parse(R"({
     "name": "tsp2", "impacts": 5, "contact_time_ratio": 0.5,
     "normal_force": {"mean": 1.0, "rms": 2.0, "max": 3.0}, "normal_force_in_contact": {"mean": 4.0, "rms": 5.0},
@@ -88,7 +98,17 @@ TEST(Summary, PutsEachStatisticUnderItsName) {
     "displacement": {"y": {"mean": 8.0, "std": 9.0, "min": 10.0, "max": 11.0},
                      "z": {"mean": 12.0, "std": 13.0, "min": 14.0, "max": 15.0}, "radial": {"rms": 16.0, "max": 17.0}},
     "work_rate": 18.0, "friction_power": 18.5, "impact_velocity": {"mean": 19.0, "max": 20.0},
-    "contact_duration": {"mean": 21.0, "max": 22.0}})"));
+    "contact_duration": {"mean": 21.0, "max": 22.0}, "departure_velocity": {"mean": 23.0, "max": 24.0},
+    "impulse_Ns": 25.0, "sliding_distance_m": 26.0, "sticking_ratio": 0.125,
+    "energy": {"damping_J": 27.0, "friction_J": 28.0}})"));
+}
+
+TEST(Summary, HasNoShareOfStickingWithoutFriction) {
+  RunResults results = made_up();
+  results.contacts[0].friction_static = results.contacts[0].friction_dynamic = 0.0;
+  const Json contacts = summary_of(results)["contacts"];
+  EXPECT_TRUE(contacts[0]["sticking_ratio"].is_null());
+  EXPECT_EQ(contacts[1]["sticking_ratio"], 0.27);
 }
 
 TEST(Summary, HasNoTransientKeysWithoutATransient) {

@@ -55,7 +55,8 @@ post::ContactSeries orbit(const ContactFacts& facts, const Eigen::VectorXd& time
                         Eigen::MatrixXd::Zero(nt, 3),
                         Eigen::VectorXd::Zero(nt),
                         Eigen::VectorXd::Zero(nt),
-                        Eigen::MatrixXd::Zero(nt, 2)};
+                        Eigen::MatrixXd::Zero(nt, 2),
+                        std::vector<std::uint8_t>(static_cast<std::size_t>(nt))};
   for (Eigen::Index i = 0; i < nt; ++i) {
     const double t = time(i), wave = 1.0 + 0.3 * std::sin(3.1 * t + c);
     const double y = 1.9e-4 * wave * std::cos(2.0 * pi * 31.0 * t + c) * std::cos(1.3 * t);
@@ -72,8 +73,35 @@ post::ContactSeries orbit(const ContactFacts& facts, const Eigen::VectorXd& time
     s.gap(i) = gap - reach;
     s.normal_force(i) = std::max(0.0, -stiffness * s.gap(i));
     s.tangential_force.row(i) << 0.0, 0.3 * s.normal_force(i) * (std::sin(200.0 * t) > 0.0 ? 1.0 : -1.0);
+    if (s.normal_force(i) > 0.0)
+      s.state[static_cast<std::size_t>(i)] = i % 3 == 0 ? post::sticks : post::slides;
   }
   return s;
+}
+
+/// Of what the outputs show of the force.
+post::ContactImpacts impacts_of(const post::ContactSeries& s, const Eigen::VectorXd& time, int c) {
+  post::ContactImpacts impacts;
+  impacts.left_out = c;
+  const double every = time.size() > 1 ? time(1) - time(0) : duration;
+  for (Eigen::Index i = 0; i < time.size(); ++i) {
+    if (!(s.normal_force(i) > 0.0))
+      continue;
+    if (i == 0 || !(s.normal_force(i - 1) > 0.0)) {
+      impacts.rows.emplace_back();
+      impacts.rows.back().start = time(i);
+      impacts.rows.back().velocity_before = 0.02 + 0.001 * static_cast<double>(i % 7);
+    }
+    post::Impact& row = impacts.rows.back();
+    row.duration += every;
+    row.peak = std::max(row.peak, s.normal_force(i));
+    row.impulse += s.normal_force(i) * every;
+    row.rebounds = i % 4;
+    row.energy_lost = 1e-5 * static_cast<double>(i % 5);
+    if (i + 1 < time.size())
+      row.velocity_after = 0.8 * row.velocity_before; // the last one may still be closed: NaN
+  }
+  return impacts;
 }
 
 post::ContactSummary summary(int c) {
@@ -97,6 +125,13 @@ post::ContactSummary summary(int c) {
   s.impact_velocity_max = 0.055;
   s.contact_duration_mean = 1.4e-3;
   s.contact_duration_max = 3.3e-3;
+  s.departure_velocity_mean = 0.017;
+  s.departure_velocity_max = 0.044;
+  s.impulse = 4.5;
+  s.sliding_distance = 0.31;
+  s.sticking_ratio = 0.27;
+  s.damping_work = 0.0042;
+  s.friction_work = 0.0064;
   return s;
 }
 
@@ -123,6 +158,7 @@ TransientFacts facts_of_run() {
 void add_transient(RunResults& r, const Made& made) {
   r.duration = duration;
   r.statistics_from = 0.2;
+  r.rest_time = 1e-3;
   r.series.time = Eigen::VectorXd::LinSpaced(made.outputs, 0.0, duration);
   for (int s = 0; s < made.structures; ++s)
     r.transients.push_back(facts_of_run());
@@ -130,6 +166,7 @@ void add_transient(RunResults& r, const Made& made) {
     const auto at = static_cast<std::size_t>(c);
     r.contact_summaries.push_back(summary(c));
     r.series.contacts.push_back(orbit(r.contacts[at], r.series.time, c));
+    r.impacts.push_back(impacts_of(r.series.contacts.back(), r.series.time, c));
   }
   const Eigen::Index n = made.modes * made.structures;
   r.series.modal_displacement.resize(n, made.outputs);
