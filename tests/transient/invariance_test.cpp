@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What must not matter: the side of a mirror, the axes, the order of equal modes.
+#include "contact/frame.hpp"
+#include "contact/profile.hpp"
 #include "scenes.hpp"
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -111,4 +113,55 @@ TEST(Invariance, OfTurnedEqualModesIsTheSameMotion) {
     EXPECT_LT(difference(turn.transpose() * b.q, a.q), one_impact);
     EXPECT_LT(difference(b.normal, a.normal), one_impact);
   }
+}
+
+namespace {
+
+/// The oblique hit on other obstacles, in axes of space: x_loc, y_loc, z_loc are the axes of the scene turned by `turn`, and so are the
+/// shapes of the modes.
+Scene hit_in_space(const contact::Obstacle& obstacle, const Vec3& rest, const Eigen::Matrix3d& turn) {
+  Scene s = oblique_hit();
+  ContactPoint& point = s.contacts[0];
+  point.support.obstacle = obstacle;
+  const contact::Frame frame = contact::frame_from_y(turn.col(0), turn.col(1));
+  point.rest = rest;
+  point.b = frame.rotation() * turn * point.b;
+  return s;
+}
+
+contact::Profile hexagonal_hole(double radius) {
+  std::vector<contact::PolarPoint> points;
+  for (int i = 0; i < 6; ++i)
+    points.push_back({0.2 + i * std::numbers::pi / 3.0, radius});
+  return contact::Profile(points);
+}
+
+} // namespace
+
+TEST(Invariance, OfASceneTurnedInSpaceIsTheSameMotionForEveryObstacle) {
+  using contact::PlaneAxis;
+  const std::pair<contact::Obstacle, Vec3> obstacles[] = {
+      {Circle{1e-3}, Vec3::Zero()},
+      {contact::PlanePair{1e-3, PlaneAxis::y}, Vec3::Zero()},
+      {contact::Stop{3e-4, PlaneAxis::z}, Vec3::Zero()},
+      {contact::RoundPair{1e-3}, Vec3(0, -2e-3, 0)},
+      {contact::FacingPlanes{1e-3, PlaneAxis::y, -1.0}, Vec3(0, -2e-3, 0)},
+      {hexagonal_hole(1.2e-3), Vec3::Zero()}};
+  const Eigen::Matrix3d turns[] = {
+      Eigen::AngleAxisd(0.7, Vec3(1, 2, -0.5).normalized()).toRotationMatrix(),
+      Eigen::AngleAxisd(2.5, Vec3(-0.3, 0.1, 1).normalized()).toRotationMatrix(),
+      Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitZ()).toRotationMatrix()};
+  for (const StepOptions& options : schemes)
+    for (const auto& [obstacle, rest] : obstacles) {
+      const Scene scene = hit_in_space(obstacle, rest, Eigen::Matrix3d::Identity());
+      expect_one_impact(scene, options);
+      const History a = simulate(scene, options, 1e-3);
+      for (const Eigen::Matrix3d& turn : turns) {
+        const History b = simulate(hit_in_space(obstacle, rest, turn), options, 1e-3);
+        EXPECT_LT(difference(b.q, a.q), one_impact);
+        EXPECT_LT(difference(b.v, a.v), one_impact);
+        EXPECT_LT(difference(b.normal, a.normal), one_impact);
+        EXPECT_LT(difference(b.along_t, a.along_t), one_impact);
+      }
+    }
 }
