@@ -10,6 +10,7 @@ from drawing import Plot, unit_for
 FREE = np.array([31, 95, 168])  # colour of the free flight
 TOUCH = np.array([217, 95, 14])  # colour of the samples in contact
 MICRO = 1e6
+BARS = 24  # of a histogram
 FAR = 20.0  # a gap so many times larger than the orbit is left out of the picture
 
 
@@ -21,17 +22,48 @@ def _window(run, contact):
     return inside & np.isfinite(contact.y) & np.isfinite(contact.z)
 
 
+def _planes(contact):
+    """The faces of a plane obstacle: (place, side of the body); none for other obstacles."""
+    kind, gap = contact.facts["obstacle"], float(contact.facts["gap"])
+    if not kind.startswith(("plane", "stop")):
+        return []
+    if int(contact.facts["other"]) >= 0:  # the second node's face, on the other side of the gap
+        at = float(contact.facts["rest"][1 if kind.endswith("y") else 2])
+        return [(at - math.copysign(gap, at), -math.copysign(1, at))] if at else []
+    return [(gap, 1)] + ([(-gap, -1)] if kind.startswith("plane") else [])
+
+
+def _radius(contact):
+    """Of a circle in or round which the node moves; None for other obstacles."""
+    kind, gap = contact.facts["obstacle"], float(contact.facts["gap"])
+    if not kind.startswith("circle"):
+        return None
+    if int(contact.facts["other"]) < 0:
+        return gap
+    apart = math.hypot(*contact.facts["rest"][1:])
+    return apart - gap if kind == "circle" else apart + gap
+
+
+def _walls(contact):
+    """Points (n, 2) that a picture of the obstacle should show (m)."""
+    if contact.outline is not None:
+        return contact.outline
+    radius = _radius(contact)
+    if radius is not None:
+        return radius * np.array([[-1.0, -1.0], [1.0, 1.0]])
+    upright = contact.facts["obstacle"].endswith("y")
+    return np.array([[place, 0.0] if upright else [0.0, place] for place, _ in _planes(contact)]).reshape(-1, 2)
+
+
 def _limits(contact, y, z):
     """Middle and half width of a square that shows the orbit and, unless it is far away, the obstacle (m)."""
     low = np.array([y.min(), z.min()])
     high = np.array([y.max(), z.max()])
-    gap = float(contact.facts["gap"])
     extent = float((high - low).max())
-    if gap <= FAR * max(extent, 1e-30) or extent == 0:
-        wall = {"circle": (-1, 1, -1, 1), "plane_y": (-1, 1, 0, 0), "plane_z": (0, 0, -1, 1),
-                "stop_y": (0, 1, 0, 0), "stop_z": (0, 0, 0, 1)}[contact.facts["obstacle"]]
-        low = np.minimum(low, gap * np.array([wall[0], wall[2]]))
-        high = np.maximum(high, gap * np.array([wall[1], wall[3]]))
+    walls = _walls(contact)
+    if extent == 0 or max(np.abs(walls - (low + high) / 2).max(initial=0.0), 0.0) <= FAR * extent:
+        low = np.minimum(low, walls.min(axis=0, initial=math.inf))
+        high = np.maximum(high, walls.max(axis=0, initial=-math.inf))
     half = 0.56 * float((high - low).max()) or 1e-6
     return (low + high) / 2, half
 
@@ -62,15 +94,17 @@ def _density(plot, y, z, touching):
 
 
 def _obstacle(plot, contact):
-    gap = MICRO * float(contact.facts["gap"])
-    kind = contact.facts["obstacle"]
-    if kind == "circle":
+    if contact.outline is not None:
+        closed = MICRO * np.vstack((contact.outline, contact.outline[:1]))
+        plot.line(closed[:, 0], closed[:, 1], "wall")
+    radius = _radius(contact)
+    if radius is not None:
         centre = float(plot.px(0.0)), float(plot.py(0.0))
-        radius = float(plot.px(gap)) - centre[0]
+        radius = abs(float(plot.px(MICRO * radius)) - centre[0])
         plot.add(f'<circle class="wall" cx="{centre[0]:.1f}" cy="{centre[1]:.1f}" r="{radius:.1f}"/>')
-        return
-    upright = kind.endswith("y")
-    for place, side in [(gap, 1)] + ([(-gap, -1)] if kind.startswith("plane") else []):
+    upright = contact.facts["obstacle"].endswith("y")
+    for place, side in _planes(contact):
+        place *= MICRO
         beyond = side * 2e6 + place
         body = sorted((place, beyond))
         if upright:
@@ -151,6 +185,19 @@ def impact(run, contact, size=(262, 210)):
     plot.line(time, factor * contact.tangential[part], "friction")
     plot.line(time, factor * contact.normal[part], "force")
     return plot.svg(f"Largest impact of {contact.name}")
+
+
+def histogram(values, name, unit, size=(320, 180)):
+    """How many impacts had a value in each of equal intervals from 0 to the largest."""
+    values = values[np.isfinite(values)]
+    factor, scaled = unit_for(float(values.max(initial=0.0)), unit)
+    top = factor * float(values.max(initial=0.0)) or 1.0
+    count, edges = np.histogram(np.clip(factor * values, 0.0, top), bins=BARS, range=(0.0, top))
+    plot = Plot(size, (0.0, top), (0.0, 1.08 * count.max() or 1.0))
+    plot.axes(f"{name} [{scaled}]", "impacts", x_most=5, y_most=4)
+    for first, last, height in zip(edges[:-1], edges[1:], count):
+        plot.rectangle((first, last), (0.0, height), "bar")
+    return plot.svg(name)
 
 
 def along(run, values, name, unit, size=(480, 210)):

@@ -50,6 +50,7 @@ svg text { font-size: 11px; fill: var(--ink); } svg .tick { fill: var(--soft); f
 .force { stroke: var(--blue); stroke-width: 1.1; fill: none; stroke-linejoin: round; }
 .friction { stroke: var(--orange); stroke-width: 1.1; fill: none; stroke-linejoin: round; }
 .stem { stroke: var(--blue); stroke-width: 2; fill: none; } .before { fill: #eef1f5; } .zoomed { fill: #fbdcc2; }
+.bar { fill: var(--blue); stroke: #fff; stroke-width: 0.6; }
 .share { stroke: #fff; } .stored { fill: #7aa6d6; } .modal_damping { fill: #1f5fa8; } .contact_damping { fill: #f0a868; }
 .share.friction { fill: #d95f0e; stroke-width: 1; stroke: #fff; } .share.residual { fill: #b3141e; }
 .swatch { display: inline-block; width: 11px; height: 11px; border-radius: 2px; margin-right: 5px; vertical-align: -1px; }

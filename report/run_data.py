@@ -37,6 +37,9 @@ class Contact:
     normal: np.ndarray | None = None  # N
     tangential: np.ndarray | None = None  # N, length of the vector
     abscissa: float | None = None  # m along the tube
+    outline: np.ndarray | None = None  # m, (corners, 2) of a profile
+    impacts: dict | None = None  # the columns of its table of impacts
+    impacts_left_out: int = 0  # after the last row
 
 
 @dataclass
@@ -96,6 +99,11 @@ def _contact(group, summaries):
         contact.z = facts["rest"][2] + displacement[:, 2]
         contact.normal = group["normal_force"][...]
         contact.tangential = np.hypot(*group["tangential_force"][...].T)
+    if "outline" in group:
+        contact.outline = group["outline"][...]
+    if "impacts" in group:
+        contact.impacts = {name: column[...] for name, column in group["impacts"].items()}
+        contact.impacts_left_out = int(group["impacts"].attrs["left_out"])
     return contact
 
 

@@ -13,6 +13,7 @@ MOST_MODES = 6  # pictures
 MOST_MODE_ROWS = 40
 MANY_CONTACTS = 12  # above, orbits are small multiples and histories are shown of a few
 HISTORIES_OF_MANY = 6
+MOST_IMPACT_ROWS = 12
 
 
 def quantity(value, unit):
@@ -146,29 +147,80 @@ def along_the_tube(run):
     return section(where, f'<div class="grid2">{panels}</div>', note)
 
 
+def _times(value, factor, digits=4):
+    return short(None if value is None else factor * value, digits)
+
+
+def _losses(run):
+    """Table of what impacts and sliding take of each contact over the statistics window."""
+    heads = ["contact", "lost in dampers [mJ]", "lost in friction [mJ]", "path while sliding [mm]", "impulse [N s]", "sticking [% of contact]",
+             "departure speed mean / max [mm/s]"]
+    rows = []
+    for c in run.contacts:
+        s = c.summary
+        speed = s["departure_velocity"]
+        rows.append([
+            html.escape(c.name), _times(s["energy"]["damping_J"], 1e3), _times(s["energy"]["friction_J"], 1e3), _times(s["sliding_distance_m"], 1e3),
+            short(s["impulse_Ns"]), _times(s["sticking_ratio"], 100, 3), f"{_times(speed['mean'], 1e3, 3)} / {_times(speed['max'], 1e3, 3)}",
+        ])
+    return table(heads, rows)
+
+
 def contact_table(run):
     if not run.contacts or not run.transient:
         return ""
     heads = ["contact", "impacts", "in contact [%]", "F<sub>N</sub> mean [N]", "F<sub>N</sub> rms [N]", "F<sub>N</sub> max [N]",
              "F<sub>T</sub> max [N]", "radial rms [µm]", "radial max [µm]", "work rate [mW]", "friction power [mW]",
              "impact speed mean / max [mm/s]", "contact mean / max [ms]"]
-
-    def times(value, factor, digits=4):
-        return short(None if value is None else factor * value, digits)
-
     rows = []
     for c in run.contacts:
         s = c.summary
         force, radial = s["normal_force"], s["displacement"]["radial"]
         speed, long = s["impact_velocity"], s["contact_duration"]
         rows.append([
-            html.escape(c.name), f"{s['impacts']}", times(s["contact_time_ratio"], 100, 3), short(force["mean"]), short(force["rms"]),
-            short(force["max"]), short(s["tangential_force"]["max"]), times(radial["rms"], 1e6), times(radial["max"], 1e6),
-            times(s["work_rate"], 1e3), times(s["friction_power"], 1e3),
-            f"{times(speed['mean'], 1e3, 3)} / {times(speed['max'], 1e3, 3)}", f"{times(long['mean'], 1e3, 3)} / {times(long['max'], 1e3, 3)}",
+            html.escape(c.name), f"{s['impacts']}", _times(s["contact_time_ratio"], 100, 3), short(force["mean"]), short(force["rms"]),
+            short(force["max"]), short(s["tangential_force"]["max"]), _times(radial["rms"], 1e6), _times(radial["max"], 1e6),
+            _times(s["work_rate"], 1e3), _times(s["friction_power"], 1e3),
+            f"{_times(speed['mean'], 1e3, 3)} / {_times(speed['max'], 1e3, 3)}", f"{_times(long['mean'], 1e3, 3)} / {_times(long['max'], 1e3, 3)}",
         ])
     note = f'<p class="soft">Statistics over every step from {short(run.window)} s on. Forces over all time; displacements in the contact’s plane.</p>'
-    return section("Table of contacts", table(heads, rows), note)
+    return section("Table of contacts", table(heads, rows), _losses(run), note)
+
+
+def _strongest(contacts):
+    """Table of the impacts with the largest forces, whatever their contact."""
+    heads = ["contact", "start [s]", "duration [ms]", "peak force [N]", "impulse [mN s]", "speed before / after [mm/s]", "energy lost [mJ]", "rebounds"]
+    every = [(float(c.impacts["peak_force"][i]), c, i) for c in contacts for i in range(len(c.impacts["start"]))]
+    rows = []
+    for peak, c, i in sorted(every, key=lambda entry: -entry[0])[:MOST_IMPACT_ROWS]:
+        value = {name: float(column[i]) for name, column in c.impacts.items()}
+        rows.append([
+            html.escape(c.name), short(value["start"], 6), _times(value["duration"], 1e3, 3), short(peak), _times(value["impulse"], 1e3),
+            f"{_times(value['velocity_before'], 1e3, 3)} / {_times(value['velocity_after'], 1e3, 3)}", _times(value["energy_lost"], 1e3, 3),
+            f"{value['rebounds']:.0f}",
+        ])
+    return table(heads, rows)
+
+
+def impacts(run):
+    hit = [c for c in run.contacts if c.impacts is not None and len(c.impacts["start"])]
+    if not hit:
+        return ""
+    shown = hit if len(hit) <= MANY_CONTACTS else sorted(hit, key=_work, reverse=True)[:HISTORIES_OF_MANY]
+    panels = []
+    for c in shown:
+        left_out = f", {c.impacts_left_out} later ones in no row" if c.impacts_left_out else ""
+        panels.append(
+            f'<div class="panel"><h3>{html.escape(c.name)}</h3><p class="soft">{len(c.impacts["start"])} impacts{left_out}</p><div class="row">'
+            + figure(contact_view.histogram(c.impacts["velocity_before"], "impact speed", "m/s"))
+            + figure(contact_view.histogram(c.impacts["peak_force"], "peak force", "N"))
+            + "</div></div>"
+        )
+    note = (
+        '<p class="soft">One row of results.h5 each, with its rebounds (openings shorter than output.rest_time). Speeds along the normal, before the first touch '
+        "and after the last opening. The table: the strongest of all.</p>"
+    )
+    return section("Impacts", note, _strongest(hit), '<div class="grid2">' + "".join(panels) + "</div>")
 
 
 _SHARES = ("#7aa6d6", "#1f5fa8", "#f0a868", "#d95f0e", "#b3141e")  # as in the style of the bar

@@ -17,6 +17,7 @@ sys.path.insert(0, REPORT)
 import h5py  # noqa: E402
 import numpy as np  # noqa: E402
 
+import contact_view  # noqa: E402
 import drawing  # noqa: E402
 import fretwork_report  # noqa: E402
 import run_data  # noqa: E402
@@ -95,7 +96,8 @@ class Report(unittest.TestCase):
         text = self.report()
         self.assertEqual(
             self.headings(text),
-            ["Structure", "Modes", "Along the tube", "Contacts", "Table of contacts", "Energy balance", "How it was computed", "Study"],
+            ["Structure", "Modes", "Along the tube", "Contacts", "Table of contacts", "Impacts", "Energy balance", "How it was computed",
+             "Study"],
         )
         self.assertEqual(self.counts["image"], 5)  # an orbit each
         for word in ("tsp1", "circle", "plane_y", "stop_z", "plane_z", "18446744073709551615", "PETSc 3.18.5", "a" * 64,
@@ -109,6 +111,48 @@ class Report(unittest.TestCase):
         self.assertIn("The 6 contacts that wear most", self.headings(text))
         self.assertEqual(self.counts["image"], 13 + 6)
         self.assertEqual(text.count('aria-label="Normal force of'), 6)
+        self.assertEqual(text.count('aria-label="peak force"'), 6)
+
+    def test_shows_losses_and_paths_of_contacts(self):
+        made_up(self.folder, 2, 100)
+        text = self.report()
+        for cell in ("4.2", "6.4", "310", "4.5", "27", "17 / 44"):  # of the made-up statistics, in the table's units
+            self.assertIn(f"<td>{cell}</td>", text)
+
+    def test_shows_the_strongest_impacts_first(self):
+        made_up(self.folder, 2, 400)
+        with h5py.File(self.folder / "results.h5", "r+") as file:
+            impacts = file["contacts/tsp2/impacts"]
+            for name, value in {"start": 1.2345, "duration": 2.5e-3, "peak_force": 9876.0, "impulse": 0.125, "velocity_before": 0.75,
+                                "velocity_after": np.nan, "energy_lost": 3.5e-3, "rebounds": 3}.items():
+                impacts[name][2] = value
+            impacts.attrs["left_out"] = 77
+        text = self.report()
+        table = text[text.index("<h2>Impacts</h2>"):]
+        first = re.search(r"<tbody><tr>(.*?)</tr>", table).group(1)
+        self.assertEqual(re.findall(r"<td[^>]*>(.*?)</td>", first), ["tsp2", "1.2345", "2.5", "9876", "125", "750 / –", "3.5", "3"])
+        self.assertIn("77 later ones in no row", table)
+
+    def test_works_without_tables_of_impacts(self):
+        made_up(self.folder, 2, 100)
+        with h5py.File(self.folder / "results.h5", "r+") as file:
+            for contact in file["contacts"].values():
+                del contact["impacts"]
+        self.assertNotIn("Impacts", self.headings(self.report()))
+
+    def test_draws_obstacles_of_every_kind(self):
+        two_nodes = ("circle", "circle_inside", "plane_y", "plane_z")
+        one_node = ("circle", "plane_y", "plane_z", "stop_y", "stop_z", "profile", "broached", "egg_crate")
+        for other, kinds in ((7, two_nodes), (-1, one_node)):
+            made_up(self.folder, len(kinds), 100)
+            with h5py.File(self.folder / "results.h5", "r+") as file:
+                for contact, kind in zip(file["contacts"].values(), kinds):
+                    contact.attrs["obstacle"] = kind
+                    contact.attrs["other"] = other
+                    contact.attrs["rest"] = (0.0, 4e-4, -3e-4)
+                    if kind in ("profile", "broached", "egg_crate"):
+                        contact["outline"] = np.array([[2e-4, 0.0], [0.0, 2e-4], [-2e-4, 0.0], [0.0, -2e-4]])
+            self.assertEqual(self.report().count('class="wall"'), len(kinds) + (2 if other < 0 else 0))  # pairs of planes have two
 
     def test_works_without_a_transient(self):
         made_up(self.folder, 2, 0)
@@ -203,6 +247,16 @@ class Report(unittest.TestCase):
 
 
 class Parts(unittest.TestCase):
+    def test_histograms_count_every_finite_value(self):
+        picture = contact_view.histogram(np.array([0.0, 1.0, 1.01, 24.0, np.nan]), "peak force", "N")
+        heights = [float(height) for height in re.findall(r'class="bar"[^>]*height="([\d.]+)"', picture)]
+        self.assertEqual(len(heights), contact_view.BARS)
+        self.assertAlmostEqual(heights[1], 2 * heights[0], delta=0.2)  # written to a tenth of a pixel
+        self.assertEqual(heights[-1], heights[0])
+        self.assertEqual(sum(heights[2:-1]), 0.0)
+        for empty in (np.array([]), np.array([np.nan]), np.array([0.0])):
+            self.assertNotIn("nan", contact_view.histogram(empty, "peak force", "N"))
+
     def test_ticks_are_round_and_inside(self):
         self.assertEqual(drawing.ticks(0.0, 1.0, 5), [0.0, 0.2, 0.4, 0.6000000000000001, 0.8, 1.0])
         self.assertEqual(drawing.ticks(-210.0, 230.0, 4), [-200.0, 0.0, 200.0])
