@@ -6,9 +6,8 @@
 /// 2 and h w_c < 2; an explicit tangential damper asks for C_T W h well below 1. It takes a full damping
 /// matrix. Energy: v_n belongs to t_n - h/2; the ledger uses (v_n + v_{n+1})/2 at t_n, and its residual is of
 /// the order of the scheme.
+#include "transient/contact_forces.hpp"
 #include "transient/load_sum.hpp"
-#include "transient/packed_contacts.hpp"
-#include "transient/scheme.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -19,7 +18,8 @@ class Euler final : public Scheme {
 public:
   Euler(const Scene& scene, double step)
       : system_(scene.system), h_(step), loads_(scene.loads, scene.system.size(), scene.duration, step),
-        contacts_(scene.contacts, scene.system.size()) {
+        contacts_(scene.contacts, scene.system.size()), motion_(contacts_), memory_(contacts_, step),
+        trial_(contacts_.count), rows_(contacts_) {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
     for (kernels::Array* a : {&q_, &v_, &k_, &c_, &load_, &force_, &before_q_, &before_v_, &scratch_})
       a->assign(n, 0.0);
@@ -28,23 +28,14 @@ public:
     std::copy_n(system_.stiffness.data(), system_.size(), k_.begin());
     if (system_.damping_matrix.size() == 0)
       std::copy_n(system_.damping.data(), system_.size(), c_.begin());
-    const auto lanes = static_cast<std::size_t>(contacts_.stride());
-    const auto count = static_cast<std::size_t>(contacts_.count);
-    u_.assign(lanes, 0.0);
-    w_.assign(lanes, 0.0);
-    states_.resize(count);
-    memory_.resize(count);
-    active_.reserve(count);
-    row_.reserve(3 * count);
-    factor_.reserve(3 * count);
-    for (const auto& support : contacts_.supports)
-      tables_.push_back(contact::friction_table(support.friction, h_));
+    motion_.gather(q_.data(), v_.data());
+    memory_.start(motion_);
     loads_.at(0.0, load_.data());
     record_.contacts = contacts_.count;
     record_.q = before_q_.data();
-    record_.uy = u_.data();
-    record_.uz = u_.data() + contacts_.width;
-    record_.states = states_;
+    record_.uy = motion_.u.data();
+    record_.uz = motion_.u.data() + contacts_.width;
+    record_.states = trial_.states;
     record_.step = h_;
   }
 
@@ -53,7 +44,7 @@ public:
     before_q_ = q_;
     before_v_ = v_;
     std::fill(force_.begin(), force_.end(), 0.0);
-    const Forces contact = contact_forces();
+    const Contacts contact = act();
     double damper_power = apply_damping_matrix();
     if (!loads_.constant())
       loads_.at(record_.time, load_.data());
@@ -62,7 +53,8 @@ public:
     damper_power += sums.damping_power;
     book(contact, sums, damper_power);
     ++steps_;
-    record_.active = active_;
+    record_.active = trial_.active;
+    record_.opened = trial_.opened;
     return record_;
   }
 
@@ -85,88 +77,20 @@ public:
   }
 
 private:
-  struct Forces {
-    double stored = 0.0, damping = 0.0, friction = 0.0;
+  struct Contacts {
+    double stored = 0.0;
+    ContactLosses losses; ///< over the step
   };
 
-  Forces contact_forces() {
-    Forces sum;
-    row_.clear();
-    factor_.clear();
+  Contacts act() {
     if (contacts_.count == 0)
-      return sum;
-    kernels::gather(contacts_.modes, contacts_.stride(), contacts_.gather.data(), q_.data(), v_.data(),
-                    u_.data(), w_.data());
-    for (const int c : active_)
-      states_[c] = {};
-    active_.clear();
-    for (int c = 0; c < contacts_.count; ++c)
-      meet(c, sum);
-    kernels::scatter(contacts_.padded_modes, static_cast<int>(row_.size()), row_.data(), factor_.data(),
-                     force_.data());
-    return sum;
-  }
-
-  void meet(int c, Forces& sum) {
-    const contact::Support& support = contacts_.supports[c];
-    const int width = contacts_.width;
-    const auto at = contact::locate(support.obstacle, u_[c] + contacts_.reach.rest_y[c],
-                                    u_[width + c] + contacts_.reach.rest_z[c]);
-    const double rate = -(at.ny * w_[c] + at.nz * w_[width + c]);
-    const double p = -at.gap;
-    const double normal = contact::normal_force(support.normal, p, rate);
-    Memory& memory = memory_[c];
-    if (p > 0.0)
-      sum.stored += 0.5 * support.normal.stiffness * p * p;
-    if (!(normal > 0.0)) {
-      if (p > 0.0)
-        sum.damping -= support.normal.stiffness * p * rate * h_; // what the positive part cuts
-      if (memory.remembers) {
-        const auto step = contact::open_step(support.friction, tables_[c], memory.friction);
-        memory.friction = step.memory;
-        memory.remembers = contact::norm(step.memory.spring) > 0.0;
-        sum.damping += step.damper_work;
-        sum.stored += contact::spring_energy(support.friction, memory.friction);
-      }
-      return;
-    }
-    ContactState& state = states_[c];
-    state.normal_force = normal;
-    state.ny = at.ny;
-    state.nz = at.nz;
-    state.approach = rate;
-    state.damper_work = (normal - support.normal.stiffness * p) * rate * h_;
-    if (support.friction.active()) {
-      if (memory.remembers && memory.ny * at.ny + memory.nz * at.nz < 0.0) {
-        sum.damping += contact::spring_energy(support.friction, memory.friction);
-        memory = {};
-      }
-      const contact::Vec2 velocity{contacts_.components == 3 ? w_[2 * width + c] : 0.0,
-                                   at.nz * w_[c] - at.ny * w_[width + c]};
-      state.displacement = h_ * velocity;
-      const auto friction =
-          contacts_.components == 3
-              ? contact::evaluate(support.friction, memory.friction, normal, state.displacement, velocity)
-              : contact::evaluate_line(support.friction, memory.friction, normal, state.displacement.t,
-                                       velocity.t);
-      const auto step =
-          contact::close_step(support.friction, tables_[c], memory.friction, friction, state.displacement);
-      memory = {step.memory, at.ny, at.nz, true};
-      state.friction = friction.force;
-      state.slides = friction.slides;
-      state.friction_work = step.friction_work;
-      state.damper_work += step.damper_work;
-      sum.friction += step.friction_work;
-      sum.stored += contact::spring_energy(support.friction, memory.friction);
-    }
-    sum.damping += state.damper_work;
-    active_.push_back(c);
-    const double force[3] = {normal * at.ny + state.friction.t * at.nz,
-                             normal * at.nz - state.friction.t * at.ny, state.friction.x};
-    for (int k = 0; k < contacts_.components; ++k) {
-      row_.push_back(contacts_.row(c, k));
-      factor_.push_back(force[k]);
-    }
+      return {};
+    motion_.gather(q_.data(), v_.data());
+    evaluate_contacts(contacts_, memory_, h_, motion_, trial_);
+    const ContactLosses losses = memory_.commit(motion_, trial_);
+    rows_.set(trial_, 1.0);
+    rows_.add_to(force_.data());
+    return {trial_.springs + memory_.spring_energy(), losses};
   }
 
   /// The full damping matrix joins the forces. Returns its power.
@@ -185,7 +109,7 @@ private:
     return power;
   }
 
-  void book(const Forces& contact, const kernels::EulerSums& sums, double damper_power) {
+  void book(const Contacts& contact, const kernels::EulerSums& sums, double damper_power) {
     Energy& energy = record_.energy;
     energy.stored = 0.5 * sums.twice_energy + contact.stored;
     const bool start = steps_ == 0;
@@ -198,34 +122,27 @@ private:
     energy.throughput += all * std::abs(work);
     energy.load_work = load_work_ + before * work;
     energy.modal_damping = modal_damping_ + before * loss;
-    energy.contact_damping = contact_damping_ + before * contact.damping;
-    energy.friction = friction_ + before * contact.friction;
+    energy.contact_damping = lost_.damping + before * contact.losses.damping;
+    energy.friction = lost_.friction + before * contact.losses.friction;
     load_work_ += all * work;
     modal_damping_ += all * loss;
-    contact_damping_ += all * contact.damping;
-    friction_ += all * contact.friction;
+    lost_.damping += all * contact.losses.damping;
+    lost_.friction += all * contact.losses.friction;
   }
-
-  struct Memory {
-    contact::FrictionMemory friction;
-    double ny = 0.0, nz = 0.0;
-    bool remembers = false;
-  };
 
   System system_;
   double h_;
   LoadSum loads_;
   PackedContacts contacts_;
-  std::vector<contact::FrictionTable> tables_;
+  ContactMotion motion_;
+  ContactMemory memory_;
+  ContactTrial trial_;
+  ContactRows rows_;
   std::int64_t steps_ = 0;
-  kernels::Array q_, v_, k_, c_, load_, force_, before_q_, before_v_, scratch_, u_, w_;
-  std::vector<ContactState> states_;
-  std::vector<Memory> memory_;
-  std::vector<int> active_;
-  std::vector<const double*> row_;
-  std::vector<double> factor_;
+  kernels::Array q_, v_, k_, c_, load_, force_, before_q_, before_v_, scratch_;
   Record record_;
-  double load_work_ = 0.0, modal_damping_ = 0.0, contact_damping_ = 0.0, friction_ = 0.0;
+  double load_work_ = 0.0, modal_damping_ = 0.0; ///< up to now, the last step included
+  ContactLosses lost_;                           ///< likewise
 };
 
 } // namespace

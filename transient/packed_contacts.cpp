@@ -15,10 +15,11 @@ constexpr std::array<int, 3> stored = {1, 2, 0};
 PackedContacts::PackedContacts(const std::vector<ContactPoint>& contacts, Eigen::Index mode_count)
     : count(static_cast<int>(contacts.size())), width(kernels::padded(static_cast<int>(contacts.size()))),
       modes(static_cast<int>(mode_count)), padded_modes(kernels::padded(static_cast<int>(mode_count))) {
-  const bool along_x = std::any_of(contacts.begin(), contacts.end(), [](const ContactPoint& c) {
-    return c.support.friction.active() && c.b.row(0).cwiseAbs().maxCoeff() > 0.0;
-  });
-  components = along_x ? 3 : 2;
+  for (const ContactPoint& c : contacts) {
+    const contact::FrictionLaw& law = c.support.friction;
+    in_plane.push_back(law.active() && law.along.x != 0.0 && !c.b.row(0).isZero(0.0));
+  }
+  components = std::any_of(in_plane.begin(), in_plane.end(), [](char x) { return x; }) ? 3 : 2;
   const auto lanes = static_cast<std::size_t>(width);
   gather.assign(static_cast<std::size_t>(modes) * stride(), 0.0);
   rows.assign(static_cast<std::size_t>(count) * 3 * padded_modes, 0.0);

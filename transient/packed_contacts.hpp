@@ -19,8 +19,10 @@ struct PackedContacts {
   [[nodiscard]] int stride() const { return components * width; }
 
   std::vector<contact::Support> supports;
-  kernels::Array gather;   ///< mode by mode, `stride()` lanes each
-  kernels::Array rows;     ///< contact by contact: rows y, z, x over the padded modes
+  std::vector<char>
+      in_plane;          ///< contact by contact: friction acts along x_loc too and the modes move it along it
+  kernels::Array gather; ///< mode by mode, `stride()` lanes each
+  kernels::Array rows;   ///< contact by contact: rows y, z, x over the padded modes
   kernels::Array mobility; ///< contact by contact: what a unit force along y, z, x does to `stride()` lanes
                            ///< (W = B B^T, 1/kg)
   kernels::ReachLanes reach;

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/contact_motion.hpp"
+
+namespace fretwork::transient {
+
+ContactMotion::ContactMotion(const PackedContacts& contacts) : contacts_(contacts) {
+  u.assign(static_cast<std::size_t>(contacts.stride()), 0.0);
+  w = u;
+  near_.assign(static_cast<std::size_t>(contacts.width), 0.0);
+}
+
+void ContactMotion::gather(const double* q, const double* v) {
+  kernels::gather(contacts_.modes, contacts_.stride(), contacts_.gather.data(), q, v, u.data(), w.data());
+}
+
+bool ContactMotion::find_near(double half_window) {
+  const int width = contacts_.width;
+  return kernels::near(width, contacts_.reach, u.data(), u.data() + width, w.data(), w.data() + width,
+                       half_window, near_.data());
+}
+
+double ContactMotion::spring_energy() const {
+  double sum = 0.0;
+  for (int c = 0; c < contacts_.count; ++c)
+    if (const double gap = locate(c).gap; gap < 0.0)
+      sum += 0.5 * contacts_.supports[c].normal.stiffness * gap * gap;
+  return sum;
+}
+
+} // namespace fretwork::transient

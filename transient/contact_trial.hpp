@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// What one evaluation of all contacts gives. It changes nothing that lasts: a scheme may evaluate as often as it likes and hand the
+/// trial of the step it accepts to ContactMemory::commit.
+#pragma once
+#include "transient/packed_contacts.hpp"
+#include "transient/scheme.hpp"
+
+namespace fretwork::transient {
+
+struct ContactTrial {
+  explicit ContactTrial(int contacts);
+  /// All contacts open. No allocation.
+  void clear();
+
+  std::vector<ContactState>
+      states; ///< of all contacts; friction_work and the tangential part of damper_work come with the commit
+  std::vector<int> active; ///< contacts with a force, by increasing number
+  std::vector<int>
+      opened;           ///< those that had one at the last commit and have none now: known after the commit
+  double springs = 0.0; ///< J, energy of the normal springs
+  double cut =
+      0.0; ///< J over the step, lost by springs that a damper holds free of force: what the positive part cuts
+};
+
+/// The contacts' forces as rows over the modes.
+class ContactRows {
+public:
+  explicit ContactRows(const PackedContacts& contacts);
+  /// The forces of a trial times `scale`. No allocation.
+  void set(const ContactTrial& trial, double scale);
+  /// target += sum of rows; padded modes. No allocation.
+  void add_to(double* target) const;
+  /// The same for one mode.
+  [[nodiscard]] double of_mode(Eigen::Index mode) const;
+
+private:
+  const PackedContacts& contacts_;
+  std::vector<const double*> row_;
+  std::vector<double> factor_;
+};
+
+} // namespace fretwork::transient
