@@ -40,6 +40,7 @@ void check_size_of_series(const study::Study& study, const std::vector<BuiltScen
 struct JobResult {
   transient::Report report{};
   std::vector<post::ContactSummary> contacts;
+  std::vector<post::ContactImpacts> impacts; ///< empty without tables
   std::vector<post::NodeSummary> nodes;
   post::TimeSeries series;
 };
@@ -66,6 +67,10 @@ JobResult run_job(const study::Study& study, const BuiltScene& built, const tran
   const double duration = study.transient->duration;
   const auto grid = transient::output_grid(duration, study.output.every.value_or(duration / default_outputs));
   post::ContactStatistics contacts(built.scene.contacts.size(), study.output.statistics_from);
+  const bool with_impacts = study.output.impacts > 0 && !built.scene.contacts.empty();
+  const std::int64_t most_rows = std::min(study.output.impacts, choice.steps / 2 + 1); // all there can be
+  post::ImpactTable impacts(with_impacts ? built.scene.contacts.size() : 0, study.output.statistics_from,
+                            study.output.rest_time, static_cast<std::size_t>(most_rows));
   std::vector<Eigen::MatrixXd> rows;
   for (const auto& node : built.nodes)
     rows.push_back(node.rows);
@@ -74,6 +79,8 @@ JobResult run_job(const study::Study& study, const BuiltScene& built, const tran
   std::vector<transient::Observer*> observers;
   if (!built.scene.contacts.empty())
     observers.push_back(&contacts);
+  if (with_impacts)
+    observers.push_back(&impacts);
   if (!built.nodes.empty())
     observers.push_back(&nodes);
   if (progress)
@@ -81,6 +88,7 @@ JobResult run_job(const study::Study& study, const BuiltScene& built, const tran
   JobResult out;
   out.report = transient::run(built.scene, choice, observers, &recorder, grid);
   out.contacts = contacts.summaries();
+  out.impacts = std::move(impacts).impacts();
   out.nodes = nodes.summaries();
   out.series = std::move(recorder).series();
   return out;
@@ -88,10 +96,13 @@ JobResult run_job(const study::Study& study, const BuiltScene& built, const tran
 
 template <class T> void broadcast_plain(MPI_Comm comm, int root, std::vector<T>& values) {
   static_assert(std::is_trivially_copyable_v<T>);
-  int bytes = static_cast<int>(values.size() * sizeof(T));
-  MPI_Bcast(&bytes, 1, MPI_INT, root, comm);
-  values.resize(static_cast<std::size_t>(bytes) / sizeof(T));
-  MPI_Bcast(values.data(), bytes, MPI_BYTE, root, comm);
+  constexpr std::size_t part = (std::size_t{1} << 30) / sizeof(T); // counts stay within an int
+  auto count = static_cast<std::uint64_t>(values.size());
+  MPI_Bcast(&count, 1, MPI_UINT64_T, root, comm);
+  values.resize(count);
+  for (std::size_t at = 0; at < count; at += part)
+    MPI_Bcast(values.data() + at, static_cast<int>(std::min(part, count - at) * sizeof(T)), MPI_BYTE, root,
+              comm);
 }
 
 /// The result of a job from its rank to all. Names are known everywhere.
@@ -99,6 +110,13 @@ void broadcast(MPI_Comm comm, int root, const BuiltScene& built, JobResult& job)
   static_assert(std::is_trivially_copyable_v<transient::Report>);
   MPI_Bcast(&job.report, static_cast<int>(sizeof job.report), MPI_BYTE, root, comm);
   broadcast_plain(comm, root, job.contacts);
+  std::uint64_t tables = job.impacts.size();
+  MPI_Bcast(&tables, 1, MPI_UINT64_T, root, comm);
+  job.impacts.resize(tables);
+  for (post::ContactImpacts& table : job.impacts) {
+    broadcast_plain(comm, root, table.rows);
+    MPI_Bcast(&table.left_out, 1, MPI_INT64_T, root, comm);
+  }
   broadcast_plain(comm, root, job.nodes);
   core::broadcast(comm, root, job.series.time);
   core::broadcast(comm, root, job.series.modal_displacement);
@@ -112,6 +130,7 @@ void broadcast(MPI_Comm comm, int root, const BuiltScene& built, JobResult& job)
     core::broadcast(comm, root, series.gap);
     core::broadcast(comm, root, series.normal_force);
     core::broadcast(comm, root, series.tangential_force);
+    broadcast_plain(comm, root, series.state);
   }
   job.series.nodes.resize(built.nodes.size());
   for (std::size_t k = 0; k < built.nodes.size(); ++k) {
@@ -130,6 +149,8 @@ void merge(const BuiltScene& built, JobResult&& job, const transient::StepChoice
   for (std::size_t c = 0; c < built.contacts.size(); ++c) {
     out.contact_summaries[built.contacts[c]] = job.contacts[c];
     out.series.contacts[built.contacts[c]] = std::move(job.series.contacts[c]);
+    if (!job.impacts.empty())
+      out.impacts[built.contacts[c]] = std::move(job.impacts[c]);
   }
   for (std::size_t k = 0; k < built.node_numbers.size(); ++k) {
     out.node_summaries[built.node_numbers[k]] = job.nodes[k];
@@ -179,6 +200,21 @@ void judge(const transient::StepChoice& choice, const transient::Report& report,
         report.unconverged, report.steps));
 }
 
+/// A table that ends early never does so silently.
+void tell_impacts_left_out(std::int64_t kept, results::RunResults& out) {
+  std::int64_t left_out = 0, tables = 0;
+  for (const post::ContactImpacts& impacts : out.impacts) {
+    left_out += impacts.left_out;
+    tables += impacts.left_out > 0 ? 1 : 0;
+  }
+  if (left_out > 0)
+    out.notes.push_back(fmt::format("the table{} of impacts of {} contact{} end{} after output.impacts = {} "
+                                    "rows: {} later impacts have no row (the statistics count them); raise "
+                                    "output.impacts, or start output.statistics_from later",
+                                    tables == 1 ? "" : "s", tables, tables == 1 ? "" : "s",
+                                    tables == 1 ? "s" : "", kept, left_out));
+}
+
 } // namespace
 
 void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltScene>& scenes,
@@ -224,6 +260,8 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
   });
   out.contact_summaries.resize(contacts);
   out.series.contacts.resize(contacts);
+  out.impacts.resize(study.output.impacts > 0 ? contacts : 0);
+  out.rest_time = study.output.rest_time;
   out.node_summaries.resize(nodes);
   out.series.nodes.resize(nodes);
   for (std::size_t s = 0; s < scenes.size(); ++s) {
@@ -232,6 +270,7 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
     judge(choices[s], jobs[s].report, out);
     merge(scenes[s], std::move(jobs[s]), choices[s], out);
   }
+  tell_impacts_left_out(study.output.impacts, out);
 }
 
 } // namespace fretwork::app
