@@ -25,18 +25,27 @@ def _window(run, contact):
 def _planes(contact):
     """The faces of a plane obstacle: (place, side of the body); none for other obstacles."""
     kind, gap = contact.facts["obstacle"], float(contact.facts["gap"])
-    if not kind.startswith(("plane", "stop")):
+    if not kind.startswith(("plane", "stop", "bars")):
         return []
     if int(contact.facts["other"]) >= 0:  # the second node's face, on the other side of the gap
         at = float(contact.facts["rest"][1 if kind.endswith("y") else 2])
         return [(at - math.copysign(gap, at), -math.copysign(1, at))] if at else []
-    return [(gap, 1)] + ([(-gap, -1)] if kind.startswith("plane") else [])
+    return [(gap, 1)] + ([(-gap, -1)] if kind.startswith("plane") or _has_second_bar(contact) else [])
+
+
+def _has_second_bar(contact):
+    """Of one bar or two: with two the gap is less than in the middle on both sides."""
+    place = contact.y if contact.facts["obstacle"].endswith("y") else contact.z
+    if not contact.facts["obstacle"].startswith("bars") or not np.isfinite(place).any():
+        return False
+    lowest = int(np.nanargmin(place))
+    return place[lowest] < 0 and contact.gap[lowest] < float(contact.facts["gap"])
 
 
 def _radius(contact):
     """Of a circle in or round which the node moves; None for other obstacles."""
     kind, gap = contact.facts["obstacle"], float(contact.facts["gap"])
-    if not kind.startswith("circle"):
+    if not kind.startswith(("circle", "drilled")):
         return None
     if int(contact.facts["other"]) < 0:
         return gap

@@ -34,6 +34,7 @@ class Contact:
     position: np.ndarray  # m, global axes
     y: np.ndarray | None = None  # m, from the obstacle's centre
     z: np.ndarray | None = None
+    gap: np.ndarray | None = None  # m
     normal: np.ndarray | None = None  # N
     tangential: np.ndarray | None = None  # N, length of the vector
     abscissa: float | None = None  # m along the tube
@@ -97,6 +98,7 @@ def _contact(group, summaries):
         displacement = group["displacement"][...]
         contact.y = facts["rest"][1] + displacement[:, 1]
         contact.z = facts["rest"][2] + displacement[:, 2]
+        contact.gap = group["gap"][...]
         contact.normal = group["normal_force"][...]
         contact.tangential = np.hypot(*group["tangential_force"][...].T)
     if "outline" in group:

@@ -142,7 +142,7 @@ class Report(unittest.TestCase):
 
     def test_draws_obstacles_of_every_kind(self):
         two_nodes = ("circle", "circle_inside", "plane_y", "plane_z")
-        one_node = ("circle", "plane_y", "plane_z", "stop_y", "stop_z", "profile", "broached", "egg_crate")
+        one_node = ("circle", "plane_y", "plane_z", "stop_y", "stop_z", "profile", "drilled", "broached", "egg_crate", "bars_y", "bars_z")
         for other, kinds in ((7, two_nodes), (-1, one_node)):
             made_up(self.folder, len(kinds), 100)
             with h5py.File(self.folder / "results.h5", "r+") as file:
@@ -150,9 +150,11 @@ class Report(unittest.TestCase):
                     contact.attrs["obstacle"] = kind
                     contact.attrs["other"] = other
                     contact.attrs["rest"] = (0.0, 4e-4, -3e-4)
+                    if kind == "bars_z":  # two of them; bars_y is one
+                        contact["gap"][...] = contact.attrs["gap"] - np.abs(contact["displacement"][:, 2] - 3e-4)
                     if kind in ("profile", "broached", "egg_crate"):
                         contact["outline"] = np.array([[2e-4, 0.0], [0.0, 2e-4], [-2e-4, 0.0], [0.0, -2e-4]])
-            self.assertEqual(self.report().count('class="wall"'), len(kinds) + (2 if other < 0 else 0))  # pairs of planes have two
+            self.assertEqual(self.report().count('class="wall"'), len(kinds) + (3 if other < 0 else 0))  # three pairs
 
     def test_works_without_a_transient(self):
         made_up(self.folder, 2, 0)
