@@ -32,7 +32,7 @@ enum class Balance {
 
 struct Equilibrium {
   Balance balance = Balance::found;
-  Eigen::VectorXd q; ///< n: modal displacements (not_held: those of before the loads carry it away)
+  Eigen::VectorXd q;            ///< n: modal displacements, of use only where found
   Eigen::VectorXd normal_force; ///< N, >= 0, contact by contact
   int iterations = 0;
   double residual = 0.0;  ///< of the equations, relative to the forces in them, both as |.| = sqrt(f.D^-1.f)

@@ -245,6 +245,23 @@ TEST(StaticStart, LeavesAPlaceWhereItWouldNotStay) {
   EXPECT_LT(energy_of(scene, e.q), energy_of(scene, top));
 }
 
+TEST(StaticStart, SlipsOffTheTipsOfAStar) {
+  std::vector<contact::PolarPoint> star;
+  for (int k = 0; k < 10; ++k)
+    star.push_back({0.2 * std::numbers::pi * k, k % 2 == 0 ? 1e-3 : 3e-3});
+  constexpr double stiffness = 1e6, force = 20.0;
+  for (int k = 0; k < 24; ++k) { // even k: towards a tip or along the middle of an arm
+    const double angle = std::numbers::pi * k / 10.0;
+    Scene scene = mass_point(1.0, Vec3(5.0, 0.0, 0.0), 1.0);
+    scene.contacts = {contact_of(1.0, spring_at(contact::Profile(star), stiffness))};
+    scene.loads = {force_on(1.0, force * Vec3(0, std::cos(angle), std::sin(angle)), Constant{1.0})};
+    const Equilibrium e = found(scene);
+    EXPECT_NEAR(e.normal_force(0), force, round_off * force) << angle;
+    EXPECT_LT(unbalanced(scene, e.q).norm(), round_off * force) << angle;
+    EXPECT_GT(e.q.norm(), 2.5e-3) << angle; // out in an arm, not on a tip
+  }
+}
+
 TEST(StaticStart, TakesLoadsAtTheStart) {
   Scene scene = mass_point(1.0, Vec3(2.0, 4.0, 8.0), 1.0);
   scene.loads = {force_on(1.0, Vec3(1, 0, 0), Harmonic{3.0, 5.0, 0.5}),
