@@ -28,8 +28,8 @@ struct ContactSummary {
   double impulse = 0.0;                ///< N s, integral of F_N
   double sliding_distance = 0.0;       ///< m, sum of |dx| while the contact slides (the path of `work_rate`)
   double sticking_ratio = 0.0;         ///< share of the time in contact in which it does not slide
-  double damping_work = 0.0;  ///< J, by the normal and tangential dampers while there is a normal force
-  double friction_work = 0.0; ///< J, by the Coulomb slider
+  double damping_work = 0.0;           ///< J, by the normal and tangential dampers, as Impact::energy_lost
+  double friction_work = 0.0;          ///< J, by the Coulomb slider
 };
 
 class ContactStatistics final : public transient::Observer {

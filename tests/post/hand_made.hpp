@@ -42,7 +42,8 @@ public:
   /// Open steps, contact 0 having left at a speed before the first.
   void open(int steps, double leaving = 0.0) {
     for (int i = 0; i < steps; ++i) {
-      states_[0].approach = i == 0 ? -leaving : 0.0;
+      if (i == 0 && leaving != 0.0)
+        states_[0].approach = -leaving;
       step();
     }
   }

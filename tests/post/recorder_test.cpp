@@ -155,14 +155,16 @@ TEST(Recorder, TellsWhetherAContactIsOpenSticksOrSlides) {
 }
 
 TEST(Recorder, SeesTheBlockOfARunComeToRest) {
-  Scene scene = pressed_node(); // slides along the wall at 0.3 m/s under 20 N and mu = 0.2: stops and goes
+  Scene scene = pressed_node();
+  scene.loads.pop_back(); // at 0.3 m/s under 20 N and mu = 0.2 it stops after 75 ms
+  scene.v0 = Eigen::Vector3d(0.3, 0.0, 0.0);
   const TimeSeries s = record(scene, {SchemeKind::splitting, 1e-4}, 1e-3);
   int kinds[3] = {};
   for (std::size_t j = 0; j < s.contacts[0].state.size(); ++j) {
     const auto i = static_cast<Eigen::Index>(j);
     const double bound = 0.2 * s.contacts[0].normal_force(i);
     ++kinds[s.contacts[0].state[j]];
-    constexpr double between = 1e-6; // both forces are linear between the same steps, which slide both or not
+    constexpr double between = 1e-5; // the sweeps' tolerance is 1e-6 of the bound, at both steps around
     if (s.contacts[0].state[j] == post::slides && j > 0 && s.contacts[0].state[j - 1] == post::slides) {
       EXPECT_NEAR(s.contacts[0].tangential_force.row(i).norm(), bound, between * bound);
     }
