@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/build_contacts.hpp"
+#include "contact/restitution.hpp"
 #include "core/error.hpp"
 #include <algorithm>
 #include <cmath>
@@ -16,8 +17,6 @@ using core::Vec3;
 constexpr double negligible = 1e-8;
 /// Tangents of two beams that meet at a node give a mean this long at least; shorter: they turn back.
 constexpr double shortest_mean = 0.1;
-/// The bits of ux, uy and uz.
-constexpr std::uint8_t translations = 0b000111;
 
 /// Beams are walked along their chain, so that the tangents before and after a node point the same way.
 Vec3 mean_tangent(const fem::Model& model, Index node, const std::string& name) {
@@ -49,80 +48,11 @@ Vec3 oriented(const Vec3& axis) {
 
 contact::Frame frame_of(const study::Contact& contact, const fem::Model& model, Index node,
                         const std::string& name) {
-  if (!contact.axis && !contact.y_axis && contact.obstacle != study::ObstacleKind::circle &&
-      contact.obstacle != study::ObstacleKind::circle_inside)
-    throw core::Error(fmt::format("contact \"{}\": obstacle \"{}\" has a direction; give axis or y_axis",
-                                  name, name_of(contact.obstacle)));
   const Vec3 axis = contact.axis ? *contact.axis : oriented(mean_tangent(model, node, name));
   if (contact.y_axis)
     return contact::frame_from_y(axis, *contact.y_axis);
   return contact::nautical_frame(axis, contact.angle * std::numbers::pi / 180.0);
 }
-
-} // namespace
-
-std::string name_of(study::ObstacleKind kind) {
-  switch (kind) {
-  case study::ObstacleKind::circle:
-    return "circle";
-  case study::ObstacleKind::plane_y:
-    return "plane_y";
-  case study::ObstacleKind::plane_z:
-    return "plane_z";
-  case study::ObstacleKind::stop_y:
-    return "stop_y";
-  case study::ObstacleKind::stop_z:
-    return "stop_z";
-  case study::ObstacleKind::circle_inside:
-    return "circle_inside";
-  case study::ObstacleKind::profile:
-    return "profile";
-  case study::ObstacleKind::broached:
-    return "broached";
-  case study::ObstacleKind::egg_crate:
-    return "egg_crate";
-  }
-  return {};
-}
-
-contact::Obstacle obstacle_of(const study::Contact& c, const PlacedContact& placed) {
-  using contact::PlaneAxis;
-  const auto plane = [&](PlaneAxis axis) -> contact::Obstacle {
-    if (placed.other < 0)
-      return contact::PlanePair{c.gap, axis};
-    const double apart = axis == PlaneAxis::y ? placed.rest.y() : placed.rest.z();
-    if (!c.side && apart == 0.0)
-      throw core::Error(fmt::format("contact \"{}\": its two nodes are at the same place across the planes, "
-                                    "so that neither has a side; give side = 1 "
-                                    "or -1",
-                                    placed.name));
-    return contact::FacingPlanes{c.distance_1 + c.distance_2, axis,
-                                 c.side ? *c.side : std::copysign(1.0, apart)};
-  };
-  switch (c.obstacle) {
-  case study::ObstacleKind::circle:
-    if (placed.other >= 0)
-      return contact::RoundPair{c.distance_1 + c.distance_2};
-    return contact::Circle{c.gap};
-  case study::ObstacleKind::profile:
-  case study::ObstacleKind::broached:
-  case study::ObstacleKind::egg_crate:
-    return *c.shape;
-  case study::ObstacleKind::circle_inside:
-    return contact::Circle{c.distance_2 - c.distance_1};
-  case study::ObstacleKind::plane_y:
-    return plane(PlaneAxis::y);
-  case study::ObstacleKind::plane_z:
-    return plane(PlaneAxis::z);
-  case study::ObstacleKind::stop_y:
-    return contact::Stop{c.gap, PlaneAxis::y};
-  case study::ObstacleKind::stop_z:
-    return contact::Stop{c.gap, PlaneAxis::z};
-  }
-  return contact::Circle{c.gap};
-}
-
-namespace {
 
 /// The second nodes of a contact between two groups, paired with the first by nearest place.
 std::vector<Index> second_nodes(const study::Contact& contact, const mesh::LineMesh& mesh,
@@ -149,7 +79,110 @@ std::vector<Index> second_nodes(const study::Contact& contact, const mesh::LineM
   return paired;
 }
 
+/// Stiffness of the tube's wall at a node, N/m.
+double wall_at(const study::Study& study, const fem::Model& model, Index node, const std::string& name) {
+  std::optional<double> stiffness;
+  for (const fem::Beam& beam : model.beams) {
+    if (beam.a != node && beam.b != node)
+      continue;
+    const study::Beams& made_of = study.beams[static_cast<std::size_t>(beam.property)];
+    const auto pipe = study.pipes.find(made_of.section);
+    if (pipe == study.pipes.end())
+      throw core::Error(
+          fmt::format("contact \"{}\": normal_stiffness = \"wall\" needs a tube, and section \"{}\" of the "
+                      "beam at its node is no pipe; give normal_stiffness a value (N/m)",
+                      name, made_of.section));
+    const double wall = contact::wall_stiffness(study.materials.at(made_of.material).young_modulus,
+                                                pipe->second.outer_diameter, pipe->second.thickness);
+    if (stiffness && *stiffness != wall)
+      throw core::Error(fmt::format("contact \"{}\": normal_stiffness = \"wall\", but tubes of different "
+                                    "walls meet at its node; give normal_stiffness a value (N/m)",
+                                    name));
+    stiffness = wall;
+  }
+  if (!stiffness)
+    throw core::Error(fmt::format("contact \"{}\": normal_stiffness = \"wall\" needs a tube, and its node "
+                                  "carries no beam; give normal_stiffness a value (N/m)",
+                                  name));
+  return *stiffness;
+}
+
+/// Of two tubes: their walls in series.
+double stiffness_of(const study::Study& study, const fem::Model& model, const PlacedContact& placed) {
+  if (const auto& given = study.contacts[placed.entry].normal_stiffness)
+    return *given;
+  const double wall = wall_at(study, model, placed.node, placed.name);
+  if (placed.other < 0)
+    return wall;
+  const double other = wall_at(study, model, placed.other, placed.name);
+  return wall * other / (wall + other);
+}
+
+/// Whether restraints hold every displacement that would move the point.
+bool is_held(const fem::Model& model, const fem::BeamPoint& point) {
+  for (const fem::NodeShare& share : point.motion)
+    for (int d = 0; d < core::dofs_per_node; ++d)
+      if (!share.weights.col(d).isZero(0.0) && !model.is_fixed(share.node, d))
+        return false;
+  return true;
+}
+
+/// The points of a support of one node: the node, or points from edge to edge of a thickness.
+std::vector<fem::BeamPoint> points_of(const study::Contact& contact, const fem::Model& model,
+                                      const PlacedContact& placed) {
+  if (contact.points == 1)
+    return {fem::point_at(model, placed.node)};
+  const std::string what = fmt::format("contact \"{}\"", placed.name);
+  std::vector<fem::BeamPoint> points;
+  for (int k = 0; k < contact.points; ++k) {
+    const double along = contact.thickness * (k / (contact.points - 1.0) - 0.5);
+    const Vec3 direction = along < 0.0 ? Vec3(-placed.frame.x) : placed.frame.x;
+    points.push_back(fem::point_along(model, placed.node, direction, std::abs(along), what));
+  }
+  return points;
+}
+
+/// The contacts at one node of a group, appended.
+void place(const study::Study& study, const fem::Model& model, PlacedContact contact,
+           std::vector<PlacedContact>& out) {
+  const study::Contact& entry = study.contacts[contact.entry];
+  contact.frame = frame_of(entry, model, contact.node, contact.name);
+  contact.normal_stiffness = stiffness_of(study, model, contact);
+  const auto points = points_of(entry, model, contact);
+  contact.share = 1.0 / static_cast<double>(points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    PlacedContact placed = contact;
+    if (points.size() > 1)
+      placed.name = fmt::format("{}@{}", contact.name, k + 1);
+    if (is_held(model, points[k]))
+      throw core::Error(fmt::format(
+          "contact \"{}\" is at a node that cannot move; release it in [[restraints]] or give it a mass",
+          placed.name));
+    placed.motion = points[k].motion;
+    const Vec3 centre = placed.other >= 0 ? model.nodes[static_cast<std::size_t>(placed.other)]
+                                          : entry.origin.value_or(points[k].place);
+    placed.rest = placed.frame.rotation() * (points[k].place - centre);
+    placed.rest.y() -= entry.offset[0];
+    placed.rest.z() -= entry.offset[1];
+    out.push_back(std::move(placed));
+  }
+}
+
 } // namespace
+
+contact::Obstacle obstacle_of(const study::Contact& contact, const PlacedContact& placed) {
+  contact::Obstacle shape = contact.shape;
+  auto* planes = std::get_if<contact::FacingPlanes>(&shape);
+  if (!planes || contact.side)
+    return shape;
+  const double apart = planes->axis == contact::PlaneAxis::y ? placed.rest.y() : placed.rest.z();
+  if (apart == 0.0)
+    throw core::Error(fmt::format("contact \"{}\": its two nodes are at the same place across the planes, so "
+                                  "that neither has a side; give side = 1 or -1",
+                                  placed.name));
+  planes->side = std::copysign(1.0, apart);
+  return shape;
+}
 
 std::vector<PlacedContact> place_contacts(const study::Study& study, const mesh::LineMesh& mesh,
                                           const fem::Model& model) {
@@ -161,23 +194,12 @@ std::vector<PlacedContact> place_contacts(const study::Study& study, const mesh:
     const std::vector<Index> others =
         contact.other ? second_nodes(contact, mesh, model, nodes) : std::vector<Index>(nodes.size(), -1);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      PlacedContact placed;
+      PlacedContact placed{};
       placed.name = nodes.size() == 1 ? contact.name : fmt::format("{}[{}]", contact.name, i);
       placed.entry = e;
       placed.node = nodes[i];
-      if ((model.fixed[static_cast<std::size_t>(placed.node)] & translations) == translations)
-        throw core::Error(fmt::format(
-            "contact \"{}\" is at a node that cannot move; release it in [[restraints]] or give it a mass",
-            placed.name));
-      placed.frame = frame_of(contact, model, nodes[i], placed.name);
-      const Vec3& place = model.nodes[static_cast<std::size_t>(nodes[i])];
       placed.other = others[i];
-      const Vec3 centre = placed.other >= 0 ? model.nodes[static_cast<std::size_t>(placed.other)]
-                                            : contact.origin.value_or(place);
-      placed.rest = placed.frame.rotation() * (place - centre);
-      placed.rest.y() -= contact.offset[0];
-      placed.rest.z() -= contact.offset[1];
-      out.push_back(placed);
+      place(study, model, std::move(placed), out);
     }
   }
   return out;

@@ -1,31 +1,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Contacts of a study placed on the model: one for each node of each group, with its frame.
+/// Contacts of a study placed on the model: one for each node of each group, or one for each point along the
+/// thickness of its support.
 #pragma once
 #include "app/build_model.hpp"
 #include "contact/frame.hpp"
 #include "contact/support.hpp"
+#include "fem/beam_point.hpp"
 
 namespace fretwork::app {
 
 struct PlacedContact {
-  std::string name;  ///< the study's, with [i] where the group has several nodes
+  std::string name;  ///< the study's, with [i] where the group has several nodes and @k along a thickness
   std::size_t entry; ///< in study.contacts
-  core::Index node;
-  core::Index other = -1; ///< the second node, -1: the obstacle is fixed
+  core::Index node;  ///< of the group
+  core::Index other = -1;             ///< the second node, -1: the obstacle is fixed
+  std::vector<fem::NodeShare> motion; ///< of the point that meets the obstacle: the node, or one near it
   contact::Frame frame;
-  core::Vec3 rest; ///< m: the node from the obstacle's centre (from the second node), local axes
+  core::Vec3 rest;    ///< m: the point from the obstacle's centre (from the second node), local axes
+  double share = 1.0; ///< of the stiffnesses and dampers of its support
+  double normal_stiffness = 0.0; ///< N/m, of the whole support
 };
 
-/// @throws core::Error for a node whose three displacements are restrained, for an axis that must be given (a
-/// node without beams, or where
-///         beams branch)
+/// @throws core::Error for a point that nothing lets move, for an axis that must be given (a node without
+///         beams, or where beams branch), for a tube that is shorter than its support, for the stiffness of a
+///         wall where there is no tube
 [[nodiscard]] std::vector<PlacedContact> place_contacts(const study::Study& study, const mesh::LineMesh& mesh,
                                                         const fem::Model& model);
 
 /// `rest` tells the side on which two flat bodies start.
 /// @throws core::Error for two flat bodies whose nodes coincide where the study does not give the side
 [[nodiscard]] contact::Obstacle obstacle_of(const study::Contact& contact, const PlacedContact& placed);
-[[nodiscard]] std::string name_of(study::ObstacleKind kind);
 
 } // namespace fretwork::app

@@ -3,6 +3,7 @@
 /// The transient of one structure, or of several that meet in contacts between two nodes, in modal coordinates.
 #pragma once
 #include "app/build_contacts.hpp"
+#include "app/build_fields.hpp"
 #include "modal/basis.hpp"
 #include "post/recorder.hpp"
 #include "transient/scene.hpp"
@@ -27,23 +28,8 @@ struct NamedNode {
 };
 [[nodiscard]] std::vector<NamedNode> observed_nodes(const study::Study& study, const mesh::LineMesh& mesh);
 
-/// Everything of a study over the whole model that does not depend on modes: nodal forces, initial fields (6
-/// values a node).
-struct Fields {
-  struct Load {
-    std::string name; ///< for messages
-    transient::TimeFunction function;
-    Eigen::VectorXd force;
-  };
-  std::vector<Load> loads;
-  bool moves_at_start = false;
-  Eigen::VectorXd displacement, velocity;                   ///< where moves_at_start
-  Eigen::VectorXd displacement_momentum, velocity_momentum; ///< M times them
-};
-[[nodiscard]] Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh,
-                                  const BuiltModel& built);
-
-/// Structures that contacts between two nodes join, by lowest member. A second node that belongs to no structure is fixed.
+/// Groups of structures that contacts between two nodes join, by their lowest member; a structure that meets
+/// no other is a group by itself. A second node that belongs to no structure is fixed.
 [[nodiscard]] std::vector<std::vector<std::size_t>>
 joined_structures(const std::vector<modal::Basis>& bases, const std::vector<PlacedContact>& contacts);
 

@@ -76,16 +76,25 @@ results::ContactFacts facts_of(const study::Contact& contact, const PlacedContac
   facts.node = placed.node;
   facts.other = placed.other;
   facts.axes = placed.frame.rotation();
-  facts.obstacle = name_of(contact.obstacle);
-  facts.gap = placed.other < 0 ? (contact.shape ? contact.shape->inscribed() : contact.gap)
-                               : contact::locate(support.obstacle, placed.rest.y(), placed.rest.z()).gap;
+  facts.obstacle = study::name_of(contact.obstacle);
+  facts.gap = placed.other < 0
+                  ? contact::locate(support.obstacle, 0.0, 0.0).gap // of a tube at the obstacle's centre
+                  : contact::locate(support.obstacle, placed.rest.y(), placed.rest.z()).gap;
   facts.rest = placed.rest;
+  if (const auto* profile = std::get_if<contact::Profile>(&support.obstacle)) {
+    const auto corners = profile->vertices();
+    facts.outline.resize(static_cast<Eigen::Index>(corners.size()), 2);
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      facts.outline.row(static_cast<Eigen::Index>(i)) << corners[i].y, corners[i].z;
+  }
   facts.normal_stiffness = support.normal.stiffness;
   facts.normal_damping = support.normal.damping;
+  facts.normal_dissipation = support.normal.dissipation;
   facts.tangential_stiffness = support.friction.stiffness;
   facts.tangential_damping = support.friction.damping;
   facts.friction_static = support.friction.mu_static;
   facts.friction_dynamic = support.friction.mu_dynamic;
+  facts.friction_along = {support.friction.along.x, support.friction.along.t};
   return facts;
 }
 

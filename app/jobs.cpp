@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/jobs.hpp"
+#include "app/share_out.hpp"
 #include "core/error.hpp"
 #include "core/mpi.hpp"
 #include <algorithm>
@@ -190,14 +191,18 @@ void judge(const transient::StepChoice& choice, const transient::Report& report,
         "the transient diverged at t = {:.6g} s (scheme {}, step {:.3g} s): its energy has left all that was "
         "put in; take a smaller step, or leave step out to have one chosen",
         report.end_time, transient::name_of(choice.scheme), choice.step));
+  if (report.outcome == transient::Outcome::step_failed)
+    throw core::ComputationError(fmt::format("the transient stopped at t = {:.6g} s (scheme {}): {}",
+                                             report.end_time, transient::name_of(choice.scheme),
+                                             transient::name_of(report.failure)));
   if (report.residual_relative > residual_warning)
     out.warnings.push_back(
         fmt::format("the energy balance is off by {:.2g} % of the energy put in; take a smaller step",
                     100.0 * report.residual_relative));
-  if (report.unconverged > report.steps / 1000)
+  if (report.counts.unconverged > report.counts.steps / 1000)
     out.warnings.push_back(fmt::format(
         "in {} of {} steps the coupled contact forces missed their tolerance; take a smaller step",
-        report.unconverged, report.steps));
+        report.counts.unconverged, report.counts.steps));
 }
 
 /// A table that ends early never does so silently.
@@ -242,13 +247,17 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
             study.output.statistics_from, choice.step, study.transient->duration));
   });
   std::vector<JobResult> jobs(scenes.size());
-  const auto owner = [&](std::size_t s) { return static_cast<int>(s) % ranks; };
+  std::vector<double> costs; // a step costs as much as it has modes
+  for (std::size_t s = 0; s < scenes.size(); ++s)
+    costs.push_back(static_cast<double>(choices[s].steps) *
+                    static_cast<double>(scenes[s].scene.system.size()));
+  const std::vector<int> owner = share_out(costs, ranks);
   std::int64_t all_steps = 0, done_steps = 0;
   for (std::size_t s = 0; s < scenes.size(); ++s)
-    all_steps += owner(s) == here ? choices[s].steps : 0;
+    all_steps += owner[s] == here ? choices[s].steps : 0;
   core::agree(comm, [&] {
     for (std::size_t s = 0; s < scenes.size(); ++s)
-      if (owner(s) == here) {
+      if (owner[s] == here) {
         const auto part = [&](std::int64_t steps) {
           return static_cast<double>(steps) / static_cast<double>(all_steps);
         };
@@ -266,7 +275,7 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
   out.series.nodes.resize(nodes);
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     if (ranks > 1)
-      broadcast(comm, owner(s), scenes[s], jobs[s]);
+      broadcast(comm, owner[s], scenes[s], jobs[s]);
     judge(choices[s], jobs[s].report, out);
     merge(scenes[s], std::move(jobs[s]), choices[s], out);
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/stages.hpp"
+#include "app/share_out.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "core/mpi.hpp"
@@ -11,7 +12,6 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
-#include <numeric>
 
 namespace fretwork::app {
 namespace {
@@ -26,23 +26,6 @@ constexpr core::Index distribute_above = 300'000;
 std::string file_bytes(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
-}
-
-/// Gives every structure to a rank: the costliest first, to the rank with the least work so far.
-std::vector<int> share_out(const std::vector<fem::Structure>& structures, int ranks) {
-  std::vector<std::size_t> order(structures.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return structures[a].equations > structures[b].equations;
-  });
-  std::vector<double> load(static_cast<std::size_t>(ranks), 0.0);
-  std::vector<int> owner(structures.size());
-  for (const std::size_t s : order) {
-    const auto rank = std::min_element(load.begin(), load.end()) - load.begin();
-    owner[s] = static_cast<int>(rank);
-    load[static_cast<std::size_t>(rank)] += structures[s].equations;
-  }
-  return owner;
 }
 
 void broadcast(MPI_Comm comm, int root, modal::Basis& basis) {
@@ -147,7 +130,10 @@ ModesStage modes_stage(MPI_Comm comm, const Inputs& inputs, const fem::Model& mo
   out.computed = true;
   out.bases.resize(out.structures.size());
   const modal::Wanted wanted{inputs.study.modes.count, inputs.study.modes.up_to_hz};
-  const std::vector<int> owner = share_out(out.structures, ranks);
+  std::vector<double> costs;
+  for (const fem::Structure& structure : out.structures)
+    costs.push_back(structure.equations);
+  const std::vector<int> owner = share_out(costs, ranks);
   const auto solve = [&](MPI_Comm group, std::size_t s) {
     modal::Basis& basis = out.bases[s];
     basis = modal::solve_modes(group, model, out.structures[s], wanted);

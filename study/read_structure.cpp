@@ -19,14 +19,18 @@ struct Shape {
 
 double length(const TableReader& table, const char* key) { return table.number(key, {above_zero, "m"}); }
 
-fem::Section read_pipe(const TableReader& table) {
-  const double diameter = length(table, "outer_diameter");
-  const double thickness = length(table, "thickness");
-  if (2.0 * thickness > diameter)
+Pipe pipe_of(const TableReader& table) {
+  const Pipe pipe{length(table, "outer_diameter"), length(table, "thickness")};
+  if (2.0 * pipe.thickness > pipe.outer_diameter)
     table.fail_at(
         "thickness",
         "more than half of outer_diameter; give a wall that fits, or shape = \"circle\" for a solid bar");
-  return fem::pipe_section(diameter, thickness);
+  return pipe;
+}
+
+fem::Section read_pipe(const TableReader& table) {
+  const Pipe pipe = pipe_of(table);
+  return fem::pipe_section(pipe.outer_diameter, pipe.thickness);
 }
 
 fem::Section read_circle(const TableReader& table) { return fem::circle_section(length(table, "diameter")); }
@@ -119,6 +123,16 @@ std::map<std::string, fem::Section> read_sections(const TableReader& root) {
   for (const Entry& entry : table_entries(root, "sections"))
     sections.emplace(entry.name, read_section(entry));
   return sections;
+}
+
+std::map<std::string, Pipe> read_pipes(const TableReader& root) {
+  std::map<std::string, Pipe> pipes;
+  for (const Entry& entry : table_entries(root, "sections")) {
+    if (*entry.value->table()->at("shape").string() == "pipe")
+      pipes.emplace(entry.name, pipe_of(TableReader(*entry.value, entry.path,
+                                                    {{"shape", "outer_diameter", "thickness"}})));
+  }
+  return pipes;
 }
 
 std::vector<Beams> read_beams(const TableReader& root, const Study& study) {

@@ -3,7 +3,8 @@
 /// A study as typed, checked values: what the study file says, before anything is read or computed. Groups
 /// are still names. The contract with users is doc/study-file.md; keys, defaults and units are given there.
 #pragma once
-#include "contact/profile.hpp"
+#include "contact/friction_law.hpp"
+#include "contact/obstacle.hpp"
 #include "fem/model.hpp"
 #include "mesh/read.hpp"
 #include "modal/damping.hpp"
@@ -63,32 +64,56 @@ enum class ObstacleKind {
   stop_z,
   circle_inside,
   profile,
+  drilled,
   broached,
-  egg_crate
+  egg_crate,
+  bars_y,
+  bars_z
 };
-enum class FrictionMemory { return_map, reference };
+/// Circles: met in any direction, so that the local axes do not matter.
+[[nodiscard]] bool is_round(ObstacleKind kind);
+/// As in the study file.
+[[nodiscard]] std::string name_of(ObstacleKind kind);
+
+enum class NormalDamper { reference, hunt_crossley };
+
+/// The normal damper by what an impact leaves of the speed.
+struct Restitution {
+  double value = 1.0;         ///< 0 < e <= 1
+  std::optional<double> mass; ///< kg, of the reference's law; none: 1/(n.W n) of the modes at the contact
+  double velocity = 0.0;      ///< m/s, > 0: at which Hunt and Crossley's law gives e
+};
 
 struct Contact {
   std::string name;
   std::string group;
   std::optional<std::string> other; ///< group of the second nodes
   ObstacleKind obstacle = ObstacleKind::circle;
-  double gap = 0.0;                          ///< one node: circle, planes, stops
-  std::optional<contact::Profile> shape;     ///< one node: profile, broached, egg_crate
-  double distance_1 = 0.0, distance_2 = 0.0; ///< two nodes: half thickness or radius round each
-  std::optional<double> side;                ///< two nodes, planes: +1 or -1
+  contact::Obstacle shape;    ///< flat bodies without `side`: it follows from the places of the two nodes
+  std::optional<double> side; ///< two nodes, planes: +1 or -1
   std::optional<Vec3> axis;
   std::optional<Vec3> y_axis; ///< instead of angle
   double angle = 0.0;         ///< degrees
   std::optional<Vec3> origin;
   std::array<double, 2> offset{};
-  double normal_stiffness = 0.0;
-  double normal_damping = 0.0;
+  double thickness = 0.0;                 ///< m, of the support along the tube
+  int points = 1;                         ///< along the thickness, from edge to edge
+  std::optional<double> normal_stiffness; ///< none: that of the tube's wall
+  NormalDamper normal_damper = NormalDamper::reference;
+  double normal_damping = 0.0;            ///< reference
+  double normal_dissipation = 0.0;        ///< hunt_crossley
+  std::optional<Restitution> restitution; ///< instead of either
   double tangential_stiffness = 0.0;
   std::optional<double> tangential_damping; ///< none: the automatic value
   double friction_static = 0.0;
   double friction_dynamic = 0.0;
-  FrictionMemory memory = FrictionMemory::return_map;
+  contact::FrictionMemoryKind memory = contact::FrictionMemoryKind::return_map;
+  contact::Vec2 friction_along{1.0, 1.0}; ///< 1 where friction acts: along x_loc, across it
+};
+
+/// What the wall of a tube is made of; a section of another shape has none.
+struct Pipe {
+  double outer_diameter, thickness; ///< m
 };
 
 struct Load {
@@ -140,6 +165,7 @@ struct Study {
   mesh::Source mesh; ///< its file is absolute
   std::map<std::string, fem::Material> materials;
   std::map<std::string, fem::Section> sections;
+  std::map<std::string, Pipe> pipes; ///< those of the sections that are pipes
   std::vector<Beams> beams;
   std::vector<Restraint> restraints;
   std::vector<Mass> masses;

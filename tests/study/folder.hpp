@@ -55,6 +55,9 @@ inline std::string message_of(const std::string& text, const std::vector<std::st
   return {};
 }
 
+/// What an obstacle leaves to a node at its centre, m.
+inline double gap_of(const Contact& contact) { return contact::locate(contact.shape, 0.0, 0.0).gap; }
+
 inline std::string contact(const std::string& keys) {
   return "[mesh]\nfile = \"a.msh\"\n[[contacts]]\nname = \"c\"\ngroup = \"p\"\ngap = 0.1\nnormal_stiffness = "
          "1e6\n" +

@@ -226,7 +226,7 @@ TEST(Messages, OfKeysThatContradictEachOther) {
        {"contacts.tsp1.y_axis = [0, 0, -3]: parallel to axis; give a vector across the axis"}},
       {"axis = [1, 0, 0]",
        "",
-       {"contacts.tsp2: planes and stops need their direction; give y_axis, or axis (and angle)"},
+       {"contacts.tsp2: obstacle \"stop_z\" needs its direction; give y_axis, or axis (and angle)"},
        "",
        -5},
       {"tangential_stiffness = 2e6",

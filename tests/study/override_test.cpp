@@ -6,7 +6,7 @@ namespace fretwork::study {
 namespace {
 
 TEST(Override, AddressesAContactByItsName) {
-  EXPECT_EQ(read_text(full_study, {"contacts.tsp2.gap=3e-4"}).contacts[1].gap, 3e-4);
+  EXPECT_EQ(gap_of(read_text(full_study, {"contacts.tsp2.gap=3e-4"}).contacts[1]), 3e-4);
 }
 
 TEST(Override, AddressesAnEntryByItsGroup) {
@@ -31,7 +31,7 @@ TEST(Override, AddressesAnItemOfAnArray) {
 TEST(Override, TakesQuotesRoundANameWithDots) {
   const std::string text =
       contact("") + "[[contacts]]\nname = \"a.b\"\ngroup = \"q\"\ngap = 0\nnormal_stiffness = 1\n";
-  EXPECT_EQ(read_text(text, {"contacts.\"a.b\".gap=5"}).contacts[1].gap, 5.0);
+  EXPECT_EQ(gap_of(read_text(text, {"contacts.\"a.b\".gap=5"}).contacts[1]), 5.0);
 }
 
 TEST(Override, AddsAKeyToATable) {

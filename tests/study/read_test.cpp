@@ -63,7 +63,7 @@ TEST(ReadStudy, GivesAContactItsDefaults) {
   EXPECT_FALSE(contact.tangential_damping);
   EXPECT_EQ(contact.friction_static, 0.0);
   EXPECT_EQ(contact.friction_dynamic, 0.0);
-  EXPECT_EQ(contact.memory, FrictionMemory::return_map);
+  EXPECT_EQ(contact.memory, contact::FrictionMemoryKind::return_map);
 }
 
 TEST(ReadStudy, GivesTheOtherEntriesTheirDefaults) {
@@ -160,7 +160,7 @@ TEST(ReadStudy, ReadsEveryKeyOfTheContacts) {
   EXPECT_EQ(first.name, "tsp1");
   EXPECT_EQ(first.group, "point1");
   EXPECT_EQ(first.obstacle, ObstacleKind::plane_y);
-  EXPECT_EQ(first.gap, 2e-4);
+  EXPECT_EQ(std::get<contact::PlanePair>(first.shape).gap, 2e-4);
   EXPECT_EQ(first.axis, Vec3(0, 0, 1));
   EXPECT_EQ(first.y_axis, Vec3(1, 0, 0));
   EXPECT_EQ(first.origin, Vec3(0.1, 0.2, 0.3));
@@ -171,7 +171,7 @@ TEST(ReadStudy, ReadsEveryKeyOfTheContacts) {
   EXPECT_EQ(first.tangential_damping, 3.0);
   EXPECT_EQ(first.friction_static, 0.4);
   EXPECT_EQ(first.friction_dynamic, 0.3);
-  EXPECT_EQ(first.memory, FrictionMemory::reference);
+  EXPECT_EQ(first.memory, contact::FrictionMemoryKind::reference);
   const Contact& second = study.contacts[1];
   EXPECT_EQ(second.obstacle, ObstacleKind::stop_z);
   EXPECT_EQ(second.angle, 30.0);

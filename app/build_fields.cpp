@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/build_fields.hpp"
+#include "fem/fields.hpp"
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+namespace fretwork::app {
+namespace {
+
+using core::Index;
+using core::Vec3;
+
+Eigen::VectorXd load_field(const study::Load& load, const std::string& what, const mesh::LineMesh& mesh,
+                           const BuiltModel& built) {
+  if (!load.per_length)
+    return fem::point_forces(built.model, mesh::group_nodes(mesh, load.group, what), load.direction,
+                             load.moment);
+  std::vector<Index> beams;
+  for (const Index line : mesh::group_lines(mesh, load.group, what))
+    for (const Index beam : built.beams_of_line[static_cast<std::size_t>(line)])
+      beams.push_back(beam);
+  return fem::line_forces(built.model, beams, load.direction);
+}
+
+void initial_field(const study::Study& study, const mesh::LineMesh& mesh, const fem::Model& model,
+                   Fields& out) {
+  if (study.initial.empty())
+    return;
+  out.moves_at_start = true;
+  out.displacement.setZero(static_cast<Eigen::Index>(model.nodes.size()) * core::dofs_per_node);
+  out.velocity = out.displacement;
+  for (std::size_t e = 0; e < study.initial.size(); ++e) {
+    const study::Initial& initial = study.initial[e];
+    for (const Index node :
+         mesh::group_nodes(mesh, initial.group, fmt::format("[[initial]] entry {}", e + 1))) {
+      const Eigen::Index row = static_cast<Eigen::Index>(node) * core::dofs_per_node;
+      const Vec3 arm = model.nodes[static_cast<std::size_t>(node)] - initial.centre;
+      out.displacement.segment<6>(row) << initial.displacement, Vec3::Zero();
+      out.velocity.segment<6>(row) << initial.velocity + initial.rotation_rate.cross(arm),
+          initial.rotation_rate;
+    }
+  }
+  for (std::size_t node = 0; node < model.nodes.size(); ++node)
+    for (int d = 0; d < core::dofs_per_node; ++d)
+      if (model.is_fixed(static_cast<Index>(node), d)) {
+        const auto row = static_cast<Eigen::Index>(node) * core::dofs_per_node + d;
+        out.displacement(row) = out.velocity(row) = 0.0;
+      }
+  out.displacement_momentum = fem::mass_times(model, out.displacement);
+  out.velocity_momentum = fem::mass_times(model, out.velocity);
+}
+
+} // namespace
+
+Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh, const BuiltModel& built) {
+  Fields out;
+  for (std::size_t e = 0; e < study.loads.size(); ++e) {
+    const std::string name = fmt::format("[[loads]] entry {} on \"{}\"", e + 1, study.loads[e].group);
+    out.loads.push_back({name, study.loads[e].function, load_field(study.loads[e], name, mesh, built)});
+  }
+  const auto on_all_masses = [&](const core::Vec3& direction) {
+    return fem::mass_times(built.model, fem::translation_field(built.model, direction));
+  };
+  if (study.gravity)
+    out.loads.push_back({"[gravity]", transient::Constant{1.0}, on_all_masses(*study.gravity)});
+  for (const auto& motion : study.base_motions)
+    out.loads.push_back({"[[base_motion]]", motion.acceleration, -on_all_masses(motion.direction)});
+  initial_field(study, mesh, built.model, out);
+  return out;
+}
+
+} // namespace fretwork::app

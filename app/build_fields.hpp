@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Loads and initial state of a study as fields over the whole model.
+#pragma once
+#include "app/build_model.hpp"
+#include "transient/time_function.hpp"
+
+namespace fretwork::app {
+
+/// Everything of a study over the whole model that does not depend on modes: nodal forces, initial fields (6
+/// values a node).
+struct Fields {
+  struct Load {
+    std::string name; ///< for messages
+    transient::TimeFunction function;
+    Eigen::VectorXd force;
+  };
+  std::vector<Load> loads;
+  bool moves_at_start = false;
+  Eigen::VectorXd displacement, velocity;                   ///< where moves_at_start
+  Eigen::VectorXd displacement_momentum, velocity_momentum; ///< M times them
+};
+[[nodiscard]] Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh,
+                                  const BuiltModel& built);
+
+} // namespace fretwork::app

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/contact_laws.hpp"
+#include "contact/restitution.hpp"
+#include "core/error.hpp"
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fretwork::app {
+namespace {
+
+/// Mass felt across the obstacle, kg.
+double normal_mass(const contact::Obstacle& obstacle, const Eigen::MatrixXd& b, const std::string& name) {
+  const auto [ny, nz] = contact::normal_directions(obstacle);
+  const double y = ny ? b.row(1).squaredNorm() : 0.0, z = nz ? b.row(2).squaredNorm() : 0.0;
+  const double mobility = (y + z) / (ny && nz ? 2.0 : 1.0);
+  if (!(mobility > 0.0))
+    throw core::Error(
+        fmt::format("contact \"{}\": no mode moves it across its obstacle, so that it feels no "
+                    "mass; give restitution_mass (kg), or normal_damping instead of restitution",
+                    name));
+  return 1.0 / mobility;
+}
+
+contact::NormalLaw normal_law(const study::Contact& contact, const PlacedContact& placed,
+                              const contact::Obstacle& obstacle, const Eigen::MatrixXd& b,
+                              std::vector<std::string>& notes) {
+  contact::NormalLaw law{placed.normal_stiffness, contact.normal_damping, contact.normal_dissipation};
+  if (!contact.normal_stiffness)
+    notes.push_back(fmt::format("contact \"{}\": stiffness of the tube's wall {:.4g} N/m{}", placed.name,
+                                law.stiffness, placed.other < 0 ? "" : " (two walls in series)"));
+  if (!contact.restitution)
+    return law;
+  const study::Restitution& wanted = *contact.restitution;
+  switch (contact.normal_damper) {
+  case study::NormalDamper::reference: {
+    const double mass = wanted.mass ? *wanted.mass : normal_mass(obstacle, b, placed.name);
+    law.damping = contact::damping_of_restitution(wanted.value, law.stiffness, mass);
+    notes.push_back(fmt::format(
+        "contact \"{}\": normal damping {:.4g} N s/m for restitution {:g} with a mass of {:.4g} kg",
+        placed.name, law.damping, wanted.value, mass));
+    return law;
+  }
+  case study::NormalDamper::hunt_crossley:
+    law.dissipation = contact::dissipation_of_restitution(wanted.value, wanted.velocity);
+    notes.push_back(
+        fmt::format("contact \"{}\": normal dissipation {:.4g} s/m for restitution {:g} at {:g} m/s",
+                    placed.name, law.dissipation, wanted.value, wanted.velocity));
+    return law;
+  }
+  return law;
+}
+
+/// R5.06.03 section 6.5 with the mode that moves the contact most along its tangents, in mass-normalised
+/// local quantities; of the directions in which friction acts.
+double automatic_damping(const study::Contact& contact, const std::string& name,
+                         const transient::System& system, const contact::Obstacle& obstacle,
+                         const Eigen::MatrixXd& b) {
+  const auto [ny, nz] = contact::normal_directions(obstacle);
+  const bool round = ny && nz;
+  Eigen::VectorXd size2 = Eigen::VectorXd::Zero(b.cols());
+  if (contact.friction_along.x > 0.0)
+    size2 += b.row(0).cwiseAbs2();
+  if (contact.friction_along.t > 0.0 && (round || !ny))
+    size2 += b.row(1).cwiseAbs2();
+  if (contact.friction_along.t > 0.0 && (round || !nz))
+    size2 += b.row(2).cwiseAbs2();
+  Eigen::Index mode = 0;
+  const double largest = size2.size() > 0 ? size2.maxCoeff(&mode) : 0.0;
+  if (!(largest > 0.0))
+    throw core::Error(fmt::format(
+        "contact \"{}\": no mode moves its node along the obstacle, so that there is no automatic tangential "
+        "damping; give tangential_damping a value",
+        name));
+  const double mass = 1.0 / largest;
+  const double omega = std::sqrt(system.stiffness(mode));
+  const double ratio = omega > 0.0 ? 0.5 * system.damping(mode) / omega : 0.0;
+  const double damping =
+      contact::automatic_tangential_damping(contact.tangential_stiffness, omega * omega * mass, mass, ratio);
+  if (damping < 0.0)
+    throw core::Error(fmt::format(
+        "contact \"{}\": the automatic tangential damping is {:.4g} N s/m, below 0, because the mode that "
+        "moves it most is overdamped (ratio {:.3g}); give tangential_damping a value",
+        name, damping, ratio));
+  return damping;
+}
+
+contact::FrictionLaw friction_law(const study::Contact& contact, const std::string& name,
+                                  const transient::System& system, const contact::Obstacle& obstacle,
+                                  const Eigen::MatrixXd& b, std::vector<std::string>& notes) {
+  if (!(contact.friction_static > 0.0))
+    return {};
+  contact::FrictionLaw law;
+  law.stiffness = contact.tangential_stiffness;
+  law.mu_static = contact.friction_static;
+  law.mu_dynamic = contact.friction_dynamic;
+  law.kind = contact.memory;
+  law.along = contact.friction_along;
+  if (contact.tangential_damping) {
+    law.damping = *contact.tangential_damping;
+    return law;
+  }
+  law.damping = automatic_damping(contact, name, system, obstacle, b);
+  notes.push_back(
+      fmt::format("contact \"{}\": automatic tangential damping {:.4g} N s/m", name, law.damping));
+  return law;
+}
+
+} // namespace
+
+contact::Support support_of(const study::Contact& contact, const PlacedContact& placed,
+                            const transient::System& system, const Eigen::MatrixXd& b,
+                            std::vector<std::string>& notes) {
+  contact::Support support{obstacle_of(contact, placed), {}, {}};
+  std::vector<std::string> found;
+  support.normal = normal_law(contact, placed, support.obstacle, b, found);
+  support.friction = friction_law(contact, placed.name, system, support.obstacle, b, found);
+  if (placed.share < 1.0)
+    for (std::string& note : found)
+      note += fmt::format(" (of the whole support: {:.4g} of it here)", placed.share);
+  notes.insert(notes.end(), found.begin(), found.end());
+  support.normal.stiffness *= placed.share;
+  support.normal.damping *= placed.share; // the dissipation is per stiffness: it takes its share from that
+  support.friction.stiffness *= placed.share;
+  support.friction.damping *= placed.share;
+  return support;
+}
+
+} // namespace fretwork::app
