@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/build_scene.hpp"
 #include "app/contact_laws.hpp"
+#include "app/static_start.hpp"
 #include "fem/disjoint_sets.hpp"
 #include <algorithm>
 #include <cmath>
@@ -199,6 +200,8 @@ BuiltScene build_scene(const study::Study& study, const Fields& fields, const st
       out.nodes.push_back({nodes[k].name, std::move(rows)});
       out.node_numbers.push_back(k);
     }
+  if (study.transient->start == study::Start::equilibrium)
+    start_in_equilibrium(bases, out);
   return out;
 }
 

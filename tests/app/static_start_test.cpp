@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A run that starts in equilibrium: a preloaded tube stays where it is, a run from rest does not; what cannot be held is told.
+#include "mesh_text.hpp"
+#include "program.hpp"
+#include <fmt/format.h>
+
+namespace fretwork::app::test {
+namespace {
+
+constexpr double length = 1.0, overlap = 2.0e-4, stiffness = 1.0e6;
+constexpr int modes = 20;
+
+MeshText tube() {
+  MeshText mesh = straight_line("tube", core::Vec3::Zero(), core::Vec3(length, 0, 0), 20);
+  mesh.points.emplace_back("support", 9);
+  return mesh;
+}
+
+/// A clamped tube pressed by a bar that overlaps it through offset; `more` ends the study.
+std::string study(const std::string& start, const std::string& more = {}) {
+  return fmt::format(R"([mesh]
+file = "tube.msh"
+[materials.steel]
+young_modulus = 2.0e11
+poisson_ratio = 0.3
+density = 8000.0
+[sections.tube]
+shape = "pipe"
+outer_diameter = 0.02
+thickness = 0.001
+[[beams]]
+group = "tube"
+material = "steel"
+section = "tube"
+[[restraints]]
+group = "tube_begin"
+fixed = "all"
+[[restraints]]
+group = "tube_end"
+fixed = "all"
+[modes]
+count = {}
+damping = 0.01
+[[contacts]]
+name = "bar"
+group = "support"
+obstacle = "stop_y"
+gap = 0.0
+axis = [1.0, 0.0, 0.0]
+offset = [{}, 0.0]
+normal_stiffness = {}
+friction = 0.3
+tangential_stiffness = 1.0e6
+[transient]
+duration = 0.05
+start = "{}"
+{})",
+                     modes, -overlap, stiffness, start, more);
+}
+
+Results run(const Workshop& folder, const std::string& start, const std::string& more = {}) {
+  folder.write("tube.msh", tube().text());
+  return folder.run_text(study(start, more), {"--force"});
+}
+
+/// Force of the bar on the tube from the modes themselves: overlap / (1/K + flexibility of the basis at the bar).
+double closed_form(const Results& results) {
+  const auto& basis = results.archive.bases.at(0);
+  const Eigen::Index row = basis.row_of(9) + 1; // uy
+  const double flexibility = (basis.shapes.row(row).transpose().array() / basis.omega.array()).square().sum();
+  return overlap / (1.0 / stiffness + flexibility);
+}
+
+double spread(const Eigen::VectorXd& values) { return values.maxCoeff() - values.minCoeff(); }
+
+TEST(StaticStart, OfAPreloadedTubeLeavesNoArtefact) {
+  const Workshop folder;
+  const Results rest = run(folder, "rest"), start = run(folder, "static");
+  const double force = closed_form(start);
+  constexpr double of_the_splitting =
+      1e-4; // of order (w h)^2/12 of the modes that carry the force; w_c h is 0.011 here
+  EXPECT_TRUE(close_to(start.statistics("bar")["normal_force"]["mean"], force, of_the_splitting));
+  EXPECT_TRUE(close_to(start.statistics("bar")["normal_force"]["max"], force, of_the_splitting));
+  EXPECT_EQ(start.statistics("bar")["contact_time_ratio"], 1.0);
+  EXPECT_LT(spread(start.contact("bar").normal_force), of_the_splitting * force);
+  EXPECT_GT(spread(rest.contact("bar").normal_force), force); // from rest the overlap throws the tube off
+  const double from_rest = spread(rest.contact("bar").displacement.col(1));
+  EXPECT_LT(spread(start.contact("bar").displacement.col(1)), of_the_splitting * from_rest);
+}
+
+TEST(StaticStart, StaysToRoundOffWithEuler) {
+  const Workshop folder;
+  const Results start = run(folder, "static", "scheme = \"euler\"\n");
+  const double force = closed_form(start);
+  constexpr double round_off = 1e-9; // of thousands of steps
+  EXPECT_TRUE(close_to(start.statistics("bar")["normal_force"]["mean"], force, round_off));
+  EXPECT_LT(spread(start.contact("bar").normal_force), round_off * force);
+}
+
+TEST(StaticStart, IsToldAndKeepsInitialVelocities) {
+  const Workshop folder;
+  folder.write("tube.msh", tube().text());
+  const auto text = study("static", "[[initial]]\ngroup = \"tube\"\nvelocity = [0.0, 0.0, 0.1]\n");
+  const Outcome outcome = folder.fretwork(
+      {"run", folder.write("study.toml", text).string(), "--no-report", "-o", folder.path("out").string()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out + outcome.err, "static start: 1 of 1 contacts closed, largest force "));
+  EXPECT_GT(read_results(folder.path("out")).archive.series.modal_velocity.col(0).norm(), 0.0);
+}
+
+TEST(StaticStart, GivesTheSameBytesOnTwoRanks) {
+  const Workshop folder;
+  folder.write("tube.msh", tube().text());
+  EXPECT_TRUE(same_numbers(folder.run_text(study("static"), {"--force"}).archive,
+                           folder.run_text(study("static"), {"--force"}, 2).archive));
+}
+
+TEST(StaticStart, NamesTheMotionThatNothingHolds) {
+  const Workshop folder;
+  folder.write("points.msh", lone_points({"block", "wall"}).text());
+  const std::string text = R"([mesh]
+file = "points.msh"
+[[masses]]
+group = "block"
+mass = 2.0
+[[restraints]]
+group = "block"
+fixed = ["ux", "rx", "ry", "rz"]
+[[restraints]]
+group = "wall"
+fixed = "all"
+[[springs]]
+group = "block"
+stiffness = [0.0, 100.0, 0.0, 0.0, 0.0, 0.0]
+[[loads]]
+group = "block"
+direction = [0.0, 1.0, -1.0]
+constant = 3.0
+[transient]
+duration = 1.0
+start = "static"
+)";
+  const Outcome outcome = folder.fretwork({"run", folder.write("study.toml", text).string(), "--no-report"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(says(outcome.err, "nothing holds a structure against its loads at t = 0: it would move along "
+                                "(0, 0, -1); add a restraint"));
+}
+
+} // namespace
+} // namespace fretwork::app::test
