@@ -2,16 +2,25 @@
 /// @file
 /// The nearest facet of a closed polygon, exactly, at a cost that hardly grows with the number of facets.
 ///
-/// The plane round the polygon is cut into squares, each split in 4 x 4 where many facets compete near the
-/// boundary. A square keeps one cyclic range of facets that holds the nearest facet of each of its points.
-/// Facet f, at distance D from the middle c and pulled along the unit vector n = grad D, is left out when a
-/// facet g has
-///     dist(c_i, g) < D + n.(c_i - c)   at the four corners c_i:
-/// the right side is linear and bounds the distance to f from below, the left side is convex, so g is nearer
-/// than f in the whole square. A range of few facets is scanned. A longer one (deep inside, or beyond the
-/// squares) is searched over spans of 8, 32, 128 ... facets, each inside a capsule (all points within
-/// `radius` of the span's chord); a span whose capsule is farther than the best facet is passed over.
+/// A polygon of few facets is scanned. For a longer one:
+///   guess    a grid of squares gives the facet expected for the node: the nearest of the square's middle and
+///            how that number changes with the node's place
+///   scan     the facets about it
+///   prove    the nearest of them, k at distance d, is the nearest of all if d < clearance of k
+///   search   where that is not so (near the medial axis, where far parts of the polygon compete; ragged
+///            polygons): over spans of 8, 32, 128 ... facets, each in a box along its principal axes; a span
+///            whose box is no nearer than the best facet is passed over
+///
+/// Clearance. A point x is nearer to the node than the node's foot q, the node at distance d from q along the
+/// unit normal n, only if it lies in the ball about the node,
+///     |x - q|^2 < 2 d n.(x - q),
+/// which no d below |x - q|^2 / (2 n.(x - q)) allows. The clearance of a facet is a lower bound of this over
+/// all its q and all x of the facets farther than `exempt` numbers away (these are scanned), on each side. A
+/// corner as foot has the normals n = a n_1 + b n_2 between those of its two facets, a + b <= 1/cos(half the
+/// turn): the smaller clearance of both times this cosine. The smallest clearance over the whole polygon is
+/// its reach (Federer, Trans. Am. Math. Soc. 93, 1959, theorem 4.18).
 #pragma once
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -30,7 +39,7 @@ struct Facet {
 
 class FacetIndex {
 public:
-  /// Facet k goes from vertex k to the next one, the last to vertex 0.
+  /// Facet k goes from vertex k to the next one, the last to vertex 0; the inside is on the left.
   /// @param vertices  at least 3, no two consecutive ones equal
   explicit FacetIndex(std::span<const PlanePoint> vertices);
 
@@ -40,36 +49,40 @@ public:
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(facets_.size()); }
   [[nodiscard]] const Facet& operator[](std::uint32_t k) const { return facets_[k]; }
 
-private:
-  /// A chord and how far the vertices of its span stray from it.
-  struct Capsule {
-    Facet chord;
-    double radius;
+  /// A rectangle: middle, direction of one axis, half widths along and across it, m.
+  struct Box {
+    double y, z, uy, uz, along, across;
   };
-  struct Cell {
-    std::uint32_t first; ///< first facet of the range, or the first of 16 smaller cells
-    std::uint32_t count; ///< facets in the range; 0: the cell is split
-    std::uint32_t guess; ///< the nearest facet of the middle
+
+private:
+  /// Of a facet, m: inside (left) and outside.
+  using Clearance = std::array<double, 2>;
+  /// Number of the facet nearest to a square's middle, with the share of it that lies before the foot, and its
+  /// change a square along y and z.
+  struct Guess {
+    float facet, by_column, by_row;
   };
   struct Best {
     double distance2;
     std::uint32_t facet;
   };
 
-  void build_capsules(std::span<const PlanePoint> vertices);
-  void build_cells();
-  [[nodiscard]] Cell candidates(const Cell& parent, PlanePoint middle, double half) const;
-  [[nodiscard]] std::uint32_t cell_of(std::uint32_t column, std::uint32_t row) const;
+  void build_boxes(std::span<const PlanePoint> vertices, double rounding);
+  void build_clearances();
+  void build_grid();
+  [[nodiscard]] Clearance clearance_of(std::uint32_t k) const;
+  [[nodiscard]] std::uint32_t expected(double y, double z) const;
+  template <class Pass, class Look> void visit_spans(const Pass& pass, const Look& look) const;
   void scan(std::uint32_t first, std::uint32_t end, double y, double z, Best& best) const;
-  void search(std::uint32_t first, std::uint32_t end, double y, double z, Best& best) const;
-  [[nodiscard]] std::uint32_t nearest_in(const Cell& cell, double y, double z) const;
+  void search(double y, double z, Best& best) const;
 
   std::vector<Facet> facets_;
-  std::vector<std::vector<Capsule>> capsules_; ///< by level: spans of 8, 32, 128 ... facets
-  std::vector<Cell> cells_;                    ///< 0 is the whole square
-  PlanePoint corner_{};                        ///< of the whole square
-  double side_ = 0.0;                          ///< m, of the whole square
-  double columns_per_metre_ = 0.0;
+  std::vector<std::vector<Box>> boxes_; ///< by level: spans of 8, 32, 128 ... facets
+  std::vector<Clearance> clearances_;
+  std::vector<Guess> grid_; ///< row by row, columns_ squares
+  std::uint32_t columns_ = 0;
+  PlanePoint corner_{}; ///< of the grid
+  double squares_per_metre_ = 0.0;
 };
 
 } // namespace fretwork::contact

@@ -12,9 +12,11 @@ namespace fretwork::contact {
 namespace {
 
 constexpr double turn = 2.0 * std::numbers::pi;
-constexpr double same_angle = 1e-9;  // rad: what decimal degrees leave of one turn or half a turn
-constexpr double same_radius = 1e-9; // relative, for the same reason
-constexpr double same_point = 1e-12; // of the radius: a shorter facet has no direction in double precision
+constexpr double same_angle = 1e-9;    // rad: what decimal degrees leave of one turn or half a turn
+constexpr double same_radius = 1e-9;   // relative, for the same reason
+constexpr double nearly_closed = 1e-6; // of the radius: what six digits leave of a point written twice; a
+                                       // facet of a million is longer
+constexpr double same_point = 1e-12;   // of the radius: a shorter facet has no direction in double precision
 constexpr double smallest = 1e-100, largest = 1e100; // m: squares of radii stay numbers
 constexpr double no_direction =
     8.0 * std::numeric_limits<double>::epsilon(); // of the radius: rounding of a position
@@ -57,8 +59,14 @@ void check_order(std::span<const PolarPoint> points) {
 /// Leaves out a last point that repeats the first.
 std::span<const PolarPoint> one_turn(std::span<const PolarPoint> points) {
   const PolarPoint &first = points.front(), &last = points.back();
-  if (last.angle - first.angle < turn - same_angle)
+  const double missing = turn - (last.angle - first.angle);
+  if (missing > same_angle) {
+    if (missing < nearly_closed && std::abs(last.radius - first.radius) < nearly_closed * first.radius)
+      refuse(name(points.size() - 1, last) + " nearly repeats " + name(0, first) +
+             " but does not close the " +
+             "hole; repeat the first point exactly, one turn later, or leave the last out");
     return points;
+  }
   if (std::abs(last.radius - first.radius) > same_radius * first.radius)
     refuse(name(points.size() - 1, last) + " closes the turn but is not " + name(0, first) +
            "; repeat the first point or leave the last out");

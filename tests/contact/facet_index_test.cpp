@@ -1,11 +1,116 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The nearest facet itself is tested through the gaps and normals of profiles; here: exact ties.
+// Against a plain look at all facets, where there are too many for the tests of profiles; and exact ties.
 #include "contact/facet_index.hpp"
+#include "contact/support_shapes.hpp"
+#include "uniform.hpp"
+#include <algorithm>
 #include <gtest/gtest.h>
+#include <limits>
 
 using namespace fretwork;
+using contact::Facet;
 using contact::FacetIndex;
 using contact::PlanePoint;
+
+namespace {
+
+constexpr double turn = 2.0 * std::numbers::pi;
+constexpr double round_off = 2e-15; // of the distance squared; coordinates and distances are of order 1
+
+std::vector<PlanePoint> polygon(int n, auto radius) {
+  std::vector<PlanePoint> vertices;
+  for (int k = 0; k < n; ++k) {
+    const double angle = turn * k / n, r = radius(angle);
+    vertices.push_back({r * std::cos(angle), r * std::sin(angle)});
+  }
+  return vertices;
+}
+
+/// A quatrefoil hole of lands and lobes, facets of very different length, over the tube's room at the lands.
+std::vector<PlanePoint> broached() {
+  const double t = 9.5e-3, room = 2e-4;
+  const auto profile = contact::broached_hole(t, {t + room, t + 3e-3, 4, turn / 20.0}, 1e-10);
+  std::vector<PlanePoint> vertices(profile.vertices().begin(), profile.vertices().end());
+  for (PlanePoint& v : vertices)
+    v = {v.y / 3e-3, v.z / 3e-3};
+  return vertices;
+}
+
+/// Four straight sides of n/4 facets: neighbours in one line, far parts at the same distance.
+double square(double angle) { return 1.0 / std::max(std::abs(std::cos(angle)), std::abs(std::sin(angle))); }
+double trefoil(double angle) { return 0.7 + 0.4 * std::cos(3.0 * angle); }
+/// Two wide lobes with a passage of 0.04 between them: the walls of the passage are rivals.
+double waist(double angle) { return 0.02 + std::abs(std::cos(angle)); }
+double star(double angle) {
+  return 1.0 + 0.2 * std::sin(5.0 * angle + 1.0) + 0.1 * std::sin(23.0 * angle) +
+         0.02 * std::sin(211.0 * angle);
+}
+
+double distance2(const Facet& f, double y, double z) {
+  const double along = std::clamp((y - f.ay) * f.uy + (z - f.az) * f.uz, 0.0, f.length);
+  const double ry = y - f.ay - along * f.uy, rz = z - f.az - along * f.uz;
+  return ry * ry + rz * rz;
+}
+
+void expect_nearest(const FacetIndex& index, double y, double z) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::uint32_t k = 0; k < index.size(); ++k)
+    least = std::min(least, distance2(index[k], y, z));
+  ASSERT_LE(distance2(index[index.nearest(y, z)], y, z), least + round_off) << y << " " << z;
+}
+
+/// Nodes on both sides at all depths, in the middle, and far away.
+void expect_nearest_everywhere(const std::vector<PlanePoint>& vertices, std::uint64_t seed) {
+  constexpr int nodes = 600;
+  const FacetIndex index(vertices);
+  tests::Uniform uniform(seed);
+  for (int i = 0; i < nodes; ++i) {
+    const auto v =
+        vertices[static_cast<std::size_t>(uniform(0.0, 1.0) * static_cast<double>(vertices.size()))];
+    const double depth = uniform.scale(1e-6, 1.0), share = i % 2 == 0 ? 1.0 - depth : 1.0 + depth;
+    expect_nearest(index, share * v.y, share * v.z);
+    expect_nearest(index, uniform(-1.8, 1.8), uniform(-1.8, 1.8));
+  }
+  for (int i = 0; i < nodes / 10; ++i) {
+    const double angle = uniform(0.0, turn), r = i == 0 ? 0.0 : uniform.scale(1e-12, 0.01);
+    expect_nearest(index, r * std::cos(angle), r * std::sin(angle));
+  }
+}
+
+} // namespace
+
+TEST(FacetIndex, FindsTheNearestOfTenThousandFacets) {
+  constexpr int many = 10000;
+  expect_nearest_everywhere(polygon(many, [](double) { return 1.0; }), 1);
+  expect_nearest_everywhere(polygon(many, square), 2);
+  expect_nearest_everywhere(polygon(many, trefoil), 3);
+  expect_nearest_everywhere(polygon(many, waist), 4);
+  expect_nearest_everywhere(polygon(many, star), 5);
+  expect_nearest_everywhere(broached(), 6);
+}
+
+TEST(FacetIndex, FindsTheNearestOfSpikesAndOfUnevenFacets) {
+  tests::Uniform uniform(7);
+  expect_nearest_everywhere(polygon(3000, [&](double) { return uniform(0.9, 1.1); }), 8);
+  expect_nearest_everywhere(polygon(3000, [&](double) { return uniform(1.0, 1.0 + 1e-6); }), 9);
+  std::vector<PlanePoint> vertices; // facets of length 1e-6 to 0.1
+  for (double angle = 0.0; angle < turn; angle += uniform.scale(1e-6, 0.1))
+    vertices.push_back({std::cos(angle), std::sin(angle)});
+  expect_nearest_everywhere(vertices, 10);
+}
+
+TEST(FacetIndex, FindsTheNearestForAnyNumberOfFacets) {
+  for (int n = 3; n < 80; ++n) // about the numbers at which the search takes over, and spans are not full
+    expect_nearest_everywhere(polygon(n, trefoil), static_cast<std::uint64_t>(n));
+}
+
+TEST(FacetIndex, TakesNodesThatAreFarOrNoNumber) {
+  const FacetIndex index(polygon(1000, trefoil));
+  for (const double far : {1e3, 1e9, 1e100, 1e150})
+    EXPECT_LE(std::min(index.nearest(far, 0.0), 1000 - index.nearest(far, 0.0)), 1u); // the lobe along y
+  EXPECT_LT(index.nearest(std::numeric_limits<double>::quiet_NaN(), 0.0), 1000u);
+  EXPECT_LT(index.nearest(0.0, std::numeric_limits<double>::infinity()), 1000u);
+}
 
 TEST(FacetIndex, LowestOfEquallyNearFacetsCounts) {
   // a square of 4 x 64 facets whose coordinates, and so all distances of these nodes, are exact

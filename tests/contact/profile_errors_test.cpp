@@ -76,3 +76,35 @@ TEST(Profile, RefusesAHoleWithoutItsOrigin) {
   expect_refused({{0.0, 1.0}, {180 * degree, 1.0}, {270 * degree, 1.0}},
                  {"point 1", "point 2", "180 degrees", "not inside"});
 }
+
+TEST(Profile, RefusesALastPointThatNearlyRepeatsTheFirst) {
+  expect_refused({{0.0, 1.0}, {120 * degree, 1.0}, {240 * degree, 1.0}, {359.99999 * degree, 1.0 + 1e-7}},
+                 {"point 4 (359.99999 degrees, 1 m) nearly repeats point 1 (0 degrees, 1 m)",
+                  "does not close the hole", "repeat the first point exactly"});
+  // a step in the radius or in the angle is a facet, however short
+  EXPECT_EQ(
+      message_of({{0.0, 1.0}, {120 * degree, 1.0}, {240 * degree, 1.0}, {359.99999 * degree, 1.0 + 1e-5}}),
+      "no error");
+  EXPECT_EQ(message_of({{0.0, 1.0}, {120 * degree, 1.0}, {240 * degree, 1.0}, {359.999 * degree, 1.0}}),
+            "no error");
+}
+
+TEST(Profile, RefusesAPolygonThatCrossesItselfOrTurnsBack) {
+  // a pentagram: its points in the order of its strokes
+  expect_refused(
+      {{0.0, 1.0}, {144 * degree, 1.0}, {288 * degree, 1.0}, {72 * degree, 1.0}, {216 * degree, 1.0}},
+      {"point 4 (72 degrees, 1 m) comes after point 3 (288 degrees, 1 m)", "increasing angle"});
+  // a hook, one of whose sides the origin does not see
+  expect_refused(
+      {{0.0, 1.0}, {60 * degree, 1.0}, {50 * degree, 2.0}, {120 * degree, 2.0}, {240 * degree, 1.0}},
+      {"point 3 (50 degrees, 2 m) comes after point 2 (60 degrees, 1 m)", "increasing angle"});
+  // clockwise
+  expect_refused({{240 * degree, 1.0}, {120 * degree, 1.0}, {0.0, 1.0}},
+                 {"point 2 (120 degrees, 1 m) comes after point 1 (240 degrees, 1 m)"});
+}
+
+TEST(Profile, RefusesAnIncompleteTurn) {
+  expect_refused({{0.0, 1.0}, {60 * degree, 1.0}, {120 * degree, 1.0}, {180 * degree, 1.0}},
+                 {"between point 4 (180 degrees, 1 m) and point 1 (0 degrees, 1 m) the angle is 180 degrees",
+                  "leave less than 180"});
+}
