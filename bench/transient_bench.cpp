@@ -26,7 +26,7 @@ void run_once(benchmark::State& state, const bench::TubeScene& tube, transient::
     transient::Observer* observers[] = {&statistics};
     const auto report = transient::run(scene, choice, observers, nullptr, {});
     benchmark::DoNotOptimize(report.energy.stored);
-    steps += static_cast<double>(report.steps);
+    steps += static_cast<double>(report.counts.steps);
     closed = 0.0;
     for (const auto& contact : statistics.summaries())
       closed += contact.contact_time_ratio;

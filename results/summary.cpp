@@ -97,7 +97,7 @@ Json energy(const EnergyTotals& e) {
 Json transient(const TransientTotals& t, const RunResults& results) {
   return {{"scheme", t.scheme},
           {"steps", t.steps},
-          {"rejected", 0}, // the schemes keep their step
+          {"rejected", t.rejected},
           {"force_evaluations", t.evaluations},
           {"step_min_s", number(t.step_min)},
           {"step_max_s", number(t.step_max)},

@@ -28,14 +28,15 @@ TransientTotals add_up(const std::vector<TransientFacts>& transients) {
       sum.scheme += (schemes.empty() ? "" : ", ") + scheme;
       schemes.push_back(scheme);
     }
-    sum.steps += report.steps;
-    sum.evaluations += report.evaluations;
-    sum.unconverged += report.unconverged;
-    if (sum.step_min == 0.0 || choice.step < sum.step_min) {
-      sum.step_min = choice.step;
+    sum.steps += report.counts.steps;
+    sum.evaluations += report.counts.evaluations;
+    sum.rejected += report.counts.rejected;
+    sum.unconverged += report.counts.unconverged;
+    if (sum.step_min == 0.0 || report.counts.step_min < sum.step_min) {
+      sum.step_min = report.counts.step_min;
       sum.step_reason = choice.reason;
     }
-    sum.step_max = std::max(sum.step_max, choice.step);
+    sum.step_max = std::max(sum.step_max, report.counts.step_max);
     sum.contact_frequency = std::max(sum.contact_frequency, choice.contact_frequency);
     sum.diverged = sum.diverged || report.outcome == transient::Outcome::diverged;
     sum.end_time = std::min(sum.end_time, report.end_time);

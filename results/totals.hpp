@@ -29,7 +29,7 @@ struct EnergyTotals {
 
 struct TransientTotals {
   std::string scheme; ///< names joined by ", " where structures differ
-  std::int64_t steps = 0, evaluations = 0, unconverged = 0;
+  std::int64_t steps = 0, rejected = 0, evaluations = 0, unconverged = 0;
   double step_min = 0.0, step_max = 0.0; ///< s
   std::string step_reason;               ///< of the smallest step
   double contact_frequency = 0.0;        ///< rad/s, the highest

@@ -76,6 +76,12 @@ public:
     std::copy_n(scratch_.begin(), system_.size(), force);
   }
 
+  [[nodiscard]] double next_time() const override { return static_cast<double>(steps_) * h_; }
+
+  [[nodiscard]] StepCounts counts() const override {
+    return {steps_, 0, contacts_.count > 0 ? steps_ : 0, 0, h_, h_};
+  }
+
 private:
   struct Contacts {
     double stored = 0.0;

@@ -50,11 +50,11 @@ public:
   }
 
   /// Keeps the forces of a record that output instants will follow before the one after it.
-  void keep(const Record& record) {
+  void keep(const Record& record, double limit) {
     if (grid_.count == 0)
       return;
     last_time_ = record.time;
-    if (next_ < grid_.count && time(next_) < record.time + 1.5 * record.step) {
+    if (next_ < grid_.count && time(next_) < limit) {
       fresh(record);
       last_.swap(now_);
     }
@@ -114,28 +114,30 @@ Report run(const Scene& scene, const StepChoice& choice, std::span<Observer* con
   OutputQueue outputs(scene, sampler, grid);
   Report report;
   double largest_residual = 0.0, largest_throughput = 0.0;
-  double next_time = choice.scheme == SchemeKind::splitting ? 0.5 * choice.step : 0.0;
-  for (std::int64_t k = 0; k < choice.steps; ++k) {
-    outputs.states(*scheme, next_time);
+  // A fixed step counts its steps, so that round-off of the time adds none.
+  const auto goes_on = [&] {
+    return choice.steps > 0 ? report.records < choice.steps : scheme->next_time() < scene.duration;
+  };
+  while (report.outcome == Outcome::done && goes_on()) {
+    outputs.states(*scheme, scheme->next_time());
     const Record& record = scheme->advance();
     outputs.forces(*scheme, record);
-    outputs.keep(record);
-    next_time = record.time + choice.step;
+    outputs.keep(record, scheme->next_time() + 0.5 * record.step); // the last output may lie at the end
     const double residual = std::abs(record.energy.residual());
     largest_residual = std::max(largest_residual, residual);
     largest_throughput = std::max(largest_throughput, record.energy.throughput);
-    report.steps = k + 1;
+    ++report.records;
     report.end_time = record.time;
     report.energy = record.energy;
     for (Observer* observer : observers)
       observer->step(record);
-    if (!(residual <= hopeless * largest_throughput)) {
+    if (!(residual <= hopeless * largest_throughput))
       report.outcome = Outcome::diverged;
-      break;
-    }
+    else if (scheme->failure() != StepFailure::none)
+      report.outcome = Outcome::step_failed;
   }
-  report.evaluations = scene.contacts.empty() ? 0 : report.steps;
-  report.unconverged = scheme->unconverged();
+  report.counts = scheme->counts();
+  report.failure = scheme->failure();
   if (report.outcome == Outcome::done)
     outputs.finish(*scheme);
   report.residual_relative = largest_throughput > 0.0 ? largest_residual / largest_throughput : 0.0;

@@ -42,20 +42,21 @@ struct OutputGrid {
 };
 [[nodiscard]] OutputGrid output_grid(double duration, double every);
 
-enum class Outcome { done, diverged };
+enum class Outcome { done, diverged, step_failed };
 
 struct Report {
   Outcome outcome = Outcome::done;
-  double end_time = 0.0; ///< s: of the last step
-  std::int64_t steps = 0;
-  std::int64_t evaluations = 0;   ///< of the contact forces
-  std::int64_t unconverged = 0;   ///< steps whose coupled contact forces missed their tolerance
+  double end_time = 0.0;    ///< s: of the last record
+  std::int64_t records = 0; ///< seen by the observers
+  StepCounts counts;
+  StepFailure failure = StepFailure::none;
   Energy energy;                  ///< at the last step
   double residual_relative = 0.0; ///< largest |residual| over largest throughput
 };
 
 /// Runs the scene with the step chosen. No allocation, no exception and no output in the loop.
-/// Diverged: the energy is not finite, or has grown far beyond all that was put in.
+/// Diverged: the energy is not finite, or has grown far beyond all that was put in. Step failed: the scheme
+/// could not meet its tolerance.
 [[nodiscard]] Report run(const Scene& scene, const StepChoice& choice, std::span<Observer* const> observers,
                          Sampler* sampler, const OutputGrid& grid);
 

@@ -55,20 +55,41 @@ struct Record {
   Energy energy;
 };
 
-/// A time scheme set up for one scene and one step. It advances from record to record; no allocation after
-/// construction.
+/// What a scheme has done so far.
+struct StepCounts {
+  std::int64_t steps = 0;       ///< accepted
+  std::int64_t rejected = 0;    ///< tried and made again with a smaller step
+  std::int64_t evaluations = 0; ///< of the contact forces
+  std::int64_t unconverged = 0; ///< accepted though the coupled contact forces missed their tolerance
+  double step_min = 0.0, step_max = 0.0; ///< s, of the accepted ones
+};
+
+/// Why no further step can be made.
+enum class StepFailure {
+  none,
+  tolerance, ///< no step that the time can resolve meets the tolerance
+  contacts,  ///< the equations of the contacts were not solved, however small the step
+};
+[[nodiscard]] std::string name_of(StepFailure failure);
+
+/// A time scheme set up for one scene. It advances from record to record; no allocation after construction. After `advance` has given
+/// the record at t_k, the state is known at every instant up to `next_time`: a scheme whose records stand at the ends of its steps has
+/// then made the step that follows the record.
 class Scheme {
 public:
   virtual ~Scheme() = default;
   /// Advances to the next record: the first call gives the first one.
   virtual const Record& advance() = 0;
+  /// Time of the record that `advance` will give, s; infinite after a failure.
+  [[nodiscard]] virtual double next_time() const = 0;
   /// State at `time` between the last record and the next (before the first call: between 0 and the first).
   /// Arrays of n values.
   virtual void state_at(double time, double* q, double* v) = 0;
   /// Modal force of the loads at a time, n values.
   virtual void load_at(double time, double* force) = 0;
-  /// Steps in which the coupled solution of the contact forces did not reach its tolerance.
-  [[nodiscard]] virtual std::int64_t unconverged() const { return 0; }
+  [[nodiscard]] virtual StepCounts counts() const = 0;
+  /// Why the scheme cannot go on from its last record.
+  [[nodiscard]] virtual StepFailure failure() const { return StepFailure::none; }
 };
 
 enum class SchemeKind { splitting, euler };

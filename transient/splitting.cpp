@@ -100,11 +100,13 @@ public:
     std::copy_n(f_next_.data(), system_.size(), force);
   }
 
-  [[nodiscard]] std::int64_t unconverged() const override { return unconverged_; }
+  [[nodiscard]] double next_time() const override { return (static_cast<double>(steps_) + 0.5) * h_; }
+
+  [[nodiscard]] StepCounts counts() const override {
+    return {steps_, 0, contacts_.count > 0 ? steps_ : 0, unconverged_, h_, h_};
+  }
 
 private:
-  [[nodiscard]] double next_time() const { return (static_cast<double>(steps_) + 0.5) * h_; }
-
   /// From the last action (or the start) to the next.
   void flow() {
     const kernels::FlowTable& table = steps_ == 0 ? first_ : full_;

@@ -39,7 +39,7 @@ Eigen::MatrixXd weighted_rows(const Scene& scene, Weight weight, Directions dire
   Eigen::MatrixXd rows(3 * static_cast<Eigen::Index>(scene.contacts.size()), scene.system.size());
   Eigen::Index used = 0;
   for (const ContactPoint& point : scene.contacts) {
-    const double w = weight(point.support);
+    const double w = weight(point);
     const std::array<bool, 3> along = directions(point.support);
     for (int k = 0; k < 3; ++k)
       if (along[static_cast<std::size_t>(k)] && w > 0.0)
@@ -69,6 +69,12 @@ double structure_rate(const System& system) {
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(system.damping_matrix, Eigen::EigenvaluesOnly)
       .eigenvalues()
       .maxCoeff();
+}
+
+/// Penetration of a contact at t = 0, m, 0 where it is open.
+double initial_overlap(const Scene& scene, const ContactPoint& point) {
+  const core::Vec3 u = point.rest + point.b * scene.q0;
+  return std::max(0.0, -contact::locate(point.support.obstacle, u.y(), u.z()).gap);
 }
 
 struct Term {
@@ -153,6 +159,19 @@ std::string name_of(SchemeKind kind) {
   return {};
 }
 
+std::string name_of(StepFailure failure) {
+  switch (failure) {
+  case StepFailure::none:
+    return "no failure";
+  case StepFailure::tolerance:
+    return "no step that the time can resolve meets the tolerance; give a larger tolerance, or take another "
+           "scheme";
+  case StepFailure::contacts:
+    return "the equations of the contacts were not solved, however small the step; take another scheme";
+  }
+  return {};
+}
+
 StepChoice choose_step(const Scene& scene, const StepOptions& options) {
   StepChoice c;
   const bool full_damping = scene.system.damping_matrix.size() > 0;
@@ -161,18 +180,20 @@ StepChoice choose_step(const Scene& scene, const StepOptions& options) {
     throw core::Error("scheme = \"splitting\" takes diagonal modal damping only, and the dampers of this "
                       "study couple the modes; use "
                       "scheme = \"euler\"");
-  const auto stiffness_n = [](const contact::Support& s) { return s.normal.stiffness; };
-  const auto stiffness_t = [](const contact::Support& s) {
-    return s.friction.active() ? s.friction.stiffness : 0.0;
+  const auto stiffness_n = [](const ContactPoint& c) { return c.support.normal.stiffness; };
+  const auto stiffness_t = [](const ContactPoint& c) {
+    return c.support.friction.active() ? c.support.friction.stiffness : 0.0;
   };
-  const auto damping_t = [](const contact::Support& s) {
-    return s.friction.active() ? s.friction.damping : 0.0;
+  const auto damping_t = [](const ContactPoint& c) {
+    return c.support.friction.active() ? c.support.friction.damping : 0.0;
   };
   c.contact_frequency = std::sqrt(largest_eigenvalue(weighted_rows(scene, stiffness_n, normal_rows)));
   c.stick_frequency = std::sqrt(largest_eigenvalue(weighted_rows(scene, stiffness_t, tangent_rows)));
   c.damper_rate = largest_eigenvalue(weighted_rows(scene, damping_t, tangent_rows));
   if (c.scheme == SchemeKind::euler) {
-    const auto damping_n = [](const contact::Support& s) { return s.normal.damping; };
+    const auto damping_n = [&scene](const ContactPoint& c) {
+      return c.support.normal.damping_at(initial_overlap(scene, c));
+    };
     c.explicit_rate = std::max(structure_rate(scene.system),
                                largest_eigenvalue(weighted_rows(scene, damping_n, normal_rows)));
   }

@@ -142,8 +142,9 @@ TransientFacts facts_of_run() {
   facts.choice.contact_frequency = 2.0e4;
   facts.choice.highest_mode = 1256.0;
   facts.choice.reason = "0.5 / contact frequency (2e4 rad/s) for an accuracy of 0.01";
-  facts.report.steps = 80000;
-  facts.report.evaluations = 160000;
+  facts.report.counts.steps = 80000;
+  facts.report.counts.evaluations = 160000;
+  facts.report.counts.step_min = facts.report.counts.step_max = 2.5e-5;
   facts.report.end_time = duration;
   facts.report.energy.initial = 0.125;
   facts.report.energy.load_work = 1.5;

@@ -80,7 +80,7 @@ TEST(TerminalTable, SaysWhenARunDivergedOrDidNotConverge) {
   RunResults results = made_up();
   results.transients[0].report.outcome = transient::Outcome::diverged;
   results.transients[0].report.end_time = 0.5;
-  results.transients[0].report.unconverged = 1234;
+  results.transients[0].report.counts.unconverged = 1234;
   const std::string text = terminal_table(results);
   EXPECT_THAT(text, HasSubstr("DIVERGED    at 0.5 s"));
   EXPECT_THAT(text, HasSubstr("1 234 of 80 000 steps missed the tolerance"));

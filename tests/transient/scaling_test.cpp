@@ -151,7 +151,7 @@ void expect_same(const History& a, const History& b, const Units& to, double tol
   ASSERT_EQ(a.choice.steps, b.choice.steps);
   EXPECT_EQ(a.choice.scheme, b.choice.scheme);
   EXPECT_EQ(a.choice.warnings.size(), b.choice.warnings.size());
-  EXPECT_EQ(a.report.unconverged, b.report.unconverged);
+  EXPECT_EQ(a.report.counts.unconverged, b.report.counts.unconverged);
   const auto rates = [](const StepChoice& c) {
     return vector({c.contact_frequency, c.stick_frequency, c.damper_rate, c.explicit_rate, c.highest_mode,
                    c.excitation, 1.0 / c.step});
