@@ -151,7 +151,7 @@ TEST(Run, ReportsADivergenceAsItsOutcome) {
   const History run = simulate(scene, euler(2.1e-3), 0.01); // w_max h = 2.1, limit 2
   EXPECT_EQ(run.report.outcome, Outcome::diverged);
   EXPECT_LT(run.report.end_time, 1.0);
-  EXPECT_LT(run.report.steps, run.choice.steps);
+  EXPECT_LT(run.report.counts.steps, run.choice.steps);
   EXPECT_EQ(simulate(scene, euler(1.9e-3), 0.01).report.outcome, Outcome::done);
 
   Scene contact = mass_point(1.0, Vec3::Zero(), 10.0);
