@@ -33,7 +33,7 @@ void evaluate_contacts(const PackedContacts& contacts, const ContactMemory& memo
     const contact::Support& support = contacts.supports[c];
     const auto at = motion.locate(c);
     const double p = -at.gap, rate = motion.sinking(c, at.ny, at.nz);
-    if (!(p > 0.0))
+    if (!(p >= 0.0))
       continue;
     const double spring = support.normal.stiffness * p;
     trial.springs += 0.5 * spring * p;

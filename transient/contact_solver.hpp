@@ -3,11 +3,14 @@
 /// The contact forces that act at one instant for a whole step h, all contacts together: displacements are continuous and the velocity
 /// jumps from v- to v+,
 ///     v+ = v- + h B^T f,    w = B (v- + v+)/2 = B v- + (h/2) W f,    W = B B^T
-///     normal    p -+ theta h p'/2: mean penetration P over the step, its open part counted as 0 (theta =
-///     0.7; p' from v-)
+///     normal    p -+ theta h p'/2: mean penetration P over the step, its open part counted as 0 (theta = 0.7; p' from v-)
 ///               F_N = <K_N P + c(P) p'(w)>+     explicit in position, implicit in velocity
 ///     friction  step_friction with the mean velocity w, implicit
-/// Found by Gauss-Seidel sweeps on w.
+/// Projected on the directions d = (n, t, x_loc) of the contacts that are shut, with forces F and velocities s along them:
+///     s = s0 + A F,    s0 = d.B v-,    A = (h/2) d W d^T
+/// solved by Gauss-Seidel sweeps, one contact at a time with the laws' own step forms, from the friction of the last step. The sweeps
+/// stop when what is still to come (largest change r/(1 - r), r the ratio of the changes of two sweeps) is below 1e-6 of the largest
+/// force the contact can bear, a thousandth of what the step itself leaves at its finest.
 #pragma once
 #include "transient/contact_memory.hpp"
 
@@ -23,34 +26,38 @@ public:
     double jump = 0.0; ///< J, h f.(w - B v-) = (h^2/2) f.W.f
     bool converged = true;
   };
-  /// Forces at the displacements and velocities v- of `motion`, whose velocities become w. The memory is read only. No allocation.
+  /// Forces at the displacements and velocities v- of `motion`. The memory is read only. No allocation.
+  /// @param trial  overwritten
   Action solve(const ContactMemory& memory, ContactMotion& motion, ContactTrial& trial);
 
 private:
-  /// What a shut contact needs in the step besides its state.
-  struct Working {
-    double mean = 0.0;      ///< mean penetration P, m
-    double damped = 0.0;    ///< (h/2) n.W.n
-    contact::Mobility slip; ///< (h/2) W in the tangent plane
+  /// A contact that takes part in the step.
+  struct Shut {
+    int contact = 0;
+    bool friction = false;
+    double ny = 0.0, nz = 0.0;
+    double mean = 0.0;     ///< mean penetration P, m
+    double approach = 0.0; ///< p' before the action, m/s
+    double per_normal = 0.0,
+           per_friction = 0.0; ///< 1/N: one over the forces that changes are measured against
+    bool slides = false;
     contact::FrictionMemory memory;
   };
   void meet(int c, const ContactMemory& memory, const ContactMotion& motion, ContactTrial& trial);
-  [[nodiscard]] bool sweep(const ContactMemory& memory, ContactMotion& motion, ContactTrial& trial);
-  [[nodiscard]] bool improve(int c, const contact::FrictionTable& table, ContactMotion& motion,
-                             ContactState& state);
-  [[nodiscard]] contact::Friction friction_of(int c, const contact::FrictionTable& table,
-                                              const ContactMotion& motion, const ContactState& state,
-                                              double normal_force) const;
-  void change(int c, double normal, contact::Vec2 tangential, ContactMotion& motion,
-              ContactState& state) const;
-  void close(int c, const ContactMotion& motion, ContactTrial& trial, Action& action) const;
-  [[nodiscard]] double jump(int c, const ContactMotion& motion, const ContactState& state) const;
+  void project(const ContactMotion& motion);
+  void project(const Shut& to, const Shut& from, double* block) const;
+  void guess(const ContactMemory& memory);
+  [[nodiscard]] bool sweep(const ContactMemory& memory);
+  [[nodiscard]] double improve(std::size_t i, const contact::FrictionTable& table);
+  void change(std::size_t i, const double* by);
+  void close(std::size_t i, ContactTrial& trial, Action& action) const;
 
   const PackedContacts& contacts_;
   double h_;
-  std::vector<Working> working_;
-  std::vector<int> shut_; ///< contacts that take part in this step
-  kernels::Array before_; ///< velocities v-, in lanes
+  std::size_t size_;    ///< directions of a contact: n, t and, where a contact slides in the plane, x
+  std::size_t row_ = 0; ///< length of a row of A
+  std::vector<Shut> shut_;
+  std::vector<double> a_, force_, free_, velocity_; ///< A (symmetric), F, s0, s
 };
 
 } // namespace fretwork::transient
