@@ -11,7 +11,10 @@
 ///     w_max  highest mode
 /// a = 4 and b = 5 for the splitting scheme, 1 and 1 for explicit Euler (whose limits are r_t h < 1 and
 /// w_max h < 2). Euler also takes the other dampers explicitly and resolves them by 1/r_e (its limit: r_e h < 2):
-///     r_e    the largest of the rates of the structure's damping and of the normal dampers (C_N in place of C_T)
+///     r_e    the largest of the rates of the structure's damping and of the normal dampers (c(p) at t = 0 in place of C_T)
+/// Hunt and Crossley's damper c(p) = K_N d p grows with a penetration that is not known beforehand, but w_c bounds its rate: an impact
+/// at the speed v has p <= min(1, sqrt(2/x)) v/w_c with x = d v (spring alone; damper alone), so that h c W <= eps min(x, sqrt(2 x)).
+/// Euler's limit 2 is met up to x = 8 (which leaves less than 1/8 of the speed); the splitting takes the damper implicitly.
 /// Never above 1/20 of the shortest period of the excitation times 2 eps (without contacts 1/200, and b = 0.6: statistics must
 /// see the modes), nor the shortest interval of a table, nor duration/20000 (so many steps take milliseconds).
 #pragma once

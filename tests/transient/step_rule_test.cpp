@@ -73,6 +73,13 @@ TEST(StepRule, ResolvesWithEulerTheDampersThatItTakesExplicitly) {
   expect_governed(scene, euler(), eps / 8000.0, "the dampers' rate 8000 1/s");
 }
 
+TEST(StepRule, ResolvesWithEulerTheDamperOfAnOverlapAtTheStart) {
+  Scene scene = scene_with({Circle{0.1}, {2.0, 0.0, 1e5}, {}}); // c(p) = 2e5 p
+  EXPECT_EQ(choose_step(scene, euler()).explicit_rate, 0.0);
+  start(scene, mass, Vec3(0, 0.12, 0), Vec3::Zero());
+  expect_governed(scene, euler(), eps / 2000.0, "the dampers' rate 2000 1/s");
+}
+
 TEST(StepRule, GivesTwentyPointsAPeriodToTheExcitationAndTwoHundredWithoutContacts) {
   Scene linear = mass_point(mass, Vec3(2e6, 0, 0), 1000.0),
         soft = scene_with({Circle{0.1}, {2.0}, {}}, 1000.0);
