@@ -114,3 +114,22 @@ TEST(Allocation, NeverHappensUnderTablesAndNoise) {
   scene.loads[1].function = Table{{0.0, 0.3, 0.3, 0.9}, {3.0, -3.0, 4.0, 1.0}};
   EXPECT_EQ(allocations_of_a_run(scene, splitting(1e-4)), 0);
 }
+
+TEST(Allocation, NeverHappensWithAnyObstacleAndLaw) {
+  Scene scene = rattling(8, 12, 0.5);
+  const auto set = [&](std::size_t c, const contact::Obstacle& obstacle, const Vec3& rest) {
+    scene.contacts[c].support.obstacle = obstacle;
+    scene.contacts[c].rest = rest;
+  };
+  constexpr double far = 0.01, gap = 1e-4;
+  const contact::PolarPoint square[] = {{0.0, 2e-4}, {1.6, 2e-4}, {3.1, 2e-4}, {4.7, 2e-4}};
+  set(1, contact::RoundPair{far}, Vec3(0, far + gap, 0));
+  set(2, contact::FacingPlanes{far, contact::PlaneAxis::z, 1.0}, Vec3(0, 0, far + gap));
+  set(3, contact::Profile(square), Vec3::Zero());
+  scene.contacts[0].support.normal.dissipation = scene.contacts[3].support.normal.dissipation = 1.0;
+  scene.contacts[5].support.friction.along = {0.0, 1.0};
+  scene.contacts[6].support.friction.along = {1.0, 0.0};
+  scene.contacts[7].support.friction.kind = contact::FrictionMemoryKind::reference;
+  EXPECT_EQ(allocations_of_a_run(scene, splitting(1e-4)), 0);
+  EXPECT_EQ(allocations_of_a_run(scene, euler(2e-5)), 0);
+}

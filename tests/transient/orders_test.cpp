@@ -88,12 +88,12 @@ struct Oracle {
 };
 
 Scene pressed_on_a_circle(double normal_damping, double modal_damping, const contact::FrictionLaw& friction,
-                          const Vec3& velocity) {
+                          const Vec3& velocity, double dissipation = 0.0) {
   Scene scene;
   scene.system.stiffness = Eigen::Vector4d(4.0, 30.0, 120.0, 0.0);
   scene.system.damping = modal_damping * Eigen::Vector4d(1.0, 2.0, 3.0, 0.5);
   ContactPoint point;
-  point.support = {contact::Circle{1.0}, {1000.0, normal_damping}, friction};
+  point.support = {contact::Circle{1.0}, {1000.0, normal_damping, dissipation}, friction};
   point.rest = Vec3(0.0, 0.0, 1.05);
   point.b.resize(3, 4);
   point.b << 1.0, 0.2, -0.3, 0.5, //
@@ -143,6 +143,7 @@ void expect_order(const Scene& scene, SchemeKind scheme, double lower, double up
 const contact::FrictionLaw none{};
 const contact::FrictionLaw sticking{800.0, 5.0, 20.0, 20.0};
 const contact::FrictionLaw slipping{800.0, 20.0, 0.1, 0.1};
+constexpr double dissipation = 0.3; ///< s/m: the spring's force changes by up to 15 % at 0.5 m/s
 const Vec3 slow(0.05, 0.1, 0.05), fast(1.5, 2.0, 0.0);
 
 // bounds of the measured order: the mean over five halvings, the coarsest step being w_c h = 0.2
@@ -180,6 +181,18 @@ TEST(Splitting, IsOfOrderTwoInStick) {
 TEST(Splitting, IsOfOrderTwoInSlip) {
   expect_order(pressed_on_a_circle(3.0, 1.0, slipping, fast), SchemeKind::splitting, second_low, second_high,
                second_final);
+}
+
+TEST(Splitting, IsOfOrderTwoWithHuntAndCrossleysDamper) {
+  expect_order(pressed_on_a_circle(0.0, 1.0, none, slow, dissipation), SchemeKind::splitting, second_low,
+               second_high, second_final);
+  expect_order(pressed_on_a_circle(0.0, 1.0, slipping, fast, dissipation), SchemeKind::splitting, second_low,
+               second_high, second_final);
+}
+
+TEST(Euler, IsOfOrderOneWithHuntAndCrossleysDamper) {
+  expect_order(pressed_on_a_circle(0.0, 1.0, none, slow, dissipation), SchemeKind::euler, first_low,
+               first_high, first_final);
 }
 
 TEST(Euler, IsOfOrderOne) {

@@ -86,6 +86,21 @@ TEST(Padding, OfSplittingWithoutCoupledForcesIsNotSeenToRoundOff) {
   }
 }
 
+TEST(Padding, IsNotSeenWithHuntAndCrossleysDamperAndFrictionAlongOneDirection) {
+  constexpr int steps = 400;
+  for (const Size& size : sizes)
+    for (const contact::Vec2 along : {contact::Vec2{1.0, 0.0}, contact::Vec2{0.0, 1.0}}) {
+      Scene scene = rattling(size.contacts, size.modes, 1e-4 * steps);
+      for (ContactPoint& c : scene.contacts) {
+        c.support.normal.dissipation = 1.0;
+        c.support.friction.along = along;
+      }
+      const auto scheme = make_splitting(scene, 1e-4);
+      const PlainState a = last_state(*scheme, scene, steps), b = plain_splitting(scene, 1e-4, steps);
+      expect_same(a, b, sweep_tolerance, size);
+    }
+}
+
 TEST(PlanePair, TakesTheOppositeFaceForAnotherSurface) {
   // a stiff tangential damper: what one face has loaded would still be there at the other
   constexpr double h = 1e-5;
