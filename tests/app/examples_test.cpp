@@ -20,7 +20,8 @@ TEST(Examples, EveryFolderOfExamplesIsRunHere) {
   for (const auto& entry : fs::directory_iterator(fs::path(FRETWORK_SOURCE_DIR) / "examples"))
     if (fs::exists(entry.path() / "study.toml"))
       found.insert(entry.path().filename());
-  EXPECT_EQ(found, (std::set<std::string>{"cantilever_stop", "oscillator", "straight_tube", "u_bend"}));
+  EXPECT_EQ(found,
+            (std::set<std::string>{"cantilever_stop", "oscillator", "straight_tube", "two_tubes", "u_bend"}));
 }
 
 TEST(Examples, OscillatorMeetsItsStopThreeTimes) {
@@ -58,6 +59,17 @@ TEST(Examples, StraightTubeHasItsFrequenciesAndItsWorkRate) {
   EXPECT_GT(work, 5.5);
   EXPECT_LT(work, 6.7);
   EXPECT_EQ(run.summary["contacts"].size(), 8u);
+  EXPECT_LT(run.summary["energy"]["residual_relative"].get<double>(), trusted_balance);
+  EXPECT_TRUE(run.summary["warnings"].empty()) << run.summary["warnings"];
+}
+
+TEST(Examples, TwoTubesMeetInTheirSpanAndAtTheEdgesOfTheirPlate) {
+  const Workshop folder;
+  const Results run = folder.run(example("two_tubes"), "results");
+  ASSERT_EQ(run.summary["contacts"].size(), 5u);
+  EXPECT_GT(run.statistics("span")["impacts"].get<int>(), 0);
+  for (const char* edge : {"plate[0]@1", "plate[0]@2", "plate[1]@1", "plate[1]@2"})
+    EXPECT_GT(run.statistics(edge)["impacts"].get<int>(), 0) << edge;
   EXPECT_LT(run.summary["energy"]["residual_relative"].get<double>(), trusted_balance);
   EXPECT_TRUE(run.summary["warnings"].empty()) << run.summary["warnings"];
 }

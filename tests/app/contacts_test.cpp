@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Contacts from the keys of the study to the results: laws found by the program, supports with a thickness,
+// structures that meet.
+#include "mesh_text.hpp"
+#include "program.hpp"
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fretwork::app::test {
+namespace {
+
+constexpr double rounding = 1e-12;  ///< relative
+constexpr double symmetric = 1e-9;  ///< relative: two edges whose shapes come from an eigensolver
+constexpr double one_impact = 1e-2; ///< relative: speeds are those of steps, some hundred an impact
+
+const std::string materials = R"([mesh]
+file = "mesh.msh"
+[materials.steel]
+young_modulus = 2.0e11
+poisson_ratio = 0.3
+density = 8000.0
+[sections.tube]
+shape = "pipe"
+outer_diameter = 0.01905
+thickness = 0.00109
+[sections.rod]
+shape = "circle"
+diameter = 0.01
+)";
+
+/// Tubes of 1 m and a little more, side by side every 25 mm along y, clamped at both ends; their middles are
+/// mid0, mid1 ...
+std::string tubes(const Workshop& folder, int count, const std::string& section = "tube") {
+  MeshText mesh;
+  std::string study = materials + "[modes]\ncount = 8\ndamping = 0.01\n[transient]\nduration = 0.02\n";
+  std::string observed;
+  for (int i = 0; i < count; ++i) {
+    MeshText tube =
+        straight_line(fmt::format("tube{}", i), {0.0, 0.025 * i, 0.0}, {1.0 + 0.1 * i, 0.025 * i, 0.0}, 8);
+    tube.points.emplace_back(fmt::format("mid{}", i), 4);
+    mesh = together(mesh, tube);
+    study += fmt::format("[[beams]]\ngroup = \"tube{0}\"\nmaterial = \"steel\"\nsection = \"{1}\"\n"
+                         "[[restraints]]\ngroup = \"tube{0}_begin\"\nfixed = \"all\"\n"
+                         "[[restraints]]\ngroup = \"tube{0}_end\"\nfixed = \"all\"\n",
+                         i, section);
+    observed += fmt::format("{}\"mid{}\"", i ? ", " : "", i);
+  }
+  folder.write("mesh.msh", mesh.text());
+  return study + "[output]\nevery = 1.0e-3\nnodes = [" + observed + "]\n";
+}
+
+std::string push(int tube, double force) {
+  return fmt::format("[[loads]]\ngroup = \"mid{}\"\ndirection = [0.0, 1.0, 0.1]\nconstant = {}\n", tube,
+                     force);
+}
+
+/// Tubes a and b meet after 1 mm.
+std::string meeting(int a, int b) {
+  return fmt::format("[[contacts]]\nname = \"meet{0}{1}\"\ngroup = \"mid{0}\"\nother = \"mid{1}\"\n"
+                     "axis = [1.0, 0.0, 0.0]\ndistance_1 = {2}\ndistance_2 = 0.012\n"
+                     "normal_stiffness = 1.0e6\nnormal_damping = 10.0\n",
+                     a, b, 0.012 + 0.025 * (b - a - 1));
+}
+
+std::string support(const std::string& keys) {
+  return "[[contacts]]\nname = \"plate\"\ngroup = \"mid0\"\naxis = [1.0, 0.0, 0.0]\n" + keys;
+}
+
+const results::ContactFacts& facts(const Results& run, const std::string& name) {
+  for (const auto& contact : run.archive.contacts)
+    if (contact.name == name)
+      return contact;
+  throw std::runtime_error("no contact " + name);
+}
+
+/// The message of a study that is refused.
+std::string refused(const Workshop& folder, const std::string& study) {
+  const Outcome outcome = folder.fretwork({"run", folder.write("study.toml", study).string(), "-o",
+                                           folder.path("results").string(), "--no-report"});
+  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  return outcome.err;
+}
+
+/// The middle of a tube in the archive.
+core::Index middle_of(const Results& run, int tube) {
+  const core::Vec3 place(0.5 + 0.05 * tube, 0.025 * tube, 0.0);
+  for (std::size_t n = 0; n < run.archive.nodes.size(); ++n)
+    if ((run.archive.nodes[n] - place).norm() < 1e-9) // m: the mesh has it at that place
+      return static_cast<core::Index>(n);
+  throw std::runtime_error("no such node");
+}
+
+/// Every observed middle moves as the modes of its own structure say, at their place among all modes.
+void expect_modal_series(const Results& run) {
+  for (const auto& name : run.archive.node_names) {
+    const core::Index node = middle_of(run, name.back() - '0');
+    const auto& bases = run.archive.bases;
+    Eigen::Index first = 0;
+    std::size_t s = 0;
+    for (; bases.at(s).row_of(node) < 0; ++s)
+      first += bases[s].size();
+    const Eigen::MatrixXd moved = (bases[s].shapes.middleRows<3>(bases[s].row_of(node)) *
+                                   run.archive.series.modal_displacement.middleRows(first, bases[s].size()))
+                                      .transpose();
+    const auto& series = run.node(name).displacement;
+    const double largest = series.cwiseAbs().maxCoeff();
+    EXPECT_GT(largest, 0.0) << name;
+    EXPECT_LT((moved - series).cwiseAbs().maxCoeff(), rounding * largest) << name;
+  }
+}
+
+TEST(Structures, ThatMeetKeepTheirPlacesInTheModalSeries) {
+  const Workshop folder; // tubes 0 and 2 run together, 1 and 3 alone
+  const Results run =
+      folder.run_text(tubes(folder, 4) + meeting(0, 2) + push(0, 200.0) + push(1, 30.0) + push(3, -50.0));
+  EXPECT_GT(run.statistics("meet02")["impacts"].get<int>(), 0);
+  expect_modal_series(run);
+}
+
+TEST(Structures, InAChainPassTheForceOnAndGiveTheSameOnAllRanks) {
+  const Workshop folder;
+  const std::string study = tubes(folder, 4) + meeting(0, 1) + meeting(1, 2) + push(0, 600.0) + push(3, 20.0);
+  const Results run = folder.run_text(study);
+  for (const char* name : {"meet01", "meet12"})
+    EXPECT_GT(run.statistics(name)["impacts"].get<int>(), 0) << name;
+  expect_modal_series(run);
+  for (const int ranks : {2, 3}) {
+    const Results many = folder.run(folder.path("study.toml"), fmt::format("ranks{}", ranks), {}, ranks);
+    EXPECT_TRUE(same_numbers(many.archive, run.archive)) << ranks;
+  }
+}
+
+TEST(Structures, MeetASecondNodeThatIsFixed) {
+  const Workshop folder;
+  std::string study = tubes(folder, 2) + meeting(0, 1) + push(0, 200.0) +
+                      "[[restraints]]\ngroup = \"tube1\"\nfixed = \"all\"\n";
+  const auto at = study.find(", \"mid1\"");
+  study.erase(at, 8);
+  const Results run = folder.run_text(study);
+  EXPECT_EQ(run.archive.bases.size(), 1u);
+  EXPECT_GT(run.statistics("meet01")["impacts"].get<int>(), 0);
+}
+
+TEST(Structures, WrongPairsAreRefused) {
+  const Workshop folder;
+  const std::string study = tubes(folder, 2);
+  const std::string sizes = "distance_1 = 0.01\ndistance_2 = 0.01\naxis = [1.0, 0.0, 0.0]\n"
+                            "normal_stiffness = 1.0e6\n";
+  const auto pair = [&](const std::string& group, const std::string& other, const std::string& more = "") {
+    return refused(folder, study + "[[contacts]]\nname = \"c\"\ngroup = \"" + group + "\"\nother = \"" +
+                               other + "\"\n" + sizes + more);
+  };
+  EXPECT_TRUE(says(pair("mid0", "tube1"), "group \"mid0\" has 1 nodes and other \"tube1\" has 9"));
+  EXPECT_TRUE(says(pair("mid0", "mid0"), "share a node, which cannot meet itself; name two different nodes"));
+  EXPECT_TRUE(says(pair("mid0", "mid9"), "mid9"));
+  // across z the two tubes lie at the same place
+  EXPECT_TRUE(
+      says(pair("mid0", "mid1", "obstacle = \"plane_z\"\n"),
+           "contact \"c\": its two nodes are at the same place across the planes, so that neither has a "
+           "side; give side = 1 or -1"));
+}
+
+TEST(Thickness, SharesASupportBetweenItsEdges) {
+  const Workshop folder;
+  const std::string keys = "obstacle = \"drilled\"\ntube_radius = 0.009525\nhole_radius = 0.009625\n"
+                           "thickness = 0.03\nnormal_stiffness = 2.0e6\nnormal_damping = 40.0\n"
+                           "tangential_stiffness = 1.0e6\ntangential_damping = 20.0\nfriction = 0.3\n";
+  const Results run = folder.run_text(tubes(folder, 1) + support(keys) + push(0, 200.0));
+  ASSERT_EQ(run.archive.contacts.size(), 2u);
+  for (const char* name : {"plate@1", "plate@2"}) {
+    const auto& edge = facts(run, name);
+    EXPECT_EQ(edge.normal_stiffness, 1.0e6) << name;
+    EXPECT_EQ(edge.normal_damping, 20.0) << name;
+    EXPECT_EQ(edge.tangential_stiffness, 0.5e6) << name;
+    EXPECT_EQ(edge.tangential_damping, 10.0) << name;
+    EXPECT_GT(run.statistics(name)["impacts"].get<int>(), 0) << name;
+  }
+  // tube, support and load are symmetric about the middle
+  EXPECT_TRUE(close_to(run.statistics("plate@1")["normal_force"]["rms"],
+                       run.statistics("plate@2")["normal_force"]["rms"], symmetric));
+}
+
+TEST(Thickness, LongerThanTheTubeIsRefused) {
+  const Workshop folder;
+  EXPECT_TRUE(
+      says(refused(folder, tubes(folder, 1) + support("gap = 0\nnormal_stiffness = 1.0\nthickness = 1.2\n")),
+           "contact \"plate\": the beam ends at "));
+}
+
+TEST(Wall, GivesTheStiffnessOfTheTube) {
+  const Workshop folder;
+  const Results run = folder.run_text(tubes(folder, 2) +
+                                      support("gap = 1.0e-4\nnormal_stiffness = \"wall\"\n") + push(0, 50.0));
+  const double d = 0.01905, t = 0.00109;
+  const double wall = 1.9 * 2.0e11 * t * t / d * std::sqrt(t / d);
+  EXPECT_TRUE(close_to(facts(run, "plate").normal_stiffness, wall, rounding));
+  std::string two = meeting(0, 1);
+  const std::string given = "normal_stiffness = 1.0e6";
+  two.replace(two.find(given), given.size(), "normal_stiffness = \"wall\"");
+  const Results both = folder.run_text(tubes(folder, 2) + two + push(0, 50.0));
+  EXPECT_TRUE(close_to(facts(both, "meet01").normal_stiffness, 0.5 * wall, rounding));
+}
+
+TEST(Wall, NeedsATube) {
+  const Workshop folder;
+  EXPECT_TRUE(
+      says(refused(folder, tubes(folder, 1, "rod") + support("gap = 1.0e-4\nnormal_stiffness = \"wall\"\n")),
+           "contact \"plate\": normal_stiffness = \"wall\" needs a tube, and section \"rod\" of the beam "
+           "at its node is no pipe; give normal_stiffness a value (N/m)"));
+}
+
+TEST(FrictionDirection, ReachesTheLaw) {
+  const Workshop folder;
+  const Results run = folder.run_text(
+      tubes(folder, 1) +
+      support("gap = 1.0e-4\nnormal_stiffness = 1.0e6\nfriction = 0.3\ntangential_stiffness = 1.0e6\n"
+              "tangential_damping = 10.0\nfriction_direction = \"axial\"\n") +
+      push(0, 200.0));
+  EXPECT_EQ(facts(run, "plate").friction_along, (std::array<double, 2>{1.0, 0.0}));
+  EXPECT_GT(run.contact("plate").normal_force.maxCoeff(), 0.0);
+  EXPECT_EQ(run.contact("plate").tangential_force.col(1).cwiseAbs().maxCoeff(), 0.0);
+}
+
+/// A mass of 2 kg that flies against a stop 1 mm away at 0.1 m/s, held by a spring that is too weak to matter.
+std::string flying_mass(const Workshop& folder, const std::string& keys) {
+  folder.write("mesh.msh", lone_points({"mass"}).text());
+  return R"([mesh]
+file = "mesh.msh"
+[[masses]]
+group = "mass"
+mass = 2.0
+[[springs]]
+group = "mass"
+stiffness = [0.0, 1.0e-3, 0.0, 0.0, 0.0, 0.0]
+[[restraints]]
+group = "mass"
+fixed = ["ux", "uz", "rx", "ry", "rz"]
+[[initial]]
+group = "mass"
+velocity = [0.0, 0.1, 0.0]
+[transient]
+duration = 0.03
+[[contacts]]
+name = "stop"
+group = "mass"
+obstacle = "stop_y"
+axis = [1.0, 0.0, 0.0]
+gap = 1.0e-3
+normal_stiffness = 1.0e6
+)" + keys;
+}
+
+TEST(Restitution, IsWhatAMassComesBackWith) {
+  for (const std::string law :
+       {"restitution = 0.7\n", "restitution = 0.7\nrestitution_mass = 2.0\n",
+        "normal_law = \"hunt_crossley\"\nrestitution = 0.7\nrestitution_velocity = 0.1\n"}) {
+    const Workshop folder;
+    const Results run = folder.run_text(flying_mass(folder, law));
+    const auto& stop = run.statistics("stop");
+    ASSERT_EQ(stop["impacts"], 1) << law;
+    EXPECT_TRUE(close_to(stop["departure_velocity"]["mean"].get<double>(),
+                         0.7 * stop["impact_velocity"]["mean"].get<double>(), one_impact))
+        << law;
+  }
+}
+
+TEST(Restitution, TakesTheMassThatTheModesGive) {
+  const Workshop folder;
+  const Results found = folder.run_text(flying_mass(folder, "restitution = 0.7\n"));
+  const double damping = facts(found, "stop").normal_damping;
+  const Results given = folder.run_text(flying_mass(folder, "restitution = 0.7\nrestitution_mass = 2.0\n"));
+  EXPECT_TRUE(close_to(damping, facts(given, "stop").normal_damping, rounding));
+  EXPECT_TRUE(says(found.summary["notes"].dump(), "for restitution 0.7 with a mass of 2 kg"));
+  // e = exp(-2 xi acos(xi)/sqrt(1 - xi^2)) with C_N = 2 xi sqrt(K_N m)
+  const double xi = damping / (2.0 * std::sqrt(1.0e6 * 2.0));
+  EXPECT_TRUE(close_to(std::exp(-2.0 * xi * std::acos(xi) / std::sqrt(1.0 - xi * xi)), 0.7, rounding));
+}
+
+} // namespace
+} // namespace fretwork::app::test
