@@ -104,7 +104,8 @@ FrictionSlopes friction_slopes(const FrictionLaw& law, const FrictionMemory& mem
 
 FrictionTable friction_table(const FrictionLaw& law, double h) {
   return {0.5 * law.stiffness * h + law.damping,
-          law.damping > 0.0 ? std::exp(-law.stiffness * h / law.damping) : 0.0};
+          law.damping > 0.0 ? std::exp(-law.stiffness * h / law.damping) : 0.0,
+          law.stiffness > 0.0 ? 1.0 / law.stiffness : 0.0};
 }
 
 FrictionStep close_step(const FrictionLaw& law, const FrictionTable& table, const FrictionMemory& memory,
@@ -124,7 +125,7 @@ FrictionStep close_step(const FrictionLaw& law, const FrictionTable& table, cons
     step.slip = dx;
   } else if (slides) {
     const Vec2 relaxed = force + table.relaxation * (before - force);
-    const Vec2 relaxed_stretch = (1.0 / law.stiffness) * (before - relaxed);
+    const Vec2 relaxed_stretch = table.compliance * (before - relaxed);
     // A slider that would move with the force did not move: the bound only clipped a spring that was letting
     // go by itself.
     if (dot(force, dx - relaxed_stretch) < 0.0) {
@@ -135,14 +136,17 @@ FrictionStep close_step(const FrictionLaw& law, const FrictionTable& table, cons
   }
   step.friction_work = -dot(force, step.slip);
   step.memory.spring = after;
-  step.damper_work = -dot(force, stretch) - (dot(after, after) - dot(before, before)) / (2.0 * law.stiffness);
+  step.stored = 0.5 * table.compliance * (dot(after, after) - dot(before, before));
+  step.damper_work = -dot(force, stretch) - step.stored;
   return step;
 }
 
 FrictionStep open_step(const FrictionLaw& law, const FrictionTable& table, const FrictionMemory& memory) {
   FrictionStep step;
   step.memory.spring = (law.kind == FrictionMemoryKind::return_map ? table.relaxation : 0.0) * memory.spring;
-  step.damper_work = spring_energy(law, memory) - spring_energy(law, step.memory);
+  step.stored = 0.5 * table.compliance *
+                (dot(step.memory.spring, step.memory.spring) - dot(memory.spring, memory.spring));
+  step.damper_work = -step.stored;
   return step;
 }
 

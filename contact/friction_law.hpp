@@ -52,6 +52,7 @@ struct FrictionStep {
   FrictionMemory memory;      ///< at the end of the step, to be committed
   Vec2 slip;                  ///< m: displacement of the slider (0 in stick)
   double friction_work = 0.0; ///< J >= 0, dissipated by the slider
+  double stored = 0.0;        ///< J, what the spring's energy grew by
   double damper_work = 0.0; ///< J, dissipated by C_T and given up by the spring of an open contact; >= 0 but
                             ///< for the jumps of `reference`
 };
@@ -100,6 +101,7 @@ struct FrictionTable {
                      ///< mean velocity
   double relaxation; ///< exp(-K_T h/C_T): what is left after h of the spring's distance to its goal (0
                      ///< without damper)
+  double compliance; ///< 1/K_T, m/N (0 without friction)
 };
 [[nodiscard]] FrictionTable friction_table(const FrictionLaw& law, double h);
 
@@ -130,25 +132,36 @@ using Mobility = Sym2; ///< m/s per N
                                            Vec2 free_velocity, const Mobility& mobility);
 
 /// The same where nothing moves along x_loc (the memory, the velocity and the coupling are 0 there): a scalar
-/// problem with F on a line.
+/// problem with F on a line. Made once a step, asked for many normal forces and free velocities.
+class LineStep {
+public:
+  LineStep() = default;
+  LineStep(const FrictionLaw& law, const FrictionTable& table, const FrictionMemory& memory, double mobility)
+      : spring_(memory.spring.t), gradient_(law.along.t * table.gradient), mobility_(mobility),
+        share_(1.0 / (1.0 + gradient_ * mobility)), mu_(memory.sliding ? law.mu_dynamic : law.mu_static),
+        mu_slip_(law.mu_dynamic), along_velocity_(law.kind == FrictionMemoryKind::reference) {}
+
+  [[nodiscard]] Friction friction(double normal_force, double free_velocity) const {
+    const double stick = (spring_ - gradient_ * free_velocity) * share_;
+    if (std::abs(stick) <= mu_ * normal_force)
+      return {{0.0, stick}, false};
+    const double bound = mu_slip_ * normal_force;
+    if (!along_velocity_ || free_velocity == 0.0)
+      return {{0.0, std::copysign(bound, stick)}, true};
+    const double speed = std::abs(free_velocity); // over the mobility: what brings the node to rest
+    return {{0.0, std::copysign(speed < mobility_ * bound ? speed / mobility_ : bound, -free_velocity)},
+            true};
+  }
+
+private:
+  double spring_ = 0.0, gradient_ = 0.0, mobility_ = 0.0, share_ = 1.0, mu_ = 0.0, mu_slip_ = 0.0;
+  bool along_velocity_ = false;
+};
+
 [[nodiscard]] inline Friction step_friction_line(const FrictionLaw& law, const FrictionTable& table,
                                                  const FrictionMemory& memory, double normal_force,
                                                  double free_velocity, double mobility) {
-  const double gradient = law.along.t * table.gradient;
-  const double b = memory.spring.t - gradient * free_velocity;
-  const double m = 1.0 + gradient * mobility;
-  const double bound = (memory.sliding ? law.mu_dynamic : law.mu_static) * normal_force;
-  if (std::abs(b) <= bound * m)
-    return {{0.0, b / m}, false};
-  const double slip_bound = law.mu_dynamic * normal_force;
-  if (law.kind == FrictionMemoryKind::reference && free_velocity != 0.0) {
-    const double stopping =
-        std::abs(free_velocity); // over the mobility: the force that brings the node to rest
-    return {{0.0, std::copysign(stopping < mobility * slip_bound ? stopping / mobility : slip_bound,
-                                -free_velocity)},
-            true};
-  }
-  return {{0.0, std::copysign(slip_bound, b)}, true};
+  return LineStep(law, table, memory, mobility).friction(normal_force, free_velocity);
 }
 
 } // namespace fretwork::contact

@@ -73,10 +73,26 @@ struct MeanSlopes {
 /// `free_rate` the mean rate p' without this force, `mobility` = (h/2) n.W.n, what the mean normal speed
 /// changes by per newton: with p' = free_rate - mobility F_N,
 ///     F_N = <K_N mean + c(mean) free_rate>+ / (1 + c(mean) mobility).
+/// Made once a step, asked for many free rates.
+class NormalStep {
+public:
+  NormalStep() = default;
+  NormalStep(const NormalLaw& law, double mean, double mobility)
+      : spring_(law.stiffness * mean), damping_(law.damping_at(mean)),
+        share_(1.0 / (1.0 + damping_ * mobility)) {}
+  [[nodiscard]] double force(double free_rate) const {
+    return std::max(0.0, spring_ + damping_ * free_rate) * share_;
+  }
+  /// N: of the spring alone.
+  [[nodiscard]] double spring() const { return spring_; }
+
+private:
+  double spring_ = 0.0, damping_ = 0.0, share_ = 1.0;
+};
+
 [[nodiscard]] inline double step_normal(const NormalLaw& law, double mean, double free_rate,
                                         double mobility) {
-  const double c = law.damping_at(mean);
-  return std::max(0.0, law.stiffness * mean + c * free_rate) / (1.0 + c * mobility);
+  return NormalStep(law, mean, mobility).force(free_rate);
 }
 
 /// F_N of `step_normal` and its derivatives, with p' = free_rate - mobility F_N:

@@ -52,7 +52,7 @@ void ContactMemory::close(int c, ContactState& state, ContactLosses& losses) {
     forget(c, losses);
   const auto step =
       contact::close_step(law, e.table, e.friction, {state.friction, state.slides}, state.displacement);
-  springs_ += contact::spring_energy(law, step.memory) - contact::spring_energy(law, e.friction);
+  springs_ += step.stored;
   e.friction = step.memory;
   e.force = state.friction;
   e.ny = state.ny;

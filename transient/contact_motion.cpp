@@ -6,7 +6,8 @@ namespace fretwork::transient {
 ContactMotion::ContactMotion(const PackedContacts& contacts) : contacts_(contacts) {
   u.assign(static_cast<std::size_t>(contacts.stride()), 0.0);
   w = u;
-  near_.assign(static_cast<std::size_t>(contacts.width), 0.0);
+  for (kernels::Array* a : {&near_, &gaps, &normal_y, &normal_z})
+    a->assign(static_cast<std::size_t>(contacts.width), 0.0);
 }
 
 void ContactMotion::gather(const double* q, const double* v) {
@@ -15,8 +16,18 @@ void ContactMotion::gather(const double* q, const double* v) {
 
 bool ContactMotion::find_near(double half_window) {
   const int width = contacts_.width;
-  return kernels::near(width, contacts_.reach, u.data(), u.data() + width, w.data(), w.data() + width,
-                       half_window, near_.data());
+  kernels::place(width, contacts_.reach, u.data(), u.data() + width, gaps.data(), normal_y.data(),
+                 normal_z.data());
+  const bool any = kernels::near(width, gaps.data(), w.data(), w.data() + width, half_window, near_.data());
+  if (any)
+    for (const int c : contacts_.profiles)
+      if (near(c)) {
+        const auto at = locate(c);
+        gaps[c] = at.gap;
+        normal_y[c] = at.ny;
+        normal_z[c] = at.nz;
+      }
+  return any;
 }
 
 double ContactMotion::spring_energy() const {

@@ -15,8 +15,8 @@ public:
 
   /// Displacements and velocities of all contacts from those of the modes (padded arrays). No allocation.
   void gather(const double* q, const double* v);
-  /// Marks the contacts that may have penetration > 0 now, or within `half_window` seconds at their present speed (>= 0).
-  /// Returns whether there is any.
+  /// Marks the contacts that may have penetration > 0 now, or within `half_window` seconds at their present speed (>= 0), and finds
+  /// `gaps`, `normal_y` and `normal_z` of these. Returns whether there is any.
   bool find_near(double half_window);
   [[nodiscard]] bool near(int c) const { return near_[c] != 0.0; }
 
@@ -41,7 +41,8 @@ public:
   /// Energy of the normal springs, J.
   [[nodiscard]] double spring_energy() const;
 
-  kernels::Array u, w; ///< lanes of PackedContacts: displacement, m, and velocity, m/s
+  kernels::Array u, w;                     ///< lanes of PackedContacts: displacement, m, and velocity, m/s
+  kernels::Array gaps, normal_y, normal_z; ///< m, and unit normal, of near contacts: what `locate` gives
 
 private:
   const PackedContacts& contacts_;

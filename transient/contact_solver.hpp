@@ -6,7 +6,7 @@
 ///     normal    p -+ theta h p'/2: mean penetration P over the step, its open part counted as 0 (theta = 0.7; p' from v-)
 ///               F_N = <K_N P + c(P) p'(w)>+     explicit in position, implicit in velocity
 ///     friction  step_friction with the mean velocity w, implicit
-/// Projected on the directions d = (n, t, x_loc) of the contacts that are shut, with forces F and velocities s along them:
+/// Along the directions (n, t, x_loc) of the contacts, with the forces F of those that are shut and the velocities s of all,
 ///     s = s0 + A F,    s0 = d.B v-,    A = (h/2) d W d^T
 /// solved by Gauss-Seidel sweeps, one contact at a time with the laws' own step forms, from the friction of the last step. The sweeps
 /// stop when what is still to come (largest change r/(1 - r), r the ratio of the changes of two sweeps) is below 1e-6 of the largest
@@ -34,30 +34,35 @@ private:
   /// A contact that takes part in the step.
   struct Shut {
     int contact = 0;
-    bool friction = false;
-    double ny = 0.0, nz = 0.0;
-    double mean = 0.0;     ///< mean penetration P, m
-    double approach = 0.0; ///< p' before the action, m/s
+    bool friction = false, in_plane = false, slides = false;
+    double mean = 0.0;         ///< mean penetration P, m
+    double approach = 0.0;     ///< p' before the action, m/s
+    double force[3] = {};      ///< N, along n, t, x_loc
+    double before[3] = {};     ///< m/s, s0
+    double nn = 0.0, nt = 0.0; ///< own block of A
+    contact::Mobility slip;    ///< own block of A in the tangent plane
+    double nx = 0.0;           ///< own block of A
+    contact::NormalStep normal;
+    contact::LineStep line; ///< where friction acts on a line
     double per_normal = 0.0,
            per_friction = 0.0; ///< 1/N: one over the forces that changes are measured against
-    bool slides = false;
-    contact::FrictionMemory memory;
   };
-  void meet(int c, const ContactMemory& memory, const ContactMotion& motion, ContactTrial& trial);
-  void project(const ContactMotion& motion);
-  void project(const Shut& to, const Shut& from, double* block) const;
-  void guess(const ContactMemory& memory);
-  [[nodiscard]] bool sweep(const ContactMemory& memory);
-  [[nodiscard]] double improve(std::size_t i, const contact::FrictionTable& table);
+  void meet(const ContactMotion& motion, ContactTrial& trial);
+  void couple(const ContactMotion& motion);
+  void prepare(const ContactMemory& memory, const ContactMotion& motion);
+  [[nodiscard]] bool sweep(const ContactMemory& memory, const ContactMotion& motion);
+  [[nodiscard]] double improve(std::size_t i, const ContactMemory& memory, const ContactMotion& motion);
+  contact::Friction friction_in_plane(const Shut& s, double normal, const double* by,
+                                      const ContactMemory& memory, const ContactMotion& motion) const;
   void change(std::size_t i, const double* by);
-  void close(std::size_t i, ContactTrial& trial, Action& action) const;
+  void close(const ContactMotion& motion, ContactTrial& trial, Action& action) const;
 
   const PackedContacts& contacts_;
   double h_;
-  std::size_t size_;    ///< directions of a contact: n, t and, where a contact slides in the plane, x
-  std::size_t row_ = 0; ///< length of a row of A
   std::vector<Shut> shut_;
-  std::vector<double> a_, force_, free_, velocity_; ///< A (symmetric), F, s0, s
+  kernels::Array a_;        ///< A, of shut contact i from i * block_ on
+  kernels::Array velocity_; ///< s, in lanes
+  std::size_t block_;
 };
 
 } // namespace fretwork::transient

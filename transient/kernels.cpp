@@ -140,30 +140,80 @@ FRETWORK_WIDTHS EulerSums euler_step(int np, double h, const double* c, const do
   return {sum(energy), sum(power), sum(loss)};
 }
 
-FRETWORK_WIDTHS bool near(int width, const ReachLanes& reach, const double* uy, const double* uz,
-                          const double* vy, const double* vz, double half_step, double* near_flag) {
-  Mask any{};
+FRETWORK_WIDTHS void place(int width, const ReachLanes& reach, const double* uy, const double* uz,
+                           double* gap, double* ny, double* nz) {
   for (int i = 0; i < width; i += lanes) {
     const Pack y = at(uy + i) + at(&reach.rest_y[i]), z = at(uz + i) + at(&reach.rest_z[i]);
-    const Pack wy = at(&reach.wy[i]), wz = at(&reach.wz[i]);
-    const Pack r2 = wy * y * y + wz * z * z, s2 = wy * at(vy + i) * at(vy + i) + wz * at(vz + i) * at(vz + i);
-    Pack r{}, s{};
-    for (int l = 0; l < lanes; ++l) {
+    const Pack wy = at(&reach.wy[i]), wz = at(&reach.wz[i]), radial = at(&reach.radial[i]);
+    const Pack ly = at(&reach.ly[i]), lz = at(&reach.lz[i]);
+    const Pack r2 = wy * y * y + wz * z * z;
+    Pack r{};
+    for (int l = 0; l < lanes; ++l)
       r[l] = __builtin_sqrt(r2[l]);
-      s[l] = __builtin_sqrt(s2[l]);
-    }
-    const Mask flag =
-        at(&reach.radial[i]) * r + at(&reach.ly[i]) * y + at(&reach.lz[i]) * z + half_step * s >=
-        at(&reach.limit[i]);
+    const Mask centred = !(r > Pack{});
+    const Pack ey = centred ? wy : wy * y / r; // at the very centre along y where the normal can be y
+    const Pack ez = centred ? wz * (1.0 - wy) : wz * z / r;
+    at(gap + i) = at(&reach.limit[i]) - (radial * r + ly * y + lz * z);
+    at(ny + i) = -(radial * ey + ly);
+    at(nz + i) = -(radial * ez + lz);
+  }
+}
+
+FRETWORK_WIDTHS bool near(int width, const double* gap, const double* vy, const double* vz, double half_step,
+                          double* near_flag) {
+  Mask any{};
+  const double h2 = half_step * half_step;
+  for (int i = 0; i < width; i += lanes) {
+    const Pack g = at(gap + i), s2 = at(vy + i) * at(vy + i) + at(vz + i) * at(vz + i);
+    const Mask flag = (g <= 0.0) | (g * g <= h2 * s2);
     at(near_flag + i) = flag ? Pack{} + 1.0 : Pack{};
     any |= flag;
   }
   return ((any[0] | any[1]) | (any[2] | any[3])) | ((any[4] | any[5]) | (any[6] | any[7]));
 }
 
-FRETWORK_WIDTHS void answer(int width, const double* columns, const double* f, double* w) {
-  for (int i = 0; i < width; i += lanes)
-    at(w + i) += f[0] * at(columns + i) + f[1] * at(columns + width + i) + f[2] * at(columns + 2 * width + i);
+FRETWORK_WIDTHS void respond(int width, int directions, const double* columns, double ny, double nz,
+                             double scale, const double* to_ny, const double* to_nz, double* a) {
+  const int stride = directions * width; // of a column, and of a direction of `a`
+  for (int i = 0; i < width; i += lanes) {
+    const Pack my = at(to_ny + i), mz = at(to_nz + i);
+    const double* y = columns + i; // by a force along y, z, x
+    const double *z = y + stride, *x = z + stride;
+    const auto store = [&](double* out, const Pack& by_y, const Pack& by_z) __attribute__((always_inline)) {
+      at(out) = my * by_y + mz * by_z;
+      at(out + width) = mz * by_y - my * by_z;
+    };
+    const double sy = scale * ny, sz = scale * nz;
+    store(a + i, sy * at(y) + sz * at(z), sy * at(y + width) + sz * at(z + width));
+    store(a + stride + i, sz * at(y) - sy * at(z), sz * at(y + width) - sy * at(z + width));
+    if (directions < 3)
+      continue;
+    at(a + 2 * width + i) = sy * at(y + 2 * width) + sz * at(z + 2 * width);
+    at(a + stride + 2 * width + i) = sz * at(y + 2 * width) - sy * at(z + 2 * width);
+    store(a + 2 * stride + i, scale * at(x), scale * at(x + width));
+    at(a + 2 * stride + 2 * width + i) = scale * at(x + 2 * width);
+  }
+}
+
+FRETWORK_WIDTHS void answer(int stride, int directions, const double* a, const double* f, double* v) {
+  if (directions == 2) {
+    for (int i = 0; i < stride; i += lanes)
+      at(v + i) += f[0] * at(a + i) + f[1] * at(a + stride + i);
+    return;
+  }
+  for (int i = 0; i < stride; i += lanes)
+    at(v + i) += f[0] * at(a + i) + f[1] * at(a + stride + i) + f[2] * at(a + 2 * stride + i);
+}
+
+FRETWORK_WIDTHS void project(int width, int directions, const double* ny, const double* nz, const double* w,
+                             double* v) {
+  for (int i = 0; i < width; i += lanes) {
+    const Pack my = at(ny + i), mz = at(nz + i), y = at(w + i), z = at(w + width + i);
+    at(v + i) = my * y + mz * z;
+    at(v + width + i) = mz * y - my * z;
+    if (directions == 3)
+      at(v + 2 * width + i) = at(w + 2 * width + i);
+  }
 }
 
 } // namespace fretwork::transient::kernels

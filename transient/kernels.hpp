@@ -65,19 +65,32 @@ struct EulerSums {
 EulerSums euler_step(int np, double h, const double* c, const double* k, const double* load,
                      const double* force, double* q, double* v);
 
-/// How far contacts are from their obstacles, one value a lane (contact::Reach).
+/// Contacts in lanes by their contact::Reach. Arrays of a vector quantity have blocks of `width` lanes: y of all contacts, z, x_loc; or
+/// along their own directions: n, t = n x x_loc, x_loc.
 struct ReachLanes {
   Array rest_y, rest_z; ///< m: position = displacement + rest
   Array wy, wz, radial, ly, lz, limit;
 };
 
-/// For lanes 0 .. width: near[i] = 1 where radial sqrt(wy y^2 + wz z^2) + ly y + lz z + half_step sqrt(wy vy^2 + wz vz^2) >= limit,
-/// else 0. Returns whether any is near.
-bool near(int width, const ReachLanes& reach, const double* uy, const double* uz, const double* vy,
-          const double* vz, double half_step, double* near_flag);
+/// Gap and its gradient: contact::locate of every obstacle that is one formula, with e = (wy y, wz z)/r, r = sqrt(wy y^2 + wz z^2),
+///     gap = limit - (radial r + ly y + lz z),   n = -(radial e + (ly, lz)).
+/// For a profile it is a lower bound of the gap (its inscribed circle).
+void place(int width, const ReachLanes& reach, const double* uy, const double* uz, double* gap, double* ny,
+           double* nz);
 
-/// w[b] += sum over a of column[a * 3 width ...] * f[a]: velocities of all contacts answer a change of one
-/// contact's force.
-void answer(int width, const double* columns, const double* f, double* w);
+/// near[i] = 1 where gap <= half_step |v|, else 0. Returns whether any is near.
+bool near(int width, const double* gap, const double* vy, const double* vz, double half_step,
+          double* near_flag);
+
+/// v = components of w along the contacts' own directions (2: n, t; 3: n, t, x_loc).
+void project(int width, int directions, const double* ny, const double* nz, const double* w, double* v);
+
+/// Velocities of all contacts along their own directions by unit forces along those of one contact, times `scale`: `directions` arrays
+/// of `directions` blocks, one after the other. `columns`: by unit forces of that contact along y, z, x, in components y, z, x.
+void respond(int width, int directions, const double* columns, double ny, double nz, double scale,
+             const double* to_ny, const double* to_nz, double* a);
+
+/// v += sum over the directions of one contact of f[k] a[k]; `stride` = directions * width.
+void answer(int stride, int directions, const double* a, const double* f, double* v);
 
 } // namespace fretwork::transient::kernels

@@ -41,6 +41,8 @@ PackedContacts::PackedContacts(const std::vector<ContactPoint>& contacts, Eigen:
     reach.ly[c] = r.ly;
     reach.lz[c] = r.lz;
     reach.limit[c] = r.limit;
+    if (std::holds_alternative<contact::Profile>(point.support.obstacle))
+      profiles.push_back(c);
     for (int k = 0; k < components; ++k)
       for (int i = 0; i < modes; ++i) {
         gather[static_cast<std::size_t>(i) * stride() + k * width + c] = point.b(stored[k], i);

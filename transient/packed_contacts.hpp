@@ -26,6 +26,7 @@ struct PackedContacts {
   kernels::Array mobility; ///< contact by contact: what a unit force along y, z, x does to `stride()` lanes
                            ///< (W = B B^T, 1/kg)
   kernels::ReachLanes reach;
+  std::vector<int> profiles; ///< contacts whose obstacle the lanes of `reach` only bound
 
   [[nodiscard]] const double* row(int contact, int component) const {
     return &rows[(static_cast<std::size_t>(contact) * 3 + component) * padded_modes];
