@@ -78,8 +78,11 @@ void add_system(const Bases& bases, transient::System& system) {
   system.damping_matrix = system.damping.asDiagonal();
   Eigen::Index first = 0;
   for (const modal::Basis* basis : bases) {
-    if (basis->damping_matrix.size() > 0)
-      system.damping_matrix.block(first, first, basis->size(), basis->size()) = basis->damping_matrix;
+    if (const Eigen::MatrixXd& c = basis->damping_matrix; c.size() > 0) {
+      const double least = negligible_coupling * c.diagonal().cwiseAbs().maxCoeff();
+      system.damping_matrix.block(first, first, basis->size(), basis->size()) =
+          (c.array().abs() > least).select(c, 0.0); // modes that dampers do not couple cost nothing
+    }
     first += basis->size();
   }
 }

@@ -4,13 +4,14 @@
 /// with damping and friction.
 ///
 /// Between instants t_k = (k + 1/2) h the modes move freely: exact flow, loads linear in time
-/// (oscillator.hpp). At t_k the contacts act once for the whole step: contact_solver.hpp.
+/// (oscillator.hpp; matrix_flow.hpp where a damping matrix couples them). At t_k the contacts act once for the whole step: contact_solver.hpp.
 /// Stability: w_c h < 2, w_c^2 the largest eigenvalue of K_N^1/2 W K_N^1/2; h w_max away from multiples of
 /// pi. Accuracy asks for less (step_rule.hpp). Cost: one evaluation of the contacts a step. Energy: the work
 /// of each action h f.w and of each flow are exact; the ledger's residual is what the contact laws' discrete
 /// work lacks.
 #include "transient/contact_solver.hpp"
 #include "transient/load_sum.hpp"
+#include "transient/matrix_flow.hpp"
 #include "transient/oscillator.hpp"
 #include <algorithm>
 #include <cmath>
@@ -18,14 +19,17 @@
 namespace fretwork::transient {
 namespace {
 
-kernels::FlowTable flow_table(const System& system, double h) {
+/// Coupled modes stay where they are: their flow follows the table's.
+kernels::FlowTable flow_table(const System& system, const MatrixFlow& coupled, double h) {
   kernels::FlowTable t;
   const auto n = static_cast<std::size_t>(kernels::padded(static_cast<int>(system.size())));
   for (kernels::Array* a :
        {&t.qq, &t.qv, &t.qf0, &t.qf1, &t.vq, &t.vv, &t.vf0, &t.vf1, &t.mq, &t.mv, &t.mf0, &t.mf1})
     a->assign(n, 0.0);
   for (Eigen::Index j = 0; j < system.size(); ++j) {
-    const StepCoefficients s = step_coefficients(system.stiffness(j), system.damping(j), h);
+    constexpr StepCoefficients none{1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0};
+    const StepCoefficients s =
+        coupled.couples(j) ? none : step_coefficients(system.stiffness(j), system.damping(j), h);
     const auto i = static_cast<std::size_t>(j);
     t.qq[i] = s.qq, t.qv[i] = s.qv, t.qf0[i] = s.qf0, t.qf1[i] = s.qf1;
     t.vq[i] = s.vq, t.vv[i] = s.vv, t.vf0[i] = s.vf0, t.vf1[i] = s.vf1;
@@ -34,15 +38,23 @@ kernels::FlowTable flow_table(const System& system, double h) {
   return t;
 }
 
+/// Modes that the matrix does not couple are damped by its diagonal.
+System with_diagonal(System system) {
+  if (system.damping_matrix.size() > 0)
+    system.damping = system.damping_matrix.diagonal();
+  return system;
+}
+
 class Splitting final : public Scheme {
 public:
   Splitting(const Scene& scene, double step)
-      : system_(scene.system), h_(step), loads_(scene.loads, scene.system.size(), scene.duration, step),
+      : system_(with_diagonal(scene.system)), h_(step),
+        loads_(scene.loads, scene.system.size(), scene.duration, step),
         contacts_(scene.contacts, scene.system.size()), motion_(contacts_), memory_(contacts_, step),
-        solver_(contacts_, step), trial_(contacts_.count), rows_(contacts_),
-        first_(flow_table(scene.system, 0.5 * step)), full_(flow_table(scene.system, step)) {
+        solver_(contacts_, step), trial_(contacts_.count), rows_(contacts_), coupled_(system_, step),
+        first_(flow_table(system_, coupled_, 0.5 * step)), full_(flow_table(system_, coupled_, step)) {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
-    for (kernels::Array* a : {&q_, &v_, &k_, &f_now_, &f_next_})
+    for (kernels::Array* a : {&q_, &v_, &k_, &f_now_, &f_next_, &slope_})
       a->assign(n, 0.0);
     std::copy_n(scene.q0.data(), scene.q0.size(), q_.begin());
     std::copy_n(scene.v0.data(), scene.v0.size(), v_.begin());
@@ -77,17 +89,25 @@ public:
     // instant and not only in the middle between two actions.
     const double t = time - time_, span = next_time() - time_;
     const double share = t / h_ - 0.5;
-    if (!loads_.empty())
+    if (!loads_.empty()) {
       loads_.at(next_time(), f_next_.data());
+      for (std::size_t i = 0; i < slope_.size(); ++i)
+        slope_[i] = (f_next_[i] - f_now_[i]) / span;
+    }
     for (Eigen::Index j = 0; j < system_.size(); ++j) {
+      if (coupled_.couples(j))
+        continue;
       const auto i = static_cast<std::size_t>(j);
       const DenseCoefficients d = dense_coefficients(system_.stiffness(j), system_.damping(j), t);
-      const double f = f_now_[i], slope = loads_.empty() ? 0.0 : (f_next_[i] - f) / span;
+      q[j] = d.qq * q_[i] + d.qv * v_[i] + d.qf * f_now_[i] + d.qs * slope_[i];
+      v[j] = d.vq * q_[i] + d.vv * v_[i] + d.vf * f_now_[i] + d.vs * slope_[i];
+    }
+    coupled_.inside(t, q_.data(), v_.data(), f_now_.data(), slope_.data(), q, v);
+    for (Eigen::Index j = 0; j < system_.size(); ++j) {
       const double impulse = rows_.of_mode(j);
-      q[j] = d.qq * q_[i] + d.qv * v_[i] + d.qf * f + d.qs * slope +
-             0.5 * (share * share - 0.25) * h_ *
-                 impulse; // nothing at the actions, where the forces are made from q
-      v[j] = d.vq * q_[i] + d.vv * v_[i] + d.vf * f + d.vs * slope + share * impulse;
+      q[j] +=
+          0.5 * (share * share - 0.25) * h_ * impulse; // nothing at the actions, where forces are made from q
+      v[j] += share * impulse;
     }
   }
 
@@ -110,11 +130,13 @@ private:
   /// From the last action (or the start) to the next.
   void flow() {
     const kernels::FlowTable& table = steps_ == 0 ? first_ : full_;
+    const int halvings = steps_ == 0 ? 1 : 0;
     time_ = next_time();
     ++steps_;
     double work = 0.0;
     if (loads_.empty()) {
       kernels::flow_free(contacts_.padded_modes, table, q_.data(), v_.data());
+      coupled_.advance(halvings, q_.data(), v_.data(), nullptr, nullptr);
     } else {
       if (loads_.constant())
         f_next_ = f_now_;
@@ -122,6 +144,7 @@ private:
         loads_.at(time_, f_next_.data());
       work = kernels::flow_loaded(contacts_.padded_modes, table, q_.data(), v_.data(), f_now_.data(),
                                   f_next_.data());
+      work += coupled_.advance(halvings, q_.data(), v_.data(), f_now_.data(), f_next_.data());
       f_now_.swap(f_next_);
     }
     moving_ = 0.5 * kernels::twice_energy(contacts_.padded_modes, k_.data(), q_.data(), v_.data());
@@ -165,11 +188,12 @@ private:
   ContactSolver solver_;
   ContactTrial trial_;
   ContactRows rows_; ///< impulses of the last action
+  MatrixFlow coupled_;
   kernels::FlowTable first_, full_;
 
   std::int64_t steps_ = 0, unconverged_ = 0;
   double time_ = 0.0;
-  kernels::Array q_, v_, k_, f_now_, f_next_;
+  kernels::Array q_, v_, k_, f_now_, f_next_, slope_;
 
   Record record_;
   double moving_ = 0.0, after_action_ = 0.0; ///< modal energy before and after the action

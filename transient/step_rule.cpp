@@ -174,12 +174,7 @@ std::string name_of(StepFailure failure) {
 
 StepChoice choose_step(const Scene& scene, const StepOptions& options) {
   StepChoice c;
-  const bool full_damping = scene.system.damping_matrix.size() > 0;
-  c.scheme = options.scheme.value_or(full_damping ? SchemeKind::euler : SchemeKind::splitting);
-  if (full_damping && c.scheme == SchemeKind::splitting)
-    throw core::Error("scheme = \"splitting\" takes diagonal modal damping only, and the dampers of this "
-                      "study couple the modes; use "
-                      "scheme = \"euler\"");
+  c.scheme = options.scheme.value_or(SchemeKind::splitting);
   const auto stiffness_n = [](const ContactPoint& c) { return c.support.normal.stiffness; };
   const auto stiffness_t = [](const ContactPoint& c) {
     return c.support.friction.active() ? c.support.friction.stiffness : 0.0;

@@ -45,8 +45,7 @@ struct StepChoice {
   std::vector<std::string> warnings; ///< what a fixed step does not resolve
 };
 
-/// @throws core::Error where the scheme asked for cannot take the scene (a full damping matrix with
-/// splitting)
+/// @throws core::Error where there would be absurdly many steps
 [[nodiscard]] StepChoice choose_step(const Scene& scene, const StepOptions& options);
 
 } // namespace fretwork::transient

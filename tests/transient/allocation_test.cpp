@@ -106,6 +106,8 @@ TEST(Allocation, NeverHappensInTheLoop) {
   EXPECT_EQ(allocations_of_a_run(scene, splitting(1e-4)), 0);
   scene.system.damping_matrix = Eigen::MatrixXd(scene.system.damping.asDiagonal());
   EXPECT_EQ(allocations_of_a_run(scene, euler(2e-5)), 0);
+  scene.system.damping_matrix(0, 5) = scene.system.damping_matrix(5, 0) = 0.3;
+  EXPECT_EQ(allocations_of_a_run(scene, splitting(1e-4)), 0);
 }
 
 TEST(Allocation, NeverHappensUnderTablesAndNoise) {

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Modes that a damping matrix couples move exactly. Modes of equal stiffness are the reference: turned to the principal axes of the
+// damping matrix they are oscillators of their own.
+#include "scenes.hpp"
+#include "transient/matrix_flow.hpp"
+#include "transient/oscillator.hpp"
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace fretwork;
+using namespace fretwork::tests;
+using namespace fretwork::transient;
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double h = 0.01;
+constexpr double round_off =
+    1e-12; // of the state: fifteen doublings, and the turned matrix holds a damping 1e4 times below its largest to 1e-12
+
+/// Axes that couple all three.
+Matrix3d turned() { return Eigen::AngleAxisd(0.7, Vector3d(1, 2, -1).normalized()).toRotationMatrix(); }
+
+/// Three oscillators of stiffness k and dampings c, seen in turned axes.
+struct Turned {
+  double k;
+  Vector3d c;
+  const char* name;
+  [[nodiscard]] System system() const {
+    System s;
+    s.stiffness = Vector3d::Constant(k);
+    s.damping_matrix = turned() * c.asDiagonal() * turned().transpose();
+    s.damping = s.damping_matrix.diagonal();
+    return s;
+  }
+};
+
+const std::array<Turned, 5> regimes = {{{1e4, {1.0, 20.0, 150.0}, "underdamped"},
+                                        {1e4, {200.0, 2000.0, 2e6}, "critical and overdamped"},
+                                        {4e6, {10.0, 0.0, 1e3}, "many radians a step"},
+                                        {0.0, {0.0, 3.0, 5e4}, "rigid"},
+                                        {1e-3, {1e-6, 0.0, 1.0}, "slow"}}};
+
+struct Motion {
+  Vector3d q, v;
+  double work;
+};
+
+const Vector3d q0(0.1, -0.2, 0.3), v0(5.0, 1.0, -2.0), f0(100.0, 30.0, -60.0), f1(-40.0, 80.0, 10.0);
+
+/// By oscillator.hpp in the principal axes.
+Motion reference(const Turned& t, double time, const Vector3d& from, const Vector3d& to) {
+  const Matrix3d r = turned();
+  const Vector3d a = r.transpose() * q0, b = r.transpose() * v0, f = r.transpose() * from,
+                 g = r.transpose() * to;
+  Motion out{Vector3d::Zero(), Vector3d::Zero(), 0.0};
+  for (int i = 0; i < 3; ++i) {
+    const StepCoefficients s = step_coefficients(t.k, t.c(i), time);
+    out.q(i) = s.qq * a(i) + s.qv * b(i) + s.qf0 * f(i) + s.qf1 * g(i);
+    out.v(i) = s.vq * a(i) + s.vv * b(i) + s.vf0 * f(i) + s.vf1 * g(i);
+    const double mean = s.mq * a(i) + s.mv * b(i) + s.mf0 * f(i) + s.mf1 * g(i);
+    out.work += f(i) * (out.q(i) - a(i)) + (g(i) - f(i)) * (out.q(i) - mean);
+  }
+  return {r * out.q, r * out.v, out.work};
+}
+
+void expect_equal(const Motion& a, const Motion& b, const char* name) {
+  EXPECT_LT((a.q - b.q).norm(), round_off * (q0.norm() + b.q.norm())) << name;
+  EXPECT_LT((a.v - b.v).norm(), round_off * (v0.norm() + std::sqrt(4e6) * q0.norm() + b.v.norm())) << name;
+  EXPECT_NEAR(a.work, b.work, round_off * (f0.norm() + f1.norm()) * (q0.norm() + b.q.norm())) << name;
+}
+
+} // namespace
+
+TEST(MatrixFlow, MovesTurnedOscillatorsExactly) {
+  for (const Turned& t : regimes) {
+    MatrixFlow flow(t.system(), h);
+    for (const int halvings : {0, 1}) {
+      Motion m{q0, v0, 0.0};
+      m.work = flow.advance(halvings, m.q.data(), m.v.data(), f0.data(), f1.data());
+      expect_equal(m, reference(t, std::ldexp(h, -halvings), f0, f1), t.name);
+      Motion free{q0, v0, 0.0};
+      EXPECT_EQ(flow.advance(halvings, free.q.data(), free.v.data(), nullptr, nullptr), 0.0);
+      expect_equal(free, reference(t, std::ldexp(h, -halvings), Vector3d::Zero(), Vector3d::Zero()), t.name);
+    }
+  }
+}
+
+TEST(MatrixFlow, KnowsTheStateAtAnyInstantOfAStep) {
+  const Vector3d slope = (f1 - f0) / h;
+  for (const Turned& t : regimes) {
+    MatrixFlow flow(t.system(), h);
+    for (const double share : {0.0, 1e-9, 0.123, 0.5, 0.77, 0.999, 1.0}) {
+      Motion m{Vector3d::Zero(), Vector3d::Zero(), 0.0};
+      flow.inside(share * h, q0.data(), v0.data(), f0.data(), slope.data(), m.q.data(), m.v.data());
+      Motion expected{q0, v0, 0.0};
+      if (share > 0.0)
+        expected = reference(t, share * h, f0, f0 + share * (f1 - f0));
+      expected.work = 0.0;
+      expect_equal(m, expected, t.name);
+    }
+  }
+}
+
+TEST(MatrixFlow, TakesOnlyTheModesThatTheMatrixCouples) {
+  System s;
+  s.stiffness = VectorXd::LinSpaced(6, 1.0, 6.0);
+  s.damping_matrix = VectorXd::Constant(6, 2.0).asDiagonal();
+  EXPECT_TRUE(MatrixFlow(s, h).empty());
+  s.damping_matrix(1, 4) = s.damping_matrix(4, 1) = 0.5;
+  s.damping_matrix(4, 5) = s.damping_matrix(5, 4) = 0.5;
+  const MatrixFlow flow(s, h);
+  for (Eigen::Index i = 0; i < 6; ++i)
+    EXPECT_EQ(flow.couples(i), i == 1 || i >= 4);
+  s.damping_matrix.resize(0, 0);
+  EXPECT_TRUE(MatrixFlow(s, h).empty());
+}
+
+namespace {
+
+/// A scene that impacts and slides in axes of its own, and the same seen in turned modal axes of equal stiffness.
+std::array<Scene, 2> twins() {
+  Scene plain = rattling(3, 6, 0.3);
+  plain.system.stiffness.setConstant(4e3);
+  plain.system.damping = VectorXd::LinSpaced(6, 0.5, 60.0);
+  Scene twin = plain;
+  MatrixXd r = MatrixXd::Identity(6, 6); // mode 2 stays alone
+  r.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(0.6).toRotationMatrix();
+  r.bottomRightCorner<3, 3>() = turned();
+  twin.system.damping_matrix = r * plain.system.damping.asDiagonal() * r.transpose();
+  twin.system.damping.setZero(); // replaced by the matrix
+  for (auto& c : twin.contacts)
+    c.b = c.b * r.transpose();
+  for (auto& load : twin.loads)
+    load.modal_force = r * load.modal_force;
+  return {plain, twin};
+}
+
+} // namespace
+
+TEST(Splitting, GivesTheSameInOtherModalAxes) {
+  const auto scenes = twins();
+  const History a = simulate(scenes[0], splitting(1e-4), 7.7e-4),
+                b = simulate(scenes[1], splitting(1e-4), 7.7e-4);
+  constexpr double grown = 1e-7; // round-off grows tenfold in 0.05 to 0.1 s
+  EXPECT_GT(a.normal.maxCoeff(), 0.0);
+  EXPECT_LT((a.normal - b.normal).norm(), grown * a.normal.norm());
+  EXPECT_LT(std::abs(a.q.norm() - b.q.norm()), grown * a.q.norm());
+  EXPECT_LT(std::abs(a.v.norm() - b.v.norm()), grown * a.v.norm());
+  const Energy &x = a.report.energy, &y = b.report.energy;
+  EXPECT_GT(x.modal_damping, 0.01 * x.throughput);
+  EXPECT_NEAR(x.modal_damping, y.modal_damping, grown * x.throughput);
+  EXPECT_NEAR(x.load_work, y.load_work, grown * x.throughput);
+  EXPECT_NEAR(a.report.residual_relative, b.report.residual_relative, grown);
+}
+
+TEST(Splitting, BooksWhatACoupledDamperTakes) {
+  // free motion of two coupled modes: the loss is int v.C v dt, here by Simpson's rule over fine outputs
+  Scene s = mass_point(1.0, Vec3(100.0, 900.0, 0.0), 1.0);
+  s.system.damping_matrix = Matrix3d{{3.0, 2.0, 0.0}, {2.0, 5.0, 0.0}, {0.0, 0.0, 1.0}};
+  start(s, 1.0, Vec3(0.1, -0.05, 0.0), Vec3(1.0, 0.0, 2.0));
+  constexpr int intervals = 2000;
+  const History run = simulate(s, splitting(1e-2), 1.0 / intervals);
+  const double end = run.report.end_time; // the last record: half a step before the end
+  double loss = 0.0;
+  const int last = static_cast<int>(std::lround(end * intervals));
+  for (int k = 0; k <= last; ++k) {
+    const double weight = k == 0 || k == last ? 1.0 : (k % 2 == 1 ? 4.0 : 2.0);
+    loss += weight / (3.0 * intervals) * run.v.col(k).dot(s.system.damping_matrix * run.v.col(k));
+  }
+  ASSERT_EQ(last % 2, 0);
+  constexpr double simpson = 1e-8; // (w h)^4/180 with w h = 0.03
+  EXPECT_NEAR(run.report.energy.modal_damping, loss, simpson * loss);
+  EXPECT_LT(run.report.residual_relative, 1e-12);
+}
+
+TEST(CaseA5, ChainWithNonProportionalDamping) {
+  // eight masses between fixed ends; modes of the undamped chain, known in closed form
+  constexpr int n = 8;
+  MatrixXd shapes(n, n), damping = MatrixXd::Zero(n, n);
+  Scene s;
+  s.system.stiffness.resize(n);
+  const double pi = std::acos(-1.0);
+  for (int i = 0; i < n; ++i) {
+    s.system.stiffness(i) = 4.0 * 1e4 * std::pow(std::sin((i + 1) * pi / 18.0), 2);
+    for (int j = 0; j < n; ++j)
+      shapes(j, i) = std::sqrt(2.0 / 9.0 / 10.0) * std::sin((i + 1) * (j + 1) * pi / 9.0);
+  }
+  for (int d = 0; d < n + 1; ++d) { // between masses d - 1 and d
+    const double c = d == 0 ? 250.0 : d == n ? 25.0 : 50.0;
+    if (d < n)
+      damping(d, d) += c;
+    if (d > 0)
+      damping(d - 1, d - 1) += c;
+    if (d > 0 && d < n) {
+      damping(d - 1, d) -= c;
+      damping(d, d - 1) -= c;
+    }
+  }
+  s.system.damping_matrix = shapes.transpose() * damping * shapes;
+  s.system.damping = s.system.damping_matrix.diagonal();
+  s.loads = {{Constant{1.0}, shapes.row(3).transpose()}};
+  s.q0 = s.v0 = VectorXd::Zero(n);
+  s.duration = 1.0;
+  const History run = simulate(s, {}, 0.09);
+  EXPECT_EQ(run.choice.scheme, SchemeKind::splitting);
+  const std::array<double, 9> exact = {3.954085e-5, 5.135974e-6, 3.767924e-5, 7.355104e-6, 3.585249e-5,
+                                       8.819161e-6, 3.465793e-5, 1.009426e-5, 3.362162e-5};
+  constexpr double digits = 1e-11; // of the six decimals printed, with one unit of 1e-5's seventh digit
+  for (int k = 1; k <= 9; ++k)
+    EXPECT_NEAR(shapes.row(3).dot(run.q.col(k)), exact[static_cast<std::size_t>(k - 1)], digits)
+        << "0.09 * " << k;
+}
