@@ -49,17 +49,15 @@ void ContactStatistics::step(const transient::Record& record) {
     return;
   watch_motion(record);
   time_ += record.step;
-  ++seen_;
 }
 
 void ContactStatistics::Sums::add(const transient::ContactState& state, double step) {
   const double n = state.normal_force, t2 = dot(state.friction, state.friction);
   closed_time += step;
   impulse += n * step;
-  normal += n;
-  normal2 += n * n;
+  normal2 += n * n * step;
   normal_max = std::max(normal_max, n);
-  tangential2 += t2;
+  tangential2 += t2 * step;
   tangential_max = std::max(tangential_max, t2);
   if (state.slides) {
     const double path = norm(state.displacement);
@@ -73,8 +71,9 @@ void ContactStatistics::Sums::add(const transient::ContactState& state, double s
 
 void ContactStatistics::watch_motion(const transient::Record& record) {
   const std::size_t n = sums_.size();
+  const double h = record.step;
   Motion& m = motion_;
-  if (seen_ == 0)
+  if (!(time_ > 0.0)) // the first of the window
     for (std::size_t c = 0; c < n; ++c) {
       m.y0[c] = m.y_min[c] = m.y_max[c] = record.uy[c];
       m.z0[c] = m.z_min[c] = m.z_max[c] = record.uz[c];
@@ -82,27 +81,26 @@ void ContactStatistics::watch_motion(const transient::Record& record) {
   for (std::size_t c = 0; c < n; ++c) {
     const double y = record.uy[c], z = record.uz[c];
     const double dy = y - m.y0[c], dz = z - m.z0[c], r2 = y * y + z * z;
-    m.y[c] += dy;
-    m.z[c] += dz;
-    m.y2[c] += dy * dy;
-    m.z2[c] += dz * dz;
+    m.y[c] += h * dy;
+    m.z[c] += h * dz;
+    m.y2[c] += h * dy * dy;
+    m.z2[c] += h * dz * dz;
     m.y_min[c] = std::min(m.y_min[c], y);
     m.y_max[c] = std::max(m.y_max[c], y);
     m.z_min[c] = std::min(m.z_min[c], z);
     m.z_max[c] = std::max(m.z_max[c], z);
-    m.r2[c] += r2;
+    m.r2[c] += h * r2;
     m.r2_max[c] = std::max(m.r2_max[c], r2);
   }
 }
 
 std::vector<ContactSummary> ContactStatistics::summaries() const {
   std::vector<ContactSummary> out(sums_.size());
-  if (seen_ == 0)
+  if (!(time_ > 0.0))
     return out;
-  const auto n = static_cast<double>(seen_);
   const auto moments = [&](double first, double sum, double squares, double low, double high) {
-    const double shift = sum / n;
-    return Moments{first + shift, std::sqrt(std::max(0.0, squares / n - shift * shift)), low, high};
+    const double shift = sum / time_;
+    return Moments{first + shift, std::sqrt(std::max(0.0, squares / time_ - shift * shift)), low, high};
   };
   for (std::size_t c = 0; c < out.size(); ++c) {
     const Sums& s = sums_[c];
@@ -110,20 +108,19 @@ std::vector<ContactSummary> ContactStatistics::summaries() const {
     ContactSummary& o = out[c];
     o.impacts = s.impacts;
     o.contact_time_ratio = s.closed_time / time_;
-    o.normal_mean = s.normal / n;
-    o.normal_rms = std::sqrt(s.normal2 / n);
+    o.normal_mean = s.impulse / time_;
+    o.normal_rms = std::sqrt(s.normal2 / time_);
     o.normal_max = s.normal_max;
     if (s.closed_time > 0.0) {
-      const double closed = n * o.contact_time_ratio; // steps in contact
-      o.normal_in_contact_mean = s.normal / closed;
-      o.normal_in_contact_rms = std::sqrt(s.normal2 / closed);
+      o.normal_in_contact_mean = s.impulse / s.closed_time;
+      o.normal_in_contact_rms = std::sqrt(s.normal2 / s.closed_time);
       o.sticking_ratio = 1.0 - s.sliding_time / s.closed_time;
     }
-    o.tangential_rms = std::sqrt(s.tangential2 / n);
+    o.tangential_rms = std::sqrt(s.tangential2 / time_);
     o.tangential_max = std::sqrt(s.tangential_max);
     o.y = moments(m.y0[c], m.y[c], m.y2[c], m.y_min[c], m.y_max[c]);
     o.z = moments(m.z0[c], m.z[c], m.z2[c], m.z_min[c], m.z_max[c]);
-    o.radial_rms = std::sqrt(m.r2[c] / n);
+    o.radial_rms = std::sqrt(m.r2[c] / time_);
     o.radial_max = std::sqrt(m.r2_max[c]);
     o.work_rate = s.slid / time_;
     o.friction_power = s.friction / time_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Statistics of every contact over every step of a window, independent of any sampling.
+/// Statistics of every contact over every step of a window, independent of any sampling. Means over time are
+/// sums of value times step over the length of the window, whether steps are equal or not.
 #pragma once
 #include "post/moments.hpp"
 #include "transient/run.hpp"
@@ -42,8 +43,7 @@ public:
 private:
   struct Sums {
     std::int64_t impacts = 0;
-    double closed_time = 0.0, normal = 0.0, normal2 = 0.0, normal_max = 0.0, tangential2 = 0.0,
-           tangential_max = 0.0;
+    double closed_time = 0.0, normal2 = 0.0, normal_max = 0.0, tangential2 = 0.0, tangential_max = 0.0;
     double slid = 0.0, friction = 0.0, speed = 0.0, speed_max = 0.0;
     double impulse = 0.0, distance = 0.0, sliding_time = 0.0, damping = 0.0;
     double leaving = 0.0, leaving_max = 0.0;
@@ -55,15 +55,16 @@ private:
     /// A step with force, in the window.
     void add(const transient::ContactState& state, double step);
   };
-  /// Sums of displacements, contact by contact in vector lanes (padded as the record's arrays).
+  /// Sums of displacements, weighted by the step, contact by contact in vector lanes (padded as the record's
+  /// arrays).
   struct Motion {
     std::vector<double> y0, z0, y, z, y2, z2, y_min, y_max, z_min, z_max, r2, r2_max;
   };
   void watch_motion(const transient::Record& record);
 
   double from_;
-  std::int64_t number_ = 0, seen_ = 0; ///< steps; of them in the window
-  double time_ = 0.0;                  ///< length of the window so far, s
+  std::int64_t number_ = 0; ///< steps
+  double time_ = 0.0;       ///< length of the window so far, s
   std::vector<Sums> sums_;
   Motion motion_;
 };

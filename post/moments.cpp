@@ -6,11 +6,10 @@
 namespace fretwork::post {
 
 Moments Accumulator::moments() const {
-  if (count_ == 0)
+  if (!(weight_ > 0.0))
     return {};
-  const auto n = static_cast<double>(count_);
-  const double shift = sum_ / n;
-  return {first_ + shift, std::sqrt(std::max(0.0, squares_ / n - shift * shift)), min_, max_};
+  const double shift = sum_ / weight_;
+  return {first_ + shift, std::sqrt(std::max(0.0, squares_ / weight_ - shift * shift)), min_, max_};
 }
 
 } // namespace fretwork::post

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Mean, standard deviation and extremes of a signal, seen sample by sample.
+/// Mean, standard deviation and extremes of a signal, seen sample by sample. A sample stands for a length of
+/// time w, its weight (steps may differ):
+///     mean = sum w x / sum w,   std^2 = sum w (x - mean)^2 / sum w
 #pragma once
-#include <cstdint>
 
 namespace fretwork::post {
 
@@ -13,22 +14,22 @@ struct Moments {
 /// Sums about the first sample, so that a small motion about a large mean keeps its digits.
 class Accumulator {
 public:
-  void add(double value) {
-    if (count_ == 0)
+  /// @param weight  > 0
+  void add(double value, double weight) {
+    if (!(weight_ > 0.0))
       first_ = min_ = max_ = value;
     const double d = value - first_;
-    sum_ += d;
-    squares_ += d * d;
+    sum_ += weight * d;
+    squares_ += weight * d * d;
     min_ = value < min_ ? value : min_;
     max_ = value > max_ ? value : max_;
-    ++count_;
+    weight_ += weight;
   }
   /// All zero before the first sample.
   [[nodiscard]] Moments moments() const;
 
 private:
-  double first_ = 0.0, sum_ = 0.0, squares_ = 0.0, min_ = 0.0, max_ = 0.0;
-  std::int64_t count_ = 0;
+  double first_ = 0.0, sum_ = 0.0, squares_ = 0.0, weight_ = 0.0, min_ = 0.0, max_ = 0.0;
 };
 
 } // namespace fretwork::post

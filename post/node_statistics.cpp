@@ -23,7 +23,7 @@ void NodeStatistics::step(const transient::Record& record) {
   kernels::gather(modes_, width_, gather_.data(), record.q, record.q, u_.data(), unused_.data());
   for (std::size_t node = 0; node < sums_.size(); ++node)
     for (std::size_t d = 0; d < 3; ++d)
-      sums_[node][d].add(u_[3 * node + d]);
+      sums_[node][d].add(u_[3 * node + d], record.step);
 }
 
 std::vector<NodeSummary> NodeStatistics::summaries() const {

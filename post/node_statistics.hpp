@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Statistics of the displacement of observed nodes over every step of a window.
+/// Statistics of the displacement of observed nodes over every step of a window, each weighted by its length.
 #pragma once
 #include "post/moments.hpp"
 #include "transient/kernels.hpp"

@@ -8,7 +8,7 @@
 
 namespace fretwork::tests {
 
-/// Feeds an observer with steps of one length; contacts without a state are open.
+/// Feeds an observer with steps; contacts without a state are open.
 class HandMade {
 public:
   HandMade(transient::Observer& observer, std::size_t contacts, double step)
@@ -20,6 +20,8 @@ public:
     record_.uz = uz_.data();
     record_.states = states_;
   }
+  /// Length of the steps that follow.
+  void step_length(double step) { record_.step = step; }
   transient::ContactState& contact(std::size_t c) { return states_[c]; }
   double& y(std::size_t c) { return uy_[c]; }
   double& z(std::size_t c) { return uz_[c]; }
@@ -34,7 +36,8 @@ public:
     std::erase_if(opened_, [&](int c) { return states_[static_cast<std::size_t>(c)].normal_force > 0.0; });
     record_.active = active_;
     record_.opened = opened_;
-    record_.time = (static_cast<double>(count_++) + 0.5) * record_.step;
+    record_.time = end_ + 0.5 * record_.step;
+    end_ += record_.step;
     observer_.step(record_);
     for (auto& state : states_)
       state = {};
@@ -62,7 +65,7 @@ private:
   std::vector<transient::ContactState> states_;
   transient::kernels::Array uy_, uz_, q_;
   std::vector<int> active_, opened_;
-  long count_ = 0;
+  double end_ = 0.0; ///< s: of the last step
 };
 
 } // namespace fretwork::tests

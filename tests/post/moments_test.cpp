@@ -3,18 +3,33 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <utility>
 
 using namespace fretwork::post;
 
 TEST(Accumulator, GivesMeanDeviationAndExtremes) {
   Accumulator a;
   for (const double x : {1.0, 2.0, 4.0, 5.0})
-    a.add(x);
+    a.add(x, 0.1);
   const Moments m = a.moments();
   EXPECT_DOUBLE_EQ(m.mean, 3.0);
   EXPECT_DOUBLE_EQ(m.std, std::sqrt(2.5));
   EXPECT_EQ(m.min, 1.0);
   EXPECT_EQ(m.max, 5.0);
+}
+
+TEST(Accumulator, WeighsASampleAsIfItHadComeInParts) {
+  Accumulator whole, parts;
+  for (const auto& [x, weight] : {std::pair{1.0, 0.5}, {4.0, 0.25}, {-2.0, 1.0}}) {
+    whole.add(x, weight);
+    for (int i = 0; i < 2; ++i)
+      parts.add(x, 0.5 * weight);
+  }
+  const Moments m = whole.moments();
+  EXPECT_DOUBLE_EQ(m.mean, (0.5 + 1.0 - 2.0) / 1.75);
+  EXPECT_DOUBLE_EQ(m.std, std::sqrt((0.5 + 4.0 + 4.0) / 1.75 - m.mean * m.mean));
+  EXPECT_EQ(parts.moments().mean, m.mean); // powers of two: no rounding
+  EXPECT_EQ(parts.moments().std, m.std);
 }
 
 TEST(Accumulator, OfNothingIsZero) {
@@ -27,7 +42,7 @@ TEST(Accumulator, OfNothingIsZero) {
 
 TEST(Accumulator, OfOneSampleIsTheSample) {
   Accumulator a;
-  a.add(-3.5);
+  a.add(-3.5, 0.1);
   const Moments m = a.moments();
   EXPECT_EQ(m.mean, -3.5);
   EXPECT_EQ(m.std, 0.0);
@@ -40,7 +55,7 @@ TEST(Accumulator, KeepsASmallMotionAboutALargeMean) {
   constexpr double mean = 1e6, amplitude = 1e-3;
   Accumulator a;
   for (int i = 0; i < n; ++i)
-    a.add(mean + amplitude * std::sin(2.0 * std::numbers::pi * 10.0 * i / n));
+    a.add(mean + amplitude * std::sin(2.0 * std::numbers::pi * 10.0 * i / n), 0.1);
   constexpr double last_digit =
       1e-6; // 1e-10 of the mean's own resolution against 1e-3: squares of it would keep nothing
   EXPECT_NEAR(a.moments().std / (amplitude / std::numbers::sqrt2), 1.0, last_digit);

@@ -53,6 +53,19 @@ TEST(NodeStatistics, StartAtTheirWindow) {
   EXPECT_EQ(m.max, 3.0);
 }
 
+TEST(NodeStatistics, WeighEachStepByItsLength) {
+  post::NodeStatistics statistics({Eigen::MatrixXd::Identity(3, 3)}, 0.0);
+  HandMade run(statistics, 0, 0.1);
+  for (const auto& [x, step] : {std::pair{1.0, 0.1}, {5.0, 0.3}}) {
+    run.q()[0] = x;
+    run.step_length(step);
+    run.step();
+  }
+  const auto m = statistics.summaries()[0].displacement[0];
+  EXPECT_NEAR(m.mean, 4.0, round_off);
+  EXPECT_NEAR(m.std, std::sqrt(3.0), round_off);
+}
+
 TEST(NodeStatistics, OfNoNodeAreNone) {
   post::NodeStatistics statistics({}, 0.0);
   HandMade run(statistics, 0, 0.1);
