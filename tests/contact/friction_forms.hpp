@@ -64,11 +64,13 @@ struct Moved {
   return {};
 }
 
-/// Every law of one memory: one and two coefficients, without damper, with a strong one, along one direction.
+/// Every law of one memory: one and two coefficients, without damper, with a strong one, along one direction,
+/// free once it slides.
 inline std::vector<FrictionLaw> laws(FrictionMemoryKind kind) {
   return {{1e6, 50.0, 0.3, 0.3, kind, {1.0, 1.0}}, {1e6, 50.0, 0.5, 0.3, kind, {1.0, 1.0}},
           {1e6, 0.0, 0.3, 0.3, kind, {1.0, 1.0}},  {1e6, 5e4, 0.4, 0.1, kind, {1.0, 1.0}},
-          {1e6, 50.0, 0.5, 0.3, kind, {1.0, 0.0}}, {1e6, 50.0, 0.5, 0.3, kind, {0.0, 1.0}}};
+          {1e6, 50.0, 0.5, 0.3, kind, {1.0, 0.0}}, {1e6, 50.0, 0.5, 0.3, kind, {0.0, 1.0}},
+          {1e6, 50.0, 0.3, 0.0, kind, {1.0, 1.0}}, {1e6, 0.0, 0.3, 0.0, kind, {1.0, 1.0}}};
 }
 inline constexpr FrictionMemoryKind kinds[] = {FrictionMemoryKind::return_map, FrictionMemoryKind::reference};
 

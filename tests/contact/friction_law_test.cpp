@@ -124,6 +124,24 @@ TEST(FrictionRegimes, LiftOffLeavesNoForce) {
   EXPECT_EQ(norm(f.force), 0.0);
 }
 
+TEST(FrictionRegimes, ASliderWithoutDynamicFrictionLetsItsSpringGo) {
+  // it breaks loose at mu_s F_N and slides freely: the spring relaxes, whatever path follows
+  for (const double damping : {0.0, 50.0}) {
+    const FrictionLaw free{1e6, damping, 0.1, 0.0};
+    Driven node{free};
+    constexpr double normal = 10.0, dx = 1e-7;
+    while (!node.move(normal, {dx, 0.0}).slides)
+      ASSERT_LT(norm(node.memory.spring), free.mu_static * normal * (1.0 + bound_tolerance));
+    const double most = 0.5 * free.mu_static * normal * free.mu_static * normal / free.stiffness;
+    for (int i = 0; i < 1000; ++i) {
+      EXPECT_EQ(norm(node.move(normal, {dx, 0.0}).force), 0.0);
+      ASSERT_LE(spring_energy(free, node.memory), most);
+    }
+    EXPECT_LT(spring_energy(free, node.memory), round_off * most);
+    EXPECT_EQ(node.friction_work, 0.0);
+  }
+}
+
 TEST(FrictionEnergy, OfAClosedCycleIsLost) {
   tests::Uniform uniform(12);
   for (const FrictionLaw& l : {law, two_coefficients, reference(law)}) {

@@ -4,6 +4,7 @@
 #include "friction_forms.hpp"
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <limits>
 
 using namespace fretwork;
 using namespace fretwork::contact;
@@ -16,6 +17,7 @@ constexpr double round_off = 1e-12; // of energies, relative to the sum of their
 constexpr double rescaled = 1e-12;  // rounding of scales that are no powers of two
 constexpr double unlike = 1e-6;     // mobilities in two directions; the condition of what is solved
 constexpr double alike = 1e-4;      // the same where its rounding is compared
+constexpr double underflow = std::numeric_limits<double>::min(); // a free slider's spring relaxes below it
 constexpr int steps = 4000;
 
 /// Calls check(law, form, memory before, input, moved, end) along a chain of random steps of each law and form.
@@ -113,7 +115,7 @@ TEST(FrictionProperty, EnergyIsSharedOutWithoutRest) {
               const FrictionStep& end) {
             const double stored = spring_energy(law, end.memory) - spring_energy(law, m);
             EXPECT_NEAR(-dot(moved.friction.force, moved.dx), end.friction_work + end.damper_work + stored,
-                        round_off * energies(law, m, moved, end));
+                        round_off * energies(law, m, moved, end) + underflow);
           });
 }
 
@@ -229,10 +231,10 @@ TEST(FrictionProperty, HidesNoUnit) {
             const double work =
                 u.tolerance * (size + law.stiffness * norm(f.dx)) * (norm(f.dx) + size / law.stiffness);
             EXPECT_NEAR(o.friction_work / (force * u.length), e.friction_work, work);
-            EXPECT_NEAR(o.damper_work / (force * u.length), e.damper_work, work);
+            EXPECT_NEAR(o.damper_work / (force * u.length), e.damper_work, work + underflow);
             const FrictionStep open = open_step(law, friction_table(law, h), m),
                                other = open_step(scaled, friction_table(scaled, h * u.time), m2);
-            EXPECT_NEAR(other.memory.spring.t / force, open.memory.spring.t, u.tolerance * size);
+            EXPECT_NEAR(other.memory.spring.t / force, open.memory.spring.t, u.tolerance * size + underflow);
           },
           alike);
 }
