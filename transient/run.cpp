@@ -17,6 +17,10 @@ std::unique_ptr<Scheme> make_scheme(const Scene& scene, const StepChoice& choice
     return make_splitting(scene, choice.step);
   case SchemeKind::euler:
     return make_euler(scene, choice.step);
+  case SchemeKind::devogelaere:
+    return make_devogelaere(scene, choice.step);
+  case SchemeKind::runge_kutta_54:
+    return make_runge_kutta_54(scene, choice.tolerance, choice.step);
   }
   return nullptr;
 }

@@ -20,6 +20,10 @@ constexpr double finest_table = 1e-6;
 constexpr double points_per_period = 20.0; ///< of the excitation at accuracy 0.01, with contacts
 /// Without contacts little else limits the step: linear interpolation then errs by (2 pi/200)^2/12 = 8e-5.
 constexpr double linear_points_per_period = 200.0;
+/// A run of an adaptive scheme has at least so many steps.
+constexpr double least_adaptive_steps = 200;
+/// Of a damper's rate times the step of devogelaere, whose limit is 0.59.
+constexpr double most_damped = 0.5;
 /// Above this value of w_c h statistics are wrong however stable the run (doc/schemes.md).
 constexpr double resolved = 1.0;
 
@@ -77,6 +81,16 @@ double initial_overlap(const Scene& scene, const ContactPoint& point) {
   return std::max(0.0, -contact::locate(point.support.obstacle, u.y(), u.z()).gap);
 }
 
+/// Largest rate at which the springs of sliding contacts follow their bound, K_T/C_T, 1/s.
+double relaxation_rate(const Scene& scene) {
+  double rate = 0.0;
+  for (const ContactPoint& point : scene.contacts)
+    if (const auto& law = point.support.friction;
+        law.active() && law.kind == contact::FrictionMemoryKind::return_map && law.damping > 0.0)
+      rate = std::max(rate, law.stiffness / law.damping);
+  return rate;
+}
+
 struct Term {
   double limit; ///< s
   std::string reason;
@@ -107,12 +121,16 @@ std::vector<Term> terms(const StepChoice& c, const Scene& scene, double fineness
   add(1.0 / points, c.excitation, fmt::format("the excitation ({:.4g} Hz)", c.excitation));
   if (const double interval = table_interval(scene); interval > 0.0)
     out.push_back({interval, fmt::format("the shortest interval of a table ({:.4g} s)", interval)});
+  if (c.scheme == SchemeKind::runge_kutta_54) // its steps follow its tolerance: it only must not step over what loads do
+    return out;
+  const bool devogelaere = c.scheme == SchemeKind::devogelaere;
+  const double damped = devogelaere ? std::min(eps, most_damped) : eps;
   add(eps, c.contact_frequency, fmt::format("the contact frequency {:.4g} rad/s", c.contact_frequency));
   add(eps, c.stick_frequency,
       fmt::format("the frequency of sticking contacts {:.4g} rad/s", c.stick_frequency));
-  add(eps * (splitting ? 4.0 : 1.0), c.damper_rate,
+  add(damped * (splitting ? 4.0 : 1.0), c.damper_rate,
       fmt::format("the tangential dampers' rate {:.4g} 1/s", c.damper_rate));
-  add(eps, c.explicit_rate, fmt::format("the dampers' rate {:.4g} 1/s", c.explicit_rate));
+  add(damped, c.explicit_rate, fmt::format("the dampers' rate {:.4g} 1/s", c.explicit_rate));
   // without contacts the flow of the splitting scheme is exact: only the statistics need to see the modes, in about 20 points a period
   const double mode = splitting ? (contacts ? 5.0 : 0.6) : 1.0;
   add(eps * mode, c.highest_mode, fmt::format("the highest mode {:.4g} rad/s", c.highest_mode));
@@ -141,8 +159,9 @@ void warn(StepChoice& c) {
   const bool splitting = c.scheme == SchemeKind::splitting;
   add(c.contact_frequency * c.step, resolved, "w_c h", "the contact frequency");
   add(c.stick_frequency * c.step, resolved, "w_t h", "the frequency of sticking contacts");
-  add(c.damper_rate * c.step, splitting ? 4.0 : 1.0, "r_t h", "the tangential dampers");
-  add(c.explicit_rate * c.step, 1.0, "r_e h", "the dampers");
+  const double damped = c.scheme == SchemeKind::devogelaere ? most_damped : 1.0;
+  add(c.damper_rate * c.step, splitting ? 4.0 : damped, "r_t h", "the tangential dampers");
+  add(c.explicit_rate * c.step, damped, "r_e h", "the dampers");
   add(c.highest_mode * c.step, splitting ? 3.0 : 1.8, "w_max h", "the highest mode");
   add(c.excitation * c.step * points_per_period, 2.0, "20 f h", "the excitation");
 }
@@ -155,6 +174,10 @@ std::string name_of(SchemeKind kind) {
     return "splitting";
   case SchemeKind::euler:
     return "euler";
+  case SchemeKind::devogelaere:
+    return "devogelaere";
+  case SchemeKind::runge_kutta_54:
+    return "runge_kutta_54";
   }
   return {};
 }
@@ -185,33 +208,42 @@ StepChoice choose_step(const Scene& scene, const StepOptions& options) {
   c.contact_frequency = std::sqrt(largest_eigenvalue(weighted_rows(scene, stiffness_n, normal_rows)));
   c.stick_frequency = std::sqrt(largest_eigenvalue(weighted_rows(scene, stiffness_t, tangent_rows)));
   c.damper_rate = largest_eigenvalue(weighted_rows(scene, damping_t, tangent_rows));
-  if (c.scheme == SchemeKind::euler) {
+  if (c.scheme == SchemeKind::euler || c.scheme == SchemeKind::devogelaere) {
     const auto damping_n = [&scene](const ContactPoint& c) {
       return c.support.normal.damping_at(initial_overlap(scene, c));
     };
     c.explicit_rate = std::max(structure_rate(scene.system),
                                largest_eigenvalue(weighted_rows(scene, damping_n, normal_rows)));
+    if (c.scheme == SchemeKind::devogelaere)
+      c.explicit_rate = std::max(c.explicit_rate, relaxation_rate(scene));
   }
   if (scene.system.size() > 0)
     c.highest_mode = std::sqrt(scene.system.stiffness.maxCoeff());
   for (const Load& load : scene.loads)
     c.excitation = std::max(c.excitation, highest_frequency(load.function));
 
+  const bool adaptive = c.scheme == SchemeKind::runge_kutta_54;
+  c.tolerance = options.tolerance;
   if (options.step) {
     c.step = *options.step;
     c.reason = "given in the study";
+    if (adaptive)
+      return c;
     c.steps = count_steps(scene.duration, c);
     warn(c);
     return c;
   }
   const double fineness = std::sqrt(options.accuracy / 0.01);
-  c.step = scene.duration / least_steps;
-  c.reason = fmt::format("a run has at least {} steps", least_steps);
+  const double least = adaptive ? least_adaptive_steps : least_steps;
+  c.step = scene.duration / least;
+  c.reason = fmt::format("a run has at least {} steps", least);
   for (const Term& term : terms(c, scene, fineness))
     if (term.limit < c.step) {
       c.step = term.limit;
       c.reason = fmt::format("{} resolved for an accuracy of {}", term.reason, options.accuracy);
     }
+  if (adaptive)
+    return c;
   c.steps = count_steps(scene.duration, c);
   c.step = scene.duration / static_cast<double>(c.steps);
   return c;

@@ -15,6 +15,8 @@
 /// Hunt and Crossley's damper c(p) = K_N d p grows with a penetration that is not known beforehand, but w_c bounds its rate: an impact
 /// at the speed v has p <= min(1, sqrt(2/x)) v/w_c with x = d v (spring alone; damper alone), so that h c W <= eps min(x, sqrt(2 x)).
 /// Euler's limit 2 is met up to x = 8 (which leaves less than 1/8 of the speed); the splitting takes the damper implicitly.
+/// devogelaere has Euler's terms, r_e also the largest K_T/C_T of a sliding spring, with eps <= 0.5 for all dampers (its limit: 0.59).
+/// runge_kutta_54 chooses its steps by its tolerance: `step` is the longest, from the terms of the loads and duration/200.
 /// Never above 1/20 of the shortest period of the excitation times 2 eps (without contacts 1/200, and b = 0.6: statistics must
 /// see the modes), nor the shortest interval of a table, nor duration/20000 (so many steps take milliseconds).
 #pragma once
@@ -29,12 +31,14 @@ struct StepOptions {
   std::optional<SchemeKind> scheme; ///< none: chosen
   std::optional<double> step;       ///< s: fixed
   double accuracy = 0.01;           ///< target relative error of statistics
+  double tolerance = 1e-6;          ///< of a step's error in the energy norm: adaptive schemes
 };
 
 struct StepChoice {
   SchemeKind scheme = SchemeKind::splitting;
-  double step = 0.0;              ///< s
-  std::int64_t steps = 0;         ///< that cover the duration
+  double step = 0.0;              ///< s; of an adaptive scheme the longest
+  std::int64_t steps = 0;         ///< that cover the duration; 0: adaptive
+  double tolerance = 1e-6;        ///< of an adaptive scheme
   double contact_frequency = 0.0; ///< w_c, rad/s
   double stick_frequency = 0.0;   ///< w_t, rad/s
   double damper_rate = 0.0;       ///< r_t, 1/s

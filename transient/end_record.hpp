@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The record of schemes whose records stand at the ends of their steps. It is prepared when the step has been made and published when the
+/// run comes to it: by then the step that follows is made too. Forces are those at the end of the step, on the step's branch of the laws;
+/// works, tangential displacement and `slides` are of the step. What a contact's slider and dampers took in the step in which it opened is
+/// handed out with its next force.
+#pragma once
+#include "transient/motion_rates.hpp"
+
+namespace fretwork::transient {
+
+class EndRecord {
+public:
+  explicit EndRecord(const MotionRates& rates);
+  EndRecord(const EndRecord&) = delete;
+  EndRecord& operator=(const EndRecord&) = delete;
+
+  /// The state y at `time`, for which the rates have been evaluated last; regimes are those that follow. No allocation.
+  void prepare(const MotionRates& rates, const double* y, double time);
+  /// Shows what has been prepared. No allocation.
+  void publish();
+  /// @param step  s, the length of time the record stands for: half of the steps on both sides
+  void stand_for(double step) { record_.step = step; }
+  [[nodiscard]] const Record& record() const { return record_; }
+
+private:
+  struct Sheet {
+    double time = 0.0;
+    Energy energy;
+    kernels::Array q, u;
+    std::vector<ContactState> states;
+    std::vector<int> active, opened;
+  };
+  struct Past {
+    double friction = 0.0, damper = 0.0;                 ///< J, works up to the last record
+    double carried_friction = 0.0, carried_damper = 0.0; ///< J, of the step in which the contact opened
+    double entry = 0.0;                                  ///< m/s, rate of the penetration where it closed
+    bool entered = false;                                ///< at the last record
+  };
+  void prepare_contact(const MotionRates& rates, const double* y, int c, bool was_active);
+
+  Sheet next_, shown_;
+  Record record_;
+  std::vector<Past> past_;
+  int width_;
+  bool first_ = true;
+};
+
+} // namespace fretwork::transient
