@@ -73,6 +73,8 @@ double ContactEvents::zero(const DormandPrince& step, int c, bool friction, doub
     if (!(x > a && x < b))
       x = 0.5 * (a + b);
     const double fx = of(margins(step, c, x), friction);
+    if (fx == 0.0)
+      return x;
     if ((fx > 0.0) == (fb > 0.0)) {
       b = x;
       weight_b = fx;
@@ -82,8 +84,6 @@ double ContactEvents::zero(const DormandPrince& step, int c, bool friction, doub
       weight_a = fx;
       weight_b *= 0.5;
     }
-    if (fx == 0.0)
-      break;
   }
   return b;
 }

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The adaptive scheme against closed forms and itself: events, tolerance, outcomes.
+#include "scenes.hpp"
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <numbers>
+
+using namespace fretwork;
+using namespace fretwork::tests;
+using namespace fretwork::transient;
+using contact::PlaneAxis;
+using contact::Stop;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double fine = 1e-10;       // tolerance of a step
+constexpr double of_fine = 1e-8;     // what some hundred such steps may add up to, relative
+constexpr double of_duration = 1e-9; // s: events are found to this
+
+StepOptions adaptive(double tolerance) {
+  StepOptions options;
+  options.scheme = SchemeKind::runge_kutta_54;
+  options.tolerance = tolerance;
+  return options;
+}
+
+/// A4: a ball, 2 m above a stop, thrown down at 1 m/s under 10 m/s2; z is -y_loc here.
+Scene ball() {
+  Scene s = mass_point(1.0, Vec3::Zero(), 1.2);
+  start(s, 1.0, Vec3::Zero(), Vec3(0, 1.0, 0));
+  s.contacts = {contact_of(1.0, {Stop{2.0, PlaneAxis::y}, {100.0}, {}})};
+  s.loads = {force_on(1.0, Vec3(0, 10.0, 0), Constant{1.0})};
+  return s;
+}
+
+/// A6: a free mass of 2 kg at 1.5 m/s on a spring of 5e5 N/m, xi = 0.1, `count` equal contacts that share it.
+Scene impact(int count, double duration) {
+  Scene s = mass_point(2.0, Vec3::Zero(), duration);
+  start(s, 2.0, Vec3::Zero(), Vec3(0, 1.5, 0));
+  for (int i = 0; i < count; ++i)
+    s.contacts.push_back(contact_of(2.0, {Stop{1e-3, PlaneAxis::y}, {5e5 / count, 200.0 / count}, {}}));
+  return s;
+}
+
+double largest_difference(const History& a, const History& b) { return (a.q - b.q).cwiseAbs().maxCoeff(); }
+
+} // namespace
+
+TEST(RungeKutta54, FollowsABallOnAStop) {
+  const History run = simulate(ball(), adaptive(fine), 0.1);
+  EXPECT_NEAR(run.q(1, 10), 1.332162981855, of_fine);
+  EXPECT_NEAR(run.q(1, 11), 0.856394405035, of_fine);
+}
+
+TEST(RungeKutta54, EndsStepsWhereContactsCloseAndOpen) {
+  const auto records = trace(ball(), adaptive(fine));
+  for (const double event : {0.54031242374329, 0.88545615307643}) {
+    double nearest = 1.0;
+    for (const auto& r : records)
+      nearest = std::min(nearest, std::abs(r.time - event));
+    EXPECT_LT(nearest, of_duration);
+  }
+}
+
+TEST(RungeKutta54, GivesTheRestitutionOfADampedImpact) {
+  constexpr double e = 0.74407940; // to eight digits
+  const History run = simulate(impact(1, 0.02), adaptive(fine), 0.02);
+  EXPECT_NEAR(-run.v(1, 1) / (std::sqrt(2.0) * 1.5), e, of_fine);
+}
+
+TEST(RungeKutta54, TakesEventsOfSeveralContactsAtOneInstant) {
+  const History one = simulate(impact(1, 0.02), adaptive(fine), 1e-3),
+                three = simulate(impact(3, 0.02), adaptive(fine), 1e-3);
+  EXPECT_EQ(three.report.outcome, Outcome::done);
+  EXPECT_LT(largest_difference(one, three), of_fine * one.q.cwiseAbs().maxCoeff());
+}
+
+TEST(RungeKutta54, CountsAnImpactWithItsSpeedsAndDuration) {
+  const History run = simulate(impact(1, 0.02), adaptive(1e-12), 1e-3);
+  ASSERT_EQ(run.statistics[0].impacts, 1);
+  EXPECT_NEAR(run.statistics[0].impact_velocity_mean, 1.5, of_fine);
+  EXPECT_NEAR(run.statistics[0].departure_velocity_mean, 1.5 * 0.74407940, of_fine);
+}
+
+TEST(RungeKutta54, IsAsAccurateAsItsTolerance) {
+  // friction, dampers, all kinds of obstacles; short, as errors grow with every impact
+  constexpr double horizon = 0.05, growth = 30.0;
+  const Scene scene = rattling(5, 12, horizon);
+  const History exact = simulate(scene, adaptive(1e-12), horizon / 10.0);
+  const double size = exact.q.cwiseAbs().maxCoeff();
+  for (const double tolerance : {1e-5, 1e-7, 1e-9}) {
+    const History run = simulate(scene, adaptive(tolerance), horizon / 10.0);
+    EXPECT_EQ(run.report.outcome, Outcome::done);
+    EXPECT_LT(largest_difference(run, exact), growth * tolerance * size) << tolerance;
+  }
+}
+
+TEST(RungeKutta54, IsNotDrivenByAModeThatDoesNotMove) {
+  Scene scene = impact(1, 0.02), with_silent = scene;
+  with_silent.system.stiffness(2) = 1e4; // along z_loc, where nothing acts
+  const History a = simulate(scene, adaptive(1e-6), 1e-3), b = simulate(with_silent, adaptive(1e-6), 1e-3);
+  EXPECT_EQ(a.report.counts.steps, b.report.counts.steps);
+  EXPECT_EQ(a.report.counts.rejected, b.report.counts.rejected);
+}
+
+TEST(RungeKutta54, TellsThatNoStepMeetsAToleranceBelowRoundOff) {
+  const History run = simulate(rattling(5, 12, 0.05), adaptive(1e-20), 0.01);
+  EXPECT_EQ(run.report.outcome, Outcome::step_failed);
+  EXPECT_EQ(run.report.failure, StepFailure::tolerance);
+  EXPECT_LT(run.report.end_time, 0.05);
+  EXPECT_GT(run.report.counts.rejected, 0);
+}
+
+TEST(RungeKutta54, EndsWithEveryFrictionLaw) {
+  for (const auto kind : {contact::FrictionMemoryKind::return_map, contact::FrictionMemoryKind::reference})
+    for (const double damping : {30.0, 0.0})
+      for (const double mu_static : {0.3, 0.5}) {
+        Scene scene = rattling(5, 12, 0.2);
+        for (ContactPoint& point : scene.contacts)
+          if (point.support.friction.active())
+            point.support.friction = {1e5, damping, mu_static, 0.3, kind};
+        const History run = simulate(scene, adaptive(1e-4), 0.01);
+        EXPECT_EQ(run.report.outcome, Outcome::done);
+        constexpr double balance = 2e-2; // of the energy put in: jumps of `reference` included
+        EXPECT_LT(run.report.residual_relative, balance);
+      }
+}
+
+TEST(RungeKutta54, KeepsTheEnergyOfManyImpacts) {
+  Scene s = mass_point(1.0, Vec3(0, 100.0, 0), 10.0);
+  start(s, 1.0, Vec3::Zero(), Vec3(0, 0.4, 0));
+  s.contacts = {contact_of(1.0, {contact::PlanePair{0.02, PlaneAxis::y}, {1e6}, {}})};
+  constexpr double drift = 1e-6; // about 2000 steps of 1e-10, with margin
+  EXPECT_LT(simulate(s, adaptive(fine), 1.0).report.residual_relative, drift);
+}
+
+TEST(RungeKutta54, CoversTheWholeRunWithItsRecords) {
+  struct Sum final : Observer {
+    void step(const Record& record) override {
+      time += record.step;
+      last = record.step;
+    }
+    double time = 0.0, last = 0.0;
+  } sum;
+  const Scene scene = rattling(5, 12, 0.05);
+  Observer* const observers[] = {&sum};
+  (void)run(scene, choose_step(scene, adaptive(1e-6)), observers, nullptr, {});
+  EXPECT_NEAR(sum.time, 0.05, 2.0 * sum.last); // but for the end of the last step
+}
