@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <numbers>
 
 namespace fretwork::app {
@@ -17,6 +18,9 @@ using core::Vec3;
 constexpr double negligible = 1e-8;
 /// Tangents of two beams that meet at a node give a mean this long at least; shorter: they turn back.
 constexpr double shortest_mean = 0.1;
+/// Two nodes are beside each other, on no side of planes, where what parts them is no more than the last digits
+/// of axes that people write (a share of the distance between the nodes) and of coordinates.
+constexpr double digits_of_axes = 1e-8, digits_of_places = 1e-12;
 
 /// Beams are walked along their chain, so that the tangents before and after a node point the same way.
 Vec3 mean_tangent(const fem::Model& model, Index node, const std::string& name) {
@@ -127,6 +131,51 @@ bool is_held(const fem::Model& model, const fem::BeamPoint& point) {
   return true;
 }
 
+void check_moves(const fem::Model& model, const PlacedContact& placed, const fem::BeamPoint& point) {
+  if (!is_held(model, point))
+    return;
+  if (placed.other < 0)
+    throw core::Error(fmt::format(
+        "contact \"{}\" is at a node that cannot move; release it in [[restraints]] or give it a mass",
+        placed.name));
+  if (is_held(model, fem::point_at(model, placed.other)))
+    throw core::Error(fmt::format(
+        "contact \"{}\" joins two nodes that cannot move; release one in [[restraints]] or give it a mass",
+        placed.name));
+}
+
+/// The obstacle, of two flat bodies with the side on which the first is drawn, `offset` left aside: it moves
+/// the surfaces, not the nodes.
+contact::Obstacle obstacle_of(const study::Contact& contact, const fem::Model& model,
+                              const PlacedContact& placed, std::vector<std::string>& warnings) {
+  contact::Obstacle shape = contact.shape;
+  auto* planes = std::get_if<contact::FacingPlanes>(&shape);
+  if (!planes)
+    return shape;
+  const Vec3& first = model.nodes[static_cast<std::size_t>(placed.node)];
+  const Vec3& second = model.nodes[static_cast<std::size_t>(placed.other)];
+  const Vec3 between = first - second;
+  const double apart = (planes->axis == contact::PlaneAxis::y ? placed.frame.y : placed.frame.z).dot(between);
+  const double least = digits_of_axes * between.norm() +
+                       digits_of_places * std::max(first.cwiseAbs().maxCoeff(), second.cwiseAbs().maxCoeff());
+  if (std::abs(apart) > least) {
+    if (contact.side && *contact.side * apart < 0.0)
+      warnings.push_back(fmt::format(
+          "contact \"{}\": side = {:g}, but the first node is drawn {:.4g} m on the other side of the "
+          "second: "
+          "the bodies start passed through each other; leave side out, or exchange group and other",
+          placed.name, *contact.side, std::abs(apart)));
+    if (!contact.side)
+      planes->side = std::copysign(1.0, apart);
+    return shape;
+  }
+  if (!contact.side)
+    throw core::Error(fmt::format("contact \"{}\": its two nodes are at the same place across the planes, so "
+                                  "that neither has a side; give side = 1 or -1",
+                                  placed.name));
+  return shape;
+}
+
 /// The points of a support of one node: the node, or points from edge to edge of a thickness.
 std::vector<fem::BeamPoint> points_of(const study::Contact& contact, const fem::Model& model,
                                       const PlacedContact& placed) {
@@ -144,9 +193,10 @@ std::vector<fem::BeamPoint> points_of(const study::Contact& contact, const fem::
 
 /// The contacts at one node of a group, appended.
 void place(const study::Study& study, const fem::Model& model, PlacedContact contact,
-           std::vector<PlacedContact>& out) {
+           std::vector<PlacedContact>& out, std::vector<std::string>& warnings) {
   const study::Contact& entry = study.contacts[contact.entry];
   contact.frame = frame_of(entry, model, contact.node, contact.name);
+  contact.obstacle = obstacle_of(entry, model, contact, warnings);
   contact.normal_stiffness = stiffness_of(study, model, contact);
   const auto points = points_of(entry, model, contact);
   contact.share = 1.0 / static_cast<double>(points.size());
@@ -154,10 +204,7 @@ void place(const study::Study& study, const fem::Model& model, PlacedContact con
     PlacedContact placed = contact;
     if (points.size() > 1)
       placed.name = fmt::format("{}@{}", contact.name, k + 1);
-    if (is_held(model, points[k]))
-      throw core::Error(fmt::format(
-          "contact \"{}\" is at a node that cannot move; release it in [[restraints]] or give it a mass",
-          placed.name));
+    check_moves(model, placed, points[k]);
     placed.motion = points[k].motion;
     const Vec3 centre = placed.other >= 0 ? model.nodes[static_cast<std::size_t>(placed.other)]
                                           : entry.origin.value_or(points[k].place);
@@ -168,24 +215,23 @@ void place(const study::Study& study, const fem::Model& model, PlacedContact con
   }
 }
 
-} // namespace
-
-contact::Obstacle obstacle_of(const study::Contact& contact, const PlacedContact& placed) {
-  contact::Obstacle shape = contact.shape;
-  auto* planes = std::get_if<contact::FacingPlanes>(&shape);
-  if (!planes || contact.side)
-    return shape;
-  const double apart = planes->axis == contact::PlaneAxis::y ? placed.rest.y() : placed.rest.z();
-  if (apart == 0.0)
-    throw core::Error(fmt::format("contact \"{}\": its two nodes are at the same place across the planes, so "
-                                  "that neither has a side; give side = 1 or -1",
-                                  placed.name));
-  planes->side = std::copysign(1.0, apart);
-  return shape;
+/// Points of a group and edges of a thickness are named after their entry, which another entry may be called.
+void check_names(const study::Study& study, const std::vector<PlacedContact>& contacts) {
+  std::map<std::string, std::size_t> entry_of;
+  for (const PlacedContact& placed : contacts) {
+    const auto [seen, is_new] = entry_of.emplace(placed.name, placed.entry);
+    if (!is_new)
+      throw core::Error(fmt::format("contacts \"{}\" and \"{}\" both have a point called \"{}\"; rename one "
+                                    "of them",
+                                    study.contacts[seen->second].name, study.contacts[placed.entry].name,
+                                    placed.name));
+  }
 }
 
+} // namespace
+
 std::vector<PlacedContact> place_contacts(const study::Study& study, const mesh::LineMesh& mesh,
-                                          const fem::Model& model) {
+                                          const fem::Model& model, std::vector<std::string>& warnings) {
   std::vector<PlacedContact> out;
   for (std::size_t e = 0; e < study.contacts.size(); ++e) {
     const study::Contact& contact = study.contacts[e];
@@ -199,9 +245,10 @@ std::vector<PlacedContact> place_contacts(const study::Study& study, const mesh:
       placed.entry = e;
       placed.node = nodes[i];
       placed.other = others[i];
-      place(study, model, std::move(placed), out);
+      place(study, model, std::move(placed), out, warnings);
     }
   }
+  check_names(study, out);
   return out;
 }
 

@@ -17,19 +17,19 @@ struct PlacedContact {
   core::Index other = -1;             ///< the second node, -1: the obstacle is fixed
   std::vector<fem::NodeShare> motion; ///< of the point that meets the obstacle: the node, or one near it
   contact::Frame frame;
-  core::Vec3 rest;    ///< m: the point from the obstacle's centre (from the second node), local axes
-  double share = 1.0; ///< of the stiffnesses and dampers of its support
+  contact::Obstacle obstacle; ///< of two flat bodies with the side on which the first stays
+  core::Vec3 rest;            ///< m: the point from the obstacle's centre (from the second node), local axes
+  double share = 1.0;         ///< of the stiffnesses and dampers of its support
   double normal_stiffness = 0.0; ///< N/m, of the whole support
 };
 
+/// @param warnings  takes what is hardly meant: bodies that start passed through each other
 /// @throws core::Error for a point that nothing lets move, for an axis that must be given (a node without
 ///         beams, or where beams branch), for a tube that is shorter than its support, for the stiffness of a
-///         wall where there is no tube
+///         wall where there is no tube, for two flat bodies whose nodes have no side where the study does not
+///         give it, for two points of one name
 [[nodiscard]] std::vector<PlacedContact> place_contacts(const study::Study& study, const mesh::LineMesh& mesh,
-                                                        const fem::Model& model);
-
-/// `rest` tells the side on which two flat bodies start.
-/// @throws core::Error for two flat bodies whose nodes coincide where the study does not give the side
-[[nodiscard]] contact::Obstacle obstacle_of(const study::Contact& contact, const PlacedContact& placed);
+                                                        const fem::Model& model,
+                                                        std::vector<std::string>& warnings);
 
 } // namespace fretwork::app

@@ -125,12 +125,7 @@ void add_contact(const study::Contact& contact, const PlacedContact& placed, con
   const double largest = point.b.size() > 0 ? point.b.cwiseAbs().maxCoeff() : 0.0;
   point.b = (point.b.array().abs() > round_off_of_shapes * largest)
                 .select(point.b, 0.0); // a direction that is not used costs nothing
-  point.support = support_of(contact, placed, out.scene.system, point.b, out.notes);
-  const double gap = contact::locate(point.support.obstacle, placed.rest.y(), placed.rest.z()).gap;
-  if (gap < 0.0)
-    out.notes.push_back(
-        fmt::format("contact \"{}\" starts with an overlap of {:.4g} m: it presses with {:.4g} N",
-                    placed.name, -gap, -gap * point.support.normal.stiffness));
+  point.support = support_of(contact, placed, out.scene.system, point.b);
   out.scene.contacts.push_back(std::move(point));
 }
 

@@ -17,7 +17,7 @@ struct BuiltScene {
   std::vector<std::size_t> contacts; ///< numbers of its contacts among the placed ones
   std::vector<post::ObservedNode> nodes; ///< observed nodes of these structures
   std::vector<std::size_t> node_numbers; ///< their numbers among all observed nodes
-  std::vector<std::string> notes;        ///< to be told the user (initial overlap)
+  std::vector<std::string> notes;        ///< to be told the user (the projection, the equilibrium)
   std::vector<std::string> warnings;     ///< (a lost share of the initial field)
 };
 

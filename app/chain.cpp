@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/chain.hpp"
+#include "app/contact_notes.hpp"
 #include "app/jobs.hpp"
 #include "app/progress.hpp"
 #include "app/python_report.hpp"
@@ -116,6 +117,8 @@ std::vector<BuiltScene> build_scenes(const study::Study& study, const mesh::Line
     out.warnings.insert(out.warnings.end(), scene.warnings.begin(), scene.warnings.end());
     out.notes.insert(out.notes.end(), scene.notes.begin(), scene.notes.end());
   }
+  const auto of_contacts = contact_notes(study, placed, scenes);
+  out.notes.insert(out.notes.end(), of_contacts.begin(), of_contacts.end());
   for (std::size_t k = 0; k < fields.loads.size(); ++k)
     for (std::size_t j = 0; j < k; ++j) {
       const auto* one = std::get_if<transient::Random>(&fields.loads[j].function);
@@ -237,7 +240,7 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
   std::vector<NamedNode> nodes;
   core::agree(comm, [&] {
     built = build_model(inputs.study, mesh);
-    placed = place_contacts(inputs.study, mesh, built.model);
+    placed = place_contacts(inputs.study, mesh, built.model, out.warnings);
     nodes = observed_nodes(inputs.study, mesh);
   });
   report_coincident(mesh, out);
@@ -300,17 +303,21 @@ std::string check(const Request& request) {
   const mesh::LineMesh mesh = mesh::read(inputs.study.mesh);
   const BuiltModel built = build_model(inputs.study, mesh);
   const auto structures = moving_structures(built.model);
-  const auto placed = place_contacts(inputs.study, mesh, built.model);
+  std::vector<std::string> warnings;
+  const auto placed = place_contacts(inputs.study, mesh, built.model, warnings);
   const auto nodes = observed_nodes(inputs.study, mesh);
   static_cast<void>(build_fields(inputs.study, mesh, built));
   std::int64_t dofs = 0;
   for (const auto& structure : structures)
     dofs += structure.equations;
+  std::string told;
+  for (const std::string& warning : warnings)
+    told += "  warning: " + warning + "\n";
   return fmt::format("{}: fine\n  {} nodes, {} beams, {} free dofs in {} structure{}, {:.6g} kg\n  {} "
-                     "contacts, {} loads, {} observed nodes\n",
+                     "contacts, {} loads, {} observed nodes\n{}",
                      request.study.string(), mesh.nodes.size(), built.model.beams.size(), dofs,
                      structures.size(), structures.size() == 1 ? "" : "s", fem::total_mass(built.model),
-                     placed.size(), inputs.study.loads.size(), nodes.size());
+                     placed.size(), inputs.study.loads.size(), nodes.size(), told);
 }
 
 std::string export_results(const fs::path& directory, const std::string& format) {

@@ -8,26 +8,9 @@
 namespace fretwork::app {
 namespace {
 
-/// Mass felt across the obstacle, kg.
-double normal_mass(const contact::Obstacle& obstacle, const Eigen::MatrixXd& b, const std::string& name) {
-  const auto [ny, nz] = contact::normal_directions(obstacle);
-  const double y = ny ? b.row(1).squaredNorm() : 0.0, z = nz ? b.row(2).squaredNorm() : 0.0;
-  const double mobility = (y + z) / (ny && nz ? 2.0 : 1.0);
-  if (!(mobility > 0.0))
-    throw core::Error(
-        fmt::format("contact \"{}\": no mode moves it across its obstacle, so that it feels no "
-                    "mass; give restitution_mass (kg), or normal_damping instead of restitution",
-                    name));
-  return 1.0 / mobility;
-}
-
 contact::NormalLaw normal_law(const study::Contact& contact, const PlacedContact& placed,
-                              const contact::Obstacle& obstacle, const Eigen::MatrixXd& b,
-                              std::vector<std::string>& notes) {
+                              const contact::Obstacle& obstacle, const Eigen::MatrixXd& b) {
   contact::NormalLaw law{placed.normal_stiffness, contact.normal_damping, contact.normal_dissipation};
-  if (!contact.normal_stiffness)
-    notes.push_back(fmt::format("contact \"{}\": stiffness of the tube's wall {:.4g} N/m{}", placed.name,
-                                law.stiffness, placed.other < 0 ? "" : " (two walls in series)"));
   if (!contact.restitution)
     return law;
   const study::Restitution& wanted = *contact.restitution;
@@ -35,16 +18,10 @@ contact::NormalLaw normal_law(const study::Contact& contact, const PlacedContact
   case study::NormalDamper::reference: {
     const double mass = wanted.mass ? *wanted.mass : normal_mass(obstacle, b, placed.name);
     law.damping = contact::damping_of_restitution(wanted.value, law.stiffness, mass);
-    notes.push_back(fmt::format(
-        "contact \"{}\": normal damping {:.4g} N s/m for restitution {:g} with a mass of {:.4g} kg",
-        placed.name, law.damping, wanted.value, mass));
     return law;
   }
   case study::NormalDamper::hunt_crossley:
     law.dissipation = contact::dissipation_of_restitution(wanted.value, wanted.velocity);
-    notes.push_back(
-        fmt::format("contact \"{}\": normal dissipation {:.4g} s/m for restitution {:g} at {:g} m/s",
-                    placed.name, law.dissipation, wanted.value, wanted.velocity));
     return law;
   }
   return law;
@@ -86,7 +63,7 @@ double automatic_damping(const study::Contact& contact, const std::string& name,
 
 contact::FrictionLaw friction_law(const study::Contact& contact, const std::string& name,
                                   const transient::System& system, const contact::Obstacle& obstacle,
-                                  const Eigen::MatrixXd& b, std::vector<std::string>& notes) {
+                                  const Eigen::MatrixXd& b) {
   if (!(contact.friction_static > 0.0))
     return {};
   contact::FrictionLaw law;
@@ -95,29 +72,30 @@ contact::FrictionLaw friction_law(const study::Contact& contact, const std::stri
   law.mu_dynamic = contact.friction_dynamic;
   law.kind = contact.memory;
   law.along = contact.friction_along;
-  if (contact.tangential_damping) {
-    law.damping = *contact.tangential_damping;
-    return law;
-  }
-  law.damping = automatic_damping(contact, name, system, obstacle, b);
-  notes.push_back(
-      fmt::format("contact \"{}\": automatic tangential damping {:.4g} N s/m", name, law.damping));
+  law.damping = contact.tangential_damping ? *contact.tangential_damping
+                                           : automatic_damping(contact, name, system, obstacle, b);
   return law;
 }
 
 } // namespace
 
+double normal_mass(const contact::Obstacle& obstacle, const Eigen::MatrixXd& b, const std::string& name) {
+  const auto [ny, nz] = contact::normal_directions(obstacle);
+  const double y = ny ? b.row(1).squaredNorm() : 0.0, z = nz ? b.row(2).squaredNorm() : 0.0;
+  const double mobility = (y + z) / (ny && nz ? 2.0 : 1.0);
+  if (!(mobility > 0.0))
+    throw core::Error(
+        fmt::format("contact \"{}\": no mode moves it across its obstacle, so that it feels no "
+                    "mass; give restitution_mass (kg), or normal_damping instead of restitution",
+                    name));
+  return 1.0 / mobility;
+}
+
 contact::Support support_of(const study::Contact& contact, const PlacedContact& placed,
-                            const transient::System& system, const Eigen::MatrixXd& b,
-                            std::vector<std::string>& notes) {
-  contact::Support support{obstacle_of(contact, placed), {}, {}};
-  std::vector<std::string> found;
-  support.normal = normal_law(contact, placed, support.obstacle, b, found);
-  support.friction = friction_law(contact, placed.name, system, support.obstacle, b, found);
-  if (placed.share < 1.0)
-    for (std::string& note : found)
-      note += fmt::format(" (of the whole support: {:.4g} of it here)", placed.share);
-  notes.insert(notes.end(), found.begin(), found.end());
+                            const transient::System& system, const Eigen::MatrixXd& b) {
+  contact::Support support{placed.obstacle, {}, {}};
+  support.normal = normal_law(contact, placed, support.obstacle, b);
+  support.friction = friction_law(contact, placed.name, system, support.obstacle, b);
   support.normal.stiffness *= placed.share;
   support.normal.damping *= placed.share; // the dissipation is per stiffness: it takes its share from that
   support.friction.stiffness *= placed.share;

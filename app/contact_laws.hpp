@@ -14,10 +14,13 @@
 
 namespace fretwork::app {
 
-/// `b` and `rest` of the point are used. Values found here are told in `notes`.
+/// Mass felt across an obstacle, kg.
+/// @throws core::Error naming the contact where no mode moves it there
+[[nodiscard]] double normal_mass(const contact::Obstacle& obstacle, const Eigen::MatrixXd& b,
+                                 const std::string& name);
+
 /// @throws core::Error where no mode moves the contact as a value to be found needs it
 [[nodiscard]] contact::Support support_of(const study::Contact& contact, const PlacedContact& placed,
-                                          const transient::System& system, const Eigen::MatrixXd& b,
-                                          std::vector<std::string>& notes);
+                                          const transient::System& system, const Eigen::MatrixXd& b);
 
 } // namespace fretwork::app

@@ -160,6 +160,110 @@ TEST(Structures, WrongPairsAreRefused) {
            "side; give side = 1 or -1"));
 }
 
+/// Two masses at places that each move along y only.
+std::string two_masses(const Workshop& folder, const core::Vec3& first, const core::Vec3& second) {
+  MeshText mesh = lone_points({"first", "second"});
+  mesh.nodes = {first, second};
+  mesh.points.insert(mesh.points.end(), {{"both", 0}, {"both", 1}});
+  folder.write("mesh.msh", mesh.text());
+  std::string study = "[mesh]\nfile = \"mesh.msh\"\n[transient]\nduration = 0.01\n";
+  for (const char* name : {"first", "second"})
+    study += fmt::format("[[masses]]\ngroup = \"{0}\"\nmass = 1.0\n[[springs]]\ngroup = \"{0}\"\n"
+                         "stiffness = [0.0, 100.0, 0.0, 0.0, 0.0, 0.0]\n[[restraints]]\ngroup = \"{0}\"\n"
+                         "fixed = [\"ux\", \"uz\", \"rx\", \"ry\", \"rz\"]\n",
+                         name);
+  return study;
+}
+
+std::string flat(const std::string& keys) {
+  return "[[contacts]]\nname = \"c\"\ngroup = \"first\"\nother = \"second\"\nobstacle = \"plane_y\"\n"
+         "distance_1 = 0.01\ndistance_2 = 0.0\nnormal_stiffness = 1.0e6\n" +
+         keys;
+}
+
+const std::string along_x = "axis = [1.0, 0.0, 0.0]\n";
+const std::string no_side = "contact \"c\": its two nodes are at the same place across the planes, so that "
+                            "neither has a side; give side = 1 or -1";
+
+TEST(Sides, ThatOnlyRoundOffTellsApartAreRefused) {
+  const Workshop folder;
+  // one ulp apart across the planes; then along an axis that is written with ten digits
+  EXPECT_TRUE(says(
+      refused(folder, two_masses(folder, {0.0, 0.3, 0.0}, {0.5, 0.1 + 0.2, 0.0}) + flat(along_x)), no_side));
+  const double c = std::sqrt(1.0 / 3.0);
+  EXPECT_TRUE(says(refused(folder, two_masses(folder, {c, c, c}, {2.0 * c, 2.0 * c, 2.0 * c}) +
+                                       flat("axis = [0.5773502692, 0.5773502692, 0.5773502691]\n")),
+                   no_side));
+  // of coincident nodes; an offset moves the surfaces, not the nodes
+  EXPECT_TRUE(says(refused(folder, two_masses(folder, {0.0, 0.3, 0.0}, {0.0, 0.3, 0.0}) +
+                                       flat(along_x + "offset = [0.05, 0.0]\n")),
+                   no_side));
+}
+
+TEST(Sides, AreThoseOfTheNodesWhateverTheOffset) {
+  const Workshop folder;
+  for (const double side : {1.0, -1.0})
+    for (const double offset : {0.0, 0.02, -0.02}) {
+      const Results run =
+          folder.run_text(two_masses(folder, {0.0, 0.3 + side * 0.015, 0.0}, {0.0, 0.3, 0.0}) +
+                          flat(along_x + fmt::format("offset = [{}, 0.0]\n", offset)));
+      constexpr double of_places = 1e-9; // m: digits of the mesh file
+      EXPECT_NEAR(facts(run, "c").gap, side * (side * 0.015 - offset) - 0.01, of_places);
+    }
+}
+
+TEST(Sides, ThatContradictThePlacesAreTold) {
+  const Workshop folder;
+  const auto warned = [&](const std::string& keys, double second) {
+    const Results run =
+        folder.run_text(two_masses(folder, {0.0, 0.3, 0.0}, {0.0, second, 0.0}) + flat(along_x + keys));
+    const std::string check = folder.fretwork({"check", folder.path("study.toml").string()}).out;
+    const bool told = run.summary["warnings"].dump().find("passed through each other") != std::string::npos;
+    EXPECT_EQ(check.find("passed through each other") != std::string::npos, told);
+    return told;
+  };
+  EXPECT_TRUE(warned("side = 1\n", 0.32));
+  EXPECT_TRUE(warned("side = -1\n", 0.28));
+  EXPECT_FALSE(warned("side = -1\n", 0.32));
+  EXPECT_FALSE(warned("side = 1\n", 0.1 + 0.2)); // round-off contradicts nothing
+  EXPECT_FALSE(warned("side = -1\n", 0.1 + 0.2));
+}
+
+TEST(Names, OfTwoPointsThatAreTheSameAreRefused) {
+  const Workshop folder;
+  const std::string study = two_masses(folder, {0.0, 0.0, 0.0}, {1.0, 0.0, 0.0});
+  const auto named = [](const std::string& name, const std::string& group) {
+    return fmt::format("[[contacts]]\nname = \"{}\"\ngroup = \"{}\"\naxis = [1.0, 0.0, 0.0]\n"
+                       "gap = 1.0e-3\nnormal_stiffness = 1.0e6\n",
+                       name, group);
+  };
+  EXPECT_TRUE(says(refused(folder, study + named("c", "both") + named("c[0]", "first")),
+                   "contacts \"c\" and \"c[0]\" both have a point called \"c[0]\"; rename one of them"));
+  EXPECT_TRUE(says(
+      refused(folder, tubes(folder, 1) + named("p@2", "mid0") + named("p", "mid0") + "thickness = 0.02\n"),
+      "contacts \"p@2\" and \"p\" both have a point called \"p@2\"; rename one of them"));
+}
+
+TEST(Structures, MeetWhicheverOfTwoNodesIsFixed) {
+  const Workshop folder;
+  const auto fixed = [](const std::string& name) {
+    return "[[restraints]]\ngroup = \"" + name + "\"\nfixed = [\"uy\"]\n";
+  };
+  const std::string flying = "[[initial]]\ngroup = \"{}\"\nvelocity = [0.0, {}, 0.0]\n";
+  const auto thrown = [&](const std::string& held, const std::string& moves, double speed) {
+    std::string study = two_masses(folder, {0.0, 0.0105, 0.0}, {0.0, 0.0, 0.0}) + flat(along_x) + fixed(held);
+    return folder.run_text(study + fmt::format(fmt::runtime(flying), moves, speed));
+  };
+  const Results first = thrown("second", "first", -0.2), second = thrown("first", "second", 0.2);
+  const auto& force = first.contact("c").normal_force;
+  EXPECT_GT(force.maxCoeff(), 0.0);
+  EXPECT_LT((second.contact("c").normal_force - force).cwiseAbs().maxCoeff(), rounding * force.maxCoeff());
+  EXPECT_TRUE(says(refused(folder, two_masses(folder, {0.0, 0.02, 0.0}, {0.0, 0.0, 0.0}) + flat(along_x) +
+                                       fixed("first") + fixed("second")),
+                   "contact \"c\" joins two nodes that cannot move; release one in [[restraints]] or give it "
+                   "a mass"));
+}
+
 TEST(Thickness, SharesASupportBetweenItsEdges) {
   const Workshop folder;
   const std::string keys = "obstacle = \"drilled\"\ntube_radius = 0.009525\nhole_radius = 0.009625\n"
@@ -262,6 +366,48 @@ TEST(Restitution, IsWhatAMassComesBackWith) {
                          0.7 * stop["impact_velocity"]["mean"].get<double>(), one_impact))
         << law;
   }
+}
+
+/// Notes that say this.
+std::vector<std::string> notes_with(const Results& run, const std::string& part) {
+  std::vector<std::string> out;
+  for (const std::string note : run.summary["notes"])
+    if (note.find(part) != std::string::npos)
+      out.push_back(note);
+  return out;
+}
+
+TEST(Overlap, IsToldOfTheInitialState) {
+  const Workshop folder;
+  const std::string moved = "[[initial]]\ngroup = \"mass\"\ndisplacement = [0.0, 1.5e-3, 0.0]\n";
+  EXPECT_TRUE(notes_with(folder.run_text(flying_mass(folder, "")), "overlap").empty());
+  // K_N times 0.5 mm, and C_N times 0.1 m/s
+  EXPECT_EQ(
+      notes_with(folder.run_text(flying_mass(folder, moved)), "overlap"),
+      std::vector<std::string>{"contact \"stop\" starts with an overlap of 0.0005 m: it presses with 500 N"});
+  const Results damped = folder.run_text(
+      flying_mass(folder, "normal_damping = 1.0e3\n" + moved +
+                              "[[initial]]\ngroup = \"mass\"\n"
+                              "displacement = [0.0, 1.5e-3, 0.0]\nvelocity = [0.0, 0.1, 0.0]\n"));
+  EXPECT_EQ(notes_with(damped, "presses with 600 N").size(), 1u);
+}
+
+TEST(Notes, AreOneLineAContactOfTheStudyOverlapsFirst) {
+  const Workshop folder;
+  const std::string plate = "gap = 0.0\noffset = [0.0, -2.0e-4]\nthickness = 0.03\nthickness_points = 3\n"
+                            "normal_stiffness = \"wall\"\nrestitution = 0.7\nrestitution_mass = 2.0\n"
+                            "friction = 0.3\ntangential_stiffness = 1.0e6\n";
+  const Results run = folder.run_text(tubes(folder, 1) + support(plate));
+  const auto notes = notes_with(run, "contact \"plate");
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_EQ(notes[0], run.summary["notes"][0]);
+  EXPECT_TRUE(says(notes[0], "contact \"plate\": 3 of 3 points start with an overlap, the deepest \"plate@"));
+  EXPECT_TRUE(says(notes[0], "with 0.0002 m: it presses with "));
+  EXPECT_TRUE(
+      says(notes[1], "contact \"plate\": stiffness of the tube's wall 5.669e+06 N/m, normal damping "));
+  EXPECT_TRUE(
+      says(notes[1], " N s/m for restitution 0.7 with a mass of 2 kg, automatic tangential damping "));
+  EXPECT_TRUE(says(notes[1], "(of the whole support: each point has 0.3333 of it)"));
 }
 
 TEST(Restitution, TakesTheMassThatTheModesGive) {

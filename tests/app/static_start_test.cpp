@@ -115,6 +115,13 @@ TEST(StaticStart, GivesTheSameBytesOnTwoRanks) {
                            folder.run_text(study("static"), {"--force"}, 2).archive));
 }
 
+TEST(StaticStart, TellsTheForceOfAnOverlapAtTheStart) {
+  const Workshop folder;
+  const Results start = run(folder, "static"), rest = run(folder, "rest");
+  EXPECT_TRUE(says(start.summary["notes"].dump(), fmt::format("presses with {:.4g} N", closed_form(start))));
+  EXPECT_TRUE(says(rest.summary["notes"].dump(), fmt::format("presses with {:.4g} N", stiffness * overlap)));
+}
+
 TEST(StaticStart, NamesTheMotionThatNothingHolds) {
   const Workshop folder;
   folder.write("points.msh", lone_points({"block", "wall"}).text());

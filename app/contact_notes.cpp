@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/contact_notes.hpp"
+#include "app/contact_laws.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace fretwork::app {
+namespace {
+
+/// A point of an entry and how it starts.
+struct Point {
+  const PlacedContact* placed;
+  const transient::ContactPoint* contact;
+  double gap;   ///< m, at t = 0
+  double force; ///< N, normal, at t = 0
+};
+
+Point at_start(const PlacedContact& placed, const transient::ContactPoint& contact,
+               const transient::Scene& scene) {
+  const core::Vec3 place = contact.rest + contact.b * scene.q0, speed = contact.b * scene.v0;
+  const contact::Location at = contact::locate(contact.support.obstacle, place.y(), place.z());
+  const double sinking = -(at.ny * speed.y() + at.nz * speed.z());
+  return {&placed, &contact, at.gap, contact::normal_force(contact.support.normal, -at.gap, sinking)};
+}
+
+/// Empty where nothing overlaps.
+std::string overlap_note(const std::string& name, const std::vector<Point>& points) {
+  const auto overlapping =
+      std::count_if(points.begin(), points.end(), [](const Point& p) { return p.gap < 0.0; });
+  if (overlapping == 0)
+    return {};
+  const Point& deepest = *std::min_element(points.begin(), points.end(),
+                                           [](const Point& a, const Point& b) { return a.gap < b.gap; });
+  if (points.size() == 1)
+    return fmt::format("contact \"{}\" starts with an overlap of {:.4g} m: it presses with {:.4g} N", name,
+                       -deepest.gap, deepest.force);
+  return fmt::format(
+      "contact \"{}\": {} of {} points start with an overlap, the deepest \"{}\" with {:.4g} m: "
+      "it presses with {:.4g} N",
+      name, overlapping, points.size(), deepest.placed->name, -deepest.gap, deepest.force);
+}
+
+/// A value of every point, or from the least to the largest.
+template <class Value> std::string range(const std::vector<Point>& points, Value value) {
+  double least = value(points.front()), most = least;
+  for (const Point& point : points) {
+    least = std::min(least, value(point));
+    most = std::max(most, value(point));
+  }
+  const std::string low = fmt::format("{:.4g}", least), high = fmt::format("{:.4g}", most);
+  return low == high ? low : low + " to " + high;
+}
+
+std::string restitution_text(const study::Contact& entry, const std::vector<Point>& points) {
+  const study::Restitution& wanted = *entry.restitution;
+  switch (entry.normal_damper) {
+  case study::NormalDamper::reference: {
+    const auto damping = [](const Point& p) { return p.contact->support.normal.damping / p.placed->share; };
+    const auto mass = [&](const Point& p) {
+      return wanted.mass ? *wanted.mass
+                         : normal_mass(p.contact->support.obstacle, p.contact->b, p.placed->name);
+    };
+    return fmt::format("normal damping {} N s/m for restitution {:g} with a mass of {} kg",
+                       range(points, damping), wanted.value, range(points, mass));
+  }
+  case study::NormalDamper::hunt_crossley:
+    return fmt::format("normal dissipation {} s/m for restitution {:g} at {:g} m/s",
+                       range(points, [](const Point& p) { return p.contact->support.normal.dissipation; }),
+                       wanted.value, wanted.velocity);
+  }
+  return {};
+}
+
+/// Empty where the study gives every value.
+std::string laws_note(const study::Contact& entry, const std::vector<Point>& points) {
+  std::vector<std::string> found;
+  if (!entry.normal_stiffness)
+    found.push_back(fmt::format(
+        "stiffness of the tube's wall {} N/m{}",
+        range(points, [](const Point& p) { return p.contact->support.normal.stiffness / p.placed->share; }),
+        entry.other ? " (two walls in series)" : ""));
+  if (entry.restitution)
+    found.push_back(restitution_text(entry, points));
+  if (entry.friction_static > 0.0 && !entry.tangential_damping)
+    found.push_back(fmt::format("automatic tangential damping {} N s/m", range(points, [](const Point& p) {
+                                  return p.contact->support.friction.damping / p.placed->share;
+                                })));
+  if (found.empty())
+    return {};
+  return fmt::format(
+      "contact \"{}\": {}{}", entry.name, fmt::join(found, ", "),
+      points.front().placed->share < 1.0
+          ? fmt::format(" (of the whole support: each point has {:.4g} of it)", points.front().placed->share)
+          : "");
+}
+
+} // namespace
+
+std::vector<std::string> contact_notes(const study::Study& study, const std::vector<PlacedContact>& placed,
+                                       const std::vector<BuiltScene>& scenes) {
+  std::vector<std::vector<Point>> of_entry(study.contacts.size());
+  for (const BuiltScene& built : scenes)
+    for (std::size_t k = 0; k < built.contacts.size(); ++k) {
+      const PlacedContact& at = placed[built.contacts[k]];
+      of_entry[at.entry].push_back(at_start(at, built.scene.contacts[k], built.scene));
+    }
+  std::vector<std::string> overlaps, laws;
+  for (std::size_t e = 0; e < of_entry.size(); ++e)
+    if (!of_entry[e].empty()) {
+      overlaps.push_back(overlap_note(study.contacts[e].name, of_entry[e]));
+      laws.push_back(laws_note(study.contacts[e], of_entry[e]));
+    }
+  overlaps.insert(overlaps.end(), laws.begin(), laws.end());
+  std::erase(overlaps, std::string());
+  return overlaps;
+}
+
+} // namespace fretwork::app

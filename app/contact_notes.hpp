@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// What a user should know of the contacts before the run: overlaps at the start, and the values of laws that
+/// the program found.
+#pragma once
+#include "app/build_scene.hpp"
+
+namespace fretwork::app {
+
+/// One line an entry of the study, however many points it has: first the overlaps, with the force that presses
+/// at t = 0 (of the final initial state, speeds included), then the values found.
+[[nodiscard]] std::vector<std::string> contact_notes(const study::Study& study,
+                                                     const std::vector<PlacedContact>& placed,
+                                                     const std::vector<BuiltScene>& scenes);
+
+} // namespace fretwork::app
