@@ -128,7 +128,7 @@ FrictionStep close_step(const FrictionLaw& law, const FrictionTable& table, cons
     const Vec2 relaxed_stretch = table.compliance * (before - relaxed);
     // A slider that would move with the force did not move: the bound only clipped a spring that was letting
     // go by itself. Without a force (mu_d = 0) it moves freely.
-    if (!(dot(force, dx - relaxed_stretch) > 0.0)) {
+    if (dot(force, dx - relaxed_stretch) < 0.0 || dot(force, force) == 0.0) {
       after = relaxed;
       stretch = relaxed_stretch;
       step.slip = dx - stretch;
