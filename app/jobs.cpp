@@ -183,6 +183,22 @@ void merge(const BuiltScene& built, JobResult&& job, const transient::StepChoice
   }
 }
 
+std::optional<transient::SchemeKind> scheme_of(study::Scheme scheme) {
+  switch (scheme) {
+  case study::Scheme::automatic:
+    return {};
+  case study::Scheme::splitting:
+    return transient::SchemeKind::splitting;
+  case study::Scheme::euler:
+    return transient::SchemeKind::euler;
+  case study::Scheme::devogelaere:
+    return transient::SchemeKind::devogelaere;
+  case study::Scheme::runge_kutta_54:
+    return transient::SchemeKind::runge_kutta_54;
+  }
+  return {};
+}
+
 void judge(const transient::StepChoice& choice, const transient::Report& report, results::RunResults& out) {
   for (const std::string& warning : choice.warnings)
     out.warnings.push_back(warning);
@@ -230,9 +246,8 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
   transient::StepOptions options;
   options.step = study.transient->step;
   options.accuracy = study.transient->accuracy;
-  if (study.transient->scheme != study::Scheme::automatic)
-    options.scheme = study.transient->scheme == study::Scheme::euler ? transient::SchemeKind::euler
-                                                                     : transient::SchemeKind::splitting;
+  options.scheme = scheme_of(study.transient->scheme);
+  options.tolerance = study.transient->tolerance;
   std::vector<transient::StepChoice> choices;
   core::agree(comm, [&] {
     for (const BuiltScene& built : scenes)

@@ -52,19 +52,28 @@ std::optional<Transient> read_transient(const TableReader& root) {
   if (!found)
     return std::nullopt;
   const TableReader table(*found, "transient",
-                          {{"duration", "start", "scheme", "accuracy", "step"}, {"tolerance"}});
+                          {{"duration", "start", "scheme", "accuracy", "step", "tolerance"}});
   Transient transient;
   transient.duration = table.number("duration", {Range::above_zero, "s"});
   transient.start = table.choice("start", Start::rest,
                                  Choices<Start>{{{"rest", Start::rest}, {"static", Start::equilibrium}}});
-  transient.scheme = table.choice(
-      "scheme", Scheme::automatic,
-      Choices<Scheme>{
-          {{"auto", Scheme::automatic}, {"splitting", Scheme::splitting}, {"euler", Scheme::euler}},
-          {"collocation", "energy_conserving", "devogelaere", "runge_kutta_54"}});
+  transient.scheme = table.choice("scheme", Scheme::automatic,
+                                  Choices<Scheme>{{{"auto", Scheme::automatic},
+                                                   {"splitting", Scheme::splitting},
+                                                   {"euler", Scheme::euler},
+                                                   {"devogelaere", Scheme::devogelaere},
+                                                   {"runge_kutta_54", Scheme::runge_kutta_54}},
+                                                  {"collocation", "energy_conserving"}});
   transient.accuracy = table.number_or("accuracy", 0.01, {Range::above_zero});
   if (transient.accuracy >= 1.0)
     table.fail_at("accuracy", "a relative error below 1 is expected");
+  if (table.find("tolerance") && transient.scheme != Scheme::runge_kutta_54)
+    table.fail_at("tolerance",
+                  "only scheme = \"runge_kutta_54\" follows a tolerance; the others take accuracy or step");
+  transient.tolerance = table.number_or("tolerance", 1e-6, {Range::above_zero});
+  if (transient.tolerance > 0.1)
+    table.fail_at("tolerance",
+                  "the error of a step relative to the energy norm of the motion: at most 0.1 is expected");
   transient.step = table.optional_number("step", {Range::above_zero, "s"});
   if (transient.step && *transient.step > transient.duration)
     table.fail_at("step",

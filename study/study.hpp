@@ -137,7 +137,7 @@ struct Initial {
   Vec3 centre = Vec3::Zero();
 };
 
-enum class Scheme { automatic, splitting, euler };
+enum class Scheme { automatic, splitting, euler, devogelaere, runge_kutta_54 };
 /// At rest where the structure was drawn; or at rest in equilibrium with the loads at t = 0 and the contacts.
 enum class Start { rest, equilibrium };
 
@@ -147,6 +147,7 @@ struct Transient {
   Scheme scheme = Scheme::automatic;
   double accuracy = 0.01;
   std::optional<double> step;
+  double tolerance = 1e-6; ///< of a step's error: adaptive schemes
 };
 
 struct Output {

@@ -193,9 +193,9 @@ TEST(Messages, OfWhatThisVersionDoesNotCompute) {
        {"contacts.tsp1.attached_to = \"ground\": \"ground\"" + available + "\"base\""}},
       {"static_modes = \"none\"", "static_modes = \"auto\"", {"\"auto\"" + available + "\"none\""}},
       {"static_modes = \"none\"", "static_modes = \"all\"", {"\"all\"" + available + "\"none\""}},
-      {"accuracy = 0.02",
-       "tolerance = 1e-4",
-       {"transient.tolerance = 0.0001: \"tolerance\"" + available + "\"duration\""}},
+      {"scheme = \"splitting\"",
+       "scheme = \"collocation\"",
+       {"transient.scheme = \"collocation\": \"collocation\"" + available}},
       {"constant = 1.5",
        "velocity0 = 0",
        {"base_motion.0.velocity0 = 0: \"velocity0\"" + available + "\"direction\""}},
@@ -209,6 +209,12 @@ TEST(Messages, OfWhatThisVersionDoesNotCompute) {
 TEST(Messages, OfKeysThatContradictEachOther) {
   const std::string harmonic = "harmonic = { amplitude = 10, frequency = 25, phase = 0.5 }";
   expect_messages({
+      {"accuracy = 0.02",
+       "tolerance = 1e-4",
+       {"transient.tolerance = 0.0001: only scheme = \"runge_kutta_54\" follows a tolerance"}},
+      {"scheme = \"splitting\"",
+       "tolerance = 0.5\nscheme = \"runge_kutta_54\"",
+       {"transient.tolerance = 0.5: ", "at most 0.1 is expected"}},
       {harmonic,
        "",
        {"loads.apex: no time function; give exactly one of \"constant\", \"harmonic\", \"table\", "
