@@ -11,7 +11,11 @@ constexpr double forgotten = 1e-12;
 
 } // namespace
 
-ContactMemory::ContactMemory(const PackedContacts& contacts, double step) : contacts_(contacts) {
+ContactMemory::ContactMemory(const PackedContacts& contacts, double step)
+    : contacts_(contacts), laws_(contacts, step), step_(contacts.width) {
+  for (kernels::Array* a :
+       {&lanes_.spring, &lanes_.sliding, &lanes_.force, &lanes_.normal_y, &lanes_.normal_z, &lanes_.left})
+    a->assign(static_cast<std::size_t>(contacts.width), 0.0);
   const auto count = static_cast<std::size_t>(contacts.count);
   entries_.resize(count);
   for (std::size_t c = 0; c < count; ++c)
@@ -23,15 +27,12 @@ ContactMemory::ContactMemory(const PackedContacts& contacts, double step) : cont
 
 ContactLosses ContactMemory::commit(const ContactMotion& motion, ContactTrial& trial) {
   ContactLosses losses{trial.cut, 0.0};
-  for (const int c : trial.active) {
-    if (contacts_.supports[c].friction.active())
-      close(c, trial.states[c], losses);
-    losses.damping += trial.states[c].damper_work;
-  }
-  for (const int c : remembering_)
-    if (!(trial.states[c].normal_force > 0.0))
-      relax(c, losses);
-  std::erase_if(remembering_, [&](int c) { return !(entries_[c].left > 0.0); });
+  for (const int c : trial.active)
+    losses.damping += trial.states[c].damper_work; // of the normal dampers
+  if (contacts_.in_lanes)
+    commit_lanes(trial, losses);
+  else
+    commit_each(trial, losses);
   for (const int c : closed_)
     if (!(trial.states[c].normal_force > 0.0)) {
       const auto at = motion.locate(c);
@@ -41,6 +42,41 @@ ContactLosses ContactMemory::commit(const ContactMotion& motion, ContactTrial& t
   closed_.assign(trial.active.begin(), trial.active.end());
   position_ = motion.u;
   return losses;
+}
+
+void ContactMemory::commit_each(ContactTrial& trial, ContactLosses& losses) {
+  for (const int c : trial.active)
+    if (contacts_.supports[c].friction.active())
+      close(c, trial.states[c], losses);
+  for (const int c : remembering_)
+    if (!(trial.states[c].normal_force > 0.0))
+      relax(c, losses);
+  std::erase_if(remembering_, [&](int c) { return !(entries_[c].left > 0.0); });
+}
+
+void ContactMemory::commit_lanes(ContactTrial& trial, ContactLosses& losses) {
+  if (trial.active.empty() && !remembers_)
+    return;
+  for (const int c : closed_)
+    step_.closed[c] = 0.0;
+  for (const int c : trial.active) {
+    const ContactState& s = trial.states[c];
+    step_.closed[c] = 1.0;
+    step_.normal_y[c] = s.ny;
+    step_.normal_z[c] = s.nz;
+    step_.force[c] = s.friction.t;
+    step_.displacement[c] = s.displacement.t;
+    step_.slides[c] = s.slides ? 1.0 : 0.0;
+  }
+  const kernels::CommitSums sums = kernels::commit(contacts_.width, laws_, step_, lanes_);
+  for (const int c : trial.active) {
+    trial.states[c].friction_work = step_.friction_work[c];
+    trial.states[c].damper_work += step_.damper_work[c];
+  }
+  losses.friction += sums.friction;
+  losses.damping += sums.damping;
+  springs_ += sums.stored;
+  remembers_ = sums.remembers;
 }
 
 void ContactMemory::close(int c, ContactState& state, ContactLosses& losses) {
@@ -60,6 +96,7 @@ void ContactMemory::close(int c, ContactState& state, ContactLosses& losses) {
   e.left = 1.0;
   state.friction_work = step.friction_work;
   state.damper_work += step.damper_work;
+  losses.damping += step.damper_work;
   losses.friction += step.friction_work;
 }
 

@@ -7,6 +7,7 @@
 /// one (n.n0 < 0: the opposite face) is another surface: what the last face has loaded is lost. The spring of an open contact dies out
 /// by contact::open_step and is forgotten when round-off is left of it.
 #pragma once
+#include "transient/contact_lanes.hpp"
 #include "transient/contact_motion.hpp"
 #include "transient/contact_trial.hpp"
 
@@ -29,15 +30,23 @@ public:
 
   /// What contact c remembers for a surface of normal n: nothing of the opposite face.
   [[nodiscard]] contact::FrictionMemory at(int c, double ny, double nz) const {
+    if (contacts_.in_lanes)
+      return opposite_lane(c, ny, nz)
+                 ? contact::FrictionMemory{}
+                 : contact::FrictionMemory{{0.0, lanes_.spring[c]}, lanes_.sliding[c] != 0.0};
     const Entry& e = entries_[c];
     return opposite(e, ny, nz) ? contact::FrictionMemory{} : e.friction;
   }
   /// Friction at the last commit if contact c was closed then on the same surface, otherwise 0, N.
   [[nodiscard]] contact::Vec2 last_force(int c, double ny, double nz) const {
+    if (contacts_.in_lanes)
+      return {0.0, lanes_.left[c] == 1.0 && !opposite_lane(c, ny, nz) ? lanes_.force[c] : 0.0};
     const Entry& e = entries_[c];
     return e.left == 1.0 && !opposite(e, ny, nz) ? e.force : contact::Vec2{};
   }
   [[nodiscard]] const contact::FrictionTable& table(int c) const { return entries_[c].table; }
+  /// All memories, where PackedContacts::in_lanes.
+  [[nodiscard]] const kernels::MemoryLanes& lanes() const { return lanes_; }
   /// Displacements at the last commit, in lanes, m.
   [[nodiscard]] const kernels::Array& position() const { return position_; }
   /// Energy of all tangential springs, J.
@@ -58,12 +67,21 @@ private:
   [[nodiscard]] static bool opposite(const Entry& e, double ny, double nz) {
     return e.left > 0.0 && e.ny * ny + e.nz * nz < 0.0;
   }
+  [[nodiscard]] bool opposite_lane(int c, double ny, double nz) const {
+    return lanes_.normal_y[c] * ny + lanes_.normal_z[c] * nz < 0.0;
+  }
+  void commit_each(ContactTrial& trial, ContactLosses& losses);
+  void commit_lanes(ContactTrial& trial, ContactLosses& losses);
   void close(int c, ContactState& state, ContactLosses& losses);
   void relax(int c, ContactLosses& losses);
   void forget(int c, ContactLosses& losses);
 
   const PackedContacts& contacts_;
-  std::vector<Entry> entries_;
+  std::vector<Entry> entries_; ///< their tables always, the rest where not in lanes
+  kernels::MemoryLanes lanes_;
+  kernels::LawLanes laws_;
+  kernels::CommitLanes step_;
+  bool remembers_ = false;       ///< in lanes
   std::vector<int> remembering_; ///< contacts with left > 0
   std::vector<int> closed_;      ///< with a force at the last commit
   kernels::Array position_;

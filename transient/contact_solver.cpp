@@ -13,13 +13,32 @@ constexpr double sweep_tolerance = 1e-6;
 /// The ratio of the changes of two sweeps foretells the next ones only where they fall clearly.
 constexpr double falling = 0.5;
 constexpr int most_sweeps = 60;
+/// Jacobi sweeps that take longer than this converge badly, if they do.
+constexpr int most_jacobi_sweeps = 12;
+
+/// What Jacobi sweeps foretell is less sure: the largest change moves from contact to contact.
+constexpr double jacobi_caution = 0.1;
+
+/// The largest change of a sweep is small, or what it foretells is.
+bool settled(double largest, double last, double caution) {
+  const bool foretold = largest <= falling * last;
+  return largest <= sweep_tolerance ||
+         (foretold && largest * largest <= caution * sweep_tolerance * (last - largest));
+}
 
 } // namespace
 
 ContactSolver::ContactSolver(const PackedContacts& contacts, double step)
     : contacts_(contacts), h_(step),
+      coupled_(
+          std::any_of(contacts.supports.begin(), contacts.supports.end(),
+                      [](const contact::Support& s) { return s.friction.active() || s.normal.damps(); })),
+      laws_(contacts, step), lanes_(contacts.width),
       block_(static_cast<std::size_t>(contacts.components) * static_cast<std::size_t>(contacts.stride())) {
   shut_.reserve(static_cast<std::size_t>(contacts.count));
+  shut_lanes_.reserve(static_cast<std::size_t>(contacts.count));
+  by_n_.assign(static_cast<std::size_t>(contacts.width), 0.0);
+  by_t_ = by_n_;
   a_.assign(block_ * static_cast<std::size_t>(contacts.count), 0.0);
   velocity_.assign(static_cast<std::size_t>(contacts.stride()), 0.0);
 }
@@ -31,6 +50,8 @@ ContactSolver::Action ContactSolver::solve(const ContactMemory& memory, ContactM
   shut_.clear();
   if (!motion.find_near(0.5 * window * h_))
     return action;
+  if (contacts_.in_lanes && solve_in_lanes(memory, motion, trial, action))
+    return action;
   meet(motion, trial);
   if (shut_.empty())
     return action;
@@ -39,6 +60,70 @@ ContactSolver::Action ContactSolver::solve(const ContactMemory& memory, ContactM
   action.converged = sweep(memory, motion);
   close(motion, trial, action);
   return action;
+}
+
+bool ContactSolver::solve_in_lanes(const ContactMemory& memory, const ContactMotion& motion,
+                                   ContactTrial& trial, Action& action) {
+  const int width = contacts_.width;
+  const double springs = kernels::prepare(width, laws_, memory.lanes(), motion.gaps.data(),
+                                          motion.normal_y.data(), motion.normal_z.data(), motion.w.data(),
+                                          motion.w.data() + width, 0.5 * window * h_, lanes_);
+  shut_lanes_.clear();
+  for (int c = 0; c < contacts_.count; ++c)
+    if (lanes_.shut[c] != 0.0) {
+      kernels::respond(width, 2, contacts_.column(c), motion.normal_y[c], motion.normal_z[c], 0.5 * h_,
+                       motion.normal_y.data(), motion.normal_z.data(), &a_[block_ * shut_lanes_.size()]);
+      shut_lanes_.push_back(c);
+    }
+  if (!shut_lanes_.empty() && !sweep_in_lanes())
+    return false;
+  trial.springs = springs;
+  close_lanes(motion, trial, action);
+  return true;
+}
+
+bool ContactSolver::sweep_in_lanes() {
+  const auto answer = [&](const kernels::Array& by_n, const kernels::Array& by_t) {
+    kernels::answer(contacts_.width, static_cast<int>(shut_lanes_.size()), shut_lanes_.data(), a_.data(),
+                    by_n.data(), by_t.data(), lanes_.v_n.data(), lanes_.v_t.data());
+  };
+  answer(lanes_.normal, lanes_.friction);
+  if (!coupled_)
+    return true;
+  double last = 0.0;
+  for (int k = 0; k < most_jacobi_sweeps; ++k) {
+    const double largest = kernels::improve(contacts_.width, laws_, lanes_, by_n_.data(), by_t_.data());
+    answer(by_n_, by_t_);
+    if (settled(largest, last, jacobi_caution))
+      return true;
+    last = largest;
+  }
+  return false;
+}
+
+void ContactSolver::close_lanes(const ContactMotion& motion, ContactTrial& trial, Action& action) const {
+  for (const int c : shut_lanes_) {
+    const double n = lanes_.normal[c], t = lanes_.friction[c], v_n = lanes_.v_n[c], v_t = lanes_.v_t[c];
+    const double loss = -h_ * (n - lanes_.spring[c]) * v_n;
+    action.work += h_ * (n * v_n + t * v_t);
+    action.jump += h_ * (n * (v_n - lanes_.before_n[c]) + t * (v_t - lanes_.before_t[c]));
+    if (!(n > 0.0)) { // the damper holds the contact free of force: it is open
+      trial.cut += loss;
+      continue;
+    }
+    ContactState& state = trial.states[c];
+    state.normal_force = n;
+    state.ny = motion.normal_y[c];
+    state.nz = motion.normal_z[c];
+    state.approach = -lanes_.before_n[c];
+    state.damper_work = loss;
+    if (contacts_.supports[c].friction.active()) {
+      state.friction = {0.0, t};
+      state.displacement = {0.0, h_ * laws_.along[c] * v_t};
+      state.slides = lanes_.slides[c] != 0.0;
+    }
+    trial.active.push_back(c);
+  }
 }
 
 /// The contacts near their obstacles: which of them are shut in this step.
@@ -121,18 +206,14 @@ void ContactSolver::prepare(const ContactMemory& memory, const ContactMotion& mo
 
 /// Returns whether the forces settled.
 bool ContactSolver::sweep(const ContactMemory& memory, const ContactMotion& motion) {
-  const bool coupled = std::any_of(shut_.begin(), shut_.end(), [&](const Shut& s) {
-    return s.friction || contacts_.supports[s.contact].normal.damps();
-  });
-  if (!coupled)
+  if (!coupled_)
     return true;
   double last = 0.0;
   for (int k = 0; k < most_sweeps; ++k) {
     double largest = 0.0;
     for (std::size_t i = 0; i < shut_.size(); ++i)
       largest = std::max(largest, improve(i, memory, motion));
-    const bool foretold = largest <= falling * last;
-    if (largest <= sweep_tolerance || (foretold && largest * largest <= sweep_tolerance * (last - largest)))
+    if (settled(largest, last, 1.0))
       return true;
     last = largest;
   }

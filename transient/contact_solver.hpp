@@ -8,8 +8,8 @@
 ///     friction  step_friction with the mean velocity w, implicit
 /// Along the directions (n, t, x_loc) of the contacts, with the forces F of those that are shut and the velocities s of all,
 ///     s = s0 + A F,    s0 = d.B v-,    A = (h/2) d W d^T
-/// solved by Gauss-Seidel sweeps, one contact at a time with the laws' own step forms, from the friction of the last step. The sweeps
-/// stop when what is still to come (largest change r/(1 - r), r the ratio of the changes of two sweeps) is below 1e-6 of the largest
+/// solved by Gauss-Seidel sweeps, one contact at a time with the laws' own step forms, or by Jacobi sweeps, all at once in vector lanes
+/// (contact_lanes.hpp), where these can be used and converge well; both from the friction of the last step. The sweeps stop when what is still to come (largest change r/(1 - r), r the ratio of the changes of two sweeps) is below 1e-6 of the largest
 /// force the contact can bear, a thousandth of what the step itself leaves at its finest.
 #pragma once
 #include "transient/contact_memory.hpp"
@@ -47,6 +47,11 @@ private:
     double per_normal = 0.0,
            per_friction = 0.0; ///< 1/N: one over the forces that changes are measured against
   };
+  /// Returns whether the sweeps in lanes settled; if not, nothing is found yet.
+  bool solve_in_lanes(const ContactMemory& memory, const ContactMotion& motion, ContactTrial& trial,
+                      Action& action);
+  bool sweep_in_lanes();
+  void close_lanes(const ContactMotion& motion, ContactTrial& trial, Action& action) const;
   void meet(const ContactMotion& motion, ContactTrial& trial);
   void couple(const ContactMotion& motion);
   void prepare(const ContactMemory& memory, const ContactMotion& motion);
@@ -59,9 +64,14 @@ private:
 
   const PackedContacts& contacts_;
   double h_;
+  bool coupled_; ///< some law is implicit in velocity
   std::vector<Shut> shut_;
-  kernels::Array a_;        ///< A, of shut contact i from i * block_ on
-  kernels::Array velocity_; ///< s, in lanes
+  std::vector<int> shut_lanes_; ///< contacts that take part in the step
+  kernels::LawLanes laws_;
+  kernels::StepLanes lanes_;
+  kernels::Array by_n_, by_t_; ///< N, changes of the forces in a sweep
+  kernels::Array a_;           ///< A, of shut contact i from i * block_ on
+  kernels::Array velocity_;    ///< s, in lanes
   std::size_t block_;
 };
 

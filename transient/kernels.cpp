@@ -1,28 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "transient/kernels.hpp"
-#include <algorithm>
-
-// One copy for each width of vector unit, chosen when the program starts. Not under the sanitizers (they
-// start after the choice is made), nor with compilers that lack it.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(FRETWORK_SANITIZED)
-#define FRETWORK_WIDTHS __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define FRETWORK_WIDTHS
-#endif
+#include "transient/vector_lanes.hpp"
 
 namespace fretwork::transient::kernels {
 namespace {
-
-typedef double Pack __attribute__((vector_size(64)));
-typedef long long Mask __attribute__((vector_size(64)));
-
-#define FRETWORK_INLINE static inline __attribute__((always_inline))
-
-FRETWORK_INLINE const Pack& at(const double* p) { return *reinterpret_cast<const Pack*>(p); }
-FRETWORK_INLINE Pack& at(double* p) { return *reinterpret_cast<Pack*>(p); }
-FRETWORK_INLINE double sum(const Pack& p) {
-  return ((p[0] + p[4]) + (p[2] + p[6])) + ((p[1] + p[5]) + (p[3] + p[7]));
-}
 
 /// `blocks` packs of contacts at once: their sums stay in registers over all modes.
 template <int blocks>
@@ -161,15 +141,16 @@ FRETWORK_WIDTHS void place(int width, const ReachLanes& reach, const double* uy,
 
 FRETWORK_WIDTHS bool near(int width, const double* gap, const double* vy, const double* vz, double half_step,
                           double* near_flag) {
-  Mask any{};
+  Pack any{};
+  const Pack one = Pack{} + 1.0;
   const double h2 = half_step * half_step;
   for (int i = 0; i < width; i += lanes) {
     const Pack g = at(gap + i), s2 = at(vy + i) * at(vy + i) + at(vz + i) * at(vz + i);
-    const Mask flag = (g <= 0.0) | (g * g <= h2 * s2);
-    at(near_flag + i) = flag ? Pack{} + 1.0 : Pack{};
-    any |= flag;
+    const Pack inside = g <= 0.0 ? one : Pack{}, soon = g * g <= h2 * s2 ? one : Pack{};
+    at(near_flag + i) = inside + soon;
+    any += inside + soon;
   }
-  return ((any[0] | any[1]) | (any[2] | any[3])) | ((any[4] | any[5]) | (any[6] | any[7]));
+  return sum(any) > 0.0;
 }
 
 FRETWORK_WIDTHS void respond(int width, int directions, const double* columns, double ny, double nz,

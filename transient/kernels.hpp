@@ -78,7 +78,7 @@ struct ReachLanes {
 void place(int width, const ReachLanes& reach, const double* uy, const double* uz, double* gap, double* ny,
            double* nz);
 
-/// near[i] = 1 where gap <= half_step |v|, else 0. Returns whether any is near.
+/// near[i] > 0 where gap <= half_step |v|, else 0. Returns whether any is near.
 bool near(int width, const double* gap, const double* vy, const double* vz, double half_step,
           double* near_flag);
 

@@ -20,6 +20,10 @@ PackedContacts::PackedContacts(const std::vector<ContactPoint>& contacts, Eigen:
     in_plane.push_back(law.active() && law.along.x != 0.0 && !c.b.row(0).isZero(0.0));
   }
   components = std::any_of(in_plane.begin(), in_plane.end(), [](char x) { return x; }) ? 3 : 2;
+  in_lanes = components == 2 && std::all_of(contacts.begin(), contacts.end(), [](const ContactPoint& c) {
+               return !c.support.friction.active() ||
+                      c.support.friction.kind == contact::FrictionMemoryKind::return_map;
+             });
   const auto lanes = static_cast<std::size_t>(width);
   gather.assign(static_cast<std::size_t>(modes) * stride(), 0.0);
   rows.assign(static_cast<std::size_t>(count) * 3 * padded_modes, 0.0);

@@ -26,6 +26,8 @@ struct PackedContacts {
   kernels::Array mobility; ///< contact by contact: what a unit force along y, z, x does to `stride()` lanes
                            ///< (W = B B^T, 1/kg)
   kernels::ReachLanes reach;
+  bool in_lanes =
+      false; ///< friction acts along one tangent only and every memory is return_map: contact_lanes.hpp
   std::vector<int> profiles; ///< contacts whose obstacle the lanes of `reach` only bound
 
   [[nodiscard]] const double* row(int contact, int component) const {

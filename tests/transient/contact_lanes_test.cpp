@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The laws in vector lanes against the same laws contact by contact.
+#include "transient/contact_solver.hpp"
+#include <gtest/gtest.h>
+#include <random>
+
+namespace fretwork::transient {
+namespace {
+
+constexpr double round_off = 1e-11; ///< relative, of memories that many steps have built up
+constexpr double settled = 1e-4; ///< both sweeps stop at 1e-6 of a force, and memories keep what they leave
+
+/// The contact side of a scheme.
+struct Engine {
+  Engine(const std::vector<ContactPoint>& points, Eigen::Index modes, double step, bool in_lanes)
+      : contacts(points, modes), motion(contacts),
+        memory((contacts.in_lanes = contacts.in_lanes && in_lanes, contacts), step), solver(contacts, step),
+        trial(contacts.count) {}
+  ContactLosses step(const kernels::Array& q, const kernels::Array& v) {
+    motion.gather(q.data(), v.data());
+    converged = solver.solve(memory, motion, trial).converged && converged;
+    return memory.commit(motion, trial);
+  }
+  PackedContacts contacts;
+  ContactMotion motion;
+  ContactMemory memory;
+  ContactSolver solver;
+  ContactTrial trial;
+  bool converged = true;
+};
+
+contact::Support support_of(int kind) {
+  contact::Support s{contact::Circle{1e-3}, {1e5, 20.0}, {5e4, 15.0, 0.4, 0.3}};
+  switch (kind % 6) {
+  case 0:
+    break;
+  case 1:
+    s.obstacle = contact::PlanePair{8e-4, contact::PlaneAxis::z};
+    s.normal = {2e5, 0.0, 1.5};
+    break;
+  case 2:
+    s.obstacle = contact::RoundPair{1e-3};
+    s.friction.mu_dynamic = 0.0;
+    break;
+  case 3:
+    s.friction = {};
+    break;
+  case 4:
+    s.friction.along = {0.0, 0.0};
+    break;
+  default:
+    s.obstacle = contact::Stop{1e-4, contact::PlaneAxis::y};
+    s.friction.damping = 0.0;
+  }
+  return s;
+}
+
+/// Many steps of random motion, half of the contacts closed on the average. `tolerance` relative to forces.
+void compare(int count, double tolerance) {
+  std::mt19937 random(static_cast<unsigned>(count));
+  std::normal_distribution<double> normal;
+  constexpr Eigen::Index modes = 24;
+  constexpr double h = 1e-4, force = 100.0;
+  std::vector<ContactPoint> points(static_cast<std::size_t>(count));
+  for (int c = 0; c < count; ++c) {
+    points[c].support = support_of(c);
+    points[c].b = Eigen::MatrixXd::NullaryExpr(3, modes, [&] { return 0.3 * normal(random); });
+    points[c].b.row(0).setZero();
+  }
+  Engine lanes(points, modes, h, true), each(points, modes, h, false);
+  ASSERT_TRUE(lanes.contacts.in_lanes);
+  const auto padded = static_cast<std::size_t>(lanes.contacts.padded_modes);
+  kernels::Array q(padded), v(padded);
+  int closed = 0, sliding = 0;
+  for (int k = 0; k < 2000; ++k) {
+    for (Eigen::Index i = 0; i < modes; ++i) {
+      q[i] = 0.98 * q[i] + 1.5e-4 * normal(random);
+      v[i] = 0.9 * v[i] + 0.02 * normal(random);
+    }
+    const ContactLosses a = lanes.step(q, v), b = each.step(q, v);
+    ASSERT_EQ(lanes.trial.active, each.trial.active) << "step " << k;
+    ASSERT_EQ(lanes.trial.opened, each.trial.opened);
+    for (const int c : lanes.trial.active) {
+      const ContactState &s = lanes.trial.states[c], &t = each.trial.states[c];
+      EXPECT_NEAR(s.normal_force, t.normal_force, tolerance * force);
+      EXPECT_NEAR(s.friction.t, t.friction.t, tolerance * force);
+      EXPECT_NEAR(s.displacement.t, t.displacement.t, tolerance * h);
+      EXPECT_NEAR(s.friction_work, t.friction_work, tolerance * force * h);
+      EXPECT_NEAR(s.damper_work, t.damper_work, tolerance * force * h);
+      EXPECT_NEAR(s.approach, t.approach, round_off); // FMA or not
+      const auto m = lanes.memory.at(c, s.ny, s.nz), n = each.memory.at(c, s.ny, s.nz);
+      EXPECT_NEAR(m.spring.t, n.spring.t, tolerance * force);
+      ++closed;
+      sliding += s.slides;
+    }
+    EXPECT_NEAR(lanes.trial.springs, each.trial.springs, round_off * (1e-3 + each.trial.springs));
+    EXPECT_NEAR(a.friction, b.friction, count * tolerance * force * h);
+    EXPECT_NEAR(a.damping, b.damping, count * tolerance * force * h);
+    EXPECT_NEAR(lanes.memory.spring_energy(), each.memory.spring_energy(), count * tolerance * 0.1);
+    ASSERT_FALSE(testing::Test::HasFailure()) << "step " << k;
+  }
+  EXPECT_TRUE(lanes.converged);
+  EXPECT_GT(closed, 300 * count);
+  EXPECT_GT(sliding, 50);
+}
+
+TEST(ContactLanes, FollowTheLawsOfOneContact) { compare(1, round_off); }
+
+TEST(ContactLanes, FollowTheLawsOfAFewPacksOfContacts) { compare(19, settled); }
+
+/// Contacts that move together: Jacobi sweeps do not settle and the others take over.
+TEST(ContactLanes, GiveWayWhereTheyDoNotConverge) {
+  constexpr Eigen::Index modes = 2;
+  std::vector<ContactPoint> points(9);
+  for (ContactPoint& point : points) {
+    point.support = {contact::Stop{0.0, contact::PlaneAxis::y}, {1e6, 5e2}, {}};
+    point.b = Eigen::MatrixXd::Zero(3, modes);
+    point.b(1, 0) = point.b(2, 1) = 1.0;
+  }
+  Engine engine(points, modes, 1e-3, true);
+  ASSERT_TRUE(engine.contacts.in_lanes);
+  kernels::Array q(8), v(8);
+  q[0] = 1e-4, v[0] = 0.1;
+  engine.step(q, v);
+  EXPECT_TRUE(engine.converged);
+  // all equal: F = (K P + C (v - 9 (h/2) F)), P the penetration averaged over 0.7 of the step
+  const double mean = 1e-4, share = 0.5e-3;
+  for (const ContactState& s : engine.trial.states)
+    EXPECT_NEAR(s.normal_force, (1e6 * mean + 5e2 * 0.1) / (1.0 + 9.0 * 5e2 * share), 1e-4 * s.normal_force);
+}
+
+} // namespace
+} // namespace fretwork::transient

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Vector lanes for kernels: packs of `lanes` doubles, and one copy of a function for each width of vector unit, chosen when the
+/// program starts. Included by the files of kernels only.
+#pragma once
+#include "transient/kernels.hpp"
+
+// Not under the sanitizers (they start after the choice is made), nor with compilers that lack it.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(FRETWORK_SANITIZED)
+#define FRETWORK_WIDTHS __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define FRETWORK_WIDTHS
+#endif
+#define FRETWORK_INLINE static inline __attribute__((always_inline))
+
+namespace fretwork::transient::kernels {
+
+typedef double Pack __attribute__((vector_size(64)));
+typedef long long Mask __attribute__((vector_size(64)));
+
+FRETWORK_INLINE const Pack& at(const double* p) { return *reinterpret_cast<const Pack*>(p); }
+FRETWORK_INLINE Pack& at(double* p) { return *reinterpret_cast<Pack*>(p); }
+FRETWORK_INLINE double sum(const Pack& p) {
+  return ((p[0] + p[4]) + (p[2] + p[6])) + ((p[1] + p[5]) + (p[3] + p[7]));
+}
+FRETWORK_INLINE double largest(const Pack& p) {
+  const auto max = [](double a, double b) { return a > b ? a : b; };
+  return max(max(max(p[0], p[4]), max(p[2], p[6])), max(max(p[1], p[5]), max(p[3], p[7])));
+}
+FRETWORK_INLINE Pack magnitude(const Pack& p) { return p < 0.0 ? -p : p; }
+
+} // namespace fretwork::transient::kernels
