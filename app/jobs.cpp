@@ -195,6 +195,8 @@ std::optional<transient::SchemeKind> scheme_of(study::Scheme scheme) {
     return transient::SchemeKind::devogelaere;
   case study::Scheme::runge_kutta_54:
     return transient::SchemeKind::runge_kutta_54;
+  case study::Scheme::energy_conserving:
+    return transient::SchemeKind::energy_conserving;
   }
   return {};
 }

@@ -62,10 +62,16 @@ void splitting_open(benchmark::State& state) {
            transient::SchemeKind::splitting, 1e-4);
 }
 
+void energy_conserving_working(benchmark::State& state) {
+  run_once(state, tube(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)), 2e-4, 2.0),
+           transient::SchemeKind::energy_conserving, 1e-4);
+}
+
 BENCHMARK(euler_straight_tube_1s)->Unit(benchmark::kMillisecond);
 BENCHMARK(automatic_straight_tube_10s)->Unit(benchmark::kMillisecond);
 BENCHMARK(splitting_open)->ArgsProduct({{20, 40, 100}, {3, 10, 30}})->Unit(benchmark::kMillisecond);
 BENCHMARK(splitting_working)->ArgsProduct({{20, 40, 100}, {3, 10, 30}})->Unit(benchmark::kMillisecond);
+BENCHMARK(energy_conserving_working)->ArgsProduct({{40, 100}, {3, 10, 30}})->Unit(benchmark::kMillisecond);
 
 } // namespace
 

@@ -62,8 +62,9 @@ std::optional<Transient> read_transient(const TableReader& root) {
                                                    {"splitting", Scheme::splitting},
                                                    {"euler", Scheme::euler},
                                                    {"devogelaere", Scheme::devogelaere},
-                                                   {"runge_kutta_54", Scheme::runge_kutta_54}},
-                                                  {"collocation", "energy_conserving"}});
+                                                   {"runge_kutta_54", Scheme::runge_kutta_54},
+                                                   {"energy_conserving", Scheme::energy_conserving}},
+                                                  {"collocation"}});
   transient.accuracy = table.number_or("accuracy", 0.01, {Range::above_zero});
   if (transient.accuracy >= 1.0)
     table.fail_at("accuracy", "a relative error below 1 is expected");

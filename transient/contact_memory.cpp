@@ -25,6 +25,14 @@ ContactMemory::ContactMemory(const PackedContacts& contacts, double step)
   position_.assign(static_cast<std::size_t>(contacts.stride()), 0.0);
 }
 
+void ContactMemory::set_step(double step) {
+  for (int c = 0; c < contacts_.count; ++c) {
+    auto& table = entries_[static_cast<std::size_t>(c)].table;
+    table = contact::friction_table(contacts_.supports[c].friction, step);
+    laws_.relaxation[static_cast<std::size_t>(c)] = table.relaxation; // all that a commit takes of the step
+  }
+}
+
 ContactLosses ContactMemory::commit(const ContactMotion& motion, ContactTrial& trial) {
   ContactLosses losses{trial.cut, 0.0};
   for (const int c : trial.active)

@@ -25,6 +25,8 @@ public:
   /// @param contacts  must live longer   @param step  s, between commits
   ContactMemory(const PackedContacts& contacts, double step);
 
+  /// Another time between commits, s. No allocation.
+  void set_step(double step);
   /// The contacts stand here; nothing is loaded.
   void start(const ContactMotion& motion) { position_ = motion.u; }
 

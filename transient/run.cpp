@@ -10,6 +10,8 @@ namespace {
 /// A run whose energy residual passes this many times all the energy put in is unstable: physics cannot
 /// recover from it.
 constexpr double hopeless = 100.0;
+/// Of a fixed step, below all the parts that schemes cut it into: what the end of a run is told by.
+constexpr double least_part = 1.0 / 1024.0;
 
 std::unique_ptr<Scheme> make_scheme(const Scene& scene, const StepChoice& choice) {
   switch (choice.scheme) {
@@ -17,6 +19,8 @@ std::unique_ptr<Scheme> make_scheme(const Scene& scene, const StepChoice& choice
     return make_splitting(scene, choice.step);
   case SchemeKind::euler:
     return make_euler(scene, choice.step);
+  case SchemeKind::energy_conserving:
+    return make_energy_conserving(scene, choice.step);
   case SchemeKind::devogelaere:
     return make_devogelaere(scene, choice.step);
   case SchemeKind::runge_kutta_54:
@@ -118,10 +122,12 @@ Report run(const Scene& scene, const StepChoice& choice, std::span<Observer* con
   OutputQueue outputs(scene, sampler, grid);
   Report report;
   double largest_residual = 0.0, largest_throughput = 0.0;
-  // A fixed step counts its steps, so that round-off of the time adds none.
-  const auto goes_on = [&] {
-    return choice.steps > 0 ? report.records < choice.steps : scheme->next_time() < scene.duration;
-  };
+  // A fixed step covers whole steps, so that round-off of the time adds none; a scheme may have cut them into records of their own.
+  const double end =
+      choice.steps > 0 ? (static_cast<double>(choice.steps) - least_part) * choice.step : scene.duration;
+  const auto goes_on = [&] { return scheme->next_time() < end; };
+  if (scheme->failure() != StepFailure::none)
+    report.outcome = Outcome::step_failed;
   while (report.outcome == Outcome::done && goes_on()) {
     outputs.states(*scheme, scheme->next_time());
     const Record& record = scheme->advance();

@@ -92,11 +92,12 @@ public:
   [[nodiscard]] virtual StepFailure failure() const { return StepFailure::none; }
 };
 
-enum class SchemeKind { splitting, euler, devogelaere, runge_kutta_54 };
+enum class SchemeKind { splitting, euler, energy_conserving, devogelaere, runge_kutta_54 };
 [[nodiscard]] std::string name_of(SchemeKind kind);
 
 [[nodiscard]] std::unique_ptr<Scheme> make_splitting(const Scene& scene, double step);
 [[nodiscard]] std::unique_ptr<Scheme> make_euler(const Scene& scene, double step);
+[[nodiscard]] std::unique_ptr<Scheme> make_energy_conserving(const Scene& scene, double step);
 [[nodiscard]] std::unique_ptr<Scheme> make_devogelaere(const Scene& scene, double step);
 /// @param tolerance  of a step's error, in the energy norm   @param longest  s, step
 [[nodiscard]] std::unique_ptr<Scheme> make_runge_kutta_54(const Scene& scene, double tolerance, double longest);

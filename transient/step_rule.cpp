@@ -91,6 +91,11 @@ double relaxation_rate(const Scene& scene) {
   return rate;
 }
 
+/// The modes move exactly between the actions of the contacts.
+bool moves_exactly(SchemeKind scheme) {
+  return scheme == SchemeKind::splitting || scheme == SchemeKind::energy_conserving;
+}
+
 struct Term {
   double limit; ///< s
   std::string reason;
@@ -110,7 +115,7 @@ double table_interval(const Scene& scene) {
 
 /// What limits the step. `fineness` scales with the square root of the accuracy, 1 for 0.01.
 std::vector<Term> terms(const StepChoice& c, const Scene& scene, double fineness) {
-  const bool splitting = c.scheme == SchemeKind::splitting, contacts = !scene.contacts.empty();
+  const bool exact = moves_exactly(c.scheme), contacts = !scene.contacts.empty();
   const double eps = 0.5 * fineness;
   std::vector<Term> out;
   const auto add = [&](double factor, double rate, const std::string& reason) {
@@ -128,11 +133,11 @@ std::vector<Term> terms(const StepChoice& c, const Scene& scene, double fineness
   add(eps, c.contact_frequency, fmt::format("the contact frequency {:.4g} rad/s", c.contact_frequency));
   add(eps, c.stick_frequency,
       fmt::format("the frequency of sticking contacts {:.4g} rad/s", c.stick_frequency));
-  add(damped * (splitting ? 4.0 : 1.0), c.damper_rate,
+  add(damped * (exact ? 4.0 : 1.0), c.damper_rate,
       fmt::format("the tangential dampers' rate {:.4g} 1/s", c.damper_rate));
   add(damped, c.explicit_rate, fmt::format("the dampers' rate {:.4g} 1/s", c.explicit_rate));
   // without contacts the flow of the splitting scheme is exact: only the statistics need to see the modes, in about 20 points a period
-  const double mode = splitting ? (contacts ? 5.0 : 0.6) : 1.0;
+  const double mode = exact ? (contacts ? 5.0 : 0.6) : 1.0;
   add(eps * mode, c.highest_mode, fmt::format("the highest mode {:.4g} rad/s", c.highest_mode));
   return out;
 }
@@ -156,13 +161,13 @@ void warn(StepChoice& c) {
           "trusted; take a smaller step or leave it out",
           c.step, what, name, value, limit));
   };
-  const bool splitting = c.scheme == SchemeKind::splitting;
+  const bool exact = moves_exactly(c.scheme);
   add(c.contact_frequency * c.step, resolved, "w_c h", "the contact frequency");
   add(c.stick_frequency * c.step, resolved, "w_t h", "the frequency of sticking contacts");
   const double damped = c.scheme == SchemeKind::devogelaere ? most_damped : 1.0;
-  add(c.damper_rate * c.step, splitting ? 4.0 : damped, "r_t h", "the tangential dampers");
+  add(c.damper_rate * c.step, exact ? 4.0 : damped, "r_t h", "the tangential dampers");
   add(c.explicit_rate * c.step, damped, "r_e h", "the dampers");
-  add(c.highest_mode * c.step, splitting ? 3.0 : 1.8, "w_max h", "the highest mode");
+  add(c.highest_mode * c.step, exact ? 3.0 : 1.8, "w_max h", "the highest mode");
   add(c.excitation * c.step * points_per_period, 2.0, "20 f h", "the excitation");
 }
 
@@ -174,6 +179,8 @@ std::string name_of(SchemeKind kind) {
     return "splitting";
   case SchemeKind::euler:
     return "euler";
+  case SchemeKind::energy_conserving:
+    return "energy_conserving";
   case SchemeKind::devogelaere:
     return "devogelaere";
   case SchemeKind::runge_kutta_54:

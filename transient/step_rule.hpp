@@ -9,7 +9,7 @@
 ///     w_t    the same with K_T over the tangent directions
 ///     r_t    rate of the tangential dampers, largest eigenvalue of C_T^1/2 W C_T^1/2
 ///     w_max  highest mode
-/// a = 4 and b = 5 for the splitting scheme, 1 and 1 for explicit Euler (whose limits are r_t h < 1 and
+/// a = 4 and b = 5 for the splitting and the energy conserving scheme (which no step makes unstable, but the contacts must be resolved), 1 and 1 for explicit Euler (whose limits are r_t h < 1 and
 /// w_max h < 2). Euler also takes the other dampers explicitly and resolves them by 1/r_e (its limit: r_e h < 2):
 ///     r_e    the largest of the rates of the structure's damping and of the normal dampers (c(p) at t = 0 in place of C_T)
 /// Hunt and Crossley's damper c(p) = K_N d p grows with a penetration that is not known beforehand, but w_c bounds its rate: an impact

@@ -52,6 +52,8 @@ TEST(CoulombDecay, LosesTwiceTheBoundOverTheStiffnessPerHalfPeriod) { check_deca
 
 TEST(CoulombDecay, OfEulerConvergesToIt) { check_decay(euler(2e-6)); }
 
+TEST(CoulombDecay, OfEnergyConservingIsTheSame) { check_decay(energy_conserving()); }
+
 TEST(ShakingTable, SlidesWithTheWorkRateOfItsClosedForm) {
   const History run = simulate(shaking_table(1.5), splitting(), 12.0, 4.0);
   EXPECT_NEAR(run.statistics[0].work_rate / 0.40906245, 1.0, asked);
@@ -63,10 +65,18 @@ TEST(ShakingTable, OfEulerConvergesToTheSameWorkRate) {
   EXPECT_NEAR(run.statistics[0].work_rate / 0.40906245, 1.0, asked);
 }
 
+TEST(ShakingTable, OfEnergyConservingSlidesWithIt) {
+  const History run = simulate(shaking_table(1.5), energy_conserving(), 12.0, 4.0);
+  EXPECT_NEAR(run.statistics[0].work_rate / 0.40906245, 1.0, asked);
+  EXPECT_NEAR(run.statistics[0].friction_power / 0.040906245, 1.0, asked);
+}
+
 TEST(ShakingTable, BelowTheBoundSticks) {
-  const History run = simulate(shaking_table(0.99), splitting(), 12.0, 4.0);
-  EXPECT_EQ(run.statistics[0].work_rate, 0.0);
-  EXPECT_EQ(run.statistics[0].friction_power, 0.0);
+  for (const StepOptions& options : {splitting(), energy_conserving()}) {
+    const History run = simulate(shaking_table(0.99), options, 12.0, 4.0);
+    EXPECT_EQ(run.statistics[0].work_rate, 0.0);
+    EXPECT_EQ(run.statistics[0].friction_power, 0.0);
+  }
 }
 
 TEST(SlidingBlock, StopsWhereCoulombSaysAndItsSpringDiesOut) {

@@ -298,12 +298,18 @@ TEST(Whirl, OfEulerConvergesToIt) {
     Whirl::check(Circle{Whirl::gap}, memory, euler(2e-5), first_order);
 }
 
+TEST(Whirl, OfEnergyConservingHasThem) {
+  for (const FrictionMemoryKind memory : memories)
+    Whirl::check(Circle{Whirl::gap}, memory, energy_conserving(), asked);
+}
+
 TEST(Whirl, RoundAHoleOfManyFacetsIsThatRoundACircle) {
   std::vector<contact::PolarPoint> points;
   for (int i = 0; i < 720; ++i)
     points.push_back({2.0 * pi * i / 720, Whirl::gap});
   // facets reach gap (pi/720)^2/2 = 1e-8 m inside the circle, 2e-4 of the penetration
-  Whirl::check(contact::Profile(points), FrictionMemoryKind::return_map, splitting(), first_order);
+  for (const StepOptions& options : {splitting(), energy_conserving()})
+    Whirl::check(contact::Profile(points), FrictionMemoryKind::return_map, options, first_order);
 }
 
 TEST(Incline, TurnsABlockDownhillAndStopsIt) {
@@ -316,6 +322,11 @@ TEST(Incline, OfEulerConvergesToIt) {
     Incline::check(memory, euler(2e-5), first_order);
 }
 
+TEST(Incline, OfEnergyConservingIsTheSame) {
+  for (const FrictionMemoryKind memory : memories)
+    Incline::check(memory, energy_conserving(), asked);
+}
+
 TEST(StickRoundACircle, KeepsTheLengthOfTheSpringsForceAndTurnsIt) {
   for (const FrictionMemoryKind memory : memories)
     Swing::check(memory, splitting(), first_order);
@@ -326,9 +337,15 @@ TEST(StickRoundACircle, OfEulerConvergesToIt) {
     Swing::check(memory, euler(1e-5), 1e-2);
 }
 
+TEST(StickRoundACircle, OfEnergyConservingIsTheSame) {
+  for (const FrictionMemoryKind memory : memories)
+    Swing::check(memory, energy_conserving(), first_order);
+}
+
 TEST(SlowReversal, ReturnsToStick) {
   for (const FrictionMemoryKind memory : memories) {
     Reversal::check(memory, splitting());
+    Reversal::check(memory, energy_conserving());
     // Reference's slip force jumps with the velocity: explicit steps chatter by mu F_N h/m, to be far below the
     // slip speed of 6e-4 m/s.
     Reversal::check(memory, euler(memory == FrictionMemoryKind::return_map ? 1e-4 : 1e-5));
@@ -338,6 +355,7 @@ TEST(SlowReversal, ReturnsToStick) {
 TEST(FallingNormalForce, LetsGoAlongTheTrialWithTheBound) {
   for (const FrictionMemoryKind memory : memories) {
     LettingGo::check(memory, splitting(), first_order);
+    LettingGo::check(memory, energy_conserving(), first_order);
     LettingGo::check(memory, euler(2e-5), 1e-2);
   }
 }

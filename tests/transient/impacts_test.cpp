@@ -125,9 +125,13 @@ TEST(ElasticStop, HasThePeaksAndImpulsesOfItsClosedForm) { ElasticStop::check(sp
 
 TEST(ElasticStop, OfEulerConvergesToThem) { ElasticStop::check(euler(1e-5), euler_asked); }
 
+TEST(ElasticStop, OfEnergyConservingHasThem) { ElasticStop::check(energy_conserving(), asked); }
+
 TEST(BallOnAStop, FliesSinksAndReturnsAsItsClosedForm) { check_ball(splitting(), asked); }
 
 TEST(BallOnAStop, OfEulerConvergesToIt) { check_ball(euler(1e-5), euler_asked); }
+
+TEST(BallOnAStop, OfEnergyConservingHasIt) { check_ball(energy_conserving(), asked); }
 
 TEST(Restitution, WithoutDamperIsOne) {
   check_restitution(0.0, 1.0, 6.283185e-3, 1500.0, splitting(), asked);
@@ -142,6 +146,11 @@ TEST(Restitution, OfEulerConvergesToThem) {
   check_restitution(0.1, 0.74407940, 5.912151e-3, 1320.216, euler(1e-6), euler_asked);
 }
 
+TEST(Restitution, OfEnergyConservingHasThem) {
+  check_restitution(0.0, 1.0, 6.283185e-3, 1500.0, energy_conserving(), asked);
+  check_restitution(0.1, 0.74407940, 5.912151e-3, 1320.216, energy_conserving(), asked);
+}
+
 TEST(ObliqueImpact, ThatSlidesLosesTangentialSpeedByTheNormalImpulse) {
   check_oblique(0.0, 1.0, 1.4, splitting(), asked);
   check_oblique(0.1, 0.74407940, 1.4767762, splitting(), asked);
@@ -152,14 +161,19 @@ TEST(ObliqueImpact, OfEulerConvergesToIt) {
   check_oblique(0.1, 0.74407940, 1.4767762, euler(1e-7), euler_asked);
 }
 
-TEST(GapOscillator, HasThePeriodOfItsClosedForm) {
+TEST(ObliqueImpact, OfEnergyConservingHasIt) {
+  check_oblique(0.0, 1.0, 1.4, energy_conserving(), asked);
+  check_oblique(0.1, 0.74407940, 1.4767762, energy_conserving(), asked);
+}
+
+void check_gap_oscillator(const StepOptions& options) {
   constexpr double k = 4.0 * pi * pi;
   for (const auto& [speed, period] : {std::pair(0.05, 1.0), std::pair(0.1, 0.61212248),
                                       std::pair(0.2, 0.39503082), std::pair(0.5, 0.27698718)}) {
     Scene s = mass_point(1.0, Vec3(0, k, 0), 3.1 * period);
     start(s, 1.0, Vec3::Zero(), Vec3(0, speed, 0));
     s.contacts = {contact_of(1.0, {PlanePair{0.01, PlaneAxis::y}, {24.0 * k}, {}})};
-    const auto records = trace(s, splitting());
+    const auto records = trace(s, options);
     std::vector<double> crossings; // upwards
     for (std::size_t i = 1; i < records.size(); ++i)
       if (records[i - 1].uy < 0.0 && records[i].uy >= 0.0)
@@ -170,3 +184,7 @@ TEST(GapOscillator, HasThePeriodOfItsClosedForm) {
       EXPECT_NEAR(crossings[n] / (static_cast<double>(n + 1) * period), 1.0, asked) << "speed " << speed;
   }
 }
+
+TEST(GapOscillator, HasThePeriodOfItsClosedForm) { check_gap_oscillator(splitting()); }
+
+TEST(GapOscillator, OfEnergyConservingHasIt) { check_gap_oscillator(energy_conserving()); }

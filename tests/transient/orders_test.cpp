@@ -203,3 +203,16 @@ TEST(Euler, IsOfOrderOne) {
   expect_order(pressed_on_a_circle(3.0, 1.0, slipping, fast), SchemeKind::euler, first_low, first_high,
                first_final);
 }
+
+TEST(EnergyConserving, IsOfOrderTwo) {
+  for (const Scene& scene :
+       {pressed_on_a_circle(0.0, 0.0, none, slow), pressed_on_a_circle(3.0, 1.0, none, slow),
+        pressed_on_a_circle(3.0, 1.0, sticking, slow), pressed_on_a_circle(3.0, 1.0, slipping, fast)})
+    expect_order(scene, SchemeKind::energy_conserving, second_low, second_high, second_final);
+}
+
+TEST(EnergyConserving, IsOfOrderTwoWithHuntAndCrossleysDamper) {
+  for (const Scene& scene : {pressed_on_a_circle(0.0, 1.0, none, slow, dissipation),
+                             pressed_on_a_circle(0.0, 1.0, slipping, fast, dissipation)})
+    expect_order(scene, SchemeKind::energy_conserving, second_low, second_high, second_final);
+}

@@ -194,4 +194,5 @@ TEST(StepRule, TakesSplittingForAFullDampingMatrixToo) {
 TEST(StepRule, NamesItsSchemes) {
   EXPECT_EQ(name_of(SchemeKind::splitting), "splitting");
   EXPECT_EQ(name_of(SchemeKind::euler), "euler");
+  EXPECT_EQ(name_of(SchemeKind::energy_conserving), "energy_conserving");
 }

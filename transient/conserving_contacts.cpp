@@ -1,0 +1,401 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/conserving_contacts.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace fretwork::transient {
+namespace {
+
+using contact::Sym2;
+using contact::Vec2;
+
+/// Of |force| + stiffness |position|: a residual below it is rounding.
+constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
+/// Where nothing improves any more, this many times the rounding passes.
+constexpr double stalled = 64.0;
+/// Newton's method takes 3 to 5; more only where contacts with friction catch each other at huge steps.
+constexpr int most_iterations = 40;
+/// After so many a mean normal that may jump from iteration to iteration is held.
+constexpr int hold_after = 12;
+constexpr int most_cuts = 10;
+/// Share of the predicted fall of the residual that a shortened iteration must reach (Armijo's usual value).
+constexpr double least_fall = 1e-4;
+
+/// Gauss elimination with partial pivoting: a x = b, row by row, x in b. False where a is singular.
+bool eliminate(std::size_t n, double* a, double* b) {
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t i = k + 1; i < n; ++i)
+      if (std::abs(a[i * n + k]) > std::abs(a[pivot * n + k]))
+        pivot = i;
+    if (!(std::abs(a[pivot * n + k]) > 0.0))
+      return false;
+    if (pivot != k) {
+      std::swap_ranges(a + k * n + k, a + k * n + n, a + pivot * n + k);
+      std::swap(b[k], b[pivot]);
+    }
+    for (std::size_t i = k + 1; i < n; ++i) {
+      const double factor = a[i * n + k] / a[k * n + k];
+      if (factor == 0.0)
+        continue;
+      for (std::size_t j = k + 1; j < n; ++j)
+        a[i * n + j] -= factor * a[k * n + j];
+      b[i] -= factor * b[k];
+    }
+  }
+  for (std::size_t k = n; k-- > 0;) {
+    for (std::size_t j = k + 1; j < n; ++j)
+      b[k] -= a[k * n + j] * b[j];
+    b[k] /= a[k * n + k];
+  }
+  return true;
+}
+
+/// Friction with its derivatives by displacement over the step, normal force and, where it is given by itself, force.
+struct Rubbing {
+  Vec2 force;
+  Sym2 by_displacement;
+  Vec2 by_normal;
+  Sym2 by_force;
+  bool slides;
+};
+
+/// Along the trial with one coefficient: continuous.
+Rubbing along_trial(contact::FrictionLaw law, Vec2 spring, double coefficient, double normal, Vec2 dx,
+                    double h) {
+  law.kind = contact::FrictionMemoryKind::return_map;
+  law.mu_static = law.mu_dynamic = coefficient;
+  const auto s = contact::friction_slopes(law, {spring, false}, normal, 0.5 * dx, (1.0 / h) * dx);
+  const auto by = [&](double displacement, double velocity) { return 0.5 * displacement + velocity / h; };
+  return {s.friction.force,
+          {by(s.by_displacement.xx, s.by_velocity.xx), by(s.by_displacement.xt, s.by_velocity.xt),
+           by(s.by_displacement.tt, s.by_velocity.tt)},
+          s.by_normal_force,
+          {},
+          s.friction.slides};
+}
+
+/// P(force - rho dx), P onto |F| <= mu_d F_N: opposite to dx, or whatever stops it.
+Rubbing opposing(const contact::FrictionLaw& law, double rho, double normal, Vec2 dx, Vec2 force) {
+  const double bound = law.mu_dynamic * normal;
+  const Vec2 z{law.along.x * (force.x - rho * dx.x), law.along.t * (force.t - rho * dx.t)};
+  const double size = contact::norm(z);
+  if (size <= bound)
+    return {z, {-rho * law.along.x, 0.0, -rho * law.along.t}, {}, {law.along.x, 0.0, law.along.t}, true};
+  const Vec2 e = (1.0 / size) * z;
+  const double s = bound / size, mask = law.along.x * law.along.t;
+  const Sym2 across{s * law.along.x * e.t * e.t, -s * mask * e.x * e.t, s * law.along.t * e.x * e.x};
+  return {
+      bound * e, {-rho * across.xx, -rho * across.xt, -rho * across.tt}, law.mu_dynamic * e, across, true};
+}
+
+} // namespace
+
+ConservingContacts::ConservingContacts(const PackedContacts& contacts)
+    : contacts_(contacts), size_(static_cast<std::size_t>(contacts.components)), answer_(contacts) {
+  const auto count = static_cast<std::size_t>(contacts.count);
+  shut_.reserve(count);
+  response_.resize(count);
+  for (std::vector<double>* x : {&force_, &residual_, &step_, &base_})
+    x->assign(3 * count, 0.0);
+  matrix_.resize(9 * count * count);
+}
+
+bool ConservingContacts::solve(double step, const kernels::Array& mobility, const ContactMemory& memory,
+                               ContactMotion& start, ContactMotion& free, ContactTrial& trial) {
+  const Setting s{step, mobility, memory};
+  trial.clear();
+  shut_.clear();
+  const bool any = start.find_near(0.0) | free.find_near(0.0); // both marks are needed
+  if (!any)
+    return true;
+  for (int c = 0; c < contacts_.count; ++c)
+    if ((start.near(c) && start.locate(c).gap < 0.0) || (free.near(c) && free.locate(c).gap < 0.0))
+      take(c, s, start, free);
+  // each pass but the last takes one more contact or breaks one loose
+  for (bool again = !shut_.empty(); again;) {
+    if (!iterate(s))
+      return false;
+    const bool broken = break_loose(), more = recruit(s, start, free);
+    again = broken || more;
+  }
+  close(start, trial);
+  return true;
+}
+
+void ConservingContacts::take(int c, const Setting& s, const ContactMotion& start,
+                              const ContactMotion& free) {
+  const contact::Support& support = contacts_.supports[c];
+  const kernels::ReachLanes& reach = contacts_.reach;
+  const int width = contacts_.width;
+  const bool in_plane = contacts_.in_plane[c] != 0;
+  const std::size_t i = shut_.size();
+  Shut& shut = shut_.emplace_back();
+  shut = {};
+  shut.contact = c;
+  shut.in_plane = in_plane;
+  shut.x0 = {start.u[c] + reach.rest_y[c], start.u[width + c] + reach.rest_z[c]};
+  shut.from = start.locate(c);
+  shut.free[0] = free.u[c] + reach.rest_y[c];
+  shut.free[1] = free.u[width + c] + reach.rest_z[c];
+  shut.free[2] = in_plane ? free.u[2 * width + c] - start.u[2 * width + c] : 0.0;
+  const double trace =
+      mobility(s, i, 0, i, 0) + mobility(s, i, 1, i, 1) + (in_plane ? mobility(s, i, 2, i, 2) : 0.0);
+  shut.rho = support.friction.active() && trace > 0.0 ? 1.0 / trace : 0.0;
+  shut.stiffness = support.normal.stiffness + support.friction.stiffness + shut.rho +
+                   (support.normal.damping + support.friction.damping) / s.h;
+  for (std::size_t k = 0; k < size_; ++k)
+    force_[size_ * i + k] = 0.0;
+}
+
+bool ConservingContacts::taken(int c) const {
+  return std::any_of(shut_.begin(), shut_.end(), [c](const Shut& s) { return s.contact == c; });
+}
+
+/// Takes the contacts that the forces found have closed. Returns whether there are any.
+bool ConservingContacts::recruit(const Setting& s, const ContactMotion& start, const ContactMotion& free) {
+  if (shut_.size() == static_cast<std::size_t>(contacts_.count))
+    return false;
+  const std::size_t before = shut_.size(), stride = answer_.u.size();
+  answer_.u = free.u;
+  for (std::size_t i = 0; i < before; ++i)
+    for (std::size_t b = 0; b < size_; ++b) {
+      const double f = force_[size_ * i + b];
+      const double* column = &s.mobility[(static_cast<std::size_t>(shut_[i].contact) * 3 + b) * stride];
+      for (std::size_t lane = 0; lane < stride; ++lane)
+        answer_.u[lane] += f * column[lane];
+    }
+  if (!answer_.find_near(0.0))
+    return false;
+  for (int c = 0; c < contacts_.count; ++c)
+    if (answer_.near(c) && !taken(c) && answer_.locate(c).gap < 0.0)
+      take(c, s, start, free);
+  return shut_.size() > before;
+}
+
+bool ConservingContacts::break_loose() {
+  bool any = false;
+  for (std::size_t i = 0; i < shut_.size(); ++i)
+    if (response_[i].breaks)
+      any = shut_[i].broken = true;
+  return any;
+}
+
+double ConservingContacts::mobility(const Setting& s, std::size_t i, std::size_t a, std::size_t j,
+                                    std::size_t b) const {
+  const auto stride = static_cast<std::size_t>(contacts_.stride()),
+             width = static_cast<std::size_t>(contacts_.width);
+  const auto to = static_cast<std::size_t>(shut_[i].contact),
+             from = static_cast<std::size_t>(shut_[j].contact);
+  return s.mobility[(from * 3 + b) * stride + a * width + to];
+}
+
+/// Newton's method from the forces there are. Returns whether it settled.
+bool ConservingContacts::iterate(const Setting& s) {
+  double merit = respond(s);
+  const std::size_t n = size_ * shut_.size();
+  for (int k = 0; k < most_iterations; ++k) {
+    if (settled(1.0))
+      return true;
+    if (!direction(s))
+      return false;
+    std::copy_n(force_.begin(), n, base_.begin());
+    double share = 1.0, reached = 0.0;
+    for (int cut = 0; cut < most_cuts; ++cut, share *= 0.5) {
+      for (std::size_t r = 0; r < n; ++r)
+        force_[r] = base_[r] + share * step_[r];
+      reached = respond(s);
+      if (reached < (1.0 - least_fall * share) * merit)
+        break;
+    }
+    if (!(reached < merit)) {
+      std::copy_n(base_.begin(), n, force_.begin());
+      (void)respond(s);
+      return settled(stalled);
+    }
+    merit = reached;
+    if (k == hold_after)
+      for (std::size_t i = 0; i < shut_.size(); ++i) {
+        Shut& shut = shut_[i];
+        shut.is_held = true;
+        const Response& r = response_[i];
+        shut.held = {0.5 * (shut.from.ny + r.ny), 0.5 * (shut.from.nz + r.nz)};
+      }
+  }
+  return false;
+}
+
+/// Residual f - Phi(xf + W f) at the forces there are. Returns its square.
+double ConservingContacts::respond(const Setting& s) {
+  ++evaluations_;
+  double merit = 0.0;
+  for (std::size_t i = 0; i < shut_.size(); ++i) {
+    const Shut& shut = shut_[i];
+    double place[3] = {shut.free[0], shut.free[1], shut.free[2]};
+    for (std::size_t j = 0; j < shut_.size(); ++j)
+      for (std::size_t a = 0; a < size_; ++a)
+        for (std::size_t b = 0; b < size_; ++b)
+          place[a] += mobility(s, i, a, j, b) * force_[size_ * j + b];
+    double force[3] = {};
+    std::copy_n(&force_[size_ * i], size_, force);
+    respond(s, shut, place, force, response_[i]);
+    for (std::size_t a = 0; a < size_; ++a) {
+      const double r = force[a] - response_[i].force[a];
+      residual_[size_ * i + a] = r;
+      merit += r * r;
+    }
+  }
+  return merit;
+}
+
+void ConservingContacts::respond(const Setting& s, const Shut& shut, const double* place, const double* force,
+                                 Response& r) const {
+  const contact::Support& support = contacts_.supports[shut.contact];
+  const contact::NormalLaw& law = support.normal;
+  const auto g = discrete_gradient(support.obstacle, shut.x0, shut.from, {place[0], place[1]},
+                                   shut.is_held ? &shut.held : nullptr);
+  r = {};
+  r.p0 = -shut.from.gap;
+  r.p1 = -g.gap;
+  r.mean = contact::mean_penetration(r.p0, r.p1);
+  r.spring_force = law.stiffness * r.mean;
+  r.ny = g.ny;
+  r.nz = g.nz;
+  const double size = std::sqrt(g.y * g.y + g.z * g.z), sunk = std::max(0.0, r.p1);
+  const double damped =
+      law.damping * (sunk - std::max(0.0, r.p0)) + law.dissipation * r.spring_force * (r.p1 - r.p0);
+  const double normal = r.spring_force + damped / s.h;
+  const double extent = std::abs(shut.x0.y) + std::abs(shut.x0.z) + std::abs(shut.free[0]) +
+                        std::abs(shut.free[1]) + std::abs(shut.free[2]) + std::abs(place[0]) +
+                        std::abs(place[1]) + std::abs(place[2]);
+  r.rounding = rounding * (std::abs(normal) + shut.stiffness * extent);
+  if (!(normal > 0.0 && size > 0.0))
+    return;
+  r.normal_of_gap = normal;
+  r.normal = normal * size;
+  r.ny = g.y / size;
+  r.nz = g.z / size;
+  r.force[0] = normal * g.y;
+  r.force[1] = normal * g.z;
+  const double slope = -(law.stiffness * contact::mean_slopes(r.p0, r.p1).by_p2 +
+                         ((r.p1 > 0.0 ? law.damping : 0.0) + law.stiffness * law.dissipation * sunk) / s.h);
+  const double by_y = slope * g.ny, by_z = slope * g.nz; // of the normal force
+  r.by_place[0][0] = by_y * g.y + normal * g.yy;
+  r.by_place[0][1] = by_z * g.y + normal * g.yz;
+  r.by_place[1][0] = by_y * g.z + normal * g.zy;
+  r.by_place[1][1] = by_z * g.z + normal * g.zz;
+  if (!support.friction.active())
+    return;
+  const double ty = r.nz, tz = -r.ny;
+  rub(s, shut, place, force,
+      {{(ty * g.yy + tz * g.zy) / size, (ty * g.yz + tz * g.zz) / size},
+       {size * by_y + normal * (r.ny * g.yy + r.nz * g.zy),
+        size * by_z + normal * (r.ny * g.yz + r.nz * g.zz)}},
+      r);
+}
+
+/// Adds the friction. With n turning by theta, dn = t theta and dt = -n theta.
+void ConservingContacts::rub(const Setting& s, const Shut& shut, const double* place, const double* force,
+                             const Turning& turning, Response& r) const {
+  contact::FrictionLaw law = contacts_.supports[shut.contact].friction;
+  if (!shut.in_plane)
+    law.along.x = 0.0;
+  const double n[2] = {r.ny, r.nz}, t[2] = {r.nz, -r.ny};
+  const double d[2] = {place[0] - shut.x0.y, place[1] - shut.x0.z};
+  r.displacement = {law.along.x * place[2], law.along.t * (t[0] * d[0] + t[1] * d[1])};
+  const contact::FrictionMemory past = s.memory.at(shut.contact, r.ny, r.nz);
+  const bool reference = law.kind == contact::FrictionMemoryKind::reference;
+  const bool dynamic = shut.broken || past.sliding;
+  const Rubbing f =
+      reference && shut.broken
+          ? opposing(law, shut.rho, r.normal, r.displacement, {force[2], t[0] * force[0] + t[1] * force[1]})
+          : along_trial(law, past.spring, dynamic ? law.mu_dynamic : law.mu_static, r.normal, r.displacement,
+                        s.h);
+  r.friction = f.force;
+  r.slides = f.slides;
+  r.breaks = f.slides && !shut.broken && (reference || (!dynamic && law.mu_static > law.mu_dynamic));
+  const double along_n = n[0] * d[0] + n[1] * d[1], force_n = n[0] * force[0] + n[1] * force[1];
+  r.force[0] += f.force.t * t[0];
+  r.force[1] += f.force.t * t[1];
+  r.force[2] = f.force.x;
+  for (int k = 0; k < 2; ++k) { // by y, by z
+    const double turn = turning.turn[k], moved = t[k] - turn * along_n, given = -turn * force_n;
+    const double by_t =
+        f.by_displacement.tt * moved + f.by_normal.t * turning.normal[k] + f.by_force.tt * given;
+    const double by_x =
+        f.by_displacement.xt * moved + f.by_normal.x * turning.normal[k] + f.by_force.xt * given;
+    for (int a = 0; a < 2; ++a) {
+      r.by_place[a][k] += by_t * t[a] - f.force.t * turn * n[a];
+      r.by_force[a][k] = t[a] * f.by_force.tt * t[k];
+    }
+    r.by_place[2][k] = by_x;
+    r.by_place[k][2] = f.by_displacement.xt * t[k];
+    r.by_force[2][k] = r.by_force[k][2] = f.by_force.xt * t[k];
+  }
+  r.by_place[2][2] = f.by_displacement.xx;
+  r.by_force[2][2] = f.by_force.xx;
+}
+
+/// Never where a force is no number.
+bool ConservingContacts::settled(double slack) const {
+  for (std::size_t i = 0; i < shut_.size(); ++i)
+    for (std::size_t a = 0; a < size_; ++a)
+      if (const double r = residual_[size_ * i + a];
+          !std::isfinite(r) || !(std::abs(r) <= slack * response_[i].rounding))
+        return false;
+  return true;
+}
+
+/// (I - dPhi/df - dPhi/dx W) step = -residual.
+bool ConservingContacts::direction(const Setting& s) {
+  const std::size_t n = size_ * shut_.size();
+  for (std::size_t i = 0; i < shut_.size(); ++i) {
+    const Response& r = response_[i];
+    for (std::size_t j = 0; j < shut_.size(); ++j)
+      for (std::size_t b = 0; b < size_; ++b) {
+        const double moved[3] = {mobility(s, i, 0, j, b), mobility(s, i, 1, j, b),
+                                 size_ == 3 ? mobility(s, i, 2, j, b) : 0.0};
+        for (std::size_t a = 0; a < size_; ++a) {
+          double x =
+              -(r.by_place[a][0] * moved[0] + r.by_place[a][1] * moved[1] + r.by_place[a][2] * moved[2]);
+          if (i == j)
+            x += (a == b ? 1.0 : 0.0) - r.by_force[a][b];
+          matrix_[(size_ * i + a) * n + size_ * j + b] = x;
+        }
+      }
+  }
+  for (std::size_t k = 0; k < n; ++k)
+    step_[k] = -residual_[k];
+  return eliminate(n, matrix_.data(), step_.data());
+}
+
+/// Forces found: what the contacts do over the step.
+void ConservingContacts::close(const ContactMotion& start, ContactTrial& trial) const {
+  for (std::size_t i = 0; i < shut_.size(); ++i) {
+    const Response& r = response_[i];
+    const int c = shut_[i].contact;
+    const contact::Support& support = contacts_.supports[c];
+    const double sunk = std::max(0.0, r.p1);
+    trial.springs += 0.5 * support.normal.stiffness * sunk * sunk;
+    const double loss = (r.normal_of_gap - r.spring_force) * (r.p1 - r.p0);
+    if (!(r.normal > 0.0)) {
+      trial.cut += loss;
+      continue;
+    }
+    ContactState& state = trial.states[c];
+    state.normal_force = r.normal;
+    state.ny = r.ny;
+    state.nz = r.nz;
+    state.friction = r.friction;
+    state.displacement = r.displacement;
+    state.approach = start.sinking(c, r.ny, r.nz);
+    state.damper_work = loss;
+    state.slides = r.slides;
+    trial.active.push_back(c);
+  }
+  std::sort(trial.active.begin(), trial.active.end());
+}
+
+} // namespace fretwork::transient
