@@ -17,8 +17,11 @@ constexpr double default_outputs = 5000.0;
 /// Above this residual of the energy the results are not to be trusted, whatever they look like.
 constexpr double residual_warning = 0.05;
 
-/// Series are held in memory until they are written; a study that asks for more than this has a slip in
-/// output.every.
+/// Dampers of contacts that give back this share of the energy put in are no round-off.
+constexpr double given_by_dampers = 0.01;
+
+/// Series and tables are held in memory until they are written; a study that asks for more than this has a slip in
+/// output.every or output.impacts.
 constexpr double most_series_bytes = 4294967296.0;
 
 void check_size_of_series(const study::Study& study, const std::vector<BuiltScene>& scenes) {
@@ -35,6 +38,26 @@ void check_size_of_series(const study::Study& study, const std::vector<BuiltScen
                                   "most {:.3g} are held; sample less often "
                                   "(statistics see every step)",
                                   every, duration / every, columns, bytes * 1e-9, most_series_bytes * 1e-9));
+}
+
+/// Rows of the table of impacts of a contact: an impact takes a step, and an open one parts it from the next.
+std::int64_t impact_rows(const study::Study& study, const transient::StepChoice& choice) {
+  const bool adaptive = choice.steps == 0;
+  return adaptive ? study.output.impacts : std::min(study.output.impacts, choice.steps / 2 + 1);
+}
+
+void check_size_of_impacts(const study::Study& study, const std::vector<BuiltScene>& scenes,
+                           const std::vector<transient::StepChoice>& choices) {
+  double rows = 0.0;
+  for (std::size_t s = 0; s < scenes.size(); ++s)
+    rows +=
+        static_cast<double>(scenes[s].contacts.size()) * static_cast<double>(impact_rows(study, choices[s]));
+  const double bytes = rows * static_cast<double>(sizeof(post::Impact));
+  if (bytes > most_series_bytes)
+    throw core::Error(fmt::format(
+        "output.impacts = {}: {:.3g} rows of all contacts would take {:.3g} GB, at most {:.3g} are "
+        "held; keep fewer rows (statistics count every impact)",
+        study.output.impacts, rows, bytes * 1e-9, most_series_bytes * 1e-9));
 }
 
 /// What one run gives.
@@ -69,9 +92,8 @@ JobResult run_job(const study::Study& study, const BuiltScene& built, const tran
   const auto grid = transient::output_grid(duration, study.output.every.value_or(duration / default_outputs));
   post::ContactStatistics contacts(built.scene.contacts.size(), study.output.statistics_from);
   const bool with_impacts = study.output.impacts > 0 && !built.scene.contacts.empty();
-  const std::int64_t most_rows = std::min(study.output.impacts, choice.steps / 2 + 1); // all there can be
   post::ImpactTable impacts(with_impacts ? built.scene.contacts.size() : 0, study.output.statistics_from,
-                            study.output.rest_time, static_cast<std::size_t>(most_rows));
+                            study.output.rest_time, static_cast<std::size_t>(impact_rows(study, choice)));
   std::vector<Eigen::MatrixXd> rows;
   for (const auto& node : built.nodes)
     rows.push_back(node.rows);
@@ -223,6 +245,24 @@ void judge(const transient::StepChoice& choice, const transient::Report& report,
         report.counts.unconverged, report.counts.steps));
 }
 
+/// The spring of `reference` is set by every slip, and no work pays for it.
+void judge_memory(const BuiltScene& built, const transient::Report& report, results::RunResults& out) {
+  const auto jumps = [](const transient::ContactPoint& point) {
+    const contact::FrictionLaw& law = point.support.friction;
+    return law.active() && law.kind == contact::FrictionMemoryKind::reference;
+  };
+  const auto& points = built.scene.contacts;
+  const double input = std::abs(report.energy.initial + report.energy.load_work);
+  if (std::any_of(points.begin(), points.end(), jumps) &&
+      report.energy.contact_damping < -given_by_dampers * input)
+    out.warnings.push_back(fmt::format("friction_memory = \"reference\": the dampers of the contacts gave "
+                                       "{:.2g} % of the energy put in instead "
+                                       "of taking some, because that memory's springs jump in a slip; the "
+                                       "energies of friction are not to be "
+                                       "trusted; take friction_memory = \"return_map\"",
+                                       -100.0 * report.energy.contact_damping / input));
+}
+
 /// A table that ends early never does so silently.
 void tell_impacts_left_out(std::int64_t kept, results::RunResults& out) {
   std::int64_t left_out = 0, tables = 0;
@@ -263,6 +303,7 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
             "start the statistics earlier",
             study.output.statistics_from, choice.step, study.transient->duration));
   });
+  core::agree(comm, [&] { check_size_of_impacts(study, scenes, choices); });
   std::vector<JobResult> jobs(scenes.size());
   std::vector<double> costs; // a step costs as much as it has modes
   for (std::size_t s = 0; s < scenes.size(); ++s)
@@ -294,6 +335,7 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
     if (ranks > 1)
       broadcast(comm, owner[s], scenes[s], jobs[s]);
     judge(choices[s], jobs[s].report, out);
+    judge_memory(scenes[s], jobs[s].report, out);
     merge(scenes[s], std::move(jobs[s]), choices[s], out);
   }
   tell_impacts_left_out(study.output.impacts, out);

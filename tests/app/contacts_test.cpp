@@ -422,5 +422,67 @@ TEST(Restitution, TakesTheMassThatTheModesGive) {
   EXPECT_TRUE(close_to(std::exp(-2.0 * xi * std::acos(xi) / std::sqrt(1.0 - xi * xi)), 0.7, rounding));
 }
 
+/// A block on a plane, dragged to and fro on a soft tangential spring with a strong damper.
+std::string dragged_block(const Workshop& folder, const std::string& memory) {
+  folder.write("mesh.msh", lone_points({"block"}).text());
+  return R"([mesh]
+file = "mesh.msh"
+[[masses]]
+group = "block"
+mass = 1.0
+[[springs]]
+group = "block"
+stiffness = [100.0, 100.0, 0.0, 0.0, 0.0, 0.0]
+[[restraints]]
+group = "block"
+fixed = ["uz", "rx", "ry", "rz"]
+[[loads]]
+group = "block"
+direction = [0.0, 1.0, 0.0]
+constant = 10.0
+[[loads]]
+group = "block"
+direction = [1.0, 0.0, 0.0]
+harmonic = { amplitude = 10.0, frequency = 5.0 }
+[[initial]]
+group = "block"
+velocity = [1.0, 0.0, 0.0]
+[[contacts]]
+name = "plane"
+group = "block"
+obstacle = "stop_y"
+axis = [1.0, 0.0, 0.0]
+gap = 0.0
+normal_stiffness = 1.0e6
+normal_damping = 100.0
+tangential_stiffness = 100.0
+tangential_damping = 100.0
+friction = 0.3
+friction_memory = ")" +
+         memory + R"("
+[transient]
+duration = 1.0
+[output]
+every = 0.01
+)";
+}
+
+TEST(ReferenceMemory, ThatGivesEnergyIsWarnedOf) {
+  const Workshop folder;
+  const auto told = [&](const std::string& memory) {
+    const Results run = folder.run_text(dragged_block(folder, memory));
+    const double given = -run.summary["energy"]["contact_damping_J"].get<double>() /
+                         run.summary["energy"]["input_J"].get<double>();
+    return std::pair{given, run.summary["warnings"].dump()};
+  };
+  const auto [given, warnings] = told("reference");
+  EXPECT_GT(given, 0.02);
+  EXPECT_TRUE(says(warnings, "the dampers of the contacts gave 3.1 % of the energy put in"));
+  EXPECT_TRUE(says(warnings, "return_map"));
+  const auto [taken, silent] = told("return_map");
+  EXPECT_LT(taken, 0.0);
+  EXPECT_EQ(silent.find("return_map"), std::string::npos);
+}
+
 } // namespace
 } // namespace fretwork::app::test
