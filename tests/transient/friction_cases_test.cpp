@@ -52,6 +52,14 @@ TEST(CoulombDecay, LosesTwiceTheBoundOverTheStiffnessPerHalfPeriod) { check_deca
 
 TEST(CoulombDecay, OfEulerConvergesToIt) { check_decay(euler(2e-6)); }
 
+TEST(CoulombDecay, OfDevogelaereConvergesToIt) { check_decay({SchemeKind::devogelaere, 5e-6}); }
+
+TEST(CoulombDecay, OfRungeKutta54IsThere) {
+  StepOptions options;
+  options.scheme = SchemeKind::runge_kutta_54;
+  check_decay(options);
+}
+
 TEST(CoulombDecay, OfEnergyConservingIsTheSame) { check_decay(energy_conserving()); }
 
 TEST(ShakingTable, SlidesWithTheWorkRateOfItsClosedForm) {

@@ -150,6 +150,41 @@ const Vec3 slow(0.05, 0.1, 0.05), fast(1.5, 2.0, 0.0);
 constexpr double second_low = 1.85, second_high = 2.2, second_final = 5e-5;
 constexpr double first_low = 0.9, first_high = 1.2, first_final = 1e-2;
 
+// of order four and five: few steps, so that the error stays far above the oracle's 1e-10
+constexpr double fourth_low = 3.7, fourth_high = 4.5, fifth_low = 4.6, fifth_high = 6.5;
+
+/// Mean order over three halvings, forces taken where records stand on the outputs: between them they are linear.
+void expect_order_four(const Scene& scene) {
+  const Solution exact = Oracle(scene).solve();
+  constexpr int steps = 2 * outputs, halved = 3;
+  const Errors first = errors(scene, {SchemeKind::devogelaere, duration / steps}, exact),
+               last = errors(scene, {SchemeKind::devogelaere, duration / (steps << halved)}, exact);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double order = std::log2(first[i] / last[i]) / halved;
+    EXPECT_GT(order, fourth_low) << names[i];
+    EXPECT_LT(order, fourth_high) << names[i];
+  }
+  // and between the records
+  const double coarse = errors(scene, {SchemeKind::devogelaere, duration / 64}, exact)[1],
+               fine = errors(scene, {SchemeKind::devogelaere, duration / 512}, exact)[1];
+  EXPECT_GT(std::log2(coarse / fine) / 3, fourth_low);
+}
+
+void expect_order_five(const Scene& scene) {
+  const Solution exact = Oracle(scene).solve();
+  const auto with = [&](double longest) {
+    StepOptions options{SchemeKind::runge_kutta_54, longest};
+    options.tolerance = 1e3; // never rules: every step is the longest
+    return errors(scene, options, exact);
+  };
+  const Errors first = with(duration / 20), last = with(duration / 80);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double order = std::log2(first[i] / last[i]) / 2;
+    EXPECT_GT(order, fifth_low) << names[i];
+    EXPECT_LT(order, fifth_high) << names[i];
+  }
+}
+
 } // namespace
 
 TEST(OrderFixture, StaysClosedInOneRegime) {
@@ -202,6 +237,20 @@ TEST(Euler, IsOfOrderOne) {
                first_final);
   expect_order(pressed_on_a_circle(3.0, 1.0, slipping, fast), SchemeKind::euler, first_low, first_high,
                first_final);
+}
+
+TEST(Devogelaere, IsOfOrderFour) {
+  expect_order_four(pressed_on_a_circle(0.0, 0.0, none, slow));
+  expect_order_four(pressed_on_a_circle(3.0, 1.0, none, slow));
+  expect_order_four(pressed_on_a_circle(3.0, 1.0, sticking, slow));
+  expect_order_four(pressed_on_a_circle(3.0, 1.0, slipping, fast));
+  expect_order_four(pressed_on_a_circle(0.0, 1.0, slipping, fast, dissipation));
+}
+
+TEST(RungeKutta54, IsOfOrderFive) {
+  expect_order_five(pressed_on_a_circle(0.0, 0.0, none, slow));
+  expect_order_five(pressed_on_a_circle(3.0, 1.0, sticking, slow));
+  expect_order_five(pressed_on_a_circle(3.0, 1.0, slipping, fast));
 }
 
 TEST(EnergyConserving, IsOfOrderTwo) {
