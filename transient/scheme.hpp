@@ -100,6 +100,7 @@ enum class SchemeKind { splitting, euler, energy_conserving, devogelaere, runge_
 [[nodiscard]] std::unique_ptr<Scheme> make_energy_conserving(const Scene& scene, double step);
 [[nodiscard]] std::unique_ptr<Scheme> make_devogelaere(const Scene& scene, double step);
 /// @param tolerance  of a step's error, in the energy norm   @param longest  s, step
-[[nodiscard]] std::unique_ptr<Scheme> make_runge_kutta_54(const Scene& scene, double tolerance, double longest);
+[[nodiscard]] std::unique_ptr<Scheme> make_runge_kutta_54(const Scene& scene, double tolerance,
+                                                          double longest);
 
 } // namespace fretwork::transient

@@ -126,7 +126,8 @@ std::vector<Term> terms(const StepChoice& c, const Scene& scene, double fineness
   add(1.0 / points, c.excitation, fmt::format("the excitation ({:.4g} Hz)", c.excitation));
   if (const double interval = table_interval(scene); interval > 0.0)
     out.push_back({interval, fmt::format("the shortest interval of a table ({:.4g} s)", interval)});
-  if (c.scheme == SchemeKind::runge_kutta_54) // its steps follow its tolerance: it only must not step over what loads do
+  if (c.scheme ==
+      SchemeKind::runge_kutta_54) // its steps follow its tolerance: it only must not step over what loads do
     return out;
   const bool devogelaere = c.scheme == SchemeKind::devogelaere;
   const double damped = devogelaere ? std::min(eps, most_damped) : eps;

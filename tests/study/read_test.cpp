@@ -237,11 +237,10 @@ TEST(ReadStudy, KnowsEveryObstacleAndScheme) {
   for (const auto& [name, kind] : obstacles)
     EXPECT_EQ(read_text(full_study, {std::string("contacts.tsp1.obstacle=") + name}).contacts[0].obstacle,
               kind);
-  const std::pair<const char*, Scheme> schemes[] = {
-      {"auto", Scheme::automatic},
-      {"splitting", Scheme::splitting},
-      {"euler", Scheme::euler},
-      {"energy_conserving", Scheme::energy_conserving}};
+  const std::pair<const char*, Scheme> schemes[] = {{"auto", Scheme::automatic},
+                                                    {"splitting", Scheme::splitting},
+                                                    {"euler", Scheme::euler},
+                                                    {"energy_conserving", Scheme::energy_conserving}};
   for (const auto& [name, scheme] : schemes)
     EXPECT_EQ(read_text(full_study, {std::string("transient.scheme=") + name}).transient->scheme, scheme);
 }
