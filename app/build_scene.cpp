@@ -112,7 +112,7 @@ Eigen::Matrix<double, 3, 6> translations() {
 }
 
 void add_contact(const study::Contact& contact, const PlacedContact& placed, const Bases& bases,
-                 BuiltScene& out) {
+                 const std::vector<study::BaseMotion>& base_motions, BuiltScene& out) {
   Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(3, out.scene.system.size());
   for (const fem::NodeShare& share : placed.motion)
     add_motion(bases, share.node, share.weights, motion);
@@ -125,6 +125,11 @@ void add_contact(const study::Contact& contact, const PlacedContact& placed, con
   const double largest = point.b.size() > 0 ? point.b.cwiseAbs().maxCoeff() : 0.0;
   point.b = (point.b.array().abs() > round_off_of_shapes * largest)
                 .select(point.b, 0.0); // a direction that is not used costs nothing
+  if (contact.grounded && !base_motions.empty()) {
+    point.carried.resize(3, static_cast<Eigen::Index>(base_motions.size()));
+    for (std::size_t k = 0; k < base_motions.size(); ++k) // the base leaves the obstacle behind
+      point.carried.col(static_cast<Eigen::Index>(k)) = placed.frame.rotation() * base_motions[k].direction;
+  }
   point.support = support_of(contact, placed, out.scene.system, point.b);
   out.scene.contacts.push_back(std::move(point));
 }
@@ -186,9 +191,14 @@ BuiltScene build_scene(const study::Study& study, const Fields& fields, const st
     scene.q0 = project(bases, fields.displacement_momentum, fields.displacement, "displacement", out);
     scene.v0 = project(bases, fields.velocity_momentum, fields.velocity, "velocity", out);
   }
+  const bool grounded = std::any_of(study.contacts.begin(), study.contacts.end(),
+                                    [](const study::Contact& contact) { return contact.grounded; });
+  if (grounded)
+    for (const study::BaseMotion& motion : study.base_motions)
+      scene.motions.push_back({motion.acceleration, motion.velocity0, motion.displacement0});
   for (std::size_t c = 0; c < contacts.size(); ++c)
     if (has_node(bases, contacts[c].node) || (contacts[c].other >= 0 && has_node(bases, contacts[c].other))) {
-      add_contact(study.contacts[contacts[c].entry], contacts[c], bases, out);
+      add_contact(study.contacts[contacts[c].entry], contacts[c], bases, study.base_motions, out);
       out.contacts.push_back(c);
     }
   for (std::size_t k = 0; k < nodes.size(); ++k)

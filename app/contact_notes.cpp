@@ -18,7 +18,10 @@ struct Point {
 
 Point at_start(const PlacedContact& placed, const transient::ContactPoint& contact,
                const transient::Scene& scene) {
-  const core::Vec3 place = contact.rest + contact.b * scene.q0, speed = contact.b * scene.v0;
+  const core::Vec3 place = scene.place_at_start(contact) + contact.b * scene.q0;
+  core::Vec3 speed = contact.b * scene.v0;
+  for (Eigen::Index k = 0; k < contact.carried.cols(); ++k)
+    speed += scene.motions[static_cast<std::size_t>(k)].velocity0 * contact.carried.col(k);
   const contact::Location at = contact::locate(contact.support.obstacle, place.y(), place.z());
   const double sinking = -(at.ny * speed.y() + at.nz * speed.z());
   return {&placed, &contact, at.gap, contact::normal_force(contact.support.normal, -at.gap, sinking)};

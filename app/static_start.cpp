@@ -50,7 +50,10 @@ std::string words_for(const Eigen::VectorXd& motion, const std::vector<const mod
 
 void start_in_equilibrium(const std::vector<const modal::Basis*>& bases, BuiltScene& built) {
   transient::Scene& scene = built.scene;
-  const transient::Equilibrium e = transient::static_equilibrium(scene);
+  transient::Scene at_start = scene;
+  for (transient::ContactPoint& point : at_start.contacts)
+    point.rest = scene.place_at_start(point);
+  const transient::Equilibrium e = transient::static_equilibrium(at_start);
   switch (e.balance) {
   case transient::Balance::found:
     break;

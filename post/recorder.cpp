@@ -9,6 +9,8 @@ Recorder::Recorder(const transient::Scene& scene, std::vector<ObservedNode> node
                    const transient::OutputGrid& grid)
     : scene_(scene), nodes_(std::move(nodes)), acceleration_(scene.system.size()) {
   const Eigen::Index nt = grid.count;
+  for (const auto& motion : scene.motions)
+    motions_.emplace_back(motion, scene.duration);
   out_.time.setZero(nt);
   out_.modal_displacement.setZero(scene.system.size(), nt);
   out_.modal_velocity.setZero(scene.system.size(), nt);
@@ -30,8 +32,13 @@ void Recorder::state(std::int64_t index, double time, const double* q, const dou
   std::copy_n(v, scene_.system.size(), out_.modal_velocity.col(index).data());
   for (std::size_t c = 0; c < scene_.contacts.size(); ++c) {
     const auto& point = scene_.contacts[c];
-    const double y = point.rest.y() + point.b.row(1).dot(out_.modal_displacement.col(index));
-    const double z = point.rest.z() + point.b.row(2).dot(out_.modal_displacement.col(index));
+    double y = point.rest.y() + point.b.row(1).dot(out_.modal_displacement.col(index));
+    double z = point.rest.z() + point.b.row(2).dot(out_.modal_displacement.col(index));
+    for (Eigen::Index k = 0; k < point.carried.cols(); ++k) {
+      const double s = motions_[static_cast<std::size_t>(k)](time).displacement;
+      y += point.carried(1, k) * s;
+      z += point.carried(2, k) * s;
+    }
     out_.contacts[c].gap(index) = contact::locate(point.support.obstacle, y, z).gap;
   }
 }
@@ -104,7 +111,22 @@ TimeSeries Recorder::series() && {
   };
   distribute(out_.modal_displacement, &ContactSeries::displacement, &NodeSeries::displacement);
   distribute(out_.modal_velocity, &ContactSeries::velocity, &NodeSeries::velocity);
+  add_motions();
   return std::move(out_);
+}
+
+/// What carries the contacts joins their displacements and velocities.
+void Recorder::add_motions() {
+  for (std::size_t k = 0; k < motions_.size(); ++k)
+    for (Eigen::Index i = 0; i < out_.time.size(); ++i) {
+      const transient::MotionState s = motions_[k](out_.time(i));
+      for (std::size_t c = 0; c < scene_.contacts.size(); ++c)
+        if (const Eigen::MatrixXd& carried = scene_.contacts[c].carried; carried.size() > 0) {
+          const auto along = carried.col(static_cast<Eigen::Index>(k)).transpose();
+          out_.contacts[c].displacement.row(i) += s.displacement * along;
+          out_.contacts[c].velocity.row(i) += s.velocity * along;
+        }
+    }
 }
 
 } // namespace fretwork::post

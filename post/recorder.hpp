@@ -2,6 +2,7 @@
 /// @file
 /// Time series at the output instants.
 #pragma once
+#include "transient/prescribed_motion.hpp"
 #include "transient/run.hpp"
 #include <string>
 #include <vector>
@@ -11,7 +12,7 @@ namespace fretwork::post {
 /// What a contact does at an output instant. One without friction slides whenever it is closed.
 enum ContactMode : std::uint8_t { open = 0, sticks = 1, slides = 2 };
 
-/// Local axes of the contact.
+/// Local axes of the contact; the motion is that of the node from the obstacle.
 struct ContactSeries {
   std::string name;
   Eigen::MatrixXd displacement, velocity; ///< nt x 3, m and m/s
@@ -51,10 +52,13 @@ public:
   [[nodiscard]] TimeSeries series() &&;
 
 private:
+  void add_motions();
+
   const transient::Scene& scene_;
   std::vector<ObservedNode> nodes_;
   TimeSeries out_;
-  Eigen::VectorXd acceleration_; ///< modal
+  std::vector<transient::MotionSignal> motions_; ///< that carry contacts
+  Eigen::VectorXd acceleration_;                 ///< modal
   std::int64_t served_ = 0;
 };
 

@@ -80,8 +80,9 @@ std::vector<Contact> read_contacts(const TableReader& root) {
     read_thickness(table, contact);
     read_normal_law(table, contact);
     read_friction(table, contact);
-    if (const Value* attached = table.find("attached_to"))
-      (void)to_choice(*attached, table.path("attached_to"), {"base"}, {"ground"});
+    contact.grounded = table.choice("attached_to", false, Choices<bool>{{{"base", false}, {"ground", true}}});
+    if (contact.grounded && contact.other)
+      table.fail_at("attached_to", "an obstacle between two nodes moves with them; leave attached_to out");
     const auto [at, added] = places.emplace(contact.name, entry.value->where.text());
     if (!added)
       table.fail_table("a second contact called \"" + contact.name + "\" (the first: " + at->second +

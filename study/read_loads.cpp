@@ -5,9 +5,9 @@
 namespace fretwork::study {
 namespace {
 
-Keys with_time_function(std::vector<std::string> known, std::vector<std::string> unavailable = {}) {
+Keys with_time_function(std::vector<std::string> known) {
   known.insert(known.end(), time_function_keys.begin(), time_function_keys.end());
-  return {std::move(known), std::move(unavailable)};
+  return {std::move(known)};
 }
 
 } // namespace
@@ -45,8 +45,10 @@ std::vector<BaseMotion> read_base_motions(const TableReader& root, const std::fi
   std::vector<BaseMotion> all;
   for (const Entry& entry : array_entries(root, "base_motion")) {
     const TableReader table(*entry.value, entry.path,
-                            with_time_function({"direction"}, {"velocity0", "displacement0"}));
-    all.push_back({table.direction("direction"), read_time_function(table, folder, "m/s2")});
+                            with_time_function({"direction", "velocity0", "displacement0"}));
+    all.push_back({table.direction("direction"), read_time_function(table, folder, "m/s2"),
+                   table.number_or("velocity0", 0.0, {Range::any, "m/s"}),
+                   table.number_or("displacement0", 0.0, {Range::any, "m"})});
   }
   return all;
 }

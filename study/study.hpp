@@ -96,6 +96,7 @@ struct Contact {
   double angle = 0.0;         ///< degrees
   std::optional<Vec3> origin;
   std::array<double, 2> offset{};
+  bool grounded = false;                  ///< with base motion the obstacle stays in space
   double thickness = 0.0;                 ///< m, of the support along the tube
   int points = 1;                         ///< along the thickness, from edge to edge
   std::optional<double> normal_stiffness; ///< none: that of the tube's wall
@@ -127,6 +128,7 @@ struct Load {
 struct BaseMotion {
   Vec3 direction; ///< unit
   transient::TimeFunction acceleration;
+  double velocity0 = 0.0, displacement0 = 0.0; ///< m/s and m, at t = 0
 };
 
 struct Initial {

@@ -8,6 +8,7 @@
 /// the order of the scheme.
 #include "transient/contact_forces.hpp"
 #include "transient/load_sum.hpp"
+#include "transient/obstacle_motion.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -18,8 +19,8 @@ class Euler final : public Scheme {
 public:
   Euler(const Scene& scene, double step)
       : system_(scene.system), h_(step), loads_(scene.loads, scene.system.size(), scene.duration, step),
-        contacts_(scene.contacts, scene.system.size()), motion_(contacts_), memory_(contacts_, step),
-        trial_(contacts_.count), rows_(contacts_) {
+        contacts_(scene.contacts, scene.system.size()), motion_(contacts_), obstacles_(scene, contacts_),
+        memory_(contacts_, step), trial_(contacts_.count), rows_(contacts_) {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
     for (kernels::Array* a : {&q_, &v_, &k_, &c_, &load_, &force_, &before_q_, &before_v_, &scratch_})
       a->assign(n, 0.0);
@@ -29,6 +30,7 @@ public:
     if (system_.damping_matrix.size() == 0)
       std::copy_n(system_.damping.data(), system_.size(), c_.begin());
     motion_.gather(q_.data(), v_.data());
+    obstacles_.add(0.0, motion_);
     memory_.start(motion_);
     loads_.at(0.0, load_.data());
     record_.contacts = contacts_.count;
@@ -85,6 +87,7 @@ public:
 private:
   struct Contacts {
     double stored = 0.0;
+    double power = 0.0;   ///< W, that moving obstacles bring
     ContactLosses losses; ///< over the step
   };
 
@@ -92,11 +95,12 @@ private:
     if (contacts_.count == 0)
       return {};
     motion_.gather(q_.data(), v_.data());
+    obstacles_.add(record_.time, motion_);
     evaluate_contacts(contacts_, memory_, h_, motion_, trial_);
     const ContactLosses losses = memory_.commit(motion_, trial_);
     rows_.set(trial_, 1.0);
     rows_.add_to(force_.data());
-    return {trial_.springs + memory_.spring_energy(), losses};
+    return {trial_.springs + memory_.spring_energy(), -obstacles_.power(trial_), losses};
   }
 
   /// The full damping matrix joins the forces. Returns its power.
@@ -124,7 +128,7 @@ private:
     // A record stands in the middle of its step: half of what the step brings belongs to it, at t = 0 nothing
     // (only the second half is run).
     const double before = start ? 0.0 : 0.5, all = start ? 0.5 : 1.0;
-    const double work = h_ * sums.load_power, loss = h_ * damper_power;
+    const double work = h_ * (sums.load_power + contact.power), loss = h_ * damper_power;
     energy.throughput += all * std::abs(work);
     energy.load_work = load_work_ + before * work;
     energy.modal_damping = modal_damping_ + before * loss;
@@ -141,6 +145,7 @@ private:
   LoadSum loads_;
   PackedContacts contacts_;
   ContactMotion motion_;
+  ObstacleMotion obstacles_;
   ContactMemory memory_;
   ContactTrial trial_;
   ContactRows rows_;

@@ -8,7 +8,7 @@
 namespace fretwork::transient {
 
 /// Velocities and displacements of all contacts are arrays of `components` blocks of `width` lanes: y of all
-/// contacts, then z, then x (x_loc only where friction acts on a contact that the modes move along it).
+/// contacts, then z, then x (x_loc only where friction acts on a contact that modes or obstacles move along it).
 struct PackedContacts {
   explicit PackedContacts(const std::vector<ContactPoint>& contacts, Eigen::Index modes);
 
@@ -20,9 +20,9 @@ struct PackedContacts {
 
   std::vector<contact::Support> supports;
   std::vector<char>
-      in_plane;          ///< contact by contact: friction acts along x_loc too and the modes move it along it
-  kernels::Array gather; ///< mode by mode, `stride()` lanes each
-  kernels::Array rows;   ///< contact by contact: rows y, z, x over the padded modes
+      in_plane; ///< contact by contact: friction acts along x_loc too and something moves it along it
+  kernels::Array gather;   ///< mode by mode, `stride()` lanes each
+  kernels::Array rows;     ///< contact by contact: rows y, z, x over the padded modes
   kernels::Array mobility; ///< contact by contact: what a unit force along y, z, x does to `stride()` lanes
                            ///< (W = B B^T, 1/kg)
   kernels::ReachLanes reach;

@@ -25,20 +25,39 @@ struct Load {
   Eigen::VectorXd modal_force; ///< n: the load is modal_force * function(t)
 };
 
-/// A contact: a support and how the modes move its node. Displacement in local axes: u = b q.
+/// A motion that is imposed: displacement s(t) with s'' = acceleration, s'(0) and s(0).
+struct PrescribedMotion {
+  TimeFunction acceleration;  ///< m/s2
+  double velocity0 = 0.0;     ///< m/s
+  double displacement0 = 0.0; ///< m
+};
+
+/// A contact: a support and how the modes move its node. Displacement from the obstacle in local axes: u = b q + carried s(t).
 struct ContactPoint {
   std::string name;
   contact::Support support;
   core::Vec3 rest = core::Vec3::Zero(); ///< m: the node at q = 0, local axes, from the obstacle's centre
   Eigen::MatrixXd b;                    ///< 3 x n, rows x_loc y_loc z_loc
+  Eigen::MatrixXd carried =
+      {}; ///< 3 x motions of the scene: of the node less the obstacle; empty: not carried
 };
 
 struct Scene {
   System system;
   std::vector<Load> loads;
   std::vector<ContactPoint> contacts;
+  std::vector<PrescribedMotion>
+      motions;            ///< that carry contacts; the forces they cause on the modes are among the loads
   Eigen::VectorXd q0, v0; ///< initial state, n
   double duration = 0.0;  ///< s, > 0
+
+  /// Where a contact's node stands at t = 0 for q = 0, from the obstacle's centre, m.
+  [[nodiscard]] core::Vec3 place_at_start(const ContactPoint& point) const {
+    core::Vec3 place = point.rest;
+    for (Eigen::Index k = 0; k < point.carried.cols(); ++k)
+      place += motions[static_cast<std::size_t>(k)].displacement0 * point.carried.col(k);
+    return place;
+  }
 };
 
 } // namespace fretwork::transient

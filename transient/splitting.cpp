@@ -12,6 +12,7 @@
 #include "transient/contact_solver.hpp"
 #include "transient/load_sum.hpp"
 #include "transient/matrix_flow.hpp"
+#include "transient/obstacle_motion.hpp"
 #include "transient/oscillator.hpp"
 #include <algorithm>
 #include <cmath>
@@ -50,9 +51,10 @@ public:
   Splitting(const Scene& scene, double step)
       : system_(with_diagonal(scene.system)), h_(step),
         loads_(scene.loads, scene.system.size(), scene.duration, step),
-        contacts_(scene.contacts, scene.system.size()), motion_(contacts_), memory_(contacts_, step),
-        solver_(contacts_, step), trial_(contacts_.count), rows_(contacts_), coupled_(system_, step),
-        first_(flow_table(system_, coupled_, 0.5 * step)), full_(flow_table(system_, coupled_, step)) {
+        contacts_(scene.contacts, scene.system.size()), motion_(contacts_), obstacles_(scene, contacts_),
+        memory_(contacts_, step), solver_(contacts_, step), trial_(contacts_.count), rows_(contacts_),
+        coupled_(system_, step), first_(flow_table(system_, coupled_, 0.5 * step)),
+        full_(flow_table(system_, coupled_, step)) {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
     for (kernels::Array* a : {&q_, &v_, &k_, &f_now_, &f_next_, &slope_})
       a->assign(n, 0.0);
@@ -63,6 +65,7 @@ public:
     const double moving =
         0.5 * kernels::twice_energy(contacts_.padded_modes, k_.data(), q_.data(), v_.data());
     motion_.gather(q_.data(), v_.data());
+    obstacles_.add(0.0, motion_);
     memory_.start(motion_);
     record_.energy.initial = record_.energy.throughput = moving + motion_.spring_energy();
     after_action_ = moving;
@@ -149,7 +152,8 @@ private:
     }
     moving_ = 0.5 * kernels::twice_energy(contacts_.padded_modes, k_.data(), q_.data(), v_.data());
     Energy& energy = record_.energy;
-    energy.load_work += work;
+    load_work_ += work;
+    energy.load_work = load_work_;
     energy.throughput += std::abs(work);
     energy.modal_damping +=
         work - (moving_ - after_action_); // the flow is exact: what the load gave and the modes did not keep
@@ -161,6 +165,7 @@ private:
   /// The contacts act.
   void act() {
     motion_.gather(q_.data(), v_.data());
+    obstacles_.add(time_, motion_);
     const auto action = solver_.solve(memory_, motion_, trial_);
     unconverged_ += !action.converged;
     const double springs_before = memory_.spring_energy();
@@ -168,15 +173,19 @@ private:
     rows_.set(trial_, h_);
     rows_.add_to(v_.data());
     // The record stands in the middle of the action: half of its losses belong to it, and its velocity is (v-
-    // + v+)/2, whose energy is moving + work/2 - (h^2/8) f.W.f.
+    // + v+)/2, whose energy is moving + work/2 - (h^2/8) f.W.f. What moving obstacles do is work from outside.
     Energy& energy = record_.energy;
+    const double brought = -h_ * obstacles_.power(trial_), work = action.work + brought;
+    energy.load_work = load_work_ + 0.5 * brought;
+    energy.throughput += std::abs(brought);
+    load_work_ += brought;
     energy.contact_damping = lost_.damping + 0.5 * losses.damping;
     energy.friction = lost_.friction + 0.5 * losses.friction;
-    energy.stored = moving_ + 0.5 * action.work - 0.25 * action.jump + trial_.springs +
+    energy.stored = moving_ + 0.5 * work - 0.25 * action.jump + trial_.springs +
                     0.5 * (springs_before + memory_.spring_energy());
     lost_.damping += losses.damping;
     lost_.friction += losses.friction;
-    after_action_ = moving_ + action.work;
+    after_action_ = moving_ + work;
   }
 
   System system_;
@@ -184,6 +193,7 @@ private:
   LoadSum loads_;
   PackedContacts contacts_;
   ContactMotion motion_;
+  ObstacleMotion obstacles_;
   ContactMemory memory_;
   ContactSolver solver_;
   ContactTrial trial_;
@@ -197,7 +207,8 @@ private:
 
   Record record_;
   double moving_ = 0.0, after_action_ = 0.0; ///< modal energy before and after the action
-  ContactLosses lost_;                       ///< up to the last action, all of it included
+  double load_work_ = 0.0;                   ///< up to the last action, all of it included
+  ContactLosses lost_;                       ///< likewise
 };
 
 } // namespace

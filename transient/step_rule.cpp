@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/step_rule.hpp"
 #include "core/error.hpp"
+#include "transient/scheme_scope.hpp"
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
@@ -77,7 +78,7 @@ double structure_rate(const System& system) {
 
 /// Penetration of a contact at t = 0, m, 0 where it is open.
 double initial_overlap(const Scene& scene, const ContactPoint& point) {
-  const core::Vec3 u = point.rest + point.b * scene.q0;
+  const core::Vec3 u = scene.place_at_start(point) + point.b * scene.q0;
   return std::max(0.0, -contact::locate(point.support.obstacle, u.y(), u.z()).gap);
 }
 
@@ -206,6 +207,7 @@ std::string name_of(StepFailure failure) {
 StepChoice choose_step(const Scene& scene, const StepOptions& options) {
   StepChoice c;
   c.scheme = options.scheme.value_or(SchemeKind::splitting);
+  check_scope(scene, c.scheme);
   const auto stiffness_n = [](const ContactPoint& c) { return c.support.normal.stiffness; };
   const auto stiffness_t = [](const ContactPoint& c) {
     return c.support.friction.active() ? c.support.friction.stiffness : 0.0;

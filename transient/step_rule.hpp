@@ -49,7 +49,7 @@ struct StepChoice {
   std::vector<std::string> warnings; ///< what a fixed step does not resolve
 };
 
-/// @throws core::Error where there would be absurdly many steps
+/// @throws core::Error where there would be absurdly many steps, or where the scheme cannot take the scene
 [[nodiscard]] StepChoice choose_step(const Scene& scene, const StepOptions& options);
 
 } // namespace fretwork::transient

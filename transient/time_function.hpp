@@ -56,6 +56,10 @@ public:
   /// (a jump, or points closer than steps) its mean over the step, which keeps its impulse. No allocation.
   [[nodiscard]] double over_step(double time, double h) const;
 
+  /// Of a random signal: values and slopes times grid_step(), interleaved, of the cubic pieces from t = 0. Else empty.
+  [[nodiscard]] std::span<const double> samples() const { return samples_; }
+  [[nodiscard]] double grid_step() const { return grid_step_; }
+
   /// True where the value never changes.
   [[nodiscard]] bool is_constant() const { return std::holds_alternative<Constant>(function_); }
 

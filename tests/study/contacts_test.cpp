@@ -28,6 +28,23 @@ TEST(ReadObstacle, Circle) {
   EXPECT_EQ(std::get<contact::Circle>(contact_with("gap = 1e-3").shape).gap, 1e-3);
 }
 
+TEST(ReadObstacle, AttachedToTheBaseOrTheGround) {
+  EXPECT_FALSE(contact_with("gap = 1e-3").grounded);
+  EXPECT_FALSE(contact_with("gap = 1e-3\nattached_to = \"base\"").grounded);
+  EXPECT_TRUE(contact_with("gap = 1e-3\nattached_to = \"ground\"").grounded);
+}
+
+TEST(ReadBaseMotion, TakesItsStateAtTheStart) {
+  const std::string text =
+      "[mesh]\nfile = \"a.msh\"\n[[base_motion]]\ndirection = [0, 2, 0]\nconstant = 1.5\n";
+  const BaseMotion rest = read_text(text).base_motions.at(0);
+  EXPECT_EQ(rest.velocity0, 0.0);
+  EXPECT_EQ(rest.displacement0, 0.0);
+  const BaseMotion moving = read_text(text + "velocity0 = -0.5\ndisplacement0 = 0.25\n").base_motions.at(0);
+  EXPECT_EQ(moving.velocity0, -0.5);
+  EXPECT_EQ(moving.displacement0, 0.25);
+}
+
 TEST(ReadObstacle, PlanesAndStops) {
   using contact::PlaneAxis;
   for (const auto& [letter, axis] : {std::pair{"y", PlaneAxis::y}, std::pair{"z", PlaneAxis::z}}) {

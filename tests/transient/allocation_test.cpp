@@ -120,6 +120,17 @@ TEST(Allocation, NeverHappensUnderTablesAndNoise) {
   EXPECT_EQ(allocations_of_a_run(scene, energy_conserving(1e-4)), 0);
 }
 
+TEST(Allocation, NeverHappensWithObstaclesThatMove) {
+  Scene scene = rattling(3, 12, 1.0);
+  scene.motions = {{Harmonic{1.0, 20.0, 0.0}, -1.0 / 125.66, 0.0},
+                   {Random{0.5, 5.0, 60.0, 1}, 0.0, 0.0},
+                   {Table{{0.0, 0.5, 0.5, 1.0}, {0.0, 1e-3, -1e-3, 0.0}}}};
+  for (auto& c : scene.contacts)
+    c.carried = 0.1 * Eigen::Matrix3d::Identity();
+  EXPECT_EQ(allocations_of_a_run(scene, splitting(1e-4)), 0);
+  EXPECT_EQ(allocations_of_a_run(scene, euler(2e-5)), 0);
+}
+
 TEST(Allocation, NeverHappensWithAnyObstacleAndLaw) {
   Scene scene = rattling(8, 12, 0.5);
   const auto set = [&](std::size_t c, const contact::Obstacle& obstacle, const Vec3& rest) {

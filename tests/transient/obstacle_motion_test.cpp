@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Imposed motions are the exact double integrals of their acceleration, and obstacles that they carry act as obstacles at rest act on a
+// structure that is described in space.
+#include "core/error.hpp"
+#include "scenes.hpp"
+#include "transient/prescribed_motion.hpp"
+#include "transient/scheme_scope.hpp"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+using namespace fretwork;
+using namespace fretwork::tests;
+using namespace fretwork::transient;
+
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+constexpr double duration = 1.0;
+
+/// s(t) by Gauss's rule with two points on n intervals: exact for the cubic pieces of a signal whose joints are ends of intervals.
+MotionState integrated(const PrescribedMotion& motion, double t, int n) {
+  const Signal a(motion.acceleration, duration);
+  MotionState s{motion.displacement0, motion.velocity0};
+  const double h = t / n, point = 0.5 / std::sqrt(3.0);
+  for (int i = 0; i < n; ++i) {
+    const double x0 = h * (i + 0.5 - point), x1 = h * (i + 0.5 + point);
+    s.displacement += h * s.velocity + 0.5 * h * ((h * (i + 1) - x0) * a(x0) + (h * (i + 1) - x1) * a(x1));
+    s.velocity += 0.5 * h * (a(x0) + a(x1));
+  }
+  return s;
+}
+
+void expect_integral(const TimeFunction& acceleration, int intervals, double tolerance) {
+  const PrescribedMotion motion{acceleration, 0.7, -0.2};
+  const MotionSignal signal(motion, duration);
+  EXPECT_EQ(signal(0.0).displacement, -0.2);
+  EXPECT_EQ(signal(0.0).velocity, 0.7);
+  for (const double t : {0.125, 0.5, 0.75, 1.0}) {
+    const MotionState s = signal(t),
+                      exact = integrated(motion, t, static_cast<int>(std::lround(t * intervals)));
+    EXPECT_NEAR(s.velocity, exact.velocity, tolerance) << t;
+    EXPECT_NEAR(s.displacement, exact.displacement, tolerance) << t;
+  }
+}
+
+constexpr double round_off = 1e-12;
+
+} // namespace
+
+TEST(MotionSignal, IntegratesConstantsAndTablesExactly) {
+  expect_integral(Constant{3.0}, 8, round_off);
+  expect_integral(Table{{0.25, 0.5, 0.5, 0.875}, {1.0, 3.0, -2.0, 4.0}}, 64,
+                  round_off);                                                // a jump; constant outside
+  expect_integral(Table{{-0.5, 0.5, 2.0}, {1.0, 3.0, -2.0}}, 64, round_off); // begun before, ends after
+  expect_integral(Table{{-2.0, -1.0}, {1.0, 3.0}}, 64, round_off);
+}
+
+TEST(MotionSignal, IntegratesHarmonics) {
+  constexpr double of_the_rule = 1e-9; // (w h)^4/4320 of a/w^2, h = 1/4096
+  expect_integral(Harmonic{5.0, 3.0, 0.4}, 4096, of_the_rule);
+  expect_integral(Harmonic{5.0, 1e-7, 0.4}, 4096, round_off); // nothing cancels where w t is small
+}
+
+TEST(MotionSignal, IntegratesTheSignalThatTheLoadsFollow) {
+  const Random noise{2.0, 5.0, 20.0, 7};
+  const double step = Signal(noise, duration).grid_step();
+  const PrescribedMotion motion{noise, 0.7, -0.2};
+  const MotionSignal signal(motion, duration);
+  for (const int pieces : {1, 10, 300}) {
+    const MotionState s = signal(pieces * step), exact = integrated(motion, pieces * step, 4 * pieces);
+    EXPECT_NEAR(s.velocity, exact.velocity, round_off);
+    EXPECT_NEAR(s.displacement, exact.displacement, round_off);
+    // inside a piece: the derivative of what is there
+    constexpr double share = 0.01, difference = 1e-6; // (share step)^2 of the third derivative
+    const double t = (pieces + 0.4) * step, d = share * step;
+    EXPECT_NEAR((signal(t + d).displacement - signal(t - d).displacement) / (2.0 * d), signal(t).velocity,
+                difference);
+  }
+}
+
+namespace {
+
+// A mass on springs whose foot moves by s = -(A/w^2) sin(w t) along (0.6, 0.8, 0), inside a round hole that stays in space.
+constexpr double foot_acceleration = 8.0, foot_frequency = 4.0, spring = 900.0;
+const Vec3 along(0.6, 0.8, 0.0); // x_loc and y_loc
+
+double foot(double t) {
+  const double w = two_pi * foot_frequency;
+  return -foot_acceleration / (w * w) * std::sin(w * t);
+}
+
+Scene hole(double friction) {
+  Scene s = mass_point(1.0, Vec3::Constant(spring), 0.5);
+  s.system.damping.setConstant(1.0);
+  s.contacts = {contact_of(1.0, {contact::Circle{2e-3}, {2e4, 10.0}, {1e4, 20.0, friction, friction}},
+                           Vec3(0, 1e-3, 0.5e-3))};
+  return s;
+}
+
+/// Displacements from the foot.
+Scene from_the_foot(double friction) {
+  Scene s = hole(friction);
+  const Harmonic a{foot_acceleration, foot_frequency, 0.0};
+  const double w = two_pi * foot_frequency;
+  s.motions = {{a, -foot_acceleration / w, 0.0}};
+  s.contacts[0].carried = along;
+  s.loads = {force_on(1.0, -along, a)};
+  start(s, 1.0, Vec3::Zero(), foot_acceleration / w * along); // at rest in space
+  return s;
+}
+
+/// Displacements in space: the foot's are a load on the springs, its velocity one on the dampers.
+Scene in_space(double friction) {
+  Scene s = hole(friction);
+  const double w = two_pi * foot_frequency, a = foot_acceleration / (w * w);
+  s.loads = {force_on(1.0, along, Harmonic{-a * spring, foot_frequency, 0.0}),
+             force_on(1.0, along, Harmonic{-a * w * 1.0, foot_frequency, 0.5 * std::numbers::pi})};
+  return s;
+}
+
+/// Largest difference of the motion in space, m.
+double difference(double friction, const StepOptions& options) {
+  const History relative = simulate(from_the_foot(friction), options, 0.01),
+                absolute = simulate(in_space(friction), options, 0.01);
+  EXPECT_GT(absolute.normal.maxCoeff(), 1.0);
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < absolute.time.size(); ++i)
+    largest =
+        std::max(largest, (relative.q.col(i) + foot(absolute.time(i)) * along - absolute.q.col(i)).norm());
+  return largest;
+}
+
+} // namespace
+
+TEST(ObstacleMotion, OfSplittingActsLikeAnObstacleAtRestInOrderTwo) {
+  for (const double friction : {0.0, 0.3}) {
+    const double coarse = difference(friction, splitting(4e-4)), fine = difference(friction, splitting(1e-4));
+    EXPECT_LT(fine, 2e-7); // of 1e-2 m: w_c h = 0.014
+    EXPECT_LT(fine, coarse / 8.0);
+  }
+}
+
+TEST(ObstacleMotion, OfEulerActsLikeAnObstacleAtRestInOrderOne) {
+  const double coarse = difference(0.0, euler(1.6e-4)), fine = difference(0.0, euler(1e-5));
+  EXPECT_LT(fine, coarse / 14.0);                // of sixteen
+  EXPECT_LT(difference(0.3, euler(1e-5)), 1e-5); // stick and slip scatter about it
+}
+
+TEST(ObstacleMotion, BooksWhatTheObstacleBrings) {
+  const auto run = [](const StepOptions& options) {
+    return simulate(from_the_foot(0.3), options, 0.5).report;
+  };
+  const Report coarse = run(splitting(4e-4)), fine = run(splitting(1e-4));
+  EXPECT_LT(fine.residual_relative, 1e-3);
+  EXPECT_LT(fine.residual_relative, coarse.residual_relative / 4.0);
+  EXPECT_LT(run(euler(1e-5)).residual_relative, 1e-2);
+}
+
+TEST(ObstacleMotion, CarriesATableUnderABlock) {
+  // case A3 seen from space: the table moves, the block is at rest there
+  Scene s = mass_point(1.0, Vec3::Zero(), 12.0);
+  s.contacts = {pressed(1.0, 10.0, {9e6, 600.0, 0.1, 0.1})};
+  s.motions = {{Harmonic{1.5, 1.0, 0.0}}};
+  s.contacts[0].carried = Vec3(0, -1, 0);
+  const History run = simulate(s, splitting(), 12.0, 4.0);
+  constexpr double asked = 1e-3;
+  EXPECT_NEAR(run.statistics[0].work_rate / 0.40906245, 1.0, asked);
+  EXPECT_LT(run.report.residual_relative, asked);
+}
+
+TEST(ObstacleMotion, SlidesAlongAnAxisThatNoModeMoves) {
+  Scene s = mass_point(1.0, Vec3::Zero(), 1.0);
+  s.contacts = {pressed(1.0, 10.0, {1e5, 100.0, 0.1, 0.1})};
+  s.contacts[0].b.row(0).setZero();
+  s.motions = {{Constant{0.0}, 0.2}};
+  s.contacts[0].carried = Vec3(1, 0, 0);
+  const History run = simulate(s, splitting(), 0.5);
+  EXPECT_NEAR(run.along_x(0, 1), -1.0, 1e-9); // the bound, against the motion of the node from the obstacle
+  EXPECT_NEAR(run.statistics[0].work_rate, 2.0, 1e-2);
+}
+
+TEST(SchemeScope, KnowsTheSchemesThatFollowObstacles) {
+  EXPECT_TRUE(carries_obstacles(SchemeKind::splitting));
+  EXPECT_TRUE(carries_obstacles(SchemeKind::euler));
+  EXPECT_NO_THROW(check_scope(from_the_foot(0.0), SchemeKind::splitting));
+  EXPECT_NO_THROW(check_scope(hole(0.0), SchemeKind::devogelaere)); // nothing moves
+  try {
+    StepOptions options;
+    options.scheme = SchemeKind::devogelaere;
+    (void)choose_step(from_the_foot(0.0), options);
+    ADD_FAILURE() << "no error";
+  } catch (const core::Error& error) {
+    EXPECT_STREQ(error.what(),
+                 "scheme = \"devogelaere\" does not follow obstacles that stay in space while the base "
+                 "moves (attached_to = \"ground\"); use scheme = \"splitting\"");
+  }
+}

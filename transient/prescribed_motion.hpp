@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Displacement and velocity of an imposed motion whose acceleration is given: the exact double integral of the function of time,
+///     s'(t) = s'(0) + int_0^t a,    s(t) = s(0) + s'(0) t + int_0^t (t - x) a(x) dx.
+/// Constants and harmonics in closed form; tables (linear pieces) and random signals (the cubic pieces that the loads follow) piece by
+/// piece, from sums made before the run.
+#pragma once
+#include "transient/scene.hpp"
+
+namespace fretwork::transient {
+
+/// s and s' at an instant.
+struct MotionState {
+  double displacement = 0.0, velocity = 0.0;
+};
+
+class MotionSignal {
+public:
+  /// @param duration  s, of the run
+  MotionSignal(const PrescribedMotion& motion, double duration);
+  /// At a time within the run. No allocation.
+  [[nodiscard]] MotionState operator()(double time) const;
+
+private:
+  /// a = c0 + c1 x + c2 x^2 + c3 x^3 from the start of a piece, x = (t - start)/length.
+  struct Piece {
+    double start, length;
+    double c0, c1, c2, c3;
+    MotionState before; ///< at its start
+    [[nodiscard]] MotionState at(double time) const;
+  };
+  void cut(const Table& table);
+  void append(double start, double length, double first, double last);
+  [[nodiscard]] Piece grid_piece(std::size_t number) const;
+
+  PrescribedMotion motion_;
+  Signal signal_;
+  std::vector<Piece> pieces_;        ///< of a table, one after the other from t = 0
+  std::vector<MotionState> at_grid_; ///< of a random signal, at the starts of its pieces
+};
+
+} // namespace fretwork::transient

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// What of a scene each scheme can take.
+#pragma once
+#include "transient/scheme.hpp"
+
+namespace fretwork::transient {
+
+/// True where the scheme follows obstacles that move by themselves (Scene::motions).
+[[nodiscard]] bool carries_obstacles(SchemeKind kind);
+
+/// @throws core::Error that names the scheme, what it cannot take and a scheme that can
+void check_scope(const Scene& scene, SchemeKind kind);
+
+} // namespace fretwork::transient
