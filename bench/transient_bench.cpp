@@ -50,6 +50,13 @@ bench::TubeScene tube(int modes, int supports, double gap, double duration) {
 void euler_straight_tube_1s(benchmark::State& state) {
   run_once(state, tube(41, 8, 2e-4, 1.0), transient::SchemeKind::euler, 1e-5);
 }
+void devogelaere_straight_tube_1s(benchmark::State& state) {
+  run_once(state, tube(41, 8, 2e-4, 1.0), transient::SchemeKind::devogelaere, 2e-5);
+}
+/// At its default tolerance, 1e-6; h_us is the longest step.
+void runge_kutta_54_straight_tube_1s(benchmark::State& state) {
+  run_once(state, tube(41, 8, 2e-4, 1.0), transient::SchemeKind::runge_kutta_54, {});
+}
 void automatic_straight_tube_10s(benchmark::State& state) {
   run_once(state, tube(41, 8, 2e-4, 10.0), transient::SchemeKind::splitting, {});
 }
@@ -68,6 +75,8 @@ void energy_conserving_working(benchmark::State& state) {
 }
 
 BENCHMARK(euler_straight_tube_1s)->Unit(benchmark::kMillisecond);
+BENCHMARK(devogelaere_straight_tube_1s)->Unit(benchmark::kMillisecond);
+BENCHMARK(runge_kutta_54_straight_tube_1s)->Unit(benchmark::kMillisecond);
 BENCHMARK(automatic_straight_tube_10s)->Unit(benchmark::kMillisecond);
 BENCHMARK(splitting_open)->ArgsProduct({{20, 40, 100}, {3, 10, 30}})->Unit(benchmark::kMillisecond);
 BENCHMARK(splitting_working)->ArgsProduct({{20, 40, 100}, {3, 10, 30}})->Unit(benchmark::kMillisecond);
