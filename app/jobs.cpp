@@ -211,6 +211,8 @@ std::optional<transient::SchemeKind> scheme_of(study::Scheme scheme) {
     return {};
   case study::Scheme::splitting:
     return transient::SchemeKind::splitting;
+  case study::Scheme::collocation:
+    return transient::SchemeKind::collocation;
   case study::Scheme::euler:
     return transient::SchemeKind::euler;
   case study::Scheme::devogelaere:

@@ -74,6 +74,12 @@ void energy_conserving_working(benchmark::State& state) {
            transient::SchemeKind::energy_conserving, 1e-4);
 }
 
+void collocation_working(benchmark::State& state) {
+  run_once(state, tube(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)), 2e-4, 2.0),
+           transient::SchemeKind::collocation, 2e-4);
+}
+
+BENCHMARK(collocation_working)->ArgsProduct({{20, 40, 100}, {3, 10, 30}})->Unit(benchmark::kMillisecond);
 BENCHMARK(euler_straight_tube_1s)->Unit(benchmark::kMillisecond);
 BENCHMARK(devogelaere_straight_tube_1s)->Unit(benchmark::kMillisecond);
 BENCHMARK(runge_kutta_54_straight_tube_1s)->Unit(benchmark::kMillisecond);

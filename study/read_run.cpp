@@ -60,11 +60,11 @@ std::optional<Transient> read_transient(const TableReader& root) {
   transient.scheme = table.choice("scheme", Scheme::automatic,
                                   Choices<Scheme>{{{"auto", Scheme::automatic},
                                                    {"splitting", Scheme::splitting},
+                                                   {"collocation", Scheme::collocation},
                                                    {"euler", Scheme::euler},
                                                    {"devogelaere", Scheme::devogelaere},
                                                    {"runge_kutta_54", Scheme::runge_kutta_54},
-                                                   {"energy_conserving", Scheme::energy_conserving}},
-                                                  {"collocation"}});
+                                                   {"energy_conserving", Scheme::energy_conserving}}});
   transient.accuracy = table.number_or("accuracy", 0.01, {Range::above_zero});
   if (transient.accuracy >= 1.0)
     table.fail_at("accuracy", "a relative error below 1 is expected");

@@ -139,7 +139,15 @@ struct Initial {
   Vec3 centre = Vec3::Zero();
 };
 
-enum class Scheme { automatic, splitting, euler, devogelaere, runge_kutta_54, energy_conserving };
+enum class Scheme {
+  automatic,
+  splitting,
+  collocation,
+  euler,
+  devogelaere,
+  runge_kutta_54,
+  energy_conserving
+};
 /// At rest where the structure was drawn; or at rest in equilibrium with the loads at t = 0 and the contacts.
 enum class Start { rest, equilibrium };
 

@@ -17,6 +17,8 @@ std::unique_ptr<Scheme> make_scheme(const Scene& scene, const StepChoice& choice
   switch (choice.scheme) {
   case SchemeKind::splitting:
     return make_splitting(scene, choice.step);
+  case SchemeKind::collocation:
+    return make_collocation(scene, choice.step);
   case SchemeKind::euler:
     return make_euler(scene, choice.step);
   case SchemeKind::energy_conserving:

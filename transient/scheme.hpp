@@ -92,10 +92,11 @@ public:
   [[nodiscard]] virtual StepFailure failure() const { return StepFailure::none; }
 };
 
-enum class SchemeKind { splitting, euler, energy_conserving, devogelaere, runge_kutta_54 };
+enum class SchemeKind { splitting, collocation, euler, energy_conserving, devogelaere, runge_kutta_54 };
 [[nodiscard]] std::string name_of(SchemeKind kind);
 
 [[nodiscard]] std::unique_ptr<Scheme> make_splitting(const Scene& scene, double step);
+[[nodiscard]] std::unique_ptr<Scheme> make_collocation(const Scene& scene, double step);
 [[nodiscard]] std::unique_ptr<Scheme> make_euler(const Scene& scene, double step);
 [[nodiscard]] std::unique_ptr<Scheme> make_energy_conserving(const Scene& scene, double step);
 [[nodiscard]] std::unique_ptr<Scheme> make_devogelaere(const Scene& scene, double step);

@@ -94,7 +94,8 @@ double relaxation_rate(const Scene& scene) {
 
 /// The modes move exactly between the actions of the contacts.
 bool moves_exactly(SchemeKind scheme) {
-  return scheme == SchemeKind::splitting || scheme == SchemeKind::energy_conserving;
+  return scheme == SchemeKind::splitting || scheme == SchemeKind::collocation ||
+         scheme == SchemeKind::energy_conserving;
 }
 
 struct Term {
@@ -116,7 +117,8 @@ double table_interval(const Scene& scene) {
 
 /// What limits the step. `fineness` scales with the square root of the accuracy, 1 for 0.01.
 std::vector<Term> terms(const StepChoice& c, const Scene& scene, double fineness) {
-  const bool exact = moves_exactly(c.scheme), contacts = !scene.contacts.empty();
+  const bool exact = moves_exactly(c.scheme), contacts = !scene.contacts.empty(),
+             collocation = c.scheme == SchemeKind::collocation;
   const double eps = 0.5 * fineness;
   std::vector<Term> out;
   const auto add = [&](double factor, double rate, const std::string& reason) {
@@ -132,15 +134,18 @@ std::vector<Term> terms(const StepChoice& c, const Scene& scene, double fineness
     return out;
   const bool devogelaere = c.scheme == SchemeKind::devogelaere;
   const double damped = devogelaere ? std::min(eps, most_damped) : eps;
-  add(eps, c.contact_frequency, fmt::format("the contact frequency {:.4g} rad/s", c.contact_frequency));
-  add(eps, c.stick_frequency,
+  const double nodes = collocation ? 3.0 : 1.0; // w_c h = 1.5 at order 4
+  add(eps * nodes, c.contact_frequency,
+      fmt::format("the contact frequency {:.4g} rad/s", c.contact_frequency));
+  add(eps * nodes, c.stick_frequency,
       fmt::format("the frequency of sticking contacts {:.4g} rad/s", c.stick_frequency));
-  add(damped * (exact ? 4.0 : 1.0), c.damper_rate,
+  add(damped * nodes * (exact ? 4.0 : 1.0), c.damper_rate,
       fmt::format("the tangential dampers' rate {:.4g} 1/s", c.damper_rate));
   add(damped, c.explicit_rate, fmt::format("the dampers' rate {:.4g} 1/s", c.explicit_rate));
   // without contacts the flow of the splitting scheme is exact: only the statistics need to see the modes, in about 20 points a period
   const double mode = exact ? (contacts ? 5.0 : 0.6) : 1.0;
-  add(eps * mode, c.highest_mode, fmt::format("the highest mode {:.4g} rad/s", c.highest_mode));
+  if (!(collocation && contacts))
+    add(eps * mode, c.highest_mode, fmt::format("the highest mode {:.4g} rad/s", c.highest_mode));
   return out;
 }
 
@@ -164,12 +169,15 @@ void warn(StepChoice& c) {
           c.step, what, name, value, limit));
   };
   const bool exact = moves_exactly(c.scheme);
-  add(c.contact_frequency * c.step, resolved, "w_c h", "the contact frequency");
-  add(c.stick_frequency * c.step, resolved, "w_t h", "the frequency of sticking contacts");
+  const bool collocation = c.scheme == SchemeKind::collocation;
+  const double nodes = collocation ? 1.5 : 1.0;
+  add(c.contact_frequency * c.step, nodes * resolved, "w_c h", "the contact frequency");
+  add(c.stick_frequency * c.step, nodes * resolved, "w_t h", "the frequency of sticking contacts");
   const double damped = c.scheme == SchemeKind::devogelaere ? most_damped : 1.0;
-  add(c.damper_rate * c.step, exact ? 4.0 : damped, "r_t h", "the tangential dampers");
+  add(c.damper_rate * c.step, nodes * (exact ? 4.0 : damped), "r_t h", "the tangential dampers");
   add(c.explicit_rate * c.step, damped, "r_e h", "the dampers");
-  add(c.highest_mode * c.step, exact ? 3.0 : 1.8, "w_max h", "the highest mode");
+  if (!collocation)
+    add(c.highest_mode * c.step, exact ? 3.0 : 1.8, "w_max h", "the highest mode");
   add(c.excitation * c.step * points_per_period, 2.0, "20 f h", "the excitation");
 }
 
@@ -179,6 +187,8 @@ std::string name_of(SchemeKind kind) {
   switch (kind) {
   case SchemeKind::splitting:
     return "splitting";
+  case SchemeKind::collocation:
+    return "collocation";
   case SchemeKind::euler:
     return "euler";
   case SchemeKind::energy_conserving:

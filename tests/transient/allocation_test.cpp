@@ -101,11 +101,13 @@ TEST(Allocation, NeverHappensInTheLoop) {
   scene.contacts[0].b.row(0).setZero(); // two and three components
   EXPECT_EQ(allocations_of_a_run(scene, splitting(1e-4)), 0);
   EXPECT_EQ(allocations_of_a_run(scene, energy_conserving(1e-4)), 0);
+  EXPECT_EQ(allocations_of_a_run(scene, collocation(1e-4)), 0);
   EXPECT_EQ(allocations_of_a_run(scene, euler(2e-5)), 0);
   for (auto& c : scene.contacts)
     c.b.row(0).setZero();
   EXPECT_EQ(allocations_of_a_run(scene, splitting(1e-4)), 0);
   EXPECT_EQ(allocations_of_a_run(scene, energy_conserving(1e-4)), 0);
+  EXPECT_EQ(allocations_of_a_run(scene, collocation(1e-4)), 0);
   scene.system.damping_matrix = Eigen::MatrixXd(scene.system.damping.asDiagonal());
   EXPECT_EQ(allocations_of_a_run(scene, euler(2e-5)), 0);
   scene.system.damping_matrix(0, 5) = scene.system.damping_matrix(5, 0) = 0.3;
@@ -118,6 +120,7 @@ TEST(Allocation, NeverHappensUnderTablesAndNoise) {
   scene.loads[1].function = Table{{0.0, 0.3, 0.3, 0.9}, {3.0, -3.0, 4.0, 1.0}};
   EXPECT_EQ(allocations_of_a_run(scene, splitting(1e-4)), 0);
   EXPECT_EQ(allocations_of_a_run(scene, energy_conserving(1e-4)), 0);
+  EXPECT_EQ(allocations_of_a_run(scene, collocation(1e-4)), 0);
 }
 
 TEST(Allocation, NeverHappensWithObstaclesThatMove) {
@@ -148,5 +151,6 @@ TEST(Allocation, NeverHappensWithAnyObstacleAndLaw) {
   scene.contacts[7].support.friction.kind = contact::FrictionMemoryKind::reference;
   EXPECT_EQ(allocations_of_a_run(scene, splitting(1e-4)), 0);
   EXPECT_EQ(allocations_of_a_run(scene, energy_conserving(1e-4)), 0);
+  EXPECT_EQ(allocations_of_a_run(scene, collocation(1e-4)), 0);
   EXPECT_EQ(allocations_of_a_run(scene, euler(2e-5)), 0);
 }

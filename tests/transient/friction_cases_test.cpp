@@ -116,3 +116,12 @@ TEST(DryFrictionOscillator, HasDenHartogsAmplitude) {
   const Eigen::Index last = 5 * 4000;
   EXPECT_NEAR(run.q.row(1).tail(last).cwiseAbs().maxCoeff() / 2.50179, 1.0, asked);
 }
+
+TEST(CoulombDecay, OfCollocationIsTheSame) { check_decay(collocation()); }
+
+TEST(ShakingTable, OfCollocationSlidesAndSticksSo) {
+  const History sliding = simulate(shaking_table(1.5), collocation(), 12.0, 4.0);
+  EXPECT_NEAR(sliding.statistics[0].work_rate / 0.40906245, 1.0, asked);
+  EXPECT_NEAR(sliding.statistics[0].friction_power / 0.040906245, 1.0, asked);
+  EXPECT_EQ(simulate(shaking_table(0.99), collocation(), 12.0, 4.0).statistics[0].work_rate, 0.0);
+}

@@ -188,3 +188,17 @@ void check_gap_oscillator(const StepOptions& options) {
 TEST(GapOscillator, HasThePeriodOfItsClosedForm) { check_gap_oscillator(splitting()); }
 
 TEST(GapOscillator, OfEnergyConservingHasIt) { check_gap_oscillator(energy_conserving()); }
+
+TEST(ElasticStop, OfCollocationHasThem) { ElasticStop::check(collocation(), asked); }
+
+TEST(BallOnAStop, OfCollocationHasIt) { check_ball(collocation(), asked); }
+
+TEST(Restitution, OfCollocationHasThem) {
+  check_restitution(0.0, 1.0, 6.283185e-3, 1500.0, collocation(), asked);
+  check_restitution(0.1, 0.74407940, 5.912151e-3, 1320.216, collocation(), asked);
+}
+
+TEST(ObliqueImpact, OfCollocationHasIt) {
+  check_oblique(0.0, 1.0, 1.4, collocation(), asked);
+  check_oblique(0.1, 0.74407940, 1.4767762, collocation(), asked);
+}

@@ -26,7 +26,7 @@ Scene oblique_hit() {
   return s;
 }
 
-const StepOptions schemes[] = {splitting(1e-5), euler(1e-5)};
+const StepOptions schemes[] = {splitting(1e-5), euler(1e-5), collocation(1e-5)};
 
 double difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();

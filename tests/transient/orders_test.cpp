@@ -143,6 +143,9 @@ void expect_order(const Scene& scene, SchemeKind scheme, double lower, double up
 const contact::FrictionLaw none{};
 const contact::FrictionLaw sticking{800.0, 5.0, 20.0, 20.0};
 const contact::FrictionLaw slipping{800.0, 20.0, 0.1, 0.1};
+constexpr auto reference = contact::FrictionMemoryKind::reference;
+const contact::FrictionLaw reference_sticking{800.0, 5.0, 20.0, 20.0, reference};
+const contact::FrictionLaw reference_slipping{800.0, 20.0, 0.1, 0.1, reference};
 constexpr double dissipation = 0.3; ///< s/m: the spring's force changes by up to 15 % at 0.5 m/s
 const Vec3 slow(0.05, 0.1, 0.05), fast(1.5, 2.0, 0.0);
 
@@ -153,20 +156,20 @@ constexpr double first_low = 0.9, first_high = 1.2, first_final = 1e-2;
 // of order four and five: few steps, so that the error stays far above the oracle's 1e-10
 constexpr double fourth_low = 3.7, fourth_high = 4.5, fifth_low = 4.6, fifth_high = 6.5;
 
-/// Mean order over three halvings, forces taken where records stand on the outputs: between them they are linear.
-void expect_order_four(const Scene& scene) {
+/// Mean order over some halvings, forces taken where records stand on the outputs: between them they are linear.
+void expect_order_four(const Scene& scene, SchemeKind scheme = SchemeKind::devogelaere,
+                       int steps = 2 * outputs, int halved = 3) {
   const Solution exact = Oracle(scene).solve();
-  constexpr int steps = 2 * outputs, halved = 3;
-  const Errors first = errors(scene, {SchemeKind::devogelaere, duration / steps}, exact),
-               last = errors(scene, {SchemeKind::devogelaere, duration / (steps << halved)}, exact);
+  const Errors first = errors(scene, {scheme, duration / steps}, exact),
+               last = errors(scene, {scheme, duration / (steps << halved)}, exact);
   for (std::size_t i = 0; i < 3; ++i) {
     const double order = std::log2(first[i] / last[i]) / halved;
     EXPECT_GT(order, fourth_low) << names[i];
     EXPECT_LT(order, fourth_high) << names[i];
   }
   // and between the records
-  const double coarse = errors(scene, {SchemeKind::devogelaere, duration / 64}, exact)[1],
-               fine = errors(scene, {SchemeKind::devogelaere, duration / 512}, exact)[1];
+  const double coarse = errors(scene, {scheme, duration / 64}, exact)[1],
+               fine = errors(scene, {scheme, duration / 512}, exact)[1];
   EXPECT_GT(std::log2(coarse / fine) / 3, fourth_low);
 }
 
@@ -264,4 +267,44 @@ TEST(EnergyConserving, IsOfOrderTwoWithHuntAndCrossleysDamper) {
   for (const Scene& scene : {pressed_on_a_circle(0.0, 1.0, none, slow, dissipation),
                              pressed_on_a_circle(0.0, 1.0, slipping, fast, dissipation)})
     expect_order(scene, SchemeKind::energy_conserving, second_low, second_high, second_final);
+}
+
+void expect_order_four_of_collocation(const Scene& scene) {
+  expect_order_four(scene, SchemeKind::collocation, outputs, 4);
+}
+
+TEST(Collocation, IsOfOrderFourWithoutDampingAndFriction) {
+  expect_order_four_of_collocation(pressed_on_a_circle(0.0, 0.0, none, slow));
+}
+
+TEST(Collocation, IsOfOrderFourWithNormalAndModalDamping) {
+  expect_order_four_of_collocation(pressed_on_a_circle(3.0, 1.0, none, slow));
+}
+
+TEST(Collocation, IsOfOrderFourInStick) {
+  expect_order_four_of_collocation(pressed_on_a_circle(3.0, 1.0, sticking, slow));
+  expect_order_four_of_collocation(pressed_on_a_circle(3.0, 1.0, reference_sticking, slow));
+}
+
+TEST(Collocation, IsOfOrderFourInSlip) {
+  expect_order_four_of_collocation(pressed_on_a_circle(3.0, 1.0, slipping, fast));
+  expect_order_four_of_collocation(pressed_on_a_circle(3.0, 1.0, reference_slipping, fast));
+}
+
+TEST(Collocation, IsOfOrderFourWithHuntAndCrossleysDamper) {
+  expect_order_four_of_collocation(pressed_on_a_circle(0.0, 1.0, none, slow, dissipation));
+  expect_order_four_of_collocation(pressed_on_a_circle(0.0, 1.0, slipping, fast, dissipation));
+}
+
+TEST(Collocation, BalancesItsEnergyToOrderFour) {
+  for (const auto& [law, velocity] :
+       {std::pair(none, slow), std::pair(sticking, slow), std::pair(slipping, fast)}) {
+    const Scene scene = pressed_on_a_circle(3.0, 1.0, law, velocity);
+    const auto residual = [&](double steps) {
+      return simulate(scene, {SchemeKind::collocation, duration / steps}, duration).report.residual_relative;
+    };
+    const double order = std::log2(residual(steps_first) / residual(8.0 * steps_first)) / 3.0;
+    EXPECT_GT(order, fourth_low);
+    EXPECT_LT(order, fourth_high);
+  }
 }

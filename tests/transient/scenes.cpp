@@ -113,6 +113,7 @@ History simulate(const Scene& scene, const StepOptions& options, double every, d
 
 StepOptions splitting(std::optional<double> step) { return {SchemeKind::splitting, step}; }
 StepOptions euler(std::optional<double> step) { return {SchemeKind::euler, step}; }
+StepOptions collocation(std::optional<double> step) { return {SchemeKind::collocation, step}; }
 StepOptions energy_conserving(std::optional<double> step) { return {SchemeKind::energy_conserving, step}; }
 
 void Trace::step(const Record& record) {

@@ -47,6 +47,7 @@ struct History {
 /// Options: the scheme with a step, or with the automatic one.
 [[nodiscard]] transient::StepOptions splitting(std::optional<double> step = {});
 [[nodiscard]] transient::StepOptions euler(std::optional<double> step = {});
+[[nodiscard]] transient::StepOptions collocation(std::optional<double> step = {});
 [[nodiscard]] transient::StepOptions energy_conserving(std::optional<double> step = {});
 
 /// What a test wants to see of every step.

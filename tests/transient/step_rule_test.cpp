@@ -45,6 +45,23 @@ TEST(StepRule, ResolvesTheContactFrequency) {
                   "the contact frequency 200 rad/s");
 }
 
+TEST(StepRule, GivesCollocationThreeTimesTheStepWhateverTheModes) {
+  expect_governed(scene_with({Circle{0.1}, {8e4}, {}}, 1000.0, Vec3(0, 1e12, 0)), collocation(),
+                  3.0 * eps / std::sqrt(8e4 / mass), "the contact frequency 200 rad/s");
+}
+
+TEST(StepRule, RefusesCollocationWhereDampersCoupleTheModes) {
+  Scene scene = scene_with({Circle{0.1}, {8e4}, {}});
+  scene.system.damping_matrix = Eigen::MatrixXd::Identity(3, 3);
+  try {
+    (void)choose_step(scene, collocation());
+    FAIL();
+  } catch (const core::Error& error) {
+    EXPECT_TRUE(mentions(error.what(), "scheme = \"collocation\" takes diagonal modal damping only"));
+    EXPECT_TRUE(mentions(error.what(), "use scheme = \"splitting\""));
+  }
+}
+
 TEST(StepRule, ResolvesTheFrequencyOfStickingContacts) {
   expect_governed(scene_with({Circle{0.1}, {2.0}, {8e4, 0.0, 0.3, 0.3}}), splitting(), eps / 200.0,
                   "the frequency of sticking contacts 200 rad/s");

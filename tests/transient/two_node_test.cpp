@@ -21,7 +21,7 @@ constexpr double first_mass = 2.0, second_mass = 3.0;
 constexpr double round_off = 1e-12;
 
 const FrictionLaw rough{5e5, 200.0, 0.4, 0.3};
-const StepOptions schemes[] = {splitting(1e-5), euler(1e-5)};
+const StepOptions schemes[] = {splitting(1e-5), euler(1e-5), collocation(1e-5)};
 
 /// Modes 0 to 2 move the first mass, 3 to 5 the second. `apart`: the first from the second at q = 0.
 Scene two_masses(const contact::Support& support, const Vec3& apart, double duration) {
@@ -135,7 +135,7 @@ TEST(OneNode, AtTheCentreOfItsHoleGivesFiniteForces) {
 TEST(FacingBodies, KeepTheirSideWhenAStepTakesThemThroughEachOther) {
   constexpr double step = 1e-3, speed = 20.0, apart = 1e-3; // 20 mm a step, w_c h = 0.18
   constexpr double of_resolution = 0.02;                    // (w_c h)^2 and the phase of the first touch
-  for (const SchemeKind scheme : {SchemeKind::splitting, SchemeKind::euler})
+  for (const SchemeKind scheme : {SchemeKind::splitting, SchemeKind::euler, SchemeKind::collocation})
     for (const double side : {1.0, -1.0}) {
       Scene s = two_masses({FacingPlanes{5e-3, PlaneAxis::y, side}, {4e4}, {}},
                            Vec3(0, side * (5e-3 + apart), 0), 0.1);

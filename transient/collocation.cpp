@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Collocation at the nodes 0, 1/2, 1 of a step (Lobatto): the modes move exactly under a force that is the quadratic through its
+/// values at the nodes (force_polynomial.hpp), and the contact forces obey their laws at the nodes (nodal_solver.hpp, nodal_contact.hpp).
+/// Loads are sampled at the nodes.
+///
+/// Order 4 in displacement, velocity and force, with damping and friction, on a path along which the laws are smooth: the end of a
+/// step is Simpson's rule on the exact flow; where a contact closes, opens, sticks or slips inside a step the step is of order 2.
+/// Friction with the memory `reference`: order 4 in stick and in slip, at a change between them order 1, as its force jumps with the
+/// step. No limit by the modes' frequencies. Contacts: w_c h < 2 (measured: 1.5 stable, 2 not). Cost: the laws at two nodes for each sweep.
+/// A step whose equations are not solved is made in two halves, these again if need be, down to h/1024 (tables made beforehand); what
+/// fails then is StepFailure::contacts. Steps grow again on the grid of the halves.
+///
+/// Records stand at the nodes 0 and 1/2; they stand for Simpson's weights, h/6 on each side and 2 h/3.
+/// Energy: modal energies and the works of loads and contacts on the modes are exact. The laws' losses are Simpson's sums of powers,
+///     normal damper (F_N - K_N p+) p',   slider -F.(v - w),   tangential damper -F.v + T.w less the slider's,   w = -T'/K_T
+/// T' of the quadratic through T at the nodes (so the sum of T.w is exactly the spring's energy). The residual is of the scheme's order.
+/// Source: Lobatto IIIA (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.7) on the variation of constants.
+#include "transient/contact_trial.hpp"
+#include "transient/load_sum.hpp"
+#include "transient/nodal_solver.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fretwork::transient {
+namespace {
+
+constexpr int halvings = 10;
+constexpr std::int64_t grid = std::int64_t{1} << halvings;
+
+/// Integrals to the nodes 1/2 and 1 of the quadratic through values at the nodes.
+constexpr double to_middle[3] = {5.0 / 24.0, 1.0 / 3.0, -1.0 / 24.0};
+constexpr double to_end[3] = {1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0};
+/// Derivative at the nodes of the quadratic through values at the nodes, times h.
+constexpr double derivative[3][3] = {{-3.0, 4.0, -1.0}, {-1.0, 0.0, 1.0}, {1.0, -4.0, 3.0}};
+
+/// What a contact loses, W.
+struct Power {
+  double slider = 0.0, damper = 0.0;
+};
+
+Power power_of(const contact::Support& support, const ContactNode* nodes, int j, double h) {
+  const ContactNode& n = nodes[j];
+  Power out;
+  out.damper = (n.normal - support.normal.stiffness * std::max(0.0, n.penetration)) * n.rate;
+  if (!support.friction.active())
+    return out;
+  const double *d = derivative[j], scale = -1.0 / (support.friction.stiffness * h);
+  const contact::Vec2 stretch =
+      scale * (d[0] * nodes[0].spring + d[1] * nodes[1].spring + d[2] * nodes[2].spring);
+  const double on_node = contact::dot(n.friction, n.slip), on_spring = contact::dot(n.spring, stretch);
+  if (n.slides) // a slider does not move with the force: there the bound clips a spring that lets go by itself
+    out.slider = std::max(0.0, contact::dot(n.friction, stretch) - on_node);
+  out.damper += on_spring - on_node - out.slider;
+  return out;
+}
+
+class Collocation final : public Scheme {
+public:
+  Collocation(const Scene& scene, double step)
+      : system_(scene.system), h_(step), loads_(scene.loads, scene.system.size(), scene.duration, 0.5 * step),
+        contacts_(scene.contacts, scene.system.size()), motion_(contacts_), solver_(contacts_),
+        trial_(contacts_.count), powers_(3 * static_cast<std::size_t>(contacts_.count)),
+        carried_(static_cast<std::size_t>(contacts_.count)),
+        closed_(static_cast<std::size_t>(contacts_.count)) {
+    const auto n = static_cast<std::size_t>(contacts_.padded_modes);
+    for (Nodes* nodes : {&q_, &v_, &load_, &force_})
+      for (kernels::Array& a : nodes->at)
+        a.assign(n, 0.0);
+    k_.assign(n, 0.0);
+    scratch_.assign(n, 0.0);
+    std::copy_n(scene.q0.data(), scene.q0.size(), q_.at[0].begin());
+    std::copy_n(scene.v0.data(), scene.v0.size(), v_.at[0].begin());
+    std::copy_n(system_.stiffness.data(), system_.size(), k_.begin());
+    levels_.reserve(halvings + 1);
+    for (int level = 0; level <= halvings; ++level)
+      levels_.emplace_back(system_, contacts_, std::ldexp(h_, -level));
+    for (kernels::Array& a : load_.at)
+      loads_.at(0.0, a.data());
+    kernels::gather(contacts_.modes, contacts_.stride(), contacts_.gather.data(), q_.at[0].data(),
+                    v_.at[0].data(), motion_.u(0), motion_.v(0));
+    solver_.start(motion_);
+    solver_.add_forces(0, force_.at[0].data());
+    energy_[0].initial = energy_[0].throughput = energy_[0].stored =
+        modal_energy(0) + solver_.spring_energy(0);
+    record_.contacts = contacts_.count;
+    record_.states = trial_.states;
+    counts_.step_min = counts_.step_max = h_;
+  }
+
+  const Record& advance() override {
+    if (at_start_) {
+      at_start_ = false;
+      show(1);
+      return record_;
+    }
+    if (counts_.steps > 0)
+      accept();
+    make_step();
+    at_start_ = true;
+    show(0);
+    return record_;
+  }
+
+  [[nodiscard]] double next_time() const override {
+    if (failure_ != StepFailure::none)
+      return std::numeric_limits<double>::infinity();
+    if (at_start_)
+      return time_at(place_) + 0.5 * span();
+    return counts_.steps > 0 ? time_at(place_ + size()) : 0.0;
+  }
+
+  void state_at(double time, double* q, double* v) override {
+    const double t = time - time_at(place_);
+    for (Eigen::Index j = 0; j < system_.size(); ++j) {
+      const auto i = static_cast<std::size_t>(j);
+      if (t == 0.0 || counts_.steps == 0) {
+        q[j] = q_.at[0][i];
+        v[j] = v_.at[0][i];
+        continue;
+      }
+      std::array<double, 3> f{};
+      for (std::size_t node = 0; node < 3; ++node)
+        f[node] = load_.at[node][i] + force_.at[node][i];
+      const auto state =
+          state_under(system_.stiffness(j), system_.damping(j), span(), t, q_.at[0][i], v_.at[0][i], f);
+      q[j] = state.q;
+      v[j] = state.v;
+    }
+  }
+
+  void load_at(double time, double* force) override {
+    loads_.instant(time, scratch_.data());
+    std::copy_n(scratch_.begin(), system_.size(), force);
+  }
+
+  [[nodiscard]] StepCounts counts() const override {
+    StepCounts out = counts_;
+    out.evaluations = contacts_.count > 0 ? 2 * (counts_.steps + counts_.rejected) : 0;
+    return out;
+  }
+  [[nodiscard]] StepFailure failure() const override { return failure_; }
+
+private:
+  struct Level {
+    Level(const System& system, const PackedContacts& contacts, double h)
+        : flow(system, h), tables(contacts, flow, h) {}
+    PolynomialFlow flow;
+    NodalTables tables;
+  };
+
+  [[nodiscard]] std::int64_t size() const { return grid >> level_; }
+  [[nodiscard]] double span() const { return std::ldexp(h_, -level_); }
+  /// Time of a place on the grid of the smallest steps.
+  [[nodiscard]] double time_at(std::int64_t place) const {
+    return static_cast<double>(place / grid) * h_ +
+           static_cast<double>(place % grid) / static_cast<double>(grid) * h_;
+  }
+  [[nodiscard]] double modal_energy(std::size_t node) const {
+    return 0.5 *
+           kernels::twice_energy(contacts_.padded_modes, k_.data(), q_.at[node].data(), v_.at[node].data());
+  }
+
+  /// The end of the step becomes the start of the next.
+  void accept() {
+    for (Nodes* nodes : {&q_, &v_, &load_, &force_})
+      nodes->at[0].swap(nodes->at[2]);
+    const std::size_t stride = motion_.stride;
+    std::copy_n(motion_.u(2), stride, motion_.u(0));
+    std::copy_n(motion_.v(2), stride, motion_.v(0));
+    std::fill(carried_.begin(), carried_.end(), Power{});
+    carried_time_ = span() / 6.0;
+    for (const int c : solver_.alive()) {
+      const Power& p = powers_[3 * static_cast<std::size_t>(c) + 2];
+      carried_[static_cast<std::size_t>(c)] = {carried_time_ * p.slider, carried_time_ * p.damper};
+    }
+    solver_.accept();
+    energy_[0] = energy_[2];
+    place_ += size();
+    if (level_ > 0 && place_ % (2 * size()) == 0)
+      --level_;
+  }
+
+  void make_step() {
+    while (!try_step())
+      if (level_ == halvings) {
+        failure_ = StepFailure::contacts;
+        return;
+      } else {
+        ++counts_.rejected;
+        ++level_;
+      }
+    ++counts_.steps;
+    counts_.step_min = std::min(counts_.step_min, span());
+  }
+
+  /// The step from node 0, or false where the contacts were not solved.
+  bool try_step() {
+    const Level& now = levels_[static_cast<std::size_t>(level_)];
+    if (!loads_.constant())
+      for (int j = 1; j <= 2; ++j)
+        loads_.at(time_at(place_) + 0.5 * j * span(), load_.at[j].data());
+    std::fill(force_.at[1].begin(), force_.at[1].end(), 0.0);
+    std::fill(force_.at[2].begin(), force_.at[2].end(), 0.0);
+    if (contacts_.count > 0) {
+      now.flow.predict(load_, force_, q_, v_);
+      for (std::size_t j = 1; j <= 2; ++j)
+        kernels::gather(contacts_.modes, contacts_.stride(), contacts_.gather.data(), q_.at[j].data(),
+                        v_.at[j].data(), motion_.u(static_cast<int>(j)), motion_.v(static_cast<int>(j)));
+      if (!solver_.solve(now.tables, motion_))
+        return false;
+      solver_.add_forces(1, force_.at[1].data());
+      solver_.add_forces(2, force_.at[2].data());
+    }
+    book(now.flow.move(load_, force_, q_, v_));
+    return true;
+  }
+
+  /// Energies at the nodes 1/2 and 1.
+  void book(const PolynomialFlow::Works& work) {
+    const double before = modal_energy(0), h = span();
+    Power to[2];
+    for (const int c : solver_.alive()) {
+      const ContactNode* nodes = solver_.nodes(c);
+      Power* p = &powers_[3 * static_cast<std::size_t>(c)];
+      for (int j = 0; j < 3; ++j) {
+        p[j] = power_of(contacts_.supports[static_cast<std::size_t>(c)], nodes, j, h);
+        to[0].slider += h * to_middle[j] * p[j].slider;
+        to[0].damper += h * to_middle[j] * p[j].damper;
+        to[1].slider += h * to_end[j] * p[j].slider;
+        to[1].damper += h * to_end[j] * p[j].damper;
+      }
+    }
+    const double through[2] = {std::abs(work.load[0]),
+                               std::abs(work.load[0]) + std::abs(work.load[1] - work.load[0])};
+    for (std::size_t j = 0; j < 2; ++j) {
+      Energy& e = energy_[j + 1] = energy_[0];
+      const double moving = modal_energy(j + 1);
+      e.load_work += work.load[j];
+      e.throughput += through[j];
+      e.modal_damping += work.load[j] + work.contact[j] - (moving - before);
+      e.contact_damping += to[j].damper;
+      e.friction += to[j].slider;
+      e.stored = moving + solver_.spring_energy(static_cast<int>(j) + 1);
+    }
+  }
+
+  /// The record of a node of the step.
+  void show(int node) {
+    const double h = failure_ == StepFailure::none ? span() : 0.0;
+    const double own = h * to_end[node];
+    record_.time = time_at(place_) + 0.5 * node * h;
+    record_.step = own + (node == 0 ? carried_time_ : 0.0);
+    record_.q = q_.at[node].data();
+    record_.uy = motion_.u(node);
+    record_.uz = motion_.u(node) + contacts_.width;
+    record_.energy = energy_[node];
+    trial_.clear();
+    for (const int c : solver_.alive()) {
+      const auto i = static_cast<std::size_t>(c);
+      const ContactNode& n = solver_.nodes(c)[node];
+      ContactState& state = trial_.states[i];
+      const bool before = closed_[i];
+      closed_[i] = n.normal > 0.0;
+      if (closed_[i]) {
+        const Power& p = powers_[3 * i + static_cast<std::size_t>(node)];
+        const Power carried = node == 0 ? carried_[i] : Power{};
+        state = {n.normal,
+                 n.ny,
+                 n.nz,
+                 n.friction,
+                 record_.step * n.slip,
+                 own * p.slider + carried.slider,
+                 own * p.damper + carried.damper,
+                 n.approach,
+                 n.slides};
+        trial_.active.push_back(c);
+      } else if (before) {
+        state.approach = n.rate;
+        trial_.opened.push_back(c);
+      }
+    }
+    record_.active = trial_.active;
+    record_.opened = trial_.opened;
+  }
+
+  System system_;
+  double h_;
+  LoadSum loads_;
+  PackedContacts contacts_;
+  NodalMotion motion_;
+  NodalSolver solver_;
+  ContactTrial trial_;
+  std::vector<Level> levels_;
+  Nodes q_, v_, load_, force_; ///< modes, their velocities, modal forces of loads and contacts at the nodes
+  kernels::Array k_, scratch_;
+
+  std::int64_t place_ = 0; ///< of node 0, in steps of h/1024
+  int level_ = 0;          ///< the step is h/2^level
+  bool at_start_ = false;  ///< the record of node 0 has been given, that of node 1/2 not yet
+  StepFailure failure_ = StepFailure::none;
+  StepCounts counts_;
+  Energy energy_[3];           ///< at the nodes
+  std::vector<Power> powers_;  ///< 3 nodes of each contact
+  std::vector<Power> carried_; ///< J: of the step before, for the record at its end
+  std::vector<char> closed_;   ///< with a force at the last record
+  double carried_time_ = 0.0;
+  Record record_;
+};
+
+} // namespace
+
+std::unique_ptr<Scheme> make_collocation(const Scene& scene, double step) {
+  return std::make_unique<Collocation>(scene, step);
+}
+
+} // namespace fretwork::transient

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/force_polynomial.hpp"
+#include "transient/oscillator.hpp"
+#include "transient/vector_lanes.hpp"
+#include <cmath>
+
+namespace fretwork::transient {
+namespace {
+
+using namespace kernels;
+
+/// Below this value of sqrt(k) t and c t closed forms cancel; power series are taken.
+constexpr double series_limit = 1.5;
+/// k/c^2 (critical: 1/4) below which the two decays are far enough apart to be told from each other.
+constexpr double separate = 0.2;
+constexpr int series_terms = 20; ///< 1.5^20/20! and less
+
+constexpr std::array<double, 6> factorial = {1.0, 1.0, 2.0, 6.0, 24.0, 120.0};
+
+/// g = sum g_j t^j with (j+1)(j+2) g_{j+2} = -c (j+1) g_{j+1} - k g_j, integrated term by term.
+void add_series(double k, double c, double t, std::array<double, 6>& g) {
+  double now = 0.0, next = 1.0, power = 1.0;
+  for (int j = 0; j < series_terms; ++j) {
+    double term = now * power;
+    for (std::size_t n = 1; n < g.size(); ++n) {
+      term *= t / (j + static_cast<double>(n));
+      g[n] += term;
+    }
+    const double after = -(c * (j + 1) * next + k * now) / ((j + 1.0) * (j + 2.0));
+    now = next;
+    next = after;
+    power *= t;
+  }
+}
+
+/// Coefficients by q0, v0, F0, F1, F2 of the n-th integral of q (n = 0: q; -1: v).
+std::array<double, 5> coefficients(const ImpulseChain& chain, double k, double c, double h, int n) {
+  const auto g = [&](int i) { return i < 0 ? chain.rate : chain.g[static_cast<std::size_t>(i)]; };
+  const double by_q0 = n < 0 ? -k * g(0) : g(n - 1) + c * g(n);
+  const double constant = g(n + 1), slope = g(n + 2) / h, square = 2.0 * g(n + 3) / (h * h);
+  return {by_q0, g(n), constant - 3.0 * slope + 2.0 * square, 4.0 * slope - 4.0 * square,
+          2.0 * square - slope};
+}
+
+constexpr int rows_of_node = 20; ///< q, v, M_0, M_1 by 5 each
+
+} // namespace
+
+std::array<double, 5> decay_functions(double x) {
+  std::array<double, 5> phi{};
+  if (x >= series_limit) {
+    phi[0] = -std::expm1(-x) / x;
+    for (std::size_t n = 1; n < 5; ++n)
+      phi[n] = (1.0 / factorial[n] - phi[n - 1]) / x;
+    return phi;
+  }
+  double term = 1.0 / 120.0; // (-x)^j/(j+5)!
+  for (int j = 0; j < 24; ++j) {
+    phi[4] += term;
+    term *= -x / (j + 6);
+  }
+  for (std::size_t n = 4; n > 0; --n)
+    phi[n - 1] = 1.0 / factorial[n] - x * phi[n];
+  return phi;
+}
+
+ImpulseChain impulse_chain(double k, double c, double t) {
+  const Impulse impulse = impulse_response(k, c, t);
+  ImpulseChain out{impulse.rate, {impulse.g}};
+  auto& g = out.g;
+  if (k * t * t < series_limit * series_limit && c * t < series_limit) {
+    add_series(k, c, t, g);
+  } else if (k < separate * c *
+                     c) { // g = (exp(-slow t) - exp(-fast t))/(fast - slow): k may be as small as it likes
+    const double root = std::sqrt(0.25 * c * c - k), fast = 0.5 * c + root, slow = k / fast;
+    const auto p = decay_functions(slow * t), q = decay_functions(fast * t);
+    double power = 1.0;
+    for (std::size_t n = 1; n < g.size(); ++n) {
+      power *= t;
+      g[n] = power / (fast - slow) * (p[n - 1] - q[n - 1]);
+    }
+  } else { // the equation of motion integrated n times: G_{n-2} + c G_{n-1} + k G_n = t^(n-1)/(n-1)!
+    double two_before = impulse.rate, before = impulse.g, power = 1.0;
+    for (std::size_t n = 1; n < g.size(); ++n) {
+      g[n] = (power / factorial[n - 1] - c * before - two_before) / k;
+      two_before = before;
+      before = g[n];
+      power *= t;
+    }
+  }
+  return out;
+}
+
+PolynomialFlow::PolynomialFlow(const System& system, double h)
+    : padded_modes_(padded(static_cast<int>(system.size()))) {
+  table_.assign(static_cast<std::size_t>(2 * rows_of_node * padded_modes_), 0.0);
+  for (Eigen::Index i = 0; i < system.size(); ++i)
+    for (int node = 1; node <= 2; ++node) {
+      const double k = system.stiffness(i), c = system.damping(i), t = 0.5 * node * h;
+      const ImpulseChain chain = impulse_chain(k, c, t);
+      const auto q = coefficients(chain, k, c, h, 0), v = coefficients(chain, k, c, h, -1),
+                 once = coefficients(chain, k, c, h, 1), twice = coefficients(chain, k, c, h, 2);
+      double* row = &table_[static_cast<std::size_t>(i / lanes * 2 * rows_of_node * lanes +
+                                                     (node - 1) * rows_of_node * lanes + i % lanes)];
+      for (std::size_t b = 0; b < 5; ++b) {
+        row[b * lanes] = q[b];
+        row[(5 + b) * lanes] = v[b];
+        row[(10 + b) * lanes] = once[b] / h;
+        row[(15 + b) * lanes] = (t * once[b] - twice[b]) / (h * h);
+      }
+    }
+}
+
+PolynomialFlow::Response PolynomialFlow::response(Eigen::Index i, int to, int from) const {
+  const double* row = &table_[static_cast<std::size_t>(i / lanes * 2 * rows_of_node * lanes +
+                                                       (to - 1) * rows_of_node * lanes + i % lanes)];
+  return {row[(2 + from) * lanes], row[(7 + from) * lanes]};
+}
+
+FRETWORK_WIDTHS void PolynomialFlow::predict(const Nodes& load, const Nodes& contact, Nodes& q,
+                                             Nodes& v) const {
+  const double* row = table_.data();
+  for (int i = 0; i < padded_modes_; i += lanes) {
+    const Pack q0 = at(&q.at[0][i]), v0 = at(&v.at[0][i]), f0 = at(&load.at[0][i]) + at(&contact.at[0][i]),
+               f1 = at(&load.at[1][i]), f2 = at(&load.at[2][i]);
+    for (int node = 1; node <= 2; ++node, row += rows_of_node * lanes) {
+      const auto mix = [&](const double* r) __attribute__((always_inline)) {
+        return at(r) * q0 + at(r + lanes) * v0 + at(r + 2 * lanes) * f0 + at(r + 3 * lanes) * f1 +
+               at(r + 4 * lanes) * f2;
+      };
+      at(&q.at[node][i]) = mix(row);
+      at(&v.at[node][i]) = mix(row + 5 * lanes);
+    }
+  }
+}
+
+FRETWORK_WIDTHS PolynomialFlow::Works PolynomialFlow::move(const Nodes& load, const Nodes& contact, Nodes& q,
+                                                           Nodes& v) const {
+  const double* row = table_.data();
+  Pack of_load[2]{}, of_contact[2]{};
+  for (int i = 0; i < padded_modes_; i += lanes) {
+    const Pack q0 = at(&q.at[0][i]), v0 = at(&v.at[0][i]);
+    const Pack l0 = at(&load.at[0][i]), l1 = at(&load.at[1][i]), l2 = at(&load.at[2][i]);
+    const Pack c0 = at(&contact.at[0][i]), c1 = at(&contact.at[1][i]), c2 = at(&contact.at[2][i]);
+    const Pack f0 = l0 + c0, f1 = l1 + c1, f2 = l2 + c2;
+    for (int node = 1; node <= 2; ++node, row += rows_of_node * lanes) {
+      const auto mix = [&](const double* r) __attribute__((always_inline)) {
+        return at(r) * q0 + at(r + lanes) * v0 + at(r + 2 * lanes) * f0 + at(r + 3 * lanes) * f1 +
+               at(r + 4 * lanes) * f2;
+      };
+      const Pack qn = mix(row), m0 = mix(row + 10 * lanes), m1 = mix(row + 15 * lanes);
+      const double s = 0.5 * node;
+      const Pack by_slope = s * qn - m0, by_square = s * s * qn - 2.0 * m1, moved = qn - q0;
+      of_load[node - 1] +=
+          l0 * moved + (4.0 * l1 - 3.0 * l0 - l2) * by_slope + 2.0 * (l0 - 2.0 * l1 + l2) * by_square;
+      of_contact[node - 1] +=
+          c0 * moved + (4.0 * c1 - 3.0 * c0 - c2) * by_slope + 2.0 * (c0 - 2.0 * c1 + c2) * by_square;
+      at(&q.at[node][i]) = qn;
+      at(&v.at[node][i]) = mix(row + 5 * lanes);
+    }
+  }
+  return {{sum(of_load[0]), sum(of_load[1])}, {sum(of_contact[0]), sum(of_contact[1])}};
+}
+
+PolynomialState state_under(double k, double c, double h, double t, double q0, double v0,
+                            const std::array<double, 3>& force) {
+  const ImpulseChain chain = impulse_chain(k, c, t);
+  const auto q = coefficients(chain, k, c, h, 0), v = coefficients(chain, k, c, h, -1);
+  const std::array<double, 5> by = {q0, v0, force[0], force[1], force[2]};
+  PolynomialState out{};
+  for (std::size_t b = 0; b < 5; ++b) {
+    out.q += q[b] * by[b];
+    out.v += v[b] * by[b];
+  }
+  return out;
+}
+
+} // namespace fretwork::transient

@@ -1,0 +1,422 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/nodal_solver.hpp"
+#include "transient/vector_lanes.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fretwork::transient {
+namespace {
+
+/// Sweeps stop when what is still to come is below this share of the force: far below what a step leaves at its finest.
+constexpr double sweep_tolerance = 1e-9;
+/// Of K_N times the distance of the node from its obstacle's centre: round-off of the penetration.
+constexpr double round_off = 1e-15;
+/// The ratio of the changes of two sweeps foretells the next ones, and a kept matrix is good, where they fall clearly.
+constexpr double falling = 0.3;
+constexpr int patient = 20, most_sweeps = 60;
+/// A spring that has relaxed to this share of what it had when its contact opened is round-off of the energy.
+constexpr double forgotten = 1e-12;
+
+/// Inverse by Gauss and Jordan with row pivots, in place. Returns false where it is singular.
+template <int n> bool invert(std::array<std::array<double, n>, n>& a, double* inverse) {
+  std::array<std::array<double, n>, n> b{};
+  for (std::size_t i = 0; i < n; ++i)
+    b[i][i] = 1.0;
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t i = k + 1; i < n; ++i)
+      if (std::abs(a[i][k]) > std::abs(a[pivot][k]))
+        pivot = i;
+    if (!(std::abs(a[pivot][k]) > 0.0))
+      return false;
+    std::swap(a[k], a[pivot]);
+    std::swap(b[k], b[pivot]);
+    const double scale = 1.0 / a[k][k];
+    for (std::size_t j = 0; j < n; ++j) {
+      a[k][j] *= scale;
+      b[k][j] *= scale;
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      const double factor = a[i][k];
+      if (i == k || factor == 0.0)
+        continue;
+      for (std::size_t j = 0; j < n; ++j) {
+        a[i][j] -= factor * a[k][j];
+        b[i][j] -= factor * b[k][j];
+      }
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j)
+      inverse[i * n + j] = b[i][j];
+  return true;
+}
+
+/// z += sum of 6 columns (two groups of 3) times f.
+FRETWORK_WIDTHS void add_columns(std::size_t length, const double* first, const double* second,
+                                 const double (*f)[3], double* z) {
+  using kernels::at;
+  for (std::size_t i = 0; i < length; i += kernels::lanes)
+    at(z + i) += f[0][0] * at(first + i) + f[0][1] * at(first + length + i) +
+                 f[0][2] * at(first + 2 * length + i) + f[1][0] * at(second + i) +
+                 f[1][1] * at(second + length + i) + f[1][2] * at(second + 2 * length + i);
+}
+
+/// Bound of contact::Reach: false where the node is surely out of its obstacle.
+bool may_touch(const kernels::ReachLanes& r, std::size_t c, double y, double z) {
+  y += r.rest_y[c];
+  z += r.rest_z[c];
+  const double left = r.limit[c] - r.ly[c] * y - r.lz[c] * z, across = r.wy[c] * y * y + r.wz[c] * z * z;
+  const double radial = r.radial[c];
+  return radial > 0.0 ? left <= 0.0 || radial * radial * across >= left * left
+                      : left <= radial * std::sqrt(across);
+}
+
+} // namespace
+
+NodalMotion::NodalMotion(const PackedContacts& contacts)
+    : stride(static_cast<std::size_t>(contacts.stride())), start(2 * stride), ends(4 * stride) {}
+
+NodalTables::NodalTables(const PackedContacts& contacts, const PolynomialFlow& flow, double h)
+    : length(4 * static_cast<std::size_t>(contacts.stride())) {
+  const auto stride = static_cast<std::size_t>(contacts.stride());
+  const auto modes = static_cast<std::size_t>(contacts.padded_modes);
+  columns_.assign(static_cast<std::size_t>(contacts.count) * 6 * length, 0.0);
+  kernels::Array q(modes), v(modes);
+  for (int c = 0; c < contacts.count; ++c) {
+    springs.push_back(spring_table(contacts.supports[c].friction, h));
+    for (int from = 1; from <= 2; ++from)
+      for (int b = 0; b < contacts.components; ++b) {
+        double* column = &columns_[(static_cast<std::size_t>(2 * c + from - 1) * 3 + b) * length];
+        for (int to = 1; to <= 2; ++to) {
+          for (int i = 0; i < contacts.modes; ++i) {
+            const auto response = flow.response(i, to, from);
+            q[i] = response.q * contacts.row(c, b)[i];
+            v[i] = response.v * contacts.row(c, b)[i];
+          }
+          kernels::gather(contacts.modes, contacts.stride(), contacts.gather.data(), q.data(), v.data(),
+                          column + (to - 1) * stride, column + (to + 1) * stride);
+        }
+      }
+  }
+}
+
+NodalSolver::NodalSolver(const PackedContacts& contacts) : contacts_(contacts) {
+  const auto count = static_cast<std::size_t>(contacts.count);
+  nodes_.resize(3 * count);
+  active_.reserve(count);
+  taking_part_.assign(count, 0);
+  alive_.reserve(count);
+  row_.reserve(3 * count);
+  factor_.reserve(3 * count);
+}
+
+void NodalSolver::start(NodalMotion& motion) {
+  for (int c = 0; c < contacts_.count; ++c) {
+    meet(c, 0, motion);
+    const contact::Support& support = contacts_.supports[c];
+    ContactNode& node = nodes_[3 * static_cast<std::size_t>(c)];
+    node.normal = contact::normal_force(support.normal, node.penetration, node.rate);
+    node.approach = node.rate;
+    if (node.penetration > 0.0 || node.normal > 0.0)
+      alive_.push_back(c);
+    if (!(node.normal > 0.0))
+      continue;
+    node.face_y = node.ny;
+    node.face_z = node.nz;
+    if (!support.friction.active())
+      continue;
+    const auto friction = contacts_.in_plane[c]
+                              ? contact::evaluate(support.friction, {}, node.normal, {}, node.slip)
+                              : contact::evaluate_line(support.friction, {}, node.normal, 0.0, node.slip.t);
+    node.friction = friction.force;
+    node.slides = friction.slides;
+  }
+}
+
+/// Kinematics of a contact at a node.
+void NodalSolver::meet(int c, int node, NodalMotion& motion) {
+  const auto i = static_cast<std::size_t>(c), z = static_cast<std::size_t>(contacts_.width) + i;
+  const double *u = motion.u(node), *v = motion.v(node);
+  const double y_at = u[i] + contacts_.reach.rest_y[i], z_at = u[z] + contacts_.reach.rest_z[i];
+  const contact::Support& support = contacts_.supports[i];
+  const auto at = contact::locate(support.obstacle, y_at, z_at);
+  ContactNode& n = nodes_[3 * i + static_cast<std::size_t>(node)];
+  n.ny = at.ny;
+  n.nz = at.nz;
+  n.penetration = -at.gap;
+  n.rate = -(at.ny * v[i] + at.nz * v[z]);
+  n.across = at.nz * v[i] - at.ny * v[z];
+  const contact::Vec2 along = support.friction.along;
+  n.slip = {contacts_.in_plane[i] ? along.x * v[static_cast<std::size_t>(contacts_.width) + z] : 0.0,
+            along.t * n.across};
+}
+
+bool NodalSolver::solve(const NodalTables& tables, NodalMotion& motion) {
+  active_.clear();
+  std::fill(taking_part_.begin(), taking_part_.end(), 0);
+  bool solved = true;
+  while (solved && admit(tables, motion))
+    solved = settle(tables, motion);
+  if (solved)
+    finish(tables, motion);
+  return solved;
+}
+
+/// Takes in the contacts that penetrate and do not take part yet. Returns whether there are any.
+bool NodalSolver::admit(const NodalTables& tables, NodalMotion& motion) {
+  const std::size_t before = active_.size();
+  const auto width = static_cast<std::size_t>(contacts_.width);
+  const double *u1 = motion.u(1), *u2 = motion.u(2);
+  for (int c = 0; c < contacts_.count; ++c) {
+    const auto i = static_cast<std::size_t>(c);
+    if (taking_part_[i] || !(may_touch(contacts_.reach, i, u1[i], u1[width + i]) ||
+                             may_touch(contacts_.reach, i, u2[i], u2[width + i])))
+      continue;
+    meet(c, 1, motion);
+    meet(c, 2, motion);
+    ContactNode* node = &nodes_[3 * i];
+    if (!(node[1].penetration >= 0.0 || node[2].penetration >= 0.0))
+      continue;
+    taking_part_[i] = 1;
+    Active& active = active_.emplace_back();
+    active.contact = c;
+    set_scales(active, tables);
+    if (!(node[0].normal > 0.0)) {
+      meet(c, 0, motion);
+      continue;
+    }
+    for (auto& force : active.force) { // as at the start of the step
+      force[0] = node[0].normal * node[0].ny + node[0].friction.t * node[0].nz;
+      force[1] = node[0].normal * node[0].nz - node[0].friction.t * node[0].ny;
+      force[2] = node[0].friction.x;
+    }
+    add_columns(tables.length, tables.columns(c, 1), tables.columns(c, 2), active.force, motion.ends.data());
+  }
+  return active_.size() > before;
+}
+
+/// The answer of the node 1/2 to its own force sets the scales of the jumps.
+void NodalSolver::set_scales(Active& active, const NodalTables& tables) const {
+  const auto c = static_cast<std::size_t>(active.contact), width = static_cast<std::size_t>(contacts_.width);
+  const double* u = tables.columns(active.contact, 1) + c;
+  const double* v = u + 2 * static_cast<std::size_t>(contacts_.stride());
+  const double by_u = u[0] + u[tables.length + width], by_v = v[0] + v[tables.length + width];
+  active.rho = by_u > 0.0 ? 1.0 / by_u : contacts_.supports[c].normal.stiffness;
+  active.rho_slip = by_v > 0.0 ? 1.0 / by_v : 0.0;
+}
+
+bool NodalSolver::settle(const NodalTables& tables, NodalMotion& motion) {
+  double last = 0.0;
+  for (int k = 0; k < most_sweeps; ++k) {
+    double largest = 0.0;
+    for (Active& active : active_)
+      largest = std::max(largest, improve(active, tables, motion, k < patient ? 1.0 : 0.5));
+    ++sweeps_;
+    if (!(largest < 1e6)) // not a number, or running away
+      return false;
+    const bool foretold = largest <= falling * last;
+    if (largest <= sweep_tolerance || (foretold && largest * largest <= sweep_tolerance * (last - largest)))
+      return true;
+    last = largest;
+  }
+  return false;
+}
+
+double NodalSolver::improve(Active& active, const NodalTables& tables, NodalMotion& motion, double share) {
+  return contacts_.in_plane[static_cast<std::size_t>(active.contact)]
+             ? improve<3>(active, tables, motion, share)
+             : improve<2>(active, tables, motion, share);
+}
+
+/// The laws of a contact at the motion and with the forces tried.
+template <int D>
+NodalContact<D> NodalSolver::evaluate(const Active& active, const NodalTables& tables, NodalMotion& motion) {
+  const auto c = static_cast<std::size_t>(active.contact);
+  ContactNode* node = &nodes_[3 * c];
+  std::array<double, 2 * D> local;
+  for (int j = 0; j < 2; ++j) {
+    meet(active.contact, j + 1, motion);
+    const ContactNode& at = node[j + 1];
+    const double* f = active.force[j];
+    local[j * D] = at.ny * f[0] + at.nz * f[1];
+    local[j * D + 1] = at.nz * f[0] - at.ny * f[1];
+    if constexpr (D == 3)
+      local[j * D + 2] = f[2];
+  }
+  return {contacts_.supports[c], tables.springs[c], node, local, active.rho, active.rho_slip};
+}
+
+/// One Newton step of one contact. Returns the largest change of its forces, relative to them.
+template <int D>
+double NodalSolver::improve(Active& active, const NodalTables& tables, NodalMotion& motion, double share) {
+  constexpr int size = 2 * D;
+  const auto c = static_cast<std::size_t>(active.contact);
+  const contact::Support& support = contacts_.supports[c];
+  ContactNode* node = &nodes_[3 * c];
+  const NodalContact<D> laws = evaluate<D>(active, tables, motion);
+  const auto& residual = laws.residual();
+  if (const int branches = laws.branches(); branches != active.branches) {
+    for (int j = 1; j <= 2; ++j)
+      node[j].curvature = contact::curvature(support.obstacle, motion.u(j)[c] + contacts_.reach.rest_y[c],
+                                             motion.u(j)[static_cast<std::size_t>(contacts_.width) + c] +
+                                                 contacts_.reach.rest_z[c]);
+    auto jacobian = laws.jacobian(answer<D>(active, tables));
+    if (!invert<size>(jacobian, active.inverse))
+      return std::numeric_limits<double>::infinity();
+    active.branches = branches;
+    active.last_change = 0.0;
+  }
+  double step[size], largest = 0.0, force = 0.0;
+  for (int i = 0; i < size; ++i) {
+    step[i] = 0.0;
+    for (int k = 0; k < size; ++k)
+      step[i] -= share * active.inverse[i * size + k] * residual[static_cast<std::size_t>(k)];
+    largest = std::max(largest, std::abs(step[i]));
+    force = std::max(force, std::abs(laws.forces()[static_cast<std::size_t>(i)]) + std::abs(step[i]));
+  }
+  double change[2][3]{};
+  for (int j = 0; j < 2; ++j) {
+    const ContactNode& at = node[j + 1];
+    change[j][0] = at.ny * step[j * D] + at.nz * step[j * D + 1];
+    change[j][1] = at.nz * step[j * D] - at.ny * step[j * D + 1];
+    if constexpr (D == 3)
+      change[j][2] = step[j * D + 2];
+    for (int k = 0; k < 3; ++k)
+      active.force[j][k] += change[j][k];
+  }
+  add_columns(tables.length, tables.columns(active.contact, 1), tables.columns(active.contact, 2), change,
+              motion.ends.data());
+  if (active.last_change > 0.0 && !(largest < falling * active.last_change))
+    active.branches = -1; // a new matrix next time
+  active.last_change = largest;
+  const double still =
+      round_off * support.normal.stiffness *
+      (std::abs(motion.u(1)[c] + contacts_.reach.rest_y[c]) +
+       std::abs(motion.u(1)[static_cast<std::size_t>(contacts_.width) + c] + contacts_.reach.rest_z[c]));
+  return largest > still ? largest / force : 0.0;
+}
+
+/// The contact's own answer in the directions of its nodes.
+template <int D> Answer<D> NodalSolver::answer(const Active& active, const NodalTables& tables) const {
+  const auto c = static_cast<std::size_t>(active.contact), width = static_cast<std::size_t>(contacts_.width);
+  const auto stride = static_cast<std::size_t>(contacts_.stride());
+  const ContactNode* node = &nodes_[3 * c];
+  Answer<D> out{};
+  for (int k = 0; k < 2; ++k) {
+    const double* columns = tables.columns(active.contact, k + 1) + c;
+    const double ny = node[k + 1].ny, nz = node[k + 1].nz;
+    for (int quantity = 0; quantity < 4; ++quantity) { // u at 1/2, u at 1, v at 1/2, v at 1
+      const int j = quantity % 2;
+      const double my = node[j + 1].ny, mz = node[j + 1].nz;
+      auto& to = quantity < 2 ? out.u[j] : out.v[j];
+      const double* by_y = columns + static_cast<std::size_t>(quantity) * stride;
+      const double* by_z = by_y + tables.length;
+      const double n_y = ny * by_y[0] + nz * by_z[0], n_z = ny * by_y[width] + nz * by_z[width];
+      const double t_y = nz * by_y[0] - ny * by_z[0], t_z = nz * by_y[width] - ny * by_z[width];
+      const auto at = static_cast<std::size_t>(k * D);
+      to[0][at] = my * n_y + mz * n_z;
+      to[0][at + 1] = my * t_y + mz * t_z;
+      to[1][at] = mz * n_y - my * n_z;
+      to[1][at + 1] = mz * t_y - my * t_z;
+      if constexpr (D == 3) {
+        const double* by_x = by_z + tables.length;
+        to[0][at + 2] = my * by_x[0] + mz * by_x[width];
+        to[1][at + 2] = mz * by_x[0] - my * by_x[width];
+        to[2][at] = ny * by_y[2 * width] + nz * by_z[2 * width];
+        to[2][at + 1] = nz * by_y[2 * width] - ny * by_z[2 * width];
+        to[2][at + 2] = by_x[2 * width];
+      }
+    }
+  }
+  return out;
+}
+
+/// The laws at the motion found, and the springs of the contacts that are open.
+void NodalSolver::finish(const NodalTables& tables, NodalMotion& motion) {
+  alive_.clear();
+  for (const Active& active : active_)
+    if (contacts_.in_plane[static_cast<std::size_t>(active.contact)])
+      (void)evaluate<3>(active, tables, motion);
+    else
+      (void)evaluate<2>(active, tables, motion);
+  for (int c = 0; c < contacts_.count; ++c) {
+    const auto i = static_cast<std::size_t>(c);
+    ContactNode* node = &nodes_[3 * i];
+    if (!taking_part_[i]) {
+      if (!(node[0].normal > 0.0) && !(contact::dot(node[0].spring, node[0].spring) > 0.0))
+        continue;
+      leave(c, tables, motion);
+    }
+    if (taking_part_[i])
+      for (int j = 1; j <= 2; ++j)
+        node[j].loaded = node[j].normal > 0.0 ? contact::norm(node[j].spring) : node[j - 1].loaded;
+    for (int j = 1; j <= 2; ++j)
+      node[j].approach = node[j - 1].normal > 0.0 ? node[j].rate : node[j - 1].rate;
+    alive_.push_back(c);
+  }
+}
+
+/// A contact without force at both new nodes: its spring dies out.
+void NodalSolver::leave(int c, const NodalTables& tables, NodalMotion& motion) {
+  const auto i = static_cast<std::size_t>(c);
+  ContactNode* node = &nodes_[3 * i];
+  const SpringTable& table = tables.springs[i];
+  for (int j = 1; j <= 2; ++j) {
+    if (node[0].normal > 0.0)
+      meet(c, j, motion); // it opens: its record tells the speed
+    else
+      node[j].penetration = 0.0;
+    node[j].normal = 0.0;
+    node[j].friction = {};
+    node[j].slides = false;
+    node[j].face_y = node[j - 1].face_y;
+    node[j].face_z = node[j - 1].face_z;
+    node[j].spring = table.keep * node[j - 1].spring + table.by_force[j - 1][0] * node[0].friction;
+    node[j].loaded = node[j - 1].loaded;
+    if (contact::norm(node[j].spring) < forgotten * node[j].loaded)
+      node[j].spring = {};
+  }
+}
+
+void NodalSolver::accept() {
+  for (const int c : alive_)
+    nodes_[3 * static_cast<std::size_t>(c)] = nodes_[3 * static_cast<std::size_t>(c) + 2];
+}
+
+void NodalSolver::add_forces(int j, double* target) {
+  row_.clear();
+  factor_.clear();
+  const auto add = [&](const double* row, double factor) {
+    row_.push_back(row);
+    factor_.push_back(factor);
+  };
+  for (const int c : alive_) {
+    const ContactNode& node = nodes_[3 * static_cast<std::size_t>(c) + static_cast<std::size_t>(j)];
+    if (!(node.normal > 0.0))
+      continue;
+    add(contacts_.row(c, 0), node.normal * node.ny + node.friction.t * node.nz);
+    add(contacts_.row(c, 1), node.normal * node.nz - node.friction.t * node.ny);
+    if (contacts_.in_plane[c])
+      add(contacts_.row(c, 2), node.friction.x);
+  }
+  if (!row_.empty())
+    kernels::scatter(contacts_.padded_modes, static_cast<int>(row_.size()), row_.data(), factor_.data(),
+                     target);
+}
+
+double NodalSolver::spring_energy(int j) const {
+  double sum = 0.0;
+  for (const int c : alive_) {
+    const auto i = static_cast<std::size_t>(c);
+    const ContactNode& node = nodes_[3 * i + static_cast<std::size_t>(j)];
+    const contact::Support& support = contacts_.supports[i];
+    if (node.penetration > 0.0)
+      sum += 0.5 * support.normal.stiffness * node.penetration * node.penetration;
+    sum += contact::spring_energy(support.friction, {node.spring, false});
+  }
+  return sum;
+}
+
+} // namespace fretwork::transient

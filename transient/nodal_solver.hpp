@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The contact forces of a step at its nodes 1/2 and 1, all contacts together, implicit: with f_0 known,
+///     u_j = u_j^free + sum_k Wq_jk f_k,   v_j = v_j^free + sum_k Wv_jk f_k,   f_j = laws(u_j, v_j, springs),   j, k = 1/2, 1
+/// W = B diag(response of each mode) B^T, made once for a step. Only contacts take part that penetrate at a node, in the motion without
+/// new forces or in that of the forces found (tested again until none is left out). Block Gauss-Seidel: one Newton step of one contact
+/// at a time, all lanes answer. Its matrix is kept while the laws stay in their branches and the changes fall. Changes that do not
+/// settle within some sweeps are halved (an iteration that goes to and fro between two branches); what does not settle then is a
+/// failure, and the caller takes a smaller step.
+#pragma once
+#include "transient/force_polynomial.hpp"
+#include "transient/nodal_contact.hpp"
+#include "transient/packed_contacts.hpp"
+
+namespace fretwork::transient {
+
+/// Displacements and velocities of all contacts at the nodes, lanes of PackedContacts.
+struct NodalMotion {
+  explicit NodalMotion(const PackedContacts& contacts);
+  [[nodiscard]] double* u(int node) { return node == 0 ? start.data() : &ends[(node - 1) * stride]; }
+  [[nodiscard]] double* v(int node) { return node == 0 ? &start[stride] : &ends[(node + 1) * stride]; }
+  std::size_t stride;
+  kernels::Array start; ///< u, v at node 0
+  kernels::Array ends;  ///< u at 1/2, u at 1, v at 1/2, v at 1
+};
+
+/// What contacts need of a step of length h, made once.
+class NodalTables {
+public:
+  NodalTables(const PackedContacts& contacts, const PolynomialFlow& flow, double h);
+  /// What unit forces of a contact at `node` along y, z, x do to NodalMotion::ends, 3 columns one after the other.
+  [[nodiscard]] const double* columns(int contact, int node) const {
+    return &columns_[static_cast<std::size_t>(2 * contact + node - 1) * 3 * length];
+  }
+  std::size_t length; ///< of a column
+  std::vector<SpringTable> springs;
+
+private:
+  kernels::Array columns_;
+};
+
+class NodalSolver {
+public:
+  /// @param contacts  must live longer
+  explicit NodalSolver(const PackedContacts& contacts);
+
+  /// Sets the nodes at the start of a run: nothing is loaded. `motion.start` is known.
+  void start(NodalMotion& motion);
+  /// Nodes 1/2 and 1 from node 0, and `motion.ends` with their forces. Returns whether the equations were solved; node 0 is left as it
+  /// was in any case. No allocation.
+  [[nodiscard]] bool solve(const NodalTables& tables, NodalMotion& motion);
+  /// Node 1 becomes node 0.
+  void accept();
+
+  [[nodiscard]] const ContactNode* nodes(int contact) const {
+    return &nodes_[3 * static_cast<std::size_t>(contact)];
+  }
+  /// Contacts with a force at one of the nodes of the step or with a loaded spring.
+  [[nodiscard]] const std::vector<int>& alive() const { return alive_; }
+  /// target += B^T f at a node of the step.
+  void add_forces(int node, double* target);
+  /// Energy of all springs at a node, J.
+  [[nodiscard]] double spring_energy(int node) const;
+  /// Sweeps so far: each evaluates the laws of the contacts that take part at both nodes.
+  [[nodiscard]] std::int64_t sweeps() const { return sweeps_; }
+
+private:
+  struct Active {
+    int contact;
+    int branches = -1;
+    double last_change = 0.0;
+    double rho = 0.0, rho_slip = 0.0; ///< scales of the filled jumps
+    double force[2][3]{};             ///< along y, z, x
+    double inverse[36];
+  };
+  void meet(int contact, int node, NodalMotion& motion);
+  bool admit(const NodalTables& tables, NodalMotion& motion);
+  [[nodiscard]] bool settle(const NodalTables& tables, NodalMotion& motion);
+  [[nodiscard]] double improve(Active& active, const NodalTables& tables, NodalMotion& motion, double share);
+  template <int D>
+  [[nodiscard]] double improve(Active& active, const NodalTables& tables, NodalMotion& motion, double share);
+  template <int D>
+  NodalContact<D> evaluate(const Active& active, const NodalTables& tables, NodalMotion& motion);
+  void set_scales(Active& active, const NodalTables& tables) const;
+  template <int D> [[nodiscard]] Answer<D> answer(const Active& active, const NodalTables& tables) const;
+  void finish(const NodalTables& tables, NodalMotion& motion);
+  void leave(int contact, const NodalTables& tables, NodalMotion& motion);
+
+  const PackedContacts& contacts_;
+  std::vector<ContactNode> nodes_; ///< 3 of each contact
+  std::vector<Active> active_;
+  std::vector<char> taking_part_;
+  std::vector<int> alive_;
+  std::vector<const double*> row_;
+  std::vector<double> factor_;
+  std::int64_t sweeps_ = 0;
+};
+
+} // namespace fretwork::transient
