@@ -182,7 +182,7 @@ TEST(Messages, OfUnknownNames) {
       {"scheme = \"splitting\"",
        "scheme = \"eulr\"",
        {"transient.scheme = \"eulr\": unknown; did you mean \"euler\"? available: \"auto\", \"splitting\", "
-        "\"euler\""}},
+        "\"collocation\", \"euler\""}},
   });
 }
 
