@@ -139,7 +139,7 @@ TEST(Summary, GivesTheFirstSeedOrNull) {
 TEST(Summary, AddsTheEnergiesOfTheStructuresAndBalances) {
   RunResults results = made_up({.structures = 2});
   results.transients[1].report.residual_relative = 0.5;
-  results.transients[1].choice.step = 1e-5;
+  results.transients[1].report.counts.step_min = 1e-5;
   results.transients[1].choice.reason = "the smaller step";
   const Json s = summary_of(results);
   const Json& e = s["energy"];

@@ -122,7 +122,7 @@ Eigen::VectorXd vector(std::initializer_list<double> values) {
 void expect_same_statistics(const post::ContactSummary& a, const post::ContactSummary& b, const Units& to,
                             double tolerance) {
   const auto numbers = [](const post::ContactSummary& s) {
-    return vector({static_cast<double>(s.impacts), s.contact_time_ratio});
+    return vector({static_cast<double>(s.impacts), s.contact_time_ratio, s.sticking_ratio});
   };
   const auto forces = [](const post::ContactSummary& s) {
     return vector({s.normal_mean, s.normal_rms, s.normal_max, s.normal_in_contact_mean,
@@ -130,12 +130,15 @@ void expect_same_statistics(const post::ContactSummary& a, const post::ContactSu
   };
   const auto lengths = [](const post::ContactSummary& s) {
     return vector({s.y.mean, s.y.std, s.y.min, s.y.max, s.z.mean, s.z.std, s.z.min, s.z.max, s.radial_rms,
-                   s.radial_max});
+                   s.radial_max, s.sliding_distance});
   };
   const auto powers = [](const post::ContactSummary& s) { return vector({s.work_rate, s.friction_power}); };
   const auto speeds = [](const post::ContactSummary& s) {
-    return vector({s.impact_velocity_mean, s.impact_velocity_max});
+    return vector(
+        {s.impact_velocity_mean, s.impact_velocity_max, s.departure_velocity_mean, s.departure_velocity_max});
   };
+  const auto impulse = [](const post::ContactSummary& s) { return vector({s.impulse}); };
+  const auto losses = [](const post::ContactSummary& s) { return vector({s.damping_work, s.friction_work}); };
   const auto times = [](const post::ContactSummary& s) {
     return vector({s.contact_duration_mean, s.contact_duration_max});
   };
@@ -144,6 +147,8 @@ void expect_same_statistics(const post::ContactSummary& a, const post::ContactSu
   EXPECT_TRUE(same("displacements of the statistics", lengths(a), lengths(b), to.length, tolerance));
   EXPECT_TRUE(same("powers", powers(a), powers(b), to.energy() / to.time, tolerance));
   EXPECT_TRUE(same("impact speeds", speeds(a), speeds(b), to.speed(), tolerance));
+  EXPECT_TRUE(same("impulses", impulse(a), impulse(b), to.force() * to.time, tolerance));
+  EXPECT_TRUE(same("losses", losses(a), losses(b), to.energy(), tolerance));
   EXPECT_TRUE(same("durations", times(a), times(b), to.time, tolerance));
 }
 
