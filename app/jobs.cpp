@@ -319,7 +319,8 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
     for (std::size_t s = 0; s < scenes.size(); ++s)
       if (owner[s] == here) {
         const auto part = [&](std::int64_t steps) {
-          return static_cast<double>(steps) / static_cast<double>(all_steps);
+          return all_steps > 0 ? static_cast<double>(steps) / static_cast<double>(all_steps)
+                               : 0.0; // adaptive: not known
         };
         ProgressObserver observer(progress, part(done_steps), part(choices[s].steps),
                                   study.transient->duration);

@@ -218,19 +218,19 @@ StepChoice choose_step(const Scene& scene, const StepOptions& options) {
   StepChoice c;
   c.scheme = options.scheme.value_or(SchemeKind::splitting);
   check_scope(scene, c.scheme);
-  const auto stiffness_n = [](const ContactPoint& c) { return c.support.normal.stiffness; };
-  const auto stiffness_t = [](const ContactPoint& c) {
-    return c.support.friction.active() ? c.support.friction.stiffness : 0.0;
+  const auto stiffness_n = [](const ContactPoint& point) { return point.support.normal.stiffness; };
+  const auto stiffness_t = [](const ContactPoint& point) {
+    return point.support.friction.active() ? point.support.friction.stiffness : 0.0;
   };
-  const auto damping_t = [](const ContactPoint& c) {
-    return c.support.friction.active() ? c.support.friction.damping : 0.0;
+  const auto damping_t = [](const ContactPoint& point) {
+    return point.support.friction.active() ? point.support.friction.damping : 0.0;
   };
   c.contact_frequency = std::sqrt(largest_eigenvalue(weighted_rows(scene, stiffness_n, normal_rows)));
   c.stick_frequency = std::sqrt(largest_eigenvalue(weighted_rows(scene, stiffness_t, tangent_rows)));
   c.damper_rate = largest_eigenvalue(weighted_rows(scene, damping_t, tangent_rows));
   if (c.scheme == SchemeKind::euler || c.scheme == SchemeKind::devogelaere) {
-    const auto damping_n = [&scene](const ContactPoint& c) {
-      return c.support.normal.damping_at(initial_overlap(scene, c));
+    const auto damping_n = [&scene](const ContactPoint& point) {
+      return point.support.normal.damping_at(initial_overlap(scene, point));
     };
     c.explicit_rate = std::max(structure_rate(scene.system),
                                largest_eigenvalue(weighted_rows(scene, damping_n, normal_rows)));
