@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every example runs and gives its headline numbers.
+#include "paths.hpp"
 #include "program.hpp"
 #include <algorithm>
 #include <fmt/format.h>
@@ -17,7 +18,7 @@ constexpr double trusted_balance = 2e-2; ///< of the energy put in: above it the
 
 TEST(Examples, EveryFolderOfExamplesIsRunHere) {
   std::set<std::string> found;
-  for (const auto& entry : fs::directory_iterator(fs::path(FRETWORK_SOURCE_DIR) / "examples"))
+  for (const auto& entry : fs::directory_iterator(test_paths::source_dir() / "examples"))
     if (fs::exists(entry.path() / "study.toml"))
       found.insert(entry.path().filename());
   EXPECT_EQ(found,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "program.hpp"
 #include "core/child_process.hpp"
+#include "paths.hpp"
 #include "results/write.hpp"
 #include <cmath>
 #include <cstdlib>
@@ -61,7 +62,7 @@ Outcome Workshop::fretwork(const std::vector<std::string>& arguments, int ranks)
     for (const std::string& word :
          {std::string("mpirun"), std::string("--oversubscribe"), std::string("-n"), std::to_string(ranks)})
       all.push_back(word);
-  all.push_back(FRETWORK_BINARY_DIR "/bin/fretwork");
+  all.push_back((test_paths::binary_dir() / "bin" / "fretwork").string());
   all.insert(all.end(), arguments.begin(), arguments.end());
   const int status = core::run_child(all).status;
   return {status, bytes_of(out), bytes_of(err)};
@@ -90,7 +91,7 @@ std::string bytes_of(const fs::path& file) {
 }
 
 fs::path example(const std::string& name) {
-  return fs::path(FRETWORK_SOURCE_DIR) / "examples" / name / "study.toml";
+  return test_paths::source_dir() / "examples" / name / "study.toml";
 }
 
 testing::AssertionResult says(const std::string& text, const std::string& part) {

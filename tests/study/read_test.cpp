@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/section.hpp"
 #include "folder.hpp"
+#include "paths.hpp"
 #include "study/study.hpp"
 #include <gtest/gtest.h>
 
@@ -257,7 +258,7 @@ TEST(ReadStudy, KeepsAnAbsolutePathOfTheMesh) {
 }
 
 TEST(ReadStudy, TakesTheExampleOfTheReference) {
-  std::ifstream stream(FRETWORK_SOURCE_DIR "/doc/study-file.md");
+  std::ifstream stream(test_paths::source_dir() / "doc" / "study-file.md");
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   const std::string opening = "```toml\n";
   const auto begin = text.find(opening);
