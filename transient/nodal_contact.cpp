@@ -56,7 +56,7 @@ SpringTable spring_table(const contact::FrictionLaw& law, double h) {
 
 template <int D>
 NodalContact<D>::NodalContact(const contact::Support& support, const SpringTable& table, ContactNode* nodes,
-                              const Row& forces, double rho, double rho_slip)
+                              const Row& forces, const std::array<double, 2>& rho, double rho_slip)
     : support_(support), table_(table), node_(nodes), force_(forces), rho_(rho), rho_slip_(rho_slip) {
   for (int j = 0; j < 2; ++j) {
     press(j);
@@ -87,7 +87,9 @@ template <int D> void NodalContact<D>::press(int j) {
     law_[j].by_rate = slopes.by_rate;
   } else {
     const double c = law.damping_at(p), by_law = law.stiffness * p + c * node.rate,
-                 limit = force_[j * D] + rho_ * p;
+                 limit = rho_[j] > 0.0 ? force_[j * D] + rho_[j] * p
+                         : p > 0.0     ? by_law
+                                       : 0.0;
     node.normal = std::max(0.0, std::min(by_law, limit));
     law_[j].normal = !(node.normal > 0.0) ? Normal::open : by_law <= limit ? Normal::closed : Normal::limited;
     law_[j].by_penetration = law.stiffness * (1.0 + law.dissipation * node.rate);
@@ -183,7 +185,7 @@ NodalContact<D>::jacobian(const Answer<D>& answer) const {
     if (at.normal == Normal::closed)
       normal = -at.by_penetration * un + -at.by_rate * (vn + kappa * node.across * ut);
     else if (at.normal == Normal::limited)
-      normal = unit<size>(j * D) + -rho_ * un;
+      normal = unit<size>(j * D) + -rho_[j] * un;
     Row tangent[D - 1]{}, stuck[D - 1], relaxed[D - 1];
     for (int a = 0; a < D - 1; ++a) {
       const double carries = at.carries ? 1.0 : 0.0;

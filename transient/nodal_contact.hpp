@@ -3,7 +3,8 @@
 /// The laws of one contact at the nodes 0, 1/2, 1 of a step, and their linearisation by its forces at 1/2 and 1.
 ///
 /// Normal force: contact::normal_force. With C_N it jumps where the contact closes; there the jump is filled: p = 0 bears any force
-/// between 0 and C_N p', and f solves the law where f = max(0, min(K_N p + c(p) p', f + rho p)), rho > 0 arbitrary.
+/// between 0 and C_N p', and f solves the law where f = max(0, min(K_N p + c(p) p', f + rho p)), rho > 0 arbitrary. Where the displacement of the node 1
+/// does not answer its own force (all modes slow: the weight of Lobatto IIIA is 0), nothing can hold it at p = 0: the law as it is.
 /// Friction: the trial of contact::evaluate with the spring's force T at the node. Over the half step before node j
 ///     stick          T_j = T_{j-1} - K_T h sum_l a_jl v_l    a_1 = (5/24, 1/3, -1/24), a_2 = (-1/24, 1/3, 5/24): int v dt of the
 ///                                                            quadratic through the nodes
@@ -57,9 +58,9 @@ public:
   using Row = std::array<double, size>;
   /// Sets normal, friction, spring, slides of the nodes 1/2 and 1.
   /// @param nodes  the three nodes, their kinematics set   @param forces  at the nodes 1/2 and 1 along n, t, x_loc
-  /// @param rho    N/m   @param rho_slip  N s/m: scales of the filled jumps
+  /// @param rho  N/m, at the nodes 1/2 and 1, 0: not filled   @param rho_slip  N s/m: scales of the filled jumps
   NodalContact(const contact::Support& support, const SpringTable& table, ContactNode* nodes,
-               const Row& forces, double rho, double rho_slip);
+               const Row& forces, const std::array<double, 2>& rho, double rho_slip);
 
   [[nodiscard]] const Row& forces() const { return force_; }
   /// Forces - laws.
@@ -89,7 +90,8 @@ private:
   const SpringTable& table_;
   ContactNode* node_;
   Row force_, residual_;
-  double rho_, rho_slip_;
+  std::array<double, 2> rho_;
+  double rho_slip_;
   Law law_[2];
 };
 

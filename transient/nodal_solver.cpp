@@ -12,6 +12,8 @@ namespace {
 constexpr double sweep_tolerance = 1e-9;
 /// Of K_N times the distance of the node from its obstacle's centre: round-off of the penetration.
 constexpr double round_off = 1e-15;
+/// A node at the end of a step that answers its force by less than this share of the node 1/2 does not.
+constexpr double no_answer = 1e-9;
 /// The ratio of the changes of two sweeps foretells the next ones, and a kept matrix is good, where they fall clearly.
 constexpr double falling = 0.3;
 constexpr int patient = 20, most_sweeps = 60;
@@ -197,13 +199,16 @@ bool NodalSolver::admit(const NodalTables& tables, NodalMotion& motion) {
   return active_.size() > before;
 }
 
-/// The answer of the node 1/2 to its own force sets the scales of the jumps.
+/// The answers of the nodes to their own forces set the scales of the jumps.
 void NodalSolver::set_scales(Active& active, const NodalTables& tables) const {
   const auto c = static_cast<std::size_t>(active.contact), width = static_cast<std::size_t>(contacts_.width);
   const double* u = tables.columns(active.contact, 1) + c;
   const double* v = u + 2 * static_cast<std::size_t>(contacts_.stride());
   const double by_u = u[0] + u[tables.length + width], by_v = v[0] + v[tables.length + width];
-  active.rho = by_u > 0.0 ? 1.0 / by_u : contacts_.supports[c].normal.stiffness;
+  const double* at_end = tables.columns(active.contact, 2) + static_cast<std::size_t>(contacts_.stride()) + c;
+  const double end_by_u = at_end[0] + at_end[tables.length + width];
+  active.rho[0] = by_u > 0.0 ? 1.0 / by_u : contacts_.supports[c].normal.stiffness;
+  active.rho[1] = end_by_u > no_answer * by_u ? active.rho[0] : 0.0;
   active.rho_slip = by_v > 0.0 ? 1.0 / by_v : 0.0;
 }
 

@@ -69,8 +69,9 @@ private:
     int contact;
     int branches = -1;
     double last_change = 0.0;
-    double rho = 0.0, rho_slip = 0.0; ///< scales of the filled jumps
-    double force[2][3]{};             ///< along y, z, x
+    std::array<double, 2> rho{}; ///< at the nodes 1/2 and 1
+    double rho_slip = 0.0;       ///< scales of the filled jumps
+    double force[2][3]{};        ///< along y, z, x
     double inverse[36];
   };
   void meet(int contact, int node, NodalMotion& motion);

@@ -145,6 +145,29 @@ TEST(Collocation, CountsItsRejectedStepsAndRecoversItsGrid) {
   EXPECT_LT(counts.steps, 10 * 500);
 }
 
+TEST(Collocation, TakesAContactThatClosesAtTheVeryEndOfAStep) {
+  // onto a stop with a damper at the end of step 32, 64 ...: there the force jumps, and hardly moves the node at that instant
+  constexpr double touch = 2e-3, mass = 1.0, stiffness = 1e6, damping = 100.0;
+  for (const double k : {0.0, 1e-2, 1.0, 1e2, 1e4}) {
+    const double omega = std::sqrt(k / mass), gap = k > 0.0 ? std::sin(omega * touch) / omega : touch;
+    Scene scene = mass_point(mass, Vec3(0, k, 0), 4.0 * touch);
+    start(scene, mass, Vec3::Zero(), Vec3(0, 1.0, 0));
+    scene.contacts = {contact_of(mass, {contact::Stop{gap, PlaneAxis::y}, {stiffness, damping}, {}})};
+    const History fine = simulate(scene, collocation(scene.duration / 65536), scene.duration);
+    constexpr double of_the_jump = 1e-2; // the step in which the contact closes is of order 1 there
+    for (int steps = 128; steps <= 4096; steps *= 2) {
+      const History run = simulate(scene, collocation(scene.duration / steps), scene.duration);
+      EXPECT_EQ(run.report.outcome, Outcome::done) << k << " " << steps;
+      EXPECT_EQ(run.report.counts.rejected, 0) << k << " " << steps;
+      EXPECT_NEAR(run.v(1, 1), fine.v(1, 1), of_the_jump * 128 / steps) << k << " " << steps;
+    }
+    const double xi = damping / (2.0 * std::sqrt(stiffness * mass));
+    if (k == 0.0) { // case A6 of doc/validation.md
+      EXPECT_NEAR(fine.v(1, 1), -std::exp(-2.0 * xi * std::acos(xi) / std::sqrt(1.0 - xi * xi)), 1e-4);
+    }
+  }
+}
+
 TEST(Collocation, StopsWhereNoStepSolvesItsContacts) {
   Scene scene = mass_point(1.0, Vec3(0, 1.0, 0), 1.0);
   start(scene, 1.0, Vec3::Zero(), Vec3(0, 1.0, 0));
