@@ -272,7 +272,16 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
     const ProgressCallback callback =
         progress.shown() ? ProgressCallback([&](double share, double time) { progress.update(share, time); })
                          : ProgressCallback();
-    run_jobs(comm, inputs.study, scenes, placed.size(), nodes.size(), callback, out);
+    const CheckpointOptions checkpoints{inputs.directory,
+                                        FRETWORK_VERSION,
+                                        inputs.whole_key,
+                                        inputs.study.output.checkpoint,
+                                        !request.force,
+                                        [&](const std::string& line) { // from whichever rank makes the run
+                                          if (!request.quiet)
+                                            fmt::print("{}\n", line);
+                                        }};
+    run_jobs(comm, inputs.study, scenes, placed.size(), nodes.size(), callback, checkpoints, out);
     out.timings.transient = watch.lap();
   }
   progress.stage("results");
@@ -288,6 +297,8 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
     out.timings.output = watch.lap();
     out.timings.total = watch.total();
     results::write_summary(inputs.directory / "summary.json", out);
+    if (last == Stage::transient)
+      Checkpoints::remove(inputs.directory);
   });
   std::string report_line;
   if (first_rank && request.report && last == Stage::transient) {

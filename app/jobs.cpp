@@ -78,6 +78,7 @@ public:
     if (++count_ % look_every == 0)
       callback_(before_ + share_ * record.time / duration_, record.time);
   }
+  void visit(core::StateArchive&) override {} // it keeps nothing
 
 private:
   static constexpr int look_every = 4096; ///< steps: the clock costs more than a step
@@ -86,35 +87,90 @@ private:
   int count_ = 0;
 };
 
-JobResult run_job(const study::Study& study, const BuiltScene& built, const transient::StepChoice& choice,
-                  ProgressObserver* progress) {
-  const double duration = study.transient->duration;
-  const auto grid = transient::output_grid(duration, study.output.every.value_or(duration / default_outputs));
-  post::ContactStatistics contacts(built.scene.contacts.size(), study.output.statistics_from);
-  const bool with_impacts = study.output.impacts > 0 && !built.scene.contacts.empty();
-  post::ImpactTable impacts(with_impacts ? built.scene.contacts.size() : 0, study.output.statistics_from,
-                            study.output.rest_time, static_cast<std::size_t>(impact_rows(study, choice)));
-  std::vector<Eigen::MatrixXd> rows;
-  for (const auto& node : built.nodes)
-    rows.push_back(node.rows);
-  post::NodeStatistics nodes(rows, study.output.statistics_from);
-  post::Recorder recorder(built.scene, built.nodes, grid);
-  std::vector<transient::Observer*> observers;
-  if (!built.scene.contacts.empty())
-    observers.push_back(&contacts);
-  if (with_impacts)
-    observers.push_back(&impacts);
-  if (!built.nodes.empty())
-    observers.push_back(&nodes);
-  if (progress)
-    observers.push_back(progress);
-  JobResult out;
-  out.report = transient::run(built.scene, choice, observers, &recorder, grid);
-  out.contacts = contacts.summaries();
-  out.impacts = std::move(impacts).impacts();
-  out.nodes = nodes.summaries();
-  out.series = std::move(recorder).series();
-  return out;
+/// A run and all that watches it.
+class Job {
+public:
+  Job(const study::Study& study, const BuiltScene& built, const transient::StepChoice& choice,
+      ProgressObserver* progress)
+      : contacts_(built.scene.contacts.size(), study.output.statistics_from),
+        impacts_(with_impacts(study) ? built.scene.contacts.size() : 0, study.output.statistics_from,
+                 study.output.rest_time, static_cast<std::size_t>(impact_rows(study, choice))),
+        nodes_(rows_of(built.nodes), study.output.statistics_from), grid_(grid_of(study)),
+        recorder_(built.scene, built.nodes, grid_), observers_(watching(study, built, progress)),
+        run_(built.scene, choice, observers_, &recorder_, grid_) {}
+
+  [[nodiscard]] transient::Run& run() { return run_; }
+
+  [[nodiscard]] JobResult result() && {
+    JobResult out;
+    out.report = run_.finish();
+    out.contacts = contacts_.summaries();
+    out.impacts = std::move(impacts_).impacts();
+    out.nodes = nodes_.summaries();
+    out.series = std::move(recorder_).series();
+    return out;
+  }
+
+private:
+  static bool with_impacts(const study::Study& study) { return study.output.impacts > 0; }
+  static std::vector<Eigen::MatrixXd> rows_of(const std::vector<post::ObservedNode>& nodes) {
+    std::vector<Eigen::MatrixXd> rows;
+    for (const auto& node : nodes)
+      rows.push_back(node.rows);
+    return rows;
+  }
+  static transient::OutputGrid grid_of(const study::Study& study) {
+    const double duration = study.transient->duration;
+    return transient::output_grid(duration, study.output.every.value_or(duration / default_outputs));
+  }
+  /// Only what has something to see.
+  std::vector<transient::Observer*> watching(const study::Study& study, const BuiltScene& built,
+                                             ProgressObserver* progress) {
+    std::vector<transient::Observer*> observers;
+    if (!built.scene.contacts.empty())
+      observers.push_back(&contacts_);
+    if (with_impacts(study) && !built.scene.contacts.empty())
+      observers.push_back(&impacts_);
+    if (!built.nodes.empty())
+      observers.push_back(&nodes_);
+    if (progress)
+      observers.push_back(progress);
+    return observers;
+  }
+
+  post::ContactStatistics contacts_;
+  post::ImpactTable impacts_;
+  post::NodeStatistics nodes_;
+  transient::OutputGrid grid_;
+  post::Recorder recorder_;
+  std::vector<transient::Observer*> observers_;
+  transient::Run run_;
+};
+
+/// Whether the job has taken over the state; if not, it is to be made anew.
+bool restore(Job& job, std::string bytes) {
+  try {
+    core::StateArchive state(std::move(bytes));
+    state(job.run());
+    state.end();
+    return true;
+  } catch (const core::StateMismatch&) {
+    return false;
+  }
+}
+
+template <class MakeJob>
+JobResult run_job(const MakeJob& make, std::size_t number, Checkpoints& checkpoints, bool others_follow) {
+  std::unique_ptr<Job> job = make();
+  if (std::string state = checkpoints.found(number); !state.empty() && !restore(*job, std::move(state))) {
+    checkpoints.refuse(number);
+    job = make();
+  }
+  while (job->run().advance(Checkpoints::records_between_looks))
+    checkpoints.look(number, job->run());
+  if (others_follow)
+    checkpoints.ended(number, job->run());
+  return std::move(*job).result();
 }
 
 template <class T> void broadcast_plain(MPI_Comm comm, int root, std::vector<T>& values) {
@@ -284,7 +340,7 @@ void tell_impacts_left_out(std::int64_t kept, results::RunResults& out) {
 
 void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltScene>& scenes,
               std::size_t contacts, std::size_t nodes, const ProgressCallback& progress,
-              results::RunResults& out) {
+              const CheckpointOptions& checkpoint_options, results::RunResults& out) {
   check_size_of_series(study, scenes);
   const int ranks = core::size(comm), here = core::rank(comm);
   transient::StepOptions options;
@@ -315,7 +371,9 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
   std::int64_t all_steps = 0, done_steps = 0;
   for (std::size_t s = 0; s < scenes.size(); ++s)
     all_steps += owner[s] == here ? choices[s].steps : 0;
+  Checkpoints checkpoints(checkpoint_options);
   core::agree(comm, [&] {
+    auto left = std::count(owner.begin(), owner.end(), here);
     for (std::size_t s = 0; s < scenes.size(); ++s)
       if (owner[s] == here) {
         const auto part = [&](std::int64_t steps) {
@@ -324,7 +382,10 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
         };
         ProgressObserver observer(progress, part(done_steps), part(choices[s].steps),
                                   study.transient->duration);
-        jobs[s] = run_job(study, scenes[s], choices[s], progress ? &observer : nullptr);
+        const auto make = [&] {
+          return std::make_unique<Job>(study, scenes[s], choices[s], progress ? &observer : nullptr);
+        };
+        jobs[s] = run_job(make, s, checkpoints, --left > 0);
         done_steps += choices[s].steps;
       }
   });

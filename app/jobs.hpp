@@ -3,6 +3,7 @@
 /// The transients of a study: one independent run for each connected structure, shared out over ranks.
 #pragma once
 #include "app/build_scene.hpp"
+#include "app/checkpoints.hpp"
 #include "results/run_results.hpp"
 #include <functional>
 #include <mpi.h>
@@ -13,10 +14,10 @@ namespace fretwork::app {
 using ProgressCallback = std::function<void(double share, double time)>;
 
 /// Collective. Runs every scene and fills contact_summaries, node_summaries, transients and series of `out`,
-/// complete on rank 0.
+/// complete on rank 0. Each goes on from its checkpoint, if there is one.
 /// @throws core::Error where the series would not fit in memory, core::ComputationError where a run diverged
 void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltScene>& scenes,
               std::size_t contacts, std::size_t nodes, const ProgressCallback& progress,
-              results::RunResults& out);
+              const CheckpointOptions& checkpoints, results::RunResults& out);
 
 } // namespace fretwork::app

@@ -38,6 +38,7 @@ public:
   /// @param contacts  number of contacts   @param from  start of the window, s
   ContactStatistics(std::size_t contacts, double from);
   void step(const transient::Record& record) override;
+  void visit(core::StateArchive& state) override { state(number_, time_, sums_, motion_); }
   [[nodiscard]] std::vector<ContactSummary> summaries() const;
 
 private:
@@ -59,6 +60,9 @@ private:
   /// arrays).
   struct Motion {
     std::vector<double> y0, z0, y, z, y2, z2, y_min, y_max, z_min, z_max, r2, r2_max;
+    void visit(core::StateArchive& state) {
+      state(y0, z0, y, z, y2, z2, y_min, y_max, z_min, z_max, r2, r2_max);
+    }
   };
   void watch_motion(const transient::Record& record);
 

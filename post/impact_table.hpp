@@ -38,6 +38,7 @@ struct Impact {
 struct ContactImpacts {
   std::vector<Impact> rows;
   std::int64_t left_out = 0;
+  void visit(core::StateArchive& state) { state(rows, left_out); }
 };
 
 /// Impacts that start in the window; one under way at its start is none of them.
@@ -48,6 +49,7 @@ public:
   /// @param most       rows of each contact, reserved here; further impacts are counted
   ImpactTable(std::size_t contacts, double from, double rest_time, std::size_t most);
   void step(const transient::Record& record) override;
+  void visit(core::StateArchive& state) override { state(number_, under_way_, out_); }
   /// One entry a contact; impacts under way end where the run stands.
   [[nodiscard]] std::vector<ContactImpacts> impacts() &&;
 

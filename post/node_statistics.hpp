@@ -20,6 +20,7 @@ public:
   /// @param rows  for each node its 3 x n translations of the modes   @param from  start of the window, s
   NodeStatistics(const std::vector<Eigen::MatrixXd>& rows, double from);
   void step(const transient::Record& record) override;
+  void visit(core::StateArchive& state) override { state(sums_); }
   [[nodiscard]] std::vector<NodeSummary> summaries() const;
 
 private:

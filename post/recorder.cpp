@@ -79,6 +79,29 @@ void Recorder::forces(std::int64_t index, double, const double* load,
   served_ = index + 1;
 }
 
+void Recorder::visit(core::StateArchive& state) {
+  state(served_);
+  if (served_ < 0 || served_ > out_.time.size())
+    throw core::StateMismatch();
+  // by columns, one output a row (but of the modes: one a column)
+  const auto first_rows = [&](auto& columns) {
+    for (Eigen::Index column = 0; column < columns.cols(); ++column)
+      state.block(columns.col(column).data(), static_cast<std::size_t>(served_));
+  };
+  const auto values = static_cast<std::size_t>(served_ * scene_.system.size());
+  state.block(out_.time.data(), static_cast<std::size_t>(served_));
+  state.block(out_.modal_displacement.data(), values);
+  state.block(out_.modal_velocity.data(), values);
+  for (ContactSeries& c : out_.contacts) {
+    first_rows(c.gap);
+    first_rows(c.normal_force);
+    first_rows(c.tangential_force);
+    state.block(c.state.data(), static_cast<std::size_t>(served_));
+  }
+  for (NodeSeries& n : out_.nodes)
+    first_rows(n.acceleration);
+}
+
 TimeSeries Recorder::series() && {
   if (served_ < out_.time.size()) { // a run that was cut short
     out_.time.conservativeResize(served_);

@@ -47,6 +47,8 @@ public:
   void state(std::int64_t index, double time, const double* q, const double* v) override;
   void forces(std::int64_t index, double time, const double* load,
               std::span<const transient::ContactForce> contacts) override;
+  /// The outputs served so far.
+  void visit(core::StateArchive& state) override;
 
   /// The series of the outputs served so far, displacements and velocities made from the modes.
   [[nodiscard]] TimeSeries series() &&;

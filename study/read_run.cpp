@@ -87,7 +87,8 @@ Output read_output(const TableReader& root, const std::optional<Transient>& tran
   const Value* found = root.find("output");
   if (!found)
     return output;
-  const TableReader table(*found, "output", {{"every", "nodes", "statistics_from", "impacts", "rest_time"}});
+  const TableReader table(*found, "output",
+                          {{"every", "nodes", "statistics_from", "impacts", "rest_time", "checkpoint"}});
   output.every = table.optional_number("every", {Range::above_zero, "s"});
   if (transient && output.every && *output.every > transient->duration)
     table.fail_at("every", "longer than transient.duration; give the time between two samples");
@@ -104,6 +105,7 @@ Output read_output(const TableReader& root, const std::optional<Transient>& tran
     table.fail_at("statistics_from", "the statistics must start before the end, transient.duration");
   output.impacts = table.optional_integer("impacts", 0).value_or(output.impacts);
   output.rest_time = table.number_or("rest_time", 0.0, {Range::at_least_zero, "s"});
+  output.checkpoint = table.number_or("checkpoint", output.checkpoint, {Range::at_least_zero, "s"});
   return output;
 }
 

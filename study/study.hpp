@@ -165,6 +165,7 @@ struct Output {
   std::vector<std::string> nodes;
   double statistics_from = 0.0;
   std::int64_t impacts = 10000; ///< rows kept of the table of impacts of each contact; 0: no table
+  double checkpoint = 60.0;     ///< s on the clock between checkpoints; 0: none. No result depends on it
   double rest_time = 0.0;       ///< s; an opening shorter than this belongs to the impact it interrupts
 };
 
@@ -198,7 +199,7 @@ struct Study {
 
 /// The tables of the study that a stage depends on, as canonical TOML text (keys sorted, overrides applied,
 /// 17 digits, load tables of files by their rows): what is hashed to tell whether the stage must be computed
-/// again. The mesh appears by its file's name only.
+/// again. The mesh appears by its file's name only, output.checkpoint not at all: no result depends on it.
 /// @param tables  top-level keys, e.g. {"mesh"}; those that the study does not have are left out
 /// @throws        core::Error if a file cannot be read or is not TOML, or an override has no valid address;
 ///                nothing else is checked

@@ -142,6 +142,11 @@ public:
   }
   [[nodiscard]] StepFailure failure() const override { return failure_; }
 
+  void visit(core::StateArchive& state) override {
+    state(q_, v_, load_, force_, motion_, solver_, place_, level_, at_start_, failure_, counts_);
+    state(energy_, powers_, carried_, closed_, carried_time_);
+  }
+
 private:
   struct Level {
     Level(const System& system, const PackedContacts& contacts, double h)

@@ -34,6 +34,7 @@ public:
                            ContactMotion& start, ContactMotion& free, ContactTrial& trial);
   /// Evaluations of all forces so far.
   [[nodiscard]] std::int64_t evaluations() const { return evaluations_; }
+  void visit(core::StateArchive& state) { state(evaluations_); }
 
 private:
   /// A contact that takes part in the step.

@@ -7,6 +7,7 @@
 /// The forces are found by Jacobi sweeps: all contacts at once, each with its own block of A solved exactly. Where these do not halve
 /// the error a sweep (contacts that move almost together), Gauss-Seidel sweeps go on from there.
 #pragma once
+#include "core/state_archive.hpp"
 #include "transient/packed_contacts.hpp"
 
 namespace fretwork::transient::kernels {
@@ -29,6 +30,7 @@ struct MemoryLanes {
   Array force;              ///< N, friction of the commit that left this
   Array normal_y, normal_z; ///< then
   Array left; ///< share of the spring's force left since the contact opened; 0: nothing remembered
+  void visit(core::StateArchive& state) { state(spring, sliding, force, normal_y, normal_z, left); }
 };
 
 /// The unknowns of a step, one contact a lane.
@@ -61,6 +63,7 @@ struct CommitLanes {
   explicit CommitLanes(int width);
   Array closed, normal_y, normal_z, force, displacement, slides; ///< in: 1 or 0; n; F_t, N; m; 1 or 0
   Array friction_work, damper_work;                              ///< out, J: of the closed
+  void visit(core::StateArchive& state) { state(closed, normal_y, normal_z, force, displacement, slides); }
 };
 struct CommitSums {
   double friction = 0.0;  ///< J, sliders

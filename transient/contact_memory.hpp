@@ -57,6 +57,9 @@ public:
   /// Accepts a step: advances the memories of the closed contacts, lets those of the others die out, fills the friction and damper work
   /// of the states and the contacts that have opened. `motion` is that of the trial. No allocation.
   ContactLosses commit(const ContactMotion& motion, ContactTrial& trial);
+  void visit(core::StateArchive& state) {
+    state(entries_, lanes_, laws_.relaxation, step_, remembers_, remembering_, closed_, position_, springs_);
+  }
 
 private:
   struct Entry {

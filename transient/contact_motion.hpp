@@ -2,6 +2,7 @@
 /// @file
 /// Where all contacts are and how they move at one instant: the first stage of an evaluation.
 #pragma once
+#include "core/state_archive.hpp"
 #include "transient/packed_contacts.hpp"
 
 namespace fretwork::transient {
@@ -40,6 +41,7 @@ public:
   }
   /// Energy of the normal springs, J.
   [[nodiscard]] double spring_energy() const;
+  void visit(core::StateArchive& state) { state(u, w, gaps, normal_y, normal_z, near_); }
 
   kernels::Array u, w;                     ///< lanes of PackedContacts: displacement, m, and velocity, m/s
   kernels::Array gaps, normal_y, normal_z; ///< m, and unit normal, of near contacts: what `locate` gives

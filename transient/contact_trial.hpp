@@ -12,6 +12,7 @@ struct ContactTrial {
   explicit ContactTrial(int contacts);
   /// All contacts open. No allocation.
   void clear();
+  void visit(core::StateArchive& state) { state(states, active, opened, springs, cut); }
 
   std::vector<ContactState>
       states; ///< of all contacts; friction_work and the tangential part of damper_work come with the commit

@@ -69,6 +69,10 @@ public:
     return {steps_, 0, rates_.contacts().count > 0 ? 2 * steps_ : 0, 0, h_, h_};
   }
 
+  void visit(core::StateArchive& state) override {
+    state(steps_, rates_, record_, y0_, y1_, r_full_before_, r_half_before_, r0_, r_half_, r1_);
+  }
+
 private:
   /// Rates before t = 0.
   void begin() {

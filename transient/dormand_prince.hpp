@@ -5,6 +5,7 @@
 /// S. P. Norsett, G. Wanner (Solving Ordinary Differential Equations I, 2nd ed., section II.6), theta = the share of the step:
 ///     y = r_0 + theta (r_1 + (1 - theta)(r_2 + theta (r_3 + (1 - theta) r_4)))
 #pragma once
+#include "core/state_archive.hpp"
 #include "transient/kernels.hpp"
 #include <array>
 
@@ -36,6 +37,7 @@ public:
   [[nodiscard]] static std::array<double, terms> factors(double share);
   /// The end becomes the start; its rate is the last stage's.
   void advance();
+  void visit(core::StateArchive& state) { state(y0_, y1_, k_, r_); }
 
 private:
   void combine(const double* factors, int count, double h, kernels::Array& target);

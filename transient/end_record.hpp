@@ -22,6 +22,7 @@ public:
   /// @param step  s, the length of time the record stands for: half of the steps on both sides
   void stand_for(double step) { record_.step = step; }
   [[nodiscard]] const Record& record() const { return record_; }
+  void visit(core::StateArchive& state) { state(next_, shown_, record_.time, record_.step, past_, first_); }
 
 private:
   struct Sheet {
@@ -30,6 +31,7 @@ private:
     kernels::Array q, u;
     std::vector<ContactState> states;
     std::vector<int> active, opened;
+    void visit(core::StateArchive& state) { state(time, energy, q, u, states, active, opened); }
   };
   struct Past {
     double friction = 0.0, damper = 0.0;                 ///< J, works up to the last record

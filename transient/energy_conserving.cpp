@@ -126,6 +126,11 @@ public:
 
   [[nodiscard]] StepFailure failure() const override { return failure_; }
 
+  void visit(core::StateArchive& state) override {
+    state(q_, v_, load_, next_load_, end_, memory_, solver_, steps_, ahead_, whole_, part_, level_);
+    state(committed_, springs_, moving_, booked_, counts_, failure_);
+  }
+
 private:
   /// What a step of one length needs.
   struct Tables {
@@ -155,6 +160,9 @@ private:
     kernels::Array middle_q, middle_v, middle_u;
     ContactTrial trial;
     Energy energy; ///< in the middle
+    void visit(core::StateArchive& state) {
+      state(start, length, level, q, v, f0, f1, middle_q, middle_v, middle_u, trial, energy);
+    }
   };
 
   [[nodiscard]] double moving(const kernels::Array& q, const kernels::Array& v) const {

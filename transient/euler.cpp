@@ -84,6 +84,11 @@ public:
     return {steps_, 0, contacts_.count > 0 ? steps_ : 0, 0, h_, h_};
   }
 
+  void visit(core::StateArchive& state) override {
+    state(steps_, q_, v_, before_q_, before_v_, memory_);
+    state(record_.time, record_.energy, load_work_, modal_damping_, lost_);
+  }
+
 private:
   struct Contacts {
     double stored = 0.0;

@@ -10,6 +10,7 @@
 /// M_j from q integrated once and twice, which raises every index of the formula of q.
 /// k >= 0 and c >= 0 are arbitrary (oscillator.hpp).
 #pragma once
+#include "core/state_archive.hpp"
 #include "transient/kernels.hpp"
 #include "transient/scene.hpp"
 #include <array>
@@ -29,6 +30,7 @@ struct ImpulseChain {
 /// Values of a quadratic polynomial (or of the modes) at the nodes of a step.
 struct Nodes {
   kernels::Array at[3];
+  void visit(core::StateArchive& state) { state(at); }
 };
 
 /// What a step of length h needs of the modes, made once.

@@ -80,6 +80,8 @@ public:
     return {springs(y)[4 * c], springs(y)[4 * c + 1]};
   }
 
+  void visit(core::StateArchive& state) { state(motion_, trial_, regimes_, memory_, located_, position_); }
+
 private:
   struct Memory {
     contact::Vec2 spring;      ///< N, T at the last commit

@@ -19,6 +19,7 @@ struct NodalMotion {
   explicit NodalMotion(const PackedContacts& contacts);
   [[nodiscard]] double* u(int node) { return node == 0 ? start.data() : &ends[(node - 1) * stride]; }
   [[nodiscard]] double* v(int node) { return node == 0 ? &start[stride] : &ends[(node + 1) * stride]; }
+  void visit(core::StateArchive& state) { state(start, ends); }
   std::size_t stride;
   kernels::Array start; ///< u, v at node 0
   kernels::Array ends;  ///< u at 1/2, u at 1, v at 1/2, v at 1
@@ -63,6 +64,7 @@ public:
   [[nodiscard]] double spring_energy(int node) const;
   /// Sweeps so far: each evaluates the laws of the contacts that take part at both nodes.
   [[nodiscard]] std::int64_t sweeps() const { return sweeps_; }
+  void visit(core::StateArchive& state) { state(nodes_, alive_, sweeps_); }
 
 private:
   struct Active {

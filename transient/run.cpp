@@ -31,6 +31,8 @@ std::unique_ptr<Scheme> make_scheme(const Scene& scene, const StepChoice& choice
   return nullptr;
 }
 
+} // namespace
+
 /// Serves the output instants that lie before the next record.
 class OutputQueue {
 public:
@@ -78,6 +80,9 @@ public:
       forces(scheme, scheme.advance());
   }
 
+  /// Between two records.
+  void visit(core::StateArchive& state) { state(next_, last_time_, last_); }
+
 private:
   [[nodiscard]] double time(std::int64_t j) const { return static_cast<double>(j) * grid_.every; }
 
@@ -112,48 +117,71 @@ private:
   double last_time_ = -1.0;
 };
 
-} // namespace
-
 OutputGrid output_grid(double duration, double every) {
   return {every, static_cast<std::int64_t>(std::floor(duration / every * (1.0 + 1e-12) + 1e-9)) + 1};
 }
 
+// A fixed step covers whole steps, so that round-off of the time adds none; a scheme may have cut them into records of their own.
+Run::Run(const Scene& scene, const StepChoice& choice, std::span<Observer* const> observers, Sampler* sampler,
+         const OutputGrid& grid)
+    : observers_(observers), sampler_(sampler), scheme_(make_scheme(scene, choice)),
+      outputs_(std::make_unique<OutputQueue>(scene, sampler, grid)),
+      end_(choice.steps > 0 ? (static_cast<double>(choice.steps) - least_part) * choice.step
+                            : scene.duration) {
+  if (scheme_->failure() != StepFailure::none)
+    report_.outcome = Outcome::step_failed;
+}
+
+Run::~Run() = default;
+
+bool Run::goes_on() const { return report_.outcome == Outcome::done && scheme_->next_time() < end_; }
+
+bool Run::advance(std::int64_t records) {
+  for (std::int64_t i = 0; i < records && goes_on(); ++i) {
+    outputs_->states(*scheme_, scheme_->next_time());
+    const Record& record = scheme_->advance();
+    outputs_->forces(*scheme_, record);
+    outputs_->keep(record,
+                   scheme_->next_time() + 0.5 * record.step); // the last output may lie at the end
+    const double residual = std::abs(record.energy.residual());
+    largest_residual_ = std::max(largest_residual_, residual);
+    largest_throughput_ = std::max(largest_throughput_, record.energy.throughput);
+    ++report_.records;
+    report_.end_time = record.time;
+    report_.energy = record.energy;
+    for (Observer* observer : observers_)
+      observer->step(record);
+    if (!(residual <= hopeless * largest_throughput_))
+      report_.outcome = Outcome::diverged;
+    else if (scheme_->failure() != StepFailure::none)
+      report_.outcome = Outcome::step_failed;
+  }
+  return goes_on();
+}
+
+Report Run::finish() {
+  Report report = report_;
+  report.counts = scheme_->counts();
+  report.failure = scheme_->failure();
+  if (report.outcome == Outcome::done)
+    outputs_->finish(*scheme_);
+  report.residual_relative = largest_throughput_ > 0.0 ? largest_residual_ / largest_throughput_ : 0.0;
+  return report;
+}
+
+void Run::visit(core::StateArchive& state) {
+  state(*scheme_, *outputs_, report_, largest_residual_, largest_throughput_);
+  for (Observer* observer : observers_)
+    state(*observer);
+  if (sampler_)
+    state(*sampler_);
+}
+
 Report run(const Scene& scene, const StepChoice& choice, std::span<Observer* const> observers,
            Sampler* sampler, const OutputGrid& grid) {
-  const std::unique_ptr<Scheme> scheme = make_scheme(scene, choice);
-  OutputQueue outputs(scene, sampler, grid);
-  Report report;
-  double largest_residual = 0.0, largest_throughput = 0.0;
-  // A fixed step covers whole steps, so that round-off of the time adds none; a scheme may have cut them into records of their own.
-  const double end =
-      choice.steps > 0 ? (static_cast<double>(choice.steps) - least_part) * choice.step : scene.duration;
-  const auto goes_on = [&] { return scheme->next_time() < end; };
-  if (scheme->failure() != StepFailure::none)
-    report.outcome = Outcome::step_failed;
-  while (report.outcome == Outcome::done && goes_on()) {
-    outputs.states(*scheme, scheme->next_time());
-    const Record& record = scheme->advance();
-    outputs.forces(*scheme, record);
-    outputs.keep(record, scheme->next_time() + 0.5 * record.step); // the last output may lie at the end
-    const double residual = std::abs(record.energy.residual());
-    largest_residual = std::max(largest_residual, residual);
-    largest_throughput = std::max(largest_throughput, record.energy.throughput);
-    ++report.records;
-    report.end_time = record.time;
-    report.energy = record.energy;
-    for (Observer* observer : observers)
-      observer->step(record);
-    if (!(residual <= hopeless * largest_throughput))
-      report.outcome = Outcome::diverged;
-    else if (scheme->failure() != StepFailure::none)
-      report.outcome = Outcome::step_failed;
-  }
-  report.counts = scheme->counts();
-  report.failure = scheme->failure();
-  if (report.outcome == Outcome::done)
-    outputs.finish(*scheme);
-  report.residual_relative = largest_throughput > 0.0 ? largest_residual / largest_throughput : 0.0;
-  return report;
+  Run all(scene, choice, observers, sampler, grid);
+  all.advance(std::numeric_limits<std::int64_t>::max());
+  return all.finish();
 }
 
 } // namespace fretwork::transient

@@ -12,6 +12,8 @@ class Observer {
 public:
   virtual ~Observer() = default;
   virtual void step(const Record& record) = 0;
+  /// What it has seen so far.
+  virtual void visit(core::StateArchive& state) = 0;
 };
 
 /// Normal and tangential force of a contact at an output instant, N.
@@ -32,6 +34,8 @@ public:
   /// steps around it).
   virtual void forces(std::int64_t index, double time, const double* load,
                       std::span<const ContactForce> contacts) = 0;
+  /// What it has received so far.
+  virtual void visit(core::StateArchive& state) = 0;
 };
 
 /// The output instants of a run: from the steps' own continuous extension, the step is never changed for
@@ -54,7 +58,40 @@ struct Report {
   double residual_relative = 0.0; ///< largest |residual| over largest throughput
 };
 
-/// Runs the scene with the step chosen. No allocation, no exception and no output in the loop.
+class OutputQueue;
+
+/// A run that goes on in portions, so that its state can be saved between two of them. A run made anew from the same arguments that
+/// restores the state gives the same bytes as one that was never left.
+class Run {
+public:
+  /// All arguments must live longer; `sampler` may be null.
+  Run(const Scene& scene, const StepChoice& choice, std::span<Observer* const> observers, Sampler* sampler,
+      const OutputGrid& grid);
+  ~Run();
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+
+  /// Up to `records` more records. No allocation, no exception and no output. Returns whether there are more to come.
+  bool advance(std::int64_t records);
+  [[nodiscard]] double time() const { return report_.end_time; }
+  /// After the last record: what was asked for up to the end. To be called once.
+  [[nodiscard]] Report finish();
+  /// With all that its scheme, observers and sampler know.
+  void visit(core::StateArchive& state);
+
+private:
+  [[nodiscard]] bool goes_on() const;
+
+  std::span<Observer* const> observers_;
+  Sampler* sampler_;
+  std::unique_ptr<Scheme> scheme_;
+  std::unique_ptr<OutputQueue> outputs_;
+  double end_; ///< s: a record at or after it is not made
+  Report report_;
+  double largest_residual_ = 0.0, largest_throughput_ = 0.0;
+};
+
+/// Runs the scene with the step chosen, from start to end.
 /// Diverged: the energy is not finite, or has grown far beyond all that was put in. Step failed: the scheme
 /// could not meet its tolerance.
 [[nodiscard]] Report run(const Scene& scene, const StepChoice& choice, std::span<Observer* const> observers,

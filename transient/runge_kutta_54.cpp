@@ -78,6 +78,11 @@ public:
   [[nodiscard]] StepCounts counts() const override { return counts_; }
   [[nodiscard]] StepFailure failure() const override { return failure_; }
 
+  void visit(core::StateArchive& state) override {
+    state(time_, begin_, h_, next_h_, last_error_, largest_, rates_, record_, step_, crowded_, counts_,
+          failure_);
+  }
+
 private:
   void evaluate_start() {
     rates_.rate(time_, step_.start(), step_.start_rate());

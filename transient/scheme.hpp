@@ -3,6 +3,7 @@
 /// What all time schemes share: the record of a step that observers see, the energy ledger, the interface.
 #pragma once
 #include "contact/vec2.hpp"
+#include "core/state_archive.hpp"
 #include "transient/scene.hpp"
 #include <cstdint>
 #include <memory>
@@ -90,6 +91,9 @@ public:
   [[nodiscard]] virtual StepCounts counts() const = 0;
   /// Why the scheme cannot go on from its last record.
   [[nodiscard]] virtual StepFailure failure() const { return StepFailure::none; }
+  /// What lasts from record to record: a scheme made anew for the same scene and step that restores it gives the same records, states
+  /// and counts, bit for bit, as the one that saved it.
+  virtual void visit(core::StateArchive& state) = 0;
 };
 
 enum class SchemeKind { splitting, collocation, euler, energy_conserving, devogelaere, runge_kutta_54 };
@@ -105,3 +109,5 @@ enum class SchemeKind { splitting, collocation, euler, energy_conserving, devoge
                                                           double longest);
 
 } // namespace fretwork::transient
+
+template <> inline constexpr bool fretwork::core::points_elsewhere<fretwork::transient::Record> = true;

@@ -129,6 +129,12 @@ public:
     return {steps_, 0, contacts_.count > 0 ? steps_ : 0, unconverged_, h_, h_};
   }
 
+  void visit(core::StateArchive& state) override {
+    state(steps_, unconverged_, time_, q_, v_, f_now_, trial_, memory_);
+    state(record_.energy, moving_, after_action_, load_work_, lost_);
+    rows_.set(trial_, h_);
+  }
+
 private:
   /// From the last action (or the start) to the next.
   void flow() {

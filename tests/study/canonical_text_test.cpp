@@ -30,6 +30,11 @@ TEST(CanonicalText, HoldsOnlyTheTablesAsked) {
   EXPECT_EQ(canonical(text, {"modes", "contacts"}), "modes = {count = 3}\n");
 }
 
+TEST(CanonicalText, LeavesOutHowOftenCheckpointsAreWritten) {
+  EXPECT_EQ(canonical("[output]\nimpacts = 3\ncheckpoint = 5\n", {"output"}), "output = {impacts = 3}\n");
+  EXPECT_EQ(canonical("[output]\ncheckpoint = 5\n", {"output"}), canonical("title = \"a\"\n", {"output"}));
+}
+
 TEST(CanonicalText, HoldsTheOverrides) {
   const std::string text = "[modes]\ncount = 3\n";
   EXPECT_EQ(canonical(text, {"modes"}, {"modes.count=4"}), "modes = {count = 4}\n");

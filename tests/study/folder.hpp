@@ -212,6 +212,7 @@ nodes = ["apex", "foot"]
 statistics_from = 0.2
 impacts = 500
 rest_time = 1e-3
+checkpoint = 30
 )";
 
 } // namespace fretwork::study

@@ -130,6 +130,7 @@ TEST(Messages, OfNumbersOutOfRange) {
       {"impacts = 500", "impacts = -1", {"output.impacts = -1: an integer >= 0 is expected"}},
       {"impacts = 500", "impacts = 1.5", {"output.impacts = 1.5: an integer >= 0 is expected, not a number"}},
       {"rest_time = 1e-3", "rest_time = -1", {"output.rest_time = -1: a number >= 0 in s is expected"}},
+      {"checkpoint = 30", "checkpoint = -1", {"output.checkpoint = -1: a number >= 0 in s is expected"}},
   });
 }
 

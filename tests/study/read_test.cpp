@@ -38,6 +38,7 @@ TEST(ReadStudy, GivesModesAndOutputTheirDefaults) {
   EXPECT_EQ(study.output.statistics_from, 0.0);
   EXPECT_EQ(study.output.impacts, 10000);
   EXPECT_EQ(study.output.rest_time, 0.0);
+  EXPECT_EQ(study.output.checkpoint, 60.0);
 }
 
 TEST(ReadStudy, GivesTheTransientItsDefaults) {
@@ -218,6 +219,7 @@ TEST(ReadStudy, ReadsEveryKeyOfTheRun) {
   EXPECT_EQ(study.output.statistics_from, 0.2);
   EXPECT_EQ(study.output.impacts, 500);
   EXPECT_EQ(study.output.rest_time, 1e-3);
+  EXPECT_EQ(study.output.checkpoint, 30.0);
 }
 
 TEST(ReadStudy, ReadsRayleighDampingAndABandOfModes) {

@@ -50,6 +50,7 @@ namespace {
 
 /// Watches from the first record to the last but one.
 struct Gate final : Observer {
+  void visit(core::StateArchive&) override {}
   explicit Gate(std::int64_t steps) : last(steps - 1) {}
   void step(const Record& record) override {
     watching = ++seen < last;

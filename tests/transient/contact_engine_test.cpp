@@ -74,6 +74,7 @@ struct Opening {
   double approach = 0.0;
 };
 struct OpeningObserver final : Observer {
+  void visit(core::StateArchive&) override {}
   void step(const Record& r) override {
     for (const int c : r.opened) {
       ++seen.count;

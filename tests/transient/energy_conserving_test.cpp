@@ -23,6 +23,7 @@ constexpr double round_off =
 
 /// What a run did to its energy, and whether its forces obeyed.
 struct Seen final : Observer {
+  void visit(core::StateArchive&) override {}
   explicit Seen(const Scene& s) : scene(s) {}
   void step(const Record& r) override {
     const Energy& e = r.energy;

@@ -58,6 +58,7 @@ Totals watched(const Scene& scene, const StepOptions& options, Sampler* sampler,
 }
 
 struct Silent final : Sampler {
+  void visit(core::StateArchive&) override {}
   void state(std::int64_t, double, const double*, const double*) override { ++states; }
   void forces(std::int64_t, double, const double*, std::span<const ContactForce>) override { ++forces_seen; }
   int states = 0, forces_seen = 0;

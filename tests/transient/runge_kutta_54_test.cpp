@@ -137,6 +137,7 @@ TEST(RungeKutta54, KeepsTheEnergyOfManyImpacts) {
 
 TEST(RungeKutta54, CoversTheWholeRunWithItsRecords) {
   struct Sum final : Observer {
+    void visit(core::StateArchive&) override {}
     void step(const Record& record) override {
       time += record.step;
       last = record.step;

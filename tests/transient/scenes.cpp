@@ -90,6 +90,7 @@ struct Keeper final : Sampler {
       run.along_t(row, index) = contacts[c].friction.t;
     }
   }
+  void visit(core::StateArchive&) override {}
   History& run;
 };
 

@@ -59,6 +59,7 @@ struct Trace final : transient::Observer {
     bool closed, slides;
   };
   void step(const transient::Record& record) override;
+  void visit(core::StateArchive& state) override { state(records); }
   std::vector<Entry> records; ///< of contact 0
 };
 

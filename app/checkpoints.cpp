@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/checkpoints.hpp"
+#include "core/error.hpp"
+#include <csignal>
+#include <fmt/format.h>
+
+namespace fretwork::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* file_start = "checkpoint";
+
+volatile std::sig_atomic_t terminated = 0;
+
+results::Checkpoint checkpoint_of(transient::Run& run) {
+  core::StateArchive state;
+  state(run);
+  return {run.time(), std::move(state).bytes()};
+}
+
+} // namespace
+
+Checkpoints::Checkpoints(CheckpointOptions options) : options_(std::move(options)) {
+  if (options_.every > 0.0)
+    on_terminate_ = std::signal(SIGTERM, [](int) { terminated = 1; });
+}
+
+Checkpoints::~Checkpoints() {
+  if (options_.every > 0.0)
+    (void)std::signal(SIGTERM, on_terminate_);
+}
+
+std::string Checkpoints::found(std::size_t run) const {
+  if (!options_.resume)
+    return {};
+  const results::FoundCheckpoint found = results::read_checkpoint(file(run), identity(run));
+  if (!found.refusal.empty())
+    options_.tell(found.refusal);
+  if (!found.checkpoint)
+    return {};
+  options_.tell(fmt::format("going on from {}, at t = {:.6g} s", file(run).string(), found.checkpoint->time));
+  return found.checkpoint->state;
+}
+
+void Checkpoints::refuse(std::size_t run) const {
+  options_.tell(fmt::format("{} was written by another build of the program: the run starts again",
+                            file(run).string()));
+}
+
+void Checkpoints::look(std::size_t run, transient::Run& state) {
+  const auto due = [&] {
+    return std::chrono::duration<double>(Clock::now() - last_).count() >= options_.every;
+  };
+  if (!(options_.every > 0.0) || !(terminated || due()))
+    return;
+  pending_.push_back({run, checkpoint_of(state)});
+  write();
+  if (terminated)
+    throw core::ComputationError(
+        fmt::format("ended by SIGTERM at t = {:.6g} s; the same command goes on from there", state.time()));
+}
+
+void Checkpoints::ended(std::size_t run, transient::Run& state) {
+  if (options_.every > 0.0)
+    pending_.push_back({run, checkpoint_of(state)});
+}
+
+void Checkpoints::write() {
+  try {
+    for (const Pending& p : pending_)
+      results::write_checkpoint(file(p.run), identity(p.run), p.checkpoint);
+  } catch (const core::Error& error) { // the results do not depend on it
+    if (!failed_)
+      options_.tell(fmt::format("no checkpoint: {}", error.what()));
+    failed_ = true;
+  }
+  pending_.clear();
+  last_ = Clock::now(); // writing does not count: a run with huge series still gets on
+}
+
+fs::path Checkpoints::file(std::size_t run) const {
+  return options_.directory /
+         (run == 0 ? fmt::format("{}.h5", file_start) : fmt::format("{}-{}.h5", file_start, run + 1));
+}
+
+results::RunIdentity Checkpoints::identity(std::size_t run) const {
+  return {options_.version, options_.input_sha256, static_cast<std::int64_t>(run)};
+}
+
+void Checkpoints::remove(const fs::path& directory) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(directory))
+    if (entry.path().filename().string().starts_with(file_start) && entry.path().extension() == ".h5")
+      files.push_back(entry.path());
+  std::error_code ignored;
+  for (const fs::path& file : files)
+    fs::remove(file, ignored);
+}
+
+} // namespace fretwork::app

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The checkpoints of a study's runs: DIR/checkpoint.h5 of the first, DIR/checkpoint-2.h5 of the second ...
+#pragma once
+#include "results/checkpoint.hpp"
+#include "transient/run.hpp"
+#include <chrono>
+#include <functional>
+#include <vector>
+
+namespace fretwork::app {
+
+struct CheckpointOptions {
+  std::filesystem::path directory;
+  std::string version, input_sha256;            ///< as in results::RunIdentity
+  double every = 0.0;                           ///< s on the clock; 0: none is written
+  bool resume = true;                           ///< go on from what an earlier run has left
+  std::function<void(const std::string&)> tell; ///< a line for the user
+};
+
+/// What the runs of one rank keep, one run after the other: after an interruption at most `every` seconds of their work are lost.
+class Checkpoints {
+public:
+  /// While it lives SIGTERM ends the run at its next look, where checkpoints are written at all.
+  explicit Checkpoints(CheckpointOptions options);
+  ~Checkpoints();
+  Checkpoints(const Checkpoints&) = delete;
+  Checkpoints& operator=(const Checkpoints&) = delete;
+
+  /// Records that a run makes before it is looked at again: at a microsecond each, reading the clock costs nothing and `every` is kept
+  /// to a few milliseconds.
+  static constexpr std::int64_t records_between_looks = 4096;
+
+  /// The state that an earlier run with this number has left, told to the user. Empty: it starts at the beginning.
+  [[nodiscard]] std::string found(std::size_t run) const;
+  /// What was found does not fit the run, which starts at the beginning after all.
+  void refuse(std::size_t run) const;
+  /// Saves the run, and those that have ended, when it is time to. What cannot be written is told, and the run goes on.
+  /// @throws core::ComputationError after SIGTERM, when all is saved
+  void look(std::size_t run, transient::Run& state);
+  /// The run has come to its end; others follow.
+  void ended(std::size_t run, transient::Run& state);
+
+  /// Removes all checkpoints of a folder.
+  static void remove(const std::filesystem::path& directory);
+
+private:
+  using Clock = std::chrono::steady_clock;
+  struct Pending {
+    std::size_t run;
+    results::Checkpoint checkpoint;
+  };
+  [[nodiscard]] std::filesystem::path file(std::size_t run) const;
+  [[nodiscard]] results::RunIdentity identity(std::size_t run) const;
+  void write();
+
+  CheckpointOptions options_;
+  std::vector<Pending> pending_; ///< of runs that have ended since the last writing
+  Clock::time_point last_ = Clock::now();
+  bool failed_ = false;
+  void (*on_terminate_)(int) = nullptr; ///< what SIGTERM did before
+};
+
+} // namespace fretwork::app

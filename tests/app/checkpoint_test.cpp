@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Runs that are killed and started again: the same results as if nothing had happened.
+#include "core/child_process.hpp"
+#include "mesh_text.hpp"
+#include "paths.hpp"
+#include "program.hpp"
+#include <fmt/format.h>
+#include <fstream>
+
+namespace fretwork::app::test {
+namespace {
+
+constexpr int killed = 128 + 9, computation_failed = 2; ///< exit statuses
+
+/// Arguments of the straight tube with a million steps and a checkpoint every hundredth of a second.
+std::vector<std::string> tube(const Workshop& folder, const std::string& output,
+                              const std::vector<std::string>& more = {}) {
+  std::vector<std::string> all{"run",
+                               example("straight_tube").string(),
+                               "--no-report",
+                               "-o",
+                               folder.path(output).string(),
+                               "--set",
+                               "transient.duration=1"};
+  for (const char* key : {"transient.step=1e-6", "output.statistics_from=0", "output.checkpoint=0.01"}) {
+    all.emplace_back("--set");
+    all.emplace_back(key);
+  }
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+/// Starts the program, waits until it has written `file` anew and for `delay` seconds more, and sends it a signal.
+void interrupt(const Workshop& folder, const std::vector<std::string>& arguments, const fs::path& file,
+               double delay, const std::string& signal, int expected_status) {
+  static const std::string script = R"sh(
+    file=$1; delay=$2; signal=$3; errors=$4; shift 4
+    before=$(stat -c %y "$file" 2>/dev/null)
+    "$@" >/dev/null 2>"$errors" & program=$!
+    while kill -0 $program 2>/dev/null && [ "$(stat -c %y "$file" 2>/dev/null)" = "$before" ]; do sleep 0.002; done
+    sleep $delay
+    kill -$signal $program 2>/dev/null
+    wait $program)sh";
+  std::vector<std::string> all{"bash",
+                               "-c",
+                               script,
+                               "bash",
+                               file.string(),
+                               fmt::format("{}", delay),
+                               signal,
+                               folder.path("stderr").string(),
+                               (test_paths::binary_dir() / "bin" / "fretwork").string()};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  EXPECT_EQ(core::run_child(all).status, expected_status);
+  EXPECT_TRUE(fs::exists(file));
+  EXPECT_FALSE(fs::exists(folder.path("results") / "summary.json"));
+}
+
+void kill_after(const Workshop& folder, const std::vector<std::string>& arguments, const fs::path& file,
+                double delay) {
+  interrupt(folder, arguments, file, delay, "KILL", killed);
+}
+
+std::string completed(const Workshop& folder, const std::vector<std::string>& arguments, int ranks = 0) {
+  const Outcome outcome = folder.fretwork(arguments, ranks);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return outcome.out;
+}
+
+void expect_same(const Workshop& folder, const std::string& one, const std::string& other) {
+  EXPECT_TRUE(bytes_of(folder.path(one) / "results.h5") == bytes_of(folder.path(other) / "results.h5"));
+  EXPECT_EQ(lasting(read_results(folder.path(one)).summary),
+            lasting(read_results(folder.path(other)).summary));
+}
+
+TEST(Checkpoint, ARunKilledAtSeveralMomentsGivesTheSameBytes) {
+  const Workshop folder;
+  (void)completed(folder, tube(folder, "whole"));
+  const fs::path file = folder.path("results") / "checkpoint.h5";
+  for (const double delay : {0.0, 0.013, 0.0})
+    kill_after(folder, tube(folder, "results"), file, delay);
+  EXPECT_TRUE(
+      says(completed(folder, tube(folder, "results")), "going on from " + file.string() + ", at t = 0."));
+  expect_same(folder, "whole", "results");
+  EXPECT_FALSE(fs::exists(file));
+}
+
+TEST(Checkpoint, HowOftenItIsWrittenIsNoInput) {
+  const Workshop folder;
+  (void)completed(folder, tube(folder, "results", {"--set", "output.checkpoint=0"}));
+  EXPECT_TRUE(says(completed(folder, tube(folder, "results")), "up to date"));
+}
+
+TEST(Checkpoint, ThatIsDamagedIsToldAndNotUsed) {
+  const Workshop folder;
+  (void)completed(folder, tube(folder, "whole"));
+  const fs::path file = folder.path("results") / "checkpoint.h5";
+  kill_after(folder, tube(folder, "results"), file, 0.0);
+  std::string bytes = bytes_of(file);
+  bytes[bytes.size() / 2] ^= 1;
+  std::ofstream(file, std::ios::binary) << bytes;
+  EXPECT_TRUE(
+      says(completed(folder, tube(folder, "results")), file.string() + " is damaged: the run starts again"));
+  expect_same(folder, "whole", "results");
+}
+
+TEST(Checkpoint, OfAnotherStudyIsToldAndNotUsed) {
+  const Workshop folder;
+  const std::vector<std::string> other{"--set", "loads.mid_spans.harmonic.amplitude=21"};
+  (void)completed(folder, tube(folder, "whole", other));
+  const fs::path file = folder.path("results") / "checkpoint.h5";
+  kill_after(folder, tube(folder, "results"), file, 0.0);
+  EXPECT_TRUE(says(completed(folder, tube(folder, "results", other)),
+                   file.string() + " belongs to other inputs: the run starts again"));
+  expect_same(folder, "whole", "results");
+}
+
+TEST(Checkpoint, ForceStartsAgain) {
+  const Workshop folder;
+  const fs::path file = folder.path("results") / "checkpoint.h5";
+  kill_after(folder, tube(folder, "results"), file, 0.0);
+  EXPECT_EQ(completed(folder, tube(folder, "results", {"--force"})).find("going on"), std::string::npos);
+}
+
+TEST(Checkpoint, IsWrittenOnSigterm) {
+  const Workshop folder;
+  (void)completed(folder, tube(folder, "whole"));
+  const fs::path file = folder.path("results") / "checkpoint.h5";
+  interrupt(folder, tube(folder, "results", {"--set", "output.checkpoint=0.05"}), file, 0.0, "TERM",
+            computation_failed);
+  EXPECT_TRUE(says(bytes_of(folder.path("stderr")), "ended by SIGTERM at t = 0."));
+  EXPECT_TRUE(says(completed(folder, tube(folder, "results")), "going on from " + file.string()));
+  expect_same(folder, "whole", "results");
+}
+
+/// Three pinned tubes, each with a support: three runs.
+std::string bundle(const Workshop& folder) {
+  MeshText mesh;
+  std::string study = R"([mesh]
+file = "bundle.msh"
+[materials.steel]
+young_modulus = 2.0e11
+poisson_ratio = 0.3
+density = 12000.0
+[sections.tube]
+shape = "pipe"
+outer_diameter = 0.01905
+thickness = 0.00109
+[modes]
+count = 12
+damping = 0.01
+[transient]
+duration = 0.2
+step = 1.0e-6
+[output]
+every = 1.0e-3
+checkpoint = 0.01
+)";
+  for (int i = 0; i < 3; ++i) {
+    MeshText tube = straight_line(fmt::format("tube{}", i), {0.0, 0.05 * i, 0.0},
+                                  {2.0 + 0.3 * i, 0.05 * i, 0.0}, 12 + 2 * i);
+    tube.points.emplace_back(fmt::format("support{}", i), 4);
+    mesh = together(mesh, tube);
+    study += fmt::format(R"([[beams]]
+group = "tube{0}"
+material = "steel"
+section = "tube"
+[[restraints]]
+group = "tube{0}_begin"
+fixed = "all"
+[[contacts]]
+name = "support{0}"
+group = "support{0}"
+gap = 1.0e-5
+normal_stiffness = 1.0e6
+normal_damping = 20.0
+friction = 0.3
+tangential_stiffness = 1.0e6
+tangential_damping = 100.0
+[[loads]]
+group = "tube{0}"
+direction = [0.0, 1.0, 0.5]
+random = {{ rms = 20.0, band = [5.0, 200.0], seed = {1} }}
+)",
+                         i, 11 + i);
+  }
+  folder.write("bundle.msh", mesh.text());
+  return study;
+}
+
+TEST(Checkpoint, EveryRunOfAStudyHasItsOwnOnAnyNumberOfRanks) {
+  const Workshop folder;
+  const std::string study = folder.write("study.toml", bundle(folder)).string();
+  const auto run = [&](const std::string& output) {
+    return std::vector<std::string>{"run", study, "--no-report", "-o", folder.path(output).string()};
+  };
+  (void)completed(folder, run("whole"));
+  // the last of one process: by then the others have ended
+  kill_after(folder, run("results"), folder.path("results") / "checkpoint-3.h5", 0.0);
+  const std::string told = completed(folder, run("results"), 2);
+  for (const char* file : {"checkpoint.h5", "checkpoint-2.h5", "checkpoint-3.h5"}) {
+    EXPECT_TRUE(says(told, fmt::format("going on from {}", (folder.path("results") / file).string())));
+    EXPECT_FALSE(fs::exists(folder.path("results") / file));
+  }
+  expect_same(folder, "whole", "results");
+}
+
+} // namespace
+} // namespace fretwork::app::test
