@@ -84,8 +84,6 @@ public:
     solver_.add_forces(0, force_.at[0].data());
     energy_[0].initial = energy_[0].throughput = energy_[0].stored =
         modal_energy(0) + solver_.spring_energy(0);
-    record_.contacts = contacts_.count;
-    record_.states = trial_.states;
     counts_.step_min = counts_.step_max = h_;
   }
 
@@ -257,9 +255,6 @@ private:
     const double own = h * to_end[node];
     record_.time = time_at(place_) + 0.5 * node * h;
     record_.step = own + (node == 0 ? carried_time_ : 0.0);
-    record_.q = q_.at[node].data();
-    record_.uy = motion_.u(node);
-    record_.uz = motion_.u(node) + contacts_.width;
     record_.energy = energy_[node];
     trial_.clear();
     for (const int c : solver_.alive()) {
@@ -286,8 +281,7 @@ private:
         trial_.opened.push_back(c);
       }
     }
-    record_.active = trial_.active;
-    record_.opened = trial_.opened;
+    transient::show(record_, contacts_, q_.at[node].data(), motion_.u(node), trial_);
   }
 
   System system_;

@@ -5,10 +5,6 @@
 namespace fretwork::transient::kernels {
 namespace {
 
-/// A spring that has relaxed to this share of what it had when its contact opened is forgotten (round-off of
-/// the energy).
-constexpr double forgotten = 1e-12;
-
 // Flags are packs of 1 and 0, and choices are made by one comparison each: compilers turn these into a vector operation, and masks that
 // are joined into many scalar ones.
 FRETWORK_INLINE Pack clipped(const Pack& p) { return p > 0.0 ? p : Pack{}; }

@@ -24,6 +24,9 @@ struct LawLanes {
   Array mu_static, mu_dynamic, along;     ///< along: 1 or 0
 };
 
+/// A spring that has relaxed to this share of what it had when its contact opened is forgotten (round-off of the energy).
+inline constexpr double forgotten = 1e-12;
+
 /// Memories, one contact a lane: contact::FrictionMemory and what goes with it.
 struct MemoryLanes {
   Array spring, sliding;    ///< N; 1 or 0

@@ -3,13 +3,6 @@
 #include <algorithm>
 
 namespace fretwork::transient {
-namespace {
-
-/// A spring that has relaxed to this share of what it had when its contact opened is forgotten (round-off of
-/// the energy).
-constexpr double forgotten = 1e-12;
-
-} // namespace
 
 ContactMemory::ContactMemory(const PackedContacts& contacts, double step)
     : contacts_(contacts), laws_(contacts, step), step_(contacts.width) {
@@ -115,7 +108,7 @@ void ContactMemory::relax(int c, ContactLosses& losses) {
   e.left *= e.table.relaxation;
   springs_ -= step.damper_work;
   losses.damping += step.damper_work;
-  if (e.left < forgotten)
+  if (e.left < kernels::forgotten)
     forget(c, losses);
 }
 

@@ -24,6 +24,18 @@ struct ContactTrial {
       0.0; ///< J over the step, lost by springs that a damper holds free of force: what the positive part cuts
 };
 
+/// Lets a record show these. Arrays of `q`: padded modes; of `u`: displacements in lanes, m. All stay in their place until the next record.
+inline void show(Record& record, const PackedContacts& contacts, const double* q, const double* u,
+                 const ContactTrial& trial) {
+  record.q = q;
+  record.contacts = contacts.count;
+  record.uy = u;
+  record.uz = u + contacts.width;
+  record.states = trial.states;
+  record.active = trial.active;
+  record.opened = trial.opened;
+}
+
 /// The contacts' forces as rows over the modes.
 class ContactRows {
 public:

@@ -34,13 +34,6 @@ double dot(const kernels::Array& force, const kernels::Array& to, const kernels:
   return sum;
 }
 
-/// Modes that the matrix does not couple are damped by its diagonal.
-System with_diagonal(System system) {
-  if (system.damping_matrix.size() > 0)
-    system.damping = system.damping_matrix.diagonal();
-  return system;
-}
-
 class EnergyConserving final : public Scheme {
 public:
   EnergyConserving(const Scene& scene, double step)
@@ -172,13 +165,7 @@ private:
   void show(const Step& s) {
     record_.time = s.start + 0.5 * s.length;
     record_.step = s.length;
-    record_.q = s.middle_q.data();
-    record_.contacts = contacts_.count;
-    record_.uy = s.middle_u.data();
-    record_.uz = s.middle_u.data() + contacts_.width;
-    record_.states = s.trial.states;
-    record_.active = s.trial.active;
-    record_.opened = s.trial.opened;
+    transient::show(record_, contacts_, s.middle_q.data(), s.middle_u.data(), s.trial);
     if (s.length > 0.0)
       record_.energy = s.energy;
   }

@@ -33,11 +33,6 @@ public:
     obstacles_.add(0.0, motion_);
     memory_.start(motion_);
     loads_.at(0.0, load_.data());
-    record_.contacts = contacts_.count;
-    record_.q = before_q_.data();
-    record_.uy = motion_.u.data();
-    record_.uz = motion_.u.data() + contacts_.width;
-    record_.states = trial_.states;
     record_.step = h_;
   }
 
@@ -55,8 +50,7 @@ public:
     damper_power += sums.damping_power;
     book(contact, sums, damper_power);
     ++steps_;
-    record_.active = trial_.active;
-    record_.opened = trial_.opened;
+    show(record_, contacts_, before_q_.data(), motion_.u.data(), trial_);
     return record_;
   }
 

@@ -37,6 +37,12 @@ std::vector<std::vector<Index>> coupled_modes(const MatrixXd& c) {
 
 } // namespace
 
+System with_diagonal(System system) {
+  if (system.damping_matrix.size() > 0)
+    system.damping = system.damping_matrix.diagonal();
+  return system;
+}
+
 MatrixFlow::MatrixFlow(const System& system, double step) : step_(step) {
   coupled_.assign(static_cast<std::size_t>(system.size()), 0);
   for (auto& modes : coupled_modes(system.damping_matrix)) {

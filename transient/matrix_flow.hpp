@@ -17,6 +17,9 @@
 
 namespace fretwork::transient {
 
+/// The system for its modes that the damping matrix does not couple: `damping` is the matrix's diagonal, where there is one.
+[[nodiscard]] System with_diagonal(System system);
+
 class MatrixFlow {
 public:
   /// @param step  s; without a damping matrix, or with a diagonal one, no mode is coupled

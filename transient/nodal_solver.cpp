@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/nodal_solver.hpp"
+#include "transient/contact_lanes.hpp"
 #include "transient/vector_lanes.hpp"
 #include <algorithm>
 #include <cmath>
@@ -17,8 +18,6 @@ constexpr double no_answer = 1e-9;
 /// The ratio of the changes of two sweeps foretells the next ones, and a kept matrix is good, where they fall clearly.
 constexpr double falling = 0.3;
 constexpr int patient = 20, most_sweeps = 60;
-/// A spring that has relaxed to this share of what it had when its contact opened is round-off of the energy.
-constexpr double forgotten = 1e-12;
 
 /// Inverse by Gauss and Jordan with row pivots, in place. Returns false where it is singular.
 template <int n> bool invert(std::array<std::array<double, n>, n>& a, double* inverse) {
@@ -380,7 +379,7 @@ void NodalSolver::leave(int c, const NodalTables& tables, NodalMotion& motion) {
     node[j].face_z = node[j - 1].face_z;
     node[j].spring = table.keep * node[j - 1].spring + table.by_force[j - 1][0] * node[0].friction;
     node[j].loaded = node[j - 1].loaded;
-    if (contact::norm(node[j].spring) < forgotten * node[j].loaded)
+    if (contact::norm(node[j].spring) < kernels::forgotten * node[j].loaded)
       node[j].spring = {};
   }
 }

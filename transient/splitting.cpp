@@ -39,13 +39,6 @@ kernels::FlowTable flow_table(const System& system, const MatrixFlow& coupled, d
   return t;
 }
 
-/// Modes that the matrix does not couple are damped by its diagonal.
-System with_diagonal(System system) {
-  if (system.damping_matrix.size() > 0)
-    system.damping = system.damping_matrix.diagonal();
-  return system;
-}
-
 class Splitting final : public Scheme {
 public:
   Splitting(const Scene& scene, double step)
@@ -69,11 +62,6 @@ public:
     memory_.start(motion_);
     record_.energy.initial = record_.energy.throughput = moving + motion_.spring_energy();
     after_action_ = moving;
-    record_.contacts = contacts_.count;
-    record_.q = q_.data();
-    record_.uy = motion_.u.data();
-    record_.uz = motion_.u.data() + contacts_.width;
-    record_.states = trial_.states;
     record_.step = h_;
   }
 
@@ -81,8 +69,7 @@ public:
     flow();
     if (contacts_.count > 0)
       act();
-    record_.active = trial_.active;
-    record_.opened = trial_.opened;
+    show(record_, contacts_, q_.data(), motion_.u.data(), trial_);
     return record_;
   }
 
