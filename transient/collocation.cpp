@@ -142,7 +142,7 @@ public:
 
   void visit(core::StateArchive& state) override {
     state(q_, v_, load_, force_, motion_, solver_, place_, level_, at_start_, failure_, counts_);
-    state(energy_, powers_, carried_, closed_, carried_time_);
+    state(energy_, powers_, closed_);
   }
 
 private:

@@ -70,7 +70,7 @@ public:
   }
 
   void visit(core::StateArchive& state) override {
-    state(steps_, rates_, record_, y0_, y1_, r_full_before_, r_half_before_, r0_, r_half_, r1_);
+    state(steps_, rates_, record_, y0_, y1_, r0_, r_half_, r1_);
   }
 
 private:
