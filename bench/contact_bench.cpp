@@ -3,7 +3,7 @@
 // adds to a step of the splitting scheme beside its projections.
 #include "bench/tube_scene.hpp"
 #include "contact/support_shapes.hpp"
-#include "transient/kernels.hpp"
+#include "transient/packed_contacts.hpp"
 #include "transient/scheme.hpp"
 #include <algorithm>
 #include <array>
@@ -201,15 +201,20 @@ void count_closed(Run& run, const transient::Scene& scene) {
 }
 
 /// The projections of a step: displacements and velocities of all contacts, and impulses of `closed` of them.
-double projections(int number, double closed) {
+double projections(const transient::Scene& scene, double closed) {
   using transient::kernels::Array;
-  const int width = 2 * transient::kernels::padded(number), np = transient::kernels::padded(modes);
-  Array g(static_cast<std::size_t>(modes * width), 0.5), q(np, 1.0), v(np, 1.0), u(width), w(width);
-  std::vector<const double*> rows(2 * static_cast<std::size_t>(closed + 0.5), g.data());
+  const transient::PackedContacts contacts(scene.contacts, modes);
+  const auto width = static_cast<std::size_t>(contacts.stride());
+  const int np = contacts.padded_modes;
+  Array q(static_cast<std::size_t>(np), 1.0), v = q, u(width), w(width);
+  std::vector<const double*> rows;
+  for (int c = 0; c < static_cast<int>(closed + 0.5); ++c)
+    for (int component = 0; component < 2; ++component)
+      rows.push_back(contacts.row(c, component));
   const std::vector<double> factors(rows.size(), 1e-9);
   return fastest(steps, [&] {
     for (int i = 0; i < steps; ++i) {
-      transient::kernels::gather(modes, width, g.data(), q.data(), v.data(), u.data(), w.data());
+      transient::kernels::gather(contacts.gather, q.data(), v.data(), u.data(), w.data());
       if (!rows.empty())
         transient::kernels::scatter(np, static_cast<int>(rows.size()), rows.data(), factors.data(), v.data());
       keep(u[0]);
@@ -229,7 +234,8 @@ void print_steps(int number) {
       run_once(runs[m], scenes[m]);
   for (int m = 1; m < 4; ++m) {
     count_closed(runs[m], scenes[m]);
-    const double projected = projections(number, runs[m].closed), own = runs[m].ns - runs[0].ns - projected;
+    const double projected = projections(scenes[m], runs[m].closed),
+                 own = runs[m].ns - runs[0].ns - projected;
     std::printf("| %d circles, %s | %.1f | %.1f | %.0f | %.0f | %.0f | %.1f |\n", number, names[m],
                 runs[m].closed, runs[m].sliding, runs[m].ns, runs[0].ns, projected, own / number);
   }

@@ -6,21 +6,24 @@ namespace fretwork::post {
 namespace kernels = transient::kernels;
 
 NodeStatistics::NodeStatistics(const std::vector<Eigen::MatrixXd>& rows, double from)
-    : from_(from), modes_(rows.empty() ? 0 : static_cast<int>(rows.front().cols())),
-      width_(kernels::padded(3 * static_cast<int>(rows.size()))), sums_(rows.size()) {
-  gather_.assign(static_cast<std::size_t>(modes_) * width_, 0.0);
-  u_.assign(static_cast<std::size_t>(width_), 0.0);
+    : from_(from), sums_(rows.size()) {
+  const int modes = rows.empty() ? 0 : static_cast<int>(rows.front().cols());
+  const int width = kernels::padded(3 * static_cast<int>(rows.size()));
+  kernels::Array by_mode(static_cast<std::size_t>(modes) * width, 0.0);
+  u_.assign(static_cast<std::size_t>(width), 0.0);
   unused_ = u_;
   for (std::size_t node = 0; node < rows.size(); ++node)
-    for (int i = 0; i < modes_; ++i)
+    for (int i = 0; i < modes; ++i)
       for (int d = 0; d < 3; ++d)
-        gather_[static_cast<std::size_t>(i) * width_ + 3 * node + d] = rows[node](d, i);
+        by_mode[static_cast<std::size_t>(i) * width + 3 * node + d] = rows[node](d, i);
+  for (int lane = 0; lane < width; lane += kernels::lanes)
+    gather_.add_pack(modes, width, by_mode.data() + lane);
 }
 
 void NodeStatistics::step(const transient::Record& record) {
   if (record.time < from_ || sums_.empty())
     return;
-  kernels::gather(modes_, width_, gather_.data(), record.q, record.q, u_.data(), unused_.data());
+  kernels::gather(gather_, record.q, record.q, u_.data(), unused_.data());
   for (std::size_t node = 0; node < sums_.size(); ++node)
     for (std::size_t d = 0; d < 3; ++d)
       sums_[node][d].add(u_[3 * node + d], record.step);

@@ -25,8 +25,8 @@ public:
 
 private:
   double from_;
-  int modes_ = 0, width_ = 0;
-  transient::kernels::Array gather_, u_, unused_;
+  transient::kernels::GatherTable gather_;
+  transient::kernels::Array u_, unused_;
   std::vector<std::array<Accumulator, 3>> sums_;
 };
 

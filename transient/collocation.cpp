@@ -78,8 +78,7 @@ public:
       levels_.emplace_back(system_, contacts_, std::ldexp(h_, -level));
     for (kernels::Array& a : load_.at)
       loads_.at(0.0, a.data());
-    kernels::gather(contacts_.modes, contacts_.stride(), contacts_.gather.data(), q_.at[0].data(),
-                    v_.at[0].data(), motion_.u(0), motion_.v(0));
+    kernels::gather(contacts_.gather, q_.at[0].data(), v_.at[0].data(), motion_.u(0), motion_.v(0));
     solver_.start(motion_);
     solver_.add_forces(0, force_.at[0].data());
     energy_[0].initial = energy_[0].throughput = energy_[0].stored =
@@ -209,8 +208,8 @@ private:
     if (contacts_.count > 0) {
       now.flow.predict(load_, force_, q_, v_);
       for (std::size_t j = 1; j <= 2; ++j)
-        kernels::gather(contacts_.modes, contacts_.stride(), contacts_.gather.data(), q_.at[j].data(),
-                        v_.at[j].data(), motion_.u(static_cast<int>(j)), motion_.v(static_cast<int>(j)));
+        kernels::gather(contacts_.gather, q_.at[j].data(), v_.at[j].data(), motion_.u(static_cast<int>(j)),
+                        motion_.v(static_cast<int>(j)));
       if (!solver_.solve(now.tables, motion_))
         return false;
       solver_.add_forces(1, force_.at[1].data());

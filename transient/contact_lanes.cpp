@@ -1,24 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/contact_lanes.hpp"
+#include "transient/packed_contacts.hpp"
 #include "transient/vector_lanes.hpp"
 
 namespace fretwork::transient::kernels {
 namespace {
 
+// The kernels are written once for V, a pack of contacts or a double: a few contacts are faster one after the other.
+
+/// What Jacobi sweeps foretell is less sure than what Gauss-Seidel sweeps do: the largest change moves from contact to contact.
+constexpr double jacobi_caution = 0.1;
+constexpr double round_off = 1e-14; ///< of a force
+
 // Flags are packs of 1 and 0, and choices are made by one comparison each: compilers turn these into a vector operation, and masks that
 // are joined into many scalar ones.
-FRETWORK_INLINE Pack clipped(const Pack& p) { return p > 0.0 ? p : Pack{}; }
-FRETWORK_INLINE Pack with_sign_of(const Pack& sign, const Pack& size) { return sign < 0.0 ? -size : size; }
+template <class V> FRETWORK_INLINE V clipped(const V& p) { return p > 0.0 ? p : V{}; }
+template <class V> FRETWORK_INLINE V with_sign_of(const V& sign, const V& size) {
+  return sign < 0.0 ? -size : size;
+}
 /// 1 where the surface is not the opposite face, which is another one.
-FRETWORK_INLINE Pack same_face(const MemoryLanes& m, int i, const Pack& ny, const Pack& nz) {
-  return at(&m.normal_y[i]) * ny + at(&m.normal_z[i]) * nz < 0.0 ? Pack{} : Pack{} + 1.0;
+template <class V> FRETWORK_INLINE V same_face(const MemoryLanes& m, int i, const V& ny, const V& nz) {
+  return at<V>(&m.normal_y[i]) * ny + at<V>(&m.normal_z[i]) * nz < 0.0 ? V{} : V{} + 1.0;
 }
 
 } // namespace
 
 LawLanes::LawLanes(const PackedContacts& contacts, double step) {
   for (Array* a : {&stiffness, &damping, &dissipation, &yy, &yz, &zz, &tangential, &compliance, &gradient,
-                   &relaxation, &mu_static, &mu_dynamic, &along})
+                   &relaxation, &mu_static, &mu_dynamic, &along, &per_mu})
     a->assign(static_cast<std::size_t>(contacts.width), 0.0);
   for (int c = 0; c < contacts.count; ++c) {
     const contact::Support& support = contacts.supports[c];
@@ -39,13 +48,16 @@ LawLanes::LawLanes(const PackedContacts& contacts, double step) {
     relaxation[c] = table.relaxation;
     mu_static[c] = friction.mu_static;
     mu_dynamic[c] = friction.mu_dynamic;
+    per_mu[c] = friction.mu_static > 0.0 ? 1.0 / friction.mu_static : 0.0;
   }
 }
 
 StepLanes::StepLanes(int width) {
-  for (Array* a : {&shut, &spring, &damping, &share, &nn, &nt, &tt, &bound, &share_t, &tangential,
-                   &per_normal, &per_friction, &normal, &friction, &slides, &before_n, &before_t, &v_n, &v_t})
+  for (Array* a : {&shut,    &spring,     &damping,    &share,        &nn,       &nt,       &tt,     &bound,
+                   &share_t, &tangential, &per_normal, &per_friction, &normal,   &friction, &slides, &by_y,
+                   &by_z,    &v_y,        &v_z,        &before_n,     &before_t, &cut})
     a->assign(static_cast<std::size_t>(width), 0.0);
+  contacts.assign(static_cast<std::size_t>(width), 0);
 }
 
 CommitLanes::CommitLanes(int width) {
@@ -54,131 +66,269 @@ CommitLanes::CommitLanes(int width) {
     a->assign(static_cast<std::size_t>(width), 0.0);
 }
 
-FRETWORK_WIDTHS double prepare(int width, const LawLanes& law, const MemoryLanes& memory, const double* gap,
-                               const double* ny, const double* nz, const double* wy, const double* wz,
-                               double half_window, StepLanes& s) {
-  const Pack one = Pack{} + 1.0;
-  Pack energy{};
-  for (int i = 0; i < width; i += lanes) {
-    const Pack g = at(gap + i), my = at(ny + i), mz = at(nz + i), y = at(wy + i), z = at(wz + i);
-    const Pack k = at(&law.stiffness[i]), p = clipped(-g);
+namespace {
+
+/// Which contacts are shut, their laws for the step, first forces; velocities before the action. Returns the energy of the springs, J.
+template <class V>
+FRETWORK_INLINE double prepare(int end, double half_window, const LawLanes& law, const MemoryLanes& memory,
+                               const NearLanes& near, StepLanes& s) {
+  const V one = V{} + 1.0;
+  V energy{};
+  for (int i = 0; i < end; i += size_of<V>) {
+    const V g = at<V>(near.gap + i), my = at<V>(near.ny + i), mz = at<V>(near.nz + i);
+    const V y = at<V>(near.vy + i), z = at<V>(near.vz + i);
+    const V k = at<V>(&law.stiffness[i]), p = clipped(-g);
     energy += k * p * p;
-    const Pack v_n = my * y + mz * z, v_t = mz * y - my * z;
+    const V v_n = my * y + mz * z, v_t = mz * y - my * z;
     // the mean of the penetration over the window, its open part counted as 0
-    const Pack reach = half_window * magnitude(v_n), low = -g - reach, high = reach - g;
-    const Pack part = 0.5 * high * high / (high > low ? high - low : one);
-    const Pack mean = low > 0.0 ? 0.5 * (low + high) : high > 0.0 ? part : Pack{};
-    const Pack spring = k * mean, damping = at(&law.damping[i]) + at(&law.dissipation[i]) * mean;
-    const Pack yy = at(&law.yy[i]), yz = at(&law.yz[i]), zz = at(&law.zz[i]);
-    const Pack by_n_y = my * yy + mz * yz, by_n_z = my * yz + mz * zz; // of y and z by a force along n
-    const Pack by_t_y = mz * yy - my * yz, by_t_z = mz * yz - my * zz; // along t
-    const Pack nn = my * by_n_y + mz * by_n_z, tt = mz * by_t_y - my * by_t_z;
-    const Pack share = 1.0 / (1.0 + damping * nn);
-    const Pack normal = mean > 0.0 ? clipped(spring - damping * v_n) * share : Pack{};
-    const Pack keeps = same_face(memory, i, my, mz);
-    const Pack mu = at(&law.mu_dynamic[i]), most = mu * normal;
-    const Pack last = at(&memory.left[i]) == 1.0 ? keeps * at(&memory.force[i]) : Pack{};
-    const Pack per_normal = mean > 0.0 ? 1.0 / (mean > 0.0 ? spring : one) : Pack{};
-    const Pack mu_static = at(&law.mu_static[i]);
-    at(&s.shut[i]) = mean > 0.0 ? one : Pack{};
-    at(&s.spring[i]) = spring;
-    at(&s.damping[i]) = damping;
-    at(&s.share[i]) = mean > 0.0 ? share : Pack{};
-    at(&s.nn[i]) = nn;
-    at(&s.nt[i]) = mz * by_n_y - my * by_n_z;
-    at(&s.tt[i]) = tt;
-    at(&s.tangential[i]) = keeps * at(&memory.spring[i]);
-    at(&s.bound[i]) = keeps * at(&memory.sliding[i]) > 0.0 ? mu : mu_static;
-    at(&s.share_t[i]) = mu_static > 0.0 ? 1.0 / (1.0 + at(&law.gradient[i]) * tt) : Pack{};
-    at(&s.per_normal[i]) = per_normal;
-    at(&s.per_friction[i]) = mu_static > 0.0 ? per_normal / (mu_static > 0.0 ? mu_static : one) : Pack{};
-    at(&s.normal[i]) = normal;
-    at(&s.friction[i]) = magnitude(last) > most ? with_sign_of(last, most) : last;
-    at(&s.before_n[i]) = at(&s.v_n[i]) = v_n;
-    at(&s.before_t[i]) = at(&s.v_t[i]) = v_t;
+    const V reach = half_window * magnitude(v_n), low = -g - reach, high = reach - g;
+    const V part = 0.5 * high * high / (high > low ? high - low : one);
+    const V mean = low > 0.0 ? 0.5 * (low + high) : high > 0.0 ? part : V{};
+    const V spring = k * mean, damping = at<V>(&law.damping[i]) + at<V>(&law.dissipation[i]) * mean;
+    const V yy = at<V>(&law.yy[i]), yz = at<V>(&law.yz[i]), zz = at<V>(&law.zz[i]);
+    const V by_n_y = my * yy + mz * yz, by_n_z = my * yz + mz * zz; // of y and z by a force along n
+    const V by_t_y = mz * yy - my * yz, by_t_z = mz * yz - my * zz; // along t
+    const V nn = my * by_n_y + mz * by_n_z, tt = mz * by_t_y - my * by_t_z;
+    const V share = 1.0 / (1.0 + damping * nn);
+    const V normal = mean > 0.0 ? clipped(spring - damping * v_n) * share : V{};
+    const V keeps = same_face(memory, i, my, mz);
+    const V mu = at<V>(&law.mu_dynamic[i]), most = mu * normal;
+    const V last = at<V>(&memory.left[i]) == 1.0 ? keeps * at<V>(&memory.force[i]) : V{};
+    const V per_normal = mean > 0.0 ? 1.0 / (mean > 0.0 ? spring : one) : V{};
+    const V mu_static = at<V>(&law.mu_static[i]);
+    at<V>(&s.shut[i]) = mean > 0.0 ? one : V{};
+    at<V>(&s.spring[i]) = spring;
+    at<V>(&s.damping[i]) = damping;
+    at<V>(&s.share[i]) = mean > 0.0 ? share : V{};
+    at<V>(&s.nn[i]) = nn;
+    at<V>(&s.nt[i]) = mz * by_n_y - my * by_n_z;
+    at<V>(&s.tt[i]) = tt;
+    at<V>(&s.tangential[i]) = keeps * at<V>(&memory.spring[i]);
+    at<V>(&s.bound[i]) = keeps * at<V>(&memory.sliding[i]) > 0.0 ? mu : mu_static;
+    at<V>(&s.share_t[i]) = mu_static > 0.0 ? 1.0 / (1.0 + at<V>(&law.gradient[i]) * tt) : V{};
+    at<V>(&s.per_normal[i]) = per_normal;
+    at<V>(&s.per_friction[i]) = per_normal * at<V>(&law.per_mu[i]);
+    at<V>(&s.normal[i]) = normal;
+    at<V>(&s.friction[i]) = magnitude(last) > most ? with_sign_of(last, most) : last;
+    at<V>(&s.before_n[i]) = v_n;
+    at<V>(&s.before_t[i]) = v_t;
+    at<V>(&s.v_y[i]) = y;
+    at<V>(&s.v_z[i]) = z;
   }
   return 0.5 * sum(energy);
 }
 
-FRETWORK_WIDTHS double improve(int width, const LawLanes& law, StepLanes& s, double* by_n, double* by_t) {
-  const Pack one = Pack{} + 1.0;
-  Pack worst{};
-  for (int i = 0; i < width; i += lanes) {
-    const Pack n0 = at(&s.normal[i]), t0 = at(&s.friction[i]);
-    const Pack rate = at(&s.nn[i]) * n0 - at(&s.v_n[i]); // without this contact's normal force
-    const Pack n = clipped(at(&s.spring[i]) + at(&s.damping[i]) * rate) * at(&s.share[i]); // 0 if not shut
-    const Pack dn = n - n0;
-    const Pack free = at(&s.v_t[i]) + at(&s.nt[i]) * dn - at(&s.tt[i]) * t0;
-    const Pack stick = (at(&s.tangential[i]) - at(&law.gradient[i]) * free) * at(&s.share_t[i]);
-    const Pack most = at(&law.mu_dynamic[i]) * n;
-    const Pack slides = magnitude(stick) > at(&s.bound[i]) * n ? one : Pack{};
-    const Pack t = slides > 0.0 ? with_sign_of(stick, most) : stick;
-    const Pack dt = t - t0;
-    at(by_n + i) = dn;
-    at(by_t + i) = dt;
-    at(&s.normal[i]) = n;
-    at(&s.friction[i]) = t;
-    at(&s.slides[i]) = slides;
-    const Pack change_n = at(&s.per_normal[i]) * magnitude(dn),
-               change_t = at(&s.per_friction[i]) * magnitude(dt);
+/// Forces along n and t as forces along y and z, times half the step.
+template <class V>
+FRETWORK_INLINE void turn(const NearLanes& near, int i, double half_step, const V& n, const V& t,
+                          StepLanes& s) {
+  const V my = at<V>(near.ny + i), mz = at<V>(near.nz + i);
+  at<V>(&s.by_y[i]) = half_step * (my * n + mz * t);
+  at<V>(&s.by_z[i]) = half_step * (mz * n - my * t);
+}
+
+/// One Jacobi sweep over all lanes: forces follow, velocities do not. Returns the largest change, relative to what a contact can bear.
+template <class V>
+FRETWORK_INLINE double improve(int end, double half_step, const LawLanes& law, const NearLanes& near,
+                               StepLanes& s) {
+  const V one = V{} + 1.0;
+  V worst{};
+  for (int i = 0; i < end; i += size_of<V>) {
+    const V n0 = at<V>(&s.normal[i]), t0 = at<V>(&s.friction[i]), my = at<V>(near.ny + i),
+            mz = at<V>(near.nz + i);
+    const V v_n = my * at<V>(&s.v_y[i]) + mz * at<V>(&s.v_z[i]),
+            v_t = mz * at<V>(&s.v_y[i]) - my * at<V>(&s.v_z[i]);
+    const V rate = at<V>(&s.nn[i]) * n0 - v_n; // without this contact's normal force
+    const V n =
+        clipped(at<V>(&s.spring[i]) + at<V>(&s.damping[i]) * rate) * at<V>(&s.share[i]); // 0 if not shut
+    const V dn = n - n0;
+    const V free = v_t + at<V>(&s.nt[i]) * dn - at<V>(&s.tt[i]) * t0;
+    const V stick = (at<V>(&s.tangential[i]) - at<V>(&law.gradient[i]) * free) * at<V>(&s.share_t[i]);
+    const V most = at<V>(&law.mu_dynamic[i]) * n;
+    const V slides = magnitude(stick) > at<V>(&s.bound[i]) * n ? one : V{};
+    const V t = slides > 0.0 ? with_sign_of(stick, most) : stick;
+    const V dt = t - t0;
+    turn<V>(near, i, half_step, dn, dt, s);
+    at<V>(&s.normal[i]) = n;
+    at<V>(&s.friction[i]) = t;
+    at<V>(&s.slides[i]) = slides;
+    const V change_n = at<V>(&s.per_normal[i]) * magnitude(dn),
+            change_t = at<V>(&s.per_friction[i]) * magnitude(dt);
     worst = worst > change_n ? worst : change_n;
     worst = worst > change_t ? worst : change_t;
   }
   return largest(worst);
 }
 
-FRETWORK_WIDTHS void answer(int width, int count, const int* contacts, const double* a, const double* by_n,
-                            const double* by_t, double* v_n, double* v_t) {
-  for (int i = 0; i < width; i += lanes) {
-    Pack n = at(v_n + i), t = at(v_t + i);
-    for (int k = 0; k < count; ++k) {
-      const double* block = a + static_cast<std::ptrdiff_t>(k) * 4 * width + i;
-      const double fn = by_n[contacts[k]], ft = by_t[contacts[k]];
-      n += fn * at(block) + ft * at(block + 2 * width);
-      t += fn * at(block + width) + ft * at(block + 3 * width);
+/// Velocities of all contacts follow the changes of the forces of those that take part: two sums at once, so that none waits for the other.
+template <class V, bool coupled>
+FRETWORK_INLINE void answer_planes(int end, int width, const MobilityLanes& mobility, StepLanes& s) {
+  constexpr int columns = coupled ? 4 : 2;
+  for (int i = 0; i < end; i += size_of<V>) {
+    V y[2] = {at<V>(&s.v_y[i]), V{}}, z[2] = {at<V>(&s.v_z[i]), V{}};
+    const auto add = [&](int k, int into) __attribute__((always_inline)) {
+      const auto c = static_cast<std::size_t>(s.contacts[k]);
+      const double* column = &mobility.columns[c * static_cast<std::size_t>(columns * width) + i];
+      const double fy = s.by_y[c], fz = s.by_z[c];
+      y[into] += fy * at<V>(column);
+      z[into] += fz * at<V>(column + width);
+      if (coupled) {
+        z[into] += fy * at<V>(column + 2 * width);
+        y[into] += fz * at<V>(column + 3 * width);
+      }
+    };
+    int k = 0;
+    for (; k + 1 < s.count; k += 2) {
+      add(k, 0);
+      add(k + 1, 1);
     }
-    at(v_n + i) = n;
-    at(v_t + i) = t;
+    if (k < s.count)
+      add(k, 0);
+    at<V>(&s.v_y[i]) = y[0] + y[1];
+    at<V>(&s.v_z[i]) = z[0] + z[1];
   }
 }
 
-FRETWORK_WIDTHS CommitSums commit(int width, const LawLanes& law, CommitLanes& s, MemoryLanes& m) {
-  const Pack one = Pack{} + 1.0;
-  Pack sliders{}, damping{}, stored{}, left{};
-  for (int i = 0; i < width; i += lanes) {
-    const Pack my = at(&s.normal_y[i]), mz = at(&s.normal_z[i]), half = 0.5 * at(&law.compliance[i]);
-    const Pack compliance = at(&law.compliance[i]), e = at(&law.relaxation[i]);
-    const Pack closed = at(&law.mu_static[i]) > 0.0 ? at(&s.closed[i]) : Pack{}, open = one - closed;
-    const Pack held = at(&m.spring[i]), held_energy = half * held * held;
+template <class V>
+FRETWORK_INLINE void answer(int end, int width, const MobilityLanes& mobility, StepLanes& s) {
+  if (mobility.coupled)
+    answer_planes<V, true>(end, width, mobility, s);
+  else
+    answer_planes<V, false>(end, width, mobility, s);
+}
+
+/// One contact takes part and its friction does not act on its normal force: one sweep finds both, from any forces.
+FRETWORK_INLINE bool sweeps_once(const StepLanes& s) {
+  const int c = s.contacts[0];
+  const double coupling = s.share[c] * s.damping[c] * s.nt[c]; // N along n by 1 N along t
+  return s.count == 1 && coupling <= round_off && -coupling <= round_off;
+}
+
+/// Returns whether the sweeps settled.
+template <class V>
+FRETWORK_INLINE bool sweep(int end, int width, const SweepRule& rule, const LawLanes& law,
+                           const MobilityLanes& mobility, const NearLanes& near, StepLanes& s) {
+  const double half_step = 0.5 * rule.step;
+  const bool once = rule.implicit && sweeps_once(s);
+  if (once) { // from none: these velocities are known
+    s.normal[s.contacts[0]] = 0.0;
+    s.friction[s.contacts[0]] = 0.0;
+  } else {
+    for (int i = 0; i < end; i += size_of<V>)
+      turn<V>(near, i, half_step, at<V>(&s.normal[i]), at<V>(&s.friction[i]), s);
+    answer<V>(end, width, mobility, s);
+    if (!rule.implicit)
+      return true;
+  }
+  double last = 0.0;
+  for (int k = 0; k < rule.most; ++k) {
+    const double change = improve<V>(end, half_step, law, near, s);
+    answer<V>(end, width, mobility, s);
+    if (once || settled(change, last, rule.tolerance, jacobi_caution))
+      return true;
+    last = change;
+  }
+  return false;
+}
+
+/// Forces found: what the contacts did over the step.
+template <class V>
+FRETWORK_INLINE void close(int end, const SweepRule& rule, const LawLanes& law, const NearLanes& near,
+                           StepLanes& s, CommitLanes& out, Solved& solved) {
+  const V one = V{} + 1.0;
+  V work{}, jump{};
+  for (int i = 0; i < end; i += size_of<V>) {
+    const V my = at<V>(near.ny + i), mz = at<V>(near.nz + i), n = at<V>(&s.normal[i]),
+            t = at<V>(&s.friction[i]);
+    const V v_n = my * at<V>(&s.v_y[i]) + mz * at<V>(&s.v_z[i]),
+            v_t = mz * at<V>(&s.v_y[i]) - my * at<V>(&s.v_z[i]);
+    work += n * v_n + t * v_t;
+    jump += n * (v_n - at<V>(&s.before_n[i])) + t * (v_t - at<V>(&s.before_t[i]));
+    at<V>(&s.cut[i]) = -rule.step * (n - at<V>(&s.spring[i])) * v_n;
+    at<V>(&out.closed[i]) = n > 0.0 ? one : V{};
+    at<V>(&out.normal_y[i]) = my;
+    at<V>(&out.normal_z[i]) = mz;
+    at<V>(&out.force[i]) = t;
+    at<V>(&out.displacement[i]) = rule.step * at<V>(&law.along[i]) * v_t;
+    at<V>(&out.slides[i]) = at<V>(&s.slides[i]);
+  }
+  solved.work = rule.step * sum(work);
+  solved.jump = rule.step * sum(jump);
+}
+
+template <class V>
+FRETWORK_INLINE Solved solve_all(int end, int width, const SweepRule& rule, const LawLanes& law,
+                                 const MemoryLanes& memory, const MobilityLanes& mobility,
+                                 const NearLanes& near, StepLanes& step, CommitLanes& out) {
+  Solved solved;
+  solved.springs = prepare<V>(end, rule.half_window, law, memory, near, step);
+  step.count = 0;
+  for (int c = 0; c < end; ++c)
+    if (step.shut[c] != 0.0)
+      step.contacts[step.count++] = c;
+  if (step.count == 0)
+    return solved;
+  solved.settled = sweep<V>(end, width, rule, law, mobility, near, step);
+  if (solved.settled)
+    close<V>(end, rule, law, near, step, out, solved);
+  return solved;
+}
+
+template <class V>
+FRETWORK_INLINE CommitSums commit_all(int end, const LawLanes& law, CommitLanes& s, MemoryLanes& m) {
+  const V one = V{} + 1.0;
+  V sliders{}, damping{}, stored{}, left{};
+  for (int i = 0; i < end; i += size_of<V>) {
+    const V my = at<V>(&s.normal_y[i]), mz = at<V>(&s.normal_z[i]), half = 0.5 * at<V>(&law.compliance[i]);
+    const V compliance = at<V>(&law.compliance[i]), e = at<V>(&law.relaxation[i]);
+    const V closed = at<V>(&law.mu_static[i]) > 0.0 ? at<V>(&s.closed[i]) : V{}, open = one - closed;
+    const V held = at<V>(&m.spring[i]), held_energy = half * held * held;
     // closed: the slider takes what the spring and damper do not, unless it would move with the force
-    const Pack before = same_face(m, i, my, mz) * held, before_energy = half * before * before;
-    const Pack force = at(&s.force[i]), dx = at(&law.along[i]) * at(&s.displacement[i]);
-    const Pack relaxed = force + e * (before - force), relaxed_stretch = compliance * (before - relaxed);
-    const Pack against = force * (dx - relaxed_stretch) < 0.0 ? one : Pack{};
-    const Pack slips = at(&s.slides[i]) * (against + (force == 0.0 ? one : Pack{}));
-    const Pack after_closed = slips > 0.0 ? relaxed : before - at(&law.tangential[i]) * dx;
-    const Pack stretch = slips > 0.0 ? relaxed_stretch : dx;
-    const Pack slider = closed * -force * (dx - stretch);
-    const Pack damper = closed * (-force * stretch - (half * after_closed * after_closed - before_energy));
+    const V before = same_face(m, i, my, mz) * held, before_energy = half * before * before;
+    const V force = at<V>(&s.force[i]), dx = at<V>(&law.along[i]) * at<V>(&s.displacement[i]);
+    const V relaxed = force + e * (before - force), relaxed_stretch = compliance * (before - relaxed);
+    const V against = force * (dx - relaxed_stretch) < 0.0 ? one : V{};
+    const V slips = at<V>(&s.slides[i]) * (against + (force == 0.0 ? one : V{}));
+    const V after_closed = slips > 0.0 ? relaxed : before - at<V>(&law.tangential[i]) * dx;
+    const V stretch = slips > 0.0 ? relaxed_stretch : dx;
+    const V slider = closed * -force * (dx - stretch);
+    const V damper = closed * (-force * stretch - (half * after_closed * after_closed - before_energy));
     // open: the spring dies out and is forgotten
-    const Pack fading = at(&m.left[i]) * e, faded = fading < forgotten ? Pack{} : fading;
-    const Pack after_open = faded > 0.0 ? e * held : Pack{};
-    const Pack after = closed > 0.0 ? after_closed : after_open, after_energy = half * after * after;
+    const V fading = at<V>(&m.left[i]) * e, faded = fading < forgotten ? V{} : fading;
+    const V after_open = faded > 0.0 ? e * held : V{};
+    const V after = closed > 0.0 ? after_closed : after_open, after_energy = half * after * after;
     sliders += slider;
     damping += damper + closed * (held_energy - before_energy) + open * (held_energy - after_energy);
     stored += after_energy - held_energy;
-    at(&s.friction_work[i]) = slider;
-    at(&s.damper_work[i]) = damper;
-    at(&m.spring[i]) = after;
-    at(&m.sliding[i]) = closed * at(&s.slides[i]);
-    at(&m.force[i]) = closed * force;
-    at(&m.normal_y[i]) = closed > 0.0 ? my : at(&m.normal_y[i]);
-    at(&m.normal_z[i]) = closed > 0.0 ? mz : at(&m.normal_z[i]);
-    const Pack share = closed > 0.0 ? one : faded;
-    at(&m.left[i]) = share;
+    at<V>(&s.friction_work[i]) = slider;
+    at<V>(&s.damper_work[i]) = damper;
+    at<V>(&m.spring[i]) = after;
+    at<V>(&m.sliding[i]) = closed * at<V>(&s.slides[i]);
+    at<V>(&m.force[i]) = closed * force;
+    at<V>(&m.normal_y[i]) = closed > 0.0 ? my : at<V>(&m.normal_y[i]);
+    at<V>(&m.normal_z[i]) = closed > 0.0 ? mz : at<V>(&m.normal_z[i]);
+    const V share = closed > 0.0 ? one : faded;
+    at<V>(&m.left[i]) = share;
     left += share;
   }
   return {sum(sliders), sum(damping), sum(stored), sum(left) > 0.0};
+}
+
+} // namespace
+
+FRETWORK_WIDTHS Solved solve(const LaneCount& contacts, const SweepRule& rule, const LawLanes& law,
+                             const MemoryLanes& memory, const MobilityLanes& mobility, const NearLanes& near,
+                             StepLanes& step, CommitLanes& out) {
+  const int width = contacts.width;
+  return contacts.few()
+             ? solve_all<double>(contacts.count, width, rule, law, memory, mobility, near, step, out)
+             : solve_all<Pack>(width, width, rule, law, memory, mobility, near, step, out);
+}
+
+FRETWORK_WIDTHS CommitSums commit(const LaneCount& contacts, const LawLanes& law, CommitLanes& step,
+                                  MemoryLanes& memory) {
+  return contacts.few() ? commit_all<double>(contacts.count, law, step, memory)
+                        : commit_all<Pack>(contacts.width, law, step, memory);
 }
 
 } // namespace fretwork::transient::kernels

@@ -4,11 +4,15 @@
 /// x_loc) and every memory is return_map. The laws are those of contact/normal_law.hpp and contact/friction_law.hpp (step_normal,
 /// step_friction_line, close_step, open_step), written without branches; a test holds the two against each other.
 ///
-/// The forces are found by Jacobi sweeps: all contacts at once, each with its own block of A solved exactly. Where these do not halve
-/// the error a sweep (contacts that move almost together), Gauss-Seidel sweeps go on from there.
+/// The forces are found by Jacobi sweeps: all contacts at once, each with its own block of A solved exactly; a contact that is shut alone,
+/// its normal force untouched by its friction, needs one. Where the sweeps do not halve the error (contacts that move almost together), Gauss-Seidel sweeps of ContactSolver take over.
 #pragma once
 #include "core/state_archive.hpp"
-#include "transient/packed_contacts.hpp"
+#include "transient/kernels.hpp"
+
+namespace fretwork::transient {
+struct PackedContacts;
+}
 
 namespace fretwork::transient::kernels {
 
@@ -22,6 +26,7 @@ struct LawLanes {
   Array tangential, compliance, gradient; ///< K_T, 1/K_T, G h: of contact::FrictionTable
   Array relaxation;                       ///< e^-a
   Array mu_static, mu_dynamic, along;     ///< along: 1 or 0
+  Array per_mu;                           ///< 1/mu_static
 };
 
 /// A spring that has relaxed to this share of what it had when its contact opened is forgotten (round-off of the energy).
@@ -39,41 +44,70 @@ struct MemoryLanes {
 /// The unknowns of a step, one contact a lane.
 struct StepLanes {
   explicit StepLanes(int width);
-  Array shut;                         ///< 1 or 0: takes part
-  Array spring, damping, share;       ///< K_N P, c(P), 1/(1 + c nn)
-  Array nn, nt, tt;                   ///< own block of A
-  Array bound, share_t, tangential;   ///< mu, 1/(1 + G h tt), T
-  Array per_normal, per_friction;     ///< 1/N
-  Array normal, friction, slides;     ///< F_N, F_t, N; 1 or 0
-  Array before_n, before_t, v_n, v_t; ///< s0 and s, m/s
+  Array shut;                       ///< 1 or 0: takes part
+  Array spring, damping, share;     ///< K_N P, c(P), 1/(1 + c nn)
+  Array nn, nt, tt;                 ///< own block of A
+  Array bound, share_t, tangential; ///< mu, 1/(1 + G h tt), T
+  Array per_normal, per_friction;   ///< 1/N
+  Array normal, friction, slides;   ///< F_N, F_t, N; 1 or 0
+  Array by_y, by_z;                 ///< N, changes of the forces in a sweep, along y and z
+  Array v_y, v_z;                   ///< s, m/s
+  Array before_n, before_t;         ///< s0, m/s
+  Array cut;                        ///< J over the step, by the normal damper
+  std::vector<int> contacts;        ///< the first `count` are those that take part
+  int count = 0;
 };
 
-/// Which contacts are shut, their laws for the step, first forces. v_n and v_t stay those before the action. Returns the energy of the
-/// normal springs, J.
-double prepare(int width, const LawLanes& law, const MemoryLanes& memory, const double* gap, const double* ny,
-               const double* nz, const double* wy, const double* wz, double half_window, StepLanes& step);
+/// W = B B^T in lanes. Of each contact: velocities of all along y by a unit force along y, along z by one along z, and where the planes
+/// are coupled along z by y and along y by z, 1/kg.
+struct MobilityLanes {
+  Array columns;
+  bool coupled = false; ///< some force along y moves some contact along z
+};
 
-/// One Jacobi sweep over all lanes: changes of the forces in `by_n` and `by_t`; forces follow, velocities do not. Returns the largest
-/// change, relative to what a contact can bear.
-double improve(int width, const LawLanes& law, StepLanes& step, double* by_n, double* by_t);
+/// Gaps, normals and velocities before the action of all contacts, in lanes.
+struct NearLanes {
+  const double *gap, *ny, *nz, *vy, *vz;
+};
 
-/// v_n, v_t += what the forces `by_n`, `by_t` of `count` contacts change; a: `respond` of each, one after the other.
-void answer(int width, int count, const int* contacts, const double* a, const double* by_n,
-            const double* by_t, double* v_n, double* v_t);
-
-/// A step committed, in lanes.
+/// A step found, and what its commit makes of it.
 struct CommitLanes {
   explicit CommitLanes(int width);
   Array closed, normal_y, normal_z, force, displacement, slides; ///< in: 1 or 0; n; F_t, N; m; 1 or 0
   Array friction_work, damper_work;                              ///< out, J: of the closed
   void visit(core::StateArchive& state) { state(closed, normal_y, normal_z, force, displacement, slides); }
 };
+
+/// How contacts are solved.
+struct SweepRule {
+  double step;        ///< s
+  double half_window; ///< s, penetrations are averaged over it to both sides
+  bool implicit;      ///< some law depends on velocities: one sweep is not enough
+  double tolerance;   ///< of the forces, relative to what a contact can bear
+  int most;           ///< sweeps
+};
+struct Solved {
+  double springs = 0.0;          ///< J, energy of the normal springs
+  double work = 0.0, jump = 0.0; ///< J, of ContactSolver::Action
+  bool settled = true;           ///< otherwise nothing is found yet but `springs`
+};
+/// Which contacts are shut, and their forces for the step: `step` and the first row of `out`.
+Solved solve(const LaneCount& contacts, const SweepRule& rule, const LawLanes& law, const MemoryLanes& memory,
+             const MobilityLanes& mobility, const NearLanes& near, StepLanes& step, CommitLanes& out);
+
 struct CommitSums {
   double friction = 0.0;  ///< J, sliders
   double damping = 0.0;   ///< J, tangential dampers, springs that die out or are forgotten
   double stored = 0.0;    ///< J, change of the energy of the springs
   bool remembers = false; ///< some contact has a memory left
 };
-CommitSums commit(int width, const LawLanes& law, CommitLanes& step, MemoryLanes& memory);
+CommitSums commit(const LaneCount& contacts, const LawLanes& law, CommitLanes& step, MemoryLanes& memory);
+
+/// The largest change of a sweep is small, or what it foretells from the one of the sweep before is.
+/// The ratio of the changes of two sweeps foretells the next ones only where they fall clearly.
+[[nodiscard]] inline bool settled(double largest, double last, double tolerance, double caution) {
+  const bool foretold = largest <= 0.5 * last;
+  return largest <= tolerance || (foretold && largest * largest <= caution * tolerance * (last - largest));
+}
 
 } // namespace fretwork::transient::kernels

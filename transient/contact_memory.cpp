@@ -5,7 +5,7 @@
 namespace fretwork::transient {
 
 ContactMemory::ContactMemory(const PackedContacts& contacts, double step)
-    : contacts_(contacts), laws_(contacts, step), step_(contacts.width) {
+    : contacts_(contacts), laws_(contacts, step) {
   for (kernels::Array* a :
        {&lanes_.spring, &lanes_.sliding, &lanes_.force, &lanes_.normal_y, &lanes_.normal_z, &lanes_.left})
     a->assign(static_cast<std::size_t>(contacts.width), 0.0);
@@ -58,21 +58,23 @@ void ContactMemory::commit_each(ContactTrial& trial, ContactLosses& losses) {
 void ContactMemory::commit_lanes(ContactTrial& trial, ContactLosses& losses) {
   if (trial.active.empty() && !remembers_)
     return;
-  for (const int c : closed_)
-    step_.closed[c] = 0.0;
-  for (const int c : trial.active) {
-    const ContactState& s = trial.states[c];
-    step_.closed[c] = 1.0;
-    step_.normal_y[c] = s.ny;
-    step_.normal_z[c] = s.nz;
-    step_.force[c] = s.friction.t;
-    step_.displacement[c] = s.displacement.t;
-    step_.slides[c] = s.slides ? 1.0 : 0.0;
+  kernels::CommitLanes& step = trial.lanes;
+  if (!trial.found_in_lanes) {
+    std::fill(step.closed.begin(), step.closed.end(), 0.0);
+    for (const int c : trial.active) {
+      const ContactState& s = trial.states[c];
+      step.closed[c] = 1.0;
+      step.normal_y[c] = s.ny;
+      step.normal_z[c] = s.nz;
+      step.force[c] = s.friction.t;
+      step.displacement[c] = s.displacement.t;
+      step.slides[c] = s.slides ? 1.0 : 0.0;
+    }
   }
-  const kernels::CommitSums sums = kernels::commit(contacts_.width, laws_, step_, lanes_);
+  const kernels::CommitSums sums = kernels::commit(contacts_.lane_count(), laws_, step, lanes_);
   for (const int c : trial.active) {
-    trial.states[c].friction_work = step_.friction_work[c];
-    trial.states[c].damper_work += step_.damper_work[c];
+    trial.states[c].friction_work = step.friction_work[c];
+    trial.states[c].damper_work += step.damper_work[c];
   }
   losses.friction += sums.friction;
   losses.damping += sums.damping;

@@ -7,7 +7,6 @@
 /// one (n.n0 < 0: the opposite face) is another surface: what the last face has loaded is lost. The spring of an open contact dies out
 /// by contact::open_step and is forgotten when round-off is left of it.
 #pragma once
-#include "transient/contact_lanes.hpp"
 #include "transient/contact_motion.hpp"
 #include "transient/contact_trial.hpp"
 
@@ -58,7 +57,7 @@ public:
   /// of the states and the contacts that have opened. `motion` is that of the trial. No allocation.
   ContactLosses commit(const ContactMotion& motion, ContactTrial& trial);
   void visit(core::StateArchive& state) {
-    state(entries_, lanes_, laws_.relaxation, step_, remembers_, remembering_, closed_, position_, springs_);
+    state(entries_, lanes_, laws_.relaxation, remembers_, remembering_, closed_, position_, springs_);
   }
 
 private:
@@ -85,7 +84,6 @@ private:
   std::vector<Entry> entries_; ///< their tables always, the rest where not in lanes
   kernels::MemoryLanes lanes_;
   kernels::LawLanes laws_;
-  kernels::CommitLanes step_;
   bool remembers_ = false;       ///< in lanes
   std::vector<int> remembering_; ///< contacts with left > 0
   std::vector<int> closed_;      ///< with a force at the last commit

@@ -11,14 +11,14 @@ ContactMotion::ContactMotion(const PackedContacts& contacts) : contacts_(contact
 }
 
 void ContactMotion::gather(const double* q, const double* v) {
-  kernels::gather(contacts_.modes, contacts_.stride(), contacts_.gather.data(), q, v, u.data(), w.data());
+  kernels::gather(contacts_.gather, q, v, u.data(), w.data());
 }
 
 bool ContactMotion::find_near(double half_window) {
   const int width = contacts_.width;
-  kernels::place(width, contacts_.reach, u.data(), u.data() + width, gaps.data(), normal_y.data(),
-                 normal_z.data());
-  const bool any = kernels::near(width, gaps.data(), w.data(), w.data() + width, half_window, near_.data());
+  const bool any = kernels::place(contacts_.lane_count(), contacts_.reach, u.data(), u.data() + width,
+                                  w.data(), w.data() + width, half_window, gaps.data(), normal_y.data(),
+                                  normal_z.data(), near_.data());
   if (any)
     for (const int c : contacts_.profiles)
       if (near(c)) {

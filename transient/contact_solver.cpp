@@ -10,21 +10,9 @@ namespace {
 /// (mean force too high) and 1 (too low) at w_c h near 1; below w_c h = 0.4 its effect is less than 1 %.
 constexpr double window = 0.7;
 constexpr double sweep_tolerance = 1e-6;
-/// The ratio of the changes of two sweeps foretells the next ones only where they fall clearly.
-constexpr double falling = 0.5;
 constexpr int most_sweeps = 60;
 /// Jacobi sweeps that take longer than this converge badly, if they do.
 constexpr int most_jacobi_sweeps = 12;
-
-/// What Jacobi sweeps foretell is less sure: the largest change moves from contact to contact.
-constexpr double jacobi_caution = 0.1;
-
-/// The largest change of a sweep is small, or what it foretells is.
-bool settled(double largest, double last, double caution) {
-  const bool foretold = largest <= falling * last;
-  return largest <= sweep_tolerance ||
-         (foretold && largest * largest <= caution * sweep_tolerance * (last - largest));
-}
 
 } // namespace
 
@@ -36,9 +24,6 @@ ContactSolver::ContactSolver(const PackedContacts& contacts, double step)
       laws_(contacts, step), lanes_(contacts.width),
       block_(static_cast<std::size_t>(contacts.components) * static_cast<std::size_t>(contacts.stride())) {
   shut_.reserve(static_cast<std::size_t>(contacts.count));
-  shut_lanes_.reserve(static_cast<std::size_t>(contacts.count));
-  by_n_.assign(static_cast<std::size_t>(contacts.width), 0.0);
-  by_t_ = by_n_;
   a_.assign(block_ * static_cast<std::size_t>(contacts.count), 0.0);
   velocity_.assign(static_cast<std::size_t>(contacts.stride()), 0.0);
 }
@@ -65,65 +50,38 @@ ContactSolver::Action ContactSolver::solve(const ContactMemory& memory, ContactM
 bool ContactSolver::solve_in_lanes(const ContactMemory& memory, const ContactMotion& motion,
                                    ContactTrial& trial, Action& action) {
   const int width = contacts_.width;
-  const double springs = kernels::prepare(width, laws_, memory.lanes(), motion.gaps.data(),
-                                          motion.normal_y.data(), motion.normal_z.data(), motion.w.data(),
-                                          motion.w.data() + width, 0.5 * window * h_, lanes_);
-  shut_lanes_.clear();
-  for (int c = 0; c < contacts_.count; ++c)
-    if (lanes_.shut[c] != 0.0) {
-      kernels::respond(width, 2, contacts_.column(c), motion.normal_y[c], motion.normal_z[c], 0.5 * h_,
-                       motion.normal_y.data(), motion.normal_z.data(), &a_[block_ * shut_lanes_.size()]);
-      shut_lanes_.push_back(c);
-    }
-  if (!shut_lanes_.empty() && !sweep_in_lanes())
+  const kernels::SweepRule rule{h_, 0.5 * window * h_, coupled_, sweep_tolerance, most_jacobi_sweeps};
+  const kernels::NearLanes near{motion.gaps.data(), motion.normal_y.data(), motion.normal_z.data(),
+                                motion.w.data(), motion.w.data() + width};
+  const kernels::Solved solved = kernels::solve(contacts_.lane_count(), rule, laws_, memory.lanes(),
+                                                contacts_.mobility_lanes, near, lanes_, trial.lanes);
+  if (!solved.settled)
     return false;
-  trial.springs = springs;
-  close_lanes(motion, trial, action);
+  trial.springs = solved.springs;
+  trial.found_in_lanes = lanes_.count > 0;
+  action.work = solved.work;
+  action.jump = solved.jump;
+  for (int k = 0; k < lanes_.count; ++k)
+    show_lane(lanes_.contacts[k], trial);
   return true;
 }
 
-bool ContactSolver::sweep_in_lanes() {
-  const auto answer = [&](const kernels::Array& by_n, const kernels::Array& by_t) {
-    kernels::answer(contacts_.width, static_cast<int>(shut_lanes_.size()), shut_lanes_.data(), a_.data(),
-                    by_n.data(), by_t.data(), lanes_.v_n.data(), lanes_.v_t.data());
-  };
-  answer(lanes_.normal, lanes_.friction);
-  if (!coupled_)
-    return true;
-  double last = 0.0;
-  for (int k = 0; k < most_jacobi_sweeps; ++k) {
-    const double largest = kernels::improve(contacts_.width, laws_, lanes_, by_n_.data(), by_t_.data());
-    answer(by_n_, by_t_);
-    if (settled(largest, last, jacobi_caution))
-      return true;
-    last = largest;
+/// The state of a contact that takes part.
+void ContactSolver::show_lane(int c, ContactTrial& trial) const {
+  if (!(lanes_.normal[c] > 0.0)) { // the damper holds the contact free of force: it is open
+    trial.cut += lanes_.cut[c];
+    return;
   }
-  return false;
-}
-
-void ContactSolver::close_lanes(const ContactMotion& motion, ContactTrial& trial, Action& action) const {
-  for (const int c : shut_lanes_) {
-    const double n = lanes_.normal[c], t = lanes_.friction[c], v_n = lanes_.v_n[c], v_t = lanes_.v_t[c];
-    const double loss = -h_ * (n - lanes_.spring[c]) * v_n;
-    action.work += h_ * (n * v_n + t * v_t);
-    action.jump += h_ * (n * (v_n - lanes_.before_n[c]) + t * (v_t - lanes_.before_t[c]));
-    if (!(n > 0.0)) { // the damper holds the contact free of force: it is open
-      trial.cut += loss;
-      continue;
-    }
-    ContactState& state = trial.states[c];
-    state.normal_force = n;
-    state.ny = motion.normal_y[c];
-    state.nz = motion.normal_z[c];
-    state.approach = -lanes_.before_n[c];
-    state.damper_work = loss;
-    if (contacts_.supports[c].friction.active()) {
-      state.friction = {0.0, t};
-      state.displacement = {0.0, h_ * laws_.along[c] * v_t};
-      state.slides = lanes_.slides[c] != 0.0;
-    }
-    trial.active.push_back(c);
-  }
+  ContactState& state = trial.states[c];
+  state.normal_force = lanes_.normal[c];
+  state.ny = trial.lanes.normal_y[c];
+  state.nz = trial.lanes.normal_z[c];
+  state.approach = -lanes_.before_n[c];
+  state.damper_work = lanes_.cut[c];
+  state.friction.t = lanes_.friction[c];
+  state.displacement.t = trial.lanes.displacement[c];
+  state.slides = lanes_.slides[c] != 0.0;
+  trial.active.push_back(c);
 }
 
 /// The contacts near their obstacles: which of them are shut in this step.
@@ -213,7 +171,7 @@ bool ContactSolver::sweep(const ContactMemory& memory, const ContactMotion& moti
     double largest = 0.0;
     for (std::size_t i = 0; i < shut_.size(); ++i)
       largest = std::max(largest, improve(i, memory, motion));
-    if (settled(largest, last, 1.0))
+    if (kernels::settled(largest, last, sweep_tolerance, 1.0))
       return true;
     last = largest;
   }

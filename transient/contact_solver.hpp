@@ -50,8 +50,7 @@ private:
   /// Returns whether the sweeps in lanes settled; if not, nothing is found yet.
   bool solve_in_lanes(const ContactMemory& memory, const ContactMotion& motion, ContactTrial& trial,
                       Action& action);
-  bool sweep_in_lanes();
-  void close_lanes(const ContactMotion& motion, ContactTrial& trial, Action& action) const;
+  void show_lane(int c, ContactTrial& trial) const;
   void meet(const ContactMotion& motion, ContactTrial& trial);
   void couple(const ContactMotion& motion);
   void prepare(const ContactMemory& memory, const ContactMotion& motion);
@@ -66,12 +65,10 @@ private:
   double h_;
   bool coupled_; ///< some law is implicit in velocity
   std::vector<Shut> shut_;
-  std::vector<int> shut_lanes_; ///< contacts that take part in the step
   kernels::LawLanes laws_;
   kernels::StepLanes lanes_;
-  kernels::Array by_n_, by_t_; ///< N, changes of the forces in a sweep
-  kernels::Array a_;           ///< A, of shut contact i from i * block_ on
-  kernels::Array velocity_;    ///< s, in lanes
+  kernels::Array a_;        ///< A, of shut contact i from i * block_ on
+  kernels::Array velocity_; ///< s, in lanes
   std::size_t block_;
 };
 

@@ -3,6 +3,7 @@
 /// What one evaluation of all contacts gives. It changes nothing that lasts: a scheme may evaluate as often as it likes and hand the
 /// trial of the step it accepts to ContactMemory::commit.
 #pragma once
+#include "transient/contact_lanes.hpp"
 #include "transient/packed_contacts.hpp"
 #include "transient/scheme.hpp"
 
@@ -12,7 +13,7 @@ struct ContactTrial {
   explicit ContactTrial(int contacts);
   /// All contacts open. No allocation.
   void clear();
-  void visit(core::StateArchive& state) { state(states, active, opened, springs, cut); }
+  void visit(core::StateArchive& state) { state(states, active, opened, springs, cut, lanes); }
 
   std::vector<ContactState>
       states; ///< of all contacts; friction_work and the tangential part of damper_work come with the commit
@@ -22,6 +23,8 @@ struct ContactTrial {
   double springs = 0.0; ///< J, energy of the normal springs
   double cut =
       0.0; ///< J over the step, lost by springs that a damper holds free of force: what the positive part cuts
+  kernels::CommitLanes lanes;  ///< the same as `states`,
+  bool found_in_lanes = false; ///< if it has been filled
 };
 
 /// Lets a record show these. Arrays of `q`: padded modes; of `u`: displacements in lanes, m. All stay in their place until the next record.
@@ -51,6 +54,7 @@ private:
   const PackedContacts& contacts_;
   std::vector<const double*> row_;
   std::vector<double> factor_;
+  std::size_t count_ = 0; ///< of them
 };
 
 } // namespace fretwork::transient

@@ -1,29 +1,45 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/vector_lanes.hpp"
+#include <algorithm>
 
 namespace fretwork::transient::kernels {
 namespace {
 
-/// `blocks` packs of contacts at once: their sums stay in registers over all modes.
-template <int blocks>
-FRETWORK_INLINE void gather_blocks(int n, int width, const double* g, const double* q, const double* v,
-                                   double* u, double* w) {
-  Pack su[blocks], sw[blocks];
-  for (int b = 0; b < blocks; ++b) {
-    su[b] = Pack{};
-    sw[b] = Pack{};
+FRETWORK_INLINE double root(double x) { return __builtin_sqrt(x); }
+FRETWORK_INLINE Pack root(const Pack& x) {
+  Pack r{};
+  for (int l = 0; l < lanes; ++l)
+    r[l] = __builtin_sqrt(x[l]);
+  return r;
+}
+
+template <class V>
+FRETWORK_INLINE bool place_all(int end, const ReachLanes& reach, const double* uy, const double* uz,
+                               const double* vy, const double* vz, double half_window, double* gap,
+                               double* ny, double* nz, double* near) {
+  const V one = V{} + 1.0;
+  const double h2 = half_window * half_window;
+  bool any = false;
+  for (int i = 0; i < end; i += size_of<V>) {
+    const V y = at<V>(uy + i) + at<V>(&reach.rest_y[i]), z = at<V>(uz + i) + at<V>(&reach.rest_z[i]);
+    const V wy = at<V>(&reach.wy[i]), wz = at<V>(&reach.wz[i]), radial = at<V>(&reach.radial[i]);
+    const V ly = at<V>(&reach.ly[i]), lz = at<V>(&reach.lz[i]);
+    const V r = root(wy * y * y + wz * z * z);
+    const V g = at<V>(&reach.limit[i]) - (radial * r + ly * y + lz * z);
+    const V s2 = at<V>(vy + i) * at<V>(vy + i) + at<V>(vz + i) * at<V>(vz + i);
+    const V inside = g <= 0.0 ? one : V{}, soon = g * g <= h2 * s2 ? one : V{};
+    at<V>(gap + i) = g;
+    at<V>(near + i) = inside + soon;
+    if (!(sum(inside + soon) > 0.0))
+      continue;
+    any = true;
+    const V per_r = 1.0 / (r > 0.0 ? r : one);
+    // at the very centre along y where the normal can be y
+    const V ey = r > 0.0 ? wy * y * per_r : wy, ez = r > 0.0 ? wz * z * per_r : wz * (1.0 - wy);
+    at<V>(ny + i) = -(radial * ey + ly);
+    at<V>(nz + i) = -(radial * ez + lz);
   }
-  for (int i = 0; i < n; ++i) {
-    const double* row = g + static_cast<std::ptrdiff_t>(i) * width;
-    for (int b = 0; b < blocks; ++b) {
-      su[b] += q[i] * at(row + b * lanes);
-      sw[b] += v[i] * at(row + b * lanes);
-    }
-  }
-  for (int b = 0; b < blocks; ++b) {
-    at(u + b * lanes) = su[b];
-    at(w + b * lanes) = sw[b];
-  }
+  return any;
 }
 
 } // namespace
@@ -78,20 +94,36 @@ FRETWORK_WIDTHS double twice_energy(int np, const double* k, const double* q, co
   return sum(s);
 }
 
-FRETWORK_WIDTHS void gather(int n, int width, const double* g, const double* q, const double* v, double* u,
-                            double* w) {
-  int at_lane = 0;
-  for (; at_lane + 4 * lanes <= width; at_lane += 4 * lanes)
-    gather_blocks<4>(n, width, g + at_lane, q, v, u + at_lane, w + at_lane);
-  switch ((width - at_lane) / lanes) {
-  case 3:
-    return gather_blocks<3>(n, width, g + at_lane, q, v, u + at_lane, w + at_lane);
-  case 2:
-    return gather_blocks<2>(n, width, g + at_lane, q, v, u + at_lane, w + at_lane);
-  case 1:
-    return gather_blocks<1>(n, width, g + at_lane, q, v, u + at_lane, w + at_lane);
-  default:
-    return;
+void GatherTable::add_pack(int mode_count, std::ptrdiff_t width, const double* values_of_mode) {
+  for (int i = 0; i < mode_count; ++i) {
+    const double* row = values_of_mode + i * width;
+    if (std::all_of(row, row + lanes, [](double x) { return x == 0.0; }))
+      continue;
+    modes.push_back(i);
+    values.insert(values.end(), row, row + lanes);
+  }
+  begin.push_back(static_cast<int>(modes.size()));
+}
+
+FRETWORK_WIDTHS void gather(const GatherTable& g, const double* q, const double* v, double* u, double* w) {
+  const int packs = static_cast<int>(g.begin.size()) - 1;
+  for (int p = 0; p < packs; ++p) {
+    Pack su[2] = {}, sw[2] = {}; // two sums each, so that none waits for the other
+    const int end = g.begin[p + 1];
+    const auto add = [&](int k, int into) __attribute__((always_inline)) {
+      const Pack value = at(&g.values[static_cast<std::size_t>(k) * lanes]);
+      su[into] += q[g.modes[k]] * value;
+      sw[into] += v[g.modes[k]] * value;
+    };
+    int k = g.begin[p];
+    for (; k + 1 < end; k += 2) {
+      add(k, 0);
+      add(k + 1, 1);
+    }
+    if (k < end)
+      add(k, 0);
+    at(u + p * lanes) = su[0] + su[1];
+    at(w + p * lanes) = sw[0] + sw[1];
   }
 }
 
@@ -120,37 +152,12 @@ FRETWORK_WIDTHS EulerSums euler_step(int np, double h, const double* c, const do
   return {sum(energy), sum(power), sum(loss)};
 }
 
-FRETWORK_WIDTHS void place(int width, const ReachLanes& reach, const double* uy, const double* uz,
-                           double* gap, double* ny, double* nz) {
-  for (int i = 0; i < width; i += lanes) {
-    const Pack y = at(uy + i) + at(&reach.rest_y[i]), z = at(uz + i) + at(&reach.rest_z[i]);
-    const Pack wy = at(&reach.wy[i]), wz = at(&reach.wz[i]), radial = at(&reach.radial[i]);
-    const Pack ly = at(&reach.ly[i]), lz = at(&reach.lz[i]);
-    const Pack r2 = wy * y * y + wz * z * z;
-    Pack r{};
-    for (int l = 0; l < lanes; ++l)
-      r[l] = __builtin_sqrt(r2[l]);
-    const Mask centred = !(r > Pack{});
-    const Pack ey = centred ? wy : wy * y / r; // at the very centre along y where the normal can be y
-    const Pack ez = centred ? wz * (1.0 - wy) : wz * z / r;
-    at(gap + i) = at(&reach.limit[i]) - (radial * r + ly * y + lz * z);
-    at(ny + i) = -(radial * ey + ly);
-    at(nz + i) = -(radial * ez + lz);
-  }
-}
-
-FRETWORK_WIDTHS bool near(int width, const double* gap, const double* vy, const double* vz, double half_step,
-                          double* near_flag) {
-  Pack any{};
-  const Pack one = Pack{} + 1.0;
-  const double h2 = half_step * half_step;
-  for (int i = 0; i < width; i += lanes) {
-    const Pack g = at(gap + i), s2 = at(vy + i) * at(vy + i) + at(vz + i) * at(vz + i);
-    const Pack inside = g <= 0.0 ? one : Pack{}, soon = g * g <= h2 * s2 ? one : Pack{};
-    at(near_flag + i) = inside + soon;
-    any += inside + soon;
-  }
-  return sum(any) > 0.0;
+FRETWORK_WIDTHS bool place(const LaneCount& contacts, const ReachLanes& reach, const double* uy,
+                           const double* uz, const double* vy, const double* vz, double half_window,
+                           double* gap, double* ny, double* nz, double* near) {
+  return contacts.few()
+             ? place_all<double>(contacts.count, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near)
+             : place_all<Pack>(contacts.width, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near);
 }
 
 FRETWORK_WIDTHS void respond(int width, int directions, const double* columns, double ny, double nz,

@@ -49,8 +49,17 @@ void combine(int np, int sources, const double* shapes, const double* values, do
 /// sum of v^2 + k q^2 over modes: twice the energy.
 double twice_energy(int np, const double* k, const double* q, const double* v);
 
-/// u = G^T q and w = G^T v: G mode by mode, `width` (a multiple of lanes) values a mode.
-void gather(int n, int width, const double* g, const double* q, const double* v, double* u, double* w);
+/// A matrix of `lanes`-wide packs of rows, each with the columns (modes) that are not zero in it: contacts whose local axes lie along
+/// the planes of the modes meet half of them.
+struct GatherTable {
+  std::vector<int> begin{0}; ///< pack p has the entries begin[p] to begin[p + 1]
+  std::vector<int> modes;
+  Array values; ///< `lanes` an entry
+  /// Appends a pack of rows from `width` values a mode.
+  void add_pack(int mode_count, std::ptrdiff_t width, const double* values_of_mode);
+};
+/// u = G q and w = G v.
+void gather(const GatherTable& g, const double* q, const double* v, double* u, double* w);
 
 /// v += sum over r of factor[r] * row[r].
 void scatter(int np, int rows, const double* const* row, const double* factor, double* v);
@@ -65,6 +74,13 @@ struct EulerSums {
 EulerSums euler_step(int np, double h, const double* c, const double* k, const double* load,
                      const double* force, double* q, double* v);
 
+/// How many contacts there are, and lanes: their number, padded.
+struct LaneCount {
+  int count = 0, width = 0;
+  /// So few that one after the other is faster than in packs.
+  [[nodiscard]] bool few() const { return count <= 2; }
+};
+
 /// Contacts in lanes by their contact::Reach. Arrays of a vector quantity have blocks of `width` lanes: y of all contacts, z, x_loc; or
 /// along their own directions: n, t = n x x_loc, x_loc.
 struct ReachLanes {
@@ -74,13 +90,11 @@ struct ReachLanes {
 
 /// Gap and its gradient: contact::locate of every obstacle that is one formula, with e = (wy y, wz z)/r, r = sqrt(wy y^2 + wz z^2),
 ///     gap = limit - (radial r + ly y + lz z),   n = -(radial e + (ly, lz)).
-/// For a profile it is a lower bound of the gap (its inscribed circle).
-void place(int width, const ReachLanes& reach, const double* uy, const double* uz, double* gap, double* ny,
-           double* nz);
-
-/// near[i] > 0 where gap <= half_step |v|, else 0. Returns whether any is near.
-bool near(int width, const double* gap, const double* vy, const double* vz, double half_step,
-          double* near_flag);
+/// For a profile it is a lower bound of the gap (its inscribed circle). near[i] > 0 where gap <= half_window |v|, else 0. Normals are
+/// found in the packs in which some contact is near, the others keep theirs. Returns whether any is near.
+bool place(const LaneCount& contacts, const ReachLanes& reach, const double* uy, const double* uz,
+           const double* vy, const double* vz, double half_window, double* gap, double* ny, double* nz,
+           double* near);
 
 /// v = components of w along the contacts' own directions (2: n, t; 3: n, t, x_loc).
 void project(int width, int directions, const double* ny, const double* nz, const double* w, double* v);

@@ -96,8 +96,8 @@ NodalTables::NodalTables(const PackedContacts& contacts, const PolynomialFlow& f
             q[i] = response.q * contacts.row(c, b)[i];
             v[i] = response.v * contacts.row(c, b)[i];
           }
-          kernels::gather(contacts.modes, contacts.stride(), contacts.gather.data(), q.data(), v.data(),
-                          column + (to - 1) * stride, column + (to + 1) * stride);
+          kernels::gather(contacts.gather, q.data(), v.data(), column + (to - 1) * stride,
+                          column + (to + 1) * stride);
         }
       }
   }

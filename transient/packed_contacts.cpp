@@ -26,7 +26,7 @@ PackedContacts::PackedContacts(const std::vector<ContactPoint>& contacts, Eigen:
                       c.support.friction.kind == contact::FrictionMemoryKind::return_map;
              });
   const auto lanes = static_cast<std::size_t>(width);
-  gather.assign(static_cast<std::size_t>(modes) * stride(), 0.0);
+  kernels::Array by_mode(static_cast<std::size_t>(modes) * stride(), 0.0);
   rows.assign(static_cast<std::size_t>(count) * 3 * padded_modes, 0.0);
   mobility.assign(static_cast<std::size_t>(count) * 3 * stride(), 0.0);
   for (kernels::Array* a :
@@ -50,7 +50,7 @@ PackedContacts::PackedContacts(const std::vector<ContactPoint>& contacts, Eigen:
       profiles.push_back(c);
     for (int k = 0; k < components; ++k)
       for (int i = 0; i < modes; ++i) {
-        gather[static_cast<std::size_t>(i) * stride() + k * width + c] = point.b(stored[k], i);
+        by_mode[static_cast<std::size_t>(i) * stride() + k * width + c] = point.b(stored[k], i);
         rows[(static_cast<std::size_t>(c) * 3 + k) * padded_modes + i] = point.b(stored[k], i);
       }
     for (int from = 0; from < components; ++from)
@@ -59,6 +59,29 @@ PackedContacts::PackedContacts(const std::vector<ContactPoint>& contacts, Eigen:
           mobility[(static_cast<std::size_t>(c) * 3 + from) * stride() + to * width + other] =
               contacts[static_cast<std::size_t>(other)].b.row(stored[to]).dot(point.b.row(stored[from]));
   }
+  for (int lane = 0; lane < stride(); lane += kernels::lanes)
+    gather.add_pack(modes, stride(), by_mode.data() + lane);
+  if (in_lanes)
+    pack_mobility();
+}
+
+void PackedContacts::pack_mobility() {
+  // of component `to` by a force along `from`, as MobilityLanes has them; the planes may be coupled by the modes or the local axes
+  constexpr std::array<std::array<int, 2>, 4> blocks = {{{0, 0}, {1, 1}, {1, 0}, {0, 1}}};
+  const auto value = [&](int c, int other, std::array<int, 2> block) {
+    return column(c)[block[1] * stride() + block[0] * width + other];
+  };
+  for (int c = 0; c < count; ++c)
+    for (int other = 0; other < count; ++other)
+      mobility_lanes.coupled =
+          mobility_lanes.coupled || value(c, other, blocks[2]) != 0.0 || value(c, other, blocks[3]) != 0.0;
+  const int columns = mobility_lanes.coupled ? 4 : 2;
+  mobility_lanes.columns.assign(static_cast<std::size_t>(count) * columns * width, 0.0);
+  for (int c = 0; c < count; ++c)
+    for (int k = 0; k < columns; ++k)
+      for (int other = 0; other < count; ++other)
+        mobility_lanes.columns[(static_cast<std::size_t>(c) * columns + k) * width + other] =
+            value(c, other, blocks[static_cast<std::size_t>(k)]);
 }
 
 } // namespace fretwork::transient

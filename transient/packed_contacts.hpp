@@ -2,7 +2,7 @@
 /// @file
 /// The contacts of a scene as the step needs them: contiguous, padded, contact by contact in vector lanes.
 #pragma once
-#include "transient/kernels.hpp"
+#include "transient/contact_lanes.hpp"
 #include "transient/scene.hpp"
 
 namespace fretwork::transient {
@@ -17,15 +17,17 @@ struct PackedContacts {
   int components = 2; ///< 2: y z; 3: y z x
   int modes = 0, padded_modes = 0;
   [[nodiscard]] int stride() const { return components * width; }
+  [[nodiscard]] kernels::LaneCount lane_count() const { return {count, width}; }
 
   std::vector<contact::Support> supports;
   std::vector<char>
       in_plane; ///< contact by contact: friction acts along x_loc too and something moves it along it
-  kernels::Array gather;   ///< mode by mode, `stride()` lanes each
-  kernels::Array rows;     ///< contact by contact: rows y, z, x over the padded modes
+  kernels::GatherTable gather; ///< from modes to `stride()` lanes
+  kernels::Array rows;         ///< contact by contact: rows y, z, x over the padded modes
   kernels::Array mobility; ///< contact by contact: what a unit force along y, z, x does to `stride()` lanes
                            ///< (W = B B^T, 1/kg)
   kernels::ReachLanes reach;
+  kernels::MobilityLanes mobility_lanes; ///< where in_lanes
   bool in_lanes =
       false; ///< friction acts along one tangent only and every memory is return_map: contact_lanes.hpp
   std::vector<int> profiles; ///< contacts whose obstacle the lanes of `reach` only bound
@@ -41,6 +43,9 @@ struct PackedContacts {
   [[nodiscard]] double own_mobility(int c, int to, int from) const {
     return to < components && from < components ? column(c)[from * stride() + to * width + c] : 0.0;
   }
+
+private:
+  void pack_mobility();
 };
 
 } // namespace fretwork::transient

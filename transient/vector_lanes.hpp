@@ -18,8 +18,12 @@ namespace fretwork::transient::kernels {
 typedef double Pack __attribute__((vector_size(64)));
 typedef long long Mask __attribute__((vector_size(64)));
 
-FRETWORK_INLINE const Pack& at(const double* p) { return *reinterpret_cast<const Pack*>(p); }
-FRETWORK_INLINE Pack& at(double* p) { return *reinterpret_cast<Pack*>(p); }
+/// V is a Pack, or a double where a kernel is written for both.
+template <class V = Pack> FRETWORK_INLINE const V& at(const double* p) {
+  return *reinterpret_cast<const V*>(p);
+}
+template <class V = Pack> FRETWORK_INLINE V& at(double* p) { return *reinterpret_cast<V*>(p); }
+template <class V> inline constexpr int size_of = static_cast<int>(sizeof(V) / sizeof(double));
 FRETWORK_INLINE double sum(const Pack& p) {
   return ((p[0] + p[4]) + (p[2] + p[6])) + ((p[1] + p[5]) + (p[3] + p[7]));
 }
@@ -27,6 +31,8 @@ FRETWORK_INLINE double largest(const Pack& p) {
   const auto max = [](double a, double b) { return a > b ? a : b; };
   return max(max(max(p[0], p[4]), max(p[2], p[6])), max(max(p[1], p[5]), max(p[3], p[7])));
 }
-FRETWORK_INLINE Pack magnitude(const Pack& p) { return p < 0.0 ? -p : p; }
+FRETWORK_INLINE double sum(double p) { return p; }
+FRETWORK_INLINE double largest(double p) { return p; }
+template <class V> FRETWORK_INLINE V magnitude(const V& p) { return p < 0.0 ? -p : p; }
 
 } // namespace fretwork::transient::kernels

@@ -57,7 +57,7 @@ contact::Support support_of(int kind) {
 }
 
 /// Many steps of random motion, half of the contacts closed on the average. `tolerance` relative to forces.
-void compare(int count, double tolerance) {
+void compare(int count, double tolerance, bool planes_apart = false) {
   std::mt19937 random(static_cast<unsigned>(count));
   std::normal_distribution<double> normal;
   constexpr Eigen::Index modes = 24;
@@ -67,9 +67,14 @@ void compare(int count, double tolerance) {
     points[c].support = support_of(c);
     points[c].b = Eigen::MatrixXd::NullaryExpr(3, modes, [&] { return 0.3 * normal(random); });
     points[c].b.row(0).setZero();
+    if (planes_apart) { // modes of either plane, axes along them
+      points[c].b.row(1).head(modes / 2).setZero();
+      points[c].b.row(2).tail(modes / 2).setZero();
+    }
   }
   Engine lanes(points, modes, h, true), each(points, modes, h, false);
   ASSERT_TRUE(lanes.contacts.in_lanes);
+  EXPECT_NE(lanes.contacts.mobility_lanes.coupled, planes_apart);
   const auto padded = static_cast<std::size_t>(lanes.contacts.padded_modes);
   kernels::Array q(padded), v(padded);
   int closed = 0, sliding = 0;
@@ -102,12 +107,25 @@ void compare(int count, double tolerance) {
   }
   EXPECT_TRUE(lanes.converged);
   EXPECT_GT(closed, 300 * count);
-  EXPECT_GT(sliding, 50);
+  EXPECT_GT(sliding, 30);
 }
 
-TEST(ContactLanes, FollowTheLawsOfOneContact) { compare(1, round_off); }
+TEST(ContactLanes, FollowTheLawsOfOneContact) {
+  compare(1, round_off);
+  compare(1, round_off, true);
+}
+
+/// So few that they are taken one after the other.
+TEST(ContactLanes, FollowTheLawsOfTwoContacts) { compare(2, settled); }
+
+TEST(ContactLanes, FollowTheLawsOfOnePackOfContacts) { compare(5, settled); }
 
 TEST(ContactLanes, FollowTheLawsOfAFewPacksOfContacts) { compare(19, settled); }
+
+TEST(ContactLanes, FollowTheLawsWherePlanesAreNotCoupled) {
+  compare(2, settled, true);
+  compare(11, settled, true);
+}
 
 /// Contacts that move together: Jacobi sweeps do not settle and the others take over.
 TEST(ContactLanes, GiveWayWhereTheyDoNotConverge) {
