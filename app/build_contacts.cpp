@@ -28,8 +28,7 @@ Vec3 mean_tangent(const fem::Model& model, Index node, const std::string& name) 
   int beams = 0;
   for (const auto& beam : model.beams)
     if (beam.a == node || beam.b == node) {
-      sum += (model.nodes[static_cast<std::size_t>(beam.b)] - model.nodes[static_cast<std::size_t>(beam.a)])
-                 .normalized();
+      sum += fem::tangent_at(model, beam, node);
       ++beams;
     }
   if (beams == 0)

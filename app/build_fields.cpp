@@ -11,15 +11,11 @@ using core::Index;
 using core::Vec3;
 
 Eigen::VectorXd load_field(const study::Load& load, const std::string& what, const mesh::LineMesh& mesh,
-                           const BuiltModel& built) {
+                           const fem::Model& model) {
   if (!load.per_length)
-    return fem::point_forces(built.model, mesh::group_nodes(mesh, load.group, what), load.direction,
-                             load.moment);
-  std::vector<Index> beams;
-  for (const Index line : mesh::group_lines(mesh, load.group, what))
-    for (const Index beam : built.beams_of_line[static_cast<std::size_t>(line)])
-      beams.push_back(beam);
-  return fem::line_forces(built.model, beams, load.direction);
+    return fem::point_forces(model, mesh::group_nodes(mesh, load.group, what), load.direction, load.moment);
+  // every line of the mesh is the beam of its number
+  return fem::line_forces(model, mesh::group_lines(mesh, load.group, what), load.direction);
 }
 
 void initial_field(const study::Study& study, const mesh::LineMesh& mesh, const fem::Model& model,
@@ -52,20 +48,20 @@ void initial_field(const study::Study& study, const mesh::LineMesh& mesh, const 
 
 } // namespace
 
-Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh, const BuiltModel& built) {
+Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh, const fem::Model& model) {
   Fields out;
   for (std::size_t e = 0; e < study.loads.size(); ++e) {
     const std::string name = fmt::format("[[loads]] entry {} on \"{}\"", e + 1, study.loads[e].group);
-    out.loads.push_back({name, study.loads[e].function, load_field(study.loads[e], name, mesh, built)});
+    out.loads.push_back({name, study.loads[e].function, load_field(study.loads[e], name, mesh, model)});
   }
   const auto on_all_masses = [&](const core::Vec3& direction) {
-    return fem::mass_times(built.model, fem::translation_field(built.model, direction));
+    return fem::mass_times(model, fem::translation_field(model, direction));
   };
   if (study.gravity)
     out.loads.push_back({"[gravity]", transient::Constant{1.0}, on_all_masses(*study.gravity)});
   for (const auto& motion : study.base_motions)
     out.loads.push_back({"[[base_motion]]", motion.acceleration, -on_all_masses(motion.direction)});
-  initial_field(study, mesh, built.model, out);
+  initial_field(study, mesh, model, out);
   return out;
 }
 

@@ -2,7 +2,9 @@
 /// @file
 /// Loads and initial state of a study as fields over the whole model.
 #pragma once
-#include "app/build_model.hpp"
+#include "fem/model.hpp"
+#include "mesh/line_mesh.hpp"
+#include "study/study.hpp"
 #include "transient/time_function.hpp"
 
 namespace fretwork::app {
@@ -21,6 +23,6 @@ struct Fields {
   Eigen::VectorXd displacement_momentum, velocity_momentum; ///< M times them
 };
 [[nodiscard]] Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh,
-                                  const BuiltModel& built);
+                                  const fem::Model& model);
 
 } // namespace fretwork::app

@@ -21,12 +21,12 @@ std::string curves_of(const mesh::LineMesh& mesh, Index line) {
   return names.empty() ? "no named curve" : fmt::format("{}", fmt::join(names, ", "));
 }
 
-void add_beams(const study::Study& study, const mesh::LineMesh& mesh, BuiltModel& out) {
+void add_beams(const study::Study& study, const mesh::LineMesh& mesh, fem::Model& model) {
   std::vector<Index> entry_of(mesh.lines.size(), -1);
   for (std::size_t e = 0; e < study.beams.size(); ++e) {
     const study::Beams& beams = study.beams[e];
-    out.model.properties.push_back({study.materials.at(beams.material), study.sections.at(beams.section),
-                                    beams.added_mass, beams.added_mass_direction, beams.orientation});
+    model.properties.push_back({study.materials.at(beams.material), study.sections.at(beams.section),
+                                beams.added_mass, beams.added_mass_direction, beams.orientation});
     for (const Index line : mesh::group_lines(mesh, beams.group, fmt::format("[[beams]] entry {}", e + 1))) {
       Index& entry = entry_of[static_cast<std::size_t>(line)];
       if (entry >= 0 && entry != static_cast<Index>(e))
@@ -37,7 +37,6 @@ void add_beams(const study::Study& study, const mesh::LineMesh& mesh, BuiltModel
       entry = static_cast<Index>(e);
     }
   }
-  out.beams_of_line.resize(mesh.lines.size());
   for (std::size_t i = 0; i < mesh.lines.size(); ++i) {
     const mesh::Line& line = mesh.lines[i];
     if (entry_of[i] < 0) {
@@ -47,16 +46,7 @@ void add_beams(const study::Study& study, const mesh::LineMesh& mesh, BuiltModel
           "a material and a section",
           without, mesh.lines.size(), curves_of(mesh, static_cast<Index>(i))));
     }
-    const auto add = [&](Index a, Index b) {
-      out.beams_of_line[i].push_back(static_cast<Index>(out.model.beams.size()));
-      out.model.beams.push_back({a, b, entry_of[i]});
-    };
-    if (line.middle < 0) {
-      add(line.nodes[0], line.nodes[1]);
-    } else {
-      add(line.nodes[0], line.middle);
-      add(line.middle, line.nodes[1]);
-    }
+    model.beams.push_back({line.nodes[0], line.nodes[1], entry_of[i], line.middle});
   }
 }
 
@@ -121,12 +111,11 @@ Index nearest_node(const fem::Model& model, const std::vector<Index>& others, co
   });
 }
 
-BuiltModel build_model(const study::Study& study, const mesh::LineMesh& mesh) {
-  BuiltModel out;
-  fem::Model& model = out.model;
+fem::Model build_model(const study::Study& study, const mesh::LineMesh& mesh) {
+  fem::Model model;
   model.nodes = mesh.nodes;
   model.fixed.assign(mesh.nodes.size(), 0);
-  add_beams(study, mesh, out);
+  add_beams(study, mesh, model);
   std::vector<bool> restrained(mesh.nodes.size(), false);
   for (std::size_t e = 0; e < study.restraints.size(); ++e)
     for (const Index node :
@@ -140,7 +129,7 @@ BuiltModel build_model(const study::Study& study, const mesh::LineMesh& mesh) {
       model.masses.push_back({node, study.masses[e].mass, study.masses[e].inertia, study.masses[e].arm});
   add_springs(study, mesh, model);
   leave_out_marks(model, restrained);
-  return out;
+  return model;
 }
 
 } // namespace fretwork::app

@@ -8,15 +8,10 @@
 
 namespace fretwork::app {
 
-struct BuiltModel {
-  fem::Model model;
-  std::vector<std::vector<core::Index>>
-      beams_of_line; ///< by line of the mesh: one beam, two for a line of order 2
-};
-
+/// The mechanical model; its nodes are those of the mesh, each line of the mesh is the beam of the same number.
 /// @throws core::Error for groups that do not exist, lines without or with two `[[beams]]` entries, springs
 /// that cannot be paired
-[[nodiscard]] BuiltModel build_model(const study::Study& study, const mesh::LineMesh& mesh);
+[[nodiscard]] fem::Model build_model(const study::Study& study, const mesh::LineMesh& mesh);
 
 /// The node of `among` (not empty) nearest to a place.
 [[nodiscard]] core::Index nearest_node(const fem::Model& model, const std::vector<core::Index>& among,

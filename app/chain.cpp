@@ -101,10 +101,10 @@ results::ContactFacts facts_of(const study::Contact& contact, const PlacedContac
 
 /// What the modes make of contacts and loads, for every structure that can move.
 std::vector<BuiltScene> build_scenes(const study::Study& study, const mesh::LineMesh& mesh,
-                                     const BuiltModel& built, const std::vector<modal::Basis>& bases,
+                                     const fem::Model& model, const std::vector<modal::Basis>& bases,
                                      const std::vector<PlacedContact>& placed,
                                      const std::vector<NamedNode>& nodes, results::RunResults& out) {
-  const Fields fields = build_fields(study, mesh, built);
+  const Fields fields = build_fields(study, mesh, model);
   std::vector<BuiltScene> scenes;
   out.contacts.resize(placed.size());
   for (const auto& structures : joined_structures(bases, placed)) {
@@ -235,12 +235,12 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
   const mesh::LineMesh mesh = mesh_stage(comm, inputs);
   out.timings.mesh = watch.lap();
   out.record = make_record(inputs, core::size(comm));
-  BuiltModel built;
+  fem::Model model;
   std::vector<PlacedContact> placed;
   std::vector<NamedNode> nodes;
   core::agree(comm, [&] {
-    built = build_model(inputs.study, mesh);
-    placed = place_contacts(inputs.study, mesh, built.model, out.warnings);
+    model = build_model(inputs.study, mesh);
+    placed = place_contacts(inputs.study, mesh, model, out.warnings);
     nodes = observed_nodes(inputs.study, mesh);
   });
   report_coincident(mesh, out);
@@ -252,8 +252,8 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
   progress.stage("modes");
   {
     const core::PetscSession petsc;
-    ModesStage modes = modes_stage(comm, inputs, built.model, out.record, request.force);
-    describe_model(built.model, modes.structures, out);
+    ModesStage modes = modes_stage(comm, inputs, model, out.record, request.force);
+    describe_model(model, modes.structures, out);
     out.bases = std::move(modes.bases);
   }
   report_modes(inputs.study, out);
@@ -262,7 +262,7 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
     progress.stage("basis");
     std::vector<BuiltScene> scenes;
     core::agree(comm,
-                [&] { scenes = build_scenes(inputs.study, mesh, built, out.bases, placed, nodes, out); });
+                [&] { scenes = build_scenes(inputs.study, mesh, model, out.bases, placed, nodes, out); });
     for (const NamedNode& node : nodes)
       out.node_names.push_back(node.name);
     out.duration = inputs.study.transient->duration;
@@ -312,12 +312,12 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
 std::string check(const Request& request) {
   const Inputs inputs = read_inputs(request);
   const mesh::LineMesh mesh = mesh::read(inputs.study.mesh);
-  const BuiltModel built = build_model(inputs.study, mesh);
-  const auto structures = moving_structures(built.model);
+  const fem::Model model = build_model(inputs.study, mesh);
+  const auto structures = moving_structures(model);
   std::vector<std::string> warnings;
-  const auto placed = place_contacts(inputs.study, mesh, built.model, warnings);
+  const auto placed = place_contacts(inputs.study, mesh, model, warnings);
   const auto nodes = observed_nodes(inputs.study, mesh);
-  static_cast<void>(build_fields(inputs.study, mesh, built));
+  static_cast<void>(build_fields(inputs.study, mesh, model));
   std::int64_t dofs = 0;
   for (const auto& structure : structures)
     dofs += structure.equations;
@@ -326,9 +326,9 @@ std::string check(const Request& request) {
     told += "  warning: " + warning + "\n";
   return fmt::format("{}: fine\n  {} nodes, {} beams, {} free dofs in {} structure{}, {:.6g} kg\n  {} "
                      "contacts, {} loads, {} observed nodes\n{}",
-                     request.study.string(), mesh.nodes.size(), built.model.beams.size(), dofs,
-                     structures.size(), structures.size() == 1 ? "" : "s", fem::total_mass(built.model),
-                     placed.size(), inputs.study.loads.size(), nodes.size(), told);
+                     request.study.string(), mesh.nodes.size(), model.beams.size(), dofs, structures.size(),
+                     structures.size() == 1 ? "" : "s", fem::total_mass(model), placed.size(),
+                     inputs.study.loads.size(), nodes.size(), told);
 }
 
 std::string export_results(const fs::path& directory, const std::string& format) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/beam_element.hpp"
 #include "core/error.hpp"
+#include "fem/gauss.hpp"
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -10,152 +11,131 @@
 namespace fretwork::fem {
 namespace {
 
-/// Sine of the smallest angle between a beam and its orientation vector: below it the y axis would be made of
-/// round-off.
-constexpr double least_orientation_sine = 1e-6;
 /// Relative difference of iy and iz up to which a section has no principal directions (round-off of the
 /// section formulas).
 constexpr double equal_inertia = 1e-9;
 
-std::string beam_text(const Vec3& a, const Vec3& b) { return "beam from " + place(a) + " to " + place(b); }
-
-/// Global direction least aligned with x: y then never degenerates.
-Vec3 any_orientation(const Vec3& x) {
-  Eigen::Index least = 0;
-  x.cwiseAbs().minCoeff(&least);
-  return Vec3::Unit(least);
-}
-
-/// Bending in one plane, dofs v_a, s_a, v_b, s_b at `dof`, s = sign * rotation.
-void add_bending(ElementMatrices& e, const std::array<int, 4>& dof, double sign, double ei, double mu,
-                 double l) {
-  Eigen::Matrix4d k, m;
-  k << 12, 6 * l, -12, 6 * l, 6 * l, 4 * l * l, -6 * l, 2 * l * l, -12, -6 * l, 12, -6 * l, 6 * l, 2 * l * l,
-      -6 * l, 4 * l * l;
-  k *= ei / (l * l * l);
-  m << 156, 22 * l, 54, -13 * l, 22 * l, 4 * l * l, 13 * l, -3 * l * l, 54, 13 * l, 156, -22 * l, -13 * l,
-      -3 * l * l, -22 * l, 4 * l * l;
-  m *= mu * l / 420.0;
-  const std::array<double, 4> s{1.0, sign, 1.0, sign};
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t j = 0; j < 4; ++j) {
-      const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
-      e.stiffness(dof[i], dof[j]) = s[i] * s[j] * k(row, column);
-      e.mass(dof[i], dof[j]) = s[i] * s[j] * m(row, column);
-    }
-}
-
-/// Linear shapes: traction or torsion.
-void add_linear(ElementMatrices& e, int a, int b, double k, double m) {
-  e.stiffness(a, a) = e.stiffness(b, b) = k;
-  e.stiffness(a, b) = e.stiffness(b, a) = -k;
-  e.mass(a, a) = e.mass(b, b) = m / 3.0;
-  e.mass(a, b) = e.mass(b, a) = m / 6.0;
-}
-
-void rotate_to_global(Matrix12& matrix, const Eigen::Matrix3d& axes) {
-  for (int i = 0; i < 12; i += 3)
-    for (int j = 0; j < 12; j += 3)
-      matrix.block<3, 3>(i, j) = (axes.transpose() * matrix.block<3, 3>(i, j) * axes).eval();
-  matrix = (0.5 * (matrix + matrix.transpose())).eval(); // symmetric to the last digit
-}
-
-/// Strains of the element: elongation, twist, and end rotations less the chord's (about y and about z).
-struct Strain {
-  double elongation, twist, ya, yb, za, zb;
-};
-
-Strain strain_of(const BeamConstants& beam, const Vector12& u) {
-  const Vec3 d = beam.axes * (u.segment<3>(6) - u.segment<3>(0));
-  const Vec3 ra = beam.axes * u.segment<3>(3);
-  const Vec3 rb = beam.axes * u.segment<3>(9);
-  const double chord_y = -d.z() / beam.length;
-  const double chord_z = d.y() / beam.length;
-  return {d.x(), rb.x() - ra.x(), ra.y() - chord_y, rb.y() - chord_y, ra.z() - chord_z, rb.z() - chord_z};
-}
-
-} // namespace
-
-Eigen::Matrix3d beam_axes(const Vec3& a, const Vec3& b, const std::optional<Vec3>& orientation) {
-  const Vec3 span = b - a;
-  const double length = span.norm();
-  if (!(length > 0.0))
-    throw core::Error(beam_text(a, b) + " has no length; merge its nodes or move one of them");
-  const Vec3 x = span / length;
-  const Vec3 guide = orientation ? *orientation : any_orientation(x);
-  const Vec3 across = guide - x * x.dot(guide);
-  if (!(across.norm() > least_orientation_sine * guide.norm()))
-    throw core::Error(
-        fmt::format("{}: orientation {} is along the beam (or zero); give a vector in the plane of the beam "
-                    "and the y axis of its section",
-                    beam_text(a, b), place(guide)));
-  const Vec3 y = across.normalized();
-  Eigen::Matrix3d axes;
-  axes.row(0) = x.transpose();
-  axes.row(1) = y.transpose();
-  axes.row(2) = x.cross(y).transpose();
-  return axes;
-}
-
-BeamConstants beam_constants(const Vec3& a, const Vec3& b, const BeamProperty& property) {
-  const auto& [young, poisson, density] = property.material;
+void check_orientation(const Vec3& a, const Vec3& b, const BeamProperty& property) {
   const Section& s = property.section;
   if (!property.orientation && std::abs(s.iy - s.iz) > equal_inertia * std::max(s.iy, s.iz))
     throw core::Error(fmt::format(
         "{}: its section has iy = {:g} and iz = {:g} m4, so that it matters how it is turned; give "
         "orientation, a vector in the plane of the beam and the y axis of the section",
         beam_text(a, b), s.iy, s.iz));
-  const double lineic = density * s.area;
-  const double axial_added = property.added_mass_direction == AddedMass::all ? property.added_mass : 0.0;
-  return {beam_axes(a, b, property.orientation),
-          (b - a).norm(),
-          young * s.area,
-          young / (2.0 * (1.0 + poisson)) * s.torsion_constant,
-          young * s.iy,
-          young * s.iz,
-          lineic + axial_added,
-          lineic + property.added_mass,
-          density * s.polar_inertia};
 }
 
-ElementMatrices beam_element(const BeamConstants& beam) {
-  const double l = beam.length;
-  ElementMatrices e{Matrix12::Zero(), Matrix12::Zero()};
-  add_linear(e, 0, 6, beam.axial / l, beam.mass_axial * l);
-  add_linear(e, 3, 9, beam.torsion / l, beam.polar_inertia * l);
-  add_bending(e, {1, 5, 7, 11}, 1.0, beam.bending_z, beam.mass_transverse, l);
-  add_bending(e, {2, 4, 8, 10}, -1.0, beam.bending_y, beam.mass_transverse, l);
-  rotate_to_global(e.stiffness, beam.axes);
-  rotate_to_global(e.mass, beam.axes);
+/// The closed form of S, straight and uniform.
+Matrix6 uniform_stiffness(const BeamConstants& c, double l) {
+  Matrix6 s = Matrix6::Zero();
+  s(0, 0) = c.axial / l;
+  s(3, 3) = c.torsion / l;
+  const auto bend = [&](int across, int turn, double sign, double ei) {
+    s(across, across) = 12.0 * ei / (l * l * l);
+    s(across, turn) = s(turn, across) = -sign * 6.0 * ei / (l * l);
+    s(turn, turn) = 4.0 * ei / l;
+  };
+  bend(1, 5, 1.0, c.bending_z);
+  bend(2, 4, -1.0, c.bending_y); // ry = -duz/dx
+  return s;
+}
+
+/// Consistent mass of bending in one plane, dofs v_a, s_a, v_b, s_b at `dof`, s = sign * rotation.
+void add_bending(Matrix12& mass, const std::array<int, 4>& dof, double sign, double mu, double l) {
+  Eigen::Matrix4d m;
+  m << 156, 22 * l, 54, -13 * l, 22 * l, 4 * l * l, 13 * l, -3 * l * l, 54, 13 * l, 156, -22 * l, -13 * l,
+      -3 * l * l, -22 * l, 4 * l * l;
+  m *= mu * l / 420.0;
+  const std::array<double, 4> s{1.0, sign, 1.0, sign};
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j)
+      mass(dof[i], dof[j]) = s[i] * s[j] * m(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+}
+
+/// Of traction or torsion.
+void add_along(Matrix12& mass, int a, int b, double m) {
+  mass(a, a) = mass(b, b) = m * 5.0 / 12.0;
+  mass(a, b) = mass(b, a) = m / 12.0;
+}
+
+Matrix12 uniform_mass(const BeamConstants& c, double l) {
+  Matrix12 mass = Matrix12::Zero();
+  add_along(mass, 0, 6, c.mass_axial * l);
+  add_along(mass, 3, 9, c.inertia_x * l);
+  add_bending(mass, {1, 5, 7, 11}, 1.0, c.mass_transverse, l);
+  add_bending(mass, {2, 4, 8, 10}, -1.0, c.mass_transverse, l);
+  return mass;
+}
+
+Matrix12 in_global_axes(Matrix12 matrix, const Eigen::Matrix3d& axes) {
+  for (int i = 0; i < 12; i += 3)
+    for (int j = 0; j < 12; j += 3)
+      matrix.block<3, 3>(i, j) = (axes.transpose() * matrix.block<3, 3>(i, j) * axes).eval();
+  return 0.5 * (matrix + matrix.transpose()); // symmetric to the last digit
+}
+
+const Vec3& node_at(const Model& model, Index node) { return model.nodes[static_cast<std::size_t>(node)]; }
+
+} // namespace
+
+BeamElement::BeamElement(const Vec3& a, const Vec3& b, const BeamProperty& property,
+                         const std::optional<Vec3>& middle)
+    : property_(property), axis_(a, b, middle),
+      axes_(frame_along((b - a).normalized(), property.orientation, beam_text(a, b))),
+      chord_((b - a).norm()) {
+  check_orientation(a, b, property);
+  stiffness_ =
+      axis_.is_straight() ? uniform_stiffness(beam_constants(property), chord_) : flexible().stiffness();
+}
+
+BeamElement::BeamElement(const Model& model, const Beam& beam)
+    : BeamElement(node_at(model, beam.a), node_at(model, beam.b),
+                  model.properties[static_cast<std::size_t>(beam.property)], beam.middle) {}
+
+Matrix12 BeamElement::stiffness() const {
+  const Shapes t = deformation_matrix({chord_, 0.0, 0.0});
+  return in_global_axes(t.transpose() * stiffness_ * t, axes_);
+}
+
+Matrix12 BeamElement::mass() const {
+  return in_global_axes(
+      axis_.is_straight() ? uniform_mass(beam_constants(property_), chord_) : flexible().mass(), axes_);
+}
+
+Eigen::Matrix<double, 6, 1> BeamElement::deformation(const Vector12& u) const {
+  const Vec3 d = axes_ * (u.segment<3>(6) - u.segment<3>(0));
+  const Vec3 ra = axes_ * u.segment<3>(3);
+  Eigen::Matrix<double, 6, 1> e;
+  e << d.x(), d.y() - chord_ * ra.z(), d.z() + chord_ * ra.y(), axes_ * (u.segment<3>(9) - u.segment<3>(3));
   return e;
 }
 
-ElementMatrices beam_element(const Vec3& a, const Vec3& b, const BeamProperty& property) {
-  return beam_element(beam_constants(a, b, property));
+double BeamElement::twice_strain_energy(const Vector12& displacement) const {
+  const Eigen::Matrix<double, 6, 1> e = deformation(displacement);
+  return e.dot(stiffness_ * e);
 }
 
-double twice_strain_energy(const BeamConstants& beam, const Vector12& displacement) {
-  const Strain s = strain_of(beam, displacement);
-  return (beam.axial * s.elongation * s.elongation + beam.torsion * s.twist * s.twist +
-          4.0 * beam.bending_y * (s.ya * s.ya + s.ya * s.yb + s.yb * s.yb) +
-          4.0 * beam.bending_z * (s.za * s.za + s.za * s.zb + s.zb * s.zb)) /
-         beam.length;
+Vector12 BeamElement::elastic_force(const Vector12& displacement) const {
+  const Eigen::Matrix<double, 6, 1> at_b = stiffness_ * deformation(displacement);
+  const Vec3 force = axes_.transpose() * at_b.head<3>(), moment = axes_.transpose() * at_b.tail<3>();
+  const Vec3 span = chord_ * axes_.row(0).transpose();
+  Vector12 result;
+  result << -force, -moment - span.cross(force), force, moment;
+  return result;
 }
 
-Vector12 elastic_force(const BeamConstants& beam, const Vector12& displacement) {
-  const Strain s = strain_of(beam, displacement);
-  const double l = beam.length;
-  const double normal = beam.axial / l * s.elongation;
-  const double torque = beam.torsion / l * s.twist;
-  const double may = beam.bending_y / l * (4.0 * s.ya + 2.0 * s.yb);
-  const double mby = beam.bending_y / l * (2.0 * s.ya + 4.0 * s.yb);
-  const double maz = beam.bending_z / l * (4.0 * s.za + 2.0 * s.zb);
-  const double mbz = beam.bending_z / l * (2.0 * s.za + 4.0 * s.zb);
-  const Vec3 force_b = beam.axes.transpose() * Vec3(normal, -(maz + mbz) / l, (may + mby) / l);
-  Vector12 force;
-  force << -force_b, beam.axes.transpose() * Vec3(-torque, may, maz), force_b,
-      beam.axes.transpose() * Vec3(torque, mby, mbz);
-  return force;
+Shapes BeamElement::shapes(double share) const {
+  Shapes shapes = flexible().shapes(share * axis_.length());
+  for (int i = 0; i < 6; i += 3)
+    for (int j = 0; j < 12; j += 3)
+      shapes.block<3, 3>(i, j) = (axes_.transpose() * shapes.block<3, 3>(i, j) * axes_).eval();
+  return shapes;
+}
+
+Vector12 BeamElement::line_force(const Vec3& force_per_length) const {
+  Vector12 result = Vector12::Zero();
+  for (const auto& [share, weight] : gauss_points)
+    result += weight * axis_.length() * shapes(share).topRows<3>().transpose() * force_per_length;
+  return result;
 }
 
 } // namespace fretwork::fem

@@ -1,60 +1,58 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// The straight Euler-Bernoulli beam with two nodes: axial displacement and torsion linear, bending in the
-/// planes x-y and x-z cubic (Hermite), mass consistent with these shapes, no rotary inertia of bending, no
-/// shear deformation. Element axes: x from a to b, y and z the principal axes of the section. Dofs: ux uy uz
-/// rx ry rz of a, then of b; rz = duy/dx, ry = -duz/dx.
+/// The Euler-Bernoulli beam with two nodes, its axis straight or an arc: no rotary inertia of bending, no shear
+/// deformation. Dofs: ux uy uz rx ry rz of a, then of b, global axes.
 ///
-/// With d = u_b - u_a, chord rotation psi = x cross d / L and p = r - psi (components y, z):
-///   2 U = EA/L d_x^2 + GJ/L (r_bx - r_ax)^2 + sum over y, z of EI/L (4 p_a^2 + 4 p_a p_b + 4 p_b^2)
-/// Source: Przemieniecki, Theory of Matrix Structural Analysis, sections 5.6 and 11.3. Limits: slender beams;
-/// static deflections at nodes exact; eigenvalues of bending converge as h^4 from above, of traction and
-/// torsion as h^2.
+/// Element axes: x along the chord from a to b. With d = u_b - u_a and the span c = x_b - x_a,
+///     e = (d - r_a x c, r_b - r_a),   2 U = e^T S e,   K = T^T S T  where  e = T u.
+/// Rigid motions cancel in e, before anything is multiplied by a stiffness. S and the mass of any beam are those
+/// of flexible_beam.hpp (shapes exact for static end loads). A straight uniform beam has them in closed form:
+///   S: EA/L, GJ/L, bending EI/L^3 [12, -6L; -6L, 4L^2];
+///   mass: in bending consistent with cubic (Hermite) shapes; in traction and torsion m L/12 [5 1; 1 5], the mean
+///   of the consistent and the lumped one, whose errors in frequency, (k h)^2/24 and its opposite, cancel.
+/// Source: Przemieniecki, Theory of Matrix Structural Analysis, sections 5.6 and 11.3. Limits: slender beams.
+/// Static deflections at nodes are exact. Frequencies of bending converge as h^4 from above; of traction and
+/// torsion as h^4 from below, -(k h)^4/480, along equal elements between ends that are free or held (lumped
+/// masses, springs, corners and changes of the element length leave an error of order 2).
 #pragma once
-#include "fem/model.hpp"
-#include <Eigen/Core>
+#include "fem/flexible_beam.hpp"
 
 namespace fretwork::fem {
 
-using Matrix12 = Eigen::Matrix<double, 12, 12>;
-using Vector12 = Eigen::Matrix<double, 12, 1>;
+class BeamElement {
+public:
+  /// @param middle  a point of the arc from a to b; none: straight
+  /// @throws core::Error for a beam of no length, a middle that is not between the ends, an orientation along
+  /// the beam, or a section with iy != iz without orientation
+  BeamElement(const Vec3& a, const Vec3& b, const BeamProperty& property,
+              const std::optional<Vec3>& middle = std::nullopt);
+  BeamElement(const Model& model, const Beam& beam);
 
-struct ElementMatrices {
-  Matrix12 stiffness; ///< N/m, N, N m
-  Matrix12 mass;      ///< kg, kg m, kg m2
+  [[nodiscard]] const BeamAxis& axis() const { return axis_; }
+  [[nodiscard]] Matrix12 stiffness() const; ///< N/m, N, N m
+  [[nodiscard]] Matrix12 mass() const;      ///< kg, kg m, kg m2
+
+  /// 2 U of an element displacement, J, from its deformation: the small energy of a fine mesh keeps its digits
+  /// (K u does not).
+  [[nodiscard]] double twice_strain_energy(const Vector12& displacement) const;
+  /// K u, likewise from the deformation.
+  [[nodiscard]] Vector12 elastic_force(const Vector12& displacement) const;
+
+  /// Displacement and rotation at the share (0 to 1) of the axis, of the dofs.
+  [[nodiscard]] Shapes shapes(double share) const;
+  /// Consistent forces and moments at the dofs of a uniform line force (N/m along the axis, global direction).
+  [[nodiscard]] Vector12 line_force(const Vec3& force_per_length) const;
+
+private:
+  /// e, in element axes.
+  [[nodiscard]] Eigen::Matrix<double, 6, 1> deformation(const Vector12& displacement) const;
+  [[nodiscard]] FlexibleBeam flexible() const { return {axis_, axes_, property_}; }
+
+  BeamProperty property_;
+  BeamAxis axis_;
+  Eigen::Matrix3d axes_; ///< rows x, y, z of the element
+  double chord_;         ///< m
+  Matrix6 stiffness_;    ///< S, element axes
 };
-
-/// What the element's matrices are made of.
-struct BeamConstants {
-  Eigen::Matrix3d axes;   ///< rows x, y, z in global axes
-  double length;          ///< m
-  double axial;           ///< E A, N
-  double torsion;         ///< G J, N m2
-  double bending_y;       ///< E Iy, N m2
-  double bending_z;       ///< E Iz, N m2
-  double mass_axial;      ///< kg/m
-  double mass_transverse; ///< kg/m
-  double polar_inertia;   ///< density times polar inertia, kg m
-};
-
-/// Rows: the unit vectors x (from a to b), y, z of the element in global axes. The y axis lies in the plane
-/// of x and `orientation`; without one, any section with iy = iz gives the same matrices and a fixed rule
-/// picks it.
-/// @throws core::Error for a beam of no length or an orientation along the beam
-[[nodiscard]] Eigen::Matrix3d beam_axes(const Vec3& a, const Vec3& b, const std::optional<Vec3>& orientation);
-
-/// @throws core::Error as beam_axes, and for a section with iy != iz without orientation
-[[nodiscard]] BeamConstants beam_constants(const Vec3& a, const Vec3& b, const BeamProperty& property);
-
-/// Stiffness and consistent mass, in global axes.
-[[nodiscard]] ElementMatrices beam_element(const BeamConstants& beam);
-[[nodiscard]] ElementMatrices beam_element(const Vec3& a, const Vec3& b, const BeamProperty& property);
-
-/// 2 U of an element displacement (global axes), J, from its strains: rigid motions cancel before anything is
-/// multiplied by a stiffness, so that the small energy of a fine mesh keeps its digits (K u does not).
-[[nodiscard]] double twice_strain_energy(const BeamConstants& beam, const Vector12& displacement);
-
-/// K u of an element, by its strains; global axes.
-[[nodiscard]] Vector12 elastic_force(const BeamConstants& beam, const Vector12& displacement);
 
 } // namespace fretwork::fem

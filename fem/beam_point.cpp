@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/beam_point.hpp"
 #include "core/error.hpp"
+#include "fem/beam_element.hpp"
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
@@ -11,11 +12,8 @@ constexpr double at_node = 1e-9; ///< of a beam's length
 
 const Vec3& place_of(const Model& model, Index node) { return model.nodes[static_cast<std::size_t>(node)]; }
 
-/// r x e as a matrix on r.
-Eigen::Matrix3d cross_with(const Vec3& e) {
-  Eigen::Matrix3d out;
-  out << 0.0, e.z(), -e.y(), -e.z(), 0.0, e.x(), e.y(), -e.x(), 0.0;
-  return out;
+BeamAxis axis_of(const Model& model, const Beam& beam) {
+  return {place_of(model, beam.a), place_of(model, beam.b), beam.middle};
 }
 
 Index far_end(const Beam& beam, Index node) { return beam.a == node ? beam.b : beam.a; }
@@ -29,12 +27,17 @@ std::vector<const Beam*> beams_at(const Model& model, Index node, const Beam* be
   return out;
 }
 
+/// The direction in which a beam leaves a node.
+Vec3 leaving(const Model& model, const Beam& beam, Index node) {
+  const Vec3 tangent = tangent_at(model, beam, node);
+  return beam.a == node ? tangent : Vec3(-tangent);
+}
+
 const Beam& first_beam(const Model& model, Index node, const Vec3& direction, const std::string& what) {
   const Beam* best = nullptr;
   double most = 0.0;
   for (const Beam* beam : beams_at(model, node, nullptr)) {
-    const double along =
-        (place_of(model, far_end(*beam, node)) - place_of(model, node)).normalized().dot(direction);
+    const double along = leaving(model, *beam, node).dot(direction);
     if (along > most) {
       most = along;
       best = beam;
@@ -49,6 +52,11 @@ const Beam& first_beam(const Model& model, Index node, const Vec3& direction, co
 
 } // namespace
 
+Vec3 tangent_at(const Model& model, const Beam& beam, Index node) {
+  const BeamAxis axis = axis_of(model, beam);
+  return axis.tangent(beam.a == node ? 0.0 : axis.length());
+}
+
 BeamPoint point_at(const Model& model, Index node) {
   Eigen::Matrix<double, 3, 6> weights = Eigen::Matrix<double, 3, 6>::Zero();
   weights.leftCols<3>().setIdentity();
@@ -56,16 +64,10 @@ BeamPoint point_at(const Model& model, Index node) {
 }
 
 BeamPoint point_on(const Model& model, const Beam& beam, double s) {
-  const Vec3 &a = place_of(model, beam.a), &b = place_of(model, beam.b);
-  const double length = (b - a).norm();
-  const Vec3 e = (b - a) / length;
-  const Eigen::Matrix3d along = e * e.transpose(), across = Eigen::Matrix3d::Identity() - along;
-  const Eigen::Matrix3d turn = cross_with(e);
-  const double h_b = s * s * (3.0 - 2.0 * s);
-  Eigen::Matrix<double, 3, 6> of_a, of_b;
-  of_a << (1.0 - s) * along + (1.0 - h_b) * across, length * s * (1.0 - s) * (1.0 - s) * turn;
-  of_b << s * along + h_b * across, length * s * s * (s - 1.0) * turn;
-  return {a + s * (b - a), {{beam.a, of_a}, {beam.b, of_b}}};
+  const BeamElement element(model, beam);
+  const Eigen::Matrix<double, 3, 12> moved = element.shapes(s).topRows<3>();
+  return {element.axis().point(s * element.axis().length()),
+          {{beam.a, moved.leftCols<6>()}, {beam.b, moved.rightCols<6>()}}};
 }
 
 BeamPoint point_along(const Model& model, Index node, const Vec3& direction, double distance,
@@ -76,7 +78,7 @@ BeamPoint point_along(const Model& model, Index node, const Vec3& direction, dou
   double walked = 0.0;
   while (true) {
     const Index end = far_end(*beam, node);
-    const double length = (place_of(model, end) - place_of(model, node)).norm();
+    const double length = axis_of(model, *beam).length();
     const double s = (distance - walked) / length;
     if (s < 1.0 - at_node)
       return s < at_node ? point_at(model, node) : point_on(model, *beam, beam->a == node ? s : 1.0 - s);

@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Points of beams between nodes: how the nodes move them.
-///
-/// At x = s L of the beam from a to b, unit vector e, with the shapes of beam_element.hpp (axial displacement
-/// linear, bending cubic), P = e e^T, Q = I - P:
-///     u = (N_a P + H_a Q) u_a + (N_b P + H_b Q) u_b + G_a (r_a x e) + G_b (r_b x e)
-///     N_a = 1 - s,  N_b = s,  H_a = 1 - 3 s^2 + 2 s^3,  H_b = 3 s^2 - 2 s^3,
-///     G_a = L (s - 2 s^2 + s^3),  G_b = L (s^3 - s^2)
-/// which does not depend on how the section's axes lie.
+/// Points of beams between nodes: how the nodes move them, by the shapes of the element (flexible_beam.hpp).
 #pragma once
 #include "fem/model.hpp"
 #include <Eigen/Core>
@@ -26,6 +19,9 @@ struct BeamPoint {
 };
 
 [[nodiscard]] BeamPoint point_at(const Model& model, Index node);
+
+/// The direction of a beam, from its a to its b, at one of its nodes (unit vector).
+[[nodiscard]] Vec3 tangent_at(const Model& model, const Beam& beam, Index node);
 
 /// The point at the share s (0 to 1) of a beam.
 [[nodiscard]] BeamPoint point_on(const Model& model, const Beam& beam, double s);

@@ -9,14 +9,6 @@
 namespace fretwork::fem {
 namespace {
 
-const Vec3& node_at(const Model& model, Index node) { return model.nodes[static_cast<std::size_t>(node)]; }
-
-BeamConstants constants_of(const Model& model, Index number) {
-  const Beam& beam = model.beams[static_cast<std::size_t>(number)];
-  return beam_constants(node_at(model, beam.a), node_at(model, beam.b),
-                        model.properties[static_cast<std::size_t>(beam.property)]);
-}
-
 /// The parts a field acts on, and where the six rows of a node are.
 struct Whole {
   explicit Whole(const Model& m)
@@ -57,7 +49,7 @@ Eigen::MatrixXd apply_mass(const Model& model, const Domain& domain, const Eigen
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(fields.rows(), fields.cols());
   for (const Index number : domain.beams) {
     const Beam& beam = model.beams[static_cast<std::size_t>(number)];
-    const Matrix12 m = beam_element(constants_of(model, number)).mass;
+    const Matrix12 m = BeamElement(model, beam).mass();
     const Eigen::Index a = domain.row(beam.a), b = domain.row(beam.b);
     for (Eigen::Index j = 0; j < fields.cols(); ++j) {
       const Vector12 f = m * gather(fields.col(j), a, b);
@@ -79,10 +71,10 @@ Eigen::MatrixXd apply_stiffness(const Model& model, const Domain& domain, const 
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(fields.rows(), fields.cols());
   for (const Index number : domain.beams) {
     const Beam& beam = model.beams[static_cast<std::size_t>(number)];
-    const BeamConstants constants = constants_of(model, number);
+    const BeamElement element(model, beam);
     const Eigen::Index a = domain.row(beam.a), b = domain.row(beam.b);
     for (Eigen::Index j = 0; j < fields.cols(); ++j) {
-      const Vector12 f = elastic_force(constants, gather(fields.col(j), a, b));
+      const Vector12 f = element.elastic_force(gather(fields.col(j), a, b));
       result.col(j).segment<6>(a) += f.head<6>();
       result.col(j).segment<6>(b) += f.tail<6>();
     }
@@ -131,10 +123,10 @@ Eigen::VectorXd twice_strain_energy(const Model& model, const Structure& structu
   Eigen::VectorXd energy = Eigen::VectorXd::Zero(fields.cols());
   for (const Index number : part.beams) {
     const Beam& beam = model.beams[static_cast<std::size_t>(number)];
-    const BeamConstants constants = constants_of(model, number);
+    const BeamElement element(model, beam);
     const Eigen::Index a = part.row(beam.a), b = part.row(beam.b);
     for (Eigen::Index j = 0; j < fields.cols(); ++j)
-      energy[j] += fem::twice_strain_energy(constants, gather(fields.col(j), a, b));
+      energy[j] += element.twice_strain_energy(gather(fields.col(j), a, b));
   }
   for (const Index number : part.springs) {
     const Spring& spring = model.springs[static_cast<std::size_t>(number)];
@@ -154,7 +146,7 @@ Eigen::VectorXd stiffness_diagonal(const Model& model, const Structure& structur
   Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(part.rows);
   for (const Index number : part.beams) {
     const Beam& beam = model.beams[static_cast<std::size_t>(number)];
-    const Vector12 k = beam_element(constants_of(model, number)).stiffness.diagonal();
+    const Vector12 k = BeamElement(model, beam).stiffness().diagonal();
     diagonal.segment<6>(part.row(beam.a)) += k.head<6>();
     diagonal.segment<6>(part.row(beam.b)) += k.tail<6>();
   }
@@ -187,13 +179,9 @@ Eigen::VectorXd line_forces(const Model& model, std::span<const Index> beams, co
   Eigen::VectorXd field = Eigen::VectorXd::Zero(Whole(model).rows);
   for (const Index number : beams) {
     const Beam& beam = model.beams[static_cast<std::size_t>(number)];
-    const Vec3 span = node_at(model, beam.b) - node_at(model, beam.a);
-    const Vec3 half = 0.5 * span.norm() * force_per_length;
-    const Vec3 moment = span.norm() / 12.0 * span.cross(force_per_length);
-    field.segment<3>(Whole::row(beam.a)) += half;
-    field.segment<3>(Whole::row(beam.b)) += half;
-    field.segment<3>(Whole::row(beam.a) + 3) += moment;
-    field.segment<3>(Whole::row(beam.b) + 3) -= moment;
+    const Vector12 force = BeamElement(model, beam).line_force(force_per_length);
+    field.segment<6>(Whole::row(beam.a)) += force.head<6>();
+    field.segment<6>(Whole::row(beam.b)) += force.tail<6>();
   }
   return field;
 }

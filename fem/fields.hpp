@@ -37,8 +37,8 @@ namespace fretwork::fem {
 [[nodiscard]] Eigen::VectorXd point_forces(const Model& model, std::span<const Index> nodes,
                                            const Vec3& value, bool moment);
 
-/// Consistent nodal forces of a uniform line force (N/m, global direction) on the beams: f L / 2 at each end,
-/// and the end moments L^2 / 12 x cross f at a, its opposite at b.
+/// Consistent nodal forces and moments of a uniform line force (N/m of their axes, global direction) on the
+/// beams.
 /// @param beams numbers in model.beams
 [[nodiscard]] Eigen::VectorXd line_forces(const Model& model, std::span<const Index> beams,
                                           const Vec3& force_per_length);

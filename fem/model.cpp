@@ -72,13 +72,13 @@ Diagonals diagonals(const Model& model) {
   Diagonals d{std::vector<double>(nodes * dofs_per_node), std::vector<double>(nodes * dofs_per_node),
               std::vector<std::uint8_t>(nodes)};
   for (const Beam& beam : model.beams) {
-    const ElementMatrices e =
-        beam_element(node_at(model, beam.a), node_at(model, beam.b), property_of(model, beam));
+    const BeamElement element(model, beam);
+    const Vector12 mass = element.mass().diagonal(), stiffness = element.stiffness().diagonal();
     for (int i = 0; i < 2 * dofs_per_node; ++i) {
       const auto node = static_cast<std::size_t>(i < dofs_per_node ? beam.a : beam.b);
       const std::size_t row = node * dofs_per_node + static_cast<std::size_t>(i % dofs_per_node);
-      d.mass[row] += e.mass(i, i);
-      d.stiffness[row] += e.stiffness(i, i);
+      d.mass[row] += mass[i];
+      d.stiffness[row] += stiffness[i];
       d.has_beam[node] = 1;
     }
   }
@@ -163,7 +163,7 @@ double total_mass(const Model& model) {
   for (const Beam& beam : model.beams) {
     const BeamProperty& p = property_of(model, beam);
     sum += (p.material.density * p.section.area + p.added_mass) *
-           (node_at(model, beam.b) - node_at(model, beam.a)).norm();
+           BeamAxis(node_at(model, beam.a), node_at(model, beam.b), beam.middle).length();
   }
   for (const LumpedMass& m : model.masses)
     sum += m.mass;

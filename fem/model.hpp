@@ -47,10 +47,12 @@ struct BeamProperty {
       std::nullopt; ///< a vector in the local x-y plane; required where iy != iz
 };
 
-/// A straight two-node beam between nodes a and b.
+/// A beam between nodes a and b: straight, or along the arc of a circle through a third point, which is no
+/// node.
 struct Beam {
   Index a, b;
   Index property;
+  std::optional<Vec3> middle = std::nullopt; ///< on the arc, between its ends
 };
 
 /// A rigid body at a node.

@@ -81,13 +81,13 @@ private:
     const std::array<Index, 2> ends{position_of(structure_, beam.a), position_of(structure_, beam.b)};
     if (!owns(ends[0]) && !owns(ends[1]))
       return;
-    const ElementMatrices e = beam_element(at(model_.nodes, beam.a), at(model_.nodes, beam.b),
-                                           at(model_.properties, beam.property));
+    const BeamElement element(model_, beam);
+    const Matrix12 stiffness = element.stiffness(), mass = element.mass();
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2 && owns(ends[static_cast<std::size_t>(i)]); ++j) {
         const std::size_t where = block(ends[static_cast<std::size_t>(i)], ends[static_cast<std::size_t>(j)]);
-        blocks_.stiffness[where] += e.stiffness.block<6, 6>(6 * i, 6 * j);
-        blocks_.mass[where] += e.mass.block<6, 6>(6 * i, 6 * j);
+        blocks_.stiffness[where] += stiffness.block<6, 6>(6 * i, 6 * j);
+        blocks_.mass[where] += mass.block<6, 6>(6 * i, 6 * j);
       }
   }
 

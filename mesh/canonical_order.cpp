@@ -43,7 +43,7 @@ std::vector<Index> node_ranks(std::span<const Vec3> nodes, std::span<const Index
 /// One pass from the lines to the ordered chains.
 class Walker {
 public:
-  Walker(std::span<const Vec3> nodes, std::span<const Line> lines, const Labels& labels)
+  Walker(std::span<const Vec3> nodes, std::span<const RawLine> lines, const Labels& labels)
       : lines_(lines), labels_(labels), rank_(node_ranks(nodes, labels.of_node)), walked_(lines.size(), 0) {
     list_incident(nodes.size());
   }
@@ -63,7 +63,7 @@ private:
   void find_chains();
   void sort_by_structure();
 
-  std::span<const Line> lines_;
+  std::span<const RawLine> lines_;
   const Labels& labels_;
   std::vector<Index> rank_;
   std::vector<char> walked_;
@@ -73,7 +73,7 @@ private:
 
 void Walker::list_incident(std::size_t node_count) {
   first_.assign(node_count + 1, 0);
-  for (const Line& line : lines_)
+  for (const RawLine& line : lines_)
     for (const Index node : line.nodes)
       ++first_[node + 1];
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
@@ -240,7 +240,7 @@ Labels group_labels(const RawMesh& mesh) {
   return labels;
 }
 
-CanonicalOrder canonical_order(std::span<const Vec3> nodes, std::span<const Line> lines,
+CanonicalOrder canonical_order(std::span<const Vec3> nodes, std::span<const RawLine> lines,
                                const Labels& labels) {
   assert(labels.of_node.size() == nodes.size() && labels.of_line.size() == lines.size());
   return Walker(nodes, lines, labels).order();

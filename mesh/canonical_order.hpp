@@ -44,7 +44,7 @@ struct Labels {
 /// @param nodes   positions, finite
 /// @param lines   each with two different ends
 /// @param labels  as many as nodes and lines
-[[nodiscard]] CanonicalOrder canonical_order(std::span<const Vec3> nodes, std::span<const Line> lines,
+[[nodiscard]] CanonicalOrder canonical_order(std::span<const Vec3> nodes, std::span<const RawLine> lines,
                                              const Labels& labels);
 
 } // namespace fretwork::mesh

@@ -62,6 +62,10 @@ void mesh_geometry(const Source& source, const fs::path& msh_file) {
     arguments.emplace_back("--size");
     arguments.push_back(fmt::format("{}", *source.element_size / source.scale));
   }
+  if (source.order) {
+    arguments.emplace_back("--order");
+    arguments.push_back(fmt::format("{}", *source.order));
+  }
   const core::ChildResult child = core::run_child(arguments);
   if (child.status == not_started)
     throw core::Error(fmt::format("{} cannot be started: {}", arguments[0], trimmed(child.output)));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// fretwork-geometry GEOMETRY MSH [--size S]: mesh the curves of a geometry by gmsh and write .msh 4.1,
+/// fretwork-geometry GEOMETRY MSH [--size S] [--order N]: mesh the curves of a geometry by gmsh and write .msh 4.1,
 /// binary. A program of its own, so that gmsh (slow to load, and able to crash on a bad file) stays out of
 /// the main program.
 ///
 /// - Curves are meshed with the sizes of the file, or with elements of about S (units of the file) where S is
 /// given;
-///   Transfinite Curve keeps its count. Order 2 stays where a .geo asks for it (Mesh.ElementOrder = 2).
+///   Transfinite Curve keeps its count. Lines are of order N, or of that which a .geo asks for (Mesh.ElementOrder, by default 1).
 /// - STEP: units become metres (the file says which it has). Curves that meet come disconnected and are
 /// joined, here and in BREP.
 ///   Neither format has named groups: a .geo that merges it (Merge "tube.step"; Coherence; Physical
@@ -27,20 +27,29 @@ namespace {
 struct Options {
   std::string geometry, msh;
   double size = 0.0; ///< 0: the sizes of the file
+  int order = 0;     ///< 0: the order of the file
 };
 
 constexpr int status_wrong_use = 2;
-constexpr const char* usage = "usage: fretwork-geometry GEOMETRY MSH [--size S]\n";
+constexpr const char* usage = "usage: fretwork-geometry GEOMETRY MSH [--size S] [--order 1|2]\n";
 
 bool parse(int argc, char** argv, Options& options) {
-  if (argc != 3 && argc != 5)
+  if (argc < 3 || argc % 2 == 0)
     return false;
   options.geometry = argv[1];
   options.msh = argv[2];
-  if (argc == 5) {
+  for (int i = 3; i < argc; i += 2) {
+    const std::string name = argv[i];
     char* end = nullptr;
-    options.size = std::strtod(argv[4], &end);
-    return std::string(argv[3]) == "--size" && *end == '\0' && options.size > 0.0;
+    const double value = std::strtod(argv[i + 1], &end);
+    if (*end != '\0')
+      return false;
+    if (name == "--size" && value > 0.0)
+      options.size = value;
+    else if (name == "--order" && (value == 1.0 || value == 2.0))
+      options.order = static_cast<int>(value);
+    else
+      return false;
   }
   return true;
 }
@@ -68,6 +77,8 @@ void mesh_curves(const Options& options) {
     gmsh::option::setNumber("Mesh.CharacteristicLengthMin", options.size);
     gmsh::option::setNumber("Mesh.CharacteristicLengthMax", options.size);
   }
+  if (options.order > 0)
+    gmsh::option::setNumber("Mesh.ElementOrder", options.order);
   gmsh::model::mesh::generate(1);
   if (exchange)
     gmsh::model::mesh::removeDuplicateNodes();

@@ -37,8 +37,6 @@ std::vector<Index> group_nodes(const LineMesh& mesh, const std::string& group, c
     for (const Index i : curve->second) {
       const Line& line = mesh.lines[i];
       nodes.insert(nodes.end(), line.nodes.begin(), line.nodes.end());
-      if (line.middle >= 0)
-        nodes.push_back(line.middle);
     }
   if (nodes.empty())
     fail_empty(group, what);

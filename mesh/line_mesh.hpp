@@ -5,6 +5,7 @@
 #include "core/types.hpp"
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,10 @@ namespace fretwork::mesh {
 using core::Index;
 using core::Vec3;
 
-/// A line element: two ends and, for order 2, a node between them (-1 without).
+/// A line element: straight, or (order 2) an arc through a third place between its ends, which is no node.
 struct Line {
   std::array<Index, 2> nodes;
-  Index middle = -1;
+  std::optional<Vec3> middle = std::nullopt; ///< m
 };
 
 /// Two nodes at the same place that were left apart (it is legal: two structures in contact, a beam folded on
@@ -42,7 +43,7 @@ struct LineMesh {
 /// The names of all groups, points first, each sorted; a name that points and curves share appears once.
 [[nodiscard]] std::vector<std::string> group_names(const LineMesh& mesh);
 
-/// The nodes of a named point or curve (middle nodes included), in walking order; of both where both have the
+/// The nodes of a named point or curve, in walking order; of both where both have the
 /// name.
 /// @throws core::Error if there is no such group (lists those that exist and the nearest name) or it is
 /// empty; `what` names

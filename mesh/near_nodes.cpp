@@ -131,7 +131,7 @@ std::size_t merge_nodes(RawMesh& mesh, double tolerance) {
   const auto moved = [&](Index node) { return node < 0 ? node : chosen[sets.root(node)]; };
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
     merged += moved(static_cast<Index>(i)) != static_cast<Index>(i) ? 1 : 0;
-  for (Line& line : mesh.lines)
+  for (RawLine& line : mesh.lines)
     line = {{moved(line.nodes[0]), moved(line.nodes[1])}, moved(line.middle)};
   for (auto& [name, nodes] : mesh.points)
     std::transform(nodes.begin(), nodes.end(), nodes.begin(), moved);

@@ -51,6 +51,8 @@ void check_source(const Source& source) {
   if (source.element_size && !positive(*source.element_size))
     throw core::Error(
         fmt::format("{}: element_size = {} m must be a length > 0", file, *source.element_size));
+  if (source.order && *source.order != 1 && *source.order != 2)
+    throw core::Error(fmt::format("{}: order = {} must be 1 or 2", file, *source.order));
   if (!fs::exists(source.file))
     throw core::Error(fmt::format("{}: the mesh file does not exist", file));
   if (fs::is_directory(source.file))
@@ -107,7 +109,7 @@ std::size_t drop_orphans(RawMesh& mesh) {
     if (node >= 0)
       number[node] = 0;
   };
-  for (const Line& line : mesh.lines) {
+  for (const RawLine& line : mesh.lines) {
     use(line.nodes[0]);
     use(line.nodes[1]);
     use(line.middle);
@@ -122,7 +124,7 @@ std::size_t drop_orphans(RawMesh& mesh) {
     }
   const std::size_t dropped = mesh.nodes.size() - kept;
   mesh.nodes.resize(kept);
-  for (Line& line : mesh.lines)
+  for (RawLine& line : mesh.lines)
     line = {{number[line.nodes[0]], number[line.nodes[1]]}, line.middle < 0 ? -1 : number[line.middle]};
   for (auto& [name, nodes] : mesh.points)
     for (Index& node : nodes)
@@ -152,22 +154,69 @@ Groups renumbered(const Groups& groups, const std::vector<Index>& new_number) {
   return result;
 }
 
-std::vector<Index> inverse(const std::vector<Index>& old_number) {
-  std::vector<Index> result(old_number.size());
+/// -1 for what has no new number.
+std::vector<Index> inverse(const std::vector<Index>& old_number, std::size_t old_count) {
+  std::vector<Index> result(old_count, -1);
   for (std::size_t i = 0; i < old_number.size(); ++i)
     result[old_number[i]] = static_cast<Index>(i);
   return result;
 }
 
+/// Every line of order 2 by two straight ones.
+void straighten(RawMesh& mesh) {
+  std::vector<Index> second(mesh.lines.size(), -1);
+  for (std::size_t i = 0; i < second.size(); ++i) {
+    const RawLine line = mesh.lines[i];
+    if (line.middle < 0)
+      continue;
+    second[i] = static_cast<Index>(mesh.lines.size());
+    mesh.lines[i] = {{line.nodes[0], line.middle}};
+    mesh.lines.push_back({{line.middle, line.nodes[1]}});
+  }
+  for (auto& [name, lines] : mesh.curves)
+    for (std::size_t i = 0, count = lines.size(); i < count; ++i)
+      if (const Index added = second[lines[i]]; added >= 0)
+        lines.push_back(added);
+}
+
+/// 1 for the middle nodes, which only say where a line passes.
+std::vector<char> middle_nodes(const RawMesh& mesh) {
+  std::vector<char> middle(mesh.nodes.size(), 0);
+  for (const RawLine& line : mesh.lines)
+    if (line.middle >= 0)
+      middle[line.middle] = 1;
+  const auto check = [&](Index node, const std::string& what) {
+    if (!middle[node])
+      return;
+    const Vec3& x = mesh.nodes[node];
+    throw core::Error(fmt::format(
+        "{} at ({:.6g}, {:.6g}, {:.6g}) is the middle of a line of order 2, which only says where the "
+        "line passes; mesh so that it is an end of lines, or set [mesh] order = 1",
+        what, x.x(), x.y(), x.z()));
+  };
+  for (const auto& [name, nodes] : mesh.points)
+    for (const Index node : nodes)
+      check(node, "the point \"" + name + "\"");
+  for (std::size_t i = 0; i < mesh.lines.size(); ++i)
+    for (const Index node : mesh.lines[i].nodes)
+      check(node, "the end of " + describe_line(mesh, static_cast<Index>(i)));
+  return middle;
+}
+
 LineMesh ordered(const RawMesh& raw) {
-  const CanonicalOrder order = canonical_order(raw.nodes, raw.lines, group_labels(raw));
-  const std::vector<Index> new_node = inverse(order.nodes), new_line = inverse(order.lines);
+  const std::vector<char> middle = middle_nodes(raw);
+  CanonicalOrder order = canonical_order(raw.nodes, raw.lines, group_labels(raw));
+  std::erase_if(order.nodes, [&](Index node) { return middle[node] != 0; });
+  const std::vector<Index> new_node = inverse(order.nodes, raw.nodes.size()),
+                           new_line = inverse(order.lines, raw.lines.size());
   LineMesh mesh;
   for (const Index old : order.nodes)
     mesh.nodes.push_back(raw.nodes[old]);
   for (std::size_t i = 0; i < order.lines.size(); ++i) {
-    const Line& old = raw.lines[order.lines[i]];
-    Line line{{new_node[old.nodes[0]], new_node[old.nodes[1]]}, old.middle < 0 ? -1 : new_node[old.middle]};
+    const RawLine& old = raw.lines[order.lines[i]];
+    Line line{{new_node[old.nodes[0]], new_node[old.nodes[1]]}};
+    if (old.middle >= 0)
+      line.middle = raw.nodes[old.middle];
     if (order.reversed[i])
       std::swap(line.nodes[0], line.nodes[1]);
     mesh.lines.push_back(line);
@@ -189,6 +238,12 @@ LineMesh prepared(RawMesh raw, const Source& source) {
     merged = merge_nodes(raw, source.merge_tolerance);
     drop_orphans(raw); // the nodes that went by merging
   }
+  if (source.order == 1)
+    straighten(raw);
+  const auto curved = [](const RawLine& line) { return line.middle >= 0; };
+  if (source.order == 2 && !std::any_of(raw.lines.begin(), raw.lines.end(), curved))
+    throw core::Error("order = 2, but the file has lines of order 1 only; mesh it with order 2 (gmsh: "
+                      "Mesh.ElementOrder = 2), or leave order out");
   LineMesh mesh = ordered(raw);
   mesh.dropped_nodes = dropped;
   mesh.merged_nodes = merged;

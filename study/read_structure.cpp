@@ -95,10 +95,15 @@ bool needs_orientation(const fem::Section& section) {
 
 mesh::Source read_mesh(const TableReader& root, const std::filesystem::path& folder) {
   const TableReader table(root.required("mesh", "a table [mesh] with the key file"), "mesh",
-                          {{"file", "element_size", "scale", "merge_tolerance"}});
+                          {{"file", "element_size", "order", "scale", "merge_tolerance"}});
   mesh::Source source;
   source.file = (folder / table.text("file", "the path of a mesh or a geometry")).lexically_normal();
   source.element_size = table.optional_number("element_size", {above_zero, "m"});
+  if (const auto order = table.optional_integer("order", 1)) {
+    if (*order > 2)
+      table.fail_at("order", "1 (straight elements) or 2 (arcs) is expected");
+    source.order = static_cast<int>(*order);
+  }
   source.scale = table.number_or("scale", 1.0, {above_zero});
   source.merge_tolerance = table.number_or("merge_tolerance", 0.0, {at_least_zero, "m"});
   return source;

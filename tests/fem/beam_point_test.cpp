@@ -17,6 +17,7 @@ Model chain() {
   Model model;
   for (const double x : {0.0, 0.4, 0.7, 1.5, 1.9})
     model.nodes.push_back(Vec3(0.1, 0.2, 0.3) + x * axis);
+  model.properties = {{{2e11, 0.3, 7800.0}, {1e-3, 2e-7, 2e-7, 4e-7, 4e-7}}};
   model.beams = {{0, 1, 0}, {2, 1, 0}, {2, 3, 0}, {4, 3, 0}};
   model.fixed.assign(model.nodes.size(), 0);
   return model;
@@ -63,11 +64,12 @@ TEST(BeamPoint, MovesAsANodeThereWithoutLoad) {
   const Vec3 a(0.1, 0.2, 0.3), b = a + 1.7 * axis;
   Model model;
   model.nodes = {a, b};
+  model.properties = {property};
   const Vector12 ends = (Vector12() << 1, 2, -1, 0.3, 0.2, -0.5, -2, 0.5, 1, 0.7, -0.1, 0.4).finished();
   for (const double s : {0.2, 0.5, 0.8}) {
     const Vec3 middle = a + s * (b - a);
-    const Matrix12 left = beam_element(a, middle, property).stiffness;
-    const Matrix12 right = beam_element(middle, b, property).stiffness;
+    const Matrix12 left = BeamElement(a, middle, property).stiffness();
+    const Matrix12 right = BeamElement(middle, b, property).stiffness();
     const Eigen::Matrix<double, 6, 6> own = left.bottomRightCorner<6, 6>() + right.topLeftCorner<6, 6>();
     const Six force =
         left.bottomLeftCorner<6, 6>() * ends.head<6>() + right.topRightCorner<6, 6>() * ends.tail<6>();

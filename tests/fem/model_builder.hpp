@@ -80,6 +80,18 @@ struct ModelBuilder {
     }
     return chain(points, number, from);
   }
+
+  /// The same with n arcs.
+  std::vector<Index> arcs_from(Index from, const Vec3& centre, const Vec3& u, const Vec3& v, double t0,
+                               double t1, int n, Index number) {
+    const std::size_t first = model.beams.size();
+    const auto nodes = arc_from(from, centre, u, v, t0, t1, n, number);
+    for (int i = 0; i < n; ++i) {
+      const double t = t0 + (t1 - t0) * (i + 0.5) / n;
+      model.beams[first + static_cast<std::size_t>(i)].middle = centre + u * std::cos(t) + v * std::sin(t);
+    }
+    return nodes;
+  }
 };
 
 /// A steam generator tube: 19.05 x 1.09 mm.

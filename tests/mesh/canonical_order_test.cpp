@@ -98,8 +98,8 @@ RawMesh shuffled(const RawMesh& mesh, unsigned seed) {
   for (std::size_t i = 0; i < node.size(); ++i)
     out.nodes[node[i]] = mesh.nodes[i];
   for (std::size_t i = 0; i < line.size(); ++i) {
-    const Line& old = mesh.lines[i];
-    Line& moved = out.lines[line[i]];
+    const RawLine& old = mesh.lines[i];
+    RawLine& moved = out.lines[line[i]];
     moved = {{node[old.nodes[0]], node[old.nodes[1]]}, old.middle < 0 ? -1 : node[old.middle]};
     if (engine() % 2 == 0)
       std::swap(moved.nodes[0], moved.nodes[1]);
@@ -211,7 +211,7 @@ TEST(CanonicalOrder, GivesNeighboursOfAChainNeighbouringNumbers) {
   std::vector<Index> number(order.nodes.size());
   for (std::size_t i = 0; i < order.nodes.size(); ++i)
     number[order.nodes[i]] = static_cast<Index>(i);
-  for (const Line& line : mesh.lines)
+  for (const RawLine& line : mesh.lines)
     EXPECT_EQ(std::abs(number[line.nodes[0]] - number[line.nodes[1]]), 1);
 }
 

@@ -5,11 +5,11 @@
 namespace fretwork::mesh::test {
 namespace {
 
-/// Nodes 0-1-2-3 in a row; line 1 (from 1 to 2) has the middle node 4.
+/// Nodes 0-1-2-3 in a row; line 1 (from 1 to 2) is an arc; node 4 is alone.
 LineMesh three_lines() {
   LineMesh mesh;
   mesh.nodes.assign(5, Vec3::Zero());
-  mesh.lines = {{{0, 1}, -1}, {{1, 2}, 4}, {{2, 3}, -1}};
+  mesh.lines = {{{0, 1}}, {{1, 2}, Vec3(1, 1, 0)}, {{2, 3}}};
   mesh.points = {{"end", {3}}, {"shared", {0}}, {"nothing", {}}};
   mesh.curves = {{"tube", {0, 1}}, {"shared", {2}}, {"void", {}}};
   return mesh;
@@ -20,8 +20,8 @@ TEST(GroupNames, AreUniqueAndSortedPointsFirst) {
             (std::vector<std::string>{"end", "nothing", "shared", "tube", "void"}));
 }
 
-TEST(GroupNodes, OfACurveIncludeMiddleNodesOnce) {
-  EXPECT_EQ(group_nodes(three_lines(), "tube", "a"), (std::vector<Index>{0, 1, 2, 4}));
+TEST(GroupNodes, OfACurveAreTheEndsOfItsLinesOnce) {
+  EXPECT_EQ(group_nodes(three_lines(), "tube", "a"), (std::vector<Index>{0, 1, 2}));
 }
 
 TEST(GroupNodes, OfANameOfPointAndCurveAreThoseOfBoth) {

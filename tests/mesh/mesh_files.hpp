@@ -61,8 +61,9 @@ inline ::testing::AssertionResult same_mesh(const LineMesh& a, const LineMesh& b
   const auto near = [&](const Vec3& x, const Vec3& y) { return (x - y).norm() <= tolerance; };
   if (!std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(), near))
     return fail("nodes");
-  const auto same_line = [](const Line& s, const Line& t) {
-    return s.nodes == t.nodes && s.middle == t.middle;
+  const auto same_line = [&](const Line& s, const Line& t) {
+    return s.nodes == t.nodes && s.middle.has_value() == t.middle.has_value() &&
+           (!s.middle || near(*s.middle, *t.middle));
   };
   if (!std::equal(a.lines.begin(), a.lines.end(), b.lines.begin(), b.lines.end(), same_line))
     return fail("lines");

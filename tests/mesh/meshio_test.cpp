@@ -86,7 +86,7 @@ meshio.Mesh(x[:, :2], [("line3", np.array([[0, 2, 1]])), ("triangle", np.array([
             cell_data={"gmsh:physical": [np.array([12]), np.array([3])]}).write(sys.argv[1])
 )");
   ASSERT_EQ(mesh.lines.size(), 1u);
-  EXPECT_EQ(mesh.nodes[mesh.lines[0].middle], Vec3(0.1, 0, 0));
+  EXPECT_EQ(mesh.lines[0].middle, Vec3(0.1, 0, 0));
   EXPECT_TRUE(mesh.curves.contains("12"));
   EXPECT_EQ(mesh.ignored_elements, 1u);
 }

@@ -69,6 +69,29 @@ TEST_F(Read, KnowsGeometriesByTheirEnding) {
     EXPECT_FALSE(is_geometry(name)) << name;
 }
 
+/// An arc 1-2 through 3 and a line 2-4.
+const std::string arc_and_line = msh22("1 1 \"tube\"\n0 2 \"end\"\n", "1 0 0 0\n2 2 0 0\n3 1 1 0\n4 3 0 0\n",
+                                       "8 1 1 2 3\n1 1 2 4\n15 2 4\n");
+
+TEST_F(Read, KeepsTheMiddleOfAnArcAsAPlace) {
+  const LineMesh mesh = read_text(arc_and_line);
+  EXPECT_EQ(mesh.nodes, (std::vector<Vec3>{{0, 0, 0}, {2, 0, 0}, {3, 0, 0}}));
+  ASSERT_EQ(mesh.lines.size(), 2u);
+  EXPECT_EQ(mesh.lines[0].middle, Vec3(1, 1, 0));
+  EXPECT_FALSE(mesh.lines[1].middle);
+  EXPECT_EQ(mesh.points.at("end"), std::vector<Index>{2});
+  EXPECT_EQ(mesh.dropped_nodes, 0u);
+}
+
+TEST_F(Read, MakesTwoLinesOfAnArcWhereOrderOneIsWanted) {
+  const LineMesh mesh = read({.file = write("a.msh", arc_and_line), .order = 1});
+  EXPECT_EQ(mesh.nodes, (std::vector<Vec3>{{0, 0, 0}, {1, 1, 0}, {2, 0, 0}, {3, 0, 0}}));
+  ASSERT_EQ(mesh.lines.size(), 3u);
+  EXPECT_EQ(mesh.curves.at("tube"), (std::vector<Index>{0, 1, 2}));
+  for (const Line& line : mesh.lines)
+    EXPECT_FALSE(line.middle);
+}
+
 class ReadErrors : public MeshFiles {
 protected:
   [[nodiscard]] static std::string message(const Source& source) {
@@ -94,6 +117,19 @@ TEST_F(ReadErrors, RefuseImpossibleValues) {
       says(message({.file = file, .merge_tolerance = -1.0}), "merge_tolerance = -1 m must be a length >= 0"));
   EXPECT_TRUE(says(message({.file = file, .element_size = 0.0}), "element_size = 0 m must be a length > 0"));
   EXPECT_TRUE(says(message({.file = file, .element_size = 0.1}), "element_size is for geometries"));
+}
+
+TEST_F(ReadErrors, RefuseAMiddleThatIsMoreThanAPlace) {
+  const std::string nodes = "1 0 0 0\n2 2 0 0\n3 1 1 0\n4 3 0 0\n";
+  EXPECT_TRUE(says(message_for(msh22("0 2 \"end\"\n", nodes, "8 1 1 2 3\n15 2 3\n")),
+                   "the point \"end\" at (1, 1, 0) is the middle of a line of order 2"));
+  EXPECT_TRUE(says(message_for(msh22("", nodes, "8 1 1 2 3\n1 1 3 4\n")), "set [mesh] order = 1"));
+}
+
+TEST_F(ReadErrors, RefuseAnOrderThatTheFileDoesNotHave) {
+  const fs::path file = write("a.msh", two_lines);
+  EXPECT_TRUE(says(message({.file = file, .order = 2}), "order = 2, but the file has lines of order 1 only"));
+  EXPECT_TRUE(says(message({.file = file, .order = 3}), "order = 3 must be 1 or 2"));
 }
 
 TEST_F(ReadErrors, TellWhatAMeshLacks) {
@@ -154,13 +190,26 @@ TEST_F(Geometry, KeepsOrderTwo) {
             .element_size = 100.0});
   int on_circle = 0;
   for (const Line& line : mesh.lines) {
-    ASSERT_GE(line.middle, 0);
+    ASSERT_TRUE(line.middle);
     if (mesh.nodes[line.nodes[0]].y() < 999 && mesh.nodes[line.nodes[1]].y() < 1000.5) {
-      EXPECT_NEAR(mesh.nodes[line.middle].norm(), 1000.0, 1000.0 * mesher_tolerance);
+      EXPECT_NEAR(line.middle->norm(), 1000.0, 1000.0 * mesher_tolerance);
       ++on_circle;
     }
   }
   EXPECT_GE(on_circle, 15);
+  EXPECT_EQ(mesh.nodes.size(), mesh.lines.size() + 1) << "middles are no nodes";
+}
+
+TEST_F(Geometry, IsMeshedWithTheOrderAskedFor) {
+  const fs::path file = write("a.geo", quarter_circle);
+  const LineMesh arcs = read({.file = file, .element_size = 100.0, .order = 2});
+  const LineMesh lines = read({.file = file, .element_size = 100.0, .order = 1});
+  ASSERT_EQ(arcs.lines.size(), lines.lines.size());
+  EXPECT_EQ(arcs.nodes.size(), lines.nodes.size());
+  for (std::size_t i = 0; i < arcs.lines.size(); ++i) {
+    EXPECT_TRUE(arcs.lines[i].middle);
+    EXPECT_FALSE(lines.lines[i].middle);
+  }
 }
 
 TEST_F(Geometry, UsesItsOwnSizesWithoutElementSize) {

@@ -18,7 +18,7 @@ TEST(Messages, OfUnknownKeysAtEveryLevel) {
       {"[gravity]", "[gravit]", {"gravit: unknown key; did you mean \"gravity\"? keys: \"title\", \"mesh\""}},
       {"scale = 0.001",
        "scal = 1",
-       {"mesh.scal = 1: unknown key; did you mean \"scale\"? keys: \"file\", \"element_size\""}},
+       {"mesh.scal = 1: unknown key; did you mean \"scale\"? keys: \"file\", \"element_size\", \"order\""}},
       {"density = 8200",
        "densty = 1",
        {"materials.inconel.densty = 1: unknown key; did you mean \"density\"?"}},

@@ -26,6 +26,7 @@ TEST(Messages, OfNumbersThatAreNotFinite) {
 TEST(Messages, OfNumbersOutOfRange) {
   expect_messages({
       {"element_size = 0.05", "element_size = 0", {"mesh.element_size = 0: a number > 0 in m is expected"}},
+      {"element_size = 0.05", "order = 3", {"mesh.order = 3: 1 (straight elements) or 2 (arcs)"}},
       {"scale = 0.001", "scale = -1", {"mesh.scale = -1: a number > 0 is expected"}},
       {"merge_tolerance = 1e-6",
        "merge_tolerance = -1",

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// A beam along any axis by the force method: what wrenches at its end b do to it while its end a is held.
+///
+/// A wrench w = (f, m) at b acts on the section at s as the force f and the moment m + (x_b - x(s)) x f. With
+/// C(s) the section's compliance (1/EA; 1/GJ, 1/EIy, 1/EIz in its axes), the section at s moves by
+///     theta(s) = int_0^s C M dr,    u(s) = int_0^s [C_f f + theta'(r) x (x(s) - x(r))] dr = D(s) w.
+/// D(L) is the flexibility at b, S = D(L)^-1 the stiffness against the deformation
+///     e = (d - r_a x (x_b - x_a), r_b - r_a),  d = u_b - u_a,
+/// which no rigid motion changes. The motion of a section under end loads alone, and the shapes of the element:
+///     u(s) = u_a + r_a x (x(s) - x_a) + D(s) S e.
+/// They are exact for static loads at the ends whatever the axis, so that nothing locks; on a straight uniform
+/// axis they are the linear and cubic shapes of the textbook.
+///
+/// Mass: consistent with these shapes; to it comes L^2/12 int [m_x eps^2 + rho Ip kappa_x^2] ds of the axial
+/// strain and the twist, which makes traction and torsion of order 4 (on a straight uniform beam: the mean of
+/// the consistent and the lumped mass).
+///
+/// Integrals by Gauss with 8 points: exact to round-off for straight beams and arcs of up to 2 rad.
+/// Source: the force method for curved bars, e.g. Timoshenko, Strength of Materials II, chapter 2;
+/// Przemieniecki, Theory of Matrix Structural Analysis, chapter 6.
+#pragma once
+#include "fem/beam_axis.hpp"
+#include "fem/beam_constants.hpp"
+
+namespace fretwork::fem {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Matrix12 = Eigen::Matrix<double, 12, 12>;
+using Vector12 = Eigen::Matrix<double, 12, 1>;
+using Shapes = Eigen::Matrix<double, 6, 12>; ///< displacement and rotation of a section, of the 12 dofs
+
+/// e = T u, for b at `span` from a.
+[[nodiscard]] Shapes deformation_matrix(const Vec3& span);
+
+/// All in one set of axes, those of the rows of `frame`: a is the origin, b lies on x.
+class FlexibleBeam {
+public:
+  FlexibleBeam(const BeamAxis& axis, const Eigen::Matrix3d& frame, const BeamProperty& property);
+
+  [[nodiscard]] const Matrix6& stiffness() const { return stiffness_; } ///< S
+  [[nodiscard]] Matrix12 mass() const;
+  /// @param s  m along the axis from a
+  [[nodiscard]] Shapes shapes(double s) const;
+
+private:
+  [[nodiscard]] Vec3 point(double s) const;
+  [[nodiscard]] Eigen::Matrix3d section_axes(double s) const; ///< rows: tangent, y, z of the section
+  [[nodiscard]] Matrix6 strains(double s) const; ///< of the section, in its axes, by unit wrenches at b
+  [[nodiscard]] Matrix6 motion(double s) const;  ///< D(s)
+
+  BeamAxis axis_;
+  Eigen::Matrix3d frame_;
+  const BeamProperty& property_;
+  BeamConstants constants_;
+  Vec3 span_;
+  Matrix6 stiffness_;
+};
+
+} // namespace fretwork::fem
