@@ -95,6 +95,21 @@ private:
   return NormalStep(law, mean, mobility).force(free_rate);
 }
 
+/// The same where the contact gives way by `compliance` F_N (R, m/N, >= 0), a spring in series, and `mean` (> 0) is the mean
+/// penetration there would be without: P = mean - R F_N,
+///     F_N = <K_N P + c(P) p'>+,  p' = free_rate - mobility F_N,
+/// linear in F_N but for Hunt and Crossley's damper, which makes it a F^2 - b F + c = 0, the smaller root: K_N/(1 + K_N R) alone.
+[[nodiscard]] inline double series_force(const NormalLaw& law, double mean, double free_rate, double mobility,
+                                         double compliance) {
+  const double growth = law.stiffness * law.dissipation, impact = 1.0 + law.dissipation * free_rate;
+  const double c = law.stiffness * mean * impact + law.damping * free_rate;
+  if (!(c > 0.0))
+    return 0.0;
+  const double a = growth * compliance * mobility;
+  const double b = 1.0 + law.stiffness * compliance * impact + (law.damping + growth * mean) * mobility;
+  return 2.0 * c / (b + std::sqrt(std::max(0.0, b * b - 4.0 * a * c)));
+}
+
 /// F_N of `step_normal` and its derivatives, with p' = free_rate - mobility F_N:
 ///     dF_N/dmean = K_N (1 + d p')/(1 + c mobility),  dF_N/dfree_rate = c/(1 + c mobility)
 struct StepSlopes {

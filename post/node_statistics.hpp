@@ -4,6 +4,7 @@
 #pragma once
 #include "post/moments.hpp"
 #include "transient/kernels.hpp"
+#include "transient/prescribed_motion.hpp"
 #include "transient/run.hpp"
 #include <array>
 #include <vector>
@@ -19,6 +20,9 @@ class NodeStatistics final : public transient::Observer {
 public:
   /// @param rows  for each node its 3 x n translations of the modes   @param from  start of the window, s
   NodeStatistics(const std::vector<Eigen::MatrixXd>& rows, double from);
+  /// The nodes are carried by imposed motions too: u = rows q + carried s, 3 x motions for each node, or empty.
+  void carry(const std::vector<Eigen::MatrixXd>& carried,
+             const std::vector<transient::PrescribedMotion>& motions, double duration);
   void step(const transient::Record& record) override;
   void visit(core::StateArchive& state) override { state(sums_); }
   [[nodiscard]] std::vector<NodeSummary> summaries() const;
@@ -28,6 +32,8 @@ private:
   transient::kernels::GatherTable gather_;
   transient::kernels::Array u_, unused_;
   std::vector<std::array<Accumulator, 3>> sums_;
+  std::vector<transient::MotionSignal> motions_;
+  transient::kernels::Array carried_; ///< in lanes, motion after motion
 };
 
 } // namespace fretwork::post

@@ -12,6 +12,10 @@ Recorder::Recorder(const transient::Scene& scene, std::vector<ObservedNode> node
   for (const auto& motion : scene.motions)
     motions_.emplace_back(motion, scene.duration);
   out_.time.setZero(nt);
+  if (scene.residual.size() > 0) {
+    force_.setZero(scene.residual.rows());
+    given_.setZero(scene.residual.rows(), nt);
+  }
   out_.modal_displacement.setZero(scene.system.size(), nt);
   out_.modal_velocity.setZero(scene.system.size(), nt);
   for (const auto& point : scene.contacts)
@@ -31,19 +35,37 @@ void Recorder::state(std::int64_t index, double time, const double* q, const dou
   std::copy_n(q, scene_.system.size(), out_.modal_displacement.col(index).data());
   std::copy_n(v, scene_.system.size(), out_.modal_velocity.col(index).data());
   for (std::size_t c = 0; c < scene_.contacts.size(); ++c) {
-    const auto& point = scene_.contacts[c];
-    double y = point.rest.y() + point.b.row(1).dot(out_.modal_displacement.col(index));
-    double z = point.rest.z() + point.b.row(2).dot(out_.modal_displacement.col(index));
-    for (Eigen::Index k = 0; k < point.carried.cols(); ++k) {
-      const double s = motions_[static_cast<std::size_t>(k)](time).displacement;
-      y += point.carried(1, k) * s;
-      z += point.carried(2, k) * s;
-    }
-    out_.contacts[c].gap(index) = contact::locate(point.support.obstacle, y, z).gap;
+    const core::Vec3 x = place(c, index, time);
+    out_.contacts[c].gap(index) = contact::locate(scene_.contacts[c].support.obstacle, x.y(), x.z()).gap;
   }
 }
 
-void Recorder::forces(std::int64_t index, double, const double* load,
+/// A contact's node from its obstacle's centre, where the modes and what carries it have taken it.
+core::Vec3 Recorder::place(std::size_t contact, std::int64_t index, double time) const {
+  const auto& point = scene_.contacts[contact];
+  core::Vec3 x = point.rest;
+  x.noalias() += point.b * out_.modal_displacement.col(index);
+  for (Eigen::Index k = 0; k < point.carried.cols(); ++k)
+    x += motions_[static_cast<std::size_t>(k)](time).displacement * point.carried.col(k);
+  return x;
+}
+
+/// The contacts move by what the modes lack of their flexibility.
+void Recorder::give_way(std::int64_t index, double time, std::span<const transient::ContactForce> contacts) {
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const auto& f = contacts[c];
+    force_.segment<3>(3 * static_cast<Eigen::Index>(c)) << f.friction.x,
+        f.normal * f.ny + f.friction.t * f.nz, f.normal * f.nz - f.friction.t * f.ny;
+  }
+  given_.col(index).noalias() = scene_.residual * force_;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const core::Vec3 x =
+        place(c, index, time) + given_.col(index).segment<3>(3 * static_cast<Eigen::Index>(c));
+    out_.contacts[c].gap(index) = contact::locate(scene_.contacts[c].support.obstacle, x.y(), x.z()).gap;
+  }
+}
+
+void Recorder::forces(std::int64_t index, double time, const double* load,
                       std::span<const transient::ContactForce> contacts) {
   const bool wanted = !nodes_.empty();
   if (wanted) {
@@ -56,6 +78,8 @@ void Recorder::forces(std::int64_t index, double, const double* load,
     else
       acceleration_.array() -= system.damping.array() * v.array();
   }
+  if (given_.size() > 0)
+    give_way(index, time, contacts);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     ContactSeries& series = out_.contacts[c];
     if (series.gap(index) > 0.0)
@@ -74,8 +98,12 @@ void Recorder::forces(std::int64_t index, double, const double* load,
                        (f.normal * f.nz - f.friction.t * f.ny) * b.row(2).transpose();
     }
   }
-  for (std::size_t k = 0; k < nodes_.size(); ++k)
-    out_.nodes[k].acceleration.row(index).transpose().noalias() = nodes_[k].rows * acceleration_;
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    auto row = out_.nodes[k].acceleration.row(index).transpose();
+    row.noalias() = nodes_[k].rows * acceleration_;
+    for (Eigen::Index m = 0; m < nodes_[k].carried.cols(); ++m)
+      row += motions_[static_cast<std::size_t>(m)].acceleration(time) * nodes_[k].carried.col(m);
+  }
   served_ = index + 1;
 }
 
@@ -134,21 +162,28 @@ TimeSeries Recorder::series() && {
   };
   distribute(out_.modal_displacement, &ContactSeries::displacement, &NodeSeries::displacement);
   distribute(out_.modal_velocity, &ContactSeries::velocity, &NodeSeries::velocity);
+  for (Eigen::Index c = 0; given_.size() > 0 && c < contacts; ++c)
+    out_.contacts[static_cast<std::size_t>(c)].displacement +=
+        given_.middleRows<3>(3 * c).leftCols(out_.time.size()).transpose();
   add_motions();
   return std::move(out_);
 }
 
-/// What carries the contacts joins their displacements and velocities.
+/// What carries contacts and nodes joins their displacements and velocities.
 void Recorder::add_motions() {
+  const auto add = [](auto& series, Eigen::Index i, const transient::MotionState& s, const auto& along) {
+    series.displacement.row(i) += s.displacement * along;
+    series.velocity.row(i) += s.velocity * along;
+  };
   for (std::size_t k = 0; k < motions_.size(); ++k)
     for (Eigen::Index i = 0; i < out_.time.size(); ++i) {
       const transient::MotionState s = motions_[k](out_.time(i));
       for (std::size_t c = 0; c < scene_.contacts.size(); ++c)
-        if (const Eigen::MatrixXd& carried = scene_.contacts[c].carried; carried.size() > 0) {
-          const auto along = carried.col(static_cast<Eigen::Index>(k)).transpose();
-          out_.contacts[c].displacement.row(i) += s.displacement * along;
-          out_.contacts[c].velocity.row(i) += s.velocity * along;
-        }
+        if (const Eigen::MatrixXd& carried = scene_.contacts[c].carried; carried.size() > 0)
+          add(out_.contacts[c], i, s, carried.col(static_cast<Eigen::Index>(k)).transpose());
+      for (std::size_t n = 0; n < nodes_.size(); ++n)
+        if (const Eigen::MatrixXd& carried = nodes_[n].carried; carried.size() > 0)
+          add(out_.nodes[n], i, s, carried.col(static_cast<Eigen::Index>(k)).transpose());
     }
 }
 

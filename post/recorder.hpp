@@ -12,7 +12,8 @@ namespace fretwork::post {
 /// What a contact does at an output instant. One without friction slides whenever it is closed.
 enum ContactMode : std::uint8_t { open = 0, sticks = 1, slides = 2 };
 
-/// Local axes of the contact; the motion is that of the node from the obstacle.
+/// Local axes of the contact; the motion is that of the node from the obstacle (residual flexibility: in the displacement and the gap,
+/// not in the velocity).
 struct ContactSeries {
   std::string name;
   Eigen::MatrixXd displacement, velocity; ///< nt x 3, m and m/s
@@ -39,6 +40,8 @@ struct TimeSeries {
 struct ObservedNode {
   std::string name;
   Eigen::MatrixXd rows; ///< 3 x n, global axes
+  Eigen::MatrixXd carried =
+      {}; ///< 3 x motions of the scene, global axes: u = rows q + carried s; empty: not carried
 };
 
 class Recorder final : public transient::Sampler {
@@ -55,12 +58,16 @@ public:
 
 private:
   void add_motions();
+  [[nodiscard]] core::Vec3 place(std::size_t contact, std::int64_t index, double time) const;
+  void give_way(std::int64_t index, double time, std::span<const transient::ContactForce> contacts);
 
   const transient::Scene& scene_;
   std::vector<ObservedNode> nodes_;
   TimeSeries out_;
-  std::vector<transient::MotionSignal> motions_; ///< that carry contacts
+  std::vector<transient::MotionSignal> motions_; ///< that carry contacts and nodes
   Eigen::VectorXd acceleration_;                 ///< modal
+  Eigen::VectorXd force_;                        ///< N, local axes of all contacts: with residual flexibility
+  Eigen::MatrixXd given_;                        ///< m, 3 nc x nt: residual flexibility times that
   std::int64_t served_ = 0;
 };
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/prescribed_motion.hpp"
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace fretwork::transient {
 namespace {
@@ -30,7 +32,67 @@ MotionState harmonic(const PrescribedMotion& m, const Harmonic& f, double t) {
           m.velocity0 + f.amplitude * t * share * std::sin(half + f.phase)};
 }
 
+/// Second derivatives at the points of the spline with slope 0 at both ends. With h_i between points and d_i the slopes of the chords,
+///     h_{i-1} m_{i-1} + 2 (h_{i-1} + h_i) m_i + h_i m_{i+1} = 6 (d_i - d_{i-1}),   at the ends 2 m_0 + m_1 = 6 d_0/h_0 ...
+std::vector<double> curvatures(const Table& table) {
+  const std::size_t n = table.time.size();
+  std::vector<double> diagonal(n, 0.0), upper(n, 0.0), m(n, 0.0);
+  for (std::size_t i = 0; i + 1 < n; ++i) { // an interval adds to the equations of its ends
+    const double h = table.time[i + 1] - table.time[i], d = (table.value[i + 1] - table.value[i]) / h;
+    diagonal[i] += 2.0 * h;
+    diagonal[i + 1] += 2.0 * h;
+    upper[i] = h;
+    m[i] += 6.0 * d;
+    m[i + 1] -= 6.0 * d;
+  }
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    const double share = upper[i] / diagonal[i];
+    diagonal[i + 1] -= share * upper[i];
+    m[i + 1] -= share * m[i];
+  }
+  for (std::size_t i = n; n > 1 && i-- > 0;)
+    m[i] = (m[i] - (i + 1 < n ? upper[i] * m[i + 1] : 0.0)) / diagonal[i];
+  return m;
+}
+
+/// The spline's acceleration, and how it stands at t = 0.
+PrescribedMotion along_spline(const Table& table) {
+  const std::vector<double> m = curvatures(table);
+  const std::size_t last = table.time.size() - 1;
+  Table acceleration{{table.time.front()}, {0.0}};
+  for (std::size_t i = 0; i <= last && last > 0; ++i) {
+    acceleration.time.push_back(table.time[i]);
+    acceleration.value.push_back(m[i]);
+  }
+  acceleration.time.push_back(table.time.back());
+  acceleration.value.push_back(0.0);
+  if (last == 0)
+    acceleration = {{0.0}, {0.0}};
+  PrescribedMotion out{std::move(acceleration), 0.0,
+                       table.time.front() > 0.0 ? table.value.front() : table.value.back()};
+  for (std::size_t i = 0; i < last; ++i)
+    if (const double h = table.time[i + 1] - table.time[i], t = -table.time[i]; t >= 0.0 && t < h) {
+      const double slope = (table.value[i + 1] - table.value[i]) / h - h / 6.0 * (2.0 * m[i] + m[i + 1]);
+      const double third = (m[i + 1] - m[i]) / h;
+      out.velocity0 = slope + t * (m[i] + 0.5 * t * third);
+      out.displacement0 = table.value[i] + t * (slope + t * (0.5 * m[i] + t * third / 6.0));
+    }
+  return out;
+}
+
 } // namespace
+
+PrescribedMotion motion_of_displacement(const TimeFunction& displacement) {
+  if (const auto* constant = std::get_if<Constant>(&displacement))
+    return {Constant{0.0}, 0.0, constant->value};
+  if (const auto* s = std::get_if<Harmonic>(&displacement)) {
+    const double w = 2.0 * std::numbers::pi * s->frequency;
+    return {Harmonic{-w * w * s->amplitude, s->frequency, s->phase}, w * s->amplitude * std::cos(s->phase),
+            s->amplitude * std::sin(s->phase)};
+  }
+  assert(std::holds_alternative<Table>(displacement));
+  return along_spline(std::get<Table>(displacement));
+}
 
 MotionState MotionSignal::Piece::at(double time) const {
   const double x = (time - start) / length;

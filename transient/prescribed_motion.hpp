@@ -9,6 +9,11 @@
 
 namespace fretwork::transient {
 
+/// The motion whose displacement follows a function of time. A table is taken by the cubic spline through its points that is at rest at
+/// both ends (C. de Boor, A Practical Guide to Splines, 1978, chapter IV): its second derivative is linear between them.
+/// @param displacement  m; not random, a table without jumps
+[[nodiscard]] PrescribedMotion motion_of_displacement(const TimeFunction& displacement);
+
 /// s and s' at an instant.
 struct MotionState {
   double displacement = 0.0, velocity = 0.0;
@@ -20,6 +25,8 @@ public:
   MotionSignal(const PrescribedMotion& motion, double duration);
   /// At a time within the run. No allocation.
   [[nodiscard]] MotionState operator()(double time) const;
+  /// s'' at a time within the run, from the right at a jump. No allocation.
+  [[nodiscard]] double acceleration(double time) const { return signal_(time); }
 
 private:
   /// a = c0 + c1 x + c2 x^2 + c3 x^3 from the start of a piece, x = (t - start)/length.

@@ -47,7 +47,10 @@ struct Scene {
   std::vector<Load> loads;
   std::vector<ContactPoint> contacts;
   std::vector<PrescribedMotion>
-      motions;            ///< that carry contacts; the forces they cause on the modes are among the loads
+      motions; ///< that carry contacts; the forces they cause on the modes are among the loads
+  /// m/N, 3 nc x 3 nc over x_loc y_loc z_loc of each contact, symmetric, >= 0: what the modes lack of the static
+  /// flexibility between the contacts, which move by it at once, u = b q + residual f. Empty: none.
+  Eigen::MatrixXd residual;
   Eigen::VectorXd q0, v0; ///< initial state, n
   double duration = 0.0;  ///< s, > 0
 

@@ -9,6 +9,9 @@ namespace fretwork::transient {
 /// True where the scheme follows obstacles that move by themselves (Scene::motions).
 [[nodiscard]] bool carries_obstacles(SchemeKind kind);
 
+/// True where the scheme takes residual flexibility (Scene::residual).
+[[nodiscard]] bool takes_residual(SchemeKind kind);
+
 /// @throws core::Error that names the scheme, what it cannot take and a scheme that can
 void check_scope(const Scene& scene, SchemeKind kind);
 

@@ -4,18 +4,20 @@
 /// with damping and friction.
 ///
 /// Between instants t_k = (k + 1/2) h the modes move freely: exact flow, loads linear in time
-/// (oscillator.hpp; matrix_flow.hpp where a damping matrix couples them). At t_k the contacts act once for the whole step: contact_solver.hpp.
+/// (oscillator.hpp; matrix_flow.hpp where a damping matrix couples them). At t_k the contacts act once for the whole step: contact_solver.hpp, with
+/// residual flexibility flexible_contacts.hpp.
 /// Stability: w_c h < 2, w_c^2 the largest eigenvalue of K_N^1/2 W K_N^1/2; h w_max away from multiples of
 /// pi. Accuracy asks for less (step_rule.hpp). Cost: one evaluation of the contacts a step. Energy: the work
 /// of each action h f.w and of each flow are exact; the ledger's residual is what the contact laws' discrete
 /// work lacks.
-#include "transient/contact_solver.hpp"
+#include "transient/flexible_contacts.hpp"
 #include "transient/load_sum.hpp"
 #include "transient/matrix_flow.hpp"
 #include "transient/obstacle_motion.hpp"
 #include "transient/oscillator.hpp"
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace fretwork::transient {
 namespace {
@@ -59,8 +61,13 @@ public:
         0.5 * kernels::twice_energy(contacts_.padded_modes, k_.data(), q_.data(), v_.data());
     motion_.gather(q_.data(), v_.data());
     obstacles_.add(0.0, motion_);
+    double given = 0.0; // J, of the residual flexibility
+    if (scene.residual.size() > 0) {
+      flexible_.emplace(contacts_, scene.residual, step);
+      given = flexible_->start(motion_);
+    }
     memory_.start(motion_);
-    record_.energy.initial = record_.energy.throughput = moving + motion_.spring_energy();
+    record_.energy.initial = record_.energy.throughput = moving + motion_.spring_energy() + given;
     after_action_ = moving;
     record_.step = h_;
   }
@@ -159,10 +166,13 @@ private:
   void act() {
     motion_.gather(q_.data(), v_.data());
     obstacles_.add(time_, motion_);
-    const auto action = solver_.solve(memory_, motion_, trial_);
+    const auto action =
+        flexible_ ? flexible_->solve(memory_, motion_, trial_) : solver_.solve(memory_, motion_, trial_);
     unconverged_ += !action.converged;
     const double springs_before = memory_.spring_energy();
     const ContactLosses losses = memory_.commit(motion_, trial_);
+    if (flexible_)
+      flexible_->accept();
     rows_.set(trial_, h_);
     rows_.add_to(v_.data());
     // The record stands in the middle of the action: half of its losses belong to it, and its velocity is (v-
@@ -189,6 +199,7 @@ private:
   ObstacleMotion obstacles_;
   ContactMemory memory_;
   ContactSolver solver_;
+  std::optional<FlexibleContacts> flexible_; ///< instead of it
   ContactTrial trial_;
   ContactRows rows_; ///< impulses of the last action
   MatrixFlow coupled_;

@@ -2,6 +2,7 @@
 #include "transient/step_rule.hpp"
 #include "core/error.hpp"
 #include "transient/scheme_scope.hpp"
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
@@ -39,19 +40,36 @@ double largest_eigenvalue(const Eigen::MatrixXd& rows) {
   return std::max(0.0, solver.eigenvalues().maxCoeff());
 }
 
+/// Rows weighted by (1/w + R)^-1, w the weights: contacts in series with the residual flexibility. R of the same rows.
+Eigen::MatrixXd series_rows(const Eigen::MatrixXd& rows, const Eigen::VectorXd& weights,
+                            const Eigen::MatrixXd& residual) {
+  const Eigen::MatrixXd compliance = residual + Eigen::MatrixXd(weights.cwiseInverse().asDiagonal());
+  return Eigen::LLT<Eigen::MatrixXd>(compliance).matrixL().solve(rows);
+}
+
 template <class Weight, class Directions>
-Eigen::MatrixXd weighted_rows(const Scene& scene, Weight weight, Directions directions) {
+Eigen::MatrixXd weighted_rows(const Scene& scene, Weight weight, Directions directions,
+                              const Eigen::MatrixXd& residual = {}) {
   Eigen::MatrixXd rows(3 * static_cast<Eigen::Index>(scene.contacts.size()), scene.system.size());
-  Eigen::Index used = 0;
+  std::vector<Eigen::Index> number;
+  std::vector<double> weights;
+  Eigen::Index used = 0, c = 0;
   for (const ContactPoint& point : scene.contacts) {
     const double w = weight(point);
     const std::array<bool, 3> along = directions(point.support);
     for (int k = 0; k < 3; ++k)
-      if (along[static_cast<std::size_t>(k)] && w > 0.0)
-        rows.row(used++) = std::sqrt(w) * point.b.row(k);
+      if (along[static_cast<std::size_t>(k)] && w > 0.0) {
+        rows.row(used++) = point.b.row(k);
+        weights.push_back(w);
+        number.push_back(3 * c + k);
+      }
+    ++c;
   }
   rows.conservativeResize(used, Eigen::NoChange);
-  return rows;
+  const Eigen::VectorXd w = Eigen::Map<const Eigen::VectorXd>(weights.data(), used);
+  if (residual.size() > 0)
+    return series_rows(rows, w, residual(number, number));
+  return w.cwiseSqrt().asDiagonal() * rows;
 }
 
 std::array<bool, 3> normal_rows(const contact::Support& support) {
@@ -225,8 +243,10 @@ StepChoice choose_step(const Scene& scene, const StepOptions& options) {
   const auto damping_t = [](const ContactPoint& point) {
     return point.support.friction.active() ? point.support.friction.damping : 0.0;
   };
-  c.contact_frequency = std::sqrt(largest_eigenvalue(weighted_rows(scene, stiffness_n, normal_rows)));
-  c.stick_frequency = std::sqrt(largest_eigenvalue(weighted_rows(scene, stiffness_t, tangent_rows)));
+  c.contact_frequency =
+      std::sqrt(largest_eigenvalue(weighted_rows(scene, stiffness_n, normal_rows, scene.residual)));
+  c.stick_frequency =
+      std::sqrt(largest_eigenvalue(weighted_rows(scene, stiffness_t, tangent_rows, scene.residual)));
   c.damper_rate = largest_eigenvalue(weighted_rows(scene, damping_t, tangent_rows));
   if (c.scheme == SchemeKind::euler || c.scheme == SchemeKind::devogelaere) {
     const auto damping_n = [&scene](const ContactPoint& point) {

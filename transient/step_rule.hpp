@@ -5,7 +5,7 @@
 ///     h = eps min{ 1/w_c, 1/w_t, a/r_t, b/w_max },  eps = 0.5 sqrt(accuracy / 0.01)
 /// over the terms that exist, with:
 ///     w_c    contact frequency: w_c^2 = largest eigenvalue of K_N^1/2 W K_N^1/2, W = B B^T over all normal
-///            directions of all contacts
+///            directions of all contacts; with residual flexibility R (Scene) of (K_N^-1 + R)^-1 in place of K_N
 ///     w_t    the same with K_T over the tangent directions
 ///     r_t    rate of the tangential dampers, largest eigenvalue of C_T^1/2 W C_T^1/2
 ///     w_max  highest mode

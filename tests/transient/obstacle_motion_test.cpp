@@ -81,6 +81,55 @@ TEST(MotionSignal, IntegratesTheSignalThatTheLoadsFollow) {
 
 namespace {
 
+/// The state of a displacement's motion, and its acceleration by differences.
+void expect_displacement(const TimeFunction& s, double t, const MotionState& wanted, double tolerance) {
+  const MotionSignal signal(motion_of_displacement(s), duration);
+  EXPECT_NEAR(signal(t).displacement, wanted.displacement, tolerance) << t;
+  EXPECT_NEAR(signal(t).velocity, wanted.velocity, tolerance) << t;
+}
+
+} // namespace
+
+TEST(MotionOfDisplacement, IsTheDisplacement) {
+  constexpr double w = two_pi * 3.0;
+  for (const double t : {0.0, 0.3, 1.0}) {
+    expect_displacement(Constant{2.0}, t, {2.0, 0.0}, round_off);
+    expect_displacement(Harmonic{5.0, 3.0, 0.4}, t,
+                        {5.0 * std::sin(w * t + 0.4), 5.0 * w * std::cos(w * t + 0.4)}, 1e-11); // of w^2 t^2
+    expect_displacement(Table{{0.2}, {3.0}}, t, {3.0, 0.0}, round_off);
+  }
+}
+
+TEST(MotionOfDisplacement, GoesThroughATableFromRestToRest) {
+  // a cubic that rests at both ends is its own spline, wherever the run begins
+  const auto cubic = [](double t, double start, double end) {
+    const double x = (t - start) / (end - start);
+    return x <= 0.0   ? MotionState{0.0, 0.0}
+           : x >= 1.0 ? MotionState{1.0, 0.0}
+                      : MotionState{x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x) / (end - start)};
+  };
+  for (const double start : {0.25, 0.0, -0.5, -3.0}) {
+    Table table;
+    for (const double x : {0.0, 0.3, 0.45, 1.0}) {
+      table.time.push_back(start + x);
+      table.value.push_back(cubic(start + x, start, start + 1.0).displacement);
+    }
+    for (const double t : {0.0, 0.1, 0.5, 0.9, 1.0})
+      expect_displacement(table, t, cubic(t, start, start + 1.0), round_off);
+  }
+  // any other points are met, with a velocity that does not jump
+  const Table points{{0.1, 0.2, 0.5, 0.6, 0.8}, {0.0, 2.0, -1.0, 0.5, 1.0}};
+  const MotionSignal signal(motion_of_displacement(points), duration);
+  for (std::size_t i = 0; i < points.time.size(); ++i) {
+    EXPECT_NEAR(signal(points.time[i]).displacement, points.value[i], round_off);
+    EXPECT_NEAR(signal(points.time[i] - 1e-9).velocity, signal(points.time[i] + 1e-9).velocity, 1e-5);
+  }
+  EXPECT_NEAR(signal(1.0).displacement, 1.0, round_off);
+  EXPECT_NEAR(signal(1.0).velocity, 0.0, round_off);
+}
+
+namespace {
+
 // A mass on springs whose foot moves by s = -(A/w^2) sin(w t) along (0.6, 0.8, 0), inside a round hole that stays in space.
 constexpr double foot_acceleration = 8.0, foot_frequency = 4.0, spring = 900.0;
 const Vec3 along(0.6, 0.8, 0.0); // x_loc and y_loc
@@ -191,8 +240,9 @@ TEST(SchemeScope, KnowsTheSchemesThatFollowObstacles) {
     (void)choose_step(from_the_foot(0.0), options);
     ADD_FAILURE() << "no error";
   } catch (const core::Error& error) {
-    EXPECT_STREQ(error.what(),
-                 "scheme = \"devogelaere\" does not follow obstacles that stay in space while the base "
-                 "moves (attached_to = \"ground\"); use scheme = \"splitting\"");
+    EXPECT_STREQ(
+        error.what(),
+        "scheme = \"devogelaere\" does not follow obstacles that move from the supports of the structure "
+        "(attached_to = \"ground\", [[support_motion]]); use scheme = \"splitting\"");
   }
 }

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The contact forces of a step h, as contact_solver.hpp makes them, where the contacts move by R f beside the modes
+/// (Scene::residual): what a truncated basis lacks of the static flexibility, without inertia, so that no step is too long for it.
+/// One contact sees it as a spring in series; several share it.
+///
+/// At the instant t_k of the action the contacts stand at u = B q + R f, with f = f_k the force of this step, and move by
+/// u' = w + R f', w = B (v- + v+)/2, f' = (3 f_k - 4 f_{k-1} + f_{k-2})/(2 h), of order 2 and without a limit of stability (the first
+/// action is h/2 after the start). With P0 the mean penetration over the step (theta = 0.7, p' from v-) without the contact's own n.R n F_N,
+///     normal    F_N = <K_N P + c(P) p'>+,  P = P0 - n.R n F_N       (contact::series_force)
+///     friction  step_friction with the velocity that makes its trial T - G h w the one at t_k:
+///       return_map   trial = T - K_T (h w/2 + R f_k - y) - C_T (w + R f'),  y = R (3 f_{k-1} - f_{k-2})/2
+///       reference    trial = F0 - (K_T h/2 + C_T)(w + R f'), whose slip is opposite to w + R f'
+///     over the step the spring is stretched by h (w + R f'): the sum of the f' is the f that y takes at its start
+/// all implicit in f, by Gauss-Seidel sweeps from the forces that the last two steps foretell. Normals are those at the foretold place
+/// without n.R n F_N, which lies on the same normal: order 2. A contact that the others' forces close joins the sweeps. A lone contact
+/// without friction and dampers is the one of stiffness K_N/(1 + K_N R) to the last digit.
+///
+/// Energy: f.R f/2 is stored.
+#pragma once
+#include "transient/contact_solver.hpp"
+
+namespace fretwork::transient {
+
+class FlexibleContacts {
+public:
+  /// @param contacts  must live longer   @param residual  as Scene::residual, not empty   @param step  s
+  FlexibleContacts(const PackedContacts& contacts, const Eigen::MatrixXd& residual, double step);
+
+  /// Rest before the first step: normal forces in equilibrium with the places of the modes, nothing else. Moves the contacts of `motion`
+  /// by R f. Returns f.R f/2, J.
+  double start(ContactMotion& motion);
+  /// As ContactSolver::solve; moves the contacts of `motion` by R f.
+  ContactSolver::Action solve(const ContactMemory& memory, ContactMotion& motion, ContactTrial& trial);
+  /// The forces of the last `solve` have acted. No allocation.
+  void accept();
+
+private:
+  /// A derivative or difference in time: now f_k + last f_{k-1} + before f_{k-2}.
+  struct Rate {
+    double now, last, before;
+  };
+  struct Shut {
+    int contact = 0;
+    bool friction = false, in_plane = false, slides = false;
+    contact::NormalLaw normal{};
+    double ny = 0.0, nz = 0.0;
+    double bare = 0.0;       ///< m: penetration without any R f
+    double reach = 0.0;      ///< m: half of the window
+    double approach = 0.0;   ///< m/s: p' before the action
+    double mean = 0.0;       ///< m: P0
+    double force[3] = {};    ///< N, along n, t, x_loc, as all that follows
+    double velocity[3] = {}; ///< m/s, of the modes before the action
+    double last[3] = {};     ///< m, R f_{k-1}
+    double before[3] = {};   ///< m, R f_{k-2}
+    Rate rate{};             ///< 1/s: what R adds to the velocity of friction
+  };
+
+  [[nodiscard]] bool act(const ContactMemory* memory, ContactMotion& motion);
+  void differentiate();
+  void foretell(ContactMotion& motion);
+  void take(int c, const ContactMotion& motion);
+  [[nodiscard]] bool recruit(ContactMotion& motion);
+  void build();
+  [[nodiscard]] bool sweep(const ContactMemory* memory);
+  [[nodiscard]] double improve(std::size_t i, const ContactMemory* memory);
+  [[nodiscard]] contact::Friction friction(std::size_t i, const ContactMemory& memory) const;
+  void change(std::size_t i, int component, double by);
+  void move(ContactMotion& motion);
+  void close(ContactTrial& trial, ContactSolver::Action& action) const;
+  void give(const kernels::Array& force, kernels::Array& displacement) const;
+  [[nodiscard]] double normal_rate(std::size_t i) const;
+  [[nodiscard]] double& at(std::vector<double>& matrix, std::size_t row, std::size_t column) const {
+    return matrix[row * 3 * static_cast<std::size_t>(contacts_.count) + column];
+  }
+  [[nodiscard]] double at(const std::vector<double>& matrix, std::size_t row, std::size_t column) const {
+    return matrix[row * 3 * static_cast<std::size_t>(contacts_.count) + column];
+  }
+
+  const PackedContacts& contacts_;
+  double h_;
+  Eigen::MatrixXd r_; ///< y, z, x_loc of each contact
+  Rate rate_{};       ///< f', 1/s
+  Rate half_step_{};  ///< f_k less the f of y, 1
+  std::int64_t actions_ = 0;
+  bool still_ = false; ///< at the start: springs alone
+  std::vector<Shut> shut_;
+  std::vector<double> mobility_, residual_; ///< A and R along the directions of the shut contacts
+  std::vector<double> speed_, give_;        ///< m/s, B (v- + v+)/2, and m, R f, along the same
+  kernels::Array bare_;                     ///< m, lanes: B q
+  kernels::Array now_, last_, before_;      ///< N, lanes: f_k, f_{k-1}, f_{k-2}
+  kernels::Array guess_, given_, given_last_, given_before_; ///< foretold f_k; R times it and the last two
+  kernels::Array own_, own_last_,
+      own_before_;    ///< m, lanes: n.R n F_N along the normal, foretold and of the last two steps
+  bool quiet_ = true; ///< no force in the last two steps
+};
+
+} // namespace fretwork::transient
