@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/build_fields.hpp"
+#include "app/support_motion.hpp"
 #include "fem/fields.hpp"
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -48,8 +49,10 @@ void initial_field(const study::Study& study, const mesh::LineMesh& mesh, const 
 
 } // namespace
 
-Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh, const fem::Model& model) {
+Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh, const fem::Model& model,
+                    std::vector<Eigen::VectorXd> supports) {
   Fields out;
+  out.supports = std::move(supports);
   for (std::size_t e = 0; e < study.loads.size(); ++e) {
     const std::string name = fmt::format("[[loads]] entry {} on \"{}\"", e + 1, study.loads[e].group);
     out.loads.push_back({name, study.loads[e].function, load_field(study.loads[e], name, mesh, model)});
@@ -61,6 +64,10 @@ Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh, const
     out.loads.push_back({"[gravity]", transient::Constant{1.0}, on_all_masses(*study.gravity)});
   for (const auto& motion : study.base_motions)
     out.loads.push_back({"[[base_motion]]", motion.acceleration, -on_all_masses(motion.direction)});
+  for (std::size_t k = 0; k < out.supports.size(); ++k)
+    out.loads.push_back(
+        {fmt::format("[[support_motion]] entry {} of \"{}\"", k + 1, study.support_motions[k].group),
+         prescribed(study.support_motions[k]).acceleration, -fem::mass_times(model, out.supports[k])});
   initial_field(study, mesh, model, out);
   return out;
 }

@@ -18,11 +18,13 @@ struct Fields {
     Eigen::VectorXd force;
   };
   std::vector<Load> loads;
+  std::vector<Eigen::VectorXd> supports; ///< shapes of the study's support motions (support_motion.hpp)
   bool moves_at_start = false;
   Eigen::VectorXd displacement, velocity;                   ///< where moves_at_start
   Eigen::VectorXd displacement_momentum, velocity_momentum; ///< M times them
 };
+/// @param supports  shapes of the support motions
 [[nodiscard]] Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh,
-                                  const fem::Model& model);
+                                  const fem::Model& model, std::vector<Eigen::VectorXd> supports);
 
 } // namespace fretwork::app

@@ -2,6 +2,7 @@
 #include "app/build_scene.hpp"
 #include "app/contact_laws.hpp"
 #include "app/static_start.hpp"
+#include "app/support_motion.hpp"
 #include "fem/disjoint_sets.hpp"
 #include <algorithm>
 #include <cmath>
@@ -111,8 +112,38 @@ Eigen::Matrix<double, 3, 6> translations() {
   return out;
 }
 
-void add_contact(const study::Contact& contact, const PlacedContact& placed, const Bases& bases,
-                 const std::vector<study::BaseMotion>& base_motions, BuiltScene& out) {
+/// The six dofs of a node in the shapes of the support motions, 6 x motions.
+Eigen::MatrixXd support_dofs(const Fields& fields, Index node) {
+  Eigen::MatrixXd out(core::dofs_per_node, static_cast<Eigen::Index>(fields.supports.size()));
+  for (std::size_t k = 0; k < fields.supports.size(); ++k)
+    out.col(static_cast<Eigen::Index>(k)) =
+        fields.supports[k].segment<6>(static_cast<Eigen::Index>(node) * core::dofs_per_node);
+  return out;
+}
+
+/// What the motions of the scene do to a contact's point less its obstacle, global axes, 3 x motions; empty where nothing. The base
+/// leaves behind an obstacle that stays in space; supports move the point, and the obstacles they carry.
+Eigen::MatrixXd carried_by_motions(const study::Study& study, const study::Contact& contact,
+                                   const PlacedContact& placed, const Fields& fields,
+                                   const transient::Scene& scene) {
+  Eigen::MatrixXd carried = Eigen::MatrixXd::Zero(3, static_cast<Eigen::Index>(scene.motions.size()));
+  const auto supports = static_cast<Eigen::Index>(study.support_motions.size());
+  const Eigen::Index bases = carried.cols() - supports;
+  for (Eigen::Index k = 0; contact.grounded && k < bases; ++k)
+    carried.col(k) = study.base_motions[static_cast<std::size_t>(k)].direction;
+  for (const fem::NodeShare& share : placed.motion)
+    carried.rightCols(supports) += share.weights * support_dofs(fields, share.node);
+  if (placed.other >= 0)
+    carried.rightCols(supports) -= support_dofs(fields, placed.other).topRows(3);
+  for (Eigen::Index k = 0; k < supports; ++k)
+    if (const auto& motion = study.support_motions[static_cast<std::size_t>(k)];
+        contact.carrier == motion.group)
+      carried.col(bases + k) -= motion.direction;
+  return carried.isZero(0.0) ? Eigen::MatrixXd() : carried;
+}
+
+void add_contact(const study::Study& study, const study::Contact& contact, const PlacedContact& placed,
+                 const Bases& bases, const Fields& fields, BuiltScene& out) {
   Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(3, out.scene.system.size());
   for (const fem::NodeShare& share : placed.motion)
     add_motion(bases, share.node, share.weights, motion);
@@ -125,13 +156,21 @@ void add_contact(const study::Contact& contact, const PlacedContact& placed, con
   const double largest = point.b.size() > 0 ? point.b.cwiseAbs().maxCoeff() : 0.0;
   point.b = (point.b.array().abs() > round_off_of_shapes * largest)
                 .select(point.b, 0.0); // a direction that is not used costs nothing
-  if (contact.grounded && !base_motions.empty()) {
-    point.carried.resize(3, static_cast<Eigen::Index>(base_motions.size()));
-    for (std::size_t k = 0; k < base_motions.size(); ++k) // the base leaves the obstacle behind
-      point.carried.col(static_cast<Eigen::Index>(k)) = placed.frame.rotation() * base_motions[k].direction;
-  }
+  if (const auto carried = carried_by_motions(study, contact, placed, fields, out.scene); carried.size() > 0)
+    point.carried = placed.frame.rotation() * carried;
   point.support = support_of(contact, placed, out.scene.system, point.b);
   out.scene.contacts.push_back(std::move(point));
+}
+
+/// What the support motions do to an observed node; the base's are not counted.
+Eigen::MatrixXd carried_node(const study::Study& study, Index node, const Fields& fields,
+                             const transient::Scene& scene) {
+  if (study.support_motions.empty())
+    return {};
+  Eigen::MatrixXd carried = Eigen::MatrixXd::Zero(3, static_cast<Eigen::Index>(scene.motions.size()));
+  carried.rightCols(static_cast<Eigen::Index>(study.support_motions.size())) =
+      support_dofs(fields, node).topRows(3);
+  return carried;
 }
 
 } // namespace
@@ -196,16 +235,19 @@ BuiltScene build_scene(const study::Study& study, const Fields& fields, const st
   if (grounded)
     for (const study::BaseMotion& motion : study.base_motions)
       scene.motions.push_back({motion.acceleration, motion.velocity0, motion.displacement0});
+  for (const study::SupportMotion& motion : study.support_motions)
+    scene.motions.push_back(prescribed(motion));
   for (std::size_t c = 0; c < contacts.size(); ++c)
     if (has_node(bases, contacts[c].node) || (contacts[c].other >= 0 && has_node(bases, contacts[c].other))) {
-      add_contact(study.contacts[contacts[c].entry], contacts[c], bases, study.base_motions, out);
+      add_contact(study, study.contacts[contacts[c].entry], contacts[c], bases, fields, out);
       out.contacts.push_back(c);
     }
   for (std::size_t k = 0; k < nodes.size(); ++k)
     if (has_node(bases, nodes[k].node)) {
       Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(3, scene.system.size());
       add_motion(bases, nodes[k].node, translations(), rows);
-      out.nodes.push_back({nodes[k].name, std::move(rows)});
+      out.nodes.push_back(
+          {nodes[k].name, std::move(rows), carried_node(study, nodes[k].node, fields, scene)});
       out.node_numbers.push_back(k);
     }
   if (study.transient->start == study::Start::equilibrium)

@@ -4,6 +4,7 @@
 #include "app/jobs.hpp"
 #include "app/progress.hpp"
 #include "app/python_report.hpp"
+#include "app/support_motion.hpp"
 #include "core/error.hpp"
 #include "core/mpi.hpp"
 #include "core/petsc.hpp"
@@ -48,6 +49,9 @@ results::RunRecord make_record(const Inputs& inputs, int ranks) {
       record.seeds.push_back(random->seed);
   for (const auto& motion : inputs.study.base_motions)
     if (const auto* random = std::get_if<transient::Random>(&motion.acceleration))
+      record.seeds.push_back(random->seed);
+  for (const auto& motion : inputs.study.support_motions)
+    if (const auto* random = std::get_if<transient::Random>(&motion.function))
       record.seeds.push_back(random->seed);
   record.libraries = {
       {"PETSc", fmt::format("{}.{}.{}", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR)},
@@ -103,8 +107,9 @@ results::ContactFacts facts_of(const study::Contact& contact, const PlacedContac
 std::vector<BuiltScene> build_scenes(const study::Study& study, const mesh::LineMesh& mesh,
                                      const fem::Model& model, const std::vector<modal::Basis>& bases,
                                      const std::vector<PlacedContact>& placed,
-                                     const std::vector<NamedNode>& nodes, results::RunResults& out) {
-  const Fields fields = build_fields(study, mesh, model);
+                                     const std::vector<NamedNode>& nodes,
+                                     std::vector<Eigen::VectorXd> supports, results::RunResults& out) {
+  const Fields fields = build_fields(study, mesh, model, std::move(supports));
   std::vector<BuiltScene> scenes;
   out.contacts.resize(placed.size());
   for (const auto& structures : joined_structures(bases, placed)) {
@@ -129,7 +134,8 @@ std::vector<BuiltScene> build_scenes(const study::Study& study, const mesh::Line
                         "another seed if they are independent",
                         fields.loads[j].name, fields.loads[k].name, one->seed));
     }
-  for (std::size_t k = 0; k < fields.loads.size(); ++k) {
+  // a support that moves nothing by its inertia may still carry an obstacle
+  for (std::size_t k = 0; k < fields.loads.size() - fields.supports.size(); ++k) {
     const auto idle = [&](const BuiltScene& scene) { return scene.scene.loads[k].modal_force.isZero(0.0); };
     if (std::all_of(scenes.begin(), scenes.end(), idle))
       out.warnings.push_back(
@@ -238,10 +244,12 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
   fem::Model model;
   std::vector<PlacedContact> placed;
   std::vector<NamedNode> nodes;
+  std::vector<MovedSupport> moved;
   core::agree(comm, [&] {
     model = build_model(inputs.study, mesh);
     placed = place_contacts(inputs.study, mesh, model, out.warnings);
     nodes = observed_nodes(inputs.study, mesh);
+    moved = moved_supports(inputs.study, mesh, model);
   });
   report_coincident(mesh, out);
   out.timings.assembly = watch.lap();
@@ -250,19 +258,23 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
                            fmt::join(mesh::group_names(mesh), ", ")));
 
   progress.stage("modes");
+  std::vector<Eigen::VectorXd> supports;
   {
     const core::PetscSession petsc;
     ModesStage modes = modes_stage(comm, inputs, model, out.record, request.force);
     describe_model(model, modes.structures, out);
     out.bases = std::move(modes.bases);
+    if (last == Stage::transient)
+      core::agree(comm, [&] { supports = support_shapes(moved, model, modes.structures); });
   }
   report_modes(inputs.study, out);
   out.timings.modes = watch.lap();
   if (last == Stage::transient) {
     progress.stage("basis");
     std::vector<BuiltScene> scenes;
-    core::agree(comm,
-                [&] { scenes = build_scenes(inputs.study, mesh, model, out.bases, placed, nodes, out); });
+    core::agree(comm, [&] {
+      scenes = build_scenes(inputs.study, mesh, model, out.bases, placed, nodes, std::move(supports), out);
+    });
     for (const NamedNode& node : nodes)
       out.node_names.push_back(node.name);
     out.duration = inputs.study.transient->duration;
@@ -317,7 +329,8 @@ std::string check(const Request& request) {
   std::vector<std::string> warnings;
   const auto placed = place_contacts(inputs.study, mesh, model, warnings);
   const auto nodes = observed_nodes(inputs.study, mesh);
-  static_cast<void>(build_fields(inputs.study, mesh, model));
+  static_cast<void>(moved_supports(inputs.study, mesh, model));
+  static_cast<void>(build_fields(inputs.study, mesh, model, {}));
   std::int64_t dofs = 0;
   for (const auto& structure : structures)
     dofs += structure.equations;

@@ -97,7 +97,14 @@ public:
                  study.output.rest_time, static_cast<std::size_t>(impact_rows(study, choice))),
         nodes_(rows_of(built.nodes), study.output.statistics_from), grid_(grid_of(study)),
         recorder_(built.scene, built.nodes, grid_), observers_(watching(study, built, progress)),
-        run_(built.scene, choice, observers_, &recorder_, grid_) {}
+        run_(built.scene, choice, observers_, &recorder_, grid_) {
+    if (study.support_motions.empty())
+      return;
+    std::vector<Eigen::MatrixXd> carried;
+    for (const auto& node : built.nodes)
+      carried.push_back(node.carried);
+    nodes_.carry(carried, built.scene.motions, built.scene.duration);
+  }
 
   [[nodiscard]] transient::Run& run() { return run_; }
 

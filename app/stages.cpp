@@ -82,8 +82,9 @@ void make_keys(const Request& request, Inputs& inputs) {
   inputs.modes_key = core::sha256(
       program + file_bytes(inputs.mesh_file) +
       text({"mesh", "materials", "sections", "beams", "restraints", "masses", "springs", "modes"}));
-  inputs.whole_key = core::sha256(inputs.modes_key + text({"title", "contacts", "loads", "gravity",
-                                                           "base_motion", "initial", "transient", "output"}));
+  inputs.whole_key =
+      core::sha256(inputs.modes_key + text({"title", "contacts", "loads", "gravity", "base_motion",
+                                            "support_motion", "initial", "transient", "output"}));
 }
 
 mesh::LineMesh mesh_stage(MPI_Comm comm, const Inputs& inputs) {

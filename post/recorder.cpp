@@ -128,6 +128,7 @@ void Recorder::visit(core::StateArchive& state) {
   }
   for (NodeSeries& n : out_.nodes)
     first_rows(n.acceleration);
+  state.block(given_.data(), static_cast<std::size_t>(served_ * given_.rows()));
 }
 
 TimeSeries Recorder::series() && {

@@ -9,8 +9,8 @@ namespace fretwork::study {
 namespace {
 
 const Keys study_keys{{"title", "mesh", "materials", "sections", "beams", "restraints", "masses", "springs",
-                       "modes", "contacts", "loads", "gravity", "base_motion", "initial", "transient",
-                       "output"},
+                       "modes", "contacts", "loads", "gravity", "base_motion", "support_motion", "initial",
+                       "transient", "output"},
                       {"ties"}};
 
 [[maybe_unused]] bool is_key(const std::string& name) {
@@ -45,6 +45,7 @@ Study read(const std::filesystem::path& file, const std::vector<std::string>& ov
   study.loads = read_loads(root, folder);
   study.gravity = read_gravity(root);
   study.base_motions = read_base_motions(root, folder);
+  study.support_motions = read_support_motions(root, folder);
   study.transient = read_transient(root);
   study.initial = read_initial(root, study.transient);
   study.output = read_output(root, study.transient);
@@ -68,7 +69,7 @@ std::string canonical_text(const std::filesystem::path& file, const std::vector<
         continue;
     }
     if (auto* entries = std::get_if<Array>(&at->second.data);
-        entries && (name == "loads" || name == "base_motion"))
+        entries && (name == "loads" || name == "base_motion" || name == "support_motion"))
       for (std::size_t i = 0; i < entries->size(); ++i)
         inline_time_table((*entries)[i], name + "." + std::to_string(i), folder);
     text += name + " = " + toml_text(at->second, Digits::seventeen) + "\n";

@@ -65,6 +65,19 @@ std::string read_name(const TableReader& table, const std::string& group) {
   return name;
 }
 
+/// What the obstacle moves with: the base, nothing, or a support that moves by itself.
+void read_carrier(const TableReader& table, const TableReader& root, Contact& contact) {
+  Choices<std::string> choices{{{"base", "base"}, {"ground", "ground"}}};
+  for (const Entry& motion : array_entries(root, "support_motion"))
+    if (const auto group = motion.value->table()->find("group");
+        group != motion.value->table()->end() && group->second.string())
+      choices.available.emplace_back(*group->second.string(), *group->second.string());
+  const std::string carrier = table.choice<std::string>("attached_to", "base", choices);
+  contact.grounded = carrier == "ground";
+  if (carrier != "base" && carrier != "ground")
+    contact.carrier = carrier;
+}
+
 } // namespace
 
 std::vector<Contact> read_contacts(const TableReader& root) {
@@ -80,8 +93,8 @@ std::vector<Contact> read_contacts(const TableReader& root) {
     read_thickness(table, contact);
     read_normal_law(table, contact);
     read_friction(table, contact);
-    contact.grounded = table.choice("attached_to", false, Choices<bool>{{{"base", false}, {"ground", true}}});
-    if (contact.grounded && contact.other)
+    read_carrier(table, root, contact);
+    if (table.has("attached_to") && contact.other && (contact.grounded || contact.carrier))
       table.fail_at("attached_to", "an obstacle between two nodes moves with them; leave attached_to out");
     const auto [at, added] = places.emplace(contact.name, entry.value->where.text());
     if (!added)

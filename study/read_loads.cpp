@@ -10,6 +10,22 @@ Keys with_time_function(std::vector<std::string> known) {
   return {std::move(known)};
 }
 
+/// A displacement is twice differentiated: it must be smooth enough for that.
+void check_smooth(const TableReader& table, const SupportMotion& motion) {
+  if (table.has("random"))
+    table.fail_at("random", "a random displacement is not available; give quantity = \"acceleration\", or a "
+                            "table of the displacement");
+  for (const char* key : {"velocity0", "displacement0"})
+    if (table.has(key))
+      table.fail_at(key, "a displacement says by itself how the support starts; leave it out, or give "
+                         "quantity = \"acceleration\"");
+  const auto* rows = std::get_if<transient::Table>(&motion.function);
+  for (std::size_t i = 1; rows && i < rows->time.size(); ++i)
+    if (rows->time[i] == rows->time[i - 1])
+      table.fail_at("table", "a jump of displacement (two rows of equal time) would take an infinite force; "
+                             "give the rows times of their own");
+}
+
 } // namespace
 
 std::vector<Load> read_loads(const TableReader& root, const std::filesystem::path& folder) {
@@ -49,6 +65,28 @@ std::vector<BaseMotion> read_base_motions(const TableReader& root, const std::fi
     all.push_back({table.direction("direction"), read_time_function(table, folder, "m/s2"),
                    table.number_or("velocity0", 0.0, {Range::any, "m/s"}),
                    table.number_or("displacement0", 0.0, {Range::any, "m"})});
+  }
+  return all;
+}
+
+std::vector<SupportMotion> read_support_motions(const TableReader& root,
+                                                const std::filesystem::path& folder) {
+  std::vector<SupportMotion> all;
+  for (const Entry& entry : array_entries(root, "support_motion")) {
+    const TableReader table(
+        *entry.value, entry.path,
+        with_time_function({"group", "direction", "quantity", "velocity0", "displacement0"}));
+    SupportMotion motion;
+    motion.group = table.text("group", "the name of a physical point or curve of the mesh, the support");
+    motion.direction = table.direction("direction");
+    motion.by_displacement =
+        table.choice("quantity", false, Choices<bool>{{{"acceleration", false}, {"displacement", true}}});
+    motion.function = read_time_function(table, folder, motion.by_displacement ? "m" : "m/s2");
+    if (motion.by_displacement)
+      check_smooth(table, motion);
+    motion.velocity0 = table.number_or("velocity0", 0.0, {Range::any, "m/s"});
+    motion.displacement0 = table.number_or("displacement0", 0.0, {Range::any, "m"});
+    all.push_back(motion);
   }
   return all;
 }

@@ -26,6 +26,8 @@ namespace fretwork::study {
 [[nodiscard]] std::optional<Vec3> read_gravity(const TableReader& root);
 [[nodiscard]] std::vector<BaseMotion> read_base_motions(const TableReader& root,
                                                         const std::filesystem::path& folder);
+[[nodiscard]] std::vector<SupportMotion> read_support_motions(const TableReader& root,
+                                                              const std::filesystem::path& folder);
 [[nodiscard]] std::vector<Initial> read_initial(const TableReader& root,
                                                 const std::optional<Transient>& transient);
 

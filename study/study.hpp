@@ -97,6 +97,7 @@ struct Contact {
   std::optional<Vec3> origin;
   std::array<double, 2> offset{};
   bool grounded = false;                  ///< with base motion the obstacle stays in space
+  std::optional<std::string> carrier;     ///< group of the support motions that carry the obstacle
   double thickness = 0.0;                 ///< m, of the support along the tube
   int points = 1;                         ///< along the thickness, from edge to edge
   std::optional<double> normal_stiffness; ///< none: that of the tube's wall
@@ -129,6 +130,15 @@ struct BaseMotion {
   Vec3 direction; ///< unit
   transient::TimeFunction acceleration;
   double velocity0 = 0.0, displacement0 = 0.0; ///< m/s and m, at t = 0
+};
+
+/// A group that is moved: by its restraints, or by the ground of its springs.
+struct SupportMotion {
+  std::string group;
+  Vec3 direction;                              ///< unit
+  bool by_displacement = false;                ///< the time function gives m, otherwise m/s2
+  transient::TimeFunction function;            ///< a displacement is smooth: no random, no jump
+  double velocity0 = 0.0, displacement0 = 0.0; ///< m/s and m, at t = 0, of an acceleration
 };
 
 struct Initial {
@@ -187,6 +197,7 @@ struct Study {
   std::vector<Load> loads;
   std::optional<Vec3> gravity; ///< m/s2
   std::vector<BaseMotion> base_motions;
+  std::vector<SupportMotion> support_motions;
   std::vector<Initial> initial;
   std::optional<Transient> transient; ///< needed by `run` and `transient` only
   Output output;

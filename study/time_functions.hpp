@@ -22,7 +22,7 @@ read_time_function(const TableReader& entry, const std::filesystem::path& folder
 /// equal time, no row
 [[nodiscard]] transient::Table read_time_table(const std::filesystem::path& file);
 
-/// Replace the table files named by an entry of `[[loads]]` or `[[base_motion]]` by their rows, so that a
+/// Replace the table files named by an entry of `[[loads]]`, `[[base_motion]]` or `[[support_motion]]` by their rows, so that a
 /// canonical text depends on what a file holds and not on where it is.
 void inline_time_table(Value& entry, const std::string& path, const std::filesystem::path& folder);
 

@@ -34,6 +34,9 @@ public:
   ContactSolver::Action solve(const ContactMemory& memory, ContactMotion& motion, ContactTrial& trial);
   /// The forces of the last `solve` have acted. No allocation.
   void accept();
+  void visit(core::StateArchive& state) {
+    state(last_, before_, given_last_, given_before_, own_last_, own_before_, actions_, quiet_);
+  }
 
 private:
   /// A derivative or difference in time: now f_k + last f_{k-1} + before f_{k-2}.

@@ -126,6 +126,8 @@ public:
   void visit(core::StateArchive& state) override {
     state(steps_, unconverged_, time_, q_, v_, f_now_, trial_, memory_);
     state(record_.energy, moving_, after_action_, load_work_, lost_);
+    if (flexible_)
+      state(*flexible_);
     rows_.set(trial_, h_);
   }
 

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Supports that move by themselves: static shapes, closed forms, and the same structures described in other ways.
+#include "mesh_text.hpp"
+#include "program.hpp"
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace fretwork::app::test {
+namespace {
+
+constexpr double static_solution = 1e-9; ///< relative, of the factorisation on a mesh of some ten beams
+constexpr double same_equations = 1e-8;  ///< relative: the same numbers by other ways, over some impacts
+constexpr double pi = std::numbers::pi;
+
+const std::string beam = R"([mesh]
+file = "mesh.msh"
+[materials.steel]
+young_modulus = 2.0e11
+poisson_ratio = 0.3
+density = 8000.0
+[sections.tube]
+shape = "pipe"
+outer_diameter = 0.01905
+thickness = 0.00109
+[[beams]]
+group = "tube"
+material = "steel"
+section = "tube"
+[[restraints]]
+group = "tube_begin"
+fixed = "all"
+[[restraints]]
+group = "tube_end"
+fixed = "all"
+[modes]
+count = 20
+damping = 0.01
+[transient]
+duration = 0.1
+[output]
+every = 1.0e-3
+nodes = ["middle"]
+)";
+
+/// A tube along x of length 1, its middle a point; and a point of its own beside it.
+void write_tube(const Workshop& folder) {
+  MeshText mesh = straight_line("tube", {0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, 10);
+  mesh.points.emplace_back("middle", 5);
+  mesh.points.emplace_back("plate", static_cast<int>(mesh.nodes.size()));
+  mesh.nodes.emplace_back(0.5, 0.0, 0.0);
+  folder.write("mesh.msh", mesh.text());
+}
+
+std::string hole(const std::string& more) {
+  return "[[contacts]]\nname = \"hole\"\ngroup = \"middle\"\naxis = [1.0, 0.0, 0.0]\nnormal_stiffness = "
+         "1.0e5\n"
+         "normal_damping = 5.0\nfriction = 0.2\ntangential_stiffness = 1.0e5\n" +
+         more + "\n";
+}
+std::string restrained(const std::string& group) {
+  return "[[restraints]]\ngroup = \"" + group + "\"\nfixed = \"all\"\n";
+}
+std::string moved(const std::string& group, const std::string& how) {
+  return "[[support_motion]]\ngroup = \"" + group + "\"\n" + how + "\n";
+}
+
+double largest(const Eigen::MatrixXd& x) { return x.cwiseAbs().maxCoeff(); }
+
+/// A mass on a spring of 100 rad/s along y, as the study of lone points.
+std::string oscillator(const std::string& more) {
+  return R"([mesh]
+file = "mesh.msh"
+[[masses]]
+group = "mass"
+mass = 2.0
+[[restraints]]
+group = "mass"
+fixed = ["ux", "uz", "rx", "ry", "rz"]
+[modes]
+count = 1
+damping = 0.0
+[transient]
+duration = 0.1
+[output]
+every = 1.0e-3
+nodes = ["mass"]
+)" + more;
+}
+
+/// u = s + q, q'' + w0^2 q = -s'', s = A sin(w t): carried by the foot at t = 0.
+void expect_shaken(const post::NodeSeries& mass, const Eigen::VectorXd& time) {
+  constexpr double amplitude = 1e-3, w0 = 100.0, w = 2.0 * pi * 10.0;
+  constexpr double of_linear_loads = 1e-4; // (2 pi/200)^2/12 of the loads and what they force
+  for (Eigen::Index i = 0; i < time.size(); ++i) {
+    const double t = time(i), c = amplitude * w * w / (w0 * w0 - w * w);
+    const double u = amplitude * std::sin(w * t) + c * (std::sin(w * t) - w / w0 * std::sin(w0 * t));
+    const double v = amplitude * w * std::cos(w * t) + c * w * (std::cos(w * t) - std::cos(w0 * t));
+    const double a = -w0 * w0 * (u - amplitude * std::sin(w * t));
+    EXPECT_NEAR(mass.displacement(i, 1), u, of_linear_loads * amplitude);
+    EXPECT_NEAR(mass.velocity(i, 1), v, of_linear_loads * amplitude * w0);
+    EXPECT_NEAR(mass.acceleration(i, 1), a, of_linear_loads * amplitude * w0 * w0);
+  }
+}
+
+const std::string shaken = "direction = [0.0, 1.0, 0.0]\nquantity = \"displacement\"\n"
+                           "harmonic = { amplitude = 1.0e-3, frequency = 10.0 }\n";
+
+} // namespace
+
+TEST(SupportMotion, CarriesTheStructureStatically) {
+  const Workshop folder;
+  write_tube(folder);
+  // clamped at both ends, one moved by d: u = d (3 x^2 - 2 x^3)
+  const Results run =
+      folder.run_text(beam + moved("tube_end", "direction = [0.0, 3.0, 4.0]\nquantity = \"displacement\"\n"
+                                               "constant = 1.0e-3\n"));
+  const auto& middle = run.node("middle");
+  for (Eigen::Index i = 0; i < middle.displacement.rows(); ++i) {
+    EXPECT_NEAR(middle.displacement(i, 1), 0.5 * 0.6e-3, static_solution * 1e-3);
+    EXPECT_NEAR(middle.displacement(i, 2), 0.5 * 0.8e-3, static_solution * 1e-3);
+  }
+  EXPECT_EQ(largest(middle.velocity), 0.0);
+  const auto& mean = run.summary["nodes"][0]["displacement"]["y"];
+  EXPECT_NEAR(mean["mean"].get<double>(), 0.3e-3, static_solution * 1e-3);
+}
+
+TEST(SupportMotion, ShakesAnOscillatorByItsFoot) {
+  const Workshop folder;
+  folder.write("mesh.msh", lone_points({"mass", "foot"}).text());
+  const Results run = folder.run_text(oscillator("[[springs]]\ngroup = \"mass\"\nother = \"foot\"\n"
+                                                 "stiffness = [0.0, 2.0e4, 0.0, 0.0, 0.0, 0.0]\n" +
+                                                 restrained("foot") + moved("foot", shaken)));
+  expect_shaken(run.node("mass"), run.archive.series.time);
+}
+
+TEST(SupportMotion, ShakesAnOscillatorByTheGroundOfItsSpring) {
+  const Workshop folder;
+  folder.write("mesh.msh", lone_points({"mass"}).text());
+  const Results run = folder.run_text(oscillator("[[springs]]\ngroup = \"mass\"\n"
+                                                 "stiffness = [0.0, 2.0e4, 0.0, 0.0, 0.0, 0.0]\n" +
+                                                 moved("mass", shaken)));
+  expect_shaken(run.node("mass"), run.archive.series.time);
+}
+
+TEST(SupportMotion, OfAllSupportsIsBaseMotionSeenFromSpace) {
+  const Workshop folder;
+  write_tube(folder);
+  const std::string how = "direction = [0.0, 1.0, 0.5]\nvelocity0 = -0.05\n"
+                          "harmonic = { amplitude = 20.0, frequency = 40.0 }\n";
+  const Results base =
+      folder.run_text(beam + "[[base_motion]]\n" + how + hole("gap = 1.0e-4\nattached_to = \"ground\""));
+  const Results supports =
+      folder.run_text(beam + moved("tube_begin", how) + moved("tube_end", how) + hole("gap = 1.0e-4"));
+  const auto &a = base.contact("hole"), &b = supports.contact("hole");
+  EXPECT_GT(largest(a.normal_force), 1.0);
+  EXPECT_LT(largest(a.displacement - b.displacement), same_equations * largest(a.displacement));
+  EXPECT_LT(largest(a.velocity - b.velocity), same_equations * largest(a.velocity));
+  EXPECT_LT(largest(a.normal_force - b.normal_force), same_equations * largest(a.normal_force));
+  // the observed node: relative to the base there, in space here; at the contact both are the same point
+  const auto& node = supports.node("middle");
+  EXPECT_LT(largest(node.displacement.col(1) - b.displacement.col(1)),
+            same_equations * largest(b.displacement));
+  EXPECT_GT(largest(base.node("middle").displacement - node.displacement), 0.1 * largest(b.displacement));
+  EXPECT_TRUE(close_to(supports.summary["energy"]["input_J"].get<double>(),
+                       base.summary["energy"]["input_J"].get<double>(), same_equations));
+}
+
+TEST(SupportMotion, OfOneEndIsThatOfAHeavyMass) {
+  const Workshop folder;
+  write_tube(folder);
+  // s'' = a cos(w t), from rest; no damping, that of the mass' own mode would be another
+  const std::string function =
+      "harmonic = {{ amplitude = {}, frequency = 30.0, phase = 1.5707963267948966 }}\n";
+  std::string heavy = beam, end = "group = \"tube_end\"\nfixed = \"all\"";
+  heavy.replace(heavy.find(end), end.size(),
+                "group = \"tube_end\"\nfixed = [\"ux\", \"uz\", \"rx\", \"ry\", \"rz\"]");
+  const std::vector<std::string> undamped = {"--set", "modes.damping=0.0"};
+  const Results moved_end = folder.run_text(
+      beam + moved("tube_end", "direction = [0.0, 1.0, 0.0]\n" + fmt::format(fmt::runtime(function), 60.0)) +
+          hole("gap = 2.0e-4"),
+      undamped);
+  const Results pushed =
+      folder.run_text(heavy +
+                          "[[masses]]\ngroup = \"tube_end\"\nmass = 1.0e6\n[[loads]]\ngroup = \"tube_end\"\n"
+                          "direction = [0.0, 1.0, 0.0]\n" +
+                          fmt::format(fmt::runtime(function), 60.0e6) + hole("gap = 2.0e-4"),
+                      undamped);
+  const auto &a = moved_end.contact("hole"), &b = pushed.contact("hole");
+  constexpr double truncated = 1e-3; // the modes left out move in one description and are static in the other
+  EXPECT_GT(largest(a.normal_force), 10.0);
+  EXPECT_LT(largest(a.displacement - b.displacement), truncated * largest(a.displacement));
+  EXPECT_LT(largest(a.normal_force - b.normal_force), 0.02 * largest(a.normal_force));
+}
+
+TEST(SupportMotion, CarriesObstaclesThatAreAttachedToIt) {
+  const Workshop folder;
+  write_tube(folder);
+  const std::string plate =
+      restrained("plate") + moved("plate",
+                                  "direction = [0.0, 0.0, 1.0]\nquantity = \"displacement\"\n"
+                                  "table = [[0.0, 0.0], [0.01, 1.0e-3], [0.02, -1.0e-3], [0.03, 0.0]]\n");
+  const Results attached = folder.run_text(beam + plate + hole("gap = 1.0e-4\nattached_to = \"plate\""));
+  const Results between = folder.run_text(
+      beam + plate +
+      hole("other = \"plate\"\nobstacle = \"circle_inside\"\ndistance_1 = 0.01\ndistance_2 = 0.0101"));
+  const Results space = folder.run_text(beam + plate + hole("gap = 1.0e-4"));
+  const auto &a = attached.contact("hole"), &b = between.contact("hole");
+  EXPECT_GT(largest(a.normal_force), 10.0);
+  EXPECT_LT(largest(a.normal_force - b.normal_force), same_equations * largest(a.normal_force));
+  EXPECT_LT(largest(a.displacement - b.displacement), same_equations * largest(a.displacement));
+  EXPECT_EQ(largest(space.contact("hole").normal_force), 0.0);
+  // the plate has come back: the tube's own displacement is that from the obstacle
+  const auto last = a.displacement.rows() - 1;
+  EXPECT_NEAR(a.displacement(last, 2), attached.node("middle").displacement(last, 2), 1e-12);
+}
+
+TEST(SupportMotion, TellsWhatIsWrong) {
+  const Workshop folder;
+  write_tube(folder);
+  const auto refused = [&](const std::string& more) {
+    const Outcome outcome = folder.fretwork({"check", folder.write("study.toml", beam + more).string()});
+    EXPECT_EQ(outcome.status, 1);
+    return outcome.err;
+  };
+  EXPECT_TRUE(says(
+      refused(moved("middle", "direction = [0.0, 1.0, 0.0]\nconstant = 1.0")),
+      "[[support_motion]] entry 1: a node of \"middle\" at (0.5, 0, 0) is neither restrained nor held by a "
+      "grounded spring along y, so that nothing moves it; add \"uy\" to its [[restraints]], a spring, or "
+      "change the direction"));
+  EXPECT_TRUE(
+      says(refused(moved("tube_ends", "direction = [0.0, 1.0, 0.0]\nconstant = 1.0")), "\"tube_ends\""));
+  const Outcome scheme = folder.fretwork(
+      {"run",
+       folder
+           .write("study.toml", beam + moved("tube_end", "direction = [0.0, 1.0, 0.0]\nconstant = 1.0") +
+                                    hole("gap = 1.0e-4"))
+           .string(),
+       "-o", folder.path("results").string(), "--no-report", "--set", "transient.scheme=devogelaere"});
+  EXPECT_EQ(scheme.status, 1);
+  EXPECT_TRUE(
+      says(scheme.err, "scheme = \"devogelaere\" does not follow obstacles that move from the supports"));
+}
+
+} // namespace fretwork::app::test
