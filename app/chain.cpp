@@ -13,7 +13,9 @@
 #include <chrono>
 #include <fmt/format.h>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <petscversion.h>
 #include <slepcversion.h>
 
@@ -170,7 +172,29 @@ void make_directory(const fs::path& directory) {
                                   directory.string(), failure.message()));
 }
 
-/// What the user should know of the number of modes.
+/// Share of a frequency that the mesh may add before the user is told.
+constexpr double told_mesh_error = 0.01;
+
+/// Modes that the mesh is too coarse for.
+void report_mesh_error(results::RunResults& out) {
+  std::size_t coarse = 0, all = 0;
+  double lowest = std::numeric_limits<double>::infinity(), worst = 0.0;
+  for (const auto& basis : out.bases)
+    for (Eigen::Index i = 0; i < basis.size(); ++i, ++all)
+      if (basis.error(i) > told_mesh_error) {
+        ++coarse;
+        lowest = std::min(lowest, basis.omega(i) / (2.0 * std::numbers::pi));
+        worst = std::max(worst, basis.error(i));
+      }
+  if (coarse > 0)
+    out.warnings.push_back(
+        fmt::format("the mesh is coarse for {} of {} modes, from {:.4g} Hz on: it adds more than 1 % to "
+                    "their frequencies, up to "
+                    "about {:.2g} % (too few elements a half wave); mesh more finely, or ask for fewer modes",
+                    coarse, all, lowest, 100.0 * worst));
+}
+
+/// What the user should know of the modes.
 void report_modes(const study::Study& study, results::RunResults& out) {
   std::size_t split = 0, short_of = 0;
   for (const auto& basis : out.bases) {
@@ -183,6 +207,11 @@ void report_modes(const study::Study& study, results::RunResults& out) {
                                        "one more or one less",
                                        *study.modes.count,
                                        split > 1 ? fmt::format(" of {} structures", split) : ""));
+  report_mesh_error(out);
+  if (const auto all = static_cast<std::int64_t>(out.bases.size()); out.model.different_structures < all)
+    out.notes.push_back(
+        fmt::format("{} structures, {} different ones: the others are copies and take their modes", all,
+                    out.model.different_structures));
   if (short_of > 0)
     out.notes.push_back(fmt::format("{} of {} structures have fewer than modes.count = {} modes", short_of,
                                     out.bases.size(), *study.modes.count));
@@ -263,6 +292,8 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
     const core::PetscSession petsc;
     ModesStage modes = modes_stage(comm, inputs, model, out.record, request.force);
     describe_model(model, modes.structures, out);
+    out.model.different_structures = static_cast<std::int64_t>(modes.different);
+    out.warnings.insert(out.warnings.end(), modes.warnings.begin(), modes.warnings.end());
     out.bases = std::move(modes.bases);
     if (last == Stage::transient)
       core::agree(comm, [&] { supports = support_shapes(moved, model, modes.structures); });
@@ -318,6 +349,8 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
     report_line = make_report(inputs.directory);
   }
   progress.stage("");
+  if (last == Stage::modes)
+    say(results::modes_table(out));
   say(results::terminal_table(out) + fmt::format("results: {}\n", inputs.directory.string()) + report_line);
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/jobs.hpp"
-#include "app/share_out.hpp"
 #include "core/error.hpp"
 #include "core/mpi.hpp"
+#include "core/share_out.hpp"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -374,7 +374,7 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
   for (std::size_t s = 0; s < scenes.size(); ++s)
     costs.push_back(static_cast<double>(choices[s].steps) *
                     static_cast<double>(scenes[s].scene.system.size()));
-  const std::vector<int> owner = share_out(costs, ranks);
+  const std::vector<int> owner = core::share_out(costs, ranks);
   std::int64_t all_steps = 0, done_steps = 0;
   for (std::size_t s = 0; s < scenes.size(); ++s)
     all_steps += owner[s] == here ? choices[s].steps : 0;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/stages.hpp"
-#include "app/share_out.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "core/mpi.hpp"
 #include "core/petsc.hpp"
+#include "modal/copies.hpp"
 #include "modal/damping.hpp"
-#include "modal/slepc_modes.hpp"
+#include "modal/slepc_structures.hpp"
+#include "modal/spans.hpp"
 #include "results/write.hpp"
 #include <algorithm>
 #include <fmt/format.h>
@@ -18,24 +19,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A structure of more free dofs than this is solved over all ranks unless the study says otherwise: below,
-/// one rank is faster (a distributed factorisation costs 5 to 7 times a serial one) and the result does not
-/// depend on the number of ranks.
-constexpr core::Index distribute_above = 300'000;
-
 std::string file_bytes(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-void broadcast(MPI_Comm comm, int root, modal::Basis& basis) {
-  core::broadcast(comm, root, basis.shapes);
-  core::broadcast(comm, root, basis.omega);
-  core::broadcast(comm, root, basis.damping);
-  core::broadcast(comm, root, basis.damping_matrix);
-  core::broadcast(comm, root, basis.residuals);
-  MPI_Bcast(&basis.orthogonality, 1, MPI_DOUBLE, root, comm);
-  MPI_Bcast(&basis.splits_group, 1, MPI_CXX_BOOL, root, comm);
+/// Of the stored modes: a distributed structure differs in its last digits with the number of ranks.
+std::string stored_key(MPI_Comm comm, const Inputs& inputs, const std::vector<fem::Structure>& structures) {
+  const bool distributed =
+      std::any_of(structures.begin(), structures.end(), [&](const fem::Structure& structure) {
+        return modal::is_distributed(comm, structure, inputs.study.modes.distributed);
+      });
+  return distributed ? fmt::format("{} over {} ranks", inputs.modes_key, core::size(comm)) : inputs.modes_key;
 }
 
 } // namespace
@@ -110,14 +105,14 @@ std::vector<fem::Structure> moving_structures(const fem::Model& model) {
 ModesStage modes_stage(MPI_Comm comm, const Inputs& inputs, const fem::Model& model,
                        const results::RunRecord& record, bool force) {
   ModesStage out;
-  core::agree(comm, [&] { out.structures = moving_structures(model); });
-  const int ranks = core::size(comm), here = core::rank(comm);
-  const auto distributed = [&](const fem::Structure& s) {
-    return ranks > 1 && inputs.study.modes.distributed.value_or(s.equations > distribute_above);
-  };
-  const bool any_distributed = std::any_of(out.structures.begin(), out.structures.end(), distributed);
-  const std::string key =
-      any_distributed ? fmt::format("{} over {} ranks", inputs.modes_key, ranks) : inputs.modes_key;
+  core::agree(comm, [&] {
+    out.structures = moving_structures(model);
+    out.warnings = modal::check_spans(model, out.structures);
+  });
+  const std::vector<std::size_t> original = modal::originals(model, out.structures);
+  for (std::size_t s = 0; s < original.size(); ++s)
+    out.different += original[s] == s ? 1 : 0;
+  const std::string key = stored_key(comm, inputs, out.structures);
   const fs::path file = inputs.directory / "modes.h5";
   std::optional<std::vector<modal::Basis>> stored;
   if (!force)
@@ -129,42 +124,21 @@ ModesStage modes_stage(MPI_Comm comm, const Inputs& inputs, const fem::Model& mo
     return out;
   }
   out.computed = true;
-  out.bases.resize(out.structures.size());
-  const modal::Wanted wanted{inputs.study.modes.count, inputs.study.modes.up_to_hz};
-  std::vector<double> costs;
-  for (const fem::Structure& structure : out.structures)
-    costs.push_back(structure.equations);
-  const std::vector<int> owner = share_out(costs, ranks);
-  const auto solve = [&](MPI_Comm group, std::size_t s) {
-    modal::Basis& basis = out.bases[s];
-    basis = modal::solve_modes(group, model, out.structures[s], wanted);
-    modal::apply_damping(basis, inputs.study.modes.damping);
-  };
-  for (std::size_t s = 0; s < out.structures.size(); ++s)
-    if (distributed(out.structures[s]))
-      core::agree(comm, [&] { solve(comm, s); });
+  const study::Modes& modes = inputs.study.modes;
+  out.bases =
+      modal::solve_structures(comm, model, out.structures, {modes.count, modes.up_to_hz}, modes.distributed);
   core::agree(comm, [&] {
-    for (std::size_t s = 0; s < out.structures.size(); ++s)
-      if (!distributed(out.structures[s]) && owner[s] == here)
-        solve(MPI_COMM_SELF, s);
-  });
-  core::agree(comm, [&] {
-    for (std::size_t s = 0; s < out.structures.size(); ++s)
-      if ((distributed(out.structures[s]) || owner[s] == here) && out.bases[s].size() == 0)
+    for (modal::Basis& basis : out.bases) {
+      modal::apply_damping(basis, modes.damping);
+      if (basis.size() == 0)
         throw core::Error(
-            inputs.study.modes.up_to_hz
+            modes.up_to_hz
                 ? fmt::format("no mode up to modes.up_to_hz = {} Hz; give a higher limit, or modes.count",
-                              *inputs.study.modes.up_to_hz)
+                              *modes.up_to_hz)
                 : "a structure has no mode: nothing that moves has mass; give its material a density, "
                   "or it a [[masses]] entry");
-  });
-  for (std::size_t s = 0; s < out.structures.size(); ++s) {
-    out.bases[s].nodes = out.structures[s].nodes;
-    if (!distributed(out.structures[s]))
-      broadcast(comm, owner[s], out.bases[s]);
-  }
-  core::agree(comm, [&] {
-    if (here == 0)
+    }
+    if (core::rank(comm) == 0)
       results::write_bases(file, record, out.bases, key);
   });
   return out;

@@ -51,11 +51,12 @@ void make_keys(const Request& request, Inputs& inputs);
 struct ModesStage {
   std::vector<fem::Structure> structures;
   std::vector<modal::Basis> bases; ///< by structure, the same bytes on every rank
-  bool computed = false;           ///< false: read from DIR/modes.h5
+  std::size_t different = 0;       ///< structures that are no copy of another: so many are solved
+  std::vector<std::string> warnings;
+  bool computed = false; ///< false: read from DIR/modes.h5
 };
 
-/// Collective. Structures are shared out over ranks, each solved by one; one that is large, or where the
-/// study says so, is solved over all.
+/// Collective. The modes of every structure (modal/slepc_structures.hpp), their damping as the study says.
 [[nodiscard]] ModesStage modes_stage(MPI_Comm comm, const Inputs& inputs, const fem::Model& model,
                                      const results::RunRecord& record, bool force);
 

@@ -22,6 +22,7 @@ struct Material {
   double young_modulus; ///< Pa, > 0
   double poisson_ratio; ///< -1 < nu < 0.5
   double density;       ///< kg/m3, >= 0
+  bool operator==(const Material&) const = default;
 };
 
 /// A cross-section in its principal axes y, z.
@@ -32,6 +33,7 @@ struct Section {
   double torsion_constant; ///< m4, > 0
   double polar_inertia; ///< m4, >= 0: iy + iz for a solid section; rotary inertia about the axis is density
                         ///< times this
+  bool operator==(const Section&) const = default;
 };
 
 /// The direction in which added (fluid) mass acts.
@@ -45,6 +47,7 @@ struct BeamProperty {
   AddedMass added_mass_direction = AddedMass::transverse;
   std::optional<Vec3> orientation =
       std::nullopt; ///< a vector in the local x-y plane; required where iy != iz
+  bool operator==(const BeamProperty&) const = default;
 };
 
 /// A beam between nodes a and b: straight, or along the arc of a circle through a third point, which is no
@@ -53,6 +56,7 @@ struct Beam {
   Index a, b;
   Index property;
   std::optional<Vec3> middle = std::nullopt; ///< on the arc, between its ends
+  bool operator==(const Beam&) const = default;
 };
 
 /// A rigid body at a node.
@@ -61,6 +65,7 @@ struct LumpedMass {
   double mass;                 ///< kg, >= 0
   Vec3 inertia = Vec3::Zero(); ///< kg m2 about the body's own centre, >= 0
   Vec3 arm = Vec3::Zero();     ///< m, from the node to the body's centre
+  bool operator==(const LumpedMass&) const = default;
 };
 
 /// Springs and dampers along the six dofs, grounded (other = -1) or between two nodes.
@@ -69,6 +74,7 @@ struct Spring {
   Index other = -1;
   std::array<double, 6> stiffness{}; ///< N/m, N m/rad, >= 0
   std::array<double, 6> damping{};   ///< N s/m, N m s/rad, >= 0
+  bool operator==(const Spring&) const = default;
 };
 
 struct Model {

@@ -29,10 +29,25 @@ struct SystemMatrices {
 /// rows.
 [[nodiscard]] SystemMatrices assemble(MPI_Comm comm, const Model& model, const Structure& structure);
 
-/// L D L^T of a symmetric matrix: PETSc's own on one rank (`chain`: nodes eliminated in their order,
-/// otherwise by nested dissection), MUMPS on several. Collective.
+/// How a structure's matrices are factorised on one rank: each the fastest for its kind.
+enum class Elimination {
+  chain,  ///< PETSc's own factor, nodes in their order: what fills least
+  tree,   ///< the same by nested dissection: branches, few loops
+  network ///< MUMPS, whose dense fronts pay where there are thousands of loops (a factor at 1e5 dofs 0.5
+          ///< instead of 7 s); on chains its solves would take ten times as long
+};
+[[nodiscard]] Elimination elimination_of(const Model& model, const Structure& structure);
+
+/// PETSc's names of the package and of the ordering; on several ranks always MUMPS.
+struct Factoriser {
+  MatSolverType package;
+  MatOrderingType ordering;
+};
+[[nodiscard]] Factoriser factoriser(MPI_Comm comm, Elimination elimination);
+
+/// L D L^T of a symmetric matrix. Collective.
 /// @throws core::ComputationError where a pivot vanishes
-[[nodiscard]] PetscMatrix factorise(Mat matrix, bool chain);
+[[nodiscard]] PetscMatrix factorise(Mat matrix, Elimination elimination);
 
 /// Static displacement of a structure under `force` (6 values a model node): K u = f on the free dofs,
 /// serial.

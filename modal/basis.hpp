@@ -14,14 +14,19 @@ struct Basis {
   std::vector<core::Index> nodes; ///< model nodes of the structure, ascending
   Eigen::MatrixXd shapes;  ///< (6 * nodes.size()) x n: ux uy uz rx ry rz of each node; 0 at restrained dofs
   Eigen::VectorXd omega;   ///< n, rad/s, ascending; 0 exactly for rigid-body modes
+  Eigen::VectorXd error;   ///< n: estimate of what the mesh adds to omega, relative (fem/mesh_error.hpp)
   Eigen::VectorXd damping; ///< n, ratio to critical (for a rigid mode: of no effect)
   Eigen::MatrixXd damping_matrix; ///< n x n, 1/s: Phi^T C Phi, all damping included; empty where it is the
                                   ///< diagonal 2 zeta omega
   Eigen::VectorXd
       residuals; ///< n, |K x - lambda M x| / |K x| (rigid: |K x| over the largest term of the product)
-  double orthogonality = 0.0; ///< max |Phi^T M Phi - I|
-  bool splits_group = false;  ///< the last mode has others of the same frequency that were not kept
-  bool distributed = false;   ///< solved over all ranks
+  Eigen::MatrixXd participation; ///< n x 3, sqrt(kg): Phi^T M times a unit translation along x, y, z of all
+                                 ///< nodes; its squares are the effective modal masses
+  core::Vec3 moving_mass = core::Vec3::Zero(); ///< kg, by direction: what the effective masses of all modes
+                                               ///< add up to, but for the share of restrained dofs
+  double orthogonality = 0.0;                  ///< max |Phi^T M Phi - I|
+  bool splits_group = false; ///< the last mode has others of the same frequency that were not kept
+  bool distributed = false;  ///< solved over all ranks
 
   [[nodiscard]] Eigen::Index size() const { return omega.size(); }
   /// Row of `node` in `shapes` (6 rows from there), or -1 where the structure does not have it.

@@ -2,6 +2,7 @@
 #include "modal/finish.hpp"
 #include "core/error.hpp"
 #include "fem/fields.hpp"
+#include "fem/mesh_error.hpp"
 #include "modal/canonical.hpp"
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -20,9 +21,9 @@ constexpr double round_off_limit = 0.05;
 constexpr double resolved_range = 1e12;
 
 /// Makes the columns M-orthonormal, in order: G = L L^T, Phi <- Phi L^-T.
-void orthonormalise(const fem::Model& model, const fem::Structure& structure, Eigen::MatrixXd& shapes) {
-  const Eigen::MatrixXd gram = shapes.transpose() * fem::mass_times(model, structure, shapes);
-  const Eigen::LLT<Eigen::MatrixXd> factor(gram);
+/// @param moved  M Phi
+void orthonormalise(Eigen::MatrixXd& shapes, const Eigen::MatrixXd& moved) {
+  const Eigen::LLT<Eigen::MatrixXd> factor(shapes.transpose() * moved);
   if (factor.info() != Eigen::Success)
     throw core::ComputationError(
         "modes: the shapes found are not independent; ask for fewer ([modes] count)");
@@ -74,6 +75,15 @@ Eigen::VectorXd residuals(const fem::Model& model, const fem::Structure& structu
   return result;
 }
 
+/// A unit translation along x, y and z of all nodes, restrained ones included: one column each.
+Eigen::MatrixXd translations(const fem::Structure& structure) {
+  const auto nodes = static_cast<Eigen::Index>(structure.nodes.size());
+  Eigen::MatrixXd fields = Eigen::MatrixXd::Zero(nodes * core::dofs_per_node, 3);
+  for (Eigen::Index i = 0; i < nodes; ++i)
+    fields.middleRows<3>(i * core::dofs_per_node).setIdentity();
+  return fields;
+}
+
 Eigen::MatrixXd projected_dampers(const fem::Model& model, const fem::Structure& structure,
                                   const Basis& basis) {
   Eigen::MatrixXd matrix;
@@ -99,26 +109,28 @@ Eigen::MatrixXd projected_dampers(const fem::Model& model, const fem::Structure&
 Basis finish(const fem::Model& model, const fem::Structure& structure, const Eigen::MatrixXd& rigid,
              const Pairs& pairs, const Cut& cut) {
   const Eigen::MatrixXd elastic = all_rows(structure, pairs.vectors);
-  const Eigen::VectorXd energies = fem::twice_strain_energy(model, structure, elastic);
-  const Eigen::MatrixXd moved = fem::mass_times(model, structure, elastic);
+  Eigen::MatrixXd fields(elastic.rows(), rigid.cols() + elastic.cols());
+  fields << rigid, elastic;
+  const Eigen::MatrixXd moved = fem::mass_times(model, structure, fields);
   const Eigen::VectorXd quotients =
-      energies.array() / elastic.cwiseProduct(moved).colwise().sum().transpose().array();
+      fem::twice_strain_energy(model, structure, elastic).array() /
+      elastic.cwiseProduct(moved.rightCols(elastic.cols())).colwise().sum().transpose().array();
   check_round_off(pairs.lambda, quotients);
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(quotients.size()));
+  Eigen::VectorXd lambda = Eigen::VectorXd::Zero(fields.cols());
+  lambda.tail(quotients.size()) = quotients;
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(lambda.size())); // rigid motions stay first
   std::iota(order.begin(), order.end(), Eigen::Index{0});
   std::stable_sort(order.begin(), order.end(),
-                   [&](Eigen::Index i, Eigen::Index j) { return quotients[i] < quotients[j]; });
+                   [&](Eigen::Index i, Eigen::Index j) { return lambda[i] < lambda[j]; });
 
   Basis basis;
   basis.nodes = structure.nodes;
-  basis.shapes.resize(elastic.rows(), rigid.cols() + elastic.cols());
-  basis.shapes << rigid, elastic(Eigen::all, order);
-  Eigen::VectorXd lambda = Eigen::VectorXd::Zero(basis.shapes.cols());
-  lambda.tail(quotients.size()) = quotients(order);
+  basis.shapes = fields(Eigen::all, order);
+  lambda = lambda(order).eval();
   std::vector<core::Vec3> positions;
   for (const core::Index node : structure.nodes)
     positions.push_back(model.nodes[static_cast<std::size_t>(node)]);
-  orthonormalise(model, structure, basis.shapes);
+  orthonormalise(basis.shapes, moved(Eigen::all, order));
   canonicalise_clusters(basis.shapes, lambda, rigid.cols(), positions);
 
   Eigen::Index kept = 0;
@@ -136,6 +148,11 @@ Basis finish(const fem::Model& model, const fem::Structure& structure, const Eig
           ? (basis.shapes.transpose() * inertia - Eigen::MatrixXd::Identity(kept, kept)).cwiseAbs().maxCoeff()
           : 0.0;
   basis.residuals = residuals(model, structure, basis, inertia);
+  basis.error = fem::mesh_error(model, structure, basis.shapes, lambda.head(kept));
+  const Eigen::MatrixXd translated = translations(structure);
+  basis.participation = inertia.transpose() * translated;
+  basis.moving_mass =
+      translated.cwiseProduct(fem::mass_times(model, structure, translated)).colwise().sum().transpose();
   return basis;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// From eigenvectors to a Basis: frequencies from strain energies, canonical clusters, orthonormality,
-/// residuals, dampers.
+/// residuals, error of the mesh, participation, dampers.
 #pragma once
 #include "fem/model.hpp"
 #include "modal/basis.hpp"

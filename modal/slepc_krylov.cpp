@@ -108,9 +108,9 @@ fem::PetscMatrix shifted(const fem::SystemMatrices& system, double s) {
   return matrix;
 }
 
-void set_factorisation(EPS eps, Mat matrix, double shift, bool chain) {
-  int ranks = 1;
-  MPI_Comm_size(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), &ranks);
+void set_factorisation(EPS eps, Mat matrix, double shift, fem::Elimination elimination) {
+  const auto [package, ordering] =
+      fem::factoriser(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), elimination);
   ST st = nullptr;
   KSP ksp = nullptr;
   PC pc = nullptr;
@@ -122,8 +122,8 @@ void set_factorisation(EPS eps, Mat matrix, double shift, bool chain) {
   FW_PETSC(KSPSetType(ksp, KSPPREONLY));
   FW_PETSC(KSPGetPC(ksp, &pc));
   FW_PETSC(PCSetType(pc, PCCHOLESKY));
-  FW_PETSC(PCFactorSetMatSolverType(pc, ranks == 1 ? MATSOLVERPETSC : MATSOLVERMUMPS));
-  FW_PETSC(PCFactorSetMatOrderingType(pc, chain ? MATORDERINGNATURAL : MATORDERINGND));
+  FW_PETSC(PCFactorSetMatSolverType(pc, package));
+  FW_PETSC(PCFactorSetMatOrderingType(pc, ordering));
 }
 
 void deflate(EPS eps, Mat matrix, const Eigen::MatrixXd& columns) {
@@ -194,7 +194,7 @@ Eigen::Index widest_gap(const Eigen::VectorXd& lambda, Eigen::Index first) {
 KrylovModes::KrylovModes(MPI_Comm comm, const fem::Model& model, const fem::Structure& structure,
                          const Eigen::MatrixXd& rigid)
     : comm_(comm), model_(model), structure_(structure), rigid_(free_rows(structure, rigid)),
-      system_(fem::assemble(comm, model, structure)), chain_(fem::is_chain(model, structure)) {
+      system_(fem::assemble(comm, model, structure)), elimination_(fem::elimination_of(model, structure)) {
   const Vector diagonal = vector_like(system_.mass.get());
   FW_PETSC(MatGetDiagonal(system_.mass.get(), diagonal.handle));
   PetscInt local = 0;
@@ -214,7 +214,7 @@ std::string KrylovModes::what() const {
 }
 
 int KrylovModes::below(double s) const {
-  const fem::PetscMatrix factor = fem::factorise(shifted(system_, s).get(), chain_);
+  const fem::PetscMatrix factor = fem::factorise(shifted(system_, s).get(), elimination_);
   PetscInt negative = 0;
   FW_PETSC(MatGetInertia(factor.get(), &negative, nullptr, nullptr));
   return static_cast<int>(negative);
@@ -232,7 +232,7 @@ Pairs KrylovModes::solve(int count, const Eigen::MatrixXd& deflated, int start) 
   FW_PETSC(EPSSetTarget(eps, shift_));
   FW_PETSC(EPSSetDimensions(eps, count, PETSC_DEFAULT, PETSC_DEFAULT));
   FW_PETSC(EPSSetTolerances(eps, tolerance, PETSC_DEFAULT));
-  set_factorisation(eps, k, shift_, chain_);
+  set_factorisation(eps, k, shift_, elimination_);
   deflate(eps, k, deflated);
   const Vector first = vector_like(k);
   fill(first.handle, [&](PetscInt i) { return start_value(i, start); });
@@ -278,7 +278,7 @@ Pairs KrylovModes::slice(int count) const {
   FW_PETSC(EPSSetWhichEigenpairs(eps, EPS_ALL));
   FW_PETSC(EPSSetInterval(eps, low, high));
   FW_PETSC(EPSSetTolerances(eps, tolerance, PETSC_DEFAULT));
-  set_factorisation(eps, system_.stiffness.get(), low, chain_);
+  set_factorisation(eps, system_.stiffness.get(), low, elimination_);
   FW_PETSC(EPSSolve(eps));
   return sorted(gather(eps, system_.stiffness.get()));
 }
@@ -308,7 +308,7 @@ Pairs KrylovModes::complete(Pairs pairs, int count) const {
 Pairs KrylovModes::lowest(int count) const {
   int ranks = 1;
   MPI_Comm_size(comm_, &ranks);
-  const bool can_slice = chain_ && ranks == 1;
+  const bool can_slice = elimination_ == fem::Elimination::chain && ranks == 1;
   for (int asked = count + reserve;; asked *= 2) {
     Pairs pairs =
         complete(can_slice && asked > largest_space ? slice(asked) : solve(asked, rigid_, 0), count);

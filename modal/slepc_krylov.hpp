@@ -37,7 +37,7 @@ private:
   const fem::Structure& structure_;
   Eigen::MatrixXd rigid_; ///< free dofs
   fem::SystemMatrices system_;
-  bool chain_;
+  fem::Elimination elimination_;
   int massive_ = 0;
   double shift_ = 0.0; ///< 0 for a held structure, else negative: K - shift M is definite
 };

@@ -13,8 +13,6 @@
 namespace fretwork::modal {
 namespace {
 
-/// Up to here a dense solve of all modes takes tens of milliseconds and asks no question.
-constexpr int small_structure = 200;
 /// Beyond this a dense solve takes minutes and gigabytes.
 constexpr int largest_dense = 6000;
 /// A frequency that is the limit to its last digits is within the limit.
@@ -38,16 +36,6 @@ Cut cut_of(const Wanted& wanted) {
   return cut;
 }
 
-void broadcast_basis(MPI_Comm comm, Basis& basis, const fem::Structure& structure) {
-  basis.nodes = structure.nodes;
-  core::broadcast(comm, 0, basis.shapes);
-  core::broadcast(comm, 0, basis.omega);
-  core::broadcast(comm, 0, basis.damping);
-  core::broadcast(comm, 0, basis.damping_matrix);
-  core::broadcast(comm, 0, basis.residuals);
-  MPI_Bcast(&basis.orthogonality, 1, MPI_DOUBLE, 0, comm);
-}
-
 /// The elastic modes up to the cut and some more; none, and `dense` set, where so many are wanted that a
 /// dense solve must serve.
 Pairs iterate(const KrylovModes& krylov, Eigen::Index rigid, const Cut& cut, bool& dense) {
@@ -66,12 +54,13 @@ Basis solve_modes(MPI_Comm comm, const fem::Model& model, const fem::Structure& 
   basis.nodes = structure.nodes;
   if (structure.equations == 0) {
     basis.shapes.resize(static_cast<Eigen::Index>(structure.nodes.size()) * core::dofs_per_node, 0);
+    basis.participation.resize(0, 3);
     return basis;
   }
   const Cut cut = cut_of(wanted);
   const Eigen::MatrixXd rigid = fem::rigid_motions(model, structure);
   Pairs pairs{Eigen::VectorXd(0), Eigen::MatrixXd(structure.equations, 0)};
-  bool dense = structure.equations <= small_structure;
+  bool dense = structure.equations <= wanted.dense_up_to;
   if (!dense) {
     const KrylovModes krylov(comm, model, structure, rigid);
     Pairs found = iterate(krylov, rigid.cols(), cut, dense);
@@ -87,9 +76,24 @@ Basis solve_modes(MPI_Comm comm, const fem::Model& model, const fem::Structure& 
     if (core::rank(comm) == 0)
       basis = finish(model, structure, rigid, dense ? dense_modes(model, structure, rigid) : pairs, cut);
   });
-  broadcast_basis(comm, basis, structure);
+  broadcast(comm, 0, basis);
+  basis.nodes = structure.nodes;
   basis.distributed = !dense && core::size(comm) > 1;
   return basis;
+}
+
+void broadcast(MPI_Comm comm, int root, Basis& basis) {
+  core::broadcast(comm, root, basis.shapes);
+  core::broadcast(comm, root, basis.omega);
+  core::broadcast(comm, root, basis.error);
+  core::broadcast(comm, root, basis.damping);
+  core::broadcast(comm, root, basis.damping_matrix);
+  core::broadcast(comm, root, basis.residuals);
+  core::broadcast(comm, root, basis.participation);
+  MPI_Bcast(basis.moving_mass.data(), 3, MPI_DOUBLE, root, comm);
+  MPI_Bcast(&basis.orthogonality, 1, MPI_DOUBLE, root, comm);
+  MPI_Bcast(&basis.splits_group, 1, MPI_CXX_BOOL, root, comm);
+  MPI_Bcast(&basis.distributed, 1, MPI_CXX_BOOL, root, comm);
 }
 
 } // namespace fretwork::modal

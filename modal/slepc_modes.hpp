@@ -12,6 +12,8 @@ namespace fretwork::modal {
 struct Wanted {
   std::optional<int> count;       ///< > 0: so many modes, fewer where the structure has fewer
   std::optional<double> up_to_hz; ///< > 0: all modes up to this frequency (exactly one of the two)
+  int dense_up_to = 200; ///< free dofs: a dense solve of all modes takes tens of milliseconds and asks no
+                         ///< question
 };
 
 /// Collective over `comm` (MPI_COMM_SELF: one rank solves alone; the Basis is the same on every rank, to the
@@ -25,5 +27,8 @@ struct Wanted {
 ///         stay missing, or are made of round-off
 [[nodiscard]] Basis solve_modes(MPI_Comm comm, const fem::Model& model, const fem::Structure& structure,
                                 const Wanted& wanted);
+
+/// Collective: the Basis of rank `root` on every rank, all but its list of nodes.
+void broadcast(MPI_Comm comm, int root, Basis& basis);
 
 } // namespace fretwork::modal

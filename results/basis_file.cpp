@@ -21,6 +21,9 @@ void write_basis(const h5::Group& group, const modal::Basis& basis) {
   write_vector(group, "damping", basis.damping, "1");
   write_vector(group, "mass", Eigen::VectorXd::Ones(basis.size()), "kg");
   write_vector(group, "residuals", basis.residuals, "1");
+  write_vector(group, "error_estimate", basis.error, "1");
+  write_matrix(group, "participation", basis.participation, "sqrt(kg)");
+  write_vector(group, "moving_mass", basis.moving_mass, "kg");
   // a column of `shapes` in memory is a mode: node after node, six values each
   group.write<double>("shapes", all_of(basis.shapes),
                       {static_cast<hsize_t>(basis.size()), basis.nodes.size(), 6}, "m, rad");
@@ -38,12 +41,17 @@ modal::Basis read_basis(const h5::Group& group) {
   basis.omega = read_vector(group, "angular_frequency");
   basis.damping = read_vector(group, "damping");
   basis.residuals = read_vector(group, "residuals");
+  basis.error = read_vector(group, "error_estimate");
+  basis.participation = read_matrix(group, "participation");
+  const Eigen::VectorXd moving_mass = read_vector(group, "moving_mass");
   const Eigen::Index n = basis.omega.size();
   const auto rows = static_cast<Eigen::Index>(6 * basis.nodes.size());
   const std::vector<double> shapes = group.read<double>("shapes");
   if (static_cast<Eigen::Index>(shapes.size()) != rows * n || basis.damping.size() != n ||
-      basis.residuals.size() != n)
+      basis.residuals.size() != n || basis.error.size() != n || basis.participation.rows() != n ||
+      basis.participation.cols() != 3 || moving_mass.size() != 3)
     throw h5::Failure("modes of different sizes");
+  basis.moving_mass = moving_mass;
   basis.shapes = Eigen::Map<const Eigen::MatrixXd>(shapes.data(), rows, n);
   if (group.has("damping_matrix")) {
     basis.damping_matrix = read_matrix(group, "damping_matrix");

@@ -29,6 +29,8 @@ struct RunRecord {
 
 struct ModelFacts {
   std::int64_t nodes = 0, elements = 0, dofs = 0;
+  std::int64_t different_structures =
+      0; ///< structures that are no copy of another: their modes were computed
   double mass_kg = 0.0;
 };
 

@@ -15,27 +15,38 @@ using Json = nlohmann::ordered_json;
 /// JSON knows no infinity and no NaN: a run that diverged leaves null.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+Json triple(const core::Vec3& v) { return {number(v.x()), number(v.y()), number(v.z())}; }
+
 Json moments(const post::Moments& m) {
   return {{"mean", number(m.mean)}, {"std", number(m.std)}, {"min", number(m.min)}, {"max", number(m.max)}};
 }
 
 Json model(const ModelFacts& m) {
-  return {{"nodes", m.nodes}, {"elements", m.elements}, {"dofs", m.dofs}, {"mass_kg", number(m.mass_kg)}};
+  return {{"nodes", m.nodes},
+          {"elements", m.elements},
+          {"dofs", m.dofs},
+          {"mass_kg", number(m.mass_kg)},
+          {"different_structures", m.different_structures}};
 }
 
 Json modes(const std::vector<modal::Basis>& bases) {
   Json frequencies = Json::array(), residuals = Json::array(), damping = Json::array(),
-       structure = Json::array();
+       structure = Json::array(), errors = Json::array(), masses = Json::array();
   for (const ModeOf& m : sorted_modes(bases)) {
     const modal::Basis& basis = bases[m.structure];
     frequencies.push_back(number(m.frequency));
     residuals.push_back(number(basis.residuals(m.mode)));
     damping.push_back(number(basis.damping(m.mode)));
     structure.push_back(m.structure);
+    errors.push_back(number(basis.error(m.mode)));
+    masses.push_back(triple(basis.participation.row(m.mode).cwiseAbs2().transpose()));
   }
   double orthogonality = 0.0;
   bool distributed = false;
+  core::Vec3 kept = core::Vec3::Zero(), moving = core::Vec3::Zero();
   for (const modal::Basis& basis : bases) {
+    kept += basis.participation.colwise().squaredNorm().transpose();
+    moving += basis.moving_mass;
     orthogonality = std::max(orthogonality, basis.orthogonality);
     distributed = distributed || basis.distributed;
   }
@@ -43,6 +54,10 @@ Json modes(const std::vector<modal::Basis>& bases) {
       {"frequencies_hz", frequencies}, {"residuals", residuals}, {"damping", damping}, {"static_modes", 0}};
   if (bases.size() > 1)
     out["structure"] = structure;
+  out["error_estimate"] = errors;
+  out["effective_mass_kg"] = masses;
+  out["effective_mass_sum_kg"] = triple(kept);
+  out["moving_mass_kg"] = triple(moving);
   out["orthogonality"] = number(orthogonality);
   out["distributed"] = distributed;
   return out;

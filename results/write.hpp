@@ -10,7 +10,7 @@
 namespace fretwork::results {
 
 /// Number of the layout of the files: part of what tells whether stored results can be read. Raise it when the layout changes.
-inline constexpr int file_layout = 3;
+inline constexpr int file_layout = 4;
 
 /// Calls `write` with a temporary name beside `file`, then renames. Removes the temporary file when `write`
 /// throws. Makes the folder where there is none.
@@ -27,6 +27,10 @@ void write_summary(const std::filesystem::path& file, const RunResults& results)
 /// where it is empty).
 [[nodiscard]] std::string terminal_table(const RunResults& results,
                                          const std::filesystem::path& directory = {});
+
+/// A line a mode, at most 60: frequency, damping, estimated error of the mesh, effective mass by direction as
+/// a share of the moving mass; their sum over all modes.
+[[nodiscard]] std::string modes_table(const RunResults& results);
 
 /// results.h5: layout as in doc/study-file.md and basis_file.hpp. The same results give the same bytes,
 /// whatever the ranks and timings.

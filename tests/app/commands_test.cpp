@@ -13,7 +13,7 @@ using nlohmann::json;
 const json contract = json::parse(R"({
   "": ["version", "study", "ranks", "seed", "input_sha256", "model", "modes", "contacts", "nodes", "energy", "transient", "timings_s"],
   "/model": ["nodes", "elements", "dofs", "mass_kg"],
-  "/modes": ["frequencies_hz", "residuals", "damping", "static_modes"],
+  "/modes": ["frequencies_hz", "residuals", "damping", "static_modes", "error_estimate", "effective_mass_kg"],
   "/contacts/0": ["name", "impacts", "contact_time_ratio", "normal_force", "normal_force_in_contact", "tangential_force", "displacement",
                   "work_rate", "friction_power", "impact_velocity", "contact_duration"],
   "/contacts/0/normal_force": ["mean", "rms", "max"],

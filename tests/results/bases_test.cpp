@@ -25,6 +25,7 @@ std::vector<modal::Basis> bases() {
   modal::Basis none;
   none.nodes = {50};
   none.shapes.resize(6, 0);
+  none.participation.resize(0, 3);
   out.push_back(none);
   return out;
 }
@@ -47,6 +48,9 @@ TEST(Bases, ComeBackBitForBit) {
     ASSERT_EQ(a.damping_matrix.rows(), b.damping_matrix.rows());
     EXPECT_EQ(a.damping_matrix, b.damping_matrix);
     EXPECT_EQ(a.residuals, b.residuals);
+    EXPECT_EQ(a.error, b.error);
+    EXPECT_EQ(a.participation, b.participation);
+    EXPECT_EQ(a.moving_mass, b.moving_mass);
     EXPECT_EQ(a.orthogonality, b.orthogonality);
     EXPECT_EQ(a.distributed, b.distributed);
   }
@@ -104,6 +108,8 @@ TEST(Bases, AreNotThereWhereSizesDoNotFit) {
   };
   EXPECT_TRUE(spoil([](modal::Basis& basis) { basis.damping.conservativeResize(3); }));
   EXPECT_TRUE(spoil([](modal::Basis& basis) { basis.residuals.conservativeResize(3); }));
+  EXPECT_TRUE(spoil([](modal::Basis& basis) { basis.error.conservativeResize(3); }));
+  EXPECT_TRUE(spoil([](modal::Basis& basis) { basis.participation.conservativeResize(3, 3); }));
   EXPECT_TRUE(spoil([](modal::Basis& basis) { basis.damping_matrix.setZero(2, 2); }));
   EXPECT_FALSE(spoil([](modal::Basis&) {}));
 }

@@ -38,9 +38,10 @@ TEST(Summary, HasTheKeysOfTheContract) {
   EXPECT_EQ(keys(s), (Keys{"version", "study", "ranks", "seed", "seeds", "input_sha256", "model", "modes",
                            "contacts", "nodes", "energy", "transient", "timings_s", "warnings", "notes",
                            "libraries", "vector_width"}));
-  EXPECT_EQ(keys(s["model"]), (Keys{"nodes", "elements", "dofs", "mass_kg"}));
+  EXPECT_EQ(keys(s["model"]), (Keys{"nodes", "elements", "dofs", "mass_kg", "different_structures"}));
   EXPECT_EQ(keys(s["modes"]),
-            (Keys{"frequencies_hz", "residuals", "damping", "static_modes", "orthogonality", "distributed"}));
+            (Keys{"frequencies_hz", "residuals", "damping", "static_modes", "orthogonality", "distributed",
+                  "error_estimate", "effective_mass_kg", "effective_mass_sum_kg", "moving_mass_kg"}));
   EXPECT_EQ(keys(s["energy"]), (Keys{"input_J", "initial_J", "stored_J", "modal_damping_J",
                                      "contact_damping_J", "friction_J", "residual_relative"}));
   EXPECT_EQ(keys(s["transient"]),
@@ -176,7 +177,7 @@ TEST(Summary, WritesNumbersThatReadBackTheSame) {
   RunResults results = made_up();
   results.model.mass_kg = 0.1 + 0.2;
   EXPECT_EQ(summary_of(results)["model"]["mass_kg"].get<double>(), 0.1 + 0.2);
-  EXPECT_THAT(text_of(made_up()), testing::HasSubstr("\"mass_kg\": 4.6\n"));
+  EXPECT_THAT(text_of(made_up()), testing::HasSubstr("\"mass_kg\": 4.6,\n"));
 }
 
 TEST(Summary, NamesEachWarningOnce) {

@@ -30,6 +30,12 @@ modal::Basis tube_modes(const Made& made, int structure) {
   basis.damping = Eigen::VectorXd::Constant(made.modes, 0.01);
   basis.residuals = Eigen::VectorXd::Constant(made.modes, 3e-11);
   basis.orthogonality = 2e-15;
+  basis.error = 1e-6 * Eigen::ArrayXd::LinSpaced(made.modes, 1.0, made.modes);
+  basis.participation = Eigen::MatrixXd::Zero(made.modes, 3);
+  for (int k = 0; k < made.modes; k += 4) // shapes with a mean, in y and in z
+    for (int plane = 0; plane < std::min(2, made.modes - k); ++plane)
+      basis.participation(k + plane, 1 + plane) = 2.0 / (k / 2 + 1);
+  basis.moving_mass = {5.0, 5.0, 5.0};
   return basis;
 }
 

@@ -62,6 +62,20 @@ TEST(TerminalTable, ShowsTheTenContactsThatWearMostOfMany) {
   EXPECT_THAT(text, HasSubstr("78")); // the total work rate, 0 + 1 + ... + 12
 }
 
+TEST(ModesTable, HasALineAModeAndTheirSum) {
+  const RunResults results = made_up({.structures = 2, .modes = 10});
+  const auto table = lines(modes_table(results));
+  ASSERT_EQ(table.size(), 22u); // heads, modes, sum
+  EXPECT_THAT(table[0], HasSubstr("effective mass, % of 10 kg"));
+  EXPECT_THAT(table[1], HasSubstr("40.000")); // 4 of 10 kg, in y
+  EXPECT_THAT(table[21], HasSubstr("all modes together"));
+  for (const std::string& line : table)
+    EXPECT_LE(line.size(), widest) << line;
+  const auto many = lines(modes_table(made_up({.structures = 2, .modes = 40})));
+  EXPECT_EQ(many.size(), 63u);
+  EXPECT_THAT(many[61], HasSubstr("20 more in summary.json"));
+}
+
 TEST(TerminalTable, NamesStepReasonEnergyWarningsAndFiles) {
   const std::string text = terminal_table(made_up(), "folder.results");
   EXPECT_THAT(text, HasSubstr("Straight tube on loose supports\n"));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/share_out.hpp"
+#include "core/share_out.hpp"
 #include <algorithm>
 #include <numeric>
 
-namespace fretwork::app {
+namespace fretwork::core {
 
 std::vector<int> share_out(const std::vector<double>& costs, int ranks) {
   std::vector<std::size_t> order(costs.size());
@@ -20,4 +20,4 @@ std::vector<int> share_out(const std::vector<double>& costs, int ranks) {
   return owner;
 }
 
-} // namespace fretwork::app
+} // namespace fretwork::core

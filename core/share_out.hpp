@@ -4,7 +4,7 @@
 #pragma once
 #include <vector>
 
-namespace fretwork::app {
+namespace fretwork::core {
 
 /// Gives every piece to a rank: the costliest first, to the rank with the least work so far; the lower number
 /// where they are equal. So every rank finds the same.
@@ -12,4 +12,4 @@ namespace fretwork::app {
 /// @return       the rank of each piece
 [[nodiscard]] std::vector<int> share_out(const std::vector<double>& costs, int ranks);
 
-} // namespace fretwork::app
+} // namespace fretwork::core

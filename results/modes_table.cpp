@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/totals.hpp"
+#include "results/write.hpp"
+#include <fmt/format.h>
+
+namespace fretwork::results {
+namespace {
+
+constexpr std::size_t most_rows = 60;
+
+std::string shares(const core::Vec3& masses, const core::Vec3& whole) {
+  std::string text;
+  for (int d = 0; d < 3; ++d)
+    text += fmt::format(" {:>8.3f}", whole[d] > 0.0 ? 100.0 * masses[d] / whole[d] : 0.0);
+  return text;
+}
+
+} // namespace
+
+std::string modes_table(const RunResults& results) {
+  core::Vec3 whole = core::Vec3::Zero(), kept = core::Vec3::Zero();
+  for (const modal::Basis& basis : results.bases) {
+    whole += basis.moving_mass;
+    kept += basis.participation.colwise().squaredNorm().transpose();
+  }
+  const std::vector<ModeOf> modes = sorted_modes(results.bases);
+  std::string text = fmt::format("  {:>5} {:>9} {:>14} {:>10} {:>11}   effective mass, % of {:.4g} kg: x y z\n",
+                                 "mode", "structure", "Hz", "damping %", "mesh error", whole.maxCoeff());
+  for (std::size_t k = 0; k < std::min(most_rows, modes.size()); ++k) {
+    const auto& [structure, mode, frequency] = modes[k];
+    const modal::Basis& basis = results.bases[structure];
+    text += fmt::format("  {:>5} {:>9} {:>14.8g} {:>10.3g} {:>11.1e} {}\n", k + 1, structure, frequency,
+                        100.0 * basis.damping(mode), basis.error(mode),
+                        shares(basis.participation.row(mode).cwiseAbs2().transpose(), whole));
+  }
+  if (modes.size() > most_rows)
+    text += fmt::format("  ... {} more in summary.json\n", modes.size() - most_rows);
+  return text + fmt::format("  {:<53} {}\n", "all modes together", shares(kept, whole));
+}
+
+} // namespace fretwork::results

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `fretwork modes` as its users meet it: copies, the error of the mesh, effective masses, spans.
+#include "mesh_text.hpp"
+#include "program.hpp"
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fretwork::app::test {
+namespace {
+
+/// Clamped tubes side by side, of the given lengths.
+std::string tubes(const Workshop& folder, const std::vector<double>& lengths, int elements, int count) {
+  MeshText mesh;
+  std::string study = fmt::format(R"([mesh]
+file = "tubes.msh"
+[materials.steel]
+young_modulus = 2.0e11
+poisson_ratio = 0.3
+density = 8000.0
+[sections.tube]
+shape = "pipe"
+outer_diameter = 0.01905
+thickness = 0.00109
+[modes]
+count = {}
+)",
+                                  count);
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    const double y = 0.07 * static_cast<double>(i);
+    mesh = together(mesh, straight_line(fmt::format("tube{}", i), {0.0, y, 0.0}, {lengths[i], y, 0.0}, elements));
+    study += fmt::format(R"([[beams]]
+group = "tube{0}"
+material = "steel"
+section = "tube"
+[[restraints]]
+group = "tube{0}_begin"
+fixed = "all"
+)",
+                         i);
+  }
+  folder.write("tubes.msh", mesh.text());
+  return folder.write("study.toml", study).string();
+}
+
+nlohmann::json summary_of(const Workshop& folder) {
+  return nlohmann::json::parse(bytes_of(folder.path("study.results") / "summary.json"));
+}
+
+TEST(ModesCommand, SolvesEqualTubesOnce) {
+  const Workshop folder;
+  const Outcome outcome = folder.fretwork({"modes", tubes(folder, {1.0, 1.3, 1.0, 1.0, 1.3}, 20, 6)});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto summary = summary_of(folder);
+  EXPECT_EQ(summary["model"]["different_structures"], 2);
+  EXPECT_TRUE(says(summary["notes"].dump(), "5 structures, 2 different ones"));
+  const auto& frequencies = summary["modes"]["frequencies_hz"]; // ascending: two planes of the three longer ...
+  EXPECT_EQ(frequencies.size(), 30u);
+  EXPECT_EQ(frequencies[0], frequencies[3]);
+  EXPECT_EQ(frequencies[4], frequencies[9]);
+  EXPECT_LT(frequencies[3], frequencies[4]);
+}
+
+TEST(ModesCommand, PrintsErrorsAndEffectiveMasses) {
+  const Workshop folder;
+  const Outcome outcome = folder.fretwork({"modes", tubes(folder, {1.0}, 16, 8)});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, "mesh error"));
+  EXPECT_TRUE(says(outcome.out, "61.3")); // per cent of its mass in the first mode of a cantilever: 61.31
+  EXPECT_TRUE(says(outcome.out, "all modes together"));
+  const auto modes = summary_of(folder)["modes"];
+  ASSERT_EQ(modes["error_estimate"].size(), 8u);
+  // (beta L / n)^4 / 1440 of the first mode
+  EXPECT_TRUE(close_to(modes["error_estimate"][0], std::pow(1.8751 / 16, 4) / 1440, 0.02));
+  ASSERT_EQ(modes["effective_mass_kg"].size(), 8u);
+  for (const std::size_t direction : {0u, 1u, 2u}) {
+    double sum = 0.0;
+    for (const auto& masses : modes["effective_mass_kg"])
+      sum += masses[direction].get<double>();
+    EXPECT_TRUE(close_to(modes["effective_mass_sum_kg"][direction], sum, 1e-12));
+    EXPECT_LE(sum, modes["moving_mass_kg"][direction].get<double>());
+  }
+}
+
+TEST(ModesCommand, WarnsOfMeshesTooCoarseForTheirModes) {
+  const Workshop folder;
+  ASSERT_EQ(folder.fretwork({"modes", tubes(folder, {1.0}, 3, 12)}).status, 0);
+  EXPECT_TRUE(says(summary_of(folder)["warnings"].dump(), "the mesh is coarse for"));
+}
+
+TEST(ModesCommand, WarnsOfSpansOfTooManyElementsAndRefusesMore) {
+  const Workshop folder;
+  ASSERT_EQ(folder.fretwork({"modes", tubes(folder, {1.0}, 501, 2)}).status, 0);
+  EXPECT_TRUE(says(summary_of(folder)["warnings"].dump(), "has 501 elements between supports or branches"));
+  const Outcome outcome = folder.fretwork({"modes", tubes(folder, {1.0}, 3001, 2)});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(says(outcome.err, "the span that starts at (0, 0, 0) has 3001 elements"));
+}
+
+} // namespace
+} // namespace fretwork::app::test

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The estimated error of a frequency against the true one.
+#include "../fem/model_builder.hpp"
+#include "solve.hpp"
+#include <gtest/gtest.h>
+
+using namespace fretwork;
+using namespace fretwork::tests;
+using std::numbers::pi;
+
+namespace {
+
+struct Ends {
+  const char* name;
+  unsigned left, right;
+  std::array<double, 4> roots;
+};
+
+const std::array<Ends, 5> spans{{
+    {"clamped_free", all, 0, {1.8751040687119611, 4.694091132974175, 7.854757438237613, 10.995540734875467}},
+    {"clamped_clamped", all, all, {4.730040744862704, 7.853204624095838, 10.995607838001671, 14.137165491257464}},
+    {"free_free", 0, 0, {4.730040744862704, 7.853204624095838, 10.995607838001671, 14.137165491257464}},
+    {"clamped_pinned", all, uy, {3.926602312047919, 7.068582745628732, 10.210176122813031, 13.351768777754093}},
+    {"pinned_pinned", uy, uy, {pi, 2 * pi, 3 * pi, 4 * pi}},
+}};
+
+/// A span in one plane, its elements of equal or of unequal lengths.
+fem::Model span(const Ends& ends, int n, double jitter) {
+  ModelBuilder b;
+  std::vector<Vec3> points;
+  for (int i = 0; i <= n; ++i)
+    points.emplace_back((i + (i % n ? jitter * std::sin(7.0 * i) : 0.0)) / n, 0.0, 0.0);
+  const auto nodes = b.chain(points, b.property(tube_property()));
+  b.fix_everywhere(ux | uz | rx | ry);
+  b.fix(nodes.front(), ends.left);
+  b.fix(nodes.back(), ends.right);
+  return b.model;
+}
+
+double bending_omega(double root) {
+  const auto p = tube_property();
+  return root * root *
+         std::sqrt(p.material.young_modulus * p.section.iz / (p.material.density * p.section.area));
+}
+
+/// Estimate over true error of the elastic modes that `exact` lists.
+template <std::size_t n>
+std::array<double, n> ratios(const modal::Basis& basis, const std::array<double, n>& exact) {
+  Eigen::Index rigid = 0;
+  while (basis.omega[rigid] == 0.0)
+    ++rigid;
+  std::array<double, n> result{};
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::Index j = rigid + static_cast<Eigen::Index>(i);
+    result[i] = basis.error[j] / std::abs(basis.omega[j] / exact[i] - 1.0);
+  }
+  return result;
+}
+
+} // namespace
+
+TEST(MeshError, OfASpanIsTheTrueOneAsTheMeshIsRefined) {
+  for (const Ends& ends : spans)
+    for (const double jitter : {0.0, 0.3}) {
+      std::array<double, 4> exact{};
+      for (std::size_t i = 0; i < 4; ++i)
+        exact[i] = bending_omega(ends.roots[i]);
+      const auto coarse = ratios(solve(span(ends, 8, jitter), 6), exact),
+                 fine = ratios(solve(span(ends, 32, jitter), 6), exact);
+      for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_GT(coarse[i], 0.5) << ends.name << " mode " << i; // from two elements a half wave on
+        EXPECT_LT(coarse[i], 2.0) << ends.name << " mode " << i;
+        EXPECT_NEAR(fine[i], 1.0, 0.05) << ends.name << " mode " << i; // the next order: (k L)^2
+      }
+    }
+}
+
+TEST(MeshError, OfTractionAndTorsionToo) {
+  const auto p = tube_property();
+  const double shear = p.material.young_modulus / (2 * (1 + p.material.poisson_ratio));
+  const double traction_speed = std::sqrt(p.material.young_modulus / p.material.density);
+  const double torsion_speed =
+      std::sqrt(shear * p.section.torsion_constant / (p.material.density * p.section.polar_inertia));
+  for (const bool torsion : {false, true}) {
+    constexpr double length = 3.0;
+    ModelBuilder b;
+    b.line({0, 0, 0}, {length, 0, 0}, 30, b.property(p));
+    b.fix_everywhere(uy | uz | ry | rz | (torsion ? ux : rx));
+    b.fix(0, all);
+    const double wave = pi / length * (torsion ? torsion_speed : traction_speed);
+    for (const double ratio : ratios(solve(b.model, 3), std::array{0.5 * wave, 1.5 * wave, 2.5 * wave}))
+      EXPECT_NEAR(ratio, 1.0, 0.1);
+  }
+}
+
+TEST(MeshError, OfAnArcIsOfItsOrderOfMagnitude) {
+  const auto half_ring = [](int elements) {
+    ModelBuilder b;
+    const Index number = b.property(tube_property());
+    const auto at = [](double share) { return Vec3(std::cos(pi * share), std::sin(pi * share), 0); };
+    b.node(at(0.0));
+    for (int i = 0; i < elements; ++i) {
+      b.node(at((i + 1.0) / elements));
+      b.model.beams.push_back({i, i + 1, number, at((i + 0.5) / elements)});
+    }
+    b.fix(0, all);
+    b.fix(elements, all);
+    return solve(b.model, 6);
+  };
+  const auto coarse = half_ring(12), fine = half_ring(72);
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const double true_error = std::abs(coarse.omega[i] / fine.omega[i] - 1.0);
+    EXPECT_GT(coarse.error[i] / true_error, 0.1) << i;
+    EXPECT_LT(coarse.error[i] / true_error, 10.0) << i;
+  }
+}
+
+TEST(MeshError, OfARingOfChordsIsThatOfTheSamePolygon) {
+  const auto ring = [](int per_chord) {
+    constexpr int chords = 24;
+    ModelBuilder b;
+    const Index number = b.property(tube_property());
+    const auto corner = [](int k) {
+      return Vec3(std::cos(2 * pi * k / chords), std::sin(2 * pi * k / chords), 0);
+    };
+    Index at = b.node(corner(0));
+    for (int k = 1; k <= chords; ++k)
+      at = b.line_from(at, corner(k), per_chord, number).back();
+    b.model.beams.back().b = 0; // closes the ring: its last node falls away
+    b.model.nodes.pop_back();
+    b.model.fixed.pop_back();
+    return solve(b.model, 18);
+  };
+  const auto coarse = ring(1), fine = ring(6);
+  for (Eigen::Index i = 6; i < 18; ++i) {
+    const double true_error = coarse.omega[i] / fine.omega[i] - 1.0;
+    EXPECT_GT(coarse.error[i] / true_error, 0.5) << i;
+    EXPECT_LT(coarse.error[i] / true_error, 2.0) << i;
+  }
+}
+
+TEST(MeshError, OfARigidMotionIsNone) {
+  ModelBuilder b;
+  b.line({0, 0, 0}, {1, 0, 0}, 10, b.property(tube_property()));
+  const auto basis = solve(b.model, 8);
+  EXPECT_TRUE(basis.error.head(6).isZero(0.0));
+  EXPECT_GT(basis.error[6], 0.0);
+}
