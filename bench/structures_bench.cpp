@@ -93,8 +93,7 @@ void run(const std::string& kind, double size, int modes) {
   const auto begin = std::chrono::steady_clock::now();
   const std::vector<modal::Basis> bases =
       modal::solve_structures(MPI_COMM_WORLD, model, structures, {modes, std::nullopt});
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   double residual = 0.0;
@@ -104,8 +103,8 @@ void run(const std::string& kind, double size, int modes) {
     std::printf("{\"kind\": \"%s\", \"ranks\": %d, \"dofs\": %d, \"structures\": %zu, "
                 "\"modes\": %d, \"seconds\": %.4g, \"cpu_seconds\": %.4g, \"peak_mb\": %.0f, "
                 "\"residual\": %.2g, \"first_hz\": %.12g}\n",
-                kind.c_str(), core::size(MPI_COMM_WORLD), dofs, structures.size(), modes,
-                seconds, cpu_seconds() - cpu, static_cast<double>(usage.ru_maxrss) / 1024.0, residual,
+                kind.c_str(), core::size(MPI_COMM_WORLD), dofs, structures.size(), modes, seconds,
+                cpu_seconds() - cpu, static_cast<double>(usage.ru_maxrss) / 1024.0, residual,
                 bases.front().omega[0] / (2.0 * std::numbers::pi));
 }
 

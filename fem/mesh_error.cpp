@@ -17,8 +17,8 @@ double squared(double x) { return x * x; }
 double bending_energy(double stiffness, double length, double intensity, double wa, double wb, double sa,
                       double sb) {
   const double l = 0.5 * length, a = l * sa, b = l * sb;
-  const double q0 = 0.5 * (wa + wb) + (a - b) / 6.0, q1 = 0.6 * (wb - wa) - 0.1 * (a + b),
-               q2 = (b - a) / 6.0, q3 = 0.1 * (a + b - wb + wa);
+  const double q0 = 0.5 * (wa + wb) + (a - b) / 6.0, q1 = 0.6 * (wb - wa) - 0.1 * (a + b), q2 = (b - a) / 6.0,
+               q3 = 0.1 * (a + b - wb + wa);
   const double c2 = q0 / 3.0 - 2.0 * q2 / 21.0, c3 = q1 / 15.0 - 2.0 * q3 / 45.0, c4 = q2 / 35.0,
                c5 = q3 / 63.0;
   return squared(intensity) * std::pow(l, 5) / stiffness *

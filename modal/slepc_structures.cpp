@@ -19,8 +19,8 @@ bool is_distributed(MPI_Comm comm, const fem::Structure& structure, std::optiona
 }
 
 std::vector<Basis> solve_structures(MPI_Comm comm, const fem::Model& model,
-                             const std::vector<fem::Structure>& structures, const Wanted& wanted,
-                             std::optional<bool> distributed) {
+                                    const std::vector<fem::Structure>& structures, const Wanted& wanted,
+                                    std::optional<bool> distributed) {
   const int ranks = core::size(comm), here = core::rank(comm);
   const std::vector<std::size_t> original = originals(model, structures);
   std::vector<std::size_t> alone; // solved by one rank

@@ -99,8 +99,7 @@ Span longest_span(const fem::Model& model, const fem::Structure& structure) {
   return longest;
 }
 
-std::vector<std::string> check_spans(const fem::Model& model,
-                                     const std::vector<fem::Structure>& structures) {
+std::vector<std::string> check_spans(const fem::Model& model, const std::vector<fem::Structure>& structures) {
   Span longest;
   for (const fem::Structure& structure : structures)
     if (const Span span = longest_span(model, structure); span.elements > longest.elements)

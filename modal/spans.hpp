@@ -13,7 +13,7 @@
 
 namespace fretwork::modal {
 
-inline constexpr int many_elements = 500;     ///< of a span: beyond, shapes have less than 7 digits
+inline constexpr int many_elements = 500;      ///< of a span: beyond, shapes have less than 7 digits
 inline constexpr int too_many_elements = 3000; ///< beyond, 3 digits at best: refused
 
 struct Span {

@@ -27,7 +27,8 @@ count = {}
                                   count);
   for (std::size_t i = 0; i < lengths.size(); ++i) {
     const double y = 0.07 * static_cast<double>(i);
-    mesh = together(mesh, straight_line(fmt::format("tube{}", i), {0.0, y, 0.0}, {lengths[i], y, 0.0}, elements));
+    mesh = together(mesh,
+                    straight_line(fmt::format("tube{}", i), {0.0, y, 0.0}, {lengths[i], y, 0.0}, elements));
     study += fmt::format(R"([[beams]]
 group = "tube{0}"
 material = "steel"
@@ -53,7 +54,8 @@ TEST(ModesCommand, SolvesEqualTubesOnce) {
   const auto summary = summary_of(folder);
   EXPECT_EQ(summary["model"]["different_structures"], 2);
   EXPECT_TRUE(says(summary["notes"].dump(), "5 structures, 2 different ones"));
-  const auto& frequencies = summary["modes"]["frequencies_hz"]; // ascending: two planes of the three longer ...
+  const auto& frequencies =
+      summary["modes"]["frequencies_hz"]; // ascending: two planes of the three longer ...
   EXPECT_EQ(frequencies.size(), 30u);
   EXPECT_EQ(frequencies[0], frequencies[3]);
   EXPECT_EQ(frequencies[4], frequencies[9]);

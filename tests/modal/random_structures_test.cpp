@@ -52,7 +52,9 @@ void hold(ModelBuilder& b, Chance& chance, Index node) {
 }
 
 void load_with_bodies(ModelBuilder& b, Chance& chance, const std::vector<Index>& nodes) {
-  const auto any = [&] { return nodes[static_cast<std::size_t>(chance.one_of(static_cast<int>(nodes.size())))]; };
+  const auto any = [&] {
+    return nodes[static_cast<std::size_t>(chance.one_of(static_cast<int>(nodes.size())))];
+  };
   if (chance.once_in(2))
     b.model.masses.push_back({any(), chance.between(0.1, 20), Vec3(1, 2, 3) * chance.between(0, 0.1),
                               chance.once_in(2) ? Vec3::Zero() : Vec3(0.1 * chance.vector())});
@@ -97,7 +99,8 @@ void add_structure(ModelBuilder& b, unsigned seed, const Vec3& place) {
     const int arms = 3 + chance.one_of(3);
     for (int arm = 0; arm < arms; ++arm) {
       const double angle = 2 * std::numbers::pi * arm / arms;
-      const auto tips = b.line_from(centre, place + turn * Vec3(std::cos(angle), std::sin(angle), 0), 5, property);
+      const auto tips =
+          b.line_from(centre, place + turn * Vec3(std::cos(angle), std::sin(angle), 0), 5, property);
       if (seed % 2)
         b.fix(tips.back(), ux | uy | uz);
     }
