@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/jobs.hpp"
+#include "app/verification.hpp"
 #include "core/error.hpp"
 #include "core/mpi.hpp"
 #include "core/share_out.hpp"
@@ -64,6 +65,7 @@ void check_size_of_impacts(const study::Study& study, const std::vector<BuiltSce
 struct JobResult {
   transient::Report report{};
   std::vector<post::ContactSummary> contacts;
+  post::StandardErrors errors_of_sums;       ///< of all contacts of the run
   std::vector<post::ContactImpacts> impacts; ///< empty without tables
   std::vector<post::NodeSummary> nodes;
   post::TimeSeries series;
@@ -112,6 +114,7 @@ public:
     JobResult out;
     out.report = run_.finish();
     out.contacts = contacts_.summaries();
+    out.errors_of_sums = contacts_.errors_of_sums();
     out.impacts = std::move(impacts_).impacts();
     out.nodes = nodes_.summaries();
     out.series = std::move(recorder_).series();
@@ -195,6 +198,7 @@ template <class T> void broadcast_plain(MPI_Comm comm, int root, std::vector<T>&
 void broadcast(MPI_Comm comm, int root, const BuiltScene& built, JobResult& job) {
   static_assert(std::is_trivially_copyable_v<transient::Report>);
   MPI_Bcast(&job.report, static_cast<int>(sizeof job.report), MPI_BYTE, root, comm);
+  MPI_Bcast(&job.errors_of_sums, static_cast<int>(sizeof job.errors_of_sums), MPI_BYTE, root, comm);
   broadcast_plain(comm, root, job.contacts);
   std::uint64_t tables = job.impacts.size();
   MPI_Bcast(&tables, 1, MPI_UINT64_T, root, comm);
@@ -232,6 +236,7 @@ void broadcast(MPI_Comm comm, int root, const BuiltScene& built, JobResult& job)
 void merge(const BuiltScene& built, JobResult&& job, const transient::StepChoice& choice,
            results::RunResults& out) {
   out.transients.push_back({choice, job.report});
+  add_errors(out.errors_of_sums, job.errors_of_sums);
   for (std::size_t c = 0; c < built.contacts.size(); ++c) {
     out.contact_summaries[built.contacts[c]] = job.contacts[c];
     out.series.contacts[built.contacts[c]] = std::move(job.series.contacts[c]);
@@ -370,6 +375,8 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
   });
   core::agree(comm, [&] { check_size_of_impacts(study, scenes, choices); });
   std::vector<JobResult> jobs(scenes.size());
+  const bool verified = study.transient->verify;
+  std::vector<HalfRun> halves(verified ? scenes.size() : 0);
   std::vector<double> costs; // a step costs as much as it has modes
   for (std::size_t s = 0; s < scenes.size(); ++s)
     costs.push_back(static_cast<double>(choices[s].steps) *
@@ -393,9 +400,12 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
           return std::make_unique<Job>(study, scenes[s], choices[s], progress ? &observer : nullptr);
         };
         jobs[s] = run_job(make, s, checkpoints, --left > 0);
+        if (verified)
+          halves[s] = run_at_half(scenes[s].scene, choices[s], study.output.statistics_from);
         done_steps += choices[s].steps;
       }
   });
+  out.accuracy = study.transient->accuracy;
   out.contact_summaries.resize(contacts);
   out.series.contacts.resize(contacts);
   out.impacts.resize(study.output.impacts > 0 ? contacts : 0);
@@ -405,10 +415,14 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     if (ranks > 1)
       broadcast(comm, owner[s], scenes[s], jobs[s]);
+    if (ranks > 1 && verified)
+      broadcast(comm, owner[s], scenes[s].scene.contacts.size(), halves[s]);
     judge(choices[s], jobs[s].report, out);
     judge_memory(scenes[s], jobs[s].report, out);
     merge(scenes[s], std::move(jobs[s]), choices[s], out);
   }
+  if (verified)
+    compare_with_half(scenes, halves, out);
   tell_impacts_left_out(study.output.impacts, out);
 }
 

@@ -2,10 +2,18 @@
 #include "post/contact_statistics.hpp"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace fretwork::post {
+namespace {
 
-ContactStatistics::ContactStatistics(std::size_t contacts, double from) : from_(from), sums_(contacts) {
+/// Sums of a contact whose batches are kept: row of BatchEnds, contact after contact. Those of y and z are about their first values.
+enum Kept : std::size_t { impacts, slid, friction, normal2, y1, y2, z1, z2, kept_sums };
+
+} // namespace
+
+ContactStatistics::ContactStatistics(std::size_t contacts, double from)
+    : from_(from), sums_(contacts), ends_(kept_sums * contacts) {
   for (auto* v : {&motion_.y0, &motion_.z0, &motion_.y, &motion_.z, &motion_.y2, &motion_.z2, &motion_.y_min,
                   &motion_.y_max, &motion_.z_min, &motion_.z_max, &motion_.r2, &motion_.r2_max})
     v->assign(contacts, 0.0);
@@ -49,6 +57,7 @@ void ContactStatistics::step(const transient::Record& record) {
     return;
   watch_motion(record);
   time_ += record.step;
+  ends_.watch(time_, [this](double* row) { write_sums(row); });
 }
 
 void ContactStatistics::Sums::add(const transient::ContactState& state, double step) {
@@ -94,6 +103,97 @@ void ContactStatistics::watch_motion(const transient::Record& record) {
   }
 }
 
+void ContactStatistics::write_sums(double* row) const {
+  for (std::size_t c = 0; c < sums_.size(); ++c, row += kept_sums) {
+    const Sums& s = sums_[c];
+    row[impacts] = static_cast<double>(s.impacts);
+    row[slid] = s.slid;
+    row[friction] = s.friction;
+    row[normal2] = s.normal2;
+    row[y1] = motion_.y[c];
+    row[y2] = motion_.y2[c];
+    row[z1] = motion_.z[c];
+    row[z2] = motion_.z2[c];
+  }
+}
+
+/// The batches of the window: those that have ended, and the rest.
+ContactStatistics::BatchSums ContactStatistics::batch_sums() const {
+  BatchSums out;
+  const std::size_t columns = kept_sums * sums_.size();
+  std::vector<double> before(columns, 0.0), row(columns);
+  double begin = 0.0;
+  const auto add = [&](double end) {
+    out.lengths.push_back(end - begin);
+    begin = end;
+    for (std::size_t k = 0; k < columns; ++k)
+      out.sums[k].push_back(row[k] - before[k]);
+    before = row;
+  };
+  out.sums.resize(columns);
+  for (std::size_t b = 0; b < ends_.size(); ++b) {
+    for (std::size_t k = 0; k < columns; ++k)
+      row[k] = ends_.sum(b, k);
+    add(ends_.time(b));
+  }
+  if (time_ > begin) {
+    write_sums(row.data());
+    add(time_);
+  }
+  return out;
+}
+
+/// An rms or a standard deviation s moves by d(s^2)/(2 s).
+StandardErrors ContactStatistics::errors_of(const BatchSums& batches, std::size_t contact,
+                                            const ContactSummary& o) const {
+  StandardErrors out;
+  out.batches = std::numeric_limits<double>::infinity();
+  const auto* sums = batches.sums.data() + kept_sums * contact;
+  const auto error = [&](const std::vector<double>& values) {
+    const BatchEstimate estimate = batch_means(batches.lengths, values);
+    out.batches = std::min(out.batches, estimate.batches);
+    return estimate.error;
+  };
+  const auto of_root = [&](const std::vector<double>& squares, double root) {
+    const double of_square = error(squares);
+    return root > 0.0 ? of_square / (2.0 * root) : of_square; // which is 0 then, or not a number
+  };
+  const auto of_deviation = [&](const std::vector<double>& first, std::vector<double> squares, double shift,
+                                double deviation) {
+    for (std::size_t b = 0; b < squares.size(); ++b)
+      squares[b] += shift * (shift * batches.lengths[b] - 2.0 * first[b]);
+    return of_root(squares, deviation);
+  };
+  out.work_rate = error(sums[slid]);
+  out.friction_power = error(sums[friction]);
+  out.impact_rate = error(sums[impacts]);
+  out.normal_rms = of_root(sums[normal2], o.normal_rms);
+  out.y_std = of_deviation(sums[y1], sums[y2], motion_.y[contact] / time_, o.y.std);
+  out.z_std = of_deviation(sums[z1], sums[z2], motion_.z[contact] / time_, o.z.std);
+  return out;
+}
+
+StandardErrors ContactStatistics::errors_of_sums() const {
+  StandardErrors out;
+  if (!(time_ > 0.0))
+    return out;
+  const BatchSums batches = batch_sums();
+  out.batches = std::numeric_limits<double>::infinity();
+  const auto error = [&](Kept which) {
+    std::vector<double> sum(batches.lengths.size(), 0.0);
+    for (std::size_t c = 0; c < sums_.size(); ++c)
+      for (std::size_t b = 0; b < sum.size(); ++b)
+        sum[b] += batches.sums[kept_sums * c + which][b];
+    const BatchEstimate estimate = batch_means(batches.lengths, sum);
+    out.batches = std::min(out.batches, estimate.batches);
+    return estimate.error;
+  };
+  out.work_rate = error(slid);
+  out.friction_power = error(friction);
+  out.impact_rate = error(impacts);
+  return out;
+}
+
 std::vector<ContactSummary> ContactStatistics::summaries() const {
   std::vector<ContactSummary> out(sums_.size());
   if (!(time_ > 0.0))
@@ -102,6 +202,7 @@ std::vector<ContactSummary> ContactStatistics::summaries() const {
     const double shift = sum / time_;
     return Moments{first + shift, std::sqrt(std::max(0.0, squares / time_ - shift * shift)), low, high};
   };
+  const BatchSums batches = batch_sums();
   for (std::size_t c = 0; c < out.size(); ++c) {
     const Sums& s = sums_[c];
     const Motion& m = motion_;
@@ -138,6 +239,8 @@ std::vector<ContactSummary> ContactStatistics::summaries() const {
       o.departure_velocity_mean = s.leaving / static_cast<double>(s.departures);
       o.departure_velocity_max = s.leaving_max;
     }
+    o.impact_rate = static_cast<double>(s.impacts) / time_;
+    o.error = errors_of(batches, c, o);
   }
   return out;
 }

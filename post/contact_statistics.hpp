@@ -3,11 +3,22 @@
 /// Statistics of every contact over every step of a window, independent of any sampling. Means over time are
 /// sums of value times step over the length of the window, whether steps are equal or not.
 #pragma once
+#include "post/batch_means.hpp"
 #include "post/moments.hpp"
 #include "transient/run.hpp"
 #include <vector>
 
 namespace fretwork::post {
+
+/// Standard errors of figures of a window, in their units: the scatter of one run, from batch means. Not numbers where the window is too
+/// short for 8 batches.
+struct StandardErrors {
+  double work_rate = 0.0, friction_power = 0.0; ///< W
+  double normal_rms = 0.0;                      ///< N, over all time
+  double impact_rate = 0.0;                     ///< 1/s
+  double y_std = 0.0, z_std = 0.0;              ///< m
+  double batches = 0.0;                         ///< the smallest effective number behind one of them
+};
 
 /// Over the window. An impact is a maximal interval of normal force > 0; those that start in the window
 /// count.
@@ -31,6 +42,8 @@ struct ContactSummary {
   double sticking_ratio = 0.0;         ///< share of the time in contact in which it does not slide
   double damping_work = 0.0;           ///< J, by the normal and tangential dampers, as Impact::energy_lost
   double friction_work = 0.0;          ///< J, by the Coulomb slider
+  double impact_rate = 0.0;            ///< 1/s, impacts over the length of the window
+  StandardErrors error = {};
 };
 
 class ContactStatistics final : public transient::Observer {
@@ -38,8 +51,11 @@ public:
   /// @param contacts  number of contacts   @param from  start of the window, s
   ContactStatistics(std::size_t contacts, double from);
   void step(const transient::Record& record) override;
-  void visit(core::StateArchive& state) override { state(number_, time_, sums_, motion_); }
+  void visit(core::StateArchive& state) override { state(number_, time_, sums_, motion_, ends_); }
   [[nodiscard]] std::vector<ContactSummary> summaries() const;
+  /// Of the sums over all contacts of work_rate, friction_power and impact_rate (contacts of one structure are not independent); the
+  /// other errors stay 0.
+  [[nodiscard]] StandardErrors errors_of_sums() const;
 
 private:
   struct Sums {
@@ -65,12 +81,22 @@ private:
     }
   };
   void watch_motion(const transient::Record& record);
+  /// Lengths of batches and, for each sum that is kept, what each batch adds to it.
+  struct BatchSums {
+    std::vector<double> lengths;
+    std::vector<std::vector<double>> sums;
+  };
+  void write_sums(double* row) const;
+  [[nodiscard]] BatchSums batch_sums() const;
+  [[nodiscard]] StandardErrors errors_of(const BatchSums& batches, std::size_t contact,
+                                         const ContactSummary& o) const;
 
   double from_;
   std::int64_t number_ = 0; ///< steps
   double time_ = 0.0;       ///< length of the window so far, s
   std::vector<Sums> sums_;
   Motion motion_;
+  BatchEnds ends_;
 };
 
 } // namespace fretwork::post

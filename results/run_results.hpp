@@ -7,6 +7,7 @@
 #include "post/impact_table.hpp"
 #include "post/node_statistics.hpp"
 #include "post/recorder.hpp"
+#include "post/verification.hpp"
 #include "transient/step_rule.hpp"
 #include <map>
 #include <optional>
@@ -56,6 +57,15 @@ struct TransientFacts {
   transient::Report report;
 };
 
+/// The run against the same at half the step (half the tolerance).
+struct Verification {
+  double step_max = 0.0; ///< s, of the second run
+  double factor = 0.0;   ///< of standard errors that agreeing figures of contacts may differ by
+  std::vector<std::vector<post::ComparedFigure>> contacts; ///< as `contacts`
+  std::vector<post::ComparedFigure> sums;                  ///< over all contacts
+  std::string failure;                                     ///< why the second run did not end; empty: it did
+};
+
 struct Timings { ///< s
   double read = 0, mesh = 0, assembly = 0, modes = 0, basis = 0, transient = 0, output = 0, total = 0;
 };
@@ -68,8 +78,11 @@ struct RunResults {
   std::vector<modal::Basis> bases;               ///< by structure
   std::vector<ContactFacts> contacts;
   std::vector<post::ContactSummary> contact_summaries; ///< as `contacts`; empty without a transient
-  std::vector<post::ContactImpacts> impacts;           ///< as `contacts`; empty without a table
-  double rest_time = 0.0;                              ///< s, of the table of impacts
+  post::StandardErrors errors_of_sums;       ///< over all contacts: work_rate, friction_power, impact_rate
+  std::optional<Verification> verification;  ///< where the study asks for it
+  double accuracy = 0.01;                    ///< what the run aims at
+  std::vector<post::ContactImpacts> impacts; ///< as `contacts`; empty without a table
+  double rest_time = 0.0;                    ///< s, of the table of impacts
   std::vector<std::string> node_names;
   std::vector<post::NodeSummary> node_summaries;
   std::vector<TransientFacts> transients;       ///< by structure that was run

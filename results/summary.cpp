@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/error_estimate.hpp"
 #include "results/text_file.hpp"
 #include "results/totals.hpp"
 #include "results/write.hpp"
@@ -63,10 +64,21 @@ Json modes(const std::vector<modal::Basis>& bases) {
   return out;
 }
 
+/// Under the names of the figures they belong to; null where the window has too few batches.
+Json standard_error(const post::StandardErrors& e) {
+  return {{"work_rate", number(e.work_rate)},
+          {"friction_power", number(e.friction_power)},
+          {"impacts_per_second", number(e.impact_rate)},
+          {"normal_force", {{"rms", number(e.normal_rms)}}},
+          {"displacement", {{"y", {{"std", number(e.y_std)}}}, {"z", {{"std", number(e.z_std)}}}}},
+          {"batches", number(e.batches)}};
+}
+
 Json contact(const ContactFacts& facts, const post::ContactSummary& c) {
   return {
       {"name", facts.name},
       {"impacts", c.impacts},
+      {"impacts_per_second", number(c.impact_rate)},
       {"contact_time_ratio", number(c.contact_time_ratio)},
       {"normal_force",
        {{"mean", number(c.normal_mean)}, {"rms", number(c.normal_rms)}, {"max", number(c.normal_max)}}},
@@ -88,7 +100,56 @@ Json contact(const ContactFacts& facts, const post::ContactSummary& c) {
       {"sliding_distance_m", number(c.sliding_distance)},
       {"impulse_Ns", number(c.impulse)},
       // nothing sticks or slides where there is no friction
-      {"sticking_ratio", facts.friction_static > 0.0 ? number(c.sticking_ratio) : Json(nullptr)}};
+      {"sticking_ratio", facts.friction_static > 0.0 ? number(c.sticking_ratio) : Json(nullptr)},
+      {"standard_error", standard_error(c.error)}};
+}
+
+Json contact_sums(const RunResults& results) {
+  double work = 0.0, friction = 0.0, impacts = 0.0;
+  for (const post::ContactSummary& c : results.contact_summaries) {
+    work += c.work_rate;
+    friction += c.friction_power;
+    impacts += c.impact_rate;
+  }
+  const post::StandardErrors& e = results.errors_of_sums;
+  return {{"work_rate", number(work)},
+          {"friction_power", number(friction)},
+          {"impacts_per_second", number(impacts)},
+          {"standard_error",
+           {{"work_rate", number(e.work_rate)},
+            {"friction_power", number(e.friction_power)},
+            {"impacts_per_second", number(e.impact_rate)},
+            {"batches", number(e.batches)}}}};
+}
+
+Json compared(const std::vector<post::ComparedFigure>& figures) {
+  Json out = Json::array();
+  for (const post::ComparedFigure& f : figures)
+    out.push_back({{"name", f.name},
+                   {"value", number(f.value)},
+                   {"value_at_half_step", number(f.at_half)},
+                   {"difference", number(f.difference())},
+                   {"standard_error", number(f.error)},
+                   {"agrees", f.agrees}});
+  return out;
+}
+
+Json verification(const Verification& v, const std::vector<ContactFacts>& contacts) {
+  if (!v.failure.empty())
+    return {{"agrees", false}, {"failure", v.failure}};
+  Json by_contact = Json::array();
+  for (std::size_t c = 0; c < v.contacts.size(); ++c)
+    by_contact.push_back({{"name", contacts[c].name}, {"figures", compared(v.contacts[c])}});
+  return {{"agrees", disagreement(v, contacts).differ == 0},
+          {"step_max_s", number(v.step_max)},
+          {"factor", {{"sums", post::factor_of_sums}, {"contacts", number(v.factor)}}},
+          {"sums", compared(v.sums)},
+          {"contacts", by_contact}};
+}
+
+Json error_estimate_json(const RunResults& results) {
+  const ErrorEstimate estimate = error_estimate(results);
+  return {{"kind", name_of(estimate.kind)}, {"relative", number(estimate.relative)}, {"text", estimate.text}};
 }
 
 Json node(const std::string& name, const post::NodeSummary& n) {
@@ -117,7 +178,13 @@ Json transient(const TransientTotals& t, const RunResults& results) {
           {"step_min_s", number(t.step_min)},
           {"step_max_s", number(t.step_max)},
           {"step_reason", t.step_reason},
+          {"scheme_reason", t.scheme_reason},
           {"contact_frequency_rad_s", number(t.contact_frequency)},
+          {"resolution",
+           {{"w_c_h", number(t.resolution.contact)},
+            {"w_t_h", number(t.resolution.stick)},
+            {"r_t_h", number(t.resolution.damper)},
+            {"w_max_h", number(t.resolution.highest_mode)}}},
           {"outcome", t.diverged ? "diverged" : "done"},
           {"unconverged_steps", t.unconverged},
           {"duration_s", number(results.duration)},
@@ -138,6 +205,11 @@ void add_transient(Json& out, const RunResults& results) {
   out["contacts"] = Json::array();
   for (std::size_t c = 0; c < results.contacts.size(); ++c)
     out["contacts"].push_back(contact(results.contacts[c], results.contact_summaries[c]));
+  if (!results.contacts.empty())
+    out["contact_sums"] = contact_sums(results);
+  if (results.verification)
+    out["verification"] = verification(*results.verification, results.contacts);
+  out["error_estimate"] = error_estimate_json(results);
   out["nodes"] = Json::array();
   for (std::size_t n = 0; n < results.node_names.size(); ++n)
     out["nodes"].push_back(node(results.node_names[n], results.node_summaries[n]));

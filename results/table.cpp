@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/error_estimate.hpp"
 #include "results/totals.hpp"
 #include "results/write.hpp"
 #include <algorithm>
@@ -83,10 +84,25 @@ std::string modes_text(const std::vector<modal::Basis>& bases) {
   return text + fmt::format(" Hz (largest residual {:.0e})", residual);
 }
 
+/// 6.13+-0.05: the error in one digit (two where the first is 1), the value down to it; the value alone where
+/// there is no error.
+std::string with_error(double value, double error) {
+  if (!std::isfinite(value) || !(error > 0.0) || !std::isfinite(error))
+    return fmt::format("{:.3g}", value);
+  if (std::abs(value) < 1e-4 || std::max(std::abs(value), error) >= 1e6)
+    return fmt::format("{:.3g}+-{:.1g}", value, error);
+  const double first = std::floor(std::log10(error));
+  const bool one = error < 1.95 * std::pow(10.0, first);
+  const int decimals = std::clamp(static_cast<int>(-first) + (one ? 1 : 0), 0, 7);
+  return fmt::format("{:.{}f}+-{:.{}f}", value, decimals, error, decimals);
+}
+
 std::string contact_row(const std::string& name, const post::ContactSummary& c) {
-  return fmt::format("  {:<20} {:>8} {:>8.2f} {:>9.3g} {:>9.3g} {:>9.3g} {:>9.4g} {:>10.3g} {:>10.3g}",
-                     shortened(name), grouped(c.impacts), 100.0 * c.contact_time_ratio, c.normal_rms,
-                     c.normal_max, c.tangential_max, 1e6 * c.radial_max, c.work_rate, c.friction_power);
+  return fmt::format("  {:<20} {:>8} {:>8.2f} {:>11} {:>8.3g} {:>8.3g} {:>8.4g} {:>13} {:>13}",
+                     shortened(name), grouped(c.impacts), 100.0 * c.contact_time_ratio,
+                     with_error(c.normal_rms, c.error.normal_rms), c.normal_max, c.tangential_max,
+                     1e6 * c.radial_max, with_error(c.work_rate, c.error.work_rate),
+                     with_error(c.friction_power, c.error.friction_power));
 }
 
 void add_contacts(Lines& lines, const RunResults& results) {
@@ -99,7 +115,7 @@ void add_contacts(Lines& lines, const RunResults& results) {
     shown.resize(10);
   }
   lines.plain("");
-  lines.plain(fmt::format("  {:<20} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>10} {:>10}", "contact", "impacts",
+  lines.plain(fmt::format("  {:<20} {:>8} {:>8} {:>11} {:>8} {:>8} {:>8} {:>13} {:>13}", "contact", "impacts",
                           "closed %", "FN rms N", "FN max N", "FT max N", "r max um", "work W",
                           "friction W"));
   for (const std::size_t c : shown)
@@ -114,8 +130,10 @@ void add_contacts(Lines& lines, const RunResults& results) {
       work += c.work_rate;
       friction += c.friction_power;
     }
-    lines.plain(fmt::format("  {:<20} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>10.3g} {:>10.3g}",
-                            "all contacts", grouped(impacts), "", "", "", "", "", work, friction));
+    const post::StandardErrors& e = results.errors_of_sums;
+    lines.plain(fmt::format("  {:<20} {:>8} {:>8} {:>11} {:>8} {:>8} {:>8} {:>13} {:>13}", "all contacts",
+                            grouped(impacts), "", "", "", "", "", with_error(work, e.work_rate),
+                            with_error(friction, e.friction_power)));
   }
   lines.plain("");
 }
@@ -127,6 +145,23 @@ std::string energy_text(const EnergyTotals& e) {
       e.input, e.stored, e.modal_damping, e.contact_damping, e.friction, e.residual_relative);
 }
 
+/// The sums over contacts, and the one figure that differs most where one does.
+void add_verification(Lines& lines, const RunResults& results) {
+  const Verification& v = *results.verification;
+  if (!v.failure.empty())
+    return lines.add("verified", "no: " + v.failure);
+  const Disagreement found = disagreement(v, results.contacts);
+  lines.add("verified", fmt::format("at half the step ({:.3g} s): {} of {} figures agree within {:.2g} "
+                                    "standard errors (sums {:.2g}) + {:.2g} %",
+                                    v.step_max, found.compared - found.differ, found.compared, v.factor,
+                                    post::factor_of_sums, 100.0 * results.accuracy));
+  lines.row("", fmt::format("{:<22} {:>11} {:>13} {:>11} {:>15}", "all contacts", "this run", "at half step",
+                            "difference", "standard error"));
+  for (const post::ComparedFigure& f : v.sums)
+    lines.row("", fmt::format("{:<22} {:>11.4g} {:>13.4g} {:>11.2g} {:>15.2g}{}", f.name, f.value, f.at_half,
+                              f.difference(), f.error, f.agrees ? "" : "  differs"));
+}
+
 void add_transient(Lines& lines, const RunResults& results) {
   const TransientTotals t = add_up(results.transients);
   const std::string step = t.step_max > t.step_min ? fmt::format("{:.3g} to {:.3g}", t.step_min, t.step_max)
@@ -135,6 +170,8 @@ void add_transient(Lines& lines, const RunResults& results) {
             fmt::format("{:.6g} s, statistics from {:.6g} s; {}, {} steps of {} s", results.duration,
                         results.statistics_from, t.scheme, grouped(t.steps), step));
   lines.add("step", t.step_reason);
+  if (!t.scheme_reason.empty())
+    lines.add("scheme", t.scheme_reason);
   if (t.diverged)
     lines.add("DIVERGED",
               fmt::format("at {:.6g} s: the numbers below are of no use; take a smaller step", t.end_time));
@@ -144,6 +181,9 @@ void add_transient(Lines& lines, const RunResults& results) {
   if (!results.contact_summaries.empty())
     add_contacts(lines, results);
   lines.add("energy", energy_text(t.energy));
+  if (results.verification)
+    add_verification(lines, results);
+  lines.add("error", error_estimate(results).text);
 }
 
 void add_messages(Lines& lines, const std::string& label, const std::vector<std::string>& messages,

@@ -35,9 +35,16 @@ TransientTotals add_up(const std::vector<TransientFacts>& transients) {
     if (sum.step_min == 0.0 || report.counts.step_min < sum.step_min) {
       sum.step_min = report.counts.step_min;
       sum.step_reason = choice.reason;
+      sum.scheme_reason = choice.scheme_reason;
     }
     sum.step_max = std::max(sum.step_max, report.counts.step_max);
     sum.contact_frequency = std::max(sum.contact_frequency, choice.contact_frequency);
+    const double h = report.counts.step_max;
+    Resolution& r = sum.resolution;
+    r.contact = std::max(r.contact, choice.contact_frequency * h);
+    r.stick = std::max(r.stick, choice.stick_frequency * h);
+    r.damper = std::max(r.damper, choice.damper_rate * h);
+    r.highest_mode = std::max(r.highest_mode, choice.highest_mode * h);
     sum.diverged = sum.diverged || report.outcome == transient::Outcome::diverged;
     sum.end_time = std::min(sum.end_time, report.end_time);
     const transient::Energy& e = report.energy;

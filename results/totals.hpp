@@ -27,14 +27,21 @@ struct EnergyTotals {
   }
 };
 
+/// The longest step times what it has to resolve (transient/step_rule.hpp); the largest of the structures.
+struct Resolution {
+  double contact = 0.0, stick = 0.0, damper = 0.0, highest_mode = 0.0;
+};
+
 struct TransientTotals {
   std::string scheme; ///< names joined by ", " where structures differ
   std::int64_t steps = 0, rejected = 0, evaluations = 0, unconverged = 0;
   double step_min = 0.0, step_max = 0.0; ///< s
   std::string step_reason;               ///< of the smallest step
+  std::string scheme_reason;             ///< of that run's scheme; empty where it was given
   double contact_frequency = 0.0;        ///< rad/s, the highest
-  bool diverged = false;                 ///< any of them
-  double end_time = 0.0;                 ///< s, the earliest
+  Resolution resolution;
+  bool diverged = false; ///< any of them
+  double end_time = 0.0; ///< s, the earliest
   EnergyTotals energy;
 };
 

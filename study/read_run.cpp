@@ -52,7 +52,7 @@ std::optional<Transient> read_transient(const TableReader& root) {
   if (!found)
     return std::nullopt;
   const TableReader table(*found, "transient",
-                          {{"duration", "start", "scheme", "accuracy", "step", "tolerance"}});
+                          {{"duration", "start", "scheme", "accuracy", "step", "tolerance", "verify"}});
   Transient transient;
   transient.duration = table.number("duration", {Range::above_zero, "s"});
   transient.start = table.choice("start", Start::rest,
@@ -75,6 +75,7 @@ std::optional<Transient> read_transient(const TableReader& root) {
   if (transient.tolerance > 0.1)
     table.fail_at("tolerance",
                   "the error of a step relative to the energy norm of the motion: at most 0.1 is expected");
+  transient.verify = table.optional_flag("verify").value_or(false);
   transient.step = table.optional_number("step", {Range::above_zero, "s"});
   if (transient.step && *transient.step > transient.duration)
     table.fail_at("step",

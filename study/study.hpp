@@ -168,6 +168,7 @@ struct Transient {
   double accuracy = 0.01;
   std::optional<double> step;
   double tolerance = 1e-6; ///< of a step's error: adaptive schemes
+  bool verify = false;     ///< run again at half the step and compare the statistics
 };
 
 struct Output {

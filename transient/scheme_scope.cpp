@@ -9,21 +9,22 @@ bool carries_obstacles(SchemeKind kind) { return kind == SchemeKind::splitting |
 
 bool takes_residual(SchemeKind kind) { return kind == SchemeKind::splitting; }
 
-void check_scope(const Scene& scene, SchemeKind kind) {
+std::string out_of_scope(const Scene& scene, SchemeKind kind) {
   const bool carried = std::any_of(scene.contacts.begin(), scene.contacts.end(),
                                    [](const ContactPoint& point) { return point.carried.size() > 0; });
   if (carried && !carries_obstacles(kind))
-    throw core::Error(
-        "scheme = \"" + name_of(kind) +
-        "\" does not follow obstacles that move from the supports of the structure (attached_to "
-        "= \"ground\", [[support_motion]]); use scheme = \"splitting\"");
+    return "does not follow obstacles that move from the supports of the structure (attached_to = \"ground\", "
+           "[[support_motion]])";
   if (scene.residual.size() > 0 && !takes_residual(kind))
-    throw core::Error("scheme = \"" + name_of(kind) +
-                      "\" does not take the residual flexibility of the modes at the contacts; use scheme = "
-                      "\"splitting\", or leave the residual flexibility out");
+    return "does not take the residual flexibility of the modes at the contacts";
   if (scene.system.damping_matrix.size() > 0 && kind == SchemeKind::collocation)
-    throw core::Error("scheme = \"collocation\" takes diagonal modal damping only, and the dampers of this "
-                      "study couple the modes; use scheme = \"splitting\"");
+    return "takes diagonal modal damping only, and the dampers of this study couple the modes";
+  return {};
+}
+
+void check_scope(const Scene& scene, SchemeKind kind) {
+  if (const std::string why = out_of_scope(scene, kind); !why.empty())
+    throw core::Error("scheme = \"" + name_of(kind) + "\" " + why + "; use scheme = \"splitting\"");
 }
 
 } // namespace fretwork::transient

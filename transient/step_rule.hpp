@@ -2,13 +2,16 @@
 /// @file
 /// The time step and its reason.
 ///
-///     h = eps min{ 1/w_c, 1/w_t, a/r_t, b/w_max },  eps = 0.5 sqrt(accuracy / 0.01)
+///     h = eps min{ 0.7/w_c, 0.7/w_t, a/r_t, b/w_max },  eps = 0.5 sqrt(accuracy / 0.01)
 /// over the terms that exist, with:
 ///     w_c    contact frequency: w_c^2 = largest eigenvalue of K_N^1/2 W K_N^1/2, W = B B^T over all normal
 ///            directions of all contacts; with residual flexibility R (Scene) of (K_N^-1 + R)^-1 in place of K_N
 ///     w_t    the same with K_T over the tangent directions
 ///     r_t    rate of the tangential dampers, largest eigenvalue of C_T^1/2 W C_T^1/2
 ///     w_max  highest mode
+/// For collocation 1/w_c and 1/w_t, and no term of w_max. No accuracy makes a step longer than that of 0.04, eps = 1: above w_c h = 1
+/// (devogelaere: 0.75) impacts are wrong however stable the run (doc/schemes.md, Stability map). w_max h stays below 2.5: splitting resonates with modes
+/// at w h = k pi.
 /// a = 4 and b = 5 for the splitting and the energy conserving scheme (which no step makes unstable, but the contacts must be resolved), 1 and 1 for explicit Euler (whose limits are r_t h < 1 and
 /// w_max h < 2). Euler also takes the other dampers explicitly and resolves them by 1/r_e (its limit: r_e h < 2):
 ///     r_e    the largest of the rates of the structure's damping and of the normal dampers (c(p) at t = 0 in place of C_T)
@@ -17,8 +20,10 @@
 /// Euler's limit 2 is met up to x = 8 (which leaves less than 1/8 of the speed); the splitting takes the damper implicitly.
 /// devogelaere has Euler's terms, r_e also the largest K_T/C_T of a sliding spring, with eps <= 0.5 for all dampers (its limit: 0.59).
 /// runge_kutta_54 chooses its steps by its tolerance: `step` is the longest, from the terms of the loads and duration/200.
-/// Never above 1/20 of the shortest period of the excitation times 2 eps (without contacts 1/200, and b = 0.6: statistics must
+/// Never above 1/30 of the shortest period of the excitation times 2 eps (without contacts 1/200, and b = 0.6: statistics must
 /// see the modes), nor the shortest interval of a table, nor duration/20000 (so many steps take milliseconds).
+///
+/// Without a scheme given, collocation is taken where its predicted time (steps times the cost of one) is below that of splitting.
 #pragma once
 #include "transient/scheme.hpp"
 #include <optional>
@@ -46,10 +51,14 @@ struct StepChoice {
   double highest_mode = 0.0;  ///< rad/s
   double excitation = 0.0;    ///< Hz
   std::string reason;         ///< one line for the user
+  std::string scheme_reason;  ///< why this scheme; empty where it was given
   std::vector<std::string> warnings; ///< what a fixed step does not resolve
 };
 
 /// @throws core::Error where there would be absurdly many steps, or where the scheme cannot take the scene
 [[nodiscard]] StepChoice choose_step(const Scene& scene, const StepOptions& options);
+
+/// The same run at half the step, or, adaptive, at half the tolerance.
+[[nodiscard]] StepChoice halved(StepChoice choice);
 
 } // namespace fretwork::transient

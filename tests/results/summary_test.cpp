@@ -36,8 +36,8 @@ using Keys = std::set<std::string>;
 TEST(Summary, HasTheKeysOfTheContract) {
   const Json s = summary_of(made_up());
   EXPECT_EQ(keys(s), (Keys{"version", "study", "ranks", "seed", "seeds", "input_sha256", "model", "modes",
-                           "contacts", "nodes", "energy", "transient", "timings_s", "warnings", "notes",
-                           "libraries", "vector_width"}));
+                           "contacts", "contact_sums", "error_estimate", "nodes", "energy", "transient",
+                           "timings_s", "warnings", "notes", "libraries", "vector_width"}));
   EXPECT_EQ(keys(s["model"]), (Keys{"nodes", "elements", "dofs", "mass_kg", "different_structures"}));
   EXPECT_EQ(keys(s["modes"]),
             (Keys{"frequencies_hz", "residuals", "damping", "static_modes", "orthogonality", "distributed",
@@ -46,8 +46,8 @@ TEST(Summary, HasTheKeysOfTheContract) {
                                      "contact_damping_J", "friction_J", "residual_relative"}));
   EXPECT_EQ(keys(s["transient"]),
             (Keys{"scheme", "steps", "rejected", "force_evaluations", "step_min_s", "step_max_s",
-                  "step_reason", "contact_frequency_rad_s", "outcome", "unconverged_steps", "duration_s",
-                  "end_time_s", "statistics_from_s"}));
+                  "step_reason", "scheme_reason", "resolution", "contact_frequency_rad_s", "outcome",
+                  "unconverged_steps", "duration_s", "end_time_s", "statistics_from_s"}));
   EXPECT_EQ(keys(s["timings_s"]),
             (Keys{"read", "mesh", "assembly", "modes", "basis", "transient", "output", "total"}));
 }
@@ -55,10 +55,11 @@ TEST(Summary, HasTheKeysOfTheContract) {
 TEST(Summary, HasTheKeysOfTheContractForAContactAndANode) {
   const Json s = summary_of(made_up());
   const Json& c = s["contacts"][0];
-  EXPECT_EQ(keys(c), (Keys{"name", "impacts", "contact_time_ratio", "normal_force", "normal_force_in_contact",
-                           "tangential_force", "displacement", "work_rate", "friction_power",
-                           "impact_velocity", "contact_duration", "departure_velocity", "energy",
-                           "sliding_distance_m", "impulse_Ns", "sticking_ratio"}));
+  EXPECT_EQ(keys(c),
+            (Keys{"name", "impacts", "impacts_per_second", "standard_error", "contact_time_ratio",
+                  "normal_force", "normal_force_in_contact", "tangential_force", "displacement", "work_rate",
+                  "friction_power", "impact_velocity", "contact_duration", "departure_velocity", "energy",
+                  "sliding_distance_m", "impulse_Ns", "sticking_ratio"}));
   EXPECT_EQ(keys(c["departure_velocity"]), (Keys{"mean", "max"}));
   EXPECT_EQ(keys(c["energy"]), (Keys{"damping_J", "friction_J"}));
   EXPECT_EQ(keys(c["normal_force"]), (Keys{"mean", "rms", "max"}));
@@ -92,8 +93,10 @@ TEST(Summary, PutsEachStatisticUnderItsName) {
   c.sticking_ratio = 0.125;
   c.damping_work = 27;
   c.friction_work = 28;
+  c.impact_rate = 29;
+  c.error = {30, 31, 32, 33, 34, 35, 36};
   EXPECT_EQ(summary_of(results)["contacts"][1], Json::parse(R"({
-    "name": "tsp2", "impacts": 5, "contact_time_ratio": 0.5,
+    "name": "tsp2", "impacts": 5, "impacts_per_second": 29.0, "contact_time_ratio": 0.5,
     "normal_force": {"mean": 1.0, "rms": 2.0, "max": 3.0}, "normal_force_in_contact": {"mean": 4.0, "rms": 5.0},
     "tangential_force": {"rms": 6.0, "max": 7.0},
     "displacement": {"y": {"mean": 8.0, "std": 9.0, "min": 10.0, "max": 11.0},
@@ -101,7 +104,65 @@ TEST(Summary, PutsEachStatisticUnderItsName) {
     "work_rate": 18.0, "friction_power": 18.5, "impact_velocity": {"mean": 19.0, "max": 20.0},
     "contact_duration": {"mean": 21.0, "max": 22.0}, "departure_velocity": {"mean": 23.0, "max": 24.0},
     "impulse_Ns": 25.0, "sliding_distance_m": 26.0, "sticking_ratio": 0.125,
-    "energy": {"damping_J": 27.0, "friction_J": 28.0}})"));
+    "energy": {"damping_J": 27.0, "friction_J": 28.0},
+    "standard_error": {"work_rate": 30.0, "friction_power": 31.0, "impacts_per_second": 33.0, "normal_force": {"rms": 32.0},
+                       "displacement": {"y": {"std": 34.0}, "z": {"std": 35.0}}, "batches": 36.0}})"));
+}
+
+TEST(Summary, AddsUpTheContactsWithTheErrorsOfTheSums) {
+  RunResults results = made_up({.contacts = 2});
+  results.contact_summaries[0].work_rate = 1.0;
+  results.contact_summaries[1].work_rate = 2.5;
+  const Json sums = summary_of(results)["contact_sums"];
+  EXPECT_EQ(sums["work_rate"], 3.5);
+  EXPECT_EQ(sums["impacts_per_second"], 31.5 + 32.5);
+  EXPECT_EQ(sums["standard_error"], Json::parse(R"({"work_rate": 0.001, "friction_power": 0.0003,
+                                                    "impacts_per_second": 2.5, "batches": 40.0})"));
+}
+
+TEST(Summary, WritesNullWhereThereAreTooFewBatches) {
+  RunResults results = made_up();
+  results.contact_summaries[0].error.work_rate = nan;
+  EXPECT_TRUE(summary_of(results)["contacts"][0]["standard_error"]["work_rate"].is_null());
+}
+
+TEST(Summary, CarriesItsErrorEstimateAndWhatItIs) {
+  const Json estimate = summary_of(made_up())["error_estimate"];
+  EXPECT_EQ(keys(estimate), (Keys{"kind", "relative", "text"}));
+  EXPECT_EQ(estimate["kind"], "statistical");
+  const Json none = summary_of(made_up({.contacts = 0}))["error_estimate"];
+  EXPECT_EQ(none["kind"], "none");
+  EXPECT_TRUE(none["relative"].is_null());
+}
+
+TEST(Summary, SaysWhatTheStepResolves) {
+  RunResults results = made_up({.structures = 2}); // steps of 2.5e-5 s, w_c = 2e4 rad/s
+  results.transients[1].choice.contact_frequency = 1.0;
+  results.transients[1].choice.stick_frequency = 4e3;
+  results.transients[1].choice.damper_rate = 8e3;
+  results.transients[1].report.counts.step_max = 1e-3;
+  EXPECT_EQ(summary_of(results)["transient"]["resolution"],
+            Json::parse(R"({"w_c_h": 0.5, "w_t_h": 4.0, "r_t_h": 8.0, "w_max_h": 1.256})"));
+}
+
+TEST(Summary, TellsAVerificationFigureByFigure) {
+  RunResults results = made_up({.contacts = 1});
+  Verification v;
+  v.step_max = 1e-5;
+  v.factor = 3.0;
+  v.contacts = {{{"work_rate", 1.0, 1.5, 0.25, true}}};
+  v.sums = {{"work_rate", 2.0, 4.0, nan, false}};
+  results.verification = v;
+  const Json told = summary_of(results)["verification"];
+  EXPECT_EQ(told,
+            Json::parse(R"({"agrees": false, "step_max_s": 1e-5, "factor": {"sums": 2.0, "contacts": 3.0},
+    "sums": [{"name": "work_rate", "value": 2.0, "value_at_half_step": 4.0, "difference": -2.0, "standard_error": null, "agrees": false}],
+    "contacts": [{"name": "tsp1", "figures":
+      [{"name": "work_rate", "value": 1.0, "value_at_half_step": 1.5, "difference": -0.5, "standard_error": 0.25, "agrees": true}]}]})"));
+  EXPECT_EQ(summary_of(results)["error_estimate"]["kind"], "verified");
+  results.verification->failure = "it stopped";
+  EXPECT_EQ(summary_of(results)["verification"],
+            Json::parse(R"({"agrees": false, "failure": "it stopped"})"));
 }
 
 TEST(Summary, HasNoShareOfStickingWithoutFriction) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <limits>
 #include <sstream>
 
 namespace fretwork::results {
@@ -12,7 +13,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr std::size_t widest = 104; // columns a person's terminal shows without wrapping, roughly
+constexpr std::size_t widest = 112; // columns a person's terminal shows without wrapping, roughly
 constexpr std::size_t longest = 40; // lines that fit a screen
 
 std::vector<std::string> lines(const std::string& text) {
@@ -33,6 +34,38 @@ TEST(TerminalTable, FitsAScreen) {
   EXPECT_LE(table.size(), longest);
   for (const std::string& line : table)
     EXPECT_LE(line.size(), widest) << line;
+}
+
+TEST(TerminalTable, GivesFiguresTheirStandardErrors) {
+  RunResults results = made_up({.contacts = 1});
+  post::ContactSummary& c = results.contact_summaries[0];
+  const auto shows = [&](double value, double error, const char* text) {
+    c.work_rate = value;
+    c.error.work_rate = error;
+    EXPECT_THAT(terminal_table(results), HasSubstr(" " + std::string(text) + " "));
+  };
+  shows(6.1283, 0.0512, "6.13+-0.05");   // one digit
+  shows(6.1283, 0.0148, "6.128+-0.015"); // two where the first is 1
+  shows(1234.56, 37.0, "1235+-37");      // never fewer than the digits before the point
+  shows(0.0, 0.0, "0");
+  shows(6.1283, std::numeric_limits<double>::quiet_NaN(), "6.13");
+  shows(1.23e-6, 4.0e-8, "1.23e-06+-4e-08");
+}
+
+TEST(TerminalTable, ShowsWhatAVerificationFound) {
+  RunResults results = made_up({.contacts = 1});
+  EXPECT_THAT(terminal_table(results), HasSubstr("standard error of this window"));
+  Verification v;
+  v.step_max = 1e-5;
+  v.factor = 2.77;
+  v.contacts = {{{"work_rate", 1.0, 1.0, 0.1, true}}};
+  v.sums = {{"work_rate", 2.0, 4.0, 0.5, false}};
+  results.verification = v;
+  const std::string text = terminal_table(results);
+  EXPECT_THAT(text, HasSubstr("at half the step (1e-05 s): 1 of 2 figures agree within 2.8 standard"));
+  EXPECT_THAT(text, testing::ContainsRegex("work_rate +2 +4 +-2 +0.5  differs"));
+  results.verification->failure = "the run at half the step stopped";
+  EXPECT_THAT(terminal_table(results), HasSubstr("verified    no: the run at half the step stopped"));
 }
 
 TEST(TerminalTable, ShowsEachOfAFewContactsWithoutATotalOfOne) {

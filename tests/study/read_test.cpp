@@ -49,6 +49,9 @@ TEST(ReadStudy, GivesTheTransientItsDefaults) {
   EXPECT_EQ(study.transient->accuracy, 0.01);
   EXPECT_EQ(study.transient->start, Start::rest);
   EXPECT_FALSE(study.transient->step);
+  EXPECT_FALSE(study.transient->verify);
+  EXPECT_TRUE(
+      read_text("[mesh]\nfile = \"a.msh\"\n[transient]\nduration = 3\nverify = true\n").transient->verify);
 }
 
 TEST(ReadStudy, GivesAContactItsDefaults) {

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/verification.hpp"
+#include "results/error_estimate.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <type_traits>
+
+namespace fretwork::app {
+
+HalfRun run_at_half(const transient::Scene& scene, const transient::StepChoice& choice, double from) {
+  post::ContactStatistics contacts(scene.contacts.size(), from);
+  transient::Observer* const observers[] = {&contacts};
+  HalfRun half;
+  half.report = transient::run(scene, transient::halved(choice), observers, nullptr, {});
+  half.contacts = contacts.summaries();
+  half.errors_of_sums = contacts.errors_of_sums();
+  return half;
+}
+
+void broadcast(MPI_Comm comm, int root, std::size_t contacts, HalfRun& half) {
+  static_assert(std::is_trivially_copyable_v<transient::Report> &&
+                std::is_trivially_copyable_v<post::ContactSummary>);
+  half.contacts.resize(contacts);
+  MPI_Bcast(&half.report, static_cast<int>(sizeof half.report), MPI_BYTE, root, comm);
+  MPI_Bcast(&half.errors_of_sums, static_cast<int>(sizeof half.errors_of_sums), MPI_BYTE, root, comm);
+  MPI_Bcast(half.contacts.data(), static_cast<int>(contacts * sizeof(post::ContactSummary)), MPI_BYTE, root,
+            comm);
+}
+
+void add_errors(post::StandardErrors& sum, const post::StandardErrors& of) {
+  if (!(of.batches > 0.0))
+    return; // no contact
+  sum.work_rate = std::hypot(sum.work_rate, of.work_rate);
+  sum.friction_power = std::hypot(sum.friction_power, of.friction_power);
+  sum.impact_rate = std::hypot(sum.impact_rate, of.impact_rate);
+  sum.batches = sum.batches > 0.0 ? std::min(sum.batches, of.batches) : of.batches;
+}
+
+void compare_with_half(const std::vector<BuiltScene>& scenes, const std::vector<HalfRun>& halves,
+                       results::RunResults& out) {
+  results::Verification& v = out.verification.emplace();
+  std::vector<post::ContactSummary> half(out.contact_summaries.size());
+  post::StandardErrors errors;
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    const transient::Report& report = halves[s].report;
+    if (report.outcome != transient::Outcome::done) {
+      v.failure = fmt::format("the run at half the step {} at t = {:.6g} s",
+                              report.outcome == transient::Outcome::diverged ? "diverged" : "stopped",
+                              report.end_time);
+      out.warnings.push_back("transient.verify: " + v.failure);
+      return;
+    }
+    v.step_max = std::max(v.step_max, report.counts.step_max);
+    add_errors(errors, halves[s].errors_of_sums);
+    for (std::size_t c = 0; c < scenes[s].contacts.size(); ++c)
+      half[scenes[s].contacts[c]] = halves[s].contacts[c];
+  }
+  if (half.empty())
+    return;
+  v.factor = post::critical_factor(post::compared_of_a_contact * half.size());
+  v.sums = post::compare_sums(out.contact_summaries, out.errors_of_sums, half, errors, out.accuracy);
+  for (std::size_t c = 0; c < half.size(); ++c)
+    v.contacts.push_back(post::compare(out.contact_summaries[c], half[c], v.factor, out.accuracy));
+  const results::Disagreement found = results::disagreement(v, out.contacts);
+  if (found.differ > 0)
+    out.warnings.push_back(
+        fmt::format("{} of {} statistics change with the step by more than their scatter and "
+                    "transient.accuracy = {}: {}; take a smaller step, or a smaller accuracy",
+                    found.differ, found.compared, out.accuracy, found.worst));
+}
+
+} // namespace fretwork::app

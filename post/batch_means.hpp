@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Standard errors of means over time, from one run. A window of length T is cut into consecutive batches b of lengths T_b, in which
+/// the integral of x is X_b:
+///     m = sum X_b / T,   e_b = X_b - m T_b,   n = 1 / sum (T_b/T)^2
+///     standard error^2 = sum e_b^2 / T^2 / (1 - 1/n)
+/// n is the effective number of batches, their number where they are equally long. Where batches are independent, variances of their
+/// means being as 1/T_b, the estimate of the square has no bias, whatever their lengths.
+/// Batches that are too short follow one another and make the error too small: while the correlation of neighbours
+///     r = sum e_b e_(b+1) / sum e_b^2
+/// is above 1.645/sqrt(n) - 1/n, which independent ones exceed once in twenty (a form of von Neumann's ratio), pairs are joined, down to 8
+/// batches at least. Source: G. S. Fishman, Grouping observations in digital simulation, Management Science 24 (1978) 510-521.
+/// Limits: it is the scatter of a stationary motion; of a window with a single event it says only that there is no more than one. Motions
+/// slower than an eighth of the window are not seen.
+#pragma once
+#include "core/state_archive.hpp"
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace fretwork::post {
+
+struct BatchEstimate {
+  double error;   ///< of the mean, in its unit; not a number where there are fewer than 8 batches
+  double batches; ///< n, after joining
+};
+
+/// @param lengths  T_b, s   @param sums  X_b
+[[nodiscard]] BatchEstimate batch_means(std::span<const double> lengths, std::span<const double> sums);
+
+/// What some sums over time have come to at the ends of batches. Constant memory, no allocation after construction: as many as `most`
+/// batches are kept, then pairs are joined and later batches are twice as long.
+class BatchEnds {
+public:
+  static constexpr std::size_t most = 64;
+
+  explicit BatchEnds(std::size_t sums) : sums_(sums), times_(most), rows_(most * sums) {}
+
+  /// Ends a batch where it is time for it. A record longer than a batch is a batch of its own.
+  /// @param elapsed  s, since the window began, growing   @param fill  writes the sums so far to the row it is given
+  template <class Fill> void watch(double elapsed, Fill fill) {
+    if (elapsed < next_)
+      return;
+    fill(rows_.data() + count_ * sums_);
+    times_[count_++] = elapsed;
+    if (count_ == 1)
+      length_ = elapsed;
+    if (count_ == most)
+      join_pairs();
+    next_ = elapsed + length_ * (1.0 - round_off);
+  }
+
+  void visit(core::StateArchive& state) { state(count_, length_, next_, times_, rows_); }
+
+  /// Batches that have ended.
+  [[nodiscard]] std::size_t size() const { return count_; }
+  /// End of a batch, s since the window began.
+  [[nodiscard]] double time(std::size_t batch) const { return times_[batch]; }
+  /// A sum at the end of a batch, since the window began.
+  [[nodiscard]] double sum(std::size_t batch, std::size_t which) const {
+    return rows_[batch * sums_ + which];
+  }
+
+private:
+  /// Of a batch: sums of steps do not meet its end to the last digit.
+  static constexpr double round_off = 1e-6;
+
+  void join_pairs();
+
+  std::size_t sums_, count_ = 0;
+  double length_ = 0.0, next_ = 0.0; ///< s
+  std::vector<double> times_, rows_;
+};
+
+} // namespace fretwork::post

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Statistics of a run against those of the same run at half the step (half the tolerance). Impacts with friction are chaotic: the two
+/// motions part, their statistics scatter. A figure agrees where
+///     |a - b| <= k sqrt(s_a^2 + s_b^2) + accuracy max(|a|, |b|)
+/// with the standard errors s of batch_means.hpp. k = 2 for the sums over contacts, which chance alone exceeds with p = 0.0455. For the N figures
+/// of single contacts k is such that any of them exceeds it with that p at most (Bonferroni: p/N each), so that many contacts are no reason to warn.
+/// Without standard errors (a window too short) s = 0: a single event is compared as it is.
+#pragma once
+#include "post/contact_statistics.hpp"
+#include <string>
+
+namespace fretwork::post {
+
+struct ComparedFigure {
+  std::string name;     ///< as in summary.json
+  double value = 0.0;   ///< of the run
+  double at_half = 0.0; ///< at half the step
+  double error = 0.0;   ///< standard error of the difference; not a number: there is none
+  bool agrees = true;
+  [[nodiscard]] double difference() const { return value - at_half; }
+};
+
+constexpr std::size_t compared_of_a_contact = 6; ///< figures, as below
+constexpr double factor_of_sums = 2.0;
+
+/// k for so many figures, at least 1.
+[[nodiscard]] double critical_factor(std::size_t figures);
+
+/// work_rate, friction_power, impacts_per_second, normal_force.rms, displacement.y.std and displacement.z.std of a contact.
+[[nodiscard]] std::vector<ComparedFigure> compare(const ContactSummary& run, const ContactSummary& half,
+                                                  double factor, double accuracy);
+
+/// work_rate, friction_power and impacts_per_second of the sums over all contacts.
+[[nodiscard]] std::vector<ComparedFigure> compare_sums(const std::vector<ContactSummary>& run,
+                                                       const StandardErrors& run_errors,
+                                                       const std::vector<ContactSummary>& half,
+                                                       const StandardErrors& half_errors, double accuracy);
+
+} // namespace fretwork::post

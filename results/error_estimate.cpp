@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/error_estimate.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace fretwork::results {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+double sum(const RunResults& results, double post::ContactSummary::*figure) {
+  double out = 0.0;
+  for (const post::ContactSummary& contact : results.contact_summaries)
+    out += contact.*figure;
+  return out;
+}
+
+/// The larger of what is known; a figure that is 0 in both runs has no relative error.
+double larger(double known, double error, double scale) {
+  if (!(scale > 0.0) || std::isnan(error))
+    return known;
+  return std::isnan(known) ? error / scale : std::max(known, error / scale);
+}
+
+double relative_scatter(const RunResults& results) {
+  const post::StandardErrors& e = results.errors_of_sums;
+  double out = larger(nan, e.work_rate, sum(results, &post::ContactSummary::work_rate));
+  out = larger(out, e.friction_power, sum(results, &post::ContactSummary::friction_power));
+  return larger(out, e.impact_rate, sum(results, &post::ContactSummary::impact_rate));
+}
+
+double relative_difference(const Verification& verification) {
+  double out = nan;
+  for (const post::ComparedFigure& f : verification.sums)
+    out = larger(out, std::abs(f.difference()), std::max(std::abs(f.value), std::abs(f.at_half)));
+  return out;
+}
+
+} // namespace
+
+std::string name_of(ErrorKind kind) {
+  switch (kind) {
+  case ErrorKind::none:
+    return "none";
+  case ErrorKind::statistical:
+    return "statistical";
+  case ErrorKind::verified:
+    return "verified";
+  }
+  return {};
+}
+
+ErrorEstimate error_estimate(const RunResults& results) {
+  if (results.contacts.empty())
+    return {ErrorKind::none, nan, "none: there are no contacts, whose statistics would be compared"};
+  if (const auto& verification = results.verification; verification && verification->failure.empty()) {
+    const Disagreement found = disagreement(*verification, results.contacts);
+    const double relative = relative_difference(*verification);
+    return {ErrorKind::verified, relative,
+            fmt::format("{} of {} figures agree with those at half the step{}", found.compared - found.differ,
+                        found.compared,
+                        std::isnan(relative)
+                            ? ""
+                            : fmt::format(", sums over contacts within {:.2g} %", 100.0 * relative))};
+  }
+  const double relative = relative_scatter(results);
+  if (std::isnan(relative))
+    return {ErrorKind::none, nan,
+            "none: no impacts in the window of the statistics, or steps too few for batches; "
+            "transient.verify = true compares with half the step"};
+  return {ErrorKind::statistical, relative,
+          fmt::format("{:.2g} % standard error of this window; that of the step is unknown (transient.verify)",
+                      100.0 * relative)};
+}
+
+Disagreement disagreement(const Verification& verification, const std::vector<ContactFacts>& contacts) {
+  Disagreement out;
+  double worst = 0.0;
+  const auto look = [&](const std::string& where, const std::vector<post::ComparedFigure>& figures) {
+    for (const post::ComparedFigure& f : figures) {
+      ++out.compared;
+      if (f.agrees)
+        continue;
+      ++out.differ;
+      const double relative = std::abs(f.difference()) / std::max(std::abs(f.value), std::abs(f.at_half));
+      if (relative > worst) {
+        worst = relative;
+        out.worst =
+            fmt::format("{} of {} is {:.4g}, at half the step {:.4g}", f.name, where, f.value, f.at_half);
+        if (std::isfinite(f.error))
+          out.worst += fmt::format(" (standard error of the difference {:.2g})", f.error);
+      }
+    }
+  };
+  look("all contacts", verification.sums);
+  for (std::size_t c = 0; c < verification.contacts.size(); ++c)
+    look(fmt::format("contact \"{}\"", contacts[c].name), verification.contacts[c]);
+  return out;
+}
+
+} // namespace fretwork::results

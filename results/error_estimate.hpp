@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// What the run knows of its own errors. The error of a figure has two parts: that of the step, which only a second run at half the step
+/// shows, and the scatter of a window of limited length, which batches show.
+#pragma once
+#include "results/run_results.hpp"
+
+namespace fretwork::results {
+
+enum class ErrorKind {
+  none,
+  statistical, ///< the scatter only
+  verified     ///< both: the run was compared with one at half the step
+};
+/// As in summary.json: none, statistical, verified.
+[[nodiscard]] std::string name_of(ErrorKind kind);
+
+struct ErrorEstimate {
+  ErrorKind kind = ErrorKind::none;
+  /// The largest of work rate, friction power and impacts per second, each summed over the contacts: standard error, or difference from the
+  /// run at half the step, over the figure. Not a number where there is none.
+  double relative;
+  std::string text; ///< what it is, or why there is none
+};
+
+[[nodiscard]] ErrorEstimate error_estimate(const RunResults& results);
+
+/// Figures that differ from those at half the step by more than their scatter and the accuracy; all that were compared.
+struct Disagreement {
+  std::size_t differ = 0, compared = 0;
+  std::string worst; ///< one line: where, which, both values; empty where all agree
+};
+[[nodiscard]] Disagreement disagreement(const Verification& verification,
+                                        const std::vector<ContactFacts>& contacts);
+
+} // namespace fretwork::results

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "post/verification.hpp"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+
+using namespace fretwork::post;
+
+namespace {
+
+constexpr double accuracy = 0.01;
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+ContactSummary with_work(double work, double error) {
+  ContactSummary s;
+  s.work_rate = work;
+  s.error.work_rate = error;
+  return s;
+}
+
+/// Whether a work rate of 100 +- `error` agrees with another by twice the standard error of the difference.
+bool agrees(double other, double error) {
+  return compare(with_work(100.0, error), with_work(other, error), 2.0, accuracy)[0].agrees;
+}
+
+} // namespace
+
+TEST(Verification, AllowsTheAccuracyAndTheScatterTogether) {
+  EXPECT_TRUE(agrees(100.9, 0.0));
+  EXPECT_FALSE(agrees(101.1, 0.0));
+  EXPECT_FALSE(agrees(98.9, 0.0));
+  const double noise = 2.0 * std::sqrt(2.0) * 3.0; // of two runs of 3
+  EXPECT_TRUE(agrees(100.0 + noise + 1.0, 3.0));
+  EXPECT_FALSE(agrees(100.0 + noise + 1.2, 3.0));
+}
+
+TEST(Verification, ComparesWhatHasNoScatterAsItIs) {
+  EXPECT_TRUE(agrees(100.9, not_a_number));
+  EXPECT_FALSE(agrees(101.1, not_a_number));
+  EXPECT_TRUE(compare({}, {}, 2.0, accuracy)[0].agrees); // nothing happens in both
+}
+
+TEST(Verification, NeverAgreesWithWhatIsNotANumber) { EXPECT_FALSE(agrees(not_a_number, 1.0)); }
+
+TEST(Verification, AllowsMoreToTheWorstOfManyFigures) {
+  EXPECT_EQ(critical_factor(1), 2.0);
+  constexpr double of_tables = 1e-3;                    // quantiles of the normal distribution in 4 digits
+  EXPECT_NEAR(critical_factor(10), 2.8376, of_tables);  // p = 0.00455
+  EXPECT_NEAR(critical_factor(100), 3.5062, of_tables); // p = 0.000455
+}
+
+TEST(Verification, PutsEachFigureUnderItsName) {
+  ContactSummary run, half;
+  run.work_rate = 1;
+  run.friction_power = 2;
+  run.impact_rate = 3;
+  run.normal_rms = 4;
+  run.y.std = 5;
+  run.z.std = 6;
+  run.error = {0.1, 0.2, 0.4, 0.3, 0.5, 0.6, 32.0};
+  const auto figures = compare(run, half, 2.0, accuracy);
+  ASSERT_EQ(figures.size(), compared_of_a_contact);
+  const char* names[] = {"work_rate",        "friction_power",     "impacts_per_second",
+                         "normal_force.rms", "displacement.y.std", "displacement.z.std"};
+  for (std::size_t k = 0; k < figures.size(); ++k) {
+    EXPECT_EQ(figures[k].name, names[k]);
+    EXPECT_EQ(figures[k].value, static_cast<double>(k) + 1.0);
+    EXPECT_EQ(figures[k].difference(), static_cast<double>(k) + 1.0);
+    EXPECT_DOUBLE_EQ(figures[k].error, 0.1 * (static_cast<double>(k) + 1.0));
+  }
+}
+
+TEST(Verification, AddsUpTheContacts) {
+  ContactSummary one, two;
+  one.work_rate = 1.0;
+  two.work_rate = 2.0;
+  one.friction_power = 0.25;
+  two.impact_rate = 7.0;
+  StandardErrors a, b;
+  a.work_rate = 3.0;
+  b.work_rate = 4.0;
+  const auto sums = compare_sums({one, two}, a, {two, two}, b, accuracy);
+  ASSERT_EQ(sums.size(), 3u);
+  EXPECT_EQ(sums[0].value, 3.0);
+  EXPECT_EQ(sums[0].at_half, 4.0);
+  EXPECT_EQ(sums[0].error, 5.0);
+  EXPECT_TRUE(sums[0].agrees);
+  EXPECT_EQ(sums[1].value, 0.25);
+  EXPECT_FALSE(sums[1].agrees);
+  EXPECT_EQ(sums[2].at_half, 14.0);
+}
