@@ -70,9 +70,10 @@ ErrorEstimate error_estimate(const RunResults& results) {
     return {ErrorKind::none, nan,
             "none: no impacts in the window of the statistics, or steps too few for batches; "
             "transient.verify = true compares with half the step"};
-  return {ErrorKind::statistical, relative,
-          fmt::format("{:.2g} % standard error of this window; that of the step is unknown (transient.verify)",
-                      100.0 * relative)};
+  return {
+      ErrorKind::statistical, relative,
+      fmt::format("{:.2g} % standard error of this window; that of the step is unknown (transient.verify)",
+                  100.0 * relative)};
 }
 
 Disagreement disagreement(const Verification& verification, const std::vector<ContactFacts>& contacts) {
