@@ -2,6 +2,7 @@
 #include "fem/mesh_error.hpp"
 #include "fem/beam_constants.hpp"
 #include "fem/beam_element.hpp"
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -69,8 +70,10 @@ double element_energy(const BeamElement& element, const BeamProperty& property, 
   const End a = end_of(frames[0], curvature, u.segment<3>(0), u.segment<3>(3)),
             b = end_of(frames[1], curvature, u.segment<3>(6), u.segment<3>(9));
   const double across = lambda * k.mass_transverse;
-  return bending_energy(k.bending_z, l, across, a.displacement.y(), b.displacement.y(), a.slope_y, b.slope_y) +
-         bending_energy(k.bending_y, l, across, a.displacement.z(), b.displacement.z(), a.slope_z, b.slope_z) +
+  return bending_energy(k.bending_z, l, across, a.displacement.y(), b.displacement.y(), a.slope_y,
+                        b.slope_y) +
+         bending_energy(k.bending_y, l, across, a.displacement.z(), b.displacement.z(), a.slope_z,
+                        b.slope_z) +
          axial_energy(k.axial, l, lambda * k.mass_axial, a.displacement.x(), b.displacement.x()) +
          axial_energy(k.torsion, l, lambda * k.inertia_x, a.turn, b.turn);
 }

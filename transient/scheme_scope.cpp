@@ -13,7 +13,8 @@ std::string out_of_scope(const Scene& scene, SchemeKind kind) {
   const bool carried = std::any_of(scene.contacts.begin(), scene.contacts.end(),
                                    [](const ContactPoint& point) { return point.carried.size() > 0; });
   if (carried && !carries_obstacles(kind))
-    return "does not follow obstacles that move from the supports of the structure (attached_to = \"ground\", "
+    return "does not follow obstacles that move from the supports of the structure (attached_to = "
+           "\"ground\", "
            "[[support_motion]])";
   if (scene.residual.size() > 0 && !takes_residual(kind))
     return "does not take the residual flexibility of the modes at the contacts";

@@ -29,7 +29,7 @@ constexpr double least_adaptive_steps = 200;
 constexpr double most_damped = 0.5;
 /// The step of an accuracy of 0.04 (w_c h = 0.7) is the longest: no statistics are worth having above it.
 constexpr double coarsest_accuracy = 0.04;
-/// Steps of splitting that one of collocation takes the time of: 5 with 3 supports, 10 with 8, more with 10 stiff ones.
+/// Steps of splitting that one of collocation takes the time of: 5 with 3 supports, 9 with 8, more with 10.
 constexpr double collocation_cost = 8.0;
 /// w_c h and w_t h at an accuracy of 0.01. Measured on rattling tubes (bench_statistics): the work rate of contacts that stick without much
 /// damping is off by 3.5 % at 0.5 with splitting, 1.1 % at 0.35; with collocation by 2.8 % at 1, 1.4 % at 0.5.

@@ -380,7 +380,7 @@ TEST(FlexibleContacts, AreRefusedBySchemesThatDoNotTakeThem) {
       EXPECT_EQ(error.what(),
                 "scheme = \"" + name_of(kind) +
                     "\" does not take the residual flexibility of the modes at the contacts; use "
-                    "scheme = \"splitting\", or leave the residual flexibility out");
+                    "scheme = \"splitting\"");
     }
   }
 }
