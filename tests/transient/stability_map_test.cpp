@@ -50,4 +50,4 @@ INSTANTIATE_TEST_SUITE_P(Schemes, StabilityMap,
                          testing::Values(SchemeKind::splitting, SchemeKind::collocation,
                                          SchemeKind::energy_conserving, SchemeKind::euler,
                                          SchemeKind::devogelaere),
-                         [](const auto& info) { return transient::name_of(info.param); });
+                         [](const auto& tested) { return transient::name_of(tested.param); });

@@ -13,8 +13,8 @@ using contact::PlanePair;
 namespace {
 
 constexpr double round_off = 1e-12;
-constexpr double eps = 0.5;      // at an accuracy of 1 %
-constexpr double contact = 0.35; // w_c h and w_t h at 1 %
+constexpr double eps = 0.5;    // at an accuracy of 1 %
+constexpr double share = 0.35; // w_c h and w_t h at 1 %
 constexpr double mass = 2.0;
 
 Scene scene_with(const contact::Support& support, double duration = 1000.0,
@@ -42,7 +42,7 @@ void expect_governed(const Scene& scene, const StepOptions& options, double limi
 } // namespace
 
 TEST(StepRule, ResolvesTheContactFrequency) {
-  expect_governed(scene_with({Circle{0.1}, {8e4}, {}}), splitting(), contact / std::sqrt(8e4 / mass),
+  expect_governed(scene_with({Circle{0.1}, {8e4}, {}}), splitting(), share / std::sqrt(8e4 / mass),
                   "the contact frequency 200 rad/s");
 }
 
@@ -64,7 +64,7 @@ TEST(StepRule, RefusesCollocationWhereDampersCoupleTheModes) {
 }
 
 TEST(StepRule, ResolvesTheFrequencyOfStickingContacts) {
-  expect_governed(scene_with({Circle{0.1}, {2.0}, {8e4, 0.0, 0.3, 0.3}}), splitting(), contact / 200.0,
+  expect_governed(scene_with({Circle{0.1}, {2.0}, {8e4, 0.0, 0.3, 0.3}}), splitting(), share / 200.0,
                   "the frequency of sticking contacts 200 rad/s");
 }
 
