@@ -4,6 +4,7 @@
 #include "app/static_start.hpp"
 #include "app/support_motion.hpp"
 #include "fem/disjoint_sets.hpp"
+#include "transient/moving_modes.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -18,7 +19,7 @@ using Bases =
 /// Above this share lost by the projection of the initial field the run starts from something else than was
 /// asked.
 constexpr double lost_share_warning = 0.05;
-/// Components of shapes below this share of the largest at a contact are the eigensolver's round-off.
+/// Below this share of the largest, how modes move a contact and what acts on them is the eigensolver's round-off.
 constexpr double round_off_of_shapes = 1e-11;
 /// Couplings of a projected damping matrix below this share of its diagonal are round-off.
 constexpr double negligible_coupling = 1e-12;
@@ -173,6 +174,39 @@ Eigen::MatrixXd carried_node(const study::Study& study, Index node, const Fields
   return carried;
 }
 
+/// Forces and initial values that are round-off beside the largest, in modes that no contact moves.
+void drop_round_off(transient::Scene& scene) {
+  Eigen::Array<bool, Eigen::Dynamic, 1> meets =
+      Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(scene.system.size(), false);
+  for (const transient::ContactPoint& point : scene.contacts)
+    meets = meets || (point.b.array() != 0.0).colwise().any().transpose();
+  const auto drop = [&](Eigen::VectorXd& values) {
+    const double largest = values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0;
+    values = (meets || values.array().abs() > round_off_of_shapes * largest).select(values, 0.0).eval();
+  };
+  for (transient::Load& load : scene.loads)
+    drop(load.modal_force);
+  drop(scene.q0);
+  drop(scene.v0);
+}
+
+/// Modes that nothing moves cost nothing.
+void leave_out_still_modes(BuiltScene& out) {
+  transient::Scene& scene = out.scene;
+  drop_round_off(scene);
+  out.modes = scene.system.size();
+  out.moving = transient::moving_modes(scene);
+  const auto still = out.modes - static_cast<Eigen::Index>(out.moving.size());
+  if (still == 0)
+    return;
+  scene = transient::with_modes(scene, out.moving);
+  for (post::ObservedNode& node : out.nodes)
+    node.rows = node.rows(Eigen::all, out.moving).eval();
+  out.notes.push_back(fmt::format("{} of {} modes are moved by no load, contact or initial state: they stay "
+                                  "at rest and the run leaves them out",
+                                  still, out.modes));
+}
+
 } // namespace
 
 std::vector<NamedNode> observed_nodes(const study::Study& study, const mesh::LineMesh& mesh) {
@@ -252,6 +286,7 @@ BuiltScene build_scene(const study::Study& study, const Fields& fields, const st
     }
   if (study.transient->start == study::Start::equilibrium)
     start_in_equilibrium(bases, out);
+  leave_out_still_modes(out);
   return out;
 }
 

@@ -30,8 +30,7 @@ void check_size_of_series(const study::Study& study, const std::vector<BuiltScen
                every = study.output.every.value_or(duration / default_outputs);
   double columns = 1.0; // values at an output: modal and of contacts and nodes, as in results.h5
   for (const BuiltScene& built : scenes)
-    columns += 2.0 * static_cast<double>(built.scene.system.size()) +
-               10.0 * static_cast<double>(built.contacts.size()) +
+    columns += 2.0 * static_cast<double>(built.modes) + 10.0 * static_cast<double>(built.contacts.size()) +
                9.0 * static_cast<double>(built.nodes.size());
   const double bytes = duration / every * columns * static_cast<double>(sizeof(double));
   if (bytes > most_series_bytes)
@@ -261,16 +260,20 @@ void merge(const BuiltScene& built, JobResult&& job, const transient::StepChoice
     out.series.modal_displacement.conservativeResize(modes, outputs);
     out.series.modal_velocity.conservativeResize(modes, outputs);
   }
-  Eigen::Index from = 0;
+  std::vector<Eigen::Index> rows; // of the modes of its structures, one after the other
+  for (const std::size_t s : built.structures)
+    for (Eigen::Index i = 0; i < out.bases[s].size(); ++i)
+      rows.push_back(first[s] + i);
   const Eigen::Index common = out.series.time.size();
-  for (const std::size_t s : built.structures) {
-    const Eigen::Index n = out.bases[s].size();
-    out.series.modal_displacement.middleRows(first[s], n) =
-        job.series.modal_displacement.middleRows(from, n).leftCols(common);
-    out.series.modal_velocity.middleRows(first[s], n) =
-        job.series.modal_velocity.middleRows(from, n).leftCols(common);
-    from += n;
-  }
+  const auto place = [&](const Eigen::MatrixXd& moving, Eigen::MatrixXd& all) {
+    for (Eigen::Index j = 0; j < common; ++j) {
+      all.col(j)(rows).setZero();
+      for (std::size_t k = 0; k < built.moving.size(); ++k)
+        all(rows[static_cast<std::size_t>(built.moving[k])], j) = moving(static_cast<Eigen::Index>(k), j);
+    }
+  };
+  place(job.series.modal_displacement, out.series.modal_displacement);
+  place(job.series.modal_velocity, out.series.modal_velocity);
 }
 
 std::optional<transient::SchemeKind> scheme_of(study::Scheme scheme) {

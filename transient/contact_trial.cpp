@@ -47,11 +47,4 @@ void ContactRows::add_to(double* target) const {
     kernels::scatter(contacts_.padded_modes, static_cast<int>(count_), row_.data(), factor_.data(), target);
 }
 
-double ContactRows::of_mode(Eigen::Index mode) const {
-  double sum = 0.0;
-  for (std::size_t r = 0; r < count_; ++r)
-    sum += factor_[r] * row_[r][mode];
-  return sum;
-}
-
 } // namespace fretwork::transient

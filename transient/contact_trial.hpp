@@ -47,8 +47,6 @@ public:
   void set(const ContactTrial& trial, double scale);
   /// target += sum of rows; padded modes. No allocation.
   void add_to(double* target) const;
-  /// The same for one mode.
-  [[nodiscard]] double of_mode(Eigen::Index mode) const;
 
 private:
   const PackedContacts& contacts_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/oscillator.hpp"
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -11,33 +12,43 @@ namespace {
 constexpr double series_limit = 1.5;
 /// Value of k/c^2 (critical: 1/4) below which the two decays are far enough apart to be told from each other.
 constexpr double separate = 0.2;
-constexpr int series_terms = 18; ///< (sqrt(k) t + c t)^18 / 18! is below 2e-16 there
+/// Terms of a series are taken down to this share of the first one.
+constexpr double negligible = 1e-18;
+constexpr std::size_t most_terms = 32; ///< series_limit^j/j! is negligible before
 
-/// Load responses by the power series of g: g = sum g_j t^j with g_0 = 0, g_1 = 1, (j+1)(j+2) g_{j+2} = -c
-/// (j+1) g_{j+1} - k g_j.
+/// 1/j.
+constexpr auto per = [] {
+  std::array<double, most_terms + 4> out{};
+  for (std::size_t j = 1; j < out.size(); ++j)
+    out[j] = 1.0 / static_cast<double>(j);
+  return out;
+}();
+
+/// Responses to loads that start with the step.
 struct LoadResponse {
   double r0, r1; ///< int g, int (t - s) g(s) ds: to a constant unit load, to a load of unit slope
   double d0, d1; ///< their derivatives
   double i0, i1; ///< their integrals
 };
 
-LoadResponse series_response(double k, double c, double t) {
-  LoadResponse out{};
-  double g_now = 0.0, g_next = 1.0, power = 1.0; // g_j, g_{j+1}, t^j
-  for (int j = 0; j < series_terms; ++j) {
-    const double term = g_now * power; // g_j t^j
-    out.d0 += term;
-    out.r0 += term * t / (j + 1);
-    out.d1 += term * t / (j + 1);
-    out.r1 += term * t * t / ((j + 1) * (j + 2));
-    out.i0 += term * t * t / ((j + 1) * (j + 2));
-    out.i1 += term * t * t * t / ((j + 1.0) * (j + 2) * (j + 3));
-    const double g_after = -(c * (j + 1) * g_next + k * g_now) / ((j + 1.0) * (j + 2.0));
-    g_now = g_next;
-    g_next = g_after;
-    power *= t;
+/// By the power series g = sum g_j t^j: (j+1) g_{j+1} = -c g_j - k g_{j-1}/j, g_0 = 0, g_1 = 1. With x = max(sqrt(k), c) t, which no
+/// root of s^2 + c s + k exceeds, |g_j| t^j <= t x^(j-1)/(j-1)!.
+LoadResponse series_response(double k, double c, double t, const Impulse& im) {
+  const double ct = c * t, kt2 = k * t * t, x = std::max(ct, std::sqrt(kt2));
+  double last = 0.0, now = t; // g_{j-1} t^{j-1}, g_j t^j
+  double r0 = 0.0, r1 = 0.0, i1 = 0.0, bound = 1.0;
+  for (std::size_t j = 1; bound > negligible; ++j) {
+    const double once = now * per[j + 1], twice = once * per[j + 2]; // integrated
+    r0 += once;
+    r1 += twice;
+    i1 += twice * per[j + 3];
+    const double next = -(ct * now + kt2 * per[j] * last) * per[j + 1];
+    last = now;
+    now = next;
+    bound *= x * per[j];
   }
-  return out;
+  r0 *= t, r1 *= t * t, i1 *= t * t * t;
+  return {r0, r1, im.g, r0, r1, i1};
 }
 
 /// k > 0: particular solutions (1 for a constant load k, t - c/k for a slope k) less the homogeneous motion
@@ -89,7 +100,7 @@ LoadResponse decay_response(double k, double c, double t, const Impulse& im) {
 
 LoadResponse load_response(double k, double c, double t, const Impulse& im) {
   if (k * t * t < series_limit * series_limit && c * t < series_limit)
-    return series_response(k, c, t);
+    return series_response(k, c, t, im);
   return k < separate * c * c ? decay_response(k, c, t, im) : closed_response(k, c, t, im);
 }
 

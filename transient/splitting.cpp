@@ -51,7 +51,7 @@ public:
         coupled_(system_, step), first_(flow_table(system_, coupled_, 0.5 * step)),
         full_(flow_table(system_, coupled_, step)) {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
-    for (kernels::Array* a : {&q_, &v_, &k_, &f_now_, &f_next_, &slope_})
+    for (kernels::Array* a : {&q_, &v_, &k_, &f_now_, &f_next_, &slope_, &impulse_})
       a->assign(n, 0.0);
     std::copy_n(scene.q0.data(), scene.q0.size(), q_.begin());
     std::copy_n(scene.v0.data(), scene.v0.size(), v_.begin());
@@ -100,8 +100,10 @@ public:
       v[j] = d.vq * q_[i] + d.vv * v_[i] + d.vf * f_now_[i] + d.vs * slope_[i];
     }
     coupled_.inside(t, q_.data(), v_.data(), f_now_.data(), slope_.data(), q, v);
+    std::fill(impulse_.begin(), impulse_.end(), 0.0);
+    rows_.add_to(impulse_.data());
     for (Eigen::Index j = 0; j < system_.size(); ++j) {
-      const double impulse = rows_.of_mode(j);
+      const double impulse = impulse_[static_cast<std::size_t>(j)];
       q[j] +=
           0.5 * (share * share - 0.25) * h_ * impulse; // nothing at the actions, where forces are made from q
       v[j] += share * impulse;
@@ -209,7 +211,7 @@ private:
 
   std::int64_t steps_ = 0, unconverged_ = 0;
   double time_ = 0.0;
-  kernels::Array q_, v_, k_, f_now_, f_next_, slope_;
+  kernels::Array q_, v_, k_, f_now_, f_next_, slope_, impulse_;
 
   Record record_;
   double moving_ = 0.0, after_action_ = 0.0; ///< modal energy before and after the action

@@ -117,6 +117,20 @@ TEST(Structures, ThatMeetKeepTheirPlacesInTheModalSeries) {
   expect_modal_series(run);
 }
 
+TEST(Structures, LeaveOutTheModesThatNothingMoves) {
+  // the loads are at the middles, where every second mode has a node: 4 of 8 modes of a tube
+  const Workshop folder;
+  const Results run = folder.run_text(tubes(folder, 2) + meeting(0, 1) + push(0, 200.0));
+  EXPECT_GT(run.statistics("meet01")["impacts"].get<int>(), 0);
+  const Eigen::MatrixXd& q = run.archive.series.modal_displacement;
+  ASSERT_EQ(q.rows(), 16);
+  EXPECT_EQ((q.rowwise().squaredNorm().array() > 0.0).count(), 8);
+  EXPECT_EQ(run.archive.series.modal_velocity.rows(), 16);
+  expect_modal_series(run);
+  EXPECT_TRUE(
+      says(run.summary["notes"].dump(), "8 of 16 modes are moved by no load, contact or initial state"));
+}
+
 TEST(Structures, InAChainPassTheForceOnAndGiveTheSameOnAllRanks) {
   const Workshop folder;
   const std::string study = tubes(folder, 4) + meeting(0, 1) + meeting(1, 2) + push(0, 600.0) + push(3, 20.0);
