@@ -267,7 +267,8 @@ void merge(const BuiltScene& built, JobResult&& job, const transient::StepChoice
   const Eigen::Index common = out.series.time.size();
   const auto place = [&](const Eigen::MatrixXd& moving, Eigen::MatrixXd& all) {
     for (Eigen::Index j = 0; j < common; ++j) {
-      all.col(j)(rows).setZero();
+      for (const Eigen::Index row : rows)
+        all(row, j) = 0.0;
       for (std::size_t k = 0; k < built.moving.size(); ++k)
         all(rows[static_cast<std::size_t>(built.moving[k])], j) = moving(static_cast<Eigen::Index>(k), j);
     }
