@@ -57,31 +57,6 @@ contact::Frame frame_of(const study::Contact& contact, const fem::Model& model, 
   return contact::nautical_frame(axis, contact.angle * std::numbers::pi / 180.0);
 }
 
-/// The second nodes of a contact between two groups, paired with the first by nearest place.
-std::vector<Index> second_nodes(const study::Contact& contact, const mesh::LineMesh& mesh,
-                                const fem::Model& model, const std::vector<Index>& nodes) {
-  const std::string what = fmt::format("contact \"{}\"", contact.name);
-  const std::vector<Index> others = mesh::group_nodes(mesh, *contact.other, what);
-  if (others.size() != nodes.size())
-    throw core::Error(fmt::format("{}: group \"{}\" has {} nodes and other \"{}\" has {}; contacts between "
-                                  "groups need as many nodes in each",
-                                  what, contact.group, nodes.size(), *contact.other, others.size()));
-  std::vector<Index> paired;
-  for (const Index node : nodes) {
-    const Index other = nearest_node(model, others, model.nodes[static_cast<std::size_t>(node)]);
-    if (other == node)
-      throw core::Error(fmt::format(
-          "{}: \"{}\" and \"{}\" share a node, which cannot meet itself; name two different nodes", what,
-          contact.group, *contact.other));
-    if (std::find(paired.begin(), paired.end(), other) != paired.end())
-      throw core::Error(fmt::format(
-          "{}: two nodes of \"{}\" have the same nearest node in \"{}\"; make one contact for each pair",
-          what, contact.group, *contact.other));
-    paired.push_back(other);
-  }
-  return paired;
-}
-
 /// Stiffness of the tube's wall at a node, N/m.
 double wall_at(const study::Study& study, const fem::Model& model, Index node, const std::string& name) {
   std::optional<double> stiffness;
@@ -234,10 +209,11 @@ std::vector<PlacedContact> place_contacts(const study::Study& study, const mesh:
   std::vector<PlacedContact> out;
   for (std::size_t e = 0; e < study.contacts.size(); ++e) {
     const study::Contact& contact = study.contacts[e];
-    const std::vector<Index> nodes =
-        mesh::group_nodes(mesh, contact.group, fmt::format("contact \"{}\"", contact.name));
-    const std::vector<Index> others =
-        contact.other ? second_nodes(contact, mesh, model, nodes) : std::vector<Index>(nodes.size(), -1);
+    const std::string what = fmt::format("contact \"{}\"", contact.name);
+    const std::vector<Index> nodes = mesh::group_nodes(mesh, contact.group, what);
+    const std::vector<Index> others = contact.other
+                                          ? paired_nodes(model, mesh, what, contact.group, *contact.other)
+                                          : std::vector<Index>(nodes.size(), -1);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       PlacedContact placed{};
       placed.name = nodes.size() == 1 ? contact.name : fmt::format("{}[{}]", contact.name, i);

@@ -2,6 +2,7 @@
 #include "app/build_fields.hpp"
 #include "app/support_motion.hpp"
 #include "fem/fields.hpp"
+#include "fem/ties.hpp"
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
@@ -37,6 +38,8 @@ void initial_field(const study::Study& study, const mesh::LineMesh& mesh, const 
           initial.rotation_rate;
     }
   }
+  fem::follow_ties(model, out.displacement);
+  fem::follow_ties(model, out.velocity);
   for (std::size_t node = 0; node < model.nodes.size(); ++node)
     for (int d = 0; d < core::dofs_per_node; ++d)
       if (model.is_fixed(static_cast<Index>(node), d)) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/build_model.hpp"
 #include "core/error.hpp"
+#include "fem/ties.hpp"
 #include <algorithm>
 #include <fmt/format.h>
-#include <limits>
 
 namespace fretwork::app {
 namespace {
@@ -60,24 +60,24 @@ void add_springs(const study::Study& study, const mesh::LineMesh& mesh, fem::Mod
         model.springs.push_back({node, -1, spring.stiffness, spring.damping});
       continue;
     }
-    const std::vector<Index> others = mesh::group_nodes(mesh, *spring.other, what);
-    if (others.size() != nodes.size())
-      throw core::Error(fmt::format(
-          "{}: group \"{}\" has {} nodes and other \"{}\" has {}; springs between groups need as many nodes "
-          "in each",
-          what, spring.group, nodes.size(), *spring.other, others.size()));
-    for (const Index node : nodes) {
-      const Index other = nearest_node(model, others, model.nodes[static_cast<std::size_t>(node)]);
-      if (other == node)
-        throw core::Error(fmt::format(
-            "{}: a spring from \"{}\" to \"{}\" would join a node to itself; name two different nodes", what,
-            spring.group, *spring.other));
-      model.springs.push_back({node, other, spring.stiffness, spring.damping});
-    }
+    const std::vector<Index> others = paired_nodes(model, mesh, what, spring.group, *spring.other);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      model.springs.push_back({nodes[i], others[i], spring.stiffness, spring.damping});
   }
 }
 
-/// Named points that the study gives neither mass, spring nor restraint and that no line uses are marks, not
+void add_ties(const study::Study& study, const mesh::LineMesh& mesh, fem::Model& model) {
+  for (std::size_t e = 0; e < study.ties.size(); ++e) {
+    const study::Tie& tie = study.ties[e];
+    const std::string what = fmt::format("[[ties]] entry {}", e + 1);
+    const std::vector<Index> nodes = mesh::group_nodes(mesh, tie.group, what);
+    const std::vector<Index> others = paired_nodes(model, mesh, what, tie.group, tie.other);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      model.ties.push_back({nodes[i], others[i], tie.tied});
+  }
+}
+
+/// Named points that the study gives neither mass, spring, tie nor restraint and that no line uses are marks, not
 /// structure.
 void leave_out_marks(fem::Model& model, const std::vector<bool>& restrained) {
   std::vector<bool> used = restrained;
@@ -95,13 +95,16 @@ void leave_out_marks(fem::Model& model, const std::vector<bool>& restrained) {
     use(spring.node);
     use(spring.other);
   }
+  for (const auto& tie : model.ties) {
+    use(tie.node);
+    use(tie.other);
+  }
   for (std::size_t i = 0; i < used.size(); ++i)
     if (!used[i])
       model.fixed[i] = all_fixed;
 }
 
-} // namespace
-
+/// The node of `others` (not empty) nearest to a place.
 Index nearest_node(const fem::Model& model, const std::vector<Index>& others, const core::Vec3& place) {
   return *std::min_element(others.begin(), others.end(), [&](Index a, Index b) {
     const auto distance = [&](Index n) {
@@ -109,6 +112,32 @@ Index nearest_node(const fem::Model& model, const std::vector<Index>& others, co
     };
     return distance(a) < distance(b);
   });
+}
+
+} // namespace
+
+std::vector<Index> paired_nodes(const fem::Model& model, const mesh::LineMesh& mesh, const std::string& what,
+                                const std::string& group, const std::string& other) {
+  const std::vector<Index> nodes = mesh::group_nodes(mesh, group, what);
+  const std::vector<Index> others = mesh::group_nodes(mesh, other, what);
+  if (others.size() != nodes.size())
+    throw core::Error(fmt::format("{}: group \"{}\" has {} nodes and other \"{}\" has {}; pairs need as many "
+                                  "nodes in each",
+                                  what, group, nodes.size(), other, others.size()));
+  std::vector<Index> paired;
+  for (const Index node : nodes) {
+    const Index nearest = nearest_node(model, others, model.nodes[static_cast<std::size_t>(node)]);
+    if (nearest == node)
+      throw core::Error(fmt::format(
+          "{}: \"{}\" and \"{}\" share a node, which cannot be joined to itself; name two different nodes",
+          what, group, other));
+    if (std::find(paired.begin(), paired.end(), nearest) != paired.end())
+      throw core::Error(fmt::format(
+          "{}: two nodes of \"{}\" have the same nearest node in \"{}\"; make one entry for each pair", what,
+          group, other));
+    paired.push_back(nearest);
+  }
+  return paired;
 }
 
 fem::Model build_model(const study::Study& study, const mesh::LineMesh& mesh) {
@@ -128,7 +157,9 @@ fem::Model build_model(const study::Study& study, const mesh::LineMesh& mesh) {
          mesh::group_nodes(mesh, study.masses[e].group, fmt::format("[[masses]] entry {}", e + 1)))
       model.masses.push_back({node, study.masses[e].mass, study.masses[e].inertia, study.masses[e].arm});
   add_springs(study, mesh, model);
+  add_ties(study, mesh, model);
   leave_out_marks(model, restrained);
+  fem::restrain_tied(model);
   return model;
 }
 

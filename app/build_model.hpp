@@ -10,11 +10,14 @@ namespace fretwork::app {
 
 /// The mechanical model; its nodes are those of the mesh, each line of the mesh is the beam of the same number.
 /// @throws core::Error for groups that do not exist, lines without or with two `[[beams]]` entries, springs
-/// that cannot be paired
+/// and ties that cannot be paired
 [[nodiscard]] fem::Model build_model(const study::Study& study, const mesh::LineMesh& mesh);
 
-/// The node of `among` (not empty) nearest to a place.
-[[nodiscard]] core::Index nearest_node(const fem::Model& model, const std::vector<core::Index>& among,
-                                       const core::Vec3& place);
+/// For each node of group the nearest of group `other`, each of them once.
+/// @param what  the entry, for messages
+/// @throws core::Error for groups of different sizes, a node in both, and a node nearest to two
+[[nodiscard]] std::vector<core::Index> paired_nodes(const fem::Model& model, const mesh::LineMesh& mesh,
+                                                    const std::string& what, const std::string& group,
+                                                    const std::string& other);
 
 } // namespace fretwork::app

@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "fem/fields.hpp"
 #include "fem/petsc_assembly.hpp"
+#include "fem/ties.hpp"
 #include <fmt/format.h>
 
 namespace fretwork::app {
@@ -63,6 +64,7 @@ std::vector<MovedSupport> moved_supports(const study::Study& study, const mesh::
               what, motion.group, fem::place(model.nodes[static_cast<std::size_t>(node)]), "xyz"[axis],
               "xyz"[axis]));
       }
+    fem::follow_ties(model, moved.imposed);
     out.push_back(std::move(moved));
   }
   return out;

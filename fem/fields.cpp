@@ -116,6 +116,15 @@ Eigen::MatrixXd stiffness_times(const Model& model, const Structure& structure,
   return apply_stiffness(model, Part(structure), fields);
 }
 
+Eigen::MatrixXd forces_on_equations(const Structure& structure, const Eigen::MatrixXd& forces) {
+  assert(forces.rows() == static_cast<Eigen::Index>(structure.equation.size()));
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(structure.equations, forces.cols());
+  for (std::size_t i = 0; i < structure.equation.size(); ++i)
+    if (structure.equation[i] >= 0)
+      sums.row(structure.equation[i]) += forces.row(static_cast<Eigen::Index>(i));
+  return sums;
+}
+
 Eigen::VectorXd twice_strain_energy(const Model& model, const Structure& structure,
                                     const Eigen::MatrixXd& fields) {
   const Part part(structure);

@@ -22,6 +22,10 @@ namespace fretwork::fem {
 [[nodiscard]] Eigen::MatrixXd stiffness_times(const Model& model, const Structure& structure,
                                               const Eigen::MatrixXd& fields);
 
+/// Forces over a structure on its equations (structure.equations rows): those on dofs that are tied add up,
+/// those on restrained dofs are left out.
+[[nodiscard]] Eigen::MatrixXd forces_on_equations(const Structure& structure, const Eigen::MatrixXd& forces);
+
 /// u^T K u of each field over a structure, J, from strains and spring elongations: for smooth fields on a
 /// fine mesh far more accurate than the product with K u.
 [[nodiscard]] Eigen::VectorXd twice_strain_energy(const Model& model, const Structure& structure,

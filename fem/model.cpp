@@ -4,6 +4,7 @@
 #include "fem/beam_element.hpp"
 #include "fem/disjoint_sets.hpp"
 #include "fem/lumped.hpp"
+#include "fem/ties.hpp"
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -61,44 +62,60 @@ void check_lumped(const Model& model) {
   }
 }
 
-/// What is on the diagonals of M and of the beams' K, and which nodes have beams.
+/// What is restrained needs no tie: it connects nothing.
+bool ties_free_dofs(const Model& model, const Tie& tie) {
+  return (tie.dofs & ~model.fixed[static_cast<std::size_t>(tie.node)]) != 0;
+}
+
+void check_ties(const Model& model, const std::vector<Index>& first) {
+  for (Index node = 0; node < static_cast<Index>(model.nodes.size()); ++node)
+    for (int d = 0; d < dofs_per_node; ++d) {
+      const Index other = first[static_cast<std::size_t>(node * dofs_per_node + d)] / dofs_per_node;
+      if (model.is_fixed(node, d) != model.is_fixed(other, d))
+        throw core::Error(
+            fmt::format("tie of the nodes at {} and {}: {} is restrained at one and free at the "
+                        "other; restrain it at both",
+                        place(node_at(model, node)), place(node_at(model, other)),
+                        dof_names[static_cast<std::size_t>(d)]));
+    }
+}
+
+/// What is on the diagonals of M and of the beams' K; tied dofs have theirs in the first.
 struct Diagonals {
   std::vector<double> mass, stiffness;
-  std::vector<std::uint8_t> has_beam;
 };
 
-Diagonals diagonals(const Model& model) {
-  const std::size_t nodes = model.nodes.size();
-  Diagonals d{std::vector<double>(nodes * dofs_per_node), std::vector<double>(nodes * dofs_per_node),
-              std::vector<std::uint8_t>(nodes)};
+Diagonals diagonals(const Model& model, const std::vector<Index>& first) {
+  Diagonals d{std::vector<double>(first.size()), std::vector<double>(first.size())};
+  const auto row_of = [&](Index node, int i) {
+    return static_cast<std::size_t>(first[static_cast<std::size_t>(node * dofs_per_node + i)]);
+  };
   for (const Beam& beam : model.beams) {
     const BeamElement element(model, beam);
     const Vector12 mass = element.mass().diagonal(), stiffness = element.stiffness().diagonal();
     for (int i = 0; i < 2 * dofs_per_node; ++i) {
-      const auto node = static_cast<std::size_t>(i < dofs_per_node ? beam.a : beam.b);
-      const std::size_t row = node * dofs_per_node + static_cast<std::size_t>(i % dofs_per_node);
+      const std::size_t row = row_of(i < dofs_per_node ? beam.a : beam.b, i % dofs_per_node);
       d.mass[row] += mass[i];
       d.stiffness[row] += stiffness[i];
-      d.has_beam[node] = 1;
     }
   }
   for (const LumpedMass& body : model.masses) {
     const Matrix6 m = lumped_mass_matrix(body);
     for (int i = 0; i < dofs_per_node; ++i)
-      d.mass[static_cast<std::size_t>(body.node * dofs_per_node + i)] += m(i, i);
+      d.mass[row_of(body.node, i)] += m(i, i);
   }
   return d;
 }
 
 /// A free dof without mass makes no mode: on a node of beams it follows the others statically, elsewhere it
 /// is a mistake.
-void check_mass(const Model& model) {
-  const Diagonals d = diagonals(model);
+void check_mass(const Model& model, const std::vector<Index>& first) {
+  const Diagonals d = diagonals(model, first);
   for (std::size_t node = 0; node < model.nodes.size(); ++node)
     for (int dof = 0; dof < dofs_per_node; ++dof) {
       const std::size_t row = node * dofs_per_node + static_cast<std::size_t>(dof);
-      if (model.is_fixed(static_cast<Index>(node), dof) || d.mass[row] > 0.0 ||
-          (d.has_beam[node] && d.stiffness[row] > 0.0))
+      if (model.is_fixed(static_cast<Index>(node), dof) || d.mass[row] > 0.0 || d.stiffness[row] > 0.0 ||
+          first[row] != static_cast<Index>(row))
         continue;
       const auto name = dof_names[static_cast<std::size_t>(dof)];
       throw core::Error(
@@ -109,11 +126,19 @@ void check_mass(const Model& model) {
     }
 }
 
-void number_equations(const Model& model, Structure& structure) {
+void number_equations(const Model& model, const std::vector<Index>& first, Structure& structure) {
   structure.equation.reserve(structure.nodes.size() * dofs_per_node);
   for (const Index node : structure.nodes)
-    for (int dof = 0; dof < dofs_per_node; ++dof)
-      structure.equation.push_back(model.is_fixed(node, dof) ? -1 : structure.equations++);
+    for (int dof = 0; dof < dofs_per_node; ++dof) {
+      const Index row = node * dofs_per_node + dof, tied = first[static_cast<std::size_t>(row)];
+      if (model.is_fixed(node, dof))
+        structure.equation.push_back(-1);
+      else if (tied == row)
+        structure.equation.push_back(structure.equations++);
+      else // of an earlier node, which has its number
+        structure.equation.push_back(structure.equation[static_cast<std::size_t>(
+            position_of(structure, tied / dofs_per_node) * dofs_per_node + dof)]);
+    }
 }
 
 } // namespace
@@ -133,13 +158,18 @@ std::vector<Structure> structures(const Model& model) {
   assert(model.fixed.size() == model.nodes.size());
   check_properties(model);
   check_lumped(model);
-  check_mass(model);
+  const std::vector<Index> first = first_tied(model);
+  check_ties(model, first);
+  check_mass(model, first);
   DisjointSets sets(model.nodes.size());
   for (const Beam& beam : model.beams)
     sets.join(beam.a, beam.b);
   for (const Spring& spring : model.springs)
     if (spring.other >= 0)
       sets.join(spring.node, spring.other);
+  for (const Tie& tie : model.ties)
+    if (ties_free_dofs(model, tie))
+      sets.join(tie.node, tie.other);
 
   std::size_t count = 0;
   const std::vector<std::size_t> part_of = sets.labels(count);
@@ -153,8 +183,11 @@ std::vector<Structure> structures(const Model& model) {
     part(model.masses[i].node).masses.push_back(static_cast<Index>(i));
   for (std::size_t i = 0; i < model.springs.size(); ++i)
     part(model.springs[i].node).springs.push_back(static_cast<Index>(i));
+  for (std::size_t i = 0; i < model.ties.size(); ++i)
+    if (ties_free_dofs(model, model.ties[i]))
+      part(model.ties[i].node).ties.push_back(static_cast<Index>(i));
   for (Structure& structure : parts)
-    number_equations(model, structure);
+    number_equations(model, first, structure);
   return parts;
 }
 

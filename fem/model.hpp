@@ -77,6 +77,13 @@ struct Spring {
   bool operator==(const Spring&) const = default;
 };
 
+/// Components of two nodes that stay equal, u(node) = u(other): see ties.hpp.
+struct Tie {
+  Index node, other;
+  std::uint8_t dofs; ///< bit d set = dof d tied
+  bool operator==(const Tie&) const = default;
+};
+
 struct Model {
   std::vector<Vec3> nodes;
   std::vector<BeamProperty> properties;
@@ -84,19 +91,23 @@ struct Model {
   std::vector<LumpedMass> masses;
   std::vector<Spring> springs;
   std::vector<std::uint8_t> fixed; ///< per node: bit d set = dof d restrained
+  std::vector<Tie> ties{};
 
   [[nodiscard]] bool is_fixed(Index node, int dof) const {
     return (fixed[static_cast<std::size_t>(node)] >> dof) & 1u;
   }
 };
 
-/// A connected part of a model (through beams and springs between nodes) and the numbering of its free dofs.
+/// A connected part of a model (through beams, springs between nodes and ties) and the numbering of its free
+/// dofs.
 struct Structure {
   std::vector<Index> nodes; ///< ascending
   std::vector<Index> beams; ///< ascending
   std::vector<Index> masses;
   std::vector<Index> springs;
-  std::vector<Index> equation; ///< 6 per entry of `nodes`: number of the free dof, -1 where restrained
+  std::vector<Index> ties;
+  std::vector<Index>
+      equation; ///< 6 per entry of `nodes`: number of the free dof, one for dofs tied, -1 where restrained
   Index equations = 0;
 };
 
@@ -105,7 +116,8 @@ struct Structure {
 /// model on the way.
 /// @throws core::Error for a property, mass or spring without sense, a beam without axes, and a free dof that
 /// nothing gives mass
-///         (a beam may have stiff dofs without mass), naming node, dof and cure
+///         (a beam may have stiff dofs without mass), naming node, dof and cure; for a free dof tied to a
+///         restrained one
 [[nodiscard]] std::vector<Structure> structures(const Model& model);
 
 /// Where `node` is in structure.nodes, or -1.

@@ -14,7 +14,12 @@ template <class Item> const Item& at(const std::vector<Item>& items, Index numbe
   return items[static_cast<std::size_t>(number)];
 }
 
-/// Pairs of different node positions tied by a beam or a spring, both ways, sorted, each once.
+void sort_once(std::vector<Pair>& pairs) {
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
+/// Pairs of different node positions joined by a beam or a spring, both ways, sorted, each once.
 std::vector<Pair> neighbour_pairs(const Model& model, const Structure& structure, Index first, Index last) {
   std::vector<Pair> pairs;
   const auto add = [&](Index node_a, Index node_b) {
@@ -29,8 +34,7 @@ std::vector<Pair> neighbour_pairs(const Model& model, const Structure& structure
   for (const Index i : structure.springs)
     if (at(model.springs, i).other >= 0)
       add(at(model.springs, i).node, at(model.springs, i).other);
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  sort_once(pairs);
   return pairs;
 }
 
@@ -124,7 +128,16 @@ NodeBlocks node_blocks(const Model& model, const Structure& structure, Index fir
 bool is_chain(const Model& model, const Structure& structure) {
   const auto count = static_cast<Index>(structure.nodes.size());
   std::vector<int> neighbours(structure.nodes.size());
-  for (const auto& [node, other] : neighbour_pairs(model, structure, 0, count))
+  std::vector<Pair> pairs = neighbour_pairs(model, structure, 0, count);
+  for (const Index i : structure.ties) {
+    const Index a = position_of(structure, at(model.ties, i).node),
+                b = position_of(structure, at(model.ties, i).other);
+    pairs.emplace_back(a, b);
+    pairs.emplace_back(b, a);
+  }
+  if (!structure.ties.empty())
+    sort_once(pairs);
+  for (const auto& [node, other] : pairs)
     if (node != other && ++neighbours[static_cast<std::size_t>(node)] > 2)
       return false;
   return true;

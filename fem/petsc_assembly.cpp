@@ -23,26 +23,74 @@ struct Rows {
   std::vector<PetscScalar> stiffness, mass;
 };
 
-Rows compress(const Structure& structure, const NodeBlocks& blocks, PetscInt begin, PetscInt end) {
-  const auto equation = [&](Index position, int d) {
-    return structure
-        .equation[static_cast<std::size_t>(position) * dofs_per_node + static_cast<std::size_t>(d)];
-  };
-  Rows rows;
+/// Where an equation is in the blocks: several places for dofs that are tied.
+struct Place {
+  Index equation;
+  std::size_t node; ///< row of blocks
+  int dof;
+};
+
+struct Entry {
+  Index column;
+  double stiffness, mass;
+};
+
+Index equation_of(const Structure& structure, Index position, int d) {
+  return structure.equation[static_cast<std::size_t>(position) * dofs_per_node + static_cast<std::size_t>(d)];
+}
+
+/// The places of the equations [begin, end), by equation.
+std::vector<Place> places_of(const Structure& structure, const NodeBlocks& blocks, PetscInt begin,
+                             PetscInt end) {
+  std::vector<Place> places;
   for (std::size_t i = 0; i + 1 < blocks.start.size(); ++i)
-    for (int d = 0; d < dofs_per_node; ++d) {
-      const Index row = equation(blocks.first + static_cast<Index>(i), d);
-      if (row < begin || row >= end)
-        continue;
-      for (std::size_t b = blocks.start[i]; b < blocks.start[i + 1]; ++b)
-        for (int e = 0; e < dofs_per_node; ++e)
-          if (const Index column = equation(blocks.column[b], e); column >= 0) {
-            rows.column.push_back(column);
-            rows.stiffness.push_back(blocks.stiffness[b](d, e));
-            rows.mass.push_back(blocks.mass[b](d, e));
-          }
-      rows.start.push_back(static_cast<PetscInt>(rows.column.size()));
+    for (int d = 0; d < dofs_per_node; ++d)
+      if (const Index e = equation_of(structure, blocks.first + static_cast<Index>(i), d);
+          e >= begin && e < end)
+        places.push_back({e, i, d});
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place& a, const Place& b) { return a.equation < b.equation; });
+  return places;
+}
+
+/// By column, each once: columns of dofs that are tied come unordered and more than once.
+void add_up(std::vector<Entry>& row) {
+  const auto not_before = [](const Entry& a, const Entry& b) { return a.column >= b.column; };
+  if (std::adjacent_find(row.begin(), row.end(), not_before) == row.end())
+    return;
+  std::stable_sort(row.begin(), row.end(),
+                   [](const Entry& a, const Entry& b) { return a.column < b.column; });
+  std::size_t last = 0;
+  for (std::size_t i = 1; i < row.size(); ++i)
+    if (row[i].column == row[last].column) {
+      row[last].stiffness += row[i].stiffness;
+      row[last].mass += row[i].mass;
+    } else {
+      row[++last] = row[i];
     }
+  row.resize(last + 1);
+}
+
+Rows compress(const Structure& structure, const NodeBlocks& blocks, PetscInt begin, PetscInt end) {
+  Rows rows;
+  std::vector<Entry> row;
+  const std::vector<Place> places = places_of(structure, blocks, begin, end);
+  for (auto place = places.begin(); place != places.end();) {
+    row.clear();
+    for (const Index equation = place->equation; place != places.end() && place->equation == equation;
+         ++place)
+      for (std::size_t b = blocks.start[place->node]; b < blocks.start[place->node + 1]; ++b)
+        for (int e = 0; e < dofs_per_node; ++e)
+          if (const Index column = equation_of(structure, blocks.column[b], e); column >= 0)
+            row.push_back({column, blocks.stiffness[b](place->dof, e), blocks.mass[b](place->dof, e)});
+    add_up(row);
+    for (const Entry& entry : row) {
+      rows.column.push_back(entry.column);
+      rows.stiffness.push_back(entry.stiffness);
+      rows.mass.push_back(entry.mass);
+    }
+    rows.start.push_back(static_cast<PetscInt>(rows.column.size()));
+  }
   return rows;
 }
 
@@ -139,7 +187,7 @@ SystemMatrices assemble(MPI_Comm comm, const Model& model, const Structure& stru
 Elimination elimination_of(const Model& model, const Structure& structure) {
   if (is_chain(model, structure))
     return Elimination::chain;
-  std::size_t links = structure.beams.size();
+  std::size_t links = structure.beams.size() + structure.ties.size();
   for (const Index i : structure.springs)
     links += model.springs[static_cast<std::size_t>(i)].other >= 0 ? 1 : 0;
   return links > structure.nodes.size() + many_loops ? Elimination::network : Elimination::tree;
@@ -200,10 +248,10 @@ Eigen::VectorXd static_solution(const Model& model, const Structure& structure,
     return Eigen::Index{structure.nodes[i / dofs_per_node]} * dofs_per_node +
            static_cast<Eigen::Index>(i % dofs_per_node);
   };
-  Eigen::VectorXd right(structure.equations);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(structure.equations);
   for (std::size_t i = 0; i < structure.equation.size(); ++i)
     if (structure.equation[i] >= 0)
-      right[structure.equation[i]] = force[model_row(i)];
+      right[structure.equation[i]] += force[model_row(i)]; // those on tied dofs add up
   const SystemMatrices system = assemble(PETSC_COMM_SELF, model, structure);
   const PetscMatrix factor = factorise(system.stiffness.get(), elimination_of(model, structure));
   const Eigen::VectorXd solution = solve(system.stiffness.get(), factor.get(), right);

@@ -63,9 +63,9 @@ public:
     }
   }
 
-  /// Fields over the structure of the motions that stretch no spring.
+  /// Fields over the structure of the motions that stretch no spring and keep the ties.
   [[nodiscard]] Eigen::MatrixXd motions() const {
-    const Eigen::MatrixXd combinations = null_space(spring_rows());
+    const Eigen::MatrixXd combinations = null_space(stretch_rows());
     Eigen::MatrixXd fields =
         Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(structure_.nodes.size()) * 6, combinations.cols());
     for (const RigidPart& part : parts_)
@@ -121,25 +121,35 @@ private:
     part.free = null_space(stacked);
   }
 
-  /// Stretch of every spring direction that has a stiffness.
-  [[nodiscard]] Eigen::MatrixXd spring_rows() const {
+  /// Stretch of every spring direction that has a stiffness, and of every component tied.
+  [[nodiscard]] Eigen::MatrixXd stretch_rows() const {
     std::vector<Eigen::RowVectorXd> rows;
     for (const Index number : structure_.springs) {
       const Spring& spring = model_.springs[static_cast<std::size_t>(number)];
       for (int d = 0; d < dofs_per_node && columns_ > 0; ++d)
-        if (spring.stiffness[static_cast<std::size_t>(d)] > 0.0) {
-          Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(columns_);
-          const double scale = d < 3 ? 1.0 : part_at(spring.node).radius;
-          add_motion(row, spring.node, d, scale);
-          if (spring.other >= 0)
-            add_motion(row, spring.other, d, -scale);
-          rows.push_back(std::move(row));
-        }
+        if (spring.stiffness[static_cast<std::size_t>(d)] > 0.0)
+          rows.push_back(stretch(spring.node, spring.other, d));
+    }
+    for (const Index number : structure_.ties) {
+      const Tie& tie = model_.ties[static_cast<std::size_t>(number)];
+      for (int d = 0; d < dofs_per_node && columns_ > 0; ++d)
+        if ((tie.dofs >> d) & 1u)
+          rows.push_back(stretch(tie.node, tie.other, d));
     }
     Eigen::MatrixXd stacked(rows.size(), columns_);
     for (std::size_t i = 0; i < rows.size(); ++i)
       stacked.row(static_cast<Eigen::Index>(i)) = rows[i];
     return stacked;
+  }
+
+  /// Of component d between two nodes, or a node and the ground (other < 0).
+  [[nodiscard]] Eigen::RowVectorXd stretch(Index model_node, Index other, int d) const {
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(columns_);
+    const double scale = d < 3 ? 1.0 : part_at(model_node).radius;
+    add_motion(row, model_node, d, scale);
+    if (other >= 0)
+      add_motion(row, other, d, -scale);
+    return row;
   }
 
   [[nodiscard]] const RigidPart& part_at(Index model_node) const {

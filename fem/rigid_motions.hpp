@@ -2,9 +2,9 @@
 /// @file
 /// The motions of a structure that strain nothing.
 ///
-/// K u = 0 where every part connected by beams moves rigidly, no restrained dof moves and no spring is
-/// stretched. Each part has six columns (translations; rotations about its centre, scaled by its size), each
-/// restraint and each spring a row of pure geometry: the null space (singular values below a tolerance) holds
+/// K u = 0 where every part connected by beams moves rigidly, no restrained dof moves, no spring is
+/// stretched and every tie is kept. Each part has six columns (translations; rotations about its centre, scaled by its size), each
+/// restraint, spring and tie a row of pure geometry: the null space (singular values below a tolerance) holds
 /// rigid-body motions and mechanisms alike (a hinged beam, a pinned tube that spins, a chain of masses),
 /// whatever the size of the stiffnesses.
 #pragma once

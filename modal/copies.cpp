@@ -18,6 +18,7 @@ struct Shape {
   std::vector<fem::Beam> beams;
   std::vector<fem::LumpedMass> masses;
   std::vector<fem::Spring> springs;
+  std::vector<fem::Tie> ties;
   double size = 0.0; ///< m, the largest distance from the first node
 };
 
@@ -32,8 +33,8 @@ std::vector<Index> property_values(const std::vector<fem::BeamProperty>& propert
 
 Shape shape_of(const fem::Model& whole, const fem::Structure& structure, const std::vector<Index>& values) {
   // named one by one: a new part of a model or of a structure does not compile until it is compared too
-  const auto& [places, properties, all_beams, all_masses, all_springs, all_fixed] = whole;
-  const auto& [nodes, beams, masses, springs, equation, equations] = structure;
+  const auto& [places, properties, all_beams, all_masses, all_springs, all_fixed, all_ties] = whole;
+  const auto& [nodes, beams, masses, springs, ties, equation, equations] = structure;
   static_cast<void>(properties), static_cast<void>(equation), static_cast<void>(equations); // follow
   const auto own = [&](Index node) { return node < 0 ? node : fem::position_of(structure, node); };
   const Vec3& origin = places[static_cast<std::size_t>(nodes.front())];
@@ -63,12 +64,18 @@ Shape shape_of(const fem::Model& whole, const fem::Structure& structure, const s
     spring.node = own(spring.node);
     spring.other = own(spring.other);
   }
+  for (const Index i : ties) {
+    fem::Tie& tie = shape.ties.emplace_back(all_ties[static_cast<std::size_t>(i)]);
+    tie.node = own(tie.node);
+    tie.other = own(tie.other);
+  }
   return shape;
 }
 
 bool same(const Shape& a, const Shape& b) {
   const double tolerance = same_place * a.size;
-  return a.fixed == b.fixed && a.masses == b.masses && a.springs == b.springs && a.beams == b.beams &&
+  return a.fixed == b.fixed && a.masses == b.masses && a.springs == b.springs && a.ties == b.ties &&
+         a.beams == b.beams &&
          std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(),
                     [&](const Vec3& x, const Vec3& y) { return (x - y).norm() <= tolerance; });
 }

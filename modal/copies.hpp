@@ -4,7 +4,7 @@
 ///
 /// A structure is a copy of another where one translation takes its nodes, in their order, to those of the
 /// other, and all else is equal to the last bit: elements, values of their properties, restraints, masses,
-/// springs and dampers. Their modes are then the same numbers at the nodes.
+/// springs, dampers and ties. Their modes are then the same numbers at the nodes.
 #pragma once
 #include "fem/model.hpp"
 #include <vector>

@@ -31,8 +31,8 @@ DensePencil dense_pencil(const fem::Model& model, const fem::Structure& structur
           const auto row = equation(static_cast<core::Index>(i), d), column = equation(blocks.column[b], e);
           if (row < 0 || column < 0)
             continue;
-          pencil.stiffness(row, column) = blocks.stiffness[b](d, e);
-          pencil.mass(row, column) = blocks.mass[b](d, e);
+          pencil.stiffness(row, column) += blocks.stiffness[b](d, e);
+          pencil.mass(row, column) += blocks.mass[b](d, e);
         }
   return pencil;
 }

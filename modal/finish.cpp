@@ -50,26 +50,20 @@ void canonicalise_clusters(Eigen::MatrixXd& shapes, Eigen::VectorXd& lambda, Eig
   }
 }
 
-/// A copy with 0 at restrained dofs: reactions are no residual.
-Eigen::VectorXd free_part(const fem::Structure& structure, Eigen::VectorXd field) {
-  for (std::size_t i = 0; i < structure.equation.size(); ++i)
-    if (structure.equation[i] < 0)
-      field[static_cast<Eigen::Index>(i)] = 0.0;
-  return field;
-}
-
+/// On the equations: reactions of restraints and forces between tied dofs are no residual.
 Eigen::VectorXd residuals(const fem::Model& model, const fem::Structure& structure, const Basis& basis,
                           const Eigen::MatrixXd& inertia) {
-  const Eigen::MatrixXd elastic = fem::stiffness_times(model, structure, basis.shapes);
+  const Eigen::MatrixXd elastic =
+      fem::forces_on_equations(structure, fem::stiffness_times(model, structure, basis.shapes));
+  const Eigen::MatrixXd moved = fem::forces_on_equations(structure, inertia);
   const Eigen::VectorXd diagonal = fem::stiffness_diagonal(model, structure);
   Eigen::VectorXd result(basis.size());
   for (Eigen::Index j = 0; j < basis.size(); ++j) {
     const double lambda = basis.omega[j] * basis.omega[j];
-    const Eigen::VectorXd force = free_part(structure, elastic.col(j));
-    const Eigen::VectorXd difference = free_part(structure, elastic.col(j) - lambda * inertia.col(j));
+    const Eigen::VectorXd difference = elastic.col(j) - lambda * moved.col(j);
     // a rigid mode has K x = 0: what it is compared with is the largest term of that product
-    const double size =
-        lambda > 0.0 ? force.norm() : diagonal.cwiseProduct(basis.shapes.col(j)).cwiseAbs().maxCoeff();
+    const double size = lambda > 0.0 ? elastic.col(j).norm()
+                                     : diagonal.cwiseProduct(basis.shapes.col(j)).cwiseAbs().maxCoeff();
     result[j] = size > 0.0 ? difference.norm() / size : 0.0;
   }
   return result;

@@ -9,9 +9,8 @@ namespace fretwork::study {
 namespace {
 
 const Keys study_keys{{"title", "mesh", "materials", "sections", "beams", "restraints", "masses", "springs",
-                       "modes", "contacts", "loads", "gravity", "base_motion", "support_motion", "initial",
-                       "transient", "output"},
-                      {"ties"}};
+                       "ties", "modes", "contacts", "loads", "gravity", "base_motion", "support_motion",
+                       "initial", "transient", "output"}};
 
 [[maybe_unused]] bool is_key(const std::string& name) {
   return std::find(study_keys.known.begin(), study_keys.known.end(), name) != study_keys.known.end();
@@ -40,6 +39,7 @@ Study read(const std::filesystem::path& file, const std::vector<std::string>& ov
   study.restraints = read_restraints(root);
   study.masses = read_masses(root);
   study.springs = read_springs(root);
+  study.ties = read_ties(root);
   study.modes = read_modes(root);
   study.contacts = read_contacts(root);
   study.loads = read_loads(root, folder);

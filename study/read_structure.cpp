@@ -84,6 +84,16 @@ void check_named(const TableReader& table, const std::string& key, const std::st
   table.fail_at(key, "there is no [" + key + "s." + toml_key(name) + "]" + core::name_help(name, names));
 }
 
+const std::vector<std::string> dof_names{"ux", "uy", "uz", "rx", "ry", "rz"};
+
+/// Bit d set = dof d named in an array.
+std::uint8_t read_dofs(const Value& names, const std::string& path, const std::string& expected) {
+  std::uint8_t bits = 0;
+  for (const Value& dof : to_array(names, path, expected))
+    bits = static_cast<std::uint8_t>(bits | 1u << to_choice(dof, path, dof_names));
+  return bits;
+}
+
 /// Whether the two bending planes differ, so that the beam needs to know its axes.
 bool needs_orientation(const fem::Section& section) {
   constexpr double equal_inertia =
@@ -166,7 +176,6 @@ std::vector<Beams> read_beams(const TableReader& root, const Study& study) {
 }
 
 std::vector<Restraint> read_restraints(const TableReader& root) {
-  const std::vector<std::string> dofs{"ux", "uy", "uz", "rx", "ry", "rz"};
   const std::string expected = "\"all\" or an array of \"ux\", \"uy\", \"uz\", \"rx\", \"ry\", \"rz\"";
   constexpr std::uint8_t all_dofs = 0b111111;
   std::vector<Restraint> all;
@@ -178,9 +187,7 @@ std::vector<Restraint> read_restraints(const TableReader& root) {
       (void)to_choice(fixed, table.path("fixed"), {"all"});
       restraint.fixed = all_dofs;
     } else {
-      for (const Value& dof : to_array(fixed, table.path("fixed"), expected))
-        restraint.fixed =
-            static_cast<std::uint8_t>(restraint.fixed | 1u << to_choice(dof, table.path("fixed"), dofs));
+      restraint.fixed = read_dofs(fixed, table.path("fixed"), expected);
     }
     all.push_back(restraint);
   }
@@ -217,6 +224,21 @@ std::vector<Spring> read_springs(const TableReader& root) {
     if (const auto values = table.optional_numbers("damping", 6, {at_least_zero, "N s/m, N m s/rad"}))
       std::copy(values->begin(), values->end(), spring.damping.begin());
     all.push_back(spring);
+  }
+  return all;
+}
+
+std::vector<Tie> read_ties(const TableReader& root) {
+  const std::string expected = R"(an array of "ux", "uy", "uz", "rx", "ry", "rz")";
+  std::vector<Tie> all;
+  for (const Entry& entry : array_entries(root, "ties")) {
+    const TableReader table(*entry.value, entry.path, {{"group", "other", "tied"}});
+    Tie tie{table.text("group", "the name of a physical point or curve of the mesh"),
+            table.text("other", "the group whose nodes move with those of group"), 0};
+    if (tie.other == tie.group)
+      table.fail_at("other", "the group itself: a tie needs two nodes; name the group of the other one");
+    tie.tied = read_dofs(table.required("tied", expected), table.path("tied"), expected);
+    all.push_back(tie);
   }
   return all;
 }

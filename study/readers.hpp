@@ -19,6 +19,7 @@ namespace fretwork::study {
 [[nodiscard]] std::vector<Restraint> read_restraints(const TableReader& root);
 [[nodiscard]] std::vector<Mass> read_masses(const TableReader& root);
 [[nodiscard]] std::vector<Spring> read_springs(const TableReader& root);
+[[nodiscard]] std::vector<Tie> read_ties(const TableReader& root);
 
 // Reading what acts on it; `folder` is where relative paths start.
 [[nodiscard]] std::vector<Contact> read_contacts(const TableReader& root);

@@ -48,6 +48,12 @@ struct Spring {
   std::array<double, 6> damping{};
 };
 
+/// Components of two nodes that stay equal.
+struct Tie {
+  std::string group, other;
+  std::uint8_t tied; ///< bit d set = dof d (ux uy uz rx ry rz) tied
+};
+
 struct Modes {
   std::optional<int> count = 40; ///< exactly one of count and up_to_hz is set
   std::optional<double> up_to_hz;
@@ -193,6 +199,7 @@ struct Study {
   std::vector<Restraint> restraints;
   std::vector<Mass> masses;
   std::vector<Spring> springs;
+  std::vector<Tie> ties;
   Modes modes;
   std::vector<Contact> contacts;
   std::vector<Load> loads;

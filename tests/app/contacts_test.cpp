@@ -165,7 +165,8 @@ TEST(Structures, WrongPairsAreRefused) {
                                other + "\"\n" + sizes + more);
   };
   EXPECT_TRUE(says(pair("mid0", "tube1"), "group \"mid0\" has 1 nodes and other \"tube1\" has 9"));
-  EXPECT_TRUE(says(pair("mid0", "mid0"), "share a node, which cannot meet itself; name two different nodes"));
+  EXPECT_TRUE(
+      says(pair("mid0", "mid0"), "share a node, which cannot be joined to itself; name two different nodes"));
   EXPECT_TRUE(says(pair("mid0", "mid9"), "mid9"));
   // across z the two tubes lie at the same place
   EXPECT_TRUE(

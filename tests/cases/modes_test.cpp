@@ -2,10 +2,8 @@
 // Frequencies of published and closed-form cases (doc/validation.md). Each comparison is also a recorded
 // property of its test, so that the report of a test run is the table of validation.
 #include "../fem/model_builder.hpp"
-#include "modal/slepc_modes.hpp"
+#include "frequencies.hpp"
 #include <array>
-#include <cstdio>
-#include <gtest/gtest.h>
 
 using namespace fretwork;
 using namespace fretwork::tests;
@@ -17,37 +15,6 @@ namespace {
 constexpr double ten_digits = 2e-9;
 constexpr double six_digits = 5e-6;
 constexpr double five_digits = 2e-5;
-
-modal::Basis modes(const fem::Model& model, int count) {
-  const auto parts = fem::structures(model);
-  EXPECT_EQ(parts.size(), 1u);
-  modal::Wanted wanted;
-  wanted.count = count;
-  return modal::solve_modes(MPI_COMM_SELF, model, parts.front(), wanted);
-}
-
-std::vector<double> hertz(const modal::Basis& basis) {
-  std::vector<double> values;
-  for (const double omega : basis.omega)
-    values.push_back(omega / (2.0 * pi));
-  return values;
-}
-
-void expect_frequency(const std::string& name, double ours, double reference, double tolerance) {
-  std::array<char, 120> text{};
-  std::snprintf(text.data(), text.size(), "reference %.10g ours %.10g error %.2e", reference, ours,
-                ours / reference - 1.0);
-  testing::Test::RecordProperty(name, text.data());
-  EXPECT_NEAR(ours / reference, 1.0, tolerance) << name << ": " << ours << " Hz, reference " << reference;
-}
-
-void expect_frequencies(const std::string& name, const std::vector<double>& ours,
-                        std::vector<double> reference, double tolerance) {
-  std::sort(reference.begin(), reference.end());
-  ASSERT_GE(ours.size(), reference.size());
-  for (std::size_t i = 0; i < reference.size(); ++i)
-    expect_frequency(name + "_" + std::to_string(i + 1), ours[i], reference[i], tolerance);
-}
 
 /// Frequencies of the modes that move in the plane of x and z (or out of it).
 std::vector<double> plane_frequencies(const modal::Basis& basis, bool in_plane) {

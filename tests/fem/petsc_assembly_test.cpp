@@ -27,6 +27,19 @@ ModelBuilder portal() {
   return b;
 }
 
+/// The portal with its bracing cut in two: the halves, of two beams each, hang on ties.
+ModelBuilder portal_with_ties() {
+  ModelBuilder b = portal();
+  const auto first = b.line({0, 0, 1}, {0.7, 0.1, 1}, 2, 0),
+             second = b.line({0.7, 0.1, 1}, {1.5, 0, 1}, 2, 0);
+  b.model.ties = {{first.front(), 2, ux | uy | uz},
+                  {second.front(), first.back(), all & ~static_cast<unsigned>(ry)},
+                  {second.back(), 16, ux | rz},
+                  {second.back(), 15, uy},
+                  {second.front(), first.front(), uz}};
+  return b;
+}
+
 /// A x with x_i = sin(i + 1), on every rank.
 Eigen::VectorXd product(Mat matrix) {
   Vec x = nullptr, y = nullptr, whole = nullptr;
@@ -62,11 +75,7 @@ Eigen::VectorXd expected(const fem::Model& model, const fem::Structure& part, bo
       u(static_cast<Eigen::Index>(i), 0) = std::sin(part.equation[i] + 1.0);
   const Eigen::MatrixXd f =
       stiffness ? fem::stiffness_times(model, part, u) : fem::mass_times(model, part, u);
-  Eigen::VectorXd result(part.equations);
-  for (std::size_t i = 0; i < part.equation.size(); ++i)
-    if (part.equation[i] >= 0)
-      result[part.equation[i]] = f(static_cast<Eigen::Index>(i), 0);
-  return result;
+  return fem::forces_on_equations(part, f);
 }
 
 } // namespace
@@ -81,8 +90,19 @@ TEST(Assembly, IsTheSameForAnyNumberOfRanks) {
   EXPECT_LT((product(system.mass.get()) - m).norm(), round_off * m.norm());
 }
 
+TEST(Assembly, AddsUpWhatIsTied) {
+  constexpr double round_off = 1e-13; // sums in another order
+  const auto b = portal_with_ties();
+  const auto part = fem::structures(b.model).at(0);
+  ASSERT_EQ(fem::structures(b.model).size(), 1u);
+  const auto system = fem::assemble(MPI_COMM_WORLD, b.model, part);
+  const Eigen::VectorXd k = expected(b.model, part, true), m = expected(b.model, part, false);
+  EXPECT_LT((product(system.stiffness.get()) - k).norm(), round_off * k.norm());
+  EXPECT_LT((product(system.mass.get()) - m).norm(), round_off * m.norm());
+}
+
 TEST(Assembly, IsSymmetricAndAllocatedExactly) {
-  const auto b = portal();
+  const auto b = portal_with_ties();
   const auto part = fem::structures(b.model).at(0);
   const auto system = fem::assemble(MPI_COMM_WORLD, b.model, part);
   PetscBool symmetric = PETSC_FALSE;
@@ -102,6 +122,33 @@ TEST(Assembly, LeavesRanksWithoutRowsWhereThereAreFewDofs) {
   const auto system = fem::assemble(MPI_COMM_WORLD, b.model, fem::structures(b.model).at(0));
   EXPECT_NEAR(product(system.stiffness.get())[0], 5.0 * std::sin(1.0), 1e-15);
   EXPECT_NEAR(product(system.mass.get())[0], 2.0 * std::sin(1.0), 1e-15);
+}
+
+// Gerber's beam: clamped at 0, hinged at a, on a roller at a + b. A force at the hinge bends the cantilever alone,
+// P a^3/(3 EI); one in the middle of the hung span loads it with the half, and bends the span by P b^3/(48 EI).
+TEST(StaticSolution, IsTheClosedFormOfAHingedBeam) {
+  constexpr double a = 1.2, span = 0.8, force = 50.0;
+  constexpr double round_off = 1e-10; // eight beams: the condition of K is 1e5
+  ModelBuilder b;
+  const fem::BeamProperty p = tube_property();
+  const auto left = b.line({0, 0, 0}, {a, 0, 0}, 4, b.property(p));
+  const auto right = b.line({a, 0, 0}, {a + span, 0, 0}, 4, 0);
+  b.fix(left.front(), all);
+  b.fix(right.back(), uy | uz | rx);
+  b.model.ties.push_back({left.back(), right.front(), ux | uy | uz});
+  const auto part = fem::structures(b.model).at(0);
+  const double ei = p.material.young_modulus * p.section.iz;
+  const auto deflection = [&](Index loaded, Index seen) {
+    const Eigen::VectorXd f = fem::point_forces(b.model, std::vector<Index>{loaded}, {0, force, 0}, false);
+    return fem::static_solution(b.model, part, f)[seen * 6 + 1];
+  };
+  const double tip = force * a * a * a / (3.0 * ei);
+  for (const Index loaded : {left.back(), right.front()}) // the same load, on either of the nodes
+    for (const Index seen : {left.back(), right.front()})
+      EXPECT_NEAR(deflection(loaded, seen), tip, round_off * tip);
+  const double middle = 0.25 * tip + force * span * span * span / (48.0 * ei);
+  EXPECT_NEAR(deflection(right[2], right[2]), middle, round_off * middle);
+  EXPECT_NEAR(deflection(right[2], right.front()), 0.5 * tip, round_off * tip);
 }
 
 // A portal with clamped feet, height h, width w, horizontal force F at each top corner; beam and posts alike:

@@ -43,6 +43,15 @@ bool still_a_copy(const std::function<void(fem::Model&)>& change) {
   return originals_of(b.model) == Numbers{0, 0};
 }
 
+/// The same with arm and leg of each tube tied somewhere.
+bool still_a_copy_with_ties(const std::function<void(fem::Model&)>& change) {
+  ModelBuilder b = tubes(2);
+  for (const Index first : {0, 33})
+    b.model.ties.push_back({first + 30, first + 12, ux | uy});
+  change(b.model);
+  return originals_of(b.model) == Numbers{0, 0};
+}
+
 constexpr std::size_t second = 33; // first node of the second tube
 
 } // namespace
@@ -76,6 +85,10 @@ TEST(Copies, AreNoneWhereAnythingDiffers) {
     m.properties[1].material.young_modulus = std::nextafter(2e11, 3e11);
     m.beams.back().property = 1;
   }));
+  EXPECT_TRUE(still_a_copy_with_ties([](fem::Model&) {}));
+  EXPECT_FALSE(still_a_copy_with_ties([](fem::Model& m) { m.ties[1].dofs = ux; }));
+  EXPECT_FALSE(still_a_copy_with_ties([](fem::Model& m) { m.ties[1].other += 1; }));
+  EXPECT_FALSE(still_a_copy_with_ties([](fem::Model& m) { m.ties.pop_back(); }));
 }
 
 TEST(Copies, MayMissTheirPlaceByRoundOffOnly) {

@@ -52,9 +52,10 @@ TEST(CanonicalText, EscapesStrings) {
 }
 
 TEST(CanonicalText, IsTomlThatGivesTheSameTextAgain) {
-  const std::vector<std::string> tables{
-      "title", "mesh",     "materials", "sections", "beams",       "restraints", "masses",    "springs",
-      "modes", "contacts", "loads",     "gravity",  "base_motion", "initial",    "transient", "output"};
+  const std::vector<std::string> tables{"title",      "mesh",   "materials", "sections",    "beams",
+                                        "restraints", "masses", "springs",   "ties",        "modes",
+                                        "contacts",   "loads",  "gravity",   "base_motion", "initial",
+                                        "transient",  "output"};
   const std::string text = canonical(full_study, tables);
   EXPECT_EQ(canonical(text, tables), text);
   EXPECT_EQ(read_text(text).contacts.size(), 2u);

@@ -133,6 +133,11 @@ other = "wall"
 stiffness = [0, 1e4, 0, 0, 0, 6]
 damping = [1, 2, 3, 4, 5, 6]
 
+[[ties]]
+group = "hinge"
+other = "arm_end"
+tied = ["ux", "rz"]
+
 [modes]
 count = 12
 damping = [0.01, 0.02]

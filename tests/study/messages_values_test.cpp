@@ -191,7 +191,6 @@ TEST(Messages, OfUnknownNames) {
 TEST(Messages, OfWhatThisVersionDoesNotCompute) {
   const std::string available = " is not available in this version; available: ";
   expect_messages({
-      {"[[base_motion]]", "[[ties]]", {"\"ties\"" + available + "\"title\", \"mesh\""}},
       {"static_modes = \"none\"", "static_modes = \"auto\"", {"\"auto\"" + available + "\"none\""}},
       {"static_modes = \"none\"", "static_modes = \"all\"", {"\"all\"" + available + "\"none\""}},
       {"per_length = true",
@@ -261,6 +260,18 @@ TEST(Messages, OfKeysThatContradictEachOther) {
       {"other = \"wall\"",
        "other = \"apex\"",
        {"springs.apex.other = \"apex\": the group itself: a spring needs two nodes"}},
+      {"other = \"arm_end\"",
+       "other = \"hinge\"",
+       {"ties.hinge.other = \"hinge\": the group itself: a tie needs two nodes; name the group of the "
+        "other"}},
+      {"other = \"arm_end\"",
+       "",
+       {"ties.hinge.other: this required key is missing; ", "the group whose nodes move with those of group"},
+       "[[ties]]"},
+      {"tied = [\"ux\", \"rz\"]",
+       "tied = [\"ux\", \"dz\"]",
+       {"ties.hinge.tied = \"dz\": unknown; ", "\"ux\", \"uy\", \"uz\", \"rx\", \"ry\", \"rz\""}},
+      {"tied = [\"ux\", \"rz\"]", "tied = []", {"ties.hinge.tied = []: the array is empty"}},
       {"nodes = [\"apex\", \"foot\"]",
        "nodes = [\"apex\", \"apex\"]",
        {"output.nodes = \"apex\": named twice; name each group once"}},

@@ -156,6 +156,9 @@ TEST(ReadStudy, ReadsEveryKeyOfTheStructure) {
   EXPECT_EQ(study.springs[0].other, "wall");
   EXPECT_EQ(study.springs[0].stiffness, (Numbers6{0, 1e4, 0, 0, 0, 6}));
   EXPECT_EQ(study.springs[0].damping, (Numbers6{1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(study.ties.at(0).group, "hinge");
+  EXPECT_EQ(study.ties[0].other, "arm_end");
+  EXPECT_EQ(study.ties[0].tied, 0b100001);
 }
 
 TEST(ReadStudy, ReadsEveryKeyOfTheContacts) {

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Comparisons of frequencies, each a recorded property of its test, so that the report of a test run is the table
+/// of validation.
+#pragma once
+#include "modal/slepc_modes.hpp"
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace fretwork::tests {
+
+inline modal::Basis modes(const fem::Model& model, int count) {
+  const auto parts = fem::structures(model);
+  EXPECT_EQ(parts.size(), 1u);
+  modal::Wanted wanted;
+  wanted.count = count;
+  return modal::solve_modes(MPI_COMM_SELF, model, parts.front(), wanted);
+}
+
+inline std::vector<double> hertz(const modal::Basis& basis) {
+  std::vector<double> values;
+  for (const double omega : basis.omega)
+    values.push_back(omega / (2.0 * std::numbers::pi));
+  return values;
+}
+
+inline void expect_frequency(const std::string& name, double ours, double reference, double tolerance) {
+  std::array<char, 120> text{};
+  std::snprintf(text.data(), text.size(), "reference %.10g ours %.10g error %.2e", reference, ours,
+                ours / reference - 1.0);
+  testing::Test::RecordProperty(name, text.data());
+  EXPECT_NEAR(ours / reference, 1.0, tolerance) << name << ": " << ours << " Hz, reference " << reference;
+}
+
+inline void expect_frequencies(const std::string& name, const std::vector<double>& ours,
+                               std::vector<double> reference, double tolerance) {
+  std::sort(reference.begin(), reference.end());
+  ASSERT_GE(ours.size(), reference.size());
+  for (std::size_t i = 0; i < reference.size(); ++i)
+    expect_frequency(name + "_" + std::to_string(i + 1), ours[i], reference[i], tolerance);
+}
+
+} // namespace fretwork::tests
