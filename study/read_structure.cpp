@@ -3,6 +3,7 @@
 #include "fem/section.hpp"
 #include "study/readers.hpp"
 #include <cmath>
+#include <numbers>
 
 namespace fretwork::study {
 namespace {
@@ -94,6 +95,29 @@ std::uint8_t read_dofs(const Value& names, const std::string& path, const std::s
   return bits;
 }
 
+/// kg/m, from the keys of the fluid; 0 without them.
+double read_fluid(const TableReader& table, const std::string& section, const Study& study) {
+  if (!table.has("fluid_inside") && !table.has("fluid_outside"))
+    return 0.0;
+  const auto outline = study.outlines.find(section);
+  if (outline == study.outlines.end())
+    table.fail_at(
+        table.has("fluid_inside") ? "fluid_inside" : "fluid_outside",
+        "the section \"" + section +
+            "\" is neither a pipe nor a circle, which the mass of the fluid follows from; give added_mass "
+            "(kg/m)");
+  fem::Fluid fluid;
+  fluid.inside = table.number_or("fluid_inside", 0.0, {at_least_zero, "kg/m3"});
+  if (fluid.inside > 0.0 && outline->second.bore == 0.0)
+    table.fail_at("fluid_inside", "the section \"" + section + "\" has no bore; leave it out");
+  if (const Value* outside = table.find("fluid_outside")) {
+    const TableReader reader(*outside, table.path("fluid_outside"), {{"density", "confinement"}});
+    fluid.outside = reader.number("density", {at_least_zero, "kg/m3"});
+    fluid.confinement = reader.number_or("confinement", 1.0, {at_least_zero});
+  }
+  return fem::fluid_mass(fluid, outline->second.bore, outline->second.displaced);
+}
+
 /// Whether the two bending planes differ, so that the beam needs to know its axes.
 bool needs_orientation(const fem::Section& section) {
   constexpr double equal_inertia =
@@ -150,12 +174,26 @@ std::map<std::string, Pipe> read_pipes(const TableReader& root) {
   return pipes;
 }
 
+std::map<std::string, Outline> read_outlines(const TableReader& root,
+                                             const std::map<std::string, fem::Section>& sections) {
+  std::map<std::string, Outline> outlines;
+  for (const auto& [name, pipe] : read_pipes(root)) {
+    const double inner = pipe.outer_diameter - 2.0 * pipe.thickness;
+    outlines[name] = {std::numbers::pi / 4.0 * inner * inner,
+                      std::numbers::pi / 4.0 * pipe.outer_diameter * pipe.outer_diameter};
+  }
+  for (const Entry& entry : table_entries(root, "sections"))
+    if (*entry.value->table()->at("shape").string() == "circle")
+      outlines[entry.name] = {0.0, sections.at(entry.name).area};
+  return outlines;
+}
+
 std::vector<Beams> read_beams(const TableReader& root, const Study& study) {
   std::vector<Beams> all;
   for (const Entry& entry : array_entries(root, "beams")) {
-    const TableReader table(
-        *entry.value, entry.path,
-        {{"group", "material", "section", "orientation", "added_mass", "added_mass_direction"}});
+    const TableReader table(*entry.value, entry.path,
+                            {{"group", "material", "section", "orientation", "added_mass",
+                              "added_mass_direction", "fluid_inside", "fluid_outside"}});
     Beams beams;
     beams.group = table.text("group", "the name of a physical curve of the mesh");
     beams.material = table.text("material", "the name of a [materials.name]");
@@ -166,7 +204,8 @@ std::vector<Beams> read_beams(const TableReader& root, const Study& study) {
     if (!beams.orientation && needs_orientation(study.sections.at(beams.section)))
       (void)table.required("orientation", "a vector [x, y, z] in the local x-y plane: the section \"" +
                                               beams.section + "\" has different iy and iz");
-    beams.added_mass = table.number_or("added_mass", 0.0, {at_least_zero, "kg/m"});
+    beams.added_mass =
+        table.number_or("added_mass", 0.0, {at_least_zero, "kg/m"}) + read_fluid(table, beams.section, study);
     beams.added_mass_direction = table.choice(
         "added_mass_direction", fem::AddedMass::transverse,
         Choices<fem::AddedMass>{{{"transverse", fem::AddedMass::transverse}, {"all", fem::AddedMass::all}}});

@@ -5,6 +5,7 @@
 #pragma once
 #include "contact/friction_law.hpp"
 #include "contact/obstacle.hpp"
+#include "fem/fluid_mass.hpp"
 #include "fem/model.hpp"
 #include "mesh/read.hpp"
 #include "modal/damping.hpp"
@@ -25,7 +26,7 @@ struct Beams {
   std::string material;
   std::string section;
   std::optional<Vec3> orientation;
-  double added_mass = 0.0;
+  double added_mass = 0.0; ///< kg/m, that of the fluid included
   fem::AddedMass added_mass_direction = fem::AddedMass::transverse;
 };
 
@@ -124,6 +125,11 @@ struct Pipe {
   double outer_diameter, thickness; ///< m
 };
 
+/// Areas across a round section, m2; a section of another shape has none.
+struct Outline {
+  double bore, displaced;
+};
+
 struct Load {
   std::string group;
   bool per_length = false;
@@ -194,7 +200,8 @@ struct Study {
   mesh::Source mesh; ///< its file is absolute
   std::map<std::string, fem::Material> materials;
   std::map<std::string, fem::Section> sections;
-  std::map<std::string, Pipe> pipes; ///< those of the sections that are pipes
+  std::map<std::string, Pipe> pipes;       ///< those of the sections that are pipes
+  std::map<std::string, Outline> outlines; ///< of the sections that are pipes or circles
   std::vector<Beams> beams;
   std::vector<Restraint> restraints;
   std::vector<Mass> masses;

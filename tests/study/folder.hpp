@@ -106,6 +106,8 @@ material = "inconel"
 section = "tube"
 added_mass = 0.3
 added_mass_direction = "all"
+fluid_inside = 750
+fluid_outside = { density = 1000, confinement = 1.5 }
 
 [[beams]]
 group = "bar"

@@ -4,6 +4,7 @@
 #include "paths.hpp"
 #include "study/study.hpp"
 #include <gtest/gtest.h>
+#include <numbers>
 
 namespace fretwork::study {
 namespace {
@@ -142,7 +143,9 @@ TEST(ReadStudy, ReadsEveryKeyOfTheStructure) {
   EXPECT_EQ(study.beams.at(0).group, "tube");
   EXPECT_EQ(study.beams[0].material, "inconel");
   EXPECT_EQ(study.beams[0].section, "tube");
-  EXPECT_EQ(study.beams[0].added_mass, 0.3);
+  // 0.3 kg/m and the fluids of a pipe 20 x 1 mm
+  EXPECT_NEAR(study.beams[0].added_mass,
+              0.3 + 0.25 * std::numbers::pi * (750 * 0.018 * 0.018 + 1.5 * 1000 * 0.02 * 0.02), rounding);
   EXPECT_EQ(study.beams[0].added_mass_direction, fem::AddedMass::all);
   EXPECT_EQ(study.beams.at(1).orientation, Vec3(0, 0, 2));
   EXPECT_EQ(study.restraints.at(0).group, "ends");
@@ -159,6 +162,24 @@ TEST(ReadStudy, ReadsEveryKeyOfTheStructure) {
   EXPECT_EQ(study.ties.at(0).group, "hinge");
   EXPECT_EQ(study.ties[0].other, "arm_end");
   EXPECT_EQ(study.ties[0].tied, 0b100001);
+}
+
+// Case E2: 40 x 5 mm of 7800 kg/m3 in and full of water, of which one displaced mass times 2/pi goes along.
+TEST(ReadStudy, AddsTheFluidsOfATube) {
+  constexpr double printed = 2e-5; // 5.7952 kg/m
+  const auto mass = [](const std::string& shape, const std::string& fluid) {
+    const Study study =
+        read_text("[mesh]\nfile = \"a.msh\"\n[materials.m]\nyoung_modulus = 2.1e11\npoisson_ratio = "
+                  "0.3\ndensity = 7800\n[sections.s]\n" +
+                  shape + "\n[[beams]]\ngroup = \"g\"\nmaterial = \"m\"\nsection = \"s\"\n" + fluid);
+    return study.beams.at(0).added_mass + 7800.0 * study.sections.at("s").area;
+  };
+  const std::string tube = "shape = \"pipe\"\nouter_diameter = 0.04\nthickness = 0.005";
+  const double wet =
+      mass(tube, "fluid_inside = 1000\nfluid_outside = { density = 1000, confinement = 0.6366197723675814 }");
+  EXPECT_NEAR(wet / 5.7952, 1.0, printed);
+  const double solid = mass("shape = \"circle\"\ndiameter = 0.04", "fluid_outside = { density = 1000 }");
+  EXPECT_NEAR(solid, 8800.0 * std::numbers::pi * 0.02 * 0.02, 10 * rounding);
 }
 
 TEST(ReadStudy, ReadsEveryKeyOfTheContacts) {
