@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "modal/damping.hpp"
 #include "core/error.hpp"
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <numbers>
 
 namespace fretwork::modal {
 namespace {
@@ -10,6 +12,34 @@ namespace {
 void require_not_negative(double value, const std::string& name) {
   if (!(value >= 0.0) || !std::isfinite(value))
     throw core::Error(fmt::format("[modes] damping: {} = {:g}; give a value >= 0", name, value));
+}
+
+void check_table(const DampingTable& table) {
+  if (table.rows.empty())
+    throw core::Error("[modes] damping: a table without rows; give one row [Hz, ratio] at least");
+  double before = -1.0;
+  for (const auto& [frequency, ratio] : table.rows) {
+    require_not_negative(frequency, "frequency of the table");
+    require_not_negative(ratio, fmt::format("ratio of the table at {:g} Hz", frequency));
+    if (frequency <= before)
+      throw core::Error(
+          fmt::format("[modes] damping: {:g} Hz after {:g} Hz in the table; give frequencies that "
+                      "rise from row to row",
+                      frequency, before));
+    before = frequency;
+  }
+}
+
+double ratio_at(const DampingTable& table, double frequency) {
+  const auto above = std::find_if(table.rows.begin(), table.rows.end(),
+                                  [&](const DampingTable::Row& row) { return row.frequency > frequency; });
+  if (above == table.rows.begin())
+    return above->ratio;
+  const DampingTable::Row& below = *(above - 1);
+  if (above == table.rows.end())
+    return below.ratio;
+  const double share = (frequency - below.frequency) / (above->frequency - below.frequency);
+  return below.ratio + share * (above->ratio - below.ratio);
 }
 
 /// Ratios of all modes; for a rigid mode whatever the list says: it has no effect there.
@@ -40,6 +70,11 @@ struct Ratios {
       if (omega[i] > 0.0)
         ratios[i] = 0.5 * (rayleigh.stiffness * omega[i] + rayleigh.mass / omega[i]);
     return ratios;
+  }
+
+  Eigen::VectorXd operator()(const DampingTable& table) const {
+    check_table(table);
+    return (omega / (2.0 * std::numbers::pi)).unaryExpr([&](double hertz) { return ratio_at(table, hertz); });
   }
 };
 

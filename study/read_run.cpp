@@ -6,6 +6,21 @@
 namespace fretwork::study {
 namespace {
 
+modal::DampingTable read_damping_table(const TableReader& damping) {
+  const std::string path = damping.path("table");
+  modal::DampingTable table;
+  for (const Value& value : to_array(*damping.find("table"), path, "an array of rows [Hz, ratio]")) {
+    if (!value.array())
+      fail(value, path, "a row [Hz, ratio] is expected");
+    const std::vector<double> row = to_numbers(value, path, 2, {Range::at_least_zero, "Hz and a ratio"});
+    if (!table.rows.empty() && row[0] <= table.rows.back().frequency)
+      fail(value, path,
+           "its frequency is not above that of the row before; let frequencies rise from row to row");
+    table.rows.push_back({row[0], row[1]});
+  }
+  return table;
+}
+
 modal::Damping read_damping(const TableReader& modes) {
   const Value* found = modes.find("damping");
   if (!found)
@@ -15,9 +30,16 @@ modal::Damping read_damping(const TableReader& modes) {
     return to_numbers(*found, path, 0, {Range::at_least_zero});
   if (!found->table())
     return to_number(*found, path, {Range::at_least_zero});
-  const TableReader table(*found, path, {{"stiffness", "mass"}});
+  const TableReader table(*found, path, {{"stiffness", "mass", "table"}});
+  if (table.has("table")) {
+    if (table.has("stiffness") || table.has("mass"))
+      table.fail_at("table", "table and stiffness or mass both say the damping; keep one");
+    return read_damping_table(table);
+  }
   if (!table.has("stiffness") && !table.has("mass"))
-    table.fail_table("neither stiffness nor mass; write { stiffness = 1.0e-5, mass = 0.5 } or one of them");
+    table.fail_table(
+        "neither stiffness nor mass nor table; write { stiffness = 1.0e-5, mass = 0.5 } or one of "
+        "them, or { table = [[10, 0.02], [100, 0.01]] }");
   return modal::Rayleigh{table.number_or("stiffness", 0.0, {Range::at_least_zero, "s"}),
                          table.number_or("mass", 0.0, {Range::at_least_zero, "1/s"})};
 }

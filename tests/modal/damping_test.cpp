@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "../fem/expect_error.hpp"
 #include "modal/damping.hpp"
+#include <array>
 #include <limits>
+#include <numbers>
 
 using namespace fretwork;
 using tests::expect_error;
@@ -47,6 +49,21 @@ TEST(Damping, OfRayleighsMassTermDampsRigidModes) {
   EXPECT_LT((b.damping_matrix - expected).cwiseAbs().maxCoeff(), 1e-15);
 }
 
+TEST(Damping, OfATableIsLinearBetweenItsRowsAndConstantOutside) {
+  constexpr double hertz = 2.0 * std::numbers::pi;
+  constexpr double round_off = 1e-15;
+  modal::Basis b;
+  b.omega.resize(7);
+  b.omega << 0.0, 5.0 * hertz, 10.0 * hertz, 15.0 * hertz, 20.0 * hertz, 80.0 * hertz, 500.0 * hertz;
+  modal::apply_damping(b, modal::DampingTable{{{10.0, 0.02}, {20.0, 0.04}, {100.0, 0.0}}});
+  const std::array<double, 7> expected{0.02, 0.02, 0.02, 0.03, 0.04, 0.01, 0.0};
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_NEAR(b.damping[static_cast<Eigen::Index>(i)], expected[i], round_off) << i;
+  EXPECT_EQ(b.damping_matrix.size(), 0);
+  modal::apply_damping(b, modal::DampingTable{{{10.0, 0.02}}});
+  EXPECT_EQ(b.damping, Eigen::VectorXd::Constant(7, 0.02));
+}
+
 TEST(Damping, AddsToThatOfDampers) {
   auto b = basis();
   b.damping_matrix = Eigen::Matrix3d::Ones();
@@ -73,4 +90,11 @@ TEST(Damping, RefusesWhatMakesNone) {
       {"ratio of mode 2 = -0.2"});
   expect_error([&] { modal::apply_damping(b, modal::Rayleigh{-1.0, 0.0}); }, {"stiffness = -1"});
   expect_error([&] { modal::apply_damping(b, modal::Rayleigh{0.0, -2.0}); }, {"mass = -2"});
+  const auto table = [&](std::vector<modal::DampingTable::Row> rows) {
+    return [&b, rows = std::move(rows)] { modal::apply_damping(b, modal::DampingTable{rows}); };
+  };
+  expect_error(table({}), {"a table without rows", "[Hz, ratio]"});
+  expect_error(table({{1.0, -0.1}}), {"ratio of the table at 1 Hz = -0.1"});
+  expect_error(table({{-1.0, 0.1}}), {"frequency of the table = -1"});
+  expect_error(table({{2.0, 0.1}, {2.0, 0.2}}), {"2 Hz after 2 Hz", "rise from row to row"});
 }

@@ -53,7 +53,7 @@ TEST(Messages, OfUnknownKeysAtEveryLevel) {
       {"count = 12", "cont = 12", {"modes.cont = 12: unknown key; did you mean \"count\"?"}},
       {"damping = [0.01, 0.02]",
        "damping = { K = 1 }",
-       {"modes.damping.K = 1: unknown key; keys: \"stiffness\", \"mass\""}},
+       {"modes.damping.K = 1: unknown key; keys: \"stiffness\", \"mass\", \"table\""}},
       {"gap = 2e-4", "gapp = 2e-4", {"contacts.tsp1.gapp = 0.0002: unknown key; did you mean \"gap\"?"}},
       {"friction = { static = 0.4, dynamic = 0.3 }",
        "friction = { statik = 1 }",

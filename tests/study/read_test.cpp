@@ -249,6 +249,17 @@ TEST(ReadStudy, ReadsEveryKeyOfTheRun) {
   EXPECT_EQ(study.output.checkpoint, 30.0);
 }
 
+TEST(ReadStudy, ReadsDampingByFrequency) {
+  const Study study =
+      read_text("[mesh]\nfile = \"a.msh\"\n[modes]\ndamping = { table = [[0, 0.02], [50.5, 0.01]] }\n");
+  const auto& rows = std::get<modal::DampingTable>(study.modes.damping).rows;
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].frequency, 0.0);
+  EXPECT_EQ(rows[0].ratio, 0.02);
+  EXPECT_EQ(rows[1].frequency, 50.5);
+  EXPECT_EQ(rows[1].ratio, 0.01);
+}
+
 TEST(ReadStudy, ReadsRayleighDampingAndABandOfModes) {
   const Study study = read_text(
       "[mesh]\nfile = \"a.msh\"\n[modes]\nup_to_hz = 800\ndamping = { stiffness = 1e-5, mass = 0.5 }\n");
