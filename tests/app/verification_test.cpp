@@ -54,7 +54,7 @@ TEST(Verification, WarnsWhereTheStepIsTooLong) {
 
 TEST(Verification, IsTheSameOnTwoRanks) {
   const Workshop folder;
-  const std::vector<std::string> more = {"--set", "transient.duration=0.2", "--set", "transient.verify=true"};
+  const std::vector<std::string> more = {"--set", "transient.duration=0.3", "--set", "transient.verify=true"};
   const Results one = folder.run(example("straight_tube"), "one", more);
   const Results two = folder.run(example("straight_tube"), "two", more, 2);
   EXPECT_EQ(one.summary["verification"], two.summary["verification"]);
