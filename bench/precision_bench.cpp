@@ -50,8 +50,10 @@ Scene point(double mass, double stiffness, double duration) {
 Scene single_impact() {
   Scene scene = point(1.0, 0.0, 0.0083);
   scene.v0.y() = 1.0;
-  scene.contacts = {{"stop", {contact::Stop{2e-3, contact::PlaneAxis::y}, {1e6, 100.0}, {}},
-                     core::Vec3::Zero(), Eigen::Matrix3d::Identity()}};
+  scene.contacts = {{"stop",
+                     {contact::Stop{2e-3, contact::PlaneAxis::y}, {1e6, 100.0}, {}},
+                     core::Vec3::Zero(),
+                     Eigen::Matrix3d::Identity()}};
   return scene;
 }
 
@@ -60,8 +62,10 @@ Scene friction_oscillator() {
   const double omega = 2.0 * std::numbers::pi * 20.0;
   Scene scene = point(1.0, omega * omega, 0.2);
   contact::FrictionLaw friction{4e6, 400.0, 0.1, 0.1};
-  transient::ContactPoint floor{"floor", {contact::Stop{0.0, contact::PlaneAxis::z}, {1e3}, friction},
-                                {0, 0, 0.4}, Eigen::Matrix3d::Identity()};
+  transient::ContactPoint floor{"floor",
+                                {contact::Stop{0.0, contact::PlaneAxis::z}, {1e3}, friction},
+                                {0, 0, 0.4},
+                                Eigen::Matrix3d::Identity()};
   floor.b.row(2).setZero();
   scene.contacts = {floor};
   scene.loads = {{transient::Harmonic{100.0, 16.0}, Eigen::Vector3d::UnitY()}};
@@ -167,8 +171,9 @@ void precision() {
       if (path.seconds > longest_second)
         break;
     }
-    for (const SchemeKind scheme : {SchemeKind::splitting, SchemeKind::collocation, SchemeKind::energy_conserving,
-                                    SchemeKind::euler, SchemeKind::devogelaere})
+    for (const SchemeKind scheme :
+         {SchemeKind::splitting, SchemeKind::collocation, SchemeKind::energy_conserving, SchemeKind::euler,
+          SchemeKind::devogelaere})
       for (double step = scene.duration / 128.0; step > 1e-8; step /= 2.0) {
         transient::StepOptions fixed;
         fixed.scheme = scheme;
@@ -188,8 +193,8 @@ struct Energies final : transient::Observer {
   void visit(core::StateArchive&) override {} // never restarted
   void step(const transient::Record& record) override {
     end = record.energy.stored / record.energy.initial;
-    departure = std::max(departure, std::isfinite(end) ? std::abs(end - 1.0)
-                                                       : std::numeric_limits<double>::infinity());
+    departure = std::max(departure,
+                         std::isfinite(end) ? std::abs(end - 1.0) : std::numeric_limits<double>::infinity());
   }
 };
 
@@ -197,7 +202,9 @@ struct Energies final : transient::Observer {
 Scene bouncing() {
   Scene scene = point(1.0, 314.0 * 314.0, 2.0);
   scene.v0.y() = 1.0;
-  scene.contacts = {{"stop", {contact::Stop{0.0, contact::PlaneAxis::y}, {1e9}, {}}, core::Vec3::Zero(),
+  scene.contacts = {{"stop",
+                     {contact::Stop{0.0, contact::PlaneAxis::y}, {1e9}, {}},
+                     core::Vec3::Zero(),
                      Eigen::Matrix3d::Identity()}};
   return scene;
 }
@@ -222,15 +229,17 @@ void energy() {
   std::puts("scene;scheme;w_c h;energy at the end;largest departure");
   const NamedScene scenes[] = {{"mass on a stop", bouncing()}, {"tube in three holes", rattling()}};
   for (const auto& [name, scene] : scenes)
-    for (const SchemeKind scheme : {SchemeKind::splitting, SchemeKind::collocation, SchemeKind::energy_conserving,
-                                    SchemeKind::euler, SchemeKind::devogelaere})
+    for (const SchemeKind scheme :
+         {SchemeKind::splitting, SchemeKind::collocation, SchemeKind::energy_conserving, SchemeKind::euler,
+          SchemeKind::devogelaere})
       for (const double wh : {0.05, 0.1, 0.2, 0.5, 1.0, 1.5, 2.0, 5.0}) {
         transient::StepOptions options;
         options.scheme = scheme;
         options.step = wh / transient::choose_step(scene, options).contact_frequency;
         Energies energies;
         transient::Observer* observers[] = {&energies};
-        const auto report = transient::run(scene, transient::choose_step(scene, options), observers, nullptr, {});
+        const auto report =
+            transient::run(scene, transient::choose_step(scene, options), observers, nullptr, {});
         const bool lost = report.outcome != transient::Outcome::done;
         const double infinite = std::numeric_limits<double>::infinity();
         std::printf("%s;%s;%g;%.6g;%.3g\n", name, name_of(scheme).c_str(), wh, lost ? infinite : energies.end,
