@@ -27,13 +27,13 @@ constexpr double linear_points_per_period = 200.0;
 constexpr double least_adaptive_steps = 200;
 /// Of a damper's rate times the step of devogelaere, whose limit is 0.59.
 constexpr double most_damped = 0.5;
-/// The step of an accuracy of 0.04 (w_c h = 0.7) is the longest: no statistics are worth having above it.
+/// The step of an accuracy of 0.04 (w_c h = 0.6) is the longest: no statistics are worth having above it.
 constexpr double coarsest_accuracy = 0.04;
-/// Steps of splitting that one of collocation takes the time of: 5 with 3 supports, 9 with 8, more with 10.
-constexpr double collocation_cost = 8.0;
+/// Steps of splitting that one of collocation takes the time of: 4 to 5 with 3 supports, 7 to 9 with 8 and 10.
+constexpr double collocation_cost = 6.0;
 /// w_c h and w_t h at an accuracy of 0.01. Measured on rattling tubes (bench_statistics): the work rate of contacts that stick without much
-/// damping is off by 3.5 % at 0.5 with splitting, 1.1 % at 0.35; with collocation by 2.8 % at 1, 1.4 % at 0.5.
-double contact_share(SchemeKind scheme) { return scheme == SchemeKind::collocation ? 0.5 : 0.35; }
+/// damping is off by 3.5 % at 0.5 with splitting, 1.4 % at 0.35; with collocation by 2.8 % at 1, 1.4 % at 0.5.
+double contact_share(SchemeKind scheme) { return scheme == SchemeKind::collocation ? 0.5 : 0.3; }
 /// Of w_max h: a step of splitting resonates with modes at w h = pi.
 constexpr double before_resonance = 2.5;
 /// Largest w_c h and w_t h without a warning: above it an impact changes the energy by more than 1 % or the statistics are wrong, however

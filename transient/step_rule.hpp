@@ -2,7 +2,7 @@
 /// @file
 /// The time step and its reason.
 ///
-///     h = eps min{ 0.7/w_c, 0.7/w_t, a/r_t, b/w_max },  eps = 0.5 sqrt(accuracy / 0.01)
+///     h = eps min{ 0.6/w_c, 0.6/w_t, a/r_t, b/w_max },  eps = 0.5 sqrt(accuracy / 0.01)
 /// over the terms that exist, with:
 ///     w_c    contact frequency: w_c^2 = largest eigenvalue of K_N^1/2 W K_N^1/2, W = B B^T over all normal
 ///            directions of all contacts; with residual flexibility R (Scene) of (K_N^-1 + R)^-1 in place of K_N

@@ -13,8 +13,8 @@ using contact::PlanePair;
 namespace {
 
 constexpr double round_off = 1e-12;
-constexpr double eps = 0.5;    // at an accuracy of 1 %
-constexpr double share = 0.35; // w_c h and w_t h at 1 %
+constexpr double eps = 0.5;   // at an accuracy of 1 %
+constexpr double share = 0.3; // w_c h and w_t h at 1 %
 constexpr double mass = 2.0;
 
 Scene scene_with(const contact::Support& support, double duration = 1000.0,
