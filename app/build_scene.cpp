@@ -140,6 +140,9 @@ Eigen::MatrixXd carried_by_motions(const study::Study& study, const study::Conta
     if (const auto& motion = study.support_motions[static_cast<std::size_t>(k)];
         contact.carrier == motion.group)
       carried.col(bases + k) -= motion.direction;
+  // a static solution leaves round-off where the obstacle moves as its node does
+  constexpr double round_off = 1e-9; // of a support's unit motion
+  carried = (carried.array().abs() < round_off).select(0.0, carried);
   return carried.isZero(0.0) ? Eigen::MatrixXd() : carried;
 }
 

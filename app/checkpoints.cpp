@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include <csignal>
 #include <fmt/format.h>
+#include <regex>
 
 namespace fretwork::app {
 namespace {
@@ -89,9 +90,10 @@ results::RunIdentity Checkpoints::identity(std::size_t run) const {
 }
 
 void Checkpoints::remove(const fs::path& directory) {
+  const std::regex of_a_run(fmt::format(R"({}(-[0-9]+)?(\.part)?\.h5)", file_start));
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(directory))
-    if (entry.path().filename().string().starts_with(file_start) && entry.path().extension() == ".h5")
+    if (std::regex_match(entry.path().filename().string(), of_a_run))
       files.push_back(entry.path());
   std::error_code ignored;
   for (const fs::path& file : files)

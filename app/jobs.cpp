@@ -379,7 +379,8 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
   });
   core::agree(comm, [&] { check_size_of_impacts(study, scenes, choices); });
   std::vector<JobResult> jobs(scenes.size());
-  const bool verified = study.transient->verify;
+  const bool verified =
+      study.transient->verify && contacts > 0; // statistics of contacts are what is compared
   std::vector<HalfRun> halves(verified ? scenes.size() : 0);
   std::vector<double> costs; // a step costs as much as it has modes
   for (std::size_t s = 0; s < scenes.size(); ++s)

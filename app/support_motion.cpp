@@ -4,10 +4,13 @@
 #include "fem/fields.hpp"
 #include "fem/petsc_assembly.hpp"
 #include "fem/ties.hpp"
+#include <cmath>
 #include <fmt/format.h>
 
 namespace fretwork::app {
 namespace {
+
+constexpr double round_off = 1e-12;
 
 using core::Index;
 
@@ -48,7 +51,7 @@ std::vector<MovedSupport> moved_supports(const study::Study& study, const mesh::
     for (const Index node : mesh::group_nodes(mesh, motion.group, what))
       for (int axis = 0; axis < 3; ++axis) {
         const double along = motion.direction(axis);
-        if (along == 0.0)
+        if (std::abs(along) < round_off) // of a unit vector: cos 90 degrees
           continue;
         const Eigen::Index row = static_cast<Eigen::Index>(node) * core::dofs_per_node + axis;
         const double stiffness = grounded_stiffness(model, node, axis);

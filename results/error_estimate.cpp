@@ -57,13 +57,18 @@ ErrorEstimate error_estimate(const RunResults& results) {
     return {ErrorKind::none, nan, "none: there are no contacts, whose statistics would be compared"};
   if (const auto& verification = results.verification; verification && verification->failure.empty()) {
     const Disagreement found = disagreement(*verification, results.contacts);
-    const double relative = relative_difference(*verification);
+    const double difference = relative_difference(*verification), scatter = relative_scatter(results);
+    const double relative = std::isnan(scatter) ? difference : std::hypot(difference, scatter);
     return {ErrorKind::verified, relative,
             fmt::format("{} of {} figures agree with those at half the step{}", found.compared - found.differ,
                         found.compared,
-                        std::isnan(relative)
+                        std::isnan(difference)
                             ? ""
-                            : fmt::format(", sums over contacts within {:.2g} %", 100.0 * relative))};
+                            : fmt::format(", sums over contacts within {:.2g} %{}", 100.0 * difference,
+                                          std::isnan(scatter)
+                                              ? ""
+                                              : fmt::format(", {:.2g} % standard error of this window",
+                                                            100.0 * scatter)))};
   }
   const double relative = relative_scatter(results);
   if (std::isnan(relative))

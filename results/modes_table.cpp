@@ -24,9 +24,9 @@ std::string modes_table(const RunResults& results) {
     kept += basis.participation.colwise().squaredNorm().transpose();
   }
   const std::vector<ModeOf> modes = sorted_modes(results.bases);
-  std::string text =
-      fmt::format("  {:>5} {:>9} {:>14} {:>10} {:>11}   effective mass, % of {:.4g} kg: x y z\n", "mode",
-                  "structure", "Hz", "damping %", "mesh error", whole.maxCoeff());
+  std::string text = fmt::format(
+      "  {:>5} {:>9} {:>14} {:>10} {:>11}   effective mass, % of {:.4g}, {:.4g}, {:.4g} kg: x y z\n", "mode",
+      "structure", "Hz", "damping %", "mesh error", whole.x(), whole.y(), whole.z());
   for (std::size_t k = 0; k < std::min(most_rows, modes.size()); ++k) {
     const auto& [structure, mode, frequency] = modes[k];
     const modal::Basis& basis = results.bases[structure];

@@ -55,28 +55,71 @@ std::vector<double> curvatures(const Table& table) {
   return m;
 }
 
-/// The spline's acceleration, and how it stands at t = 0.
-PrescribedMotion along_spline(const Table& table) {
-  const std::vector<double> m = curvatures(table);
+/// Slopes at the rows of the spline with slope 0 at both ends, limited where it swings out between two rows: where it leaves their range by
+/// more than a quarter of the largest change of this and the neighbouring intervals (a smooth curve turns within an eighth), both slopes are
+/// held to 3 times the smaller chord beside them (J. Hyman, SIAM J. Sci. Stat. Comput. 4 (1983) 645). So a ramp that is followed by a long
+/// hold holds; the curve is then smooth but for jumps of its acceleration at these rows.
+std::vector<double> slopes(const Table& table) {
+  constexpr double smooth_turn = 0.25, steepest = 3.0;
   const std::size_t last = table.time.size() - 1;
-  Table acceleration{{table.time.front()}, {0.0}};
-  for (std::size_t i = 0; i <= last && last > 0; ++i) {
-    acceleration.time.push_back(table.time[i]);
-    acceleration.value.push_back(m[i]);
+  const std::vector<double> m = curvatures(table);
+  std::vector<double> chord(last), change(last), slope(last + 1, 0.0);
+  for (std::size_t i = 0; i < last; ++i) {
+    const double h = table.time[i + 1] - table.time[i];
+    change[i] = table.value[i + 1] - table.value[i];
+    chord[i] = change[i] / h;
+    if (i > 0)
+      slope[i] = chord[i] - h / 6.0 * (2.0 * m[i] + m[i + 1]);
+  }
+  const std::vector<double> spline = slope;
+  const auto limit = [&](std::size_t row) {
+    const double left = row > 0 ? chord[row - 1] : chord[row], right = row < last ? chord[row] : left;
+    const double bound = steepest * std::min(std::abs(left), std::abs(right));
+    slope[row] = std::clamp(spline[row], left * right > 0.0 && left > 0.0 ? 0.0 : -bound,
+                            left * right > 0.0 && left < 0.0 ? 0.0 : bound);
+  };
+  for (std::size_t i = 0; i < last; ++i) {
+    const double h = table.time[i + 1] - table.time[i];
+    double out = 0.0; // farthest beyond the two rows, at eight places between them
+    for (int k = 1; k < 8; ++k) {
+      const double x = k / 8.0, y = x * x * (3.0 - 2.0 * x) * change[i] +
+                                    h * x * (1.0 - x) * ((1.0 - x) * spline[i] - x * spline[i + 1]);
+      out = std::max({out, y - std::max(0.0, change[i]), std::min(0.0, change[i]) - y});
+    }
+    const double largest = std::max({i > 0 ? std::abs(change[i - 1]) : 0.0, std::abs(change[i]),
+                                     i + 1 < last ? std::abs(change[i + 1]) : 0.0});
+    if (out > smooth_turn * largest) {
+      limit(i);
+      limit(i + 1);
+    }
+  }
+  return slope;
+}
+
+/// The acceleration of the curve with these slopes, and how it stands at t = 0.
+PrescribedMotion along_curve(const Table& table) {
+  const std::size_t last = table.time.size() - 1;
+  const double first = table.time.front();
+  if (last == 0)
+    return {Table{{0.0}, {0.0}}, 0.0, table.value.front()};
+  const std::vector<double> slope = slopes(table);
+  Table acceleration{{first}, {0.0}};
+  PrescribedMotion out{Table{}, 0.0, first > 0.0 ? table.value.front() : table.value.back()};
+  for (std::size_t i = 0; i < last; ++i) {
+    const double h = table.time[i + 1] - table.time[i], chord = (table.value[i + 1] - table.value[i]) / h;
+    const double begin = (6.0 * chord - 4.0 * slope[i] - 2.0 * slope[i + 1]) / h,
+                 end = (-6.0 * chord + 2.0 * slope[i] + 4.0 * slope[i + 1]) / h;
+    acceleration.time.insert(acceleration.time.end(), {table.time[i], table.time[i + 1]});
+    acceleration.value.insert(acceleration.value.end(), {begin, end});
+    if (const double t = -table.time[i]; t >= 0.0 && t < h) {
+      const double third = (end - begin) / h;
+      out.velocity0 = slope[i] + t * (begin + 0.5 * t * third);
+      out.displacement0 = table.value[i] + t * (slope[i] + t * (0.5 * begin + t * third / 6.0));
+    }
   }
   acceleration.time.push_back(table.time.back());
   acceleration.value.push_back(0.0);
-  if (last == 0)
-    acceleration = {{0.0}, {0.0}};
-  PrescribedMotion out{std::move(acceleration), 0.0,
-                       table.time.front() > 0.0 ? table.value.front() : table.value.back()};
-  for (std::size_t i = 0; i < last; ++i)
-    if (const double h = table.time[i + 1] - table.time[i], t = -table.time[i]; t >= 0.0 && t < h) {
-      const double slope = (table.value[i + 1] - table.value[i]) / h - h / 6.0 * (2.0 * m[i] + m[i + 1]);
-      const double third = (m[i + 1] - m[i]) / h;
-      out.velocity0 = slope + t * (m[i] + 0.5 * t * third);
-      out.displacement0 = table.value[i] + t * (slope + t * (0.5 * m[i] + t * third / 6.0));
-    }
+  out.acceleration = std::move(acceleration);
   return out;
 }
 
@@ -91,7 +134,7 @@ PrescribedMotion motion_of_displacement(const TimeFunction& displacement) {
             s->amplitude * std::sin(s->phase)};
   }
   assert(std::holds_alternative<Table>(displacement));
-  return along_spline(std::get<Table>(displacement));
+  return along_curve(std::get<Table>(displacement));
 }
 
 MotionState MotionSignal::Piece::at(double time) const {

@@ -132,11 +132,18 @@ struct Term {
   std::string reason;
 };
 
+/// Whether a load has to do with the scene: it moves its modes, or may be that of a motion that carries its obstacles.
+bool acts(const Load& load, const Scene& scene) {
+  return !load.modal_force.isZero(0.0) ||
+         std::any_of(scene.contacts.begin(), scene.contacts.end(),
+                     [](const ContactPoint& contact) { return contact.carried.size() > 0; });
+}
+
 /// Shortest interval between points of the tables, s, those left out that are too fine to rule; 0 without tables.
 double table_interval(const Scene& scene) {
   double shortest = 0.0;
   for (const Load& load : scene.loads)
-    if (const auto* table = std::get_if<Table>(&load.function))
+    if (const auto* table = std::get_if<Table>(&load.function); table && acts(load, scene))
       for (std::size_t i = 1; i < table->time.size(); ++i)
         if (const double interval = table->time[i] - table->time[i - 1];
             interval > finest_table * scene.duration && (shortest == 0.0 || interval < shortest))
@@ -272,7 +279,8 @@ StepChoice choice_of(const Scene& scene, const StepOptions& options, SchemeKind 
   if (scene.system.size() > 0)
     c.highest_mode = std::sqrt(scene.system.stiffness.maxCoeff());
   for (const Load& load : scene.loads)
-    c.excitation = std::max(c.excitation, highest_frequency(load.function));
+    if (acts(load, scene))
+      c.excitation = std::max(c.excitation, highest_frequency(load.function));
 
   const bool adaptive = c.scheme == SchemeKind::runge_kutta_54;
   c.tolerance = options.tolerance;

@@ -91,6 +91,16 @@ TEST(Checkpoint, HowOftenItIsWrittenIsNoInput) {
   EXPECT_TRUE(says(completed(folder, tube(folder, "results")), "up to date"));
 }
 
+TEST(Checkpoint, TakesNoOtherFileWithIt) {
+  const Workshop folder;
+  fs::create_directories(folder.path("results"));
+  const fs::path file = folder.path("results") / "checkpoint-mine.h5";
+  std::ofstream(file) << "kept";
+  (void)completed(folder, tube(folder, "results"));
+  EXPECT_TRUE(fs::exists(file));
+  EXPECT_FALSE(fs::exists(folder.path("results") / "checkpoint.h5"));
+}
+
 TEST(Checkpoint, ThatIsDamagedIsToldAndNotUsed) {
   const Workshop folder;
   (void)completed(folder, tube(folder, "whole"));

@@ -72,7 +72,7 @@ TEST(Spans, OfTooManyElementsAreToldOfOrRefused) {
   };
   EXPECT_TRUE(warnings(modal::many_elements).empty());
   ASSERT_EQ(warnings(modal::many_elements + 1).size(), 1u);
-  EXPECT_NE(warnings(501)[0].find("the span that starts at (0, 0, 0) has 501 elements"), std::string::npos);
+  EXPECT_NE(warnings(1001)[0].find("the span that starts at (0, 0, 0) has 1001 elements"), std::string::npos);
   EXPECT_EQ(warnings(modal::too_many_elements).size(), 1u);
   expect_error([&] { (void)warnings(modal::too_many_elements + 1); },
                {"(0, 0, 0) has 3001 elements", "mesh it more coarsely"});

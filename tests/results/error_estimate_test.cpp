@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/error_estimate.hpp"
 #include "synthetic.hpp"
+#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
@@ -53,13 +54,17 @@ TEST(ErrorEstimate, SaysThatThereIsNoneAndWhy) {
   EXPECT_THAT(error_estimate(made_up({.contacts = 0})).text, HasSubstr("there are no contacts"));
 }
 
-TEST(ErrorEstimate, OfAVerifiedRunIsItsDifferenceFromHalfTheStep) {
+TEST(ErrorEstimate, OfAVerifiedRunIsItsDifferenceFromHalfTheStepAndTheScatter) {
   RunResults results = two_contacts();
   results.verification = verification();
   const ErrorEstimate e = error_estimate(results);
   EXPECT_EQ(e.kind, ErrorKind::verified);
-  EXPECT_DOUBLE_EQ(e.relative, 0.5 / 2.5);
+  EXPECT_DOUBLE_EQ(e.relative, std::hypot(0.5 / 2.5, 0.025));
   EXPECT_THAT(e.text, HasSubstr("2 of 4 figures agree"));
+  // turning verification on never makes the error that is told smaller
+  results.errors_of_sums = {0.02, 0.05, 0.0, 3.0};
+  EXPECT_DOUBLE_EQ(error_estimate(results).relative, std::hypot(0.2, 0.05));
+  EXPECT_THAT(error_estimate(results).text, HasSubstr("within 20 %, 5 % standard error of this window"));
   results.verification->failure = "the run at half the step stopped";
   EXPECT_NE(error_estimate(results).kind, ErrorKind::verified);
 }

@@ -99,7 +99,7 @@ TEST(ModesTable, HasALineAModeAndTheirSum) {
   const RunResults results = made_up({.structures = 2, .modes = 10});
   const auto table = lines(modes_table(results));
   ASSERT_EQ(table.size(), 22u); // heads, modes, sum
-  EXPECT_THAT(table[0], HasSubstr("effective mass, % of 10 kg"));
+  EXPECT_THAT(table[0], HasSubstr("effective mass, % of 10, 10, 10 kg"));
   EXPECT_THAT(table[1], HasSubstr("40.000")); // 4 of 10 kg, in y
   EXPECT_THAT(table[21], HasSubstr("all modes together"));
   for (const std::string& line : table)

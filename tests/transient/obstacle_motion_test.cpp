@@ -128,6 +128,39 @@ TEST(MotionOfDisplacement, GoesThroughATableFromRestToRest) {
   EXPECT_NEAR(signal(1.0).velocity, 0.0, round_off);
 }
 
+TEST(MotionOfDisplacement, HoldsWhereATableHolds) {
+  for (const double sign : {1.0, -1.0}) {
+    const Table table{{0.0, 0.05, 0.6, 0.7, 1.0}, {0.0, sign * 1e-3, sign * 1e-3, sign * 3e-3, sign * 3e-3}};
+    const MotionSignal signal(motion_of_displacement(table), duration);
+    for (const double t : {0.05, 0.1, 0.3, 0.59, 0.6})
+      EXPECT_NEAR(signal(t).displacement, sign * 1e-3, round_off) << t;
+    for (double t = 0.0; t < 1.0; t += 0.01) {
+      EXPECT_GE(sign * signal(t).displacement, -round_off) << t;
+      EXPECT_LE(sign * signal(t).displacement, 3e-3 + round_off) << t;
+    }
+  }
+}
+
+TEST(MotionOfDisplacement, IsOfOrderFourThroughRowsOfASmoothCurve) {
+  // 1 - cos over whole periods rests at its ends: nothing is limited, where its tops lie between rows neither
+  double last = 0.0;
+  for (const int rows : {27, 54, 108}) {
+    Table table;
+    for (int i = 0; i <= rows; ++i) {
+      table.time.push_back(static_cast<double>(i) / rows);
+      table.value.push_back(1.0 - std::cos(2.0 * two_pi * table.time.back()));
+    }
+    const MotionSignal signal(motion_of_displacement(table), duration);
+    double error = 0.0;
+    for (double t = 0.0; t < 1.0; t += 1e-3)
+      error = std::max(error, std::abs(signal(t).displacement - 1.0 + std::cos(2.0 * two_pi * t)));
+    if (last > 0.0) {
+      EXPECT_NEAR(std::log2(last / error), 4.0, 0.3) << rows;
+    }
+    last = error;
+  }
+}
+
 namespace {
 
 // A mass on springs whose foot moves by s = -(A/w^2) sin(w t) along (0.6, 0.8, 0), inside a round hole that stays in space.

@@ -108,6 +108,16 @@ TEST(StepRule, GivesThirtyPointsAPeriodToTheExcitationAndTwoHundredWithoutContac
   expect_governed(linear, splitting(), 1.0 / (200.0 * 40.0), "excitation (40 Hz)");
 }
 
+TEST(StepRule, LeavesOutLoadsThatDoNotActOnTheScene) {
+  Scene scene = scene_with({Circle{0.1}, {2.0}, {}}, 1000.0);
+  scene.loads = {force_on(mass, Vec3(1, 0, 0), Harmonic{1.0, 25.0})};
+  const double step = choose_step(scene, splitting()).step;
+  const Vec3 elsewhere = Vec3::Zero();
+  scene.loads.push_back(force_on(mass, elsewhere, Harmonic{1.0, 2e4}));
+  scene.loads.push_back(force_on(mass, elsewhere, Table{{0.0, 1e-3, 1000.0}, {0.0, 1.0, 1.0}}));
+  EXPECT_EQ(choose_step(scene, splitting()).step, step);
+}
+
 TEST(StepRule, TakesTwentyThousandStepsAtLeast) {
   const Scene linear = mass_point(mass, Vec3(2.0, 0, 0), 3.0),
               soft = scene_with({Circle{0.1}, {2.0}, {}}, 3.0);
