@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/jobs.hpp"
+#include "app/resumed_run.hpp"
 #include "app/verification.hpp"
 #include "core/error.hpp"
 #include "core/mpi.hpp"
@@ -155,32 +156,6 @@ private:
   std::vector<transient::Observer*> observers_;
   transient::Run run_;
 };
-
-/// Whether the job has taken over the state; if not, it is to be made anew.
-bool restore(Job& job, std::string bytes) {
-  try {
-    core::StateArchive state(std::move(bytes));
-    state(job.run());
-    state.end();
-    return true;
-  } catch (const core::StateMismatch&) {
-    return false;
-  }
-}
-
-template <class MakeJob>
-JobResult run_job(const MakeJob& make, std::size_t number, Checkpoints& checkpoints, bool others_follow) {
-  std::unique_ptr<Job> job = make();
-  if (std::string state = checkpoints.found(number); !state.empty() && !restore(*job, std::move(state))) {
-    checkpoints.refuse(number);
-    job = make();
-  }
-  while (job->run().advance(Checkpoints::records_between_looks))
-    checkpoints.look(number, job->run());
-  if (others_follow)
-    checkpoints.ended(number, job->run());
-  return std::move(*job).result();
-}
 
 template <class T> void broadcast_plain(MPI_Comm comm, int root, std::vector<T>& values) {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -404,9 +379,11 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
         const auto make = [&] {
           return std::make_unique<Job>(study, scenes[s], choices[s], progress ? &observer : nullptr);
         };
-        jobs[s] = run_job(make, s, checkpoints, --left > 0);
+        const bool others = --left > 0;
+        jobs[s] = std::move(*resumed_run(make, s, checkpoints, others || verified)).result();
         if (verified)
-          halves[s] = run_at_half(scenes[s].scene, choices[s], study.output.statistics_from);
+          halves[s] = run_at_half(scenes[s].scene, choices[s], study.output.statistics_from,
+                                  scenes.size() + s, checkpoints, others);
         done_steps += choices[s].steps;
       }
   });

@@ -1,21 +1,41 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/verification.hpp"
+#include "app/resumed_run.hpp"
 #include "results/error_estimate.hpp"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <type_traits>
 
 namespace fretwork::app {
 
-HalfRun run_at_half(const transient::Scene& scene, const transient::StepChoice& choice, double from) {
-  post::ContactStatistics contacts(scene.contacts.size(), from);
-  transient::Observer* const observers[] = {&contacts};
-  HalfRun half;
-  half.report = transient::run(scene, transient::halved(choice), observers, nullptr, {});
-  half.contacts = contacts.summaries();
-  half.errors_of_sums = contacts.errors_of_sums();
-  return half;
+namespace {
+
+/// The run at half the step with what watches it.
+class HalfJob {
+public:
+  HalfJob(const transient::Scene& scene, const transient::StepChoice& half, double from)
+      : contacts_(scene.contacts.size(), from), observers_{&contacts_},
+        run_(scene, half, observers_, nullptr, {}) {}
+  [[nodiscard]] transient::Run& run() { return run_; }
+  [[nodiscard]] HalfRun result() {
+    return {run_.finish(), contacts_.summaries(), contacts_.errors_of_sums()};
+  }
+
+private:
+  post::ContactStatistics contacts_;
+  std::array<transient::Observer*, 1> observers_;
+  transient::Run run_;
+};
+
+} // namespace
+
+HalfRun run_at_half(const transient::Scene& scene, const transient::StepChoice& choice, double from,
+                    std::size_t number, Checkpoints& checkpoints, bool others_follow) {
+  const transient::StepChoice half = transient::halved(choice);
+  const auto make = [&] { return std::make_unique<HalfJob>(scene, half, from); };
+  return resumed_run(make, number, checkpoints, others_follow)->result();
 }
 
 void broadcast(MPI_Comm comm, int root, std::size_t contacts, HalfRun& half) {
@@ -56,8 +76,6 @@ void compare_with_half(const std::vector<BuiltScene>& scenes, const std::vector<
     for (std::size_t c = 0; c < scenes[s].contacts.size(); ++c)
       half[scenes[s].contacts[c]] = halves[s].contacts[c];
   }
-  if (half.empty())
-    return;
   v.factor = post::critical_factor(post::compared_of_a_contact * half.size());
   v.sums = post::compare_sums(out.contact_summaries, out.errors_of_sums, half, errors, out.accuracy);
   for (std::size_t c = 0; c < half.size(); ++c)

@@ -3,6 +3,7 @@
 /// `verify = true`: every run again at half the step (half the tolerance), its statistics beside those of the run.
 #pragma once
 #include "app/build_scene.hpp"
+#include "app/checkpoints.hpp"
 #include "results/run_results.hpp"
 #include <mpi.h>
 
@@ -16,8 +17,10 @@ struct HalfRun {
 };
 
 /// @param choice  of the run itself   @param from  s, start of the window of the statistics
+/// @param number, checkpoints, others_follow  as of resumed_run: it goes on from a checkpoint of its own
 [[nodiscard]] HalfRun run_at_half(const transient::Scene& scene, const transient::StepChoice& choice,
-                                  double from);
+                                  double from, std::size_t number, Checkpoints& checkpoints,
+                                  bool others_follow);
 
 /// Collective.
 void broadcast(MPI_Comm comm, int root, std::size_t contacts, HalfRun& half);

@@ -143,6 +143,20 @@ TEST(Checkpoint, IsWrittenOnSigterm) {
   expect_same(folder, "whole", "results");
 }
 
+TEST(Checkpoint, IsWrittenOnSigtermDuringTheRunAtHalfTheStepToo) {
+  const Workshop folder;
+  const std::vector<std::string> verify = {"--set", "transient.verify=true"};
+  (void)completed(folder, tube(folder, "whole", verify));
+  const fs::path file = folder.path("results") / "checkpoint-2.h5"; // the run itself has ended
+  interrupt(folder, tube(folder, "results", verify), file, 0.0, "TERM", computation_failed);
+  EXPECT_TRUE(says(bytes_of(folder.path("stderr")), "ended by SIGTERM at t = 0."));
+  const std::string told = completed(folder, tube(folder, "results", verify));
+  EXPECT_TRUE(says(told, "going on from " + file.string()));
+  EXPECT_TRUE(says(told, "checkpoint.h5, at t = 0.999999 s"));
+  expect_same(folder, "whole", "results");
+  EXPECT_FALSE(fs::exists(file));
+}
+
 /// Three pinned tubes, each with a support: three runs.
 std::string bundle(const Workshop& folder) {
   MeshText mesh;

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// A run from its checkpoint, or its beginning, to its end.
+#pragma once
+#include "app/checkpoints.hpp"
+#include "core/state_archive.hpp"
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace fretwork::app {
+
+/// Whether the job has taken over the state; if not, it is to be made anew.
+template <class Job> bool restore(Job& job, std::string bytes) {
+  try {
+    core::StateArchive state(std::move(bytes));
+    state(job.run());
+    state.end();
+    return true;
+  } catch (const core::StateMismatch&) {
+    return false;
+  }
+}
+
+/// @param make          makes the job, a unique_ptr to what has run() -> transient::Run&
+/// @param number        of the run among those of the study, which names its checkpoint
+/// @param others_follow runs of this rank: an interruption of theirs must not lose this one
+/// @return              the job, its run advanced to the end
+/// @throws core::ComputationError after SIGTERM, when all is saved
+template <class MakeJob>
+auto resumed_run(const MakeJob& make, std::size_t number, Checkpoints& checkpoints, bool others_follow) {
+  auto job = make();
+  if (std::string state = checkpoints.found(number); !state.empty() && !restore(*job, std::move(state))) {
+    checkpoints.refuse(number);
+    job = make();
+  }
+  while (job->run().advance(Checkpoints::records_between_looks))
+    checkpoints.look(number, job->run());
+  if (others_follow)
+    checkpoints.ended(number, job->run());
+  return job;
+}
+
+} // namespace fretwork::app
