@@ -2,6 +2,7 @@
 #include "app/build_contacts.hpp"
 #include "contact/restitution.hpp"
 #include "core/error.hpp"
+#include "fem/beam_constants.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -21,6 +22,8 @@ constexpr double shortest_mean = 0.1;
 /// Two nodes are beside each other, on no side of planes, where what parts them is no more than the last digits
 /// of axes that people write (a share of the distance between the nodes) and of coordinates.
 constexpr double digits_of_axes = 1e-8, digits_of_places = 1e-12;
+/// Relative difference up to which two walls are one: round-off of sizes that change along a tube.
+constexpr double same_wall = 1e-9;
 
 /// Beams are walked along their chain, so that the tangents before and after a node point the same way.
 Vec3 mean_tangent(const fem::Model& model, Index node, const std::string& name) {
@@ -64,15 +67,17 @@ double wall_at(const study::Study& study, const fem::Model& model, Index node, c
     if (beam.a != node && beam.b != node)
       continue;
     const study::Beams& made_of = study.beams[static_cast<std::size_t>(beam.property)];
-    const auto pipe = study.pipes.find(made_of.section);
-    if (pipe == study.pipes.end())
+    const fem::BeamProperty here = fem::property_at(model.properties[static_cast<std::size_t>(beam.property)],
+                                                    beam.along[beam.a == node ? 0 : 1]);
+    const auto* pipe = std::get_if<fem::Pipe>(&here.section.shape);
+    if (!pipe)
       throw core::Error(
           fmt::format("contact \"{}\": normal_stiffness = \"wall\" needs a tube, and section \"{}\" of the "
                       "beam at its node is no pipe; give normal_stiffness a value (N/m)",
                       name, made_of.section));
-    const double wall = contact::wall_stiffness(study.materials.at(made_of.material).young_modulus,
-                                                pipe->second.outer_diameter, pipe->second.thickness);
-    if (stiffness && *stiffness != wall)
+    const double wall =
+        contact::wall_stiffness(here.material.young_modulus, pipe->outer_diameter, pipe->thickness);
+    if (stiffness && std::abs(*stiffness - wall) > same_wall * wall)
       throw core::Error(fmt::format("contact \"{}\": normal_stiffness = \"wall\", but tubes of different "
                                     "walls meet at its node; give normal_stiffness a value (N/m)",
                                     name));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/build_model.hpp"
+#include "app/tapers.hpp"
 #include "core/error.hpp"
 #include "fem/ties.hpp"
 #include <algorithm>
@@ -21,12 +22,24 @@ std::string curves_of(const mesh::LineMesh& mesh, Index line) {
   return names.empty() ? "no named curve" : fmt::format("{}", fmt::join(names, ", "));
 }
 
+fem::BeamProperty property_of(const study::Study& study, const study::Beams& beams) {
+  fem::BeamProperty property{study.materials.at(beams.material),
+                             study.sections.at(beams.section),
+                             beams.added_mass,
+                             beams.added_mass_direction,
+                             beams.orientation,
+                             beams.axial_force,
+                             beams.fluid};
+  if (beams.taper)
+    property.taper = {study.sections.at(beams.taper->section), beams.taper->added_mass, beams.taper->fluid};
+  return property;
+}
+
 void add_beams(const study::Study& study, const mesh::LineMesh& mesh, fem::Model& model) {
   std::vector<Index> entry_of(mesh.lines.size(), -1);
   for (std::size_t e = 0; e < study.beams.size(); ++e) {
     const study::Beams& beams = study.beams[e];
-    model.properties.push_back({study.materials.at(beams.material), study.sections.at(beams.section),
-                                beams.added_mass, beams.added_mass_direction, beams.orientation});
+    model.properties.push_back(property_of(study, beams));
     for (const Index line : mesh::group_lines(mesh, beams.group, fmt::format("[[beams]] entry {}", e + 1))) {
       Index& entry = entry_of[static_cast<std::size_t>(line)];
       if (entry >= 0 && entry != static_cast<Index>(e))
@@ -145,6 +158,7 @@ fem::Model build_model(const study::Study& study, const mesh::LineMesh& mesh) {
   model.nodes = mesh.nodes;
   model.fixed.assign(mesh.nodes.size(), 0);
   add_beams(study, mesh, model);
+  place_tapers(study, mesh, model);
   std::vector<bool> restrained(mesh.nodes.size(), false);
   for (std::size_t e = 0; e < study.restraints.size(); ++e)
     for (const Index node :

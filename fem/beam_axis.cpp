@@ -64,6 +64,11 @@ Vec3 BeamAxis::tangent(double s) const {
   return std::cos(turned) * tangent_ + std::sin(turned) * normal_;
 }
 
+Vec3 BeamAxis::inward(double s) const {
+  const double turned = angle_ * s / length_;
+  return std::cos(turned) * normal_ - std::sin(turned) * tangent_;
+}
+
 Eigen::Matrix3d frame_along(const Vec3& x, const std::optional<Vec3>& orientation, const std::string& what) {
   const Vec3 guide = orientation ? *orientation : any_orientation(x);
   const Vec3 across = guide - x * x.dot(guide);

@@ -24,6 +24,8 @@ public:
   /// At the distance s (m, 0 to length) from a along the axis.
   [[nodiscard]] Vec3 point(double s) const;
   [[nodiscard]] Vec3 tangent(double s) const; ///< a unit vector towards b
+  [[nodiscard]] Vec3
+  inward(double s) const; ///< a unit vector towards the centre of the arc; zero where straight
 
 private:
   Vec3 start_, tangent_, normal_ = Vec3::Zero();

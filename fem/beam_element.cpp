@@ -15,13 +15,18 @@ namespace {
 /// section formulas).
 constexpr double equal_inertia = 1e-9;
 
-void check_orientation(const Vec3& a, const Vec3& b, const BeamProperty& property) {
-  const Section& s = property.section;
-  if (!property.orientation && std::abs(s.iy - s.iz) > equal_inertia * std::max(s.iy, s.iz))
+void check_orientation(const Vec3& a, const Vec3& b, const Section& s) {
+  if (std::abs(s.iy - s.iz) > equal_inertia * std::max(s.iy, s.iz))
     throw core::Error(fmt::format(
         "{}: its section has iy = {:g} and iz = {:g} m4, so that it matters how it is turned; give "
         "orientation, a vector in the plane of the beam and the y axis of the section",
         beam_text(a, b), s.iy, s.iz));
+}
+
+/// Whether the closed forms hold: straight, uniform, by Euler and Bernoulli.
+bool is_plain(const BeamAxis& axis, const BeamProperty& property) {
+  return axis.is_straight() && !property.taper && !property.section.rotary_inertia &&
+         std::holds_alternative<std::monostate>(property.section.shear);
 }
 
 /// The closed form of S, straight and uniform.
@@ -78,27 +83,46 @@ const Vec3& node_at(const Model& model, Index node) { return model.nodes[static_
 } // namespace
 
 BeamElement::BeamElement(const Vec3& a, const Vec3& b, const BeamProperty& property,
-                         const std::optional<Vec3>& middle)
-    : property_(property), axis_(a, b, middle),
+                         const std::optional<Vec3>& middle, const std::array<double, 2>& along)
+    : property_(property), along_(along), axis_(a, b, middle),
       axes_(frame_along((b - a).normalized(), property.orientation, beam_text(a, b))),
       chord_((b - a).norm()) {
-  check_orientation(a, b, property);
-  stiffness_ =
-      axis_.is_straight() ? uniform_stiffness(beam_constants(property), chord_) : flexible().stiffness();
+  if (!property.orientation)
+    check_orientation(a, b, property.section);
+  if (!property.orientation && property.taper)
+    check_orientation(a, b, property.taper->section);
+  stiffness_ = is_plain(axis_, property) ? uniform_stiffness(beam_constants(property), chord_)
+                                         : flexible().stiffness();
+  if (property.axial_force == 0.0)
+    return;
+  if (!axis_.is_straight())
+    throw core::Error(fmt::format("{}: axial_force = {:g} N in an arc, where a force along the axis is in no "
+                                  "equilibrium; give it to straight beams only",
+                                  beam_text(a, b), property.axial_force));
+  stiffness_ += property.axial_force * flexible().slope_spread();
+  string_ = property.axial_force / chord_;
 }
 
 BeamElement::BeamElement(const Model& model, const Beam& beam)
     : BeamElement(node_at(model, beam.a), node_at(model, beam.b),
-                  model.properties[static_cast<std::size_t>(beam.property)], beam.middle) {}
+                  model.properties[static_cast<std::size_t>(beam.property)], beam.middle, beam.along) {}
 
 Matrix12 BeamElement::stiffness() const {
   const Shapes t = deformation_matrix({chord_, 0.0, 0.0});
-  return in_global_axes(t.transpose() * stiffness_ * t, axes_);
+  Matrix12 k = t.transpose() * stiffness_ * t;
+  for (const int d : {1, 2}) {
+    k(d, d) += string_;
+    k(d + 6, d + 6) += string_;
+    k(d, d + 6) -= string_;
+    k(d + 6, d) -= string_;
+  }
+  return in_global_axes(k, axes_);
 }
 
 Matrix12 BeamElement::mass() const {
-  return in_global_axes(
-      axis_.is_straight() ? uniform_mass(beam_constants(property_), chord_) : flexible().mass(), axes_);
+  return in_global_axes(is_plain(axis_, property_) ? uniform_mass(beam_constants(property_), chord_)
+                                                   : flexible().mass(),
+                        axes_);
 }
 
 Eigen::Matrix<double, 6, 1> BeamElement::deformation(const Vector12& u) const {
@@ -109,17 +133,23 @@ Eigen::Matrix<double, 6, 1> BeamElement::deformation(const Vector12& u) const {
   return e;
 }
 
+Vec3 BeamElement::across(const Vector12& u) const {
+  const Vec3 d = u.segment<3>(6) - u.segment<3>(0), x = axes_.row(0);
+  return d - x * x.dot(d);
+}
+
 double BeamElement::twice_strain_energy(const Vector12& displacement) const {
   const Eigen::Matrix<double, 6, 1> e = deformation(displacement);
-  return e.dot(stiffness_ * e);
+  return e.dot(stiffness_ * e) + string_ * across(displacement).squaredNorm();
 }
 
 Vector12 BeamElement::elastic_force(const Vector12& displacement) const {
   const Eigen::Matrix<double, 6, 1> at_b = stiffness_ * deformation(displacement);
   const Vec3 force = axes_.transpose() * at_b.head<3>(), moment = axes_.transpose() * at_b.tail<3>();
   const Vec3 span = chord_ * axes_.row(0).transpose();
+  const Vec3 pull = string_ * across(displacement);
   Vector12 result;
-  result << -force, -moment - span.cross(force), force, moment;
+  result << -force - pull, -moment - span.cross(force), force + pull, moment;
   return result;
 }
 

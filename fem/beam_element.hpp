@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// The Euler-Bernoulli beam with two nodes, its axis straight or an arc: no rotary inertia of bending, no shear
-/// deformation. Dofs: ux uy uz rx ry rz of a, then of b, global axes.
+/// The beam with two nodes, its axis straight or an arc, its section constant or changing along it; by Euler and
+/// Bernoulli (neither shear deformation nor rotary inertia of bending) unless its section has them (Timoshenko).
+/// Dofs: ux uy uz rx ry rz of a, then of b, global axes.
 ///
 /// Element axes: x along the chord from a to b. With d = u_b - u_a and the span c = x_b - x_a,
 ///     e = (d - r_a x c, r_b - r_a),   2 U = e^T S e,   K = T^T S T  where  e = T u.
@@ -10,10 +11,15 @@
 ///   S: EA/L, GJ/L, bending EI/L^3 [12, -6L; -6L, 4L^2];
 ///   mass: in bending consistent with cubic (Hermite) shapes; in traction and torsion m L/12 [5 1; 1 5], the mean
 ///   of the consistent and the lumped one, whose errors in frequency, (k h)^2/24 and its opposite, cancel.
-/// Source: Przemieniecki, Theory of Matrix Structural Analysis, sections 5.6 and 11.3. Limits: slender beams.
-/// Static deflections at nodes are exact. Frequencies of bending converge as h^4 from above; of traction and
+/// An axial force N (tension > 0, straight beams) adds N G to S (flexible_beam.hpp) and N |d_t|^2 / L to 2 U, d_t
+/// being d across the beam. The second is no deformation: a beam under tension resists being turned. N neither
+/// follows from loads nor changes with the motion.
+/// Source: Przemieniecki, Theory of Matrix Structural Analysis, sections 5.6, 11.3 and 15.2. Limits: slender beams;
+/// with shear and rotary inertia, waves some heights of the section long.
+/// Static deflections at nodes are exact (without N). Frequencies of bending converge as h^4 from above; of traction and
 /// torsion as h^4 from below, -(k h)^4/480, along equal elements between ends that are free or held (lumped
-/// masses, springs, corners and changes of the element length leave an error of order 2).
+/// masses, springs, corners and changes of the element length leave an error of order 2). What shear takes from
+/// a frequency of bending converges as h^2.
 #pragma once
 #include "fem/flexible_beam.hpp"
 
@@ -23,9 +29,11 @@ class BeamElement {
 public:
   /// @param middle  a point of the arc from a to b; none: straight
   /// @throws core::Error for a beam of no length, a middle that is not between the ends, an orientation along
-  /// the beam, or a section with iy != iz without orientation
+  /// the beam, a section with iy != iz without orientation, or an axial force in an arc
+  /// @param along  of a and b on the way of the property's taper
   BeamElement(const Vec3& a, const Vec3& b, const BeamProperty& property,
-              const std::optional<Vec3>& middle = std::nullopt);
+              const std::optional<Vec3>& middle = std::nullopt,
+              const std::array<double, 2>& along = {0.0, 1.0});
   BeamElement(const Model& model, const Beam& beam);
 
   [[nodiscard]] const BeamAxis& axis() const { return axis_; }
@@ -46,13 +54,16 @@ public:
 private:
   /// e, in element axes.
   [[nodiscard]] Eigen::Matrix<double, 6, 1> deformation(const Vector12& displacement) const;
-  [[nodiscard]] FlexibleBeam flexible() const { return {axis_, axes_, property_}; }
+  [[nodiscard]] Vec3 across(const Vector12& displacement) const; ///< d_t, global axes
+  [[nodiscard]] FlexibleBeam flexible() const { return {axis_, axes_, property_, along_}; }
 
   BeamProperty property_;
+  std::array<double, 2> along_;
   BeamAxis axis_;
   Eigen::Matrix3d axes_; ///< rows x, y, z of the element
   double chord_;         ///< m
-  Matrix6 stiffness_;    ///< S, element axes
+  Matrix6 stiffness_;    ///< S + N G, element axes
+  double string_ = 0.0;  ///< N / L, N/m
 };
 
 } // namespace fretwork::fem

@@ -2,6 +2,7 @@
 #include "fem/flexible_beam.hpp"
 #include "fem/gauss.hpp"
 #include <Eigen/Cholesky>
+#include <cmath>
 
 namespace fretwork::fem {
 namespace {
@@ -29,9 +30,10 @@ Shapes deformation_matrix(const Vec3& span) {
   return t;
 }
 
-FlexibleBeam::FlexibleBeam(const BeamAxis& axis, const Eigen::Matrix3d& frame, const BeamProperty& property)
-    : axis_(axis), frame_(frame), property_(property), constants_(beam_constants(property)),
-      span_(point(axis.length())) {
+FlexibleBeam::FlexibleBeam(const BeamAxis& axis, const Eigen::Matrix3d& frame, const BeamProperty& property,
+                           const std::array<double, 2>& along)
+    : axis_(axis), frame_(frame), property_(property), along_(along),
+      name_(beam_text(axis.point(0.0), axis.point(axis.length()))), span_(point(axis.length())) {
   const Matrix6 flexibility = motion(axis_.length());
   stiffness_ = (0.5 * (flexibility + flexibility.transpose())).llt().solve(Matrix6::Identity());
   stiffness_ = (0.5 * (stiffness_ + stiffness_.transpose())).eval();
@@ -39,17 +41,21 @@ FlexibleBeam::FlexibleBeam(const BeamAxis& axis, const Eigen::Matrix3d& frame, c
 
 Vec3 FlexibleBeam::point(double s) const { return frame_ * (axis_.point(s) - axis_.point(0.0)); }
 
+BeamConstants FlexibleBeam::constants(double s) const {
+  return beam_constants(property_, std::lerp(along_[0], along_[1], s / axis_.length()));
+}
+
 Eigen::Matrix3d FlexibleBeam::section_axes(double s) const {
-  return frame_along(axis_.tangent(s), property_.orientation,
-                     beam_text(axis_.point(0.0), axis_.point(axis_.length()))) *
-         frame_.transpose();
+  return frame_along(axis_.tangent(s), property_.orientation, name_) * frame_.transpose();
 }
 
 Matrix6 FlexibleBeam::strains(double s) const {
   const Eigen::Matrix3d axes = section_axes(s);
-  const Vec3 bending(1.0 / constants_.torsion, 1.0 / constants_.bending_y, 1.0 / constants_.bending_z);
+  const BeamConstants k = constants(s);
+  const Vec3 stretching(1.0 / k.axial, k.shear_y, k.shear_z);
+  const Vec3 bending(1.0 / k.torsion, 1.0 / k.bending_y, 1.0 / k.bending_z);
   Matrix6 strain = Matrix6::Zero();
-  strain.row(0).head<3>() = axes.row(0) / constants_.axial;
+  strain.topLeftCorner<3, 3>() = stretching.asDiagonal() * axes;
   strain.bottomRightCorner<3, 3>() = bending.asDiagonal() * axes;
   strain.bottomLeftCorner<3, 3>() = strain.bottomRightCorner<3, 3>() * cross_matrix(span_ - point(s));
   return strain;
@@ -74,6 +80,21 @@ Shapes FlexibleBeam::shapes(double s) const {
   return carried(point(s)) + motion(s) * stiffness_ * deformation_matrix(span_);
 }
 
+Matrix6 FlexibleBeam::slope_spread() const {
+  const double length = axis_.length();
+  Matrix6 spread = Matrix6::Zero();
+  for (const auto& [share, weight] : gauss_points) {
+    const double s = share * length;
+    const Eigen::Matrix3d axes = section_axes(s);
+    Eigen::Matrix<double, 3, 6> slope = // sheared and turned: gamma + theta x t
+        (axes.transpose() * strains(s).topRows<3>() - cross_matrix(axes.row(0)) * motion(s).bottomRows<3>()) *
+        stiffness_;
+    slope.leftCols<3>() -= Eigen::Matrix3d::Identity() / length;
+    spread += weight * length * slope.bottomRows<2>().transpose() * slope.bottomRows<2>();
+  }
+  return spread;
+}
+
 Matrix12 FlexibleBeam::mass() const {
   const double length = axis_.length();
   const Shapes deformation = stiffness_ * deformation_matrix(span_);
@@ -81,17 +102,19 @@ Matrix12 FlexibleBeam::mass() const {
   for (const auto& [share, weight] : gauss_points) {
     const double s = share * length;
     const Eigen::Matrix3d axes = section_axes(s);
+    const BeamConstants k = constants(s);
     const Shapes shape = carried(point(s)) + motion(s) * deformation;
-    const Eigen::Matrix<double, 3, 12> moved = axes * shape.topRows<3>();
-    const Eigen::Matrix<double, 1, 12> turned = axes.row(0) * shape.bottomRows<3>();
+    const Eigen::Matrix<double, 3, 12> moved = axes * shape.topRows<3>(),
+                                       turned = axes * shape.bottomRows<3>();
     const Shapes strain = strains(s) * deformation;
-    const Vec3 lineic(constants_.mass_axial, constants_.mass_transverse, constants_.mass_transverse);
+    const Vec3 lineic(k.mass_axial, k.mass_transverse, k.mass_transverse);
+    const Vec3 inertia(k.inertia_x, k.inertia_y, k.inertia_z);
     mass += weight * length *
             (moved.transpose() * lineic.asDiagonal() * moved +
-             constants_.inertia_x * turned.transpose() * turned +
+             turned.transpose() * inertia.asDiagonal() * turned +
              length * length / 12.0 *
-                 (constants_.mass_axial * strain.row(0).transpose() * strain.row(0) +
-                  constants_.inertia_x * strain.row(3).transpose() * strain.row(3)));
+                 (k.mass_axial * strain.row(0).transpose() * strain.row(0) +
+                  k.inertia_x * strain.row(3).transpose() * strain.row(3)));
   }
   return mass;
 }

@@ -3,22 +3,30 @@
 /// A beam along any axis by the force method: what wrenches at its end b do to it while its end a is held.
 ///
 /// A wrench w = (f, m) at b acts on the section at s as the force f and the moment m + (x_b - x(s)) x f. With
-/// C(s) the section's compliance (1/EA; 1/GJ, 1/EIy, 1/EIz in its axes), the section at s moves by
+/// C(s) the section's compliance (1/EA, 1/(k_y G A), 1/(k_z G A); 1/GJ, 1/EIy, 1/EIz in its axes), the section
+/// at s moves by
 ///     theta(s) = int_0^s C M dr,    u(s) = int_0^s [C_f f + theta'(r) x (x(s) - x(r))] dr = D(s) w.
 /// D(L) is the flexibility at b, S = D(L)^-1 the stiffness against the deformation
 ///     e = (d - r_a x (x_b - x_a), r_b - r_a),  d = u_b - u_a,
 /// which no rigid motion changes. The motion of a section under end loads alone, and the shapes of the element:
 ///     u(s) = u_a + r_a x (x(s) - x_a) + D(s) S e.
-/// They are exact for static loads at the ends whatever the axis, so that nothing locks; on a straight uniform
-/// axis they are the linear and cubic shapes of the textbook.
+/// They are exact for static loads at the ends whatever the axis and however the section changes along it, so
+/// that nothing locks, neither arcs nor slender beams that shear; on a straight uniform axis they are the linear
+/// and cubic shapes of the textbook.
 ///
-/// Mass: consistent with these shapes; to it comes L^2/12 int [m_x eps^2 + rho Ip kappa_x^2] ds of the axial
-/// strain and the twist, which makes traction and torsion of order 4 (on a straight uniform beam: the mean of
-/// the consistent and the lumped mass).
+/// Mass: consistent with these shapes, rotary inertia of bending with their rotations; to it comes
+/// L^2/12 int [m_x eps^2 + rho Ip kappa_x^2] ds of the axial strain and the twist, which makes traction and
+/// torsion of order 4 (on a straight uniform beam: the mean of the consistent and the lumped mass).
 ///
-/// Integrals by Gauss with 8 points: exact to round-off for straight beams and arcs of up to 2 rad.
+/// Axial force N of a straight beam: the work on the slopes u_t'(s) across it (shear included, so that a column
+/// that shears buckles at Engesser's load), 2 U = N int |u_t'|^2 ds = N |d_t|^2 / L + N e^T G e, the mean slope
+/// and the spread about it.
+///
+/// Integrals by Gauss with 8 points: exact to round-off for straight uniform beams and arcs of up to 2 rad, and
+/// to 1e-11 for a section that grows by half along an element.
 /// Source: the force method for curved bars, e.g. Timoshenko, Strength of Materials II, chapter 2;
-/// Przemieniecki, Theory of Matrix Structural Analysis, chapter 6.
+/// Przemieniecki, Theory of Matrix Structural Analysis, chapters 6 and 15; Timoshenko and Gere, Theory of Elastic
+/// Stability, section 2.17.
 #pragma once
 #include "fem/beam_axis.hpp"
 #include "fem/beam_constants.hpp"
@@ -36,15 +44,19 @@ using Shapes = Eigen::Matrix<double, 6, 12>; ///< displacement and rotation of a
 /// All in one set of axes, those of the rows of `frame`: a is the origin, b lies on x.
 class FlexibleBeam {
 public:
-  FlexibleBeam(const BeamAxis& axis, const Eigen::Matrix3d& frame, const BeamProperty& property);
+  /// @param along  of the ends on the way of the property's taper
+  FlexibleBeam(const BeamAxis& axis, const Eigen::Matrix3d& frame, const BeamProperty& property,
+               const std::array<double, 2>& along = {0.0, 1.0});
 
   [[nodiscard]] const Matrix6& stiffness() const { return stiffness_; } ///< S
   [[nodiscard]] Matrix12 mass() const;
+  [[nodiscard]] Matrix6 slope_spread() const; ///< G, 1/m, 1, m; straight axes
   /// @param s  m along the axis from a
   [[nodiscard]] Shapes shapes(double s) const;
 
 private:
   [[nodiscard]] Vec3 point(double s) const;
+  [[nodiscard]] BeamConstants constants(double s) const;
   [[nodiscard]] Eigen::Matrix3d section_axes(double s) const; ///< rows: tangent, y, z of the section
   [[nodiscard]] Matrix6 strains(double s) const; ///< of the section, in its axes, by unit wrenches at b
   [[nodiscard]] Matrix6 motion(double s) const;  ///< D(s)
@@ -52,7 +64,8 @@ private:
   BeamAxis axis_;
   Eigen::Matrix3d frame_;
   const BeamProperty& property_;
-  BeamConstants constants_;
+  std::array<double, 2> along_;
+  std::string name_; ///< for messages
   Vec3 span_;
   Matrix6 stiffness_;
 };

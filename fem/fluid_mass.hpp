@@ -17,6 +17,7 @@ struct Fluid {
   double inside = 0.0;      ///< kg/m3, >= 0
   double outside = 0.0;     ///< kg/m3, >= 0
   double confinement = 1.0; ///< Cm >= 0
+  bool operator==(const Fluid&) const = default;
 };
 
 /// @param bore, displaced  m2, A_i and A_e

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/mesh_error.hpp"
 #include "fem/beam_constants.hpp"
-#include "fem/beam_element.hpp"
+#include "fem/flexible_beam.hpp"
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -13,17 +12,30 @@ namespace {
 
 double squared(double x) { return x * x; }
 
-/// E: deflections wa, wb and slopes sa, sb at the ends, load `intensity` (N/m2) times the
-/// cubic between them.
-double bending_energy(double stiffness, double length, double intensity, double wa, double wb, double sa,
+/// One plane of bending.
+struct Plane {
+  double bending, shear; ///< EI, 1/(k G A)
+  double inertia;        ///< of mass, m
+  double pull;           ///< N - lambda rho I
+};
+
+/// E: deflections wa, wb and rotations sa, sb of the ends.
+double bending_energy(const Plane& plane, double length, double lambda, double wa, double wb, double sa,
                       double sb) {
-  const double l = 0.5 * length, a = l * sa, b = l * sb;
-  const double q0 = 0.5 * (wa + wb) + (a - b) / 6.0, q1 = 0.6 * (wb - wa) - 0.1 * (a + b), q2 = (b - a) / 6.0,
-               q3 = 0.1 * (a + b - wb + wa);
+  const double phi = 12.0 * plane.bending * plane.shear / squared(length),
+               gamma = phi / (1.0 + phi) * ((wb - wa) / length - 0.5 * (sa + sb));
+  const double l = 0.5 * length, a = l * (sa + gamma), b = l * (sb + gamma);
+  const double w0 = 0.5 * (wa + wb) + (a - b) / 6.0, w1 = 0.6 * (wb - wa) - 0.1 * (a + b), w2 = (b - a) / 6.0,
+               w3 = 0.1 * (a + b - wb + wa);
+  const double q = lambda * plane.inertia, p = plane.pull / squared(l);
+  const double q0 = q * w0 + 3.0 * p * w2, q1 = q * w1 + 15.0 * p * w3, q2 = q * w2, q3 = q * w3;
   const double c2 = q0 / 3.0 - 2.0 * q2 / 21.0, c3 = q1 / 15.0 - 2.0 * q3 / 45.0, c4 = q2 / 35.0,
                c5 = q3 / 63.0;
-  return squared(intensity) * std::pow(l, 5) / stiffness *
-         (2.0 / 5.0 * c2 * c2 + 2.0 / 7.0 * c3 * c3 + 2.0 / 9.0 * c4 * c4 + 2.0 / 11.0 * c5 * c5);
+  const double f1 = q0 - q2 / 5.0, f2 = q1 / 3.0 - q3 / 7.0, f3 = q2 / 5.0, f4 = q3 / 7.0;
+  return std::pow(l, 5) / plane.bending *
+             (2.0 / 5.0 * c2 * c2 + 2.0 / 7.0 * c3 * c3 + 2.0 / 9.0 * c4 * c4 + 2.0 / 11.0 * c5 * c5) +
+         std::pow(l, 3) * plane.shear *
+             (2.0 / 3.0 * f1 * f1 + 2.0 / 5.0 * f2 * f2 + 2.0 / 7.0 * f3 * f3 + 2.0 / 9.0 * f4 * f4);
 }
 
 /// Of a bar or shaft between ua and ub: lambda times twice the kinetic energy of the linear shape, times the
@@ -40,18 +52,14 @@ struct End {
   double slope_y, slope_z, turn;
 };
 
-/// Frames of the two ends: rows tangent, y, z; y towards the centre of an arc.
-std::array<Eigen::Matrix3d, 2> end_frames(const BeamAxis& axis, const BeamProperty& property) {
-  const std::array<Vec3, 2> tangents{axis.tangent(0.0), axis.tangent(axis.length())};
-  if (axis.is_straight()) {
-    const Eigen::Matrix3d frame = frame_along(tangents[0], property.orientation, "beam");
-    return {frame, frame};
-  }
-  const Vec3 across = tangents[0].cross(tangents[1]).normalized(); // arcs turn by less than half a circle
-  std::array<Eigen::Matrix3d, 2> frames;
-  for (std::size_t i = 0; i < 2; ++i)
-    frames[i] << tangents[i].transpose(), across.cross(tangents[i]).transpose(), across.transpose();
-  return frames;
+/// Rows tangent, y, z at s; y towards the centre of an arc.
+Eigen::Matrix3d frame_at(const BeamAxis& axis, const BeamProperty& property, double s) {
+  if (axis.is_straight())
+    return frame_along(axis.tangent(s), property.orientation, "beam");
+  const Vec3 x = axis.tangent(s), y = axis.inward(s);
+  Eigen::Matrix3d frame;
+  frame << x.transpose(), y.transpose(), x.cross(y).transpose();
+  return frame;
 }
 
 End end_of(const Eigen::Matrix3d& frame, double curvature, const Vec3& displacement, const Vec3& rotation) {
@@ -59,23 +67,30 @@ End end_of(const Eigen::Matrix3d& frame, double curvature, const Vec3& displacem
   return {u, r.z() - curvature * u.x(), -r.y(), r.x()};
 }
 
-double element_energy(const BeamElement& element, const BeamProperty& property, const Vector12& u,
-                      double lambda) {
-  const BeamAxis& axis = element.axis();
-  BeamConstants k = beam_constants(property);
-  if (!axis.is_straight()) // whichever way the section is turned
-    k.bending_y = k.bending_z = std::min(k.bending_y, k.bending_z);
+double element_energy(const BeamAxis& axis, const BeamProperty& property, const BeamConstants& k,
+                      const Vector12& u, double lambda) {
   const double l = axis.length(), curvature = axis.angle() / l;
-  const auto frames = end_frames(axis, property);
-  const End a = end_of(frames[0], curvature, u.segment<3>(0), u.segment<3>(3)),
-            b = end_of(frames[1], curvature, u.segment<3>(6), u.segment<3>(9));
-  const double across = lambda * k.mass_transverse;
-  return bending_energy(k.bending_z, l, across, a.displacement.y(), b.displacement.y(), a.slope_y,
-                        b.slope_y) +
-         bending_energy(k.bending_y, l, across, a.displacement.z(), b.displacement.z(), a.slope_z,
-                        b.slope_z) +
+  const End a = end_of(frame_at(axis, property, 0.0), curvature, u.segment<3>(0), u.segment<3>(3)),
+            b = end_of(frame_at(axis, property, l), curvature, u.segment<3>(6), u.segment<3>(9));
+  const double force = property.axial_force;
+  const Plane y{k.bending_z, k.shear_y, k.mass_transverse, force - lambda * k.inertia_z},
+      z{k.bending_y, k.shear_z, k.mass_transverse, force - lambda * k.inertia_y};
+  return bending_energy(y, l, lambda, a.displacement.y(), b.displacement.y(), a.slope_y, b.slope_y) +
+         bending_energy(z, l, lambda, a.displacement.z(), b.displacement.z(), a.slope_z, b.slope_z) +
          axial_energy(k.axial, l, lambda * k.mass_axial, a.displacement.x(), b.displacement.x()) +
          axial_energy(k.torsion, l, lambda * k.inertia_x, a.turn, b.turn);
+}
+
+/// In the middle of the beam, which stands for all of it; the softer plane of an arc for both, whichever way its section
+/// is turned.
+BeamConstants constants_of(const BeamAxis& axis, const BeamProperty& property, const Beam& beam) {
+  BeamConstants k = beam_constants(property, 0.5 * (beam.along[0] + beam.along[1]));
+  if (!axis.is_straight()) {
+    k.bending_y = k.bending_z = std::min(k.bending_y, k.bending_z);
+    k.shear_y = k.shear_z = std::max(k.shear_y, k.shear_z);
+    k.inertia_y = k.inertia_z = std::max(k.inertia_y, k.inertia_z);
+  }
+  return k;
 }
 
 } // namespace
@@ -87,13 +102,15 @@ Eigen::VectorXd mesh_error(const Model& model, const Structure& structure, const
   for (const Index number : structure.beams) {
     const Beam& beam = model.beams[static_cast<std::size_t>(number)];
     const BeamProperty& property = model.properties[static_cast<std::size_t>(beam.property)];
-    const BeamElement element(model, beam);
+    const BeamAxis axis(model.nodes[static_cast<std::size_t>(beam.a)],
+                        model.nodes[static_cast<std::size_t>(beam.b)], beam.middle);
+    const BeamConstants constants = constants_of(axis, property, beam);
     const Eigen::Index a = Eigen::Index{position_of(structure, beam.a)} * dofs_per_node,
                        b = Eigen::Index{position_of(structure, beam.b)} * dofs_per_node;
     for (Eigen::Index j = 0; j < fields.cols(); ++j) {
       Vector12 u;
       u << fields.col(j).segment<6>(a), fields.col(j).segment<6>(b);
-      energy[j] += element_energy(element, property, u, lambda[j]);
+      energy[j] += element_energy(axis, property, constants, u, lambda[j]);
     }
   }
   return energy.binaryExpr(lambda, [](double e, double l) { return l > 0.0 ? 0.5 * e / l : 0.0; });

@@ -12,13 +12,16 @@
 /// to linear functions:
 ///     E = l^5 / EI (2/5 c2^2 + 2/7 c3^2 + 2/9 c4^2 + 2/11 c5^2),
 ///     c2 = q0/3 - 2 q2/21, c3 = q1/15 - 2 q3/45, c4 = q2/35, c5 = q3/63.
-/// A wave of number k has (k L)^4 / 720.
+/// A wave of number k has (k L)^4 / 720. An axial force N and rotary inertia add (N - lambda rho I) u_h'' to q. Shear
+/// adds the energy of what q integrated once leaves orthogonal to a constant:
+///     E += l^3 / (k G A) (2/3 f1^2 + 2/5 f2^2 + 2/7 f3^2 + 2/9 f4^2),
+///     f1 = q0 - q2/5, f2 = q1/3 - q3/7, f3 = q2/5, f4 = q3/7.
 /// Traction and torsion, with the mean of consistent and lumped mass (beam_element.hpp): the error of a wave,
 /// (k L)^4 / 240 of lambda, k^2 = lambda m / EA, weighted by the kinetic energy of each element. It is from
 /// below there; the estimate adds magnitudes.
 /// Limits: an underestimate with fewer than two elements a half wave, and for axial waves where elements of
-/// different lengths meet. An arc counts as a straight beam of its length in the frames of its ends: an order
-/// of magnitude. Chords in place of an arc are not seen. Source: a posteriori estimates by element residuals,
+/// different lengths meet. An arc counts as a straight beam of its length in the frames of its ends, a beam whose
+/// section changes as one that is everywhere as in its middle: an order of magnitude. Chords in place of an arc are not seen. Source: a posteriori estimates by element residuals,
 /// Ainsworth and Oden, A Posteriori Error Estimation in Finite Element Analysis, chapter 3.
 #pragma once
 #include "fem/model.hpp"

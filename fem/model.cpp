@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/model.hpp"
 #include "core/error.hpp"
+#include "fem/beam_constants.hpp"
 #include "fem/beam_element.hpp"
 #include "fem/disjoint_sets.hpp"
+#include "fem/gauss.hpp"
 #include "fem/lumped.hpp"
 #include "fem/ties.hpp"
 #include <algorithm>
@@ -26,6 +28,32 @@ void require(bool fine, const std::string& object, const char* name, double valu
     throw core::Error(fmt::format("{}: {} = {:g} makes no sense; give {}", object, name, value, cure));
 }
 
+void check_section(const Section& s, double poisson_ratio, const std::string& what) {
+  require(s.area > 0.0, what, "area", s.area, "a value > 0 (m2)");
+  require(s.iy > 0.0, what, "iy", s.iy, "a value > 0 (m4)");
+  require(s.iz > 0.0, what, "iz", s.iz, "a value > 0 (m4)");
+  require(s.torsion_constant > 0.0, what, "torsion_constant", s.torsion_constant, "a value > 0 (m4)");
+  require(s.polar_inertia >= 0.0, what, "polar_inertia", s.polar_inertia, "a value >= 0 (m4)");
+  if (const auto k = shear_coefficients(s, poisson_ratio)) {
+    require(k->y > 0.0, what, "shear_coefficient_y", k->y, "a value > 0");
+    require(k->z > 0.0, what, "shear_coefficient_z", k->z, "a value > 0");
+  } else if (!std::holds_alternative<std::monostate>(s.shear)) {
+    throw core::Error(what + ": there is no formula for the shear of a section without a shape; give "
+                             "shear_coefficient_y and shear_coefficient_z");
+  }
+}
+
+void check_added(double added_mass, const Fluid& fluid, const Section& section, const std::string& what) {
+  require(added_mass >= 0.0, what, "added_mass", added_mass, "a value >= 0 (kg/m)");
+  require(fluid.inside >= 0.0, what, "fluid_inside", fluid.inside, "a value >= 0 (kg/m3)");
+  require(fluid.outside >= 0.0, what, "fluid_outside density", fluid.outside, "a value >= 0 (kg/m3)");
+  require(fluid.confinement >= 0.0, what, "fluid_outside confinement", fluid.confinement, "a value >= 0");
+  if ((fluid.inside > 0.0 || fluid.outside > 0.0) && !outline_of(section))
+    throw core::Error(what +
+                      ": its section is neither a pipe nor a circle, which the mass of the fluid follows "
+                      "from; give added_mass (kg/m)");
+}
+
 void check_properties(const Model& model) {
   for (std::size_t i = 0; i < model.properties.size(); ++i) {
     const BeamProperty& p = model.properties[i];
@@ -35,14 +63,16 @@ void check_properties(const Model& model) {
     require(p.material.poisson_ratio > -1.0 && p.material.poisson_ratio < 0.5, what, "poisson_ratio",
             p.material.poisson_ratio, "a value between -1 and 0.5");
     require(p.material.density >= 0.0, what, "density", p.material.density, "a value >= 0 (kg/m3)");
-    require(p.section.area > 0.0, what, "area", p.section.area, "a value > 0 (m2)");
-    require(p.section.iy > 0.0, what, "iy", p.section.iy, "a value > 0 (m4)");
-    require(p.section.iz > 0.0, what, "iz", p.section.iz, "a value > 0 (m4)");
-    require(p.section.torsion_constant > 0.0, what, "torsion_constant", p.section.torsion_constant,
-            "a value > 0 (m4)");
-    require(p.section.polar_inertia >= 0.0, what, "polar_inertia", p.section.polar_inertia,
-            "a value >= 0 (m4)");
-    require(p.added_mass >= 0.0, what, "added_mass", p.added_mass, "a value >= 0 (kg/m)");
+    require(true, what, "axial_force", p.axial_force, "a finite value (N)");
+    check_section(p.section, p.material.poisson_ratio, what);
+    check_added(p.added_mass, p.fluid, p.section, what);
+    if (!p.taper)
+      continue;
+    check_section(p.taper->section, p.material.poisson_ratio, what);
+    check_added(p.taper->added_mass, p.taper->fluid, p.taper->section, what);
+    if (!same_kind(p.section, p.taper->section))
+      throw core::Error(what + ": its two sections differ in shape, in shear or in rotary_inertia; a taper "
+                               "changes sizes only");
   }
 }
 
@@ -194,9 +224,11 @@ std::vector<Structure> structures(const Model& model) {
 double total_mass(const Model& model) {
   double sum = 0.0;
   for (const Beam& beam : model.beams) {
-    const BeamProperty& p = property_of(model, beam);
-    sum += (p.material.density * p.section.area + p.added_mass) *
-           BeamAxis(node_at(model, beam.a), node_at(model, beam.b), beam.middle).length();
+    const double length = BeamAxis(node_at(model, beam.a), node_at(model, beam.b), beam.middle).length();
+    for (const auto& [share, weight] : gauss_points)
+      sum += weight * length *
+             beam_constants(property_of(model, beam), std::lerp(beam.along[0], beam.along[1], share))
+                 .mass_transverse;
   }
   for (const LumpedMass& m : model.masses)
     sum += m.mass;

@@ -5,6 +5,8 @@
 /// uz rx ry rz.
 #pragma once
 #include "core/types.hpp"
+#include "fem/fluid_mass.hpp"
+#include "fem/section.hpp"
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -25,28 +27,29 @@ struct Material {
   bool operator==(const Material&) const = default;
 };
 
-/// A cross-section in its principal axes y, z.
-struct Section {
-  double area;             ///< m2, > 0
-  double iy;               ///< m4, > 0: second moment about y (bending in the plane x-z)
-  double iz;               ///< m4, > 0: about z (bending in the plane x-y)
-  double torsion_constant; ///< m4, > 0
-  double polar_inertia; ///< m4, >= 0: iy + iz for a solid section; rotary inertia about the axis is density
-                        ///< times this
-  bool operator==(const Section&) const = default;
-};
-
 /// The direction in which added (fluid) mass acts.
 enum class AddedMass { transverse, all };
+
+/// What a beam is made of at the far end of its group: from the one to the other end it changes linearly along
+/// the beams' axes (sizes of the section, densities and masses of fluid and added mass).
+struct Taper {
+  Section section;
+  double added_mass = 0.0;
+  Fluid fluid = {};
+  bool operator==(const Taper&) const = default;
+};
 
 /// What a beam is made of.
 struct BeamProperty {
   Material material;
   Section section;
-  double added_mass = 0.0; ///< kg/m, >= 0
+  double added_mass = 0.0; ///< kg/m, >= 0, besides that of the fluid
   AddedMass added_mass_direction = AddedMass::transverse;
   std::optional<Vec3> orientation =
-      std::nullopt; ///< a vector in the local x-y plane; required where iy != iz
+      std::nullopt;         ///< a vector in the local x-y plane; required where iy != iz
+  double axial_force = 0.0; ///< N, of a static preload, tension > 0; straight beams only
+  Fluid fluid = {};         ///< in and around it; round sections only
+  std::optional<Taper> taper = std::nullopt;
   bool operator==(const BeamProperty&) const = default;
 };
 
@@ -56,6 +59,8 @@ struct Beam {
   Index a, b;
   Index property;
   std::optional<Vec3> middle = std::nullopt; ///< on the arc, between its ends
+  /// Where a and b are on the way of the property's taper, 0 to 1; of no meaning without one.
+  std::array<double, 2> along = {0.0, 1.0};
   bool operator==(const Beam&) const = default;
 };
 

@@ -7,6 +7,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
 
 namespace fretwork::fem {
 namespace {
@@ -63,9 +65,9 @@ public:
     }
   }
 
-  /// Fields over the structure of the motions that stretch no spring and keep the ties.
+  /// Fields over the structure of the motions that nothing resists and that keep the ties.
   [[nodiscard]] Eigen::MatrixXd motions() const {
-    const Eigen::MatrixXd combinations = null_space(stretch_rows());
+    const Eigen::MatrixXd combinations = null_space(resisted_rows());
     Eigen::MatrixXd fields =
         Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(structure_.nodes.size()) * 6, combinations.cols());
     for (const RigidPart& part : parts_)
@@ -121,8 +123,8 @@ private:
     part.free = null_space(stacked);
   }
 
-  /// Stretch of every spring direction that has a stiffness, and of every component tied.
-  [[nodiscard]] Eigen::MatrixXd stretch_rows() const {
+  /// Stretch of every spring direction that has a stiffness, and of every component tied; pulls of axial forces.
+  [[nodiscard]] Eigen::MatrixXd resisted_rows() const {
     std::vector<Eigen::RowVectorXd> rows;
     for (const Index number : structure_.springs) {
       const Spring& spring = model_.springs[static_cast<std::size_t>(number)];
@@ -136,9 +138,12 @@ private:
         if ((tie.dofs >> d) & 1u)
           rows.push_back(stretch(tie.node, tie.other, d));
     }
-    Eigen::MatrixXd stacked(rows.size(), columns_);
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      stacked.row(static_cast<Eigen::Index>(i)) = rows[i];
+    const Eigen::MatrixXd pulled = pulls();
+    const auto stretched = static_cast<Eigen::Index>(rows.size());
+    Eigen::MatrixXd stacked(stretched + pulled.rows(), columns_);
+    for (Eigen::Index i = 0; i < stretched; ++i)
+      stacked.row(i) = rows[static_cast<std::size_t>(i)];
+    stacked.bottomRows(pulled.rows()) = pulled;
     return stacked;
   }
 
@@ -150,6 +155,45 @@ private:
     if (other >= 0)
       add_motion(row, other, d, -scale);
     return row;
+  }
+
+  /// Forces on the equations of the axial forces of beams that a motion turns, as shares of the largest: each pulls
+  /// its ends back by N times the turn across it. Where they balance (a structure stressed in itself) the motion
+  /// stays a rigid one.
+  [[nodiscard]] Eigen::MatrixXd pulls() const {
+    double largest = 0.0;
+    for (const Index number : structure_.beams)
+      largest = std::max(largest, std::abs(axial_force(number)));
+    if (largest == 0.0 || columns_ == 0)
+      return {0, columns_};
+    Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(structure_.equations, columns_);
+    for (const Index number : structure_.beams) {
+      const Beam& beam = model_.beams[static_cast<std::size_t>(number)];
+      const Vec3 &a = model_.nodes[static_cast<std::size_t>(beam.a)],
+                 &b = model_.nodes[static_cast<std::size_t>(beam.b)];
+      const RigidPart& part = part_at(beam.a);
+      const Eigen::Matrix<double, 3, Eigen::Dynamic> turn =
+          part.radius * point_motions(part, a).bottomRows<3>() * part.free;
+      for (Eigen::Index j = 0; j < turn.cols(); ++j) {
+        const Vec3 pull = axial_force(number) / largest * Vec3(turn.col(j)).cross((b - a).normalized());
+        add_force(forces, part.column + j, beam.b, pull);
+        add_force(forces, part.column + j, beam.a, -pull);
+      }
+    }
+    return forces;
+  }
+
+  void add_force(Eigen::MatrixXd& forces, Eigen::Index column, Index model_node, const Vec3& force) const {
+    for (int d = 0; d < 3; ++d)
+      if (const Index row = structure_.equation[static_cast<std::size_t>(
+              position_of(structure_, model_node) * dofs_per_node + d)];
+          row >= 0)
+        forces(row, column) += force[d];
+  }
+
+  [[nodiscard]] double axial_force(Index beam) const {
+    const Index property = model_.beams[static_cast<std::size_t>(beam)].property;
+    return model_.properties[static_cast<std::size_t>(property)].axial_force;
   }
 
   [[nodiscard]] const RigidPart& part_at(Index model_node) const {

@@ -4,7 +4,8 @@
 ///
 /// K u = 0 where every part connected by beams moves rigidly, no restrained dof moves, no spring is
 /// stretched and every tie is kept. Each part has six columns (translations; rotations about its centre, scaled by its size), each
-/// restraint, spring and tie a row of pure geometry: the null space (singular values below a tolerance) holds
+/// restraint, spring and tie a row of pure geometry (axial forces of beams, which resist turning, rows of their shares of
+/// the largest): the null space (singular values below a tolerance) holds
 /// rigid-body motions and mechanisms alike (a hinged beam, a pinned tube that spins, a chain of masses),
 /// whatever the size of the stiffnesses.
 #pragma once

@@ -2,6 +2,7 @@
 #include "modal/copies.hpp"
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 namespace fretwork::modal {
@@ -19,7 +20,8 @@ struct Shape {
   std::vector<fem::LumpedMass> masses;
   std::vector<fem::Spring> springs;
   std::vector<fem::Tie> ties;
-  double size = 0.0; ///< m, the largest distance from the first node
+  std::vector<double> along; ///< of the ends of beams on the way of a taper
+  double size = 0.0;         ///< m, the largest distance from the first node
 };
 
 /// For each property the number of the first one of equal value.
@@ -50,6 +52,8 @@ Shape shape_of(const fem::Model& whole, const fem::Structure& structure, const s
     beam.a = own(beam.a);
     beam.b = own(beam.b);
     beam.property = values[static_cast<std::size_t>(beam.property)];
+    shape.along.insert(shape.along.end(), beam.along.begin(), beam.along.end());
+    beam.along = {};
     if (beam.middle) { // a place like those of the nodes
       shape.nodes.emplace_back(*beam.middle - origin);
       beam.middle = Vec3::Zero();
@@ -76,6 +80,8 @@ bool same(const Shape& a, const Shape& b) {
   const double tolerance = same_place * a.size;
   return a.fixed == b.fixed && a.masses == b.masses && a.springs == b.springs && a.ties == b.ties &&
          a.beams == b.beams &&
+         std::equal(a.along.begin(), a.along.end(), b.along.begin(), b.along.end(),
+                    [](double x, double y) { return std::abs(x - y) <= same_place; }) &&
          std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(),
                     [&](const Vec3& x, const Vec3& y) { return (x - y).norm() <= tolerance; });
 }

@@ -2,6 +2,7 @@
 #include "modal/slepc_krylov.hpp"
 #include "core/error.hpp"
 #include "core/petsc.hpp"
+#include "fem/beam_constants.hpp"
 #include "fem/node_blocks.hpp"
 #include "modal/canonical.hpp"
 #include <algorithm>
@@ -83,9 +84,9 @@ double eigenvalue_scale(const fem::Model& model, const fem::Structure& structure
   for (const core::Index i : structure.beams) {
     const fem::Beam& beam = at(model.beams, i);
     const fem::BeamProperty& p = at(model.properties, beam.property);
-    mass += (p.material.density * p.section.area + p.added_mass) *
-            (at(model.nodes, beam.b) - at(model.nodes, beam.a)).norm();
-    bending = std::max(bending, p.material.young_modulus * std::min(p.section.iy, p.section.iz));
+    const fem::BeamConstants k = fem::beam_constants(p, 0.5 * (beam.along[0] + beam.along[1]));
+    mass += k.mass_transverse * (at(model.nodes, beam.b) - at(model.nodes, beam.a)).norm();
+    bending = std::max(bending, std::min(k.bending_y, k.bending_z));
   }
   for (const core::Index i : structure.masses)
     mass += at(model.masses, i).mass;
@@ -218,6 +219,11 @@ int KrylovModes::below(double s) const {
   PetscInt negative = 0;
   FW_PETSC(MatGetInertia(factor.get(), &negative, nullptr, nullptr));
   return static_cast<int>(negative);
+}
+
+bool KrylovModes::is_stable() const {
+  constexpr double zero = 1e-9; // of the scale of eigenvalues: above the round-off of a rigid motion
+  return below(rigid_.cols() > 0 ? -zero * eigenvalue_scale(model_, structure_) : 0.0) == 0;
 }
 
 Pairs KrylovModes::solve(int count, const Eigen::MatrixXd& deflated, int start) const {

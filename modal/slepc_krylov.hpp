@@ -20,6 +20,8 @@ public:
 
   /// Number of modes (rigid ones included) with lambda < s, s > 0. Collective.
   [[nodiscard]] int below(double s) const;
+  /// Whether no mode has lambda < 0: compressed beams may buckle. Collective.
+  [[nodiscard]] bool is_stable() const;
 
   /// At least the `count` lowest elastic modes, and so many more that the cluster of the last wanted one is
   /// complete; none is missing among them. Collective; the same on every rank.

@@ -27,6 +27,21 @@ void check(const Wanted& wanted) {
     throw core::Error(fmt::format("[modes] up_to_hz = {:g}; give a frequency > 0", *wanted.up_to_hz));
 }
 
+/// @throws core::Error where compressed beams buckle. Collective.
+void check_stable(MPI_Comm comm, const fem::Model& model, const fem::Structure& structure,
+                  const Eigen::MatrixXd& rigid) {
+  const bool compressed =
+      std::any_of(structure.beams.begin(), structure.beams.end(), [&](core::Index number) {
+        const fem::Beam& beam = model.beams[static_cast<std::size_t>(number)];
+        return model.properties[static_cast<std::size_t>(beam.property)].axial_force < 0.0;
+      });
+  if (compressed && !KrylovModes(comm, model, structure, rigid).is_stable())
+    throw core::Error("the structure that starts at node " +
+                      fem::place(model.nodes[static_cast<std::size_t>(structure.nodes.front())]) +
+                      " buckles under the compression of its beams ([[beams]] axial_force < 0): lower it, or "
+                      "support the structure better");
+}
+
 Cut cut_of(const Wanted& wanted) {
   Cut cut;
   if (wanted.count)
@@ -59,6 +74,7 @@ Basis solve_modes(MPI_Comm comm, const fem::Model& model, const fem::Structure& 
   }
   const Cut cut = cut_of(wanted);
   const Eigen::MatrixXd rigid = fem::rigid_motions(model, structure);
+  check_stable(comm, model, structure, rigid);
   Pairs pairs{Eigen::VectorXd(0), Eigen::MatrixXd(structure.equations, 0)};
   bool dense = structure.equations <= wanted.dense_up_to;
   if (!dense) {

@@ -34,8 +34,6 @@ Study read(const std::filesystem::path& file, const std::vector<std::string>& ov
   study.mesh = read_mesh(root, folder);
   study.materials = read_materials(root);
   study.sections = read_sections(root);
-  study.pipes = read_pipes(root);
-  study.outlines = read_outlines(root, study.sections);
   study.beams = read_beams(root, study);
   study.restraints = read_restraints(root);
   study.masses = read_masses(root);

@@ -12,12 +12,7 @@ namespace fretwork::study {
 [[nodiscard]] mesh::Source read_mesh(const TableReader& root, const std::filesystem::path& folder);
 [[nodiscard]] std::map<std::string, fem::Material> read_materials(const TableReader& root);
 [[nodiscard]] std::map<std::string, fem::Section> read_sections(const TableReader& root);
-/// The sections must have been read.
-[[nodiscard]] std::map<std::string, Pipe> read_pipes(const TableReader& root);
-/// The sections must have been read.
-[[nodiscard]] std::map<std::string, Outline>
-read_outlines(const TableReader& root, const std::map<std::string, fem::Section>& sections);
-/// The materials, sections and outlines of `study` must have been read.
+/// The materials and sections of `study` must have been read.
 [[nodiscard]] std::vector<Beams> read_beams(const TableReader& root, const Study& study);
 [[nodiscard]] std::vector<Restraint> read_restraints(const TableReader& root);
 [[nodiscard]] std::vector<Mass> read_masses(const TableReader& root);

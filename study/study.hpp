@@ -5,7 +5,6 @@
 #pragma once
 #include "contact/friction_law.hpp"
 #include "contact/obstacle.hpp"
-#include "fem/fluid_mass.hpp"
 #include "fem/model.hpp"
 #include "mesh/read.hpp"
 #include "modal/damping.hpp"
@@ -21,13 +20,24 @@ namespace fretwork::study {
 
 using core::Vec3;
 
+/// What a group of beams is made of at its far end.
+struct Taper {
+  std::string from; ///< the group's near end, a physical point
+  std::string section;
+  double added_mass; ///< kg/m
+  fem::Fluid fluid;
+};
+
 struct Beams {
   std::string group;
   std::string material;
   std::string section;
   std::optional<Vec3> orientation;
-  double added_mass = 0.0; ///< kg/m, that of the fluid included
+  double added_mass = 0.0; ///< kg/m, besides that of the fluid
+  fem::Fluid fluid;
   fem::AddedMass added_mass_direction = fem::AddedMass::transverse;
+  double axial_force = 0.0;   ///< N, tension > 0
+  std::optional<Taper> taper; ///< the values above then are those of the near end
 };
 
 struct Restraint {
@@ -120,16 +130,6 @@ struct Contact {
   contact::Vec2 friction_along{1.0, 1.0}; ///< 1 where friction acts: along x_loc, across it
 };
 
-/// What the wall of a tube is made of; a section of another shape has none.
-struct Pipe {
-  double outer_diameter, thickness; ///< m
-};
-
-/// Areas across a round section, m2; a section of another shape has none.
-struct Outline {
-  double bore, displaced;
-};
-
 struct Load {
   std::string group;
   bool per_length = false;
@@ -200,8 +200,6 @@ struct Study {
   mesh::Source mesh; ///< its file is absolute
   std::map<std::string, fem::Material> materials;
   std::map<std::string, fem::Section> sections;
-  std::map<std::string, Pipe> pipes;       ///< those of the sections that are pipes
-  std::map<std::string, Outline> outlines; ///< of the sections that are pipes or circles
   std::vector<Beams> beams;
   std::vector<Restraint> restraints;
   std::vector<Mass> masses;

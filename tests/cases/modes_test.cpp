@@ -113,6 +113,26 @@ TEST(CaseD1, ClampedFreeErrorsAreThePublishedOnes) {
   }
 }
 
+// (beta L / n)^4 / 1440 and the next term of the series, which a mesh of 64 elements gives: what is left is round-off.
+TEST(CaseD1, FineMeshesKeepNineDigits) {
+  constexpr double nine_digits = 1e-9;
+  for (const Span& span : spans) {
+    const auto coarse = span_errors(span, 64);
+    double worst = 0.0;
+    for (const int n : {100, 200, 500, 1000, 2000}) {
+      const auto errors = span_errors(span, n);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double first = std::pow(span.roots[i], 4) / 1440.0,
+                     next = (coarse[i] - first * std::pow(64, -4)) * std::pow(64, 6);
+        const double left = errors[i] - first * std::pow(n, -4) - next * std::pow(n, -6);
+        worst = std::max(worst, std::abs(left));
+        EXPECT_LT(std::abs(left), nine_digits) << span.name << " " << n << " elements, mode " << i + 1;
+      }
+    }
+    testing::Test::RecordProperty(span.name, std::to_string(worst * 1e9) + "e-9");
+  }
+}
+
 TEST(CaseD2, CantileverFoldedBackOnItself) {
   ModelBuilder b;
   fem::BeamProperty p{{2.1e11, 0.3, 7800.0}, fem::rectangle_section(0.005, 0.05)};

@@ -92,3 +92,27 @@ TEST(RigidMotions, RefuseAMotionWithoutMass) {
   expect_error([&] { (void)fem::rigid_motions(b.model, fem::structures(b.model)[0]); },
                {"node (0.1, 0.2, 0.3)", "neither stiffness nor mass", "restrain it"});
 }
+
+TEST(RigidMotions, DoNotTurnWhatAnAxialForceHolds) {
+  auto b = oblique_tube(5);
+  b.model.properties[0].axial_force = -10.0;
+  EXPECT_EQ(motions(b.model).cols(), 4); // three translations and the spin
+}
+
+// A square with its diagonals: tension in the sides that compression in the diagonals balances.
+TEST(RigidMotions, StayWhereAxialForcesBalance) {
+  const auto square = [](double diagonal) {
+    ModelBuilder b;
+    auto side = tube_property(), cross = tube_property();
+    side.axial_force = 100.0;
+    cross.axial_force = diagonal;
+    const Index sides = b.property(side), diagonals = b.property(cross);
+    for (const Vec3& corner : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)})
+      b.node(corner);
+    b.model.beams = {{0, 1, sides}, {1, 2, sides},     {2, 3, sides},
+                     {3, 0, sides}, {0, 2, diagonals}, {1, 3, diagonals}};
+    return motions(b.model).cols();
+  };
+  EXPECT_EQ(square(-100.0 * std::sqrt(2.0)), 6);
+  EXPECT_EQ(square(-10.0), 3); // translations
+}

@@ -85,6 +85,8 @@ TEST(Copies, AreNoneWhereAnythingDiffers) {
     m.properties[1].material.young_modulus = std::nextafter(2e11, 3e11);
     m.beams.back().property = 1;
   }));
+  EXPECT_FALSE(still_a_copy([](fem::Model& m) { m.beams.back().along[1] = 0.9; }));
+  EXPECT_TRUE(still_a_copy([](fem::Model& m) { m.beams.back().along[1] = std::nextafter(1.0, 0.0); }));
   EXPECT_TRUE(still_a_copy_with_ties([](fem::Model&) {}));
   EXPECT_FALSE(still_a_copy_with_ties([](fem::Model& m) { m.ties[1].dofs = ux; }));
   EXPECT_FALSE(still_a_copy_with_ties([](fem::Model& m) { m.ties[1].other += 1; }));

@@ -121,6 +121,52 @@ TEST(MeshError, OfAnArcIsOfItsOrderOfMagnitude) {
   }
 }
 
+// Two arcs in a ring, both held where they begin: each turns by half a circle, a bit less, or more.
+TEST(MeshError, OfArcsOfHalfACircleAndMoreIsLikeThatOfSmallerOnes) {
+  const auto errors = [](double turn) {
+    ModelBuilder b;
+    const Index number = b.property(tube_property());
+    const auto at = [](double t) { return Vec3(std::cos(t), std::sin(t), 0); };
+    for (int i = 0; i <= 2; ++i)
+      b.node(at(i * turn));
+    for (int i = 0; i < 2; ++i)
+      b.model.beams.push_back({i, i + 1, number, at((i + 0.5) * turn)});
+    b.fix(0, all);
+    b.fix(2, all);
+    return solve(b.model, 4).error;
+  };
+  const Eigen::VectorXd less = errors(0.98 * pi), half = errors(pi), more = errors(1.02 * pi);
+  for (Eigen::Index i = 0; i < 4; ++i) { // a smooth function of the angle
+    EXPECT_GT(half[i], 0.0);
+    EXPECT_NEAR(half[i] / (0.5 * (less[i] + more[i])), 1.0, 0.02) << i;
+  }
+}
+
+TEST(MeshError, OfBeamsThatShearOrAreUnderTensionToo) {
+  const auto errors = [](const fem::BeamProperty& p, int n) {
+    ModelBuilder b;
+    const auto nodes = b.line({0, 0, 0}, {2, 0, 0}, n, b.property(p));
+    b.fix_everywhere(ux | uz | rx | ry);
+    b.fix(nodes.front(), all);
+    b.fix(nodes.back(), uy);
+    return solve(b.model, 3);
+  };
+  auto shearing = tube_property();
+  shearing.section = fem::pipe_section(0.2, 0.02);
+  shearing.section.shear = fem::ShapeShear{};
+  shearing.section.rotary_inertia = true;
+  auto taut = tube_property();
+  taut.axial_force = 5e3; // some times what it buckles under
+  for (const auto& p :
+       {shearing, taut}) { // mode 3 has eight elements a half wave, of which the next order is felt
+    const auto coarse = errors(p, 24), exact = errors(p, 192);
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      const double true_error = (coarse.omega[i] / exact.omega[i] - 1.0) / (1.0 - 1.0 / 64.0);
+      EXPECT_NEAR(coarse.error[i] / true_error, 1.0, 0.15) << p.axial_force << " mode " << i;
+    }
+  }
+}
+
 TEST(MeshError, OfARingOfChordsIsThatOfTheSamePolygon) {
   const auto ring = [](int per_chord) {
     constexpr int chords = 24;

@@ -186,12 +186,5 @@ TEST(ReadFriction, Directions) {
   EXPECT_EQ(law("normal_stiffness = 1").friction_along.x, 1.0);
 }
 
-TEST(ReadSections, KeepsTheSizesOfPipesOnly) {
-  const Study study = read_text(full_study);
-  ASSERT_EQ(study.pipes.size(), 1u);
-  EXPECT_EQ(study.pipes.at("tube").outer_diameter, 0.02);
-  EXPECT_EQ(study.pipes.at("tube").thickness, 0.001);
-}
-
 } // namespace
 } // namespace fretwork::study
