@@ -283,3 +283,52 @@ TEST(Taper, OfAddedMassKeepsThatOfItsMean) {
   EXPECT_LT(a[0], uniform[0]);
   EXPECT_GT(a[0], 0.98 * uniform[0]);
 }
+
+// Everything at once: a bend that gets thinner, shears, turns and is full of a fluid that gets denser. Arcs against chords.
+TEST(Taper, OfABendOfArcsIsThatOfManyChords) {
+  fem::BeamProperty p{{2.0e11, 0.3, 8000.0}, fem::pipe_section(0.06, 0.006)};
+  p.section.shear = fem::ShapeShear{};
+  p.section.rotary_inertia = true;
+  p.taper = fem::Taper{p.section, 0.5, {2000.0, 500.0, 2.0}};
+  p.taper->section = fem::pipe_section(0.04, 0.003);
+  p.taper->section.shear = p.section.shear;
+  p.taper->section.rotary_inertia = true;
+  p.fluid = {1000.0, 500.0, 1.0};
+  const auto solve = [&](int n, bool arcs) {
+    ModelBuilder b;
+    const Index number = b.property(p), first = b.node({1, 0, 0});
+    if (arcs)
+      b.arcs_from(first, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0.0, pi / 2, n, number);
+    else
+      b.arc_from(first, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0.0, pi / 2, n, number);
+    for (int i = 0; i < n; ++i)
+      b.model.beams[static_cast<std::size_t>(i)].along = {static_cast<double>(i) / n,
+                                                          static_cast<double>(i + 1) / n};
+    b.fix(first, all);
+    b.fix(n, all);
+    return hertz(modes(b.model, 4));
+  };
+  constexpr double of_chords = 5e-5, of_arcs = 5e-3; // 160 chords; 8 arcs, mode 4 has two a half wave
+  const auto fine = solve(64, true), chords = solve(160, false), coarse = solve(8, true);
+  for (std::size_t i = 0; i < 4; ++i) {
+    expect_frequency("tapered_bend_" + std::to_string(i), fine[i], chords[i], of_chords);
+    EXPECT_NEAR(coarse[i] / fine[i], 1.0, of_arcs) << i;
+  }
+}
+
+// A tapered column under pressure, cut in its middle and tied in all six components.
+TEST(Taper, GoesOnOverATie) {
+  constexpr double round_off = 1e-11;
+  auto p = half_tapered(2);
+  p.section.shear = p.taper->section.shear = fem::ShapeShear{};
+  p.axial_force = -100.0;
+  const auto whole = span(p, 16, all, all);
+  auto cut = whole;
+  const Index beside = cut.node(whole.model.nodes[8]);
+  cut.fix(beside, whole.model.fixed[8]);
+  cut.model.beams[8].a = beside;
+  cut.model.ties.push_back({8, beside, all});
+  const auto expected = hertz(modes(whole.model, 4)), found = hertz(modes(cut.model, 4));
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(found[i] / expected[i], 1.0, round_off) << i;
+}
