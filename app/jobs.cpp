@@ -71,24 +71,6 @@ struct JobResult {
   post::TimeSeries series;
 };
 
-/// Tells the callback now and then how far the run is.
-class ProgressObserver final : public transient::Observer {
-public:
-  ProgressObserver(const ProgressCallback& callback, double before, double share, double duration)
-      : callback_(callback), before_(before), share_(share), duration_(duration) {}
-  void step(const transient::Record& record) override {
-    if (++count_ % look_every == 0)
-      callback_(before_ + share_ * record.time / duration_, record.time);
-  }
-  void visit(core::StateArchive&) override {} // it keeps nothing
-
-private:
-  static constexpr int look_every = 4096; ///< steps: the clock costs more than a step
-  const ProgressCallback& callback_;
-  double before_, share_, duration_;
-  int count_ = 0;
-};
-
 /// A run and all that watches it.
 class Job {
 public:
@@ -362,9 +344,12 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
     costs.push_back(static_cast<double>(choices[s].steps) *
                     static_cast<double>(scenes[s].scene.system.size()));
   const std::vector<int> owner = core::share_out(costs, ranks);
+  const auto half_steps = [&](std::size_t s) {
+    return verified ? transient::halved(choices[s]).steps : std::int64_t{0};
+  };
   std::int64_t all_steps = 0, done_steps = 0;
   for (std::size_t s = 0; s < scenes.size(); ++s)
-    all_steps += owner[s] == here ? choices[s].steps : 0;
+    all_steps += owner[s] == here ? choices[s].steps + half_steps(s) : 0;
   Checkpoints checkpoints(checkpoint_options);
   core::agree(comm, [&] {
     auto left = std::count(owner.begin(), owner.end(), here);
@@ -374,17 +359,21 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
           return all_steps > 0 ? static_cast<double>(steps) / static_cast<double>(all_steps)
                                : 0.0; // adaptive: not known
         };
-        ProgressObserver observer(progress, part(done_steps), part(choices[s].steps),
-                                  study.transient->duration);
+        const auto next = [&](std::int64_t steps) {
+          done_steps += steps;
+          return ProgressObserver(progress, part(done_steps - steps), part(steps), study.transient->duration);
+        };
+        ProgressObserver observer = next(choices[s].steps);
         const auto make = [&] {
           return std::make_unique<Job>(study, scenes[s], choices[s], progress ? &observer : nullptr);
         };
         const bool others = --left > 0;
         jobs[s] = std::move(*resumed_run(make, s, checkpoints, others || verified)).result();
-        if (verified)
+        if (verified) {
+          ProgressObserver at_half = next(half_steps(s));
           halves[s] = run_at_half(scenes[s].scene, choices[s], study.output.statistics_from,
-                                  scenes.size() + s, checkpoints, others);
-        done_steps += choices[s].steps;
+                                  progress ? &at_half : nullptr, scenes.size() + s, checkpoints, others);
+        }
       }
   });
   out.accuracy = study.transient->accuracy;

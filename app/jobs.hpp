@@ -4,14 +4,11 @@
 #pragma once
 #include "app/build_scene.hpp"
 #include "app/checkpoints.hpp"
+#include "app/progress_observer.hpp"
 #include "results/run_results.hpp"
-#include <functional>
 #include <mpi.h>
 
 namespace fretwork::app {
-
-/// Called now and then with the share of all steps of this rank that are done and the simulated time.
-using ProgressCallback = std::function<void(double share, double time)>;
 
 /// Collective. Runs every scene and fills contact_summaries, node_summaries, transients and series of `out`,
 /// complete on rank 0. Each goes on from its checkpoint, if there is one.

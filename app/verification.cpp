@@ -3,9 +3,9 @@
 #include "app/resumed_run.hpp"
 #include "results/error_estimate.hpp"
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <type_traits>
 
 namespace fretwork::app {
@@ -15,8 +15,9 @@ namespace {
 /// The run at half the step with what watches it.
 class HalfJob {
 public:
-  HalfJob(const transient::Scene& scene, const transient::StepChoice& half, double from)
-      : contacts_(scene.contacts.size(), from), observers_{&contacts_},
+  HalfJob(const transient::Scene& scene, const transient::StepChoice& half, double from,
+          ProgressObserver* progress)
+      : contacts_(scene.contacts.size(), from), observers_(watching(progress)),
         run_(scene, half, observers_, nullptr, {}) {}
   [[nodiscard]] transient::Run& run() { return run_; }
   [[nodiscard]] HalfRun result() {
@@ -24,17 +25,33 @@ public:
   }
 
 private:
+  std::vector<transient::Observer*> watching(ProgressObserver* progress) {
+    std::vector<transient::Observer*> observers{&contacts_};
+    if (progress)
+      observers.push_back(progress);
+    return observers;
+  }
+
   post::ContactStatistics contacts_;
-  std::array<transient::Observer*, 1> observers_;
+  std::vector<transient::Observer*> observers_;
   transient::Run run_;
 };
+
+/// Of the runs whose statistics are added up.
+int lowest_order(const std::vector<results::TransientFacts>& runs) {
+  int order = std::numeric_limits<int>::max();
+  for (const results::TransientFacts& run : runs)
+    order = std::min(order, transient::order_of_statistics(run.choice.scheme));
+  return order;
+}
 
 } // namespace
 
 HalfRun run_at_half(const transient::Scene& scene, const transient::StepChoice& choice, double from,
-                    std::size_t number, Checkpoints& checkpoints, bool others_follow) {
+                    ProgressObserver* progress, std::size_t number, Checkpoints& checkpoints,
+                    bool others_follow) {
   const transient::StepChoice half = transient::halved(choice);
-  const auto make = [&] { return std::make_unique<HalfJob>(scene, half, from); };
+  const auto make = [&] { return std::make_unique<HalfJob>(scene, half, from, progress); };
   return resumed_run(make, number, checkpoints, others_follow)->result();
 }
 
@@ -76,10 +93,12 @@ void compare_with_half(const std::vector<BuiltScene>& scenes, const std::vector<
     for (std::size_t c = 0; c < scenes[s].contacts.size(); ++c)
       half[scenes[s].contacts[c]] = halves[s].contacts[c];
   }
+  v.order = lowest_order(out.transients);
   v.factor = post::critical_factor(post::compared_of_a_contact * half.size());
-  v.sums = post::compare_sums(out.contact_summaries, out.errors_of_sums, half, errors, out.accuracy);
+  v.sums =
+      post::compare_sums(out.contact_summaries, out.errors_of_sums, half, errors, {out.accuracy, v.order});
   for (std::size_t c = 0; c < half.size(); ++c)
-    v.contacts.push_back(post::compare(out.contact_summaries[c], half[c], v.factor, out.accuracy));
+    v.contacts.push_back(post::compare(out.contact_summaries[c], half[c], {out.accuracy, v.order, v.factor}));
   const results::Disagreement found = results::disagreement(v, out.contacts);
   if (found.differ > 0)
     out.warnings.push_back(

@@ -4,6 +4,7 @@
 #pragma once
 #include "app/build_scene.hpp"
 #include "app/checkpoints.hpp"
+#include "app/progress_observer.hpp"
 #include "results/run_results.hpp"
 #include <mpi.h>
 
@@ -17,10 +18,11 @@ struct HalfRun {
 };
 
 /// @param choice  of the run itself   @param from  s, start of the window of the statistics
+/// @param progress  tells how far it is, or null
 /// @param number, checkpoints, others_follow  as of resumed_run: it goes on from a checkpoint of its own
 [[nodiscard]] HalfRun run_at_half(const transient::Scene& scene, const transient::StepChoice& choice,
-                                  double from, std::size_t number, Checkpoints& checkpoints,
-                                  bool others_follow);
+                                  double from, ProgressObserver* progress, std::size_t number,
+                                  Checkpoints& checkpoints, bool others_follow);
 
 /// Collective.
 void broadcast(MPI_Comm comm, int root, std::size_t contacts, HalfRun& half);

@@ -7,11 +7,12 @@
 namespace fretwork::post {
 namespace {
 
-ComparedFigure compared(std::string name, double a, double error_a, double b, double error_b, double factor,
-                        double accuracy) {
+ComparedFigure compared(std::string name, double a, double error_a, double b, double error_b,
+                        const Criterion& criterion) {
   ComparedFigure out{std::move(name), a, b, std::hypot(error_a, error_b), true};
-  const double noise = std::isfinite(out.error) ? factor * out.error : 0.0;
-  out.agrees = std::abs(a - b) <= noise + accuracy * std::max(std::abs(a), std::abs(b));
+  const double noise = std::isfinite(out.error) ? criterion.factor * out.error : 0.0;
+  out.agrees = std::abs(a - b) <=
+               noise + share_shown(criterion.order) * criterion.accuracy * std::max(std::abs(a), std::abs(b));
   return out;
 }
 
@@ -28,11 +29,13 @@ double critical_factor(std::size_t figures) {
   return figures == 1 ? factor_of_sums : 0.5 * (low + high);
 }
 
-std::vector<ComparedFigure> compare(const ContactSummary& run, const ContactSummary& half, double factor,
-                                    double accuracy) {
+double share_shown(int order) { return 1.0 - std::ldexp(1.0, -order); }
+
+std::vector<ComparedFigure> compare(const ContactSummary& run, const ContactSummary& half,
+                                    const Criterion& criterion) {
   const StandardErrors &a = run.error, &b = half.error;
   const auto figure = [&](const char* name, double x, double error_x, double y, double error_y) {
-    return compared(name, x, error_x, y, error_y, factor, accuracy);
+    return compared(name, x, error_x, y, error_y, criterion);
   };
   return {
       figure("work_rate", run.work_rate, a.work_rate, half.work_rate, b.work_rate),
@@ -46,7 +49,7 @@ std::vector<ComparedFigure> compare(const ContactSummary& run, const ContactSumm
 std::vector<ComparedFigure> compare_sums(const std::vector<ContactSummary>& run,
                                          const StandardErrors& run_errors,
                                          const std::vector<ContactSummary>& half,
-                                         const StandardErrors& half_errors, double accuracy) {
+                                         const StandardErrors& half_errors, const Criterion& criterion) {
   const auto figure = [&](const char* name, double ContactSummary::*value, double StandardErrors::*error) {
     const auto sum = [value](const std::vector<ContactSummary>& contacts) {
       double out = 0.0;
@@ -54,8 +57,7 @@ std::vector<ComparedFigure> compare_sums(const std::vector<ContactSummary>& run,
         out += contact.*value;
       return out;
     };
-    return compared(name, sum(run), run_errors.*error, sum(half), half_errors.*error, factor_of_sums,
-                    accuracy);
+    return compared(name, sum(run), run_errors.*error, sum(half), half_errors.*error, criterion);
   };
   return {figure("work_rate", &ContactSummary::work_rate, &StandardErrors::work_rate),
           figure("friction_power", &ContactSummary::friction_power, &StandardErrors::friction_power),

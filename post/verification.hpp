@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// Statistics of a run against those of the same run at half the step (half the tolerance). Impacts with friction are chaotic: the two
-/// motions part, their statistics scatter. A figure agrees where
-///     |a - b| <= k sqrt(s_a^2 + s_b^2) + accuracy max(|a|, |b|)
+/// motions part, their statistics scatter. The run at half the step has an error too: of order p,
+///     a = x + C h^p,   b = x + C (h/2)^p,   a - b = r (a - x),   r = 1 - 2^-p,
+/// so that the difference shows the share r of the run's own error (L. F. Richardson, Phil. Trans. R. Soc. A 210 (1911) 307). The accuracy is
+/// asked of that error: a figure agrees where
+///     |a - b| <= k sqrt(s_a^2 + s_b^2) + r accuracy max(|a|, |b|)
 /// with the standard errors s of batch_means.hpp. k = 2 for the sums over contacts, which chance alone exceeds with p = 0.0455. For the N figures
 /// of single contacts k is such that any of them exceeds it with that p at most (Bonferroni: p/N each), so that many contacts are no reason to warn.
 /// Without standard errors (a window too short) s = 0: a single event is compared as it is.
@@ -27,14 +30,26 @@ constexpr double factor_of_sums = 2.0;
 /// k for so many figures, at least 1.
 [[nodiscard]] double critical_factor(std::size_t figures);
 
+/// r of an order, >= 1: 1/2, 3/4, 7/8 ...
+[[nodiscard]] double share_shown(int order);
+
+/// What agreement is measured by.
+struct Criterion {
+  double accuracy; ///< of a figure, relative
+  int order;       ///< p of the statistics, >= 1
+  double factor = factor_of_sums;
+};
+
 /// work_rate, friction_power, impacts_per_second, normal_force.rms, displacement.y.std and displacement.z.std of a contact.
 [[nodiscard]] std::vector<ComparedFigure> compare(const ContactSummary& run, const ContactSummary& half,
-                                                  double factor, double accuracy);
+                                                  const Criterion& criterion);
 
 /// work_rate, friction_power and impacts_per_second of the sums over all contacts.
+/// @param criterion  its factor is factor_of_sums
 [[nodiscard]] std::vector<ComparedFigure> compare_sums(const std::vector<ContactSummary>& run,
                                                        const StandardErrors& run_errors,
                                                        const std::vector<ContactSummary>& half,
-                                                       const StandardErrors& half_errors, double accuracy);
+                                                       const StandardErrors& half_errors,
+                                                       const Criterion& criterion);
 
 } // namespace fretwork::post

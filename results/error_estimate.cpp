@@ -31,10 +31,12 @@ double relative_scatter(const RunResults& results) {
   return larger(out, e.impact_rate, sum(results, &post::ContactSummary::impact_rate));
 }
 
-double relative_difference(const Verification& verification) {
+/// Error of the run by its step: the difference is the share of it that halving the step takes away.
+double relative_step_error(const Verification& verification) {
+  const double shown = post::share_shown(verification.order);
   double out = nan;
   for (const post::ComparedFigure& f : verification.sums)
-    out = larger(out, std::abs(f.difference()), std::max(std::abs(f.value), std::abs(f.at_half)));
+    out = larger(out, std::abs(f.difference()) / shown, std::max(std::abs(f.value), std::abs(f.at_half)));
   return out;
 }
 
@@ -57,18 +59,19 @@ ErrorEstimate error_estimate(const RunResults& results) {
     return {ErrorKind::none, nan, "none: there are no contacts, whose statistics would be compared"};
   if (const auto& verification = results.verification; verification && verification->failure.empty()) {
     const Disagreement found = disagreement(*verification, results.contacts);
-    const double difference = relative_difference(*verification), scatter = relative_scatter(results);
-    const double relative = std::isnan(scatter) ? difference : std::hypot(difference, scatter);
-    return {ErrorKind::verified, relative,
-            fmt::format("{} of {} figures agree with those at half the step{}", found.compared - found.differ,
-                        found.compared,
-                        std::isnan(difference)
-                            ? ""
-                            : fmt::format(", sums over contacts within {:.2g} %{}", 100.0 * difference,
-                                          std::isnan(scatter)
-                                              ? ""
-                                              : fmt::format(", {:.2g} % standard error of this window",
-                                                            100.0 * scatter)))};
+    const double of_step = relative_step_error(*verification), scatter = relative_scatter(results);
+    const double relative = std::isnan(scatter) ? of_step : std::hypot(of_step, scatter);
+    return {
+        ErrorKind::verified, relative,
+        fmt::format("{} of {} figures agree with those at half the step{}", found.compared - found.differ,
+                    found.compared,
+                    std::isnan(of_step)
+                        ? ""
+                        : fmt::format(", the step changes sums over contacts by {:.2g} %{}", 100.0 * of_step,
+                                      std::isnan(scatter)
+                                          ? ""
+                                          : fmt::format(", {:.2g} % standard error of this window",
+                                                        100.0 * scatter)))};
   }
   const double relative = relative_scatter(results);
   if (std::isnan(relative))

@@ -17,8 +17,8 @@ enum class ErrorKind {
 
 struct ErrorEstimate {
   ErrorKind kind = ErrorKind::none;
-  /// The largest of work rate, friction power and impacts per second, each summed over the contacts: standard error, or difference from the
-  /// run at half the step, over the figure. Not a number where there is none.
+  /// The largest of work rate, friction power and impacts per second, each summed over the contacts: standard error and, where the run
+  /// was compared with one at half the step, the error by the step that its difference stands for (post/verification.hpp), over the figure. Not a number where there is none.
   double relative;
   std::string text; ///< what it is, or why there is none
 };

@@ -339,6 +339,20 @@ StepChoice choose_step(const Scene& scene, const StepOptions& options) {
   return options.scheme ? choice_of(scene, options, scheme) : cheapest(scene, options);
 }
 
+int order_of_statistics(SchemeKind scheme) {
+  switch (scheme) {
+  case SchemeKind::euler:
+  case SchemeKind::runge_kutta_54:
+    return 1;
+  case SchemeKind::splitting:
+  case SchemeKind::collocation:
+  case SchemeKind::energy_conserving:
+  case SchemeKind::devogelaere:
+    return 2;
+  }
+  return {};
+}
+
 StepChoice halved(StepChoice choice) {
   if (choice.steps == 0) {
     choice.tolerance *= 0.5;

@@ -61,4 +61,9 @@ struct StepChoice {
 /// The same run at half the step, or, adaptive, at half the tolerance.
 [[nodiscard]] StepChoice halved(StepChoice choice);
 
+/// p of the statistics of a run with contacts: their error falls by 2^p from a choice to the halved one. 1 for euler, and for the adaptive
+/// scheme, whose error goes as its tolerance; else 2, also of the schemes of order 4: forces have a kink where a contact opens or closes
+/// inside a step, which costs them the order on all but single smooth paths (doc/schemes.md).
+[[nodiscard]] int order_of_statistics(SchemeKind scheme);
+
 } // namespace fretwork::transient

@@ -9,6 +9,7 @@ using namespace fretwork::post;
 namespace {
 
 constexpr double accuracy = 0.01;
+constexpr Criterion second_order{accuracy, 2, 2.0};
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 ContactSummary with_work(double work, double error) {
@@ -20,24 +21,40 @@ ContactSummary with_work(double work, double error) {
 
 /// Whether a work rate of 100 +- `error` agrees with another by twice the standard error of the difference.
 bool agrees(double other, double error) {
-  return compare(with_work(100.0, error), with_work(other, error), 2.0, accuracy)[0].agrees;
+  return compare(with_work(100.0, error), with_work(other, error), second_order)[0].agrees;
 }
 
 } // namespace
 
 TEST(Verification, AllowsTheAccuracyAndTheScatterTogether) {
-  EXPECT_TRUE(agrees(100.9, 0.0));
-  EXPECT_FALSE(agrees(101.1, 0.0));
-  EXPECT_FALSE(agrees(98.9, 0.0));
+  EXPECT_TRUE(agrees(100.7, 0.0)); // three quarters of the accuracy, of order 2
+  EXPECT_FALSE(agrees(100.8, 0.0));
+  EXPECT_FALSE(agrees(99.2, 0.0));
   const double noise = 2.0 * std::sqrt(2.0) * 3.0; // of two runs of 3
-  EXPECT_TRUE(agrees(100.0 + noise + 1.0, 3.0));
-  EXPECT_FALSE(agrees(100.0 + noise + 1.2, 3.0));
+  EXPECT_TRUE(agrees(100.0 + noise + 0.75, 3.0));
+  EXPECT_FALSE(agrees(100.0 + noise + 1.0, 3.0));
 }
 
 TEST(Verification, ComparesWhatHasNoScatterAsItIs) {
-  EXPECT_TRUE(agrees(100.9, not_a_number));
-  EXPECT_FALSE(agrees(101.1, not_a_number));
-  EXPECT_TRUE(compare({}, {}, 2.0, accuracy)[0].agrees); // nothing happens in both
+  EXPECT_TRUE(agrees(100.7, not_a_number));
+  EXPECT_FALSE(agrees(100.8, not_a_number));
+  EXPECT_TRUE(compare({}, {}, second_order)[0].agrees); // nothing happens in both
+}
+
+TEST(Verification, AsksTheAccuracyOfTheRunNotOfTheDifference) {
+  // statistics of known order and error: 100 (1 + C h^p), at h = 1
+  for (const int order : {1, 2, 4}) {
+    const auto judged = [&](double error) {
+      const auto at = [&](double h) { return with_work(100.0 * (1.0 + error * std::pow(h, order)), 0.0); };
+      return compare(at(1.0), at(0.5), {accuracy, order})[0].agrees;
+    };
+    EXPECT_TRUE(judged(0.98 * accuracy)) << order;
+    EXPECT_FALSE(judged(1.05 * accuracy)) << order; // of the larger figure, which has the error in it
+    EXPECT_TRUE(judged(-0.98 * accuracy)) << order;
+    EXPECT_FALSE(judged(-1.05 * accuracy)) << order;
+  }
+  EXPECT_EQ(share_shown(1), 0.5);
+  EXPECT_EQ(share_shown(2), 0.75);
 }
 
 TEST(Verification, NeverAgreesWithWhatIsNotANumber) { EXPECT_FALSE(agrees(not_a_number, 1.0)); }
@@ -58,7 +75,7 @@ TEST(Verification, PutsEachFigureUnderItsName) {
   run.y.std = 5;
   run.z.std = 6;
   run.error = {0.1, 0.2, 0.4, 0.3, 0.5, 0.6, 32.0};
-  const auto figures = compare(run, half, 2.0, accuracy);
+  const auto figures = compare(run, half, second_order);
   ASSERT_EQ(figures.size(), compared_of_a_contact);
   const char* names[] = {"work_rate",        "friction_power",     "impacts_per_second",
                          "normal_force.rms", "displacement.y.std", "displacement.z.std"};
@@ -79,7 +96,7 @@ TEST(Verification, AddsUpTheContacts) {
   StandardErrors a, b;
   a.work_rate = 3.0;
   b.work_rate = 4.0;
-  const auto sums = compare_sums({one, two}, a, {two, two}, b, accuracy);
+  const auto sums = compare_sums({one, two}, a, {two, two}, b, second_order);
   ASSERT_EQ(sums.size(), 3u);
   EXPECT_EQ(sums[0].value, 3.0);
   EXPECT_EQ(sums[0].at_half, 4.0);

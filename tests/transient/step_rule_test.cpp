@@ -222,6 +222,14 @@ TEST(StepRule, HalvesAStepOrATolerance) {
   EXPECT_EQ(halved(adaptive).tolerance, 0.5 * adaptive.tolerance);
 }
 
+TEST(StepRule, KnowsHowFastStatisticsSettle) {
+  EXPECT_EQ(order_of_statistics(SchemeKind::euler), 1);
+  EXPECT_EQ(order_of_statistics(SchemeKind::runge_kutta_54), 1); // of the tolerance
+  for (const SchemeKind kind : {SchemeKind::splitting, SchemeKind::collocation, SchemeKind::energy_conserving,
+                                SchemeKind::devogelaere})
+    EXPECT_EQ(order_of_statistics(kind), 2) << name_of(kind);
+}
+
 TEST(StepRule, CountsAllContactsTogether) {
   // two contacts of one node act as one of twice the stiffness
   Scene scene = scene_with({Circle{0.1}, {8e4}, {8e4, 10.0, 0.3, 0.3}});
