@@ -15,6 +15,7 @@ ContactMemory::ContactMemory(const PackedContacts& contacts, double step)
     entries_[c].table = contact::friction_table(contacts.supports[c].friction, step);
   remembering_.reserve(count);
   closed_.reserve(count);
+  ahead_.resize(count);
   position_.assign(static_cast<std::size_t>(contacts.stride()), 0.0);
 }
 
@@ -43,6 +44,34 @@ ContactLosses ContactMemory::commit(const ContactMotion& motion, ContactTrial& t
   closed_.assign(trial.active.begin(), trial.active.end());
   position_ = motion.u;
   return losses;
+}
+
+void ContactMemory::follow(const ContactMotion& motion, double half_step) {
+  for (const int c : closed_) {
+    const contact::FrictionLaw& law = contacts_.supports[c].friction;
+    const bool in_lanes = contacts_.in_lanes;
+    Entry& e = entries_[c];
+    if (!law.active() || (in_lanes ? lanes_.sliding[c] != 0.0 : e.friction.sliding))
+      continue;
+    const double ny = in_lanes ? lanes_.normal_y[c] : e.ny, nz = in_lanes ? lanes_.normal_z[c] : e.nz;
+    const contact::Vec2 moved =
+        motion.tangential(c, ny, nz, motion.u) - motion.tangential(c, ny, nz, position_);
+    const contact::Vec2 by = -law.stiffness * (moved - ahead_[c] - half_step * motion.slip(c, ny, nz));
+    contact::FrictionMemory memory = in_lanes ? contact::FrictionMemory{{0.0, lanes_.spring[c]}} : e.friction;
+    springs_ -= contact::spring_energy(law, memory);
+    memory.spring = memory.spring + by;
+    springs_ += contact::spring_energy(law, memory);
+    (in_lanes ? lanes_.spring[c] : e.friction.spring.t) = memory.spring.t;
+    e.friction.spring.x = memory.spring.x;
+  }
+}
+
+void ContactMemory::leave(const ContactMotion& motion, const ContactTrial& trial, double half_step) {
+  for (const int c : trial.active) {
+    const ContactState& state = trial.states[c];
+    if (contacts_.supports[c].friction.active())
+      ahead_[c] = state.displacement - half_step * motion.slip(c, state.ny, state.nz);
+  }
 }
 
 void ContactMemory::commit_each(ContactTrial& trial, ContactLosses& losses) {

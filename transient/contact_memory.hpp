@@ -6,6 +6,13 @@
 /// A memory is kept in components along x_loc and t = n x x_loc, so it turns with the normal. A normal on the other side of the last
 /// one (n.n0 < 0: the opposite face) is another surface: what the last face has loaded is lost. The spring of an open contact dies out
 /// by contact::open_step and is forgotten when round-off is left of it.
+///
+/// An action of the splitting scheme at t_n stretches the springs by dx_n = h (v- + v+)/2. Where they stick, the sum of these must be the
+/// displacement of the contact. It is not by itself: a flow takes a mode of w h not small by another displacement than h times the mean of the
+/// velocities at its ends, and a damped one that a steady force pushes to and fro between actions by none at all where that mean is
+/// z w h^2/6 of its acceleration, so that the spring would creep. `follow` stretches them by what is missing from the action before,
+///     e_n = u_n - u_{n-1} - (dx_{n-1} - (h/2) v-_{n-1}) - (h/2) v-_n;
+/// sums of dx + e are displacements, but for the half steps at both ends. Of order h^2.
 #pragma once
 #include "transient/contact_motion.hpp"
 #include "transient/contact_trial.hpp"
@@ -56,8 +63,13 @@ public:
   /// Accepts a step: advances the memories of the closed contacts, lets those of the others die out, fills the friction and damper work
   /// of the states and the contacts that have opened. `motion` is that of the trial. No allocation.
   ContactLosses commit(const ContactMotion& motion, ContactTrial& trial);
+
+  /// Between flow and action: e_n to the springs of contacts that stick. `motion` is that before the action. No allocation.
+  void follow(const ContactMotion& motion, double half_step);
+  /// After the commit of an action, with the motion before it: what the next `follow` starts from. No allocation.
+  void leave(const ContactMotion& motion, const ContactTrial& trial, double half_step);
   void visit(core::StateArchive& state) {
-    state(entries_, lanes_, laws_.relaxation, remembers_, remembering_, closed_, position_, springs_);
+    state(entries_, lanes_, laws_.relaxation, remembers_, remembering_, closed_, position_, ahead_, springs_);
   }
 
 private:
@@ -88,6 +100,7 @@ private:
   std::vector<int> remembering_; ///< contacts with left > 0
   std::vector<int> closed_;      ///< with a force at the last commit
   kernels::Array position_;
+  std::vector<contact::Vec2> ahead_; ///< m, dx - (h/2) v- of the last action
   double springs_ = 0.0;
 };
 

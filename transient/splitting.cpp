@@ -170,11 +170,14 @@ private:
   void act() {
     motion_.gather(q_.data(), v_.data());
     obstacles_.add(time_, motion_);
+    if (!flexible_) // whose contacts move at once by their own forces
+      memory_.follow(motion_, 0.5 * h_);
     const auto action =
         flexible_ ? flexible_->solve(memory_, motion_, trial_) : solver_.solve(memory_, motion_, trial_);
     unconverged_ += !action.converged;
     const double springs_before = memory_.spring_energy();
     const ContactLosses losses = memory_.commit(motion_, trial_);
+    memory_.leave(motion_, trial_, 0.5 * h_);
     if (flexible_)
       flexible_->accept();
     rows_.set(trial_, h_);

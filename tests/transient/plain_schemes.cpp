@@ -20,6 +20,9 @@ struct Point {
   double last_ny = 0.0, last_nz = 0.0;
   double mean = 0.0, normal = 0.0;
   contact::Friction friction{};
+  bool was_closed = false;                           ///< at the last action, and then:
+  Vec3 stood = Vec3::Zero(), left_at = Vec3::Zero(); ///< displacement, velocity before it
+  Vec2 last_dx{};
 
   [[nodiscard]] Vec3 n() const { return {0.0, ny, nz}; }
   [[nodiscard]] Vec3 t() const { return {0.0, nz, -ny}; }
@@ -43,6 +46,19 @@ struct Point {
     last_ny = ny;
     last_nz = nz;
     return step.friction_work;
+  }
+  /// Along x_loc and t of the last commit, as far as friction acts along it.
+  [[nodiscard]] Vec2 tangential(const Vec3& u) const {
+    const Vec2 along = at.support.friction.along;
+    return {along.x * u.x(), along.t * (last_nz * u.y() - last_ny * u.z())};
+  }
+  /// What the spring of a sticking contact lacks of its displacement since the last action (contact_memory.hpp).
+  void follow(const Vec3& u, const Vec3& v, double h) {
+    if (!was_closed || !at.support.friction.active() || memory.sliding)
+      return;
+    const Vec2 e =
+        tangential(u - stood) - (last_dx - 0.5 * h * tangential(left_at)) - 0.5 * h * tangential(v);
+    memory.spring = memory.spring - at.support.friction.stiffness * e;
   }
   void open() { memory = contact::open_step(at.support.friction, table, memory).memory; }
 };
@@ -114,6 +130,8 @@ PlainState plain_splitting(const Scene& scene, double h, int steps) {
     time = next;
     std::vector<Point*> shut;
     for (Point& p : points) {
+      p.follow(p.at.b * s.q, p.at.b * s.v, h);
+      p.was_closed = false;
       const double depth = p.locate(p.at.b * s.q), reach = -0.5 * window * h * p.n().dot(p.at.b * s.v);
       p.mean = contact::mean_penetration(depth - reach, depth + reach);
       p.normal = 0.0;
@@ -128,6 +146,7 @@ PlainState plain_splitting(const Scene& scene, double h, int steps) {
     Eigen::VectorXd mean_velocity = s.v;
     for (int i = 0; i < sweeps; ++i)
       sweep(shut, h, mean_velocity);
+    const PlainState before = s;
     for (Point* p : shut) {
       if (p->normal > 0.0) {
         const Vec3 w = p->at.b * mean_velocity;
@@ -135,6 +154,10 @@ PlainState plain_splitting(const Scene& scene, double h, int steps) {
         s.slid += p->friction.slides;
         if (p->at.support.friction.active())
           s.friction_work += p->commit({h * w.x(), h * w.dot(p->t())});
+        p->was_closed = true;
+        p->stood = p->at.b * before.q;
+        p->left_at = p->at.b * before.v;
+        p->last_dx = h * p->tangential(w);
       } else {
         p->open();
       }
