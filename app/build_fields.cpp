@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/build_fields.hpp"
 #include "app/support_motion.hpp"
+#include "core/error.hpp"
 #include "fem/fields.hpp"
 #include "fem/ties.hpp"
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace fretwork::app {
@@ -11,6 +13,11 @@ namespace {
 
 using core::Index;
 using core::Vec3;
+
+transient::TimeFunction acceleration_of(const study::SupportMotion& motion) {
+  return motion.by_displacement ? transient::motion_of_displacement(motion.function).acceleration
+                                : motion.function;
+}
 
 Eigen::VectorXd load_field(const study::Load& load, const std::string& what, const mesh::LineMesh& mesh,
                            const fem::Model& model) {
@@ -20,6 +27,15 @@ Eigen::VectorXd load_field(const study::Load& load, const std::string& what, con
   return fem::line_forces(model, mesh::group_lines(mesh, load.group, what), load.direction);
 }
 
+void follow_ties(const fem::Model& model, const char* what, const std::vector<bool>& given,
+                 Eigen::VectorXd& field) {
+  try {
+    fem::follow_ties(model, given, field);
+  } catch (const core::Error& error) {
+    throw core::Error(fmt::format("[[initial]] {}: {}", what, error.what()));
+  }
+}
+
 void initial_field(const study::Study& study, const mesh::LineMesh& mesh, const fem::Model& model,
                    Fields& out) {
   if (study.initial.empty())
@@ -27,6 +43,11 @@ void initial_field(const study::Study& study, const mesh::LineMesh& mesh, const 
   out.moves_at_start = true;
   out.displacement.setZero(static_cast<Eigen::Index>(model.nodes.size()) * core::dofs_per_node);
   out.velocity = out.displacement;
+  std::vector<bool> displaced(static_cast<std::size_t>(out.displacement.size()), false), moves = displaced;
+  const auto mark = [](std::vector<bool>& given, Eigen::Index row, int dofs) {
+    std::fill_n(given.begin() + row, core::dofs_per_node, false); // of an earlier entry
+    std::fill_n(given.begin() + row, dofs, true);
+  };
   for (std::size_t e = 0; e < study.initial.size(); ++e) {
     const study::Initial& initial = study.initial[e];
     for (const Index node :
@@ -36,10 +57,14 @@ void initial_field(const study::Study& study, const mesh::LineMesh& mesh, const 
       out.displacement.segment<6>(row) << initial.displacement, Vec3::Zero();
       out.velocity.segment<6>(row) << initial.velocity + initial.rotation_rate.cross(arm),
           initial.rotation_rate;
+      // a vector of zeros gives nothing, and rotations are given by a rotation only
+      mark(displaced, row, initial.displacement.isZero(0.0) ? 0 : 3);
+      const bool turns = !initial.rotation_rate.isZero(0.0);
+      mark(moves, row, turns ? core::dofs_per_node : initial.velocity.isZero(0.0) ? 0 : 3);
     }
   }
-  fem::follow_ties(model, out.displacement);
-  fem::follow_ties(model, out.velocity);
+  follow_ties(model, "displacement", displaced, out.displacement);
+  follow_ties(model, "velocity", moves, out.velocity);
   for (std::size_t node = 0; node < model.nodes.size(); ++node)
     for (int d = 0; d < core::dofs_per_node; ++d)
       if (model.is_fixed(static_cast<Index>(node), d)) {
@@ -66,11 +91,11 @@ Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh, const
   if (study.gravity)
     out.loads.push_back({"[gravity]", transient::Constant{1.0}, on_all_masses(*study.gravity)});
   for (const auto& motion : study.base_motions)
-    out.loads.push_back({"[[base_motion]]", motion.acceleration, -on_all_masses(motion.direction)});
+    out.loads.push_back({"[[base_motion]]", motion.acceleration, -on_all_masses(motion.direction), true});
   for (std::size_t k = 0; k < out.supports.size(); ++k)
     out.loads.push_back(
         {fmt::format("[[support_motion]] entry {} of \"{}\"", k + 1, study.support_motions[k].group),
-         prescribed(study.support_motions[k]).acceleration, -fem::mass_times(model, out.supports[k])});
+         acceleration_of(study.support_motions[k]), -fem::mass_times(model, out.supports[k]), true});
   initial_field(study, mesh, model, out);
   return out;
 }

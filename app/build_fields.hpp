@@ -16,6 +16,7 @@ struct Fields {
     std::string name; ///< for messages
     transient::TimeFunction function;
     Eigen::VectorXd force;
+    bool inertial = false; ///< as transient::Load
   };
   std::vector<Load> loads;
   std::vector<Eigen::VectorXd> supports; ///< shapes of the study's support motions (support_motion.hpp)

@@ -260,7 +260,7 @@ BuiltScene build_scene(const study::Study& study, const Fields& fields, const st
     Eigen::VectorXd force(0);
     for (const modal::Basis* basis : bases)
       append(force, basis->shapes.transpose() * restricted(*basis, load.force));
-    scene.loads.push_back({load.function, force});
+    scene.loads.push_back({load.function, force, load.inertial});
   }
   scene.q0 = scene.v0 = Eigen::VectorXd::Zero(scene.system.size());
   if (fields.moves_at_start) {
@@ -271,9 +271,9 @@ BuiltScene build_scene(const study::Study& study, const Fields& fields, const st
                                     [](const study::Contact& contact) { return contact.grounded; });
   if (grounded)
     for (const study::BaseMotion& motion : study.base_motions)
-      scene.motions.push_back({motion.acceleration, motion.velocity0, motion.displacement0});
+      scene.motions.push_back(prescribed(motion, scene.duration));
   for (const study::SupportMotion& motion : study.support_motions)
-    scene.motions.push_back(prescribed(motion));
+    scene.motions.push_back(prescribed(motion, scene.duration));
   for (std::size_t c = 0; c < contacts.size(); ++c)
     if (has_node(bases, contacts[c].node) || (contacts[c].other >= 0 && has_node(bases, contacts[c].other))) {
       add_contact(study, study.contacts[contacts[c].entry], contacts[c], bases, fields, out);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/checkpoints.hpp"
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include <csignal>
 #include <fmt/format.h>
+#include <fstream>
+#include <iterator>
 #include <regex>
 
 namespace fretwork::app {
@@ -20,6 +23,16 @@ results::Checkpoint checkpoint_of(transient::Run& run) {
   return {run.time(), std::move(state).bytes()};
 }
 
+/// What tells builds of one version apart: the hash of the executable. Where it cannot be read (no /proc) the version alone does.
+const std::string& build() {
+  static const std::string hash = [] {
+    std::ifstream in("/proc/self/exe", std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    return bytes.empty() ? std::string() : core::sha256(bytes);
+  }();
+  return hash;
+}
+
 } // namespace
 
 Checkpoints::Checkpoints(CheckpointOptions options) : options_(std::move(options)) {
@@ -33,7 +46,7 @@ Checkpoints::~Checkpoints() {
 }
 
 std::string Checkpoints::found(std::size_t run) const {
-  if (!options_.resume)
+  if (!options_.resume || !fs::exists(file(run)))
     return {};
   const results::FoundCheckpoint found = results::read_checkpoint(file(run), identity(run));
   if (!found.refusal.empty())
@@ -86,7 +99,7 @@ fs::path Checkpoints::file(std::size_t run) const {
 }
 
 results::RunIdentity Checkpoints::identity(std::size_t run) const {
-  return {options_.version, options_.input_sha256, static_cast<std::int64_t>(run)};
+  return {options_.version, options_.input_sha256, static_cast<std::int64_t>(run), build()};
 }
 
 void Checkpoints::remove(const fs::path& directory) {

@@ -2,7 +2,7 @@
 #include "app/support_motion.hpp"
 #include "core/error.hpp"
 #include "fem/fields.hpp"
-#include "fem/petsc_assembly.hpp"
+#include "fem/petsc_static.hpp"
 #include "fem/ties.hpp"
 #include <cmath>
 #include <fmt/format.h>
@@ -31,12 +31,35 @@ bool acts_on(const fem::Structure& structure, const Eigen::VectorXd& field) {
   return false;
 }
 
+/// From rest at 0 where nothing is given, but for a random acceleration, which would carry it away.
+transient::PrescribedMotion accelerated(const transient::TimeFunction& acceleration,
+                                        std::optional<double> velocity0, std::optional<double> displacement0,
+                                        double duration) {
+  const auto* random = std::get_if<transient::Random>(&acceleration);
+  if (random && !velocity0 && !displacement0)
+    return transient::without_drift(*random, duration);
+  return {acceleration, velocity0.value_or(0.0), displacement0.value_or(0.0)};
+}
+
+Eigen::VectorXd static_shape(const fem::Model& model, const fem::Structure& structure,
+                             const Eigen::VectorXd& force, const std::string& name) {
+  try {
+    return fem::static_solution(model, structure, force);
+  } catch (const core::ComputationError& error) {
+    throw core::ComputationError(name + ": " + error.what());
+  }
+}
+
 } // namespace
 
-transient::PrescribedMotion prescribed(const study::SupportMotion& motion) {
-  if (motion.by_displacement)
-    return transient::motion_of_displacement(motion.function);
-  return {motion.function, motion.velocity0, motion.displacement0};
+transient::PrescribedMotion prescribed(const study::SupportMotion& motion, double duration) {
+  return motion.by_displacement
+             ? transient::motion_of_displacement(motion.function)
+             : accelerated(motion.function, motion.velocity0, motion.displacement0, duration);
+}
+
+transient::PrescribedMotion prescribed(const study::BaseMotion& motion, double duration) {
+  return accelerated(motion.acceleration, motion.velocity0, motion.displacement0, duration);
 }
 
 std::vector<MovedSupport> moved_supports(const study::Study& study, const mesh::LineMesh& mesh,
@@ -46,8 +69,10 @@ std::vector<MovedSupport> moved_supports(const study::Study& study, const mesh::
     const study::SupportMotion& motion = study.support_motions[e];
     const std::string what = fmt::format("[[support_motion]] entry {}", e + 1);
     MovedSupport moved;
+    moved.name = fmt::format("{} of \"{}\"", what, motion.group);
     moved.imposed.setZero(static_cast<Eigen::Index>(model.nodes.size()) * core::dofs_per_node);
     moved.force = moved.imposed;
+    std::vector<bool> given(static_cast<std::size_t>(moved.imposed.size()), false);
     for (const Index node : mesh::group_nodes(mesh, motion.group, what))
       for (int axis = 0; axis < 3; ++axis) {
         const double along = motion.direction(axis);
@@ -56,7 +81,7 @@ std::vector<MovedSupport> moved_supports(const study::Study& study, const mesh::
         const Eigen::Index row = static_cast<Eigen::Index>(node) * core::dofs_per_node + axis;
         const double stiffness = grounded_stiffness(model, node, axis);
         if (model.is_fixed(node, axis))
-          moved.imposed(row) = along;
+          moved.imposed(row) = along, given[static_cast<std::size_t>(row)] = true;
         else if (stiffness > 0.0)
           moved.force(row) = stiffness * along;
         else
@@ -67,7 +92,7 @@ std::vector<MovedSupport> moved_supports(const study::Study& study, const mesh::
               what, motion.group, fem::place(model.nodes[static_cast<std::size_t>(node)]), "xyz"[axis],
               "xyz"[axis]));
       }
-    fem::follow_ties(model, moved.imposed);
+    fem::follow_ties(model, given, moved.imposed); // one direction: tied dofs are given alike
     out.push_back(std::move(moved));
   }
   return out;
@@ -82,7 +107,7 @@ std::vector<Eigen::VectorXd> support_shapes(const std::vector<MovedSupport>& sup
     Eigen::VectorXd shape = support.imposed;
     for (const fem::Structure& structure : structures)
       if (acts_on(structure, force))
-        shape += fem::static_solution(model, structure, force);
+        shape += static_shape(model, structure, force, support.name);
     out.push_back(std::move(shape));
   }
   return out;

@@ -7,16 +7,21 @@
 ///     m q'' + c q' + k q = Phi^T F - sum of Phi^T M psi_k s_k'',
 /// (Clough and Penzien, Dynamics of Structures, 2nd ed. 1993, section 26-2) and damped as motion from the static one: dampers and modal
 /// damping take nothing of psi s'. Few modes do: the static part is exact.
+/// A structure that spins, slides or is a mechanism with all supports held is carried as well: a motion r that strains nothing has K r = 0 at
+/// every dof, moved supports included, and is not pushed by them, r.K.psi = 0. Of psi it has no part, r.M.psi = 0: it starts at rest.
 #pragma once
 #include "app/build_model.hpp"
 #include "transient/prescribed_motion.hpp"
 
 namespace fretwork::app {
 
-[[nodiscard]] transient::PrescribedMotion prescribed(const study::SupportMotion& motion);
+/// @param duration  s, of the run: a random acceleration without velocity0 and displacement0 is one without drift over it
+[[nodiscard]] transient::PrescribedMotion prescribed(const study::SupportMotion& motion, double duration);
+[[nodiscard]] transient::PrescribedMotion prescribed(const study::BaseMotion& motion, double duration);
 
 /// What a support motion does by 1 m, 6 values a node of the model.
 struct MovedSupport {
+  std::string name;        ///< of the entry, for messages
   Eigen::VectorXd imposed; ///< displacement of restrained dofs, 0 elsewhere
   Eigen::VectorXd force;   ///< N, of grounded springs whose ground moves, on free dofs
 };
@@ -27,7 +32,7 @@ struct MovedSupport {
                                                        const fem::Model& model);
 
 /// psi of each support motion, 6 values a node of the model. Serial; needs PETSc.
-/// @throws core::Error where a structure is not held when all supports are
+/// @throws core::ComputationError naming the entry, where a stiffness is singular to working precision
 [[nodiscard]] std::vector<Eigen::VectorXd> support_shapes(const std::vector<MovedSupport>& supports,
                                                           const fem::Model& model,
                                                           const std::vector<fem::Structure>& structures);

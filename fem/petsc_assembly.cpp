@@ -2,12 +2,8 @@
 #include "fem/petsc_assembly.hpp"
 #include "core/error.hpp"
 #include "core/petsc.hpp"
-#include "fem/fields.hpp"
 #include "fem/node_blocks.hpp"
-#include "fem/rigid_motions.hpp"
 #include <algorithm>
-#include <fmt/format.h>
-#include <limits>
 #include <utility>
 
 namespace fretwork::fem {
@@ -129,40 +125,6 @@ struct Ordering {
   }
 };
 
-/// Owns a vector.
-struct Vector {
-  Vec handle = nullptr;
-  ~Vector() { VecDestroy(&handle); }
-};
-
-Eigen::VectorXd solve(Mat matrix, Mat factor, const Eigen::VectorXd& right) {
-  Vector b, x;
-  FW_PETSC(MatCreateVecs(matrix, &x.handle, &b.handle));
-  PetscScalar* values = nullptr;
-  FW_PETSC(VecGetArray(b.handle, &values));
-  Eigen::Map<Eigen::VectorXd>(values, right.size()) = right;
-  FW_PETSC(VecRestoreArray(b.handle, &values));
-  FW_PETSC(MatSolve(factor, b.handle, x.handle));
-  const PetscScalar* result = nullptr;
-  FW_PETSC(VecGetArrayRead(x.handle, &result));
-  Eigen::VectorXd solution = Eigen::Map<const Eigen::VectorXd>(result, right.size());
-  FW_PETSC(VecRestoreArrayRead(x.handle, &result));
-  return solution;
-}
-
-/// sum of K_ii u_i^2: a scale of u^T K u that has no unit to choose.
-double diagonal_energy(Mat matrix, const Eigen::VectorXd& solution) {
-  Vector diagonal;
-  FW_PETSC(MatCreateVecs(matrix, nullptr, &diagonal.handle));
-  FW_PETSC(MatGetDiagonal(matrix, diagonal.handle));
-  const PetscScalar* values = nullptr;
-  FW_PETSC(VecGetArrayRead(diagonal.handle, &values));
-  const double sum =
-      (Eigen::Map<const Eigen::ArrayXd>(values, solution.size()) * solution.array().square()).sum();
-  FW_PETSC(VecRestoreArrayRead(diagonal.handle, &values));
-  return sum;
-}
-
 } // namespace
 
 PetscMatrix& PetscMatrix::operator=(PetscMatrix&& other) noexcept {
@@ -230,45 +192,6 @@ PetscMatrix factorise(Mat matrix, Elimination elimination) {
   if (outcome != MAT_FACTOR_NOERROR)
     throw core::ComputationError("factorisation of the stiffness: a pivot vanishes, the matrix is singular");
   return factor;
-}
-
-Eigen::VectorXd static_solution(const Model& model, const Structure& structure,
-                                const Eigen::VectorXd& force) {
-  const std::string what = "static solution of the structure that starts at node " +
-                           place(model.nodes[static_cast<std::size_t>(structure.nodes.front())]);
-  Eigen::VectorXd result =
-      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.nodes.size()) * dofs_per_node);
-  if (structure.equations == 0)
-    return result;
-  if (const Eigen::Index motions = rigid_motions(model, structure).cols(); motions > 0)
-    throw core::Error(
-        fmt::format("{}: it is not held: {} motion(s) strain nothing; restrain them", what, motions));
-
-  const auto model_row = [&](std::size_t i) {
-    return Eigen::Index{structure.nodes[i / dofs_per_node]} * dofs_per_node +
-           static_cast<Eigen::Index>(i % dofs_per_node);
-  };
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(structure.equations);
-  for (std::size_t i = 0; i < structure.equation.size(); ++i)
-    if (structure.equation[i] >= 0)
-      right[structure.equation[i]] += force[model_row(i)]; // those on tied dofs add up
-  const SystemMatrices system = assemble(PETSC_COMM_SELF, model, structure);
-  const PetscMatrix factor = factorise(system.stiffness.get(), elimination_of(model, structure));
-  const Eigen::VectorXd solution = solve(system.stiffness.get(), factor.get(), right);
-
-  Eigen::MatrixXd field = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(structure.equation.size()), 1);
-  for (std::size_t i = 0; i < structure.equation.size(); ++i)
-    if (structure.equation[i] >= 0)
-      result[model_row(i)] = field(static_cast<Eigen::Index>(i), 0) = solution[structure.equation[i]];
-  // Along a null vector the strain energy is round-off squared of its diagonal scale; the softest mesh that
-  // makes sense (thousands of elements) has at least round-off to the power one.
-  const double energy = twice_strain_energy(model, structure, field)[0];
-  if (!solution.allFinite() ||
-      energy < std::numeric_limits<double>::epsilon() * diagonal_energy(system.stiffness.get(), solution))
-    throw core::ComputationError(
-        what + ": the stiffness is singular to working precision; look for parts that are hardly held, "
-               "or mesh more coarsely");
-  return result;
 }
 
 } // namespace fretwork::fem

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// K and M of a structure as PETSc matrices over its free dofs, and its static solution.
+/// K and M of a structure as PETSc matrices over its free dofs, and their factors.
 #pragma once
 #include "fem/model.hpp"
 #include <petscmat.h>
@@ -48,14 +48,5 @@ struct Factoriser {
 /// L D L^T of a symmetric matrix. Collective.
 /// @throws core::ComputationError where a pivot vanishes
 [[nodiscard]] PetscMatrix factorise(Mat matrix, Elimination elimination);
-
-/// Static displacement of a structure under `force` (6 values a model node): K u = f on the free dofs,
-/// serial.
-/// @return 6 values a model node, zero outside the structure and at restrained dofs
-/// @throws core::Error if the structure is not held (a motion that strains nothing), core::ComputationError
-/// if K is singular to
-///         working precision
-[[nodiscard]] Eigen::VectorXd static_solution(const Model& model, const Structure& structure,
-                                              const Eigen::VectorXd& force);
 
 } // namespace fretwork::fem

@@ -1,8 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/ties.hpp"
+#include "core/error.hpp"
 #include "fem/disjoint_sets.hpp"
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
 
 namespace fretwork::fem {
+namespace {
+
+/// Of values worked out at two nodes of one place.
+constexpr double same_value = 1e-9;
+constexpr std::array<const char*, dofs_per_node> component_names = {"ux", "uy", "uz", "rx", "ry", "rz"};
+
+} // namespace
 
 std::vector<Index> first_tied(const Model& model) {
   DisjointSets sets(model.nodes.size() * dofs_per_node);
@@ -32,15 +43,29 @@ void restrain_tied(Model& model) {
     restrain(dof, first[static_cast<std::size_t>(dof)]);
 }
 
-void follow_ties(const Model& model, Eigen::VectorXd& field) {
+void follow_ties(const Model& model, const std::vector<bool>& given, Eigen::VectorXd& field) {
   if (model.ties.empty())
     return;
   const std::vector<Index> first = first_tied(model);
+  std::vector<Index> source(first.size(), -1); // of a set of tied dofs, by its first: one that is given
+  for (std::size_t dof = 0; dof < first.size(); ++dof) {
+    if (!given[dof])
+      continue;
+    Index& from = source[static_cast<std::size_t>(first[dof])];
+    if (from < 0)
+      from = static_cast<Index>(dof);
+    const double a = field[from], b = field[static_cast<Eigen::Index>(dof)];
+    if (std::abs(a - b) > same_value * std::max(std::abs(a), std::abs(b)))
+      throw core::Error(fmt::format("{} is tied between the nodes at {} and {}, but given as {:.6g} and "
+                                    "{:.6g}; give it the same value, "
+                                    "or at one of the nodes only",
+                                    component_names[dof % dofs_per_node],
+                                    place(model.nodes[static_cast<std::size_t>(from) / dofs_per_node]),
+                                    place(model.nodes[dof / dofs_per_node]), a, b));
+  }
   for (std::size_t dof = 0; dof < first.size(); ++dof)
-    if (const double value = field[static_cast<Eigen::Index>(dof)]; value != 0.0)
-      field[first[dof]] = value;
-  for (std::size_t dof = 0; dof < first.size(); ++dof)
-    field[static_cast<Eigen::Index>(dof)] = field[first[dof]];
+    if (const Index from = source[static_cast<std::size_t>(first[dof])]; from >= 0)
+      field[static_cast<Eigen::Index>(dof)] = field[from];
 }
 
 } // namespace fretwork::fem

@@ -20,7 +20,9 @@ namespace fretwork::fem {
 /// Restrains what is tied to a restrained dof.
 void restrain_tied(Model& model);
 
-/// Of a field (6 values a node) given at some nodes and 0 at others: dofs tied to one that is not 0 take its value.
-void follow_ties(const Model& model, Eigen::VectorXd& field);
+/// Of a field (6 values a node) given at some dofs: those tied to one that is given take its value.
+/// @param given  by dof, whether it is given; of those that are not the value is not looked at
+/// @throws core::Error where two that are given are tied and differ by more than 1e-9 of the larger, naming both nodes
+void follow_ties(const Model& model, const std::vector<bool>& given, Eigen::VectorXd& field);
 
 } // namespace fretwork::fem

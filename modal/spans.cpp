@@ -16,7 +16,7 @@ using core::Vec3;
 /// degrees: it moves the tube across by a seventh).
 constexpr double along_the_tube = 0.99;
 
-/// Each node's neighbours, and which of its translations restraints and springs leave.
+/// Each node's neighbours, and which of its translations restraints, springs and ties leave.
 class Net {
 public:
   Net(const fem::Model& model, const fem::Structure& structure)
@@ -37,6 +37,11 @@ public:
           if (spring.stiffness[static_cast<std::size_t>(d)] > 0.0)
             held_[static_cast<std::size_t>(fem::position_of(structure, node))] |=
                 static_cast<std::uint8_t>(1 << d);
+    }
+    for (const Index i : structure.ties) {
+      const fem::Tie& tie = model.ties[static_cast<std::size_t>(i)];
+      for (const Index node : {tie.node, tie.other})
+        held_[static_cast<std::size_t>(fem::position_of(structure, node))] |= tie.dofs;
     }
   }
 

@@ -21,8 +21,8 @@ struct Span {
   int elements = 0;
 };
 
-/// The span of most elements. A span ends at a node with other than two neighbours, and where the restraints
-/// and springs of a node leave it no translation across the tube.
+/// The span of most elements. A span ends at a node with other than two neighbours, and where the restraints,
+/// springs and ties of a node leave it no translation across the tube.
 [[nodiscard]] Span longest_span(const fem::Model& model, const fem::Structure& structure);
 
 /// Warnings of the spans of all structures: one, of the longest, where it has more than many_elements.

@@ -33,6 +33,7 @@ void write_checkpoint(const fs::path& file, const RunIdentity& identity, const C
       root.set("version", identity.version);
       root.set("input_sha256", identity.input_sha256);
       root.set("run", identity.run);
+      root.set("build", identity.build);
       root.set("time", checkpoint.time);
       root.set("state_sha256", core::sha256(checkpoint.state));
       const auto* bytes = reinterpret_cast<const std::uint8_t*>(checkpoint.state.data());
@@ -59,6 +60,8 @@ FoundCheckpoint read_checkpoint(const fs::path& file, const RunIdentity& wanted)
     const h5::Group root = h5::Group::open_file(file);
     if (const std::string version = root.text("version"); version != wanted.version)
       return refuse(fmt::format("is of version {} of the program, this is {}", version, wanted.version));
+    if (root.text("build") != wanted.build)
+      return refuse(fmt::format("was written by another build of version {} of the program", wanted.version));
     if (root.text("input_sha256") != wanted.input_sha256 || root.integer("run") != wanted.run)
       return refuse("belongs to other inputs");
     const auto bytes = root.read<std::uint8_t>("state");

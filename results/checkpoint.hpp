@@ -14,6 +14,7 @@ struct RunIdentity {
   std::string version;      ///< of the program
   std::string input_sha256; ///< of all that the run is computed from
   std::int64_t run = 0;     ///< number among the runs of the study
+  std::string build = {};   ///< of the program: what one build keeps, another may read otherwise
 };
 
 struct Checkpoint {

@@ -63,8 +63,8 @@ std::vector<BaseMotion> read_base_motions(const TableReader& root, const std::fi
     const TableReader table(*entry.value, entry.path,
                             with_time_function({"direction", "velocity0", "displacement0"}));
     all.push_back({table.direction("direction"), read_time_function(table, folder, "m/s2"),
-                   table.number_or("velocity0", 0.0, {Range::any, "m/s"}),
-                   table.number_or("displacement0", 0.0, {Range::any, "m"})});
+                   table.optional_number("velocity0", {Range::any, "m/s"}),
+                   table.optional_number("displacement0", {Range::any, "m"})});
   }
   return all;
 }
@@ -84,8 +84,8 @@ std::vector<SupportMotion> read_support_motions(const TableReader& root,
     motion.function = read_time_function(table, folder, motion.by_displacement ? "m" : "m/s2");
     if (motion.by_displacement)
       check_smooth(table, motion);
-    motion.velocity0 = table.number_or("velocity0", 0.0, {Range::any, "m/s"});
-    motion.displacement0 = table.number_or("displacement0", 0.0, {Range::any, "m"});
+    motion.velocity0 = table.optional_number("velocity0", {Range::any, "m/s"});
+    motion.displacement0 = table.optional_number("displacement0", {Range::any, "m"});
     all.push_back(motion);
   }
   return all;

@@ -141,16 +141,16 @@ struct Load {
 struct BaseMotion {
   Vec3 direction; ///< unit
   transient::TimeFunction acceleration;
-  double velocity0 = 0.0, displacement0 = 0.0; ///< m/s and m, at t = 0
+  std::optional<double> velocity0, displacement0; ///< m/s and m, at t = 0
 };
 
 /// A group that is moved: by its restraints, or by the ground of its springs.
 struct SupportMotion {
   std::string group;
-  Vec3 direction;                              ///< unit
-  bool by_displacement = false;                ///< the time function gives m, otherwise m/s2
-  transient::TimeFunction function;            ///< a displacement is smooth: no random, no jump
-  double velocity0 = 0.0, displacement0 = 0.0; ///< m/s and m, at t = 0, of an acceleration
+  Vec3 direction;                                 ///< unit
+  bool by_displacement = false;                   ///< the time function gives m, otherwise m/s2
+  transient::TimeFunction function;               ///< a displacement is smooth: no random, no jump
+  std::optional<double> velocity0, displacement0; ///< m/s and m, at t = 0, of an acceleration
 };
 
 struct Initial {

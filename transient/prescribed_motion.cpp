@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/prescribed_motion.hpp"
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -135,6 +136,28 @@ PrescribedMotion motion_of_displacement(const TimeFunction& displacement) {
   }
   assert(std::holds_alternative<Table>(displacement));
   return along_curve(std::get<Table>(displacement));
+}
+
+PrescribedMotion without_drift(const Random& acceleration, double duration) {
+  constexpr std::array<double, 4> at = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
+                                        0.8611363115940526};
+  constexpr std::array<double, 4> weight = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
+                                            0.3478548451374538}; // Abramowitz and Stegun, table 25.4
+  PrescribedMotion out{acceleration};
+  const MotionSignal from_rest(out, duration);
+  const double piece = from_rest.grid_step();
+  double m0 = 0.0, m1 = 0.0;
+  for (std::size_t j = 0; static_cast<double>(j) * piece < duration; ++j) {
+    const double start = static_cast<double>(j) * piece, half = 0.5 * std::min(piece, duration - start);
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      const double t = start + half * (1.0 + at[k]), z = from_rest(t).displacement;
+      m0 += weight[k] * half * z / duration;
+      m1 += weight[k] * half * z * t / (duration * duration);
+    }
+  }
+  out.displacement0 = 6.0 * m1 - 4.0 * m0;
+  out.velocity0 = (6.0 * m0 - 12.0 * m1) / duration;
+  return out;
 }
 
 MotionState MotionSignal::Piece::at(double time) const {

@@ -32,7 +32,8 @@ std::vector<std::string> tube(const Workshop& folder, const std::string& output,
 
 /// Starts the program, waits until it has written `file` anew and for `delay` seconds more, and sends it a signal.
 void interrupt(const Workshop& folder, const std::vector<std::string>& arguments, const fs::path& file,
-               double delay, const std::string& signal, int expected_status) {
+               double delay, const std::string& signal, int expected_status,
+               const fs::path& program = test_paths::binary_dir() / "bin" / "fretwork") {
   static const std::string script = R"sh(
     file=$1; delay=$2; signal=$3; errors=$4; shift 4
     before=$(stat -c %y "$file" 2>/dev/null)
@@ -41,19 +42,23 @@ void interrupt(const Workshop& folder, const std::vector<std::string>& arguments
     sleep $delay
     kill -$signal $program 2>/dev/null
     wait $program)sh";
-  std::vector<std::string> all{"bash",
-                               "-c",
-                               script,
-                               "bash",
-                               file.string(),
-                               fmt::format("{}", delay),
-                               signal,
-                               folder.path("stderr").string(),
-                               (test_paths::binary_dir() / "bin" / "fretwork").string()};
+  std::vector<std::string> all{"bash",          "-c",
+                               script,          "bash",
+                               file.string(),   fmt::format("{}", delay),
+                               signal,          folder.path("stderr").string(),
+                               program.string()};
   all.insert(all.end(), arguments.begin(), arguments.end());
   EXPECT_EQ(core::run_child(all).status, expected_status);
   EXPECT_TRUE(fs::exists(file));
   EXPECT_FALSE(fs::exists(folder.path("results") / "summary.json"));
+}
+
+/// The executable's own bytes and one more: it runs as before.
+fs::path another_build(const Workshop& folder) {
+  const fs::path copy = folder.path("another_fretwork");
+  fs::copy_file(test_paths::binary_dir() / "bin" / "fretwork", copy);
+  std::ofstream(copy, std::ios::binary | std::ios::app) << '\0';
+  return copy;
 }
 
 void kill_after(const Workshop& folder, const std::vector<std::string>& arguments, const fs::path& file,
@@ -111,6 +116,16 @@ TEST(Checkpoint, ThatIsDamagedIsToldAndNotUsed) {
   std::ofstream(file, std::ios::binary) << bytes;
   EXPECT_TRUE(
       says(completed(folder, tube(folder, "results")), file.string() + " is damaged: the run starts again"));
+  expect_same(folder, "whole", "results");
+}
+
+TEST(Checkpoint, OfAnotherBuildIsToldAndNotUsed) {
+  const Workshop folder;
+  (void)completed(folder, tube(folder, "whole"));
+  const fs::path file = folder.path("results") / "checkpoint.h5";
+  interrupt(folder, tube(folder, "results"), file, 0.0, "KILL", killed, another_build(folder));
+  EXPECT_TRUE(says(completed(folder, tube(folder, "results")),
+                   file.string() + " was written by another build of version"));
   expect_same(folder, "whole", "results");
 }
 

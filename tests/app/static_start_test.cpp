@@ -2,6 +2,7 @@
 // A run that starts in equilibrium: a preloaded tube stays where it is, a run from rest does not; what cannot be held is told.
 #include "mesh_text.hpp"
 #include "program.hpp"
+#include <cmath>
 #include <fmt/format.h>
 
 namespace fretwork::app::test {
@@ -120,6 +121,38 @@ TEST(StaticStart, TellsTheForceOfAnOverlapAtTheStart) {
   const Results start = run(folder, "static"), rest = run(folder, "rest");
   EXPECT_TRUE(says(start.summary["notes"].dump(), fmt::format("presses with {:.4g} N", closed_form(start))));
   EXPECT_TRUE(says(rest.summary["notes"].dump(), fmt::format("presses with {:.4g} N", stiffness * overlap)));
+}
+
+TEST(StaticStart, TakesNoInertiaOfABaseOrSupportThatAccelerates) {
+  const Workshop folder;
+  folder.write("points.msh", lone_points({"block"}).text());
+  const std::string block = R"([mesh]
+file = "points.msh"
+[[masses]]
+group = "block"
+mass = 2.0
+[[restraints]]
+group = "block"
+fixed = ["ux", "uz", "rx", "ry", "rz"]
+[[springs]]
+group = "block"
+stiffness = [0.0, 2.0e4, 0.0, 0.0, 0.0, 0.0]
+[gravity]
+acceleration = [0.0, -9.81, 0.0]
+[transient]
+duration = 0.1
+start = "static"
+[output]
+every = 0.05
+nodes = ["block"]
+)";
+  constexpr double sag = -9.81 / 1e4; // g/w^2
+  for (const std::string& moved : {"[[base_motion]]\n", "[[support_motion]]\ngroup = \"block\"\n"}) {
+    const Results run = folder.run_text(block + moved + "direction = [0.0, 1.0, 0.0]\nconstant = 30.0\n");
+    const auto& displacement = run.node("block").displacement;
+    EXPECT_TRUE(close_to(displacement(0, 1), sag, 1e-12)) << moved; // equilibrium in closed form
+    EXPECT_GT(std::abs(displacement(1, 1) - sag), 1e-3) << moved;   // the step of 30/w^2 is dynamic
+  }
 }
 
 TEST(StaticStart, NamesTheMotionThatNothingHolds) {

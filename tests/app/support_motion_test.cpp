@@ -215,6 +215,55 @@ TEST(SupportMotion, CarriesObstaclesThatAreAttachedToIt) {
   EXPECT_NEAR(a.displacement(last, 2), attached.node("middle").displacement(last, 2), 1e-12);
 }
 
+TEST(SupportMotion, CarriesATubeThatIsFreeToSpinAndToSlide) {
+  const Workshop folder;
+  write_tube(folder);
+  std::string pinned = beam;
+  for (const std::string& end : {"tube_begin", "tube_end"}) {
+    const std::string clamp = "group = \"" + end + "\"\nfixed = \"all\"";
+    pinned.replace(pinned.find(clamp), clamp.size(), "group = \"" + end + "\"\nfixed = [\"uy\", \"uz\"]");
+  }
+  const std::string shake =
+      "direction = [0.0, 1.0, 0.0]\nharmonic = { amplitude = 50.0, frequency = 40.0 }\n";
+  const std::string text =
+      pinned + moved("tube_begin", shake) + moved("tube_end", shake) + hole("gap = 1.0e-4");
+  const Outcome checked = folder.fretwork({"check", folder.write("pinned.toml", text).string()});
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  const Results free = folder.run_text(text, {"--force"});
+  // held along and about its axis it moves no other way
+  std::string held = text;
+  const std::string pin = "fixed = [\"uy\", \"uz\"]";
+  held.replace(held.find(pin), pin.size(), "fixed = [\"ux\", \"uy\", \"uz\", \"rx\"]");
+  const Results fixed = folder.run_text(held, {"--force", "--set", "modes.count=18"});
+  const auto &a = free.contact("hole"), &b = fixed.contact("hole");
+  EXPECT_GT(largest(a.normal_force), 1.0);
+  EXPECT_LT(largest(a.displacement - b.displacement), same_equations * largest(a.displacement));
+  // pinned ends moved alike: the static shape is a translation
+  const auto& node = free.node("middle");
+  EXPECT_EQ(node.displacement(0, 1), 0.0);
+  EXPECT_LT(largest(node.displacement.col(0)), same_equations * largest(node.displacement));
+}
+
+TEST(SupportMotion, OfARandomAccelerationStaysAboutItsPlace) {
+  const Workshop folder;
+  folder.write("mesh.msh", lone_points({"mass", "foot"}).text());
+  const auto shaken_at_random = [&](const std::string& start) {
+    return folder.run_text(
+        oscillator("[[springs]]\ngroup = \"mass\"\nother = \"foot\"\n"
+                   "stiffness = [0.0, 2.0e4, 0.0, 0.0, 0.0, 0.0]\n" +
+                   restrained("foot") +
+                   moved("foot", "direction = [0.0, 1.0, 0.0]\nrandom = { rms = 5.0, band = [5.0, 50.0] }\n" +
+                                     start)),
+        {"--force", "--set", "transient.duration=4.0", "--set", "modes.damping=0.1"});
+  };
+  const Results about = shaken_at_random(""), drifting = shaken_at_random("velocity0 = 0.0\n");
+  const auto most = [](const Results& run) { return largest(run.node("mass").displacement); };
+  constexpr double of_the_band = 5.0 / 900.0; // rms/w^2 at 5 Hz is 5 mm
+  EXPECT_LT(most(about), 3.0 * of_the_band);
+  EXPECT_GT(most(drifting), 3.0 * most(about)); // as given: from rest
+  EXPECT_NEAR(about.summary["nodes"][0]["displacement"]["y"]["mean"].get<double>(), 0.0, 0.2 * of_the_band);
+}
+
 TEST(SupportMotion, TellsWhatIsWrong) {
   const Workshop folder;
   write_tube(folder);

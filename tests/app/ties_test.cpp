@@ -133,4 +133,25 @@ TEST(Ties, ThatCannotBeMadeAreRefused) {
 }
 
 } // namespace
+TEST(Ties, CarryAnInitialStateAndRefuseOneThatContradictsThem) {
+  const Workshop folder;
+  write_gerber(folder);
+  std::string at_rest = gerber;
+  const std::string start = "start = \"static\"\n";
+  at_rest.erase(at_rest.find(start), start.size());
+  const auto initial = [](const std::string& group, const std::string& displacement) {
+    return fmt::format("[[initial]]\ngroup = \"{}\"\ndisplacement = {}\n", group, displacement);
+  };
+  const Results run = folder.run_text(at_rest + initial("a_end", "[0.0, 1.0e-3, 0.0]"), {"--force"});
+  constexpr double all_modes = 1e-9; // no mode is left out
+  for (const char* node : {"a_end", "b_begin"})
+    EXPECT_TRUE(close_to(run.node(node).displacement(0, 1), 1e-3, all_modes)) << node;
+  const std::string both = initial("a_end", "[0.0, 1.0e-3, 0.0]") + initial("b_begin", "[0.0, 2.0e-3, 0.0]");
+  const Outcome refused = folder.fretwork({"check", folder.write("study.toml", at_rest + both).string()});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_TRUE(says(refused.err,
+                   "[[initial]] displacement: uy is tied between the nodes at (1, 0, 0) and (1, 0, 0), but "
+                   "given as 0.001 and 0.002; give it the same value, or at one of the nodes only"));
+}
+
 } // namespace fretwork::app::test

@@ -4,7 +4,10 @@
 #include "expect_error.hpp"
 #include "fem/fields.hpp"
 #include "fem/petsc_assembly.hpp"
+#include "fem/petsc_static.hpp"
+#include "fem/rigid_motions.hpp"
 #include "model_builder.hpp"
+#include <Eigen/Geometry>
 
 using namespace fretwork;
 using namespace fretwork::tests;
@@ -207,9 +210,54 @@ TEST(StaticSolution, RefusesAStructureThatIsNotHeld) {
   b.fix(nodes.front(), ux | uy | uz);
   b.fix(nodes.back(), uy | uz);
   const auto part = fem::structures(b.model).at(0);
-  const Eigen::VectorXd force = fem::point_forces(b.model, nodes, {0, 1, 0}, false);
-  expect_error([&] { (void)fem::static_solution(b.model, part, force); },
+  const Eigen::VectorXd torque = fem::point_forces(b.model, nodes, {1, 0, 0}, true);
+  expect_error([&] { (void)fem::static_solution(b.model, part, torque); },
                {"static solution", "(0, 0, 0)", "1 motion(s)", "restrain"});
+}
+
+// A pinned tube that is free to spin, somewhere in space: P L^3/(48 EI), and no spin.
+TEST(StaticSolution, LeavesOpenWhatNoForcePushes) {
+  constexpr double length = 2.0, force = 50.0;
+  constexpr double round_off = 1e-9; // ten beams whose axis no coordinate has
+  const Vec3 along = Vec3(2.0, -1.0, 0.5).normalized(), across = along.cross(Vec3::UnitX()).normalized();
+  ModelBuilder b;
+  const fem::BeamProperty p = tube_property();
+  const auto nodes = b.line({0, 0, 0}, length * along, 10, b.property(p));
+  b.fix(nodes.front(), ux | uy | uz);
+  b.fix(nodes.back(), ux | uy | uz);
+  const auto part = fem::structures(b.model).at(0);
+  ASSERT_EQ(fem::rigid_motions(b.model, part).cols(), 1);
+  const Index middle = nodes[5];
+  const Eigen::VectorXd u = fem::static_solution(
+      b.model, part, fem::point_forces(b.model, std::vector<Index>{middle}, force * across, false));
+  const double expected = force * std::pow(length, 3) / (48.0 * p.material.young_modulus * p.section.iy);
+  EXPECT_LT((u.segment<3>(6 * middle) - expected * across).norm(), round_off * expected);
+  for (const Index node : nodes)
+    EXPECT_NEAR(u.segment<3>(6 * node + 3).dot(along), 0.0, round_off * expected);
+}
+
+// A free tube that forces F at both ends and -2 F in the middle bend, and a mass that slides on nothing: F (L/2)^3/(3 EI) between them.
+TEST(StaticSolution, OfAFreeTubeUnderForcesThatBalance) {
+  constexpr double length = 2.0, force = 50.0, round_off = 1e-9;
+  ModelBuilder b;
+  const fem::BeamProperty p = tube_property();
+  const auto nodes = b.line({0, 0, 0}, {length, 0, 0}, 10, b.property(p));
+  const Index slider = b.node({0, 1, 0});
+  b.model.masses.push_back({slider, 2.0});
+  b.fix(slider, all & ~static_cast<unsigned>(ux));
+  b.model.springs.push_back({nodes.front(), slider, {0.0, 1e3}, {}}); // across: the slider is free along x
+  b.model.springs.push_back({nodes.back(), -1, {0.0, 1e3}, {}});
+  const auto part = fem::structures(b.model).at(0);
+  ASSERT_EQ(fem::rigid_motions(b.model, part).cols(), 5); // 6 of the tube less uy and rz, and the slider
+  Eigen::VectorXd f =
+      fem::point_forces(b.model, std::vector<Index>{nodes.front(), nodes.back()}, {0, 0, force}, false);
+  f += fem::point_forces(b.model, std::vector<Index>{nodes[5]}, {0, 0, -2.0 * force}, false);
+  const Eigen::VectorXd u = fem::static_solution(b.model, part, f);
+  const double expected = force * std::pow(0.5 * length, 3) / (3.0 * p.material.young_modulus * p.section.iy);
+  EXPECT_NEAR(u[6 * nodes.front() + 2] - u[6 * nodes[5] + 2], expected, round_off * expected);
+  const Eigen::VectorXd rigid = fem::rigid_motions(b.model, part).transpose() *
+                                fem::mass_times(b.model, part, u.head(6 * (slider + 1)));
+  EXPECT_LT(rigid.norm(), round_off * expected);
 }
 
 TEST(StaticSolution, RefusesAStiffnessSingularToWorkingPrecision) {

@@ -105,11 +105,31 @@ TEST(Ties, CarryAFieldFromOneNodeToTheOther) {
     Eigen::VectorXd field = Eigen::VectorXd::Zero(13 * 6);
     field.segment<3>(given * 6) = Vec3(1, 2, 3);
     field[7] = 0.5;
-    fem::follow_ties(b.model, field);
+    std::vector<bool> given_at(13 * 6, false);
+    std::fill_n(given_at.begin() + given * 6, 3, true);
+    fem::follow_ties(b.model, given_at, field);
     for (const Index node : {4, 5, 10})
       EXPECT_EQ(field[node * 6 + 1], 2.0);
     EXPECT_EQ(field.sum(), 0.5 + 1 + 3 * 2 + 3);
   }
+}
+
+TEST(Ties, GivenZerosAreFollowedAndWhatDiffersIsRefused) {
+  const auto b = two_tubes(uy);
+  Eigen::VectorXd field = Eigen::VectorXd::Zero(10 * 6);
+  std::vector<bool> given(10 * 6, false);
+  field(5 * 6 + 1) = 2.0; // not given: of no account
+  given[4 * 6 + 1] = true;
+  fem::follow_ties(b.model, given, field);
+  EXPECT_EQ(field(5 * 6 + 1), 0.0);
+  given[5 * 6 + 1] = true;
+  field(4 * 6 + 1) = field(5 * 6 + 1) = 3.0;
+  fem::follow_ties(b.model, given, field);
+  EXPECT_EQ(field(4 * 6 + 1), 3.0);
+  field(5 * 6 + 1) = 4.0;
+  expect_error(
+      [&] { fem::follow_ties(b.model, given, field); },
+      {"uy is tied between the nodes at (1, 0, 0) and (1, 0, 0), but given as 3 and 4", "the same value"});
 }
 
 // Motions without strain of a clamped tube and one tied to it: those that the tie leaves.

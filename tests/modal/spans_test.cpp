@@ -35,6 +35,17 @@ TEST(Spans, EndAtWhatHoldsTheTubeAcross) {
   EXPECT_EQ(longest(b.model), 40);
 }
 
+TEST(Spans, EndAtATieAcrossTheTube) {
+  auto b = tube(100);
+  const auto bar = b.line({0.4, 0, 0}, {0.4, 1, 0}, 10, 0);
+  b.model.ties.push_back({40, bar.front(), ux | uy}); // a slide along z
+  EXPECT_EQ(longest(b.model), 100);
+  b.model.ties.push_back({40, bar.front(), uz});
+  EXPECT_EQ(longest(b.model), 60);
+  b.model.ties.push_back({bar[4], 70, uy | uz}); // the tube is the second of the two
+  EXPECT_EQ(longest(b.model), 40);
+}
+
 TEST(Spans, OfAnObliqueTubeAreHeldByAllTranslations) {
   auto b = tube(60, {1, 1, 0});
   b.fix(20, uy | uz);

@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const RunIdentity mine{"1.2", "abc", 3};
+const RunIdentity mine{"1.2", "abc", 3, "f00"};
 
 std::string made_up_state() {
   std::string state(10'000, '\0');
@@ -45,9 +45,11 @@ TEST(Checkpoint, OfAnotherRunIsRefused) {
     EXPECT_FALSE(found.checkpoint);
     return found.refusal;
   };
-  EXPECT_THAT(refusal({"1.3", "abc", 3}), HasSubstr("is of version 1.2 of the program, this is 1.3"));
-  EXPECT_THAT(refusal({"1.2", "abd", 3}), HasSubstr("belongs to other inputs: the run starts again"));
-  EXPECT_THAT(refusal({"1.2", "abc", 2}), HasSubstr("belongs to other inputs"));
+  EXPECT_THAT(refusal({"1.2", "abc", 3, "f01"}),
+              HasSubstr("was written by another build of version 1.2 of the program: the run starts again"));
+  EXPECT_THAT(refusal({"1.3", "abc", 3, "f00"}), HasSubstr("is of version 1.2 of the program, this is 1.3"));
+  EXPECT_THAT(refusal({"1.2", "abd", 3, "f00"}), HasSubstr("belongs to other inputs: the run starts again"));
+  EXPECT_THAT(refusal({"1.2", "abc", 2, "f00"}), HasSubstr("belongs to other inputs"));
 }
 
 TEST(Checkpoint, ThatIsDamagedIsRefused) {

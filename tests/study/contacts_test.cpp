@@ -38,8 +38,8 @@ TEST(ReadBaseMotion, TakesItsStateAtTheStart) {
   const std::string text =
       "[mesh]\nfile = \"a.msh\"\n[[base_motion]]\ndirection = [0, 2, 0]\nconstant = 1.5\n";
   const BaseMotion rest = read_text(text).base_motions.at(0);
-  EXPECT_EQ(rest.velocity0, 0.0);
-  EXPECT_EQ(rest.displacement0, 0.0);
+  EXPECT_FALSE(rest.velocity0);
+  EXPECT_FALSE(rest.displacement0);
   const BaseMotion moving = read_text(text + "velocity0 = -0.5\ndisplacement0 = 0.25\n").base_motions.at(0);
   EXPECT_EQ(moving.velocity0, -0.5);
   EXPECT_EQ(moving.displacement0, 0.25);

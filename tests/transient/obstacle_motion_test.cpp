@@ -48,6 +48,37 @@ constexpr double round_off = 1e-12;
 
 } // namespace
 
+TEST(PrescribedMotion, OfARandomAccelerationDoesNotDriftAway) {
+  constexpr double duration = 3.0;
+  for (const Random& random : {Random{2.0, 5.0, 50.0, 1}, Random{2.0, 0.0, 40.0, 7}}) {
+    const PrescribedMotion motion = without_drift(random, duration);
+    const MotionSignal s(motion, duration), from_rest({random}, duration);
+    constexpr int n = 30000; // midpoints: the trend is known to 1/n^2
+    double mean = 0.0, trend = 0.0, squares = 0.0, drifted = 0.0;
+    for (int i = 0; i < n; ++i) {
+      const double t = (i + 0.5) * duration / n, u = s(t).displacement;
+      mean += u / n;
+      trend += u * (t / duration - 0.5) / n;
+      squares += u * u / n;
+      drifted = std::max(drifted, std::abs(from_rest(t).displacement));
+    }
+    constexpr double quadrature = 1e-6;
+    EXPECT_LT(std::abs(mean), quadrature * drifted);
+    EXPECT_LT(std::abs(trend), quadrature * drifted);
+    EXPECT_EQ(s.acceleration(0.7), from_rest.acceleration(0.7));
+    EXPECT_EQ(s(0.0).displacement, motion.displacement0);
+    // a flat band from 5 to 50 Hz: rms^2 int df/(2 pi f)^4 / 45 Hz, for eighty periods of the lowest line within a half
+    const double expected =
+        random.rms *
+        std::sqrt((std::pow(random.low, -3) - std::pow(random.high, -3)) / 3.0 / (random.high - random.low)) /
+        std::pow(2.0 * std::numbers::pi, 2);
+    if (random.low > 0.0) {
+      EXPECT_NEAR(std::sqrt(squares), expected, 0.5 * expected);
+      EXPECT_GT(drifted, 10.0 * expected);
+    }
+  }
+}
+
 TEST(MotionSignal, IntegratesConstantsAndTablesExactly) {
   expect_integral(Constant{3.0}, 8, round_off);
   expect_integral(Table{{0.25, 0.5, 0.5, 0.875}, {1.0, 3.0, -2.0, 4.0}}, 64,
