@@ -69,16 +69,23 @@ struct MeanSlopes {
   return p1 > 0.0 ? MeanSlopes{closed, open} : MeanSlopes{open, closed};
 }
 
+/// Share of the way from p1 to p2 on which the contact is closed.
+[[nodiscard]] inline double closed_share(double p1, double p2) {
+  const double high = std::max(p1, p2), low = std::min(p1, p2);
+  return low > 0.0 ? 1.0 : high > 0.0 ? high / (high - low) : 0.0;
+}
+
 /// Step form: F_N constant over a step, the damper implicit. `mean` is the mean penetration (> 0),
 /// `free_rate` the mean rate p' without this force, `mobility` = (h/2) n.W.n, what the mean normal speed
 /// changes by per newton: with p' = free_rate - mobility F_N,
 ///     F_N = <K_N mean + c(mean) free_rate>+ / (1 + c(mean) mobility).
-/// Made once a step, asked for many free rates.
+/// C_N acts in the `closed` share of the step only (all of it: 1). Made once a step, asked for many free rates.
 class NormalStep {
 public:
   NormalStep() = default;
-  NormalStep(const NormalLaw& law, double mean, double mobility)
-      : spring_(law.stiffness * mean), damping_(law.damping_at(mean)),
+  NormalStep(const NormalLaw& law, double mean, double closed, double mobility)
+      : spring_(law.stiffness * mean),
+        damping_(closed * law.damping + law.stiffness * law.dissipation * mean),
         share_(1.0 / (1.0 + damping_ * mobility)) {}
   [[nodiscard]] double force(double free_rate) const {
     return std::max(0.0, spring_ + damping_ * free_rate) * share_;
@@ -92,7 +99,7 @@ private:
 
 [[nodiscard]] inline double step_normal(const NormalLaw& law, double mean, double free_rate,
                                         double mobility) {
-  return NormalStep(law, mean, mobility).force(free_rate);
+  return NormalStep(law, mean, 1.0, mobility).force(free_rate);
 }
 
 /// The same where the contact gives way by `compliance` F_N (R, m/N, >= 0), a spring in series, and `mean` (> 0) is the mean

@@ -82,9 +82,9 @@ FRETWORK_INLINE double prepare(int end, double half_window, const LawLanes& law,
     const V v_n = my * y + mz * z, v_t = mz * y - my * z;
     // the mean of the penetration over the window, its open part counted as 0
     const V reach = half_window * magnitude(v_n), low = -g - reach, high = reach - g;
-    const V part = 0.5 * high * high / (high > low ? high - low : one);
-    const V mean = low > 0.0 ? 0.5 * (low + high) : high > 0.0 ? part : V{};
-    const V spring = k * mean, damping = at<V>(&law.damping[i]) + at<V>(&law.dissipation[i]) * mean;
+    const V part = high / (high > low ? high - low : one), closed = low > 0.0 ? one : part;
+    const V mean = low > 0.0 ? 0.5 * (low + high) : high > 0.0 ? 0.5 * high * part : V{};
+    const V spring = k * mean, damping = closed * at<V>(&law.damping[i]) + at<V>(&law.dissipation[i]) * mean;
     const V yy = at<V>(&law.yy[i]), yz = at<V>(&law.yz[i]), zz = at<V>(&law.zz[i]);
     const V by_n_y = my * yy + mz * yz, by_n_z = my * yz + mz * zz; // of y and z by a force along n
     const V by_t_y = mz * yy - my * yz, by_t_z = mz * yz - my * zz; // along t

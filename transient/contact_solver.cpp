@@ -100,6 +100,7 @@ void ContactSolver::meet(const ContactMotion& motion, ContactTrial& trial) {
     Shut& shut = shut_.emplace_back();
     shut.contact = c;
     shut.mean = mean;
+    shut.closed = contact::closed_share(p - reach, p + reach);
     shut.approach = rate;
   }
 }
@@ -129,7 +130,7 @@ void ContactSolver::prepare(const ContactMemory& memory, const ContactMotion& mo
       s.before[k] = velocity_[k * width + c];
     s.nn = own[0];
     s.nt = own[width];
-    s.normal = contact::NormalStep(support.normal, s.mean, s.nn);
+    s.normal = contact::NormalStep(support.normal, s.mean, s.closed, s.nn);
     s.per_normal = 1.0 / s.normal.spring();
     s.friction = support.friction.active();
     if (!s.friction)

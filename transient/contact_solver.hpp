@@ -3,8 +3,8 @@
 /// The contact forces that act at one instant for a whole step h, all contacts together: displacements are continuous and the velocity
 /// jumps from v- to v+,
 ///     v+ = v- + h B^T f,    w = B (v- + v+)/2 = B v- + (h/2) W f,    W = B B^T
-///     normal    p -+ theta h p'/2: mean penetration P over the step, its open part counted as 0 (theta = 0.7; p' from v-)
-///               F_N = <K_N P + c(P) p'(w)>+     explicit in position, implicit in velocity
+///     normal    p -+ theta h p'/2: mean penetration P over the step, its open part counted as 0 (theta = 0.7; p' from v-), the closed share s
+///               F_N = <K_N P + (s C_N + K_N d P) p'(w)>+     explicit in position, implicit in velocity
 ///     friction  step_friction with the mean velocity w, implicit
 /// Along the directions (n, t, x_loc) of the contacts, with the forces F of those that are shut and the velocities s of all,
 ///     s = s0 + A F,    s0 = d.B v-,    A = (h/2) d W d^T
@@ -36,6 +36,7 @@ private:
     int contact = 0;
     bool friction = false, in_plane = false, slides = false;
     double mean = 0.0;         ///< mean penetration P, m
+    double closed = 0.0;       ///< share of the window with penetration
     double approach = 0.0;     ///< p' before the action, m/s
     double force[3] = {};      ///< N, along n, t, x_loc
     double before[3] = {};     ///< m/s, s0

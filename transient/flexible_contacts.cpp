@@ -275,10 +275,11 @@ double FlexibleContacts::improve(std::size_t i, const ContactMemory* memory) {
   const double own = at(residual_, n, n), mobility = at(mobility_, n, n) + rate_.now * own;
   const double p = s.bare - (give_[n] - own * s.force[0]);
   s.mean = contact::mean_penetration(p - s.reach, p + s.reach);
+  contact::NormalLaw law = s.normal;
+  law.damping *= contact::closed_share(p - s.reach, p + s.reach);
   const double normal =
-      s.mean > 0.0
-          ? contact::series_force(s.normal, s.mean, normal_rate(i) + mobility * s.force[0], mobility, own)
-          : 0.0;
+      s.mean > 0.0 ? contact::series_force(law, s.mean, normal_rate(i) + mobility * s.force[0], mobility, own)
+                   : 0.0;
   double changed = std::abs(normal - s.force[0]);
   change(i, 0, normal - s.force[0]);
   if (!s.friction || !memory)

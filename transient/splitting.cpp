@@ -15,6 +15,7 @@
 #include "transient/matrix_flow.hpp"
 #include "transient/obstacle_motion.hpp"
 #include "transient/oscillator.hpp"
+#include "transient/sliding_paths.hpp"
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -47,8 +48,8 @@ public:
       : system_(with_diagonal(scene.system)), h_(step),
         loads_(scene.loads, scene.system.size(), scene.duration, step),
         contacts_(scene.contacts, scene.system.size()), motion_(contacts_), obstacles_(scene, contacts_),
-        memory_(contacts_, step), solver_(contacts_, step), trial_(contacts_.count), rows_(contacts_),
-        coupled_(system_, step), first_(flow_table(system_, coupled_, 0.5 * step)),
+        memory_(contacts_, step), solver_(contacts_, step), trial_(contacts_.count), paths_(contacts_, step),
+        rows_(contacts_), coupled_(system_, step), first_(flow_table(system_, coupled_, 0.5 * step)),
         full_(flow_table(system_, coupled_, step)) {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
     for (kernels::Array* a : {&q_, &v_, &k_, &f_now_, &f_next_, &slope_, &impulse_})
@@ -126,7 +127,7 @@ public:
   }
 
   void visit(core::StateArchive& state) override {
-    state(steps_, unconverged_, time_, q_, v_, f_now_, trial_, memory_);
+    state(steps_, unconverged_, time_, q_, v_, f_now_, trial_, paths_, memory_);
     state(record_.energy, moving_, after_action_, load_work_, lost_);
     if (flexible_)
       state(*flexible_);
@@ -176,6 +177,7 @@ private:
         flexible_ ? flexible_->solve(memory_, motion_, trial_) : solver_.solve(memory_, motion_, trial_);
     unconverged_ += !action.converged;
     const double springs_before = memory_.spring_energy();
+    paths_.correct(trial_);
     const ContactLosses losses = memory_.commit(motion_, trial_);
     memory_.leave(motion_, trial_, 0.5 * h_);
     if (flexible_)
@@ -208,6 +210,7 @@ private:
   ContactSolver solver_;
   std::optional<FlexibleContacts> flexible_; ///< instead of it
   ContactTrial trial_;
+  SlidingPaths paths_;
   ContactRows rows_; ///< impulses of the last action
   MatrixFlow coupled_;
   kernels::FlowTable first_, full_;

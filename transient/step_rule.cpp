@@ -31,9 +31,23 @@ constexpr double most_damped = 0.5;
 constexpr double coarsest_accuracy = 0.04;
 /// Steps of splitting that one of collocation takes the time of: 4 to 5 with 3 supports, 7 to 9 with 8 and 10.
 constexpr double collocation_cost = 6.0;
-/// w_c h and w_t h at an accuracy of 0.01. Measured on rattling tubes (bench_statistics): the work rate of contacts that stick without much
-/// damping is off by 3.5 % at 0.5 with splitting, 1.4 % at 0.35; with collocation by 2.8 % at 1, 1.4 % at 0.5.
-double contact_share(SchemeKind scheme) { return scheme == SchemeKind::collocation ? 0.5 : 0.3; }
+/// w_c h and w_t h at an accuracy of 0.01. Measured on rattling tubes (bench_statistics), work rates: with splitting 0.7 % low at
+/// w_c h = 0.5, and where contacts stick without much damping (stick_time) 3 % low at w_t h = 0.5, 0.9 % at 0.25, for they start to slide
+/// inside steps; with collocation these are off by 2.8 % at 1, 1.4 % at 0.5.
+/// damper: of r_t h where dampers are implicit; above 2 a step turns the speed of a sticking contact round, a fifth of it at 3.
+struct Shares {
+  double contact, stick, damper;
+};
+Shares shares(SchemeKind scheme) {
+  switch (scheme) {
+  case SchemeKind::splitting:
+    return {0.45, 0.25, 3.0};
+  case SchemeKind::collocation:
+    return {0.5, 0.5, 2.0};
+  default:
+    return {0.3, 0.3, 2.0};
+  }
+}
 /// Of w_max h: a step of splitting resonates with modes at w h = pi.
 constexpr double before_resonance = 2.5;
 /// Largest w_c h and w_t h without a warning: above it an impact changes the energy by more than 1 % or the statistics are wrong, however
@@ -111,6 +125,15 @@ double initial_overlap(const Scene& scene, const ContactPoint& point) {
   return std::max(0.0, -contact::locate(point.support.obstacle, u.y(), u.z()).gap);
 }
 
+/// Shortest time in which the dampers of sticking contacts give way to their springs, C_T/K_T, s; 0 without friction.
+double shortest_relaxation(const Scene& scene) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const ContactPoint& point : scene.contacts)
+    if (const auto& law = point.support.friction; law.active())
+      shortest = std::min(shortest, law.damping / law.stiffness);
+  return std::isfinite(shortest) ? shortest : 0.0;
+}
+
 /// Largest rate at which the springs of sliding contacts follow their bound, K_T/C_T, 1/s.
 double relaxation_rate(const Scene& scene) {
   double rate = 0.0;
@@ -125,6 +148,12 @@ double relaxation_rate(const Scene& scene) {
 bool moves_exactly(SchemeKind scheme) {
   return scheme == SchemeKind::splitting || scheme == SchemeKind::collocation ||
          scheme == SchemeKind::energy_conserving;
+}
+
+/// Time in which sticking contacts move, s: that of their vibration, or where it is longer that in which their dampers give way.
+double stick_time(const StepChoice& c) {
+  const double vibration = 1.0 / c.stick_frequency;
+  return c.scheme == SchemeKind::splitting ? std::hypot(vibration, c.stick_relaxation) : vibration;
 }
 
 struct Term {
@@ -170,11 +199,14 @@ std::vector<Term> terms(const StepChoice& c, const Scene& scene, double fineness
     return out;
   const bool devogelaere = c.scheme == SchemeKind::devogelaere;
   const double damped = devogelaere ? std::min(eps, most_damped) : eps;
-  const double contact = std::min(contact_share(c.scheme) * fineness, most_resolved(c.scheme));
-  add(contact, c.contact_frequency, fmt::format("the contact frequency {:.4g} rad/s", c.contact_frequency));
-  add(contact, c.stick_frequency,
-      fmt::format("the frequency of sticking contacts {:.4g} rad/s", c.stick_frequency));
-  add(exact ? 4.0 * eps : damped, c.damper_rate,
+  const Shares share = shares(c.scheme);
+  const double resolved = most_resolved(c.scheme);
+  add(std::min(share.contact * fineness, resolved), c.contact_frequency,
+      fmt::format("the contact frequency {:.4g} rad/s", c.contact_frequency));
+  if (c.stick_frequency > 0.0)
+    add(std::min(share.stick * fineness, resolved), 1.0 / stick_time(c),
+        fmt::format("the frequency of sticking contacts {:.4g} rad/s", c.stick_frequency));
+  add(exact ? share.damper * fineness : damped, c.damper_rate,
       fmt::format("the tangential dampers' rate {:.4g} 1/s", c.damper_rate));
   add(damped, c.explicit_rate, fmt::format("the dampers' rate {:.4g} 1/s", c.explicit_rate));
   // without contacts the flow of the splitting scheme is exact: only the statistics need to see the modes, in about 20 points a period
@@ -266,6 +298,7 @@ StepChoice choice_of(const Scene& scene, const StepOptions& options, SchemeKind 
       std::sqrt(largest_eigenvalue(weighted_rows(scene, stiffness_n, normal_rows, scene.residual)));
   c.stick_frequency =
       std::sqrt(largest_eigenvalue(weighted_rows(scene, stiffness_t, tangent_rows, scene.residual)));
+  c.stick_relaxation = shortest_relaxation(scene);
   c.damper_rate = largest_eigenvalue(weighted_rows(scene, damping_t, tangent_rows));
   if (c.scheme == SchemeKind::euler || c.scheme == SchemeKind::devogelaere) {
     const auto damping_n = [&scene](const ContactPoint& point) {

@@ -2,17 +2,18 @@
 /// @file
 /// The time step and its reason.
 ///
-///     h = eps min{ 0.6/w_c, 0.6/w_t, a/r_t, b/w_max },  eps = 0.5 sqrt(accuracy / 0.01)
+///     h = eps min{ 0.9/w_c, 0.5 t_s, a/r_t, b/w_max },  eps = 0.5 sqrt(accuracy / 0.01)
 /// over the terms that exist, with:
 ///     w_c    contact frequency: w_c^2 = largest eigenvalue of K_N^1/2 W K_N^1/2, W = B B^T over all normal
 ///            directions of all contacts; with residual flexibility R (Scene) of (K_N^-1 + R)^-1 in place of K_N
-///     w_t    the same with K_T over the tangent directions
+///     t_s    time in which sticking contacts move, (1/w_t^2 + (C_T/K_T)^2)^1/2; w_t as w_c with K_T over the tangent directions,
+///            C_T/K_T the smallest of all contacts with friction
 ///     r_t    rate of the tangential dampers, largest eigenvalue of C_T^1/2 W C_T^1/2
 ///     w_max  highest mode
-/// For collocation 1/w_c and 1/w_t, and no term of w_max. No accuracy makes a step longer than that of 0.04, eps = 1: above w_c h = 1
+/// For collocation 1/w_c and 1/w_t, and no term of w_max; for the other schemes 0.6/w_c and 0.6/w_t. No accuracy makes a step longer than that of 0.04, eps = 1: above w_c h = 1
 /// (devogelaere: 0.75) impacts are wrong however stable the run (doc/schemes.md, Stability map). w_max h stays below 2.5: splitting resonates with modes
 /// at w h = k pi.
-/// a = 4 and b = 5 for the splitting and the energy conserving scheme (which no step makes unstable, but the contacts must be resolved), 1 and 1 for explicit Euler (whose limits are r_t h < 1 and
+/// a = 6 for the splitting, 4 for collocation and the energy conserving scheme (which no step makes unstable, but the contacts must be resolved), b = 5; 1 and 1 for explicit Euler (whose limits are r_t h < 1 and
 /// w_max h < 2). Euler also takes the other dampers explicitly and resolves them by 1/r_e (its limit: r_e h < 2):
 ///     r_e    the largest of the rates of the structure's damping and of the normal dampers (c(p) at t = 0 in place of C_T)
 /// Hunt and Crossley's damper c(p) = K_N d p grows with a penetration that is not known beforehand, but w_c bounds its rate: an impact
@@ -46,6 +47,7 @@ struct StepChoice {
   double tolerance = 1e-6;        ///< of an adaptive scheme
   double contact_frequency = 0.0; ///< w_c, rad/s
   double stick_frequency = 0.0;   ///< w_t, rad/s
+  double stick_relaxation = 0.0;  ///< s, smallest C_T/K_T of the contacts with friction
   double damper_rate = 0.0;       ///< r_t, 1/s
   double explicit_rate = 0.0; ///< r_e, 1/s: of the dampers that only Euler has to resolve; 0 with splitting
   double highest_mode = 0.0;  ///< rad/s

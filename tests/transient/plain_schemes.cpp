@@ -18,7 +18,8 @@ struct Point {
   contact::FrictionMemory memory{};
   double ny = 0.0, nz = 0.0; ///< normal now
   double last_ny = 0.0, last_nz = 0.0;
-  double mean = 0.0, normal = 0.0;
+  double mean = 0.0, closed = 0.0, normal = 0.0;
+  Vec3 push = Vec3::Zero(); ///< F_N n at the last step
   contact::Friction friction{};
   bool was_closed = false;                           ///< at the last action, and then:
   Vec3 stood = Vec3::Zero(), left_at = Vec3::Zero(); ///< displacement, velocity before it
@@ -103,7 +104,8 @@ void sweep(std::vector<Point*>& shut, double h, Eigen::VectorXd& mean_velocity) 
     // the normal force before the friction: the order of a block of the sweep
     const Vec3 tangential = p->force() - p->normal * p->n();
     const double rate = -p->n().dot(b * mean_velocity + mobility * tangential);
-    p->normal = contact::step_normal(p->at.support.normal, p->mean, rate, p->n().dot(mobility * p->n()));
+    p->normal = contact::NormalStep(p->at.support.normal, p->mean, p->closed, p->n().dot(mobility * p->n()))
+                    .force(rate);
     if (p->at.support.friction.active()) {
       const Vec3 free = b * mean_velocity + mobility * (p->normal * p->n());
       const Vec3 t = p->t();
@@ -134,6 +136,7 @@ PlainState plain_splitting(const Scene& scene, double h, int steps) {
       p.was_closed = false;
       const double depth = p.locate(p.at.b * s.q), reach = -0.5 * window * h * p.n().dot(p.at.b * s.v);
       p.mean = contact::mean_penetration(depth - reach, depth + reach);
+      p.closed = contact::closed_share(depth - reach, depth + reach);
       p.normal = 0.0;
       p.friction = {};
       if (p.mean > 0.0) {
@@ -149,7 +152,10 @@ PlainState plain_splitting(const Scene& scene, double h, int steps) {
     const PlainState before = s;
     for (Point* p : shut) {
       if (p->normal > 0.0) {
-        const Vec3 w = p->at.b * mean_velocity;
+        Vec3 w = p->at.b * mean_velocity;
+        const Vec3 push = p->normal * p->n();
+        if (p->friction.slides) // sliding_paths.hpp
+          w -= h / 6.0 * p->at.b * p->at.b.transpose() * (push - p->push);
         ++s.closed;
         s.slid += p->friction.slides;
         if (p->at.support.friction.active())
@@ -163,6 +169,8 @@ PlainState plain_splitting(const Scene& scene, double h, int steps) {
       }
       s.v += h * p->at.b.transpose() * p->force();
     }
+    for (Point& p : points)
+      p.push = p.normal * p.n();
   }
   return s;
 }
