@@ -320,15 +320,20 @@ FRETWORK_WIDTHS Solved solve(const LaneCount& contacts, const SweepRule& rule, c
                              const MemoryLanes& memory, const MobilityLanes& mobility, const NearLanes& near,
                              StepLanes& step, CommitLanes& out) {
   const int width = contacts.width;
-  return contacts.few()
-             ? solve_all<double>(contacts.count, width, rule, law, memory, mobility, near, step, out)
-             : solve_all<Pack>(width, width, rule, law, memory, mobility, near, step, out);
+  if (contacts.few())
+    return solve_all<double>(contacts.count, width, rule, law, memory, mobility, near, step, out);
+  if (contacts.half())
+    return solve_all<Half>(size_of<Half>, width, rule, law, memory, mobility, near, step, out);
+  return solve_all<Pack>(width, width, rule, law, memory, mobility, near, step, out);
 }
 
 FRETWORK_WIDTHS CommitSums commit(const LaneCount& contacts, const LawLanes& law, CommitLanes& step,
                                   MemoryLanes& memory) {
-  return contacts.few() ? commit_all<double>(contacts.count, law, step, memory)
-                        : commit_all<Pack>(contacts.width, law, step, memory);
+  if (contacts.few())
+    return commit_all<double>(contacts.count, law, step, memory);
+  if (contacts.half())
+    return commit_all<Half>(size_of<Half>, law, step, memory);
+  return commit_all<Pack>(contacts.width, law, step, memory);
 }
 
 } // namespace fretwork::transient::kernels

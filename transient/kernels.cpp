@@ -6,9 +6,9 @@ namespace fretwork::transient::kernels {
 namespace {
 
 FRETWORK_INLINE double root(double x) { return __builtin_sqrt(x); }
-FRETWORK_INLINE Pack root(const Pack& x) {
-  Pack r{};
-  for (int l = 0; l < lanes; ++l)
+template <class V> FRETWORK_INLINE V root(const V& x) {
+  V r{};
+  for (int l = 0; l < size_of<V>; ++l)
     r[l] = __builtin_sqrt(x[l]);
   return r;
 }
@@ -105,13 +105,15 @@ void GatherTable::add_pack(int mode_count, std::ptrdiff_t width, const double* v
   begin.push_back(static_cast<int>(modes.size()));
 }
 
-FRETWORK_WIDTHS void gather(const GatherTable& g, const double* q, const double* v, double* u, double* w) {
+template <class V>
+FRETWORK_INLINE void gather_all(const GatherTable& g, const double* q, const double* v, double* u,
+                                double* w) {
   const int packs = static_cast<int>(g.begin.size()) - 1;
   for (int p = 0; p < packs; ++p) {
-    Pack su[2] = {}, sw[2] = {}; // two sums each, so that none waits for the other
+    V su[2] = {}, sw[2] = {}; // two sums each, so that none waits for the other
     const int end = g.begin[p + 1];
     const auto add = [&](int k, int into) __attribute__((always_inline)) {
-      const Pack value = at(&g.values[static_cast<std::size_t>(k) * lanes]);
+      const V value = at<V>(&g.values[static_cast<std::size_t>(k) * lanes]);
       su[into] += q[g.modes[k]] * value;
       sw[into] += v[g.modes[k]] * value;
     };
@@ -122,9 +124,16 @@ FRETWORK_WIDTHS void gather(const GatherTable& g, const double* q, const double*
     }
     if (k < end)
       add(k, 0);
-    at(u + p * lanes) = su[0] + su[1];
-    at(w + p * lanes) = sw[0] + sw[1];
+    at<V>(u + p * lanes) = su[0] + su[1];
+    at<V>(w + p * lanes) = sw[0] + sw[1];
   }
+}
+
+FRETWORK_WIDTHS void gather(const GatherTable& g, const double* q, const double* v, double* u, double* w) {
+  if (g.half)
+    gather_all<Half>(g, q, v, u, w);
+  else
+    gather_all<Pack>(g, q, v, u, w);
 }
 
 FRETWORK_WIDTHS void scatter(int np, int rows, const double* const* row, const double* factor, double* v) {
@@ -155,9 +164,11 @@ FRETWORK_WIDTHS EulerSums euler_step(int np, double h, const double* c, const do
 FRETWORK_WIDTHS bool place(const LaneCount& contacts, const ReachLanes& reach, const double* uy,
                            const double* uz, const double* vy, const double* vz, double half_window,
                            double* gap, double* ny, double* nz, double* near) {
-  return contacts.few()
-             ? place_all<double>(contacts.count, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near)
-             : place_all<Pack>(contacts.width, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near);
+  if (contacts.few())
+    return place_all<double>(contacts.count, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near);
+  if (contacts.half())
+    return place_all<Half>(size_of<Half>, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near);
+  return place_all<Pack>(contacts.width, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near);
 }
 
 FRETWORK_WIDTHS void respond(int width, int directions, const double* columns, double ny, double nz,

@@ -54,7 +54,8 @@ double twice_energy(int np, const double* k, const double* q, const double* v);
 struct GatherTable {
   std::vector<int> begin{0}; ///< pack p has the entries begin[p] to begin[p + 1]
   std::vector<int> modes;
-  Array values; ///< `lanes` an entry
+  Array values;      ///< `lanes` an entry
+  bool half = false; ///< all rows stand in the first half of their packs
   /// Appends a pack of rows from `width` values a mode.
   void add_pack(int mode_count, std::ptrdiff_t width, const double* values_of_mode);
 };
@@ -77,8 +78,9 @@ EulerSums euler_step(int np, double h, const double* c, const double* k, const d
 /// How many contacts there are, and lanes: their number, padded.
 struct LaneCount {
   int count = 0, width = 0;
-  /// So few that one after the other is faster than in packs.
+  /// So few that one after the other is faster than in packs, or half packs do.
   [[nodiscard]] bool few() const { return count <= 2; }
+  [[nodiscard]] bool half() const { return count <= lanes / 2; }
 };
 
 /// Contacts in lanes by their contact::Reach. Arrays of a vector quantity have blocks of `width` lanes: y of all contacts, z, x_loc; or

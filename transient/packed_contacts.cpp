@@ -61,6 +61,7 @@ PackedContacts::PackedContacts(const std::vector<ContactPoint>& contacts, Eigen:
   }
   for (int lane = 0; lane < stride(); lane += kernels::lanes)
     gather.add_pack(modes, stride(), by_mode.data() + lane);
+  gather.half = lane_count().half();
   if (in_lanes)
     pack_mobility();
 }

@@ -35,21 +35,34 @@ std::complex<double> normal_pair(std::mt19937_64& generator) {
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
-/// Real inverse transform: x_j = sum over k of Re(c_k exp(i 2 pi k j / n)), c_k given for k <= n/2.
-std::vector<double> synthesise(const std::vector<std::complex<double>>& lines, std::size_t n) {
-  std::unique_ptr<fftw_complex, FftwFree> in(
-      static_cast<fftw_complex*>(fftw_malloc(sizeof(fftw_complex) * (n / 2 + 1))));
-  std::unique_ptr<double, FftwFree> out(static_cast<double*>(fftw_malloc(sizeof(double) * n)));
-  fftw_plan plan = fftw_plan_dft_c2r_1d(static_cast<int>(n), in.get(), out.get(), FFTW_ESTIMATE);
-  for (std::size_t k = 0; k <= n / 2; ++k) {
-    const std::complex<double> value = k < lines.size() ? 0.5 * lines[k] : 0.0; // c2r adds the conjugate
-    in.get()[k][0] = value.real();
-    in.get()[k][1] = value.imag();
+/// Real inverse transforms of one length: x_j = sum over k of Re(c_k exp(i 2 pi k j / n)), c_k given for k <= n/2.
+class Synthesis {
+public:
+  explicit Synthesis(std::size_t n)
+      : n_(n), in_(static_cast<fftw_complex*>(fftw_malloc(sizeof(fftw_complex) * (n / 2 + 1)))),
+        out_(static_cast<double*>(fftw_malloc(sizeof(double) * n))),
+        plan_(fftw_plan_dft_c2r_1d(static_cast<int>(n), in_.get(), out_.get(), FFTW_ESTIMATE)) {}
+  Synthesis(const Synthesis&) = delete;
+  Synthesis& operator=(const Synthesis&) = delete;
+  ~Synthesis() { fftw_destroy_plan(plan_); }
+
+  /// n values, overwritten by the next call.
+  const double* operator()(const std::vector<std::complex<double>>& lines) {
+    for (std::size_t k = 0; k <= n_ / 2; ++k) {
+      const std::complex<double> value = k < lines.size() ? 0.5 * lines[k] : 0.0; // c2r adds the conjugate
+      in_.get()[k][0] = value.real();
+      in_.get()[k][1] = value.imag();
+    }
+    fftw_execute(plan_);
+    return out_.get();
   }
-  fftw_execute(plan);
-  fftw_destroy_plan(plan);
-  return {out.get(), out.get() + n};
-}
+
+private:
+  std::size_t n_;
+  std::unique_ptr<fftw_complex, FftwFree> in_;
+  std::unique_ptr<double, FftwFree> out_;
+  fftw_plan plan_;
+};
 
 } // namespace
 
@@ -79,12 +92,16 @@ Signal::Signal(const TimeFunction& function, double duration) : function_(functi
     slopes[k] = lines[k] * std::complex<double>(0.0, two_pi * static_cast<double>(k) / period);
   }
   grid_step_ = period / static_cast<double>(n);
-  const std::vector<double> value = synthesise(lines, n), slope = synthesise(slopes, n);
-  samples_.resize(2 * (n + 1));
-  for (std::size_t j = 0; j <= n; ++j) {
-    samples_[2 * j] = value[j % n];
-    samples_[2 * j + 1] = slope[j % n] * grid_step_;
-  }
+  samples_.resize(2 * (n + 1)); // value, slope, value, slope ...
+  Synthesis synthesis(n);
+  const auto store = [&](std::size_t which, const std::vector<std::complex<double>>& spectrum,
+                         double scale_by) {
+    const double* x = synthesis(spectrum);
+    for (std::size_t j = 0; j <= n; ++j)
+      samples_[2 * j + which] = x[j % n] * scale_by;
+  };
+  store(0, lines, 1.0);
+  store(1, slopes, grid_step_);
 }
 
 double Signal::operator()(double time) const {

@@ -16,9 +16,11 @@
 namespace fretwork::transient::kernels {
 
 typedef double Pack __attribute__((vector_size(64)));
+typedef double Half __attribute__((
+    vector_size(32))); ///< the first lanes of a pack: enough for few contacts, and half the work
 typedef long long Mask __attribute__((vector_size(64)));
 
-/// V is a Pack, or a double where a kernel is written for both.
+/// V is a Pack, a Half or a double where a kernel is written for all.
 template <class V = Pack> FRETWORK_INLINE const V& at(const double* p) {
   return *reinterpret_cast<const V*>(p);
 }
@@ -30,6 +32,13 @@ FRETWORK_INLINE double sum(const Pack& p) {
 FRETWORK_INLINE double largest(const Pack& p) {
   const auto max = [](double a, double b) { return a > b ? a : b; };
   return max(max(max(p[0], p[4]), max(p[2], p[6])), max(max(p[1], p[5]), max(p[3], p[7])));
+}
+FRETWORK_INLINE double sum(const Half& p) {
+  return (p[0] + p[2]) + (p[1] + p[3]);
+} // as of a pack whose other half is 0
+FRETWORK_INLINE double largest(const Half& p) {
+  const auto max = [](double a, double b) { return a > b ? a : b; };
+  return max(max(p[0], p[2]), max(p[1], p[3]));
 }
 FRETWORK_INLINE double sum(double p) { return p; }
 FRETWORK_INLINE double largest(double p) { return p; }
