@@ -4,6 +4,7 @@
 #pragma once
 #include "post/contact_statistics.hpp"
 #include "transient/run.hpp"
+#include <gtest/gtest.h>
 #include <string>
 
 namespace fretwork::tests {
@@ -49,6 +50,27 @@ struct History {
 [[nodiscard]] transient::StepOptions euler(std::optional<double> step = {});
 [[nodiscard]] transient::StepOptions collocation(std::optional<double> step = {});
 [[nodiscard]] transient::StepOptions energy_conserving(std::optional<double> step = {});
+
+/// A scheme as tests of closed forms run it: at its automatic step; Euler, whose order is 1, at one that is given.
+struct Candidate {
+  transient::SchemeKind kind;
+  [[nodiscard]] bool first_order() const { return kind == transient::SchemeKind::euler; }
+  [[nodiscard]] transient::StepOptions options(double euler_step) const {
+    transient::StepOptions out{kind, first_order() ? std::optional(euler_step) : std::nullopt};
+    out.tolerance = 1e-8; // of the adaptive scheme
+    return out;
+  }
+  /// Relative error allowed.
+  [[nodiscard]] double tolerance() const { return first_order() ? 2e-3 : 1e-3; }
+};
+inline constexpr Candidate candidates[] = {
+    {transient::SchemeKind::splitting},   {transient::SchemeKind::collocation},
+    {transient::SchemeKind::euler},       {transient::SchemeKind::energy_conserving},
+    {transient::SchemeKind::devogelaere}, {transient::SchemeKind::runge_kutta_54}};
+/// For GoogleTest.
+inline std::string name_of_candidate(const testing::TestParamInfo<Candidate>& candidate) {
+  return transient::name_of(candidate.param.kind);
+}
 
 /// What a test wants to see of every step.
 struct Trace final : transient::Observer {
