@@ -29,8 +29,8 @@ constexpr double least_adaptive_steps = 200;
 constexpr double most_damped = 0.5;
 /// The step of an accuracy of 0.04 (w_c h = 0.6) is the longest: no statistics are worth having above it.
 constexpr double coarsest_accuracy = 0.04;
-/// Steps of splitting that one of collocation takes the time of: 4 to 5 with 3 supports, 7 to 9 with 8 and 10.
-constexpr double collocation_cost = 6.0;
+/// Steps of splitting that one of collocation takes the time of: measured 4 to 5 with 3 supports, 7 to 9 with 8 and 10.
+double collocation_cost(const Scene& scene) { return 3.5 + 0.5 * static_cast<double>(scene.contacts.size()); }
 /// w_c h and w_t h at an accuracy of 0.01. Measured on rattling tubes (bench_statistics), work rates: with splitting 0.7 % low at
 /// w_c h = 0.5, and where contacts stick without much damping (stick_time) 3 % low at w_t h = 0.5, 0.9 % at 0.25, for they start to slide
 /// inside steps; with collocation these are off by 2.8 % at 1, 1.4 % at 0.5.
@@ -356,11 +356,11 @@ StepChoice cheapest(const Scene& scene, const StepOptions& options) {
   }
   StepChoice collocation = choice_of(scene, options, SchemeKind::collocation);
   const double share = static_cast<double>(collocation.steps) / static_cast<double>(splitting.steps),
-               cost = collocation_cost * share;
+               step_cost = collocation_cost(scene), cost = step_cost * share;
   StepChoice& chosen = cost < 1.0 ? collocation : splitting;
   chosen.scheme_reason = fmt::format(
       "{}: collocation would need {:.2g} of the steps of splitting, each of about {:.2g} times the time",
-      name_of(chosen.scheme), share, collocation_cost);
+      name_of(chosen.scheme), share, step_cost);
   return std::move(chosen);
 }
 
