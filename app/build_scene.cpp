@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/build_scene.hpp"
 #include "app/contact_laws.hpp"
+#include "app/residual_flexibility.hpp"
 #include "app/static_start.hpp"
 #include "app/support_motion.hpp"
 #include "fem/disjoint_sets.hpp"
@@ -247,7 +248,7 @@ std::vector<std::vector<std::size_t>> joined_structures(const std::vector<modal:
 
 BuiltScene build_scene(const study::Study& study, const Fields& fields, const std::vector<modal::Basis>& all,
                        const std::vector<std::size_t>& structures, const std::vector<PlacedContact>& contacts,
-                       const std::vector<NamedNode>& nodes) {
+                       const ContactFlexibility& flexibility, const std::vector<NamedNode>& nodes) {
   BuiltScene out;
   out.structures = structures;
   Bases bases;
@@ -274,11 +275,11 @@ BuiltScene build_scene(const study::Study& study, const Fields& fields, const st
       scene.motions.push_back(prescribed(motion, scene.duration));
   for (const study::SupportMotion& motion : study.support_motions)
     scene.motions.push_back(prescribed(motion, scene.duration));
-  for (std::size_t c = 0; c < contacts.size(); ++c)
-    if (has_node(bases, contacts[c].node) || (contacts[c].other >= 0 && has_node(bases, contacts[c].other))) {
-      add_contact(study, study.contacts[contacts[c].entry], contacts[c], bases, fields, out);
-      out.contacts.push_back(c);
-    }
+  out.contacts = flexibility.contacts;
+  for (const std::size_t c : out.contacts)
+    add_contact(study, study.contacts[contacts[c].entry], contacts[c], bases, fields, out);
+  if (!out.contacts.empty() && flexibility.failure.empty())
+    take_residual_flexibility(study, flexibility, out);
   for (std::size_t k = 0; k < nodes.size(); ++k)
     if (has_node(bases, nodes[k].node)) {
       Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(3, scene.system.size());

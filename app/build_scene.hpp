@@ -4,6 +4,7 @@
 #pragma once
 #include "app/build_contacts.hpp"
 #include "app/build_fields.hpp"
+#include "app/contact_flexibility.hpp"
 #include "modal/basis.hpp"
 #include "post/recorder.hpp"
 #include "transient/scene.hpp"
@@ -19,8 +20,10 @@ struct BuiltScene {
   std::vector<std::size_t> contacts; ///< numbers of its contacts among the placed ones
   std::vector<post::ObservedNode> nodes; ///< observed nodes of these structures
   std::vector<std::size_t> node_numbers; ///< their numbers among all observed nodes
-  std::vector<std::string> notes;        ///< to be told the user (the projection, the equilibrium)
-  std::vector<std::string> warnings;     ///< (a lost share of the initial field)
+  double lacking = 0.0;           ///< largest missing flexibility times stiffness (residual_flexibility.hpp)
+  std::string lacking_at;         ///< name of the contact
+  std::vector<std::string> notes; ///< to be told the user (the projection, the equilibrium)
+  std::vector<std::string> warnings; ///< (a lost share of the initial field)
 };
 
 /// A node of `[output] nodes` and its name: the group's, with [i] where it has several nodes.
@@ -35,10 +38,10 @@ struct NamedNode {
 [[nodiscard]] std::vector<std::vector<std::size_t>>
 joined_structures(const std::vector<modal::Basis>& bases, const std::vector<PlacedContact>& contacts);
 
-[[nodiscard]] BuiltScene build_scene(const study::Study& study, const Fields& fields,
-                                     const std::vector<modal::Basis>& bases,
-                                     const std::vector<std::size_t>& structures,
-                                     const std::vector<PlacedContact>& contacts,
-                                     const std::vector<NamedNode>& nodes);
+/// @param flexibility  of its contacts
+[[nodiscard]] BuiltScene
+build_scene(const study::Study& study, const Fields& fields, const std::vector<modal::Basis>& bases,
+            const std::vector<std::size_t>& structures, const std::vector<PlacedContact>& contacts,
+            const ContactFlexibility& flexibility, const std::vector<NamedNode>& nodes);
 
 } // namespace fretwork::app

@@ -4,6 +4,7 @@
 #include "app/jobs.hpp"
 #include "app/progress.hpp"
 #include "app/python_report.hpp"
+#include "app/residual_flexibility.hpp"
 #include "app/support_motion.hpp"
 #include "core/error.hpp"
 #include "core/mpi.hpp"
@@ -105,27 +106,40 @@ results::ContactFacts facts_of(const study::Contact& contact, const PlacedContac
   return facts;
 }
 
+/// What scenes are built from besides the modes.
+struct AtContacts {
+  Fields fields;
+  std::vector<std::vector<std::size_t>> joined;  ///< structures of each scene
+  std::vector<ContactFlexibility> flexibilities; ///< of each scene
+};
+
 /// What the modes make of contacts and loads, for every structure that can move.
-std::vector<BuiltScene> build_scenes(const study::Study& study, const mesh::LineMesh& mesh,
-                                     const fem::Model& model, const std::vector<modal::Basis>& bases,
+std::vector<BuiltScene> build_scenes(const study::Study& study, const std::vector<modal::Basis>& bases,
                                      const std::vector<PlacedContact>& placed,
-                                     const std::vector<NamedNode>& nodes,
-                                     std::vector<Eigen::VectorXd> supports, results::RunResults& out) {
-  const Fields fields = build_fields(study, mesh, model, std::move(supports));
+                                     const std::vector<NamedNode>& nodes, const AtContacts& at_contacts,
+                                     results::RunResults& out) {
+  const auto& [fields, joined, flexibilities] = at_contacts;
   std::vector<BuiltScene> scenes;
   out.contacts.resize(placed.size());
-  for (const auto& structures : joined_structures(bases, placed)) {
-    scenes.push_back(build_scene(study, fields, bases, structures, placed, nodes));
+  for (std::size_t i = 0; i < joined.size(); ++i) {
+    const ContactFlexibility& flexibility = flexibilities[i];
+    scenes.push_back(build_scene(study, fields, bases, joined[i], placed, flexibility, nodes));
     const BuiltScene& scene = scenes.back();
     for (std::size_t k = 0; k < scene.contacts.size(); ++k) {
       const std::size_t c = scene.contacts[k];
       out.contacts[c] = facts_of(study.contacts[placed[c].entry], placed[c], scene.scene.contacts[k].support);
+      if (flexibility.failure.empty())
+        out.contacts[c].static_flexibility = flexibility.at(k, placed[c].obstacle);
     }
+    if (!flexibility.failure.empty())
+      out.notes.push_back("no static flexibility at the contacts: " + flexibility.failure);
     out.warnings.insert(out.warnings.end(), scene.warnings.begin(), scene.warnings.end());
     out.notes.insert(out.notes.end(), scene.notes.begin(), scene.notes.end());
   }
   const auto of_contacts = contact_notes(study, placed, scenes);
   out.notes.insert(out.notes.end(), of_contacts.begin(), of_contacts.end());
+  if (const std::string note = flexibility_note(study, scenes); !note.empty())
+    out.notes.push_back(note);
   for (std::size_t k = 0; k < fields.loads.size(); ++k)
     for (std::size_t j = 0; j < k; ++j) {
       const auto* one = std::get_if<transient::Random>(&fields.loads[j].function);
@@ -287,7 +301,7 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
                            fmt::join(mesh::group_names(mesh), ", ")));
 
   progress.stage("modes");
-  std::vector<Eigen::VectorXd> supports;
+  AtContacts at_contacts;
   {
     const core::PetscSession petsc;
     ModesStage modes = modes_stage(comm, inputs, model, out.record, request.force);
@@ -295,17 +309,24 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
     out.model.different_structures = static_cast<std::int64_t>(modes.different);
     out.warnings.insert(out.warnings.end(), modes.warnings.begin(), modes.warnings.end());
     out.bases = std::move(modes.bases);
-    if (last == Stage::transient)
-      core::agree(comm, [&] { supports = support_shapes(moved, model, modes.structures); });
+    report_modes(inputs.study, out);
+    out.timings.modes = watch.lap();
+    if (last == Stage::transient) {
+      progress.stage("basis");
+      core::agree(comm, [&] {
+        at_contacts.fields =
+            build_fields(inputs.study, mesh, model, support_shapes(moved, model, modes.structures));
+        at_contacts.joined = joined_structures(out.bases, placed);
+      });
+      at_contacts.flexibilities =
+          contact_flexibilities(comm, inputs.study, model, modes.structures, out.bases, at_contacts.joined,
+                                placed, at_contacts.fields.loads);
+    }
   }
-  report_modes(inputs.study, out);
-  out.timings.modes = watch.lap();
   if (last == Stage::transient) {
-    progress.stage("basis");
     std::vector<BuiltScene> scenes;
-    core::agree(comm, [&] {
-      scenes = build_scenes(inputs.study, mesh, model, out.bases, placed, nodes, std::move(supports), out);
-    });
+    core::agree(comm,
+                [&] { scenes = build_scenes(inputs.study, out.bases, placed, nodes, at_contacts, out); });
     for (const NamedNode& node : nodes)
       out.node_names.push_back(node.name);
     out.duration = inputs.study.transient->duration;

@@ -3,9 +3,9 @@
 #include "core/error.hpp"
 #include "core/petsc.hpp"
 #include "fem/fields.hpp"
-#include "fem/petsc_assembly.hpp"
 #include "fem/rigid_motions.hpp"
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -13,6 +13,13 @@
 namespace fretwork::fem {
 namespace {
 
+/// A correction below this share of the solution is round-off of the displacements themselves.
+constexpr double round_off = 1e-13;
+/// Corrections fall by the share of digits that the factor has: one that does not halve has reached round-off.
+constexpr double falling = 0.5;
+/// Where the last correction is larger than this share the factor has no digits: K is singular to working precision.
+constexpr double useless = 1e-3;
+constexpr int most_corrections = 20;
 /// Work of a force in a rigid motion below this share of the sizes of both is round-off of the stiffnesses that make the force.
 constexpr double balanced = 1e-9;
 
@@ -22,52 +29,34 @@ struct Vector {
   ~Vector() { VecDestroy(&handle); }
 };
 
-Eigen::VectorXd solve(Mat matrix, Mat factor, const Eigen::VectorXd& right) {
-  Vector b, x;
-  FW_PETSC(MatCreateVecs(matrix, &x.handle, &b.handle));
-  PetscScalar* values = nullptr;
-  FW_PETSC(VecGetArray(b.handle, &values));
-  Eigen::Map<Eigen::VectorXd>(values, right.size()) = right;
-  FW_PETSC(VecRestoreArray(b.handle, &values));
-  FW_PETSC(MatSolve(factor, b.handle, x.handle));
-  const PetscScalar* result = nullptr;
-  FW_PETSC(VecGetArrayRead(x.handle, &result));
-  Eigen::VectorXd solution = Eigen::Map<const Eigen::VectorXd>(result, right.size());
-  FW_PETSC(VecRestoreArrayRead(x.handle, &result));
-  return solution;
-}
-
-Eigen::VectorXd diagonal_of(Mat matrix) {
-  Vector diagonal;
-  FW_PETSC(MatCreateVecs(matrix, nullptr, &diagonal.handle));
-  FW_PETSC(MatGetDiagonal(matrix, diagonal.handle));
-  PetscInt size = 0;
-  FW_PETSC(VecGetLocalSize(diagonal.handle, &size));
-  const PetscScalar* values = nullptr;
-  FW_PETSC(VecGetArrayRead(diagonal.handle, &values));
-  Eigen::VectorXd out = Eigen::Map<const Eigen::VectorXd>(values, size);
-  FW_PETSC(VecRestoreArrayRead(diagonal.handle, &values));
-  return out;
-}
-
-/// Equations to hold so that no rigid motion is left: the pivots of the QR of (D^(1/2) R)^T.
-/// @param scale  D over the structure
-std::vector<PetscInt> held_equations(const Structure& structure, const Eigen::MatrixXd& rigid,
-                                     const Eigen::VectorXd& scale) {
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(rigid.cols(), structure.equations);
+/// Of the free dofs to all of the structure's.
+Eigen::MatrixXd on_nodes(const Structure& structure, const Eigen::MatrixXd& equations) {
+  Eigen::MatrixXd fields =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(structure.equation.size()), equations.cols());
   for (std::size_t i = 0; i < structure.equation.size(); ++i)
-    if (const Index e = structure.equation[i]; e >= 0)
-      rows.col(e) = std::sqrt(scale(static_cast<Eigen::Index>(i))) *
-                    rigid.row(static_cast<Eigen::Index>(i)).transpose();
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows);
-  const auto& order = qr.colsPermutation().indices();
-  return {order.data(), order.data() + rigid.cols()};
+    if (structure.equation[i] >= 0)
+      fields.row(static_cast<Eigen::Index>(i)) = equations.row(structure.equation[i]);
+  return fields;
 }
 
-/// D: the diagonal of K over the structure; dofs that nothing stiffens take the largest.
+/// Largest over the columns of |part|/|whole|, |u|^2 = u.D.u: no unit to choose between lengths and angles.
+double largest_share(const Eigen::VectorXd& scale, const Eigen::MatrixXd& part,
+                     const Eigen::MatrixXd& whole) {
+  double largest = 0.0;
+  for (Eigen::Index j = 0; j < whole.cols(); ++j) {
+    const double size = scale.dot(whole.col(j).cwiseAbs2());
+    const double share = size > 0.0 ? std::sqrt(scale.dot(part.col(j).cwiseAbs2()) / size) : 0.0;
+    if (!(share <= largest)) // a NaN stays
+      largest = share;
+  }
+  return largest;
+}
+
+/// The diagonal of K; what nothing stiffens moves alone and is held by the largest.
 Eigen::VectorXd scale_of(const Model& model, const Structure& structure) {
   const Eigen::VectorXd diagonal = stiffness_diagonal(model, structure);
-  return (diagonal.array() > 0.0).select(diagonal, diagonal.maxCoeff());
+  const double stiffest = diagonal.maxCoeff() > 0.0 ? diagonal.maxCoeff() : 1.0;
+  return (diagonal.array() > 0.0).select(diagonal, stiffest);
 }
 
 /// The rows of a structure of a field over the model, and back.
@@ -86,15 +75,6 @@ Eigen::VectorXd over_model(const Model& model, const Structure& structure, const
   return out;
 }
 
-/// Values of the equations at the dofs of the structure, 0 at restrained ones.
-Eigen::VectorXd at_dofs(const Structure& structure, const Eigen::VectorXd& values) {
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(structure.equation.size()));
-  for (std::size_t i = 0; i < structure.equation.size(); ++i)
-    if (structure.equation[i] >= 0)
-      out(static_cast<Eigen::Index>(i)) = values(structure.equation[i]);
-  return out;
-}
-
 bool pushes(const Eigen::VectorXd& force, const Eigen::VectorXd& motion, const Eigen::VectorXd& scale) {
   const double sizes = std::sqrt((force.array().square() / scale.array()).sum() *
                                  (motion.array().square() * scale.array()).sum());
@@ -103,46 +83,87 @@ bool pushes(const Eigen::VectorXd& force, const Eigen::VectorXd& motion, const E
 
 } // namespace
 
+StaticSolver::StaticSolver(const Model& model, const Structure& structure)
+    : model_(model), structure_(structure), rigid_(rigid_motions(model, structure)),
+      momentum_(mass_times(model, structure, rigid_)), scale_(scale_of(model, structure)) {
+  if (structure.equations == 0)
+    return;
+  const SystemMatrices system = assemble(PETSC_COMM_SELF, model, structure);
+  hold_against_rigid_motions(system.stiffness.get());
+  factor_ = factorise(system.stiffness.get(), elimination_of(model, structure));
+}
+
+/// The equations that tell the rigid motions apart best, by the strain energy that moving them alone would take.
+void StaticSolver::hold_against_rigid_motions(Mat stiffness) {
+  if (rigid_.cols() == 0)
+    return;
+  Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(rigid_.cols(), structure_.equations);
+  for (std::size_t i = 0; i < structure_.equation.size(); ++i)
+    if (const Index e = structure_.equation[i]; e >= 0) {
+      const auto row = static_cast<Eigen::Index>(i);
+      motion.col(e) += std::sqrt(scale_(row)) * rigid_.row(row).transpose();
+    }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> pivots(motion);
+  for (Eigen::Index k = 0; k < rigid_.cols(); ++k)
+    held_.push_back(static_cast<PetscInt>(pivots.colsPermutation().indices()(k)));
+  FW_PETSC(MatZeroRowsColumns(stiffness, static_cast<PetscInt>(held_.size()), held_.data(), 1.0, nullptr,
+                              nullptr));
+}
+
+Eigen::MatrixXd StaticSolver::solve_once(const Eigen::MatrixXd& right) const {
+  Vector b, x;
+  FW_PETSC(MatCreateVecs(factor_.get(), &x.handle, &b.handle));
+  Eigen::MatrixXd solution(right.rows(), right.cols());
+  for (Eigen::Index j = 0; j < right.cols(); ++j) {
+    PetscScalar* values = nullptr;
+    FW_PETSC(VecGetArray(b.handle, &values));
+    Eigen::Map<Eigen::VectorXd>(values, right.rows()) = right.col(j);
+    for (const PetscInt e : held_)
+      values[e] = 0.0;
+    FW_PETSC(VecRestoreArray(b.handle, &values));
+    FW_PETSC(MatSolve(factor_.get(), b.handle, x.handle));
+    const PetscScalar* result = nullptr;
+    FW_PETSC(VecGetArrayRead(x.handle, &result));
+    solution.col(j) = Eigen::Map<const Eigen::VectorXd>(result, right.rows());
+    FW_PETSC(VecRestoreArrayRead(x.handle, &result));
+  }
+  return on_nodes(structure_, solution);
+}
+
+Eigen::MatrixXd StaticSolver::solve(const Eigen::MatrixXd& forces) const {
+  Eigen::MatrixXd u = Eigen::MatrixXd::Zero(forces.rows(), forces.cols());
+  if (structure_.equations == 0 || forces.cols() == 0)
+    return u;
+  const Eigen::MatrixXd balanced = forces - momentum_ * (rigid_.transpose() * forces);
+  double share = std::numeric_limits<double>::infinity(), before = share;
+  for (int k = 0; k < most_corrections && !(share <= round_off) && (k < 2 || share < falling * before); ++k) {
+    const Eigen::MatrixXd left = balanced - stiffness_times(model_, structure_, u);
+    Eigen::MatrixXd correction = solve_once(forces_on_equations(structure_, left));
+    correction -= rigid_ * (momentum_.transpose() * correction);
+    u += correction;
+    before = share;
+    share = largest_share(scale_, correction, u);
+  }
+  if (!(std::min(share, before) <= useless))
+    throw core::ComputationError("static solution of the structure that starts at node " +
+                                 place(model_.nodes[static_cast<std::size_t>(structure_.nodes.front())]) +
+                                 ": the stiffness is singular to working precision; look for parts that are "
+                                 "hardly held, or mesh more coarsely");
+  return u;
+}
+
 Eigen::VectorXd static_solution(const Model& model, const Structure& structure,
                                 const Eigen::VectorXd& force) {
-  const std::string what = "static solution of the structure that starts at node " +
-                           place(model.nodes[static_cast<std::size_t>(structure.nodes.front())]);
-  if (structure.equations == 0)
-    return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.nodes.size()) * dofs_per_node);
-  const Eigen::MatrixXd rigid = rigid_motions(model, structure);
+  const StaticSolver solver(model, structure);
   const Eigen::VectorXd forces = part_of(structure, force);
-  const Eigen::VectorXd scale = scale_of(model, structure);
-  for (Eigen::Index j = 0; j < rigid.cols(); ++j)
-    if (pushes(forces, rigid.col(j), scale))
-      throw core::Error(fmt::format(
-          "{}: it is not held: the forces push one of {} motion(s) that strain nothing; restrain them", what,
-          rigid.cols()));
-
-  const SystemMatrices system = assemble(PETSC_COMM_SELF, model, structure);
-  const Mat stiffness = system.stiffness.get();
-  const Eigen::VectorXd diagonal = diagonal_of(stiffness);
-  Eigen::VectorXd right = forces_on_equations(structure, forces);
-  const std::vector<PetscInt> held = held_equations(structure, rigid, scale);
-  for (const PetscInt equation : held)
-    right(equation) = 0.0;
-  if (!held.empty())
-    FW_PETSC(MatZeroRowsColumns(stiffness, static_cast<PetscInt>(held.size()), held.data(),
-                                diagonal.maxCoeff(), nullptr, nullptr));
-  const PetscMatrix factor = factorise(stiffness, elimination_of(model, structure));
-  const Eigen::VectorXd solution = solve(stiffness, factor.get(), right);
-
-  Eigen::VectorXd field = at_dofs(structure, solution);
-  // Along a null vector the strain energy is round-off squared of its diagonal scale; the softest mesh that
-  // makes sense (thousands of elements) has at least round-off to the power one.
-  const double energy = twice_strain_energy(model, structure, field)[0];
-  if (!solution.allFinite() ||
-      energy < std::numeric_limits<double>::epsilon() * diagonal.dot(solution.cwiseAbs2()))
-    throw core::ComputationError(
-        what + ": the stiffness is singular to working precision; look for parts that are hardly held, "
-               "or mesh more coarsely");
-  if (rigid.cols() > 0)
-    field -= rigid * (rigid.transpose() * mass_times(model, structure, field));
-  return over_model(model, structure, field);
+  for (Eigen::Index j = 0; j < solver.rigid().cols(); ++j)
+    if (pushes(forces, solver.rigid().col(j), solver.scale()))
+      throw core::Error(fmt::format("static solution of the structure that starts at node {}: it is not "
+                                    "held: the forces push one of {} "
+                                    "motion(s) that strain nothing; restrain them",
+                                    place(model.nodes[static_cast<std::size_t>(structure.nodes.front())]),
+                                    solver.rigid().cols()));
+  return over_model(model, structure, solver.solve(forces));
 }
 
 } // namespace fretwork::fem

@@ -15,6 +15,8 @@ Recorder::Recorder(const transient::Scene& scene, std::vector<ObservedNode> node
   if (scene.residual.size() > 0) {
     force_.setZero(scene.residual.rows());
     given_.setZero(scene.residual.rows(), nt);
+    for (const auto& load : scene.loads)
+      loads_.emplace_back(load.function, scene.duration);
   }
   out_.modal_displacement.setZero(scene.system.size(), nt);
   out_.modal_velocity.setZero(scene.system.size(), nt);
@@ -50,7 +52,7 @@ core::Vec3 Recorder::place(std::size_t contact, std::int64_t index, double time)
   return x;
 }
 
-/// The contacts move by what the modes lack of their flexibility.
+/// The contacts move by what the modes lack of their flexibility and of their displacements under the loads.
 void Recorder::give_way(std::int64_t index, double time, std::span<const transient::ContactForce> contacts) {
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto& f = contacts[c];
@@ -58,6 +60,10 @@ void Recorder::give_way(std::int64_t index, double time, std::span<const transie
         f.normal * f.ny + f.friction.t * f.nz, f.normal * f.nz - f.friction.t * f.ny;
   }
   given_.col(index).noalias() = scene_.residual * force_;
+  for (std::size_t c = 0; c < contacts.size(); ++c)
+    for (Eigen::Index k = 0; k < scene_.contacts[c].under_loads.cols(); ++k)
+      given_.col(index).segment<3>(3 * static_cast<Eigen::Index>(c)) +=
+          loads_[static_cast<std::size_t>(k)](time) * scene_.contacts[c].under_loads.col(k);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const core::Vec3 x =
         place(c, index, time) + given_.col(index).segment<3>(3 * static_cast<Eigen::Index>(c));

@@ -65,9 +65,10 @@ private:
   std::vector<ObservedNode> nodes_;
   TimeSeries out_;
   std::vector<transient::MotionSignal> motions_; ///< that carry contacts and nodes
+  std::vector<transient::Signal> loads_;         ///< with residual flexibility
   Eigen::VectorXd acceleration_;                 ///< modal
   Eigen::VectorXd force_;                        ///< N, local axes of all contacts: with residual flexibility
-  Eigen::MatrixXd given_;                        ///< m, 3 nc x nt: residual flexibility times that
+  Eigen::MatrixXd given_; ///< m, 3 nc x nt: residual flexibility times that, and under_loads of the scene
   std::int64_t served_ = 0;
 };
 

@@ -36,6 +36,11 @@ void write_facts(const h5::Group& group, const ContactFacts& c, const std::vecto
   group.set("friction_static", c.friction_static);
   group.set("friction_dynamic", c.friction_dynamic);
   group.set<double>("friction_along", c.friction_along, {2});
+  if (c.static_flexibility)
+    write_vector(
+        group, "static_flexibility",
+        core::Vec3(c.static_flexibility->exact, c.static_flexibility->basis, c.static_flexibility->missing),
+        "m/N: exact, of the modes, missing; along the normal direction in which most is missing");
   group.set("units", std::string(contact_units));
   if (c.outline.size() > 0)
     write_matrix(group, "outline", c.outline, "m");
@@ -62,6 +67,12 @@ ContactFacts read_facts(const h5::Group& group) {
   c.friction_static = group.number("friction_static");
   c.friction_dynamic = group.number("friction_dynamic");
   c.friction_along = {along[0], along[1]};
+  if (group.has("static_flexibility")) {
+    const Eigen::VectorXd f = read_vector(group, "static_flexibility");
+    if (f.size() != 3)
+      throw h5::Failure("static_flexibility of a contact");
+    c.static_flexibility = {f(0), f(1), f(2)};
+  }
   if (group.has("outline"))
     c.outline = read_matrix(group, "outline");
   return c;

@@ -35,6 +35,11 @@ struct ModelFacts {
   double mass_kg = 0.0;
 };
 
+/// Along the normal direction of a contact in which the modes lack most, m/N.
+struct StaticFlexibility {
+  double exact = 0.0, basis = 0.0, missing = 0.0;
+};
+
 /// A contact as it was set up.
 struct ContactFacts {
   std::string name;
@@ -48,7 +53,8 @@ struct ContactFacts {
   double normal_stiffness = 0.0, normal_damping = 0.0, tangential_stiffness = 0.0, tangential_damping = 0.0;
   double normal_dissipation = 0.0; ///< s/m, Hunt and Crossley's
   double friction_static = 0.0, friction_dynamic = 0.0;
-  std::array<double, 2> friction_along{1.0, 1.0}; ///< 1 where friction acts: along x_loc, across it
+  std::array<double, 2> friction_along{1.0, 1.0};      ///< 1 where friction acts: along x_loc, across it
+  std::optional<StaticFlexibility> static_flexibility; ///< none where there is no static solution
 };
 
 /// One independent transient (a connected structure with its contacts).

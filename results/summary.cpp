@@ -74,6 +74,12 @@ Json standard_error(const post::StandardErrors& e) {
           {"batches", number(e.batches)}};
 }
 
+Json flexibility(const std::optional<StaticFlexibility>& f) {
+  if (!f)
+    return nullptr;
+  return {{"exact", number(f->exact)}, {"basis", number(f->basis)}, {"missing", number(f->missing)}};
+}
+
 Json contact(const ContactFacts& facts, const post::ContactSummary& c) {
   return {
       {"name", facts.name},
@@ -101,7 +107,8 @@ Json contact(const ContactFacts& facts, const post::ContactSummary& c) {
       {"impulse_Ns", number(c.impulse)},
       // nothing sticks or slides where there is no friction
       {"sticking_ratio", facts.friction_static > 0.0 ? number(c.sticking_ratio) : Json(nullptr)},
-      {"standard_error", standard_error(c.error)}};
+      {"standard_error", standard_error(c.error)},
+      {"static_flexibility", flexibility(facts.static_flexibility)}};
 }
 
 Json contact_sums(const RunResults& results) {

@@ -14,6 +14,8 @@ namespace {
 constexpr std::size_t text_width = 88;    // of what follows the labels: about 100 columns in all
 constexpr std::size_t name_width = 20;    // of a contact
 constexpr std::size_t most_contacts = 12; // shown one by one; of more, the ten with the largest work rate
+constexpr std::size_t most_lacking = 3;
+constexpr double least_missing = 1e-3; // flexibility times stiffness of a contact from which on it is shown
 constexpr std::size_t most_frequencies = 8;
 constexpr std::size_t most_warnings = 5;
 constexpr std::size_t most_notes = 3;
@@ -138,6 +140,29 @@ void add_contacts(Lines& lines, const RunResults& results) {
   lines.plain("");
 }
 
+/// Contacts whose modes lack flexibility beside their own, the worst first.
+void add_flexibility(Lines& lines, const RunResults& results) {
+  std::vector<std::pair<double, const ContactFacts*>> lacking;
+  for (const ContactFacts& c : results.contacts)
+    if (c.static_flexibility && c.static_flexibility->missing * c.normal_stiffness > least_missing)
+      lacking.emplace_back(c.static_flexibility->missing * c.normal_stiffness, &c);
+  if (lacking.empty())
+    return;
+  std::stable_sort(lacking.begin(), lacking.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  lines.plain(fmt::format("  {:<20} {:>12} {:>12} {:>12} {:>12}", "static flexibility", "exact m/N",
+                          "modes m/N", "missing m/N", "missing K_N"));
+  for (std::size_t i = 0; i < std::min(most_lacking, lacking.size()); ++i) {
+    const auto& [product, c] = lacking[i];
+    lines.plain(fmt::format("  {:<20} {:>12.4g} {:>12.4g} {:>12.3g} {:>12.2g}", shortened(c->name),
+                            c->static_flexibility->exact, c->static_flexibility->basis,
+                            c->static_flexibility->missing, product));
+  }
+  if (lacking.size() > most_lacking)
+    lines.plain(fmt::format("  the {} of {} contacts whose modes lack most", most_lacking, lacking.size()));
+  lines.plain("");
+}
+
 std::string energy_text(const EnergyTotals& e) {
   return fmt::format(
       "input {:.4g} J = stored {:.4g} + modal damping {:.4g} + contact damping {:.4g} + friction {:.4g}; "
@@ -183,6 +208,7 @@ void add_transient(Lines& lines, const RunResults& results) {
                                       grouped(t.unconverged), grouped(t.steps)));
   if (!results.contact_summaries.empty())
     add_contacts(lines, results);
+  add_flexibility(lines, results);
   lines.add("energy", energy_text(t.energy));
   if (results.verification)
     add_verification(lines, results);

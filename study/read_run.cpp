@@ -63,8 +63,9 @@ Modes read_modes(const TableReader& root) {
     modes.count.reset();
   }
   modes.damping = read_damping(table);
-  if (const Value* static_modes = table.find("static_modes"))
-    (void)to_choice(*static_modes, table.path("static_modes"), {"none"}, {"auto", "all"});
+  modes.static_modes = table.choice(
+      "static_modes", StaticModes::none,
+      Choices<StaticModes>{{{"none", StaticModes::none}, {"auto", StaticModes::residual}}, {"all"}});
   modes.distributed = table.optional_flag("distributed");
   return modes;
 }

@@ -65,10 +65,14 @@ struct Tie {
   std::uint8_t tied; ///< bit d set = dof d (ux uy uz rx ry rz) tied
 };
 
+/// What stands in for the modes that are left out at the contacts: nothing, or residual flexibility in series with them.
+enum class StaticModes { none, residual };
+
 struct Modes {
   std::optional<int> count = 40; ///< exactly one of count and up_to_hz is set
   std::optional<double> up_to_hz;
   modal::Damping damping = 0.0;
+  StaticModes static_modes = StaticModes::none;
   std::optional<bool> distributed; ///< solve one structure over all ranks; default: by size
 };
 

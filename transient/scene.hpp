@@ -41,6 +41,10 @@ struct ContactPoint {
   Eigen::MatrixXd b;                    ///< 3 x n, rows x_loc y_loc z_loc
   Eigen::MatrixXd carried =
       {}; ///< 3 x motions of the scene: of the node less the obstacle; empty: not carried
+  /// m, 3 x loads of the scene, with Scene::residual: what the modes lack of the static displacement under each load of value 1, so that
+  /// u = b q + residual f + under_loads g(t); empty: nothing.
+  Eigen::MatrixXd under_loads = {};
+  core::Vec3 loaded_at_start = core::Vec3::Zero(); ///< m, under_loads g(0) of the loads that are not inertial
 };
 
 struct Scene {
@@ -57,7 +61,7 @@ struct Scene {
 
   /// Where a contact's node stands at t = 0 for q = 0, from the obstacle's centre, m.
   [[nodiscard]] core::Vec3 place_at_start(const ContactPoint& point) const {
-    core::Vec3 place = point.rest;
+    core::Vec3 place = point.rest + point.loaded_at_start;
     for (Eigen::Index k = 0; k < point.carried.cols(); ++k)
       place += motions[static_cast<std::size_t>(k)].displacement0 * point.carried.col(k);
     return place;

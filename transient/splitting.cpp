@@ -47,10 +47,10 @@ public:
   Splitting(const Scene& scene, double step)
       : system_(with_diagonal(scene.system)), h_(step),
         loads_(scene.loads, scene.system.size(), scene.duration, step),
-        contacts_(scene.contacts, scene.system.size()), motion_(contacts_), obstacles_(scene, contacts_),
-        memory_(contacts_, step), solver_(contacts_, step), trial_(contacts_.count), paths_(contacts_, step),
-        rows_(contacts_), coupled_(system_, step), first_(flow_table(system_, coupled_, 0.5 * step)),
-        full_(flow_table(system_, coupled_, step)) {
+        contacts_(scene.contacts, scene.system.size()), motion_(contacts_),
+        obstacles_(scene, contacts_, step), memory_(contacts_, step), solver_(contacts_, step),
+        trial_(contacts_.count), paths_(contacts_, step), rows_(contacts_), coupled_(system_, step),
+        first_(flow_table(system_, coupled_, 0.5 * step)), full_(flow_table(system_, coupled_, step)) {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
     for (kernels::Array* a : {&q_, &v_, &k_, &f_now_, &f_next_, &slope_, &impulse_})
       a->assign(n, 0.0);

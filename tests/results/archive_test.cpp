@@ -94,6 +94,7 @@ TEST(Archive, GivesBackEveryContactAsItWasSetUp) {
   out.contacts[1].normal_dissipation = 0.6;
   out.contacts[1].friction_along = {1.0, 0.0};
   out.contacts[1].other = 3;
+  out.contacts[1].static_flexibility = {3e-7, 2e-7, 1e-7};
   out.contacts[2].outline = Eigen::MatrixXd::Random(5, 2);
   const RunResults in = there_and_back(out);
   ASSERT_EQ(in.contacts.size(), out.contacts.size());
@@ -105,6 +106,12 @@ TEST(Archive, GivesBackEveryContactAsItWasSetUp) {
     EXPECT_EQ(a.outline, b.outline);
     EXPECT_EQ(a.normal_dissipation, b.normal_dissipation);
     EXPECT_EQ(a.friction_along, b.friction_along);
+    ASSERT_EQ(a.static_flexibility.has_value(), b.static_flexibility.has_value());
+    if (b.static_flexibility) {
+      EXPECT_EQ(a.static_flexibility->exact, b.static_flexibility->exact);
+      EXPECT_EQ(a.static_flexibility->basis, b.static_flexibility->basis);
+      EXPECT_EQ(a.static_flexibility->missing, b.static_flexibility->missing);
+    }
     EXPECT_EQ(a.axes, b.axes);
     EXPECT_EQ(a.obstacle, b.obstacle);
     EXPECT_EQ(a.gap, b.gap);

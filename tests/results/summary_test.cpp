@@ -59,7 +59,7 @@ TEST(Summary, HasTheKeysOfTheContractForAContactAndANode) {
             (Keys{"name", "impacts", "impacts_per_second", "standard_error", "contact_time_ratio",
                   "normal_force", "normal_force_in_contact", "tangential_force", "displacement", "work_rate",
                   "friction_power", "impact_velocity", "contact_duration", "departure_velocity", "energy",
-                  "sliding_distance_m", "impulse_Ns", "sticking_ratio"}));
+                  "sliding_distance_m", "impulse_Ns", "sticking_ratio", "static_flexibility"}));
   EXPECT_EQ(keys(c["departure_velocity"]), (Keys{"mean", "max"}));
   EXPECT_EQ(keys(c["energy"]), (Keys{"damping_J", "friction_J"}));
   EXPECT_EQ(keys(c["normal_force"]), (Keys{"mean", "rms", "max"}));
@@ -95,6 +95,7 @@ TEST(Summary, PutsEachStatisticUnderItsName) {
   c.friction_work = 28;
   c.impact_rate = 29;
   c.error = {30, 31, 32, 33, 34, 35, 36};
+  results.contacts[1].static_flexibility = {37, 38, 39};
   EXPECT_EQ(summary_of(results)["contacts"][1], Json::parse(R"({
     "name": "tsp2", "impacts": 5, "impacts_per_second": 29.0, "contact_time_ratio": 0.5,
     "normal_force": {"mean": 1.0, "rms": 2.0, "max": 3.0}, "normal_force_in_contact": {"mean": 4.0, "rms": 5.0},
@@ -106,7 +107,9 @@ TEST(Summary, PutsEachStatisticUnderItsName) {
     "impulse_Ns": 25.0, "sliding_distance_m": 26.0, "sticking_ratio": 0.125,
     "energy": {"damping_J": 27.0, "friction_J": 28.0},
     "standard_error": {"work_rate": 30.0, "friction_power": 31.0, "impacts_per_second": 33.0, "normal_force": {"rms": 32.0},
-                       "displacement": {"y": {"std": 34.0}, "z": {"std": 35.0}}, "batches": 36.0}})"));
+                       "displacement": {"y": {"std": 34.0}, "z": {"std": 35.0}}, "batches": 36.0},
+    "static_flexibility": {"exact": 37.0, "basis": 38.0, "missing": 39.0}})"));
+  EXPECT_TRUE(summary_of(results)["contacts"][0]["static_flexibility"].is_null()) << "there is none";
 }
 
 TEST(Summary, AddsUpTheContactsWithTheErrorsOfTheSums) {

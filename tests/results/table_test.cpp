@@ -14,7 +14,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr std::size_t widest = 112; // columns a person's terminal shows without wrapping, roughly
-constexpr std::size_t longest = 40; // lines that fit a screen
+constexpr std::size_t longest = 48; // lines that fit a screen
 
 std::vector<std::string> lines(const std::string& text) {
   std::istringstream in(text);
@@ -30,6 +30,9 @@ TEST(TerminalTable, FitsAScreen) {
   for (int i = 0; i < 30; ++i)
     results.warnings.push_back("warning number " + std::to_string(i));
   results.notes = results.warnings;
+  for (ContactFacts& contact : results.contacts)
+    contact.static_flexibility = {3.0 / contact.normal_stiffness, 2.0 / contact.normal_stiffness,
+                                  1.0 / contact.normal_stiffness};
   const auto table = lines(terminal_table(results, "folder.results"));
   EXPECT_LE(table.size(), longest);
   for (const std::string& line : table)
@@ -94,6 +97,26 @@ TEST(TerminalTable, ShowsTheTenContactsThatWearMostOfMany) {
   const std::string text = terminal_table(results);
   EXPECT_THAT(text, HasSubstr("the 10 of 13 contacts with the largest work rate"));
   EXPECT_THAT(text, HasSubstr("78")); // the total work rate, 0 + 1 + ... + 12
+}
+
+TEST(TerminalTable, ShowsTheContactsWhoseModesLackFlexibility) {
+  RunResults results = made_up({.contacts = 6});
+  EXPECT_THAT(terminal_table(results), Not(HasSubstr("static flexibility")));
+  for (std::size_t c = 0; c < 6; ++c) {
+    ContactFacts& contact = results.contacts[c];
+    contact.normal_stiffness = 1e6;
+    const double missing =
+        c == 0 ? 0.9e-9 : 2e-9 * static_cast<double>(c); // the first: less than a thousandth
+    contact.static_flexibility = {1e-6, 1e-6 - missing, missing};
+  }
+  const auto table = lines(terminal_table(results));
+  const auto head = std::find_if(table.begin(), table.end(), [](const std::string& line) {
+    return line.find("static flexibility") != std::string::npos;
+  });
+  ASSERT_LT(head + 4, table.end());
+  EXPECT_THAT(*(head + 1), HasSubstr("1e-06      9.9e-07        1e-08         0.01")) << "the worst first";
+  EXPECT_THAT(*(head + 3), HasSubstr("0.006"));
+  EXPECT_THAT(*(head + 4), HasSubstr("the 3 of 5 contacts whose modes lack most"));
 }
 
 TEST(ModesTable, HasALineAModeAndTheirSum) {

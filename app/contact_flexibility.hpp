@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Static flexibility at the contacts of a scene: the structures', what of it their modes have, what they lack
+/// (modal/static_flexibility.hpp).
+///
+/// Loaded are the directions that a normal force can take and, with friction, those along which the modes move the contact. Between two
+/// nodes the load is a pair of opposite forces, and the flexibility that of the relative motion. Rows and columns of other directions are 0.
+/// What the modes lack of the displacement under the loads of the study is theirs by the same solutions: S = U^T f - P^T Phi Omega^-2 Phi^T f.
+#pragma once
+#include "app/build_contacts.hpp"
+#include "app/build_fields.hpp"
+#include "modal/basis.hpp"
+#include "results/run_results.hpp"
+#include <mpi.h>
+
+namespace fretwork::app {
+
+struct ContactFlexibility {
+  std::vector<std::size_t> contacts; ///< numbers of the scene's contacts among the placed ones, ascending
+  Eigen::MatrixXd exact, basis,
+      missing; ///< m/N, 3 nc x 3 nc over x_loc y_loc z_loc of each; symmetric, missing >= 0
+  Eigen::MatrixXd
+      under_loads;     ///< m, 3 nc x loads of the fields: what the modes lack of the static displacements
+  std::string failure; ///< why there is none of the above; empty: there is
+
+  /// Of the k-th contact in the normal direction in which most is missing.
+  [[nodiscard]] results::StaticFlexibility at(std::size_t k, const contact::Obstacle& obstacle) const;
+};
+
+/// Collective; needs PETSc. Scenes are shared out over ranks; the same bytes on every rank and for any number of ranks. Equal structures
+/// are factorised once a rank.
+/// @param scenes  numbers of the structures of each
+/// @throws core::ComputationError where a structure's stiffness is singular to working precision, unless the study asks for no static modes:
+///         then `failure` says so
+[[nodiscard]] std::vector<ContactFlexibility>
+contact_flexibilities(MPI_Comm comm, const study::Study& study, const fem::Model& model,
+                      const std::vector<fem::Structure>& structures, const std::vector<modal::Basis>& bases,
+                      const std::vector<std::vector<std::size_t>>& scenes,
+                      const std::vector<PlacedContact>& placed, const std::vector<Fields::Load>& loads);
+
+} // namespace fretwork::app

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/residual_flexibility.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace fretwork::app {
+namespace {
+
+using Eigen::Index;
+
+/// Missing flexibility times stiffness that makes impacts wrong by half of it: a percent.
+constexpr double told = 0.02;
+
+void give_residual_flexibility(const ContactFlexibility& flexibility, transient::Scene& scene) {
+  scene.residual = flexibility.missing;
+  for (std::size_t k = 0; k < scene.contacts.size(); ++k) {
+    transient::ContactPoint& point = scene.contacts[k];
+    const Eigen::MatrixXd under = flexibility.under_loads.middleRows<3>(3 * static_cast<Index>(k));
+    if (under.isZero(0.0))
+      continue;
+    point.under_loads = under;
+    for (std::size_t l = 0; l < scene.loads.size(); ++l)
+      if (const auto column = under.col(static_cast<Index>(l));
+          !column.isZero(0.0) && !scene.loads[l].inertial)
+        point.loaded_at_start += transient::Signal(scene.loads[l].function, scene.duration)(0.0) * column;
+  }
+}
+
+} // namespace
+
+double missing_times_stiffness(const ContactFlexibility& flexibility, std::size_t k,
+                               const contact::Support& support) {
+  const auto [y, z] = contact::normal_directions(support.obstacle);
+  const bool normal[] = {false, y, z};
+  const double tangential = support.friction.active() ? support.friction.stiffness : 0.0;
+  double largest = 0.0;
+  for (int d = 0; d < 3; ++d) {
+    const Index row = 3 * static_cast<Index>(k) + d;
+    const double stiffness = normal[d] ? std::max(support.normal.stiffness, tangential) : tangential;
+    largest = std::max(largest, stiffness * flexibility.missing(row, row));
+  }
+  return largest;
+}
+
+void take_residual_flexibility(const study::Study& study, const ContactFlexibility& flexibility,
+                               BuiltScene& built) {
+  for (std::size_t k = 0; k < built.scene.contacts.size(); ++k) {
+    const transient::ContactPoint& point = built.scene.contacts[k];
+    if (const double product = missing_times_stiffness(flexibility, k, point.support);
+        product > built.lacking || built.lacking_at.empty()) {
+      built.lacking = product;
+      built.lacking_at = point.name;
+    }
+  }
+  switch (study.modes.static_modes) {
+  case study::StaticModes::none:
+    return;
+  case study::StaticModes::residual:
+    if (built.lacking > worth_having)
+      give_residual_flexibility(flexibility, built.scene);
+    return;
+  }
+}
+
+std::string flexibility_note(const study::Study& study, const std::vector<BuiltScene>& scenes) {
+  const auto worst =
+      std::max_element(scenes.begin(), scenes.end(),
+                       [](const BuiltScene& a, const BuiltScene& b) { return a.lacking < b.lacking; });
+  if (worst == scenes.end() || worst->lacking_at.empty())
+    return {};
+  const std::string lack =
+      fmt::format("the static flexibility that the modes lack at a contact times its stiffness is up to "
+                  "{:.2g} (\"{}\")",
+                  worst->lacking, worst->lacking_at);
+  switch (study.modes.static_modes) {
+  case study::StaticModes::none:
+    return worst->lacking > told
+               ? lack + ": impacts there are too hard by about half of that; take modes.static_modes = "
+                        "\"auto\", or more modes"
+               : std::string();
+  case study::StaticModes::residual:
+    return lack + (worst->lacking > worth_having ? ": it is taken in series with the contacts"
+                                                 : ": too little to be taken in series with the contacts");
+  }
+  return {};
+}
+
+} // namespace fretwork::app

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// static_modes = "auto": what the modes lack of the flexibility at the contacts is in series with them. Few modes then rest where the
+// structure does, and hit as many modes do.
+#include "mesh_text.hpp"
+#include "program.hpp"
+#include <Eigen/Dense>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace fretwork::app::test {
+namespace {
+
+constexpr double young = 2.0e11, density = 8000.0, side = 0.02;
+constexpr double bending = young * side * side * side * side / 12.0; // N m2
+
+/// Square beams in the plane x-y, of the groups named.
+std::string beams(const std::vector<std::string>& groups) {
+  std::string study = fmt::format(R"([mesh]
+file = "beams.msh"
+[materials.steel]
+young_modulus = {}
+poisson_ratio = 0.3
+density = {}
+[sections.bar]
+shape = "rectangle"
+height_y = {}
+height_z = {}
+)",
+                                  young, density, side, side);
+  for (const std::string& group : groups)
+    study +=
+        fmt::format("[[beams]]\ngroup = \"{0}\"\nmaterial = \"steel\"\nsection = \"bar\"\n[[restraints]]\n"
+                    "group = \"{0}\"\nfixed = [\"ux\", \"uz\", \"rx\", \"ry\"]\n",
+                    group);
+  return study;
+}
+
+std::string clamped(const std::string& group) {
+  return fmt::format("[[restraints]]\ngroup = \"{}\"\nfixed = \"all\"\n", group);
+}
+
+std::string modes(int count, const std::string& static_modes) {
+  return fmt::format("[modes]\ncount = {}\ndamping = 0.01\nstatic_modes = \"{}\"\n", count, static_modes);
+}
+
+/// Of a cantilever between a and b, m/N.
+double cantilever(double a, double b) {
+  const double x = std::min(a, b), y = std::max(a, b);
+  return x * x * (3.0 * y - x) / (6.0 * bending);
+}
+
+/// The splitting rests (w h)^2/8 from equilibrium.
+constexpr double of_the_splitting = 1e-5;
+
+TEST(StaticModes, CoupledContactsRestWhereTheStructureDoes) {
+  constexpr double stiffness = 1e6, overlap[] = {1e-4, 2e-4, 1e-4}, places[] = {0.4, 0.7, 1.0}, load = 200.0;
+  const Workshop folder;
+  MeshText mesh = straight_line("beam", core::Vec3::Zero(), {1.0, 0.0, 0.0}, 20);
+  std::string contacts;
+  for (int c = 0; c < 3; ++c) {
+    mesh.points.emplace_back(fmt::format("stop{}", c), static_cast<int>(std::lround(20.0 * places[c])));
+    contacts += fmt::format(R"([[contacts]]
+name = "stop{0}"
+group = "stop{0}"
+obstacle = "stop_y"
+gap = 0.0
+axis = [1.0, 0.0, 0.0]
+offset = [{1}, 0.0]
+normal_stiffness = {2}
+)",
+                            c, -overlap[c], stiffness);
+  }
+  mesh.points.emplace_back("loaded", 15);
+  folder.write("beams.msh", mesh.text());
+  Eigen::Matrix3d compliance;
+  Eigen::Vector3d pressed;
+  for (int i = 0; i < 3; ++i) {
+    pressed(i) = overlap[i] + load * cantilever(places[i], 0.75);
+    for (int j = 0; j < 3; ++j)
+      compliance(i, j) = cantilever(places[i], places[j]) + (i == j ? 1.0 / stiffness : 0.0);
+  }
+  const Eigen::Vector3d exact = compliance.inverse() * pressed;
+  const auto run = [&](const std::string& static_modes) {
+    return folder.run_text(
+        beams({"beam"}) + clamped("beam_begin") + modes(5, static_modes) + contacts +
+            fmt::format("[[loads]]\ngroup = \"loaded\"\ndirection = [0.0, 1.0, 0.0]\nconstant = {}\n"
+                        "[transient]\nduration = 0.01\nstep = 1.0e-6\nstart = \"static\"\n",
+                        load),
+        {"--force"});
+  };
+  const Results none = run("none"), residual = run("auto");
+  for (int c = 0; c < 3; ++c) {
+    const auto& contact = residual.statistics(fmt::format("stop{}", c));
+    EXPECT_GT(exact(c), 1.0);
+    EXPECT_TRUE(close_to(contact["normal_force"]["mean"], exact(c), of_the_splitting));
+    EXPECT_TRUE(
+        close_to(contact["displacement"]["y"]["mean"], exact(c) / stiffness - overlap[c], of_the_splitting));
+    EXPECT_TRUE(close_to(contact["static_flexibility"]["exact"], cantilever(places[c], places[c]), 1e-9));
+    EXPECT_EQ(none.statistics(fmt::format("stop{}", c))["static_flexibility"], contact["static_flexibility"]);
+    const double sum = contact["static_flexibility"]["basis"].get<double>() +
+                       contact["static_flexibility"]["missing"].get<double>();
+    EXPECT_TRUE(close_to(sum, contact["static_flexibility"]["exact"], 1e-7));
+  }
+  double worst = 0.0;
+  for (int c = 0; c < 3; ++c)
+    worst = std::max(
+        worst,
+        std::abs(none.statistics(fmt::format("stop{}", c))["normal_force"]["mean"].get<double>() / exact(c) -
+                 1.0));
+  EXPECT_GT(worst, 100.0 * of_the_splitting) << "there is something to be missed";
+  EXPECT_TRUE(says(residual.summary["notes"].dump(), "it is taken in series with the contacts"));
+}
+
+TEST(StaticModes, TwoStructuresThatMeetGiveWayBoth) {
+  constexpr double stiffness = 1e8, overlap = 1e-4, one = 1.0, two = 0.6;
+  const Workshop folder;
+  folder.write("beams.msh", together(straight_line("one", {0.0, 0.0, 0.0}, {one, 0.0, 0.0}, 20),
+                                     straight_line("two", {one + two, -0.02, 0.0}, {one, -0.02, 0.0}, 20))
+                                .text());
+  const Results run =
+      folder.run_text(beams({"one", "two"}) + clamped("one_begin") + clamped("two_begin") + modes(4, "auto") +
+                      fmt::format(R"([[contacts]]
+name = "tips"
+group = "one_end"
+other = "two_end"
+obstacle = "plane_y"
+axis = [1.0, 0.0, 0.0]
+distance_1 = 0.01
+distance_2 = {}
+normal_stiffness = {}
+[transient]
+duration = 0.002
+step = 2.0e-7
+start = "static"
+)",
+                                  0.01 + overlap, stiffness));
+  const double flexibility = (one * one * one + two * two * two) / (3.0 * bending);
+  const auto& contact = run.statistics("tips");
+  EXPECT_TRUE(close_to(contact["static_flexibility"]["exact"], flexibility, 1e-9));
+  EXPECT_TRUE(
+      close_to(contact["normal_force"]["mean"], overlap / (1.0 / stiffness + flexibility), of_the_splitting));
+}
+
+/// A free beam that flies into a stop with its middle.
+Results flight(const Workshop& folder, int count, const std::string& static_modes) {
+  MeshText mesh = straight_line("beam", core::Vec3::Zero(), {1.0, 0.0, 0.0}, 60);
+  mesh.points.emplace_back("middle", 30);
+  folder.write("beams.msh", mesh.text());
+  return folder.run_text(beams({"beam"}) + modes(count, static_modes) + R"([[initial]]
+group = "beam"
+velocity = [0.0, 1.0, 0.0]
+[[contacts]]
+name = "stop"
+group = "middle"
+obstacle = "stop_y"
+axis = [1.0, 0.0, 0.0]
+gap = 1.0e-4
+normal_stiffness = 1.0e6
+[transient]
+duration = 0.006
+step = 5.0e-7
+)",
+                         {"--force"});
+}
+
+TEST(StaticModes, AFreeBeamIsRelievedByItsInertia) {
+  const Workshop folder;
+  const double many = flight(folder, 40, "none").statistics("stop")["normal_force"]["max"];
+  const double none = flight(folder, 5, "none").statistics("stop")["normal_force"]["max"];
+  const Results residual = flight(folder, 5, "auto");
+  const double with = residual.statistics("stop")["normal_force"]["max"];
+  constexpr double enough = 1.5e-3; // of three elastic modes, up to 4.7 times the frequency of the contact
+  EXPECT_TRUE(close_to(with, many, enough));
+  EXPECT_GT(std::abs(none / many - 1.0), 3.0 * enough);
+}
+
+TEST(StaticModes, GivesTheSameBytesOnAnyNumberOfRanks) {
+  const Workshop folder;
+  MeshText mesh;
+  std::string study = beams({"beam0", "beam1", "beam2"}) + modes(6, "auto");
+  for (int i = 0; i < 3; ++i) {
+    MeshText beam =
+        straight_line(fmt::format("beam{}", i), {0.0, 0.1 * i, 0.0}, {1.0 + 0.1 * i, 0.1 * i, 0.0}, 12);
+    beam.points.emplace_back(fmt::format("stop{}", i), 7);
+    mesh = together(mesh, beam);
+    study += clamped(fmt::format("beam{}_begin", i)) +
+             fmt::format("[[contacts]]\ngroup = \"stop{0}\"\naxis = [1.0, 0.0, 0.0]\ngap = "
+                         "1.0e-5\nnormal_stiffness = 1.0e6\n"
+                         "[[loads]]\ngroup = \"beam{0}_end\"\ndirection = [0.0, 1.0, 0.0]\n"
+                         "harmonic = {{ amplitude = 50.0, frequency = 20.0 }}\n",
+                         i);
+  }
+  folder.write("beams.msh", mesh.text());
+  study += "[transient]\nduration = 0.05\n[output]\nevery = 1.0e-3\n";
+  const Results one = folder.run_text(study, {"--force"});
+  EXPECT_GT(one.statistics("stop0")["impacts"], 0);
+  for (const int ranks : {2, 3}) {
+    const Results more = folder.run_text(study, {"--force"}, ranks);
+    EXPECT_TRUE(same_numbers(one.archive, more.archive)) << ranks;
+    EXPECT_EQ(lasting(one.summary), lasting(more.summary)) << ranks;
+  }
+}
+
+TEST(StaticModes, SaysWhichSchemeTakesThem) {
+  const Workshop folder;
+  folder.write("beams.msh", straight_line("beam", core::Vec3::Zero(), {1.0, 0.0, 0.0}, 10).text());
+  const std::string study = beams({"beam"}) + clamped("beam_begin") + modes(2, "auto") +
+                            "[[contacts]]\ngroup = \"beam_end\"\naxis = [1.0, 0.0, 0.0]\ngap = 1.0e-5\n"
+                            "normal_stiffness = 1.0e6\n[transient]\nduration = 0.01\nscheme = \"euler\"\n";
+  const Outcome outcome = folder.fretwork({"run", folder.write("study.toml", study).string(), "--no-report"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(says(outcome.err,
+                   "scheme = \"euler\" does not take the residual flexibility of the modes at the contacts "
+                   "(modes.static_modes = \"auto\"); use scheme = \"splitting\""));
+}
+
+TEST(StaticModes, AreLeftOutWhereNothingIsMissing) {
+  const Workshop folder;
+  folder.write("beams.msh", straight_line("beam", core::Vec3::Zero(), {1.0, 0.0, 0.0}, 10).text());
+  const std::string study = beams({"beam"}) + clamped("beam_begin") + modes(20, "auto") +
+                            "[[contacts]]\ngroup = \"beam_end\"\naxis = [1.0, 0.0, 0.0]\ngap = 1.0e-5\n"
+                            "normal_stiffness = 1.0e6\n[transient]\nduration = 0.001\nscheme = \"euler\"\n";
+  const Results run = folder.run_text(study);
+  EXPECT_TRUE(says(run.summary["notes"].dump(), "too little to be taken in series with the contacts"));
+  EXPECT_EQ(run.statistics("beam_end")["static_flexibility"]["missing"], 0.0) << "all modes are there";
+}
+
+} // namespace
+} // namespace fretwork::app::test
