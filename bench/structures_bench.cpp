@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Modes of one large frame or of a bundle of U-tubes, once, alone or under mpirun: prints one line of JSON.
-// bench_structures frame DOFS MODES | tubes COUNT MODES | copies COUNT MODES | chain DOFS MODES
+// bench_structures frame DOFS MODES | tubes COUNT MODES | copies COUNT MODES, and distributed: each over all ranks
 #include "core/mpi.hpp"
 #include "core/petsc.hpp"
 #include "fem/section.hpp"
@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <sys/resource.h>
 
@@ -82,7 +83,7 @@ double cpu_seconds() {
          static_cast<double>(usage.ru_stime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_stime.tv_usec);
 }
 
-void run(const std::string& kind, double size, int modes) {
+void run(const std::string& kind, double size, int modes, std::optional<bool> distributed) {
   const fem::Model model = kind == "frame" ? frame(size) : bundle(static_cast<int>(size), kind == "copies");
   const auto structures = fem::structures(model);
   Index dofs = 0;
@@ -92,7 +93,7 @@ void run(const std::string& kind, double size, int modes) {
   const double cpu = cpu_seconds();
   const auto begin = std::chrono::steady_clock::now();
   const std::vector<modal::Basis> bases =
-      modal::solve_structures(MPI_COMM_WORLD, model, structures, {modes, std::nullopt});
+      modal::solve_structures(MPI_COMM_WORLD, model, structures, {modes, std::nullopt}, distributed);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -113,9 +114,10 @@ void run(const std::string& kind, double size, int modes) {
 int main(int argc, char** argv) {
   const core::MpiSession mpi(argc, argv);
   const core::PetscSession petsc;
-  if (argc != 4) {
-    std::fprintf(stderr, "bench_structures frame DOFS MODES | tubes COUNT MODES | copies COUNT MODES\n");
+  if (argc < 4 || argc > 5) {
+    std::fprintf(
+        stderr, "bench_structures frame DOFS MODES | tubes COUNT MODES | copies COUNT MODES [distributed]\n");
     return 1;
   }
-  run(argv[1], std::stod(argv[2]), std::stoi(argv[3]));
+  run(argv[1], std::stod(argv[2]), std::stoi(argv[3]), argc == 5 ? std::optional(true) : std::nullopt);
 }

@@ -69,14 +69,15 @@ Vec3 BeamAxis::inward(double s) const {
   return std::cos(turned) * normal_ - std::sin(turned) * tangent_;
 }
 
-Eigen::Matrix3d frame_along(const Vec3& x, const std::optional<Vec3>& orientation, const std::string& what) {
+Eigen::Matrix3d frame_along(const Vec3& x, const std::optional<Vec3>& orientation, const Vec3& a,
+                            const Vec3& b) {
   const Vec3 guide = orientation ? *orientation : any_orientation(x);
   const Vec3 across = guide - x * x.dot(guide);
   if (!(across.norm() > least_orientation_sine * guide.norm()))
     throw core::Error(
         fmt::format("{}: orientation {} is along the beam (or zero); give a vector in the plane of the beam "
                     "and the y axis of its section",
-                    what, place(guide)));
+                    beam_text(a, b), place(guide)));
   const Vec3 y = across.normalized();
   Eigen::Matrix3d axes;
   axes.row(0) = x.transpose();

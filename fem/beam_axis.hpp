@@ -37,9 +37,9 @@ private:
 
 /// Rows: x (a unit vector), y, z of a frame whose y axis lies in the plane of x and `orientation`; without
 /// one, a fixed rule picks it.
-/// @param what  of which beam, for the message
+/// @param a, b  ends of the beam, for the message
 /// @throws core::Error where the orientation is along x or zero
 [[nodiscard]] Eigen::Matrix3d frame_along(const Vec3& x, const std::optional<Vec3>& orientation,
-                                          const std::string& what);
+                                          const Vec3& a, const Vec3& b);
 
 } // namespace fretwork::fem

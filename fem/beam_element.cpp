@@ -71,11 +71,17 @@ Matrix12 uniform_mass(const BeamConstants& c, double l) {
   return mass;
 }
 
-Matrix12 in_global_axes(Matrix12 matrix, const Eigen::Matrix3d& axes) {
+/// Of a symmetric matrix; symmetric to the last digit.
+Matrix12 in_global_axes(const Matrix12& matrix, const Eigen::Matrix3d& axes) {
+  Matrix12 turned;
   for (int i = 0; i < 12; i += 3)
-    for (int j = 0; j < 12; j += 3)
-      matrix.block<3, 3>(i, j) = (axes.transpose() * matrix.block<3, 3>(i, j) * axes).eval();
-  return 0.5 * (matrix + matrix.transpose()); // symmetric to the last digit
+    for (int j = i; j < 12; j += 3) {
+      const Eigen::Matrix3d half = matrix.block<3, 3>(i, j) * axes, block = axes.transpose() * half;
+      turned.block<3, 3>(i, j) = i == j ? Eigen::Matrix3d(0.5 * (block + block.transpose())) : block;
+      if (i != j)
+        turned.block<3, 3>(j, i) = block.transpose();
+    }
+  return turned;
 }
 
 const Vec3& node_at(const Model& model, Index node) { return model.nodes[static_cast<std::size_t>(node)]; }
@@ -85,8 +91,7 @@ const Vec3& node_at(const Model& model, Index node) { return model.nodes[static_
 BeamElement::BeamElement(const Vec3& a, const Vec3& b, const BeamProperty& property,
                          const std::optional<Vec3>& middle, const std::array<double, 2>& along)
     : property_(property), along_(along), axis_(a, b, middle),
-      axes_(frame_along((b - a).normalized(), property.orientation, beam_text(a, b))),
-      chord_((b - a).norm()) {
+      axes_(frame_along((b - a).normalized(), property.orientation, a, b)), chord_((b - a).norm()) {
   if (!property.orientation)
     check_orientation(a, b, property.section);
   if (!property.orientation && property.taper)

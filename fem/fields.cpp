@@ -119,9 +119,10 @@ Eigen::MatrixXd stiffness_times(const Model& model, const Structure& structure,
 Eigen::MatrixXd forces_on_equations(const Structure& structure, const Eigen::MatrixXd& forces) {
   assert(forces.rows() == static_cast<Eigen::Index>(structure.equation.size()));
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(structure.equations, forces.cols());
-  for (std::size_t i = 0; i < structure.equation.size(); ++i)
-    if (structure.equation[i] >= 0)
-      sums.row(structure.equation[i]) += forces.row(static_cast<Eigen::Index>(i));
+  for (Eigen::Index j = 0; j < forces.cols(); ++j)
+    for (std::size_t i = 0; i < structure.equation.size(); ++i)
+      if (structure.equation[i] >= 0)
+        sums(structure.equation[i], j) += forces(static_cast<Eigen::Index>(i), j);
   return sums;
 }
 

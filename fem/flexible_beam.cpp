@@ -32,8 +32,7 @@ Shapes deformation_matrix(const Vec3& span) {
 
 FlexibleBeam::FlexibleBeam(const BeamAxis& axis, const Eigen::Matrix3d& frame, const BeamProperty& property,
                            const std::array<double, 2>& along)
-    : axis_(axis), frame_(frame), property_(property), along_(along),
-      name_(beam_text(axis.point(0.0), axis.point(axis.length()))), span_(point(axis.length())) {
+    : axis_(axis), frame_(frame), property_(property), along_(along), span_(point(axis.length())) {
   const Matrix6 flexibility = motion(axis_.length());
   stiffness_ = (0.5 * (flexibility + flexibility.transpose())).llt().solve(Matrix6::Identity());
   stiffness_ = (0.5 * (stiffness_ + stiffness_.transpose())).eval();
@@ -46,7 +45,8 @@ BeamConstants FlexibleBeam::constants(double s) const {
 }
 
 Eigen::Matrix3d FlexibleBeam::section_axes(double s) const {
-  return frame_along(axis_.tangent(s), property_.orientation, name_) * frame_.transpose();
+  return frame_along(axis_.tangent(s), property_.orientation, axis_.point(0.0), axis_.point(axis_.length())) *
+         frame_.transpose();
 }
 
 Matrix6 FlexibleBeam::strains(double s) const {

@@ -65,7 +65,6 @@ private:
   Eigen::Matrix3d frame_;
   const BeamProperty& property_;
   std::array<double, 2> along_;
-  std::string name_; ///< for messages
   Vec3 span_;
   Matrix6 stiffness_;
 };

@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 
 namespace fretwork::fem {
 namespace {
@@ -19,7 +18,7 @@ struct Plane {
   double pull;           ///< N - lambda rho I
 };
 
-/// E: deflections wa, wb and rotations sa, sb of the ends.
+/// E: deflections wa, wb and slopes sa, sb of the ends.
 double bending_energy(const Plane& plane, double length, double lambda, double wa, double wb, double sa,
                       double sb) {
   const double phi = 12.0 * plane.bending * plane.shear / squared(length),
@@ -32,9 +31,10 @@ double bending_energy(const Plane& plane, double length, double lambda, double w
   const double c2 = q0 / 3.0 - 2.0 * q2 / 21.0, c3 = q1 / 15.0 - 2.0 * q3 / 45.0, c4 = q2 / 35.0,
                c5 = q3 / 63.0;
   const double f1 = q0 - q2 / 5.0, f2 = q1 / 3.0 - q3 / 7.0, f3 = q2 / 5.0, f4 = q3 / 7.0;
-  return std::pow(l, 5) / plane.bending *
+  const double cube = l * l * l;
+  return cube * l * l / plane.bending *
              (2.0 / 5.0 * c2 * c2 + 2.0 / 7.0 * c3 * c3 + 2.0 / 9.0 * c4 * c4 + 2.0 / 11.0 * c5 * c5) +
-         std::pow(l, 3) * plane.shear *
+         cube * plane.shear *
              (2.0 / 3.0 * f1 * f1 + 2.0 / 5.0 * f2 * f2 + 2.0 / 7.0 * f3 * f3 + 2.0 / 9.0 * f4 * f4);
 }
 
@@ -52,33 +52,9 @@ struct End {
   double slope_y, slope_z, turn;
 };
 
-/// Rows tangent, y, z at s; y towards the centre of an arc.
-Eigen::Matrix3d frame_at(const BeamAxis& axis, const BeamProperty& property, double s) {
-  if (axis.is_straight())
-    return frame_along(axis.tangent(s), property.orientation, "beam");
-  const Vec3 x = axis.tangent(s), y = axis.inward(s);
-  Eigen::Matrix3d frame;
-  frame << x.transpose(), y.transpose(), x.cross(y).transpose();
-  return frame;
-}
-
 End end_of(const Eigen::Matrix3d& frame, double curvature, const Vec3& displacement, const Vec3& rotation) {
   const Vec3 u = frame * displacement, r = frame * rotation;
   return {u, r.z() - curvature * u.x(), -r.y(), r.x()};
-}
-
-double element_energy(const BeamAxis& axis, const BeamProperty& property, const BeamConstants& k,
-                      const Vector12& u, double lambda) {
-  const double l = axis.length(), curvature = axis.angle() / l;
-  const End a = end_of(frame_at(axis, property, 0.0), curvature, u.segment<3>(0), u.segment<3>(3)),
-            b = end_of(frame_at(axis, property, l), curvature, u.segment<3>(6), u.segment<3>(9));
-  const double force = property.axial_force;
-  const Plane y{k.bending_z, k.shear_y, k.mass_transverse, force - lambda * k.inertia_z},
-      z{k.bending_y, k.shear_z, k.mass_transverse, force - lambda * k.inertia_y};
-  return bending_energy(y, l, lambda, a.displacement.y(), b.displacement.y(), a.slope_y, b.slope_y) +
-         bending_energy(z, l, lambda, a.displacement.z(), b.displacement.z(), a.slope_z, b.slope_z) +
-         axial_energy(k.axial, l, lambda * k.mass_axial, a.displacement.x(), b.displacement.x()) +
-         axial_energy(k.torsion, l, lambda * k.inertia_x, a.turn, b.turn);
 }
 
 /// In the middle of the beam, which stands for all of it; the softer plane of an arc for both, whichever way its section
@@ -93,6 +69,46 @@ BeamConstants constants_of(const BeamAxis& axis, const BeamProperty& property, c
   return k;
 }
 
+/// One beam, ready for many fields.
+class ElementError {
+public:
+  ElementError(const Model& model, const Beam& beam)
+      : property_(model.properties[static_cast<std::size_t>(beam.property)]),
+        axis_(model.nodes[static_cast<std::size_t>(beam.a)], model.nodes[static_cast<std::size_t>(beam.b)],
+              beam.middle),
+        k_(constants_of(axis_, property_, beam)), frame_a_(frame_at(0.0)),
+        frame_b_(frame_at(axis_.length())) {}
+
+  [[nodiscard]] double energy(const Vector12& u, double lambda) const {
+    const double l = axis_.length(), curvature = axis_.angle() / l, force = property_.axial_force;
+    const End a = end_of(frame_a_, curvature, u.segment<3>(0), u.segment<3>(3)),
+              b = end_of(frame_b_, curvature, u.segment<3>(6), u.segment<3>(9));
+    const Plane y{k_.bending_z, k_.shear_y, k_.mass_transverse, force - lambda * k_.inertia_z},
+        z{k_.bending_y, k_.shear_z, k_.mass_transverse, force - lambda * k_.inertia_y};
+    return bending_energy(y, l, lambda, a.displacement.y(), b.displacement.y(), a.slope_y, b.slope_y) +
+           bending_energy(z, l, lambda, a.displacement.z(), b.displacement.z(), a.slope_z, b.slope_z) +
+           axial_energy(k_.axial, l, lambda * k_.mass_axial, a.displacement.x(), b.displacement.x()) +
+           axial_energy(k_.torsion, l, lambda * k_.inertia_x, a.turn, b.turn);
+  }
+
+private:
+  /// Rows tangent, y, z at s; y towards the centre of an arc.
+  [[nodiscard]] Eigen::Matrix3d frame_at(double s) const {
+    const Vec3 x = axis_.tangent(s);
+    if (axis_.is_straight())
+      return frame_along(x, property_.orientation, axis_.point(0.0), axis_.point(axis_.length()));
+    const Vec3 y = axis_.inward(s);
+    Eigen::Matrix3d frame;
+    frame << x.transpose(), y.transpose(), x.cross(y).transpose();
+    return frame;
+  }
+
+  const BeamProperty& property_;
+  BeamAxis axis_;
+  BeamConstants k_;
+  Eigen::Matrix3d frame_a_, frame_b_;
+};
+
 } // namespace
 
 Eigen::VectorXd mesh_error(const Model& model, const Structure& structure, const Eigen::MatrixXd& fields,
@@ -101,16 +117,13 @@ Eigen::VectorXd mesh_error(const Model& model, const Structure& structure, const
   Eigen::VectorXd energy = Eigen::VectorXd::Zero(fields.cols());
   for (const Index number : structure.beams) {
     const Beam& beam = model.beams[static_cast<std::size_t>(number)];
-    const BeamProperty& property = model.properties[static_cast<std::size_t>(beam.property)];
-    const BeamAxis axis(model.nodes[static_cast<std::size_t>(beam.a)],
-                        model.nodes[static_cast<std::size_t>(beam.b)], beam.middle);
-    const BeamConstants constants = constants_of(axis, property, beam);
+    const ElementError element(model, beam);
     const Eigen::Index a = Eigen::Index{position_of(structure, beam.a)} * dofs_per_node,
                        b = Eigen::Index{position_of(structure, beam.b)} * dofs_per_node;
     for (Eigen::Index j = 0; j < fields.cols(); ++j) {
       Vector12 u;
       u << fields.col(j).segment<6>(a), fields.col(j).segment<6>(b);
-      energy[j] += element_energy(axis, property, constants, u, lambda[j]);
+      energy[j] += element.energy(u, lambda[j]);
     }
   }
   return energy.binaryExpr(lambda, [](double e, double l) { return l > 0.0 ? 0.5 * e / l : 0.0; });

@@ -22,7 +22,9 @@ private:
 };
 
 struct SystemMatrices {
-  PetscMatrix stiffness, mass; ///< AIJ, symmetric, structure.equations square, of one pattern
+  PetscMatrix stiffness,
+      mass; ///< AIJ, symmetric, structure.equations square, of one pattern: that of both, diagonal
+            ///< included
 };
 
 /// Collective over `comm`: rows are distributed in equal blocks, each rank assembles the elements of its

@@ -48,18 +48,20 @@ Eigen::Index mass_rank(const Eigen::MatrixXd& mass) {
 
 Eigen::MatrixXd free_rows(const fem::Structure& structure, const Eigen::MatrixXd& fields) {
   Eigen::MatrixXd vectors(structure.equations, fields.cols());
-  for (std::size_t i = 0; i < structure.equation.size(); ++i)
-    if (structure.equation[i] >= 0)
-      vectors.row(structure.equation[i]) = fields.row(static_cast<Eigen::Index>(i));
+  for (Eigen::Index j = 0; j < fields.cols(); ++j)
+    for (std::size_t i = 0; i < structure.equation.size(); ++i)
+      if (structure.equation[i] >= 0)
+        vectors(structure.equation[i], j) = fields(static_cast<Eigen::Index>(i), j);
   return vectors;
 }
 
 Eigen::MatrixXd all_rows(const fem::Structure& structure, const Eigen::MatrixXd& vectors) {
   Eigen::MatrixXd fields =
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(structure.equation.size()), vectors.cols());
-  for (std::size_t i = 0; i < structure.equation.size(); ++i)
-    if (structure.equation[i] >= 0)
-      fields.row(static_cast<Eigen::Index>(i)) = vectors.row(structure.equation[i]);
+  for (Eigen::Index j = 0; j < vectors.cols(); ++j)
+    for (std::size_t i = 0; i < structure.equation.size(); ++i)
+      if (structure.equation[i] >= 0)
+        fields(static_cast<Eigen::Index>(i), j) = vectors(structure.equation[i], j);
   return fields;
 }
 

@@ -20,10 +20,17 @@ constexpr double round_off_limit = 0.05;
 /// not looked at.
 constexpr double resolved_range = 1e12;
 
+/// The lower half of A^T B, a symmetric matrix, and zeros above it.
+Eigen::MatrixXd lower_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(a.cols(), b.cols());
+  product.triangularView<Eigen::Lower>() = a.transpose() * b;
+  return product;
+}
+
 /// Makes the columns M-orthonormal, in order: G = L L^T, Phi <- Phi L^-T.
 /// @param moved  M Phi
 void orthonormalise(Eigen::MatrixXd& shapes, const Eigen::MatrixXd& moved) {
-  const Eigen::LLT<Eigen::MatrixXd> factor(shapes.transpose() * moved);
+  const Eigen::LLT<Eigen::MatrixXd> factor(lower_product(shapes, moved));
   if (factor.info() != Eigen::Success)
     throw core::ComputationError(
         "modes: the shapes found are not independent; ask for fewer ([modes] count)");
@@ -56,7 +63,9 @@ Eigen::VectorXd residuals(const fem::Model& model, const fem::Structure& structu
   const Eigen::MatrixXd elastic =
       fem::forces_on_equations(structure, fem::stiffness_times(model, structure, basis.shapes));
   const Eigen::MatrixXd moved = fem::forces_on_equations(structure, inertia);
-  const Eigen::VectorXd diagonal = fem::stiffness_diagonal(model, structure);
+  const bool moves_rigidly = basis.size() > 0 && basis.omega[0] == 0.0;
+  const Eigen::VectorXd diagonal =
+      moves_rigidly ? fem::stiffness_diagonal(model, structure) : Eigen::VectorXd();
   Eigen::VectorXd result(basis.size());
   for (Eigen::Index j = 0; j < basis.size(); ++j) {
     const double lambda = basis.omega[j] * basis.omega[j];
@@ -137,10 +146,11 @@ Basis finish(const fem::Model& model, const fem::Structure& structure, const Eig
   basis.damping = Eigen::VectorXd::Zero(kept);
   basis.damping_matrix = projected_dampers(model, structure, basis);
   const Eigen::MatrixXd inertia = fem::mass_times(model, structure, basis.shapes);
-  basis.orthogonality =
-      kept > 0
-          ? (basis.shapes.transpose() * inertia - Eigen::MatrixXd::Identity(kept, kept)).cwiseAbs().maxCoeff()
-          : 0.0;
+  basis.orthogonality = kept > 0
+                            ? (lower_product(basis.shapes, inertia) - Eigen::MatrixXd::Identity(kept, kept))
+                                  .cwiseAbs()
+                                  .maxCoeff()
+                            : 0.0;
   basis.residuals = residuals(model, structure, basis, inertia);
   basis.error = fem::mesh_error(model, structure, basis.shapes, lambda.head(kept));
   const Eigen::MatrixXd translated = translations(structure);

@@ -152,7 +152,7 @@ TEST(BeamElement, NeedsNoOrientationWhereTheSectionHasNoDirection) {
 
 TEST(FrameAlong, IsRightHandedWithYInThePlaneOfTheOrientation) {
   const Vec3 guide(0.1, 1.0, -0.3);
-  const Eigen::Matrix3d axes = fem::frame_along((b - a).normalized(), guide, "beam");
+  const Eigen::Matrix3d axes = fem::frame_along((b - a).normalized(), guide, a, b);
   EXPECT_LT((axes * axes.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), round_off);
   EXPECT_NEAR(axes.determinant(), 1.0, round_off);
   EXPECT_LT((axes.row(0).transpose() - (b - a).normalized()).norm(), round_off);

@@ -117,6 +117,25 @@ TEST(Assembly, IsSymmetricAndAllocatedExactly) {
   EXPECT_EQ(info.mallocs, 0.0);
 }
 
+TEST(Assembly, LeavesOutWhatIsZeroOnOneRank) {
+  const auto entries = [](const Vec3& end) { // of a cantilever of four beams of equal length
+    ModelBuilder b;
+    b.fix(b.line({0, 0, 0}, end, 4, b.property(tube_property())).front(), all);
+    const auto system = fem::assemble(MPI_COMM_SELF, b.model, fem::structures(b.model).at(0));
+    MatInfo stiffness, mass;
+    FW_PETSC(MatGetInfo(system.stiffness.get(), MAT_LOCAL, &stiffness));
+    FW_PETSC(MatGetInfo(system.mass.get(), MAT_LOCAL, &mass));
+    EXPECT_EQ(stiffness.nz_used, mass.nz_used); // one pattern
+    return static_cast<int>(stiffness.nz_used);
+  };
+  // Along an axis two planes of bending have 2 x 2 entries each, traction and torsion one: 10 in each of the six
+  // blocks between nodes and in that of the tip; in those of the three nodes between, deflection and rotation of
+  // two equal beams do not meet, which leaves 6.
+  constexpr int along_an_axis = 7 * 10 + 3 * 6;
+  EXPECT_EQ(entries({0, 0, 4}), along_an_axis);
+  EXPECT_GT(entries({1, 2, -2}), 3 * along_an_axis);
+}
+
 TEST(Assembly, LeavesRanksWithoutRowsWhereThereAreFewDofs) {
   ModelBuilder b;
   b.model.masses.push_back({b.node({0, 0, 0}), 2.0});
