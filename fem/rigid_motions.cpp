@@ -6,7 +6,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -25,12 +25,13 @@ constexpr double massless = 1e-14;
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& rows) {
   if (rows.rows() == 0 || rows.cols() == 0)
     return Eigen::MatrixXd::Identity(rows.cols(), rows.cols());
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullV);
-  const Eigen::VectorXd& values = svd.singularValues();
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows.transpose());
+  const auto pivots = qr.matrixR().diagonal(); // falling: each the distance of a row from those before it
   Eigen::Index rank = 0;
-  while (rank < values.size() && values[rank] > geometry_tolerance)
+  while (rank < pivots.size() && std::abs(pivots[rank]) > geometry_tolerance)
     ++rank;
-  return svd.matrixV().rightCols(rows.cols() - rank);
+  const Eigen::MatrixXd q = qr.householderQ();
+  return q.rightCols(rows.cols() - rank);
 }
 
 /// A set of nodes that beams make rigid, when nothing is strained.

@@ -147,7 +147,7 @@ every = 0.05
 nodes = ["block"]
 )";
   constexpr double sag = -9.81 / 1e4; // g/w^2
-  for (const std::string& moved : {"[[base_motion]]\n", "[[support_motion]]\ngroup = \"block\"\n"}) {
+  for (const std::string moved : {"[[base_motion]]\n", "[[support_motion]]\ngroup = \"block\"\n"}) {
     const Results run = folder.run_text(block + moved + "direction = [0.0, 1.0, 0.0]\nconstant = 30.0\n");
     const auto& displacement = run.node("block").displacement;
     EXPECT_TRUE(close_to(displacement(0, 1), sag, 1e-12)) << moved; // equilibrium in closed form

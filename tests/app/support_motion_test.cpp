@@ -219,7 +219,7 @@ TEST(SupportMotion, CarriesATubeThatIsFreeToSpinAndToSlide) {
   const Workshop folder;
   write_tube(folder);
   std::string pinned = beam;
-  for (const std::string& end : {"tube_begin", "tube_end"}) {
+  for (const std::string end : {"tube_begin", "tube_end"}) {
     const std::string clamp = "group = \"" + end + "\"\nfixed = \"all\"";
     pinned.replace(pinned.find(clamp), clamp.size(), "group = \"" + end + "\"\nfixed = [\"uy\", \"uz\"]");
   }

@@ -5,15 +5,22 @@ include(GoogleTest)
 set(FRETWORK_MPI_ENVIRONMENT
     "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_rmaps_base_oversubscribe=1;OMPI_MCA_pml=ob1;OMPI_MCA_btl=self,vader,tcp;OMPI_MCA_btl_vader_single_copy_mechanism=none;OMP_NUM_THREADS=1")
 
+# What every test's own code is compiled with. Its time goes to the compiler, that of the tests to the folders they test.
+function(fretwork_test_options target)
+  fretwork_compile_options(${target})
+  target_compile_options(${target} PRIVATE -UNDEBUG   # assertions are checked in every test
+                         $<$<CONFIG:Release>:-O1>)
+endfunction()
+
 function(fretwork_test name)
   cmake_parse_arguments(ARG "" "MAIN" "SOURCES;LIBRARIES;RANKS" ${ARGN})
-  if(NOT ARG_MAIN)
-    set(ARG_MAIN ${CMAKE_SOURCE_DIR}/tests/test_main.cpp)
-  endif()
   add_executable(${name} ${ARG_SOURCES} ${ARG_MAIN})
-  fretwork_compile_options(${name})
-  target_compile_options(${name} PRIVATE -UNDEBUG)   # assertions are checked in every test
+  fretwork_test_options(${name})
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} fretwork_test_paths GTest::gtest)
+  if(NOT ARG_MAIN)   # those with a main of their own have PETSc's flags, to which the precompiled headers do not fit
+    target_link_libraries(${name} PRIVATE fretwork_test_main)
+    target_precompile_headers(${name} REUSE_FROM fretwork_test_main)
+  endif()
   if(ARG_RANKS)
     foreach(ranks ${ARG_RANKS})
       add_test(NAME ${name}_${ranks}_ranks
