@@ -12,11 +12,14 @@
 ///   Neither format has named groups: a .geo that merges it (Merge "tube.step"; Coherence; Physical
 ///   Curve("tube") = {1};) names them.
 /// - Where a file names physical groups only these are written.
+/// - Of a last line of a .geo without an end gmsh (4.8) reads the first command and leaves out the others without a word, groups too: such a
+/// file is refused.
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <fstream>
 #include <gmsh.h>
 #include <stdexcept>
 #include <string>
@@ -61,8 +64,27 @@ bool is_exchange_file(const std::string& file) {
   return ending == ".step" || ending == ".stp" || ending == ".brep";
 }
 
+/// The last line of a file where no end of line follows it, otherwise "".
+std::string line_without_end(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string line, last;
+  while (std::getline(in, line))
+    last = in.eof() ? line : "";
+  return last;
+}
+
+/// Whether something follows the first command of a line; a comment does not count.
+bool has_more_commands(const std::string& line) {
+  const std::string code = line.substr(0, line.find("//"));
+  const std::size_t end = code.find(';');
+  return end != std::string::npos && code.find_first_not_of("; \t\r", end) != std::string::npos;
+}
+
 void mesh_curves(const Options& options) {
   const bool exchange = is_exchange_file(options.geometry);
+  if (!exchange && has_more_commands(line_without_end(options.geometry)))
+    throw std::runtime_error("its last line has no end, and gmsh would read only the first command of it; "
+                             "end the file with a new line");
   gmsh::option::setString("Geometry.OCCTargetUnit", "M");
   gmsh::open(options.geometry);
   if (exchange) {

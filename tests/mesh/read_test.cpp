@@ -229,6 +229,22 @@ TEST_F(Geometry, ShowsTheMessageOfGmsh) {
   EXPECT_TRUE(says(message({.file = write("a.brep", "nonsense")}), "gmsh cannot mesh the geometry"));
 }
 
+TEST_F(Geometry, OfAGeoWhoseLastLineHasNoEndIsReadWholeOrRefused) {
+  const std::string points = "Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0};\n", line = "Line(1) = {1, 2};",
+                    name = "Physical Curve(\"a\") = {1};";
+  const char* refused = "a.geo: gmsh cannot mesh the geometry: its last line has no end";
+  EXPECT_TRUE(says(message({.file = write("a.geo", points + line + name)}), refused))
+      << "gmsh loses the name";
+  EXPECT_TRUE(says(message({.file = write("a.geo", "Point(1) = {0, 0, 0}; " + name)}), refused));
+  EXPECT_TRUE(
+      says(message({.file = write("a.geo", points + "For i In {1:1} " + line + " EndFor")}), refused));
+  for (const std::string last : {"", " ", "; ", " // the tube; of 1 m"}) {
+    const LineMesh mesh = read({.file = write("a.geo", points + line + "\n" + name + last)});
+    EXPECT_EQ(group_lines(mesh, "a", "test").size(), mesh.lines.size()) << last;
+  }
+  EXPECT_FALSE(read({.file = write("a.geo", points + line + name + "\n// x; y; z")}).lines.empty());
+}
+
 TEST_F(Geometry, NamesTheProgramThatIsMissingOrCrashes) {
   const fs::path file = write("a.geo", quarter_circle);
   const char* given = std::getenv("FRETWORK_GEOMETRY");
