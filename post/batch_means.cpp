@@ -57,6 +57,35 @@ BatchEstimate batch_means(std::span<const double> lengths, std::span<const doubl
   }
 }
 
+BatchEstimate batch_deviation(std::span<const double> lengths, std::span<const double> first,
+                              std::span<const double> squares, double shift, double deviation) {
+  std::vector<double> about_mean(squares.begin(), squares.end());
+  for (std::size_t b = 0; b < about_mean.size(); ++b)
+    about_mean[b] += shift * (shift * lengths[b] - 2.0 * first[b]);
+  BatchEstimate out = batch_means(lengths, about_mean);
+  if (deviation > 0.0) // otherwise the error is 0 already, or not a number
+    out.error /= 2.0 * deviation;
+  return out;
+}
+
+BatchSums BatchEnds::batches_with_rest(double elapsed, std::span<const double> row) const {
+  BatchSums out{{}, std::vector<std::vector<double>>(sums_)};
+  double begin = 0.0;
+  std::vector<double> before(sums_, 0.0);
+  const auto add = [&](double end, std::span<const double> sums) {
+    out.lengths.push_back(end - begin);
+    begin = end;
+    for (std::size_t k = 0; k < sums_; ++k)
+      out.sums[k].push_back(sums[k] - before[k]);
+    before.assign(sums.begin(), sums.end());
+  };
+  for (std::size_t b = 0; b < count_; ++b)
+    add(times_[b], {rows_.data() + b * sums_, sums_});
+  if (elapsed > begin)
+    add(elapsed, row);
+  return out;
+}
+
 /// Every second end remains.
 void BatchEnds::join_pairs() {
   count_ /= 2;

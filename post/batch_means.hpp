@@ -28,6 +28,18 @@ struct BatchEstimate {
 /// @param lengths  T_b, s   @param sums  X_b
 [[nodiscard]] BatchEstimate batch_means(std::span<const double> lengths, std::span<const double> sums);
 
+/// The error of a standard deviation, which moves by d(s^2)/(2 s).
+/// @param first, squares  in each batch the integrals of d and of d^2, d being the signal less a constant
+/// @param shift  mean of d over the window   @param deviation  s of the window
+[[nodiscard]] BatchEstimate batch_deviation(std::span<const double> lengths, std::span<const double> first,
+                                            std::span<const double> squares, double shift, double deviation);
+
+/// Batches of a window: lengths, s, and for each sum what each batch adds to it.
+struct BatchSums {
+  std::vector<double> lengths;
+  std::vector<std::vector<double>> sums;
+};
+
 /// What some sums over time have come to at the ends of batches. Constant memory, no allocation after construction: as many as `most`
 /// batches are kept, then pairs are joined and later batches are twice as long.
 class BatchEnds {
@@ -52,6 +64,14 @@ public:
 
   void visit(core::StateArchive& state) { state(count_, length_, next_, times_, rows_); }
 
+  /// The batches of the window: those that have ended, and the rest.
+  /// @param elapsed  s, length of the window   @param fill  as for `watch`
+  template <class Fill> [[nodiscard]] BatchSums batches(double elapsed, Fill fill) const {
+    std::vector<double> row(sums_);
+    fill(row.data());
+    return batches_with_rest(elapsed, row);
+  }
+
   /// Batches that have ended.
   [[nodiscard]] std::size_t size() const { return count_; }
   /// End of a batch, s since the window began.
@@ -66,6 +86,7 @@ private:
   static constexpr double round_off = 1e-6;
 
   void join_pairs();
+  [[nodiscard]] BatchSums batches_with_rest(double elapsed, std::span<const double> row) const;
 
   std::size_t sums_, count_ = 0;
   double length_ = 0.0, next_ = 0.0; ///< s

@@ -117,59 +117,29 @@ void ContactStatistics::write_sums(double* row) const {
   }
 }
 
-/// The batches of the window: those that have ended, and the rest.
-ContactStatistics::BatchSums ContactStatistics::batch_sums() const {
-  BatchSums out;
-  const std::size_t columns = kept_sums * sums_.size();
-  std::vector<double> before(columns, 0.0), row(columns);
-  double begin = 0.0;
-  const auto add = [&](double end) {
-    out.lengths.push_back(end - begin);
-    begin = end;
-    for (std::size_t k = 0; k < columns; ++k)
-      out.sums[k].push_back(row[k] - before[k]);
-    before = row;
-  };
-  out.sums.resize(columns);
-  for (std::size_t b = 0; b < ends_.size(); ++b) {
-    for (std::size_t k = 0; k < columns; ++k)
-      row[k] = ends_.sum(b, k);
-    add(ends_.time(b));
-  }
-  if (time_ > begin) {
-    write_sums(row.data());
-    add(time_);
-  }
-  return out;
+BatchSums ContactStatistics::batch_sums() const {
+  return ends_.batches(time_, [this](double* row) { write_sums(row); });
 }
 
-/// An rms or a standard deviation s moves by d(s^2)/(2 s).
 StandardErrors ContactStatistics::errors_of(const BatchSums& batches, std::size_t contact,
                                             const ContactSummary& o) const {
   StandardErrors out;
   out.batches = std::numeric_limits<double>::infinity();
   const auto* sums = batches.sums.data() + kept_sums * contact;
-  const auto error = [&](const std::vector<double>& values) {
-    const BatchEstimate estimate = batch_means(batches.lengths, values);
+  const auto take = [&](const BatchEstimate& estimate) {
     out.batches = std::min(out.batches, estimate.batches);
     return estimate.error;
   };
-  const auto of_root = [&](const std::vector<double>& squares, double root) {
-    const double of_square = error(squares);
-    return root > 0.0 ? of_square / (2.0 * root) : of_square; // which is 0 then, or not a number
+  const auto of_mean = [&](Kept which) { return take(batch_means(batches.lengths, sums[which])); };
+  const auto of_deviation = [&](Kept first, Kept squares, double shift, double deviation) {
+    return take(batch_deviation(batches.lengths, sums[first], sums[squares], shift, deviation));
   };
-  const auto of_deviation = [&](const std::vector<double>& first, std::vector<double> squares, double shift,
-                                double deviation) {
-    for (std::size_t b = 0; b < squares.size(); ++b)
-      squares[b] += shift * (shift * batches.lengths[b] - 2.0 * first[b]);
-    return of_root(squares, deviation);
-  };
-  out.work_rate = error(sums[slid]);
-  out.friction_power = error(sums[friction]);
-  out.impact_rate = error(sums[impacts]);
-  out.normal_rms = of_root(sums[normal2], o.normal_rms);
-  out.y_std = of_deviation(sums[y1], sums[y2], motion_.y[contact] / time_, o.y.std);
-  out.z_std = of_deviation(sums[z1], sums[z2], motion_.z[contact] / time_, o.z.std);
+  out.work_rate = of_mean(slid);
+  out.friction_power = of_mean(friction);
+  out.impact_rate = of_mean(impacts);
+  out.normal_rms = of_deviation(normal2, normal2, 0.0, o.normal_rms); // about 0
+  out.y_std = of_deviation(y1, y2, motion_.y[contact] / time_, o.y.std);
+  out.z_std = of_deviation(z1, z2, motion_.z[contact] / time_, o.z.std);
   return out;
 }
 

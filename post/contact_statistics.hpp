@@ -81,11 +81,6 @@ private:
     }
   };
   void watch_motion(const transient::Record& record);
-  /// Lengths of batches and, for each sum that is kept, what each batch adds to it.
-  struct BatchSums {
-    std::vector<double> lengths;
-    std::vector<std::vector<double>> sums;
-  };
   void write_sums(double* row) const;
   [[nodiscard]] BatchSums batch_sums() const;
   [[nodiscard]] StandardErrors errors_of(const BatchSums& batches, std::size_t contact,

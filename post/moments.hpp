@@ -25,6 +25,9 @@ public:
     max_ = value > max_ ? value : max_;
     weight_ += weight;
   }
+  /// Sums so far of w d and of w d^2, d from the first sample.
+  [[nodiscard]] double sum() const { return sum_; }
+  [[nodiscard]] double sum_of_squares() const { return squares_; }
   /// All zero before the first sample.
   [[nodiscard]] Moments moments() const;
 

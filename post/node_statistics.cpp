@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "post/node_statistics.hpp"
+#include <algorithm>
+#include <limits>
 
 namespace fretwork::post {
+namespace {
 
 namespace kernels = transient::kernels;
 
+/// Sums whose batches are kept, of each direction of each node.
+enum Kept : std::size_t { first, squares, kept_sums };
+
+} // namespace
+
 NodeStatistics::NodeStatistics(const std::vector<Eigen::MatrixXd>& rows, double from)
-    : from_(from), sums_(rows.size()) {
+    : from_(from), sums_(rows.size()), ends_(3 * kept_sums * rows.size()) {
   const int modes = rows.empty() ? 0 : static_cast<int>(rows.front().cols());
   const int width = kernels::padded(3 * static_cast<int>(rows.size()));
   kernels::Array by_mode(static_cast<std::size_t>(modes) * width, 0.0);
@@ -46,13 +54,36 @@ void NodeStatistics::step(const transient::Record& record) {
   for (std::size_t node = 0; node < sums_.size(); ++node)
     for (std::size_t d = 0; d < 3; ++d)
       sums_[node][d].add(u_[3 * node + d], record.step);
+  time_ += record.step;
+  ends_.watch(time_, [this](double* row) { write_sums(row); });
+}
+
+void NodeStatistics::write_sums(double* row) const {
+  for (const auto& node : sums_)
+    for (const Accumulator& signal : node) {
+      row[first] = signal.sum();
+      row[squares] = signal.sum_of_squares();
+      row += kept_sums;
+    }
 }
 
 std::vector<NodeSummary> NodeStatistics::summaries() const {
   std::vector<NodeSummary> out(sums_.size());
-  for (std::size_t node = 0; node < out.size(); ++node)
-    for (std::size_t d = 0; d < 3; ++d)
-      out[node].displacement[d] = sums_[node][d].moments();
+  if (!(time_ > 0.0))
+    return out;
+  const BatchSums batches = ends_.batches(time_, [this](double* row) { write_sums(row); });
+  for (std::size_t node = 0; node < out.size(); ++node) {
+    NodeSummary& o = out[node];
+    o.batches = std::numeric_limits<double>::infinity();
+    for (std::size_t d = 0; d < 3; ++d) {
+      const auto* sums = batches.sums.data() + kept_sums * (3 * node + d);
+      o.displacement[d] = sums_[node][d].moments();
+      const BatchEstimate estimate = batch_deviation(batches.lengths, sums[first], sums[squares],
+                                                     sums_[node][d].sum() / time_, o.displacement[d].std);
+      o.std_error[d] = estimate.error;
+      o.batches = std::min(o.batches, estimate.batches);
+    }
+  }
   return out;
 }
 

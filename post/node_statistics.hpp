@@ -2,6 +2,7 @@
 /// @file
 /// Statistics of the displacement of observed nodes over every step of a window, each weighted by its length.
 #pragma once
+#include "post/batch_means.hpp"
 #include "post/moments.hpp"
 #include "transient/kernels.hpp"
 #include "transient/prescribed_motion.hpp"
@@ -14,6 +15,9 @@ namespace fretwork::post {
 /// Displacement along the global axes, m.
 struct NodeSummary {
   std::array<Moments, 3> displacement;
+  std::array<double, 3>
+      std_error{}; ///< m, standard error of each std, from batch means; not a number where the window is too short
+  double batches = 0.0; ///< the smallest effective number behind one of them
 };
 
 class NodeStatistics final : public transient::Observer {
@@ -24,14 +28,18 @@ public:
   void carry(const std::vector<Eigen::MatrixXd>& carried,
              const std::vector<transient::PrescribedMotion>& motions, double duration);
   void step(const transient::Record& record) override;
-  void visit(core::StateArchive& state) override { state(sums_); }
+  void visit(core::StateArchive& state) override { state(sums_, time_, ends_); }
   [[nodiscard]] std::vector<NodeSummary> summaries() const;
 
 private:
+  void write_sums(double* row) const;
+
   double from_;
   transient::kernels::GatherTable gather_;
   transient::kernels::Array u_, unused_;
   std::vector<std::array<Accumulator, 3>> sums_;
+  double time_ = 0.0; ///< length of the window so far, s
+  BatchEnds ends_;
   std::vector<transient::MotionSignal> motions_;
   transient::kernels::Array carried_; ///< in lanes, motion after motion
 };

@@ -165,7 +165,13 @@ Json node(const std::string& name, const post::NodeSummary& n) {
           {"displacement",
            {{"x", moments(n.displacement[0])},
             {"y", moments(n.displacement[1])},
-            {"z", moments(n.displacement[2])}}}};
+            {"z", moments(n.displacement[2])}}},
+          {"standard_error",
+           {{"displacement",
+             {{"x", {{"std", number(n.std_error[0])}}},
+              {"y", {{"std", number(n.std_error[1])}}},
+              {"z", {{"std", number(n.std_error[2])}}}}},
+            {"batches", number(n.batches)}}}};
 }
 
 Json energy(const EnergyTotals& e) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hand_made.hpp"
+#include "post/contact_statistics.hpp"
 #include "post/node_statistics.hpp"
+#include <cmath>
 #include <gtest/gtest.h>
+#include <random>
 
 using namespace fretwork;
 using namespace fretwork::tests;
@@ -64,6 +67,52 @@ TEST(NodeStatistics, WeighEachStepByItsLength) {
   const auto m = statistics.summaries()[0].displacement[0];
   EXPECT_NEAR(m.mean, 4.0, round_off);
   EXPECT_NEAR(m.std, std::sqrt(3.0), round_off);
+}
+
+TEST(NodeStatistics, TellTheErrorThatAContactTellsOfTheSameMotion) {
+  post::NodeStatistics nodes({Eigen::MatrixXd::Identity(3, 3)}, 1.0);
+  post::ContactStatistics contacts(1, 1.0);
+  HandMade of_nodes(nodes, 0, 0.1), of_contacts(contacts, 1, 0.1);
+  std::mt19937 draw(7);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 1000; ++i) {
+    const double y = 3.0 + normal(draw), z = 2.0 * normal(draw);
+    of_nodes.q()[0] = of_contacts.y(0) = y;
+    of_nodes.q()[1] = of_contacts.z(0) = z;
+    of_nodes.step();
+    of_contacts.step();
+  }
+  const post::NodeSummary node = nodes.summaries()[0];
+  const post::StandardErrors expected = contacts.summaries()[0].error;
+  EXPECT_NEAR(node.std_error[0], expected.y_std, round_off);
+  EXPECT_NEAR(node.std_error[1], expected.z_std, round_off);
+  EXPECT_EQ(node.std_error[2], 0.0) << "at rest";
+  EXPECT_GE(node.batches, 8.0 - 0.5);
+}
+
+TEST(NodeStatistics, TellTheErrorOfIndependentValues) {
+  // Of N independent normal values the deviation has the error s/sqrt(2 N); from 32 batches or more it is known to 1/sqrt(64), and no
+  // draw should be off by 4 times that.
+  constexpr double s = 2.0, spread = 4.0 / 8.0;
+  constexpr int values = 64 * 500;
+  post::NodeStatistics statistics({Eigen::MatrixXd::Identity(3, 3)}, 0.0);
+  HandMade run(statistics, 0, 0.1);
+  std::mt19937 draw(11);
+  std::normal_distribution<double> normal(100.0, s);
+  for (int i = 0; i < values; ++i) {
+    run.q()[0] = i == 0 ? 110.0 : normal(draw); // sums are about the first value, which must not matter
+    run.step();
+  }
+  const double expected = s / std::sqrt(2.0 * values);
+  EXPECT_NEAR(statistics.summaries()[0].std_error[0], expected, spread * expected);
+}
+
+TEST(NodeStatistics, OfAShortWindowHaveNoErrors) {
+  post::NodeStatistics statistics({Eigen::MatrixXd::Identity(3, 3)}, 0.0);
+  HandMade run(statistics, 0, 0.1);
+  EXPECT_EQ(statistics.summaries()[0].batches, 0.0) << "before the first step";
+  run.open(5);
+  EXPECT_TRUE(std::isnan(statistics.summaries()[0].std_error[0]));
 }
 
 TEST(NodeStatistics, OfNoNodeAreNone) {

@@ -70,7 +70,7 @@ TEST(Summary, HasTheKeysOfTheContractForAContactAndANode) {
   EXPECT_EQ(keys(c["displacement"]["radial"]), (Keys{"rms", "max"}));
   EXPECT_EQ(keys(c["impact_velocity"]), (Keys{"mean", "max"}));
   EXPECT_EQ(keys(c["contact_duration"]), (Keys{"mean", "max"}));
-  EXPECT_EQ(keys(s["nodes"][0]), (Keys{"name", "displacement"}));
+  EXPECT_EQ(keys(s["nodes"][0]), (Keys{"name", "displacement", "standard_error"}));
   EXPECT_EQ(keys(s["nodes"][0]["displacement"]), (Keys{"x", "y", "z"}));
   EXPECT_EQ(keys(s["nodes"][0]["displacement"]["x"]), (Keys{"mean", "std", "min", "max"}));
 }
@@ -121,6 +121,16 @@ TEST(Summary, AddsUpTheContactsWithTheErrorsOfTheSums) {
   EXPECT_EQ(sums["impacts_per_second"], 31.5 + 32.5);
   EXPECT_EQ(sums["standard_error"], Json::parse(R"({"work_rate": 0.001, "friction_power": 0.0003,
                                                     "impacts_per_second": 2.5, "batches": 40.0})"));
+}
+
+TEST(Summary, TellsTheErrorsOfANode) {
+  RunResults results = made_up();
+  results.node_summaries[0].std_error = {1.0, 2.0, nan};
+  results.node_summaries[0].batches = 16.0;
+  EXPECT_EQ(
+      summary_of(results)["nodes"][0]["standard_error"],
+      Json::parse(
+          R"({"displacement": {"x": {"std": 1.0}, "y": {"std": 2.0}, "z": {"std": null}}, "batches": 16.0})"));
 }
 
 TEST(Summary, WritesNullWhereThereAreTooFewBatches) {
