@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/judge_run.hpp"
+#include "core/error.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fretwork::app {
+namespace {
+
+/// Above this residual of the energy the results are not to be trusted, whatever they look like.
+constexpr double residual_warning = 0.05;
+
+/// Dampers of contacts that give back this share of the energy put in are no round-off.
+constexpr double given_by_dampers = 0.01;
+
+void judge(const transient::StepChoice& choice, const transient::Report& report, results::RunResults& out) {
+  for (const std::string& warning : choice.warnings)
+    out.warnings.push_back(warning);
+  if (report.outcome == transient::Outcome::diverged)
+    throw core::ComputationError(fmt::format(
+        "the transient diverged at t = {:.6g} s (scheme {}, step {:.3g} s): its energy has left all that was "
+        "put in; take a smaller step, or leave step out to have one chosen",
+        report.end_time, transient::name_of(choice.scheme), choice.step));
+  if (report.outcome == transient::Outcome::step_failed)
+    throw core::ComputationError(fmt::format("the transient stopped at t = {:.6g} s (scheme {}): {}",
+                                             report.end_time, transient::name_of(choice.scheme),
+                                             transient::name_of(report.failure)));
+  if (report.residual_relative > residual_warning)
+    out.warnings.push_back(
+        fmt::format("the energy balance is off by {:.2g} % of the energy put in; take a smaller step",
+                    100.0 * report.residual_relative));
+  if (report.counts.unconverged > report.counts.steps / 1000)
+    out.warnings.push_back(fmt::format(
+        "in {} of {} steps the coupled contact forces missed their tolerance; take a smaller step",
+        report.counts.unconverged, report.counts.steps));
+}
+
+/// The spring of `reference` is set by every slip, and no work pays for it.
+void judge_memory(const BuiltScene& built, const transient::Report& report, results::RunResults& out) {
+  const auto jumps = [](const transient::ContactPoint& point) {
+    const contact::FrictionLaw& law = point.support.friction;
+    return law.active() && law.kind == contact::FrictionMemoryKind::reference;
+  };
+  const auto& points = built.scene.contacts;
+  const double input = std::abs(report.energy.initial + report.energy.load_work);
+  if (std::any_of(points.begin(), points.end(), jumps) &&
+      report.energy.contact_damping < -given_by_dampers * input)
+    out.warnings.push_back(fmt::format("friction_memory = \"reference\": the dampers of the contacts gave "
+                                       "{:.2g} % of the energy put in instead "
+                                       "of taking some, because that memory's springs jump in a slip; the "
+                                       "energies of friction are not to be "
+                                       "trusted; take friction_memory = \"return_map\"",
+                                       -100.0 * report.energy.contact_damping / input));
+}
+
+} // namespace
+
+void judge_run(const BuiltScene& built, const transient::StepChoice& choice, const transient::Report& report,
+               results::RunResults& out) {
+  judge(choice, report, out);
+  judge_memory(built, report, out);
+}
+
+void tell_impacts_left_out(std::int64_t kept, results::RunResults& out) {
+  std::int64_t left_out = 0, tables = 0;
+  for (const post::ContactImpacts& impacts : out.impacts) {
+    left_out += impacts.left_out;
+    tables += impacts.left_out > 0 ? 1 : 0;
+  }
+  if (left_out > 0)
+    out.notes.push_back(fmt::format("the table{} of impacts of {} contact{} end{} after output.impacts = {} "
+                                    "rows: {} later impacts have no row (the statistics count them); raise "
+                                    "output.impacts, or start output.statistics_from later",
+                                    tables == 1 ? "" : "s", tables, tables == 1 ? "" : "s",
+                                    tables == 1 ? "s" : "", kept, left_out));
+}
+
+} // namespace fretwork::app
