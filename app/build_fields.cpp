@@ -44,9 +44,9 @@ void initial_field(const study::Study& study, const mesh::LineMesh& mesh, const 
   out.displacement.setZero(static_cast<Eigen::Index>(model.nodes.size()) * core::dofs_per_node);
   out.velocity = out.displacement;
   std::vector<bool> displaced(static_cast<std::size_t>(out.displacement.size()), false), moves = displaced;
-  const auto mark = [](std::vector<bool>& given, Eigen::Index row, int dofs) {
-    std::fill_n(given.begin() + row, core::dofs_per_node, false); // of an earlier entry
-    std::fill_n(given.begin() + row, dofs, true);
+  const auto mark = [](std::vector<bool>& given, const Eigen::VectorXd& field, Eigen::Index row) {
+    for (Eigen::Index d = row; d < row + core::dofs_per_node; ++d)
+      given[static_cast<std::size_t>(d)] = field(d) != 0.0;
   };
   for (std::size_t e = 0; e < study.initial.size(); ++e) {
     const study::Initial& initial = study.initial[e];
@@ -57,10 +57,8 @@ void initial_field(const study::Study& study, const mesh::LineMesh& mesh, const 
       out.displacement.segment<6>(row) << initial.displacement, Vec3::Zero();
       out.velocity.segment<6>(row) << initial.velocity + initial.rotation_rate.cross(arm),
           initial.rotation_rate;
-      // a vector of zeros gives nothing, and rotations are given by a rotation only
-      mark(displaced, row, initial.displacement.isZero(0.0) ? 0 : 3);
-      const bool turns = !initial.rotation_rate.isZero(0.0);
-      mark(moves, row, turns ? core::dofs_per_node : initial.velocity.isZero(0.0) ? 0 : 3);
+      mark(displaced, out.displacement, row); // zeros give nothing
+      mark(moves, out.velocity, row);
     }
   }
   follow_ties(model, "displacement", displaced, out.displacement);

@@ -41,7 +41,7 @@ private:
 int lowest_order(const std::vector<results::TransientFacts>& runs) {
   int order = std::numeric_limits<int>::max();
   for (const results::TransientFacts& run : runs)
-    order = std::min(order, transient::order_of_statistics(run.choice.scheme));
+    order = std::min(order, run.choice.order);
   return order;
 }
 

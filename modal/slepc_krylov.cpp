@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <slepceps.h>
@@ -219,11 +220,24 @@ KrylovModes::KrylovModes(MPI_Comm comm, const fem::Model& model, const fem::Stru
   FW_PETSC(MatGetDiagonal(system_.mass.get(), diagonal.handle));
   PetscInt local = 0;
   FW_PETSC(VecGetLocalSize(diagonal.handle, &local));
-  const PetscScalar* values = nullptr;
-  FW_PETSC(VecGetArrayRead(diagonal.handle, &values));
-  const auto mine = static_cast<int>(std::count_if(values, values + local, [](double m) { return m > 0.0; }));
-  FW_PETSC(VecRestoreArrayRead(diagonal.handle, &values));
+  const Vector stiffness = vector_like(system_.stiffness.get());
+  FW_PETSC(MatGetDiagonal(system_.stiffness.get(), stiffness.handle));
+  const PetscScalar *masses = nullptr, *stiffnesses = nullptr;
+  FW_PETSC(VecGetArrayRead(diagonal.handle, &masses));
+  FW_PETSC(VecGetArrayRead(stiffness.handle, &stiffnesses));
+  int mine = 0;
+  double stiffest = 0.0; // 1/s2
+  for (PetscInt i = 0; i < local; ++i)
+    if (masses[i] > 0.0) {
+      ++mine;
+      stiffest = std::max(stiffest, stiffnesses[i] / masses[i]);
+    }
+  FW_PETSC(VecRestoreArrayRead(stiffness.handle, &stiffnesses));
+  FW_PETSC(VecRestoreArrayRead(diagonal.handle, &masses));
   MPI_Allreduce(&mine, &massive_, 1, MPI_INT, MPI_SUM, comm);
+  MPI_Allreduce(&stiffest, &round_off_, 1, MPI_DOUBLE, MPI_MAX, comm);
+  constexpr double sums = 100.0; // epsilons that a pivot gathers
+  round_off_ *= sums * std::numeric_limits<double>::epsilon();
   if (rigid.cols() > 0)
     shift_ = -eigenvalue_scale(model, structure);
 }
@@ -240,10 +254,7 @@ int KrylovModes::below(double s) const {
   return static_cast<int>(negative);
 }
 
-bool KrylovModes::is_stable() const {
-  constexpr double zero = 1e-9; // of the scale of eigenvalues: above the round-off of a rigid motion
-  return below(rigid_.cols() > 0 ? -zero * eigenvalue_scale(model_, structure_) : 0.0) == 0;
-}
+bool KrylovModes::is_stable() const { return below(rigid_.cols() > 0 ? -round_off_ : 0.0) == 0; }
 
 Pairs KrylovModes::solve(int count, const Eigen::MatrixXd& deflated, int start) const {
   Mat k = system_.stiffness.get(), m = system_.mass.get();

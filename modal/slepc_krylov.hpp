@@ -41,7 +41,8 @@ private:
   fem::SystemMatrices system_;
   fem::Elimination elimination_;
   int massive_ = 0;
-  double shift_ = 0.0; ///< 0 for a held structure, else negative: K - shift M is definite
+  double round_off_ = 0.0; ///< 1/s2: eigenvalues of rigid motions may come out so far below 0
+  double shift_ = 0.0;     ///< 0 for a held structure, else negative: K - shift M is definite
 };
 
 } // namespace fretwork::modal

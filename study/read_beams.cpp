@@ -209,6 +209,10 @@ void read_ends(const TableReader& table, const Study& study, Beams& beams) {
   beams.section = sections[0];
   beams.added_mass = added[0];
   beams.fluid = fluid[0];
+  const bool changes = sections[0] != sections[1] || added[0] != added[1] || fluid[0] != fluid[1];
+  if (table.has(near_end) && !changes)
+    table.fail_at(near_end, "nothing changes along the group: give two values [a, b] of section, added_mass "
+                            "or a fluid, or leave it out");
   if (table.has(near_end))
     beams.taper =
         Taper{table.text(near_end, "the name of a physical point"), sections[1], added[1], fluid[1]};

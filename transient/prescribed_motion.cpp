@@ -155,7 +155,6 @@ PrescribedMotion without_drift(const Random& acceleration, double duration) {
       m1 += weight[k] * half * z * t / (duration * duration);
     }
   }
-  out.displacement0 = 6.0 * m1 - 4.0 * m0;
   out.velocity0 = (6.0 * m0 - 12.0 * m1) / duration;
   return out;
 }

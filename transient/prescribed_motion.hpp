@@ -14,11 +14,10 @@ namespace fretwork::transient {
 /// @param displacement  m; not random, a table without jumps
 [[nodiscard]] PrescribedMotion motion_of_displacement(const TimeFunction& displacement);
 
-/// The motion of a random acceleration that goes nowhere: the velocity and place at t = 0 are such that over the run, of length T, the
-/// displacement has no mean and no linear trend. With z the double integral of the acceleration from rest at 0, and the least-squares line
+/// The motion of a random acceleration that goes nowhere: it starts at 0 with the velocity that leaves the displacement no linear trend
+/// over the run, of length T; it stays about a constant place. With z the double integral of the acceleration from rest at 0, and the least-squares line
 /// z ~ c0 + c1 t,
-///     m0 = 1/T int z dt,   m1 = 1/T^2 int z t dt,   c0 = 4 m0 - 6 m1,   c1 T = 12 m1 - 6 m0,
-///     s(0) = -c0,   s'(0) = -c1;
+///     m0 = 1/T int z dt,   m1 = 1/T^2 int z t dt,   c1 T = 12 m1 - 6 m0,   s(0) = 0,   s'(0) = -c1;
 /// the integrals over the signal's pieces are exact (four points of Gauss on polynomials of degree 6). The acceleration is as it was.
 /// @param duration  T, s
 [[nodiscard]] PrescribedMotion without_drift(const Random& acceleration, double duration);

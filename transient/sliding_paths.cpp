@@ -18,7 +18,7 @@ void SlidingPaths::correct(ContactTrial& trial) {
   for (const int c : trial.active) {
     ContactState& s = trial.states[c];
     const Push now{s.normal_force * s.ny, s.normal_force * s.nz}, last = std::exchange(push_[c], now);
-    if (!s.slides)
+    if (!s.slides || (last.y == 0.0 && last.z == 0.0)) // it has only closed: no rate is known
       continue;
     const double y = scale_ * (now.y - last.y), z = scale_ * (now.z - last.z);
     const auto moved = [&](int to) {

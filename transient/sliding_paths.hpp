@@ -7,7 +7,8 @@
 ///     H + (h^2/12) w.V''w - (h^2/24) V'.W.V',
 /// from which a friction F takes h F.(w + (h^2/6) W V''w): the slider's true path. -V''w is the rate of the normal force F_N n, which
 /// turns with the contact point. Without it a tube that rocks in its hole slides too little, by (h^2/6) W_tt F_N/r at a curvature 1/r:
-/// work rates were 2 % low at w_c h = 0.5 (doc/schemes.md). The rate is the change since the last step; of W the block of the contact itself.
+/// work rates were 2 % low at w_c h = 0.5 (doc/benchmarks.md). The rate is the change since the last step; of W the block of the contact
+/// itself. A contact that has only closed keeps the path of w.
 #pragma once
 #include "transient/contact_trial.hpp"
 

@@ -2,19 +2,24 @@
 /// @file
 /// The time step and its reason.
 ///
-///     h = eps min{ 0.9/w_c, 0.5 t_s, a/r_t, b/w_max },  eps = 0.5 sqrt(accuracy / 0.01)
+///     h = min{ c/w_c, s t_s, r/r_t, m/w_max },  the shares at an accuracy of 0.01; others grow and fall with its square root
+///
+///                          c      s      r     m
+///     splitting            0.45   0.25   3     2.5
+///     collocation          0.5    0.5    2     -
+///     energy_conserving    0.3    0.3    2     2.5
+///     euler, devogelaere   0.3    0.3    0.5   0.5
 /// over the terms that exist, with:
 ///     w_c    contact frequency: w_c^2 = largest eigenvalue of K_N^1/2 W K_N^1/2, W = B B^T over all normal
 ///            directions of all contacts; with residual flexibility R (Scene) of (K_N^-1 + R)^-1 in place of K_N
-///     t_s    time in which sticking contacts move, (1/w_t^2 + (C_T/K_T)^2)^1/2; w_t as w_c with K_T over the tangent directions,
-///            C_T/K_T the smallest of all contacts with friction
+///     t_s    time in which sticking contacts move: 1/w_t, w_t as w_c with K_T over the tangent directions; with splitting
+///            (1/w_t^2 + (C_T/K_T)^2)^1/2, the smallest C_T/K_T of all contacts with friction, and never w_t h above 0.5
 ///     r_t    rate of the tangential dampers, largest eigenvalue of C_T^1/2 W C_T^1/2
 ///     w_max  highest mode
-/// For collocation 1/w_c and 1/w_t, and no term of w_max; for the other schemes 0.6/w_c and 0.6/w_t. No accuracy makes a step longer than that of 0.04, eps = 1: above w_c h = 1
-/// (devogelaere: 0.75) impacts are wrong however stable the run (doc/schemes.md, Stability map). w_max h stays below 2.5: splitting resonates with modes
-/// at w h = k pi.
-/// a = 6 for the splitting, 4 for collocation and the energy conserving scheme (which no step makes unstable, but the contacts must be resolved), b = 5; 1 and 1 for explicit Euler (whose limits are r_t h < 1 and
-/// w_max h < 2). Euler also takes the other dampers explicitly and resolves them by 1/r_e (its limit: r_e h < 2):
+/// No accuracy makes a step longer than that of 0.04, nor w_c h and w_t h than 1 (devogelaere: 0.75), above which impacts are wrong however
+/// stable the run (doc/schemes.md, Stability map), nor r_t h than 4 where dampers are implicit. w_max h stays below 2.5: splitting resonates
+/// with modes at w h = k pi. The limits of explicit Euler are r_t h < 1 and w_max h < 2; it also takes the other dampers explicitly and
+/// resolves them by 0.5/r_e (its limit: r_e h < 2):
 ///     r_e    the largest of the rates of the structure's damping and of the normal dampers (c(p) at t = 0 in place of C_T)
 /// Hunt and Crossley's damper c(p) = K_N d p grows with a penetration that is not known beforehand, but w_c bounds its rate: an impact
 /// at the speed v has p <= min(1, sqrt(2/x)) v/w_c with x = d v (spring alone; damper alone), so that h c W <= eps min(x, sqrt(2 x)).
@@ -43,6 +48,7 @@ struct StepOptions {
 struct StepChoice {
   SchemeKind scheme = SchemeKind::splitting;
   double step = 0.0;              ///< s; of an adaptive scheme the longest
+  int order = 2;                  ///< of statistics: order_of_statistics
   std::int64_t steps = 0;         ///< that cover the duration; 0: adaptive
   double tolerance = 1e-6;        ///< of an adaptive scheme
   double contact_frequency = 0.0; ///< w_c, rad/s
@@ -63,9 +69,9 @@ struct StepChoice {
 /// The same run at half the step, or, adaptive, at half the tolerance.
 [[nodiscard]] StepChoice halved(StepChoice choice);
 
-/// p of the statistics of a run with contacts: their error falls by 2^p from a choice to the halved one. 1 for euler, and for the adaptive
-/// scheme, whose error goes as its tolerance; else 2, also of the schemes of order 4: forces have a kink where a contact opens or closes
+/// p of the statistics of a run with contacts: their error falls by 2^p from a choice to the halved one. 1 for euler, for the adaptive
+/// scheme, whose error goes as its tolerance, and with the memory `reference`, whose spring jumps once a step; else 2, also of the schemes of order 4: forces have a kink where a contact opens or closes
 /// inside a step, which costs them the order on all but single smooth paths (doc/schemes.md).
-[[nodiscard]] int order_of_statistics(SchemeKind scheme);
+[[nodiscard]] int order_of_statistics(const Scene& scene, SchemeKind scheme);
 
 } // namespace fretwork::transient

@@ -154,7 +154,7 @@ PlainState plain_splitting(const Scene& scene, double h, int steps) {
       if (p->normal > 0.0) {
         Vec3 w = p->at.b * mean_velocity;
         const Vec3 push = p->normal * p->n();
-        if (p->friction.slides) // sliding_paths.hpp
+        if (p->friction.slides && !p->push.isZero(0.0)) // sliding_paths.hpp
           w -= h / 6.0 * p->at.b * p->at.b.transpose() * (push - p->push);
         ++s.closed;
         s.slid += p->friction.slides;

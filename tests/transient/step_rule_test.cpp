@@ -226,11 +226,25 @@ TEST(StepRule, HalvesAStepOrATolerance) {
 }
 
 TEST(StepRule, KnowsHowFastStatisticsSettle) {
-  EXPECT_EQ(order_of_statistics(SchemeKind::euler), 1);
-  EXPECT_EQ(order_of_statistics(SchemeKind::runge_kutta_54), 1); // of the tolerance
+  Scene scene = scene_with({Circle{0.1}, {8e4}, {8e4, 10.0, 0.3, 0.3}});
+  EXPECT_EQ(order_of_statistics(scene, SchemeKind::euler), 1);
+  EXPECT_EQ(order_of_statistics(scene, SchemeKind::runge_kutta_54), 1); // of the tolerance
   for (const SchemeKind kind : {SchemeKind::splitting, SchemeKind::collocation, SchemeKind::energy_conserving,
                                 SchemeKind::devogelaere})
-    EXPECT_EQ(order_of_statistics(kind), 2) << name_of(kind);
+    EXPECT_EQ(order_of_statistics(scene, kind), 2) << name_of(kind);
+  scene.contacts[0].support.friction.kind = contact::FrictionMemoryKind::reference;
+  EXPECT_EQ(choose_step(scene, splitting()).order, 1);
+}
+
+TEST(StepRule, NeverTakesAStepThatItWouldWarnOf) {
+  for (const double damping : {0.0, 600.0, 5000.0, 5e4})
+    for (const double accuracy : {0.01, 0.02, 0.04}) {
+      const Scene scene = scene_with({Circle{0.1}, {8e4}, {8e4, damping, 0.3, 0.3}});
+      StepOptions options = splitting();
+      options.accuracy = accuracy;
+      EXPECT_TRUE(choose_step(scene, splitting(choose_step(scene, options).step)).warnings.empty())
+          << damping << " " << accuracy;
+    }
 }
 
 TEST(StepRule, CountsAllContactsTogether) {
