@@ -2,6 +2,7 @@
 #include "app/chain.hpp"
 #include "app/contact_notes.hpp"
 #include "app/jobs.hpp"
+#include "app/modes_limit.hpp"
 #include "app/progress.hpp"
 #include "app/python_report.hpp"
 #include "app/residual_flexibility.hpp"
@@ -293,6 +294,11 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
     placed = place_contacts(inputs.study, mesh, model, out.warnings);
     nodes = observed_nodes(inputs.study, mesh);
     moved = moved_supports(inputs.study, mesh, model);
+    if (inputs.study.modes.accuracy) {
+      out.modes_limit = modes_limit(inputs.study, model, placed);
+      inputs.study.modes.up_to_hz = out.modes_limit->up_to;
+      report_modes_limit(inputs.study, *out.modes_limit, out);
+    }
   });
   report_coincident(mesh, out);
   out.timings.assembly = watch.lap();
@@ -384,6 +390,8 @@ std::string check(const Request& request) {
   const auto placed = place_contacts(inputs.study, mesh, model, warnings);
   const auto nodes = observed_nodes(inputs.study, mesh);
   static_cast<void>(moved_supports(inputs.study, mesh, model));
+  if (inputs.study.modes.accuracy)
+    static_cast<void>(modes_limit(inputs.study, model, placed));
   static_cast<void>(build_fields(inputs.study, mesh, model, {}));
   std::int64_t dofs = 0;
   for (const auto& structure : structures)

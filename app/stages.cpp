@@ -24,13 +24,15 @@ std::string file_bytes(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Of the stored modes: a distributed structure differs in its last digits with the number of ranks.
+/// Of the stored modes: a limit that follows from the contacts is theirs too; a distributed structure differs in its last digits with the number of ranks.
 std::string stored_key(MPI_Comm comm, const Inputs& inputs, const std::vector<fem::Structure>& structures) {
   const bool distributed =
       std::any_of(structures.begin(), structures.end(), [&](const fem::Structure& structure) {
         return modal::is_distributed(comm, structure, inputs.study.modes.distributed);
       });
-  return distributed ? fmt::format("{} over {} ranks", inputs.modes_key, core::size(comm)) : inputs.modes_key;
+  const study::Modes& modes = inputs.study.modes;
+  return inputs.modes_key + (modes.accuracy ? fmt::format(" up to {:.17g} Hz", *modes.up_to_hz) : "") +
+         (distributed ? fmt::format(" over {} ranks", core::size(comm)) : "");
 }
 
 } // namespace
@@ -132,7 +134,11 @@ ModesStage modes_stage(MPI_Comm comm, const Inputs& inputs, const fem::Model& mo
       modal::apply_damping(basis, modes.damping);
       if (basis.size() == 0)
         throw core::Error(
-            modes.up_to_hz
+            modes.accuracy
+                ? fmt::format("a structure has no mode up to {:.4g} Hz, as far as modes.accuracy = {:g} asks "
+                              "for; give modes.count",
+                              *modes.up_to_hz, *modes.accuracy)
+            : modes.up_to_hz
                 ? fmt::format("no mode up to modes.up_to_hz = {} Hz; give a higher limit, or modes.count",
                               *modes.up_to_hz)
                 : "a structure has no mode: nothing that moves has mass; give its material a density, "

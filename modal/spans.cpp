@@ -62,12 +62,33 @@ public:
     return true;
   }
 
+  struct Run {
+    int elements;
+    double length; ///< m
+    Index end;     ///< position
+  };
+
+  /// From a node over a neighbour to where the span ends, or once round a ring.
+  [[nodiscard]] Run follow(Index from, Index next) const {
+    Run run{1, distance(from, next), next};
+    for (Index last = from; run.end != from && !ends_span(run.end); ++run.elements) {
+      const std::vector<Index>& beside = neighbours(run.end);
+      const Index on = beside[0] == last ? beside[1] : beside[0];
+      run.length += distance(run.end, on);
+      last = run.end;
+      run.end = on;
+    }
+    return run;
+  }
+
 private:
   std::vector<Index>& neighbours(Index position) { return neighbours_[static_cast<std::size_t>(position)]; }
 
   [[nodiscard]] const Vec3& place(Index position) const {
     return model_.nodes[static_cast<std::size_t>(structure_.nodes[static_cast<std::size_t>(position)])];
   }
+
+  [[nodiscard]] double distance(Index a, Index b) const { return (place(b) - place(a)).norm(); }
 
   const fem::Model& model_;
   const fem::Structure& structure_;
@@ -89,19 +110,28 @@ Span longest_span(const fem::Model& model, const fem::Structure& structure) {
   for (Index from = 0; from < count; ++from) {
     if (!ends[static_cast<std::size_t>(from)])
       continue;
-    for (Index next : net.neighbours(from)) {
-      int elements = 1;
-      for (Index last = from; !ends[static_cast<std::size_t>(next)]; ++elements) {
-        const auto& beside = net.neighbours(next);
-        const Index on = beside[0] == last ? beside[1] : beside[0];
-        last = next;
-        next = on;
-      }
-      if (elements > longest.elements)
+    for (const Index next : net.neighbours(from))
+      if (const int elements = net.follow(from, next).elements; elements > longest.elements)
         longest = {structure.nodes[static_cast<std::size_t>(from)], elements};
-    }
   }
   return longest;
+}
+
+std::vector<double> span_lengths(const fem::Model& model, const fem::Structure& structure,
+                                 const std::vector<Index>& nodes) {
+  const Net net(model, structure);
+  std::vector<double> lengths;
+  for (const Index node : nodes) {
+    const Index at = fem::position_of(structure, node);
+    double shortest = 0.0, sum = 0.0;
+    for (const Index next : net.neighbours(at)) {
+      const Net::Run run = net.follow(at, next);
+      shortest = shortest > 0.0 ? std::min(shortest, run.length) : run.length;
+      sum += run.end == at ? 0.5 * run.length : run.length; // a ring is met from both sides
+    }
+    lengths.push_back(net.ends_span(at) ? shortest : sum);
+  }
+  return lengths;
 }
 
 std::vector<std::string> check_spans(const fem::Model& model, const std::vector<fem::Structure>& structures) {

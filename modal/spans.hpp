@@ -25,6 +25,11 @@ struct Span {
 /// springs and ties of a node leave it no translation across the tube.
 [[nodiscard]] Span longest_span(const fem::Model& model, const fem::Structure& structure);
 
+/// Length of the span that each node is on, m, along its nodes; where spans end, of the shortest that begins there; 0 where no beam is.
+/// @param nodes  of the structure
+[[nodiscard]] std::vector<double> span_lengths(const fem::Model& model, const fem::Structure& structure,
+                                               const std::vector<core::Index>& nodes);
+
 /// Warnings of the spans of all structures: one, of the longest, where it has more than many_elements.
 /// @throws core::Error where one has more than too_many_elements
 [[nodiscard]] std::vector<std::string> check_spans(const fem::Model& model,

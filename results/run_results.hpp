@@ -57,6 +57,14 @@ struct ContactFacts {
   std::optional<StaticFlexibility> static_flexibility; ///< none where there is no static solution
 };
 
+/// How far modes reach for an accuracy of contact forces.
+struct ModesLimit {
+  double accuracy = 0.0;
+  double up_to = 0.0;             ///< Hz
+  std::string contact;            ///< that asks for most
+  double contact_frequency = 0.0; ///< Hz, of that contact on its beams
+};
+
 /// One independent transient (a connected structure with its contacts).
 struct TransientFacts {
   transient::StepChoice choice;
@@ -83,6 +91,7 @@ struct RunResults {
   std::vector<core::Vec3> nodes;                 ///< m
   std::vector<std::array<core::Index, 2>> lines; ///< beams
   std::vector<modal::Basis> bases;               ///< by structure
+  std::optional<ModesLimit> modes_limit;         ///< where the study asks for an accuracy of them
   std::vector<ContactFacts> contacts;
   std::vector<post::ContactSummary> contact_summaries; ///< as `contacts`; empty without a transient
   post::StandardErrors errors_of_sums;       ///< over all contacts: work_rate, friction_power, impact_rate

@@ -241,6 +241,11 @@ void write_summary(const std::filesystem::path& file, const RunResults& results)
   out["input_sha256"] = record.input_sha256;
   out["model"] = model(results.model);
   out["modes"] = modes(results.bases);
+  if (const auto& limit = results.modes_limit)
+    out["modes"]["limit"] = {{"accuracy", number(limit->accuracy)},
+                             {"up_to_hz", number(limit->up_to)},
+                             {"contact", limit->contact},
+                             {"contact_frequency_hz", number(limit->contact_frequency)}};
   if (!results.transients.empty())
     add_transient(out, results);
   out["timings_s"] = timings(results.timings);

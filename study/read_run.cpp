@@ -44,6 +44,33 @@ modal::Damping read_damping(const TableReader& modes) {
                          table.number_or("mass", 0.0, {Range::at_least_zero, "1/s"})};
 }
 
+/// The rule that derives modes from accuracy is measured up to here.
+constexpr double largest_mode_accuracy = 0.1;
+
+void read_number_of_modes(const TableReader& root, const TableReader& table, Modes& modes) {
+  std::string given;
+  for (const std::string key : {"count", "up_to_hz", "accuracy"})
+    if (table.has(key)) {
+      if (!given.empty())
+        table.fail_at(key, given + " and " + key + " both say how many modes; keep one");
+      given = key;
+    }
+  if (given.empty())
+    return;
+  const auto count = table.optional_integer("count", 1);
+  if (count && *count > std::numeric_limits<int>::max())
+    table.fail_at("count", "more modes than a structure can have");
+  modes.count = count ? std::optional<int>(static_cast<int>(*count)) : std::nullopt;
+  modes.up_to_hz = table.optional_number("up_to_hz", {Range::above_zero, "Hz"});
+  modes.accuracy = table.optional_number("accuracy", {Range::above_zero});
+  if (modes.accuracy && *modes.accuracy > largest_mode_accuracy)
+    table.fail_at("accuracy", "a relative error of contact forces of at most 0.1 is expected");
+  if (modes.accuracy && !root.has("contacts"))
+    table.fail_at(
+        "accuracy",
+        "there are no [[contacts]] whose forces would say which modes matter; give count or up_to_hz");
+}
+
 } // namespace
 
 Modes read_modes(const TableReader& root) {
@@ -51,17 +78,9 @@ Modes read_modes(const TableReader& root) {
   const Value* found = root.find("modes");
   if (!found)
     return modes;
-  const TableReader table(*found, "modes", {{"count", "up_to_hz", "damping", "static_modes", "distributed"}});
-  modes.up_to_hz = table.optional_number("up_to_hz", {Range::above_zero, "Hz"});
-  if (const auto count = table.optional_integer("count", 1)) {
-    if (modes.up_to_hz)
-      table.fail_at("up_to_hz", "count and up_to_hz both say how many modes; keep one");
-    if (*count > std::numeric_limits<int>::max())
-      table.fail_at("count", "more modes than a structure can have");
-    modes.count = static_cast<int>(*count);
-  } else if (modes.up_to_hz) {
-    modes.count.reset();
-  }
+  const TableReader table(*found, "modes",
+                          {{"count", "up_to_hz", "accuracy", "damping", "static_modes", "distributed"}});
+  read_number_of_modes(root, table, modes);
   modes.damping = read_damping(table);
   modes.static_modes = table.choice(
       "static_modes", StaticModes::none,

@@ -69,8 +69,9 @@ struct Tie {
 enum class StaticModes { none, residual };
 
 struct Modes {
-  std::optional<int> count = 40; ///< exactly one of count and up_to_hz is set
+  std::optional<int> count = 40; ///< exactly one of count, up_to_hz and accuracy is given
   std::optional<double> up_to_hz;
+  std::optional<double> accuracy; ///< relative error of contact forces, > 0 and at most 0.1
   modal::Damping damping = 0.0;
   StaticModes static_modes = StaticModes::none;
   std::optional<bool> distributed; ///< solve one structure over all ranks; default: by size

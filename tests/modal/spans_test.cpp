@@ -88,3 +88,14 @@ TEST(Spans, OfTooManyElementsAreToldOfOrRefused) {
   expect_error([&] { (void)warnings(modal::too_many_elements + 1); },
                {"(0, 0, 0) has 3001 elements", "mesh it more coarsely"});
 }
+
+TEST(Spans, HaveTheLengthBetweenWhatHoldsTheTube) {
+  constexpr double round_off = 1e-14;
+  auto b = tube(10); // clamped at 0, 1 m long
+  b.fix(4, uy | uz);
+  b.fix(6, uy); // one plane still passes
+  const auto lengths = modal::span_lengths(b.model, fem::structures(b.model).at(0), {2, 4, 6, 7, 10});
+  const double expected[] = {0.4, 0.4, 0.6, 0.6, 0.6}; // where spans meet the shorter one
+  for (std::size_t i = 0; i < lengths.size(); ++i)
+    EXPECT_NEAR(lengths[i], expected[i], round_off) << i;
+}
