@@ -257,6 +257,6 @@ int main() {
               steps);
   std::printf("| scene | closed | sliding | step | without contacts | projections | a contact beside them |\n"
               "| --- | --- | --- | --- | --- | --- | --- |\n");
-  for (const int number : {1, 8, 32})
+  for (const int number : {1, 3, 8, 32})
     print_steps(number);
 }
