@@ -52,6 +52,21 @@ MatrixXd unit_forces(const Parts& parts, const std::vector<std::size_t>& contact
   return forces;
 }
 
+/// The unit forces that act on a structure: numbers of their columns among all, and these columns.
+struct Forces {
+  std::vector<Index> columns;
+  MatrixXd values;
+};
+Forces forces_on(const Parts& parts, const std::vector<std::size_t>& contacts, const modal::Basis& basis) {
+  const MatrixXd all = unit_forces(parts, contacts, basis);
+  Forces out;
+  for (Index j = 0; j < all.cols(); ++j)
+    if (!all.col(j).isZero(0.0))
+      out.columns.push_back(j);
+  out.values = all(Eigen::all, out.columns);
+  return out;
+}
+
 /// Part of a field over the model that belongs to a structure.
 Eigen::VectorXd restricted(const modal::Basis& basis, const Eigen::VectorXd& field) {
   Eigen::VectorXd out(basis.shapes.rows());
@@ -85,20 +100,51 @@ const fem::StaticSolver& solver_of(const Parts& parts, std::size_t structure, So
 
 /// Adds what a structure gives to the flexibilities of the loaded directions.
 /// @param forces  on its nodes, one loaded direction a column
-void add_structure(const Parts& parts, std::size_t s, const MatrixXd& forces, Solvers& solvers,
-                   ContactFlexibility& out) {
+/// @param among   their numbers among all loaded directions
+void add_structure(const Parts& parts, std::size_t s, const MatrixXd& forces, const std::vector<Index>& among,
+                   Solvers& solvers, ContactFlexibility& out) {
   const modal::Basis& basis = parts.bases[s];
   const MatrixXd u = solver_of(parts, s, solvers).solve(forces);
-  out.exact += forces.transpose() * u;
-  out.basis += modal::flexibility_of(basis, forces);
+  out.exact(among, among) += forces.transpose() * u;
+  out.basis(among, among) += modal::flexibility_of(basis, forces);
   const MatrixXd gain = modal::static_gain(basis, forces);
   for (std::size_t l = 0; l < parts.loads.size(); ++l) {
     const Eigen::VectorXd load = restricted(basis, parts.loads[l].force);
     const Eigen::VectorXd all = u.transpose() * load, size = u.cwiseAbs().transpose() * load.cwiseAbs();
     const Eigen::VectorXd lacking = all - gain * (basis.shapes.transpose() * load);
-    out.under_loads.col(static_cast<Index>(l)) +=
+    out.under_loads(among, static_cast<Index>(l)) +=
         (lacking.array().abs() > modal::negligible_share * size.array()).select(lacking, 0.0);
   }
+}
+
+/// The same of those of its directions that are loaded.
+void add_loaded(const Parts& parts, std::size_t s, const Forces& forces, const std::vector<Index>& loaded,
+                Solvers& solvers, ContactFlexibility& out) {
+  std::vector<Index> columns, among;
+  for (std::size_t j = 0; j < forces.columns.size(); ++j)
+    if (const auto found = std::lower_bound(loaded.begin(), loaded.end(), forces.columns[j]);
+        found != loaded.end() && *found == forces.columns[j]) {
+      columns.push_back(static_cast<Index>(j));
+      among.push_back(found - loaded.begin());
+    }
+  if (!columns.empty())
+    add_structure(parts, s, forces.values(Eigen::all, columns), among, solvers, out);
+}
+
+/// Between all contacts, or where the scene does not take it, what the table tells: of each contact alone.
+MatrixXd missing_flexibility(const Parts& parts, const std::vector<Index>& loaded,
+                             const ContactFlexibility& of_loaded) {
+  if (parts.study.modes.static_modes != study::StaticModes::none)
+    return modal::missing_flexibility(of_loaded.exact, of_loaded.basis);
+  MatrixXd out = MatrixXd::Zero(of_loaded.exact.rows(), of_loaded.exact.cols());
+  for (std::size_t begin = 0, end = 0; begin < loaded.size(); begin = end) {
+    while (end < loaded.size() && loaded[end] / 3 == loaded[begin] / 3)
+      ++end;
+    const auto first = static_cast<Index>(begin), size = static_cast<Index>(end - begin);
+    out.block(first, first, size, size) = modal::missing_flexibility(
+        of_loaded.exact.block(first, first, size, size), of_loaded.basis.block(first, first, size, size));
+  }
+  return out;
 }
 
 /// Rows and columns of the loaded directions among all.
@@ -111,21 +157,21 @@ MatrixXd among_all(const MatrixXd& some, const std::vector<Index>& loaded, Index
 ContactFlexibility flexibility(const Parts& parts, const std::vector<std::size_t>& structures,
                                const std::vector<std::size_t>& contacts, Solvers& solvers) {
   ContactFlexibility out;
-  std::vector<MatrixXd> forces;
+  std::vector<Forces> forces;
   const auto all = static_cast<Index>(3 * contacts.size());
   Eigen::VectorXd moved = Eigen::VectorXd::Zero(all);
   for (const std::size_t s : structures) {
-    forces.push_back(unit_forces(parts, contacts, parts.bases[s]));
-    const MatrixXd b = forces.back().transpose() * parts.bases[s].shapes;
-    moved = moved.cwiseMax(b.cwiseAbs().rowwise().maxCoeff());
+    const auto& [columns, of_columns] = forces.emplace_back(forces_on(parts, contacts, parts.bases[s]));
+    const MatrixXd b = of_columns.transpose() * parts.bases[s].shapes;
+    moved(columns) = moved(columns).cwiseMax(b.cwiseAbs().rowwise().maxCoeff());
   }
   const std::vector<Index> loaded = loaded_directions(parts, contacts, moved);
   const auto count = static_cast<Index>(loaded.size()), loads = static_cast<Index>(parts.loads.size());
   out.exact = out.basis = MatrixXd::Zero(count, count);
   out.under_loads = MatrixXd::Zero(count, loads);
   for (std::size_t i = 0; i < structures.size(); ++i)
-    add_structure(parts, structures[i], forces[i](Eigen::all, loaded), solvers, out);
-  out.missing = among_all(modal::missing_flexibility(out.exact, out.basis), loaded, all);
+    add_loaded(parts, structures[i], forces[i], loaded, solvers, out);
+  out.missing = among_all(missing_flexibility(parts, loaded, out), loaded, all);
   out.exact = among_all(out.exact, loaded, all);
   out.basis = among_all(out.basis, loaded, all);
   MatrixXd under_loads = MatrixXd::Zero(all, loads);
@@ -203,7 +249,7 @@ contact_flexibilities(MPI_Comm comm, const study::Study& study, const fem::Model
         continue;
       try {
         out[i] = flexibility(parts, scenes[i], contacts[i], solvers);
-      } catch (const core::ComputationError& error) {
+      } catch (const std::exception& error) { // core::Error and core::ComputationError
         if (study.modes.static_modes != study::StaticModes::none)
           throw;
         out[i].failure = error.what();

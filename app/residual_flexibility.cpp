@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/residual_flexibility.hpp"
+#include "core/error.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -11,6 +12,20 @@ using Eigen::Index;
 /// Missing flexibility times stiffness that makes impacts wrong by half of it: a percent.
 constexpr double told = 0.02;
 
+/// What is in series has no inertia: where a load jumps, the contacts would jump with it, at no finite speed.
+void check_continuous(const transient::TimeFunction& function) {
+  const auto* table = std::get_if<transient::Table>(&function);
+  if (!table)
+    return;
+  for (std::size_t i = 1; i < table->time.size(); ++i)
+    if (table->time[i] == table->time[i - 1] && table->value[i] != table->value[i - 1])
+      throw core::Error(fmt::format("a load's table jumps at {} s, and with modes.static_modes = \"auto\" "
+                                    "the contacts would jump with it: give "
+                                    "the jump a rise of the shortest period that matters, or take "
+                                    "static_modes = \"none\" and more modes",
+                                    table->time[i]));
+}
+
 void give_residual_flexibility(const ContactFlexibility& flexibility, transient::Scene& scene) {
   scene.residual = flexibility.missing;
   for (std::size_t k = 0; k < scene.contacts.size(); ++k) {
@@ -19,6 +34,9 @@ void give_residual_flexibility(const ContactFlexibility& flexibility, transient:
     if (under.isZero(0.0))
       continue;
     point.under_loads = under;
+    for (std::size_t l = 0; l < scene.loads.size(); ++l)
+      if (!under.col(static_cast<Index>(l)).isZero(0.0))
+        check_continuous(scene.loads[l].function);
     for (std::size_t l = 0; l < scene.loads.size(); ++l)
       if (const auto column = under.col(static_cast<Index>(l));
           !column.isZero(0.0) && !scene.loads[l].inertial)

@@ -52,13 +52,6 @@ double largest_share(const Eigen::VectorXd& scale, const Eigen::MatrixXd& part,
   return largest;
 }
 
-/// The diagonal of K; what nothing stiffens moves alone and is held by the largest.
-Eigen::VectorXd scale_of(const Model& model, const Structure& structure) {
-  const Eigen::VectorXd diagonal = stiffness_diagonal(model, structure);
-  const double stiffest = diagonal.maxCoeff() > 0.0 ? diagonal.maxCoeff() : 1.0;
-  return (diagonal.array() > 0.0).select(diagonal, stiffest);
-}
-
 /// The rows of a structure of a field over the model, and back.
 Eigen::VectorXd part_of(const Structure& structure, const Eigen::VectorXd& field) {
   Eigen::VectorXd out(static_cast<Eigen::Index>(structure.equation.size()));
@@ -83,31 +76,49 @@ bool pushes(const Eigen::VectorXd& force, const Eigen::VectorXd& motion, const E
 
 } // namespace
 
+Eigen::VectorXd scale_of(const Model& model, const Structure& structure) {
+  const Eigen::VectorXd diagonal = stiffness_diagonal(model, structure);
+  const double stiffest = diagonal.maxCoeff() > 0.0 ? diagonal.maxCoeff() : 1.0;
+  return (diagonal.array() > 0.0).select(diagonal, stiffest);
+}
+
+std::vector<PetscInt> equations_to_hold(const Structure& structure, const Eigen::MatrixXd& rigid,
+                                        const Eigen::VectorXd& scale) {
+  Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(rigid.cols(), structure.equations);
+  for (std::size_t i = 0; i < structure.equation.size(); ++i)
+    if (const Index e = structure.equation[i]; e >= 0) {
+      const auto row = static_cast<Eigen::Index>(i);
+      motion.col(e) += std::sqrt(scale(row)) * rigid.row(row).transpose();
+    }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> pivots(motion);
+  std::vector<PetscInt> out;
+  for (Eigen::Index k = 0; k < rigid.cols(); ++k)
+    out.push_back(static_cast<PetscInt>(pivots.colsPermutation().indices()(k)));
+  return out;
+}
+
+void hold(Mat stiffness, const std::vector<PetscInt>& equations) {
+  PetscInt first = 0, end = 0;
+  FW_PETSC(MatGetOwnershipRange(stiffness, &first, &end));
+  std::vector<PetscInt> mine;
+  for (const PetscInt e : equations)
+    if (first <= e && e < end)
+      mine.push_back(e);
+  FW_PETSC(
+      MatZeroRowsColumns(stiffness, static_cast<PetscInt>(mine.size()), mine.data(), 1.0, nullptr, nullptr));
+}
+
 StaticSolver::StaticSolver(const Model& model, const Structure& structure)
     : model_(model), structure_(structure), rigid_(rigid_motions(model, structure)),
       momentum_(mass_times(model, structure, rigid_)), scale_(scale_of(model, structure)) {
   if (structure.equations == 0)
     return;
   const SystemMatrices system = assemble(PETSC_COMM_SELF, model, structure);
-  hold_against_rigid_motions(system.stiffness.get());
+  if (rigid_.cols() > 0) {
+    held_ = equations_to_hold(structure, rigid_, scale_);
+    hold(system.stiffness.get(), held_);
+  }
   factor_ = factorise(system.stiffness.get(), elimination_of(model, structure));
-}
-
-/// The equations that tell the rigid motions apart best, by the strain energy that moving them alone would take.
-void StaticSolver::hold_against_rigid_motions(Mat stiffness) {
-  if (rigid_.cols() == 0)
-    return;
-  Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(rigid_.cols(), structure_.equations);
-  for (std::size_t i = 0; i < structure_.equation.size(); ++i)
-    if (const Index e = structure_.equation[i]; e >= 0) {
-      const auto row = static_cast<Eigen::Index>(i);
-      motion.col(e) += std::sqrt(scale_(row)) * rigid_.row(row).transpose();
-    }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> pivots(motion);
-  for (Eigen::Index k = 0; k < rigid_.cols(); ++k)
-    held_.push_back(static_cast<PetscInt>(pivots.colsPermutation().indices()(k)));
-  FW_PETSC(MatZeroRowsColumns(stiffness, static_cast<PetscInt>(held_.size()), held_.data(), 1.0, nullptr,
-                              nullptr));
 }
 
 Eigen::MatrixXd StaticSolver::solve_once(const Eigen::MatrixXd& right) const {

@@ -18,6 +18,15 @@
 
 namespace fretwork::fem {
 
+/// As many equations of a structure as it has rigid motions, so that K without them is as stiff as it can be: the pivots of a QR, see above.
+/// @param rigid  R, columns of 6 * structure.nodes.size() rows   @param scale  D, as many rows
+[[nodiscard]] std::vector<PetscInt>
+equations_to_hold(const Structure& structure, const Eigen::MatrixXd& rigid, const Eigen::VectorXd& scale);
+/// Makes them independent of all others. Collective over the matrix's ranks, which all give the same equations.
+void hold(Mat stiffness, const std::vector<PetscInt>& equations);
+/// D: the diagonal of K; what nothing stiffens moves alone and is held by the largest.
+[[nodiscard]] Eigen::VectorXd scale_of(const Model& model, const Structure& structure);
+
 class StaticSolver {
 public:
   /// Serial. @param model, structure  must live longer
@@ -34,7 +43,6 @@ public:
   [[nodiscard]] const Eigen::VectorXd& scale() const { return scale_; }
 
 private:
-  void hold_against_rigid_motions(Mat stiffness);
   [[nodiscard]] Eigen::MatrixXd solve_once(const Eigen::MatrixXd& right) const;
 
   const Model& model_;

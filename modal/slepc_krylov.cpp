@@ -4,11 +4,11 @@
 #include "core/petsc.hpp"
 #include "fem/beam_constants.hpp"
 #include "fem/node_blocks.hpp"
+#include "fem/petsc_static.hpp"
 #include "modal/canonical.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <slepceps.h>
@@ -129,6 +129,13 @@ fem::PetscMatrix shifted(const fem::SystemMatrices& system, double s) {
   return matrix;
 }
 
+int negative_pivots(Mat matrix, fem::Elimination elimination) {
+  const fem::PetscMatrix factor = fem::factorise(matrix, elimination);
+  PetscInt negative = 0;
+  FW_PETSC(MatGetInertia(factor.get(), &negative, nullptr, nullptr));
+  return static_cast<int>(negative);
+}
+
 void set_factorisation(EPS eps, Mat matrix, double shift, fem::Elimination elimination) {
   const auto [package, ordering] =
       fem::factoriser(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), elimination);
@@ -220,24 +227,11 @@ KrylovModes::KrylovModes(MPI_Comm comm, const fem::Model& model, const fem::Stru
   FW_PETSC(MatGetDiagonal(system_.mass.get(), diagonal.handle));
   PetscInt local = 0;
   FW_PETSC(VecGetLocalSize(diagonal.handle, &local));
-  const Vector stiffness = vector_like(system_.stiffness.get());
-  FW_PETSC(MatGetDiagonal(system_.stiffness.get(), stiffness.handle));
-  const PetscScalar *masses = nullptr, *stiffnesses = nullptr;
-  FW_PETSC(VecGetArrayRead(diagonal.handle, &masses));
-  FW_PETSC(VecGetArrayRead(stiffness.handle, &stiffnesses));
-  int mine = 0;
-  double stiffest = 0.0; // 1/s2
-  for (PetscInt i = 0; i < local; ++i)
-    if (masses[i] > 0.0) {
-      ++mine;
-      stiffest = std::max(stiffest, stiffnesses[i] / masses[i]);
-    }
-  FW_PETSC(VecRestoreArrayRead(stiffness.handle, &stiffnesses));
-  FW_PETSC(VecRestoreArrayRead(diagonal.handle, &masses));
+  const PetscScalar* values = nullptr;
+  FW_PETSC(VecGetArrayRead(diagonal.handle, &values));
+  const auto mine = static_cast<int>(std::count_if(values, values + local, [](double m) { return m > 0.0; }));
+  FW_PETSC(VecRestoreArrayRead(diagonal.handle, &values));
   MPI_Allreduce(&mine, &massive_, 1, MPI_INT, MPI_SUM, comm);
-  MPI_Allreduce(&stiffest, &round_off_, 1, MPI_DOUBLE, MPI_MAX, comm);
-  constexpr double sums = 100.0; // epsilons that a pivot gathers
-  round_off_ *= sums * std::numeric_limits<double>::epsilon();
   if (rigid.cols() > 0)
     shift_ = -eigenvalue_scale(model, structure);
 }
@@ -247,14 +241,17 @@ std::string KrylovModes::what() const {
          fem::place(model_.nodes[static_cast<std::size_t>(structure_.nodes.front())]);
 }
 
-int KrylovModes::below(double s) const {
-  const fem::PetscMatrix factor = fem::factorise(shifted(system_, s).get(), elimination_);
-  PetscInt negative = 0;
-  FW_PETSC(MatGetInertia(factor.get(), &negative, nullptr, nullptr));
-  return static_cast<int>(negative);
-}
+int KrylovModes::below(double s) const { return negative_pivots(shifted(system_, s).get(), elimination_); }
 
-bool KrylovModes::is_stable() const { return below(rigid_.cols() > 0 ? -round_off_ : 0.0) == 0; }
+// Rigid motions are held: nothing pulls at them, and what is left of K has the negative eigenvalues of K and no zero.
+bool is_stable(MPI_Comm comm, const fem::Model& model, const fem::Structure& structure,
+               const Eigen::MatrixXd& rigid) {
+  const fem::SystemMatrices system = fem::assemble(comm, model, structure);
+  if (rigid.cols() > 0)
+    fem::hold(system.stiffness.get(),
+              fem::equations_to_hold(structure, rigid, fem::scale_of(model, structure)));
+  return negative_pivots(system.stiffness.get(), fem::elimination_of(model, structure)) == 0;
+}
 
 Pairs KrylovModes::solve(int count, const Eigen::MatrixXd& deflated, int start) const {
   Mat k = system_.stiffness.get(), m = system_.mass.get();

@@ -20,8 +20,6 @@ public:
 
   /// Number of modes (rigid ones included) with lambda < s, s > 0. Collective.
   [[nodiscard]] int below(double s) const;
-  /// Whether no mode has lambda < 0: compressed beams may buckle. Collective.
-  [[nodiscard]] bool is_stable() const;
 
   /// At least the `count` lowest elastic modes, and so many more that the cluster of the last wanted one is
   /// complete; none is missing among them. Collective; the same on every rank.
@@ -41,8 +39,12 @@ private:
   fem::SystemMatrices system_;
   fem::Elimination elimination_;
   int massive_ = 0;
-  double round_off_ = 0.0; ///< 1/s2: eigenvalues of rigid motions may come out so far below 0
-  double shift_ = 0.0;     ///< 0 for a held structure, else negative: K - shift M is definite
+  double shift_ = 0.0; ///< 0 for a held structure, else negative: K - shift M is definite
 };
+
+/// Whether no mode has lambda < 0: compressed beams may buckle. Collective.
+/// @param rigid  motions without strain, fields over the structure
+[[nodiscard]] bool is_stable(MPI_Comm comm, const fem::Model& model, const fem::Structure& structure,
+                             const Eigen::MatrixXd& rigid);
 
 } // namespace fretwork::modal

@@ -35,7 +35,7 @@ void check_stable(MPI_Comm comm, const fem::Model& model, const fem::Structure& 
         const fem::Beam& beam = model.beams[static_cast<std::size_t>(number)];
         return model.properties[static_cast<std::size_t>(beam.property)].axial_force < 0.0;
       });
-  if (compressed && !KrylovModes(comm, model, structure, rigid).is_stable())
+  if (compressed && !is_stable(comm, model, structure, rigid))
     throw core::Error("the structure that starts at node " +
                       fem::place(model.nodes[static_cast<std::size_t>(structure.nodes.front())]) +
                       " buckles under the compression of its beams ([[beams]] axial_force < 0): lower it, or "

@@ -231,6 +231,24 @@ TEST(AxialForce, HoldsAFreeBarInItsDirection) {
   expect_error([&] { (void)modes(b.model, 8); }, {"buckles"});
 }
 
+// Rigid motions are of eigenvalue 0: round-off must not make them buckle, nor hide what buckles, however fine the mesh.
+TEST(AxialForce, OfAColumnThatSlidesAndSpinsBucklesAtEulersLoad) {
+  for (const int elements : {18, 90, 1000})
+    for (const double share : {0.1, 0.99, 1.01}) {
+      auto p = tube_property();
+      const double euler = pi * pi * p.material.young_modulus * p.section.iy / (length * length);
+      p.axial_force = -share * euler;
+      ModelBuilder b;
+      const auto nodes = b.line({0, 0, 0}, {length, 0, 0}, elements, b.property(p));
+      for (const auto node : {nodes.front(), nodes.back()})
+        b.fix(node, uy | uz);
+      if (share > 1.0)
+        expect_error([&] { (void)modes(b.model, 4); }, {"buckles"});
+      else
+        EXPECT_EQ(modes(b.model, 4).omega[1], 0.0) << elements; // it slides and spins
+    }
+}
+
 TEST(Taper, CantileversHaveTheFrequenciesOfTheLiterature) {
   // published, e.g. B. Downs, Transverse vibrations of cantilever beams having unequal breadth and depth tapers,
   // Journal of Applied Mechanics 44 (1977) 737-742
