@@ -279,7 +279,7 @@ BuiltScene build_scene(const study::Study& study, const Fields& fields, const st
   for (const std::size_t c : out.contacts)
     add_contact(study, study.contacts[contacts[c].entry], contacts[c], bases, fields, out);
   if (!out.contacts.empty() && flexibility.failure.empty())
-    take_residual_flexibility(study, flexibility, out);
+    take_residual_flexibility(study, flexibility, fields.loads, out);
   for (std::size_t k = 0; k < nodes.size(); ++k)
     if (has_node(bases, nodes[k].node)) {
       Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(3, scene.system.size());

@@ -107,6 +107,8 @@ void add_structure(const Parts& parts, std::size_t s, const MatrixXd& forces, co
   const MatrixXd u = solver_of(parts, s, solvers).solve(forces);
   out.exact(among, among) += forces.transpose() * u;
   out.basis(among, among) += modal::flexibility_of(basis, forces);
+  if (parts.study.modes.static_modes == study::StaticModes::none)
+    return; // nothing is moved beside the modes
   const MatrixXd gain = modal::static_gain(basis, forces);
   for (std::size_t l = 0; l < parts.loads.size(); ++l) {
     const Eigen::VectorXd load = restricted(basis, parts.loads[l].force);
@@ -117,7 +119,7 @@ void add_structure(const Parts& parts, std::size_t s, const MatrixXd& forces, co
   }
 }
 
-/// The same of those of its directions that are loaded.
+/// Adds what a structure gives of the directions that are loaded and that it has forces along.
 void add_loaded(const Parts& parts, std::size_t s, const Forces& forces, const std::vector<Index>& loaded,
                 Solvers& solvers, ContactFlexibility& out) {
   std::vector<Index> columns, among;
@@ -242,6 +244,12 @@ contact_flexibilities(MPI_Comm comm, const study::Study& study, const fem::Model
   }
   const std::vector<int> owner = core::share_out(costs, core::size(comm));
   std::vector<ContactFlexibility> out(scenes.size());
+  // where the scene does not take them, they are for the table only
+  const auto fail = [&](const std::exception& error, ContactFlexibility& of_scene) {
+    if (study.modes.static_modes != study::StaticModes::none)
+      throw;
+    of_scene.failure = error.what();
+  };
   core::agree(comm, [&] {
     Solvers solvers;
     for (std::size_t i = 0; i < scenes.size(); ++i) {
@@ -249,10 +257,10 @@ contact_flexibilities(MPI_Comm comm, const study::Study& study, const fem::Model
         continue;
       try {
         out[i] = flexibility(parts, scenes[i], contacts[i], solvers);
-      } catch (const std::exception& error) { // core::Error and core::ComputationError
-        if (study.modes.static_modes != study::StaticModes::none)
-          throw;
-        out[i].failure = error.what();
+      } catch (const core::Error& error) {
+        fail(error, out[i]);
+      } catch (const core::ComputationError& error) {
+        fail(error, out[i]);
       }
     }
   });

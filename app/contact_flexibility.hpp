@@ -20,7 +20,7 @@ struct ContactFlexibility {
   Eigen::MatrixXd exact, basis,
       missing; ///< m/N, 3 nc x 3 nc over x_loc y_loc z_loc of each; symmetric, missing >= 0
   Eigen::MatrixXd
-      under_loads;     ///< m, 3 nc x loads of the fields: what the modes lack of the static displacements
+      under_loads; ///< m, 3 nc x loads of the fields: what the modes lack of the static displacements; 0 with static_modes = "none"
   std::string failure; ///< why there is none of the above; empty: there is
 
   /// Of the k-th contact in the normal direction in which most is missing.
@@ -30,8 +30,9 @@ struct ContactFlexibility {
 /// Collective; needs PETSc. Scenes are shared out over ranks; the same bytes on every rank and for any number of ranks. Equal structures
 /// are factorised once a rank.
 /// @param scenes  numbers of the structures of each
-/// @throws core::ComputationError where a structure's stiffness is singular to working precision, unless the study asks for no static modes:
-///         then `failure` says so
+/// With static_modes = "none" `missing` is that of each contact alone, which is what `at` tells.
+/// @throws core::ComputationError where a structure's stiffness is singular to working precision, core::Error where a motion without strain
+///         moves no mass; unless the study asks for no static modes: then `failure` says so
 [[nodiscard]] std::vector<ContactFlexibility>
 contact_flexibilities(MPI_Comm comm, const study::Study& study, const fem::Model& model,
                       const std::vector<fem::Structure>& structures, const std::vector<modal::Basis>& bases,

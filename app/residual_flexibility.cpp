@@ -13,34 +13,43 @@ using Eigen::Index;
 constexpr double told = 0.02;
 
 /// What is in series has no inertia: where a load jumps, the contacts would jump with it, at no finite speed.
-void check_continuous(const transient::TimeFunction& function) {
-  const auto* table = std::get_if<transient::Table>(&function);
+void check_continuous(const Fields::Load& load) {
+  const auto* table = std::get_if<transient::Table>(&load.function);
   if (!table)
     return;
   for (std::size_t i = 1; i < table->time.size(); ++i)
     if (table->time[i] == table->time[i - 1] && table->value[i] != table->value[i - 1])
-      throw core::Error(fmt::format("a load's table jumps at {} s, and with modes.static_modes = \"auto\" "
+      throw core::Error(fmt::format("{}: the table jumps at {} s, and with modes.static_modes = \"auto\" "
                                     "the contacts would jump with it: give "
                                     "the jump a rise of the shortest period that matters, or take "
                                     "static_modes = \"none\" and more modes",
-                                    table->time[i]));
+                                    load.name, table->time[i]));
 }
 
-void give_residual_flexibility(const ContactFlexibility& flexibility, transient::Scene& scene) {
+/// Values at t = 0 of the loads that a static equilibrium has.
+Eigen::VectorXd static_values(const transient::Scene& scene) {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Index>(scene.loads.size()));
+  for (std::size_t l = 0; l < scene.loads.size(); ++l)
+    if (!scene.loads[l].inertial)
+      values(static_cast<Index>(l)) = transient::Signal(scene.loads[l].function, scene.duration)(0.0);
+  return values;
+}
+
+/// @param loads  those of the scene, with their names
+void give_residual_flexibility(const ContactFlexibility& flexibility, const std::vector<Fields::Load>& loads,
+                               transient::Scene& scene) {
+  for (std::size_t l = 0; l < loads.size(); ++l)
+    if (!flexibility.under_loads.col(static_cast<Index>(l)).isZero(0.0))
+      check_continuous(loads[l]);
   scene.residual = flexibility.missing;
+  const Eigen::VectorXd at_start = static_values(scene);
   for (std::size_t k = 0; k < scene.contacts.size(); ++k) {
     transient::ContactPoint& point = scene.contacts[k];
     const Eigen::MatrixXd under = flexibility.under_loads.middleRows<3>(3 * static_cast<Index>(k));
     if (under.isZero(0.0))
       continue;
     point.under_loads = under;
-    for (std::size_t l = 0; l < scene.loads.size(); ++l)
-      if (!under.col(static_cast<Index>(l)).isZero(0.0))
-        check_continuous(scene.loads[l].function);
-    for (std::size_t l = 0; l < scene.loads.size(); ++l)
-      if (const auto column = under.col(static_cast<Index>(l));
-          !column.isZero(0.0) && !scene.loads[l].inertial)
-        point.loaded_at_start += transient::Signal(scene.loads[l].function, scene.duration)(0.0) * column;
+    point.loaded_at_start = under * at_start;
   }
 }
 
@@ -61,7 +70,7 @@ double missing_times_stiffness(const ContactFlexibility& flexibility, std::size_
 }
 
 void take_residual_flexibility(const study::Study& study, const ContactFlexibility& flexibility,
-                               BuiltScene& built) {
+                               const std::vector<Fields::Load>& loads, BuiltScene& built) {
   for (std::size_t k = 0; k < built.scene.contacts.size(); ++k) {
     const transient::ContactPoint& point = built.scene.contacts[k];
     if (const double product = missing_times_stiffness(flexibility, k, point.support);
@@ -75,7 +84,7 @@ void take_residual_flexibility(const study::Study& study, const ContactFlexibili
     return;
   case study::StaticModes::residual:
     if (built.lacking > worth_having)
-      give_residual_flexibility(flexibility, built.scene);
+      give_residual_flexibility(flexibility, loads, built.scene);
     return;
   }
 }

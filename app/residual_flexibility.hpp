@@ -21,8 +21,10 @@ constexpr double worth_having = 1e-3;
 
 /// Sets `lacking` and, as the study says, gives the scene Scene::residual and ContactPoint::under_loads where they are worth having.
 /// @param flexibility  of the contacts of the scene, whole
+/// @param loads  those of the scene, with their names
+/// @throws core::Error for a load that jumps and moves contacts beside the modes
 void take_residual_flexibility(const study::Study& study, const ContactFlexibility& flexibility,
-                               BuiltScene& built);
+                               const std::vector<Fields::Load>& loads, BuiltScene& built);
 
 /// What was done about it, or what should be where impacts are wrong by a percent; empty where there is nothing to tell.
 [[nodiscard]] std::string flexibility_note(const study::Study& study, const std::vector<BuiltScene>& scenes);

@@ -24,13 +24,13 @@ Eigen::MatrixXd flexibility_of(const Basis& basis, const Eigen::MatrixXd& loads)
 }
 
 Eigen::MatrixXd missing_flexibility(const Eigen::MatrixXd& exact, const Eigen::MatrixXd& basis) {
+  if (exact.size() == 0)
+    return exact;
   const Eigen::VectorXd size = exact.diagonal().cwiseMax(0.0).cwiseSqrt();
   const Eigen::VectorXd scale = (size.array() > 0.0).select(size.cwiseInverse(), 0.0);
   const Eigen::MatrixXd difference = 0.5 * (exact + exact.transpose() - basis - basis.transpose());
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * difference *
                                                               scale.asDiagonal());
-  if (exact.size() == 0)
-    return exact;
   if (const double least = solver.eigenvalues().minCoeff(); !(least > -spoilt_share))
     throw core::ComputationError(
         fmt::format("static flexibility at the contacts: the modes are softer than the structure by {:.2g} "

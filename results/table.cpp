@@ -150,16 +150,18 @@ void add_flexibility(Lines& lines, const RunResults& results) {
     return;
   std::stable_sort(lacking.begin(), lacking.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
-  lines.plain(fmt::format("  {:<20} {:>12} {:>12} {:>12} {:>12}", "static flexibility", "exact m/N",
-                          "modes m/N", "missing m/N", "missing K_N"));
-  for (std::size_t i = 0; i < std::min(most_lacking, lacking.size()); ++i) {
+  const std::size_t shown = std::min(most_lacking, lacking.size());
+  lines.plain(fmt::format("  {:<34} {:>12} {:>12} {:>12} {:>12}",
+                          shown < lacking.size()
+                              ? fmt::format("static flexibility, worst {} of {}", shown, lacking.size())
+                              : "static flexibility",
+                          "exact m/N", "modes m/N", "missing m/N", "missing K_N"));
+  for (std::size_t i = 0; i < shown; ++i) {
     const auto& [product, c] = lacking[i];
-    lines.plain(fmt::format("  {:<20} {:>12.4g} {:>12.4g} {:>12.3g} {:>12.2g}", shortened(c->name),
+    lines.plain(fmt::format("  {:<34} {:>12.4g} {:>12.4g} {:>12.3g} {:>12.2g}", shortened(c->name),
                             c->static_flexibility->exact, c->static_flexibility->basis,
                             c->static_flexibility->missing, product));
   }
-  if (lacking.size() > most_lacking)
-    lines.plain(fmt::format("  the {} of {} contacts whose modes lack most", most_lacking, lacking.size()));
   lines.plain("");
 }
 

@@ -160,6 +160,8 @@ void FlexibleContacts::take(int c, const ContactMotion& motion) {
   s.nz = at.nz;
   s.approach = motion.sinking(c, at.ny, at.nz);
   s.reach = still_ ? 0.0 : 0.5 * window * h_ * s.approach;
+  s.normal.damping *=
+      contact::closed_share(-at.gap - s.reach, -at.gap + s.reach); // as the last forces leave it
   s.bare = -at.gap + at.ny * given_[c] + at.nz * given_[width + c];
   const auto along = [&](const kernels::Array& lanes, double* to) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -275,11 +277,10 @@ double FlexibleContacts::improve(std::size_t i, const ContactMemory* memory) {
   const double own = at(residual_, n, n), mobility = at(mobility_, n, n) + rate_.now * own;
   const double p = s.bare - (give_[n] - own * s.force[0]);
   s.mean = contact::mean_penetration(p - s.reach, p + s.reach);
-  contact::NormalLaw law = s.normal;
-  law.damping *= contact::closed_share(p - s.reach, p + s.reach);
   const double normal =
-      s.mean > 0.0 ? contact::series_force(law, s.mean, normal_rate(i) + mobility * s.force[0], mobility, own)
-                   : 0.0;
+      s.mean > 0.0
+          ? contact::series_force(s.normal, s.mean, normal_rate(i) + mobility * s.force[0], mobility, own)
+          : 0.0;
   double changed = std::abs(normal - s.force[0]);
   change(i, 0, normal - s.force[0]);
   if (!s.friction || !memory)

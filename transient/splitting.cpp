@@ -179,9 +179,10 @@ private:
     const double springs_before = memory_.spring_energy();
     paths_.correct(trial_);
     const ContactLosses losses = memory_.commit(motion_, trial_);
-    memory_.leave(motion_, trial_, 0.5 * h_);
     if (flexible_)
       flexible_->accept();
+    else
+      memory_.leave(motion_, trial_, 0.5 * h_);
     rows_.set(trial_, h_);
     rows_.add_to(v_.data());
     // The record stands in the middle of the action: half of its losses belong to it, and its velocity is (v-

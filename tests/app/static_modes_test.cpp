@@ -227,7 +227,7 @@ TEST(StaticModes, RefuseLoadsThatJump) {
   const Outcome outcome = folder.fretwork({"run", folder.write("study.toml", study).string(), "--no-report"});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_TRUE(says(outcome.err,
-                   "a load's table jumps at 0.002 s, and with modes.static_modes = \"auto\" the contacts "
+                   "the table jumps at 0.002 s, and with modes.static_modes = \"auto\" the contacts "
                    "would jump with it: give the jump a rise"))
       << outcome.err;
 }

@@ -261,7 +261,9 @@ TEST(SupportMotion, OfARandomAccelerationStaysAboutItsPlace) {
   constexpr double of_the_band = 5.0 / 900.0; // rms/w^2 at 5 Hz is 5 mm
   EXPECT_LT(most(about), 3.0 * of_the_band);
   EXPECT_GT(most(drifting), 3.0 * most(about)); // as given: from rest
-  EXPECT_NEAR(about.summary["nodes"][0]["displacement"]["y"]["mean"].get<double>(), 0.0, 2.0 * of_the_band);
+  const Eigen::VectorXd y = about.node("mass").displacement.col(1);
+  const Eigen::Index half = y.size() / 2;
+  EXPECT_NEAR(y.head(half).mean(), y.tail(half).mean(), 0.2 * of_the_band);
 }
 
 TEST(SupportMotion, TellsWhatIsWrong) {

@@ -14,7 +14,8 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr std::size_t widest = 112; // columns a person's terminal shows without wrapping, roughly
-constexpr std::size_t longest = 48; // lines that fit a screen
+constexpr std::size_t longest =
+    45; // lines that fit a screen, five of them the contacts whose modes lack flexibility
 
 std::vector<std::string> lines(const std::string& text) {
   std::istringstream in(text);
@@ -114,9 +115,10 @@ TEST(TerminalTable, ShowsTheContactsWhoseModesLackFlexibility) {
     return line.find("static flexibility") != std::string::npos;
   });
   ASSERT_LT(head + 4, table.end());
+  EXPECT_THAT(*head, HasSubstr("static flexibility, worst 3 of 5 "));
   EXPECT_THAT(*(head + 1), HasSubstr("1e-06      9.9e-07        1e-08         0.01")) << "the worst first";
   EXPECT_THAT(*(head + 3), HasSubstr("0.006"));
-  EXPECT_THAT(*(head + 4), HasSubstr("the 3 of 5 contacts whose modes lack most"));
+  EXPECT_EQ(*(head + 4), "");
 }
 
 TEST(ModesTable, HasALineAModeAndTheirSum) {

@@ -12,6 +12,7 @@ using contact::FrictionLaw;
 namespace {
 
 constexpr double pi = std::numbers::pi;
+constexpr double asked = 1e-3;
 constexpr double last_asked =
     5e-3; // of the smallest extremum of the decay, where the spring of the contact shows
 
@@ -27,13 +28,12 @@ Scene coulomb_decay() {
   return s;
 }
 
-void check_decay(const StepOptions& options, double tolerance) {
+void check_decay(const StepOptions& options) {
   const History run = simulate(coulomb_decay(), options, pi / 100.0);
   const double extrema[] = {-4.5961941e-4, 3.1819805e-4, -1.7677670e-4, 3.5355339e-5};
   for (int n = 0; n < 4; ++n)
     for (int axis = 0; axis < 2; ++axis)
-      EXPECT_NEAR(run.q(axis, n + 1) / extrema[n], 1.0, n < 3 ? tolerance : last_asked)
-          << "extremum " << n + 1;
+      EXPECT_NEAR(run.q(axis, n + 1) / extrema[n], 1.0, n < 3 ? asked : last_asked) << "extremum " << n + 1;
   EXPECT_NEAR(run.q(0, 5) / run.q(0, 4), 1.0, 0.1); // it sticks: what the contact's spring takes of 1e4/4e5
   EXPECT_EQ(run.statistics[0].contact_time_ratio, 1.0);
 }
@@ -51,20 +51,22 @@ class FrictionCases : public testing::TestWithParam<Candidate> {};
 } // namespace
 
 TEST_P(FrictionCases, DecayLosesTwiceTheBoundOverTheStiffnessPerHalfPeriod) {
-  check_decay(GetParam().options(2e-6), GetParam().tolerance());
+  check_decay(GetParam().options(2e-6));
 }
 
 TEST_P(FrictionCases, ShakingTableSlidesWithTheWorkRateOfItsClosedForm) {
   const History run = simulate(shaking_table(1.5), GetParam().options(2e-5), 12.0, 4.0);
-  EXPECT_NEAR(run.statistics[0].work_rate / 0.40906245, 1.0, GetParam().tolerance());
-  EXPECT_NEAR(run.statistics[0].friction_power / 0.040906245, 1.0, GetParam().tolerance());
+  EXPECT_NEAR(run.statistics[0].work_rate / 0.40906245, 1.0, asked);
+  EXPECT_NEAR(run.statistics[0].friction_power / 0.040906245, 1.0, asked);
 }
 
 TEST_P(FrictionCases, ShakingTableBelowTheBoundSticks) {
   const History run = simulate(shaking_table(0.99), GetParam().options(2e-5), 12.0, 4.0);
   EXPECT_EQ(run.statistics[0].work_rate, 0.0);
-  EXPECT_NEAR(run.statistics[0].friction_power, 0.0,
-              1e-20); // W; those that integrate the sliders leave round-off
+  const bool integrates =
+      GetParam().kind == SchemeKind::devogelaere || GetParam().kind == SchemeKind::runge_kutta_54;
+  const double round_off = integrates ? 1e-20 : 0.0; // W, of the sliders
+  EXPECT_NEAR(run.statistics[0].friction_power, 0.0, round_off);
 }
 
 TEST_P(FrictionCases, BlockStopsWhereCoulombSaysAndItsSpringDiesOut) {
@@ -76,9 +78,9 @@ TEST_P(FrictionCases, BlockStopsWhereCoulombSaysAndItsSpringDiesOut) {
   const History run = simulate(s, GetParam().options(1e-5), 0.01);
   const auto travel = [&](Eigen::Index j) { return 0.6 * run.q(0, j) + 0.8 * run.q(1, j); };
   const double end = v0 * v0 / 2.0;
-  const double spring = 1.1001 * bound / kt; // m: mu F_N / K_T short, the rest for Euler's order 1
+  const double spring = bound / kt; // mu F_N / K_T, m
   EXPECT_NEAR(travel(20), end, spring);
-  EXPECT_NEAR(travel(40), end, spring);
+  EXPECT_NEAR(travel(40), end - spring, (GetParam().first_order() ? 0.101 : 1e-6) * spring);
   EXPECT_GT(run.v.col(18).norm(), 0.015);
   for (Eigen::Index j = 21; j <= 40; ++j)
     EXPECT_LT(std::abs(travel(j) - travel(40)), spring);
@@ -95,7 +97,7 @@ TEST_P(FrictionCases, OscillatorHasDenHartogsAmplitude) {
   s.loads = {force_on(1.0, Vec3(0, f0, 0), Harmonic{1.0, frequency, 0.0})};
   const History run = simulate(s, GetParam().options(2e-4), period / 4000.0);
   const Eigen::Index last = 5 * 4000;
-  EXPECT_NEAR(run.q.row(1).tail(last).cwiseAbs().maxCoeff() / 2.50179, 1.0, GetParam().tolerance());
+  EXPECT_NEAR(run.q.row(1).tail(last).cwiseAbs().maxCoeff() / 2.50179, 1.0, asked);
 }
 
 INSTANTIATE_TEST_SUITE_P(Schemes, FrictionCases, testing::ValuesIn(candidates), name_of_candidate);

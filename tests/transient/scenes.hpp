@@ -56,9 +56,7 @@ struct Candidate {
   transient::SchemeKind kind;
   [[nodiscard]] bool first_order() const { return kind == transient::SchemeKind::euler; }
   [[nodiscard]] transient::StepOptions options(double euler_step) const {
-    transient::StepOptions out{kind, first_order() ? std::optional(euler_step) : std::nullopt};
-    out.tolerance = 1e-8; // of the adaptive scheme
-    return out;
+    return {kind, first_order() ? std::optional(euler_step) : std::nullopt};
   }
   /// Relative error allowed.
   [[nodiscard]] double tolerance() const { return first_order() ? 2e-3 : 1e-3; }

@@ -71,7 +71,7 @@ TEST(StepRule, ResolvesTheFrequencyOfStickingContacts) {
                   stick_share * std::hypot(0.005, 0.0075), "the frequency of sticking contacts 200 rad/s");
 }
 
-TEST(StepRule, ResolvesTheTangentialDampersByFourTimesTheirRate) {
+TEST(StepRule, ResolvesTheTangentialDampersBySixTimesTheirRate) {
   const Scene scene = scene_with({Circle{0.1}, {2.0}, {2.0, 4e3, 0.3, 0.3}});
   expect_governed(scene, splitting(), eps * 6.0 / 2000.0, "the tangential dampers' rate 2000 1/s");
   expect_governed(scene, euler(), eps / 2000.0, "the tangential dampers' rate 2000 1/s");

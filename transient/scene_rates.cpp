@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/scene_rates.hpp"
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace fretwork::transient {
+namespace {
+
+/// A table whose points are closer than this share of the run does not rule the step: its mean over steps is taken.
+constexpr double finest_table = 1e-6;
+
+/// Largest eigenvalue of D B B^T D over the rows chosen, D the square roots of the weights: that of the
+/// smaller of the two products.
+double largest_eigenvalue(const Eigen::MatrixXd& rows) {
+  if (rows.rows() == 0)
+    return 0.0;
+  const Eigen::MatrixXd product = rows.rows() <= rows.cols() ? Eigen::MatrixXd(rows * rows.transpose())
+                                                             : Eigen::MatrixXd(rows.transpose() * rows);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(product, Eigen::EigenvaluesOnly);
+  return std::max(0.0, solver.eigenvalues().maxCoeff());
+}
+
+/// Rows weighted by (1/w + R)^-1, w the weights: contacts in series with the residual flexibility. R of the same rows.
+Eigen::MatrixXd series_rows(const Eigen::MatrixXd& rows, const Eigen::VectorXd& weights,
+                            const Eigen::MatrixXd& residual) {
+  const Eigen::MatrixXd compliance = residual + Eigen::MatrixXd(weights.cwiseInverse().asDiagonal());
+  return Eigen::LLT<Eigen::MatrixXd>(compliance).matrixL().solve(rows);
+}
+
+template <class Weight, class Directions>
+Eigen::MatrixXd weighted_rows(const Scene& scene, Weight weight, Directions directions,
+                              const Eigen::MatrixXd& residual = {}) {
+  Eigen::MatrixXd rows(3 * static_cast<Eigen::Index>(scene.contacts.size()), scene.system.size());
+  std::vector<Eigen::Index> number;
+  std::vector<double> weights;
+  Eigen::Index used = 0, c = 0;
+  for (const ContactPoint& point : scene.contacts) {
+    const double w = weight(point);
+    const std::array<bool, 3> along = directions(point.support);
+    for (int k = 0; k < 3; ++k)
+      if (along[static_cast<std::size_t>(k)] && w > 0.0) {
+        rows.row(used++) = point.b.row(k);
+        weights.push_back(w);
+        number.push_back(3 * c + k);
+      }
+    ++c;
+  }
+  rows.conservativeResize(used, Eigen::NoChange);
+  const Eigen::VectorXd w = Eigen::Map<const Eigen::VectorXd>(weights.data(), used);
+  if (residual.size() > 0)
+    return series_rows(rows, w, residual(number, number));
+  return w.cwiseSqrt().asDiagonal() * rows;
+}
+
+std::array<bool, 3> normal_rows(const contact::Support& support) {
+  const auto [y, z] = contact::normal_directions(support.obstacle);
+  return {false, y, z};
+}
+
+/// x_loc, and every direction across it that a tangent can take: all but the normal of a plane.
+std::array<bool, 3> tangent_rows(const contact::Support& support) {
+  const auto [y, z] = contact::normal_directions(support.obstacle);
+  return {true, !y || (y && z), !z || (y && z)};
+}
+
+/// Largest rate of the structure's own damping, 1/s.
+double structure_rate(const System& system) {
+  if (system.size() == 0)
+    return 0.0;
+  if (system.damping_matrix.size() == 0)
+    return system.damping.maxCoeff();
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(system.damping_matrix, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .maxCoeff();
+}
+
+/// Penetration of a contact at t = 0, m, 0 where it is open.
+double initial_overlap(const Scene& scene, const ContactPoint& point) {
+  const core::Vec3 u = scene.place_at_start(point) + point.b * scene.q0;
+  return std::max(0.0, -contact::locate(point.support.obstacle, u.y(), u.z()).gap);
+}
+
+/// Shortest time in which the dampers of sticking contacts give way to their springs, C_T/K_T, s; 0 without friction.
+double shortest_relaxation(const Scene& scene) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const ContactPoint& point : scene.contacts)
+    if (const auto& law = point.support.friction; law.active())
+      shortest = std::min(shortest, law.damping / law.stiffness);
+  return std::isfinite(shortest) ? shortest : 0.0;
+}
+
+/// Whether a load has to do with the scene: it moves its modes, or contacts beside them, or may be that of a motion that carries its
+/// obstacles.
+bool acts(const Load& load, const Scene& scene) {
+  return !load.modal_force.isZero(0.0) ||
+         std::any_of(scene.contacts.begin(), scene.contacts.end(), [](const ContactPoint& contact) {
+           return contact.carried.size() > 0 || contact.under_loads.size() > 0;
+         });
+}
+
+/// Shortest interval between points of the tables, s, those left out that are too fine to rule; 0 without tables.
+double table_interval(const Scene& scene) {
+  double shortest = 0.0;
+  for (const Load& load : scene.loads)
+    if (const auto* table = std::get_if<Table>(&load.function); table && acts(load, scene))
+      for (std::size_t i = 1; i < table->time.size(); ++i)
+        if (const double interval = table->time[i] - table->time[i - 1];
+            interval > finest_table * scene.duration && (shortest == 0.0 || interval < shortest))
+          shortest = interval;
+  return shortest;
+}
+
+} // namespace
+
+SceneRates rates_of(const Scene& scene) {
+  const auto stiffness_n = [](const ContactPoint& point) { return point.support.normal.stiffness; };
+  const auto stiffness_t = [](const ContactPoint& point) {
+    return point.support.friction.active() ? point.support.friction.stiffness : 0.0;
+  };
+  const auto damping_t = [](const ContactPoint& point) {
+    return point.support.friction.active() ? point.support.friction.damping : 0.0;
+  };
+  SceneRates out;
+  out.contact_frequency =
+      std::sqrt(largest_eigenvalue(weighted_rows(scene, stiffness_n, normal_rows, scene.residual)));
+  out.stick_frequency =
+      std::sqrt(largest_eigenvalue(weighted_rows(scene, stiffness_t, tangent_rows, scene.residual)));
+  out.stick_relaxation = shortest_relaxation(scene);
+  out.damper_rate = largest_eigenvalue(weighted_rows(scene, damping_t, tangent_rows));
+  if (scene.system.size() > 0)
+    out.highest_mode = std::sqrt(scene.system.stiffness.maxCoeff());
+  for (const Load& load : scene.loads)
+    if (acts(load, scene))
+      out.excitation = std::max(out.excitation, highest_frequency(load.function));
+  out.table_interval = table_interval(scene);
+  return out;
+}
+
+double explicit_damper_rate(const Scene& scene) {
+  const auto damping_n = [&scene](const ContactPoint& point) {
+    return point.support.normal.damping_at(initial_overlap(scene, point));
+  };
+  return std::max(structure_rate(scene.system),
+                  largest_eigenvalue(weighted_rows(scene, damping_n, normal_rows)));
+}
+
+double relaxation_rate(const Scene& scene) {
+  double rate = 0.0;
+  for (const ContactPoint& point : scene.contacts)
+    if (const auto& law = point.support.friction;
+        law.active() && law.kind == contact::FrictionMemoryKind::return_map && law.damping > 0.0)
+      rate = std::max(rate, law.stiffness / law.damping);
+  return rate;
+}
+
+} // namespace fretwork::transient

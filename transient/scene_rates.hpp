@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// How fast a scene moves: what the steps of schemes have to resolve.
+#pragma once
+#include "transient/scene.hpp"
+
+namespace fretwork::transient {
+
+/// Each 0 where there is no such thing.
+struct SceneRates {
+  /// w_c, rad/s, of all contacts closed: w_c^2 = largest eigenvalue of K_N^1/2 W K_N^1/2, W = B B^T over the normal directions of all
+  /// contacts; with residual flexibility R of (K_N^-1 + R)^-1 in place of K_N.
+  double contact_frequency = 0.0;
+  double stick_frequency = 0.0; ///< w_t, rad/s, the same with K_T over the tangent directions
+  double stick_relaxation =
+      0.0; ///< s, smallest C_T/K_T of the contacts with friction: their dampers give way in it
+  double damper_rate = 0.0;  ///< r_t, 1/s, the largest eigenvalue of C_T^1/2 W C_T^1/2
+  double highest_mode = 0.0; ///< rad/s
+  double excitation = 0.0;   ///< Hz, the highest of the loads that act on the scene
+  double table_interval =
+      0.0; ///< s, the shortest between points of their tables, but those too close to rule a step
+};
+[[nodiscard]] SceneRates rates_of(const Scene& scene);
+
+/// 1/s: the largest rate of the structure's own damping, and of the normal dampers (c(p) at t = 0 in place of C_T).
+[[nodiscard]] double explicit_damper_rate(const Scene& scene);
+
+/// 1/s: the largest at which springs of sliding contacts follow their bound, K_T/C_T.
+[[nodiscard]] double relaxation_rate(const Scene& scene);
+
+} // namespace fretwork::transient
