@@ -12,14 +12,17 @@
 /// fails then is StepFailure::contacts. Steps grow again on the grid of the halves.
 ///
 /// Records stand at the nodes 0 and 1/2; they stand for Simpson's weights, h/6 on each side and 2 h/3.
-/// Energy: modal energies and the works of loads and contacts on the modes are exact. The laws' losses are Simpson's sums of powers,
+/// Energy: modal energies and the works of loads and contacts on the modes are exact. The laws' losses, and what moving obstacles bring
+/// (obstacle_motion.hpp), are Simpson's sums of powers,
 ///     normal damper (F_N - K_N p+) p',   slider -F.(v - w),   tangential damper -F.v + T.w less the slider's,   w = -T'/K_T
 /// T' of the quadratic through T at the nodes (so the sum of T.w is exactly the spring's energy). The residual is of the scheme's order.
 /// Source: Lobatto IIIA (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.7) on the variation of constants.
 #include "transient/contact_trial.hpp"
 #include "transient/load_sum.hpp"
 #include "transient/nodal_solver.hpp"
+#include "transient/obstacle_motion.hpp"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -60,8 +63,10 @@ class Collocation final : public Scheme {
 public:
   Collocation(const Scene& scene, double step)
       : system_(scene.system), h_(step), loads_(scene.loads, scene.system.size(), scene.duration, 0.5 * step),
-        contacts_(scene.contacts, scene.system.size()), motion_(contacts_), solver_(contacts_),
-        trial_(contacts_.count), powers_(3 * static_cast<std::size_t>(contacts_.count)),
+        contacts_(scene.contacts, scene.system.size()), motion_(contacts_),
+        obstacles_(scene, contacts_, step), obstacle_at_{obstacles_.room(), obstacles_.room(),
+                                                         obstacles_.room()},
+        solver_(contacts_), trial_(contacts_.count), powers_(3 * static_cast<std::size_t>(contacts_.count)),
         carried_(static_cast<std::size_t>(contacts_.count)),
         closed_(static_cast<std::size_t>(contacts_.count)) {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
@@ -79,6 +84,8 @@ public:
     for (kernels::Array& a : load_.at)
       loads_.at(0.0, a.data());
     kernels::gather(contacts_.gather, q_.at[0].data(), v_.at[0].data(), motion_.u(0), motion_.v(0));
+    obstacles_.at(0.0, obstacle_at_[0]);
+    obstacle_at_[0].add_to(motion_.u(0), motion_.v(0));
     solver_.start(motion_);
     solver_.add_forces(0, force_.at[0].data());
     energy_[0].initial = energy_[0].throughput = energy_[0].stored =
@@ -207,9 +214,7 @@ private:
     std::fill(force_.at[2].begin(), force_.at[2].end(), 0.0);
     if (contacts_.count > 0) {
       now.flow.predict(load_, force_, q_, v_);
-      for (std::size_t j = 1; j <= 2; ++j)
-        kernels::gather(contacts_.gather, q_.at[j].data(), v_.at[j].data(), motion_.u(static_cast<int>(j)),
-                        motion_.v(static_cast<int>(j)));
+      gather();
       if (!solver_.solve(now.tables, motion_))
         return false;
       solver_.add_forces(1, force_.at[1].data());
@@ -217,6 +222,18 @@ private:
     }
     book(now.flow.move(load_, force_, q_, v_));
     return true;
+  }
+
+  /// Contacts at the nodes 1/2 and 1, where the modes have them; obstacles at all three.
+  void gather() {
+    for (int j = 0; j < 3; ++j) {
+      const auto node = static_cast<std::size_t>(j);
+      obstacles_.at(time_at(place_) + 0.5 * j * span(), obstacle_at_[node]);
+      if (j == 0)
+        continue;
+      kernels::gather(contacts_.gather, q_.at[node].data(), v_.at[node].data(), motion_.u(j), motion_.v(j));
+      obstacle_at_[node].add_to(motion_.u(j), motion_.v(j));
+    }
   }
 
   /// Energies at the nodes 1/2 and 1.
@@ -234,12 +251,17 @@ private:
         to[1].damper += h * to_end[j] * p[j].damper;
       }
     }
-    const double through[2] = {std::abs(work.load[0]),
-                               std::abs(work.load[0]) + std::abs(work.load[1] - work.load[0])};
+    double input[2] = {work.load[0], work.load[1]};
+    for (int j = 0; j < 3; ++j) {
+      const double power = solver_.power(j, obstacle_at_[static_cast<std::size_t>(j)].w);
+      input[0] -= h * to_middle[j] * power;
+      input[1] -= h * to_end[j] * power;
+    }
+    const double through[2] = {std::abs(input[0]), std::abs(input[0]) + std::abs(input[1] - input[0])};
     for (std::size_t j = 0; j < 2; ++j) {
       Energy& e = energy_[j + 1] = energy_[0];
       const double moving = modal_energy(j + 1);
-      e.load_work += work.load[j];
+      e.load_work += input[j];
       e.throughput += through[j];
       e.modal_damping += work.load[j] + work.contact[j] - (moving - before);
       e.contact_damping += to[j].damper;
@@ -288,6 +310,8 @@ private:
   LoadSum loads_;
   PackedContacts contacts_;
   NodalMotion motion_;
+  ObstacleMotion obstacles_;
+  std::array<Carried, 3> obstacle_at_; ///< what carries the contacts at the nodes
   NodalSolver solver_;
   ContactTrial trial_;
   std::vector<Level> levels_;

@@ -17,7 +17,9 @@ ContactEvents::ContactEvents(const MotionRates& rates)
     : rates_(rates), terms_(DormandPrince::terms, ContactMotion(rates.contacts())), probe_(rates.contacts()) {
 }
 
-std::optional<ContactEvent> ContactEvents::first(const DormandPrince& step) {
+std::optional<ContactEvent> ContactEvents::first(const DormandPrince& step, double time, double h) {
+  start_ = time;
+  h_ = h;
   std::optional<ContactEvent> best;
   for (int j = 0; j < DormandPrince::terms; ++j)
     terms_[static_cast<std::size_t>(j)].gather(step.term(j), step.term(j) + rates_.modes());
@@ -55,6 +57,7 @@ Margins ContactEvents::margins(const DormandPrince& step, int c, double share) {
       probe_.w[lane] += factors[j] * terms_[j].w[lane];
     }
   }
+  rates_.carry(start_ + share * h_, c, probe_);
   contact::Vec2 spring;
   for (int j = 0; j < DormandPrince::terms; ++j)
     spring = spring + factors[static_cast<std::size_t>(j)] * rates_.spring(step.term(j), c);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// Where in a step a contact first leaves its regime: closes or opens, starts to slide or sticks. Each contact's margins
-/// (MotionRates::margin) are followed along the step's continuous extension at its quarters; where one has the wrong sign, its zero is
+/// (MotionRates::margin) are followed along the step's continuous extension, and moving obstacles where they are, at its quarters; where one has the wrong sign, its zero is
 /// bracketed and found by regula falsi (Illinois variant) with bisection as a safeguard, to the round-off of the share. An excursion that
 /// begins and ends between two quarters goes unseen: it is shorter than h/4, and deeper than a (h/4)^2/8 only at accelerations above a.
 #pragma once
@@ -20,8 +20,8 @@ struct ContactEvent {
 class ContactEvents {
 public:
   explicit ContactEvents(const MotionRates& rates);
-  /// The first event of an extended step. No allocation.
-  [[nodiscard]] std::optional<ContactEvent> first(const DormandPrince& step);
+  /// The first event of an extended step of length h that starts at `time`. No allocation.
+  [[nodiscard]] std::optional<ContactEvent> first(const DormandPrince& step, double time, double h);
   /// Changes the regime of the event's contact, for the state that the rates were evaluated for last.
   static void apply(const ContactEvent& event, MotionRates& rates, const double* y);
 
@@ -33,6 +33,7 @@ private:
   const MotionRates& rates_;
   std::vector<ContactMotion> terms_; ///< contacts' share in each term of the extension
   ContactMotion probe_;
+  double start_ = 0.0, h_ = 0.0; ///< s, of the step
 };
 
 } // namespace fretwork::transient

@@ -23,6 +23,22 @@ void ContactTrial::clear() {
   found_in_lanes = false;
 }
 
+double product(const PackedContacts& contacts, const ContactTrial& trial, const kernels::Array& lanes) {
+  if (lanes.empty())
+    return 0.0;
+  const auto width = static_cast<std::size_t>(contacts.width);
+  double sum = 0.0;
+  for (const int active : trial.active) {
+    const auto c = static_cast<std::size_t>(active);
+    const ContactState& s = trial.states[c];
+    sum += (s.normal_force * s.ny + s.friction.t * s.nz) * lanes[c] +
+           (s.normal_force * s.nz - s.friction.t * s.ny) * lanes[width + c];
+    if (contacts.components == 3)
+      sum += s.friction.x * lanes[2 * width + c];
+  }
+  return sum;
+}
+
 ContactRows::ContactRows(const PackedContacts& contacts) : contacts_(contacts) {
   row_.resize(3 * static_cast<std::size_t>(contacts.count));
   factor_.resize(3 * static_cast<std::size_t>(contacts.count));

@@ -27,6 +27,10 @@ struct ContactTrial {
   bool found_in_lanes = false; ///< if it has been filled
 };
 
+/// Sum over all contacts of the force on the node times a vector given in lanes (empty: 0): a power of velocities, W, a work of displacements, J.
+[[nodiscard]] double product(const PackedContacts& contacts, const ContactTrial& trial,
+                             const kernels::Array& lanes);
+
 /// Lets a record show these. Arrays of `q`: padded modes; of `u`: displacements in lanes, m. All stay in their place until the next record.
 inline void show(Record& record, const PackedContacts& contacts, const double* q, const double* u,
                  const ContactTrial& trial) {

@@ -6,7 +6,8 @@
 /// what it does not resolve is still wrong.
 ///
 /// Energy: the work of a constant force on an exact motion is f.(u1 - u0), which is what the springs store and the dampers and sliders
-/// take: the ledger's residual is round-off, and without losses the energy is constant.
+/// take: the ledger's residual is round-off, and without losses the energy is constant. Obstacles that move (obstacle_motion.hpp) move
+/// the contacts at both ends of the step; they bring -f.(carried (s1 - s0)).
 ///
 /// A record stands in the middle of its step, where the mean forces are of order 2. Its contact springs hold what the constant force
 /// has left them, V0 - f.(u - u0) less half of the step's losses, written (V0 + V1)/2 + f.((u0 + u1)/2 - u).
@@ -15,6 +16,7 @@
 #include "transient/conserving_contacts.hpp"
 #include "transient/load_sum.hpp"
 #include "transient/matrix_flow.hpp"
+#include "transient/obstacle_motion.hpp"
 #include "transient/oscillator.hpp"
 #include <algorithm>
 #include <array>
@@ -40,7 +42,9 @@ public:
       : system_(with_diagonal(scene.system)), h_(step),
         loads_(scene.loads, scene.system.size(), scene.duration, step),
         contacts_(scene.contacts, scene.system.size()), start_(contacts_), end_(contacts_),
-        middle_(contacts_), memory_(contacts_, step), solver_(contacts_),
+        middle_(contacts_),
+        obstacles_(scene, contacts_, step), carried_{obstacles_.room(), obstacles_.room(), obstacles_.room()},
+        memory_(contacts_, step), solver_(contacts_),
         rows_(contacts_), steps_{Step(contacts_), Step(contacts_)} {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
     for (kernels::Array* a : {&q_, &v_, &k_, &load_, &next_load_, &middle_load_, &contact_, &moved_, &slope_})
@@ -55,6 +59,8 @@ public:
     loads_.at(0.0, load_.data());
     next_load_ = load_;
     end_.gather(q_.data(), v_.data());
+    obstacles_.at(0.0, carried_[2]);
+    carried_[2].add_to(end_);
     memory_.start(end_);
     springs_ = end_.spring_energy();
     moving_ = moving(q_, v_);
@@ -241,6 +247,8 @@ private:
       s.level = level_;
       if (!loads_.constant())
         loads_.at(s.start + s.length, next_load_.data());
+      for (std::size_t k = 0; k < 3; ++k)
+        obstacles_.at(s.start + 0.5 * static_cast<double>(k) * s.length, carried_[k]);
       std::fill(contact_.begin(), contact_.end(), 0.0);
       Work work = move(t, s);
       if (contacts_.count > 0) {
@@ -278,9 +286,12 @@ private:
     return failure_ == StepFailure::none;
   }
 
-  /// On the modes, by all forces and by the contacts alone, over the two halves of a step, J.
+  /// On the modes, by all forces and by the contacts alone, and of the contact forces on what carries the contacts, over the two halves
+  /// of a step, J.
   struct Work {
-    double all[2] = {0.0, 0.0}, contact[2] = {0.0, 0.0};
+    double all[2] = {0.0, 0.0}, contact[2] = {0.0, 0.0}, carried[2] = {0.0, 0.0};
+    /// On the contacts' whole motion.
+    [[nodiscard]] double on_contacts(std::size_t half) const { return contact[half] + carried[half]; }
   };
 
   /// From s.q, s.v through the middle to the end of the step.
@@ -305,11 +316,17 @@ private:
     work.contact[0] = dot(contact_, s.middle_q, s.q);
     work.contact[1] = dot(contact_, q_, s.middle_q);
     end_.gather(q_.data(), v_.data());
+    carried_[2].add_to(end_);
     return work;
   }
 
   /// The step is accepted.
-  void book(Step& s, const Work& work) {
+  void book(Step& s, Work work) {
+    double places[3];
+    for (std::size_t k = 0; k < 3; ++k)
+      places[k] = product(contacts_, s.trial, carried_[k].u);
+    for (std::size_t half = 0; half < 2; ++half)
+      work.carried[half] = places[half + 1] - places[half];
     const double springs = springs_ + memory_.spring_energy();
     if (s.length != committed_)
       memory_.set_step(committed_ = s.length);
@@ -317,22 +334,25 @@ private:
     springs_ = s.trial.springs;
     const double springs_end = springs_ + memory_.spring_energy();
     middle_.gather(s.middle_q.data(), s.middle_v.data());
+    carried_[1].add_to(middle_);
     s.middle_u = middle_.u;
     const double middle = moving(s.middle_q, s.middle_v);
-    pass(0.5 * losses.damping, 0.5 * losses.friction, work.all[0], work.contact[0], middle);
+    pass(losses, work, 0, middle);
     s.energy = booked_;
-    s.energy.stored = middle + 0.5 * (springs + springs_end) + 0.5 * (work.contact[1] - work.contact[0]);
-    pass(0.5 * losses.damping, 0.5 * losses.friction, work.all[1], work.contact[1], moving(q_, v_));
+    s.energy.stored =
+        middle + 0.5 * (springs + springs_end) + 0.5 * (work.on_contacts(1) - work.on_contacts(0));
+    pass(losses, work, 1, moving(q_, v_));
   }
 
-  /// Half a step's losses and works; the modes then have the energy `moving_now`.
-  void pass(double damping, double friction, double work, double contact_work, double moving_now) {
-    const double load_work = loads_.empty() ? 0.0 : work - contact_work;
-    booked_.load_work += load_work;
-    booked_.throughput += std::abs(load_work);
-    booked_.modal_damping += work - (moving_now - moving_); // the flow is exact: what the modes did not keep
-    booked_.contact_damping += damping;
-    booked_.friction += friction;
+  /// Losses and works of half a step; the modes then have the energy `moving_now`.
+  void pass(const ContactLosses& losses, const Work& work, std::size_t half, double moving_now) {
+    const double input = (loads_.empty() ? 0.0 : work.all[half] - work.contact[half]) - work.carried[half];
+    booked_.load_work += input;
+    booked_.throughput += std::abs(input);
+    booked_.modal_damping +=
+        work.all[half] - (moving_now - moving_); // the flow is exact: what the modes did not keep
+    booked_.contact_damping += 0.5 * losses.damping;
+    booked_.friction += 0.5 * losses.friction;
     moving_ = moving_now;
   }
 
@@ -341,6 +361,8 @@ private:
   LoadSum loads_;
   PackedContacts contacts_;
   ContactMotion start_, end_, middle_; ///< of the step that is made
+  ObstacleMotion obstacles_;
+  std::array<Carried, 3> carried_; ///< at its start, middle and end
   ContactMemory memory_;
   ConservingContacts solver_;
   ContactRows rows_;

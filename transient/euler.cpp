@@ -20,8 +20,8 @@ public:
   Euler(const Scene& scene, double step)
       : system_(scene.system), h_(step), loads_(scene.loads, scene.system.size(), scene.duration, step),
         contacts_(scene.contacts, scene.system.size()), motion_(contacts_),
-        obstacles_(scene, contacts_, step), memory_(contacts_, step), trial_(contacts_.count),
-        rows_(contacts_) {
+        obstacles_(scene, contacts_, step), carried_(obstacles_.room()), memory_(contacts_, step),
+        trial_(contacts_.count), rows_(contacts_) {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
     for (kernels::Array* a : {&q_, &v_, &k_, &c_, &load_, &force_, &before_q_, &before_v_, &scratch_})
       a->assign(n, 0.0);
@@ -31,7 +31,8 @@ public:
     if (system_.damping_matrix.size() == 0)
       std::copy_n(system_.damping.data(), system_.size(), c_.begin());
     motion_.gather(q_.data(), v_.data());
-    obstacles_.add(0.0, motion_);
+    obstacles_.at(0.0, carried_);
+    carried_.add_to(motion_);
     memory_.start(motion_);
     loads_.at(0.0, load_.data());
     record_.step = h_;
@@ -95,12 +96,13 @@ private:
     if (contacts_.count == 0)
       return {};
     motion_.gather(q_.data(), v_.data());
-    obstacles_.add(record_.time, motion_);
+    obstacles_.at(record_.time, carried_);
+    carried_.add_to(motion_);
     evaluate_contacts(contacts_, memory_, h_, motion_, trial_);
     const ContactLosses losses = memory_.commit(motion_, trial_);
     rows_.set(trial_, 1.0);
     rows_.add_to(force_.data());
-    return {trial_.springs + memory_.spring_energy(), -obstacles_.power(trial_), losses};
+    return {trial_.springs + memory_.spring_energy(), -product(contacts_, trial_, carried_.w), losses};
   }
 
   /// The full damping matrix joins the forces. Returns its power.
@@ -146,6 +148,7 @@ private:
   PackedContacts contacts_;
   ContactMotion motion_;
   ObstacleMotion obstacles_;
+  Carried carried_;
   ContactMemory memory_;
   ContactTrial trial_;
   ContactRows rows_;

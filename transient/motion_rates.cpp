@@ -18,7 +18,8 @@ double energy_of(const contact::FrictionLaw& law, Vec2 spring) {
 MotionRates::MotionRates(const Scene& scene, double step)
     : system_(scene.system), loads_(scene.loads, scene.system.size(), scene.duration, step), smeared_(step),
       contacts_(scene.contacts, scene.system.size()), motion_(contacts_), difference_(contacts_),
-      trial_(contacts_.count), rows_(contacts_), regimes_(static_cast<std::size_t>(contacts_.count)),
+      obstacles_(scene, contacts_, step), carried_(obstacles_.room()), trial_(contacts_.count),
+      rows_(contacts_), regimes_(static_cast<std::size_t>(contacts_.count)),
       memory_(static_cast<std::size_t>(contacts_.count)) {
   for (kernels::Array* a : {&q0_, &v0_, &k_, &c_, &load_})
     a->assign(static_cast<std::size_t>(modes()), 0.0);
@@ -33,10 +34,17 @@ void MotionRates::start(double* y) {
   std::fill_n(y, size(), 0.0);
   std::copy(q0_.begin(), q0_.end(), y);
   std::copy(v0_.begin(), v0_.end(), y + modes());
-  motion_.gather(y, y + modes());
+  place(0.0, y);
   position_ = motion_.u;
   for (int c = 0; c < contacts_.count; ++c)
     regimes_[c] = regime_of_laws(c, motion_, {});
+}
+
+/// The contacts where the state has them.
+void MotionRates::place(double time, const double* y) {
+  motion_.gather(y, y + modes());
+  obstacles_.at(time, carried_);
+  carried_.add_to(motion_);
 }
 
 void MotionRates::rate(double time, const double* y, double* rate) {
@@ -52,15 +60,16 @@ void MotionRates::rate(double time, const double* y, double* rate) {
     power += load_[i] * v[i];
     damping += v[i] * (load_[i] - k_[i] * y[i] - rate[modes() + i]);
   }
+  if (contacts_.count > 0) {
+    place(time, y);
+    act(springs(y), rate + 2 * modes());
+    rows_.set(trial_, 1.0);
+    rows_.add_to(rate + modes());
+    power -= product(contacts_, trial_, carried_.w);
+  }
   totals[0] = power;
   totals[1] = std::abs(power);
   totals[2] = damping;
-  if (contacts_.count == 0)
-    return;
-  motion_.gather(y, v);
-  act(springs(y), rate + 2 * modes());
-  rows_.set(trial_, 1.0);
-  rows_.add_to(rate + modes());
 }
 
 void MotionRates::structure(const double* y, double* rate) {

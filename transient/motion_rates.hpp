@@ -3,7 +3,8 @@
 /// The motion as one differential equation y' = f(t, y), for schemes that know nothing of contacts. A state y holds
 ///     q, v   modal displacements and velocities
 ///     s      contact by contact: T_x, T_t (N, the spring of the friction), friction work, damper work (J);
-///            then the work of the loads, the integral of |its power|, the work of the modal damping (J)
+///            then the work of the loads and of moving obstacles (obstacle_motion.hpp), the integral of |its power|, the work of the
+///            modal damping (J)
 /// each padded to kernels::lanes, with the rates
 ///     q' = v,   v' = loads + B^T f - C v - k q   (C the full damping matrix where there is one)
 ///     T' = -(K_T/C_T)(T - F)                     return_map with C_T > 0: -K_T v in stick, towards F in slip, dies out when open
@@ -18,6 +19,7 @@
 #include "transient/contact_motion.hpp"
 #include "transient/contact_trial.hpp"
 #include "transient/load_sum.hpp"
+#include "transient/obstacle_motion.hpp"
 
 namespace fretwork::transient {
 
@@ -68,6 +70,9 @@ public:
   /// Whether there is friction whose spring is set in `commit`, which changes the rates.
   [[nodiscard]] bool sets_springs() const;
 
+  /// What carries contact c at a time, added to its lanes of a motion that has been gathered. No allocation.
+  void carry(double time, int c, ContactMotion& motion) const { obstacles_.add(time, c, motion); }
+
   // Regimes:
   void locate_regimes(bool located) { located_ = located; }
   [[nodiscard]] Regime regime(int c) const { return regimes_[c]; }
@@ -95,6 +100,7 @@ private:
   [[nodiscard]] bool locates_friction(int c) const;
   [[nodiscard]] Normal normal_of(int c, const ContactMotion& motion, const contact::Location& at) const;
   [[nodiscard]] contact::Vec2 used_spring(int c, contact::Vec2 spring, double ny, double nz) const;
+  void place(double time, const double* y);
   void structure(const double* y, double* rate);
   void act(const double* s, double* rate);
   bool press(int c, contact::Vec2 spring, double* rate);
@@ -106,6 +112,8 @@ private:
   double smeared_;
   PackedContacts contacts_;
   ContactMotion motion_, difference_;
+  ObstacleMotion obstacles_;
+  Carried carried_;
   ContactTrial trial_;
   ContactRows rows_;
   std::vector<Regime> regimes_;

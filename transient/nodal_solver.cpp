@@ -410,6 +410,22 @@ void NodalSolver::add_forces(int j, double* target) {
                      target);
 }
 
+double NodalSolver::power(int j, const kernels::Array& velocity) const {
+  if (velocity.empty())
+    return 0.0;
+  const auto width = static_cast<std::size_t>(contacts_.width);
+  double sum = 0.0;
+  for (const int c : alive_) {
+    const auto i = static_cast<std::size_t>(c);
+    const ContactNode& node = nodes_[3 * i + static_cast<std::size_t>(j)];
+    sum += (node.normal * node.ny + node.friction.t * node.nz) * velocity[i] +
+           (node.normal * node.nz - node.friction.t * node.ny) * velocity[width + i];
+    if (contacts_.in_plane[i])
+      sum += node.friction.x * velocity[2 * width + i];
+  }
+  return sum;
+}
+
 double NodalSolver::spring_energy(int j) const {
   double sum = 0.0;
   for (const int c : alive_) {

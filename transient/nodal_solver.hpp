@@ -60,6 +60,8 @@ public:
   [[nodiscard]] const std::vector<int>& alive() const { return alive_; }
   /// target += B^T f at a node of the step.
   void add_forces(int node, double* target);
+  /// Power of the forces of a node on velocities in lanes (empty: 0), W.
+  [[nodiscard]] double power(int node, const kernels::Array& velocity) const;
   /// Energy of all springs at a node, J.
   [[nodiscard]] double spring_energy(int node) const;
   /// Sweeps so far: each evaluates the laws of the contacts that take part at both nodes.

@@ -31,47 +31,47 @@ ObstacleMotion::ObstacleMotion(const Scene& scene, const PackedContacts& contact
     loads_.emplace_back(scene.loads[k].function, scene.duration);
     add_lanes([](const ContactPoint& point) -> const Eigen::MatrixXd& { return point.under_loads; }, k);
   }
-  velocity_.assign(stride, 0.0);
 }
 
-void ObstacleMotion::add(double time, ContactMotion& motion) {
-  if (still())
-    return;
-  std::fill(velocity_.begin(), velocity_.end(), 0.0);
+Carried ObstacleMotion::room() const {
+  const bool still = signals_.empty() && loads_.empty();
+  const kernels::Array lanes(still ? 0 : static_cast<std::size_t>(contacts_.stride()), 0.0);
+  return {lanes, lanes};
+}
+
+template <class Move> void ObstacleMotion::each(double time, const Move& move) const {
+  const auto stride = static_cast<std::size_t>(contacts_.stride());
   const double* carried = carried_.data();
-  const auto move = [&](double displacement, double velocity) {
-    for (std::size_t l = 0; l < velocity_.size(); ++l) {
-      motion.u[l] += carried[l] * displacement;
-      velocity_[l] += carried[l] * velocity;
-    }
-    carried += velocity_.size();
-  };
   for (const MotionSignal& signal : signals_) {
     const MotionState s = signal(time);
-    move(s.displacement, s.velocity);
+    move(carried, s.displacement, s.velocity);
+    carried += stride;
   }
   for (const Signal& load : loads_) {
     const double before = std::max(0.0, time - 0.5 * h_), after = time + 0.5 * h_;
-    move(load(time), (load(after) - load(before)) / h_);
+    move(carried, load(time), (load(after) - load(before)) / h_);
+    carried += stride;
   }
-  for (std::size_t l = 0; l < velocity_.size(); ++l)
-    motion.w[l] += velocity_[l];
 }
 
-double ObstacleMotion::power(const ContactTrial& trial) const {
-  if (still())
-    return 0.0;
-  const auto width = static_cast<std::size_t>(contacts_.width);
-  double sum = 0.0;
-  for (const int active : trial.active) {
-    const auto c = static_cast<std::size_t>(active);
-    const ContactState& s = trial.states[c];
-    sum += (s.normal_force * s.ny + s.friction.t * s.nz) * velocity_[c] +
-           (s.normal_force * s.nz - s.friction.t * s.ny) * velocity_[width + c];
-    if (contacts_.components == 3)
-      sum += s.friction.x * velocity_[2 * width + c];
-  }
-  return sum;
+void ObstacleMotion::at(double time, Carried& carried) const {
+  std::fill(carried.u.begin(), carried.u.end(), 0.0);
+  std::fill(carried.w.begin(), carried.w.end(), 0.0);
+  each(time, [&](const double* lanes, double displacement, double velocity) {
+    for (std::size_t lane = 0; lane < carried.u.size(); ++lane) {
+      carried.u[lane] += lanes[lane] * displacement;
+      carried.w[lane] += lanes[lane] * velocity;
+    }
+  });
+}
+
+void ObstacleMotion::add(double time, int c, ContactMotion& motion) const {
+  each(time, [&](const double* lanes, double displacement, double velocity) {
+    for (int lane = c; lane < contacts_.stride(); lane += contacts_.width) {
+      motion.u[static_cast<std::size_t>(lane)] += lanes[lane] * displacement;
+      motion.w[static_cast<std::size_t>(lane)] += lanes[lane] * velocity;
+    }
+  });
 }
 
 } // namespace fretwork::transient

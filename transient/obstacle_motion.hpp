@@ -14,24 +14,38 @@
 
 namespace fretwork::transient {
 
+/// By how much and how fast the contacts are carried at an instant, lanes of PackedContacts. Empty: no contact is.
+struct Carried {
+  kernels::Array u, w; ///< m, m/s
+  void add_to(double* displacement, double* velocity) const {
+    for (std::size_t lane = 0; lane < u.size(); ++lane) {
+      displacement[lane] += u[lane];
+      velocity[lane] += w[lane];
+    }
+  }
+  void add_to(ContactMotion& motion) const { add_to(motion.u.data(), motion.w.data()); }
+};
+
 class ObstacleMotion {
 public:
   /// @param contacts  those of the scene, must live longer   @param step  s
   ObstacleMotion(const Scene& scene, const PackedContacts& contacts, double step);
-  /// Adds what carries the contacts at a time to the displacements and velocities that `gather` has made of the modes. No allocation.
-  void add(double time, ContactMotion& motion);
-  /// f.(carried s') over all contacts at the time of the last `add`, W.
-  [[nodiscard]] double power(const ContactTrial& trial) const;
+  /// Room for `at`: empty where nothing moves.
+  [[nodiscard]] Carried room() const;
+  /// At a time. No allocation.
+  void at(double time, Carried& carried) const;
+  /// The same for contact c alone, added to its lanes of a motion. No allocation.
+  void add(double time, int c, ContactMotion& motion) const;
 
 private:
-  [[nodiscard]] bool still() const { return signals_.empty() && loads_.empty(); }
+  /// move(lanes, displacement, velocity) for all that moves contacts.
+  template <class Move> void each(double time, const Move& move) const;
 
   const PackedContacts& contacts_;
   double h_;
   std::vector<MotionSignal> signals_;
   std::vector<Signal> loads_;
-  kernels::Array carried_;  ///< lanes of each motion, one after the other; then under_loads of each load
-  kernels::Array velocity_; ///< carried s', in lanes
+  kernels::Array carried_; ///< lanes of each motion, one after the other; then under_loads of each load
 };
 
 } // namespace fretwork::transient

@@ -120,7 +120,7 @@ private:
         continue;
       }
       step_.extend(h);
-      const auto event = located ? events_.first(step_) : std::nullopt;
+      const auto event = located ? events_.first(step_, time_, h) : std::nullopt;
       if (event && event->share * h < finest * duration_) {
         evaluate_start();
         ContactEvents::apply(*event, rates_, step_.start());

@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/scheme_scope.hpp"
 #include "core/error.hpp"
-#include <algorithm>
 
 namespace fretwork::transient {
-
-bool carries_obstacles(SchemeKind kind) { return kind == SchemeKind::splitting || kind == SchemeKind::euler; }
 
 bool takes_residual(SchemeKind kind) { return kind == SchemeKind::splitting; }
 
 std::string out_of_scope(const Scene& scene, SchemeKind kind) {
-  const bool carried = std::any_of(scene.contacts.begin(), scene.contacts.end(),
-                                   [](const ContactPoint& point) { return point.carried.size() > 0; });
-  if (carried && !carries_obstacles(kind))
-    return "does not follow obstacles that move from the supports of the structure (attached_to = "
-           "\"ground\", "
-           "[[support_motion]])";
   if (scene.residual.size() > 0 && !takes_residual(kind))
     return "does not take the residual flexibility of the modes at the contacts (modes.static_modes = "
            "\"auto\")";

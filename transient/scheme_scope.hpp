@@ -6,9 +6,6 @@
 
 namespace fretwork::transient {
 
-/// True where the scheme follows obstacles that move by themselves (Scene::motions).
-[[nodiscard]] bool carries_obstacles(SchemeKind kind);
-
 /// True where the scheme takes residual flexibility (Scene::residual).
 [[nodiscard]] bool takes_residual(SchemeKind kind);
 /// What of the scene the scheme cannot take, as the end of a sentence that begins with its name; empty where it takes all.

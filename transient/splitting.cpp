@@ -48,9 +48,10 @@ public:
       : system_(with_diagonal(scene.system)), h_(step),
         loads_(scene.loads, scene.system.size(), scene.duration, step),
         contacts_(scene.contacts, scene.system.size()), motion_(contacts_),
-        obstacles_(scene, contacts_, step), memory_(contacts_, step), solver_(contacts_, step),
-        trial_(contacts_.count), paths_(contacts_, step), rows_(contacts_), coupled_(system_, step),
-        first_(flow_table(system_, coupled_, 0.5 * step)), full_(flow_table(system_, coupled_, step)) {
+        obstacles_(scene, contacts_, step), carried_(obstacles_.room()), memory_(contacts_, step),
+        solver_(contacts_, step), trial_(contacts_.count), paths_(contacts_, step), rows_(contacts_),
+        coupled_(system_, step), first_(flow_table(system_, coupled_, 0.5 * step)),
+        full_(flow_table(system_, coupled_, step)) {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
     for (kernels::Array* a : {&q_, &v_, &k_, &f_now_, &f_next_, &slope_, &impulse_})
       a->assign(n, 0.0);
@@ -61,7 +62,8 @@ public:
     const double moving =
         0.5 * kernels::twice_energy(contacts_.padded_modes, k_.data(), q_.data(), v_.data());
     motion_.gather(q_.data(), v_.data());
-    obstacles_.add(0.0, motion_);
+    obstacles_.at(0.0, carried_);
+    carried_.add_to(motion_);
     double given = 0.0; // J, of the residual flexibility
     if (scene.residual.size() > 0) {
       flexible_.emplace(contacts_, scene.residual, step);
@@ -170,7 +172,8 @@ private:
   /// The contacts act.
   void act() {
     motion_.gather(q_.data(), v_.data());
-    obstacles_.add(time_, motion_);
+    obstacles_.at(time_, carried_);
+    carried_.add_to(motion_);
     if (!flexible_) // whose contacts move at once by their own forces
       memory_.follow(motion_, 0.5 * h_);
     const auto action =
@@ -188,7 +191,7 @@ private:
     // The record stands in the middle of the action: half of its losses belong to it, and its velocity is (v-
     // + v+)/2, whose energy is moving + work/2 - (h^2/8) f.W.f. What moving obstacles do is work from outside.
     Energy& energy = record_.energy;
-    const double brought = -h_ * obstacles_.power(trial_), work = action.work + brought;
+    const double brought = -h_ * product(contacts_, trial_, carried_.w), work = action.work + brought;
     energy.load_work = load_work_ + 0.5 * brought;
     energy.throughput += std::abs(brought);
     load_work_ += brought;
@@ -207,6 +210,7 @@ private:
   PackedContacts contacts_;
   ContactMotion motion_;
   ObstacleMotion obstacles_;
+  Carried carried_;
   ContactMemory memory_;
   ContactSolver solver_;
   std::optional<FlexibleContacts> flexible_; ///< instead of it

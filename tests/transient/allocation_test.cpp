@@ -140,6 +140,9 @@ TEST(Allocation, NeverHappensWithObstaclesThatMove) {
   for (auto& c : scene.contacts)
     c.carried = 0.1 * Eigen::Matrix3d::Identity();
   EXPECT_EQ(allocations_of_a_run(scene, splitting(1e-4)), 0);
+  EXPECT_EQ(allocations_of_a_run(scene, energy_conserving(1e-4)), 0);
+  EXPECT_EQ(allocations_of_a_run(scene, collocation(1e-4)), 0);
+  EXPECT_EQ(allocations_of_a_run(scene, {SchemeKind::devogelaere, 2e-5}), 0);
   EXPECT_EQ(allocations_of_a_run(scene, euler(2e-5)), 0);
 }
 

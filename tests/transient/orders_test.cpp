@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Orders of convergence on a smooth path: a node that stays pressed on a round obstacle, with the modes
-// coupled by the contact. The oracle integrates the law's own differential equations by Runge and Kutta's
+// coupled by the contact, the obstacle at rest or moving. The oracle integrates the law's own differential equations by Runge and Kutta's
 // method.
 #include "contact/friction_law.hpp"
 #include "scenes.hpp"
+#include "transient/prescribed_motion.hpp"
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -30,15 +31,24 @@ struct Solution {
 struct Oracle {
   const Scene& scene;
   Signal harmonic;
+  std::vector<MotionSignal> motions;
   int slips = 0, sticks = 0, opens = 0;
 
-  explicit Oracle(const Scene& s) : scene(s), harmonic(s.loads[1].function, s.duration) {}
+  explicit Oracle(const Scene& s) : scene(s), harmonic(s.loads[1].function, s.duration) {
+    for (const PrescribedMotion& motion : s.motions)
+      motions.emplace_back(motion, s.duration);
+  }
 
   Eigen::VectorXd rate(double time, const Eigen::VectorXd& y, Vec3* force = nullptr) {
     const Eigen::Index n = scene.system.size();
     const auto q = y.head(n), v = y.segment(n, n);
     const ContactPoint& point = scene.contacts[0];
-    const Vec3 u = point.rest + point.b * q, w = point.b * v;
+    Vec3 u = point.rest + point.b * q, w = point.b * v;
+    for (std::size_t k = 0; k < motions.size(); ++k) {
+      const MotionState s = motions[k](time);
+      u += s.displacement * point.carried.col(static_cast<Eigen::Index>(k));
+      w += s.velocity * point.carried.col(static_cast<Eigen::Index>(k));
+    }
     const auto at = contact::locate(point.support.obstacle, u.y(), u.z());
     opens += at.gap >= 0.0;
     const double normal =
@@ -105,6 +115,17 @@ Scene pressed_on_a_circle(double normal_damping, double modal_damping, const con
   scene.q0 = Eigen::Vector4d::Zero();
   scene.v0 = point.b.transpose() * (point.b * point.b.transpose()).inverse() * velocity;
   scene.duration = duration;
+  return scene;
+}
+
+/// The obstacle moves too: two motions that leave the contact in its regime.
+Scene on_a_moving_circle(const contact::FrictionLaw& friction, const Vec3& velocity) {
+  Scene scene = pressed_on_a_circle(3.0, 1.0, friction, velocity);
+  scene.motions = {{Harmonic{2.0, 2.0, 0.4}, -0.05, 1e-3}, {Harmonic{1.5, 3.0, 1.1}, 0.02, 0.0}};
+  scene.contacts[0].carried.resize(3, 2);
+  scene.contacts[0].carried << 0.3, -0.8, //
+      0.9, 0.2,                           //
+      -0.3, 0.5;
   return scene;
 }
 
@@ -192,12 +213,33 @@ void expect_order_five(const Scene& scene) {
 
 TEST(OrderFixture, StaysClosedInOneRegime) {
   for (const auto& [law, velocity, slides] :
-       {std::tuple(sticking, slow, false), std::tuple(slipping, fast, true)}) {
-    const Scene scene = pressed_on_a_circle(3.0, 1.0, law, velocity);
-    Oracle oracle(scene);
-    (void)oracle.solve();
-    EXPECT_EQ(oracle.opens, 0);
-    EXPECT_EQ(slides ? oracle.sticks : oracle.slips, 0);
+       {std::tuple(sticking, slow, false), std::tuple(slipping, fast, true)})
+    for (const Scene& scene :
+         {pressed_on_a_circle(3.0, 1.0, law, velocity), on_a_moving_circle(law, velocity)}) {
+      Oracle oracle(scene);
+      (void)oracle.solve();
+      EXPECT_EQ(oracle.opens, 0);
+      EXPECT_EQ(slides ? oracle.sticks : oracle.slips, 0);
+    }
+}
+
+TEST(OrderFixture, IsMovedByItsObstacle) {
+  const Solution moved = Oracle(on_a_moving_circle(sticking, slow)).solve(),
+                 still = Oracle(pressed_on_a_circle(3.0, 1.0, sticking, slow)).solve();
+  constexpr double seen = 0.02; // of the forces: far above the errors that are measured
+  for (Eigen::Index row = 0; row < 3; ++row)
+    EXPECT_GT((moved.force - still.force).row(row).norm(), seen * still.force.row(row).norm()) << row;
+}
+
+TEST(MovingObstacle, IsFollowedInTheOrderOfEachScheme) {
+  for (const auto& [law, velocity] : {std::pair(sticking, slow), std::pair(slipping, fast)}) {
+    const Scene scene = on_a_moving_circle(law, velocity);
+    expect_order(scene, SchemeKind::euler, first_low, first_high, first_final);
+    expect_order(scene, SchemeKind::splitting, second_low, second_high, second_final);
+    expect_order(scene, SchemeKind::energy_conserving, second_low, second_high, second_final);
+    expect_order_four(scene, SchemeKind::collocation, outputs, 4);
+    expect_order_four(scene, SchemeKind::devogelaere);
+    expect_order_five(scene);
   }
 }
 
@@ -298,13 +340,27 @@ TEST(Collocation, IsOfOrderFourWithHuntAndCrossleysDamper) {
 
 TEST(Collocation, BalancesItsEnergyToOrderFour) {
   for (const auto& [law, velocity] :
-       {std::pair(none, slow), std::pair(sticking, slow), std::pair(slipping, fast)}) {
-    const Scene scene = pressed_on_a_circle(3.0, 1.0, law, velocity);
-    const auto residual = [&](double steps) {
-      return simulate(scene, {SchemeKind::collocation, duration / steps}, duration).report.residual_relative;
-    };
-    const double order = std::log2(residual(steps_first) / residual(8.0 * steps_first)) / 3.0;
-    EXPECT_GT(order, fourth_low);
-    EXPECT_LT(order, fourth_high);
-  }
+       {std::pair(none, slow), std::pair(sticking, slow), std::pair(slipping, fast)})
+    for (const Scene& scene :
+         {pressed_on_a_circle(3.0, 1.0, law, velocity), on_a_moving_circle(law, velocity)}) {
+      const auto residual = [&](double steps) {
+        return simulate(scene, {SchemeKind::collocation, duration / steps}, duration)
+            .report.residual_relative;
+      };
+      const double order = std::log2(residual(steps_first) / residual(8.0 * steps_first)) / 3.0;
+      EXPECT_GT(order, fourth_low);
+      EXPECT_LT(order, fourth_high);
+    }
+}
+
+TEST(EnergyConserving, BalancesWhatAMovingObstacleBringsAtAnyStep) {
+  constexpr double round_off = 1e-12; // of the energies that pass
+  for (const auto& [law, velocity] :
+       {std::pair(none, slow), std::pair(sticking, slow), std::pair(slipping, fast)})
+    for (const double steps : {8.0, 64.0, 512.0}) {
+      const Report report = simulate(on_a_moving_circle(law, velocity),
+                                     {SchemeKind::energy_conserving, duration / steps}, duration)
+                                .report;
+      EXPECT_LT(report.residual_relative, round_off) << steps;
+    }
 }

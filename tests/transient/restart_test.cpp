@@ -222,7 +222,7 @@ TEST(Restart, WithObstaclesThatMove) {
   scene.motions = {{Harmonic{1.0, 20.0, 0.0}, -1.0 / 125.66, 0.0}, {Random{0.5, 5.0, 60.0, 1}, 0.0, 0.0}};
   for (auto& c : scene.contacts)
     c.carried = 0.1 * Eigen::MatrixXd::Identity(3, 2);
-  expect_restarts(scene, {splitting(1e-4), euler(4e-5)});
+  expect_restarts(scene, all_schemes());
 }
 
 TEST(Restart, WhereCollocationHasCutSteps) {
