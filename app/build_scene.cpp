@@ -90,6 +90,23 @@ void add_system(const Bases& bases, transient::System& system) {
   }
 }
 
+/// Numbers of the modes of the scene that are no static modes.
+std::vector<Eigen::Index> true_modes(const Bases& bases) {
+  std::vector<Eigen::Index> out;
+  Eigen::Index first = 0;
+  for (const modal::Basis* basis : bases) {
+    for (Eigen::Index i = 0; i < basis->true_modes(); ++i)
+      out.push_back(first + i);
+    first += basis->size();
+  }
+  return out;
+}
+
+/// Stiffness and damping of some of the modes, each alone.
+transient::System of_modes(const transient::System& system, const std::vector<Eigen::Index>& modes) {
+  return {system.stiffness(modes), system.damping(modes), {}};
+}
+
 bool has_node(const Bases& bases, Index node) {
   return std::any_of(bases.begin(), bases.end(),
                      [&](const modal::Basis* basis) { return basis->row_of(node) >= 0; });
@@ -163,7 +180,8 @@ void add_contact(const study::Study& study, const study::Contact& contact, const
                 .select(point.b, 0.0); // a direction that is not used costs nothing
   if (const auto carried = carried_by_motions(study, contact, placed, fields, out.scene); carried.size() > 0)
     point.carried = placed.frame.rotation() * carried;
-  point.support = support_of(contact, placed, out.scene.system, point.b);
+  point.support = support_of(contact, placed, of_modes(out.scene.system, out.true_modes),
+                             point.b(Eigen::all, out.true_modes));
   out.scene.contacts.push_back(std::move(point));
 }
 
@@ -204,6 +222,11 @@ void leave_out_still_modes(BuiltScene& out) {
   if (still == 0)
     return;
   scene = transient::with_modes(scene, out.moving);
+  std::vector<Eigen::Index> true_and_moving;
+  for (std::size_t k = 0; k < out.moving.size(); ++k)
+    if (std::binary_search(out.true_modes.begin(), out.true_modes.end(), out.moving[k]))
+      true_and_moving.push_back(static_cast<Eigen::Index>(k));
+  out.true_modes = std::move(true_and_moving);
   for (post::ObservedNode& node : out.nodes)
     node.rows = node.rows(Eigen::all, out.moving).eval();
   out.notes.push_back(fmt::format("{} of {} modes are moved by no load, contact or initial state: they stay "
@@ -257,6 +280,7 @@ BuiltScene build_scene(const study::Study& study, const Fields& fields, const st
   transient::Scene& scene = out.scene;
   scene.duration = study.transient->duration;
   add_system(bases, scene.system);
+  out.true_modes = true_modes(bases);
   for (const auto& load : fields.loads) {
     Eigen::VectorXd force(0);
     for (const modal::Basis* basis : bases)

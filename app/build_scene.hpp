@@ -12,9 +12,10 @@
 namespace fretwork::app {
 
 struct BuiltScene {
-  transient::Scene scene;           ///< its modes that something moves
-  std::vector<Eigen::Index> moving; ///< their numbers among those of its structures, ascending
-  Eigen::Index modes = 0;           ///< of its structures
+  transient::Scene scene;               ///< its modes that something moves
+  std::vector<Eigen::Index> moving;     ///< their numbers among those of its structures, ascending
+  std::vector<Eigen::Index> true_modes; ///< numbers of those of the scene's modes that are no static modes
+  Eigen::Index modes = 0;               ///< of its structures
   std::vector<std::size_t>
       structures;                    ///< numbers of its structures, ascending; their modes follow each other
   std::vector<std::size_t> contacts; ///< numbers of its contacts among the placed ones

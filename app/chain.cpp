@@ -6,6 +6,7 @@
 #include "app/progress.hpp"
 #include "app/python_report.hpp"
 #include "app/residual_flexibility.hpp"
+#include "app/static_modes.hpp"
 #include "app/support_motion.hpp"
 #include "core/error.hpp"
 #include "core/mpi.hpp"
@@ -316,6 +317,10 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
     out.warnings.insert(out.warnings.end(), modes.warnings.begin(), modes.warnings.end());
     out.bases = std::move(modes.bases);
     report_modes(inputs.study, out);
+    if (inputs.study.modes.static_modes == study::StaticModes::added) {
+      add_static_modes(comm, inputs.study, model, modes.structures, placed, out.bases);
+      out.notes.push_back(static_modes_note(inputs.study, out.bases));
+    }
     out.timings.modes = watch.lap();
     if (last == Stage::transient) {
       progress.stage("basis");

@@ -3,8 +3,8 @@
 /// Static flexibility at the contacts of a scene: the structures', what of it their modes have, what they lack
 /// (modal/static_flexibility.hpp).
 ///
-/// Loaded are the directions that a normal force can take and, with friction, those along which the modes move the contact. Between two
-/// nodes the load is a pair of opposite forces, and the flexibility that of the relative motion. Rows and columns of other directions are 0.
+/// Between the directions that are loaded (contact_loads.hpp); between two nodes the flexibility is that of the relative motion. Rows and
+/// columns of other directions are 0.
 /// What the modes lack of the displacement under the loads of the study is theirs by the same solutions: S = U^T f - P^T Phi Omega^-2 Phi^T f.
 #pragma once
 #include "app/build_contacts.hpp"
@@ -20,7 +20,7 @@ struct ContactFlexibility {
   Eigen::MatrixXd exact, basis,
       missing; ///< m/N, 3 nc x 3 nc over x_loc y_loc z_loc of each; symmetric, missing >= 0
   Eigen::MatrixXd
-      under_loads; ///< m, 3 nc x loads of the fields: what the modes lack of the static displacements; 0 with static_modes = "none"
+      under_loads; ///< m, 3 nc x loads of the fields: what the modes lack of the static displacements; 0 unless static_modes = "auto"
   std::string failure; ///< why there is none of the above; empty: there is
 
   /// Of the k-th contact in the normal direction in which most is missing.
@@ -29,10 +29,10 @@ struct ContactFlexibility {
 
 /// Collective; needs PETSc. Scenes are shared out over ranks; the same bytes on every rank and for any number of ranks. Equal structures
 /// are factorised once a rank.
+/// Unless static_modes = "auto" `missing` is that of each contact alone, which is what `at` tells, and `failure` says why there is none.
 /// @param scenes  numbers of the structures of each
-/// With static_modes = "none" `missing` is that of each contact alone, which is what `at` tells.
-/// @throws core::ComputationError where a structure's stiffness is singular to working precision, core::Error where a motion without strain
-///         moves no mass; unless the study asks for no static modes: then `failure` says so
+/// @throws with static_modes = "auto": core::ComputationError where a structure's stiffness is singular to working precision, core::Error
+///         where a motion without strain moves no mass
 [[nodiscard]] std::vector<ContactFlexibility>
 contact_flexibilities(MPI_Comm comm, const study::Study& study, const fem::Model& model,
                       const std::vector<fem::Structure>& structures, const std::vector<modal::Basis>& bases,

@@ -4,7 +4,8 @@
 ///
 /// With b the rows (x_loc, y_loc, z_loc) by which modes of unit mass move the contact, W = b b^T is its
 /// mobility, 1/(n.W n) the mass it feels along n. A contact met in several directions takes their mean
-/// mobility. The mass shrinks as modes are added: it is that of an impact which all of them follow.
+/// mobility. The mass shrinks as modes are added: it is that of an impact which all of them follow. Static modes are not among them:
+/// laws do not change with what stands in for the modes that are left out.
 ///
 /// A support with a thickness has several contacts. Each gets its share of the stiffnesses and dampers of the
 /// whole support, which are found as if one contact had them all.

@@ -12,19 +12,21 @@ namespace {
 struct Point {
   const PlacedContact* placed;
   const transient::ContactPoint* contact;
-  double gap;   ///< m, at t = 0
-  double force; ///< N, normal, at t = 0
+  const std::vector<Eigen::Index>* true_modes; ///< of its scene
+  double gap;                                  ///< m, at t = 0
+  double force;                                ///< N, normal, at t = 0
 };
 
-Point at_start(const PlacedContact& placed, const transient::ContactPoint& contact,
-               const transient::Scene& scene) {
+Point at_start(const PlacedContact& placed, const transient::ContactPoint& contact, const BuiltScene& built) {
+  const transient::Scene& scene = built.scene;
   const core::Vec3 place = scene.place_at_start(contact) + contact.b * scene.q0;
   core::Vec3 speed = contact.b * scene.v0;
   for (Eigen::Index k = 0; k < contact.carried.cols(); ++k)
     speed += scene.motions[static_cast<std::size_t>(k)].velocity0 * contact.carried.col(k);
   const contact::Location at = contact::locate(contact.support.obstacle, place.y(), place.z());
   const double sinking = -(at.ny * speed.y() + at.nz * speed.z());
-  return {&placed, &contact, at.gap, contact::normal_force(contact.support.normal, -at.gap, sinking)};
+  return {&placed, &contact, &built.true_modes, at.gap,
+          contact::normal_force(contact.support.normal, -at.gap, sinking)};
 }
 
 /// Empty where nothing overlaps.
@@ -62,7 +64,8 @@ std::string restitution_text(const study::Contact& entry, const std::vector<Poin
     const auto damping = [](const Point& p) { return p.contact->support.normal.damping / p.placed->share; };
     const auto mass = [&](const Point& p) {
       return wanted.mass ? *wanted.mass
-                         : normal_mass(p.contact->support.obstacle, p.contact->b, p.placed->name);
+                         : normal_mass(p.contact->support.obstacle, p.contact->b(Eigen::all, *p.true_modes),
+                                       p.placed->name);
     };
     return fmt::format("normal damping {} N s/m for restitution {:g} with a mass of {} kg",
                        range(points, damping), wanted.value, range(points, mass));
@@ -106,7 +109,7 @@ std::vector<std::string> contact_notes(const study::Study& study, const std::vec
   for (const BuiltScene& built : scenes)
     for (std::size_t k = 0; k < built.contacts.size(); ++k) {
       const PlacedContact& at = placed[built.contacts[k]];
-      of_entry[at.entry].push_back(at_start(at, built.scene.contacts[k], built.scene));
+      of_entry[at.entry].push_back(at_start(at, built.scene.contacts[k], built));
     }
   std::vector<std::string> overlaps, laws;
   for (std::size_t e = 0; e < of_entry.size(); ++e)

@@ -77,15 +77,20 @@ Sites sites_of(const fem::Model& model, const std::vector<PlacedContact>& placed
   return sites;
 }
 
-bool takes_residual(const study::Modes& modes) {
+/// What has the flexibility of the modes that are left out; empty: nothing.
+std::string residual_of(const study::Modes& modes) {
   switch (modes.static_modes) {
   case study::StaticModes::none:
-    return false;
+    return {};
   case study::StaticModes::residual:
-    return true;
+    return "residual flexibility";
+  case study::StaticModes::added:
+    return "static modes";
   }
-  return false;
+  return {};
 }
+
+bool takes_residual(const study::Modes& modes) { return !residual_of(modes).empty(); }
 
 } // namespace
 
@@ -130,7 +135,7 @@ void report_modes_limit(const study::Study& study, const results::ModesLimit& li
       "vibrates at {:.4g} Hz, {:.3g} times that is needed{}, and a mode of its span beyond",
       limit.up_to, limit.accuracy, limit.contact, limit.contact_frequency,
       modal::contact_frequencies_needed(limit.accuracy, residual),
-      residual ? " with residual flexibility" : ""));
+      residual ? " with " + residual_of(study.modes) : ""));
   double fastest = 0.0;
   for (const study::Load& load : study.loads)
     fastest = std::max(fastest, transient::highest_frequency(load.function));

@@ -22,7 +22,7 @@ void check_continuous(const Fields::Load& load) {
       throw core::Error(fmt::format("{}: the table jumps at {} s, and with modes.static_modes = \"auto\" "
                                     "the contacts would jump with it: give "
                                     "the jump a rise of the shortest period that matters, or take "
-                                    "static_modes = \"none\" and more modes",
+                                    "static_modes = \"all\"",
                                     load.name, table->time[i]));
 }
 
@@ -81,6 +81,7 @@ void take_residual_flexibility(const study::Study& study, const ContactFlexibili
   }
   switch (study.modes.static_modes) {
   case study::StaticModes::none:
+  case study::StaticModes::added:
     return;
   case study::StaticModes::residual:
     if (built.lacking > worth_having)
@@ -108,6 +109,8 @@ std::string flexibility_note(const study::Study& study, const std::vector<BuiltS
   case study::StaticModes::residual:
     return lack + (worst->lacking > worth_having ? ": it is taken in series with the contacts"
                                                  : ": too little to be taken in series with the contacts");
+  case study::StaticModes::added:
+    return {}; // static_modes_note says what there is
   }
   return {};
 }

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 
 namespace fretwork::app {
 namespace {
@@ -104,6 +105,31 @@ std::vector<fem::Structure> moving_structures(const fem::Model& model) {
   return structures;
 }
 
+namespace {
+
+/// @throws core::Error that says where the lowest mode of a structure is which has none up to the limit
+[[noreturn]] void refuse_without_modes(const study::Modes& modes, const fem::Model& model,
+                                       const fem::Structure& structure) {
+  const std::string which = "structure that starts at node " +
+                            fem::place(model.nodes[static_cast<std::size_t>(structure.nodes.front())]);
+  const modal::Basis lowest = modal::solve_modes(MPI_COMM_SELF, model, structure, {1, std::nullopt});
+  if (lowest.size() == 0)
+    throw core::Error("the " + which +
+                      " has no mode: nothing that moves has mass; give its material a density, or it a "
+                      "[[masses]] entry");
+  const std::string limit = modes.accuracy
+                                ? fmt::format("{:.4g} Hz, as far as modes.accuracy = {:g} asks for",
+                                              *modes.up_to_hz, *modes.accuracy)
+                                : fmt::format("modes.up_to_hz = {:g}", *modes.up_to_hz);
+  throw core::Error(
+      fmt::format("the {} has no mode up to {}: its lowest is at {:.6g} Hz; {}, or, where it may "
+                  "count as rigid, hold it by [[restraints]] with fixed = \"all\"",
+                  which, limit, lowest.omega(0) / (2.0 * std::numbers::pi),
+                  modes.accuracy ? "give modes.up_to_hz or modes.count" : "give a higher limit"));
+}
+
+} // namespace
+
 ModesStage modes_stage(MPI_Comm comm, const Inputs& inputs, const fem::Model& model,
                        const results::RunRecord& record, bool force) {
   ModesStage out;
@@ -130,19 +156,10 @@ ModesStage modes_stage(MPI_Comm comm, const Inputs& inputs, const fem::Model& mo
   out.bases =
       modal::solve_structures(comm, model, out.structures, {modes.count, modes.up_to_hz}, modes.distributed);
   core::agree(comm, [&] {
-    for (modal::Basis& basis : out.bases) {
-      modal::apply_damping(basis, modes.damping);
-      if (basis.size() == 0)
-        throw core::Error(
-            modes.accuracy
-                ? fmt::format("a structure has no mode up to {:.4g} Hz, as far as modes.accuracy = {:g} asks "
-                              "for; give modes.count",
-                              *modes.up_to_hz, *modes.accuracy)
-            : modes.up_to_hz
-                ? fmt::format("no mode up to modes.up_to_hz = {} Hz; give a higher limit, or modes.count",
-                              *modes.up_to_hz)
-                : "a structure has no mode: nothing that moves has mass; give its material a density, "
-                  "or it a [[masses]] entry");
+    for (std::size_t s = 0; s < out.bases.size(); ++s) {
+      modal::apply_damping(out.bases[s], modes.damping);
+      if (out.bases[s].size() == 0)
+        refuse_without_modes(modes, model, out.structures[s]);
     }
     if (core::rank(comm) == 0)
       results::write_bases(file, record, out.bases, key);

@@ -173,6 +173,13 @@ void number_equations(const Model& model, const std::vector<Index>& first, Struc
 
 } // namespace
 
+std::vector<Vec3> positions(const Model& model, const Structure& structure) {
+  std::vector<Vec3> out;
+  for (const Index node : structure.nodes)
+    out.push_back(node_at(model, node));
+  return out;
+}
+
 std::string place(const Vec3& point) {
   return fmt::format("({:g}, {:g}, {:g})", point.x(), point.y(), point.z());
 }

@@ -128,6 +128,9 @@ struct Structure {
 /// Where `node` is in structure.nodes, or -1.
 [[nodiscard]] Index position_of(const Structure& structure, Index node);
 
+/// m, of structure.nodes.
+[[nodiscard]] std::vector<Vec3> positions(const Model& model, const Structure& structure);
+
 /// `(1, 0.5, 0)`: a point or vector in a message.
 [[nodiscard]] std::string place(const Vec3& point);
 

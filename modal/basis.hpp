@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// The modes of one connected structure, plain data: what the transient starts from.
+/// Static modes (static_modes.hpp) come last: M-orthonormal and diagonal in K like the others, and above them, but no solutions of
+/// K x = lambda M x.
 #pragma once
 #include "core/types.hpp"
 #include <Eigen/Core>
@@ -12,10 +14,12 @@ namespace fretwork::modal {
 /// so that neither the number of ranks nor the numbering of nodes shows in them.
 struct Basis {
   std::vector<core::Index> nodes; ///< model nodes of the structure, ascending
-  Eigen::MatrixXd shapes;  ///< (6 * nodes.size()) x n: ux uy uz rx ry rz of each node; 0 at restrained dofs
-  Eigen::VectorXd omega;   ///< n, rad/s, ascending; 0 exactly for rigid-body modes
-  Eigen::VectorXd error;   ///< n: estimate of what the mesh adds to omega, relative (fem/mesh_error.hpp)
-  Eigen::VectorXd damping; ///< n, ratio to critical (for a rigid mode: of no effect)
+  Eigen::MatrixXd shapes; ///< (6 * nodes.size()) x n: ux uy uz rx ry rz of each node; 0 at restrained dofs
+  Eigen::VectorXd omega;  ///< n, rad/s, ascending; 0 exactly for rigid-body modes
+  Eigen::Index static_modes = 0; ///< the last so many are static modes
+  Eigen::VectorXd error; ///< n: estimate of what the mesh adds to omega, relative (fem/mesh_error.hpp); 0 of
+                         ///< static modes
+  Eigen::VectorXd damping;        ///< n, ratio to critical (for a rigid mode: of no effect)
   Eigen::MatrixXd damping_matrix; ///< n x n, 1/s: Phi^T C Phi, all damping included; empty where it is the
                                   ///< diagonal 2 zeta omega
   Eigen::VectorXd
@@ -29,6 +33,7 @@ struct Basis {
   bool distributed = false;  ///< solved over all ranks
 
   [[nodiscard]] Eigen::Index size() const { return omega.size(); }
+  [[nodiscard]] Eigen::Index true_modes() const { return size() - static_modes; }
   /// Row of `node` in `shapes` (6 rows from there), or -1 where the structure does not have it.
   [[nodiscard]] Eigen::Index row_of(core::Index node) const;
 };

@@ -87,4 +87,14 @@ void canonicalise(Eigen::Ref<Eigen::MatrixXd> shapes, const std::vector<Vec3>& n
   }
 }
 
+void canonicalise_clusters(Eigen::MatrixXd& shapes, Eigen::VectorXd& lambda, Eigen::Index rigid,
+                           const std::vector<Vec3>& nodes) {
+  Eigen::Index begin = 0;
+  for (const Eigen::Index end : cluster_ends(lambda, rigid)) {
+    canonicalise(shapes.middleCols(begin, end - begin), nodes);
+    lambda.segment(begin, end - begin).setConstant(lambda.segment(begin, end - begin).mean());
+    begin = end;
+  }
+}
+
 } // namespace fretwork::modal

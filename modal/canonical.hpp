@@ -30,4 +30,10 @@ inline constexpr double cluster_gap = 1e-7;
 /// @param nodes position of each node, m
 void canonicalise(Eigen::Ref<Eigen::MatrixXd> shapes, const std::vector<core::Vec3>& nodes);
 
+/// Turns every cluster of modes to canonical form; its modes share their mean lambda.
+/// @param lambda  ascending
+/// @param rigid   so many first ones are motions without strain
+void canonicalise_clusters(Eigen::MatrixXd& shapes, Eigen::VectorXd& lambda, Eigen::Index rigid,
+                           const std::vector<core::Vec3>& nodes);
+
 } // namespace fretwork::modal

@@ -42,9 +42,10 @@ double ratio_at(const DampingTable& table, double frequency) {
   return below.ratio + share * (above->ratio - below.ratio);
 }
 
-/// Ratios of all modes; for a rigid mode whatever the list says: it has no effect there.
+/// Ratios of all modes, static ones included; for a rigid mode whatever the list says: it has no effect there.
 struct Ratios {
   const Eigen::VectorXd& omega;
+  Eigen::Index true_modes;
 
   Eigen::VectorXd operator()(double ratio) const {
     require_not_negative(ratio, "ratio");
@@ -52,14 +53,17 @@ struct Ratios {
   }
 
   Eigen::VectorXd operator()(const std::vector<double>& ratios) const {
-    if (static_cast<Eigen::Index>(ratios.size()) < omega.size())
+    if (static_cast<Eigen::Index>(ratios.size()) < true_modes)
       throw core::Error(fmt::format(
           "[modes] damping: a list of {} ratios for {} modes; give a ratio for every mode, or one "
           "ratio for all",
-          ratios.size(), omega.size()));
+          ratios.size(), true_modes));
     for (std::size_t i = 0; i < ratios.size(); ++i)
       require_not_negative(ratios[i], fmt::format("ratio of mode {}", i + 1));
-    return Eigen::Map<const Eigen::VectorXd>(ratios.data(), omega.size());
+    Eigen::VectorXd out = Eigen::VectorXd::Constant(
+        omega.size(), true_modes > 0 ? ratios[static_cast<std::size_t>(true_modes) - 1] : 0.0);
+    out.head(true_modes) = Eigen::Map<const Eigen::VectorXd>(ratios.data(), true_modes);
+    return out;
   }
 
   Eigen::VectorXd operator()(const Rayleigh& rayleigh) const {
@@ -81,7 +85,7 @@ struct Ratios {
 } // namespace
 
 void apply_damping(Basis& basis, const Damping& damping) {
-  basis.damping = std::visit(Ratios{basis.omega}, damping);
+  basis.damping = std::visit(Ratios{basis.omega, basis.true_modes()}, damping);
   Eigen::VectorXd diagonal = 2.0 * basis.damping.cwiseProduct(basis.omega);
   if (const auto* rayleigh = std::get_if<Rayleigh>(&damping); rayleigh && rayleigh->mass > 0.0)
     for (Eigen::Index i = 0; i < basis.size(); ++i)

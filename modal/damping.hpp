@@ -23,7 +23,8 @@ struct DampingTable {
   std::vector<Row> rows; ///< at least one
 };
 
-/// One ratio for all modes, a ratio a mode (at least as many as there are modes), Rayleigh, or by frequency.
+/// One ratio for all modes, a ratio a mode (at least as many as there are true modes; static modes have that of the highest true one),
+/// Rayleigh, or by frequency.
 using Damping = std::variant<double, std::vector<double>, Rayleigh, DampingTable>;
 
 /// Sets basis.damping (the modal damping alone, without dampers) and adds the modal damping to

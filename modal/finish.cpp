@@ -47,16 +47,6 @@ void check_round_off(const Eigen::VectorXd& solver, const Eigen::VectorXd& strai
                       i + 1, solver[i], strain[i]));
 }
 
-void canonicalise_clusters(Eigen::MatrixXd& shapes, Eigen::VectorXd& lambda, Eigen::Index rigid,
-                           const std::vector<core::Vec3>& positions) {
-  Eigen::Index begin = 0;
-  for (const Eigen::Index end : cluster_ends(lambda, rigid)) {
-    canonicalise(shapes.middleCols(begin, end - begin), positions);
-    lambda.segment(begin, end - begin).setConstant(lambda.segment(begin, end - begin).mean());
-    begin = end;
-  }
-}
-
 /// On the equations: reactions of restraints and forces between tied dofs are no residual.
 Eigen::VectorXd residuals(const fem::Model& model, const fem::Structure& structure, const Basis& basis,
                           const Eigen::MatrixXd& inertia) {
@@ -87,6 +77,8 @@ Eigen::MatrixXd translations(const fem::Structure& structure) {
   return fields;
 }
 
+} // namespace
+
 Eigen::MatrixXd projected_dampers(const fem::Model& model, const fem::Structure& structure,
                                   const Basis& basis) {
   Eigen::MatrixXd matrix;
@@ -107,7 +99,21 @@ Eigen::MatrixXd projected_dampers(const fem::Model& model, const fem::Structure&
   return matrix;
 }
 
-} // namespace
+void describe(const fem::Model& model, const fem::Structure& structure, Basis& basis) {
+  const Eigen::Index n = basis.size();
+  basis.damping = Eigen::VectorXd::Zero(n);
+  basis.damping_matrix = projected_dampers(model, structure, basis);
+  const Eigen::MatrixXd inertia = fem::mass_times(model, structure, basis.shapes);
+  basis.orthogonality =
+      n > 0 ? (lower_product(basis.shapes, inertia) - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff()
+            : 0.0;
+  basis.residuals = residuals(model, structure, basis, inertia);
+  basis.error = fem::mesh_error(model, structure, basis.shapes, basis.omega.cwiseAbs2());
+  const Eigen::MatrixXd translated = translations(structure);
+  basis.participation = inertia.transpose() * translated;
+  basis.moving_mass =
+      translated.cwiseProduct(fem::mass_times(model, structure, translated)).colwise().sum().transpose();
+}
 
 Basis finish(const fem::Model& model, const fem::Structure& structure, const Eigen::MatrixXd& rigid,
              const Pairs& pairs, const Cut& cut) {
@@ -130,11 +136,8 @@ Basis finish(const fem::Model& model, const fem::Structure& structure, const Eig
   basis.nodes = structure.nodes;
   basis.shapes = fields(Eigen::all, order);
   lambda = lambda(order).eval();
-  std::vector<core::Vec3> positions;
-  for (const core::Index node : structure.nodes)
-    positions.push_back(model.nodes[static_cast<std::size_t>(node)]);
   orthonormalise(basis.shapes, moved(Eigen::all, order));
-  canonicalise_clusters(basis.shapes, lambda, rigid.cols(), positions);
+  canonicalise_clusters(basis.shapes, lambda, rigid.cols(), fem::positions(model, structure));
 
   Eigen::Index kept = 0;
   while (kept < std::min(lambda.size(), cut.count) && std::sqrt(lambda[kept]) <= cut.omega)
@@ -143,20 +146,7 @@ Basis finish(const fem::Model& model, const fem::Structure& structure, const Eig
   basis.splits_group =
       kept > 0 && kept < lambda.size() && lambda[kept] - lambda[kept - 1] <= cluster_gap * lambda[kept];
   basis.omega = lambda.head(kept).cwiseSqrt();
-  basis.damping = Eigen::VectorXd::Zero(kept);
-  basis.damping_matrix = projected_dampers(model, structure, basis);
-  const Eigen::MatrixXd inertia = fem::mass_times(model, structure, basis.shapes);
-  basis.orthogonality = kept > 0
-                            ? (lower_product(basis.shapes, inertia) - Eigen::MatrixXd::Identity(kept, kept))
-                                  .cwiseAbs()
-                                  .maxCoeff()
-                            : 0.0;
-  basis.residuals = residuals(model, structure, basis, inertia);
-  basis.error = fem::mesh_error(model, structure, basis.shapes, lambda.head(kept));
-  const Eigen::MatrixXd translated = translations(structure);
-  basis.participation = inertia.transpose() * translated;
-  basis.moving_mass =
-      translated.cwiseProduct(fem::mass_times(model, structure, translated)).colwise().sum().transpose();
+  describe(model, structure, basis);
   return basis;
 }
 

@@ -24,4 +24,13 @@ struct Cut {
 [[nodiscard]] Basis finish(const fem::Model& model, const fem::Structure& structure,
                            const Eigen::MatrixXd& rigid, const Pairs& pairs, const Cut& cut);
 
+/// Sets all that follows from shapes and omega: residuals, error of the mesh, participation, moving mass, orthogonality, damping 0,
+/// dampers.
+/// @param basis  nodes, shapes and omega set
+void describe(const fem::Model& model, const fem::Structure& structure, Basis& basis);
+
+/// Phi^T C Phi of the dampers, 1/s; empty where there are none.
+[[nodiscard]] Eigen::MatrixXd projected_dampers(const fem::Model& model, const fem::Structure& structure,
+                                                const Basis& basis);
+
 } // namespace fretwork::modal

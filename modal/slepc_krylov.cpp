@@ -38,6 +38,9 @@ constexpr int largest_space = 120;
 /// An interval may hold a share of 1 / 8 more modes than asked.
 constexpr int slice_slack = 8;
 
+/// Share of the scale of the lowest elastic eigenvalue below which none is: a frequency of 1e-12 of the usual.
+constexpr double no_mode_below = 1e-24;
+
 /// Owners of the PETSc objects used here.
 struct Solver {
   explicit Solver(MPI_Comm comm) {
@@ -290,8 +293,12 @@ Pairs KrylovModes::slice(int count) const {
                       "ask for fewer ([modes] count)",
                       what(), count));
   }
-  while (below(low) > rigid)
-    low /= 4.0;
+  for (const double slowest = low * no_mode_below; below(low) > rigid; low /= 4.0)
+    if (low < slowest)
+      throw core::ComputationError(
+          fmt::format("{}: more motions than its {} rigid ones have no frequency above 0; compressed parts "
+                      "that buckle, or round-off of parts hardly held: support them, or mesh more coarsely",
+                      what(), rigid));
   for (double from = low; below(high) > most;) {
     const double middle = std::sqrt(from * high); // evenly in octaves
     (below(middle) < rigid + count ? from : high) = middle;

@@ -107,6 +107,7 @@ void broadcast(MPI_Comm comm, int root, Basis& basis) {
   core::broadcast(comm, root, basis.residuals);
   core::broadcast(comm, root, basis.participation);
   MPI_Bcast(basis.moving_mass.data(), 3, MPI_DOUBLE, root, comm);
+  MPI_Bcast(&basis.static_modes, 1, MPI_INT64_T, root, comm);
   MPI_Bcast(&basis.orthogonality, 1, MPI_DOUBLE, root, comm);
   MPI_Bcast(&basis.splits_group, 1, MPI_CXX_BOOL, root, comm);
   MPI_Bcast(&basis.distributed, 1, MPI_CXX_BOOL, root, comm);

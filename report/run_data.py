@@ -78,9 +78,8 @@ def _structure_modes(group, structure):
     shapes = group["shapes"][...]
     columns = (group["frequency"][...], group["damping"][...], group["residuals"][...], shapes)
     nodes = group["nodes"][...]
-    return [
-        Mode(float(f), float(d), float(r), structure, nodes, s[:, :3], s[:, 3:]) for f, d, r, s in zip(*columns)
-    ]
+    modes = [Mode(float(f), float(d), float(r), structure, nodes, s[:, :3], s[:, 3:]) for f, d, r, s in zip(*columns)]
+    return modes[: len(modes) - int(group.attrs["static_modes"])]
 
 
 def _modes(group):

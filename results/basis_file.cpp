@@ -30,6 +30,7 @@ void write_basis(const h5::Group& group, const modal::Basis& basis) {
   group.write<core::Index>("nodes", basis.nodes, {basis.nodes.size()}, "");
   if (basis.damping_matrix.size() > 0)
     write_matrix(group, "damping_matrix", basis.damping_matrix, "1/s");
+  group.set("static_modes", std::int64_t{basis.static_modes});
   group.set("orthogonality", basis.orthogonality);
   group.set("splits_group", std::int64_t{basis.splits_group});
   group.set("distributed", std::int64_t{basis.distributed});
@@ -58,6 +59,9 @@ modal::Basis read_basis(const h5::Group& group) {
     if (basis.damping_matrix.rows() != n || basis.damping_matrix.cols() != n)
       throw h5::Failure("damping matrix of another size");
   }
+  basis.static_modes = group.integer("static_modes");
+  if (basis.static_modes < 0 || basis.static_modes > n)
+    throw h5::Failure("more static modes than modes");
   basis.orthogonality = group.number("orthogonality");
   basis.splits_group = group.integer("splits_group") != 0;
   basis.distributed = group.integer("distributed") != 0;

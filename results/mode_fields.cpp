@@ -38,7 +38,9 @@ ModeField mode_field(const RunResults& results, Eigen::Index k) {
     const double largest = own.size() > 0 ? own.colwise().norm().maxCoeff() : 0.0;
     out.displacement += own / (largest > 0.0 ? largest : 1.0);
     if (results.bases.size() == 1)
-      out.name = fmt::format("mode {}, {:.5g} Hz", k + 1, basis.omega(k) / (2.0 * std::numbers::pi));
+      out.name = fmt::format("{} {}, {:.5g} Hz", k < basis.true_modes() ? "mode" : "static mode",
+                             k < basis.true_modes() ? k + 1 : k - basis.true_modes() + 1,
+                             basis.omega(k) / (2.0 * std::numbers::pi));
   }
   return out;
 }

@@ -12,7 +12,8 @@ using Field = Eigen::Matrix3Xd;
 /// The k-th mode of every structure that has one, each scaled to a largest translation of 1 (a mode that only
 /// turns: as it is).
 struct ModeField {
-  std::string name; ///< "mode 3, 12.34 Hz"; with several structures "mode 3 of each structure"
+  std::string
+      name; ///< "mode 3, 12.34 Hz", "static mode 1, 345.6 Hz"; with several structures "mode 3 of each structure"
   Field displacement;
 };
 [[nodiscard]] Eigen::Index mode_count(const RunResults& results);

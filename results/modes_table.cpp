@@ -21,7 +21,7 @@ std::string modes_table(const RunResults& results) {
   core::Vec3 whole = core::Vec3::Zero(), kept = core::Vec3::Zero();
   for (const modal::Basis& basis : results.bases) {
     whole += basis.moving_mass;
-    kept += basis.participation.colwise().squaredNorm().transpose();
+    kept += basis.participation.topRows(basis.true_modes()).colwise().squaredNorm().transpose();
   }
   const std::vector<ModeOf> modes = sorted_modes(results.bases);
   std::string text = fmt::format(
@@ -36,7 +36,11 @@ std::string modes_table(const RunResults& results) {
   }
   if (modes.size() > most_rows)
     text += fmt::format("  ... {} more in summary.json\n", modes.size() - most_rows);
-  return text + fmt::format("  {:<53} {}\n", "all modes together", shares(kept, whole));
+  text += fmt::format("  {:<53} {}\n", "all modes together", shares(kept, whole));
+  for (const auto& [structure, mode, frequency] : sorted_static_modes(results.bases))
+    text += fmt::format("  {:>5} {:>9} {:>14.8g} {:>10.3g}\n", "static", structure, frequency,
+                        100.0 * results.bases[structure].damping(mode));
+  return text;
 }
 
 } // namespace fretwork::results

@@ -46,13 +46,25 @@ Json modes(const std::vector<modal::Basis>& bases) {
   bool distributed = false;
   core::Vec3 kept = core::Vec3::Zero(), moving = core::Vec3::Zero();
   for (const modal::Basis& basis : bases) {
-    kept += basis.participation.colwise().squaredNorm().transpose();
+    kept += basis.participation.topRows(basis.true_modes()).colwise().squaredNorm().transpose();
     moving += basis.moving_mass;
     orthogonality = std::max(orthogonality, basis.orthogonality);
     distributed = distributed || basis.distributed;
   }
-  Json out{
-      {"frequencies_hz", frequencies}, {"residuals", residuals}, {"damping", damping}, {"static_modes", 0}};
+  const std::vector<ModeOf> static_modes = sorted_static_modes(bases);
+  Json out{{"frequencies_hz", frequencies},
+           {"residuals", residuals},
+           {"damping", damping},
+           {"static_modes", static_modes.size()}};
+  if (!static_modes.empty()) {
+    Json static_frequencies = Json::array(), static_damping = Json::array();
+    for (const ModeOf& m : static_modes) {
+      static_frequencies.push_back(number(m.frequency));
+      static_damping.push_back(number(bases[m.structure].damping(m.mode)));
+    }
+    out["static_frequencies_hz"] = static_frequencies;
+    out["static_damping"] = static_damping;
+  }
   if (bases.size() > 1)
     out["structure"] = structure;
   out["error_estimate"] = errors;

@@ -82,7 +82,8 @@ std::string modes_text(const std::vector<modal::Basis>& bases) {
     text += fmt::format(" ... {:.5g}", modes.back().frequency);
   double residual = 0.0;
   for (const modal::Basis& basis : bases)
-    residual = basis.size() > 0 ? std::max(residual, basis.residuals.maxCoeff()) : residual;
+    if (basis.true_modes() > 0)
+      residual = std::max(residual, basis.residuals.head(basis.true_modes()).maxCoeff());
   return text + fmt::format(" Hz (largest residual {:.0e})", residual);
 }
 

@@ -6,14 +6,34 @@
 #include <numbers>
 
 namespace fretwork::results {
+namespace {
+
+void add(std::size_t structure, const modal::Basis& basis, Eigen::Index first, Eigen::Index count,
+         std::vector<ModeOf>& modes) {
+  for (Eigen::Index k = first; k < first + count; ++k)
+    modes.push_back({structure, k, basis.omega(k) / (2.0 * std::numbers::pi)});
+}
+
+void sort(std::vector<ModeOf>& modes) {
+  std::stable_sort(modes.begin(), modes.end(),
+                   [](const ModeOf& a, const ModeOf& b) { return a.frequency < b.frequency; });
+}
+
+} // namespace
 
 std::vector<ModeOf> sorted_modes(const std::vector<modal::Basis>& bases) {
   std::vector<ModeOf> modes;
   for (std::size_t s = 0; s < bases.size(); ++s)
-    for (Eigen::Index k = 0; k < bases[s].size(); ++k)
-      modes.push_back({s, k, bases[s].omega(k) / (2.0 * std::numbers::pi)});
-  std::stable_sort(modes.begin(), modes.end(),
-                   [](const ModeOf& a, const ModeOf& b) { return a.frequency < b.frequency; });
+    add(s, bases[s], 0, bases[s].true_modes(), modes);
+  sort(modes);
+  return modes;
+}
+
+std::vector<ModeOf> sorted_static_modes(const std::vector<modal::Basis>& bases) {
+  std::vector<ModeOf> modes;
+  for (std::size_t s = 0; s < bases.size(); ++s)
+    add(s, bases[s], bases[s].true_modes(), bases[s].static_modes, modes);
+  sort(modes);
   return modes;
 }
 

@@ -13,8 +13,9 @@ struct ModeOf {
   double frequency; ///< Hz
 };
 
-/// All modes by ascending frequency; equal ones by structure.
+/// All modes by ascending frequency, equal ones by structure; static modes apart.
 [[nodiscard]] std::vector<ModeOf> sorted_modes(const std::vector<modal::Basis>& bases);
+[[nodiscard]] std::vector<ModeOf> sorted_static_modes(const std::vector<modal::Basis>& bases);
 
 /// Energies in J over the whole run: input = stored + modal_damping + contact_damping + friction + residual.
 struct EnergyTotals {

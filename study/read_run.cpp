@@ -84,7 +84,8 @@ Modes read_modes(const TableReader& root) {
   modes.damping = read_damping(table);
   modes.static_modes = table.choice(
       "static_modes", StaticModes::none,
-      Choices<StaticModes>{{{"none", StaticModes::none}, {"auto", StaticModes::residual}}, {"all"}});
+      Choices<StaticModes>{
+          {{"none", StaticModes::none}, {"auto", StaticModes::residual}, {"all", StaticModes::added}}});
   modes.distributed = table.optional_flag("distributed");
   return modes;
 }

@@ -44,10 +44,6 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-std::string not_available(const std::string& name, const std::vector<std::string>& available) {
-  return "\"" + name + "\" is not available in this version; available: " + core::list_names(available);
-}
-
 } // namespace
 
 void fail(const Value& value, const std::string& path, const std::string& problem) {
@@ -106,11 +102,8 @@ std::vector<double> to_numbers(const Value& value, const std::string& path, std:
   return numbers;
 }
 
-std::size_t to_choice(const Value& value, const std::string& path, const std::vector<std::string>& names,
-                      const std::vector<std::string>& unavailable) {
+std::size_t to_choice(const Value& value, const std::string& path, const std::vector<std::string>& names) {
   const std::string name = to_text(value, path);
-  if (contains(unavailable, name))
-    fail(value, path, not_available(name, names));
   const auto at = std::find(names.begin(), names.end(), name);
   if (at == names.end())
     fail(value, path, "unknown" + core::name_help(name, names, "available"));
@@ -126,8 +119,6 @@ TableReader::TableReader(const Value& value, std::string path, const Keys& keys)
              (entries ? "an array of tables; write [" + path_ + "]" : kind_of(value)));
   }
   for (const auto& [key, item] : *value.table()) {
-    if (contains(keys.unavailable, key))
-      fail(item, this->path(key), not_available(key, keys.known));
     if (!contains(keys.known, key))
       fail(item, this->path(key), "unknown key" + core::name_help(key, keys.known, "keys"));
   }

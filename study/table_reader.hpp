@@ -24,18 +24,13 @@ struct Quantity {
   const char* cure = ""; ///< said when the number is out of range
 };
 
-/// The keys of a table: any other is an error. The unavailable ones belong to the contract with users but not
-/// to this version.
+/// The keys of a table: any other is an error.
 struct Keys {
   std::vector<std::string> known;
-  std::vector<std::string> unavailable = {};
 };
 
 /// The values of an enumeration by name.
-template <class E> struct Choices {
-  std::vector<std::pair<std::string, E>> available;
-  std::vector<std::string> unavailable = {};
-};
+template <class E> struct Choices { std::vector<std::pair<std::string, E>> available; };
 
 /// @throws core::Error `where: path = value: problem`
 [[noreturn]] void fail(const Value& value, const std::string& path, const std::string& problem);
@@ -49,11 +44,8 @@ template <class E> struct Choices {
 [[nodiscard]] std::vector<double> to_numbers(const Value& value, const std::string& path, std::size_t size,
                                              const Quantity& quantity);
 /// The index of a string among names.
-/// @throws core::Error telling names that exist in the contract but not in this version from names that do
-/// not exist
 [[nodiscard]] std::size_t to_choice(const Value& value, const std::string& path,
-                                    const std::vector<std::string>& names,
-                                    const std::vector<std::string>& unavailable = {});
+                                    const std::vector<std::string>& names);
 
 class TableReader {
 public:
@@ -88,7 +80,7 @@ public:
     std::vector<std::string> names;
     for (const auto& entry : choices.available)
       names.push_back(entry.first);
-    return choices.available[to_choice(*found, path(key), names, choices.unavailable)].second;
+    return choices.available[to_choice(*found, path(key), names)].second;
   }
 
   /// The value of a required key; `expected` says in the message what it would be.

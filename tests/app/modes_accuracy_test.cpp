@@ -69,7 +69,7 @@ TEST(ModesAccuracy, ImpactsOfASpanAreWithinIt) {
   for (const double stiffness : {1e5, 1e6, 1e7}) {
     const double exact =
         largest_force(folder.run_text(span("count = 60\nstatic_modes = \"auto\"", stiffness)));
-    for (const char* static_modes : {"none", "auto"}) {
+    for (const char* static_modes : {"none", "auto", "all"}) {
       const Results run = folder.run_text(
           span(fmt::format("accuracy = {}\nstatic_modes = \"{}\"", accuracy, static_modes), stiffness));
       const double error = largest_force(run) / exact - 1.0;

@@ -47,6 +47,18 @@ nlohmann::json summary_of(const Workshop& folder) {
   return nlohmann::json::parse(bytes_of(folder.path("study.results") / "summary.json"));
 }
 
+TEST(ModesCommand, NamesAStructureWithoutModes) {
+  const Workshop folder;
+  const std::string study = tubes(folder, {1.0, 0.1}, 20, 6);
+  const Outcome outcome = folder.fretwork({"modes", study, "--set", "modes={ up_to_hz = 100.0 }"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(says(outcome.err, "the structure that starts at node (0, 0.07, 0) has no mode up to "
+                                "modes.up_to_hz = 100: its lowest is at 17")) // hundred: clamped, 0.1 m
+      << outcome.err;
+  EXPECT_TRUE(
+      says(outcome.err, "give a higher limit, or, where it may count as rigid, hold it by [[restraints]]"));
+}
+
 TEST(ModesCommand, SolvesEqualTubesOnce) {
   const Workshop folder;
   const Outcome outcome = folder.fretwork({"modes", tubes(folder, {1.0, 1.3, 1.0, 1.0, 1.3}, 20, 6)});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// static_modes = "auto": what the modes lack of the flexibility at the contacts is in series with them. Few modes then rest where the
-// structure does, and hit as many modes do.
+// static_modes = "auto": what the modes lack of the flexibility at the contacts is in series with them; "all": static modes have it. Few
+// modes then rest where the structure does, and hit as many modes do.
 #include "mesh_text.hpp"
 #include "program.hpp"
 #include <Eigen/Dense>
@@ -88,8 +88,11 @@ normal_stiffness = {2}
                         load),
         {"--force"});
   };
-  const Results none = run("none"), residual = run("auto");
+  const Results none = run("none"), residual = run("auto"), all = run("all");
   for (int c = 0; c < 3; ++c) {
+    const auto& of_all = all.statistics(fmt::format("stop{}", c));
+    EXPECT_TRUE(close_to(of_all["normal_force"]["mean"], exact(c), of_the_splitting));
+    EXPECT_TRUE(close_to(of_all["static_flexibility"]["basis"], cantilever(places[c], places[c]), 1e-9));
     const auto& contact = residual.statistics(fmt::format("stop{}", c));
     EXPECT_GT(exact(c), 1.0);
     EXPECT_TRUE(close_to(contact["normal_force"]["mean"], exact(c), of_the_splitting));
@@ -111,17 +114,20 @@ normal_stiffness = {2}
                  1.0));
   EXPECT_GT(worst, 100.0 * of_the_splitting) << "there is something to be missed";
   EXPECT_TRUE(says(residual.summary["notes"].dump(), "it is taken in series with the contacts"));
+  EXPECT_TRUE(says(all.summary["notes"].dump(), "3 static modes at the contacts"));
 }
 
-TEST(StaticModes, TwoStructuresThatMeetGiveWayBoth) {
+class TwoStructuresThatMeet : public testing::TestWithParam<const char*> {};
+
+TEST_P(TwoStructuresThatMeet, GiveWayBoth) {
   constexpr double stiffness = 1e8, overlap = 1e-4, one = 1.0, two = 0.6;
   const Workshop folder;
   folder.write("beams.msh", together(straight_line("one", {0.0, 0.0, 0.0}, {one, 0.0, 0.0}, 20),
                                      straight_line("two", {one + two, -0.02, 0.0}, {one, -0.02, 0.0}, 20))
                                 .text());
-  const Results run =
-      folder.run_text(beams({"one", "two"}) + clamped("one_begin") + clamped("two_begin") + modes(4, "auto") +
-                      fmt::format(R"([[contacts]]
+  const Results run = folder.run_text(beams({"one", "two"}) + clamped("one_begin") + clamped("two_begin") +
+                                      modes(4, GetParam()) +
+                                      fmt::format(R"([[contacts]]
 name = "tips"
 group = "one_end"
 other = "two_end"
@@ -135,13 +141,14 @@ duration = 0.002
 step = 2.0e-7
 start = "static"
 )",
-                                  0.01 + overlap, stiffness));
+                                                  0.01 + overlap, stiffness));
   const double flexibility = (one * one * one + two * two * two) / (3.0 * bending);
   const auto& contact = run.statistics("tips");
   EXPECT_TRUE(close_to(contact["static_flexibility"]["exact"], flexibility, 1e-9));
   EXPECT_TRUE(
       close_to(contact["normal_force"]["mean"], overlap / (1.0 / stiffness + flexibility), of_the_splitting));
 }
+INSTANTIATE_TEST_SUITE_P(StaticModes, TwoStructuresThatMeet, testing::Values("auto", "all"));
 
 /// A free beam that flies into a stop with its middle.
 Results flight(const Workshop& folder, int count, const std::string& static_modes) {
@@ -174,12 +181,18 @@ TEST(StaticModes, AFreeBeamIsRelievedByItsInertia) {
   constexpr double enough = 1.5e-3; // of three elastic modes, up to 4.7 times the frequency of the contact
   EXPECT_TRUE(close_to(with, many, enough));
   EXPECT_GT(std::abs(none / many - 1.0), 3.0 * enough);
+  const double all = flight(folder, 5, "all").statistics("stop")["normal_force"]["max"];
+  constexpr double nearly_enough =
+      2e-3; // static modes have inertia: fast vibrations beside what is in series
+  EXPECT_TRUE(close_to(all, many, nearly_enough));
 }
 
-TEST(StaticModes, GivesTheSameBytesOnAnyNumberOfRanks) {
+class BytesOfStaticModes : public testing::TestWithParam<const char*> {};
+
+TEST_P(BytesOfStaticModes, AreTheSameOnAnyNumberOfRanks) {
   const Workshop folder;
   MeshText mesh;
-  std::string study = beams({"beam0", "beam1", "beam2"}) + modes(6, "auto");
+  std::string study = beams({"beam0", "beam1", "beam2"}) + modes(6, GetParam());
   for (int i = 0; i < 3; ++i) {
     MeshText beam =
         straight_line(fmt::format("beam{}", i), {0.0, 0.1 * i, 0.0}, {1.0 + 0.1 * i, 0.1 * i, 0.0}, 12);
@@ -201,7 +214,15 @@ TEST(StaticModes, GivesTheSameBytesOnAnyNumberOfRanks) {
     EXPECT_TRUE(same_numbers(one.archive, more.archive)) << ranks;
     EXPECT_EQ(lasting(one.summary), lasting(more.summary)) << ranks;
   }
+  // the modes of `fretwork modes` are read again
+  const fs::path file = folder.write("study.toml", study);
+  ASSERT_EQ(folder.fretwork({"modes", file.string(), "-o", folder.path("staged").string()}, 2).status, 0);
+  const std::string stored = bytes_of(folder.path("staged") / "modes.h5");
+  ASSERT_EQ(folder.fretwork({"transient", file.string(), "-o", folder.path("staged").string()}).status, 0);
+  EXPECT_EQ(bytes_of(folder.path("staged") / "modes.h5"), stored);
+  EXPECT_TRUE(same_numbers(one.archive, read_results(folder.path("staged")).archive));
 }
+INSTANTIATE_TEST_SUITE_P(StaticModes, BytesOfStaticModes, testing::Values("auto", "all"));
 
 TEST(StaticModes, SaysWhichSchemeTakesThem) {
   const Workshop folder;
@@ -230,6 +251,80 @@ TEST(StaticModes, RefuseLoadsThatJump) {
                    "the table jumps at 0.002 s, and with modes.static_modes = \"auto\" the contacts "
                    "would jump with it: give the jump a rise"))
       << outcome.err;
+}
+
+/// A cantilever that rattles with friction on a circle at its tip.
+std::string rattling(const std::string& modes, const std::string& scheme) {
+  return beams({"beam"}) + clamped("beam_begin") + modes +
+         "[[contacts]]\ngroup = \"beam_end\"\naxis = [1.0, 0.0, 0.0]\ngap = 1.0e-5\nnormal_stiffness = "
+         "1.0e6\n"
+         "restitution = 0.5\nfriction = 0.3\ntangential_stiffness = 5.0e5\n"
+         "[[loads]]\ngroup = \"beam_end\"\ndirection = [0.0, 1.0, 0.0]\nharmonic = { amplitude = 50.0, "
+         "frequency "
+         "= 20.0 }\n[transient]\nduration = 0.02\nscheme = \"" +
+         scheme + "\"\n";
+}
+
+TEST(AddedStaticModes, AreTakenByEveryScheme) {
+  const Workshop folder;
+  folder.write("beams.msh", straight_line("beam", core::Vec3::Zero(), {1.0, 0.0, 0.0}, 10).text());
+  std::vector<double> forces;
+  for (const char* scheme : {"splitting", "collocation", "energy_conserving", "euler", "devogelaere"}) {
+    const Results run = folder.run_text(rattling(modes(4, "all"), scheme), {"--force"});
+    EXPECT_EQ(run.summary["transient"]["scheme"], scheme);
+    EXPECT_GT(run.statistics("beam_end")["impacts"], 0) << scheme;
+    forces.push_back(run.statistics("beam_end")["normal_force"]["max"]);
+    constexpr double of_the_schemes = 0.02; // one impact of the automatic steps of an accuracy of 1 %
+    EXPECT_TRUE(close_to(forces.back(), forces.front(), of_the_schemes)) << scheme;
+  }
+}
+
+/// What the laws of contacts take from the modes.
+std::string laws_of(const Results& run) {
+  for (const auto& note : run.summary["notes"])
+    if (says(note.get<std::string>(), "automatic tangential damping"))
+      return note;
+  return "no note of laws";
+}
+
+TEST(AddedStaticModes, AreListedApartAndChangeNoLaw) {
+  const Workshop folder;
+  folder.write("beams.msh", straight_line("beam", core::Vec3::Zero(), {1.0, 0.0, 0.0}, 10).text());
+  const Results none = folder.run_text(rattling(modes(4, "none"), "auto"), {"--force"});
+  const Results all = folder.run_text(rattling(modes(4, "all"), "auto"), {"--force"});
+  EXPECT_TRUE(says(laws_of(none), "for restitution 0.5 with a mass of"));
+  EXPECT_EQ(laws_of(all), laws_of(none));
+  auto with = all.summary["modes"];
+  const auto& without = none.summary["modes"];
+  EXPECT_EQ(without["static_modes"], 0);
+  EXPECT_EQ(with["static_modes"], 1); // the beam moves in one plane
+  ASSERT_EQ(with["static_frequencies_hz"].size(), 1);
+  EXPECT_GT(with["static_frequencies_hz"][0], with["frequencies_hz"].back());
+  EXPECT_EQ(with["static_damping"][0], 0.01);
+  for (const char* key : {"frequencies_hz", "damping", "residuals", "error_estimate", "effective_mass_kg",
+                          "effective_mass_sum_kg"})
+    EXPECT_EQ(with[key], without[key]) << key;
+  EXPECT_EQ(all.archive.bases.at(0).static_modes, 1);
+  EXPECT_EQ(all.archive.bases.at(0).size(), 5);
+  EXPECT_EQ(all.archive.series.modal_displacement.rows(), 5);
+}
+
+TEST(AddedStaticModes, HaveTheRatioOfTheHighestModeOfAList) {
+  const Workshop folder;
+  folder.write("beams.msh", straight_line("beam", core::Vec3::Zero(), {1.0, 0.0, 0.0}, 10).text());
+  const Results run = folder.run_text(
+      rattling("[modes]\ncount = 3\ndamping = [0.01, 0.02, 0.03, 0.04]\nstatic_modes = \"all\"\n", "auto"));
+  EXPECT_EQ(run.summary["modes"]["static_damping"][0], 0.03);
+  EXPECT_TRUE(says(run.summary["notes"].dump(), "static modes have the ratio of the highest"));
+}
+
+TEST(AddedStaticModes, AreNoneWhereNothingIsMissing) {
+  const Workshop folder;
+  folder.write("beams.msh", straight_line("beam", core::Vec3::Zero(), {1.0, 0.0, 0.0}, 10).text());
+  const Results run = folder.run_text(rattling(modes(20, "all"), "auto"));
+  EXPECT_EQ(run.summary["modes"]["static_modes"], 0);
+  EXPECT_FALSE(run.summary["modes"].contains("static_frequencies_hz"));
+  EXPECT_TRUE(says(run.summary["notes"].dump(), "no static modes: the modes lack nothing"));
 }
 
 TEST(StaticModes, AreLeftOutWhereNothingIsMissing) {

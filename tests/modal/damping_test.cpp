@@ -31,6 +31,21 @@ TEST(Damping, IsARatioAModeAndMayListMore) {
   EXPECT_EQ(b.damping, Eigen::Vector3d(0.01, 0.02, 0.03));
 }
 
+TEST(Damping, OfStaticModesFollowsTheirFrequencyAndEndsAList) {
+  auto b = basis();
+  b.static_modes = 1; // the last
+  modal::apply_damping(b, std::vector<double>{0.01, 0.02});
+  EXPECT_EQ(b.damping, Eigen::Vector3d(0.01, 0.02, 0.02));
+  modal::apply_damping(b, std::vector<double>{0.01, 0.02, 0.03});
+  EXPECT_EQ(b.damping, Eigen::Vector3d(0.01, 0.02, 0.02)) << "values beyond the true modes are not for it";
+  modal::apply_damping(b, 0.05);
+  EXPECT_EQ(b.damping[2], 0.05);
+  modal::apply_damping(b, modal::Rayleigh{1e-3, 0.0});
+  EXPECT_DOUBLE_EQ(b.damping[2], 0.02);
+  expect_error([&] { modal::apply_damping(b, std::vector<double>{0.01}); },
+               {"a list of 1 ratios for 2 modes"});
+}
+
 TEST(Damping, OfRayleighIsHalfAlphaOmegaPlusBetaOverOmega) {
   auto b = basis();
   modal::apply_damping(b, modal::Rayleigh{1e-3, 0.0});

@@ -22,6 +22,7 @@ std::vector<modal::Basis> bases() {
   out[1].damping_matrix = Eigen::MatrixXd::NullaryExpr(
       6, 6, [](Eigen::Index i, Eigen::Index j) { return double(i) + 10.0 * double(j); });
   out[1].distributed = true;
+  out[1].static_modes = 2;
   modal::Basis none;
   none.nodes = {50};
   none.shapes.resize(6, 0);
@@ -52,6 +53,7 @@ TEST(Bases, ComeBackBitForBit) {
     EXPECT_EQ(a.participation, b.participation);
     EXPECT_EQ(a.moving_mass, b.moving_mass);
     EXPECT_EQ(a.orthogonality, b.orthogonality);
+    EXPECT_EQ(a.static_modes, b.static_modes);
     EXPECT_EQ(a.distributed, b.distributed);
   }
 }
@@ -111,6 +113,7 @@ TEST(Bases, AreNotThereWhereSizesDoNotFit) {
   EXPECT_TRUE(spoil([](modal::Basis& basis) { basis.error.conservativeResize(3); }));
   EXPECT_TRUE(spoil([](modal::Basis& basis) { basis.participation.conservativeResize(3, 3); }));
   EXPECT_TRUE(spoil([](modal::Basis& basis) { basis.damping_matrix.setZero(2, 2); }));
+  EXPECT_TRUE(spoil([](modal::Basis& basis) { basis.static_modes = 7; }));
   EXPECT_FALSE(spoil([](modal::Basis&) {}));
 }
 

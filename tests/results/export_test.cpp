@@ -2,6 +2,7 @@
 #include "core/child_process.hpp"
 #include "core/error.hpp"
 #include "folder.hpp"
+#include "results/mode_fields.hpp"
 #include "results/write.hpp"
 #include "synthetic.hpp"
 #include <cstring>
@@ -189,6 +190,14 @@ TEST(ExportVtu, IsReadByMeshioWithAllModes) {
   if (seen == "no meshio")
     GTEST_SKIP() << seen;
   EXPECT_EQ(seen, expected_print(results, {"mode 1, 0.5 Hz", "mode 2, 0.5 Hz"}));
+}
+
+TEST(ExportVtu, NamesStaticModes) {
+  RunResults results = small(1, 2);
+  results.bases[0].static_modes = 1;
+  EXPECT_EQ(mode_count(results), 2);
+  EXPECT_EQ(mode_field(results, 0).name, "mode 1, 0.5 Hz");
+  EXPECT_EQ(mode_field(results, 1).name, "static mode 1, 0.5 Hz");
 }
 
 TEST(ExportVtu, ShowsTheModesOfSeveralStructuresTogether) {

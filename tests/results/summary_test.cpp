@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <set>
 
 namespace fretwork::results {
@@ -50,6 +51,19 @@ TEST(Summary, HasTheKeysOfTheContract) {
                   "unconverged_steps", "duration_s", "end_time_s", "statistics_from_s"}));
   EXPECT_EQ(keys(s["timings_s"]),
             (Keys{"read", "mesh", "assembly", "modes", "basis", "transient", "output", "total"}));
+}
+
+TEST(Summary, ListsStaticModesApart) {
+  RunResults results = made_up({.modes = 4});
+  results.bases[0].static_modes = 1;
+  results.bases[0].damping(3) = 0.5;
+  const Json modes = summary_of(results)["modes"];
+  EXPECT_EQ(modes["static_modes"], 1);
+  EXPECT_EQ(modes["static_frequencies_hz"],
+            Json::array({results.bases[0].omega(3) / (2.0 * std::numbers::pi)}));
+  EXPECT_EQ(modes["static_damping"], Json::array({0.5}));
+  for (const char* key : {"frequencies_hz", "residuals", "damping", "error_estimate", "effective_mass_kg"})
+    EXPECT_EQ(modes[key].size(), 3u) << key;
 }
 
 TEST(Summary, HasTheKeysOfTheContractForAContactAndANode) {

@@ -135,6 +135,17 @@ TEST(ModesTable, HasALineAModeAndTheirSum) {
   EXPECT_THAT(many[61], HasSubstr("20 more in summary.json"));
 }
 
+TEST(ModesTable, HasStaticModesAfterTheSumOfTheOthers) {
+  RunResults results = made_up({.modes = 4});
+  results.bases[0].static_modes = 2;
+  const auto table = lines(modes_table(results));
+  ASSERT_EQ(table.size(), 6u); // heads, modes, sum, static modes
+  EXPECT_THAT(table[3], HasSubstr("all modes together"));
+  EXPECT_THAT(table[3], HasSubstr("80.000")); // 4 of 5 kg in y and in z
+  EXPECT_THAT(table[4], HasSubstr("static"));
+  EXPECT_THAT(table[5], HasSubstr("static"));
+}
+
 TEST(TerminalTable, NamesStepReasonEnergyWarningsAndFiles) {
   const std::string text = terminal_table(made_up(), "folder.results");
   EXPECT_THAT(text, HasSubstr("Straight tube on loose supports\n"));
