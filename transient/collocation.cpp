@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// Collocation at the nodes 0, 1/2, 1 of a step (Lobatto): the modes move exactly under a force that is the quadratic through its
-/// values at the nodes (force_polynomial.hpp), and the contact forces obey their laws at the nodes (nodal_solver.hpp, nodal_contact.hpp).
+/// values at the nodes (force_polynomial.hpp; matrix_flow.hpp where a damping matrix couples them), and the contact forces obey their laws at the nodes (nodal_solver.hpp, nodal_contact.hpp).
 /// Loads are sampled at the nodes.
 ///
 /// Order 4 in displacement, velocity and force, with damping and friction, on a path along which the laws are smooth: the end of a
@@ -62,11 +62,13 @@ Power power_of(const contact::Support& support, const ContactNode* nodes, int j,
 class Collocation final : public Scheme {
 public:
   Collocation(const Scene& scene, double step)
-      : system_(scene.system), h_(step), loads_(scene.loads, scene.system.size(), scene.duration, 0.5 * step),
+      : system_(with_diagonal(scene.system)), h_(step),
+        loads_(scene.loads, scene.system.size(), scene.duration, 0.5 * step),
         contacts_(scene.contacts, scene.system.size()), motion_(contacts_),
         obstacles_(scene, contacts_, step), obstacle_at_{obstacles_.room(), obstacles_.room(),
                                                          obstacles_.room()},
-        solver_(contacts_), trial_(contacts_.count), powers_(3 * static_cast<std::size_t>(contacts_.count)),
+        solver_(contacts_), trial_(contacts_.count), coupled_(system_, step, 2, halvings + 1),
+        powers_(3 * static_cast<std::size_t>(contacts_.count)),
         carried_(static_cast<std::size_t>(contacts_.count)),
         closed_(static_cast<std::size_t>(contacts_.count)) {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
@@ -80,7 +82,7 @@ public:
     std::copy_n(system_.stiffness.data(), system_.size(), k_.begin());
     levels_.reserve(halvings + 1);
     for (int level = 0; level <= halvings; ++level)
-      levels_.emplace_back(system_, contacts_, std::ldexp(h_, -level));
+      levels_.emplace_back(system_, contacts_, std::ldexp(h_, -level), coupled_, level);
     for (kernels::Array& a : load_.at)
       loads_.at(0.0, a.data());
     kernels::gather(contacts_.gather, q_.at[0].data(), v_.at[0].data(), motion_.u(0), motion_.v(0));
@@ -124,14 +126,18 @@ public:
         v[j] = v_.at[0][i];
         continue;
       }
-      std::array<double, 3> f{};
-      for (std::size_t node = 0; node < 3; ++node)
-        f[node] = load_.at[node][i] + force_.at[node][i];
-      const auto state =
-          state_under(system_.stiffness(j), system_.damping(j), span(), t, q_.at[0][i], v_.at[0][i], f);
+      const auto state = state_under(system_.stiffness(j), system_.damping(j), span(), t, q_.at[0][i],
+                                     v_.at[0][i], forces(i));
       q[j] = state.q;
       v[j] = state.v;
     }
+    if (t == 0.0 || counts_.steps == 0)
+      return;
+    const auto force = [&](Eigen::Index mode, int k, double from, double length) {
+      return part_of(forces(static_cast<std::size_t>(mode)), from / span(),
+                     length / span())[static_cast<std::size_t>(k)];
+    };
+    coupled_.inside(t, q_.at[0].data(), v_.at[0].data(), force, q, v);
   }
 
   void load_at(double time, double* force) override {
@@ -153,12 +159,19 @@ public:
 
 private:
   struct Level {
-    Level(const System& system, const PackedContacts& contacts, double h)
-        : flow(system, h), tables(contacts, flow, h) {}
+    Level(const System& system, const PackedContacts& contacts, double h, MatrixFlow& coupled, int level)
+        : flow(system, h, &coupled, level), tables(contacts, flow, h) {}
     PolynomialFlow flow;
     NodalTables tables;
   };
 
+  /// Modal force at the nodes.
+  [[nodiscard]] std::array<double, 3> forces(std::size_t mode) const {
+    std::array<double, 3> f{};
+    for (std::size_t node = 0; node < 3; ++node)
+      f[node] = load_.at[node][mode] + force_.at[node][mode];
+    return f;
+  }
   [[nodiscard]] std::int64_t size() const { return grid >> level_; }
   [[nodiscard]] double span() const { return std::ldexp(h_, -level_); }
   /// Time of a place on the grid of the smallest steps.
@@ -314,6 +327,7 @@ private:
   std::array<Carried, 3> obstacle_at_; ///< what carries the contacts at the nodes
   NodalSolver solver_;
   ContactTrial trial_;
+  MatrixFlow coupled_; ///< of modes that a damping matrix couples, over h
   std::vector<Level> levels_;
   Nodes q_, v_, load_, force_; ///< modes, their velocities, modal forces of loads and contacts at the nodes
   kernels::Array k_, scratch_;

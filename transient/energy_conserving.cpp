@@ -44,8 +44,8 @@ public:
         contacts_(scene.contacts, scene.system.size()), start_(contacts_), end_(contacts_),
         middle_(contacts_),
         obstacles_(scene, contacts_, step), carried_{obstacles_.room(), obstacles_.room(), obstacles_.room()},
-        memory_(contacts_, step), solver_(contacts_),
-        rows_(contacts_), steps_{Step(contacts_), Step(contacts_)} {
+        memory_(contacts_, step), solver_(contacts_), rows_(contacts_),
+        coupled_(system_, step, 1, halvings + 1), steps_{Step(contacts_), Step(contacts_)} {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
     for (kernels::Array* a : {&q_, &v_, &k_, &load_, &next_load_, &middle_load_, &contact_, &moved_, &slope_})
       a->assign(n, 0.0);
@@ -55,7 +55,6 @@ public:
     committed_ = h_;
     for (Tables& t : tables_)
       t.reserve(contacts_);
-    couple();
     loads_.at(0.0, load_.data());
     next_load_ = load_;
     end_.gather(q_.data(), v_.data());
@@ -93,15 +92,14 @@ public:
     for (std::size_t i = 0; i < slope_.size(); ++i)
       slope_[i] = (s.f1[i] - s.f0[i]) / s.length;
     for (Eigen::Index j = 0; j < system_.size(); ++j) {
-      if (couples(j))
+      if (coupled_.couples(j))
         continue;
       const auto i = static_cast<std::size_t>(j);
       const DenseCoefficients d = dense_coefficients(system_.stiffness(j), system_.damping(j), t);
       q[j] = d.qq * s.q[i] + d.qv * s.v[i] + d.qf * s.f0[i] + d.qs * slope_[i];
       v[j] = d.vq * s.q[i] + d.vv * s.v[i] + d.vf * s.f0[i] + d.vs * slope_[i];
     }
-    if (!coupled_.empty())
-      coupled_[s.level].inside(t, s.q.data(), s.v.data(), s.f0.data(), slope_.data(), q, v);
+    coupled_.inside(t, s.q.data(), s.v.data(), s.f0.data(), slope_.data(), q, v);
   }
 
   void load_at(double time, double* force) override {
@@ -176,18 +174,6 @@ private:
       record_.energy = s.energy;
   }
 
-  /// The flows of coupled modes, for whole and cut steps: making one later would allocate.
-  void couple() {
-    if (MatrixFlow(system_, h_).empty())
-      return;
-    coupled_.reserve(tables_.size());
-    for (std::size_t level = 0; level < tables_.size(); ++level)
-      coupled_.emplace_back(system_, std::ldexp(h_, -static_cast<int>(level)));
-  }
-  [[nodiscard]] bool couples(Eigen::Index mode) const {
-    return !coupled_.empty() && coupled_[0].couples(mode);
-  }
-
   const Tables& tables(std::size_t level) {
     Tables& t = tables_[level];
     if (t.length > 0.0)
@@ -197,7 +183,7 @@ private:
       constexpr StepCoefficients none{1, 0, 0, 0, 0, 1,
                                       0, 0, 1, 0, 0, 0}; // coupled: they follow by themselves
       const double k = system_.stiffness(j), c = system_.damping(j);
-      const StepCoefficients s = couples(j) ? none : step_coefficients(k, c, 0.5 * t.length);
+      const StepCoefficients s = coupled_.couples(j) ? none : step_coefficients(k, c, 0.5 * t.length);
       const auto i = static_cast<std::size_t>(j);
       t.half.qq[i] = s.qq, t.half.qv[i] = s.qv, t.half.qf0[i] = s.qf0, t.half.qf1[i] = s.qf1;
       t.half.vq[i] = s.vq, t.half.vv[i] = s.vv, t.half.vf0[i] = s.vf0, t.half.vf1[i] = s.vf1;
@@ -214,10 +200,9 @@ private:
     const double* force = contacts_.row(contact, component);
     std::fill(moved_.begin(), moved_.end(), 0.0);
     std::fill(slope_.begin(), slope_.end(), 0.0);
-    if (!coupled_.empty())
-      (void)coupled_[level].advance(0, moved_.data(), slope_.data(), force, force);
+    (void)coupled_.advance(static_cast<int>(level), moved_.data(), slope_.data(), force, force);
     for (Eigen::Index j = 0; j < system_.size(); ++j)
-      if (!couples(j)) {
+      if (!coupled_.couples(j)) {
         const auto i = static_cast<std::size_t>(j);
         const StepCoefficients s = step_coefficients(system_.stiffness(j), system_.damping(j), t.length);
         moved_[i] = (s.qf0 + s.qf1) * force[i];
@@ -296,7 +281,7 @@ private:
 
   /// From s.q, s.v through the middle to the end of the step.
   Work move(const Tables& t, Step& s) {
-    const int n = contacts_.padded_modes;
+    const int n = contacts_.padded_modes, half = static_cast<int>(s.level) + 1;
     q_ = s.q;
     v_ = s.v;
     Work work;
@@ -306,13 +291,11 @@ private:
       s.f1[i] = next_load_[i] + contact_[i];
     }
     work.all[0] = kernels::flow_loaded(n, t.half, q_.data(), v_.data(), s.f0.data(), middle_load_.data());
-    if (!coupled_.empty())
-      work.all[0] += coupled_[s.level].advance(1, q_.data(), v_.data(), s.f0.data(), middle_load_.data());
+    work.all[0] += coupled_.advance(half, q_.data(), v_.data(), s.f0.data(), middle_load_.data());
     s.middle_q = q_;
     s.middle_v = v_;
     work.all[1] = kernels::flow_loaded(n, t.half, q_.data(), v_.data(), middle_load_.data(), s.f1.data());
-    if (!coupled_.empty())
-      work.all[1] += coupled_[s.level].advance(1, q_.data(), v_.data(), middle_load_.data(), s.f1.data());
+    work.all[1] += coupled_.advance(half, q_.data(), v_.data(), middle_load_.data(), s.f1.data());
     work.contact[0] = dot(contact_, s.middle_q, s.q);
     work.contact[1] = dot(contact_, q_, s.middle_q);
     end_.gather(q_.data(), v_.data());
@@ -367,7 +350,7 @@ private:
   ConservingContacts solver_;
   ContactRows rows_;
   std::array<Tables, halvings + 1> tables_;
-  std::vector<MatrixFlow> coupled_; ///< by level; empty where no modes are coupled
+  MatrixFlow coupled_;
   kernels::Array q_, v_, k_, load_, next_load_, middle_load_, contact_, moved_, slope_;
 
   std::array<Step, 2> steps_; ///< that of the last record, and the next

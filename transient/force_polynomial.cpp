@@ -44,6 +44,11 @@ std::array<double, 5> coefficients(const ImpulseChain& chain, double k, double c
 
 constexpr int rows_of_node = 20; ///< q, v, M_0, M_1 by 5 each
 
+/// Coefficients of s^j, j = 0, 1, 2, of the quadratic through values at the nodes.
+std::array<double, 3> through(double f0, double f1, double f2) {
+  return {f0, 4.0 * f1 - 3.0 * f0 - f2, 2.0 * (f0 - 2.0 * f1 + f2)};
+}
+
 } // namespace
 
 std::array<double, 5> decay_functions(double x) {
@@ -91,17 +96,25 @@ ImpulseChain impulse_chain(double k, double c, double t) {
   return out;
 }
 
-PolynomialFlow::PolynomialFlow(const System& system, double h)
-    : padded_modes_(padded(static_cast<int>(system.size()))) {
+PolynomialFlow::PolynomialFlow(const System& system, double h, MatrixFlow* coupled, int halvings)
+    : modes_(system.size()), coupled_(coupled && !coupled->empty() ? coupled : nullptr), halvings_(halvings),
+      padded_modes_(padded(static_cast<int>(system.size()))) {
   table_.assign(static_cast<std::size_t>(2 * rows_of_node * padded_modes_), 0.0);
   for (Eigen::Index i = 0; i < system.size(); ++i)
     for (int node = 1; node <= 2; ++node) {
+      double* row = &table_[static_cast<std::size_t>(i / lanes * 2 * rows_of_node * lanes +
+                                                     (node - 1) * rows_of_node * lanes + i % lanes)];
+      if (coupled_ && coupled_->couples(i)) { // stays where it is, until the matrix moves it
+        const double s = 0.5 * node;
+        row[0] = 1.0;
+        row[10 * lanes] = s;
+        row[15 * lanes] = 0.5 * s * s;
+        continue;
+      }
       const double k = system.stiffness(i), c = system.damping(i), t = 0.5 * node * h;
       const ImpulseChain chain = impulse_chain(k, c, t);
       const auto q = coefficients(chain, k, c, h, 0), v = coefficients(chain, k, c, h, -1),
                  once = coefficients(chain, k, c, h, 1), twice = coefficients(chain, k, c, h, 2);
-      double* row = &table_[static_cast<std::size_t>(i / lanes * 2 * rows_of_node * lanes +
-                                                     (node - 1) * rows_of_node * lanes + i % lanes)];
       for (std::size_t b = 0; b < 5; ++b) {
         row[b * lanes] = q[b];
         row[(5 + b) * lanes] = v[b];
@@ -111,10 +124,83 @@ PolynomialFlow::PolynomialFlow(const System& system, double h)
     }
 }
 
-PolynomialFlow::Response PolynomialFlow::response(Eigen::Index i, int to, int from) const {
-  const double* row = &table_[static_cast<std::size_t>(i / lanes * 2 * rows_of_node * lanes +
-                                                       (to - 1) * rows_of_node * lanes + i % lanes)];
-  return {row[(2 + from) * lanes], row[(7 + from) * lanes]};
+/// The coupled modes to the nodes 1/2 and 1.
+/// @param force  force(mode): values at the nodes   @param take  take(node, mode, q, v, moments), the moments of the motion up to the node
+template <class Force, class Take>
+void PolynomialFlow::move_coupled(const Nodes& q, const Nodes& v, const Force& force,
+                                  const Take& take) const {
+  for (int node = 1; node <= 2; ++node)
+    coupled_->move(
+        halvings_ + 2 - node, q.at[0].data(), v.at[0].data(),
+        [&](Eigen::Index mode, int j) {
+          return std::ldexp(force(mode)[static_cast<std::size_t>(j)], (node - 2) * j); // in shares of the way
+        },
+        [&](Eigen::Index mode, double to, double speed, const auto& moments) {
+          take(static_cast<std::size_t>(node), mode, to, speed, moments);
+        });
+}
+
+void PolynomialFlow::predict_coupled(const Nodes& load, const Nodes& contact, Nodes& q, Nodes& v) const {
+  move_coupled(
+      q, v,
+      [&](Eigen::Index mode) {
+        const auto i = static_cast<std::size_t>(mode);
+        return through(load.at[0][i] + contact.at[0][i], load.at[1][i], load.at[2][i]);
+      },
+      [&](std::size_t node, Eigen::Index mode, double to, double speed, const auto&) {
+        q.at[node][static_cast<std::size_t>(mode)] = to;
+        v.at[node][static_cast<std::size_t>(mode)] = speed;
+      });
+}
+
+void PolynomialFlow::move_coupled(const Nodes& load, const Nodes& contact, Nodes& q, Nodes& v,
+                                  Works& works) const {
+  const auto of = [](const Nodes& force, std::size_t i) {
+    return through(force.at[0][i], force.at[1][i], force.at[2][i]);
+  };
+  move_coupled(
+      q, v,
+      [&](Eigen::Index mode) {
+        const auto i = static_cast<std::size_t>(mode);
+        const auto a = of(load, i), b = of(contact, i);
+        return std::array<double, 3>{a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+      },
+      [&](std::size_t node, Eigen::Index mode, double to, double speed, const auto& moments) {
+        const auto i = static_cast<std::size_t>(mode);
+        const double s = 0.5 * static_cast<double>(node);
+        const auto work = [&](const std::array<double, 3>& f) { // int f q' dt by parts
+          return f[0] * (to - q.at[0][i]) + s * f[1] * (to - moments[0]) +
+                 s * s * f[2] * (to - 2.0 * moments[1]);
+        };
+        works.load[node - 1] += work(of(load, i));
+        works.contact[node - 1] += work(of(contact, i));
+        q.at[node][i] = to;
+        v.at[node][i] = speed;
+      });
+}
+
+void PolynomialFlow::respond(const double* force, int to, int from, double* q, double* v) const {
+  for (Eigen::Index i = 0; i < modes_; ++i) {
+    const double* row = &table_[static_cast<std::size_t>(i / lanes * 2 * rows_of_node * lanes +
+                                                         (to - 1) * rows_of_node * lanes + i % lanes)];
+    q[i] = row[(2 + from) * lanes] * force[i];
+    v[i] = row[(7 + from) * lanes] * force[i];
+  }
+  if (!coupled_)
+    return;
+  Nodes rest;
+  rest.at[0].assign(static_cast<std::size_t>(padded_modes_), 0.0);
+  move_coupled(
+      rest, rest,
+      [&](Eigen::Index mode) {
+        return through(0.0, from == 1 ? force[mode] : 0.0, from == 2 ? force[mode] : 0.0);
+      },
+      [&](std::size_t node, Eigen::Index mode, double there, double speed, const auto&) {
+        if (static_cast<int>(node) == to) {
+          q[mode] = there;
+          v[mode] = speed;
+        }
+      });
 }
 
 FRETWORK_WIDTHS void PolynomialFlow::predict(const Nodes& load, const Nodes& contact, Nodes& q,
@@ -132,6 +218,8 @@ FRETWORK_WIDTHS void PolynomialFlow::predict(const Nodes& load, const Nodes& con
       at(&v.at[node][i]) = mix(row + 5 * lanes);
     }
   }
+  if (coupled_)
+    predict_coupled(load, contact, q, v);
 }
 
 FRETWORK_WIDTHS PolynomialFlow::Works PolynomialFlow::move(const Nodes& load, const Nodes& contact, Nodes& q,
@@ -159,7 +247,15 @@ FRETWORK_WIDTHS PolynomialFlow::Works PolynomialFlow::move(const Nodes& load, co
       at(&v.at[node][i]) = mix(row + 5 * lanes);
     }
   }
-  return {{sum(of_load[0]), sum(of_load[1])}, {sum(of_contact[0]), sum(of_contact[1])}};
+  Works works{{sum(of_load[0]), sum(of_load[1])}, {sum(of_contact[0]), sum(of_contact[1])}};
+  if (coupled_)
+    move_coupled(load, contact, q, v, works);
+  return works;
+}
+
+std::array<double, 3> part_of(const std::array<double, 3>& force, double from, double length) {
+  const auto f = through(force[0], force[1], force[2]);
+  return {f[0] + from * (f[1] + from * f[2]), length * (f[1] + 2.0 * from * f[2]), length * length * f[2]};
 }
 
 PolynomialState state_under(double k, double c, double h, double t, double q0, double v0,

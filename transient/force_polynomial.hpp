@@ -8,10 +8,11 @@
 /// The work of a part L of the force (loads, contacts) up to s is exact too, by parts:
 ///     int L q' dt = L0 (q - q0) + B_L (s q - M_0) + D_L (s^2 q - 2 M_1),   M_j = int_0^s s^j q ds
 /// M_j from q integrated once and twice, which raises every index of the formula of q.
-/// k >= 0 and c >= 0 are arbitrary (oscillator.hpp).
+/// k >= 0 and c >= 0 are arbitrary (oscillator.hpp). Modes that a damping matrix couples: matrix_flow.hpp, of degree 2.
 #pragma once
 #include "core/state_archive.hpp"
 #include "transient/kernels.hpp"
+#include "transient/matrix_flow.hpp"
 #include "transient/scene.hpp"
 #include <array>
 
@@ -36,7 +37,9 @@ struct Nodes {
 /// What a step of length h needs of the modes, made once.
 class PolynomialFlow {
 public:
-  PolynomialFlow(const System& system, double h);
+  PolynomialFlow(const System& system, double h) : PolynomialFlow(system, h, nullptr, 0) {}
+  /// @param coupled  of degree 2, over h 2^halvings, with one halving more: moves the modes that it couples; must live longer. Null: none
+  PolynomialFlow(const System& system, double h, MatrixFlow* coupled, int halvings);
 
   /// q and v at the nodes 1/2 and 1 from those at 0, under the loads and the contact forces of node 0 alone. No allocation.
   void predict(const Nodes& load, const Nodes& contact, Nodes& q, Nodes& v) const;
@@ -48,17 +51,26 @@ public:
   /// The same under all forces. No allocation.
   Works move(const Nodes& load, const Nodes& contact, Nodes& q, Nodes& v) const;
 
-  /// What a unit force of node `from` (1 or 2) does to q and v of mode i at node `to`.
-  struct Response {
-    double q, v;
-  };
-  [[nodiscard]] Response response(Eigen::Index mode, int to, int from) const;
+  /// What a modal force of node `from` (1 or 2) does to q and v at node `to`, all modes.
+  void respond(const double* force, int to, int from, double* q, double* v) const;
 
 private:
+  template <class Force, class Take>
+  void move_coupled(const Nodes& q, const Nodes& v, const Force& force, const Take& take) const;
+  void predict_coupled(const Nodes& load, const Nodes& contact, Nodes& q, Nodes& v) const;
+  void move_coupled(const Nodes& load, const Nodes& contact, Nodes& q, Nodes& v, Works& works) const;
+
+  Eigen::Index modes_;
+  MatrixFlow* coupled_;
+  int halvings_;
   int padded_modes_;
   kernels::Array
       table_; ///< `lanes` modes at a time: for both nodes the coefficients of q, v, M_0, M_1 by q0 v0 F0 F1 F2
 };
+
+/// Coefficients of s^j, j = 0, 1, 2, s from 0 to 1, on the part [from, from + length] of a step (in shares of it), of the quadratic through
+/// values at the nodes.
+[[nodiscard]] std::array<double, 3> part_of(const std::array<double, 3>& force, double from, double length);
 
 /// State at time t of a step of length h, for output.
 struct PolynomialState {

@@ -43,32 +43,33 @@ System with_diagonal(System system) {
   return system;
 }
 
-MatrixFlow::MatrixFlow(const System& system, double step) : step_(step) {
+MatrixFlow::MatrixFlow(const System& system, double step, int degree, int halvings)
+    : step_(step), degree_(degree) {
   coupled_.assign(static_cast<std::size_t>(system.size()), 0);
   for (auto& modes : coupled_modes(system.damping_matrix)) {
     for (const Index mode : modes)
       coupled_[static_cast<std::size_t>(mode)] = 1;
-    blocks_.push_back(make_block(system, std::move(modes), step));
+    blocks_.push_back(make_block(system, std::move(modes), halvings));
   }
 }
 
-MatrixFlow::Block MatrixFlow::make_block(const System& system, std::vector<Index> modes, double step) {
+MatrixFlow::Block MatrixFlow::make_block(const System& system, std::vector<Index> modes, int halvings) const {
   Block b;
   const auto m = static_cast<Index>(modes.size());
   b.k = system.stiffness(modes);
   b.c = system.damping_matrix(modes, modes);
   b.modes = std::move(modes);
-  b.state.resize(4 * m);
-  b.moved.resize(3 * m);
+  b.state.resize((3 + degree_) * m);
+  b.moved.resize((2 + degree_) * m);
   for (VectorXd* x : {&b.t, &b.v, &b.work})
     x->resize(m);
   const double rate = std::sqrt(b.k.maxCoeff()) + b.c.cwiseAbs().rowwise().sum().maxCoeff();
-  const int halvings = std::max(1, static_cast<int>(std::ceil(std::log2(std::max(1.0, rate * step)))));
-  MatrixXd flow(3 * m, 4 * m);
-  for (Index j = 0; j < 4 * m; ++j) {
+  halvings = std::max(halvings, static_cast<int>(std::ceil(std::log2(std::max(1.0, rate * step_)))));
+  MatrixXd flow(b.moved.size(), b.state.size());
+  for (Index j = 0; j < b.state.size(); ++j) {
     b.state.setZero();
     b.state(j) = 1.0;
-    b.series(std::ldexp(step, -halvings));
+    b.series(std::ldexp(step_, -halvings));
     flow.col(j) = b.moved;
   }
   b.flows.push_back(std::move(flow));
@@ -80,66 +81,80 @@ MatrixFlow::Block MatrixFlow::make_block(const System& system, std::vector<Index
 
 /// `moved` from `state` a short time later.
 void MatrixFlow::Block::series(double time) {
-  const Index m = size();
+  const Index m = size(), degree = moved.size() / m - 2;
   t = state.head(m);
   v = state.segment(m, m);
-  moved << t, v, t;
+  moved << t, v, t.replicate(degree, 1);
+  for (Index i = 1; i < degree; ++i)
+    moved.segment((2 + i) * m, m) /= static_cast<double>(i + 1);
   for (int j = 0; j < series_terms; ++j) {
     const double factor = time / (j + 1);
     work.noalias() = c * v;
     work.array() = -work.array() - k.array() * t.array();
-    if (j == 0)
-      work += state.segment(2 * m, m);
-    else if (j == 1)
-      work += state.tail(m) - state.segment(2 * m, m);
+    if (j <= degree)
+      work += state.segment((2 + j) * m, m);
     t = factor * v;
     v = factor * work;
     moved.head(m) += t;
     moved.segment(m, m) += v;
-    moved.tail(m) += t / (j + 2);
+    for (Index i = 0; i < degree; ++i)
+      moved.segment((2 + i) * m, m) += t / static_cast<double>(j + i + 2);
   }
 }
 
-/// The flow over twice the time: the load in the middle is (f0 + f1)/2.
-MatrixXd MatrixFlow::doubled(const MatrixXd& flow) {
-  const Index m = flow.rows() / 3;
-  MatrixXd first = flow, second = flow; // what the halves make of f0 and f1
-  first.middleCols(2 * m, m) += 0.5 * first.rightCols(m);
-  first.rightCols(m) *= 0.5;
+/// The flow over twice the time. With S the share of the double step, the force of the first half is f_j (s/2)^j, that of the second
+/// f_j ((1 + s)/2)^j; the moments likewise: 2 M_0 = M_0' + M_0'', 4 M_1 = M_1' + M_0'' + M_1''.
+MatrixXd MatrixFlow::doubled(const MatrixXd& flow) const {
+  const Index m = flow.rows() / (2 + degree_);
+  const auto loads = [m](MatrixXd& x, int j) { return x.middleCols((2 + j) * m, m); };
+  MatrixXd first = flow,
+           second = flow; // what the halves make of the start and of the force of the double step
   second.leftCols(2 * m).setZero();
-  second.rightCols(m) += 0.5 * second.middleCols(2 * m, m);
-  second.middleCols(2 * m, m) *= 0.5;
+  for (int j = 1; j <= degree_; ++j) {
+    loads(first, j) *= std::ldexp(1.0, -j);
+    loads(second, j) *= std::ldexp(1.0, -j);
+  }
+  if (degree_ == 2) // (1 + s)^2 = 1 + 2 s + s^2, and the factor 1/4 there is
+    loads(second, 2) += 0.25 * (2.0 * flow.middleCols(3 * m, m) + flow.middleCols(2 * m, m));
+  loads(second, 1) += 0.5 * flow.middleCols(2 * m, m);
   second += flow.leftCols(2 * m) * first.topRows(2 * m);
-  second.bottomRows(m) = 0.5 * (first.bottomRows(m) + second.bottomRows(m));
+  const auto moment = [m](MatrixXd& x, int i) { return x.middleRows((2 + i) * m, m); };
+  if (degree_ == 2)
+    moment(second, 1) = 0.25 * (moment(first, 1) + moment(second, 0) + moment(second, 1));
+  moment(second, 0) = 0.5 * (moment(first, 0) + moment(second, 0));
   return second;
 }
 
 void MatrixFlow::Block::apply(std::size_t level) { moved.noalias() = flows[level] * state; }
 
+void MatrixFlow::start(Block& b, const double* q, const double* v) {
+  for (Index i = 0; i < b.size(); ++i) {
+    b.state(i) = q[b.modes[static_cast<std::size_t>(i)]];
+    b.state(b.size() + i) = v[b.modes[static_cast<std::size_t>(i)]];
+  }
+}
+
 double MatrixFlow::advance(int halvings, double* q, double* v, const double* f0, const double* f1) {
-  const auto level = static_cast<std::size_t>(halvings);
   double work = 0.0;
+  if (f0) {
+    move(
+        halvings, q, v, [&](Index mode, int j) { return j == 0 ? f0[mode] : f1[mode] - f0[mode]; },
+        [&](Index mode, double to, double speed, const auto& moments) {
+          // int f q' dt by parts
+          work += f0[mode] * (to - q[mode]) + (f1[mode] - f0[mode]) * (to - moments[0]);
+          q[mode] = to;
+          v[mode] = speed;
+        });
+    return work;
+  }
   for (Block& b : blocks_) {
     const Index m = b.size();
+    start(b, q, v);
+    b.moved.head(2 * m).noalias() =
+        b.flows[static_cast<std::size_t>(halvings)].topLeftCorner(2 * m, 2 * m) * b.state.head(2 * m);
     for (Index i = 0; i < m; ++i) {
-      const Index mode = b.modes[static_cast<std::size_t>(i)];
-      b.state(i) = q[mode];
-      b.state(m + i) = v[mode];
-      if (f0) {
-        b.state(2 * m + i) = f0[mode];
-        b.state(3 * m + i) = f1[mode];
-      }
-    }
-    if (f0)
-      b.apply(level);
-    else
-      b.moved.head(2 * m).noalias() = b.flows[level].topLeftCorner(2 * m, 2 * m) * b.state.head(2 * m);
-    for (Index i = 0; i < m; ++i) {
-      const Index mode = b.modes[static_cast<std::size_t>(i)];
-      if (f0) // int f q' dt by parts, f linear
-        work += f0[mode] * (b.moved(i) - q[mode]) + (f1[mode] - f0[mode]) * (b.moved(i) - b.moved(2 * m + i));
-      q[mode] = b.moved(i);
-      v[mode] = b.moved(m + i);
+      q[b.modes[static_cast<std::size_t>(i)]] = b.moved(i);
+      v[b.modes[static_cast<std::size_t>(i)]] = b.moved(m + i);
     }
   }
   return work;
@@ -147,34 +162,12 @@ double MatrixFlow::advance(int halvings, double* q, double* v, const double* f0,
 
 void MatrixFlow::inside(double time, const double* q0, const double* v0, const double* f0,
                         const double* slope, double* q, double* v) {
-  for (Block& b : blocks_) {
-    const Index m = b.size();
-    const auto load = [&](double from, double to) {
-      for (Index i = 0; i < m; ++i) {
-        const Index mode = b.modes[static_cast<std::size_t>(i)];
-        b.state(2 * m + i) = f0 ? f0[mode] + from * slope[mode] : 0.0;
-        b.state(3 * m + i) = f0 ? f0[mode] + to * slope[mode] : 0.0;
-      }
-    };
-    for (Index i = 0; i < m; ++i) {
-      b.state(i) = q0[b.modes[static_cast<std::size_t>(i)]];
-      b.state(m + i) = v0[b.modes[static_cast<std::size_t>(i)]];
-    }
-    double at = 0.0, length = step_;
-    for (std::size_t level = 0; level < b.flows.size(); ++level, length *= 0.5)
-      if (time - at >= length) {
-        load(at, at + length);
-        b.apply(level);
-        b.state.head(2 * m) = b.moved.head(2 * m);
-        at += length;
-      }
-    load(at, time);
-    b.series(time - at);
-    for (Index i = 0; i < m; ++i) {
-      q[b.modes[static_cast<std::size_t>(i)]] = b.moved(i);
-      v[b.modes[static_cast<std::size_t>(i)]] = b.moved(m + i);
-    }
-  }
+  inside(
+      time, q0, v0,
+      [&](Index mode, int j, double from, double length) {
+        return !f0 ? 0.0 : j == 0 ? f0[mode] + from * slope[mode] : length * slope[mode];
+      },
+      q, v);
 }
 
 } // namespace fretwork::transient

@@ -91,11 +91,7 @@ NodalTables::NodalTables(const PackedContacts& contacts, const PolynomialFlow& f
       for (int b = 0; b < contacts.components; ++b) {
         double* column = &columns_[(static_cast<std::size_t>(2 * c + from - 1) * 3 + b) * length];
         for (int to = 1; to <= 2; ++to) {
-          for (int i = 0; i < contacts.modes; ++i) {
-            const auto response = flow.response(i, to, from);
-            q[i] = response.q * contacts.row(c, b)[i];
-            v[i] = response.v * contacts.row(c, b)[i];
-          }
+          flow.respond(contacts.row(c, b), to, from, q.data(), v.data());
           kernels::gather(contacts.gather, q.data(), v.data(), column + (to - 1) * stride,
                           column + (to + 1) * stride);
         }

@@ -10,8 +10,6 @@ std::string out_of_scope(const Scene& scene, SchemeKind kind) {
   if (scene.residual.size() > 0 && !takes_residual(kind))
     return "does not take the residual flexibility of the modes at the contacts (modes.static_modes = "
            "\"auto\")";
-  if (scene.system.damping_matrix.size() > 0 && kind == SchemeKind::collocation)
-    return "takes diagonal modal damping only, and the dampers of this study couple the modes";
   return {};
 }
 

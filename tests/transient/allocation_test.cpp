@@ -115,6 +115,8 @@ TEST(Allocation, NeverHappensInTheLoop) {
   EXPECT_EQ(allocations_of_a_run(scene, euler(2e-5)), 0);
   scene.system.damping_matrix(0, 5) = scene.system.damping_matrix(5, 0) = 0.3;
   EXPECT_EQ(allocations_of_a_run(scene, splitting(1e-4)), 0);
+  EXPECT_EQ(allocations_of_a_run(scene, energy_conserving(1e-4)), 0);
+  EXPECT_EQ(allocations_of_a_run(scene, collocation(1e-4)), 0);
 }
 
 TEST(Allocation, NeverHappensUnderTablesAndNoise) {

@@ -83,11 +83,13 @@ TEST(ForcePolynomial, MovesModesOfEveryKindExactly) {
       constexpr double round_off = 1e-12;
       EXPECT_NEAR(state.q, q.at[j][i], round_off);
       EXPECT_NEAR(state.v, v.at[j][i], round_off * size);
-      const auto by_middle = flow.response(mode, static_cast<int>(j), 1),
-                 by_end = flow.response(mode, static_cast<int>(j), 2);
       const auto without = state_under(k, c, h, t, q0, v0, {force[0], 0.0, 0.0});
-      EXPECT_NEAR(without.q + force[1] * by_middle.q + force[2] * by_end.q, state.q, round_off);
-      EXPECT_NEAR(without.v + force[1] * by_middle.v + force[2] * by_end.v, state.v, round_off * size);
+      kernels::Array unit(padded, 0.0), by_q[2] = {unit, unit}, by_v[2] = {unit, unit};
+      unit[i] = 1.0;
+      for (int from = 1; from <= 2; ++from)
+        flow.respond(unit.data(), static_cast<int>(j), from, by_q[from - 1].data(), by_v[from - 1].data());
+      EXPECT_NEAR(without.q + force[1] * by_q[0][i] + force[2] * by_q[1][i], state.q, round_off);
+      EXPECT_NEAR(without.v + force[1] * by_v[0][i] + force[2] * by_v[1][i], state.v, round_off * size);
     }
   }
 }
