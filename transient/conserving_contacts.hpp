@@ -7,8 +7,8 @@
 ///     normal    F = <K_N (<p1>^2 - <p0>^2)/(2 (p1 - p0)) + (C_N (<p1> - <p0>) + K_N d (<p1>^2 - <p0>^2)/2)/h>+
 ///               along the discrete gradient D of the gap: the spring's part does the work -(V1 - V0), V = K_N <p>^2/2, and what
 ///               the dampers and the positive part take is >= 0
-///     friction  along t and x_loc, normal force F |D|, n = D/|D|, t = n x x_loc: the law at the mean displacement dx/2 and the mean
-///               velocity dx/h, dx = (x1 - x0).(x_loc, t), from the spring T at the start: the law's step form
+///     friction  along t and x_loc, normal force F |D|, n = D/|D|, t = n x x_loc, of dx = (x1 - x0).(x_loc, t), from the spring T at the
+///               start: the law's step form (conserving_friction.hpp)
 /// The unknowns are the forces, f = Phi(xf + W f): Newton's method with the derivatives of every law and of D (semi-smooth: one side
 /// at kinks), shortened until the residual falls, to round-off of the positions. Where Phi jumps it is made continuous and taken again:
 ///   - a contact that reaches mu_s F_N is solved with the bound mu_s F_N first, then with mu_d F_N;

@@ -76,29 +76,6 @@ bool may_touch(const kernels::ReachLanes& r, std::size_t c, double y, double z) 
 
 } // namespace
 
-NodalMotion::NodalMotion(const PackedContacts& contacts)
-    : stride(static_cast<std::size_t>(contacts.stride())), start(2 * stride), ends(4 * stride) {}
-
-NodalTables::NodalTables(const PackedContacts& contacts, const PolynomialFlow& flow, double h)
-    : length(4 * static_cast<std::size_t>(contacts.stride())) {
-  const auto stride = static_cast<std::size_t>(contacts.stride());
-  const auto modes = static_cast<std::size_t>(contacts.padded_modes);
-  columns_.assign(static_cast<std::size_t>(contacts.count) * 6 * length, 0.0);
-  kernels::Array q(modes), v(modes);
-  for (int c = 0; c < contacts.count; ++c) {
-    springs.push_back(spring_table(contacts.supports[c].friction, h));
-    for (int from = 1; from <= 2; ++from)
-      for (int b = 0; b < contacts.components; ++b) {
-        double* column = &columns_[(static_cast<std::size_t>(2 * c + from - 1) * 3 + b) * length];
-        for (int to = 1; to <= 2; ++to) {
-          flow.respond(contacts.row(c, b), to, from, q.data(), v.data());
-          kernels::gather(contacts.gather, q.data(), v.data(), column + (to - 1) * stride,
-                          column + (to + 1) * stride);
-        }
-      }
-  }
-}
-
 NodalSolver::NodalSolver(const PackedContacts& contacts) : contacts_(contacts) {
   const auto count = static_cast<std::size_t>(contacts.count);
   nodes_.resize(3 * count);
@@ -262,7 +239,7 @@ double NodalSolver::improve(Active& active, const NodalTables& tables, NodalMoti
       node[j].curvature = contact::curvature(support.obstacle, motion.u(j)[c] + contacts_.reach.rest_y[c],
                                              motion.u(j)[static_cast<std::size_t>(contacts_.width) + c] +
                                                  contacts_.reach.rest_z[c]);
-    auto jacobian = laws.jacobian(answer<D>(active, tables));
+    auto jacobian = laws.jacobian(tables.answer<D>(active.contact, node));
     if (!invert<size>(jacobian, active.inverse))
       return std::numeric_limits<double>::infinity();
     active.branches = branches;
@@ -296,41 +273,6 @@ double NodalSolver::improve(Active& active, const NodalTables& tables, NodalMoti
       (std::abs(motion.u(1)[c] + contacts_.reach.rest_y[c]) +
        std::abs(motion.u(1)[static_cast<std::size_t>(contacts_.width) + c] + contacts_.reach.rest_z[c]));
   return largest > still ? largest / force : 0.0;
-}
-
-/// The contact's own answer in the directions of its nodes.
-template <int D> Answer<D> NodalSolver::answer(const Active& active, const NodalTables& tables) const {
-  const auto c = static_cast<std::size_t>(active.contact), width = static_cast<std::size_t>(contacts_.width);
-  const auto stride = static_cast<std::size_t>(contacts_.stride());
-  const ContactNode* node = &nodes_[3 * c];
-  Answer<D> out{};
-  for (int k = 0; k < 2; ++k) {
-    const double* columns = tables.columns(active.contact, k + 1) + c;
-    const double ny = node[k + 1].ny, nz = node[k + 1].nz;
-    for (int quantity = 0; quantity < 4; ++quantity) { // u at 1/2, u at 1, v at 1/2, v at 1
-      const int j = quantity % 2;
-      const double my = node[j + 1].ny, mz = node[j + 1].nz;
-      auto& to = quantity < 2 ? out.u[j] : out.v[j];
-      const double* by_y = columns + static_cast<std::size_t>(quantity) * stride;
-      const double* by_z = by_y + tables.length;
-      const double n_y = ny * by_y[0] + nz * by_z[0], n_z = ny * by_y[width] + nz * by_z[width];
-      const double t_y = nz * by_y[0] - ny * by_z[0], t_z = nz * by_y[width] - ny * by_z[width];
-      const auto at = static_cast<std::size_t>(k * D);
-      to[0][at] = my * n_y + mz * n_z;
-      to[0][at + 1] = my * t_y + mz * t_z;
-      to[1][at] = mz * n_y - my * n_z;
-      to[1][at + 1] = mz * t_y - my * t_z;
-      if constexpr (D == 3) {
-        const double* by_x = by_z + tables.length;
-        to[0][at + 2] = my * by_x[0] + mz * by_x[width];
-        to[1][at + 2] = mz * by_x[0] - my * by_x[width];
-        to[2][at] = ny * by_y[2 * width] + nz * by_z[2 * width];
-        to[2][at + 1] = nz * by_y[2 * width] - ny * by_z[2 * width];
-        to[2][at + 2] = by_x[2 * width];
-      }
-    }
-  }
-  return out;
 }
 
 /// The laws at the motion found, and the springs of the contacts that are open.

@@ -2,43 +2,15 @@
 /// @file
 /// The contact forces of a step at its nodes 1/2 and 1, all contacts together, implicit: with f_0 known,
 ///     u_j = u_j^free + sum_k Wq_jk f_k,   v_j = v_j^free + sum_k Wv_jk f_k,   f_j = laws(u_j, v_j, springs),   j, k = 1/2, 1
-/// W = B diag(response of each mode) B^T, made once for a step. Only contacts take part that penetrate at a node, in the motion without
+/// W: nodal_tables.hpp. Only contacts take part that penetrate at a node, in the motion without
 /// new forces or in that of the forces found (tested again until none is left out). Block Gauss-Seidel: one Newton step of one contact
 /// at a time, all lanes answer. Its matrix is kept while the laws stay in their branches and the changes fall. Changes that do not
 /// settle within some sweeps are halved (an iteration that goes to and fro between two branches); what does not settle then is a
 /// failure, and the caller takes a smaller step.
 #pragma once
-#include "transient/force_polynomial.hpp"
-#include "transient/nodal_contact.hpp"
-#include "transient/packed_contacts.hpp"
+#include "transient/nodal_tables.hpp"
 
 namespace fretwork::transient {
-
-/// Displacements and velocities of all contacts at the nodes, lanes of PackedContacts.
-struct NodalMotion {
-  explicit NodalMotion(const PackedContacts& contacts);
-  [[nodiscard]] double* u(int node) { return node == 0 ? start.data() : &ends[(node - 1) * stride]; }
-  [[nodiscard]] double* v(int node) { return node == 0 ? &start[stride] : &ends[(node + 1) * stride]; }
-  void visit(core::StateArchive& state) { state(start, ends); }
-  std::size_t stride;
-  kernels::Array start; ///< u, v at node 0
-  kernels::Array ends;  ///< u at 1/2, u at 1, v at 1/2, v at 1
-};
-
-/// What contacts need of a step of length h, made once.
-class NodalTables {
-public:
-  NodalTables(const PackedContacts& contacts, const PolynomialFlow& flow, double h);
-  /// What unit forces of a contact at `node` along y, z, x do to NodalMotion::ends, 3 columns one after the other.
-  [[nodiscard]] const double* columns(int contact, int node) const {
-    return &columns_[static_cast<std::size_t>(2 * contact + node - 1) * 3 * length];
-  }
-  std::size_t length; ///< of a column
-  std::vector<SpringTable> springs;
-
-private:
-  kernels::Array columns_;
-};
 
 class NodalSolver {
 public:
@@ -87,7 +59,6 @@ private:
   template <int D>
   NodalContact<D> evaluate(const Active& active, const NodalTables& tables, NodalMotion& motion);
   void set_scales(Active& active, const NodalTables& tables) const;
-  template <int D> [[nodiscard]] Answer<D> answer(const Active& active, const NodalTables& tables) const;
   void finish(const NodalTables& tables, NodalMotion& motion);
   void leave(int contact, const NodalTables& tables, NodalMotion& motion);
 

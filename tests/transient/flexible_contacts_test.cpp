@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contacts that give way beside the modes (Scene::residual): springs in series, alone, shared between contacts, with friction and
-// dampers, at any stiffness.
+// Contacts that give way beside the modes (Scene::residual): springs in series, alone, shared between contacts, in stick, at any stiffness.
+// With all laws along a smooth path: flexible_paths_test.cpp. Moved by loads: flexible_loads_test.cpp.
 #include "contact/normal_law.hpp"
 #include "core/error.hpp"
 #include "scenes.hpp"
 #include "transient/scheme_scope.hpp"
 #include "transient/static_start.hpp"
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -115,78 +114,6 @@ TEST(FlexibleContacts, RestInEquilibrium) {
   }
 }
 
-namespace {
-
-/// A node that two modes move, the second far above what happens, on a stop; a force acts where the second moves ten times as much.
-Scene with_a_high_mode(const TimeFunction& force, double duration) {
-  constexpr double high = 1e5, share = 30.0; // rad/s, 1/sqrt(kg)
-  Scene s;
-  s.duration = duration;
-  s.system.stiffness = Eigen::Vector2d(2e4, high * high);
-  s.system.damping = Eigen::Vector2d(5.0, 0.2 * high);
-  s.q0 = s.v0 = Eigen::Vector2d::Zero();
-  s.contacts = {contact_of(1.0, {contact::Stop{1e-3, PlaneAxis::y}, {1e6}, {}})};
-  s.contacts[0].b = Eigen::MatrixXd::Zero(3, 2);
-  s.contacts[0].b.row(1) << 1.0, share;
-  s.loads = {{force, Eigen::Vector2d(1.0, 10.0 * share)}};
-  return s;
-}
-
-/// The same with the flexibility of the high mode in its place.
-Scene without_it(Scene s, bool under_loads = true) {
-  const double gain = s.contacts[0].b(1, 1) / s.system.stiffness(1),
-               flexibility = gain * s.contacts[0].b(1, 1), under_load = gain * s.loads[0].modal_force(1);
-  const double at_start = Signal(s.loads[0].function, s.duration)(0.0);
-  for (Eigen::VectorXd* x : {&s.system.stiffness, &s.system.damping, &s.q0, &s.v0, &s.loads[0].modal_force})
-    x->conservativeResize(1);
-  s.contacts[0].b = s.contacts[0].b.leftCols(1).eval();
-  s.residual = diagonal(0.0, flexibility, 0.0);
-  if (under_loads) {
-    s.contacts[0].under_loads = Vec3(0.0, under_load, 0.0);
-    s.contacts[0].loaded_at_start = at_start * s.contacts[0].under_loads;
-  }
-  return s;
-}
-
-} // namespace
-
-TEST(FlexibleContacts, AreMovedByLoadsAsTheModesLeftOutWould) {
-  constexpr double force = 400.0, h = 1e-5;
-  const Table jump{{0.0, 0.008, 0.008, 0.02}, {0.0, force, 0.4 * force, force}};
-  for (const TimeFunction& function :
-       {TimeFunction{Constant{force}}, TimeFunction{Harmonic{force, 30.0, 0.3}}, TimeFunction{jump},
-        TimeFunction{Random{force, 5.0, 60.0, 3}}}) {
-    const Scene whole = with_a_high_mode(function, 0.06);
-    const double reference = peak(whole, splitting(h)).force;
-    ASSERT_GT(reference, 0.0) << function.index();
-    constexpr double without_inertia =
-        4e-3; // nor damping of the mode left out, which rings by w_c/1e5 of its share
-    EXPECT_NEAR(peak(without_it(whole), splitting(h)).force / reference, 1.0, without_inertia)
-        << function.index();
-    EXPECT_GT(std::abs(peak(without_it(whole, false), splitting(h)).force / reference - 1.0),
-              3.0 * without_inertia)
-        << function.index();
-  }
-}
-
-TEST(FlexibleContacts, RestInEquilibriumWithWhatLoadsMove) {
-  constexpr double force = 400.0, h = 1e-5;
-  const Scene whole = with_a_high_mode(Constant{force}, 0.002);
-  Scene s = without_it(whole), placed = s;
-  placed.contacts[0].rest = s.place_at_start(s.contacts[0]);
-  const Equilibrium e = static_equilibrium(placed);
-  EXPECT_NEAR(e.normal_force(0) / static_equilibrium(whole).normal_force(0), 1.0, 1e-9);
-  s.q0 = e.q;
-  for (const auto& step : trace(s, splitting(h)))
-    ASSERT_NEAR(step.normal, e.normal_force(0), 1e-4 * e.normal_force(0)); // (w h)^2/8
-}
-
-TEST(FlexibleContacts, BalanceTheirEnergyUnderLoads) {
-  constexpr double of_the_splitting = 2e-3;
-  const Scene s = without_it(with_a_high_mode(Harmonic{400.0, 30.0, 0.3}, 0.3));
-  EXPECT_LT(simulate(s, splitting(2e-5), 1e-3).report.residual_relative, of_the_splitting);
-}
-
 TEST(FlexibleContacts, ShareTheirFlexibility) {
   // two nodes on two stops: f = (1/K + R)^-1 (q - gap) where both are closed
   constexpr double gap = 1e-3;
@@ -269,149 +196,6 @@ TEST(FlexibleContacts, StickWithTheStiffnessesInSeries) {
       EXPECT_LT(coarse, 2e-2) << flexibility;
       EXPECT_LT(fine, coarse / 45.0) << flexibility; // of 64
     }
-}
-
-namespace {
-
-/// A node on a round obstacle, coupled modes, all directions of residual flexibility.
-Scene on_a_circle(const contact::NormalLaw& normal, const contact::FrictionLaw& friction,
-                  const Vec3& velocity) {
-  Scene scene;
-  scene.system.stiffness = Eigen::Vector4d(4.0, 30.0, 120.0, 0.0);
-  scene.system.damping = Eigen::Vector4d(1.0, 2.0, 3.0, 0.5);
-  ContactPoint point;
-  point.support = {contact::Circle{1.0}, normal, friction};
-  point.rest = Vec3(0.0, 0.0, 1.05);
-  point.b.resize(3, 4);
-  point.b << 1.0, 0.2, -0.3, 0.5, //
-      0.1, 1.1, 0.4, -0.2,        //
-      -0.2, 0.3, 0.9, 0.6;
-  scene.contacts = {point};
-  scene.loads = {{Constant{1.0}, point.b.transpose() * Vec3(0.0, 0.0, 50.0)},
-                 {Harmonic{1.0, 3.0, 0.3}, point.b.transpose() * Vec3(4.0, 5.0, 3.0)}};
-  scene.q0 = Eigen::Vector4d::Zero();
-  scene.v0 = point.b.transpose() * (point.b * point.b.transpose()).inverse() * velocity;
-  scene.duration = 0.3;
-  return scene;
-}
-
-const Eigen::Matrix3d flexibility =
-    5e-4 * (Eigen::Matrix3d() << 1.0, 0.3, -0.2, 0.3, 1.2, 0.4, -0.2, 0.4, 0.9).finished();
-
-constexpr int outputs = 37;
-
-struct Motion {
-  Eigen::MatrixXd q, v, force;
-};
-Motion motion(const Scene& scene, const StepOptions& options) {
-  const History run = simulate(scene, options, scene.duration / outputs);
-  Motion out{run.q.topRows(4).rightCols(outputs), run.v.topRows(4).rightCols(outputs),
-             Eigen::MatrixXd(3, outputs)};
-  out.force << run.normal.rightCols(outputs), run.along_x.rightCols(outputs), run.along_t.rightCols(outputs);
-  return out;
-}
-std::array<double, 3> apart(const Motion& a, const Motion& b) {
-  return {(a.q - b.q).cwiseAbs().maxCoeff() / b.q.cwiseAbs().maxCoeff(),
-          (a.v - b.v).cwiseAbs().maxCoeff() / b.v.cwiseAbs().maxCoeff(),
-          (a.force - b.force).cwiseAbs().maxCoeff() / b.force.cwiseAbs().maxCoeff()};
-}
-
-struct Law {
-  const char* name;
-  contact::NormalLaw normal;
-  contact::FrictionLaw friction;
-  Vec3 velocity;
-};
-constexpr auto reference = contact::FrictionMemoryKind::reference;
-const Law laws[] = {
-    {"spring", {1000.0}, {}, {0.05, 0.1, 0.05}},
-    {"damper", {1000.0, 10.0}, {}, {0.0, 0.0, 0.0}},
-    {"hunt_crossley", {1000.0, 0.0, 0.3}, {}, {0.05, 0.1, 0.05}},
-    {"stick", {1000.0}, {800.0, 0.0, 20.0, 20.0}, {0.05, 0.1, 0.05}},
-    {"damped stick", {1000.0, 5.0}, {800.0, 5.0, 20.0, 20.0}, {0.0, 0.0, 0.0}},
-    {"slip", {1000.0}, {800.0, 20.0, 0.1, 0.1}, {1.5, 2.0, 0.0}},
-    {"reference stick", {1000.0}, {800.0, 0.0, 20.0, 20.0, reference}, {0.05, 0.1, 0.05}},
-    {"reference slip", {1000.0}, {800.0, 20.0, 0.1, 0.1, reference}, {1.5, 2.0, 0.0}},
-};
-
-/// The force on the node of `on_a_circle` in equilibrium at t = 0.
-Vec3 pressed_at_start(double stiffness) {
-  Vec3 force = Vec3::Zero();
-  for (int i = 0; i < 100; ++i) { // contracts by R F/radius
-    const Vec3 x = Vec3(0.0, 0.0, 1.05) + flexibility * force;
-    const Vec3 n = -Vec3(0.0, x.y(), x.z()).normalized();
-    const double give = n.dot(flexibility * n);
-    force = in_series(stiffness, give) * (std::hypot(x.y(), x.z()) - 1.0 + give * n.dot(force)) * n;
-  }
-  return force;
-}
-
-} // namespace
-
-TEST(FlexibleContacts, KeepOrderTwo) {
-  for (const Law& law : laws) {
-    Scene s = on_a_circle(law.normal, law.friction, law.velocity);
-    s.residual = flexibility;
-    const Motion finest = motion(s, splitting(s.duration / 8192.0));
-    const auto coarse = apart(motion(s, splitting(s.duration / 128.0)), finest),
-               fine = apart(motion(s, splitting(s.duration / 1024.0)), finest);
-    for (std::size_t i = 0; i < 3; ++i) {
-      EXPECT_GT(std::log2(coarse[i] / fine[i]) / 3.0, 1.8)
-          << law.name << " " << i << " " << coarse[i] << " " << fine[i];
-      EXPECT_LT(fine[i], 1e-3) << law.name << " " << i;
-    }
-  }
-}
-
-TEST(FlexibleContacts, AreTheLimitOfStiffModes) {
-  // modes of frequency w that hold the same flexibility, R = b b^T/w^2; they follow up to 2 zeta w_motion/w
-  constexpr double w = 1e4, zeta = 0.5, share = 0.02;
-  for (const Law& law : laws) {
-    Scene rigid = on_a_circle(law.normal, law.friction, law.velocity), flexible = rigid, stiff = rigid;
-    flexible.residual = flexibility;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(flexibility);
-    const Eigen::Matrix3d shapes = w * solver.eigenvectors() * solver.eigenvalues().cwiseSqrt().asDiagonal();
-    for (Eigen::VectorXd* x : {&stiff.system.stiffness, &stiff.system.damping, &stiff.q0, &stiff.v0})
-      x->conservativeResize(7);
-    stiff.system.stiffness.tail(3).setConstant(w * w);
-    stiff.system.damping.tail(3).setConstant(2.0 * zeta * w);
-    stiff.v0.tail(3).setZero();
-    stiff.contacts[0].b.conservativeResize(3, 7);
-    stiff.contacts[0].b.rightCols(3) = shapes;
-    stiff.q0.tail(3) = shapes.transpose() * pressed_at_start(law.normal.stiffness) / (w * w);
-    for (Load& load : stiff.loads) {
-      load.modal_force.conservativeResize(7);
-      load.modal_force.tail(3).setZero();
-    }
-    const Motion wanted = motion(stiff, energy_conserving(2e-5));
-    const auto with = apart(motion(flexible, splitting(5e-5)), wanted),
-               without = apart(motion(rigid, splitting(5e-5)), wanted);
-    for (std::size_t i = 0; i < 3; ++i) {
-      EXPECT_GT(without[i], 0.01) << law.name << " " << i;
-      EXPECT_LT(with[i], share * without[i]) << law.name << " " << i;
-    }
-  }
-}
-
-TEST(FlexibleContacts, BalanceTheEnergyInOrderTwo) {
-  for (const Law& law : laws) {
-    Scene s = on_a_circle(law.normal, law.friction, law.velocity);
-    s.residual = flexibility;
-    const auto residual = [&](double h) {
-      return simulate(s, splitting(h), s.duration).report.residual_relative;
-    };
-    const double coarse = residual(s.duration / 128.0), fine = residual(s.duration / 1024.0);
-    const double fall = law.velocity.norm() > 1.0
-                            ? 6.0
-                            : 30.0; // of 8, of 64: those that slip stick at first, which is a kink
-    EXPECT_LT(fine, coarse / fall) << law.name;
-    EXPECT_LT(fine, 1e-4) << law.name;
-  }
-  Scene s = rattling(4, 12, 0.5);
-  s.residual = 2e-6 * (Eigen::MatrixXd::Identity(12, 12) + 0.5 * Eigen::MatrixXd::Ones(12, 12));
-  const History run = simulate(s, splitting(5e-5), 0.1);
-  EXPECT_LT(run.report.residual_relative, 5e-3);
-  EXPECT_LT(run.report.counts.unconverged, run.report.counts.steps / 1000);
 }
 
 TEST(FlexibleContacts, HaveNoStepLimitOfTheirOwn) {

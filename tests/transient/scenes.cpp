@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scenes.hpp"
+#include <Eigen/LU>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -36,6 +37,27 @@ ContactPoint pressed(double mass, double normal_force, const contact::FrictionLa
 
 Load force_on(double mass, const Vec3& amplitude, const TimeFunction& function) {
   return {function, amplitude / std::sqrt(mass)};
+}
+
+Scene pressed_on_a_circle(const contact::NormalLaw& normal, double modal_damping,
+                          const contact::FrictionLaw& friction, const Vec3& velocity) {
+  Scene scene;
+  scene.system.stiffness = Eigen::Vector4d(4.0, 30.0, 120.0, 0.0);
+  scene.system.damping = modal_damping * Eigen::Vector4d(1.0, 2.0, 3.0, 0.5);
+  ContactPoint point;
+  point.support = {contact::Circle{1.0}, normal, friction};
+  point.rest = Vec3(0.0, 0.0, 1.05);
+  point.b.resize(3, 4);
+  point.b << 1.0, 0.2, -0.3, 0.5, //
+      0.1, 1.1, 0.4, -0.2,        //
+      -0.2, 0.3, 0.9, 0.6;
+  scene.contacts = {point};
+  scene.loads = {{Constant{1.0}, point.b.transpose() * Vec3(0.0, 0.0, 50.0)},
+                 {Harmonic{1.0, 3.0, 0.3}, point.b.transpose() * Vec3(4.0, 5.0, 3.0)}};
+  scene.q0 = Eigen::Vector4d::Zero();
+  scene.v0 = point.b.transpose() * (point.b * point.b.transpose()).inverse() * velocity;
+  scene.duration = 0.3;
+  return scene;
 }
 
 Scene rattling(int contacts, int modes, double duration) {

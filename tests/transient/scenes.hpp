@@ -30,6 +30,12 @@ void start(transient::Scene& scene, double mass, const Vec3& displacement, const
 [[nodiscard]] transient::Load force_on(double mass, const Vec3& amplitude,
                                        const transient::TimeFunction& function);
 
+/// A smooth path of 0.3 s: a node that stays pressed on a round obstacle (w_c about 40 rad/s), with four modes coupled by the contact.
+/// @param modal_damping  scale of the modes' own   @param velocity  of the node at the start
+[[nodiscard]] transient::Scene pressed_on_a_circle(const contact::NormalLaw& normal, double modal_damping,
+                                                   const contact::FrictionLaw& friction,
+                                                   const Vec3& velocity);
+
 /// A tube between stops of all kinds, with damping and friction: every branch of a step is met.
 [[nodiscard]] transient::Scene rattling(int contacts, int modes, double duration);
 
