@@ -27,7 +27,7 @@ NodalTables::NodalTables(const PackedContacts& contacts, const PolynomialFlow& f
 }
 
 template <int D> Answer<D> NodalTables::answer(int contact, const ContactNode* node) const {
-    Answer<D> out{};
+  Answer<D> out{};
   for (int k = 0; k < 2; ++k) {
     const double* column = columns(contact, k + 1) + contact;
     const double ny = node[k + 1].ny, nz = node[k + 1].nz;

@@ -48,8 +48,9 @@ template <class Move> void ObstacleMotion::each(double time, const Move& move) c
     carried += stride;
   }
   for (const Signal& load : loads_) {
-    const double before = std::max(0.0, time - 0.5 * h_), after = time + 0.5 * h_;
-    move(carried, load(time), (load(after) - load(before)) / h_);
+    const double before = load.over_step(std::max(0.0, time - 0.5 * h_), h_),
+                 after = load.over_step(time + 0.5 * h_, h_);
+    move(carried, load.over_step(time, h_), (after - before) / h_);
     carried += stride;
   }
 }

@@ -5,8 +5,9 @@
 /// from its obstacle, in the contact's local axes. An obstacle that stays in space while the base moves by s along d has
 /// carried = d. What it does on the structure is work from outside: each second, with the force f on the node, -f.(carried s').
 ///
-/// With residual flexibility (Scene) loads move the contacts beside the modes, u = ... + under_loads g(t), at once: without inertia. Their
-/// velocity is the difference of g over the step about the instant, which stays finite where a table jumps and adds up to what g does.
+/// With residual flexibility (Scene) loads move the contacts beside the modes, u = ... + under_loads g(t), at once: without inertia. g
+/// stands for the step about the instant, as in the loads on the modes (Signal::over_step: a table finer than steps by its mean). Their
+/// velocity is the difference of g over that step, which stays finite where a table jumps and adds up to what g does.
 #pragma once
 #include "transient/contact_motion.hpp"
 #include "transient/contact_trial.hpp"

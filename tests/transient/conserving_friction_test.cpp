@@ -26,13 +26,16 @@ template <class F> void expect_derivatives(const F& friction, Vec2 dx, double no
   const double small = difference * contact::norm(dx), little = difference * normal,
                stiffness = law.stiffness + law.damping / h;
   for (const Vec2 e : {Vec2{1.0, 0.0}, Vec2{0.0, 1.0}}) {
-    const auto column = [e](const contact::Sym2& m) { return Vec2{m.xx * e.x + m.xt * e.t, m.xt * e.x + m.tt * e.t}; };
+    const auto column = [e](const contact::Sym2& m) {
+      return Vec2{m.xx * e.x + m.xt * e.t, m.xt * e.x + m.tt * e.t};
+    };
     expect(column(at.by_displacement), friction(dx + small * e, normal, force),
            friction(dx - small * e, normal, force), small, stiffness);
     expect(column(at.by_force), friction(dx, normal, force + little * e),
            friction(dx, normal, force - little * e), little, 1.0);
   }
-  expect(at.by_normal, friction(dx, normal + little, force), friction(dx, normal - little, force), little, 1.0);
+  expect(at.by_normal, friction(dx, normal + little, force), friction(dx, normal - little, force), little,
+         1.0);
 }
 
 } // namespace

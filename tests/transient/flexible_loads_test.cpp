@@ -72,6 +72,29 @@ TEST(FlexibleContacts, AreMovedByLoadsAsTheModesLeftOutWould) {
   }
 }
 
+TEST(FlexibleContacts, AreMovedByTheMeanOfATableThatIsFinerThanSteps) {
+  // quarters of a step, up and down in turn: at every instant of an action the table is up, its mean over the step is not
+  constexpr double force = 400.0, h = 4e-5, duration = 0.02;
+  const auto with = [&](double zigzag) {
+    Table table;
+    for (int i = 0; 0.25 * h * i <= 1.01 * duration; ++i) {
+      table.time.push_back(0.25 * h * i);
+      const double by = i < 17 ? 0.0 : i == 17 ? -0.5 : i % 2 == 0 ? 1.0 : -1.0; // from the start no impulse
+      table.value.push_back(force * table.time.back() / duration + by * zigzag);
+    }
+    return trace(without_it(with_a_high_mode(table, duration)), splitting(h));
+  };
+  const auto smooth = with(0.0), fine = with(force);
+  double difference = 0.0, closed = 0.0;
+  for (std::size_t i = 1; i < smooth.size(); ++i) {
+    difference = std::max(difference, std::abs(fine[i].normal - smooth[i].normal));
+    closed = std::max(closed, smooth[i].normal);
+  }
+  constexpr double round_off = 1e-9; // of times, in the means
+  EXPECT_GT(closed, 0.5 * force);
+  EXPECT_LT(difference, round_off * closed);
+}
+
 TEST(FlexibleContacts, RestInEquilibriumWithWhatLoadsMove) {
   constexpr double force = 400.0, h = 1e-5;
   const Scene whole = with_a_high_mode(Constant{force}, 0.002);

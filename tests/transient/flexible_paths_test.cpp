@@ -85,7 +85,8 @@ TEST(FlexibleContacts, AreTheLimitOfStiffModes) {
   // modes of frequency w that hold the same flexibility, R = b b^T/w^2; they follow up to 2 zeta w_motion/w
   constexpr double w = 1e4, zeta = 0.5, share = 0.02;
   for (const Law& law : laws) {
-    Scene rigid = pressed_on_a_circle(law.normal, 1.0, law.friction, law.velocity), flexible = rigid, stiff = rigid;
+    Scene rigid = pressed_on_a_circle(law.normal, 1.0, law.friction, law.velocity), flexible = rigid,
+          stiff = rigid;
     flexible.residual = flexibility;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(flexibility);
     const Eigen::Matrix3d shapes = w * solver.eigenvectors() * solver.eigenvalues().cwiseSqrt().asDiagonal();
