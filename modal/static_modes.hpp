@@ -7,7 +7,8 @@
 /// (R. MacNeal, Computers and Structures 1 (1971) 581; S. Rubin, AIAA Journal 13 (1975) 995: residual attachment modes.)
 /// With S_ii = R_ii^-1/2 and S R S = Q Lambda Q^T the columns of X = V S Q Lambda^-1/2 have X^T K X = 1; X^T M X = Y mu Y^T gives the
 /// static modes Psi = X Y mu^-1/2 with omega^2 = 1/mu: M-orthonormal, K diagonal, and, being orthogonal to Phi, above its highest mode.
-/// Phi stays as it is. The basis then gives the exact static displacement of the loaded points under any load, for G P is in its span.
+/// Phi stays as it is. The basis then gives the exact static displacement of the loaded points under any load, for G P is in its span; as
+/// nearly as Phi are modes: on the pinned span of bench/span to 1e-10 with 500 elements, 1e-6 with 2000.
 ///
 /// Left out: a load of which the modes have all but `negligible_share` of the flexibility (R_ii / (G P)_ii), and combinations of loads with
 /// Lambda below `dependent_share` of the largest: points that are nearly one give way nearly as one, and what is left of their difference is

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // modes.accuracy: as many modes as the forces of contacts need.
 #include "mesh_text.hpp"
+#include "paths.hpp"
 #include "program.hpp"
 #include <cmath>
 #include <fmt/format.h>
@@ -11,67 +12,32 @@ namespace {
 
 constexpr double bending = 496.0, mass = 1.0; // N m2, kg/m of a span of 1 m
 
-/// A pinned span that gravity throws against a stop.
-std::string span(const std::string& modes, double stiffness) {
-  return R"([mesh]
-file = "beam.msh"
-[materials.steel]
-young_modulus = 2.0e11
-poisson_ratio = 0.3
-density = 8000.0
-[sections.tube]
-shape = "general"
-area = 1.25e-4
-iy = 2.48e-9
-iz = 2.48e-9
-torsion_constant = 4.96e-9
-polar_inertia = 4.96e-9
-[[beams]]
-group = "beam"
-material = "steel"
-section = "tube"
-[[restraints]]
-group = "beam_begin"
-fixed = ["uy"]
-[[restraints]]
-group = "beam_end"
-fixed = ["uy"]
-[[restraints]]
-group = "beam"
-fixed = ["ux", "uz", "rx", "ry"]
-[gravity]
-acceleration = [0.0, 20.0, 0.0]
-[transient]
-duration = 0.015
-step = 1.0e-6
-[[contacts]]
-name = "stop"
-group = "stop"
-obstacle = "stop_y"
-axis = [1.0, 0.0, 0.0]
-gap = 5.0e-4
-)" + fmt::format("normal_stiffness = {}\n[modes]\ndamping = 0.001\n{}\n", stiffness, modes);
+/// The span of bench/span, which is thrown against a stop; overrides as key=value.
+Results span(const Workshop& folder, std::vector<std::string> overrides) {
+  overrides.emplace_back("transient.duration=0.015");
+  std::vector<std::string> arguments{"--force"};
+  for (const std::string& override : overrides) {
+    arguments.emplace_back("--set");
+    arguments.push_back(override);
+  }
+  return folder.run(test_paths::source_dir() / "bench" / "span" / "study.toml", "span", arguments);
 }
 
-/// The stop at `element` of 100 along the span.
-void mesh_span(const Workshop& folder, int element) {
-  MeshText mesh = straight_line("beam", core::Vec3::Zero(), {1.0, 0.0, 0.0}, 100);
-  mesh.points.emplace_back("stop", element);
-  folder.write("beam.msh", mesh.text());
-}
+std::string stiffness_of(double value) { return fmt::format("contacts.stop.normal_stiffness={}", value); }
 
 double largest_force(const Results& run) { return run.statistics("stop")["normal_force"]["max"]; }
 
 TEST(ModesAccuracy, ImpactsOfASpanAreWithinIt) {
   constexpr double accuracy = 0.01;
   const Workshop folder;
-  mesh_span(folder, 21);
+  const std::string place = "contacts.stop.group=at_21";
   for (const double stiffness : {1e5, 1e6, 1e7}) {
-    const double exact =
-        largest_force(folder.run_text(span("count = 60\nstatic_modes = \"auto\"", stiffness)));
+    const double exact = largest_force(
+        span(folder, {place, stiffness_of(stiffness), "modes.count=60", "modes.static_modes=auto"}));
     for (const char* static_modes : {"none", "auto", "all"}) {
-      const Results run = folder.run_text(
-          span(fmt::format("accuracy = {}\nstatic_modes = \"{}\"", accuracy, static_modes), stiffness));
+      const Results run =
+          span(folder, {place, stiffness_of(stiffness), fmt::format("modes.accuracy={}", accuracy),
+                        fmt::format("modes.static_modes={}", static_modes)});
       const double error = largest_force(run) / exact - 1.0;
       fmt::print("| K_N {:.0e} | {} | {} modes | error {:.2f} % |\n", stiffness, static_modes,
                  run.summary["modes"]["frequencies_hz"].size(), 100.0 * error);
@@ -86,10 +52,9 @@ TEST(ModesAccuracy, ImpactsOfASpanAreWithinIt) {
 TEST(ModesAccuracy, SaysWhatItTakesAndFollowsTheContacts) {
   constexpr double six_digits = 1e-6; // of the root of the clamped span
   const Workshop folder;
-  mesh_span(folder, 47);
   std::size_t before = 0;
   for (const double stiffness : {1e5, 1e6}) {
-    const Results run = folder.run_text(span("accuracy = 0.01", stiffness));
+    const Results run = span(folder, {stiffness_of(stiffness), "modes.accuracy=0.01"});
     const double contact =
         std::sqrt(bending / mass) * std::pow(stiffness / (2.0 * std::numbers::sqrt2 * bending), 2.0 / 3.0);
     const double root = std::sqrt(7.0 * contact) + 4.7300407 * std::pow(bending / mass, 0.25);
@@ -107,13 +72,26 @@ TEST(ModesAccuracy, SaysWhatItTakesAndFollowsTheContacts) {
 
 TEST(ModesAccuracy, WarnsOfLoadsThatAreFasterThanItsModes) {
   const Workshop folder;
-  mesh_span(folder, 47);
-  const Results run = folder.run_text(span("accuracy = 0.1", 1e5) + R"([[loads]]
-group = "stop"
+  const fs::path scene = test_paths::source_dir() / "bench" / "span";
+  fs::copy_file(scene / "span.geo", folder.path("span.geo"));
+  const Results run = folder.run_text(bytes_of(scene / "study.toml") + R"([[loads]]
+group = "at_47"
 direction = [0.0, 1.0, 0.0]
 harmonic = { amplitude = 1.0, frequency = 5000.0 }
-)");
+)",
+                                      {"--set", "modes.accuracy=0.1", "--set", stiffness_of(1e5)});
   EXPECT_TRUE(says(run.summary["warnings"].dump(), "shake with up to 5000 Hz, faster than the modes"));
+}
+
+TEST(ModesAccuracy, TellsWhatHasTheFlexibilityOfTheOtherModes) {
+  const Workshop folder;
+  for (const auto& [static_modes, words] :
+       {std::pair{"auto", "times that is needed with residual flexibility,"},
+        {"all", "times that is needed with static modes,"}}) {
+    const Results run =
+        span(folder, {"modes.accuracy=0.1", fmt::format("modes.static_modes={}", static_modes)});
+    EXPECT_TRUE(says(run.summary["notes"].dump(), words));
+  }
 }
 
 TEST(ModesAccuracy, NeedsContacts) {
