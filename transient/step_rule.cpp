@@ -28,11 +28,11 @@ constexpr double most_implicit = 4.0;
 constexpr double most_damped = 0.5;
 /// The step of an accuracy of 0.04 (w_c h = 0.9) is the longest: no statistics are worth having above it.
 constexpr double coarsest_accuracy = 0.04;
-/// Steps of splitting that one of collocation takes the time of: measured 4 to 5 with 3 supports, 7 to 9 with 8 and 10; where a damping
-/// matrix couples m modes, its 80 m^2 multiplications for 12 m^2 of splitting (matrix_flow.hpp) count alone.
+/// Steps of splitting that one of collocation takes the time of: measured 4 to 5 with 3 supports, 7 to 9 with 8 and 10; 8 to 13 where a
+/// damping matrix couples 40 or 80 modes (matrix_flow.hpp).
 double collocation_cost(const Scene& scene) {
   const double contacts = 3.5 + 0.5 * static_cast<double>(scene.contacts.size());
-  return scene.system.damping_matrix.size() > 0 ? std::max(contacts, 80.0 / 12.0) : contacts;
+  return scene.system.damping_matrix.size() > 0 ? std::max(contacts, 10.0) : contacts;
 }
 /// w_c h, w_t h and r_t h at an accuracy of 0.01. Measured on rattling tubes (bench_statistics), work rates: with splitting 0.7 % low at
 /// w_c h = 0.5, and where contacts stick without much damping (stick_time) 3 % low at w_t h = 0.5, 0.9 % at 0.25, for they start to slide
