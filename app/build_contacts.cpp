@@ -219,6 +219,10 @@ std::vector<PlacedContact> place_contacts(const study::Study& study, const mesh:
     const std::vector<Index> others = contact.other
                                           ? paired_nodes(model, mesh, what, contact.group, *contact.other)
                                           : std::vector<Index>(nodes.size(), -1);
+    if (contact.other && contact.origin)
+      warnings.push_back(what +
+                         ": origin moves nothing between two nodes, where only their relative position "
+                         "counts; leave it out, or shift the obstacle by offset");
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       PlacedContact placed{};
       placed.name = nodes.size() == 1 ? contact.name : fmt::format("{}[{}]", contact.name, i);

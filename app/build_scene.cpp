@@ -4,11 +4,13 @@
 #include "app/residual_flexibility.hpp"
 #include "app/static_start.hpp"
 #include "app/support_motion.hpp"
+#include "core/error.hpp"
 #include "fem/disjoint_sets.hpp"
 #include "transient/moving_modes.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 
 namespace fretwork::app {
 namespace {
@@ -238,10 +240,17 @@ void leave_out_still_modes(BuiltScene& out) {
 
 std::vector<NamedNode> observed_nodes(const study::Study& study, const mesh::LineMesh& mesh) {
   std::vector<NamedNode> out;
+  std::map<std::string, std::string> group_of; // by name of the node
   for (const std::string& group : study.output.nodes) {
     const std::vector<Index> nodes = mesh::group_nodes(mesh, group, "[output] nodes");
-    for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
       out.push_back({nodes.size() == 1 ? group : fmt::format("{}[{}]", group, i), nodes[i]});
+      const auto [seen, is_new] = group_of.emplace(out.back().name, group);
+      if (!is_new)
+        throw core::Error(fmt::format("[output] nodes: groups \"{}\" and \"{}\" both have a node called "
+                                      "\"{}\"; leave one of them out, or rename it in the mesh",
+                                      seen->second, group, out.back().name));
+    }
   }
   return out;
 }

@@ -40,9 +40,8 @@ public:
   /// @throws core::Error naming the point, counted from 1
   explicit Profile(std::span<const PolarPoint> points);
 
-  /// Gap and normal of a node; no allocation. Its cost hardly depends on the number of facets, but for nodes
-  /// that have a great part of the polygon at nearly the same distance (the middle of a round hole; those are
-  /// better kept off by `inscribed`) and for polygons whose corners are all spikes.
+  /// Gap and normal of a node; no allocation. Its cost hardly depends on the number of facets, but for the few
+  /// nodes that have a great part of the polygon at nearly the same distance (facet_cells.hpp).
   [[nodiscard]] Location locate(double y, double z) const;
 
   /// How the normal turns, 1/m (contact::curvature): 0 on a facet; 1/gap where a corner is nearest, for n

@@ -482,6 +482,29 @@ every = 0.01
 )";
 }
 
+TEST(Names, OfTwoObservedNodesThatAreTheSameAreRefused) {
+  const Workshop folder;
+  std::string study = two_masses(folder, {0.0, 0.0, 0.0}, {1.0, 0.0, 0.0});
+  MeshText mesh = lone_points({"first", "second"});
+  mesh.points.insert(mesh.points.end(), {{"both", 0}, {"both", 1}, {"both[0]", 1}});
+  folder.write("mesh.msh", mesh.text());
+  study += "[output]\nnodes = [\"both\", \"both[0]\"]\n";
+  EXPECT_TRUE(says(refused(folder, study),
+                   "[output] nodes: groups \"both\" and \"both[0]\" both have a node called \"both[0]\"; "
+                   "leave one of them out, or rename it in the mesh"));
+}
+
+TEST(Origin, BetweenTwoNodesIsToldToMoveNothing) {
+  const Workshop folder;
+  const auto run_with = [&](const std::string& keys) {
+    return folder.run_text(two_masses(folder, {0.0, 0.3, 0.0}, {0.0, 0.32, 0.0}) + flat(along_x + keys));
+  };
+  const Results with = run_with("origin = [0.0, 5.0, 0.0]\n"), without = run_with("");
+  EXPECT_EQ(facts(with, "c").gap, facts(without, "c").gap);
+  EXPECT_TRUE(says(with.summary["warnings"].dump(), "origin moves nothing between two nodes"));
+  EXPECT_EQ(without.summary["warnings"].dump().find("origin"), std::string::npos);
+}
+
 TEST(ReferenceMemory, ThatGivesEnergyIsWarnedOf) {
   const Workshop folder;
   const auto told = [&](const std::string& memory) {

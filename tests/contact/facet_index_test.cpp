@@ -46,7 +46,7 @@ double star(double angle) {
          0.02 * std::sin(211.0 * angle);
 }
 
-double distance2(const Facet& f, double y, double z) {
+double squared_distance(const Facet& f, double y, double z) {
   const double along = std::clamp((y - f.ay) * f.uy + (z - f.az) * f.uz, 0.0, f.length);
   const double ry = y - f.ay - along * f.uy, rz = z - f.az - along * f.uz;
   return ry * ry + rz * rz;
@@ -55,8 +55,8 @@ double distance2(const Facet& f, double y, double z) {
 void expect_nearest(const FacetIndex& index, double y, double z) {
   double least = std::numeric_limits<double>::infinity();
   for (std::uint32_t k = 0; k < index.size(); ++k)
-    least = std::min(least, distance2(index[k], y, z));
-  ASSERT_LE(distance2(index[index.nearest(y, z)], y, z), least + round_off) << y << " " << z;
+    least = std::min(least, squared_distance(index[k], y, z));
+  ASSERT_LE(squared_distance(index[index.nearest(y, z)], y, z), least + round_off) << y << " " << z;
 }
 
 /// Nodes on both sides at all depths, in the middle, and far away.
@@ -126,4 +126,18 @@ TEST(FacetIndex, LowestOfEquallyNearFacetsCounts) {
   EXPECT_EQ(index.nearest(-0.5, -0.5), 128u + 47u);
   EXPECT_EQ(index.nearest(0.5, -0.5), 15u); // before its equal of the last side
   EXPECT_EQ(index.nearest(3.0, -3.0), 0u);  // the corner of the first and the last facet
+}
+
+TEST(FacetIndex, FindsTheNearestWhereAllAreNearlyAsNear) {
+  constexpr int many = 10000;
+  std::vector<PlanePoint> centred = polygon(many, [](double) { return 1.0; }), shifted = centred;
+  for (PlanePoint& v : shifted)
+    v.y += 0.3;
+  const FacetIndex about_the_origin(centred), about_a_point(shifted);
+  tests::Uniform uniform(11);
+  for (int i = 0; i < 300; ++i) {
+    const double angle = uniform(0.0, turn), r = uniform.scale(1e-9, 0.1);
+    expect_nearest(about_the_origin, r * std::cos(angle), r * std::sin(angle));
+    expect_nearest(about_a_point, 0.3 + r * std::cos(angle), r * std::sin(angle));
+  }
 }
