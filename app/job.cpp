@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/job.hpp"
 #include "core/mpi.hpp"
+#include "transient/mass_scaling.hpp"
 #include <algorithm>
 #include <type_traits>
 
@@ -92,8 +93,8 @@ Job::Job(const study::Study& study, const BuiltScene& built, const transient::St
       impacts_(with_impacts(study) ? built.scene.contacts.size() : 0, study.output.statistics_from,
                study.output.rest_time, static_cast<std::size_t>(impact_rows(study, choice))),
       nodes_(rows_of(built.nodes), study.output.statistics_from), grid_(grid_of(study)),
-      recorder_(built.scene, built.nodes, grid_), observers_(watching(study, built, progress)),
-      run_(built.scene, choice, observers_, &recorder_, grid_) {
+      recorder_(built.scene, built.nodes, grid_, transient::scaled_masses(built.scene, choice.fastest)),
+      observers_(watching(study, built, progress)), run_(built.scene, choice, observers_, &recorder_, grid_) {
   if (study.support_motions.empty())
     return;
   std::vector<Eigen::MatrixXd> carried;

@@ -6,8 +6,9 @@
 namespace fretwork::post {
 
 Recorder::Recorder(const transient::Scene& scene, std::vector<ObservedNode> nodes,
-                   const transient::OutputGrid& grid)
-    : scene_(scene), nodes_(std::move(nodes)), acceleration_(scene.system.size()) {
+                   const transient::OutputGrid& grid, Eigen::VectorXd masses)
+    : scene_(scene), nodes_(std::move(nodes)), masses_(std::move(masses)),
+      acceleration_(scene.system.size()) {
   const Eigen::Index nt = grid.count;
   for (const auto& motion : scene.motions)
     motions_.emplace_back(motion, scene.duration);
@@ -104,6 +105,8 @@ void Recorder::forces(std::int64_t index, double time, const double* load,
                        (f.normal * f.nz - f.friction.t * f.ny) * b.row(2).transpose();
     }
   }
+  if (wanted && masses_.size() > 0)
+    acceleration_.array() /= masses_.array();
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     auto row = out_.nodes[k].acceleration.row(index).transpose();
     row.noalias() = nodes_[k].rows * acceleration_;

@@ -46,7 +46,9 @@ struct ObservedNode {
 
 class Recorder final : public transient::Sampler {
 public:
-  Recorder(const transient::Scene& scene, std::vector<ObservedNode> nodes, const transient::OutputGrid& grid);
+  /// @param masses  n, modal masses of the run (transient/mass_scaling.hpp); empty: all 1
+  Recorder(const transient::Scene& scene, std::vector<ObservedNode> nodes, const transient::OutputGrid& grid,
+           Eigen::VectorXd masses = {});
   void state(std::int64_t index, double time, const double* q, const double* v) override;
   void forces(std::int64_t index, double time, const double* load,
               std::span<const transient::ContactForce> contacts) override;
@@ -66,6 +68,7 @@ private:
   TimeSeries out_;
   std::vector<transient::MotionSignal> motions_; ///< that carry contacts and nodes
   std::vector<transient::Signal> loads_;         ///< with residual flexibility
+  Eigen::VectorXd masses_;                       ///< modal, empty: all 1
   Eigen::VectorXd acceleration_;                 ///< modal
   Eigen::VectorXd force_;                        ///< N, local axes of all contacts: with residual flexibility
   Eigen::MatrixXd given_; ///< m, 3 nc x nt: residual flexibility times that, and under_loads of the scene

@@ -99,7 +99,8 @@ public:
 enum class SchemeKind { splitting, collocation, euler, energy_conserving, devogelaere, runge_kutta_54 };
 [[nodiscard]] std::string name_of(SchemeKind kind);
 
-[[nodiscard]] std::unique_ptr<Scheme> make_splitting(const Scene& scene, double step);
+/// @param fastest  rad/s: faster modes that contacts move are made heavier (mass_scaling.hpp); 0: none
+[[nodiscard]] std::unique_ptr<Scheme> make_splitting(const Scene& scene, double step, double fastest = 0.0);
 [[nodiscard]] std::unique_ptr<Scheme> make_collocation(const Scene& scene, double step);
 [[nodiscard]] std::unique_ptr<Scheme> make_euler(const Scene& scene, double step);
 [[nodiscard]] std::unique_ptr<Scheme> make_energy_conserving(const Scene& scene, double step);

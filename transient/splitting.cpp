@@ -7,11 +7,12 @@
 /// (oscillator.hpp; matrix_flow.hpp where a damping matrix couples them). At t_k the contacts act once for the whole step: contact_solver.hpp, with
 /// residual flexibility flexible_contacts.hpp.
 /// Stability: w_c h < 2, w_c^2 the largest eigenvalue of K_N^1/2 W K_N^1/2; h w_max away from multiples of
-/// pi. Accuracy asks for less (step_rule.hpp). Cost: one evaluation of the contacts a step. Energy: the work
+/// pi (mass_scaling.hpp). Accuracy asks for less (step_rule.hpp). Cost: one evaluation of the contacts a step. Energy: the work
 /// of each action h f.w and of each flow are exact; the ledger's residual is what the contact laws' discrete
 /// work lacks.
 #include "transient/flexible_contacts.hpp"
 #include "transient/load_sum.hpp"
+#include "transient/mass_scaling.hpp"
 #include "transient/matrix_flow.hpp"
 #include "transient/obstacle_motion.hpp"
 #include "transient/oscillator.hpp"
@@ -44,7 +45,8 @@ kernels::FlowTable flow_table(const System& system, const MatrixFlow& coupled, d
 
 class Splitting final : public Scheme {
 public:
-  Splitting(const Scene& scene, double step)
+  /// @param scene  in the coordinates p of mass_scaling.hpp   @param shown  n, q = shown p; empty: all 1
+  Splitting(const Scene& scene, double step, const Eigen::VectorXd& shown)
       : system_(with_diagonal(scene.system)), h_(step),
         loads_(scene.loads, scene.system.size(), scene.duration, step),
         contacts_(scene.contacts, scene.system.size()), motion_(contacts_),
@@ -73,13 +75,18 @@ public:
     record_.energy.initial = record_.energy.throughput = moving + motion_.spring_energy() + given;
     after_action_ = moving;
     record_.step = h_;
+    if (shown.size() > 0) {
+      shown_.assign(n, 0.0);
+      std::copy_n(shown.data(), shown.size(), shown_.begin());
+      shown_q_.assign(n, 0.0);
+    }
   }
 
   const Record& advance() override {
     flow();
     if (contacts_.count > 0)
       act();
-    show(record_, contacts_, q_.data(), motion_.u.data(), trial_);
+    show(record_, contacts_, displacements(), motion_.u.data(), trial_);
     return record_;
   }
 
@@ -111,6 +118,11 @@ public:
           0.5 * (share * share - 0.25) * h_ * impulse; // nothing at the actions, where forces are made from q
       v[j] += share * impulse;
     }
+    if (!shown_.empty())
+      for (Eigen::Index j = 0; j < system_.size(); ++j) {
+        q[j] *= shown_[static_cast<std::size_t>(j)];
+        v[j] *= shown_[static_cast<std::size_t>(j)];
+      }
   }
 
   void load_at(double time, double* force) override {
@@ -120,6 +132,9 @@ public:
     }
     loads_.instant(time, f_next_.data());
     std::copy_n(f_next_.data(), system_.size(), force);
+    if (!shown_.empty())
+      for (Eigen::Index j = 0; j < system_.size(); ++j)
+        force[j] /= shown_[static_cast<std::size_t>(j)];
   }
 
   [[nodiscard]] double next_time() const override { return (static_cast<double>(steps_) + 0.5) * h_; }
@@ -137,6 +152,15 @@ public:
   }
 
 private:
+  /// Padded modes.
+  const double* displacements() {
+    if (shown_.empty())
+      return q_.data();
+    for (std::size_t i = 0; i < q_.size(); ++i)
+      shown_q_[i] = shown_[i] * q_[i];
+    return shown_q_.data();
+  }
+
   /// From the last action (or the start) to the next.
   void flow() {
     const kernels::FlowTable& table = steps_ == 0 ? first_ : full_;
@@ -223,6 +247,7 @@ private:
   std::int64_t steps_ = 0, unconverged_ = 0;
   double time_ = 0.0;
   kernels::Array q_, v_, k_, f_now_, f_next_, slope_, impulse_;
+  kernels::Array shown_, shown_q_; ///< with scaled masses
 
   Record record_;
   double moving_ = 0.0, after_action_ = 0.0; ///< modal energy before and after the action
@@ -232,8 +257,11 @@ private:
 
 } // namespace
 
-std::unique_ptr<Scheme> make_splitting(const Scene& scene, double step) {
-  return std::make_unique<Splitting>(scene, step);
+std::unique_ptr<Scheme> make_splitting(const Scene& scene, double step, double fastest) {
+  const Eigen::VectorXd masses = scaled_masses(scene, fastest);
+  if ((masses.array() == 1.0).all())
+    return std::make_unique<Splitting>(scene, step, Eigen::VectorXd());
+  return std::make_unique<Splitting>(with_masses(scene, masses), step, masses.cwiseSqrt().cwiseInverse());
 }
 
 } // namespace fretwork::transient

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/step_rule.hpp"
 #include "core/error.hpp"
+#include "transient/mass_scaling.hpp"
 #include "transient/scheme_scope.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <numbers>
 
 namespace fretwork::transient {
 namespace {
@@ -51,8 +53,6 @@ Shares shares(SchemeKind scheme) {
     return {0.3, 0.3, 2.0};
   }
 }
-/// Of w_max h: a step of splitting resonates with modes at w h = pi.
-constexpr double before_resonance = 2.5;
 /// Largest w_c h and w_t h without a warning: above it an impact changes the energy by more than 1 % or the statistics are wrong, however
 /// stable the run (doc/schemes.md, Stability map).
 double most_resolved(SchemeKind scheme) { return scheme == SchemeKind::devogelaere ? 0.75 : 1.0; }
@@ -69,15 +69,30 @@ double stick_time(const StepChoice& c) {
   return c.scheme == SchemeKind::splitting ? std::hypot(vibration, c.stick_relaxation) : vibration;
 }
 
+/// With contacts: collocation needs none of it, splitting can take modes as heavier ones.
+bool may_go_past_modes(SchemeKind scheme) {
+  return scheme == SchemeKind::collocation || scheme == SchemeKind::splitting;
+}
+
 struct Term {
   double limit; ///< s
   std::string reason;
 };
 
-/// What limits the step. `fineness` scales with the square root of the accuracy, 1 for 0.01.
+/// What the highest mode asks of the step.
+Term mode_term(const StepChoice& c, bool contacts, double fineness) {
+  const bool exact = moves_exactly(c.scheme);
+  const double eps = 0.5 * fineness;
+  // without contacts the flow of the splitting scheme is exact: only the statistics need to see the modes, in about 20 points a period
+  const double mode = exact ? (contacts ? 5.0 : 0.6) : 1.0;
+  return {(exact && contacts ? std::min(eps * mode, before_resonance) : eps * mode) / c.highest_mode,
+          fmt::format("the highest mode {:.4g} rad/s", c.highest_mode)};
+}
+
+/// What limits the step, the highest mode where contacts meet exact flows apart. `fineness` scales with the square root of the accuracy,
+/// 1 for 0.01.
 std::vector<Term> terms(const StepChoice& c, const Scene& scene, double fineness) {
-  const bool exact = moves_exactly(c.scheme), contacts = !scene.contacts.empty(),
-             collocation = c.scheme == SchemeKind::collocation;
+  const bool exact = moves_exactly(c.scheme), contacts = !scene.contacts.empty();
   const double eps = 0.5 * fineness;
   std::vector<Term> out;
   const auto add = [&](double factor, double rate, const std::string& reason) {
@@ -106,11 +121,8 @@ std::vector<Term> terms(const StepChoice& c, const Scene& scene, double fineness
   add(exact ? std::min(share.damper * fineness, most_implicit) : damped, c.damper_rate,
       fmt::format("the tangential dampers' rate {:.4g} 1/s", c.damper_rate));
   add(damped, c.explicit_rate, fmt::format("the dampers' rate {:.4g} 1/s", c.explicit_rate));
-  // without contacts the flow of the splitting scheme is exact: only the statistics need to see the modes, in about 20 points a period
-  const double mode = exact ? (contacts ? 5.0 : 0.6) : 1.0;
-  if (!(collocation && contacts))
-    add(exact && contacts ? std::min(eps * mode, before_resonance) : eps * mode, c.highest_mode,
-        fmt::format("the highest mode {:.4g} rad/s", c.highest_mode));
+  if (c.highest_mode > 0.0 && !(contacts && may_go_past_modes(c.scheme)))
+    out.push_back(mode_term(c, contacts, fineness));
   return out;
 }
 
@@ -181,6 +193,25 @@ std::string name_of(StepFailure failure) {
 
 namespace {
 
+/// True where the step of splitting is so long that modes resonate with it, and they may be made heavier.
+bool goes_past_modes(const StepChoice& c, const Scene& scene, double accuracy) {
+  return c.scheme == SchemeKind::splitting && !scene.contacts.empty() &&
+         c.highest_mode * c.step > before_resonance &&
+         may_scale(scene, before_resonance / c.step, c.table_interval, accuracy);
+}
+
+void scale_modes(StepChoice& c, const Scene& scene) {
+  const double fastest = before_resonance / c.step;
+  const auto scaled = (scaled_masses(scene, fastest).array() > 1.0).count();
+  if (scaled == 0)
+    return;
+  c.fastest = fastest;
+  c.reason +=
+      fmt::format("; {} of {} modes, those above {:.4g} Hz, keep their flexibility and move as modes of "
+                  "that frequency (mass scaling)",
+                  scaled, scene.system.size(), fastest / (2.0 * std::numbers::pi));
+}
+
 StepChoice choice_of(const Scene& scene, const SceneRates& rates, const StepOptions& options,
                      SchemeKind scheme) {
   StepChoice c;
@@ -207,17 +238,25 @@ StepChoice choice_of(const Scene& scene, const SceneRates& rates, const StepOpti
   const double least = adaptive ? least_adaptive_steps : least_steps;
   c.step = scene.duration / least;
   c.reason = fmt::format("a run has at least {} steps", least);
-  for (const Term& term : terms(c, scene, fineness))
+  const auto limit = [&](const Term& term) {
     if (term.limit < c.step) {
       c.step = term.limit;
       c.reason = fmt::format("{} resolved for an accuracy of {}", term.reason, accuracy);
     }
+  };
+  for (const Term& term : terms(c, scene, fineness))
+    limit(term);
+  const bool scales = goes_past_modes(c, scene, accuracy);
+  if (scheme == SchemeKind::splitting && !scene.contacts.empty() && c.highest_mode > 0.0 && !scales)
+    limit(mode_term(c, true, fineness));
   if (accuracy < options.accuracy)
     c.reason += fmt::format(" (no step is longer than that of {})", accuracy);
   if (adaptive)
     return c;
   c.steps = count_steps(scene.duration, c);
   c.step = scene.duration / static_cast<double>(c.steps);
+  if (scales)
+    scale_modes(c, scene);
   return c;
 }
 
@@ -273,6 +312,7 @@ StepChoice halved(StepChoice choice) {
     return choice;
   }
   choice.step *= 0.5;
+  choice.fastest *= 2.0;
   choice.steps *= 2;
   return choice;
 }

@@ -5,7 +5,7 @@
 ///     h = min{ c/w_c, s t_s, r/r_t, m/w_max },  the shares at an accuracy of 0.01; others grow and fall with its square root
 ///
 ///                          c      s      r     m
-///     splitting            0.45   0.25   3     2.5
+///     splitting            0.45   0.25   3     2.5 where modes cannot be made heavier (mass_scaling.hpp)
 ///     collocation          0.5    0.5    2     -
 ///     energy_conserving    0.3    0.3    2     2.5
 ///     euler, devogelaere   0.3    0.3    0.5   0.5
@@ -13,8 +13,9 @@
 ///     w_c, w_t, r_t, w_max   scene_rates.hpp
 ///     t_s    time in which sticking contacts move: 1/w_t; with splitting (1/w_t^2 + (C_T/K_T)^2)^1/2, and never w_t h above 0.5
 /// No accuracy makes a step longer than that of 0.04, nor w_c h and w_t h than 1 (devogelaere: 0.75), above which impacts are wrong however
-/// stable the run (doc/schemes.md, Stability map), nor r_t h than 4 where dampers are implicit. w_max h stays below 2.5: splitting resonates
-/// with modes at w h = k pi. The limits of explicit Euler are r_t h < 1 and w_max h < 2; it also takes the other dampers explicitly and
+/// stable the run (doc/schemes.md, Stability map), nor r_t h than 4 where dampers are implicit. With contacts
+/// splitting resonates with modes at w h = k pi: those above w h = 2.5 are made heavier (mass_scaling.hpp), or where they may not be, and
+/// with energy_conserving, the step stays below 2.5/w_max. The limits of explicit Euler are r_t h < 1 and w_max h < 2; it also takes the other dampers explicitly and
 /// resolves them by 0.5/r_e (its limit: r_e h < 2):
 ///     r_e    explicit_damper_rate
 /// Hunt and Crossley's damper c(p) = K_N d p grows with a penetration that is not known beforehand, but w_c bounds its rate: an impact
@@ -48,6 +49,8 @@ struct StepChoice : SceneRates {
   int order = 2;           ///< of statistics: order_of_statistics
   std::int64_t steps = 0;  ///< that cover the duration; 0: adaptive
   double tolerance = 1e-6; ///< of an adaptive scheme
+  double fastest =
+      0.0; ///< rad/s: of the automatic step of splitting: faster modes are made heavier (mass_scaling.hpp); 0: none
   double explicit_rate =
       0.0; ///< r_e, 1/s: of the dampers that only Euler and devogelaere have to resolve; 0 with others
   std::string reason;                ///< one line for the user

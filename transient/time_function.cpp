@@ -7,8 +7,8 @@
 #include <complex>
 #include <fftw3.h>
 #include <fmt/format.h>
-#include <memory>
 #include <numbers>
+#include <optional>
 #include <random>
 
 namespace fretwork::transient {
@@ -22,10 +22,6 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 /// Of a random signal: a gigabyte. An hour up to 500 Hz.
 constexpr std::size_t most_samples = std::size_t{1} << 26;
 
-struct FftwFree {
-  void operator()(void* p) const { fftw_free(p); }
-};
-
 /// Two standard normal numbers by Box and Muller from the 53 upper bits of the generator:
 /// std::normal_distribution differs between libraries.
 std::complex<double> normal_pair(std::mt19937_64& generator) {
@@ -35,34 +31,41 @@ std::complex<double> normal_pair(std::mt19937_64& generator) {
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
-/// Real inverse transforms of one length: x_j = sum over k of Re(c_k exp(i 2 pi k j / n)), c_k given for k <= n/2.
+/// The smallest length >= least that transforms fast: 2^a times 1, 9/8, 5/4 or 3/2.
+std::size_t fast_length(double least) {
+  for (std::size_t power = 8;; power *= 2)
+    for (const std::size_t eighths : {8, 9, 10, 12})
+      if (const std::size_t n = power / 8 * eighths; static_cast<double>(n) >= least)
+        return n;
+}
+
+/// Complex transforms of one length in place, x_j = sum over k of z_k exp(i 2 pi k j / n).
 class Synthesis {
 public:
-  explicit Synthesis(std::size_t n)
-      : n_(n), in_(static_cast<fftw_complex*>(fftw_malloc(sizeof(fftw_complex) * (n / 2 + 1)))),
-        out_(static_cast<double*>(fftw_malloc(sizeof(double) * n))),
-        plan_(fftw_plan_dft_c2r_1d(static_cast<int>(n), in_.get(), out_.get(), FFTW_ESTIMATE)) {}
+  explicit Synthesis(std::size_t n, double* values)
+      : n_(n), plan_(fftw_plan_dft_1d(static_cast<int>(n), complex(values), complex(values), FFTW_BACKWARD,
+                                      FFTW_ESTIMATE)) {}
   Synthesis(const Synthesis&) = delete;
   Synthesis& operator=(const Synthesis&) = delete;
   ~Synthesis() { fftw_destroy_plan(plan_); }
 
-  /// n values, overwritten by the next call.
-  const double* operator()(const std::vector<std::complex<double>>& lines) {
-    for (std::size_t k = 0; k <= n_ / 2; ++k) {
-      const std::complex<double> value = k < lines.size() ? 0.5 * lines[k] : 0.0; // c2r adds the conjugate
-      in_.get()[k][0] = value.real();
-      in_.get()[k][1] = value.imag();
-    }
-    fftw_execute(plan_);
-    return out_.get();
-  }
+  [[nodiscard]] std::size_t size() const { return n_; }
+  void operator()(double* values) const { fftw_execute_dft(plan_, complex(values), complex(values)); }
 
 private:
+  static fftw_complex* complex(double* values) { return reinterpret_cast<fftw_complex*>(values); }
   std::size_t n_;
-  std::unique_ptr<fftw_complex, FftwFree> in_;
-  std::unique_ptr<double, FftwFree> out_;
   fftw_plan plan_;
 };
+
+/// Transforms n complex values, whose real parts and imaginary parts follow each other.
+void transform(std::size_t n, std::vector<double>& values) {
+  // The plan of the last length stays: its tables take longer than the transform, and the signals of a run are mostly of one length.
+  thread_local std::optional<Synthesis> synthesis;
+  if (!synthesis || synthesis->size() != n)
+    synthesis.emplace(n, values.data());
+  (*synthesis)(values.data());
+}
 
 } // namespace
 
@@ -76,32 +79,29 @@ Signal::Signal(const TimeFunction& function, double duration) : function_(functi
   auto first = static_cast<std::size_t>(std::ceil(random->low * period));
   const auto last = static_cast<std::size_t>(std::floor(random->high * period));
   first = std::max<std::size_t>(first, 1); // zero mean
-  std::size_t n = 2;                       // a power of two: fast, and the same plan everywhere
-  while (static_cast<double>(n) < samples_per_period * random->high * period)
-    n *= 2;
+  const std::size_t n = fast_length(samples_per_period * random->high * period);
   if (n > most_samples)
     throw core::Error(fmt::format("a random signal up to {:.4g} Hz over {:.4g} s needs {} samples, more than "
                                   "{}; lower the upper end of its "
                                   "band, or shorten the run",
                                   random->high, duration, n, most_samples));
+  // The signal x = sum over lines of Re(c exp(i w t)) and its slope x' make one complex signal x + i x', which one transform gives
+  // interleaved: x' has the lines i w c, so that z_k = c (1 - w)/2 and z_(n-k) = conj(c) (1 + w)/2; w times grid_step.
   std::mt19937_64 generator(random->seed);
-  std::vector<std::complex<double>> lines(last + 1), slopes(last + 1);
   const double scale = random->rms / std::sqrt(static_cast<double>(last - first + 1));
+  samples_.assign(2 * (n + 1), 0.0); // value, slope, value, slope ...
   for (std::size_t k = first; k <= last; ++k) {
-    lines[k] = scale * normal_pair(generator);
-    slopes[k] = lines[k] * std::complex<double>(0.0, two_pi * static_cast<double>(k) / period);
+    const std::complex<double> c = scale * normal_pair(generator);
+    const double w = two_pi * static_cast<double>(k) / static_cast<double>(n);
+    samples_[2 * k] = 0.5 * (1.0 - w) * c.real();
+    samples_[2 * k + 1] = 0.5 * (1.0 - w) * c.imag();
+    samples_[2 * (n - k)] = 0.5 * (1.0 + w) * c.real();
+    samples_[2 * (n - k) + 1] = -0.5 * (1.0 + w) * c.imag();
   }
+  transform(n, samples_);
+  std::copy_n(samples_.begin(), 2, samples_.end() - 2);
   grid_step_ = period / static_cast<double>(n);
-  samples_.resize(2 * (n + 1)); // value, slope, value, slope ...
-  Synthesis synthesis(n);
-  const auto store = [&](std::size_t which, const std::vector<std::complex<double>>& spectrum,
-                         double scale_by) {
-    const double* x = synthesis(spectrum);
-    for (std::size_t j = 0; j <= n; ++j)
-      samples_[2 * j + which] = x[j % n] * scale_by;
-  };
-  store(0, lines, 1.0);
-  store(1, slopes, grid_step_);
+  per_grid_step_ = 1.0 / grid_step_;
 }
 
 double Signal::operator()(double time) const {
@@ -124,7 +124,7 @@ double Signal::operator()(double time) const {
       return f.value[i - 1] + share * (f.value[i] - f.value[i - 1]);
     }
     double operator()(const Random&) const {
-      const double position = time / self.grid_step_;
+      const double position = time * self.per_grid_step_;
       const auto last = self.samples_.size() / 2 - 2;
       const auto j = std::min(static_cast<std::size_t>(std::max(0.0, position)), last);
       const double s = position - static_cast<double>(j);

@@ -67,7 +67,7 @@ private:
   [[nodiscard]] double mean(const Table& table, double from, double to) const;
 
   TimeFunction function_;
-  double grid_step_ = 0; ///< s, spacing of the samples of a random signal
+  double grid_step_ = 0, per_grid_step_ = 0; ///< s, spacing of the samples of a random signal; 1/s
   std::vector<double>
       samples_; ///< value and slope times grid_step, interleaved: cubic Hermite between samples
 };

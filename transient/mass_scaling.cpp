@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/mass_scaling.hpp"
+#include <numbers>
+
+namespace fretwork::transient {
+namespace {
+
+/// At t = 0; of a random function, which starts anywhere, its rms.
+double value_at_start(const TimeFunction& function) {
+  const auto* random = std::get_if<Random>(&function);
+  return random ? random->rms : Signal(function, 1.0)(0.0);
+}
+
+} // namespace
+
+Eigen::VectorXd scaled_masses(const Scene& scene, double fastest) {
+  Eigen::VectorXd masses = Eigen::VectorXd::Ones(scene.system.size());
+  if (!(fastest > 0.0))
+    return masses;
+  for (Eigen::Index i = 0; i < masses.size(); ++i)
+    for (const ContactPoint& point : scene.contacts)
+      if (!point.b.col(i).isZero(0.0))
+        masses(i) = std::max(1.0, scene.system.stiffness(i) / (fastest * fastest));
+  return masses;
+}
+
+bool may_scale(const Scene& scene, double fastest, double table_interval, double accuracy) {
+  if (table_interval > 0.0 && fastest * table_interval < 2.0 * std::numbers::pi)
+    return false;
+  const Eigen::Array<bool, Eigen::Dynamic, 1> scaled = scaled_masses(scene, fastest).array() > 1.0;
+  const Eigen::ArrayXd k = scene.system.stiffness.array(), flexibility = (k > 0.0).select(1.0 / k, 0.0);
+  Eigen::ArrayXd at_start = Eigen::ArrayXd::Zero(k.size()); // modal forces
+  for (const Load& load : scene.loads) {
+    const Eigen::ArrayXd bent = load.modal_force.array().square() * flexibility;
+    if (scaled.select(bent, 0.0).sum() > accuracy * bent.sum())
+      return false;
+    at_start += value_at_start(load.function) * load.modal_force.array();
+  }
+  const Eigen::ArrayXd moving = scene.v0.array().square(), spring = k * scene.q0.array();
+  const Eigen::ArrayXd vibrates = moving + (spring - at_start).square() * flexibility,
+                       all = moving + (spring.square() + at_start.square()) * flexibility;
+  return scaled.select(vibrates, 0.0).sum() <= 0.1 * accuracy * all.sum();
+}
+
+Scene with_masses(const Scene& scene, const Eigen::VectorXd& masses) {
+  const Eigen::VectorXd s = masses.cwiseSqrt().cwiseInverse();
+  Scene out = scene;
+  out.system.stiffness.array() /= masses.array();
+  out.system.damping.array() /= masses.array();
+  if (out.system.damping_matrix.size() > 0)
+    out.system.damping_matrix = s.asDiagonal() * scene.system.damping_matrix * s.asDiagonal();
+  for (Load& load : out.loads)
+    load.modal_force.array() *= s.array();
+  for (ContactPoint& point : out.contacts)
+    point.b = point.b * s.asDiagonal();
+  out.q0.array() /= s.array();
+  out.v0.array() /= s.array();
+  return out;
+}
+
+} // namespace fretwork::transient
