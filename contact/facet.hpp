@@ -3,6 +3,8 @@
 /// Points and facets of a polygon in the local plane.
 #pragma once
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 
 namespace fretwork::contact {
 
@@ -22,13 +24,44 @@ inline PlanePoint foot(const Facet& f, double y, double z) {
   return {f.ay + along * f.uy, f.az + along * f.uz};
 }
 
-/// Squared distance of a point to a facet, m^2.
-inline double distance2(const Facet& f, double y, double z) {
-  const double wy = y - f.ay, wz = z - f.az;
-  const double inner = wy * f.uy + wz * f.uz, after = inner > 0.0 ? inner : 0.0;
-  const double along = after < f.length ? after : f.length;
-  const double ry = wy - along * f.uy, rz = wz - along * f.uz;
+/// Two numbers at once: what every processor of the kind has.
+typedef double Pack __attribute__((vector_size(2 * sizeof(double))));
+
+/// first and first + 1.
+inline Pack numbers_from(std::uint32_t first) { return static_cast<double>(first) + Pack{0.0, 1.0}; }
+
+/// Two facets, value by value.
+struct FacetPair {
+  Pack ay, az, uy, uz, length;
+  FacetPair(const Facet& a, const Facet& b)
+      : ay{a.ay, b.ay}, az{a.az, b.az}, uy{a.uy, b.uy}, uz{a.uz, b.uz}, length{a.length, b.length} {}
+  [[nodiscard]] Facet operator[](std::uint32_t i) const { return {ay[i], az[i], uy[i], uz[i], length[i]}; }
+};
+
+/// Squared distances of a point to two facets, m^2.
+inline Pack distance2(const FacetPair& f, double y, double z) {
+  const Pack wy = y - f.ay, wz = z - f.az, inner = wy * f.uy + wz * f.uz;
+  const Pack after = inner > 0.0 ? inner : Pack{}, along = after < f.length ? after : f.length;
+  const Pack ry = wy - along * f.uy, rz = wz - along * f.uz;
   return ry * ry + rz * rz;
 }
+
+/// The least of values that come two by two; of equals the one of lowest number.
+class Least {
+public:
+  void see(Pack values, Pack numbers) {
+    number_ = values < value_ ? numbers : number_;
+    value_ = values < value_ ? values : value_;
+  }
+  [[nodiscard]] double value() const { return value_[lane()]; }
+  /// 0 where no value has been below infinity.
+  [[nodiscard]] std::uint32_t number() const { return static_cast<std::uint32_t>(number_[lane()]); }
+
+private:
+  [[nodiscard]] int lane() const {
+    return value_[1] < value_[0] || (value_[1] == value_[0] && number_[1] < number_[0]) ? 1 : 0;
+  }
+  Pack value_ = Pack{} + std::numeric_limits<double>::infinity(), number_{};
+};
 
 } // namespace fretwork::contact

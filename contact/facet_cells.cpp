@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/facet_cells.hpp"
 #include <cmath>
-#include <limits>
 
 namespace fretwork::contact {
 
@@ -12,14 +11,11 @@ constexpr double units = 0x1p32;                // of t and m: 2^word
 constexpr std::uint32_t all_units = 0xffffffff; // the last of them
 constexpr double surround = 1.5;                // how far the cells reach, of the outermost vertex
 constexpr double middle = 1e-5; // the same: nearer to the origin all facets may be equally near to rounding
-constexpr double rounding =
-    1e-14; // of a square of their reach: above what rounding does to that of a distance
+constexpr double rounding = 2e-14;     // of the square of their reach
 constexpr std::size_t short_list = 16; // facets: a shorter list is not worth another halving
-constexpr std::size_t long_list = 64;  // facets: a search costs less than a longer list
 constexpr std::uint32_t short_gap = 4; // facets: to look at them costs less than another run
-constexpr double worth =
-    8.0; // a list is worth halving if, times its share of a quadrant and the number of all
-         // facets, it is longer
+// A list is worth halving if, times its share of a quadrant and the number of all facets, it is longer.
+constexpr double worth = 16.0;
 
 using List = std::vector<std::uint32_t>;
 
@@ -54,27 +50,28 @@ public:
   void build();
 
 private:
-  static constexpr std::size_t points = 9; ///< of a cell, 3 along t by 3 along m: the corners of its halves
-  using Values = std::array<double, points>;
+  static constexpr std::size_t points = 8; ///< of a cell: its corners and the middles of its sides
+  /// Of each point the place along t and m: low end, middle, high end.
+  static constexpr std::array<std::array<std::size_t, 2>, points> places = {
+      {{0, 0}, {1, 0}, {2, 0}, {0, 1}, {2, 1}, {0, 2}, {1, 2}, {2, 2}}};
   /// Of the four halves (below and above across t, then across m): their corners among the points.
   static constexpr std::array<std::array<std::size_t, 4>, 4> corners = {
-      {{0, 1, 6, 7}, {1, 2, 7, 8}, {0, 2, 3, 5}, {3, 5, 6, 8}}};
-
+      {{0, 1, 5, 6}, {1, 2, 6, 7}, {0, 2, 3, 4}, {3, 4, 5, 7}}};
   void look(const List& list, const Region& r);
   [[nodiscard]] List needed_in(std::size_t half, const List& list) const;
   void fill(std::uint32_t cell, const List& list, const Region& r);
-  void store(std::uint32_t cell, const List& list, Kind kind);
+  void store(std::uint32_t cell, const List& list);
   void start_deep();
 
   std::span<const Facet> facets_;
   FacetCells& out_;
   double rounding_;
   // of the cell looked at
-  Values y_{}, z_{};
-  std::vector<Values> distances_;               // squared, of the facets of its list, m^2
-  std::array<std::uint32_t, points> nearest_{}; // facet
-  std::array<Values, points> feet_{}; // squared distances of points to feet of points, with rounding, m^2
-  std::array<double, 2> bits_{};      // of t and m, summed over the cells that are not halved
+  std::array<PlanePoint, points> at_{};
+  std::array<std::vector<Pack>, points> distances_; ///< squared, to the facets of its list two by two, m^2
+  std::array<std::array<double, points>, points>
+      feet_{};                   ///< to the foot of a point, of a point: squared, with rounding, m^2
+  std::array<double, 2> bits_{}; ///< of t and m, summed over the cells that are not halved
 };
 
 FacetCells::FacetCells(std::span<const Facet> facets, double outermost)
@@ -92,48 +89,49 @@ void FacetCells::Builder::build() {
   start_deep();
 }
 
-/// Distances of the points of a cell to the facets of its list.
+/// Distances of the points of a cell to the facets of its list and to the feet of one another.
 void FacetCells::Builder::look(const List& list, const Region& r) {
   const double sign_y = r.quadrant & 1u ? -1.0 : 1.0, sign_z = r.quadrant & 2u ? -1.0 : 1.0;
   for (std::size_t k = 0; k < points; ++k) {
-    const double t = r.at(0, k % 3), m = std::max(r.at(1, k / 3) * out_.most_, out_.least_);
-    y_[k] = sign_y * m * (1.0 - t);
-    z_[k] = sign_z * m * t;
+    const double t = r.at(0, places[k][0]), m = std::max(r.at(1, places[k][1]) * out_.most_, out_.least_);
+    at_[k] = {sign_y * m * (1.0 - t), sign_z * m * t};
+    distances_[k].resize((list.size() + 1) / 2);
   }
-  const Values y = y_, z = z_;
-  Values least;
-  least.fill(std::numeric_limits<double>::infinity());
-  distances_.resize(list.size());
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const Facet f = facets_[list[i]];
-    Values d2;
-    for (std::size_t k = 0; k < points; ++k)
-      d2[k] = distance2(f, y[k], z[k]);
-    distances_[i] = d2;
-    for (std::size_t k = 0; k < points; ++k)
-      if (d2[k] < least[k])
-        least[k] = d2[k], nearest_[k] = list[i];
+  std::array<Least, points> least;
+  for (std::size_t i = 0; i < list.size(); i += 2) {
+    const FacetPair pair(facets_[list[i]], facets_[list[std::min(i + 1, list.size() - 1)]]);
+    for (std::size_t k = 0; k < points; ++k) {
+      const Pack d2 = distance2(pair, at_[k].y, at_[k].z);
+      distances_[k][i / 2] = d2;
+      least[k].see(d2, numbers_from(static_cast<std::uint32_t>(i)));
+    }
   }
   for (std::size_t g = 0; g < points; ++g) {
-    const PlanePoint p = foot(facets_[nearest_[g]], y_[g], z_[g]);
+    const PlanePoint p = foot(facets_[list[least[g].number()]], at_[g].y, at_[g].z);
     for (std::size_t k = 0; k < points; ++k)
-      feet_[g][k] = (y_[k] - p.y) * (y_[k] - p.y) + (z_[k] - p.z) * (z_[k] - p.z) + rounding_;
+      feet_[g][k] = (at_[k].y - p.y) * (at_[k].y - p.y) + (at_[k].z - p.z) * (at_[k].z - p.z) + rounding_;
   }
 }
 
 /// The facets of the list looked at that may be nearest in a half.
 List FacetCells::Builder::needed_in(std::size_t half, const List& list) const {
-  const auto [a, b, c, d] = corners[half];
+  const auto corner = corners[half];
+  std::array<std::array<Pack, 4>, 4> feet;
+  for (std::size_t g = 0; g < 4; ++g)
+    for (std::size_t k = 0; k < 4; ++k)
+      feet[g][k] = Pack{} + feet_[corner[g]][corner[k]];
   List needed;
   needed.reserve(list.size());
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const Values& d2 = distances_[i];
-    bool beaten = false;
-    for (const std::size_t g : corners[half])
-      beaten |=
-          (feet_[g][a] <= d2[a]) & (feet_[g][b] <= d2[b]) & (feet_[g][c] <= d2[c]) & (feet_[g][d] <= d2[d]);
-    if (!beaten)
+  for (std::size_t i = 0; i < list.size(); i += 2) {
+    const auto of_corner = [&](std::size_t k) { return distances_[corner[k]][i / 2]; };
+    const Pack a = of_corner(0), b = of_corner(1), c = of_corner(2), d = of_corner(3);
+    auto beaten = a < a; // no lane of it
+    for (const auto& p : feet)
+      beaten |= (p[0] <= a) & (p[1] <= b) & (p[2] <= c) & (p[3] <= d);
+    if (beaten[0] == 0)
       needed.push_back(list[i]);
+    if (beaten[1] == 0 && i + 1 < list.size())
+      needed.push_back(list[i + 1]);
   }
   return needed;
 }
@@ -145,12 +143,7 @@ void FacetCells::Builder::fill(std::uint32_t cell, const List& list, const Regio
       number * r.share() * static_cast<double>(facets_.size()) <= worth) {
     for (std::size_t k = 0; k < 2; ++k)
       bits_[k] += r.bits[k];
-    if (list.size() <= long_list)
-      return store(cell, list, Kind::whole_list);
-    look(list, r);
-    List some(nearest_.begin(), nearest_.end());
-    std::sort(some.begin(), some.end());
-    return store(cell, some, Kind::part_of_list);
+    return store(cell, list);
   }
   look(list, r);
   std::array<List, 4> halves;
@@ -159,21 +152,28 @@ void FacetCells::Builder::fill(std::uint32_t cell, const List& list, const Regio
   const std::uint32_t across =
       halves[2].size() + halves[3].size() < halves[0].size() + halves[1].size() ? 1 : 0;
   const auto first = static_cast<std::uint32_t>(out_.cells_.size());
-  out_.cells_[cell] = {first, 0, static_cast<std::uint8_t>(word - 1 - r.bits[across]),
-                       across == 0 ? Kind::across_t : Kind::across_m};
+  out_.cells_[cell] = {{first, first + 2},
+                       across == 0 ? Cell::across_t : Cell::across_m,
+                       static_cast<std::uint16_t>(word - 1 - r.bits[across])};
   out_.cells_.resize(first + 2);
   for (std::uint32_t k = 0; k < 2; ++k)
     fill(first + k, halves[2 * across + k], r.half(across, k == 1));
 }
 
-void FacetCells::Builder::store(std::uint32_t cell, const List& list, Kind kind) {
-  const auto first = static_cast<std::uint32_t>(out_.runs_.size());
+void FacetCells::Builder::store(std::uint32_t cell, const List& list) {
+  std::vector<Run>& runs = out_.runs_;
+  const auto first = static_cast<std::uint32_t>(runs.size());
   for (const std::uint32_t k : list)
-    if (out_.runs_.size() > first && k < out_.runs_.back().end + short_gap)
-      out_.runs_.back().end = k + 1;
+    if (runs.size() > first && k < runs.back().end + short_gap)
+      runs.back().end = k + 1;
     else
-      out_.runs_.push_back({k, k + 1});
-  out_.cells_[cell] = {first, static_cast<std::uint16_t>(out_.runs_.size() - first), 0, kind};
+      runs.push_back({k, k + 1});
+  const auto end = static_cast<std::uint32_t>(runs.size());
+  out_.cells_[cell] = {{first, end}, Cell::some_runs, 0};
+  if (end == first + 1) {
+    out_.cells_[cell] = {runs.back(), Cell::one_run, 0};
+    runs.pop_back();
+  }
 }
 
 /// No more starts than cells; of t and m each as many first bits, in proportion, as the mean cell has.
@@ -189,14 +189,9 @@ void FacetCells::Builder::start_deep() {
       for (std::uint32_t m = 0; m < 1u << bits[1]; ++m) {
         const std::array<std::uint64_t, 2> at{std::uint64_t{t} << (word - bits[0]),
                                               std::uint64_t{m} << (word - bits[1])};
-        std::uint32_t cell = quadrant;
-        while (out_.cells_[cell].kind <= Kind::across_m) {
-          const Cell& c = out_.cells_[cell];
-          const auto across = static_cast<std::size_t>(c.kind);
-          if (c.bit + bits[across] < word)
-            break; // told apart by a later bit
-          cell = c.first + static_cast<std::uint32_t>(at[across] >> c.bit & 1u);
-        }
+        Cell cell = out_.cells_[quadrant];
+        while (cell.kind <= Cell::across_m && cell.bit + bits[cell.kind] >= word) // told apart by a first bit
+          cell = out_.cells_[cell.what.first + static_cast<std::uint32_t>(at[cell.kind] >> cell.bit & 1u)];
         out_.starts_.push_back(cell);
       }
 }
@@ -213,10 +208,12 @@ FacetCells::Few FacetCells::near(double y, double z) const {
   const std::size_t start = (quadrant << start_bits_[0] | at[0] >> (word - start_bits_[0]))
                                 << start_bits_[1] |
                             at[1] >> (word - start_bits_[1]);
-  const Cell* cell = &cells_[starts_[start]];
-  while (cell->kind <= Kind::across_m)
-    cell = &cells_[cell->first + (at[static_cast<std::size_t>(cell->kind)] >> cell->bit & 1u)];
-  return {{&runs_[cell->first], cell->count}, known && cell->kind == Kind::whole_list};
+  const Cell* cell = &starts_[start];
+  while (cell->kind <= Cell::across_m)
+    cell = &cells_[cell->what.first + (at[cell->kind] >> cell->bit & 1u)];
+  if (cell->kind == Cell::one_run)
+    return {{&cell->what, 1}, known};
+  return {{runs_.data() + cell->what.first, cell->what.end - cell->what.first}, known};
 }
 
 } // namespace fretwork::contact

@@ -12,8 +12,11 @@
 ///     |v - p|^2 + rounding <= distance of f to v, squared     at the four corners v
 /// The p tried are the feet of the corners. What is left out is farther by more than rounding: of facets exactly as near none is left out.
 ///
+/// `rounding` is above what rounding does to two squared distances (less than 1e-14 of the square of the cells' reach) and by
+/// moving a point to the next cell (1e-16 of its m).
+///
 /// Cells are halved until their lists are short, or until they are so small that it would not pay: where very many facets are equally
-/// near (the centre of an arc that is not the origin). There the list is not given.
+/// near (the centre of an arc that is not the origin). Lists are whole there too, only long.
 #pragma once
 #include "contact/facet.hpp"
 #include <array>
@@ -36,26 +39,24 @@ public:
   };
   struct Few {
     std::span<const Run> runs; ///< by increasing number, not empty
-    bool all;                  ///< otherwise the nearest facet may be another one: these are near
+    bool
+        known; ///< otherwise (outside the cells, in the very middle, no number) the nearest may be any facet: these are some
   };
   /// No allocation.
   [[nodiscard]] Few near(double y, double z) const;
 
 private:
-  enum class Kind : std::uint8_t { across_t, across_m, whole_list, part_of_list };
-  /// Halved across t or m: a bit of it tells the halves, cells `first` and `first + 1`, apart. Otherwise its facets are in
-  /// `count` runs from `first` on.
+  /// `what` are the halves, cells that the bit tells apart, or the facets of the list, or its runs.
   struct Cell {
-    std::uint32_t first;
-    std::uint16_t count;
-    std::uint8_t bit;
-    Kind kind;
+    Run what;
+    enum Kind : std::uint16_t { across_t, across_m, one_run, some_runs } kind;
+    std::uint16_t bit;
   };
   class Builder;
 
   std::vector<Cell> cells_;
   std::vector<Run> runs_;
-  std::vector<std::uint32_t> starts_; ///< cells to start from, by quadrant and by the first bits of t and m
+  std::vector<Cell> starts_; ///< cells to start from, by quadrant and by the first bits of t and m
   std::array<std::uint32_t, 2> start_bits_{};
   double least_ = 0.0, most_ = 0.0, per_metre_ = 0.0; ///< of m, m; 2^32 / most_
 };

@@ -2,8 +2,6 @@
 #include "contact/facet_index.hpp"
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <limits>
 
 namespace fretwork::contact {
 
@@ -14,9 +12,6 @@ constexpr std::uint32_t scan_limit = 16;   // facets: a scan is then as fast as 
 constexpr double round_off = 1e-13;        // of the polygon's width: above what rounding does to a distance
 constexpr double nearly_one = 1.0 - 1e-14; // of nodes far away rounding moves all distances
 constexpr std::uint32_t full_span = 3;     // a span of level l has 2^(3 + 2 l) facets
-
-constexpr std::uint32_t pack_size = 2; // what every processor of the kind has
-typedef double Pack __attribute__((vector_size(pack_size * sizeof(double))));
 
 std::uint32_t span_bits(std::size_t level) { return full_span + 2 * static_cast<std::uint32_t>(level); }
 
@@ -59,18 +54,17 @@ FacetIndex::Box box_round(std::span<const PlanePoint> vertices, std::uint32_t fi
 
 } // namespace
 
-FacetIndex::FacetIndex(std::span<const PlanePoint> vertices) {
-  facets_.reserve(vertices.size());
+FacetIndex::FacetIndex(std::span<const PlanePoint> vertices)
+    : size_(static_cast<std::uint32_t>(vertices.size())) {
+  std::vector<Facet> facets;
+  facets.reserve(size_ + 1);
   for (std::size_t k = 0; k < vertices.size(); ++k)
-    facets_.push_back(facet_between(vertices[k], vertices[(k + 1) % vertices.size()]));
-  constexpr double far = 1e300; // m: squared, beyond all numbers
-  const Facet none{far, far, 1.0, 0.0, 0.0};
-  for (std::size_t k = 0; k < facets_.size() + pack_size; ++k) {
-    const Facet& f = k < facets_.size() ? facets_[k] : none;
-    const double values[] = {f.ay, f.az, f.uy, f.uz, f.length};
-    for (std::size_t i = 0; i < lanes_.size(); ++i)
-      lanes_[i].push_back(values[i]);
-  }
+    facets.push_back(facet_between(vertices[k], vertices[(k + 1) % vertices.size()]));
+  constexpr double far = 1e300;                // m: squared, beyond all numbers
+  facets.push_back({far, far, 1.0, 0.0, 0.0}); // to fill up the last pair
+  for (std::uint32_t k = 0; k < size_; k += 2)
+    pairs_.emplace_back(facets[k], facets[k + 1]);
+  facets.pop_back();
   if (size() <= scan_limit)
     return;
   PlanePoint low = vertices[0], high = vertices[0];
@@ -81,7 +75,7 @@ FacetIndex::FacetIndex(std::span<const PlanePoint> vertices) {
     outermost = std::max(outermost, std::abs(v.y) + std::abs(v.z));
   }
   build_boxes(vertices, round_off * std::max(high.y - low.y, high.z - low.z));
-  cells_ = FacetCells(facets_, outermost);
+  cells_ = FacetCells(facets, outermost);
 }
 
 void FacetIndex::build_boxes(std::span<const PlanePoint> vertices, double rounding) {
@@ -93,63 +87,45 @@ void FacetIndex::build_boxes(std::span<const PlanePoint> vertices, double roundi
   }
 }
 
-/// Of equals the one of lowest number: distance2 of a pack of facets at once: a run may look at some facets more.
-FacetIndex::Best FacetIndex::nearest_of(std::span<const FacetCells::Run> runs, double y, double z) const {
-  Pack least = Pack{} + infinity, number{};
-  for (const FacetCells::Run run : runs) {
-    Pack k = static_cast<double>(run.first) + Pack{0.0, 1.0};
-    for (std::uint32_t i = run.first; i < run.end; i += pack_size, k += pack_size) {
-      Pack ay, az, uy, uz, length; // runs begin anywhere: not aligned
-      std::memcpy(&ay, &lanes_[0][i], sizeof ay);
-      std::memcpy(&az, &lanes_[1][i], sizeof az);
-      std::memcpy(&uy, &lanes_[2][i], sizeof uy);
-      std::memcpy(&uz, &lanes_[3][i], sizeof uz);
-      std::memcpy(&length, &lanes_[4][i], sizeof length);
-      const Pack wy = y - ay, wz = z - az, inner = wy * uy + wz * uz;
-      const Pack after = inner > 0.0 ? inner : Pack{}, along = after < length ? after : length;
-      const Pack ry = wy - along * uy, rz = wz - along * uz, d2 = ry * ry + rz * rz;
-      number = d2 < least ? k : number;
-      least = d2 < least ? d2 : least;
-    }
-  }
-  std::size_t lane = 0;
-  for (std::size_t i = 1; i < pack_size; ++i)
-    if (least[i] < least[lane] || (least[i] == least[lane] && number[i] < number[lane]))
-      lane = i;
-  return {least[lane], static_cast<std::uint32_t>(number[lane])};
+/// By pairs: it may be at one facet more on both sides.
+void FacetIndex::look_at(FacetCells::Run run, double y, double z, Least& distances) const {
+  const std::uint32_t end = (run.end + 1) / 2;
+  Pack numbers = numbers_from(run.first / 2 * 2);
+  for (std::uint32_t i = run.first / 2; i < end; ++i, numbers += 2.0)
+    distances.see(distance2(pairs_[i], y, z), numbers);
 }
 
-/// Replaces `best` by the nearest facet of all, or one of lower number as near.
-void FacetIndex::search(double y, double z, Best& best) const {
-  best.distance2 = std::nextafter(best.distance2, infinity);
+/// Squared distances of the nearest and its like; at least one of all is within the bound, m^2.
+Least FacetIndex::search(double y, double z, double bound) const {
+  Least distances;
   std::uint32_t k = 0;
   std::size_t level = boxes_.size() - 1;
   while (k < size()) {
-    if (nearly_one * distance2(boxes_[level][k >> span_bits(level)], y, z) < best.distance2) {
+    if (nearly_one * distance2(boxes_[level][k >> span_bits(level)], y, z) <= bound) {
       if (level > 0) {
         --level;
         continue;
       }
-      for (std::uint32_t j = k; j < std::min(k + (1u << full_span), size()); ++j)
-        if (const double d2 = distance2(facets_[j], y, z); d2 < best.distance2)
-          best = {d2, j};
+      look_at({k, std::min(k + (1u << full_span), size())}, y, z, distances);
+      bound = std::min(bound, distances.value());
     }
     k += 1u << span_bits(level);
     while (level + 1 < boxes_.size() && (k & ((1u << span_bits(level + 1)) - 1u)) == 0)
       ++level;
   }
+  return distances;
 }
 
 std::uint32_t FacetIndex::nearest(double y, double z) const {
+  Least distances;
   if (size() <= scan_limit) {
-    const FacetCells::Run all{0, size()};
-    return nearest_of({&all, 1}, y, z).facet;
+    look_at({0, size()}, y, z, distances);
+    return distances.number();
   }
   const FacetCells::Few few = cells_.near(y, z);
-  Best best = nearest_of(few.runs, y, z);
-  if (!few.all)
-    search(y, z, best);
-  return best.facet;
+  for (const FacetCells::Run run : few.runs)
+    look_at(run, y, z, distances);
+  return few.known ? distances.number() : search(y, z, distances.value()).number();
 }
 
 } // namespace fretwork::contact

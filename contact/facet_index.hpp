@@ -4,8 +4,8 @@
 ///
 /// A polygon of few facets is scanned. For a longer one:
 ///   cells    of the plane list the few facets that may be nearest (facet_cells.hpp); the nearest of them counts
-///   search   where a cell has no whole list, and for nodes far outside: over spans of 8, 32, 128 ... facets, each
-///            in a box along its principal axes; a span whose box is no nearer than the best facet is passed over
+///   search   for nodes outside the cells or in the very middle: over spans of 8, 32, 128 ... facets, each in a box
+///            along its principal axes; a span whose box is no nearer than the best facet is passed over
 #pragma once
 #include "contact/facet_cells.hpp"
 
@@ -20,8 +20,8 @@ public:
   /// Number of the nearest facet; among those exactly as near the lowest. No allocation.
   [[nodiscard]] std::uint32_t nearest(double y, double z) const;
 
-  [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(facets_.size()); }
-  [[nodiscard]] const Facet& operator[](std::uint32_t k) const { return facets_[k]; }
+  [[nodiscard]] std::uint32_t size() const { return size_; }
+  [[nodiscard]] Facet operator[](std::uint32_t k) const { return pairs_[k / 2][k % 2]; }
 
   /// A rectangle: middle, direction of one axis, half widths along and across it, m.
   struct Box {
@@ -29,18 +29,13 @@ public:
   };
 
 private:
-  struct Best {
-    double distance2;
-    std::uint32_t facet;
-  };
-
   void build_boxes(std::span<const PlanePoint> vertices, double rounding);
-  [[nodiscard]] Best nearest_of(std::span<const FacetCells::Run> runs, double y, double z) const;
-  void search(double y, double z, Best& best) const;
+  void look_at(FacetCells::Run run, double y, double z, Least& distances) const;
+  [[nodiscard]] Least search(double y, double z, double bound) const;
 
-  std::vector<Facet> facets_;
-  std::array<std::vector<double>, 5> lanes_; ///< the same, value by value
-  std::vector<std::vector<Box>> boxes_;      ///< by level: spans of 8, 32, 128 ... facets
+  std::uint32_t size_;
+  std::vector<FacetPair> pairs_;        ///< the last one, where needed, with a facet beyond all others
+  std::vector<std::vector<Box>> boxes_; ///< by level: spans of 8, 32, 128 ... facets
   FacetCells cells_;
 };
 

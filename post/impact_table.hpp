@@ -29,7 +29,8 @@ struct Impact {
   double velocity_after = std::numeric_limits<double>::quiet_NaN();
   /// J, by the contact's dampers and by friction while there is a normal force. A linear damper ends the force
   /// while the spring is still pressed: what is left in the spring then (2 xi^2 m v'^2 of a mass m that leaves at v',
-  /// 5 % of the loss at xi = 0.1) is lost without a force and not in it.
+  /// 5 % of the loss at xi = 0.1) is lost without a force and not in it; nor is what the tangential spring still holds, T^2/(2 K_T),
+  /// and loses after opening. The run's contact damping has both.
   double energy_lost = 0.0;
   std::int64_t rebounds = 0; ///< openings shorter than `rest_time`
 };

@@ -16,6 +16,11 @@ constexpr double turn = 2.0 * std::numbers::pi;
 constexpr double round_off = 1e-15; // of squared distances of order 1
 constexpr int many = 10000;
 
+double squared_distance(const Facet& f, double y, double z) {
+  const contact::PlanePoint p = foot(f, y, z);
+  return (y - p.y) * (y - p.y) + (z - p.z) * (z - p.z);
+}
+
 std::vector<Facet> polygon(auto radius) {
   std::vector<Facet> facets;
   std::vector<contact::PlanePoint> v;
@@ -31,7 +36,17 @@ std::vector<Facet> polygon(auto radius) {
   return facets;
 }
 
-/// Mean number of facets to look at, of nodes at any depth; those without a whole list count as all.
+void expect_nearest_listed(const std::vector<Facet>& facets, const FacetCells::Few& few, double y, double z) {
+  double least = std::numeric_limits<double>::infinity(), least_listed = least;
+  for (const Facet& f : facets)
+    least = std::min(least, squared_distance(f, y, z));
+  for (const auto [first, end] : few.runs)
+    for (std::uint32_t k = first; k < end; ++k)
+      least_listed = std::min(least_listed, squared_distance(facets[k], y, z));
+  EXPECT_LE(least_listed, least + round_off) << y << " " << z;
+}
+
+/// Mean number of facets to look at, of nodes at any depth; where the nearest may be any facet all count.
 double mean_list(const std::vector<Facet>& facets, double outermost) {
   constexpr int nodes = 500;
   const FacetCells cells(facets, outermost);
@@ -41,14 +56,8 @@ double mean_list(const std::vector<Facet>& facets, double outermost) {
     const Facet& at = facets[static_cast<std::size_t>(uniform(0.0, 1.0) * many)];
     const double share = uniform(0.0, 1.1), y = share * at.ay, z = share * at.az;
     const FacetCells::Few few = cells.near(y, z);
-    double least = std::numeric_limits<double>::infinity(), least_listed = least;
-    for (const Facet& f : facets)
-      least = std::min(least, distance2(f, y, z));
-    for (const auto [first, end] : few.runs)
-      for (std::uint32_t k = first; k < end; ++k)
-        least_listed = std::min(least_listed, distance2(facets[k], y, z));
-    if (few.all) {
-      EXPECT_LE(least_listed, least + round_off) << y << " " << z;
+    if (few.known) {
+      expect_nearest_listed(facets, few, y, z);
       for (const auto [first, end] : few.runs)
         sum += static_cast<double>(end - first) / nodes;
     } else {
@@ -58,7 +67,7 @@ double mean_list(const std::vector<Facet>& facets, double outermost) {
   return sum;
 }
 
-constexpr double few = 40.0; // facets: a short list, gaps filled, and one node in a thousand without a list
+constexpr double few = 40.0; // facets: a short list, gaps filled, and the long lists of the middle
 
 } // namespace
 
@@ -75,10 +84,31 @@ TEST(FacetCells, ListTheNearestOfSpikesAndFewMore) {
   EXPECT_LT(mean_list(polygon([&](double) { return uniform(0.9, 1.1); }), 1.6), few);
 }
 
+TEST(FacetCells, ListTheNearestOnTheirBorders) {
+  tests::Uniform uniform(5);
+  const std::vector<Facet> facets = polygon([&](double) { return uniform(0.9, 1.1); });
+  constexpr double outermost = 1.6,
+                   reach = 1.5 * outermost; // of the cells: borders are at parts of it by powers of two
+  const FacetCells cells(facets, outermost);
+  for (int i = 0; i < 400; ++i) {
+    const double parts = std::ldexp(1.0, 2 + i % 9);
+    const double t = std::floor(uniform(0.0, parts + 1.0)) / parts,
+                 m = reach * std::floor(uniform(1.0, parts)) / parts;
+    const double y = (i % 2 ? -m : m) * (1.0 - t), z = (i % 4 < 2 ? -m : m) * t;
+    const FacetCells::Few few = cells.near(y, z);
+    ASSERT_TRUE(few.known) << y << " " << z;
+    expect_nearest_listed(facets, few, y, z);
+  }
+}
+
 TEST(FacetCells, TellWhereTheyKnowNotAll) {
   const FacetCells cells(polygon([](double) { return 1.0; }), std::numbers::sqrt2);
-  EXPECT_FALSE(cells.near(0.0, 0.0).all);
-  EXPECT_FALSE(cells.near(1e9, 0.0).all);
-  EXPECT_FALSE(cells.near(std::numeric_limits<double>::quiet_NaN(), 0.0).all);
-  EXPECT_FALSE(cells.near(0.0, 0.0).runs.empty());
+  EXPECT_FALSE(cells.near(0.0, 0.0).known);
+  EXPECT_FALSE(cells.near(1e9, 0.0).known);
+  EXPECT_FALSE(cells.near(std::numeric_limits<double>::quiet_NaN(), 0.0).known);
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  for (const double y : {0.0, -0.0, 1e9, infinite, -infinite, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_FALSE(cells.near(y, 0.0).runs.empty()) << y;
+    EXPECT_FALSE(cells.near(y, infinite).runs.empty()) << y;
+  }
 }
