@@ -19,28 +19,38 @@ Field zero(const RunResults& results) {
   return Field::Zero(3, static_cast<Eigen::Index>(results.nodes.size()));
 }
 
-} // namespace
-
-Eigen::Index mode_count(const RunResults& results) {
+Eigen::Index most_true_modes(const RunResults& results) {
   Eigen::Index most = 0;
   for (const modal::Basis& basis : results.bases)
-    most = std::max(most, basis.size());
+    most = std::max(most, basis.true_modes());
   return most;
 }
 
+} // namespace
+
+Eigen::Index mode_count(const RunResults& results) {
+  Eigen::Index most_static = 0;
+  for (const modal::Basis& basis : results.bases)
+    most_static = std::max(most_static, static_cast<Eigen::Index>(basis.static_modes));
+  return most_true_modes(results) + most_static;
+}
+
 ModeField mode_field(const RunResults& results, Eigen::Index k) {
-  ModeField out{fmt::format("mode {} of each structure", k + 1), zero(results)};
+  const Eigen::Index most = most_true_modes(results);
+  const bool is_static = k >= most;
+  const Eigen::Index number = is_static ? k - most : k;
+  const std::string name = fmt::format("{} {}", is_static ? "static mode" : "mode", number + 1);
+  ModeField out{name + " of each structure", zero(results)};
   for (const modal::Basis& basis : results.bases) {
-    if (k >= basis.size())
+    const Eigen::Index column = is_static ? basis.true_modes() + number : number;
+    if (column >= (is_static ? basis.size() : basis.true_modes()))
       continue;
     Field own = zero(results);
-    add(basis, basis.shapes.col(k), own);
+    add(basis, basis.shapes.col(column), own);
     const double largest = own.size() > 0 ? own.colwise().norm().maxCoeff() : 0.0;
     out.displacement += own / (largest > 0.0 ? largest : 1.0);
     if (results.bases.size() == 1)
-      out.name = fmt::format("{} {}, {:.5g} Hz", k < basis.true_modes() ? "mode" : "static mode",
-                             k < basis.true_modes() ? k + 1 : k - basis.true_modes() + 1,
-                             basis.omega(k) / (2.0 * std::numbers::pi));
+      out.name = fmt::format("{}, {:.5g} Hz", name, basis.omega(column) / (2.0 * std::numbers::pi));
   }
   return out;
 }

@@ -9,11 +9,12 @@ namespace fretwork::results {
 /// Displacement of every mesh node, 3 x nodes.
 using Field = Eigen::Matrix3Xd;
 
-/// The k-th mode of every structure that has one, each scaled to a largest translation of 1 (a mode that only
-/// turns: as it is).
+/// The k-th mode of every structure that has one, static modes after the modes of all, each scaled to a largest translation of 1 (a
+/// mode that only turns: as it is).
 struct ModeField {
   std::string
-      name; ///< "mode 3, 12.34 Hz", "static mode 1, 345.6 Hz"; with several structures "mode 3 of each structure"
+      name; ///< "mode 3, 12.34 Hz", "static mode 1, 345.6 Hz"; with several structures "mode 3 of each structure",
+            ///< "static mode 1 of each structure"
   Field displacement;
 };
 [[nodiscard]] Eigen::Index mode_count(const RunResults& results);

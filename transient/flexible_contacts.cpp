@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/flexible_contacts.hpp"
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -14,12 +13,17 @@ constexpr double window = 0.7; ///< of contact_solver.cpp
 constexpr double sweep_tolerance = 1e-9;
 /// Contacts beside each other share most of their flexibility (0.9 of it: a factor 0.8 a sweep).
 constexpr int most_sweeps = 300;
+/// Sweeps in which normals turn.
+constexpr int most_turns = 30;
+/// Angle below which they do not: less than what the step leaves by some digits.
+constexpr double turn_tolerance = 1e-7;
 /// Each place found at the start is nearer by the share of R F_N in the obstacle's radius: to the last digit, or nearly so.
 constexpr int most_places = 50;
 
-using Directions = std::array<std::array<double, 3>, 3>;
-/// n, t, x_loc over y, z, x_loc.
-Directions directions(double ny, double nz) { return {{{ny, nz, 0.0}, {nz, -ny, 0.0}, {0.0, 0.0, 1.0}}}; }
+/// Largest eigenvalue of a symmetric matrix.
+double largest_eigenvalue(const Eigen::Matrix2d& m) {
+  return 0.5 * (m(0, 0) + m(1, 1)) + std::hypot(0.5 * (m(0, 0) - m(1, 1)), m(0, 1));
+}
 
 } // namespace
 
@@ -33,9 +37,14 @@ FlexibleContacts::FlexibleContacts(const PackedContacts& contacts, const Eigen::
     for (Eigen::Index column = 0; column < r_.cols(); ++column)
       r_(row, column) = residual(row / 3 * 3 + stored[static_cast<std::size_t>(row % 3)],
                                  column / 3 * 3 + stored[static_cast<std::size_t>(column % 3)]);
+  a_ = Eigen::MatrixXd::Zero(3 * contacts.count, 3 * contacts.count);
+  for (int from = 0; from < contacts.count; ++from)
+    for (int to = 0; to < contacts.count; ++to)
+      for (int k = 0; k < contacts.components; ++k)
+        for (int l = 0; l < contacts.components; ++l)
+          a_(3 * to + k, 3 * from + l) =
+              0.5 * step * contacts.column(from)[l * contacts.stride() + k * contacts.width + to];
   shut_.reserve(count);
-  mobility_.assign(9 * count * count, 0.0);
-  residual_ = mobility_;
   speed_.assign(3 * count, 0.0);
   give_ = speed_;
   for (kernels::Array* a : {&bare_, &now_, &last_, &before_, &guess_, &given_, &given_last_, &given_before_,
@@ -88,8 +97,8 @@ bool FlexibleContacts::act(const ContactMemory* memory, ContactMotion& motion) {
       take(c, motion);
   bool settled = true;
   do {
-    build();
-    settled = sweep(memory);
+    build(motion);
+    settled = sweep(memory, motion);
     move(motion);
   } while (recruit(motion));
   return settled;
@@ -106,9 +115,8 @@ void FlexibleContacts::accept() {
   quiet_ = none(last_) && none(before_);
   own_before_.swap(own_last_);
   std::fill(own_last_.begin(), own_last_.end(), 0.0);
-  for (std::size_t i = 0; i < shut_.size(); ++i) {
-    const Shut& s = shut_[i];
-    const double own = at(residual_, 3 * i, 3 * i) * s.force[0];
+  for (const Shut& s : shut_) {
+    const double own = s.residual(0, 0) * s.force[0];
     own_last_[s.contact] = s.ny * own;
     own_last_[contacts_.width + s.contact] = s.nz * own;
   }
@@ -150,30 +158,19 @@ void FlexibleContacts::take(int c, const ContactMotion& motion) {
   const contact::Support& support = contacts_.supports[c];
   const int width = contacts_.width;
   const auto at = motion.locate(c);
-  const Directions d = directions(at.ny, at.nz);
   Shut& s = shut_.emplace_back();
   s.contact = c;
   s.normal = still_ ? contact::NormalLaw{support.normal.stiffness} : support.normal;
   s.friction = !still_ && support.friction.active();
   s.in_plane = contacts_.in_plane[c] != 0;
+  s.deeper = largest_eigenvalue(r_.block<2, 2>(3 * c, 3 * c));
   s.ny = at.ny;
   s.nz = at.nz;
-  s.approach = motion.sinking(c, at.ny, at.nz);
-  s.reach = still_ ? 0.0 : 0.5 * window * h_ * s.approach;
+  s.bare = -at.gap + at.ny * given_[c] + at.nz * given_[width + c];
+  face(s, motion);
   s.normal.damping *=
       contact::closed_share(-at.gap - s.reach, -at.gap + s.reach); // as the last forces leave it
-  s.bare = -at.gap + at.ny * given_[c] + at.nz * given_[width + c];
-  const auto along = [&](const kernels::Array& lanes, double* to) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      to[k] = 0.0;
-      for (int a = 0; a < contacts_.components; ++a)
-        to[k] += d[k][static_cast<std::size_t>(a)] * lanes[a * width + c];
-    }
-  };
-  along(motion.w, s.velocity);
-  along(given_last_, s.last);
-  along(given_before_, s.before);
-  along(guess_, s.force);
+  along(s, guess_, s.force);
   s.force[0] = std::max(0.0, s.force[0]);
   if (!s.friction || s.force[0] == 0.0)
     s.force[1] = s.force[2] = 0.0;
@@ -186,6 +183,49 @@ void FlexibleContacts::take(int c, const ContactMotion& motion) {
                : Rate{(k * half_step_.now + damping * rate_.now) / scale,
                       (k * half_step_.last + damping * rate_.last) / scale,
                       (k * half_step_.before + damping * rate_.before) / scale};
+}
+
+/// Components along n, t, x_loc.
+void FlexibleContacts::along(const Shut& s, const kernels::Array& lanes, double* to) const {
+  const int width = contacts_.width, c = s.contact;
+  const double y = lanes[c], z = lanes[width + c];
+  to[0] = s.ny * y + s.nz * z;
+  to[1] = s.nz * y - s.ny * z;
+  to[2] = contacts_.components > 2 ? lanes[2 * width + c] : 0.0;
+}
+
+/// What a contact has along its directions before the action, and what its own forces do.
+void FlexibleContacts::face(Shut& s, const ContactMotion& motion) const {
+  s.approach = motion.sinking(s.contact, s.ny, s.nz);
+  s.reach = still_ ? 0.0 : 0.5 * window * h_ * s.approach;
+  along(s, motion.w, s.velocity);
+  along(s, given_last_, s.last);
+  along(s, given_before_, s.before);
+  Eigen::Matrix3d d;
+  d << s.ny, s.nz, 0.0, s.nz, -s.ny, 0.0, 0.0, 0.0, 1.0;
+  s.mobility = d * a_.block<3, 3>(3 * s.contact, 3 * s.contact) * d.transpose();
+  s.residual = d * r_.block<3, 3>(3 * s.contact, 3 * s.contact) * d.transpose();
+}
+
+/// Turns a contact to the normal of where it stands. Returns the change of its force, N.
+double FlexibleContacts::turn(std::size_t i, ContactMotion& motion) {
+  Shut& s = shut_[i];
+  const int y = s.contact, z = y + contacts_.width;
+  const double by_y = give_[3 * i] - s.deeper * s.force[0] * s.ny,
+               by_z = give_[3 * i + 1] - s.deeper * s.force[0] * s.nz;
+  motion.u[y] = bare_[y] + by_y;
+  motion.u[z] = bare_[z] + by_z;
+  const auto at = motion.locate(s.contact);
+  const double turned = std::hypot(at.ny - s.ny, at.nz - s.nz);
+  if (turned > turn_tolerance) {
+    const Eigen::Vector3d before = force(s);
+    s.ny = at.ny;
+    s.nz = at.nz;
+    face(s, motion);
+    push(s.contact, force(s) - before);
+  }
+  s.bare = -at.gap + s.ny * by_y + s.nz * by_z;
+  return turned > turn_tolerance ? turned * s.force[0] : 0.0;
 }
 
 /// Takes the contacts that the forces found have closed. Returns whether there are any.
@@ -206,55 +246,61 @@ bool FlexibleContacts::recruit(ContactMotion& motion) {
   return shut_.size() > before;
 }
 
-/// A and R along the directions of the shut contacts, and what their forces do.
-void FlexibleContacts::build() {
-  const int width = contacts_.width, stride = contacts_.stride();
-  const auto components = static_cast<std::size_t>(contacts_.components);
+/// What the forces of the shut contacts do.
+void FlexibleContacts::build(const ContactMotion& motion) {
   for (std::size_t i = 0; i < shut_.size(); ++i)
-    for (std::size_t j = 0; j < shut_.size(); ++j) {
-      const Shut &to = shut_[i], &from = shut_[j];
-      const Directions di = directions(to.ny, to.nz), dj = directions(from.ny, from.nz);
-      const double* column = contacts_.column(from.contact);
-      for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t l = 0; l < 3; ++l) {
-          double a = 0.0, r = 0.0;
-          for (std::size_t m = 0; m < components; ++m)
-            for (std::size_t n = 0; n < components; ++n) {
-              const double share = di[k][m] * dj[l][n];
-              const int row = static_cast<int>(m), other = static_cast<int>(n);
-              a += share * column[other * stride + row * width + to.contact];
-              r += share * r_(3 * to.contact + row, 3 * from.contact + other);
-            }
-          at(mobility_, 3 * i + k, 3 * j + l) = 0.5 * h_ * a;
-          at(residual_, 3 * i + k, 3 * j + l) = r;
-        }
+    for (int k = 0; k < 3; ++k) {
+      const std::size_t row = 3 * i + static_cast<std::size_t>(k);
+      speed_[row] = k < contacts_.components ? motion.w[k * contacts_.width + shut_[i].contact] : 0.0;
+      give_[row] = 0.0;
     }
-  for (std::size_t i = 0; i < shut_.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) {
-      speed_[3 * i + k] = shut_[i].velocity[k];
-      give_[3 * i + k] = 0.0;
-    }
-  for (std::size_t i = 0; i < shut_.size(); ++i)
-    for (int k = 0; k < 3; ++k)
-      change(i, k, std::exchange(shut_[i].force[k], 0.0));
+  for (const Shut& s : shut_)
+    push(s.contact, force(s));
 }
 
-/// Adds to a force; all velocities and displacements answer.
-void FlexibleContacts::change(std::size_t i, int component, double by) {
-  if (by == 0.0)
-    return;
-  shut_[i].force[component] += by;
-  const std::size_t column = 3 * i + static_cast<std::size_t>(component);
-  for (std::size_t row = 0; row < 3 * shut_.size(); ++row) {
-    speed_[row] += at(mobility_, row, column) * by;
-    give_[row] += at(residual_, row, column) * by;
+/// Along y, z, x_loc.
+Eigen::Vector3d FlexibleContacts::force(const Shut& s) {
+  return {s.force[0] * s.ny + s.force[1] * s.nz, s.force[0] * s.nz - s.force[1] * s.ny, s.force[2]};
+}
+
+/// Adds to the force on a contact; all velocities and displacements answer.
+void FlexibleContacts::push(int from, const Eigen::Vector3d& by) {
+  for (int l = 0; l < 3; ++l) {
+    if (by(l) == 0.0)
+      continue;
+    const auto a = a_.col(3 * from + l), r = r_.col(3 * from + l);
+    for (std::size_t i = 0; i < shut_.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Eigen::Index row = 3 * shut_[i].contact + static_cast<Eigen::Index>(k);
+        speed_[3 * i + k] += a(row) * by(l);
+        give_[3 * i + k] += r(row) * by(l);
+      }
   }
 }
 
-bool FlexibleContacts::sweep(const ContactMemory* memory) {
+void FlexibleContacts::change(std::size_t i, int component, double by) {
+  if (by == 0.0)
+    return;
+  Shut& s = shut_[i];
+  s.force[component] += by;
+  push(s.contact, component == 0   ? Eigen::Vector3d(by * s.ny, by * s.nz, 0.0)
+                  : component == 1 ? Eigen::Vector3d(by * s.nz, -by * s.ny, 0.0)
+                                   : Eigen::Vector3d(0.0, 0.0, by));
+}
+
+/// A component along n, t, x_loc of what `speed_` or `give_` hold.
+double FlexibleContacts::component(const std::vector<double>& of, std::size_t i, int k) const {
+  const Shut& s = shut_[i];
+  const double y = of[3 * i], z = of[3 * i + 1];
+  return k == 0 ? s.ny * y + s.nz * z : k == 1 ? s.nz * y - s.ny * z : of[3 * i + 2];
+}
+
+bool FlexibleContacts::sweep(const ContactMemory* memory, ContactMotion& motion) {
   for (int k = 0; k < most_sweeps; ++k) {
     double changed = 0.0, largest = 0.0;
     for (std::size_t i = 0; i < shut_.size(); ++i) {
+      if (k < most_turns)
+        changed = std::max(changed, turn(i, motion));
       changed = std::max(changed, improve(i, memory));
       largest = std::max(largest, shut_[i].force[0]);
     }
@@ -267,15 +313,15 @@ bool FlexibleContacts::sweep(const ContactMemory* memory) {
 /// p' at the instant of the action.
 double FlexibleContacts::normal_rate(std::size_t i) const {
   const Shut& s = shut_[i];
-  return -(speed_[3 * i] + rate_.now * give_[3 * i] + rate_.last * s.last[0] + rate_.before * s.before[0]);
+  return -(component(speed_, i, 0) + rate_.now * component(give_, i, 0) + rate_.last * s.last[0] +
+           rate_.before * s.before[0]);
 }
 
 /// One contact solved with all others held. Returns the largest change of its forces, N.
 double FlexibleContacts::improve(std::size_t i, const ContactMemory* memory) {
   Shut& s = shut_[i];
-  const std::size_t n = 3 * i;
-  const double own = at(residual_, n, n), mobility = at(mobility_, n, n) + rate_.now * own;
-  const double p = s.bare - (give_[n] - own * s.force[0]);
+  const double own = s.residual(0, 0), mobility = s.mobility(0, 0) + rate_.now * own;
+  const double p = s.bare - (component(give_, i, 0) - own * s.force[0]);
   s.mean = contact::mean_penetration(p - s.reach, p + s.reach);
   const double normal =
       s.mean > 0.0
@@ -295,22 +341,23 @@ double FlexibleContacts::improve(std::size_t i, const ContactMemory* memory) {
 
 contact::Friction FlexibleContacts::friction(std::size_t i, const ContactMemory& memory) const {
   const Shut& s = shut_[i];
-  const std::size_t t = 3 * i + 1, x = t + 1;
-  const auto mobility = [&](std::size_t row, std::size_t column) {
-    return at(mobility_, row, column) + s.rate.now * at(residual_, row, column);
+  constexpr int t = 1, x = 2;
+  const auto mobility = [&](int row, int column) {
+    return s.mobility(row, column) + s.rate.now * s.residual(row, column);
   };
-  const auto velocity = [&](std::size_t row, std::size_t k) {
-    return speed_[row] + s.rate.now * give_[row] + s.rate.last * s.last[k] + s.rate.before * s.before[k];
+  const auto velocity = [&](int k) {
+    return component(speed_, i, k) + s.rate.now * component(give_, i, k) + s.rate.last * s.last[k] +
+           s.rate.before * s.before[k];
   };
   const contact::FrictionLaw& law = contacts_.supports[s.contact].friction;
   const auto& table = memory.table(s.contact);
   const auto past = memory.at(s.contact, s.ny, s.nz);
   const double tt = mobility(t, t);
   if (!s.in_plane)
-    return contact::step_friction_line(law, table, past, s.force[0], velocity(t, 1) - tt * s.force[1], tt);
+    return contact::step_friction_line(law, table, past, s.force[0], velocity(t) - tt * s.force[1], tt);
   const double xx = mobility(x, x), xt = mobility(x, t);
-  const contact::Vec2 free{velocity(x, 2) - xx * s.force[2] - xt * s.force[1],
-                           velocity(t, 1) - xt * s.force[2] - tt * s.force[1]};
+  const contact::Vec2 free{velocity(x) - xx * s.force[2] - xt * s.force[1],
+                           velocity(t) - xt * s.force[2] - tt * s.force[1]};
   return contact::step_friction_plane(law, table, past, s.force[0], free, {xx, xt, tt});
 }
 
@@ -318,11 +365,9 @@ contact::Friction FlexibleContacts::friction(std::size_t i, const ContactMemory&
 void FlexibleContacts::move(ContactMotion& motion) {
   std::fill(now_.begin(), now_.end(), 0.0);
   for (const Shut& s : shut_) {
-    const Directions d = directions(s.ny, s.nz);
-    for (std::size_t a = 0; a < static_cast<std::size_t>(contacts_.components); ++a)
-      for (std::size_t k = 0; k < 3; ++k)
-        now_[a * static_cast<std::size_t>(contacts_.width) + static_cast<std::size_t>(s.contact)] +=
-            s.force[k] * d[k][a];
+    const Eigen::Vector3d f = force(s);
+    for (int a = 0; a < contacts_.components; ++a)
+      now_[a * contacts_.width + s.contact] = f(a);
   }
   give(now_, given_);
   for (std::size_t lane = 0; lane < given_.size(); ++lane)
@@ -348,10 +393,9 @@ void FlexibleContacts::close(ContactTrial& trial, ContactSolver::Action& action)
   for (std::size_t i = 0; i < shut_.size(); ++i) {
     const Shut& s = shut_[i];
     const int c = s.contact;
-    const std::size_t n = 3 * i;
     const double rate = normal_rate(i);
-    const double p = s.bare - give_[n],
-                 spring = s.normal.stiffness * (s.mean - at(residual_, n, n) * s.force[0]);
+    const double p = s.bare - component(give_, i, 0),
+                 spring = s.normal.stiffness * (s.mean - s.residual(0, 0) * s.force[0]);
     if (p > 0.0)
       trial.springs += 0.5 * s.normal.stiffness * p * p;
     if (!(s.mean > 0.0))
@@ -368,12 +412,12 @@ void FlexibleContacts::close(ContactTrial& trial, ContactSolver::Action& action)
     state.approach = s.approach;
     state.damper_work = loss;
     double moved[3] = {}; // over the step
-    for (std::size_t k = 0; k < 3; ++k) {
-      action.work += h_ * s.force[k] * speed_[n + k];
-      action.jump += h_ * s.force[k] * (speed_[n + k] - s.velocity[k]);
-      trial.springs += 0.5 * s.force[k] * give_[n + k];
-      moved[k] = h_ * (speed_[n + k] + rate_.now * give_[n + k] + rate_.last * s.last[k] +
-                       rate_.before * s.before[k]);
+    for (int k = 0; k < 3; ++k) {
+      const double speed = component(speed_, i, k), give = component(give_, i, k);
+      action.work += h_ * s.force[k] * speed;
+      action.jump += h_ * s.force[k] * (speed - s.velocity[k]);
+      trial.springs += 0.5 * s.force[k] * give;
+      moved[k] = h_ * (speed + rate_.now * give + rate_.last * s.last[k] + rate_.before * s.before[k]);
     }
     if (s.friction) {
       state.friction = {s.force[2], s.force[1]};

@@ -12,9 +12,13 @@
 ///       return_map   trial = T - K_T (h w/2 + R f_k - y) - C_T (w + R f'),  y = R (3 f_{k-1} - f_{k-2})/2
 ///       reference    trial = F0 - (K_T h/2 + C_T)(w + R f'), whose slip is opposite to w + R f'
 ///     over the step the spring is stretched by h (w + R f'): the sum of the f' is the f that y takes at its start
-/// all implicit in f, by Gauss-Seidel sweeps from the forces that the last two steps foretell. Normals are those at the foretold place
-/// without n.R n F_N, which lies on the same normal: order 2. A contact that the others' forces close joins the sweeps. A lone contact
-/// without friction and dampers is the one of stiffness K_N/(1 + K_N R) to the last digit.
+/// all implicit in f, by Gauss-Seidel sweeps from the forces that the last two steps foretell. A contact that the others' forces close
+/// joins the sweeps. A lone contact without friction and dampers is the one of stiffness K_N/(1 + K_N R) to the last digit.
+///
+/// Normals turn with the forces: where R f is far above the gap, forces that only the last steps tell would swing round a hole. The
+/// normal at a place is that at u - r F_N n, r the largest eigenvalue of the contact's own R across x_loc, which lies on it, deeper: a
+/// round hole gives n = N(B q + (R - r) f), whose own part is a contraction at any r F_N, and nothing at all where R is the same along
+/// y and z. At corners of profiles normals are held after some sweeps.
 ///
 /// Energy: f.R f/2 is stored.
 #pragma once
@@ -45,6 +49,8 @@ private:
   };
   struct Shut {
     int contact = 0;
+    double deeper = 0.0;                ///< m/N: r
+    Eigen::Matrix3d mobility, residual; ///< own A and R, along n, t, x_loc
     bool friction = false, in_plane = false, slides = false;
     contact::NormalLaw normal{};
     double ny = 0.0, nz = 0.0;
@@ -64,34 +70,33 @@ private:
   void foretell(ContactMotion& motion);
   void take(int c, const ContactMotion& motion);
   [[nodiscard]] bool recruit(ContactMotion& motion);
-  void build();
-  [[nodiscard]] bool sweep(const ContactMemory* memory);
+  void along(const Shut& s, const kernels::Array& lanes, double* to) const;
+  void face(Shut& s, const ContactMotion& motion) const;
+  [[nodiscard]] double turn(std::size_t i, ContactMotion& motion);
+  void build(const ContactMotion& motion);
+  [[nodiscard]] static Eigen::Vector3d force(const Shut& s);
+  void push(int from, const Eigen::Vector3d& by);
+  [[nodiscard]] bool sweep(const ContactMemory* memory, ContactMotion& motion);
   [[nodiscard]] double improve(std::size_t i, const ContactMemory* memory);
   [[nodiscard]] contact::Friction friction(std::size_t i, const ContactMemory& memory) const;
   void change(std::size_t i, int component, double by);
+  [[nodiscard]] double component(const std::vector<double>& of, std::size_t i, int k) const;
   void move(ContactMotion& motion);
   void close(ContactTrial& trial, ContactSolver::Action& action) const;
   void give(const kernels::Array& force, kernels::Array& displacement) const;
   [[nodiscard]] double normal_rate(std::size_t i) const;
-  [[nodiscard]] double& at(std::vector<double>& matrix, std::size_t row, std::size_t column) const {
-    return matrix[row * 3 * static_cast<std::size_t>(contacts_.count) + column];
-  }
-  [[nodiscard]] double at(const std::vector<double>& matrix, std::size_t row, std::size_t column) const {
-    return matrix[row * 3 * static_cast<std::size_t>(contacts_.count) + column];
-  }
 
   const PackedContacts& contacts_;
   double h_;
-  Eigen::MatrixXd r_; ///< y, z, x_loc of each contact
-  Rate rate_{};       ///< f', 1/s
-  Rate half_step_{};  ///< f_k less the f of y, 1
+  Eigen::MatrixXd a_, r_; ///< A = h/2 B B^T, m/(s N), and R, m/N: y, z, x_loc of each contact
+  Rate rate_{};           ///< f', 1/s
+  Rate half_step_{};      ///< f_k less the f of y, 1
   std::int64_t actions_ = 0;
   bool still_ = false; ///< at the start: springs alone
   std::vector<Shut> shut_;
-  std::vector<double> mobility_, residual_; ///< A and R along the directions of the shut contacts
-  std::vector<double> speed_, give_;        ///< m/s, B (v- + v+)/2, and m, R f, along the same
-  kernels::Array bare_;                     ///< m, lanes: B q
-  kernels::Array now_, last_, before_;      ///< N, lanes: f_k, f_{k-1}, f_{k-2}
+  std::vector<double> speed_, give_; ///< m/s, B (v- + v+)/2, and m, R f, of y, z, x_loc of the shut contacts
+  kernels::Array bare_;              ///< m, lanes: B q
+  kernels::Array now_, last_, before_;                       ///< N, lanes: f_k, f_{k-1}, f_{k-2}
   kernels::Array guess_, given_, given_last_, given_before_; ///< foretold f_k; R times it and the last two
   kernels::Array own_, own_last_,
       own_before_;    ///< m, lanes: n.R n F_N along the normal, foretold and of the last two steps

@@ -339,4 +339,30 @@ TEST(StaticModes, AreLeftOutWhereNothingIsMissing) {
 }
 
 } // namespace
+
+TEST(StaticModes, HoldTubesInHolesThatFewModesBarelyFeel) {
+  // 12 modes, eight holes: K_N R = 22, and no friction
+  const Workshop folder;
+  const Results run = folder.run(example("straight_tube"), "results",
+                                 {"--set", "modes.count=12", "--set", "modes.static_modes=auto", "--set",
+                                  "contacts.support.friction=0", "--set", "transient.duration=0.1", "--set",
+                                  "output.statistics_from=0", "--set", "transient.scheme=splitting"});
+  EXPECT_TRUE(says(run.summary["notes"].dump(), "it is taken in series with the contacts"));
+  constexpr double balance = 5e-3; // 1e-3 measured over seconds
+  EXPECT_LT(run.summary["energy"]["residual_relative"].get<double>(), balance);
+  EXPECT_GT(run.statistics("support[3]")["normal_force"]["max"].get<double>(), 1.0);
+}
+
+TEST(StaticModes, AreExportedAfterTheModesOfAllStructures) {
+  const Workshop folder;
+  const Results run = folder.run(example("two_tubes"), "results",
+                                 {"--set", "modes.count=4", "--set", "modes.static_modes=all", "--set",
+                                  "transient.duration=0.02", "--set", "output.statistics_from=0"});
+  ASSERT_EQ(folder.fretwork({"export", folder.path("results").string(), "--format", "msh"}).status, 0);
+  const std::string modes = bytes_of(folder.path("results") / "export-msh" / "modes.msh");
+  EXPECT_TRUE(says(modes, "\"mode 4 of each structure\""));
+  EXPECT_FALSE(says(modes, "\"mode 5 of each structure\""));
+  EXPECT_TRUE(says(modes, "\"static mode 1 of each structure\""));
+}
+
 } // namespace fretwork::app::test

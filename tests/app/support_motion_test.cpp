@@ -308,4 +308,22 @@ TEST(SupportMotion, TellsWhatIsWrong) {
       says(refused(moved("tube_ends", "direction = [0.0, 1.0, 0.0]\nconstant = 1.0")), "\"tube_ends\""));
 }
 
+TEST(SupportMotion, FrictionOfTheReferenceOnACarriedNodeIsRefusedWhereItCannotBeSolved) {
+  const Workshop folder;
+  std::string study = bytes_of(example("straight_tube"));
+  study.replace(study.find("tube.geo"), 8, (example("straight_tube").parent_path() / "tube.geo").string());
+  study +=
+      "[[base_motion]]\ndirection = [1.0, 0.0, 0.0]\nharmonic = { amplitude = 15.0, frequency = 23.0 }\n";
+  const fs::path file = folder.write("study.toml", study);
+  const auto outcome = folder.fretwork(
+      {"run", file.string(), "-o", folder.path("results").string(), "--set", "transient.duration=0.1",
+       "--set", "output.statistics_from=0", "--set", "transient.scheme=collocation", "--set",
+       "contacts.support.friction_memory=reference", "--set", "contacts.support.attached_to=ground"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(says(outcome.err,
+                   "scheme = \"collocation\" does not take friction_memory = \"reference\" of contact "
+                   "\"support[0]\", which an obstacle carries along x_loc where no mode moves its node (it "
+                   "does take \"return_map\"); use scheme = \"splitting\""));
+}
+
 } // namespace fretwork::app::test

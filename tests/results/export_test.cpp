@@ -200,6 +200,20 @@ TEST(ExportVtu, NamesStaticModes) {
   EXPECT_EQ(mode_field(results, 1).name, "static mode 1, 0.5 Hz");
 }
 
+TEST(ExportVtu, ShowsStaticModesOfSeveralStructuresAfterAllModes) {
+  RunResults results = small(3, 0);
+  results.bases[0].static_modes = 1; // mode and static mode; the others two modes
+  ASSERT_EQ(mode_count(results), 3);
+  EXPECT_EQ(mode_field(results, 1).name, "mode 2 of each structure");
+  const ModeField last = mode_field(results, 2);
+  EXPECT_EQ(last.name, "static mode 1 of each structure");
+  for (const std::size_t s : {std::size_t{0}, std::size_t{1}, std::size_t{2}}) {
+    const core::Index node = results.bases[s].nodes[1]; // moves in every mode, of its own structure
+    EXPECT_EQ(mode_field(results, 1).displacement.col(node).isZero(0.0), s == 0);
+    EXPECT_EQ(last.displacement.col(node).isZero(0.0), s != 0);
+  }
+}
+
 TEST(ExportVtu, ShowsTheModesOfSeveralStructuresTogether) {
   const Folder folder;
   const RunResults results = small(3, 0);

@@ -223,6 +223,31 @@ TEST(FlexibleContacts, HaveNoStepLimitOfTheirOwn) {
   EXPECT_NEAR(damped.back().normal, damped[damped.size() - 2].normal, 1e-3 * force);
 }
 
+TEST(SchemeScope, RefusesReferenceFrictionOnANodeThatIsCarriedAndCannotMove) {
+  const auto scene = [](contact::FrictionMemoryKind kind, double moves) {
+    Scene s = mass_point(2.0, Vec3::Zero(), 0.1);
+    s.contacts = {contact_of(2.0, {contact::Stop{1e-3, PlaneAxis::y}, {1e6}, {1e5, 2.0, 0.3, 0.3, kind}})};
+    s.contacts[0].b.row(0) *= moves;
+    s.contacts[0].carried = Vec3(-1.0, 0.0, 0.0);
+    s.motions.resize(1);
+    return s;
+  };
+  constexpr auto reference = contact::FrictionMemoryKind::reference;
+  constexpr double of_round_off = 1e-14; // of the largest shape
+  const Scene held = scene(reference, of_round_off);
+  for (const SchemeKind kind :
+       {SchemeKind::splitting, SchemeKind::euler, SchemeKind::devogelaere, SchemeKind::runge_kutta_54})
+    EXPECT_EQ(out_of_scope(held, kind), "");
+  for (const SchemeKind kind : {SchemeKind::collocation, SchemeKind::energy_conserving}) {
+    EXPECT_EQ(out_of_scope(scene(reference, 1.0), kind), "");
+    EXPECT_EQ(out_of_scope(scene(contact::FrictionMemoryKind::return_map, 0.0), kind), "");
+    EXPECT_EQ(out_of_scope(held, kind),
+              "does not take friction_memory = \"reference\" of contact \"" + held.contacts[0].name +
+                  "\", which an obstacle carries along x_loc where no mode moves its node (it does "
+                  "take \"return_map\")");
+  }
+}
+
 TEST(FlexibleContacts, AreRefusedBySchemesThatDoNotTakeThem) {
   Scene s = impact(1e6, 0.1);
   s.residual = diagonal(0.0, 1e-6, 0.0);
