@@ -4,6 +4,7 @@
 #include "mesh_text.hpp"
 #include "paths.hpp"
 #include "program.hpp"
+#include "study_text.hpp"
 #include <fmt/format.h>
 #include <fstream>
 
@@ -172,64 +173,19 @@ TEST(Checkpoint, IsWrittenOnSigtermDuringTheRunAtHalfTheStepToo) {
   EXPECT_FALSE(fs::exists(file));
 }
 
-/// Three pinned tubes, each with a support: three runs.
-std::string bundle(const Workshop& folder) {
-  MeshText mesh;
-  std::string study = R"([mesh]
-file = "bundle.msh"
-[materials.steel]
-young_modulus = 2.0e11
-poisson_ratio = 0.3
-density = 12000.0
-[sections.tube]
-shape = "pipe"
-outer_diameter = 0.01905
-thickness = 0.00109
-[modes]
-count = 12
-damping = 0.01
-[transient]
+std::string three_tubes(const Workshop& folder) {
+  return bundle(folder, 3, R"([transient]
 duration = 0.2
 step = 1.0e-6
 [output]
 every = 1.0e-3
 checkpoint = 0.01
-)";
-  for (int i = 0; i < 3; ++i) {
-    MeshText tube = straight_line(fmt::format("tube{}", i), {0.0, 0.05 * i, 0.0},
-                                  {2.0 + 0.3 * i, 0.05 * i, 0.0}, 12 + 2 * i);
-    tube.points.emplace_back(fmt::format("support{}", i), 4);
-    mesh = together(mesh, tube);
-    study += fmt::format(R"([[beams]]
-group = "tube{0}"
-material = "steel"
-section = "tube"
-[[restraints]]
-group = "tube{0}_begin"
-fixed = "all"
-[[contacts]]
-name = "support{0}"
-group = "support{0}"
-gap = 1.0e-5
-normal_stiffness = 1.0e6
-normal_damping = 20.0
-friction = 0.3
-tangential_stiffness = 1.0e6
-tangential_damping = 100.0
-[[loads]]
-group = "tube{0}"
-direction = [0.0, 1.0, 0.5]
-random = {{ rms = 20.0, band = [5.0, 200.0], seed = {1} }}
-)",
-                         i, 11 + i);
-  }
-  folder.write("bundle.msh", mesh.text());
-  return study;
+)");
 }
 
 TEST(Checkpoint, EveryRunOfAStudyHasItsOwnOnAnyNumberOfRanks) {
   const Workshop folder;
-  const std::string study = folder.write("study.toml", bundle(folder)).string();
+  const std::string study = folder.write("study.toml", three_tubes(folder)).string();
   const auto run = [&](const std::string& output) {
     return std::vector<std::string>{"run", study, "--no-report", "-o", folder.path(output).string()};
   };

@@ -3,6 +3,7 @@
 // structures that meet.
 #include "mesh_text.hpp"
 #include "program.hpp"
+#include "study_text.hpp"
 #include <cmath>
 #include <fmt/format.h>
 
@@ -13,17 +14,7 @@ constexpr double rounding = 1e-12;  ///< relative
 constexpr double symmetric = 1e-9;  ///< relative: two edges whose shapes come from an eigensolver
 constexpr double one_impact = 1e-2; ///< relative: speeds are those of steps, some hundred an impact
 
-const std::string materials = R"([mesh]
-file = "mesh.msh"
-[materials.steel]
-young_modulus = 2.0e11
-poisson_ratio = 0.3
-density = 8000.0
-[sections.tube]
-shape = "pipe"
-outer_diameter = 0.01905
-thickness = 0.00109
-[sections.rod]
+const std::string materials = steel_pipe("mesh.msh") + R"([sections.rod]
 shape = "circle"
 diameter = 0.01
 )";

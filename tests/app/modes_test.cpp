@@ -2,6 +2,7 @@
 // `fretwork modes` as its users meet it: copies, the error of the mesh, effective masses, spans.
 #include "mesh_text.hpp"
 #include "program.hpp"
+#include "study_text.hpp"
 #include <cmath>
 #include <fmt/format.h>
 
@@ -11,33 +12,12 @@ namespace {
 /// Clamped tubes side by side, of the given lengths.
 std::string tubes(const Workshop& folder, const std::vector<double>& lengths, int elements, int count) {
   MeshText mesh;
-  std::string study = fmt::format(R"([mesh]
-file = "tubes.msh"
-[materials.steel]
-young_modulus = 2.0e11
-poisson_ratio = 0.3
-density = 8000.0
-[sections.tube]
-shape = "pipe"
-outer_diameter = 0.01905
-thickness = 0.00109
-[modes]
-count = {}
-)",
-                                  count);
+  std::string study = steel_pipe("tubes.msh") + fmt::format("[modes]\ncount = {}\n", count);
   for (std::size_t i = 0; i < lengths.size(); ++i) {
     const double y = 0.07 * static_cast<double>(i);
     mesh = together(mesh,
                     straight_line(fmt::format("tube{}", i), {0.0, y, 0.0}, {lengths[i], y, 0.0}, elements));
-    study += fmt::format(R"([[beams]]
-group = "tube{0}"
-material = "steel"
-section = "tube"
-[[restraints]]
-group = "tube{0}_begin"
-fixed = "all"
-)",
-                         i);
+    study += tube_between(fmt::format("tube{}", i), "\"all\"", "");
   }
   folder.write("tubes.msh", mesh.text());
   return folder.write("study.toml", study).string();

@@ -2,6 +2,7 @@
 // Node numbers, directions and order of elements, and the choice of axes do not matter.
 #include "mesh_text.hpp"
 #include "program.hpp"
+#include "study_text.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -62,27 +63,8 @@ std::string text(const core::Vec3& v) {
 /// A tube along `x` driven along `y` and `z`, round and round, against a circle with friction. The axes may
 /// be any right-handed set.
 std::string study(const core::Vec3& x, const core::Vec3& y, const core::Vec3& z) {
-  return fmt::format(R"([mesh]
-file = "tube.msh"
-[materials.steel]
-young_modulus = 2.0e11
-poisson_ratio = 0.3
-density = 12000.0
-[sections.tube]
-shape = "pipe"
-outer_diameter = 0.01905
-thickness = 0.00109
-[[beams]]
-group = "tube"
-material = "steel"
-section = "tube"
-[[restraints]]
-group = "tube_begin"
-fixed = "all"
-[[restraints]]
-group = "tube_end"
-fixed = "all"
-[modes]
+  return steel_pipe("tube.msh", 12000.0) + tube_between("tube") +
+         fmt::format(R"([modes]
 count = {}
 damping = 0.01
 [[contacts]]

@@ -3,6 +3,7 @@
 // tests' timeout would tell).
 #include "mesh_text.hpp"
 #include "program.hpp"
+#include "study_text.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -12,62 +13,13 @@ namespace {
 constexpr double distributed_solver =
     1e-8; ///< relative: a distributed solve converges to the tolerance of its residuals, in another order
 
-/// Five tubes of different lengths, each with a support, a seeded random load and a mass at its middle.
-std::string bundle(const Workshop& folder) {
-  MeshText mesh;
-  std::string study = R"([mesh]
-file = "bundle.msh"
-[materials.steel]
-young_modulus = 2.0e11
-poisson_ratio = 0.3
-density = 12000.0
-[sections.tube]
-shape = "pipe"
-outer_diameter = 0.01905
-thickness = 0.00109
-[modes]
-count = 12
-damping = 0.01
-[transient]
+std::string five_tubes(const Workshop& folder) {
+  return bundle(folder, 5, R"([transient]
 duration = 0.1
 [output]
 every = 1.0e-3
 nodes = ["drive0", "drive3"]
-)";
-  for (int i = 0; i < 5; ++i) {
-    MeshText tube = straight_line(fmt::format("tube{}", i), {0.0, 0.05 * i, 0.0},
-                                  {2.0 + 0.3 * i, 0.05 * i, 0.0}, 12 + 2 * i);
-    tube.points.emplace_back(fmt::format("support{}", i), 4);
-    tube.points.emplace_back(fmt::format("drive{}", i), 8);
-    mesh = together(mesh, tube);
-    study += fmt::format(R"([[beams]]
-group = "tube{0}"
-material = "steel"
-section = "tube"
-[[restraints]]
-group = "tube{0}_begin"
-fixed = "all"
-[[restraints]]
-group = "tube{0}_end"
-fixed = ["ux", "uy", "uz", "rx"]
-[[contacts]]
-name = "support{0}"
-group = "support{0}"
-gap = 1.0e-5
-normal_stiffness = 1.0e6
-normal_damping = 20.0
-friction = 0.3
-tangential_stiffness = 1.0e6
-tangential_damping = 100.0
-[[loads]]
-group = "drive{0}"
-direction = [0.0, 1.0, 0.5]
-random = {{ rms = 20.0, band = [5.0, 200.0], seed = {1} }}
-)",
-                         i, 11 + i);
-  }
-  folder.write("bundle.msh", mesh.text());
-  return study;
+)");
 }
 
 /// A grid of three by three cells of beams, clamped at one corner.
@@ -127,7 +79,7 @@ TEST(Ranks, GiveTheSameUBend) {
 
 TEST(Ranks, GiveTheSameBundle) {
   const Workshop folder;
-  const fs::path study = folder.write("study.toml", bundle(folder));
+  const fs::path study = folder.write("study.toml", five_tubes(folder));
   expect_same_on_all_ranks(folder, study, {});
   const Results run = read_results(folder.path("ranks3"));
   EXPECT_EQ(run.archive.bases.size(), 5u);

@@ -2,6 +2,7 @@
 // A run that starts in equilibrium: a preloaded tube stays where it is, a run from rest does not; what cannot be held is told.
 #include "mesh_text.hpp"
 #include "program.hpp"
+#include "study_text.hpp"
 #include <cmath>
 #include <fmt/format.h>
 
@@ -19,27 +20,8 @@ MeshText tube() {
 
 /// A clamped tube pressed by a bar that overlaps it through offset; `more` ends the study.
 std::string study(const std::string& start, const std::string& more = {}) {
-  return fmt::format(R"([mesh]
-file = "tube.msh"
-[materials.steel]
-young_modulus = 2.0e11
-poisson_ratio = 0.3
-density = 8000.0
-[sections.tube]
-shape = "pipe"
-outer_diameter = 0.02
-thickness = 0.001
-[[beams]]
-group = "tube"
-material = "steel"
-section = "tube"
-[[restraints]]
-group = "tube_begin"
-fixed = "all"
-[[restraints]]
-group = "tube_end"
-fixed = "all"
-[modes]
+  return steel_pipe("tube.msh") + tube_between("tube") +
+         fmt::format(R"([modes]
 count = {}
 damping = 0.01
 [[contacts]]

@@ -2,6 +2,7 @@
 // Supports that move by themselves: static shapes, closed forms, and the same structures described in other ways.
 #include "mesh_text.hpp"
 #include "program.hpp"
+#include "study_text.hpp"
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -13,27 +14,7 @@ constexpr double static_solution = 1e-9; ///< relative, of the factorisation on 
 constexpr double same_equations = 1e-8;  ///< relative: the same numbers by other ways, over some impacts
 constexpr double pi = std::numbers::pi;
 
-const std::string beam = R"([mesh]
-file = "mesh.msh"
-[materials.steel]
-young_modulus = 2.0e11
-poisson_ratio = 0.3
-density = 8000.0
-[sections.tube]
-shape = "pipe"
-outer_diameter = 0.01905
-thickness = 0.00109
-[[beams]]
-group = "tube"
-material = "steel"
-section = "tube"
-[[restraints]]
-group = "tube_begin"
-fixed = "all"
-[[restraints]]
-group = "tube_end"
-fixed = "all"
-[modes]
+const std::string beam = steel_pipe("mesh.msh") + tube_between("tube") + R"([modes]
 count = 20
 damping = 0.01
 [transient]
