@@ -211,6 +211,7 @@ Json transient(const TransientTotals& t, const RunResults& results) {
             {"w_t_h", number(t.resolution.stick)},
             {"r_t_h", number(t.resolution.damper)},
             {"w_max_h", number(t.resolution.highest_mode)}}},
+          {"scaled_modes", {{"count", t.scaled_modes}, {"frequency_hz", number(t.fastest_hz)}}},
           {"outcome", t.diverged ? "diverged" : "done"},
           {"unconverged_steps", t.unconverged},
           {"duration_s", number(results.duration)},

@@ -65,6 +65,9 @@ TransientTotals add_up(const std::vector<TransientFacts>& transients) {
     r.stick = std::max(r.stick, choice.stick_frequency * h);
     r.damper = std::max(r.damper, choice.damper_rate * h);
     r.highest_mode = std::max(r.highest_mode, choice.highest_mode * h);
+    sum.scaled_modes += choice.scaled;
+    if (const double hz = choice.fastest / (2.0 * std::numbers::pi); hz > 0.0)
+      sum.fastest_hz = sum.fastest_hz > 0.0 ? std::min(sum.fastest_hz, hz) : hz;
     sum.diverged = sum.diverged || report.outcome == transient::Outcome::diverged;
     sum.end_time = std::min(sum.end_time, report.end_time);
     const transient::Energy& e = report.energy;

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/mass_scaling.hpp"
+#include <algorithm>
+#include <limits>
 #include <numbers>
 
 namespace fretwork::transient {
 namespace {
 
-/// At t = 0; of a random function, which starts anywhere, its rms.
-double value_at_start(const TimeFunction& function) {
-  const auto* random = std::get_if<Random>(&function);
-  return random ? random->rms : Signal(function, 1.0)(0.0);
+/// Shortest interval in which a table changes, s, 0 at a jump; infinite without a table.
+double shortest_change(const TimeFunction& function) {
+  double shortest = std::numeric_limits<double>::infinity();
+  if (const auto* table = std::get_if<Table>(&function))
+    for (std::size_t i = 1; i < table->time.size(); ++i)
+      if (table->value[i] != table->value[i - 1])
+        shortest = std::min(shortest, table->time[i] - table->time[i - 1]);
+  return shortest;
 }
 
 } // namespace
@@ -24,21 +30,25 @@ Eigen::VectorXd scaled_masses(const Scene& scene, double fastest) {
   return masses;
 }
 
-bool may_scale(const Scene& scene, double fastest, double table_interval, double accuracy) {
-  if (table_interval > 0.0 && fastest * table_interval < 2.0 * std::numbers::pi)
-    return false;
+bool may_scale(const Scene& scene, double fastest, double accuracy) {
   const Eigen::Array<bool, Eigen::Dynamic, 1> scaled = scaled_masses(scene, fastest).array() > 1.0;
   const Eigen::ArrayXd k = scene.system.stiffness.array(), flexibility = (k > 0.0).select(1.0 / k, 0.0);
-  Eigen::ArrayXd at_start = Eigen::ArrayXd::Zero(k.size()); // modal forces
+  Eigen::ArrayXd at_start = Eigen::ArrayXd::Zero(k.size()), noise = at_start; // modal forces; (rms force)^2
   for (const Load& load : scene.loads) {
-    const Eigen::ArrayXd bent = load.modal_force.array().square() * flexibility;
+    const Eigen::ArrayXd square = load.modal_force.array().square(), bent = square * flexibility;
     if (scaled.select(bent, 0.0).sum() > accuracy * bent.sum())
       return false;
-    at_start += value_at_start(load.function) * load.modal_force.array();
+    if (scaled.select(square, 0.0).sum() > 0.0 &&
+        shortest_change(load.function) * fastest < 2.0 * std::numbers::pi)
+      return false;
+    if (const auto* random = std::get_if<Random>(&load.function)) // starts anywhere
+      noise += random->rms * random->rms * square;
+    else
+      at_start += Signal(load.function, scene.duration)(0.0) * load.modal_force.array();
   }
   const Eigen::ArrayXd moving = scene.v0.array().square(), spring = k * scene.q0.array();
-  const Eigen::ArrayXd vibrates = moving + (spring - at_start).square() * flexibility,
-                       all = moving + (spring.square() + at_start.square()) * flexibility;
+  const Eigen::ArrayXd vibrates = moving + ((spring - at_start).square() + noise) * flexibility,
+                       all = moving + (spring.square() + at_start.square() + noise) * flexibility;
   return scaled.select(vibrates, 0.0).sum() <= 0.1 * accuracy * all.sum();
 }
 

@@ -48,9 +48,9 @@ template <class Move> void ObstacleMotion::each(double time, const Move& move) c
     carried += stride;
   }
   for (const Signal& load : loads_) {
-    const double before = load.over_step(std::max(0.0, time - 0.5 * h_), h_),
-                 after = load.over_step(time + 0.5 * h_, h_);
-    move(carried, load.over_step(time, h_), (after - before) / h_);
+    const double from = std::max(0.0, time - 0.5 * h_), to = time + 0.5 * h_;
+    move(carried, load.over_step(time, h_),
+         (load.over_step(to, h_) - load.over_step(from, h_)) / (to - from));
     carried += stride;
   }
 }

@@ -10,6 +10,8 @@ namespace {
 /// A run whose energy residual passes this many times all the energy put in is unstable: physics cannot
 /// recover from it.
 constexpr double hopeless = 100.0;
+/// Records that it may last: a pulse that ends a rest gives its energy before all of its work is booked.
+constexpr int passing = 4;
 /// Of a fixed step, below all the parts that schemes cut it into: what the end of a run is told by.
 constexpr double least_part = 1.0 / 1024.0;
 
@@ -151,7 +153,8 @@ bool Run::advance(std::int64_t records) {
     report_.energy = record.energy;
     for (Observer* observer : observers_)
       observer->step(record);
-    if (!(residual <= hopeless * largest_throughput_))
+    hopeless_records_ = residual <= hopeless * largest_throughput_ ? 0 : hopeless_records_ + 1;
+    if (!std::isfinite(residual) || hopeless_records_ > passing)
       report_.outcome = Outcome::diverged;
     else if (scheme_->failure() != StepFailure::none)
       report_.outcome = Outcome::step_failed;
@@ -170,7 +173,7 @@ Report Run::finish() {
 }
 
 void Run::visit(core::StateArchive& state) {
-  state(*scheme_, *outputs_, report_, largest_residual_, largest_throughput_);
+  state(*scheme_, *outputs_, report_, largest_residual_, largest_throughput_, hopeless_records_);
   for (Observer* observer : observers_)
     state(*observer);
   if (sampler_)

@@ -155,6 +155,8 @@ void warn(StepChoice& c) {
   add(c.explicit_rate * c.step, damped, "r_e h", "the dampers");
   if (!collocation)
     add(c.highest_mode * c.step, exact ? 3.0 : 1.8, "w_max h", "the highest mode");
+  if (c.table_interval > 0.0)
+    add(c.step / c.table_interval, 1.0, "h/interval", "the shortest interval of a table");
   add(c.excitation * c.step * 20.0, 2.0, "20 f h", "the excitation");
 }
 
@@ -196,8 +198,7 @@ namespace {
 /// True where the step of splitting is so long that modes resonate with it, and they may be made heavier.
 bool goes_past_modes(const StepChoice& c, const Scene& scene, double accuracy) {
   return c.scheme == SchemeKind::splitting && !scene.contacts.empty() &&
-         c.highest_mode * c.step > before_resonance &&
-         may_scale(scene, before_resonance / c.step, c.table_interval, accuracy);
+         c.highest_mode * c.step > before_resonance && may_scale(scene, before_resonance / c.step, accuracy);
 }
 
 void scale_modes(StepChoice& c, const Scene& scene) {
@@ -206,9 +207,10 @@ void scale_modes(StepChoice& c, const Scene& scene) {
   if (scaled == 0)
     return;
   c.fastest = fastest;
+  c.scaled = static_cast<int>(scaled);
   c.reason +=
-      fmt::format("; {} of {} modes, those above {:.4g} Hz, keep their flexibility and move as modes of "
-                  "that frequency (mass scaling)",
+      fmt::format("; {} of {} modes, those above {:.4g} Hz, are made heavier and move as modes of that "
+                  "frequency (mass scaling)",
                   scaled, scene.system.size(), fastest / (2.0 * std::numbers::pi));
 }
 

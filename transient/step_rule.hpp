@@ -51,6 +51,7 @@ struct StepChoice : SceneRates {
   double tolerance = 1e-6; ///< of an adaptive scheme
   double fastest =
       0.0; ///< rad/s: of the automatic step of splitting: faster modes are made heavier (mass_scaling.hpp); 0: none
+  int scaled = 0; ///< how many modes that are
   double explicit_rate =
       0.0; ///< r_e, 1/s: of the dampers that only Euler and devogelaere have to resolve; 0 with others
   std::string reason;                ///< one line for the user

@@ -44,7 +44,7 @@ class Synthesis {
 public:
   explicit Synthesis(std::size_t n, double* values)
       : n_(n), plan_(fftw_plan_dft_1d(static_cast<int>(n), complex(values), complex(values), FFTW_BACKWARD,
-                                      FFTW_ESTIMATE)) {}
+                                      FFTW_ESTIMATE | FFTW_UNALIGNED)) {}
   Synthesis(const Synthesis&) = delete;
   Synthesis& operator=(const Synthesis&) = delete;
   ~Synthesis() { fftw_destroy_plan(plan_); }
@@ -140,9 +140,13 @@ double Signal::operator()(double time) const {
 double Signal::over_step(double time, double h) const {
   if (const auto* table = std::get_if<Table>(&function_)) {
     const double from = time - 0.5 * h, to = time + 0.5 * h;
-    const auto first = std::upper_bound(table->time.begin(), table->time.end(), from);
-    if (table->time.end() - first > 1 && *(first + 1) < to)
-      return mean(*table, from, to);
+    const auto begin = table->time.begin(), end = table->time.end();
+    // windows that meet a short interval hold one of its ends; intervals of h are not short, whatever their round-off
+    const double shorter = h * (1.0 - 1e-9);
+    for (auto point = std::lower_bound(begin, end, from); point != end && *point <= to; ++point)
+      if ((point != begin && *point - *(point - 1) < shorter) ||
+          (point + 1 != end && *(point + 1) - *point < shorter))
+        return mean(*table, from, to);
   }
   return (*this)(time);
 }

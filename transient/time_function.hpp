@@ -52,8 +52,8 @@ public:
   /// Value at `time` (from the right at a jump). No allocation.
   [[nodiscard]] double operator()(double time) const;
 
-  /// Value that stands for a step of length h about `time`: the value there, but for a table with two points or more inside the step
-  /// (a jump, or points closer than steps) its mean over the step, which keeps its impulse. No allocation.
+  /// Value that stands for a step of length h about `time`: the value there, but where an interval of a table that is
+  /// shorter (a jump: 0) meets the step the mean over the step: windows of h side by side keep the impulse. No allocation.
   [[nodiscard]] double over_step(double time, double h) const;
 
   /// Of a random signal: values and slopes times grid_step(), interleaved, of the cubic pieces from t = 0. Else empty.

@@ -47,8 +47,8 @@ TEST(Summary, HasTheKeysOfTheContract) {
                                      "contact_damping_J", "friction_J", "residual_relative"}));
   EXPECT_EQ(keys(s["transient"]),
             (Keys{"scheme", "steps", "rejected", "force_evaluations", "step_min_s", "step_max_s",
-                  "step_reason", "scheme_reason", "resolution", "contact_frequency_rad_s", "outcome",
-                  "unconverged_steps", "duration_s", "end_time_s", "statistics_from_s"}));
+                  "step_reason", "scheme_reason", "resolution", "scaled_modes", "contact_frequency_rad_s",
+                  "outcome", "unconverged_steps", "duration_s", "end_time_s", "statistics_from_s"}));
   EXPECT_EQ(keys(s["timings_s"]),
             (Keys{"read", "mesh", "assembly", "modes", "basis", "transient", "output", "total"}));
 }

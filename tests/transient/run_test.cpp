@@ -90,13 +90,15 @@ TEST(DenseOutput, OfSplittingIsExactUnderAConstantLoad) {
 TEST(DenseOutput, OfSplittingIsExactUnderALoadLinearBetweenItsSteps) {
   Scene scene = linear_scene();
   const Vec3 shape(2.0, -30.0, 1.0);
-  constexpr double h = 0.08; // actions at h/2, 3h/2 ...: where the table has its points
-  Table table{{0.0}, {1.0}};
+  constexpr double h = 0.08;      // actions at h/2, 3h/2 ...: where the table has its points
+  Table table{{-0.5 * h}, {1.0}}; // no interval is shorter than a step
   for (int k = 0; k < 14; ++k) {
     table.time.push_back((k + 0.5) * h);
     table.value.push_back((k % 3) - 0.7 * (k % 5));
   }
   scene.loads = {{table, shape}};
+  table.time[0] = 0.0; // where the run starts
+  table.value[0] = 0.5 * (table.value[0] + table.value[1]);
   constexpr double tolerance = 1e-12;
   const History run = simulate(scene, splitting(h), 0.013);
   for (Eigen::Index j = 0; j < run.time.size(); ++j) {
@@ -205,4 +207,21 @@ TEST(Euler, WithADiagonalDampingMatrixGivesWhatItsDiagonalGives) {
   EXPECT_LT((a.q - b.q).norm(), round_off);
   EXPECT_LT(std::abs(a.report.energy.modal_damping - b.report.energy.modal_damping),
             1e-2 * a.report.energy.modal_damping);
+}
+
+TEST(Run, KeepsTheImpulseOfPulsesShorterThanSteps) {
+  constexpr double round_off = 1e-12, mass = 2.0, impulse = 3.0, h = 1e-3, half = 2e-4;
+  for (const SchemeKind kind : {SchemeKind::splitting, SchemeKind::collocation, SchemeKind::euler,
+                                SchemeKind::energy_conserving, SchemeKind::devogelaere})
+    for (int phase = 0; phase < 20; ++phase) { // among the steps, their ends and middles too
+      const double t = 0.02 + h * phase / 20.0;
+      Scene scene = mass_point(mass, Vec3::Zero(), 0.05);
+      scene.loads = {
+          force_on(mass, Vec3(0, 1, 0),
+                   Table{{0.0, t - half, t, t + half, 0.05}, {0.0, 0.0, impulse / half, 0.0, 0.0}})};
+      const History run = simulate(scene, {kind, h}, 1e-3);
+      EXPECT_NEAR(run.v(1, 45) / std::sqrt(mass), impulse / mass, round_off) << name_of(kind) << " " << t;
+      if (kind != SchemeKind::devogelaere) // which books power at its nodes
+        EXPECT_NEAR(run.report.energy.load_work, 0.5 * impulse * impulse / mass, round_off) << name_of(kind);
+    }
 }

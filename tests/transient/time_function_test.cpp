@@ -166,6 +166,21 @@ TEST(Signal, KeepsTheImpulseOfWhatATableDoesInsideAStep) {
   for (int k = 0; k < 10; ++k)
     impulse += 0.1 * spike.over_step(0.1 * k + 0.05, 0.1);
   EXPECT_NEAR(impulse, 0.06, round_off);
+  // wherever it stands among the steps, also where they part it; Simpson's rule takes windows at the ends and the middle of steps
+  for (int phase = 0; phase < 50; ++phase) {
+    const double t = 0.4 + 0.1 * phase / 49.0;
+    const Signal pulse(Table{{0.0, t - 0.003, t, t + 0.005, 1.0}, {0.0, 0.0, 6.0, 0.0, 0.0}},
+                       1.0); // area 0.024
+    double sum = 0.0, simpson = 0.0;
+    for (int k = 0; k < 10; ++k) {
+      sum += 0.1 * pulse.over_step(0.1 * k + 0.05, 0.1);
+      simpson += 0.1 / 6.0 *
+                 (pulse.over_step(0.1 * k, 0.1) + 4.0 * pulse.over_step(0.1 * k + 0.05, 0.1) +
+                  pulse.over_step(0.1 * k + 0.1, 0.1));
+    }
+    EXPECT_NEAR(sum, 0.024, 2.0 * round_off) << t;
+    EXPECT_NEAR(simpson, 0.024, 2.0 * round_off) << t;
+  }
   const Signal jump(Table{{0.0, 0.25, 0.25, 1.0}, {1.0, 1.0, 5.0, 5.0}}, 1.0);
   EXPECT_NEAR(jump.over_step(0.3, 0.2), 0.25 * 1.0 + 0.75 * 5.0, round_off);
   EXPECT_EQ(jump.over_step(0.15, 0.1), 1.0); // before it
