@@ -2,12 +2,13 @@
 /// @file
 /// Selective mass scaling: modes too fast for a step of splitting, which resonates with them at w h = pi, are made heavier. Stiffness,
 /// shape, damper and forces stay, so that their flexibility at the contacts stays; their frequency falls to `fastest` = 2.5/h, 2.5/(w_c h)
-/// times the frequency of the contacts (5.5 at an accuracy of 0.01, step_rule.hpp): they go on following the contact forces statically. (L. Olovsson, K. Simonsson, M. Unosson, Int. J. Numer. Meth. Engng 63 (2005) 1436, for meshes.)
+/// times the frequency of the contacts (5.5 at an accuracy of 0.01, step_rule.hpp): they go on following the contact forces statically.
+/// (L. Olovsson, K. Simonsson, M. Unosson, Int. J. Numer. Meth. Engng 63 (2005) 1436, for meshes.)
 ///
 ///     m q'' + c q' + w^2 q = f, m = (w/fastest)^2;   q = s p, s = m^-1/2:   p'' + s^2 c p' + fastest^2 p = s f
 ///
-/// Measured on a short tube with modes to 14 w_c (bench_statistics, 100 runs of 10 s): work rate -1.1 +- 0.6 %, forces -0.7 %, impacts
-/// 0.0 %, as without (-0.6 +- 0.5 % for the step alone), in less than half of the steps.
+/// Measured on a short tube with modes to 14 w_c (doc/benchmarks.md, 100 runs of 10 s): work rate -1.1 +- 0.6 %, forces -0.7 %, impacts
+/// 0.0 %; the scaling by itself -0.3 +- 0.6, +0.1 and +0.1 %; in less than half of the steps.
 #pragma once
 #include "transient/scene.hpp"
 
