@@ -15,6 +15,10 @@ constexpr double sweep_tolerance = 1e-9;
 constexpr int most_sweeps = 300;
 /// Sweeps in which normals turn.
 constexpr int most_turns = 30;
+/// Sweeps that take each contact's solution whole; later ones the share `damped` of its change, so that contacts that answer each other by
+/// turns settle between.
+constexpr int most_full = 60;
+constexpr double damped = 0.5;
 /// Angle below which they do not: less than what the step leaves by some digits.
 constexpr double turn_tolerance = 1e-7;
 /// Each place found at the start is nearer by the share of R F_N in the obstacle's radius: to the last digit, or nearly so.
@@ -301,7 +305,7 @@ bool FlexibleContacts::sweep(const ContactMemory* memory, ContactMotion& motion)
     for (std::size_t i = 0; i < shut_.size(); ++i) {
       if (k < most_turns)
         changed = std::max(changed, turn(i, motion));
-      changed = std::max(changed, improve(i, memory));
+      changed = std::max(changed, improve(i, memory, k < most_full ? 1.0 : damped));
       largest = std::max(largest, shut_[i].force[0]);
     }
     if (changed <= sweep_tolerance * largest)
@@ -318,7 +322,7 @@ double FlexibleContacts::normal_rate(std::size_t i) const {
 }
 
 /// One contact solved with all others held. Returns the largest change of its forces, N.
-double FlexibleContacts::improve(std::size_t i, const ContactMemory* memory) {
+double FlexibleContacts::improve(std::size_t i, const ContactMemory* memory, double share) {
   Shut& s = shut_[i];
   const double own = s.residual(0, 0), mobility = s.mobility(0, 0) + rate_.now * own;
   const double p = s.bare - (component(give_, i, 0) - own * s.force[0]);
@@ -328,14 +332,14 @@ double FlexibleContacts::improve(std::size_t i, const ContactMemory* memory) {
           ? contact::series_force(s.normal, s.mean, normal_rate(i) + mobility * s.force[0], mobility, own)
           : 0.0;
   double changed = std::abs(normal - s.force[0]);
-  change(i, 0, normal - s.force[0]);
+  change(i, 0, share * (normal - s.force[0]));
   if (!s.friction || !memory)
     return changed;
   const contact::Friction found = normal > 0.0 ? friction(i, *memory) : contact::Friction{{}, false};
   s.slides = found.slides;
   const double by_t = found.force.t - s.force[1], by_x = found.force.x - s.force[2];
-  change(i, 1, by_t);
-  change(i, 2, by_x);
+  change(i, 1, share * by_t);
+  change(i, 2, share * by_x);
   return std::max({changed, std::abs(by_t), std::abs(by_x)});
 }
 

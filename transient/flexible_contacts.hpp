@@ -77,7 +77,7 @@ private:
   [[nodiscard]] static Eigen::Vector3d force(const Shut& s);
   void push(int from, const Eigen::Vector3d& by);
   [[nodiscard]] bool sweep(const ContactMemory* memory, ContactMotion& motion);
-  [[nodiscard]] double improve(std::size_t i, const ContactMemory* memory);
+  [[nodiscard]] double improve(std::size_t i, const ContactMemory* memory, double share);
   [[nodiscard]] contact::Friction friction(std::size_t i, const ContactMemory& memory) const;
   void change(std::size_t i, int component, double by);
   [[nodiscard]] double component(const std::vector<double>& of, std::size_t i, int k) const;

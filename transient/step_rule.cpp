@@ -195,14 +195,8 @@ std::string name_of(StepFailure failure) {
 
 namespace {
 
-/// True where the step of splitting is so long that modes resonate with it, and they may be made heavier.
-bool goes_past_modes(const StepChoice& c, const Scene& scene, double accuracy) {
-  return c.scheme == SchemeKind::splitting && !scene.contacts.empty() &&
-         c.highest_mode * c.step > before_resonance && may_scale(scene, before_resonance / c.step, accuracy);
-}
-
-void scale_modes(StepChoice& c, const Scene& scene) {
-  const double fastest = before_resonance / c.step;
+/// Makes modes heavier that the step does not follow: those above `fastest`.
+void scale_modes(StepChoice& c, const Scene& scene, double fastest) {
   const auto scaled = (scaled_masses(scene, fastest).array() > 1.0).count();
   if (scaled == 0)
     return;
@@ -212,6 +206,41 @@ void scale_modes(StepChoice& c, const Scene& scene) {
       fmt::format("; {} of {} modes, those above {:.4g} Hz, are made heavier and move as modes of that "
                   "frequency (mass scaling)",
                   scaled, scene.system.size(), fastest / (2.0 * std::numbers::pi));
+}
+
+/// The longest step that the terms allow, but for whole steps that cover the duration.
+void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
+  const double accuracy = std::min(asked, coarsest_accuracy);
+  const double fineness = std::sqrt(accuracy / 0.01);
+  const bool adaptive = c.scheme == SchemeKind::runge_kutta_54;
+  const double least = adaptive ? least_adaptive_steps : least_steps;
+  c.step = scene.duration / least;
+  c.reason = fmt::format("a run has at least {} steps", least);
+  const auto limit = [&](const Term& term) {
+    if (term.limit < c.step) {
+      c.step = term.limit;
+      c.reason = fmt::format("{} resolved for an accuracy of {}", term.reason, accuracy);
+    }
+  };
+  for (const Term& term : terms(c, scene, fineness))
+    limit(term);
+  double followed = 0.0; // w h of the fastest mode of splitting; 0: all are followed
+  if (c.scheme == SchemeKind::splitting && !scene.contacts.empty() && c.highest_mode > 0.0) {
+    const Term modes = mode_term(c, true, fineness);
+    const double most = modes.limit * c.highest_mode;
+    if (modes.limit < c.step && may_scale(scene, most / c.step, accuracy))
+      followed = most;
+    else
+      limit(modes);
+  }
+  if (accuracy < asked)
+    c.reason += fmt::format(" (no step is longer than that of {})", accuracy);
+  if (adaptive)
+    return;
+  c.steps = count_steps(scene.duration, c);
+  c.step = scene.duration / static_cast<double>(c.steps);
+  if (followed > 0.0)
+    scale_modes(c, scene, followed / c.step);
 }
 
 StepChoice choice_of(const Scene& scene, const SceneRates& rates, const StepOptions& options,
@@ -224,41 +253,17 @@ StepChoice choice_of(const Scene& scene, const SceneRates& rates, const StepOpti
     c.explicit_rate = explicit_damper_rate(scene);
   if (scheme == SchemeKind::devogelaere)
     c.explicit_rate = std::max(c.explicit_rate, relaxation_rate(scene));
-  const bool adaptive = c.scheme == SchemeKind::runge_kutta_54;
   c.tolerance = options.tolerance;
-  if (options.step) {
-    c.step = *options.step;
-    c.reason = "given in the study";
-    if (adaptive)
-      return c;
-    c.steps = count_steps(scene.duration, c);
-    warn(c);
+  if (!options.step) {
+    choose_automatic(c, scene, options.accuracy);
     return c;
   }
-  const double accuracy = std::min(options.accuracy, coarsest_accuracy);
-  const double fineness = std::sqrt(accuracy / 0.01);
-  const double least = adaptive ? least_adaptive_steps : least_steps;
-  c.step = scene.duration / least;
-  c.reason = fmt::format("a run has at least {} steps", least);
-  const auto limit = [&](const Term& term) {
-    if (term.limit < c.step) {
-      c.step = term.limit;
-      c.reason = fmt::format("{} resolved for an accuracy of {}", term.reason, accuracy);
-    }
-  };
-  for (const Term& term : terms(c, scene, fineness))
-    limit(term);
-  const bool scales = goes_past_modes(c, scene, accuracy);
-  if (scheme == SchemeKind::splitting && !scene.contacts.empty() && c.highest_mode > 0.0 && !scales)
-    limit(mode_term(c, true, fineness));
-  if (accuracy < options.accuracy)
-    c.reason += fmt::format(" (no step is longer than that of {})", accuracy);
-  if (adaptive)
-    return c;
-  c.steps = count_steps(scene.duration, c);
-  c.step = scene.duration / static_cast<double>(c.steps);
-  if (scales)
-    scale_modes(c, scene);
+  c.step = *options.step;
+  c.reason = "given in the study";
+  if (c.scheme != SchemeKind::runge_kutta_54) {
+    c.steps = count_steps(scene.duration, c);
+    warn(c);
+  }
   return c;
 }
 

@@ -14,7 +14,7 @@
 ///     t_s    time in which sticking contacts move: 1/w_t; with splitting (1/w_t^2 + (C_T/K_T)^2)^1/2, and never w_t h above 0.5
 /// No accuracy makes a step longer than that of 0.04, nor w_c h and w_t h than 1 (devogelaere: 0.75), above which impacts are wrong however
 /// stable the run (doc/schemes.md, Stability map), nor r_t h than 4 where dampers are implicit. With contacts
-/// splitting resonates with modes at w h = k pi: those above w h = 2.5 are made heavier (mass_scaling.hpp), or where they may not be, and
+/// splitting resonates with modes at w h = k pi: those above w h = m are made heavier (mass_scaling.hpp), or where they may not be, and
 /// with energy_conserving, the step stays below 2.5/w_max. The limits of explicit Euler are r_t h < 1 and w_max h < 2; it also takes the other dampers explicitly and
 /// resolves them by 0.5/r_e (its limit: r_e h < 2):
 ///     r_e    explicit_damper_rate

@@ -130,8 +130,7 @@ TEST(FlexibleContacts, BalanceTheEnergyInOrderTwo) {
   s.residual = 2e-6 * (Eigen::MatrixXd::Identity(12, 12) + 0.5 * Eigen::MatrixXd::Ones(12, 12));
   const History run = simulate(s, splitting(5e-5), 0.1);
   EXPECT_LT(run.report.residual_relative, 5e-3);
-  // 3 to 18 of 10 000 at steps from 4.5e-5 to 5.1e-5
-  EXPECT_LT(run.report.counts.unconverged, run.report.counts.steps / 400);
+  EXPECT_LT(run.report.counts.unconverged, run.report.counts.steps / 500); // 7 of 10 000
 }
 
 TEST(FlexibleContacts, TurnWithTheirForcesRoundHoles) {

@@ -181,6 +181,10 @@ TEST(StepRule, MakesModesHeavierThatOnlyContactsMove) {
   EXPECT_NEAR(choice.fastest * choice.step, 2.5, round_off);
   EXPECT_NEAR(halved(choice).fastest * halved(choice).step, 2.5, round_off);
   EXPECT_EQ(choose_step(vibrating(scene), splitting()).fastest, 0.0);
+  StepOptions fine = splitting();
+  fine.accuracy = 0.0025; // half of the step, half of w h
+  EXPECT_NEAR(choose_step(scene, fine).step / choice.step, 0.5, 1e-4);
+  EXPECT_NEAR(choose_step(scene, fine).fastest * choose_step(scene, fine).step, 1.25, round_off);
   EXPECT_EQ(choose_step(scene, splitting(choice.step)).fastest, 0.0) << "a given step is kept to the letter";
   EXPECT_EQ(choose_step(scene, collocation()).fastest, 0.0);
 }
