@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "post/contact_statistics.hpp"
+#include "transient/vector_lanes.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +10,30 @@ namespace {
 
 /// Sums of a contact whose batches are kept: row of BatchEnds, contact after contact. Those of y and z are about their first values.
 enum Kept : std::size_t { impacts, slid, friction, normal2, y1, y2, z1, z2, kept_sums };
+
+/// No array overlaps another: the compiler may take several contacts at once.
+FRETWORK_WIDTHS void watch_coordinate(std::size_t n, double h, const double* __restrict u,
+                                      const double* __restrict about, double* __restrict sum,
+                                      double* __restrict square, double* __restrict least,
+                                      double* __restrict most) {
+  for (std::size_t c = 0; c < n; ++c) {
+    const double d = u[c] - about[c];
+    sum[c] += h * d;
+    square[c] += h * d * d;
+    least[c] = u[c] < least[c] ? u[c] : least[c];
+    most[c] = u[c] > most[c] ? u[c] : most[c];
+  }
+}
+
+FRETWORK_WIDTHS void watch_radius(std::size_t n, double h, const double* __restrict y,
+                                  const double* __restrict z, double* __restrict square,
+                                  double* __restrict most) {
+  for (std::size_t c = 0; c < n; ++c) {
+    const double r2 = y[c] * y[c] + z[c] * z[c];
+    square[c] += h * r2;
+    most[c] = r2 > most[c] ? r2 : most[c];
+  }
+}
 
 } // namespace
 
@@ -87,20 +112,9 @@ void ContactStatistics::watch_motion(const transient::Record& record) {
       m.y0[c] = m.y_min[c] = m.y_max[c] = record.uy[c];
       m.z0[c] = m.z_min[c] = m.z_max[c] = record.uz[c];
     }
-  for (std::size_t c = 0; c < n; ++c) {
-    const double y = record.uy[c], z = record.uz[c];
-    const double dy = y - m.y0[c], dz = z - m.z0[c], r2 = y * y + z * z;
-    m.y[c] += h * dy;
-    m.z[c] += h * dz;
-    m.y2[c] += h * dy * dy;
-    m.z2[c] += h * dz * dz;
-    m.y_min[c] = std::min(m.y_min[c], y);
-    m.y_max[c] = std::max(m.y_max[c], y);
-    m.z_min[c] = std::min(m.z_min[c], z);
-    m.z_max[c] = std::max(m.z_max[c], z);
-    m.r2[c] += h * r2;
-    m.r2_max[c] = std::max(m.r2_max[c], r2);
-  }
+  watch_coordinate(n, h, record.uy, m.y0.data(), m.y.data(), m.y2.data(), m.y_min.data(), m.y_max.data());
+  watch_coordinate(n, h, record.uz, m.z0.data(), m.z.data(), m.z2.data(), m.z_min.data(), m.z_max.data());
+  watch_radius(n, h, record.uy, record.uz, m.r2.data(), m.r2_max.data());
 }
 
 void ContactStatistics::write_sums(double* row) const {
