@@ -79,17 +79,17 @@ struct MeanSlopes {
 /// `free_rate` the mean rate p' without this force, `mobility` = (h/2) n.W.n, what the mean normal speed
 /// changes by per newton: with p' = free_rate - mobility F_N,
 ///     F_N = <K_N mean + c(mean) free_rate>+ / (1 + c(mean) mobility).
-/// C_N acts in the `closed` share of the step only (all of it: 1). Made once a step, asked for many free rates.
+/// Made once a step of its `spring`, N, and `damping`, N s/m, asked for many free rates.
 class NormalStep {
 public:
   NormalStep() = default;
-  NormalStep(const NormalLaw& law, double mean, double closed, double mobility)
-      : spring_(law.stiffness * mean),
-        damping_(closed * law.damping + law.stiffness * law.dissipation * mean),
-        share_(1.0 / (1.0 + damping_ * mobility)) {}
+  NormalStep(double spring, double damping, double mobility)
+      : spring_(spring), damping_(damping), share_(1.0 / (1.0 + damping * mobility)) {}
   [[nodiscard]] double force(double free_rate) const {
     return std::max(0.0, spring_ + damping_ * free_rate) * share_;
   }
+  /// N: what the two bear at this rate, whatever the signs.
+  [[nodiscard]] double spring_and_damper(double rate) const { return spring_ + damping_ * std::abs(rate); }
   /// N: of the spring alone.
   [[nodiscard]] double spring() const { return spring_; }
 
@@ -99,7 +99,7 @@ private:
 
 [[nodiscard]] inline double step_normal(const NormalLaw& law, double mean, double free_rate,
                                         double mobility) {
-  return NormalStep(law, mean, 1.0, mobility).force(free_rate);
+  return NormalStep(law.stiffness * mean, law.damping_at(mean), mobility).force(free_rate);
 }
 
 /// The same where the contact gives way by `compliance` F_N (R, m/N, >= 0), a spring in series, and `mean` (> 0) is the mean

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/contact_lanes.hpp"
+#include "contact/instant_spring.hpp"
 #include "transient/packed_contacts.hpp"
 #include "transient/vector_lanes.hpp"
 
@@ -33,7 +34,7 @@ LawLanes::LawLanes(const PackedContacts& contacts, double step) {
     const contact::Support& support = contacts.supports[c];
     stiffness[c] = support.normal.stiffness;
     damping[c] = support.normal.damping;
-    dissipation[c] = support.normal.stiffness * support.normal.dissipation;
+    dissipation[c] = support.normal.dissipation;
     yy[c] = 0.5 * step * contacts.own_mobility(c, 0, 0);
     yz[c] = 0.5 * step * contacts.own_mobility(c, 0, 1);
     zz[c] = 0.5 * step * contacts.own_mobility(c, 1, 1);
@@ -68,38 +69,69 @@ CommitLanes::CommitLanes(int width) {
 
 namespace {
 
+/// contact::closed_share of p - reach to p + reach.
+template <class V> FRETWORK_INLINE V closed_share(const V& p, const V& reach) {
+  const V one = V{} + 1.0;
+  const V low = p - reach, high = p + reach, part = high > 0.0 ? high / (high > low ? high - low : one) : V{};
+  return low > 0.0 ? one : part;
+}
+
+/// contact::InstantSpring.
+template <class V>
+FRETWORK_INLINE V instant_spring(const V& stiffness, const V& p, const V& v, const V& mobility, double step) {
+  const V one = V{} + 1.0;
+  const V a = (step / 6.0) * stiffness * mobility, share = 1.0 / (1.0 + a * (1.0 + 0.6 * a));
+  const V closed = share * stiffness * p, per_step = p * (1.0 / step);
+  const V g = 12.0 * a * share, k = 1.0 - 2.0 * a + 0.6 * a * a;
+  const V after2 = v * v + g * per_step * (per_step - v);
+  const V resolved = (a <= contact::InstantSpring::most ? one : V{}) * (p > 0.0 ? one : V{});
+  const V closes = v > per_step ? resolved : V{};
+  const V falls = v < 0.5 * g * per_step ? resolved : V{},
+          opens = k * per_step * per_step < after2 ? falls : V{};
+  if (!(sum(closes + opens) > 0.0))
+    return closed;
+  const V pushed = (step / 6.0) * stiffness * v * v * (1.0 - 0.3 * a);
+  const V inside = closes > 0.0 ? k * v * v - g * (1.0 - 0.25 * g) * per_step * per_step : k * after2;
+  const V rooted = root(clipped(inside));
+  const V below = closes > 0.0 ? v + 0.5 * g * per_step + rooted : rooted - k * v;
+  const V over = pushed + closed * (closes > 0.0 ? per_step + v : per_step - v);
+  const V either = closes + opens;
+  return either > 0.0 ? over / (either > 0.0 ? below : one) : closed;
+}
+
 /// Which contacts are shut, their laws for the step, first forces; velocities before the action. Returns the energy of the springs, J.
 template <class V>
-FRETWORK_INLINE double prepare(int end, double half_window, const LawLanes& law, const MemoryLanes& memory,
-                               const NearLanes& near, StepLanes& s) {
+FRETWORK_INLINE double prepare(const Places& places, const SweepRule& rule, const LawLanes& law,
+                               const MemoryLanes& memory, const NearLanes& near, StepLanes& s) {
   const V one = V{} + 1.0;
   V energy{};
-  for (int i = 0; i < end; i += size_of<V>) {
+  for (const int i : places.first) {
     const V g = at<V>(near.gap + i), my = at<V>(near.ny + i), mz = at<V>(near.nz + i);
     const V y = at<V>(near.vy + i), z = at<V>(near.vz + i);
     const V k = at<V>(&law.stiffness[i]), p = clipped(-g);
     energy += k * p * p;
     const V v_n = my * y + mz * z, v_t = mz * y - my * z;
-    // the mean of the penetration over the window, its open part counted as 0
-    const V reach = half_window * magnitude(v_n), low = -g - reach, high = reach - g;
-    const V part = high / (high > low ? high - low : one), closed = low > 0.0 ? one : part;
-    const V mean = low > 0.0 ? 0.5 * (low + high) : high > 0.0 ? 0.5 * high * part : V{};
-    const V spring = k * mean, damping = closed * at<V>(&law.damping[i]) + at<V>(&law.dissipation[i]) * mean;
     const V yy = at<V>(&law.yy[i]), yz = at<V>(&law.yz[i]), zz = at<V>(&law.zz[i]);
     const V by_n_y = my * yy + mz * yz, by_n_z = my * yz + mz * zz; // of y and z by a force along n
     const V by_t_y = mz * yy - my * yz, by_t_z = mz * yz - my * zz; // along t
     const V nn = my * by_n_y + mz * by_n_z, tt = mz * by_t_y - my * by_t_z;
+    const V spring = instant_spring<V>(k, p, -v_n, nn, rule.step);
+    V damping = at<V>(&law.dissipation[i]) * spring;
+    if (rule.half_window > 0.0)
+      damping += closed_share(V(-g), V(rule.half_window * magnitude(v_n))) * at<V>(&law.damping[i]);
+    const V acts = spring + damping;
     const V share = 1.0 / (1.0 + damping * nn);
-    const V normal = mean > 0.0 ? clipped(spring - damping * v_n) * share : V{};
+    const V normal = acts > 0.0 ? clipped(spring - damping * v_n) * share : V{};
     const V keeps = same_face(memory, i, my, mz);
     const V mu = at<V>(&law.mu_dynamic[i]), most = mu * normal;
     const V last = at<V>(&memory.left[i]) == 1.0 ? keeps * at<V>(&memory.force[i]) : V{};
-    const V per_normal = mean > 0.0 ? 1.0 / (mean > 0.0 ? spring : one) : V{};
+    const V bears = spring + damping * magnitude(v_n);
+    const V per_normal = acts > 0.0 ? 1.0 / (acts > 0.0 ? bears : one) : V{};
     const V mu_static = at<V>(&law.mu_static[i]);
-    at<V>(&s.shut[i]) = mean > 0.0 ? one : V{};
+    at<V>(&s.shut[i]) = acts > 0.0 ? one : V{};
     at<V>(&s.spring[i]) = spring;
     at<V>(&s.damping[i]) = damping;
-    at<V>(&s.share[i]) = mean > 0.0 ? share : V{};
+    at<V>(&s.share[i]) = acts > 0.0 ? share : V{};
     at<V>(&s.nn[i]) = nn;
     at<V>(&s.nt[i]) = mz * by_n_y - my * by_n_z;
     at<V>(&s.tt[i]) = tt;
@@ -129,11 +161,11 @@ FRETWORK_INLINE void turn(const NearLanes& near, int i, double half_step, const 
 
 /// One Jacobi sweep over all lanes: forces follow, velocities do not. Returns the largest change, relative to what a contact can bear.
 template <class V>
-FRETWORK_INLINE double improve(int end, double half_step, const LawLanes& law, const NearLanes& near,
-                               StepLanes& s) {
+FRETWORK_INLINE double improve(const Places& places, double half_step, const LawLanes& law,
+                               const NearLanes& near, StepLanes& s) {
   const V one = V{} + 1.0;
   V worst{};
-  for (int i = 0; i < end; i += size_of<V>) {
+  for (const int i : places.first) {
     const V n0 = at<V>(&s.normal[i]), t0 = at<V>(&s.friction[i]), my = at<V>(near.ny + i),
             mz = at<V>(near.nz + i);
     const V v_n = my * at<V>(&s.v_y[i]) + mz * at<V>(&s.v_z[i]),
@@ -162,9 +194,10 @@ FRETWORK_INLINE double improve(int end, double half_step, const LawLanes& law, c
 
 /// Velocities of all contacts follow the changes of the forces of those that take part: two sums at once, so that none waits for the other.
 template <class V, bool coupled>
-FRETWORK_INLINE void answer_planes(int end, int width, const MobilityLanes& mobility, StepLanes& s) {
+FRETWORK_INLINE void answer_planes(const Places& places, int width, const MobilityLanes& mobility,
+                                   StepLanes& s) {
   constexpr int columns = coupled ? 4 : 2;
-  for (int i = 0; i < end; i += size_of<V>) {
+  for (const int i : places.first) {
     V y[2] = {at<V>(&s.v_y[i]), V{}}, z[2] = {at<V>(&s.v_z[i]), V{}};
     const auto add = [&](int k, int into) __attribute__((always_inline)) {
       const auto c = static_cast<std::size_t>(s.contacts[k]);
@@ -190,11 +223,11 @@ FRETWORK_INLINE void answer_planes(int end, int width, const MobilityLanes& mobi
 }
 
 template <class V>
-FRETWORK_INLINE void answer(int end, int width, const MobilityLanes& mobility, StepLanes& s) {
+FRETWORK_INLINE void answer(const Places& places, int width, const MobilityLanes& mobility, StepLanes& s) {
   if (mobility.coupled)
-    answer_planes<V, true>(end, width, mobility, s);
+    answer_planes<V, true>(places, width, mobility, s);
   else
-    answer_planes<V, false>(end, width, mobility, s);
+    answer_planes<V, false>(places, width, mobility, s);
 }
 
 /// One contact takes part and its friction does not act on its normal force: one sweep finds both, from any forces.
@@ -206,7 +239,7 @@ FRETWORK_INLINE bool sweeps_once(const StepLanes& s) {
 
 /// Returns whether the sweeps settled.
 template <class V>
-FRETWORK_INLINE bool sweep(int end, int width, const SweepRule& rule, const LawLanes& law,
+FRETWORK_INLINE bool sweep(const Places& places, int width, const SweepRule& rule, const LawLanes& law,
                            const MobilityLanes& mobility, const NearLanes& near, StepLanes& s) {
   const double half_step = 0.5 * rule.step;
   const bool once = rule.implicit && sweeps_once(s);
@@ -214,16 +247,16 @@ FRETWORK_INLINE bool sweep(int end, int width, const SweepRule& rule, const LawL
     s.normal[s.contacts[0]] = 0.0;
     s.friction[s.contacts[0]] = 0.0;
   } else {
-    for (int i = 0; i < end; i += size_of<V>)
+    for (const int i : places.first)
       turn<V>(near, i, half_step, at<V>(&s.normal[i]), at<V>(&s.friction[i]), s);
-    answer<V>(end, width, mobility, s);
+    answer<V>(places, width, mobility, s);
     if (!rule.implicit)
       return true;
   }
   double last = 0.0;
   for (int k = 0; k < rule.most; ++k) {
-    const double change = improve<V>(end, half_step, law, near, s);
-    answer<V>(end, width, mobility, s);
+    const double change = improve<V>(places, half_step, law, near, s);
+    answer<V>(places, width, mobility, s);
     if (once || settled(change, last, rule.tolerance, jacobi_caution))
       return true;
     last = change;
@@ -233,11 +266,11 @@ FRETWORK_INLINE bool sweep(int end, int width, const SweepRule& rule, const LawL
 
 /// Forces found: what the contacts did over the step.
 template <class V>
-FRETWORK_INLINE void close(int end, const SweepRule& rule, const LawLanes& law, const NearLanes& near,
-                           StepLanes& s, CommitLanes& out, Solved& solved) {
+FRETWORK_INLINE void close(const Places& places, const SweepRule& rule, const LawLanes& law,
+                           const NearLanes& near, StepLanes& s, CommitLanes& out, Solved& solved) {
   const V one = V{} + 1.0;
   V work{}, jump{};
-  for (int i = 0; i < end; i += size_of<V>) {
+  for (const int i : places.first) {
     const V my = at<V>(near.ny + i), mz = at<V>(near.nz + i), n = at<V>(&s.normal[i]),
             t = at<V>(&s.friction[i]);
     const V v_n = my * at<V>(&s.v_y[i]) + mz * at<V>(&s.v_z[i]),
@@ -257,83 +290,119 @@ FRETWORK_INLINE void close(int end, const SweepRule& rule, const LawLanes& law, 
 }
 
 template <class V>
-FRETWORK_INLINE Solved solve_all(int end, int width, const SweepRule& rule, const LawLanes& law,
+FRETWORK_INLINE Solved solve_all(const Places& places, const SweepRule& rule, const LawLanes& law,
                                  const MemoryLanes& memory, const MobilityLanes& mobility,
                                  const NearLanes& near, StepLanes& step, CommitLanes& out) {
   Solved solved;
-  solved.springs = prepare<V>(end, rule.half_window, law, memory, near, step);
+  solved.springs = prepare<V>(places, rule, law, memory, near, step);
   step.count = 0;
-  for (int c = 0; c < end; ++c)
-    if (step.shut[c] != 0.0)
-      step.contacts[step.count++] = c;
+  for (const int i : places.first)
+    for (int c = i; c < i + size_of<V>; ++c)
+      if (step.shut[c] != 0.0)
+        step.contacts[step.count++] = c;
   if (step.count == 0)
     return solved;
-  solved.settled = sweep<V>(end, width, rule, law, mobility, near, step);
+  solved.settled = sweep<V>(places, places.all.width, rule, law, mobility, near, step);
   if (solved.settled)
-    close<V>(end, rule, law, near, step, out, solved);
+    close<V>(places, rule, law, near, step, out, solved);
   return solved;
 }
 
+template <class V> struct CommitPacks { V sliders{}, damping{}, stored{}; };
+
+/// Contacts of which some acted. Returns whether any remembers something.
 template <class V>
-FRETWORK_INLINE CommitSums commit_all(int end, const LawLanes& law, CommitLanes& s, MemoryLanes& m) {
+FRETWORK_INLINE bool keep(int i, const LawLanes& law, CommitLanes& s, MemoryLanes& m, CommitPacks<V>& sums) {
   const V one = V{} + 1.0;
-  V sliders{}, damping{}, stored{}, left{};
-  for (int i = 0; i < end; i += size_of<V>) {
-    const V my = at<V>(&s.normal_y[i]), mz = at<V>(&s.normal_z[i]), half = 0.5 * at<V>(&law.compliance[i]);
-    const V compliance = at<V>(&law.compliance[i]), e = at<V>(&law.relaxation[i]);
-    const V closed = at<V>(&law.mu_static[i]) > 0.0 ? at<V>(&s.closed[i]) : V{}, open = one - closed;
-    const V held = at<V>(&m.spring[i]), held_energy = half * held * held;
-    // closed: the slider takes what the spring and damper do not, unless it would move with the force
-    const V before = same_face(m, i, my, mz) * held, before_energy = half * before * before;
-    const V force = at<V>(&s.force[i]), dx = at<V>(&law.along[i]) * at<V>(&s.displacement[i]);
-    const V relaxed = force + e * (before - force), relaxed_stretch = compliance * (before - relaxed);
-    const V against = force * (dx - relaxed_stretch) < 0.0 ? one : V{};
-    const V slips = at<V>(&s.slides[i]) * (against + (force == 0.0 ? one : V{}));
-    const V after_closed = slips > 0.0 ? relaxed : before - at<V>(&law.tangential[i]) * dx;
-    const V stretch = slips > 0.0 ? relaxed_stretch : dx;
-    const V slider = closed * -force * (dx - stretch);
-    const V damper = closed * (-force * stretch - (half * after_closed * after_closed - before_energy));
-    // open: the spring dies out and is forgotten
-    const V fading = at<V>(&m.left[i]) * e, faded = fading < forgotten ? V{} : fading;
-    const V after_open = faded > 0.0 ? e * held : V{};
-    const V after = closed > 0.0 ? after_closed : after_open, after_energy = half * after * after;
-    sliders += slider;
-    damping += damper + closed * (held_energy - before_energy) + open * (held_energy - after_energy);
-    stored += after_energy - held_energy;
-    at<V>(&s.friction_work[i]) = slider;
-    at<V>(&s.damper_work[i]) = damper;
-    at<V>(&m.spring[i]) = after;
-    at<V>(&m.sliding[i]) = closed * at<V>(&s.slides[i]);
-    at<V>(&m.force[i]) = closed * force;
-    at<V>(&m.normal_y[i]) = closed > 0.0 ? my : at<V>(&m.normal_y[i]);
-    at<V>(&m.normal_z[i]) = closed > 0.0 ? mz : at<V>(&m.normal_z[i]);
-    const V share = closed > 0.0 ? one : faded;
-    at<V>(&m.left[i]) = share;
-    left += share;
+  const V my = at<V>(&s.normal_y[i]), mz = at<V>(&s.normal_z[i]), half = 0.5 * at<V>(&law.compliance[i]);
+  const V compliance = at<V>(&law.compliance[i]), e = at<V>(&law.relaxation[i]);
+  const V closed = at<V>(&law.mu_static[i]) > 0.0 ? at<V>(&s.closed[i]) : V{}, open = one - closed;
+  const V held = at<V>(&m.spring[i]), held_energy = half * held * held;
+  // closed: the slider takes what the spring and damper do not, unless it would move with the force
+  const V before = same_face(m, i, my, mz) * held, before_energy = half * before * before;
+  const V force = at<V>(&s.force[i]), dx = at<V>(&law.along[i]) * at<V>(&s.displacement[i]);
+  const V relaxed = force + e * (before - force), relaxed_stretch = compliance * (before - relaxed);
+  const V against = force * (dx - relaxed_stretch) < 0.0 ? one : V{};
+  const V slips = at<V>(&s.slides[i]) * (against + (force == 0.0 ? one : V{}));
+  const V after_closed = slips > 0.0 ? relaxed : before - at<V>(&law.tangential[i]) * dx;
+  const V stretch = slips > 0.0 ? relaxed_stretch : dx;
+  const V slider = closed * -force * (dx - stretch);
+  const V damper = closed * (-force * stretch - (half * after_closed * after_closed - before_energy));
+  // open: the spring dies out and is forgotten
+  const V fading = at<V>(&m.left[i]) * e, faded = fading < forgotten ? V{} : fading;
+  const V after_open = faded > 0.0 ? e * held : V{};
+  const V after = closed > 0.0 ? after_closed : after_open, after_energy = half * after * after;
+  sums.sliders += slider;
+  sums.damping += damper + closed * (held_energy - before_energy) + open * (held_energy - after_energy);
+  sums.stored += after_energy - held_energy;
+  at<V>(&s.friction_work[i]) = slider;
+  at<V>(&s.damper_work[i]) = damper;
+  at<V>(&m.spring[i]) = after;
+  at<V>(&m.sliding[i]) = closed * at<V>(&s.slides[i]);
+  at<V>(&m.force[i]) = closed * force;
+  at<V>(&m.normal_y[i]) = closed > 0.0 ? my : at<V>(&m.normal_y[i]);
+  at<V>(&m.normal_z[i]) = closed > 0.0 ? mz : at<V>(&m.normal_z[i]);
+  const V left = closed > 0.0 ? one : faded;
+  at<V>(&m.left[i]) = left;
+  return sum(left) > 0.0;
+}
+
+/// Contacts that are all open: what `keep` makes of them.
+template <class V>
+FRETWORK_INLINE bool fade(int i, const LawLanes& law, MemoryLanes& m, CommitPacks<V>& sums) {
+  const V e = at<V>(&law.relaxation[i]), held = at<V>(&m.spring[i]);
+  const V fading = at<V>(&m.left[i]) * e, left = fading < forgotten ? V{} : fading;
+  const V after = left > 0.0 ? e * held : V{};
+  const V lost = 0.5 * at<V>(&law.compliance[i]) * (held * held - after * after);
+  sums.damping += lost;
+  sums.stored -= lost;
+  at<V>(&m.spring[i]) = after;
+  at<V>(&m.sliding[i]) = at<V>(&m.force[i]) = V{};
+  at<V>(&m.left[i]) = left;
+  return sum(left) > 0.0;
+}
+
+template <class V>
+FRETWORK_INLINE CommitSums commit_all(const Places& acting, const LawLanes& law, CommitLanes& s,
+                                      MemoryLanes& m) {
+  CommitPacks<V> sums;
+  m.next.clear();
+  auto old = m.places.begin();
+  const auto fade_before = [&](int end) __attribute__((always_inline)) {
+    for (; old != m.places.end() && *old < end; ++old)
+      if (fade<V>(*old, law, m, sums))
+        m.next.push_back(*old);
+  };
+  for (const int i : acting.first) {
+    fade_before(i);
+    old += old != m.places.end() && *old == i;
+    if (keep<V>(i, law, s, m, sums))
+      m.next.push_back(i);
   }
-  return {sum(sliders), sum(damping), sum(stored), sum(left) > 0.0};
+  fade_before(acting.all.width);
+  m.places.swap(m.next);
+  return {sum(sums.sliders), sum(sums.damping), sum(sums.stored)};
 }
 
 } // namespace
 
-FRETWORK_WIDTHS Solved solve(const LaneCount& contacts, const SweepRule& rule, const LawLanes& law,
+FRETWORK_WIDTHS Solved solve(const Places& places, const SweepRule& rule, const LawLanes& law,
                              const MemoryLanes& memory, const MobilityLanes& mobility, const NearLanes& near,
                              StepLanes& step, CommitLanes& out) {
-  const int width = contacts.width;
-  if (contacts.few())
-    return solve_all<double>(contacts.count, width, rule, law, memory, mobility, near, step, out);
-  if (contacts.half())
-    return solve_all<Half>(size_of<Half>, width, rule, law, memory, mobility, near, step, out);
-  return solve_all<Pack>(width, width, rule, law, memory, mobility, near, step, out);
+  if (places.all.few())
+    return solve_all<double>(places, rule, law, memory, mobility, near, step, out);
+  if (places.all.half())
+    return solve_all<Half>(places, rule, law, memory, mobility, near, step, out);
+  return solve_all<Pack>(places, rule, law, memory, mobility, near, step, out);
 }
 
-FRETWORK_WIDTHS CommitSums commit(const LaneCount& contacts, const LawLanes& law, CommitLanes& step,
+FRETWORK_WIDTHS CommitSums commit(const Places& acting, const LawLanes& law, CommitLanes& step,
                                   MemoryLanes& memory) {
-  if (contacts.few())
-    return commit_all<double>(contacts.count, law, step, memory);
-  if (contacts.half())
-    return commit_all<Half>(size_of<Half>, law, step, memory);
-  return commit_all<Pack>(contacts.width, law, step, memory);
+  if (acting.all.few())
+    return commit_all<double>(acting, law, step, memory);
+  if (acting.all.half())
+    return commit_all<Half>(acting, law, step, memory);
+  return commit_all<Pack>(acting, law, step, memory);
 }
 
 } // namespace fretwork::transient::kernels

@@ -21,7 +21,7 @@ struct LawLanes {
   LawLanes() = default;
   /// @param step  s
   LawLanes(const PackedContacts& contacts, double step);
-  Array stiffness, damping, dissipation;  ///< K_N; C_N; K_N d
+  Array stiffness, damping, dissipation;  ///< K_N; C_N; d
   Array yy, yz, zz;                       ///< (h/2) W of the contact itself, m/s per N
   Array tangential, compliance, gradient; ///< K_T, 1/K_T, G h: of contact::FrictionTable
   Array relaxation;                       ///< e^-a
@@ -38,14 +38,15 @@ struct MemoryLanes {
   Array force;              ///< N, friction of the commit that left this
   Array normal_y, normal_z; ///< then
   Array left; ///< share of the spring's force left since the contact opened; 0: nothing remembered
-  void visit(core::StateArchive& state) { state(spring, sliding, force, normal_y, normal_z, left); }
+  std::vector<int> places, next; ///< Places where something is remembered; room for those after a commit
+  void visit(core::StateArchive& state) { state(spring, sliding, force, normal_y, normal_z, left, places); }
 };
 
 /// The unknowns of a step, one contact a lane.
 struct StepLanes {
   explicit StepLanes(int width);
   Array shut;                       ///< 1 or 0: takes part
-  Array spring, damping, share;     ///< K_N P, c(P), 1/(1 + c nn)
+  Array spring, damping, share;     ///< F_K, c, 1/(1 + c nn)
   Array nn, nt, tt;                 ///< own block of A
   Array bound, share_t, tangential; ///< mu, 1/(1 + G h tt), T
   Array per_normal, per_friction;   ///< 1/N
@@ -81,7 +82,7 @@ struct CommitLanes {
 /// How contacts are solved.
 struct SweepRule {
   double step;        ///< s
-  double half_window; ///< s, penetrations are averaged over it to both sides
+  double half_window; ///< s, closed shares are taken over it to both sides
   bool implicit;      ///< some law depends on velocities: one sweep is not enough
   double tolerance;   ///< of the forces, relative to what a contact can bear
   int most;           ///< sweeps
@@ -91,17 +92,17 @@ struct Solved {
   double work = 0.0, jump = 0.0; ///< J, of ContactSolver::Action
   bool settled = true;           ///< otherwise nothing is found yet but `springs`
 };
-/// Which contacts are shut, and their forces for the step: `step` and the first row of `out`.
-Solved solve(const LaneCount& contacts, const SweepRule& rule, const LawLanes& law, const MemoryLanes& memory,
+/// Which contacts of the places are shut, and their forces for the step: `step` and the first row of `out`, there only.
+Solved solve(const Places& places, const SweepRule& rule, const LawLanes& law, const MemoryLanes& memory,
              const MobilityLanes& mobility, const NearLanes& near, StepLanes& step, CommitLanes& out);
 
 struct CommitSums {
-  double friction = 0.0;  ///< J, sliders
-  double damping = 0.0;   ///< J, tangential dampers, springs that die out or are forgotten
-  double stored = 0.0;    ///< J, change of the energy of the springs
-  bool remembers = false; ///< some contact has a memory left
+  double friction = 0.0; ///< J, sliders
+  double damping = 0.0;  ///< J, tangential dampers, springs that die out or are forgotten
+  double stored = 0.0;   ///< J, change of the energy of the springs
 };
-CommitSums commit(const LaneCount& contacts, const LawLanes& law, CommitLanes& step, MemoryLanes& memory);
+/// @param acting  where contacts may be closed in `step`: elsewhere all are open, whatever stands there
+CommitSums commit(const Places& acting, const LawLanes& law, CommitLanes& step, MemoryLanes& memory);
 
 /// The largest change of a sweep is small, or what it foretells from the one of the sweep before is.
 /// The ratio of the changes of two sweeps foretells the next ones only where they fall clearly.

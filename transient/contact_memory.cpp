@@ -5,10 +5,12 @@
 namespace fretwork::transient {
 
 ContactMemory::ContactMemory(const PackedContacts& contacts, double step)
-    : contacts_(contacts), laws_(contacts, step) {
+    : contacts_(contacts), laws_(contacts, step), acting_(contacts.lane_count()) {
   for (kernels::Array* a :
        {&lanes_.spring, &lanes_.sliding, &lanes_.force, &lanes_.normal_y, &lanes_.normal_z, &lanes_.left})
     a->assign(static_cast<std::size_t>(contacts.width), 0.0);
+  lanes_.places.reserve(static_cast<std::size_t>(contacts.width));
+  lanes_.next.reserve(static_cast<std::size_t>(contacts.width));
   const auto count = static_cast<std::size_t>(contacts.count);
   entries_.resize(count);
   for (std::size_t c = 0; c < count; ++c)
@@ -32,7 +34,7 @@ ContactLosses ContactMemory::commit(const ContactMotion& motion, ContactTrial& t
   for (const int c : trial.active)
     losses.damping += trial.states[c].damper_work; // of the normal dampers
   if (contacts_.in_lanes)
-    commit_lanes(trial, losses);
+    commit_lanes(motion, trial, losses);
   else
     commit_each(trial, losses);
   for (const int c : closed_)
@@ -84,13 +86,15 @@ void ContactMemory::commit_each(ContactTrial& trial, ContactLosses& losses) {
   std::erase_if(remembering_, [&](int c) { return !(entries_[c].left > 0.0); });
 }
 
-void ContactMemory::commit_lanes(ContactTrial& trial, ContactLosses& losses) {
-  if (trial.active.empty() && !remembers_)
+void ContactMemory::commit_lanes(const ContactMotion& motion, ContactTrial& trial, ContactLosses& losses) {
+  if (trial.active.empty() && lanes_.places.empty())
     return;
   kernels::CommitLanes& step = trial.lanes;
   if (!trial.found_in_lanes) {
+    acting_.first.clear();
     std::fill(step.closed.begin(), step.closed.end(), 0.0);
     for (const int c : trial.active) {
+      acting_.add_contact(c);
       const ContactState& s = trial.states[c];
       step.closed[c] = 1.0;
       step.normal_y[c] = s.ny;
@@ -100,7 +104,8 @@ void ContactMemory::commit_lanes(ContactTrial& trial, ContactLosses& losses) {
       step.slides[c] = s.slides ? 1.0 : 0.0;
     }
   }
-  const kernels::CommitSums sums = kernels::commit(contacts_.lane_count(), laws_, step, lanes_);
+  const kernels::CommitSums sums =
+      kernels::commit(trial.found_in_lanes ? motion.places() : acting_, laws_, step, lanes_);
   for (const int c : trial.active) {
     trial.states[c].friction_work = step.friction_work[c];
     trial.states[c].damper_work += step.damper_work[c];
@@ -108,7 +113,6 @@ void ContactMemory::commit_lanes(ContactTrial& trial, ContactLosses& losses) {
   losses.friction += sums.friction;
   losses.damping += sums.damping;
   springs_ += sums.stored;
-  remembers_ = sums.remembers;
 }
 
 void ContactMemory::close(int c, ContactState& state, ContactLosses& losses) {

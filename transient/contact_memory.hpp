@@ -55,6 +55,8 @@ public:
   [[nodiscard]] const contact::FrictionTable& table(int c) const { return entries_[c].table; }
   /// All memories, where PackedContacts::in_lanes.
   [[nodiscard]] const kernels::MemoryLanes& lanes() const { return lanes_; }
+  /// With a force at the last commit, by increasing number.
+  [[nodiscard]] const std::vector<int>& closed() const { return closed_; }
   /// Displacements at the last commit, in lanes, m.
   [[nodiscard]] const kernels::Array& position() const { return position_; }
   /// Energy of all tangential springs, J.
@@ -69,7 +71,7 @@ public:
   /// After the commit of an action, with the motion before it: what the next `follow` starts from. No allocation.
   void leave(const ContactMotion& motion, const ContactTrial& trial, double half_step);
   void visit(core::StateArchive& state) {
-    state(entries_, lanes_, laws_.relaxation, remembers_, remembering_, closed_, position_, ahead_, springs_);
+    state(entries_, lanes_, laws_.relaxation, remembering_, closed_, position_, ahead_, springs_);
   }
 
 private:
@@ -87,7 +89,7 @@ private:
     return lanes_.normal_y[c] * ny + lanes_.normal_z[c] * nz < 0.0;
   }
   void commit_each(ContactTrial& trial, ContactLosses& losses);
-  void commit_lanes(ContactTrial& trial, ContactLosses& losses);
+  void commit_lanes(const ContactMotion& motion, ContactTrial& trial, ContactLosses& losses);
   void close(int c, ContactState& state, ContactLosses& losses);
   void relax(int c, ContactLosses& losses);
   void forget(int c, ContactLosses& losses);
@@ -96,7 +98,7 @@ private:
   std::vector<Entry> entries_; ///< their tables always, the rest where not in lanes
   kernels::MemoryLanes lanes_;
   kernels::LawLanes laws_;
-  bool remembers_ = false;       ///< in lanes
+  kernels::Places acting_;       ///< of a step whose contacts were not found in lanes
   std::vector<int> remembering_; ///< contacts with left > 0
   std::vector<int> closed_;      ///< with a force at the last commit
   kernels::Array position_;

@@ -3,7 +3,8 @@
 
 namespace fretwork::transient {
 
-ContactMotion::ContactMotion(const PackedContacts& contacts) : contacts_(contacts) {
+ContactMotion::ContactMotion(const PackedContacts& contacts)
+    : contacts_(contacts), places_(contacts.lane_count()), moving_(contacts.lane_count()) {
   u.assign(static_cast<std::size_t>(contacts.stride()), 0.0);
   w = u;
   for (kernels::Array* a : {&near_, &gaps, &normal_y, &normal_z})
@@ -14,11 +15,27 @@ void ContactMotion::gather(const double* q, const double* v) {
   kernels::gather(contacts_.gather, q, v, u.data(), w.data());
 }
 
+void ContactMotion::gather_near(const double* q, const double* v, const std::vector<int>& closed) {
+  kernels::gather(contacts_.gather, q, u.data());
+  find_near(0.0);
+  const int together = places_.all.together();
+  moving_.first.clear();
+  auto place = places_.first.begin();
+  for (const int c : closed) {
+    for (; place != places_.first.end() && *place < c - c % together; ++place)
+      moving_.add_contact(*place);
+    moving_.add_contact(c);
+  }
+  for (; place != places_.first.end(); ++place)
+    moving_.add_contact(*place);
+  kernels::gather_at(contacts_.gather, moving_, v, w.data());
+}
+
 bool ContactMotion::find_near(double half_window) {
   const int width = contacts_.width;
-  const bool any = kernels::place(contacts_.lane_count(), contacts_.reach, u.data(), u.data() + width,
-                                  w.data(), w.data() + width, half_window, gaps.data(), normal_y.data(),
-                                  normal_z.data(), near_.data());
+  kernels::place(contacts_.reach, u.data(), u.data() + width, w.data(), w.data() + width, half_window,
+                 gaps.data(), normal_y.data(), normal_z.data(), near_.data(), places_);
+  const bool any = !places_.first.empty();
   if (any)
     for (const int c : contacts_.profiles)
       if (near(c)) {

@@ -16,9 +16,14 @@ public:
 
   /// Displacements and velocities of all contacts from those of the modes (padded arrays). No allocation.
   void gather(const double* q, const double* v);
+  /// Displacements of all contacts, the near ones without a window, and velocities where these and `closed` are (by increasing number): all
+  /// that a step of contacts without normal dampers asks for. No allocation.
+  void gather_near(const double* q, const double* v, const std::vector<int>& closed);
   /// Marks the contacts that may have penetration > 0 now, or within `half_window` seconds at their present speed (>= 0), and finds
   /// `gaps`, `normal_y` and `normal_z` of these. Returns whether there is any.
   bool find_near(double half_window);
+  /// Where the near contacts are.
+  [[nodiscard]] const kernels::Places& places() const { return places_; }
   [[nodiscard]] bool near(int c) const { return near_[c] != 0.0; }
 
   [[nodiscard]] contact::Location locate(int c) const {
@@ -41,7 +46,7 @@ public:
   }
   /// Energy of the normal springs, J.
   [[nodiscard]] double spring_energy() const;
-  void visit(core::StateArchive& state) { state(u, w, gaps, normal_y, normal_z, near_); }
+  void visit(core::StateArchive& state) { state(u, w, gaps, normal_y, normal_z, near_, places_.first); }
 
   kernels::Array u, w;                     ///< lanes of PackedContacts: displacement, m, and velocity, m/s
   kernels::Array gaps, normal_y, normal_z; ///< m, and unit normal, of near contacts: what `locate` gives
@@ -49,6 +54,7 @@ public:
 private:
   const PackedContacts& contacts_;
   kernels::Array near_;
+  kernels::Places places_, moving_; ///< near; where velocities are gathered
 };
 
 } // namespace fretwork::transient

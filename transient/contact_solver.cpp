@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/contact_solver.hpp"
+#include "contact/instant_spring.hpp"
 #include <algorithm>
 #include <cmath>
 
 namespace fretwork::transient {
 namespace {
 
-/// Share of the step over which the penetration is averaged with the velocity before the action. Between 0
-/// (mean force too high) and 1 (too low) at w_c h near 1; below w_c h = 0.4 its effect is less than 1 %.
-constexpr double window = 0.7;
 constexpr double sweep_tolerance = 1e-6;
 constexpr int most_sweeps = 60;
 /// Jacobi sweeps that take longer than this converge badly, if they do.
@@ -16,8 +14,14 @@ constexpr int most_jacobi_sweeps = 12;
 
 } // namespace
 
+double half_window(const PackedContacts& contacts, double step) {
+  const bool damped = std::any_of(contacts.supports.begin(), contacts.supports.end(),
+                                  [](const contact::Support& s) { return s.normal.damping > 0.0; });
+  return damped ? 0.5 * step : 0.0;
+}
+
 ContactSolver::ContactSolver(const PackedContacts& contacts, double step)
-    : contacts_(contacts), h_(step),
+    : contacts_(contacts), h_(step), half_window_(half_window(contacts, step)),
       coupled_(
           std::any_of(contacts.supports.begin(), contacts.supports.end(),
                       [](const contact::Support& s) { return s.friction.active() || s.normal.damps(); })),
@@ -30,10 +34,16 @@ ContactSolver::ContactSolver(const PackedContacts& contacts, double step)
 
 ContactSolver::Action ContactSolver::solve(const ContactMemory& memory, ContactMotion& motion,
                                            ContactTrial& trial) {
+  motion.find_near(half_window_);
+  return solve_near(memory, motion, trial);
+}
+
+ContactSolver::Action ContactSolver::solve_near(const ContactMemory& memory, const ContactMotion& motion,
+                                                ContactTrial& trial) {
   Action action;
   trial.clear();
   shut_.clear();
-  if (!motion.find_near(0.5 * window * h_))
+  if (motion.places().first.empty())
     return action;
   if (contacts_.in_lanes && solve_in_lanes(memory, motion, trial, action))
     return action;
@@ -50,10 +60,10 @@ ContactSolver::Action ContactSolver::solve(const ContactMemory& memory, ContactM
 bool ContactSolver::solve_in_lanes(const ContactMemory& memory, const ContactMotion& motion,
                                    ContactTrial& trial, Action& action) {
   const int width = contacts_.width;
-  const kernels::SweepRule rule{h_, 0.5 * window * h_, coupled_, sweep_tolerance, most_jacobi_sweeps};
+  const kernels::SweepRule rule{h_, half_window_, coupled_, sweep_tolerance, most_jacobi_sweeps};
   const kernels::NearLanes near{motion.gaps.data(), motion.normal_y.data(), motion.normal_z.data(),
                                 motion.w.data(), motion.w.data() + width};
-  const kernels::Solved solved = kernels::solve(contacts_.lane_count(), rule, laws_, memory.lanes(),
+  const kernels::Solved solved = kernels::solve(motion.places(), rule, laws_, memory.lanes(),
                                                 contacts_.mobility_lanes, near, lanes_, trial.lanes);
   if (!solved.settled)
     return false;
@@ -91,16 +101,15 @@ void ContactSolver::meet(const ContactMotion& motion, ContactTrial& trial) {
       continue;
     const contact::Support& support = contacts_.supports[c];
     const double p = -motion.gaps[c], rate = motion.sinking(c, motion.normal_y[c], motion.normal_z[c]);
-    const double reach = 0.5 * window * h_ * rate;
-    const double mean = contact::mean_penetration(p - reach, p + reach);
+    const double reach = half_window_ * rate, closed = contact::closed_share(p - reach, p + reach);
     if (p > 0.0)
       trial.springs += 0.5 * support.normal.stiffness * p * p;
-    if (!(mean > 0.0))
+    else if (!(closed * support.normal.damping > 0.0))
       continue;
     Shut& shut = shut_.emplace_back();
     shut.contact = c;
-    shut.mean = mean;
-    shut.closed = contact::closed_share(p - reach, p + reach);
+    shut.depth = std::max(0.0, p);
+    shut.closed = closed;
     shut.approach = rate;
   }
 }
@@ -130,8 +139,11 @@ void ContactSolver::prepare(const ContactMemory& memory, const ContactMotion& mo
       s.before[k] = velocity_[k * width + c];
     s.nn = own[0];
     s.nt = own[width];
-    s.normal = contact::NormalStep(support.normal, s.mean, s.closed, s.nn);
-    s.per_normal = 1.0 / s.normal.spring();
+    const contact::NormalLaw& law = support.normal;
+    const double spring =
+        s.depth > 0.0 ? contact::InstantSpring(law.stiffness, s.nn, h_).force(s.depth, s.approach) : 0.0;
+    s.normal = contact::NormalStep(spring, s.closed * law.damping + law.dissipation * spring, s.nn);
+    s.per_normal = 1.0 / s.normal.spring_and_damper(s.approach);
     s.friction = support.friction.active();
     if (!s.friction)
       continue;

@@ -3,8 +3,8 @@
 /// The contact forces that act at one instant for a whole step h, all contacts together: displacements are continuous and the velocity
 /// jumps from v- to v+,
 ///     v+ = v- + h B^T f,    w = B (v- + v+)/2 = B v- + (h/2) W f,    W = B B^T
-///     normal    p -+ theta h p'/2: mean penetration P over the step, its open part counted as 0 (theta = 0.7; p' from v-), the closed share s
-///               F_N = <K_N P + (s C_N + K_N d P) p'(w)>+     explicit in position, implicit in velocity
+///     normal    F_N = <F_K(p) + (s C_N + d F_K) p'(w)>+, p > 0 or s C_N > 0: explicit in position, implicit in velocity
+///               F_K: contact::InstantSpring; s: share of the step in which p -+ h p'/2 (p' from v-) is closed
 ///     friction  step_friction with the mean velocity w, implicit
 /// Along the directions (n, t, x_loc) of the contacts, with the forces F of those that are shut and the velocities s of all,
 ///     s = s0 + A F,    s0 = d.B v-,    A = (h/2) d W d^T
@@ -15,6 +15,9 @@
 #include "transient/contact_memory.hpp"
 
 namespace fretwork::transient {
+
+/// s: how long before and after an action contacts may close that it has to see: those with C_N.
+[[nodiscard]] double half_window(const PackedContacts& contacts, double step);
 
 class ContactSolver {
 public:
@@ -29,14 +32,18 @@ public:
   /// Forces at the displacements and velocities v- of `motion`. The memory is read only. No allocation.
   /// @param trial  overwritten
   Action solve(const ContactMemory& memory, ContactMotion& motion, ContactTrial& trial);
+  /// The same where the near contacts are found already.
+  Action solve_near(const ContactMemory& memory, const ContactMotion& motion, ContactTrial& trial);
+  /// s: how long before and after the action contacts may close that `solve` looks for.
+  [[nodiscard]] double window() const { return half_window_; }
 
 private:
   /// A contact that takes part in the step.
   struct Shut {
     int contact = 0;
     bool friction = false, in_plane = false, slides = false;
-    double mean = 0.0;         ///< mean penetration P, m
-    double closed = 0.0;       ///< share of the window with penetration
+    double depth = 0.0;        ///< m: p where closed, else 0
+    double closed = 0.0;       ///< share of the step with penetration
     double approach = 0.0;     ///< p' before the action, m/s
     double force[3] = {};      ///< N, along n, t, x_loc
     double before[3] = {};     ///< m/s, s0
@@ -64,7 +71,8 @@ private:
 
   const PackedContacts& contacts_;
   double h_;
-  bool coupled_; ///< some law is implicit in velocity
+  double half_window_; ///< s: contacts that close within it may act
+  bool coupled_;       ///< some law is implicit in velocity
   std::vector<Shut> shut_;
   kernels::LawLanes laws_;
   kernels::StepLanes lanes_;

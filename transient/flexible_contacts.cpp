@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/flexible_contacts.hpp"
+#include "contact/instant_spring.hpp"
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -8,7 +9,6 @@
 namespace fretwork::transient {
 namespace {
 
-constexpr double window = 0.7; ///< of contact_solver.cpp
 /// Largest change of a sweep, relative to the largest force there is.
 constexpr double sweep_tolerance = 1e-9;
 /// Contacts beside each other share most of their flexibility (0.9 of it: a factor 0.8 a sweep).
@@ -33,7 +33,7 @@ double largest_eigenvalue(const Eigen::Matrix2d& m) {
 
 FlexibleContacts::FlexibleContacts(const PackedContacts& contacts, const Eigen::MatrixXd& residual,
                                    double step)
-    : contacts_(contacts), h_(step) {
+    : contacts_(contacts), h_(step), half_window_(half_window(contacts, step)) {
   constexpr std::array<Eigen::Index, 3> stored = {1, 2, 0}; // of blocks y, z, x
   const auto count = static_cast<std::size_t>(contacts.count);
   r_.resize(3 * contacts.count, 3 * contacts.count);
@@ -93,7 +93,7 @@ bool FlexibleContacts::act(const ContactMemory* memory, ContactMotion& motion) {
   differentiate();
   if (!quiet_)
     foretell(motion);
-  const bool near = motion.find_near(0.5 * window * h_);
+  const bool near = motion.find_near(half_window_);
   if (!near && quiet_)
     return true;
   for (int c = 0; c < contacts_.count; ++c)
@@ -164,16 +164,16 @@ void FlexibleContacts::take(int c, const ContactMotion& motion) {
   const auto at = motion.locate(c);
   Shut& s = shut_.emplace_back();
   s.contact = c;
-  s.normal = still_ ? contact::NormalLaw{support.normal.stiffness} : support.normal;
   s.friction = !still_ && support.friction.active();
   s.in_plane = contacts_.in_plane[c] != 0;
   s.deeper = largest_eigenvalue(r_.block<2, 2>(3 * c, 3 * c));
   s.ny = at.ny;
   s.nz = at.nz;
   s.bare = -at.gap + at.ny * given_[c] + at.nz * given_[width + c];
+  const double reach = half_window_ * motion.sinking(c, at.ny, at.nz);
+  s.closed =
+      still_ ? 0.0 : contact::closed_share(-at.gap - reach, -at.gap + reach); // as the last forces leave it
   face(s, motion);
-  s.normal.damping *=
-      contact::closed_share(-at.gap - s.reach, -at.gap + s.reach); // as the last forces leave it
   along(s, guess_, s.force);
   s.force[0] = std::max(0.0, s.force[0]);
   if (!s.friction || s.force[0] == 0.0)
@@ -201,7 +201,6 @@ void FlexibleContacts::along(const Shut& s, const kernels::Array& lanes, double*
 /// What a contact has along its directions before the action, and what its own forces do.
 void FlexibleContacts::face(Shut& s, const ContactMotion& motion) const {
   s.approach = motion.sinking(s.contact, s.ny, s.nz);
-  s.reach = still_ ? 0.0 : 0.5 * window * h_ * s.approach;
   along(s, motion.w, s.velocity);
   along(s, given_last_, s.last);
   along(s, given_before_, s.before);
@@ -209,6 +208,19 @@ void FlexibleContacts::face(Shut& s, const ContactMotion& motion) const {
   d << s.ny, s.nz, 0.0, s.nz, -s.ny, 0.0, 0.0, 0.0, 1.0;
   s.mobility = d * a_.block<3, 3>(3 * s.contact, 3 * s.contact) * d.transpose();
   s.residual = d * r_.block<3, 3>(3 * s.contact, 3 * s.contact) * d.transpose();
+  const contact::NormalLaw& law = contacts_.supports[s.contact].normal;
+  s.normal = law;
+  s.normal.damping *= s.closed;
+  if (still_)
+    s.normal.dissipation = 0.0;
+}
+
+/// p0 of a contact whose spring, in series with its residual flexibility, bears the force of an action: contact::InstantSpring.
+double FlexibleContacts::at_instant(const Shut& s, double p0) const {
+  if (still_ || !(p0 > 0.0))
+    return p0;
+  const double flexibility = 1.0 / s.normal.stiffness + s.residual(0, 0);
+  return flexibility * contact::InstantSpring(1.0 / flexibility, s.mobility(0, 0), h_).force(p0, s.approach);
 }
 
 /// Turns a contact to the normal of where it stands. Returns the change of its force, N.
@@ -235,16 +247,14 @@ double FlexibleContacts::turn(std::size_t i, ContactMotion& motion) {
 /// Takes the contacts that the forces found have closed. Returns whether there are any.
 bool FlexibleContacts::recruit(ContactMotion& motion) {
   const std::size_t before = shut_.size();
-  if (before == static_cast<std::size_t>(contacts_.count) || !motion.find_near(0.5 * window * h_))
+  if (before == static_cast<std::size_t>(contacts_.count) || !motion.find_near(half_window_))
     return false;
   for (int c = 0; c < contacts_.count; ++c) {
     const bool taken = std::any_of(shut_.begin(), shut_.end(), [c](const Shut& s) { return s.contact == c; });
     if (taken || !motion.near(c))
       continue;
     take(c, motion);
-    const Shut& s = shut_.back();
-    const double p = -motion.locate(c).gap;
-    if (!(contact::mean_penetration(p - s.reach, p + s.reach) > 0.0))
+    if (!(motion.locate(c).gap < 0.0) && !(shut_.back().normal.damping > 0.0))
       shut_.pop_back();
   }
   return shut_.size() > before;
@@ -325,11 +335,10 @@ double FlexibleContacts::normal_rate(std::size_t i) const {
 double FlexibleContacts::improve(std::size_t i, const ContactMemory* memory, double share) {
   Shut& s = shut_[i];
   const double own = s.residual(0, 0), mobility = s.mobility(0, 0) + rate_.now * own;
-  const double p = s.bare - (component(give_, i, 0) - own * s.force[0]);
-  s.mean = contact::mean_penetration(p - s.reach, p + s.reach);
+  s.alone = at_instant(s, std::max(0.0, s.bare - (component(give_, i, 0) - own * s.force[0])));
   const double normal =
-      s.mean > 0.0
-          ? contact::series_force(s.normal, s.mean, normal_rate(i) + mobility * s.force[0], mobility, own)
+      s.acts()
+          ? contact::series_force(s.normal, s.alone, normal_rate(i) + mobility * s.force[0], mobility, own)
           : 0.0;
   double changed = std::abs(normal - s.force[0]);
   change(i, 0, share * (normal - s.force[0]));
@@ -398,11 +407,10 @@ void FlexibleContacts::close(ContactTrial& trial, ContactSolver::Action& action)
     const Shut& s = shut_[i];
     const int c = s.contact;
     const double rate = normal_rate(i);
-    const double p = s.bare - component(give_, i, 0),
-                 spring = s.normal.stiffness * (s.mean - s.residual(0, 0) * s.force[0]);
-    if (p > 0.0)
+    const double p = s.alone - s.residual(0, 0) * s.force[0], spring = s.normal.stiffness * p;
+    if (s.alone > 0.0)
       trial.springs += 0.5 * s.normal.stiffness * p * p;
-    if (!(s.mean > 0.0))
+    if (!s.acts())
       continue;
     const double loss = h_ * (s.force[0] - spring) * rate;
     if (!(s.force[0] > 0.0)) { // the damper holds the contact free of force: it is open

@@ -6,8 +6,9 @@
 ///
 /// At the instant t_k of the action the contacts stand at u = B q + R f, with f = f_k the force of this step, and move by
 /// u' = w + R f', w = B (v- + v+)/2, f' = (3 f_k - 4 f_{k-1} + f_{k-2})/(2 h), of order 2 and without a limit of stability (the first
-/// action is h/2 after the start). With P0 the mean penetration over the step (theta = 0.7, p' from v-) without the contact's own n.R n F_N,
-///     normal    F_N = <K_N P + c(P) p'>+,  P = P0 - n.R n F_N       (contact::series_force)
+/// action is h/2 after the start). With p0 the penetration (where open: 0) without the contact's own n.R n F_N,
+///     normal    F_N = <K_N p + c(p) p'>+,  p = p0 - n.R n F_N       (contact::series_force)
+/// and p0 such that the spring in series alone gives F_K of contact::InstantSpring
 ///     friction  step_friction with the velocity that makes its trial T - G h w the one at t_k:
 ///       return_map   trial = T - K_T (h w/2 + R f_k - y) - C_T (w + R f'),  y = R (3 f_{k-1} - f_{k-2})/2
 ///       reference    trial = F0 - (K_T h/2 + C_T)(w + R f'), whose slip is opposite to w + R f'
@@ -54,10 +55,11 @@ private:
     bool friction = false, in_plane = false, slides = false;
     contact::NormalLaw normal{};
     double ny = 0.0, nz = 0.0;
-    double bare = 0.0;       ///< m: penetration without any R f
-    double reach = 0.0;      ///< m: half of the window
-    double approach = 0.0;   ///< m/s: p' before the action
-    double mean = 0.0;       ///< m: P0
+    double bare = 0.0;     ///< m: penetration without any R f
+    double closed = 0.0;   ///< share of the step with penetration
+    double approach = 0.0; ///< m/s: p' before the action
+    double alone = 0.0;    ///< m: p0, as the spring in series sees it at an instant, >= 0
+    [[nodiscard]] bool acts() const { return alone > 0.0 || normal.damping > 0.0; }
     double force[3] = {};    ///< N, along n, t, x_loc, as all that follows
     double velocity[3] = {}; ///< m/s, of the modes before the action
     double last[3] = {};     ///< m, R f_{k-1}
@@ -71,6 +73,7 @@ private:
   void take(int c, const ContactMotion& motion);
   [[nodiscard]] bool recruit(ContactMotion& motion);
   void along(const Shut& s, const kernels::Array& lanes, double* to) const;
+  [[nodiscard]] double at_instant(const Shut& s, double p0) const;
   void face(Shut& s, const ContactMotion& motion) const;
   [[nodiscard]] double turn(std::size_t i, ContactMotion& motion);
   void build(const ContactMotion& motion);
@@ -87,7 +90,7 @@ private:
   [[nodiscard]] double normal_rate(std::size_t i) const;
 
   const PackedContacts& contacts_;
-  double h_;
+  double h_, half_window_;
   Eigen::MatrixXd a_, r_; ///< A = h/2 B B^T, m/(s N), and R, m/N: y, z, x_loc of each contact
   Rate rate_{};           ///< f', 1/s
   Rate half_step_{};      ///< f_k less the f of y, 1

@@ -5,41 +5,40 @@
 namespace fretwork::transient::kernels {
 namespace {
 
-FRETWORK_INLINE double root(double x) { return __builtin_sqrt(x); }
-template <class V> FRETWORK_INLINE V root(const V& x) {
-  V r{};
-  for (int l = 0; l < size_of<V>; ++l)
-    r[l] = __builtin_sqrt(x[l]);
-  return r;
-}
-
 template <class V>
-FRETWORK_INLINE bool place_all(int end, const ReachLanes& reach, const double* uy, const double* uz,
+FRETWORK_INLINE void place_all(int end, const ReachLanes& reach, const double* uy, const double* uz,
                                const double* vy, const double* vz, double half_window, double* gap,
-                               double* ny, double* nz, double* near) {
+                               double* ny, double* nz, double* near, std::vector<int>& places) {
   const V one = V{} + 1.0;
   const double h2 = half_window * half_window;
-  bool any = false;
   for (int i = 0; i < end; i += size_of<V>) {
     const V y = at<V>(uy + i) + at<V>(&reach.rest_y[i]), z = at<V>(uz + i) + at<V>(&reach.rest_z[i]);
     const V wy = at<V>(&reach.wy[i]), wz = at<V>(&reach.wz[i]), radial = at<V>(&reach.radial[i]);
     const V ly = at<V>(&reach.ly[i]), lz = at<V>(&reach.lz[i]);
-    const V r = root(wy * y * y + wz * z * z);
-    const V g = at<V>(&reach.limit[i]) - (radial * r + ly * y + lz * z);
-    const V s2 = at<V>(vy + i) * at<V>(vy + i) + at<V>(vz + i) * at<V>(vz + i);
-    const V inside = g <= 0.0 ? one : V{}, soon = g * g <= h2 * s2 ? one : V{};
+    const V r2 = wy * y * y + wz * z * z, left = at<V>(&reach.limit[i]) - (ly * y + lz * z);
+    if (!(half_window > 0.0)) { // gap > 0 by squares that keep their signs: most packs need no root
+      const V closed = radial * magnitude(radial) * r2 < left * magnitude(left) ? V{} : one;
+      at<V>(near + i) = closed;
+      if (sum(closed) == 0.0)
+        continue;
+    }
+    const V r = root(r2), g = left - radial * r;
+    V reached = g <= 0.0 ? one : V{};
+    if (half_window > 0.0) {
+      const V s2 = at<V>(vy + i) * at<V>(vy + i) + at<V>(vz + i) * at<V>(vz + i);
+      reached += g * g <= h2 * s2 ? one : V{};
+    }
     at<V>(gap + i) = g;
-    at<V>(near + i) = inside + soon;
-    if (!(sum(inside + soon) > 0.0))
+    at<V>(near + i) = reached;
+    if (sum(reached) == 0.0)
       continue;
-    any = true;
+    places.push_back(i);
     const V per_r = 1.0 / (r > 0.0 ? r : one);
     // at the very centre along y where the normal can be y
     const V ey = r > 0.0 ? wy * y * per_r : wy, ez = r > 0.0 ? wz * z * per_r : wz * (1.0 - wy);
     at<V>(ny + i) = -(radial * ey + ly);
     at<V>(nz + i) = -(radial * ez + lz);
   }
-  return any;
 }
 
 } // namespace
@@ -136,6 +135,48 @@ FRETWORK_WIDTHS void gather(const GatherTable& g, const double* q, const double*
     gather_all<Pack>(g, q, v, u, w);
 }
 
+/// Pack p of u = G q: two sums, so that none waits for the other.
+template <class V> FRETWORK_INLINE void gather_pack(const GatherTable& g, int p, const double* q, double* u) {
+  V sum[2] = {};
+  const int end = g.begin[p + 1];
+  const auto add = [&](int k, int into) __attribute__((always_inline)) {
+    sum[into] += q[g.modes[k]] * at<V>(&g.values[static_cast<std::size_t>(k) * lanes]);
+  };
+  int k = g.begin[p];
+  for (; k + 1 < end; k += 2) {
+    add(k, 0);
+    add(k + 1, 1);
+  }
+  if (k < end)
+    add(k, 0);
+  at<V>(u + p * lanes) = sum[0] + sum[1];
+}
+
+FRETWORK_WIDTHS void gather(const GatherTable& g, const double* q, double* u) {
+  const int packs = static_cast<int>(g.begin.size()) - 1;
+  for (int p = 0; p < packs; ++p)
+    if (g.half)
+      gather_pack<Half>(g, p, q, u);
+    else
+      gather_pack<Pack>(g, p, q, u);
+}
+
+FRETWORK_WIDTHS void gather_at(const GatherTable& g, const Places& places, const double* v, double* w) {
+  const int packs = static_cast<int>(g.begin.size()) - 1, to_next_block = places.all.width / lanes;
+  int last = -1;
+  for (const int lane : places.first) {
+    const int first = lane / lanes;
+    if (first == last)
+      continue;
+    last = first;
+    for (int p = first; p < packs; p += to_next_block)
+      if (g.half)
+        gather_pack<Half>(g, p, v, w);
+      else
+        gather_pack<Pack>(g, p, v, w);
+  }
+}
+
 FRETWORK_WIDTHS void scatter(int np, int rows, const double* const* row, const double* factor, double* v) {
   for (int i = 0; i < np; i += lanes) {
     Pack s = at(v + i);
@@ -161,14 +202,18 @@ FRETWORK_WIDTHS EulerSums euler_step(int np, double h, const double* c, const do
   return {sum(energy), sum(power), sum(loss)};
 }
 
-FRETWORK_WIDTHS bool place(const LaneCount& contacts, const ReachLanes& reach, const double* uy,
-                           const double* uz, const double* vy, const double* vz, double half_window,
-                           double* gap, double* ny, double* nz, double* near) {
-  if (contacts.few())
-    return place_all<double>(contacts.count, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near);
-  if (contacts.half())
-    return place_all<Half>(size_of<Half>, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near);
-  return place_all<Pack>(contacts.width, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near);
+FRETWORK_WIDTHS void place(const ReachLanes& reach, const double* uy, const double* uz, const double* vy,
+                           const double* vz, double half_window, double* gap, double* ny, double* nz,
+                           double* near, Places& places) {
+  const LaneCount& all = places.all;
+  std::vector<int>& first = places.first;
+  first.clear();
+  if (all.few())
+    place_all<double>(all.count, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near, first);
+  else if (all.half())
+    place_all<Half>(size_of<Half>, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near, first);
+  else
+    place_all<Pack>(all.width, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near, first);
 }
 
 FRETWORK_WIDTHS void respond(int width, int directions, const double* columns, double ny, double nz,

@@ -49,6 +49,31 @@ void combine(int np, int sources, const double* shapes, const double* values, do
 /// sum of v^2 + k q^2 over modes: twice the energy.
 double twice_energy(int np, const double* k, const double* q, const double* v);
 
+/// How many contacts there are, and lanes: their number, padded.
+struct LaneCount {
+  int count = 0, width = 0;
+  /// So few that one after the other is faster than in packs, or half packs do.
+  [[nodiscard]] bool few() const { return count <= 2; }
+  [[nodiscard]] bool half() const { return count <= lanes / 2; }
+  /// Contacts taken at once.
+  [[nodiscard]] int together() const { return few() ? 1 : half() ? lanes / 2 : lanes; }
+};
+
+/// The places at which a step has something to do: first lanes of `together` contacts each, by increasing number.
+struct Places {
+  explicit Places(const LaneCount& contacts) : all(contacts) {
+    first.reserve(static_cast<std::size_t>(contacts.width));
+  }
+  /// That of a contact. Those of increasing contacts, one after the other.
+  void add_contact(int c) {
+    const int lane = c - c % all.together();
+    if (first.empty() || first.back() != lane)
+      first.push_back(lane);
+  }
+  LaneCount all;
+  std::vector<int> first;
+};
+
 /// A matrix of `lanes`-wide packs of rows, each with the columns (modes) that are not zero in it: contacts whose local axes lie along
 /// the planes of the modes meet half of them.
 struct GatherTable {
@@ -61,6 +86,10 @@ struct GatherTable {
 };
 /// u = G q and w = G v.
 void gather(const GatherTable& g, const double* q, const double* v, double* u, double* w);
+/// u = G q.
+void gather(const GatherTable& g, const double* q, double* u);
+/// w = G v of the packs that begin at one of the places, in every block of `width` lanes; the others stay.
+void gather_at(const GatherTable& g, const Places& places, const double* v, double* w);
 
 /// v += sum over r of factor[r] * row[r].
 void scatter(int np, int rows, const double* const* row, const double* factor, double* v);
@@ -75,14 +104,6 @@ struct EulerSums {
 EulerSums euler_step(int np, double h, const double* c, const double* k, const double* load,
                      const double* force, double* q, double* v);
 
-/// How many contacts there are, and lanes: their number, padded.
-struct LaneCount {
-  int count = 0, width = 0;
-  /// So few that one after the other is faster than in packs, or half packs do.
-  [[nodiscard]] bool few() const { return count <= 2; }
-  [[nodiscard]] bool half() const { return count <= lanes / 2; }
-};
-
 /// Contacts in lanes by their contact::Reach. Arrays of a vector quantity have blocks of `width` lanes: y of all contacts, z, x_loc; or
 /// along their own directions: n, t = n x x_loc, x_loc.
 struct ReachLanes {
@@ -92,11 +113,10 @@ struct ReachLanes {
 
 /// Gap and its gradient: contact::locate of every obstacle that is one formula, with e = (wy y, wz z)/r, r = sqrt(wy y^2 + wz z^2),
 ///     gap = limit - (radial r + ly y + lz z),   n = -(radial e + (ly, lz)).
-/// For a profile it is a lower bound of the gap (its inscribed circle). near[i] > 0 where gap <= half_window |v|, else 0. Normals are
-/// found in the packs in which some contact is near, the others keep theirs. Returns whether any is near.
-bool place(const LaneCount& contacts, const ReachLanes& reach, const double* uy, const double* uz,
-           const double* vy, const double* vz, double half_window, double* gap, double* ny, double* nz,
-           double* near);
+/// For a profile it is a lower bound of the gap (its inscribed circle). near[i] > 0 where gap <= half_window |v|, else 0; without a window
+/// velocities are not looked at. Normals are found in the `places` in which some contact is near, the others keep theirs.
+void place(const ReachLanes& reach, const double* uy, const double* uz, const double* vy, const double* vz,
+           double half_window, double* gap, double* ny, double* nz, double* near, Places& places);
 
 /// v = components of w along the contacts' own directions (2: n, t; 3: n, t, x_loc).
 void project(int width, int directions, const double* ny, const double* nz, const double* w, double* v);

@@ -72,6 +72,7 @@ public:
       given = flexible_->start(motion_);
     }
     memory_.start(motion_);
+    near_only_ = !flexible_ && carried_.u.empty() && !(solver_.window() > 0.0);
     record_.energy.initial = record_.energy.throughput = moving + motion_.spring_energy() + given;
     after_action_ = moving;
     record_.step = h_;
@@ -193,15 +194,25 @@ private:
     record_.energy.stored = moving_;
   }
 
-  /// The contacts act.
-  void act() {
+  /// Where the contacts stand and the forces of the action.
+  ContactSolver::Action solve() {
+    if (near_only_) {
+      motion_.gather_near(q_.data(), v_.data(), memory_.closed());
+      memory_.follow(motion_, 0.5 * h_);
+      return solver_.solve_near(memory_, motion_, trial_);
+    }
     motion_.gather(q_.data(), v_.data());
     obstacles_.at(time_, carried_);
     carried_.add_to(motion_);
-    if (!flexible_) // whose contacts move at once by their own forces
-      memory_.follow(motion_, 0.5 * h_);
-    const auto action =
-        flexible_ ? flexible_->solve(memory_, motion_, trial_) : solver_.solve(memory_, motion_, trial_);
+    if (flexible_) // whose contacts move at once by their own forces
+      return flexible_->solve(memory_, motion_, trial_);
+    memory_.follow(motion_, 0.5 * h_);
+    return solver_.solve(memory_, motion_, trial_);
+  }
+
+  /// The contacts act.
+  void act() {
+    const auto action = solve();
     unconverged_ += !action.converged;
     const double springs_before = memory_.spring_energy();
     paths_.correct(trial_);
@@ -238,6 +249,8 @@ private:
   ContactMemory memory_;
   ContactSolver solver_;
   std::optional<FlexibleContacts> flexible_; ///< instead of it
+  bool near_only_ =
+      false; ///< only displacements tell which contacts act: velocities of the others are not asked for
   ContactTrial trial_;
   SlidingPaths paths_;
   ContactRows rows_; ///< impulses of the last action

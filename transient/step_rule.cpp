@@ -28,25 +28,28 @@ constexpr double most_stuck = 0.5;
 constexpr double most_implicit = 4.0;
 /// Of a damper's rate times the step of devogelaere, whose limit is 0.59.
 constexpr double most_damped = 0.5;
-/// The step of an accuracy of 0.04 (w_c h = 0.9) is the longest: no statistics are worth having above it.
-constexpr double coarsest_accuracy = 0.04;
+/// The step of an accuracy of 0.02 (w_c h = 1) is the longest: no statistics are worth having above it.
+constexpr double coarsest_accuracy = 0.02;
+/// w_c h of splitting at an accuracy of 0.01 where modes are made heavier: impulses on modes of w h near 2.5 cost energy that grows with h^2
+/// (damping of the modes 12 % too high at w_c h = 0.7, 4 % here), and the modes that are left as they are reach further above w_c.
+constexpr double contact_share_with_scaling = 0.45;
 /// Steps of splitting that one of collocation takes the time of: measured 4 to 5 with 3 supports, 7 to 9 with 8 and 10; 8 to 13 where a
 /// damping matrix couples 40 or 80 modes (matrix_flow.hpp).
 double collocation_cost(const Scene& scene) {
   const double contacts = 3.5 + 0.5 * static_cast<double>(scene.contacts.size());
   return scene.system.damping_matrix.size() > 0 ? std::max(contacts, 10.0) : contacts;
 }
-/// w_c h, w_t h and r_t h at an accuracy of 0.01. Measured on rattling tubes (bench_statistics), work rates: with splitting 0.7 % low at
-/// w_c h = 0.5, and where contacts stick without much damping (stick_time) 3 % low at w_t h = 0.5, 0.9 % at 0.25, for they start to slide
+/// w_c h, w_t h and r_t h at an accuracy of 0.01. Measured on rattling tubes (bench_statistics), work rates: with splitting 0.2 % high to
+/// 0.9 % low at w_c h = 0.7, and where contacts stick without much damping (stick_time) 3 % low at w_t h = 0.5, 0.9 % at 0.25, for they start to slide
 /// inside steps; with collocation these are off by 2.8 % at 1, 1.4 % at 0.5.
-/// Of r_t h, where dampers are implicit: above 2 a step turns the speed of a sticking contact round, a fifth of it at 3.
+/// Of r_t h, where dampers are implicit: above 2 a step turns the speed of a sticking contact round, a third of it at 4.
 struct Shares {
   double contact, stick, damper;
 };
 Shares shares(SchemeKind scheme) {
   switch (scheme) {
   case SchemeKind::splitting:
-    return {0.45, 0.25, 3.0};
+    return {0.7, 0.25, 4.0};
   case SchemeKind::collocation:
     return {0.5, 0.5, 2.0};
   default:
@@ -154,7 +157,11 @@ void warn(StepChoice& c) {
   add(c.damper_rate * c.step, exact ? most_implicit : damped, "r_t h", "the tangential dampers");
   add(c.explicit_rate * c.step, damped, "r_e h", "the dampers");
   if (!collocation)
-    add(c.highest_mode * c.step, exact ? 3.0 : 1.8, "w_max h", "the highest mode");
+    add(c.highest_mode * c.step,
+        c.scheme == SchemeKind::splitting ? 2.75
+        : exact                           ? 3.0
+                                          : 1.8,
+        "w_max h", "the highest mode");
   if (c.table_interval > 0.0)
     add(c.step / c.table_interval, 1.0, "h/interval", "the shortest interval of a table");
   add(c.excitation * c.step * 20.0, 2.0, "20 f h", "the excitation");
@@ -228,9 +235,17 @@ void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
   if (c.scheme == SchemeKind::splitting && !scene.contacts.empty() && c.highest_mode > 0.0) {
     const Term modes = mode_term(c, true, fineness);
     const double most = modes.limit * c.highest_mode;
-    if (modes.limit < c.step && may_scale(scene, most / c.step, accuracy))
-      followed = most;
-    else
+    if (modes.limit < c.step) {
+      const Term scaled{
+          std::max(modes.limit, contact_share_with_scaling * fineness / c.contact_frequency),
+          fmt::format("the contact frequency {:.4g} rad/s, with modes far above it,", c.contact_frequency)};
+      const double step = std::min(c.step, scaled.limit);
+      if (step > modes.limit && may_scale(scene, most / step, accuracy)) {
+        limit(scaled);
+        followed = most;
+      }
+    }
+    if (followed == 0.0)
       limit(modes);
   }
   if (accuracy < asked)

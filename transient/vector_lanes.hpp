@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// Vector lanes for kernels: packs of `lanes` doubles, and one copy of a function for each width of vector unit, chosen when the
-/// program starts. Included by the files of kernels only.
+/// program starts. Included by files of kernels only, not by headers.
 #pragma once
 #include "transient/kernels.hpp"
 
@@ -42,6 +42,13 @@ FRETWORK_INLINE double largest(const Half& p) {
 }
 FRETWORK_INLINE double sum(double p) { return p; }
 FRETWORK_INLINE double largest(double p) { return p; }
+FRETWORK_INLINE double root(double x) { return __builtin_sqrt(x); }
+template <class V> FRETWORK_INLINE V root(const V& x) {
+  V r{};
+  for (int l = 0; l < size_of<V>; ++l)
+    r[l] = __builtin_sqrt(x[l]);
+  return r;
+}
 template <class V> FRETWORK_INLINE V magnitude(const V& p) { return p < 0.0 ? -p : p; }
 
 } // namespace fretwork::transient::kernels

@@ -70,9 +70,9 @@ TEST(FlexibleContacts, KeepOrderTwo) {
   for (const Law& law : laws) {
     Scene s = pressed_on_a_circle(law.normal, 1.0, law.friction, law.velocity);
     s.residual = flexibility;
-    const Motion finest = motion(s, splitting(s.duration / 8192.0));
-    const auto coarse = apart(motion(s, splitting(s.duration / 128.0)), finest),
-               fine = apart(motion(s, splitting(s.duration / 1024.0)), finest);
+    const Motion finest = motion(s, splitting(s.duration / 16384.0));
+    const auto coarse = apart(motion(s, splitting(s.duration / 256.0)), finest),
+               fine = apart(motion(s, splitting(s.duration / 2048.0)), finest);
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_GT(std::log2(coarse[i] / fine[i]) / 3.0, 1.8)
           << law.name << " " << i << " " << coarse[i] << " " << fine[i];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plain_schemes.hpp"
+#include "contact/instant_spring.hpp"
 #include "transient/oscillator.hpp"
 #include <vector>
 
@@ -18,7 +19,7 @@ struct Point {
   contact::FrictionMemory memory{};
   double ny = 0.0, nz = 0.0; ///< normal now
   double last_ny = 0.0, last_nz = 0.0;
-  double mean = 0.0, closed = 0.0, normal = 0.0;
+  double spring = 0.0, damping = 0.0, normal = 0.0;
   Vec3 push = Vec3::Zero(); ///< F_N n at the last step
   contact::Friction friction{};
   bool was_closed = false;                           ///< at the last action, and then:
@@ -104,8 +105,7 @@ void sweep(std::vector<Point*>& shut, double h, Eigen::VectorXd& mean_velocity) 
     // the normal force before the friction: the order of a block of the sweep
     const Vec3 tangential = p->force() - p->normal * p->n();
     const double rate = -p->n().dot(b * mean_velocity + mobility * tangential);
-    p->normal = contact::NormalStep(p->at.support.normal, p->mean, p->closed, p->n().dot(mobility * p->n()))
-                    .force(rate);
+    p->normal = contact::NormalStep(p->spring, p->damping, p->n().dot(mobility * p->n())).force(rate);
     if (p->at.support.friction.active()) {
       const Vec3 free = b * mean_velocity + mobility * (p->normal * p->n());
       const Vec3 t = p->t();
@@ -120,7 +120,6 @@ void sweep(std::vector<Point*>& shut, double h, Eigen::VectorXd& mean_velocity) 
 } // namespace
 
 PlainState plain_splitting(const Scene& scene, double h, int steps) {
-  constexpr double window = 0.7;
   constexpr int sweeps = 200; // far past convergence
   const auto signals = signals_of(scene);
   auto points = points_of(scene, h);
@@ -134,12 +133,15 @@ PlainState plain_splitting(const Scene& scene, double h, int steps) {
     for (Point& p : points) {
       p.follow(p.at.b * s.q, p.at.b * s.v, h);
       p.was_closed = false;
-      const double depth = p.locate(p.at.b * s.q), reach = -0.5 * window * h * p.n().dot(p.at.b * s.v);
-      p.mean = contact::mean_penetration(depth - reach, depth + reach);
-      p.closed = contact::closed_share(depth - reach, depth + reach);
+      const contact::NormalLaw& law = p.at.support.normal;
+      const double depth = p.locate(p.at.b * s.q), rate = -p.n().dot(p.at.b * s.v);
+      const double closed = contact::closed_share(depth - 0.5 * h * rate, depth + 0.5 * h * rate);
+      const double mobility = 0.5 * h * (p.at.b.transpose() * p.n()).squaredNorm();
+      p.spring = depth > 0.0 ? contact::InstantSpring(law.stiffness, mobility, h).force(depth, rate) : 0.0;
+      p.damping = (law.damping > 0.0 ? closed * law.damping : 0.0) + law.dissipation * p.spring;
       p.normal = 0.0;
       p.friction = {};
-      if (p.mean > 0.0) {
+      if (depth > 0.0 || p.damping > 0.0) {
         p.turn_memory();
         shut.push_back(&p);
       } else {
