@@ -91,7 +91,9 @@ bool FlexibleContacts::act(const ContactMemory* memory, ContactMotion& motion) {
   std::fill(given_.begin(), given_.end(), 0.0);
   bare_ = motion.u;
   differentiate();
-  if (!quiet_)
+  if (quiet_)
+    std::fill(guess_.begin(), guess_.end(), 0.0); // and not what `start` or another run has left
+  else
     foretell(motion);
   const bool near = motion.find_near(half_window_);
   if (!near && quiet_)
