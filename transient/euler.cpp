@@ -34,7 +34,7 @@ public:
     obstacles_.at(0.0, carried_);
     carried_.add_to(motion_);
     memory_.start(motion_);
-    loads_.at(0.0, load_.data());
+    loads_.at(0.0, {0.0, h_}, load_.data());
     record_.step = h_;
   }
 
@@ -46,7 +46,7 @@ public:
     const Contacts contact = act();
     double damper_power = apply_damping_matrix();
     if (!loads_.constant())
-      loads_.at(record_.time, load_.data());
+      loads_.at(record_.time, {record_.time, record_.time + h_}, load_.data());
     const auto sums = kernels::euler_step(contacts_.padded_modes, h_, c_.data(), k_.data(), load_.data(),
                                           force_.data(), q_.data(), v_.data());
     damper_power += sums.damping_power;

@@ -31,6 +31,12 @@ void LoadSum::at(double time, double* force) {
   combine(force);
 }
 
+void LoadSum::at(double time, Signal::Window window, double* force) {
+  for (std::size_t s = 0; s < signals_.size(); ++s)
+    values_[s] = signals_[s].over_step(time, step_, window);
+  combine(force);
+}
+
 void LoadSum::instant(double time, double* force) {
   for (std::size_t s = 0; s < signals_.size(); ++s)
     values_[s] = signals_[s](time);

@@ -15,8 +15,10 @@ public:
   [[nodiscard]] bool empty() const { return signals_.empty(); }
   /// True where the force never changes.
   [[nodiscard]] bool constant() const { return constant_; }
-  /// Modal force of the step about a time, padded. No allocation.
+  /// Modal force of the step about a time, at the start of the half step after it, padded. No allocation.
   void at(double time, double* force);
+  /// Modal force at a time that stands for another window, padded. No allocation.
+  void at(double time, Signal::Window window, double* force);
   /// Modal force at an instant, padded. No allocation.
   void instant(double time, double* force);
 

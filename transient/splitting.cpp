@@ -60,7 +60,8 @@ public:
     std::copy_n(scene.q0.data(), scene.q0.size(), q_.begin());
     std::copy_n(scene.v0.data(), scene.v0.size(), v_.begin());
     std::copy_n(system_.stiffness.data(), system_.size(), k_.begin());
-    loads_.at(0.0, f_now_.data());
+    // With the slopes from the start to h/2 and on to 3h/2 the first two forces weigh h/4 and 3h/4: both stand for the first step.
+    loads_.at(0.0, {0.0, step}, f_now_.data());
     const double moving =
         0.5 * kernels::twice_energy(contacts_.padded_modes, k_.data(), q_.data(), v_.data());
     motion_.gather(q_.data(), v_.data());

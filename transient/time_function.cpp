@@ -138,15 +138,17 @@ double Signal::operator()(double time) const {
 }
 
 double Signal::over_step(double time, double h) const {
+  return over_step(time, h, {std::max(0.0, time - 0.5 * h), time + 0.5 * h});
+}
+
+double Signal::over_step(double time, double h, Window window) const {
   if (const auto* table = std::get_if<Table>(&function_)) {
-    const double from = time - 0.5 * h, to = time + 0.5 * h;
     const auto begin = table->time.begin(), end = table->time.end();
-    // windows that meet a short interval hold one of its ends; intervals of h are not short, whatever their round-off
-    const double shorter = h * (1.0 - 1e-9);
-    for (auto point = std::lower_bound(begin, end, from); point != end && *point <= to; ++point)
-      if ((point != begin && *point - *(point - 1) < shorter) ||
-          (point + 1 != end && *(point + 1) - *point < shorter))
-        return mean(*table, from, to);
+    const double shorter = h * (1.0 - 1e-9); // intervals of h are not short, whatever their round-off
+    for (auto after = std::max(std::lower_bound(begin, end, window.from), begin + 1);
+         after < end && *(after - 1) <= window.to; ++after)
+      if (*after - *(after - 1) < shorter)
+        return mean(*table, window.from, window.to);
   }
   return (*this)(time);
 }

@@ -52,8 +52,14 @@ public:
   /// Value at `time` (from the right at a jump). No allocation.
   [[nodiscard]] double operator()(double time) const;
 
-  /// Value that stands for a step of length h about `time`: the value there, but where an interval of a table that is
-  /// shorter (a jump: 0) meets the step the mean over the step: windows of h side by side keep the impulse. No allocation.
+  /// Span of time that a value stands for, s.
+  struct Window {
+    double from, to;
+  };
+  /// Value that stands for a window of steps of length h: that at `time`, but where an interval of a table that is
+  /// shorter (a jump: 0) meets the window the mean over the window: windows side by side keep the impulse. No allocation.
+  [[nodiscard]] double over_step(double time, double h, Window window) const;
+  /// The same for the window of h about `time`; at the start of the run for its half within the run.
   [[nodiscard]] double over_step(double time, double h) const;
 
   /// Of a random signal: values and slopes times grid_step(), interleaved, of the cubic pieces from t = 0. Else empty.
