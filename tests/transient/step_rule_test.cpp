@@ -138,6 +138,21 @@ TEST(StepRule, FollowsTheIntervalsOfATableButNotItsJumps) {
   EXPECT_TRUE(mentions(choose_step(scene, splitting()).reason, "at least 20000 steps"));
 }
 
+TEST(StepRule, TakesGivenStepsOfTheIntervalsOfATable) {
+  Scene scene = scene_with({Circle{0.1}, {2.0}, {}}, 1.0);
+  constexpr double interval = 1e-3;
+  Table table; // sampled evenly: differences of its times are shorter and longer than the interval by round-off
+  for (int k = 0; k <= 1000; ++k) {
+    table.time.push_back(interval * k);
+    table.value.push_back(std::sin(0.1 * k));
+  }
+  scene.loads = {force_on(mass, Vec3(1, 0, 0), table)};
+  EXPECT_TRUE(choose_step(scene, splitting(interval)).warnings.empty());
+  const auto warnings = choose_step(scene, splitting(1.01 * interval)).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(mentions(warnings[0], "the shortest interval of a table"));
+}
+
 TEST(StepRule, RefusesStepsWithoutNumber) {
   const Scene stiff = scene_with({Circle{0.1}, {1e40}, {}});
   EXPECT_THROW((void)choose_step(stiff, splitting()), fretwork::core::Error);
