@@ -49,7 +49,8 @@ void MotionRates::place(double time, const double* y) {
 
 void MotionRates::rate(double time, const double* y, double* rate) {
   if (!loaded_ || !loads_.constant())
-    smeared_ > 0.0 ? loads_.at(time, load_.data()) : loads_.instant(time, load_.data());
+    smeared_ > 0.0 ? loads_.at(time, load_.data())
+                   : loads_.instant(std::min(time, last_instant_), load_.data());
   loaded_ = true;
   structure(y, rate);
   std::fill_n(rate + 2 * modes(), size() - 2 * modes(), 0.0);

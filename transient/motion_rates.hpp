@@ -20,6 +20,8 @@
 #include "transient/contact_trial.hpp"
 #include "transient/load_sum.hpp"
 #include "transient/obstacle_motion.hpp"
+#include <cmath>
+#include <limits>
 
 namespace fretwork::transient {
 
@@ -47,6 +49,8 @@ public:
 
   /// The state at t = 0, whose regimes are those of the laws.
   void start(double* y);
+  /// Instants at and after `time` see the loads as they come to it from before: of a jump there the value before it.
+  void take_loads_before(double time) { last_instant_ = std::nextafter(time, 0.0); }
   /// No allocation.
   void rate(double time, const double* y, double* rate);
   /// Accepts the state that `rate` was called for last: sets the springs that are set once a step, forgets those of the opposite face and
@@ -110,6 +114,7 @@ private:
   System system_;
   LoadSum loads_;
   double smeared_;
+  double last_instant_ = std::numeric_limits<double>::infinity(); ///< s, of loads
   PackedContacts contacts_;
   ContactMotion motion_, difference_;
   ObstacleMotion obstacles_;

@@ -2,7 +2,8 @@
 /// @file
 /// The pair of Dormand and Prince (dormand_prince.hpp) on the plain rates of the motion (motion_rates.hpp): adaptive, explicit, with steps
 /// that end where a contact closes, opens, starts to slide or sticks (contact_events.hpp). Order 5 between events. It is the oracle:
-/// six evaluations of the contacts a step, all modes resolved.
+/// six evaluations of the contacts a step, all modes resolved. Steps also end at the points of tables, where loads bend and jump: no step
+/// passes over a pulse, and between points the tolerance is met as that of a smooth load, from rest too.
 ///
 /// Error of a step, e the estimate: ||e|| <= tolerance sqrt(2 E), with the energy of the error in modes, springs of friction and springs of
 /// closed contacts,  ||e||^2 = sum (e_v^2 + k e_q^2) + sum |e_T|^2/K_T + sum K_N |e_u|^2,  and E the largest of kinetic, strain and friction
@@ -20,6 +21,7 @@
 #include "transient/end_record.hpp"
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace fretwork::transient {
@@ -34,14 +36,34 @@ constexpr double finest =
     16.0 * std::numeric_limits<double>::epsilon(); ///< step over duration: below it time + h is round-off
 constexpr double crowding = 1e-3;                  ///< an event within this share of the step crowds
 
+/// Where tables have points within the run, and the end of the run, s, increasing.
+std::vector<double> stops_of(const Scene& scene) {
+  std::vector<double> stops;
+  const auto add = [&](const TimeFunction& function) {
+    if (const auto* table = std::get_if<Table>(&function))
+      std::copy_if(table->time.begin(), table->time.end(), std::back_inserter(stops),
+                   [&](double t) { return t > 0.0 && t < scene.duration; });
+  };
+  for (const Load& load : scene.loads)
+    if (!load.modal_force.isZero(0.0))
+      add(load.function);
+  for (const PrescribedMotion& motion : scene.motions)
+    add(motion.acceleration);
+  stops.push_back(scene.duration);
+  std::sort(stops.begin(), stops.end());
+  stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
+  return stops;
+}
+
 class RungeKutta54 final : public Scheme {
 public:
   RungeKutta54(const Scene& scene, double tolerance, double longest)
       : n_(scene.system.size()), duration_(scene.duration), tolerance_(tolerance), longest_(longest),
-        next_h_(first_share * longest), rates_(scene, 0.0), record_(rates_), step_(rates_.size()),
-        events_(rates_), most_events_(8 + 4 * rates_.contacts().count) {
+        stops_(stops_of(scene)), next_h_(first_share * longest), rates_(scene, 0.0), record_(rates_),
+        step_(rates_.size()), events_(rates_), most_events_(8 + 4 * rates_.contacts().count) {
     rates_.start(step_.start());
     rates_.locate_regimes(true);
+    aim();
     evaluate_start();
     record_.prepare(rates_, step_.start(), 0.0);
     step_.extend(0.0);
@@ -81,9 +103,15 @@ public:
   void visit(core::StateArchive& state) override {
     state(time_, begin_, h_, next_h_, last_error_, largest_, rates_, record_, step_, crowded_, counts_,
           failure_);
+    aim();
   }
 
 private:
+  /// At the next stop, up to which loads are smooth.
+  void aim() {
+    stop_ = *std::upper_bound(stops_.begin(), stops_.end() - 1, time_);
+    rates_.take_loads_before(stop_);
+  }
   void evaluate_start() {
     rates_.rate(time_, step_.start(), step_.start_rate());
     count_evaluations(1);
@@ -151,9 +179,9 @@ private:
     evaluate_start();
   }
 
-  /// The last step ends with the run: one that would leave a crumb takes it along, or shares it.
+  /// Steps end at stops: one that would leave a crumb takes it along, or shares it.
   [[nodiscard]] double limited(double h) const {
-    const double rest = duration_ - time_;
+    const double rest = stop_ - time_;
     h = std::min(h, longest_);
     return h >= rest ? rest : 2.0 * h > rest ? 0.5 * rest : h;
   }
@@ -161,13 +189,16 @@ private:
   void control(double h, double err, bool rejected) {
     const double factor =
         safety * std::pow(std::max(err, 1e-12), -proportional) * std::pow(last_error_, integral);
-    next_h_ = h * std::clamp(factor, most_shrinking, rejected ? 1.0 : most_growth);
+    const double found = h * std::clamp(factor, most_shrinking, rejected ? 1.0 : most_growth),
+                 wish = std::min(next_h_, longest_);
+    next_h_ = h < wish ? std::max(found, wish) : found; // a stop tells nothing about the steps after it
     last_error_ = std::max(err, least_memory);
   }
 
   void accept(double h, const std::optional<ContactEvent>& event, bool located) {
     h_ = h;
-    time_ = h == duration_ - time_ ? duration_ : time_ + h;
+    const bool stops = h == stop_ - time_;
+    time_ = stops ? stop_ : time_ + h;
     rates_.commit(step_.end());
     if (event)
       ContactEvents::apply(*event, rates_, step_.end());
@@ -175,7 +206,8 @@ private:
     record_.prepare(rates_, step_.end(), time_);
     largest_ = std::max(largest_, rates_.moving_energy(step_.end()));
     step_.advance();
-    if (event || !located || rates_.sets_springs())
+    aim();
+    if (stops || event || !located || rates_.sets_springs())
       evaluate_start();
     counts_.step_min = counts_.steps == 0 ? h : std::min(counts_.step_min, h);
     counts_.step_max = std::max(counts_.step_max, h);
@@ -184,6 +216,8 @@ private:
 
   Eigen::Index n_;
   double duration_, tolerance_, longest_;
+  std::vector<double> stops_;
+  double stop_ = 0.0; ///< s: the first after time_
   double time_ = 0.0, begin_ = 0.0, h_ = 0.0,
          next_h_; ///< the step made last runs over h_ from begin_ to time_
   double last_error_ = least_memory, largest_ = 0.0;

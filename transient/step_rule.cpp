@@ -104,12 +104,12 @@ std::vector<Term> terms(const StepChoice& c, const Scene& scene, double fineness
   };
   const double points = (contacts ? points_per_period : linear_points_per_period) / fineness;
   add(1.0 / points, c.excitation, fmt::format("the excitation ({:.4g} Hz)", c.excitation));
+  // its steps follow its tolerance and end at the points of tables: it only must not step over what other loads do
+  if (c.scheme == SchemeKind::runge_kutta_54)
+    return out;
   if (c.table_interval > 0.0)
     out.push_back(
         {c.table_interval, fmt::format("the shortest interval of a table ({:.4g} s)", c.table_interval)});
-  if (c.scheme ==
-      SchemeKind::runge_kutta_54) // its steps follow its tolerance: it only must not step over what loads do
-    return out;
   const bool devogelaere = c.scheme == SchemeKind::devogelaere;
   const double damped = devogelaere ? std::min(eps, most_damped) : eps;
   const Shares share = shares(c.scheme);
@@ -163,7 +163,8 @@ void warn(StepChoice& c) {
                                           : 1.8,
         "w_max h", "the highest mode");
   if (c.table_interval > 0.0)
-    add(c.step / c.table_interval * (1.0 - 1e-9), 1.0, "h/interval", // of equal ones round-off leaves a shorter
+    add(c.step / c.table_interval * (1.0 - 1e-9), 1.0,
+        "h/interval", // of equal ones round-off leaves a shorter
         "the shortest interval of a table");
   add(c.excitation * c.step * 20.0, 2.0, "20 f h", "the excitation");
 }

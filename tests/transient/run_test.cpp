@@ -211,8 +211,9 @@ TEST(Euler, WithADiagonalDampingMatrixGivesWhatItsDiagonalGives) {
 
 TEST(Run, KeepsTheImpulseOfPulsesShorterThanSteps) {
   constexpr double round_off = 1e-12, mass = 2.0, impulse = 3.0, h = 1e-3, half = 2e-4;
-  for (const SchemeKind kind : {SchemeKind::splitting, SchemeKind::collocation, SchemeKind::euler,
-                                SchemeKind::energy_conserving, SchemeKind::devogelaere})
+  for (const SchemeKind kind :
+       {SchemeKind::splitting, SchemeKind::collocation, SchemeKind::euler, SchemeKind::energy_conserving,
+        SchemeKind::devogelaere, SchemeKind::runge_kutta_54})
     for (int phase = 0; phase < 60;
          ++phase) { // among the steps, their ends and middles too; in the first two and later
       const double t = (phase < 40 ? half : 0.02) + h * (phase % 40) / 20.0;
@@ -231,8 +232,9 @@ TEST(Run, KeepsTheImpulseOfPulsesShorterThanSteps) {
 
 TEST(Run, TakesNoImpulseFromBeforeItsStart) {
   constexpr double round_off = 1e-12, mass = 2.0, impulse = 3.0, h = 1e-3;
-  for (const SchemeKind kind : {SchemeKind::splitting, SchemeKind::collocation, SchemeKind::euler,
-                                SchemeKind::energy_conserving, SchemeKind::devogelaere})
+  for (const SchemeKind kind :
+       {SchemeKind::splitting, SchemeKind::collocation, SchemeKind::euler, SchemeKind::energy_conserving,
+        SchemeKind::devogelaere, SchemeKind::runge_kutta_54})
     for (const double length : {1e-6, 0.1 * h, 0.4 * h, 0.8 * h}) {
       Scene scene = mass_point(mass, Vec3::Zero(), 0.05);
       scene.loads = {

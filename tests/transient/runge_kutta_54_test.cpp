@@ -96,6 +96,30 @@ TEST(RungeKutta54, IsAsAccurateAsItsTolerance) {
   }
 }
 
+TEST(RungeKutta54, EndsStepsWhereTablesBendAndJump) {
+  // from rest: a ramp and a jump back, then a pulse that no step would meet, on w = 40 rad/s
+  constexpr double w = 40.0, duration = 0.3, ramp = 0.1, jump = 0.16, pulse = 0.2345, width = 1e-9,
+                   impulse = 0.02;
+  Scene s = mass_point(1.0, Vec3(0, w * w, 0), duration);
+  s.loads = {force_on(1.0, Vec3(0, 1.0, 0),
+                      Table{{0.0, ramp, jump, jump, pulse - width, pulse, pulse + width, 1.0},
+                            {0.0, 0.0, 1.0, -0.5, -0.5, impulse / width, -0.5, -0.5}})};
+  const auto of_ramp = [&](double t) {
+    return t < 0.0 ? 0.0 : (t - std::sin(w * t) / w) / (w * w * (jump - ramp));
+  };
+  const auto of_step = [&](double t) { return t < 0.0 ? 0.0 : (1.0 - std::cos(w * t)) / (w * w); };
+  const History run = simulate(s, adaptive(1e-8), 1e-3);
+  EXPECT_EQ(run.report.outcome, Outcome::done);
+  EXPECT_LT(run.report.counts.steps + run.report.counts.rejected, 400); // 200 at least
+  constexpr double tolerance = 1e-6;                                    // of about 1e-3
+  for (Eigen::Index j = 0; j < run.time.size(); ++j) {
+    const double t = run.time(j), after = t - pulse;
+    const double q = of_ramp(t - ramp) - of_ramp(t - jump) - 1.5 * of_step(t - jump) +
+                     (after < 0.0 ? 0.0 : impulse * std::sin(w * after) / w);
+    EXPECT_NEAR(run.q(1, j), q, tolerance * 1e-3) << t;
+  }
+}
+
 TEST(RungeKutta54, IsNotDrivenByAModeThatDoesNotMove) {
   Scene scene = impact(1, 0.02), with_silent = scene;
   with_silent.system.stiffness(2) = 1e4; // along z_loc, where nothing acts

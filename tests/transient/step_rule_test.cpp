@@ -141,7 +141,8 @@ TEST(StepRule, FollowsTheIntervalsOfATableButNotItsJumps) {
 TEST(StepRule, TakesGivenStepsOfTheIntervalsOfATable) {
   Scene scene = scene_with({Circle{0.1}, {2.0}, {}}, 1.0);
   constexpr double interval = 1e-3;
-  Table table; // sampled evenly: differences of its times are shorter and longer than the interval by round-off
+  Table
+      table; // sampled evenly: differences of its times are shorter and longer than the interval by round-off
   for (int k = 0; k <= 1000; ++k) {
     table.time.push_back(interval * k);
     table.value.push_back(std::sin(0.1 * k));
