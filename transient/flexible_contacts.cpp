@@ -21,6 +21,8 @@ constexpr int most_full = 60;
 constexpr double damped = 0.5;
 /// Angle below which they do not: less than what the step leaves by some digits.
 constexpr double turn_tolerance = 1e-7;
+/// Share of a depth by which the gap falls, below which another part of a profile is nearest there.
+constexpr double same_part = 1.0 - 1e-6;
 /// Each place found at the start is nearer by the share of R F_N in the obstacle's radius: to the last digit, or nearly so.
 constexpr int most_places = 50;
 
@@ -91,9 +93,10 @@ bool FlexibleContacts::act(const ContactMemory* memory, ContactMotion& motion) {
   std::fill(given_.begin(), given_.end(), 0.0);
   bare_ = motion.u;
   differentiate();
-  if (quiet_)
-    std::fill(guess_.begin(), guess_.end(), 0.0); // and not what `start` or another run has left
-  else
+  if (quiet_) { // and not what `start` or another run has left
+    std::fill(guess_.begin(), guess_.end(), 0.0);
+    std::fill(own_.begin(), own_.end(), 0.0);
+  } else
     foretell(motion);
   const bool near = motion.find_near(half_window_);
   if (!near && quiet_)
@@ -159,11 +162,27 @@ void FlexibleContacts::foretell(ContactMotion& motion) {
     motion.u[lane] += given_[lane];
 }
 
+/// Gap of a contact where it stands in `motion`, by the normal there; of a profile by that where its own normal force takes it back to: deeper
+/// another part may be nearest.
+contact::Location FlexibleContacts::face_at(int c, ContactMotion& motion) const {
+  if (!std::holds_alternative<contact::Profile>(contacts_.supports[c].obstacle))
+    return motion.locate(c);
+  double &y = motion.u[c], &z = motion.u[contacts_.width + c];
+  const double deep_y = y, deep_z = z, own_y = own_[c], own_z = own_[contacts_.width + c];
+  y += own_y;
+  z += own_z;
+  auto at = motion.locate(c);
+  at.gap -= at.ny * own_y + at.nz * own_z;
+  y = deep_y;
+  z = deep_z;
+  return at;
+}
+
 /// A contact where it stands in `motion`, moved there by `given_`.
-void FlexibleContacts::take(int c, const ContactMotion& motion) {
+void FlexibleContacts::take(int c, ContactMotion& motion) {
   const contact::Support& support = contacts_.supports[c];
   const int width = contacts_.width;
-  const auto at = motion.locate(c);
+  const auto at = face_at(c, motion);
   Shut& s = shut_.emplace_back();
   s.contact = c;
   s.friction = !still_ && support.friction.active();
@@ -229,11 +248,19 @@ double FlexibleContacts::at_instant(const Shut& s, double p0) const {
 double FlexibleContacts::turn(std::size_t i, ContactMotion& motion) {
   Shut& s = shut_[i];
   const int y = s.contact, z = y + contacts_.width;
-  const double by_y = give_[3 * i] - s.deeper * s.force[0] * s.ny,
-               by_z = give_[3 * i + 1] - s.deeper * s.force[0] * s.nz;
-  motion.u[y] = bare_[y] + by_y;
-  motion.u[z] = bare_[z] + by_z;
-  const auto at = motion.locate(s.contact);
+  const auto locate = [&](double depth, double ny, double nz) {
+    motion.u[y] = bare_[y] + give_[3 * i] - depth * ny;
+    motion.u[z] = bare_[z] + give_[3 * i + 1] - depth * nz;
+    return motion.locate(s.contact);
+  };
+  double depth = s.deeper * s.force[0];
+  if (std::holds_alternative<contact::Profile>(contacts_.supports[s.contact].obstacle)) {
+    const auto here = locate(0.0, 0.0, 0.0);
+    if (here.gap - locate(depth, here.ny, here.nz).gap < same_part * depth)
+      depth = 0.0;
+  }
+  const auto at = locate(depth, s.ny, s.nz);
+  const double by_y = give_[3 * i] - depth * s.ny, by_z = give_[3 * i + 1] - depth * s.nz;
   const double turned = std::hypot(at.ny - s.ny, at.nz - s.nz);
   if (turned > turn_tolerance) {
     const Eigen::Vector3d before = force(s);

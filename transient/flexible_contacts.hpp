@@ -19,7 +19,8 @@
 /// Normals turn with the forces: where R f is far above the gap, forces that only the last steps tell would swing round a hole. The
 /// normal at a place is that at u - r F_N n, r the largest eigenvalue of the contact's own R across x_loc, which lies on it, deeper: a
 /// round hole gives n = N(B q + (R - r) f), whose own part is a contraction at any r F_N, and nothing at all where R is the same along
-/// y and z. At corners of profiles normals are held after some sweeps.
+/// y and z. Deeper in a profile another part may be nearest, past a corner that protrudes: there the place itself gives the normal (a facet
+/// needs no contraction), and a step starts from the normal where the forces foretold take the contact. Normals are held after some sweeps.
 ///
 /// Energy: f.R f/2 is stored.
 #pragma once
@@ -70,7 +71,8 @@ private:
   [[nodiscard]] bool act(const ContactMemory* memory, ContactMotion& motion);
   void differentiate();
   void foretell(ContactMotion& motion);
-  void take(int c, const ContactMotion& motion);
+  [[nodiscard]] contact::Location face_at(int c, ContactMotion& motion) const;
+  void take(int c, ContactMotion& motion);
   [[nodiscard]] bool recruit(ContactMotion& motion);
   void along(const Shut& s, const kernels::Array& lanes, double* to) const;
   [[nodiscard]] double at_instant(const Shut& s, double p0) const;

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <numbers>
+#include <vector>
 
 using namespace fretwork;
 using namespace fretwork::tests;
@@ -17,6 +19,27 @@ const Eigen::Matrix3d flexibility =
     5e-4 * (Eigen::Matrix3d() << 1.0, 0.3, -0.2, 0.3, 1.2, 0.4, -0.2, 0.4, 0.9).finished();
 
 constexpr int outputs = 37;
+
+/// The scene whose residual flexibility is in modes of frequency w, R = b b^T/w^2; they follow up to 2 zeta w_motion/w. One contact.
+Scene with_stiff_modes(Scene scene, double w, double zeta) {
+  const Eigen::Index n = scene.system.size();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scene.residual);
+  for (Eigen::VectorXd* x : {&scene.system.stiffness, &scene.system.damping, &scene.q0, &scene.v0}) {
+    x->conservativeResize(n + 3);
+    x->tail(3).setZero();
+  }
+  scene.system.stiffness.tail(3).setConstant(w * w);
+  scene.system.damping.tail(3).setConstant(2.0 * zeta * w);
+  scene.contacts[0].b.conservativeResize(3, n + 3);
+  scene.contacts[0].b.rightCols(3) =
+      w * solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  for (Load& load : scene.loads) {
+    load.modal_force.conservativeResize(n + 3);
+    load.modal_force.tail(3).setZero();
+  }
+  scene.residual.resize(0, 0);
+  return scene;
+}
 
 struct Motion {
   Eigen::MatrixXd q, v, force;
@@ -82,26 +105,14 @@ TEST(FlexibleContacts, KeepOrderTwo) {
 }
 
 TEST(FlexibleContacts, AreTheLimitOfStiffModes) {
-  // modes of frequency w that hold the same flexibility, R = b b^T/w^2; they follow up to 2 zeta w_motion/w
   constexpr double w = 1e4, zeta = 0.5, share = 0.02;
   for (const Law& law : laws) {
-    Scene rigid = pressed_on_a_circle(law.normal, 1.0, law.friction, law.velocity), flexible = rigid,
-          stiff = rigid;
+    const Scene rigid = pressed_on_a_circle(law.normal, 1.0, law.friction, law.velocity);
+    Scene flexible = rigid;
     flexible.residual = flexibility;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(flexibility);
-    const Eigen::Matrix3d shapes = w * solver.eigenvectors() * solver.eigenvalues().cwiseSqrt().asDiagonal();
-    for (Eigen::VectorXd* x : {&stiff.system.stiffness, &stiff.system.damping, &stiff.q0, &stiff.v0})
-      x->conservativeResize(7);
-    stiff.system.stiffness.tail(3).setConstant(w * w);
-    stiff.system.damping.tail(3).setConstant(2.0 * zeta * w);
-    stiff.v0.tail(3).setZero();
-    stiff.contacts[0].b.conservativeResize(3, 7);
-    stiff.contacts[0].b.rightCols(3) = shapes;
-    stiff.q0.tail(3) = shapes.transpose() * pressed_at_start(law.normal.stiffness) / (w * w);
-    for (Load& load : stiff.loads) {
-      load.modal_force.conservativeResize(7);
-      load.modal_force.tail(3).setZero();
-    }
+    Scene stiff = with_stiff_modes(flexible, w, zeta);
+    stiff.q0.tail(3) =
+        stiff.contacts[0].b.rightCols(3).transpose() * pressed_at_start(law.normal.stiffness) / (w * w);
     const Motion wanted = motion(stiff, energy_conserving(2e-5));
     const auto with = apart(motion(flexible, splitting(5e-5)), wanted),
                without = apart(motion(rigid, splitting(5e-5)), wanted);
@@ -149,4 +160,31 @@ TEST(FlexibleContacts, TurnWithTheirForcesRoundHoles) {
   EXPECT_GT(run.normal.maxCoeff(), 0.0);
   EXPECT_LT(run.report.residual_relative, 5e-3);
   EXPECT_EQ(run.report.counts.unconverged, 0);
+}
+
+TEST(FlexibleContacts, TakeTheNearestPartOfAHoleWithLands) {
+  // pressed along lands that protrude with edges; deeper than the contact stands by its flexibility, another land is nearest
+  constexpr double stiffness = 1e6, tolerance = 0.03, of_displacements = 0.01;
+  std::vector<contact::PolarPoint> lands;
+  for (int i = 0; i < 24; ++i) {
+    const double angle = 0.01 + i * std::numbers::pi / 12.0;
+    lands.push_back({angle, 1e-3 * (1.0 + 0.25 * std::cos(4.0 * angle))});
+  }
+  for (const double give : {1.0, 5.0})
+    for (const contact::FrictionLaw& friction : {contact::FrictionLaw{}, {5e4, 10.0, 0.3, 0.3}}) {
+      Scene s = mass_point(1.0, Vec3::Constant(400.0), 0.4);
+      s.system.damping.setConstant(400.0);
+      s.contacts = {contact_of(1.0, {contact::Profile(lands), {stiffness, 200.0}, friction})};
+      s.loads = {force_on(1.0, Vec3(0, 30.0, 0), Harmonic{2.0, 4.0, 1.2}),
+                 force_on(1.0, Vec3(0, 0, 30.0), Harmonic{2.0, 4.0, -0.3})};
+      s.residual =
+          give / stiffness * (Eigen::Matrix3d() << 0.2, 0.0, 0.0, 0.0, 1.0, 0.2, 0.0, 0.2, 0.4).finished();
+      constexpr double every = 0.01;
+      const History wanted = simulate(with_stiff_modes(s, 2e4, 0.7), energy_conserving(1e-5), every),
+                    run = simulate(s, splitting(2e-5), every);
+      const double force = wanted.normal.maxCoeff(), size = wanted.q.topRows(3).cwiseAbs().maxCoeff();
+      EXPECT_GT(force, 40.0);
+      EXPECT_LT((run.normal - wanted.normal).cwiseAbs().maxCoeff(), tolerance * force) << give;
+      EXPECT_LT((run.q - wanted.q.topRows(3)).cwiseAbs().maxCoeff(), of_displacements * size) << give;
+    }
 }
