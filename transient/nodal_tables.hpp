@@ -13,8 +13,11 @@ namespace fretwork::transient {
 /// Displacements and velocities of all contacts at the nodes, lanes of PackedContacts.
 struct NodalMotion {
   explicit NodalMotion(const PackedContacts& contacts);
-  [[nodiscard]] double* u(int node) { return node == 0 ? start.data() : &ends[(node - 1) * stride]; }
-  [[nodiscard]] double* v(int node) { return node == 0 ? &start[stride] : &ends[(node + 1) * stride]; }
+  // Without contacts these are empty and have no element to point at.
+  [[nodiscard]] double* u(int node) { return node == 0 ? start.data() : ends.data() + (node - 1) * stride; }
+  [[nodiscard]] double* v(int node) {
+    return node == 0 ? start.data() + stride : ends.data() + (node + 1) * stride;
+  }
   void visit(core::StateArchive& state) { state(start, ends); }
   std::size_t stride;
   kernels::Array start; ///< u, v at node 0
