@@ -4,9 +4,9 @@
 #include "core/error.hpp"
 #include "core/mpi.hpp"
 #include "core/share_out.hpp"
+#include "core/symmetric.hpp"
 #include "modal/static_flexibility.hpp"
 #include "modal/static_solvers.hpp"
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 namespace fretwork::app {
@@ -128,8 +128,7 @@ results::StaticFlexibility ContactFlexibility::at(std::size_t k, const contact::
     if (taken)
       rows.push_back(static_cast<Index>(3 * k) + d);
   const auto principal = [&](const MatrixXd& matrix) {
-    return Eigen::VectorXd(
-        Eigen::SelfAdjointEigenSolver<MatrixXd>(MatrixXd(matrix(rows, rows))).eigenvectors().rightCols<1>());
+    return Eigen::VectorXd(core::symmetric_eigenpairs(matrix(rows, rows)).vectors.rightCols<1>());
   };
   const bool lacks = missing(rows, rows).diagonal().maxCoeff() > 0.0;
   const Eigen::VectorXd d = principal(lacks ? missing : exact);

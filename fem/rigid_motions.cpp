@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/rigid_motions.hpp"
 #include "core/error.hpp"
+#include "core/symmetric.hpp"
 #include "fem/disjoint_sets.hpp"
 #include "fem/fields.hpp"
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <algorithm>
@@ -223,16 +222,15 @@ Eigen::MatrixXd rigid_motions(const Model& model, const Structure& structure) {
   for (int pass = 0; pass < 2; ++pass) { // the second removes what round-off left of the first
     const Eigen::MatrixXd gram = fields.transpose() * mass_times(model, structure, fields);
     if (pass == 0) {
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram, Eigen::EigenvaluesOnly);
-      if (!(eigen.eigenvalues()[0] > massless * eigen.eigenvalues()[gram.cols() - 1]))
+      const Eigen::VectorXd masses = core::symmetric_eigenvalues(gram);
+      if (!(masses[0] > massless * masses[gram.cols() - 1]))
         throw core::Error("the structure that starts at node " +
                           place(model.nodes[static_cast<std::size_t>(structure.nodes.front())]) +
                           " has a motion with neither stiffness nor mass (a beam without polar_inertia that "
                           "spins about its "
                           "axis?); restrain it or give it mass");
     }
-    const Eigen::LLT<Eigen::MatrixXd> factor(gram);
-    fields = factor.matrixL().solve(fields.transpose()).transpose().eval();
+    core::Cholesky(gram).orthonormalise(fields);
   }
   return fields;
 }

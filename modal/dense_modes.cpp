@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "modal/dense_modes.hpp"
 #include "core/error.hpp"
+#include "core/symmetric.hpp"
 #include "fem/node_blocks.hpp"
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 namespace fretwork::modal {
@@ -72,18 +72,17 @@ Pairs dense_modes(const fem::Model& model, const fem::Structure& structure, cons
   const double scale = stiffness.trace() > 0.0 ? stiffness.trace() / mass.trace() : 1.0;
   mass -= b * b.transpose();
   stiffness += scale * b * b.transpose();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(mass, stiffness);
-  if (solver.info() != Eigen::Success)
+  const auto solved = core::symmetric_eigenpairs(mass, stiffness);
+  if (!solved)
     throw core::ComputationError(
         "modes of the structure that starts at node " +
         fem::place(model.nodes[static_cast<std::size_t>(structure.nodes.front())]) +
         ": the stiffness is singular to working precision; look for parts that are hardly held");
-  const Eigen::VectorXd& theta = solver.eigenvalues(); // ascending
+  const auto& [theta, vectors] = *solved;
   Eigen::Index count = 0;
   while (count < elastic && theta[theta.size() - 1 - count] > 0.0)
     ++count;
-  Pairs pairs{theta.tail(count).reverse().cwiseInverse(),
-              solver.eigenvectors().rightCols(count).rowwise().reverse()};
+  Pairs pairs{theta.tail(count).reverse().cwiseInverse(), vectors.rightCols(count).rowwise().reverse()};
   for (Eigen::Index j = 0; j < count; ++j) // the solver's norm is x^T K x = 1
     pairs.vectors.col(j) *= std::sqrt(pairs.lambda[j]);
   return pairs;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "modal/finish.hpp"
 #include "core/error.hpp"
+#include "core/symmetric.hpp"
 #include "fem/fields.hpp"
 #include "fem/mesh_error.hpp"
 #include "modal/canonical.hpp"
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -30,11 +30,11 @@ Eigen::MatrixXd lower_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b
 /// Makes the columns M-orthonormal, in order: G = L L^T, Phi <- Phi L^-T.
 /// @param moved  M Phi
 void orthonormalise(Eigen::MatrixXd& shapes, const Eigen::MatrixXd& moved) {
-  const Eigen::LLT<Eigen::MatrixXd> factor(lower_product(shapes, moved));
-  if (factor.info() != Eigen::Success)
+  const core::Cholesky factor(lower_product(shapes, moved));
+  if (!factor.is_positive_definite())
     throw core::ComputationError(
         "modes: the shapes found are not independent; ask for fewer ([modes] count)");
-  factor.matrixL().transpose().solveInPlace<Eigen::OnTheRight>(shapes);
+  factor.orthonormalise(shapes);
 }
 
 void check_round_off(const Eigen::VectorXd& solver, const Eigen::VectorXd& strain) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "modal/static_flexibility.hpp"
 #include "core/error.hpp"
-#include <Eigen/Eigenvalues>
+#include "core/symmetric.hpp"
 #include <fmt/format.h>
 
 namespace fretwork::modal {
@@ -29,17 +29,16 @@ Eigen::MatrixXd missing_flexibility(const Eigen::MatrixXd& exact, const Eigen::M
   const Eigen::VectorXd size = exact.diagonal().cwiseMax(0.0).cwiseSqrt();
   const Eigen::VectorXd scale = (size.array() > 0.0).select(size.cwiseInverse(), 0.0);
   const Eigen::MatrixXd difference = 0.5 * (exact + exact.transpose() - basis - basis.transpose());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * difference *
-                                                              scale.asDiagonal());
-  if (const double least = solver.eigenvalues().minCoeff(); !(least > -spoilt_share))
+  const auto [values, vectors] =
+      core::symmetric_eigenpairs(scale.asDiagonal() * difference * scale.asDiagonal());
+  if (const double least = values.minCoeff(); !(least > -spoilt_share))
     throw core::ComputationError(
         fmt::format("static flexibility at the contacts: the modes are softer than the structure by {:.2g} "
                     "of it; round-off "
                     "spoils one of them: mesh more coarsely, or take static_modes = \"none\"",
                     -least));
-  const Eigen::VectorXd kept =
-      (solver.eigenvalues().array() > negligible_share).select(solver.eigenvalues(), 0.0);
-  const Eigen::MatrixXd shapes = size.asDiagonal() * solver.eigenvectors() * kept.cwiseSqrt().asDiagonal();
+  const Eigen::VectorXd kept = (values.array() > negligible_share).select(values, 0.0);
+  const Eigen::MatrixXd shapes = size.asDiagonal() * vectors * kept.cwiseSqrt().asDiagonal();
   return shapes * shapes.transpose();
 }
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "modal/static_modes.hpp"
 #include "core/error.hpp"
+#include "core/symmetric.hpp"
 #include "fem/fields.hpp"
 #include "modal/canonical.hpp"
 #include "modal/finish.hpp"
 #include "modal/static_flexibility.hpp"
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -42,20 +41,16 @@ MatrixXd independent(const MatrixXd& v, const MatrixXd& loads, const MatrixXd& d
   const VectorXd scale = missing(lacking).cwiseSqrt().cwiseInverse();
   const MatrixXd columns = v(Eigen::all, lacking) * scale.asDiagonal();
   const MatrixXd r = columns.transpose() * loads(Eigen::all, lacking) * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(0.5 * (r + r.transpose()));
-  const VectorXd& lambda = solver.eigenvalues();
+  const auto [lambda, vectors] = core::symmetric_eigenpairs(0.5 * (r + r.transpose()));
   const Index left_out = (lambda.array() <= dependent_share * lambda.maxCoeff()).count();
   const Index kept = lambda.size() - left_out;
-  return columns * solver.eigenvectors().rightCols(kept) *
-         lambda.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+  return columns * vectors.rightCols(kept) * lambda.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
 }
 
 /// Makes columns M-orthonormal, in order, to each other.
 void orthonormalise(const fem::Model& model, const fem::Structure& structure, MatrixXd& columns) {
   const MatrixXd gram = columns.transpose() * fem::mass_times(model, structure, columns);
-  const Eigen::LLT<MatrixXd> factor(gram);
-  assert(factor.info() == Eigen::Success); // nearly the unit matrix
-  factor.matrixL().transpose().solveInPlace<Eigen::OnTheRight>(columns);
+  core::Cholesky(gram).orthonormalise(columns); // positive definite: nearly the unit matrix
 }
 
 /// The stationary combinations of K-orthonormal columns, by ascending frequency, M-orthonormal.
@@ -63,14 +58,14 @@ void orthonormalise(const fem::Model& model, const fem::Structure& structure, Ma
 VectorXd take_stationary(const fem::Model& model, const fem::Structure& structure, const Basis& basis,
                          MatrixXd& columns) {
   const MatrixXd mass = columns.transpose() * fem::mass_times(model, structure, columns);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(mass);
-  const VectorXd mu = solver.eigenvalues().reverse();
+  const auto [values, vectors] = core::symmetric_eigenpairs(mass);
+  const VectorXd mu = values.reverse();
   const Index rigid = (basis.omega.array() == 0.0).count();
   const double slowest = rigid < basis.size() ? std::pow(basis.omega(rigid), -2) : mu.maxCoeff();
   if (!(mu.minCoeff() * most_range > slowest))
     throw core::Error("static modes: one of them moves no mass; give the beams at the contacts a density, or "
                       "take modes.static_modes = \"auto\"");
-  columns = columns * solver.eigenvectors().rowwise().reverse() * mu.cwiseSqrt().cwiseInverse().asDiagonal();
+  columns = columns * vectors.rowwise().reverse() * mu.cwiseSqrt().cwiseInverse().asDiagonal();
   take_out(model, structure, basis.shapes, columns);
   orthonormalise(model, structure, columns);
   return fem::twice_strain_energy(model, structure, columns);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/scene_rates.hpp"
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include "core/symmetric.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,15 +19,14 @@ double largest_eigenvalue(const Eigen::MatrixXd& rows) {
     return 0.0;
   const Eigen::MatrixXd product = rows.rows() <= rows.cols() ? Eigen::MatrixXd(rows * rows.transpose())
                                                              : Eigen::MatrixXd(rows.transpose() * rows);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(product, Eigen::EigenvaluesOnly);
-  return std::max(0.0, solver.eigenvalues().maxCoeff());
+  return std::max(0.0, core::symmetric_eigenvalues(product).maxCoeff());
 }
 
 /// Rows weighted by (1/w + R)^-1, w the weights: contacts in series with the residual flexibility. R of the same rows.
 Eigen::MatrixXd series_rows(const Eigen::MatrixXd& rows, const Eigen::VectorXd& weights,
                             const Eigen::MatrixXd& residual) {
   const Eigen::MatrixXd compliance = residual + Eigen::MatrixXd(weights.cwiseInverse().asDiagonal());
-  return Eigen::LLT<Eigen::MatrixXd>(compliance).matrixL().solve(rows);
+  return core::Cholesky(compliance).solve_lower(rows);
 }
 
 template <class Weight, class Directions>
@@ -73,9 +71,7 @@ double structure_rate(const System& system) {
     return 0.0;
   if (system.damping_matrix.size() == 0)
     return system.damping.maxCoeff();
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(system.damping_matrix, Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .maxCoeff();
+  return core::symmetric_eigenvalues(system.damping_matrix).maxCoeff();
 }
 
 /// Penetration of a contact at t = 0, m, 0 where it is open.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/static_energy.hpp"
-#include <Eigen/Eigenvalues>
+#include "core/symmetric.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -90,14 +90,14 @@ void StaticEnergy::find_unseen() {
         seen += support.normal.stiffness * row * row.transpose();
       }
   }
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(seen);
-  const double limit = unseen_motion * solver.eigenvalues().maxCoeff();
+  const auto [values, vectors] = core::symmetric_eigenpairs(seen);
+  const double limit = unseen_motion * values.maxCoeff();
   Index count = 0;
-  while (count < solver.eigenvalues().size() && solver.eigenvalues()(count) <= limit)
+  while (count < values.size() && values(count) <= limit)
     ++count;
   unseen_.setZero(size(), count);
   for (std::size_t i = 0; i < rigid.size(); ++i)
-    unseen_.row(rigid[i]) = solver.eigenvectors().row(static_cast<Index>(i)).head(count);
+    unseen_.row(rigid[i]) = vectors.row(static_cast<Index>(i)).head(count);
 }
 
 VectorXd StaticEnergy::unanswered() const {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/static_start.hpp"
+#include "core/symmetric.hpp"
 #include "transient/static_energy.hpp"
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 namespace fretwork::transient {
@@ -29,10 +28,10 @@ constexpr int most_iterations = 1000;
 bool leave_unstable(const StaticEnergy& energy, VectorXd& x, const std::vector<Touch>& touches) {
   if (energy.is_convex_at(touches))
     return false;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(energy.hessian(touches));
-  if (solver.eigenvalues()(0) >= unstable)
+  const auto [values, vectors] = core::symmetric_eigenpairs(energy.hessian(touches));
+  if (values(0) >= unstable)
     return false;
-  VectorXd direction = solver.eigenvectors().col(0);
+  VectorXd direction = vectors.col(0);
   Index largest = 0;
   direction.cwiseAbs().maxCoeff(&largest);
   if (direction(largest) < 0.0) // both sides are as good: always the same
@@ -67,10 +66,10 @@ public:
   bool step() {
     MatrixXd matrix = hessian_;
     matrix.diagonal().array() += lambda_;
-    const Eigen::LLT<MatrixXd> factors(matrix);
-    if (factors.info() != Eigen::Success)
+    const core::Cholesky factor(matrix);
+    if (!factor.is_positive_definite())
       return refuse();
-    VectorXd s = energy_.held(factors.solve(-gradient_));
+    VectorXd s = energy_.held(factor.solve(-gradient_));
     s *= std::min(1.0, energy_.room_along(s, touches_));
     const VectorXd there = x_ + s;
     const std::vector<Touch> touches = energy_.touch(there);
@@ -104,8 +103,8 @@ private:
 
 /// The scene with modes of stiffness 1 in place of its residual flexibility.
 Scene with_residual_modes(const Scene& scene) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(scene.residual);
-  const MatrixXd shapes = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  const auto [values, vectors] = core::symmetric_eigenpairs(scene.residual);
+  const MatrixXd shapes = vectors * values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
   const Index n = scene.system.size(), more = shapes.cols();
   Scene out = scene;
   out.residual.resize(0, 0);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Elements whose section and masses change along their axis.
+#include "core/symmetric.hpp"
 #include "expect_error.hpp"
 #include "fem/beam_constants.hpp"
 #include "fem/beam_element.hpp"
 #include "model_builder.hpp"
-#include <Eigen/Cholesky>
 
 using namespace fretwork;
 using namespace fretwork::tests;
@@ -27,7 +27,7 @@ fem::BeamProperty cone() {
 }
 
 Eigen::Matrix<double, 6, 1> tip(const BeamElement& e, int dof) {
-  return e.stiffness().bottomRightCorner<6, 6>().ldlt().solve(Eigen::Matrix<double, 6, 1>::Unit(dof));
+  return core::Cholesky(e.stiffness().bottomRightCorner<6, 6>()).solve(Eigen::VectorXd::Unit(6, dof));
 }
 
 double relative(const fem::Matrix12& a, const fem::Matrix12& b) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shear, rotary inertia and axial force of the element.
+#include "core/symmetric.hpp"
 #include "expect_error.hpp"
 #include "fem/beam_element.hpp"
 #include "model_builder.hpp"
-#include <Eigen/Cholesky>
 
 using namespace fretwork;
 using namespace fretwork::tests;
@@ -32,7 +32,7 @@ fem::BeamProperty shearing_bar() {
 
 /// Motion of b under a unit force or moment there, a held.
 Eigen::Matrix<double, 6, 1> tip(const BeamElement& e, int dof) {
-  return e.stiffness().bottomRightCorner<6, 6>().ldlt().solve(Eigen::Matrix<double, 6, 1>::Unit(dof));
+  return core::Cholesky(e.stiffness().bottomRightCorner<6, 6>()).solve(Eigen::VectorXd::Unit(6, dof));
 }
 
 fem::Section shearing(fem::Section section) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contacts that give way beside the modes along a smooth path, with every law: of order 2, the limit of stiff modes, in balance.
+#include "core/symmetric.hpp"
 #include "scenes.hpp"
-#include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ constexpr int outputs = 37;
 /// The scene whose residual flexibility is in modes of frequency w, R = b b^T/w^2; they follow up to 2 zeta w_motion/w. One contact.
 Scene with_stiff_modes(Scene scene, double w, double zeta) {
   const Eigen::Index n = scene.system.size();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scene.residual);
+  const auto [values, vectors] = core::symmetric_eigenpairs(scene.residual);
   for (Eigen::VectorXd* x : {&scene.system.stiffness, &scene.system.damping, &scene.q0, &scene.v0}) {
     x->conservativeResize(n + 3);
     x->tail(3).setZero();
@@ -32,7 +32,7 @@ Scene with_stiff_modes(Scene scene, double w, double zeta) {
   scene.system.damping.tail(3).setConstant(2.0 * zeta * w);
   scene.contacts[0].b.conservativeResize(3, n + 3);
   scene.contacts[0].b.rightCols(3) =
-      w * solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+      w * vectors * values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
   for (Load& load : scene.loads) {
     load.modal_force.conservativeResize(n + 3);
     load.modal_force.tail(3).setZero();

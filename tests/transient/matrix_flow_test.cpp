@@ -5,7 +5,6 @@
 #include "transient/force_polynomial.hpp"
 #include "transient/matrix_flow.hpp"
 #include "transient/oscillator.hpp"
-#include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 #include <gtest/gtest.h>
