@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/build_fields.hpp"
-#include "app/support_motion.hpp"
 #include "core/error.hpp"
 #include "fem/fields.hpp"
 #include "fem/ties.hpp"
@@ -14,9 +13,13 @@ namespace {
 using core::Index;
 using core::Vec3;
 
-transient::TimeFunction acceleration_of(const study::SupportMotion& motion) {
-  return motion.by_displacement ? transient::motion_of_displacement(motion.function).acceleration
-                                : motion.function;
+/// Forces of the moved supports on what is left of the motion: the inertia of the static shape, and the dampers that it stretches.
+void support_loads(const study::SupportMotion& motion, double duration, const std::string& name,
+                   const fem::Model& model, const SupportFields& fields, std::vector<Fields::Load>& loads) {
+  const transient::PrescribedMotion moved = prescribed(motion, duration);
+  loads.push_back({name, moved.acceleration, -fem::mass_times(model, fields.shape), true, true});
+  if (!fields.dampers.isZero(0.0))
+    loads.push_back({name + ", dampers", transient::velocity_of(moved), fields.dampers, true, true});
 }
 
 Eigen::VectorXd load_field(const study::Load& load, const std::string& what, const mesh::LineMesh& mesh,
@@ -76,9 +79,8 @@ void initial_field(const study::Study& study, const mesh::LineMesh& mesh, const 
 } // namespace
 
 Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh, const fem::Model& model,
-                    std::vector<Eigen::VectorXd> supports) {
+                    const std::vector<SupportFields>& supports) {
   Fields out;
-  out.supports = std::move(supports);
   for (std::size_t e = 0; e < study.loads.size(); ++e) {
     const std::string name = fmt::format("[[loads]] entry {} on \"{}\"", e + 1, study.loads[e].group);
     out.loads.push_back({name, study.loads[e].function, load_field(study.loads[e], name, mesh, model)});
@@ -90,10 +92,13 @@ Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh, const
     out.loads.push_back({"[gravity]", transient::Constant{1.0}, on_all_masses(*study.gravity)});
   for (const auto& motion : study.base_motions)
     out.loads.push_back({"[[base_motion]]", motion.acceleration, -on_all_masses(motion.direction), true});
-  for (std::size_t k = 0; k < out.supports.size(); ++k)
-    out.loads.push_back(
-        {fmt::format("[[support_motion]] entry {} of \"{}\"", k + 1, study.support_motions[k].group),
-         acceleration_of(study.support_motions[k]), -fem::mass_times(model, out.supports[k]), true});
+  for (std::size_t k = 0; k < supports.size(); ++k) {
+    const study::SupportMotion& motion = study.support_motions[k];
+    support_loads(motion, study.transient->duration,
+                  fmt::format("[[support_motion]] entry {} of \"{}\"", k + 1, motion.group), model,
+                  supports[k], out.loads);
+    out.supports.push_back(supports[k].shape);
+  }
   initial_field(study, mesh, model, out);
   return out;
 }

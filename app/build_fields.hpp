@@ -2,6 +2,7 @@
 /// @file
 /// Loads and initial state of a study as fields over the whole model.
 #pragma once
+#include "app/support_motion.hpp"
 #include "fem/model.hpp"
 #include "mesh/line_mesh.hpp"
 #include "study/study.hpp"
@@ -16,16 +17,18 @@ struct Fields {
     std::string name; ///< for messages
     transient::TimeFunction function;
     Eigen::VectorXd force;
-    bool inertial = false; ///< as transient::Load
+    bool inertial = false;   ///< as transient::Load
+    bool of_support = false; ///< what a support motion does to the modes
   };
   std::vector<Load> loads;
+  std::vector<std::string> warnings;
   std::vector<Eigen::VectorXd> supports; ///< shapes of the study's support motions (support_motion.hpp)
   bool moves_at_start = false;
   Eigen::VectorXd displacement, velocity;                   ///< where moves_at_start
   Eigen::VectorXd displacement_momentum, velocity_momentum; ///< M times them
 };
-/// @param supports  shapes of the support motions
+/// @param supports  of the study's support motions; none where only the study is checked
 [[nodiscard]] Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh,
-                                  const fem::Model& model, std::vector<Eigen::VectorXd> supports);
+                                  const fem::Model& model, const std::vector<SupportFields>& supports);
 
 } // namespace fretwork::app

@@ -153,7 +153,7 @@ std::vector<BuiltScene> build_scenes(const study::Study& study, const std::vecto
                         fields.loads[j].name, fields.loads[k].name, one->seed));
     }
   // a support that moves nothing by its inertia may still carry an obstacle
-  for (std::size_t k = 0; k < fields.loads.size() - fields.supports.size(); ++k) {
+  for (std::size_t k = 0; k < fields.loads.size() && !fields.loads[k].of_support; ++k) {
     const auto idle = [&](const BuiltScene& scene) { return scene.scene.loads[k].modal_force.isZero(0.0); };
     if (std::all_of(scenes.begin(), scenes.end(), idle))
       out.warnings.push_back(
@@ -326,7 +326,7 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
       progress.stage("basis");
       core::agree(comm, [&] {
         at_contacts.fields =
-            build_fields(inputs.study, mesh, model, support_shapes(moved, model, modes.structures));
+            build_fields(inputs.study, mesh, model, support_fields(moved, model, modes.structures));
         at_contacts.joined = joined_structures(out.bases, placed);
       });
       at_contacts.flexibilities =

@@ -14,13 +14,40 @@ constexpr double round_off = 1e-12;
 
 using core::Index;
 
-/// N/m, of all grounded springs at a node along a global axis.
-double grounded_stiffness(const fem::Model& model, Index node, int axis) {
-  double sum = 0.0;
+struct Grounding {
+  double stiffness = 0.0; ///< N/m
+  double damping = 0.0;   ///< N s/m
+};
+
+/// Of all grounded springs at a node along a global axis.
+Grounding grounding(const fem::Model& model, Index node, int axis) {
+  Grounding sum;
   for (const fem::Spring& spring : model.springs)
-    if (spring.node == node && spring.other < 0)
-      sum += spring.stiffness[static_cast<std::size_t>(axis)];
+    if (spring.node == node && spring.other < 0) {
+      sum.stiffness += spring.stiffness[static_cast<std::size_t>(axis)];
+      sum.damping += spring.damping[static_cast<std::size_t>(axis)];
+    }
   return sum;
+}
+
+/// Forces of the dampers on their nodes where these follow psi and the ground of some moves.
+Eigen::VectorXd damper_forces(const fem::Model& model, const Eigen::VectorXd& shape,
+                              const Eigen::VectorXd& ground) {
+  constexpr double moves_alike = 1e-9; // of a support's unit motion: a static solution leaves round-off
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(shape.size());
+  for (const fem::Spring& spring : model.springs)
+    for (int d = 0; d < core::dofs_per_node; ++d) {
+      const double damping = spring.damping[static_cast<std::size_t>(d)];
+      const Eigen::Index a = static_cast<Eigen::Index>(spring.node) * core::dofs_per_node + d,
+                         b = static_cast<Eigen::Index>(spring.other) * core::dofs_per_node + d;
+      const double stretch = shape(a) - (spring.other < 0 ? ground(a) : shape(b));
+      if (damping == 0.0 || std::abs(stretch) < moves_alike)
+        continue;
+      out(a) -= damping * stretch;
+      if (spring.other >= 0)
+        out(b) += damping * stretch;
+    }
+  return out;
 }
 
 /// Part of a field over the model that belongs to a structure is not zero.
@@ -71,7 +98,7 @@ std::vector<MovedSupport> moved_supports(const study::Study& study, const mesh::
     MovedSupport moved;
     moved.name = fmt::format("{} of \"{}\"", what, motion.group);
     moved.imposed.setZero(static_cast<Eigen::Index>(model.nodes.size()) * core::dofs_per_node);
-    moved.force = moved.imposed;
+    moved.ground = moved.force = moved.imposed;
     std::vector<bool> given(static_cast<std::size_t>(moved.imposed.size()), false);
     for (const Index node : mesh::group_nodes(mesh, motion.group, what))
       for (int axis = 0; axis < 3; ++axis) {
@@ -79,11 +106,11 @@ std::vector<MovedSupport> moved_supports(const study::Study& study, const mesh::
         if (std::abs(along) < round_off) // of a unit vector: cos 90 degrees
           continue;
         const Eigen::Index row = static_cast<Eigen::Index>(node) * core::dofs_per_node + axis;
-        const double stiffness = grounded_stiffness(model, node, axis);
+        const Grounding grounded = grounding(model, node, axis);
         if (model.is_fixed(node, axis))
           moved.imposed(row) = along, given[static_cast<std::size_t>(row)] = true;
-        else if (stiffness > 0.0)
-          moved.force(row) = stiffness * along;
+        else if (grounded.stiffness > 0.0 || grounded.damping > 0.0)
+          moved.ground(row) = along, moved.force(row) = grounded.stiffness * along;
         else
           throw core::Error(fmt::format(
               "{}: a node of \"{}\" at {} is neither restrained nor held by a grounded spring along {}, so "
@@ -98,17 +125,17 @@ std::vector<MovedSupport> moved_supports(const study::Study& study, const mesh::
   return out;
 }
 
-std::vector<Eigen::VectorXd> support_shapes(const std::vector<MovedSupport>& supports,
-                                            const fem::Model& model,
-                                            const std::vector<fem::Structure>& structures) {
-  std::vector<Eigen::VectorXd> out;
+std::vector<SupportFields> support_fields(const std::vector<MovedSupport>& supports, const fem::Model& model,
+                                          const std::vector<fem::Structure>& structures) {
+  std::vector<SupportFields> out;
   for (const MovedSupport& support : supports) {
     const Eigen::VectorXd force = support.force - fem::stiffness_times(model, support.imposed);
     Eigen::VectorXd shape = support.imposed;
     for (const fem::Structure& structure : structures)
       if (acts_on(structure, force))
         shape += static_shape(model, structure, force, support.name);
-    out.push_back(std::move(shape));
+    Eigen::VectorXd dampers = damper_forces(model, shape, support.ground);
+    out.push_back({std::move(shape), std::move(dampers)});
   }
   return out;
 }

@@ -5,8 +5,9 @@
 /// with psi_k the static displacement of the structure when support k is moved by 1 m and all others are held. What is left for the
 /// modes is driven by the inertia of that,
 ///     m q'' + c q' + k q = Phi^T F - sum of Phi^T M psi_k s_k'',
-/// (Clough and Penzien, Dynamics of Structures, 2nd ed. 1993, section 26-2) and damped as motion from the static one: dampers and modal
-/// damping take nothing of psi s'. Few modes do: the static part is exact.
+/// (Clough and Penzien, Dynamics of Structures, 2nd ed. 1993, section 26-2) and damped as motion from the static one: modal damping takes
+/// nothing of psi s'. Dampers take it: one that psi_k stretches by e adds the forces of c e s_k' at its ends. Few modes do: the static
+/// part is exact.
 /// A structure that spins, slides or is a mechanism with all supports held is carried as well: a motion r that strains nothing has K r = 0 at
 /// every dof, moved supports included, and is not pushed by them, r.K.psi = 0. Of psi it has no part, r.M.psi = 0: it starts at rest.
 #pragma once
@@ -23,18 +24,24 @@ namespace fretwork::app {
 struct MovedSupport {
   std::string name;        ///< of the entry, for messages
   Eigen::VectorXd imposed; ///< displacement of restrained dofs, 0 elsewhere
+  Eigen::VectorXd ground;  ///< displacement of the ground of springs and dampers, at free dofs, 0 elsewhere
   Eigen::VectorXd force;   ///< N, of grounded springs whose ground moves, on free dofs
 };
 /// At each node of the group and along each axis that the direction has, the restraint moves or, where the node is free, the ground of
-/// its springs.
+/// its springs and dampers.
 /// @throws core::Error where a node has neither along an axis
 [[nodiscard]] std::vector<MovedSupport> moved_supports(const study::Study& study, const mesh::LineMesh& mesh,
                                                        const fem::Model& model);
 
-/// psi of each support motion, 6 values a node of the model. Serial; needs PETSc.
+/// What a support motion gives to a structure, 6 values a node of the model.
+struct SupportFields {
+  Eigen::VectorXd shape;   ///< psi
+  Eigen::VectorXd dampers; ///< N for 1 m/s of the support: forces of the dampers on what follows psi
+};
+/// Of each support motion. Serial; needs PETSc.
 /// @throws core::ComputationError naming the entry, where a stiffness is singular to working precision
-[[nodiscard]] std::vector<Eigen::VectorXd> support_shapes(const std::vector<MovedSupport>& supports,
-                                                          const fem::Model& model,
-                                                          const std::vector<fem::Structure>& structures);
+[[nodiscard]] std::vector<SupportFields> support_fields(const std::vector<MovedSupport>& supports,
+                                                        const fem::Model& model,
+                                                        const std::vector<fem::Structure>& structures);
 
 } // namespace fretwork::app

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 #include <utility>
 
 namespace fretwork::transient {
@@ -136,6 +137,18 @@ PrescribedMotion motion_of_displacement(const TimeFunction& displacement) {
   }
   assert(std::holds_alternative<Table>(displacement));
   return along_curve(std::get<Table>(displacement));
+}
+
+TimeFunction velocity_of(const PrescribedMotion& motion) {
+  Integral out{Constant{0.0}, motion.velocity0};
+  const auto take = [&](const auto& acceleration) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(acceleration)>, Integral>)
+      assert(false);
+    else
+      out.function = acceleration;
+  };
+  std::visit(take, motion.acceleration);
+  return out;
 }
 
 PrescribedMotion without_drift(const Random& acceleration, double duration) {

@@ -14,6 +14,9 @@ namespace fretwork::transient {
 /// @param displacement  m; not random, a table without jumps
 [[nodiscard]] PrescribedMotion motion_of_displacement(const TimeFunction& displacement);
 
+/// s' as a function of time that loads may follow. The acceleration is one that a study gives, no integral.
+[[nodiscard]] TimeFunction velocity_of(const PrescribedMotion& motion);
+
 /// The motion of a random acceleration that goes nowhere: it starts at 0 with the velocity that leaves the displacement no linear trend
 /// over the run, of length T; it stays about a constant place. With z the double integral of the acceleration from rest at 0, and the least-squares line
 /// z ~ c0 + c1 t,

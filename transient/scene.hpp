@@ -23,7 +23,8 @@ struct System {
 struct Load {
   TimeFunction function;
   Eigen::VectorXd modal_force; ///< n: the load is modal_force * function(t)
-  bool inertial = false; ///< -M a of a base or support that accelerates: no part of a static equilibrium
+  /// -M a of a base or support that accelerates, or the force of dampers that a support's velocity stretches: no part of a static equilibrium
+  bool inertial = false;
 };
 
 /// A motion that is imposed: displacement s(t) with s'' = acceleration, s'(0) and s(0).

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/time_function.hpp"
 #include "core/error.hpp"
+#include "transient/prescribed_motion.hpp"
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -67,9 +68,17 @@ void transform(std::size_t n, std::vector<double>& values) {
   (*synthesis)(values.data());
 }
 
+/// The same function as one of all kinds.
+TimeFunction widened(const decltype(Integral::function)& function) {
+  return std::visit([](const auto& f) -> TimeFunction { return f; }, function);
+}
+
 } // namespace
 
 Signal::Signal(const TimeFunction& function, double duration) : function_(function) {
+  if (const auto* integral = std::get_if<Integral>(&function))
+    motion_ = std::make_shared<const MotionSignal>(
+        PrescribedMotion{widened(integral->function), integral->at_start}, duration);
   const auto* random = std::get_if<Random>(&function);
   if (!random)
     return;
@@ -133,6 +142,7 @@ double Signal::operator()(double time) const {
       return p[0] +
              s * (p[1] + s * (3.0 * difference - 2.0 * p[1] - p[3] + s * (p[1] + p[3] - 2.0 * difference)));
     }
+    double operator()(const Integral&) const { return (*self.motion_)(time).velocity; }
   };
   return std::visit(Visitor{time, *this}, function_);
 }
@@ -173,6 +183,8 @@ double highest_frequency(const TimeFunction& function) {
     return harmonic->frequency;
   if (const auto* random = std::get_if<Random>(&function))
     return random->high;
+  if (const auto* integral = std::get_if<Integral>(&function))
+    return highest_frequency(widened(integral->function));
   return 0.0;
 }
 

@@ -3,6 +3,7 @@
 /// Functions of time that loads and base motions follow.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <variant>
 #include <vector>
@@ -39,10 +40,19 @@ struct Random {
   bool operator==(const Random&) const = default;
 };
 
-using TimeFunction = std::variant<Constant, Harmonic, Table, Random>;
+/// at_start + the integral of a function from 0 to t: the velocity of what moves with that acceleration.
+struct Integral {
+  std::variant<Constant, Harmonic, Table, Random> function;
+  double at_start = 0;
+  bool operator==(const Integral&) const = default;
+};
+
+using TimeFunction = std::variant<Constant, Harmonic, Table, Random, Integral>;
 
 /// Highest frequency to be resolved, Hz: 0 for constants and tables.
 [[nodiscard]] double highest_frequency(const TimeFunction& function);
+
+class MotionSignal;
 
 /// A time function made ready for a run of `duration` seconds: values at any instant of it.
 class Signal {
@@ -73,7 +83,8 @@ private:
   [[nodiscard]] double mean(const Table& table, double from, double to) const;
 
   TimeFunction function_;
-  double grid_step_ = 0, per_grid_step_ = 0; ///< s, spacing of the samples of a random signal; 1/s
+  std::shared_ptr<const MotionSignal> motion_; ///< of an integral: what moves with that velocity
+  double grid_step_ = 0, per_grid_step_ = 0;   ///< s, spacing of the samples of a random signal; 1/s
   std::vector<double>
       samples_; ///< value and slope times grid_step, interleaved: cubic Hermite between samples
 };

@@ -124,6 +124,46 @@ TEST(SupportMotion, ShakesAnOscillatorByTheGroundOfItsSpring) {
   expect_shaken(run.node("mass"), run.archive.series.time);
 }
 
+TEST(SupportMotion, DampersFeelWhatTheStaticShapeMoves) {
+  const Workshop folder;
+  folder.write("mesh.msh", lone_points({"mass", "foot"}).text());
+  // the foot leaves at v, pulling by a spring; another spring and a damper hold the mass to the ground:
+  // m u'' + c u' + (k + k2) u = k v t with u = 0 and u' = e v at the start, e = k/(k + k2)
+  constexpr double m = 2.0, k = 300.0, k2 = 200.0, c = 6.0, v = 0.2, duration = 2.0;
+  for (const char* scheme : {"splitting", "runge_kutta_54"}) {
+    const Results run = folder.run_text(
+        oscillator("[[springs]]\ngroup = \"mass\"\nother = \"foot\"\nstiffness = [0, 300.0, 0, 0, 0, 0]\n"
+                   "[[springs]]\ngroup = \"mass\"\nstiffness = [0, 200.0, 0, 0, 0, 0]\n"
+                   "damping = [0, 6.0, 0, 0, 0, 0]\n" +
+                   restrained("foot") +
+                   moved("foot", "direction = [0, 1, 0]\nconstant = 0.0\nvelocity0 = 0.2")),
+        {"--set", fmt::format("transient.duration={}", duration), "--set",
+         fmt::format("transient.scheme={}", scheme)});
+    const double e = k / (k + k2), lag = c / (k + k2), rate = c / (2.0 * m),
+                 w = std::sqrt((k + k2) / m - rate * rate);
+    const Eigen::VectorXd& time = run.archive.series.time;
+    constexpr double of_the_tolerance = 1e-5; // of runge_kutta_54
+    for (Eigen::Index i = 0; i < time.size(); ++i) {
+      const double t = time(i), decay = std::exp(-rate * t);
+      const double u = e * v * (t - lag + lag * decay * (std::cos(w * t) + rate / w * std::sin(w * t)));
+      EXPECT_NEAR(run.node("mass").displacement(i, 1), u, of_the_tolerance * v * duration)
+          << scheme << ", " << t;
+    }
+  }
+}
+
+TEST(SupportMotion, MovesTheGroundOfADamper) {
+  const Workshop folder;
+  folder.write("mesh.msh", lone_points({"mass"}).text());
+  // a mass at rest that a damper drags behind a ground of velocity v: u' = v (1 - exp(-c t/m))
+  const Results run =
+      folder.run_text(oscillator("[[springs]]\ngroup = \"mass\"\ndamping = [0, 40.0, 0, 0, 0, 0]\n" +
+                                 moved("mass", "direction = [0, 1, 0]\nconstant = 0.0\nvelocity0 = 0.2")));
+  const Eigen::VectorXd& time = run.archive.series.time;
+  for (Eigen::Index i = 0; i < time.size(); ++i)
+    EXPECT_NEAR(run.node("mass").velocity(i, 1), 0.2 * (1.0 - std::exp(-20.0 * time(i))), 1e-9);
+}
+
 TEST(SupportMotion, OfAllSupportsIsBaseMotionSeenFromSpace) {
   const Workshop folder;
   write_tube(folder);

@@ -5,6 +5,7 @@
 #include "scenes.hpp"
 #include <gtest/gtest.h>
 #include <numbers>
+#include <stdexcept>
 #include <utility>
 
 using namespace fretwork;
@@ -68,6 +69,9 @@ TimeFunction in_units(const TimeFunction& function, double time) {
       f.low /= t;
       f.high /= t;
       return f;
+    }
+    TimeFunction operator()(const Integral&) const {
+      throw std::logic_error("no scene of these tests follows an integral");
     }
   };
   return std::visit(Visitor{time}, function);

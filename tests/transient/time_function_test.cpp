@@ -39,6 +39,19 @@ TEST(Signal, OfAConstantIsTheConstant) {
   EXPECT_TRUE(signal.is_constant());
 }
 
+TEST(Signal, OfAnIntegralIsTheVelocity) {
+  const double w = two_pi * 5.0;
+  const Signal of_harmonic(Integral{Harmonic{2.0, 5.0, 0.3}, -0.1}, 1.0);
+  const Signal of_table(Integral{Table{{0.5, 1.5}, {4.0, 0.0}}, 1.0}, 2.0);
+  for (const double t : {0.0, 0.013, 0.9})
+    EXPECT_NEAR(of_harmonic(t), -0.1 + 2.0 / w * (std::cos(0.3) - std::cos(w * t + 0.3)), 1e-14);
+  EXPECT_DOUBLE_EQ(of_table(0.25), 2.0);
+  EXPECT_DOUBLE_EQ(of_table(1.0), 1.0 + 2.0 + 1.5);
+  EXPECT_DOUBLE_EQ(of_table(1.9), 1.0 + 2.0 + 2.0);
+  EXPECT_EQ(highest_frequency(Integral{Random{1.0, 2.0, 8.0}, 0.0}), 8.0);
+  EXPECT_FALSE(of_table.is_constant());
+}
+
 TEST(Signal, OfAHarmonicIsItsSine) {
   const Signal signal(Harmonic{2.0, 5.0, 0.3}, 1.0);
   for (const double t : {0.0, 0.013, 0.9})
