@@ -42,6 +42,22 @@ double relative_step_error(const Verification& verification) {
 
 } // namespace
 
+namespace {
+
+/// 3.6, 15, 104: two digits, more where there are more before the point.
+std::string percent(double share) {
+  return fmt::format(fmt::runtime(share < 0.995 ? "{:.2g}" : "{:.0f}"), 100.0 * share);
+}
+
+/// The scatter of a window, and that it says little where it is large.
+std::string scatter_text(double scatter) {
+  constexpr double says_little = 0.3;
+  return percent(scatter) + " % standard error of this window" +
+         (scatter > says_little ? ", which is too short for statistics or holds no stationary motion" : "");
+}
+
+} // namespace
+
 std::string name_of(ErrorKind kind) {
   switch (kind) {
   case ErrorKind::none:
@@ -61,27 +77,21 @@ ErrorEstimate error_estimate(const RunResults& results) {
     const Disagreement found = disagreement(*verification, results.contacts);
     const double of_step = relative_step_error(*verification), scatter = relative_scatter(results);
     const double relative = std::isnan(scatter) ? of_step : std::hypot(of_step, scatter);
-    return {
-        ErrorKind::verified, relative,
-        fmt::format("{} of {} figures agree with those at half the step{}", found.compared - found.differ,
-                    found.compared,
-                    std::isnan(of_step)
-                        ? ""
-                        : fmt::format(", the step changes sums over contacts by {:.2g} %{}", 100.0 * of_step,
-                                      std::isnan(scatter)
-                                          ? ""
-                                          : fmt::format(", {:.2g} % standard error of this window",
-                                                        100.0 * scatter)))};
+    return {ErrorKind::verified, relative,
+            fmt::format("{} of {} figures agree with those at half the step{}", found.compared - found.differ,
+                        found.compared,
+                        std::isnan(of_step)
+                            ? ""
+                            : fmt::format(", the step changes sums over contacts by {} %{}", percent(of_step),
+                                          std::isnan(scatter) ? "" : ", " + scatter_text(scatter)))};
   }
   const double relative = relative_scatter(results);
   if (std::isnan(relative))
     return {ErrorKind::none, nan,
             "none: no impacts in the window of the statistics, or steps too few for batches; "
             "transient.verify = true compares with half the step"};
-  return {
-      ErrorKind::statistical, relative,
-      fmt::format("{:.2g} % standard error of this window; that of the step is unknown (transient.verify)",
-                  100.0 * relative)};
+  return {ErrorKind::statistical, relative,
+          scatter_text(relative) + "; that of the step is unknown (transient.verify)"};
 }
 
 Disagreement disagreement(const Verification& verification, const std::vector<ContactFacts>& contacts) {

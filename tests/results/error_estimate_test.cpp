@@ -43,6 +43,15 @@ TEST(ErrorEstimate, IsTheLargestScatterOfTheSums) {
   EXPECT_THAT(e.text, HasSubstr("that of the step is unknown"));
 }
 
+TEST(ErrorEstimate, SaysWhereAWindowIsTooShort) {
+  RunResults results = two_contacts();
+  results.errors_of_sums = {0.02, 0.05, 0.0, 3.0};
+  EXPECT_EQ(error_estimate(results).text.find("too short"), std::string::npos);
+  results.errors_of_sums.friction_power = 1.04;
+  EXPECT_THAT(error_estimate(results).text, HasSubstr("104 % standard error of this window"));
+  EXPECT_THAT(error_estimate(results).text, HasSubstr("too short for statistics"));
+}
+
 TEST(ErrorEstimate, SaysThatThereIsNoneAndWhy) {
   RunResults results = two_contacts();
   results.errors_of_sums = {nan, nan, 0.0, nan};
