@@ -51,6 +51,18 @@ void write_impacts(const std::filesystem::path& file, const std::vector<post::Im
   write_columns(file, columns);
 }
 
+/// Removes what an earlier export left, of contacts and nodes that the results no longer have.
+void remove_earlier(const std::filesystem::path& directory) {
+  std::vector<std::filesystem::path> earlier;
+  for (const auto& file : std::filesystem::directory_iterator(directory))
+    if (const std::string name = file.path().filename().string();
+        file.path().extension() == ".csv" &&
+        (name.starts_with("contact_") || name.starts_with("node_") || name.ends_with("_impacts.csv")))
+      earlier.push_back(file.path());
+  for (const auto& file : earlier)
+    std::filesystem::remove(file);
+}
+
 } // namespace
 
 void export_csv(const std::filesystem::path& directory, const RunResults& results) {
@@ -61,6 +73,7 @@ void export_csv(const std::filesystem::path& directory, const RunResults& result
   if (series.contacts.empty() && series.nodes.empty())
     throw core::Error(
         "these results hold no contacts and no observed nodes to write as CSV; name nodes in [output] nodes");
+  remove_earlier(directory);
   for (const post::ContactSeries& c : series.contacts) {
     std::vector<Column> columns{{"time [s]", series.time}};
     add(columns, "displacement", c.displacement, {"x_loc", "y_loc", "z_loc"}, "m");

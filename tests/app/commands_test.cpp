@@ -182,6 +182,23 @@ TEST(Commands, ExportsWriteTheirFiles) {
   EXPECT_TRUE(says(bytes_of(results / "export-msh" / "modes.msh"), "$NodeData"));
 }
 
+TEST(Commands, ExportLeavesNothingOfAnEarlierOne) {
+  const Workshop folder;
+  const std::string study = example("oscillator").string(), results = folder.path("results").string();
+  for (const std::string name : {"stop", "bumper"}) {
+    EXPECT_EQ(
+        folder.fretwork({"run", study, "--no-report", "-o", results, "--set", "contacts.0.name=" + name})
+            .status,
+        0);
+    EXPECT_EQ(folder.fretwork({"export", results, "--format", "csv"}).status, 0);
+  }
+  const fs::path exported = fs::path(results) / "export-csv";
+  EXPECT_TRUE(fs::exists(exported / "contact_bumper.csv"));
+  EXPECT_TRUE(fs::exists(exported / "bumper_impacts.csv"));
+  EXPECT_FALSE(fs::exists(exported / "contact_stop.csv"));
+  EXPECT_FALSE(fs::exists(exported / "stop_impacts.csv"));
+}
+
 TEST(Archive, HasTheShapesOfTheContract) {
   const Workshop folder;
   ASSERT_EQ(folder.fretwork(short_tube("transient", folder.path("results"))).status, 0);
