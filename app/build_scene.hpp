@@ -21,6 +21,7 @@ struct BuiltScene {
   std::vector<std::size_t> contacts; ///< numbers of its contacts among the placed ones
   std::vector<post::ObservedNode> nodes; ///< observed nodes of these structures
   std::vector<std::size_t> node_numbers; ///< their numbers among all observed nodes
+  Eigen::VectorXd static_forces;         ///< N, normal, of its contacts, of a static start; else empty
   double lacking = 0.0;           ///< largest missing flexibility times stiffness (residual_flexibility.hpp)
   std::string lacking_at;         ///< name of the contact
   std::vector<std::string> notes; ///< to be told the user (the projection, the equilibrium)

@@ -17,8 +17,14 @@ struct Point {
   double force;                                ///< N, normal, at t = 0
 };
 
-Point at_start(const PlacedContact& placed, const transient::ContactPoint& contact, const BuiltScene& built) {
+/// @param k  number of the contact in its scene
+Point at_start(const PlacedContact& placed, std::size_t k, const BuiltScene& built) {
   const transient::Scene& scene = built.scene;
+  const transient::ContactPoint& contact = scene.contacts[k];
+  if (built.static_forces.size() > 0) { // residual flexibility has part of the displacement
+    const double force = built.static_forces(static_cast<Eigen::Index>(k));
+    return {&placed, &contact, &built.true_modes, -force / contact.support.normal.stiffness, force};
+  }
   const core::Vec3 place = scene.place_at_start(contact) + contact.b * scene.q0;
   core::Vec3 speed = contact.b * scene.v0;
   for (Eigen::Index k = 0; k < contact.carried.cols(); ++k)
@@ -109,7 +115,7 @@ std::vector<std::string> contact_notes(const study::Study& study, const std::vec
   for (const BuiltScene& built : scenes)
     for (std::size_t k = 0; k < built.contacts.size(); ++k) {
       const PlacedContact& at = placed[built.contacts[k]];
-      of_entry[at.entry].push_back(at_start(at, built.scene.contacts[k], built));
+      of_entry[at.entry].push_back(at_start(at, k, built));
     }
   std::vector<std::string> overlaps, laws;
   for (std::size_t e = 0; e < of_entry.size(); ++e)

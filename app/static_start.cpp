@@ -61,7 +61,9 @@ void start_in_equilibrium(const std::vector<const modal::Basis*>& bases, BuiltSc
     throw core::Error(
         fmt::format("transient.start = \"static\": nothing holds a structure against its loads at t = 0: it "
                     "would {}; add "
-                    "a restraint, a spring or a contact that stops it, or take start = \"rest\"",
+                    "a restraint, a spring or a contact that stops it (friction, unloaded at the start, does "
+                    "not), or take "
+                    "start = \"rest\"",
                     words_for(e.motion, bases)));
   case transient::Balance::not_converged:
     throw core::ComputationError(
@@ -71,6 +73,7 @@ void start_in_equilibrium(const std::vector<const modal::Basis*>& bases, BuiltSc
                     e.iterations, e.residual));
   }
   scene.q0 = e.q;
+  built.static_forces = e.normal_force;
   const auto closed = (e.normal_force.array() > 0.0).count();
   built.notes.push_back(
       closed > 0

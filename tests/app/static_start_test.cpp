@@ -91,6 +91,15 @@ TEST(StaticStart, IsToldAndKeepsInitialVelocities) {
   EXPECT_GT(read_results(folder.path("out")).archive.series.modal_velocity.col(0).norm(), 0.0);
 }
 
+TEST(StaticStart, TellsTheForceOfAContactInSeriesWithTheModes) {
+  const Workshop folder;
+  folder.write("tube.msh", tube().text());
+  const Results start =
+      folder.run_text(study("static"), {"--set", "modes.static_modes=auto", "--set", "modes.count=3"});
+  const double force = start.contact("bar").normal_force(0);
+  EXPECT_TRUE(says(start.summary["notes"].dump(), fmt::format("it presses with {:.4g} N", force)));
+}
+
 TEST(StaticStart, GivesTheSameBytesOnTwoRanks) {
   const Workshop folder;
   folder.write("tube.msh", tube().text());
