@@ -53,8 +53,9 @@ void initial_field(const study::Study& study, const mesh::LineMesh& mesh, const 
   };
   for (std::size_t e = 0; e < study.initial.size(); ++e) {
     const study::Initial& initial = study.initial[e];
-    for (const Index node :
-         mesh::group_nodes(mesh, initial.group, fmt::format("[[initial]] entry {}", e + 1))) {
+    const std::string name = fmt::format("[[initial]] entry {}", e + 1);
+    bool idle = true;
+    for (const Index node : mesh::group_nodes(mesh, initial.group, name)) {
       const Eigen::Index row = static_cast<Eigen::Index>(node) * core::dofs_per_node;
       const Vec3 arm = model.nodes[static_cast<std::size_t>(node)] - initial.centre;
       out.displacement.segment<6>(row) << initial.displacement, Vec3::Zero();
@@ -62,7 +63,14 @@ void initial_field(const study::Study& study, const mesh::LineMesh& mesh, const 
           initial.rotation_rate;
       mark(displaced, out.displacement, row); // zeros give nothing
       mark(moves, out.velocity, row);
+      for (int d = 0; d < core::dofs_per_node; ++d)
+        idle = idle && (model.is_fixed(node, d) ||
+                        (out.displacement(row + d) == 0.0 && out.velocity(row + d) == 0.0));
     }
+    if (idle)
+      out.warnings.push_back(fmt::format(
+          "{} on \"{}\" moves nothing: its nodes are restrained in its directions; apply it elsewhere", name,
+          initial.group));
   }
   follow_ties(model, "displacement", displaced, out.displacement);
   follow_ties(model, "velocity", moves, out.velocity);

@@ -115,6 +115,23 @@ struct AtContacts {
   std::vector<ContactFlexibility> flexibilities; ///< of each scene
 };
 
+/// Of a table of accelerations that ends before the run and not at 0, which drives the base or support away; else empty.
+std::string goes_on_note(const Fields::Load& load, double duration) {
+  constexpr double rest = 1e-3; // of the largest value: what a record is cut off at
+  const auto* table = std::get_if<transient::Table>(&load.function);
+  if (!load.inertial || !table || table->time.back() >= duration)
+    return {};
+  double largest = 0.0;
+  for (const double value : table->value)
+    largest = std::max(largest, std::abs(value));
+  return std::abs(table->value.back()) > rest * largest
+             ? fmt::format("{}: the table ends at {:g} s, before the run; its last acceleration, {:g} m/s2, "
+                           "goes on to "
+                           "the end: let it end at 0 where it should not",
+                           load.name, table->time.back(), table->value.back())
+             : std::string();
+}
+
 /// What the modes make of contacts and loads, for every structure that can move.
 std::vector<BuiltScene> build_scenes(const study::Study& study, const std::vector<modal::Basis>& bases,
                                      const std::vector<PlacedContact>& placed,
@@ -138,6 +155,7 @@ std::vector<BuiltScene> build_scenes(const study::Study& study, const std::vecto
     out.warnings.insert(out.warnings.end(), scene.warnings.begin(), scene.warnings.end());
     out.notes.insert(out.notes.end(), scene.notes.begin(), scene.notes.end());
   }
+  out.warnings.insert(out.warnings.end(), fields.warnings.begin(), fields.warnings.end());
   const auto of_contacts = contact_notes(study, placed, scenes);
   out.notes.insert(out.notes.end(), of_contacts.begin(), of_contacts.end());
   if (const std::string note = flexibility_note(study, scenes); !note.empty())
@@ -152,6 +170,9 @@ std::vector<BuiltScene> build_scenes(const study::Study& study, const std::vecto
                         "another seed if they are independent",
                         fields.loads[j].name, fields.loads[k].name, one->seed));
     }
+  for (const Fields::Load& load : fields.loads)
+    if (const std::string note = goes_on_note(load, study.transient->duration); !note.empty())
+      out.notes.push_back(note);
   // a support that moves nothing by its inertia may still carry an obstacle
   for (std::size_t k = 0; k < fields.loads.size() && !fields.loads[k].of_support; ++k) {
     const auto idle = [&](const BuiltScene& scene) { return scene.scene.loads[k].modal_force.isZero(0.0); };
@@ -210,6 +231,22 @@ void report_mesh_error(results::RunResults& out) {
                     coarse, all, lowest, 100.0 * worst));
 }
 
+/// Of ratios given as per cent, most often.
+std::string overdamped_note(const std::vector<modal::Basis>& bases) {
+  double lowest = std::numeric_limits<double>::infinity(), ratio = 0.0;
+  for (const modal::Basis& basis : bases)
+    for (Eigen::Index i = 0; i < basis.true_modes(); ++i)
+      if (basis.omega(i) > 0.0 && basis.omega(i) < lowest) {
+        lowest = basis.omega(i);
+        ratio = basis.damping(i);
+      }
+  return ratio >= 1.0 ? fmt::format("the lowest mode has a damping ratio of {:.3g} and does not oscillate; "
+                                    "modes.damping = 0.02 "
+                                    "is 2 % of the critical damping",
+                                    ratio)
+                      : std::string();
+}
+
 /// What the user should know of the modes.
 void report_modes(const study::Study& study, results::RunResults& out) {
   std::size_t split = 0, short_of = 0;
@@ -224,6 +261,8 @@ void report_modes(const study::Study& study, results::RunResults& out) {
                                        *study.modes.count,
                                        split > 1 ? fmt::format(" of {} structures", split) : ""));
   report_mesh_error(out);
+  if (const std::string note = overdamped_note(out.bases); !note.empty())
+    out.notes.push_back(note);
   if (const auto all = static_cast<std::int64_t>(out.bases.size()); out.model.different_structures < all)
     out.notes.push_back(
         fmt::format("{} structures, {} different ones: the others are copies and take their modes", all,
@@ -245,9 +284,10 @@ std::string make_report(const fs::path& directory) {
 
 void report_coincident(const mesh::LineMesh& mesh, results::RunResults& out) {
   if (!mesh.coincident.empty())
-    out.notes.push_back(fmt::format(
-        "{} pairs of nodes are at the same place and are not joined (mesh.merge_tolerance would join them)",
-        mesh.coincident.size()));
+    out.notes.push_back(
+        fmt::format("{} of nodes at the same place {} not joined (mesh.merge_tolerance would join them)",
+                    mesh.coincident.size() == 1 ? "1 pair" : fmt::format("{} pairs", mesh.coincident.size()),
+                    mesh.coincident.size() == 1 ? "is" : "are"));
 }
 
 } // namespace
@@ -397,7 +437,8 @@ std::string check(const Request& request) {
   static_cast<void>(moved_supports(inputs.study, mesh, model));
   if (inputs.study.modes.accuracy)
     static_cast<void>(modes_limit(inputs.study, model, placed));
-  static_cast<void>(build_fields(inputs.study, mesh, model, {}));
+  const Fields fields = build_fields(inputs.study, mesh, model, {});
+  warnings.insert(warnings.end(), fields.warnings.begin(), fields.warnings.end());
   std::int64_t dofs = 0;
   for (const auto& structure : structures)
     dofs += structure.equations;

@@ -11,6 +11,8 @@ using Eigen::Index;
 
 /// Missing flexibility times stiffness that makes impacts wrong by half of it: a percent.
 constexpr double told = 0.02;
+/// Up to here the force of an impact grows by half of what is missing, sqrt(1 + x) - 1.
+constexpr double linear = 0.5;
 
 /// What is in series has no inertia: where a load jumps, the contacts would jump with it, at no finite speed.
 void check_continuous(const Fields::Load& load) {
@@ -103,8 +105,11 @@ std::string flexibility_note(const study::Study& study, const std::vector<BuiltS
   switch (study.modes.static_modes) {
   case study::StaticModes::none:
     return worst->lacking > told
-               ? lack + ": impacts there are too hard by about half of that; take modes.static_modes = "
-                        "\"auto\", or more modes"
+               ? lack +
+                     (worst->lacking <= linear
+                          ? ": impacts there are too hard by about half of that"
+                          : ": impacts there are far too hard, what gives way being left out") +
+                     "; take modes.static_modes = \"auto\", or more modes"
                : std::string();
   case study::StaticModes::residual:
     return lack + (worst->lacking > worth_having ? ": it is taken in series with the contacts"
