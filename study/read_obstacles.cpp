@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "study/contact_readers.hpp"
 #include <algorithm>
+#include <fmt/format.h>
 #include <numbers>
 
 namespace fretwork::study {
@@ -100,7 +101,13 @@ contact::Profile read_broached(const TableReader& table) {
   if (lands > most_lands)
     table.fail_at("lands", "more lands than a hole has room for; 3 make a trefoil, 4 a quatrefoil");
   hole.lands = static_cast<int>(lands);
-  hole.land_angle = table.number("land_angle", {Range::above_zero, "degrees"}) * degree;
+  const double land_angle = table.number("land_angle", {Range::above_zero, "degrees"});
+  if (const double whole = 360.0 / static_cast<double>(lands); land_angle >= whole)
+    table.fail_at(
+        "land_angle",
+        fmt::format("{} lands of this angle leave no lobe between them; give less than {:g} degrees", lands,
+                    whole));
+  hole.land_angle = land_angle * degree;
   return made(table, "land_radius", [&] { return contact::broached_hole(tube, hole); });
 }
 

@@ -54,6 +54,9 @@ TEST(MessagesOfContacts, SizesThatMakeNoObstacle) {
         "contacts.p.hole_radius = 0.9: drilled hole: hole radius = 0.9 m is less than the tube radius"},
        {broached + "land_radius = 0.9\nlobe_radius = 2",
         "contacts.p.land_radius = 0.9: broached hole: land radius = 0.9 m"},
+       {broached + "land_radius = 1.1\nlobe_radius = 2\nlands = 18",
+        "contacts.p.land_angle = 20: 18 lands of this angle leave no lobe between them; give less than 20 "
+        "degrees"},
        {broached + "land_radius = 1.1\nlobe_radius = 2\nlands = 1",
         "contacts.p.lands = 1: an integer >= 2 is expected"},
        {broached + "land_radius = 1.1\nlobe_radius = 2\nlands = 400",
