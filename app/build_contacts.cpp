@@ -60,6 +60,37 @@ contact::Frame frame_of(const study::Contact& contact, const fem::Model& model, 
   return contact::nautical_frame(axis, contact.angle * std::numbers::pi / 180.0);
 }
 
+/// m, of a round section; none of others.
+std::optional<double> outer_radius(const fem::Section& section) {
+  if (const auto* pipe = std::get_if<fem::Pipe>(&section.shape))
+    return 0.5 * pipe->outer_diameter;
+  if (const auto* circle = std::get_if<fem::Circle>(&section.shape))
+    return 0.5 * circle->diameter;
+  return {};
+}
+
+/// A tube_radius that no beam at the node has, a diameter most often; empty where one has it.
+std::string radius_warning(const study::Contact& contact, const fem::Model& model, Index node,
+                           const std::string& name) {
+  constexpr double same_radius = 0.05; // sleeves, wear, rounded sizes
+  std::optional<double> other;
+  for (const fem::Beam& beam : model.beams)
+    if (beam.a == node || beam.b == node) {
+      const auto here =
+          outer_radius(fem::property_at(model.properties[static_cast<std::size_t>(beam.property)],
+                                        beam.along[beam.a == node ? 0 : 1])
+                           .section);
+      if (!here || std::abs(*here - *contact.tube_radius) <= same_radius * *here)
+        return {};
+      other = here;
+    }
+  return other ? fmt::format("contact \"{}\": tube_radius = {:g} m, but the section of the beam at its node "
+                             "has an outer "
+                             "radius of {:g} m; make them agree",
+                             name, *contact.tube_radius, *other)
+               : std::string();
+}
+
 /// Stiffness of the tube's wall at a node, N/m.
 double wall_at(const study::Study& study, const fem::Model& model, Index node, const std::string& name) {
   std::optional<double> stiffness;
@@ -223,14 +254,19 @@ std::vector<PlacedContact> place_contacts(const study::Study& study, const mesh:
       warnings.push_back(what +
                          ": origin moves nothing between two nodes, where only their relative position "
                          "counts; leave it out, or shift the obstacle by offset");
+    std::string radius_said; // of the first node of the group that it is true of
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       PlacedContact placed{};
       placed.name = nodes.size() == 1 ? contact.name : fmt::format("{}[{}]", contact.name, i);
       placed.entry = e;
       placed.node = nodes[i];
       placed.other = others[i];
+      if (contact.tube_radius && radius_said.empty())
+        radius_said = radius_warning(contact, model, nodes[i], placed.name);
       place(study, model, std::move(placed), out, warnings);
     }
+    if (!radius_said.empty())
+      warnings.push_back(radius_said);
   }
   check_names(study, out);
   return out;

@@ -142,6 +142,8 @@ void read_fixed_obstacle(const TableReader& table, Contact& contact) {
     return table.number(
         "gap", {Range::at_least_zero, "m", "an overlap is made by origin or offset, with a gap >= 0"});
   };
+  if (table.has("tube_radius"))
+    contact.tube_radius = tube_radius(table);
   switch (contact.obstacle) {
   case ObstacleKind::circle:
     contact.shape = contact::Circle{gap()};

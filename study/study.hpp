@@ -111,8 +111,9 @@ struct Contact {
   std::string group;
   std::optional<std::string> other; ///< group of the second nodes
   ObstacleKind obstacle = ObstacleKind::circle;
-  contact::Obstacle shape;    ///< flat bodies without `side`: it follows from the places of the two nodes
-  std::optional<double> side; ///< two nodes, planes: +1 or -1
+  contact::Obstacle shape; ///< flat bodies without `side`: it follows from the places of the two nodes
+  std::optional<double> tube_radius; ///< m, of the obstacles that have it; the shape is made with it
+  std::optional<double> side;        ///< two nodes, planes: +1 or -1
   std::optional<Vec3> axis;
   std::optional<Vec3> y_axis; ///< instead of angle
   double angle = 0.0;         ///< degrees

@@ -297,6 +297,22 @@ TEST(Thickness, LongerThanTheTubeIsRefused) {
            "contact \"plate\": the beam ends at "));
 }
 
+TEST(TubeRadius, ThatIsNotTheTubesIsWarnedAbout) {
+  const Workshop folder;
+  const auto warnings = [&](const char* sizes) {
+    return folder
+        .run_text(tubes(folder, 1) +
+                  support(fmt::format("obstacle = \"drilled\"\n{}\nnormal_stiffness = 2.0e6\n", sizes)) +
+                  push(0, 200.0))
+        .summary["warnings"]
+        .dump();
+  };
+  EXPECT_TRUE(says(
+      warnings("tube_radius = 0.01905\nhole_radius = 0.01915"),
+      "tube_radius = 0.01905 m, but the section of the beam at its node has an outer radius of 0.009525 m"));
+  EXPECT_FALSE(says(warnings("tube_radius = 0.0095\nhole_radius = 0.0096"), "tube_radius"));
+}
+
 TEST(Wall, GivesTheStiffnessOfTheTube) {
   const Workshop folder;
   const Results run = folder.run_text(tubes(folder, 2) +
