@@ -86,9 +86,11 @@ public:
 
   const Record& advance() override {
     flow();
-    if (contacts_.count > 0)
+    if (contacts_.count > 0) {
       act();
-    show(record_, contacts_, displacements(), motion_.u.data(), trial_);
+      see();
+    }
+    show(record_, contacts_, displacements(), seen_.data(), trial_);
     return record_;
   }
 
@@ -116,8 +118,7 @@ public:
     rows_.add_to(impulse_.data());
     for (Eigen::Index j = 0; j < system_.size(); ++j) {
       const double impulse = impulse_[static_cast<std::size_t>(j)];
-      q[j] +=
-          0.5 * (share * share - 0.25) * h_ * impulse; // nothing at the actions, where forces are made from q
+      q[j] += 0.5 * (share * share - 1.0 / 12.0) * h_ * impulse; // nothing in the mean over the step
       v[j] += share * impulse;
     }
     if (!shown_.empty())
@@ -195,6 +196,23 @@ private:
     record_.energy.stored = moving_;
   }
 
+  /// Where the contacts are in the mean over the step: at the action the modes stand (h^2/12) W f behind (contact/instant_spring.hpp); of W the
+  /// block of the contact itself.
+  void see() {
+    seen_ = motion_.u;
+    if (flexible_)
+      return;
+    const auto width = static_cast<std::size_t>(contacts_.width);
+    for (const int active : trial_.active) {
+      const auto c = static_cast<std::size_t>(active);
+      const ContactState& s = trial_.states[c];
+      const double scale = h_ * h_ / 12.0, y = scale * (s.normal_force * s.ny + s.friction.t * s.nz),
+                   z = scale * (s.normal_force * s.nz - s.friction.t * s.ny);
+      seen_[c] += contacts_.own_mobility(active, 0, 0) * y + contacts_.own_mobility(active, 0, 1) * z;
+      seen_[width + c] += contacts_.own_mobility(active, 1, 0) * y + contacts_.own_mobility(active, 1, 1) * z;
+    }
+  }
+
   /// Where the contacts stand and the forces of the action.
   ContactSolver::Action solve() {
     if (near_only_) {
@@ -262,6 +280,7 @@ private:
   double time_ = 0.0;
   kernels::Array q_, v_, k_, f_now_, f_next_, slope_, impulse_;
   kernels::Array shown_, shown_q_; ///< with scaled masses
+  kernels::Array seen_;            ///< m, lanes
 
   Record record_;
   double moving_ = 0.0, after_action_ = 0.0; ///< modal energy before and after the action

@@ -31,8 +31,7 @@ Scene with_stiff_modes(Scene scene, double w, double zeta) {
   scene.system.stiffness.tail(3).setConstant(w * w);
   scene.system.damping.tail(3).setConstant(2.0 * zeta * w);
   scene.contacts[0].b.conservativeResize(3, n + 3);
-  scene.contacts[0].b.rightCols(3) =
-      w * vectors * values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  scene.contacts[0].b.rightCols(3) = w * vectors * values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
   for (Load& load : scene.loads) {
     load.modal_force.conservativeResize(n + 3);
     load.modal_force.tail(3).setZero();

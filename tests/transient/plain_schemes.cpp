@@ -124,6 +124,7 @@ PlainState plain_splitting(const Scene& scene, double h, int steps) {
   const auto signals = signals_of(scene);
   auto points = points_of(scene, h);
   PlainState s{scene.q0, scene.v0};
+  Eigen::VectorXd pushed = Eigen::VectorXd::Zero(scene.system.size()); // by the contacts of the last step
   double time = 0.0;
   for (int k = 0; k < steps; ++k) {
     const double next = (k + 0.5) * h;
@@ -152,6 +153,7 @@ PlainState plain_splitting(const Scene& scene, double h, int steps) {
     for (int i = 0; i < sweeps; ++i)
       sweep(shut, h, mean_velocity);
     const PlainState before = s;
+    pushed.setZero();
     for (Point* p : shut) {
       if (p->normal > 0.0) {
         Vec3 w = p->at.b * mean_velocity;
@@ -169,11 +171,13 @@ PlainState plain_splitting(const Scene& scene, double h, int steps) {
       } else {
         p->open();
       }
-      s.v += h * p->at.b.transpose() * p->force();
+      pushed += p->at.b.transpose() * p->force();
     }
+    s.v += h * pushed;
     for (Point& p : points)
       p.push = p.normal * p.n();
   }
+  s.q += h * h / 12.0 * pushed; // the mean over the step
   return s;
 }
 
