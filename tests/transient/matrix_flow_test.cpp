@@ -5,6 +5,7 @@
 #include "transient/force_polynomial.hpp"
 #include "transient/matrix_flow.hpp"
 #include "transient/oscillator.hpp"
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <gtest/gtest.h>

@@ -29,6 +29,23 @@ function(fretwork_compile_options target)
   endif()
 endfunction()
 
+# ccache looks at files with precompiled headers only where it is told that this is meant.
+if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache" AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
+  list(PREPEND CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros)
+endif()
+
+# The headers of others that most files include, compiled once with the first folder. Neither fmt nor toml++: they differ by the macros of the
+# folders that link them, and a precompiled header fits no other macros than its own. Files include what they use all the same: the preset
+# dev builds without.
+function(fretwork_precompile target)
+  if(target STREQUAL "fretwork_core")
+    target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <cmath> <functional> <map> <optional> <string>
+                              <variant> <vector>)
+  else()
+    target_precompile_headers(${target} REUSE_FROM fretwork_core)
+  endif()
+endfunction()
+
 # fretwork_folder(<folder> [TARGET name] SOURCES ... [KNOWS folders ...] [LIBRARIES private third-party ...])
 function(fretwork_folder folder)
   cmake_parse_arguments(ARG "" "TARGET" "SOURCES;KNOWS;LIBRARIES" ${ARGN})
@@ -43,4 +60,5 @@ function(fretwork_folder folder)
     target_link_libraries(${ARG_TARGET} PUBLIC fretwork_${known})
   endforeach()
   target_link_libraries(${ARG_TARGET} PRIVATE ${ARG_LIBRARIES})
+  fretwork_precompile(${ARG_TARGET})
 endfunction()
