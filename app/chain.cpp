@@ -252,7 +252,7 @@ void report_modes(const study::Study& study, results::RunResults& out) {
   std::size_t split = 0, short_of = 0;
   for (const auto& basis : out.bases) {
     split += basis.splits_group ? 1 : 0;
-    short_of += study.modes.count && basis.size() < *study.modes.count ? 1 : 0;
+    short_of += study.modes.count_given && basis.size() < *study.modes.count ? 1 : 0;
   }
   if (split > 0)
     out.warnings.push_back(fmt::format("modes.count = {} cuts a group of equal frequencies{}: the two planes "
@@ -268,8 +268,11 @@ void report_modes(const study::Study& study, results::RunResults& out) {
         fmt::format("{} structures, {} different ones: the others are copies and take their modes", all,
                     out.model.different_structures));
   if (short_of > 0)
-    out.notes.push_back(fmt::format("{} of {} structures have fewer than modes.count = {} modes", short_of,
-                                    out.bases.size(), *study.modes.count));
+    out.notes.push_back(
+        out.bases.size() == 1
+            ? fmt::format("modes.count = {} is more than the {} that the structure has", *study.modes.count, out.bases[0].size())
+            : fmt::format("{} of {} structures have fewer modes than modes.count = {}", short_of, out.bases.size(),
+                          *study.modes.count));
 }
 
 /// The report, or why there is none: the results are whole without it.

@@ -69,7 +69,8 @@ struct Tie {
 enum class StaticModes { none, residual, added };
 
 struct Modes {
-  std::optional<int> count = 40; ///< exactly one of count, up_to_hz and accuracy is given
+  std::optional<int> count = 40; ///< exactly one of count, up_to_hz and accuracy has a value
+  bool count_given = false;      ///< by the study
   std::optional<double> up_to_hz;
   std::optional<double> accuracy; ///< relative error of contact forces, > 0 and at most 0.1
   modal::Damping damping = 0.0;

@@ -54,6 +54,17 @@ TEST(ModesCommand, SolvesEqualTubesOnce) {
   EXPECT_LT(frequencies[3], frequencies[4]);
 }
 
+TEST(ModesCommand, SaysWhereAStructureHasFewerModesThanTheStudyAsksFor) {
+  const Workshop folder;
+  const auto notes = [&](int count) {
+    const Outcome outcome = folder.fretwork({"modes", tubes(folder, {1.0}, 2, count)});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return summary_of(folder)["notes"].dump();
+  };
+  EXPECT_TRUE(says(notes(40), "modes.count = 40 is more than the "));
+  EXPECT_FALSE(says(notes(2), "is more than the "));
+}
+
 TEST(ModesCommand, PrintsErrorsAndEffectiveMasses) {
   const Workshop folder;
   const Outcome outcome = folder.fretwork({"modes", tubes(folder, {1.0}, 16, 8)});
