@@ -268,11 +268,11 @@ void report_modes(const study::Study& study, results::RunResults& out) {
         fmt::format("{} structures, {} different ones: the others are copies and take their modes", all,
                     out.model.different_structures));
   if (short_of > 0)
-    out.notes.push_back(
-        out.bases.size() == 1
-            ? fmt::format("modes.count = {} is more than the {} that the structure has", *study.modes.count, out.bases[0].size())
-            : fmt::format("{} of {} structures have fewer modes than modes.count = {}", short_of, out.bases.size(),
-                          *study.modes.count));
+    out.notes.push_back(out.bases.size() == 1
+                            ? fmt::format("modes.count = {} is more than the {} that the structure has",
+                                          *study.modes.count, out.bases[0].size())
+                            : fmt::format("{} of {} structures have fewer modes than modes.count = {}",
+                                          short_of, out.bases.size(), *study.modes.count));
 }
 
 /// The report, or why there is none: the results are whole without it.

@@ -3,6 +3,9 @@
 #include "contact/instant_spring.hpp"
 #include "transient/packed_contacts.hpp"
 #include "transient/vector_lanes.hpp"
+#include <algorithm>
+#include <array>
+#include <span>
 
 namespace fretwork::transient::kernels {
 namespace {
@@ -12,6 +15,8 @@ namespace {
 /// What Jacobi sweeps foretell is less sure than what Gauss-Seidel sweeps do: the largest change moves from contact to contact.
 constexpr double jacobi_caution = 0.1;
 constexpr double round_off = 1e-14; ///< of a force
+/// So few near contacts are solved one after the other: all, where LaneCount::few.
+constexpr int most_single = 2;
 
 // Flags are packs of 1 and 0, and choices are made by one comparison each: compilers turn these into a vector operation, and masks that
 // are joined into many scalar ones.
@@ -101,11 +106,11 @@ FRETWORK_INLINE V instant_spring(const V& stiffness, const V& p, const V& v, con
 
 /// Which contacts are shut, their laws for the step, first forces; velocities before the action. Returns the energy of the springs, J.
 template <class V>
-FRETWORK_INLINE double prepare(const Places& places, const SweepRule& rule, const LawLanes& law,
+FRETWORK_INLINE double prepare(std::span<const int> places, const SweepRule& rule, const LawLanes& law,
                                const MemoryLanes& memory, const NearLanes& near, StepLanes& s) {
   const V one = V{} + 1.0;
   V energy{};
-  for (const int i : places.first) {
+  for (const int i : places) {
     const V g = at<V>(near.gap + i), my = at<V>(near.ny + i), mz = at<V>(near.nz + i);
     const V y = at<V>(near.vy + i), z = at<V>(near.vz + i);
     const V k = at<V>(&law.stiffness[i]), p = clipped(-g);
@@ -161,11 +166,11 @@ FRETWORK_INLINE void turn(const NearLanes& near, int i, double half_step, const 
 
 /// One Jacobi sweep over all lanes: forces follow, velocities do not. Returns the largest change, relative to what a contact can bear.
 template <class V>
-FRETWORK_INLINE double improve(const Places& places, double half_step, const LawLanes& law,
+FRETWORK_INLINE double improve(std::span<const int> places, double half_step, const LawLanes& law,
                                const NearLanes& near, StepLanes& s) {
   const V one = V{} + 1.0;
   V worst{};
-  for (const int i : places.first) {
+  for (const int i : places) {
     const V n0 = at<V>(&s.normal[i]), t0 = at<V>(&s.friction[i]), my = at<V>(near.ny + i),
             mz = at<V>(near.nz + i);
     const V v_n = my * at<V>(&s.v_y[i]) + mz * at<V>(&s.v_z[i]),
@@ -194,10 +199,10 @@ FRETWORK_INLINE double improve(const Places& places, double half_step, const Law
 
 /// Velocities of all contacts follow the changes of the forces of those that take part: two sums at once, so that none waits for the other.
 template <class V, bool coupled>
-FRETWORK_INLINE void answer_planes(const Places& places, int width, const MobilityLanes& mobility,
+FRETWORK_INLINE void answer_planes(std::span<const int> places, int width, const MobilityLanes& mobility,
                                    StepLanes& s) {
   constexpr int columns = coupled ? 4 : 2;
-  for (const int i : places.first) {
+  for (const int i : places) {
     V y[2] = {at<V>(&s.v_y[i]), V{}}, z[2] = {at<V>(&s.v_z[i]), V{}};
     const auto add = [&](int k, int into) __attribute__((always_inline)) {
       const auto c = static_cast<std::size_t>(s.contacts[k]);
@@ -223,7 +228,8 @@ FRETWORK_INLINE void answer_planes(const Places& places, int width, const Mobili
 }
 
 template <class V>
-FRETWORK_INLINE void answer(const Places& places, int width, const MobilityLanes& mobility, StepLanes& s) {
+FRETWORK_INLINE void answer(std::span<const int> places, int width, const MobilityLanes& mobility,
+                            StepLanes& s) {
   if (mobility.coupled)
     answer_planes<V, true>(places, width, mobility, s);
   else
@@ -239,7 +245,7 @@ FRETWORK_INLINE bool sweeps_once(const StepLanes& s) {
 
 /// Returns whether the sweeps settled.
 template <class V>
-FRETWORK_INLINE bool sweep(const Places& places, int width, const SweepRule& rule, const LawLanes& law,
+FRETWORK_INLINE bool sweep(std::span<const int> places, int width, const SweepRule& rule, const LawLanes& law,
                            const MobilityLanes& mobility, const NearLanes& near, StepLanes& s) {
   const double half_step = 0.5 * rule.step;
   const bool once = rule.implicit && sweeps_once(s);
@@ -247,7 +253,7 @@ FRETWORK_INLINE bool sweep(const Places& places, int width, const SweepRule& rul
     s.normal[s.contacts[0]] = 0.0;
     s.friction[s.contacts[0]] = 0.0;
   } else {
-    for (const int i : places.first)
+    for (const int i : places)
       turn<V>(near, i, half_step, at<V>(&s.normal[i]), at<V>(&s.friction[i]), s);
     answer<V>(places, width, mobility, s);
     if (!rule.implicit)
@@ -266,11 +272,11 @@ FRETWORK_INLINE bool sweep(const Places& places, int width, const SweepRule& rul
 
 /// Forces found: what the contacts did over the step.
 template <class V>
-FRETWORK_INLINE void close(const Places& places, const SweepRule& rule, const LawLanes& law,
+FRETWORK_INLINE void close(std::span<const int> places, const SweepRule& rule, const LawLanes& law,
                            const NearLanes& near, StepLanes& s, CommitLanes& out, Solved& solved) {
   const V one = V{} + 1.0;
   V work{}, jump{};
-  for (const int i : places.first) {
+  for (const int i : places) {
     const V my = at<V>(near.ny + i), mz = at<V>(near.nz + i), n = at<V>(&s.normal[i]),
             t = at<V>(&s.friction[i]);
     const V v_n = my * at<V>(&s.v_y[i]) + mz * at<V>(&s.v_z[i]),
@@ -290,19 +296,20 @@ FRETWORK_INLINE void close(const Places& places, const SweepRule& rule, const La
 }
 
 template <class V>
-FRETWORK_INLINE Solved solve_all(const Places& places, const SweepRule& rule, const LawLanes& law,
-                                 const MemoryLanes& memory, const MobilityLanes& mobility,
-                                 const NearLanes& near, StepLanes& step, CommitLanes& out) {
+FRETWORK_INLINE Solved solve_all(std::span<const int> places, int width, const SweepRule& rule,
+                                 const LawLanes& law, const MemoryLanes& memory,
+                                 const MobilityLanes& mobility, const NearLanes& near, StepLanes& step,
+                                 CommitLanes& out) {
   Solved solved;
   solved.springs = prepare<V>(places, rule, law, memory, near, step);
   step.count = 0;
-  for (const int i : places.first)
+  for (const int i : places)
     for (int c = i; c < i + size_of<V>; ++c)
       if (step.shut[c] != 0.0)
         step.contacts[step.count++] = c;
   if (step.count == 0)
     return solved;
-  solved.settled = sweep<V>(places, places.all.width, rule, law, mobility, near, step);
+  solved.settled = sweep<V>(places, width, rule, law, mobility, near, step);
   if (solved.settled)
     close<V>(places, rule, law, near, step, out, solved);
   return solved;
@@ -389,11 +396,22 @@ FRETWORK_INLINE CommitSums commit_all(const Places& acting, const LawLanes& law,
 FRETWORK_WIDTHS Solved solve(const Places& places, const SweepRule& rule, const LawLanes& law,
                              const MemoryLanes& memory, const MobilityLanes& mobility, const NearLanes& near,
                              StepLanes& step, CommitLanes& out) {
-  if (places.all.few())
-    return solve_all<double>(places, rule, law, memory, mobility, near, step, out);
+  const int width = places.all.width;
+  const int together = places.all.together();
+  if (places.near <= most_single) { // fewer than the places have lanes
+    std::array<int, most_single> single;
+    std::size_t count = 0;
+    for (const int i : places.first) {
+      std::fill_n(&out.closed[static_cast<std::size_t>(i)], together, 0.0);
+      for (int c = i; c < i + together; ++c)
+        if (near.near[c] > 0.0)
+          single[count++] = c;
+    }
+    return solve_all<double>({single.data(), count}, width, rule, law, memory, mobility, near, step, out);
+  }
   if (places.all.half())
-    return solve_all<Half>(places, rule, law, memory, mobility, near, step, out);
-  return solve_all<Pack>(places, rule, law, memory, mobility, near, step, out);
+    return solve_all<Half>(places.first, width, rule, law, memory, mobility, near, step, out);
+  return solve_all<Pack>(places.first, width, rule, law, memory, mobility, near, step, out);
 }
 
 FRETWORK_WIDTHS CommitSums commit(const Places& acting, const LawLanes& law, CommitLanes& step,

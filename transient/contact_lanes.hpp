@@ -66,9 +66,9 @@ struct MobilityLanes {
   bool coupled = false; ///< some force along y moves some contact along z
 };
 
-/// Gaps, normals and velocities before the action of all contacts, in lanes.
+/// Marks of the near contacts (1 or 0), gaps, normals and velocities before the action of all contacts, in lanes.
 struct NearLanes {
-  const double *gap, *ny, *nz, *vy, *vz;
+  const double *near, *gap, *ny, *nz, *vy, *vz;
 };
 
 /// A step found, and what its commit makes of it.

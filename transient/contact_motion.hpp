@@ -25,6 +25,8 @@ public:
   /// Where the near contacts are.
   [[nodiscard]] const kernels::Places& places() const { return places_; }
   [[nodiscard]] bool near(int c) const { return near_[c] != 0.0; }
+  /// The same of all contacts, in lanes: 1 or 0.
+  [[nodiscard]] const double* marks() const { return near_.data(); }
 
   [[nodiscard]] contact::Location locate(int c) const {
     const kernels::ReachLanes& reach = contacts_.reach;

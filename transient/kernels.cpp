@@ -8,7 +8,7 @@ namespace {
 template <class V>
 FRETWORK_INLINE void place_all(int end, const ReachLanes& reach, const double* uy, const double* uz,
                                const double* vy, const double* vz, double half_window, double* gap,
-                               double* ny, double* nz, double* near, std::vector<int>& places) {
+                               double* ny, double* nz, double* near, Places& places) {
   const V one = V{} + 1.0;
   const double h2 = half_window * half_window;
   for (int i = 0; i < end; i += size_of<V>) {
@@ -26,13 +26,15 @@ FRETWORK_INLINE void place_all(int end, const ReachLanes& reach, const double* u
     V reached = g <= 0.0 ? one : V{};
     if (half_window > 0.0) {
       const V s2 = at<V>(vy + i) * at<V>(vy + i) + at<V>(vz + i) * at<V>(vz + i);
-      reached += g * g <= h2 * s2 ? one : V{};
+      reached = g * g <= h2 * s2 ? one : reached;
     }
     at<V>(gap + i) = g;
     at<V>(near + i) = reached;
-    if (sum(reached) == 0.0)
+    const double number = sum(reached);
+    if (number == 0.0)
       continue;
-    places.push_back(i);
+    places.first.push_back(i);
+    places.near += number;
     const V per_r = 1.0 / (r > 0.0 ? r : one);
     // at the very centre along y where the normal can be y
     const V ey = r > 0.0 ? wy * y * per_r : wy, ez = r > 0.0 ? wz * z * per_r : wz * (1.0 - wy);
@@ -206,14 +208,14 @@ FRETWORK_WIDTHS void place(const ReachLanes& reach, const double* uy, const doub
                            const double* vz, double half_window, double* gap, double* ny, double* nz,
                            double* near, Places& places) {
   const LaneCount& all = places.all;
-  std::vector<int>& first = places.first;
-  first.clear();
+  places.first.clear();
+  places.near = 0.0;
   if (all.few())
-    place_all<double>(all.count, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near, first);
+    place_all<double>(all.count, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near, places);
   else if (all.half())
-    place_all<Half>(size_of<Half>, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near, first);
+    place_all<Half>(size_of<Half>, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near, places);
   else
-    place_all<Pack>(all.width, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near, first);
+    place_all<Pack>(all.width, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near, places);
 }
 
 FRETWORK_WIDTHS void respond(int width, int directions, const double* columns, double ny, double nz,

@@ -72,6 +72,7 @@ struct Places {
   }
   LaneCount all;
   std::vector<int> first;
+  double near = 0.0; ///< contacts that `place` finds near
 };
 
 /// A matrix of `lanes`-wide packs of rows, each with the columns (modes) that are not zero in it: contacts whose local axes lie along
@@ -113,7 +114,7 @@ struct ReachLanes {
 
 /// Gap and its gradient: contact::locate of every obstacle that is one formula, with e = (wy y, wz z)/r, r = sqrt(wy y^2 + wz z^2),
 ///     gap = limit - (radial r + ly y + lz z),   n = -(radial e + (ly, lz)).
-/// For a profile it is a lower bound of the gap (its inscribed circle). near[i] > 0 where gap <= half_window |v|, else 0; without a window
+/// For a profile it is a lower bound of the gap (its inscribed circle). near[i] = 1 where gap <= half_window |v|, else 0; without a window
 /// velocities are not looked at. Normals are found in the `places` in which some contact is near, the others keep theirs.
 void place(const ReachLanes& reach, const double* uy, const double* uz, const double* vy, const double* vz,
            double half_window, double* gap, double* ny, double* nz, double* near, Places& places);
