@@ -3,7 +3,6 @@
 #include "contact/instant_spring.hpp"
 #include "transient/packed_contacts.hpp"
 #include "transient/vector_lanes.hpp"
-#include <algorithm>
 #include <array>
 #include <span>
 
@@ -15,7 +14,7 @@ namespace {
 /// What Jacobi sweeps foretell is less sure than what Gauss-Seidel sweeps do: the largest change moves from contact to contact.
 constexpr double jacobi_caution = 0.1;
 constexpr double round_off = 1e-14; ///< of a force
-/// So few near contacts are solved one after the other: all, where LaneCount::few.
+/// So few near contacts of several packs are solved one after the other.
 constexpr int most_single = 2;
 
 // Flags are packs of 1 and 0, and choices are made by one comparison each: compilers turn these into a vector operation, and masks that
@@ -397,21 +396,21 @@ FRETWORK_WIDTHS Solved solve(const Places& places, const SweepRule& rule, const 
                              const MemoryLanes& memory, const MobilityLanes& mobility, const NearLanes& near,
                              StepLanes& step, CommitLanes& out) {
   const int width = places.all.width;
-  const int together = places.all.together();
-  if (places.near <= most_single) { // fewer than the places have lanes
-    std::array<int, most_single> single;
-    std::size_t count = 0;
-    for (const int i : places.first) {
-      std::fill_n(&out.closed[static_cast<std::size_t>(i)], together, 0.0);
-      for (int c = i; c < i + together; ++c)
-        if (near.near[c] > 0.0)
-          single[count++] = c;
-    }
-    return solve_all<double>({single.data(), count}, width, rule, law, memory, mobility, near, step, out);
-  }
+  if (places.all.few())
+    return solve_all<double>(places.first, width, rule, law, memory, mobility, near, step, out);
   if (places.all.half())
     return solve_all<Half>(places.first, width, rule, law, memory, mobility, near, step, out);
-  return solve_all<Pack>(places.first, width, rule, law, memory, mobility, near, step, out);
+  if (places.near > most_single)
+    return solve_all<Pack>(places.first, width, rule, law, memory, mobility, near, step, out);
+  std::array<int, most_single> single;
+  std::size_t count = 0;
+  for (const int i : places.first) {
+    at<Pack>(&out.closed[i]) = Pack{};
+    for (int c = i; c < i + lanes; ++c)
+      if (near.near[c] > 0.0)
+        single[count++] = c;
+  }
+  return solve_all<double>({single.data(), count}, width, rule, law, memory, mobility, near, step, out);
 }
 
 FRETWORK_WIDTHS CommitSums commit(const Places& acting, const LawLanes& law, CommitLanes& step,
