@@ -63,4 +63,10 @@ void ContactRows::add_to(double* target) const {
     kernels::scatter(contacts_.padded_modes, static_cast<int>(count_), row_.data(), factor_.data(), target);
 }
 
+void ContactRows::add_to(double* target, double share, const double* q, double* moved) const {
+  if (count_ > 0)
+    kernels::scatter(contacts_.padded_modes, static_cast<int>(count_), row_.data(), factor_.data(), target,
+                     share, q, moved);
+}
+
 } // namespace fretwork::transient

@@ -51,6 +51,8 @@ public:
   void set(const ContactTrial& trial, double scale);
   /// target += sum of rows; padded modes. No allocation.
   void add_to(double* target) const;
+  /// The same, and moved = q + share * what is added; `moved` stays without rows. No allocation.
+  void add_to(double* target, double share, const double* q, double* moved) const;
 
 private:
   const PackedContacts& contacts_;

@@ -188,6 +188,18 @@ FRETWORK_WIDTHS void scatter(int np, int rows, const double* const* row, const d
   }
 }
 
+FRETWORK_WIDTHS void scatter(int np, int rows, const double* const* row, const double* factor, double* v,
+                             double share, const double* q, double* moved) {
+  for (int i = 0; i < np; i += lanes) {
+    const Pack v0 = at(v + i);
+    Pack s = v0;
+    for (int r = 0; r < rows; ++r)
+      s += factor[r] * at(row[r] + i);
+    at(v + i) = s;
+    at(moved + i) = at(q + i) + share * (s - v0);
+  }
+}
+
 FRETWORK_WIDTHS EulerSums euler_step(int np, double h, const double* c, const double* k, const double* load,
                                      const double* force, double* q, double* v) {
   Pack energy{}, power{}, loss{};

@@ -94,6 +94,9 @@ void gather_at(const GatherTable& g, const Places& places, const double* v, doub
 
 /// v += sum over r of factor[r] * row[r].
 void scatter(int np, int rows, const double* const* row, const double* factor, double* v);
+/// The same, and moved = q + share * what v has gained.
+void scatter(int np, int rows, const double* const* row, const double* factor, double* v, double share,
+             const double* q, double* moved);
 
 /// One step of the semi-implicit Euler scheme: v1 = v + h (f - c v - k q), q1 = q + h v1, f including the
 /// contact forces. Returns the sums over modes with vm = (v + v1)/2.

@@ -41,7 +41,8 @@ struct Energy {
   }
 };
 
-/// What observers see of a step. Positions, forces and energies belong to `time`.
+/// What observers see of a step. Positions, forces and energies belong to `time`; with forces at instants (splitting) positions are those of
+/// the mean over the step.
 struct Record {
   double time = 0.0;
   double step = 0.0;         ///< s, the length of time this record stands for

@@ -80,8 +80,9 @@ public:
     if (shown.size() > 0) {
       shown_.assign(n, 0.0);
       std::copy_n(shown.data(), shown.size(), shown_.begin());
-      shown_q_.assign(n, 0.0);
     }
+    shown_q_.assign(n, 0.0);
+    seen_ = motion_.u;
   }
 
   const Record& advance() override {
@@ -155,12 +156,13 @@ public:
   }
 
 private:
-  /// Padded modes.
+  /// Of the modes in the mean over the step, as `see` has the contacts; padded.
   const double* displacements() {
+    const double* mean = trial_.active.empty() ? q_.data() : shown_q_.data();
     if (shown_.empty())
-      return q_.data();
-    for (std::size_t i = 0; i < q_.size(); ++i)
-      shown_q_[i] = shown_[i] * q_[i];
+      return mean;
+    for (std::size_t i = 0; i < shown_.size(); ++i)
+      shown_q_[i] = shown_[i] * mean[i];
     return shown_q_.data();
   }
 
@@ -200,8 +202,6 @@ private:
   /// block of the contact itself.
   void see() {
     seen_ = motion_.u;
-    if (flexible_)
-      return;
     const auto width = static_cast<std::size_t>(contacts_.width);
     for (const int active : trial_.active) {
       const auto c = static_cast<std::size_t>(active);
@@ -241,7 +241,7 @@ private:
     else
       memory_.leave(motion_, trial_, 0.5 * h_);
     rows_.set(trial_, h_);
-    rows_.add_to(v_.data());
+    rows_.add_to(v_.data(), h_ / 12.0, q_.data(), shown_q_.data());
     // The record stands in the middle of the action: half of its losses belong to it, and its velocity is (v-
     // + v+)/2, whose energy is moving + work/2 - (h^2/8) f.W.f. What moving obstacles do is work from outside.
     Energy& energy = record_.energy;
@@ -279,8 +279,9 @@ private:
   std::int64_t steps_ = 0, unconverged_ = 0;
   double time_ = 0.0;
   kernels::Array q_, v_, k_, f_now_, f_next_, slope_, impulse_;
-  kernels::Array shown_, shown_q_; ///< with scaled masses
-  kernels::Array seen_;            ///< m, lanes
+  kernels::Array shown_;   ///< with scaled masses
+  kernels::Array shown_q_; ///< in the mean over the step
+  kernels::Array seen_;    ///< m, lanes, likewise
 
   Record record_;
   double moving_ = 0.0, after_action_ = 0.0; ///< modal energy before and after the action
