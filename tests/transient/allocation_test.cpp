@@ -119,6 +119,15 @@ TEST(Allocation, NeverHappensInTheLoop) {
   EXPECT_EQ(allocations_of_a_run(scene, collocation(1e-4)), 0);
 }
 
+TEST(Allocation, NeverHappensWhereOnlyNearContactsAreLookedAt) {
+  Scene scene = rattling(19, 12, 0.5);
+  for (auto& c : scene.contacts) {
+    c.support.normal.damping = 0.0;
+    c.b.row(0).setZero();
+  }
+  EXPECT_EQ(allocations_of_a_run(scene, splitting(1e-4)), 0);
+}
+
 TEST(Allocation, NeverHappensUnderTablesAndNoise) {
   Scene scene = rattling(3, 12, 1.0);
   scene.loads[0].function = Random{4.0, 5.0, 60.0, 1};

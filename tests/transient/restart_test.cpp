@@ -171,6 +171,21 @@ TEST(Restart, WithFrictionAlongOneTangent) {
   expect_restarts(scene, all_schemes());
 }
 
+TEST(
+    Restart,
+    WhereOnlyNearContactsAreLookedAt) { // no normal damper: velocities of the others are those of earlier steps, or none
+  for (const int contacts : {2, 4, 19})
+    for (const bool in_lanes : {true, false}) {
+      Scene scene = pushed(contacts, 21);
+      for (auto& c : scene.contacts) {
+        c.support.normal.damping = 0.0;
+        if (in_lanes)
+          c.b.row(0).setZero();
+      }
+      expect_restarts(scene, {splitting(1e-4)});
+    }
+}
+
 TEST(Restart, WithResidualFlexibility) {
   Scene scene = pushed(3, 9);
   scene.residual = 1e-6 * (Eigen::MatrixXd::Identity(9, 9) + Eigen::MatrixXd::Ones(9, 9));
