@@ -4,15 +4,16 @@
 ///
 /// A mass 1/W that meets the spring K at the speed v (w_c^2 = K W, x = w_c h, P = p/h, p > 0) is to leave as it would from a force without end:
 /// - while it stays closed, with its own frequency: F = K_h p, 1/K_h = (1/K)(1 + a + 3/5 a^2), a = x^2/12, which is K sinc^2(x/2) (to
-///   x^6/6000). Masses pushed at instants stand (h^2/12) W F behind their mean between two of them, so that it also rests where K lets it.
-///   Without it both are x^2/12 off (the gradient correction of Takahashi and Imada, J. Phys. Soc. Jpn. 53, 1984, p. 3765, of one contact);
-/// - the instants at which it closes (v > P: open a step before) and opens lie anywhere among the actions. Sums over actions miss h F'(t)
-///   B_2(P/v)/2 of the impulse there (Euler and Maclaurin), which made a lossless impact gain or lose 7 % of its energy at x = 0.7. From what
-///   the map of closed steps keeps, p^2 + q^2 - 2 p q cos x with q a step before or after, the force that leaves the amplitude
-///   v/w_c (1 + x^2/12), whenever the impact begins, and its mirror image that gives the speed back:
+///   x^6/6000). Masses pushed at instants stand (h^2/12) W F behind their mean between two of them, so that it also rests where K lets it
+///   (to 3/5 a^2). With K alone the frequency is x^2/24 off and the place x^2/12 (the gradient correction of Takahashi and Imada,
+///   J. Phys. Soc. Jpn. 53, 1984, p. 3765, of one contact);
+/// - the instants at which it closes (v > P: open a step before) and opens lie anywhere among the actions. Sums over actions miss the force
+///   h F'(t) B_2(P/v)/2 of one of them there (Euler and Maclaurin), which made a lossless impact gain or lose 7 % of its energy at x = 0.7.
+///   From what the map of closed steps keeps, p^2 + q^2 - 2 p q cos x with q a step before or after, the force that leaves the amplitude
+///   v/w_c K/K_h of the actions, whenever the impact begins, and its mirror image that gives the speed back:
 ///       closing   F = (N + K_h h P (P + v))/(v + g P/2 + sqrt(k v^2 - g (1 - g/4) P^2))
 ///       opening   F = (N + K_h h P (P - v))/(k (u - v)),   u = sqrt((v^2 + g P (P - v))/k) the speed after it; where v < g P/2, P < u
-///       g = K_h W h^2 = 2 - 2 cos x,   k = 1 - 2 a + 3/5 a^2,   N = K h v^2 (1 - 0.3 a)/6
+///       g = K_h W h^2 = 2 - 2 cos x,   k = ((x/2) cot(x/2))^2 = 1 - 2 a + 3/5 a^2,   N = (1 - k) v^2/(h W) = K h v^2 (1 - 0.3 a)/6
 /// So an impact of a mass alone keeps its energy to round-off, and its impulse, for x up to 1. Above that (no step to take) F = K_h p.
 #pragma once
 #include <cmath>
