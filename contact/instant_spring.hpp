@@ -14,7 +14,7 @@
 ///       closing   F = (N + K_h h P (P + v))/(v + g P/2 + sqrt(k v^2 - g (1 - g/4) P^2))
 ///       opening   F = (N + K_h h P (P - v))/(k (u - v)),   u = sqrt((v^2 + g P (P - v))/k) the speed after it; where v < g P/2, P < u
 ///       g = K_h W h^2 = 2 - 2 cos x,   k = ((x/2) cot(x/2))^2 = 1 - 2 a + 3/5 a^2,   N = (1 - k) v^2/(h W) = K h v^2 (1 - 0.3 a)/6
-/// So an impact of a mass alone keeps its energy to round-off, and its impulse, for x up to 1. Above that (no step to take) F = K_h p.
+/// So an impact of a mass alone keeps its energy to round-off, and its impulse, for x up to 0.95. Above that (no step to take) F = K_h p.
 #pragma once
 #include <cmath>
 
@@ -30,7 +30,7 @@ public:
   /// K_h, N/m.
   [[nodiscard]] double closed_stiffness() const { return share_ * stiffness_; }
 
-  /// F at penetration p (m, > 0) where it grows at `rate` (m/s) before the action.
+  /// F at penetration p (m, > 0) which has grown at `rate` (m/s) in the mean since the last action.
   [[nodiscard]] double force(double penetration, double rate) const {
     const double closed = closed_stiffness() * penetration, v = rate, per_step = penetration / step_;
     if (!(a_ <= most))
@@ -46,7 +46,7 @@ public:
     return closed;
   }
 
-  static constexpr double most = 1.0 / 12.0; ///< a at x = 1
+  static constexpr double most = 0.95 * 0.95 / 12.0; ///< a at x = 0.95: above 0.96 one at rest would open
 
 private:
   double step_, a_, share_, stiffness_, g_;

@@ -119,7 +119,9 @@ FRETWORK_INLINE double prepare(std::span<const int> places, const SweepRule& rul
     const V by_n_y = my * yy + mz * yz, by_n_z = my * yz + mz * zz; // of y and z by a force along n
     const V by_t_y = mz * yy - my * yz, by_t_z = mz * yz - my * zz; // along t
     const V nn = my * by_n_y + mz * by_n_z, tt = mz * by_t_y - my * by_t_z;
-    const V spring = instant_spring<V>(k, p, -v_n, nn, rule.step);
+    const V moved = my * (at<V>(near.uy + i) - at<V>(near.last_uy + i)) +
+                    mz * (at<V>(near.uz + i) - at<V>(near.last_uz + i));
+    const V spring = instant_spring<V>(k, p, moved * (-1.0 / rule.step), nn, rule.step);
     V damping = at<V>(&law.dissipation[i]) * spring;
     if (rule.half_window > 0.0)
       damping += closed_share(V(-g), V(rule.half_window * magnitude(v_n))) * at<V>(&law.damping[i]);

@@ -66,9 +66,10 @@ struct MobilityLanes {
   bool coupled = false; ///< some force along y moves some contact along z
 };
 
-/// Marks of the near contacts (1 or 0), gaps, normals and velocities before the action of all contacts, in lanes.
+/// Marks of the near contacts (1 or 0), gaps, normals, velocities before the action, displacements and those at the last action of all
+/// contacts, in lanes.
 struct NearLanes {
-  const double *near, *gap, *ny, *nz, *vy, *vz;
+  const double *near, *gap, *ny, *nz, *vy, *vz, *uy, *uz, *last_uy, *last_uz;
 };
 
 /// A step found, and what its commit makes of it.

@@ -61,8 +61,10 @@ bool ContactSolver::solve_in_lanes(const ContactMemory& memory, const ContactMot
                                    ContactTrial& trial, Action& action) {
   const int width = contacts_.width;
   const kernels::SweepRule rule{h_, half_window_, coupled_, sweep_tolerance, most_jacobi_sweeps};
-  const kernels::NearLanes near{motion.marks(),         motion.gaps.data(), motion.normal_y.data(),
-                                motion.normal_z.data(), motion.w.data(),    motion.w.data() + width};
+  const kernels::NearLanes near{
+      motion.marks(),           motion.gaps.data(),       motion.normal_y.data(),   motion.normal_z.data(),
+      motion.w.data(),          motion.w.data() + width,  motion.u.data(),          motion.u.data() + width,
+      memory.position().data(), memory.position().data() + width};
   const kernels::Solved solved = kernels::solve(motion.places(), rule, laws_, memory.lanes(),
                                                 contacts_.mobility_lanes, near, lanes_, trial.lanes);
   if (!solved.settled)
@@ -140,8 +142,10 @@ void ContactSolver::prepare(const ContactMemory& memory, const ContactMotion& mo
     s.nn = own[0];
     s.nt = own[width];
     const contact::NormalLaw& law = support.normal;
+    const double moved = motion.normal_y[c] * (motion.u[c] - memory.position()[c]) +
+                         motion.normal_z[c] * (motion.u[width + c] - memory.position()[width + c]);
     const double spring =
-        s.depth > 0.0 ? contact::InstantSpring(law.stiffness, s.nn, h_).force(s.depth, s.approach) : 0.0;
+        s.depth > 0.0 ? contact::InstantSpring(law.stiffness, s.nn, h_).force(s.depth, -moved / h_) : 0.0;
     s.normal = contact::NormalStep(spring, s.closed * law.damping + law.dissipation * spring, s.nn);
     s.per_normal = 1.0 / s.normal.spring_and_damper(s.approach);
     s.friction = support.friction.active();

@@ -4,7 +4,8 @@
 /// jumps from v- to v+,
 ///     v+ = v- + h B^T f,    w = B (v- + v+)/2 = B v- + (h/2) W f,    W = B B^T
 ///     normal    F_N = <F_K(p) + (s C_N + d F_K) p'(w)>+, p > 0 or s C_N > 0: explicit in position, implicit in velocity
-///               F_K: contact::InstantSpring; s: share of the step in which p -+ h p'/2 (p' from v-) is closed
+///               F_K: contact::InstantSpring, by the mean of p' since the last action: at rest v- is what the forces take back, those of
+///               other contacts too, and no approach; s: share of the step in which p -+ h p'/2 (p' from v-) is closed
 ///     friction  step_friction with the mean velocity w, implicit
 /// Along the directions (n, t, x_loc) of the contacts, with the forces F of those that are shut and the velocities s of all,
 ///     s = s0 + A F,    s0 = d.B v-,    A = (h/2) d W d^T

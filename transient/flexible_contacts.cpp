@@ -53,8 +53,8 @@ FlexibleContacts::FlexibleContacts(const PackedContacts& contacts, const Eigen::
   shut_.reserve(count);
   speed_.assign(3 * count, 0.0);
   give_ = speed_;
-  for (kernels::Array* a : {&bare_, &now_, &last_, &before_, &guess_, &given_, &given_last_, &given_before_,
-                            &own_, &own_last_, &own_before_})
+  for (kernels::Array* a : {&bare_, &flown_, &now_, &last_, &before_, &guess_, &given_, &given_last_,
+                            &given_before_, &own_, &own_last_, &own_before_})
     a->assign(static_cast<std::size_t>(contacts.stride()), 0.0);
 }
 
@@ -92,6 +92,9 @@ bool FlexibleContacts::act(const ContactMemory* memory, ContactMotion& motion) {
   std::fill(now_.begin(), now_.end(), 0.0);
   std::fill(given_.begin(), given_.end(), 0.0);
   bare_ = motion.u;
+  if (memory)
+    for (std::size_t lane = 0; lane < bare_.size(); ++lane)
+      flown_[lane] = (bare_[lane] - (memory->position()[lane] - given_last_[lane])) / h_;
   differentiate();
   if (quiet_) { // and not what `start` or another run has left
     std::fill(guess_.begin(), guess_.end(), 0.0);
@@ -222,6 +225,7 @@ void FlexibleContacts::along(const Shut& s, const kernels::Array& lanes, double*
 /// What a contact has along its directions before the action, and what its own forces do.
 void FlexibleContacts::face(Shut& s, const ContactMotion& motion) const {
   s.approach = motion.sinking(s.contact, s.ny, s.nz);
+  s.flown = -(s.ny * flown_[s.contact] + s.nz * flown_[contacts_.width + s.contact]);
   along(s, motion.w, s.velocity);
   along(s, given_last_, s.last);
   along(s, given_before_, s.before);
@@ -241,7 +245,7 @@ double FlexibleContacts::at_instant(const Shut& s, double p0) const {
   if (still_ || !(p0 > 0.0))
     return p0;
   const double flexibility = 1.0 / s.normal.stiffness + s.residual(0, 0);
-  return flexibility * contact::InstantSpring(1.0 / flexibility, s.mobility(0, 0), h_).force(p0, s.approach);
+  return flexibility * contact::InstantSpring(1.0 / flexibility, s.mobility(0, 0), h_).force(p0, s.flown);
 }
 
 /// Turns a contact to the normal of where it stands. Returns the change of its force, N.

@@ -59,6 +59,7 @@ private:
     double bare = 0.0;     ///< m: penetration without any R f
     double closed = 0.0;   ///< share of the step with penetration
     double approach = 0.0; ///< m/s: p' before the action
+    double flown = 0.0;    ///< m/s: of the modes, mean of p' since the last action
     double alone = 0.0;    ///< m: p0, as the spring in series sees it at an instant, >= 0
     [[nodiscard]] bool acts() const { return alone > 0.0 || normal.damping > 0.0; }
     double force[3] = {};    ///< N, along n, t, x_loc, as all that follows
@@ -101,6 +102,7 @@ private:
   std::vector<Shut> shut_;
   std::vector<double> speed_, give_; ///< m/s, B (v- + v+)/2, and m, R f, of y, z, x_loc of the shut contacts
   kernels::Array bare_;              ///< m, lanes: B q
+  kernels::Array flown_;             ///< m/s, lanes: mean of its rate since the last action
   kernels::Array now_, last_, before_;                       ///< N, lanes: f_k, f_{k-1}, f_{k-2}
   kernels::Array guess_, given_, given_last_, given_before_; ///< foretold f_k; R times it and the last two
   kernels::Array own_, own_last_,

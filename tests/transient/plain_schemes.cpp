@@ -21,6 +21,7 @@ struct Point {
   double last_ny = 0.0, last_nz = 0.0;
   double spring = 0.0, damping = 0.0, normal = 0.0;
   Vec3 push = Vec3::Zero(); ///< F_N n at the last step
+  Vec3 last = Vec3::Zero(); ///< displacement at the last action
   contact::Friction friction{};
   bool was_closed = false;                           ///< at the last action, and then:
   Vec3 stood = Vec3::Zero(), left_at = Vec3::Zero(); ///< displacement, velocity before it
@@ -124,6 +125,8 @@ PlainState plain_splitting(const Scene& scene, double h, int steps) {
   const auto signals = signals_of(scene);
   auto points = points_of(scene, h);
   PlainState s{scene.q0, scene.v0};
+  for (Point& p : points)
+    p.last = p.at.b * s.q;
   Eigen::VectorXd pushed = Eigen::VectorXd::Zero(scene.system.size()); // by the contacts of the last step
   double time = 0.0;
   for (int k = 0; k < steps; ++k) {
@@ -138,7 +141,10 @@ PlainState plain_splitting(const Scene& scene, double h, int steps) {
       const double depth = p.locate(p.at.b * s.q), rate = -p.n().dot(p.at.b * s.v);
       const double closed = contact::closed_share(depth - 0.5 * h * rate, depth + 0.5 * h * rate);
       const double mobility = 0.5 * h * (p.at.b.transpose() * p.n()).squaredNorm();
-      p.spring = depth > 0.0 ? contact::InstantSpring(law.stiffness, mobility, h).force(depth, rate) : 0.0;
+      p.spring = depth > 0.0 ? contact::InstantSpring(law.stiffness, mobility, h)
+                                   .force(depth, -p.n().dot(p.at.b * s.q - p.last) / h)
+                             : 0.0;
+      p.last = p.at.b * s.q;
       p.damping = (law.damping > 0.0 ? closed * law.damping : 0.0) + law.dissipation * p.spring;
       p.normal = 0.0;
       p.friction = {};
