@@ -61,10 +61,11 @@ bool ContactSolver::solve_in_lanes(const ContactMemory& memory, const ContactMot
                                    ContactTrial& trial, Action& action) {
   const int width = contacts_.width;
   const kernels::SweepRule rule{h_, half_window_, coupled_, sweep_tolerance, most_jacobi_sweeps};
-  const kernels::NearLanes near{
-      motion.marks(),           motion.gaps.data(),       motion.normal_y.data(),   motion.normal_z.data(),
-      motion.w.data(),          motion.w.data() + width,  motion.u.data(),          motion.u.data() + width,
-      memory.position().data(), memory.position().data() + width};
+  const kernels::NearLanes near{motion.marks(),           motion.gaps.data(),
+                                motion.normal_y.data(),   motion.normal_z.data(),
+                                motion.w.data(),          motion.w.data() + width,
+                                motion.u.data(),          motion.u.data() + width,
+                                memory.position().data(), memory.position().data() + width};
   const kernels::Solved solved = kernels::solve(motion.places(), rule, laws_, memory.lanes(),
                                                 contacts_.mobility_lanes, near, lanes_, trial.lanes);
   if (!solved.settled)
