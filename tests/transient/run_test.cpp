@@ -224,9 +224,10 @@ TEST(Run, KeepsTheImpulseOfPulsesShorterThanSteps) {
       const History run = simulate(scene, {kind, h}, 1e-3);
       EXPECT_NEAR(run.v(1, 45) / std::sqrt(mass), impulse / mass, round_off) << name_of(kind) << " " << t;
       const bool booked_in_part =
-          kind == SchemeKind::euler && t - half < h;          // its first record starts the ledger
-      if (kind != SchemeKind::devogelaere && !booked_in_part) // which books power at its nodes
+          kind == SchemeKind::euler && t - half < h;            // its first record starts the ledger
+      if (kind != SchemeKind::devogelaere && !booked_in_part) { // which books power at its nodes
         EXPECT_NEAR(run.report.energy.load_work, 0.5 * impulse * impulse / mass, round_off) << name_of(kind);
+      }
     }
 }
 
