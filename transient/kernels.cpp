@@ -106,43 +106,16 @@ void GatherTable::add_pack(int mode_count, std::ptrdiff_t width, const double* v
   begin.push_back(static_cast<int>(modes.size()));
 }
 
-template <class V>
-FRETWORK_INLINE void gather_all(const GatherTable& g, const double* q, const double* v, double* u,
-                                double* w) {
-  const int packs = static_cast<int>(g.begin.size()) - 1;
-  for (int p = 0; p < packs; ++p) {
-    V su[2] = {}, sw[2] = {}; // two sums each, so that none waits for the other
-    const int end = g.begin[p + 1];
-    const auto add = [&](int k, int into) __attribute__((always_inline)) {
-      const V value = at<V>(&g.values[static_cast<std::size_t>(k) * lanes]);
-      su[into] += q[g.modes[k]] * value;
-      sw[into] += v[g.modes[k]] * value;
-    };
-    int k = g.begin[p];
-    for (; k + 1 < end; k += 2) {
-      add(k, 0);
-      add(k + 1, 1);
-    }
-    if (k < end)
-      add(k, 0);
-    at<V>(u + p * lanes) = su[0] + su[1];
-    at<V>(w + p * lanes) = sw[0] + sw[1];
-  }
-}
-
-FRETWORK_WIDTHS void gather(const GatherTable& g, const double* q, const double* v, double* u, double* w) {
-  if (g.half)
-    gather_all<Half>(g, q, v, u, w);
-  else
-    gather_all<Pack>(g, q, v, u, w);
-}
-
-/// Pack p of u = G q: two sums, so that none waits for the other.
-template <class V> FRETWORK_INLINE void gather_pack(const GatherTable& g, int p, const double* q, double* u) {
-  V sum[2] = {};
+/// Pack p of to[n] = G from[n]: two sums each, so that none waits for the other.
+template <class V, std::size_t count>
+FRETWORK_INLINE void gather_pack(const GatherTable& g, int p, const double* const (&from)[count],
+                                 double* const (&to)[count]) {
+  V sum[count][2] = {};
   const int end = g.begin[p + 1];
   const auto add = [&](int k, int into) __attribute__((always_inline)) {
-    sum[into] += q[g.modes[k]] * at<V>(&g.values[static_cast<std::size_t>(k) * lanes]);
+    const V value = at<V>(&g.values[static_cast<std::size_t>(k) * lanes]);
+    for (std::size_t n = 0; n < count; ++n)
+      sum[n][into] += from[n][g.modes[k]] * value;
   };
   int k = g.begin[p];
   for (; k + 1 < end; k += 2) {
@@ -151,16 +124,26 @@ template <class V> FRETWORK_INLINE void gather_pack(const GatherTable& g, int p,
   }
   if (k < end)
     add(k, 0);
-  at<V>(u + p * lanes) = sum[0] + sum[1];
+  for (std::size_t n = 0; n < count; ++n)
+    at<V>(to[n] + p * lanes) = sum[n][0] + sum[n][1];
+}
+
+FRETWORK_WIDTHS void gather(const GatherTable& g, const double* q, const double* v, double* u, double* w) {
+  const int packs = static_cast<int>(g.begin.size()) - 1;
+  for (int p = 0; p < packs; ++p)
+    if (g.half)
+      gather_pack<Half, 2>(g, p, {q, v}, {u, w});
+    else
+      gather_pack<Pack, 2>(g, p, {q, v}, {u, w});
 }
 
 FRETWORK_WIDTHS void gather(const GatherTable& g, const double* q, double* u) {
   const int packs = static_cast<int>(g.begin.size()) - 1;
   for (int p = 0; p < packs; ++p)
     if (g.half)
-      gather_pack<Half>(g, p, q, u);
+      gather_pack<Half, 1>(g, p, {q}, {u});
     else
-      gather_pack<Pack>(g, p, q, u);
+      gather_pack<Pack, 1>(g, p, {q}, {u});
 }
 
 FRETWORK_WIDTHS void gather_at(const GatherTable& g, const Places& places, const double* v, double* w) {
@@ -173,9 +156,9 @@ FRETWORK_WIDTHS void gather_at(const GatherTable& g, const Places& places, const
     last = first;
     for (int p = first; p < packs; p += to_next_block)
       if (g.half)
-        gather_pack<Half>(g, p, v, w);
+        gather_pack<Half, 1>(g, p, {v}, {w});
       else
-        gather_pack<Pack>(g, p, v, w);
+        gather_pack<Pack, 1>(g, p, {v}, {w});
   }
 }
 

@@ -2,30 +2,16 @@
 // What a run tells of inputs that are legal, and mostly not what was meant.
 #include "mesh_text.hpp"
 #include "program.hpp"
+#include "study_text.hpp"
 
 namespace fretwork::app::test {
 namespace {
-
-const std::string mass = R"([mesh]
-file = "mesh.msh"
-[[masses]]
-group = "mass"
-mass = 1.0
-[[springs]]
-group = "mass"
-stiffness = [100.0, 0, 0, 0, 0, 0]
-[[restraints]]
-group = "mass"
-fixed = ["uy", "uz", "rx", "ry", "rz"]
-[transient]
-duration = 1.0
-)";
 
 /// Notes and warnings of a run.
 std::string told(const std::string& more, const std::vector<std::string>& set = {}) {
   const Workshop folder;
   folder.write("mesh.msh", lone_points({"mass"}).text());
-  const Results run = folder.run_text(mass + more, set);
+  const Results run = folder.run_text(lone_mass() + more, set);
   return run.summary["notes"].dump() + run.summary["warnings"].dump();
 }
 

@@ -21,6 +21,23 @@ thickness = 0.00109
                      mesh_file, density);
 }
 
+std::string lone_mass() {
+  return R"([mesh]
+file = "mesh.msh"
+[[masses]]
+group = "mass"
+mass = 1.0
+[[springs]]
+group = "mass"
+stiffness = [100.0, 0, 0, 0, 0, 0]
+[[restraints]]
+group = "mass"
+fixed = ["uy", "uz", "rx", "ry", "rz"]
+[transient]
+duration = 1.0
+)";
+}
+
 std::string tube_between(const std::string& group, const std::string& begin, const std::string& end) {
   std::string text =
       fmt::format("[[beams]]\ngroup = \"{}\"\nmaterial = \"steel\"\nsection = \"tube\"\n", group);

@@ -11,6 +11,9 @@ class Workshop;
 /// [mesh], steel and the section "tube", a pipe of 19.05 x 1.09 mm. @param density  kg/m3
 [[nodiscard]] std::string steel_pipe(const std::string& mesh_file, double density = 8000.0);
 
+/// A study of 1 kg at the point "mass" of mesh.msh that a spring of 100 N/m holds along x and nothing else moves, for 1 s.
+[[nodiscard]] std::string lone_mass();
+
 /// A group of lines as a beam of it, and what its two ends (`group`_begin, `group`_end) are fixed by: "" for nothing.
 [[nodiscard]] std::string tube_between(const std::string& group, const std::string& begin = "\"all\"",
                                        const std::string& end = "\"all\"");

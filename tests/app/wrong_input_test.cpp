@@ -2,6 +2,7 @@
 // Wrong input: one message that names the thing and the cure, exit status 1, no results left.
 #include "mesh_text.hpp"
 #include "program.hpp"
+#include "study_text.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <ostream>
@@ -44,22 +45,6 @@ duration = 0.01
 [output]
 nodes = ["beam_end"]
 )");
-
-/// A lone mass that moves along x.
-const std::string lone_mass = R"([mesh]
-file = "mesh.msh"
-[[masses]]
-group = "mass"
-mass = 1.0
-[[springs]]
-group = "mass"
-stiffness = [100.0, 0, 0, 0, 0, 0]
-[[restraints]]
-group = "mass"
-fixed = ["uy", "uz", "rx", "ry", "rz"]
-[transient]
-duration = 1.0
-)";
 
 std::string with(std::string text, const std::string& part, const std::string& other) {
   const auto place = text.find(part);
@@ -179,14 +164,18 @@ std::vector<Wrong> wrong_models() {
   const std::string stop =
       "[[contacts]]\nname = \"stop\"\ngroup = \"mass\"\ngap = 0.1\nnormal_stiffness = 1e3\n";
   return {
-      {"DofWithoutMassOrRestraint", with(lone_mass, "\"ry\", \"rz\"", "\"ry\""), mass, {"rz", "mass"}, false},
+      {"DofWithoutMassOrRestraint",
+       with(lone_mass(), "\"ry\", \"rz\"", "\"ry\""),
+       mass,
+       {"rz", "mass"},
+       false},
       {"ContactOnAFixedNode",
        good_but("group = \"beam_end\"\nobstacle", "group = \"beam_begin\"\nobstacle"),
        mesh,
        {"contact \"stop\"", "cannot move"}},
-      {"ContactWithoutAxis", lone_mass + stop, mass, {"contact \"stop\"", "axis"}},
+      {"ContactWithoutAxis", lone_mass() + stop, mass, {"contact \"stop\"", "axis"}},
       {"EverythingRestrained",
-       with(lone_mass, "[\"uy\", \"uz\", \"rx\", \"ry\", \"rz\"]", "\"all\""),
+       with(lone_mass(), "[\"uy\", \"uz\", \"rx\", \"ry\", \"rz\"]", "\"all\""),
        mass,
        {"nothing", "[[restraints]]"}},
       {"ListOfDampingTooShort",
@@ -218,7 +207,7 @@ TEST(GoodInput, IsThatWhichTheWrongOnesChange) {
   folder.write("mesh.msh", good_mesh().text());
   EXPECT_EQ(folder.run_text(good_study).summary["contacts"].size(), 1u);
   folder.write("mesh.msh", lone_points({"mass"}).text());
-  EXPECT_EQ(folder.run_text(lone_mass).summary["modes"]["frequencies_hz"].size(), 1u);
+  EXPECT_EQ(folder.run_text(lone_mass()).summary["modes"]["frequencies_hz"].size(), 1u);
 }
 
 TEST(WrongCommand, MissingStudyIsNamed) {

@@ -63,11 +63,11 @@ TEST(FlexibleContacts, AreMovedByLoadsAsTheModesLeftOutWould) {
     const double reference = peak_force(whole, splitting(h));
     ASSERT_GT(reference, 0.0) << function.index();
     constexpr double without_inertia =
-        4e-3; // nor damping of the mode left out, which rings by w_c/1e5 of its share
+        3.9e-3; // nor damping of the mode left out, which rings by w_c/1e5 of its share
     EXPECT_NEAR(peak_force(without_it(whole), splitting(h)) / reference, 1.0, without_inertia)
         << function.index();
     EXPECT_GT(std::abs(peak_force(without_it(whole, false), splitting(h)) / reference - 1.0),
-              2.5 * without_inertia)
+              3.0 * without_inertia)
         << function.index();
   }
 }

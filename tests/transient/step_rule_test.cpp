@@ -167,7 +167,7 @@ TEST(StepRule, FollowsTheAccuracyByItsSquareRoot) {
   StepOptions coarse = splitting(), fine = splitting();
   coarse.accuracy = 0.02;
   fine.accuracy = 0.00125;
-  EXPECT_NEAR(choose_step(scene, coarse).step / choose_step(scene, fine).step, 4.0, 1e-3); // to whole steps
+  EXPECT_NEAR(choose_step(scene, coarse).step / choose_step(scene, fine).step, 4.0, 1e-4); // to whole steps
 }
 
 TEST(StepRule, TakesNoLongerStepThanThatOfTwoPercent) {
