@@ -93,12 +93,10 @@ void ContactStatistics::Sums::add(const transient::ContactState& state, double s
   normal_max = std::max(normal_max, n);
   tangential2 += t2 * step;
   tangential_max = std::max(tangential_max, t2);
-  if (state.slides) {
-    const double path = norm(state.displacement);
-    slid += n * path;
-    distance += path;
+  slid += n * state.slid;
+  distance += state.slid;
+  if (state.slides)
     sliding_time += step;
-  }
   friction += state.friction_work;
   damping += state.damper_work;
 }

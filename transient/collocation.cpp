@@ -305,6 +305,7 @@ private:
                  n.nz,
                  n.friction,
                  record_.step * n.slip,
+                 n.slides ? record_.step * norm(n.slip) : 0.0,
                  own * p.slider + carried.slider,
                  own * p.damper + carried.damper,
                  n.approach,

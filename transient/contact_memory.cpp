@@ -31,8 +31,11 @@ void ContactMemory::set_step(double step) {
 
 ContactLosses ContactMemory::commit(const ContactMotion& motion, ContactTrial& trial) {
   ContactLosses losses{trial.cut, 0.0};
-  for (const int c : trial.active)
-    losses.damping += trial.states[c].damper_work; // of the normal dampers
+  for (const int c : trial.active) {
+    ContactState& state = trial.states[c];
+    losses.damping += state.damper_work; // of the normal dampers
+    state.slid = state.slides ? norm(state.displacement) : 0.0;
+  }
   if (contacts_.in_lanes)
     commit_lanes(motion, trial, losses);
   else

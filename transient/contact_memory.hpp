@@ -45,6 +45,10 @@ public:
     const Entry& e = entries_[c];
     return opposite(e, ny, nz) ? contact::FrictionMemory{} : e.friction;
   }
+  /// Contact c slid at the last commit.
+  [[nodiscard]] bool slides(int c) const {
+    return contacts_.in_lanes ? lanes_.sliding[c] != 0.0 : entries_[c].friction.sliding;
+  }
   /// Friction at the last commit if contact c was closed then on the same surface, otherwise 0, N.
   [[nodiscard]] contact::Vec2 last_force(int c, double ny, double nz) const {
     if (contacts_.in_lanes)
@@ -63,7 +67,7 @@ public:
   [[nodiscard]] double spring_energy() const { return springs_; }
 
   /// Accepts a step: advances the memories of the closed contacts, lets those of the others die out, fills the friction and damper work
-  /// of the states and the contacts that have opened. `motion` is that of the trial. No allocation.
+  /// and the sliding paths of the states, and the contacts that have opened. `motion` is that of the trial. No allocation.
   ContactLosses commit(const ContactMotion& motion, ContactTrial& trial);
 
   /// Between flow and action: e_n to the springs of contacts that stick. `motion` is that before the action. No allocation.

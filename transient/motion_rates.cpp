@@ -141,6 +141,7 @@ void MotionRates::rub(int c, Vec2 in_state, ContactState& state, double* rate) c
   state.slides = friction.slides;
   state.displacement = motion_.tangential(c, state.ny, state.nz, motion_.u) -
                        motion_.tangential(c, state.ny, state.nz, position_);
+  state.slid = state.slides ? norm(state.displacement) : 0.0;
   const Vec2 stretching = rated(c) ? (1.0 / law.damping) * (spring - friction.force) : velocity;
   rate[0] = -law.stiffness * stretching.x;
   rate[1] = -law.stiffness * stretching.t;

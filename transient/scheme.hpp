@@ -18,6 +18,7 @@ struct ContactState {
   double ny = 0.0, nz = 0.0;  ///< normal, local axes
   contact::Vec2 friction;     ///< N, along x_loc and t = n x x_loc, on the node
   contact::Vec2 displacement; ///< m, tangential over the step
+  double slid = 0.0;          ///< m, path with friction at its bound
   double friction_work = 0.0; ///< J over the step, by the slider
   double damper_work = 0.0;   ///< J over the step, by the normal and tangential dampers
   double approach = 0.0;      ///< m/s, speed towards the obstacle before the step's force acts; of a contact

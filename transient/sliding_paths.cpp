@@ -1,35 +1,109 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/sliding_paths.hpp"
-#include <utility>
+#include <algorithm>
+#include <cmath>
 
 namespace fretwork::transient {
 
-SlidingPaths::SlidingPaths(const PackedContacts& contacts, double step)
-    : contacts_(contacts), scale_(step * step / 6.0) {
-  push_.resize(static_cast<std::size_t>(contacts.count));
-  pushed_.reserve(static_cast<std::size_t>(contacts.count));
+using contact::Vec2;
+
+namespace {
+
+/// C_T W h: dampers that bring contacts to rest within a step or two. Weaker ones let springs end slides.
+constexpr double least_damped = 1.0;
+
+} // namespace
+
+SlidingPaths::SlidingPaths(const PackedContacts& contacts, double step, bool moves_by_flow)
+    : contacts_(contacts), h_(step) {
+  const auto count = static_cast<std::size_t>(contacts.count);
+  last_.resize(count);
+  pushed_.reserve(count);
+  ended_.reserve(count);
+  for (int c = 0; c < contacts.count; ++c) {
+    const contact::FrictionLaw& law = contacts.supports[c].friction;
+    Own& own = own_.emplace_back();
+    own.yy = contacts.own_mobility(c, 0, 0);
+    own.yz = contacts.own_mobility(c, 0, 1);
+    own.zz = contacts.own_mobility(c, 1, 1);
+    const double most = own.yy + own.zz + (contacts.in_plane[c] != 0 ? contacts.own_mobility(c, 2, 2) : 0.0);
+    own.ends = moves_by_flow && law.active() && law.kind == contact::FrictionMemoryKind::return_map &&
+               law.damping * most * h_ >= least_damped;
+  }
 }
 
-void SlidingPaths::correct(ContactTrial& trial) {
+void SlidingPaths::correct(const ContactMotion& motion, const ContactMemory& memory, ContactTrial& trial) {
   for (const int c : pushed_)
     if (!(trial.states[c].normal_force > 0.0))
-      push_[c] = {};
+      last_[c] = {};
   pushed_.assign(trial.active.begin(), trial.active.end());
+  ended_.clear();
+  const double scale = h_ * h_ / 6.0;
   for (const int c : trial.active) {
     ContactState& s = trial.states[c];
-    const Push now{s.normal_force * s.ny, s.normal_force * s.nz}, last = std::exchange(push_[c], now);
-    if (!s.slides || (last.y == 0.0 && last.z == 0.0)) // it has only closed: no rate is known
+    const Own& own = own_[c];
+    const double push_y = s.normal_force * s.ny, push_z = s.normal_force * s.nz;
+    Last& last = last_[c];
+    if (own.ends) {
+      const Vec2 before = motion.slip(c, s.ny, s.nz);
+      const bool goes_on = last.y * s.ny + last.z * s.nz > 0.0; // on the same face
+      if (memory.slides(c))
+        find_end(c, s, before, goes_on ? before - last.left : Vec2{}, memory);
+      last.left = (2.0 / h_) * s.displacement - before;
+    }
+    const double y = scale * (push_y - last.y), z = scale * (push_z - last.z);
+    const bool closes = last.y == 0.0 && last.z == 0.0; // no rate is known
+    last.y = push_y;
+    last.z = push_z;
+    if (!s.slides || closes)
       continue;
-    const double y = scale_ * (now.y - last.y), z = scale_ * (now.z - last.z);
-    const auto moved = [&](int to) {
-      return contacts_.own_mobility(c, to, 0) * y + contacts_.own_mobility(c, to, 1) * z;
-    };
-    const contact::Vec2 along = contacts_.supports[c].friction.along;
-    s.displacement.t -= along.t * (s.nz * moved(0) - s.ny * moved(1)); // t = (n_z, -n_y)
+    const Vec2 along = contacts_.supports[c].friction.along;
+    s.displacement.t -= along.t * (s.nz * (own.yy * y + own.yz * z) - s.ny * (own.yz * y + own.zz * z));
     if (contacts_.in_plane[c] != 0)
-      s.displacement.x -= along.x * moved(2);
+      s.displacement.x -=
+          along.x * (contacts_.own_mobility(c, 2, 0) * y + contacts_.own_mobility(c, 2, 1) * z);
     if (trial.found_in_lanes)
       trial.lanes.displacement[c] = s.displacement.t;
+  }
+}
+
+void SlidingPaths::find_end(int c, const ContactState& s, Vec2 before, Vec2 gained,
+                            const ContactMemory& memory) {
+  const contact::FrictionLaw& law = contacts_.supports[c].friction;
+  const Own& own = own_[c];
+  double speed = std::abs(before.t);
+  Vec2 e{0.0, before.t < 0.0 ? -1.0 : 1.0};
+  if (contacts_.in_plane[c] != 0) {
+    speed = norm(before);
+    e = speed > 0.0 ? (1.0 / speed) * before : e;
+  }
+  const double y = e.t * s.nz, z = -e.t * s.ny; // e along y and z: t = (n_z, -n_y)
+  double mobility = y * y * own.yy + 2.0 * y * z * own.yz + z * z * own.zz;
+  if (contacts_.in_plane[c] != 0)
+    mobility += e.x * (e.x * contacts_.own_mobility(c, 2, 2) +
+                       2.0 * (y * contacts_.own_mobility(c, 2, 0) + z * contacts_.own_mobility(c, 2, 1)));
+  const double bound = law.mu_dynamic * s.normal_force, given = dot(e, gained),
+               loss = bound * mobility * h_ - given;
+  if (!(speed - 0.5 * given < loss + bound / law.damping) || !(law.damping * mobility * h_ >= least_damped))
+    return; // it slides on
+  const contact::FrictionMemory past = memory.at(c, s.ny, s.nz);
+  const double hold = std::max(0.0, (bound + dot(e, past.spring)) / law.damping);
+  const contact::EndedSlide slide(speed - 0.5 * given, hold, loss, h_);
+  if (past.sliding && slide.ends)
+    ended_.push_back({c, slide, s.damper_work});
+}
+
+void SlidingPaths::end_slides(ContactTrial& trial, ContactLosses& losses) const {
+  for (const auto& [c, slide, normal_loss] : ended_) {
+    ContactState& s = trial.states[c];
+    s.slid = slide.path;
+    const double all = s.friction_work + s.damper_work - normal_loss, // by slider, spring and damper
+        bound = contacts_.supports[c].friction.mu_dynamic * s.normal_force,
+                 slider = std::min(bound * slide.slider, std::max(0.0, all)), more = slider - s.friction_work;
+    s.friction_work += more;
+    s.damper_work -= more;
+    losses.friction += more;
+    losses.damping -= more;
   }
 }
 

@@ -9,27 +9,52 @@
 /// turns with the contact point. Without it a tube that rocks in its hole slides too little, by (h^2/6) W_tt F_N/r at a curvature 1/r:
 /// work rates were 2 % low at w_c h = 0.5 (doc/benchmarks.md). The rate is the change since the last step; of W the block of the contact
 /// itself. A contact that has only closed keeps the path of w.
+///
+/// Slides that end inside a step (contact/ended_slide.hpp) are told in full where the damper ends them, C_T W_tt h >= 1. Their speed when
+/// the step begins: v- less half of what the flow has given since the last action, g = v- - v+; d = h |mu_d F_N W_tt| - g. The motion
+/// stays what it is: of the work of friction the slider's share changes, and the paths that statistics see.
 #pragma once
-#include "transient/contact_trial.hpp"
+#include "contact/ended_slide.hpp"
+#include "transient/contact_memory.hpp"
 
 namespace fretwork::transient {
 
 class SlidingPaths {
 public:
   /// @param contacts  must live longer   @param step  s
-  SlidingPaths(const PackedContacts& contacts, double step);
-  /// Corrects the displacements of the contacts that slide, m; once for every step that is accepted, before its commit. No allocation.
-  void correct(ContactTrial& trial);
-  void visit(core::StateArchive& state) { state(push_, pushed_); }
+  /// @param moves_by_flow  whether contacts move with the modes alone: ends of slides are told only then
+  SlidingPaths(const PackedContacts& contacts, double step, bool moves_by_flow);
+  /// Corrects the displacements of the contacts that slide, m, and finds the slides that end; once for every step that is accepted,
+  /// before its commit. No allocation.
+  void correct(const ContactMotion& motion, const ContactMemory& memory, ContactTrial& trial);
+  /// After the commit: paths and works of the slides that have ended. No allocation.
+  void end_slides(ContactTrial& trial, ContactLosses& losses) const;
+  void visit(core::StateArchive& state) { state(last_, pushed_); }
 
 private:
-  struct Push {
-    double y = 0.0, z = 0.0; ///< N, F_N n
+  struct Last {
+    double y = 0.0, z = 0.0; ///< N, F_N n; 0: no force
+    contact::Vec2 left;      ///< m/s, tangential velocity after the action
   };
+  struct Ended {
+    int contact;
+    contact::EndedSlide slide;
+    double normal_loss; ///< J, by the normal damper
+  };
+  /// Of the contact itself.
+  struct Own {
+    double yy, yz, zz; ///< W, 1/kg
+    bool ends;         ///< its slides may be ended by its damper
+  };
+  void find_end(int c, const ContactState& s, contact::Vec2 before, contact::Vec2 gained,
+                const ContactMemory& memory);
+
   const PackedContacts& contacts_;
-  double scale_;            ///< h^2/6
-  std::vector<Push> push_;  ///< at the last step
-  std::vector<int> pushed_; ///< contacts where it is not 0
+  double h_;
+  std::vector<Own> own_;
+  std::vector<Last> last_;  ///< action
+  std::vector<int> pushed_; ///< contacts with a force in it
+  std::vector<Ended> ended_;
 };
 
 } // namespace fretwork::transient

@@ -51,7 +51,7 @@ public:
         loads_(scene.loads, scene.system.size(), scene.duration, step),
         contacts_(scene.contacts, scene.system.size()), motion_(contacts_),
         obstacles_(scene, contacts_, step), carried_(obstacles_.room()), memory_(contacts_, step),
-        solver_(contacts_, step), trial_(contacts_.count), paths_(contacts_, step), rows_(contacts_),
+        solver_(contacts_, step), trial_(contacts_.count), paths_(contacts_, step, scene.residual.size() == 0), rows_(contacts_),
         coupled_(system_, step), first_(flow_table(system_, coupled_, 0.5 * step)),
         full_(flow_table(system_, coupled_, step)) {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
@@ -234,8 +234,9 @@ private:
     const auto action = solve();
     unconverged_ += !action.converged;
     const double springs_before = memory_.spring_energy();
-    paths_.correct(trial_);
-    const ContactLosses losses = memory_.commit(motion_, trial_);
+    paths_.correct(motion_, memory_, trial_);
+    ContactLosses losses = memory_.commit(motion_, trial_);
+    paths_.end_slides(trial_, losses);
     if (flexible_)
       flexible_->accept();
     else

@@ -173,6 +173,7 @@ TEST(ContactStatistics, HaveStandardErrorsThatAreTheScatterOfManyRuns) {
       state.normal_force = std::max(0.0, slow);
       state.displacement = {0.0, 1.0};
       state.slides = true;
+      state.slid = 1.0;
       state.friction_work = state.normal_force * 0.3;
       steps.y(0) = 5.0 + y;
       steps.z(0) = noise(generator);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/instant_spring.hpp"
 #include "scenes.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
@@ -35,6 +36,50 @@ double missed(double resolution) {
 TEST(SlidingPaths, BalanceTheEnergyOfATubeThatRocksInItsHole) {
   EXPECT_LT(missed(0.25), 1e-3);
   EXPECT_LT(missed(0.02), 3e-6);
+}
+
+namespace {
+
+constexpr double friction = 0.3;
+
+struct Slide {
+  double path = 0.0, work = 0.0; ///< m, J, means over the speeds
+};
+
+/// A mass that slides to rest on a plane that it is pressed on, from speeds that bring it there anywhere in a step.
+/// @param in_plane  it slides along x_loc and across   @param h  s   @param damping  C_T, N s/m
+Slide slide_to_rest(bool in_plane, double h, double damping) {
+  constexpr int speeds = 64;
+  constexpr double slowest = 0.2, loss = friction * pressure / mass * 2.2e-3; // m/s, over the longest step
+  Slide out;
+  for (int i = 0; i < speeds; ++i) {
+    const double speed = slowest + loss * i / speeds;
+    Scene scene = mass_point(mass, Vec3::Zero(), 0.05);
+    contact::FrictionLaw law{1e4, damping, friction, friction};
+    law.along = in_plane ? contact::Vec2{1.0, 1.0} : contact::Vec2{0.0, 1.0};
+    scene.contacts = {contact_of(mass, {contact::Stop{0.0, contact::PlaneAxis::y}, {stiffness}, law})};
+    scene.loads = {force_on(mass, {0.0, pressure, 0.0}, Constant{1.0})};
+    // where the actions of this step hold it, half a step before the first one
+    const double rests = pressure / contact::InstantSpring(stiffness, 0.5 * h / mass, h).closed_stiffness() -
+                         pressure * h * h / (8.0 * mass);
+    start(scene, mass, {0.0, rests, 0.0}, in_plane ? speed * Vec3(0.6, 0.0, 0.8) : Vec3(0.0, 0.0, -speed));
+    const auto run = simulate(scene, splitting(h), 1.0);
+    out.path += run.statistics[0].sliding_distance / speeds;
+    out.work += run.statistics[0].friction_work / speeds;
+  }
+  return out;
+}
+
+} // namespace
+
+// Whole steps of sliding or sticking would miss h d/24 of the path, 0.6 %, in the mean over the phases at which slides end.
+TEST(SlidingPaths, TellSlidesThatEndInsideAStep) {
+  constexpr double h = 2.2e-3, damping = 4.0 * mass / h;
+  for (const bool in_plane : {false, true}) {
+    const Slide coarse = slide_to_rest(in_plane, h, damping), fine = slide_to_rest(in_plane, h / 40, damping);
+    EXPECT_NEAR(coarse.path / fine.path, 1.0, 3e-4) << in_plane;
+    EXPECT_NEAR(coarse.work / fine.work, 1.0, 3e-4) << in_plane;
+  }
 }
 
 } // namespace fretwork::tests
