@@ -51,6 +51,16 @@ ContactLosses ContactMemory::commit(const ContactMotion& motion, ContactTrial& t
   return losses;
 }
 
+ContactLosses ContactMemory::pass(const ContactMotion& motion, int steps, ContactTrial& trial) {
+  trial.clear();
+  ContactLosses losses;
+  const bool remembers = contacts_.in_lanes ? !lanes_.places.empty() : !remembering_.empty();
+  for (int i = 0; i < steps && remembers; ++i) // springs die out
+    losses.damping += commit(motion, trial).damping;
+  position_ = motion.u;
+  return losses;
+}
+
 void ContactMemory::follow(const ContactMotion& motion, double half_step) {
   for (const int c : closed_) {
     const contact::FrictionLaw& law = contacts_.supports[c].friction;

@@ -70,6 +70,9 @@ public:
   /// and the sliding paths of the states, and the contacts that have opened. `motion` is that of the trial. No allocation.
   ContactLosses commit(const ContactMotion& motion, ContactTrial& trial);
 
+  /// Accepts `steps` steps at once in which all contacts are open. No allocation.
+  ContactLosses pass(const ContactMotion& motion, int steps, ContactTrial& trial);
+
   /// Between flow and action: e_n to the springs of contacts that stick. `motion` is that before the action. No allocation.
   void follow(const ContactMotion& motion, double half_step);
   /// After the commit of an action, with the motion before it: what the next `follow` starts from. No allocation.

@@ -6,7 +6,7 @@ namespace fretwork::transient {
 ContactMotion::ContactMotion(const PackedContacts& contacts)
     : contacts_(contacts), places_(contacts.lane_count()), moving_(contacts.lane_count()) {
   u.assign(static_cast<std::size_t>(contacts.stride()), 0.0);
-  w = u;
+  w = moved_ = u;
   for (kernels::Array* a : {&near_, &gaps, &normal_y, &normal_z})
     a->assign(static_cast<std::size_t>(contacts.width), 0.0);
 }
@@ -31,6 +31,8 @@ void ContactMotion::gather_near(const double* q, const double* v, const std::vec
   kernels::gather_at(contacts_.gather, moving_, v, w.data());
 }
 
+void ContactMotion::gather_velocities(const double* v) { kernels::gather(contacts_.gather, v, w.data()); }
+
 bool ContactMotion::find_near(double half_window) {
   const int width = contacts_.width;
   kernels::place(contacts_.reach, u.data(), u.data() + width, w.data(), w.data() + width, half_window,
@@ -45,6 +47,26 @@ bool ContactMotion::find_near(double half_window) {
         normal_z[c] = at.nz;
       }
   return any;
+}
+
+bool ContactMotion::moves_less(double time, double share) const {
+  const int width = contacts_.width;
+  const double scale = time / share;
+  int further = 0;
+  for (int c = 0; c < contacts_.count; ++c) {
+    const double y = scale * w[c], z = scale * w[width + c], clearance = contacts_.reach.limit[c];
+    further += y * y + z * z > clearance * clearance ? 1 : 0;
+  }
+  return further == 0;
+}
+
+bool ContactMotion::opens_after(double time) {
+  const int width = contacts_.width;
+  for (int i = 0; i < 2 * width; ++i)
+    moved_[i] = u[i] + time * w[i];
+  kernels::place(contacts_.reach, moved_.data(), moved_.data() + width, w.data(), w.data() + width, 0.0,
+                 gaps.data(), normal_y.data(), normal_z.data(), near_.data(), places_);
+  return places_.first.empty();
 }
 
 double ContactMotion::spring_energy() const {

@@ -19,9 +19,15 @@ public:
   /// Displacements of all contacts, the near ones without a window, and velocities where these and `closed` are (by increasing number): all
   /// that a step of contacts without normal dampers asks for. No allocation.
   void gather_near(const double* q, const double* v, const std::vector<int>& closed);
+  /// Velocities of all contacts. No allocation.
+  void gather_velocities(const double* v);
   /// Marks the contacts that may have penetration > 0 now, or within `half_window` seconds at their present speed (>= 0), and finds
   /// `gaps`, `normal_y` and `normal_z` of these. Returns whether there is any.
   bool find_near(double half_window);
+  /// Whether no contact moves by more than `share` of its clearance within `time` seconds at its present speed.
+  [[nodiscard]] bool moves_less(double time, double share) const;
+  /// Whether all contacts would be open after `time` seconds (of either sign) at their present speeds. Marks nothing that lasts.
+  bool opens_after(double time);
   /// Where the near contacts are.
   [[nodiscard]] const kernels::Places& places() const { return places_; }
   [[nodiscard]] bool near(int c) const { return near_[c] != 0.0; }
@@ -55,7 +61,7 @@ public:
 
 private:
   const PackedContacts& contacts_;
-  kernels::Array near_;
+  kernels::Array near_, moved_;
   kernels::Places places_, moving_; ///< near; where velocities are gathered
 };
 

@@ -18,7 +18,7 @@ constexpr double least_part = 1.0 / 1024.0;
 std::unique_ptr<Scheme> make_scheme(const Scene& scene, const StepChoice& choice) {
   switch (choice.scheme) {
   case SchemeKind::splitting:
-    return make_splitting(scene, choice.step, choice.fastest);
+    return make_splitting(scene, choice.step, choice.fastest, choice.flight);
   case SchemeKind::collocation:
     return make_collocation(scene, choice.step);
   case SchemeKind::euler:

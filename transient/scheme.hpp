@@ -102,7 +102,9 @@ enum class SchemeKind { splitting, collocation, euler, energy_conserving, devoge
 [[nodiscard]] std::string name_of(SchemeKind kind);
 
 /// @param fastest  rad/s: faster modes that contacts move are made heavier (mass_scaling.hpp); 0: none
-[[nodiscard]] std::unique_ptr<Scheme> make_splitting(const Scene& scene, double step, double fastest = 0.0);
+/// @param flight  the most steps that are made at once while no contact can meet its obstacle
+[[nodiscard]] std::unique_ptr<Scheme> make_splitting(const Scene& scene, double step, double fastest = 0.0,
+                                                     int flight = 1);
 [[nodiscard]] std::unique_ptr<Scheme> make_collocation(const Scene& scene, double step);
 [[nodiscard]] std::unique_ptr<Scheme> make_euler(const Scene& scene, double step);
 [[nodiscard]] std::unique_ptr<Scheme> make_energy_conserving(const Scene& scene, double step);

@@ -10,6 +10,13 @@
 /// pi (mass_scaling.hpp). Accuracy asks for less (step_rule.hpp). Cost: one evaluation of the contacts a step. Energy: the work
 /// of each action h f.w and of each flow are exact; the ledger's residual is what the contact laws' discrete
 /// work lacks.
+///
+/// Flights: while no contact can meet its obstacle, `flight` steps are made by one exact flow. Over a time L a free displacement is, to
+/// (w_max L)^4/384, the cubic of its ends u0, u1 and velocities w0, w1, which stays in the hull of u0, u0 + w0 L/3, u1 - w1 L/3, u1; gaps
+/// are concave functions of it. So no contact is met where these four leave a gap; where they do not, the flight is not made. Records
+/// stand for half of the flights before and after them. So that sums over them are integrals in spite of the longer step, those between
+/// flights or steps of lengths L0 and L1 show displacements that lean by (L1^2 - L0^2)/(12 step) times their velocities (the correction
+/// of trapezoidal sums by Euler and Maclaurin), and no flight takes a contact further than a quarter of its clearance.
 #include "transient/flexible_contacts.hpp"
 #include "transient/load_sum.hpp"
 #include "transient/mass_scaling.hpp"
@@ -20,9 +27,13 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace fretwork::transient {
 namespace {
+
+/// Of a contact's clearance.
+constexpr double longest_flight = 0.25;
 
 /// Coupled modes stay where they are: their flow follows the table's.
 kernels::FlowTable flow_table(const System& system, const MatrixFlow& coupled, double h) {
@@ -46,16 +57,19 @@ kernels::FlowTable flow_table(const System& system, const MatrixFlow& coupled, d
 class Splitting final : public Scheme {
 public:
   /// @param scene  in the coordinates p of mass_scaling.hpp   @param shown  n, q = shown p; empty: all 1
-  Splitting(const Scene& scene, double step, const Eigen::VectorXd& shown)
+  /// @param flight  the most steps of a flight; 1: none
+  Splitting(const Scene& scene, double step, const Eigen::VectorXd& shown, int flight)
       : system_(with_diagonal(scene.system)), h_(step),
         loads_(scene.loads, scene.system.size(), scene.duration, step),
         contacts_(scene.contacts, scene.system.size()), motion_(contacts_),
         obstacles_(scene, contacts_, step), carried_(obstacles_.room()), memory_(contacts_, step),
-        solver_(contacts_, step), trial_(contacts_.count), paths_(contacts_, step, scene.residual.size() == 0), rows_(contacts_),
-        coupled_(system_, step), first_(flow_table(system_, coupled_, 0.5 * step)),
-        full_(flow_table(system_, coupled_, step)) {
+        solver_(contacts_, step), trial_(contacts_.count),
+        paths_(contacts_, step, scene.residual.size() == 0), rows_(contacts_), coupled_(system_, step),
+        first_(flow_table(system_, coupled_, 0.5 * step)), full_(flow_table(system_, coupled_, step)),
+        duration_(scene.duration) {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
-    for (kernels::Array* a : {&q_, &v_, &k_, &f_now_, &f_next_, &slope_, &impulse_})
+    for (kernels::Array* a :
+         {&q_, &v_, &k_, &f_now_, &f_next_, &slope_, &impulse_, &far_q_, &far_v_, &far_f_})
       a->assign(n, 0.0);
     std::copy_n(scene.q0.data(), scene.q0.size(), q_.begin());
     std::copy_n(scene.v0.data(), scene.v0.size(), v_.begin());
@@ -74,23 +88,35 @@ public:
     }
     memory_.start(motion_);
     near_only_ = !flexible_ && carried_.u.empty() && !(solver_.window() > 0.0);
+    if (near_only_ && coupled_.empty() && contacts_.reach.is_concave()) {
+      for (int length = flight; length > 1 && far_.size() < 3; length /= 2)
+        far_.push_back({length, flow_table(system_, coupled_, length * step)});
+    }
     record_.energy.initial = record_.energy.throughput = moving + motion_.spring_energy() + given;
     after_action_ = moving;
-    record_.step = h_;
     if (shown.size() > 0) {
       shown_.assign(n, 0.0);
       std::copy_n(shown.data(), shown.size(), shown_.begin());
     }
     shown_q_.assign(n, 0.0);
-    seen_ = motion_.u;
+    seen_ = speeds_ = motion_.u;
   }
 
   const Record& advance() override {
+    const int flown = stride_;
+    lean_ = 0.0;
     flow();
     if (contacts_.count > 0) {
-      act();
+      if (flown > 1)
+        arrive(flown);
+      else
+        act();
       see();
     }
+    look_ahead();
+    record_.step = 0.5 * (flown + stride_) * h_;
+    if (flown != stride_)
+      lean(h_ * h_ * (stride_ * stride_ - flown * flown) / (12.0 * record_.step));
     show(record_, contacts_, displacements(), seen_.data(), trial_);
     return record_;
   }
@@ -141,10 +167,10 @@ public:
         force[j] /= shown_[static_cast<std::size_t>(j)];
   }
 
-  [[nodiscard]] double next_time() const override { return (static_cast<double>(steps_) + 0.5) * h_; }
+  [[nodiscard]] double next_time() const override { return instant(stride_); }
 
   [[nodiscard]] StepCounts counts() const override {
-    return {steps_, 0, contacts_.count > 0 ? steps_ : 0, unconverged_, h_, h_};
+    return {steps_, 0, contacts_.count > 0 ? steps_ - flown_ : 0, unconverged_, h_, h_};
   }
 
   void visit(core::StateArchive& state) override {
@@ -153,12 +179,27 @@ public:
     if (flexible_)
       state(*flexible_);
     rows_.set(trial_, h_);
+    state(stride_, flown_, wait_);
+    for (const Flight& flight : far_)
+      if (flight.steps == stride_)
+        fly(flight);
   }
 
 private:
+  /// Steps made at once.
+  struct Flight {
+    int steps;
+    kernels::FlowTable table;
+  };
+
+  /// Of the action after so many more steps.
+  [[nodiscard]] double instant(int further) const {
+    return (static_cast<double>(steps_ + further) - 0.5) * h_;
+  }
+
   /// Of the modes in the mean over the step, as `see` has the contacts; padded.
   const double* displacements() {
-    const double* mean = trial_.active.empty() ? q_.data() : shown_q_.data();
+    const double* mean = trial_.active.empty() && lean_ == 0.0 ? q_.data() : shown_q_.data();
     if (shown_.empty())
       return mean;
     for (std::size_t i = 0; i < shown_.size(); ++i)
@@ -168,22 +209,19 @@ private:
 
   /// From the last action (or the start) to the next.
   void flow() {
-    const kernels::FlowTable& table = steps_ == 0 ? first_ : full_;
-    const int halvings = steps_ == 0 ? 1 : 0;
+    const bool first = steps_ == 0;
     time_ = next_time();
-    ++steps_;
-    double work = 0.0;
-    if (loads_.empty()) {
-      kernels::flow_free(contacts_.padded_modes, table, q_.data(), v_.data());
-      coupled_.advance(halvings, q_.data(), v_.data(), nullptr, nullptr);
+    steps_ += stride_;
+    double work;
+    if (stride_ > 1) {
+      work = far_work_;
+      q_.swap(far_q_);
+      v_.swap(far_v_);
+      f_now_.swap(far_f_);
+      flown_ += stride_ - 1;
     } else {
-      if (loads_.constant())
-        f_next_ = f_now_;
-      else
-        loads_.at(time_, f_next_.data());
-      work = kernels::flow_loaded(contacts_.padded_modes, table, q_.data(), v_.data(), f_now_.data(),
-                                  f_next_.data());
-      work += coupled_.advance(halvings, q_.data(), v_.data(), f_now_.data(), f_next_.data());
+      work = advance_modes(first ? first_ : full_, time_, q_, v_, f_next_);
+      work += coupled_.advance(first ? 1 : 0, q_.data(), v_.data(), f_now_.data(), f_next_.data());
       f_now_.swap(f_next_);
     }
     moving_ = 0.5 * kernels::twice_energy(contacts_.padded_modes, k_.data(), q_.data(), v_.data());
@@ -196,6 +234,65 @@ private:
     after_action_ = moving_;
     record_.time = time_;
     record_.energy.stored = moving_;
+  }
+
+  /// The exact flow to `time`, under the load from `f_now_` to `load`, which is found. Returns its work, J.
+  double advance_modes(const kernels::FlowTable& table, double time, kernels::Array& q, kernels::Array& v,
+                       kernels::Array& load) {
+    if (loads_.empty()) {
+      kernels::flow_free(contacts_.padded_modes, table, q.data(), v.data());
+      return 0.0;
+    }
+    if (loads_.constant())
+      load = f_now_;
+    else
+      loads_.at(time, load.data());
+    return kernels::flow_loaded(contacts_.padded_modes, table, q.data(), v.data(), f_now_.data(),
+                                load.data());
+  }
+
+  /// The state after a flight, and how the contacts stand and move then.
+  void fly(const Flight& flight) {
+    far_q_ = q_;
+    far_v_ = v_;
+    far_work_ = advance_modes(flight.table, instant(flight.steps), far_q_, far_v_, far_f_);
+    motion_.gather(far_q_.data(), far_v_.data());
+  }
+
+  /// The next step is a flight where one meets no contact.
+  void look_ahead() {
+    const bool flew = std::exchange(stride_, 1) > 1;
+    if (far_.empty() || !trial_.active.empty() || !motion_.places().first.empty())
+      return;
+    if (wait_ > 0) {
+      --wait_;
+      return;
+    }
+    if (!flew)
+      motion_.gather_velocities(v_.data());
+    speeds_ = motion_.w;
+    for (const Flight& flight : far_) {
+      const double time = flight.steps * h_, third = time / 3.0;
+      if (instant(flight.steps) > duration_ || !motion_.moves_less(time, longest_flight) ||
+          !motion_.opens_after(third) || !motion_.opens_after(time))
+        continue;
+      fly(flight);
+      if (motion_.opens_after(0.0) && motion_.opens_after(-third))
+        stride_ = flight.steps;
+      else
+        wait_ = 1;
+      return;
+    }
+    wait_ = 1;
+  }
+
+  /// Shows where all will be after `time` seconds.
+  void lean(double time) {
+    lean_ = time;
+    for (std::size_t i = 0; i < seen_.size(); ++i)
+      seen_[i] += time * speeds_[i];
+    for (std::size_t i = 0; i < q_.size(); ++i)
+      shown_q_[i] = q_[i] + time * v_[i];
   }
 
   /// Where the contacts are in the mean over the step: at the action the modes stand (h^2/12) W f behind (contact/instant_spring.hpp); of W the
@@ -211,6 +308,17 @@ private:
       seen_[c] += contacts_.own_mobility(active, 0, 0) * y + contacts_.own_mobility(active, 0, 1) * z;
       seen_[width + c] += contacts_.own_mobility(active, 1, 0) * y + contacts_.own_mobility(active, 1, 1) * z;
     }
+  }
+
+  /// The end of a flight: no contact acts.
+  void arrive(int steps) {
+    const double springs = memory_.spring_energy();
+    const ContactLosses losses = memory_.pass(motion_, steps, trial_);
+    Energy& energy = record_.energy;
+    energy.contact_damping = lost_.damping + 0.5 * losses.damping;
+    energy.friction = lost_.friction;
+    energy.stored = moving_ + 0.5 * (springs + memory_.spring_energy());
+    lost_.damping += losses.damping;
   }
 
   /// Where the contacts stand and the forces of the action.
@@ -277,12 +385,20 @@ private:
   MatrixFlow coupled_;
   kernels::FlowTable first_, full_;
 
-  std::int64_t steps_ = 0, unconverged_ = 0;
+  double duration_;
+  std::vector<Flight> far_; ///< the longest first
+  int stride_ = 1;          ///< steps of what follows the last action
+  double lean_ = 0.0;       ///< s
+  kernels::Array speeds_;   ///< m/s, lanes, at the last record
+  int wait_ = 0;            ///< steps until flights are looked for again
+  std::int64_t steps_ = 0, flown_ = 0, unconverged_ = 0;
   double time_ = 0.0;
   kernels::Array q_, v_, k_, f_now_, f_next_, slope_, impulse_;
-  kernels::Array shown_;   ///< with scaled masses
-  kernels::Array shown_q_; ///< in the mean over the step
-  kernels::Array seen_;    ///< m, lanes, likewise
+  kernels::Array far_q_, far_v_, far_f_; ///< after the flight under way
+  double far_work_ = 0.0;                ///< J, of its load
+  kernels::Array shown_;                 ///< with scaled masses
+  kernels::Array shown_q_;               ///< in the mean over the step
+  kernels::Array seen_;                  ///< m, lanes, likewise
 
   Record record_;
   double moving_ = 0.0, after_action_ = 0.0; ///< modal energy before and after the action
@@ -292,11 +408,12 @@ private:
 
 } // namespace
 
-std::unique_ptr<Scheme> make_splitting(const Scene& scene, double step, double fastest) {
+std::unique_ptr<Scheme> make_splitting(const Scene& scene, double step, double fastest, int flight) {
   const Eigen::VectorXd masses = scaled_masses(scene, fastest);
   if ((masses.array() == 1.0).all())
-    return std::make_unique<Splitting>(scene, step, Eigen::VectorXd());
-  return std::make_unique<Splitting>(with_masses(scene, masses), step, masses.cwiseSqrt().cwiseInverse());
+    return std::make_unique<Splitting>(scene, step, Eigen::VectorXd(), flight);
+  return std::make_unique<Splitting>(with_masses(scene, masses), step, masses.cwiseSqrt().cwiseInverse(),
+                                     flight);
 }
 
 } // namespace fretwork::transient

@@ -186,6 +186,24 @@ TEST(
     }
 }
 
+TEST(Restart, InsideFlights) {
+  for (const bool in_lanes : {true, false}) {
+    Scene scene = pushed(3, 9);
+    for (auto& c : scene.contacts) {
+      c.support.normal.damping = 0.0;
+      if (in_lanes)
+        c.b.row(0).setZero();
+    }
+    StepChoice choice = choose_step(scene, splitting(2e-5));
+    choice.flight = 8;
+    const auto counts = run(scene, choice, {}, nullptr, {}).counts;
+    EXPECT_LT(counts.evaluations, 9 * counts.steps / 10);
+    const std::string whole = in_one_go(scene, choice);
+    for (const std::int64_t records : {1, 3, 101})
+      EXPECT_TRUE(in_portions(scene, choice, records) == whole) << records;
+  }
+}
+
 TEST(Restart, WithResidualFlexibility) {
   Scene scene = pushed(3, 9);
   scene.residual = 1e-6 * (Eigen::MatrixXd::Identity(9, 9) + Eigen::MatrixXd::Ones(9, 9));

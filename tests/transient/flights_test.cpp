@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Steps made at once where no contact can meet its obstacle.
+#include "post/impact_table.hpp"
+#include "post/node_statistics.hpp"
+#include "scenes.hpp"
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace fretwork;
+using namespace fretwork::tests;
+using namespace fretwork::transient;
+
+namespace {
+
+constexpr double mass = 0.5, stiffness = 1e7, gap = 2e-4;
+const double frequency = std::sqrt(stiffness / mass), h = 0.2 / frequency;
+
+StepChoice with_flights(const Scene& scene, int flight) {
+  StepChoice choice = choose_step(scene, splitting(h));
+  choice.flight = flight;
+  return choice;
+}
+
+/// A mass on a soft spring that swings between the walls of a hole, one impact with friction after the other.
+Scene swinging(double duration, const contact::FrictionLaw& friction = {5e6, 500.0, 0.3, 0.3}) {
+  Scene scene = mass_point(mass, Vec3(0.0, 500.0, 800.0), duration);
+  scene.contacts = {contact_of(mass, {contact::Circle{gap}, {stiffness}, friction})};
+  start(scene, mass, {0.0, 0.0, 0.4 * gap}, {0.0, 0.12, 0.05});
+  return scene;
+}
+
+struct Result {
+  Report report;
+  post::ContactSummary contact;
+  post::NodeSummary node;
+  std::vector<post::Impact> impacts;
+};
+
+Result simulate_with(const Scene& scene, int flight, double from = 0.0) {
+  post::ContactStatistics contacts(1, from);
+  post::NodeStatistics nodes({scene.contacts[0].b}, from);
+  post::ImpactTable impacts(1, from, 0.0, 1000);
+  Observer* const observers[] = {&contacts, &nodes, &impacts};
+  Result out;
+  out.report = run(scene, with_flights(scene, flight), observers, nullptr, {});
+  out.contact = contacts.summaries()[0];
+  out.node = nodes.summaries()[0];
+  out.impacts = std::move(impacts).impacts()[0].rows;
+  return out;
+}
+
+} // namespace
+
+TEST(Flights, LeadToTheSameImpacts) {
+  const Scene scene = swinging(0.1);
+  const Result single = simulate_with(scene, 1), flown = simulate_with(scene, 12);
+  EXPECT_EQ(single.report.counts.steps, flown.report.counts.steps);
+  EXPECT_EQ(single.report.counts.evaluations, single.report.counts.steps);
+  EXPECT_LT(flown.report.counts.evaluations, 0.6 * single.report.counts.steps);
+  ASSERT_EQ(single.impacts.size(), flown.impacts.size());
+  EXPECT_GT(single.impacts.size(), 20U);
+  for (std::size_t i = 0; i < single.impacts.size(); ++i) { // exact flows: only round-off differs
+    EXPECT_NEAR(single.impacts[i].start, flown.impacts[i].start, 1e-9);
+    EXPECT_NEAR(single.impacts[i].impulse / flown.impacts[i].impulse, 1.0, 1e-6);
+  }
+  EXPECT_NEAR(flown.report.energy.friction / single.report.energy.friction, 1.0, 1e-6);
+  EXPECT_NEAR(flown.report.energy.contact_damping / single.report.energy.contact_damping, 1.0, 1e-6);
+  EXPECT_NEAR(flown.report.residual_relative, single.report.residual_relative, 1e-6);
+}
+
+// Records that stand for flights weigh as much time as these take, and show displacements whose sums are integrals.
+TEST(Flights, LeaveStatisticsOfTheMotionWhatTheyAre) {
+  const Scene scene = swinging(0.5, {});
+  const Result single = simulate_with(scene, 1), flown = simulate_with(scene, 12);
+  EXPECT_NEAR(flown.contact.normal_mean / single.contact.normal_mean, 1.0, 1e-3);
+  EXPECT_NEAR(flown.contact.y.std / single.contact.y.std, 1.0, 3e-4); // 4e-3 by the displacements at the ends
+  EXPECT_NEAR(flown.contact.z.std / single.contact.z.std, 1.0, 3e-4);
+  EXPECT_NEAR(flown.contact.radial_rms / single.contact.radial_rms, 1.0, 3e-4);
+  for (int k = 1; k < 3; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    EXPECT_NEAR(flown.node.displacement[axis].std / single.node.displacement[axis].std, 1.0, 3e-4);
+  }
+}
+
+// An arc that touches its obstacle between the ends of a flight, from any phase.
+TEST(Flights, MissNoImpact) {
+  constexpr int phases = 200;
+  const double swing = 0.5 / (12.0 * h); // rad/s: beyond the stop for half the time of a flight
+  for (int i = 0; i < phases; ++i) {
+    Scene scene = mass_point(mass, mass * swing * swing * Vec3::Ones(), 200.0 * h);
+    scene.contacts = {contact_of(mass, {contact::Stop{gap, contact::PlaneAxis::y}, {stiffness}, {}})};
+    start(scene, mass, Vec3(0.0, -1.01 * gap * std::cos(0.01 + 0.031 * i), 0.0),
+          Vec3(0.0, 1.01 * gap * swing * std::sin(0.01 + 0.031 * i), 0.0));
+    const auto first = [&](int flight) { return simulate_with(scene, flight).impacts.at(0).start; };
+    EXPECT_NEAR(first(12), first(1), 1e-9) << i;
+  }
+}
+
+// Outputs come from the exact flow inside a flight, and change none of it.
+TEST(Flights, GiveOutputsAtAnyInstantAndDoNotFeelThem) {
+  const Scene scene = swinging(0.02);
+  struct Positions final : Sampler {
+    void state(std::int64_t, double, const double* q, const double*) override { y.push_back(q[1]); }
+    void forces(std::int64_t, double, const double*, std::span<const ContactForce>) override {}
+    void visit(core::StateArchive&) override {}
+    std::vector<double> y;
+  };
+  const auto watched = [&](int flight, double every) {
+    Positions positions;
+    post::ContactStatistics statistics(1, 0.0);
+    Observer* const observers[] = {&statistics};
+    (void)run(scene, with_flights(scene, flight), observers, &positions, output_grid(scene.duration, every));
+    return std::pair(positions.y, statistics.summaries()[0].radial_rms);
+  };
+  const auto [single, same] = watched(1, 1.7e-5);
+  const auto [flown, dense] = watched(12, 1.7e-5);
+  ASSERT_EQ(single.size(), flown.size());
+  for (std::size_t i = 0; i < single.size(); ++i)
+    EXPECT_NEAR(single[i], flown[i], 1e-9 * gap) << i;
+  EXPECT_EQ(watched(12, 0.01).second, dense);
+}
+
+TEST(
+    Flights,
+    AreNotMadeRoundAnObstacle) { // gaps outside a circle bend upwards: a straight path between two free places may cross it
+  Scene scene = swinging(0.1);
+  scene.contacts[0].support.obstacle = contact::RoundPair{2e-3};
+  scene.contacts[0].rest.y() = 3e-3;
+  const Result flown = simulate_with(scene, 12);
+  EXPECT_EQ(flown.report.counts.evaluations, flown.report.counts.steps);
+}
