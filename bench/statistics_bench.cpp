@@ -4,11 +4,11 @@
 //   bench_statistics compare FILE [SCHEME [FACTOR [SCENE]]]   prints deviations of SCHEME (auto) at FACTOR (1) times its automatic step, and times
 // Impacts with friction are chaotic: figures are means over runs whose initial states differ by 1e-7, with standard errors.
 #include "bench/scenes.hpp"
+#include "bench/thread_time.hpp"
 #include "core/error.hpp"
 #include "post/contact_statistics.hpp"
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -55,10 +55,9 @@ Ensemble ensemble(transient::Scene scene, const transient::StepOptions& options,
     scene.q0(0) = disturbed * run;
     post::ContactStatistics statistics(scene.contacts.size(), window_from);
     transient::Observer* const observers[] = {&statistics};
-    const auto begin = std::chrono::steady_clock::now();
+    const double begin = bench::thread_seconds();
     const auto report = transient::run(scene, out.choice, observers, nullptr, {});
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-    out.seconds = std::min(out.seconds, took.count());
+    out.seconds = std::min(out.seconds, bench::thread_seconds() - begin);
     if (report.outcome != transient::Outcome::done)
       throw core::ComputationError("a run did not end");
     out.told += statistics.errors_of_sums().work_rate / runs;

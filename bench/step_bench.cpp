@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Cost of whole runs of the splitting scheme, 10 s of tubes in steps that give statistics to 1 %, with statistics and without; and what
 // a run saves that leaves out the modes that nothing moves.
+#include "bench/thread_time.hpp"
 #include "bench/tube_scene.hpp"
 #include "post/contact_statistics.hpp"
 #include "transient/moving_modes.hpp"
@@ -8,7 +9,6 @@
 #include <cstdio>
 #include <limits>
 #include <numbers>
-#include <time.h>
 
 namespace {
 
@@ -16,13 +16,6 @@ using namespace fretwork;
 
 constexpr int repeats = 7; // of each measurement; the fastest counts: others were disturbed
 constexpr double duration = 10.0;
-
-/// Of this thread: what others take of the processor does not count.
-double seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 struct Tube {
   const char* name;
@@ -50,12 +43,12 @@ void measure(const transient::Scene& scene, double step, Cost& cost) {
   const auto choice = choice_of(scene, step);
   post::ContactStatistics statistics(scene.contacts.size(), 0.02 * duration);
   transient::Observer* observers[] = {&statistics};
-  double begin = seconds();
+  double begin = bench::thread_seconds();
   (void)transient::run(scene, choice, observers, nullptr, {});
-  cost.with = std::min(cost.with, seconds() - begin);
-  begin = seconds();
+  cost.with = std::min(cost.with, bench::thread_seconds() - begin);
+  begin = bench::thread_seconds();
   (void)transient::run(scene, choice, {}, nullptr, {});
-  cost.without = std::min(cost.without, seconds() - begin);
+  cost.without = std::min(cost.without, bench::thread_seconds() - begin);
   cost.closed = 0.0;
   for (const auto& contact : statistics.summaries())
     cost.closed += contact.contact_time_ratio;
