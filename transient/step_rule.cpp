@@ -23,9 +23,9 @@ constexpr double linear_points_per_period = 200.0;
 /// A run of an adaptive scheme has at least so many steps.
 constexpr double least_adaptive_steps = 200;
 /// w_t h at an accuracy of 0.01, whatever the damping: with splitting a stuck contact gives way by (w_t h)^2/4 too much.
-constexpr double most_stuck = 0.5;
+constexpr double most_stuck = 0.57;
 /// Of r_t h where dampers are implicit: above it sticking contacts ring.
-constexpr double most_implicit = 4.0;
+double most_implicit(SchemeKind scheme) { return scheme == SchemeKind::splitting ? 5.0 : 4.0; }
 /// Of a damper's rate times the step of devogelaere, whose limit is 0.59.
 constexpr double most_damped = 0.5;
 /// The step of an accuracy of 0.02 (w_c h = 1) is the longest: no statistics are worth having above it.
@@ -33,6 +33,8 @@ constexpr double coarsest_accuracy = 0.02;
 /// w_c h of splitting at an accuracy of 0.01 where modes are made heavier: impulses on modes of w h near 2.5 cost energy that grows with h^2
 /// (damping of the modes 12 % too high at w_c h = 0.7, 4 % here), and the modes that are left as they are reach further above w_c.
 constexpr double contact_share_with_scaling = 0.45;
+/// Steps of a flight. More gain little: its end, with displacements and velocities, costs as much as one step.
+constexpr double most_flight = 12.0;
 /// Steps of splitting that one of collocation takes the time of: measured 4 to 5 with 3 supports, 7 to 9 with 8 and 10; 8 to 13 where a
 /// damping matrix couples 40 or 80 modes (matrix_flow.hpp).
 double collocation_cost(const Scene& scene) {
@@ -49,7 +51,7 @@ struct Shares {
 Shares shares(SchemeKind scheme) {
   switch (scheme) {
   case SchemeKind::splitting:
-    return {0.7, 0.25, 4.0};
+    return {0.8, 0.25, 5.0};
   case SchemeKind::collocation:
     return {0.5, 0.5, 2.0};
   default:
@@ -121,7 +123,7 @@ std::vector<Term> terms(const StepChoice& c, const Scene& scene, double fineness
     out.push_back({std::min(share.stick * fineness * stick_time(c), most),
                    fmt::format("the frequency of sticking contacts {:.4g} rad/s", c.stick_frequency)});
   }
-  add(exact ? std::min(share.damper * fineness, most_implicit) : damped, c.damper_rate,
+  add(exact ? std::min(share.damper * fineness, most_implicit(c.scheme)) : damped, c.damper_rate,
       fmt::format("the tangential dampers' rate {:.4g} 1/s", c.damper_rate));
   add(damped, c.explicit_rate, fmt::format("the dampers' rate {:.4g} 1/s", c.explicit_rate));
   if (c.highest_mode > 0.0 && !(contacts && may_go_past_modes(c.scheme)))
@@ -154,7 +156,7 @@ void warn(StepChoice& c) {
   add(c.contact_frequency * c.step, resolved, "w_c h", "the contact frequency");
   add(c.stick_frequency * c.step, resolved, "w_t h", "the frequency of sticking contacts");
   const double damped = c.scheme == SchemeKind::devogelaere ? most_damped : 1.0;
-  add(c.damper_rate * c.step, exact ? most_implicit : damped, "r_t h", "the tangential dampers");
+  add(c.damper_rate * c.step, exact ? most_implicit(c.scheme) : damped, "r_t h", "the tangential dampers");
   add(c.explicit_rate * c.step, damped, "r_e h", "the dampers");
   if (!collocation)
     add(c.highest_mode * c.step,
@@ -217,6 +219,22 @@ void scale_modes(StepChoice& c, const Scene& scene, double fastest) {
                   scaled, scene.system.size(), fastest / (2.0 * std::numbers::pi));
 }
 
+/// Steps that splitting may make at once where no contact can meet its obstacle: the flow is exact, but loads are linear over them and
+/// statistics are to see the modes (a dozen points a period of the highest). Tables may change inside.
+int flight_steps(const StepChoice& c, const Scene& scene, double fineness) {
+  if (c.scheme != SchemeKind::splitting || scene.contacts.empty() || c.scaled > 0)
+    return 1;
+  for (const Load& load : scene.loads)
+    if (std::holds_alternative<Table>(load.function) || std::holds_alternative<Integral>(load.function))
+      return 1;
+  double longest = most_flight * c.step;
+  if (c.excitation > 0.0)
+    longest = std::min(longest, fineness / (points_per_period * c.excitation));
+  if (c.highest_mode > 0.0)
+    longest = std::min(longest, 0.5 * fineness / c.highest_mode);
+  return std::max(1, static_cast<int>(longest / c.step * (1.0 + 1e-9)));
+}
+
 /// The longest step that the terms allow, but for whole steps that cover the duration.
 void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
   const double accuracy = std::min(asked, coarsest_accuracy);
@@ -258,6 +276,7 @@ void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
   c.step = scene.duration / static_cast<double>(c.steps);
   if (followed > 0.0)
     scale_modes(c, scene, followed / c.step);
+  c.flight = flight_steps(c, scene, fineness);
 }
 
 StepChoice choice_of(const Scene& scene, const SceneRates& rates, const StepOptions& options,
