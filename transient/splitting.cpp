@@ -108,7 +108,7 @@ public:
     flow();
     if (contacts_.count > 0) {
       if (flown > 1)
-        arrive(flown);
+        rest(flown);
       else
         act();
       see();
@@ -310,8 +310,19 @@ private:
     }
   }
 
-  /// The end of a flight: no contact acts.
-  void arrive(int steps) {
+  /// Where the contacts stand.
+  void gather() {
+    if (near_only_) {
+      motion_.gather_near(q_.data(), v_.data(), memory_.closed());
+      return;
+    }
+    motion_.gather(q_.data(), v_.data());
+    obstacles_.at(time_, carried_);
+    carried_.add_to(motion_);
+  }
+
+  /// No contact acts, nor has acted at the end of the last step: at the end of a flight or of a single step.
+  void rest(int steps) {
     const double springs = memory_.spring_energy();
     const ContactLosses losses = memory_.pass(motion_, steps, trial_);
     Energy& energy = record_.energy;
@@ -321,24 +332,20 @@ private:
     lost_.damping += losses.damping;
   }
 
-  /// Where the contacts stand and the forces of the action.
   ContactSolver::Action solve() {
-    if (near_only_) {
-      motion_.gather_near(q_.data(), v_.data(), memory_.closed());
-      memory_.follow(motion_, 0.5 * h_);
-      return solver_.solve_near(memory_, motion_, trial_);
-    }
-    motion_.gather(q_.data(), v_.data());
-    obstacles_.at(time_, carried_);
-    carried_.add_to(motion_);
     if (flexible_) // whose contacts move at once by their own forces
       return flexible_->solve(memory_, motion_, trial_);
     memory_.follow(motion_, 0.5 * h_);
-    return solver_.solve(memory_, motion_, trial_);
+    return near_only_ ? solver_.solve_near(memory_, motion_, trial_) : solver_.solve(memory_, motion_, trial_);
   }
 
   /// The contacts act.
   void act() {
+    gather();
+    if (near_only_ && motion_.places().first.empty() && memory_.closed().empty()) {
+      rest(1);
+      return;
+    }
     const auto action = solve();
     unconverged_ += !action.converged;
     const double springs_before = memory_.spring_energy();

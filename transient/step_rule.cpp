@@ -22,7 +22,7 @@ constexpr double points_per_period =
 constexpr double linear_points_per_period = 200.0;
 /// A run of an adaptive scheme has at least so many steps.
 constexpr double least_adaptive_steps = 200;
-/// w_t h at an accuracy of 0.01, whatever the damping: with splitting a stuck contact gives way by (w_t h)^2/4 too much.
+/// w_t h at an accuracy of 0.01, whatever the damping: with splitting a stuck contact gives way by (w_t h)^2/4 too much, 8 %.
 constexpr double most_stuck = 0.57;
 /// Of r_t h where dampers are implicit: above it sticking contacts ring.
 double most_implicit(SchemeKind scheme) { return scheme == SchemeKind::splitting ? 5.0 : 4.0; }
@@ -41,10 +41,10 @@ double collocation_cost(const Scene& scene) {
   const double contacts = 3.5 + 0.5 * static_cast<double>(scene.contacts.size());
   return scene.system.damping_matrix.size() > 0 ? std::max(contacts, 10.0) : contacts;
 }
-/// w_c h, w_t h and r_t h at an accuracy of 0.01. Measured on rattling tubes (bench_statistics), work rates: with splitting 0.2 % high to
-/// 0.9 % low at w_c h = 0.7, and where contacts stick without much damping (stick_time) 3 % low at w_t h = 0.5, 0.9 % at 0.25, for they start to slide
+/// w_c h, w_t h and r_t h at an accuracy of 0.01. Measured on rattling tubes (bench_statistics), work rates: with splitting within 1 % at
+/// w_c h = 0.8 (up to 1.6 % high at 0.9), r_t h = 5, and where contacts stick without much damping (stick_time) 3 % low at w_t h = 0.5, 0.9 % at 0.25, for they start to slide
 /// inside steps; with collocation these are off by 2.8 % at 1, 1.4 % at 0.5.
-/// Of r_t h, where dampers are implicit: above 2 a step turns the speed of a sticking contact round, a third of it at 4.
+/// Of r_t h, where dampers are implicit: above 2 a step turns the speed of a sticking contact round, 0.43 of it at 5.
 struct Shares {
   double contact, stick, damper;
 };
@@ -277,6 +277,8 @@ void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
   if (followed > 0.0)
     scale_modes(c, scene, followed / c.step);
   c.flight = flight_steps(c, scene, fineness);
+  if (c.flight > 1)
+    c.reason += fmt::format("; up to {} of them at once while no contact can meet its obstacle", c.flight);
 }
 
 StepChoice choice_of(const Scene& scene, const SceneRates& rates, const StepOptions& options,
