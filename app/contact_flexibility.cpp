@@ -5,6 +5,7 @@
 #include "core/mpi.hpp"
 #include "core/share_out.hpp"
 #include "core/symmetric.hpp"
+#include "fem/inner_motion.hpp"
 #include "modal/static_flexibility.hpp"
 #include "modal/static_solvers.hpp"
 #include <algorithm>
@@ -18,6 +19,8 @@ using Eigen::MatrixXd;
 /// The parts of a model that the flexibilities are made from.
 struct Parts {
   const study::Study& study;
+  const fem::Model& model;
+  const std::vector<fem::Structure>& structures;
   const std::vector<modal::Basis>& bases;
   const std::vector<PlacedContact>& placed;
   const std::vector<Fields::Load>& loads;
@@ -44,8 +47,9 @@ Eigen::VectorXd restricted(const modal::Basis& basis, const Eigen::VectorXd& fie
 }
 
 /// Adds what a structure gives to the flexibilities of the loaded directions.
+/// @param inner  of the loaded directions, modal::inner_flexibility
 void add_structure(const Parts& parts, std::size_t s, const StructureLoads& loaded,
-                   modal::StaticSolvers& solvers, ContactFlexibility& out) {
+                   modal::StaticSolvers& solvers, ContactFlexibility& out, MatrixXd& inner) {
   const auto& [among, forces] = loaded;
   if (among.empty())
     return;
@@ -53,6 +57,8 @@ void add_structure(const Parts& parts, std::size_t s, const StructureLoads& load
   const MatrixXd u = solvers.of(s).solve(forces);
   out.exact(among, among) += forces.transpose() * u;
   out.basis(among, among) += modal::flexibility_of(basis, forces);
+  inner(among, among) += modal::inner_flexibility(
+      basis, forces, fem::largest_inner_changes(parts.model, parts.structures[s], basis.omega));
   if (!in_series(parts.study))
     return; // nothing is moved beside the modes
   const MatrixXd gain = modal::static_gain(basis, forces);
@@ -67,16 +73,17 @@ void add_structure(const Parts& parts, std::size_t s, const StructureLoads& load
 
 /// Between all contacts, or where the scene does not take it, what the table tells: of each contact alone.
 MatrixXd missing_flexibility(const Parts& parts, const std::vector<Index>& loaded,
-                             const ContactFlexibility& of_loaded) {
+                             const ContactFlexibility& of_loaded, const MatrixXd& inner) {
   if (in_series(parts.study))
-    return modal::missing_flexibility(of_loaded.exact, of_loaded.basis);
+    return modal::missing_flexibility(of_loaded.exact, of_loaded.basis, inner);
   MatrixXd out = MatrixXd::Zero(of_loaded.exact.rows(), of_loaded.exact.cols());
   for (std::size_t begin = 0, end = 0; begin < loaded.size(); begin = end) {
     while (end < loaded.size() && loaded[end] / 3 == loaded[begin] / 3)
       ++end;
     const auto first = static_cast<Index>(begin), size = static_cast<Index>(end - begin);
-    out.block(first, first, size, size) = modal::missing_flexibility(
-        of_loaded.exact.block(first, first, size, size), of_loaded.basis.block(first, first, size, size));
+    const auto own = [&](const MatrixXd& matrix) { return matrix.block(first, first, size, size); };
+    out.block(first, first, size, size) =
+        modal::missing_flexibility(own(of_loaded.exact), own(of_loaded.basis), own(inner));
   }
   return out;
 }
@@ -96,10 +103,11 @@ ContactFlexibility flexibility(const Parts& parts, const std::vector<std::size_t
   const auto all = static_cast<Index>(3 * contacts.size());
   const auto count = static_cast<Index>(loaded.size()), loads = static_cast<Index>(parts.loads.size());
   out.exact = out.basis = MatrixXd::Zero(count, count);
+  MatrixXd inner = out.basis;
   out.under_loads = MatrixXd::Zero(count, loads);
   for (std::size_t i = 0; i < structures.size(); ++i)
-    add_structure(parts, structures[i], scene.on[i], solvers, out);
-  out.missing = among_all(missing_flexibility(parts, loaded, out), loaded, all);
+    add_structure(parts, structures[i], scene.on[i], solvers, out, inner);
+  out.missing = among_all(missing_flexibility(parts, loaded, out, inner), loaded, all);
   out.exact = among_all(out.exact, loaded, all);
   out.basis = among_all(out.basis, loaded, all);
   MatrixXd under_loads = MatrixXd::Zero(all, loads);
@@ -141,7 +149,7 @@ contact_flexibilities(MPI_Comm comm, const study::Study& study, const fem::Model
                       const std::vector<fem::Structure>& structures, const std::vector<modal::Basis>& bases,
                       const std::vector<std::vector<std::size_t>>& scenes,
                       const std::vector<PlacedContact>& placed, const std::vector<Fields::Load>& loads) {
-  const Parts parts{study, bases, placed, loads};
+  const Parts parts{study, model, structures, bases, placed, loads};
   std::vector<double> costs;
   std::vector<std::vector<std::size_t>> contacts;
   for (const auto& scene : scenes) {

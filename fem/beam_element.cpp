@@ -71,6 +71,32 @@ Matrix12 uniform_mass(const BeamConstants& c, double l) {
   return mass;
 }
 
+/// Of traction (component 0, along x) or torsion (1), dofs a and b.
+void add_inner(InnerMotion& inner, Eigen::Index component, Eigen::Index a, const Vec3& x, double stiffness,
+               double m, double l) {
+  inner.stiffness(component, component) = 16.0 * stiffness / (3.0 * l);
+  inner.mass(component, component) = 8.0 / 15.0 * m * l;
+  inner.coupling.block<1, 3>(component, a) = m * l / 3.0 * x.transpose();
+  inner.coupling.block<1, 3>(component, a + 6) = m * l / 3.0 * x.transpose();
+  inner.strain_mass.block<1, 3>(component, a) = -std::sqrt(m * l / 12.0) * x.transpose();
+  inner.strain_mass.block<1, 3>(component, a + 6) = std::sqrt(m * l / 12.0) * x.transpose();
+}
+
+/// Global axes. Neither shear nor rotary inertia nor an axial force has a part in it.
+InnerMotion uniform_inner_motion(const BeamConstants& c, const Vec3& x, double l) {
+  InnerMotion inner{Eigen::Matrix2d::Zero(), Eigen::Matrix2d::Zero(), Eigen::Matrix<double, 2, 12>::Zero(),
+                    Eigen::Matrix<double, 2, 12>::Zero()};
+  add_inner(inner, 0, 0, x, c.axial, c.mass_axial, l);
+  add_inner(inner, 1, 3, x, c.torsion, c.inertia_x, l);
+  return inner;
+}
+
+/// Rows over the twelve dofs.
+template <class Rows> void turn_to_global_axes(Rows& rows, const Eigen::Matrix3d& axes) {
+  for (Eigen::Index j = 0; j < 12; j += 3)
+    rows.template middleCols<3>(j) = (rows.template middleCols<3>(j) * axes).eval();
+}
+
 /// Of a symmetric matrix; symmetric to the last digit.
 Matrix12 in_global_axes(const Matrix12& matrix, const Eigen::Matrix3d& axes) {
   Matrix12 turned;
@@ -128,6 +154,15 @@ Matrix12 BeamElement::mass() const {
   return in_global_axes(is_plain(axis_, property_) ? uniform_mass(beam_constants(property_), chord_)
                                                    : flexible().mass(),
                         axes_);
+}
+
+InnerMotion BeamElement::inner_motion() const {
+  if (axis_.is_straight() && !property_.taper)
+    return uniform_inner_motion(beam_constants(property_), axes_.row(0), chord_);
+  InnerMotion inner = flexible().inner_motion();
+  turn_to_global_axes(inner.coupling, axes_);
+  turn_to_global_axes(inner.strain_mass, axes_);
+  return inner;
 }
 
 Eigen::Matrix<double, 6, 1> BeamElement::deformation(const Vector12& u) const {

@@ -16,10 +16,11 @@
 /// follows from loads nor changes with the motion.
 /// Source: Przemieniecki, Theory of Matrix Structural Analysis, sections 5.6, 11.3 and 15.2. Limits: slender beams;
 /// with shear and rotary inertia, waves some heights of the section long.
-/// Static deflections at nodes are exact (without N). Frequencies of bending converge as h^4 from above; of traction and
-/// torsion as h^4 from below, -(k h)^4/480, along equal elements between ends that are free or held (lumped
-/// masses, springs, corners and changes of the element length leave an error of order 2). What shear takes from
-/// a frequency of bending converges as h^2.
+/// Static deflections at nodes are exact (without N). Frequencies of K and M converge as h^4 from above in bending; in
+/// traction and torsion as h^4 from below, -(k h)^4/480, along equal elements between ends that are free or held, and
+/// as h^2 where the axial force or its wave number jumps (lumped masses, springs, corners, changes of the element
+/// length): inner_motion.hpp takes this error from the frequencies. What shear takes from a frequency of bending converges
+/// as h^2.
 #pragma once
 #include "fem/flexible_beam.hpp"
 
@@ -39,6 +40,7 @@ public:
   [[nodiscard]] const BeamAxis& axis() const { return axis_; }
   [[nodiscard]] Matrix12 stiffness() const; ///< N/m, N, N m
   [[nodiscard]] Matrix12 mass() const;      ///< kg, kg m, kg m2
+  [[nodiscard]] InnerMotion inner_motion() const;
 
   /// 2 U of an element displacement, J, from its deformation: the small energy of a fine mesh keeps its digits
   /// (K u does not).

@@ -95,6 +95,43 @@ Matrix6 FlexibleBeam::slope_spread() const {
   return spread;
 }
 
+InnerMotion FlexibleBeam::inner_motion() const {
+  const double length = axis_.length(), curvature = axis_.angle() / length;
+  const Shapes deformation = stiffness_ * deformation_matrix(span_);
+  InnerMotion inner;
+  inner.stiffness.setZero();
+  inner.mass.setZero();
+  inner.coupling.setZero();
+  inner.strain_mass.resize(2 * static_cast<Eigen::Index>(gauss_points.size()), 12);
+  Eigen::Index row = 0;
+  for (const auto& [share, weight] : gauss_points) {
+    const double s = share * length, w = weight * length;
+    const double b = 4.0 * share * (1.0 - share), slope = 4.0 * (1.0 - 2.0 * share) / length;
+    const Vec3 tangent = frame_ * axis_.tangent(s), inward = frame_ * axis_.inward(s),
+               normal = tangent.cross(inward); // of the plane of the arc; zero where straight
+    const Eigen::Matrix3d axes = section_axes(s);
+    const BeamConstants k = constants(s);
+    const Shapes shape = carried(point(s)) + motion(s) * deformation;
+    const Shapes strain = strains(s) * deformation;
+    const Vec3 lineic(k.mass_axial, k.mass_transverse, k.mass_transverse);
+    const Vec3 inertia(k.inertia_x, k.inertia_y, k.inertia_z);
+    const Vec3 bending(k.torsion, k.bending_y, k.bending_z);
+    Eigen::Matrix<double, 3, 2> moved, turned, bent;
+    moved << axes * tangent * b, Vec3::Zero();
+    turned << axes * normal * (curvature * b), axes * tangent * b;
+    bent << axes * normal * (curvature * slope), axes * (tangent * slope + inward * (curvature * b));
+    inner.stiffness += w * bent.transpose() * bending.asDiagonal() * bent;
+    inner.stiffness(0, 0) += w * k.axial * slope * slope;
+    inner.mass += w * (moved.transpose() * lineic.asDiagonal() * moved +
+                       turned.transpose() * inertia.asDiagonal() * turned);
+    inner.coupling += w * (moved.transpose() * lineic.asDiagonal() * (axes * shape.topRows<3>()) +
+                           turned.transpose() * inertia.asDiagonal() * (axes * shape.bottomRows<3>()));
+    inner.strain_mass.row(row++) = length * std::sqrt(w * k.mass_axial / 12.0) * strain.row(0);
+    inner.strain_mass.row(row++) = length * std::sqrt(w * k.inertia_x / 12.0) * strain.row(3);
+  }
+  return inner;
+}
+
 Matrix12 FlexibleBeam::mass() const {
   const double length = axis_.length();
   const Shapes deformation = stiffness_ * deformation_matrix(span_);

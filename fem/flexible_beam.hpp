@@ -16,7 +16,10 @@
 ///
 /// Mass: consistent with these shapes, rotary inertia of bending with their rotations; to it comes
 /// L^2/12 int [m_x eps^2 + rho Ip kappa_x^2] ds of the axial strain and the twist, which makes traction and
-/// torsion of order 4 (on a straight uniform beam: the mean of the consistent and the lumped mass).
+/// torsion of order 4 along equal beams (on a straight uniform beam: the mean of the consistent and the lumped
+/// mass). InnerMotion has what it takes to be of order 4 everywhere (inner_motion.hpp). On an arc of curvature k a
+/// section that moves along the tangent by b turns by k b in the plane of the arc, one that turns about the
+/// tangent by b bends by k b: both fulfil the kinematics of Euler and Bernoulli, so that u + b c is a motion of the beam.
 ///
 /// Axial force N of a straight beam: the work on the slopes u_t'(s) across it (shear included, so that a column
 /// that shears buckles at Engesser's load), 2 U = N int |u_t'|^2 ds = N |d_t|^2 / L + N e^T G e, the mean slope
@@ -38,6 +41,18 @@ using Matrix12 = Eigen::Matrix<double, 12, 12>;
 using Vector12 = Eigen::Matrix<double, 12, 1>;
 using Shapes = Eigen::Matrix<double, 6, 12>; ///< displacement and rotation of a section, of the 12 dofs
 
+/// Two motions b(s) c_1 and b(s) c_2 of the inside of a beam with both ends held: along its axis and turning about
+/// it, b = 4 s (L - s) / L^2.
+///     2 U = u^T K u + c^T stiffness c,   2 T = u^T (M - strain_mass^T strain_mass) u + 2 c^T coupling u + c^T mass c
+/// of u + b c, u with the shapes of the element (T: for unit velocities). The shapes are exact for loads at the
+/// ends, so that no strain energy couples the two.
+struct InnerMotion {
+  Eigen::Matrix2d stiffness, mass;
+  Eigen::Matrix<double, 2, 12> coupling;
+  /// The part of the mass matrix that comes from strains (L^2/12 ...), as a square.
+  Eigen::Matrix<double, Eigen::Dynamic, 12, Eigen::ColMajor, 16, 12> strain_mass;
+};
+
 /// e = T u, for b at `span` from a.
 [[nodiscard]] Shapes deformation_matrix(const Vec3& span);
 
@@ -50,6 +65,7 @@ public:
 
   [[nodiscard]] const Matrix6& stiffness() const { return stiffness_; } ///< S
   [[nodiscard]] Matrix12 mass() const;
+  [[nodiscard]] InnerMotion inner_motion() const;
   [[nodiscard]] Matrix6 slope_spread() const; ///< G, 1/m, 1, m; straight axes
   /// @param s  m along the axis from a
   [[nodiscard]] Shapes shapes(double s) const;

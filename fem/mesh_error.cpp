@@ -38,12 +38,10 @@ double bending_energy(const Plane& plane, double length, double lambda, double w
              (2.0 / 3.0 * f1 * f1 + 2.0 / 5.0 * f2 * f2 + 2.0 / 7.0 * f3 * f3 + 2.0 / 9.0 * f4 * f4);
 }
 
-/// Of a bar or shaft between ua and ub: lambda times twice the kinetic energy of the linear shape, times the
-/// error of a wave.
+/// E of a bar or shaft between ua and ub; intensity: lambda m.
 double axial_energy(double stiffness, double length, double intensity, double ua, double ub) {
-  const double mean = 0.5 * (ua + ub), half = 0.5 * (ub - ua);
-  return intensity * length * (mean * mean + half * half / 3.0) *
-         squared(intensity * length * length / stiffness) / 240.0;
+  const double l = 0.5 * length, q1 = intensity * 0.5 * (ub - ua);
+  return 2.0 / 45.0 * l * l * l * q1 * q1 / stiffness;
 }
 
 /// Displacement, slopes across and rotation about the axis of one end, in its frame.

@@ -15,7 +15,9 @@ namespace fretwork::modal {
 struct Basis {
   std::vector<core::Index> nodes; ///< model nodes of the structure, ascending
   Eigen::MatrixXd shapes; ///< (6 * nodes.size()) x n: ux uy uz rx ry rz of each node; 0 at restrained dofs
-  Eigen::VectorXd omega;  ///< n, rad/s, ascending; 0 exactly for rigid-body modes
+  Eigen::VectorXd
+      omega; ///< n, rad/s, ascending; 0 exactly for rigid-body modes. omega^2 is x^T K x with the motion
+             ///< inside the beams (fem/inner_motion.hpp), which shapes do not have
   Eigen::Index static_modes = 0; ///< the last so many are static modes
   Eigen::VectorXd error; ///< n: estimate of what the mesh adds to omega, relative (fem/mesh_error.hpp); 0 of
                          ///< static modes
@@ -23,7 +25,7 @@ struct Basis {
   Eigen::MatrixXd damping_matrix; ///< n x n, 1/s: Phi^T C Phi, all damping included; empty where it is the
                                   ///< diagonal 2 zeta omega
   Eigen::VectorXd
-      residuals; ///< n, |K x - lambda M x| / |K x| (rigid: |K x| over the largest term of the product)
+      residuals; ///< n, |K x - lambda M x| / |K x|, lambda = x^T K x (rigid: |K x| over the largest term of the product)
   Eigen::MatrixXd participation; ///< n x 3, sqrt(kg): Phi^T M times a unit translation along x, y, z of all
                                  ///< nodes; its squares are the effective modal masses
   core::Vec3 moving_mass = core::Vec3::Zero(); ///< kg, by direction: what the effective masses of all modes

@@ -3,12 +3,14 @@
 #include "core/error.hpp"
 #include "core/symmetric.hpp"
 #include "fem/fields.hpp"
+#include "fem/inner_motion.hpp"
 #include "fem/mesh_error.hpp"
 #include "modal/canonical.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <numeric>
+#include <span>
 
 namespace fretwork::modal {
 namespace {
@@ -47,9 +49,39 @@ void check_round_off(const Eigen::VectorXd& solver, const Eigen::VectorXd& strai
                       i + 1, solver[i], strain[i]));
 }
 
+std::vector<Eigen::Index> ascending(const Eigen::VectorXd& values) {
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Eigen::Index i, Eigen::Index j) { return values[i] < values[j]; });
+  return order;
+}
+
+/// Puts values in ascending order; those of one cluster take their mean and stay as they were among each other (their
+/// differences are round-off). @return where they were
+std::vector<Eigen::Index> grouped(Eigen::VectorXd& values, Eigen::Index rigid) {
+  std::vector<Eigen::Index> order = ascending(values);
+  values = values(order).eval();
+  Eigen::Index begin = 0;
+  for (const Eigen::Index end : cluster_ends(values, rigid)) {
+    auto group = values.segment(begin, end - begin);
+    group.setConstant(group.mean());
+    std::sort(order.begin() + begin, order.begin() + end);
+    begin = end;
+  }
+  return order;
+}
+
+Eigen::Index count_kept(const Eigen::VectorXd& squares, const Cut& cut) {
+  Eigen::Index kept = 0;
+  while (kept < std::min(squares.size(), cut.count) && std::sqrt(squares[kept]) <= cut.omega)
+    ++kept;
+  return kept;
+}
+
 /// On the equations: reactions of restraints and forces between tied dofs are no residual.
 Eigen::VectorXd residuals(const fem::Model& model, const fem::Structure& structure, const Basis& basis,
-                          const Eigen::MatrixXd& inertia) {
+                          const Eigen::VectorXd& lambda, const Eigen::MatrixXd& inertia) {
   const Eigen::MatrixXd elastic =
       fem::forces_on_equations(structure, fem::stiffness_times(model, structure, basis.shapes));
   const Eigen::MatrixXd moved = fem::forces_on_equations(structure, inertia);
@@ -58,11 +90,10 @@ Eigen::VectorXd residuals(const fem::Model& model, const fem::Structure& structu
       moves_rigidly ? fem::stiffness_diagonal(model, structure) : Eigen::VectorXd();
   Eigen::VectorXd result(basis.size());
   for (Eigen::Index j = 0; j < basis.size(); ++j) {
-    const double lambda = basis.omega[j] * basis.omega[j];
-    const Eigen::VectorXd difference = elastic.col(j) - lambda * moved.col(j);
+    const Eigen::VectorXd difference = elastic.col(j) - lambda[j] * moved.col(j);
     // a rigid mode has K x = 0: what it is compared with is the largest term of that product
-    const double size = lambda > 0.0 ? elastic.col(j).norm()
-                                     : diagonal.cwiseProduct(basis.shapes.col(j)).cwiseAbs().maxCoeff();
+    const double size = lambda[j] > 0.0 ? elastic.col(j).norm()
+                                        : diagonal.cwiseProduct(basis.shapes.col(j)).cwiseAbs().maxCoeff();
     result[j] = size > 0.0 ? difference.norm() / size : 0.0;
   }
   return result;
@@ -99,20 +130,23 @@ Eigen::MatrixXd projected_dampers(const fem::Model& model, const fem::Structure&
   return matrix;
 }
 
-void describe(const fem::Model& model, const fem::Structure& structure, Basis& basis) {
+void describe(const fem::Model& model, const fem::Structure& structure, const Eigen::VectorXd& lambda,
+              Basis& basis) {
   const Eigen::Index n = basis.size();
   basis.damping = Eigen::VectorXd::Zero(n);
   basis.damping_matrix = projected_dampers(model, structure, basis);
-  const Eigen::MatrixXd inertia = fem::mass_times(model, structure, basis.shapes);
+  const Eigen::MatrixXd translated = translations(structure);
+  Eigen::MatrixXd fields(translated.rows(), n + 3);
+  fields << basis.shapes, translated;
+  const Eigen::MatrixXd moved = fem::mass_times(model, structure, fields); // at once: beams are made once
+  const auto inertia = moved.leftCols(n);
   basis.orthogonality =
       n > 0 ? (lower_product(basis.shapes, inertia) - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff()
             : 0.0;
-  basis.residuals = residuals(model, structure, basis, inertia);
+  basis.residuals = residuals(model, structure, basis, lambda, inertia);
   basis.error = fem::mesh_error(model, structure, basis.shapes, basis.omega.cwiseAbs2());
-  const Eigen::MatrixXd translated = translations(structure);
   basis.participation = inertia.transpose() * translated;
-  basis.moving_mass =
-      translated.cwiseProduct(fem::mass_times(model, structure, translated)).colwise().sum().transpose();
+  basis.moving_mass = translated.cwiseProduct(moved.rightCols<3>()).colwise().sum().transpose();
 }
 
 Basis finish(const fem::Model& model, const fem::Structure& structure, const Eigen::MatrixXd& rigid,
@@ -127,10 +161,7 @@ Basis finish(const fem::Model& model, const fem::Structure& structure, const Eig
   check_round_off(pairs.lambda, quotients);
   Eigen::VectorXd lambda = Eigen::VectorXd::Zero(fields.cols());
   lambda.tail(quotients.size()) = quotients;
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(lambda.size())); // rigid motions stay first
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Eigen::Index i, Eigen::Index j) { return lambda[i] < lambda[j]; });
+  const std::vector<Eigen::Index> order = ascending(lambda); // rigid motions stay first
 
   Basis basis;
   basis.nodes = structure.nodes;
@@ -139,14 +170,16 @@ Basis finish(const fem::Model& model, const fem::Structure& structure, const Eig
   orthonormalise(basis.shapes, moved(Eigen::all, order));
   canonicalise_clusters(basis.shapes, lambda, rigid.cols(), fem::positions(model, structure));
 
-  Eigen::Index kept = 0;
-  while (kept < std::min(lambda.size(), cut.count) && std::sqrt(lambda[kept]) <= cut.omega)
-    ++kept;
-  basis.shapes.conservativeResize(Eigen::NoChange, kept);
+  auto [squares, refused] = fem::with_inner_motion(model, structure, basis.shapes, lambda);
+  const std::vector<Eigen::Index> places = grouped(squares, rigid.cols());
+  const Eigen::Index kept = count_kept(squares, cut);
+  const auto kept_places = std::span(places).first(static_cast<std::size_t>(kept));
+  basis.shapes = basis.shapes(Eigen::all, kept_places).eval();
   basis.splits_group =
-      kept > 0 && kept < lambda.size() && lambda[kept] - lambda[kept - 1] <= cluster_gap * lambda[kept];
-  basis.omega = lambda.head(kept).cwiseSqrt();
-  describe(model, structure, basis);
+      kept > 0 && kept < squares.size() && squares[kept] - squares[kept - 1] <= cluster_gap * squares[kept];
+  basis.omega = squares.head(kept).cwiseSqrt();
+  describe(model, structure, lambda(kept_places), basis);
+  basis.error += 0.5 * refused(kept_places);
   return basis;
 }
 

@@ -17,7 +17,9 @@ struct Cut {
 };
 
 /// lambda of a mode is its Rayleigh quotient with the strain energy (not K u): on a fine mesh this regains
-/// the digits that the round-off of K takes from the eigensolver. Modes of a cluster share their mean lambda.
+/// the digits that the round-off of K takes from the eigensolver. Modes of a cluster share their mean lambda and get
+/// their canonical form. Then omega^2 is that with the motion inside the beams (fem/inner_motion.hpp), by which modes
+/// are put in order and cut; those that are equal in it share its mean.
 /// @param rigid M-orthonormal motions without strain, @param pairs elastic modes, clusters complete
 /// @throws core::ComputationError where round-off makes the solver's lambda differ from the Rayleigh quotient
 /// by per cents
@@ -27,7 +29,9 @@ struct Cut {
 /// Sets all that follows from shapes and omega: residuals, error of the mesh, participation, moving mass, orthogonality, damping 0,
 /// dampers.
 /// @param basis  nodes, shapes and omega set
-void describe(const fem::Model& model, const fem::Structure& structure, Basis& basis);
+/// @param lambda x^T K x of the shapes, which residuals are made with
+void describe(const fem::Model& model, const fem::Structure& structure, const Eigen::VectorXd& lambda,
+              Basis& basis);
 
 /// Phi^T C Phi of the dampers, 1/s; empty where there are none.
 [[nodiscard]] Eigen::MatrixXd projected_dampers(const fem::Model& model, const fem::Structure& structure,

@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "core/petsc.hpp"
 #include "fem/beam_constants.hpp"
+#include "fem/inner_motion.hpp"
 #include "fem/node_blocks.hpp"
 #include "fem/petsc_static.hpp"
 #include "modal/canonical.hpp"
@@ -207,13 +208,18 @@ Pairs joined(const Pairs& a, const Pairs& b) {
   return sorted(both);
 }
 
-/// The place from `first` on (so many modes below it) with the widest relative gap to the next mode, or 0
-/// where all that follow belong to the cluster.
-Eigen::Index widest_gap(const Eigen::VectorXd& lambda, Eigen::Index first) {
+double half_way(const Eigen::VectorXd& lambda, Eigen::Index place) {
+  return 0.5 * (lambda[place - 1] + lambda[place]);
+}
+
+/// The place from `first` on (so many modes below it), half way there above `least`, with the widest relative gap to the next
+/// mode, or 0 where there is none but in the cluster or below.
+Eigen::Index widest_gap(const Eigen::VectorXd& lambda, Eigen::Index first, double least) {
   Eigen::Index best = 0;
   double widest = cluster_gap;
   for (Eigen::Index i = std::max<Eigen::Index>(first, 1); i < lambda.size(); ++i)
-    if (const double gap = (lambda[i] - lambda[i - 1]) / lambda[i]; gap > widest) {
+    if (const double gap = (lambda[i] - lambda[i - 1]) / lambda[i];
+        gap > widest && half_way(lambda, i) > least) {
       widest = gap;
       best = i;
     }
@@ -225,7 +231,8 @@ Eigen::Index widest_gap(const Eigen::VectorXd& lambda, Eigen::Index first) {
 KrylovModes::KrylovModes(MPI_Comm comm, const fem::Model& model, const fem::Structure& structure,
                          const Eigen::MatrixXd& rigid)
     : comm_(comm), model_(model), structure_(structure), rigid_(free_rows(structure, rigid)),
-      system_(fem::assemble(comm, model, structure)), elimination_(fem::elimination_of(model, structure)) {
+      system_(fem::assemble(comm, model, structure)), elimination_(fem::elimination_of(model, structure)),
+      inner_scale_(fem::inner_motion_scale(model, structure)) {
   const Vector diagonal = vector_like(system_.mass.get());
   FW_PETSC(MatGetDiagonal(system_.mass.get(), diagonal.handle));
   PetscInt local = 0;
@@ -242,6 +249,11 @@ KrylovModes::KrylovModes(MPI_Comm comm, const fem::Model& model, const fem::Stru
 std::string KrylovModes::what() const {
   return "modes of the structure that starts at node " +
          fem::place(model_.nodes[static_cast<std::size_t>(structure_.nodes.front())]);
+}
+
+// A mode below may rise by as much as one above falls: (1 + x) / (1 - x), x <= 0.05.
+double KrylovModes::reach(double lambda) const {
+  return lambda * (1.0 + 2.2 * fem::largest_inner_change(inner_scale_, 1.06 * lambda));
 }
 
 int KrylovModes::below(double s) const { return negative_pivots(shifted(system_, s).get(), elimination_); }
@@ -319,10 +331,10 @@ Pairs KrylovModes::complete(Pairs pairs, int count) const {
   for (int round = 1;; ++round) {
     const std::vector<Eigen::Index> ends = cluster_ends(pairs.lambda, 0);
     const Eigen::Index first = *std::lower_bound(ends.begin(), ends.end(), Eigen::Index{count});
-    const Eigen::Index place = widest_gap(pairs.lambda, first);
+    const Eigen::Index place = widest_gap(pairs.lambda, first, reach(pairs.lambda[first - 1]));
     if (place == 0)
       return {};
-    const double s = 0.5 * (pairs.lambda[place - 1] + pairs.lambda[place]);
+    const double s = half_way(pairs.lambda, place);
     const auto missing = below(s) - static_cast<int>(rigid_.cols() + place);
     if (missing == 0)
       return {pairs.lambda.head(place), pairs.vectors.leftCols(place)};
@@ -341,16 +353,23 @@ Pairs KrylovModes::lowest(int count) const {
   int ranks = 1;
   MPI_Comm_size(comm_, &ranks);
   const bool can_slice = elimination_ == fem::Elimination::chain && ranks == 1;
-  for (int asked = count + reserve;; asked *= 2) {
-    Pairs pairs =
-        complete(can_slice && asked > largest_space ? slice(asked) : solve(asked, rigid_, 0), count);
+  for (int asked = count + reserve;;) {
+    Pairs found = can_slice && asked > largest_space ? slice(asked) : solve(asked, rigid_, 0);
+    const double last = found.lambda[count - 1];
+    Pairs pairs = complete(std::move(found), count);
     if (pairs.lambda.size() > 0)
       return pairs;
+    const int within_reach = below(reach(last)) - static_cast<int>(rigid_.cols());
+    if (within_reach >= asked) {
+      asked = within_reach + reserve;
+      continue;
+    }
     if (3 * asked > massive_)
       throw core::ComputationError(
           fmt::format("{}: mode {} belongs to a cluster of more than {} modes of one frequency; ask "
                       "for another number of modes ([modes] count)",
                       what(), count, asked - count));
+    asked *= 2;
   }
 }
 

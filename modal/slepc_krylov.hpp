@@ -21,8 +21,12 @@ public:
   /// Number of modes (rigid ones included) with lambda < s, s > 0. Collective.
   [[nodiscard]] int below(double s) const;
 
+  /// Up to which lambda modes are needed where those up to `lambda` are wanted: the motion inside the beams
+  /// (fem/inner_motion.hpp), which comes later, may change their order.
+  [[nodiscard]] double reach(double lambda) const;
+
   /// At least the `count` lowest elastic modes, and so many more that the cluster of the last wanted one is
-  /// complete; none is missing among them. Collective; the same on every rank.
+  /// complete, and all up to `reach` of its lambda; none is missing among them. Collective; the same on every rank.
   /// @throws core::ComputationError where they do not converge or one stays missing
   [[nodiscard]] Pairs lowest(int count) const;
 
@@ -38,6 +42,7 @@ private:
   Eigen::MatrixXd rigid_; ///< free dofs
   fem::SystemMatrices system_;
   fem::Elimination elimination_;
+  double inner_scale_; ///< s2, fem::inner_motion_scale
   int massive_ = 0;
   double shift_ = 0.0; ///< 0 for a held structure, else negative: K - shift M is definite
 };

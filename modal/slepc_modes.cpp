@@ -54,8 +54,9 @@ Cut cut_of(const Wanted& wanted) {
 /// The elastic modes up to the cut and some more; none, and `dense` set, where so many are wanted that a
 /// dense solve must serve.
 Pairs iterate(const KrylovModes& krylov, Eigen::Index rigid, const Cut& cut, bool& dense) {
-  const int count = std::isinf(cut.omega) ? static_cast<int>(cut.count - rigid)
-                                          : krylov.below(cut.omega * cut.omega) - static_cast<int>(rigid);
+  const int count = std::isinf(cut.omega)
+                        ? static_cast<int>(cut.count - rigid)
+                        : krylov.below(krylov.reach(cut.omega * cut.omega)) - static_cast<int>(rigid);
   dense = 3 * (count + 10) > krylov.massive(); // the space must hold twice as many vectors and leave a choice
   return dense || count <= 0 ? Pairs{Eigen::VectorXd(0), {}} : krylov.lowest(count);
 }

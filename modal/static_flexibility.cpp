@@ -23,15 +23,25 @@ Eigen::MatrixXd flexibility_of(const Basis& basis, const Eigen::MatrixXd& loads)
   return static_gain(basis, loads) * (basis.shapes.transpose() * loads);
 }
 
-Eigen::MatrixXd missing_flexibility(const Eigen::MatrixXd& exact, const Eigen::MatrixXd& basis) {
+Eigen::MatrixXd inner_flexibility(const Basis& basis, const Eigen::MatrixXd& loads,
+                                  const Eigen::VectorXd& change) {
+  return static_gain(basis, loads) * change.asDiagonal() * (basis.shapes.transpose() * loads);
+}
+
+Eigen::MatrixXd missing_flexibility(const Eigen::MatrixXd& exact, const Eigen::MatrixXd& basis,
+                                    const Eigen::MatrixXd& inner) {
   if (exact.size() == 0)
     return exact;
   const Eigen::VectorXd size = exact.diagonal().cwiseMax(0.0).cwiseSqrt();
   const Eigen::VectorXd scale = (size.array() > 0.0).select(size.cwiseInverse(), 0.0);
-  const Eigen::MatrixXd difference = 0.5 * (exact + exact.transpose() - basis - basis.transpose());
-  const auto [values, vectors] =
-      core::symmetric_eigenpairs(scale.asDiagonal() * difference * scale.asDiagonal());
-  if (const double least = values.minCoeff(); !(least > -spoilt_share))
+  const auto scaled = [&](const Eigen::MatrixXd& matrix) -> Eigen::MatrixXd {
+    return scale.asDiagonal() * (0.5 * (matrix + matrix.transpose())) * scale.asDiagonal();
+  };
+  const auto [values, vectors] = core::symmetric_eigenpairs(scaled(exact - basis));
+  const bool doubtful = !(values.minCoeff() > -spoilt_share);
+  if (const double least =
+          doubtful ? core::symmetric_eigenvalues(scaled(exact - basis + inner)).minCoeff() : 0.0;
+      !(least > -spoilt_share))
     throw core::ComputationError(
         fmt::format("static flexibility at the contacts: the modes are softer than the structure by {:.2g} "
                     "of it; round-off "

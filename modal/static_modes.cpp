@@ -91,7 +91,7 @@ void add_static_modes(const fem::Model& model, const fem::Structure& structure, 
   VectorXd lambda = take_stationary(model, structure, basis, added.shapes);
   canonicalise_clusters(added.shapes, lambda, 0, fem::positions(model, structure));
   added.omega = lambda.cwiseSqrt();
-  describe(model, structure, added);
+  describe(model, structure, lambda, added);
 
   const MatrixXd mixed = basis.shapes.transpose() * fem::mass_times(model, structure, added.shapes);
   basis.orthogonality = std::max({basis.orthogonality, added.orthogonality, mixed.cwiseAbs().maxCoeff()});

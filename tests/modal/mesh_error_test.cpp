@@ -99,6 +99,54 @@ TEST(MeshError, OfTractionAndTorsionToo) {
   }
 }
 
+TEST(MeshError, OfTractionWhereItsForceJumpsIsOfItsOrderOfMagnitude) {
+  const auto held_rod = [](int n, bool spring) {
+    ModelBuilder b;
+    const auto p = tube_property();
+    const auto nodes = b.line({0, 0, 0}, {1, 0, 0}, n, b.property(p));
+    b.fix_everywhere(uy | uz | rx | ry | rz);
+    b.fix(nodes.front(), all);
+    if (spring)
+      b.model.springs.push_back({nodes.back(), -1, {3.0 * p.material.young_modulus * p.section.area}});
+    else
+      b.model.masses.push_back({nodes.back(), 1.25 * p.material.density * p.section.area});
+    return solve(b.model, 3);
+  };
+  for (const bool spring : {false, true}) {
+    const auto coarse = held_rod(16, spring), fine = held_rod(128, spring);
+    for (Eigen::Index i = 0; i < 3; ++i) { // 0.46 (spring, mode 1) to 1.95 (mass, mode 2)
+      const double ratio = coarse.error[i] / std::abs(coarse.omega[i] / fine.omega[i] - 1.0);
+      EXPECT_GT(ratio, 0.4) << spring << " mode " << i;
+      EXPECT_LT(ratio, 2.2) << spring << " mode " << i;
+    }
+    const auto unresolved = held_rod(4, spring);
+    const double true_error = std::abs(unresolved.omega[2] / fine.omega[2] - 1.0);
+    EXPECT_GT(true_error,
+              0.015); // what the quotient would have changed: 3.6 times the true error on the mass
+    EXPECT_GT(unresolved.error[2] / true_error, 0.4) << spring;
+    EXPECT_LT(unresolved.error[2] / true_error, 4.0) << spring;
+  }
+}
+
+TEST(MeshError, OfAFrameThatBendsAndStretchesToo) {
+  const auto frame = [](int n) {
+    ModelBuilder b;
+    const Index number = b.property({{2.1e11, 0.3, 7800.0}, fem::circle_section(0.2)});
+    const auto up = b.line({0, 0, 0}, {0, 2, 0}, n, number);
+    const auto out = b.line_from(up.back(), {1.4, 2, 0}, n, number);
+    b.fix_everywhere(uz | rx | ry);
+    b.fix(up.front(), all);
+    b.model.masses.push_back({out.back(), 200.0});
+    return solve(b.model, 6);
+  };
+  const auto coarse = frame(16), fine = frame(128);
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const double ratio = coarse.error[i] / std::abs(coarse.omega[i] / fine.omega[i] - 1.0);
+    EXPECT_GT(ratio, 0.7) << i;
+    EXPECT_LT(ratio, 1.4) << i;
+  }
+}
+
 TEST(MeshError, OfAnArcIsOfItsOrderOfMagnitude) {
   const auto half_ring = [](int elements) {
     ModelBuilder b;
