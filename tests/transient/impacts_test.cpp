@@ -18,7 +18,7 @@ constexpr double pi = std::numbers::pi;
 constexpr double asked = 1e-3;       // accuracy asked of single impacts at the automatic step
 constexpr double two_steps = 1.6e-3; // of 2.5e-5 s, relative to a contact: its ends are known to a step each
 
-/// Records at equal distances, which tell single impacts.
+/// Records at equal distances but for flights, which tell single impacts.
 constexpr Candidate with_fixed_steps[] = {{SchemeKind::splitting},
                                           {SchemeKind::collocation},
                                           {SchemeKind::euler},
@@ -32,7 +32,9 @@ struct Impact {
 /// The impacts of contact 0; the peak by the parabola through its three highest steps.
 std::vector<Impact> impacts(std::vector<Trace::Entry> records) {
   std::vector<Impact> out;
-  const double h = records[1].time - records[0].time;
+  double h = records[1].time - records[0].time; // of a step: flights, in which no force acts, are longer
+  for (std::size_t i = 1; i < records.size(); ++i)
+    h = std::min(h, records[i].time - records[i - 1].time);
   records.insert(records.begin(), Trace::Entry{}); // open before the start
   for (std::size_t i = 1; i + 1 < records.size(); ++i) {
     const double a = records[i - 1].normal, b = records[i].normal, c = records[i + 1].normal;
