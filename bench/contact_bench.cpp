@@ -251,6 +251,14 @@ int main() {
   print_look_ups({"round", [](int, double) { return 1.0; }});
   print_look_ups({"three lobes", [](int, double angle) { return 0.7 + 0.4 * std::cos(3.0 * angle); }});
   print_look_ups({"spikes", [](int, double) { return random(0.9, 1.1); }});
+  print_look_ups({"round, off its origin", [](int, double angle) { // which is 0.3 from its centre
+                    const double c = 0.3 * std::cos(angle), s = 0.3 * std::sin(angle);
+                    return std::sqrt(1.0 - s * s) - c;
+                  }});
+  print_look_ups({"four lands", [](int, double angle) { // as broached, of steep smooth flanks
+                    return 1.15 + 0.15 * std::tanh(6.0 * std::cos(4.0 * angle));
+                  }});
+  print_look_ups({"deep spikes", [](int, double) { return random(0.1, 1.0); }});
   std::printf("\n| obstacle | ns a locate |\n| --- | --- |\n");
   print_obstacles();
   std::printf("\nSplitting, %d modes, mean of %d steps; ns a step, the last column ns a contact.\n\n", modes,

@@ -56,6 +56,12 @@ public:
   [[nodiscard]] double value() const { return value_[lane()]; }
   /// 0 where no value has been below infinity.
   [[nodiscard]] std::uint32_t number() const { return static_cast<std::uint32_t>(number_[lane()]); }
+  /// The same without branches, for numbers that nothing could predict.
+  [[nodiscard]] std::uint32_t any_number() const {
+    const Pack value{value_[1], value_[0]}, number{number_[1], number_[0]};
+    const auto other = (value < value_) | ((value == value_) & (number < number_));
+    return static_cast<std::uint32_t>(static_cast<std::int64_t>((other ? number : number_)[0]));
+  }
 
 private:
   [[nodiscard]] int lane() const {

@@ -75,7 +75,7 @@ FacetIndex::FacetIndex(std::span<const PlanePoint> vertices)
     outermost = std::max(outermost, std::abs(v.y) + std::abs(v.z));
   }
   build_boxes(vertices, round_off * std::max(high.y - low.y, high.z - low.z));
-  cells_ = FacetCells(facets, outermost);
+  cells_ = FacetCells(pairs_, outermost);
 }
 
 void FacetIndex::build_boxes(std::span<const PlanePoint> vertices, double rounding) {
@@ -88,10 +88,10 @@ void FacetIndex::build_boxes(std::span<const PlanePoint> vertices, double roundi
 }
 
 /// By pairs: it may be at one facet more on both sides.
-void FacetIndex::look_at(FacetCells::Run run, double y, double z, Least& distances) const {
-  const std::uint32_t end = (run.end + 1) / 2;
-  Pack numbers = numbers_from(run.first / 2 * 2);
-  for (std::uint32_t i = run.first / 2; i < end; ++i, numbers += 2.0)
+void FacetIndex::look_at(std::uint32_t first, std::uint32_t end, double y, double z, Least& distances) const {
+  end = (end + 1) / 2;
+  Pack numbers = numbers_from(first / 2 * 2);
+  for (std::uint32_t i = first / 2; i < end; ++i, numbers += 2.0)
     distances.see(distance2(pairs_[i], y, z), numbers);
 }
 
@@ -106,7 +106,7 @@ Least FacetIndex::search(double y, double z, double bound) const {
         --level;
         continue;
       }
-      look_at({k, std::min(k + (1u << full_span), size())}, y, z, distances);
+      look_at(k, std::min(k + (1u << full_span), size()), y, z, distances);
       bound = std::min(bound, distances.value());
     }
     k += 1u << span_bits(level);
@@ -119,13 +119,24 @@ Least FacetIndex::search(double y, double z, double bound) const {
 std::uint32_t FacetIndex::nearest(double y, double z) const {
   Least distances;
   if (size() <= scan_limit) {
-    look_at({0, size()}, y, z, distances);
+    look_at(0, size(), y, z, distances);
     return distances.number();
   }
+  return nearest_in_cells(y, z);
+}
+
+std::uint32_t FacetIndex::nearest_in_cells(double y, double z) const {
+  Least distances;
   const FacetCells::Few few = cells_.near(y, z);
-  for (const FacetCells::Run run : few.runs)
-    look_at(run, y, z, distances);
-  return few.known ? distances.number() : search(y, z, distances.value()).number();
+  Pack numbers = numbers_from(0);                                   // of the facets of the list
+  for (std::size_t k = 0; k < FacetCells::few; ++k, numbers += 2.0) // no branches: most lists are not longer
+    distances.see(distance2(pairs_[few.pairs[k]], y, z), numbers);
+  for (std::size_t k = FacetCells::few; k < few.pairs.size(); ++k, numbers += 2.0)
+    distances.see(distance2(pairs_[few.pairs[k]], y, z), numbers);
+  if (!few.known)
+    return search(y, z, distances.value()).number();
+  const std::uint32_t number = distances.any_number();
+  return 2 * few.pairs[number / 2] + number % 2;
 }
 
 } // namespace fretwork::contact

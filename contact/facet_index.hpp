@@ -30,7 +30,9 @@ public:
 
 private:
   void build_boxes(std::span<const PlanePoint> vertices, double rounding);
-  void look_at(FacetCells::Run run, double y, double z, Least& distances) const;
+  void look_at(std::uint32_t first, std::uint32_t end, double y, double z, Least& distances) const;
+  /// On its own: what it keeps in registers and on the stack would cost the scan of few facets.
+  [[gnu::noinline]] [[nodiscard]] std::uint32_t nearest_in_cells(double y, double z) const;
   [[nodiscard]] Least search(double y, double z, double bound) const;
 
   std::uint32_t size_;

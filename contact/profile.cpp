@@ -96,16 +96,21 @@ void check_inside(std::span<const PolarPoint> points, std::span<const PlanePoint
   }
 }
 
-/// Unit bisector to the inside of the corner between the facets `in` and `out`: along both normals, or, where
+/// To the inside of the corner between the facets `in` and `out`, of any length: along both normals, or, where
 /// the facets fold back and their normals cancel, along the difference of the directions.
-PlanePoint bisector(const Facet& in, const Facet& out) {
+PlanePoint inwards_of(const Facet& in, const Facet& out) {
   PlanePoint m{-in.uz - out.uz, in.uy + out.uy};
   if (in.uy * out.uy + in.uz * out.uz < 0.0) {
     const double side = in.uy * out.uz - in.uz * out.uy < 0.0 ? -1.0 : 1.0;
     m = {side * (out.uy - in.uy), side * (out.uz - in.uz)};
   }
-  const double length = std::sqrt(m.y * m.y + m.z * m.z);
-  return {m.y / length, m.z / length};
+  return m;
+}
+
+/// On a corner itself the normal is the bisector.
+Location on_corner(double gap, PlanePoint inwards) {
+  const double length = std::sqrt(inwards.y * inwards.y + inwards.z * inwards.z);
+  return {gap, inwards.y / length, inwards.z / length};
 }
 
 /// Against the line of a facet, `w` = node - any point of the line.
@@ -126,12 +131,7 @@ Profile::Profile(std::span<const PolarPoint> points) {
   check_inside(points, vertices);
 
   FacetIndex index(vertices);
-  std::vector<PlanePoint> bisectors;
-  bisectors.reserve(vertices.size());
-  for (std::uint32_t k = 0; k < index.size(); ++k)
-    bisectors.push_back(bisector(index[(k == 0 ? index.size() : k) - 1], index[k]));
-  auto tables =
-      std::make_shared<Tables>(Tables{std::move(vertices), std::move(bisectors), std::move(index), 0.0});
+  auto tables = std::make_shared<Tables>(Tables{std::move(vertices), std::move(index), 0.0});
   tables_ = tables;
   tables->inscribed = locate(0.0, 0.0).gap;
 }
@@ -165,12 +165,12 @@ double Profile::curvature(double y, double z) const {
 
 Location Profile::locate_at_corner(std::uint32_t corner, double y, double z) const {
   const FacetIndex& index = tables_->index;
-  const PlanePoint v = tables_->vertices[corner], m = tables_->bisectors[corner];
-  const Facet &in = index[(corner == 0 ? index.size() : corner) - 1], &out = index[corner];
+  const Facet in = index[(corner == 0 ? index.size() : corner) - 1], out = index[corner];
+  const PlanePoint v{out.ay, out.az}, m = inwards_of(in, out);
   const double wy = y - v.y, wz = z - v.z, distance = std::sqrt(wy * wy + wz * wz);
   const double inwards = wy * m.y + wz * m.z;
   if (distance <= no_direction * std::sqrt(v.y * v.y + v.z * v.z))
-    return {std::copysign(distance, inwards), m.y, m.z};
+    return on_corner(std::copysign(distance, inwards), m);
   // rounding chose the corner where the foot is on one of its facets
   if (wy * out.uy + wz * out.uz > 0.0)
     return on_line(out, wy, wz);

@@ -58,7 +58,6 @@ public:
 private:
   struct Tables {
     std::vector<PlanePoint> vertices;
-    std::vector<PlanePoint> bisectors; ///< unit vectors to the inside
     FacetIndex index;
     double inscribed;
   };

@@ -61,7 +61,7 @@ void expect_nearest(const FacetIndex& index, double y, double z) {
 
 /// Nodes on both sides at all depths, in the middle, and far away.
 void expect_nearest_everywhere(const std::vector<PlanePoint>& vertices, std::uint64_t seed) {
-  constexpr int nodes = 600;
+  const int nodes = vertices.size() > 10000 ? 100 : 600; // each is held against all facets
   const FacetIndex index(vertices);
   tests::Uniform uniform(seed);
   for (int i = 0; i < nodes; ++i) {
@@ -97,6 +97,33 @@ TEST(FacetIndex, FindsTheNearestOfSpikesAndOfUnevenFacets) {
   for (double angle = 0.0; angle < turn; angle += uniform.scale(1e-6, 0.1))
     vertices.push_back({std::cos(angle), std::sin(angle)});
   expect_nearest_everywhere(vertices, 10);
+}
+
+TEST(FacetIndex, FindsTheNearestOfIrregularHolesOfAnySize) {
+  std::uint64_t seed = 20;
+  for (const int n : {1001, 10000, 100000}) {
+    tests::Uniform uniform(seed);
+    expect_nearest_everywhere(polygon(n, [&](double) { return uniform(0.2, 1.0); }), ++seed); // deep spikes
+    double radius = 1.0; // a walk: corners at all scales
+    expect_nearest_everywhere(
+        polygon(n, [&](double) { return radius *= 1.0 + uniform(-1.0, 1.0) / std::sqrt(n); }), ++seed);
+    expect_nearest_everywhere(polygon(n,
+                                      [](double angle) { // an ellipse, five times as long as wide
+                                        return 1.0 / std::hypot(std::cos(angle), 5.0 * std::sin(angle));
+                                      }),
+                              ++seed);
+  }
+}
+
+TEST(FacetIndex, FindsTheNearestNextToCorners) {
+  tests::Uniform uniform(31);
+  const std::vector<PlanePoint> vertices = polygon(10000, [&](double) { return uniform(0.9, 1.1); });
+  const FacetIndex index(vertices);
+  for (int i = 0; i < 1000; ++i) {
+    const PlanePoint v = vertices[static_cast<std::size_t>(uniform(0.0, 10000.0))];
+    const double angle = uniform(0.0, turn), r = i % 10 == 0 ? 0.0 : uniform.scale(1e-15, 1e-3);
+    expect_nearest(index, v.y + r * std::cos(angle), v.z + r * std::sin(angle));
+  }
 }
 
 TEST(FacetIndex, FindsTheNearestForAnyNumberOfFacets) {
