@@ -310,15 +310,16 @@ private:
     }
   }
 
-  /// Where the contacts stand.
-  void gather() {
+  /// Where the contacts stand. Returns whether any may act.
+  bool gather() {
     if (near_only_) {
       motion_.gather_near(q_.data(), v_.data(), memory_.closed());
-      return;
+      return !motion_.places().first.empty();
     }
     motion_.gather(q_.data(), v_.data());
     obstacles_.at(time_, carried_);
     carried_.add_to(motion_);
+    return flexible_ || motion_.find_near(solver_.window());
   }
 
   /// No contact acts, nor has acted at the end of the last step: at the end of a flight or of a single step.
@@ -336,13 +337,12 @@ private:
     if (flexible_) // whose contacts move at once by their own forces
       return flexible_->solve(memory_, motion_, trial_);
     memory_.follow(motion_, 0.5 * h_);
-    return near_only_ ? solver_.solve_near(memory_, motion_, trial_) : solver_.solve(memory_, motion_, trial_);
+    return solver_.solve_near(memory_, motion_, trial_);
   }
 
   /// The contacts act.
   void act() {
-    gather();
-    if (near_only_ && motion_.places().first.empty() && memory_.closed().empty()) {
+    if (!gather() && memory_.closed().empty()) {
       rest(1);
       return;
     }
