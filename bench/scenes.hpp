@@ -18,7 +18,7 @@ struct NamedScene {
 };
 
 /// 10 s each: 40 modes 3 supports; 60 modes 10 supports; the same at K_N = 1e8 and 1e5 N/m; 40 modes of a short tube, the highest at
-/// 6.1e4 rad/s; the straight tube of tube_scene.hpp.
+/// 6.1e4 rad/s; the straight tube of tube_scene.hpp. And other numbers of supports, stiffnesses (K_N in N/m) and forces.
 [[nodiscard]] std::vector<NamedScene> rattling_tubes();
 
 } // namespace fretwork::bench

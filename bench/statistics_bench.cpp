@@ -28,8 +28,8 @@ constexpr std::array figures = {"work_rate", "friction_power", "normal_rms", "im
 
 struct Ensemble {
   std::array<double, figures.size()> mean{}, error{}; ///< sums over contacts
-  double told = 0.0;    ///< standard error of the work rate as single runs tell it, mean
-  double seconds = 0.0; ///< a run, the fastest
+  double told = 0.0;                ///< standard error of the work rate as single runs tell it, mean
+  double seconds = 0.0, bare = 0.0; ///< a run with statistics and one without, the fastest
   transient::StepChoice choice;
 };
 
@@ -50,12 +50,15 @@ Ensemble ensemble(transient::Scene scene, const transient::StepOptions& options,
   out.choice.step *= factor;
   out.choice.steps = static_cast<std::int64_t>(std::ceil(scene.duration / out.choice.step * (1 - 1e-12)));
   std::array<double, figures.size()> squares{};
-  out.seconds = 1e300;
+  out.seconds = out.bare = 1e300;
   for (int run = 0; run < runs; ++run) {
     scene.q0(0) = disturbed * run;
     post::ContactStatistics statistics(scene.contacts.size(), window_from);
     transient::Observer* const observers[] = {&statistics};
-    const double begin = bench::thread_seconds();
+    double begin = bench::thread_seconds();
+    (void)transient::run(scene, out.choice, {}, nullptr, {});
+    out.bare = std::min(out.bare, bench::thread_seconds() - begin);
+    begin = bench::thread_seconds();
     const auto report = transient::run(scene, out.choice, observers, nullptr, {});
     out.seconds = std::min(out.seconds, bench::thread_seconds() - begin);
     if (report.outcome != transient::Outcome::done)
@@ -108,16 +111,18 @@ void compare(const char* file, const std::string& scheme, double factor, const s
               "standard error of the work rate in %%, "
               "scatter of %d runs / as single runs tell it\n\n",
               runs);
-  std::printf("| scene | scheme | step, s | w_c h | w_max h | s | work | friction | rms force | impacts | "
+  std::printf("| scene | scheme | step, s | w_c h | w_max h | s | without statistics | work | friction | rms "
+              "force | impacts | "
               "motion | scatter |\n"
-              "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+              "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   for (const auto& [name, scene] : bench::rattling_tubes()) {
     if (!only.empty() && only != name)
       continue;
     const Ensemble e = ensemble(scene, {scheme_named(scheme), {}}, factor);
-    std::printf("| %s | %s | %.3g | %.2f | %.2f | %.3f |", name.c_str(),
+    std::printf("| %s | %s | %.3g | %.2f | %.2f | %.4f | %.4f |", name.c_str(),
                 transient::name_of(e.choice.scheme).c_str(), e.choice.step,
-                e.choice.contact_frequency * e.choice.step, e.choice.highest_mode * e.choice.step, e.seconds);
+                e.choice.contact_frequency * e.choice.step, e.choice.highest_mode * e.choice.step, e.seconds,
+                e.bare);
     for (std::size_t k = 0; k < figures.size(); ++k) {
       const Json& r = reference.at(name).at(figures[k]);
       const double mean = r.at("mean"), error = r.at("standard_error");
