@@ -43,11 +43,17 @@ private:
   };
   /// Of the contact itself.
   struct Own {
-    double yy, yz, zz; ///< W, 1/kg
-    bool ends;         ///< its slides may be ended by its damper
+    double yy, yz, zz;        ///< W, 1/kg
+    bool ends;                ///< its slides may be ended by its damper
+    double per_damping = 0.0; ///< 1/C_T, m/(N s)
+    double least = 0.0;       ///< 1/kg, of the mobility along a slide that the damper ends
   };
-  void find_end(int c, const ContactState& s, contact::Vec2 before, contact::Vec2 gained,
-                const ContactMemory& memory);
+  void find_end(int c, const ContactState& s, double before, double gained, const ContactMemory& memory);
+  void find_end_in_plane(int c, const ContactState& s, contact::Vec2 before, contact::Vec2 gained,
+                         const ContactMemory& memory);
+  template <class Spring>
+  void end_along(int c, const ContactState& s, double speed, double given, double mobility,
+                 const Spring& spring);
 
   const PackedContacts& contacts_;
   double h_;
