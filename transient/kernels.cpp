@@ -56,10 +56,6 @@ const char* vector_width() {
   return "SSE2 (2 doubles)";
 }
 
-bool ReachLanes::is_concave() const {
-  return std::all_of(radial.begin(), radial.end(), [](double r) { return r >= 0.0; });
-}
-
 FRETWORK_WIDTHS double flow_loaded(int np, const FlowTable& t, double* q, double* v, const double* f0,
                                    const double* f1) {
   Pack work{};

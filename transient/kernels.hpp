@@ -113,8 +113,6 @@ EulerSums euler_step(int np, double h, const double* c, const double* k, const d
 struct ReachLanes {
   Array rest_y, rest_z; ///< m: position = displacement + rest
   Array wy, wz, radial, ly, lz, limit;
-  /// No gap bends upwards anywhere: on a segment it is least at an end.
-  [[nodiscard]] bool is_concave() const;
 };
 
 /// Gap and its gradient: contact::locate of every obstacle that is one formula, with e = (wy y, wz z)/r, r = sqrt(wy y^2 + wz z^2),

@@ -18,6 +18,7 @@
 /// flights or steps of lengths L0 and L1 show displacements that lean by (L1^2 - L0^2)/(12 step) times their velocities (the correction
 /// of trapezoidal sums by Euler and Maclaurin), and no flight takes a contact further than a quarter of its clearance.
 #include "transient/flexible_contacts.hpp"
+#include "transient/flights.hpp"
 #include "transient/load_sum.hpp"
 #include "transient/mass_scaling.hpp"
 #include "transient/matrix_flow.hpp"
@@ -88,10 +89,9 @@ public:
     }
     memory_.start(motion_);
     near_only_ = !flexible_ && carried_.u.empty() && !(solver_.window() > 0.0);
-    if (near_only_ && coupled_.empty() && contacts_.reach.is_concave()) {
+    if (may_fly(scene))
       for (int length = flight; length > 1 && far_.size() < 3; length /= 2)
         far_.push_back({length, flow_table(system_, coupled_, length * step)});
-    }
     record_.energy.initial = record_.energy.throughput = moving + motion_.spring_energy() + given;
     after_action_ = moving;
     if (shown.size() > 0) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/step_rule.hpp"
 #include "core/error.hpp"
+#include "transient/flights.hpp"
 #include "transient/mass_scaling.hpp"
 #include "transient/scheme_scope.hpp"
 #include <algorithm>
@@ -222,7 +223,7 @@ void scale_modes(StepChoice& c, const Scene& scene, double fastest) {
 /// Steps that splitting may make at once where no contact can meet its obstacle: the flow is exact, but loads are linear over them and
 /// statistics are to see the modes (a dozen points a period of the highest). Tables may change inside.
 int flight_steps(const StepChoice& c, const Scene& scene, double fineness) {
-  if (c.scheme != SchemeKind::splitting || scene.contacts.empty() || c.scaled > 0)
+  if (c.scheme != SchemeKind::splitting || c.scaled > 0 || !may_fly(scene))
     return 1;
   for (const Load& load : scene.loads)
     if (std::holds_alternative<Table>(load.function) || std::holds_alternative<Integral>(load.function))

@@ -120,6 +120,11 @@ TEST(StepRule, LetsSplittingFlyWhereModesAndLoadsAreSlow) {
   Scene scene = scene_with({Circle{0.1}, {8e4}, {}});
   EXPECT_EQ(choose_step(scene, splitting(at_rate)).flight, 1) << "a given step is kept to the letter";
   EXPECT_EQ(choose_step(scene, collocation()).flight, 1);
+  EXPECT_EQ(choose_step(scene, splitting()).flight, 12);
+  EXPECT_TRUE(mentions(choose_step(scene, splitting()).reason, "up to 12 of them at once"));
+  scene.contacts[0].support.normal.damping = 1.0;
+  EXPECT_EQ(choose_step(scene, splitting()).flight, 1);
+  EXPECT_FALSE(mentions(choose_step(scene, splitting()).reason, "at once"));
 }
 
 TEST(StepRule, LeavesOutLoadsThatDoNotActOnTheScene) {
