@@ -45,11 +45,9 @@ void SlidingPaths::correct(const ContactMotion& motion, const ContactMemory& mem
     const double push_y = s.normal_force * s.ny, push_z = s.normal_force * s.nz;
     Last& last = last_[c];
     if (own.ends) {
-      const Vec2 before = motion.slip(c, s.ny, s.nz);
-      const bool goes_on = last.y * s.ny + last.z * s.nz > 0.0; // on the same face
-      if (memory.slides(c))
-        find_end(c, s, before, goes_on ? before - last.left : Vec2{}, memory);
-      last.left = (2.0 / h_) * s.displacement - before;
+      const Vec2 before = motion.slip(c, s.ny, s.nz), after = (2.0 / h_) * s.displacement - before;
+      find_end(c, s, {last.left, before, after}, memory);
+      last.left = after;
     }
     const double y = scale * (push_y - last.y), z = scale * (push_z - last.z);
     const bool closes = last.y == 0.0 && last.z == 0.0; // no rate is known
@@ -67,10 +65,13 @@ void SlidingPaths::correct(const ContactMotion& motion, const ContactMemory& mem
   }
 }
 
-void SlidingPaths::find_end(int c, const ContactState& s, Vec2 before, Vec2 gained,
-                            const ContactMemory& memory) {
+void SlidingPaths::find_end(int c, const ContactState& s, const Speeds& speeds, const ContactMemory& memory) {
+  const contact::FrictionMemory past = memory.at(c, s.ny, s.nz);
+  if (!past.sliding)
+    return;
   const contact::FrictionLaw& law = contacts_.supports[c].friction;
   const Own& own = own_[c];
+  const auto [left, before, after] = speeds;
   double speed = std::abs(before.t);
   Vec2 e{0.0, before.t < 0.0 ? -1.0 : 1.0};
   if (contacts_.in_plane[c] != 0) {
@@ -82,14 +83,14 @@ void SlidingPaths::find_end(int c, const ContactState& s, Vec2 before, Vec2 gain
   if (contacts_.in_plane[c] != 0)
     mobility += e.x * (e.x * contacts_.own_mobility(c, 2, 2) +
                        2.0 * (y * contacts_.own_mobility(c, 2, 0) + z * contacts_.own_mobility(c, 2, 1)));
-  const double bound = law.mu_dynamic * s.normal_force, given = dot(e, gained),
-               loss = bound * mobility * h_ - given;
-  if (!(speed - 0.5 * given < loss + bound / law.damping) || !(law.damping * mobility * h_ >= least_damped))
-    return; // it slides on
-  const contact::FrictionMemory past = memory.at(c, s.ny, s.nz);
-  const double hold = std::max(0.0, (bound + dot(e, past.spring)) / law.damping);
-  const contact::EndedSlide slide(speed - 0.5 * given, hold, loss, h_);
-  if (past.sliding && slide.ends)
+  if (!(law.damping * mobility * h_ >= least_damped))
+    return;
+  const double bound = law.mu_dynamic * s.normal_force,
+               missing = bound + dot(e, s.friction), // of the friction where the contact sticks in this step
+      loss = dot(e, left - after) + h_ * mobility * missing,
+               hold = std::max(0.0, (bound + dot(e, past.spring)) / law.damping);
+  const contact::EndedSlide slide(speed - 0.5 * dot(e, before - left), hold, loss, h_);
+  if (slide.ends)
     ended_.push_back({c, slide, s.damper_work});
 }
 

@@ -11,8 +11,9 @@
 /// itself. A contact that has only closed keeps the path of w.
 ///
 /// Slides that end inside a step (contact/ended_slide.hpp) are told in full where the damper ends them, C_T W_tt h >= 1. Their speed when
-/// the step begins: v- less half of what the flow has given since the last action, g = v- - v+; d = h |mu_d F_N W_tt| - g. The motion
-/// stays what it is: of the work of friction the slider's share changes, and the paths that statistics see.
+/// the step begins: v- less half of what the flow has given since the last action. d is what they lose from action to action, by the flow
+/// and all forces, with the friction at its bound. The motion stays what it is: of the work of friction the slider's share changes, and
+/// the paths that statistics see.
 #pragma once
 #include "contact/ended_slide.hpp"
 #include "transient/contact_memory.hpp"
@@ -36,6 +37,10 @@ private:
     double y = 0.0, z = 0.0; ///< N, F_N n; 0: no force
     contact::Vec2 left;      ///< m/s, tangential velocity after the action
   };
+  /// Tangential velocities after the last action, before this one and after it, m/s.
+  struct Speeds {
+    contact::Vec2 left, before, after;
+  };
   struct Ended {
     int contact;
     contact::EndedSlide slide;
@@ -46,8 +51,7 @@ private:
     double yy, yz, zz; ///< W, 1/kg
     bool ends;         ///< its slides may be ended by its damper
   };
-  void find_end(int c, const ContactState& s, contact::Vec2 before, contact::Vec2 gained,
-                const ContactMemory& memory);
+  void find_end(int c, const ContactState& s, const Speeds& speeds, const ContactMemory& memory);
 
   const PackedContacts& contacts_;
   double h_;
