@@ -27,7 +27,7 @@ SlidingPaths::SlidingPaths(const PackedContacts& contacts, double step, bool mov
     own.yz = contacts.own_mobility(c, 0, 1);
     own.zz = contacts.own_mobility(c, 1, 1);
     const double most = own.yy + own.zz + (contacts.in_plane[c] != 0 ? contacts.own_mobility(c, 2, 2) : 0.0);
-    own.ends = moves_by_flow && law.active() && law.kind == contact::FrictionMemoryKind::return_map &&
+    own.ends = moves_by_flow && law.mu_dynamic > 0.0 && law.kind == contact::FrictionMemoryKind::return_map &&
                law.damping * most * h_ >= least_damped;
   }
 }
@@ -70,28 +70,33 @@ void SlidingPaths::find_end(int c, const ContactState& s, const Speeds& speeds, 
   if (!past.sliding)
     return;
   const contact::FrictionLaw& law = contacts_.supports[c].friction;
-  const Own& own = own_[c];
   const auto [left, before, after] = speeds;
-  double speed = std::abs(before.t);
-  Vec2 e{0.0, before.t < 0.0 ? -1.0 : 1.0};
-  if (contacts_.in_plane[c] != 0) {
-    speed = norm(before);
-    e = speed > 0.0 ? (1.0 / speed) * before : e;
-  }
-  const double y = e.t * s.nz, z = -e.t * s.ny; // e along y and z: t = (n_z, -n_y)
-  double mobility = y * y * own.yy + 2.0 * y * z * own.yz + z * z * own.zz;
-  if (contacts_.in_plane[c] != 0)
-    mobility += e.x * (e.x * contacts_.own_mobility(c, 2, 2) +
-                       2.0 * (y * contacts_.own_mobility(c, 2, 0) + z * contacts_.own_mobility(c, 2, 1)));
-  if (!(law.damping * mobility * h_ >= least_damped))
+  const Vec2 speed = 0.5 * (left + before), held = (1.0 / law.damping) * past.spring, trial = held - speed;
+  const double size = norm(trial), bound = law.mu_dynamic * s.normal_force;
+  const Vec2 along = size > 0.0 ? (1.0 / size) * trial : Vec2{}; // of the friction when the step begins
+  const contact::Mobility mobility = tangent_mobility(c, s.ny, s.nz);
+  if (!(law.damping * dot(along, mobility * along) * h_ >= least_damped))
     return;
-  const double bound = law.mu_dynamic * s.normal_force,
-               missing = bound + dot(e, s.friction), // of the friction where the contact sticks in this step
-      loss = dot(e, left - after) + h_ * mobility * missing,
-               hold = std::max(0.0, (bound + dot(e, past.spring)) / law.damping);
-  const contact::EndedSlide slide(speed - 0.5 * dot(e, before - left), hold, loss, h_);
+  if (s.slides && dot(along, s.friction) < 0.0) // back again within the step, a path of its own
+    return;
+  const Vec2 missing = bound * along - s.friction, loss = left - after - h_ * (mobility * missing);
+  const contact::EndedSlide slide(speed, held, bound / law.damping, loss, h_);
   if (slide.ends)
     ended_.push_back({c, slide, s.damper_work});
+}
+
+/// Of the contact itself, where friction acts; t = (n_z, -n_y).
+contact::Mobility SlidingPaths::tangent_mobility(int c, double ny, double nz) const {
+  const Own& own = own_[c];
+  const Vec2 along = contacts_.supports[c].friction.along;
+  contact::Mobility out;
+  out.tt = along.t * (nz * nz * own.yy - 2.0 * nz * ny * own.yz + ny * ny * own.zz);
+  if (contacts_.in_plane[c] != 0) {
+    out.xx = along.x * contacts_.own_mobility(c, 2, 2);
+    out.xt =
+        along.x * along.t * (nz * contacts_.own_mobility(c, 2, 0) - ny * contacts_.own_mobility(c, 2, 1));
+  }
+  return out;
 }
 
 void SlidingPaths::end_slides(ContactTrial& trial, ContactLosses& losses) const {

@@ -10,10 +10,10 @@
 /// work rates were 2 % low at w_c h = 0.5 (doc/benchmarks.md). The rate is the change since the last step; of W the block of the contact
 /// itself. A contact that has only closed keeps the path of w.
 ///
-/// Slides that end inside a step (contact/ended_slide.hpp) are told in full where the damper ends them, C_T W_tt h >= 1. Their speed when
-/// the step begins: v- less half of what the flow has given since the last action. d is what they lose from action to action, by the flow
-/// and all forces, with the friction at its bound. The motion stays what it is: of the work of friction the slider's share changes, and
-/// the paths that statistics see.
+/// Slides that end inside a step (contact/ended_slide.hpp) are told in full where the damper ends them, C_T W_tt h >= 1. Their velocity
+/// when the step begins: v- less half of what the flow has given since the last action. d is what they lose from action to action, by the
+/// flow and all forces, with the friction at its bound. The motion stays what it is: of the work of friction the slider's share changes,
+/// and the paths that statistics see.
 #pragma once
 #include "contact/ended_slide.hpp"
 #include "transient/contact_memory.hpp"
@@ -52,6 +52,7 @@ private:
     bool ends;         ///< its slides may be ended by its damper
   };
   void find_end(int c, const ContactState& s, const Speeds& speeds, const ContactMemory& memory);
+  [[nodiscard]] contact::Mobility tangent_mobility(int c, double ny, double nz) const;
 
   const PackedContacts& contacts_;
   double h_;
