@@ -337,7 +337,8 @@ private:
     if (flexible_) // whose contacts move at once by their own forces
       return flexible_->solve(memory_, motion_, trial_);
     memory_.follow(motion_, 0.5 * h_);
-    return near_only_ ? solver_.solve_near(memory_, motion_, trial_) : solver_.solve(memory_, motion_, trial_);
+    return near_only_ ? solver_.solve_near(memory_, motion_, trial_)
+                      : solver_.solve(memory_, motion_, trial_);
   }
 
   /// The contacts act.
