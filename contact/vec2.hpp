@@ -18,5 +18,6 @@ inline double norm(Vec2 a) { return std::sqrt(dot(a, a)); }
 struct Sym2 {
   double xx = 0.0, xt = 0.0, tt = 0.0;
 };
+inline Vec2 operator*(const Sym2& a, Vec2 b) { return {a.xx * b.x + a.xt * b.t, a.xt * b.x + a.tt * b.t}; }
 
 } // namespace fretwork::contact

@@ -43,7 +43,7 @@ struct Energy {
 };
 
 /// What observers see of a step. Positions, forces and energies belong to `time`; with forces at instants (splitting) positions are those of
-/// the mean over the step.
+/// the mean over the step, and between flights and steps of other lengths they lean (splitting.cpp): they are for sums over time.
 struct Record {
   double time = 0.0;
   double step = 0.0;         ///< s, the length of time this record stands for

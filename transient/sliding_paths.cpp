@@ -27,27 +27,9 @@ SlidingPaths::SlidingPaths(const PackedContacts& contacts, double step, bool mov
     own.yz = contacts.own_mobility(c, 0, 1);
     own.zz = contacts.own_mobility(c, 1, 1);
     const double most = own.yy + own.zz + (contacts.in_plane[c] != 0 ? contacts.own_mobility(c, 2, 2) : 0.0);
-    own.ends = moves_by_flow && law.active() && law.kind == contact::FrictionMemoryKind::return_map &&
+    own.ends = moves_by_flow && law.mu_dynamic > 0.0 && law.kind == contact::FrictionMemoryKind::return_map &&
                law.damping * most * h_ >= least_damped;
-    if (!own.ends)
-      continue;
-    own.per_damping = 1.0 / law.damping;
-    own.least = least_damped / (law.damping * h_);
   }
-}
-
-/// @param speed  and `given`, the speed that the flow has given, along the slide, m/s   @param spring  N, along the slide, asked for last
-template <class Spring>
-void SlidingPaths::end_along(int c, const ContactState& s, double speed, double given, double mobility,
-                             const Spring& spring) {
-  const contact::FrictionLaw& law = contacts_.supports[c].friction;
-  const double bound = law.mu_dynamic * s.normal_force, loss = bound * mobility * h_ - given,
-               at_start = speed - 0.5 * given;
-  if (!(at_start < loss + bound * own_[c].per_damping) || !(mobility >= own_[c].least))
-    return; // it slides on
-  const double hold = std::max(0.0, bound + spring()) * own_[c].per_damping;
-  if (const contact::EndedSlide slide(at_start, hold, loss, h_); slide.ends)
-    ended_.push_back({c, slide, s.damper_work});
 }
 
 void SlidingPaths::correct(const ContactMotion& motion, const ContactMemory& memory, ContactTrial& trial) {
@@ -63,16 +45,9 @@ void SlidingPaths::correct(const ContactMotion& motion, const ContactMemory& mem
     const double push_y = s.normal_force * s.ny, push_z = s.normal_force * s.nz;
     Last& last = last_[c];
     if (own.ends) {
-      const bool goes_on = last.y * s.ny + last.z * s.nz > 0.0; // on the same face
-      const Vec2 before = motion.slip(c, s.ny, s.nz);
-      if (memory.slides(c)) {
-        const Vec2 gained = goes_on ? before - last.left : Vec2{};
-        if (contacts_.in_plane[c] != 0)
-          find_end_in_plane(c, s, before, gained, memory);
-        else
-          find_end(c, s, before.t, gained.t, memory);
-      }
-      last.left = (2.0 / h_) * s.displacement - before;
+      const Vec2 before = motion.slip(c, s.ny, s.nz), after = (2.0 / h_) * s.displacement - before;
+      find_end(c, s, {last.left, before, after}, memory);
+      last.left = after;
     }
     const double y = scale * (push_y - last.y), z = scale * (push_z - last.z);
     const bool closes = last.y == 0.0 && last.z == 0.0; // no rate is known
@@ -90,27 +65,38 @@ void SlidingPaths::correct(const ContactMotion& motion, const ContactMemory& mem
   }
 }
 
-void SlidingPaths::find_end(int c, const ContactState& s, double before, double gained,
-                            const ContactMemory& memory) {
-  const Own& own = own_[c];
-  // t = (n_z, -n_y)
-  const double mobility = s.nz * (s.nz * own.yy - 2.0 * s.ny * own.yz) + s.ny * s.ny * own.zz;
-  const double sign = before < 0.0 ? -1.0 : 1.0;
-  end_along(c, s, std::abs(before), sign * gained, mobility,
-            [&] { return sign * memory.at(c, s.ny, s.nz).spring.t; });
+void SlidingPaths::find_end(int c, const ContactState& s, const Speeds& speeds, const ContactMemory& memory) {
+  const contact::FrictionMemory past = memory.at(c, s.ny, s.nz);
+  if (!past.sliding)
+    return;
+  const contact::FrictionLaw& law = contacts_.supports[c].friction;
+  const auto [left, before, after] = speeds;
+  const Vec2 speed = 0.5 * (left + before), held = (1.0 / law.damping) * past.spring, trial = held - speed;
+  const double size = norm(trial), bound = law.mu_dynamic * s.normal_force;
+  const Vec2 along = size > 0.0 ? (1.0 / size) * trial : Vec2{}; // of the friction when the step begins
+  const contact::Mobility mobility = tangent_mobility(c, s.ny, s.nz);
+  if (!(law.damping * dot(along, mobility * along) * h_ >= least_damped))
+    return;
+  if (s.slides && dot(along, s.friction) < 0.0) // back again within the step, a path of its own
+    return;
+  const Vec2 missing = bound * along - s.friction, loss = left - after - h_ * (mobility * missing);
+  const contact::EndedSlide slide(speed, held, bound / law.damping, loss, h_);
+  if (slide.ends)
+    ended_.push_back({c, slide, s.damper_work});
 }
 
-void SlidingPaths::find_end_in_plane(int c, const ContactState& s, Vec2 before, Vec2 gained,
-                                     const ContactMemory& memory) {
+/// Of the contact itself, where friction acts; t = (n_z, -n_y).
+contact::Mobility SlidingPaths::tangent_mobility(int c, double ny, double nz) const {
   const Own& own = own_[c];
-  const double speed = norm(before);
-  const Vec2 e = speed > 0.0 ? (1.0 / speed) * before : Vec2{0.0, 1.0};
-  const double y = e.t * s.nz, z = -e.t * s.ny; // e along y and z
-  const double mobility =
-      y * y * own.yy + 2.0 * y * z * own.yz + z * z * own.zz +
-      e.x * (e.x * contacts_.own_mobility(c, 2, 2) +
-             2.0 * (y * contacts_.own_mobility(c, 2, 0) + z * contacts_.own_mobility(c, 2, 1)));
-  end_along(c, s, speed, dot(e, gained), mobility, [&] { return dot(e, memory.at(c, s.ny, s.nz).spring); });
+  const Vec2 along = contacts_.supports[c].friction.along;
+  contact::Mobility out;
+  out.tt = along.t * (nz * nz * own.yy - 2.0 * nz * ny * own.yz + ny * ny * own.zz);
+  if (contacts_.in_plane[c] != 0) {
+    out.xx = along.x * contacts_.own_mobility(c, 2, 2);
+    out.xt =
+        along.x * along.t * (nz * contacts_.own_mobility(c, 2, 0) - ny * contacts_.own_mobility(c, 2, 1));
+  }
+  return out;
 }
 
 void SlidingPaths::end_slides(ContactTrial& trial, ContactLosses& losses) const {

@@ -10,9 +10,10 @@
 /// work rates were 2 % low at w_c h = 0.5 (doc/benchmarks.md). The rate is the change since the last step; of W the block of the contact
 /// itself. A contact that has only closed keeps the path of w.
 ///
-/// Slides that end inside a step (contact/ended_slide.hpp) are told in full where the damper ends them, C_T W_tt h >= 1. Their speed when
-/// the step begins: v- less half of what the flow has given since the last action, g = v- - v+; d = h |mu_d F_N W_tt| - g. The motion
-/// stays what it is: of the work of friction the slider's share changes, and the paths that statistics see.
+/// Slides that end inside a step (contact/ended_slide.hpp) are told in full where the damper ends them, C_T W_tt h >= 1. Their velocity
+/// when the step begins: v- less half of what the flow has given since the last action. d is what they lose from action to action, by the
+/// flow and all forces, with the friction at its bound. The motion stays what it is: of the work of friction the slider's share changes,
+/// and the paths that statistics see.
 #pragma once
 #include "contact/ended_slide.hpp"
 #include "transient/contact_memory.hpp"
@@ -36,6 +37,10 @@ private:
     double y = 0.0, z = 0.0; ///< N, F_N n; 0: no force
     contact::Vec2 left;      ///< m/s, tangential velocity after the action
   };
+  /// Tangential velocities after the last action, before this one and after it, m/s.
+  struct Speeds {
+    contact::Vec2 left, before, after;
+  };
   struct Ended {
     int contact;
     contact::EndedSlide slide;
@@ -43,17 +48,11 @@ private:
   };
   /// Of the contact itself.
   struct Own {
-    double yy, yz, zz;        ///< W, 1/kg
-    bool ends;                ///< its slides may be ended by its damper
-    double per_damping = 0.0; ///< 1/C_T, m/(N s)
-    double least = 0.0;       ///< 1/kg, of the mobility along a slide that the damper ends
+    double yy, yz, zz; ///< W, 1/kg
+    bool ends;         ///< its slides may be ended by its damper
   };
-  void find_end(int c, const ContactState& s, double before, double gained, const ContactMemory& memory);
-  void find_end_in_plane(int c, const ContactState& s, contact::Vec2 before, contact::Vec2 gained,
-                         const ContactMemory& memory);
-  template <class Spring>
-  void end_along(int c, const ContactState& s, double speed, double given, double mobility,
-                 const Spring& spring);
+  void find_end(int c, const ContactState& s, const Speeds& speeds, const ContactMemory& memory);
+  [[nodiscard]] contact::Mobility tangent_mobility(int c, double ny, double nz) const;
 
   const PackedContacts& contacts_;
   double h_;

@@ -16,7 +16,8 @@
 /// are concave functions of it. So no contact is met where these four leave a gap; where they do not, the flight is not made. Records
 /// stand for half of the flights before and after them. So that sums over them are integrals in spite of the longer step, those between
 /// flights or steps of lengths L0 and L1 show displacements that lean by (L1^2 - L0^2)/(12 step) times their velocities (the correction
-/// of trapezoidal sums by Euler and Maclaurin), and no flight takes a contact further than a quarter of its clearance.
+/// of trapezoidal sums by Euler and Maclaurin), and no flight begins at a speed that would take a contact further than a quarter of its
+/// clearance.
 #include "transient/flexible_contacts.hpp"
 #include "transient/flights.hpp"
 #include "transient/load_sum.hpp"

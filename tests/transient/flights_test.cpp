@@ -56,7 +56,7 @@ TEST(Flights, LeadToTheSameImpacts) {
   const Result single = simulate_with(scene, 1), flown = simulate_with(scene, 12);
   EXPECT_EQ(single.report.counts.steps, flown.report.counts.steps);
   EXPECT_EQ(single.report.counts.evaluations, single.report.counts.steps);
-  EXPECT_LT(flown.report.counts.evaluations, 0.6 * single.report.counts.steps);
+  EXPECT_LT(flown.report.counts.evaluations, 6 * single.report.counts.steps / 10);
   ASSERT_EQ(single.impacts.size(), flown.impacts.size());
   EXPECT_GT(single.impacts.size(), 20U);
   for (std::size_t i = 0; i < single.impacts.size(); ++i) { // exact flows: only round-off differs
@@ -79,6 +79,18 @@ TEST(Flights, LeaveStatisticsOfTheMotionWhatTheyAre) {
   for (int k = 1; k < 3; ++k) {
     const auto axis = static_cast<std::size_t>(k);
     EXPECT_NEAR(flown.node.displacement[axis].std / single.node.displacement[axis].std, 1.0, 3e-4);
+  }
+}
+
+// The record at its end is the first of the window, and weighs half of it too much or too little.
+TEST(Flights, AreNoMatterToWindowsThatBeginInsideThem) {
+  const Scene scene = swinging(0.5, {});
+  for (const double from : {0.1, 0.1001, 0.1002, 0.1003}) {
+    const Result single = simulate_with(scene, 1, from), flown = simulate_with(scene, 12, from);
+    EXPECT_EQ(flown.contact.impacts, single.contact.impacts);
+    EXPECT_NEAR(flown.contact.impact_rate / single.contact.impact_rate, 1.0, 6.0 * h / 0.4);
+    EXPECT_NEAR(flown.contact.z.std / single.contact.z.std, 1.0, 1e-3);
+    EXPECT_NEAR(flown.node.displacement[1].std / single.node.displacement[1].std, 1.0, 1e-3);
   }
 }
 
