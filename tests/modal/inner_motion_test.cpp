@@ -308,3 +308,25 @@ TEST(InnerMotion, MissesNoModeThatItPutsBelowTheCut) {
     EXPECT_EQ(modal::solve_modes(MPI_COMM_SELF, rods.b.model, part, below).size(), springs) << dense_up_to;
   }
 }
+
+// Bars of one element each, all of whose modes the motion inside may put before the tenth one: no Krylov space holds that many.
+TEST(InnerMotion, TakesADenseSolveWhereItMayReorderNearlyAllModes) {
+  constexpr int bars = 60;
+  ModelBuilder b;
+  const Index number = b.property(rod());
+  for (int i = 0; i < bars; ++i) {
+    const double y = 0.1 * i;
+    const auto nodes = b.line({0, y, 0}, {1.0 + 5e-4 * i, y, 0}, 1, number);
+    b.fix(nodes.front(), all);
+    b.fix(nodes.back(), kinds.front().held);
+    if (i > 0) // one structure
+      b.model.springs.push_back({nodes.back() - 2, nodes.back(), {}, {1e-3}});
+  }
+  const auto part = fem::structures(b.model).at(0);
+  modal::Wanted wanted{9, std::nullopt};
+  wanted.dense_up_to = 0;
+  const auto iterated = modal::solve_modes(MPI_COMM_SELF, b.model, part, wanted);
+  wanted.dense_up_to = bars;
+  const auto dense = modal::solve_modes(MPI_COMM_SELF, b.model, part, wanted);
+  EXPECT_TRUE(iterated.omega == dense.omega);
+}
