@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Traction and torsion of order 4 whatever joins the beams: closed forms, and fine meshes where there are none.
 #include "../fem/model_builder.hpp"
+#include "fem/fields.hpp"
+#include "fem/inner_motion.hpp"
 #include "solve.hpp"
 #include <functional>
 #include <gtest/gtest.h>
@@ -188,19 +190,31 @@ TEST(InnerMotion, MakesAFrameOfOrderFourWhoseModesBendAndStretch) {
       8, 6);
 }
 
+namespace {
+
+fem::Model quarter_ring(int n, const fem::BeamProperty& property) {
+  ModelBuilder b;
+  const Index first = b.node({1, 0, 0});
+  b.fix(first, all);
+  const auto nodes =
+      b.arcs_from(first, Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), 0.0, pi / 2, n, b.property(property));
+  b.model.masses.push_back({nodes.back(), 300.0, Vec3(1, 1, 1)});
+  return b.model;
+}
+
+} // namespace
+
 TEST(InnerMotion, MakesAnArcOfOrderFourThatEndsInAMass) {
   expect_order_four_of_fine_meshes(
-      "arc",
-      [](int n) {
-        ModelBuilder b;
-        const Index first = b.node({1, 0, 0});
-        b.fix(first, all);
-        const auto nodes = b.arcs_from(first, Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), 0.0, pi / 2, n,
-                                       b.property(rod(0.2)));
-        b.model.masses.push_back({nodes.back(), 300.0, Vec3(1, 1, 1)});
-        return b.model;
-      },
-      8, 12);
+      "arc", [](int n) { return quarter_ring(n, rod(0.2)); }, 8, 12);
+}
+
+// So stout that it matters how a section turns and bends while it moves along the arc.
+TEST(InnerMotion, MakesAStoutArcOfOrderFourThatTurnsWithInertia) {
+  auto stout = rod(1.0);
+  stout.section.rotary_inertia = true;
+  expect_order_four_of_fine_meshes(
+      "stout arc", [&](int n) { return quarter_ring(n, stout); }, 8, 8);
 }
 
 TEST(InnerMotion, MakesATaperedRodOfOrderFourThatEndsInAMass) {
@@ -307,6 +321,44 @@ TEST(InnerMotion, MissesNoModeThatItPutsBelowTheCut) {
     EXPECT_NEAR(lowest.omega[0] / rods.omega, 1.0, 1.2e-5) << dense_up_to;
     EXPECT_EQ(modal::solve_modes(MPI_COMM_SELF, rods.b.model, part, below).size(), springs) << dense_up_to;
   }
+}
+
+TEST(InnerMotion, MissesNoModeThatItPutsBelowTheCutWhereTheMatricesHaveNone) {
+  const Kind& kind = kinds.front();
+  const double x = root([](double y) { return y * std::cos(y) + 3.0 * std::sin(y); }, pi / 2, pi);
+  const auto model = held_rod(kind, 40, [&](fem::Model& m, Index tip) {
+    m.springs.push_back({tip, -1, {3.0 * kind.stiffness(rod()) / length}});
+  });
+  modal::Wanted wanted{std::nullopt, x * kind.speed() / length * (1.0 + 1e-5) / (2.0 * pi)};
+  wanted.dense_up_to = 0; // K and M: 5.2e-5 above
+  EXPECT_EQ(modal::solve_modes(MPI_COMM_SELF, model, fem::structures(model).at(0), wanted).size(), 1);
+}
+
+TEST(InnerMotion, ChangesNoFrequencyByMoreThanItsBound) {
+  const auto stretched = [](int elements, double mass, double spring) {
+    return held_rod(kinds.front(), elements, [&](fem::Model& m, Index tip) {
+      m.masses.push_back({tip, mass});
+      m.springs.push_back({tip, -1, {spring}});
+    });
+  };
+  double nearest = 0.0;
+  for (const auto& model : {stretched(1, 0.01, 0.0), stretched(3, 100.0, 1e3), stretched(4, 0.01, 1e12),
+                            stretched(8, 5.0, 1e8), quarter_ring(3, rod(0.2)), quarter_ring(6, rod(0.05))}) {
+    const auto part = fem::structures(model).at(0);
+    const auto basis = solve_up_to(model, 1e6);
+    const Eigen::VectorXd lambda = fem::twice_strain_energy(model, part, basis.shapes);
+    const auto changed = fem::with_inner_motion(model, part, basis.shapes, lambda).lambda;
+    const double scale = fem::inner_motion_scale(model, part);
+    for (Eigen::Index i = 0; i < lambda.size(); ++i) {
+      const double change = std::abs(changed[i] - lambda[i]);
+      const double of_lambda = fem::largest_inner_change(scale, lambda[i]) * lambda[i],
+                   of_changed = fem::largest_inner_change(scale, changed[i]) * changed[i];
+      EXPECT_LE(change, of_lambda * (1.0 + 1e-9)) << i << ": " << changed[i] / lambda[i];
+      EXPECT_LE(change, of_changed * (1.0 + 1e-9)) << i << ": " << changed[i] / lambda[i];
+      nearest = std::max(nearest, change / of_lambda);
+    }
+  }
+  EXPECT_GT(nearest, 0.8); // no wider than need be
 }
 
 // Bars of one element each, all of whose modes the motion inside may put before the tenth one: no Krylov space holds that many.
