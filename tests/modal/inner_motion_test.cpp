@@ -217,23 +217,30 @@ TEST(InnerMotion, MakesAStoutArcOfOrderFourThatTurnsWithInertia) {
       "stout arc", [&](int n) { return quarter_ring(n, stout); }, 8, 8);
 }
 
+namespace {
+
+/// @param mass  at the tip @param added_mass  per length there, none at the held end
+fem::Model tapered_rod(const Kind& kind, int n, double mass, double added_mass) {
+  ModelBuilder b;
+  auto p = rod(0.06);
+  p.taper = fem::Taper{fem::circle_section(0.03)};
+  p.added_mass_direction = fem::AddedMass::all;
+  p.taper->added_mass = added_mass;
+  const auto nodes = b.line({0, 0, 0}, {length, 0, 0}, n, b.property(p));
+  for (int i = 0; i < n; ++i)
+    b.model.beams[static_cast<std::size_t>(i)].along = {static_cast<double>(i) / n, (i + 1.0) / n};
+  b.fix_everywhere(kind.held);
+  b.fix(nodes.front(), all);
+  b.model.masses.push_back({nodes.back(), mass, Vec3(0.002, 0, 0)});
+  return b.model;
+}
+
+} // namespace
+
 TEST(InnerMotion, MakesATaperedRodOfOrderFourThatEndsInAMass) {
   for (const Kind& kind : kinds)
     expect_order_four_of_fine_meshes(
-        "taper",
-        [&](int n) {
-          ModelBuilder b;
-          auto p = rod(0.06);
-          p.taper = fem::Taper{fem::circle_section(0.03)};
-          const auto nodes = b.line({0, 0, 0}, {length, 0, 0}, n, b.property(p));
-          for (int i = 0; i < n; ++i)
-            b.model.beams[static_cast<std::size_t>(i)].along = {static_cast<double>(i) / n, (i + 1.0) / n};
-          b.fix_everywhere(kind.held);
-          b.fix(nodes.front(), all);
-          b.model.masses.push_back({nodes.back(), 20.0, Vec3(0.002, 0, 0)});
-          return b.model;
-        },
-        16, 3);
+        "taper", [&](int n) { return tapered_rod(kind, n, 20.0, 0.0); }, 16, 3);
 }
 
 // A straight beam is the closed form however it is computed: as one that tapers from a section to the same section.
@@ -342,8 +349,10 @@ TEST(InnerMotion, ChangesNoFrequencyByMoreThanItsBound) {
     });
   };
   double nearest = 0.0;
-  for (const auto& model : {stretched(1, 0.01, 0.0), stretched(3, 100.0, 1e3), stretched(4, 0.01, 1e12),
-                            stretched(8, 5.0, 1e8), quarter_ring(3, rod(0.2)), quarter_ring(6, rod(0.05))}) {
+  for (const auto& model :
+       {stretched(1, 0.01, 0.0), stretched(3, 100.0, 1e3), stretched(4, 0.01, 1e12), stretched(8, 5.0, 1e8),
+        quarter_ring(3, rod(0.2)), quarter_ring(6, rod(0.05)), tapered_rod(kinds.front(), 1, 3e4, 300.0),
+        tapered_rod(kinds.front(), 2, 3e4, 300.0)}) {
     const auto part = fem::structures(model).at(0);
     const auto basis = solve_up_to(model, 1e6);
     const Eigen::VectorXd lambda = fem::twice_strain_energy(model, part, basis.shapes);
