@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace fretwork::fem {
 namespace {
@@ -64,13 +65,17 @@ double inner_motion_scale(const Model& model, const Structure& structure) {
   double scale = 0.0;
   for (const Index number : structure.beams) {
     const Beam& beam = model.beams[static_cast<std::size_t>(number)];
-    const BeamConstants k = beam_constants(model.properties[static_cast<std::size_t>(beam.property)],
-                                           0.5 * (beam.along[0] + beam.along[1]));
+    const BeamProperty& property = model.properties[static_cast<std::size_t>(beam.property)];
     const double length = BeamAxis(model.nodes[static_cast<std::size_t>(beam.a)],
                                    model.nodes[static_cast<std::size_t>(beam.b)], beam.middle)
                               .length();
-    scale =
-        std::max(scale, length * length / 12.0 * std::max(k.mass_axial / k.axial, k.inertia_x / k.torsion));
+    for (const double share : {0.0, 0.5, 1.0}) {
+      const BeamConstants k = beam_constants(property, std::lerp(beam.along[0], beam.along[1], share));
+      scale =
+          std::max(scale, length * length / 12.0 * std::max(k.mass_axial / k.axial, k.inertia_x / k.torsion));
+      if (!property.taper)
+        break;
+    }
   }
   return scale;
 }

@@ -33,7 +33,7 @@ struct InnerQuotients {
 [[nodiscard]] InnerQuotients with_inner_motion(const Model& model, const Structure& structure,
                                                const Eigen::MatrixXd& fields, const Eigen::VectorXd& lambda);
 
-/// tau, s2: the largest m L^2/(12 EA) or rho Ip L^2/(12 GJ) of the beams (of the middle of changing sections).
+/// tau, s2: the largest m L^2/(12 EA) or rho Ip L^2/(12 GJ) of the beams (of the ends and the middle of changing sections).
 [[nodiscard]] double inner_motion_scale(const Model& model, const Structure& structure);
 
 /// What |lambda' / lambda - 1| is at most, of lambda or of lambda' (on arcs and changing sections: to first order). With

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>
+#include <numbers>
 
 namespace fretwork::fem {
 namespace {
@@ -38,10 +39,14 @@ double bending_energy(const Plane& plane, double length, double lambda, double w
              (2.0 / 3.0 * f1 * f1 + 2.0 / 5.0 * f2 * f2 + 2.0 / 7.0 * f3 * f3 + 2.0 / 9.0 * f4 * f4);
 }
 
+/// (k L)^2 of two elements a half wave; with fewer the series of E means nothing.
+constexpr double resolved_wave = 0.25 * std::numbers::pi * std::numbers::pi;
+
 /// E of a bar or shaft between ua and ub; intensity: lambda m.
 double axial_energy(double stiffness, double length, double intensity, double ua, double ub) {
   const double l = 0.5 * length, q1 = intensity * 0.5 * (ub - ua);
-  return 2.0 / 45.0 * l * l * l * q1 * q1 / stiffness;
+  const double wave = std::min(intensity * length * length / stiffness, resolved_wave);
+  return 2.0 / 45.0 * l * l * l * q1 * q1 / stiffness * (1.0 + 23.0 / 42.0 * wave);
 }
 
 /// Displacement, slopes across and rotation about the axis of one end, in its frame.

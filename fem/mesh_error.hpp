@@ -18,10 +18,12 @@
 ///     f1 = q0 - q2/5, f2 = q1/3 - q3/7, f3 = q2/5, f4 = q3/7.
 /// Traction and torsion, of frequencies with inner motion (inner_motion.hpp): that is the answer to the mean of
 /// q = lambda m u_h, what is left is the answer to its slope,
-///     E = 2 l^3 q1^2 / (45 EA),
-/// (k L)^4 / 720 of lambda for a wave, k^2 = lambda m / EA. Displacements of nodes too have an error of order 2 where
+///     E = 2 l^3 q1^2 / (45 EA) (1 + 23 (k L)^2 / 42),   k^2 = lambda m / EA, k L at most pi/2,
+/// (k L)^4 / 720 + 23 (k L)^6 / 30240 of lambda for a wave along equal elements, two terms of the series, for with two
+/// elements a half wave the second is larger than the first. Displacements of nodes too have an error of order 2 where
 /// the force along the axis jumps (masses, springs, corners, changes of the element length), of which this does not know:
-/// the estimate was 0.4 to 2 times the true error there. (For modes that the mesh does not resolve see there.)
+/// the estimate was 0.4 to 2 times the true error there. Nor does it see what of two modes that are nearer to each other
+/// than inner motion changes them is in the other. (For modes that the mesh does not resolve see there.)
 /// Limits: an underestimate with fewer than two elements a half wave. An arc counts as a straight beam of its length in
 /// the frames of its ends, a beam whose section changes as one that is everywhere as in its middle: an order of
 /// magnitude. Chords in place of an arc are not seen. Source: a posteriori estimates by element residuals, Ainsworth and

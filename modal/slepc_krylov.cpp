@@ -360,8 +360,10 @@ Pairs KrylovModes::lowest(int count) const {
     if (pairs.lambda.size() > 0)
       return pairs;
     const int within_reach = below(reach(last)) - static_cast<int>(rigid_.cols());
-    if (within_reach >= asked) {
+    if (within_reach + reserve > asked) {
       asked = within_reach + reserve;
+      if (space_for(asked) >= massive_)
+        return {};
       continue;
     }
     if (3 * asked > massive_)

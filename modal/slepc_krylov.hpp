@@ -26,7 +26,8 @@ public:
   [[nodiscard]] double reach(double lambda) const;
 
   /// At least the `count` lowest elastic modes, and so many more that the cluster of the last wanted one is
-  /// complete, and all up to `reach` of its lambda; none is missing among them. Collective; the same on every rank.
+  /// complete, and all up to `reach` of its lambda; none is missing among them. None at all where that takes so many
+  /// that a dense solve must serve. Collective; the same on every rank.
   /// @throws core::ComputationError where they do not converge or one stays missing
   [[nodiscard]] Pairs lowest(int count) const;
 

@@ -58,7 +58,11 @@ Pairs iterate(const KrylovModes& krylov, Eigen::Index rigid, const Cut& cut, boo
                         ? static_cast<int>(cut.count - rigid)
                         : krylov.below(krylov.reach(cut.omega * cut.omega)) - static_cast<int>(rigid);
   dense = 3 * (count + 10) > krylov.massive(); // the space must hold twice as many vectors and leave a choice
-  return dense || count <= 0 ? Pairs{Eigen::VectorXd(0), {}} : krylov.lowest(count);
+  if (dense || count <= 0)
+    return {};
+  Pairs found = krylov.lowest(count);
+  dense = found.lambda.size() == 0;
+  return found;
 }
 
 } // namespace

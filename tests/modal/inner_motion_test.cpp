@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Traction and torsion of order 4 whatever joins the beams: closed forms, and fine meshes where there are none.
 #include "../fem/model_builder.hpp"
+#include "fem/fields.hpp"
+#include "fem/inner_motion.hpp"
 #include "solve.hpp"
 #include <functional>
 #include <gtest/gtest.h>
@@ -188,38 +190,57 @@ TEST(InnerMotion, MakesAFrameOfOrderFourWhoseModesBendAndStretch) {
       8, 6);
 }
 
+namespace {
+
+fem::Model quarter_ring(int n, const fem::BeamProperty& property) {
+  ModelBuilder b;
+  const Index first = b.node({1, 0, 0});
+  b.fix(first, all);
+  const auto nodes =
+      b.arcs_from(first, Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), 0.0, pi / 2, n, b.property(property));
+  b.model.masses.push_back({nodes.back(), 300.0, Vec3(1, 1, 1)});
+  return b.model;
+}
+
+} // namespace
+
 TEST(InnerMotion, MakesAnArcOfOrderFourThatEndsInAMass) {
   expect_order_four_of_fine_meshes(
-      "arc",
-      [](int n) {
-        ModelBuilder b;
-        const Index first = b.node({1, 0, 0});
-        b.fix(first, all);
-        const auto nodes = b.arcs_from(first, Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), 0.0, pi / 2, n,
-                                       b.property(rod(0.2)));
-        b.model.masses.push_back({nodes.back(), 300.0, Vec3(1, 1, 1)});
-        return b.model;
-      },
-      8, 12);
+      "arc", [](int n) { return quarter_ring(n, rod(0.2)); }, 8, 12);
 }
+
+// So stout that it matters how a section turns and bends while it moves along the arc.
+TEST(InnerMotion, MakesAStoutArcOfOrderFourThatTurnsWithInertia) {
+  auto stout = rod(1.0);
+  stout.section.rotary_inertia = true;
+  expect_order_four_of_fine_meshes(
+      "stout arc", [&](int n) { return quarter_ring(n, stout); }, 8, 8);
+}
+
+namespace {
+
+/// @param mass  at the tip @param added_mass  per length there, none at the held end
+fem::Model tapered_rod(const Kind& kind, int n, double mass, double added_mass) {
+  ModelBuilder b;
+  auto p = rod(0.06);
+  p.taper = fem::Taper{fem::circle_section(0.03)};
+  p.added_mass_direction = fem::AddedMass::all;
+  p.taper->added_mass = added_mass;
+  const auto nodes = b.line({0, 0, 0}, {length, 0, 0}, n, b.property(p));
+  for (int i = 0; i < n; ++i)
+    b.model.beams[static_cast<std::size_t>(i)].along = {static_cast<double>(i) / n, (i + 1.0) / n};
+  b.fix_everywhere(kind.held);
+  b.fix(nodes.front(), all);
+  b.model.masses.push_back({nodes.back(), mass, Vec3(0.002, 0, 0)});
+  return b.model;
+}
+
+} // namespace
 
 TEST(InnerMotion, MakesATaperedRodOfOrderFourThatEndsInAMass) {
   for (const Kind& kind : kinds)
     expect_order_four_of_fine_meshes(
-        "taper",
-        [&](int n) {
-          ModelBuilder b;
-          auto p = rod(0.06);
-          p.taper = fem::Taper{fem::circle_section(0.03)};
-          const auto nodes = b.line({0, 0, 0}, {length, 0, 0}, n, b.property(p));
-          for (int i = 0; i < n; ++i)
-            b.model.beams[static_cast<std::size_t>(i)].along = {static_cast<double>(i) / n, (i + 1.0) / n};
-          b.fix_everywhere(kind.held);
-          b.fix(nodes.front(), all);
-          b.model.masses.push_back({nodes.back(), 20.0, Vec3(0.002, 0, 0)});
-          return b.model;
-        },
-        16, 3);
+        "taper", [&](int n) { return tapered_rod(kind, n, 20.0, 0.0); }, 16, 3);
 }
 
 // A straight beam is the closed form however it is computed: as one that tapers from a section to the same section.
@@ -307,4 +328,66 @@ TEST(InnerMotion, MissesNoModeThatItPutsBelowTheCut) {
     EXPECT_NEAR(lowest.omega[0] / rods.omega, 1.0, 1.2e-5) << dense_up_to;
     EXPECT_EQ(modal::solve_modes(MPI_COMM_SELF, rods.b.model, part, below).size(), springs) << dense_up_to;
   }
+}
+
+TEST(InnerMotion, MissesNoModeThatItPutsBelowTheCutWhereTheMatricesHaveNone) {
+  const Kind& kind = kinds.front();
+  const double x = root([](double y) { return y * std::cos(y) + 3.0 * std::sin(y); }, pi / 2, pi);
+  const auto model = held_rod(kind, 40, [&](fem::Model& m, Index tip) {
+    m.springs.push_back({tip, -1, {3.0 * kind.stiffness(rod()) / length}});
+  });
+  modal::Wanted wanted{std::nullopt, x * kind.speed() / length * (1.0 + 1e-5) / (2.0 * pi)};
+  wanted.dense_up_to = 0; // K and M: 5.2e-5 above
+  EXPECT_EQ(modal::solve_modes(MPI_COMM_SELF, model, fem::structures(model).at(0), wanted).size(), 1);
+}
+
+TEST(InnerMotion, ChangesNoFrequencyByMoreThanItsBound) {
+  const auto stretched = [](int elements, double mass, double spring) {
+    return held_rod(kinds.front(), elements, [&](fem::Model& m, Index tip) {
+      m.masses.push_back({tip, mass});
+      m.springs.push_back({tip, -1, {spring}});
+    });
+  };
+  double nearest = 0.0;
+  for (const auto& model :
+       {stretched(1, 0.01, 0.0), stretched(3, 100.0, 1e3), stretched(4, 0.01, 1e12), stretched(8, 5.0, 1e8),
+        quarter_ring(3, rod(0.2)), quarter_ring(6, rod(0.05)), tapered_rod(kinds.front(), 1, 3e4, 300.0),
+        tapered_rod(kinds.front(), 2, 3e4, 300.0)}) {
+    const auto part = fem::structures(model).at(0);
+    const auto basis = solve_up_to(model, 1e6);
+    const Eigen::VectorXd lambda = fem::twice_strain_energy(model, part, basis.shapes);
+    const auto changed = fem::with_inner_motion(model, part, basis.shapes, lambda).lambda;
+    const double scale = fem::inner_motion_scale(model, part);
+    for (Eigen::Index i = 0; i < lambda.size(); ++i) {
+      const double change = std::abs(changed[i] - lambda[i]);
+      const double of_lambda = fem::largest_inner_change(scale, lambda[i]) * lambda[i],
+                   of_changed = fem::largest_inner_change(scale, changed[i]) * changed[i];
+      EXPECT_LE(change, of_lambda * (1.0 + 1e-9)) << i << ": " << changed[i] / lambda[i];
+      EXPECT_LE(change, of_changed * (1.0 + 1e-9)) << i << ": " << changed[i] / lambda[i];
+      nearest = std::max(nearest, change / of_lambda);
+    }
+  }
+  EXPECT_GT(nearest, 0.8); // no wider than need be
+}
+
+// Bars of one element each, all of whose modes the motion inside may put before the tenth one: no Krylov space holds that many.
+TEST(InnerMotion, TakesADenseSolveWhereItMayReorderNearlyAllModes) {
+  constexpr int bars = 60;
+  ModelBuilder b;
+  const Index number = b.property(rod());
+  for (int i = 0; i < bars; ++i) {
+    const double y = 0.1 * i;
+    const auto nodes = b.line({0, y, 0}, {1.0 + 5e-4 * i, y, 0}, 1, number);
+    b.fix(nodes.front(), all);
+    b.fix(nodes.back(), kinds.front().held);
+    if (i > 0) // one structure
+      b.model.springs.push_back({nodes.back() - 2, nodes.back(), {}, {1e-3}});
+  }
+  const auto part = fem::structures(b.model).at(0);
+  modal::Wanted wanted{9, std::nullopt};
+  wanted.dense_up_to = 0;
+  const auto iterated = modal::solve_modes(MPI_COMM_SELF, b.model, part, wanted);
+  wanted.dense_up_to = bars;
+  const auto dense = modal::solve_modes(MPI_COMM_SELF, b.model, part, wanted);
+  EXPECT_TRUE(iterated.omega == dense.omega);
 }

@@ -90,12 +90,14 @@ TEST(MeshError, OfTractionAndTorsionToo) {
   for (const bool torsion : {false, true}) {
     constexpr double length = 3.0;
     ModelBuilder b;
-    b.line({0, 0, 0}, {length, 0, 0}, 30, b.property(p));
+    constexpr int elements = 6;
+    b.line({0, 0, 0}, {length, 0, 0}, elements, b.property(p));
     b.fix_everywhere(uy | uz | ry | rz | (torsion ? ux : rx));
     b.fix(0, all);
     const double wave = pi / length * (torsion ? torsion_speed : traction_speed);
-    for (const double ratio : ratios(solve(b.model, 3), std::array{0.5 * wave, 1.5 * wave, 2.5 * wave}))
-      EXPECT_NEAR(ratio, 1.0, 0.1);
+    const std::array exact{0.5 * wave, 1.5 * wave, 2.5 * wave}; // down to 2.4 elements a half wave
+    for (const double ratio : ratios(solve(b.model, 3), exact))
+      EXPECT_NEAR(ratio, 1.0, 0.05);
   }
 }
 
@@ -114,7 +116,7 @@ TEST(MeshError, OfTractionWhereItsForceJumpsIsOfItsOrderOfMagnitude) {
   };
   for (const bool spring : {false, true}) {
     const auto coarse = held_rod(16, spring), fine = held_rod(128, spring);
-    for (Eigen::Index i = 0; i < 3; ++i) { // 0.46 (spring, mode 1) to 1.95 (mass, mode 2)
+    for (Eigen::Index i = 0; i < 3; ++i) { // 0.46 (spring, mode 1) to 2.0 (mass, mode 2)
       const double ratio = coarse.error[i] / std::abs(coarse.omega[i] / fine.omega[i] - 1.0);
       EXPECT_GT(ratio, 0.4) << spring << " mode " << i;
       EXPECT_LT(ratio, 2.2) << spring << " mode " << i;
@@ -122,9 +124,9 @@ TEST(MeshError, OfTractionWhereItsForceJumpsIsOfItsOrderOfMagnitude) {
     const auto unresolved = held_rod(4, spring);
     const double true_error = std::abs(unresolved.omega[2] / fine.omega[2] - 1.0);
     EXPECT_GT(true_error,
-              0.015); // what the quotient would have changed: 3.6 times the true error on the mass
+              0.015); // what the quotient would have changed counts: 4.3 times the true error on the mass
     EXPECT_GT(unresolved.error[2] / true_error, 0.4) << spring;
-    EXPECT_LT(unresolved.error[2] / true_error, 4.0) << spring;
+    EXPECT_LT(unresolved.error[2] / true_error, 4.6) << spring;
   }
 }
 
