@@ -29,6 +29,7 @@ SlidingPaths::SlidingPaths(const PackedContacts& contacts, double step, bool mov
     const double most = own.yy + own.zz + (contacts.in_plane[c] != 0 ? contacts.own_mobility(c, 2, 2) : 0.0);
     own.ends = moves_by_flow && law.mu_dynamic > 0.0 && law.kind == contact::FrictionMemoryKind::return_map &&
                law.damping * most * h_ >= least_damped;
+    own.per_damping = own.ends ? 1.0 / law.damping : 0.0;
   }
 }
 
@@ -69,6 +70,8 @@ void SlidingPaths::find_end(int c, const ContactState& s, const Speeds& speeds, 
   const contact::FrictionMemory past = memory.at(c, s.ny, s.nz);
   if (!past.sliding)
     return;
+  if (contacts_.in_plane[c] == 0 && !ends_along_line(c, s, speeds, past.spring.t))
+    return;
   const contact::FrictionLaw& law = contacts_.supports[c].friction;
   const auto [left, before, after] = speeds;
   const Vec2 speed = 0.5 * (left + before), held = (1.0 / law.damping) * past.spring, trial = held - speed;
@@ -83,6 +86,18 @@ void SlidingPaths::find_end(int c, const ContactState& s, const Speeds& speeds, 
   const contact::EndedSlide slide(speed, held, bound / law.damping, loss, h_);
   if (slide.ends)
     ended_.push_back({c, slide, s.damper_work});
+}
+
+/// What `find_end` and EndedSlide find along one tangent, without roots and divisions: most slides go on.
+bool SlidingPaths::ends_along_line(int c, const ContactState& s, const Speeds& speeds, double spring) const {
+  const Own& own = own_[c];
+  const double bound = contacts_.supports[c].friction.mu_dynamic * s.normal_force,
+               spread = bound * own.per_damping;
+  const double trial = spring * own.per_damping - 0.5 * (speeds.left.t + speeds.before.t),
+               excess = std::abs(trial), sign = trial < 0.0 ? -1.0 : 1.0;
+  const double mobility = s.nz * (s.nz * own.yy - 2.0 * s.ny * own.yz) + s.ny * s.ny * own.zz;
+  const double loss = speeds.left.t - speeds.after.t - h_ * mobility * (sign * bound - s.friction.t);
+  return excess > spread && excess < spread - sign * loss;
 }
 
 /// Of the contact itself, where friction acts; t = (n_z, -n_y).

@@ -48,10 +48,12 @@ private:
   };
   /// Of the contact itself.
   struct Own {
-    double yy, yz, zz; ///< W, 1/kg
-    bool ends;         ///< its slides may be ended by its damper
+    double yy, yz, zz;        ///< W, 1/kg
+    bool ends;                ///< its slides may be ended by its damper
+    double per_damping = 0.0; ///< 1/C_T, m/(N s)
   };
   void find_end(int c, const ContactState& s, const Speeds& speeds, const ContactMemory& memory);
+  [[nodiscard]] bool ends_along_line(int c, const ContactState& s, const Speeds& speeds, double spring) const;
   [[nodiscard]] contact::Mobility tangent_mobility(int c, double ny, double nz) const;
 
   const PackedContacts& contacts_;
