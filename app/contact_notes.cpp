@@ -27,8 +27,8 @@ Point at_start(const PlacedContact& placed, std::size_t k, const BuiltScene& bui
   }
   const core::Vec3 place = scene.place_at_start(contact) + contact.b * scene.q0;
   core::Vec3 speed = contact.b * scene.v0;
-  for (Eigen::Index k = 0; k < contact.carried.cols(); ++k)
-    speed += scene.motions[static_cast<std::size_t>(k)].velocity0 * contact.carried.col(k);
+  for (Eigen::Index m = 0; m < contact.carried.cols(); ++m)
+    speed += scene.motions[static_cast<std::size_t>(m)].velocity0 * contact.carried.col(m);
   const contact::Location at = contact::locate(contact.support.obstacle, place.y(), place.z());
   const double sinking = -(at.ny * speed.y() + at.nz * speed.z());
   return {&placed, &contact, &built.true_modes, at.gap,

@@ -45,6 +45,10 @@ public:
     const Entry& e = entries_[c];
     return opposite(e, ny, nz) ? contact::FrictionMemory{} : e.friction;
   }
+  /// Contact c slid at the last commit.
+  [[nodiscard]] bool slid(int c) const {
+    return contacts_.in_lanes ? lanes_.sliding[c] != 0.0 : entries_[c].friction.sliding;
+  }
   /// Friction at the last commit if contact c was closed then on the same surface, otherwise 0, N.
   [[nodiscard]] contact::Vec2 last_force(int c, double ny, double nz) const {
     if (contacts_.in_lanes)

@@ -47,7 +47,8 @@ void SlidingPaths::correct(const ContactMotion& motion, const ContactMemory& mem
     Last& last = last_[c];
     if (own.ends) {
       const Vec2 before = motion.slip(c, s.ny, s.nz), after = (2.0 / h_) * s.displacement - before;
-      find_end(c, s, {last.left, before, after}, memory);
+      if (memory.slid(c))
+        find_end(c, s, {last.left, before, after}, memory);
       last.left = after;
     }
     const double y = scale * (push_y - last.y), z = scale * (push_z - last.z);
