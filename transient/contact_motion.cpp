@@ -33,11 +33,15 @@ void ContactMotion::gather_near(const double* q, const double* v, const std::vec
 
 void ContactMotion::gather_velocities(const double* v) { kernels::gather(contacts_.gather, v, w.data()); }
 
-bool ContactMotion::find_near(double half_window) {
+bool ContactMotion::place(const kernels::Array& at, double half_window) {
   const int width = contacts_.width;
-  kernels::place(contacts_.reach, u.data(), u.data() + width, w.data(), w.data() + width, half_window,
+  kernels::place(contacts_.reach, at.data(), at.data() + width, w.data(), w.data() + width, half_window,
                  gaps.data(), normal_y.data(), normal_z.data(), near_.data(), places_);
-  const bool any = !places_.first.empty();
+  return !places_.first.empty();
+}
+
+bool ContactMotion::find_near(double half_window) {
+  const bool any = place(u, half_window);
   if (any)
     for (const int c : contacts_.profiles)
       if (near(c)) {
@@ -64,9 +68,7 @@ bool ContactMotion::opens_after(double time) {
   const int width = contacts_.width;
   for (int i = 0; i < 2 * width; ++i)
     moved_[i] = u[i] + time * w[i];
-  kernels::place(contacts_.reach, moved_.data(), moved_.data() + width, w.data(), w.data() + width, 0.0,
-                 gaps.data(), normal_y.data(), normal_z.data(), near_.data(), places_);
-  return places_.first.empty();
+  return !place(moved_, 0.0);
 }
 
 double ContactMotion::spring_energy() const {

@@ -60,6 +60,8 @@ public:
   kernels::Array gaps, normal_y, normal_z; ///< m, and unit normal, of near contacts: what `locate` gives
 
 private:
+  bool place(const kernels::Array& at, double half_window);
+
   const PackedContacts& contacts_;
   kernels::Array near_, moved_;
   kernels::Places places_, moving_; ///< near; where velocities are gathered

@@ -75,8 +75,9 @@ void SlidingPaths::find_end(int c, const ContactState& s, const Speeds& speeds, 
     return;
   const contact::FrictionLaw& law = contacts_.supports[c].friction;
   const auto [left, before, after] = speeds;
-  const Vec2 speed = 0.5 * (left + before), held = (1.0 / law.damping) * past.spring, trial = held - speed;
-  const double size = norm(trial), bound = law.mu_dynamic * s.normal_force;
+  const double per_damping = own_[c].per_damping, bound = law.mu_dynamic * s.normal_force;
+  const Vec2 speed = 0.5 * (left + before), held = per_damping * past.spring, trial = held - speed;
+  const double size = norm(trial);
   const Vec2 along = size > 0.0 ? (1.0 / size) * trial : Vec2{}; // of the friction when the step begins
   const contact::Mobility mobility = tangent_mobility(c, s.ny, s.nz);
   if (!(law.damping * dot(along, mobility * along) * h_ >= least_damped))
@@ -84,7 +85,7 @@ void SlidingPaths::find_end(int c, const ContactState& s, const Speeds& speeds, 
   if (s.slides && dot(along, s.friction) < 0.0) // back again within the step, a path of its own
     return;
   const Vec2 missing = bound * along - s.friction, loss = left - after - h_ * (mobility * missing);
-  const contact::EndedSlide slide(speed, held, bound / law.damping, loss, h_);
+  const contact::EndedSlide slide(speed, held, per_damping * bound, loss, h_);
   if (slide.ends)
     ended_.push_back({c, slide, s.damper_work});
 }
@@ -96,8 +97,8 @@ bool SlidingPaths::ends_along_line(int c, const ContactState& s, const Speeds& s
                spread = bound * own.per_damping;
   const double trial = spring * own.per_damping - 0.5 * (speeds.left.t + speeds.before.t),
                excess = std::abs(trial), sign = trial < 0.0 ? -1.0 : 1.0;
-  const double mobility = s.nz * (s.nz * own.yy - 2.0 * s.ny * own.yz) + s.ny * s.ny * own.zz;
-  const double loss = speeds.left.t - speeds.after.t - h_ * mobility * (sign * bound - s.friction.t);
+  const double loss = speeds.left.t - speeds.after.t -
+                      h_ * tangent_mobility(c, s.ny, s.nz).tt * (sign * bound - s.friction.t);
   return excess > spread && excess < spread - sign * loss;
 }
 
