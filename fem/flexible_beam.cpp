@@ -95,6 +95,16 @@ Matrix6 FlexibleBeam::slope_spread() const {
   return spread;
 }
 
+FlexibleBeam::MovingSection FlexibleBeam::section(double s, const Shapes& deformation) const {
+  const BeamConstants k = constants(s);
+  return {section_axes(s),
+          k,
+          carried(point(s)) + motion(s) * deformation,
+          strains(s) * deformation,
+          {k.mass_axial, k.mass_transverse, k.mass_transverse},
+          {k.inertia_x, k.inertia_y, k.inertia_z}};
+}
+
 InnerMotion FlexibleBeam::inner_motion() const {
   const double length = axis_.length(), curvature = axis_.angle() / length;
   const Shapes deformation = stiffness_ * deformation_matrix(span_);
@@ -109,12 +119,7 @@ InnerMotion FlexibleBeam::inner_motion() const {
     const double b = 4.0 * share * (1.0 - share), slope = 4.0 * (1.0 - 2.0 * share) / length;
     const Vec3 tangent = frame_ * axis_.tangent(s), inward = frame_ * axis_.inward(s),
                normal = tangent.cross(inward); // of the plane of the arc; zero where straight
-    const Eigen::Matrix3d axes = section_axes(s);
-    const BeamConstants k = constants(s);
-    const Shapes shape = carried(point(s)) + motion(s) * deformation;
-    const Shapes strain = strains(s) * deformation;
-    const Vec3 lineic(k.mass_axial, k.mass_transverse, k.mass_transverse);
-    const Vec3 inertia(k.inertia_x, k.inertia_y, k.inertia_z);
+    const auto [axes, k, shape, strain, lineic, inertia] = section(s, deformation);
     const Vec3 bending(k.torsion, k.bending_y, k.bending_z);
     Eigen::Matrix<double, 3, 2> moved, turned, bent;
     moved << axes * tangent * b, Vec3::Zero();
@@ -138,14 +143,9 @@ Matrix12 FlexibleBeam::mass() const {
   Matrix12 mass = Matrix12::Zero();
   for (const auto& [share, weight] : gauss_points) {
     const double s = share * length;
-    const Eigen::Matrix3d axes = section_axes(s);
-    const BeamConstants k = constants(s);
-    const Shapes shape = carried(point(s)) + motion(s) * deformation;
+    const auto [axes, k, shape, strain, lineic, inertia] = section(s, deformation);
     const Eigen::Matrix<double, 3, 12> moved = axes * shape.topRows<3>(),
                                        turned = axes * shape.bottomRows<3>();
-    const Shapes strain = strains(s) * deformation;
-    const Vec3 lineic(k.mass_axial, k.mass_transverse, k.mass_transverse);
-    const Vec3 inertia(k.inertia_x, k.inertia_y, k.inertia_z);
     mass += weight * length *
             (moved.transpose() * lineic.asDiagonal() * moved +
              turned.transpose() * inertia.asDiagonal() * turned +

@@ -71,6 +71,16 @@ public:
   [[nodiscard]] Shapes shapes(double s) const;
 
 private:
+  /// What masses are made of at one section.
+  struct MovingSection {
+    Eigen::Matrix3d axes; ///< as of section_axes
+    BeamConstants constants;
+    Shapes shape,
+        strain; ///< displacement and rotation in the element's axes, strains in the section's, of the 12 dofs
+    Vec3 lineic, inertia; ///< kg/m, kg m: along and about the section's axes
+  };
+  /// @param deformation  S e, of the 12 dofs
+  [[nodiscard]] MovingSection section(double s, const Shapes& deformation) const;
   [[nodiscard]] Vec3 point(double s) const;
   [[nodiscard]] BeamConstants constants(double s) const;
   [[nodiscard]] Eigen::Matrix3d section_axes(double s) const; ///< rows: tangent, y, z of the section
