@@ -58,10 +58,12 @@ LawLanes::LawLanes(const PackedContacts& contacts, double step) {
 }
 
 StepLanes::StepLanes(int width) {
-  for (Array* a : {&shut,    &spring,     &damping,    &share,        &nn,       &nt,       &tt,     &bound,
-                   &share_t, &tangential, &per_normal, &per_friction, &normal,   &friction, &slides, &by_y,
-                   &by_z,    &v_y,        &v_z,        &before_n,     &before_t, &cut})
+  for (Array* a :
+       {&shut,       &spring,     &damping,      &share,  &nn,       &nt,       &tt,   &bound, &share_t,
+        &tangential, &per_normal, &per_friction, &normal, &friction, &slides,   &by_y, &by_z,  &by_t,
+        &v_y,        &v_z,        &v_t,          &first,  &before_n, &before_t, &cut})
     a->assign(static_cast<std::size_t>(width), 0.0);
+  ties.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(width), 0.0);
   contacts.assign(static_cast<std::size_t>(width), 0);
 }
 
@@ -122,11 +124,14 @@ FRETWORK_INLINE double prepare(std::span<const int> places, const SweepRule& rul
     const V moved = my * (at<V>(near.uy + i) - at<V>(near.last_uy + i)) +
                     mz * (at<V>(near.uz + i) - at<V>(near.last_uz + i));
     const V spring = instant_spring<V>(k, p, moved * (-1.0 / rule.step), nn, rule.step);
-    V damping = at<V>(&law.dissipation[i]) * spring;
-    if (rule.half_window > 0.0)
-      damping += closed_share(V(-g), V(rule.half_window * magnitude(v_n))) * at<V>(&law.damping[i]);
+    V damping{}, share = one;
+    if (rule.damped) {
+      damping = at<V>(&law.dissipation[i]) * spring;
+      if (rule.half_window > 0.0)
+        damping += closed_share(V(-g), V(rule.half_window * magnitude(v_n))) * at<V>(&law.damping[i]);
+      share = 1.0 / (1.0 + damping * nn);
+    }
     const V acts = spring + damping;
-    const V share = 1.0 / (1.0 + damping * nn);
     const V normal = acts > 0.0 ? clipped(spring - damping * v_n) * share : V{};
     const V keeps = same_face(memory, i, my, mz);
     const V mu = at<V>(&law.mu_dynamic[i]), most = mu * normal;
@@ -244,6 +249,76 @@ FRETWORK_INLINE bool sweeps_once(const StepLanes& s) {
   return s.count == 1 && coupling <= round_off && -coupling <= round_off;
 }
 
+/// A_tt between the contacts that take part: what 1 N along the tangent of each adds to the tangential velocities of all.
+template <class V>
+FRETWORK_INLINE void tie_tangents(std::span<const int> places, int width, double half_step,
+                                  const MobilityLanes& mobility, const NearLanes& near, StepLanes& s) {
+  const int columns = mobility.coupled ? 4 : 2;
+  for (int k = 0; k < s.count; ++k) {
+    const int c = s.contacts[k];
+    const double fy = half_step * near.nz[c], fz = -half_step * near.ny[c];
+    const double* column =
+        &mobility.columns[static_cast<std::size_t>(c) * static_cast<std::size_t>(columns * width)];
+    double* ties = &s.ties[static_cast<std::size_t>(k) * static_cast<std::size_t>(width)];
+    for (const int i : places) {
+      V y = fy * at<V>(column + i), z = fz * at<V>(column + width + i);
+      if (mobility.coupled) {
+        z += fy * at<V>(column + 2 * width + i);
+        y += fz * at<V>(column + 3 * width + i);
+      }
+      at<V>(ties + i) = at<V>(near.nz + i) * y - at<V>(near.ny + i) * z;
+    }
+  }
+}
+
+/// Jacobi sweeps over frictions alone, where no damper lets normal forces answer velocities: from forces whose velocities are known.
+template <class V>
+FRETWORK_INLINE bool sweep_frictions(std::span<const int> places, int width, const SweepRule& rule,
+                                     const LawLanes& law, const MobilityLanes& mobility,
+                                     const NearLanes& near, StepLanes& s) {
+  const double half_step = 0.5 * rule.step;
+  const V one = V{} + 1.0;
+  tie_tangents<V>(places, width, half_step, mobility, near, s);
+  for (const int i : places) {
+    at<V>(&s.v_t[i]) = at<V>(near.nz + i) * at<V>(&s.v_y[i]) - at<V>(near.ny + i) * at<V>(&s.v_z[i]);
+    at<V>(&s.first[i]) = at<V>(&s.friction[i]);
+  }
+  bool settles = false;
+  double last = 0.0;
+  for (int k = 0; k < rule.most && !settles; ++k) {
+    V worst{};
+    for (const int i : places) {
+      const V n = at<V>(&s.normal[i]), t0 = at<V>(&s.friction[i]);
+      const V free = at<V>(&s.v_t[i]) - at<V>(&s.tt[i]) * t0; // without this contact's friction
+      const V stick = (at<V>(&s.tangential[i]) - at<V>(&law.gradient[i]) * free) * at<V>(&s.share_t[i]);
+      const V most = at<V>(&law.mu_dynamic[i]) * n;
+      const V slides = magnitude(stick) > at<V>(&s.bound[i]) * n ? one : V{};
+      const V t = slides > 0.0 ? with_sign_of(stick, most) : stick, dt = t - t0;
+      at<V>(&s.by_t[i]) = dt;
+      at<V>(&s.friction[i]) = t;
+      at<V>(&s.slides[i]) = slides;
+      const V change = at<V>(&s.per_friction[i]) * magnitude(dt);
+      worst = worst > change ? worst : change;
+    }
+    for (const int i : places) {
+      V v[2] = {at<V>(&s.v_t[i]), V{}};
+      for (int j = 0; j < s.count; ++j)
+        v[j % 2] += s.by_t[s.contacts[j]] *
+                    at<V>(&s.ties[static_cast<std::size_t>(j) * static_cast<std::size_t>(width) + i]);
+      at<V>(&s.v_t[i]) = v[0] + v[1];
+    }
+    const double change = largest(worst);
+    settles = settled(change, last, rule.tolerance, jacobi_caution);
+    last = change;
+  }
+  if (!settles)
+    return false;
+  for (const int i : places)
+    turn<V>(near, i, half_step, V{}, V(at<V>(&s.friction[i]) - at<V>(&s.first[i])), s);
+  answer<V>(places, width, mobility, s);
+  return true;
+}
+
 /// Returns whether the sweeps settled.
 template <class V>
 FRETWORK_INLINE bool sweep(std::span<const int> places, int width, const SweepRule& rule, const LawLanes& law,
@@ -259,6 +334,8 @@ FRETWORK_INLINE bool sweep(std::span<const int> places, int width, const SweepRu
     answer<V>(places, width, mobility, s);
     if (!rule.implicit)
       return true;
+    if (!rule.damped)
+      return sweep_frictions<V>(places, width, rule, law, mobility, near, s);
   }
   double last = 0.0;
   for (int k = 0; k < rule.most; ++k) {

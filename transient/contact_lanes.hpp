@@ -5,7 +5,8 @@
 /// step_friction_line, close_step, open_step), written without branches; a test holds the two against each other.
 ///
 /// The forces are found by Jacobi sweeps: all contacts at once, each with its own block of A solved exactly; a contact that is shut alone,
-/// its normal force untouched by its friction, needs one. Where the sweeps do not halve the error (contacts that move almost together), Gauss-Seidel sweeps of ContactSolver take over.
+/// its normal force untouched by its friction, needs one. Without normal dampers normal forces do not answer velocities: the sweeps are over
+/// frictions alone, with the block of A that ties them. Where the sweeps do not halve the error (contacts that move almost together), Gauss-Seidel sweeps of ContactSolver take over.
 #pragma once
 #include "core/state_archive.hpp"
 #include "transient/kernels.hpp"
@@ -51,8 +52,10 @@ struct StepLanes {
   Array bound, share_t, tangential; ///< mu, 1/(1 + G h tt), T
   Array per_normal, per_friction;   ///< 1/N
   Array normal, friction, slides;   ///< F_N, F_t, N; 1 or 0
-  Array by_y, by_z;                 ///< N, changes of the forces in a sweep, along y and z
-  Array v_y, v_z;                   ///< s, m/s
+  Array by_y, by_z, by_t;           ///< N, changes of the forces in a sweep, along y, z and t
+  Array first;                      ///< N, frictions that the sweeps begin from
+  Array v_y, v_z, v_t;              ///< s, m/s
+  Array ties;                       ///< A_tt, column by column of the contacts that take part, m/s per N
   Array before_n, before_t;         ///< s0, m/s
   Array cut;                        ///< J over the step, by the normal damper
   std::vector<int> contacts;        ///< the first `count` are those that take part
@@ -85,6 +88,7 @@ struct SweepRule {
   double step;        ///< s
   double half_window; ///< s, closed shares are taken over it to both sides
   bool implicit;      ///< some law depends on velocities: one sweep is not enough
+  bool damped;        ///< some normal law
   double tolerance;   ///< of the forces, relative to what a contact can bear
   int most;           ///< sweeps
 };

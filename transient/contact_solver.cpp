@@ -25,6 +25,8 @@ ContactSolver::ContactSolver(const PackedContacts& contacts, double step)
       coupled_(
           std::any_of(contacts.supports.begin(), contacts.supports.end(),
                       [](const contact::Support& s) { return s.friction.active() || s.normal.damps(); })),
+      damped_(std::any_of(contacts.supports.begin(), contacts.supports.end(),
+                          [](const contact::Support& s) { return s.normal.damps(); })),
       laws_(contacts, step), lanes_(contacts.width),
       block_(static_cast<std::size_t>(contacts.components) * static_cast<std::size_t>(contacts.stride())) {
   shut_.reserve(static_cast<std::size_t>(contacts.count));
@@ -60,7 +62,7 @@ ContactSolver::Action ContactSolver::solve_near(const ContactMemory& memory, con
 bool ContactSolver::solve_in_lanes(const ContactMemory& memory, const ContactMotion& motion,
                                    ContactTrial& trial, Action& action) {
   const int width = contacts_.width;
-  const kernels::SweepRule rule{h_, half_window_, coupled_, sweep_tolerance, most_jacobi_sweeps};
+  const kernels::SweepRule rule{h_, half_window_, coupled_, damped_, sweep_tolerance, most_jacobi_sweeps};
   const kernels::NearLanes near{motion.marks(),           motion.gaps.data(),
                                 motion.normal_y.data(),   motion.normal_z.data(),
                                 motion.w.data(),          motion.w.data() + width,
