@@ -136,30 +136,34 @@ Run::Run(const Scene& scene, const StepChoice& choice, std::span<Observer* const
 
 Run::~Run() = default;
 
-bool Run::goes_on() const { return report_.outcome == Outcome::done && scheme_->next_time() < end_; }
-
 bool Run::advance(std::int64_t records) {
-  for (std::int64_t i = 0; i < records && goes_on(); ++i) {
-    outputs_->states(*scheme_, scheme_->next_time());
+  const auto goes_on = [&](double next) { return report_.outcome == Outcome::done && next < end_; };
+  const Record* last = nullptr;
+  double next = scheme_->next_time();
+  for (std::int64_t i = 0; i < records && goes_on(next); ++i) {
+    outputs_->states(*scheme_, next);
     const Record& record = scheme_->advance();
+    next = scheme_->next_time(); // infinite where the scheme fails: the loop ends
+    last = &record;
     outputs_->forces(*scheme_, record);
-    outputs_->keep(record,
-                   scheme_->next_time() + 0.5 * record.step); // the last output may lie at the end
+    outputs_->keep(record, next + 0.5 * record.step); // the last output may lie at the end
     const double residual = std::abs(record.energy.residual());
     largest_residual_ = std::max(largest_residual_, residual);
     largest_throughput_ = std::max(largest_throughput_, record.energy.throughput);
-    ++report_.records;
-    report_.end_time = record.time;
-    report_.energy = record.energy;
     for (Observer* observer : observers_)
       observer->step(record);
     hopeless_records_ = residual <= hopeless * largest_throughput_ ? 0 : hopeless_records_ + 1;
     if (!std::isfinite(residual) || hopeless_records_ > passing)
       report_.outcome = Outcome::diverged;
-    else if (scheme_->failure() != StepFailure::none)
-      report_.outcome = Outcome::step_failed;
+    ++report_.records;
   }
-  return goes_on();
+  if (last) {
+    report_.end_time = last->time;
+    report_.energy = last->energy;
+  }
+  if (report_.outcome == Outcome::done && scheme_->failure() != StepFailure::none)
+    report_.outcome = Outcome::step_failed;
+  return goes_on(next);
 }
 
 Report Run::finish() {

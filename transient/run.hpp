@@ -80,8 +80,6 @@ public:
   void visit(core::StateArchive& state);
 
 private:
-  [[nodiscard]] bool goes_on() const;
-
   std::span<Observer* const> observers_;
   Sampler* sampler_;
   std::unique_ptr<Scheme> scheme_;
