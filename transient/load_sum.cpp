@@ -25,26 +25,36 @@ LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double dura
   values_.resize(signals_.size());
 }
 
+template <class Value> void LoadSum::combine(double time, const Value& value, double* force) {
+  const SampleGrid* grid = nullptr; // of the last random signal: those of a study mostly share one
+  SampleGrid::Place place{};
+  double* out = values_.data();
+  for (const Signal& signal : signals_) {
+    if (!signal.is_random()) {
+      *out++ = value(signal);
+      continue;
+    }
+    if (!grid || *grid != signal.grid())
+      place = signal.grid().place(time);
+    grid = &signal.grid();
+    *out++ = signal.at(place);
+  }
+  kernels::combine(padded_modes_, static_cast<int>(signals_.size()), shapes_.data(), values_.data(), force);
+}
+
 void LoadSum::at(double time, double* force) {
-  for (std::size_t s = 0; s < signals_.size(); ++s)
-    values_[s] = signals_[s].over_step(time, step_);
-  combine(force);
+  combine(
+      time, [&](const Signal& signal) { return signal.over_step(time, step_); }, force);
 }
 
 void LoadSum::at(double time, Signal::Window window, double* force) {
-  for (std::size_t s = 0; s < signals_.size(); ++s)
-    values_[s] = signals_[s].over_step(time, step_, window);
-  combine(force);
+  combine(
+      time, [&](const Signal& signal) { return signal.over_step(time, step_, window); }, force);
 }
 
 void LoadSum::instant(double time, double* force) {
-  for (std::size_t s = 0; s < signals_.size(); ++s)
-    values_[s] = signals_[s](time);
-  combine(force);
-}
-
-void LoadSum::combine(double* force) const {
-  kernels::combine(padded_modes_, static_cast<int>(signals_.size()), shapes_.data(), values_.data(), force);
+  combine(
+      time, [&](const Signal& signal) { return signal(time); }, force);
 }
 
 } // namespace fretwork::transient

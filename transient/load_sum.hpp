@@ -23,7 +23,8 @@ public:
   void instant(double time, double* force);
 
 private:
-  void combine(double* force) const;
+  /// The force at a time by the values of the signals, those that are not random as `value` has them.
+  template <class Value> void combine(double time, const Value& value, double* force);
 
   int padded_modes_;
   double step_;

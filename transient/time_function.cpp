@@ -95,7 +95,7 @@ Signal::Signal(const TimeFunction& function, double duration) : function_(functi
                                   "band, or shorten the run",
                                   random->high, duration, n, most_samples));
   // The signal x = sum over lines of Re(c exp(i w t)) and its slope x' make one complex signal x + i x', which one transform gives
-  // interleaved: x' has the lines i w c, so that z_k = c (1 - w)/2 and z_(n-k) = conj(c) (1 + w)/2; w times grid_step.
+  // interleaved: x' has the lines i w c, so that z_k = c (1 - w)/2 and z_(n-k) = conj(c) (1 + w)/2; w times the grid's step.
   std::mt19937_64 generator(random->seed);
   const double scale = random->rms / std::sqrt(static_cast<double>(last - first + 1));
   samples_.assign(2 * (n + 1), 0.0); // value, slope, value, slope ...
@@ -109,8 +109,8 @@ Signal::Signal(const TimeFunction& function, double duration) : function_(functi
   }
   transform(n, samples_);
   std::copy_n(samples_.begin(), 2, samples_.end() - 2);
-  grid_step_ = period / static_cast<double>(n);
-  per_grid_step_ = 1.0 / grid_step_;
+  const double grid_step = period / static_cast<double>(n);
+  grid_ = {grid_step, 1.0 / grid_step, static_cast<std::ptrdiff_t>(n)};
 }
 
 double Signal::operator()(double time) const {
@@ -132,16 +132,7 @@ double Signal::operator()(double time) const {
       const double share = (time - f.time[i - 1]) / (f.time[i] - f.time[i - 1]);
       return f.value[i - 1] + share * (f.value[i] - f.value[i - 1]);
     }
-    double operator()(const Random&) const {
-      const double position = time * self.per_grid_step_;
-      const auto last = self.samples_.size() / 2 - 2;
-      const auto j = std::min(static_cast<std::size_t>(std::max(0.0, position)), last);
-      const double s = position - static_cast<double>(j);
-      const double* p = &self.samples_[2 * j]; // value, slope, next value, next slope
-      const double difference = p[2] - p[0];
-      return p[0] +
-             s * (p[1] + s * (3.0 * difference - 2.0 * p[1] - p[3] + s * (p[1] + p[3] - 2.0 * difference)));
-    }
+    double operator()(const Random&) const { return self.at(self.grid_.place(time)); }
     double operator()(const Integral&) const { return (*self.motion_)(time).velocity; }
   };
   return std::visit(Visitor{time, *this}, function_);

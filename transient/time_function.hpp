@@ -2,6 +2,8 @@
 /// @file
 /// Functions of time that loads and base motions follow.
 #pragma once
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -52,6 +54,26 @@ using TimeFunction = std::variant<Constant, Harmonic, Table, Random, Integral>;
 /// Highest frequency to be resolved, Hz: 0 for constants and tables.
 [[nodiscard]] double highest_frequency(const TimeFunction& function);
 
+/// The samples of a random signal: equal intervals from t = 0, cubic Hermite pieces on them.
+struct SampleGrid {
+  double step = 0.0, per_step = 0.0; ///< s; 1/s
+  std::ptrdiff_t intervals = 0;
+  bool operator==(const SampleGrid&) const = default;
+
+  /// A time on the grid, the same for all signals on it: value = of the interval's start + next * what the end's value is above it +
+  /// slope * slope there + next_slope * slope at the end, slopes times `step`.
+  struct Place {
+    std::ptrdiff_t interval;
+    double next, slope, next_slope;
+  };
+  [[nodiscard]] Place place(double time) const {
+    const double position = time * per_step;
+    const auto interval = std::min(static_cast<std::ptrdiff_t>(std::max(0.0, position)), intervals - 1);
+    const double s = position - static_cast<double>(interval), rest = 1.0 - s;
+    return {interval, s * s * (3.0 - 2.0 * s), s * rest * rest, -s * s * rest};
+  }
+};
+
 class MotionSignal;
 
 /// A time function made ready for a run of `duration` seconds: values at any instant of it.
@@ -72,9 +94,16 @@ public:
   /// The same for the window of h about `time`; at the start of the run for its half within the run.
   [[nodiscard]] double over_step(double time, double h) const;
 
-  /// Of a random signal: values and slopes times grid_step(), interleaved, of the cubic pieces from t = 0. Else empty.
+  /// Of a random signal: values and slopes times the grid's step, interleaved. Else empty.
   [[nodiscard]] std::span<const double> samples() const { return samples_; }
-  [[nodiscard]] double grid_step() const { return grid_step_; }
+  [[nodiscard]] const SampleGrid& grid() const { return grid_; }
+  [[nodiscard]] double grid_step() const { return grid_.step; }
+  [[nodiscard]] bool is_random() const { return !samples_.empty(); }
+  /// Of a random signal, at a place on its grid. No allocation.
+  [[nodiscard]] double at(const SampleGrid::Place& place) const {
+    const double* p = samples_.data() + 2 * place.interval;
+    return p[0] + place.next * (p[2] - p[0]) + place.slope * p[1] + place.next_slope * p[3];
+  }
 
   /// True where the value never changes.
   [[nodiscard]] bool is_constant() const { return std::holds_alternative<Constant>(function_); }
@@ -84,9 +113,8 @@ private:
 
   TimeFunction function_;
   std::shared_ptr<const MotionSignal> motion_; ///< of an integral: what moves with that velocity
-  double grid_step_ = 0, per_grid_step_ = 0;   ///< s, spacing of the samples of a random signal; 1/s
-  std::vector<double>
-      samples_; ///< value and slope times grid_step, interleaved: cubic Hermite between samples
+  SampleGrid grid_;
+  std::vector<double> samples_;
 };
 
 } // namespace fretwork::transient

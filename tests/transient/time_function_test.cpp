@@ -172,6 +172,46 @@ TEST(LoadSum, AddsLoadsWhateverTheyFollow) {
   EXPECT_FALSE(sum.empty());
 }
 
+TEST(LoadSum, GivesEachRandomSignalItsOwnValueWhateverGridsTheyShare) {
+  const double duration = 2.0, h = 1e-3;
+  const std::vector<TimeFunction> functions = {Random{1.0, 5.0, 45.0, 1}, Random{2.0, 0.0, 45.0, 2},
+                                               Harmonic{1.0, 3.0}, Random{1.0, 5.0, 90.0, 3},
+                                               Random{3.0, 5.0, 45.0, 4}};
+  std::vector<Load> loads;
+  std::vector<Signal> signals;
+  for (std::size_t s = 0; s < functions.size(); ++s) {
+    loads.push_back({functions[s], Eigen::VectorXd::Unit(5, static_cast<Eigen::Index>(s))});
+    signals.emplace_back(functions[s], duration);
+  }
+  EXPECT_EQ(signals[0].grid(), signals[1].grid());
+  EXPECT_NE(signals[0].grid(), signals[3].grid());
+  LoadSum sum(loads, 5, duration, h);
+  kernels::Array at(8), instant(8);
+  for (const double time : {0.0, 0.4567, 1.1, 2.0}) {
+    sum.at(time, at.data());
+    sum.instant(time, instant.data());
+    for (std::size_t s = 0; s < signals.size(); ++s) {
+      EXPECT_EQ(at[s], signals[s].over_step(time, h)) << s;
+      EXPECT_EQ(instant[s], signals[s](time)) << s;
+    }
+  }
+}
+
+TEST(RandomSignal, IsTheHermiteCubicOfItsSamples) {
+  const Signal signal(Random{1.0, 10.0, 100.0, 5}, 1.0);
+  for (const std::size_t interval : {0, 1, 77}) {
+    const double* p = signal.samples().data() + 2 * interval;
+    const auto at = [&](double s) {
+      return signal((static_cast<double>(interval) + s) * signal.grid_step());
+    };
+    constexpr double near = 1e-12;
+    EXPECT_NEAR(at(0.0), p[0], near);
+    EXPECT_NEAR(at(1.0), p[2], near);
+    EXPECT_NEAR(at(0.5), 0.5 * (p[0] + p[2]) + 0.125 * (p[1] - p[3]), near);
+    EXPECT_NEAR(at(0.25), (54.0 * p[0] + 10.0 * p[2] + 9.0 * p[1] - 3.0 * p[3]) / 64.0, near);
+  }
+}
+
 TEST(Signal, KeepsTheImpulseOfWhatATableDoesInsideAStep) {
   constexpr double round_off = 1e-14;
   const Signal spike(Table{{0.0, 0.41, 0.42, 0.43, 1.0}, {0.0, 0.0, 6.0, 0.0, 0.0}}, 1.0); // area 0.06
