@@ -132,13 +132,10 @@ private:
   /// What a step of one length needs.
   struct Tables {
     double length = 0.0; ///< s; 0: not made yet
-    kernels::FlowTable half;
+    kernels::FlowTable half{0};
     kernels::Array mobility;
     void reserve(const PackedContacts& contacts) {
-      const auto n = static_cast<std::size_t>(contacts.padded_modes);
-      for (kernels::Array* a : {&half.qq, &half.qv, &half.qf0, &half.qf1, &half.vq, &half.vv, &half.vf0,
-                                &half.vf1, &half.mq, &half.mv, &half.mf0, &half.mf1})
-        a->assign(n, 0.0);
+      half = kernels::FlowTable(contacts.padded_modes);
       mobility.assign(static_cast<std::size_t>(contacts.count) * 3 * contacts.stride(), 0.0);
     }
   };
@@ -183,11 +180,7 @@ private:
       constexpr StepCoefficients none{1, 0, 0, 0, 0, 1,
                                       0, 0, 1, 0, 0, 0}; // coupled: they follow by themselves
       const double k = system_.stiffness(j), c = system_.damping(j);
-      const StepCoefficients s = coupled_.couples(j) ? none : step_coefficients(k, c, 0.5 * t.length);
-      const auto i = static_cast<std::size_t>(j);
-      t.half.qq[i] = s.qq, t.half.qv[i] = s.qv, t.half.qf0[i] = s.qf0, t.half.qf1[i] = s.qf1;
-      t.half.vq[i] = s.vq, t.half.vv[i] = s.vv, t.half.vf0[i] = s.vf0, t.half.vf1[i] = s.vf1;
-      t.half.mq[i] = s.mq, t.half.mv[i] = s.mv, t.half.mf0[i] = s.mf0, t.half.mf1[i] = s.mf1;
+      t.half.set(j, k, coupled_.couples(j) ? none : step_coefficients(k, c, 0.5 * t.length));
     }
     for (int c = 0; c < contacts_.count; ++c)
       for (int k = 0; k < contacts_.components; ++k)
@@ -290,11 +283,13 @@ private:
       middle_load_[i] = 0.5 * (load_[i] + next_load_[i]) + contact_[i];
       s.f1[i] = next_load_[i] + contact_[i];
     }
-    work.all[0] = kernels::flow_loaded(n, t.half, q_.data(), v_.data(), s.f0.data(), middle_load_.data());
+    work.all[0] =
+        kernels::flow_loaded(n, t.half, q_.data(), v_.data(), s.f0.data(), middle_load_.data()).work;
     work.all[0] += coupled_.advance(half, q_.data(), v_.data(), s.f0.data(), middle_load_.data());
     s.middle_q = q_;
     s.middle_v = v_;
-    work.all[1] = kernels::flow_loaded(n, t.half, q_.data(), v_.data(), middle_load_.data(), s.f1.data());
+    work.all[1] =
+        kernels::flow_loaded(n, t.half, q_.data(), v_.data(), middle_load_.data(), s.f1.data()).work;
     work.all[1] += coupled_.advance(half, q_.data(), v_.data(), middle_load_.data(), s.f1.data());
     work.contact[0] = dot(contact_, s.middle_q, s.q);
     work.contact[1] = dot(contact_, q_, s.middle_q);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/oscillator.hpp"
 #include "transient/vector_lanes.hpp"
 #include <algorithm>
 
@@ -43,57 +44,112 @@ FRETWORK_INLINE void place_all(int end, const ReachLanes& reach, const double* u
   }
 }
 
+VectorSize vector_size_here() {
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(FRETWORK_SANITIZED)
+  __builtin_cpu_init();
+  if (__builtin_cpu_supports("x86-64-v4"))
+    return VectorSize::pack;
+  if (__builtin_cpu_supports("x86-64-v3"))
+    return VectorSize::half;
+#endif
+  return VectorSize::pair;
+}
+
 } // namespace
 
+const VectorSize vector_size = vector_size_here();
+
 const char* vector_width() {
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(FRETWORK_SANITIZED)
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-      __builtin_cpu_supports("avx512dq"))
+  switch (vector_size) {
+  case VectorSize::pack:
     return "AVX-512 (8 doubles)";
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+  case VectorSize::half:
     return "AVX2 (4 doubles)";
-#endif
+  case VectorSize::pair:
+    break;
+  }
   return "SSE2 (2 doubles)";
 }
 
-FRETWORK_WIDTHS double flow_loaded(int np, const FlowTable& t, double* q, double* v, const double* f0,
-                                   const double* f1) {
-  Pack work{};
-  for (int i = 0; i < np; i += lanes) {
-    const Pack q0 = at(q + i), v0 = at(v + i), a = at(f0 + i), b = at(f1 + i);
-    const Pack q1 = at(&t.qq[i]) * q0 + at(&t.qv[i]) * v0 + at(&t.qf0[i]) * a + at(&t.qf1[i]) * b;
-    const Pack v1 = at(&t.vq[i]) * q0 + at(&t.vv[i]) * v0 + at(&t.vf0[i]) * a + at(&t.vf1[i]) * b;
-    const Pack mean = at(&t.mq[i]) * q0 + at(&t.mv[i]) * v0 + at(&t.mf0[i]) * a + at(&t.mf1[i]) * b;
-    work += a * (q1 - q0) + (b - a) * (q1 - mean); // int f q' dt by parts, f linear
-    at(q + i) = q1;
-    at(v + i) = v1;
-  }
-  return sum(work);
+void FlowTable::set(std::ptrdiff_t mode, double stiffness, const StepCoefficients& s) {
+  const double all[numbers] = {stiffness, s.qq,  s.qv, s.qf0, s.qf1, s.vq, s.vv,
+                               s.vf0,     s.vf1, s.mq, s.mv,  s.mf0, s.mf1};
+  const std::ptrdiff_t lane = mode % lanes, first = numbers * (mode - lane) + lane;
+  for (std::ptrdiff_t k = 0; k < numbers; ++k)
+    values_[static_cast<std::size_t>(first + k * lanes)] = all[k];
 }
 
-FRETWORK_WIDTHS void flow_free(int np, const FlowTable& t, double* q, double* v) {
-  for (int i = 0; i < np; i += lanes) {
-    const Pack q0 = at(q + i), v0 = at(v + i);
-    at(q + i) = at(&t.qq[i]) * q0 + at(&t.qv[i]) * v0;
-    at(v + i) = at(&t.vq[i]) * q0 + at(&t.vv[i]) * v0;
-  }
-}
+/// Those of a table's numbers that belong to the modes of a vector.
+template <class V> struct FlowNumbers {
+  const double* first;
+  const V& operator[](int k) const { return at<V>(first + k * lanes); }
+};
 
-FRETWORK_WIDTHS void combine(int np, int sources, const double* shapes, const double* values, double* f) {
-  for (int i = 0; i < np; i += lanes) {
-    Pack s{};
+template <class V>
+FRETWORK_INLINE FlowSums flow_loaded_on(int np, const FlowTable& table, double* q, double* v,
+                                        const double* f0, const double* f1) {
+  Sums<V> work = {}, energy = {};
+  for_vectors<V>(
+      np, [&](int pack, int part) __attribute__((always_inline)) {
+        const int offset = part * size_of<V>, i = pack + offset;
+        const FlowNumbers<V> of{table.data() + FlowTable::numbers * pack + offset};
+        const V q0 = at<V>(q + i), v0 = at<V>(v + i), a = at<V>(f0 + i), b = at<V>(f1 + i);
+        const V q1 = of[1] * q0 + of[2] * v0 + of[3] * a + of[4] * b;
+        const V v1 = of[5] * q0 + of[6] * v0 + of[7] * a + of[8] * b;
+        const V mean = of[9] * q0 + of[10] * v0 + of[11] * a + of[12] * b;
+        work[part] += a * (q1 - q0) + (b - a) * (q1 - mean); // int f q' dt by parts, f linear
+        energy[part] += v1 * v1 + of[0] * q1 * q1;
+        at<V>(q + i) = q1;
+        at<V>(v + i) = v1;
+      });
+  return {sum(work), sum(energy)};
+}
+FRETWORK_KERNEL(FlowSums, flow_loaded,
+                (int np, const FlowTable& table, double* q, double* v, const double* f0, const double* f1),
+                (np, table, q, v, f0, f1))
+
+template <class V>
+FRETWORK_INLINE FlowSums flow_free_on(int np, const FlowTable& table, double* q, double* v) {
+  Sums<V> energy = {};
+  for_vectors<V>(
+      np, [&](int pack, int part) __attribute__((always_inline)) {
+        const int offset = part * size_of<V>, i = pack + offset;
+        const FlowNumbers<V> of{table.data() + FlowTable::numbers * pack + offset};
+        const V q0 = at<V>(q + i), v0 = at<V>(v + i);
+        const V q1 = of[1] * q0 + of[2] * v0, v1 = of[5] * q0 + of[6] * v0;
+        energy[part] += v1 * v1 + of[0] * q1 * q1;
+        at<V>(q + i) = q1;
+        at<V>(v + i) = v1;
+      });
+  return {0.0, sum(energy)};
+}
+FRETWORK_KERNEL(FlowSums, flow_free, (int np, const FlowTable& table, double* q, double* v),
+                (np, table, q, v))
+
+template <class V>
+FRETWORK_INLINE void combine_on(int np, int sources, const double* shapes, const double* values, double* f) {
+  for (int i = 0; i < np; i += size_of<V>) {
+    V s{};
     for (int k = 0; k < sources; ++k)
-      s += values[k] * at(shapes + static_cast<std::ptrdiff_t>(k) * np + i);
-    at(f + i) = s;
+      s += values[k] * at<V>(shapes + static_cast<std::ptrdiff_t>(k) * np + i);
+    at<V>(f + i) = s;
   }
 }
+FRETWORK_KERNEL(void, combine, (int np, int sources, const double* shapes, const double* values, double* f),
+                (np, sources, shapes, values, f))
 
-FRETWORK_WIDTHS double twice_energy(int np, const double* k, const double* q, const double* v) {
-  Pack s{};
-  for (int i = 0; i < np; i += lanes)
-    s += at(v + i) * at(v + i) + at(k + i) * at(q + i) * at(q + i);
+template <class V>
+FRETWORK_INLINE double twice_energy_on(int np, const double* k, const double* q, const double* v) {
+  Sums<V> s = {};
+  for_vectors<V>(
+      np, [&](int pack, int part) __attribute__((always_inline)) {
+        const int i = pack + part * size_of<V>;
+        s[part] += at<V>(v + i) * at<V>(v + i) + at<V>(k + i) * at<V>(q + i) * at<V>(q + i);
+      });
   return sum(s);
 }
+FRETWORK_KERNEL(double, twice_energy, (int np, const double* k, const double* q, const double* v),
+                (np, k, q, v))
 
 void GatherTable::add_pack(int mode_count, std::ptrdiff_t width, const double* values_of_mode) {
   for (int i = 0; i < mode_count; ++i) {

@@ -9,6 +9,10 @@
 #include <new>
 #include <vector>
 
+namespace fretwork::transient {
+struct StepCoefficients;
+} // namespace fretwork::transient
+
 namespace fretwork::transient::kernels {
 
 inline constexpr int lanes = 8;
@@ -29,19 +33,33 @@ template <class T> struct AlignedAllocator {
 };
 using Array = std::vector<double, AlignedAllocator<double>>;
 
-/// Coefficients of the exact flow of all modes over one step (see oscillator.hpp), each np long.
-struct FlowTable {
-  Array qq, qv, qf0, qf1, vq, vv, vf0, vf1, mq, mv, mf0, mf1;
+/// The exact flow of all modes over one step: stiffness and StepCoefficients (oscillator.hpp) of `lanes` modes after those of others.
+class FlowTable {
+public:
+  static constexpr int numbers = 13; ///< of a mode
+  /// @param np  modes, all of them without stiffness and brought to rest at 0 until they are set
+  explicit FlowTable(int np) : values_(static_cast<std::size_t>(numbers * np), 0.0) {}
+  /// No allocation.
+  void set(std::ptrdiff_t mode, double stiffness, const StepCoefficients& coefficients);
+  [[nodiscard]] const double* data() const { return values_.data(); }
+
+private:
+  Array values_;
 };
 
 /// Which instruction set the kernels use here: "AVX-512 (8 doubles)", "AVX2 (4 doubles)" or "SSE2 (2
 /// doubles)".
 [[nodiscard]] const char* vector_width();
 
-/// q, v <- exact flow under a load linear from f0 to f1. Returns the work of the load over the step, J.
-double flow_loaded(int np, const FlowTable& table, double* q, double* v, const double* f0, const double* f1);
+struct FlowSums {
+  double work = 0.0;         ///< J, of the load over the step
+  double twice_energy = 0.0; ///< J, as below, of the modes at its end
+};
+/// q, v <- exact flow under a load linear from f0 to f1.
+FlowSums flow_loaded(int np, const FlowTable& table, double* q, double* v, const double* f0,
+                     const double* f1);
 /// The same without load.
-void flow_free(int np, const FlowTable& table, double* q, double* v);
+FlowSums flow_free(int np, const FlowTable& table, double* q, double* v);
 
 /// f = sum over s of value[s] * shape[s], shapes one after the other, np apart.
 void combine(int np, int sources, const double* shapes, const double* values, double* f);

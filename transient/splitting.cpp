@@ -39,19 +39,11 @@ constexpr double longest_flight = 0.25;
 
 /// Coupled modes stay where they are: their flow follows the table's.
 kernels::FlowTable flow_table(const System& system, const MatrixFlow& coupled, double h) {
-  kernels::FlowTable t;
-  const auto n = static_cast<std::size_t>(kernels::padded(static_cast<int>(system.size())));
-  for (kernels::Array* a :
-       {&t.qq, &t.qv, &t.qf0, &t.qf1, &t.vq, &t.vv, &t.vf0, &t.vf1, &t.mq, &t.mv, &t.mf0, &t.mf1})
-    a->assign(n, 0.0);
+  kernels::FlowTable t(kernels::padded(static_cast<int>(system.size())));
   for (Eigen::Index j = 0; j < system.size(); ++j) {
     constexpr StepCoefficients none{1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0};
-    const StepCoefficients s =
-        coupled.couples(j) ? none : step_coefficients(system.stiffness(j), system.damping(j), h);
-    const auto i = static_cast<std::size_t>(j);
-    t.qq[i] = s.qq, t.qv[i] = s.qv, t.qf0[i] = s.qf0, t.qf1[i] = s.qf1;
-    t.vq[i] = s.vq, t.vv[i] = s.vv, t.vf0[i] = s.vf0, t.vf1[i] = s.vf1;
-    t.mq[i] = s.mq, t.mv[i] = s.mv, t.mf0[i] = s.mf0, t.mf1[i] = s.mf1;
+    const double k = system.stiffness(j);
+    t.set(j, k, coupled.couples(j) ? none : step_coefficients(k, system.damping(j), h));
   }
   return t;
 }
@@ -78,8 +70,7 @@ public:
     std::copy_n(system_.stiffness.data(), system_.size(), k_.begin());
     // With the slopes from the start to h/2 and on to 3h/2 the first two forces weigh h/4 and 3h/4: both stand for the first step.
     loads_.at(0.0, {0.0, step}, f_now_.data());
-    const double moving =
-        0.5 * kernels::twice_energy(contacts_.padded_modes, k_.data(), q_.data(), v_.data());
+    const double moving = 0.5 * twice_energy();
     motion_.gather(q_.data(), v_.data());
     obstacles_.at(0.0, carried_);
     carried_.add_to(motion_);
@@ -213,19 +204,23 @@ private:
     const bool first = steps_ == 0;
     time_ = next_time();
     steps_ += stride_;
-    double work;
+    kernels::FlowSums sums;
     if (stride_ > 1) {
-      work = far_work_;
+      sums = far_sums_;
       q_.swap(far_q_);
       v_.swap(far_v_);
       f_now_.swap(far_f_);
       flown_ += stride_ - 1;
     } else {
-      work = advance_modes(first ? first_ : full_, time_, q_, v_, f_next_);
-      work += coupled_.advance(first ? 1 : 0, q_.data(), v_.data(), f_now_.data(), f_next_.data());
+      sums = advance_modes(first ? first_ : full_, time_, q_, v_, f_next_);
+      if (!coupled_.empty()) {
+        sums.work += coupled_.advance(first ? 1 : 0, q_.data(), v_.data(), f_now_.data(), f_next_.data());
+        sums.twice_energy = twice_energy();
+      }
       f_now_.swap(f_next_);
     }
-    moving_ = 0.5 * kernels::twice_energy(contacts_.padded_modes, k_.data(), q_.data(), v_.data());
+    moving_ = 0.5 * sums.twice_energy;
+    const double work = sums.work;
     Energy& energy = record_.energy;
     load_work_ += work;
     energy.load_work = load_work_;
@@ -237,13 +232,15 @@ private:
     record_.energy.stored = moving_;
   }
 
-  /// The exact flow to `time`, under the load from `f_now_` to `load`, which is found. Returns its work, J.
-  double advance_modes(const kernels::FlowTable& table, double time, kernels::Array& q, kernels::Array& v,
-                       kernels::Array& load) {
-    if (loads_.empty()) {
-      kernels::flow_free(contacts_.padded_modes, table, q.data(), v.data());
-      return 0.0;
-    }
+  [[nodiscard]] double twice_energy() const {
+    return kernels::twice_energy(contacts_.padded_modes, k_.data(), q_.data(), v_.data());
+  }
+
+  /// The exact flow to `time`, under the load from `f_now_` to `load`, which is found.
+  kernels::FlowSums advance_modes(const kernels::FlowTable& table, double time, kernels::Array& q,
+                                  kernels::Array& v, kernels::Array& load) {
+    if (loads_.empty())
+      return kernels::flow_free(contacts_.padded_modes, table, q.data(), v.data());
     if (loads_.constant())
       load = f_now_;
     else
@@ -256,7 +253,7 @@ private:
   void fly(const Flight& flight) {
     far_q_ = q_;
     far_v_ = v_;
-    far_work_ = advance_modes(flight.table, instant(flight.steps), far_q_, far_v_, far_f_);
+    far_sums_ = advance_modes(flight.table, instant(flight.steps), far_q_, far_v_, far_f_);
     motion_.gather(far_q_.data(), far_v_.data());
   }
 
@@ -403,10 +400,10 @@ private:
   double time_ = 0.0;
   kernels::Array q_, v_, k_, f_now_, f_next_, slope_, impulse_;
   kernels::Array far_q_, far_v_, far_f_; ///< after the flight under way
-  double far_work_ = 0.0;                ///< J, of its load
-  kernels::Array shown_;                 ///< with scaled masses
-  kernels::Array shown_q_;               ///< in the mean over the step
-  kernels::Array seen_;                  ///< m, lanes, likewise
+  kernels::FlowSums far_sums_;
+  kernels::Array shown_;   ///< with scaled masses
+  kernels::Array shown_q_; ///< in the mean over the step
+  kernels::Array seen_;    ///< m, lanes, likewise
 
   Record record_;
   double moving_ = 0.0, after_action_ = 0.0; ///< modal energy before and after the action
