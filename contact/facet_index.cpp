@@ -126,17 +126,24 @@ std::uint32_t FacetIndex::nearest(double y, double z) const {
 }
 
 std::uint32_t FacetIndex::nearest_in_cells(double y, double z) const {
-  Least distances;
+  static_assert(FacetCells::few == 4);
   const FacetCells::Few few = cells_.near(y, z);
-  Pack numbers = numbers_from(0);                                   // of the facets of the list
-  for (std::size_t k = 0; k < FacetCells::few; ++k, numbers += 2.0) // no branches: most lists are not longer
-    distances.see(distance2(pairs_[few.pairs[k]], y, z), numbers);
-  for (std::size_t k = FacetCells::few; k < few.pairs.size(); ++k, numbers += 2.0)
-    distances.see(distance2(pairs_[few.pairs[k]], y, z), numbers);
+  const std::span<const std::uint32_t> list = few.pairs;
+  const auto distances = [&](std::size_t k) { return distance2(pairs_[list[k]], y, z); };
+  Found nearest =
+      least_of(distances(0), distances(1), distances(2), distances(3)); // most lists are not longer
+  if (list.size() > FacetCells::few) {
+    Least others;
+    Pack numbers = numbers_from(2 * FacetCells::few);
+    for (std::size_t k = FacetCells::few; k < list.size(); ++k, numbers += 2.0)
+      others.see(distances(k), numbers);
+    const Found other = others.any();
+    nearest.number = other.value < nearest.value ? other.number : nearest.number;
+    nearest.value = std::min(nearest.value, other.value);
+  }
   if (!few.known)
-    return search(y, z, distances.value()).number();
-  const std::uint32_t number = distances.any_number();
-  return 2 * few.pairs[number / 2] + number % 2;
+    return search(y, z, nearest.value).number();
+  return 2 * list[nearest.number / 2] + nearest.number % 2;
 }
 
 } // namespace fretwork::contact

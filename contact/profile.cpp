@@ -116,6 +116,11 @@ Location on_corner(double gap, PlanePoint inwards) {
 /// Against the line of a facet, `w` = node - any point of the line.
 Location on_line(const Facet& f, double wy, double wz) { return {f.uy * wz - f.uz * wy, -f.uz, f.uy}; }
 
+/// Whether a node, `w` from the corner v, is on it.
+bool is_on_corner(PlanePoint v, double wy, double wz) {
+  return wy * wy + wz * wz <= no_direction * no_direction * (v.y * v.y + v.z * v.z);
+}
+
 } // namespace
 
 Profile::Profile(std::span<const PolarPoint> points) {
@@ -141,11 +146,12 @@ Location Profile::locate(double y, double z) const {
   const std::uint32_t k = index.nearest(y, z);
   const Facet& f = index[k];
   const double wy = y - f.ay, wz = z - f.az, along = wy * f.uy + wz * f.uz;
-  if (along <= 0.0)
-    return locate_at_corner(k, y, z);
-  if (along >= f.length)
-    return locate_at_corner(k + 1 == index.size() ? 0 : k + 1, y, z);
-  return on_line(f, wy, wz);
+  // Rounding chooses between the two facets of a corner, so that nothing could predict at which end of one it is:
+  // one branch for both ends.
+  if (!(std::min(along, f.length - along) <= 0.0))
+    return on_line(f, wy, wz);
+  const std::uint32_t corner = k + (along >= f.length ? 1u : 0u);
+  return locate_at_corner(corner == index.size() ? 0 : corner, y, z);
 }
 
 double Profile::curvature(double y, double z) const {
@@ -158,7 +164,7 @@ double Profile::curvature(double y, double z) const {
   const std::uint32_t corner = along <= 0.0 ? k : (k + 1 == index.size() ? 0 : k + 1);
   const PlanePoint v = tables_->vertices[corner];
   const double wy = y - v.y, wz = z - v.z;
-  if (std::sqrt(wy * wy + wz * wz) <= no_direction * std::sqrt(v.y * v.y + v.z * v.z))
+  if (is_on_corner(v, wy, wz))
     return 0.0;
   return 1.0 / locate_at_corner(corner, y, z).gap;
 }
@@ -169,7 +175,7 @@ Location Profile::locate_at_corner(std::uint32_t corner, double y, double z) con
   const PlanePoint v{out.ay, out.az}, m = inwards_of(in, out);
   const double wy = y - v.y, wz = z - v.z, distance = std::sqrt(wy * wy + wz * wz);
   const double inwards = wy * m.y + wz * m.z;
-  if (distance <= no_direction * std::sqrt(v.y * v.y + v.z * v.z))
+  if (is_on_corner(v, wy, wz))
     return on_corner(std::copysign(distance, inwards), m);
   // rounding chose the corner where the foot is on one of its facets
   if (wy * out.uy + wz * out.uz > 0.0)

@@ -4,6 +4,7 @@
 #include "contact/support_shapes.hpp"
 #include "uniform.hpp"
 #include <algorithm>
+#include <array>
 #include <gtest/gtest.h>
 #include <limits>
 
@@ -78,6 +79,21 @@ void expect_nearest_everywhere(const std::vector<PlanePoint>& vertices, std::uin
 }
 
 } // namespace
+
+TEST(FacetIndex, LeastOfEightIsTheFirstOfEquals) {
+  using contact::Pack;
+  const Pack high{7.0, 9.0};
+  for (std::uint32_t place = 0; place < 8; ++place)
+    for (std::uint32_t equal = place; equal < 8; ++equal) {
+      std::array<Pack, 4> values{high, high, high, high};
+      values[place / 2][place % 2] = values[equal / 2][equal % 2] = 0.5;
+      const contact::Found found = contact::least_of(values[0], values[1], values[2], values[3]);
+      EXPECT_EQ(found.number, place);
+      EXPECT_EQ(found.value, 0.5);
+    }
+  const Pack none = Pack{} + std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(contact::least_of(none, none, none, none).number, 0u);
+}
 
 TEST(FacetIndex, FindsTheNearestOfTenThousandFacets) {
   constexpr int many = 10000;
