@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/facet_cells_builder.hpp"
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace fretwork::contact {
@@ -8,16 +9,18 @@ namespace fretwork::contact {
 namespace {
 
 constexpr double rounding = 1e-13; // of squared distances, and of distances
-// A list is worth another cut if it is longer than this, in pairs, and ...
+// A list is worth another cut if it is longer than this, in pairs, ...
 constexpr std::size_t short_list = 4;
-// ... times its share of a quadrant and the number of all pairs, than this,
-constexpr double worth = 8.0;
+// ... by more than this over its share of a quadrant and over the number of all pairs: walls are thin, but nodes are there,
+constexpr double worth = 0.5;
 // and if the cuts on the way have not left most of the lists in both parts; no more cuts than this in any case.
 constexpr double most_growth = 500.0;
 constexpr std::uint32_t deepest = 64;
 // Cells of the grid: more would not stay in the cache, and cut what runs across them into many.
 constexpr double cells_per_facet = 1.0, most_grid_cells = 8192.0;
 constexpr std::uint32_t most_strips = 5; // 2^5
+constexpr int halvings = 3;              // of cells to look at their lists closely, ...
+constexpr std::size_t too_long = 32;     // if they are no longer than this, in pairs: others wait for cuts
 constexpr std::size_t sampled = 32;      // pairs to choose a cut by
 constexpr std::size_t weighed = 1000;    // pairs to choose the grid by
 
@@ -114,7 +117,8 @@ std::size_t FacetCells::Builder::look(PlanePoint at, const List& list) {
     least_of.see(d2, numbers);
   }
   const std::uint32_t n = least_of.number();
-  place.nearest = pairs_[list[n / 2]][n % 2];
+  place.pair = list[n / 2];
+  place.nearest = pairs_[place.pair][n % 2];
   place.foot = foot(place.nearest, at.y, at.z);
   return looked_++;
 }
@@ -159,6 +163,10 @@ FacetCells::Builder::List FacetCells::Builder::needed_in(const Some<std::size_t>
   List needed;
   needed.reserve(list.size());
   for (std::size_t i = 0; i < list.size(); ++i) {
+    if (std::any_of(v.begin(), v.begin() + n, [&](const Place* at) { return at->pair == list[i]; })) {
+      needed.push_back(list[i]); // nearest at a corner: no need to ask
+      continue;
+    }
     for (std::size_t k = 0; k < n; ++k)
       of_pair[k] = v[k]->distances[i];
     auto beaten = beaten_by(to_foot);
@@ -211,6 +219,33 @@ FacetCells::Builder::Split FacetCells::Builder::split(const Line& line, double a
   return s;
 }
 
+/// What the parts of a cell need, together, parts of parts and so on. It is less than what the cell was found to need:
+/// in a part a single thing may be nearer all over where in the cell it takes several.
+FacetCells::Builder::List FacetCells::Builder::looked_at_closely(const List& list, const Region& r,
+                                                                 int times) {
+  if (times == 0 || list.size() <= short_list || list.size() > too_long || r.corners.number < 3 ||
+      r.corners.number > most_corners - 4)
+    return list;
+  PlanePoint longest{0.0, 0.0};
+  for (const PlanePoint& p : r.corners.all())
+    for (const PlanePoint& q : r.corners.all())
+      if (squared(p.y - q.y, p.z - q.z) > squared(longest.y, longest.z))
+        longest = {p.y - q.y, p.z - q.z};
+  const Line line{static_cast<float>(longest.y), static_cast<float>(longest.z), 0.0f};
+  look_at_corners(r, list);
+  const Split s = split(line, line(r.middle()), r, list);
+  const auto together = [](const List& a, const List& b) {
+    List both;
+    std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+    return both;
+  };
+  List both = together(s.lists[0], s.lists[1]);
+  if (both.size() == list.size()) // as among the facets of a smooth wall
+    return both;
+  return together(looked_at_closely(s.lists[0], s.parts[0], times - 1),
+                  looked_at_closely(s.lists[1], s.parts[1], times - 1));
+}
+
 /// A cell of the grid, across t or across m, whichever leaves less.
 FacetCells::Builder::Split FacetCells::Builder::halve(const List& list, const Region& r, Bits most) {
   const List some = sample(list, sampled);
@@ -252,7 +287,7 @@ void FacetCells::Builder::fill(const List& list, const Region& r) {
       fill(s.lists[k], s.parts[k]);
     return;
   }
-  const Cell cell = make(list, r);
+  const Cell cell = make(looked_at_closely(list, r, halvings), r);
   const std::size_t t = r.low[0] >> (word - bits[0]), m = r.low[1] >> (word - bits[1]);
   for (std::size_t i = t; i < t + (std::size_t{1} << (bits[0] - r.bits[0])); ++i)
     for (std::size_t j = m; j < m + (std::size_t{1} << (bits[1] - r.bits[1])); ++j)
@@ -263,7 +298,8 @@ void FacetCells::Builder::fill(const List& list, const Region& r) {
 bool FacetCells::Builder::long_enough(const List& list, const Region& r) const {
   return list.size() > short_list && r.depth < deepest && r.growth <= most_growth && r.corners.number >= 3 &&
          r.corners.number <= most_corners - 4 &&
-         static_cast<double>(list.size()) * r.share() * static_cast<double>(pairs_.size()) > worth;
+         static_cast<double>(list.size() - short_list) * r.share() * static_cast<double>(pairs_.size()) >
+             worth;
 }
 
 FacetCells::Cell FacetCells::Builder::make(const List& list, const Region& r) {
@@ -310,15 +346,14 @@ FacetCells::Cell FacetCells::Builder::cut(const List& list, const Region& r) {
   }
   if (least_cost == 0.0)
     return keep(list);
-  // as many strips as make lists short at this rate
+  // as many strips as make lists short at this rate, and twice that: cells are small, and lists a little too long slow
   const double whole = static_cast<double>(list.size()),
                left = std::sqrt(0.5 * least_cost) / static_cast<double>(some.size());
   std::uint32_t bits = 1;
-  if (left < 0.75)
-    bits =
-        std::min(most_strips,
-                 static_cast<std::uint32_t>(std::max(
-                     1.0, std::round(std::log(static_cast<double>(short_list) / whole) / std::log(left)))));
+  if (left < 0.75) {
+    const double halves = std::log(static_cast<double>(short_list) / whole) / std::log(left);
+    bits = std::min(most_strips, 1 + static_cast<std::uint32_t>(std::max(1.0, std::round(halves))));
+  }
   const double number = 1u << bits;
   double low = 0.0, high = 0.0;
   for (std::size_t k = 0; k < corners; ++k) {
@@ -343,7 +378,7 @@ void FacetCells::Builder::make_strips(std::uint32_t first, std::uint32_t number,
                                       const List& list, const Region& r) {
   if (number == 1 || list.size() <= short_list || r.corners.number < 3 ||
       r.corners.number > most_corners - 4) {
-    const Cell cell = number == 1 ? make(list, r) : keep(list);
+    const Cell cell = number == 1 ? make(looked_at_closely(list, r, halvings), r) : keep(list);
     std::fill_n(out_.cells_.begin() + first, number, cell);
     return;
   }

@@ -48,6 +48,7 @@ private:
   struct Place {
     PlanePoint at, foot;
     Facet nearest;
+    std::uint32_t pair; ///< of the nearest
     std::vector<Pack> distances;
   };
   /// A cell in two: of values of a line below and above a number.
@@ -64,6 +65,8 @@ private:
   void look_at_corners(const Region& r, const List& list);
   [[nodiscard]] List needed_in(const Some<std::size_t>& corners, const List& list) const;
   Split split(const Line& line, double at, const Region& r, const List& list);
+
+  List looked_at_closely(const List& list, const Region& r, int times);
 
   Split halve(const List& list, const Region& r, Bits most);
   void weigh(const List& list, const Region& r);

@@ -53,15 +53,25 @@ void expect_nearest_listed(const std::vector<Facet>& facets, const FacetCells::F
   EXPECT_LE(least_listed, least + round_off) << y << " " << z;
 }
 
-/// Mean number of facets to look at, of nodes at any depth; where the nearest may be any facet all count.
-double mean_list(const std::vector<Facet>& facets, double outermost) {
+contact::PlanePoint at_any_depth(const Facet& at, tests::Uniform& uniform) {
+  const double share = uniform(0.0, 1.1);
+  return {share * at.ay, share * at.az};
+}
+
+contact::PlanePoint next_to_the_wall(const Facet& at, tests::Uniform& uniform) {
+  const double along = uniform(0.0, at.length), share = uniform(0.99, 1.01);
+  return {share * (at.ay + along * at.uy), share * (at.az + along * at.uz)};
+}
+
+/// Mean number of facets to look at, of nodes somewhere; where the nearest may be any facet all count.
+double mean_list(const std::vector<Facet>& facets, double outermost, auto node) {
   constexpr int nodes = 500;
   const FacetCells cells = cells_of(facets, outermost);
   tests::Uniform uniform(3);
   double sum = 0.0;
   for (int i = 0; i < nodes; ++i) {
     const Facet& at = facets[static_cast<std::size_t>(uniform(0.0, 1.0) * many)];
-    const double share = uniform(0.0, 1.1), y = share * at.ay, z = share * at.az;
+    const auto [y, z] = node(at, uniform);
     const FacetCells::Few few = cells.near(y, z);
     if (few.known) {
       expect_nearest_listed(facets, few, y, z);
@@ -71,6 +81,10 @@ double mean_list(const std::vector<Facet>& facets, double outermost) {
     }
   }
   return sum;
+}
+
+double mean_list(const std::vector<Facet>& facets, double outermost) {
+  return mean_list(facets, outermost, at_any_depth);
 }
 
 constexpr double few =
@@ -94,6 +108,16 @@ TEST(FacetCells, ListTheNearestOfSpikesAndFewMore) {
 TEST(FacetCells, ListTheNearestOfDeepSpikesAndFewMore) {
   tests::Uniform uniform(9); // flanks face each other at no distance: what no single point of one can tell
   EXPECT_LT(mean_list(polygon([&](double) { return uniform(0.1, 1.0); }), 1.4), few);
+}
+
+TEST(FacetCells, ListFewNextToUnevenWalls) {
+  // cells that are long and narrow among spikes, and small ones of a wall that is thin for the cells it is in
+  tests::Uniform uniform(11);
+  EXPECT_LT(mean_list(polygon([&](double) { return uniform(0.9, 1.1); }), 1.6, next_to_the_wall), few);
+  double radius = 1.0;
+  EXPECT_LT(mean_list(polygon([&](double) { return radius *= 1.0 + uniform(-0.005, 0.005); }), 3.0,
+                      next_to_the_wall),
+            few);
 }
 
 TEST(FacetCells, ListTheNearestOffTheOriginAndFewMore) {
