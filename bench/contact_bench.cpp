@@ -259,6 +259,10 @@ int main() {
                     return 1.15 + 0.15 * std::tanh(6.0 * std::cos(4.0 * angle));
                   }});
   print_look_ups({"deep spikes", [](int, double) { return random(0.1, 1.0); }});
+  print_look_ups({"shallow spikes", [](int, double) { return random(0.99, 1.01); }});
+  print_look_ups({"rough at all scales", [radius = 1.0](int k, double) mutable { // a walk
+                    return radius = k == 0 ? 1.0 : radius * (1.0 + 0.005 * random(-1.0, 1.0));
+                  }});
   std::printf("\n| obstacle | ns a locate |\n| --- | --- |\n");
   print_obstacles();
   std::printf("\nSplitting, %d modes, mean of %d steps; ns a step, the last column ns a contact.\n\n", modes,
