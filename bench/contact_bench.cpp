@@ -214,7 +214,7 @@ double projections(const transient::Scene& scene, double closed) {
   const std::vector<double> factors(rows.size(), 1e-9);
   return fastest(steps, [&] {
     for (int i = 0; i < steps; ++i) {
-      transient::kernels::gather(contacts.gather, q.data(), v.data(), u.data(), w.data());
+      transient::kernels::gather_two(contacts.gather, q.data(), v.data(), u.data(), w.data());
       if (!rows.empty())
         transient::kernels::scatter(np, static_cast<int>(rows.size()), rows.data(), factors.data(), v.data());
       keep(u[0]);

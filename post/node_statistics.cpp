@@ -19,7 +19,6 @@ NodeStatistics::NodeStatistics(const std::vector<Eigen::MatrixXd>& rows, double 
   const int width = kernels::padded(3 * static_cast<int>(rows.size()));
   kernels::Array by_mode(static_cast<std::size_t>(modes) * width, 0.0);
   u_.assign(static_cast<std::size_t>(width), 0.0);
-  unused_ = u_;
   for (std::size_t node = 0; node < rows.size(); ++node)
     for (int i = 0; i < modes; ++i)
       for (int d = 0; d < 3; ++d)
@@ -44,7 +43,7 @@ void NodeStatistics::carry(const std::vector<Eigen::MatrixXd>& carried,
 void NodeStatistics::step(const transient::Record& record) {
   if (record.time < from_ || sums_.empty())
     return;
-  kernels::gather(gather_, record.q, record.q, u_.data(), unused_.data());
+  kernels::gather(gather_, record.q, u_.data());
   const double* carried = carried_.data();
   for (const transient::MotionSignal& motion : motions_) {
     const double s = motion(record.time).displacement;

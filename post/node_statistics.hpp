@@ -36,7 +36,7 @@ private:
 
   double from_;
   transient::kernels::GatherTable gather_;
-  transient::kernels::Array u_, unused_;
+  transient::kernels::Array u_;
   std::vector<std::array<Accumulator, 3>> sums_;
   double time_ = 0.0; ///< length of the window so far, s
   BatchEnds ends_;

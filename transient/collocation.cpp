@@ -85,7 +85,7 @@ public:
       levels_.emplace_back(system_, contacts_, std::ldexp(h_, -level), coupled_, level);
     for (kernels::Array& a : load_.at)
       loads_.at(0.0, a.data());
-    kernels::gather(contacts_.gather, q_.at[0].data(), v_.at[0].data(), motion_.u(0), motion_.v(0));
+    kernels::gather_two(contacts_.gather, q_.at[0].data(), v_.at[0].data(), motion_.u(0), motion_.v(0));
     obstacles_.at(0.0, obstacle_at_[0]);
     obstacle_at_[0].add_to(motion_.u(0), motion_.v(0));
     solver_.start(motion_);
@@ -244,7 +244,8 @@ private:
       obstacles_.at(time_at(place_) + 0.5 * j * span(), obstacle_at_[node]);
       if (j == 0)
         continue;
-      kernels::gather(contacts_.gather, q_.at[node].data(), v_.at[node].data(), motion_.u(j), motion_.v(j));
+      kernels::gather_two(contacts_.gather, q_.at[node].data(), v_.at[node].data(), motion_.u(j),
+                          motion_.v(j));
       obstacle_at_[node].add_to(motion_.u(j), motion_.v(j));
     }
   }

@@ -98,8 +98,10 @@ struct Solved {
   bool settled = true;           ///< otherwise nothing is found yet but `springs`
 };
 /// Which contacts of the places are shut, and their forces for the step: `step` and the first row of `out`, there only.
-Solved solve(const Places& places, const SweepRule& rule, const LawLanes& law, const MemoryLanes& memory,
-             const MobilityLanes& mobility, const NearLanes& near, StepLanes& step, CommitLanes& out);
+extern const Kernel<Solved(const Places& places, const SweepRule& rule, const LawLanes& law,
+                           const MemoryLanes& memory, const MobilityLanes& mobility, const NearLanes& near,
+                           StepLanes& step, CommitLanes& out)>
+    solve;
 
 struct CommitSums {
   double friction = 0.0; ///< J, sliders
@@ -107,7 +109,9 @@ struct CommitSums {
   double stored = 0.0;   ///< J, change of the energy of the springs
 };
 /// @param acting  where contacts may be closed in `step`: elsewhere all are open, whatever stands there
-CommitSums commit(const Places& acting, const LawLanes& law, CommitLanes& step, MemoryLanes& memory);
+extern const Kernel<CommitSums(const Places& acting, const LawLanes& law, CommitLanes& step,
+                               MemoryLanes& memory)>
+    commit;
 
 /// The largest change of a sweep is small, or what it foretells from the one of the sweep before is.
 /// The ratio of the changes of two sweeps foretells the next ones only where they fall clearly.

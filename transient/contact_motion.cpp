@@ -12,7 +12,7 @@ ContactMotion::ContactMotion(const PackedContacts& contacts)
 }
 
 void ContactMotion::gather(const double* q, const double* v) {
-  kernels::gather(contacts_.gather, q, v, u.data(), w.data());
+  kernels::gather_two(contacts_.gather, q, v, u.data(), w.data());
 }
 
 void ContactMotion::gather_near(const double* q, const double* v, const std::vector<int>& closed) {
@@ -35,8 +35,8 @@ void ContactMotion::gather_velocities(const double* v) { kernels::gather(contact
 
 bool ContactMotion::place(const kernels::Array& at, double half_window) {
   const int width = contacts_.width;
-  kernels::place(contacts_.reach, at.data(), at.data() + width, w.data(), w.data() + width, half_window,
-                 gaps.data(), normal_y.data(), normal_z.data(), near_.data(), places_);
+  kernels::place_contacts(contacts_.reach, at.data(), at.data() + width, w.data(), w.data() + width,
+                          half_window, gaps.data(), normal_y.data(), normal_z.data(), near_.data(), places_);
   return !places_.first.empty();
 }
 

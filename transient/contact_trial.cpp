@@ -65,8 +65,8 @@ void ContactRows::add_to(double* target) const {
 
 void ContactRows::add_to(double* target, double share, const double* q, double* moved) const {
   if (count_ > 0)
-    kernels::scatter(contacts_.padded_modes, static_cast<int>(count_), row_.data(), factor_.data(), target,
-                     share, q, moved);
+    kernels::scatter_moving(contacts_.padded_modes, static_cast<int>(count_), row_.data(), factor_.data(),
+                            target, share, q, moved);
 }
 
 } // namespace fretwork::transient

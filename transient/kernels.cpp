@@ -6,41 +6,59 @@
 namespace fretwork::transient::kernels {
 namespace {
 
-template <class V>
+template <class G>
 FRETWORK_INLINE void place_all(int end, const ReachLanes& reach, const double* uy, const double* uz,
                                const double* vy, const double* vz, double half_window, double* gap,
                                double* ny, double* nz, double* near, Places& places) {
+  using V = typename G::V;
+  constexpr int parts = G::parts, size = size_of<V>;
   const V one = V{} + 1.0;
   const double h2 = half_window * half_window;
-  for (int i = 0; i < end; i += size_of<V>) {
-    const V y = at<V>(uy + i) + at<V>(&reach.rest_y[i]), z = at<V>(uz + i) + at<V>(&reach.rest_z[i]);
-    const V wy = at<V>(&reach.wy[i]), wz = at<V>(&reach.wz[i]), radial = at<V>(&reach.radial[i]);
-    const V ly = at<V>(&reach.ly[i]), lz = at<V>(&reach.lz[i]);
-    const V r2 = wy * y * y + wz * z * z, left = at<V>(&reach.limit[i]) - (ly * y + lz * z);
-    if (!(half_window > 0.0)) { // gap > 0 by squares that keep their signs: most packs need no root
-      const V closed = radial * magnitude(radial) * r2 < left * magnitude(left) ? V{} : one;
-      at<V>(near + i) = closed;
-      if (sum(closed) == 0.0)
-        continue;
-    }
-    const V r = root(r2), g = left - radial * r;
-    V reached = g <= 0.0 ? one : V{};
-    if (half_window > 0.0) {
-      const V s2 = at<V>(vy + i) * at<V>(vy + i) + at<V>(vz + i) * at<V>(vz + i);
-      reached = g * g <= h2 * s2 ? one : reached;
-    }
-    at<V>(gap + i) = g;
-    at<V>(near + i) = reached;
-    const double number = sum(reached);
-    if (number == 0.0)
+  for (int place = 0; place < end; place += parts * size) {
+    V y[parts], z[parts], r2[parts], r[parts], left[parts], closed{}, number{};
+    for_parts<G>([&](auto p) __attribute__((always_inline)) {
+      const int i = place + p * size;
+      const V radial = at<V>(&reach.radial[i]);
+      y[p] = at<V>(uy + i) + at<V>(&reach.rest_y[i]);
+      z[p] = at<V>(uz + i) + at<V>(&reach.rest_z[i]);
+      r2[p] = at<V>(&reach.wy[i]) * y[p] * y[p] + at<V>(&reach.wz[i]) * z[p] * z[p];
+      left[p] = at<V>(&reach.limit[i]) - (at<V>(&reach.ly[i]) * y[p] + at<V>(&reach.lz[i]) * z[p]);
+      if (half_window > 0.0)
+        return;
+      // gap > 0 by squares that keep their signs: most packs need no root
+      const V shut = radial * magnitude(radial) * r2[p] < left[p] * magnitude(left[p]) ? V{} : one;
+      at<V>(near + i) = shut;
+      closed += shut;
+    });
+    if (!(half_window > 0.0) && sum(closed) == 0.0)
       continue;
-    places.first.push_back(i);
-    places.near += number;
-    const V per_r = 1.0 / (r > 0.0 ? r : one);
-    // at the very centre along y where the normal can be y
-    const V ey = r > 0.0 ? wy * y * per_r : wy, ez = r > 0.0 ? wz * z * per_r : wz * (1.0 - wy);
-    at<V>(ny + i) = -(radial * ey + ly);
-    at<V>(nz + i) = -(radial * ez + lz);
+    for_parts<G>([&](auto p) __attribute__((always_inline)) {
+      const int i = place + p * size;
+      r[p] = root(r2[p]);
+      const V g = left[p] - at<V>(&reach.radial[i]) * r[p];
+      V reached = g <= 0.0 ? one : V{};
+      if (half_window > 0.0) {
+        const V s2 = at<V>(vy + i) * at<V>(vy + i) + at<V>(vz + i) * at<V>(vz + i);
+        reached = g * g <= h2 * s2 ? one : reached;
+      }
+      at<V>(gap + i) = g;
+      at<V>(near + i) = reached;
+      number += reached;
+    });
+    const double near_here = sum(number);
+    if (near_here == 0.0)
+      continue;
+    places.first.push_back(place);
+    places.near += near_here;
+    for_parts<G>([&](auto p) __attribute__((always_inline)) {
+      const int i = place + p * size;
+      const V wy = at<V>(&reach.wy[i]), wz = at<V>(&reach.wz[i]), radial = at<V>(&reach.radial[i]);
+      const V per_r = 1.0 / (r[p] > 0.0 ? r[p] : one);
+      // at the very centre along y where the normal can be y
+      const V ey = r[p] > 0.0 ? wy * y[p] * per_r : wy, ez = r[p] > 0.0 ? wz * z[p] * per_r : wz * (1.0 - wy);
+      at<V>(ny + i) = -(radial * ey + at<V>(&reach.ly[i]));
+      at<V>(nz + i) = -(radial * ez + at<V>(&reach.lz[i]));
+    });
   }
 }
 
@@ -55,20 +73,31 @@ VectorSize vector_size_here() {
   return VectorSize::pair;
 }
 
+/// In use; made when the first kernel asks.
+VectorSize& vector_size() {
+  static VectorSize size = vector_size_here();
+  return size;
+}
+
+const KernelCopies* last_kernel = nullptr;
+
 } // namespace
 
-const VectorSize vector_size = vector_size_here();
+KernelCopies::KernelCopies(Any pair, Any half, Any pack) : all_{pair, half, pack}, next_(last_kernel) {
+  chosen_ = all_[static_cast<int>(vector_size())];
+  last_kernel = this;
+}
+
+VectorSize limit_vectors(VectorSize most) {
+  vector_size() = std::min(most, vector_size_here());
+  for (const KernelCopies* kernel = last_kernel; kernel; kernel = kernel->next_)
+    kernel->chosen_ = kernel->all_[static_cast<int>(vector_size())];
+  return vector_size();
+}
 
 const char* vector_width() {
-  switch (vector_size) {
-  case VectorSize::pack:
-    return "AVX-512 (8 doubles)";
-  case VectorSize::half:
-    return "AVX2 (4 doubles)";
-  case VectorSize::pair:
-    break;
-  }
-  return "SSE2 (2 doubles)";
+  constexpr const char* names[] = {"SSE2 (2 doubles)", "AVX2 (4 doubles)", "AVX-512 (8 doubles)"};
+  return names[static_cast<int>(vector_size())];
 }
 
 void FlowTable::set(std::ptrdiff_t mode, double stiffness, const StepCoefficients& s) {
@@ -163,15 +192,20 @@ void GatherTable::add_pack(int mode_count, std::ptrdiff_t width, const double* v
 }
 
 /// Pack p of to[n] = G from[n]: two sums each, so that none waits for the other.
-template <class V, std::size_t count>
+template <class G, std::size_t count>
 FRETWORK_INLINE void gather_pack(const GatherTable& g, int p, const double* const (&from)[count],
                                  double* const (&to)[count]) {
-  V sum[count][2] = {};
+  using V = typename G::V;
+  constexpr int size = size_of<V>;
+  V sum[G::parts][count][2] = {};
   const int end = g.begin[p + 1];
   const auto add = [&](int k, int into) __attribute__((always_inline)) {
-    const V value = at<V>(&g.values[static_cast<std::size_t>(k) * lanes]);
-    for (std::size_t n = 0; n < count; ++n)
-      sum[n][into] += from[n][g.modes[k]] * value;
+    const double* values = &g.values[static_cast<std::size_t>(k) * lanes];
+    for_parts<G>([&](auto part) __attribute__((always_inline)) {
+      const V value = at<V>(values + part * size);
+      for (std::size_t n = 0; n < count; ++n)
+        sum[part][n][into] += from[n][g.modes[k]] * value;
+    });
   };
   int k = g.begin[p];
   for (; k + 1 < end; k += 2) {
@@ -180,29 +214,41 @@ FRETWORK_INLINE void gather_pack(const GatherTable& g, int p, const double* cons
   }
   if (k < end)
     add(k, 0);
-  for (std::size_t n = 0; n < count; ++n)
-    at<V>(to[n] + p * lanes) = sum[n][0] + sum[n][1];
+  for_parts<G>([&](auto part) __attribute__((always_inline)) {
+    for (std::size_t n = 0; n < count; ++n)
+      at<V>(to[n] + p * lanes + part * size) = sum[part][n][0] + sum[part][n][1];
+  });
 }
 
-FRETWORK_WIDTHS void gather(const GatherTable& g, const double* q, const double* v, double* u, double* w) {
+template <class Widest, std::size_t count>
+FRETWORK_INLINE void gather_one(const GatherTable& g, int p, const double* const (&from)[count],
+                                double* const (&to)[count]) {
+  if (g.half)
+    gather_pack<Grain<Widest, Half>, count>(g, p, from, to);
+  else
+    gather_pack<Grain<Widest, Pack>, count>(g, p, from, to);
+}
+
+template <class V>
+FRETWORK_INLINE void gather_two_on(const GatherTable& g, const double* q, const double* v, double* u,
+                                   double* w) {
   const int packs = static_cast<int>(g.begin.size()) - 1;
   for (int p = 0; p < packs; ++p)
-    if (g.half)
-      gather_pack<Half, 2>(g, p, {q, v}, {u, w});
-    else
-      gather_pack<Pack, 2>(g, p, {q, v}, {u, w});
+    gather_one<V, 2>(g, p, {q, v}, {u, w});
 }
+FRETWORK_KERNEL(void, gather_two,
+                (const GatherTable& g, const double* q, const double* v, double* u, double* w),
+                (g, q, v, u, w))
 
-FRETWORK_WIDTHS void gather(const GatherTable& g, const double* q, double* u) {
+template <class V> FRETWORK_INLINE void gather_on(const GatherTable& g, const double* q, double* u) {
   const int packs = static_cast<int>(g.begin.size()) - 1;
   for (int p = 0; p < packs; ++p)
-    if (g.half)
-      gather_pack<Half, 1>(g, p, {q}, {u});
-    else
-      gather_pack<Pack, 1>(g, p, {q}, {u});
+    gather_one<V, 1>(g, p, {q}, {u});
 }
+FRETWORK_KERNEL(void, gather, (const GatherTable& g, const double* q, double* u), (g, q, u))
 
-FRETWORK_WIDTHS void gather_at(const GatherTable& g, const Places& places, const double* v, double* w) {
+template <class V>
+FRETWORK_INLINE void gather_at_on(const GatherTable& g, const Places& places, const double* v, double* w) {
   const int packs = static_cast<int>(g.begin.size()) - 1, to_next_block = places.all.width / lanes;
   int last = -1;
   for (const int lane : places.first) {
@@ -211,106 +257,139 @@ FRETWORK_WIDTHS void gather_at(const GatherTable& g, const Places& places, const
       continue;
     last = first;
     for (int p = first; p < packs; p += to_next_block)
-      if (g.half)
-        gather_pack<Half, 1>(g, p, {v}, {w});
-      else
-        gather_pack<Pack, 1>(g, p, {v}, {w});
+      gather_one<V, 1>(g, p, {v}, {w});
   }
 }
+FRETWORK_KERNEL(void, gather_at, (const GatherTable& g, const Places& places, const double* v, double* w),
+                (g, places, v, w))
 
-FRETWORK_WIDTHS void scatter(int np, int rows, const double* const* row, const double* factor, double* v) {
-  for (int i = 0; i < np; i += lanes) {
-    Pack s = at(v + i);
+template <class V>
+FRETWORK_INLINE void scatter_on(int np, int rows, const double* const* row, const double* factor, double* v) {
+  for (int i = 0; i < np; i += size_of<V>) {
+    V s = at<V>(v + i);
     for (int r = 0; r < rows; ++r)
-      s += factor[r] * at(row[r] + i);
-    at(v + i) = s;
+      s += factor[r] * at<V>(row[r] + i);
+    at<V>(v + i) = s;
   }
 }
+FRETWORK_KERNEL(void, scatter, (int np, int rows, const double* const* row, const double* factor, double* v),
+                (np, rows, row, factor, v))
 
-FRETWORK_WIDTHS void scatter(int np, int rows, const double* const* row, const double* factor, double* v,
-                             double share, const double* q, double* moved) {
-  for (int i = 0; i < np; i += lanes) {
-    const Pack v0 = at(v + i);
-    Pack s = v0;
+template <class V>
+FRETWORK_INLINE void scatter_moving_on(int np, int rows, const double* const* row, const double* factor,
+                                       double* v, double share, const double* q, double* moved) {
+  for (int i = 0; i < np; i += size_of<V>) {
+    const V v0 = at<V>(v + i);
+    V s = v0;
     for (int r = 0; r < rows; ++r)
-      s += factor[r] * at(row[r] + i);
-    at(v + i) = s;
-    at(moved + i) = at(q + i) + share * (s - v0);
+      s += factor[r] * at<V>(row[r] + i);
+    at<V>(v + i) = s;
+    at<V>(moved + i) = at<V>(q + i) + share * (s - v0);
   }
 }
+FRETWORK_KERNEL(void, scatter_moving,
+                (int np, int rows, const double* const* row, const double* factor, double* v, double share,
+                 const double* q, double* moved),
+                (np, rows, row, factor, v, share, q, moved))
 
-FRETWORK_WIDTHS EulerSums euler_step(int np, double h, const double* c, const double* k, const double* load,
-                                     const double* force, double* q, double* v) {
-  Pack energy{}, power{}, loss{};
-  for (int i = 0; i < np; i += lanes) {
-    const Pack q0 = at(q + i), v0 = at(v + i), ci = at(c + i), kq = at(k + i) * q0, f = at(load + i);
-    const Pack v1 = v0 + h * (f + at(force + i) - ci * v0 - kq);
-    const Pack vm = 0.5 * (v0 + v1);
-    energy += vm * vm + kq * q0;
-    power += f * vm;
-    loss += ci * vm * vm;
-    at(v + i) = v1;
-    at(q + i) = q0 + h * v1;
-  }
+template <class V>
+FRETWORK_INLINE EulerSums euler_step_on(int np, double h, const double* c, const double* k,
+                                        const double* load, const double* force, double* q, double* v) {
+  Sums<V> energy = {}, power = {}, loss = {};
+  for_vectors<V>(
+      np, [&](int pack, int part) __attribute__((always_inline)) {
+        const int i = pack + part * size_of<V>;
+        const V q0 = at<V>(q + i), v0 = at<V>(v + i), ci = at<V>(c + i), kq = at<V>(k + i) * q0,
+                f = at<V>(load + i);
+        const V v1 = v0 + h * (f + at<V>(force + i) - ci * v0 - kq);
+        const V vm = 0.5 * (v0 + v1);
+        energy[part] += vm * vm + kq * q0;
+        power[part] += f * vm;
+        loss[part] += ci * vm * vm;
+        at<V>(v + i) = v1;
+        at<V>(q + i) = q0 + h * v1;
+      });
   return {sum(energy), sum(power), sum(loss)};
 }
+FRETWORK_KERNEL(EulerSums, euler_step,
+                (int np, double h, const double* c, const double* k, const double* load, const double* force,
+                 double* q, double* v),
+                (np, h, c, k, load, force, q, v))
 
-FRETWORK_WIDTHS void place(const ReachLanes& reach, const double* uy, const double* uz, const double* vy,
-                           const double* vz, double half_window, double* gap, double* ny, double* nz,
-                           double* near, Places& places) {
+template <class V>
+FRETWORK_INLINE void place_contacts_on(const ReachLanes& reach, const double* uy, const double* uz,
+                                       const double* vy, const double* vz, double half_window, double* gap,
+                                       double* ny, double* nz, double* near, Places& places) {
   const LaneCount& all = places.all;
   places.first.clear();
   places.near = 0.0;
   if (all.few())
-    place_all<double>(all.count, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near, places);
+    place_all<Grain<V, double>>(all.count, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near, places);
   else if (all.half())
-    place_all<Half>(size_of<Half>, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near, places);
+    place_all<Grain<V, Half>>(size_of<Half>, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near, places);
   else
-    place_all<Pack>(all.width, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near, places);
+    place_all<Grain<V, Pack>>(all.width, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near, places);
 }
+FRETWORK_KERNEL(void, place_contacts,
+                (const ReachLanes& reach, const double* uy, const double* uz, const double* vy,
+                 const double* vz, double half_window, double* gap, double* ny, double* nz, double* near,
+                 Places& places),
+                (reach, uy, uz, vy, vz, half_window, gap, ny, nz, near, places))
 
-FRETWORK_WIDTHS void respond(int width, int directions, const double* columns, double ny, double nz,
-                             double scale, const double* to_ny, const double* to_nz, double* a) {
+template <class V>
+FRETWORK_INLINE void respond_on(int width, int directions, const double* columns, double ny, double nz,
+                                double scale, const double* to_ny, const double* to_nz, double* a) {
   const int stride = directions * width; // of a column, and of a direction of `a`
-  for (int i = 0; i < width; i += lanes) {
-    const Pack my = at(to_ny + i), mz = at(to_nz + i);
+  for (int i = 0; i < width; i += size_of<V>) {
+    const V my = at<V>(to_ny + i), mz = at<V>(to_nz + i);
     const double* y = columns + i; // by a force along y, z, x
     const double *z = y + stride, *x = z + stride;
-    const auto store = [&](double* out, const Pack& by_y, const Pack& by_z) __attribute__((always_inline)) {
-      at(out) = my * by_y + mz * by_z;
-      at(out + width) = mz * by_y - my * by_z;
+    const auto store = [&](double* out, const V& by_y, const V& by_z) __attribute__((always_inline)) {
+      at<V>(out) = my * by_y + mz * by_z;
+      at<V>(out + width) = mz * by_y - my * by_z;
     };
     const double sy = scale * ny, sz = scale * nz;
-    store(a + i, sy * at(y) + sz * at(z), sy * at(y + width) + sz * at(z + width));
-    store(a + stride + i, sz * at(y) - sy * at(z), sz * at(y + width) - sy * at(z + width));
+    store(a + i, sy * at<V>(y) + sz * at<V>(z), sy * at<V>(y + width) + sz * at<V>(z + width));
+    store(a + stride + i, sz * at<V>(y) - sy * at<V>(z), sz * at<V>(y + width) - sy * at<V>(z + width));
     if (directions < 3)
       continue;
-    at(a + 2 * width + i) = sy * at(y + 2 * width) + sz * at(z + 2 * width);
-    at(a + stride + 2 * width + i) = sz * at(y + 2 * width) - sy * at(z + 2 * width);
-    store(a + 2 * stride + i, scale * at(x), scale * at(x + width));
-    at(a + 2 * stride + 2 * width + i) = scale * at(x + 2 * width);
+    at<V>(a + 2 * width + i) = sy * at<V>(y + 2 * width) + sz * at<V>(z + 2 * width);
+    at<V>(a + stride + 2 * width + i) = sz * at<V>(y + 2 * width) - sy * at<V>(z + 2 * width);
+    store(a + 2 * stride + i, scale * at<V>(x), scale * at<V>(x + width));
+    at<V>(a + 2 * stride + 2 * width + i) = scale * at<V>(x + 2 * width);
   }
 }
+FRETWORK_KERNEL(void, respond,
+                (int width, int directions, const double* columns, double ny, double nz, double scale,
+                 const double* to_ny, const double* to_nz, double* a),
+                (width, directions, columns, ny, nz, scale, to_ny, to_nz, a))
 
-FRETWORK_WIDTHS void answer(int stride, int directions, const double* a, const double* f, double* v) {
+template <class V>
+FRETWORK_INLINE void answer_on(int stride, int directions, const double* a, const double* f, double* v) {
   if (directions == 2) {
-    for (int i = 0; i < stride; i += lanes)
-      at(v + i) += f[0] * at(a + i) + f[1] * at(a + stride + i);
+    for (int i = 0; i < stride; i += size_of<V>)
+      at<V>(v + i) += f[0] * at<V>(a + i) + f[1] * at<V>(a + stride + i);
     return;
   }
-  for (int i = 0; i < stride; i += lanes)
-    at(v + i) += f[0] * at(a + i) + f[1] * at(a + stride + i) + f[2] * at(a + 2 * stride + i);
+  for (int i = 0; i < stride; i += size_of<V>)
+    at<V>(v + i) += f[0] * at<V>(a + i) + f[1] * at<V>(a + stride + i) + f[2] * at<V>(a + 2 * stride + i);
 }
+FRETWORK_KERNEL(void, answer, (int stride, int directions, const double* a, const double* f, double* v),
+                (stride, directions, a, f, v))
 
-FRETWORK_WIDTHS void project(int width, int directions, const double* ny, const double* nz, const double* w,
-                             double* v) {
-  for (int i = 0; i < width; i += lanes) {
-    const Pack my = at(ny + i), mz = at(nz + i), y = at(w + i), z = at(w + width + i);
-    at(v + i) = my * y + mz * z;
-    at(v + width + i) = mz * y - my * z;
+template <class V>
+FRETWORK_INLINE void project_on(int width, int directions, const double* ny, const double* nz,
+                                const double* w, double* v) {
+  for (int i = 0; i < width; i += size_of<V>) {
+    const V my = at<V>(ny + i), mz = at<V>(nz + i), y = at<V>(w + i), z = at<V>(w + width + i);
+    at<V>(v + i) = my * y + mz * z;
+    at<V>(v + width + i) = mz * y - my * z;
     if (directions == 3)
-      at(v + 2 * width + i) = at(w + 2 * width + i);
+      at<V>(v + 2 * width + i) = at<V>(w + 2 * width + i);
   }
 }
+FRETWORK_KERNEL(void, project,
+                (int width, int directions, const double* ny, const double* nz, const double* w, double* v),
+                (width, directions, ny, nz, w, v))
 
 } // namespace fretwork::transient::kernels

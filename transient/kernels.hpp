@@ -47,6 +47,33 @@ private:
   Array values_;
 };
 
+/// Vectors of 2, 4 and 8 doubles.
+enum class VectorSize { pair, half, pack };
+/// Lets the kernels use no wider vectors than these, nor than the processor has: what tests compare. Not while kernels run. Returns what
+/// they use from now on.
+VectorSize limit_vectors(VectorSize most);
+
+/// The copies of a kernel by size of vectors: the widest that the processor has is chosen when the program starts.
+class KernelCopies {
+protected:
+  using Any = void (*)();
+  KernelCopies(Any pair, Any half, Any pack);
+  mutable Any chosen_;
+
+private:
+  friend VectorSize limit_vectors(VectorSize most);
+  Any all_[3];
+  const KernelCopies* next_; ///< of all kernels
+};
+template <class Function> class Kernel;
+template <class Result, class... Arguments> class Kernel<Result(Arguments...)> : KernelCopies {
+public:
+  using Copy = Result (*)(Arguments...);
+  Kernel(Copy pair, Copy half, Copy pack)
+      : KernelCopies(reinterpret_cast<Any>(pair), reinterpret_cast<Any>(half), reinterpret_cast<Any>(pack)) {}
+  Result operator()(Arguments... arguments) const { return reinterpret_cast<Copy>(chosen_)(arguments...); }
+};
+
 /// Which instruction set the kernels use here: "AVX-512 (8 doubles)", "AVX2 (4 doubles)" or "SSE2 (2
 /// doubles)".
 [[nodiscard]] const char* vector_width();
@@ -56,16 +83,17 @@ struct FlowSums {
   double twice_energy = 0.0; ///< J, as below, of the modes at its end
 };
 /// q, v <- exact flow under a load linear from f0 to f1.
-FlowSums flow_loaded(int np, const FlowTable& table, double* q, double* v, const double* f0,
-                     const double* f1);
+extern const Kernel<FlowSums(int np, const FlowTable& table, double* q, double* v, const double* f0,
+                             const double* f1)>
+    flow_loaded;
 /// The same without load.
-FlowSums flow_free(int np, const FlowTable& table, double* q, double* v);
+extern const Kernel<FlowSums(int np, const FlowTable& table, double* q, double* v)> flow_free;
 
 /// f = sum over s of value[s] * shape[s], shapes one after the other, np apart.
-void combine(int np, int sources, const double* shapes, const double* values, double* f);
+extern const Kernel<void(int np, int sources, const double* shapes, const double* values, double* f)> combine;
 
 /// sum of v^2 + k q^2 over modes: twice the energy.
-double twice_energy(int np, const double* k, const double* q, const double* v);
+extern const Kernel<double(int np, const double* k, const double* q, const double* v)> twice_energy;
 
 /// How many contacts there are, and lanes: their number, padded.
 struct LaneCount {
@@ -104,17 +132,20 @@ struct GatherTable {
   void add_pack(int mode_count, std::ptrdiff_t width, const double* values_of_mode);
 };
 /// u = G q and w = G v.
-void gather(const GatherTable& g, const double* q, const double* v, double* u, double* w);
+extern const Kernel<void(const GatherTable& g, const double* q, const double* v, double* u, double* w)>
+    gather_two;
 /// u = G q.
-void gather(const GatherTable& g, const double* q, double* u);
+extern const Kernel<void(const GatherTable& g, const double* q, double* u)> gather;
 /// w = G v of the packs that begin at one of the places, in every block of `width` lanes; the others stay.
-void gather_at(const GatherTable& g, const Places& places, const double* v, double* w);
+extern const Kernel<void(const GatherTable& g, const Places& places, const double* v, double* w)> gather_at;
 
 /// v += sum over r of factor[r] * row[r].
-void scatter(int np, int rows, const double* const* row, const double* factor, double* v);
+extern const Kernel<void(int np, int rows, const double* const* row, const double* factor, double* v)>
+    scatter;
 /// The same, and moved = q + share * what v has gained.
-void scatter(int np, int rows, const double* const* row, const double* factor, double* v, double share,
-             const double* q, double* moved);
+extern const Kernel<void(int np, int rows, const double* const* row, const double* factor, double* v,
+                         double share, const double* q, double* moved)>
+    scatter_moving;
 
 /// One step of the semi-implicit Euler scheme: v1 = v + h (f - c v - k q), q1 = q + h v1, f including the
 /// contact forces. Returns the sums over modes with vm = (v + v1)/2.
@@ -123,8 +154,9 @@ struct EulerSums {
   double load_power;    ///< load . vm
   double damping_power; ///< c vm^2
 };
-EulerSums euler_step(int np, double h, const double* c, const double* k, const double* load,
-                     const double* force, double* q, double* v);
+extern const Kernel<EulerSums(int np, double h, const double* c, const double* k, const double* load,
+                              const double* force, double* q, double* v)>
+    euler_step;
 
 /// Contacts in lanes by their contact::Reach. Arrays of a vector quantity have blocks of `width` lanes: y of all contacts, z, x_loc; or
 /// along their own directions: n, t = n x x_loc, x_loc.
@@ -137,18 +169,23 @@ struct ReachLanes {
 ///     gap = limit - (radial r + ly y + lz z),   n = -(radial e + (ly, lz)).
 /// For a profile it is a lower bound of the gap (its inscribed circle). near[i] = 1 where gap <= half_window |v|, else 0; without a window
 /// velocities are not looked at. Normals are found in the `places` in which some contact is near, the others keep theirs.
-void place(const ReachLanes& reach, const double* uy, const double* uz, const double* vy, const double* vz,
-           double half_window, double* gap, double* ny, double* nz, double* near, Places& places);
+extern const Kernel<void(const ReachLanes& reach, const double* uy, const double* uz, const double* vy,
+                         const double* vz, double half_window, double* gap, double* ny, double* nz,
+                         double* near, Places& places)>
+    place_contacts;
 
 /// v = components of w along the contacts' own directions (2: n, t; 3: n, t, x_loc).
-void project(int width, int directions, const double* ny, const double* nz, const double* w, double* v);
+extern const Kernel<void(int width, int directions, const double* ny, const double* nz, const double* w,
+                         double* v)>
+    project;
 
 /// Velocities of all contacts along their own directions by unit forces along those of one contact, times `scale`: `directions` arrays
 /// of `directions` blocks, one after the other. `columns`: by unit forces of that contact along y, z, x, in components y, z, x.
-void respond(int width, int directions, const double* columns, double ny, double nz, double scale,
-             const double* to_ny, const double* to_nz, double* a);
+extern const Kernel<void(int width, int directions, const double* columns, double ny, double nz, double scale,
+                         const double* to_ny, const double* to_nz, double* a)>
+    respond;
 
 /// v += sum over the directions of one contact of f[k] a[k]; `stride` = directions * width.
-void answer(int stride, int directions, const double* a, const double* f, double* v);
+extern const Kernel<void(int stride, int directions, const double* a, const double* f, double* v)> answer;
 
 } // namespace fretwork::transient::kernels

@@ -19,8 +19,8 @@ NodalTables::NodalTables(const PackedContacts& contacts, const PolynomialFlow& f
         double* column = &columns_[(static_cast<std::size_t>(2 * c + from - 1) * 3 + b) * length];
         for (int to = 1; to <= 2; ++to) {
           flow.respond(contacts.row(c, b), to, from, q.data(), v.data());
-          kernels::gather(contacts.gather, q.data(), v.data(), column + (to - 1) * stride_,
-                          column + (to + 1) * stride_);
+          kernels::gather_two(contacts.gather, q.data(), v.data(), column + (to - 1) * stride_,
+                              column + (to + 1) * stride_);
         }
       }
   }

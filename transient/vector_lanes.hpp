@@ -8,11 +8,14 @@
 /// vector type, which is always a register: with AVX2 two to four times as fast where a loop sums.
 #pragma once
 #include "transient/kernels.hpp"
+#include <span>
+#include <type_traits>
+#include <utility>
 
 // Not under the sanitizers (they start after the choice is made), nor with compilers that lack it.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(FRETWORK_SANITIZED)
 #define FRETWORK_WIDTHS __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-/// Defines `name` by the template name##_on<V>, V the widest vector of the processor.
+/// Defines the kernel `name` by the template name##_on<V>.
 #define FRETWORK_KERNEL(result, name, parameters, arguments)                                                 \
   __attribute__((target("arch=x86-64-v4"))) static result name##_by_packs parameters {                       \
     return name##_on<Pack> arguments;                                                                        \
@@ -21,15 +24,12 @@
     return name##_on<Half> arguments;                                                                        \
   }                                                                                                          \
   static result name##_by_pairs parameters { return name##_on<Pair> arguments; }                             \
-  result name parameters {                                                                                   \
-    return vector_size == VectorSize::pack   ? name##_by_packs arguments                                     \
-           : vector_size == VectorSize::half ? name##_by_halves arguments                                    \
-                                             : name##_by_pairs arguments;                                    \
-  }
+  const Kernel<result parameters> name(name##_by_pairs, name##_by_halves, name##_by_packs);
 #else
 #define FRETWORK_WIDTHS
 #define FRETWORK_KERNEL(result, name, parameters, arguments)                                                 \
-  result name parameters { return name##_on<Pair> arguments; }
+  static result name##_by_pairs parameters { return name##_on<Pair> arguments; }                             \
+  const Kernel<result parameters> name(name##_by_pairs, name##_by_pairs, name##_by_pairs);
 #endif
 #define FRETWORK_INLINE static inline __attribute__((always_inline))
 
@@ -40,10 +40,6 @@ typedef double Half __attribute__((
     vector_size(32))); ///< the first lanes of a pack: enough for few contacts, and half the work
 typedef double Pair __attribute__((vector_size(16)));
 typedef long long Mask __attribute__((vector_size(64)));
-
-enum class VectorSize { pair, half, pack };
-/// Of the registers of this processor; until the program has started: pair.
-extern const VectorSize vector_size;
 
 /// V is a Pack, a Half or a double where a kernel is written for all.
 template <class V = Pack> FRETWORK_INLINE const V& at(const double* p) {
@@ -65,14 +61,15 @@ FRETWORK_INLINE double largest(const Half& p) {
   const auto max = [](double a, double b) { return a > b ? a : b; };
   return max(max(p[0], p[2]), max(p[1], p[3]));
 }
-/// `lanes` sums as they grow, in registers of any kernel.
+FRETWORK_INLINE double sum(double p) { return p; }
+FRETWORK_INLINE double largest(double p) { return p; }
+FRETWORK_INLINE double sum(const Pair& p) { return p[0] + p[1]; }
+FRETWORK_INLINE double largest(const Pair& p) { return p[0] > p[1] ? p[0] : p[1]; }
+/// Sums as they grow, in registers of any kernel: those of all lanes in any vectors give the same bytes.
+template <class V> FRETWORK_INLINE double sum(const V (&p)[1]) { return sum(p[0]); }
+template <class V> FRETWORK_INLINE double sum(const V (&p)[2]) { return sum(p[0] + p[1]); }
+FRETWORK_INLINE double sum(const Pair (&p)[4]) { return sum((p[0] + p[2]) + (p[1] + p[3])); }
 template <class V> using Sums = V[lanes / size_of<V>];
-FRETWORK_INLINE double sum(const Sums<Pack>& p) { return sum(p[0]); }
-FRETWORK_INLINE double sum(const Sums<Half>& p) { return sum(p[0] + p[1]); }
-FRETWORK_INLINE double sum(const Sums<Pair>& p) {
-  const Pair s = (p[0] + p[2]) + (p[1] + p[3]);
-  return s[0] + s[1];
-}
 /// step(pack, part) for all vectors, `part` that of the pack whose first lane is `pack`.
 template <class V, class Step> FRETWORK_INLINE void for_vectors(int lanes_in_all, const Step& step) {
   for (int pack = 0; pack < lanes_in_all; pack += lanes)
@@ -80,8 +77,33 @@ template <class V, class Step> FRETWORK_INLINE void for_vectors(int lanes_in_all
     for (int part = 0; part < lanes / size_of<V>; ++part)
       step(pack, part);
 }
-FRETWORK_INLINE double sum(double p) { return p; }
-FRETWORK_INLINE double largest(double p) { return p; }
+
+/// A place of contacts in the vectors of a kernel: a Pack, a Half or a double in parts that are no wider than `Widest`.
+template <class Widest, class Place> struct Grain {
+  using V = std::conditional_t<(sizeof(Place) < sizeof(Widest)), Place, Widest>;
+  static constexpr int parts = static_cast<int>(sizeof(Place) / sizeof(V));
+  using Sums = V[parts];
+};
+/// step(part) for all parts of a grain, known to the compiler: what stands in arrays by part stays in registers.
+template <class G, class Step> FRETWORK_INLINE void for_parts(const Step& step) {
+  [&]<int... part>(std::integer_sequence<int, part...>) __attribute__((always_inline)) {
+    (step(std::integral_constant<int, part>{}), ...);
+  }
+  (std::make_integer_sequence<int, G::parts>{});
+}
+/// step(first lane, part) or step(first lane) for all vectors of the places.
+template <class G, class Step>
+FRETWORK_INLINE void for_places(std::span<const int> places, const Step& step) {
+  for (const int place : places)
+    for_parts<G>([&](auto part) __attribute__((always_inline)) {
+      const int lane = place + part * size_of<typename G::V>;
+      if constexpr (requires { step(lane, part); })
+        step(lane, part);
+      else
+        step(lane);
+    });
+}
+
 FRETWORK_INLINE double root(double x) { return __builtin_sqrt(x); }
 template <class V> FRETWORK_INLINE V root(const V& x) {
   V r{};
