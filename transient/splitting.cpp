@@ -315,8 +315,10 @@ private:
       return !motion_.places().first.empty();
     }
     motion_.gather(q_.data(), v_.data());
-    obstacles_.at(time_, carried_);
-    carried_.add_to(motion_);
+    if (!carried_.u.empty()) {
+      obstacles_.at(time_, carried_);
+      carried_.add_to(motion_);
+    }
     return flexible_ || motion_.find_near(solver_.window());
   }
 
