@@ -45,9 +45,67 @@ std::array<double, 5> coefficients(const ImpulseChain& chain, double k, double c
 constexpr int rows_of_node = 20; ///< q, v, M_0, M_1 by 5 each
 
 /// Coefficients of s^j, j = 0, 1, 2, of the quadratic through values at the nodes.
-std::array<double, 3> through(double f0, double f1, double f2) {
+template <class T> FRETWORK_INLINE std::array<T, 3> through(const T& f0, const T& f1, const T& f2) {
   return {f0, 4.0 * f1 - 3.0 * f0 - f2, 2.0 * (f0 - 2.0 * f1 + f2)};
 }
+
+/// Five rows of the table by what they stand for.
+template <class V>
+FRETWORK_INLINE V mix(const double* row, const V& q0, const V& v0, const V& f0, const V& f1, const V& f2) {
+  return at<V>(row) * q0 + at<V>(row + lanes) * v0 + at<V>(row + 2 * lanes) * f0 +
+         at<V>(row + 3 * lanes) * f1 + at<V>(row + 4 * lanes) * f2;
+}
+
+template <class V>
+FRETWORK_INLINE void predict_uncoupled_on(int np, const double* table, const Nodes& load,
+                                          const Nodes& contact, Nodes& q, Nodes& v) {
+  for_vectors<V>(
+      np, [&](int pack, int part) __attribute__((always_inline)) {
+        const int offset = part * size_of<V>, i = pack + offset;
+        const double* row = table + 2 * rows_of_node * pack + offset;
+        const V q0 = at<V>(&q.at[0][i]), v0 = at<V>(&v.at[0][i]);
+        const V f0 = at<V>(&load.at[0][i]) + at<V>(&contact.at[0][i]);
+        const V f1 = at<V>(&load.at[1][i]), f2 = at<V>(&load.at[2][i]);
+        for (int node = 1; node <= 2; ++node, row += rows_of_node * lanes) {
+          at<V>(&q.at[node][i]) = mix(row, q0, v0, f0, f1, f2);
+          at<V>(&v.at[node][i]) = mix(row + 5 * lanes, q0, v0, f0, f1, f2);
+        }
+      });
+}
+FRETWORK_KERNEL(void, predict_uncoupled,
+                (int np, const double* table, const Nodes& load, const Nodes& contact, Nodes& q, Nodes& v),
+                (np, table, load, contact, q, v))
+
+template <class V>
+FRETWORK_INLINE PolynomialFlow::Works move_uncoupled_on(int np, const double* table, const Nodes& load,
+                                                        const Nodes& contact, Nodes& q, Nodes& v) {
+  Sums<V> of_load[2] = {}, of_contact[2] = {};
+  for_vectors<V>(
+      np, [&](int pack, int part) __attribute__((always_inline)) {
+        const int offset = part * size_of<V>, i = pack + offset;
+        const double* row = table + 2 * rows_of_node * pack + offset;
+        const V q0 = at<V>(&q.at[0][i]), v0 = at<V>(&v.at[0][i]);
+        const V l0 = at<V>(&load.at[0][i]), l1 = at<V>(&load.at[1][i]), l2 = at<V>(&load.at[2][i]);
+        const V c0 = at<V>(&contact.at[0][i]), c1 = at<V>(&contact.at[1][i]), c2 = at<V>(&contact.at[2][i]);
+        const V f0 = l0 + c0, f1 = l1 + c1, f2 = l2 + c2;
+        const auto l = through(l0, l1, l2), c = through(c0, c1, c2);
+#pragma GCC unroll 2
+        for (int node = 1; node <= 2; ++node, row += rows_of_node * lanes) {
+          const V qn = mix(row, q0, v0, f0, f1, f2), m0 = mix(row + 10 * lanes, q0, v0, f0, f1, f2),
+                  m1 = mix(row + 15 * lanes, q0, v0, f0, f1, f2);
+          const double s = 0.5 * node;
+          const V moved = qn - q0, by_slope = s * qn - m0, by_square = s * s * qn - 2.0 * m1;
+          of_load[node - 1][part] += l[0] * moved + l[1] * by_slope + l[2] * by_square;
+          of_contact[node - 1][part] += c[0] * moved + c[1] * by_slope + c[2] * by_square;
+          at<V>(&q.at[node][i]) = qn;
+          at<V>(&v.at[node][i]) = mix(row + 5 * lanes, q0, v0, f0, f1, f2);
+        }
+      });
+  return {{sum(of_load[0]), sum(of_load[1])}, {sum(of_contact[0]), sum(of_contact[1])}};
+}
+FRETWORK_KERNEL(PolynomialFlow::Works, move_uncoupled,
+                (int np, const double* table, const Nodes& load, const Nodes& contact, Nodes& q, Nodes& v),
+                (np, table, load, contact, q, v))
 
 } // namespace
 
@@ -203,51 +261,15 @@ void PolynomialFlow::respond(const double* force, int to, int from, double* q, d
       });
 }
 
-FRETWORK_WIDTHS void PolynomialFlow::predict(const Nodes& load, const Nodes& contact, Nodes& q,
-                                             Nodes& v) const {
-  const double* row = table_.data();
-  for (int i = 0; i < padded_modes_; i += lanes) {
-    const Pack q0 = at(&q.at[0][i]), v0 = at(&v.at[0][i]), f0 = at(&load.at[0][i]) + at(&contact.at[0][i]),
-               f1 = at(&load.at[1][i]), f2 = at(&load.at[2][i]);
-    for (int node = 1; node <= 2; ++node, row += rows_of_node * lanes) {
-      const auto mix = [&](const double* r) __attribute__((always_inline)) {
-        return at(r) * q0 + at(r + lanes) * v0 + at(r + 2 * lanes) * f0 + at(r + 3 * lanes) * f1 +
-               at(r + 4 * lanes) * f2;
-      };
-      at(&q.at[node][i]) = mix(row);
-      at(&v.at[node][i]) = mix(row + 5 * lanes);
-    }
-  }
+void PolynomialFlow::predict(const Nodes& load, const Nodes& contact, Nodes& q, Nodes& v) const {
+  predict_uncoupled(padded_modes_, table_.data(), load, contact, q, v);
   if (coupled_)
     predict_coupled(load, contact, q, v);
 }
 
-FRETWORK_WIDTHS PolynomialFlow::Works PolynomialFlow::move(const Nodes& load, const Nodes& contact, Nodes& q,
-                                                           Nodes& v) const {
-  const double* row = table_.data();
-  Pack of_load[2]{}, of_contact[2]{};
-  for (int i = 0; i < padded_modes_; i += lanes) {
-    const Pack q0 = at(&q.at[0][i]), v0 = at(&v.at[0][i]);
-    const Pack l0 = at(&load.at[0][i]), l1 = at(&load.at[1][i]), l2 = at(&load.at[2][i]);
-    const Pack c0 = at(&contact.at[0][i]), c1 = at(&contact.at[1][i]), c2 = at(&contact.at[2][i]);
-    const Pack f0 = l0 + c0, f1 = l1 + c1, f2 = l2 + c2;
-    for (int node = 1; node <= 2; ++node, row += rows_of_node * lanes) {
-      const auto mix = [&](const double* r) __attribute__((always_inline)) {
-        return at(r) * q0 + at(r + lanes) * v0 + at(r + 2 * lanes) * f0 + at(r + 3 * lanes) * f1 +
-               at(r + 4 * lanes) * f2;
-      };
-      const Pack qn = mix(row), m0 = mix(row + 10 * lanes), m1 = mix(row + 15 * lanes);
-      const double s = 0.5 * node;
-      const Pack by_slope = s * qn - m0, by_square = s * s * qn - 2.0 * m1, moved = qn - q0;
-      of_load[node - 1] +=
-          l0 * moved + (4.0 * l1 - 3.0 * l0 - l2) * by_slope + 2.0 * (l0 - 2.0 * l1 + l2) * by_square;
-      of_contact[node - 1] +=
-          c0 * moved + (4.0 * c1 - 3.0 * c0 - c2) * by_slope + 2.0 * (c0 - 2.0 * c1 + c2) * by_square;
-      at(&q.at[node][i]) = qn;
-      at(&v.at[node][i]) = mix(row + 5 * lanes);
-    }
-  }
-  Works works{{sum(of_load[0]), sum(of_load[1])}, {sum(of_contact[0]), sum(of_contact[1])}};
+PolynomialFlow::Works PolynomialFlow::move(const Nodes& load, const Nodes& contact, Nodes& q,
+                                           Nodes& v) const {
+  Works works = move_uncoupled(padded_modes_, table_.data(), load, contact, q, v);
   if (coupled_)
     move_coupled(load, contact, q, v, works);
   return works;

@@ -47,6 +47,31 @@ State by_runge_kutta(double k, double c, double t, State y, const std::array<dou
 constexpr double q0 = 0.3, v0 = -2.0;
 constexpr std::array<double, 3> force = {5.0, -40.0, 70.0};
 
+/// One mode of each kind after the other, `count` of them, all in motion under forces of their own.
+struct MovingModes {
+  explicit MovingModes(int count) {
+    system.stiffness.resize(count);
+    system.damping.resize(count);
+    for (Nodes* nodes : {&q, &v, &load, &contact})
+      for (auto& a : nodes->at)
+        a.assign(static_cast<std::size_t>(kernels::padded(count)), 0.0);
+    for (int i = 0; i < count; ++i) {
+      const auto m = static_cast<std::size_t>(i);
+      const auto& [k, c] = kinds[m % std::size(kinds)];
+      system.stiffness(i) = k;
+      system.damping(i) = c;
+      q.at[0][m] = q0 * std::cos(i);
+      v.at[0][m] = v0 * std::sin(i);
+      for (std::size_t j = 0; j < 3; ++j) {
+        load.at[j][m] = force[j] * std::sin(2 * i);
+        contact.at[j][m] = force[j] * std::cos(3 * i);
+      }
+    }
+  }
+  System system;
+  Nodes q, v, load, contact;
+};
+
 } // namespace
 
 TEST(ForcePolynomial, MovesModesOfEveryKindExactly) {
@@ -111,6 +136,56 @@ TEST(ForcePolynomial, PredictsWithTheForcesOfTheStartAndTheLoads) {
   const auto state = state_under(50.0, 0.3, h, h, q0, 0.0, {force[0] + 3.0, force[1], force[2]});
   EXPECT_DOUBLE_EQ(q.at[2][0], state.q);
   EXPECT_DOUBLE_EQ(v.at[2][0], state.v);
+}
+
+TEST(ForcePolynomial, MovesManyModesAndSumsTheirWorks) {
+  constexpr double round_off = 1e-12; // relative to the sum of magnitudes
+  for (const int count : {1, 4, 7, 8, 13, 40}) {
+    MovingModes modes(count);
+    auto& [system, q, v, load, contact] = modes;
+    const PolynomialFlow flow(system, h);
+    Nodes predicted_q = q, predicted_v = v;
+    flow.predict(load, contact, predicted_q, predicted_v);
+    const auto works = flow.move(load, contact, q, v);
+    double by_load[2]{}, by_contact[2]{}, size = 0.0;
+    for (int i = 0; i < count; ++i) {
+      const auto m = static_cast<std::size_t>(i);
+      const double k = system.stiffness(i), c = system.damping(i), fast = std::sqrt(k) + c + 1.0;
+      std::array<double, 3> f{}, known{};
+      for (std::size_t j = 0; j < 3; ++j) {
+        f[j] = load.at[j][m] + contact.at[j][m];
+        known[j] = load.at[j][m] + contact.at[0][m] * (j == 0);
+      }
+      for (std::size_t j = 1; j <= 2; ++j) {
+        const double t = 0.5 * static_cast<double>(j) * h;
+        const auto state = state_under(k, c, h, t, q.at[0][m], v.at[0][m], f);
+        EXPECT_NEAR(q.at[j][m], state.q, round_off);
+        EXPECT_NEAR(v.at[j][m], state.v, round_off * fast);
+        const auto first = state_under(k, c, h, t, q.at[0][m], v.at[0][m], known);
+        EXPECT_NEAR(predicted_q.at[j][m], first.q, round_off);
+        EXPECT_NEAR(predicted_v.at[j][m], first.v, round_off * fast);
+      }
+      MovingModes alone(1);
+      alone.system.stiffness(0) = k;
+      alone.system.damping(0) = c;
+      alone.q.at[0][0] = q.at[0][m];
+      alone.v.at[0][0] = v.at[0][m];
+      for (std::size_t j = 0; j < 3; ++j) {
+        alone.load.at[j][0] = load.at[j][m];
+        alone.contact.at[j][0] = contact.at[j][m];
+      }
+      const auto own = PolynomialFlow(alone.system, h).move(alone.load, alone.contact, alone.q, alone.v);
+      for (std::size_t j = 0; j < 2; ++j) {
+        by_load[j] += own.load[j];
+        by_contact[j] += own.contact[j];
+        size += std::abs(own.load[j]) + std::abs(own.contact[j]);
+      }
+    }
+    for (std::size_t j = 0; j < 2; ++j) {
+      EXPECT_NEAR(works.load[j], by_load[j], round_off * size) << count;
+      EXPECT_NEAR(works.contact[j], by_contact[j], round_off * size) << count;
+    }
+  }
 }
 
 TEST(DecayFunctions, MeetBetweenSeriesAndClosedForm) {
