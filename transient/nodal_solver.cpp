@@ -9,6 +9,8 @@
 namespace fretwork::transient {
 namespace {
 
+using namespace kernels;
+
 /// Sweeps stop when what is still to come is below this share of the force: far below what a step leaves at its finest.
 constexpr double sweep_tolerance = 1e-9;
 /// Of K_N times the distance of the node from its obstacle's centre: round-off of the penetration.
@@ -54,18 +56,28 @@ template <int n> bool invert(std::array<std::array<double, n>, n>& a, double* in
   return true;
 }
 
-/// z += sum of 6 columns (two groups of 3) times f.
-FRETWORK_WIDTHS void add_columns(std::size_t length, const double* first, const double* second,
-                                 const double (*f)[3], double* z) {
-  using kernels::at;
-  for (std::size_t i = 0; i < length; i += kernels::lanes)
-    at(z + i) += f[0][0] * at(first + i) + f[0][1] * at(first + length + i) +
-                 f[0][2] * at(first + 2 * length + i) + f[1][0] * at(second + i) +
-                 f[1][1] * at(second + length + i) + f[1][2] * at(second + 2 * length + i);
+/// z += columns of both nodes times forces f along y, z and, with three directions, x. No array overlaps z: the forces stay in registers.
+template <class V>
+FRETWORK_INLINE void add_columns_on(std::size_t length, int directions, const double* first,
+                                    const double* second, const double (*f)[3], double* __restrict z) {
+  for (std::size_t i = 0; i < length; i += size_of<V>) {
+    V s = f[0][0] * at<V>(first + i) + f[0][1] * at<V>(first + length + i);
+    if (directions == 3)
+      s += f[0][2] * at<V>(first + 2 * length + i);
+    s += f[1][0] * at<V>(second + i);
+    s += f[1][1] * at<V>(second + length + i);
+    if (directions == 3)
+      s += f[1][2] * at<V>(second + 2 * length + i);
+    at<V>(z + i) += s;
+  }
 }
+FRETWORK_KERNEL(void, add_columns,
+                (std::size_t length, int directions, const double* first, const double* second,
+                 const double (*f)[3], double* z),
+                (length, directions, first, second, f, z))
 
 /// Bound of contact::Reach: false where the node is surely out of its obstacle.
-bool may_touch(const kernels::ReachLanes& r, std::size_t c, double y, double z) {
+bool may_touch(const ReachLanes& r, std::size_t c, double y, double z) {
   y += r.rest_y[c];
   z += r.rest_z[c];
   const double left = r.limit[c] - r.ly[c] * y - r.lz[c] * z, across = r.wy[c] * y * y + r.wz[c] * z * z;
@@ -166,7 +178,8 @@ bool NodalSolver::admit(const NodalTables& tables, NodalMotion& motion) {
       force[1] = node[0].normal * node[0].nz - node[0].friction.t * node[0].ny;
       force[2] = node[0].friction.x;
     }
-    add_columns(tables.length, tables.columns(c, 1), tables.columns(c, 2), active.force, motion.ends.data());
+    add_columns(tables.length, contacts_.in_plane[i] ? 3 : 2, tables.columns(c, 1), tables.columns(c, 2),
+                active.force, motion.ends.data());
   }
   return active_.size() > before;
 }
@@ -263,7 +276,7 @@ double NodalSolver::improve(Active& active, const NodalTables& tables, NodalMoti
     for (int k = 0; k < 3; ++k)
       active.force[j][k] += change[j][k];
   }
-  add_columns(tables.length, tables.columns(active.contact, 1), tables.columns(active.contact, 2), change,
+  add_columns(tables.length, D, tables.columns(active.contact, 1), tables.columns(active.contact, 2), change,
               motion.ends.data());
   if (active.last_change > 0.0 && !(largest < falling * active.last_change))
     active.branches = -1; // a new matrix next time
@@ -317,7 +330,7 @@ void NodalSolver::leave(int c, const NodalTables& tables, NodalMotion& motion) {
     node[j].face_z = node[j - 1].face_z;
     node[j].spring = table.keep * node[j - 1].spring + table.by_force[j - 1][0] * node[0].friction;
     node[j].loaded = node[j - 1].loaded;
-    if (contact::norm(node[j].spring) < kernels::forgotten * node[j].loaded)
+    if (contact::norm(node[j].spring) < forgotten * node[j].loaded)
       node[j].spring = {};
   }
 }
@@ -344,11 +357,10 @@ void NodalSolver::add_forces(int j, double* target) {
       add(contacts_.row(c, 2), node.friction.x);
   }
   if (!row_.empty())
-    kernels::scatter(contacts_.padded_modes, static_cast<int>(row_.size()), row_.data(), factor_.data(),
-                     target);
+    scatter(contacts_.padded_modes, static_cast<int>(row_.size()), row_.data(), factor_.data(), target);
 }
 
-double NodalSolver::power(int j, const kernels::Array& velocity) const {
+double NodalSolver::power(int j, const Array& velocity) const {
   if (velocity.empty())
     return 0.0;
   const auto width = static_cast<std::size_t>(contacts_.width);
