@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Statistics of the automatic step against reference ones.
 //   bench_statistics reference FILE [SCENE]     writes the reference (of one scene into it): runs at a quarter of the automatic step
-//   bench_statistics compare FILE [SCHEME [FACTOR [SCENE]]]   prints deviations of SCHEME (auto) at FACTOR (1) times its automatic step, and times
+//   bench_statistics compare FILE [SCHEME [FACTOR [SCENE [VECTOR]]]]   prints deviations of SCHEME (auto) at FACTOR (1) times its automatic
+//     step, and times; "" for all scenes; VECTOR: doubles a vector at most, 2, 4 or 8 (8)
 // Impacts with friction are chaotic: figures are means over runs whose initial states differ by 1e-7, with standard errors.
 #include "bench/scenes.hpp"
 #include "bench/thread_time.hpp"
 #include "core/error.hpp"
 #include "post/contact_statistics.hpp"
+#include "transient/kernels.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -96,6 +98,14 @@ void write_reference(const char* file, const std::string& only) {
   std::ofstream(file) << out.dump(1) << '\n';
 }
 
+void limit_vectors(int doubles) {
+  using transient::kernels::VectorSize;
+  transient::kernels::limit_vectors(doubles >= 8   ? VectorSize::pack
+                                    : doubles >= 4 ? VectorSize::half
+                                                   : VectorSize::pair);
+  std::printf("%s. ", transient::kernels::vector_width());
+}
+
 std::optional<transient::SchemeKind> scheme_named(const std::string& name) {
   using enum transient::SchemeKind;
   for (const auto kind : {splitting, collocation, energy_conserving, euler, devogelaere})
@@ -140,10 +150,12 @@ void compare(const char* file, const std::string& scheme, double factor, const s
 int main(int argc, char** argv) {
   if ((argc == 3 || argc == 4) && std::strcmp(argv[1], "reference") == 0)
     write_reference(argv[2], argc == 4 ? argv[3] : "");
-  else if (argc >= 3 && argc <= 6 && std::strcmp(argv[1], "compare") == 0)
+  else if (argc >= 3 && argc <= 7 && std::strcmp(argv[1], "compare") == 0) {
+    limit_vectors(argc > 6 ? std::atoi(argv[6]) : 8);
     compare(argv[2], argc > 3 ? argv[3] : "auto", argc > 4 ? std::atof(argv[4]) : 1.0,
             argc > 5 ? argv[5] : "");
-  else
-    std::fprintf(stderr,
-                 "bench_statistics reference FILE [SCENE] | compare FILE [SCHEME [FACTOR [SCENE]]]\n");
+  } else
+    std::fprintf(
+        stderr,
+        "bench_statistics reference FILE [SCENE] | compare FILE [SCHEME [FACTOR [SCENE [VECTOR]]]]\n");
 }

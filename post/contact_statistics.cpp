@@ -8,14 +8,18 @@
 namespace fretwork::post {
 namespace {
 
+using namespace transient::kernels;
+
 /// Sums of a contact whose batches are kept: row of BatchEnds, contact after contact. Those of y and z are about their first values.
 enum Kept : std::size_t { impacts, slid, friction, normal2, y1, y2, z1, z2, kept_sums };
 
-/// No array overlaps another: the compiler may take several contacts at once.
-FRETWORK_WIDTHS void watch_coordinate(std::size_t n, double h, const double* __restrict u,
-                                      const double* __restrict about, double* __restrict sum,
-                                      double* __restrict square, double* __restrict least,
-                                      double* __restrict most) {
+// No array overlaps another: the compiler takes as many contacts at once as a vector has numbers.
+
+template <class>
+FRETWORK_INLINE void watch_coordinate_on(std::size_t n, double h, const double* __restrict u,
+                                         const double* __restrict about, double* __restrict sum,
+                                         double* __restrict square, double* __restrict least,
+                                         double* __restrict most) {
   for (std::size_t c = 0; c < n; ++c) {
     const double d = u[c] - about[c];
     sum[c] += h * d;
@@ -24,16 +28,24 @@ FRETWORK_WIDTHS void watch_coordinate(std::size_t n, double h, const double* __r
     most[c] = u[c] > most[c] ? u[c] : most[c];
   }
 }
+FRETWORK_KERNEL(void, watch_coordinate,
+                (std::size_t n, double h, const double* u, const double* about, double* sum, double* square,
+                 double* least, double* most),
+                (n, h, u, about, sum, square, least, most))
 
-FRETWORK_WIDTHS void watch_radius(std::size_t n, double h, const double* __restrict y,
-                                  const double* __restrict z, double* __restrict square,
-                                  double* __restrict most) {
+template <class>
+FRETWORK_INLINE void watch_radius_on(std::size_t n, double h, const double* __restrict y,
+                                     const double* __restrict z, double* __restrict square,
+                                     double* __restrict most) {
   for (std::size_t c = 0; c < n; ++c) {
     const double r2 = y[c] * y[c] + z[c] * z[c];
     square[c] += h * r2;
     most[c] = r2 > most[c] ? r2 : most[c];
   }
 }
+FRETWORK_KERNEL(void, watch_radius,
+                (std::size_t n, double h, const double* y, const double* z, double* square, double* most),
+                (n, h, y, z, square, most))
 
 } // namespace
 

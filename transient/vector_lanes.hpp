@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Vector lanes for kernels: packs of `lanes` doubles, and one copy of a function for each width of vector unit, chosen when the
-/// program starts. Included by files of kernels only, not by headers.
+/// Vector lanes for kernels: packs of `lanes` doubles in vectors that are registers of the processor, and one copy of each kernel for
+/// each size of these, chosen when the program starts. Included by files of kernels only, not by headers.
 ///
-/// Two ways to the copies. FRETWORK_WIDTHS before a function makes them of one text; its Packs are single registers with AVX-512 alone, and
-/// GCC keeps one that lives from turn to turn of a loop (a sum) in memory elsewhere. FRETWORK_KERNEL makes them of a template over the
-/// vector type, which is always a register: with AVX2 two to four times as fast where a loop sums.
+/// A kernel is a template over the vector type: of one text over Packs GCC would make copies too (target_clones), but keep a Pack that lives
+/// from turn to turn of a loop in memory where no register holds it, two to ten times slower.
 #pragma once
 #include "transient/kernels.hpp"
 #include <span>
@@ -14,7 +13,6 @@
 
 // Not under the sanitizers (they start after the choice is made), nor with compilers that lack it.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(FRETWORK_SANITIZED)
-#define FRETWORK_WIDTHS __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 /// Defines the kernel `name` by the template name##_on<V>.
 #define FRETWORK_KERNEL(result, name, parameters, arguments)                                                 \
   __attribute__((target("arch=x86-64-v4"))) static result name##_by_packs parameters {                       \
@@ -26,7 +24,6 @@
   static result name##_by_pairs parameters { return name##_on<Pair> arguments; }                             \
   const Kernel<result parameters> name(name##_by_pairs, name##_by_halves, name##_by_packs);
 #else
-#define FRETWORK_WIDTHS
 #define FRETWORK_KERNEL(result, name, parameters, arguments)                                                 \
   static result name##_by_pairs parameters { return name##_on<Pair> arguments; }                             \
   const Kernel<result parameters> name(name##_by_pairs, name##_by_pairs, name##_by_pairs);
@@ -39,7 +36,6 @@ typedef double Pack __attribute__((vector_size(64)));
 typedef double Half __attribute__((
     vector_size(32))); ///< the first lanes of a pack: enough for few contacts, and half the work
 typedef double Pair __attribute__((vector_size(16)));
-typedef long long Mask __attribute__((vector_size(64)));
 
 /// V is a Pack, a Half or a double where a kernel is written for all.
 template <class V = Pack> FRETWORK_INLINE const V& at(const double* p) {
