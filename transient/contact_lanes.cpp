@@ -59,13 +59,14 @@ LawLanes::LawLanes(const PackedContacts& contacts, double step) {
   }
 }
 
-StepLanes::StepLanes(int width) {
+StepLanes::StepLanes(int width, bool ties_tangents) {
   for (Array* a :
        {&shut,       &spring,     &damping,      &share,  &nn,       &nt,       &tt,   &bound, &share_t,
         &tangential, &per_normal, &per_friction, &normal, &friction, &slides,   &by_y, &by_z,  &by_t,
         &v_y,        &v_z,        &v_t,          &first,  &before_n, &before_t, &cut})
     a->assign(static_cast<std::size_t>(width), 0.0);
-  ties.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(width), 0.0);
+  if (ties_tangents)
+    ties.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(width), 0.0);
   contacts.assign(static_cast<std::size_t>(width), 0);
 }
 
@@ -182,7 +183,7 @@ FRETWORK_INLINE double improve(std::span<const int> places, double half_step, co
   const V one = V{} + 1.0;
   V worst{};
   for_places<G>(
-      places, [&](int i) __attribute__((always_inline)) {
+      places, [&](int i, auto) __attribute__((always_inline)) {
         const V n0 = at<V>(&s.normal[i]), t0 = at<V>(&s.friction[i]), my = at<V>(near.ny + i),
                 mz = at<V>(near.nz + i);
         const V v_n = my * at<V>(&s.v_y[i]) + mz * at<V>(&s.v_z[i]),
@@ -216,7 +217,7 @@ FRETWORK_INLINE void answer_planes(std::span<const int> places, int width, const
   using V = typename G::V;
   constexpr int columns = coupled ? 4 : 2;
   for_places<G>(
-      places, [&](int i) __attribute__((always_inline)) {
+      places, [&](int i, auto) __attribute__((always_inline)) {
         V y[2] = {at<V>(&s.v_y[i]), V{}}, z[2] = {at<V>(&s.v_z[i]), V{}};
         const auto add = [&](int k, int into) __attribute__((always_inline)) {
           const auto c = static_cast<std::size_t>(s.contacts[k]);
@@ -270,7 +271,7 @@ FRETWORK_INLINE void tie_tangents(std::span<const int> places, int width, double
         &mobility.columns[static_cast<std::size_t>(c) * static_cast<std::size_t>(columns * width)];
     double* ties = &s.ties[static_cast<std::size_t>(k) * static_cast<std::size_t>(width)];
     for_places<G>(
-        places, [&](int i) __attribute__((always_inline)) {
+        places, [&](int i, auto) __attribute__((always_inline)) {
           V y = fy * at<V>(column + i), z = fz * at<V>(column + width + i);
           if (mobility.coupled) {
             z += fy * at<V>(column + 2 * width + i);
@@ -291,7 +292,7 @@ FRETWORK_INLINE bool sweep_frictions(std::span<const int> places, int width, con
   const V one = V{} + 1.0;
   tie_tangents<G>(places, width, half_step, mobility, near, s);
   for_places<G>(
-      places, [&](int i) __attribute__((always_inline)) {
+      places, [&](int i, auto) __attribute__((always_inline)) {
         at<V>(&s.v_t[i]) = at<V>(near.nz + i) * at<V>(&s.v_y[i]) - at<V>(near.ny + i) * at<V>(&s.v_z[i]);
         at<V>(&s.first[i]) = at<V>(&s.friction[i]);
       });
@@ -300,7 +301,7 @@ FRETWORK_INLINE bool sweep_frictions(std::span<const int> places, int width, con
   for (int k = 0; k < rule.most && !settles; ++k) {
     V worst{};
     for_places<G>(
-        places, [&](int i) __attribute__((always_inline)) {
+        places, [&](int i, auto) __attribute__((always_inline)) {
           const V n = at<V>(&s.normal[i]), t0 = at<V>(&s.friction[i]);
           const V free = at<V>(&s.v_t[i]) - at<V>(&s.tt[i]) * t0; // without this contact's friction
           const V stick = (at<V>(&s.tangential[i]) - at<V>(&law.gradient[i]) * free) * at<V>(&s.share_t[i]);
@@ -314,7 +315,7 @@ FRETWORK_INLINE bool sweep_frictions(std::span<const int> places, int width, con
           worst = worst > change ? worst : change;
         });
     for_places<G>(
-        places, [&](int i) __attribute__((always_inline)) {
+        places, [&](int i, auto) __attribute__((always_inline)) {
           V v[2] = {at<V>(&s.v_t[i]), V{}};
           for (int j = 0; j < s.count; ++j)
             v[j % 2] += s.by_t[s.contacts[j]] *
@@ -328,7 +329,7 @@ FRETWORK_INLINE bool sweep_frictions(std::span<const int> places, int width, con
   if (!settles)
     return false;
   for_places<G>(
-      places, [&](int i) __attribute__((always_inline)) {
+      places, [&](int i, auto) __attribute__((always_inline)) {
         turn<V>(near, i, half_step, V{}, V(at<V>(&s.friction[i]) - at<V>(&s.first[i])), s);
       });
   answer_all<G>(places, width, mobility, s);
@@ -347,7 +348,7 @@ FRETWORK_INLINE bool sweep(std::span<const int> places, int width, const SweepRu
     s.friction[s.contacts[0]] = 0.0;
   } else {
     for_places<G>(
-        places, [&](int i) __attribute__((always_inline)) {
+        places, [&](int i, auto) __attribute__((always_inline)) {
           turn<V>(near, i, half_step, at<V>(&s.normal[i]), at<V>(&s.friction[i]), s);
         });
     answer_all<G>(places, width, mobility, s);
@@ -414,14 +415,14 @@ FRETWORK_INLINE Solved solve_all(std::span<const int> places, int width, const S
   return solved;
 }
 
-template <class G> struct CommitGrains {
+template <class G> struct CommitParts {
   typename G::Sums sliders = {}, damping = {}, stored = {};
 };
 
 /// Contacts of which some acted. Returns whether any remembers something.
 template <class G>
 FRETWORK_INLINE bool keep(int i, auto part, const LawLanes& law, CommitLanes& s, MemoryLanes& m,
-                          CommitGrains<G>& sums) {
+                          CommitParts<G>& sums) {
   using V = typename G::V;
   const V one = V{} + 1.0;
   const V my = at<V>(&s.normal_y[i]), mz = at<V>(&s.normal_z[i]), half = 0.5 * at<V>(&law.compliance[i]);
@@ -459,7 +460,7 @@ FRETWORK_INLINE bool keep(int i, auto part, const LawLanes& law, CommitLanes& s,
 
 /// Contacts that are all open: what `keep` makes of them.
 template <class G>
-FRETWORK_INLINE bool fade(int i, auto part, const LawLanes& law, MemoryLanes& m, CommitGrains<G>& sums) {
+FRETWORK_INLINE bool fade(int i, auto part, const LawLanes& law, MemoryLanes& m, CommitParts<G>& sums) {
   using V = typename G::V;
   const V e = at<V>(&law.relaxation[i]), held = at<V>(&m.spring[i]);
   const V fading = at<V>(&m.left[i]) * e, left = fading < forgotten ? V{} : fading;
@@ -476,7 +477,7 @@ FRETWORK_INLINE bool fade(int i, auto part, const LawLanes& law, MemoryLanes& m,
 template <class G>
 FRETWORK_INLINE CommitSums commit_all(const Places& acting, const LawLanes& law, CommitLanes& s,
                                       MemoryLanes& m) {
-  CommitGrains<G> sums;
+  CommitParts<G> sums;
   m.next.clear();
   auto old = m.places.begin();
   const auto remember = [&](int place, const auto& one) __attribute__((always_inline)) {

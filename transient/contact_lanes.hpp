@@ -6,7 +6,8 @@
 ///
 /// The forces are found by Jacobi sweeps: all contacts at once, each with its own block of A solved exactly; a contact that is shut alone,
 /// its normal force untouched by its friction, needs one. Without normal dampers normal forces do not answer velocities: the sweeps are over
-/// frictions alone, with the block of A that ties them. Where the sweeps do not halve the error (contacts that move almost together), Gauss-Seidel sweeps of ContactSolver take over.
+/// frictions alone, with the block of A that ties them. Where the sweeps do not halve the error (contacts that move almost together),
+/// Gauss-Seidel sweeps of ContactSolver take over.
 #pragma once
 #include "core/state_archive.hpp"
 #include "transient/kernels.hpp"
@@ -45,7 +46,8 @@ struct MemoryLanes {
 
 /// The unknowns of a step, one contact a lane.
 struct StepLanes {
-  explicit StepLanes(int width);
+  /// @param ties_tangents  with room for `ties`
+  StepLanes(int width, bool ties_tangents);
   Array shut;                       ///< 1 or 0: takes part
   Array spring, damping, share;     ///< F_K, c, 1/(1 + c nn)
   Array nn, nt, tt;                 ///< own block of A
@@ -88,7 +90,7 @@ struct SweepRule {
   double step;        ///< s
   double half_window; ///< s, closed shares are taken over it to both sides
   bool implicit;      ///< some law depends on velocities: one sweep is not enough
-  bool damped;        ///< some normal law
+  bool damped;        ///< some normal law has a damper: normal forces answer velocities
   double tolerance;   ///< of the forces, relative to what a contact can bear
   int most;           ///< sweeps
 };

@@ -27,7 +27,7 @@ ContactSolver::ContactSolver(const PackedContacts& contacts, double step)
                       [](const contact::Support& s) { return s.friction.active() || s.normal.damps(); })),
       damped_(std::any_of(contacts.supports.begin(), contacts.supports.end(),
                           [](const contact::Support& s) { return s.normal.damps(); })),
-      laws_(contacts, step), lanes_(contacts.width),
+      laws_(contacts, step), lanes_(contacts.width, contacts.in_lanes && coupled_ && !damped_),
       block_(static_cast<std::size_t>(contacts.components) * static_cast<std::size_t>(contacts.stride())) {
   shut_.reserve(static_cast<std::size_t>(contacts.count));
   a_.assign(block_ * static_cast<std::size_t>(contacts.count), 0.0);

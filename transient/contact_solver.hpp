@@ -74,7 +74,7 @@ private:
   double h_;
   double half_window_; ///< s: contacts that close within it may act
   bool coupled_;       ///< some law is implicit in velocity
-  bool damped_;        ///< some normal law
+  bool damped_;        ///< some normal law has a damper
   std::vector<Shut> shut_;
   kernels::LawLanes laws_;
   kernels::StepLanes lanes_;

@@ -53,7 +53,8 @@ enum class VectorSize { pair, half, pack };
 /// they use from now on.
 VectorSize limit_vectors(VectorSize most);
 
-/// The copies of a kernel by size of vectors: the widest that the processor has is chosen when the program starts.
+/// The copies of a kernel by size of vectors: the widest that the processor has is chosen when the program starts, before `main` (not to be
+/// called by what is made before it).
 class KernelCopies {
 protected:
   using Any = void (*)();

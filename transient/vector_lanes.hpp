@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <utility>
 
-// Not under the sanitizers (they start after the choice is made), nor with compilers that lack it.
+// Not under the sanitizers (with which these take minutes to compile), nor with compilers that lack it.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(FRETWORK_SANITIZED)
 /// Defines the kernel `name` by the template name##_on<V>.
 #define FRETWORK_KERNEL(result, name, parameters, arguments)                                                 \
@@ -87,17 +87,12 @@ template <class G, class Step> FRETWORK_INLINE void for_parts(const Step& step) 
   }
   (std::make_integer_sequence<int, G::parts>{});
 }
-/// step(first lane, part) or step(first lane) for all vectors of the places.
+/// step(first lane, part) for all vectors of the places.
 template <class G, class Step>
 FRETWORK_INLINE void for_places(std::span<const int> places, const Step& step) {
   for (const int place : places)
-    for_parts<G>([&](auto part) __attribute__((always_inline)) {
-      const int lane = place + part * size_of<typename G::V>;
-      if constexpr (requires { step(lane, part); })
-        step(lane, part);
-      else
-        step(lane);
-    });
+    for_parts<G>([&](auto part)
+                     __attribute__((always_inline)) { step(place + part * size_of<typename G::V>, part); });
 }
 
 FRETWORK_INLINE double root(double x) { return __builtin_sqrt(x); }

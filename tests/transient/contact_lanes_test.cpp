@@ -20,7 +20,8 @@ struct Engine {
         trial(contacts.count) {}
   ContactLosses step(const kernels::Array& q, const kernels::Array& v) {
     motion.gather(q.data(), v.data());
-    converged = solver.solve(memory, motion, trial).converged && converged;
+    action = solver.solve(memory, motion, trial);
+    converged = action.converged && converged;
     return memory.commit(motion, trial);
   }
   PackedContacts contacts;
@@ -28,6 +29,7 @@ struct Engine {
   ContactMemory memory;
   ContactSolver solver;
   ContactTrial trial;
+  ContactSolver::Action action;
   bool converged = true;
 };
 
@@ -62,6 +64,15 @@ struct Contacts {
   bool planes_apart = false, damped = true; ///< modes of either plane; some normal laws with dampers
 };
 
+/// Vectors of another size while it lives.
+class Vectors {
+public:
+  explicit Vectors(kernels::VectorSize most) { kernels::limit_vectors(most); }
+  Vectors(const Vectors&) = delete;
+  Vectors& operator=(const Vectors&) = delete;
+  ~Vectors() { kernels::limit_vectors(kernels::VectorSize::pack); }
+};
+
 /// Many steps of random motion, half of the contacts closed on the average. `tolerance` relative to forces.
 void compare(const Contacts& kind, double tolerance) {
   const auto [count, planes_apart, damped] = kind;
@@ -74,7 +85,8 @@ void compare(const Contacts& kind, double tolerance) {
     points[c].support = support_of(c);
     if (!damped)
       points[c].support.normal = {points[c].support.normal.stiffness};
-    points[c].b = Eigen::MatrixXd::NullaryExpr(3, modes, [&] { return 0.3 * normal(random); });
+    const double coupling = damped ? 0.3 : 0.6;
+    points[c].b = Eigen::MatrixXd::NullaryExpr(3, modes, [&] { return coupling * normal(random); });
     points[c].b.row(0).setZero();
     if (planes_apart) { // modes of either plane, axes along them
       points[c].b.row(1).head(modes / 2).setZero();
@@ -95,6 +107,9 @@ void compare(const Contacts& kind, double tolerance) {
     const ContactLosses a = lanes.step(q, v), b = each.step(q, v);
     ASSERT_EQ(lanes.trial.active, each.trial.active) << "step " << k;
     ASSERT_EQ(lanes.trial.opened, each.trial.opened);
+    EXPECT_TRUE(lanes.trial.found_in_lanes || lanes.trial.active.empty()) << "they gave up";
+    EXPECT_NEAR(lanes.action.work, each.action.work, count * tolerance * force * h);
+    EXPECT_NEAR(lanes.action.jump, each.action.jump, count * tolerance * force * h);
     for (const int c : lanes.trial.active) {
       const ContactState &s = lanes.trial.states[c], &t = each.trial.states[c];
       EXPECT_NEAR(s.normal_force, t.normal_force, tolerance * force);
@@ -119,33 +134,42 @@ void compare(const Contacts& kind, double tolerance) {
   EXPECT_GT(sliding, 30);
 }
 
-TEST(ContactLanes, FollowTheLawsOfOneContact) {
+/// In vectors of 2, 4 and 8 doubles, as far as the processor has them.
+class ContactLanes : public testing::TestWithParam<kernels::VectorSize> {
+  Vectors vectors_{GetParam()};
+};
+
+TEST_P(ContactLanes, FollowTheLawsOfOneContact) {
   compare({1}, round_off);
   compare({1, true}, round_off);
 }
 
 /// So few that they are taken one after the other.
-TEST(ContactLanes, FollowTheLawsOfTwoContacts) { compare({2}, settled); }
+TEST_P(ContactLanes, FollowTheLawsOfTwoContacts) { compare({2}, settled); }
 
-TEST(ContactLanes, FollowTheLawsOfOnePackOfContacts) { compare({5}, settled); }
+TEST_P(ContactLanes, FollowTheLawsOfOnePackOfContacts) { compare({5}, settled); }
 
-TEST(ContactLanes, FollowTheLawsOfAFewPacksOfContacts) { compare({19}, settled); }
+TEST_P(ContactLanes, FollowTheLawsOfAFewPacksOfContacts) { compare({19}, settled); }
 
-TEST(ContactLanes, FollowTheLawsWherePlanesAreNotCoupled) {
+TEST_P(ContactLanes, FollowTheLawsWherePlanesAreNotCoupled) {
   compare({2, true}, settled);
   compare({11, true}, settled);
 }
 
 /// Where sweeps are over frictions alone.
-TEST(ContactLanes, FollowTheLawsWithoutNormalDampers) {
+TEST_P(ContactLanes, FollowTheLawsWithoutNormalDampers) {
   for (const int count : {1, 2, 4, 7, 19}) {
     compare({count, false, false}, count > 1 ? settled : round_off);
     compare({count, true, false}, count > 1 ? settled : round_off);
   }
 }
 
+INSTANTIATE_TEST_SUITE_P(InVectors, ContactLanes,
+                         testing::Values(kernels::VectorSize::pair, kernels::VectorSize::half,
+                                         kernels::VectorSize::pack));
+
 /// Contacts that move together: Jacobi sweeps do not settle and the others take over.
-TEST(ContactLanes, GiveWayWhereTheyDoNotConverge) {
+TEST(JacobiSweeps, GiveWayWhereTheyDoNotConverge) {
   constexpr Eigen::Index modes = 2;
   std::vector<ContactPoint> points(9);
   for (ContactPoint& point : points) {

@@ -2,8 +2,12 @@
 // The kernels that move the modes against plain loops.
 #include "transient/kernels.hpp"
 #include "transient/oscillator.hpp"
+#include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <random>
+#include <tuple>
+#include <vector>
 
 using namespace fretwork::transient;
 
@@ -47,7 +51,13 @@ Modes some_modes(int count) {
   return m;
 }
 
-class MovingKernels : public testing::TestWithParam<int> {};
+/// For numbers of modes, in vectors of 2, 4 and 8 doubles, as far as the processor has them.
+class MovingKernels : public testing::TestWithParam<std::tuple<int, kernels::VectorSize>> {
+protected:
+  MovingKernels() { kernels::limit_vectors(std::get<1>(GetParam())); }
+  ~MovingKernels() override { kernels::limit_vectors(kernels::VectorSize::pack); }
+  const int modes_ = std::get<0>(GetParam());
+};
 
 void expect_padding_at_rest(const Modes& m) {
   for (auto i = static_cast<std::size_t>(m.count); i < m.q.size(); ++i) {
@@ -59,7 +69,7 @@ void expect_padding_at_rest(const Modes& m) {
 } // namespace
 
 TEST_P(MovingKernels, FollowTheCoefficientsUnderLoadsAndSumTheirWorkAndTheEnergy) {
-  Modes m = some_modes(GetParam());
+  Modes m = some_modes(modes_);
   const kernels::Array q0 = m.q, v0 = m.v;
   const kernels::FlowSums sums =
       kernels::flow_loaded(m.padded, m.table, m.q.data(), m.v.data(), m.f0.data(), m.f1.data());
@@ -83,7 +93,7 @@ TEST_P(MovingKernels, FollowTheCoefficientsUnderLoadsAndSumTheirWorkAndTheEnergy
 }
 
 TEST_P(MovingKernels, MoveFreeModesAsUnderNoLoad) {
-  Modes free = some_modes(GetParam()), loaded = free;
+  Modes free = some_modes(modes_), loaded = free;
   std::fill(loaded.f0.begin(), loaded.f0.end(), 0.0);
   const kernels::FlowSums sums = kernels::flow_free(free.padded, free.table, free.q.data(), free.v.data());
   const kernels::FlowSums same = kernels::flow_loaded(loaded.padded, loaded.table, loaded.q.data(),
@@ -98,7 +108,7 @@ TEST_P(MovingKernels, MoveFreeModesAsUnderNoLoad) {
 TEST_P(MovingKernels, CombineAnyNumberOfShapes) {
   std::mt19937 generator(1);
   for (const int sources : {1, 2, 4, 5, 9}) {
-    const int n = GetParam(), padded = kernels::padded(n);
+    const int n = modes_, padded = kernels::padded(n);
     kernels::Array shapes;
     for (int s = 0; s < sources; ++s) {
       const kernels::Array shape = random_values(n, generator);
@@ -116,4 +126,8 @@ TEST_P(MovingKernels, CombineAnyNumberOfShapes) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(OfModes, MovingKernels, testing::Values(1, 7, 8, 9, 23, 40, 60));
+INSTANTIATE_TEST_SUITE_P(OfModes, MovingKernels,
+                         testing::Combine(testing::Values(1, 7, 8, 9, 23, 40, 60),
+                                          testing::Values(kernels::VectorSize::pair,
+                                                          kernels::VectorSize::half,
+                                                          kernels::VectorSize::pack)));
