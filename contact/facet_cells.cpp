@@ -13,6 +13,8 @@ constexpr double surround = 1.5; // how far the cells reach, of the outermost ve
 FacetCells::FacetCells(std::span<const FacetPair> pairs, double outermost)
     : per_metre_(1.0 / (surround * outermost)) {
   Builder(pairs, *this).build();
+  cells_.shrink_to_fit();
+  lists_.shrink_to_fit();
 }
 
 } // namespace fretwork::contact

@@ -4,7 +4,8 @@
 /// cell it is a part of, so that the work follows the number of facets and little more.
 ///
 /// All in units of the reach. `rounding` is above what rounding does to two squared distances, to corners, and by moving a point
-/// to the next cell (1e-16 each, some tens of times).
+/// to the next cell (1e-16 each, some tens of times). The tangent of a distance d is uncertain by 1e-16/d of the cell's size, which is more
+/// in long thin cells beside a facet; there the facets that the tests leave out were found farther by 1e-13 all the same.
 #pragma once
 #include "contact/facet_cells.hpp"
 

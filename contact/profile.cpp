@@ -21,6 +21,8 @@ constexpr double smallest = 1e-100, largest = 1e100; // m: squares of radii stay
 constexpr double no_direction =
     8.0 * std::numeric_limits<double>::epsilon(); // of the radius: rounding of a position
 
+constexpr std::size_t most_points = 1000000; // whose cells take a minute or two to make
+
 std::string name(std::size_t k, const PolarPoint& p) {
   return fmt::format("point {} ({:.12g} degrees, {:g} m)", k + 1, p.angle * 360.0 / turn, p.radius);
 }
@@ -78,6 +80,8 @@ void check_number(std::size_t number) {
     refuse(fmt::format(
         "{} point{} do{} not enclose a hole; give at least 3, by increasing angle within one turn", number,
         number == 1 ? "" : "s", number == 1 ? "es" : ""));
+  if (number > most_points)
+    refuse(fmt::format("{} points are more than any hole is known by; give at most {}", number, most_points));
 }
 
 void check_inside(std::span<const PolarPoint> points, std::span<const PlanePoint> vertices) {
@@ -147,10 +151,10 @@ Location Profile::locate(double y, double z) const {
   const Facet& f = index[k];
   const double wy = y - f.ay, wz = z - f.az, along = wy * f.uy + wz * f.uz;
   // Rounding chooses between the two facets of a corner, so that nothing could predict at which end of one it is:
-  // one branch for both ends.
-  if (!(std::min(along, f.length - along) <= 0.0))
+  // one branch for both ends, which decides where a node is on the corner itself.
+  if (!(std::min(along, f.length - along) <= no_direction * (std::abs(y) + std::abs(z))))
     return on_line(f, wy, wz);
-  const std::uint32_t corner = k + (along >= f.length ? 1u : 0u);
+  const std::uint32_t corner = k + (along + along > f.length ? 1u : 0u);
   return locate_at_corner(corner == index.size() ? 0 : corner, y, z);
 }
 

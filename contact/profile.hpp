@@ -35,7 +35,7 @@ struct PolarPoint {
 /// Immutable; copies share their tables.
 class Profile {
 public:
-  /// @param points  at least 3, by increasing angle within one turn; a last point that repeats the first is
+  /// @param points  3 to a million, by increasing angle within one turn; a last point that repeats the first is
   /// dropped
   /// @throws core::Error naming the point, counted from 1
   explicit Profile(std::span<const PolarPoint> points);

@@ -16,7 +16,6 @@ using contact::PlanePoint;
 namespace {
 
 constexpr double turn = 2.0 * std::numbers::pi;
-constexpr double round_off = 2e-15; // of the distance squared; coordinates and distances are of order 1
 
 std::vector<PlanePoint> polygon(int n, auto radius) {
   std::vector<PlanePoint> vertices;
@@ -47,17 +46,31 @@ double star(double angle) {
          0.02 * std::sin(211.0 * angle);
 }
 
+/// As the index rounds it: exact ties are exact.
 double squared_distance(const Facet& f, double y, double z) {
-  const double along = std::clamp((y - f.ay) * f.uy + (z - f.az) * f.uz, 0.0, f.length);
-  const double ry = y - f.ay - along * f.uy, rz = z - f.az - along * f.uz;
-  return ry * ry + rz * rz;
+  return contact::distance2(contact::FacetPair(f, f), y, z)[0];
 }
 
+/// Of equals the one of lowest number.
 void expect_nearest(const FacetIndex& index, double y, double z) {
+  std::uint32_t nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::uint32_t k = 0; k < index.size(); ++k)
-    least = std::min(least, squared_distance(index[k], y, z));
-  ASSERT_LE(squared_distance(index[index.nearest(y, z)], y, z), least + round_off) << y << " " << z;
+    if (const double d = squared_distance(index[k], y, z); d < least) {
+      least = d;
+      nearest = k;
+    }
+  ASSERT_EQ(index.nearest(y, z), nearest) << y << " " << z;
+}
+
+/// Nodes between two of which the nearest facet changes, to the last bit.
+void expect_nearest_at_changes(const FacetIndex& index, PlanePoint a, PlanePoint b) {
+  const std::uint32_t first = index.nearest(a.y, a.z);
+  const auto between = [&] { return PlanePoint{0.5 * (a.y + b.y), 0.5 * (a.z + b.z)}; };
+  for (PlanePoint p = between(); (p.y != a.y || p.z != a.z) && (p.y != b.y || p.z != b.z); p = between()) {
+    expect_nearest(index, p.y, p.z);
+    (index.nearest(p.y, p.z) == first ? a : b) = p;
+  }
 }
 
 /// Nodes on both sides at all depths, in the middle, and far away.
@@ -72,6 +85,9 @@ void expect_nearest_everywhere(const std::vector<PlanePoint>& vertices, std::uin
     expect_nearest(index, share * v.y, share * v.z);
     expect_nearest(index, uniform(-1.8, 1.8), uniform(-1.8, 1.8));
   }
+  for (int i = 0; i < nodes / 60; ++i)
+    expect_nearest_at_changes(index, {uniform(-0.9, 0.9), uniform(-0.9, 0.9)},
+                              {uniform(-0.9, 0.9), uniform(-0.9, 0.9)});
   for (int i = 0; i < nodes / 10; ++i) {
     const double angle = uniform(0.0, turn), r = i == 0 ? 0.0 : uniform.scale(1e-12, 0.01);
     expect_nearest(index, r * std::cos(angle), r * std::sin(angle));
@@ -93,6 +109,43 @@ TEST(FacetIndex, LeastOfEightIsTheFirstOfEquals) {
     }
   const Pack none = Pack{} + std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(contact::least_of(none, none, none, none).number, 0u);
+}
+
+TEST(FacetIndex, LeastOfManyIsThatOfLowestNumberOfEquals) {
+  using contact::Pack;
+  for (const double other : {0.5, 0.25, 1.0})
+    for (std::uint32_t first : {0u, 1u})
+      for (std::uint32_t second : {2u, 3u}) {
+        contact::Least least;
+        Pack a{9.0, 9.0}, b = a;
+        a[first] = 0.5;
+        b[second - 2] = other;
+        least.see(a, contact::numbers_from(0));
+        least.see(b, contact::numbers_from(2));
+        EXPECT_EQ(least.any().number, other < 0.5 ? second : first);
+        EXPECT_EQ(least.number(), least.any().number);
+        EXPECT_EQ(least.any().value, std::min(other, 0.5));
+      }
+}
+
+/// A square of facets of one length on a grid: nodes on its axes and diagonals have up to eight as near, to the last bit.
+TEST(FacetIndex, FindsTheLowestOfExactTies) {
+  for (const int side : {8, 64, 512}) {
+    std::vector<PlanePoint> vertices;
+    const double step = 2.0 / side;
+    for (const auto& [y, z, along_y, along_z] : {std::array{1.0, -1.0, 0.0, 1.0},
+                                                 {1.0, 1.0, -1.0, 0.0},
+                                                 {-1.0, 1.0, 0.0, -1.0},
+                                                 {-1.0, -1.0, 1.0, 0.0}})
+      for (int k = 0; k < side; ++k)
+        vertices.push_back({y + k * step * along_y, z + k * step * along_z});
+    const FacetIndex index(vertices);
+    for (int i = -70; i <= 70; ++i) {
+      const double at = i / 64.0;
+      for (const auto& [y, z] : {std::array{at, at}, {at, -at}, {at, 0.0}, {0.0, at}, {at, 0.5}, {0.5, at}})
+        expect_nearest(index, y, z);
+    }
+  }
 }
 
 TEST(FacetIndex, FindsTheNearestOfTenThousandFacets) {

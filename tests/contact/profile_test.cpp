@@ -270,6 +270,25 @@ TEST(Profile, NormalOnACornerIsItsBisector) {
   EXPECT_NEAR(at.nz, -1.0, round_off);
 }
 
+TEST(Profile, NormalOnAnyCornerHalvesTheAngleOfItsFacets) {
+  for (const Profile& profile : all()) {
+    const auto v = profile.vertices();
+    for (std::size_t k = 0; k < v.size(); ++k) {
+      const PlanePoint before = v[(k + v.size() - 1) % v.size()], after = v[(k + 1) % v.size()];
+      const auto along_normal = [](const Location& at, PlanePoint a,
+                                   PlanePoint b) { // n times that of a facet
+        const double y = b.y - a.y, z = b.z - a.z;
+        return (at.nz * y - at.ny * z) / std::hypot(y, z);
+      };
+      const Location at = profile.locate(v[k].y, v[k].z);
+      EXPECT_NEAR(at.gap, 0.0, round_off);
+      EXPECT_NEAR(std::hypot(at.ny, at.nz), 1.0, round_off);
+      EXPECT_NEAR(along_normal(at, before, v[k]), along_normal(at, v[k], after), 1e-9) << k;
+      EXPECT_GT(along_normal(at, before, v[k]), 0.0) << k;
+    }
+  }
+}
+
 TEST(Profile, CopiesAndRebuildsGiveTheSameBytes) {
   for (const auto& points : {polygon(60, trefoil), jagged(400, 3)}) {
     const Profile profile(points), again(points), copy(profile);
