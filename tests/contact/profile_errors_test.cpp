@@ -38,6 +38,10 @@ TEST(Profile, RefusesTooFewPoints) {
   expect_refused({{0.0, 1.0}, {pi, 1.0}, {2.0 * pi, 1.0}}, {"2 points do not enclose"});
 }
 
+TEST(Profile, RefusesMoreThanAMillionPoints) {
+  expect_refused(std::vector<PolarPoint>(1000001, {0.0, 1.0}), {"1000001 points", "at most 1000000"});
+}
+
 TEST(Profile, RefusesValuesThatAreNoAngleOrRadius) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   expect_refused({{0.0, 1.0}, {2.0, nan}, {4.0, 1.0}},
