@@ -125,6 +125,12 @@ bool is_on_corner(PlanePoint v, double wy, double wz) {
   return wy * wy + wz * wz <= no_direction * no_direction * (v.y * v.y + v.z * v.z);
 }
 
+/// Whether the foot of a node is at an end of its facet, or by rounding. Rounding chooses between the two facets of a corner, so that nothing
+/// could predict at which end of one it is: one branch for both.
+bool at_end(const Facet& f, double along, double y, double z) {
+  return std::min(along, f.length - along) <= no_direction * (std::abs(y) + std::abs(z));
+}
+
 } // namespace
 
 Profile::Profile(std::span<const PolarPoint> points) {
@@ -146,31 +152,31 @@ Profile::Profile(std::span<const PolarPoint> points) {
 }
 
 Location Profile::locate(double y, double z) const {
-  const FacetIndex& index = tables_->index;
-  const std::uint32_t k = index.nearest(y, z);
-  const Facet& f = index[k];
+  const std::uint32_t k = tables_->index.nearest(y, z);
+  const Facet& f = tables_->index[k];
   const double wy = y - f.ay, wz = z - f.az, along = wy * f.uy + wz * f.uz;
-  // Rounding chooses between the two facets of a corner, so that nothing could predict at which end of one it is:
-  // one branch for both ends, which decides where a node is on the corner itself.
-  if (!(std::min(along, f.length - along) <= no_direction * (std::abs(y) + std::abs(z))))
+  if (!at_end(f, along, y, z))
     return on_line(f, wy, wz);
-  const std::uint32_t corner = k + (along + along > f.length ? 1u : 0u);
-  return locate_at_corner(corner == index.size() ? 0 : corner, y, z);
+  return locate_at_corner(corner_of(k, along), y, z);
 }
 
 double Profile::curvature(double y, double z) const {
-  const FacetIndex& index = tables_->index;
-  const std::uint32_t k = index.nearest(y, z);
-  const Facet& f = index[k];
+  const std::uint32_t k = tables_->index.nearest(y, z);
+  const Facet& f = tables_->index[k];
   const double along = (y - f.ay) * f.uy + (z - f.az) * f.uz;
-  if (along > 0.0 && along < f.length)
+  if (!(std::min(along, f.length - along) <= 0.0))
     return 0.0;
-  const std::uint32_t corner = along <= 0.0 ? k : (k + 1 == index.size() ? 0 : k + 1);
+  const std::uint32_t corner = corner_of(k, along);
   const PlanePoint v = tables_->vertices[corner];
-  const double wy = y - v.y, wz = z - v.z;
-  if (is_on_corner(v, wy, wz))
+  if (is_on_corner(v, y - v.y, z - v.z))
     return 0.0;
   return 1.0 / locate_at_corner(corner, y, z).gap;
+}
+
+/// At the end of facet k to which `along` is nearer.
+std::uint32_t Profile::corner_of(std::uint32_t k, double along) const {
+  const std::uint32_t corner = k + (along + along > tables_->index[k].length ? 1u : 0u);
+  return corner == tables_->index.size() ? 0 : corner;
 }
 
 Location Profile::locate_at_corner(std::uint32_t corner, double y, double z) const {

@@ -61,6 +61,7 @@ private:
     FacetIndex index;
     double inscribed;
   };
+  [[nodiscard]] std::uint32_t corner_of(std::uint32_t k, double along) const;
   [[nodiscard]] Location locate_at_corner(std::uint32_t corner, double y, double z) const;
 
   std::shared_ptr<const Tables> tables_;

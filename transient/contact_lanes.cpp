@@ -491,14 +491,14 @@ FRETWORK_INLINE CommitSums commit_all(const Places& acting, const LawLanes& law,
   const auto fade_before = [&](int end) __attribute__((always_inline)) {
     for (; old != m.places.end() && *old < end; ++old)
       remember(
-          *old, [&](int i, int part)
+          *old, [&](int i, auto part)
                     __attribute__((always_inline)) { return fade<G>(i, part, law, m, sums); });
   };
   for (const int place : acting.first) {
     fade_before(place);
     old += old != m.places.end() && *old == place;
     remember(
-        place, [&](int i, int part)
+        place, [&](int i, auto part)
                    __attribute__((always_inline)) { return keep<G>(i, part, law, s, m, sums); });
   }
   fade_before(acting.all.width);
