@@ -97,7 +97,7 @@ FRETWORK_INLINE V instant_spring(const V& stiffness, const V& p, const V& v, con
   const V closes = v > per_step ? resolved : V{};
   const V falls = v < 0.5 * g * per_step ? resolved : V{},
           opens = k * per_step * per_step < after2 ? falls : V{};
-  if (!(sum(closes + opens) > 0.0))
+  if (!any(closes + opens))
     return closed;
   const V pushed = (step / 6.0) * stiffness * v * v * (1.0 - 0.3 * a);
   const V inside = closes > 0.0 ? k * v * v - g * (1.0 - 0.25 * g) * per_step * per_step : k * after2;
@@ -455,7 +455,7 @@ FRETWORK_INLINE bool keep(int i, auto part, const LawLanes& law, CommitLanes& s,
   at<V>(&m.normal_z[i]) = closed > 0.0 ? mz : at<V>(&m.normal_z[i]);
   const V left = closed > 0.0 ? one : faded;
   at<V>(&m.left[i]) = left;
-  return sum(left) > 0.0;
+  return any(left);
 }
 
 /// Contacts that are all open: what `keep` makes of them.
@@ -471,7 +471,7 @@ FRETWORK_INLINE bool fade(int i, auto part, const LawLanes& law, MemoryLanes& m,
   at<V>(&m.spring[i]) = after;
   at<V>(&m.sliding[i]) = at<V>(&m.force[i]) = V{};
   at<V>(&m.left[i]) = left;
-  return sum(left) > 0.0;
+  return any(left);
 }
 
 template <class G>

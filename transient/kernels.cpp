@@ -30,7 +30,7 @@ FRETWORK_INLINE void place_all(int end, const ReachLanes& reach, const double* u
       at<V>(near + i) = shut;
       closed += shut;
     });
-    if (!(half_window > 0.0) && sum(closed) == 0.0)
+    if (!(half_window > 0.0) && !any(closed))
       continue;
     for_parts<G>([&](auto p) __attribute__((always_inline)) {
       const int i = place + p * size;
@@ -63,7 +63,7 @@ FRETWORK_INLINE void place_all(int end, const ReachLanes& reach, const double* u
 }
 
 VectorSize vector_size_here() {
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(FRETWORK_SANITIZED)
+#ifdef FRETWORK_KERNELS_BY_PROCESSOR
   __builtin_cpu_init();
   if (__builtin_cpu_supports("x86-64-v4"))
     return VectorSize::pack;
@@ -157,12 +157,15 @@ FRETWORK_KERNEL(FlowSums, flow_free, (int np, const FlowTable& table, double* q,
 
 template <class V>
 FRETWORK_INLINE void combine_on(int np, int sources, const double* shapes, const double* values, double* f) {
-  for (int i = 0; i < np; i += size_of<V>) {
-    V s{};
-    for (int k = 0; k < sources; ++k)
-      s += values[k] * at<V>(shapes + static_cast<std::ptrdiff_t>(k) * np + i);
-    at<V>(f + i) = s;
-  }
+  for_count(
+      sources, [&](auto count) __attribute__((always_inline)) {
+        for (int i = 0; i < np; i += size_of<V>) {
+          V s{};
+          for (int k = 0; k < count; ++k)
+            s += values[k] * at<V>(shapes + static_cast<std::ptrdiff_t>(k) * np + i);
+          at<V>(f + i) = s;
+        }
+      });
 }
 FRETWORK_KERNEL(void, combine, (int np, int sources, const double* shapes, const double* values, double* f),
                 (np, sources, shapes, values, f))
@@ -265,12 +268,15 @@ FRETWORK_KERNEL(void, gather_at, (const GatherTable& g, const Places& places, co
 
 template <class V>
 FRETWORK_INLINE void scatter_on(int np, int rows, const double* const* row, const double* factor, double* v) {
-  for (int i = 0; i < np; i += size_of<V>) {
-    V s = at<V>(v + i);
-    for (int r = 0; r < rows; ++r)
-      s += factor[r] * at<V>(row[r] + i);
-    at<V>(v + i) = s;
-  }
+  for_count(
+      rows, [&](auto count) __attribute__((always_inline)) {
+        for (int i = 0; i < np; i += size_of<V>) {
+          V s = at<V>(v + i);
+          for (int r = 0; r < count; ++r)
+            s += factor[r] * at<V>(row[r] + i);
+          at<V>(v + i) = s;
+        }
+      });
 }
 FRETWORK_KERNEL(void, scatter, (int np, int rows, const double* const* row, const double* factor, double* v),
                 (np, rows, row, factor, v))
@@ -278,14 +284,17 @@ FRETWORK_KERNEL(void, scatter, (int np, int rows, const double* const* row, cons
 template <class V>
 FRETWORK_INLINE void scatter_moving_on(int np, int rows, const double* const* row, const double* factor,
                                        double* v, double share, const double* q, double* moved) {
-  for (int i = 0; i < np; i += size_of<V>) {
-    const V v0 = at<V>(v + i);
-    V s = v0;
-    for (int r = 0; r < rows; ++r)
-      s += factor[r] * at<V>(row[r] + i);
-    at<V>(v + i) = s;
-    at<V>(moved + i) = at<V>(q + i) + share * (s - v0);
-  }
+  for_count(
+      rows, [&](auto count) __attribute__((always_inline)) {
+        for (int i = 0; i < np; i += size_of<V>) {
+          const V v0 = at<V>(v + i);
+          V s = v0;
+          for (int r = 0; r < count; ++r)
+            s += factor[r] * at<V>(row[r] + i);
+          at<V>(v + i) = s;
+          at<V>(moved + i) = at<V>(q + i) + share * (s - v0);
+        }
+      });
 }
 FRETWORK_KERNEL(void, scatter_moving,
                 (int np, int rows, const double* const* row, const double* factor, double* v, double share,

@@ -13,6 +13,8 @@
 
 // Not under the sanitizers (with which these take minutes to compile), nor with compilers that lack it.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(FRETWORK_SANITIZED)
+#define FRETWORK_KERNELS_BY_PROCESSOR
+#include <immintrin.h> // GCC declares the builtins of processors here
 /// Defines the kernel `name` by the template name##_on<V>.
 #define FRETWORK_KERNEL(result, name, parameters, arguments)                                                 \
   __attribute__((target("arch=x86-64-v4"))) static result name##_by_packs parameters {                       \
@@ -66,6 +68,20 @@ template <class V> FRETWORK_INLINE double sum(const V (&p)[1]) { return sum(p[0]
 template <class V> FRETWORK_INLINE double sum(const V (&p)[2]) { return sum(p[0] + p[1]); }
 FRETWORK_INLINE double sum(const Pair (&p)[4]) { return sum((p[0] + p[2]) + (p[1] + p[3])); }
 template <class V> using Sums = V[lanes / size_of<V>];
+/// Whether any flag of a vector is set (1, not 0).
+FRETWORK_INLINE bool any(double flag) { return flag != 0.0; }
+FRETWORK_INLINE bool any(const Pair& flags) { return flags[0] + flags[1] != 0.0; }
+#ifdef FRETWORK_KERNELS_BY_PROCESSOR
+// One instruction each; sums of all lanes take some fifteen.
+FRETWORK_INLINE bool any(const Half& flags) {
+  typedef long long Bits __attribute__((vector_size(32)));
+  return __builtin_ia32_ptestz256(reinterpret_cast<Bits>(flags), reinterpret_cast<Bits>(flags)) == 0;
+}
+FRETWORK_INLINE bool any(const Pack& flags) {
+  typedef long long Bits __attribute__((vector_size(64)));
+  return __builtin_ia32_ptestmq512(reinterpret_cast<Bits>(flags), reinterpret_cast<Bits>(flags), 0xff) != 0;
+}
+#endif
 /// step(pack, part) for all vectors, `part` that of the pack whose first lane is `pack`.
 template <class V, class Step> FRETWORK_INLINE void for_vectors(int lanes_in_all, const Step& step) {
   for (int pack = 0; pack < lanes_in_all; pack += lanes)
@@ -93,6 +109,18 @@ FRETWORK_INLINE void for_places(std::span<const int> places, const Step& step) {
   for (const int place : places)
     for_parts<G>([&](auto part)
                      __attribute__((always_inline)) { step(place + part * size_of<typename G::V>, part); });
+}
+
+/// step(count), `count` known to the compiler where it is small: loops over it have no turns then.
+template <class Step> FRETWORK_INLINE void for_count(int count, const Step& step) {
+  switch (count) {
+  case 1:
+    return step(std::integral_constant<int, 1>{});
+  case 2:
+    return step(std::integral_constant<int, 2>{});
+  default:
+    return step(count);
+  }
 }
 
 FRETWORK_INLINE double root(double x) { return __builtin_sqrt(x); }
