@@ -18,49 +18,82 @@ struct PackedContacts;
 
 namespace fretwork::transient::kernels {
 
-/// Laws, one contact a lane; 0 in lanes without friction.
-struct LawLanes {
-  LawLanes() = default;
-  /// @param step  s
-  LawLanes(const PackedContacts& contacts, double step);
-  Array stiffness, damping, dissipation;  ///< K_N; C_N; d
-  Array yy, yz, zz;                       ///< (h/2) W of the contact itself, m/s per N
-  Array tangential, compliance, gradient; ///< K_T, 1/K_T, G h: of contact::FrictionTable
-  Array relaxation;                       ///< e^-a
-  Array mu_static, mu_dynamic, along;     ///< along: 1 or 0
-  Array per_mu;                           ///< 1/mu_static
+/// One number of `lanes` contacts.
+using Numbers = double[lanes];
+/// Where a contact stands among these.
+[[nodiscard]] constexpr int lane(int contact) {
+  return static_cast<int>(static_cast<unsigned>(contact) % lanes);
+}
+
+/// Numbers of contacts: those of `lanes` contacts lie together, at distances that compilers know.
+template <class Pack> class LaneTable {
+public:
+  LaneTable() = default;
+  /// All 0.   @param width  contacts, padded
+  explicit LaneTable(int width) : packs_(static_cast<std::size_t>(width / lanes)) {}
+  /// The pack in which a contact stands.
+  [[nodiscard]] Pack& operator[](int contact) { return packs_[static_cast<unsigned>(contact) / lanes]; }
+  [[nodiscard]] const Pack& operator[](int contact) const {
+    return packs_[static_cast<unsigned>(contact) / lanes];
+  }
+  void visit(core::StateArchive& state) { state(packs_); }
+
+private:
+  std::vector<Pack, AlignedAllocator<Pack>> packs_;
 };
+
+/// Laws; 0 without friction.
+struct alignas(alignment) LawNumbers {
+  Numbers stiffness, damping, dissipation;  ///< K_N; C_N; d
+  Numbers yy, yz, zz;                       ///< (h/2) W of the contact itself, m/s per N
+  Numbers tangential, compliance, gradient; ///< K_T, 1/K_T, G h: of contact::FrictionTable
+  Numbers relaxation;                       ///< e^-a
+  Numbers mu_static, mu_dynamic, along;     ///< along: 1 or 0
+  Numbers per_mu;                           ///< 1/mu_static
+};
+using LawLanes = LaneTable<LawNumbers>;
+/// @param step  s
+[[nodiscard]] LawLanes law_lanes(const PackedContacts& contacts, double step);
 
 /// A spring that has relaxed to this share of what it had when its contact opened is forgotten (round-off of the energy).
 inline constexpr double forgotten = 1e-12;
 
-/// Memories, one contact a lane: contact::FrictionMemory and what goes with it.
-struct MemoryLanes {
-  Array spring, sliding;    ///< N; 1 or 0
-  Array force;              ///< N, friction of the commit that left this
-  Array normal_y, normal_z; ///< then
-  Array left; ///< share of the spring's force left since the contact opened; 0: nothing remembered
+/// Memories: contact::FrictionMemory and what goes with it.
+struct alignas(alignment) MemoryNumbers {
+  Numbers spring, sliding;    ///< N; 1 or 0
+  Numbers force;              ///< N, friction of the commit that left this
+  Numbers normal_y, normal_z; ///< then
+  Numbers left; ///< share of the spring's force left since the contact opened; 0: nothing remembered
+};
+struct MemoryLanes : LaneTable<MemoryNumbers> {
+  /// @param width  contacts, padded
+  explicit MemoryLanes(int width);
   std::vector<int> places, next; ///< Places where something is remembered; room for those after a commit
-  void visit(core::StateArchive& state) { state(spring, sliding, force, normal_y, normal_z, left, places); }
+  void visit(core::StateArchive& state) {
+    LaneTable::visit(state);
+    state(places);
+  }
 };
 
-/// The unknowns of a step, one contact a lane.
-struct StepLanes {
+/// The unknowns of a step.
+struct alignas(alignment) StepNumbers {
+  Numbers shut;                       ///< 1 or 0: takes part
+  Numbers spring, damping, share;     ///< F_K, c, 1/(1 + c nn)
+  Numbers nn, nt, tt;                 ///< own block of A
+  Numbers bound, share_t, tangential; ///< mu, 1/(1 + G h tt), T
+  Numbers per_normal, per_friction;   ///< 1/N
+  Numbers normal, friction, slides;   ///< F_N, F_t, N; 1 or 0
+  Numbers by_y, by_z, by_t;           ///< N, changes of the forces in a sweep, along y, z and t
+  Numbers first;                      ///< N, frictions that the sweeps begin from
+  Numbers v_y, v_z, v_t;              ///< s, m/s
+  Numbers before_n, before_t;         ///< s0, m/s
+  Numbers cut;                        ///< J over the step, by the normal damper
+};
+struct StepLanes : LaneTable<StepNumbers> {
   /// @param ties_tangents  with room for `ties`
   StepLanes(int width, bool ties_tangents);
-  Array shut;                       ///< 1 or 0: takes part
-  Array spring, damping, share;     ///< F_K, c, 1/(1 + c nn)
-  Array nn, nt, tt;                 ///< own block of A
-  Array bound, share_t, tangential; ///< mu, 1/(1 + G h tt), T
-  Array per_normal, per_friction;   ///< 1/N
-  Array normal, friction, slides;   ///< F_N, F_t, N; 1 or 0
-  Array by_y, by_z, by_t;           ///< N, changes of the forces in a sweep, along y, z and t
-  Array first;                      ///< N, frictions that the sweeps begin from
-  Array v_y, v_z, v_t;              ///< s, m/s
-  Array ties;                       ///< A_tt, column by column of the contacts that take part, m/s per N
-  Array before_n, before_t;         ///< s0, m/s
-  Array cut;                        ///< J over the step, by the normal damper
-  std::vector<int> contacts;        ///< the first `count` are those that take part
+  Array ties;                ///< A_tt, column by column of the contacts that take part, m/s per N
+  std::vector<int> contacts; ///< the first `count` are those that take part
   int count = 0;
 };
 
@@ -71,19 +104,18 @@ struct MobilityLanes {
   bool coupled = false; ///< some force along y moves some contact along z
 };
 
-/// Marks of the near contacts (1 or 0), gaps, normals, velocities before the action, displacements and those at the last action of all
-/// contacts, in lanes.
+/// Marks of the near contacts (1 or 0), gaps, normals, in lanes; velocities before the action, displacements and those at the last action of
+/// all contacts, blocks of `width` lanes along y and z.
 struct NearLanes {
-  const double *near, *gap, *ny, *nz, *vy, *vz, *uy, *uz, *last_uy, *last_uz;
+  const double *near, *gap, *ny, *nz, *velocity, *displacement, *last;
 };
 
 /// A step found, and what its commit makes of it.
-struct CommitLanes {
-  explicit CommitLanes(int width);
-  Array closed, normal_y, normal_z, force, displacement, slides; ///< in: 1 or 0; n; F_t, N; m; 1 or 0
-  Array friction_work, damper_work;                              ///< out, J: of the closed
-  void visit(core::StateArchive& state) { state(closed, normal_y, normal_z, force, displacement, slides); }
+struct alignas(alignment) CommitNumbers {
+  Numbers closed, normal_y, normal_z, force, displacement, slides; ///< in: 1 or 0; n; F_t, N; m; 1 or 0
+  Numbers friction_work, damper_work;                              ///< out, J: of the closed
 };
+using CommitLanes = LaneTable<CommitNumbers>;
 
 /// How contacts are solved.
 struct SweepRule {
@@ -99,10 +131,10 @@ struct Solved {
   double work = 0.0, jump = 0.0; ///< J, of ContactSolver::Action
   bool settled = true;           ///< otherwise nothing is found yet but `springs`
 };
-/// Which contacts of the places are shut, and their forces for the step: `step` and the first row of `out`, there only.
-extern const Kernel<Solved(const Places& places, const SweepRule& rule, const LawLanes& law,
-                           const MemoryLanes& memory, const MobilityLanes& mobility, const NearLanes& near,
-                           StepLanes& step, CommitLanes& out)>
+/// Which contacts of the places are shut, and their forces for the step: `steps` and the first row of `commits`, there only.
+extern const Kernel<Solved(const Places& places, const SweepRule& rule, const LawLanes& laws,
+                           const MemoryLanes& memories, const MobilityLanes& mobility, const NearLanes& near,
+                           StepLanes& steps, CommitLanes& commits)>
     solve;
 
 struct CommitSums {
@@ -110,9 +142,9 @@ struct CommitSums {
   double damping = 0.0;  ///< J, tangential dampers, springs that die out or are forgotten
   double stored = 0.0;   ///< J, change of the energy of the springs
 };
-/// @param acting  where contacts may be closed in `step`: elsewhere all are open, whatever stands there
-extern const Kernel<CommitSums(const Places& acting, const LawLanes& law, CommitLanes& step,
-                               MemoryLanes& memory)>
+/// @param acting  where contacts may be closed in `commits`: elsewhere all are open, whatever stands there
+extern const Kernel<CommitSums(const Places& acting, const LawLanes& laws, CommitLanes& commits,
+                               MemoryLanes& memories)>
     commit;
 
 /// The largest change of a sweep is small, or what it foretells from the one of the sweep before is.

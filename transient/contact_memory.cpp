@@ -5,12 +5,8 @@
 namespace fretwork::transient {
 
 ContactMemory::ContactMemory(const PackedContacts& contacts, double step)
-    : contacts_(contacts), laws_(contacts, step), acting_(contacts.lane_count()) {
-  for (kernels::Array* a :
-       {&lanes_.spring, &lanes_.sliding, &lanes_.force, &lanes_.normal_y, &lanes_.normal_z, &lanes_.left})
-    a->assign(static_cast<std::size_t>(contacts.width), 0.0);
-  lanes_.places.reserve(static_cast<std::size_t>(contacts.width));
-  lanes_.next.reserve(static_cast<std::size_t>(contacts.width));
+    : contacts_(contacts), lanes_(contacts.width), laws_(kernels::law_lanes(contacts, step)),
+      acting_(contacts.lane_count()) {
   const auto count = static_cast<std::size_t>(contacts.count);
   entries_.resize(count);
   for (std::size_t c = 0; c < count; ++c)
@@ -25,7 +21,7 @@ void ContactMemory::set_step(double step) {
   for (int c = 0; c < contacts_.count; ++c) {
     auto& table = entries_[static_cast<std::size_t>(c)].table;
     table = contact::friction_table(contacts_.supports[c].friction, step);
-    laws_.relaxation[static_cast<std::size_t>(c)] = table.relaxation; // all that a commit takes of the step
+    laws_[c].relaxation[kernels::lane(c)] = table.relaxation; // all that a commit takes of the step
   }
 }
 
@@ -66,17 +62,19 @@ void ContactMemory::follow(const ContactMotion& motion, double half_step) {
     const contact::FrictionLaw& law = contacts_.supports[c].friction;
     const bool in_lanes = contacts_.in_lanes;
     Entry& e = entries_[c];
-    if (!law.active() || (in_lanes ? lanes_.sliding[c] != 0.0 : e.friction.sliding))
+    if (!law.active() || (in_lanes ? lanes_[c].sliding[kernels::lane(c)] != 0.0 : e.friction.sliding))
       continue;
-    const double ny = in_lanes ? lanes_.normal_y[c] : e.ny, nz = in_lanes ? lanes_.normal_z[c] : e.nz;
+    const double ny = in_lanes ? lanes_[c].normal_y[kernels::lane(c)] : e.ny,
+                 nz = in_lanes ? lanes_[c].normal_z[kernels::lane(c)] : e.nz;
     const contact::Vec2 moved =
         motion.tangential(c, ny, nz, motion.u) - motion.tangential(c, ny, nz, position_);
     const contact::Vec2 by = -law.stiffness * (moved - ahead_[c] - half_step * motion.slip(c, ny, nz));
-    contact::FrictionMemory memory = in_lanes ? contact::FrictionMemory{{0.0, lanes_.spring[c]}} : e.friction;
+    contact::FrictionMemory memory =
+        in_lanes ? contact::FrictionMemory{{0.0, lanes_[c].spring[kernels::lane(c)]}} : e.friction;
     springs_ -= contact::spring_energy(law, memory);
     memory.spring = memory.spring + by;
     springs_ += contact::spring_energy(law, memory);
-    (in_lanes ? lanes_.spring[c] : e.friction.spring.t) = memory.spring.t;
+    (in_lanes ? lanes_[c].spring[kernels::lane(c)] : e.friction.spring.t) = memory.spring.t;
     e.friction.spring.x = memory.spring.x;
   }
 }
@@ -105,23 +103,26 @@ void ContactMemory::commit_lanes(const ContactMotion& motion, ContactTrial& tria
   kernels::CommitLanes& step = trial.lanes;
   if (!trial.found_in_lanes) {
     acting_.first.clear();
-    std::fill(step.closed.begin(), step.closed.end(), 0.0);
+    for (int c = 0; c < contacts_.width; ++c)
+      step[c].closed[kernels::lane(c)] = 0.0;
     for (const int c : trial.active) {
       acting_.add_contact(c);
       const ContactState& s = trial.states[c];
-      step.closed[c] = 1.0;
-      step.normal_y[c] = s.ny;
-      step.normal_z[c] = s.nz;
-      step.force[c] = s.friction.t;
-      step.displacement[c] = s.displacement.t;
-      step.slides[c] = s.slides ? 1.0 : 0.0;
+      kernels::CommitNumbers& to = step[c];
+      const int l = kernels::lane(c);
+      to.closed[l] = 1.0;
+      to.normal_y[l] = s.ny;
+      to.normal_z[l] = s.nz;
+      to.force[l] = s.friction.t;
+      to.displacement[l] = s.displacement.t;
+      to.slides[l] = s.slides ? 1.0 : 0.0;
     }
   }
   const kernels::CommitSums sums =
       kernels::commit(trial.found_in_lanes ? motion.places() : acting_, laws_, step, lanes_);
   for (const int c : trial.active) {
-    trial.states[c].friction_work = step.friction_work[c];
-    trial.states[c].damper_work += step.damper_work[c];
+    trial.states[c].friction_work = step[c].friction_work[kernels::lane(c)];
+    trial.states[c].damper_work += step[c].damper_work[kernels::lane(c)];
   }
   losses.friction += sums.friction;
   losses.damping += sums.damping;

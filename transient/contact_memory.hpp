@@ -39,20 +39,22 @@ public:
   /// What contact c remembers for a surface of normal n: nothing of the opposite face.
   [[nodiscard]] contact::FrictionMemory at(int c, double ny, double nz) const {
     if (contacts_.in_lanes)
-      return opposite_lane(c, ny, nz)
-                 ? contact::FrictionMemory{}
-                 : contact::FrictionMemory{{0.0, lanes_.spring[c]}, lanes_.sliding[c] != 0.0};
+      return opposite_lane(c, ny, nz) ? contact::FrictionMemory{}
+                                      : contact::FrictionMemory{{0.0, lanes_[c].spring[kernels::lane(c)]},
+                                                                lanes_[c].sliding[kernels::lane(c)] != 0.0};
     const Entry& e = entries_[c];
     return opposite(e, ny, nz) ? contact::FrictionMemory{} : e.friction;
   }
   /// Contact c slid at the last commit.
   [[nodiscard]] bool slid(int c) const {
-    return contacts_.in_lanes ? lanes_.sliding[c] != 0.0 : entries_[c].friction.sliding;
+    return contacts_.in_lanes ? lanes_[c].sliding[kernels::lane(c)] != 0.0 : entries_[c].friction.sliding;
   }
   /// Friction at the last commit if contact c was closed then on the same surface, otherwise 0, N.
   [[nodiscard]] contact::Vec2 last_force(int c, double ny, double nz) const {
     if (contacts_.in_lanes)
-      return {0.0, lanes_.left[c] == 1.0 && !opposite_lane(c, ny, nz) ? lanes_.force[c] : 0.0};
+      return {0.0, lanes_[c].left[kernels::lane(c)] == 1.0 && !opposite_lane(c, ny, nz)
+                       ? lanes_[c].force[kernels::lane(c)]
+                       : 0.0};
     const Entry& e = entries_[c];
     return e.left == 1.0 && !opposite(e, ny, nz) ? e.force : contact::Vec2{};
   }
@@ -78,7 +80,7 @@ public:
   /// After the commit of an action, with the motion before it: what the next `follow` starts from. No allocation.
   void leave(const ContactMotion& motion, const ContactTrial& trial, double half_step);
   void visit(core::StateArchive& state) {
-    state(entries_, lanes_, laws_.relaxation, remembering_, closed_, position_, ahead_, springs_);
+    state(entries_, lanes_, laws_, remembering_, closed_, position_, ahead_, springs_);
   }
 
 private:
@@ -93,7 +95,7 @@ private:
     return e.left > 0.0 && e.ny * ny + e.nz * nz < 0.0;
   }
   [[nodiscard]] bool opposite_lane(int c, double ny, double nz) const {
-    return lanes_.normal_y[c] * ny + lanes_.normal_z[c] * nz < 0.0;
+    return lanes_[c].normal_y[kernels::lane(c)] * ny + lanes_[c].normal_z[kernels::lane(c)] * nz < 0.0;
   }
   void commit_each(ContactTrial& trial, ContactLosses& losses);
   void commit_lanes(const ContactMotion& motion, ContactTrial& trial, ContactLosses& losses);

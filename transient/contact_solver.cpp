@@ -27,7 +27,8 @@ ContactSolver::ContactSolver(const PackedContacts& contacts, double step)
                       [](const contact::Support& s) { return s.friction.active() || s.normal.damps(); })),
       damped_(std::any_of(contacts.supports.begin(), contacts.supports.end(),
                           [](const contact::Support& s) { return s.normal.damps(); })),
-      laws_(contacts, step), lanes_(contacts.width, contacts.in_lanes && coupled_ && !damped_),
+      laws_(kernels::law_lanes(contacts, step)),
+      lanes_(contacts.width, contacts.in_lanes && coupled_ && !damped_),
       block_(static_cast<std::size_t>(contacts.components) * static_cast<std::size_t>(contacts.stride())) {
   shut_.reserve(static_cast<std::size_t>(contacts.count));
   a_.assign(block_ * static_cast<std::size_t>(contacts.count), 0.0);
@@ -61,13 +62,10 @@ ContactSolver::Action ContactSolver::solve_near(const ContactMemory& memory, con
 
 bool ContactSolver::solve_in_lanes(const ContactMemory& memory, const ContactMotion& motion,
                                    ContactTrial& trial, Action& action) {
-  const int width = contacts_.width;
   const kernels::SweepRule rule{h_, half_window_, coupled_, damped_, sweep_tolerance, most_jacobi_sweeps};
-  const kernels::NearLanes near{motion.marks(),           motion.gaps.data(),
-                                motion.normal_y.data(),   motion.normal_z.data(),
-                                motion.w.data(),          motion.w.data() + width,
-                                motion.u.data(),          motion.u.data() + width,
-                                memory.position().data(), memory.position().data() + width};
+  const kernels::NearLanes near{motion.marks(),          motion.gaps.data(), motion.normal_y.data(),
+                                motion.normal_z.data(),  motion.w.data(),    motion.u.data(),
+                                memory.position().data()};
   const kernels::Solved solved = kernels::solve(motion.places(), rule, laws_, memory.lanes(),
                                                 contacts_.mobility_lanes, near, lanes_, trial.lanes);
   if (!solved.settled)
@@ -83,19 +81,22 @@ bool ContactSolver::solve_in_lanes(const ContactMemory& memory, const ContactMot
 
 /// The state of a contact that takes part.
 void ContactSolver::show_lane(int c, ContactTrial& trial) const {
-  if (!(lanes_.normal[c] > 0.0)) { // the damper holds the contact free of force: it is open
-    trial.cut += lanes_.cut[c];
+  const kernels::StepNumbers& found = lanes_[c];
+  const kernels::CommitNumbers& end = trial.lanes[c];
+  const int l = kernels::lane(c);
+  if (!(found.normal[l] > 0.0)) { // the damper holds the contact free of force: it is open
+    trial.cut += found.cut[l];
     return;
   }
   ContactState& state = trial.states[c];
-  state.normal_force = lanes_.normal[c];
-  state.ny = trial.lanes.normal_y[c];
-  state.nz = trial.lanes.normal_z[c];
-  state.approach = -lanes_.before_n[c];
-  state.damper_work = lanes_.cut[c];
-  state.friction.t = lanes_.friction[c];
-  state.displacement.t = trial.lanes.displacement[c];
-  state.slides = lanes_.slides[c] != 0.0;
+  state.normal_force = found.normal[l];
+  state.ny = end.normal_y[l];
+  state.nz = end.normal_z[l];
+  state.approach = -found.before_n[l];
+  state.damper_work = found.cut[l];
+  state.friction.t = found.friction[l];
+  state.displacement.t = end.displacement[l];
+  state.slides = found.slides[l] != 0.0;
   trial.active.push_back(c);
 }
 

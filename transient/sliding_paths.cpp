@@ -63,7 +63,7 @@ void SlidingPaths::correct(const ContactMotion& motion, const ContactMemory& mem
       s.displacement.x -=
           along.x * (contacts_.own_mobility(c, 2, 0) * y + contacts_.own_mobility(c, 2, 1) * z);
     if (trial.found_in_lanes)
-      trial.lanes.displacement[c] = s.displacement.t;
+      trial.lanes[c].displacement[kernels::lane(c)] = s.displacement.t;
   }
 }
 
