@@ -118,6 +118,10 @@ template <class Step> FRETWORK_INLINE void for_count(int count, const Step& step
     return step(std::integral_constant<int, 1>{});
   case 2:
     return step(std::integral_constant<int, 2>{});
+  case 3:
+    return step(std::integral_constant<int, 3>{});
+  case 4:
+    return step(std::integral_constant<int, 4>{});
   default:
     return step(count);
   }
