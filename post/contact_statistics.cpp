@@ -98,12 +98,12 @@ void ContactStatistics::step(const transient::Record& record) {
 }
 
 void ContactStatistics::Sums::add(const transient::ContactState& state, double step) {
-  const double n = state.normal_force, t2 = dot(state.friction, state.friction);
+  const double n = state.normal_force, share = state.instant_share, t2 = dot(state.friction, state.friction);
   closed_time += step;
   impulse += n * step;
-  normal2 += n * n * step;
+  normal2 += share * n * n * step;
   normal_max = std::max(normal_max, n);
-  tangential2 += t2 * step;
+  tangential2 += (state.slides ? share : 1.0) * t2 * step; // in a slide it follows the normal force
   tangential_max = std::max(tangential_max, t2);
   slid += n * state.slid;
   distance += state.slid;

@@ -79,6 +79,7 @@ struct MemoryLanes : LaneTable<MemoryNumbers> {
 struct alignas(alignment) StepNumbers {
   Numbers shut;                       ///< 1 or 0: takes part
   Numbers spring, damping, share;     ///< F_K, c, 1/(1 + c nn)
+  Numbers instant;                    ///< N, of contact::InstantSpring
   Numbers nn, nt, tt;                 ///< own block of A
   Numbers bound, share_t, tangential; ///< mu, 1/(1 + G h tt), T
   Numbers per_normal, per_friction;   ///< 1/N

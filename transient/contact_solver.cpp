@@ -12,6 +12,11 @@ constexpr int most_sweeps = 60;
 /// Jacobi sweeps that take longer than this converge badly, if they do.
 constexpr int most_jacobi_sweeps = 12;
 
+/// ContactState::instant_share of a contact whose spring bears `spring` over the step and `instant` at its instant.
+double instant_share(double force, double spring, double instant) {
+  return instant == spring ? 1.0 : std::max(0.0, 1.0 + (instant - spring) / force);
+}
+
 } // namespace
 
 double half_window(const PackedContacts& contacts, double step) {
@@ -90,6 +95,7 @@ void ContactSolver::show_lane(int c, ContactTrial& trial) const {
   }
   ContactState& state = trial.states[c];
   state.normal_force = found.normal[l];
+  state.instant_share = instant_share(found.normal[l], found.spring[l], found.instant[l]);
   state.ny = end.normal_y[l];
   state.nz = end.normal_z[l];
   state.approach = -found.before_n[l];
@@ -148,8 +154,10 @@ void ContactSolver::prepare(const ContactMemory& memory, const ContactMotion& mo
     const contact::NormalLaw& law = support.normal;
     const double moved = motion.normal_y[c] * (motion.u[c] - memory.position()[c]) +
                          motion.normal_z[c] * (motion.u[width + c] - memory.position()[width + c]);
-    const double spring =
-        s.depth > 0.0 ? contact::InstantSpring(law.stiffness, s.nn, h_).force(s.depth, -moved / h_) : 0.0;
+    const auto [spring, instant] =
+        s.depth > 0.0 ? contact::InstantSpring(law.stiffness, s.nn, h_).push(s.depth, -moved / h_, s.approach)
+                      : contact::InstantSpring::Push{0.0, 0.0};
+    s.instant = instant;
     s.normal = contact::NormalStep(spring, s.closed * law.damping + law.dissipation * spring, s.nn);
     s.per_normal = 1.0 / s.normal.spring_and_damper(s.approach);
     s.friction = support.friction.active();
@@ -261,6 +269,7 @@ void ContactSolver::close(const ContactMotion& motion, ContactTrial& trial, Acti
     }
     ContactState& state = trial.states[c];
     state.normal_force = s.force[0];
+    state.instant_share = instant_share(s.force[0], s.normal.spring(), s.instant);
     state.ny = motion.normal_y[c];
     state.nz = motion.normal_z[c];
     state.approach = s.approach;

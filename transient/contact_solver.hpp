@@ -46,6 +46,7 @@ private:
     double depth = 0.0;        ///< m: p where closed, else 0
     double closed = 0.0;       ///< share of the step with penetration
     double approach = 0.0;     ///< p' before the action, m/s
+    double instant = 0.0;      ///< N, of contact::InstantSpring
     double force[3] = {};      ///< N, along n, t, x_loc
     double before[3] = {};     ///< m/s, s0
     double nn = 0.0, nt = 0.0; ///< own block of A

@@ -245,7 +245,9 @@ double FlexibleContacts::at_instant(const Shut& s, double p0) const {
   if (still_ || !(p0 > 0.0))
     return p0;
   const double flexibility = 1.0 / s.normal.stiffness + s.residual(0, 0);
-  return flexibility * contact::InstantSpring(1.0 / flexibility, s.mobility(0, 0), h_).force(p0, s.flown);
+  return flexibility * contact::InstantSpring(1.0 / flexibility, s.mobility(0, 0), h_)
+                           .push(p0, s.flown, -s.velocity[0])
+                           .force;
 }
 
 /// Turns a contact to the normal of where it stands. Returns the change of its force, N.

@@ -41,7 +41,8 @@ FRETWORK_INLINE double prepare(std::span<const int> places, int width, const Swe
         const V nn = my * by_n_y + mz * by_n_z, tt = mz * by_t_y - my * by_t_z;
         const V moved = my * (at<V>(near.displacement + i) - at<V>(near.last + i)) +
                         mz * (at<V>(near.displacement + width + i) - at<V>(near.last + width + i));
-        const V spring = instant_spring<V>(k, p, moved * (-1.0 / rule.step), nn, rule.step);
+        const auto [spring, instant] =
+            instant_spring<V>(k, p, moved * (-1.0 / rule.step), -v_n, nn, rule.step);
         V damping{}, share = one;
         if (rule.damped) {
           damping = at<V>(law.dissipation + l) * spring;
@@ -59,6 +60,7 @@ FRETWORK_INLINE double prepare(std::span<const int> places, int width, const Swe
         const V mu_static = at<V>(law.mu_static + l);
         at<V>(s.shut + l) = acts > 0.0 ? one : V{};
         at<V>(s.spring + l) = spring;
+        at<V>(s.instant + l) = instant;
         at<V>(s.damping + l) = damping;
         at<V>(s.share + l) = acts > 0.0 ? share : V{};
         at<V>(s.nn + l) = nn;

@@ -112,6 +112,27 @@ TEST(ContactStatistics, CountTheWorkRateOnlyWhileTheContactSlides) {
   EXPECT_NEAR(s.tangential_max, 3.0, round_off);
 }
 
+// Forces that close or open between instants: their squares are the impulse times the force at the instant.
+TEST(ContactStatistics, TakeTheForceAtTheInstantOnceInSquares) {
+  ContactStatistics statistics(1, 0.0);
+  HandMade run(statistics, 1, h);
+  for (const bool slides : {true, false}) {
+    auto& state = run.contact(0);
+    state.normal_force = 10.0;
+    state.instant_share = 0.5;
+    state.friction = {0.0, 2.0};
+    state.slides = slides;
+    run.step();
+  }
+  run.open(8);
+  const ContactSummary s = statistics.summaries()[0];
+  EXPECT_NEAR(s.normal_rms, std::sqrt(0.5 * 200.0 / 10.0), round_off);
+  EXPECT_NEAR(s.normal_in_contact_rms, std::sqrt(0.5 * 200.0 / 2.0), round_off);
+  EXPECT_NEAR(s.normal_mean, 20.0 / 10.0, round_off);
+  EXPECT_NEAR(s.tangential_rms, std::sqrt((0.5 * 4.0 + 4.0) / 10.0),
+              round_off); // what sticks does not follow
+}
+
 TEST(ContactStatistics, DescribeTheMotionOverAllSteps) {
   ContactStatistics statistics(1, 0.0);
   HandMade run(statistics, 1, h);

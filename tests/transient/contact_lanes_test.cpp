@@ -113,6 +113,7 @@ void compare(const Contacts& kind, double tolerance) {
     for (const int c : lanes.trial.active) {
       const ContactState &s = lanes.trial.states[c], &t = each.trial.states[c];
       EXPECT_NEAR(s.normal_force, t.normal_force, tolerance * force);
+      EXPECT_NEAR(s.instant_share * s.normal_force, t.instant_share * t.normal_force, tolerance * force);
       EXPECT_NEAR(s.friction.t, t.friction.t, tolerance * force);
       EXPECT_NEAR(s.displacement.t, t.displacement.t, tolerance * h);
       EXPECT_NEAR(s.friction_work, t.friction_work, tolerance * force * h);

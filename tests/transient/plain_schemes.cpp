@@ -142,7 +142,8 @@ PlainState plain_splitting(const Scene& scene, double h, int steps) {
       const double closed = contact::closed_share(depth - 0.5 * h * rate, depth + 0.5 * h * rate);
       const double mobility = 0.5 * h * (p.at.b.transpose() * p.n()).squaredNorm();
       p.spring = depth > 0.0 ? contact::InstantSpring(law.stiffness, mobility, h)
-                                   .force(depth, -p.n().dot(p.at.b * s.q - p.last) / h)
+                                   .push(depth, -p.n().dot(p.at.b * s.q - p.last) / h, rate)
+                                   .force
                              : 0.0;
       p.last = p.at.b * s.q;
       p.damping = (law.damping > 0.0 ? closed * law.damping : 0.0) + law.dissipation * p.spring;
