@@ -16,6 +16,65 @@ constexpr double round_off = 1e-14; ///< of a force
 /// So few near contacts of several packs are solved one after the other.
 constexpr int most_single = 2;
 
+/// Laws of contacts for the step, and how they move before the action.
+template <class V> struct Laws {
+  V depth, spring, instant, damping, share; ///< m, > 0 where closed; the others as in StepNumbers
+  V nn, nt, tt, tangential, bound, share_t;
+  V y, z, v_n, v_t; ///< m/s
+};
+template <class V>
+FRETWORK_INLINE Laws<V> laws_at(int i, int width, const SweepRule& rule, const LawLanes& laws,
+                                const MemoryLanes& memories, const NearLanes& near) {
+  const int l = lane(i);
+  const LawNumbers& law = laws[i];
+  const MemoryNumbers& memory = memories[i];
+  const V one = V{} + 1.0;
+  const V g = at<V>(near.gap + i), my = at<V>(near.ny + i), mz = at<V>(near.nz + i), p = clipped(-g);
+  const V y = at<V>(near.velocity + i), z = at<V>(near.velocity + width + i);
+  const V v_n = my * y + mz * z, v_t = mz * y - my * z;
+  const V yy = at<V>(law.yy + l), yz = at<V>(law.yz + l), zz = at<V>(law.zz + l);
+  const V by_n_y = my * yy + mz * yz, by_n_z = my * yz + mz * zz; // of y and z by a force along n
+  const V by_t_y = mz * yy - my * yz, by_t_z = mz * yz - my * zz; // along t
+  const V nn = my * by_n_y + mz * by_n_z, tt = mz * by_t_y - my * by_t_z;
+  const V moved = my * (at<V>(near.displacement + i) - at<V>(near.last + i)) +
+                  mz * (at<V>(near.displacement + width + i) - at<V>(near.last + width + i));
+  const auto [spring, instant] =
+      instant_spring<V>(at<V>(law.stiffness + l), p, moved * (-1.0 / rule.step), -v_n, nn, rule.step);
+  V damping{}, share = one;
+  if (rule.damped) {
+    damping = at<V>(law.dissipation + l) * spring;
+    if (rule.half_window > 0.0)
+      damping += closed_share(V(-g), V(rule.half_window * magnitude(v_n))) * at<V>(law.damping + l);
+    share = 1.0 / (1.0 + damping * nn);
+  }
+  const V keeps = same_face(memory, l, my, mz), mu_static = at<V>(law.mu_static + l);
+  return {p,
+          spring,
+          instant,
+          damping,
+          share,
+          nn,
+          mz * by_n_y - my * by_n_z,
+          tt,
+          keeps * at<V>(memory.spring + l),
+          keeps * at<V>(memory.sliding + l) > 0.0 ? at<V>(law.mu_dynamic + l) : mu_static,
+          mu_static > 0.0 ? 1.0 / (1.0 + at<V>(law.gradient + l) * tt) : V{},
+          y,
+          z,
+          v_n,
+          v_t};
+}
+
+/// Friction of contacts whose normal forces are `n`, `free` their tangential velocities without their own friction.
+template <class V> struct Rub { V force, slides; };
+template <class V>
+FRETWORK_INLINE Rub<V> rub(const V& tangential, const V& gradient, const V& share_t, const V& bound,
+                           const V& mu_dynamic, const V& n, const V& free) {
+  const V stick = (tangential - gradient * free) * share_t, most = mu_dynamic * n;
+  const V slides = magnitude(stick) > bound * n ? V{} + 1.0 : V{};
+  return {slides > 0.0 ? with_sign_of(stick, most) : stick, slides};
+}
+
 /// Which contacts are shut, their laws for the step, first forces; velocities before the action. Returns the energy of the springs, J.
 template <class G>
 FRETWORK_INLINE double prepare(std::span<const int> places, int width, const SweepRule& rule,
@@ -30,53 +89,36 @@ FRETWORK_INLINE double prepare(std::span<const int> places, int width, const Swe
         const LawNumbers& law = laws[i];
         const MemoryNumbers& memory = memories[i];
         StepNumbers& s = steps[i];
-        const V g = at<V>(near.gap + i), my = at<V>(near.ny + i), mz = at<V>(near.nz + i);
-        const V y = at<V>(near.velocity + i), z = at<V>(near.velocity + width + i);
-        const V k = at<V>(law.stiffness + l), p = clipped(-g);
-        energy[part] += k * p * p;
-        const V v_n = my * y + mz * z, v_t = mz * y - my * z;
-        const V yy = at<V>(law.yy + l), yz = at<V>(law.yz + l), zz = at<V>(law.zz + l);
-        const V by_n_y = my * yy + mz * yz, by_n_z = my * yz + mz * zz; // of y and z by a force along n
-        const V by_t_y = mz * yy - my * yz, by_t_z = mz * yz - my * zz; // along t
-        const V nn = my * by_n_y + mz * by_n_z, tt = mz * by_t_y - my * by_t_z;
-        const V moved = my * (at<V>(near.displacement + i) - at<V>(near.last + i)) +
-                        mz * (at<V>(near.displacement + width + i) - at<V>(near.last + width + i));
-        const auto [spring, instant] =
-            instant_spring<V>(k, p, moved * (-1.0 / rule.step), -v_n, nn, rule.step);
-        V damping{}, share = one;
-        if (rule.damped) {
-          damping = at<V>(law.dissipation + l) * spring;
-          if (rule.half_window > 0.0)
-            damping += closed_share(V(-g), V(rule.half_window * magnitude(v_n))) * at<V>(law.damping + l);
-          share = 1.0 / (1.0 + damping * nn);
-        }
-        const V acts = spring + damping;
-        const V normal = acts > 0.0 ? clipped(spring - damping * v_n) * share : V{};
-        const V keeps = same_face(memory, l, my, mz);
-        const V mu = at<V>(law.mu_dynamic + l), most = mu * normal;
-        const V last = at<V>(memory.left + l) == 1.0 ? keeps * at<V>(memory.force + l) : V{};
-        const V bears = spring + damping * magnitude(v_n);
+        const Laws<V> c = laws_at<V>(i, width, rule, laws, memories, near);
+        energy[part] += at<V>(law.stiffness + l) * c.depth * c.depth;
+        const V acts = c.spring + c.damping;
+        const V normal = acts > 0.0 ? clipped(c.spring - c.damping * c.v_n) * c.share : V{};
+        const V most = at<V>(law.mu_dynamic + l) * normal;
+        const V last =
+            at<V>(memory.left + l) == 1.0
+                ? same_face(memory, l, at<V>(near.ny + i), at<V>(near.nz + i)) * at<V>(memory.force + l)
+                : V{};
+        const V bears = c.spring + c.damping * magnitude(c.v_n);
         const V per_normal = acts > 0.0 ? 1.0 / (acts > 0.0 ? bears : one) : V{};
-        const V mu_static = at<V>(law.mu_static + l);
         at<V>(s.shut + l) = acts > 0.0 ? one : V{};
-        at<V>(s.spring + l) = spring;
-        at<V>(s.instant + l) = instant;
-        at<V>(s.damping + l) = damping;
-        at<V>(s.share + l) = acts > 0.0 ? share : V{};
-        at<V>(s.nn + l) = nn;
-        at<V>(s.nt + l) = mz * by_n_y - my * by_n_z;
-        at<V>(s.tt + l) = tt;
-        at<V>(s.tangential + l) = keeps * at<V>(memory.spring + l);
-        at<V>(s.bound + l) = keeps * at<V>(memory.sliding + l) > 0.0 ? mu : mu_static;
-        at<V>(s.share_t + l) = mu_static > 0.0 ? 1.0 / (1.0 + at<V>(law.gradient + l) * tt) : V{};
+        at<V>(s.spring + l) = c.spring;
+        at<V>(s.instant + l) = c.instant;
+        at<V>(s.damping + l) = c.damping;
+        at<V>(s.share + l) = acts > 0.0 ? c.share : V{};
+        at<V>(s.nn + l) = c.nn;
+        at<V>(s.nt + l) = c.nt;
+        at<V>(s.tt + l) = c.tt;
+        at<V>(s.tangential + l) = c.tangential;
+        at<V>(s.bound + l) = c.bound;
+        at<V>(s.share_t + l) = c.share_t;
         at<V>(s.per_normal + l) = per_normal;
         at<V>(s.per_friction + l) = per_normal * at<V>(law.per_mu + l);
         at<V>(s.normal + l) = normal;
         at<V>(s.friction + l) = magnitude(last) > most ? with_sign_of(last, most) : last;
-        at<V>(s.before_n + l) = v_n;
-        at<V>(s.before_t + l) = v_t;
-        at<V>(s.v_y + l) = y;
-        at<V>(s.v_z + l) = z;
+        at<V>(s.before_n + l) = c.v_n;
+        at<V>(s.before_t + l) = c.v_t;
+        at<V>(s.v_y + l) = c.y;
+        at<V>(s.v_z + l) = c.z;
       });
   return 0.5 * sum(energy);
 }
@@ -96,7 +138,6 @@ template <class G>
 FRETWORK_INLINE double improve(std::span<const int> places, double half_step, const LawLanes& laws,
                                const NearLanes& near, StepLanes& steps) {
   using V = typename G::V;
-  const V one = V{} + 1.0;
   V worst{};
   for_places<G>(
       places, [&](int i, auto) __attribute__((always_inline)) {
@@ -112,10 +153,9 @@ FRETWORK_INLINE double improve(std::span<const int> places, double half_step, co
             clipped(at<V>(s.spring + l) + at<V>(s.damping + l) * rate) * at<V>(s.share + l); // 0 if not shut
         const V dn = n - n0;
         const V free = v_t + at<V>(s.nt + l) * dn - at<V>(s.tt + l) * t0;
-        const V stick = (at<V>(s.tangential + l) - at<V>(law.gradient + l) * free) * at<V>(s.share_t + l);
-        const V most = at<V>(law.mu_dynamic + l) * n;
-        const V slides = magnitude(stick) > at<V>(s.bound + l) * n ? one : V{};
-        const V t = slides > 0.0 ? with_sign_of(stick, most) : stick;
+        const auto [t, slides] =
+            rub<V>(at<V>(s.tangential + l), at<V>(law.gradient + l), at<V>(s.share_t + l), at<V>(s.bound + l),
+                   at<V>(law.mu_dynamic + l), n, free);
         const V dt = t - t0;
         turn<V>(near, i, half_step, dn, dt, s);
         at<V>(s.normal + l) = n;
@@ -173,14 +213,6 @@ FRETWORK_INLINE void answer_all(std::span<const int> places, int width, const Mo
     answer_planes<G, false>(places, width, mobility, steps);
 }
 
-/// One contact takes part and its friction does not act on its normal force: one sweep finds both, from any forces.
-FRETWORK_INLINE bool sweeps_once(const StepLanes& steps) {
-  const int c = steps.contacts[0], l = lane(c);
-  const StepNumbers& s = steps[c];
-  const double coupling = s.share[l] * s.damping[l] * s.nt[l]; // N along n by 1 N along t
-  return steps.count == 1 && coupling <= round_off && -coupling <= round_off;
-}
-
 /// A_tt between the contacts that take part: what 1 N along the tangent of each adds to the tangential velocities of all.
 template <class G>
 FRETWORK_INLINE void tie_tangents(std::span<const int> places, int width, double half_step,
@@ -212,7 +244,6 @@ FRETWORK_INLINE bool sweep_frictions(std::span<const int> places, int width, con
                                      const NearLanes& near, StepLanes& steps) {
   using V = typename G::V;
   const double half_step = 0.5 * rule.step;
-  const V one = V{} + 1.0;
   tie_tangents<G>(places, width, half_step, mobility, near, steps);
   for_places<G>(
       places, [&](int i, auto) __attribute__((always_inline)) {
@@ -232,10 +263,10 @@ FRETWORK_INLINE bool sweep_frictions(std::span<const int> places, int width, con
           StepNumbers& s = steps[i];
           const V n = at<V>(s.normal + l), t0 = at<V>(s.friction + l);
           const V free = at<V>(s.v_t + l) - at<V>(s.tt + l) * t0; // without this contact's friction
-          const V stick = (at<V>(s.tangential + l) - at<V>(law.gradient + l) * free) * at<V>(s.share_t + l);
-          const V most = at<V>(law.mu_dynamic + l) * n;
-          const V slides = magnitude(stick) > at<V>(s.bound + l) * n ? one : V{};
-          const V t = slides > 0.0 ? with_sign_of(stick, most) : stick, dt = t - t0;
+          const auto [t, slides] =
+              rub<V>(at<V>(s.tangential + l), at<V>(law.gradient + l), at<V>(s.share_t + l),
+                     at<V>(s.bound + l), at<V>(law.mu_dynamic + l), n, free);
+          const V dt = t - t0;
           at<V>(s.by_t + l) = dt;
           at<V>(s.friction + l) = t;
           at<V>(s.slides + l) = slides;
@@ -275,28 +306,22 @@ FRETWORK_INLINE bool sweep(std::span<const int> places, int width, const SweepRu
                            StepLanes& steps) {
   using V = typename G::V;
   const double half_step = 0.5 * rule.step;
-  const bool once = rule.implicit && sweeps_once(steps);
-  if (once) { // from none: these velocities are known
-    const int c = steps.contacts[0];
-    steps[c].normal[lane(c)] = steps[c].friction[lane(c)] = 0.0;
-  } else {
-    for_places<G>(
-        places, [&](int i, auto) __attribute__((always_inline)) {
-          const int l = lane(i);
-          StepNumbers& s = steps[i];
-          turn<V>(near, i, half_step, at<V>(s.normal + l), at<V>(s.friction + l), s);
-        });
-    answer_all<G>(places, width, mobility, steps);
-    if (!rule.implicit)
-      return true;
-    if (!rule.damped)
-      return sweep_frictions<G>(places, width, rule, laws, mobility, near, steps);
-  }
+  for_places<G>(
+      places, [&](int i, auto) __attribute__((always_inline)) {
+        const int l = lane(i);
+        StepNumbers& s = steps[i];
+        turn<V>(near, i, half_step, at<V>(s.normal + l), at<V>(s.friction + l), s);
+      });
+  answer_all<G>(places, width, mobility, steps);
+  if (!rule.implicit)
+    return true;
+  if (!rule.damped)
+    return sweep_frictions<G>(places, width, rule, laws, mobility, near, steps);
   double last = 0.0;
   for (int k = 0; k < rule.most; ++k) {
     const double change = improve<G>(places, half_step, laws, near, steps);
     answer_all<G>(places, width, mobility, steps);
-    if (once || settled(change, last, rule.tolerance, jacobi_caution))
+    if (settled(change, last, rule.tolerance, jacobi_caution))
       return true;
     last = change;
   }
@@ -334,6 +359,47 @@ FRETWORK_INLINE void close(std::span<const int> places, const SweepRule& rule, c
   solved.jump = rule.step * sum(jump);
 }
 
+/// The one near contact: its forces from none, where velocities are known, unless its friction acts on its normal force. Returns whether that
+/// is all.
+FRETWORK_INLINE bool solve_one(int i, int width, const SweepRule& rule, const LawLanes& laws,
+                               const MemoryLanes& memories, const NearLanes& near, StepLanes& steps,
+                               CommitLanes& commits, Solved& solved) {
+  const int l = lane(i);
+  const LawNumbers& law = laws[i];
+  const Laws<double> c = laws_at<double>(i, width, rule, laws, memories, near);
+  if (magnitude(c.share * c.damping * c.nt) > round_off) // N along n by 1 N along t
+    return false;
+  solved.springs = 0.5 * law.stiffness[l] * c.depth * c.depth;
+  steps.count = c.spring + c.damping > 0.0 ? 1 : 0;
+  if (steps.count == 0)
+    return true;
+  const double n = clipped(c.spring - c.damping * c.v_n) * c.share;
+  Rub<double> friction{};
+  if (rule.implicit)
+    friction = rub<double>(c.tangential, law.gradient[l], c.share_t, c.bound, law.mu_dynamic[l], n,
+                           c.v_t + c.nt * n);
+  const double t = friction.force, v_n = c.v_n + c.nn * n + c.nt * t, v_t = c.v_t + c.nt * n + c.tt * t;
+  solved.work = rule.step * (n * v_n + t * v_t);
+  solved.jump = rule.step * (n * (v_n - c.v_n) + t * (v_t - c.v_t));
+  StepNumbers& s = steps[i];
+  steps.contacts[0] = i;
+  s.spring[l] = c.spring;
+  s.instant[l] = c.instant;
+  s.normal[l] = n;
+  s.friction[l] = t;
+  s.slides[l] = friction.slides;
+  s.before_n[l] = c.v_n;
+  s.cut[l] = -rule.step * (n - c.spring) * v_n;
+  CommitNumbers& out = commits[i];
+  out.closed[l] = n > 0.0 ? 1.0 : 0.0;
+  out.normal_y[l] = near.ny[i];
+  out.normal_z[l] = near.nz[i];
+  out.force[l] = t;
+  out.displacement[l] = rule.step * law.along[l] * v_t;
+  out.slides[l] = friction.slides;
+  return true;
+}
+
 template <class G>
 FRETWORK_INLINE Solved solve_all(std::span<const int> places, int width, const SweepRule& rule,
                                  const LawLanes& laws, const MemoryLanes& memories,
@@ -358,26 +424,27 @@ template <class Widest>
 FRETWORK_INLINE Solved solve_on(const Places& places, const SweepRule& rule, const LawLanes& laws,
                                 const MemoryLanes& memories, const MobilityLanes& mobility,
                                 const NearLanes& near, StepLanes& steps, CommitLanes& commits) {
-  using Single = Grain<Widest, double>;
   const int width = places.all.width;
-  if (places.all.few())
-    return solve_all<Single>(places.first, width, rule, laws, memories, mobility, near, steps, commits);
-  if (places.all.half())
-    return solve_all<Grain<Widest, Half>>(places.first, width, rule, laws, memories, mobility, near, steps,
-                                          commits);
-  if (places.near > most_single)
-    return solve_all<Grain<Widest, Pack>>(places.first, width, rule, laws, memories, mobility, near, steps,
-                                          commits);
+  const auto solve = [&]<class Place>(std::span<const int> of, Place) __attribute__((always_inline)) {
+    return solve_all<Grain<Widest, Place>>(of, width, rule, laws, memories, mobility, near, steps, commits);
+  };
+  if (places.near > (places.all.half() ? 1 : most_single)) {
+    if (places.all.few())
+      return solve(places.first, double{});
+    return places.all.half() ? solve(places.first, Half{}) : solve(places.first, Pack{});
+  }
   std::array<int, most_single> single;
   std::size_t count = 0;
-  for (const int i : places.first) {
-    std::fill_n(commits[i].closed, lanes, 0.0);
-    for (int c = i; c < i + lanes; ++c)
+  for (const int i : places.first)
+    for (int c = i; c < i + places.all.together(); ++c) {
+      commits[c].closed[lane(c)] = 0.0;
       if (near.near[c] > 0.0)
         single[count++] = c;
-  }
-  return solve_all<Single>({single.data(), count}, width, rule, laws, memories, mobility, near, steps,
-                           commits);
+    }
+  Solved solved;
+  if (count == 1 && solve_one(single[0], width, rule, laws, memories, near, steps, commits, solved))
+    return solved;
+  return solve({single.data(), count}, double{});
 }
 
 } // namespace
