@@ -53,6 +53,8 @@ void SlidingPaths::correct(const ContactMotion& motion, const ContactMemory& mem
     }
     const double y = scale * (push_y - last.y), z = scale * (push_z - last.z);
     const bool closes = last.y == 0.0 && last.z == 0.0; // no rate is known
+    if (own.ends && closes)
+      find_begun(c, s, motion, memory);
     last.y = push_y;
     last.z = push_z;
     if (!s.slides || closes)
@@ -87,7 +89,26 @@ void SlidingPaths::find_end(int c, const ContactState& s, const Speeds& speeds, 
   const Vec2 missing = bound * along - s.friction, loss = left - after - h_ * (mobility * missing);
   const contact::EndedSlide slide(speed, held, per_damping * bound, loss, h_);
   if (slide.ends)
-    ended_.push_back({c, slide, s.damper_work});
+    ended_.push_back({c, slide.path, bound * slide.slider, s.damper_work});
+}
+
+void SlidingPaths::find_begun(int c, const ContactState& s, const ContactMotion& motion,
+                              const ContactMemory& memory) {
+  const contact::Support& support = contacts_.supports[c];
+  const double depth = -motion.gaps[c];
+  const Vec2 held = own_[c].per_damping * memory.at(c, s.ny, s.nz).spring,
+             excess = motion.slip(c, s.ny, s.nz) - held;
+  const double speed = norm(excess);
+  if (!(depth > 0.0 && s.approach > 0.0 && speed > 0.0))
+    return;
+  const Vec2 along = (1.0 / speed) * excess;
+  const contact::FrictionLaw& law = support.friction;
+  const contact::BegunSlide slide(speed, support.normal.stiffness * s.approach, law.mu_dynamic, law.damping,
+                                  dot(along, tangent_mobility(c, s.ny, s.nz) * along));
+  const double touched = std::min(h_, depth / s.approach); // s ago
+  if (s.slides && slide.time > touched + 0.5 * h_)
+    return; // it goes on after what this action stands for
+  ended_.push_back({c, slide.pressed_path / s.normal_force, slide.slider_work, s.damper_work});
 }
 
 /// What `find_end` and EndedSlide find along one tangent, without roots and divisions: most slides go on.
@@ -117,12 +138,11 @@ contact::Mobility SlidingPaths::tangent_mobility(int c, double ny, double nz) co
 }
 
 void SlidingPaths::end_slides(ContactTrial& trial, ContactLosses& losses) const {
-  for (const auto& [c, slide, normal_loss] : ended_) {
+  for (const auto& [c, path, work, normal_loss] : ended_) {
     ContactState& s = trial.states[c];
-    s.slid = slide.path;
+    s.slid = path;
     const double all = s.friction_work + s.damper_work - normal_loss, // by slider, spring and damper
-        bound = contacts_.supports[c].friction.mu_dynamic * s.normal_force,
-                 slider = std::min(bound * slide.slider, std::max(0.0, all)), more = slider - s.friction_work;
+        slider = std::min(work, std::max(0.0, all)), more = slider - s.friction_work;
     s.friction_work += more;
     s.damper_work -= more;
     losses.friction += more;

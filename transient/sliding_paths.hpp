@@ -12,9 +12,12 @@
 ///
 /// Slides that end inside a step (contact/ended_slide.hpp) are told in full where the damper ends them, C_T W_tt h >= 1. Their velocity
 /// when the step begins: v- less half of what the flow has given since the last action. d is what they lose from action to action, by the
-/// flow and all forces, with the friction at its bound. The motion stays what it is: of the work of friction the slider's share changes,
+/// flow and all forces, with the friction at its bound. Those that begin with the contact's touch and end while its force still grows
+/// (contact/begun_slide.hpp) likewise, told from the speeds before the action, where they end before what it stands for (the path is that
+/// under the mean force of the step). The motion stays what it is: of the work of friction the slider's share changes,
 /// and the paths that statistics see.
 #pragma once
+#include "contact/begun_slide.hpp"
 #include "contact/ended_slide.hpp"
 #include "transient/contact_memory.hpp"
 
@@ -43,7 +46,8 @@ private:
   };
   struct Ended {
     int contact;
-    contact::EndedSlide slide;
+    double path;        ///< m
+    double slider_work; ///< J
     double normal_loss; ///< J, by the normal damper
   };
   /// Of the contact itself.
@@ -53,6 +57,7 @@ private:
     double per_damping = 0.0; ///< 1/C_T, m/(N s)
   };
   void find_end(int c, const ContactState& s, const Speeds& speeds, const ContactMemory& memory);
+  void find_begun(int c, const ContactState& s, const ContactMotion& motion, const ContactMemory& memory);
   [[nodiscard]] bool ends_along_line(int c, const ContactState& s, const Speeds& speeds, double spring) const;
   [[nodiscard]] contact::Mobility tangent_mobility(int c, double ny, double nz) const;
 

@@ -123,4 +123,34 @@ TEST(SlidingPaths, TellThemWhereAllForcesPushAlongTheTangent) {
   expect_means_of_fine_steps(slide_askew, 5e-3);
 }
 
+namespace {
+
+/// An impact that is almost normal, mean over the phases of the steps: its damper ends the slide while the force still grows.
+Slide oblique_impact(double ratio, double resolution, int phases) {
+  constexpr double hard = 1e8, body = 0.36, speed = 0.5, gap = 1e-3; // kg, m/s, m
+  const double frequency = std::sqrt(hard / body), h = resolution / frequency;
+  Slide out;
+  for (int i = 0; i < phases; ++i) {
+    Scene scene = mass_point(body, Vec3::Zero(), 1.0);
+    scene.contacts = {contact_of(body, {contact::Stop{gap, contact::PlaneAxis::y},
+                                        {hard},
+                                        {0.5 * hard, 3.3 * body * frequency, friction, friction}})};
+    start(scene, body, {0.0, gap - speed * h * (3.0 + (i + 0.5) / phases), 0.0}, {0.0, speed, ratio * speed});
+    const auto run = simulate(scene, splitting(h), 8.0 * h + 4.0 / frequency);
+    out.path += run.statistics[0].sliding_distance / phases;
+    out.work += run.statistics[0].friction_work / phases;
+  }
+  return out;
+}
+
+} // namespace
+
+// Steps alone miss 87, 50 and 30 % of it.
+TEST(SlidingPaths, TellSlidesThatBeginAndEndWhileAContactCloses) {
+  for (const double ratio : {0.02, 0.05, 0.1}) {
+    const double exact = oblique_impact(ratio, 0.005, 2).work, work = oblique_impact(ratio, 0.8, 64).work;
+    EXPECT_NEAR(work / exact, 1.0, 0.06) << ratio;
+  }
+}
+
 } // namespace fretwork::tests
