@@ -18,9 +18,9 @@
 ///                 where m < g P/2, P + d < u
 ///       m, s      the rate of p: mean since the last action, and before this one;   d = s - m, half of h times the acceleration
 ///       g = K_h W h^2 = 2 - 2 cos x,   k = ((x/2) cot(x/2))^2 = 1 - 2 a + 3/5 a^2,   N = (1 - k) v^2/(h W) = K h v^2 (1 - 0.3 a)/6
-/// So an impact of a mass alone keeps its energy and its impulse to round-off, for x up to 0.95, under a constant acceleration too: without
+/// So an impact of a mass alone keeps its energy and its impulse to round-off, for x up to 1.05, under a constant acceleration too: without
 /// d, one of 1 % of v w_c off the obstacle gave 0.1 % of energy at each impact at x = 0.8, and a tube that bounces without other losses
-/// had work rates 8 % too high. Faster modes are no constant acceleration: |d| <= g P/2 + |m|/10. Above 0.95 (no step to take) F = K_h p.
+/// had work rates 8 % too high. Faster modes are no constant acceleration: |d| <= g P/2 + |m|/10. Above 1.05 (no step to take) F = K_h p.
 ///
 /// F h is an impulse; where it is that of an impact's beginning or end, the force at t_k is another one: K p sinc(x P/v), sinc(x P/u), of the
 /// impact that touches at the speed v, u that time away. Integrals of F^2 are sums of h F times it (in the mean over all beginnings to 1e-3
@@ -72,8 +72,9 @@ public:
     return push(penetration, rate, rate).force;
   }
 
-  static constexpr double most = 0.95 * 0.95 / 12.0; ///< a at x = 0.95: above 0.96 one at rest would open
-  static constexpr double smooth = 0.1;              ///< |d| over |m|
+  static constexpr double most =
+      1.05 * 1.05 / 12.0;               ///< a at x = 1.05: above it impacts of two actions lose their energy
+  static constexpr double smooth = 0.1; ///< |d| over |m|
 
 private:
   /// K p sinc(x P/speed), to (x P/speed)^6/5040.

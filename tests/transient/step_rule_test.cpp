@@ -14,7 +14,7 @@ namespace {
 
 constexpr double round_off = 1e-12;
 constexpr double eps = 0.5;                       // at an accuracy of 1 %
-constexpr double share = 0.8, stick_share = 0.25; // w_c h and w_t h of splitting at 1 %
+constexpr double share = 1.0, stick_share = 0.25; // w_c h and w_t h of splitting at 1 %
 constexpr double mass = 2.0;
 
 Scene scene_with(const contact::Support& support, double duration = 1000.0,
@@ -52,6 +52,20 @@ TEST(StepRule, ResolvesTheContactFrequency) {
                   "the contact frequency 200 rad/s");
 }
 
+TEST(StepRule, TakesShorterStepsWithModesNearTheContacts) {
+  for (const auto& [ratio, resolved] : {std::pair(0.59, share), std::pair(0.61, 0.8), std::pair(1.5, 0.8)})
+    expect_governed(vibrating(scene_with({Circle{0.1}, {8e4}, {}}, 1000.0,
+                                         Vec3(0, mass * std::pow(ratio * 200.0, 2), 0))),
+                    splitting(), resolved / 200.0, "the contact frequency 200 rad/s");
+}
+
+TEST(StepRule, TakesNoStepAboveTheContactFrequencyHoweverCoarse) {
+  StepOptions coarse = splitting();
+  coarse.accuracy = 0.5;
+  expect_governed(scene_with({Circle{0.1}, {8e4}, {}}), coarse, share / 200.0,
+                  "the contact frequency 200 rad/s");
+}
+
 TEST(StepRule, GivesCollocationALongerStepWhateverTheModes) {
   expect_governed(scene_with({Circle{0.1}, {8e4}, {}}, 1000.0, Vec3(0, 1e12, 0)), collocation(),
                   0.5 / std::sqrt(8e4 / mass), "the contact frequency 200 rad/s");
@@ -67,7 +81,7 @@ TEST(StepRule, ResolvesTheFrequencyOfStickingContacts) {
 
 TEST(StepRule, ResolvesTheTangentialDampers) {
   const Scene scene = scene_with({Circle{0.1}, {2.0}, {2.0, 4e3, 0.3, 0.3}});
-  expect_governed(scene, splitting(), 5.0 / 2000.0, "the tangential dampers' rate 2000 1/s");
+  expect_governed(scene, splitting(), 6.3 / 2000.0, "the tangential dampers' rate 2000 1/s");
   expect_governed(scene, euler(), eps / 2000.0, "the tangential dampers' rate 2000 1/s");
 }
 
@@ -232,7 +246,7 @@ TEST(StepRule, FollowsModesNotFarAboveTheContacts) {
   const auto above = [](double times) {
     return scene_with({Circle{0.1}, {8e4}, {}}, 1000.0, Vec3(0, mass * std::pow(times * 200.0, 2), 0));
   };
-  expect_governed(above(2.5), splitting(), share / 200.0, "the contact frequency");
+  expect_governed(above(2.5), splitting(), 0.8 / 200.0, "the contact frequency");
   expect_governed(above(4.0), splitting(), 2.5 / 800.0, "the highest mode");
   EXPECT_EQ(choose_step(above(4.0), splitting()).scaled, 0);
   expect_governed(above(6.0), splitting(), 0.45 / 200.0, "1 of 3 modes, those above");
@@ -358,7 +372,7 @@ TEST(StepRule, WarnsWhereAFixedStepDoesNotResolve) {
   };
   only(warnings(scene_with({Circle{0.1}, {8e4}, {}}), splitting(6e-3)), "the contact frequency: w_c h = 1.2");
   const Scene dampers = scene_with({Circle{0.1}, {2.0}, {2.0, 4e3, 0.3, 0.3}});
-  only(warnings(dampers, splitting(2.6e-3)), "the tangential dampers: r_t h = 5.2");
+  only(warnings(dampers, splitting(3.25e-3)), "the tangential dampers: r_t h = 6.5");
   only(warnings(dampers, euler(0.6e-3)), "the tangential dampers: r_t h = 1.2");
   const Scene mode = scene_with({Circle{0.1}, {2.0}, {}}, 1.0, Vec3(0, 2.0 * 1e6, 0));
   only(warnings(mode, splitting(3.1e-3)), "the highest mode: w_max h = 3.1");
