@@ -98,16 +98,18 @@ void SlidingPaths::find_begun(int c, const ContactState& s, const ContactMotion&
   const double depth = -motion.gaps[c];
   const Vec2 held = own_[c].per_damping * memory.at(c, s.ny, s.nz).spring,
              excess = motion.slip(c, s.ny, s.nz) - held;
-  const double speed = norm(excess);
-  if (!(depth > 0.0 && s.approach > 0.0 && speed > 0.0))
+  const double speed2 = dot(excess, excess);
+  if (!(depth > 0.0 && s.approach > 0.0 && speed2 > 0.0))
     return;
-  const Vec2 along = (1.0 / speed) * excess;
   const contact::FrictionLaw& law = support.friction;
-  const contact::BegunSlide slide(speed, support.normal.stiffness * s.approach, law.mu_dynamic, law.damping,
-                                  dot(along, tangent_mobility(c, s.ny, s.nz) * along));
-  const double touched = std::min(h_, depth / s.approach); // s ago
-  if (s.slides && slide.time > touched + 0.5 * h_)
-    return; // it goes on after what this action stands for
+  const double growth = support.normal.stiffness * s.approach,
+               mobility = dot(excess, tangent_mobility(c, s.ny, s.nz) * excess) / speed2;
+  // most go on after what this action stands for, from the touch to half a step after the action
+  const double rest = std::min(h_, depth / s.approach) + 0.5 * h_,
+               ends_from = law.mu_dynamic * growth * rest * (own_[c].per_damping + 0.5 * mobility * rest); // m/s
+  if (s.slides && speed2 > ends_from * ends_from)
+    return;
+  const contact::BegunSlide slide(std::sqrt(speed2), growth, law.mu_dynamic, law.damping, mobility);
   ended_.push_back({c, slide.pressed_path / s.normal_force, slide.slider_work, s.damper_work});
 }
 
