@@ -89,16 +89,17 @@ std::vector<NamedScene> rattling_tubes() {
         Tube{"high modes", 1.2, 40, 3, 1e6, 200.0, 60.0}})
     out.push_back({tube.name, scene_of(tube)});
   out.push_back({"straight_tube", tube_scene({})});
-  for (const Tube& tube : {Tube{"1 support, 1e7", 1.0, 16, 1, 1e7, 200.0, 60.0},
-                           Tube{"3 supports, 1e7", 3.0, 40, 3, 1e7, 100.0, 20.0},
-                           Tube{"3 supports, 1e8", 3.0, 20, 3, 1e8, 100.0, 20.0},
-                           Tube{"5 supports, 1e9", 9.0, 40, 5, 1e9, 60.0, 10.0},
-                           Tube{"1 support, 1e9", 3.0, 24, 1, 1e9, 100.0, 20.0}, // these two bounce to and fro
-                           Tube{"2 supports, 1e8, hard", 4.0, 20, 2, 1e8, 100.0, 40.0},
-                           Tube{"6 supports, 3e7, hard", 5.0, 60, 6, 3e7, 100.0, 40.0},
-                           Tube{"10 supports, 1e7", 9.0, 60, 10, 1e7, 100.0, 10.0},
-                           Tube{"10 supports, 1e8, hard", 9.0, 60, 10, 1e8, 100.0, 40.0},
-                           Tube{"20 supports, 1e7", 18.0, 100, 20, 1e7, 50.0, 8.0}})
+  for (const Tube& tube :
+       {Tube{"1 support, 1e7", 1.0, 16, 1, 1e7, 200.0, 60.0},
+        Tube{"3 supports, 1e7", 3.0, 40, 3, 1e7, 100.0, 20.0},
+        Tube{"3 supports, 1e8", 3.0, 20, 3, 1e8, 100.0, 20.0},
+        Tube{"5 supports, 1e9", 9.0, 40, 5, 1e9, 60.0, 10.0},
+        Tube{"1 support, 1e9", 3.0, 24, 1, 1e9, 100.0, 20.0}, // these two bounce to and fro
+        Tube{"2 supports, 1e8, hard", 4.0, 20, 2, 1e8, 100.0, 40.0},
+        Tube{"6 supports, 3e7, hard", 5.0, 60, 6, 3e7, 100.0, 40.0},
+        Tube{"10 supports, 1e7", 9.0, 60, 10, 1e7, 100.0, 10.0},
+        Tube{"10 supports, 1e8, hard", 9.0, 60, 10, 1e8, 100.0, 40.0},
+        Tube{"20 supports, 1e7", 18.0, 100, 20, 1e7, 50.0, 8.0}})
     out.push_back({tube.name, scene_of(tube)});
   return out;
 }

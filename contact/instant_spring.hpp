@@ -20,7 +20,8 @@
 ///       g = K_h W h^2 = 2 - 2 cos x,   k = ((x/2) cot(x/2))^2 = 1 - 2 a + 3/5 a^2,   N = (1 - k) v^2/(h W) = K h v^2 (1 - 0.3 a)/6
 /// So an impact of a mass alone keeps its energy and its impulse to round-off, for x up to 1.05, under a constant acceleration too: without
 /// d, one of 1 % of v w_c off the obstacle gave 0.1 % of energy at each impact at x = 0.8, and a tube that bounces without other losses
-/// had work rates 8 % too high. Faster modes are no constant acceleration: |d| <= g P/2 + |m|/10. Above 1.05 (no step to take) F = K_h p.
+/// had work rates 8 % too high. Faster modes are no constant acceleration: |d| <= g P/2 + |m|/10, beyond
+/// which energy is not kept. Above 1.05 (no step to take) F = K_h p.
 ///
 /// F h is an impulse; where it is that of an impact's beginning or end, the force at t_k is another one: K p sinc(x P/v), sinc(x P/u), of the
 /// impact that touches at the speed v, u that time away. Integrals of F^2 are sums of h F times it (in the mean over all beginnings to 1e-3

@@ -105,7 +105,7 @@ void ContactStatistics::Sums::add(const transient::ContactState& state, double s
   normal_max = std::max(normal_max, n);
   tangential2 += (state.slides ? share : 1.0) * t2 * step; // in a slide it follows the normal force
   tangential_max = std::max(tangential_max, t2);
-  slid += n * state.slid;
+  slid += state.pressing_share * n * state.slid;
   distance += state.slid;
   if (state.slides)
     sliding_time += step;

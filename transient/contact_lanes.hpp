@@ -132,7 +132,7 @@ struct Solved {
   double work = 0.0, jump = 0.0; ///< J, of ContactSolver::Action
   bool settled = true;           ///< otherwise nothing is found yet but `springs`
 };
-/// Which contacts of the places are shut, and their forces for the step: `steps` and the first row of `commits`, there only.
+/// Which contacts of the places are shut, and their forces for the step: `steps` and what `commits` takes in, there only.
 extern const Kernel<Solved(const Places& places, const SweepRule& rule, const LawLanes& laws,
                            const MemoryLanes& memories, const MobilityLanes& mobility, const NearLanes& near,
                            StepLanes& steps, CommitLanes& commits)>

@@ -241,13 +241,14 @@ void FlexibleContacts::face(Shut& s, const ContactMotion& motion) const {
 }
 
 /// p0 of a contact whose spring, in series with its residual flexibility, bears the force of an action: contact::InstantSpring.
-double FlexibleContacts::at_instant(const Shut& s, double p0) const {
+double FlexibleContacts::at_instant(Shut& s, double p0) const {
   if (still_ || !(p0 > 0.0))
     return p0;
   const double flexibility = 1.0 / s.normal.stiffness + s.residual(0, 0);
-  return flexibility * contact::InstantSpring(1.0 / flexibility, s.mobility(0, 0), h_)
-                           .push(p0, s.flown, -s.velocity[0])
-                           .force;
+  const auto push =
+      contact::InstantSpring(1.0 / flexibility, s.mobility(0, 0), h_).push(p0, s.flown, -s.velocity[0]);
+  s.instant_share = push.instant / push.force;
+  return flexibility * push.force;
 }
 
 /// Turns a contact to the normal of where it stands. Returns the change of its force, N.
@@ -458,6 +459,7 @@ void FlexibleContacts::close(ContactTrial& trial, ContactSolver::Action& action)
     state.nz = s.nz;
     state.approach = s.approach;
     state.damper_work = loss;
+    state.instant_share = s.instant_share;
     double moved[3] = {}; // over the step
     for (int k = 0; k < 3; ++k) {
       const double speed = component(speed_, i, k), give = component(give_, i, k);

@@ -56,11 +56,12 @@ private:
     bool friction = false, in_plane = false, slides = false;
     contact::NormalLaw normal{};
     double ny = 0.0, nz = 0.0;
-    double bare = 0.0;     ///< m: penetration without any R f
-    double closed = 0.0;   ///< share of the step with penetration
-    double approach = 0.0; ///< m/s: p' before the action
-    double flown = 0.0;    ///< m/s: of the modes, mean of p' since the last action
-    double alone = 0.0;    ///< m: p0, as the spring in series sees it at an instant, >= 0
+    double bare = 0.0;          ///< m: penetration without any R f
+    double closed = 0.0;        ///< share of the step with penetration
+    double approach = 0.0;      ///< m/s: p' before the action
+    double flown = 0.0;         ///< m/s: of the modes, mean of p' since the last action
+    double alone = 0.0;         ///< m: p0, as the spring in series sees it at an instant, >= 0
+    double instant_share = 1.0; ///< of the spring's force: contact::InstantSpring::Push
     [[nodiscard]] bool acts() const { return alone > 0.0 || normal.damping > 0.0; }
     double force[3] = {};    ///< N, along n, t, x_loc, as all that follows
     double velocity[3] = {}; ///< m/s, of the modes before the action
@@ -76,7 +77,7 @@ private:
   void take(int c, ContactMotion& motion);
   [[nodiscard]] bool recruit(ContactMotion& motion);
   void along(const Shut& s, const kernels::Array& lanes, double* to) const;
-  [[nodiscard]] double at_instant(const Shut& s, double p0) const;
+  double at_instant(Shut& s, double p0) const;
   void face(Shut& s, const ContactMotion& motion) const;
   [[nodiscard]] double turn(std::size_t i, ContactMotion& motion);
   void build(const ContactMotion& motion);

@@ -24,9 +24,9 @@ struct ContactState {
   double approach = 0.0;      ///< m/s, speed towards the obstacle before the step's force acts; of a contact
                               ///< that has just opened: minus the speed at which it left
   bool slides = false;
-  double instant_share =
-      1.0; ///< of normal_force: the force at the instant of the record, where the impulse of the step is that of a contact that
-           ///< closes or opens between instants. Integrals of squares of forces take it once.
+  // Shares of normal_force, 1 but where a contact closes or opens between instants of splitting:
+  double pressing_share = 1.0; ///< what presses the path `slid` in the mean
+  double instant_share = 1.0;  ///< the force at the instant: integrals of squares of forces take it once
 };
 
 /// Energy, J, at the instant of a record: load_work = stored - initial + modal_damping + contact_damping +

@@ -11,6 +11,8 @@ namespace {
 
 /// C_T W h: dampers that bring contacts to rest within a step or two. Weaker ones let springs end slides.
 constexpr double least_damped = 1.0;
+/// Steps since a contact that has closed touched, at its speed before the action: 1 in free flight.
+constexpr double since_touch = 1.05;
 
 } // namespace
 
@@ -89,7 +91,7 @@ void SlidingPaths::find_end(int c, const ContactState& s, const Speeds& speeds, 
   const Vec2 missing = bound * along - s.friction, loss = left - after - h_ * (mobility * missing);
   const contact::EndedSlide slide(speed, held, per_damping * bound, loss, h_);
   if (slide.ends)
-    ended_.push_back({c, slide.path, bound * slide.slider, s.damper_work});
+    ended_.push_back({c, slide.path, s.normal_force * slide.path, bound * slide.slider, s.damper_work});
 }
 
 void SlidingPaths::find_begun(int c, const ContactState& s, const ContactMotion& motion,
@@ -99,18 +101,22 @@ void SlidingPaths::find_begun(int c, const ContactState& s, const ContactMotion&
   const Vec2 held = own_[c].per_damping * memory.at(c, s.ny, s.nz).spring,
              excess = motion.slip(c, s.ny, s.nz) - held;
   const double speed2 = dot(excess, excess);
-  if (!(depth > 0.0 && s.approach > 0.0 && speed2 > 0.0))
+  // touched since the last action, so that the force grows from nothing: no normal damper, nor pressed before
+  if (support.normal.damps() || !(depth > 0.0 && depth < since_touch * h_ * s.approach && speed2 > 0.0))
     return;
   const contact::FrictionLaw& law = support.friction;
   const double growth = support.normal.stiffness * s.approach,
                mobility = dot(excess, tangent_mobility(c, s.ny, s.nz) * excess) / speed2;
+  if (!(law.damping * mobility * h_ >= least_damped))
+    return;
   // most go on after what this action stands for, from the touch to half a step after the action
-  const double rest = std::min(h_, depth / s.approach) + 0.5 * h_,
-               ends_from = law.mu_dynamic * growth * rest * (own_[c].per_damping + 0.5 * mobility * rest); // m/s
+  const double rest = depth / s.approach + 0.5 * h_,
+               ends_from =
+                   law.mu_dynamic * growth * rest * (own_[c].per_damping + 0.5 * mobility * rest); // m/s
   if (s.slides && speed2 > ends_from * ends_from)
     return;
   const contact::BegunSlide slide(std::sqrt(speed2), growth, law.mu_dynamic, law.damping, mobility);
-  ended_.push_back({c, slide.pressed_path / s.normal_force, slide.slider_work, s.damper_work});
+  ended_.push_back({c, slide.path, slide.pressed_path, slide.slider_work, s.damper_work});
 }
 
 /// What `find_end` and EndedSlide find along one tangent, without roots and divisions: most slides go on.
@@ -140,9 +146,10 @@ contact::Mobility SlidingPaths::tangent_mobility(int c, double ny, double nz) co
 }
 
 void SlidingPaths::end_slides(ContactTrial& trial, ContactLosses& losses) const {
-  for (const auto& [c, path, work, normal_loss] : ended_) {
+  for (const auto& [c, path, pressed_path, work, normal_loss] : ended_) {
     ContactState& s = trial.states[c];
     s.slid = path;
+    s.pressing_share = path > 0.0 ? pressed_path / (s.normal_force * path) : 1.0;
     const double all = s.friction_work + s.damper_work - normal_loss, // by slider, spring and damper
         slider = std::min(work, std::max(0.0, all)), more = slider - s.friction_work;
     s.friction_work += more;

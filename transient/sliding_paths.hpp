@@ -13,8 +13,8 @@
 /// Slides that end inside a step (contact/ended_slide.hpp) are told in full where the damper ends them, C_T W_tt h >= 1. Their velocity
 /// when the step begins: v- less half of what the flow has given since the last action. d is what they lose from action to action, by the
 /// flow and all forces, with the friction at its bound. Those that begin with the contact's touch and end while its force still grows
-/// (contact/begun_slide.hpp) likewise, told from the speeds before the action, where they end before what it stands for (the path is that
-/// under the mean force of the step). The motion stays what it is: of the work of friction the slider's share changes,
+/// (contact/begun_slide.hpp) likewise, told from the speeds before the action, where they end before what it stands for; not with normal
+/// dampers, whose forces do not grow from nothing. The motion stays what it is: of the work of friction the slider's share changes,
 /// and the paths that statistics see.
 #pragma once
 #include "contact/begun_slide.hpp"
@@ -46,9 +46,10 @@ private:
   };
   struct Ended {
     int contact;
-    double path;        ///< m
-    double slider_work; ///< J
-    double normal_loss; ///< J, by the normal damper
+    double path;         ///< m
+    double pressed_path; ///< J, integral of F_N over it
+    double slider_work;  ///< J
+    double normal_loss;  ///< J, by the normal damper
   };
   /// Of the contact itself.
   struct Own {

@@ -23,7 +23,7 @@ constexpr double points_per_period =
 constexpr double linear_points_per_period = 200.0;
 /// A run of an adaptive scheme has at least so many steps.
 constexpr double least_adaptive_steps = 200;
-/// w_t h at an accuracy of 0.01, whatever the damping: with splitting a stuck contact gives way by (w_t h)^2/4 too much, 8 %.
+/// w_t h at an accuracy of 0.01, whatever the damping: with splitting a stuck contact gives way by (w_t h)^2/4 too much, 13 %.
 constexpr double most_stuck = 0.71;
 /// Of r_t h where dampers are implicit: above it sticking contacts ring.
 double most_implicit(SchemeKind scheme) { return scheme == SchemeKind::splitting ? 6.3 : 4.0; }
@@ -43,12 +43,14 @@ double collocation_cost(const Scene& scene) {
   return scene.system.damping_matrix.size() > 0 ? std::max(contacts, 10.0) : contacts;
 }
 /// w_c h, w_t h and r_t h at an accuracy of 0.01. Measured on rattling tubes (bench_statistics), work rates: with splitting within 1 % at
-/// w_c h = 1, with modes near w_c at 0.8 (up to 1.6 % high at 0.9), r_t h = 5, and where contacts stick without much damping (stick_time) 3 % low at w_t h = 0.5, 0.9 % at 0.25, for they start to slide
+/// w_c h = 1, with modes near w_c at 0.8 (up to 1.6 % high at 0.9), r_t h = 6.3, and where contacts stick without much damping (stick_time) 3 % low at w_t h = 0.5, 0.9 % at 0.25, for they start to slide
 /// inside steps; with collocation these are off by 2.8 % at 1, 1.4 % at 0.5.
-/// Of r_t h, where dampers are implicit: above 2 a step turns the speed of a sticking contact round, 0.43 of it at 5.
+/// Of r_t h, where dampers are implicit: above 2 a step turns the speed of a sticking contact round, 0.52 of it at 6.3.
 struct Shares {
   double contact, stick, damper;
 };
+/// w_c h of the longest automatic step, whatever the accuracy.
+constexpr double longest_contact_share = 1.0;
 /// Up to this share of w_c modes move little while a contact is closed: splitting takes the rest of an impact as that of a mass.
 constexpr double slow_modes = 0.6;
 Shares shares(const StepChoice& c) {
@@ -128,7 +130,7 @@ std::vector<Term> terms(const StepChoice& c, const Scene& scene, double fineness
   const double damped = devogelaere ? std::min(eps, most_damped) : eps;
   const Shares share = shares(c);
   const double resolved = most_resolved(c.scheme);
-  add(std::min(share.contact * fineness, std::min(1.0, resolved)), c.contact_frequency,
+  add(std::min({share.contact * fineness, longest_contact_share, resolved}), c.contact_frequency,
       fmt::format("the contact frequency {:.4g} rad/s", c.contact_frequency));
   if (c.stick_frequency > 0.0) {
     const double most = std::min(most_stuck * fineness, resolved) / c.stick_frequency;

@@ -5,16 +5,16 @@
 ///     h = min{ c/w_c, s t_s, r/r_t, m/w_max },  the shares at an accuracy of 0.01; others grow and fall with its square root
 ///
 ///                          c      s      r     m
-///     splitting            1      0.25   5     2.5 where modes cannot be made heavier (mass_scaling.hpp); c = 0.45 where some are, 0.8
+///     splitting            1      0.25   6.3   2.5 where modes cannot be made heavier (mass_scaling.hpp); c = 0.45 where some are, 0.8
 ///                                              with modes above 0.6 w_c
 ///     collocation          0.5    0.5    2     -
 ///     energy_conserving    0.3    0.3    2     2.5
 ///     euler, devogelaere   0.3    0.3    0.5   0.5
 /// over the terms that exist, with:
 ///     w_c, w_t, r_t, w_max   scene_rates.hpp
-///     t_s    time in which sticking contacts move: 1/w_t; with splitting (1/w_t^2 + (C_T/K_T)^2)^1/2, and never w_t h above 0.57
-/// No accuracy makes a step longer than that of 0.02, nor w_c h than 1 and w_t h than 1.05 (devogelaere: 0.75, others: 1), above which impacts are wrong however
-/// stable the run (doc/schemes.md, Stability map), nor r_t h than 4, with splitting 5, where dampers are implicit. With contacts
+///     t_s    time in which sticking contacts move: 1/w_t; with splitting (1/w_t^2 + (C_T/K_T)^2)^1/2, and never w_t h above 0.71
+/// No accuracy makes a step longer than that of 0.02, nor w_c h than 1 (devogelaere: 0.75), above which impacts are wrong however
+/// stable the run (doc/schemes.md, Stability map), nor r_t h than 4, with splitting 6.3, where dampers are implicit. With contacts
 /// splitting resonates with modes at w h = k pi: those above w h = m are made heavier (mass_scaling.hpp), or where they may not be, and
 /// with energy_conserving, the step stays below 2.5/w_max. The limits of explicit Euler are r_t h < 1 and w_max h < 2; it also takes the other dampers explicitly and
 /// resolves them by 0.5/r_e (its limit: r_e h < 2):

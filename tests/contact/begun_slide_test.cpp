@@ -6,7 +6,7 @@ namespace fretwork::contact {
 namespace {
 
 struct Slide {
-  double time = 0.0, pressed_path = 0.0, slider_work = 0.0;
+  double time = 0.0, path = 0.0, pressed_path = 0.0, slider_work = 0.0;
 };
 
 /// The same by small steps of a mass under mu N t until its damper bears all of it.
@@ -20,6 +20,7 @@ Slide by_steps(double speed, double growth, double friction, double damping, dou
                  slider = middle - friction * force / damping;
     if (!(slider > 0.0))
       return out;
+    out.path += step * middle;
     out.pressed_path += step * force * middle;
     out.slider_work += step * friction * force * slider;
     v -= step * mobility * friction * force;
@@ -36,6 +37,7 @@ TEST(BegunSlide, IsThatOfAMassUnderAForceThatGrows) {
       const BegunSlide slide(speed, growth, friction, damping, mobility);
       const Slide seen = by_steps(speed, growth, friction, damping, mobility);
       EXPECT_NEAR(seen.time / slide.time, 1.0, 1e-4);
+      EXPECT_NEAR(seen.path / slide.path, 1.0, 1e-4);
       EXPECT_NEAR(seen.pressed_path / slide.pressed_path, 1.0, 1e-4);
       EXPECT_NEAR(seen.slider_work / slide.slider_work, 1.0, 1e-4);
     }

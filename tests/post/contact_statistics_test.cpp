@@ -120,8 +120,10 @@ TEST(ContactStatistics, TakeTheForceAtTheInstantOnceInSquares) {
     auto& state = run.contact(0);
     state.normal_force = 10.0;
     state.instant_share = 0.5;
+    state.pressing_share = 0.25;
     state.friction = {0.0, 2.0};
     state.slides = slides;
+    state.slid = 1e-3;
     run.step();
   }
   run.open(8);
@@ -129,6 +131,7 @@ TEST(ContactStatistics, TakeTheForceAtTheInstantOnceInSquares) {
   EXPECT_NEAR(s.normal_rms, std::sqrt(0.5 * 200.0 / 10.0), round_off);
   EXPECT_NEAR(s.normal_in_contact_rms, std::sqrt(0.5 * 200.0 / 2.0), round_off);
   EXPECT_NEAR(s.normal_mean, 20.0 / 10.0, round_off);
+  EXPECT_NEAR(s.work_rate, 2.0 * 0.25 * 10.0 * 1e-3 / (10 * h), round_off);
   EXPECT_NEAR(s.tangential_rms, std::sqrt((0.5 * 4.0 + 4.0) / 10.0),
               round_off); // what sticks does not follow
 }

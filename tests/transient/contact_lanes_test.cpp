@@ -62,6 +62,8 @@ contact::Support support_of(int kind) {
 struct Contacts {
   int count;
   bool planes_apart = false, damped = true; ///< modes of either plane; some normal laws with dampers
+  double step = 1e-4;                       ///< s
+  [[nodiscard]] bool long_steps() const { return step > 1e-4; }
 };
 
 /// Vectors of another size while it lives.
@@ -75,16 +77,20 @@ public:
 
 /// Many steps of random motion, half of the contacts closed on the average. `tolerance` relative to forces.
 void compare(const Contacts& kind, double tolerance) {
-  const auto [count, planes_apart, damped] = kind;
+  const auto [count, planes_apart, damped, h] = kind;
   std::mt19937 random(static_cast<unsigned>(count));
   std::normal_distribution<double> normal;
   constexpr Eigen::Index modes = 24;
-  constexpr double h = 1e-4, force = 100.0;
+  constexpr double force = 100.0;
   std::vector<ContactPoint> points(static_cast<std::size_t>(count));
   for (int c = 0; c < count; ++c) {
     points[c].support = support_of(c);
     if (!damped)
       points[c].support.normal = {points[c].support.normal.stiffness};
+    if (kind.long_steps()) { // so that frictions do not move each other more than themselves
+      points[c].support.friction.stiffness *= 0.2;
+      points[c].support.friction.damping *= 0.2;
+    }
     const double coupling = damped ? 0.3 : 0.6;
     points[c].b = Eigen::MatrixXd::NullaryExpr(3, modes, [&] { return coupling * normal(random); });
     points[c].b.row(0).setZero();
@@ -98,16 +104,19 @@ void compare(const Contacts& kind, double tolerance) {
   EXPECT_NE(lanes.contacts.mobility_lanes.coupled, planes_apart);
   const auto padded = static_cast<std::size_t>(lanes.contacts.padded_modes);
   kernels::Array q(padded), v(padded);
-  int closed = 0, sliding = 0;
+  int closed = 0, sliding = 0, left = 0; ///< to the others
   for (int k = 0; k < 2000; ++k) {
     for (Eigen::Index i = 0; i < modes; ++i) {
-      q[i] = 0.98 * q[i] + 1.5e-4 * normal(random);
+      q[i] = 0.98 * q[i] + (kind.long_steps() ? h * v[i] : 1.5e-4 * normal(random));
       v[i] = 0.9 * v[i] + 0.02 * normal(random);
     }
     const ContactLosses a = lanes.step(q, v), b = each.step(q, v);
     ASSERT_EQ(lanes.trial.active, each.trial.active) << "step " << k;
     ASSERT_EQ(lanes.trial.opened, each.trial.opened);
-    EXPECT_TRUE(lanes.trial.found_in_lanes || lanes.trial.active.empty()) << "they gave up";
+    const bool gave_up = !lanes.trial.found_in_lanes && !lanes.trial.active.empty();
+    EXPECT_TRUE(!gave_up || kind.long_steps())
+        << "they gave up"; // in long steps contacts move almost together
+    left += gave_up;
     EXPECT_NEAR(lanes.action.work, each.action.work, count * tolerance * force * h);
     EXPECT_NEAR(lanes.action.jump, each.action.jump, count * tolerance * force * h);
     for (const int c : lanes.trial.active) {
@@ -131,6 +140,7 @@ void compare(const Contacts& kind, double tolerance) {
     ASSERT_FALSE(testing::Test::HasFailure()) << "step " << k;
   }
   EXPECT_TRUE(lanes.converged);
+  EXPECT_LT(left, 1000);
   EXPECT_GT(closed, 300 * count);
   EXPECT_GT(sliding, 30);
 }
@@ -155,6 +165,13 @@ TEST_P(ContactLanes, FollowTheLawsOfAFewPacksOfContacts) { compare({19}, settled
 TEST_P(ContactLanes, FollowTheLawsWherePlanesAreNotCoupled) {
   compare({2, true}, settled);
   compare({11, true}, settled);
+}
+
+/// w_c h from 0.4 to 1.3, displacements that follow the velocities: contacts close and open between actions.
+TEST_P(ContactLanes, FollowTheLawsOfLongSteps) {
+  for (const int count : {1, 2, 4, 11})
+    for (const double step : {0.5e-3, 1e-3, 1.4e-3})
+      compare({count, true, false, step}, count > 1 ? settled : round_off);
 }
 
 /// Where sweeps are over frictions alone.

@@ -45,7 +45,7 @@ constexpr double friction = 0.3;
 constexpr int speeds = 64;
 
 struct Slide {
-  double path = 0.0, work = 0.0; ///< m, J, means over the speeds
+  double path = 0.0, work = 0.0, pressed = 0.0; ///< m, J, J: integral of F_N over the path; means
   void add(const Scene& scene, double h) {
     const auto statistics = simulate(scene, splitting(h), 1.0).statistics[0];
     path += statistics.sliding_distance / speeds;
@@ -126,31 +126,54 @@ TEST(SlidingPaths, TellThemWhereAllForcesPushAlongTheTangent) {
 namespace {
 
 /// An impact that is almost normal, mean over the phases of the steps: its damper ends the slide while the force still grows.
-Slide oblique_impact(double ratio, double resolution, int phases) {
+Slide oblique_impact(double ratio, double resolution, int phases, double damping = 0.0) {
   constexpr double hard = 1e8, body = 0.36, speed = 0.5, gap = 1e-3; // kg, m/s, m
   const double frequency = std::sqrt(hard / body), h = resolution / frequency;
   Slide out;
   for (int i = 0; i < phases; ++i) {
     Scene scene = mass_point(body, Vec3::Zero(), 1.0);
     scene.contacts = {contact_of(body, {contact::Stop{gap, contact::PlaneAxis::y},
-                                        {hard},
+                                        {hard, damping * body * frequency},
                                         {0.5 * hard, 3.3 * body * frequency, friction, friction}})};
     start(scene, body, {0.0, gap - speed * h * (3.0 + (i + 0.5) / phases), 0.0}, {0.0, speed, ratio * speed});
     const auto run = simulate(scene, splitting(h), 8.0 * h + 4.0 / frequency);
     out.path += run.statistics[0].sliding_distance / phases;
     out.work += run.statistics[0].friction_work / phases;
+    out.pressed += run.statistics[0].work_rate * scene.duration / phases;
   }
   return out;
 }
 
 } // namespace
 
-// Steps alone miss 87, 50 and 30 % of it.
+// Steps alone miss 87, 50 and 30 % of it at 0.8.
 TEST(SlidingPaths, TellSlidesThatBeginAndEndWhileAContactCloses) {
   for (const double ratio : {0.02, 0.05, 0.1}) {
-    const double exact = oblique_impact(ratio, 0.005, 2).work, work = oblique_impact(ratio, 0.8, 64).work;
-    EXPECT_NEAR(work / exact, 1.0, 0.06) << ratio;
+    const Slide exact = oblique_impact(ratio, 0.005, 2);
+    for (const double resolution : {0.8, 1.0}) {
+      const Slide seen = oblique_impact(ratio, resolution, 64);
+      EXPECT_NEAR(seen.work / exact.work, 1.0, 0.06) << ratio << " " << resolution;
+      EXPECT_NEAR(seen.pressed / exact.pressed, 1.0, 0.1) << ratio << " " << resolution;
+      EXPECT_NEAR(seen.path / exact.path, 1.0, 0.2) << ratio << " " << resolution;
+    }
   }
+}
+
+// The damper presses from the touch on: what begins with it ends at once.
+TEST(SlidingPaths, InventNoSlideWhereADamperPresses) {
+  EXPECT_NEAR(oblique_impact(0.1, 0.8, 64, 0.3).work / oblique_impact(0.1, 0.005, 2, 0.3).work, 1.0, 0.05);
+}
+
+// Its first action finds a force that has not grown since a touch.
+TEST(SlidingPaths, InventNoSlideOfAContactThatStartsPressed) {
+  constexpr double h = 1e-3, speed = 1e-3;
+  Scene scene = mass_point(mass, Vec3::Zero(), 1.0);
+  scene.contacts = {contact_of(mass, {contact::Stop{0.0, contact::PlaneAxis::y},
+                                      {stiffness},
+                                      {0.5 * stiffness, 4.0 * mass / h, friction, friction}})};
+  scene.loads = {force_on(mass, {0.0, pressure, 0.0}, Constant{1.0})};
+  start(scene, mass, {0.0, pressure / stiffness, 0.0}, {0.0, 0.0, speed});
+  EXPECT_EQ(simulate(scene, splitting(h), 0.05).statistics[0].sliding_distance, 0.0);
 }
 
 } // namespace fretwork::tests
