@@ -16,65 +16,6 @@ constexpr double round_off = 1e-14; ///< of a force
 /// So few near contacts of several packs are solved one after the other.
 constexpr int most_single = 2;
 
-/// Laws of contacts for the step, and how they move before the action.
-template <class V> struct Laws {
-  V depth, spring, instant, damping, share; ///< m, > 0 where closed; the others as in StepNumbers
-  V nn, nt, tt, tangential, bound, share_t;
-  V y, z, v_n, v_t; ///< m/s
-};
-template <class V>
-FRETWORK_INLINE Laws<V> laws_at(int i, int width, const SweepRule& rule, const LawLanes& laws,
-                                const MemoryLanes& memories, const NearLanes& near) {
-  const int l = lane(i);
-  const LawNumbers& law = laws[i];
-  const MemoryNumbers& memory = memories[i];
-  const V one = V{} + 1.0;
-  const V g = at<V>(near.gap + i), my = at<V>(near.ny + i), mz = at<V>(near.nz + i), p = clipped(-g);
-  const V y = at<V>(near.velocity + i), z = at<V>(near.velocity + width + i);
-  const V v_n = my * y + mz * z, v_t = mz * y - my * z;
-  const V yy = at<V>(law.yy + l), yz = at<V>(law.yz + l), zz = at<V>(law.zz + l);
-  const V by_n_y = my * yy + mz * yz, by_n_z = my * yz + mz * zz; // of y and z by a force along n
-  const V by_t_y = mz * yy - my * yz, by_t_z = mz * yz - my * zz; // along t
-  const V nn = my * by_n_y + mz * by_n_z, tt = mz * by_t_y - my * by_t_z;
-  const V moved = my * (at<V>(near.displacement + i) - at<V>(near.last + i)) +
-                  mz * (at<V>(near.displacement + width + i) - at<V>(near.last + width + i));
-  const auto [spring, instant] =
-      instant_spring<V>(at<V>(law.stiffness + l), p, moved * (-1.0 / rule.step), -v_n, nn, rule.step);
-  V damping{}, share = one;
-  if (rule.damped) {
-    damping = at<V>(law.dissipation + l) * spring;
-    if (rule.half_window > 0.0)
-      damping += closed_share(V(-g), V(rule.half_window * magnitude(v_n))) * at<V>(law.damping + l);
-    share = 1.0 / (1.0 + damping * nn);
-  }
-  const V keeps = same_face(memory, l, my, mz), mu_static = at<V>(law.mu_static + l);
-  return {p,
-          spring,
-          instant,
-          damping,
-          share,
-          nn,
-          mz * by_n_y - my * by_n_z,
-          tt,
-          keeps * at<V>(memory.spring + l),
-          keeps * at<V>(memory.sliding + l) > 0.0 ? at<V>(law.mu_dynamic + l) : mu_static,
-          mu_static > 0.0 ? 1.0 / (1.0 + at<V>(law.gradient + l) * tt) : V{},
-          y,
-          z,
-          v_n,
-          v_t};
-}
-
-/// Friction of contacts whose normal forces are `n`, `free` their tangential velocities without their own friction.
-template <class V> struct Rub { V force, slides; };
-template <class V>
-FRETWORK_INLINE Rub<V> rub(const V& tangential, const V& gradient, const V& share_t, const V& bound,
-                           const V& mu_dynamic, const V& n, const V& free) {
-  const V stick = (tangential - gradient * free) * share_t, most = mu_dynamic * n;
-  const V slides = magnitude(stick) > bound * n ? V{} + 1.0 : V{};
-  return {slides > 0.0 ? with_sign_of(stick, most) : stick, slides};
-}
-
 /// Which contacts are shut, their laws for the step, first forces; velocities before the action. Returns the energy of the springs, J.
 template <class G>
 FRETWORK_INLINE double prepare(std::span<const int> places, int width, const SweepRule& rule,
