@@ -74,7 +74,7 @@ public:
   }
 
   static constexpr double most =
-      1.05 * 1.05 / 12.0;               ///< a at x = 1.05: above it impacts of two actions lose their energy
+      1.05 * 1.05 / 12.0;               ///< a at x = 1.05: from 1.1 on impacts gain or lose energy
   static constexpr double smooth = 0.1; ///< |d| over |m|
 
 private:

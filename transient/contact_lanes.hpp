@@ -4,8 +4,8 @@
 /// x_loc) and every memory is return_map. The laws are those of contact/normal_law.hpp and contact/friction_law.hpp (step_normal,
 /// step_friction_line, close_step, open_step), written without branches; a test holds the two against each other.
 ///
-/// The forces are found by Jacobi sweeps: all contacts at once, each with its own block of A solved exactly; a contact that is shut alone,
-/// its normal force untouched by its friction, needs one. Without normal dampers normal forces do not answer velocities: the sweeps are over
+/// The forces are found by Jacobi sweeps: all contacts at once, each with its own block of A solved exactly; a contact that is near alone,
+/// its normal force untouched by its friction, needs none. Without normal dampers normal forces do not answer velocities: the sweeps are over
 /// frictions alone, with the block of A that ties them. Where the sweeps do not halve the error (contacts that move almost together),
 /// Gauss-Seidel sweeps of ContactSolver take over.
 #pragma once

@@ -12,12 +12,11 @@ constexpr int most_sweeps = 60;
 /// Jacobi sweeps that take longer than this converge badly, if they do.
 constexpr int most_jacobi_sweeps = 12;
 
-/// ContactState::instant_share of a contact whose spring bears `spring` over the step and `instant` at its instant.
+} // namespace
+
 double instant_share(double force, double spring, double instant) {
   return instant == spring ? 1.0 : std::max(0.0, 1.0 + (instant - spring) / force);
 }
-
-} // namespace
 
 double half_window(const PackedContacts& contacts, double step) {
   const bool damped = std::any_of(contacts.supports.begin(), contacts.supports.end(),

@@ -19,6 +19,9 @@ namespace fretwork::transient {
 
 /// s: how long before and after an action contacts may close that it has to see: those with C_N.
 [[nodiscard]] double half_window(const PackedContacts& contacts, double step);
+/// ContactState::instant_share of a contact with the force `force` (> 0) whose spring bears `spring` over the step and `instant` at its
+/// instant, N.
+[[nodiscard]] double instant_share(double force, double spring, double instant);
 
 class ContactSolver {
 public:

@@ -242,6 +242,7 @@ void FlexibleContacts::face(Shut& s, const ContactMotion& motion) const {
 
 /// p0 of a contact whose spring, in series with its residual flexibility, bears the force of an action: contact::InstantSpring.
 double FlexibleContacts::at_instant(Shut& s, double p0) const {
+  s.instant_share = 1.0;
   if (still_ || !(p0 > 0.0))
     return p0;
   const double flexibility = 1.0 / s.normal.stiffness + s.residual(0, 0);
@@ -459,7 +460,7 @@ void FlexibleContacts::close(ContactTrial& trial, ContactSolver::Action& action)
     state.nz = s.nz;
     state.approach = s.approach;
     state.damper_work = loss;
-    state.instant_share = s.instant_share;
+    state.instant_share = instant_share(s.force[0], spring, s.instant_share * spring);
     double moved[3] = {}; // over the step
     for (int k = 0; k < 3; ++k) {
       const double speed = component(speed_, i, k), give = component(give_, i, k);

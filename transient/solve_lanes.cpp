@@ -16,6 +16,13 @@ constexpr double round_off = 1e-14; ///< of a force
 /// So few near contacts of several packs are solved one after the other.
 constexpr int most_single = 2;
 
+/// The same of contacts that `prepare` has met.
+template <class V>
+FRETWORK_INLINE Rub<V> rub_at(const LawNumbers& law, const StepNumbers& s, int l, const V& n, const V& free) {
+  return rub<V>(at<V>(s.tangential + l), at<V>(law.gradient + l), at<V>(s.share_t + l), at<V>(s.bound + l),
+                at<V>(law.mu_dynamic + l), n, free);
+}
+
 /// Which contacts are shut, their laws for the step, first forces; velocities before the action. Returns the energy of the springs, J.
 template <class G>
 FRETWORK_INLINE double prepare(std::span<const int> places, int width, const SweepRule& rule,
@@ -94,9 +101,7 @@ FRETWORK_INLINE double improve(std::span<const int> places, double half_step, co
             clipped(at<V>(s.spring + l) + at<V>(s.damping + l) * rate) * at<V>(s.share + l); // 0 if not shut
         const V dn = n - n0;
         const V free = v_t + at<V>(s.nt + l) * dn - at<V>(s.tt + l) * t0;
-        const auto [t, slides] =
-            rub<V>(at<V>(s.tangential + l), at<V>(law.gradient + l), at<V>(s.share_t + l), at<V>(s.bound + l),
-                   at<V>(law.mu_dynamic + l), n, free);
+        const auto [t, slides] = rub_at<V>(law, s, l, n, free);
         const V dt = t - t0;
         turn<V>(near, i, half_step, dn, dt, s);
         at<V>(s.normal + l) = n;
@@ -122,10 +127,10 @@ FRETWORK_INLINE void answer_planes(std::span<const int> places, int width, const
         StepNumbers& s = steps[i];
         V y[2] = {at<V>(s.v_y + l), V{}}, z[2] = {at<V>(s.v_z + l), V{}};
         const auto add = [&](int k, int into) __attribute__((always_inline)) {
-          const auto c = static_cast<std::size_t>(steps.contacts[k]);
-          const double* column = &mobility.columns[c * static_cast<std::size_t>(columns * width) + i];
-          const StepNumbers& from = steps[steps.contacts[k]];
-          const double fy = from.by_y[lane(steps.contacts[k])], fz = from.by_z[lane(steps.contacts[k])];
+          const int c = steps.contacts[k];
+          const double* column =
+              &mobility.columns[static_cast<std::size_t>(c) * static_cast<std::size_t>(columns * width) + i];
+          const double fy = steps[c].by_y[lane(c)], fz = steps[c].by_z[lane(c)];
           y[into] += fy * at<V>(column);
           z[into] += fz * at<V>(column + width);
           if (coupled) {
@@ -204,9 +209,7 @@ FRETWORK_INLINE bool sweep_frictions(std::span<const int> places, int width, con
           StepNumbers& s = steps[i];
           const V n = at<V>(s.normal + l), t0 = at<V>(s.friction + l);
           const V free = at<V>(s.v_t + l) - at<V>(s.tt + l) * t0; // without this contact's friction
-          const auto [t, slides] =
-              rub<V>(at<V>(s.tangential + l), at<V>(law.gradient + l), at<V>(s.share_t + l),
-                     at<V>(s.bound + l), at<V>(law.mu_dynamic + l), n, free);
+          const auto [t, slides] = rub_at<V>(law, s, l, n, free);
           const V dt = t - t0;
           at<V>(s.by_t + l) = dt;
           at<V>(s.friction + l) = t;

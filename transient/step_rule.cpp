@@ -29,7 +29,7 @@ constexpr double most_stuck = 0.71;
 double most_implicit(SchemeKind scheme) { return scheme == SchemeKind::splitting ? 6.3 : 4.0; }
 /// Of a damper's rate times the step of devogelaere, whose limit is 0.59.
 constexpr double most_damped = 0.5;
-/// The step of an accuracy of 0.02 (w_c h = 1) is the longest: no statistics are worth having above it.
+/// The step of an accuracy of 0.02 is the longest: no statistics are worth having above it.
 constexpr double coarsest_accuracy = 0.02;
 /// w_c h of splitting at an accuracy of 0.01 where modes are made heavier: impulses on modes of w h near 2.5 cost energy that grows with h^2
 /// (damping of the modes 12 % too high at w_c h = 0.7, 4 % here), and the modes that are left as they are reach further above w_c.

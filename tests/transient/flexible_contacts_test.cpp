@@ -73,6 +73,8 @@ TEST(FlexibleContacts, AreSpringsInSeries) {
                   b = simulate(softer, splitting(0.2 / w), 1e-3);
     EXPECT_GT(b.normal.maxCoeff(), 0.0);
     EXPECT_LT((a.q - b.q).cwiseAbs().maxCoeff(), round_off * b.q.cwiseAbs().maxCoeff());
+    EXPECT_NEAR(a.statistics[0].normal_rms, b.statistics[0].normal_rms,
+                round_off * b.statistics[0].normal_rms);
     EXPECT_NEAR(a.choice.contact_frequency, w, 1e-9 * w);
   }
 }
