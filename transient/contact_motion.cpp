@@ -6,7 +6,7 @@ namespace fretwork::transient {
 ContactMotion::ContactMotion(const PackedContacts& contacts)
     : contacts_(contacts), places_(contacts.lane_count()), moving_(contacts.lane_count()) {
   u.assign(static_cast<std::size_t>(contacts.stride()), 0.0);
-  w = moved_ = u;
+  w = u;
   for (kernels::Array* a : {&near_, &gaps, &normal_y, &normal_z})
     a->assign(static_cast<std::size_t>(contacts.width), 0.0);
 }
@@ -33,15 +33,10 @@ void ContactMotion::gather_near(const double* q, const double* v, const std::vec
 
 void ContactMotion::gather_velocities(const double* v) { kernels::gather(contacts_.gather, v, w.data()); }
 
-bool ContactMotion::place(const kernels::Array& at, double half_window) {
-  const int width = contacts_.width;
-  kernels::place_contacts(contacts_.reach, at.data(), at.data() + width, w.data(), w.data() + width,
-                          half_window, gaps.data(), normal_y.data(), normal_z.data(), near_.data(), places_);
-  return !places_.first.empty();
-}
-
 bool ContactMotion::find_near(double half_window) {
-  const bool any = place(u, half_window);
+  kernels::place_contacts(contacts_.reach, u.data(), w.data(), half_window, gaps.data(), normal_y.data(),
+                          normal_z.data(), near_.data(), places_);
+  const bool any = !places_.first.empty();
   if (any)
     for (const int c : contacts_.profiles)
       if (near(c)) {
@@ -54,21 +49,11 @@ bool ContactMotion::find_near(double half_window) {
 }
 
 bool ContactMotion::moves_less(double time, double share) const {
-  const int width = contacts_.width;
-  const double scale = time / share;
-  int further = 0;
-  for (int c = 0; c < contacts_.count; ++c) {
-    const double y = scale * w[c], z = scale * w[width + c], clearance = contacts_.reach.limit[c];
-    further += y * y + z * z > clearance * clearance ? 1 : 0;
-  }
-  return further == 0;
+  return kernels::move_less(contacts_.reach, places_.all, w.data(), time / share);
 }
 
-bool ContactMotion::opens_after(double time) {
-  const int width = contacts_.width;
-  for (int i = 0; i < 2 * width; ++i)
-    moved_[i] = u[i] + time * w[i];
-  return !place(moved_, 0.0);
+bool ContactMotion::opens_after(double time) const {
+  return kernels::open_after(contacts_.reach, places_.all, u.data(), w.data(), time);
 }
 
 double ContactMotion::spring_energy() const {

@@ -26,8 +26,8 @@ public:
   bool find_near(double half_window);
   /// Whether no contact moves by more than `share` of its clearance within `time` seconds at its present speed.
   [[nodiscard]] bool moves_less(double time, double share) const;
-  /// Whether all contacts would be open after `time` seconds (of either sign) at their present speeds. Marks nothing that lasts.
-  bool opens_after(double time);
+  /// Whether all contacts would be open after `time` seconds (of either sign) at their present speeds.
+  [[nodiscard]] bool opens_after(double time) const;
   /// Where the near contacts are.
   [[nodiscard]] const kernels::Places& places() const { return places_; }
   [[nodiscard]] bool near(int c) const { return near_[c] != 0.0; }
@@ -60,10 +60,8 @@ public:
   kernels::Array gaps, normal_y, normal_z; ///< m, and unit normal, of near contacts: what `locate` gives
 
 private:
-  bool place(const kernels::Array& at, double half_window);
-
   const PackedContacts& contacts_;
-  kernels::Array near_, moved_;
+  kernels::Array near_;
   kernels::Places places_, moving_; ///< near; where velocities are gathered
 };
 

@@ -6,62 +6,6 @@
 namespace fretwork::transient::kernels {
 namespace {
 
-template <class G>
-FRETWORK_INLINE void place_all(int end, const ReachLanes& reach, const double* uy, const double* uz,
-                               const double* vy, const double* vz, double half_window, double* gap,
-                               double* ny, double* nz, double* near, Places& places) {
-  using V = typename G::V;
-  constexpr int parts = G::parts, size = size_of<V>;
-  const V one = V{} + 1.0;
-  const double h2 = half_window * half_window;
-  for (int place = 0; place < end; place += parts * size) {
-    V y[parts], z[parts], r2[parts], r[parts], left[parts], closed{}, number{};
-    for_parts<G>([&](auto p) __attribute__((always_inline)) {
-      const int i = place + p * size;
-      const V radial = at<V>(&reach.radial[i]);
-      y[p] = at<V>(uy + i) + at<V>(&reach.rest_y[i]);
-      z[p] = at<V>(uz + i) + at<V>(&reach.rest_z[i]);
-      r2[p] = at<V>(&reach.wy[i]) * y[p] * y[p] + at<V>(&reach.wz[i]) * z[p] * z[p];
-      left[p] = at<V>(&reach.limit[i]) - (at<V>(&reach.ly[i]) * y[p] + at<V>(&reach.lz[i]) * z[p]);
-      if (half_window > 0.0)
-        return;
-      // gap > 0 by squares that keep their signs: most packs need no root
-      const V shut = radial * magnitude(radial) * r2[p] < left[p] * magnitude(left[p]) ? V{} : one;
-      at<V>(near + i) = shut;
-      closed += shut;
-    });
-    if (!(half_window > 0.0) && !any(closed))
-      continue;
-    for_parts<G>([&](auto p) __attribute__((always_inline)) {
-      const int i = place + p * size;
-      r[p] = root(r2[p]);
-      const V g = left[p] - at<V>(&reach.radial[i]) * r[p];
-      V reached = g <= 0.0 ? one : V{};
-      if (half_window > 0.0) {
-        const V s2 = at<V>(vy + i) * at<V>(vy + i) + at<V>(vz + i) * at<V>(vz + i);
-        reached = g * g <= h2 * s2 ? one : reached;
-      }
-      at<V>(gap + i) = g;
-      at<V>(near + i) = reached;
-      number += reached;
-    });
-    const double near_here = sum(number);
-    if (near_here == 0.0)
-      continue;
-    places.first.push_back(place);
-    places.near += near_here;
-    for_parts<G>([&](auto p) __attribute__((always_inline)) {
-      const int i = place + p * size;
-      const V wy = at<V>(&reach.wy[i]), wz = at<V>(&reach.wz[i]), radial = at<V>(&reach.radial[i]);
-      const V per_r = 1.0 / (r[p] > 0.0 ? r[p] : one);
-      // at the very centre along y where the normal can be y
-      const V ey = r[p] > 0.0 ? wy * y[p] * per_r : wy, ez = r[p] > 0.0 ? wz * z[p] * per_r : wz * (1.0 - wy);
-      at<V>(ny + i) = -(radial * ey + at<V>(&reach.ly[i]));
-      at<V>(nz + i) = -(radial * ez + at<V>(&reach.lz[i]));
-    });
-  }
-}
-
 VectorSize vector_size_here() {
 #ifdef FRETWORK_KERNELS_BY_PROCESSOR
   __builtin_cpu_init();
@@ -324,26 +268,6 @@ FRETWORK_KERNEL(EulerSums, euler_step,
                 (int np, double h, const double* c, const double* k, const double* load, const double* force,
                  double* q, double* v),
                 (np, h, c, k, load, force, q, v))
-
-template <class V>
-FRETWORK_INLINE void place_contacts_on(const ReachLanes& reach, const double* uy, const double* uz,
-                                       const double* vy, const double* vz, double half_window, double* gap,
-                                       double* ny, double* nz, double* near, Places& places) {
-  const LaneCount& all = places.all;
-  places.first.clear();
-  places.near = 0.0;
-  if (all.few())
-    place_all<Grain<V, double>>(all.count, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near, places);
-  else if (all.half())
-    place_all<Grain<V, Half>>(size_of<Half>, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near, places);
-  else
-    place_all<Grain<V, Pack>>(all.width, reach, uy, uz, vy, vz, half_window, gap, ny, nz, near, places);
-}
-FRETWORK_KERNEL(void, place_contacts,
-                (const ReachLanes& reach, const double* uy, const double* uz, const double* vy,
-                 const double* vz, double half_window, double* gap, double* ny, double* nz, double* near,
-                 Places& places),
-                (reach, uy, uz, vy, vz, half_window, gap, ny, nz, near, places))
 
 template <class V>
 FRETWORK_INLINE void respond_on(int width, int directions, const double* columns, double ny, double nz,

@@ -159,22 +159,6 @@ extern const Kernel<EulerSums(int np, double h, const double* c, const double* k
                               const double* force, double* q, double* v)>
     euler_step;
 
-/// Contacts in lanes by their contact::Reach. Arrays of a vector quantity have blocks of `width` lanes: y of all contacts, z, x_loc; or
-/// along their own directions: n, t = n x x_loc, x_loc.
-struct ReachLanes {
-  Array rest_y, rest_z; ///< m: position = displacement + rest
-  Array wy, wz, radial, ly, lz, limit;
-};
-
-/// Gap and its gradient: contact::locate of every obstacle that is one formula, with e = (wy y, wz z)/r, r = sqrt(wy y^2 + wz z^2),
-///     gap = limit - (radial r + ly y + lz z),   n = -(radial e + (ly, lz)).
-/// For a profile it is a lower bound of the gap (its inscribed circle). near[i] = 1 where gap <= half_window |v|, else 0; without a window
-/// velocities are not looked at. Normals are found in the `places` in which some contact is near, the others keep theirs.
-extern const Kernel<void(const ReachLanes& reach, const double* uy, const double* uz, const double* vy,
-                         const double* vz, double half_window, double* gap, double* ny, double* nz,
-                         double* near, Places& places)>
-    place_contacts;
-
 /// v = components of w along the contacts' own directions (2: n, t; 3: n, t, x_loc).
 extern const Kernel<void(int width, int directions, const double* ny, const double* nz, const double* w,
                          double* v)>

@@ -3,6 +3,7 @@
 /// The contacts of a scene as the step needs them: contiguous, padded, contact by contact in vector lanes.
 #pragma once
 #include "transient/contact_lanes.hpp"
+#include "transient/reach_lanes.hpp"
 #include "transient/scene.hpp"
 
 namespace fretwork::transient {
