@@ -94,17 +94,21 @@ FRETWORK_INLINE bool keep(int i, auto part, const LawLanes& laws, CommitLanes& c
   return any(left);
 }
 
-/// Contacts that are all open: what `keep` makes of them.
+/// Contacts that are all open in so many steps: what `keep` makes of them.
 template <class G>
-FRETWORK_INLINE bool fade(int i, auto part, const LawLanes& laws, MemoryLanes& memories,
+FRETWORK_INLINE bool fade(int i, auto part, int steps, const LawLanes& laws, MemoryLanes& memories,
                           CommitParts<G>& sums) {
   using V = typename G::V;
   const int l = lane(i);
   const LawNumbers& law = laws[i];
   MemoryNumbers& m = memories[i];
   const V e = at<V>(law.relaxation + l), held = at<V>(m.spring + l);
-  const V fading = at<V>(m.left + l) * e, left = fading < forgotten ? V{} : fading;
-  const V after = left > 0.0 ? e * held : V{};
+  V left = at<V>(m.left + l), after = held;
+  for (int k = 0; k < steps; ++k) {
+    const V fading = left * e;
+    left = fading < forgotten ? V{} : fading;
+    after = left > 0.0 ? e * after : V{};
+  }
   const V lost = 0.5 * at<V>(law.compliance + l) * (held * held - after * after);
   sums.damping[part] += lost;
   sums.stored[part] -= lost;
@@ -132,7 +136,7 @@ FRETWORK_INLINE CommitSums commit_all(const Places& acting, const LawLanes& laws
     for (; old != memories.places.end() && *old < end; ++old)
       remember(
           *old, [&](int i, auto part)
-                    __attribute__((always_inline)) { return fade<G>(i, part, laws, memories, sums); });
+                    __attribute__((always_inline)) { return fade<G>(i, part, 1, laws, memories, sums); });
   };
   for (const int place : acting.first) {
     fade_before(place);
@@ -145,6 +149,32 @@ FRETWORK_INLINE CommitSums commit_all(const Places& acting, const LawLanes& laws
   fade_before(acting.all.width);
   memories.places.swap(memories.next);
   return {sum(sums.sliders), sum(sums.damping), sum(sums.stored)};
+}
+
+template <class G>
+FRETWORK_INLINE CommitSums fade_all(int steps, const LawLanes& laws, MemoryLanes& memories) {
+  CommitParts<G> sums;
+  memories.next.clear();
+  for (const int place : memories.places) {
+    bool any = false;
+    for_parts<G>([&](auto part) __attribute__((always_inline)) {
+      any |= fade<G>(place + part * size_of<typename G::V>, part, steps, laws, memories, sums);
+    });
+    if (any)
+      memories.next.push_back(place);
+  }
+  memories.places.swap(memories.next);
+  return {sum(sums.sliders), sum(sums.damping), sum(sums.stored)};
+}
+
+template <class Widest>
+FRETWORK_INLINE CommitSums fade_on(const LaneCount& contacts, int steps, const LawLanes& laws,
+                                   MemoryLanes& memories) {
+  if (contacts.few())
+    return fade_all<Grain<Widest, double>>(steps, laws, memories);
+  if (contacts.half())
+    return fade_all<Grain<Widest, Half>>(steps, laws, memories);
+  return fade_all<Grain<Widest, Pack>>(steps, laws, memories);
 }
 
 template <class Widest>
@@ -162,5 +192,8 @@ FRETWORK_INLINE CommitSums commit_on(const Places& acting, const LawLanes& laws,
 FRETWORK_KERNEL(CommitSums, commit,
                 (const Places& acting, const LawLanes& laws, CommitLanes& commits, MemoryLanes& memories),
                 (acting, laws, commits, memories))
+FRETWORK_KERNEL(CommitSums, fade,
+                (const LaneCount& contacts, int steps, const LawLanes& laws, MemoryLanes& memories),
+                (contacts, steps, laws, memories))
 
 } // namespace fretwork::transient::kernels

@@ -147,6 +147,10 @@ struct CommitSums {
 extern const Kernel<CommitSums(const Places& acting, const LawLanes& laws, CommitLanes& commits,
                                MemoryLanes& memories)>
     commit;
+/// The same of so many steps in which all contacts are open.
+extern const Kernel<CommitSums(const LaneCount& contacts, int steps, const LawLanes& laws,
+                               MemoryLanes& memories)>
+    fade;
 
 /// The largest change of a sweep is small, or what it foretells from the one of the sweep before is.
 /// The ratio of the changes of two sweeps foretells the next ones only where they fall clearly.

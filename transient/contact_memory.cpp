@@ -50,9 +50,14 @@ ContactLosses ContactMemory::commit(const ContactMotion& motion, ContactTrial& t
 ContactLosses ContactMemory::pass(const ContactMotion& motion, int steps, ContactTrial& trial) {
   trial.clear();
   ContactLosses losses;
-  const bool remembers = contacts_.in_lanes ? !lanes_.places.empty() : !remembering_.empty();
-  for (int i = 0; i < steps && remembers; ++i) // springs die out
-    losses.damping += commit(motion, trial).damping;
+  // springs die out
+  if (contacts_.in_lanes && !lanes_.places.empty()) {
+    const kernels::CommitSums sums = kernels::fade(contacts_.lane_count(), steps, laws_, lanes_);
+    losses.damping += sums.damping;
+    springs_ += sums.stored;
+  }
+  for (int i = 0; i < steps && !remembering_.empty(); ++i)
+    commit_each(trial, losses);
   position_ = motion.u;
   return losses;
 }

@@ -182,6 +182,92 @@ TEST_P(ContactLanes, FollowTheLawsWithoutNormalDampers) {
   }
 }
 
+/// What flights ask, against the gaps of all contacts one by one.
+TEST_P(ContactLanes, TellWhichMotionsLeaveAllContactsOpen) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(-1e-3, 1e-3);
+  for (const int count : {1, 2, 3, 4, 5, 8, 11}) {
+    std::vector<ContactPoint> points(static_cast<std::size_t>(count));
+    for (int c = 0; c < count; ++c) {
+      points[c].support = support_of(c % 3 == 2 ? 5 : c % 3); // circle, planes, stop
+      points[c].rest = {0.0, 0.1 * place(random), 0.1 * place(random)};
+      points[c].b = Eigen::MatrixXd::Zero(3, 1);
+    }
+    const PackedContacts contacts(points, 1);
+    ContactMotion motion(contacts), later(contacts);
+    int open = 0, slow = 0;
+    constexpr int motions = 4000;
+    for (int k = 0; k < motions; ++k) {
+      const double time = place(random), size = std::pow(count, -0.5);
+      const auto length = [&](double y, double z) { return std::sqrt(y * y + z * z); };
+      bool all_open = true, all_slow = true;
+      for (int c = 0; c < count; ++c)
+        for (const int i : {c, contacts.width + c}) {
+          motion.u[i] = 1.1 * size * place(random);
+          motion.w[i] = 2000.0 * size * place(random);
+          later.u[i] = motion.u[i] + time * motion.w[i];
+        }
+      for (int c = 0; c < count; ++c) {
+        all_open = all_open && later.locate(c).gap > 0.0;
+        all_slow = all_slow && std::abs(time) * length(motion.w[c], motion.w[contacts.width + c]) <=
+                                   0.3 * contacts.reach.limit[c];
+      }
+      EXPECT_EQ(motion.opens_after(time), all_open) << count << " contacts, motion " << k;
+      EXPECT_EQ(motion.moves_less(std::abs(time), 0.3), all_slow) << count << " contacts, motion " << k;
+      open += all_open;
+      slow += all_slow;
+    }
+    for (const int number : {open, slow}) {
+      EXPECT_GT(number, motions / 40) << count << " contacts";
+      EXPECT_LT(number, motions - motions / 40) << count << " contacts";
+    }
+  }
+}
+
+/// Springs of open contacts die out over several steps at once as over one after the other, until they are forgotten.
+TEST_P(ContactLanes, LetSpringsDieOutOverSeveralSteps) {
+  for (const int count : {1, 4, 11}) {
+    std::vector<ContactPoint> points(static_cast<std::size_t>(count));
+    for (int c = 0; c < count; ++c) {
+      points[c].support = support_of(0);
+      points[c].support.friction.damping *= 1.0 + 0.2 * c; // at different paces
+      points[c].b = Eigen::MatrixXd::Zero(3, 2);
+      points[c].b(1, 0) = points[c].b(2, 1) = 0.3;
+    }
+    Engine at_once(points, 2, 1e-4, true), one_by_one(points, 2, 1e-4, true), each(points, 2, 1e-4, false);
+    kernels::Array q(8), v(8), none(8);
+    q[0] = 4e-3;
+    v[1] = 0.5;
+    double lost[3] = {}, loaded[3], most = 0.0; // J; `most`: while closed, whose round-off stays
+    Engine* const engines[] = {&at_once, &one_by_one, &each};
+    for (int i = 0; i < 3; ++i) {
+      Engine* e = engines[i];
+      e->step(q, v);
+      most = std::max(most, e->memory.spring_energy());
+      e->step(none, none);
+      ASSERT_TRUE(e->memory.closed().empty());
+      loaded[i] = e->memory.spring_energy();
+      ASSERT_GT(loaded[i], 0.0);
+    }
+    for (int k = 0; k < 60; ++k) {
+      lost[0] += at_once.memory.pass(at_once.motion, 12, at_once.trial).damping;
+      for (int step = 0; step < 12; ++step)
+        lost[1] += one_by_one.memory.pass(one_by_one.motion, 1, one_by_one.trial).damping;
+      lost[2] += each.memory.pass(each.motion, 12, each.trial).damping;
+      for (int i = 0; i < 3; ++i) {
+        EXPECT_NEAR(engines[i]->memory.spring_energy(), at_once.memory.spring_energy(), 1e-9 * loaded[0]);
+        EXPECT_NEAR(lost[i] + engines[i]->memory.spring_energy(), loaded[i], 1e-14 * most);
+      }
+      for (int c = 0; c < count; ++c)
+        EXPECT_EQ(at_once.memory.at(c, -1.0, 0.0).spring.t, one_by_one.memory.at(c, -1.0, 0.0).spring.t);
+    }
+    for (const Engine* e : engines)
+      for (int c = 0; c < count; ++c)
+        EXPECT_EQ(e->memory.at(c, -1.0, 0.0).spring.t, 0.0) << "contact " << c;
+    EXPECT_TRUE(at_once.memory.lanes().places.empty());
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(InVectors, ContactLanes,
                          testing::Values(kernels::VectorSize::pair, kernels::VectorSize::half,
                                          kernels::VectorSize::pack));
