@@ -130,6 +130,8 @@ Run::Run(const Scene& scene, const StepChoice& choice, std::span<Observer* const
       outputs_(std::make_unique<OutputQueue>(scene, sampler, grid)),
       end_(choice.steps > 0 ? (static_cast<double>(choice.steps) - least_part) * choice.step
                             : scene.duration) {
+  if (observers.empty())
+    scheme_->leave_out_positions();
   if (scheme_->failure() != StepFailure::none)
     report_.outcome = Outcome::step_failed;
 }

@@ -84,6 +84,8 @@ enum class StepFailure {
 class Scheme {
 public:
   virtual ~Scheme() = default;
+  /// Nobody looks at the positions of records: what makes them is left out, and they are undefined. Before the first `advance`.
+  virtual void leave_out_positions() {}
   /// Advances to the next record: the first call gives the first one.
   virtual const Record& advance() = 0;
   /// Time of the record that `advance` will give, s; infinite after a failure.

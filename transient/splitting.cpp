@@ -94,6 +94,8 @@ public:
     seen_ = speeds_ = motion_.u;
   }
 
+  void leave_out_positions() override { positions_ = false; }
+
   const Record& advance() override {
     const int flown = stride_;
     lean_ = 0.0;
@@ -103,13 +105,14 @@ public:
         rest(flown);
       else
         act();
-      see();
+      if (positions_)
+        see();
     }
     look_ahead();
     record_.step = 0.5 * (flown + stride_) * h_;
-    if (flown != stride_)
+    if (positions_ && flown != stride_)
       lean(h_ * h_ * (stride_ * stride_ - flown * flown) / (12.0 * record_.step));
-    show(record_, contacts_, displacements(), seen_.data(), trial_);
+    show(record_, contacts_, positions_ ? displacements() : q_.data(), seen_.data(), trial_);
     return record_;
   }
 
@@ -268,7 +271,8 @@ private:
     }
     if (!flew)
       motion_.gather_velocities(v_.data());
-    speeds_ = motion_.w;
+    if (positions_)
+      speeds_ = motion_.w;
     for (const Flight& flight : far_) {
       const double time = flight.steps * h_, third = time / 3.0;
       if (instant(flight.steps) > duration_ || !motion_.moves_less(time, longest_flight) ||
@@ -357,7 +361,10 @@ private:
     else
       memory_.leave(motion_, trial_, 0.5 * h_);
     rows_.set(trial_, h_);
-    rows_.add_to(v_.data(), h_ / 12.0, q_.data(), shown_q_.data());
+    if (positions_)
+      rows_.add_to(v_.data(), h_ / 12.0, q_.data(), shown_q_.data());
+    else
+      rows_.add_to(v_.data());
     // The record stands in the middle of the action: half of its losses belong to it, and its velocity is (v-
     // + v+)/2, whose energy is moving + work/2 - (h^2/8) f.W.f. What moving obstacles do is work from outside.
     Energy& energy = record_.energy;
@@ -403,6 +410,7 @@ private:
   kernels::Array q_, v_, k_, f_now_, f_next_, slope_, impulse_;
   kernels::Array far_q_, far_v_, far_f_; ///< after the flight under way
   kernels::FlowSums far_sums_;
+  bool positions_ = true;  ///< records show them
   kernels::Array shown_;   ///< with scaled masses
   kernels::Array shown_q_; ///< in the mean over the step
   kernels::Array seen_;    ///< m, lanes, likewise

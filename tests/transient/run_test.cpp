@@ -145,6 +145,9 @@ TEST(Run, DoesNotDependOnOutputsNorOnObservers) {
     EXPECT_TRUE(same_bytes(alone, watched(scene, options, &silent, output_grid(0.3, 1e-3), false)));
     EXPECT_TRUE(same_bytes(alone, watched(scene, options, &silent, output_grid(0.3, 3.3e-5), true)));
     EXPECT_GT(alone.statistics[0].impacts, 3);
+    const Report unseen = run(scene, choose_step(scene, options), {}, nullptr, {}); // no positions of records
+    EXPECT_EQ(std::memcmp(&alone.energy, &unseen.energy, sizeof alone.energy), 0);
+    EXPECT_EQ(alone.residual, unseen.residual_relative);
   }
 }
 
