@@ -167,24 +167,90 @@ FRETWORK_INLINE CommitSums fade_all(int steps, const LawLanes& laws, MemoryLanes
   return {sum(sums.sliders), sum(sums.damping), sum(sums.stored)};
 }
 
+/// look(grain): by the grain that suits so many contacts.
+template <class Widest, class Look>
+FRETWORK_INLINE auto by_grain(const LaneCount& contacts, const Look& look) {
+  if (contacts.few())
+    return look(Grain<Widest, double>{});
+  if (contacts.half())
+    return look(Grain<Widest, Half>{});
+  return look(Grain<Widest, Pack>{});
+}
+
+/// Tangential part, along which friction acts, of the vectors (y, z) of contacts where they were closed last.
+template <class V>
+FRETWORK_INLINE V tangential(const LawNumbers& law, const MemoryNumbers& m, int l, const V& y, const V& z) {
+  return at<V>(law.along + l) * (at<V>(m.normal_z + l) * y - at<V>(m.normal_y + l) * z);
+}
+
+template <class G>
+FRETWORK_INLINE double follow_all(int width, const LawLanes& laws, MemoryLanes& memories, const double* u,
+                                  const double* last_u, const double* w, double half_step) {
+  using V = typename G::V;
+  typename G::Sums energy = {};
+  for_places<G>(
+      memories.places, [&](int i, auto part) __attribute__((always_inline)) {
+        const int l = lane(i), z = width + i;
+        const LawNumbers& law = laws[i];
+        MemoryNumbers& m = memories[i];
+        const V sticks = at<V>(m.left + l) == 1.0 ? 1.0 - at<V>(m.sliding + l) : V{};
+        const V missing = tangential<V>(law, m, l, at<V>(u + i) - at<V>(last_u + i) - half_step * at<V>(w + i),
+                                        at<V>(u + z) - at<V>(last_u + z) - half_step * at<V>(w + z)) -
+                          at<V>(m.ahead + l);
+        const V held = at<V>(m.spring + l), by = -sticks * at<V>(law.tangential + l) * missing;
+        energy[part] += at<V>(law.compliance + l) * by * (held + 0.5 * by);
+        at<V>(m.spring + l) = held + by;
+      });
+  return sum(energy);
+}
+
+template <class G>
+FRETWORK_INLINE void leave_all(const Places& acting, const LawLanes& laws, const CommitLanes& commits,
+                               MemoryLanes& memories, const double* w, double half_step) {
+  using V = typename G::V;
+  for_places<G>(
+      acting.first, [&](int i, auto) __attribute__((always_inline)) {
+        const int l = lane(i);
+        const CommitNumbers& s = commits[i];
+        MemoryNumbers& m = memories[i];
+        const V speed = tangential<V>(laws[i], m, l, at<V>(w + i), at<V>(w + acting.all.width + i));
+        at<V>(m.ahead + l) = at<V>(s.closed + l) > 0.0 ? at<V>(s.displacement + l) - half_step * speed
+                                                       : at<V>(m.ahead + l);
+      });
+}
+
+template <class Widest>
+FRETWORK_INLINE double follow_on(const LaneCount& contacts, const LawLanes& laws, MemoryLanes& memories,
+                                 const double* u, const double* last_u, const double* w, double half_step) {
+  return by_grain<Widest>(
+      contacts, [&]<class G>(G) __attribute__((always_inline)) {
+        return follow_all<G>(contacts.width, laws, memories, u, last_u, w, half_step);
+      });
+}
+
+template <class Widest>
+FRETWORK_INLINE void leave_on(const Places& acting, const LawLanes& laws, const CommitLanes& commits,
+                              MemoryLanes& memories, const double* w, double half_step) {
+  by_grain<Widest>(
+      acting.all, [&]<class G>(G) __attribute__((always_inline)) {
+        leave_all<G>(acting, laws, commits, memories, w, half_step);
+      });
+}
+
 template <class Widest>
 FRETWORK_INLINE CommitSums fade_on(const LaneCount& contacts, int steps, const LawLanes& laws,
                                    MemoryLanes& memories) {
-  if (contacts.few())
-    return fade_all<Grain<Widest, double>>(steps, laws, memories);
-  if (contacts.half())
-    return fade_all<Grain<Widest, Half>>(steps, laws, memories);
-  return fade_all<Grain<Widest, Pack>>(steps, laws, memories);
+  return by_grain<Widest>(
+      contacts, [&]<class G>(G) __attribute__((always_inline)) { return fade_all<G>(steps, laws, memories); });
 }
 
 template <class Widest>
 FRETWORK_INLINE CommitSums commit_on(const Places& acting, const LawLanes& laws, CommitLanes& commits,
                                      MemoryLanes& memories) {
-  if (acting.all.few())
-    return commit_all<Grain<Widest, double>>(acting, laws, commits, memories);
-  if (acting.all.half())
-    return commit_all<Grain<Widest, Half>>(acting, laws, commits, memories);
-  return commit_all<Grain<Widest, Pack>>(acting, laws, commits, memories);
+  return by_grain<Widest>(
+      acting.all, [&]<class G>(G) __attribute__((always_inline)) {
+        return commit_all<G>(acting, laws, commits, memories);
+      });
 }
 
 } // namespace
@@ -195,5 +261,13 @@ FRETWORK_KERNEL(CommitSums, commit,
 FRETWORK_KERNEL(CommitSums, fade,
                 (const LaneCount& contacts, int steps, const LawLanes& laws, MemoryLanes& memories),
                 (contacts, steps, laws, memories))
+FRETWORK_KERNEL(double, follow,
+                (const LaneCount& contacts, const LawLanes& laws, MemoryLanes& memories, const double* u,
+                 const double* last_u, const double* w, double half_step),
+                (contacts, laws, memories, u, last_u, w, half_step))
+FRETWORK_KERNEL(void, leave,
+                (const Places& acting, const LawLanes& laws, const CommitLanes& commits, MemoryLanes& memories,
+                 const double* w, double half_step),
+                (acting, laws, commits, memories, w, half_step))
 
 } // namespace fretwork::transient::kernels

@@ -63,7 +63,8 @@ struct alignas(alignment) MemoryNumbers {
   Numbers spring, sliding;    ///< N; 1 or 0
   Numbers force;              ///< N, friction of the commit that left this
   Numbers normal_y, normal_z; ///< then
-  Numbers left; ///< share of the spring's force left since the contact opened; 0: nothing remembered
+  Numbers left;  ///< share of the spring's force left since the contact opened; 0: nothing remembered
+  Numbers ahead; ///< m, dx - (h/2) v- of the last action (contact_memory.hpp)
 };
 struct MemoryLanes : LaneTable<MemoryNumbers> {
   /// @param width  contacts, padded
@@ -151,6 +152,16 @@ extern const Kernel<CommitSums(const Places& acting, const LawLanes& laws, Commi
 extern const Kernel<CommitSums(const LaneCount& contacts, int steps, const LawLanes& laws,
                                MemoryLanes& memories)>
     fade;
+
+/// ContactMemory::follow: vectors of all contacts, blocks of `width` lanes along y and z, displacements now and at the last commit and
+/// velocities. Returns the change of the energy of the springs, J.
+extern const Kernel<double(const LaneCount& contacts, const LawLanes& laws, MemoryLanes& memories, const double* u,
+                           const double* last_u, const double* w, double half_step)>
+    follow;
+/// ContactMemory::leave of the places of a commit.
+extern const Kernel<void(const Places& acting, const LawLanes& laws, const CommitLanes& commits,
+                         MemoryLanes& memories, const double* w, double half_step)>
+    leave;
 
 /// The largest change of a sweep is small, or what it foretells from the one of the sweep before is.
 /// The ratio of the changes of two sweeps foretells the next ones only where they fall clearly.

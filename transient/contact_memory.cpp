@@ -63,28 +63,33 @@ ContactLosses ContactMemory::pass(const ContactMotion& motion, int steps, Contac
 }
 
 void ContactMemory::follow(const ContactMotion& motion, double half_step) {
+  if (contacts_.in_lanes) {
+    if (!closed_.empty())
+      springs_ += kernels::follow(contacts_.lane_count(), laws_, lanes_, motion.u.data(), position_.data(),
+                                  motion.w.data(), half_step);
+    return;
+  }
   for (const int c : closed_) {
     const contact::FrictionLaw& law = contacts_.supports[c].friction;
-    const bool in_lanes = contacts_.in_lanes;
     Entry& e = entries_[c];
-    if (!law.active() || (in_lanes ? lanes_[c].sliding[kernels::lane(c)] != 0.0 : e.friction.sliding))
+    if (!law.active() || e.friction.sliding)
       continue;
-    const double ny = in_lanes ? lanes_[c].normal_y[kernels::lane(c)] : e.ny,
-                 nz = in_lanes ? lanes_[c].normal_z[kernels::lane(c)] : e.nz;
     const contact::Vec2 moved =
-        motion.tangential(c, ny, nz, motion.u) - motion.tangential(c, ny, nz, position_);
-    const contact::Vec2 by = -law.stiffness * (moved - ahead_[c] - half_step * motion.slip(c, ny, nz));
-    contact::FrictionMemory memory =
-        in_lanes ? contact::FrictionMemory{{0.0, lanes_[c].spring[kernels::lane(c)]}} : e.friction;
-    springs_ -= contact::spring_energy(law, memory);
-    memory.spring = memory.spring + by;
-    springs_ += contact::spring_energy(law, memory);
-    (in_lanes ? lanes_[c].spring[kernels::lane(c)] : e.friction.spring.t) = memory.spring.t;
-    e.friction.spring.x = memory.spring.x;
+        motion.tangential(c, e.ny, e.nz, motion.u) - motion.tangential(c, e.ny, e.nz, position_);
+    springs_ -= contact::spring_energy(law, e.friction);
+    e.friction.spring =
+        e.friction.spring - law.stiffness * (moved - ahead_[c] - half_step * motion.slip(c, e.ny, e.nz));
+    springs_ += contact::spring_energy(law, e.friction);
   }
 }
 
 void ContactMemory::leave(const ContactMotion& motion, const ContactTrial& trial, double half_step) {
+  if (contacts_.in_lanes) {
+    if (!trial.active.empty())
+      kernels::leave(trial.found_in_lanes ? motion.places() : acting_, laws_, trial.lanes, lanes_,
+                     motion.w.data(), half_step);
+    return;
+  }
   for (const int c : trial.active) {
     const ContactState& state = trial.states[c];
     if (contacts_.supports[c].friction.active())

@@ -111,7 +111,7 @@ private:
   std::vector<int> remembering_; ///< contacts with left > 0
   std::vector<int> closed_;      ///< with a force at the last commit
   kernels::Array position_;
-  std::vector<contact::Vec2> ahead_; ///< m, dx - (h/2) v- of the last action
+  std::vector<contact::Vec2> ahead_; ///< m, dx - (h/2) v- of the last action, where not in lanes
   double springs_ = 0.0;
 };
 
