@@ -81,8 +81,10 @@ public:
     std::copy_n(scene.v0.data(), scene.v0.size(), v_.at[0].begin());
     std::copy_n(system_.stiffness.data(), system_.size(), k_.begin());
     levels_.reserve(halvings + 1);
-    for (int level = 0; level <= halvings; ++level)
+    for (int level = 0; level <= halvings; ++level) {
+      spans_[static_cast<std::size_t>(level)] = std::ldexp(h_, -level);
       levels_.emplace_back(system_, contacts_, std::ldexp(h_, -level), coupled_, level);
+    }
     for (kernels::Array& a : load_.at)
       loads_.at(0.0, a.data());
     kernels::gather_two(contacts_.gather, q_.at[0].data(), v_.at[0].data(), motion_.u(0), motion_.v(0));
@@ -173,7 +175,7 @@ private:
     return f;
   }
   [[nodiscard]] std::int64_t size() const { return grid >> level_; }
-  [[nodiscard]] double span() const { return std::ldexp(h_, -level_); }
+  [[nodiscard]] double span() const { return spans_[static_cast<std::size_t>(level_)]; }
   /// Time of a place on the grid of the smallest steps.
   [[nodiscard]] double time_at(std::int64_t place) const {
     return static_cast<double>(place / grid) * h_ +
@@ -331,6 +333,7 @@ private:
   ContactTrial trial_;
   MatrixFlow coupled_; ///< of modes that a damping matrix couples, over h
   std::vector<Level> levels_;
+  std::array<double, halvings + 1> spans_; ///< s, of their steps
   Nodes q_, v_, load_, force_; ///< modes, their velocities, modal forces of loads and contacts at the nodes
   kernels::Array k_, scratch_;
 

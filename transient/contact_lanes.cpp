@@ -194,9 +194,10 @@ FRETWORK_INLINE double follow_all(int width, const LawLanes& laws, MemoryLanes& 
         const LawNumbers& law = laws[i];
         MemoryNumbers& m = memories[i];
         const V sticks = at<V>(m.left + l) == 1.0 ? 1.0 - at<V>(m.sliding + l) : V{};
-        const V missing = tangential<V>(law, m, l, at<V>(u + i) - at<V>(last_u + i) - half_step * at<V>(w + i),
-                                        at<V>(u + z) - at<V>(last_u + z) - half_step * at<V>(w + z)) -
-                          at<V>(m.ahead + l);
+        const V missing =
+            tangential<V>(law, m, l, at<V>(u + i) - at<V>(last_u + i) - half_step * at<V>(w + i),
+                          at<V>(u + z) - at<V>(last_u + z) - half_step * at<V>(w + z)) -
+            at<V>(m.ahead + l);
         const V held = at<V>(m.spring + l), by = -sticks * at<V>(law.tangential + l) * missing;
         energy[part] += at<V>(law.compliance + l) * by * (held + 0.5 * by);
         at<V>(m.spring + l) = held + by;
@@ -214,8 +215,8 @@ FRETWORK_INLINE void leave_all(const Places& acting, const LawLanes& laws, const
         const CommitNumbers& s = commits[i];
         MemoryNumbers& m = memories[i];
         const V speed = tangential<V>(laws[i], m, l, at<V>(w + i), at<V>(w + acting.all.width + i));
-        at<V>(m.ahead + l) = at<V>(s.closed + l) > 0.0 ? at<V>(s.displacement + l) - half_step * speed
-                                                       : at<V>(m.ahead + l);
+        at<V>(m.ahead + l) =
+            at<V>(s.closed + l) > 0.0 ? at<V>(s.displacement + l) - half_step * speed : at<V>(m.ahead + l);
       });
 }
 
@@ -241,7 +242,8 @@ template <class Widest>
 FRETWORK_INLINE CommitSums fade_on(const LaneCount& contacts, int steps, const LawLanes& laws,
                                    MemoryLanes& memories) {
   return by_grain<Widest>(
-      contacts, [&]<class G>(G) __attribute__((always_inline)) { return fade_all<G>(steps, laws, memories); });
+      contacts, [&]<class G>(G)
+                    __attribute__((always_inline)) { return fade_all<G>(steps, laws, memories); });
 }
 
 template <class Widest>
@@ -266,8 +268,8 @@ FRETWORK_KERNEL(double, follow,
                  const double* last_u, const double* w, double half_step),
                 (contacts, laws, memories, u, last_u, w, half_step))
 FRETWORK_KERNEL(void, leave,
-                (const Places& acting, const LawLanes& laws, const CommitLanes& commits, MemoryLanes& memories,
-                 const double* w, double half_step),
+                (const Places& acting, const LawLanes& laws, const CommitLanes& commits,
+                 MemoryLanes& memories, const double* w, double half_step),
                 (acting, laws, commits, memories, w, half_step))
 
 } // namespace fretwork::transient::kernels

@@ -155,8 +155,8 @@ extern const Kernel<CommitSums(const LaneCount& contacts, int steps, const LawLa
 
 /// ContactMemory::follow: vectors of all contacts, blocks of `width` lanes along y and z, displacements now and at the last commit and
 /// velocities. Returns the change of the energy of the springs, J.
-extern const Kernel<double(const LaneCount& contacts, const LawLanes& laws, MemoryLanes& memories, const double* u,
-                           const double* last_u, const double* w, double half_step)>
+extern const Kernel<double(const LaneCount& contacts, const LawLanes& laws, MemoryLanes& memories,
+                           const double* u, const double* last_u, const double* w, double half_step)>
     follow;
 /// ContactMemory::leave of the places of a commit.
 extern const Kernel<void(const Places& acting, const LawLanes& laws, const CommitLanes& commits,

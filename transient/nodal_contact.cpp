@@ -117,7 +117,7 @@ template <int D> void NodalContact<D>::rub(int j) {
     return;
   const Vec2 trial = stuck - law.damping * node.slip;
   const double bound = (node_[0].slides ? law.mu_dynamic : law.mu_static) * node.normal;
-  if (contact::norm(trial) <= bound) {
+  if (length(trial) <= bound) {
     law_[j].tangent = Tangent::stick;
     node.friction = trial;
     node.spring = stuck;
@@ -134,13 +134,16 @@ template <int D> void NodalContact<D>::slide(int j, Vec2 relaxed, Vec2 stuck, do
   Vec2 along = stuck - law.damping * node.slip;
   if (law.kind == contact::FrictionMemoryKind::reference) {
     along = tried(j) - rho_slip_ * node.slip;
-    out.tangent = contact::norm(along) <= bound ? Tangent::rest : Tangent::opposed;
+    out.tangent = length(along) <= bound ? Tangent::rest : Tangent::opposed;
     if (out.tangent == Tangent::rest) {
       node.friction = along;
       return;
     }
-  } else if (D == 2) {
+  } else if constexpr (D == 2) {
     out.tangent = Tangent::line;
+    out.e = {0.0, along.t < 0.0 ? -1.0 : 1.0};
+    node.friction = bound * out.e;
+    return; // the law does not feel how long the trial is
   } else {
     out.tangent = Tangent::trial;
     const Vec2 candidate = relaxed - law.damping * node.slip;
@@ -149,9 +152,9 @@ template <int D> void NodalContact<D>::slide(int j, Vec2 relaxed, Vec2 stuck, do
       out.tangent = Tangent::relaxed;
     }
   }
-  const double length = contact::norm(along);
-  out.e = (1.0 / length) * along;
-  out.share = bound / length;
+  const double trial = length(along);
+  out.e = (1.0 / trial) * along;
+  out.share = bound / trial;
   node.friction = bound * out.e;
 }
 

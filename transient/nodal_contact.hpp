@@ -17,6 +17,7 @@
 #pragma once
 #include "contact/support.hpp"
 #include <array>
+#include <cmath>
 
 namespace fretwork::transient {
 
@@ -85,6 +86,8 @@ private:
   void rub(int j);
   void slide(int j, contact::Vec2 relaxed, contact::Vec2 stuck, double bound);
   [[nodiscard]] contact::Vec2 tried(int j) const;
+  /// Of a tangential vector, which has no part along x_loc with two directions.
+  [[nodiscard]] static double length(contact::Vec2 v) { return D == 2 ? std::abs(v.t) : contact::norm(v); }
 
   const contact::Support& support_;
   const SpringTable& table_;

@@ -2,6 +2,7 @@
 #include "transient/nodal_solver.hpp"
 #include "transient/contact_lanes.hpp"
 #include "transient/vector_lanes.hpp"
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,39 +22,12 @@ constexpr double no_answer = 1e-9;
 constexpr double falling = 0.3;
 constexpr int patient = 20, most_sweeps = 60;
 
-/// Inverse by Gauss and Jordan with row pivots, in place. Returns false where it is singular.
-template <int n> bool invert(std::array<std::array<double, n>, n>& a, double* inverse) {
-  std::array<std::array<double, n>, n> b{};
-  for (std::size_t i = 0; i < n; ++i)
-    b[i][i] = 1.0;
-  for (std::size_t k = 0; k < n; ++k) {
-    std::size_t pivot = k;
-    for (std::size_t i = k + 1; i < n; ++i)
-      if (std::abs(a[i][k]) > std::abs(a[pivot][k]))
-        pivot = i;
-    if (!(std::abs(a[pivot][k]) > 0.0))
-      return false;
-    std::swap(a[k], a[pivot]);
-    std::swap(b[k], b[pivot]);
-    const double scale = 1.0 / a[k][k];
-    for (std::size_t j = 0; j < n; ++j) {
-      a[k][j] *= scale;
-      b[k][j] *= scale;
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      const double factor = a[i][k];
-      if (i == k || factor == 0.0)
-        continue;
-      for (std::size_t j = 0; j < n; ++j) {
-        a[i][j] -= factor * a[k][j];
-        b[i][j] -= factor * b[k][j];
-      }
-    }
-  }
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j)
-      inverse[i * n + j] = b[i][j];
-  return true;
+/// Returns false where it is singular.
+template <int n> bool invert(const std::array<std::array<double, n>, n>& a, double* inverse) {
+  using Matrix = Eigen::Matrix<double, n, n, Eigen::RowMajor>;
+  Eigen::Map<Matrix> out(inverse);
+  out = Eigen::Map<const Matrix>(a[0].data()).inverse();
+  return out.allFinite();
 }
 
 /// z += columns of both nodes times forces f along y, z and, with three directions, x. No array overlaps z: the forces stay in registers.
@@ -252,7 +226,7 @@ double NodalSolver::improve(Active& active, const NodalTables& tables, NodalMoti
       node[j].curvature = contact::curvature(support.obstacle, motion.u(j)[c] + contacts_.reach.rest_y[c],
                                              motion.u(j)[static_cast<std::size_t>(contacts_.width) + c] +
                                                  contacts_.reach.rest_z[c]);
-    auto jacobian = laws.jacobian(tables.answer<D>(active.contact, node));
+    const auto jacobian = laws.jacobian(tables.answer<D>(active.contact, node));
     if (!invert<size>(jacobian, active.inverse))
       return std::numeric_limits<double>::infinity();
     active.branches = branches;
