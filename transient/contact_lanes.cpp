@@ -167,16 +167,6 @@ FRETWORK_INLINE CommitSums fade_all(int steps, const LawLanes& laws, MemoryLanes
   return {sum(sums.sliders), sum(sums.damping), sum(sums.stored)};
 }
 
-/// look(grain): by the grain that suits so many contacts.
-template <class Widest, class Look>
-FRETWORK_INLINE auto by_grain(const LaneCount& contacts, const Look& look) {
-  if (contacts.few())
-    return look(Grain<Widest, double>{});
-  if (contacts.half())
-    return look(Grain<Widest, Half>{});
-  return look(Grain<Widest, Pack>{});
-}
-
 /// Tangential part, along which friction acts, of the vectors (y, z) of contacts where they were closed last.
 template <class V>
 FRETWORK_INLINE V tangential(const LawNumbers& law, const MemoryNumbers& m, int l, const V& y, const V& z) {

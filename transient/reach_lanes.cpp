@@ -21,39 +21,30 @@ template <class V> FRETWORK_INLINE V shut(const ReachLanes& reach, int i, const 
   return radial * magnitude(radial) * point.r2 < point.left * magnitude(point.left) ? V{} : V{} + 1.0;
 }
 
-/// look(grain, end): by the grains that suit so many contacts, which end at that lane.
-template <class Widest, class Look>
-FRETWORK_INLINE auto by_grains(const LaneCount& contacts, const Look& look) {
-  if (contacts.few())
-    return look(Grain<Widest, double>{}, contacts.count);
-  if (contacts.half())
-    return look(Grain<Widest, Half>{}, size_of<Half>);
-  return look(Grain<Widest, Pack>{}, contacts.width);
-}
-
 /// Whether no flag of the lanes from i on is set, for all vectors.
 template <class Widest, class Flags>
 FRETWORK_INLINE bool none(const LaneCount& contacts, const Flags& flags) {
-  return by_grains<Widest>(
-      contacts, [&]<class G>(G, int end) __attribute__((always_inline)) {
+  return by_grain<Widest>(
+      contacts, [&]<class G>(G) __attribute__((always_inline)) {
         using V = typename G::V;
         V found{};
-        for (int i = 0; i < end; i += size_of<V>)
-          found += flags(i, V{});
+        for (int place = 0; place < contacts.count; place += G::together)
+          for_parts<G>([&](auto part) __attribute__((always_inline)) {
+            found += flags(place + part * size_of<V>, V{});
+          });
         return !any(found);
       });
 }
 
 template <class G>
-FRETWORK_INLINE void place_all(int end, const ReachLanes& reach, const double* u, const double* v,
-                               double half_window, double* gap, double* ny, double* nz, double* near,
-                               Places& places) {
+FRETWORK_INLINE void place_all(const ReachLanes& reach, const double* u, const double* v, double half_window,
+                               double* gap, double* ny, double* nz, double* near, Places& places) {
   using V = typename G::V;
   constexpr int parts = G::parts, size = size_of<V>;
   const int width = places.all.width;
   const V one = V{} + 1.0;
   const double h2 = half_window * half_window;
-  for (int place = 0; place < end; place += parts * size) {
+  for (int place = 0; place < places.all.count; place += G::together) {
     Point<V> point[parts];
     V r[parts], closed{}, number{};
     for_parts<G>([&](auto p) __attribute__((always_inline)) {
@@ -104,9 +95,9 @@ FRETWORK_INLINE void place_contacts_on(const ReachLanes& reach, const double* u,
                                        Places& places) {
   places.first.clear();
   places.near = 0.0;
-  by_grains<Widest>(
-      places.all, [&]<class G>(G, int end) __attribute__((always_inline)) {
-        place_all<G>(end, reach, u, v, half_window, gap, ny, nz, near, places);
+  by_grain<Widest>(
+      places.all, [&]<class G>(G) __attribute__((always_inline)) {
+        place_all<G>(reach, u, v, half_window, gap, ny, nz, near, places);
       });
 }
 

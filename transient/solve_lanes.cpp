@@ -353,7 +353,7 @@ FRETWORK_INLINE Solved solve_all(std::span<const int> places, int width, const S
   solved.springs = prepare<G>(places, width, rule, laws, memories, near, steps);
   steps.count = 0;
   for (const int i : places)
-    for (int c = i; c < i + G::parts * size_of<typename G::V>; ++c)
+    for (int c = i; c < i + G::together; ++c)
       if (steps[c].shut[lane(c)] != 0.0)
         steps.contacts[steps.count++] = c;
   if (steps.count == 0)
@@ -369,14 +369,12 @@ FRETWORK_INLINE Solved solve_on(const Places& places, const SweepRule& rule, con
                                 const MemoryLanes& memories, const MobilityLanes& mobility,
                                 const NearLanes& near, StepLanes& steps, CommitLanes& commits) {
   const int width = places.all.width;
-  const auto solve = [&]<class Place>(std::span<const int> of, Place) __attribute__((always_inline)) {
-    return solve_all<Grain<Widest, Place>>(of, width, rule, laws, memories, mobility, near, steps, commits);
+  const auto solve = [&]<class G>(std::span<const int> of, G) __attribute__((always_inline)) {
+    return solve_all<G>(of, width, rule, laws, memories, mobility, near, steps, commits);
   };
-  if (places.near > (places.all.half() ? 1 : most_single)) {
-    if (places.all.few())
-      return solve(places.first, double{});
-    return places.all.half() ? solve(places.first, Half{}) : solve(places.first, Pack{});
-  }
+  if (places.near > (places.all.half() ? 1 : most_single))
+    return by_grain<Widest>(
+        places.all, [&](auto grain) __attribute__((always_inline)) { return solve(places.first, grain); });
   std::array<int, most_single> single;
   std::size_t count = 0;
   for (const int i : places.first)
@@ -388,7 +386,7 @@ FRETWORK_INLINE Solved solve_on(const Places& places, const SweepRule& rule, con
   Solved solved;
   if (count == 1 && solve_one(single[0], width, rule, laws, memories, near, steps, commits, solved))
     return solved;
-  return solve({single.data(), count}, double{});
+  return solve({single.data(), count}, Grain<Widest, double>{});
 }
 
 } // namespace

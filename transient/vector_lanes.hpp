@@ -95,7 +95,17 @@ template <class Widest, class Place> struct Grain {
   using V = std::conditional_t<(sizeof(Place) < sizeof(Widest)), Place, Widest>;
   static constexpr int parts = static_cast<int>(sizeof(Place) / sizeof(V));
   using Sums = V[parts];
+  static constexpr int together = static_cast<int>(sizeof(Place) / sizeof(double)); ///< contacts of a place
 };
+/// look(grain): by the grain that suits so many contacts.
+template <class Widest, class Look>
+FRETWORK_INLINE auto by_grain(const LaneCount& contacts, const Look& look) {
+  if (contacts.few())
+    return look(Grain<Widest, double>{});
+  if (contacts.half())
+    return look(Grain<Widest, Half>{});
+  return look(Grain<Widest, Pack>{});
+}
 /// step(part) for all parts of a grain, known to the compiler: what stands in arrays by part stays in registers.
 template <class G, class Step> FRETWORK_INLINE void for_parts(const Step& step) {
   [&]<int... part>(std::integer_sequence<int, part...>) __attribute__((always_inline)) {
