@@ -65,9 +65,9 @@ Slide slide_to_rest(bool in_plane, double h, double damping) {
     law.along = in_plane ? contact::Vec2{1.0, 1.0} : contact::Vec2{0.0, 1.0};
     scene.contacts = {contact_of(mass, {contact::Stop{0.0, contact::PlaneAxis::y}, {stiffness}, law})};
     scene.loads = {force_on(mass, {0.0, pressure, 0.0}, Constant{1.0})};
-    // where the actions of this step hold it, half a step before the first one
+    // where the actions of this step hold it in the mean
     const double rests = pressure / contact::InstantSpring(stiffness, 0.5 * h / mass, h).closed_stiffness() -
-                         pressure * h * h / (8.0 * mass);
+                         pressure * h * h / (12.0 * mass);
     start(scene, mass, {0.0, rests, 0.0}, in_plane ? speed * Vec3(0.6, 0.0, 0.8) : Vec3(0.0, 0.0, -speed));
     out.add(scene, h);
   }
