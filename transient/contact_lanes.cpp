@@ -118,31 +118,41 @@ FRETWORK_INLINE bool fade(int i, auto part, int steps, const LawLanes& laws, Mem
   return any(left);
 }
 
+/// The place goes on to the next step if one(lane, part) of its vectors says that something is remembered there.
+template <class G, class One>
+FRETWORK_INLINE void remember(MemoryLanes& memories, int place, const One& one) {
+  bool any = false;
+  for_parts<G>([&](auto part) __attribute__((always_inline)) {
+    any |= one(place + part * size_of<typename G::V>, part);
+  });
+  if (any)
+    memories.next.push_back(place);
+}
+
+template <class G>
+FRETWORK_INLINE void fade_at(int place, int steps, const LawLanes& laws, MemoryLanes& memories,
+                             CommitParts<G>& sums) {
+  remember<G>(
+      memories, place, [&](int i, auto part) __attribute__((always_inline)) {
+        return fade<G>(i, part, steps, laws, memories, sums);
+      });
+}
+
 template <class G>
 FRETWORK_INLINE CommitSums commit_all(const Places& acting, const LawLanes& laws, CommitLanes& commits,
                                       MemoryLanes& memories) {
   CommitParts<G> sums;
   memories.next.clear();
   auto old = memories.places.begin();
-  const auto remember = [&](int place, const auto& one) __attribute__((always_inline)) {
-    bool any = false;
-    for_parts<G>([&](auto part) __attribute__((always_inline)) {
-      any |= one(place + part * size_of<typename G::V>, part);
-    });
-    if (any)
-      memories.next.push_back(place);
-  };
   const auto fade_before = [&](int end) __attribute__((always_inline)) {
     for (; old != memories.places.end() && *old < end; ++old)
-      remember(
-          *old, [&](int i, auto part)
-                    __attribute__((always_inline)) { return fade<G>(i, part, 1, laws, memories, sums); });
+      fade_at<G>(*old, 1, laws, memories, sums);
   };
   for (const int place : acting.first) {
     fade_before(place);
     old += old != memories.places.end() && *old == place;
-    remember(
-        place, [&](int i, auto part) __attribute__((always_inline)) {
+    remember<G>(
+        memories, place, [&](int i, auto part) __attribute__((always_inline)) {
           return keep<G>(i, part, laws, commits, memories, sums);
         });
   }
@@ -155,14 +165,8 @@ template <class G>
 FRETWORK_INLINE CommitSums fade_all(int steps, const LawLanes& laws, MemoryLanes& memories) {
   CommitParts<G> sums;
   memories.next.clear();
-  for (const int place : memories.places) {
-    bool any = false;
-    for_parts<G>([&](auto part) __attribute__((always_inline)) {
-      any |= fade<G>(place + part * size_of<typename G::V>, part, steps, laws, memories, sums);
-    });
-    if (any)
-      memories.next.push_back(place);
-  }
+  for (const int place : memories.places)
+    fade_at<G>(place, steps, laws, memories, sums);
   memories.places.swap(memories.next);
   return {sum(sums.sliders), sum(sums.damping), sum(sums.stored)};
 }
@@ -195,18 +199,17 @@ FRETWORK_INLINE double follow_all(int width, const LawLanes& laws, MemoryLanes& 
   return sum(energy);
 }
 
+/// Of contacts that are open too: nothing reads theirs.
 template <class G>
-FRETWORK_INLINE void leave_all(const Places& acting, const LawLanes& laws, const CommitLanes& commits,
+FRETWORK_INLINE void leave_all(const Places& near, const LawLanes& laws, const CommitLanes& commits,
                                MemoryLanes& memories, const double* w, double half_step) {
   using V = typename G::V;
   for_places<G>(
-      acting.first, [&](int i, auto) __attribute__((always_inline)) {
+      near.first, [&](int i, auto) __attribute__((always_inline)) {
         const int l = lane(i);
-        const CommitNumbers& s = commits[i];
         MemoryNumbers& m = memories[i];
-        const V speed = tangential<V>(laws[i], m, l, at<V>(w + i), at<V>(w + acting.all.width + i));
-        at<V>(m.ahead + l) =
-            at<V>(s.closed + l) > 0.0 ? at<V>(s.displacement + l) - half_step * speed : at<V>(m.ahead + l);
+        const V speed = tangential<V>(laws[i], m, l, at<V>(w + i), at<V>(w + near.all.width + i));
+        at<V>(m.ahead + l) = at<V>(commits[i].displacement + l) - half_step * speed;
       });
 }
 
@@ -220,11 +223,11 @@ FRETWORK_INLINE double follow_on(const LaneCount& contacts, const LawLanes& laws
 }
 
 template <class Widest>
-FRETWORK_INLINE void leave_on(const Places& acting, const LawLanes& laws, const CommitLanes& commits,
+FRETWORK_INLINE void leave_on(const Places& near, const LawLanes& laws, const CommitLanes& commits,
                               MemoryLanes& memories, const double* w, double half_step) {
   by_grain<Widest>(
-      acting.all, [&]<class G>(G) __attribute__((always_inline)) {
-        leave_all<G>(acting, laws, commits, memories, w, half_step);
+      near.all, [&]<class G>(G) __attribute__((always_inline)) {
+        leave_all<G>(near, laws, commits, memories, w, half_step);
       });
 }
 
@@ -258,8 +261,8 @@ FRETWORK_KERNEL(double, follow,
                  const double* last_u, const double* w, double half_step),
                 (contacts, laws, memories, u, last_u, w, half_step))
 FRETWORK_KERNEL(void, leave,
-                (const Places& acting, const LawLanes& laws, const CommitLanes& commits,
-                 MemoryLanes& memories, const double* w, double half_step),
-                (acting, laws, commits, memories, w, half_step))
+                (const Places& near, const LawLanes& laws, const CommitLanes& commits, MemoryLanes& memories,
+                 const double* w, double half_step),
+                (near, laws, commits, memories, w, half_step))
 
 } // namespace fretwork::transient::kernels

@@ -158,8 +158,8 @@ extern const Kernel<CommitSums(const LaneCount& contacts, int steps, const LawLa
 extern const Kernel<double(const LaneCount& contacts, const LawLanes& laws, MemoryLanes& memories,
                            const double* u, const double* last_u, const double* w, double half_step)>
     follow;
-/// ContactMemory::leave of the places of a commit.
-extern const Kernel<void(const Places& acting, const LawLanes& laws, const CommitLanes& commits,
+/// ContactMemory::leave of the near contacts.
+extern const Kernel<void(const Places& near, const LawLanes& laws, const CommitLanes& commits,
                          MemoryLanes& memories, const double* w, double half_step)>
     leave;
 

@@ -86,8 +86,7 @@ void ContactMemory::follow(const ContactMotion& motion, double half_step) {
 void ContactMemory::leave(const ContactMotion& motion, const ContactTrial& trial, double half_step) {
   if (contacts_.in_lanes) {
     if (!trial.active.empty())
-      kernels::leave(trial.found_in_lanes ? motion.places() : acting_, laws_, trial.lanes, lanes_,
-                     motion.w.data(), half_step);
+      kernels::leave(motion.places(), laws_, trial.lanes, lanes_, motion.w.data(), half_step);
     return;
   }
   for (const int c : trial.active) {

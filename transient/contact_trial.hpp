@@ -23,21 +23,21 @@ struct ContactTrial {
   double springs = 0.0; ///< J, energy of the normal springs, and of the residual flexibility
   double cut =
       0.0; ///< J over the step, lost by springs that a damper holds free of force: what the positive part cuts
-  kernels::CommitLanes lanes;  ///< the same as `states`,
-  bool found_in_lanes = false; ///< if it has been filled
+  kernels::CommitLanes lanes;  ///< the same as `states`: filled where contacts are found in lanes,
+  bool found_in_lanes = false; ///< which this tells, or by the commit
 };
 
 /// Sum over all contacts of the force on the node times a vector given in lanes (empty: 0): a power of velocities, W, a work of displacements, J.
 [[nodiscard]] double product(const PackedContacts& contacts, const ContactTrial& trial,
                              const kernels::Array& lanes);
 
-/// Lets a record show these. Arrays of `q`: padded modes; of `u`: displacements in lanes, m. All stay in their place until the next record.
+/// Lets a record show these. Arrays of `q`: padded modes; of `u`: displacements in lanes, m; null: not made. All stay in their place until the next record.
 inline void show(Record& record, const PackedContacts& contacts, const double* q, const double* u,
                  const ContactTrial& trial) {
   record.q = q;
   record.contacts = contacts.count;
   record.uy = u;
-  record.uz = u + contacts.width;
+  record.uz = u ? u + contacts.width : nullptr;
   record.states = trial.states;
   record.active = trial.active;
   record.opened = trial.opened;

@@ -119,7 +119,7 @@ struct Places {
   }
   LaneCount all;
   std::vector<int> first;
-  double near = 0.0; ///< contacts that `place` finds near
+  double near = 0.0; ///< contacts that place_contacts finds near
 };
 
 /// A matrix of `lanes`-wide packs of rows, each with the columns (modes) that are not zero in it: contacts whose local axes lie along

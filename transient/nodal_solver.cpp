@@ -21,12 +21,18 @@ constexpr double no_answer = 1e-9;
 /// The ratio of the changes of two sweeps foretells the next ones, and a kept matrix is good, where they fall clearly.
 constexpr double falling = 0.3;
 constexpr int patient = 20, most_sweeps = 60;
+/// Of a matrix that is inverted in the fastest way.
+constexpr double most_condition = 1e4;
 
 /// Returns false where it is singular.
 template <int n> bool invert(const std::array<std::array<double, n>, n>& a, double* inverse) {
   using Matrix = Eigen::Matrix<double, n, n, Eigen::RowMajor>;
   Eigen::Map<Matrix> out(inverse);
-  out = Eigen::Map<const Matrix>(a[0].data()).inverse();
+  const Eigen::Map<const Matrix> matrix(a[0].data());
+  out = matrix.inverse();
+  // by cofactors where there are 4 rows, which lose the digits of the condition (of stiff dampers) twice, pivots lose them once
+  if (!(matrix.squaredNorm() * out.squaredNorm() < most_condition * most_condition))
+    out = Eigen::PartialPivLU<Matrix>(matrix).inverse();
   return out.allFinite();
 }
 
@@ -175,10 +181,14 @@ bool NodalSolver::settle(const NodalTables& tables, NodalMotion& motion) {
   double last = 0.0;
   for (int k = 0; k < most_sweeps; ++k) {
     double largest = 0.0;
-    for (Active& active : active_)
-      largest = std::max(largest, improve(active, tables, motion, k < patient ? 1.0 : 0.5));
+    bool runs_away = false;
+    for (Active& active : active_) {
+      const double change = improve(active, tables, motion, k < patient ? 1.0 : 0.5);
+      runs_away = runs_away || !(change < 1e6); // or is not a number
+      largest = std::max(largest, change);
+    }
     ++sweeps_;
-    if (!(largest < 1e6)) // not a number, or running away
+    if (runs_away)
       return false;
     const bool foretold = largest <= falling * last;
     if (largest <= sweep_tolerance || (foretold && largest * largest <= sweep_tolerance * (last - largest)))
@@ -232,14 +242,17 @@ double NodalSolver::improve(Active& active, const NodalTables& tables, NodalMoti
     active.branches = branches;
     active.last_change = 0.0;
   }
-  double step[size], largest = 0.0, force = 0.0;
+  double step[size], largest = 0.0, force = 0.0, sum = 0.0;
   for (int i = 0; i < size; ++i) {
     step[i] = 0.0;
     for (int k = 0; k < size; ++k)
       step[i] -= share * active.inverse[i * size + k] * residual[static_cast<std::size_t>(k)];
     largest = std::max(largest, std::abs(step[i]));
+    sum += step[i];
     force = std::max(force, std::abs(laws.forces()[static_cast<std::size_t>(i)]) + std::abs(step[i]));
   }
+  if (!std::isfinite(sum))
+    return std::numeric_limits<double>::infinity();
   double change[2][3]{};
   for (int j = 0; j < 2; ++j) {
     const ContactNode& at = node[j + 1];

@@ -49,8 +49,9 @@ struct Energy {
 /// the mean over the step, and between flights and steps of other lengths they lean (splitting.cpp): they are for sums over time.
 struct Record {
   double time = 0.0;
-  double step = 0.0;         ///< s, the length of time this record stands for
-  const double* q = nullptr; ///< modal displacements, padded with zeros
+  double step = 0.0; ///< s, the length of time this record stands for
+  const double* q =
+      nullptr; ///< modal displacements, padded with zeros; null after Scheme::leave_out_positions, like uy and uz
   int contacts = 0;
   const double* uy =
       nullptr; ///< displacement of contact i along y_loc, m; padded with zeros to a multiple of 8
@@ -84,7 +85,7 @@ enum class StepFailure {
 class Scheme {
 public:
   virtual ~Scheme() = default;
-  /// Nobody looks at the positions of records: what makes them is left out, and they are undefined. Before the first `advance`.
+  /// Nobody looks at the positions of records: where it takes time to make them they may be null. Before the first `advance`.
   virtual void leave_out_positions() {}
   /// Advances to the next record: the first call gives the first one.
   virtual const Record& advance() = 0;

@@ -113,7 +113,8 @@ public:
     record_.step = 0.5 * (flown + stride_) * h_;
     if (positions_ && flown != stride_)
       lean(h_ * h_ * (stride_ * stride_ - flown * flown) / (12.0 * record_.step));
-    show(record_, contacts_, positions_ ? displacements() : q_.data(), seen_.data(), trial_);
+    show(record_, contacts_, positions_ ? displacements() : nullptr, positions_ ? seen_.data() : nullptr,
+         trial_);
     return record_;
   }
 

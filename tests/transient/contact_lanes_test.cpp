@@ -268,6 +268,68 @@ TEST_P(ContactLanes, LetSpringsDieOutOverSeveralSteps) {
   }
 }
 
+/// Springs that follow their contacts (ContactMemory::follow, leave), as `splitting` has them.
+void follow(int count, double h) {
+  constexpr Eigen::Index modes = 24;
+  constexpr double force = 100.0;
+  std::mt19937 random(static_cast<unsigned>(count));
+  std::normal_distribution<double> normal;
+  std::vector<ContactPoint> points(static_cast<std::size_t>(count));
+  for (int c = 0; c < count; ++c) {
+    points[c].support = support_of(c);
+    points[c].support.normal = {points[c].support.normal.stiffness};
+    points[c].support.friction.damping *= 0.2;
+    points[c].b = Eigen::MatrixXd::NullaryExpr(3, modes, [&] { return 0.6 * normal(random); });
+    points[c].b.row(0).setZero();
+  }
+  Engine lanes(points, modes, h, true), each(points, modes, h, false);
+  ASSERT_TRUE(lanes.contacts.in_lanes);
+  kernels::Array q(static_cast<std::size_t>(lanes.contacts.padded_modes)), v(q);
+  double moved = 0.0; // J, by which springs have followed
+  int sticks = 0, slides = 0;
+  for (int k = 0; k < 4000; ++k) {
+    for (Eigen::Index i = 0; i < modes; ++i) {
+      q[i] = 0.98 * q[i] + (h > 2e-4 ? h * v[i] : 1.5e-4 * normal(random));
+      v[i] = 0.9 * v[i] + 0.02 * normal(random);
+    }
+    double energy[2] = {};
+    for (Engine* e : {&lanes, &each}) {
+      e->motion.gather_near(q.data(), v.data(), e->memory.closed());
+      if (e->motion.places().first.empty() && e->memory.closed().empty()) {
+        e->memory.pass(e->motion, 1, e->trial);
+        continue;
+      }
+      const double before = e->memory.spring_energy();
+      e->memory.follow(e->motion, 0.5 * h);
+      energy[e == &each] = e->memory.spring_energy() - before;
+      e->solver.solve_near(e->memory, e->motion, e->trial);
+      e->memory.commit(e->motion, e->trial);
+      e->memory.leave(e->motion, e->trial, 0.5 * h);
+    }
+    moved += std::abs(energy[0]);
+    ASSERT_EQ(lanes.trial.active, each.trial.active) << "step " << k;
+    EXPECT_NEAR(energy[0], energy[1], count * settled * 0.1);
+    EXPECT_NEAR(lanes.memory.spring_energy(), each.memory.spring_energy(), count * settled * 0.1);
+    for (const int c : lanes.trial.active) {
+      const ContactState& s = lanes.trial.states[c];
+      EXPECT_NEAR(lanes.memory.at(c, s.ny, s.nz).spring.t, each.memory.at(c, s.ny, s.nz).spring.t,
+                  settled * force);
+      sticks += !s.slides;
+      slides += s.slides;
+    }
+    ASSERT_FALSE(testing::Test::HasFailure()) << count << " contacts, step " << k;
+  }
+  EXPECT_GT(moved, 1.0);
+  EXPECT_GT(sticks, 100);
+  EXPECT_GT(slides, 100);
+}
+
+TEST_P(ContactLanes, LetSpringsFollowTheirContacts) {
+  for (const int count : {1, 2, 3, 4, 7, 11, 19})
+    for (const double step : {1e-4, 1e-3, 1.4e-3})
+      follow(count, step);
+}
+
 INSTANTIATE_TEST_SUITE_P(InVectors, ContactLanes,
                          testing::Values(kernels::VectorSize::pair, kernels::VectorSize::half,
                                          kernels::VectorSize::pack));

@@ -150,6 +150,37 @@ TEST(Flights, GiveOutputsAtAnyInstantAndDoNotFeelThem) {
   EXPECT_EQ(watched(12, 0.01).second, dense);
 }
 
+// Without observers nobody looks at the positions of records: outputs and energies are the same bytes.
+TEST(Flights, DoNotFeelWhetherSomebodyLooks) {
+  const Scene scene = swinging(0.1);
+  struct Forces final : Sampler {
+    void state(std::int64_t, double, const double* q, const double* v) override { keep(q, v); }
+    void forces(std::int64_t, double, const double* load, std::span<const ContactForce> contacts) override {
+      keep(load, &contacts[0].friction.t);
+    }
+    void keep(const double* three, const double* more) {
+      all.insert(all.end(), three, three + 3);
+      all.push_back(*more);
+    }
+    void visit(core::StateArchive&) override {}
+    std::vector<double> all;
+  };
+  for (const double fastest : {0.0, 5.0}) { // heavier modes: positions are in other coordinates
+    StepChoice choice = with_flights(scene, 12);
+    choice.fastest = fastest;
+    Forces unseen, seen;
+    MostModalDamping observer;
+    Observer* const observers[] = {&observer};
+    const OutputGrid grid = output_grid(scene.duration, 1.7e-5);
+    const Report a = run(scene, choice, {}, &unseen, grid), b = run(scene, choice, observers, &seen, grid);
+    EXPECT_EQ(unseen.all, seen.all);
+    EXPECT_EQ(a.energy.stored, b.energy.stored);
+    EXPECT_EQ(a.energy.friction, b.energy.friction);
+    EXPECT_EQ(a.residual_relative, b.residual_relative);
+    EXPECT_LT(a.counts.evaluations, a.counts.steps);
+  }
+}
+
 TEST(
     Flights,
     AreNotMadeRoundAnObstacle) { // gaps outside a circle bend upwards: a straight path between two free places may cross it

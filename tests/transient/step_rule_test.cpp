@@ -2,6 +2,7 @@
 #include "core/error.hpp"
 #include "scenes.hpp"
 #include <gtest/gtest.h>
+#include <string>
 
 using namespace fretwork;
 using namespace fretwork::tests;
@@ -282,7 +283,13 @@ TEST(StepRule, TakesSplittingWhereCollocationCannotTakeTheScene) {
 
 TEST(StepRule, WeighsAStepOfCollocationByADampingMatrix) {
   Scene scene = vibrating(scene_with({Circle{0.1}, {8e4}, {}}, 1000.0, Vec3(0, 8e8, 0)));
-  EXPECT_TRUE(mentions(choose_step(scene, {}).scheme_reason, "of about 3.6 times the time"));
+  for (const auto& [contacts, times] : {std::pair(1, "3.6"), std::pair(20, "5.5"), std::pair(40, "6")}) {
+    Scene many = scene;
+    many.contacts.assign(static_cast<std::size_t>(contacts), scene.contacts[0]);
+    const StepChoice choice = choose_step(many, {});
+    EXPECT_TRUE(mentions(choice.scheme_reason, std::string("of about ") + times + " times the time"))
+        << choice.scheme_reason;
+  }
   scene.system.damping_matrix = Eigen::MatrixXd::Identity(3, 3);
   const StepChoice choice = choose_step(scene, {});
   EXPECT_EQ(choice.scheme, SchemeKind::collocation);
