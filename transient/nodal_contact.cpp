@@ -44,6 +44,11 @@ SpringTable spring_table(const contact::FrictionLaw& law, double h) {
   const double moments[3] = {x * phi[0], x * phi[1],
                              x * 2.0 * phi[2]}; // int x e^-x(1 - s) s^i ds over the half step
   table.keep = set ? 0.0 : std::exp(-x);
+  const double part = x / SpringTable::parts;
+  const auto phi_part = decay_functions(part);
+  table.keep_part = set ? 0.0 : std::exp(-part);
+  table.part_by_force = set ? 1.0 : part * phi_part[1];
+  table.part_by_last = set ? 0.0 : part * (phi_part[0] - phi_part[1]);
   for (int j = 0; j < 2; ++j)
     for (int l = 0; l < 3; ++l) {
       table.by_slip[j][l] = -law.stiffness * h * slip_weights[j][l];
@@ -107,8 +112,10 @@ template <int D> void NodalContact<D>::rub(int j) {
   law_[j].carries = !(before.face_y * node.face_y + before.face_z * node.face_z < 0.0);
   const Vec2 carried = law_[j].carries ? before.spring : Vec2{};
   const double *s = table_.by_slip[j], *f = table_.by_force[j];
-  const Vec2 stuck = carried + s[0] * node_[0].slip + s[1] * node_[1].slip + s[2] * node_[2].slip;
-  const Vec2 relaxed = table_.keep * carried + f[0] * node_[0].friction + f[1] * tried(0) + f[2] * tried(1);
+  const Vec2 stuck =
+      carried + s[0] * node_[0].slip + s[1] * node_[1].slip + s[2] * node_[2].slip + node.inner.spring;
+  const Vec2 relaxed = table_.keep * carried + f[0] * node_[0].friction + f[1] * tried(0) + f[2] * tried(1) +
+                       node.inner.spring;
   node.friction = {};
   node.slides = false;
   node.spring = relaxed;

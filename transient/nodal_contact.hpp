@@ -21,6 +21,12 @@
 
 namespace fretwork::transient {
 
+/// What the path of a contact inside a step adds at a node to its laws there (inner_path.hpp).
+struct InnerForce {
+  double y = 0.0, z = 0.0, x = 0.0; ///< N, on the node beside `normal` and `friction`, along the local axes
+  contact::Vec2 spring;             ///< N, of T
+};
+
 /// One contact at one node.
 struct ContactNode {
   double ny = 0.0, nz = 0.0;         ///< normal
@@ -35,13 +41,17 @@ struct ContactNode {
   double approach = 0.0;             ///< m/s, p' of the node before where that was open
   double loaded = 0.0;               ///< |T| where the contact was closed last, N
   bool slides = false;
+  InnerForce inner;
 };
 
 /// Coefficients of a friction spring over the half steps before the nodes 1/2 and 1.
 struct SpringTable {
-  double keep = 0.0;     ///< e^-x
-  double by_slip[2][3];  ///< -K_T h a_jl, N s/m
-  double by_force[2][3]; ///< b_jl
+  static constexpr int parts = 8;                 ///< of a half step (inner_path.hpp)
+  double keep = 0.0;                              ///< e^-x
+  double keep_part = 0.0;                         ///< over a part
+  double part_by_last = 0.0, part_by_force = 0.0; ///< of F, linear over a part, at its begin and end
+  double by_slip[2][3];                           ///< -K_T h a_jl, N s/m
+  double by_force[2][3];                          ///< b_jl
 };
 [[nodiscard]] SpringTable spring_table(const contact::FrictionLaw& law, double h);
 

@@ -21,6 +21,12 @@ constexpr double no_answer = 1e-9;
 /// The ratio of the changes of two sweeps foretells the next ones, and a kept matrix is good, where they fall clearly.
 constexpr double falling = 0.3;
 constexpr int patient = 20, most_sweeps = 60;
+/// The same of a step with contacts that change inside it, whose paths are not told better.
+constexpr double kink_tolerance = 1e-7;
+/// The same of the motion along which the paths inside a step are followed.
+constexpr double path_tolerance = 1e-2;
+/// Times that the paths inside a step are followed: a third time changes next to nothing.
+constexpr int most_paths = 2;
 /// Of a matrix that is inverted in the fastest way.
 constexpr double most_condition = 1e4;
 
@@ -73,6 +79,8 @@ NodalSolver::NodalSolver(const PackedContacts& contacts) : contacts_(contacts) {
   nodes_.resize(3 * count);
   active_.reserve(count);
   taking_part_.assign(count, 0);
+  changes_inside_.assign(count, 0);
+  inner_losses_.resize(2 * count);
   alive_.reserve(count);
   row_.reserve(3 * count);
   factor_.reserve(3 * count);
@@ -122,12 +130,61 @@ void NodalSolver::meet(int c, int node, NodalMotion& motion) {
 bool NodalSolver::solve(const NodalTables& tables, NodalMotion& motion) {
   active_.clear();
   std::fill(taking_part_.begin(), taking_part_.end(), 0);
-  bool solved = true;
-  while (solved && admit(tables, motion))
-    solved = settle(tables, motion);
+  std::fill(changes_inside_.begin(), changes_inside_.end(), 0);
+  inner_paths_ = false;
+  (void)admit(tables, motion);
+  bool solved = settle_all(tables, motion, path_tolerance);
+  for (int i = 0; i < most_paths && solved && follow_paths(tables, motion); ++i)
+    if (i + 1 < most_paths)
+      solved = settle_all(tables, motion, path_tolerance);
+  solved = solved && settle_all(tables, motion, inner_paths_ ? kink_tolerance : sweep_tolerance);
   if (solved)
     finish(tables, motion);
   return solved;
+}
+
+/// With the contacts that are met on the way.
+bool NodalSolver::settle_all(const NodalTables& tables, NodalMotion& motion, double tolerance) {
+  do {
+    if (!settle(tables, motion, tolerance))
+      return false;
+  } while (admit(tables, motion));
+  return true;
+}
+
+/// Finds what the paths of contacts inside the step add to their forces; all lanes answer. Returns whether there is any.
+bool NodalSolver::follow_paths(const NodalTables& tables, NodalMotion& motion) {
+  bool any = false;
+  for (Active& active : active_) {
+    const auto c = static_cast<std::size_t>(active.contact);
+    const contact::Support& support = contacts_.supports[c];
+    ContactNode* node = &nodes_[3 * c];
+    changes_inside_[c] = changes_inside_[c] || changes_inside(support, node);
+    if (!changes_inside_[c])
+      continue;
+    any = true;
+    evaluate(active, tables, motion); // the laws of the last sweep are those before its change
+    active.last_change = 0.0;
+    const InnerPath path = inner_path(support, tables.springs[c], node, tables.step);
+    for (int j = 0; j < 2; ++j) {
+      ContactNode& at = node[j + 1];
+      const PathForce& by = path.force[j];
+      inner_losses_[2 * c + static_cast<std::size_t>(j)] = path.loss[j];
+      const InnerForce now{at.ny * by.normal + at.nz * by.friction.t,
+                           at.nz * by.normal - at.ny * by.friction.t, by.friction.x,
+                           at.inner.spring + by.spring};
+      active.change[j][0] = now.y - at.inner.y;
+      active.change[j][1] = now.z - at.inner.z;
+      active.change[j][2] = now.x - at.inner.x;
+      at.inner = now;
+    }
+  }
+  for (const Active& active : active_) // when all paths are known, whatever their order
+    if (const auto c = static_cast<std::size_t>(active.contact); changes_inside_[c])
+      add_columns(tables.length, contacts_.in_plane[c] ? 3 : 2, tables.columns(active.contact, 1),
+                  tables.columns(active.contact, 2), active.change, motion.ends.data());
+  inner_paths_ = inner_paths_ || any;
+  return any;
 }
 
 /// Takes in the contacts that penetrate and do not take part yet. Returns whether there are any.
@@ -137,19 +194,21 @@ bool NodalSolver::admit(const NodalTables& tables, NodalMotion& motion) {
   const double *u1 = motion.u(1), *u2 = motion.u(2);
   for (int c = 0; c < contacts_.count; ++c) {
     const auto i = static_cast<std::size_t>(c);
-    if (taking_part_[i] || !(may_touch(contacts_.reach, i, u1[i], u1[width + i]) ||
+    ContactNode* node = &nodes_[3 * i];
+    const bool was_closed = node[0].normal > 0.0;
+    if (taking_part_[i] || !(was_closed || may_touch(contacts_.reach, i, u1[i], u1[width + i]) ||
                              may_touch(contacts_.reach, i, u2[i], u2[width + i])))
       continue;
     meet(c, 1, motion);
     meet(c, 2, motion);
-    ContactNode* node = &nodes_[3 * i];
-    if (!(node[1].penetration >= 0.0 || node[2].penetration >= 0.0))
+    if (!(was_closed || node[1].penetration >= 0.0 || node[2].penetration >= 0.0))
       continue;
     taking_part_[i] = 1;
+    node[1].inner = node[2].inner = {};
     Active& active = active_.emplace_back();
     active.contact = c;
     set_scales(active, tables);
-    if (!(node[0].normal > 0.0)) {
+    if (!was_closed) {
       meet(c, 0, motion);
       continue;
     }
@@ -177,7 +236,7 @@ void NodalSolver::set_scales(Active& active, const NodalTables& tables) const {
   active.rho_slip = by_v > 0.0 ? 1.0 / by_v : 0.0;
 }
 
-bool NodalSolver::settle(const NodalTables& tables, NodalMotion& motion) {
+bool NodalSolver::settle(const NodalTables& tables, NodalMotion& motion, double tolerance) {
   double last = 0.0;
   for (int k = 0; k < most_sweeps; ++k) {
     double largest = 0.0;
@@ -187,11 +246,10 @@ bool NodalSolver::settle(const NodalTables& tables, NodalMotion& motion) {
       runs_away = runs_away || !(change < 1e6); // or is not a number
       largest = std::max(largest, change);
     }
-    ++sweeps_;
     if (runs_away)
       return false;
     const bool foretold = largest <= falling * last;
-    if (largest <= sweep_tolerance || (foretold && largest * largest <= sweep_tolerance * (last - largest)))
+    if (largest <= tolerance || (foretold && largest * largest <= tolerance * (last - largest)))
       return true;
     last = largest;
   }
@@ -220,6 +278,13 @@ NodalContact<D> NodalSolver::evaluate(const Active& active, const NodalTables& t
       local[j * D + 2] = f[2];
   }
   return {contacts_.supports[c], tables.springs[c], node, local, active.rho, active.rho_slip};
+}
+
+void NodalSolver::evaluate(const Active& active, const NodalTables& tables, NodalMotion& motion) {
+  if (contacts_.in_plane[static_cast<std::size_t>(active.contact)])
+    (void)evaluate<3>(active, tables, motion);
+  else
+    (void)evaluate<2>(active, tables, motion);
 }
 
 /// One Newton step of one contact. Returns the largest change of its forces, relative to them.
@@ -279,17 +344,14 @@ double NodalSolver::improve(Active& active, const NodalTables& tables, NodalMoti
 void NodalSolver::finish(const NodalTables& tables, NodalMotion& motion) {
   alive_.clear();
   for (const Active& active : active_)
-    if (contacts_.in_plane[static_cast<std::size_t>(active.contact)])
-      (void)evaluate<3>(active, tables, motion);
-    else
-      (void)evaluate<2>(active, tables, motion);
+    evaluate(active, tables, motion);
   for (int c = 0; c < contacts_.count; ++c) {
     const auto i = static_cast<std::size_t>(c);
     ContactNode* node = &nodes_[3 * i];
     if (!taking_part_[i]) {
-      if (!(node[0].normal > 0.0) && !(contact::dot(node[0].spring, node[0].spring) > 0.0))
+      if (!(contact::dot(node[0].spring, node[0].spring) > 0.0))
         continue;
-      leave(c, tables, motion);
+      leave(c, tables);
     }
     if (taking_part_[i])
       for (int j = 1; j <= 2; ++j)
@@ -300,22 +362,19 @@ void NodalSolver::finish(const NodalTables& tables, NodalMotion& motion) {
   }
 }
 
-/// A contact without force at both new nodes: its spring dies out.
-void NodalSolver::leave(int c, const NodalTables& tables, NodalMotion& motion) {
+/// A contact that stays open: its spring dies out.
+void NodalSolver::leave(int c, const NodalTables& tables) {
   const auto i = static_cast<std::size_t>(c);
   ContactNode* node = &nodes_[3 * i];
   const SpringTable& table = tables.springs[i];
   for (int j = 1; j <= 2; ++j) {
-    if (node[0].normal > 0.0)
-      meet(c, j, motion); // it opens: its record tells the speed
-    else
-      node[j].penetration = 0.0;
-    node[j].normal = 0.0;
+    node[j].penetration = node[j].normal = 0.0;
+    node[j].inner = {};
     node[j].friction = {};
     node[j].slides = false;
     node[j].face_y = node[j - 1].face_y;
     node[j].face_z = node[j - 1].face_z;
-    node[j].spring = table.keep * node[j - 1].spring + table.by_force[j - 1][0] * node[0].friction;
+    node[j].spring = table.keep * node[j - 1].spring;
     node[j].loaded = node[j - 1].loaded;
     if (contact::norm(node[j].spring) < forgotten * node[j].loaded)
       node[j].spring = {};
@@ -327,7 +386,7 @@ void NodalSolver::accept() {
     nodes_[3 * static_cast<std::size_t>(c)] = nodes_[3 * static_cast<std::size_t>(c) + 2];
 }
 
-void NodalSolver::add_forces(int j, double* target) {
+void NodalSolver::add_forces(int j, bool inner, double* target) {
   row_.clear();
   factor_.clear();
   const auto add = [&](const double* row, double factor) {
@@ -336,12 +395,15 @@ void NodalSolver::add_forces(int j, double* target) {
   };
   for (const int c : alive_) {
     const ContactNode& node = nodes_[3 * static_cast<std::size_t>(c) + static_cast<std::size_t>(j)];
-    if (!(node.normal > 0.0))
+    const InnerForce more = inner ? node.inner : InnerForce{};
+    const double y = node.normal * node.ny + node.friction.t * node.nz + more.y,
+                 z = node.normal * node.nz - node.friction.t * node.ny + more.z, x = node.friction.x + more.x;
+    if (y == 0.0 && z == 0.0 && x == 0.0)
       continue;
-    add(contacts_.row(c, 0), node.normal * node.ny + node.friction.t * node.nz);
-    add(contacts_.row(c, 1), node.normal * node.nz - node.friction.t * node.ny);
+    add(contacts_.row(c, 0), y);
+    add(contacts_.row(c, 1), z);
     if (contacts_.in_plane[c])
-      add(contacts_.row(c, 2), node.friction.x);
+      add(contacts_.row(c, 2), x);
   }
   if (!row_.empty())
     scatter(contacts_.padded_modes, static_cast<int>(row_.size()), row_.data(), factor_.data(), target);
@@ -355,10 +417,11 @@ double NodalSolver::power(int j, const Array& velocity) const {
   for (const int c : alive_) {
     const auto i = static_cast<std::size_t>(c);
     const ContactNode& node = nodes_[3 * i + static_cast<std::size_t>(j)];
-    sum += (node.normal * node.ny + node.friction.t * node.nz) * velocity[i] +
-           (node.normal * node.nz - node.friction.t * node.ny) * velocity[width + i];
+    const InnerForce more = j > 0 ? node.inner : InnerForce{};
+    sum += (node.normal * node.ny + node.friction.t * node.nz + more.y) * velocity[i] +
+           (node.normal * node.nz - node.friction.t * node.ny + more.z) * velocity[width + i];
     if (contacts_.in_plane[i])
-      sum += node.friction.x * velocity[2 * width + i];
+      sum += (node.friction.x + more.x) * velocity[2 * width + i];
   }
   return sum;
 }

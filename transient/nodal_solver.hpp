@@ -2,12 +2,14 @@
 /// @file
 /// The contact forces of a step at its nodes 1/2 and 1, all contacts together, implicit: with f_0 known,
 ///     u_j = u_j^free + sum_k Wq_jk f_k,   v_j = v_j^free + sum_k Wv_jk f_k,   f_j = laws(u_j, v_j, springs),   j, k = 1/2, 1
-/// W: nodal_tables.hpp. Only contacts take part that penetrate at a node, in the motion without
+/// W: nodal_tables.hpp. Only contacts take part that were closed at the node 0 or penetrate at another one, in the motion without
 /// new forces or in that of the forces found (tested again until none is left out). Block Gauss-Seidel: one Newton step of one contact
 /// at a time, all lanes answer. Its matrix is kept while the laws stay in their branches and the changes fall. Changes that do not
 /// settle within some sweeps are halved (an iteration that goes to and fro between two branches); what does not settle then is a
-/// failure, and the caller takes a smaller step.
+/// failure, and the caller takes a smaller step. Contacts that change their branch inside the step have their paths there followed
+/// (inner_path.hpp), twice: first along the motion without what these add, then along the one with it.
 #pragma once
+#include "transient/inner_path.hpp"
 #include "transient/nodal_tables.hpp"
 
 namespace fretwork::transient {
@@ -30,15 +32,22 @@ public:
   }
   /// Contacts with a force at one of the nodes of the step or with a loaded spring.
   [[nodiscard]] const std::vector<int>& alive() const { return alive_; }
-  /// target += B^T f at a node of the step.
-  void add_forces(int node, double* target);
+  /// Losses of a contact that has an inner path, else null.
+  [[nodiscard]] const PathLoss* inner_losses(int contact) const {
+    const auto c = static_cast<std::size_t>(contact);
+    return changes_inside_[c] ? &inner_losses_[2 * c] : nullptr;
+  }
+  /// target += B^T f at a node of the step: of the laws, and of what inner paths add.
+  void add_forces(int node, double* target) { add_forces(node, true, target); }
+  /// Some contact has an inner path: the quadratic of the step then does not end in the forces of the laws.
+  [[nodiscard]] bool has_inner_paths() const { return inner_paths_; }
+  /// target += B^T f of the laws alone.
+  void add_law_forces(int node, double* target) { add_forces(node, false, target); }
   /// Power of the forces of a node on velocities in lanes (empty: 0), W.
   [[nodiscard]] double power(int node, const kernels::Array& velocity) const;
   /// Energy of all springs at a node, J.
   [[nodiscard]] double spring_energy(int node) const;
-  /// Sweeps so far: each evaluates the laws of the contacts that take part at both nodes.
-  [[nodiscard]] std::int64_t sweeps() const { return sweeps_; }
-  void visit(core::StateArchive& state) { state(nodes_, alive_, sweeps_); }
+  void visit(core::StateArchive& state) { state(nodes_, alive_, inner_paths_); }
 
 private:
   struct Active {
@@ -49,18 +58,23 @@ private:
     double rho_slip = 0.0;       ///< scales of the filled jumps
     double force[2][3]{};        ///< along y, z, x
     double inverse[36];
+    double change[2][3]; ///< of the forces that inner paths add, N
   };
   void meet(int contact, int node, NodalMotion& motion);
   bool admit(const NodalTables& tables, NodalMotion& motion);
-  [[nodiscard]] bool settle(const NodalTables& tables, NodalMotion& motion);
+  [[nodiscard]] bool settle_all(const NodalTables& tables, NodalMotion& motion, double tolerance);
+  bool follow_paths(const NodalTables& tables, NodalMotion& motion);
+  [[nodiscard]] bool settle(const NodalTables& tables, NodalMotion& motion, double tolerance);
   [[nodiscard]] double improve(Active& active, const NodalTables& tables, NodalMotion& motion, double share);
   template <int D>
   [[nodiscard]] double improve(Active& active, const NodalTables& tables, NodalMotion& motion, double share);
   template <int D>
   NodalContact<D> evaluate(const Active& active, const NodalTables& tables, NodalMotion& motion);
+  void evaluate(const Active& active, const NodalTables& tables, NodalMotion& motion);
   void set_scales(Active& active, const NodalTables& tables) const;
+  void add_forces(int node, bool inner, double* target);
   void finish(const NodalTables& tables, NodalMotion& motion);
-  void leave(int contact, const NodalTables& tables, NodalMotion& motion);
+  void leave(int contact, const NodalTables& tables);
 
   const PackedContacts& contacts_;
   std::vector<ContactNode> nodes_; ///< 3 of each contact
@@ -69,7 +83,9 @@ private:
   std::vector<int> alive_;
   std::vector<const double*> row_;
   std::vector<double> factor_;
-  std::int64_t sweeps_ = 0;
+  std::vector<char> changes_inside_;   ///< in this step
+  std::vector<PathLoss> inner_losses_; ///< 2 of each contact
+  bool inner_paths_ = false;
 };
 
 } // namespace fretwork::transient

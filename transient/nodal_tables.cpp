@@ -7,7 +7,7 @@ NodalMotion::NodalMotion(const PackedContacts& contacts)
     : stride(static_cast<std::size_t>(contacts.stride())), start(2 * stride), ends(4 * stride) {}
 
 NodalTables::NodalTables(const PackedContacts& contacts, const PolynomialFlow& flow, double h)
-    : length(4 * static_cast<std::size_t>(contacts.stride())),
+    : step(h), length(4 * static_cast<std::size_t>(contacts.stride())),
       width_(static_cast<std::size_t>(contacts.width)), stride_(static_cast<std::size_t>(contacts.stride())) {
   const auto modes = static_cast<std::size_t>(contacts.padded_modes);
   columns_.assign(static_cast<std::size_t>(contacts.count) * 6 * length, 0.0);

@@ -34,6 +34,7 @@ public:
   }
   /// What its own forces at the nodes 1/2 and 1 do to a contact, in the directions of these nodes.
   template <int D> [[nodiscard]] Answer<D> answer(int contact, const ContactNode* nodes) const;
+  double step;        ///< s
   std::size_t length; ///< of a column
   std::vector<SpringTable> springs;
 
