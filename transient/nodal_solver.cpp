@@ -133,10 +133,13 @@ bool NodalSolver::solve(const NodalTables& tables, NodalMotion& motion) {
   std::fill(changes_inside_.begin(), changes_inside_.end(), 0);
   inner_paths_ = false;
   (void)admit(tables, motion);
+  changes_ = {};
   bool solved = settle_all(tables, motion, path_tolerance);
-  for (int i = 0; i < most_paths && solved && follow_paths(tables, motion); ++i)
+  for (int i = 0; i < most_paths && solved && follow_paths(tables, motion); ++i) {
+    changes_ = {};
     if (i + 1 < most_paths)
       solved = settle_all(tables, motion, path_tolerance);
+  }
   solved = solved && settle_all(tables, motion, inner_paths_ ? kink_tolerance : sweep_tolerance);
   if (solved)
     finish(tables, motion);
@@ -145,11 +148,12 @@ bool NodalSolver::solve(const NodalTables& tables, NodalMotion& motion) {
 
 /// With the contacts that are met on the way.
 bool NodalSolver::settle_all(const NodalTables& tables, NodalMotion& motion, double tolerance) {
-  do {
-    if (!settle(tables, motion, tolerance))
-      return false;
-  } while (admit(tables, motion));
-  return true;
+  while (settle(tables, motion, tolerance)) {
+    if (!admit(tables, motion))
+      return true;
+    changes_ = {};
+  }
+  return false;
 }
 
 /// Finds what the paths of contacts inside the step add to their forces; all lanes answer. Returns whether there is any.
@@ -236,24 +240,26 @@ void NodalSolver::set_scales(Active& active, const NodalTables& tables) const {
   active.rho_slip = by_v > 0.0 ? 1.0 / by_v : 0.0;
 }
 
+/// From where the sweeps of a looser tolerance have stopped.
 bool NodalSolver::settle(const NodalTables& tables, NodalMotion& motion, double tolerance) {
-  double last = 0.0;
   for (int k = 0; k < most_sweeps; ++k) {
+    if (changes_.within(tolerance))
+      return true;
     double largest = 0.0;
-    bool runs_away = false;
     for (Active& active : active_) {
       const double change = improve(active, tables, motion, k < patient ? 1.0 : 0.5);
-      runs_away = runs_away || !(change < 1e6); // or is not a number
+      if (!(change < 1e6)) // not a number, or running away
+        return false;
       largest = std::max(largest, change);
     }
-    if (runs_away)
-      return false;
-    const bool foretold = largest <= falling * last;
-    if (largest <= tolerance || (foretold && largest * largest <= tolerance * (last - largest)))
-      return true;
-    last = largest;
+    changes_ = {true, largest, changes_.largest};
   }
-  return false;
+  return changes_.within(tolerance);
+}
+
+bool NodalSolver::Changes::within(double tolerance) const {
+  const bool foretold = largest <= falling * last;
+  return known && (largest <= tolerance || (foretold && largest * largest <= tolerance * (last - largest)));
 }
 
 double NodalSolver::improve(Active& active, const NodalTables& tables, NodalMotion& motion, double share) {

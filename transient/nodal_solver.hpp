@@ -60,6 +60,12 @@ private:
     double inverse[36];
     double change[2][3]; ///< of the forces that inner paths add, N
   };
+  /// The largest changes of the last two sweeps, relative to the forces.
+  struct Changes {
+    bool known = false;
+    double largest = 0.0, last = 0.0; ///< last: 0 at the first sweep
+    [[nodiscard]] bool within(double tolerance) const;
+  };
   void meet(int contact, int node, NodalMotion& motion);
   bool admit(const NodalTables& tables, NodalMotion& motion);
   [[nodiscard]] bool settle_all(const NodalTables& tables, NodalMotion& motion, double tolerance);
@@ -86,6 +92,7 @@ private:
   std::vector<char> changes_inside_;   ///< in this step
   std::vector<PathLoss> inner_losses_; ///< 2 of each contact
   bool inner_paths_ = false;
+  Changes changes_;
 };
 
 } // namespace fretwork::transient
