@@ -8,18 +8,18 @@
 /// step is Simpson's rule on the exact flow; where a contact closes, opens, sticks or slips inside a step its path there is
 /// followed (inner_path.hpp) and the step is of order 2, with a small error (with a normal damper, whose force jumps, between 1 and 2).
 /// Friction with the memory `reference`: order 4 in stick and in slip, at a change between them order 1, as its force jumps with the
-/// step. No limit by the modes' frequencies. Contacts: w_c h < 2 (measured: 1.5 stable, 2 not). Cost: the laws at two nodes for each sweep.
+/// step. No limit by the modes' frequencies. Contacts: w_c h < 2; above 1 a run without losses gains energy (in 200 impacts 1 % at 0.5, 19 % at 1, 150 % at 1.5). Cost: the laws at two nodes for each sweep.
 /// A step whose equations are not solved is made in two halves, these again if need be, down to h/1024 (tables made beforehand); what
 /// fails then is StepFailure::contacts. Steps grow again on the grid of the halves.
 ///
 /// Records stand at the nodes 0 and 1/2; they stand for Simpson's weights, h/6 on each side and 2 h/3.
 /// Energy: modal energies and the works of loads and contacts on the modes are exact. The laws' losses, and what moving obstacles bring
-/// (obstacle_motion.hpp), are Simpson's sums of powers (of contacts with inner paths the sums along these),
-///     normal damper (F_N - K_N p+) p',   slider -F.(v - w),   tangential damper -F.v + T.w less the slider's,   w = -T'/K_T
-/// T' of the quadratic through T at the nodes (so the sum of T.w is exactly the spring's energy). The residual is of the scheme's order.
+/// (obstacle_motion.hpp), are Simpson's sums of powers (nodal_losses.hpp), of contacts with inner paths the sums along these. The residual is of
+/// the scheme's order.
 /// Source: Lobatto IIIA (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.7) on the variation of constants.
 #include "transient/contact_trial.hpp"
 #include "transient/load_sum.hpp"
+#include "transient/nodal_losses.hpp"
 #include "transient/nodal_solver.hpp"
 #include "transient/obstacle_motion.hpp"
 #include <algorithm>
@@ -36,62 +36,6 @@ constexpr std::int64_t grid = std::int64_t{1} << halvings;
 /// Integrals to the nodes 1/2 and 1 of the quadratic through values at the nodes.
 constexpr double to_middle[3] = {5.0 / 24.0, 1.0 / 3.0, -1.0 / 24.0};
 constexpr double to_end[3] = {1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0};
-/// Derivative at the nodes of the quadratic through values at the nodes, times h.
-constexpr double derivative[3][3] = {{-3.0, 4.0, -1.0}, {-1.0, 0.0, 1.0}, {1.0, -4.0, 3.0}};
-
-/// What a contact loses, W.
-struct Power {
-  double slider = 0.0, damper = 0.0;
-};
-
-Power power_of(const contact::Support& support, const ContactNode* nodes, int j, double h) {
-  const ContactNode& n = nodes[j];
-  Power out;
-  out.damper = (n.normal - support.normal.stiffness * std::max(0.0, n.penetration)) * n.rate;
-  if (!support.friction.active())
-    return out;
-  const double *d = derivative[j], scale = -1.0 / (support.friction.stiffness * h);
-  const contact::Vec2 stretch =
-      scale * (d[0] * nodes[0].spring + d[1] * nodes[1].spring + d[2] * nodes[2].spring);
-  const double on_node = contact::dot(n.friction, n.slip), on_spring = contact::dot(n.spring, stretch);
-  if (n.slides) // a slider does not move with the force: there the bound clips a spring that lets go by itself
-    out.slider = std::max(0.0, contact::dot(n.friction, stretch) - on_node);
-  out.damper += on_spring - on_node - out.slider;
-  return out;
-}
-
-/// Powers at the nodes that give the losses of both halves of a step by Simpson's rule, in those nodes alone that records show (closed), where
-/// `power` are those of the laws there: the middle has the rest, and where that would be negative the ends have less.
-void spread(const double (&loss)[2], const bool (&closed)[3], double h, double (&power)[3]) {
-  const double all = 6.0 * (loss[0] + loss[1]) / h;
-  for (int j = 0; j < 3; ++j)
-    power[j] = closed[j] ? power[j] : 0.0;
-  const double ends = power[0] + power[2];
-  if (closed[1] && (all >= ends || !(ends > 0.0))) {
-    power[1] = 0.25 * (all - ends);
-    return;
-  }
-  power[1] = 0.0;
-  if (closed[1]) {
-    power[0] *= all / ends;
-    power[2] *= all / ends;
-  } else if (closed[0] && closed[2]) {
-    power[0] = 6.0 * loss[0] / h;
-    power[2] = 6.0 * loss[1] / h;
-  } else {
-    power[closed[0] ? 0 : 2] = all;
-  }
-}
-void spread(Power* powers, const ContactNode* nodes, const PathLoss* loss, double h) {
-  const bool closed[3] = {nodes[0].normal > 0.0, nodes[1].normal > 0.0, nodes[2].normal > 0.0};
-  double slider[3] = {powers[0].slider, powers[1].slider, powers[2].slider},
-         damper[3] = {powers[0].damper, powers[1].damper, powers[2].damper};
-  spread({loss[0].slider, loss[1].slider - loss[0].slider}, closed, h, slider);
-  spread({loss[0].damper, loss[1].damper - loss[0].damper}, closed, h, damper);
-  for (int j = 0; j < 3; ++j)
-    powers[j] = {slider[j], damper[j]};
-}
-
 class Collocation final : public Scheme {
 public:
   Collocation(const Scene& scene, double step)
@@ -116,7 +60,7 @@ public:
     levels_.reserve(halvings + 1);
     for (int level = 0; level <= halvings; ++level) {
       spans_[static_cast<std::size_t>(level)] = std::ldexp(h_, -level);
-      levels_.emplace_back(system_, contacts_, std::ldexp(h_, -level), coupled_, level);
+      levels_.emplace_back(system_, contacts_, spans_[static_cast<std::size_t>(level)], coupled_, level);
     }
     for (kernels::Array& a : load_.at)
       loads_.at(0.0, a.data());
@@ -299,7 +243,7 @@ private:
       for (int j = 0; j < 3; ++j)
         p[j] = power_of(contacts_.supports[static_cast<std::size_t>(c)], nodes, j, h);
       if (const PathLoss* loss = solver_.inner_losses(c)) {
-        spread(p, nodes, loss, h);
+        spread(loss, nodes, h, p);
         for (int j = 0; j < 2; ++j) {
           to[j].slider += loss[j].slider;
           to[j].damper += loss[j].damper;
