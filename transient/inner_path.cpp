@@ -1,35 +1,63 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/inner_path.hpp"
+#include "transient/tangential.hpp"
+#include "transient/vector_lanes.hpp"
 #include <algorithm>
+#include <cmath>
 
 namespace fretwork::transient {
 
 using contact::Vec2;
+using kernels::Half;
+using kernels::Kernel;
+using kernels::Pack;
+using kernels::Pair;
 
 namespace {
 
-constexpr int parts = SpringTable::parts;
+constexpr int parts = SpringTable::parts, all_parts = 2 * parts;
 
-/// The end of a part of a half step: the cubic by p and h p'/2 at both ends, its derivative times h/2.
-struct Cubic {
-  double p[4], rate[4]; ///< by p and h p'/2 at the begin, p and h p'/2 at the end
+/// At the ends of the parts of a half step: the cubic by p and h p'/2 at its begin and its end, and the derivative of that times h/2.
+struct Cubics {
+  alignas(64) double p[4][parts];
+  alignas(64) double rate[4][parts];
 };
-constexpr Cubic cubic_at(double x) {
-  const double y = 1.0 - x;
-  return {{(1.0 + 2.0 * x) * y * y, x * y * y, x * x * (3.0 - 2.0 * x), -x * x * y},
-          {-6.0 * x * y, y * (1.0 - 3.0 * x), 6.0 * x * y, x * (3.0 * x - 2.0)}};
-}
-constexpr auto cubics = [] {
-  std::array<Cubic, parts> out{};
-  for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = cubic_at(static_cast<double>(i + 1) / parts);
+constexpr Cubics cubics = [] {
+  Cubics out{};
+  for (int i = 0; i < parts; ++i) {
+    const double x = (i + 1.0) / parts, y = 1.0 - x;
+    const double p[4] = {(1.0 + 2.0 * x) * y * y, x * y * y, x * x * (3.0 - 2.0 * x), -x * x * y};
+    const double rate[4] = {-6.0 * x * y, y * (1.0 - 3.0 * x), 6.0 * x * y, x * (3.0 * x - 2.0)};
+    for (int k = 0; k < 4; ++k) {
+      out.p[k][i] = p[k];
+      out.rate[k][i] = rate[k];
+    }
+  }
   return out;
 }();
 
-/// The quadratic through values at the nodes, at s.
-template <class Value> Value quadratic(double s, const Value& first, const Value& middle, const Value& last) {
-  return (1.0 - s) * (1.0 - 2.0 * s) * first + 4.0 * s * (1.0 - s) * middle + s * (2.0 * s - 1.0) * last;
-}
+/// At the ends of the parts of the step: s, its weight in an integral over the step, and the quadratics that are 1 at one node each.
+struct Quadratics {
+  alignas(64) double s[all_parts];
+  alignas(64) double weight[all_parts];
+  alignas(64) double by[3][all_parts];
+  double zeroth[3], first[3]; ///< their moments by these weights
+};
+constexpr Quadratics quadratics = [] {
+  Quadratics out{};
+  for (int i = 0; i < all_parts; ++i) {
+    const double s = (i + 1.0) / all_parts, weight = (i + 1 < all_parts ? 1.0 : 0.5) / all_parts;
+    const double by[3] = {(1.0 - s) * (1.0 - 2.0 * s), 4.0 * s * (1.0 - s), s * (2.0 * s - 1.0)};
+    out.s[i] = s;
+    out.weight[i] = weight;
+    for (int k = 0; k < 3; ++k) {
+      out.by[k][i] = by[k];
+      out.zeroth[k] += weight * by[k];
+      out.first[k] += weight * s * by[k];
+    }
+  }
+  return out;
+}();
 
 enum class Branch { open, sticks, slides };
 Branch branch_of(const ContactNode& node) {
@@ -41,108 +69,227 @@ bool opposite(const ContactNode& from, const ContactNode& to) {
   return from.face_y * to.face_y + from.face_z * to.face_z < 0.0;
 }
 
-/// The normal force from part to part.
-class Presser {
-public:
-  Presser(const contact::NormalLaw& law, const ContactNode& start)
-      : law_(law), depth_(start.penetration), force_(start.normal) {}
-  /// The force at the end of a part, at the penetration and its rate there.
-  double move(double depth, double rate) {
-    const double force = contact::normal_force(law_, depth, rate), last = force_, ends = 0.5 * (last + force);
-    closes_ = depth > 0.0 && !(depth_ > 0.0);
-    const bool opens = depth_ > 0.0 && !(depth > 0.0);
-    const double share =
-        closes_ || opens ? std::max(depth, depth_) / std::abs(depth - depth_) : 1.0; // closed
-    const double mean = closes_ ? 0.5 * share * (contact::normal_force(law_, 0.0, rate) + force)
-                        : opens ? 0.5 * share * last
-                                : ends;
-    jump_ = mean - ends;
-    jump_before_end_ = closes_ ? 0.5 * share : 1.0 - 0.5 * share;
-    base_ = closes_ ? force : last;
-    loss_ += mean * (depth - depth_) - energy(depth) + energy(depth_);
-    depth_ = depth;
-    return force_ = force;
+/// D_0 and D_1 of a force.
+template <class Value> struct Moments {
+  Value zeroth{}, first{};
+  void add(double at, Value value) {
+    zeroth = zeroth + value;
+    first = first + at * value;
   }
-  /// What the mean of the forces at the ends of the last part lacks of that over the part, in which the contact closed or opened; how many
-  /// parts before its end that stands; its share of the force at the end of the part that is closed.
-  [[nodiscard]] double jump() const { return jump_; }
-  [[nodiscard]] double jump_before_end() const { return jump_before_end_; }
-  [[nodiscard]] double jump_share() const { return base_ > 0.0 ? jump_ / base_ : 0.0; }
-  [[nodiscard]] bool closes() const { return closes_; }
-  /// J, by the damper, and what the positive part cuts.
-  [[nodiscard]] double loss() const { return loss_; }
+  /// Takes away those of the quadratic through values at the nodes.
+  void leave(const Value (&nodes)[3]) {
+    const Quadratics& q = quadratics;
+    for (int k = 0; k < 3; ++k) {
+      zeroth = zeroth - q.zeroth[k] * nodes[k];
+      first = first - q.first[k] * nodes[k];
+    }
+  }
+  /// Forces at the nodes whose quadratic, 0 at the node 0, has these moments.
+  [[nodiscard]] Value at_middle() const { return 3.0 * (zeroth - first); }
+  [[nodiscard]] Value at_end() const { return 12.0 * first - 6.0 * zeroth; }
+};
 
-private:
-  [[nodiscard]] double energy(double depth) const {
-    return depth > 0.0 ? 0.5 * law_.stiffness * depth * depth : 0.0;
+/// Along the motion, at the ends of the parts.
+template <int D> struct Way {
+  alignas(64) double depth[all_parts], rate[all_parts], force[all_parts]; ///< p, p', F_N
+  alignas(64) double slip[D - 1][all_parts];                              ///< along t, x_loc
+};
+template <class V, int D>
+FRETWORK_INLINE void go_along(const contact::NormalLaw& law, bool rubs, const ContactNode* nodes, double half,
+                              Way<D>& way) {
+  using kernels::at;
+  const double per_half = 1.0 / half;
+  for (int j = 0; j < 2; ++j) {
+    const ContactNode &from = nodes[j], &to = nodes[j + 1];
+    const double p[4] = {from.penetration, half * from.rate, to.penetration, half * to.rate};
+    const auto cubic = [&](const double(*by)[parts], int i) __attribute__((always_inline)) {
+      return at<V>(by[0] + i) * p[0] + at<V>(by[1] + i) * p[1] + at<V>(by[2] + i) * p[2] +
+             at<V>(by[3] + i) * p[3];
+    };
+    for (int i = 0; i < parts; i += kernels::size_of<V>) {
+      const V depth = cubic(cubics.p, i), rate = per_half * cubic(cubics.rate, i);
+      const V force = law.stiffness * depth + (law.damping + law.stiffness * law.dissipation * depth) * rate;
+      at<V>(way.depth + j * parts + i) = depth;
+      at<V>(way.rate + j * parts + i) = rate;
+      at<V>(way.force + j * parts + i) = (depth >= 0.0) & (force > 0.0) ? force : V{};
+    }
   }
-  const contact::NormalLaw& law_;
-  double depth_, force_, jump_ = 0.0, jump_before_end_ = 0.0, base_ = 0.0, loss_ = 0.0;
-  bool closes_ = false;
+  for (int a = 0; a < (rubs ? D - 1 : 0); ++a) {
+    const auto slip = [&](int j) { return a == 0 ? nodes[j].slip.t : nodes[j].slip.x; };
+    const double v[3] = {slip(0), slip(1), slip(2)};
+    for (int i = 0; i < all_parts; i += kernels::size_of<V>)
+      at<V>(way.slip[a] + i) = v[0] * at<V>(quadratics.by[0] + i) + v[1] * at<V>(quadratics.by[1] + i) +
+                               v[2] * at<V>(quadratics.by[2] + i);
+  }
+}
+
+/// A state at the begin or the end of a part.
+struct Pressed {
+  double depth, rate, force;
+};
+bool closes(const Pressed& before, const Pressed& after) {
+  return after.depth > 0.0 && !(before.depth > 0.0);
+}
+
+/// Where a contact closes or opens in a part, its force is there over the closed share of it.
+struct Jump {
+  double missing;    ///< N, what the mean of the forces at the ends of the part lacks of that over the part
+  double before_end; ///< where that stands, parts before its end
+  double share;      ///< `missing` of the force at the closed end
+  Jump(const contact::NormalLaw& law, const Pressed& before, const Pressed& after) {
+    const double closed = std::max(before.depth, after.depth) / std::abs(after.depth - before.depth);
+    const bool closing = closes(before, after);
+    const double mean =
+        0.5 * closed * (closing ? contact::normal_force(law, 0.0, after.rate) + after.force : before.force);
+    missing = mean - 0.5 * (before.force + after.force);
+    before_end = closing ? 0.5 * closed : 1.0 - 0.5 * closed;
+    const double base = closing ? after.force : before.force;
+    share = base > 0.0 ? missing / base : 0.0;
+  }
 };
 
 /// The tangential spring and the slider from part to part.
-class Slider {
+template <int D> class Slider {
 public:
+  using Vector = Tangential<D>;
   Slider(const contact::FrictionLaw& law, const SpringTable& table, const ContactNode& start, double part)
       : law_(law), table_(table), compliance_(law.stiffness > 0.0 ? 1.0 / law.stiffness : 0.0),
-        bound_(start.slides ? law.mu_dynamic : law.mu_static), part_(part), spring_(start.spring),
-        slip_(start.slip), force_(start.friction), slides_(start.slides) {}
-  void forget() {
-    loss_.damper += energy(spring_);
-    spring_ = {};
-  }
+        bound_(start.slides ? law.mu_dynamic : law.mu_static), half_part_(0.5 * part),
+        spring_(tangential<D>(start.spring)), slip_(tangential<D>(start.slip)),
+        force_(tangential<D>(start.friction)), held_(energy()), slides_(start.slides) {}
+  void forget() { spring_ = {}; }
   /// The force at the end of a part, under the normal force and with the tangential velocity there.
-  Vec2 move(double normal, Vec2 slip) {
-    moved_ = (0.5 * part_) * (slip + slip_);
-    const Vec2 before = spring_;
+  Vector move(double normal, Vector slip) {
+    const Vector before = spring_;
+    moved_ = half_part_ * (slip + slip_);
+    slip_ = slip;
     last_ = force_;
     slid_ = slides_;
-    const Vec2 stuck = before - law_.stiffness * moved_, trial = stuck - law_.damping * slip;
-    const bool line = trial.x == 0.0; // neither root nor division
-    const double length = line ? std::abs(trial.t) : norm(trial);
-    const bool sticks = normal > 0.0 && length <= bound_ * normal;
-    slip_ = slip;
-    slides_ = normal > 0.0 && !sticks;
-    if (normal > 0.0)
-      bound_ = sticks ? law_.mu_static : law_.mu_dynamic;
-    if (sticks) {
+    const Vector stuck = before - law_.stiffness * moved_, trial = stuck - law_.damping * slip;
+    const double length = norm(trial);
+    if (normal > 0.0 && length <= bound_ * normal) {
+      slides_ = false;
+      bound_ = law_.mu_static;
       force_ = trial;
       spring_ = stuck;
+      slider_ = 0.0;
     } else {
-      const double most = law_.mu_dynamic * normal;
-      force_ = !(normal > 0.0) ? Vec2{}
-               : line          ? Vec2{0.0, std::copysign(most, trial.t)}
-                               : (most / length) * trial;
+      slides_ = normal > 0.0;
+      bound_ = slides_ ? law_.mu_dynamic : bound_;
+      force_ = slides_ ? with_length(law_.mu_dynamic * normal, trial, length) : Vector{};
       spring_ = table_.keep_part * before + table_.part_by_last * last_ + table_.part_by_force * force_;
+      slider_ = std::max(0.0, 0.5 * dot(force_ + last_, compliance_ * (before - spring_) - moved_));
     }
-    const Vec2 mean = 0.5 * (force_ + last_), stretch = compliance_ * (before - spring_);
-    slider_ = sticks ? 0.0 : std::max(0.0, dot(mean, stretch - moved_));
-    loss_.slider += slider_;
-    loss_.damper += energy(before) - energy(spring_) - dot(mean, moved_) - slider_;
+    work_ += 0.5 * dot(force_ + last_, moved_);
+    rubbed_ += slider_;
     return force_;
   }
-  [[nodiscard]] Vec2 spring() const { return spring_; }
   /// More of the force in the mean over the last part, as a share of that at its closed end (of a contact that `closes` in it, or opens).
   /// Returns it. What sticks comes and goes without a jump.
-  Vec2 jump(double share, bool closes) {
+  Vector jump(double share, bool closes) {
     if (!(closes ? slides_ : slid_))
       return {};
-    const Vec2 more = share * (closes ? force_ : last_);
-    loss_.slider += std::max(-slider_, -dot(more, moved_));
+    const Vector more = share * (closes ? force_ : last_);
+    jumped_ += std::max(-slider_, -dot(more, moved_));
     return more;
   }
-  [[nodiscard]] const PathLoss& loss() const { return loss_; }
+  [[nodiscard]] Vector spring() const { return spring_; }
+  /// Up to now.
+  [[nodiscard]] PathLoss loss() const { return {rubbed_ + jumped_, held_ - energy() - work_ - rubbed_}; }
 
 private:
-  [[nodiscard]] double energy(Vec2 spring) const { return 0.5 * compliance_ * dot(spring, spring); }
+  [[nodiscard]] double energy() const { return 0.5 * compliance_ * dot(spring_, spring_); }
   const contact::FrictionLaw& law_;
   const SpringTable& table_;
-  double compliance_, bound_, part_, slider_ = 0.0;
-  Vec2 spring_, slip_, force_, last_, moved_;
+  double compliance_, bound_, half_part_;
+  Vector spring_, slip_, force_, last_{}, moved_{};
+  double held_;                        ///< J, by the spring at the begin
+  double slider_ = 0.0;                ///< J, lost in the last part
+  double work_ = 0.0;                  ///< J, of the force
+  double rubbed_ = 0.0, jumped_ = 0.0; ///< J, lost by the slider
   bool slides_, slid_ = false;
-  PathLoss loss_;
 };
+
+/// The forces along the way.
+template <class V, int D>
+FRETWORK_INLINE InnerPath follow_on(const contact::Support& support, const SpringTable& table,
+                                    const ContactNode* nodes, double h) {
+  using Vector = Tangential<D>;
+  const Quadratics& q = quadratics;
+  const contact::NormalLaw& law = support.normal;
+  const bool rubs = support.friction.active();
+  Way<D> way;
+  go_along<V>(law, rubs, nodes, 0.5 * h, way);
+  Slider<D> slider(support.friction, table, nodes[0], h / all_parts);
+  const auto energy = [&](double depth) { return depth > 0.0 ? 0.5 * law.stiffness * depth * depth : 0.0; };
+  Pressed before{nodes[0].penetration, nodes[0].rate, nodes[0].normal};
+  const double held = energy(before.depth);
+  double work = 0.0; // J, into the contact
+  Moments<double> normal;
+  Moments<Vector> friction;
+  InnerPath out;
+  for (int j = 0; j < 2; ++j) {
+    if (opposite(nodes[j], nodes[j + 1]))
+      slider.forget();
+    for (int i = j * parts; i < (j + 1) * parts; ++i) {
+      const Pressed after{way.depth[i], way.rate[i], way.force[i]};
+      const double deeper = after.depth - before.depth;
+      normal.add(q.s[i], q.weight[i] * after.force);
+      work += 0.5 * (before.force + after.force) * deeper;
+      if (rubs) {
+        Vector slip;
+        if constexpr (D == 2)
+          slip = way.slip[0][i];
+        else
+          slip = {way.slip[1][i], way.slip[0][i]};
+        friction.add(q.s[i], q.weight[i] * slider.move(after.force, slip));
+      }
+      if ((before.depth > 0.0) != (after.depth > 0.0)) {
+        const Jump jump(law, before, after);
+        const double at = q.s[i] - jump.before_end / all_parts;
+        normal.add(at, jump.missing / all_parts);
+        work += jump.missing * deeper;
+        if (rubs)
+          friction.add(at, (1.0 / all_parts) * slider.jump(jump.share, closes(before, after)));
+      }
+      before = after;
+    }
+    const PathLoss rubbed = slider.loss();
+    out.force[j].spring = in_plane(slider.spring()) - nodes[j + 1].spring;
+    out.loss[j] = {rubbed.slider, rubbed.damper + work + held - energy(before.depth)};
+  }
+  // the node 1 has what the node 1/2 hands on
+  const double handed = opposite(nodes[1], nodes[2])            ? 0.0
+                        : branch_of(nodes[2]) == Branch::sticks ? 1.0
+                                                                : table.keep;
+  out.force[1].spring = out.force[1].spring - handed * out.force[0].spring;
+  normal.leave({nodes[0].normal, nodes[1].normal, nodes[2].normal});
+  friction.leave(
+      {tangential<D>(nodes[0].friction), tangential<D>(nodes[1].friction), tangential<D>(nodes[2].friction)});
+  out.force[0].normal = normal.at_middle();
+  out.force[1].normal = normal.at_end();
+  out.force[0].friction = in_plane(friction.at_middle());
+  out.force[1].friction = in_plane(friction.at_end());
+  return out;
+}
+template <class V>
+FRETWORK_INLINE InnerPath follow_line_on(const contact::Support& support, const SpringTable& table,
+                                         const ContactNode* nodes, double h) {
+  return follow_on<V, 2>(support, table, nodes, h);
+}
+template <class V>
+FRETWORK_INLINE InnerPath follow_plane_on(const contact::Support& support, const SpringTable& table,
+                                          const ContactNode* nodes, double h) {
+  return follow_on<V, 3>(support, table, nodes, h);
+}
+FRETWORK_KERNEL(InnerPath, follow_line,
+                (const contact::Support& support, const SpringTable& table, const ContactNode* nodes,
+                 double h),
+                (support, table, nodes, h))
+FRETWORK_KERNEL(InnerPath, follow_plane,
+                (const contact::Support& support, const SpringTable& table, const ContactNode* nodes,
+                 double h),
+                (support, table, nodes, h))
 
 } // namespace
 
@@ -159,55 +306,15 @@ bool changes_inside(const contact::Support& support, const ContactNode* nodes) {
   return false;
 }
 
-InnerPath inner_path(const contact::Support& support, const SpringTable& table, const ContactNode* nodes,
-                     double h) {
-  constexpr double part = 0.5 / parts; // of the step
-  const bool rubs = support.friction.active();
-  const double half = 0.5 * h;
-  Presser presser(support.normal, nodes[0]);
-  Slider slider(support.friction, table, nodes[0], part * h);
-  double normal[2] = {}; // D_0, D_1; at the node 0 nothing is missing
-  Vec2 friction[2];
-  const auto miss = [&](double at, double pressed, Vec2 rubbed) {
-    normal[0] += pressed;
-    normal[1] += at * pressed;
-    friction[0] = friction[0] + rubbed;
-    friction[1] = friction[1] + at * rubbed;
-  };
-  InnerPath out;
-  for (int j = 0; j < 2; ++j) {
-    const ContactNode &from = nodes[j], &to = nodes[j + 1];
-    if (opposite(from, to))
-      slider.forget();
-    for (int i = 0; i < parts; ++i) {
-      const auto& [p, rate] = cubics[static_cast<std::size_t>(i)];
-      const auto along = [&](const double* by) {
-        return by[0] * from.penetration + by[1] * half * from.rate + by[2] * to.penetration +
-               by[3] * half * to.rate;
-      };
-      const double s = part * (j * parts + i + 1), weight = s < 1.0 ? part : 0.5 * part;
-      const double force = presser.move(along(p), along(rate) / half);
-      const Vec2 rubbed =
-          rubs ? slider.move(force, quadratic(s, nodes[0].slip, nodes[1].slip, nodes[2].slip)) : Vec2{};
-      miss(s, weight * (force - quadratic(s, nodes[0].normal, nodes[1].normal, nodes[2].normal)),
-           weight * (rubbed - quadratic(s, nodes[0].friction, nodes[1].friction, nodes[2].friction)));
-      if (const double jump = presser.jump(); jump != 0.0)
-        miss(s - part * presser.jump_before_end(), part * jump,
-             part * slider.jump(presser.jump_share(), presser.closes()));
-    }
-    out.force[j].spring = slider.spring() - to.spring;
-    out.loss[j] = {slider.loss().slider, slider.loss().damper + presser.loss()};
-  }
-  // the node 1 has what the node 1/2 hands on
-  const double handed = opposite(nodes[1], nodes[2])            ? 0.0
-                        : branch_of(nodes[2]) == Branch::sticks ? 1.0
-                                                                : table.keep;
-  out.force[1].spring = out.force[1].spring - handed * out.force[0].spring;
-  out.force[0].normal = 3.0 * (normal[0] - normal[1]);
-  out.force[1].normal = 12.0 * normal[1] - 6.0 * normal[0];
-  out.force[0].friction = 3.0 * (friction[0] - friction[1]);
-  out.force[1].friction = 12.0 * friction[1] - 6.0 * friction[0];
-  return out;
+template <>
+InnerPath inner_path<2>(const contact::Support& support, const SpringTable& table, const ContactNode* nodes,
+                        double h) {
+  return follow_line(support, table, nodes, h);
+}
+template <>
+InnerPath inner_path<3>(const contact::Support& support, const SpringTable& table, const ContactNode* nodes,
+                        double h) {
+  return follow_plane(support, table, nodes, h);
 }
 
 } // namespace fretwork::transient

@@ -12,7 +12,7 @@
 /// that it is closed for (of C_N it jumps there).
 /// Errors of trajectories through impacts fall to a fifth to a fifteenth, without friction to a fiftieth (doc/benchmarks.md).
 #pragma once
-#include "transient/nodal_contact.hpp"
+#include "transient/contact_node.hpp"
 
 namespace fretwork::transient {
 
@@ -33,8 +33,12 @@ struct InnerPath {
   PathForce force[2]; ///< at the nodes 1/2 and 1
   PathLoss loss[2];   ///< up to them
 };
+/// Of a contact with D directions.
 /// @param nodes  the three nodes, their kinematics and laws known   @param h  s, the step
+template <int D>
 [[nodiscard]] InnerPath inner_path(const contact::Support& support, const SpringTable& table,
                                    const ContactNode* nodes, double h);
+template <> InnerPath inner_path<2>(const contact::Support&, const SpringTable&, const ContactNode*, double);
+template <> InnerPath inner_path<3>(const contact::Support&, const SpringTable&, const ContactNode*, double);
 
 } // namespace fretwork::transient

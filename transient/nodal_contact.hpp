@@ -15,50 +15,19 @@
 /// C_T = 0, along the trial of stick, which is exact on a line and of order 1 in the plane. The slip of `reference` is opposite to v
 /// and bears any force within the bound where v = 0.
 #pragma once
-#include "contact/support.hpp"
+#include "transient/contact_node.hpp"
+#include "transient/tangential.hpp"
+#include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace fretwork::transient {
 
-/// What the path of a contact inside a step adds at a node to its laws there (inner_path.hpp).
-struct InnerForce {
-  double y = 0.0, z = 0.0, x = 0.0; ///< N, on the node beside `normal` and `friction`, along the local axes
-  contact::Vec2 spring;             ///< N, of T
-};
-
-/// One contact at one node.
-struct ContactNode {
-  double ny = 0.0, nz = 0.0;         ///< normal
-  double penetration = 0.0;          ///< m
-  double rate = 0.0;                 ///< p', m/s
-  double across = 0.0;               ///< velocity along t, m/s
-  double curvature = 0.0;            ///< of the obstacle, 1/m
-  double normal = 0.0;               ///< F_N, N
-  contact::Vec2 slip;                ///< tangential velocity in the directions of friction, m/s
-  contact::Vec2 friction, spring;    ///< F and T, N
-  double face_y = 0.0, face_z = 0.0; ///< normal where the contact was closed last; 0: never
-  double approach = 0.0;             ///< m/s, p' of the node before where that was open
-  double loaded = 0.0;               ///< |T| where the contact was closed last, N
-  bool slides = false;
-  InnerForce inner;
-};
-
-/// Coefficients of a friction spring over the half steps before the nodes 1/2 and 1.
-struct SpringTable {
-  static constexpr int parts = 8;                 ///< of a half step (inner_path.hpp)
-  double keep = 0.0;                              ///< e^-x
-  double keep_part = 0.0;                         ///< over a part
-  double part_by_last = 0.0, part_by_force = 0.0; ///< of F, linear over a part, at its begin and end
-  double by_slip[2][3];                           ///< -K_T h a_jl, N s/m
-  double by_force[2][3];                          ///< b_jl
-};
-[[nodiscard]] SpringTable spring_table(const contact::FrictionLaw& law, double h);
-
 /// How displacement and velocity at the nodes answer the forces: along n, t, x_loc of the nodes, D of them.
 template <int D> struct Answer {
   static constexpr int size = 2 * D;
-  using Row = std::array<double, size>;
+  using Row = Eigen::Array<double, size, 1>;
   Row u[2][D], v[2][D];
 };
 
@@ -66,12 +35,12 @@ template <int D> struct Answer {
 template <int D> class NodalContact {
 public:
   static constexpr int size = 2 * D;
-  using Row = std::array<double, size>;
+  using Row = Eigen::Array<double, size, 1>;
+  using Jacobian = Eigen::Matrix<double, size, size>;
   /// Sets normal, friction, spring, slides of the nodes 1/2 and 1.
   /// @param nodes  the three nodes, their kinematics set   @param forces  at the nodes 1/2 and 1 along n, t, x_loc
-  /// @param rho  N/m, at the nodes 1/2 and 1, 0: not filled   @param rho_slip  N s/m: scales of the filled jumps
   NodalContact(const contact::Support& support, const SpringTable& table, ContactNode* nodes,
-               const Row& forces, const std::array<double, 2>& rho, double rho_slip);
+               const Row& forces, const JumpScales& scales);
 
   [[nodiscard]] const Row& forces() const { return force_; }
   /// Forces - laws.
@@ -79,36 +48,155 @@ public:
   /// Which branches of the laws `residual` took.
   [[nodiscard]] int branches() const;
   /// d residual / d forces.
-  [[nodiscard]] std::array<Row, size> jacobian(const Answer<D>& answer) const;
+  [[nodiscard]] Jacobian jacobian(const Answer<D>& answer) const;
 
 private:
+  using Vector = Tangential<D>;
   enum class Normal { open, closed, limited };
   enum class Tangent { none, stick, line, relaxed, trial, opposed, rest };
   struct Law {
-    Normal normal = Normal::open;
-    Tangent tangent = Tangent::none;
-    double by_penetration = 0.0, by_rate = 0.0;
-    contact::Vec2 e; ///< direction of slip
-    double share = 0.0;
-    bool carries = false; ///< the spring of the node before
+    Normal normal;
+    Tangent tangent;
+    double by_penetration, by_rate;
+    Vector e; ///< direction of slip
+    double share;
+    bool carries; ///< the spring of the node before
   };
   void press(int j);
   void rub(int j);
-  void slide(int j, contact::Vec2 relaxed, contact::Vec2 stuck, double bound);
-  [[nodiscard]] contact::Vec2 tried(int j) const;
-  /// Of a tangential vector, which has no part along x_loc with two directions.
-  [[nodiscard]] static double length(contact::Vec2 v) { return D == 2 ? std::abs(v.t) : contact::norm(v); }
+  [[nodiscard]] Vector slide(int j, Vector relaxed, Vector trial, double bound);
+  [[nodiscard]] Vector tried(int j) const;
 
   const contact::Support& support_;
   const SpringTable& table_;
   ContactNode* node_;
   Row force_, residual_;
-  std::array<double, 2> rho_;
-  double rho_slip_;
+  JumpScales scales_;
+  Vector slip_[3]; ///< of the nodes
   Law law_[2];
 };
 
-extern template class NodalContact<2>;
-extern template class NodalContact<3>;
+template <int D>
+[[gnu::always_inline]] inline NodalContact<D>::NodalContact(const contact::Support& support,
+                                                            const SpringTable& table, ContactNode* nodes,
+                                                            const Row& forces, const JumpScales& scales)
+    : support_(support), table_(table), node_(nodes), force_(forces), scales_(scales) {
+  const bool rubs = support_.friction.active();
+  for (int j = 0; j < 3; ++j)
+    slip_[j] = tangential<D>(node_[j].slip);
+#pragma GCC unroll 2
+  for (int j = 0; j < 2; ++j) {
+    press(j);
+    law_[j].tangent = Tangent::none;
+    law_[j].carries = false;
+    if (rubs)
+      rub(j);
+    const ContactNode& node = node_[j + 1];
+    residual_[j * D] = force_[j * D] - node.normal;
+    residual_[j * D + 1] = force_[j * D + 1] - node.friction.t;
+    if constexpr (D == 3)
+      residual_[j * D + 2] = force_[j * D + 2] - node.friction.x;
+  }
+}
+
+template <int D>
+[[gnu::always_inline]] inline typename NodalContact<D>::Vector NodalContact<D>::tried(int j) const {
+  if constexpr (D == 2)
+    return force_[j * D + 1];
+  else
+    return {force_[j * D + 2], force_[j * D + 1]};
+}
+
+template <int D> [[gnu::always_inline]] inline void NodalContact<D>::press(int j) {
+  const contact::NormalLaw& law = support_.normal;
+  ContactNode& node = node_[j + 1];
+  Law& out = law_[j];
+  const double p = node.penetration;
+  if (!(law.damping > 0.0)) {
+    const auto slopes = contact::normal_slopes(law, p, node.rate);
+    node.normal = slopes.force;
+    out.normal = slopes.force > 0.0 ? Normal::closed : Normal::open;
+    out.by_penetration = slopes.by_penetration;
+    out.by_rate = slopes.by_rate;
+  } else {
+    const double c = law.damping_at(p), by_law = law.stiffness * p + c * node.rate,
+                 limit = scales_.rho[j] > 0.0 ? force_[j * D] + scales_.rho[j] * p
+                         : p > 0.0            ? by_law
+                                              : 0.0;
+    node.normal = std::max(0.0, std::min(by_law, limit));
+    out.normal = !(node.normal > 0.0) ? Normal::open : by_law <= limit ? Normal::closed : Normal::limited;
+    out.by_penetration = law.stiffness * (1.0 + law.dissipation * node.rate);
+    out.by_rate = c;
+  }
+  const ContactNode& before = node_[j];
+  node.face_y = node.normal > 0.0 ? node.ny : before.face_y;
+  node.face_z = node.normal > 0.0 ? node.nz : before.face_z;
+}
+
+template <int D> [[gnu::always_inline]] inline void NodalContact<D>::rub(int j) {
+  const contact::FrictionLaw& law = support_.friction;
+  const ContactNode& before = node_[j];
+  ContactNode& node = node_[j + 1];
+  Law& out = law_[j];
+  out.carries = !(before.face_y * node.face_y + before.face_z * node.face_z < 0.0);
+  const Vector carried = out.carries ? tangential<D>(before.spring) : Vector{},
+               inner = tangential<D>(node.inner.spring);
+  const double* s = table_.by_slip[j];
+  const Vector stuck = carried + s[0] * slip_[0] + s[1] * slip_[1] + s[2] * slip_[2] + inner,
+               trial = stuck - law.damping * slip_[j + 1];
+  const bool closed = node.normal > 0.0;
+  node.slides = false;
+  if (closed && norm(trial) <= (node_[0].slides ? law.mu_dynamic : law.mu_static) * node.normal) {
+    out.tangent = Tangent::stick;
+    node.friction = in_plane(trial);
+    node.spring = in_plane(stuck);
+    return;
+  }
+  const double* f = table_.by_force[j];
+  const Vector relaxed = table_.keep * carried + f[0] * tangential<D>(node_[0].friction) + f[1] * tried(0) +
+                         f[2] * tried(1) + inner;
+  node.spring = in_plane(relaxed);
+  node.friction = {};
+  if (!closed)
+    return;
+  node.slides = true;
+  node.friction = in_plane(slide(j, relaxed, trial, law.mu_dynamic * node.normal));
+}
+
+template <int D>
+[[gnu::always_inline]] inline typename NodalContact<D>::Vector
+NodalContact<D>::slide(int j, Vector relaxed, Vector trial, double bound) {
+  const contact::FrictionLaw& law = support_.friction;
+  Law& out = law_[j];
+  if (law.kind == contact::FrictionMemoryKind::reference) {
+    trial = tried(j) - scales_.rho_slip * slip_[j + 1];
+    out.tangent = norm(trial) <= bound ? Tangent::rest : Tangent::opposed;
+    if (out.tangent == Tangent::rest)
+      return trial;
+  } else if constexpr (D == 2) {
+    out.tangent = Tangent::line;
+    out.e = std::copysign(1.0, trial);
+    out.share = 0.0;
+    return bound * out.e; // the law does not feel how long the trial is
+  } else {
+    out.tangent = Tangent::trial;
+    const Vector candidate = relaxed - law.damping * slip_[j + 1];
+    if (table_.keep > 0.0 && norm(candidate) > bound && dot(candidate, trial) > 0.0) {
+      trial = candidate;
+      out.tangent = Tangent::relaxed;
+    }
+  }
+  const double length = norm(trial);
+  out.e = (1.0 / length) * trial;
+  out.share = bound / length;
+  return bound * out.e;
+}
+
+template <int D> [[gnu::always_inline]] inline int NodalContact<D>::branches() const {
+  int code = 0;
+  for (const Law& law : law_)
+    code = (code * 3 + static_cast<int>(law.normal)) * 7 + static_cast<int>(law.tangent);
+  return code;
+}
 
 } // namespace fretwork::transient

@@ -9,8 +9,7 @@
 /// failure, and the caller takes a smaller step. Contacts that change their branch inside the step have their paths there followed
 /// (inner_path.hpp), twice: first along the motion without what these add, then along the one with it.
 #pragma once
-#include "transient/inner_path.hpp"
-#include "transient/nodal_tables.hpp"
+#include "transient/active_contact.hpp"
 
 namespace fretwork::transient {
 
@@ -35,7 +34,7 @@ public:
   /// Losses of a contact that has an inner path, else null.
   [[nodiscard]] const PathLoss* inner_losses(int contact) const {
     const auto c = static_cast<std::size_t>(contact);
-    return changes_inside_[c] ? &inner_losses_[2 * c] : nullptr;
+    return changes_inside_[c] ? inner_losses_[c].data() : nullptr;
   }
   /// target += B^T f at a node of the step: of the laws, and of what inner paths add.
   void add_forces(int node, double* target) { add_forces(node, true, target); }
@@ -50,47 +49,30 @@ public:
   void visit(core::StateArchive& state) { state(nodes_, alive_, inner_paths_); }
 
 private:
-  struct Active {
-    int contact;
-    int branches = -1;
-    double last_change = 0.0;
-    std::array<double, 2> rho{}; ///< at the nodes 1/2 and 1
-    double rho_slip = 0.0;       ///< scales of the filled jumps
-    double force[2][3]{};        ///< along y, z, x
-    double inverse[36];
-    double change[2][3]; ///< of the forces that inner paths add, N
-  };
   /// The largest changes of the last two sweeps, relative to the forces.
   struct Changes {
     bool known = false;
     double largest = 0.0, last = 0.0; ///< last: 0 at the first sweep
     [[nodiscard]] bool within(double tolerance) const;
   };
-  void meet(int contact, int node, NodalMotion& motion);
   bool admit(const NodalTables& tables, NodalMotion& motion);
   [[nodiscard]] bool settle_all(const NodalTables& tables, NodalMotion& motion, double tolerance);
-  bool follow_paths(const NodalTables& tables, NodalMotion& motion);
-  [[nodiscard]] bool settle(const NodalTables& tables, NodalMotion& motion, double tolerance);
-  [[nodiscard]] double improve(Active& active, const NodalTables& tables, NodalMotion& motion, double share);
-  template <int D>
-  [[nodiscard]] double improve(Active& active, const NodalTables& tables, NodalMotion& motion, double share);
-  template <int D>
-  NodalContact<D> evaluate(const Active& active, const NodalTables& tables, NodalMotion& motion);
-  void evaluate(const Active& active, const NodalTables& tables, NodalMotion& motion);
-  void set_scales(Active& active, const NodalTables& tables) const;
+  bool follow_paths(NodalMotion& motion);
+  [[nodiscard]] bool settle(NodalMotion& motion, double tolerance);
   void add_forces(int node, bool inner, double* target);
   void finish(const NodalTables& tables, NodalMotion& motion);
   void leave(int contact, const NodalTables& tables);
 
   const PackedContacts& contacts_;
   std::vector<ContactNode> nodes_; ///< 3 of each contact
-  std::vector<Active> active_;
+  std::vector<ContactPlace> places_;
+  std::vector<ActiveContact> active_;
   std::vector<char> taking_part_;
   std::vector<int> alive_;
   std::vector<const double*> row_;
   std::vector<double> factor_;
-  std::vector<char> changes_inside_;   ///< in this step
-  std::vector<PathLoss> inner_losses_; ///< 2 of each contact
+  std::vector<char> changes_inside_; ///< in this step
+  std::vector<std::array<PathLoss, 2>> inner_losses_;
   bool inner_paths_ = false;
   Changes changes_;
 };

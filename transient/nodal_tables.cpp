@@ -3,6 +3,9 @@
 
 namespace fretwork::transient {
 
+/// A node at the end of a step that answers its force by less than this share of the node 1/2 does not.
+constexpr double no_answer = 1e-9;
+
 NodalMotion::NodalMotion(const PackedContacts& contacts)
     : stride(static_cast<std::size_t>(contacts.stride())), start(2 * stride), ends(4 * stride) {}
 
@@ -23,11 +26,19 @@ NodalTables::NodalTables(const PackedContacts& contacts, const PolynomialFlow& f
                               column + (to + 1) * stride_);
         }
       }
+    // the answers of the nodes to their own forces set the scales of the jumps
+    const double *first = columns(c, 1) + c, *last = columns(c, 2) + c;
+    const auto along = [&](const double* column, std::size_t quantity) {
+      return column[quantity * stride_] + column[length + quantity * stride_ + width_];
+    };
+    const double by_u = along(first, 0), by_v = along(first, 2),
+                 rho = by_u > 0.0 ? 1.0 / by_u : contacts.supports[c].normal.stiffness;
+    scales.push_back({{rho, along(last, 1) > no_answer * by_u ? rho : 0.0}, by_v > 0.0 ? 1.0 / by_v : 0.0});
   }
 }
 
 template <int D> Answer<D> NodalTables::answer(int contact, const ContactNode* node) const {
-  Answer<D> out{};
+  Answer<D> out;
   for (int k = 0; k < 2; ++k) {
     const double* column = columns(contact, k + 1) + contact;
     const double ny = node[k + 1].ny, nz = node[k + 1].nz;

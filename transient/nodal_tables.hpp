@@ -37,6 +37,7 @@ public:
   double step;        ///< s
   std::size_t length; ///< of a column
   std::vector<SpringTable> springs;
+  std::vector<JumpScales> scales;
 
 private:
   std::size_t width_, stride_; ///< of PackedContacts

@@ -44,7 +44,7 @@ TEST(InnerPath, GivesTheImpulseOfAContactThatClosesOrOpens) {
         const contact::Support support{contact::Stop{}, {stiffness, damping}, {}};
         const Straight path(support, touch, rate);
         ASSERT_TRUE(changes_inside(support, path.nodes)) << touch;
-        const InnerPath inner = inner_path(support, spring_table(support.friction, h), path.nodes, h);
+        const InnerPath inner = inner_path<2>(support, spring_table(support.friction, h), path.nodes, h);
         const Moments law = of_quadratic(path.nodes[0].normal, path.nodes[1].normal, path.nodes[2].normal),
                       more = of_quadratic(0.0, inner.force[0].normal, inner.force[1].normal);
         // F = a (s - touch) + b from the touch on, or up to where it is 0
@@ -62,7 +62,7 @@ TEST(InnerPath, LosesWhatTheDamperTakesAndWhatItsPositivePartCuts) {
   const contact::Support support{contact::Stop{}, {stiffness, 50.0}, {}};
   for (const double touch : {0.1, 0.45, 0.7}) {
     const Straight path(support, touch, speed);
-    const InnerPath inner = inner_path(support, spring_table(support.friction, h), path.nodes, h);
+    const InnerPath inner = inner_path<2>(support, spring_table(support.friction, h), path.nodes, h);
     const double closed = (1.0 - touch) * h; // s
     EXPECT_NEAR(inner.loss[1].damper, 50.0 * speed * speed * closed, 1e-3 * 50.0 * speed * speed * h);
     // without a damper nothing, at a closing or an opening; with a strong one that lets go before, all that the spring holds then
@@ -70,13 +70,14 @@ TEST(InnerPath, LosesWhatTheDamperTakesAndWhatItsPositivePartCuts) {
     for (const double rate : {speed, -speed}) {
       const Straight way(lossless, touch, rate);
       const double held = 0.5 * stiffness * speed * speed * h * h;
-      EXPECT_NEAR(inner_path(lossless, spring_table({}, h), way.nodes, h).loss[1].damper, 0.0, 1e-12 * held);
+      EXPECT_NEAR(inner_path<2>(lossless, spring_table({}, h), way.nodes, h).loss[1].damper, 0.0,
+                  1e-12 * held);
     }
     const contact::Support damped{contact::Stop{}, {stiffness, 0.5 * touch * h * stiffness}, {}};
     const Straight leaves(damped, touch, -speed);
     const double cut = 0.5 * touch * h,
                  force = stiffness * speed * cut; // F = K |p'| (touch h - t) - C |p'|, up to t = touch h/2
-    EXPECT_NEAR(inner_path(damped, spring_table({}, h), leaves.nodes, h).loss[1].damper,
+    EXPECT_NEAR(inner_path<2>(damped, spring_table({}, h), leaves.nodes, h).loss[1].damper,
                 damped.normal.damping * speed * speed * cut + 0.5 * stiffness * speed * speed * cut * cut,
                 0.03 * force * speed * h);
   }
@@ -97,7 +98,7 @@ TEST(InnerPath, FollowsASlideThatEndsAndTurnsRound) {
       nodes[j].spring.t = -bound; // slid for long
       nodes[j].friction.t = nodes[j].slip.t > 0.0 ? -bound : bound;
     }
-    const InnerPath inner = inner_path(support, spring_table(support.friction, h), nodes, h);
+    const InnerPath inner = inner_path<2>(support, spring_table(support.friction, h), nodes, h);
     EXPECT_TRUE(changes_inside(support, nodes));
     // in many small parts
     double spring = -bound, impulse = 0.0, slider = 0.0;
@@ -140,7 +141,7 @@ TEST(InnerPath, SlidesOnAtTheDynamicCoefficient) {
       nodes[j].spring.t = j > 0 ? -0.3 * press : 0.0;
     }
     ASSERT_TRUE(changes_inside(support, nodes));
-    const InnerPath inner = inner_path(support, spring_table(support.friction, h), nodes, h);
+    const InnerPath inner = inner_path<2>(support, spring_table(support.friction, h), nodes, h);
     EXPECT_NEAR(inner.force[1].spring.t + spring_table(support.friction, h).keep * inner.force[0].spring.t,
                 0.0, 0.02 * press);
     double spring = 0.0, impulse = 0.0;

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Vectors of the tangent plane of a contact with D directions: where nothing moves along x_loc (D = 2) they are numbers, along t, and
+/// need neither roots nor divisions.
+#pragma once
+#include "contact/vec2.hpp"
+#include <cmath>
+#include <type_traits>
+
+namespace fretwork::transient {
+
+template <int D> using Tangential = std::conditional_t<D == 2, double, contact::Vec2>;
+template <int D> Tangential<D> tangential(contact::Vec2 v) {
+  if constexpr (D == 2)
+    return v.t;
+  else
+    return v;
+}
+inline contact::Vec2 in_plane(double v) { return {0.0, v}; }
+inline contact::Vec2 in_plane(contact::Vec2 v) { return v; }
+
+inline double dot(double a, double b) { return a * b; }
+inline double norm(double v) { return std::abs(v); }
+/// v with another length than its own.
+inline double with_length(double length, double v, double) { return std::copysign(length, v); }
+inline contact::Vec2 with_length(double length, contact::Vec2 v, double own) { return (length / own) * v; }
+
+} // namespace fretwork::transient
