@@ -3,6 +3,7 @@
 /// A contact at a node of a step of collocation, and its friction spring over half a step.
 #pragma once
 #include "contact/support.hpp"
+#include <array>
 
 namespace fretwork::transient {
 
@@ -28,6 +29,11 @@ struct ContactNode {
   bool slides = false;
   InnerForce inner;
 };
+
+/// Of the laws on the node, along the local axes y, z, x, N.
+[[nodiscard]] inline std::array<double, 3> force_of_laws(const ContactNode& n) {
+  return {n.normal * n.ny + n.friction.t * n.nz, n.normal * n.nz - n.friction.t * n.ny, n.friction.x};
+}
 
 /// Coefficients of a friction spring over the half steps before the nodes 1/2 and 1.
 struct SpringTable {

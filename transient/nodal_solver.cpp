@@ -10,7 +10,7 @@ namespace {
 using namespace kernels;
 
 /// Sweeps stop when what is still to come is below this share of the force: far below what a step leaves at its finest.
-constexpr double sweep_tolerance = 1e-9;
+constexpr double sweep_tolerance = 1e-11;
 constexpr int patient = 20, most_sweeps = 60;
 /// The same of a step with contacts that change inside it, whose paths are not told better.
 constexpr double kink_tolerance = 1e-7;
@@ -18,6 +18,7 @@ constexpr double kink_tolerance = 1e-7;
 constexpr double path_tolerance = 1e-2;
 /// Times that the paths inside a step are followed: a third time changes next to nothing, and without the second errors below 1e-4 grow.
 constexpr int paths = 2;
+
 /// Bound of contact::Reach: false where the node is surely out of its obstacle.
 bool may_touch(const ReachLanes& r, std::size_t c, double y, double z) {
   y += r.rest_y[c];
@@ -32,35 +33,31 @@ bool may_touch(const ReachLanes& r, std::size_t c, double y, double z) {
 
 NodalSolver::NodalSolver(const PackedContacts& contacts) : contacts_(contacts) {
   const auto count = static_cast<std::size_t>(contacts.count);
-  nodes_.resize(3 * count);
+  swept_.reserve(count);
+  for (int c = 0; c < contacts.count; ++c)
+    swept_.emplace_back(contacts, c);
   active_.reserve(count);
-  taking_part_.assign(count, 0);
-  changes_inside_.assign(count, 0);
-  inner_losses_.resize(count);
   alive_.reserve(count);
   row_.reserve(3 * count);
   factor_.reserve(3 * count);
-  places_.reserve(count);
-  for (int c = 0; c < contacts.count; ++c)
-    places_.emplace_back(contacts, c, &nodes_[3 * static_cast<std::size_t>(c)]);
 }
 
 void NodalSolver::start(NodalMotion& motion) {
-  for (int c = 0; c < contacts_.count; ++c) {
-    meet_start(places_[c], motion);
-    const contact::Support& support = contacts_.supports[c];
-    ContactNode& node = nodes_[3 * static_cast<std::size_t>(c)];
+  for (SweptContact& swept : swept_) {
+    meet_start(swept, motion);
+    const contact::Support& support = *swept.support;
+    ContactNode& node = swept.node[0];
     node.normal = contact::normal_force(support.normal, node.penetration, node.rate);
     node.approach = node.rate;
     if (node.penetration > 0.0 || node.normal > 0.0)
-      alive_.push_back(c);
+      alive_.push_back(swept.contact);
     if (!(node.normal > 0.0))
       continue;
     node.face_y = node.ny;
     node.face_z = node.nz;
     if (!support.friction.active())
       continue;
-    const auto friction = contacts_.in_plane[c]
+    const auto friction = swept.in_plane
                               ? contact::evaluate(support.friction, {}, node.normal, {}, node.slip)
                               : contact::evaluate_line(support.friction, {}, node.normal, 0.0, node.slip.t);
     node.friction = friction.force;
@@ -69,9 +66,9 @@ void NodalSolver::start(NodalMotion& motion) {
 }
 
 bool NodalSolver::solve(const NodalTables& tables, NodalMotion& motion) {
+  for (SweptContact* swept : active_)
+    swept->takes_part = false;
   active_.clear();
-  std::fill(taking_part_.begin(), taking_part_.end(), 0);
-  std::fill(changes_inside_.begin(), changes_inside_.end(), 0);
   inner_paths_ = false;
   (void)admit(tables, motion);
   changes_ = {};
@@ -100,17 +97,16 @@ bool NodalSolver::settle_all(const NodalTables& tables, NodalMotion& motion, dou
 /// Finds what the paths of contacts inside the step add to their forces. Returns whether there is any.
 bool NodalSolver::follow_paths(NodalMotion& motion) {
   bool any = false;
-  for (ActiveContact& active : active_) {
-    const auto c = static_cast<std::size_t>(active.place->contact);
-    changes_inside_[c] = changes_inside_[c] || changes_inside(contacts_.supports[c], &nodes_[3 * c]);
-    if (!changes_inside_[c])
+  for (SweptContact* swept : active_) {
+    swept->has_path = swept->has_path || changes_inside(*swept->support, swept->node);
+    if (!swept->has_path)
       continue;
     any = true;
-    inner_losses_[c] = follow_path(active, motion);
+    follow_path(*swept, motion);
   }
-  for (const ActiveContact& active : active_) // when all paths are known, whatever their order
-    if (changes_inside_[static_cast<std::size_t>(active.place->contact)])
-      add_response(active, active.path_change, motion);
+  for (const SweptContact* swept : active_) // when all paths are known, whatever their order
+    if (swept->has_path)
+      add_response(*swept, swept->path_change, motion);
   inner_paths_ = inner_paths_ || any;
   return any;
 }
@@ -120,30 +116,25 @@ bool NodalSolver::admit(const NodalTables& tables, NodalMotion& motion) {
   const std::size_t before = active_.size();
   const auto width = static_cast<std::size_t>(contacts_.width);
   const double *u1 = motion.u(1), *u2 = motion.u(2);
-  for (int c = 0; c < contacts_.count; ++c) {
-    const auto i = static_cast<std::size_t>(c);
-    ContactNode* node = &nodes_[3 * i];
+  for (SweptContact& swept : swept_) {
+    const auto i = static_cast<std::size_t>(swept.contact);
+    ContactNode* node = swept.node;
     const bool was_closed = node[0].normal > 0.0;
-    if (taking_part_[i] || !(was_closed || may_touch(contacts_.reach, i, u1[i], u1[width + i]) ||
-                             may_touch(contacts_.reach, i, u2[i], u2[width + i])))
+    if (swept.takes_part || !(was_closed || may_touch(contacts_.reach, i, u1[i], u1[width + i]) ||
+                              may_touch(contacts_.reach, i, u2[i], u2[width + i])))
       continue;
-    const ContactPlace& place = places_[i];
-    meet_ends(place, motion);
+    meet_ends(swept, motion);
     if (!(was_closed || node[1].penetration >= 0.0 || node[2].penetration >= 0.0))
       continue;
-    taking_part_[i] = 1;
-    node[1].inner = node[2].inner = {};
-    ActiveContact& active = active_.emplace_back(place, tables);
+    swept.join(tables);
+    active_.push_back(&swept);
     if (!was_closed) {
-      meet_start(place, motion);
+      meet_start(swept, motion);
       continue;
     }
-    for (auto& force : active.force) { // as at the start of the step
-      force[0] = node[0].normal * node[0].ny + node[0].friction.t * node[0].nz;
-      force[1] = node[0].normal * node[0].nz - node[0].friction.t * node[0].ny;
-      force[2] = node[0].friction.x;
-    }
-    add_response(active, active.force, motion);
+    for (auto& force : swept.force) // as at the start of the step
+      std::ranges::copy(force_of_laws(node[0]), force);
+    add_response(swept, swept.force, motion);
   }
   return active_.size() > before;
 }
@@ -154,8 +145,8 @@ bool NodalSolver::settle(NodalMotion& motion, double tolerance) {
     if (changes_.within(tolerance))
       return true;
     double largest = 0.0;
-    for (ActiveContact& active : active_) {
-      const double change = improve(active, motion, k < patient ? 1.0 : 0.5);
+    for (SweptContact* swept : active_) {
+      const double change = improve(*swept, motion, k < patient ? 1.0 : 0.5);
       if (!(change < 1e6)) // not a number, or running away
         return false;
       largest = std::max(largest, change);
@@ -173,30 +164,28 @@ bool NodalSolver::Changes::within(double tolerance) const {
 /// The laws at the motion found, and the springs of the contacts that are open.
 void NodalSolver::finish(const NodalTables& tables, NodalMotion& motion) {
   alive_.clear();
-  for (const ActiveContact& active : active_)
-    evaluate(active, motion);
-  for (int c = 0; c < contacts_.count; ++c) {
-    const auto i = static_cast<std::size_t>(c);
-    ContactNode* node = &nodes_[3 * i];
-    if (!taking_part_[i]) {
+  for (SweptContact* swept : active_)
+    evaluate(*swept, motion);
+  for (SweptContact& swept : swept_) {
+    ContactNode* node = swept.node;
+    if (!swept.takes_part) {
       if (!(contact::dot(node[0].spring, node[0].spring) > 0.0))
         continue;
-      leave(c, tables);
-    }
-    if (taking_part_[i])
+      leave(swept, tables);
+    } else {
       for (int j = 1; j <= 2; ++j)
         node[j].loaded = node[j].normal > 0.0 ? contact::norm(node[j].spring) : node[j - 1].loaded;
+    }
     for (int j = 1; j <= 2; ++j)
       node[j].approach = node[j - 1].normal > 0.0 ? node[j].rate : node[j - 1].rate;
-    alive_.push_back(c);
+    alive_.push_back(swept.contact);
   }
 }
 
 /// A contact that stays open: its spring dies out.
-void NodalSolver::leave(int c, const NodalTables& tables) {
-  const auto i = static_cast<std::size_t>(c);
-  ContactNode* node = &nodes_[3 * i];
-  const SpringTable& table = tables.springs[i];
+void NodalSolver::leave(SweptContact& swept, const NodalTables& tables) {
+  ContactNode* node = swept.node;
+  const double keep = tables.springs[static_cast<std::size_t>(swept.contact)].keep;
   for (int j = 1; j <= 2; ++j) {
     node[j].penetration = node[j].normal = 0.0;
     node[j].inner = {};
@@ -204,7 +193,7 @@ void NodalSolver::leave(int c, const NodalTables& tables) {
     node[j].slides = false;
     node[j].face_y = node[j - 1].face_y;
     node[j].face_z = node[j - 1].face_z;
-    node[j].spring = table.keep * node[j - 1].spring;
+    node[j].spring = keep * node[j - 1].spring;
     node[j].loaded = node[j - 1].loaded;
     if (contact::norm(node[j].spring) < forgotten * node[j].loaded)
       node[j].spring = {};
@@ -213,7 +202,7 @@ void NodalSolver::leave(int c, const NodalTables& tables) {
 
 void NodalSolver::accept() {
   for (const int c : alive_)
-    nodes_[3 * static_cast<std::size_t>(c)] = nodes_[3 * static_cast<std::size_t>(c) + 2];
+    swept_[c].node[0] = swept_[c].node[2];
 }
 
 void NodalSolver::add_forces(int j, bool inner, double* target) {
@@ -224,10 +213,12 @@ void NodalSolver::add_forces(int j, bool inner, double* target) {
     factor_.push_back(factor);
   };
   for (const int c : alive_) {
-    const ContactNode& node = nodes_[3 * static_cast<std::size_t>(c) + static_cast<std::size_t>(j)];
+    const ContactNode& node = swept_[c].node[j];
     const InnerForce more = inner ? node.inner : InnerForce{};
-    const double y = node.normal * node.ny + node.friction.t * node.nz + more.y,
-                 z = node.normal * node.nz - node.friction.t * node.ny + more.z, x = node.friction.x + more.x;
+    auto [y, z, x] = force_of_laws(node);
+    y += more.y;
+    z += more.z;
+    x += more.x;
     if (y == 0.0 && z == 0.0 && x == 0.0)
       continue;
     add(contacts_.row(c, 0), y);
@@ -242,16 +233,15 @@ void NodalSolver::add_forces(int j, bool inner, double* target) {
 double NodalSolver::power(int j, const Array& velocity) const {
   if (velocity.empty())
     return 0.0;
-  const auto width = static_cast<std::size_t>(contacts_.width);
   double sum = 0.0;
   for (const int c : alive_) {
-    const auto i = static_cast<std::size_t>(c);
-    const ContactNode& node = nodes_[3 * i + static_cast<std::size_t>(j)];
+    const SweptContact& swept = swept_[c];
+    const ContactNode& node = swept.node[j];
     const InnerForce more = j > 0 ? node.inner : InnerForce{};
-    sum += (node.normal * node.ny + node.friction.t * node.nz + more.y) * velocity[i] +
-           (node.normal * node.nz - node.friction.t * node.ny + more.z) * velocity[width + i];
-    if (contacts_.in_plane[i])
-      sum += (node.friction.x + more.x) * velocity[2 * width + i];
+    const auto [y, z, x] = force_of_laws(node);
+    sum += (y + more.y) * velocity[swept.y] + (z + more.z) * velocity[swept.z];
+    if (swept.in_plane)
+      sum += (x + more.x) * velocity[swept.x];
   }
   return sum;
 }
@@ -259,9 +249,8 @@ double NodalSolver::power(int j, const Array& velocity) const {
 double NodalSolver::spring_energy(int j) const {
   double sum = 0.0;
   for (const int c : alive_) {
-    const auto i = static_cast<std::size_t>(c);
-    const ContactNode& node = nodes_[3 * i + static_cast<std::size_t>(j)];
-    const contact::Support& support = contacts_.supports[i];
+    const ContactNode& node = swept_[c].node[j];
+    const contact::Support& support = *swept_[c].support;
     if (node.penetration > 0.0)
       sum += 0.5 * support.normal.stiffness * node.penetration * node.penetration;
     sum += contact::spring_energy(support.friction, {node.spring, false});

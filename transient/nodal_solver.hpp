@@ -4,12 +4,12 @@
 ///     u_j = u_j^free + sum_k Wq_jk f_k,   v_j = v_j^free + sum_k Wv_jk f_k,   f_j = laws(u_j, v_j, springs),   j, k = 1/2, 1
 /// W: nodal_tables.hpp. Only contacts take part that were closed at the node 0 or penetrate at another one, in the motion without
 /// new forces or in that of the forces found (tested again until none is left out). Block Gauss-Seidel: one Newton step of one contact
-/// at a time, all lanes answer. Its matrix is kept while the laws stay in their branches and the changes fall. Changes that do not
-/// settle within some sweeps are halved (an iteration that goes to and fro between two branches); what does not settle then is a
-/// failure, and the caller takes a smaller step. Contacts that change their branch inside the step have their paths there followed
-/// (inner_path.hpp), twice: first along the motion without what these add, then along the one with it.
+/// at a time, all lanes answer (swept_contact.hpp). Changes that do not settle within some sweeps are halved (an iteration that goes to
+/// and fro between two branches); what does not settle then is a failure, and the caller takes a smaller step. Contacts that change
+/// their branch inside the step have their paths there followed (inner_path.hpp), twice: first along the motion without what these add,
+/// then along the one with it.
 #pragma once
-#include "transient/active_contact.hpp"
+#include "transient/swept_contact.hpp"
 
 namespace fretwork::transient {
 
@@ -26,15 +26,14 @@ public:
   /// Node 1 becomes node 0.
   void accept();
 
-  [[nodiscard]] const ContactNode* nodes(int contact) const {
-    return &nodes_[3 * static_cast<std::size_t>(contact)];
-  }
+  /// The three nodes of a contact.
+  [[nodiscard]] const ContactNode* nodes(int contact) const { return swept_[contact].node; }
   /// Contacts with a force at one of the nodes of the step or with a loaded spring.
   [[nodiscard]] const std::vector<int>& alive() const { return alive_; }
   /// Losses of a contact that has an inner path, else null.
   [[nodiscard]] const PathLoss* inner_losses(int contact) const {
-    const auto c = static_cast<std::size_t>(contact);
-    return changes_inside_[c] ? inner_losses_[c].data() : nullptr;
+    const SweptContact& swept = swept_[contact];
+    return swept.takes_part && swept.has_path ? swept.losses.data() : nullptr;
   }
   /// target += B^T f at a node of the step: of the laws, and of what inner paths add.
   void add_forces(int node, double* target) { add_forces(node, true, target); }
@@ -46,7 +45,11 @@ public:
   [[nodiscard]] double power(int node, const kernels::Array& velocity) const;
   /// Energy of all springs at a node, J.
   [[nodiscard]] double spring_energy(int node) const;
-  void visit(core::StateArchive& state) { state(nodes_, alive_, inner_paths_); }
+  void visit(core::StateArchive& state) {
+    for (SweptContact& swept : swept_)
+      state(swept);
+    state(alive_, inner_paths_);
+  }
 
 private:
   /// The largest changes of the last two sweeps, relative to the forces.
@@ -61,18 +64,14 @@ private:
   [[nodiscard]] bool settle(NodalMotion& motion, double tolerance);
   void add_forces(int node, bool inner, double* target);
   void finish(const NodalTables& tables, NodalMotion& motion);
-  void leave(int contact, const NodalTables& tables);
+  void leave(SweptContact& contact, const NodalTables& tables);
 
   const PackedContacts& contacts_;
-  std::vector<ContactNode> nodes_; ///< 3 of each contact
-  std::vector<ContactPlace> places_;
-  std::vector<ActiveContact> active_;
-  std::vector<char> taking_part_;
+  std::vector<SweptContact> swept_;   ///< all contacts
+  std::vector<SweptContact*> active_; ///< those that take part in the step
   std::vector<int> alive_;
   std::vector<const double*> row_;
   std::vector<double> factor_;
-  std::vector<char> changes_inside_; ///< in this step
-  std::vector<std::array<PathLoss, 2>> inner_losses_;
   bool inner_paths_ = false;
   Changes changes_;
 };

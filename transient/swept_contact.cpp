@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "transient/active_contact.hpp"
+#include "transient/swept_contact.hpp"
 #include "transient/nodal_contact.hpp"
 #include "transient/vector_lanes.hpp"
 #include <Eigen/LU>
@@ -9,7 +9,7 @@ namespace fretwork::transient {
 namespace {
 
 using namespace kernels;
-using Forces = ActiveContact::Forces;
+using Forces = SweptContact::Forces;
 
 /// Of K_N times the distance of the node from its obstacle's centre: round-off of the penetration.
 constexpr double round_off = 1e-15;
@@ -42,21 +42,21 @@ FRETWORK_INLINE void add_columns(std::size_t length, const double* first, const 
   }
 }
 template <class V, int D>
-FRETWORK_INLINE void add_response_by(const ActiveContact& a, const Forces& change, NodalMotion& motion) {
+FRETWORK_INLINE void add_response_by(const SweptContact& a, const Forces& change, NodalMotion& motion) {
   const NodalTables& tables = *a.tables;
-  add_columns<V, D>(tables.length, tables.columns(a.place->contact, 1), tables.columns(a.place->contact, 2),
-                    change, motion.ends.data());
+  add_columns<V, D>(tables.length, tables.columns(a.contact, 1), tables.columns(a.contact, 2), change,
+                    motion.ends.data());
 }
 
 /// At the nodes from `first` on. @param u, v  lanes at the node `first`, `stride` on at the next ones
 template <int D, int nodes>
-FRETWORK_INLINE void meet_by(const ContactPlace& place, const double* u, const double* v, std::size_t stride,
+FRETWORK_INLINE void meet_by(SweptContact& a, const double* u, const double* v, std::size_t stride,
                              ContactNode* node) {
   double y[nodes], z[nodes];
 #pragma GCC unroll 2
   for (int j = 0; j < nodes; ++j) {
-    y[j] = u[j * stride + place.y] + place.rest_y;
-    z[j] = u[j * stride + place.z] + place.rest_z;
+    y[j] = u[j * stride + a.y] + a.rest_y;
+    z[j] = u[j * stride + a.z] + a.rest_z;
   }
   contact::Location at[nodes];
   std::visit( // once for all
@@ -65,11 +65,11 @@ FRETWORK_INLINE void meet_by(const ContactPlace& place, const double* u, const d
         for (int j = 0; j < nodes; ++j)
           at[j] = contact::locate(obstacle, y[j], z[j]);
       },
-      place.support->obstacle);
-  const contact::Vec2 along = place.support->friction.along;
+      a.support->obstacle);
+  const contact::Vec2 along = a.support->friction.along;
 #pragma GCC unroll 2
   for (int j = 0; j < nodes; ++j) {
-    const double ny = at[j].ny, nz = at[j].nz, vy = v[j * stride + place.y], vz = v[j * stride + place.z],
+    const double ny = at[j].ny, nz = at[j].nz, vy = v[j * stride + a.y], vz = v[j * stride + a.z],
                  across = nz * vy - ny * vz;
     ContactNode& n = node[j];
     n.ny = ny;
@@ -79,40 +79,39 @@ FRETWORK_INLINE void meet_by(const ContactPlace& place, const double* u, const d
     n.across = across;
     n.slip.t = along.t * across;
     if constexpr (D == 3)
-      n.slip.x = along.x * v[j * stride + place.x];
+      n.slip.x = along.x * v[j * stride + a.x];
   }
 }
 
-template <int D> FRETWORK_INLINE NodalContact<D> laws_of(const ActiveContact& a, NodalMotion& motion) {
-  const ContactPlace& place = *a.place;
-  const auto c = static_cast<std::size_t>(place.contact);
-  meet_by<D, 2>(place, motion.u(1), motion.v(1), motion.stride, place.node + 1);
+template <int D> FRETWORK_INLINE NodalContact<D> laws_of(SweptContact& a, NodalMotion& motion) {
+  meet_by<D, 2>(a, motion.u(1), motion.v(1), motion.stride, a.node + 1);
   typename NodalContact<D>::Row local;
   for (int j = 0; j < 2; ++j) {
-    const ContactNode& at = place.node[j + 1];
+    const ContactNode& at = a.node[j + 1];
     const double* f = a.force[j];
     local[j * D] = at.ny * f[0] + at.nz * f[1];
     local[j * D + 1] = at.nz * f[0] - at.ny * f[1];
     if constexpr (D == 3)
       local[j * D + 2] = f[2];
   }
-  return {*place.support, a.tables->springs[c], place.node, local, a.tables->scales[c]};
+  const auto c = static_cast<std::size_t>(a.contact);
+  return {*a.support, a.tables->springs[c], a.node, local, a.tables->scales[c]};
 }
 
 /// A new matrix. Returns false where it is singular.
 template <int D>
-[[gnu::noinline]] bool renew(ActiveContact& a, const NodalContact<D>& laws, NodalMotion& motion) {
-  const ContactPlace& place = *a.place;
+[[gnu::noinline]] bool renew(SweptContact& a, const NodalContact<D>& laws, NodalMotion& motion) {
   for (int j = 1; j <= 2; ++j)
-    place.node[j].curvature = contact::curvature(place.support->obstacle, motion.u(j)[place.y] + place.rest_y,
-                                                 motion.u(j)[place.z] + place.rest_z);
+    a.node[j].curvature =
+        contact::curvature(a.support->obstacle, motion.u(j)[a.y] + a.rest_y, motion.u(j)[a.z] + a.rest_z);
   a.branches = laws.branches();
+  a.made_for = a.tables->step;
   a.last_change = 0.0;
-  return invert(laws.jacobian(a.tables->answer<D>(place.contact, place.node)), a.inverse);
+  return invert(laws.jacobian(a.tables->answer<D>(a.contact, a.node)), a.inverse);
 }
 
 template <class V, int D>
-FRETWORK_INLINE double improve_by(ActiveContact& a, NodalMotion& motion, double share) {
+FRETWORK_INLINE double improve_by(SweptContact& a, NodalMotion& motion, double share) {
   constexpr double none = std::numeric_limits<double>::infinity();
   const NodalContact<D> laws = laws_of<D>(a, motion);
   if (laws.branches() != a.branches && !renew(a, laws, motion))
@@ -125,17 +124,15 @@ FRETWORK_INLINE double improve_by(ActiveContact& a, NodalMotion& motion, double 
   const double largest = step.abs().maxCoeff(), force = (laws.forces().abs() + step.abs()).maxCoeff();
   Forces change;
   for (int j = 0; j < 2; ++j) {
-    const ContactNode& at = a.place->node[j + 1];
+    const ContactNode& at = a.node[j + 1];
     change[j][0] = at.ny * step[j * D] + at.nz * step[j * D + 1];
     change[j][1] = at.nz * step[j * D] - at.ny * step[j * D + 1];
     change[j][2] = D == 3 ? step[j * D + D - 1] : 0.0;
     for (int k = 0; k < D; ++k)
       a.force[j][k] += change[j][k];
   }
-  const ContactPlace& place = *a.place;
-  const double still =
-      round_off * place.support->normal.stiffness *
-      (std::abs(motion.u(1)[place.y] + place.rest_y) + std::abs(motion.u(1)[place.z] + place.rest_z));
+  const double still = round_off * a.support->normal.stiffness *
+                       (std::abs(motion.u(1)[a.y] + a.rest_y) + std::abs(motion.u(1)[a.z] + a.rest_z));
   add_response_by<V, D>(a, change, motion);
   if (a.last_change > 0.0 && !(largest < falling * a.last_change))
     a.branches = -1; // a new matrix next time
@@ -144,69 +141,76 @@ FRETWORK_INLINE double improve_by(ActiveContact& a, NodalMotion& motion, double 
 }
 
 template <class V>
-FRETWORK_INLINE double improve_line_on(ActiveContact& a, NodalMotion& motion, double share) {
+FRETWORK_INLINE double improve_line_on(SweptContact& a, NodalMotion& motion, double share) {
   return improve_by<V, 2>(a, motion, share);
 }
-FRETWORK_KERNEL(double, improve_line, (ActiveContact & a, NodalMotion& motion, double share),
+FRETWORK_KERNEL(double, improve_line, (SweptContact & a, NodalMotion& motion, double share),
                 (a, motion, share))
 template <class V>
-FRETWORK_INLINE double improve_plane_on(ActiveContact& a, NodalMotion& motion, double share) {
+FRETWORK_INLINE double improve_plane_on(SweptContact& a, NodalMotion& motion, double share) {
   return improve_by<V, 3>(a, motion, share);
 }
-FRETWORK_KERNEL(double, improve_plane, (ActiveContact & a, NodalMotion& motion, double share),
+FRETWORK_KERNEL(double, improve_plane, (SweptContact & a, NodalMotion& motion, double share),
                 (a, motion, share))
 template <class V>
-FRETWORK_INLINE void add_response_of_on(const ActiveContact& a, const Forces& change, NodalMotion& motion) {
-  if (a.place->in_plane)
+FRETWORK_INLINE void add_response_of_on(const SweptContact& a, const Forces& change, NodalMotion& motion) {
+  if (a.in_plane)
     add_response_by<V, 3>(a, change, motion);
   else
     add_response_by<V, 2>(a, change, motion);
 }
-FRETWORK_KERNEL(void, add_response_of, (const ActiveContact& a, const Forces& change, NodalMotion& motion),
+FRETWORK_KERNEL(void, add_response_of, (const SweptContact& a, const Forces& change, NodalMotion& motion),
                 (a, change, motion))
 
 } // namespace
 
-ContactPlace::ContactPlace(const PackedContacts& contacts, int c, ContactNode* nodes)
+SweptContact::SweptContact(const PackedContacts& contacts, int c)
     : contact(c), in_plane(contacts.in_plane[c]), y(c), z(y + contacts.width), x(z + contacts.width),
-      rest_y(contacts.reach.rest_y[c]), rest_z(contacts.reach.rest_z[c]), support(&contacts.supports[c]),
-      node(nodes) {}
+      rest_y(contacts.reach.rest_y[c]), rest_z(contacts.reach.rest_z[c]), support(&contacts.supports[c]) {}
 
-void meet_start(const ContactPlace& place, NodalMotion& motion) {
-  (place.in_plane ? meet_by<3, 1> : meet_by<2, 1>)(place, motion.u(0), motion.v(0), 0, place.node);
+void SweptContact::join(const NodalTables& of_step) {
+  takes_part = true;
+  tables = &of_step;
+  std::fill_n(force[0], 6, 0.0);
+  has_path = false;
+  node[1].inner = node[2].inner = {};
+  last_change = 0.0;
+  if (made_for != of_step.step)
+    branches = -1;
 }
 
-void meet_ends(const ContactPlace& place, NodalMotion& motion) {
-  (place.in_plane ? meet_by<3, 2> : meet_by<2, 2>)(place, motion.u(1), motion.v(1), motion.stride,
-                                                   place.node + 1);
+void meet_start(SweptContact& a, NodalMotion& motion) {
+  (a.in_plane ? meet_by<3, 1> : meet_by<2, 1>)(a, motion.u(0), motion.v(0), 0, a.node);
 }
 
-void add_response(const ActiveContact& a, const Forces& change, NodalMotion& motion) {
+void meet_ends(SweptContact& a, NodalMotion& motion) {
+  (a.in_plane ? meet_by<3, 2> : meet_by<2, 2>)(a, motion.u(1), motion.v(1), motion.stride, a.node + 1);
+}
+
+void add_response(const SweptContact& a, const Forces& change, NodalMotion& motion) {
   add_response_of(a, change, motion);
 }
 
-double improve(ActiveContact& a, NodalMotion& motion, double share) {
-  return (a.place->in_plane ? improve_plane : improve_line)(a, motion, share);
+double improve(SweptContact& a, NodalMotion& motion, double share) {
+  return (a.in_plane ? improve_plane : improve_line)(a, motion, share);
 }
 
-void evaluate(const ActiveContact& a, NodalMotion& motion) {
-  if (a.place->in_plane)
+void evaluate(SweptContact& a, NodalMotion& motion) {
+  if (a.in_plane)
     (void)laws_of<3>(a, motion);
   else
     (void)laws_of<2>(a, motion);
 }
 
-std::array<PathLoss, 2> follow_path(ActiveContact& a, NodalMotion& motion) {
+void follow_path(SweptContact& a, NodalMotion& motion) {
   evaluate(a, motion); // the laws of the last sweep are those before its change
   a.last_change = 0.0;
-  const ContactPlace& place = *a.place;
   const InnerPath path =
-      (place.in_plane ? inner_path<3>
-                      : inner_path<2>)(*place.support,
-                                       a.tables->springs[static_cast<std::size_t>(place.contact)], place.node,
-                                       a.tables->step);
+      (a.in_plane ? inner_path<3> : inner_path<2>)(*a.support,
+                                                   a.tables->springs[static_cast<std::size_t>(a.contact)],
+                                                   a.node, a.tables->step);
   for (int j = 0; j < 2; ++j) {
-    ContactNode& at = place.node[j + 1];
+    ContactNode& at = a.node[j + 1];
     const PathForce& by = path.force[j];
     const InnerForce now{at.ny * by.normal + at.nz * by.friction.t, at.nz * by.normal - at.ny * by.friction.t,
                          by.friction.x, at.inner.spring + by.spring};
@@ -215,7 +219,7 @@ std::array<PathLoss, 2> follow_path(ActiveContact& a, NodalMotion& motion) {
     a.path_change[j][2] = now.x - at.inner.x;
     at.inner = now;
   }
-  return {path.loss[0], path.loss[1]};
+  a.losses = {path.loss[0], path.loss[1]};
 }
 
 } // namespace fretwork::transient
