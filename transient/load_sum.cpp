@@ -16,6 +16,9 @@ LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double dura
     if (same == functions.end()) {
       functions.push_back(&load.function);
       signals_.emplace_back(load.function, duration);
+      const auto* harmonic = std::get_if<Harmonic>(&load.function);
+      sines_.push_back(harmonic && step > 0.0 ? std::optional<GridSine>({*harmonic, 0.5 * step})
+                                              : std::nullopt);
       shapes_.resize(shapes_.size() + static_cast<std::size_t>(padded_modes_), 0.0);
       constant_ = constant_ && signals_.back().is_constant();
     }
@@ -28,33 +31,36 @@ LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double dura
 template <class Value> void LoadSum::combine(double time, const Value& value, double* force) {
   const SampleGrid* grid = nullptr; // of the last random signal: those of a study mostly share one
   SampleGrid::Place place{};
-  double* out = values_.data();
-  for (const Signal& signal : signals_) {
+  for (std::size_t k = 0; k < signals_.size(); ++k) {
+    const Signal& signal = signals_[k];
     if (!signal.is_random()) {
-      *out++ = value(signal);
+      values_[k] = value(k);
       continue;
     }
     if (!grid || *grid != signal.grid())
       place = signal.grid().place(time);
     grid = &signal.grid();
-    *out++ = signal.at(place);
+    values_[k] = signal.at(place);
   }
   kernels::combine(padded_modes_, static_cast<int>(signals_.size()), shapes_.data(), values_.data(), force);
 }
 
 void LoadSum::at(double time, double* force) {
-  combine(
-      time, [&](const Signal& signal) { return signal.over_step(time, step_); }, force);
+  at(time, {std::max(0.0, time - 0.5 * step_), time + 0.5 * step_}, force);
 }
 
 void LoadSum::at(double time, Signal::Window window, double* force) {
   combine(
-      time, [&](const Signal& signal) { return signal.over_step(time, step_, window); }, force);
+      time,
+      [&](std::size_t k) {
+        return sines_[k] ? (*sines_[k])(time) : signals_[k].over_step(time, step_, window);
+      },
+      force);
 }
 
 void LoadSum::instant(double time, double* force) {
   combine(
-      time, [&](const Signal& signal) { return signal(time); }, force);
+      time, [&](std::size_t k) { return signals_[k](time); }, force);
 }
 
 } // namespace fretwork::transient

@@ -3,8 +3,10 @@
 /// The loads of a scene as one modal force: loads that follow the same function of time are added before the
 /// run.
 #pragma once
+#include "transient/grid_sine.hpp"
 #include "transient/kernels.hpp"
 #include "transient/scene.hpp"
+#include <optional>
 
 namespace fretwork::transient {
 
@@ -23,13 +25,14 @@ public:
   void instant(double time, double* force);
 
 private:
-  /// The force at a time by the values of the signals, those that are not random as `value` has them.
+  /// The force at a time by the values of the signals, those that are not random as value(k) has them.
   template <class Value> void combine(double time, const Value& value, double* force);
 
   int padded_modes_;
   double step_;
   bool constant_ = true;
   std::vector<Signal> signals_;
+  std::vector<std::optional<GridSine>> sines_; ///< of the harmonic ones, on half steps
   kernels::Array shapes_, values_;
 };
 

@@ -283,7 +283,7 @@ TEST(StepRule, TakesSplittingWhereCollocationCannotTakeTheScene) {
 
 TEST(StepRule, WeighsAStepOfCollocationByADampingMatrix) {
   Scene scene = vibrating(scene_with({Circle{0.1}, {8e4}, {}}, 1000.0, Vec3(0, 8e8, 0)));
-  for (const auto& [contacts, times] : {std::pair(1, "3.7"), std::pair(10, "5.5"), std::pair(40, "7")}) {
+  for (const auto& [contacts, times] : {std::pair(1, "3.3"), std::pair(10, "4"), std::pair(40, "6")}) {
     Scene many = scene;
     many.contacts.assign(static_cast<std::size_t>(contacts), scene.contacts[0]);
     const StepChoice choice = choose_step(many, {});
