@@ -3,8 +3,7 @@
 /// Strang splitting of the modal motion and the contact forces, order 2 in displacement, velocity and force,
 /// with damping and friction.
 ///
-/// Between instants t_k = (k + 1/2) h the modes move freely: exact flow, loads linear in time
-/// (oscillator.hpp; matrix_flow.hpp where a damping matrix couples them). At t_k the contacts act once for the whole step: contact_solver.hpp, with
+/// Between instants t_k = (k + 1/2) h the modes move freely: loaded_flow.hpp. At t_k the contacts act once for the whole step: contact_solver.hpp, with
 /// residual flexibility flexible_contacts.hpp.
 /// Stability: w_c h < 2.7, w_c^2 the largest eigenvalue of K_N^1/2 W K_N^1/2; h w_max away from multiples of
 /// pi (mass_scaling.hpp). Accuracy asks for less (step_rule.hpp). Cost: one evaluation of the contacts a step. Energy: the work
@@ -20,11 +19,9 @@
 /// clearance.
 #include "transient/flexible_contacts.hpp"
 #include "transient/flights.hpp"
-#include "transient/load_sum.hpp"
+#include "transient/loaded_flow.hpp"
 #include "transient/mass_scaling.hpp"
-#include "transient/matrix_flow.hpp"
 #include "transient/obstacle_motion.hpp"
-#include "transient/oscillator.hpp"
 #include "transient/sliding_paths.hpp"
 #include <algorithm>
 #include <cmath>
@@ -37,41 +34,17 @@ namespace {
 /// Of a contact's clearance.
 constexpr double longest_flight = 0.25;
 
-/// Coupled modes stay where they are: their flow follows the table's.
-kernels::FlowTable flow_table(const System& system, const MatrixFlow& coupled, double h) {
-  kernels::FlowTable t(kernels::padded(static_cast<int>(system.size())));
-  for (Eigen::Index j = 0; j < system.size(); ++j) {
-    constexpr StepCoefficients none{1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0};
-    const double k = system.stiffness(j);
-    t.set(j, k, coupled.couples(j) ? none : step_coefficients(k, system.damping(j), h));
-  }
-  return t;
-}
-
 class Splitting final : public Scheme {
 public:
   /// @param scene  in the coordinates p of mass_scaling.hpp   @param shown  n, q = shown p; empty: all 1
   /// @param flight  the most steps of a flight; 1: none
   Splitting(const Scene& scene, double step, const Eigen::VectorXd& shown, int flight)
-      : system_(with_diagonal(scene.system)), h_(step),
-        loads_(scene.loads, scene.system.size(), scene.duration, step),
-        contacts_(scene.contacts, scene.system.size()), motion_(contacts_),
+      : h_(step), modes_(scene, step), contacts_(scene.contacts, scene.system.size()), motion_(contacts_),
         obstacles_(scene, contacts_, step), carried_(obstacles_.room()), memory_(contacts_, step),
         solver_(contacts_, step), trial_(contacts_.count),
-        paths_(contacts_, step, scene.residual.size() == 0), rows_(contacts_), coupled_(system_, step),
-        first_(flow_table(system_, coupled_, 0.5 * step)), full_(flow_table(system_, coupled_, step)),
-        duration_(scene.duration) {
-    const auto n = static_cast<std::size_t>(contacts_.padded_modes);
-    for (kernels::Array* a :
-         {&q_, &v_, &k_, &f_now_, &f_next_, &slope_, &impulse_, &far_q_, &far_v_, &far_f_})
-      a->assign(n, 0.0);
-    std::copy_n(scene.q0.data(), scene.q0.size(), q_.begin());
-    std::copy_n(scene.v0.data(), scene.v0.size(), v_.begin());
-    std::copy_n(system_.stiffness.data(), system_.size(), k_.begin());
-    // With the slopes from the start to h/2 and on to 3h/2 the first two forces weigh h/4 and 3h/4: both stand for the first step.
-    loads_.at(0.0, {0.0, step}, f_now_.data());
-    const double moving = 0.5 * twice_energy();
-    motion_.gather(q_.data(), v_.data());
+        paths_(contacts_, step, scene.residual.size() == 0), rows_(contacts_), duration_(scene.duration),
+        size_(scene.system.size()), impulse_(modes_.q.size(), 0.0), shown_q_(modes_.q.size(), 0.0) {
+    motion_.gather(modes_.q.data(), modes_.v.data());
     obstacles_.at(0.0, carried_);
     carried_.add_to(motion_);
     double given = 0.0; // J, of the residual flexibility
@@ -83,15 +56,14 @@ public:
     near_only_ = !flexible_ && carried_.u.empty() && !(solver_.window() > 0.0);
     if (may_fly(scene))
       for (int length = flight; length > 1 && far_.size() < 3; length /= 2)
-        far_.push_back({length, flow_table(system_, coupled_, length * step)});
-    record_.energy.initial = record_.energy.throughput = moving + motion_.spring_energy() + given;
+        far_.push_back(modes_.flight(length));
+    record_.energy.initial = record_.energy.throughput = modes_.energy() + motion_.spring_energy() + given;
     press_from_start();
-    after_action_ = 0.5 * twice_energy();
+    after_action_ = modes_.energy();
     if (shown.size() > 0) {
-      shown_.assign(n, 0.0);
+      shown_.assign(modes_.q.size(), 0.0);
       std::copy_n(shown.data(), shown.size(), shown_.begin());
     }
-    shown_q_.assign(n, 0.0);
     seen_ = speeds_ = motion_.u;
   }
 
@@ -122,79 +94,51 @@ public:
     // Exact flow from the last action under the load's slope of the step under way. The action stands for a
     // force f over the step around it: its impulse is spread out, so that the velocity is of order 2 at any
     // instant and not only in the middle between two actions.
-    const double t = time - time_, span = next_time() - time_;
-    const double share = steps_ > 0 ? t / h_ - 0.5 : t / h_; // the start is in the middle between actions
-    if (!loads_.empty()) {
-      loads_.at(next_time(), f_next_.data());
-      for (std::size_t i = 0; i < slope_.size(); ++i)
-        slope_[i] = (f_next_[i] - f_now_[i]) / span;
-    }
-    for (Eigen::Index j = 0; j < system_.size(); ++j) {
-      if (coupled_.couples(j))
-        continue;
-      const auto i = static_cast<std::size_t>(j);
-      const DenseCoefficients d = dense_coefficients(system_.stiffness(j), system_.damping(j), t);
-      q[j] = d.qq * q_[i] + d.qv * v_[i] + d.qf * f_now_[i] + d.qs * slope_[i];
-      v[j] = d.vq * q_[i] + d.vv * v_[i] + d.vf * f_now_[i] + d.vs * slope_[i];
-    }
-    coupled_.inside(t, q_.data(), v_.data(), f_now_.data(), slope_.data(), q, v);
+    modes_.state_at(time, stride_, q, v);
+    const double t = time - modes_.time();
+    const double share =
+        modes_.steps() > 0 ? t / h_ - 0.5 : t / h_; // the start is in the middle between actions
     std::fill(impulse_.begin(), impulse_.end(), 0.0);
     rows_.add_to(impulse_.data());
-    for (Eigen::Index j = 0; j < system_.size(); ++j) {
+    for (Eigen::Index j = 0; j < size_; ++j) {
       const double impulse = impulse_[static_cast<std::size_t>(j)];
       q[j] += 0.5 * (share * share - 1.0 / 12.0) * h_ * impulse; // nothing in the mean over the step
       v[j] += share * impulse;
     }
     if (!shown_.empty())
-      for (Eigen::Index j = 0; j < system_.size(); ++j) {
+      for (Eigen::Index j = 0; j < size_; ++j) {
         q[j] *= shown_[static_cast<std::size_t>(j)];
         v[j] *= shown_[static_cast<std::size_t>(j)];
       }
   }
 
   void load_at(double time, double* force) override {
-    if (loads_.empty()) {
-      std::fill_n(force, system_.size(), 0.0);
-      return;
-    }
-    loads_.instant(time, f_next_.data());
-    std::copy_n(f_next_.data(), system_.size(), force);
+    modes_.load_at(time, force);
     if (!shown_.empty())
-      for (Eigen::Index j = 0; j < system_.size(); ++j)
+      for (Eigen::Index j = 0; j < size_; ++j)
         force[j] /= shown_[static_cast<std::size_t>(j)];
   }
 
-  [[nodiscard]] double next_time() const override { return instant(stride_); }
+  [[nodiscard]] double next_time() const override { return modes_.instant(stride_); }
 
   [[nodiscard]] StepCounts counts() const override {
-    return {steps_, 0, contacts_.count > 0 ? steps_ - flown_ : 0, unconverged_, h_, h_};
+    return {modes_.steps(), 0, contacts_.count > 0 ? modes_.steps() - flown_ : 0, unconverged_, h_, h_};
   }
 
   void visit(core::StateArchive& state) override {
-    state(steps_, unconverged_, time_, q_, v_, f_now_, trial_, paths_, memory_);
+    state(modes_, unconverged_, trial_, paths_, memory_);
     state(record_.energy, moving_, after_action_, load_work_, lost_);
     if (flexible_)
       state(*flexible_);
-    if (steps_ > 0)
+    if (modes_.steps() > 0)
       rows_.set(trial_, h_);
     state(stride_, flown_, wait_);
-    for (const Flight& flight : far_)
+    for (const LoadedFlow::Flight& flight : far_)
       if (flight.steps == stride_)
         fly(flight);
   }
 
 private:
-  /// Steps made at once.
-  struct Flight {
-    int steps;
-    kernels::FlowTable table;
-  };
-
-  /// Of the action after so many more steps.
-  [[nodiscard]] double instant(int further) const {
-    return (static_cast<double>(steps_ + further) - 0.5) * h_;
-  }
-
   /// Contacts that are pressed at the start have been so: half a step after an action that stands for these forces modes are (h^2/24) W f
   /// before their mean between two actions. From the mean itself a tube that rests would ring, at w_c h = 1 with 4 % of its forces.
   void press_from_start() {
@@ -213,13 +157,13 @@ private:
     rows_.set(trial_, h_);
     trial_.clear();
     rows_.add_to(impulse_.data());
-    for (std::size_t i = 0; i < q_.size(); ++i)
-      q_[i] += h_ / 24.0 * impulse_[i];
+    for (std::size_t i = 0; i < impulse_.size(); ++i)
+      modes_.q[i] += h_ / 24.0 * impulse_[i];
   }
 
   /// Of the modes in the mean over the step, as `see` has the contacts; padded.
   const double* displacements() {
-    const double* mean = trial_.active.empty() && lean_ == 0.0 ? q_.data() : shown_q_.data();
+    const double* mean = trial_.active.empty() && lean_ == 0.0 ? modes_.q.data() : shown_q_.data();
     if (shown_.empty())
       return mean;
     for (std::size_t i = 0; i < shown_.size(); ++i)
@@ -229,24 +173,8 @@ private:
 
   /// From the last action (or the start) to the next.
   void flow() {
-    const bool first = steps_ == 0;
-    time_ = next_time();
-    steps_ += stride_;
-    kernels::FlowSums sums;
-    if (stride_ > 1) {
-      sums = far_sums_;
-      q_.swap(far_q_);
-      v_.swap(far_v_);
-      f_now_.swap(far_f_);
-      flown_ += stride_ - 1;
-    } else {
-      sums = advance_modes(first ? first_ : full_, time_, q_, v_, f_next_);
-      if (!coupled_.empty()) {
-        sums.work += coupled_.advance(first ? 1 : 0, q_.data(), v_.data(), f_now_.data(), f_next_.data());
-        sums.twice_energy = twice_energy();
-      }
-      f_now_.swap(f_next_);
-    }
+    const kernels::FlowSums sums = stride_ > 1 ? modes_.land(stride_) : modes_.advance();
+    flown_ += stride_ - 1;
     moving_ = 0.5 * sums.twice_energy;
     const double work = sums.work;
     Energy& energy = record_.energy;
@@ -256,33 +184,14 @@ private:
     energy.modal_damping +=
         work - (moving_ - after_action_); // the flow is exact: what the load gave and the modes did not keep
     after_action_ = moving_;
-    record_.time = time_;
+    record_.time = modes_.time();
     record_.energy.stored = moving_;
   }
 
-  [[nodiscard]] double twice_energy() const {
-    return kernels::twice_energy(contacts_.padded_modes, k_.data(), q_.data(), v_.data());
-  }
-
-  /// The exact flow to `time`, under the load from `f_now_` to `load`, which is found.
-  kernels::FlowSums advance_modes(const kernels::FlowTable& table, double time, kernels::Array& q,
-                                  kernels::Array& v, kernels::Array& load) {
-    if (loads_.empty())
-      return kernels::flow_free(contacts_.padded_modes, table, q.data(), v.data());
-    if (loads_.constant())
-      load = f_now_;
-    else
-      loads_.at(time, load.data());
-    return kernels::flow_loaded(contacts_.padded_modes, table, q.data(), v.data(), f_now_.data(),
-                                load.data());
-  }
-
   /// The state after a flight, and how the contacts stand and move then.
-  void fly(const Flight& flight) {
-    far_q_ = q_;
-    far_v_ = v_;
-    far_sums_ = advance_modes(flight.table, instant(flight.steps), far_q_, far_v_, far_f_);
-    motion_.gather(far_q_.data(), far_v_.data());
+  void fly(const LoadedFlow::Flight& flight) {
+    modes_.fly(flight);
+    motion_.gather(modes_.flown_q().data(), modes_.flown_v().data());
   }
 
   /// The next step is a flight where one meets no contact.
@@ -295,12 +204,12 @@ private:
       return;
     }
     if (!flew)
-      motion_.gather_velocities(v_.data());
+      motion_.gather_velocities(modes_.v.data());
     if (positions_)
       speeds_ = motion_.w;
-    for (const Flight& flight : far_) {
+    for (const LoadedFlow::Flight& flight : far_) {
       const double time = flight.steps * h_, third = time / 3.0;
-      if (instant(flight.steps) > duration_ || !motion_.moves_less(time, longest_flight) ||
+      if (modes_.instant(flight.steps) > duration_ || !motion_.moves_less(time, longest_flight) ||
           !motion_.opens_after(third) || !motion_.opens_after(time))
         continue;
       fly(flight);
@@ -318,8 +227,8 @@ private:
     lean_ = time;
     for (std::size_t i = 0; i < seen_.size(); ++i)
       seen_[i] += time * speeds_[i];
-    for (std::size_t i = 0; i < q_.size(); ++i)
-      shown_q_[i] = q_[i] + time * v_[i];
+    for (std::size_t i = 0; i < shown_q_.size(); ++i)
+      shown_q_[i] = modes_.q[i] + time * modes_.v[i];
   }
 
   /// Where the contacts are in the mean over the step: at the action the modes stand (h^2/12) W f behind (contact/instant_spring.hpp); of W the
@@ -340,12 +249,12 @@ private:
   /// Where the contacts stand. Returns whether any may act.
   bool gather() {
     if (near_only_) {
-      motion_.gather_near(q_.data(), v_.data(), memory_.closed());
+      motion_.gather_near(modes_.q.data(), modes_.v.data(), memory_.closed());
       return !motion_.places().first.empty();
     }
-    motion_.gather(q_.data(), v_.data());
+    motion_.gather(modes_.q.data(), modes_.v.data());
     if (!carried_.u.empty()) {
-      obstacles_.at(time_, carried_);
+      obstacles_.at(modes_.time(), carried_);
       carried_.add_to(motion_);
     }
     return flexible_ || motion_.find_near(solver_.window());
@@ -388,9 +297,9 @@ private:
       memory_.leave(motion_, trial_, 0.5 * h_);
     rows_.set(trial_, h_);
     if (positions_)
-      rows_.add_to(v_.data(), h_ / 12.0, q_.data(), shown_q_.data());
+      rows_.add_to(modes_.v.data(), h_ / 12.0, modes_.q.data(), shown_q_.data());
     else
-      rows_.add_to(v_.data());
+      rows_.add_to(modes_.v.data());
     // The record stands in the middle of the action: half of its losses belong to it, and its velocity is (v-
     // + v+)/2, whose energy is moving + work/2 - (h^2/8) f.W.f. What moving obstacles do is work from outside.
     Energy& energy = record_.energy;
@@ -407,9 +316,8 @@ private:
     after_action_ = moving_ + work;
   }
 
-  System system_;
   double h_;
-  LoadSum loads_;
+  LoadedFlow modes_;
   PackedContacts contacts_;
   ContactMotion motion_;
   ObstacleMotion obstacles_;
@@ -422,20 +330,16 @@ private:
   ContactTrial trial_;
   SlidingPaths paths_;
   ContactRows rows_; ///< impulses of the last action
-  MatrixFlow coupled_;
-  kernels::FlowTable first_, full_;
 
   double duration_;
-  std::vector<Flight> far_; ///< the longest first
-  int stride_ = 1;          ///< steps of what follows the last action
-  double lean_ = 0.0;       ///< s
-  kernels::Array speeds_;   ///< m/s, lanes, at the last record
-  int wait_ = 0;            ///< steps until flights are looked for again
-  std::int64_t steps_ = 0, flown_ = 0, unconverged_ = 0;
-  double time_ = 0.0;
-  kernels::Array q_, v_, k_, f_now_, f_next_, slope_, impulse_;
-  kernels::Array far_q_, far_v_, far_f_; ///< after the flight under way
-  kernels::FlowSums far_sums_;
+  Eigen::Index size_;                   ///< modes
+  std::vector<LoadedFlow::Flight> far_; ///< the longest first
+  int stride_ = 1;                      ///< steps of what follows the last action
+  double lean_ = 0.0;                   ///< s
+  kernels::Array speeds_;               ///< m/s, lanes, at the last record
+  int wait_ = 0;                        ///< steps until flights are looked for again
+  std::int64_t flown_ = 0, unconverged_ = 0;
+  kernels::Array impulse_;
   bool positions_ = true;  ///< records show them
   kernels::Array shown_;   ///< with scaled masses
   kernels::Array shown_q_; ///< in the mean over the step

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/loaded_flow.hpp"
+#include "transient/oscillator.hpp"
+#include <algorithm>
+
+namespace fretwork::transient {
+namespace {
+
+/// Coupled modes stay where they are: their flow follows the table's.
+kernels::FlowTable flow_table(const System& system, const MatrixFlow& coupled, double h) {
+  kernels::FlowTable t(kernels::padded(static_cast<int>(system.size())));
+  for (Eigen::Index j = 0; j < system.size(); ++j) {
+    constexpr StepCoefficients none{1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0};
+    const double k = system.stiffness(j);
+    t.set(j, k, coupled.couples(j) ? none : step_coefficients(k, system.damping(j), h));
+  }
+  return t;
+}
+
+} // namespace
+
+LoadedFlow::LoadedFlow(const Scene& scene, double step)
+    : system_(with_diagonal(scene.system)), h_(step),
+      loads_(scene.loads, scene.system.size(), scene.duration, step), coupled_(system_, step),
+      first_(flow_table(system_, coupled_, 0.5 * step)), full_(flow_table(system_, coupled_, step)) {
+  const auto n = static_cast<std::size_t>(kernels::padded(static_cast<int>(system_.size())));
+  for (kernels::Array* a : {&q, &v, &k_, &f_now_, &f_next_, &slope_, &far_q_, &far_v_, &far_f_})
+    a->assign(n, 0.0);
+  std::copy_n(scene.q0.data(), scene.q0.size(), q.begin());
+  std::copy_n(scene.v0.data(), scene.v0.size(), v.begin());
+  std::copy_n(system_.stiffness.data(), system_.size(), k_.begin());
+  // With the slopes from the start to h/2 and on to 3h/2 the first two forces weigh h/4 and 3h/4: both stand for the first step.
+  loads_.at(0.0, {0.0, step}, f_now_.data());
+}
+
+double LoadedFlow::energy() const {
+  return 0.5 * kernels::twice_energy(static_cast<int>(k_.size()), k_.data(), q.data(), v.data());
+}
+
+LoadedFlow::Flight LoadedFlow::flight(int steps) const {
+  return {steps, flow_table(system_, coupled_, steps * h_)};
+}
+
+void LoadedFlow::fly(const Flight& flight) {
+  far_q_ = q;
+  far_v_ = v;
+  far_sums_ = advance_by(flight.table, instant(flight.steps), far_q_, far_v_, far_f_);
+}
+
+kernels::FlowSums LoadedFlow::land(int steps) {
+  time_ = instant(steps);
+  steps_ += steps;
+  q.swap(far_q_);
+  v.swap(far_v_);
+  f_now_.swap(far_f_);
+  return far_sums_;
+}
+
+void LoadedFlow::state_at(double time, int further, double* q_at, double* v_at) {
+  const double t = time - time_, next = instant(further);
+  if (!loads_.empty()) {
+    loads_.at(next, f_next_.data());
+    for (std::size_t i = 0; i < slope_.size(); ++i)
+      slope_[i] = (f_next_[i] - f_now_[i]) / (next - time_);
+  }
+  for (Eigen::Index j = 0; j < system_.size(); ++j) {
+    if (coupled_.couples(j))
+      continue;
+    const auto i = static_cast<std::size_t>(j);
+    const DenseCoefficients d = dense_coefficients(system_.stiffness(j), system_.damping(j), t);
+    q_at[j] = d.qq * q[i] + d.qv * v[i] + d.qf * f_now_[i] + d.qs * slope_[i];
+    v_at[j] = d.vq * q[i] + d.vv * v[i] + d.vf * f_now_[i] + d.vs * slope_[i];
+  }
+  coupled_.inside(t, q.data(), v.data(), f_now_.data(), slope_.data(), q_at, v_at);
+}
+
+void LoadedFlow::load_at(double time, double* force) {
+  if (loads_.empty()) {
+    std::fill_n(force, system_.size(), 0.0);
+    return;
+  }
+  loads_.instant(time, f_next_.data());
+  std::copy_n(f_next_.data(), system_.size(), force);
+}
+
+} // namespace fretwork::transient
