@@ -12,14 +12,16 @@ namespace fretwork::transient {
 
 class GridSine {
 public:
-  /// @param grid_step  d, s
+  /// @param grid_step  d, s, finite and > 0
   GridSine(const Harmonic& function, double grid_step);
 
   /// At any instant: off the grid, by more than round-off, the sine itself.
   [[nodiscard]] double operator()(double time) {
     const double position = time * per_step_;
+    if (!(position >= 0.0 && position < most))
+      return function_.amplitude * std::sin(angle(time));
     const auto k = static_cast<std::int64_t>(position + 0.5);
-    if (!(std::abs(position - static_cast<double>(k)) <= round_off * (1.0 + position)))
+    if (!(std::abs(position - static_cast<double>(k)) <= round_off * position))
       return function_.amplitude * std::sin(angle(time));
     if (const std::int64_t block = k / points; block != block_)
       begin(block);
@@ -29,7 +31,7 @@ public:
 
 private:
   static constexpr std::int64_t points = 64; ///< of a block
-  static constexpr double round_off = 1e-15;
+  static constexpr double round_off = 1e-15, most = 0x1p52;
   struct Turn {
     double cosine, sine;
   };

@@ -111,7 +111,7 @@ FRETWORK_INLINE void go_along(const contact::NormalLaw& law, bool rubs, const Co
       const V force = law.stiffness * depth + (law.damping + law.stiffness * law.dissipation * depth) * rate;
       at<V>(way.depth + j * parts + i) = depth;
       at<V>(way.rate + j * parts + i) = rate;
-      at<V>(way.force + j * parts + i) = (depth >= 0.0) & (force > 0.0) ? force : V{};
+      at<V>(way.force + j * parts + i) = ((depth >= 0.0) & (force > 0.0)) ? force : V{};
     }
   }
   for (int a = 0; a < (rubs ? D - 1 : 0); ++a) {

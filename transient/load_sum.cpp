@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/load_sum.hpp"
 #include <algorithm>
+#include <cmath>
 
 namespace fretwork::transient {
 
@@ -17,8 +18,9 @@ LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double dura
       functions.push_back(&load.function);
       signals_.emplace_back(load.function, duration);
       const auto* harmonic = std::get_if<Harmonic>(&load.function);
-      sines_.push_back(harmonic && step > 0.0 ? std::optional<GridSine>({*harmonic, 0.5 * step})
-                                              : std::nullopt);
+      sines_.push_back(harmonic && step > 0.0 && std::isfinite(step)
+                           ? std::optional<GridSine>({*harmonic, 0.5 * step})
+                           : std::nullopt);
       shapes_.resize(shapes_.size() + static_cast<std::size_t>(padded_modes_), 0.0);
       constant_ = constant_ && signals_.back().is_constant();
     }

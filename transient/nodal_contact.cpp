@@ -30,9 +30,9 @@ template <int D> typename NodalContact<D>::Jacobian NodalContact<D>::jacobian(co
     const Row &un = answer.u[j][0], &ut = answer.u[j][1], &vn = answer.v[j][0];
     const double kappa = node.curvature, carries = at.carries ? 1.0 : 0.0;
     Row normal = Row::Zero();
-    if (at.normal == Normal::closed)
+    if (at.normal == NormalBranch::closed)
       normal = -at.by_penetration * un - at.by_rate * (vn + kappa * node.across * ut);
-    else if (at.normal == Normal::limited)
+    else if (at.normal == NormalBranch::limited)
       normal = unit<Row>(j * D) - scales_.rho[j] * un;
     const auto stuck = [&](int a) -> Row {
       return carries * carried[a] + table_.by_slip[j][1] * slip[0][a] + table_.by_slip[j][2] * slip[1][a];
@@ -44,24 +44,25 @@ template <int D> typename NodalContact<D>::Jacobian NodalContact<D>::jacobian(co
     Row base[D - 1]; // d of the vector that slip goes along, or of the force itself
     for (int a = 0; a < D - 1; ++a)
       switch (at.tangent) {
-      case Tangent::none:
-      case Tangent::line:
+      case TangentBranch::none:
+      case TangentBranch::line:
         base[a].setZero();
         break;
-      case Tangent::stick:
-      case Tangent::trial:
+      case TangentBranch::stick:
+      case TangentBranch::trial:
         base[a] = stuck(a) - law.damping * slip[j][a];
         break;
-      case Tangent::relaxed:
+      case TangentBranch::relaxed:
         base[a] = relaxed(a) - law.damping * slip[j][a];
         break;
-      case Tangent::opposed:
-      case Tangent::rest:
+      case TangentBranch::opposed:
+      case TangentBranch::rest:
         base[a] = unit<Row>(j * D + 1 + a) - scales_.rho_slip * slip[j][a];
         break;
       }
     Row tangent[D - 1];
-    if (at.tangent == Tangent::none || at.tangent == Tangent::stick || at.tangent == Tangent::rest) {
+    if (at.tangent == TangentBranch::none || at.tangent == TangentBranch::stick ||
+        at.tangent == TangentBranch::rest) {
       for (int a = 0; a < D - 1; ++a)
         tangent[a] = base[a];
     } else {
@@ -75,7 +76,7 @@ template <int D> typename NodalContact<D>::Jacobian NodalContact<D>::jacobian(co
     }
     if (j == 0)
       for (int a = 0; a < D - 1; ++a)
-        carried[a] = at.tangent == Tangent::stick ? stuck(a) : relaxed(a);
+        carried[a] = at.tangent == TangentBranch::stick ? stuck(a) : relaxed(a);
     const Row turned = kappa * ut;
     out.row(j * D) = unit<Row>(j * D) - normal + node.friction.t * turned;
     out.row(j * D + 1) = unit<Row>(j * D + 1) - tangent[0] - node.normal * turned;

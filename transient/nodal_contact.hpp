@@ -31,6 +31,10 @@ template <int D> struct Answer {
   Row u[2][D], v[2][D];
 };
 
+/// Which law holds.
+enum class NormalBranch { open, closed, limited };
+enum class TangentBranch { none, stick, line, relaxed, trial, opposed, rest };
+
 /// One contact with forces tried at the nodes 1/2 and 1.
 template <int D> class NodalContact {
 public:
@@ -47,16 +51,17 @@ public:
   [[nodiscard]] const Row& residual() const { return residual_; }
   /// Which branches of the laws `residual` took.
   [[nodiscard]] int branches() const;
+  /// At the node j + 1.
+  [[nodiscard]] NormalBranch normal(int j) const { return law_[j].normal; }
+  [[nodiscard]] TangentBranch tangent(int j) const { return law_[j].tangent; }
   /// d residual / d forces.
   [[nodiscard]] Jacobian jacobian(const Answer<D>& answer) const;
 
 private:
   using Vector = Tangential<D>;
-  enum class Normal { open, closed, limited };
-  enum class Tangent { none, stick, line, relaxed, trial, opposed, rest };
   struct Law {
-    Normal normal;
-    Tangent tangent;
+    NormalBranch normal;
+    TangentBranch tangent;
     double by_penetration, by_rate;
     Vector e; ///< direction of slip
     double share;
@@ -87,7 +92,7 @@ template <int D>
 #pragma GCC unroll 2
   for (int j = 0; j < 2; ++j) {
     press(j);
-    law_[j].tangent = Tangent::none;
+    law_[j].tangent = TangentBranch::none;
     law_[j].carries = false;
     if (rubs)
       rub(j);
@@ -115,7 +120,7 @@ template <int D> [[gnu::always_inline]] inline void NodalContact<D>::press(int j
   if (!(law.damping > 0.0)) {
     const auto slopes = contact::normal_slopes(law, p, node.rate);
     node.normal = slopes.force;
-    out.normal = slopes.force > 0.0 ? Normal::closed : Normal::open;
+    out.normal = slopes.force > 0.0 ? NormalBranch::closed : NormalBranch::open;
     out.by_penetration = slopes.by_penetration;
     out.by_rate = slopes.by_rate;
   } else {
@@ -124,7 +129,9 @@ template <int D> [[gnu::always_inline]] inline void NodalContact<D>::press(int j
                          : p > 0.0            ? by_law
                                               : 0.0;
     node.normal = std::max(0.0, std::min(by_law, limit));
-    out.normal = !(node.normal > 0.0) ? Normal::open : by_law <= limit ? Normal::closed : Normal::limited;
+    out.normal = !(node.normal > 0.0) ? NormalBranch::open
+                 : by_law <= limit    ? NormalBranch::closed
+                                      : NormalBranch::limited;
     out.by_penetration = law.stiffness * (1.0 + law.dissipation * node.rate);
     out.by_rate = c;
   }
@@ -147,7 +154,7 @@ template <int D> [[gnu::always_inline]] inline void NodalContact<D>::rub(int j) 
   const bool closed = node.normal > 0.0;
   node.slides = false;
   if (closed && norm(trial) <= (node_[0].slides ? law.mu_dynamic : law.mu_static) * node.normal) {
-    out.tangent = Tangent::stick;
+    out.tangent = TangentBranch::stick;
     node.friction = in_plane(trial);
     node.spring = in_plane(stuck);
     return;
@@ -170,20 +177,20 @@ NodalContact<D>::slide(int j, Vector relaxed, Vector trial, double bound) {
   Law& out = law_[j];
   if (law.kind == contact::FrictionMemoryKind::reference) {
     trial = tried(j) - scales_.rho_slip * slip_[j + 1];
-    out.tangent = norm(trial) <= bound ? Tangent::rest : Tangent::opposed;
-    if (out.tangent == Tangent::rest)
+    out.tangent = norm(trial) <= bound ? TangentBranch::rest : TangentBranch::opposed;
+    if (out.tangent == TangentBranch::rest)
       return trial;
   } else if constexpr (D == 2) {
-    out.tangent = Tangent::line;
+    out.tangent = TangentBranch::line;
     out.e = std::copysign(1.0, trial);
     out.share = 0.0;
     return bound * out.e; // the law does not feel how long the trial is
   } else {
-    out.tangent = Tangent::trial;
+    out.tangent = TangentBranch::trial;
     const Vector candidate = relaxed - law.damping * slip_[j + 1];
     if (table_.keep > 0.0 && norm(candidate) > bound && dot(candidate, trial) > 0.0) {
       trial = candidate;
-      out.tangent = Tangent::relaxed;
+      out.tangent = TangentBranch::relaxed;
     }
   }
   const double length = norm(trial);

@@ -10,7 +10,9 @@ namespace {
 using namespace kernels;
 
 /// Sweeps stop when what is still to come is below this share of the force: far below what a step leaves at its finest.
-constexpr double sweep_tolerance = 1e-11;
+constexpr double sweep_tolerance = 1e-10;
+/// The changes that are still to come sum up to at least this share of the last.
+constexpr double slowest_end = 0.03;
 constexpr int patient = 20, most_sweeps = 60;
 /// The same of a step with contacts that change inside it, whose paths are not told better.
 constexpr double kink_tolerance = 1e-7;
@@ -147,7 +149,7 @@ bool NodalSolver::settle(NodalMotion& motion, double tolerance) {
     double largest = 0.0;
     for (SweptContact* swept : active_) {
       const double change = improve(*swept, motion, k < patient ? 1.0 : 0.5);
-      if (!(change < 1e6)) // not a number, or running away
+      if (!std::isfinite(change))
         return false;
       largest = std::max(largest, change);
     }
@@ -157,8 +159,11 @@ bool NodalSolver::settle(NodalMotion& motion, double tolerance) {
 }
 
 bool NodalSolver::Changes::within(double tolerance) const {
-  const bool foretold = largest <= falling * last;
-  return known && (largest <= tolerance || (foretold && largest * largest <= tolerance * (last - largest)));
+  if (!known)
+    return false;
+  // the first changes fall faster than the last ones
+  const double ratio = std::max(slowest_end, largest / (last - largest));
+  return largest <= tolerance || (largest <= falling * last && largest * ratio <= tolerance);
 }
 
 /// The laws at the motion found, and the springs of the contacts that are open.

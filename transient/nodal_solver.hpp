@@ -17,6 +17,8 @@ class NodalSolver {
 public:
   /// @param contacts  must live longer
   explicit NodalSolver(const PackedContacts& contacts);
+  NodalSolver(const NodalSolver&) = delete;
+  NodalSolver& operator=(const NodalSolver&) = delete;
 
   /// Sets the nodes at the start of a run: nothing is loaded. `motion.start` is known.
   void start(NodalMotion& motion);

@@ -104,10 +104,10 @@ template <int D>
   for (int j = 1; j <= 2; ++j)
     a.node[j].curvature =
         contact::curvature(a.support->obstacle, motion.u(j)[a.y] + a.rest_y, motion.u(j)[a.z] + a.rest_z);
-  a.branches = laws.branches();
-  a.made_for = a.tables->step;
   a.last_change = 0.0;
-  return invert(laws.jacobian(a.tables->answer<D>(a.contact, a.node)), a.inverse);
+  const bool regular = invert(laws.jacobian(a.tables->answer<D>(a.contact, a.node)), a.inverse);
+  a.branches = regular ? laws.branches() : -1;
+  return regular;
 }
 
 template <class V, int D>
@@ -119,8 +119,10 @@ FRETWORK_INLINE double improve_by(SweptContact& a, NodalMotion& motion, double s
   using Matrix = typename NodalContact<D>::Jacobian;
   const typename NodalContact<D>::Row step =
       -share * (Eigen::Map<const Matrix>(a.inverse) * laws.residual().matrix()).array();
-  if (!std::isfinite(step.sum()))
+  if (!std::isfinite(step.sum())) {
+    a.branches = -1;
     return none;
+  }
   const double largest = step.abs().maxCoeff(), force = (laws.forces().abs() + step.abs()).maxCoeff();
   Forces change;
   for (int j = 0; j < 2; ++j) {
@@ -175,8 +177,6 @@ void SweptContact::join(const NodalTables& of_step) {
   has_path = false;
   node[1].inner = node[2].inner = {};
   last_change = 0.0;
-  if (made_for != of_step.step)
-    branches = -1;
 }
 
 void meet_start(SweptContact& a, NodalMotion& motion) {

@@ -12,7 +12,7 @@ struct SweptContact {
   SweptContact(const PackedContacts& contacts, int contact);
   /// Takes part in a step, without forces.
   void join(const NodalTables& of_step);
-  void visit(core::StateArchive& state) { state(node, branches, made_for, inverse); }
+  void visit(core::StateArchive& state) { state(node, branches, inverse); }
 
   using Forces = double[2][3]; ///< at the nodes 1/2 and 1 along y, z, x, N
   // where it stands
@@ -31,7 +31,6 @@ struct SweptContact {
   std::array<PathLoss, 2> losses; ///< on it, up to the nodes 1/2 and 1
   // its Newton steps: the matrix is kept, from step to step too, while the laws stay in their branches and the changes fall
   int branches = -1;        ///< of the laws when it was made, -1: none
-  double made_for = 0.0;    ///< s, step
   double last_change = 0.0; ///< N, 0: none in this step yet
   double inverse[36]{};
 };
