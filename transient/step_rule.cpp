@@ -37,7 +37,7 @@ constexpr double contact_share_with_scaling = 0.45;
 /// Steps of a flight. More gain little: its end, with displacements and velocities, costs as much as one step.
 constexpr double most_flight = 12.0;
 /// Steps of splitting that one of collocation takes the time of: measured 3 to 4 with 1 and 3 supports, 4 with 8 and 10, 4 to 5 with 20 and
-/// 30 (with friction in the plane 2 to 9); 8 to 13 where a damping matrix couples 40 or 80 modes (matrix_flow.hpp).
+/// 30 (with friction in the plane 2 to 9); 7 to 10 where a damping matrix couples 40 or 80 modes (matrix_flow.hpp).
 double collocation_cost(const Scene& scene) {
   const double contacts = std::min(6.0, 3.2 + 0.08 * static_cast<double>(scene.contacts.size()));
   return scene.system.damping_matrix.size() > 0 ? std::max(contacts, 10.0) : contacts;
