@@ -3,8 +3,8 @@
 /// Strang splitting of the modal motion and the contact forces, order 2 in displacement, velocity and force,
 /// with damping and friction.
 ///
-/// Between instants t_k = (k + 1/2) h the modes move freely: loaded_flow.hpp. At t_k the contacts act once for the whole step: contact_solver.hpp, with
-/// residual flexibility flexible_contacts.hpp.
+/// Between instants t_k = (k + 1/2) h the modes move freely: loaded_flow.hpp. At t_k the contacts act once for the whole step:
+/// contact_solver.hpp, with residual flexibility flexible_contacts.hpp.
 /// Stability: w_c h < 2.7, w_c^2 the largest eigenvalue of K_N^1/2 W K_N^1/2; h w_max away from multiples of
 /// pi (mass_scaling.hpp). Accuracy asks for less (step_rule.hpp). Cost: one evaluation of the contacts a step. Energy: the work
 /// of each action h f.w and of each flow are exact; the ledger's residual is what the contact laws' discrete

@@ -32,7 +32,7 @@ struct SweptContact {
   // its Newton steps: the matrix is kept, from step to step too, while the laws stay in their branches and the changes fall
   int branches = -1;        ///< of the laws when it was made, -1: none
   double last_change = 0.0; ///< N, 0: none in this step yet
-  double inverse[36]{};
+  double inverse[6 * 6]{};  ///< by columns; with two directions the first 4 x 4
 };
 
 /// Kinematics at the node 0.
