@@ -3,9 +3,10 @@
 # the PATH, Debian's own.
 function(fretwork_find_python variable modules)
   foreach(candidate $ENV{FRETWORK_PYTHON} python3 /usr/bin/python3)
-    execute_process(COMMAND ${candidate} -c "import ${modules}" RESULT_VARIABLE lacks OUTPUT_QUIET ERROR_QUIET)
-    if(lacks STREQUAL "0")
-      set(${variable} ${candidate} PARENT_SCOPE)
+    execute_process(COMMAND ${candidate} -c "import sys, ${modules}; print(sys.executable)" RESULT_VARIABLE lacks OUTPUT_VARIABLE executable
+                    OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+    if(lacks STREQUAL "0") # by its path: tests may run with another PATH
+      set(${variable} ${executable} PARENT_SCOPE)
       return()
     endif()
   endforeach()
