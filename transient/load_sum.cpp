@@ -47,9 +47,7 @@ template <class Value> void LoadSum::combine(double time, const Value& value, do
   kernels::combine(padded_modes_, static_cast<int>(signals_.size()), shapes_.data(), values_.data(), force);
 }
 
-void LoadSum::at(double time, double* force) {
-  at(time, {std::max(0.0, time - 0.5 * step_), time + 0.5 * step_}, force);
-}
+void LoadSum::at(double time, double* force) { at(time, Signal::window(time, step_), force); }
 
 void LoadSum::at(double time, Signal::Window window, double* force) {
   combine(

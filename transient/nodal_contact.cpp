@@ -5,7 +5,7 @@ namespace fretwork::transient {
 namespace {
 
 template <class Row> Row unit(int i) {
-  return Row::NullaryExpr([i](Eigen::Index k) { return k == i ? 1.0 : 0.0; });
+  return Eigen::Vector<double, Row::SizeAtCompileTime>::Unit(i).array();
 }
 
 } // namespace

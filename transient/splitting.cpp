@@ -43,7 +43,7 @@ public:
         obstacles_(scene, contacts_, step), carried_(obstacles_.room()), memory_(contacts_, step),
         solver_(contacts_, step), trial_(contacts_.count),
         paths_(contacts_, step, scene.residual.size() == 0), rows_(contacts_), duration_(scene.duration),
-        size_(scene.system.size()), impulse_(modes_.q.size(), 0.0), shown_q_(modes_.q.size(), 0.0) {
+        impulse_(modes_.q.size(), 0.0), shown_q_(modes_.q.size(), 0.0) {
     motion_.gather(modes_.q.data(), modes_.v.data());
     obstacles_.at(0.0, carried_);
     carried_.add_to(motion_);
@@ -100,13 +100,13 @@ public:
         modes_.steps() > 0 ? t / h_ - 0.5 : t / h_; // the start is in the middle between actions
     std::fill(impulse_.begin(), impulse_.end(), 0.0);
     rows_.add_to(impulse_.data());
-    for (Eigen::Index j = 0; j < size_; ++j) {
+    for (Eigen::Index j = 0; j < contacts_.modes; ++j) {
       const double impulse = impulse_[static_cast<std::size_t>(j)];
       q[j] += 0.5 * (share * share - 1.0 / 12.0) * h_ * impulse; // nothing in the mean over the step
       v[j] += share * impulse;
     }
     if (!shown_.empty())
-      for (Eigen::Index j = 0; j < size_; ++j) {
+      for (Eigen::Index j = 0; j < contacts_.modes; ++j) {
         q[j] *= shown_[static_cast<std::size_t>(j)];
         v[j] *= shown_[static_cast<std::size_t>(j)];
       }
@@ -115,7 +115,7 @@ public:
   void load_at(double time, double* force) override {
     modes_.load_at(time, force);
     if (!shown_.empty())
-      for (Eigen::Index j = 0; j < size_; ++j)
+      for (Eigen::Index j = 0; j < contacts_.modes; ++j)
         force[j] /= shown_[static_cast<std::size_t>(j)];
   }
 
@@ -332,7 +332,6 @@ private:
   ContactRows rows_; ///< impulses of the last action
 
   double duration_;
-  Eigen::Index size_;                   ///< modes
   std::vector<LoadedFlow::Flight> far_; ///< the longest first
   int stride_ = 1;                      ///< steps of what follows the last action
   double lean_ = 0.0;                   ///< s

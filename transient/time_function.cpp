@@ -138,10 +138,6 @@ double Signal::operator()(double time) const {
   return std::visit(Visitor{time, *this}, function_);
 }
 
-double Signal::over_step(double time, double h) const {
-  return over_step(time, h, {std::max(0.0, time - 0.5 * h), time + 0.5 * h});
-}
-
 double Signal::over_step(double time, double h, Window window) const {
   if (const auto* table = std::get_if<Table>(&function_)) {
     const auto begin = table->time.begin(), end = table->time.end();

@@ -88,11 +88,15 @@ public:
   struct Window {
     double from, to;
   };
+  /// Of h about `time`; at the start of the run its half within the run.
+  [[nodiscard]] static Window window(double time, double h) {
+    return {std::max(0.0, time - 0.5 * h), time + 0.5 * h};
+  }
   /// Value that stands for a window of steps of length h: that at `time`, but where an interval of a table that is
   /// shorter (a jump: 0) meets the window the mean over the window: windows side by side keep the impulse. No allocation.
   [[nodiscard]] double over_step(double time, double h, Window window) const;
-  /// The same for the window of h about `time`; at the start of the run for its half within the run.
-  [[nodiscard]] double over_step(double time, double h) const;
+  /// The same for window(time, h).
+  [[nodiscard]] double over_step(double time, double h) const { return over_step(time, h, window(time, h)); }
 
   /// Of a random signal: values and slopes times the grid's step, interleaved. Else empty.
   [[nodiscard]] std::span<const double> samples() const { return samples_; }
