@@ -88,7 +88,6 @@ bool ConservingContacts::solve(double step, const kernels::Array& mobility, cons
 void ConservingContacts::take(int c, const Setting& s, const ContactMotion& start,
                               const ContactMotion& free) {
   const contact::Support& support = contacts_.supports[c];
-  const kernels::ReachLanes& reach = contacts_.reach;
   const int width = contacts_.width;
   const bool in_plane = contacts_.in_plane[c] != 0;
   const std::size_t i = shut_.size();
@@ -96,10 +95,10 @@ void ConservingContacts::take(int c, const Setting& s, const ContactMotion& star
   shut = {};
   shut.contact = c;
   shut.in_plane = in_plane;
-  shut.x0 = {start.u[c] + reach.rest_y[c], start.u[width + c] + reach.rest_z[c]};
+  shut.x0 = {start.u[c] + contacts_.rest_y(c), start.u[width + c] + contacts_.rest_z(c)};
   shut.from = start.locate(c);
-  shut.free[0] = free.u[c] + reach.rest_y[c];
-  shut.free[1] = free.u[width + c] + reach.rest_z[c];
+  shut.free[0] = free.u[c] + contacts_.rest_y(c);
+  shut.free[1] = free.u[width + c] + contacts_.rest_z(c);
   shut.free[2] = in_plane ? free.u[2 * width + c] - start.u[2 * width + c] : 0.0;
   const double trace =
       mobility(s, i, 0, i, 0) + mobility(s, i, 1, i, 1) + (in_plane ? mobility(s, i, 2, i, 2) : 0.0);

@@ -34,10 +34,7 @@ LawLanes law_lanes(const PackedContacts& contacts, double step) {
   return laws;
 }
 
-MemoryLanes::MemoryLanes(int width) : LaneTable(width) {
-  places.reserve(static_cast<std::size_t>(width));
-  next.reserve(static_cast<std::size_t>(width));
-}
+MemoryLanes::MemoryLanes(int width) : LaneTable(width), places(width), next(width) {}
 
 StepLanes::StepLanes(int width, bool ties_tangents) : LaneTable(width) {
   if (ties_tangents)
@@ -57,63 +54,40 @@ FRETWORK_INLINE bool keep(int i, auto part, const LawLanes& laws, CommitLanes& c
                           CommitParts<G>& sums) {
   using V = typename G::V;
   const int l = lane(i);
-  const LawNumbers& law = laws[i];
   CommitNumbers& s = commits[i];
-  MemoryNumbers& m = memories[i];
-  const V one = V{} + 1.0;
-  const V my = at<V>(s.normal_y + l), mz = at<V>(s.normal_z + l), half = 0.5 * at<V>(law.compliance + l);
-  const V compliance = at<V>(law.compliance + l), e = at<V>(law.relaxation + l);
-  const V closed = at<V>(law.mu_static + l) > 0.0 ? at<V>(s.closed + l) : V{}, open = one - closed;
-  const V held = at<V>(m.spring + l), held_energy = half * held * held;
-  // closed: the slider takes what the spring and damper do not, unless it would move with the force
-  const V before = same_face(m, l, my, mz) * held, before_energy = half * before * before;
-  const V force = at<V>(s.force + l), dx = at<V>(law.along + l) * at<V>(s.displacement + l);
-  const V relaxed = force + e * (before - force), relaxed_stretch = compliance * (before - relaxed);
-  const V against = force * (dx - relaxed_stretch) < 0.0 ? one : V{};
-  const V slips = at<V>(s.slides + l) * (against + (force == 0.0 ? one : V{}));
-  const V after_closed = slips > 0.0 ? relaxed : before - at<V>(law.tangential + l) * dx;
-  const V stretch = slips > 0.0 ? relaxed_stretch : dx;
-  const V slider = closed * -force * (dx - stretch);
-  const V damper = closed * (-force * stretch - (half * after_closed * after_closed - before_energy));
-  // open: the spring dies out and is forgotten
-  const V fading = at<V>(m.left + l) * e, faded = fading < forgotten ? V{} : fading;
-  const V after_open = faded > 0.0 ? e * held : V{};
-  const V after = closed > 0.0 ? after_closed : after_open, after_energy = half * after * after;
-  sums.sliders[part] += slider;
-  sums.damping[part] += damper + closed * (held_energy - before_energy) + open * (held_energy - after_energy);
-  sums.stored[part] += after_energy - held_energy;
-  at<V>(s.friction_work + l) = slider;
-  at<V>(s.damper_work + l) = damper;
-  at<V>(m.spring + l) = after;
-  at<V>(m.sliding + l) = closed * at<V>(s.slides + l);
-  at<V>(m.force + l) = closed * force;
-  at<V>(m.normal_y + l) = closed > 0.0 ? my : at<V>(m.normal_y + l);
-  at<V>(m.normal_z + l) = closed > 0.0 ? mz : at<V>(m.normal_z + l);
-  const V left = closed > 0.0 ? one : faded;
-  at<V>(m.left + l) = left;
-  return any(left);
+  const V rubs = at<V>(laws[i].mu_static + l) > 0.0 ? at<V>(s.closed + l) : V{};
+  const Kept<V> kept = remember_step<V>(laws[i], memories[i], l,
+                                        {rubs, at<V>(s.normal_y + l), at<V>(s.normal_z + l),
+                                         at<V>(s.force + l), at<V>(s.displacement + l), at<V>(s.slides + l)});
+  sums.sliders[part] += kept.slider;
+  sums.damping[part] += kept.damping;
+  sums.stored[part] += kept.stored;
+  at<V>(s.friction_work + l) = kept.slider;
+  at<V>(s.damper_work + l) = kept.damper;
+  return any(kept.left);
 }
 
-/// Contacts that are all open in so many steps: what `keep` makes of them.
+/// Contacts that are open in so many steps, where `open` is 1 and not 0: what `keep` makes of them. Returns whether any of all remembers something.
 template <class G>
-FRETWORK_INLINE bool fade(int i, auto part, int steps, const LawLanes& laws, MemoryLanes& memories,
-                          CommitParts<G>& sums) {
+FRETWORK_INLINE bool fade(int i, auto part, int steps, const typename G::V& open, const LawLanes& laws,
+                          MemoryLanes& memories, CommitParts<G>& sums) {
   using V = typename G::V;
   const int l = lane(i);
   const LawNumbers& law = laws[i];
   MemoryNumbers& m = memories[i];
-  const V e = at<V>(law.relaxation + l), held = at<V>(m.spring + l);
+  const V one = V{} + 1.0, e = open > 0.0 ? at<V>(law.relaxation + l) : one, held = at<V>(m.spring + l);
   V left = at<V>(m.left + l), after = held;
   for (int k = 0; k < steps; ++k) {
     const V fading = left * e;
     left = fading < forgotten ? V{} : fading;
     after = left > 0.0 ? e * after : V{};
   }
-  const V lost = 0.5 * at<V>(law.compliance + l) * (held * held - after * after);
+  const V lost = 0.5 * at<V>(law.compliance + l) * (held - after) * (held + after); // 0 of what is not open
   sums.damping[part] += lost;
   sums.stored[part] -= lost;
   at<V>(m.spring + l) = after;
-  at<V>(m.sliding + l) = at<V>(m.force + l) = V{};
+  at<V>(m.sliding + l) = open > 0.0 ? V{} : at<V>(m.sliding + l);
+  at<V>(m.force + l) = open > 0.0 ? V{} : at<V>(m.force + l);
   at<V>(m.left + l) = left;
   return any(left);
 }
@@ -134,7 +108,7 @@ FRETWORK_INLINE void fade_at(int place, int steps, const LawLanes& laws, MemoryL
                              CommitParts<G>& sums) {
   remember<G>(
       memories, place, [&](int i, auto part) __attribute__((always_inline)) {
-        return fade<G>(i, part, steps, laws, memories, sums);
+        return fade<G>(i, part, steps, typename G::V{} + 1.0, laws, memories, sums);
       });
 }
 
@@ -143,7 +117,7 @@ FRETWORK_INLINE CommitSums commit_all(const Places& acting, const LawLanes& laws
                                       MemoryLanes& memories) {
   CommitParts<G> sums;
   memories.next.clear();
-  auto old = memories.places.begin();
+  const int* old = memories.places.begin();
   const auto fade_before = [&](int end) __attribute__((always_inline)) {
     for (; old != memories.places.end() && *old < end; ++old)
       fade_at<G>(*old, 1, laws, memories, sums);
@@ -171,10 +145,40 @@ FRETWORK_INLINE CommitSums fade_all(int steps, const LawLanes& laws, MemoryLanes
   return {sum(sums.sliders), sum(sums.damping), sum(sums.stored)};
 }
 
-/// Tangential part, along which friction acts, of the vectors (y, z) of contacts where they were closed last.
-template <class V>
-FRETWORK_INLINE V tangential(const LawNumbers& law, const MemoryNumbers& m, int l, const V& y, const V& z) {
-  return at<V>(law.along + l) * (at<V>(m.normal_z + l) * y - at<V>(m.normal_y + l) * z);
+/// 1 in all lanes but one: of that row.
+struct alignas(alignment) Besides {
+  Numbers of[lanes];
+  constexpr Besides() : of{} {
+    for (int l = 0; l < lanes; ++l)
+      for (int k = 0; k < lanes; ++k)
+        of[l][k] = k == l ? 0.0 : 1.0;
+  }
+};
+constexpr Besides besides;
+
+template <class G>
+FRETWORK_INLINE CommitSums fade_beside_all(int contact, const LawLanes& laws, MemoryLanes& memories) {
+  CommitParts<G> sums;
+  memories.next.clear();
+  const int own = contact - contact % G::together;
+  const double* others = besides.of[lane(contact)];
+  bool met = !(memories[contact].left[lane(contact)] > 0.0); // its place, or nothing is remembered of it
+  for (const int place : memories.places) {
+    if (!met && own < place)
+      memories.next.push_back(own);
+    met = met || own <= place;
+    if (place != own)
+      fade_at<G>(place, 1, laws, memories, sums);
+    else
+      remember<G>(
+          memories, place, [&](int i, auto part) __attribute__((always_inline)) {
+            return fade<G>(i, part, 1, at<typename G::V>(others + lane(i)), laws, memories, sums);
+          });
+  }
+  if (!met)
+    memories.next.push_back(own);
+  memories.places.swap(memories.next);
+  return {0.0, sum(sums.damping), sum(sums.stored)};
 }
 
 template <class G>
@@ -184,17 +188,7 @@ FRETWORK_INLINE double follow_all(int width, const LawLanes& laws, MemoryLanes& 
   typename G::Sums energy = {};
   for_places<G>(
       memories.places, [&](int i, auto part) __attribute__((always_inline)) {
-        const int l = lane(i), z = width + i;
-        const LawNumbers& law = laws[i];
-        MemoryNumbers& m = memories[i];
-        const V sticks = at<V>(m.left + l) == 1.0 ? 1.0 - at<V>(m.sliding + l) : V{};
-        const V missing =
-            tangential<V>(law, m, l, at<V>(u + i) - at<V>(last_u + i) - half_step * at<V>(w + i),
-                          at<V>(u + z) - at<V>(last_u + z) - half_step * at<V>(w + z)) -
-            at<V>(m.ahead + l);
-        const V held = at<V>(m.spring + l), by = -sticks * at<V>(law.tangential + l) * missing;
-        energy[part] += at<V>(law.compliance + l) * by * (held + 0.5 * by);
-        at<V>(m.spring + l) = held + by;
+        energy[part] += follow_step<V>(i, width, laws[i], memories[i], u, last_u, w, half_step);
       });
   return sum(energy);
 }
@@ -240,6 +234,14 @@ FRETWORK_INLINE CommitSums fade_on(const LaneCount& contacts, int steps, const L
 }
 
 template <class Widest>
+FRETWORK_INLINE CommitSums fade_beside_on(const LaneCount& contacts, int contact, const LawLanes& laws,
+                                          MemoryLanes& memories) {
+  return by_grain<Widest>(
+      contacts, [&]<class G>(G)
+                    __attribute__((always_inline)) { return fade_beside_all<G>(contact, laws, memories); });
+}
+
+template <class Widest>
 FRETWORK_INLINE CommitSums commit_on(const Places& acting, const LawLanes& laws, CommitLanes& commits,
                                      MemoryLanes& memories) {
   return by_grain<Widest>(
@@ -256,6 +258,9 @@ FRETWORK_KERNEL(CommitSums, commit,
 FRETWORK_KERNEL(CommitSums, fade,
                 (const LaneCount& contacts, int steps, const LawLanes& laws, MemoryLanes& memories),
                 (contacts, steps, laws, memories))
+FRETWORK_KERNEL(CommitSums, fade_beside,
+                (const LaneCount& contacts, int contact, const LawLanes& laws, MemoryLanes& memories),
+                (contacts, contact, laws, memories))
 FRETWORK_KERNEL(double, follow,
                 (const LaneCount& contacts, const LawLanes& laws, MemoryLanes& memories, const double* u,
                  const double* last_u, const double* w, double half_step),

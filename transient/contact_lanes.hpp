@@ -4,43 +4,18 @@
 /// x_loc) and every memory is return_map. The laws are those of contact/normal_law.hpp and contact/friction_law.hpp (step_normal,
 /// step_friction_line, close_step, open_step), written without branches; a test holds the two against each other.
 ///
-/// The forces are found by Jacobi sweeps: all contacts at once, each with its own block of A solved exactly; a contact that is near alone,
-/// its normal force untouched by its friction, needs none. Without normal dampers normal forces do not answer velocities: the sweeps are over
+/// The forces are found by Jacobi sweeps: all contacts at once, each with its own block of A solved exactly (a contact that is near
+/// alone makes the whole step of `splitting` by itself where no other was closed: lone_contact.hpp). Without normal dampers normal forces do not answer velocities: the sweeps are over
 /// frictions alone, with the block of A that ties them. Where the sweeps do not halve the error (contacts that move almost together),
 /// Gauss-Seidel sweeps of ContactSolver take over.
 #pragma once
-#include "core/state_archive.hpp"
-#include "transient/kernels.hpp"
+#include "transient/reach_lanes.hpp"
 
 namespace fretwork::transient {
 struct PackedContacts;
 }
 
 namespace fretwork::transient::kernels {
-
-/// One number of `lanes` contacts.
-using Numbers = double[lanes];
-/// Where a contact stands among these.
-[[nodiscard]] constexpr int lane(int contact) {
-  return static_cast<int>(static_cast<unsigned>(contact) % lanes);
-}
-
-/// Numbers of contacts: those of `lanes` contacts lie together, at distances that compilers know.
-template <class Pack> class LaneTable {
-public:
-  LaneTable() = default;
-  /// All 0.   @param width  contacts, padded
-  explicit LaneTable(int width) : packs_(static_cast<std::size_t>(width / lanes)) {}
-  /// The pack in which a contact stands.
-  [[nodiscard]] Pack& operator[](int contact) { return packs_[static_cast<unsigned>(contact) / lanes]; }
-  [[nodiscard]] const Pack& operator[](int contact) const {
-    return packs_[static_cast<unsigned>(contact) / lanes];
-  }
-  void visit(core::StateArchive& state) { state(packs_); }
-
-private:
-  std::vector<Pack, AlignedAllocator<Pack>> packs_;
-};
 
 /// Laws; 0 without friction.
 struct alignas(alignment) LawNumbers {
@@ -69,7 +44,7 @@ struct alignas(alignment) MemoryNumbers {
 struct MemoryLanes : LaneTable<MemoryNumbers> {
   /// @param width  contacts, padded
   explicit MemoryLanes(int width);
-  std::vector<int> places, next; ///< Places where something is remembered; room for those after a commit
+  PlaceList places, next; ///< Places where something is remembered; room for those after a commit
   void visit(core::StateArchive& state) {
     LaneTable::visit(state);
     state(places);
@@ -106,12 +81,6 @@ struct MobilityLanes {
   bool coupled = false; ///< some force along y moves some contact along z
 };
 
-/// Marks of the near contacts (1 or 0), gaps, normals, in lanes; velocities before the action, displacements and those at the last action of
-/// all contacts, blocks of `width` lanes along y and z.
-struct NearLanes {
-  const double *near, *gap, *ny, *nz, *velocity, *displacement, *last;
-};
-
 /// A step found, and what its commit makes of it.
 struct alignas(alignment) CommitNumbers {
   Numbers closed, normal_y, normal_z, force, displacement, slides; ///< in: 1 or 0; n; F_t, N; m; 1 or 0
@@ -122,6 +91,8 @@ using CommitLanes = LaneTable<CommitNumbers>;
 /// How contacts are solved.
 struct SweepRule {
   double step;        ///< s
+  double per_step;    ///< 1/s: divisions take long
+  double step_sixth;  ///< s
   double half_window; ///< s, closed shares are taken over it to both sides
   bool implicit;      ///< some law depends on velocities: one sweep is not enough
   bool damped;        ///< some normal law has a damper: normal forces answer velocities
@@ -133,9 +104,10 @@ struct Solved {
   double work = 0.0, jump = 0.0; ///< J, of ContactSolver::Action
   bool settled = true;           ///< otherwise nothing is found yet but `springs`
 };
-/// Which contacts of the places are shut, and their forces for the step: `steps` and what `commits` takes in, there only.
-extern const Kernel<Solved(const Places& places, const SweepRule& rule, const LawLanes& laws,
-                           const MemoryLanes& memories, const MobilityLanes& mobility, const NearLanes& near,
+/// Which of the near contacts are shut, and their forces for the step: `steps` and what `commits` takes in, at their places only.
+/// @param motion  before the action   @param last  displacements at the last one
+extern const Kernel<Solved(const SweepRule& rule, const LawLanes& laws, const MemoryLanes& memories,
+                           const MobilityLanes& mobility, const MotionLanes& motion, const double* last,
                            StepLanes& steps, CommitLanes& commits)>
     solve;
 
@@ -152,6 +124,11 @@ extern const Kernel<CommitSums(const Places& acting, const LawLanes& laws, Commi
 extern const Kernel<CommitSums(const LaneCount& contacts, int steps, const LawLanes& laws,
                                MemoryLanes& memories)>
     fade;
+
+/// The same of one step and all contacts but one, whose memory has advanced already.
+extern const Kernel<CommitSums(const LaneCount& contacts, int contact, const LawLanes& laws,
+                               MemoryLanes& memories)>
+    fade_beside;
 
 /// ContactMemory::follow: vectors of all contacts, blocks of `width` lanes along y and z, displacements now and at the last commit and
 /// velocities. Returns the change of the energy of the springs, J.

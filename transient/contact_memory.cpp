@@ -43,22 +43,20 @@ ContactLosses ContactMemory::commit(const ContactMotion& motion, ContactTrial& t
       trial.opened.push_back(c);
     }
   closed_.assign(trial.active.begin(), trial.active.end());
-  position_ = motion.u;
+  stand(motion);
   return losses;
 }
 
-ContactLosses ContactMemory::pass(const ContactMotion& motion, int steps, ContactTrial& trial) {
-  trial.clear();
+/// Springs die out.
+ContactLosses ContactMemory::fade(int steps, ContactTrial& trial) {
   ContactLosses losses;
-  // springs die out
-  if (contacts_.in_lanes && !lanes_.places.empty()) {
+  if (!lanes_.places.empty()) {
     const kernels::CommitSums sums = kernels::fade(contacts_.lane_count(), steps, laws_, lanes_);
     losses.damping += sums.damping;
     springs_ += sums.stored;
   }
   for (int i = 0; i < steps && !remembering_.empty(); ++i)
     commit_each(trial, losses);
-  position_ = motion.u;
   return losses;
 }
 
@@ -86,7 +84,7 @@ void ContactMemory::follow(const ContactMotion& motion, double half_step) {
 void ContactMemory::leave(const ContactMotion& motion, const ContactTrial& trial, double half_step) {
   if (contacts_.in_lanes) {
     if (!trial.active.empty())
-      kernels::leave(motion.places(), laws_, trial.lanes, lanes_, motion.w.data(), half_step);
+      kernels::leave(motion.places, laws_, trial.lanes, lanes_, motion.w.data(), half_step);
     return;
   }
   for (const int c : trial.active) {
@@ -128,7 +126,7 @@ void ContactMemory::commit_lanes(const ContactMotion& motion, ContactTrial& tria
     }
   }
   const kernels::CommitSums sums =
-      kernels::commit(trial.found_in_lanes ? motion.places() : acting_, laws_, step, lanes_);
+      kernels::commit(trial.found_in_lanes ? motion.places : acting_, laws_, step, lanes_);
   for (const int c : trial.active) {
     trial.states[c].friction_work = step[c].friction_work[kernels::lane(c)];
     trial.states[c].damper_work += step[c].damper_work[kernels::lane(c)];

@@ -16,6 +16,8 @@
 #pragma once
 #include "transient/contact_motion.hpp"
 #include "transient/contact_trial.hpp"
+#include "transient/lone_contact.hpp"
+#include <cstring>
 
 namespace fretwork::transient {
 
@@ -31,7 +33,7 @@ public:
   /// @param contacts  must live longer   @param step  s, between commits
   ContactMemory(const PackedContacts& contacts, double step);
 
-  /// Another time between commits, s. No allocation.
+  /// Another time between commits, s. No allocation. Not with `step_alone`, which asks for more of the laws.
   void set_step(double step);
   /// The contacts stand here; nothing is loaded.
   void start(const ContactMotion& motion) { position_ = motion.u; }
@@ -44,10 +46,6 @@ public:
                                                                 lanes_[c].sliding[kernels::lane(c)] != 0.0};
     const Entry& e = entries_[c];
     return opposite(e, ny, nz) ? contact::FrictionMemory{} : e.friction;
-  }
-  /// Contact c slid at the last commit.
-  [[nodiscard]] bool slid(int c) const {
-    return contacts_.in_lanes ? lanes_[c].sliding[kernels::lane(c)] != 0.0 : entries_[c].friction.sliding;
   }
   /// Friction at the last commit if contact c was closed then on the same surface, otherwise 0, N.
   [[nodiscard]] contact::Vec2 last_force(int c, double ny, double nz) const {
@@ -73,12 +71,27 @@ public:
   ContactLosses commit(const ContactMotion& motion, ContactTrial& trial);
 
   /// Accepts `steps` steps at once in which all contacts are open. No allocation.
-  ContactLosses pass(const ContactMotion& motion, int steps, ContactTrial& trial);
+  ContactLosses pass(const ContactMotion& motion, int steps, ContactTrial& trial) {
+    trial.clear();
+    const bool remembers = !(lanes_.places.empty() && remembering_.empty());
+    const ContactLosses losses = remembers ? fade(steps, trial) : ContactLosses{};
+    stand(motion);
+    return losses;
+  }
 
   /// Between flow and action: e_n to the springs of contacts that stick. `motion` is that before the action. No allocation.
   void follow(const ContactMotion& motion, double half_step);
   /// After the commit of an action, with the motion before it: what the next `follow` starts from. No allocation.
   void leave(const ContactMotion& motion, const ContactTrial& trial, double half_step);
+  /// Whether contact c may make its step by itself: no other was closed at the last commit.
+  [[nodiscard]] bool only(int c) const {
+    return contacts_.in_lanes && (closed_.empty() || (closed_.size() == 1 && closed_.front() == c));
+  }
+  /// Follows contact c, finds its forces for the step and commits it. Where this cannot be done by itself only the trial has changed, which is of
+  /// no use then. No allocation.
+  /// @param push  of its last action; becomes that of this one
+  kernels::LoneStep step_alone(int c, const ContactMotion& motion, const kernels::SweepRule& rule,
+                               kernels::NormalPush& push, ContactTrial& trial);
   void visit(core::StateArchive& state) {
     state(entries_, lanes_, laws_, remembering_, closed_, position_, ahead_, springs_);
   }
@@ -97,6 +110,15 @@ private:
   [[nodiscard]] bool opposite_lane(int c, double ny, double nz) const {
     return lanes_[c].normal_y[kernels::lane(c)] * ny + lanes_[c].normal_z[kernels::lane(c)] * nz < 0.0;
   }
+  ContactLosses fade(int steps, ContactTrial& trial);
+  /// The contacts stand here at the last commit. A pack at a time: calls take longer than a few packs.
+  void stand(const ContactMotion& motion) {
+    const std::size_t stride = position_.size();
+    const double* from = motion.u.data();
+    double* to = position_.data();
+    for (std::size_t i = 0; i < stride; i += kernels::lanes)
+      std::memcpy(to + i, from + i, kernels::lanes * sizeof(double));
+  }
   void commit_each(ContactTrial& trial, ContactLosses& losses);
   void commit_lanes(const ContactMotion& motion, ContactTrial& trial, ContactLosses& losses);
   void close(int c, ContactState& state, ContactLosses& losses);
@@ -114,5 +136,46 @@ private:
   std::vector<contact::Vec2> ahead_; ///< m, dx - (h/2) v- of the last action, where not in lanes
   double springs_ = 0.0;
 };
+
+// Here, as the call of each step takes longer than what it does.
+inline kernels::LoneStep ContactMemory::step_alone(int c, const ContactMotion& motion,
+                                                   const kernels::SweepRule& rule, kernels::NormalPush& push,
+                                                   ContactTrial& trial) {
+  if (!(trial.opened.empty() && trial.active.size() == 1 && trial.active.front() == c)) {
+    trial.clear();
+    trial.active.push_back(c);
+  }
+  ContactState& state = trial.states[static_cast<std::size_t>(c)];
+  const bool was_closed = !closed_.empty();
+  kernels::LoneStep step =
+      kernels::step_alone(c, rule, laws_, lanes_, motion, position_.data(), was_closed, push, state);
+  if (!step.found)
+    return step;
+  trial.springs = step.springs;
+  trial.cut = step.cut;
+  trial.found_in_lanes = false;
+  const kernels::PlaceList& places = lanes_.places;
+  const bool listed = step.remembers ? acting_.all.few() && places.size() == 1 && places.front() == c
+                                     : places.empty(); // as it is to be, and no other is remembered
+  if (!listed) {
+    const kernels::CommitSums others = kernels::fade_beside(acting_.all, c, laws_, lanes_);
+    step.damping += others.damping;
+    step.stored += others.stored;
+  }
+  springs_ += step.followed + step.stored;
+  if (!(state.normal_force > 0.0)) {
+    trial.active.clear();
+    if (was_closed) {
+      const auto at = motion.locate(c);
+      state.approach = motion.sinking(c, at.ny, at.nz);
+      trial.opened.push_back(c);
+    }
+    closed_.clear();
+  } else if (!was_closed) {
+    closed_.push_back(c);
+  }
+  stand(motion);
+  return step;
+}
 
 } // namespace fretwork::transient

@@ -9,7 +9,7 @@ namespace fretwork::transient {
 
 /// Kinematics of the contacts of a scene. Normals are those of contact::Location; the tangent directions are x_loc and t = n x x_loc,
 /// and what a friction law bars (FrictionLaw::along) counts as no motion.
-class ContactMotion {
+class ContactMotion : public kernels::MotionLanes {
 public:
   /// @param contacts  must live longer
   explicit ContactMotion(const PackedContacts& contacts);
@@ -23,21 +23,37 @@ public:
   void gather_velocities(const double* v);
   /// Marks the contacts that may have penetration > 0 now, or within `half_window` seconds at their present speed (>= 0), and finds
   /// `gaps`, `normal_y` and `normal_z` of these. Returns whether there is any.
-  bool find_near(double half_window);
+  bool find_near(double half_window) {
+    (places.all.few() ? kernels::place_few : kernels::place_contacts)(contacts_.reach, half_window, *this);
+    return any_near();
+  }
+  /// `gather`, `find_near` of contacts that move with the modes alone.
+  bool meet(const double* q, const double* v, double half_window) {
+    if (!places.all.few() || contacts_.components == 3) {
+      gather(q, v);
+      return find_near(half_window);
+    }
+    kernels::meet_few(contacts_.gather, contacts_.reach, q, v, half_window, *this);
+    return any_near();
+  }
   /// Whether no contact moves by more than `share` of its clearance within `time` seconds at its present speed.
   [[nodiscard]] bool moves_less(double time, double share) const;
   /// Whether all contacts would be open after `time` seconds (of either sign) at their present speeds.
   [[nodiscard]] bool opens_after(double time) const;
-  /// Where the near contacts are.
-  [[nodiscard]] const kernels::Places& places() const { return places_; }
-  [[nodiscard]] bool near(int c) const { return near_[c] != 0.0; }
-  /// The same of all contacts, in lanes: 1 or 0.
-  [[nodiscard]] const double* marks() const { return near_.data(); }
+  [[nodiscard]] bool near(int c) const { return marks[c] != 0.0; }
+  /// The only near contact; -1: there are others, or none.
+  [[nodiscard]] int lone() const {
+    if (places.near != 1.0)
+      return -1;
+    int c = places.first.front();
+    while (!near(c))
+      ++c;
+    return c;
+  }
 
   [[nodiscard]] contact::Location locate(int c) const {
-    const kernels::ReachLanes& reach = contacts_.reach;
-    return contact::locate(contacts_.supports[c].obstacle, u[c] + reach.rest_y[c],
-                           u[contacts_.width + c] + reach.rest_z[c]);
+    return contact::locate(contacts_.supports[c].obstacle, u[c] + contacts_.rest_y(c),
+                           u[contacts_.width + c] + contacts_.rest_z(c));
   }
   /// Rate of the penetration where the normal is n, m/s.
   [[nodiscard]] double sinking(int c, double ny, double nz) const {
@@ -54,15 +70,22 @@ public:
   }
   /// Energy of the normal springs, J.
   [[nodiscard]] double spring_energy() const;
-  void visit(core::StateArchive& state) { state(u, w, gaps, normal_y, normal_z, near_, places_.first); }
-
-  kernels::Array u, w;                     ///< lanes of PackedContacts: displacement, m, and velocity, m/s
-  kernels::Array gaps, normal_y, normal_z; ///< m, and unit normal, of near contacts: what `locate` gives
+  void visit(core::StateArchive& state) {
+    state(u, w, gaps, normal_y, normal_z, marks, places.first, places.near);
+  }
 
 private:
+  bool any_near() {
+    if (places.first.empty())
+      return false;
+    if (!contacts_.profiles.empty())
+      locate_profiles();
+    return true;
+  }
+  void locate_profiles();
+
   const PackedContacts& contacts_;
-  kernels::Array near_;
-  kernels::Places places_, moving_; ///< near; where velocities are gathered
+  kernels::Places moving_; ///< where velocities are gathered
 };
 
 } // namespace fretwork::transient

@@ -14,25 +14,29 @@ constexpr int most_jacobi_sweeps = 12;
 
 } // namespace
 
-double instant_share(double force, double spring, double instant) {
-  return instant == spring ? 1.0 : std::max(0.0, 1.0 + (instant - spring) / force);
-}
-
 double half_window(const PackedContacts& contacts, double step) {
   const bool damped = std::any_of(contacts.supports.begin(), contacts.supports.end(),
                                   [](const contact::Support& s) { return s.normal.damping > 0.0; });
   return damped ? 0.5 * step : 0.0;
 }
 
+namespace {
+
+kernels::SweepRule rule_of(const PackedContacts& contacts, double step) {
+  const auto any = [&](const auto& has) {
+    return std::any_of(contacts.supports.begin(), contacts.supports.end(), has);
+  };
+  const bool damped = any([](const contact::Support&s) { return s.normal.damps(); }),
+             rubs = any([](const contact::Support&s) { return s.friction.active(); });
+  return {step,           1.0 / step, step / 6.0,      half_window(contacts, step),
+          damped || rubs, damped,     sweep_tolerance, most_jacobi_sweeps};
+}
+
+} // namespace
+
 ContactSolver::ContactSolver(const PackedContacts& contacts, double step)
-    : contacts_(contacts), h_(step), half_window_(half_window(contacts, step)),
-      coupled_(
-          std::any_of(contacts.supports.begin(), contacts.supports.end(),
-                      [](const contact::Support& s) { return s.friction.active() || s.normal.damps(); })),
-      damped_(std::any_of(contacts.supports.begin(), contacts.supports.end(),
-                          [](const contact::Support& s) { return s.normal.damps(); })),
-      laws_(kernels::law_lanes(contacts, step)),
-      lanes_(contacts.width, contacts.in_lanes && coupled_ && !damped_),
+    : contacts_(contacts), rule_(rule_of(contacts, step)), laws_(kernels::law_lanes(contacts, step)),
+      lanes_(contacts.width, contacts.in_lanes && rule_.implicit && !rule_.damped),
       block_(static_cast<std::size_t>(contacts.components) * static_cast<std::size_t>(contacts.stride())) {
   shut_.reserve(static_cast<std::size_t>(contacts.count));
   a_.assign(block_ * static_cast<std::size_t>(contacts.count), 0.0);
@@ -41,7 +45,7 @@ ContactSolver::ContactSolver(const PackedContacts& contacts, double step)
 
 ContactSolver::Action ContactSolver::solve(const ContactMemory& memory, ContactMotion& motion,
                                            ContactTrial& trial) {
-  motion.find_near(half_window_);
+  motion.find_near(rule_.half_window);
   return solve_near(memory, motion, trial);
 }
 
@@ -50,7 +54,7 @@ ContactSolver::Action ContactSolver::solve_near(const ContactMemory& memory, con
   Action action;
   trial.clear();
   shut_.clear();
-  if (motion.places().first.empty())
+  if (motion.places.first.empty())
     return action;
   if (contacts_.in_lanes && solve_in_lanes(memory, motion, trial, action))
     return action;
@@ -66,12 +70,8 @@ ContactSolver::Action ContactSolver::solve_near(const ContactMemory& memory, con
 
 bool ContactSolver::solve_in_lanes(const ContactMemory& memory, const ContactMotion& motion,
                                    ContactTrial& trial, Action& action) {
-  const kernels::SweepRule rule{h_, half_window_, coupled_, damped_, sweep_tolerance, most_jacobi_sweeps};
-  const kernels::NearLanes near{motion.marks(),          motion.gaps.data(), motion.normal_y.data(),
-                                motion.normal_z.data(),  motion.w.data(),    motion.u.data(),
-                                memory.position().data()};
-  const kernels::Solved solved = kernels::solve(motion.places(), rule, laws_, memory.lanes(),
-                                                contacts_.mobility_lanes, near, lanes_, trial.lanes);
+  const kernels::Solved solved = kernels::solve(rule_, laws_, memory.lanes(), contacts_.mobility_lanes,
+                                                motion, memory.position().data(), lanes_, trial.lanes);
   if (!solved.settled)
     return false;
   trial.springs = solved.springs;
@@ -112,7 +112,7 @@ void ContactSolver::meet(const ContactMotion& motion, ContactTrial& trial) {
       continue;
     const contact::Support& support = contacts_.supports[c];
     const double p = -motion.gaps[c], rate = motion.sinking(c, motion.normal_y[c], motion.normal_z[c]);
-    const double reach = half_window_ * rate, closed = contact::closed_share(p - reach, p + reach);
+    const double reach = rule_.half_window * rate, closed = contact::closed_share(p - reach, p + reach);
     if (p > 0.0)
       trial.springs += 0.5 * support.normal.stiffness * p * p;
     else if (!(closed * support.normal.damping > 0.0))
@@ -133,7 +133,7 @@ void ContactSolver::couple(const ContactMotion& motion) {
   for (std::size_t i = 0; i < shut_.size(); ++i) {
     const int c = shut_[i].contact;
     kernels::respond(contacts_.width, directions, contacts_.column(c), motion.normal_y[c], motion.normal_z[c],
-                     0.5 * h_, motion.normal_y.data(), motion.normal_z.data(), &a_[block_ * i]);
+                     0.5 * rule_.step, motion.normal_y.data(), motion.normal_z.data(), &a_[block_ * i]);
   }
 }
 
@@ -153,9 +153,9 @@ void ContactSolver::prepare(const ContactMemory& memory, const ContactMotion& mo
     const contact::NormalLaw& law = support.normal;
     const double moved = motion.normal_y[c] * (motion.u[c] - memory.position()[c]) +
                          motion.normal_z[c] * (motion.u[width + c] - memory.position()[width + c]);
-    const auto [spring, instant] =
-        s.depth > 0.0 ? contact::InstantSpring(law.stiffness, s.nn, h_).push(s.depth, -moved / h_, s.approach)
-                      : contact::InstantSpring::Push{0.0, 0.0};
+    const auto [spring, instant] = s.depth > 0.0 ? contact::InstantSpring(law.stiffness, s.nn, rule_.step)
+                                                       .push(s.depth, -moved / rule_.step, s.approach)
+                                                 : contact::InstantSpring::Push{0.0, 0.0};
     s.instant = instant;
     s.normal = contact::NormalStep(spring, s.closed * law.damping + law.dissipation * spring, s.nn);
     s.per_normal = 1.0 / s.normal.spring_and_damper(s.approach);
@@ -192,7 +192,7 @@ void ContactSolver::prepare(const ContactMemory& memory, const ContactMotion& mo
 
 /// Returns whether the forces settled.
 bool ContactSolver::sweep(const ContactMemory& memory, const ContactMotion& motion) {
-  if (!coupled_)
+  if (!rule_.implicit)
     return true;
   double last = 0.0;
   for (int k = 0; k < most_sweeps; ++k) {
@@ -257,10 +257,10 @@ void ContactSolver::close(const ContactMotion& motion, ContactTrial& trial, Acti
     const int c = s.contact;
     const double v[3] = {velocity_[c], velocity_[width + c],
                          contacts_.components == 3 ? velocity_[2 * width + c] : 0.0};
-    const double loss = -h_ * (s.force[0] - s.normal.spring()) * v[0];
+    const double loss = -rule_.step * (s.force[0] - s.normal.spring()) * v[0];
     for (int k = 0; k < 3; ++k) {
-      action.work += h_ * s.force[k] * v[k];
-      action.jump += h_ * s.force[k] * (v[k] - s.before[k]);
+      action.work += rule_.step * s.force[k] * v[k];
+      action.jump += rule_.step * s.force[k] * (v[k] - s.before[k]);
     }
     if (!(s.force[0] > 0.0)) { // the damper holds the contact free of force: it is open
       trial.cut += loss;
@@ -276,7 +276,7 @@ void ContactSolver::close(const ContactMotion& motion, ContactTrial& trial, Acti
     if (s.friction) {
       const contact::Vec2 along = contacts_.supports[c].friction.along;
       state.friction = {s.force[2], s.force[1]};
-      state.displacement = {s.in_plane ? h_ * along.x * v[2] : 0.0, h_ * along.t * v[1]};
+      state.displacement = {s.in_plane ? rule_.step * along.x * v[2] : 0.0, rule_.step * along.t * v[1]};
       state.slides = s.slides;
     }
     trial.active.push_back(c);

@@ -14,6 +14,7 @@
 /// force the contact can bear, a thousandth of what the step itself leaves at its finest.
 #pragma once
 #include "transient/contact_memory.hpp"
+#include <algorithm>
 
 namespace fretwork::transient {
 
@@ -21,7 +22,9 @@ namespace fretwork::transient {
 [[nodiscard]] double half_window(const PackedContacts& contacts, double step);
 /// ContactState::instant_share of a contact with the force `force` (> 0) whose spring bears `spring` over the step and `instant` at its
 /// instant, N.
-[[nodiscard]] double instant_share(double force, double spring, double instant);
+[[nodiscard]] inline double instant_share(double force, double spring, double instant) {
+  return instant == spring ? 1.0 : std::max(0.0, 1.0 + (instant - spring) / force);
+}
 
 class ContactSolver {
 public:
@@ -39,7 +42,9 @@ public:
   /// The same where the near contacts are found already.
   Action solve_near(const ContactMemory& memory, const ContactMotion& motion, ContactTrial& trial);
   /// s: how long before and after the action contacts may close that `solve` looks for.
-  [[nodiscard]] double window() const { return half_window_; }
+  [[nodiscard]] double window() const { return rule_.half_window; }
+  /// How contacts are solved in lanes.
+  [[nodiscard]] const kernels::SweepRule& rule() const { return rule_; }
 
 private:
   /// A contact that takes part in the step.
@@ -75,10 +80,7 @@ private:
   void close(const ContactMotion& motion, ContactTrial& trial, Action& action) const;
 
   const PackedContacts& contacts_;
-  double h_;
-  double half_window_; ///< s: contacts that close within it may act
-  bool coupled_;       ///< some law is implicit in velocity
-  bool damped_;        ///< some normal law has a damper
+  kernels::SweepRule rule_;
   std::vector<Shut> shut_;
   kernels::LawLanes laws_;
   kernels::StepLanes lanes_;

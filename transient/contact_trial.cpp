@@ -10,15 +10,13 @@ ContactTrial::ContactTrial(int contacts) : lanes(kernels::padded(contacts)) {
   opened.reserve(count);
 }
 
-void ContactTrial::clear() {
+void ContactTrial::open_all() {
   for (const int c : active)
     states[c] = {};
   for (const int c : opened)
     states[c] = {};
   active.clear();
   opened.clear();
-  springs = cut = 0.0;
-  found_in_lanes = false;
 }
 
 double product(const PackedContacts& contacts, const ContactTrial& trial, const kernels::Array& lanes) {
@@ -43,17 +41,22 @@ ContactRows::ContactRows(const PackedContacts& contacts) : contacts_(contacts) {
 }
 
 void ContactRows::set(const ContactTrial& trial, double scale) {
-  count_ = 0;
+  const double** row = row_.data();
+  double* factor = factor_.data();
   for (const int c : trial.active) {
     const ContactState& s = trial.states[c];
-    const double force[3] = {s.normal_force * s.ny + s.friction.t * s.nz,
-                             s.normal_force * s.nz - s.friction.t * s.ny, s.friction.x};
-    const int components = contacts_.in_plane[c] ? 3 : 2;
-    for (int k = 0; k < components; ++k, ++count_) {
-      row_[count_] = contacts_.row(c, k);
-      factor_[count_] = scale * force[k];
+    row[0] = contacts_.row(c, 0);
+    row[1] = contacts_.row(c, 1);
+    factor[0] = scale * (s.normal_force * s.ny + s.friction.t * s.nz);
+    factor[1] = scale * (s.normal_force * s.nz - s.friction.t * s.ny);
+    row += 2;
+    factor += 2;
+    if (contacts_.in_plane[c]) {
+      *row++ = contacts_.row(c, 2);
+      *factor++ = scale * s.friction.x;
     }
   }
+  count_ = static_cast<std::size_t>(factor - factor_.data());
 }
 
 void ContactRows::add_to(double* target) const {

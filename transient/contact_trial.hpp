@@ -12,7 +12,12 @@ namespace fretwork::transient {
 struct ContactTrial {
   explicit ContactTrial(int contacts);
   /// All contacts open. No allocation.
-  void clear();
+  void clear() {
+    if (!active.empty() || !opened.empty())
+      open_all();
+    springs = cut = 0.0;
+    found_in_lanes = false;
+  }
   void visit(core::StateArchive& state) { state(states, active, opened, springs, cut, lanes); }
 
   std::vector<ContactState>
@@ -23,8 +28,11 @@ struct ContactTrial {
   double springs = 0.0; ///< J, energy of the normal springs, and of the residual flexibility
   double cut =
       0.0; ///< J over the step, lost by springs that a damper holds free of force: what the positive part cuts
-  kernels::CommitLanes lanes;  ///< the same as `states`: filled where contacts are found in lanes,
+  kernels::CommitLanes lanes;  ///< as `states`: filled where several contacts are found in lanes,
   bool found_in_lanes = false; ///< which this tells, or by the commit
+
+private:
+  void open_all();
 };
 
 /// Sum over all contacts of the force on the node times a vector given in lanes (empty: 0): a power of velocities, W, a work of displacements, J.
@@ -49,6 +57,15 @@ public:
   explicit ContactRows(const PackedContacts& contacts);
   /// The forces of a trial times `scale`. No allocation.
   void set(const ContactTrial& trial, double scale);
+  /// Those of one contact along y and z alone, times `scale`.
+  void set(int c, double y, double z, double scale) {
+    row_[0] = contacts_.row(c, 0);
+    row_[1] = contacts_.row(c, 1);
+    factor_[0] = scale * y;
+    factor_[1] = scale * z;
+    count_ = 2;
+  }
+  void clear() { count_ = 0; }
   /// target += sum of rows; padded modes. No allocation.
   void add_to(double* target) const;
   /// The same, and moved = q + share * what is added; `moved` stays without rows. No allocation.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/oscillator.hpp"
-#include "transient/vector_lanes.hpp"
+#include "transient/row_sums.hpp"
 #include <algorithm>
 
 namespace fretwork::transient::kernels {
@@ -128,6 +128,16 @@ FRETWORK_KERNEL(double, twice_energy, (int np, const double* k, const double* q,
                 (np, k, q, v))
 
 void GatherTable::add_pack(int mode_count, std::ptrdiff_t width, const double* values_of_mode) {
+  if (rows > 0) {
+    padded_modes = padded(mode_count);
+    for (int r = 0; r < rows; ++r) {
+      for (int i = 0; i < mode_count; ++i)
+        values.push_back(values_of_mode[i * width + r]);
+      values.resize(values.size() + static_cast<std::size_t>(padded_modes - mode_count), 0.0);
+    }
+    begin.push_back(begin.back() + rows);
+    return;
+  }
   for (int i = 0; i < mode_count; ++i) {
     const double* row = values_of_mode + i * width;
     if (std::all_of(row, row + lanes, [](double x) { return x == 0.0; }))
@@ -167,10 +177,23 @@ FRETWORK_INLINE void gather_pack(const GatherTable& g, int p, const double* cons
   });
 }
 
+/// The same row by row.
+template <class V, int rows, std::size_t count>
+FRETWORK_INLINE void gather_rows(const GatherTable& g, int p, const double* const (&from)[count],
+                                 double* const (&to)[count]) {
+  const RowSums<rows, count> sums = row_sums<V, rows, count>(g, p, from);
+  for (std::size_t n = 0; n < count; ++n)
+    store_rows<V, rows>(sums.of[n], to[n] + p * lanes);
+}
+
 template <class Widest, std::size_t count>
 FRETWORK_INLINE void gather_one(const GatherTable& g, int p, const double* const (&from)[count],
                                 double* const (&to)[count]) {
-  if (g.half)
+  if (g.rows == 1)
+    gather_rows<Widest, 1, count>(g, p, from, to);
+  else if (g.rows == 2)
+    gather_rows<Widest, 2, count>(g, p, from, to);
+  else if (g.half)
     gather_pack<Grain<Widest, Half>, count>(g, p, from, to);
   else
     gather_pack<Grain<Widest, Pack>, count>(g, p, from, to);

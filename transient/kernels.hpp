@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <memory>
 #include <new>
+#include <utility>
 #include <vector>
 
 namespace fretwork::transient {
@@ -106,11 +107,40 @@ struct LaneCount {
   [[nodiscard]] int together() const { return few() ? 1 : half() ? lanes / 2 : lanes; }
 };
 
+/// Numbers with room for all from the start: a vector that could grow takes registers in the kernels that add to it.
+class PlaceList {
+public:
+  explicit PlaceList(int room) : room_(static_cast<std::size_t>(room)) {}
+  [[nodiscard]] const int* begin() const { return room_.data(); }
+  [[nodiscard]] const int* end() const { return room_.data() + count_; }
+  [[nodiscard]] bool empty() const { return count_ == 0; }
+  [[nodiscard]] int size() const { return count_; }
+  [[nodiscard]] int front() const { return room_[0]; }
+  [[nodiscard]] int back() const { return end()[-1]; }
+  void clear() { count_ = 0; }
+  void push_back(int place) { room_[static_cast<std::size_t>(count_++)] = place; }
+  void swap(PlaceList& other) {
+    room_.swap(other.room_);
+    std::swap(count_, other.count_);
+  }
+  template <class Archive> void visit(Archive& state) {
+    std::vector<int> listed;
+    listed.reserve(room_.size());
+    listed.assign(begin(), end());
+    state(listed);
+    clear();
+    for (const int place : listed)
+      push_back(place);
+  }
+
+private:
+  std::vector<int> room_;
+  int count_ = 0;
+};
+
 /// The places at which a step has something to do: first lanes of `together` contacts each, by increasing number.
 struct Places {
-  explicit Places(const LaneCount& contacts) : all(contacts) {
-    first.reserve(static_cast<std::size_t>(contacts.width));
-  }
+  explicit Places(const LaneCount& contacts) : all(contacts), first(contacts.width) {}
   /// That of a contact. Those of increasing contacts, one after the other.
   void add_contact(int c) {
     const int lane = c - c % all.together();
@@ -118,8 +148,8 @@ struct Places {
       first.push_back(lane);
   }
   LaneCount all;
-  std::vector<int> first;
-  double near = 0.0; ///< contacts that place_contacts finds near
+  PlaceList first;
+  double near = 0.0; ///< contacts that are found near
 };
 
 /// A matrix of `lanes`-wide packs of rows, each with the columns (modes) that are not zero in it: contacts whose local axes lie along
@@ -129,10 +159,13 @@ struct GatherTable {
   std::vector<int> modes;
   Array values;      ///< `lanes` an entry
   bool half = false; ///< all rows stand in the first half of their packs
+  int rows =
+      0; ///< of a pack, where they are so few that each by itself takes less: `padded_modes` of `values` each
+  int padded_modes = 0;
   /// Appends a pack of rows from `width` values a mode.
   void add_pack(int mode_count, std::ptrdiff_t width, const double* values_of_mode);
 };
-/// u = G q and w = G v.
+/// u = G q and w = G v. Vectors of the modes padded by finite numbers and aligned, as all that kernels take.
 extern const Kernel<void(const GatherTable& g, const double* q, const double* v, double* u, double* w)>
     gather_two;
 /// u = G q.

@@ -24,11 +24,13 @@ constexpr double path_tolerance = 1e-2;
 constexpr int paths = 2;
 
 /// Bound of contact::Reach: false where the node is surely out of its obstacle.
-bool may_touch(const ReachLanes& r, std::size_t c, double y, double z) {
-  y += r.rest_y[c];
-  z += r.rest_z[c];
-  const double left = r.limit[c] - r.ly[c] * y - r.lz[c] * z, across = r.wy[c] * y * y + r.wz[c] * z * z;
-  const double radial = r.radial[c];
+bool may_touch(const ReachLanes& reach, int c, double y, double z) {
+  const kernels::ReachNumbers& r = reach[c];
+  const int l = kernels::lane(c);
+  y += r.rest_y[l];
+  z += r.rest_z[l];
+  const double left = r.limit[l] - r.ly[l] * y - r.lz[l] * z, across = r.wy[l] * y * y + r.wz[l] * z * z;
+  const double radial = r.radial[l];
   return radial > 0.0 ? left <= 0.0 || radial * radial * across >= left * left
                       : left <= radial * std::sqrt(across);
 }
@@ -118,14 +120,13 @@ bool NodalSolver::follow_paths(NodalMotion& motion) {
 /// Takes in the contacts that penetrate and do not take part yet. Returns whether there are any.
 bool NodalSolver::admit(const NodalTables& tables, NodalMotion& motion) {
   const std::size_t before = active_.size();
-  const auto width = static_cast<std::size_t>(contacts_.width);
   const double *u1 = motion.u(1), *u2 = motion.u(2);
   for (SweptContact& swept : swept_) {
-    const auto i = static_cast<std::size_t>(swept.contact);
+    const int c = swept.contact;
     ContactNode* node = swept.node;
     const bool was_closed = node[0].normal > 0.0;
-    if (swept.takes_part || !(was_closed || may_touch(contacts_.reach, i, u1[i], u1[width + i]) ||
-                              may_touch(contacts_.reach, i, u2[i], u2[width + i])))
+    if (swept.takes_part || !(was_closed || may_touch(contacts_.reach, c, u1[swept.y], u1[swept.z]) ||
+                              may_touch(contacts_.reach, c, u2[swept.y], u2[swept.z])))
       continue;
     meet_ends(swept, motion);
     if (!(was_closed || node[1].penetration >= 0.0 || node[2].penetration >= 0.0))

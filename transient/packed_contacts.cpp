@@ -25,27 +25,28 @@ PackedContacts::PackedContacts(const std::vector<ContactPoint>& contacts, Eigen:
                return !c.support.friction.active() ||
                       c.support.friction.kind == contact::FrictionMemoryKind::return_map;
              });
-  const auto lanes = static_cast<std::size_t>(width);
+  reach = kernels::ReachLanes(width);
   kernels::Array by_mode(static_cast<std::size_t>(modes) * stride(), 0.0);
   rows.assign(static_cast<std::size_t>(count) * 3 * padded_modes, 0.0);
   mobility.assign(static_cast<std::size_t>(count) * 3 * stride(), 0.0);
-  for (kernels::Array* a :
-       {&reach.rest_y, &reach.rest_z, &reach.wy, &reach.wz, &reach.radial, &reach.ly, &reach.lz})
-    a->assign(lanes, 0.0);
-  reach.limit.assign(lanes, std::numeric_limits<double>::infinity()); // a lane of padding is never near
+  for (int c = 0; c < width; ++c)
+    reach[c].limit[kernels::lane(c)] =
+        std::numeric_limits<double>::infinity(); // a lane of padding is never near
 
   for (int c = 0; c < count; ++c) {
     const ContactPoint& point = contacts[static_cast<std::size_t>(c)];
     supports.push_back(point.support);
-    const contact::Reach r = contact::reach(point.support.obstacle);
-    reach.rest_y[c] = point.rest.y();
-    reach.rest_z[c] = point.rest.z();
-    reach.wy[c] = r.wy;
-    reach.wz[c] = r.wz;
-    reach.radial[c] = r.radial;
-    reach.ly[c] = r.ly;
-    reach.lz[c] = r.lz;
-    reach.limit[c] = r.limit;
+    const contact::Reach bound = contact::reach(point.support.obstacle);
+    kernels::ReachNumbers& r = reach[c];
+    const int l = kernels::lane(c);
+    r.rest_y[l] = point.rest.y();
+    r.rest_z[l] = point.rest.z();
+    r.wy[l] = bound.wy;
+    r.wz[l] = bound.wz;
+    r.radial[l] = bound.radial;
+    r.ly[l] = bound.ly;
+    r.lz[l] = bound.lz;
+    r.limit[l] = bound.limit;
     if (std::holds_alternative<contact::Profile>(point.support.obstacle))
       profiles.push_back(c);
     for (int k = 0; k < components; ++k)
@@ -59,9 +60,10 @@ PackedContacts::PackedContacts(const std::vector<ContactPoint>& contacts, Eigen:
           mobility[(static_cast<std::size_t>(c) * 3 + from) * stride() + to * width + other] =
               contacts[static_cast<std::size_t>(other)].b.row(stored[to]).dot(point.b.row(stored[from]));
   }
+  gather.half = lane_count().half();
+  gather.rows = lane_count().few() ? count : 0;
   for (int lane = 0; lane < stride(); lane += kernels::lanes)
     gather.add_pack(modes, stride(), by_mode.data() + lane);
-  gather.half = lane_count().half();
   if (in_lanes)
     pack_mobility();
 }

@@ -33,6 +33,9 @@ struct PackedContacts {
       false; ///< friction acts along one tangent only and every memory is return_map: contact_lanes.hpp
   std::vector<int> profiles; ///< contacts whose obstacle the lanes of `reach` only bound
 
+  /// Position of a contact without displacement, m.
+  [[nodiscard]] double rest_y(int c) const { return reach[c].rest_y[kernels::lane(c)]; }
+  [[nodiscard]] double rest_z(int c) const { return reach[c].rest_z[kernels::lane(c)]; }
   [[nodiscard]] const double* row(int contact, int component) const {
     return &rows[(static_cast<std::size_t>(contact) * 3 + component) * padded_modes];
   }

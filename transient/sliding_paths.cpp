@@ -20,7 +20,6 @@ SlidingPaths::SlidingPaths(const PackedContacts& contacts, double step, bool mov
     : contacts_(contacts), h_(step) {
   const auto count = static_cast<std::size_t>(contacts.count);
   last_.resize(count);
-  pushed_.reserve(count);
   ended_.reserve(count);
   for (int c = 0; c < contacts.count; ++c) {
     const contact::FrictionLaw& law = contacts.supports[c].friction;
@@ -36,29 +35,21 @@ SlidingPaths::SlidingPaths(const PackedContacts& contacts, double step, bool mov
 }
 
 void SlidingPaths::correct(const ContactMotion& motion, const ContactMemory& memory, ContactTrial& trial) {
-  for (const int c : pushed_)
+  ended_.clear();
+  for (const int c : memory.closed())
     if (!(trial.states[c].normal_force > 0.0))
       last_[c] = {};
-  pushed_.assign(trial.active.begin(), trial.active.end());
-  ended_.clear();
   const double scale = h_ * h_ / 6.0;
   for (const int c : trial.active) {
     ContactState& s = trial.states[c];
     const Own& own = own_[c];
-    const double push_y = s.normal_force * s.ny, push_z = s.normal_force * s.nz;
-    Last& last = last_[c];
-    if (own.ends) {
-      const Vec2 before = motion.slip(c, s.ny, s.nz), after = (2.0 / h_) * s.displacement - before;
-      if (memory.slid(c))
-        find_end(c, s, {last.left, before, after}, memory);
-      last.left = after;
-    }
-    const double y = scale * (push_y - last.y), z = scale * (push_z - last.z);
-    const bool closes = last.y == 0.0 && last.z == 0.0; // no rate is known
-    if (own.ends && closes)
-      find_begun(c, s, motion, memory);
-    last.y = push_y;
-    last.z = push_z;
+    kernels::NormalPush& push = last_[c].push;
+    const kernels::NormalPush now{s.normal_force * s.ny, s.normal_force * s.nz};
+    const double y = scale * (now.y - push.y), z = scale * (now.z - push.z);
+    const bool closes = push.y == 0.0 && push.z == 0.0; // no rate is known
+    if (own.ends)
+      find_ends(c, closes, {memory.at(c, s.ny, s.nz), (1.0 / h_) * s.displacement, s.damper_work}, s, motion);
+    push = now;
     if (!s.slides || closes)
       continue;
     const Vec2 along = contacts_.supports[c].friction.along;
@@ -71,16 +62,34 @@ void SlidingPaths::correct(const ContactMotion& motion, const ContactMemory& mem
   }
 }
 
-void SlidingPaths::find_end(int c, const ContactState& s, const Speeds& speeds, const ContactMemory& memory) {
-  const contact::FrictionMemory past = memory.at(c, s.ny, s.nz);
-  if (!past.sliding)
-    return;
-  if (contacts_.in_plane[c] == 0 && !ends_along_line(c, s, speeds, past.spring.t))
+void SlidingPaths::end_alone(int c, bool closes, const kernels::LoneStep& step, const ContactMotion& motion,
+                             const ContactState& s) {
+  ended_.clear();
+  if (!(s.normal_force > 0.0))
+    last_[c] = {};
+  else if (own_[c].ends)
+    find_ends(c, closes, {{{0.0, step.held}, step.slid}, {0.0, step.mean_slip}, step.normal_damping}, s,
+              motion);
+}
+
+void SlidingPaths::find_ends(int c, bool closes, const Before& past, const ContactState& s,
+                             const ContactMotion& motion) {
+  Last& last = last_[c];
+  const Vec2 before = motion.slip(c, s.ny, s.nz), after = 2.0 * past.mean_slip - before;
+  if (past.memory.sliding)
+    find_end(c, s, {last.left, before, after}, past);
+  last.left = after;
+  if (closes)
+    find_begun(c, s, motion, past);
+}
+
+void SlidingPaths::find_end(int c, const ContactState& s, const Speeds& speeds, const Before& past) {
+  if (contacts_.in_plane[c] == 0 && !ends_along_line(c, s, speeds, past.memory.spring.t))
     return;
   const contact::FrictionLaw& law = contacts_.supports[c].friction;
   const auto [left, before, after] = speeds;
   const double per_damping = own_[c].per_damping, bound = law.mu_dynamic * s.normal_force;
-  const Vec2 speed = 0.5 * (left + before), held = per_damping * past.spring, trial = held - speed;
+  const Vec2 speed = 0.5 * (left + before), held = per_damping * past.memory.spring, trial = held - speed;
   const double size = norm(trial);
   const Vec2 along = size > 0.0 ? (1.0 / size) * trial : Vec2{}; // of the friction when the step begins
   const contact::Mobility mobility = tangent_mobility(c, s.ny, s.nz);
@@ -91,15 +100,13 @@ void SlidingPaths::find_end(int c, const ContactState& s, const Speeds& speeds, 
   const Vec2 missing = bound * along - s.friction, loss = left - after - h_ * (mobility * missing);
   const contact::EndedSlide slide(speed, held, per_damping * bound, loss, h_);
   if (slide.ends)
-    ended_.push_back({c, slide.path, s.normal_force * slide.path, bound * slide.slider, s.damper_work});
+    ended_.push_back({c, slide.path, s.normal_force * slide.path, bound * slide.slider, past.normal_loss});
 }
 
-void SlidingPaths::find_begun(int c, const ContactState& s, const ContactMotion& motion,
-                              const ContactMemory& memory) {
+void SlidingPaths::find_begun(int c, const ContactState& s, const ContactMotion& motion, const Before& past) {
   const contact::Support& support = contacts_.supports[c];
   const double depth = -motion.gaps[c];
-  const Vec2 held = own_[c].per_damping * memory.at(c, s.ny, s.nz).spring,
-             excess = motion.slip(c, s.ny, s.nz) - held;
+  const Vec2 held = own_[c].per_damping * past.memory.spring, excess = motion.slip(c, s.ny, s.nz) - held;
   const double speed2 = dot(excess, excess);
   // touched since the last action, so that the force grows from nothing: no normal damper, nor pressed before
   if (support.normal.damps() || !(depth > 0.0 && depth < since_touch * h_ * s.approach && speed2 > 0.0))
@@ -116,7 +123,7 @@ void SlidingPaths::find_begun(int c, const ContactState& s, const ContactMotion&
   if (s.slides && speed2 > ends_from * ends_from)
     return;
   const contact::BegunSlide slide(std::sqrt(speed2), growth, law.mu_dynamic, law.damping, mobility);
-  ended_.push_back({c, slide.path, slide.pressed_path, slide.slider_work, s.damper_work});
+  ended_.push_back({c, slide.path, slide.pressed_path, slide.slider_work, past.normal_loss});
 }
 
 /// What `find_end` and EndedSlide find along one tangent, without roots and divisions: most slides go on.

@@ -31,14 +31,19 @@ public:
   /// Corrects the displacements of the contacts that slide, m, and finds the slides that end; once for every step that is accepted,
   /// before its commit. No allocation.
   void correct(const ContactMotion& motion, const ContactMemory& memory, ContactTrial& trial);
+  /// The same of a contact that makes its step by itself (kernels::step_alone): after its commit, as its path is corrected there.
+  void end_alone(int c, bool closes, const kernels::LoneStep& step, const ContactMotion& motion,
+                 const ContactState& s);
+  [[nodiscard]] kernels::NormalPush& push(int c) { return last_[c].push; }
+  [[nodiscard]] bool ends(int c) const { return own_[c].ends; }
   /// After the commit: paths and works of the slides that have ended. No allocation.
   void end_slides(ContactTrial& trial, ContactLosses& losses) const;
-  void visit(core::StateArchive& state) { state(last_, pushed_); }
+  void visit(core::StateArchive& state) { state(last_); }
 
 private:
   struct Last {
-    double y = 0.0, z = 0.0; ///< N, F_N n; 0: no force
-    contact::Vec2 left;      ///< m/s, tangential velocity after the action
+    kernels::NormalPush push;
+    contact::Vec2 left; ///< m/s, tangential velocity after the action
   };
   /// Tangential velocities after the last action, before this one and after it, m/s.
   struct Speeds {
@@ -57,16 +62,23 @@ private:
     bool ends;                ///< its slides may be ended by its damper
     double per_damping = 0.0; ///< 1/C_T, m/(N s)
   };
-  void find_end(int c, const ContactState& s, const Speeds& speeds, const ContactMemory& memory);
-  void find_begun(int c, const ContactState& s, const ContactMotion& motion, const ContactMemory& memory);
+  /// A contact before its commit, along x_loc and t.
+  struct Before {
+    contact::FrictionMemory memory;
+    contact::Vec2 mean_slip; ///< m/s, of those before and after the action
+    double normal_loss;      ///< J, by the normal damper
+  };
+  void find_ends(int c, bool closes, const Before& before, const ContactState& s,
+                 const ContactMotion& motion);
+  void find_end(int c, const ContactState& s, const Speeds& speeds, const Before& before);
+  void find_begun(int c, const ContactState& s, const ContactMotion& motion, const Before& before);
   [[nodiscard]] bool ends_along_line(int c, const ContactState& s, const Speeds& speeds, double spring) const;
   [[nodiscard]] contact::Mobility tangent_mobility(int c, double ny, double nz) const;
 
   const PackedContacts& contacts_;
   double h_;
   std::vector<Own> own_;
-  std::vector<Last> last_;  ///< action
-  std::vector<int> pushed_; ///< contacts with a force in it
+  std::vector<Last> last_; ///< action
   std::vector<Ended> ended_;
 };
 

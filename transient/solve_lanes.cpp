@@ -12,7 +12,6 @@ namespace {
 
 /// What Jacobi sweeps foretell is less sure than what Gauss-Seidel sweeps do: the largest change moves from contact to contact.
 constexpr double jacobi_caution = 0.1;
-constexpr double round_off = 1e-14; ///< of a force
 /// So few near contacts of several packs are solved one after the other.
 constexpr int most_single = 2;
 
@@ -77,8 +76,8 @@ FRETWORK_INLINE void turn(const NearLanes& near, int i, double half_step, const 
                           StepNumbers& s) {
   const int l = lane(i);
   const V my = at<V>(near.ny + i), mz = at<V>(near.nz + i);
-  at<V>(s.by_y + l) = half_step * (my * n + mz * t);
-  at<V>(s.by_z + l) = half_step * (mz * n - my * t);
+  at<V>(s.by_y + l) = half_step * (rounded(my * n) + mz * t);
+  at<V>(s.by_z + l) = half_step * (rounded(mz * n) - my * t);
 }
 
 /// One Jacobi sweep over all lanes: forces follow, velocities do not. Returns the largest change, relative to what a contact can bear.
@@ -94,8 +93,8 @@ FRETWORK_INLINE double improve(std::span<const int> places, double half_step, co
         StepNumbers& s = steps[i];
         const V n0 = at<V>(s.normal + l), t0 = at<V>(s.friction + l), my = at<V>(near.ny + i),
                 mz = at<V>(near.nz + i);
-        const V v_n = my * at<V>(s.v_y + l) + mz * at<V>(s.v_z + l),
-                v_t = mz * at<V>(s.v_y + l) - my * at<V>(s.v_z + l);
+        const V v_n = rounded(my * at<V>(s.v_y + l)) + mz * at<V>(s.v_z + l),
+                v_t = rounded(mz * at<V>(s.v_y + l)) - my * at<V>(s.v_z + l);
         const V rate = at<V>(s.nn + l) * n0 - v_n; // without this contact's normal force
         const V n =
             clipped(at<V>(s.spring + l) + at<V>(s.damping + l) * rate) * at<V>(s.share + l); // 0 if not shut
@@ -173,12 +172,12 @@ FRETWORK_INLINE void tie_tangents(std::span<const int> places, int width, double
     double* ties = &steps.ties[static_cast<std::size_t>(k) * static_cast<std::size_t>(width)];
     for_places<G>(
         places, [&](int i, auto) __attribute__((always_inline)) {
-          V y = fy * at<V>(column + i), z = fz * at<V>(column + width + i);
+          V y = rounded(fy * at<V>(column + i)), z = rounded(fz * at<V>(column + width + i));
           if (mobility.coupled) {
             z += fy * at<V>(column + 2 * width + i);
             y += fz * at<V>(column + 3 * width + i);
           }
-          at<V>(ties + i) = at<V>(near.nz + i) * y - at<V>(near.ny + i) * z;
+          at<V>(ties + i) = rounded(at<V>(near.nz + i) * y) - at<V>(near.ny + i) * z;
         });
   }
 }
@@ -195,7 +194,8 @@ FRETWORK_INLINE bool sweep_frictions(std::span<const int> places, int width, con
       places, [&](int i, auto) __attribute__((always_inline)) {
         const int l = lane(i);
         StepNumbers& s = steps[i];
-        at<V>(s.v_t + l) = at<V>(near.nz + i) * at<V>(s.v_y + l) - at<V>(near.ny + i) * at<V>(s.v_z + l);
+        at<V>(s.v_t + l) =
+            rounded(at<V>(near.nz + i) * at<V>(s.v_y + l)) - at<V>(near.ny + i) * at<V>(s.v_z + l);
         at<V>(s.first + l) = at<V>(s.friction + l);
       });
   bool settles = false;
@@ -287,10 +287,10 @@ FRETWORK_INLINE void close(std::span<const int> places, const SweepRule& rule, c
         CommitNumbers& out = commits[i];
         const V my = at<V>(near.ny + i), mz = at<V>(near.nz + i), n = at<V>(s.normal + l),
                 t = at<V>(s.friction + l);
-        const V v_n = my * at<V>(s.v_y + l) + mz * at<V>(s.v_z + l),
-                v_t = mz * at<V>(s.v_y + l) - my * at<V>(s.v_z + l);
-        work[part] += n * v_n + t * v_t;
-        jump[part] += n * (v_n - at<V>(s.before_n + l)) + t * (v_t - at<V>(s.before_t + l));
+        const V v_n = rounded(my * at<V>(s.v_y + l)) + mz * at<V>(s.v_z + l),
+                v_t = rounded(mz * at<V>(s.v_y + l)) - my * at<V>(s.v_z + l);
+        work[part] += rounded(n * v_n) + t * v_t;
+        jump[part] += rounded(n * (v_n - at<V>(s.before_n + l))) + t * (v_t - at<V>(s.before_t + l));
         at<V>(s.cut + l) = -rule.step * (n - at<V>(s.spring + l)) * v_n;
         at<V>(out.closed + l) = n > 0.0 ? one : V{};
         at<V>(out.normal_y + l) = my;
@@ -301,47 +301,6 @@ FRETWORK_INLINE void close(std::span<const int> places, const SweepRule& rule, c
       });
   solved.work = rule.step * sum(work);
   solved.jump = rule.step * sum(jump);
-}
-
-/// The one near contact: its forces from none, where velocities are known, unless its friction acts on its normal force. Returns whether that
-/// is all.
-FRETWORK_INLINE bool solve_one(int i, int width, const SweepRule& rule, const LawLanes& laws,
-                               const MemoryLanes& memories, const NearLanes& near, StepLanes& steps,
-                               CommitLanes& commits, Solved& solved) {
-  const int l = lane(i);
-  const LawNumbers& law = laws[i];
-  const Laws<double> c = laws_at<double>(i, width, rule, laws, memories, near);
-  if (magnitude(c.share * c.damping * c.nt) > round_off) // N along n by 1 N along t
-    return false;
-  solved.springs = 0.5 * law.stiffness[l] * c.depth * c.depth;
-  steps.count = c.spring + c.damping > 0.0 ? 1 : 0;
-  if (steps.count == 0)
-    return true;
-  const double n = clipped(c.spring - c.damping * c.v_n) * c.share;
-  Rub<double> friction{};
-  if (rule.implicit)
-    friction = rub<double>(c.tangential, law.gradient[l], c.share_t, c.bound, law.mu_dynamic[l], n,
-                           c.v_t + c.nt * n);
-  const double t = friction.force, v_n = c.v_n + c.nn * n + c.nt * t, v_t = c.v_t + c.nt * n + c.tt * t;
-  solved.work = rule.step * (n * v_n + t * v_t);
-  solved.jump = rule.step * (n * (v_n - c.v_n) + t * (v_t - c.v_t));
-  StepNumbers& s = steps[i];
-  steps.contacts[0] = i;
-  s.spring[l] = c.spring;
-  s.instant[l] = c.instant;
-  s.normal[l] = n;
-  s.friction[l] = t;
-  s.slides[l] = friction.slides;
-  s.before_n[l] = c.v_n;
-  s.cut[l] = -rule.step * (n - c.spring) * v_n;
-  CommitNumbers& out = commits[i];
-  out.closed[l] = n > 0.0 ? 1.0 : 0.0;
-  out.normal_y[l] = near.ny[i];
-  out.normal_z[l] = near.nz[i];
-  out.force[l] = t;
-  out.displacement[l] = rule.step * law.along[l] * v_t;
-  out.slides[l] = friction.slides;
-  return true;
 }
 
 template <class G>
@@ -365,9 +324,11 @@ FRETWORK_INLINE Solved solve_all(std::span<const int> places, int width, const S
 }
 
 template <class Widest>
-FRETWORK_INLINE Solved solve_on(const Places& places, const SweepRule& rule, const LawLanes& laws,
-                                const MemoryLanes& memories, const MobilityLanes& mobility,
-                                const NearLanes& near, StepLanes& steps, CommitLanes& commits) {
+FRETWORK_INLINE Solved solve_on(const SweepRule& rule, const LawLanes& laws, const MemoryLanes& memories,
+                                const MobilityLanes& mobility, const MotionLanes& motion, const double* last,
+                                StepLanes& steps, CommitLanes& commits) {
+  const NearLanes near(motion, last);
+  const Places& places = motion.places;
   const int width = places.all.width;
   const auto solve = [&]<class G>(std::span<const int> of, G) __attribute__((always_inline)) {
     return solve_all<G>(of, width, rule, laws, memories, mobility, near, steps, commits);
@@ -383,18 +344,15 @@ FRETWORK_INLINE Solved solve_on(const Places& places, const SweepRule& rule, con
       if (near.near[c] > 0.0)
         single[count++] = c;
     }
-  Solved solved;
-  if (count == 1 && solve_one(single[0], width, rule, laws, memories, near, steps, commits, solved))
-    return solved;
   return solve({single.data(), count}, Grain<Widest, double>{});
 }
 
 } // namespace
 
 FRETWORK_KERNEL(Solved, solve,
-                (const Places& places, const SweepRule& rule, const LawLanes& laws,
-                 const MemoryLanes& memories, const MobilityLanes& mobility, const NearLanes& near,
+                (const SweepRule& rule, const LawLanes& laws, const MemoryLanes& memories,
+                 const MobilityLanes& mobility, const MotionLanes& motion, const double* last,
                  StepLanes& steps, CommitLanes& commits),
-                (places, rule, laws, memories, mobility, near, steps, commits))
+                (rule, laws, memories, mobility, motion, last, steps, commits))
 
 } // namespace fretwork::transient::kernels

@@ -198,7 +198,7 @@ private:
   /// The next step is a flight where one meets no contact.
   void look_ahead() {
     const bool flew = std::exchange(stride_, 1) > 1;
-    if (far_.empty() || !trial_.active.empty() || !motion_.places().first.empty())
+    if (far_.empty() || !trial_.active.empty() || !motion_.places.first.empty())
       return;
     if (wait_ > 0) {
       --wait_;
@@ -249,11 +249,14 @@ private:
 
   /// Where the contacts stand. Returns whether any may act.
   bool gather() {
-    if (near_only_) {
-      motion_.gather_near(modes_.q.data(), modes_.v.data(), memory_.closed());
-      return !motion_.places().first.empty();
+    const double *q = modes_.q.data(), *v = modes_.v.data();
+    if (near_only_ && !motion_.places.all.few()) {
+      motion_.gather_near(q, v, memory_.closed());
+      return !motion_.places.first.empty();
     }
-    motion_.gather(modes_.q.data(), modes_.v.data());
+    if (carried_.u.empty() && !flexible_)
+      return motion_.meet(q, v, solver_.window());
+    motion_.gather(q, v);
     if (!carried_.u.empty()) {
       obstacles_.at(modes_.time(), carried_);
       carried_.add_to(motion_);
@@ -265,7 +268,7 @@ private:
   void rest(int steps) {
     const double springs = memory_.spring_energy();
     const ContactLosses losses = memory_.pass(motion_, steps, trial_);
-    rows_.set(trial_, h_);
+    rows_.clear();
     Energy& energy = record_.energy;
     energy.contact_damping = lost_.damping + 0.5 * losses.damping;
     energy.friction = lost_.friction;
@@ -286,6 +289,32 @@ private:
       rest(1);
       return;
     }
+    const int lone = flexible_ ? -1 : motion_.lone();
+    if (!(lone >= 0 && memory_.only(lone) && act_alone(lone)))
+      act_together();
+  }
+
+  /// The one contact that is near, where no other was closed. Returns whether its step could be made by itself.
+  bool act_alone(int c) {
+    kernels::NormalPush& push = paths_.push(c);
+    const bool closes = push.y == 0.0 && push.z == 0.0;
+    const kernels::LoneStep step = memory_.step_alone(c, motion_, solver_.rule(), push, trial_);
+    if (!step.found)
+      return false;
+    ContactLosses losses{step.damping, step.friction};
+    if (paths_.ends(c)) {
+      paths_.end_alone(c, closes, step, motion_, trial_.states[c]);
+      paths_.end_slides(trial_, losses);
+    }
+    if (trial_.active.empty())
+      rows_.clear();
+    else
+      rows_.set(c, step.force_y, step.force_z, h_);
+    end_action({step.work, step.jump}, losses, memory_.spring_energy() - step.stored);
+    return true;
+  }
+
+  void act_together() {
     const auto action = solve();
     unconverged_ += !action.converged;
     const double springs_before = memory_.spring_energy();
@@ -297,6 +326,11 @@ private:
     else
       memory_.leave(motion_, trial_, 0.5 * h_);
     rows_.set(trial_, h_);
+    end_action(action, losses, springs_before);
+  }
+
+  /// Forces found and committed: the modes take them.
+  void end_action(const ContactSolver::Action& action, const ContactLosses& losses, double springs_before) {
     if (positions_)
       rows_.add_to(modes_.v.data(), h_ / 12.0, modes_.q.data(), shown_q_.data());
     else

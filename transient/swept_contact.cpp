@@ -168,7 +168,7 @@ FRETWORK_KERNEL(void, add_response_of, (const SweptContact& a, const Forces& cha
 
 SweptContact::SweptContact(const PackedContacts& contacts, int c)
     : contact(c), in_plane(contacts.in_plane[c]), y(c), z(y + contacts.width), x(z + contacts.width),
-      rest_y(contacts.reach.rest_y[c]), rest_z(contacts.reach.rest_z[c]), support(&contacts.supports[c]) {}
+      rest_y(contacts.rest_y(c)), rest_z(contacts.rest_z(c)), support(&contacts.supports[c]) {}
 
 void SweptContact::join(const NodalTables& of_step) {
   takes_part = true;

@@ -45,23 +45,24 @@ template <class V = Pack> FRETWORK_INLINE const V& at(const double* p) {
 }
 template <class V = Pack> FRETWORK_INLINE V& at(double* p) { return *reinterpret_cast<V*>(p); }
 template <class V> inline constexpr int size_of = static_cast<int>(sizeof(V) / sizeof(double));
+/// By halves: two instructions each where lanes by themselves take one or two each.
+FRETWORK_INLINE double sum(const Pair& p) { return p[0] + p[1]; }
+FRETWORK_INLINE double sum(const Half& p) {
+  return sum(Pair(__builtin_shufflevector(p, p, 0, 1) + __builtin_shufflevector(p, p, 2, 3)));
+}
 FRETWORK_INLINE double sum(const Pack& p) {
-  return ((p[0] + p[4]) + (p[2] + p[6])) + ((p[1] + p[5]) + (p[3] + p[7]));
+  return sum(Half(__builtin_shufflevector(p, p, 0, 1, 2, 3) + __builtin_shufflevector(p, p, 4, 5, 6, 7)));
 }
 FRETWORK_INLINE double largest(const Pack& p) {
   const auto max = [](double a, double b) { return a > b ? a : b; };
   return max(max(max(p[0], p[4]), max(p[2], p[6])), max(max(p[1], p[5]), max(p[3], p[7])));
 }
-FRETWORK_INLINE double sum(const Half& p) {
-  return (p[0] + p[2]) + (p[1] + p[3]);
-} // as of a pack whose other half is 0
 FRETWORK_INLINE double largest(const Half& p) {
   const auto max = [](double a, double b) { return a > b ? a : b; };
   return max(max(p[0], p[2]), max(p[1], p[3]));
 }
 FRETWORK_INLINE double sum(double p) { return p; }
 FRETWORK_INLINE double largest(double p) { return p; }
-FRETWORK_INLINE double sum(const Pair& p) { return p[0] + p[1]; }
 FRETWORK_INLINE double largest(const Pair& p) { return p[0] > p[1] ? p[0] : p[1]; }
 /// Sums as they grow, in registers of any kernel: those of all lanes in any vectors give the same bytes.
 template <class V> FRETWORK_INLINE double sum(const V (&p)[1]) { return sum(p[0]); }
@@ -137,6 +138,16 @@ template <class Step> FRETWORK_INLINE void for_count(int count, const Step& step
   }
 }
 
+/// A product that is rounded before it is added to another one: GCC fuses one of two such products with the sum, not the same one for all
+/// sizes of vectors.
+template <class V> FRETWORK_INLINE V rounded(const V& product) {
+#ifdef FRETWORK_KERNELS_BY_PROCESSOR
+  return __builtin_assoc_barrier(product);
+#else
+  return product;
+#endif
+}
+
 FRETWORK_INLINE double root(double x) { return __builtin_sqrt(x); }
 template <class V> FRETWORK_INLINE V root(const V& x) {
   V r{};
@@ -144,6 +155,7 @@ template <class V> FRETWORK_INLINE V root(const V& x) {
     r[l] = __builtin_sqrt(x[l]);
   return r;
 }
+template <class V> FRETWORK_INLINE V clipped(const V& p) { return p > 0.0 ? p : V{}; }
 template <class V> FRETWORK_INLINE V magnitude(const V& p) { return p < 0.0 ? -p : p; }
 
 } // namespace fretwork::transient::kernels

@@ -210,7 +210,7 @@ TEST_P(ContactLanes, TellWhichMotionsLeaveAllContactsOpen) {
       for (int c = 0; c < count; ++c) {
         all_open = all_open && later.locate(c).gap > 0.0;
         all_slow = all_slow && std::abs(time) * length(motion.w[c], motion.w[contacts.width + c]) <=
-                                   0.3 * contacts.reach.limit[c];
+                                   0.3 * contacts.reach[c].limit[kernels::lane(c)];
       }
       EXPECT_EQ(motion.opens_after(time), all_open) << count << " contacts, motion " << k;
       EXPECT_EQ(motion.moves_less(std::abs(time), 0.3), all_slow) << count << " contacts, motion " << k;
@@ -295,7 +295,7 @@ void follow(int count, double h) {
     double energy[2] = {};
     for (Engine* e : {&lanes, &each}) {
       e->motion.gather_near(q.data(), v.data(), e->memory.closed());
-      if (e->motion.places().first.empty() && e->memory.closed().empty()) {
+      if (e->motion.places.first.empty() && e->memory.closed().empty()) {
         e->memory.pass(e->motion, 1, e->trial);
         continue;
       }

@@ -170,6 +170,36 @@ Scene pushed(int contacts, int modes) {
   return scene;
 }
 
+/// The state between two actions needs the forces of the first, of contacts that act alone and together.
+TEST(Restart, KeepsTheStateBetweenActions) {
+  for (const int contacts : {1, 2, 3, 9}) {
+    const Scene scene = rattling(contacts, 12, 1.0);
+    constexpr double h = 1e-4;
+    const auto scheme = make_splitting(scene, h);
+    const auto size = scene.system.size();
+    Eigen::VectorXd q(size), v(size), q_again(size), v_again(size);
+    int closed = 0;
+    for (int k = 0; k < 1500; ++k) {
+      const Record& record = scheme->advance();
+      closed += !record.active.empty();
+      const double time = record.time + 0.3 * h;
+      scheme->state_at(time, q.data(), v.data());
+      core::StateArchive saved;
+      saved(*scheme);
+      const auto anew = make_splitting(scene, h);
+      core::StateArchive restored(std::move(saved).bytes());
+      restored(*anew);
+      restored.end();
+      for (const auto& of : {scheme.get(), anew.get()}) { // saving changes nothing either
+        of->state_at(time, q_again.data(), v_again.data());
+        ASSERT_EQ(q, q_again) << contacts << " contacts, step " << k;
+        ASSERT_EQ(v, v_again) << contacts << " contacts, step " << k;
+      }
+    }
+    EXPECT_GT(closed, 100) << contacts;
+  }
+}
+
 } // namespace
 
 TEST(Restart, OfALinearScene) { expect_restarts(pushed(0, 5), all_schemes()); }
