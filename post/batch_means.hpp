@@ -51,7 +51,7 @@ public:
   /// Ends a batch where it is time for it. A record longer than a batch is a batch of its own.
   /// @param elapsed  s, since the window began, growing   @param fill  writes the sums so far to the row it is given
   template <class Fill> void watch(double elapsed, Fill fill) {
-    if (elapsed < next_)
+    if (elapsed < next_ || !(elapsed > 0.0)) // the first record may stand for no time
       return;
     fill(rows_.data() + count_ * sums_);
     times_[count_++] = elapsed;

@@ -72,6 +72,14 @@ void DormandPrince::extend(double h) {
   combine(extension, stages, h, r_[4]);
 }
 
+void DormandPrince::inside(double share, kernels::Array& y) const {
+  const auto factor = factors(share);
+  y = r_[0];
+  for (std::size_t j = 1; j < terms; ++j)
+    for (std::size_t i = 0; i < y.size(); ++i)
+      y[i] += factor[j] * r_[j][i];
+}
+
 std::array<double, DormandPrince::terms> DormandPrince::factors(double share) {
   const double rest = 1.0 - share;
   return {1.0, share, share * rest, share * rest * share, share * rest * share * rest};

@@ -33,6 +33,8 @@ public:
   /// Prepares `terms` for the step tried last.
   void extend(double h);
   [[nodiscard]] const double* term(int j) const { return r_[static_cast<std::size_t>(j)].data(); }
+  /// The state at a share of the step, of the extension.
+  void inside(double share, kernels::Array& y) const;
   /// Factor of each term at a share of the step.
   [[nodiscard]] static std::array<double, terms> factors(double share);
   /// The end becomes the start; its rate is the last stage's.

@@ -20,6 +20,20 @@ EndRecord::EndRecord(const MotionRates& rates) : width_(rates.contacts().width) 
 }
 
 void EndRecord::prepare(const MotionRates& rates, const double* y, double time) {
+  prepare_all(rates, y, time, y);
+}
+
+void EndRecord::prepare_part(const MotionRates& rates, const double* y, double time, double length,
+                             const double* until) {
+  prepare_all(rates, y, time, until);
+  for (const int c : next_.active) {
+    ContactState& state = next_.states[c];
+    state.displacement = length * rates.motion().slip(c, state.ny, state.nz);
+    state.slid = state.slides ? norm(state.displacement) : 0.0;
+  }
+}
+
+void EndRecord::prepare_all(const MotionRates& rates, const double* y, double time, const double* until) {
   Sheet& s = next_;
   s.time = time;
   std::copy_n(y, s.q.size(), s.q.begin());
@@ -31,14 +45,14 @@ void EndRecord::prepare(const MotionRates& rates, const double* y, double time) 
   s.active.clear();
   s.opened.clear();
   for (int c = 0; c < record_.contacts; ++c)
-    prepare_contact(rates, y, c, shown_.states[c].normal_force > 0.0);
+    prepare_contact(rates, until, c, shown_.states[c].normal_force > 0.0);
 }
 
-void EndRecord::prepare_contact(const MotionRates& rates, const double* y, int c, bool was_active) {
+void EndRecord::prepare_contact(const MotionRates& rates, const double* until, int c, bool was_active) {
   Past& past = past_[c];
   ContactState& state = next_.states[c];
-  const double friction = rates.friction_work(y, c) - past.friction,
-               damper = rates.damper_work(y, c) - past.damper;
+  const double friction = rates.friction_work(until, c) - past.friction,
+               damper = rates.damper_work(until, c) - past.damper;
   past.friction += friction;
   past.damper += damper;
   const bool entered = std::exchange(past.entered, false);

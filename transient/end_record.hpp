@@ -3,7 +3,7 @@
 /// The record of schemes whose records stand at the ends of their steps. It is prepared when the step has been made and published when the
 /// run comes to it: by then the step that follows is made too. Forces are those at the end of the step, on the step's branch of the laws;
 /// works, tangential displacement and `slides` are of the step. What a contact's slider and dampers took in the step in which it opened is
-/// handed out with its next force.
+/// handed out with its next force. A scheme with a continuous extension has records inside its steps too, which stand for parts of them.
 #pragma once
 #include "transient/motion_rates.hpp"
 
@@ -17,6 +17,10 @@ public:
 
   /// The state y at `time`, for which the rates have been evaluated last; regimes are those that follow. No allocation.
   void prepare(const MotionRates& rates, const double* y, double time);
+  /// The same of a part of a step, `length` s about `time`: what slides has slid by its velocity at `time`.
+  /// @param until  the state at the end of the part: works are those up to it
+  void prepare_part(const MotionRates& rates, const double* y, double time, double length,
+                    const double* until);
   /// Shows what has been prepared. No allocation.
   void publish();
   /// @param step  s, the length of time the record stands for: half of the steps on both sides
@@ -39,7 +43,8 @@ private:
     double entry = 0.0;                                  ///< m/s, rate of the penetration where it closed
     bool entered = false;                                ///< at the last record
   };
-  void prepare_contact(const MotionRates& rates, const double* y, int c, bool was_active);
+  void prepare_all(const MotionRates& rates, const double* y, double time, const double* until);
+  void prepare_contact(const MotionRates& rates, const double* until, int c, bool was_active);
 
   Sheet next_, shown_;
   Record record_;

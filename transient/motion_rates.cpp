@@ -243,6 +243,10 @@ Energy MotionRates::energy(const double* y) const {
   energy.throughput = totals[1];
   energy.modal_damping = totals[2];
   energy.stored = moving_energy(y) + trial_.springs;
+  for (int c = 0; c < contacts_.count; ++c)
+    if (const contact::FrictionLaw& law = contacts_.supports[c].friction; law.active() && !rated(c))
+      energy.stored +=
+          energy_of(law, memory_[c].spring) - energy_of(law, spring(y, c)); // booked when it is set
   for (int c = 0; c < contacts_.count; ++c) {
     energy.friction += s[4 * c + 2];
     energy.contact_damping += s[4 * c + 3];

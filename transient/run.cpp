@@ -45,12 +45,17 @@ public:
       grid_.count = 0;
   }
 
-  /// States at the instants before `limit`; their forces wait for the next record.
+  /// States at the instants before `limit`; their forces wait for the next record where the scheme does not give them.
   void states(Scheme& scheme, double limit) {
     first_ = next_;
     while (next_ < grid_.count && time(next_) < limit) {
       scheme.state_at(time(next_), q_.data(), v_.data());
       sampler_->state(next_, time(next_), q_.data(), v_.data());
+      if (scheme.forces_at(time(next_), mixed_)) {
+        scheme.load_at(time(next_), load_.data());
+        sampler_->forces(next_, time(next_), load_.data(), mixed_);
+        first_ = next_ + 1;
+      }
       ++next_;
     }
   }

@@ -16,22 +16,14 @@ public:
   virtual void visit(core::StateArchive& state) = 0;
 };
 
-/// Normal and tangential force of a contact at an output instant, N.
-struct ContactForce {
-  double normal;
-  contact::Vec2 friction;
-  double ny, nz; ///< normal, local axes
-  bool slides;   ///< the friction bound is reached
-};
-
 /// Receives the output instants 0, every, 2 every ... Must not allocate or throw.
 class Sampler {
 public:
   virtual ~Sampler() = default;
   /// State at output `index`.
   virtual void state(std::int64_t index, double time, const double* q, const double* v) = 0;
-  /// Afterwards, for the same output: modal force of the loads, and the contacts' forces (linear between the
-  /// steps around it).
+  /// Afterwards, for the same output: modal force of the loads, and the contacts' forces (those of the scheme
+  /// at the instant where it gives them, Scheme::forces_at, else linear between the records around it).
   virtual void forces(std::int64_t index, double time, const double* load,
                       std::span<const ContactForce> contacts) = 0;
   /// What it has received so far.

@@ -15,6 +15,12 @@
 /// At an event the step is made again up to it, the regime changes, and integration starts afresh. Events at one instant are applied one by
 /// one. Where they come more often than each contact can need (a contact that chatters between two branches), one step is made with
 /// the laws themselves instead of their branches, under the same error control.
+/// Records. The forces between the ends of a step are those of the laws on the step's branches, at the states of the continuous extension.
+/// Five records of a step stand for parts of it, at the nodes s with the weights b of an integral over s = 0 .. 1:
+///     s = 1/20, 0.1832, 1/2, 0.8168, 19/20     b = 1/10, 0.2134, 0.3732, 0.2134, 1/10
+/// exact for polynomials of degree 5, so that means over time are of the order of the scheme. The first and the last part lie about their
+/// nodes: what is seen of closed contacts begins and ends with the steps. A sixth record at the end of the step stands for no time; there
+/// contacts close and open.
 /// C_T = 0 and `reference` set the spring of a sliding contact once a step, which the error estimate does not see; `reference`, whose bounds
 /// depend on that, slides and sticks by its law, unlocated.
 #include "transient/contact_events.hpp"
@@ -35,6 +41,18 @@ constexpr double least_memory = 1e-4; ///< of the error before: keeps the contro
 constexpr double finest =
     16.0 * std::numeric_limits<double>::epsilon(); ///< step over duration: below it time + h is round-off
 constexpr double crowding = 1e-3;                  ///< an event within this share of the step crowds
+
+/// A record inside a step, in shares of it.
+struct Part {
+  double node, weight, end;
+};
+constexpr int parts = 5;
+constexpr double edge = 0.05, second = 0.18320365819822299, second_weight = 0.21339859778359342;
+constexpr Part part[parts] = {{edge, 2.0 * edge, 2.0 * edge},
+                              {second, second_weight, 2.0 * edge + second_weight},
+                              {0.5, 1.0 - 4.0 * edge - 2.0 * second_weight, 1.0 - 2.0 * edge - second_weight},
+                              {1.0 - second, second_weight, 1.0 - 2.0 * edge},
+                              {1.0 - edge, 2.0 * edge, 1.0}};
 
 /// Where tables have points within the run, and the end of the run, s, increasing.
 std::vector<double> stops_of(const Scene& scene) {
@@ -60,7 +78,8 @@ public:
   RungeKutta54(const Scene& scene, double tolerance, double longest)
       : n_(scene.system.size()), duration_(scene.duration), tolerance_(tolerance), longest_(longest),
         stops_(stops_of(scene)), next_h_(first_share * longest), rates_(scene, 0.0), record_(rates_),
-        step_(rates_.size()), events_(rates_), most_events_(8 + 4 * rates_.contacts().count) {
+        step_(rates_.size()), inside_(static_cast<std::size_t>(rates_.size()), 0.0), until_(inside_),
+        unused_(inside_), events_(rates_), most_events_(8 + 4 * rates_.contacts().count) {
     rates_.start(step_.start());
     rates_.locate_regimes(true);
     aim();
@@ -71,29 +90,36 @@ public:
   }
 
   const Record& advance() override {
-    record_.publish();
-    const double before = h_;
-    h_ = 0.0;
-    begin_ = time_;
-    if (time_ < duration_)
-      make_step();
+    if (at_ < parts)
+      show_part(part[at_++]);
     else
-      step_.extend(0.0);
-    record_.stand_for(0.5 * (before + h_));
+      pass_end();
     return record_.record();
   }
 
-  [[nodiscard]] double next_time() const override { return failure_ == StepFailure::none ? time_ : infinite; }
+  [[nodiscard]] double next_time() const override {
+    if (failure_ != StepFailure::none)
+      return infinite;
+    return at_ < parts ? time_ + part[at_].node * h_ : end_time();
+  }
 
   void state_at(double time, double* q, double* v) override {
-    const auto factors = DormandPrince::factors(h_ > 0.0 ? (time - begin_) / h_ : 0.0);
-    std::fill_n(q, n_, 0.0);
-    std::fill_n(v, n_, 0.0);
-    for (int j = 0; j < DormandPrince::terms; ++j)
-      for (Eigen::Index i = 0; i < n_; ++i) {
-        q[i] += factors[static_cast<std::size_t>(j)] * step_.term(j)[i];
-        v[i] += factors[static_cast<std::size_t>(j)] * step_.term(j)[rates_.modes() + i];
-      }
+    step_.inside(share_at(time), inside_);
+    std::copy_n(inside_.data(), n_, q);
+    std::copy_n(inside_.data() + rates_.modes(), n_, v);
+  }
+
+  bool forces_at(double time, std::span<ContactForce> forces) override {
+    step_.inside(share_at(time), inside_);
+    rates_.rate(time, inside_.data(), unused_.data());
+    std::ranges::fill(forces, ContactForce{});
+    for (const int c : rates_.trial().active) {
+      const auto i = static_cast<std::size_t>(c);
+      const ContactState& s = rates_.trial().states[i];
+      if (s.normal_force > 0.0)
+        forces[i] = {s.normal_force, s.friction, s.ny, s.nz, s.slides};
+    }
+    return true;
   }
 
   void load_at(double time, double* force) override { rates_.load_at(time, force); }
@@ -101,8 +127,8 @@ public:
   [[nodiscard]] StepFailure failure() const override { return failure_; }
 
   void visit(core::StateArchive& state) override {
-    state(time_, begin_, h_, next_h_, last_error_, largest_, rates_, record_, step_, crowded_, counts_,
-          failure_);
+    state(time_, h_, next_h_, last_error_, largest_, rates_, record_, step_, crowded_, counts_, failure_);
+    state(at_, located_, event_);
     aim();
   }
 
@@ -125,10 +151,37 @@ private:
     return size == 0.0 ? 0.0 : std::sqrt(size / (2.0 * scale)) / tolerance_;
   }
 
-  /// From time_ to the next record.
+  [[nodiscard]] double share_at(double time) const { return h_ > 0.0 ? (time - time_) / h_ : 0.0; }
+  [[nodiscard]] double end_time() const { return h_ == stop_ - time_ ? stop_ : time_ + h_; }
+
+  void show_part(const Part& p) {
+    const double time = time_ + p.node * h_;
+    step_.inside(p.node, inside_);
+    step_.inside(p.end, until_);
+    rates_.rate(time, inside_.data(), unused_.data());
+    record_.prepare_part(rates_, inside_.data(), time, p.weight * h_, until_.data());
+    record_.publish();
+    record_.stand_for(p.weight * h_);
+  }
+
+  /// The record at the end of the step, and the step that follows.
+  void pass_end() {
+    if (h_ > 0.0)
+      accept();
+    record_.publish();
+    record_.stand_for(0.0);
+    h_ = 0.0;
+    if (time_ < duration_)
+      make_step();
+    else
+      step_.extend(0.0);
+    at_ = h_ > 0.0 ? 0 : parts;
+  }
+
+  /// From time_ on.
   void make_step() {
-    bool located = crowded_ <= most_events_;
-    if (!located)
+    located_ = crowded_ <= most_events_;
+    if (!located_)
       use_laws(true);
     bool rejected = false;
     for (int at_once = 0;;) {
@@ -148,24 +201,28 @@ private:
         continue;
       }
       step_.extend(h);
-      const auto event = located ? events_.first(step_, time_, h) : std::nullopt;
-      if (event && event->share * h < finest * duration_) {
+      event_ = located_ ? events_.first(step_, time_, h) : std::nullopt;
+      if (event_ && event_->share * h < finest * duration_) {
         evaluate_start();
-        ContactEvents::apply(*event, rates_, step_.start());
-        located = ++at_once <= most_events_;
-        if (!located)
+        ContactEvents::apply(*event_, rates_, step_.start());
+        located_ = ++at_once <= most_events_;
+        if (!located_)
           use_laws(true);
         evaluate_start();
         continue;
       }
       control(h, err, rejected);
-      const bool cut = event && event->share < 1.0;
+      const bool cut = event_ && event_->share < 1.0;
+      h_ = cut ? event_->share * h : h;
       if (cut) {
-        try_step(event->share * h);
-        step_.extend(event->share * h);
+        try_step(h_);
+        step_.extend(h_);
       }
-      crowded_ = event && located ? crowded_ + (event->share < crowding) : 0;
-      return accept(cut ? event->share * h : h, event, located);
+      crowded_ = event_ && located_ ? crowded_ + (event_->share < crowding) : 0;
+      counts_.step_min = counts_.steps == 0 ? h_ : std::min(counts_.step_min, h_);
+      counts_.step_max = std::max(counts_.step_max, h_);
+      ++counts_.steps;
+      return;
     }
   }
 
@@ -195,35 +252,36 @@ private:
     last_error_ = std::max(err, least_memory);
   }
 
-  void accept(double h, const std::optional<ContactEvent>& event, bool located) {
-    h_ = h;
-    const bool stops = h == stop_ - time_;
-    time_ = stops ? stop_ : time_ + h;
+  /// Ends the step that has been made.
+  void accept() {
+    const bool stops = end_time() == stop_;
+    rates_.rate(time_ + h_, step_.end(), unused_.data()); // after the parts
+    time_ = end_time();
     rates_.commit(step_.end());
-    if (event)
-      ContactEvents::apply(*event, rates_, step_.end());
+    if (event_)
+      ContactEvents::apply(*event_, rates_, step_.end());
     rates_.locate_regimes(true);
-    record_.prepare(rates_, step_.end(), time_);
+    record_.prepare_part(rates_, step_.end(), time_, 0.0, step_.end());
     largest_ = std::max(largest_, rates_.moving_energy(step_.end()));
     step_.advance();
     aim();
-    if (stops || event || !located || rates_.sets_springs())
+    if (stops || event_ || !located_ || rates_.sets_springs())
       evaluate_start();
-    counts_.step_min = counts_.steps == 0 ? h : std::min(counts_.step_min, h);
-    counts_.step_max = std::max(counts_.step_max, h);
-    ++counts_.steps;
   }
 
   Eigen::Index n_;
   double duration_, tolerance_, longest_;
   std::vector<double> stops_;
-  double stop_ = 0.0; ///< s: the first after time_
-  double time_ = 0.0, begin_ = 0.0, h_ = 0.0,
-         next_h_; ///< the step made last runs over h_ from begin_ to time_
+  double stop_ = 0.0;                    ///< s: the first after time_
+  double time_ = 0.0, h_ = 0.0, next_h_; ///< the step made last runs over h_ from time_ on
   double last_error_ = least_memory, largest_ = 0.0;
   MotionRates rates_;
   EndRecord record_;
   DormandPrince step_;
+  kernels::Array inside_, until_, unused_; ///< states inside the step, rates that nobody asks for
+  int at_ = parts;                         ///< of the next record: a part, or the end of the step
+  bool located_ = true;                    ///< the step keeps the branches of its contacts
+  std::optional<ContactEvent> event_;      ///< at the end of the step
   ContactEvents events_;
   int most_events_, crowded_ = 0;
   StepCounts counts_;

@@ -29,6 +29,14 @@ struct ContactState {
   double instant_share = 1.0;  ///< the force at the instant: integrals of squares of forces take it once
 };
 
+/// Normal and tangential force of a contact at an instant, N.
+struct ContactForce {
+  double normal;
+  contact::Vec2 friction;
+  double ny, nz; ///< normal, local axes
+  bool slides;   ///< the friction bound is reached
+};
+
 /// Energy, J, at the instant of a record: load_work = stored - initial + modal_damping + contact_damping +
 /// friction + residual.
 struct Energy {
@@ -49,7 +57,8 @@ struct Energy {
 /// the mean over the step, and between flights and steps of other lengths they lean (splitting.cpp): they are for sums over time.
 struct Record {
   double time = 0.0;
-  double step = 0.0; ///< s, the length of time this record stands for
+  double step =
+      0.0; ///< s, the length of time this record stands for; 0: an instant between two laws, for no time
   const double* q =
       nullptr; ///< modal displacements, padded with zeros; null after Scheme::leave_out_positions, like uy and uz
   int contacts = 0;
@@ -94,6 +103,9 @@ public:
   /// State at `time` between the last record and the next (before the first call: between 0 and the first).
   /// Arrays of n values.
   virtual void state_at(double time, double* q, double* v) = 0;
+  /// Contact forces of the laws at such a time, where the scheme knows its motion there as well as at its records. Returns whether it does;
+  /// else they are linear between the records. No allocation.
+  virtual bool forces_at(double /*time*/, std::span<ContactForce> /*forces*/) { return false; }
   /// Modal force of the loads at a time, n values.
   virtual void load_at(double time, double* force) = 0;
   [[nodiscard]] virtual StepCounts counts() const = 0;
