@@ -46,8 +46,8 @@ public:
                                                          obstacles_.room()},
         solver_(contacts_), trial_(contacts_.count), coupled_(system_, step, 2, halvings + 1),
         powers_(3 * static_cast<std::size_t>(contacts_.count)),
-        carried_(static_cast<std::size_t>(contacts_.count)),
-        closed_(static_cast<std::size_t>(contacts_.count)) {
+        carried_(static_cast<std::size_t>(contacts_.count)) {
+    closed_.reserve(static_cast<std::size_t>(contacts_.count));
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
     for (Nodes* nodes : {&q_, &v_, &load_, &force_})
       for (kernels::Array& a : nodes->at)
@@ -284,13 +284,16 @@ private:
     record_.step = own + (node == 0 ? carried_time_ : 0.0);
     record_.energy = energy_[node];
     trial_.clear();
+    for (const int c : closed_) // also of contacts that nothing holds alive any more
+      if (const ContactNode& n = solver_.nodes(c)[node]; !(n.normal > 0.0)) {
+        trial_.states[static_cast<std::size_t>(c)].approach = n.rate;
+        trial_.opened.push_back(c);
+      }
     for (const int c : solver_.alive()) {
       const auto i = static_cast<std::size_t>(c);
       const ContactNode& n = solver_.nodes(c)[node];
       ContactState& state = trial_.states[i];
-      const bool before = closed_[i];
-      closed_[i] = n.normal > 0.0;
-      if (closed_[i]) {
+      if (n.normal > 0.0) {
         const Power& p = powers_[3 * i + static_cast<std::size_t>(node)];
         const Power carried = node == 0 ? carried_[i] : Power{};
         state = {n.normal,
@@ -304,11 +307,9 @@ private:
                  n.approach,
                  n.slides};
         trial_.active.push_back(c);
-      } else if (before) {
-        state.approach = n.rate;
-        trial_.opened.push_back(c);
       }
     }
+    closed_ = trial_.active;
     transient::show(record_, contacts_, q_.at[node].data(), motion_.u(node), trial_);
   }
 
@@ -335,7 +336,7 @@ private:
   Energy energy_[3];           ///< at the nodes
   std::vector<Power> powers_;  ///< 3 nodes of each contact
   std::vector<Power> carried_; ///< J: of the step before, for the record at its end
-  std::vector<char> closed_;   ///< with a force at the last record
+  std::vector<int> closed_;    ///< contacts with a force at the last record
   double carried_time_ = 0.0;
   Record record_;
 };

@@ -48,6 +48,20 @@ TEST(Collocation, StandsForTheWholeTimeAndGivesTheMotionOfItsRecords) {
   EXPECT_NEAR(covered, 200.0 * h - h / 6.0, round_off);
 }
 
+TEST(Collocation, HasTheDepartureOfEveryImpact) {
+  // a mass on a spring against a stop, with nothing that a contact keeps when it opens: the step's end may be the first to be open
+  constexpr double mass = 100.0, stiffness = 1e4, gap = 1e-3;
+  Scene scene = mass_point(mass, Vec3(0, stiffness, 0), 3.0);
+  start(scene, mass, Vec3::Zero(), Vec3(0, 1.0, 0));
+  scene.contacts = {contact_of(mass, {contact::Stop{gap, PlaneAxis::y}, {1e6}, {}})};
+  const auto c = simulate(scene, collocation(), 0.1).statistics[0];
+  const double speed = std::sqrt(1.0 - stiffness / mass * gap * gap); // m/s, at the stop
+  constexpr double allowed = 1e-2; // the node that is the first to be open has left by up to half a step
+  EXPECT_GT(c.impacts, 5);
+  EXPECT_NEAR(c.departure_velocity_mean, speed, allowed);
+  EXPECT_NEAR(c.departure_velocity_max, speed, allowed);
+}
+
 TEST(Collocation, SolvesTheLawsAtItsNodes) {
   // the record's force is the law's at the record's state
   const Scene scene = rattling_scene();
