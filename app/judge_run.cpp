@@ -46,12 +46,13 @@ void judge_memory(const BuiltScene& built, const transient::Report& report, resu
   const double input = std::abs(report.energy.initial + report.energy.load_work);
   if (std::any_of(points.begin(), points.end(), jumps) &&
       report.energy.contact_damping < -given_by_dampers * input)
-    out.warnings.push_back(fmt::format("friction_memory = \"reference\": the dampers of the contacts gave "
-                                       "{:.2g} % of the energy put in instead "
-                                       "of taking some, because that memory's springs jump in a slip; the "
-                                       "energies of friction are not to be "
-                                       "trusted; take friction_memory = \"return_map\"",
-                                       -100.0 * report.energy.contact_damping / input));
+    out.warnings.push_back(fmt::format(
+        "friction_memory = \"reference\": the dampers of the contacts gave "
+        "{:.2g} % of the energy put in instead "
+        "of taking some, because that memory's springs jump in a slip; the "
+        "energies of friction are not to be "
+        "trusted, and the motion depends on scheme and step; take friction_memory = \"return_map\"",
+        -100.0 * report.energy.contact_damping / input));
 }
 
 } // namespace

@@ -9,6 +9,8 @@ using contact::Vec2;
 
 namespace {
 
+constexpr double round_off = 1e-12; ///< of a friction force at its bound
+
 double energy_of(const contact::FrictionLaw& law, Vec2 spring) {
   return contact::spring_energy(law, {spring, false});
 }
@@ -133,6 +135,10 @@ void MotionRates::rub(int c, Vec2 in_state, ContactState& state, double* rate) c
   contact::Friction friction{spring - law.damping * velocity, regimes_[c].slides};
   if (!located_ || !locates_friction(c)) {
     friction = contact::evaluate(law, {spring, regimes_[c].slides}, state.normal_force, {}, velocity);
+    // A spring that was set to the bound at the end of a slide is still there when the next step begins.
+    const double bound = law.mu_dynamic * state.normal_force;
+    friction.slides = friction.slides || (regimes_[c].slides && dot(friction.force, velocity) < 0.0 &&
+                                          norm(friction.force) >= (1.0 - round_off) * bound);
   } else if (friction.slides) {
     const double size = norm(friction.force);
     friction.force = size > 0.0 ? (law.mu_dynamic * state.normal_force / size) * friction.force : Vec2{};

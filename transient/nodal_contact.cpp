@@ -57,7 +57,7 @@ template <int D> typename NodalContact<D>::Jacobian NodalContact<D>::jacobian(co
         break;
       case TangentBranch::opposed:
       case TangentBranch::rest:
-        base[a] = unit<Row>(j * D + 1 + a) - scales_.rho_slip * slip[j][a];
+        base[a] = mask[a] * unit<Row>(j * D + 1 + a) - scales_.rho_slip * slip[j][a];
         break;
       }
     Row tangent[D - 1];

@@ -71,6 +71,7 @@ private:
   void rub(int j);
   [[nodiscard]] Vector slide(int j, Vector relaxed, Vector trial, double bound);
   [[nodiscard]] Vector tried(int j) const;
+  [[nodiscard]] Vector masked(Vector force) const; ///< in the directions of friction
 
   const contact::Support& support_;
   const SpringTable& table_;
@@ -110,6 +111,15 @@ template <int D>
     return force_[j * D + 1];
   else
     return {force_[j * D + 2], force_[j * D + 1]};
+}
+
+template <int D>
+[[gnu::always_inline]] inline typename NodalContact<D>::Vector NodalContact<D>::masked(Vector force) const {
+  const contact::Vec2 along = support_.friction.along;
+  if constexpr (D == 2)
+    return along.t * force;
+  else
+    return {along.x * force.x, along.t * force.t};
 }
 
 template <int D> [[gnu::always_inline]] inline void NodalContact<D>::press(int j) {
@@ -176,7 +186,7 @@ NodalContact<D>::slide(int j, Vector relaxed, Vector trial, double bound) {
   const contact::FrictionLaw& law = support_.friction;
   Law& out = law_[j];
   if (law.kind == contact::FrictionMemoryKind::reference) {
-    trial = tried(j) - scales_.rho_slip * slip_[j + 1];
+    trial = masked(tried(j)) - scales_.rho_slip * slip_[j + 1];
     out.tangent = norm(trial) <= bound ? TangentBranch::rest : TangentBranch::opposed;
     if (out.tangent == TangentBranch::rest)
       return trial;

@@ -42,8 +42,10 @@ Power power_of(const contact::Support& support, const ContactNode* nodes, int j,
   const contact::Vec2 stretch =
       scale * (d[0] * nodes[0].spring + d[1] * nodes[1].spring + d[2] * nodes[2].spring);
   const double on_node = contact::dot(n.friction, n.slip), on_spring = contact::dot(n.spring, stretch);
-  if (n.slides) // a slider does not move with the force: there the bound clips a spring that lets go by itself
-    out.slider = std::max(0.0, contact::dot(n.friction, stretch) - on_node);
+  if (n.slides) { // a slider does not move with the force: there the bound clips a spring that lets go by itself
+    const bool all = support.friction.kind == contact::FrictionMemoryKind::reference; // all motion is sliding
+    out.slider = std::max(0.0, (all ? 0.0 : contact::dot(n.friction, stretch)) - on_node);
+  }
   out.damper += on_spring - on_node - out.slider;
   return out;
 }
