@@ -13,7 +13,8 @@
 /// w'_-1/2 = 2 w'_0 - w'_1/2, w'_-1 = 3 w'_0 - 2 w'_1/2. Between records: q and v by integrals of the quadratic through a_0, a_1/2, a_1.
 ///
 /// Order 4 in displacement, velocity and force on a path without impacts, with dampers, stick and slip of return_map; 1 at best in the force
-/// of a slip that turns in its plane where the spring is set once a step (`reference`, or C_T = 0); 2 and less through impacts.
+/// of a slip that turns in its plane where the spring is set once a step (`reference`, or C_T = 0); 2 through impacts, 1 where the force of
+/// a normal damper jumps at a touch or a spring is set.
 /// Stable for w h < 2.8 without damping (from 1.5 on 2 % of the amplitude are lost in a step), w h < 1.7 at 10 % of damping, and a damper's rate
 /// c h < 0.59 (C_T W, C_N W, K_T/C_T).
 #include "transient/end_record.hpp"

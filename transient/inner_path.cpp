@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/inner_path.hpp"
+#include "transient/force_polynomial.hpp"
 #include "transient/tangential.hpp"
 #include "transient/vector_lanes.hpp"
 #include <algorithm>
@@ -133,20 +134,34 @@ bool closes(const Pressed& before, const Pressed& after) {
 
 /// Where a contact closes or opens in a part, its force is there over the closed share of it.
 struct Jump {
+  double closed;     ///< share of the part
+  double at_touch;   ///< N, where it closes
   double missing;    ///< N, what the mean of the forces at the ends of the part lacks of that over the part
   double before_end; ///< where that stands, parts before its end
-  double share;      ///< `missing` of the force at the closed end
+  double share;      ///< `missing` of the force before it opens
   Jump(const contact::NormalLaw& law, const Pressed& before, const Pressed& after) {
-    const double closed = std::max(before.depth, after.depth) / std::abs(after.depth - before.depth);
+    closed = std::max(before.depth, after.depth) / std::abs(after.depth - before.depth);
     const bool closing = closes(before, after);
-    const double mean =
-        0.5 * closed * (closing ? contact::normal_force(law, 0.0, after.rate) + after.force : before.force);
+    at_touch = closing ? contact::normal_force(law, 0.0, after.rate) : 0.0;
+    const double mean = 0.5 * closed * (closing ? at_touch + after.force : before.force);
     missing = mean - 0.5 * (before.force + after.force);
     before_end = closing ? 0.5 * closed : 1.0 - 0.5 * closed;
-    const double base = closing ? after.force : before.force;
-    share = base > 0.0 ? missing / base : 0.0;
+    share = !closing && before.force > 0.0 ? missing / before.force : 0.0;
   }
 };
+
+/// Of a friction spring over a share of a part.
+SpringTable part_of(const SpringTable& table, double share) {
+  SpringTable out = table;
+  if (!(table.keep_part > 0.0)) // the spring is set
+    return out;
+  const double x = -share * std::log(table.keep_part);
+  const auto phi = decay_functions(x);
+  out.keep_part = std::exp(-x);
+  out.part_by_force = x * phi[1];
+  out.part_by_last = x * (phi[0] - phi[1]);
+  return out;
+}
 
 /// The tangential spring and the slider from part to part.
 template <int D> class Slider {
@@ -159,9 +174,41 @@ public:
         force_(tangential<D>(start.friction)), held_(energy()), slides_(start.slides) {}
   void forget() { spring_ = {}; }
   /// The force at the end of a part, under the normal force and with the tangential velocity there.
-  Vector move(double normal, Vector slip) {
+  Vector move(double normal, Vector slip) { return move(1.0, table_, normal, slip); }
+  /// The same of a part in which the contact closes, after which the spring follows the node, and of the force over the part.
+  /// @param closed  share of the part   @param at_touch  N, the normal force that it begins with
+  struct Closing {
+    Vector force, missing; ///< at the end; what the mean over the part has beyond half of that
+  };
+  Closing close(double closed, double at_touch, double normal, Vector slip) {
+    spring_ = std::pow(table_.keep_part, 1.0 - closed) * spring_;
+    slip_ = slip_ + (1.0 - closed) * (slip - slip_);
+    const Vector trial = spring_ - law_.damping * slip_;
+    const double length = norm(trial);
+    slides_ = !(length <= bound_ * at_touch);
+    force_ = slides_ ? with_length(law_.mu_dynamic * at_touch, trial, length) : trial;
+    const SpringTable table = part_of(table_, closed);
+    const Vector touching = force_, force = move(closed, table, normal, slip);
+    return {force, (0.5 * closed) * (touching + force) - 0.5 * force};
+  }
+  /// More of the force in the mean over the last part, in which the contact opens, as a share of that at its begin. Returns it. What sticks
+  /// goes without a jump.
+  Vector open(double share) {
+    if (!slid_)
+      return {};
+    const Vector more = share * last_;
+    jumped_ += std::max(-slider_, -dot(more, moved_));
+    return more;
+  }
+  [[nodiscard]] Vector spring() const { return spring_; }
+  /// Up to now.
+  [[nodiscard]] PathLoss loss() const { return {rubbed_ + jumped_, held_ - energy() - work_ - rubbed_}; }
+
+private:
+  /// Over a share of a part that the table is for.
+  Vector move(double share, const SpringTable& table, double normal, Vector slip) {
     const Vector before = spring_;
-    moved_ = half_part_ * (slip + slip_);
+    moved_ = (share * half_part_) * (slip + slip_);
     slip_ = slip;
     last_ = force_;
     slid_ = slides_;
@@ -177,27 +224,13 @@ public:
       slides_ = normal > 0.0;
       bound_ = slides_ ? law_.mu_dynamic : bound_;
       force_ = slides_ ? with_length(law_.mu_dynamic * normal, trial, length) : Vector{};
-      spring_ = table_.keep_part * before + table_.part_by_last * last_ + table_.part_by_force * force_;
+      spring_ = table.keep_part * before + table.part_by_last * last_ + table.part_by_force * force_;
       slider_ = std::max(0.0, 0.5 * dot(force_ + last_, compliance_ * (before - spring_) - moved_));
     }
     work_ += 0.5 * dot(force_ + last_, moved_);
     rubbed_ += slider_;
     return force_;
   }
-  /// More of the force in the mean over the last part, as a share of that at its closed end (of a contact that `closes` in it, or opens).
-  /// Returns it. What sticks comes and goes without a jump.
-  Vector jump(double share, bool closes) {
-    if (!(closes ? slides_ : slid_))
-      return {};
-    const Vector more = share * (closes ? force_ : last_);
-    jumped_ += std::max(-slider_, -dot(more, moved_));
-    return more;
-  }
-  [[nodiscard]] Vector spring() const { return spring_; }
-  /// Up to now.
-  [[nodiscard]] PathLoss loss() const { return {rubbed_ + jumped_, held_ - energy() - work_ - rubbed_}; }
-
-private:
   [[nodiscard]] double energy() const { return 0.5 * compliance_ * dot(spring_, spring_); }
   const contact::FrictionLaw& law_;
   const SpringTable& table_;
@@ -236,21 +269,27 @@ FRETWORK_INLINE InnerPath follow_on(const contact::Support& support, const Sprin
       const double deeper = after.depth - before.depth;
       normal.add(q.s[i], q.weight[i] * after.force);
       work += 0.5 * (before.force + after.force) * deeper;
-      if (rubs) {
-        Vector slip;
-        if constexpr (D == 2)
-          slip = way.slip[0][i];
-        else
-          slip = {way.slip[1][i], way.slip[0][i]};
-        friction.add(q.s[i], q.weight[i] * slider.move(after.force, slip));
-      }
-      if ((before.depth > 0.0) != (after.depth > 0.0)) {
+      Vector slip{};
+      if constexpr (D == 2)
+        slip = way.slip[0][i];
+      else
+        slip = {way.slip[1][i], way.slip[0][i]};
+      if ((before.depth > 0.0) == (after.depth > 0.0)) {
+        if (rubs)
+          friction.add(q.s[i], q.weight[i] * slider.move(after.force, slip));
+      } else {
         const Jump jump(law, before, after);
         const double at = q.s[i] - jump.before_end / all_parts;
         normal.add(at, jump.missing / all_parts);
         work += jump.missing * deeper;
-        if (rubs)
-          friction.add(at, (1.0 / all_parts) * slider.jump(jump.share, closes(before, after)));
+        if (rubs && closes(before, after)) {
+          const auto closing = slider.close(jump.closed, jump.at_touch, after.force, slip);
+          friction.add(q.s[i], q.weight[i] * closing.force);
+          friction.add(at, (1.0 / all_parts) * closing.missing);
+        } else if (rubs) {
+          friction.add(q.s[i], q.weight[i] * slider.move(after.force, slip));
+          friction.add(at, (1.0 / all_parts) * slider.open(jump.share));
+        }
       }
       before = after;
     }

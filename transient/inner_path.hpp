@@ -9,7 +9,8 @@
 /// and the forces 3 (D_0 - D_1) at the node 1/2 and 12 D_1 - 6 D_0 at the node 1, whose quadratic is 0 at the node 0, add just these two
 /// moments to it. The spring's force T is taken from the path too. The motion answers: the forces at the nodes are found again with these
 /// (nodal_solver.hpp). Where a contact closes or opens in a part its force is taken over the share of the part
-/// that it is closed for (of C_N it jumps there).
+/// that it is closed for (of C_N it jumps there). Friction begins at the touch: the spring follows the node from there on, and the force over
+/// that share is the mean of those at the touch and at the end of the part.
 /// Errors of trajectories through impacts fall to a fifth to a fifteenth, without friction to a fiftieth (doc/benchmarks.md).
 #pragma once
 #include "transient/contact_node.hpp"

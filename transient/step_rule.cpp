@@ -347,6 +347,15 @@ StepChoice choose_step(const Scene& scene, const StepOptions& options) {
   return options.scheme ? choice_of(scene, rates, options, scheme) : cheapest(scene, rates, options);
 }
 
+namespace {
+
+/// Whether a contact's force jumps at a touch, or a spring of friction is set once a step.
+bool jumps(const contact::Support& support) {
+  return support.normal.damping > 0.0 || (support.friction.active() && !(support.friction.damping > 0.0));
+}
+
+} // namespace
+
 int order_of_statistics(const Scene& scene, SchemeKind scheme) {
   for (const ContactPoint& point : scene.contacts)
     if (point.support.friction.active() &&
@@ -357,10 +366,14 @@ int order_of_statistics(const Scene& scene, SchemeKind scheme) {
   case SchemeKind::runge_kutta_54:
     return 1;
   case SchemeKind::splitting:
-  case SchemeKind::collocation:
   case SchemeKind::energy_conserving:
-  case SchemeKind::devogelaere:
     return 2;
+  case SchemeKind::collocation:
+  case SchemeKind::devogelaere:
+    return std::any_of(scene.contacts.begin(), scene.contacts.end(),
+                       [](const ContactPoint& point) { return jumps(point.support); })
+               ? 1
+               : 2;
   }
   return {};
 }

@@ -68,8 +68,9 @@ struct StepChoice : SceneRates {
 [[nodiscard]] StepChoice halved(StepChoice choice);
 
 /// p of the statistics of a run with contacts: their error falls by 2^p from a choice to the halved one. 1 for euler, for the adaptive
-/// scheme, whose error goes as its tolerance, and with the memory `reference`, whose spring jumps once a step; else 2, also of the schemes
-/// of order 4: forces have a kink where a contact opens or closes inside a step, which costs them the order on all but single smooth paths
+/// scheme, whose error goes as its tolerance, and with the memory `reference`, whose spring jumps once a step; of the schemes of order 4 where a
+/// normal damper's force jumps at a touch or a spring of friction without damper is set once a step; else 2, also of the schemes of order 4:
+/// forces have a kink where a contact opens or closes inside a step, which costs them the order on all but single smooth paths
 /// (doc/schemes.md).
 [[nodiscard]] int order_of_statistics(const Scene& scene, SchemeKind scheme);
 

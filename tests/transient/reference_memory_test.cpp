@@ -15,8 +15,7 @@ Scene driven_on_a_plane(double stiffness, double damping, contact::Vec2 along) {
   for (int i = 0; i < 3; ++i)
     s.system.damping(i) = 0.02 * std::sqrt(s.system.stiffness(i));
   start(s, 1.0, Vec3::Zero(), Vec3(0.2, 0.1, 0.0));
-  const contact::FrictionLaw law{
-      stiffness, damping, 0.3, 0.3, contact::FrictionMemoryKind::reference, along};
+  const contact::FrictionLaw law{stiffness, damping, 0.3, 0.3, contact::FrictionMemoryKind::reference, along};
   s.contacts = {contact_of(1.0, {contact::Stop{0.0, contact::PlaneAxis::z}, {1e5}, law}, {0, 0, 1e-3})};
   s.loads = {force_on(1.0, Vec3(1.0, 0.4, 0.0).normalized(), Harmonic{35.0, 7.0, 0.2}),
              force_on(1.0, Vec3(-0.3, 1.0, 0.0).normalized(), Harmonic{30.0, 12.3, 1.0}),

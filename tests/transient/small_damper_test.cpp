@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Friction without a damper, C_T = 0, and with one that is short beside the step (K_T h/C_T of 4 to 20): a mass pressed on a plane.
+#include "scenes.hpp"
+#include <gtest/gtest.h>
+#include <numbers>
+
+using namespace fretwork;
+using namespace fretwork::tests;
+using namespace fretwork::transient;
+
+namespace {
+
+enum class Drive { harmonics, circle, line };
+
+/// Pressed by 100 N -+ 20 N on a plane, mu = 0.3, and driven along it above the bound.
+Scene driven(Drive drive, double damping) {
+  Scene s = mass_point(1.0, Vec3(400.0, 700.0, 1100.0), 2.0);
+  for (int i = 0; i < 3; ++i)
+    s.system.damping(i) = 0.04 * std::sqrt(s.system.stiffness(i));
+  s.contacts = {contact_of(
+      1.0, {contact::Stop{0.0, contact::PlaneAxis::z}, {1e5}, {2e4, damping, 0.3, 0.3}}, {0, 0, 1e-3})};
+  const double second = drive == Drive::harmonics ? 8.0 : 4.0,
+               phase = drive == Drive::harmonics ? 0.7 : 0.5 * std::numbers::pi;
+  s.loads = {force_on(1.0, Vec3(drive == Drive::line ? 0 : 45.0, 0, 0), Harmonic{1.0, 4.0, 0.0}),
+             force_on(1.0, Vec3(0, 45.0, 0), Harmonic{1.0, second, phase}),
+             force_on(1.0, Vec3(0, 0, 20.0), Harmonic{1.0, 9.0, 0.0})};
+  return s;
+}
+
+double work_rate(const Scene& scene, const StepOptions& options) {
+  const History run = simulate(scene, options, 0.5);
+  EXPECT_EQ(run.report.outcome, Outcome::done);
+  return run.statistics[0].work_rate;
+}
+
+StepOptions at(SchemeKind kind, double step) {
+  StepOptions options;
+  options.scheme = kind;
+  options.step = step;
+  return options;
+}
+
+StepOptions adaptive(double tolerance) {
+  StepOptions options;
+  options.scheme = SchemeKind::runge_kutta_54;
+  options.tolerance = tolerance;
+  return options;
+}
+
+constexpr double step = 1e-4;          // s: w_c h = 0.03
+constexpr double of_direction = 5e-3;  // relative: springs that are set once a step turn with order 1
+constexpr double of_short_one = 1e-3;  // of collocation, which relaxes springs exactly
+
+} // namespace
+
+TEST(SmallDamper, SlidesInThePlaneWithoutADamper) {
+  const Scene scene = driven(Drive::harmonics, 0.0);
+  constexpr double right = 116.771; // W, an independent integrator that locates events
+  EXPECT_NEAR(work_rate(scene, adaptive(1e-6)), right, 2e-4 * right);
+  EXPECT_NEAR(work_rate(scene, at(SchemeKind::collocation, step)), right, of_short_one * right);
+  EXPECT_NEAR(work_rate(scene, at(SchemeKind::devogelaere, step)), right, of_direction * right);
+  EXPECT_NEAR(work_rate(scene, at(SchemeKind::euler, step)), right, of_direction * right);
+}
+
+TEST(SmallDamper, SlidesRoundACircleAndAlongALineWithoutADamper) {
+  for (const Drive drive : {Drive::circle, Drive::line}) {
+    const Scene scene = driven(drive, 0.0);
+    const double right = work_rate(scene, adaptive(1e-7));
+    EXPECT_NEAR(work_rate(scene, at(SchemeKind::collocation, step)), right, of_short_one * right);
+    EXPECT_NEAR(work_rate(scene, at(SchemeKind::devogelaere, step)), right, of_direction * right);
+    EXPECT_NEAR(work_rate(scene, at(SchemeKind::euler, step)), right, of_direction * right);
+  }
+}
+
+TEST(SmallDamper, MayBeShortBesideTheStep) {
+  // Devogelaere's scheme integrates the spring explicitly: its automatic step is short enough
+  for (const Drive drive : {Drive::harmonics, Drive::circle, Drive::line})
+    for (const double ratio : {20.0, 10.0, 4.0}) {
+      const Scene scene = driven(drive, 2e4 * step / ratio);
+      const double right = work_rate(scene, adaptive(1e-6));
+      EXPECT_NEAR(work_rate(scene, at(SchemeKind::collocation, step)), right, of_short_one * right) << ratio;
+      EXPECT_NEAR(work_rate(scene, at(SchemeKind::euler, step)), right, of_direction * right) << ratio;
+      StepOptions automatic;
+      automatic.scheme = SchemeKind::devogelaere;
+      EXPECT_NEAR(work_rate(scene, automatic), right, of_short_one * right) << ratio;
+    }
+}
