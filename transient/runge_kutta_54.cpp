@@ -2,7 +2,7 @@
 /// @file
 /// The pair of Dormand and Prince (dormand_prince.hpp) on the plain rates of the motion (motion_rates.hpp): adaptive, explicit, with steps
 /// that end where a contact closes, opens, starts to slide or sticks (contact_events.hpp). Order 5 between events. It is the oracle:
-/// six evaluations of the contacts a step, all modes resolved. Steps also end at the points of tables, where loads bend and jump: no step
+/// six evaluations of the contacts a step and six for its records, all modes resolved. Steps also end at the points of tables, where loads bend and jump: no step
 /// passes over a pulse, and between points the tolerance is met as that of a smooth load, from rest too.
 ///
 /// Error of a step, e the estimate: ||e|| <= tolerance sqrt(2 E), with the energy of the error in modes, springs of friction and springs of
@@ -159,6 +159,7 @@ private:
     step_.inside(p.node, inside_);
     step_.inside(p.end, until_);
     rates_.rate(time, inside_.data(), unused_.data());
+    count_evaluations(1);
     record_.prepare_part(rates_, inside_.data(), time, p.weight * h_, until_.data());
     record_.publish();
     record_.stand_for(p.weight * h_);
@@ -256,6 +257,7 @@ private:
   void accept() {
     const bool stops = end_time() == stop_;
     rates_.rate(time_ + h_, step_.end(), unused_.data()); // after the parts
+    count_evaluations(1);
     time_ = end_time();
     rates_.commit(step_.end());
     if (event_)

@@ -26,7 +26,8 @@ Scene scene_of(const Impact& impact, double phase) {
   if (impact.friction > 0.0)
     law = {3e4, impact.tangential_damping, impact.friction, impact.friction};
   s.contacts = {contact_of(
-      1.0, {contact::Stop{(2.0 + phase) * coarse, contact::PlaneAxis::y}, {1e5, impact.normal_damping}, law})};
+      1.0,
+      {contact::Stop{(2.0 + phase) * coarse, contact::PlaneAxis::y}, {1e5, impact.normal_damping}, law})};
   return s;
 }
 
@@ -50,8 +51,8 @@ double order(SchemeKind kind, double h, const Impact& impact) {
 }
 
 constexpr double xi = 0.1, damped = 2.0 * xi * 316.23; // N s/m
-constexpr double partly = 0.3, all = 2.0;              // m/s across: sticks for a part of the impact; slides throughout
-constexpr double near_two = 1.7, near_one = 0.75;      // what an order of 2 or 1 shows in three halvings, at least
+constexpr double partly = 0.3, all = 2.0; // m/s across: sticks for a part of the impact; slides throughout
+constexpr double near_two = 1.7, near_one = 0.75; // what an order of 2 or 1 shows in three halvings, at least
 
 } // namespace
 

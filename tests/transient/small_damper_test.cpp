@@ -17,8 +17,8 @@ Scene driven(Drive drive, double damping) {
   Scene s = mass_point(1.0, Vec3(400.0, 700.0, 1100.0), 2.0);
   for (int i = 0; i < 3; ++i)
     s.system.damping(i) = 0.04 * std::sqrt(s.system.stiffness(i));
-  s.contacts = {contact_of(
-      1.0, {contact::Stop{0.0, contact::PlaneAxis::z}, {1e5}, {2e4, damping, 0.3, 0.3}}, {0, 0, 1e-3})};
+  s.contacts = {contact_of(1.0, {contact::Stop{0.0, contact::PlaneAxis::z}, {1e5}, {2e4, damping, 0.3, 0.3}},
+                           {0, 0, 1e-3})};
   const double second = drive == Drive::harmonics ? 8.0 : 4.0,
                phase = drive == Drive::harmonics ? 0.7 : 0.5 * std::numbers::pi;
   s.loads = {force_on(1.0, Vec3(drive == Drive::line ? 0 : 45.0, 0, 0), Harmonic{1.0, 4.0, 0.0}),
@@ -47,9 +47,9 @@ StepOptions adaptive(double tolerance) {
   return options;
 }
 
-constexpr double step = 1e-4;          // s: w_c h = 0.03
-constexpr double of_direction = 5e-3;  // relative: springs that are set once a step turn with order 1
-constexpr double of_short_one = 1e-3;  // of collocation, which relaxes springs exactly
+constexpr double step = 1e-4;         // s: w_c h = 0.03
+constexpr double of_direction = 5e-3; // relative: springs that are set once a step turn with order 1
+constexpr double of_short_one = 1e-3; // of collocation, which relaxes springs exactly
 
 } // namespace
 
