@@ -9,7 +9,7 @@
 //   --only CASE           scenes of one kind (mass, tube, pair), or one scene (tube-7)
 //   --accuracy a (0.01)   of the automatic step; the tolerance is 2 a, at least 0.4 %
 //   --scheme NAME, --step-factor f (1), --tolerance t (1e-6)   of the run under test: scheme, times its automatic step, of an adaptive one
-//   --resolution x (0.02)   w_c h of the reference solution
+//   --resolution x        w_c h of the reference solution of masses (0.02; below an accuracy of 0.005 0.01), of tubes 1.5 times that
 //   --budget s (1)        times the usual processor time of the reference solution a scene
 //   --ct-ratio x          C_T of single impacts over 2 (K_T m)^1/2; else automatic
 //   --csv FILE            all figures
@@ -29,14 +29,15 @@ using bench::SceneKind;
 constexpr SceneKind order[] = {SceneKind::mass, SceneKind::mass, SceneKind::tube, SceneKind::mass,
                                SceneKind::pair, SceneKind::tube, SceneKind::mass, SceneKind::tube,
                                SceneKind::mass, SceneKind::pair};
-constexpr double mass_budget = 1.0, tube_budget = 4.0; // s of the reference solution, a scene
+constexpr double mass_budget = 1.8, tube_budget = 5.5; // s of the reference solution, a scene
+constexpr double resolution = 0.02, tubes_to_masses = 1.5, fine_resolution = 0.01, fine_accuracy = 0.005;
 
 struct Arguments {
   std::string mode, only, csv;
   int scenes = 60;
   std::uint64_t seed = 1;
   double budget = 1.0;
-  std::optional<double> tangential_ratio;
+  std::optional<double> resolution, tangential_ratio;
   bench::StudyOptions study;
 };
 
@@ -67,7 +68,7 @@ Arguments parsed(int argc, char** argv) {
       {"--scheme", [&](Text t) { out.study.step.scheme = scheme_named(t); }},
       {"--step-factor", [&](Text t) { out.study.step_factor = number(t); }},
       {"--tolerance", [&](Text t) { out.study.step.tolerance = number(t); }},
-      {"--resolution", [&](Text t) { out.study.resolution = number(t); }},
+      {"--resolution", [&](Text t) { out.resolution = number(t); }},
       {"--budget", [&](Text t) { out.budget = number(t); }},
       {"--ct-ratio", [&](Text t) { out.tangential_ratio = number(t); }},
       {"--csv", [&](Text t) { out.csv = t; }}};
@@ -81,6 +82,8 @@ Arguments parsed(int argc, char** argv) {
           fmt::format("unknown option or no value: \"{}\"; see bench/accuracy_bench.cpp", argv[i]));
     found->second(argv[i + 1]);
   }
+  out.study.resolution =
+      out.resolution.value_or(out.study.step.accuracy < fine_accuracy ? fine_resolution : resolution);
   return out;
 }
 
@@ -114,7 +117,9 @@ void run_scenes(Arguments& arguments) {
   std::vector<bench::SceneResult> results;
   for (bench::RandomScene& scene : scenes_of(arguments)) {
     bench::StudyOptions options = arguments.study;
-    options.budget = arguments.budget * (scene.kind == SceneKind::mass ? mass_budget : tube_budget);
+    const bool mass = scene.kind == SceneKind::mass;
+    options.budget = arguments.budget * (mass ? mass_budget : tube_budget);
+    options.resolution *= mass ? 1.0 : tubes_to_masses;
     results.push_back(bench::study(std::move(scene), options));
     bench::print_failures(results.back());
     std::fflush(stdout);

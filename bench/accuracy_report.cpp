@@ -70,14 +70,19 @@ void print_summary(const std::vector<SceneResult>& results, const StudyOptions& 
     all.print("all", "all but normal_max");
   double seconds = 0.0, reference = 0.0;
   std::size_t failures = 0;
+  std::int64_t unresolved = 0;
   for (const SceneResult& result : results) {
     seconds += result.seconds;
     reference += result.reference_seconds;
+    unresolved += result.unresolved;
     failures += result.failure.empty() ? 0 : 1;
   }
   std::printf("\n%zu scenes, %zu of them without an end; processor time of the runs %.1f s, of the reference "
               "solution %.1f s\n",
               results.size(), failures, seconds, reference);
+  if (unresolved > 0)
+    std::printf("The reference solution has not found %lld contact forces and closures\n",
+                static_cast<long long>(unresolved));
 }
 
 void write_csv(const std::string& file, const std::vector<SceneResult>& results) {

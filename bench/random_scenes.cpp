@@ -180,7 +180,7 @@ RandomScene random_mass(Draw& draw) {
            {mass * scene.system.stiffness(0), mass, ratio}, w_n * gap);
   point.b = Eigen::MatrixXd::Identity(3, 3) / std::sqrt(mass);
   scene.contacts.push_back(point);
-  const double amplitude = gap * draw.logarithmic(0.6, 3.0), tangential = draw.logarithmic(0.1, 2.0);
+  const double amplitude = gap * draw.logarithmic(1.0, 4.0), tangential = draw.logarithmic(0.1, 2.0);
   std::string loads;
   for (int i = 0; i < 3; ++i) {
     const double size = amplitude * (i == 0 ? tangential : draw.logarithmic(0.4, 1.6));

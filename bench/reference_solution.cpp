@@ -148,7 +148,7 @@ void ReferenceSolution::broad_phase() {
     } else if (!candidate) {
       contacts_[c].leave_open(flow_.unit() - open_since_[c]);
       open_since_[c] = flow_.unit();
-      candidate = contacts_[c].gap() <= bound;
+      candidate = contacts_[c].gap() <= bound || flow_.unit() == 0;
     }
     if (candidate)
       candidates_.push_back(c);
