@@ -62,8 +62,7 @@ std::vector<double> second_differences(const Chords& chords) {
   out[0] = 2.0 * chords.slope[0] / chords.length[0];
   out[last] = -2.0 * chords.slope[last - 1] / chords.length[last - 1];
   for (std::size_t i = 1; i < last; ++i)
-    out[i] =
-        2.0 * (chords.slope[i] - chords.slope[i - 1]) / (chords.length[i] + chords.length[i - 1]);
+    out[i] = 2.0 * (chords.slope[i] - chords.slope[i - 1]) / (chords.length[i] + chords.length[i - 1]);
   return out;
 }
 
@@ -90,8 +89,8 @@ double excess(double h, double change, double a, double b) {
 bool is_smooth_turn(const Chords& chords, const std::vector<double>& second, std::size_t interval,
                     double beyond) {
   const std::size_t last = chords.slope.size();
-  const double around[] = {second[interval > 0 ? interval - 1 : 1], second[interval],
-                           second[interval + 1], second[interval + 1 < last ? interval + 2 : last - 1]};
+  const double around[] = {second[interval > 0 ? interval - 1 : 1], second[interval], second[interval + 1],
+                           second[interval + 1 < last ? interval + 2 : last - 1]};
   const auto [low, high] = std::minmax_element(std::begin(around), std::end(around));
   if (!(*low * *high > 0.0))
     return false;
