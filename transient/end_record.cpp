@@ -38,7 +38,7 @@ void EndRecord::prepare_contact(const MotionRates& rates, const double* y, int c
   Past& past = past_[c];
   ContactState& state = next_.states[c];
   const double friction = rates.friction_work(y, c) - past.friction,
-               damper = rates.damper_work(y, c) - past.damper;
+               damper = rates.damper_work(y, c) - rates.forgotten(c) - past.damper;
   past.friction += friction;
   past.damper += damper;
   const bool entered = std::exchange(past.entered, false);
