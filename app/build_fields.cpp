@@ -54,7 +54,8 @@ void initial_field(const study::Study& study, const mesh::LineMesh& mesh, const 
   for (std::size_t e = 0; e < study.initial.size(); ++e) {
     const study::Initial& initial = study.initial[e];
     const std::string name = fmt::format("[[initial]] entry {}", e + 1);
-    bool idle = true;
+    bool idle = !(initial.displacement.isZero(0.0) && initial.velocity.isZero(0.0) &&
+                  initial.rotation_rate.isZero(0.0)); // rest is a state too
     for (const Index node : mesh::group_nodes(mesh, initial.group, name)) {
       const Eigen::Index row = static_cast<Eigen::Index>(node) * core::dofs_per_node;
       const Vec3 arm = model.nodes[static_cast<std::size_t>(node)] - initial.centre;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/conserving_contacts.hpp"
-#include "transient/conserving_friction.hpp"
+#include "transient/conserving_normal.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -57,17 +57,19 @@ ConservingContacts::ConservingContacts(const PackedContacts& contacts)
     : contacts_(contacts), size_(static_cast<std::size_t>(contacts.components)), answer_(contacts) {
   const auto count = static_cast<std::size_t>(contacts.count);
   shut_.reserve(count);
+  parts_.reserve(count);
   response_.resize(count);
   for (std::vector<double>* x : {&force_, &residual_, &step_, &base_})
     x->assign(3 * count, 0.0);
   matrix_.resize(9 * count * count);
 }
 
-bool ConservingContacts::solve(double step, const kernels::Array& mobility, const ContactMemory& memory,
+bool ConservingContacts::solve(double step, const Mobilities& mobilities, const ConservingMemory& memory,
                                ContactMotion& start, ContactMotion& free, ContactTrial& trial) {
-  const Setting s{step, mobility, memory};
+  const Setting s{step, mobilities, memory};
   trial.clear();
   shut_.clear();
+  parts_.clear();
   const bool any = start.find_near(0.0) | free.find_near(0.0); // both marks are needed
   if (!any)
     return true;
@@ -102,6 +104,13 @@ void ConservingContacts::take(int c, const Setting& s, const ContactMotion& star
   shut.free[2] = in_plane ? free.u[2 * width + c] - start.u[2 * width + c] : 0.0;
   const double trace =
       mobility(s, i, 0, i, 0) + mobility(s, i, 1, i, 1) + (in_plane ? mobility(s, i, 2, i, 2) : 0.0);
+  const contact::Location face = shut.from.gap < 0.0 ? shut.from : free.locate(c);
+  shut.normal = {face.ny, face.nz};
+  shut.free_rate = free.sinking(c, face.ny, face.nz);
+  shut.end_share = 0.0;
+  if (support.normal.damping > 0.0)
+    shut.end_share = end_rate_share(support.normal.damping, rate_mobility(s, i, i, 0) * face.ny +
+                                                                rate_mobility(s, i, i, 1) * face.nz);
   shut.rho = support.friction.active() && trace > 0.0 ? 1.0 / trace : 0.0;
   shut.stiffness = support.normal.stiffness + support.friction.stiffness + shut.rho +
                    (support.normal.damping + support.friction.damping) / s.h;
@@ -122,7 +131,8 @@ bool ConservingContacts::recruit(const Setting& s, const ContactMotion& start, c
   for (std::size_t i = 0; i < before; ++i)
     for (std::size_t b = 0; b < size_; ++b) {
       const double f = force_[size_ * i + b];
-      const double* column = &s.mobility[(static_cast<std::size_t>(shut_[i].contact) * 3 + b) * stride];
+      const double* column =
+          &s.mobilities.place[(static_cast<std::size_t>(shut_[i].contact) * 3 + b) * stride];
       for (std::size_t lane = 0; lane < stride; ++lane)
         answer_.u[lane] += f * column[lane];
     }
@@ -142,13 +152,23 @@ bool ConservingContacts::break_loose() {
   return any;
 }
 
-double ConservingContacts::mobility(const Setting& s, std::size_t i, std::size_t a, std::size_t j,
-                                    std::size_t b) const {
+std::size_t ConservingContacts::place_of(std::size_t i, std::size_t a, std::size_t j, std::size_t b) const {
   const auto stride = static_cast<std::size_t>(contacts_.stride()),
              width = static_cast<std::size_t>(contacts_.width);
   const auto to = static_cast<std::size_t>(shut_[i].contact),
              from = static_cast<std::size_t>(shut_[j].contact);
-  return s.mobility[(from * 3 + b) * stride + a * width + to];
+  return (from * 3 + b) * stride + a * width + to;
+}
+
+double ConservingContacts::mobility(const Setting& s, std::size_t i, std::size_t a, std::size_t j,
+                                    std::size_t b) const {
+  return s.mobilities.place[place_of(i, a, j, b)];
+}
+
+double ConservingContacts::rate_mobility(const Setting& s, std::size_t i, std::size_t j,
+                                         std::size_t b) const {
+  const auto [y, z] = shut_[i].normal;
+  return y * s.mobilities.rate[place_of(i, 0, j, b)] + z * s.mobilities.rate[place_of(i, 1, j, b)];
 }
 
 /// Newton's method from the forces there are. Returns whether it settled.
@@ -197,9 +217,14 @@ double ConservingContacts::respond(const Setting& s) {
       for (std::size_t a = 0; a < size_; ++a)
         for (std::size_t b = 0; b < size_; ++b)
           place[a] += mobility(s, i, a, j, b) * force_[size_ * j + b];
+    double rate = shut.free_rate;
+    if (shut.end_share > 0.0)
+      for (std::size_t j = 0; j < shut_.size(); ++j)
+        for (std::size_t b = 0; b < size_; ++b)
+          rate -= rate_mobility(s, i, j, b) * force_[size_ * j + b];
     double force[3] = {};
     std::copy_n(&force_[size_ * i], size_, force);
-    respond(s, shut, place, force, response_[i]);
+    respond(s, shut, place, rate, force, response_[i]);
     for (std::size_t a = 0; a < size_; ++a) {
       const double r = force[a] - response_[i].force[a];
       residual_[size_ * i + a] = r;
@@ -209,8 +234,8 @@ double ConservingContacts::respond(const Setting& s) {
   return merit;
 }
 
-void ConservingContacts::respond(const Setting& s, const Shut& shut, const double* place, const double* force,
-                                 Response& r) const {
+void ConservingContacts::respond(const Setting& s, const Shut& shut, const double* place, double rate,
+                                 const double* force, Response& r) const {
   const contact::Support& support = contacts_.supports[shut.contact];
   const contact::NormalLaw& law = support.normal;
   const auto g = discrete_gradient(support.obstacle, shut.x0, shut.from, {place[0], place[1]},
@@ -218,14 +243,12 @@ void ConservingContacts::respond(const Setting& s, const Shut& shut, const doubl
   r = {};
   r.p0 = -shut.from.gap;
   r.p1 = -g.gap;
-  r.mean = contact::mean_penetration(r.p0, r.p1);
-  r.spring_force = law.stiffness * r.mean;
   r.ny = g.ny;
   r.nz = g.nz;
-  const double size = std::sqrt(g.y * g.y + g.z * g.z), sunk = std::max(0.0, r.p1);
-  const double damped =
-      law.damping * (sunk - std::max(0.0, r.p0)) + law.dissipation * r.spring_force * (r.p1 - r.p0);
-  const double normal = r.spring_force + damped / s.h;
+  const double size = std::sqrt(g.y * g.y + g.z * g.z);
+  const StepNormal found = step_normal_force(law, shut.end_share, r.p0, r.p1, rate, s.h);
+  const double normal = found.force;
+  r.spring_force = found.spring;
   const double extent = std::abs(shut.x0.y) + std::abs(shut.x0.z) + std::abs(shut.free[0]) +
                         std::abs(shut.free[1]) + std::abs(shut.free[2]) + std::abs(place[0]) +
                         std::abs(place[1]) + std::abs(place[2]);
@@ -238,20 +261,25 @@ void ConservingContacts::respond(const Setting& s, const Shut& shut, const doubl
   r.nz = g.z / size;
   r.force[0] = normal * g.y;
   r.force[1] = normal * g.z;
-  const double slope = -(law.stiffness * contact::mean_slopes(r.p0, r.p1).by_p2 +
-                         ((r.p1 > 0.0 ? law.damping : 0.0) + law.stiffness * law.dissipation * sunk) / s.h);
-  const double by_y = slope * g.ny, by_z = slope * g.nz; // of the normal force
+  const double by_y = -found.by_end * g.ny, by_z = -found.by_end * g.nz; // of the normal force
   r.by_place[0][0] = by_y * g.y + normal * g.yy;
   r.by_place[0][1] = by_z * g.y + normal * g.yz;
   r.by_place[1][0] = by_y * g.z + normal * g.zy;
   r.by_place[1][1] = by_z * g.z + normal * g.zz;
+  r.by_rate[0] = found.by_rate * g.y;
+  r.by_rate[1] = found.by_rate * g.z;
   if (!support.friction.active())
     return;
   const double ty = r.nz, tz = -r.ny;
+  r.closed = {contact::closed_share(r.p0, r.p1), !(r.p0 > 0.0)};
+  // of the share by p1, where the step is partly closed
+  const double by_p1 = r.closed.share < 1.0 ? std::abs(r.p0) / ((r.p1 - r.p0) * (r.p1 - r.p0)) : 0.0;
   rub(s, shut, place, force,
       {{(ty * g.yy + tz * g.zy) / size, (ty * g.yz + tz * g.zz) / size},
        {size * by_y + normal * (r.ny * g.yy + r.nz * g.zy),
-        size * by_z + normal * (r.ny * g.yz + r.nz * g.zz)}},
+        size * by_z + normal * (r.ny * g.yz + r.nz * g.zz)},
+       {-by_p1 * g.ny, -by_p1 * g.nz},
+       size * found.by_rate},
       r);
 }
 
@@ -267,11 +295,11 @@ void ConservingContacts::rub(const Setting& s, const Shut& shut, const double* p
   const contact::FrictionMemory past = s.memory.at(shut.contact, r.ny, r.nz);
   const bool reference = law.kind == contact::FrictionMemoryKind::reference;
   const bool dynamic = shut.broken || past.sliding;
-  const Rubbing f =
+  const StepFriction f =
       reference && shut.broken
           ? opposing(law, shut.rho, r.normal, r.displacement, {force[2], t[0] * force[0] + t[1] * force[1]})
           : along_trial(law, past.spring, dynamic ? law.mu_dynamic : law.mu_static, r.normal, r.displacement,
-                        s.h);
+                        s.h, r.closed);
   r.friction = f.force;
   r.slides = f.slides;
   r.breaks = f.slides && !shut.broken && (reference || (!dynamic && law.mu_static > law.mu_dynamic));
@@ -279,12 +307,16 @@ void ConservingContacts::rub(const Setting& s, const Shut& shut, const double* p
   r.force[0] += f.force.t * t[0];
   r.force[1] += f.force.t * t[1];
   r.force[2] = f.force.x;
+  const double by_rate_t = f.by_normal.t * turning.by_rate;
+  r.by_rate[0] += by_rate_t * t[0];
+  r.by_rate[1] += by_rate_t * t[1];
+  r.by_rate[2] = f.by_normal.x * turning.by_rate;
   for (int k = 0; k < 2; ++k) { // by y, by z
     const double turn = turning.turn[k], moved = t[k] - turn * along_n, given = -turn * force_n;
-    const double by_t =
-        f.by_displacement.tt * moved + f.by_normal.t * turning.normal[k] + f.by_force.tt * given;
-    const double by_x =
-        f.by_displacement.xt * moved + f.by_normal.x * turning.normal[k] + f.by_force.xt * given;
+    const double by_t = f.by_displacement.tt * moved + f.by_normal.t * turning.normal[k] +
+                        f.by_share.t * turning.share[k] + f.by_force.tt * given;
+    const double by_x = f.by_displacement.xt * moved + f.by_normal.x * turning.normal[k] +
+                        f.by_share.x * turning.share[k] + f.by_force.xt * given;
     for (int a = 0; a < 2; ++a) {
       r.by_place[a][k] += by_t * t[a] - f.force.t * turn * n[a];
       r.by_force[a][k] = t[a] * f.by_force.tt * t[k];
@@ -316,9 +348,11 @@ bool ConservingContacts::direction(const Setting& s) {
       for (std::size_t b = 0; b < size_; ++b) {
         const double moved[3] = {mobility(s, i, 0, j, b), mobility(s, i, 1, j, b),
                                  size_ == 3 ? mobility(s, i, 2, j, b) : 0.0};
+        const double rate = shut_[i].end_share > 0.0 ? -rate_mobility(s, i, j, b) : 0.0;
         for (std::size_t a = 0; a < size_; ++a) {
           double x =
-              -(r.by_place[a][0] * moved[0] + r.by_place[a][1] * moved[1] + r.by_place[a][2] * moved[2]);
+              -(r.by_place[a][0] * moved[0] + r.by_place[a][1] * moved[1] + r.by_place[a][2] * moved[2]) -
+              r.by_rate[a] * rate;
           if (i == j)
             x += (a == b ? 1.0 : 0.0) - r.by_force[a][b];
           matrix_[(size_ * i + a) * n + size_ * j + b] = x;
@@ -331,7 +365,7 @@ bool ConservingContacts::direction(const Setting& s) {
 }
 
 /// Forces found: what the contacts do over the step.
-void ConservingContacts::close(const ContactMotion& start, ContactTrial& trial) const {
+void ConservingContacts::close(const ContactMotion& start, ContactTrial& trial) {
   for (std::size_t i = 0; i < shut_.size(); ++i) {
     const Response& r = response_[i];
     const int c = shut_[i].contact;
@@ -352,6 +386,9 @@ void ConservingContacts::close(const ContactMotion& start, ContactTrial& trial) 
     state.approach = start.sinking(c, r.ny, r.nz);
     state.damper_work = loss;
     state.slides = r.slides;
+    parts_.push_back({c, r.closed, support.normal.stiffness,
+                      support.normal.damping + support.normal.stiffness * support.normal.dissipation * sunk,
+                      r.p1});
     trial.active.push_back(c);
   }
   std::sort(trial.active.begin(), trial.active.end());

@@ -52,7 +52,7 @@ void EndRecord::prepare_contact(const MotionRates& rates, const double* until, i
   Past& past = past_[c];
   ContactState& state = next_.states[c];
   const double friction = rates.friction_work(until, c) - past.friction,
-               damper = rates.damper_work(until, c) - past.damper;
+               damper = rates.damper_work(until, c) - rates.forgotten(c) - past.damper;
   past.friction += friction;
   past.damper += damper;
   const bool entered = std::exchange(past.entered, false);

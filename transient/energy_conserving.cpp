@@ -44,7 +44,7 @@ public:
         contacts_(scene.contacts, scene.system.size()), start_(contacts_), end_(contacts_),
         middle_(contacts_),
         obstacles_(scene, contacts_, step), carried_{obstacles_.room(), obstacles_.room(), obstacles_.room()},
-        memory_(contacts_, step), solver_(contacts_), rows_(contacts_),
+        memory_(contacts_), solver_(contacts_), rows_(contacts_),
         coupled_(system_, step, 1, halvings + 1), steps_{Step(contacts_), Step(contacts_)} {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
     for (kernels::Array* a : {&q_, &v_, &k_, &load_, &next_load_, &middle_load_, &contact_, &moved_, &slope_})
@@ -52,7 +52,6 @@ public:
     std::copy_n(scene.q0.data(), scene.q0.size(), q_.begin());
     std::copy_n(scene.v0.data(), scene.v0.size(), v_.begin());
     std::copy_n(system_.stiffness.data(), system_.size(), k_.begin());
-    committed_ = h_;
     for (Tables& t : tables_)
       t.reserve(contacts_);
     loads_.at(0.0, load_.data());
@@ -60,7 +59,6 @@ public:
     end_.gather(q_.data(), v_.data());
     obstacles_.at(0.0, carried_[2]);
     carried_[2].add_to(end_);
-    memory_.start(end_);
     springs_ = end_.spring_energy();
     moving_ = moving(q_, v_);
     booked_.initial = booked_.throughput = booked_.stored = moving_ + springs_;
@@ -125,7 +123,7 @@ public:
 
   void visit(core::StateArchive& state) override {
     state(q_, v_, load_, next_load_, end_, memory_, solver_, steps_, ahead_, whole_, part_, level_);
-    state(committed_, springs_, moving_, booked_, counts_, failure_);
+    state(springs_, moving_, booked_, counts_, failure_);
   }
 
 private:
@@ -133,10 +131,11 @@ private:
   struct Tables {
     double length = 0.0; ///< s; 0: not made yet
     kernels::FlowTable half{0};
-    kernels::Array mobility;
+    ConservingContacts::Mobilities mobilities;
     void reserve(const PackedContacts& contacts) {
       half = kernels::FlowTable(contacts.padded_modes);
-      mobility.assign(static_cast<std::size_t>(contacts.count) * 3 * contacts.stride(), 0.0);
+      for (kernels::Array* a : {&mobilities.place, &mobilities.rate})
+        a->assign(static_cast<std::size_t>(contacts.count) * 3 * contacts.stride(), 0.0);
     }
   };
 
@@ -188,7 +187,7 @@ private:
     return t;
   }
 
-  /// A column of W: from rest the modes move under a constant unit force at a contact.
+  /// A column of W and of W': from rest the modes move under a constant unit force at a contact.
   void answer(Tables& t, std::size_t level, int contact, int component) {
     const double* force = contacts_.row(contact, component);
     std::fill(moved_.begin(), moved_.end(), 0.0);
@@ -199,16 +198,21 @@ private:
         const auto i = static_cast<std::size_t>(j);
         const StepCoefficients s = step_coefficients(system_.stiffness(j), system_.damping(j), t.length);
         moved_[i] = (s.qf0 + s.qf1) * force[i];
+        slope_[i] = (s.vf0 + s.vf1) * force[i];
       }
     const int stride = contacts_.stride(), width = contacts_.width;
-    double* column = &t.mobility[static_cast<std::size_t>((contact * 3 + component) * stride)];
+    const auto first = static_cast<std::size_t>((contact * 3 + component) * stride);
     for (int to = 0; to < contacts_.count; ++to)
       for (int k = 0; k < contacts_.components; ++k) {
         const double* row = contacts_.row(to, k);
-        double sum = 0.0;
-        for (std::size_t i = 0; i < moved_.size(); ++i)
-          sum += row[i] * moved_[i];
-        column[k * width + to] = sum;
+        double place = 0.0, rate = 0.0;
+        for (std::size_t i = 0; i < moved_.size(); ++i) {
+          place += row[i] * moved_[i];
+          rate += row[i] * slope_[i];
+        }
+        const std::size_t at = first + static_cast<std::size_t>(k * width + to);
+        t.mobilities.place[at] = place;
+        t.mobilities.rate[at] = rate;
       }
   }
 
@@ -230,7 +234,7 @@ private:
       std::fill(contact_.begin(), contact_.end(), 0.0);
       Work work = move(t, s);
       if (contacts_.count > 0) {
-        if (!solver_.solve(t.length, t.mobility, memory_, start_, end_, s.trial)) {
+        if (!solver_.solve(t.length, t.mobilities, memory_, start_, end_, s.trial)) {
           if (!shorten())
             return;
           continue;
@@ -306,9 +310,7 @@ private:
     for (std::size_t half = 0; half < 2; ++half)
       work.carried[half] = places[half + 1] - places[half];
     const double springs = springs_ + memory_.spring_energy();
-    if (s.length != committed_)
-      memory_.set_step(committed_ = s.length);
-    const ContactLosses losses = memory_.commit(end_, s.trial);
+    const ContactLosses losses = memory_.commit(s.length, solver_.parts(), end_, s.trial);
     springs_ = s.trial.springs;
     const double springs_end = springs_ + memory_.spring_energy();
     middle_.gather(s.middle_q.data(), s.middle_v.data());
@@ -341,7 +343,7 @@ private:
   ContactMotion start_, end_, middle_; ///< of the step that is made
   ObstacleMotion obstacles_;
   std::array<Carried, 3> carried_; ///< at its start, middle and end
-  ContactMemory memory_;
+  ConservingMemory memory_;
   ConservingContacts solver_;
   ContactRows rows_;
   std::array<Tables, halvings + 1> tables_;
@@ -352,7 +354,6 @@ private:
   std::size_t ahead_ = 0;
   std::int64_t whole_ = 0, part_ = 0; ///< where the next step starts: whole steps and `parts` of one
   std::size_t level_ = 0;
-  double committed_ = 0.0;              ///< s, the step that the memory is set for
   double springs_ = 0.0, moving_ = 0.0; ///< J, normal springs and modes at the end of the last step
   Energy booked_;                       ///< up to there; `stored` is not kept
   Record record_;

@@ -172,7 +172,10 @@ public:
         bound_(start.slides ? law.mu_dynamic : law.mu_static), half_part_(0.5 * part),
         spring_(tangential<D>(start.spring)), slip_(tangential<D>(start.slip)),
         force_(tangential<D>(start.friction)), held_(energy()), slides_(start.slides) {}
-  void forget() { spring_ = {}; }
+  void forget() {
+    forgotten_ += energy();
+    spring_ = {};
+  }
   /// The force at the end of a part, under the normal force and with the tangential velocity there.
   Vector move(double normal, Vector slip) { return move(1.0, table_, normal, slip); }
   /// The same of a part in which the contact closes, after which the spring follows the node, and of the force over the part.
@@ -202,7 +205,7 @@ public:
   }
   [[nodiscard]] Vector spring() const { return spring_; }
   /// Up to now.
-  [[nodiscard]] PathLoss loss() const { return {rubbed_ + jumped_, held_ - energy() - work_ - rubbed_}; }
+  [[nodiscard]] PathLoss loss() const { return {rubbed_ + jumped_, held_ - energy() - work_ - rubbed_, forgotten_}; }
 
 private:
   /// Over a share of a part that the table is for.
@@ -236,9 +239,11 @@ private:
   const SpringTable& table_;
   double compliance_, bound_, half_part_;
   Vector spring_, slip_, force_, last_{}, moved_{};
-  double held_;                        ///< J, by the spring at the begin
-  double slider_ = 0.0;                ///< J, lost in the last part
-  double work_ = 0.0;                  ///< J, of the force
+  double held_; ///< J, by the spring at the begin
+  double slider_ = 0.0;
+  double forgotten_ =
+      0.0;            ///< J, of springs of the opposite face                ///< J, lost in the last part
+  double work_ = 0.0; ///< J, of the force
   double rubbed_ = 0.0, jumped_ = 0.0; ///< J, lost by the slider
   bool slides_, slid_ = false;
 };
@@ -295,7 +300,7 @@ FRETWORK_INLINE InnerPath follow_on(const contact::Support& support, const Sprin
     }
     const PathLoss rubbed = slider.loss();
     out.force[j].spring = in_plane(slider.spring()) - nodes[j + 1].spring;
-    out.loss[j] = {rubbed.slider, rubbed.damper + work + held - energy(before.depth)};
+    out.loss[j] = {rubbed.slider, rubbed.damper + work + held - energy(before.depth), rubbed.forgotten};
   }
   // the node 1 has what the node 1/2 hands on
   const double handed = opposite(nodes[1], nodes[2])            ? 0.0

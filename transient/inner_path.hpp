@@ -29,6 +29,7 @@ struct PathForce {
 /// What is lost on it from the node 0 on.
 struct PathLoss {
   double slider = 0.0, damper = 0.0; ///< J
+  double forgotten = 0.0; ///< J, part of `damper`: of springs of the opposite face, which no impact lost
 };
 struct InnerPath {
   PathForce force[2]; ///< at the nodes 1/2 and 1

@@ -185,10 +185,12 @@ void MotionRates::set_spring(int c, double* s) {
         used_spring(c, memory.spring, state.ny, state.nz); // of what there was at the last commit
     if (rated(c)) {
       s[3] += energy_of(law, spring) - energy_of(law, loaded);
+      memory.forgotten += energy_of(law, spring) - energy_of(law, loaded);
       spring = loaded;
     } else {
       spring = state.slides ? state.friction : loaded;
       s[3] += energy_of(law, memory.spring) - energy_of(law, kept);
+      memory.forgotten += energy_of(law, memory.spring) - energy_of(law, kept);
       const bool by_slider = state.slides && law.kind == contact::FrictionMemoryKind::return_map;
       s[by_slider ? 2 : 3] -= energy_of(law, spring) - energy_of(law, kept);
     }

@@ -70,6 +70,8 @@ public:
   /// What contact c's dampers and slider have taken up to a state, J.
   [[nodiscard]] double friction_work(const double* y, int c) const { return springs(y)[4 * c + 2]; }
   [[nodiscard]] double damper_work(const double* y, int c) const { return springs(y)[4 * c + 3]; }
+  /// Of that, energy of springs that the opposite face has forgotten, J: no impact lost it.
+  [[nodiscard]] double forgotten(int c) const { return memory_[static_cast<std::size_t>(c)].forgotten; }
 
   /// Whether there is friction whose spring is set in `commit`, which changes the rates.
   [[nodiscard]] bool sets_springs() const;
@@ -95,6 +97,7 @@ private:
   struct Memory {
     contact::Vec2 spring;      ///< N, T at the last commit
     double ny = 0.0, nz = 0.0; ///< normal when it was last closed
+    double forgotten = 0.0;    ///< J, of springs of opposite faces, part of the damper work
   };
   struct Normal {
     double penetration, rate, force;

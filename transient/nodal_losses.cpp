@@ -55,7 +55,8 @@ void spread(const PathLoss* loss, const ContactNode* nodes, double h, Power* pow
   double slider[3] = {powers[0].slider, powers[1].slider, powers[2].slider},
          damper[3] = {powers[0].damper, powers[1].damper, powers[2].damper};
   spread({loss[0].slider, loss[1].slider - loss[0].slider}, closed, h, slider);
-  spread({loss[0].damper, loss[1].damper - loss[0].damper}, closed, h, damper);
+  const double damped[2] = {loss[0].damper - loss[0].forgotten, loss[1].damper - loss[1].forgotten};
+  spread({damped[0], damped[1] - damped[0]}, closed, h, damper);
   for (int j = 0; j < 3; ++j)
     powers[j] = {slider[j], damper[j]};
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/prescribed_motion.hpp"
+#include "transient/table_curve.hpp"
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -34,77 +35,13 @@ MotionState harmonic(const PrescribedMotion& m, const Harmonic& f, double t) {
           m.velocity0 + f.amplitude * t * share * std::sin(half + f.phase)};
 }
 
-/// Second derivatives at the points of the spline with slope 0 at both ends. With h_i between points and d_i the slopes of the chords,
-///     h_{i-1} m_{i-1} + 2 (h_{i-1} + h_i) m_i + h_i m_{i+1} = 6 (d_i - d_{i-1}),   at the ends 2 m_0 + m_1 = 6 d_0/h_0 ...
-std::vector<double> curvatures(const Table& table) {
-  const std::size_t n = table.time.size();
-  std::vector<double> diagonal(n, 0.0), upper(n, 0.0), m(n, 0.0);
-  for (std::size_t i = 0; i + 1 < n; ++i) { // an interval adds to the equations of its ends
-    const double h = table.time[i + 1] - table.time[i], d = (table.value[i + 1] - table.value[i]) / h;
-    diagonal[i] += 2.0 * h;
-    diagonal[i + 1] += 2.0 * h;
-    upper[i] = h;
-    m[i] += 6.0 * d;
-    m[i + 1] -= 6.0 * d;
-  }
-  for (std::size_t i = 0; i + 1 < n; ++i) {
-    const double share = upper[i] / diagonal[i];
-    diagonal[i + 1] -= share * upper[i];
-    m[i + 1] -= share * m[i];
-  }
-  for (std::size_t i = n; n > 1 && i-- > 0;)
-    m[i] = (m[i] - (i + 1 < n ? upper[i] * m[i + 1] : 0.0)) / diagonal[i];
-  return m;
-}
-
-/// Slopes at the rows of the spline with slope 0 at both ends, limited where it swings out between two rows: where it leaves their range by
-/// more than a quarter of the largest change of this and the neighbouring intervals (a smooth curve turns within an eighth), both slopes are
-/// held to 3 times the smaller chord beside them (J. Hyman, SIAM J. Sci. Stat. Comput. 4 (1983) 645). So a ramp that is followed by a long
-/// hold holds; the curve is then smooth but for jumps of its acceleration at these rows.
-std::vector<double> slopes(const Table& table) {
-  constexpr double smooth_turn = 0.25, steepest = 3.0;
-  const std::size_t last = table.time.size() - 1;
-  const std::vector<double> m = curvatures(table);
-  std::vector<double> chord(last), change(last), slope(last + 1, 0.0);
-  for (std::size_t i = 0; i < last; ++i) {
-    const double h = table.time[i + 1] - table.time[i];
-    change[i] = table.value[i + 1] - table.value[i];
-    chord[i] = change[i] / h;
-    if (i > 0)
-      slope[i] = chord[i] - h / 6.0 * (2.0 * m[i] + m[i + 1]);
-  }
-  const std::vector<double> spline = slope;
-  const auto limit = [&](std::size_t row) {
-    const double left = row > 0 ? chord[row - 1] : chord[row], right = row < last ? chord[row] : left;
-    const double bound = steepest * std::min(std::abs(left), std::abs(right));
-    slope[row] = std::clamp(spline[row], left * right > 0.0 && left > 0.0 ? 0.0 : -bound,
-                            left * right > 0.0 && left < 0.0 ? 0.0 : bound);
-  };
-  for (std::size_t i = 0; i < last; ++i) {
-    const double h = table.time[i + 1] - table.time[i];
-    double out = 0.0; // farthest beyond the two rows, at eight places between them
-    for (int k = 1; k < 8; ++k) {
-      const double x = k / 8.0, y = x * x * (3.0 - 2.0 * x) * change[i] +
-                                    h * x * (1.0 - x) * ((1.0 - x) * spline[i] - x * spline[i + 1]);
-      out = std::max({out, y - std::max(0.0, change[i]), std::min(0.0, change[i]) - y});
-    }
-    const double largest = std::max({i > 0 ? std::abs(change[i - 1]) : 0.0, std::abs(change[i]),
-                                     i + 1 < last ? std::abs(change[i + 1]) : 0.0});
-    if (out > smooth_turn * largest) {
-      limit(i);
-      limit(i + 1);
-    }
-  }
-  return slope;
-}
-
-/// The acceleration of the curve with these slopes, and how it stands at t = 0.
+/// The acceleration of the curve through a table (table_curve.hpp), and how it stands at t = 0.
 PrescribedMotion along_curve(const Table& table) {
   const std::size_t last = table.time.size() - 1;
   const double first = table.time.front();
   if (last == 0)
     return {Table{{0.0}, {0.0}}, 0.0, table.value.front()};
-  const std::vector<double> slope = slopes(table);
+  const std::vector<double> slope = shape_preserving_slopes(table);
   Table acceleration{{first}, {0.0}};
   PrescribedMotion out{Table{}, 0.0, first > 0.0 ? table.value.front() : table.value.back()};
   for (std::size_t i = 0; i < last; ++i) {

@@ -9,8 +9,8 @@
 
 namespace fretwork::transient {
 
-/// The motion whose displacement follows a function of time. A table is taken by the cubic spline through its points that is at rest at
-/// both ends (C. de Boor, A Practical Guide to Splines, 1978, chapter IV): its second derivative is linear between them.
+/// The motion whose displacement follows a function of time. A table is taken by a shape-preserving curve through its rows that is at rest
+/// at both ends (table_curve.hpp): its second derivative is linear between them and may jump at them.
 /// @param displacement  m; not random, a table without jumps
 [[nodiscard]] PrescribedMotion motion_of_displacement(const TimeFunction& displacement);
 

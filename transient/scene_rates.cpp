@@ -127,6 +127,8 @@ SceneRates rates_of(const Scene& scene) {
       std::sqrt(largest_eigenvalue(weighted_rows(scene, stiffness_t, tangent_rows, scene.residual)));
   out.stick_relaxation = shortest_relaxation(scene);
   out.damper_rate = largest_eigenvalue(weighted_rows(scene, damping_t, tangent_rows));
+  out.normal_damper_rate = largest_eigenvalue(weighted_rows(
+      scene, [](const ContactPoint& point) { return point.support.normal.damping; }, normal_rows));
   if (scene.system.size() > 0)
     out.highest_mode = std::sqrt(scene.system.stiffness.maxCoeff());
   for (const Load& load : scene.loads)

@@ -14,7 +14,10 @@ struct SceneRates {
   double stick_frequency = 0.0; ///< w_t, rad/s, the same with K_T over the tangent directions
   double stick_relaxation =
       0.0; ///< s, smallest C_T/K_T of the contacts with friction: their dampers give way in it
-  double damper_rate = 0.0;  ///< r_t, 1/s, the largest eigenvalue of C_T^1/2 W C_T^1/2
+  double damper_rate = 0.0; ///< r_t, 1/s, the largest eigenvalue of C_T^1/2 W C_T^1/2
+  double normal_damper_rate =
+      0.0; ///< r_n, 1/s, the largest eigenvalue of C_N^1/2 W C_N^1/2 over the normal directions; not of Hunt and
+           ///< Crossley's dampers, whose rate w_c bounds (step_rule.hpp)
   double highest_mode = 0.0; ///< rad/s
   double excitation = 0.0;   ///< Hz, the highest of the loads that act on the scene
   double table_interval =

@@ -2,7 +2,7 @@
 /// @file
 /// The time step and its reason.
 ///
-///     h = min{ c/w_c, s t_s, r/r_t, m/w_max },  the shares at an accuracy of 0.01; others grow and fall with its square root
+///     h = min{ c/w_c, s t_s, r/r_t, max(2/r_n, 0.03/w_c), m/w_max },  the shares at an accuracy of 0.01; others grow and fall with its square root
 ///
 ///                          c      s      r     m
 ///     splitting            1      0.25   6.3   2.5 where modes cannot be made heavier (mass_scaling.hpp); c = 0.45 where some are, 0.8
@@ -11,9 +11,12 @@
 ///     energy_conserving    0.3    0.3    2     2.5
 ///     euler, devogelaere   0.3    0.3    0.5   0.5
 /// over the terms that exist, with:
-///     w_c, w_t, r_t, w_max   scene_rates.hpp
+///     w_c, w_t, r_t, r_n, w_max   scene_rates.hpp
 ///     t_s    time in which sticking contacts move: 1/w_t; with splitting (1/w_t^2 + (C_T/K_T)^2)^1/2, and never w_t h above 0.71
-/// No accuracy makes a step longer than that of 0.02, nor w_c h than 1 (devogelaere: 0.75), above which impacts are wrong however
+/// r_n counts for splitting, collocation and energy_conserving, which take normal dampers implicitly. A damper of r_n h = 2 stops a mass in one step;
+/// above, splitting turns its speed round, whatever the step. So a damper that even 0.03/w_c does not resolve is warned about, also with the automatic
+/// step: of energy_conserving the rebounds are right (conserving_normal.hpp), the largest force at first touch is not.
+/// No accuracy makes a step longer than that of 0.02, nor w_c h than 1 (devogelaere: 0.75, energy_conserving: 0.5), above which impacts are wrong however
 /// stable the run (doc/schemes.md, Stability map), nor r_t h than 4, with splitting 6.3, where dampers are implicit. With contacts
 /// splitting resonates with modes at w h = k pi: those above w h = m are made heavier (mass_scaling.hpp), or where they may not be, and
 /// with energy_conserving, the step stays below 2.5/w_max. The limits of explicit Euler are r_t h < 1 and w_max h < 2; it also takes the other dampers explicitly and
@@ -56,9 +59,10 @@ struct StepChoice : SceneRates {
   int flight = 1; ///< steps that splitting makes at once while no contact can meet its obstacle
   double explicit_rate =
       0.0; ///< r_e, 1/s: of the dampers that only Euler and devogelaere have to resolve; 0 with others
-  std::string reason;                ///< one line for the user
-  std::string scheme_reason;         ///< why this scheme; empty where it was given
-  std::vector<std::string> warnings; ///< what a fixed step does not resolve
+  std::string reason;        ///< one line for the user
+  std::string scheme_reason; ///< why this scheme; empty where it was given
+  std::vector<std::string>
+      warnings; ///< what a fixed step does not resolve, and normal dampers that no automatic one does
 };
 
 /// @throws core::Error where there would be absurdly many steps, or where the scheme cannot take the scene

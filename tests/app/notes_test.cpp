@@ -41,6 +41,7 @@ TEST(Notes, OfAnInitialStateThatMovesNothing) {
   EXPECT_TRUE(
       says(told(initial + "velocity = [0, 1, 0]\n"), "[[initial]] entry 1 on \\\"mass\\\" moves nothing"));
   EXPECT_FALSE(says(told(initial + "velocity = [0.1, 1, 0]\n"), "moves nothing"));
+  EXPECT_FALSE(says(told(initial + "velocity = [0, 0, 0]\n"), "moves nothing")); // at rest, as it says
 }
 
 TEST(Notes, OfTangentialStiffnessWithoutFriction) {

@@ -390,6 +390,43 @@ TEST(StepRule, WarnsWhereAFixedStepDoesNotResolve) {
   only(warnings(excited, splitting(5e-3)), "the excitation: 20 f h = 2.5");
 }
 
+TEST(StepRule, ResolvesNormalDampersThatActImplicitly) {
+  // w_c = 200 rad/s, r_n = C_N/m
+  for (const auto scheme : {SchemeKind::splitting, SchemeKind::collocation, SchemeKind::energy_conserving})
+    expect_governed(scene_with({Circle{0.1}, {8e4, 3200.0 * mass}, {}}), {scheme, {}}, 2.0 / 3200.0,
+                    "the normal dampers' rate 3200 1/s");
+  expect_governed(scene_with({Circle{0.1}, {8e4, 20.0}, {}}), splitting(), share / 200.0,
+                  "the contact frequency 200 rad/s");
+  EXPECT_EQ(choose_step(scene_with({Circle{0.1}, {8e4, 0.0, 5.0}, {}}), splitting()).normal_damper_rate, 0.0);
+}
+
+TEST(StepRule, NamesNormalDampersThatNoStepResolves) {
+  // one that leaves no rebound does not ask for steps without end
+  const Scene scene = scene_with({Circle{0.1}, {8e4, 1e9}, {}}, 1.0);
+  for (const auto scheme : {SchemeKind::splitting, SchemeKind::collocation, SchemeKind::energy_conserving}) {
+    const StepChoice choice = choose_step(scene, {scheme, {}});
+    EXPECT_EQ(choice.steps, 20000) << choice.reason; // a third of 0.03/w_c
+    ASSERT_EQ(choice.warnings.size(), 1u);
+    EXPECT_TRUE(
+        mentions(choice.warnings[0], "does not resolve the normal dampers: r_n h = 2.5e+04, at most "));
+    const bool keeps = scheme == SchemeKind::energy_conserving;
+    EXPECT_EQ(mentions(choice.warnings[0], "rebounds are right at any step"), keeps);
+    EXPECT_EQ(mentions(choice.warnings[0], "take scheme = \"energy_conserving\""), !keeps);
+    const StepChoice given = choose_step(scene, {scheme, 1e-3});
+    ASSERT_EQ(given.warnings.size(), 1u);
+    EXPECT_TRUE(mentions(given.warnings[0], "r_n h = 5e+05")) << given.warnings[0];
+    EXPECT_TRUE(mentions(given.warnings[0], "take a smaller step or leave it out"));
+  }
+  const double slow = 2.0 * mass; // r_n = 2
+  EXPECT_TRUE(choose_step(scene_with({Circle{0.1}, {8e4, slow}, {}}), splitting(4e-3)).warnings.empty());
+}
+
+TEST(StepRule, WarnsOfLargestForcesThatEnergyConservingHasTooLow) {
+  const Scene scene = scene_with({Circle{0.1}, {8e4}, {}}); // w_c = 200 rad/s
+  EXPECT_TRUE(choose_step(scene, energy_conserving(2.4e-3)).warnings.empty());
+  EXPECT_EQ(choose_step(scene, energy_conserving(5e-3)).warnings.size(), 1u); // 14 % at w_c h = 1
+}
+
 TEST(StepRule, TakesSplittingForAFullDampingMatrixToo) {
   Scene scene = scene_with({Circle{0.1}, {8e4}, {}}, 1.0);
   EXPECT_EQ(choose_step(scene, {}).scheme, SchemeKind::splitting);
