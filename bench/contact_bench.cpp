@@ -183,7 +183,6 @@ struct Run {
 
 void run_once(Run& run, const transient::Scene& scene) {
   const auto scheme = transient::make_splitting(scene, step);
-  scheme->leave_out_positions();
   run.closed = run.sliding = 0.0;
   const double begin = seconds();
   for (int i = 0; i < steps; ++i)

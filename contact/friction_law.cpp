@@ -33,10 +33,26 @@ Vec2 scaled_to(Vec2 direction, double length) {
   return size > 0.0 ? (length / size) * direction : Vec2{};
 }
 
+/// The slip force of `reference`: opposite to the velocity v = free_velocity + A F it leaves, or the smaller
+/// one that makes v zero.
+Vec2 opposing(double length, const Mobility& a, Vec2 free_velocity) {
+  const double speed = norm(free_velocity), trace = a.xx + a.tt;
+  if (a.xx * a.tt - a.xt * a.xt > one_line * trace * trace) {
+    const Vec2 stopping = solve(a, 0.0, -1.0 * free_velocity);
+    return norm(stopping) <= length ? stopping : force_of_length(length, a, -1.0 * free_velocity);
+  }
+  const Vec2 along = (-1.0 / speed) * free_velocity; // the line the node moves on
+  const double mobility =
+      along.x * along.x * a.xx + 2.0 * along.x * along.t * a.xt + along.t * along.t * a.tt;
+  return (speed < mobility * length ? speed / mobility : length) * along;
+}
+
+} // namespace
+
 /// The f of given length with (M + s I) f = b for some s >= 0 (0 where even s = 0 leaves |f| below it: then
 /// along b). Newton on 1/|f(s)| - 1/length, with d|f|/ds = -f.(M + s I)^-1 f / |f|: it rises to the root
 /// without passing it.
-Vec2 of_length(double length, const Mobility& m, Vec2 b) {
+Vec2 force_of_length(double length, const Mobility& m, Vec2 b) {
   // |b|/length - trace(M) is below the root: a start where M + s I is regular even if M is singular (a node
   // that cannot move)
   double s = std::max(0.0, norm(b) / length - m.xx - m.tt);
@@ -53,22 +69,6 @@ Vec2 of_length(double length, const Mobility& m, Vec2 b) {
   }
   return scaled_to(f, length);
 }
-
-/// The slip force of `reference`: opposite to the velocity v = free_velocity + A F it leaves, or the smaller
-/// one that makes v zero.
-Vec2 opposing(double length, const Mobility& a, Vec2 free_velocity) {
-  const double speed = norm(free_velocity), trace = a.xx + a.tt;
-  if (a.xx * a.tt - a.xt * a.xt > one_line * trace * trace) {
-    const Vec2 stopping = solve(a, 0.0, -1.0 * free_velocity);
-    return norm(stopping) <= length ? stopping : of_length(length, a, -1.0 * free_velocity);
-  }
-  const Vec2 along = (-1.0 / speed) * free_velocity; // the line the node moves on
-  const double mobility =
-      along.x * along.x * a.xx + 2.0 * along.x * along.t * a.xt + along.t * along.t * a.tt;
-  return (speed < mobility * length ? speed / mobility : length) * along;
-}
-
-} // namespace
 
 Friction evaluate(const FrictionLaw& law, const FrictionMemory& memory, double normal_force, Vec2 dx,
                   Vec2 velocity) {
@@ -166,7 +166,7 @@ Friction step_friction_plane(const FrictionLaw& law, const FrictionTable& table,
     return {{}, true};
   if (law.kind == FrictionMemoryKind::reference && norm(free_velocity) > 0.0)
     return {opposing(slip_bound, a, free_velocity), true};
-  return {of_length(slip_bound, m, b), true};
+  return {force_of_length(slip_bound, m, b), true};
 }
 
 } // namespace fretwork::contact

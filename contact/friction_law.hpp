@@ -115,6 +115,9 @@ struct FrictionTable {
 [[nodiscard]] FrictionStep open_step(const FrictionLaw& law, const FrictionTable& table,
                                      const FrictionMemory& memory);
 
+/// A spring that has relaxed to this share of what it bore when its contact opened is forgotten: round-off of its energy.
+inline constexpr double forgotten = 1e-12;
+
 /// Energy of the tangential spring, J.
 [[nodiscard]] inline double spring_energy(const FrictionLaw& law, const FrictionMemory& memory) {
   return law.stiffness > 0.0 ? 0.5 * dot(memory.spring, memory.spring) / law.stiffness : 0.0;
@@ -127,6 +130,8 @@ struct FrictionTable {
 /// `reference` the slip force is opposite to v: with M = A and b = -free_velocity the same equation; where
 /// less than the bound brings the node to rest, that force (a larger one would drive the node backwards).
 using Mobility = Sym2; ///< m/s per N
+/// The f of given length with (M + s I) f = b for some s >= 0 (0 where even s = 0 leaves |f| below it: then along b).
+[[nodiscard]] Vec2 force_of_length(double length, const Mobility& m, Vec2 b);
 [[nodiscard]] Friction step_friction_plane(const FrictionLaw& law, const FrictionTable& table,
                                            const FrictionMemory& memory, double normal_force,
                                            Vec2 free_velocity, const Mobility& mobility);

@@ -57,35 +57,33 @@ ContactStatistics::ContactStatistics(std::size_t contacts, double from)
 }
 
 void ContactStatistics::step(const transient::Record& record) {
-  const std::int64_t now = number_++;
   const bool inside = record.time >= from_;
   for (const int c : record.active) {
     const transient::ContactState& state = record.states[static_cast<std::size_t>(c)];
     Sums& s = sums_[static_cast<std::size_t>(c)];
-    if (s.last_closed != now - 1) { // an impact starts
+    if (state.touches > 0) { // an impact starts
       s.duration = 0.0;
       s.counted = inside;
       if (inside) {
-        ++s.impacts;
-        s.speed += state.approach;
+        s.impacts += state.touches;
+        s.speed += state.touches * state.approach;
         s.speed_max = std::max(s.speed_max, state.approach);
       }
     }
-    s.last_closed = now;
-    s.duration += record.step;
+    const double closed = state.closed * record.step;
+    s.duration += closed;
     if (s.counted) {
-      s.impact_time += record.step;
+      s.impact_time += closed;
       s.longest = std::max(s.longest, s.duration);
     }
-    if (!inside)
-      continue;
-    s.add(state, record.step);
+    if (inside)
+      s.add(state, record.step);
   }
   for (const int c : record.opened) {
     Sums& s = sums_[static_cast<std::size_t>(c)];
     if (!s.counted)
       continue;
-    const double speed = -record.states[static_cast<std::size_t>(c)].approach;
+    const double speed = record.states[static_cast<std::size_t>(c)].departure;
     s.leaving_max = s.departures == 0 ? speed : std::max(s.leaving_max, speed);
     s.leaving += speed;
     ++s.departures;
@@ -98,17 +96,15 @@ void ContactStatistics::step(const transient::Record& record) {
 }
 
 void ContactStatistics::Sums::add(const transient::ContactState& state, double step) {
-  const double n = state.normal_force, share = state.instant_share, t2 = dot(state.friction, state.friction);
-  closed_time += step;
-  impulse += n * step;
-  normal2 += share * n * n * step;
-  normal_max = std::max(normal_max, n);
-  tangential2 += (state.slides ? share : 1.0) * t2 * step; // in a slide it follows the normal force
-  tangential_max = std::max(tangential_max, t2);
-  slid += state.pressing_share * n * state.slid;
+  closed_time += state.closed * step;
+  impulse += state.normal_force * step;
+  normal2 += state.normal_square * step;
+  normal_max = std::max(normal_max, state.peak);
+  tangential2 += state.friction_square * step;
+  tangential_max = std::max(tangential_max, dot(state.friction, state.friction));
+  slid += state.rubbed;
   distance += state.slid;
-  if (state.slides)
-    sliding_time += step;
+  sliding_time += state.sliding * step;
   friction += state.friction_work;
   damping += state.damper_work;
 }

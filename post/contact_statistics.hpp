@@ -51,7 +51,7 @@ public:
   /// @param contacts  number of contacts   @param from  start of the window, s
   ContactStatistics(std::size_t contacts, double from);
   void step(const transient::Record& record) override;
-  void visit(core::StateArchive& state) override { state(number_, time_, sums_, motion_, ends_); }
+  void visit(core::StateArchive& state) override { state(time_, sums_, motion_, ends_); }
   [[nodiscard]] std::vector<ContactSummary> summaries() const;
   /// Of the sums over all contacts of work_rate, friction_power and impact_rate (contacts of one structure are not independent); the
   /// other errors stay 0.
@@ -68,7 +68,6 @@ private:
     double duration = 0.0, longest = 0.0; ///< of the impact under way; of all
     double impact_time = 0.0;             ///< of impacts that started in the window
     bool counted = false;                 ///< the impact under way started in the window
-    std::int64_t last_closed = -2;        ///< number of the last step with force
     /// A step with force, in the window.
     void add(const transient::ContactState& state, double step);
   };
@@ -87,8 +86,7 @@ private:
                                          const ContactSummary& o) const;
 
   double from_;
-  std::int64_t number_ = 0; ///< steps
-  double time_ = 0.0;       ///< length of the window so far, s
+  double time_ = 0.0; ///< length of the window so far, s
   std::vector<Sums> sums_;
   Motion motion_;
   BatchEnds ends_;

@@ -11,34 +11,50 @@ ImpactTable::ImpactTable(std::size_t contacts, double from, double rest_time, st
 }
 
 void ImpactTable::step(const transient::Record& record) {
-  const std::int64_t now = number_++;
+  const double start = record.time - 0.5 * record.step;
+  const auto leave = [&](UnderWay& u, const transient::ContactState& state) {
+    u.row.velocity_after = state.departure;
+    u.end = start + state.opened_at * record.step;
+  };
   for (const int c : record.opened) {
     const auto at = static_cast<std::size_t>(c);
-    under_way_[at].row.velocity_after = -record.states[at].approach;
+    if (const transient::ContactState& state = record.states[at];
+        state.touches == 0 || state.opened_at < state.closed_at)
+      leave(under_way_[at], state);
   }
-  const double begin = record.time - 0.5 * record.step;
   for (const int c : record.active) {
     const auto at = static_cast<std::size_t>(c);
     const transient::ContactState& state = record.states[at];
     UnderWay& u = under_way_[at];
-    if (u.last_closed != now - 1) { // it was open
-      if (u.last_closed >= 0 && begin - u.end < rest_time_) {
-        ++u.row.rebounds;
-      } else {
-        keep(at);
-        u.row = {};
-        u.row.velocity_before = state.approach;
-        u.begin = begin;
-        u.counted = record.time >= from_;
-      }
-      u.row.velocity_after = std::numeric_limits<double>::quiet_NaN();
-    }
-    u.last_closed = now;
-    u.end = begin + record.step;
-    u.row.peak = std::max(u.row.peak, state.normal_force);
+    if (state.touches > 0)
+      close(at, start + state.closed_at * record.step, state.approach, record.time >= from_);
+    u.row.peak = std::max(u.row.peak, state.peak);
     u.row.impulse += state.normal_force * record.step;
     u.row.energy_lost += state.damper_work + state.friction_work;
+    u.end = start + record.step;
   }
+  for (const int c : record.opened) {
+    const auto at = static_cast<std::size_t>(c);
+    if (const transient::ContactState& state = record.states[at];
+        state.touches == 0 || state.opened_at >= state.closed_at)
+      leave(under_way_[at], state);
+  }
+}
+
+/// A contact closes: another rebound, or another impact.
+void ImpactTable::close(std::size_t contact, double time, double speed, bool counted) {
+  UnderWay& u = under_way_[contact];
+  if (u.begun && time - u.end < rest_time_) {
+    ++u.row.rebounds;
+  } else {
+    keep(contact);
+    u.row = {};
+    u.row.velocity_before = speed;
+    u.begin = time;
+    u.begun = true;
+    u.counted = counted;
+  }
+  u.row.velocity_after = std::numeric_limits<double>::quiet_NaN();
 }
 
 std::vector<ContactImpacts> ImpactTable::impacts() && {

@@ -5,12 +5,9 @@
 /// An impact is an interval of normal force > 0. Where the contact opens for less than `rest_time` and closes
 /// again, the impact goes on: a rebound. It ends with the last opening before a longer rest.
 ///
-/// Resolution. Records stand in the middle of their step h. `start` is half a step before the first record
-/// with a force, the end half a step after the last: each within h of the truth, so that the mean duration
-/// of many impacts is right and a single one is off by h. The impulse is the sum of h times the record's
-/// forces, as good as the scheme. The peak is the largest of the record's forces; of a half sine of duration
-/// T seen as means over h it is low by (pi h/T)^2/24 where a step is centred on the peak, by up to
-/// (pi h/T)^2/6 where none is.
+/// Resolution. `splitting` finds the instants at which contacts close and open inside its steps; with other schemes they are edges of steps h, so that
+/// the mean duration of many impacts is right and a single one is off by h. The impulse is the integral of the normal force, the peak its
+/// largest value at the ends of the intervals in which the scheme moves the contacts.
 #pragma once
 #include "transient/run.hpp"
 #include <limits>
@@ -50,22 +47,22 @@ public:
   /// @param most       rows of each contact, reserved here; further impacts are counted
   ImpactTable(std::size_t contacts, double from, double rest_time, std::size_t most);
   void step(const transient::Record& record) override;
-  void visit(core::StateArchive& state) override { state(number_, under_way_, out_); }
+  void visit(core::StateArchive& state) override { state(under_way_, out_); }
   /// One entry a contact; impacts under way end where the run stands.
   [[nodiscard]] std::vector<ContactImpacts> impacts() &&;
 
 private:
   struct UnderWay {
     Impact row;
-    double begin = 0.0, end = 0.0; ///< s: edges of the first and of the last step with a force
-    std::int64_t last_closed = -2; ///< number of the last step with a force
+    double begin = 0.0, end = 0.0; ///< s: of the first and the last force
+    bool begun = false;            ///< there has been one
     bool counted = false;          ///< it started in the window
   };
+  void close(std::size_t contact, double time, double speed, bool counted);
   void keep(std::size_t contact);
 
   double from_, rest_time_;
   std::size_t most_;
-  std::int64_t number_ = 0; ///< of the step
   std::vector<UnderWay> under_way_;
   std::vector<ContactImpacts> out_;
 };

@@ -287,7 +287,7 @@ private:
     trial_.clear();
     for (const int c : closed_) // also of contacts that nothing holds alive any more
       if (const ContactNode& n = solver_.nodes(c)[node]; !(n.normal > 0.0)) {
-        trial_.states[static_cast<std::size_t>(c)].approach = n.rate;
+        trial_.states[static_cast<std::size_t>(c)].departure = -n.rate;
         trial_.opened.push_back(c);
       }
     for (const int c : solver_.alive()) {
@@ -307,6 +307,7 @@ private:
                  own * p.damper + carried.damper,
                  n.approach,
                  n.slides};
+        state.act_throughout(!std::binary_search(closed_.begin(), closed_.end(), c));
         trial_.active.push_back(c);
       }
     }

@@ -51,10 +51,13 @@ ContactLosses ConservingMemory::commit(double h, const std::vector<ContactPart>&
     if (!is_closed(c))
       relax(h, c, losses);
   std::erase_if(remembering_, [&](int c) { return !(entries_[static_cast<std::size_t>(c)].left > 0.0); });
+  for (const ContactPart& part : parts)
+    trial.states[static_cast<std::size_t>(part.contact)].act_for(
+        part.closed.share, !std::binary_search(closed_.begin(), closed_.end(), part.contact));
   for (const int c : closed_)
     if (!is_closed(c)) {
       const auto at = end.locate(c);
-      trial.states[static_cast<std::size_t>(c)].approach = end.sinking(c, at.ny, at.nz);
+      trial.states[static_cast<std::size_t>(c)].departure = -end.sinking(c, at.ny, at.nz);
       trial.opened.push_back(c);
     }
   closed_.assign(trial.active.begin(), trial.active.end());

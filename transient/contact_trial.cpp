@@ -3,7 +3,7 @@
 
 namespace fretwork::transient {
 
-ContactTrial::ContactTrial(int contacts) : lanes(kernels::padded(contacts)) {
+ContactTrial::ContactTrial(int contacts) {
   const auto count = static_cast<std::size_t>(contacts);
   states.resize(count);
   active.reserve(count);
@@ -62,12 +62,6 @@ void ContactRows::set(const ContactTrial& trial, double scale) {
 void ContactRows::add_to(double* target) const {
   if (count_ > 0)
     kernels::scatter(contacts_.padded_modes, static_cast<int>(count_), row_.data(), factor_.data(), target);
-}
-
-void ContactRows::add_to(double* target, double share, const double* q, double* moved) const {
-  if (count_ > 0)
-    kernels::scatter_moving(contacts_.padded_modes, static_cast<int>(count_), row_.data(), factor_.data(),
-                            target, share, q, moved);
 }
 
 } // namespace fretwork::transient

@@ -3,7 +3,6 @@
 /// What one evaluation of all contacts gives. It changes nothing that lasts: a scheme may evaluate as often as it likes and hand the
 /// trial of the step it accepts to ContactMemory::commit.
 #pragma once
-#include "transient/contact_lanes.hpp"
 #include "transient/packed_contacts.hpp"
 #include "transient/scheme.hpp"
 
@@ -16,9 +15,8 @@ struct ContactTrial {
     if (!active.empty() || !opened.empty())
       open_all();
     springs = cut = 0.0;
-    found_in_lanes = false;
   }
-  void visit(core::StateArchive& state) { state(states, active, opened, springs, cut, lanes); }
+  void visit(core::StateArchive& state) { state(states, active, opened, springs, cut); }
 
   std::vector<ContactState>
       states; ///< of all contacts; friction_work and the tangential part of damper_work come with the commit
@@ -28,8 +26,6 @@ struct ContactTrial {
   double springs = 0.0; ///< J, energy of the normal springs, and of the residual flexibility
   double cut =
       0.0; ///< J over the step, lost by springs that a damper holds free of force: what the positive part cuts
-  kernels::CommitLanes lanes;  ///< as `states`: filled where several contacts are found in lanes,
-  bool found_in_lanes = false; ///< which this tells, or by the commit
 
 private:
   void open_all();
@@ -57,19 +53,9 @@ public:
   explicit ContactRows(const PackedContacts& contacts);
   /// The forces of a trial times `scale`. No allocation.
   void set(const ContactTrial& trial, double scale);
-  /// Those of one contact along y and z alone, times `scale`.
-  void set(int c, double y, double z, double scale) {
-    row_[0] = contacts_.row(c, 0);
-    row_[1] = contacts_.row(c, 1);
-    factor_[0] = scale * y;
-    factor_[1] = scale * z;
-    count_ = 2;
-  }
   void clear() { count_ = 0; }
   /// target += sum of rows; padded modes. No allocation.
   void add_to(double* target) const;
-  /// The same, and moved = q + share * what is added; `moved` stays without rows. No allocation.
-  void add_to(double* target, double share, const double* q, double* moved) const;
 
 private:
   const PackedContacts& contacts_;

@@ -30,6 +30,7 @@ void EndRecord::prepare_part(const MotionRates& rates, const double* y, double t
     ContactState& state = next_.states[c];
     state.displacement = length * rates.motion().slip(c, state.ny, state.nz);
     state.slid = state.slides ? norm(state.displacement) : 0.0;
+    state.rubbed = state.normal_force * state.slid;
   }
 }
 
@@ -62,6 +63,7 @@ void EndRecord::prepare_contact(const MotionRates& rates, const double* until, i
     state.damper_work = damper + std::exchange(past.carried_damper, 0.0);
     if (entered)
       state.approach = past.entry;
+    state.act_throughout(!was_active);
     next_.active.push_back(c);
     return;
   }
@@ -73,7 +75,7 @@ void EndRecord::prepare_contact(const MotionRates& rates, const double* until, i
   if (was_active) {
     past.carried_friction = friction;
     past.carried_damper = damper;
-    state.approach = rate;
+    state.departure = -rate;
     next_.opened.push_back(c);
   } else {
     past.entry = rate;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/flexible_contacts.hpp"
 #include "contact/instant_spring.hpp"
+#include "transient/sweeps.hpp"
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -27,6 +28,13 @@ constexpr double same_part = 1.0 - 1e-6;
 constexpr int most_places = 50;
 
 /// Largest eigenvalue of a symmetric matrix.
+/// s: how long before and after an action contacts may close that it has to see: those with C_N.
+double half_window(const PackedContacts& contacts, double step) {
+  const bool any = std::any_of(contacts.supports.begin(), contacts.supports.end(),
+                               [](const contact::Support& s) { return s.normal.damping > 0.0; });
+  return any ? 0.5 * step : 0.0;
+}
+
 double largest_eigenvalue(const Eigen::Matrix2d& m) {
   return 0.5 * (m(0, 0) + m(1, 1)) + std::hypot(0.5 * (m(0, 0) - m(1, 1)), m(0, 1));
 }
@@ -76,9 +84,9 @@ double FlexibleContacts::start(ContactMotion& motion) {
   return 0.5 * std::inner_product(now_.begin(), now_.end(), given_.begin(), 0.0);
 }
 
-ContactSolver::Action FlexibleContacts::solve(const ContactMemory& memory, ContactMotion& motion,
-                                              ContactTrial& trial) {
-  ContactSolver::Action action;
+FlexibleContacts::Action FlexibleContacts::solve(const ContactMemory& memory, ContactMotion& motion,
+                                                 ContactTrial& trial) {
+  Action action;
   trial.clear();
   action.converged = act(&memory, motion);
   close(trial, action);
@@ -439,7 +447,7 @@ void FlexibleContacts::give(const kernels::Array& force, kernels::Array& displac
 }
 
 /// Forces found: what the contacts do over the step.
-void FlexibleContacts::close(ContactTrial& trial, ContactSolver::Action& action) const {
+void FlexibleContacts::close(ContactTrial& trial, Action& action) const {
   for (std::size_t i = 0; i < shut_.size(); ++i) {
     const Shut& s = shut_[i];
     const int c = s.contact;
@@ -460,7 +468,6 @@ void FlexibleContacts::close(ContactTrial& trial, ContactSolver::Action& action)
     state.nz = s.nz;
     state.approach = s.approach;
     state.damper_work = loss;
-    state.instant_share = instant_share(s.force[0], spring, s.instant_share * spring);
     double moved[3] = {}; // over the step
     for (int k = 0; k < 3; ++k) {
       const double speed = component(speed_, i, k), give = component(give_, i, k);

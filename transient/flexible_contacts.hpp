@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// The contact forces of a step h, as contact_solver.hpp makes them, where the contacts move by R f beside the modes
+/// The contact forces of a step h, of which all act at one instant, where the contacts move by R f beside the modes
 /// (Scene::residual): what a truncated basis lacks of the static flexibility, without inertia, so that no step is too long for it.
 /// One contact sees it as a spring in series; several share it.
 ///
@@ -24,7 +24,7 @@
 ///
 /// Energy: f.R f/2 is stored.
 #pragma once
-#include "transient/contact_solver.hpp"
+#include "transient/contact_memory.hpp"
 
 namespace fretwork::transient {
 
@@ -36,8 +36,14 @@ public:
   /// Rest before the first step: normal forces in equilibrium with the places of the modes, nothing else. Moves the contacts of `motion`
   /// by R f. Returns f.R f/2, J.
   double start(ContactMotion& motion);
-  /// As ContactSolver::solve; moves the contacts of `motion` by R f.
-  ContactSolver::Action solve(const ContactMemory& memory, ContactMotion& motion, ContactTrial& trial);
+  struct Action {
+    double work = 0.0; ///< J, on the modes: h f.w
+    double jump = 0.0; ///< J, h f.(w - B v-) = (h^2/2) f.W.f
+    bool converged = true;
+  };
+  /// Forces at the displacements and velocities v- of `motion`, whose contacts are moved by R f. The memory is read only. No allocation.
+  /// @param trial  overwritten
+  Action solve(const ContactMemory& memory, ContactMotion& motion, ContactTrial& trial);
   /// The forces of the last `solve` have acted. No allocation.
   void accept();
   void visit(core::StateArchive& state) {
@@ -89,7 +95,7 @@ private:
   void change(std::size_t i, int component, double by);
   [[nodiscard]] double component(const std::vector<double>& of, std::size_t i, int k) const;
   void move(ContactMotion& motion);
-  void close(ContactTrial& trial, ContactSolver::Action& action) const;
+  void close(ContactTrial& trial, Action& action) const;
   void give(const kernels::Array& force, kernels::Array& displacement) const;
   [[nodiscard]] double normal_rate(std::size_t i) const;
 

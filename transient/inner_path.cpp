@@ -205,7 +205,9 @@ public:
   }
   [[nodiscard]] Vector spring() const { return spring_; }
   /// Up to now.
-  [[nodiscard]] PathLoss loss() const { return {rubbed_ + jumped_, held_ - energy() - work_ - rubbed_, forgotten_}; }
+  [[nodiscard]] PathLoss loss() const {
+    return {rubbed_ + jumped_, held_ - energy() - work_ - rubbed_, forgotten_};
+  }
 
 private:
   /// Over a share of a part that the table is for.

@@ -82,6 +82,34 @@ FRETWORK_KERNEL(FlowSums, flow_loaded,
                 (np, table, q, v, f0, f1))
 
 template <class V>
+FRETWORK_INLINE ForcedSums flow_forced_on(int np, const FlowTable& table, double* q, double* v,
+                                          const double* f0, const double* f1, const double* force,
+                                          const double* slope) {
+  Sums<V> load_work = {}, contact_work = {}, energy = {};
+  for_vectors<V>(
+      np, [&](int pack, int part) __attribute__((always_inline)) {
+        const int offset = part * size_of<V>, i = pack + offset;
+        const FlowNumbers<V> of{table.data() + FlowTable::numbers * pack + offset};
+        const V q0 = at<V>(q + i), v0 = at<V>(v + i), l0 = at<V>(f0 + i), l1 = at<V>(f1 + i);
+        const V g0 = at<V>(force + i) - at<V>(slope + i), g1 = at<V>(force + i) + at<V>(slope + i);
+        const V a = l0 + g0, b = l1 + g1;
+        const V q1 = of[1] * q0 + of[2] * v0 + of[3] * a + of[4] * b;
+        const V v1 = of[5] * q0 + of[6] * v0 + of[7] * a + of[8] * b;
+        const V mean = of[9] * q0 + of[10] * v0 + of[11] * a + of[12] * b;
+        load_work[part] += l0 * (q1 - q0) + (l1 - l0) * (q1 - mean);
+        contact_work[part] += g0 * (q1 - q0) + (g1 - g0) * (q1 - mean);
+        energy[part] += v1 * v1 + of[0] * q1 * q1;
+        at<V>(q + i) = q1;
+        at<V>(v + i) = v1;
+      });
+  return {sum(load_work), sum(contact_work), sum(energy)};
+}
+FRETWORK_KERNEL(ForcedSums, flow_forced,
+                (int np, const FlowTable& table, double* q, double* v, const double* f0, const double* f1,
+                 const double* mean, const double* slope),
+                (np, table, q, v, f0, f1, mean, slope))
+
+template <class V>
 FRETWORK_INLINE FlowSums flow_free_on(int np, const FlowTable& table, double* q, double* v) {
   Sums<V> energy = {};
   for_vectors<V>(
@@ -126,6 +154,24 @@ FRETWORK_INLINE double twice_energy_on(int np, const double* k, const double* q,
 }
 FRETWORK_KERNEL(double, twice_energy, (int np, const double* k, const double* q, const double* v),
                 (np, k, q, v))
+
+template <class V>
+FRETWORK_INLINE void middle_on(int np, const MiddleTable& table, const double* q0, const double* v0,
+                               const double* f0, const double* f1, const double* mean, const double* slope,
+                               double* q) {
+  for_vectors<V>(
+      np, [&](int pack, int part) __attribute__((always_inline)) {
+        const int offset = part * size_of<V>, i = pack + offset;
+        const FlowNumbers<V> of{table.data() + MiddleTable::numbers * pack + offset};
+        const V g = at<V>(mean + i), s = at<V>(slope + i);
+        at<V>(q + i) = of[0] * at<V>(q0 + i) + of[1] * at<V>(v0 + i) + of[2] * (at<V>(f0 + i) + g - s) +
+                       of[3] * (at<V>(f1 + i) + g + s);
+      });
+}
+FRETWORK_KERNEL(void, middle,
+                (int np, const MiddleTable& table, const double* q0, const double* v0, const double* f0,
+                 const double* f1, const double* mean, const double* slope, double* q),
+                (np, table, q0, v0, f0, f1, mean, slope, q))
 
 void GatherTable::add_pack(int mode_count, std::ptrdiff_t width, const double* values_of_mode) {
   if (rows > 0) {
@@ -247,26 +293,6 @@ FRETWORK_INLINE void scatter_on(int np, int rows, const double* const* row, cons
 }
 FRETWORK_KERNEL(void, scatter, (int np, int rows, const double* const* row, const double* factor, double* v),
                 (np, rows, row, factor, v))
-
-template <class V>
-FRETWORK_INLINE void scatter_moving_on(int np, int rows, const double* const* row, const double* factor,
-                                       double* v, double share, const double* q, double* moved) {
-  for_count(
-      rows, [&](auto count) __attribute__((always_inline)) {
-        for (int i = 0; i < np; i += size_of<V>) {
-          const V v0 = at<V>(v + i);
-          V s = v0;
-          for (int r = 0; r < count; ++r)
-            s += factor[r] * at<V>(row[r] + i);
-          at<V>(v + i) = s;
-          at<V>(moved + i) = at<V>(q + i) + share * (s - v0);
-        }
-      });
-}
-FRETWORK_KERNEL(void, scatter_moving,
-                (int np, int rows, const double* const* row, const double* factor, double* v, double share,
-                 const double* q, double* moved),
-                (np, rows, row, factor, v, share, q, moved))
 
 template <class V>
 FRETWORK_INLINE EulerSums euler_step_on(int np, double h, const double* c, const double* k,

@@ -91,6 +91,36 @@ extern const Kernel<FlowSums(int np, const FlowTable& table, double* q, double* 
 /// The same without load.
 extern const Kernel<FlowSums(int np, const FlowTable& table, double* q, double* v)> flow_free;
 
+struct ForcedSums {
+  double load_work = 0.0, contact_work = 0.0; ///< J, of both forces over the step
+  double twice_energy = 0.0;                  ///< J
+};
+/// q, v <- exact flow under a load linear from f0 to f1 and a contact force linear from mean - slope to mean + slope.
+extern const Kernel<ForcedSums(int np, const FlowTable& table, double* q, double* v, const double* f0,
+                               const double* f1, const double* mean, const double* slope)>
+    flow_forced;
+
+/// Displacements of all modes in the middle of a step: four coefficients of q0, v0, f0, f1 for each mode.
+class MiddleTable {
+public:
+  static constexpr int numbers = 4;
+  explicit MiddleTable(int np) : values_(static_cast<std::size_t>(numbers * np), 0.0) {}
+  void set(std::ptrdiff_t mode, const double (&coefficients)[numbers]) {
+    const std::ptrdiff_t lane = mode % lanes, first = numbers * (mode - lane) + lane;
+    for (std::ptrdiff_t k = 0; k < numbers; ++k)
+      values_[static_cast<std::size_t>(first + k * lanes)] = coefficients[k];
+  }
+  [[nodiscard]] const double* data() const { return values_.data(); }
+
+private:
+  Array values_;
+};
+/// Under a load linear from f0 - slope to f1 + slope, `mean` added throughout.
+extern const Kernel<void(int np, const MiddleTable& table, const double* q0, const double* v0,
+                         const double* f0, const double* f1, const double* mean, const double* slope,
+                         double* q)>
+    middle;
+
 /// f = sum over s of value[s] * shape[s], shapes one after the other, np apart.
 extern const Kernel<void(int np, int sources, const double* shapes, const double* values, double* f)> combine;
 
@@ -176,11 +206,6 @@ extern const Kernel<void(const GatherTable& g, const Places& places, const doubl
 /// v += sum over r of factor[r] * row[r].
 extern const Kernel<void(int np, int rows, const double* const* row, const double* factor, double* v)>
     scatter;
-/// The same, and moved = q + share * what v has gained.
-extern const Kernel<void(int np, int rows, const double* const* row, const double* factor, double* v,
-                         double share, const double* q, double* moved)>
-    scatter_moving;
-
 /// One step of the semi-implicit Euler scheme: v1 = v + h (f - c v - k q), q1 = q + h v1, f including the
 /// contact forces. Returns the sums over modes with vm = (v + v1)/2.
 struct EulerSums {

@@ -24,7 +24,7 @@ LoadedFlow::LoadedFlow(const Scene& scene, double step)
       loads_(scene.loads, scene.system.size(), scene.duration, step), coupled_(system_, step),
       first_(flow_table(system_, coupled_, 0.5 * step)), full_(flow_table(system_, coupled_, step)) {
   const auto n = static_cast<std::size_t>(kernels::padded(static_cast<int>(system_.size())));
-  for (kernels::Array* a : {&q, &v, &k_, &f_now_, &f_next_, &slope_, &far_q_, &far_v_, &far_f_})
+  for (kernels::Array* a : {&q, &v, &k_, &f_now_, &f_next_, &slope_})
     a->assign(n, 0.0);
   std::copy_n(scene.q0.data(), scene.q0.size(), q.begin());
   std::copy_n(scene.v0.data(), scene.v0.size(), v.begin());
@@ -37,27 +37,8 @@ double LoadedFlow::energy() const {
   return 0.5 * kernels::twice_energy(static_cast<int>(k_.size()), k_.data(), q.data(), v.data());
 }
 
-LoadedFlow::Flight LoadedFlow::flight(int steps) const {
-  return {steps, flow_table(system_, coupled_, steps * h_)};
-}
-
-void LoadedFlow::fly(const Flight& flight) {
-  far_q_ = q;
-  far_v_ = v;
-  far_sums_ = advance_by(flight.table, instant(flight.steps), far_q_, far_v_, far_f_);
-}
-
-kernels::FlowSums LoadedFlow::land(int steps) {
-  time_ = instant(steps);
-  steps_ += steps;
-  q.swap(far_q_);
-  v.swap(far_v_);
-  f_now_.swap(far_f_);
-  return far_sums_;
-}
-
-void LoadedFlow::state_at(double time, int further, double* q_at, double* v_at) {
-  const double t = time - time_, next = instant(further);
+void LoadedFlow::state_at(double time, double* q_at, double* v_at) {
+  const double t = time - time_, next = instant(1);
   if (!loads_.empty()) {
     loads_.at(next, f_next_.data());
     for (std::size_t i = 0; i < slope_.size(); ++i)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// The modes between the actions of `splitting`: their exact flow under loads that are linear in time from one action to the next
-/// (oscillator.hpp; matrix_flow.hpp where a damping matrix couples them), one step or several at once.
+/// The modes between instants at which contact forces act: their exact flow under loads that are linear in time from one action to the next
+/// (oscillator.hpp; matrix_flow.hpp where a damping matrix couples them).
 #pragma once
 #include "core/state_archive.hpp"
 #include "transient/load_sum.hpp"
@@ -28,21 +28,8 @@ public:
   /// To the next action. Returns the work of the loads on the way and twice the energy after it.
   kernels::FlowSums advance();
 
-  /// Several steps at once, where no mode is coupled.
-  struct Flight {
-    int steps;
-    kernels::FlowTable table;
-  };
-  [[nodiscard]] Flight flight(int steps) const;
-  /// Finds the state after a flight from here, beside `q` and `v`.
-  void fly(const Flight& flight);
-  [[nodiscard]] const kernels::Array& flown_q() const { return far_q_; }
-  [[nodiscard]] const kernels::Array& flown_v() const { return far_v_; }
-  /// The state becomes that after the flight found last, of so many steps. Returns what `advance` does.
-  kernels::FlowSums land(int steps);
-
-  /// The free motion at a time after the last action, the next one being `further` steps away; not padded.
-  void state_at(double time, int further, double* q_at, double* v_at);
+  /// The free motion at a time after the last action; not padded.
+  void state_at(double time, double* q_at, double* v_at);
   /// The loads at a time, not padded.
   void load_at(double time, double* force);
 
@@ -59,8 +46,6 @@ private:
   MatrixFlow coupled_;
   kernels::FlowTable first_, full_;
   kernels::Array k_, f_now_, f_next_, slope_;
-  kernels::Array far_q_, far_v_, far_f_; ///< after the flight found last
-  kernels::FlowSums far_sums_;
   std::int64_t steps_ = 0;
   double time_ = 0.0;
 };

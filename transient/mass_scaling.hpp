@@ -7,7 +7,7 @@
 ///
 ///     m q'' + c q' + w^2 q = f, m = (w/fastest)^2;   q = s p, s = m^-1/2:   p'' + s^2 c p' + fastest^2 p = s f
 ///
-/// Measured on a short tube with modes to 14 w_c (doc/benchmarks.md, 100 runs of 10 s): work rate -1.1 +- 0.6 %, forces -0.7 %, impacts
+/// Measured on a short tube with modes to 14 w_c (100 runs of 10 s, forces at instants): work rate -1.1 +- 0.6 %, forces -0.7 %, impacts
 /// 0.0 %; the scaling by itself -0.3 +- 0.6, +0.1 and +0.1 %; in less than half of the steps.
 #pragma once
 #include "transient/scene.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/nodal_solver.hpp"
-#include "transient/contact_lanes.hpp"
+#include "transient/sweeps.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -203,7 +203,7 @@ void NodalSolver::leave(SweptContact& swept, const NodalTables& tables) {
     node[j].face_z = node[j - 1].face_z;
     node[j].spring = keep * node[j - 1].spring;
     node[j].loaded = node[j - 1].loaded;
-    if (contact::norm(node[j].spring) < forgotten * node[j].loaded)
+    if (contact::norm(node[j].spring) < contact::forgotten * node[j].loaded)
       node[j].spring = {};
   }
 }

@@ -21,10 +21,6 @@ PackedContacts::PackedContacts(const std::vector<ContactPoint>& contacts, Eigen:
     in_plane.push_back(law.active() && law.along.x != 0.0 && moves);
   }
   components = std::any_of(in_plane.begin(), in_plane.end(), [](char x) { return x; }) ? 3 : 2;
-  in_lanes = components == 2 && std::all_of(contacts.begin(), contacts.end(), [](const ContactPoint& c) {
-               return !c.support.friction.active() ||
-                      c.support.friction.kind == contact::FrictionMemoryKind::return_map;
-             });
   reach = kernels::ReachLanes(width);
   kernels::Array by_mode(static_cast<std::size_t>(modes) * stride(), 0.0);
   rows.assign(static_cast<std::size_t>(count) * 3 * padded_modes, 0.0);
@@ -64,27 +60,6 @@ PackedContacts::PackedContacts(const std::vector<ContactPoint>& contacts, Eigen:
   gather.rows = lane_count().few() ? count : 0;
   for (int lane = 0; lane < stride(); lane += kernels::lanes)
     gather.add_pack(modes, stride(), by_mode.data() + lane);
-  if (in_lanes)
-    pack_mobility();
-}
-
-void PackedContacts::pack_mobility() {
-  // of component `to` by a force along `from`, as MobilityLanes has them; the planes may be coupled by the modes or the local axes
-  constexpr std::array<std::array<int, 2>, 4> blocks = {{{0, 0}, {1, 1}, {1, 0}, {0, 1}}};
-  const auto value = [&](int c, int other, std::array<int, 2> block) {
-    return column(c)[block[1] * stride() + block[0] * width + other];
-  };
-  for (int c = 0; c < count; ++c)
-    for (int other = 0; other < count; ++other)
-      mobility_lanes.coupled =
-          mobility_lanes.coupled || value(c, other, blocks[2]) != 0.0 || value(c, other, blocks[3]) != 0.0;
-  const int columns = mobility_lanes.coupled ? 4 : 2;
-  mobility_lanes.columns.assign(static_cast<std::size_t>(count) * columns * width, 0.0);
-  for (int c = 0; c < count; ++c)
-    for (int k = 0; k < columns; ++k)
-      for (int other = 0; other < count; ++other)
-        mobility_lanes.columns[(static_cast<std::size_t>(c) * columns + k) * width + other] =
-            value(c, other, blocks[static_cast<std::size_t>(k)]);
 }
 
 } // namespace fretwork::transient

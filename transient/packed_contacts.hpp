@@ -2,7 +2,6 @@
 /// @file
 /// The contacts of a scene as the step needs them: contiguous, padded, contact by contact in vector lanes.
 #pragma once
-#include "transient/contact_lanes.hpp"
 #include "transient/reach_lanes.hpp"
 #include "transient/scene.hpp"
 
@@ -28,9 +27,6 @@ struct PackedContacts {
   kernels::Array mobility; ///< contact by contact: what a unit force along y, z, x does to `stride()` lanes
                            ///< (W = B B^T, 1/kg)
   kernels::ReachLanes reach;
-  kernels::MobilityLanes mobility_lanes; ///< where in_lanes
-  bool in_lanes =
-      false; ///< friction acts along one tangent only and every memory is return_map: contact_lanes.hpp
   std::vector<int> profiles; ///< contacts whose obstacle the lanes of `reach` only bound
 
   /// Position of a contact without displacement, m.
@@ -47,9 +43,6 @@ struct PackedContacts {
   [[nodiscard]] double own_mobility(int c, int to, int from) const {
     return to < components && from < components ? column(c)[from * stride() + to * width + c] : 0.0;
   }
-
-private:
-  void pack_mobility();
 };
 
 } // namespace fretwork::transient

@@ -18,7 +18,7 @@ constexpr double least_part = 1.0 / 1024.0;
 std::unique_ptr<Scheme> make_scheme(const Scene& scene, const StepChoice& choice) {
   switch (choice.scheme) {
   case SchemeKind::splitting:
-    return make_splitting(scene, choice.step, choice.fastest, choice.flight);
+    return make_splitting(scene, choice.step, choice.fastest, choice.flight, choice.parts);
   case SchemeKind::collocation:
     return make_collocation(scene, choice.step);
   case SchemeKind::euler:
@@ -135,8 +135,6 @@ Run::Run(const Scene& scene, const StepChoice& choice, std::span<Observer* const
       outputs_(std::make_unique<OutputQueue>(scene, sampler, grid)),
       end_(choice.steps > 0 ? (static_cast<double>(choice.steps) - least_part) * choice.step
                             : scene.duration) {
-  if (observers.empty())
-    scheme_->leave_out_positions();
   if (scheme_->failure() != StepFailure::none)
     report_.outcome = Outcome::step_failed;
 }

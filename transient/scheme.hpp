@@ -12,21 +12,39 @@
 
 namespace fretwork::transient {
 
-/// One contact at a step.
+/// One contact over the step of a record.
 struct ContactState {
-  double normal_force = 0.0;  ///< N, >= 0
-  double ny = 0.0, nz = 0.0;  ///< normal, local axes
-  contact::Vec2 friction;     ///< N, along x_loc and t = n x x_loc, on the node
-  contact::Vec2 displacement; ///< m, tangential over the step
-  double slid = 0.0;          ///< m, path with friction at its bound
-  double friction_work = 0.0; ///< J over the step, by the slider
-  double damper_work = 0.0;   ///< J over the step, by the normal and tangential dampers
-  double approach = 0.0;      ///< m/s, speed towards the obstacle before the step's force acts; of a contact
-                              ///< that has just opened: minus the speed at which it left
-  bool slides = false;
-  // Shares of normal_force, 1 but where a contact closes or opens between instants of splitting:
-  double pressing_share = 1.0; ///< what presses the path `slid` in the mean
-  double instant_share = 1.0;  ///< the force at the instant: integrals of squares of forces take it once
+  double normal_force = 0.0;    ///< N, mean over the step, >= 0
+  double ny = 0.0, nz = 0.0;    ///< normal, local axes
+  contact::Vec2 friction;       ///< N, mean over the step, along x_loc and t = n x x_loc, on the node
+  contact::Vec2 displacement;   ///< m, tangential, while the contact is closed
+  double slid = 0.0;            ///< m, path with friction at its bound
+  double friction_work = 0.0;   ///< J over the step, by the slider
+  double damper_work = 0.0;     ///< J over the step, by the normal and tangential dampers
+  double approach = 0.0;        ///< m/s, towards the obstacle: speed at which the contact closed, if it did
+  bool slides = false;          ///< at the end of the step
+  double closed = 0.0;          ///< share of the step with a normal force
+  double normal_square = 0.0;   ///< N2, mean over the step
+  double friction_square = 0.0; ///< N2, likewise
+  double peak = 0.0;            ///< N, largest normal force
+  double sliding = 0.0;         ///< share of the step in which it slides
+  double rubbed = 0.0;          ///< J, integral of F_N |v_T| while it slides
+  double departure = 0.0;       ///< m/s, away from the obstacle: speed at which the contact opened, if it did
+  int touches = 0;              ///< how often it closed in the step
+  double closed_at = 0.0, opened_at = 0.0; ///< shares of the step before it closed and opened last, if it did
+
+  /// Of schemes that know one force in the step: what follows from its mean, where it acts for a share of the step.
+  /// @param touched  the contact closed in the step
+  void act_for(double share, bool touched) {
+    closed = share;
+    normal_square = normal_force * normal_force / share;
+    friction_square = dot(friction, friction) / share;
+    peak = normal_force;
+    sliding = slides ? share : 0.0;
+    rubbed = normal_force * slid / share;
+    touches = touched ? 1 : 0;
+  }
+  void act_throughout(bool touched) { act_for(1.0, touched); }
 };
 
 /// Normal and tangential force of a contact at an instant, N.
@@ -37,7 +55,7 @@ struct ContactForce {
   bool slides;   ///< the friction bound is reached
 };
 
-/// Energy, J, at the instant of a record: load_work = stored - initial + modal_damping + contact_damping +
+/// Energy, J, at a record: load_work = stored - initial + modal_damping + contact_damping +
 /// friction + residual.
 struct Energy {
   double initial = 0.0;   ///< kinetic, strain and contact energy at t = 0
@@ -53,21 +71,20 @@ struct Energy {
   }
 };
 
-/// What observers see of a step. Positions, forces and energies belong to `time`; with forces at instants (splitting) positions are those of
-/// the mean over the step, and between flights and steps of other lengths they lean (splitting.cpp): they are for sums over time.
+/// What observers see of a step. Positions belong to `time`; of schemes whose forces act over steps `time` is the middle of a step, and energies of
+/// splitting are those at its end; with forces at instants (residual flexibility) positions are those of the mean over the step.
 struct Record {
   double time = 0.0;
   double step =
       0.0; ///< s, the length of time this record stands for; 0: an instant between two laws, for no time
-  const double* q =
-      nullptr; ///< modal displacements, padded with zeros; null after Scheme::leave_out_positions, like uy and uz
+  const double* q = nullptr; ///< modal displacements, padded with zeros
   int contacts = 0;
   const double* uy =
       nullptr; ///< displacement of contact i along y_loc, m; padded with zeros to a multiple of 8
   const double* uz = nullptr;
   std::span<const ContactState> states;
-  std::span<const int> active; ///< numbers of the contacts whose normal force is not zero
-  std::span<const int> opened; ///< of those that had a force at the record before and have none now
+  std::span<const int> active; ///< numbers of the contacts with a normal force in the step
+  std::span<const int> opened; ///< of those that opened in it, or since the record before
   Energy energy;
 };
 
@@ -94,8 +111,6 @@ enum class StepFailure {
 class Scheme {
 public:
   virtual ~Scheme() = default;
-  /// Nobody looks at the positions of records: where it takes time to make them they may be null. Before the first `advance`.
-  virtual void leave_out_positions() {}
   /// Advances to the next record: the first call gives the first one.
   virtual const Record& advance() = 0;
   /// Time of the record that `advance` will give, s; infinite after a failure.
@@ -120,9 +135,13 @@ enum class SchemeKind { splitting, collocation, euler, energy_conserving, devoge
 [[nodiscard]] std::string name_of(SchemeKind kind);
 
 /// @param fastest  rad/s: faster modes that contacts move are made heavier (mass_scaling.hpp); 0: none
-/// @param flight  the most steps that are made at once while no contact can meet its obstacle
+/// @param longest  the most steps that are made at once while no contact can meet its obstacle
+/// @param parts  intervals in which contacts move within a step
 [[nodiscard]] std::unique_ptr<Scheme> make_splitting(const Scene& scene, double step, double fastest = 0.0,
-                                                     int flight = 1);
+                                                     int longest = 1, int parts = 1);
+/// The same for scenes with residual flexibility.
+[[nodiscard]] std::unique_ptr<Scheme> make_flexible_splitting(const Scene& scene, double step,
+                                                              double fastest = 0.0);
 [[nodiscard]] std::unique_ptr<Scheme> make_collocation(const Scene& scene, double step);
 [[nodiscard]] std::unique_ptr<Scheme> make_euler(const Scene& scene, double step);
 [[nodiscard]] std::unique_ptr<Scheme> make_energy_conserving(const Scene& scene, double step);

@@ -1,398 +1,382 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Strang splitting of the modal motion and the contact forces, order 2 in displacement, velocity and force,
-/// with damping and friction.
+/// The splitting scheme: the exact motion of the modes over a step h, the motion of the contacts within it.
+/// 1. The modes move under the loads and the contact forces held from the last step (modal_flow.hpp).
+/// 2. Where no contact can be closed in the step that is their motion. Steps of several h are tried first: the contact-free macro-steps.
+/// 3. Otherwise the contacts near their obstacles move in shorter intervals along that motion (contact_intervals.hpp), and the modes move
+///    once more, under the mean and the first moment of the forces found.
+/// Order 2 in displacement, velocity and force, with dampers and friction, through impacts. Step 3 asks w_c dt to be resolved, dt the interval;
+/// h w_max below 2.5, in which the cubic that contacts follow between the ends of a step is the modes' motion to (w h)^4/384.
 ///
-/// Between instants t_k = (k + 1/2) h the modes move freely: loaded_flow.hpp. At t_k the contacts act once for the whole step:
-/// contact_solver.hpp, with residual flexibility flexible_contacts.hpp.
-/// Stability: w_c h < 2.7, w_c^2 the largest eigenvalue of K_N^1/2 W K_N^1/2; h w_max away from multiples of
-/// pi (mass_scaling.hpp). Accuracy asks for less (step_rule.hpp). Cost: one evaluation of the contacts a step. Energy: the work
-/// of each action h f.w and of each flow are exact; the ledger's residual is what the contact laws' discrete
-/// work lacks.
+/// No contact is closed in a step of length L where its gaps at both ends exceed a third of its speeds there times L: its path is in the hull of u0,
+/// u0 + w0 L/3, u1 - w1 L/3, u1, and gaps are concave functions of it; of round bodies side by side, whose gap is convex, where they exceed the
+/// speeds times L.
 ///
-/// Flights: while no contact can meet its obstacle, `flight` steps are made by one exact flow. Over a time L a free displacement is, to
-/// (w_max L)^4/384, the cubic of its ends u0, u1 and velocities w0, w1, which stays in the hull of u0, u0 + w0 L/3, u1 - w1 L/3, u1; gaps
-/// are concave functions of it. So no contact is met where these four leave a gap; where they do not, the flight is not made. Records
-/// stand for half of the flights before and after them. So that sums over them are integrals in spite of the longer step, those between
-/// flights or steps of lengths L0 and L1 show displacements that lean by (L1^2 - L0^2)/(12 step) times their velocities (the correction
-/// of trapezoidal sums by Euler and Maclaurin), and no flight begins at a speed that would take a contact further than a quarter of its
-/// clearance.
-#include "transient/flexible_contacts.hpp"
+/// Energy: works of loads and contact forces on the modes are exact, modal damping is what the flow does not keep of them. The residual of the
+/// energy balance is what the contacts' laws, along their own path, made otherwise than the modes.
+///
+/// A record stands for a step and for the forces in it, its positions are those in the middle.
+#include "transient/contact_intervals.hpp"
 #include "transient/flights.hpp"
-#include "transient/loaded_flow.hpp"
 #include "transient/mass_scaling.hpp"
+#include "transient/modal_flow.hpp"
 #include "transient/obstacle_motion.hpp"
-#include "transient/sliding_paths.hpp"
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 namespace fretwork::transient {
 namespace {
 
-/// Of a contact's clearance.
-constexpr double longest_flight = 0.25;
+/// Steps of one h after a macro-step that would have met a contact.
+constexpr int steps_after_meeting = 4;
+/// Of a contact's clearance: what it moves in a macro-step at most, so that the middles of steps give deviations of displacements to 0.1 %.
+constexpr double longest_macro_step = 1.0 / 16.0;
 
-/// On cache lines of its own: where the heap put its members otherwise took up to a tenth of a step (`high modes`).
-class alignas(64) Splitting final : public Scheme {
+/// Numbers of steps that are made at once, the longest first.
+std::vector<int> lengths_up_to(int longest) {
+  std::vector<int> lengths;
+  for (int length = longest; length > 1 && lengths.size() < 3; length /= 2)
+    lengths.push_back(length);
+  lengths.push_back(1);
+  return lengths;
+}
+
+class Splitting final : public Scheme {
 public:
   /// @param scene  in the coordinates p of mass_scaling.hpp   @param shown  n, q = shown p; empty: all 1
-  /// @param flight  the most steps of a flight; 1: none
-  Splitting(const Scene& scene, double step, const Eigen::VectorXd& shown, int flight)
-      : h_(step), modes_(scene, step), contacts_(scene.contacts, scene.system.size()), motion_(contacts_),
-        obstacles_(scene, contacts_, step), carried_(obstacles_.room()), memory_(contacts_, step),
-        solver_(contacts_, step), trial_(contacts_.count),
-        paths_(contacts_, step, scene.residual.size() == 0), rows_(contacts_), duration_(scene.duration),
-        impulse_(modes_.q.size(), 0.0), shown_q_(modes_.q.size(), 0.0) {
-    motion_.gather(modes_.q.data(), modes_.v.data());
-    obstacles_.at(0.0, carried_);
-    carried_.add_to(motion_);
-    double given = 0.0; // J, of the residual flexibility
-    if (scene.residual.size() > 0) {
-      flexible_.emplace(contacts_, scene.residual, step);
-      given = flexible_->start(motion_);
-    }
-    memory_.start(motion_);
-    near_only_ = !flexible_ && carried_.u.empty() && !(solver_.window() > 0.0);
-    if (may_fly(scene))
-      for (int length = flight; length > 1 && far_.size() < 3; length /= 2)
-        far_.push_back(modes_.flight(length));
-    record_.energy.initial = record_.energy.throughput = modes_.energy() + motion_.spring_energy() + given;
-    press_from_start();
-    after_action_ = modes_.energy();
+  Splitting(const Scene& scene, double step, const Eigen::VectorXd& shown, int longest, int parts)
+      : h_(step), duration_(scene.duration), lengths_(lengths_up_to(longest)), modes_(scene, step, lengths_),
+        contacts_(scene.contacts, scene.system.size()), mobility_(step_mobility()), start_(contacts_),
+        end_(contacts_), obstacles_(scene, contacts_, step), carried_{obstacles_.room(), obstacles_.room()},
+        middle_(obstacles_.room()),
+        intervals_(contacts_, mobility_, step, parts), steps_{Step(contacts_), Step(contacts_),
+                                                              Step(contacts_)} {
+    const auto n = static_cast<std::size_t>(contacts_.padded_modes);
+    held_.assign(n, 0.0);
     if (shown.size() > 0) {
-      shown_.assign(modes_.q.size(), 0.0);
+      shown_.assign(n, 1.0);
       std::copy_n(shown.data(), shown.size(), shown_.begin());
     }
-    seen_ = speeds_ = motion_.u;
+    const auto count = static_cast<std::size_t>(contacts_.count);
+    was_near_.assign(count, 1); // nothing is known yet
+    near_.reserve(count);
+    rows_.resize(3 * count);
+    for (auto& f : factors_)
+      f.resize(3 * count);
+    const bool convex =
+        std::any_of(contacts_.supports.begin(), contacts_.supports.end(),
+                    [](const contact::Support& s) { return contact::reach(s.obstacle).radial < 0.0; });
+    window_ = convex ? 1.0 : 1.0 / 3.0;
+
+    Step& first = steps_[0];
+    std::copy_n(scene.q0.data(), scene.q0.size(), first.from.q.begin());
+    std::copy_n(scene.v0.data(), scene.v0.size(), first.from.v.begin());
+    modes_.load_about(0.0, first.load);
+    end_.gather(first.from.q.data(), first.from.v.data());
+    obstacles_.at(0.0, carried_[1]);
+    carried_[1].add_to(end_);
+    moving_ = modes_.energy(first.from);
+    booked_.initial = booked_.throughput = booked_.stored = moving_ + end_.spring_energy();
+    hold_at_start();
+    make();
   }
 
-  void leave_out_positions() override { positions_ = false; }
-
   const Record& advance() override {
-    const int flown = stride_;
-    lean_ = 0.0;
-    flow();
-    if (contacts_.count > 0) {
-      if (flown > 1)
-        rest(flown);
-      else
-        act();
-      if (positions_)
-        see();
-    }
-    look_ahead();
-    record_.step = 0.5 * (flown + stride_) * h_;
-    if (positions_ && flown != stride_)
-      lean(h_ * h_ * (stride_ * stride_ - flown * flown) / (12.0 * record_.step));
-    show(record_, contacts_, positions_ ? displacements() : nullptr, positions_ ? seen_.data() : nullptr,
-         trial_);
+    const Step& now = steps_[made_];
+    published_ = made_;
+    record_.time = now.start + 0.5 * now.length;
+    record_.step = now.length;
+    record_.energy = now.energy;
+    show(record_, contacts_, now.q.data(), now.u.data(), now.trial);
+    counts_.steps += now.steps;
+    made_ = next(made_);
+    make();
     return record_;
   }
 
   void state_at(double time, double* q, double* v) override {
-    // Exact flow from the last action under the load's slope of the step under way. The action stands for a
-    // force f over the step around it: its impulse is spread out, so that the velocity is of order 2 at any
-    // instant and not only in the middle between two actions.
-    modes_.state_at(time, stride_, q, v);
-    const double t = time - modes_.time();
-    const double share =
-        modes_.steps() > 0 ? t / h_ - 0.5 : t / h_; // the start is in the middle between actions
-    std::fill(impulse_.begin(), impulse_.end(), 0.0);
-    rows_.add_to(impulse_.data());
-    for (Eigen::Index j = 0; j < contacts_.modes; ++j) {
-      const double impulse = impulse_[static_cast<std::size_t>(j)];
-      q[j] += 0.5 * (share * share - 1.0 / 12.0) * h_ * impulse; // nothing in the mean over the step
-      v[j] += share * impulse;
-    }
-    if (!shown_.empty())
-      for (Eigen::Index j = 0; j < contacts_.modes; ++j) {
-        q[j] *= shown_[static_cast<std::size_t>(j)];
-        v[j] *= shown_[static_cast<std::size_t>(j)];
-      }
+    const Step& last = steps_[published_];
+    const bool inside = counts_.steps > 0 && time <= last.start + last.length;
+    const std::size_t of = inside ? published_ : made_;
+    const Step& s = steps_[of];
+    modes_.inside(time - s.start, s.length, s.from, s.load, steps_[next(of)].load,
+                  s.pushed ? &s.force : nullptr, q, v);
+    scale(q, 1.0);
+    scale(v, 1.0);
   }
 
   void load_at(double time, double* force) override {
     modes_.load_at(time, force);
-    if (!shown_.empty())
-      for (Eigen::Index j = 0; j < contacts_.modes; ++j)
-        force[j] /= shown_[static_cast<std::size_t>(j)];
+    scale(force, -1.0);
   }
 
-  [[nodiscard]] double next_time() const override { return modes_.instant(stride_); }
+  [[nodiscard]] double next_time() const override { return steps_[made_].start + 0.5 * steps_[made_].length; }
 
   [[nodiscard]] StepCounts counts() const override {
-    return {modes_.steps(), 0, contacts_.count > 0 ? modes_.steps() - flown_ : 0, unconverged_, h_, h_};
+    StepCounts counts = counts_;
+    counts.step_min = counts.step_max = h_;
+    return counts;
   }
 
   void visit(core::StateArchive& state) override {
-    state(modes_, unconverged_, trial_, paths_, memory_);
-    state(record_.energy, moving_, after_action_, load_work_, lost_);
-    if (flexible_)
-      state(*flexible_);
-    if (modes_.steps() > 0)
-      rows_.set(trial_, h_);
-    state(stride_, flown_, wait_);
-    for (const LoadedFlow::Flight& flight : far_)
-      if (flight.steps == stride_)
-        fly(flight);
+    state(steps_, published_, made_, end_, held_, holds_, was_near_, intervals_);
+    state(carried_[1].u, carried_[1].w, done_, wait_, moving_, booked_, counts_);
   }
 
 private:
-  /// Contacts that are pressed at the start have been so: half a step after an action that stands for these forces modes are (h^2/24) W f
-  /// before their mean between two actions. From the mean itself a tube that rests would ring, at w_c h = 1 with 4 % of its forces.
-  void press_from_start() {
+  /// A step: where it starts, what acts in it and what its record shows.
+  struct Step {
+    explicit Step(const PackedContacts& contacts) : trial(contacts.count) {
+      const auto n = static_cast<std::size_t>(contacts.padded_modes);
+      for (kernels::Array* a : {&from.q, &from.v, &load, &force.mean, &force.slope, &q})
+        a->assign(n, 0.0);
+      u.assign(static_cast<std::size_t>(contacts.stride()), 0.0);
+    }
+    double start = 0.0, length = 0.0; ///< s
+    int steps = 0;                    ///< of h
+    ModalFlow::State from;
+    kernels::Array load; ///< at its start; that at its end is the next step's
+    bool pushed = false; ///< contacts act in it, with the force
+    ModalForce force;
+    kernels::Array q, u; ///< in its middle
+    ContactTrial trial;
+    Energy energy; ///< at its end
+    void visit(core::StateArchive& state) {
+      state(start, length, steps, from, load, pushed, force, q, u, trial, energy);
+    }
+  };
+  [[nodiscard]] static std::size_t next(std::size_t step) { return step == 2 ? 0 : step + 1; }
+
+  /// W of contact_intervals.hpp.
+  kernels::Array step_mobility() {
+    kernels::Array out(contacts_.mobility.size(), 0.0),
+        moved(static_cast<std::size_t>(contacts_.padded_modes));
+    const int stride = contacts_.stride(), width = contacts_.width;
+    for (int c = 0; c < contacts_.count; ++c)
+      for (int from = 0; from < contacts_.components; ++from) {
+        modes_.answer(contacts_.row(c, from), moved.data());
+        for (int other = 0; other < contacts_.count; ++other)
+          for (int to = 0; to < contacts_.components; ++to) {
+            const double* row = contacts_.row(other, to);
+            double sum = 0.0;
+            for (std::size_t i = 0; i < moved.size(); ++i)
+              sum += row[i] * moved[i];
+            out[static_cast<std::size_t>((c * 3 + from) * stride + to * width + other)] =
+                2.0 / (h_ * h_) * sum;
+          }
+      }
+    return out;
+  }
+
+  void scale(double* modal, int power) const {
+    for (std::size_t j = 0; j < std::min(shown_.size(), static_cast<std::size_t>(contacts_.modes)); ++j)
+      modal[j] *= power > 0 ? shown_[j] : 1.0 / shown_[j];
+  }
+
+  /// Contacts that are pressed at the start have been so.
+  void hold_at_start() {
+    near_.clear();
     for (int c = 0; c < contacts_.count; ++c) {
-      const contact::Location at = motion_.locate(c);
+      const contact::Location at = end_.locate(c);
       const double force =
-          contact::normal_force(contacts_.supports[c].normal, -at.gap, motion_.sinking(c, at.ny, at.nz));
-      if (!(at.gap < 0.0 && force > 0.0))
-        continue;
-      ContactState& state = trial_.states[c];
-      state.normal_force = force;
-      state.ny = at.ny;
-      state.nz = at.nz;
-      trial_.active.push_back(c);
+          contact::normal_force(contacts_.supports[c].normal, -at.gap, end_.sinking(c, at.ny, at.nz));
+      if (at.gap < 0.0 && force > 0.0) {
+        intervals_.hold(c, at, force);
+        near_.push_back(c);
+      }
     }
-    rows_.set(trial_, h_);
-    trial_.clear();
-    rows_.add_to(impulse_.data());
-    for (std::size_t i = 0; i < impulse_.size(); ++i)
-      modes_.q[i] += h_ / 24.0 * impulse_[i];
+    scatter(nullptr);
   }
 
-  /// Of the modes in the mean over the step, as `see` has the contacts; padded.
-  const double* displacements() {
-    const double* mean = trial_.active.empty() && lean_ == 0.0 ? modes_.q.data() : shown_q_.data();
-    if (shown_.empty())
-      return mean;
+  /// The held forces of the near contacts, and those of the step, as forces on the modes.
+  void scatter(ModalForce* force) {
+    std::fill(held_.begin(), held_.end(), 0.0);
+    holds_ = false;
+    std::size_t count = 0;
+    for (const int c : near_) {
+      const ContactIntervals::Force& f = intervals_.force(c);
+      for (int k = 0; k < contacts_.components; ++k) {
+        if (f.mean[k] == 0.0 && f.held[k] == 0.0)
+          continue;
+        rows_[count] = contacts_.row(c, k);
+        factors_[0][count] = f.held[k];
+        factors_[1][count] = f.mean[k];
+        factors_[2][count] = f.slope[k];
+        holds_ = holds_ || f.held[k] != 0.0;
+        ++count;
+      }
+    }
+    const auto add = [&](std::size_t which, kernels::Array& to) {
+      if (count > 0)
+        kernels::scatter(contacts_.padded_modes, static_cast<int>(count), rows_.data(),
+                         factors_[which].data(), to.data());
+    };
+    if (holds_)
+      add(0, held_);
+    if (!force)
+      return;
+    std::fill(force->mean.begin(), force->mean.end(), 0.0);
+    std::fill(force->slope.begin(), force->slope.end(), 0.0);
+    add(1, force->mean);
+    add(2, force->slope);
+  }
+
+  /// Contacts that may be closed in a step of so many h that ends as `end_` tells.
+  void find_near(int length) {
+    near_.clear();
+    const bool any = end_.find_near(window_ * length * h_);
+    for (int c = 0; c < contacts_.count; ++c)
+      if (was_near_[c] || (any && end_.near(c)))
+        near_.push_back(c);
+  }
+
+  /// The modes to the end of a step of so many h, under the forces held.
+  ModalFlow::Sums predict(Step& s, int length, Step& to) {
+    s.steps = length;
+    s.length = length * h_;
+    to.start = static_cast<double>(done_ + length) * h_;
+    modes_.load_about(to.start, to.load);
+    const ModalFlow::Sums sums = holds_ ? modes_.move(length, s.from, s.load, to.load, held_, to.from)
+                                        : modes_.move(length, s.from, s.load, to.load, to.from);
+    end_.gather(to.from.q.data(), to.from.v.data());
+    if (!carried_[1].u.empty()) {
+      obstacles_.at(to.start, carried_[1]);
+      carried_[1].add_to(end_);
+    }
+    return sums;
+  }
+
+  /// Makes the step that `made_` starts.
+  void make() {
+    Step &s = steps_[made_], &to = steps_[next(made_)];
+    start_.u.swap(end_.u); // normals and marks stay with `end_`
+    start_.w.swap(end_.w);
+    std::swap(carried_[0], carried_[1]);
+    ModalFlow::Sums sums;
+    const bool far = std::none_of(was_near_.begin(), was_near_.end(), [](char near) { return near != 0; });
+    std::size_t length = lengths_.size() - 1;
+    if (far && wait_ == 0)
+      length = 0;
+    while (length + 1 < lengths_.size() && (s.start + lengths_[length] * h_ > duration_ ||
+                                            !start_.moves_less(lengths_[length] * h_, longest_macro_step)))
+      ++length;
+    wait_ = std::max(0, wait_ - 1);
+    for (;; length = lengths_.size() - 1, wait_ = steps_after_meeting) {
+      sums = predict(s, lengths_[length], to);
+      find_near(lengths_[length]);
+      if (near_.empty() || length + 1 == lengths_.size())
+        break;
+    }
+    StepLosses losses;
+    double brought = 0.0;
+    s.pushed = !near_.empty();
+    if (s.pushed) {
+      ++counts_.evaluations;
+      counts_.unconverged += !intervals_.make(start_, end_, near_, s.trial, losses);
+      s.pushed = holds_ || !s.trial.active.empty();
+      if (s.pushed)
+        sums = push(s, to);
+      intervals_.settle(end_);
+      brought = work_of_obstacles(s);
+    } else {
+      intervals_.pass(s.steps, s.trial, losses);
+    }
+    std::fill(was_near_.begin(), was_near_.end(), 0);
+    for (const int c : near_)
+      was_near_[c] = end_.near(c) || intervals_.force(c).held[0] != 0.0 || intervals_.force(c).held[1] != 0.0;
+    show_middle(s, to);
+    book(s, sums, losses, brought);
+    done_ += s.steps;
+  }
+
+  /// The modes take the forces of the contacts.
+  ModalFlow::Sums push(Step& s, Step& to) {
+    scatter(&s.force);
+    const ModalFlow::Sums sums = modes_.move(s.steps, s.from, s.load, to.load, s.force, to.from);
+    end_.gather(to.from.q.data(), to.from.v.data());
+    carried_[1].add_to(end_);
+    return sums;
+  }
+
+  /// By obstacles that move, on the structure, J.
+  [[nodiscard]] double work_of_obstacles(const Step& s) const {
+    double work = 0.0;
+    if (carried_[0].u.empty() || !s.pushed)
+      return work;
+    for (const int c : near_)
+      for (int k = 0; k < contacts_.components; ++k) {
+        const auto lane = static_cast<std::size_t>(k * contacts_.width + c);
+        work -= intervals_.force(c).mean[k] * (carried_[1].u[lane] - carried_[0].u[lane]);
+      }
+    return work;
+  }
+
+  void show_middle(Step& s, const Step& to) {
+    modes_.middle(s.steps, s.from, s.load, to.load, s.pushed ? &s.force : nullptr, s.q);
+    kernels::gather(contacts_.gather, s.q.data(), s.u.data());
+    if (!middle_.u.empty()) {
+      obstacles_.at(s.start + 0.5 * s.length, middle_);
+      for (std::size_t lane = 0; lane < s.u.size(); ++lane)
+        s.u[lane] += middle_.u[lane];
+    }
     for (std::size_t i = 0; i < shown_.size(); ++i)
-      shown_q_[i] = shown_[i] * mean[i];
-    return shown_q_.data();
+      s.q[i] *= shown_[i];
   }
 
-  /// From the last action (or the start) to the next.
-  void flow() {
-    const kernels::FlowSums sums = stride_ > 1 ? modes_.land(stride_) : modes_.advance();
-    flown_ += stride_ - 1;
-    moving_ = 0.5 * sums.twice_energy;
-    const double work = sums.work;
-    Energy& energy = record_.energy;
-    load_work_ += work;
-    energy.load_work = load_work_;
-    energy.throughput += std::abs(work);
-    energy.modal_damping +=
-        work - (moving_ - after_action_); // the flow is exact: what the load gave and the modes did not keep
-    after_action_ = moving_;
-    record_.time = modes_.time();
-    record_.energy.stored = moving_;
+  void book(Step& s, const ModalFlow::Sums& sums, const StepLosses& losses, double brought) {
+    booked_.load_work += sums.load_work + brought;
+    booked_.throughput += std::abs(sums.load_work) + std::abs(brought);
+    booked_.modal_damping += sums.load_work + sums.contact_work - (sums.energy - moving_);
+    booked_.contact_damping += losses.damping;
+    booked_.friction += losses.friction;
+    moving_ = sums.energy;
+    booked_.stored = moving_ + intervals_.spring_energy();
+    s.energy = booked_;
   }
 
-  /// The state after a flight, and how the contacts stand and move then.
-  void fly(const LoadedFlow::Flight& flight) {
-    modes_.fly(flight);
-    motion_.gather(modes_.flown_q().data(), modes_.flown_v().data());
-  }
-
-  /// The next step is a flight where one meets no contact.
-  void look_ahead() {
-    const bool flew = std::exchange(stride_, 1) > 1;
-    if (far_.empty() || !trial_.active.empty() || !motion_.places.first.empty())
-      return;
-    if (wait_ > 0) {
-      --wait_;
-      return;
-    }
-    if (!flew)
-      motion_.gather_velocities(modes_.v.data());
-    if (positions_)
-      speeds_ = motion_.w;
-    for (const LoadedFlow::Flight& flight : far_) {
-      const double time = flight.steps * h_, third = time / 3.0;
-      if (modes_.instant(flight.steps) > duration_ || !motion_.moves_less(time, longest_flight) ||
-          !motion_.opens_after(third) || !motion_.opens_after(time))
-        continue;
-      fly(flight);
-      if (motion_.opens_after(0.0) && motion_.opens_after(-third))
-        stride_ = flight.steps;
-      else
-        wait_ = 1;
-      return;
-    }
-    wait_ = 1;
-  }
-
-  /// Shows where all will be after `time` seconds.
-  void lean(double time) {
-    lean_ = time;
-    for (std::size_t i = 0; i < seen_.size(); ++i)
-      seen_[i] += time * speeds_[i];
-    for (std::size_t i = 0; i < shown_q_.size(); ++i)
-      shown_q_[i] = modes_.q[i] + time * modes_.v[i];
-  }
-
-  /// Where the contacts are in the mean over the step: at the action the modes stand (h^2/12) W f behind (contact/instant_spring.hpp); of W the
-  /// block of the contact itself.
-  void see() {
-    seen_ = motion_.u;
-    const auto width = static_cast<std::size_t>(contacts_.width);
-    for (const int active : trial_.active) {
-      const auto c = static_cast<std::size_t>(active);
-      const ContactState& s = trial_.states[c];
-      const double scale = h_ * h_ / 12.0, y = scale * (s.normal_force * s.ny + s.friction.t * s.nz),
-                   z = scale * (s.normal_force * s.nz - s.friction.t * s.ny);
-      seen_[c] += contacts_.own_mobility(active, 0, 0) * y + contacts_.own_mobility(active, 0, 1) * z;
-      seen_[width + c] += contacts_.own_mobility(active, 1, 0) * y + contacts_.own_mobility(active, 1, 1) * z;
-    }
-  }
-
-  /// Where the contacts stand. Returns whether any may act.
-  bool gather() {
-    const double *q = modes_.q.data(), *v = modes_.v.data();
-    if (near_only_ && !motion_.places.all.few()) {
-      motion_.gather_near(q, v, memory_.closed());
-      return !motion_.places.first.empty();
-    }
-    if (carried_.u.empty() && !flexible_)
-      return motion_.meet(q, v, solver_.window());
-    motion_.gather(q, v);
-    if (!carried_.u.empty()) {
-      obstacles_.at(modes_.time(), carried_);
-      carried_.add_to(motion_);
-    }
-    return flexible_ || motion_.find_near(solver_.window());
-  }
-
-  /// No contact acts, nor has acted at the end of the last step: at the end of a flight or of a single step.
-  void rest(int steps) {
-    const double springs = memory_.spring_energy();
-    const ContactLosses losses = memory_.pass(motion_, steps, trial_);
-    rows_.clear();
-    Energy& energy = record_.energy;
-    energy.contact_damping = lost_.damping + 0.5 * losses.damping;
-    energy.friction = lost_.friction;
-    energy.stored = moving_ + 0.5 * (springs + memory_.spring_energy());
-    lost_.damping += losses.damping;
-  }
-
-  ContactSolver::Action solve() {
-    if (flexible_) // whose contacts move at once by their own forces
-      return flexible_->solve(memory_, motion_, trial_);
-    memory_.follow(motion_, 0.5 * h_);
-    return solver_.solve_near(memory_, motion_, trial_);
-  }
-
-  /// The contacts act.
-  void act() {
-    if (!gather() && memory_.closed().empty()) {
-      rest(1);
-      return;
-    }
-    const int lone = flexible_ ? -1 : motion_.lone();
-    if (!(lone >= 0 && memory_.only(lone) && act_alone(lone)))
-      act_together();
-  }
-
-  /// The one contact that is near, where no other was closed. Returns whether its step could be made by itself.
-  bool act_alone(int c) {
-    kernels::NormalPush& push = paths_.push(c);
-    const bool closes = push.y == 0.0 && push.z == 0.0;
-    const kernels::LoneStep step = memory_.step_alone(c, motion_, solver_.rule(), push, trial_);
-    if (!step.found)
-      return false;
-    ContactLosses losses{step.damping, step.friction};
-    if (paths_.ends(c)) {
-      paths_.end_alone(c, closes, step, motion_, trial_.states[c]);
-      paths_.end_slides(trial_, losses);
-    }
-    if (trial_.active.empty())
-      rows_.clear();
-    else
-      rows_.set(c, step.force_y, step.force_z, h_);
-    end_action({step.work, step.jump}, losses, memory_.spring_energy() - step.stored);
-    return true;
-  }
-
-  void act_together() {
-    const auto action = solve();
-    unconverged_ += !action.converged;
-    const double springs_before = memory_.spring_energy();
-    paths_.correct(motion_, memory_, trial_);
-    ContactLosses losses = memory_.commit(motion_, trial_);
-    paths_.end_slides(trial_, losses);
-    if (flexible_)
-      flexible_->accept();
-    else
-      memory_.leave(motion_, trial_, 0.5 * h_);
-    rows_.set(trial_, h_);
-    end_action(action, losses, springs_before);
-  }
-
-  /// Forces found and committed: the modes take them.
-  void end_action(const ContactSolver::Action& action, const ContactLosses& losses, double springs_before) {
-    if (positions_)
-      rows_.add_to(modes_.v.data(), h_ / 12.0, modes_.q.data(), shown_q_.data());
-    else
-      rows_.add_to(modes_.v.data());
-    // The record stands in the middle of the action: half of its losses belong to it, and its velocity is (v-
-    // + v+)/2, whose energy is moving + work/2 - (h^2/8) f.W.f. What moving obstacles do is work from outside.
-    Energy& energy = record_.energy;
-    const double brought = -h_ * product(contacts_, trial_, carried_.w), work = action.work + brought;
-    energy.load_work = load_work_ + 0.5 * brought;
-    energy.throughput += std::abs(brought);
-    load_work_ += brought;
-    energy.contact_damping = lost_.damping + 0.5 * losses.damping;
-    energy.friction = lost_.friction + 0.5 * losses.friction;
-    energy.stored = moving_ + 0.5 * work - 0.25 * action.jump + trial_.springs +
-                    0.5 * (springs_before + memory_.spring_energy());
-    lost_.damping += losses.damping;
-    lost_.friction += losses.friction;
-    after_action_ = moving_ + work;
-  }
-
-  double h_;
-  LoadedFlow modes_;
+  double h_, duration_;
+  std::vector<int> lengths_;
+  ModalFlow modes_;
   PackedContacts contacts_;
-  ContactMotion motion_;
+  kernels::Array mobility_;
+  ContactMotion start_, end_; ///< of the step that is made
   ObstacleMotion obstacles_;
-  Carried carried_;
-  ContactMemory memory_;
-  ContactSolver solver_;
-  std::optional<FlexibleContacts> flexible_; ///< instead of it
-  bool near_only_ =
-      false; ///< only displacements tell which contacts act: velocities of the others are not asked for
-  ContactTrial trial_;
-  SlidingPaths paths_;
-  ContactRows rows_; ///< impulses of the last action
+  std::array<Carried, 2> carried_; ///< likewise
+  Carried middle_;                 ///< in its middle
+  ContactIntervals intervals_;
+  std::array<Step, 3> steps_; ///< the one published, the one made, and where that ends
+  std::size_t published_ = 0, made_ = 0;
 
-  double duration_;
-  std::vector<LoadedFlow::Flight> far_; ///< the longest first
-  int stride_ = 1;                      ///< steps of what follows the last action
-  double lean_ = 0.0;                   ///< s
-  kernels::Array speeds_;               ///< m/s, lanes, at the last record
-  int wait_ = 0;                        ///< steps until flights are looked for again
-  std::int64_t flown_ = 0, unconverged_ = 0;
-  kernels::Array impulse_;
-  bool positions_ = true;  ///< records show them
-  kernels::Array shown_;   ///< with scaled masses
-  kernels::Array shown_q_; ///< in the mean over the step
-  kernels::Array seen_;    ///< m, lanes, likewise
+  kernels::Array held_; ///< modal force of the contacts held
+  bool holds_ = false;
+  std::vector<char> was_near_; ///< at the end of the last step
+  std::vector<int> near_;
+  double window_;
+  std::vector<const double*> rows_;
+  std::array<std::vector<double>, 3> factors_; ///< held, mean, slope
+  kernels::Array shown_;                       ///< with scaled masses
 
+  std::int64_t done_ = 0; ///< steps of h up to the one that is made
+  int wait_ = 0;          ///< steps until macro-steps are tried again
+  double moving_ = 0.0;   ///< J, of the modes at the end of the last step
+  Energy booked_;
   Record record_;
-  double moving_ = 0.0, after_action_ = 0.0; ///< modal energy before and after the action
-  double load_work_ = 0.0;                   ///< up to the last action, all of it included
-  ContactLosses lost_;                       ///< likewise
+  StepCounts counts_;
 };
 
 } // namespace
 
-std::unique_ptr<Scheme> make_splitting(const Scene& scene, double step, double fastest, int flight) {
+std::unique_ptr<Scheme> make_splitting(const Scene& scene, double step, double fastest, int longest,
+                                       int parts) {
+  if (scene.residual.size() > 0)
+    return make_flexible_splitting(scene, step, fastest);
   const Eigen::VectorXd masses = scaled_masses(scene, fastest);
   if ((masses.array() == 1.0).all())
-    return std::make_unique<Splitting>(scene, step, Eigen::VectorXd(), flight);
+    return std::make_unique<Splitting>(scene, step, Eigen::VectorXd(), longest, parts);
   return std::make_unique<Splitting>(with_masses(scene, masses), step, masses.cwiseSqrt().cwiseInverse(),
-                                     flight);
+                                     longest, parts);
 }
 
 } // namespace fretwork::transient

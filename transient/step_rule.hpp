@@ -56,6 +56,7 @@ struct StepChoice : SceneRates {
   double fastest =
       0.0; ///< rad/s: of the automatic step of splitting: faster modes are made heavier (mass_scaling.hpp); 0: none
   int scaled = 0; ///< how many modes that are
+  int parts = 1;  ///< intervals in which splitting moves contacts within a step
   int flight = 1; ///< steps that splitting makes at once while no contact can meet its obstacle
   double explicit_rate =
       0.0; ///< r_e, 1/s: of the dampers that only Euler and devogelaere have to resolve; 0 with others

@@ -112,28 +112,38 @@ TEST(ContactStatistics, CountTheWorkRateOnlyWhileTheContactSlides) {
   EXPECT_NEAR(s.tangential_max, 3.0, round_off);
 }
 
-// Forces that close or open between instants: their squares are the impulse times the force at the instant.
-TEST(ContactStatistics, TakeTheForceAtTheInstantOnceInSquares) {
+TEST(ContactStatistics, SumWhatTheStepsTell) {
   ContactStatistics statistics(1, 0.0);
   HandMade run(statistics, 1, h);
-  for (const bool slides : {true, false}) {
+  for (int k = 0; k < 2; ++k) { // closed for half of a step, sliding for a quarter
     auto& state = run.contact(0);
     state.normal_force = 10.0;
-    state.instant_share = 0.5;
-    state.pressing_share = 0.25;
-    state.friction = {0.0, 2.0};
-    state.slides = slides;
+    run.told(0) = true;
+    state.closed = 0.5;
+    state.normal_square = 300.0;
+    state.peak = 30.0;
+    state.friction_square = 20.0;
+    state.sliding = 0.25;
+    state.rubbed = 2e-3;
     state.slid = 1e-3;
+    state.touches = 1;
+    state.approach = 0.2 + 0.2 * k;
     run.step();
   }
   run.open(8);
   const ContactSummary s = statistics.summaries()[0];
-  EXPECT_NEAR(s.normal_rms, std::sqrt(0.5 * 200.0 / 10.0), round_off);
-  EXPECT_NEAR(s.normal_in_contact_rms, std::sqrt(0.5 * 200.0 / 2.0), round_off);
-  EXPECT_NEAR(s.normal_mean, 20.0 / 10.0, round_off);
-  EXPECT_NEAR(s.work_rate, 2.0 * 0.25 * 10.0 * 1e-3 / (10 * h), round_off);
-  EXPECT_NEAR(s.tangential_rms, std::sqrt((0.5 * 4.0 + 4.0) / 10.0),
-              round_off); // what sticks does not follow
+  EXPECT_EQ(s.impacts, 2);
+  EXPECT_NEAR(s.contact_time_ratio, 0.1, round_off);
+  EXPECT_NEAR(s.contact_duration_mean, 0.5 * h, round_off);
+  EXPECT_NEAR(s.normal_rms, std::sqrt(600.0 / 10.0), round_off);
+  EXPECT_NEAR(s.normal_in_contact_rms, std::sqrt(600.0 / 1.0), round_off);
+  EXPECT_NEAR(s.normal_mean, 2.0, round_off);
+  EXPECT_EQ(s.normal_max, 30.0);
+  EXPECT_NEAR(s.work_rate, 4e-3 / (10 * h), round_off);
+  EXPECT_NEAR(s.sliding_distance, 2e-3, round_off);
+  EXPECT_NEAR(s.sticking_ratio, 0.5, round_off);
+  EXPECT_NEAR(s.tangential_rms, std::sqrt(40.0 / 10.0), round_off);
+  EXPECT_NEAR(s.impact_velocity_mean, 0.3, round_off);
 }
 
 TEST(ContactStatistics, DescribeTheMotionOverAllSteps) {

@@ -4,6 +4,7 @@
 #pragma once
 #include "transient/kernels.hpp"
 #include "transient/run.hpp"
+#include <algorithm>
 #include <vector>
 
 namespace fretwork::tests {
@@ -31,8 +32,12 @@ public:
     opened_ = active_;
     active_.clear();
     for (std::size_t c = 0; c < states_.size(); ++c)
-      if (states_[c].normal_force > 0.0)
+      if (states_[c].normal_force > 0.0) {
         active_.push_back(static_cast<int>(c));
+        if (!told_)
+          states_[c].act_throughout(std::find(opened_.begin(), opened_.end(), static_cast<int>(c)) ==
+                                    opened_.end());
+      }
     std::erase_if(opened_, [&](int c) { return states_[static_cast<std::size_t>(c)].normal_force > 0.0; });
     record_.active = active_;
     record_.opened = opened_;
@@ -41,12 +46,15 @@ public:
     observer_.step(record_);
     for (auto& state : states_)
       state = {};
+    told_ = false;
   }
+  /// The next step has states that are told in full.
+  bool& told(std::size_t) { return told_; }
   /// Open steps, contact 0 having left at a speed before the first.
   void open(int steps, double leaving = 0.0) {
     for (int i = 0; i < steps; ++i) {
       if (i == 0 && leaving != 0.0)
-        states_[0].approach = -leaving;
+        states_[0].departure = leaving;
       step();
     }
   }
@@ -65,6 +73,7 @@ private:
   std::vector<transient::ContactState> states_;
   transient::kernels::Array uy_, uz_, q_;
   std::vector<int> active_, opened_;
+  bool told_ = false;
   double end_ = 0.0; ///< s: of the last step
 };
 

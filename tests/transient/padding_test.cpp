@@ -11,7 +11,8 @@ using namespace fretwork::transient;
 namespace {
 
 constexpr double explicit_tolerance = 1e-9; // round-off grown by some impacts
-constexpr double sweep_tolerance = 2e-4;    // the sweeps stop at 1e-6 of the forces; impacts amplify
+constexpr double sweep_tolerance =
+    1e-6; // sums in another order may make a sweep more or less; impacts amplify
 
 struct Size {
   int contacts, modes;
@@ -60,57 +61,48 @@ TEST(Padding, OfEulerIsNotSeen) {
   }
 }
 
+namespace {
+
+/// The scene with modes that nothing moves and contacts far from their obstacles, which nothing couples to the others.
+Scene padded_scene(const Scene& scene, int modes, int contacts) {
+  Scene out = scene;
+  const Eigen::Index n = scene.system.size(), all = n + modes;
+  const auto extend = [&](Eigen::VectorXd& v, double value) {
+    v.conservativeResize(all);
+    v.tail(modes).setConstant(value);
+  };
+  extend(out.system.stiffness, 1e4);
+  extend(out.system.damping, 0.0);
+  extend(out.q0, 0.0);
+  extend(out.v0, 0.0);
+  for (Load& load : out.loads)
+    extend(load.modal_force, 0.0);
+  for (ContactPoint& point : out.contacts) {
+    point.b.conservativeResize(3, all);
+    point.b.rightCols(modes).setZero();
+  }
+  for (int c = 0; c < contacts; ++c) {
+    ContactPoint far = out.contacts.front();
+    far.b.setZero();
+    far.support.obstacle = contact::Circle{1.0};
+    far.rest.setZero();
+    out.contacts.push_back(far);
+  }
+  return out;
+}
+
+} // namespace
+
 TEST(Padding, OfSplittingIsNotSeen) {
   constexpr double h = 1e-4;
   constexpr int steps = 400;
   for (const Size& size : sizes) {
-    const Scene scene = rattling(size.contacts, size.modes, h * steps);
-    const auto scheme = make_splitting(scene, h);
-    const PlainState a = last_state(*scheme, scene, steps), b = plain_splitting(scene, h, steps);
+    const Scene scene = rattling(size.contacts, size.modes, h * steps), more = padded_scene(scene, 3, 6);
+    const auto plain = make_splitting(scene, h, 0.0, 1, 2), padded = make_splitting(more, h, 0.0, 1, 2);
+    const PlainState a = last_state(*plain, scene, steps);
+    PlainState b = last_state(*padded, more, steps);
+    EXPECT_EQ(b.q.tail(3).norm(), 0.0);
+    b.q.conservativeResize(a.q.size());
     expect_same(a, b, sweep_tolerance, size);
   }
-}
-
-TEST(Padding, OfSplittingWithoutCoupledForcesIsNotSeenToRoundOff) {
-  constexpr double h = 1e-4;
-  constexpr int steps = 400;
-  for (const Size& size : sizes) {
-    Scene scene = rattling(size.contacts, size.modes, h * steps);
-    for (ContactPoint& c : scene.contacts) {
-      c.support.friction = {};
-      c.support.normal.damping = 0.0;
-    }
-    const auto scheme = make_splitting(scene, h);
-    const PlainState a = last_state(*scheme, scene, steps), b = plain_splitting(scene, h, steps);
-    expect_same(a, b, explicit_tolerance, size);
-  }
-}
-
-TEST(Padding, IsNotSeenWithHuntAndCrossleysDamperAndFrictionAlongOneDirection) {
-  constexpr int steps = 400;
-  for (const Size& size : sizes)
-    for (const contact::Vec2 along : {contact::Vec2{1.0, 0.0}, contact::Vec2{0.0, 1.0}}) {
-      Scene scene = rattling(size.contacts, size.modes, 1e-4 * steps);
-      for (ContactPoint& c : scene.contacts) {
-        c.support.normal.dissipation = 1.0;
-        c.support.friction.along = along;
-      }
-      const auto scheme = make_splitting(scene, 1e-4);
-      const PlainState a = last_state(*scheme, scene, steps), b = plain_splitting(scene, 1e-4, steps);
-      expect_same(a, b, sweep_tolerance, size);
-    }
-}
-
-TEST(PlanePair, TakesTheOppositeFaceForAnotherSurface) {
-  // a stiff tangential damper: what one face has loaded would still be there at the other
-  constexpr double h = 1e-5;
-  constexpr int steps = 1000;
-  Scene scene = mass_point(1.0, Vec3::Zero(), h * steps);
-  start(scene, 1.0, Vec3::Zero(), Vec3(0.02, 0.2, 0.01));
-  scene.contacts = {
-      contact_of(1.0, {contact::PlanePair{1e-5, contact::PlaneAxis::y}, {1e6}, {1e5, 1e3, 5.0, 5.0}})};
-  const auto scheme = make_splitting(scene, h);
-  const PlainState a = last_state(*scheme, scene, steps), b = plain_splitting(scene, h, steps);
-  expect_same(a, b, sweep_tolerance, {1, 3});
-  EXPECT_GT(b.closed, steps / 4);
 }

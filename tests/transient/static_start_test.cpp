@@ -264,18 +264,13 @@ TEST(StaticStart, IsWhereEulerStays) {
   EXPECT_LT(d.force, round_off);
 }
 
-TEST(StaticStart, IsWhereSplittingStaysToItsOrder) {
-  // Half a step before its first action the scheme's own point of rest differs by (w h)^2/24 per mode, which the start takes into account;
-  // what is left of it is of order 4.
+TEST(StaticStart, IsWhereSplittingStaysAtAnyStep) {
   const Scene scene = preloaded(5);
   const double highest = std::sqrt(scene.system.stiffness.maxCoeff());
-  double before = 0.0;
-  for (const double wh : {0.8, 0.4, 0.2, 0.1}) {
+  constexpr double sweeps = 1e-7; // what they leave, settled to 1e-4 of changes
+  for (const double wh : {2.4, 0.8, 0.1}) {
     const Drift d = drift(scene, splitting(wh / highest));
-    EXPECT_LT(d.displacement, 0.02 * std::pow(wh, 4)) << wh;
-    if (before > 0.0) {
-      EXPECT_NEAR(std::log2(before / d.displacement), 4.0, 0.3) << wh;
-    }
-    before = d.displacement;
+    EXPECT_LT(d.displacement, sweeps) << wh;
+    EXPECT_LT(d.force, sweeps) << wh;
   }
 }

@@ -97,7 +97,9 @@ TEST(TwoNodes, WithoutFrictionKeepTheirSpin) {
       const double before = spin(meeting.apart, run.q.col(0), run.v.col(0));
       EXPECT_GT(run.statistics[0].impacts, 0);
       EXPECT_EQ(run.normal(0, last), 0.0); // apart again: the interpolation is free flight
-      EXPECT_NEAR(spin(meeting.apart, run.q.col(last), run.v.col(last)) / before, 1.0, round_off);
+      // splitting pushes along the normal in the middle of an interval: of order 2
+      const double tolerance = run.choice.scheme == SchemeKind::splitting ? 1e-6 : round_off;
+      EXPECT_NEAR(spin(meeting.apart, run.q.col(last), run.v.col(last)) / before, 1.0, tolerance);
     }
 }
 
