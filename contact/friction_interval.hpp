@@ -9,7 +9,7 @@
 ///     slip   F: mu_d times the mean of N;   T1 = T + (1 - e^-r)(F_s - T),  r = K_T tau/C_T;   until the slider stands
 /// F_s is the force at the share s = 1/(1 - e^-r) - 1/r of the piece, of length mu_d N there and along T - (s K_T + C_T/tau) dx; T1 is exact where F is linear in time,
 /// from slow dampers (s = 1/2) to none (s = 1: radial return). The slider's speed against F is (|T - C_T v| - mu_d N)/C_T, without damper -v - mu_d N'/K_T
-/// along F. Order 2, wherever in an interval the contact begins and ends to slide.
+/// along F. Order 2, wherever in an interval the contact begins and ends to slide; directions of slip that turn without damper: order 1.
 #pragma once
 #include "contact/friction_law.hpp"
 

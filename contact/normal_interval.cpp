@@ -72,7 +72,8 @@ NormalInterval press(const NormalLaw& law, double dt, double mobility, double sh
   const double bent = std::min(most_bent, law.stiffness * mobility * dt * dt / 12.0);
   const double k = law.stiffness / (1.0 - bent);
   const double lag = mobility > 0.0 ? bent * path.acceleration / (law.stiffness * mobility) : 0.0;
-  const double n0 = p0 > 0.0 ? normal_force(law, p0, path.rate) : 0.0;
+  // that of the mean law: with K_h and a
+  const double n0 = p0 > 0.0 ? std::max(0.0, k * (p0 - lag) + law.damping_at(p0) * path.rate) : 0.0;
   const MeanLaw mean_law{k,  lag, law.damping / dt,   0.5 * law.stiffness * law.dissipation / dt,
                          p0, n0,  share > most_linear};
   const double b = share * mobility * dt * dt;

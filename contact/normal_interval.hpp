@@ -5,7 +5,7 @@
 ///                           (N0 + N1)/2 = K_h ((p0 + p1)/2 - s^2 a dt^2/12) + (C_N (p1 - p0) + K_N d (<p1>^2 - p0^2)/2)/dt
 ///     open at the start     F = <K_h M + (C_N <p1> + K_N d <p1>^2/2)/dt>+
 ///     p1 = end - beta W dt^2 F,   1/K_h = (1/K_N)(1 - x^2/12),   x^2 = K_N W dt^2
-///     N0    force of the law at the start; M: mean of <p> along the straight line from p0 to p1, s: share of it that is closed
+///     N0    force at the start, K_h (p0 - a dt^2/12) + c(p0) p'; M: mean of <p> along the straight line from p0 to p1, s: share of it that is closed
 ///     a     p'' without this force; end: p1 without it
 ///     W     mobility of the contact along its normal, 1/kg
 /// Spring: its work is -(V1 - V0), V = K_h <p>^2/2, so that an impact without losses keeps its energy wherever in an interval it begins and ends.

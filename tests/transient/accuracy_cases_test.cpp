@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Scenes that the automatic step of splitting was not made on, at an accuracy of 0.01, against converged values of independent integrators.
+#include "scenes.hpp"
+#include <gtest/gtest.h>
+
+using namespace fretwork;
+using namespace fretwork::tests;
+using namespace fretwork::transient;
+using contact::PlaneAxis;
+
+namespace {
+
+post::ContactSummary statistics(const Scene& scene) {
+  return simulate(scene, splitting(), scene.duration).statistics[0];
+}
+
+Load random_on(double mass, const Vec3& direction, double rms, double low, double high, std::uint64_t seed) {
+  return force_on(mass, direction, Random{rms, low, high, seed});
+}
+
+} // namespace
+
+TEST(AccuracyCases, DirectionOfSlipWithoutTangentialDamper) {
+  constexpr double mass = 1.0;
+  Scene s = mass_point(mass, Vec3(400.0, 700.0, 1100.0), 2.0);
+  for (Eigen::Index i = 0; i < 3; ++i)
+    s.system.damping(i) = 2.0 * 0.02 * std::sqrt(s.system.stiffness(i));
+  s.contacts = {contact_of(mass, {contact::Stop{0.0, PlaneAxis::z}, {1e5}, {2e4, 0.0, 0.3, 0.3}})};
+  s.contacts[0].rest.z() = 1e-3;
+  s.loads = {force_on(mass, {45.0, 0.0, 0.0}, Harmonic{1.0, 4.0}),
+             force_on(mass, {0.0, 45.0, 0.0}, Harmonic{1.0, 8.0, 0.7}),
+             force_on(mass, {0.0, 0.0, 20.0}, Harmonic{1.0, 9.0})};
+  EXPECT_NEAR(statistics(s).work_rate / 116.771, 1.0, 1e-3);
+}
+
+TEST(AccuracyCases, PartialStickWithANormalDamper) {
+  constexpr double mass = 0.24555352424019936, low = 6.440028968449738, high = 172.22316326606094;
+  Scene s = mass_point(mass, Vec3(16842.32283174656, 10051.284337983529, 10630.461646610309), 200.0);
+  for (Eigen::Index i = 0; i < 3; ++i)
+    s.system.damping(i) = 2.0 * 0.005 * std::sqrt(s.system.stiffness(i));
+  s.contacts = {contact_of(mass, {contact::Stop{0.0004341313813140947, PlaneAxis::y},
+                                  {18252072.36199965, 583.4620460804588},
+                                  {427678.355392553, 453.6905748629477, 1.0, 1.0}})};
+  s.loads = {random_on(mass, {1, 0, 0}, 5.139079492616109, low, high, 70),
+             random_on(mass, {0, 1, 0}, 5.780567594016632, low, high, 71),
+             random_on(mass, {0, 0, 1}, 4.624454075213306, low, high, 72)};
+  const post::ContactSummary c = statistics(s);
+  // two standard errors of 200 s and 2 %; with one impulse a step: +34, +60 and +14 %
+  EXPECT_NEAR(c.work_rate / 0.0456, 1.0, 0.02 + 2.0 * c.error.work_rate / c.work_rate);
+  EXPECT_NEAR(c.friction_power / 0.0165, 1.0, 0.02 + 2.0 * c.error.friction_power / c.friction_power);
+  EXPECT_NEAR(c.contact_time_ratio / 0.0136, 1.0, 0.03);
+}
+
+TEST(AccuracyCases, AFreeMassCrossesItsGapWithinAStep) {
+  // between two planes of a soft contact: a period of 4 gap/v + 2 pi/w_c, whatever the step
+  constexpr double mass = 1.0, stiffness = 1e4, gap = 1e-4, speed = 1.0, duration = 5.0;
+  Scene s = mass_point(mass, Vec3::Zero(), duration);
+  start(s, mass, Vec3::Zero(), Vec3(0, speed, 0));
+  s.contacts = {contact_of(mass, {contact::PlanePair{gap, PlaneAxis::y}, {stiffness}, {}})};
+  const double w = std::sqrt(stiffness / mass), half_period = 2.0 * gap / speed + std::numbers::pi / w;
+  for (const double step : {0.1 / w, 0.8 / w}) { // the crossing takes 0.02/w
+    const auto c = simulate(s, splitting(step), duration).statistics[0];
+    EXPECT_NEAR(static_cast<double>(c.impacts), duration / half_period, 2.0) << step;
+    EXPECT_NEAR(c.contact_duration_mean * w / std::numbers::pi, 1.0, 0.01) << step;
+    EXPECT_NEAR(c.departure_velocity_mean, speed, 0.01) << step;
+  }
+}
