@@ -199,14 +199,16 @@ PieceTable piece_table(const FrictionLaw& law, double mobility, double length) {
   return t;
 }
 
-FrictionInterval<double> rub(const FrictionLaw& law, const PieceTable& usual, double mobility, double spring,
-                             bool sliding, double length, double normal0, double normal1,
-                             const TangentialPath<double, double>& path) {
+FrictionInterval<double> friction_over_interval(const FrictionLaw& law, const PieceTable& usual,
+                                                double mobility, double spring, bool sliding, double length,
+                                                double normal0, double normal1,
+                                                const TangentialPath<double, double>& path) {
   return Pieces<double, double>(law, usual, mobility, spring, sliding, length, normal0, normal1, path).all();
 }
-FrictionInterval<Vec2> rub(const FrictionLaw& law, const PieceTable& usual, double mobility, Vec2 spring,
-                           bool sliding, double length, double normal0, double normal1,
-                           const TangentialPath<Vec2, Sym2>& path) {
+FrictionInterval<Vec2> friction_over_interval(const FrictionLaw& law, const PieceTable& usual,
+                                              double mobility, Vec2 spring, bool sliding, double length,
+                                              double normal0, double normal1,
+                                              const TangentialPath<Vec2, Sym2>& path) {
   return Pieces<Vec2, Sym2>(law, usual, mobility, spring, sliding, length, normal0, normal1, path).all();
 }
 

@@ -49,12 +49,14 @@ template <class V> struct FrictionInterval {
 
 /// @param usual  of the whole interval, if it is of the usual length
 /// @param length  s   @param normal0, normal1  N, at its ends   @param mobility  1/kg, as that of `usual`
-[[nodiscard]] FrictionInterval<double> rub(const FrictionLaw& law, const PieceTable& usual, double mobility,
-                                           double spring, bool sliding, double length, double normal0,
-                                           double normal1, const TangentialPath<double, double>& path);
-[[nodiscard]] FrictionInterval<Vec2> rub(const FrictionLaw& law, const PieceTable& usual, double mobility,
-                                         Vec2 spring, bool sliding, double length, double normal0,
-                                         double normal1, const TangentialPath<Vec2, Sym2>& path);
+[[nodiscard]] FrictionInterval<double> friction_over_interval(const FrictionLaw& law, const PieceTable& usual,
+                                                              double mobility, double spring, bool sliding,
+                                                              double length, double normal0, double normal1,
+                                                              const TangentialPath<double, double>& path);
+[[nodiscard]] FrictionInterval<Vec2> friction_over_interval(const FrictionLaw& law, const PieceTable& usual,
+                                                            double mobility, Vec2 spring, bool sliding,
+                                                            double length, double normal0, double normal1,
+                                                            const TangentialPath<Vec2, Sym2>& path);
 
 /// Share of the spring's force that is left of an open contact after t seconds.
 [[nodiscard]] double spring_left(const FrictionLaw& law, double t);

@@ -63,7 +63,8 @@ double solve(const MeanLaw& law, double end, double b) {
 
 } // namespace
 
-NormalInterval press(const NormalLaw& law, double dt, double mobility, double share, const NormalPath& path) {
+NormalInterval normal_over_interval(const NormalLaw& law, double dt, double mobility, double share,
+                                    const NormalPath& path) {
   NormalInterval out;
   out.end = path.end;
   const double p0 = path.start;

@@ -44,7 +44,7 @@ struct NormalInterval {
 [[nodiscard]] inline double implicit_share(double z) { return 0.5 + 0.5 * z / std::sqrt(36.0 + z * z); }
 
 /// @param dt  s   @param mobility  W, 1/kg   @param share  beta
-[[nodiscard]] NormalInterval press(const NormalLaw& law, double dt, double mobility, double share,
-                                   const NormalPath& path);
+[[nodiscard]] NormalInterval normal_over_interval(const NormalLaw& law, double dt, double mobility,
+                                                  double share, const NormalPath& path);
 
 } // namespace fretwork::contact

@@ -19,9 +19,9 @@ double energy(const contact::FrictionLaw& law, contact::Vec2 spring) {
 
 /// Of the memory `reference`: one mean force over the interval.
 contact::FrictionInterval<contact::Vec2>
-rub_by_reference(const contact::FrictionLaw& law, const contact::FrictionTable& table,
-                 const contact::FrictionMemory& memory, double normal, double length,
-                 const contact::TangentialPath<contact::Vec2, contact::Sym2>& path) {
+reference_friction(const contact::FrictionLaw& law, const contact::FrictionTable& table,
+                   const contact::FrictionMemory& memory, double normal, double length,
+                   const contact::TangentialPath<contact::Vec2, contact::Sym2>& path) {
   const double half = 0.5 * length;
   const contact::Sym2 answer{half * path.mobility.xx, half * path.mobility.xt, half * path.mobility.tt};
   const contact::Vec2 free = path.velocity + half * path.acceleration - answer * path.held;
@@ -269,11 +269,11 @@ ContactIntervals::Free ContactIntervals::free_motion(const Moving& m) const {
 /// One contact with all others held.
 void ContactIntervals::improve(Moving& m) {
   const Free free = free_motion(m);
-  const double change = press(m, free);
+  const double change = find_normal_force(m, free);
   const double normal = m.normal.force;
   double force[3] = {normal * m.ny, normal * m.nz, 0.0};
   if (contacts_.supports[m.c].friction.active()) {
-    rub(m, free, change);
+    find_friction(m, free, change);
     force[0] += m.friction.t * m.nz;
     force[1] -= m.friction.t * m.ny;
     force[2] = m.friction.x;
@@ -293,7 +293,7 @@ void ContactIntervals::improve(Moving& m) {
 }
 
 /// Normal force of the interval. Returns its change from the one that is held.
-double ContactIntervals::press(Moving& m, const Free& free) {
+double ContactIntervals::find_normal_force(Moving& m, const Free& free) {
   const int c = m.c;
   const contact::Support& support = contacts_.supports[c];
   const double* held = entries_[c].force.held;
@@ -333,14 +333,14 @@ double ContactIntervals::press(Moving& m, const Free& free) {
   const contact::NormalPath path{
       start, end + half * wnn * (own_n + held_n) + (share - 0.5) * dt_ * dt_ * acceleration,
       -(at_y * (m.v0[0] + rate_[y]) + at_z * (m.v0[1] + rate_[z])), acceleration};
-  m.normal = contact::press(support.normal, dt_, wnn, share, path);
+  m.normal = contact::normal_over_interval(support.normal, dt_, wnn, share, path);
   m.damper_work = m.normal.damper_work;
   m.to.gap = -m.normal.end;
   return m.normal.force - held_n;
 }
 
 /// Friction of the interval under its normal force.
-void ContactIntervals::rub(Moving& m, const Free& free, double normal_change) {
+void ContactIntervals::find_friction(Moving& m, const Free& free, double normal_change) {
   const contact::FrictionLaw& law = contacts_.supports[m.c].friction;
   const Entry& e = entries_[m.c];
   m.friction = m.displacement = {};
@@ -351,7 +351,7 @@ void ContactIntervals::rub(Moving& m, const Free& free, double normal_change) {
     m.damper_work += energy(law, e.friction.spring);
   }
   if (m.normal.force > 0.0) {
-    rub_closed(m, free, normal_change, m.memory);
+    find_closed_friction(m, free, normal_change, m.memory);
     return;
   }
   m.memory.sliding = false;
@@ -361,8 +361,8 @@ void ContactIntervals::rub(Moving& m, const Free& free, double normal_change) {
   }
 }
 
-void ContactIntervals::rub_closed(Moving& m, const Free& free, double normal_change,
-                                  contact::FrictionMemory memory) {
+void ContactIntervals::find_closed_friction(Moving& m, const Free& free, double normal_change,
+                                            contact::FrictionMemory memory) {
   const int c = m.c;
   const contact::FrictionLaw& law = contacts_.supports[c].friction;
   const Law& own = laws_[c];
@@ -416,21 +416,23 @@ void ContactIntervals::rub_closed(Moving& m, const Free& free, double normal_cha
         {along.x * x.acceleration, along.t * t.acceleration},
         {along.x * x.held, along.t * t.held},
         {along.x * w(c, 2, 2), along.x * along.t * wxt, along.t * wtt}};
-    const auto f = by_reference ? rub_by_reference(law, own.table, memory, m.normal.force, length, path)
-                                : contact::rub(law, own.piece, own.mobility, memory.spring, memory.sliding,
-                                               length, m.normal.first, m.normal.last, path);
+    const auto f = by_reference ? reference_friction(law, own.table, memory, m.normal.force, length, path)
+                                : contact::friction_over_interval(law, own.piece, own.mobility, memory.spring,
+                                                                  memory.sliding, length, m.normal.first,
+                                                                  m.normal.last, path);
     close(f, f.impulse, f.displacement, f.spring);
   } else {
     const contact::TangentialPath<double, double> path{
         law.along.t * velocity(t), law.along.t * t.acceleration, law.along.t * t.held, law.along.t * wtt};
     if (by_reference) {
-      const auto f = rub_by_reference(
+      const auto f = reference_friction(
           law, own.table, memory, m.normal.force, length,
           {{0.0, path.velocity}, {0.0, path.acceleration}, {0.0, path.held}, {0.0, 0.0, path.mobility}});
       close(f, f.impulse, f.displacement, f.spring);
     } else {
-      const auto f = contact::rub(law, own.piece, own.mobility, memory.spring.t, memory.sliding, length,
-                                  m.normal.first, m.normal.last, path);
+      const auto f =
+          contact::friction_over_interval(law, own.piece, own.mobility, memory.spring.t, memory.sliding,
+                                          length, m.normal.first, m.normal.last, path);
       close(f, {0.0, f.impulse}, {0.0, f.displacement}, {0.0, f.spring});
     }
   }

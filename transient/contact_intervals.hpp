@@ -110,9 +110,10 @@ private:
   [[nodiscard]] Free free_motion(const Moving& m) const;
   void improve(Moving& m);
   [[nodiscard]] double pushed_since(const Moving& m) const;
-  double press(Moving& m, const Free& free);
-  void rub(Moving& m, const Free& free, double normal_change);
-  void rub_closed(Moving& m, const Free& free, double normal_change, contact::FrictionMemory memory);
+  double find_normal_force(Moving& m, const Free& free);
+  void find_friction(Moving& m, const Free& free, double normal_change);
+  void find_closed_friction(Moving& m, const Free& free, double normal_change,
+                            contact::FrictionMemory memory);
   void finish(Moving& m, ContactState& state, double middle, double share);
   double relax(int c, double time);
 

@@ -1,23 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/loaded_flow.hpp"
+#include "transient/modal_flow.hpp"
 #include "transient/oscillator.hpp"
 #include <algorithm>
 
 namespace fretwork::transient {
-namespace {
-
-/// Coupled modes stay where they are: their flow follows the table's.
-kernels::FlowTable flow_table(const System& system, const MatrixFlow& coupled, double h) {
-  kernels::FlowTable t(kernels::padded(static_cast<int>(system.size())));
-  for (Eigen::Index j = 0; j < system.size(); ++j) {
-    constexpr StepCoefficients none{1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0};
-    const double k = system.stiffness(j);
-    t.set(j, k, coupled.couples(j) ? none : step_coefficients(k, system.damping(j), h));
-  }
-  return t;
-}
-
-} // namespace
 
 LoadedFlow::LoadedFlow(const Scene& scene, double step)
     : system_(with_diagonal(scene.system)), h_(step),

@@ -4,9 +4,7 @@
 #include <algorithm>
 
 namespace fretwork::transient {
-namespace {
 
-/// Coupled modes stay where they are: their flow follows the table's.
 kernels::FlowTable flow_table(const System& system, const MatrixFlow& coupled, double h) {
   kernels::FlowTable t(kernels::padded(static_cast<int>(system.size())));
   for (Eigen::Index j = 0; j < system.size(); ++j) {
@@ -16,6 +14,8 @@ kernels::FlowTable flow_table(const System& system, const MatrixFlow& coupled, d
   }
   return t;
 }
+
+namespace {
 
 /// Under a load that goes to the mean of both ends by then; coupled modes as above.
 kernels::MiddleTable middle_table(const System& system, const MatrixFlow& coupled, double h) {

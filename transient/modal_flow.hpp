@@ -9,6 +9,9 @@
 
 namespace fretwork::transient {
 
+/// The exact flow of the modes over h seconds; modes that a damping matrix couples stay where they are, for theirs follows.
+[[nodiscard]] kernels::FlowTable flow_table(const System& system, const MatrixFlow& coupled, double h);
+
 /// A force on the modes over a step, from mean - slope at its start to mean + slope at its end, padded.
 struct ModalForce {
   kernels::Array mean, slope;

@@ -21,7 +21,7 @@ Impact impact(const NormalLaw& law, double dt, double phase) {
   double p = -phase * dt, rate = 1.0;
   for (int i = 0; i < 1000000 && (p > -2.0 * dt || rate > 0.0); ++i) {
     const NormalInterval n =
-        press(law, dt, 1.0, implicit_share(law.damping * dt), {p, p + dt * rate, rate, 0.0});
+        normal_over_interval(law, dt, 1.0, implicit_share(law.damping * dt), {p, p + dt * rate, rate, 0.0});
     p = n.end;
     rate -= dt * n.force;
     out.time += dt * (n.to - n.from);
@@ -71,7 +71,7 @@ TEST(NormalInterval, RestsWhereTheLawRests) {
       const double share = implicit_share(damping * dt);
       const double end = load / stiffness + share * load * dt * dt;
       const NormalInterval n =
-          press({stiffness, damping}, dt, 1.0, share, {load / stiffness, end, 0.0, load});
+          normal_over_interval({stiffness, damping}, dt, 1.0, share, {load / stiffness, end, 0.0, load});
       EXPECT_NEAR(n.force, load, 1e-10)
           << dt << " " << damping; // of end, which is large against the penetration
       EXPECT_NEAR(n.end, load / stiffness, 1e-10 * end);
@@ -112,7 +112,8 @@ TEST(FrictionInterval, LeadsASpringWithoutDamperBackToTheBoundRadially) {
     const double dt = length / intervals;
     for (int i = 0; i < intervals; ++i) {
       const PieceTable table = piece_table(law, 0.0, dt);
-      const auto f = rub(law, table, 0.0, spring, true, dt, 1.0, 1.0, driven<Vec2, Sym2>({0.0, speed}));
+      const auto f = friction_over_interval(law, table, 0.0, spring, true, dt, 1.0, 1.0,
+                                            driven<Vec2, Sym2>({0.0, speed}));
       spring = f.spring;
       EXPECT_NEAR(norm(spring), bound, round_off);
       EXPECT_GE(f.slider_work, 0.0);
@@ -129,8 +130,8 @@ TEST(FrictionInterval, StartsToSlideInsideTheInterval) {
   constexpr double dt = 1.0, v = 0.5; // K v = 1 N/s
   for (const double growth : {0.0, 0.8}) {
     const double begin = 0.5 / (1.0 - 0.5 * growth);
-    const auto f = rub(law, piece_table(law, 0.0, dt), 0.0, 0.0, false, dt, 1.0, 1.0 + growth,
-                       driven<double, double>(v));
+    const auto f = friction_over_interval(law, piece_table(law, 0.0, dt), 0.0, 0.0, false, dt, 1.0,
+                                          1.0 + growth, driven<double, double>(v));
     EXPECT_NEAR(f.sliding_time, dt - begin, round_off);
     EXPECT_NEAR(f.slid, v * (dt - begin), round_off);
     EXPECT_NEAR(f.spring, -0.5 * (1.0 + growth), round_off);
@@ -142,7 +143,8 @@ TEST(FrictionInterval, StopsToSlideInsideTheInterval) {
   // a mass that friction brings to rest: after v/(mu N), whatever the interval
   constexpr double v = 0.2, stop = 0.4;
   const FrictionLaw stiff{1e6, 0.0, 0.5, 0.5};
-  const auto f = rub(stiff, piece_table(stiff, 1.0, 1.0), 1.0, -0.5, true, 1.0, 1.0, 1.0, {v, 0.0, 0.0, 1.0});
+  const auto f = friction_over_interval(stiff, piece_table(stiff, 1.0, 1.0), 1.0, -0.5, true, 1.0, 1.0, 1.0,
+                                        {v, 0.0, 0.0, 1.0});
   EXPECT_NEAR(f.sliding_time, stop, 1e-3); // the spring's stretch: mu N/K
   EXPECT_NEAR(f.slid, 0.5 * v * stop, 1e-3 * v * stop);
   EXPECT_NEAR(f.slider_work, 0.5 * v * v, 1e-3 * v * v);
@@ -152,8 +154,8 @@ TEST(FrictionInterval, StopsToSlideInsideTheInterval) {
 TEST(FrictionInterval, RestsUnderAForceThatIsHeld) {
   for (const double damping : {0.0, 0.3, 100.0}) {
     const FrictionLaw damped{2.0, damping, 0.5, 0.5};
-    const auto f =
-        rub(damped, piece_table(damped, 1.0, 0.7), 1.0, 0.2, false, 0.7, 1.0, 1.0, {0.0, 0.0, 0.2, 1.0});
+    const auto f = friction_over_interval(damped, piece_table(damped, 1.0, 0.7), 1.0, 0.2, false, 0.7, 1.0,
+                                          1.0, {0.0, 0.0, 0.2, 1.0});
     EXPECT_NEAR(f.displacement, 0.0, round_off) << damping;
     EXPECT_NEAR(f.spring, 0.2, round_off) << damping;
   }
