@@ -69,11 +69,11 @@ private:
   };
   /// Without its own force; `answer`: what an acceleration of 1 moves it, s2.
   [[nodiscard]] V free_displacement(const PieceTable& t, double answer) const {
-    return t.length * out_.velocity + answer * (path_.acceleration - path_.mobility * path_.held);
+    return t.length * out_.velocity + answer * path_.acceleration;
   }
   void move(const PieceTable& t, V free, double answer, Piece& p) const {
     p.by = free + answer * (path_.mobility * p.force);
-    p.velocity = out_.velocity + t.length * (path_.acceleration + path_.mobility * (p.force - path_.held));
+    p.velocity = out_.velocity + t.length * (path_.acceleration + path_.mobility * p.force);
   }
 
   [[nodiscard]] Piece sticking(const PieceTable& t) const {
@@ -186,7 +186,6 @@ private:
 };
 
 } // namespace
-
 PieceTable piece_table(const FrictionLaw& law, double mobility, double length) {
   PieceTable t;
   const double c = law.damping / length, r = law.damping > 0.0 ? law.stiffness / c : no_damper;

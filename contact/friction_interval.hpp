@@ -2,9 +2,9 @@
 /// @file
 /// Friction of one contact (friction_law.hpp, `return_map`) over an interval in which its normal force N is linear in time. The contact moves under
 /// the force F of friction, over a time tau from the velocity v, by
-///     dx = tau v + beta tau^2 (a + A (F - held)),    v1 = v + tau (a + A (F - held))
-/// A its mobility, beta: implicit_share in stick, 1/2 in slip, `held` the force of friction that v and a have in them already. The interval is made in pieces of stick and
-/// slip, each of which ends where the law says so:
+///     dx = tau v + beta tau^2 (a + A F),    v1 = v + tau (a + A F)
+/// A its mobility, beta: implicit_share in stick, 1/2 in slip. The interval is made in pieces of stick and slip, each of which ends where the law says
+/// so:
 ///     stick  F = T - (K_T/2 + C_T/tau) dx,   T1 = T - K_T dx;   until |T - C_T v| reaches mu_s N
 ///     slip   F: mu_d times the mean of N;   T1 = T + (1 - e^-r)(F_s - T),  r = K_T tau/C_T;   until the slider stands
 /// F_s is the force at the share s = 1/(1 - e^-r) - 1/r of the piece, of length mu_d N there and along T - (s K_T + C_T/tau) dx; T1 is exact where F is linear in time,
@@ -18,8 +18,7 @@ namespace fretwork::contact {
 /// Motion in the tangent plane (V = Vec2, M = Sym2), or on the line across x_loc (V = M = double).
 template <class V, class M> struct TangentialPath {
   V velocity;     ///< m/s, at the start
-  V acceleration; ///< m/s2
-  V held;         ///< N
+  V acceleration; ///< m/s2, without friction
   M mobility;     ///< 1/kg
 };
 

@@ -26,7 +26,7 @@ struct MeanLaw {
   [[nodiscard]] Mean at(double p1) const {
     const double closed1 = std::max(p1, 0.0), damped = d * closed1;
     const double by_end = c + 2.0 * damped;
-    if (p0 <= 0.0) {
+    if (p0 < 0.0) {
       const double force = k * mean_penetration(p0, p1) + c * closed1 + damped * closed1;
       return {force, p1 > 0.0 ? k * mean_slopes(p0, p1).by_p2 + by_end : 0.0, force};
     }
@@ -44,12 +44,6 @@ struct MeanLaw {
 /// F = law(end - b F), F >= 0.
 double solve(const MeanLaw& law, double end, double b) {
   double force = 0.0;
-  if (law.p0 > 0.0 && law.d == 0.0) { // closed to the end, as in most intervals: linear
-    const MeanLaw::Mean mean = law.at(end);
-    force = std::max(0.0, mean.force / (1.0 + b * mean.slope));
-    if (mean.last >= 0.0 && end - b * force > 0.0 && law.at(end - b * force).last >= 0.0)
-      return force;
-  }
   for (int i = 0; i < most_iterations; ++i) {
     const MeanLaw::Mean mean = law.at(end - b * force);
     const double next = std::max(0.0, force + (mean.force - force) / (1.0 + b * mean.slope));
@@ -63,21 +57,35 @@ double solve(const MeanLaw& law, double end, double b) {
 
 } // namespace
 
-NormalInterval normal_over_interval(const NormalLaw& law, double dt, double mobility, double share,
-                                    const NormalPath& path) {
+NormalInterval normal_over_interval(const NormalLaw& law, double dt, double usual, double mobility,
+                                    double share, const NormalPath& path) {
   NormalInterval out;
   out.end = path.end;
   const double p0 = path.start;
   if (p0 <= 0.0 && path.end <= 0.0)
     return out;
-  const double bent = std::min(most_bent, law.stiffness * mobility * dt * dt / 12.0);
+  const double bent = std::min(most_bent, law.stiffness * mobility * usual * usual / 12.0);
   const double k = law.stiffness / (1.0 - bent);
   const double lag = mobility > 0.0 ? bent * path.acceleration / (law.stiffness * mobility) : 0.0;
   // that of the mean law: with K_h and a
-  const double n0 = p0 > 0.0 ? std::max(0.0, k * (p0 - lag) + law.damping_at(p0) * path.rate) : 0.0;
+  const double n0 = p0 >= 0.0 ? std::max(0.0, k * (p0 - lag) + law.damping_at(p0) * path.rate) : 0.0;
   const MeanLaw mean_law{k,  lag, law.damping / dt,   0.5 * law.stiffness * law.dissipation / dt,
                          p0, n0,  share > most_linear};
   const double b = share * mobility * dt * dt;
+  if (p0 >= 0.0 && law.dissipation == 0.0) { // closed to the end, as in most intervals: linear
+    const double c = mean_law.c;
+    const double force =
+        std::max(0.0, (k * (0.5 * (p0 + path.end) - lag) + c * (path.end - p0)) / (1.0 + b * (0.5 * k + c)));
+    const double p1 = path.end - b * force, last = mean_law.stiff ? force : 2.0 * force - n0;
+    if (p1 > 0.0 && last >= 0.0)
+      return {force,
+              p1,
+              0.0,
+              1.0,
+              mean_law.stiff ? force : n0,
+              last,
+              (force + k * lag) * (p1 - p0) - 0.5 * k * (p1 * p1 - p0 * p0)};
+  }
   out.force = solve(mean_law, path.end, b);
   const double p1 = out.end = path.end - b * out.force;
   const double closed0 = std::max(p0, 0.0), closed1 = std::max(p1, 0.0), s = closed_share(p0, p1);
@@ -85,9 +93,9 @@ NormalInterval normal_over_interval(const NormalLaw& law, double dt, double mobi
     out.damper_work = 0.5 * law.stiffness * (closed0 * closed0 - closed1 * closed1);
     return out;
   }
-  const double spring = p0 > 0.0 ? out.force + k * s * s * lag : out.force;
+  const double spring = p0 >= 0.0 ? out.force + k * s * s * lag : out.force;
   out.damper_work = spring * (p1 - p0) - 0.5 * k * (closed1 * closed1 - closed0 * closed0);
-  if (p0 > 0.0) {
+  if (p0 >= 0.0) {
     const double last = mean_law.at(p1).last;
     out.first = mean_law.stiff ? out.force : n0;
     out.last = std::max(0.0, last);

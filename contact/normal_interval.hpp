@@ -4,7 +4,7 @@
 ///     closed at the start   F = mean of the positive part of a force that goes linearly from N0 to N1,
 ///                           (N0 + N1)/2 = K_h ((p0 + p1)/2 - s^2 a dt^2/12) + (C_N (p1 - p0) + K_N d (<p1>^2 - p0^2)/2)/dt
 ///     open at the start     F = <K_h M + (C_N <p1> + K_N d <p1>^2/2)/dt>+
-///     p1 = end - beta W dt^2 F,   1/K_h = (1/K_N)(1 - x^2/12),   x^2 = K_N W dt^2
+///     p1 = end - beta W dt^2 F,   1/K_h = (1/K_N)(1 - x^2/12),   x^2 = K_N W dt_u^2
 ///     N0    force at the start, K_h (p0 - a dt^2/12) + c(p0) p'; M: mean of <p> along the straight line from p0 to p1, s: share of it that is closed
 ///     a     p'' without this force; end: p1 without it
 ///     W     mobility of the contact along its normal, 1/kg
@@ -43,8 +43,8 @@ struct NormalInterval {
 /// implicit midpoint, a stiff damper would turn the speed round.
 [[nodiscard]] inline double implicit_share(double z) { return 0.5 + 0.5 * z / std::sqrt(36.0 + z * z); }
 
-/// @param dt  s   @param mobility  W, 1/kg   @param share  beta
-[[nodiscard]] NormalInterval normal_over_interval(const NormalLaw& law, double dt, double mobility,
-                                                  double share, const NormalPath& path);
+/// @param dt  s   @param usual  s: that of most intervals of the contact, >= dt   @param mobility  W, 1/kg   @param share  beta
+[[nodiscard]] NormalInterval normal_over_interval(const NormalLaw& law, double dt, double usual,
+                                                  double mobility, double share, const NormalPath& path);
 
 } // namespace fretwork::contact

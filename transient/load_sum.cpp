@@ -2,8 +2,17 @@
 #include "transient/load_sum.hpp"
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace fretwork::transient {
+namespace {
+
+/// pi f h up to which a polygon is taken to follow a harmonic load.
+constexpr double most_corrected = 0.5;
+/// Likewise a random one, in intervals of its samples, of which there are 32 a period.
+constexpr double most_grid_steps = 5.0;
+
+} // namespace
 
 LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double duration, double step)
     : padded_modes_(kernels::padded(static_cast<int>(modes))), step_(step) {
@@ -21,6 +30,9 @@ LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double dura
       sines_.push_back(harmonic && step > 0.0 && std::isfinite(step)
                            ? std::optional<GridSine>({*harmonic, 0.5 * step})
                            : std::nullopt);
+      const double half_turn = harmonic ? std::numbers::pi * harmonic->frequency * step : 0.0;
+      above_.push_back(
+          half_turn > 0.0 && half_turn < most_corrected ? std::pow(half_turn / std::sin(half_turn), 2) : 1.0);
       shapes_.resize(shapes_.size() + static_cast<std::size_t>(padded_modes_), 0.0);
       constant_ = constant_ && signals_.back().is_constant();
     }
@@ -30,7 +42,8 @@ LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double dura
   values_.resize(signals_.size());
 }
 
-template <class Value> void LoadSum::combine(double time, const Value& value, double* force) {
+template <class Value, class Place>
+void LoadSum::combine(const Place& place_on, const Value& value, double* force) {
   const SampleGrid* grid = nullptr; // of the last random signal: those of a study mostly share one
   SampleGrid::Place place{};
   for (std::size_t k = 0; k < signals_.size(); ++k) {
@@ -40,7 +53,7 @@ template <class Value> void LoadSum::combine(double time, const Value& value, do
       continue;
     }
     if (!grid || *grid != signal.grid())
-      place = signal.grid().place(time);
+      place = place_on(signal.grid());
     grid = &signal.grid();
     values_[k] = signal.at(place);
   }
@@ -50,17 +63,28 @@ template <class Value> void LoadSum::combine(double time, const Value& value, do
 void LoadSum::at(double time, double* force) { at(time, Signal::window(time, step_), force); }
 
 void LoadSum::at(double time, Signal::Window window, double* force) {
-  combine(
-      time,
-      [&](std::size_t k) {
-        return sines_[k] ? (*sines_[k])(time) : signals_[k].over_step(time, step_, window);
-      },
-      force);
+  combine([&](const SampleGrid& grid) { return grid.place(time); },
+          [&](std::size_t k) {
+            return sines_[k] ? (*sines_[k])(time) : signals_[k].over_step(time, step_, window);
+          },
+          force);
 }
 
 void LoadSum::instant(double time, double* force) {
+  combine([&](const SampleGrid& grid) { return grid.place(time); },
+          [&](std::size_t k) { return signals_[k](time); }, force);
+}
+
+void LoadSum::corner(double time, double* force) {
+  const Signal::Window window = Signal::window(time, step_);
   combine(
-      time, [&](std::size_t k) { return signals_[k](time); }, force);
+      [&](const SampleGrid& grid) {
+        return step_ * grid.per_step < most_grid_steps ? grid.corner(time, step_) : grid.place(time);
+      },
+      [&](std::size_t k) {
+        return sines_[k] ? above_[k] * (*sines_[k])(time) : signals_[k].over_step(time, step_, window);
+      },
+      force);
 }
 
 } // namespace fretwork::transient

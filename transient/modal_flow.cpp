@@ -69,7 +69,7 @@ void ModalFlow::middle(int length, const State& from, const kernels::Array& load
 
 void ModalFlow::load_about(double time, kernels::Array& load) {
   if (!loads_.empty())
-    loads_.at(time, load.data());
+    loads_.corner(time, load.data());
 }
 
 ModalFlow::Sums ModalFlow::move(int length, const State& from, const kernels::Array& load0,

@@ -3,7 +3,7 @@
 /// The splitting scheme: the exact motion of the modes over a step h, the motion of the contacts within it.
 /// 1. The modes move under the loads and the contact forces held from the last step (modal_flow.hpp).
 /// 2. Where no contact can be closed in the step that is their motion. Steps of several h are tried first: the contact-free macro-steps.
-/// 3. Otherwise the contacts near their obstacles move in shorter intervals along that motion (contact_intervals.hpp), and the modes move
+/// 3. Otherwise the contacts near their obstacles move in shorter intervals along that motion (contact_sweeps.hpp), and the modes move
 ///    once more, under the mean and the first moment of the forces found.
 /// Order 2 in displacement, velocity and force, with dampers and friction, through impacts. Step 3 asks w_c dt to be resolved, dt the interval;
 /// h w_max below 2.5, in which the cubic that contacts follow between the ends of a step is the modes' motion to (w h)^4/384.
@@ -16,7 +16,7 @@
 /// energy balance is what the contacts' laws, along their own path, made otherwise than the modes.
 ///
 /// A record stands for a step and for the forces in it, its positions are those in the middle.
-#include "transient/contact_intervals.hpp"
+#include "transient/contact_sweeps.hpp"
 #include "transient/flights.hpp"
 #include "transient/mass_scaling.hpp"
 #include "transient/modal_flow.hpp"
@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace fretwork::transient {
@@ -48,11 +49,10 @@ public:
   /// @param scene  in the coordinates p of mass_scaling.hpp   @param shown  n, q = shown p; empty: all 1
   Splitting(const Scene& scene, double step, const Eigen::VectorXd& shown, int longest, int parts)
       : h_(step), duration_(scene.duration), lengths_(lengths_up_to(longest)), modes_(scene, step, lengths_),
-        contacts_(scene.contacts, scene.system.size()), mobility_(step_mobility()), start_(contacts_),
-        end_(contacts_), obstacles_(scene, contacts_, step), carried_{obstacles_.room(), obstacles_.room()},
-        middle_(obstacles_.room()),
-        intervals_(contacts_, mobility_, step, parts), steps_{Step(contacts_), Step(contacts_),
-                                                              Step(contacts_)} {
+        contacts_(scene.contacts, scene.system.size()), start_(contacts_), end_(contacts_),
+        obstacles_(scene, contacts_, step), carried_{obstacles_.room(), obstacles_.room()},
+        sweeps_(contacts_, step_mobility(), step, parts), steps_{Step(contacts_), Step(contacts_),
+                                                                 Step(contacts_)} {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
     held_.assign(n, 0.0);
     if (shown.size() > 0) {
@@ -121,7 +121,7 @@ public:
   }
 
   void visit(core::StateArchive& state) override {
-    state(steps_, published_, made_, end_, held_, holds_, was_near_, intervals_);
+    state(steps_, published_, made_, end_, held_, holds_, was_near_, sweeps_);
     state(carried_[1].u, carried_[1].w, done_, wait_, moving_, booked_, counts_);
   }
 
@@ -149,23 +149,20 @@ private:
   };
   [[nodiscard]] static std::size_t next(std::size_t step) { return step == 2 ? 0 : step + 1; }
 
-  /// W of contact_intervals.hpp.
-  kernels::Array step_mobility() {
-    kernels::Array out(contacts_.mobility.size(), 0.0),
-        moved(static_cast<std::size_t>(contacts_.padded_modes));
-    const int stride = contacts_.stride(), width = contacts_.width;
-    for (int c = 0; c < contacts_.count; ++c)
+  /// W of contact_sweeps.hpp.
+  std::vector<Mobility> step_mobility() {
+    const auto count = static_cast<std::size_t>(contacts_.count);
+    std::vector<Mobility> out(count * count);
+    kernels::Array moved(static_cast<std::size_t>(contacts_.padded_modes));
+    for (std::size_t c = 0; c < count; ++c)
       for (int from = 0; from < contacts_.components; ++from) {
-        modes_.answer(contacts_.row(c, from), moved.data());
-        for (int other = 0; other < contacts_.count; ++other)
-          for (int to = 0; to < contacts_.components; ++to) {
-            const double* row = contacts_.row(other, to);
-            double sum = 0.0;
-            for (std::size_t i = 0; i < moved.size(); ++i)
-              sum += row[i] * moved[i];
-            out[static_cast<std::size_t>((c * 3 + from) * stride + to * width + other)] =
-                2.0 / (h_ * h_) * sum;
-          }
+        modes_.answer(contacts_.row(static_cast<int>(c), from), moved.data());
+        for (std::size_t other = 0; other < count; ++other)
+          for (int to = 0; to < contacts_.components; ++to)
+            out[c * count + other].w[to][from] =
+                2.0 / (h_ * h_) *
+                std::inner_product(moved.begin(), moved.end(), contacts_.row(static_cast<int>(other), to),
+                                   0.0);
       }
     return out;
   }
@@ -183,7 +180,7 @@ private:
       const double force =
           contact::normal_force(contacts_.supports[c].normal, -at.gap, end_.sinking(c, at.ny, at.nz));
       if (at.gap < 0.0 && force > 0.0) {
-        intervals_.hold(c, at, force);
+        sweeps_.hold(c, at, force);
         near_.push_back(c);
       }
     }
@@ -192,35 +189,40 @@ private:
 
   /// The held forces of the near contacts, and those of the step, as forces on the modes.
   void scatter(ModalForce* force) {
-    std::fill(held_.begin(), held_.end(), 0.0);
-    holds_ = false;
     std::size_t count = 0;
+    bool slopes = false;
+    holds_ = false;
+    const auto add = [&](const double* row, double held, double mean, double slope) {
+      if (mean == 0.0 && held == 0.0)
+        return;
+      rows_[count] = row;
+      factors_[0][count] = held;
+      factors_[1][count] = mean;
+      factors_[2][count++] = slope;
+      holds_ = holds_ || held != 0.0;
+      slopes = slopes || slope != 0.0;
+    };
     for (const int c : near_) {
-      const ContactIntervals::Force& f = intervals_.force(c);
-      for (int k = 0; k < contacts_.components; ++k) {
-        if (f.mean[k] == 0.0 && f.held[k] == 0.0)
-          continue;
-        rows_[count] = contacts_.row(c, k);
-        factors_[0][count] = f.held[k];
-        factors_[1][count] = f.mean[k];
-        factors_[2][count] = f.slope[k];
-        holds_ = holds_ || f.held[k] != 0.0;
-        ++count;
-      }
+      const ContactSweeps::Force& f = sweeps_.force(c);
+      add(contacts_.row(c, 0), f.held.y, f.mean.y, f.slope.y);
+      add(contacts_.row(c, 1), f.held.z, f.mean.z, f.slope.z);
+      if (contacts_.components == 3)
+        add(contacts_.row(c, 2), f.held.x, f.mean.x, f.slope.x);
     }
-    const auto add = [&](std::size_t which, kernels::Array& to) {
-      if (count > 0)
-        kernels::scatter(contacts_.padded_modes, static_cast<int>(count), rows_.data(),
-                         factors_[which].data(), to.data());
+    const auto sum = [&](std::size_t which, kernels::Array& to) {
+      std::fill(to.begin(), to.end(), 0.0);
+      kernels::scatter(contacts_.padded_modes, static_cast<int>(count), rows_.data(), factors_[which].data(),
+                       to.data());
     };
     if (holds_)
-      add(0, held_);
+      sum(0, held_);
     if (!force)
       return;
-    std::fill(force->mean.begin(), force->mean.end(), 0.0);
-    std::fill(force->slope.begin(), force->slope.end(), 0.0);
-    add(1, force->mean);
-    add(2, force->slope);
+    sum(1, force->mean);
+    if (slopes)
+      sum(2, force->slope);
+    else
+      std::fill(force->slope.begin(), force->slope.end(), 0.0);
   }
 
   /// Contacts that may be closed in a step of so many h that ends as `end_` tells.
@@ -274,18 +276,18 @@ private:
     s.pushed = !near_.empty();
     if (s.pushed) {
       ++counts_.evaluations;
-      counts_.unconverged += !intervals_.make(start_, end_, near_, s.trial, losses);
+      counts_.unconverged += !sweeps_.make(start_, end_, near_, s.trial, losses);
       s.pushed = holds_ || !s.trial.active.empty();
       if (s.pushed)
         sums = push(s, to);
-      intervals_.settle(end_);
+      sweeps_.settle(end_);
       brought = work_of_obstacles(s);
     } else {
-      intervals_.pass(s.steps, s.trial, losses);
+      sweeps_.pass(s.steps, s.trial, losses);
     }
     std::fill(was_near_.begin(), was_near_.end(), 0);
     for (const int c : near_)
-      was_near_[c] = end_.near(c) || intervals_.force(c).held[0] != 0.0 || intervals_.force(c).held[1] != 0.0;
+      was_near_[c] = end_.near(c) || sum_of_sizes(sweeps_.force(c).held) > 0.0;
     show_middle(s, to);
     book(s, sums, losses, brought);
     done_ += s.steps;
@@ -305,22 +307,21 @@ private:
     double work = 0.0;
     if (carried_[0].u.empty() || !s.pushed)
       return work;
-    for (const int c : near_)
-      for (int k = 0; k < contacts_.components; ++k) {
-        const auto lane = static_cast<std::size_t>(k * contacts_.width + c);
-        work -= intervals_.force(c).mean[k] * (carried_[1].u[lane] - carried_[0].u[lane]);
-      }
+    const auto moved = [&](int lane) { return carried_[1].u[lane] - carried_[0].u[lane]; };
+    for (const int c : near_) {
+      const Components& mean = sweeps_.force(c).mean;
+      work -= mean.y * moved(c) + mean.z * moved(contacts_.width + c);
+      if (contacts_.components == 3)
+        work -= mean.x * moved(2 * contacts_.width + c);
+    }
     return work;
   }
 
   void show_middle(Step& s, const Step& to) {
     modes_.middle(s.steps, s.from, s.load, to.load, s.pushed ? &s.force : nullptr, s.q);
-    kernels::gather(contacts_.gather, s.q.data(), s.u.data());
-    if (!middle_.u.empty()) {
-      obstacles_.at(s.start + 0.5 * s.length, middle_);
-      for (std::size_t lane = 0; lane < s.u.size(); ++lane)
-        s.u[lane] += middle_.u[lane];
-    }
+    const double eighth = 0.125 * s.length; // of contacts: by the cubic through both ends
+    for (std::size_t lane = 0; lane < s.u.size(); ++lane)
+      s.u[lane] = 0.5 * (start_.u[lane] + end_.u[lane]) + eighth * (start_.w[lane] - end_.w[lane]);
     for (std::size_t i = 0; i < shown_.size(); ++i)
       s.q[i] *= shown_[i];
   }
@@ -332,7 +333,7 @@ private:
     booked_.contact_damping += losses.damping;
     booked_.friction += losses.friction;
     moving_ = sums.energy;
-    booked_.stored = moving_ + intervals_.spring_energy();
+    booked_.stored = moving_ + sweeps_.spring_energy();
     s.energy = booked_;
   }
 
@@ -340,12 +341,10 @@ private:
   std::vector<int> lengths_;
   ModalFlow modes_;
   PackedContacts contacts_;
-  kernels::Array mobility_;
   ContactMotion start_, end_; ///< of the step that is made
   ObstacleMotion obstacles_;
   std::array<Carried, 2> carried_; ///< likewise
-  Carried middle_;                 ///< in its middle
-  ContactIntervals intervals_;
+  ContactSweeps sweeps_;
   std::array<Step, 3> steps_; ///< the one published, the one made, and where that ends
   std::size_t published_ = 0, made_ = 0;
 

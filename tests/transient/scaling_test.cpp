@@ -251,8 +251,8 @@ TEST(Units, ThatDifferByPowersOfTwoGiveTheSameBytes) {
 }
 
 TEST(Units, OfMillimetresAndTonnesGiveTheSameImpact) {
-  // round-off grown by one impact; that of splitting may let a sweep more or less be made, which stop at 1e-4 of what contacts pass on
-  constexpr double one_impact = 1e-6;
+  // round-off grown by one impact; with splitting it may let an interval be cut once more or less where the contact opens
+  constexpr double one_impact = 3e-5;
   for (const FrictionMemoryKind kind : {FrictionMemoryKind::return_map, FrictionMemoryKind::reference}) {
     Scene scene = mass_point(1.0, Vec3(50.0, 2e3, 1e3), 0.007);
     start(scene, 1.0, Vec3(0, 0.9e-3, 0.2e-3), Vec3(0.05, 0.2, 0.15));

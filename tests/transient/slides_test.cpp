@@ -147,7 +147,7 @@ TEST(Slides, TellSlidesThatBeginAndEndWhileAContactCloses) {
       const Slide seen = oblique_impact(ratio, resolution, 64);
       // in intervals of w_c dt = 0.25; slides that last for less than one
       EXPECT_NEAR(seen.work / exact.work, 1.0, 0.1) << ratio << " " << resolution;
-      EXPECT_NEAR(seen.pressed / exact.pressed, 1.0, 0.15) << ratio << " " << resolution;
+      EXPECT_NEAR(seen.pressed / exact.pressed, 1.0, 0.2) << ratio << " " << resolution;
       EXPECT_NEAR(seen.path / exact.path, 1.0, 0.2) << ratio << " " << resolution;
     }
   }
