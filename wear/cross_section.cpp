@@ -80,4 +80,11 @@ double land_area(double radius, double clearance, double depth, double from, dou
   return 0.5 * integral(above_hole, std::max(from, -edge), std::min(to, edge));
 }
 
+double depth_of_half_angle(double radius, double clearance, double angle) {
+  const double hole = radius + clearance, across = hole * std::sin(angle);
+  if (!(std::cos(angle) > 0.0) || std::abs(across) >= radius)
+    return 2.0 * radius;
+  return hole * std::cos(angle) - std::sqrt(radius * radius - across * across) - clearance;
+}
+
 } // namespace fretwork::wear

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Area of a tube of radius R that lies beyond another body's surface once a penetration p: what is worn
+/// Area of a tube of radius R that lies beyond another body's surface at a penetration p: what is worn
 /// off in one cross-section. All lengths m, angles rad, 0 <= p <= R.
 ///
 /// Flat face: a segment of half-angle f, cos f = 1 - p/R,
@@ -19,7 +19,8 @@
 /// Part of a hole between the angles psi_1 and psi_2 from the direction of penetration (a land):
 ///     (1/2) integral of <rho^2 - R_h^2>,  rho(psi) = e cos psi + sqrt(R^2 - e^2 sin^2 psi)  the tube's surface,
 ///     rho - R_h = p - 2 e sin^2(psi/2) - e^2 sin^2 psi/(R + sqrt(R^2 - e^2 sin^2 psi)),
-/// positive for |psi| < a_h only; equal to A_h where the land is wider than the scar.
+/// positive for |psi| < a_h only; equal to A_h where the land is wider than the scar. The scar reaches the angle psi
+/// (a_h = psi) at e = R_h cos psi - sqrt(R^2 - R_h^2 sin^2 psi).
 /// Source: plane geometry.
 #pragma once
 
@@ -36,5 +37,8 @@ namespace fretwork::wear {
 
 /// m2, of the part of the crescent between two angles from the direction of penetration, from <= to.
 [[nodiscard]] double land_area(double radius, double clearance, double depth, double from, double to);
+
+/// p, m, at which the scar reaches an angle from the direction of penetration; above R where it never does.
+[[nodiscard]] double depth_of_half_angle(double radius, double clearance, double angle);
 
 } // namespace fretwork::wear

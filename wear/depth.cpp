@@ -72,8 +72,9 @@ struct Checked {
                         g.lands));
       return;
     }
-    if (std::none_of(g.middles.begin(), g.middles.end(),
-                     [&](double middle) { return std::abs(middle) <= g.half_angle; }))
+    if (std::none_of(g.middles.begin(), g.middles.end(), [&](double middle) {
+          return std::abs(std::remainder(middle, 2.0 * pi)) <= g.half_angle;
+        }))
       throw core::Error(
           fmt::format("lands: none of the {} worn lands of half-angle {:g} degrees holds the "
                       "direction of penetration; give the angles of the lands from that direction, "
@@ -101,28 +102,55 @@ struct Checked {
 };
 
 /// int_0^min(B, p/theta) A(p - theta s) ds, as in the header.
-double along_the_scar(const Function& area, double depth, double length, double inclination) {
+/// @param kinks  depths between which A is smooth, any order
+double along_the_scar(const Function& area, double depth, double length, double inclination,
+                      std::vector<double> kinks = {}) {
   if (!(inclination > 0.0))
     return length * area(depth);
   const double start = std::sqrt(std::max(0.0, depth - length * inclination)), end = std::sqrt(depth);
   const double touched = std::min(length, depth / inclination);
-  // the mean by a variable on 0..1: the ends may be so near that their difference has no digits
+  // the mean by a variable x on 0..1: the ends may be so near that their difference has no digits
   const double width = touched * inclination / (start + end); // end - start
-  return 2.0 * touched / (start + end) *
-         integral(
-             [&](double x) {
-               const double t = start + x * width;
-               return t * area(std::min(t * t, depth));
-             },
-             0.0, 1.0);
+  const auto moment = [&](double x) {
+    const double t = start + x * width;
+    return t * area(std::min(t * t, depth));
+  };
+  std::sort(kinks.begin(), kinks.end());
+  double sum = 0.0, before = 0.0;
+  for (const double kink : kinks) {
+    const double x = std::clamp((std::sqrt(std::max(0.0, kink)) - start) / width, before, 1.0);
+    sum += integral(moment, before, x);
+    before = x;
+  }
+  sum += integral(moment, before, 1.0);
+  return 2.0 * touched / (start + end) * sum;
+}
+
+/// Angles of a land's edges from the direction of penetration.
+struct Edges {
+  double from, to;
+};
+Edges edges(const Lands& g, double middle) {
+  const double at = std::remainder(middle, 2.0 * pi);
+  return {at - g.half_angle, at + g.half_angle};
 }
 
 double area_of_lands(const Lands& g, double depth) {
   double sum = 0.0;
-  for (const double middle : g.middles) // seen from the direction of penetration: -pi..pi
-    sum += land_area(g.radius, g.clearance, depth, std::remainder(middle, 2.0 * pi) - g.half_angle,
-                     std::remainder(middle, 2.0 * pi) + g.half_angle);
+  for (const double middle : g.middles) {
+    const auto [from, to] = edges(g, middle);
+    sum += land_area(g.radius, g.clearance, depth, from, to);
+  }
   return sum;
+}
+
+/// Depths at which the scar reaches edges of lands.
+std::vector<double> kinks_of(const Lands& g) {
+  std::vector<double> out;
+  for (const double middle : g.middles)
+    for (const double edge : {edges(g, middle).from, edges(g, middle).to})
+      out.push_back(depth_of_half_angle(g.radius, g.clearance, edge));
+  return out;
 }
 
 struct ExactVolume {
@@ -135,7 +163,8 @@ struct ExactVolume {
                           g.inclination);
   }
   double operator()(const Lands& g) const {
-    return along_the_scar([&](double u) { return area_of_lands(g, u); }, p, g.length, g.inclination);
+    return along_the_scar([&](double u) { return area_of_lands(g, u); }, p, g.length, g.inclination,
+                          kinks_of(g));
   }
   double operator()(const Ring& g) const { return pi * g.length * p * (2.0 * g.radius - p); }
   double operator()(const TubeOnTube& g) const {
@@ -243,8 +272,10 @@ std::optional<double> depth(const Geometry& geometry, double volume, Form form) 
   const double target = std::log(volume);
   return root_of_positive(
       [&](double p) {
-        const double here = volume_unchecked(geometry, p, form);
-        return here > 0.0 ? std::log(here) - target : std::numeric_limits<double>::lowest();
+        // as p -> 0 the volume may underflow
+        return std::log(
+                   std::max(volume_unchecked(geometry, p, form), std::numeric_limits<double>::denorm_min())) -
+               target;
       },
       low, most);
 }
@@ -272,8 +303,8 @@ Scar scar(const Geometry& geometry, double depth) {
       const double half = crescent_half_angle(g.radius, g.clearance, p);
       double widest = 0.0;
       for (const double middle : g.middles) {
-        const double at = std::remainder(middle, 2.0 * pi);
-        widest = std::max(widest, std::min(at + g.half_angle, half) - std::max(at - g.half_angle, -half));
+        const auto [from, to] = edges(g, middle);
+        widest = std::max(widest, std::min(to, half) - std::max(from, -half));
       }
       return {(g.radius + g.clearance) * widest, along(g.length, g.inclination), half};
     }

@@ -21,7 +21,8 @@
 /// L = min(B, p/theta), <.> the positive part, b half of a land's angle, psi the angle of a sector.
 /// Inclined, with u = t^2 for p - theta s,  t_1 = sqrt(p), t_0 = sqrt(<p - B theta>):
 ///     V = (2 L/(t_0 + t_1)) times the mean of t A(t^2) between t_0 and t_1,
-/// smooth in t and without a division by theta: theta = 0 is no special case.
+/// smooth in t and without a division by theta: theta -> 0 loses no digits. Where the scar becomes wider than a land the
+/// second derivative of the area jumps: the integral is taken in parts between these depths.
 /// p of a volume is the root of V(p), bracketed in ln p. A volume above V at `largest_depth` (R; in the reference
 /// form of inclined holes and lands B theta) has no depth: that is returned, not clamped.
 ///

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 
 namespace fretwork::wear {
 
@@ -72,7 +71,8 @@ void limit_by(const Wearing& at, std::size_t place, const AdvanceOptions& option
   const Allowed allowed = allowed_growth(at, options);
   if (shorten(out.time, [&](double time) {
         const auto depth = at.depth(time);
-        return depth ? depth->total() - before - allowed.growth : beyond;
+        // beyond the geometry: as deep as it describes; if even that is allowed, state_after refuses
+        return (depth ? depth->total() : largest_depth(at.place.support.pairing)) - before - allowed.growth;
       })) {
     out.limit = allowed.limit;
     out.place = place;
@@ -81,7 +81,7 @@ void limit_by(const Wearing& at, std::size_t place, const AdvanceOptions& option
   const double limit = at.place.support.limit * at.place.support.wall;
   const auto life = [&](double time) {
     const auto depth = at.depth(time);
-    return depth ? depth->tube - limit : beyond;
+    return depth ? depth->tube - limit : -limit;
   };
   if (shorten(out.time, life) || life(out.time) >= -round_off * limit) {
     out.limit = AdvanceLimit::life;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wear/root.hpp"
-#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cassert>
 #include <cmath>
@@ -11,8 +11,6 @@ namespace fretwork::wear {
 namespace {
 
 constexpr std::uintmax_t most_evaluations = 300; ///< bisection alone ends within 64 * 3
-constexpr unsigned most_halvings = 12;
-constexpr double relative_error = 1e-13; ///< of integrals
 
 } // namespace
 
@@ -37,8 +35,7 @@ double root_of_positive(const Function& f, double low, double high) {
 double integral(const Function& f, double from, double to) {
   if (!(from < to))
     return 0.0;
-  return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(f, from, to, most_halvings,
-                                                                       relative_error);
+  return boost::math::quadrature::gauss<double, 30>::integrate(f, from, to);
 }
 
 } // namespace fretwork::wear
