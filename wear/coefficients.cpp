@@ -79,4 +79,21 @@ const Coefficient& coefficient(std::string_view geometry, std::string_view mater
                   geometry, materials, core::name_help(materials, pairs), hint));
 }
 
+std::string_view coefficient_class(const Geometry& geometry) {
+  if (std::holds_alternative<FlatBar>(geometry) || std::holds_alternative<TubeOnTube>(geometry))
+    return name_of(geometry);
+  if (std::holds_alternative<DrilledHole>(geometry) || std::holds_alternative<Ring>(geometry))
+    return "drilled_hole";
+  const auto* lands = std::get_if<Lands>(&geometry);
+  if (lands && lands->lands == 4)
+    return "four_lands";
+  if (lands && lands->lands == 3)
+    return "three_lands";
+  throw core::Error(fmt::format(
+      "wear coefficients: there is no class for {}; name one of \"flat_bar\", "
+      "\"drilled_hole\", \"four_lands\", \"three_lands\", \"tube_on_tube\", \"any\", or give the "
+      "coefficient in m2/N",
+      lands ? fmt::format("{} lands", lands->lands) : fmt::format("the geometry \"{}\"", name_of(geometry))));
+}
+
 } // namespace fretwork::wear

@@ -8,6 +8,7 @@
 /// (2003) 485, part 2; not compared with the paper).
 /// Sources: in each row.
 #pragma once
+#include "wear/depth.hpp"
 #include <span>
 #include <string_view>
 
@@ -26,5 +27,9 @@ struct Coefficient {
 /// The row of a class and a pair.
 /// @throws core::Error naming the classes there are, or the pairs of the class and the classes that have the pair
 [[nodiscard]] const Coefficient& coefficient(std::string_view geometry, std::string_view materials);
+
+/// Class of a geometry: a ring has that of the drilled hole, lands by their number.
+/// @throws core::Error for lands that are neither 3 nor 4, and for sectors, which do not know their hole
+[[nodiscard]] std::string_view coefficient_class(const Geometry& geometry);
 
 } // namespace fretwork::wear

@@ -33,6 +33,21 @@ WorkRate work_rate_between(double low, double value, double high) {
   return {value, low, high, false, true};
 }
 
+WorkRate mean_of_draws(std::span<const double> draws) {
+  if (draws.empty())
+    throw core::Error("work rate: there is no draw to average; give at least one");
+  const auto n = static_cast<double>(draws.size());
+  double mean = 0.0, squares = 0.0;
+  for (const double draw : draws) {
+    check_not_negative("work rate", "draw", draw, "W");
+    mean += draw / n;
+  }
+  for (const double draw : draws)
+    squares += (draw - mean) * (draw - mean);
+  return draws.size() > 1 ? work_rate_with_error(mean, std::sqrt(squares / (n * (n - 1.0))))
+                          : work_rate(mean);
+}
+
 WorkRate sum_of_points(std::span<const WorkRate> points) {
   if (points.empty())
     throw core::Error("work rate: a support without contact points has none; name at least one contact");

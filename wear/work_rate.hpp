@@ -29,6 +29,10 @@ struct WorkRate {
 /// @throws core::Error unless 0 <= low <= value <= high, finite
 [[nodiscard]] WorkRate work_rate_between(double low, double value, double high);
 
+/// Mean over random draws of one state, +- s/sqrt(n), s their standard deviation (n - 1); of one draw without an interval.
+/// @param draws  W, each >= 0   @throws core::Error for no draw
+[[nodiscard]] WorkRate mean_of_draws(std::span<const double> draws);
+
 /// Of one support. @throws core::Error for no point
 [[nodiscard]] WorkRate sum_of_points(std::span<const WorkRate> points);
 

@@ -42,3 +42,22 @@ TEST(Coefficients, ThatDoNotExistAreRefusedWithThoseThatDo) {
   const std::string message = message_of([] { (void)coefficient("tube_on_tube", "800_800"); });
   EXPECT_EQ(message.find("the pair has"), std::string::npos) << message;
 }
+
+TEST(Coefficients, HaveTheClassOfAGeometry) {
+  EXPECT_EQ(coefficient_class(FlatBar{0.01, 0.01}), "flat_bar");
+  EXPECT_EQ(coefficient_class(DrilledHole{0.01, 1e-4, 0.01}), "drilled_hole");
+  EXPECT_EQ(coefficient_class(Ring{0.01, 0.01}), "drilled_hole");
+  EXPECT_EQ(coefficient_class(Lands{0.01, 1e-4, 0.01, 0.1}), "four_lands");
+  EXPECT_EQ(coefficient_class(Lands{0.01, 1e-4, 0.01, 0.1, 3}), "three_lands");
+  EXPECT_EQ(coefficient_class(TubeOnTube{0.01, 0.1}), "tube_on_tube");
+  expect_refused(
+      [] {
+        (void)coefficient_class(Lands{0.01, 1e-4, 0.01, 0.1, 6});
+      },
+      {"no class for 6 lands", "\"four_lands\""});
+  expect_refused(
+      [] {
+        (void)coefficient_class(TubeSector{0.01, 0.01, 0.1});
+      },
+      {"no class for the geometry \"tube_sector\"", "in m2/N"});
+}

@@ -45,7 +45,17 @@ TEST(WorkRate, OfASupportIsTheSumOverItsPoints) {
   EXPECT_FALSE(sum_of_points(std::array{work_rate(1.0)}).has_interval);
 }
 
+TEST(WorkRate, OfDrawsIsTheirMean) {
+  const WorkRate rate = mean_of_draws(std::array{1.0, 2.0, 3.0, 6.0}); // s^2 = 14/3
+  EXPECT_NEAR(rate.value, 3.0, 4.0 * round_off);
+  EXPECT_NEAR(rate.high - rate.value, std::sqrt(14.0 / 3.0 / 4.0), 4.0 * round_off);
+  EXPECT_TRUE(rate.has_interval);
+  EXPECT_FALSE(mean_of_draws(std::array{1.0}).has_interval);
+}
+
 TEST(WorkRate, RefusesWhatMakesNoSense) {
+  expect_refused([] { (void)mean_of_draws({}); }, {"no draw"});
+  expect_refused([] { (void)mean_of_draws(std::array{1.0, -1.0}); }, {"draw = -1 W"});
   expect_refused([] { (void)work_rate(-1.0); }, {"work rate: value = -1 W"});
   expect_refused([] { (void)work_rate_with_error(1.0, -1.0); }, {"standard error = -1 W"});
   expect_refused([] { (void)work_rate_with_error(infinity, 1.0); }, {"value = inf W"});
