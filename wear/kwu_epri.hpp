@@ -12,6 +12,7 @@
 /// A sample above a given maximum is in no class; the share of the time of such samples is returned.
 /// Source: Code_Aster 17, POST_USURE, which rounds F_max/5 down to whole newtons (not repeated here).
 #pragma once
+#include "core/state_archive.hpp"
 #include "wear/laws.hpp"
 #include <array>
 #include <span>
@@ -45,6 +46,16 @@ public:
     else
       above_ += time;
   }
+
+  /// The samples of another contact of the same support, counted with the same maxima.
+  void add(const KwuClasses& other) {
+    for (std::size_t i = 0; i < times_.size(); ++i)
+      for (std::size_t j = 0; j < times_[i].size(); ++j)
+        times_[i][j] += other.times_[i][j];
+    time_ += other.time_;
+    above_ += other.above_;
+  }
+  void visit(core::StateArchive& state) { state(times_, time_, above_); }
 
   /// x_ij of class i of speed and j of force, from 0; all 0 without a sample.
   [[nodiscard]] double share(int speed_class, int force_class) const;
