@@ -460,10 +460,11 @@ std::string check(const Request& request) {
   for (const std::string& warning : warnings)
     told += "  warning: " + warning + "\n";
   return fmt::format("{}: fine\n  {} nodes, {} beams, {} free dofs in {} structure{}, {:.6g} kg\n  {} "
-                     "contacts, {} loads, {} observed nodes\n{}",
+                     "contacts, {} loads, {} observed nodes{}\n{}",
                      request.study.string(), mesh.nodes.size(), model.beams.size(), dofs, structures.size(),
                      structures.size() == 1 ? "" : "s", fem::total_mass(model), placed.size(),
-                     inputs.study.loads.size(), nodes.size(), told);
+                     inputs.study.loads.size(), nodes.size(),
+                     worn.empty() ? "" : fmt::format(", {} supports that wear", worn.size()), told);
 }
 
 std::string export_results(const fs::path& directory, const std::string& format) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 namespace fretwork::app {
@@ -13,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int history_steps = 40; ///< of depth against time
+constexpr int history_steps = 40;     ///< of depth against time
+constexpr std::size_t most_names = 3; ///< in a warning
 
 double number(const nlohmann::json& value) {
   return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
@@ -178,18 +180,40 @@ std::int64_t tube_of(const std::vector<modal::Basis>& bases, core::Index node) {
   return -1;
 }
 
-void add_warnings(const results::WearOfSupport& support, results::RunResults& out) {
-  if (!support.outside.empty())
-    out.warnings.push_back(fmt::format("wear of \"{}\": {}", support.name, support.outside));
-  if (support.share_above > 0.0)
-    out.warnings.push_back(fmt::format("wear of \"{}\": {:.3g} % of the time in contact is above force_max "
-                                       "or speed_max and in no class of kwu_epri; give larger ones",
-                                       support.name, 100.0 * support.share_above));
-  if (support.outside.empty() && std::isnan(support.depth.last().value))
-    out.warnings.push_back(fmt::format(
-        "wear of \"{}\": {:.3g} m3 after {:.4g} years have no depth, the scar leaves what "
-        "geometry \"{}\" describes; give fewer years",
-        support.name, support.volume.last().value, support.time.back() / wear::year, support.geometry));
+/// One warning for all supports of which something is true.
+template <class True>
+void warn(results::RunResults& out, True is_true,
+          const std::function<std::string(const results::WearOfSupport&)>& text) {
+  std::vector<std::string> names;
+  const results::WearOfSupport* first = nullptr;
+  for (const auto& support : out.wear->supports)
+    if (is_true(support)) {
+      names.push_back(support.name);
+      first = first ? first : &support;
+    }
+  if (first)
+    out.warnings.push_back(fmt::format("wear of {}: {}", core::list_names(names, most_names), text(*first)));
+}
+
+void add_warnings(results::RunResults& out) {
+  using results::WearOfSupport;
+  warn(
+      out, [](const WearOfSupport& s) { return !s.outside.empty(); },
+      [](const WearOfSupport& s) { return s.outside; });
+  warn(
+      out, [](const WearOfSupport& s) { return s.share_above > 0.0; },
+      [](const WearOfSupport& s) {
+        return fmt::format("{:.3g} % of the time in contact is above force_max or speed_max and in no class "
+                           "of kwu_epri; give larger ones",
+                           100.0 * s.share_above);
+      });
+  warn(
+      out, [](const WearOfSupport& s) { return s.outside.empty() && std::isnan(s.depth.last().value); },
+      [](const WearOfSupport& s) {
+        return fmt::format("{:.3g} m3 after {:.4g} years have no depth, the scar leaves what geometry \"{}\" "
+                           "describes; give fewer years",
+                           s.volume.last().value, s.time.back() / wear::year, s.geometry);
+      });
 }
 
 } // namespace
@@ -252,10 +276,10 @@ void add_wear(const study::Study& study, const std::vector<WornPlace>& places,
     set_scar(place.worn, support);
     if (by_sector)
       set_sector_depths(place.worn, shares, support);
-    add_warnings(support, out);
     out.wear->supports.push_back(std::move(support));
   }
   out.wear->tubes = results::wear_by_tube(out.wear->supports);
+  add_warnings(out);
 }
 
 } // namespace fretwork::app

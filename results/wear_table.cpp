@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 #include <numeric>
 
 namespace fretwork::results {
 namespace {
 
 constexpr std::size_t most_supports = 12; // shown one by one; of more, the ten with the shortest lives
-constexpr std::size_t name_width = 18;
+constexpr std::size_t most_tubes = 5;
+constexpr std::size_t name_width = 16;
 constexpr double millimetre = 1e3, cubic_millimetre = 1e9;
 
 /// 0.12 (0.11 to 0.13); a dash where there is no value, "never" where it is not reached.
@@ -34,15 +36,34 @@ std::string shortened(const std::string& name) {
 }
 
 std::string law_text(const WearOfSupport& s) {
-  return std::isnan(s.coefficient) ? s.law : fmt::format("{} {:.3g} m2/N", s.law, s.coefficient);
+  return std::isnan(s.coefficient) ? s.law : fmt::format("{} {:.3g}", s.law, s.coefficient);
 }
 
 std::string row(const WearOfSupport& s) {
-  return fmt::format("  {:<18} {:>9.3g} {:>9.3g} {:>24} {:>8} {:>24}  {}", shortened(s.name),
+  return fmt::format("  {:<16} {:>8.3g} {:>9.3g} {:>22} {:>7} {:>22}  {}", shortened(s.name),
                      s.work_rate.value, cubic_millimetre * s.volume.last().value,
                      with_bounds(s.depth.last(), millimetre), with_bounds({s.scar_width}, millimetre),
                      s.life.end == "outside_law" ? "outside the law" : with_bounds(s.life.years, 1.0),
                      law_text(s));
+}
+
+/// Tubes of several supports, the shortest lives where there are many.
+void add_tubes(std::vector<std::string>& lines, const Wear& wear) {
+  std::vector<WearOfTube> tubes;
+  std::copy_if(wear.tubes.begin(), wear.tubes.end(), std::back_inserter(tubes),
+               [](const WearOfTube& t) { return t.supports > 1; });
+  if (tubes.size() > most_tubes) {
+    std::stable_sort(tubes.begin(), tubes.end(), [](const WearOfTube& a, const WearOfTube& b) {
+      return a.years.value < b.years.value || (std::isnan(b.years.value) && !std::isnan(a.years.value));
+    });
+    tubes.resize(most_tubes);
+  }
+  for (const WearOfTube& t : tubes)
+    lines.push_back(fmt::format("  {:<16} {:>8.3g} {:>9.3g} {:>22} {:>7} {:>22}  {}",
+                                wear.tubes.size() > 1 ? fmt::format("tube {}", t.tube) : "all supports",
+                                t.work_rate.value, cubic_millimetre * t.volume.value,
+                                with_bounds(t.depth, millimetre), "", with_bounds(t.years, 1.0),
+                                t.first.empty() ? "" : "first: " + shortened(t.first)));
 }
 
 } // namespace
@@ -64,22 +85,17 @@ std::vector<std::string> wear_lines(const Wear& wear) {
   });
   const WearOfSupport& first = wear.supports.front();
   lines.push_back(fmt::format(
-      "  {:<18} {:>9} {:>9} {:>24} {:>8} {:>24}  {}",
+      "  {:<16} {:>8} {:>9} {:>22} {:>7} {:>22}  {}",
       alike && !first.time.empty() ? fmt::format("in {:.4g} years", first.time.back() / fretwork::wear::year)
                                    : "wear",
       "work W", "worn mm3", "depth mm", "scar mm",
-      alike ? fmt::format("years to {:.3g} mm", millimetre * first.limit) : "years to the limit", "law"));
+      alike ? fmt::format("years to {:.3g} mm", millimetre * first.limit) : "years to the limit",
+      "law, m2/N"));
   for (const std::size_t s : shown)
     lines.push_back(row(wear.supports[s]));
   if (shown.size() < wear.supports.size())
     lines.push_back(fmt::format("  the 10 of {} supports with the shortest lives", wear.supports.size()));
-  for (const WearOfTube& t : wear.tubes)
-    if (t.supports > 1)
-      lines.push_back(fmt::format("  {:<18} {:>9.3g} {:>9.3g} {:>24} {:>8} {:>24}  {}",
-                                  wear.tubes.size() > 1 ? fmt::format("tube {}", t.tube) : "all supports",
-                                  t.work_rate.value, cubic_millimetre * t.volume.value,
-                                  with_bounds(t.depth, millimetre), "", with_bounds(t.years, 1.0),
-                                  t.first.empty() ? "" : "first: " + shortened(t.first)));
+  add_tubes(lines, wear);
   return lines;
 }
 
