@@ -121,7 +121,7 @@ def scar(support, width=330):
     inside = width - margins[0] - margins[1]
     height = int(np.clip(inside * (high - low) / (2 * half), 60, 260))
     plot = Plot((width, height + margins[2] + margins[3]), (-MILLI * half, MILLI * half), (MILLI * (low - radius), MILLI * (high - radius)), margins)
-    plot.axes("across the tube [mm]", "from the surface [mm]", x_most=5, y_most=4)
+    plot.axes("across the tube [mm]", "height [mm]", x_most=5, y_most=4)
     left = np.minimum(outer, worn)
     _area(plot, MILLI * np.concatenate((x, x[::-1])), MILLI * (np.concatenate((left, inner[::-1])) - radius), "tube")
     gone = worn < outer
