@@ -184,7 +184,7 @@ std::pair<wear::Law, std::string> law_of(const study::Wear& entry, const wear::P
   if (std::holds_alternative<wear::EdfMz>(law))
     return {law, "constants of the law"};
   if (!entry.materials)
-    return {law, "study"};
+    return {law, results::given_source};
   const auto* shared = std::get_if<wear::SharedScar>(&pairing);
   const std::string geometry_class = entry.coefficient_class.value_or(
       std::string(shared ? wear::coefficient_class(shared->geometry) : "drilled_hole"));

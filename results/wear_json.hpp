@@ -13,7 +13,7 @@ namespace fretwork::results {
 /// @param contacts  names of the contacts of the run
 [[nodiscard]] nlohmann::ordered_json wear_json(const Wear& wear, const std::vector<std::string>& contacts);
 
-/// Lines of the terminal table, without a label: one a support, at most a dozen, of more the shortest lives; then one a tube.
+/// Lines of the terminal table, without a label: one a support, at most a dozen, of more the shortest lives; one a tube; one a coefficient of the bank.
 [[nodiscard]] std::vector<std::string> wear_lines(const Wear& wear);
 
 /// wear.csv: one support a row; <name>_wear.csv: volume and depth against time; <name>_wear_sectors.csv: work and depth by angle.

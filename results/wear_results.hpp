@@ -13,6 +13,8 @@
 
 namespace fretwork::results {
 
+/// `source` of a coefficient that the study gives.
+inline constexpr const char* given_source = "study";
 inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 /// A figure at the work rate and at the two ends of its interval; not a number where there is none.

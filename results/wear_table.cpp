@@ -47,6 +47,19 @@ std::string row(const WearOfSupport& s) {
                      law_text(s));
 }
 
+/// Where coefficients of a bank are from, each once.
+void add_sources(std::vector<std::string>& lines, const Wear& wear) {
+  std::vector<std::string> told;
+  for (const WearOfSupport& s : wear.supports) {
+    if (std::isnan(s.coefficient) || s.source == given_source)
+      continue;
+    const std::string line = fmt::format("  K = {:.3g} m2/N: {}", s.coefficient, s.source);
+    if (std::find(told.begin(), told.end(), line) == told.end())
+      told.push_back(line);
+  }
+  lines.insert(lines.end(), told.begin(), told.end());
+}
+
 /// Tubes of several supports, the shortest lives where there are many.
 void add_tubes(std::vector<std::string>& lines, const Wear& wear) {
   std::vector<WearOfTube> tubes;
@@ -96,6 +109,7 @@ std::vector<std::string> wear_lines(const Wear& wear) {
   if (shown.size() < wear.supports.size())
     lines.push_back(fmt::format("  the 10 of {} supports with the shortest lives", wear.supports.size()));
   add_tubes(lines, wear);
+  add_sources(lines, wear);
   return lines;
 }
 

@@ -160,7 +160,7 @@ TEST(WearInTheArchive, IsThereOnlyWhereTheStudyAsksForIt) {
 
 TEST(WearOnTheTerminal, FitsItsWidthAndShowsTheShortestLives) {
   const auto lines = wear_lines(*worn(20).wear);
-  EXPECT_EQ(lines.size(), 1u + 10u + 1u + 1u);
+  EXPECT_EQ(lines.size(), 1u + 10u + 1u + 1u + 1u);
   for (const std::string& line : lines)
     EXPECT_LE(line.size(), widest) << line;
   EXPECT_THAT(lines[0], HasSubstr("in 40 years"));
@@ -169,6 +169,7 @@ TEST(WearOnTheTerminal, FitsItsWidthAndShowsTheShortestLives) {
   EXPECT_THAT(lines[1], HasSubstr("25 (21.7 to 29.4)"));
   EXPECT_THAT(lines[11], HasSubstr("the 10 of 20 supports with the shortest lives"));
   EXPECT_THAT(lines[12], HasSubstr("first: tsp20"));
+  EXPECT_EQ(lines[13], "  K = 2e-14 m2/N: 690_405 on flat_bar: made up");
 }
 
 TEST(WearOnTheTerminal, SaysNeverAndOutsideTheLaw) {
