@@ -246,10 +246,7 @@ OtherRuns read_other_runs(const study::Study& study, const std::vector<WornPlace
 
 void add_wear(const study::Study& study, const std::vector<WornPlace>& places,
               const std::vector<PlacedContact>& placed, const OtherRuns& others, results::RunResults& out) {
-  const auto ended = [](const results::TransientFacts& run) {
-    return run.report.outcome == transient::Outcome::done;
-  };
-  if (places.empty() || !std::all_of(out.transients.begin(), out.transients.end(), ended))
+  if (places.empty())
     return;
   out.wear.emplace();
   for (const WornPlace& place : places) {

@@ -20,7 +20,7 @@ using OtherRuns = std::vector<std::vector<std::map<std::string, wear::WorkRate>>
 [[nodiscard]] OtherRuns read_other_runs(const study::Study& study, const std::vector<WornPlace>& places,
                                         const std::vector<PlacedContact>& placed);
 
-/// Fills `out.wear` from its statistics of contacts; a run that diverged leaves none. Laws that do not apply become warnings.
+/// Fills `out.wear` from its statistics of contacts. Laws that do not apply and scars beyond their geometry become warnings.
 void add_wear(const study::Study& study, const std::vector<WornPlace>& places,
               const std::vector<PlacedContact>& placed, const OtherRuns& others, results::RunResults& out);
 

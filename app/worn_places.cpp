@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/worn_places.hpp"
+#include "app/worn_geometry.hpp"
 #include "core/error.hpp"
 #include "core/names.hpp"
-#include "fem/beam_constants.hpp"
 #include "wear/coefficients.hpp"
-#include "wear/obstacle_geometry.hpp"
 #include <algorithm>
 #include <fmt/format.h>
-#include <numbers>
 #include <set>
 #include <tuple>
 
@@ -79,105 +77,6 @@ std::vector<int> entries_of(const study::Study& study, const std::vector<PlacedC
   return entry_of;
 }
 
-/// The tube at a node: the largest radius and the thinnest wall of the beams that meet there.
-struct TubeAt {
-  std::optional<double> radius, wall;
-};
-
-TubeAt tube_at(const fem::Model& model, core::Index node) {
-  TubeAt out;
-  const auto largest = [](std::optional<double>& at, double value) {
-    at = std::max(at.value_or(value), value);
-  };
-  for (const fem::Beam& beam : model.beams) {
-    if (beam.a != node && beam.b != node)
-      continue;
-    const auto here = fem::property_at(model.properties[static_cast<std::size_t>(beam.property)],
-                                       beam.along[beam.a == node ? 0 : 1]);
-    if (const auto* pipe = std::get_if<fem::Pipe>(&here.section.shape)) {
-      largest(out.radius, 0.5 * pipe->outer_diameter);
-      out.wall = std::min(out.wall.value_or(pipe->thickness), pipe->thickness);
-    } else if (const auto* circle = std::get_if<fem::Circle>(&here.section.shape)) {
-      largest(out.radius, 0.5 * circle->diameter);
-    }
-  }
-  return out;
-}
-
-/// Sizes of a support, from the study, the contact and the beam.
-class Sizes {
-public:
-  Sizes(const study::Wear& wear, const study::Contact& contact, const PlacedContact& placed, TubeAt tube)
-      : wear_(wear), contact_(contact), placed_(placed), tube_(tube) {}
-
-  [[nodiscard]] double radius() const {
-    return first({wear_.tube_radius, contact_.tube_radius, tube_.radius}, "no round beam at its node gives",
-                 "tube_radius");
-  }
-  [[nodiscard]] double wall() const {
-    return first({wear_.wall, tube_.wall}, "no pipe at its node gives", "wall");
-  }
-  [[nodiscard]] double length() const {
-    const auto thickness = contact_.thickness > 0.0 ? std::optional(contact_.thickness) : std::nullopt;
-    return first({wear_.length, thickness}, "the contact has no thickness that gives", "length");
-  }
-  [[nodiscard]] double clearance() const {
-    const auto* circle = std::get_if<contact::Circle>(&placed_.obstacle);
-    const auto gap = circle && circle->gap > 0.0 ? std::optional(circle->gap) : std::nullopt;
-    return first({wear_.clearance, gap}, "the obstacle is no circle whose gap gives", "clearance");
-  }
-
-private:
-  [[nodiscard]] static double first(std::initializer_list<std::optional<double>> candidates,
-                                    const std::string& why, const std::string& key) {
-    for (const auto& candidate : candidates)
-      if (candidate)
-        return *candidate;
-    throw core::Error(fmt::format("{} the {}; give {} (m)", why, key, key));
-  }
-  const study::Wear& wear_;
-  const study::Contact& contact_;
-  const PlacedContact& placed_;
-  TubeAt tube_;
-};
-
-wear::Geometry geometry_of_obstacle(const study::Wear& entry, const study::Contact& contact,
-                                    const PlacedContact& placed, const Sizes& sizes) {
-  const bool crossing = std::holds_alternative<contact::RoundPair>(placed.obstacle);
-  const wear::TubeInSupport tube{sizes.radius(), crossing ? 1.0 : sizes.length(), entry.inclination};
-  if (contact.broached)
-    return wear::geometry_of(*contact.broached, tube);
-  if (contact.obstacle == study::ObstacleKind::egg_crate) // four flat faces
-    return wear::FlatBar{tube.radius, tube.length, tube.inclination};
-  return wear::geometry_of(placed.obstacle, tube);
-}
-
-wear::Pairing pairing_of(const study::Wear& entry, const study::Contact& contact, const PlacedContact& placed,
-                         const Sizes& sizes) {
-  using study::WearGeometry;
-  const auto shared = [&](const wear::Geometry& geometry) { return wear::SharedScar{geometry, entry.form}; };
-  switch (entry.geometry) {
-  case WearGeometry::obstacle:
-    return shared(geometry_of_obstacle(entry, contact, placed, sizes));
-  case WearGeometry::flat_bar:
-    return shared(wear::FlatBar{sizes.radius(), sizes.length(), entry.inclination});
-  case WearGeometry::drilled_hole:
-    return shared(wear::DrilledHole{sizes.radius(), sizes.clearance(), sizes.length(), entry.inclination});
-  case WearGeometry::lands:
-    return shared(wear::Lands{sizes.radius(), sizes.clearance(), sizes.length(), *entry.half_angle,
-                              entry.lands, entry.inclination});
-  case WearGeometry::ring:
-    return shared(wear::Ring{sizes.radius(), sizes.length()});
-  case WearGeometry::tube_on_tube:
-    return shared(wear::TubeOnTube{sizes.radius(), entry.inclination});
-  case WearGeometry::sectors:
-    break;
-  }
-  const double angle = 2.0 * std::numbers::pi / entry.sectors, radius = sizes.radius();
-  return wear::SectorPair{{radius, sizes.length(), angle},
-                          {radius + sizes.clearance(), sizes.length(), angle}};
-}
-
 /// The law of the tube with its coefficient, and where that is from.
 std::pair<wear::Law, std::string> law_of(const study::Wear& entry, const wear::Pairing& pairing) {
   wear::Law law = entry.law;
@@ -202,34 +101,6 @@ wear::Law support_law(const study::Wear& entry) {
   return wear::Archard{entry.support_coefficient};
 }
 
-void set_sizes(const wear::Pairing& pairing, results::WearOfSupport& facts) {
-  if (const auto* sectors = std::get_if<wear::SectorPair>(&pairing)) {
-    facts.geometry = "sectors";
-    facts.form = "exact";
-    facts.radius = sectors->tube.radius;
-    facts.length = sectors->tube.length;
-    facts.clearance = sectors->support.hole_radius - sectors->tube.radius;
-    return;
-  }
-  const auto& shared = std::get<wear::SharedScar>(pairing);
-  facts.geometry = wear::name_of(shared.geometry);
-  facts.form = shared.form == wear::Form::exact ? "exact" : "reference";
-  std::visit(
-      [&](const auto& shape) {
-        if constexpr (requires { shape.radius; })
-          facts.radius = shape.radius;
-        if constexpr (requires { shape.length; })
-          facts.length = shape.length;
-        if constexpr (requires { shape.clearance; })
-          facts.clearance = shape.clearance;
-        if constexpr (requires { shape.inclination; })
-          facts.inclination = shape.inclination;
-        if constexpr (requires { shape.crossing; })
-          facts.inclination = shape.crossing;
-      },
-      shared.geometry);
-}
-
 void set_facts(const study::Wear& entry, WornPlace& place) {
   results::WearOfSupport& facts = place.facts;
   facts.name = place.name;
@@ -243,7 +114,7 @@ void set_facts(const study::Wear& entry, WornPlace& place) {
   if (const auto* kwu = std::get_if<wear::KwuEpri>(&place.worn.tube))
     facts.coefficient = kwu->coefficient;
   facts.support_coefficient = entry.support_coefficient;
-  set_sizes(place.worn.pairing, facts);
+  set_geometry(place.worn.pairing, facts);
   facts.wall = place.worn.wall;
   facts.limit = place.worn.limit * place.worn.wall;
   facts.support_limit = place.worn.support_limit.value_or(results::no_value);
@@ -277,13 +148,12 @@ WornPlace place_of(const study::Study& study, const fem::Model& model,
     check_axes(placed, contacts);
     const PlacedContact& first = placed[contacts.front()];
     const study::Contact& contact = study.contacts[first.entry];
-    const Sizes sizes(entry, contact, first, tube_at(model, first.node));
+    const WornGeometry geometry = worn_geometry(entry, contact, first, model);
     WornPlace place{name, e, contacts, {}, {}, {}};
-    place.worn.pairing = pairing_of(entry, contact, first, sizes);
-    place.worn.wall = sizes.wall();
+    place.worn.pairing = geometry.pairing;
+    place.worn.wall = geometry.wall;
     place.worn.limit = entry.limit;
     place.worn.support_limit = entry.support_limit;
-    wear::check(place.worn.pairing);
     std::tie(place.worn.tube, place.source) = law_of(entry, place.worn.pairing);
     place.worn.support = support_law(entry);
     wear::check(place.worn);
