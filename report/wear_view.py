@@ -52,7 +52,8 @@ def contact_angles(contact, window):
         y, z = (y, zero) if kind.endswith("y") else (zero, z)
     if kind == "circle" and int(contact.facts["other"]) >= 0:  # side by side: towards the second body
         y, z = -y, -z
-    return np.arctan2(z, y)
+    angles = np.arctan2(z, y)
+    return np.where(angles >= math.pi, -math.pi, angles)  # the half turn, which planes have: in the first sector, as the work
 
 
 def _rose(plot, shares, kind, outline=False):

@@ -300,7 +300,7 @@ class Parts(unittest.TestCase):
 
         everywhere = np.ones(3, bool)
         for kind, other, expected in (("circle", -1, [0.25, 0.852416]), ("circle", 3, [-0.75, -0.147584]), ("circle_inside", 3, [0.25, 0.852416]),
-                                      ("plane_y", -1, [0.0, 1.0]), ("bars_z", -1, [0.5, 0.5])):
+                                      ("plane_y", -1, [0.0, -1.0]), ("bars_z", -1, [0.5, 0.5])):
             Touching.facts = {"obstacle": kind, "other": other}
             angles = wear_view.contact_angles(Touching, everywhere) / np.pi
             self.assertEqual(angles.round(6).tolist(), expected, kind)
