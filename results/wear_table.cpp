@@ -40,8 +40,8 @@ std::string law_text(const WearOfSupport& s) {
 }
 
 std::string row(const WearOfSupport& s) {
-  return fmt::format("  {:<16} {:>8.3g} {:>9.3g} {:>22} {:>7} {:>22}  {}", shortened(s.name),
-                     s.work_rate.value, cubic_millimetre * s.volume.last().value,
+  return fmt::format("  {:<16} {:>8.3g} {:>9} {:>22} {:>7} {:>22}  {}", shortened(s.name), s.work_rate.value,
+                     with_bounds({s.volume.last().value}, cubic_millimetre),
                      with_bounds(s.depth.last(), millimetre), with_bounds({s.scar_width}, millimetre),
                      s.life.end == "outside_law" ? "outside the law" : with_bounds(s.life.years, 1.0),
                      law_text(s));
@@ -72,9 +72,9 @@ void add_tubes(std::vector<std::string>& lines, const Wear& wear) {
     tubes.resize(most_tubes);
   }
   for (const WearOfTube& t : tubes)
-    lines.push_back(fmt::format("  {:<16} {:>8.3g} {:>9.3g} {:>22} {:>7} {:>22}  {}",
+    lines.push_back(fmt::format("  {:<16} {:>8.3g} {:>9} {:>22} {:>7} {:>22}  {}",
                                 wear.tubes.size() > 1 ? fmt::format("tube {}", t.tube) : "all supports",
-                                t.work_rate.value, cubic_millimetre * t.volume.value,
+                                t.work_rate.value, with_bounds({t.volume.value}, cubic_millimetre),
                                 with_bounds(t.depth, millimetre), "", with_bounds(t.years, 1.0),
                                 t.first.empty() ? "" : "first: " + shortened(t.first)));
 }

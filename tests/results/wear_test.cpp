@@ -175,6 +175,8 @@ TEST(WearOnTheTerminal, FitsItsWidthAndShowsTheShortestLives) {
 TEST(WearOnTheTerminal, SaysNeverAndOutsideTheLaw) {
   const auto lines = wear_lines(*worn(4).wear);
   EXPECT_THAT(lines[3], HasSubstr("outside the law"));
+  for (const std::string& line : lines)
+    EXPECT_THAT(line, Not(HasSubstr("nan")));
   EXPECT_THAT(lines[4], HasSubstr("never (124 to never)"));
   EXPECT_THAT(terminal_table(worn(2)), HasSubstr("in 40 years"));
   EXPECT_THAT(terminal_table(made_up({.contacts = 2})), Not(HasSubstr("years")));
