@@ -5,6 +5,7 @@
 #include "app/build_contacts.hpp"
 #include "app/build_fields.hpp"
 #include "app/contact_flexibility.hpp"
+#include "app/watched_wear.hpp"
 #include "modal/basis.hpp"
 #include "post/recorder.hpp"
 #include "transient/scene.hpp"
@@ -19,6 +20,7 @@ struct BuiltScene {
   std::vector<std::size_t>
       structures;                    ///< numbers of its structures, ascending; their modes follow each other
   std::vector<std::size_t> contacts; ///< numbers of its contacts among the placed ones
+  WatchedWear watched_wear;          ///< of its contacts
   std::vector<post::ObservedNode> nodes; ///< observed nodes of these structures
   std::vector<std::size_t> node_numbers; ///< their numbers among all observed nodes
   Eigen::VectorXd static_forces;         ///< N, normal, of its contacts, of a static start; else empty

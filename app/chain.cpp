@@ -8,6 +8,7 @@
 #include "app/residual_flexibility.hpp"
 #include "app/static_modes.hpp"
 #include "app/support_motion.hpp"
+#include "app/wear_of_run.hpp"
 #include "core/error.hpp"
 #include "core/mpi.hpp"
 #include "core/petsc.hpp"
@@ -333,11 +334,15 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
   std::vector<PlacedContact> placed;
   std::vector<NamedNode> nodes;
   std::vector<MovedSupport> moved;
+  std::vector<WornPlace> worn;
+  OtherRuns other_runs;
   core::agree(comm, [&] {
     model = build_model(inputs.study, mesh);
     placed = place_contacts(inputs.study, mesh, model, out.warnings);
     nodes = observed_nodes(inputs.study, mesh);
     moved = moved_supports(inputs.study, mesh, model);
+    worn = worn_places(inputs.study, model, placed);
+    other_runs = read_other_runs(inputs.study, worn, placed);
     if (inputs.study.modes.accuracy) {
       out.modes_limit = modes_limit(inputs.study, model, placed);
       inputs.study.modes.up_to_hz = out.modes_limit->up_to;
@@ -381,6 +386,9 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
     std::vector<BuiltScene> scenes;
     core::agree(comm,
                 [&] { scenes = build_scenes(inputs.study, out.bases, placed, nodes, at_contacts, out); });
+    const WatchedWear watched = watched_wear(inputs.study, worn, placed.size());
+    for (BuiltScene& scene : scenes)
+      scene.watched_wear = watched.at(scene.contacts);
     for (const NamedNode& node : nodes)
       out.node_names.push_back(node.name);
     out.duration = inputs.study.transient->duration;
@@ -400,6 +408,7 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
                                             fmt::print("{}\n", line);
                                         }};
     run_jobs(comm, inputs.study, scenes, placed.size(), nodes.size(), callback, checkpoints, out);
+    core::agree(comm, [&] { add_wear(inputs.study, worn, placed, other_runs, out); });
     out.timings.transient = watch.lap();
   }
   progress.stage("results");
@@ -438,6 +447,8 @@ std::string check(const Request& request) {
   const auto placed = place_contacts(inputs.study, mesh, model, warnings);
   const auto nodes = observed_nodes(inputs.study, mesh);
   static_cast<void>(moved_supports(inputs.study, mesh, model));
+  const auto worn = worn_places(inputs.study, model, placed);
+  static_cast<void>(read_other_runs(inputs.study, worn, placed));
   if (inputs.study.modes.accuracy)
     static_cast<void>(modes_limit(inputs.study, model, placed));
   const Fields fields = build_fields(inputs.study, mesh, model, {});
@@ -449,10 +460,11 @@ std::string check(const Request& request) {
   for (const std::string& warning : warnings)
     told += "  warning: " + warning + "\n";
   return fmt::format("{}: fine\n  {} nodes, {} beams, {} free dofs in {} structure{}, {:.6g} kg\n  {} "
-                     "contacts, {} loads, {} observed nodes\n{}",
+                     "contacts, {} loads, {} observed nodes{}\n{}",
                      request.study.string(), mesh.nodes.size(), model.beams.size(), dofs, structures.size(),
                      structures.size() == 1 ? "" : "s", fem::total_mass(model), placed.size(),
-                     inputs.study.loads.size(), nodes.size(), told);
+                     inputs.study.loads.size(), nodes.size(),
+                     worn.empty() ? "" : fmt::format(", {} supports that wear", worn.size()), told);
 }
 
 std::string export_results(const fs::path& directory, const std::string& format) {

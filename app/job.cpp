@@ -83,6 +83,14 @@ void broadcast(MPI_Comm comm, int root, const BuiltScene& built, JobResult& job)
     broadcast_plain(comm, root, table.rows);
     MPI_Bcast(&table.left_out, 1, MPI_INT64_T, root, comm);
   }
+  job.sector_rates.resize(built.watched_wear.sectors.size());
+  for (std::vector<double>& rates : job.sector_rates)
+    broadcast_plain(comm, root, rates);
+  for (const auto& maxima : built.watched_wear.maxima)
+    if (maxima && core::rank(comm) != root)
+      job.classes.emplace_back(maxima->force, maxima->speed);
+  MPI_Bcast(job.classes.data(), static_cast<int>(job.classes.size() * sizeof(wear::KwuClasses)), MPI_BYTE,
+            root, comm);
   broadcast_plain(comm, root, job.nodes);
   broadcast(comm, root, built, job.series);
 }
@@ -92,6 +100,8 @@ Job::Job(const study::Study& study, const BuiltScene& built, const transient::St
     : contacts_(built.scene.contacts.size(), study.output.statistics_from),
       impacts_(with_impacts(study) ? built.scene.contacts.size() : 0, study.output.statistics_from,
                study.output.rest_time, static_cast<std::size_t>(impact_rows(study, choice))),
+      sectors_(built.watched_wear.sectors, study.output.statistics_from),
+      classes_(built.watched_wear.maxima, study.output.statistics_from),
       nodes_(rows_of(built.nodes), study.output.statistics_from), grid_(grid_of(study)),
       recorder_(built.scene, built.nodes, grid_, transient::scaled_masses(built.scene, choice.fastest)),
       observers_(watching(study, built, progress)), run_(built.scene, choice, observers_, &recorder_, grid_) {
@@ -109,6 +119,8 @@ JobResult Job::result() && {
   out.contacts = contacts_.summaries();
   out.errors_of_sums = contacts_.errors_of_sums();
   out.impacts = std::move(impacts_).impacts();
+  out.sector_rates = sectors_.rates();
+  out.classes = classes_.classes();
   out.nodes = nodes_.summaries();
   out.series = std::move(recorder_).series();
   return out;
@@ -122,6 +134,10 @@ std::vector<transient::Observer*> Job::watching(const study::Study& study, const
     observers.push_back(&contacts_);
   if (with_impacts(study) && !built.scene.contacts.empty())
     observers.push_back(&impacts_);
+  if (!built.watched_wear.sectors.empty())
+    observers.push_back(&sectors_);
+  if (built.watched_wear.counts_forces())
+    observers.push_back(&classes_);
   if (!built.nodes.empty())
     observers.push_back(&nodes_);
   if (progress)

@@ -5,9 +5,11 @@
 #include "app/build_scene.hpp"
 #include "app/progress_observer.hpp"
 #include "post/contact_statistics.hpp"
+#include "post/force_speed_classes.hpp"
 #include "post/impact_table.hpp"
 #include "post/node_statistics.hpp"
 #include "post/recorder.hpp"
+#include "post/sector_work.hpp"
 #include "study/study.hpp"
 #include "transient/run.hpp"
 #include <mpi.h>
@@ -24,8 +26,10 @@ namespace fretwork::app {
 struct JobResult {
   transient::Report report{};
   std::vector<post::ContactSummary> contacts;
-  post::StandardErrors errors_of_sums;       ///< of all contacts of the run
-  std::vector<post::ContactImpacts> impacts; ///< empty without tables
+  post::StandardErrors errors_of_sums;           ///< of all contacts of the run
+  std::vector<post::ContactImpacts> impacts;     ///< empty without tables
+  std::vector<std::vector<double>> sector_rates; ///< W, by contact; empty where nothing wears
+  std::vector<wear::KwuClasses> classes;         ///< of the contacts under the law kwu_epri
   std::vector<post::NodeSummary> nodes;
   post::TimeSeries series;
 };
@@ -49,6 +53,8 @@ private:
 
   post::ContactStatistics contacts_;
   post::ImpactTable impacts_;
+  post::SectorStatistics sectors_;
+  post::ForceSpeedClasses classes_;
   post::NodeStatistics nodes_;
   transient::OutputGrid grid_;
   post::Recorder recorder_;

@@ -46,6 +46,15 @@ void check_size_of_impacts(const study::Study& study, const std::vector<BuiltSce
         study.output.impacts, rows, bytes * 1e-9, most_series_bytes * 1e-9));
 }
 
+void merge_wear(const BuiltScene& built, const JobResult& job, results::RunResults& out) {
+  std::size_t counted = 0;
+  for (std::size_t c = 0; c < job.sector_rates.size(); ++c) {
+    out.sector_rates[built.contacts[c]] = job.sector_rates[c];
+    if (built.watched_wear.maxima[c])
+      out.force_speed_classes[built.contacts[c]] = job.classes[counted++];
+  }
+}
+
 /// Puts the result of a job at its places among those of the study.
 void merge(const BuiltScene& built, JobResult&& job, const transient::StepChoice& choice,
            results::RunResults& out) {
@@ -57,6 +66,7 @@ void merge(const BuiltScene& built, JobResult&& job, const transient::StepChoice
     if (!job.impacts.empty())
       out.impacts[built.contacts[c]] = std::move(job.impacts[c]);
   }
+  merge_wear(built, job, out);
   for (std::size_t k = 0; k < built.node_numbers.size(); ++k) {
     out.node_summaries[built.node_numbers[k]] = job.nodes[k];
     out.series.nodes[built.node_numbers[k]] = std::move(job.series.nodes[k]);
@@ -215,6 +225,8 @@ void make_room(const study::Study& study, std::size_t contacts, std::size_t node
   out.contact_summaries.resize(contacts);
   out.series.contacts.resize(contacts);
   out.impacts.resize(study.output.impacts > 0 ? contacts : 0);
+  out.sector_rates.resize(contacts);
+  out.force_speed_classes.resize(contacts);
   out.rest_time = study.output.rest_time;
   out.node_summaries.resize(nodes);
   out.series.nodes.resize(nodes);

@@ -93,8 +93,9 @@ int main(int argc, char** argv) {
   std::string format = "csv";
   exporting->add_option("directory", directory, "folder of the results")->required();
   exporting
-      ->add_option("--format", format,
-                   "csv: time series; vtu: mode shapes and snapshots for ParaView; msh: mode shapes for gmsh")
+      ->add_option(
+          "--format", format,
+          "csv: time series and wear; vtu: mode shapes and snapshots for ParaView; msh: mode shapes for gmsh")
       ->check(CLI::IsMember({"csv", "vtu", "msh"}));
 
   try {

@@ -36,6 +36,16 @@ std::string stored_key(MPI_Comm comm, const Inputs& inputs, const std::vector<fe
          (distributed ? fmt::format(" over {} ranks", core::size(comm)) : "");
 }
 
+/// What operating states of wear take from other runs.
+std::string results_of_states(const study::Study& study) {
+  std::string bytes;
+  for (const study::Wear& wear : study.wear)
+    for (const study::WearState& state : wear.states)
+      if (state.results)
+        bytes += file_bytes(*state.results / "summary.json");
+  return bytes;
+}
+
 } // namespace
 
 Inputs read_inputs(const Request& request) {
@@ -80,9 +90,10 @@ void make_keys(const Request& request, Inputs& inputs) {
   inputs.modes_key = core::sha256(
       program + file_bytes(inputs.mesh_file) +
       text({"mesh", "materials", "sections", "beams", "restraints", "masses", "springs", "ties", "modes"}));
-  inputs.whole_key =
-      core::sha256(inputs.modes_key + text({"title", "contacts", "loads", "gravity", "base_motion",
-                                            "support_motion", "initial", "transient", "output"}));
+  inputs.whole_key = core::sha256(inputs.modes_key +
+                                  text({"title", "contacts", "loads", "gravity", "base_motion",
+                                        "support_motion", "initial", "transient", "output", "wear"}) +
+                                  results_of_states(inputs.study));
 }
 
 mesh::LineMesh mesh_stage(MPI_Comm comm, const Inputs& inputs) {

@@ -50,6 +50,8 @@ svg text { font-size: 11px; fill: var(--ink); } svg .tick { fill: var(--soft); f
 .force { stroke: var(--blue); stroke-width: 1.1; fill: none; stroke-linejoin: round; }
 .friction { stroke: var(--orange); stroke-width: 1.1; fill: none; stroke-linejoin: round; }
 .stem { stroke: var(--blue); stroke-width: 2; fill: none; } .before { fill: #eef1f5; } .zoomed { fill: #fbdcc2; }
+.band { fill: #cfe0f2; stroke: none; } .limit { stroke: #b3141e; stroke-width: 1.4; stroke-dasharray: 6 4; fill: none; }
+.rose { fill: #7aa6d6; stroke: #fff; stroke-width: 0.5; } .tube { fill: #d8dee5; stroke: var(--ink); stroke-width: 0.8; } .worn { fill: #f0a868; stroke: none; }
 .bar { fill: var(--blue); stroke: #fff; stroke-width: 0.6; }
 .share { stroke: #fff; } .stored { fill: #7aa6d6; } .modal_damping { fill: #1f5fa8; } .contact_damping { fill: #f0a868; }
 .share.friction { fill: #d95f0e; stroke-width: 1; stroke: #fff; } .share.residual { fill: #b3141e; }

@@ -54,6 +54,7 @@ class Run:
     time: np.ndarray | None = None
     structures: int = 1
     window: float = field(default=0.0)  # s, start of the statistics
+    wear: list = field(default_factory=list)  # of each support: the attributes and datasets of its group
 
     @property
     def transient(self):
@@ -108,6 +109,14 @@ def _contact(group, summaries):
     return contact
 
 
+def _support_wear(group):
+    support = _attributes(group)
+    support.update({name: item[...] for name, item in group.items() if name != "states"})
+    states = group["states"]
+    support["states"] = [(_text(states[j].attrs["name"]), float(states[j].attrs["share"])) for j in sorted(states, key=int)]
+    return support
+
+
 def _chain_abscissae(nodes, lines):
     """Length along the line from its first end to each node, where the mesh is one open chain; else None."""
     neighbours = [[] for _ in nodes]
@@ -159,6 +168,8 @@ def load(directory):
                 [_contact(group, summaries) for group in groups],
                 structures=structures,
             )
+            if "wear" in file:
+                run.wear = sorted((_support_wear(group) for group in file["wear"].values()), key=lambda support: int(support["index"]))
             if "time" in file:
                 run.time = file["time"][...]
                 run.window = float(file.attrs["statistics_from"])

@@ -3,6 +3,7 @@
 #include "results/basis_file.hpp"
 #include "results/impact_columns.hpp"
 #include "results/text_file.hpp"
+#include "results/wear_file.hpp"
 #include "results/write.hpp"
 #include <algorithm>
 #include <fmt/format.h>
@@ -230,6 +231,8 @@ void write_archive(const fs::path& file, const RunResults& results) {
       write_contacts(root, results);
       if (!results.transients.empty())
         write_transient(root, results);
+      if (results.wear)
+        write_wear(root, *results.wear);
       root.flush();
     } catch (const h5::Failure& failure) {
       throw core::Error(
@@ -264,6 +267,8 @@ RunResults read_archive(const fs::path& directory) {
     read_contacts(root, results);
     if (root.has("time"))
       read_transient(root, results);
+    if (root.has("wear"))
+      results.wear = read_wear(root);
     return results;
   } catch (const h5::Failure& failure) {
     throw core::Error(fmt::format(

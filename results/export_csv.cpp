@@ -2,6 +2,7 @@
 #include "core/error.hpp"
 #include "results/impact_columns.hpp"
 #include "results/text_file.hpp"
+#include "results/wear_json.hpp"
 #include "results/write.hpp"
 #include <algorithm>
 #include <fmt/format.h>
@@ -56,8 +57,8 @@ void remove_earlier(const std::filesystem::path& directory) {
   std::vector<std::filesystem::path> earlier;
   for (const auto& file : std::filesystem::directory_iterator(directory))
     if (const std::string name = file.path().filename().string();
-        file.path().extension() == ".csv" &&
-        (name.starts_with("contact_") || name.starts_with("node_") || name.ends_with("_impacts.csv")))
+        file.path().extension() == ".csv" && (name.starts_with("contact_") || name.starts_with("node_") ||
+                                              name.ends_with("_impacts.csv") || is_wear_csv(name)))
       earlier.push_back(file.path());
   for (const auto& file : earlier)
     std::filesystem::remove(file);
@@ -87,6 +88,8 @@ void export_csv(const std::filesystem::path& directory, const RunResults& result
   for (std::size_t c = 0; c < results.impacts.size(); ++c)
     write_impacts(directory / (path_name(results.contacts[c].name) + "_impacts.csv"),
                   results.impacts[c].rows);
+  if (results.wear)
+    export_wear_csv(directory, *results.wear);
   for (const post::NodeSeries& n : series.nodes) {
     std::vector<Column> columns{{"time [s]", series.time}};
     add(columns, "displacement", n.displacement, {"x", "y", "z"}, "m");

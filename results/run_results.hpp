@@ -8,7 +8,9 @@
 #include "post/node_statistics.hpp"
 #include "post/recorder.hpp"
 #include "post/verification.hpp"
+#include "results/wear_results.hpp"
 #include "transient/step_rule.hpp"
+#include "wear/kwu_epri.hpp"
 #include <map>
 #include <optional>
 #include <string>
@@ -99,6 +101,10 @@ struct RunResults {
   double accuracy = 0.01;                    ///< what the run aims at
   std::vector<post::ContactImpacts> impacts; ///< as `contacts`; empty without a table
   double rest_time = 0.0;                    ///< s, of the table of impacts
+  std::vector<std::vector<double>>
+      sector_rates; ///< W, as `contacts`, by angular sector; no sector where nothing wears
+  std::vector<std::optional<wear::KwuClasses>> force_speed_classes; ///< as `contacts`, under the law kwu_epri
+  std::optional<Wear> wear; ///< where the study asks for it and the run has ended
   std::vector<std::string> node_names;
   std::vector<post::NodeSummary> node_summaries;
   std::vector<TransientFacts> transients;       ///< by structure that was run

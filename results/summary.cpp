@@ -2,6 +2,7 @@
 #include "results/error_estimate.hpp"
 #include "results/text_file.hpp"
 #include "results/totals.hpp"
+#include "results/wear_json.hpp"
 #include "results/write.hpp"
 #include <algorithm>
 #include <cassert>
@@ -236,6 +237,12 @@ void add_transient(Json& out, const RunResults& results) {
     out["contact_sums"] = contact_sums(results);
   if (results.verification)
     out["verification"] = verification(*results.verification, results.contacts);
+  if (results.wear) {
+    std::vector<std::string> names;
+    for (const ContactFacts& facts : results.contacts)
+      names.push_back(facts.name);
+    out["wear"] = wear_json(*results.wear, names);
+  }
   out["error_estimate"] = error_estimate_json(results);
   out["nodes"] = Json::array();
   for (std::size_t n = 0; n < results.node_names.size(); ++n)

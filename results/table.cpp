@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/error_estimate.hpp"
 #include "results/totals.hpp"
+#include "results/wear_json.hpp"
 #include "results/write.hpp"
 #include <algorithm>
 #include <cmath>
@@ -212,6 +213,11 @@ void add_transient(Lines& lines, const RunResults& results) {
   if (!results.contact_summaries.empty())
     add_contacts(lines, results);
   add_flexibility(lines, results);
+  if (results.wear) {
+    for (const std::string& line : wear_lines(*results.wear))
+      lines.plain(line);
+    lines.plain("");
+  }
   lines.add("energy", energy_text(t.energy));
   if (results.verification)
     add_verification(lines, results);

@@ -55,7 +55,7 @@ void write_bases(const std::filesystem::path& file, const RunRecord& record,
 [[nodiscard]] RunResults read_archive(const std::filesystem::path& directory);
 
 /// contact_<name>.csv and node_<name>.csv: time and all series; <name>_impacts.csv: one impact a row. Header
-/// with units; numbers read back bit for bit.
+/// with units; numbers read back bit for bit. With wear also the files of export_wear_csv (wear_json.hpp).
 /// @throws core::Error without a transient
 void export_csv(const std::filesystem::path& directory, const RunResults& results);
 /// modes.vtu (one vector array a mode; with several structures the k-th mode of each in one array) and, with

@@ -10,7 +10,7 @@ namespace {
 
 const Keys study_keys{{"title", "mesh", "materials", "sections", "beams", "restraints", "masses", "springs",
                        "ties", "modes", "contacts", "loads", "gravity", "base_motion", "support_motion",
-                       "initial", "transient", "output"}};
+                       "initial", "transient", "output", "wear"}};
 
 [[maybe_unused]] bool is_key(const std::string& name) {
   return std::find(study_keys.known.begin(), study_keys.known.end(), name) != study_keys.known.end();
@@ -48,6 +48,7 @@ Study read(const std::filesystem::path& file, const std::vector<std::string>& ov
   study.transient = read_transient(root);
   study.initial = read_initial(root, study.transient);
   study.output = read_output(root, study.transient);
+  study.wear = read_wear(root, folder);
   return study;
 }
 

@@ -92,7 +92,7 @@ contact::Circle read_drilled(const TableReader& table) {
   return made(table, "hole_radius", [&] { return contact::drilled_hole(tube, hole); });
 }
 
-contact::Profile read_broached(const TableReader& table) {
+contact::Profile read_broached(const TableReader& table, Contact& contact) {
   const double tube = tube_radius(table);
   contact::BroachedHole hole{};
   hole.land_radius = table.number("land_radius", {Range::above_zero, "m"});
@@ -108,6 +108,7 @@ contact::Profile read_broached(const TableReader& table) {
         fmt::format("{} lands of this angle leave no lobe between them; give less than {:g} degrees", lands,
                     whole));
   hole.land_angle = land_angle * degree;
+  contact.broached = hole;
   return made(table, "land_radius", [&] { return contact::broached_hole(tube, hole); });
 }
 
@@ -170,7 +171,7 @@ void read_fixed_obstacle(const TableReader& table, Contact& contact) {
     contact.shape = read_drilled(table);
     return;
   case ObstacleKind::broached:
-    contact.shape = read_broached(table);
+    contact.shape = read_broached(table, contact);
     return;
   case ObstacleKind::egg_crate:
     contact.shape = read_egg_crate(table);

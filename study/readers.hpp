@@ -34,5 +34,6 @@ namespace fretwork::study {
 [[nodiscard]] Modes read_modes(const TableReader& root);
 [[nodiscard]] std::optional<Transient> read_transient(const TableReader& root);
 [[nodiscard]] Output read_output(const TableReader& root, const std::optional<Transient>& transient);
+[[nodiscard]] std::vector<Wear> read_wear(const TableReader& root, const std::filesystem::path& folder);
 
 } // namespace fretwork::study

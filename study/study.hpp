@@ -5,9 +5,11 @@
 #pragma once
 #include "contact/friction_law.hpp"
 #include "contact/obstacle.hpp"
+#include "contact/support_shapes.hpp"
 #include "fem/model.hpp"
 #include "mesh/read.hpp"
 #include "modal/damping.hpp"
+#include "study/wear.hpp"
 #include "transient/time_function.hpp"
 #include <array>
 #include <filesystem>
@@ -113,6 +115,7 @@ struct Contact {
   std::optional<std::string> other; ///< group of the second nodes
   ObstacleKind obstacle = ObstacleKind::circle;
   contact::Obstacle shape; ///< flat bodies without `side`: it follows from the places of the two nodes
+  std::optional<contact::BroachedHole> broached; ///< what the profile of obstacle "broached" was made of
   std::optional<double> tube_radius; ///< m, of the obstacles that have it; the shape is made with it
   std::optional<double> side;        ///< two nodes, planes: +1 or -1
   std::optional<Vec3> axis;
@@ -221,6 +224,7 @@ struct Study {
   std::vector<Initial> initial;
   std::optional<Transient> transient; ///< needed by `run` and `transient` only
   Output output;
+  std::vector<Wear> wear;
 };
 
 /// Read and check a study file and the files of its load tables; the mesh is not opened. `overrides` are the

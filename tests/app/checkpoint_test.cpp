@@ -91,6 +91,25 @@ TEST(Checkpoint, ARunKilledAtSeveralMomentsGivesTheSameBytes) {
   EXPECT_FALSE(fs::exists(file));
 }
 
+TEST(Checkpoint, KeepsTheWorkByAngleOfAWornTube) {
+  const Workshop folder;
+  std::string study = bytes_of(example("straight_tube"));
+  const auto at = study.find("tube.geo");
+  ASSERT_NE(at, std::string::npos);
+  study.insert(at, (test_paths::source_dir() / "examples" / "straight_tube").string() + "/");
+  const fs::path worn = folder.write("worn.toml", study + "\n[[wear]]\ncoefficient = 1e-16\nlength = 0.03\n");
+  const auto arguments = [&](const std::string& output) {
+    std::vector<std::string> all = tube(folder, output);
+    all[1] = worn.string();
+    return all;
+  };
+  (void)completed(folder, arguments("whole"));
+  kill_after(folder, arguments("results"), folder.path("results") / "checkpoint.h5", 0.013);
+  EXPECT_TRUE(says(completed(folder, arguments("results")), "going on from "));
+  expect_same(folder, "whole", "results");
+  EXPECT_TRUE(read_results(folder.path("results")).summary.contains("wear"));
+}
+
 TEST(Checkpoint, HowOftenItIsWrittenIsNoInput) {
   const Workshop folder;
   (void)completed(folder, tube(folder, "results", {"--set", "output.checkpoint=0"}));

@@ -86,6 +86,12 @@ TEST(Examples, UBendRattles) {
     impacts += contact["impacts"].get<int>();
   EXPECT_GT(impacts, 0);
   EXPECT_LT(run.summary["energy"]["residual_relative"].get<double>(), trusted_balance);
+  const auto& worn = run.summary["wear"]["supports"];
+  ASSERT_EQ(worn.size(), 22u);
+  EXPECT_EQ(worn[0]["geometry"]["kind"], "drilled_hole");
+  EXPECT_EQ(worn[21]["geometry"]["kind"], "flat_bar");
+  EXPECT_EQ(worn[21]["coefficient_m2_per_N"], 0.41e-15);
+  EXPECT_EQ(run.summary["wear"]["tubes"].size(), 1u);
   const double frequencies[] = {0.105645, 0.186017, 0.455817, 0.675923,
                                 0.685948, 1.015528, 1.107386, 1.910963};
   for (std::size_t i = 0; i < 8; ++i)

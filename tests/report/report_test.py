@@ -22,6 +22,7 @@ import drawing  # noqa: E402
 import fretwork_report  # noqa: E402
 import run_data  # noqa: E402
 import structure_view  # noqa: E402
+import wear_view  # noqa: E402
 
 LONGEST = 8.0  # s for 22 contacts and 10 000 outputs: the goal is 4 s on an idle machine, twice that beside other tests
 VOID = {"meta", "path", "rect", "circle", "image", "polyline", "br", "i"}
@@ -51,8 +52,9 @@ class Checker(HTMLParser):
             self.problems.append(f"</{tag}> closes nothing")
 
 
-def made_up(folder, contacts, outputs, structures=1):
-    subprocess.run([WRITE_MADE_UP, folder, str(contacts), str(outputs), str(structures)], check=True, stdout=subprocess.DEVNULL)
+def made_up(folder, contacts, outputs, structures=1, wear=False):
+    arguments = [WRITE_MADE_UP, folder, str(contacts), str(outputs), str(structures)] + (["wear"] if wear else [])
+    subprocess.run(arguments, check=True, stdout=subprocess.DEVNULL)
 
 
 def run_report(*arguments):
@@ -156,6 +158,38 @@ class Report(unittest.TestCase):
                         contact["outline"] = np.array([[2e-4, 0.0], [0.0, 2e-4], [-2e-4, 0.0], [0.0, -2e-4]])
             self.assertEqual(self.report().count('class="wall"'), len(kinds) + (3 if other < 0 else 0))  # three pairs
 
+    def test_shows_wear(self):
+        made_up(self.folder, 5, 200, wear=True)
+        text = self.report()
+        self.assertEqual(self.headings(text)[4:6], ["Table of contacts", "Wear"])
+        wear = text[text.index("<h2>Wear</h2>"):text.index("<h2>Impacts</h2>")]
+        first = re.search(r"<tbody><tr>(.*?)</tr>", wear).group(1)
+        cells = re.findall(r"<td[^>]*>(.*?)</td>", first)
+        self.assertEqual(cells[:2], ["tsp1", "0.1 (0.085 – 0.115)"])  # mW
+        self.assertEqual(cells[2], "2.52 (2.14 – 2.9)")  # 2e-14 m2/N x 1e-4 W x 40 years in mm3
+        self.assertEqual(cells[6], "500 (435 – 588)")
+        self.assertIn("690_405 on flat_bar: made up", cells[8])
+        self.assertEqual(cells[10], "this run: 75 %; state 2: 25 %")
+        self.assertIn("outside the law", wear)
+        self.assertIn("tsp3: edf_mz does not apply: V0 is below S", wear)
+        self.assertIn("never (124 – never)", wear)
+        for kind, count in (("Depth of wear of", 5), ("Scar of", 4), ("Work by angle of", 5), ("worn volume", 1)):
+            self.assertEqual(wear.count(f'aria-label="{kind}'), count, kind)
+        self.assertEqual(wear.count('class="band"'), 4)  # none outside the law
+        self.assertEqual(wear.count('class="limit"'), 5)
+        self.assertEqual(wear.count('class="worn"'), 4)
+
+    def test_shows_pictures_of_the_shortest_lives_of_many_supports(self):
+        made_up(self.folder, 20, 100, wear=True)
+        wear = self.report()
+        wear = wear[wear.index("<h2>Wear</h2>"):]
+        shown = re.findall(r'aria-label="Depth of wear of (.*?)"', wear)
+        self.assertEqual(shown, [f"tsp{i}" for i in range(20, 14, -1)])
+
+    def test_has_no_wear_that_the_study_does_not_ask_for(self):
+        made_up(self.folder, 2, 100)
+        self.assertNotIn("Wear", self.headings(self.report()))
+
     def test_works_without_a_transient(self):
         made_up(self.folder, 2, 0)
         self.assertEqual(self.headings(self.report()), ["Structure", "Modes", "How it was computed", "Study"])
@@ -258,6 +292,27 @@ class Parts(unittest.TestCase):
         self.assertEqual(sum(heights[2:-1]), 0.0)
         for empty in (np.array([]), np.array([np.nan]), np.array([0.0])):
             self.assertNotIn("nan", contact_view.histogram(empty, "peak force", "N"))
+
+    def test_contact_points_lie_opposite_to_the_normal(self):
+        class Touching:
+            y, z = np.array([1e-3, -2e-4, 3e-4]), np.array([1e-3, 1e-4, 0.0])
+            normal = np.array([1.0, 2.0, 0.0])
+
+        everywhere = np.ones(3, bool)
+        for kind, other, expected in (("circle", -1, [0.25, 0.852416]), ("circle", 3, [-0.75, -0.147584]), ("circle_inside", 3, [0.25, 0.852416]),
+                                      ("plane_y", -1, [0.0, -1.0]), ("bars_z", -1, [0.5, 0.5])):
+            Touching.facts = {"obstacle": kind, "other": other}
+            angles = wear_view.contact_angles(Touching, everywhere) / np.pi
+            self.assertEqual(angles.round(6).tolist(), expected, kind)
+
+    def test_scars_are_drawn_as_deep_as_they_are(self):
+        x = np.array([0.0])
+        support = {"radius": 9.5e-3, "clearance": 2e-4}
+        for kind in ("flat_bar", "ring", "drilled_hole", "lands"):
+            support["geometry"] = kind
+            self.assertAlmostEqual(float(wear_view._worn_surface(support, x, 3e-4)[0]), 9.2e-3, delta=1e-15, msg=kind)
+        support["geometry"] = "tube_on_tube"
+        self.assertIsNone(wear_view._worn_surface(support, x, 3e-4))
 
     def test_ticks_are_round_and_inside(self):
         self.assertEqual(drawing.ticks(0.0, 1.0, 5), [0.0, 0.2, 0.4, 0.6000000000000001, 0.8, 1.0])

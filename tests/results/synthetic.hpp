@@ -18,4 +18,7 @@ struct Made {
 
 [[nodiscard]] RunResults made_up(const Made& made = {});
 
+/// Of each contact a support: work rates that rise along the tube, the third outside its law, the fourth without an end of its life.
+[[nodiscard]] Wear made_up_wear(const RunResults& results);
+
 } // namespace fretwork::results

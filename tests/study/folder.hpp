@@ -220,6 +220,11 @@ statistics_from = 0.2
 impacts = 500
 rest_time = 1e-3
 checkpoint = 30
+
+[[wear]]
+contacts = "tsp*"
+coefficient = 1e-14
+length = 0.02
 )";
 
 } // namespace fretwork::study

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/wear_of_run.hpp"
+#include "core/error.hpp"
+#include "core/names.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+namespace fretwork::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int history_steps = 40;     ///< of depth against time
+constexpr std::size_t most_names = 3; ///< in a warning
+
+double number(const nlohmann::json& value) {
+  return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Work rates of the contacts of another run.
+std::map<std::string, wear::WorkRate> read_run(const std::string& where, const fs::path& directory) {
+  std::ifstream in(directory / "summary.json");
+  if (!in)
+    throw core::Error(fmt::format("{}: {} holds no summary.json; give the folder that `fretwork run` wrote",
+                                  where, directory.string()));
+  const auto summary = nlohmann::json::parse(in, nullptr, false);
+  if (!summary.is_object() || !summary.contains("transient") || !summary.contains("contacts"))
+    throw core::Error(fmt::format("{}: {} holds no results of a transient; run that study again", where,
+                                  directory.string()));
+  if (summary["transient"].value("outcome", "") != "done")
+    throw core::Error(
+        fmt::format("{}: the run in {} diverged; take a smaller step there", where, directory.string()));
+  std::map<std::string, wear::WorkRate> out;
+  for (const auto& contact : summary["contacts"])
+    out[contact.value("name", "")] = wear::work_rate_with_error(
+        number(contact["work_rate"]), number(contact["standard_error"]["work_rate"]));
+  return out;
+}
+
+wear::WorkRate rate_of_contact(const results::RunResults& run, std::size_t contact) {
+  const post::ContactSummary& statistics = run.contact_summaries[contact];
+  return wear::work_rate_with_error(statistics.work_rate, statistics.error.work_rate);
+}
+
+wear::WorkRate scaled(const wear::WorkRate& rate, double factor) {
+  wear::WorkRate out = rate;
+  out.value *= factor;
+  out.low *= factor;
+  out.high *= factor;
+  return out;
+}
+
+/// Mean over the states, by their shares of the time.
+wear::WorkRate mean_of_states(const std::vector<results::WearStateRate>& states) {
+  std::vector<wear::WorkRate> weighted;
+  for (const auto& state : states)
+    weighted.push_back(scaled(state.work_rate, state.share));
+  return wear::sum_of_points(weighted);
+}
+
+/// Work of this run by angular sector, sum over the contacts of a support.
+std::vector<double> sum_of_sectors(const results::RunResults& run, const std::vector<std::size_t>& contacts) {
+  std::vector<double> sum;
+  for (const std::size_t c : contacts) {
+    sum.resize(run.sector_rates[c].size(), 0.0);
+    for (std::size_t k = 0; k < sum.size(); ++k)
+      sum[k] += run.sector_rates[c][k];
+  }
+  return sum;
+}
+
+/// Shares of the volume that the sectors wear; equal ones where nothing slides.
+std::vector<double> shares_of(const std::vector<double>& rates) {
+  double sum = 0.0;
+  for (const double rate : rates)
+    sum += rate;
+  std::vector<double> shares;
+  for (const double rate : rates)
+    shares.push_back(sum > 0.0 ? rate / sum : 1.0 / static_cast<double>(rates.size()));
+  return shares;
+}
+
+/// Si and Sg of all contacts of a support.
+std::optional<wear::ImpactSliding> indices_of(const study::Wear& entry, const results::RunResults& run,
+                                              const std::vector<std::size_t>& contacts,
+                                              results::WearOfSupport& facts) {
+  if (!(entry.kwu_maxima.force > 0.0))
+    return {};
+  wear::KwuClasses all(entry.kwu_maxima.force, entry.kwu_maxima.speed);
+  for (const std::size_t c : contacts)
+    all.add(run.force_speed_classes[c].value());
+  const wear::ImpactSliding found = all.indices(entry.kwu);
+  facts.impact_index = found.impact;
+  facts.sliding_index = found.sliding;
+  facts.share_above = all.share_above();
+  return found;
+}
+
+/// Appends a list against time; where the law does not apply, as many times without a value.
+void append(const std::vector<wear::DepthAt>& history, std::size_t times, double share,
+            std::vector<double> results::WearCurves::*which, results::WearOfSupport& out) {
+  for (std::size_t i = 0; i < times; ++i) {
+    const bool applies = i < history.size();
+    const auto depth = applies ? history[i].depth : std::nullopt;
+    (out.volume.*which).push_back(applies ? history[i].tube_volume / share : results::no_value);
+    (out.support_volume.*which).push_back(applies ? history[i].support_volume / share : results::no_value);
+    (out.depth.*which).push_back(depth ? depth->tube : results::no_value);
+    (out.support_depth.*which).push_back(depth ? depth->support : results::no_value);
+  }
+}
+
+std::string name_of(wear::LifeEnd end) {
+  switch (end) {
+  case wear::LifeEnd::reached:
+    return "reached";
+  case wear::LifeEnd::never:
+    return "never";
+  case wear::LifeEnd::outside_law:
+    return "outside_law";
+  case wear::LifeEnd::beyond_geometry:
+    return "beyond_geometry";
+  }
+  return {};
+}
+
+/// The upper end of the work rate gives the short life.
+results::WearLife life_of(const wear::TimeToLimit& value, const wear::TimeToLimit& at_low,
+                          const wear::TimeToLimit& at_high) {
+  return {name_of(value.end), {value.years(), at_high.years(), at_low.years()}};
+}
+
+void set_scar(const wear::WornSupport& worn, results::WearOfSupport& out) {
+  const auto* shared = std::get_if<wear::SharedScar>(&worn.pairing);
+  const double depth = out.depth.last().value + out.support_depth.last().value;
+  if (!shared || std::isnan(depth) || depth > wear::largest_depth(shared->geometry))
+    return;
+  const wear::Scar scar = wear::scar(shared->geometry, depth);
+  out.scar_width = scar.width;
+  out.scar_length = scar.length;
+  out.scar_half_angle = scar.half_angle;
+}
+
+/// Depth of every sector at the last time, from its share of the volumes.
+void set_sector_depths(const wear::WornSupport& worn, const std::vector<double>& shares,
+                       results::WearOfSupport& out) {
+  for (const double share : shares) {
+    const auto depth =
+        wear::depths(worn.pairing, share * out.volume.last().value, share * out.support_volume.last().value);
+    out.sector_depth.push_back(depth ? depth->tube : results::no_value);
+    out.sector_support_depth.push_back(depth ? depth->support : results::no_value);
+  }
+}
+
+void set_histories(const wear::WornSupport& worn, double years,
+                   const std::vector<wear::UncertainState>& states, double share,
+                   results::WearOfSupport& out) {
+  for (int k = 0; k <= history_steps; ++k)
+    out.time.push_back(years * wear::year * k / history_steps);
+  const wear::DepthHistory history = wear::depth_history(worn, states, out.time);
+  append(history.value, out.time.size(), share, &results::WearCurves::value, out);
+  append(history.low, out.time.size(), share, &results::WearCurves::low, out);
+  append(history.high, out.time.size(), share, &results::WearCurves::high, out);
+  if (history.outside)
+    out.outside = history.outside->text;
+  const wear::Life life = wear::time_to_limit(worn, states);
+  out.life = life_of(life.value.tube, life.at_low.tube, life.at_high.tube);
+  if (life.value.support)
+    out.support_life = life_of(*life.value.support, *life.at_low.support, *life.at_high.support);
+}
+
+/// Number of the structure that a node belongs to; -1: none.
+std::int64_t tube_of(const std::vector<modal::Basis>& bases, core::Index node) {
+  for (std::size_t s = 0; s < bases.size(); ++s)
+    if (bases[s].row_of(node) >= 0)
+      return static_cast<std::int64_t>(s);
+  return -1;
+}
+
+/// One warning for all supports of which something is true.
+template <class True>
+void warn(results::RunResults& out, True is_true,
+          const std::function<std::string(const results::WearOfSupport&)>& text) {
+  std::vector<std::string> names;
+  const results::WearOfSupport* first = nullptr;
+  for (const auto& support : out.wear->supports)
+    if (is_true(support)) {
+      names.push_back(support.name);
+      first = first ? first : &support;
+    }
+  if (first)
+    out.warnings.push_back(fmt::format("wear of {}: {}", core::list_names(names, most_names), text(*first)));
+}
+
+void add_warnings(results::RunResults& out) {
+  using results::WearOfSupport;
+  warn(
+      out, [](const WearOfSupport& s) { return !s.outside.empty(); },
+      [](const WearOfSupport& s) { return s.outside; });
+  warn(
+      out, [](const WearOfSupport& s) { return s.share_above > 0.0; },
+      [](const WearOfSupport& s) {
+        return fmt::format("{:.3g} % of the time in contact is above force_max or speed_max and in no class "
+                           "of kwu_epri; give larger ones",
+                           100.0 * s.share_above);
+      });
+  warn(
+      out, [](const WearOfSupport& s) { return s.outside.empty() && std::isnan(s.depth.last().value); },
+      [](const WearOfSupport& s) {
+        return fmt::format("{:.3g} m3 after {:.4g} years have no depth, the scar leaves what geometry \"{}\" "
+                           "describes; give fewer years",
+                           s.volume.last().value, s.time.back() / wear::year, s.geometry);
+      });
+}
+
+} // namespace
+
+OtherRuns read_other_runs(const study::Study& study, const std::vector<WornPlace>& places,
+                          const std::vector<PlacedContact>& placed) {
+  OtherRuns out;
+  for (const study::Wear& entry : study.wear) {
+    auto& states = out.emplace_back();
+    for (std::size_t j = 0; j < entry.states.size(); ++j)
+      states.push_back(entry.states[j].results ? read_run(fmt::format("{}.states[{}].results", entry.path, j),
+                                                          *entry.states[j].results)
+                                               : std::map<std::string, wear::WorkRate>());
+  }
+  for (const WornPlace& place : places)
+    for (std::size_t j = 0; j < out[place.entry].size(); ++j) {
+      const study::WearState& state = study.wear[place.entry].states[j];
+      std::vector<std::string> names;
+      for (const auto& contact : out[place.entry][j])
+        names.push_back(contact.first);
+      for (const std::size_t c : place.contacts)
+        if (state.results && !out[place.entry][j].contains(placed[c].name))
+          throw core::Error(fmt::format("{}.states[{}].results: the run in {} has no contact \"{}\"{}; name "
+                                        "its contacts alike",
+                                        study.wear[place.entry].path, j, state.results->string(),
+                                        placed[c].name, core::name_help(placed[c].name, names)));
+    }
+  return out;
+}
+
+void add_wear(const study::Study& study, const std::vector<WornPlace>& places,
+              const std::vector<PlacedContact>& placed, const OtherRuns& others, results::RunResults& out) {
+  if (places.empty())
+    return;
+  out.wear.emplace();
+  for (const WornPlace& place : places) {
+    const study::Wear& entry = study.wear[place.entry];
+    results::WearOfSupport support = place.facts;
+    support.tube = tube_of(out.bases, placed[place.contacts.front()].node);
+    const auto indices = indices_of(entry, out, place.contacts, support);
+    for (std::size_t j = 0; j < entry.states.size(); ++j) {
+      const study::WearState& state = entry.states[j];
+      std::vector<wear::WorkRate> points;
+      for (const std::size_t c : place.contacts)
+        points.push_back(state.results ? others[place.entry][j].at(placed[c].name) : rate_of_contact(out, c));
+      support.states.push_back({state.name, state.share, state.given.value_or(wear::sum_of_points(points))});
+    }
+    support.work_rate = mean_of_states(support.states);
+    support.sector_rates = sum_of_sectors(out, place.contacts);
+    const bool by_sector = std::holds_alternative<wear::SectorPair>(place.worn.pairing);
+    const std::vector<double> shares = shares_of(support.sector_rates);
+    const double share = by_sector ? *std::max_element(shares.begin(), shares.end()) : 1.0;
+    std::vector<wear::UncertainState> states;
+    for (const auto& state : support.states)
+      states.push_back({state.share, scaled(state.work_rate, share), indices});
+    set_histories(place.worn, entry.years, states, share, support);
+    set_scar(place.worn, support);
+    if (by_sector)
+      set_sector_depths(place.worn, shares, support);
+    out.wear->supports.push_back(std::move(support));
+  }
+  out.wear->tubes = results::wear_by_tube(out.wear->supports);
+  add_warnings(out);
+}
+
+} // namespace fretwork::app

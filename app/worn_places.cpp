@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/worn_places.hpp"
+#include "app/worn_geometry.hpp"
+#include "core/error.hpp"
+#include "core/names.hpp"
+#include "wear/coefficients.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+#include <set>
+#include <tuple>
+
+namespace fretwork::app {
+namespace {
+
+/// Local axes of the contacts of one support agree up to this, a small part of a sector (rad).
+constexpr double same_axes = 0.01;
+
+bool fits(std::string_view name, std::string_view pattern) {
+  if (pattern.empty())
+    return name.empty();
+  if (pattern.front() == '*')
+    return fits(name, pattern.substr(1)) || (!name.empty() && fits(name.substr(1), pattern));
+  return !name.empty() && (pattern.front() == '?' || pattern.front() == name.front()) &&
+         fits(name.substr(1), pattern.substr(1));
+}
+
+/// The contact without the number of its point along the thickness.
+std::string support_name(const study::Study& study, const PlacedContact& placed) {
+  return study.contacts[placed.entry].points > 1 ? placed.name.substr(0, placed.name.rfind('@'))
+                                                 : placed.name;
+}
+
+/// Contacts by support, in the order of the contacts.
+using Supports = std::vector<std::pair<std::string, std::vector<std::size_t>>>;
+
+Supports all_supports(const study::Study& study, const std::vector<PlacedContact>& placed) {
+  Supports out;
+  for (std::size_t c = 0; c < placed.size(); ++c) {
+    const std::string name = support_name(study, placed[c]);
+    if (out.empty() || out.back().first != name)
+      out.emplace_back(name, std::vector<std::size_t>{});
+    out.back().second.push_back(c);
+  }
+  return out;
+}
+
+/// The entry of every support, -1 for those that do not wear.
+std::vector<int> entries_of(const study::Study& study, const std::vector<PlacedContact>& placed,
+                            const Supports& supports) {
+  std::vector<int> entry_of(supports.size(), -1);
+  std::set<std::string> names;
+  for (const auto& [name, contacts] : supports) {
+    names.insert(name);
+    names.insert(study.contacts[placed[contacts.front()].entry].name);
+  }
+  for (std::size_t e = 0; e < study.wear.size(); ++e)
+    for (const std::string& pattern : study.wear[e].contacts) {
+      bool found = false;
+      for (std::size_t s = 0; s < supports.size(); ++s) {
+        const std::string& contact = study.contacts[placed[supports[s].second.front()].entry].name;
+        if (!fits(supports[s].first, pattern) && !fits(contact, pattern))
+          continue;
+        found = true;
+        if (entry_of[s] >= 0 && entry_of[s] != static_cast<int>(e))
+          throw core::Error(fmt::format("{} and {}: both name the contact \"{}\"; name it in one of them",
+                                        study.wear[static_cast<std::size_t>(entry_of[s])].path,
+                                        study.wear[e].path, supports[s].first));
+        entry_of[s] = static_cast<int>(e);
+      }
+      if (!found)
+        throw core::Error(fmt::format("{}: no contact fits \"{}\"{}", study.wear[e].path, pattern,
+                                      core::name_help(pattern, {names.begin(), names.end()})));
+    }
+  for (std::size_t e = 0; e < study.wear.size(); ++e)
+    if (study.wear[e].contacts.empty())
+      std::replace(entry_of.begin(), entry_of.end(), -1, static_cast<int>(e));
+  return entry_of;
+}
+
+/// The law of the tube with its coefficient, and where that is from.
+std::pair<wear::Law, std::string> law_of(const study::Wear& entry, const wear::Pairing& pairing) {
+  wear::Law law = entry.law;
+  if (std::holds_alternative<wear::EdfMz>(law))
+    return {law, "constants of the law"};
+  if (!entry.materials)
+    return {law, results::given_source};
+  const auto* shared = std::get_if<wear::SharedScar>(&pairing);
+  const std::string geometry_class = entry.coefficient_class.value_or(
+      std::string(shared ? wear::coefficient_class(shared->geometry) : "drilled_hole"));
+  const wear::Coefficient& found = wear::coefficient(geometry_class, *entry.materials);
+  if (auto* archard = std::get_if<wear::Archard>(&law))
+    archard->coefficient = found.value;
+  else
+    std::get<wear::KwuEpri>(law).coefficient = found.value;
+  return {law, fmt::format("{} on {}: {}", found.materials, found.geometry, found.source)};
+}
+
+wear::Law support_law(const study::Wear& entry) {
+  if (std::holds_alternative<wear::KwuEpri>(entry.law))
+    return wear::KwuEpri{entry.support_coefficient};
+  return wear::Archard{entry.support_coefficient};
+}
+
+void set_facts(const study::Wear& entry, WornPlace& place) {
+  results::WearOfSupport& facts = place.facts;
+  facts.name = place.name;
+  for (const std::size_t c : place.contacts)
+    facts.contacts.push_back(static_cast<std::int64_t>(c));
+  facts.law = wear::name_of(place.worn.tube);
+  facts.source = place.source;
+  facts.coefficient = results::no_value;
+  if (const auto* archard = std::get_if<wear::Archard>(&place.worn.tube))
+    facts.coefficient = archard->coefficient;
+  if (const auto* kwu = std::get_if<wear::KwuEpri>(&place.worn.tube))
+    facts.coefficient = kwu->coefficient;
+  facts.support_coefficient = entry.support_coefficient;
+  set_geometry(place.worn.pairing, facts);
+  facts.wall = place.worn.wall;
+  facts.limit = place.worn.limit * place.worn.wall;
+  facts.support_limit = place.worn.support_limit.value_or(results::no_value);
+}
+
+/// Angles are counted in local axes, which contacts of one support must share.
+void check_axes(const std::vector<PlacedContact>& placed, const std::vector<std::size_t>& contacts) {
+  const auto& first = placed[contacts.front()];
+  for (const std::size_t c : contacts)
+    if (!placed[c].frame.rotation().isApprox(first.frame.rotation(), same_axes))
+      throw core::Error(fmt::format(
+          "\"{}\" and \"{}\" have different local axes, in which the angles of one support are counted; give "
+          "them the same axis and y_axis, or leave one_support out",
+          first.name, placed[c].name));
+}
+
+/// Results are filed under the names of supports.
+void check_names(const study::Study& study, const std::vector<WornPlace>& places) {
+  std::set<std::string> names;
+  for (const WornPlace& place : places)
+    if (!names.insert(place.name).second)
+      throw core::Error(fmt::format("{}: a second support called \"{}\"; give the entry another name",
+                                    study.wear[place.entry].path, place.name));
+}
+
+WornPlace place_of(const study::Study& study, const fem::Model& model,
+                   const std::vector<PlacedContact>& placed, std::size_t e, const std::string& name,
+                   const std::vector<std::size_t>& contacts) {
+  const study::Wear& entry = study.wear[e];
+  try {
+    check_axes(placed, contacts);
+    const PlacedContact& first = placed[contacts.front()];
+    const study::Contact& contact = study.contacts[first.entry];
+    const WornGeometry geometry = worn_geometry(entry, contact, first, model);
+    WornPlace place{name, e, contacts, {}, {}, {}};
+    place.worn.pairing = geometry.pairing;
+    place.worn.wall = geometry.wall;
+    place.worn.limit = entry.limit;
+    place.worn.support_limit = entry.support_limit;
+    std::tie(place.worn.tube, place.source) = law_of(entry, place.worn.pairing);
+    place.worn.support = support_law(entry);
+    wear::check(place.worn);
+    set_facts(entry, place);
+    place.facts.node = first.node;
+    return place;
+  } catch (const core::Error& error) {
+    throw core::Error(fmt::format("{}, contact \"{}\": {}", entry.path, name, error.what()));
+  }
+}
+
+} // namespace
+
+std::vector<WornPlace> worn_places(const study::Study& study, const fem::Model& model,
+                                   const std::vector<PlacedContact>& placed) {
+  const Supports supports = all_supports(study, placed);
+  const std::vector<int> entry_of = entries_of(study, placed, supports);
+  std::vector<WornPlace> out;
+  for (std::size_t e = 0; e < study.wear.size(); ++e) {
+    std::vector<std::size_t> together;
+    for (std::size_t s = 0; s < supports.size(); ++s) {
+      if (entry_of[s] != static_cast<int>(e))
+        continue;
+      if (study.wear[e].one_support)
+        together.insert(together.end(), supports[s].second.begin(), supports[s].second.end());
+      else
+        out.push_back(place_of(study, model, placed, e, supports[s].first, supports[s].second));
+    }
+    if (!together.empty())
+      out.push_back(place_of(study, model, placed, e, study.wear[e].name, together));
+  }
+  std::stable_sort(out.begin(), out.end(), [](const WornPlace& a, const WornPlace& b) {
+    return a.contacts.front() < b.contacts.front();
+  });
+  check_names(study, out);
+  return out;
+}
+
+WatchedWear watched_wear(const study::Study& study, const std::vector<WornPlace>& places,
+                         std::size_t contacts) {
+  WatchedWear out;
+  for (const WornPlace& place : places) {
+    out.sectors.resize(contacts, 0);
+    out.maxima.resize(contacts);
+    const study::Wear& entry = study.wear[place.entry];
+    for (const std::size_t c : place.contacts) {
+      out.sectors[c] = entry.sectors;
+      if (entry.kwu_maxima.force > 0.0)
+        out.maxima[c] = entry.kwu_maxima;
+    }
+  }
+  return out;
+}
+
+} // namespace fretwork::app

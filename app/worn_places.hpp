@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The supports of a study that wear: which contacts make each, its law and its geometry, before anything is computed.
+///
+/// A support is a node of a contact with all points of its thickness; with `one_support` all contacts of the entry. An entry of `[[wear]]`
+/// names contacts, supports (`support[3]`) or patterns of them (* any characters, ? one); one entry without names holds for all that no other
+/// names. Sizes that the study does not give are those of the contact and of the beam at its node.
+#pragma once
+#include "app/build_contacts.hpp"
+#include "app/watched_wear.hpp"
+#include "results/wear_results.hpp"
+#include "wear/life.hpp"
+
+namespace fretwork::app {
+
+struct WornPlace {
+  std::string name;
+  std::size_t entry;                 ///< in study.wear
+  std::vector<std::size_t> contacts; ///< numbers among the placed ones
+  wear::WornSupport worn;
+  std::string source;           ///< of the tube's coefficient
+  results::WearOfSupport facts; ///< name, contacts, law, geometry and sizes, ready for the results
+};
+
+/// @throws core::Error for a name that fits no contact, a contact that two entries name, a size that nothing gives, an obstacle without a
+///         geometry of wear, a coefficient that the bank does not have, contacts of one support with different local axes
+[[nodiscard]] std::vector<WornPlace> worn_places(const study::Study& study, const fem::Model& model,
+                                                 const std::vector<PlacedContact>& placed);
+
+/// What the transient counts. @param contacts  number of all contacts
+[[nodiscard]] WatchedWear watched_wear(const study::Study& study, const std::vector<WornPlace>& places,
+                                       std::size_t contacts);
+
+} // namespace fretwork::app

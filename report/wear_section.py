@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The section of the report on wear: table of supports, depth against time, scars, work by angle, wear along the tube."""
+
+import html
+import math
+
+import numpy as np
+
+import wear_view
+from drawing import short
+from page import figure, section, table, warning
+
+MANY_SUPPORTS = 12  # above, pictures are shown of a few
+PICTURES_OF_MANY = 6
+
+
+def _bounds(bounds, factor=1.0, digits=3):
+    """0.12 (0.11 – 0.13)"""
+    value, low, high = bounds
+    text = _one(value, factor, digits)
+    if math.isnan(value) or not low < high:
+        return text
+    return f"{text} ({_one(low, factor, digits)} – {_one(high, factor, digits)})"
+
+
+def _one(value, factor, digits):
+    return "never" if math.isinf(value) else short(factor * value, digits)
+
+
+def _life(support):
+    if support["life_end"] == "outside_law":
+        return "outside the law"
+    return _bounds(support["life_years"])
+
+
+def _law(support):
+    text = html.escape(support["law"])
+    if math.isfinite(support["coefficient"]):
+        text += f", K = {short(support['coefficient'], 3)} m²/N"
+    return f"{text}<br>({html.escape(support['source'])})"
+
+
+def _scar(support):
+    width, length = (1e3 * support[key] for key in ("scar_width", "scar_length"))
+    return f"{short(width, 3)} × {short(length, 3)}" if math.isfinite(width) else "–"
+
+
+def _states(support):
+    return "; ".join(f"{html.escape(name)}: {short(100 * share, 3)} %" for name, share in support["states"])
+
+
+def _supports(supports):
+    heads = ["support", "work rate [mW]", "worn volume [mm³]", "depth [mm]", "support's depth [mm]", "scar width × length [mm]",
+             "years to the limit", "limit [mm]", "law", "geometry"]
+    several = any(len(support["states"]) > 1 for support in supports)
+    rows = [
+        [html.escape(s["name"]), _bounds(s["work_rate"], 1e3), _bounds(s["volume"][-1], 1e9), _bounds(s["depth"][-1], 1e3),
+         _bounds(s["support_depth"][-1], 1e3), _scar(s), _life(s), short(1e3 * s["limit"], 3), _law(s), html.escape(s["geometry"])]
+        + ([_states(s)] if several else [])
+        for s in supports
+    ]
+    return table(heads + (["operating states"] if several else []), rows, (0, 8, 9, 10))
+
+
+def _tubes(run):
+    def bounds(entry):
+        return tuple(math.nan if entry[key] is None else entry[key] for key in ("value", "low", "high"))
+
+    def life(tube):  # summary.json has no infinity
+        return _bounds(bounds(tube["life_years"])) if tube["life_years"]["value"] is not None else "–"
+
+    tubes = run.summary.get("wear", {}).get("tubes", [])
+    rows = [
+        [f"{t['tube']}", f"{t['supports']}", _bounds(bounds(t["work_rate"]), 1e3), _bounds(bounds(t["volume_m3"]), 1e9),
+         _bounds(bounds(t["depth_m"]), 1e3), html.escape(t["deepest_support"] or "–"), life(t), html.escape(t["first_support"] or "–")]
+        for t in tubes
+    ]
+    heads = ["tube", "supports", "work rate [mW]", "worn volume [mm³]", "largest depth [mm]", "at", "shortest life [years]", "of"]
+    return table(heads, rows, (0, 5, 7)) if rows else ""
+
+
+def _angles(run, support):
+    window = run.time >= run.window
+    parts = [wear_view.contact_angles(run.contacts[c], window) for c in support["contacts"] if run.contacts[c].normal is not None]
+    return np.concatenate(parts) if parts else np.array([])
+
+
+def _panel(run, support):
+    return (
+        f'<div class="panel"><h3>{html.escape(support["name"])}</h3><div class="row">'
+        + figure(wear_view.depth_history(support))
+        + figure(wear_view.scar(support))
+        + figure(wear_view.polar(support, _angles(run, support)))
+        + "</div></div>"
+    )
+
+
+def _place(run, support):
+    return run.contacts[support["contacts"][0]].abscissa
+
+
+def _shown(supports):
+    if len(supports) <= MANY_SUPPORTS:
+        return supports
+    return sorted(supports, key=lambda s: s["life_years"][0] if not math.isnan(s["life_years"][0]) else math.inf)[:PICTURES_OF_MANY]
+
+
+_EXPLANATION = (
+    '<p class="soft">Left: depth of the tube (blue; band: interval of the work rate; orange: depth of the support) and its limit (red). Middle: the '
+    "wall of the tube across the scar, orange what is worn off. Right: contact point by angle from y_loc to z_loc; blue areas: work of sliding by "
+    "sector, over every step; orange: time in contact at the output instants; the largest sector of each reaches the rim.</p>"
+)
+
+
+def wear(run):
+    if not run.wear:
+        return ""
+    years = run.wear[0]["time"][-1] / wear_view.YEAR
+    note = (
+        f'<p class="soft">Volume, depth and scar after {short(years)} years; in brackets the ends of the interval of the work rate. Laws, geometries and '
+        "their limits: doc/wear.md. Coefficients of one pair of materials differ by decades with geometry and source.</p>"
+    )
+    along = ""
+    if len(run.wear) > 1:
+        places = [_place(run, support) for support in run.wear]
+        along = '<div class="grid2">' + "".join(
+            figure(wear_view.along(run.wear, places, *plot))
+            for plot in (("volume", 1e9, "worn volume [mm³]"), ("depth", 1e3, "depth [mm]"))
+        ) + "</div>"
+    outside = "".join(warning(f"{s['name']}: {s['outside_law']}") for s in run.wear if s["outside_law"])
+    panels = [_panel(run, support) for support in _shown(run.wear)]
+    left = f'<p class="soft">The {PICTURES_OF_MANY} of {len(run.wear)} supports with the shortest lives.</p>' if len(panels) < len(run.wear) else ""
+    return section("Wear", note, outside, _supports(run.wear), _tubes(run), along, left + _EXPLANATION, *panels)

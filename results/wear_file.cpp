@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/wear_file.hpp"
+#include "results/text_file.hpp"
+#include <algorithm>
+
+namespace fretwork::results {
+namespace {
+
+struct NumberOf {
+  const char* name;
+  double WearOfSupport::*value;
+};
+constexpr NumberOf figures[] = {{"coefficient", &WearOfSupport::coefficient},
+                                {"support_coefficient", &WearOfSupport::support_coefficient},
+                                {"radius", &WearOfSupport::radius},
+                                {"wall", &WearOfSupport::wall},
+                                {"length", &WearOfSupport::length},
+                                {"clearance", &WearOfSupport::clearance},
+                                {"inclination", &WearOfSupport::inclination},
+                                {"limit", &WearOfSupport::limit},
+                                {"support_limit", &WearOfSupport::support_limit},
+                                {"impact_index", &WearOfSupport::impact_index},
+                                {"sliding_index", &WearOfSupport::sliding_index},
+                                {"share_above", &WearOfSupport::share_above},
+                                {"scar_width", &WearOfSupport::scar_width},
+                                {"scar_length", &WearOfSupport::scar_length},
+                                {"scar_half_angle", &WearOfSupport::scar_half_angle}};
+constexpr const char* units =
+    "coefficient, support_coefficient: m2/N; radius, wall, length, clearance, limit, support_limit, "
+    "scar_width, "
+    "scar_length: m; inclination, scar_half_angle: rad; work_rate (value, low, high): W; life_years, "
+    "support_life_years (value, low, high): years, infinity: never";
+
+struct TextOf {
+  const char* name;
+  std::string WearOfSupport::*value;
+};
+constexpr TextOf texts[] = {{"name", &WearOfSupport::name},     {"law", &WearOfSupport::law},
+                            {"source", &WearOfSupport::source}, {"geometry", &WearOfSupport::geometry},
+                            {"form", &WearOfSupport::form},     {"outside_law", &WearOfSupport::outside}};
+
+struct CurvesOf {
+  const char* name;
+  const char* unit;
+  WearCurves WearOfSupport::*value;
+};
+constexpr CurvesOf curves[] = {{"volume", "m3", &WearOfSupport::volume},
+                               {"support_volume", "m3", &WearOfSupport::support_volume},
+                               {"depth", "m", &WearOfSupport::depth},
+                               {"support_depth", "m", &WearOfSupport::support_depth}};
+
+struct ListOf {
+  const char* name;
+  const char* unit;
+  std::vector<double> WearOfSupport::*value;
+};
+constexpr ListOf lists[] = {{"time", "s", &WearOfSupport::time},
+                            {"sector_work_rate", "W", &WearOfSupport::sector_rates},
+                            {"sector_depth", "m", &WearOfSupport::sector_depth},
+                            {"sector_support_depth", "m", &WearOfSupport::sector_support_depth}};
+
+void write_rate(const h5::Group& group, const wear::WorkRate& w) {
+  const double values[] = {w.value, w.low, w.high};
+  group.set<double>("work_rate", values, {3});
+  group.set("work_rate_has_interval", std::int64_t{w.has_interval});
+  group.set("work_rate_low_at_zero", std::int64_t{w.low_at_zero});
+}
+
+std::array<double, 3> three(const h5::Group& group, const char* name) {
+  const auto values = group.values<double>(name);
+  if (values.size() != 3)
+    throw h5::Failure(std::string(name) + " of wear");
+  return {values[0], values[1], values[2]};
+}
+
+wear::WorkRate read_rate(const h5::Group& group) {
+  const auto v = three(group, "work_rate");
+  return {v[0], v[1], v[2], group.integer("work_rate_low_at_zero") != 0,
+          group.integer("work_rate_has_interval") != 0};
+}
+
+void write_life(const h5::Group& group, const std::string& name, const WearLife& life) {
+  const double values[] = {life.years.value, life.years.low, life.years.high};
+  group.set<double>(name + "_years", values, {3});
+  group.set(name + "_end", life.end);
+}
+
+WearLife read_life(const h5::Group& group, const std::string& name) {
+  const auto v = three(group, (name + "_years").c_str());
+  return {group.text(name + "_end"), {v[0], v[1], v[2]}};
+}
+
+/// n rows of value, low, high.
+void write_curves(const h5::Group& group, const CurvesOf& which, const WearCurves& c) {
+  std::vector<double> rows;
+  for (std::size_t i = 0; i < c.value.size(); ++i)
+    rows.insert(rows.end(), {c.value[i], c.low[i], c.high[i]});
+  group.write<double>(which.name, rows, {c.value.size(), 3}, std::string(which.unit) + ": value, low, high");
+}
+
+WearCurves read_curves(const h5::Group& group, const char* name) {
+  const auto rows = group.read<double>(name);
+  if (rows.size() % 3 != 0)
+    throw h5::Failure(std::string(name) + " of wear");
+  WearCurves c;
+  for (std::size_t i = 0; i < rows.size(); i += 3) {
+    c.value.push_back(rows[i]);
+    c.low.push_back(rows[i + 1]);
+    c.high.push_back(rows[i + 2]);
+  }
+  return c;
+}
+
+void write_states(const h5::Group& group, const std::vector<WearStateRate>& states) {
+  const h5::Group all = group.create("states");
+  for (std::size_t j = 0; j < states.size(); ++j) {
+    const h5::Group state = all.create(std::to_string(j));
+    state.set("name", states[j].name);
+    state.set("share", states[j].share);
+    write_rate(state, states[j].work_rate);
+  }
+}
+
+void write_support(const h5::Group& group, const WearOfSupport& s, std::size_t index) {
+  for (const TextOf& text : texts)
+    group.set(text.name, s.*text.value);
+  group.set("index", static_cast<std::int64_t>(index));
+  group.set("node", s.node);
+  group.set("tube", s.tube);
+  for (const NumberOf& figure : figures)
+    group.set(figure.name, s.*figure.value);
+  group.set("units", std::string(units));
+  write_rate(group, s.work_rate);
+  write_life(group, "life", s.life);
+  write_life(group, "support_life", s.support_life);
+  group.write<std::int64_t>("contacts", s.contacts, {s.contacts.size()}, "numbers of contacts");
+  for (const CurvesOf& which : curves)
+    write_curves(group, which, s.*which.value);
+  for (const ListOf& list : lists)
+    if (!(s.*list.value).empty())
+      group.write<double>(list.name, s.*list.value, {(s.*list.value).size()}, list.unit);
+  write_states(group, s.states);
+}
+
+WearOfSupport read_support(const h5::Group& group) {
+  WearOfSupport s;
+  for (const TextOf& text : texts)
+    s.*text.value = group.text(text.name);
+  s.node = group.integer("node");
+  s.tube = group.integer("tube");
+  for (const NumberOf& figure : figures)
+    s.*figure.value = group.number(figure.name);
+  s.work_rate = read_rate(group);
+  s.life = read_life(group, "life");
+  s.support_life = read_life(group, "support_life");
+  s.contacts = group.read<std::int64_t>("contacts");
+  for (const CurvesOf& which : curves)
+    s.*which.value = read_curves(group, which.name);
+  for (const ListOf& list : lists)
+    if (group.has(list.name))
+      s.*list.value = group.read<double>(list.name);
+  const h5::Group states = group.open("states");
+  for (std::size_t j = 0; states.has(std::to_string(j)); ++j) {
+    const h5::Group state = states.open(std::to_string(j));
+    s.states.push_back({state.text("name"), state.number("share"), read_rate(state)});
+  }
+  return s;
+}
+
+} // namespace
+
+void write_wear(const h5::Group& root, const Wear& wear) {
+  const h5::Group all = root.create("wear");
+  for (std::size_t s = 0; s < wear.supports.size(); ++s)
+    write_support(all.create(path_name(wear.supports[s].name)), wear.supports[s], s);
+}
+
+Wear read_wear(const h5::Group& root) {
+  const h5::Group all = root.open("wear");
+  std::vector<std::pair<std::int64_t, std::string>> order;
+  for (const std::string& name : all.children())
+    order.emplace_back(all.open(name).integer("index"), name);
+  std::sort(order.begin(), order.end());
+  Wear wear;
+  for (const auto& entry : order)
+    wear.supports.push_back(read_support(all.open(entry.second)));
+  wear.tubes = wear_by_tube(wear.supports);
+  return wear;
+}
+
+} // namespace fretwork::results

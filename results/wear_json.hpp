@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Wear in summary.json, on the terminal and as CSV: keys and columns as in doc/study-file.md.
+#pragma once
+#include "results/wear_results.hpp"
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace fretwork::results {
+
+/// @param contacts  names of the contacts of the run
+[[nodiscard]] nlohmann::ordered_json wear_json(const Wear& wear, const std::vector<std::string>& contacts);
+
+/// Lines of the terminal table, without a label: one a support, at most a dozen, of more the shortest lives; one a tube; one a coefficient of the bank.
+[[nodiscard]] std::vector<std::string> wear_lines(const Wear& wear);
+
+/// wear.csv: one support a row; <name>_wear.csv: volume and depth against time; <name>_wear_sectors.csv: work and depth by angle.
+/// @throws core::Error if a file cannot be written
+void export_wear_csv(const std::filesystem::path& directory, const Wear& wear);
+
+/// True for the name of a file that export_wear_csv writes.
+[[nodiscard]] bool is_wear_csv(const std::string& file_name);
+
+} // namespace fretwork::results

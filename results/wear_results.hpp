@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The wear that follows from the work rates of a run: plain data, by support and by tube (doc/wear.md).
+#pragma once
+#include "core/types.hpp"
+#include "wear/laws.hpp"
+#include "wear/work_rate.hpp"
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace fretwork::results {
+
+/// `source` of a coefficient that the study gives.
+inline constexpr const char* given_source = "study";
+inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+
+/// A figure at the work rate and at the two ends of its interval; not a number where there is none.
+struct Bounds {
+  double value = no_value, low = no_value, high = no_value;
+};
+
+/// A figure against time, at the work rate and at the ends of its interval.
+struct WearCurves {
+  std::vector<double> value, low, high;
+  /// At the last time; not numbers where there is none.
+  [[nodiscard]] Bounds last() const {
+    return value.empty() ? Bounds{} : Bounds{value.back(), low.back(), high.back()};
+  }
+};
+
+/// An operating state: its share of the time and the work rate of the support in it.
+struct WearStateRate {
+  std::string name;
+  double share = 1.0;
+  wear::WorkRate work_rate{};
+};
+
+/// How the time to the limit of a body ends: "reached", "never", "outside_law", "beyond_geometry".
+struct WearLife {
+  std::string end;
+  Bounds years; ///< a: low is the short life, of the upper end of the work rate; infinity: never
+};
+
+/// One scar: a support, all points of it.
+struct WearOfSupport {
+  std::string name;
+  std::vector<std::int64_t> contacts; ///< their numbers
+  std::int64_t node = 0;              ///< of the first contact, in the model
+  std::int64_t tube = 0;              ///< number of its structure
+
+  std::string law, source;          ///< of the law; where the coefficient of the tube is from
+  double coefficient = 0.0;         ///< K of the tube, m2/N; not a number for a law that has none
+  double support_coefficient = 0.0; ///< m2/N
+  std::string geometry, form;
+  double radius = 0.0, wall = 0.0; ///< m, of the tube
+  double length = no_value;        ///< m, of the support along the tube
+  double clearance = no_value;     ///< m, radial, of geometries that have one
+  double inclination = 0.0;        ///< rad
+  double limit = 0.0;              ///< m, depth that the tube may lose
+  double support_limit = no_value; ///< m
+
+  std::vector<WearStateRate> states;
+  wear::WorkRate work_rate{};                               ///< W, mean over the states by their shares
+  double impact_index = no_value, sliding_index = no_value; ///< Si, Sg of kwu_epri
+  double share_above = no_value; ///< of the time in contact that is above the maxima of kwu_epri's classes
+  std::string outside;           ///< why the law does not apply; empty: it does
+
+  std::vector<double> time;          ///< s, from 0 to the years asked for
+  WearCurves volume, support_volume; ///< m3
+  WearCurves depth, support_depth;   ///< m; not a number beyond the geometry
+  double scar_width = no_value, scar_length = no_value,
+         scar_half_angle = no_value; ///< m, m, rad: at the last time
+  WearLife life, support_life;       ///< an empty end: the support has no limit
+  std::vector<double> sector_rates;  ///< W, of this run by angular sector of the contact point, from -pi on
+  std::vector<double> sector_depth, sector_support_depth; ///< m, at the last time; geometry "sectors" only
+};
+
+/// All supports of one structure.
+struct WearOfTube {
+  std::int64_t tube = 0; ///< number of the structure
+  std::int64_t supports = 0;
+  wear::WorkRate work_rate{}; ///< W, sum over its supports
+  Bounds volume; ///< m3, sum over supports at the years asked for; not a number where a law does not apply
+  Bounds depth;  ///< m, the largest
+  std::string deepest; ///< the support where it is
+  Bounds years;        ///< the shortest life
+  std::string first;   ///< the support that ends it
+};
+
+struct Wear {
+  std::vector<WearOfSupport> supports;
+  std::vector<WearOfTube> tubes;
+};
+
+/// Sums and extremes over the supports of each tube, by the number of the tube.
+[[nodiscard]] std::vector<WearOfTube> wear_by_tube(const std::vector<WearOfSupport>& supports);
+
+} // namespace fretwork::results

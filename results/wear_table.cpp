@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/wear_json.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <iterator>
+#include <numeric>
+
+namespace fretwork::results {
+namespace {
+
+constexpr std::size_t most_supports = 12; // shown one by one; of more, the ten with the shortest lives
+constexpr std::size_t most_tubes = 5;
+constexpr std::size_t name_width = 16;
+constexpr double millimetre = 1e3, cubic_millimetre = 1e9;
+
+/// 0.12 (0.11 to 0.13); a dash where there is no value, "never" where it is not reached.
+std::string with_bounds(const Bounds& b, double factor) {
+  const auto one = [&](double value) {
+    return std::isinf(value) ? std::string("never") : fmt::format("{:.3g}", factor * value);
+  };
+  if (std::isnan(b.value))
+    return "-";
+  if (!(b.low < b.high) || std::isnan(b.low) || std::isnan(b.high))
+    return one(b.value);
+  return fmt::format("{} ({} to {})", one(b.value), one(b.low), one(b.high));
+}
+
+std::string shortened(const std::string& name) {
+  if (name.size() <= name_width)
+    return name;
+  std::size_t end = name_width - 3;
+  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80)
+    --end;
+  return name.substr(0, end) + "...";
+}
+
+std::string law_text(const WearOfSupport& s) {
+  return std::isnan(s.coefficient) ? s.law : fmt::format("{} {:.3g}", s.law, s.coefficient);
+}
+
+std::string row(const WearOfSupport& s) {
+  return fmt::format("  {:<16} {:>8.3g} {:>9} {:>22} {:>7} {:>22}  {}", shortened(s.name), s.work_rate.value,
+                     with_bounds({s.volume.last().value}, cubic_millimetre),
+                     with_bounds(s.depth.last(), millimetre), with_bounds({s.scar_width}, millimetre),
+                     s.life.end == "outside_law" ? "outside the law" : with_bounds(s.life.years, 1.0),
+                     law_text(s));
+}
+
+/// Where coefficients of a bank are from, each once.
+void add_sources(std::vector<std::string>& lines, const Wear& wear) {
+  std::vector<std::string> told;
+  for (const WearOfSupport& s : wear.supports) {
+    if (std::isnan(s.coefficient) || s.source == given_source)
+      continue;
+    const std::string line = fmt::format("  K = {:.3g} m2/N: {}", s.coefficient, s.source);
+    if (std::find(told.begin(), told.end(), line) == told.end())
+      told.push_back(line);
+  }
+  lines.insert(lines.end(), told.begin(), told.end());
+}
+
+/// Tubes of several supports, the shortest lives where there are many.
+void add_tubes(std::vector<std::string>& lines, const Wear& wear) {
+  std::vector<WearOfTube> tubes;
+  std::copy_if(wear.tubes.begin(), wear.tubes.end(), std::back_inserter(tubes),
+               [](const WearOfTube& t) { return t.supports > 1; });
+  if (tubes.size() > most_tubes) {
+    std::stable_sort(tubes.begin(), tubes.end(), [](const WearOfTube& a, const WearOfTube& b) {
+      return a.years.value < b.years.value || (std::isnan(b.years.value) && !std::isnan(a.years.value));
+    });
+    tubes.resize(most_tubes);
+  }
+  for (const WearOfTube& t : tubes)
+    lines.push_back(fmt::format("  {:<16} {:>8.3g} {:>9} {:>22} {:>7} {:>22}  {}",
+                                wear.tubes.size() > 1 ? fmt::format("tube {}", t.tube) : "all supports",
+                                t.work_rate.value, with_bounds({t.volume.value}, cubic_millimetre),
+                                with_bounds(t.depth, millimetre), "", with_bounds(t.years, 1.0),
+                                t.first.empty() ? "" : "first: " + shortened(t.first)));
+}
+
+} // namespace
+
+std::vector<std::string> wear_lines(const Wear& wear) {
+  std::vector<std::size_t> shown(wear.supports.size());
+  std::iota(shown.begin(), shown.end(), std::size_t{0});
+  const auto life = [&](std::size_t s) {
+    const double years = wear.supports[s].life.years.value;
+    return std::isnan(years) ? std::numeric_limits<double>::infinity() : years;
+  };
+  if (shown.size() > most_supports) {
+    std::stable_sort(shown.begin(), shown.end(), [&](auto a, auto b) { return life(a) < life(b); });
+    shown.resize(10);
+  }
+  std::vector<std::string> lines;
+  const bool alike = std::all_of(wear.supports.begin(), wear.supports.end(), [&](const WearOfSupport& s) {
+    return s.time == wear.supports.front().time && s.limit == wear.supports.front().limit;
+  });
+  const WearOfSupport& first = wear.supports.front();
+  lines.push_back(fmt::format(
+      "  {:<16} {:>8} {:>9} {:>22} {:>7} {:>22}  {}",
+      alike && !first.time.empty() ? fmt::format("in {:.4g} years", first.time.back() / fretwork::wear::year)
+                                   : "wear",
+      "work W", "worn mm3", "depth mm", "scar mm",
+      alike ? fmt::format("years to {:.3g} mm", millimetre * first.limit) : "years to the limit",
+      "law, m2/N"));
+  for (const std::size_t s : shown)
+    lines.push_back(row(wear.supports[s]));
+  if (shown.size() < wear.supports.size())
+    lines.push_back(fmt::format("  the 10 of {} supports with the shortest lives", wear.supports.size()));
+  add_tubes(lines, wear);
+  add_sources(lines, wear);
+  return lines;
+}
+
+} // namespace fretwork::results

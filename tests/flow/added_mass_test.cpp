@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "../fem/expect_error.hpp"
+#include "flow/added_mass.hpp"
+#include <cmath>
+#include <numbers>
+
+namespace fretwork::flow {
+namespace {
+
+constexpr double printed = 0.5e-6;   ///< six decimals
+constexpr double round_off = 1e-14;  ///< relative, of a few products
+constexpr double diameter = 0.01905; ///< m
+
+double coefficient(Arrangement arrangement, double pitch_ratio) {
+  return added_mass_coefficient(confinement_ratio({arrangement, pitch_ratio * diameter}, diameter));
+}
+
+TEST(AddedMass, HasTheReferenceValues) {
+  for (const Arrangement triangles : {Arrangement::triangle, Arrangement::rotated_triangle}) {
+    EXPECT_NEAR(coefficient(triangles, 1.44), 1.412156, printed);
+    EXPECT_NEAR(coefficient(triangles, 1.5), 1.358473, printed);
+  }
+  for (const Arrangement squares : {Arrangement::square, Arrangement::rotated_square}) {
+    EXPECT_NEAR(coefficient(squares, 1.44), 1.317415, printed);
+    EXPECT_NEAR(coefficient(squares, 1.5), 1.277461, printed);
+  }
+}
+
+TEST(AddedMass, OfASingleTubeIsTheFluidThatItDisplaces) {
+  const double displaced = std::numbers::pi / 4.0 * diameter * diameter;
+  EXPECT_EQ(coefficient(Arrangement::single, 0.0), 1.0);
+  EXPECT_NEAR(added_mass({}, diameter, 740.0), 740.0 * displaced, round_off * 740.0 * displaced);
+  EXPECT_TRUE(std::isinf(confinement_ratio({}, diameter)));
+}
+
+TEST(AddedMass, OfABundleIsThatOfItsCircle) {
+  // potential flow between the tube and a circle of diameter De: (De^2 + D^2)/(De^2 - D^2)
+  const Bundle bundle{Arrangement::square, 1.44 * diameter};
+  const double d = diameter, de = confinement_ratio(bundle, d) * d;
+  const double expected = (de * de + d * d) / (de * de - d * d) * 740.0 * std::numbers::pi / 4.0 * d * d;
+  EXPECT_NEAR(added_mass(bundle, d, 740.0), expected, round_off * expected);
+}
+
+TEST(AddedMass, RefusesTubesThatNearlyTouch) {
+  tests::expect_error(
+      [] {
+        (void)confinement_ratio({Arrangement::square, 1.05 * 0.02}, 0.02);
+      },
+      {"pitch = 0.021 m", "diameter 0.02 m", "P/D = 1.05", "above 1.05 diameters"});
+  EXPECT_GT(confinement_ratio({Arrangement::square, 1.051 * 0.02}, 0.02), 1.0);
+  tests::expect_error(
+      [] {
+        (void)pitch_ratio({Arrangement::triangle, std::nan("")}, 0.02);
+      },
+      {"pitch = nan"});
+  tests::expect_error([] { (void)pitch_ratio({}, 0.02); },
+                      {"a single tube has no pitch", "name the arrangement"});
+}
+
+TEST(AddedMass, GapVelocityIsThatThroughTheGaps) {
+  EXPECT_NEAR(gap_velocity(1.0, {Arrangement::square, 1.5 * 0.02}, 0.02), 3.0, 3.0 * round_off);
+  EXPECT_EQ(gap_velocity(1.2, {}, 0.02), 1.2);
+  EXPECT_EQ(velocity_of_mass_flux(400.0, 200.0), 2.0);
+  tests::expect_error([] { (void)velocity_of_mass_flux(400.0, 0.0); }, {"density = 0 kg/m3", "> 0"});
+}
+
+} // namespace
+} // namespace fretwork::flow

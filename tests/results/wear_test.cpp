@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Wear in every result file.
+#include "folder.hpp"
+#include "results/wear_file.hpp"
+#include "results/wear_json.hpp"
+#include "results/write.hpp"
+#include "synthetic.hpp"
+#include <cmath>
+#include <cstring>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace fretwork::results {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr std::size_t widest = 112; // columns that a terminal shows without wrapping, roughly
+constexpr double round_off = 1e-13; ///< of a few products
+
+RunResults worn(int contacts, int structures = 1) {
+  RunResults results = made_up({.contacts = contacts, .outputs = 20, .structures = structures});
+  results.wear = made_up_wear(results);
+  return results;
+}
+
+/// NaN and infinity included.
+bool same(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+nlohmann::json summary_of(const RunResults& results) {
+  const Folder folder;
+  write_summary(folder / "summary.json", results);
+  std::string text;
+  for (const std::string& line : lines_of(folder / "summary.json"))
+    text += line;
+  return nlohmann::json::parse(text);
+}
+
+WearOfSupport with(std::int64_t tube, const std::string& name, double rate, double depth, double years) {
+  WearOfSupport s;
+  s.tube = tube;
+  s.name = name;
+  s.work_rate = wear::work_rate_between(0.5 * rate, rate, 2.0 * rate);
+  s.volume = {{rate}, {0.5 * rate}, {2.0 * rate}};
+  s.depth = {{depth}, {0.5 * depth}, {2.0 * depth}};
+  s.life = {"reached", {years, 0.5 * years, 2.0 * years}};
+  return s;
+}
+
+} // namespace
+
+TEST(WearByTube, SumsVolumesAndTakesTheDeepestAndTheShortestLife) {
+  const auto tubes =
+      wear_by_tube({with(1, "a", 1.0, 3.0, 7.0), with(0, "b", 4.0, 9.0, 2.0), with(1, "c", 2.0, 1.0, 5.0)});
+  ASSERT_EQ(tubes.size(), 2u);
+  EXPECT_EQ(tubes[0].tube, 0);
+  EXPECT_EQ(tubes[0].supports, 1);
+  EXPECT_EQ(tubes[0].first, "b");
+  EXPECT_EQ(tubes[1].supports, 2);
+  EXPECT_EQ(tubes[1].work_rate.value, 3.0);
+  EXPECT_EQ(tubes[1].work_rate.high, 6.0);
+  EXPECT_EQ(tubes[1].volume.low, 1.5);
+  EXPECT_EQ(tubes[1].deepest, "a");
+  EXPECT_EQ(tubes[1].depth.value, 3.0);
+  EXPECT_EQ(tubes[1].depth.high, 6.0);
+  EXPECT_EQ(tubes[1].first, "c");
+  EXPECT_EQ(tubes[1].years.value, 5.0);
+  EXPECT_EQ(tubes[1].years.low, 2.5);
+}
+
+TEST(WearByTube, LeavesOutWhatHasNoDepthAndNoLife) {
+  WearOfSupport outside = with(0, "outside", 1.0, no_value, no_value);
+  outside.volume = {{no_value}, {no_value}, {no_value}};
+  const auto tubes = wear_by_tube({outside, with(0, "b", 4.0, 9.0, 2.0)});
+  EXPECT_EQ(tubes[0].deepest, "b");
+  EXPECT_EQ(tubes[0].first, "b");
+  EXPECT_EQ(tubes[0].depth.value, 9.0);
+  EXPECT_TRUE(std::isnan(tubes[0].volume.value)); // a sum without all its terms would be too small
+}
+
+TEST(WearInTheSummary, HasEverySupportWithItsIntervals) {
+  const auto summary = summary_of(worn(4));
+  const auto& supports = summary["wear"]["supports"];
+  ASSERT_EQ(supports.size(), 4u);
+  EXPECT_EQ(supports[1]["name"], "tsp2");
+  EXPECT_EQ(supports[1]["contacts"][0], "tsp2");
+  EXPECT_EQ(supports[1]["work_rate"]["value"], 2e-4);
+  EXPECT_EQ(supports[1]["work_rate"]["has_interval"], true);
+  EXPECT_EQ(supports[1]["coefficient_m2_per_N"], 2e-14);
+  EXPECT_EQ(supports[1]["coefficient_source"], "690_405 on flat_bar: made up");
+  EXPECT_EQ(supports[1]["years"], 40.0);
+  EXPECT_NEAR(supports[1]["volume_m3"]["value"].get<double>(), 2e-14 * 2e-4 * 40.0 * 31536000.0, round_off);
+  EXPECT_LT(supports[1]["depth_m"]["low"], supports[1]["depth_m"]["high"]);
+  EXPECT_EQ(supports[1]["life_years"]["end"], "reached");
+  EXPECT_EQ(supports[1]["sectors"]["count"], 36);
+  EXPECT_FALSE(supports[1].contains("kwu_epri"));
+  EXPECT_EQ(supports[1]["states"][0]["share"], 0.75);
+  EXPECT_TRUE(supports[1]["support_life_years"].is_null());
+  EXPECT_EQ(supports[2]["life_years"]["end"], "outside_law");
+  EXPECT_TRUE(supports[2]["depth_m"]["value"].is_null());
+  EXPECT_EQ(supports[2]["outside_law"], "edf_mz does not apply: V0 is below S");
+  EXPECT_TRUE(supports[3]["life_years"]["value"].is_null()); // never
+  EXPECT_EQ(supports[3]["life_years"]["low"], 123.5);
+  EXPECT_EQ(supports[3]["support_life_years"]["value"], 77.0);
+  EXPECT_EQ(supports[3]["sectors"]["depth_m"].size(), 36u);
+  EXPECT_EQ(summary["wear"]["tubes"][0]["supports"], 4);
+}
+
+TEST(WearInTheSummary, IsThereOnlyWhereTheStudyAsksForIt) {
+  EXPECT_FALSE(summary_of(made_up({.contacts = 2, .outputs = 20})).contains("wear"));
+}
+
+TEST(WearInTheArchive, IsReadBackBitForBit) {
+  const RunResults out = worn(4);
+  const Folder folder;
+  write_archive(folder / "results.h5", out);
+  const RunResults in = read_archive(folder.path());
+  ASSERT_TRUE(in.wear);
+  ASSERT_EQ(in.wear->supports.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const WearOfSupport &a = in.wear->supports[i], &b = out.wear->supports[i];
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.contacts, b.contacts);
+    EXPECT_EQ(a.node, b.node);
+    EXPECT_EQ(a.law + a.source + a.geometry + a.form + a.outside,
+              b.law + b.source + b.geometry + b.form + b.outside);
+    EXPECT_TRUE(
+        same({a.coefficient, a.support_coefficient, a.radius, a.wall, a.length, a.clearance, a.inclination,
+              a.limit, a.support_limit, a.scar_width, a.scar_length, a.scar_half_angle},
+             {b.coefficient, b.support_coefficient, b.radius, b.wall, b.length, b.clearance, b.inclination,
+              b.limit, b.support_limit, b.scar_width, b.scar_length, b.scar_half_angle}));
+    EXPECT_TRUE(
+        same({a.work_rate.value, a.work_rate.low, a.work_rate.high, a.life.years.value, a.life.years.low},
+             {b.work_rate.value, b.work_rate.low, b.work_rate.high, b.life.years.value, b.life.years.low}));
+    EXPECT_EQ(a.life.end + a.support_life.end, b.life.end + b.support_life.end);
+    for (const auto which : {&WearOfSupport::volume, &WearOfSupport::support_volume, &WearOfSupport::depth,
+                             &WearOfSupport::support_depth})
+      EXPECT_TRUE(same((a.*which).value, (b.*which).value) && same((a.*which).low, (b.*which).low) &&
+                  same((a.*which).high, (b.*which).high));
+    EXPECT_TRUE(same(a.time, b.time) && same(a.sector_rates, b.sector_rates) &&
+                same(a.sector_depth, b.sector_depth));
+    ASSERT_EQ(a.states.size(), 2u);
+    EXPECT_EQ(a.states[1].name, "state 2");
+    EXPECT_EQ(a.states[0].share, 0.75);
+    EXPECT_EQ(a.states[0].work_rate.high, b.states[0].work_rate.high);
+    EXPECT_EQ(a.states[1].work_rate.has_interval, false);
+  }
+  EXPECT_EQ(in.wear->tubes.size(), out.wear->tubes.size());
+}
+
+TEST(WearInTheArchive, IsThereOnlyWhereTheStudyAsksForIt) {
+  const Folder folder;
+  write_archive(folder / "results.h5", made_up({.contacts = 2, .outputs = 20}));
+  EXPECT_FALSE(read_archive(folder.path()).wear);
+}
+
+TEST(WearOnTheTerminal, FitsItsWidthAndShowsTheShortestLives) {
+  const auto lines = wear_lines(*worn(20).wear);
+  EXPECT_EQ(lines.size(), 1u + 10u + 1u + 1u + 1u);
+  for (const std::string& line : lines)
+    EXPECT_LE(line.size(), widest) << line;
+  EXPECT_THAT(lines[0], HasSubstr("in 40 years"));
+  EXPECT_THAT(lines[0], HasSubstr("years to 0.436 mm"));
+  EXPECT_THAT(lines[1], HasSubstr("tsp20"));
+  EXPECT_THAT(lines[1], HasSubstr("25 (21.7 to 29.4)"));
+  EXPECT_THAT(lines[11], HasSubstr("the 10 of 20 supports with the shortest lives"));
+  EXPECT_THAT(lines[12], HasSubstr("first: tsp20"));
+  EXPECT_EQ(lines[13], "  K = 2e-14 m2/N: 690_405 on flat_bar: made up");
+}
+
+TEST(WearOnTheTerminal, SaysNeverAndOutsideTheLaw) {
+  const auto lines = wear_lines(*worn(4).wear);
+  EXPECT_THAT(lines[3], HasSubstr("outside the law"));
+  for (const std::string& line : lines)
+    EXPECT_THAT(line, Not(HasSubstr("nan")));
+  EXPECT_THAT(lines[4], HasSubstr("never (124 to never)"));
+  EXPECT_THAT(terminal_table(worn(2)), HasSubstr("in 40 years"));
+  EXPECT_THAT(terminal_table(made_up({.contacts = 2})), Not(HasSubstr("years")));
+}
+
+TEST(ExportCsv, HasFilesOfWear) {
+  const Folder folder;
+  RunResults results = worn(2);
+  results.wear->supports[1].source = "a \"b\", c";
+  export_csv(folder.path(), results);
+  const auto table = lines_of(folder / "wear.csv");
+  ASSERT_EQ(table.size(), 3u);
+  EXPECT_THAT(table[0],
+              HasSubstr("support,tube,law,coefficient [m2/N],source,work_rate [W],work_rate_low [W]"));
+  EXPECT_THAT(table[1], HasSubstr("\"tsp1\",0,archard,2e-14,"));
+  EXPECT_THAT(table[2], HasSubstr("\"a \"\"b\"\", c\""));
+  EXPECT_EQ(lines_of(folder / "tsp1_wear.csv").size(), 42u);
+  EXPECT_EQ(lines_of(folder / "tsp2_wear_sectors.csv").size(), 37u);
+  EXPECT_EQ(lines_of(folder / "tsp2_wear_sectors.csv")[0], "from [rad],to [rad],work_rate [W]");
+  export_csv(folder.path(), made_up({.contacts = 2, .outputs = 20})); // removes them
+  EXPECT_FALSE(std::filesystem::exists(folder / "wear.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "tsp2_wear_sectors.csv"));
+}
+
+} // namespace fretwork::results

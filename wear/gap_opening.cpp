@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wear/gap_opening.hpp"
+#include "core/error.hpp"
+#include "wear/check.hpp"
+#include "wear/root.hpp"
+#include "wear/sectors.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fretwork::wear {
+
+namespace {
+
+constexpr double round_off = 1e-12; ///< of a depth from a bracketed root
+constexpr double beyond =
+    std::numeric_limits<double>::max(); ///< where the geometry ends, any limit is exceeded
+
+/// A place with its rates of wear.
+struct Wearing {
+  const Place& place;
+  const PlaceState& state;
+  WornVolume tube, support;
+
+  /// Depths of volumes since both were new.
+  [[nodiscard]] std::optional<PairDepth> depth_of(double tube_volume, double support_volume) const {
+    if (std::holds_alternative<SectorPair>(place.support.pairing))
+      return depths(place.support.pairing, tube_volume, support_volume);
+    auto depth = depths(place.support.pairing, tube_volume, support_volume - state.earlier_volume);
+    if (depth)
+      depth->support += state.earlier_depth;
+    return depth;
+  }
+  [[nodiscard]] double tube_volume(double time) const {
+    return state.tube_volume + tube.at(state.tube_age + time) - tube.at(state.tube_age);
+  }
+  [[nodiscard]] double support_volume(double time) const {
+    return state.support_volume + support.at(state.support_age + time) - support.at(state.support_age);
+  }
+  [[nodiscard]] std::optional<PairDepth> depth(double time) const {
+    return depth_of(tube_volume(time), support_volume(time));
+  }
+  [[nodiscard]] bool wears() const { return tube.initial_rate > 0.0 || support.initial_rate > 0.0; }
+};
+
+struct Allowed {
+  double growth; ///< m
+  AdvanceLimit limit;
+};
+
+Allowed allowed_growth(const Wearing& at, const AdvanceOptions& options) {
+  const double wall = at.place.support.wall;
+  const double by_gap = options.gap_share * at.state.gap, by_wall = options.wall_share * wall;
+  const double least = options.least_wall_share * wall;
+  if (by_gap < least)
+    return {least, AdvanceLimit::least};
+  return by_gap < by_wall ? Allowed{by_gap, AdvanceLimit::gap} : Allowed{by_wall, AdvanceLimit::wall};
+}
+
+/// Time until `excess` is 0, where it comes before `time`.
+bool shorten(double& time, const Function& excess) {
+  if (!(excess(time) > 0.0))
+    return false;
+  time = excess(0.0) >= 0.0 ? 0.0 : root(excess, 0.0, time);
+  return true;
+}
+
+/// T of one place on its own makes `out` shorter.
+void limit_by(const Wearing& at, std::size_t place, const AdvanceOptions& options, Advance& out) {
+  const double before = at.state.depth.total();
+  const Allowed allowed = allowed_growth(at, options);
+  if (shorten(out.time, [&](double time) {
+        const auto depth = at.depth(time);
+        // beyond the geometry: as deep as it describes; if even that is allowed, state_after refuses
+        return (depth ? depth->total() : largest_depth(at.place.support.pairing)) - before - allowed.growth;
+      })) {
+    out.limit = allowed.limit;
+    out.place = place;
+    out.progress = Progress::go_on;
+  }
+  const double limit = at.place.support.limit * at.place.support.wall;
+  const auto life = [&](double time) {
+    const auto depth = at.depth(time);
+    return depth ? depth->tube - limit : -limit;
+  };
+  if (shorten(out.time, life) || life(out.time) >= -round_off * limit) {
+    out.limit = AdvanceLimit::life;
+    out.place = place;
+    out.progress = Progress::life_reached;
+  }
+}
+
+void check(const AdvanceOptions& options) {
+  check_positive("gap opening", "horizon", options.horizon, "s");
+  check_positive("gap opening", "gap_share", options.gap_share, "");
+  check_positive("gap opening", "wall_share", options.wall_share, "");
+  check_positive("gap opening", "least_wall_share", options.least_wall_share, "");
+  if (options.least_wall_share > options.wall_share)
+    throw core::Error(
+        fmt::format("gap opening: least_wall_share = {:g} is above wall_share = {:g}; give at most as "
+                    "much",
+                    options.least_wall_share, options.wall_share));
+}
+
+void check_lengths(std::size_t places, std::size_t states, std::size_t loads) {
+  if (places == 0 || places != states || places != loads)
+    throw core::Error(
+        fmt::format("gap opening: {} places, {} states and {} lists of work rates; give one of each for "
+                    "each place, at least one",
+                    places, states, loads));
+}
+
+/// Runs `work` and names the place in its message.
+template <class Work> auto at_place(std::size_t place, Work work) {
+  try {
+    return work();
+  } catch (const core::Error& error) {
+    throw core::Error(fmt::format("place {}: {}", place + 1, error.what()));
+  }
+}
+
+Wearing wearing_at(const Place& place, const PlaceState& state, std::span<const OperatingState> loads,
+                   std::size_t number, std::vector<PlaceOutside>& outside) {
+  check(place.support);
+  check_not_negative("gap opening", "initial gap", place.initial_gap, "m");
+  Wearing out{place, state, {}, {}};
+  const auto rate = [&](const Law& law) {
+    auto result = worn_volume(law, loads);
+    if (result.outside)
+      outside.push_back({number, *std::move(result.outside)});
+    return result.volume.value_or(WornVolume{});
+  };
+  out.tube = rate(place.support.tube);
+  out.support = rate(place.support.support);
+  return out;
+}
+
+PlaceState state_after(const Wearing& at, double time) {
+  PlaceState out = at.state;
+  out.tube_volume = at.tube_volume(time);
+  out.support_volume = at.support_volume(time);
+  out.tube_age += time;
+  out.support_age += time;
+  const auto depth = at.depth_of(out.tube_volume, out.support_volume);
+  if (!depth)
+    throw core::Error(
+        fmt::format("wear leaves what its geometry describes (depth {:g} m); take the exact form or a "
+                    "lower limit",
+                    largest_depth(at.place.support.pairing)));
+  out.depth = *depth;
+  out.gap = at.place.initial_gap + depth->total();
+  return out;
+}
+
+} // namespace
+
+PlaceState new_place(const Place& place) {
+  check(place.support);
+  check_not_negative("gap opening", "initial gap", place.initial_gap, "m");
+  PlaceState out;
+  out.gap = place.initial_gap;
+  return out;
+}
+
+PlaceState with_new_tube(const Place& place, const PlaceState& worn) {
+  PlaceState out = worn;
+  out.tube_volume = out.tube_age = 0.0;
+  out.depth.tube = 0.0;
+  out.gap = place.initial_gap + worn.depth.support;
+  out.earlier_volume = worn.support_volume;
+  out.earlier_depth = worn.depth.support;
+  return out;
+}
+
+Advance advance(std::span<const Place> places, std::span<const PlaceState> states,
+                std::span<const std::vector<OperatingState>> loads, const AdvanceOptions& options) {
+  check(options);
+  check_lengths(places.size(), states.size(), loads.size());
+  Advance out{options.horizon, {}, Progress::horizon_reached, AdvanceLimit::horizon, 0, {}};
+  std::vector<Wearing> wearing;
+  for (std::size_t k = 0; k < places.size(); ++k)
+    wearing.push_back(
+        at_place(k, [&] { return wearing_at(places[k], states[k], loads[k], k, out.outside); }));
+  bool any = false;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    at_place(k, [&] { limit_by(wearing[k], k, options, out); });
+    any = any || wearing[k].wears();
+  }
+  if (!any && out.progress == Progress::horizon_reached)
+    out.progress = Progress::geometry_stands;
+  for (std::size_t k = 0; k < places.size(); ++k)
+    out.states.push_back(at_place(k, [&] { return state_after(wearing[k], out.time); }));
+  return out;
+}
+
+Advance advance(std::span<const Place> places, std::span<const PlaceState> states,
+                std::span<const double> work_rates, const AdvanceOptions& options) {
+  std::vector<std::vector<OperatingState>> loads;
+  for (const double work_rate : work_rates)
+    loads.push_back({OperatingState{1.0, work_rate}});
+  return advance(places, states, loads, options);
+}
+
+std::vector<contact::PolarPoint> opened_profile(std::span<const PlaceState> sectors) {
+  if (sectors.size() < 3 || sectors.size() > SectorWork::most)
+    throw core::Error(fmt::format("gap opening: {} sectors do not enclose a hole; give 3 to {}",
+                                  sectors.size(), SectorWork::most));
+  const SectorWork angles(static_cast<int>(sectors.size()));
+  std::vector<contact::PolarPoint> out;
+  for (std::size_t k = 0; k < sectors.size(); ++k)
+    out.push_back({angles.middle(k), sectors[k].gap});
+  return out;
+}
+
+} // namespace fretwork::wear

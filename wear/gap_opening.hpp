@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Wear opens the gaps, and open gaps change the motion. The motion is computed again after each advance:
+///
+///     1. work rates W_k at the present gaps (a transient, or the mean of several)
+///     2. the advance in time T: the largest with, at every place k,
+///            d(p_t + p_s) <= max(min(gap_share gap, wall_share wall), least_wall_share wall)
+///            p_t <= limit wall,   T <= horizon
+///     3. V_t, V_s grow by V(age + T) - V(age) of their laws at W_k; p_t, p_s follow (depth.hpp); gap = initial gap +
+///        p_t + p_s; back to 1.
+///
+/// A place is a support, or one angular sector of it with the depths of sectors. It ends when the geometry stands
+/// (nothing wears at the present work rates), a tube has lost its limit, or the horizon is reached. T is of order 1 in
+/// the shares: half of them, half the error.
+/// The least advance keeps a gap near 0 from asking for advances without end. Which of the limits acted, and where, is
+/// returned. A law that does not apply at a place wears nothing there, which is returned too.
+/// edf_mz has the age of the body as its clock, at the present V0.
+/// A new tube: volume, depth and age of the tube start again; the support keeps its own. In a shared scar the new tube
+/// begins a new scar on the support, whose depth goes on from what it was: no depth is lost or gained by the exchange.
+/// Pure functions: equal input, equal result.
+#pragma once
+#include "contact/profile.hpp"
+#include "wear/depth.hpp"
+#include "wear/laws.hpp"
+#include "wear/life.hpp"
+#include <span>
+#include <vector>
+
+namespace fretwork::wear {
+
+struct Place {
+  WornSupport support; ///< its `support_limit` does not count here
+  double initial_gap;  ///< m, >= 0: of new tube and support, in the direction of wear
+};
+
+struct PlaceState {
+  double tube_volume = 0.0, support_volume = 0.0; ///< V_t, V_s, m3, since each was new
+  double tube_age = 0.0, support_age = 0.0;       ///< s
+  PairDepth depth{0.0, 0.0};                      ///< p_t, p_s, m
+  double gap = 0.0;                               ///< m
+  double earlier_volume = 0.0,
+         earlier_depth = 0.0; ///< of the support when its tube was last replaced, m3 and m
+};
+
+/// New tube, new support.
+[[nodiscard]] PlaceState new_place(const Place& place);
+/// New tube, the support as it is.
+[[nodiscard]] PlaceState with_new_tube(const Place& place, const PlaceState& worn);
+
+struct AdvanceOptions {
+  double horizon;                  ///< s, > 0: time that is left
+  double gap_share = 0.1;          ///< > 0
+  double wall_share = 0.05;        ///< > 0
+  double least_wall_share = 0.005; ///< > 0, <= wall_share
+};
+
+/// What ended the advance.
+enum class AdvanceLimit { gap, wall, least, life, horizon };
+/// What comes next.
+enum class Progress { go_on, geometry_stands, life_reached, horizon_reached };
+
+struct PlaceOutside {
+  std::size_t place;
+  OutsideLaw law;
+};
+
+struct Advance {
+  double time; ///< T, s
+  std::vector<PlaceState> states;
+  Progress progress;
+  AdvanceLimit limit;
+  std::size_t place; ///< where the limit acted; 0 for the horizon
+  std::vector<PlaceOutside> outside;
+};
+
+/// @param loads  operating states of each place at the present gaps
+/// @throws core::Error for input out of range (naming the place, from 1), lists of different lengths, and for a place
+/// whose wear leaves what its geometry describes
+[[nodiscard]] Advance advance(std::span<const Place> places, std::span<const PlaceState> states,
+                              std::span<const std::vector<OperatingState>> loads,
+                              const AdvanceOptions& options);
+/// One operating state each. @param work_rates  W
+[[nodiscard]] Advance advance(std::span<const Place> places, std::span<const PlaceState> states,
+                              std::span<const double> work_rates, const AdvanceOptions& options);
+
+/// Polar points (rad, m) of the free space of the tube's centre, one at the middle of each sector of sectors.hpp, for
+/// contact::Profile. Facets join them: between two middles of gap g the free space is narrower by up to
+/// g (1 - cos(pi/n)), 0.4 % for 36 sectors.
+/// @throws core::Error for fewer than 3 sectors
+[[nodiscard]] std::vector<contact::PolarPoint> opened_profile(std::span<const PlaceState> sectors);
+
+} // namespace fretwork::wear

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// A work rate with the interval in which it is known, and the quantiles of what is computed from many.
+///
+/// Interval: value +- standard error of a run (post::StandardErrors), or bounds. A lower end below 0 becomes 0, which
+/// is returned as `low_at_zero`.
+/// Points of one support (nodes along it, both sides of it) wear one scar: values, lower and upper ends are summed.
+/// Ends are summed linearly since contacts of one tube are not independent: an upper bound of the interval.
+/// Quantile at p of n sorted samples x_1..x_n: with h = (n - 1) p + 1, x_[h] + (h - [h])(x_[h]+1 - x_[h])  (type 7 of
+/// R. J. Hyndman and Y. Fan, The American Statistician 50 (1996) 361). An infinite sample ("never") is the largest;
+/// between a finite and an infinite one the quantile is infinite.
+#pragma once
+#include <span>
+#include <vector>
+
+namespace fretwork::wear {
+
+struct WorkRate {
+  double value;             ///< W, >= 0
+  double low, high;         ///< W, low <= value <= high
+  bool low_at_zero = false; ///< the lower end of the interval was below 0
+  bool has_interval = true; ///< false: only the value is known, low = high = value
+};
+
+/// Without an interval. @throws core::Error for a value that is not finite and >= 0
+[[nodiscard]] WorkRate work_rate(double value);
+/// @param standard_error  W, >= 0, or not a number: there is none   @throws core::Error
+[[nodiscard]] WorkRate work_rate_with_error(double value, double standard_error);
+/// @throws core::Error unless 0 <= low <= value <= high, finite
+[[nodiscard]] WorkRate work_rate_between(double low, double value, double high);
+
+/// Mean over random draws of one state, +- s/sqrt(n), s their standard deviation (n - 1); of one draw without an interval.
+/// @param draws  W, each >= 0   @throws core::Error for no draw
+[[nodiscard]] WorkRate mean_of_draws(std::span<const double> draws);
+
+/// Of one support. @throws core::Error for no point
+[[nodiscard]] WorkRate sum_of_points(std::span<const WorkRate> points);
+
+/// @param samples  any order; infinity allowed   @param probabilities  0..1
+/// @throws core::Error for no sample, one that is not a number, or a probability outside
+[[nodiscard]] std::vector<double> quantiles(std::vector<double> samples,
+                                            std::span<const double> probabilities);
+
+} // namespace fretwork::wear
