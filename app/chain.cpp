@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/chain.hpp"
+#include "app/build_flow.hpp"
 #include "app/contact_notes.hpp"
 #include "app/jobs.hpp"
 #include "app/modes_limit.hpp"
@@ -331,11 +332,13 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
   out.record = make_record(inputs, core::size(comm));
   fem::Model model;
   std::vector<PlacedContact> placed;
+  std::vector<PlacedFlow> flows;
   std::vector<NamedNode> nodes;
   std::vector<MovedSupport> moved;
   core::agree(comm, [&] {
     model = build_model(inputs.study, mesh);
     placed = place_contacts(inputs.study, mesh, model, out.warnings);
+    flows = place_flows(inputs.study, mesh, model, out.notes);
     nodes = observed_nodes(inputs.study, mesh);
     moved = moved_supports(inputs.study, mesh, model);
     if (inputs.study.modes.accuracy) {
@@ -432,10 +435,11 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
 std::string check(const Request& request) {
   const Inputs inputs = read_inputs(request);
   const mesh::LineMesh mesh = mesh::read(inputs.study.mesh);
-  const fem::Model model = build_model(inputs.study, mesh);
+  fem::Model model = build_model(inputs.study, mesh);
   const auto structures = moving_structures(model);
   std::vector<std::string> warnings;
   const auto placed = place_contacts(inputs.study, mesh, model, warnings);
+  const auto flows = place_flows(inputs.study, mesh, model, warnings);
   const auto nodes = observed_nodes(inputs.study, mesh);
   static_cast<void>(moved_supports(inputs.study, mesh, model));
   if (inputs.study.modes.accuracy)
