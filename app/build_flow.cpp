@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
 
 namespace fretwork::app {
 namespace {
@@ -18,13 +19,32 @@ std::vector<Index> beams_of(const study::Flow& flow, const mesh::LineMesh& mesh)
   return beams;
 }
 
-Index start_of(const study::Flow& flow, const mesh::LineMesh& mesh) {
+/// Nodes with one beam of the tube.
+std::vector<Index> ends_of(const fem::Model& model, const std::vector<Index>& beams) {
+  std::map<Index, int> met;
+  for (const Index beam : beams)
+    for (const Index node :
+         {model.beams[static_cast<std::size_t>(beam)].a, model.beams[static_cast<std::size_t>(beam)].b})
+      ++met[node];
+  std::vector<Index> ends;
+  for (const auto& [node, count] : met)
+    if (count == 1)
+      ends.push_back(node);
+  return ends;
+}
+
+Index start_of(const study::Flow& flow, const mesh::LineMesh& mesh, const std::vector<Index>& ends) {
   const std::vector<Index> nodes = mesh::group_nodes(mesh, flow.from, name_of(flow));
-  if (nodes.size() != 1)
+  std::vector<Index> starts;
+  for (const Index end : ends)
+    if (std::find(nodes.begin(), nodes.end(), end) != nodes.end())
+      starts.push_back(end);
+  if (starts.size() != 1)
     throw core::Error(
-        fmt::format("{}: from = \"{}\" has {} nodes; name a physical point at one end of the tube",
-                    name_of(flow), flow.from, nodes.size()));
-  return nodes.front();
+        fmt::format("{}: from = \"{}\" has {} of the {} ends of its curves; name a group with one end "
+                    "of the tube",
+                    name_of(flow), flow.from, starts.size(), ends.size()));
+  return starts.front();
 }
 
 bool has_fluid(const fem::BeamProperty& property) {
@@ -127,7 +147,7 @@ std::vector<PlacedFlow> place_flows(const study::Study& study, const mesh::LineM
     const study::Flow& flow = study.flows[e];
     const std::vector<Index> beams = beams_of(flow, mesh);
     check_beams(study, e, beams, model, owner);
-    const Index start = start_of(flow, mesh);
+    const Index start = start_of(flow, mesh, ends_of(model, beams));
     const flow::Tube tube(model, beams, start, flow.name);
     PlacedFlow placed{e, beams, start, tube.length(), profile_of(flow, tube.length())};
     const flow::TubeFluid fluid = flow::fluid_of_elements(tube, placed.profile);

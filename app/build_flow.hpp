@@ -20,7 +20,7 @@ struct PlacedFlow {
 /// before, which find their `[[beams]]` by the numbers of properties.
 /// @param notes  takes what leaves the ranges of correlations
 /// @throws core::Error for groups that do not exist or do not form a tube, beams of two flows, fluids that `[[beams]]`
-///         give too, a `from` that is not one end of the tube, and what flow::Profile throws
+///         give too, a `from` without one end of the tube, and what flow::Profile throws
 [[nodiscard]] std::vector<PlacedFlow> place_flows(const study::Study& study, const mesh::LineMesh& mesh,
                                                   fem::Model& model, std::vector<std::string>& notes);
 

@@ -24,7 +24,7 @@ struct FlowSupport {
 struct Flow {
   std::string name;
   std::vector<std::string> groups;                  ///< curves that make up the tube
-  std::string from;                                 ///< the physical point at s = 0
+  std::string from;                                 ///< a group with the end of the tube at s = 0
   std::vector<flow::Zone> zones;                    ///< `to` may be end_of_tube
   std::optional<std::vector<FlowSupport>> supports; ///< none: the contacts on the tube
   double structural_damping = 0.002;

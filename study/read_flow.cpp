@@ -176,7 +176,7 @@ std::vector<Flow> read_flows(const TableReader& root, const std::filesystem::pat
     Flow out;
     out.groups = read_groups(table);
     out.name = table.optional_text("name").value_or(out.groups.front());
-    out.from = table.text("from", "the physical point at the end of the tube where s = 0");
+    out.from = table.text("from", "a physical point or curve with the end of the tube where s = 0");
     (void)table.required("zones", "[[flow.zones]], the fluid along the tube");
     const std::vector<Entry> zones = entries_in(table, "zones");
     for (std::size_t i = 0; i < zones.size(); ++i)

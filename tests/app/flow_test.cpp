@@ -119,9 +119,9 @@ TEST(Flow, RefusesWhatIsNoTube) {
   const std::pair<std::string, std::string> cases[] = {
       {flow_of("") + again, "flow \"tube\" and flow \"again\" share a beam"},
       {of(flow_of(""), "tube_begin", "tube"),
-       "from = \"tube\" has 41 nodes; name a physical point at one end"},
+       "from = \"tube\" has 2 of the 2 ends of its curves; name a group with one end"},
       {of(flow_of(""), "\"tube\"", "\"tub\""), "flow \"tub\""},
-      {of(flow_of(""), "tube_begin", "middle"), "is inside it or on a closed loop, not at an end"},
+      {of(flow_of(""), "tube_begin", "middle"), "from = \"middle\" has 0 of the 2 ends"},
       {flow_of("from = 0.5\nto = 1.5\n"), "flow \"tube\": zone \"water\""},
       {flow_of("arrangement = \"square\"\npitch = 0.0191\n"), "P/D"}};
   for (const auto& [flow, expected] : cases)
