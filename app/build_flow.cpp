@@ -2,6 +2,7 @@
 #include "app/build_flow.hpp"
 #include "core/error.hpp"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
 

@@ -4,8 +4,10 @@
 #include "app/stages.hpp"
 #include "core/error.hpp"
 #include "core/mpi.hpp"
+#include "flow/vortex_shedding.hpp"
 #include "modal/slepc_structures.hpp"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace fretwork::app {
@@ -33,12 +35,39 @@ std::vector<std::string> names_of(const study::Study& study, const std::vector<P
   return names;
 }
 
-/// One tube on the modes of one assessment.
+/// Modes near the frequency of vortices, one warning for each zone: the nearest.
+void screen_shedding(const std::string& what, const PlacedFlow& placed, const flow::Sampling& sampling,
+                     double strouhal, results::RunResults& out) {
+  const auto found = flow::shedding_coincidences(sampling, strouhal);
+  const auto distance = [&](const flow::SheddingCoincidence& one) {
+    return std::abs(sampling.frequency(one.mode) - one.frequency) / one.frequency;
+  };
+  for (std::size_t z = 0; z < placed.profile.zones().size(); ++z) {
+    const flow::SheddingCoincidence* nearest = nullptr;
+    int modes = 0;
+    for (const flow::SheddingCoincidence& one : found) {
+      if (one.zone != static_cast<int>(z))
+        continue;
+      ++modes;
+      if (!nearest || distance(one) < distance(*nearest))
+        nearest = &one;
+    }
+    if (nearest)
+      out.warnings.push_back(fmt::format("{}, zone \"{}\": vortices are shed at {:.4g} Hz at s = {:.4g} m, "
+                                         "within {:g} % of mode {} at {:.4g} Hz ({} "
+                                         "mode{} of this zone)",
+                                         what, placed.profile.zones()[z].name, nearest->frequency, nearest->s,
+                                         100.0 * flow::shedding_band, nearest->mode + 1,
+                                         sampling.frequency(nearest->mode), modes, modes == 1 ? "" : "s"));
+  }
+}
+
+/// One tube on the modes of one assessment. @param all  takes warnings
 results::StabilityAssessment assess(const TubesInFlow& tubes, const PlacedFlow& placed,
                                     const study::Stability& assessment,
                                     const std::vector<PlacedContact>& pins,
                                     const std::vector<PlacedContact>& others,
-                                    const std::vector<modal::Basis>& bases) {
+                                    const std::vector<modal::Basis>& bases, results::RunResults& all) {
   const study::Flow& flow = tubes.study.flows[placed.entry];
   const std::string what = fmt::format("stability \"{}\", {}", assessment.name, name_of(flow));
   const flow::Tube tube = tube_of(tubes.study, placed, tubes.model);
@@ -61,6 +90,8 @@ results::StabilityAssessment assess(const TubesInFlow& tubes, const PlacedFlow& 
     throw core::Error(
         fmt::format("{}: {} (a ratio may be given by [[stability]] damping)", what, error.what()));
   }
+  if (assessment.strouhal)
+    screen_shedding(what, placed, sampling, *assessment.strouhal, all);
   return out;
 }
 
@@ -134,7 +165,7 @@ void assess_stability(MPI_Comm comm, const TubesInFlow& tubes, const std::vector
         modal::solve_structures(comm, pinned, structures, {modes.count, modes.up_to_hz}, modes.distributed);
     core::agree(comm, [&] {
       for (const PlacedFlow& placed : tubes.flows) {
-        results::StabilityAssessment found = assess(tubes, placed, assessment, pins, others, bases);
+        results::StabilityAssessment found = assess(tubes, placed, assessment, pins, others, bases, out);
         out.notes.insert(out.notes.end(), found.damping.limits.begin(), found.damping.limits.end());
         report(found, out);
         out.stability.push_back(std::move(found));

@@ -44,6 +44,7 @@ struct Stability {
   std::vector<std::string> contacts; ///< of Pinned::named
   flow::Component component;
   std::vector<double> sweep = {0.5, 1.0, 1.5, 2.0}; ///< factors of all velocities, >= 0
+  std::optional<double> strouhal = std::nullopt;    ///< of the bundle: vortex shedding is screened for
   std::optional<double> damping = std::nullopt;     ///< one ratio for all modes, instead of that of the flow
 };
 

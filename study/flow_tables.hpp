@@ -9,6 +9,8 @@
 #include "flow/profile.hpp"
 #include "study/table_reader.hpp"
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace fretwork::study {
 

@@ -43,7 +43,8 @@ void read_pinned(const TableReader& table, const std::vector<Contact>& contacts,
 std::vector<Stability> read_stabilities(const TableReader& root, const Study& study) {
   std::vector<Stability> all;
   for (const Entry& entry : array_entries(root, "stability")) {
-    const TableReader table(*entry.value, entry.path, {{"name", "pinned", "component", "sweep", "damping"}});
+    const TableReader table(*entry.value, entry.path,
+                            {{"name", "pinned", "component", "sweep", "damping", "strouhal"}});
     if (study.flows.empty())
       table.fail_table("there is no [[flow]] to be stable in; add it, or leave [[stability]] out");
     Stability out;
@@ -55,6 +56,7 @@ std::vector<Stability> read_stabilities(const TableReader& root, const Study& st
     out.damping = table.optional_number("damping", {Range::above_zero});
     if (out.damping && *out.damping >= 1.0)
       table.fail_at("damping", "a ratio to critical below 1 is expected; 0.01 is 1 %");
+    out.strouhal = table.optional_number("strouhal", {Range::above_zero});
     for (const Stability& before : all)
       if (before.name == out.name)
         table.fail_table("a second assessment called \"" + out.name + "\"; give each a name of its own");

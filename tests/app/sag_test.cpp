@@ -3,6 +3,7 @@
 #include "mesh_text.hpp"
 #include "program.hpp"
 #include "study_text.hpp"
+#include <cmath>
 #include <fmt/format.h>
 #include <numbers>
 

@@ -3,6 +3,7 @@
 #include "mesh_text.hpp"
 #include "program.hpp"
 #include "study_text.hpp"
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -240,6 +241,63 @@ TEST(Stability, WarnsOfATubeThatIsUnstable) {
   EXPECT_TRUE(
       says(warnings("20.0"), "fluid-elastically unstable, which no force of the transient stands for"));
   EXPECT_EQ(warnings("0.1"), "[]");
+}
+
+TEST(Stability, ScreensForVortexShedding) {
+  const Workshop folder;
+  const double f = pi / 2.0 * std::sqrt(bending / mass), coincident = f * outer / velocity;
+  const auto warnings = [&](double strouhal) {
+    return summary_of(folder, tube(in_one_plane,
+                                   modes(1) + flow() +
+                                       fmt::format("[[stability]]\nstrouhal = {}\n", strouhal)))["warnings"]
+        .dump();
+  };
+  EXPECT_TRUE(says(warnings(1.1 * coincident), "vortices are shed at"));
+  EXPECT_FALSE(says(warnings(1.3 * coincident), "vortices"));
+}
+
+TEST(Stability, SaysThatThereAreNoModes) {
+  const Workshop folder;
+  const Outcome outcome = outcome_of(folder, tube(across, "[modes]\nup_to_hz = 60\n" + flow() +
+                                                              contact("third", "obstacle = \"circle\"\n")));
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, "no modes up to the limit of [modes]"));
+}
+
+/// Two legs and a bend of arcs, in vertical flow: one tube of three curves, its abscissa from the hot foot.
+TEST(Stability, OfAUBendFollowsTheLocalTangent) {
+  constexpr double round_off = 1e-9;
+  const Workshop folder;
+  folder.write("tube.geo", bytes_of(example("u_bend").parent_path() / "tube.geo"));
+  const auto beams = [](const char* group) {
+    return fmt::format("[[beams]]\ngroup = \"{}\"\nmaterial = \"steel\"\nsection = \"tube\"\n", group);
+  };
+  std::string study = steel_pipe("tube.geo") + beams("hot_leg") + beams("bend") + beams("cold_leg") +
+                      "[[restraints]]\ngroup = \"feet\"\nfixed = \"all\"\n" + modes(6);
+  study.replace(study.find("tube.geo\""), 9, "tube.geo\"\norder = 2");
+  for (int k = 1; k <= 9; ++k)
+    study += contact(fmt::format("hot_tsp{}", k), "") + contact(fmt::format("cold_tsp{}", k), "");
+  study += R"([[flow]]
+name = "tube"
+group = ["bend", "cold_leg", "hot_leg"]
+from = "hot_leg"
+[[flow.zones]]
+density = 740.0
+viscosity = 1.23e-7
+velocity = [0, 0, 1.0]
+connors_constant = 3.0
+)";
+  for (const char* component : {"\"normal\"", "\"drag\"", "\"lift\"", "[0, 1, 0]"})
+    study += fmt::format("[[stability]]\ndamping = 0.01\ncomponent = {}\n", component);
+  const json summary = summary_of(folder, study);
+  const json& all = summary["stability"];
+  EXPECT_TRUE(close_to(all[0]["damping"]["length_m"], 18.0 + pi, round_off));
+  for (std::size_t i = 0; i < 6; ++i) {
+    const auto ratio_of = [&](std::size_t a) { return all[a]["cases"][0]["ratios"][i].get<double>(); };
+    EXPECT_NEAR(std::hypot(ratio_of(1), ratio_of(2)), ratio_of(0), round_off);
+    EXPECT_NEAR(ratio_of(3), ratio_of(2), round_off) << "lift is across the plane of the bend";
+  }
+  EXPECT_GT(all[0]["cases"][0]["ratios"][0].get<double>(), 0.0);
 }
 
 TEST(Stability, RefusesWhatCannotBeAssessed) {

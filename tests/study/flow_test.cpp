@@ -113,7 +113,7 @@ TEST(StabilityKeys, HaveDefaultsAndValues) {
       "[[contacts]]\ngroup = \"p\"\ngap = 0.1\nnormal_stiffness = 1e6\nactive = false\n";
   const Study study = read_text(study_with(water) + contacts +
                                 "[[stability]]\n[[stability]]\nname = \"bar out\"\npinned = [\"p\"]\n"
-                                "component = \"lift\"\nsweep = [1, 1.2]\ndamping = 0.01\n"
+                                "component = \"lift\"\nsweep = [1, 1.2]\ndamping = 0.01\nstrouhal = 0.2\n"
                                 "[[stability]]\nname = \"x\"\npinned = \"none\"\ncomponent = [1, 0, 0]\n");
   EXPECT_FALSE(study.contacts.at(0).active);
   ASSERT_EQ(study.stabilities.size(), 3u);
@@ -126,6 +126,7 @@ TEST(StabilityKeys, HaveDefaultsAndValues) {
   EXPECT_EQ(study.stabilities[1].component.kind, flow::Component::Kind::lift);
   EXPECT_EQ(study.stabilities[1].sweep, (Rows{1.0, 1.2}));
   EXPECT_EQ(study.stabilities[1].damping, 0.01);
+  EXPECT_EQ(study.stabilities[1].strouhal, 0.2);
   EXPECT_EQ(study.stabilities[2].pinned, Pinned::none);
   EXPECT_EQ(study.stabilities[2].component.axis, Vec3(1, 0, 0));
 }
@@ -198,6 +199,7 @@ TEST(FlowMessages, NameTheKeyAndTheCure) {
       {study_with(water) + "[[stability]]\nsweep = [-1]\n", "stability.0.sweep[0] = -1: a number >= 0"},
       {study_with(water) + "[[stability]]\ndamping = 1\n",
        "stability.0.damping = 1: a ratio to critical below 1"},
+      {study_with(water) + "[[stability]]\nstrouhal = 0\n", "stability.0.strouhal = 0: a number > 0"},
       {study_with(water) + "[[stability]]\ncomponent = [0, 0, 0]\n", "a zero vector has no direction"},
       {study_with(water) + "[[stability]]\nname = \"a\"\n[[stability]]\nname = \"a\"\n",
        "a second assessment called \"a\""},
