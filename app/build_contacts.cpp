@@ -272,4 +272,21 @@ std::vector<PlacedContact> place_contacts(const study::Study& study, const mesh:
   return out;
 }
 
+std::vector<PlacedContact> take_inactive(const study::Study& study, std::vector<PlacedContact>& placed) {
+  const auto first = std::stable_partition(placed.begin(), placed.end(), [&](const PlacedContact& contact) {
+    return study.contacts[contact.entry].active;
+  });
+  std::vector<PlacedContact> inactive(first, placed.end());
+  placed.erase(first, placed.end());
+  return inactive;
+}
+
+std::vector<PlacedContact> together(std::vector<PlacedContact> placed,
+                                    const std::vector<PlacedContact>& inactive) {
+  placed.insert(placed.end(), inactive.begin(), inactive.end());
+  std::stable_sort(placed.begin(), placed.end(),
+                   [](const PlacedContact& a, const PlacedContact& b) { return a.entry < b.entry; });
+  return placed;
+}
+
 } // namespace fretwork::app

@@ -32,4 +32,12 @@ struct PlacedContact {
                                                         const fem::Model& model,
                                                         std::vector<std::string>& warnings);
 
+/// Takes the contacts that the study has made inactive out of all.
+[[nodiscard]] std::vector<PlacedContact> take_inactive(const study::Study& study,
+                                                       std::vector<PlacedContact>& placed);
+
+/// Both, in the order of the study.
+[[nodiscard]] std::vector<PlacedContact> together(std::vector<PlacedContact> placed,
+                                                  const std::vector<PlacedContact>& inactive);
+
 } // namespace fretwork::app

@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "fem/fields.hpp"
 #include "fem/ties.hpp"
+#include "fem/weight.hpp"
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <fmt/format.h>
@@ -98,7 +99,7 @@ Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh, const
     return fem::mass_times(model, fem::translation_field(model, direction));
   };
   if (study.gravity)
-    out.loads.push_back({"[gravity]", transient::Constant{1.0}, on_all_masses(*study.gravity)});
+    out.loads.push_back({"[gravity]", transient::Constant{1.0}, fem::weight(model, *study.gravity)});
   for (const auto& motion : study.base_motions)
     out.loads.push_back({"[[base_motion]]", motion.acceleration, -on_all_masses(motion.direction), true});
   for (std::size_t k = 0; k < supports.size(); ++k) {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/chain.hpp"
+#include "app/build_flow.hpp"
 #include "app/contact_notes.hpp"
 #include "app/jobs.hpp"
 #include "app/modes_limit.hpp"
 #include "app/progress.hpp"
 #include "app/python_report.hpp"
 #include "app/residual_flexibility.hpp"
+#include "app/stability.hpp"
 #include "app/static_modes.hpp"
 #include "app/support_motion.hpp"
 #include "app/wear_of_run.hpp"
@@ -310,6 +312,8 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
     if (last == Stage::transient && !inputs.study.transient)
       throw core::Error(
           "the study has no [transient]; add it, or compute its modes with: fretwork modes STUDY");
+    if (last == Stage::stability && inputs.study.flows.empty())
+      throw core::Error("the study has no [[flow]] to be stable in; add it (doc/study-file.md)");
     make_directory(inputs.directory);
   });
   results::RunResults out;
@@ -331,7 +335,8 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
   out.timings.mesh = watch.lap();
   out.record = make_record(inputs, core::size(comm));
   fem::Model model;
-  std::vector<PlacedContact> placed;
+  std::vector<PlacedContact> placed, inactive;
+  std::vector<PlacedFlow> flows;
   std::vector<NamedNode> nodes;
   std::vector<MovedSupport> moved;
   std::vector<WornPlace> worn;
@@ -339,6 +344,8 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
   core::agree(comm, [&] {
     model = build_model(inputs.study, mesh);
     placed = place_contacts(inputs.study, mesh, model, out.warnings);
+    inactive = take_inactive(inputs.study, placed);
+    flows = place_flows(inputs.study, mesh, model, out.notes);
     nodes = observed_nodes(inputs.study, mesh);
     moved = moved_supports(inputs.study, mesh, model);
     worn = worn_places(inputs.study, model, placed);
@@ -369,6 +376,11 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
       add_static_modes(comm, inputs.study, model, modes.structures, placed, out.bases);
       out.notes.push_back(static_modes_note(inputs.study, out.bases));
     }
+    const TubesInFlow tubes{inputs.study, mesh, model, flows};
+    if (inputs.study.modes.flow_damping)
+      core::agree(comm, [&] { damp_by_flow(tubes, placed, inactive, out); });
+    if (last == Stage::stability || (last == Stage::transient && !inputs.study.stabilities.empty()))
+      assess_stability(comm, tubes, together(placed, inactive), out);
     out.timings.modes = watch.lap();
     if (last == Stage::transient) {
       progress.stage("basis");
@@ -413,6 +425,8 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
   }
   progress.stage("results");
   core::agree(comm, [&] {
+    if (first_rank && !out.stability.empty())
+      results::write_stability_csv(inputs.directory / "stability.csv", out);
     if (!first_rank || current) // the results of a whole run hold its modes too: `modes` leaves them
       return;
     // whatever is interrupted from here on, no summary or report tells of other results than those in results.h5
@@ -435,16 +449,22 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
   progress.stage("");
   if (last == Stage::modes)
     say(results::modes_table(out));
+  if (last != Stage::transient)
+    say(results::flow_damping_table(out) + results::stability_table(out));
   say(results::terminal_table(out) + fmt::format("results: {}\n", inputs.directory.string()) + report_line);
 }
 
 std::string check(const Request& request) {
   const Inputs inputs = read_inputs(request);
   const mesh::LineMesh mesh = mesh::read(inputs.study.mesh);
-  const fem::Model model = build_model(inputs.study, mesh);
+  fem::Model model = build_model(inputs.study, mesh);
   const auto structures = moving_structures(model);
   std::vector<std::string> warnings;
-  const auto placed = place_contacts(inputs.study, mesh, model, warnings);
+  auto placed = place_contacts(inputs.study, mesh, model, warnings);
+  const auto inactive = take_inactive(inputs.study, placed);
+  const auto flows = place_flows(inputs.study, mesh, model, warnings);
+  for (const study::Stability& assessment : inputs.study.stabilities)
+    static_cast<void>(pins_of(assessment, inputs.study, model, together(placed, inactive), warnings));
   const auto nodes = observed_nodes(inputs.study, mesh);
   static_cast<void>(moved_supports(inputs.study, mesh, model));
   const auto worn = worn_places(inputs.study, model, placed);

@@ -6,9 +6,10 @@
 
 namespace fretwork::app {
 
-enum class Stage { mesh, modes, transient };
+enum class Stage { mesh, modes, stability, transient };
 
-/// Collective. The chain up to a stage: mesh, modes, transient with results. `with_report`: also
+/// Collective. The chain up to a stage: mesh, modes, stability in flow, transient with results (and stability where the
+/// study asks for it). `with_report`: also
 /// DIR/report.html.
 void run_chain(MPI_Comm comm, const Request& request, Stage last);
 

@@ -79,6 +79,9 @@ int main(int argc, char** argv) {
   add_run_options(*mesh, request);
   CLI::App* modes = program.add_subcommand("modes", "up to the modes of vibration");
   add_run_options(*modes, request);
+  CLI::App* stability = program.add_subcommand(
+      "stability", "fluid-elastic stability of tubes in their flow, on modes pinned at supports");
+  add_run_options(*stability, request);
   CLI::App* transient =
       program.add_subcommand("transient", "up to the results of the transient, without report");
   add_run_options(*transient, request);
@@ -104,8 +107,8 @@ int main(int argc, char** argv) {
     return program.exit(error) == 0 ? 0 : input_is_wrong;
   }
   if (program.get_subcommands().empty()) {
-    fmt::print(stderr, "fretwork: a command is missing; give one of run, mesh, modes, transient, check, "
-                       "report, export (--help explains them)\n");
+    fmt::print(stderr, "fretwork: a command is missing; give one of run, mesh, modes, stability, transient, "
+                       "check, report, export (--help explains them)\n");
     return input_is_wrong;
   }
   request.report = !no_report;
@@ -127,9 +130,10 @@ int main(int argc, char** argv) {
 
   const core::MpiSession mpi(argc, argv);
   request.report = request.report && run->parsed();
-  const app::Stage last = mesh->parsed()    ? app::Stage::mesh
-                          : modes->parsed() ? app::Stage::modes
-                                            : app::Stage::transient;
+  const app::Stage last = mesh->parsed()        ? app::Stage::mesh
+                          : modes->parsed()     ? app::Stage::modes
+                          : stability->parsed() ? app::Stage::stability
+                                                : app::Stage::transient;
   static_cast<void>(transient);
   return guarded([&] { app::run_chain(MPI_COMM_WORLD, request, last); });
 }

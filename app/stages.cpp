@@ -89,9 +89,9 @@ void make_keys(const Request& request, Inputs& inputs) {
   const std::string program = fmt::format("{} layout {}\n", FRETWORK_VERSION, results::file_layout);
   inputs.modes_key = core::sha256(
       program + file_bytes(inputs.mesh_file) +
-      text({"mesh", "materials", "sections", "beams", "restraints", "masses", "springs", "ties", "modes"}));
+      text({"mesh", "materials", "sections", "beams", "restraints", "masses", "springs", "ties", "modes", "flow"}));
   inputs.whole_key = core::sha256(inputs.modes_key +
-                                  text({"title", "contacts", "loads", "gravity", "base_motion",
+                                  text({"title", "contacts", "stability", "loads", "gravity", "base_motion",
                                         "support_motion", "initial", "transient", "output", "wear"}) +
                                   results_of_states(inputs.study));
 }

@@ -8,6 +8,7 @@
 #include "post/node_statistics.hpp"
 #include "post/recorder.hpp"
 #include "post/verification.hpp"
+#include "results/flow_results.hpp"
 #include "results/wear_results.hpp"
 #include "transient/step_rule.hpp"
 #include "wear/kwu_epri.hpp"
@@ -93,6 +94,8 @@ struct RunResults {
   std::vector<core::Vec3> nodes;                 ///< m
   std::vector<std::array<core::Index, 2>> lines; ///< beams
   std::vector<modal::Basis> bases;               ///< by structure
+  std::vector<TubeDamping> flow_damping;         ///< by tubes, where modes.damping = "flow"
+  std::vector<StabilityAssessment> stability;    ///< by assessments and tubes
   std::optional<ModesLimit> modes_limit;         ///< where the study asks for an accuracy of them
   std::vector<ContactFacts> contacts;
   std::vector<post::ContactSummary> contact_summaries; ///< as `contacts`; empty without a transient

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/error_estimate.hpp"
+#include "results/flow_json.hpp"
 #include "results/text_file.hpp"
 #include "results/totals.hpp"
 #include "results/wear_json.hpp"
@@ -266,6 +267,7 @@ void write_summary(const std::filesystem::path& file, const RunResults& results)
                              {"up_to_hz", number(limit->up_to)},
                              {"contact", limit->contact},
                              {"contact_frequency_hz", number(limit->contact_frequency)}};
+  add_flow(out, results);
   if (!results.transients.empty())
     add_transient(out, results);
   out["timings_s"] = timings(results.timings);

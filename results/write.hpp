@@ -32,6 +32,17 @@ void write_summary(const std::filesystem::path& file, const RunResults& results)
 /// a share of the moving mass; their sum over all modes.
 [[nodiscard]] std::string modes_table(const RunResults& results);
 
+/// Terms of the damping by the flow along tubes, a line a mode, at most 60; empty without.
+[[nodiscard]] std::string flow_damping_table(const RunResults& results);
+
+/// Stability of tubes in their flow: a line a case (combination of constants), at most 20, the modes of the worst case,
+/// its sweep of velocities; empty without.
+[[nodiscard]] std::string stability_table(const RunResults& results);
+
+/// One mode of one case a row.
+/// @throws core::Error if it cannot be written
+void write_stability_csv(const std::filesystem::path& file, const RunResults& results);
+
 /// results.h5: layout as in doc/study-file.md and basis_file.hpp. The same results give the same bytes,
 /// whatever the ranks and timings.
 /// @throws core::Error if it cannot be written

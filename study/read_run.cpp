@@ -21,9 +21,20 @@ modal::DampingTable read_damping_table(const TableReader& damping) {
   return table;
 }
 
+/// Of `damping = "flow"`.
+void read_flow_damping(const TableReader& root, const TableReader& table, Modes& modes) {
+  const Value* found = table.find("damping");
+  modes.flow_damping = found && found->string();
+  if (!modes.flow_damping)
+    return;
+  (void)to_choice(*found, table.path("damping"), {"flow"});
+  if (!root.has("flow"))
+    table.fail_at("damping", "there is no [[flow]] that it would follow from; add it, or give ratios");
+}
+
 modal::Damping read_damping(const TableReader& modes) {
   const Value* found = modes.find("damping");
-  if (!found)
+  if (!found || found->string())
     return 0.0;
   const std::string path = modes.path("damping");
   if (found->array())
@@ -82,6 +93,7 @@ Modes read_modes(const TableReader& root) {
   const TableReader table(*found, "modes",
                           {{"count", "up_to_hz", "accuracy", "damping", "static_modes", "distributed"}});
   read_number_of_modes(root, table, modes);
+  read_flow_damping(root, table, modes);
   modes.damping = read_damping(table);
   modes.static_modes = table.choice(
       "static_modes", StaticModes::none,

@@ -21,6 +21,9 @@ namespace fretwork::study {
 
 // Reading what acts on it; `folder` is where relative paths start.
 [[nodiscard]] std::vector<Contact> read_contacts(const TableReader& root);
+[[nodiscard]] std::vector<Flow> read_flows(const TableReader& root, const std::filesystem::path& folder);
+/// The contacts and flows of `study` must have been read.
+[[nodiscard]] std::vector<Stability> read_stabilities(const TableReader& root, const Study& study);
 [[nodiscard]] std::vector<Load> read_loads(const TableReader& root, const std::filesystem::path& folder);
 [[nodiscard]] std::optional<Vec3> read_gravity(const TableReader& root);
 [[nodiscard]] std::vector<BaseMotion> read_base_motions(const TableReader& root,

@@ -9,6 +9,7 @@
 #include "fem/model.hpp"
 #include "mesh/read.hpp"
 #include "modal/damping.hpp"
+#include "study/flow.hpp"
 #include "study/wear.hpp"
 #include "transient/time_function.hpp"
 #include <array>
@@ -76,6 +77,7 @@ struct Modes {
   std::optional<double> up_to_hz;
   std::optional<double> accuracy; ///< relative error of contact forces, > 0 and at most 0.1
   modal::Damping damping = 0.0;
+  bool flow_damping = false; ///< instead: that of [[flow]], for every structure
   StaticModes static_modes = StaticModes::none;
   std::optional<bool> distributed; ///< solve one structure over all ranks; default: by size
 };
@@ -123,6 +125,7 @@ struct Contact {
   double angle = 0.0;         ///< degrees
   std::optional<Vec3> origin;
   std::array<double, 2> offset{};
+  bool active = true;                     ///< false: it does nothing, but may be named by [[stability]]
   bool grounded = false;                  ///< with base motion the obstacle stays in space
   std::optional<std::string> carrier;     ///< group of the support motions that carry the obstacle
   double thickness = 0.0;                 ///< m, of the support along the tube
@@ -217,6 +220,8 @@ struct Study {
   std::vector<Tie> ties;
   Modes modes;
   std::vector<Contact> contacts;
+  std::vector<Flow> flows;
+  std::vector<Stability> stabilities;
   std::vector<Load> loads;
   std::optional<Vec3> gravity; ///< m/s2
   std::vector<BaseMotion> base_motions;

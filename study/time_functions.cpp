@@ -2,8 +2,7 @@
 #include "study/time_functions.hpp"
 #include "core/error.hpp"
 #include "core/names.hpp"
-#include <charconv>
-#include <cmath>
+#include "study/number_rows.hpp"
 #include <fstream>
 #include <optional>
 #include <string_view>
@@ -22,24 +21,6 @@ std::string append_row(transient::Table& table, double time, double value) {
   table.time.push_back(time);
   table.value.push_back(value);
   return {};
-}
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos)
-    return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-std::optional<double> to_real(std::string_view cell) {
-  cell = trimmed(cell);
-  if (!cell.empty() && cell.front() == '+')
-    cell.remove_prefix(1);
-  double number = 0.0;
-  const auto [end, failure] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-  if (failure != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(number))
-    return std::nullopt;
-  return number;
 }
 
 /// A line without any number at its cells: what a header is.

@@ -44,7 +44,8 @@ TEST(Commands, HelpNamesThemAll) {
   const Workshop folder;
   const Outcome help = folder.fretwork({"--help"});
   EXPECT_EQ(help.status, 0);
-  for (const char* command : {"run", "mesh", "modes", "transient", "check", "report", "export"}) {
+  for (const char* command :
+       {"run", "mesh", "modes", "stability", "transient", "check", "report", "export"}) {
     EXPECT_TRUE(says(help.out, command));
     EXPECT_EQ(folder.fretwork({command, "--help"}).status, 0) << command;
   }

@@ -14,6 +14,7 @@ constexpr double five_digits = 1e-3;   ///< of published values, which have thei
 constexpr double mesh_of_ninety =
     5e-4; ///< ninety elements against exact beam modes, at the twentieth (201.488 Hz against 201.455)
 constexpr double independent = 1e-5;     ///< six digits of an independent beam program on the same mesh
+constexpr double four_digits = 3e-4;     ///< as printed
 constexpr double trusted_balance = 2e-2; ///< of the energy put in: above it the step was wrong
 
 TEST(Examples, EveryFolderOfExamplesIsRunHere) {
@@ -21,8 +22,8 @@ TEST(Examples, EveryFolderOfExamplesIsRunHere) {
   for (const auto& entry : fs::directory_iterator(test_paths::source_dir() / "examples"))
     if (fs::exists(entry.path() / "study.toml"))
       found.insert(entry.path().filename());
-  EXPECT_EQ(found,
-            (std::set<std::string>{"cantilever_stop", "oscillator", "straight_tube", "two_tubes", "u_bend"}));
+  EXPECT_EQ(found, (std::set<std::string>{"cantilever_stop", "oscillator", "straight_tube", "tube_in_flow",
+                                          "two_tubes", "u_bend"}));
 }
 
 TEST(Examples, OscillatorMeetsItsStopThreeTimes) {
@@ -37,6 +38,18 @@ TEST(Examples, CantileverReachesThePublishedForce) {
   const Workshop folder;
   const Results run = folder.run(example("cantilever_stop"), "results");
   EXPECT_TRUE(close_to(run.statistics("stop")["normal_force"]["max"], 2796.8, five_digits));
+  EXPECT_TRUE(run.summary["warnings"].empty()) << run.summary["warnings"];
+}
+
+TEST(Examples, TubeInFlowIsStableWithAndWithoutItsSecondPlate) {
+  const Workshop folder;
+  const Results run = folder.run(example("tube_in_flow"), "results");
+  const auto& stability = run.summary["stability"];
+  ASSERT_EQ(stability.size(), 2u);
+  EXPECT_TRUE(close_to(stability[0]["cases"][0]["ratios"][0], 0.1710, four_digits));
+  EXPECT_TRUE(close_to(stability[1]["cases"][0]["ratios"][0], 0.4203, four_digits));
+  EXPECT_EQ(stability[0]["cases"].size(), 2u) << "one for each K of the liquid";
+  EXPECT_GT(run.summary["contact_sums"]["work_rate"].get<double>(), 0.0);
   EXPECT_TRUE(run.summary["warnings"].empty()) << run.summary["warnings"];
 }
 

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/flow_damping.hpp"
+#include "core/error.hpp"
+#include "modal/damping.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+
+namespace fretwork::app {
+namespace {
+
+using core::Index;
+
+/// m along the tube; none of a node that is not on it.
+std::optional<double> abscissa_of(const flow::Tube& tube, Index node) {
+  for (const flow::Tube::Element& element : tube.elements()) {
+    if (element.first == node)
+      return element.from;
+    if (element.second == node)
+      return element.to;
+  }
+  return std::nullopt;
+}
+
+bool has_contact(const std::vector<PlacedContact>& contacts, Index node) {
+  return std::any_of(contacts.begin(), contacts.end(), [node](const PlacedContact& contact) {
+    return contact.node == node || contact.other == node;
+  });
+}
+
+std::vector<flow::TubeSupport> listed_supports(const TubesInFlow& tubes, const study::Flow& flow,
+                                               const flow::Tube& tube,
+                                               const std::vector<PlacedContact>& contacts,
+                                               const std::vector<PlacedContact>& left_out) {
+  std::vector<flow::TubeSupport> out;
+  for (const study::FlowSupport& support : *flow.supports)
+    for (const Index node : mesh::group_nodes(tubes.mesh, support.group, name_of(flow) + ", supports")) {
+      const auto s = abscissa_of(tube, node);
+      if (!s)
+        throw core::Error(fmt::format(
+            "{}: support \"{}\" has a node at {} that is not on the tube; name points "
+            "of the tube",
+            name_of(flow), support.group, fem::place(tubes.model.nodes[static_cast<std::size_t>(node)])));
+      const bool contact = has_contact(contacts, node);
+      if (contact || !has_contact(left_out, node))
+        out.push_back({*s, support.length, contact});
+    }
+  return out;
+}
+
+/// One for each node: of several contacts at a node the longest.
+std::vector<flow::TubeSupport> supports_by_contacts(const study::Study& study, const flow::Tube& tube,
+                                                    const std::vector<PlacedContact>& contacts) {
+  std::map<double, double> lengths; // by abscissa
+  for (const PlacedContact& contact : contacts)
+    for (const Index node : {contact.node, contact.other})
+      if (const auto s = node >= 0 ? abscissa_of(tube, node) : std::nullopt) {
+        double& length = lengths[*s];
+        length = std::max(length, study.contacts[contact.entry].thickness);
+      }
+  std::vector<flow::TubeSupport> out;
+  for (const auto& [s, length] : lengths)
+    out.push_back({s, length, true});
+  return out;
+}
+
+/// Ratios of one structure, from the tubes in it.
+struct Mixture {
+  Eigen::VectorXd weighted, shares;
+  double structural = 0.0; ///< of the modes that move no tube across
+
+  [[nodiscard]] std::vector<double> ratios() const {
+    std::vector<double> out;
+    for (Eigen::Index i = 0; i < shares.size(); ++i)
+      out.push_back(shares(i) >= flow::least_transverse_share ? weighted(i) / shares(i) : structural);
+    return out;
+  }
+};
+
+} // namespace
+
+std::vector<flow::TubeSupport> supports_of(const TubesInFlow& tubes, const PlacedFlow& placed,
+                                           const flow::Tube& tube, const std::vector<PlacedContact>& contacts,
+                                           const std::vector<PlacedContact>& left_out) {
+  const study::Flow& flow = tubes.study.flows[placed.entry];
+  return flow.supports ? listed_supports(tubes, flow, tube, contacts, left_out)
+                       : supports_by_contacts(tubes.study, tube, contacts);
+}
+
+std::size_t structure_of(const PlacedFlow& placed, const std::string& name,
+                         const std::vector<modal::Basis>& bases) {
+  const auto found = std::find_if(bases.begin(), bases.end(),
+                                  [&](const modal::Basis& basis) { return basis.row_of(placed.start) >= 0; });
+  if (found == bases.end())
+    throw core::Error(fmt::format("flow \"{}\": the tube cannot move; release it in [[restraints]]", name));
+  return static_cast<std::size_t>(found - bases.begin());
+}
+
+results::TubeDamping damping_of_tube(const TubesInFlow& tubes, const PlacedFlow& placed,
+                                     const flow::Tube& tube, const flow::Sampling& sampling,
+                                     std::span<const flow::TubeSupport> supports, const std::string& what) {
+  const study::Flow& flow = tubes.study.flows[placed.entry];
+  results::TubeDamping out;
+  out.tube = flow.name;
+  for (const flow::Zone& zone : placed.profile.zones())
+    out.zones.push_back(zone.name);
+  out.length = placed.length;
+  out.frequency = sampling.frequency;
+  out.damping = flow::damping(tube, placed.profile, sampling, supports,
+                              {flow.structural_damping, flow.void_fraction, std::nullopt});
+  out.limits = limit_notes(what, out.damping.limits, placed.profile);
+  return out;
+}
+
+void damp_by_flow(const TubesInFlow& tubes, const std::vector<PlacedContact>& contacts,
+                  const std::vector<PlacedContact>& inactive, results::RunResults& out) {
+  std::map<std::size_t, Mixture> mixtures;
+  for (const PlacedFlow& placed : tubes.flows) {
+    const study::Flow& flow = tubes.study.flows[placed.entry];
+    const std::size_t structure = structure_of(placed, flow.name, out.bases);
+    const flow::Tube tube = tube_of(tubes.study, placed, tubes.model);
+    const flow::Sampling sampling = flow::sample(tube, placed.profile, out.bases[structure]);
+    results::TubeDamping found = damping_of_tube(
+        tubes, placed, tube, sampling, supports_of(tubes, placed, tube, contacts, inactive), name_of(flow));
+    found.structure = structure;
+    const Eigen::VectorXd share = flow::transverse_share(sampling);
+    auto [mixture, fresh] = mixtures.try_emplace(structure);
+    if (fresh)
+      mixture->second = {Eigen::VectorXd::Zero(share.size()), Eigen::VectorXd::Zero(share.size()),
+                         flow.structural_damping};
+    mixture->second.weighted += share.cwiseProduct(found.damping.transient());
+    mixture->second.shares += share;
+    out.notes.insert(out.notes.end(), found.limits.begin(), found.limits.end());
+    out.flow_damping.push_back(std::move(found));
+  }
+  for (std::size_t s = 0; s < out.bases.size(); ++s) {
+    const auto mixture = mixtures.find(s);
+    if (mixture == mixtures.end())
+      throw core::Error(
+          fmt::format("modes.damping = \"flow\": the structure that starts at node {} has no [[flow]]; give "
+                      "it one, or give "
+                      "modes.damping ratios",
+                      fem::place(tubes.model.nodes[static_cast<std::size_t>(out.bases[s].nodes.front())])));
+    modal::apply_damping(out.bases[s], mixture->second.ratios());
+  }
+}
+
+} // namespace fretwork::app

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Damping of modes by the flow along the tubes of their structure (flow/damping.hpp).
+#pragma once
+#include "app/build_contacts.hpp"
+#include "app/build_flow.hpp"
+#include "results/run_results.hpp"
+
+namespace fretwork::app {
+
+/// What damping and stability of tubes look at.
+struct TubesInFlow {
+  const study::Study& study;
+  const mesh::LineMesh& mesh;
+  const fem::Model& model; ///< with the mass of all fluid
+  const std::vector<PlacedFlow>& flows;
+};
+
+/// The supports of a tube: those that the study lists, else the contacts at its nodes. Of listed supports with a contact
+/// in `left_out`, none.
+/// @param contacts  modelled, or standing for supports that hold the tube
+/// @param left_out  contacts that do nothing: what they support is not there
+/// @throws core::Error for a support that is not on the tube
+[[nodiscard]] std::vector<flow::TubeSupport> supports_of(const TubesInFlow& tubes, const PlacedFlow& placed,
+                                                         const flow::Tube& tube,
+                                                         const std::vector<PlacedContact>& contacts,
+                                                         const std::vector<PlacedContact>& left_out);
+
+/// @param bases  of the structures of a model with the nodes of tubes.model
+/// @return number of the one that the tube belongs to
+/// @throws core::Error where it belongs to none, being held everywhere
+[[nodiscard]] std::size_t structure_of(const PlacedFlow& placed, const std::string& name,
+                                       const std::vector<modal::Basis>& bases);
+
+/// Damping of one tube in words and numbers. @param what  names it in notes
+[[nodiscard]] results::TubeDamping damping_of_tube(const TubesInFlow& tubes, const PlacedFlow& placed,
+                                                   const flow::Tube& tube, const flow::Sampling& sampling,
+                                                   std::span<const flow::TubeSupport> supports,
+                                                   const std::string& what);
+
+/// Gives every mode the ratio of the transient set; a mode of several tubes the mean of theirs, weighted by the share of
+/// it that moves each (flow::transverse_share). Records the terms, and notes limits.
+/// @param contacts  the active ones   @param inactive  the others
+/// @throws core::Error for a structure without a flow
+void damp_by_flow(const TubesInFlow& tubes, const std::vector<PlacedContact>& contacts,
+                  const std::vector<PlacedContact>& inactive, results::RunResults& out);
+
+} // namespace fretwork::app

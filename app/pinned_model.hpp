@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The model with its tubes pinned at supports: the linear modes that stability is judged by, where the tube of the
+/// transient hangs in its clearances.
+///
+/// A pin holds its node along the directions in which the obstacle of the contact can press: y_loc or z_loc of planes, stops
+/// and bars, both of all others. Rotations and the direction of the tube stay free. The pin is a massless rod of 1 m along
+/// the direction to a fixed point, with pin_stiffness times the largest translational stiffness of the beams at
+/// the node: the node moves by some 1e-6 of what a span bends.
+#pragma once
+#include "app/build_contacts.hpp"
+
+namespace fretwork::app {
+
+inline constexpr double pin_stiffness = 1e3; ///< times that of the beams at the node
+
+/// Contacts between two nodes pin where the other is restrained in all translations.
+[[nodiscard]] bool can_pin(const fem::Model& model, const PlacedContact& contact);
+
+/// @param pins  contacts, each of which can pin
+/// @return the model with the nodes of the old one first, under their numbers
+[[nodiscard]] fem::Model pinned_model(const study::Study& study, const fem::Model& model,
+                                      const std::vector<PlacedContact>& pins);
+
+} // namespace fretwork::app

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/flow_json.hpp"
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace fretwork::results {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json list(const Eigen::VectorXd& values) {
+  Json out = Json::array();
+  for (const double value : values)
+    out.push_back(number(value));
+  return out;
+}
+
+Json terms(const flow::DampingTerms& t) {
+  return {{"viscous", number(t.viscous)},
+          {"two_phase", number(t.two_phase)},
+          {"squeeze_film", number(t.squeeze_film)},
+          {"friction", number(t.friction)},
+          {"gas", number(t.gas)}};
+}
+
+Json mode_damping(const flow::ModeDamping& mode, const TubeDamping& tube, Eigen::Index i) {
+  Json zones = Json::object();
+  for (std::size_t z = 0; z < tube.zones.size(); ++z)
+    zones[tube.zones[z]] = terms(mode.zones[z]);
+  return {{"frequency_hz", number(tube.frequency(i))},
+          {"assessed", mode.assessed},
+          {"stability", number(mode.stability)},
+          {"transient", number(mode.transient)},
+          {"terms", terms(mode.sum)},
+          {"left_to_contacts", terms(mode.contacts)},
+          {"zones", zones}};
+}
+
+Json damping(const TubeDamping& tube) {
+  Json modes = Json::array();
+  for (std::size_t i = 0; i < tube.damping.modes.size(); ++i)
+    modes.push_back(mode_damping(tube.damping.modes[i], tube, static_cast<Eigen::Index>(i)));
+  return {{"tube", tube.tube},
+          {"structure", tube.structure},
+          {"length_m", number(tube.length)},
+          {"spans", tube.damping.layout.spans},
+          {"mean_span_m", number(tube.damping.layout.mean_span)},
+          {"modes", modes},
+          {"limits", tube.limits}};
+}
+
+Json stability_case(const flow::StabilityCase& one, const StabilityAssessment& assessment) {
+  Json constants = Json::object();
+  for (std::size_t z = 0; z < one.constants.size(); ++z)
+    if (one.constants[z] > 0.0)
+      constants[assessment.damping.zones[z]] = one.constants[z];
+  Json out{{"connors_constants", constants},
+           {"critical_mode", one.critical_mode < 0 ? Json(nullptr) : Json(one.critical_mode + 1)},
+           {"margin", number(one.margin())},
+           {"critical_scale", number(one.critical_scale())},
+           {"ratios", list(one.ratio)},
+           {"critical_velocities_m_s", list(one.critical_velocity)}};
+  const Eigen::MatrixXd sweep = flow::velocity_sweep(one, assessment.sweep);
+  Json rows = Json::array();
+  for (Eigen::Index k = 0; k < sweep.rows(); ++k)
+    rows.push_back({{"factor", assessment.sweep[static_cast<std::size_t>(k)]},
+                    {"largest_ratio", number(sweep.cols() > 0 ? sweep.row(k).maxCoeff() : 0.0)},
+                    {"unstable_modes", (sweep.row(k).array() >= 1.0).count()}});
+  out["sweep"] = rows;
+  return out;
+}
+
+Json stability(const StabilityAssessment& assessment) {
+  Json modes = Json::array(), cases = Json::array();
+  for (std::size_t i = 0; i < assessment.stability.modes.size(); ++i) {
+    const flow::ModeInFlow& mode = assessment.stability.modes[i];
+    modes.push_back({{"frequency_hz", number(mode.frequency)},
+                     {"damping", number(mode.damping)},
+                     {"decrement", number(mode.decrement)},
+                     {"effective_velocity_m_s", number(mode.effective_velocity)}});
+  }
+  for (const flow::StabilityCase& one : assessment.stability.cases)
+    cases.push_back(stability_case(one, assessment));
+  return {{"name", assessment.name},
+          {"tube", assessment.damping.tube},
+          {"pinned", assessment.pinned},
+          {"damping_given", assessment.damping_given},
+          {"modes", modes},
+          {"cases", cases},
+          {"damping", damping(assessment.damping)}};
+}
+
+} // namespace
+
+void add_flow(Json& out, const RunResults& results) {
+  if (!results.flow_damping.empty()) {
+    out["flow"] = Json::array();
+    for (const TubeDamping& tube : results.flow_damping)
+      out["flow"].push_back(damping(tube));
+  }
+  if (!results.stability.empty()) {
+    out["stability"] = Json::array();
+    for (const StabilityAssessment& assessment : results.stability)
+      out["stability"].push_back(stability(assessment));
+  }
+}
+
+} // namespace fretwork::results

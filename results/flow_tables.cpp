@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/text_file.hpp"
+#include "results/write.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
+
+namespace fretwork::results {
+namespace {
+
+constexpr std::size_t most_rows = 60, most_cases = 20, most_names = 8;
+
+/// K of the zones that have one: `water 3, steam 2.4`.
+std::string constants_text(const flow::StabilityCase& one, const StabilityAssessment& assessment,
+                           const char* between = ", ") {
+  std::string text;
+  for (std::size_t z = 0; z < one.constants.size(); ++z)
+    if (one.constants[z] > 0.0)
+      text += fmt::format("{}{} {:g}", text.empty() ? "" : between, assessment.damping.zones[z],
+                          one.constants[z]);
+  return text.empty() ? "no flow" : text;
+}
+
+std::string pinned_text(const std::vector<std::string>& names) {
+  if (names.empty())
+    return "nothing pinned";
+  std::string text = "pinned at ";
+  for (std::size_t k = 0; k < std::min(most_names, names.size()); ++k)
+    text += (k ? ", " : "") + names[k];
+  if (names.size() > most_names)
+    text += fmt::format(" and {} more", names.size() - most_names);
+  return text;
+}
+
+/// Number of the case with the largest ratio.
+std::size_t worst_case(const flow::Stability& stability) {
+  const auto scale = [](const flow::StabilityCase& one) { return one.critical_scale(); };
+  const auto& cases = stability.cases;
+  return static_cast<std::size_t>(
+      std::min_element(cases.begin(), cases.end(),
+                       [&](const auto& a, const auto& b) { return scale(a) < scale(b); }) -
+      cases.begin());
+}
+
+std::string case_row(std::size_t number, const flow::StabilityCase& one,
+                     const StabilityAssessment& assessment) {
+  if (one.critical_mode < 0)
+    return fmt::format("  {:>5}   no mode\n", number + 1);
+  const double scale = one.critical_scale();
+  return fmt::format("  {:>5} {:>9} {:>9.4g} {:>9.4f} {:>9.4f} {:>9.4g}   {}\n", number + 1,
+                     one.critical_mode + 1,
+                     assessment.stability.modes[static_cast<std::size_t>(one.critical_mode)].frequency,
+                     1.0 - one.margin(), one.margin(), scale, constants_text(one, assessment));
+}
+
+std::string cases_table(const StabilityAssessment& assessment) {
+  const auto& cases = assessment.stability.cases;
+  std::string text = fmt::format("  {:>5} {:>9} {:>9} {:>9} {:>9} {:>9}   {}\n", "case", "crit.mode", "Hz",
+                                 "V/Vc", "margin", "scale", "Connors constants");
+  for (std::size_t k = 0; k < std::min(most_cases, cases.size()); ++k)
+    text += case_row(k, cases[k], assessment);
+  if (cases.size() > most_cases)
+    text += fmt::format("  ... {} more in stability.csv\n", cases.size() - most_cases);
+  return text;
+}
+
+std::string case_modes(const StabilityAssessment& assessment, std::size_t number) {
+  const flow::StabilityCase& one = assessment.stability.cases[number];
+  std::string text =
+      fmt::format("  modes of case {}\n  {:>5} {:>9} {:>10} {:>10} {:>10} {:>9} {:>9}\n", number + 1, "mode",
+                  "Hz", "damping %", "V_eff m/s", "V_c m/s", "V/Vc", "margin");
+  const auto modes = static_cast<std::size_t>(one.ratio.size());
+  for (std::size_t i = 0; i < std::min(most_rows, modes); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const flow::ModeInFlow& mode = assessment.stability.modes[i];
+    text +=
+        fmt::format("  {:>5} {:>9.4g} {:>10.4f} {:>10.4g} {:>10.4g} {:>9.4f} {:>9.4f}{}\n", i + 1,
+                    mode.frequency, 100.0 * mode.damping, mode.effective_velocity, one.critical_velocity(k),
+                    one.ratio(k), 1.0 - one.ratio(k), one.ratio(k) >= 1.0 ? "  UNSTABLE" : "");
+  }
+  if (modes > most_rows)
+    text += fmt::format("  ... {} more in stability.csv\n", modes - most_rows);
+  return text;
+}
+
+std::string sweep_line(const StabilityAssessment& assessment, std::size_t number) {
+  const Eigen::MatrixXd sweep = flow::velocity_sweep(assessment.stability.cases[number], assessment.sweep);
+  std::string text = "  velocities times";
+  for (Eigen::Index k = 0; k < sweep.rows() && sweep.cols() > 0; ++k)
+    text += fmt::format("{} {:g}: V/Vc {:.4f}, {} unstable", k ? ";" : "",
+                        assessment.sweep[static_cast<std::size_t>(k)], sweep.row(k).maxCoeff(),
+                        (sweep.row(k).array() >= 1.0).count());
+  return text + "\n";
+}
+
+} // namespace
+
+std::string flow_damping_table(const RunResults& results) {
+  std::string text;
+  for (const TubeDamping& tube : results.flow_damping) {
+    text +=
+        fmt::format("Damping of tube \"{}\" by its flow, %: {} spans, the longest of {:.4g} m on average\n",
+                    tube.tube, tube.damping.layout.spans, tube.damping.layout.mean_span);
+    text += fmt::format("  {:>5} {:>9} {:>8} {:>9} {:>8} {:>8} {:>8} {:>9} {:>9}\n", "mode", "Hz", "viscous",
+                        "two-phase", "squeeze", "friction", "gas", "stability", "transient");
+    const auto& modes = tube.damping.modes;
+    for (std::size_t i = 0; i < std::min(most_rows, modes.size()); ++i) {
+      const flow::DampingTerms& t = modes[i].sum;
+      text += fmt::format(
+          "  {:>5} {:>9.4g} {:>8.4f} {:>9.4f} {:>8.4f} {:>8.4f} {:>8.4f} {:>9.4f} {:>9.4f}{}\n", i + 1,
+          tube.frequency(static_cast<Eigen::Index>(i)), 100.0 * t.viscous, 100.0 * t.two_phase,
+          100.0 * t.squeeze_film, 100.0 * t.friction, 100.0 * t.gas, 100.0 * modes[i].stability,
+          100.0 * modes[i].transient, modes[i].assessed ? "" : "  not across the tube");
+    }
+    if (modes.size() > most_rows)
+      text += fmt::format("  ... {} more in summary.json\n", modes.size() - most_rows);
+  }
+  return text;
+}
+
+std::string stability_table(const RunResults& results) {
+  std::string text;
+  for (const StabilityAssessment& assessment : results.stability) {
+    text += fmt::format("Stability \"{}\" of tube \"{}\", {}\n", assessment.name, assessment.damping.tube,
+                        pinned_text(assessment.pinned));
+    if (assessment.stability.modes.empty()) {
+      text += "  no modes up to the limit of [modes]\n";
+      continue;
+    }
+    const std::size_t worst = worst_case(assessment.stability);
+    text += cases_table(assessment) + case_modes(assessment, worst) + sweep_line(assessment, worst);
+  }
+  return text;
+}
+
+void write_stability_csv(const std::filesystem::path& file, const RunResults& results) {
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  const auto quoted = [](std::string name) { // a quote within is doubled
+    for (std::size_t at = 0; (at = name.find('"', at)) != std::string::npos; at += 2)
+      name.insert(at, 1, '"');
+    return '"' + name + '"';
+  };
+  fmt::format_to(
+      out, "assessment,tube,case,connors_constants,mode,frequency [Hz],damping [1],decrement [1],"
+           "effective_velocity [m/s],critical_velocity [m/s],ratio [1],margin [1],critical_scale [1]\n");
+  for (const StabilityAssessment& assessment : results.stability)
+    for (std::size_t c = 0; c < assessment.stability.cases.size(); ++c) {
+      const flow::StabilityCase& one = assessment.stability.cases[c];
+      for (Eigen::Index i = 0; i < one.ratio.size(); ++i) {
+        const flow::ModeInFlow& mode = assessment.stability.modes[static_cast<std::size_t>(i)];
+        fmt::format_to(out, "{},{},{},{},{},{},{},{},{},{},{},{},{}\n", quoted(assessment.name),
+                       quoted(assessment.damping.tube), c + 1, quoted(constants_text(one, assessment, "; ")),
+                       i + 1, mode.frequency, mode.damping, mode.decrement, mode.effective_velocity,
+                       one.critical_velocity(i), one.ratio(i), 1.0 - one.ratio(i), 1.0 / one.ratio(i));
+      }
+    }
+  write_text(file, {text.data(), text.size()});
+}
+
+} // namespace fretwork::results
