@@ -87,9 +87,9 @@ void make_keys(const Request& request, Inputs& inputs) {
     return study::canonical_text(request.study, request.overrides, tables);
   };
   const std::string program = fmt::format("{} layout {}\n", FRETWORK_VERSION, results::file_layout);
-  inputs.modes_key = core::sha256(
-      program + file_bytes(inputs.mesh_file) +
-      text({"mesh", "materials", "sections", "beams", "restraints", "masses", "springs", "ties", "modes", "flow"}));
+  inputs.modes_key = core::sha256(program + file_bytes(inputs.mesh_file) +
+                                  text({"mesh", "materials", "sections", "beams", "restraints", "masses",
+                                        "springs", "ties", "modes", "flow"}));
   inputs.whole_key = core::sha256(inputs.modes_key +
                                   text({"title", "contacts", "stability", "loads", "gravity", "base_motion",
                                         "support_motion", "initial", "transient", "output", "wear"}) +

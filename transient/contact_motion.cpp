@@ -4,30 +4,11 @@
 namespace fretwork::transient {
 
 ContactMotion::ContactMotion(const PackedContacts& contacts)
-    : MotionLanes(contacts.lane_count(), contacts.components), contacts_(contacts),
-      moving_(contacts.lane_count()) {}
+    : MotionLanes(contacts.lane_count(), contacts.components), contacts_(contacts) {}
 
 void ContactMotion::gather(const double* q, const double* v) {
   kernels::gather_two(contacts_.gather, q, v, u.data(), w.data());
 }
-
-void ContactMotion::gather_near(const double* q, const double* v, const std::vector<int>& closed) {
-  kernels::gather(contacts_.gather, q, u.data());
-  find_near(0.0);
-  const int together = places.all.together();
-  moving_.first.clear();
-  const int* place = places.first.begin();
-  for (const int c : closed) {
-    for (; place != places.first.end() && *place < c - c % together; ++place)
-      moving_.add_contact(*place);
-    moving_.add_contact(c);
-  }
-  for (; place != places.first.end(); ++place)
-    moving_.add_contact(*place);
-  kernels::gather_at(contacts_.gather, moving_, v, w.data());
-}
-
-void ContactMotion::gather_velocities(const double* v) { kernels::gather(contacts_.gather, v, w.data()); }
 
 /// Of these the lanes only know a bound.
 void ContactMotion::locate_profiles() {
@@ -42,10 +23,6 @@ void ContactMotion::locate_profiles() {
 
 bool ContactMotion::moves_less(double time, double share) const {
   return kernels::move_less(contacts_.reach, places.all, w.data(), time / share);
-}
-
-bool ContactMotion::opens_after(double time) const {
-  return kernels::open_after(contacts_.reach, places.all, u.data(), w.data(), time);
 }
 
 double ContactMotion::spring_energy() const {

@@ -16,40 +16,15 @@ public:
 
   /// Displacements and velocities of all contacts from those of the modes (padded arrays). No allocation.
   void gather(const double* q, const double* v);
-  /// Displacements of all contacts, the near ones without a window, and velocities where these and `closed` are (by increasing number): all
-  /// that a step of contacts without normal dampers asks for. No allocation.
-  void gather_near(const double* q, const double* v, const std::vector<int>& closed);
-  /// Velocities of all contacts. No allocation.
-  void gather_velocities(const double* v);
   /// Marks the contacts that may have penetration > 0 now, or within `half_window` seconds at their present speed (>= 0), and finds
   /// `gaps`, `normal_y` and `normal_z` of these. Returns whether there is any.
   bool find_near(double half_window) {
     (places.all.few() ? kernels::place_few : kernels::place_contacts)(contacts_.reach, half_window, *this);
     return any_near();
   }
-  /// `gather`, `find_near` of contacts that move with the modes alone.
-  bool meet(const double* q, const double* v, double half_window) {
-    if (!places.all.few() || contacts_.components == 3) {
-      gather(q, v);
-      return find_near(half_window);
-    }
-    kernels::meet_few(contacts_.gather, contacts_.reach, q, v, half_window, *this);
-    return any_near();
-  }
   /// Whether no contact moves by more than `share` of its clearance within `time` seconds at its present speed.
   [[nodiscard]] bool moves_less(double time, double share) const;
-  /// Whether all contacts would be open after `time` seconds (of either sign) at their present speeds.
-  [[nodiscard]] bool opens_after(double time) const;
   [[nodiscard]] bool near(int c) const { return marks[c] != 0.0; }
-  /// The only near contact; -1: there are others, or none.
-  [[nodiscard]] int lone() const {
-    if (places.near != 1.0)
-      return -1;
-    int c = places.first.front();
-    while (!near(c))
-      ++c;
-    return c;
-  }
 
   [[nodiscard]] contact::Location locate(int c) const {
     return contact::locate(contacts_.supports[c].obstacle, u[c] + contacts_.rest_y(c),
@@ -85,7 +60,6 @@ private:
   void locate_profiles();
 
   const PackedContacts& contacts_;
-  kernels::Places moving_; ///< where velocities are gathered
 };
 
 } // namespace fretwork::transient

@@ -264,22 +264,6 @@ template <class V> FRETWORK_INLINE void gather_on(const GatherTable& g, const do
 FRETWORK_KERNEL(void, gather, (const GatherTable& g, const double* q, double* u), (g, q, u))
 
 template <class V>
-FRETWORK_INLINE void gather_at_on(const GatherTable& g, const Places& places, const double* v, double* w) {
-  const int packs = static_cast<int>(g.begin.size()) - 1, to_next_block = places.all.width / lanes;
-  int last = -1;
-  for (const int lane : places.first) {
-    const int first = lane / lanes;
-    if (first == last)
-      continue;
-    last = first;
-    for (int p = first; p < packs; p += to_next_block)
-      gather_one<V, 1>(g, p, {v}, {w});
-  }
-}
-FRETWORK_KERNEL(void, gather_at, (const GatherTable& g, const Places& places, const double* v, double* w),
-                (g, places, v, w))
-
-template <class V>
 FRETWORK_INLINE void scatter_on(int np, int rows, const double* const* row, const double* factor, double* v) {
   for_count(
       rows, [&](auto count) __attribute__((always_inline)) {
@@ -317,61 +301,5 @@ FRETWORK_KERNEL(EulerSums, euler_step,
                 (int np, double h, const double* c, const double* k, const double* load, const double* force,
                  double* q, double* v),
                 (np, h, c, k, load, force, q, v))
-
-template <class V>
-FRETWORK_INLINE void respond_on(int width, int directions, const double* columns, double ny, double nz,
-                                double scale, const double* to_ny, const double* to_nz, double* a) {
-  const int stride = directions * width; // of a column, and of a direction of `a`
-  for (int i = 0; i < width; i += size_of<V>) {
-    const V my = at<V>(to_ny + i), mz = at<V>(to_nz + i);
-    const double* y = columns + i; // by a force along y, z, x
-    const double *z = y + stride, *x = z + stride;
-    const auto store = [&](double* out, const V& by_y, const V& by_z) __attribute__((always_inline)) {
-      at<V>(out) = my * by_y + mz * by_z;
-      at<V>(out + width) = mz * by_y - my * by_z;
-    };
-    const double sy = scale * ny, sz = scale * nz;
-    store(a + i, sy * at<V>(y) + sz * at<V>(z), sy * at<V>(y + width) + sz * at<V>(z + width));
-    store(a + stride + i, sz * at<V>(y) - sy * at<V>(z), sz * at<V>(y + width) - sy * at<V>(z + width));
-    if (directions < 3)
-      continue;
-    at<V>(a + 2 * width + i) = sy * at<V>(y + 2 * width) + sz * at<V>(z + 2 * width);
-    at<V>(a + stride + 2 * width + i) = sz * at<V>(y + 2 * width) - sy * at<V>(z + 2 * width);
-    store(a + 2 * stride + i, scale * at<V>(x), scale * at<V>(x + width));
-    at<V>(a + 2 * stride + 2 * width + i) = scale * at<V>(x + 2 * width);
-  }
-}
-FRETWORK_KERNEL(void, respond,
-                (int width, int directions, const double* columns, double ny, double nz, double scale,
-                 const double* to_ny, const double* to_nz, double* a),
-                (width, directions, columns, ny, nz, scale, to_ny, to_nz, a))
-
-template <class V>
-FRETWORK_INLINE void answer_on(int stride, int directions, const double* a, const double* f, double* v) {
-  if (directions == 2) {
-    for (int i = 0; i < stride; i += size_of<V>)
-      at<V>(v + i) += f[0] * at<V>(a + i) + f[1] * at<V>(a + stride + i);
-    return;
-  }
-  for (int i = 0; i < stride; i += size_of<V>)
-    at<V>(v + i) += f[0] * at<V>(a + i) + f[1] * at<V>(a + stride + i) + f[2] * at<V>(a + 2 * stride + i);
-}
-FRETWORK_KERNEL(void, answer, (int stride, int directions, const double* a, const double* f, double* v),
-                (stride, directions, a, f, v))
-
-template <class V>
-FRETWORK_INLINE void project_on(int width, int directions, const double* ny, const double* nz,
-                                const double* w, double* v) {
-  for (int i = 0; i < width; i += size_of<V>) {
-    const V my = at<V>(ny + i), mz = at<V>(nz + i), y = at<V>(w + i), z = at<V>(w + width + i);
-    at<V>(v + i) = my * y + mz * z;
-    at<V>(v + width + i) = mz * y - my * z;
-    if (directions == 3)
-      at<V>(v + 2 * width + i) = at<V>(w + 2 * width + i);
-  }
-}
-FRETWORK_KERNEL(void, project,
-                (int width, int directions, const double* ny, const double* nz, const double* w, double* v),
-                (width, directions, ny, nz, w, v))
 
 } // namespace fretwork::transient::kernels

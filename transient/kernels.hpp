@@ -200,8 +200,6 @@ extern const Kernel<void(const GatherTable& g, const double* q, const double* v,
     gather_two;
 /// u = G q.
 extern const Kernel<void(const GatherTable& g, const double* q, double* u)> gather;
-/// w = G v of the packs that begin at one of the places, in every block of `width` lanes; the others stay.
-extern const Kernel<void(const GatherTable& g, const Places& places, const double* v, double* w)> gather_at;
 
 /// v += sum over r of factor[r] * row[r].
 extern const Kernel<void(int np, int rows, const double* const* row, const double* factor, double* v)>
@@ -216,19 +214,5 @@ struct EulerSums {
 extern const Kernel<EulerSums(int np, double h, const double* c, const double* k, const double* load,
                               const double* force, double* q, double* v)>
     euler_step;
-
-/// v = components of w along the contacts' own directions (2: n, t; 3: n, t, x_loc).
-extern const Kernel<void(int width, int directions, const double* ny, const double* nz, const double* w,
-                         double* v)>
-    project;
-
-/// Velocities of all contacts along their own directions by unit forces along those of one contact, times `scale`: `directions` arrays
-/// of `directions` blocks, one after the other. `columns`: by unit forces of that contact along y, z, x, in components y, z, x.
-extern const Kernel<void(int width, int directions, const double* columns, double ny, double nz, double scale,
-                         const double* to_ny, const double* to_nz, double* a)>
-    respond;
-
-/// v += sum over the directions of one contact of f[k] a[k]; `stride` = directions * width.
-extern const Kernel<void(int stride, int directions, const double* a, const double* f, double* v)> answer;
 
 } // namespace fretwork::transient::kernels

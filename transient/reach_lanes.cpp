@@ -144,32 +144,6 @@ FRETWORK_INLINE void place_few_on(const ReachLanes& reach, double half_window, M
   place_lanes<Grain<Widest, double>>(reach, half_window, motion);
 }
 
-/// Of numbers that have just been found.
-template <int rows> struct Found {
-  const double (&y)[rows], (&z)[rows];
-  double operator()(int i, int block) const { return block == 0 ? y[i] : z[i]; }
-};
-template <class Widest, int rows>
-FRETWORK_INLINE void meet_rows(const GatherTable& g, const ReachLanes& reach, const double* q,
-                               const double* v, double half_window, MotionLanes& motion) {
-  const auto y = row_sums<Widest, rows, 2>(g, 0, {q, v}), z = row_sums<Widest, rows, 2>(g, 1, {q, v});
-  double* const to[] = {motion.u.data(), motion.w.data()};
-  for (int n = 0; n < 2; ++n) {
-    store_rows<Widest, rows>(y.of[n], to[n]);
-    store_rows<Widest, rows>(z.of[n], to[n] + lanes);
-  }
-  place_all<Grain<Widest, double>>(reach, half_window, rows, Found<rows>{y.of[0], z.of[0]},
-                                   Found<rows>{y.of[1], z.of[1]}, motion);
-}
-template <class Widest>
-FRETWORK_INLINE void meet_few_on(const GatherTable& g, const ReachLanes& reach, const double* q,
-                                 const double* v, double half_window, MotionLanes& motion) {
-  if (g.rows == 1)
-    meet_rows<Widest, 1>(g, reach, q, v, half_window, motion);
-  else
-    meet_rows<Widest, 2>(g, reach, q, v, half_window, motion);
-}
-
 template <class Widest>
 FRETWORK_INLINE bool move_less_on(const ReachLanes& reach, const LaneCount& contacts, const double* v,
                                   double time) {
@@ -181,34 +155,14 @@ FRETWORK_INLINE bool move_less_on(const ReachLanes& reach, const LaneCount& cont
       });
 }
 
-template <class Widest>
-FRETWORK_INLINE bool open_after_on(const ReachLanes& reach, const LaneCount& contacts, const double* u,
-                                   const double* v, double time) {
-  return none<Widest>(
-      contacts, [&]<class V>(int i, const V&) __attribute__((always_inline)) {
-        const int z = contacts.width + i;
-        return shut<V>(
-            reach, i,
-            point_at<V>(reach, i, at<V>(u + i) + time * at<V>(v + i), at<V>(u + z) + time * at<V>(v + z)));
-      });
-}
-
 } // namespace
 
 FRETWORK_KERNEL(void, place_contacts, (const ReachLanes& reach, double half_window, MotionLanes& motion),
                 (reach, half_window, motion))
 FRETWORK_KERNEL(void, place_few, (const ReachLanes& reach, double half_window, MotionLanes& motion),
                 (reach, half_window, motion))
-FRETWORK_KERNEL(void, meet_few,
-                (const GatherTable& g, const ReachLanes& reach, const double* q, const double* v,
-                 double half_window, MotionLanes& motion),
-                (g, reach, q, v, half_window, motion))
 FRETWORK_KERNEL(bool, move_less,
                 (const ReachLanes& reach, const LaneCount& contacts, const double* v, double time),
                 (reach, contacts, v, time))
-FRETWORK_KERNEL(bool, open_after,
-                (const ReachLanes& reach, const LaneCount& contacts, const double* u, const double* v,
-                 double time),
-                (reach, contacts, u, v, time))
 
 } // namespace fretwork::transient::kernels

@@ -30,17 +30,8 @@ struct MotionLanes {
 extern const Kernel<void(const ReachLanes& reach, double half_window, MotionLanes& motion)> place_contacts;
 /// The same of few contacts.
 extern const Kernel<void(const ReachLanes& reach, double half_window, MotionLanes& motion)> place_few;
-/// The same of few contacts that move with the modes alone, and `gather_two` before it.
-extern const Kernel<void(const GatherTable& g, const ReachLanes& reach, const double* q, const double* v,
-                         double half_window, MotionLanes& motion)>
-    meet_few;
 
 /// Whether no contact moves by more than its `limit` within `time` seconds at its speed `v`.
 extern const Kernel<bool(const ReachLanes& reach, const LaneCount& contacts, const double* v, double time)>
     move_less;
-/// Whether all gaps are > 0 after `time` seconds (of either sign) at the speeds `v`.
-extern const Kernel<bool(const ReachLanes& reach, const LaneCount& contacts, const double* u, const double* v,
-                         double time)>
-    open_after;
-
 } // namespace fretwork::transient::kernels
