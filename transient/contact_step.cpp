@@ -415,10 +415,19 @@ void ContactStep::book(Motion& m, const Interval& of, const Pressed& p, ContactA
     past.spring_at_opening = dot(p.memory.spring, p.memory.spring);
 }
 
-/// Of a contact that has opened while it penetrates, where its damper would pull, or by round-off: it moves free of force until it is out.
-void ContactStep::leave(Motion& m, ContactAct& act) const {
-  const double out = -m.at.gap / dot(m.at.ny, m.at.nz, m.v);
-  const double time = std::min({h_ - m.t, usual_.length, std::max(out, shortest_way_out * usual_.length)});
+/// s: how long a contact that has opened while it penetrates, where its damper would pull, moves free of force: until it is out, or until
+/// K_N p + c p' = 0 again, p'' = a and from 0. 0: its force grows at once.
+double ContactStep::pause(const Motion& m) const {
+  const double out = dot(m.at.ny, m.at.nz, m.v), pressing = -dot(m.at.ny, m.at.nz, m.a);
+  const double falls = normal_.stiffness * out - normal_.damping_at(-m.at.gap) * pressing;
+  if (!(out > 0.0 && falls > 0.0))
+    return 0.0;
+  const double leaves = std::max(-m.at.gap / out, shortest_way_out * usual_.length);
+  const double pressed = pressing > 0.0 ? 2.0 * falls / (normal_.stiffness * pressing) : leaves;
+  return std::min({h_ - m.t, usual_.length, leaves, pressed});
+}
+
+void ContactStep::leave(Motion& m, double time, ContactAct& act) const {
   const double sunk = m.at.gap;
   act.relaxed += relax(act.past, time);
   m.move(time, {});
@@ -441,8 +450,8 @@ void ContactStep::make(const ContactPast& past, const FreePath& path, const Comp
         open(m, act);
       if (!find_touch(m, act))
         break;
-    } else if (!act.past.closed && dot(m.at.ny, m.at.nz, m.v) > 0.0) {
-      leave(m, act);
+    } else if (const double time = act.past.closed ? 0.0 : pause(m); time > 0.0) {
+      leave(m, time, act);
       continue;
     }
     const double left = h_ - m.t;

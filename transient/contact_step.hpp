@@ -101,7 +101,8 @@ private:
   [[nodiscard]] int looks(const Components& velocity, double time) const;
   bool find_touch(Motion& m, ContactAct& act) const;
   void open(const Motion& m, ContactAct& act) const;
-  void leave(Motion& m, ContactAct& act) const;
+  [[nodiscard]] double pause(const Motion& m) const;
+  void leave(Motion& m, double time, ContactAct& act) const;
   void press(const Motion& m, const ContactPast& past, const Interval& of, Pressed& p) const;
   void find_normal_force(const Motion& m, const Components& guessed, const Interval& of, Pressed& p) const;
   void find_friction(const Motion& m, const ContactPast& past, const Interval& of, Pressed& p) const;
