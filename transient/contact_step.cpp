@@ -14,6 +14,8 @@ constexpr double shortest = 1e-9;
 /// Of the time between two looks: how well a touch is found.
 constexpr double touch_tolerance = 1e-12;
 constexpr int most_iterations = 40;
+/// Of the usual length.
+constexpr double short_interval = 0.3;
 /// Of an interval: time in which a contact that has opened is out at least.
 constexpr double shortest_way_out = 1e-3;
 /// Where normal and tangential motion are coupled an interval is made again until its force stands to this share.
@@ -229,6 +231,8 @@ void ContactStep::find_normal_force(const Motion& m, const Components& guessed, 
         {start, end + half * wnn * guess + (share - 0.5) * dt * dt * acceleration, rate, acceleration});
   };
   const double start = -m.at.gap, rate = -dot(m.at.ny, m.at.nz, m.v);
+  // The gap that the laws follow strays from that of the position by curvature: over a short interval a damper would take it for a speed.
+  const double drift = dt < short_interval * usual_.length ? start + locate(m.u).gap : 0.0;
   p.to = there;
   if (turned > 0.0) {
     double ny = m.at.ny, nz = m.at.nz;
@@ -237,7 +241,7 @@ void ContactStep::find_normal_force(const Motion& m, const Components& guessed, 
       ny = per * (ny + there.ny);
       nz = per * (nz + there.nz);
     }
-    find(ny, nz, start, -there.gap, rate);
+    find(ny, nz, start, drift - there.gap, rate);
   } else { // another face lies ahead of the guess: does the contact stay on its own, or leave it before?
     find(m.at.ny, m.at.nz, start, start - dot(m.at.ny, m.at.nz, way), rate);
     const Components by = w_ * (p.normal.force * Components{p.ny, p.nz, 0.0});
