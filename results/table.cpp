@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/error_estimate.hpp"
+#include "results/text_file.hpp"
 #include "results/totals.hpp"
 #include "results/wear_json.hpp"
 #include "results/write.hpp"
@@ -59,16 +60,6 @@ std::string grouped(std::int64_t count) {
   return digits;
 }
 
-/// The first characters of a name, "..." where it goes on; never half of a UTF-8 character.
-std::string shortened(const std::string& name) {
-  if (name.size() <= name_width)
-    return name;
-  std::size_t end = name_width - 3;
-  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80)
-    --end;
-  return name.substr(0, end) + "...";
-}
-
 std::string modes_text(const std::vector<modal::Basis>& bases) {
   const std::vector<ModeOf> modes = sorted_modes(bases);
   if (modes.empty())
@@ -103,7 +94,7 @@ std::string with_error(double value, double error) {
 
 std::string contact_row(const std::string& name, const post::ContactSummary& c) {
   return fmt::format("  {:<20} {:>8} {:>8.2f} {:>11} {:>8.3g} {:>8.3g} {:>8.4g} {:>13} {:>13}",
-                     shortened(name), grouped(c.impacts), 100.0 * c.contact_time_ratio,
+                     shortened(name, name_width), grouped(c.impacts), 100.0 * c.contact_time_ratio,
                      with_error(c.normal_rms, c.error.normal_rms), c.normal_max, c.tangential_max,
                      1e6 * c.radial_max, with_error(c.work_rate, c.error.work_rate),
                      with_error(c.friction_power, c.error.friction_power));
@@ -160,9 +151,9 @@ void add_flexibility(Lines& lines, const RunResults& results) {
                           "exact m/N", "modes m/N", "missing m/N", "missing K_N"));
   for (std::size_t i = 0; i < shown; ++i) {
     const auto& [product, c] = lacking[i];
-    lines.plain(fmt::format("  {:<34} {:>12.4g} {:>12.4g} {:>12.3g} {:>12.2g}", shortened(c->name),
-                            c->static_flexibility->exact, c->static_flexibility->basis,
-                            c->static_flexibility->missing, product));
+    lines.plain(fmt::format("  {:<34} {:>12.4g} {:>12.4g} {:>12.3g} {:>12.2g}",
+                            shortened(c->name, name_width), c->static_flexibility->exact,
+                            c->static_flexibility->basis, c->static_flexibility->missing, product));
   }
   lines.plain("");
 }

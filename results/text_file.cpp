@@ -31,4 +31,13 @@ std::string path_name(std::string_view name) {
   return out;
 }
 
+std::string shortened(const std::string& name, std::size_t width) {
+  if (name.size() <= width)
+    return name;
+  std::size_t end = width - 3;
+  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80)
+    --end;
+  return name.substr(0, end) + "...";
+}
+
 } // namespace fretwork::results

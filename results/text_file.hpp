@@ -16,4 +16,7 @@ void write_text(const std::filesystem::path& file, std::string_view text);
 /// stay different.
 [[nodiscard]] std::string path_name(std::string_view name);
 
+/// The first bytes of a name, at most `width` > 3 with the "..." where it goes on; never half of a UTF-8 character.
+[[nodiscard]] std::string shortened(const std::string& name, std::size_t width);
+
 } // namespace fretwork::results

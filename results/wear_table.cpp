@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/text_file.hpp"
 #include "results/wear_json.hpp"
 #include <algorithm>
 #include <cmath>
@@ -26,22 +27,13 @@ std::string with_bounds(const Bounds& b, double factor) {
   return fmt::format("{} ({} to {})", one(b.value), one(b.low), one(b.high));
 }
 
-std::string shortened(const std::string& name) {
-  if (name.size() <= name_width)
-    return name;
-  std::size_t end = name_width - 3;
-  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80)
-    --end;
-  return name.substr(0, end) + "...";
-}
-
 std::string law_text(const WearOfSupport& s) {
   return std::isnan(s.coefficient) ? s.law : fmt::format("{} {:.3g}", s.law, s.coefficient);
 }
 
 std::string row(const WearOfSupport& s) {
-  return fmt::format("  {:<16} {:>8.3g} {:>9} {:>22} {:>7} {:>22}  {}", shortened(s.name), s.work_rate.value,
-                     with_bounds({s.volume.last().value}, cubic_millimetre),
+  return fmt::format("  {:<16} {:>8.3g} {:>9} {:>22} {:>7} {:>22}  {}", shortened(s.name, name_width),
+                     s.work_rate.value, with_bounds({s.volume.last().value}, cubic_millimetre),
                      with_bounds(s.depth.last(), millimetre), with_bounds({s.scar_width}, millimetre),
                      s.life.end == "outside_law" ? "outside the law" : with_bounds(s.life.years, 1.0),
                      law_text(s));
@@ -76,7 +68,7 @@ void add_tubes(std::vector<std::string>& lines, const Wear& wear) {
                                 wear.tubes.size() > 1 ? fmt::format("tube {}", t.tube) : "all supports",
                                 t.work_rate.value, with_bounds({t.volume.value}, cubic_millimetre),
                                 with_bounds(t.depth, millimetre), "", with_bounds(t.years, 1.0),
-                                t.first.empty() ? "" : "first: " + shortened(t.first)));
+                                t.first.empty() ? "" : "first: " + shortened(t.first, name_width)));
 }
 
 } // namespace

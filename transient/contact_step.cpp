@@ -14,7 +14,7 @@ constexpr double shortest = 1e-9;
 /// Of the time between two looks: how well a touch is found.
 constexpr double touch_tolerance = 1e-12;
 constexpr int most_iterations = 40;
-/// Of the usual length.
+/// Of the usual length: intervals below it take the gap of the position for their rates.
 constexpr double short_interval = 0.3;
 /// Of an interval: time in which a contact that has opened is out at least.
 constexpr double shortest_way_out = 1e-3;
@@ -231,7 +231,8 @@ void ContactStep::find_normal_force(const Motion& m, const Components& guessed, 
         {start, end + half * wnn * guess + (share - 0.5) * dt * dt * acceleration, rate, acceleration});
   };
   const double start = -m.at.gap, rate = -dot(m.at.ny, m.at.nz, m.v);
-  // The gap that the laws follow strays from that of the position by curvature: over a short interval a damper would take it for a speed.
+  // The gap that the laws follow strays from that of the position, by curvature and where beta is not 1/2: over a short interval a damper would
+  // take that for a speed.
   const double drift = dt < short_interval * usual_.length ? start + locate(m.u).gap : 0.0;
   p.to = there;
   if (turned > 0.0) {
@@ -432,13 +433,13 @@ double ContactStep::pause(const Motion& m) const {
 }
 
 void ContactStep::leave(Motion& m, double time, ContactAct& act) const {
-  const double sunk = m.at.gap;
+  const double before = m.at.gap;
   act.relaxed += relax(act.past, time);
   m.move(time, {});
   m.at = locate(m.u);
   const double left = std::min(0.0, m.at.gap);
   act.state.damper_work +=
-      0.5 * normal_.stiffness * (sunk * sunk - left * left); // what the positive part cuts
+      0.5 * normal_.stiffness * (before * before - left * left); // what the positive part cuts
 }
 
 void ContactStep::make(const ContactPast& past, const FreePath& path, const Components& guess,

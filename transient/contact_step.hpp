@@ -54,8 +54,8 @@ struct ContactAct {
   Components mean, slope;  ///< N: its force is linear in time from mean - slope to mean + slope
   Components last;         ///< N: in its last interval
   Components end;          ///< m: where it is at the end
-  double relaxed = 0.0;    ///< J, given up by its tangential spring while it was open
   bool penetrates = false; ///< there, though it may be free of force
+  double relaxed = 0.0;    ///< J, given up by its tangential spring while it was open
   bool opened = false;     ///< within the step
   ContactState state;
   ContactPast past; ///< at the end

@@ -57,8 +57,8 @@ bool has_intervals(const StepChoice& c, const Scene& scene) {
   return c.scheme == SchemeKind::splitting && scene.residual.size() == 0;
 }
 /// w_c h, w_t h and r_t h at an accuracy of 0.01. Measured on rattling tubes (bench_statistics), work rates: with splitting within 1 % at
-/// w_c h = 1, with modes near w_c at 0.8 (up to 1.6 % high at 0.9), r_t h = 6.3, and where contacts stick without much damping (stick_time) 3 % low at w_t h = 0.5, 0.9 % at 0.25, for they start to slide
-/// inside steps; with collocation these are off by 2.8 % at 1, 1.4 % at 0.5.
+/// w_c h = 1, with modes near w_c at 0.8 (up to 1.6 % high at 0.9), r_t h = 6.3; with residual flexibility, where contacts stick without much damping (stick_time), 3 % low at w_t h = 0.5, 0.9 % at 0.25, for they
+/// start to slide inside steps, which only intervals follow; with collocation these are off by 2.8 % at 1, 1.4 % at 0.5.
 /// Of r_t h, where dampers are implicit: above 2 a step turns the speed of a sticking contact round, 0.52 of it at 6.3.
 struct Shares {
   double contact, stick, damper;
