@@ -14,13 +14,13 @@
 #include "core/error.hpp"
 #include "core/mpi.hpp"
 #include "core/petsc.hpp"
+#include "results/summary_file.hpp"
 #include "results/write.hpp"
 #include "transient/kernels.hpp"
 #include <chrono>
 #include <fmt/format.h>
-#include <fstream>
+#include <functional>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <petscversion.h>
 #include <slepcversion.h>
@@ -193,15 +193,22 @@ std::vector<BuiltScene> build_scenes(const study::Study& study, const std::vecto
   return scenes;
 }
 
-/// True where the summary in the folder was computed from the same inputs.
-bool up_to_date(const Inputs& inputs) {
-  std::ifstream in(inputs.directory / "summary.json");
-  if (!in || !fs::exists(inputs.directory / "results.h5"))
+/// True where the results in the folder are whole and were computed from the same inputs. Damage is told.
+bool up_to_date(const Inputs& inputs, const std::function<void(const std::string&)>& tell) {
+  const results::FoundSummary found = results::read_summary(inputs.directory / "summary.json");
+  if (!found.refusal.empty())
+    tell(found.refusal + ": the results are computed again");
+  const nlohmann::json& summary = found.summary;
+  if (!summary.is_object() || !summary.contains("transient") ||
+      summary.value("input_sha256", "") != inputs.whole_key ||
+      summary.value("version", "") != FRETWORK_VERSION)
     return false;
-  const auto summary = nlohmann::json::parse(in, nullptr, false);
-  return summary.is_object() && summary.contains("transient") &&
-         summary.value("input_sha256", "") == inputs.whole_key &&
-         summary.value("version", "") == FRETWORK_VERSION;
+  const fs::path archive = inputs.directory / "results.h5";
+  const std::string refusal = results::archive_refusal(archive, inputs.whole_key);
+  if (!refusal.empty() && fs::exists(archive))
+    tell(fmt::format("{} is not as it was written ({}): the results are computed again", archive.string(),
+                     refusal));
+  return refusal.empty();
 }
 
 void make_directory(const fs::path& directory) {
@@ -321,7 +328,10 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
   progress.stage("mesh");
   make_mesh_file(comm, inputs);
   core::agree(comm, [&] { make_keys(request, inputs); });
-  int current = first_rank && !request.force && up_to_date(inputs) ? 1 : 0;
+  int current =
+      first_rank && !request.force && up_to_date(inputs, [&](const std::string& line) { say(line + "\n"); })
+          ? 1
+          : 0;
   MPI_Bcast(&current, 1, MPI_INT, 0, comm);
   if (current && last == Stage::transient) {
     if (first_rank && request.report && !fs::exists(inputs.directory / "report.html"))
@@ -370,6 +380,7 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
     describe_model(model, modes.structures, out);
     out.model.different_structures = static_cast<std::int64_t>(modes.different);
     out.warnings.insert(out.warnings.end(), modes.warnings.begin(), modes.warnings.end());
+    out.notes.insert(out.notes.end(), modes.notes.begin(), modes.notes.end());
     out.bases = std::move(modes.bases);
     report_modes(inputs.study, out);
     if (inputs.study.modes.static_modes == study::StaticModes::added) {

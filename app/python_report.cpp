@@ -20,7 +20,7 @@ std::string find_python() {
   candidates.insert(candidates.end(), {"python3", "/usr/bin/python3"});
   for (const std::string& python : candidates)
     if (core::run_child(
-            {python, "-c",
+            {python, "-I", "-c",
              "import importlib.util as u, sys; sys.exit(not (u.find_spec('h5py') and u.find_spec('numpy')))"})
             .status == 0)
       return python;
@@ -44,7 +44,7 @@ fs::path find_script() {
 
 void write_report(const fs::path& directory) {
   const core::ChildResult result =
-      core::run_child({find_python(), find_script().string(), directory.string()});
+      core::run_child({find_python(), "-I", find_script().string(), directory.string()});
   if (result.status != 0)
     throw core::Error("the report could not be written: " + result.output);
 }

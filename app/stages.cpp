@@ -8,6 +8,7 @@
 #include "modal/damping.hpp"
 #include "modal/slepc_structures.hpp"
 #include "modal/spans.hpp"
+#include "results/whole_file.hpp"
 #include "results/write.hpp"
 #include <algorithm>
 #include <fmt/format.h>
@@ -62,23 +63,15 @@ Inputs read_inputs(const Request& request) {
 
 void make_mesh_file(MPI_Comm comm, Inputs& inputs) {
   const fs::path source = inputs.study.mesh.file;
-  if (source.extension() == ".msh")
+  if (mesh::is_msh(source))
     return;
   inputs.mesh_file = inputs.directory / "mesh.msh";
   core::agree(comm, [&] {
     if (core::rank(comm) != 0)
       return;
-    const fs::path fresh = inputs.directory / "mesh.new.msh";
-    results::write_whole(fresh, [&](const fs::path& temporary) {
-      if (mesh::is_geometry(source))
-        mesh::mesh_geometry(inputs.study.mesh, temporary);
-      else
-        mesh::convert_with_meshio(source, temporary);
-    });
-    if (fs::exists(inputs.mesh_file) && file_bytes(fresh) == file_bytes(inputs.mesh_file))
-      fs::remove(fresh); // nothing has changed: the file keeps its date
-    else
-      fs::rename(fresh, inputs.mesh_file);
+    const std::string fresh = mesh::as_msh(inputs.study.mesh);
+    if (!fs::is_regular_file(inputs.mesh_file) || fresh != file_bytes(inputs.mesh_file))
+      results::write_whole(inputs.mesh_file, {fresh}); // else nothing has changed: the file keeps its date
   });
 }
 
@@ -154,8 +147,12 @@ ModesStage modes_stage(MPI_Comm comm, const Inputs& inputs, const fem::Model& mo
   const std::string key = stored_key(comm, inputs, out.structures);
   const fs::path file = inputs.directory / "modes.h5";
   std::optional<std::vector<modal::Basis>> stored;
-  if (!force)
-    stored = results::read_bases(file, key);
+  if (!force) {
+    results::FoundBases read = results::read_bases(file, key);
+    stored = std::move(read.bases);
+    if (!read.refusal.empty())
+      out.notes.push_back(read.refusal);
+  }
   int here_found = stored && stored->size() == out.structures.size() ? 1 : 0, found = 0;
   MPI_Allreduce(&here_found, &found, 1, MPI_INT, MPI_MIN, comm); // every rank reads it, or none
   if (found) {

@@ -52,7 +52,7 @@ struct ModesStage {
   std::vector<fem::Structure> structures;
   std::vector<modal::Basis> bases; ///< by structure, the same bytes on every rank
   std::size_t different = 0;       ///< structures that are no copy of another: so many are solved
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings, notes;
   bool computed = false; ///< false: read from DIR/modes.h5
 };
 

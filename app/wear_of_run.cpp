@@ -2,12 +2,11 @@
 #include "app/wear_of_run.hpp"
 #include "core/error.hpp"
 #include "core/names.hpp"
+#include "results/summary_file.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
 #include <functional>
-#include <nlohmann/json.hpp>
 
 namespace fretwork::app {
 namespace {
@@ -23,12 +22,14 @@ double number(const nlohmann::json& value) {
 
 /// Work rates of the contacts of another run.
 std::map<std::string, wear::WorkRate> read_run(const std::string& where, const fs::path& directory) {
-  std::ifstream in(directory / "summary.json");
-  if (!in)
+  const results::FoundSummary found = results::read_summary(directory / "summary.json");
+  if (!found.refusal.empty())
+    throw core::Error(fmt::format("{}: {}; run that study again", where, found.refusal));
+  if (found.summary.is_null())
     throw core::Error(fmt::format("{}: {} holds no summary.json; give the folder that `fretwork run` wrote",
                                   where, directory.string()));
-  const auto summary = nlohmann::json::parse(in, nullptr, false);
-  if (!summary.is_object() || !summary.contains("transient") || !summary.contains("contacts"))
+  const nlohmann::json& summary = found.summary;
+  if (!summary.contains("transient") || !summary.contains("contacts"))
     throw core::Error(fmt::format("{}: {} holds no results of a transient; run that study again", where,
                                   directory.string()));
   if (summary["transient"].value("outcome", "") != "done")

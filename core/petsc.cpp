@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/petsc.hpp"
 #include "core/error.hpp"
+#include <cstdlib>
 #include <string>
 
 namespace fretwork::core {
 
 PetscSession::PetscSession() {
-  FW_PETSC(SlepcInitializeNoArguments());
+  // PETSc would take options, programs to start and files to write among them, from .petscrc of the current folder and from the environment
+  for (const char* source : {"PETSC_OPTIONS", "PETSC_OPTIONS_YAML"})
+    (void)unsetenv(source);
+  char name[] = "fretwork", isolated[] = "-skip_petscrc";
+  char* words[] = {name, isolated, nullptr};
+  int count = 2;
+  char** arguments = words;
+  FW_PETSC(SlepcInitialize(&count, &arguments, nullptr, nullptr));
   FW_PETSC(PetscPopSignalHandler()); // a crash is ours to report, and Ctrl-C ours to take
   FW_PETSC(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr)); // one message, ours
 }

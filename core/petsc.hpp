@@ -10,7 +10,8 @@
 
 namespace fretwork::core {
 
-/// SlepcInitialize (and so PetscInitialize) for the life of the object; MPI must be running.
+/// SlepcInitialize (and so PetscInitialize) for the life of the object; MPI must be running. Neither a .petscrc file nor PETSC_OPTIONS is read:
+/// nothing but the study says what is computed.
 class PetscSession {
 public:
   PetscSession();

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/child_process.hpp"
 #include "core/error.hpp"
+#include "core/temporary_directory.hpp"
+#include "mesh/converter.hpp"
 #include "mesh/meshio_script.hpp"
 #include "mesh/read.hpp"
 #include <algorithm>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <fstream>
+#include <iterator>
 #include <regex>
 
 namespace fretwork::mesh {
@@ -14,6 +17,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int not_started = 127;
+constexpr int of_a_signal = 128; ///< a status above it: the number of the signal that ended the child
+
+std::string lower_case_ending(const fs::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
 
 /// What a child wrote, without terminal colours and the empty lines at its end.
 std::string trimmed(const std::string& output) {
@@ -47,16 +58,7 @@ std::vector<std::string> pythons() {
   return {"python3", "/usr/bin/python3"};
 }
 
-} // namespace
-
-bool is_geometry(const fs::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending == ".geo" || ending == ".step" || ending == ".stp" || ending == ".brep";
-}
-
-void mesh_geometry(const Source& source, const fs::path& msh_file) {
+void mesh_geometry(const Source& source, const fs::path& msh_file, const Converter& converter) {
   std::vector<std::string> arguments{geometry_program(), source.file.string(), msh_file.string()};
   if (source.element_size) {
     arguments.emplace_back("--size");
@@ -66,21 +68,23 @@ void mesh_geometry(const Source& source, const fs::path& msh_file) {
     arguments.emplace_back("--order");
     arguments.push_back(fmt::format("{}", *source.order));
   }
-  const core::ChildResult child = core::run_child(arguments);
+  const core::ChildResult child = converter.run(arguments);
   if (child.status == not_started)
     throw core::Error(fmt::format("{} cannot be started: {}", arguments[0], trimmed(child.output)));
   if (child.status != 0 || !fs::exists(msh_file))
     throw core::Error(fmt::format("{}: gmsh cannot mesh the geometry: {}", source.file.string(),
-                                  child.status > 128
-                                      ? fmt::format("it crashed (signal {})", child.status - 128)
+                                  child.status > of_a_signal
+                                      ? fmt::format("it crashed (signal {})", child.status - of_a_signal)
                                       : trimmed(child.output)));
 }
 
-void convert_with_meshio(const fs::path& file, const fs::path& msh_file) {
+void convert_with_meshio(const Source& source, const fs::path& msh_file, const Converter& converter) {
+  const fs::path& file = source.file;
   std::string tried;
   for (const std::string& python : pythons()) {
+    // -I: neither the current folder nor PYTHONPATH gives modules
     const core::ChildResult child =
-        core::run_child({python, "-c", meshio_script, file.string(), msh_file.string()});
+        converter.run({python, "-I", "-c", meshio_script, file.string(), msh_file.string()});
     if (child.status == 0)
       return;
     if (child.status != no_meshio && child.status != not_started) {
@@ -95,6 +99,29 @@ void convert_with_meshio(const fs::path& file, const fs::path& msh_file) {
       "{}: this format is read through meshio, and no Python with it was found; install the package "
       "python3-meshio (and python3-h5py for .med and .xdmf) or name an interpreter in FRETWORK_PYTHON{}",
       file.string(), tried));
+}
+
+} // namespace
+
+bool is_msh(const fs::path& file) { return lower_case_ending(file) == ".msh"; }
+
+bool is_geometry(const fs::path& file) {
+  const std::string ending = lower_case_ending(file);
+  return ending == ".geo" || ending == ".step" || ending == ".stp" || ending == ".brep";
+}
+
+std::string as_msh(const Source& source) {
+  const core::TemporaryDirectory directory;
+  const fs::path msh_file = directory.path() / "mesh.msh";
+  const Converter converter(source, directory.path());
+  if (is_geometry(source.file))
+    mesh_geometry(source, msh_file, converter);
+  else
+    convert_with_meshio(source, msh_file, converter);
+  if (fs::symlink_status(msh_file).type() != fs::file_type::regular)
+    throw core::Error(fmt::format("{}: nothing came out of its conversion", source.file.string()));
+  std::ifstream in(msh_file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 } // namespace fretwork::mesh

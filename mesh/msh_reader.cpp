@@ -5,6 +5,7 @@
 #include "mesh/msh_scanner.hpp"
 #include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <unordered_map>
 
 namespace fretwork::mesh {
@@ -22,6 +23,13 @@ std::string whole_file(const std::filesystem::path& file) {
   if (!stream.read(text.data(), static_cast<std::streamsize>(text.size())))
     throw core::Error(file.string() + ": the mesh cannot be read");
   return text;
+}
+
+/// The sign of a physical tag is an orientation.
+int without_sign(const MshScanner& in, int tag) {
+  if (tag == std::numeric_limits<int>::min())
+    in.fail("a physical tag of " + std::to_string(tag) + " has no positive counterpart");
+  return std::abs(tag);
 }
 
 class Reader {
@@ -72,7 +80,7 @@ void Reader::read_physical_names() {
   for (int i = 0; i < count; ++i) {
     const int dimension = in_.text_integer();
     const int tag = in_.text_integer();
-    elements_.name_group(dimension, std::abs(tag), in_.quoted());
+    elements_.name_group(dimension, without_sign(in_, tag), in_.quoted());
   }
 }
 
@@ -83,7 +91,7 @@ std::vector<int> Reader::read_entity(int dimension) {
     static_cast<void>(in_.number());
   std::vector<int> physical(in_.fitting(in_.size(), 1));
   for (int& tag : physical)
-    tag = std::abs(in_.integer());
+    tag = without_sign(in_, in_.integer());
   if (dimension > 0)
     for (std::size_t left = in_.fitting(in_.size(), 1); left > 0; --left)
       static_cast<void>(in_.integer());
@@ -154,7 +162,7 @@ void Reader::read_elements_2() {
         static_cast<void>(in_.integer());
       for (int& tag : tags)
         tag = in_.integer();
-      const int physical = tags.empty() ? 0 : std::abs(tags[0]);
+      const int physical = tags.empty() ? 0 : without_sign(in_, tags[0]);
       elements_.begin(type, 0, {&physical, physical == 0 ? 0u : 1u});
       for (int n = elements_.node_count(); n > 0; --n)
         elements_.add_node(static_cast<std::size_t>(in_.integer()));
@@ -212,6 +220,10 @@ RawMesh Reader::read() {
 
 } // namespace
 
-RawMesh read_msh(const std::filesystem::path& file) { return Reader(whole_file(file), file.string()).read(); }
+RawMesh read_msh(const std::filesystem::path& file) { return read_msh_text(whole_file(file), file.string()); }
+
+RawMesh read_msh_text(std::string text, const std::string& name) {
+  return Reader(std::move(text), name).read();
+}
 
 } // namespace fretwork::mesh

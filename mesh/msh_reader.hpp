@@ -21,5 +21,7 @@ namespace fretwork::mesh {
 /// @throws core::Error where the file cannot be opened, is not a mesh of these formats, is truncated or
 /// contradicts itself
 [[nodiscard]] RawMesh read_msh(const std::filesystem::path& file);
+/// The same from its bytes; `name` is for messages.
+[[nodiscard]] RawMesh read_msh_text(std::string text, const std::string& name);
 
 } // namespace fretwork::mesh

@@ -5,10 +5,7 @@
 #include "mesh/msh_reader.hpp"
 #include "mesh/near_nodes.hpp"
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
 #include <fmt/format.h>
 
 namespace fretwork::mesh {
@@ -18,26 +15,6 @@ namespace fs = std::filesystem;
 
 /// Nodes nearer than this part of the extent are at the same place (a mesher's positions are good to 1e-11).
 constexpr double coincidence = 1e-8;
-
-/// A directory that lives as long as the object.
-class TemporaryDirectory {
-public:
-  TemporaryDirectory() : path_((fs::temp_directory_path() / "fretwork-XXXXXX").string()) {
-    if (mkdtemp(path_.data()) == nullptr)
-      throw core::Error(fmt::format("no temporary directory {}: {}; set TMPDIR to a writable one", path_,
-                                    std::strerror(errno)));
-  }
-  ~TemporaryDirectory() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-  [[nodiscard]] fs::path path() const { return path_; }
-
-private:
-  std::string path_;
-};
 
 bool positive(double value) { return value > 0.0 && std::isfinite(value); }
 
@@ -65,15 +42,7 @@ void check_source(const Source& source) {
 }
 
 RawMesh read_raw(const Source& source) {
-  if (!is_geometry(source.file) && source.file.extension() == ".msh")
-    return read_msh(source.file);
-  const TemporaryDirectory directory;
-  const fs::path msh_file = directory.path() / "mesh.msh";
-  if (is_geometry(source.file))
-    mesh_geometry(source, msh_file);
-  else
-    convert_with_meshio(source.file, msh_file);
-  return read_msh(msh_file);
+  return is_msh(source.file) ? read_msh(source.file) : read_msh_text(as_msh(source), source.file.string());
 }
 
 void check_content(const RawMesh& mesh) {

@@ -3,10 +3,13 @@
 """Writes report.html, one file that needs nothing else, from the results of a run: fretwork_report.py DIR [-o FILE]"""
 
 import argparse
+import html
 import importlib.util
 import os
 import sys
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))  # an isolated interpreter (-I) has no folder of its own there
 
 PACKAGES = {"numpy": "python3-numpy", "h5py": "python3-h5py"}
 
@@ -27,15 +30,17 @@ def build(directory):
     parts = [sections.key_figures, sections.structure, sections.modes, sections.along_the_tube, sections.contacts,
              sections.contact_table, wear_section.wear, sections.impacts, sections.energy, sections.computation, sections.study]
     title = run.summary["study"] or Path(directory).resolve().stem
-    subtitle = f"Impact, friction and wear: results of Fretwork {run.summary['version']}"
+    subtitle = f"Impact, friction and wear: results of Fretwork {html.escape(run.summary['version'])}"
     return page.page(title, subtitle, "".join(part(run) for part in parts))
 
 
 def write_whole(path, text):
-    """The file is replaced when the new one is complete."""
+    """The file is replaced when the new one is complete, which is created exclusively: no symbolic link is followed."""
     part = path.with_name(path.name + ".part")
+    part.unlink(missing_ok=True)
     try:
-        part.write_text(text, encoding="utf-8")
+        with open(part, "x", encoding="utf-8") as file:
+            file.write(text)
         os.replace(part, path)
     finally:
         part.unlink(missing_ok=True)
@@ -56,6 +61,8 @@ def main():
         write_whole(arguments.output or arguments.directory / "report.html", text)
     except run_data.NoResults as error:
         return str(error)
+    except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
+        return f"{arguments.directory}: the results are not those of a run ({type(error).__name__}: {str(error)[:200]}); run the study again"
     except OSError as error:
         return f"the report cannot be written: {error}"
     return 0

@@ -3,6 +3,9 @@
 
 import html
 
+# What a browser lets the page do: show itself. Nothing is loaded, nothing runs.
+POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
+
 STYLE = """
 :root { --ink: #1c2733; --soft: #5b6b7b; --line: #dfe5eb; --blue: #1f5fa8; --orange: #d95f0e; --pale: #f5f7fa; }
 * { box-sizing: border-box; }
@@ -83,6 +86,13 @@ def cards(entries):
     return '<div class="cards">' + "".join(f"<div class=card><b>{value}</b><span>{name}</span></div>" for name, value in entries) + "</div>"
 
 
+def count(value):
+    """A whole number of the results as text. @throws TypeError, ValueError if it is something else, text among them"""
+    if isinstance(value, str):
+        raise TypeError(f"a number is expected where {value[:40]!r} stands")
+    return f"{int(value)}"
+
+
 def warning(text, bad=False):
     return f'<p class="warning{" bad" if bad else ""}">{html.escape(text)}</p>'
 
@@ -91,6 +101,7 @@ def page(title, subtitle, body):
     return (
         '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
+        f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">\n'
         f"<title>{html.escape(title)}</title><style>{STYLE}</style></head>\n"
         f'<body><header><h1>{html.escape(title)}</h1><p class="soft">{subtitle}</p></header>\n{body}</body></html>\n'
     )

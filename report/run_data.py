@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The results of a run as the report uses them: summary.json and results.h5 of a folder."""
 
+import hashlib
 import json
+import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -147,12 +149,53 @@ def _place_along(contacts, nodes, lines):
             contact.abscissa = place
 
 
+USER_BLOCK = 512  # bytes before the HDF5 content, with its checksum
+CHUNK = 1 << 20  # bytes read at a time
+
+
+def checksum(path):
+    """SHA-256 of the content of an HDF5 file."""
+    digest = hashlib.sha256()
+    with open(path, "rb") as file:
+        file.seek(USER_BLOCK)
+        while chunk := file.read(CHUNK):
+            digest.update(chunk)
+    return digest.hexdigest()
+
+
+CHECKSUM_OF_SUMMARY = re.compile(r'"sha256": "([0-9a-f]{64})"\s*}\s*$')  # its last key
+
+
+def with_checksum(text):
+    """The text of a summary with the checksum that fits it: the SHA-256 of the text in which its digits are zeros; None without the key."""
+    found = CHECKSUM_OF_SUMMARY.search(text)
+    if not found:
+        return None
+    begin, end = found.span(1)
+    digest = hashlib.sha256((text[:begin] + "0" * 64 + text[end:]).encode()).hexdigest()
+    return text[:begin] + digest + text[end:]
+
+
+def verify(folder):
+    """Before any library looks at the files. @throws NoResults if one is not as it was written"""
+    archive, summary = folder / "results.h5", folder / "summary.json"
+    with open(archive, "rb") as file:
+        digest = re.search(rb"\b([0-9a-f]{64})\n", file.read(USER_BLOCK))
+    text = summary.read_text(encoding="utf-8", errors="replace")
+    for path, good in ((archive, digest and digest[1].decode() == checksum(archive)), (summary, with_checksum(text) == text)):
+        if not good:
+            raise NoResults(f"{path} is not as it was written (its checksum does not fit); run the study again")
+
+
 def load(directory):
-    """@throws NoResults if a file is missing or damaged"""
+    """@throws NoResults if a file is missing or is not as it was written"""
     folder = Path(directory)
     for name in ("summary.json", "results.h5"):
         if not (folder / name).exists():
             raise NoResults(f"{folder / name} does not exist; give the folder that `fretwork run` wrote")
+        if not (folder / name).is_file():
+            raise NoResults(f"{folder / name} is no regular file; give the folder that `fretwork run` wrote")
+    verify(folder)
     try:
         summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
         with h5py.File(folder / "results.h5", "r") as file:
@@ -173,7 +216,9 @@ def load(directory):
             if "time" in file:
                 run.time = file["time"][...]
                 run.window = float(file.attrs["statistics_from"])
-    except (OSError, KeyError, ValueError) as error:
+    except (OSError, KeyError, ValueError, TypeError, AttributeError, RuntimeError) as error:
         raise NoResults(f"{folder}: the results are damaged or of another version ({error}); run the study again") from error
+    if run.attributes.get("input_sha256") != summary.get("input_sha256"):
+        raise NoResults(f"{folder}: summary.json and results.h5 are of different runs; run the study again")
     _place_along(run.contacts, run.nodes, run.lines)
     return run

@@ -7,7 +7,7 @@ import math
 import contact_view
 import structure_view
 from drawing import short, unit_for
-from page import cards, figure, section, table, warning
+from page import cards, count, figure, section, table, warning
 
 MOST_MODES = 6  # pictures
 MOST_MODE_ROWS = 40
@@ -34,7 +34,7 @@ def _work(contact):
 
 def key_figures(run):
     model, transient = run.summary["model"], run.transient
-    entries = [("nodes", f"{model['nodes']}"), ("mass", f"{short(model['mass_kg'], 4)} kg")]
+    entries = [("nodes", count(model["nodes"])), ("mass", f"{short(model['mass_kg'], 4)} kg")]
     if run.modes:
         entries.append((f"{len(run.modes)} modes, from" if len(run.modes) > 1 else "one mode", f"{short(run.modes[0].frequency)} Hz"))
     if transient:
@@ -46,7 +46,7 @@ def key_figures(run):
             ("work rate, all contacts", quantity(sum(work), "W")),
             ("largest work rate, one contact", quantity(max(work, default=None), "W")),
             ("largest normal force", quantity(max(_known(s["normal_force"]["max"] for s in statistics), default=None), "N")),
-            ("impacts", f"{sum(s['impacts'] for s in statistics)}"),
+            ("impacts", count(sum(s["impacts"] for s in statistics))),
         ]
     out = cards(entries)
     if transient and transient["outcome"] != "done":
@@ -58,7 +58,7 @@ def key_figures(run):
 def structure(run):
     picture, view = structure_view.structure(run)
     supports = f"; {len(run.contacts)} contacts (orange)" if run.contacts else ""
-    facts = f"{run.summary['model']['elements']} beams, {run.summary['model']['dofs']} free degrees of freedom{supports}. View: {view}."
+    facts = f"{count(run.summary['model']['elements'])} beams, {count(run.summary['model']['dofs'])} free degrees of freedom{supports}. View: {view}."
     return section("Structure", figure(picture, facts))
 
 
@@ -86,7 +86,7 @@ def _contact_line(contact):
     s = contact.summary
     return (
         f"{html.escape(contact.facts['obstacle'])}, gap {quantity(float(contact.facts['gap']), 'm')} · "
-        f"{s['impacts']} impacts, in contact {short(100 * (s['contact_time_ratio'] or 0), 3)} % of the time · "
+        f"{count(s['impacts'])} impacts, in contact {short(100 * (s['contact_time_ratio'] or 0), 3)} % of the time · "
         f"work rate {quantity(s['work_rate'], 'W')}"
     )
 
@@ -178,7 +178,7 @@ def contact_table(run):
         force, radial = s["normal_force"], s["displacement"]["radial"]
         speed, long = s["impact_velocity"], s["contact_duration"]
         rows.append([
-            html.escape(c.name), f"{s['impacts']}", _times(s["contact_time_ratio"], 100, 3), short(force["mean"]), short(force["rms"]),
+            html.escape(c.name), count(s["impacts"]), _times(s["contact_time_ratio"], 100, 3), short(force["mean"]), short(force["rms"]),
             short(force["max"]), short(s["tangential_force"]["max"]), _times(radial["rms"], 1e6), _times(radial["max"], 1e6),
             _times(s["work_rate"], 1e3), _times(s["friction_power"], 1e3),
             f"{_times(speed['mean'], 1e3, 3)} / {_times(speed['max'], 1e3, 3)}", f"{_times(long['mean'], 1e3, 3)} / {_times(long['max'], 1e3, 3)}",
@@ -255,18 +255,18 @@ def computation(run):
             step += " to " + short(transient["step_max_s"])
         rows += [
             ["scheme", html.escape(transient["scheme"])],
-            ["time step", f"{step} s ({transient['steps']} steps, {transient['force_evaluations']} evaluations of the contact forces)"],
+            ["time step", f"{step} s ({count(transient['steps'])} steps, {count(transient['force_evaluations'])} evaluations of the contact forces)"],
             ["why this step", html.escape(transient["step_reason"])],
             ["highest contact frequency", f"{short(transient['contact_frequency_rad_s'])} rad/s"],
-            ["steps not converged", f"{transient['unconverged_steps']}"],
+            ["steps not converged", count(transient["unconverged_steps"])],
         ]
     modes = summary["modes"]
     rows.append(["orthogonality of the modes", short(modes["orthogonality"], 2)])
     seconds = {name: value for name, value in summary["timings_s"].items() if value}
     rows.append(["time of computation", ", ".join(f"{html.escape(name)} {short(value, 3)} s" for name, value in seconds.items())])
-    rows.append(["ranks, vector unit", f"{summary['ranks']}, {html.escape(summary['vector_width'])}"])
+    rows.append(["ranks, vector unit", f"{count(summary['ranks'])}, {html.escape(summary['vector_width'])}"])
     if summary["seeds"]:
-        rows.append(["random seeds", ", ".join(str(seed) for seed in summary["seeds"])])
+        rows.append(["random seeds", ", ".join(count(seed) for seed in summary["seeds"])])
     libraries = ", ".join(f"{html.escape(n)} {html.escape(v)}" for n, v in summary["libraries"].items())
     rows.append(["versions", f"Fretwork {html.escape(summary['version'])}" + (f", {libraries}" if libraries else "")])
     rows.append(["SHA-256 of the input", f"<code>{html.escape(summary['input_sha256'])}</code>"])

@@ -219,27 +219,27 @@ void read_transient(const h5::Group& root, RunResults& results) {
 } // namespace
 
 void write_archive(const fs::path& file, const RunResults& results) {
-  const h5::Quiet quiet;
-  write_whole(file, [&](const fs::path& part) {
-    try {
-      const h5::Group root = h5::Group::create_file(part);
-      write_record(root, results.record);
-      root.set("dofs", results.model.dofs);
-      root.set("mass", results.model.mass_kg);
-      write_mesh(root, results.nodes, results.lines);
-      write_modes(root, results.bases);
-      write_contacts(root, results);
-      if (!results.transients.empty())
-        write_transient(root, results);
-      if (results.wear)
-        write_wear(root, *results.wear);
-      root.flush();
-    } catch (const h5::Failure& failure) {
-      throw core::Error(
-          fmt::format("{}: cannot be written ({}); check the folder, its permissions and the space left",
-                      file.string(), failure.what()));
-    }
+  h5::write_file(file, [&](const h5::Group& root) {
+    write_record(root, results.record);
+    root.set("dofs", results.model.dofs);
+    root.set("mass", results.model.mass_kg);
+    write_mesh(root, results.nodes, results.lines);
+    write_modes(root, results.bases);
+    write_contacts(root, results);
+    if (!results.transients.empty())
+      write_transient(root, results);
+    if (results.wear)
+      write_wear(root, *results.wear);
   });
+}
+
+std::string archive_refusal(const fs::path& file, const std::string& input_sha256) {
+  const h5::Quiet quiet;
+  try {
+    return h5::Group::open_file(file).text("input_sha256") == input_sha256 ? "" : "it is of another run";
+  } catch (const h5::Failure& failure) {
+    return failure.what();
+  }
 }
 
 RunResults read_archive(const fs::path& directory) {

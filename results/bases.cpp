@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/error.hpp"
 #include "results/basis_file.hpp"
 #include "results/write.hpp"
 #include <fmt/format.h>
@@ -11,34 +10,29 @@ namespace fs = std::filesystem;
 void write_bases(const fs::path& file, const RunRecord& record, const std::vector<modal::Basis>& bases,
                  const std::string& key, const std::vector<core::Vec3>& nodes,
                  const std::vector<std::array<core::Index, 2>>& lines) {
-  const h5::Quiet quiet;
-  write_whole(file, [&](const fs::path& part) {
-    try {
-      const h5::Group root = h5::Group::create_file(part);
-      write_record(root, record);
-      root.set("key", key);
-      if (!nodes.empty())
-        write_mesh(root, nodes, lines);
-      write_modes(root, bases);
-      root.flush();
-    } catch (const h5::Failure& failure) {
-      throw core::Error(
-          fmt::format("{}: cannot be written ({}); check the folder, its permissions and the space left",
-                      file.string(), failure.what()));
-    }
+  h5::write_file(file, [&](const h5::Group& root) {
+    write_record(root, record);
+    root.set("key", key);
+    if (!nodes.empty())
+      write_mesh(root, nodes, lines);
+    write_modes(root, bases);
   });
 }
 
-std::optional<std::vector<modal::Basis>> read_bases(const fs::path& file, const std::string& key) {
+FoundBases read_bases(const fs::path& file, const std::string& key) {
+  std::error_code ignored;
+  if (!fs::exists(file, ignored))
+    return {};
   const h5::Quiet quiet;
   try {
     const h5::Group root = h5::Group::open_file(file);
     if (root.text("key") != key)
-      return std::nullopt;
-    return read_modes(root);
-  } catch (const std::exception&) {
-    return std::nullopt; // no file, not one of ours or damaged (sizes beyond memory included): the modes are
-                         // computed
+      return {};
+    return {read_modes(root), {}};
+  } catch (const std::exception& failure) { // sizes beyond memory included
+    return {{},
+            fmt::format("{} is damaged or of another version ({}): the modes are computed again",
+                        file.string(), failure.what())};
   }
 }
 

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/hdf5.hpp"
+#include "core/error.hpp"
+#include "results/checksum.hpp"
+#include "results/whole_file.hpp"
 #include <cassert>
+#include <fmt/format.h>
 #include <utility>
 
 namespace fretwork::results::h5 {
 namespace {
+
+constexpr std::size_t memory_increment = std::size_t{1} << 20; ///< bytes by which a file in memory grows
 
 void check(herr_t status, const std::string& what) {
   if (status < 0)
@@ -73,13 +79,9 @@ template <> hid_t type_of<std::int32_t>() { return H5T_NATIVE_INT32; }
 template <> hid_t type_of<std::int64_t>() { return H5T_NATIVE_INT64; }
 template <> hid_t type_of<std::uint64_t>() { return H5T_NATIVE_UINT64; }
 
-Group Group::create_file(const std::filesystem::path& file) {
-  const Handle properties = properties_without_times(H5P_FILE_CREATE);
-  return Group(Handle(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, properties.id(), H5P_DEFAULT), H5Fclose,
-                      "create " + file.string()));
-}
-
 Group Group::open_file(const std::filesystem::path& file) {
+  if (const std::string refusal = checksum_refusal(file); !refusal.empty())
+    throw Failure(refusal);
   return Group(Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "open " + file.string()));
 }
 
@@ -106,8 +108,6 @@ std::vector<std::string> Group::children() const {
   check(H5Literate(handle_.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, keep, &names), "list a group");
   return names;
 }
-
-void Group::flush() const { check(H5Fflush(handle_.id(), H5F_SCOPE_LOCAL), "write to the disk"); }
 
 void Group::set(const std::string& name, const std::string& text) const {
   set_text(handle_.id(), name, text);
@@ -175,6 +175,37 @@ Shape Group::shape(const std::string& name) const {
 void Group::read_values(const std::string& name, hid_t type, void* values) const {
   const Handle data(H5Dopen2(handle_.id(), name.c_str(), H5P_DEFAULT), H5Dclose, "dataset " + name);
   check(H5Dread(data.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "dataset " + name);
+}
+
+MemoryFile::MemoryFile()
+    : access_(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "property list"), root_([&] {
+        check(H5Pset_fapl_core(access_.id(), memory_increment, false), "file in memory");
+        const Handle properties = properties_without_times(H5P_FILE_CREATE);
+        return Group(Handle(H5Fcreate("in memory", H5F_ACC_TRUNC, properties.id(), access_.id()), H5Fclose,
+                            "file in memory"));
+      }()) {}
+
+void MemoryFile::write(const std::filesystem::path& file) const {
+  const hid_t id = root_.handle_.id();
+  check(H5Fflush(id, H5F_SCOPE_GLOBAL), "file in memory");
+  const ssize_t size = H5Fget_file_image(id, nullptr, 0);
+  void* memory =
+      nullptr; // the driver's handle is the place where it keeps its bytes: no copy of a large file
+  check(size < 0 ? -1 : H5Fget_vfd_handle(id, access_.id(), &memory), "file in memory");
+  const std::string_view content(*static_cast<const char* const*>(memory), static_cast<std::size_t>(size));
+  write_whole(file, {user_block(content), content});
+}
+
+void write_file(const std::filesystem::path& file, const std::function<void(const Group&)>& fill) {
+  const Quiet quiet;
+  try {
+    const MemoryFile memory;
+    fill(memory.root());
+    memory.write(file);
+  } catch (const Failure& failure) {
+    throw core::Error(fmt::format("{}: cannot be written ({}); check the memory that is left", file.string(),
+                                  failure.what()));
+  }
 }
 
 } // namespace fretwork::results::h5

@@ -3,12 +3,16 @@
 /// The part of HDF5 that the result files need: groups, attributes and whole datasets, identifiers closed by
 /// themselves.
 ///
+/// A file is made in memory and written by whole_file.hpp: HDF5 never meets a disk that is full, which it does not survive. A file that is
+/// read has been verified before (checksum.hpp): HDF5 never meets damaged bytes either, which it may follow without an end.
+///
 /// Files made through it hold no times and no addresses of memory: the same calls give the same bytes. Every
 /// call that fails throws h5::Failure, which the public functions of this folder turn into core::Error or
 /// into "no such file".
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <hdf5.h>
 #include <span>
 #include <stdexcept>
@@ -69,8 +73,8 @@ template <> hid_t type_of<std::uint64_t>();
 /// A group of a file; the file itself is its root group. Names of children must not contain "/".
 class Group {
 public:
-  /// Replaces an existing file.
-  [[nodiscard]] static Group create_file(const std::filesystem::path& file);
+  /// Verifies the checksum first.
+  /// @throws Failure if there is no such file, or it is not as it was written
   [[nodiscard]] static Group open_file(const std::filesystem::path& file);
 
   [[nodiscard]] Group create(const std::string& name) const;
@@ -78,9 +82,6 @@ public:
   [[nodiscard]] bool has(const std::string& name) const;
   /// Names of all children, in alphabetical order.
   [[nodiscard]] std::vector<std::string> children() const;
-  /// Everything on its way to the disk: what fails is seen here, not lost when the file closes.
-  void flush() const;
-
   void set(const std::string& name, const std::string& text) const;
   template <class T> void set(const std::string& name, std::span<const T> values, const Shape& shape) const {
     set_values(name, type_of<T>(), values.data(), values.size(), shape);
@@ -114,6 +115,7 @@ public:
   }
 
 private:
+  friend class MemoryFile;
   explicit Group(Handle handle) : handle_(std::move(handle)) {}
   void set_values(const std::string& name, hid_t type, const void* values, std::size_t count,
                   const Shape& shape) const;
@@ -125,5 +127,23 @@ private:
 
   Handle handle_;
 };
+
+/// A new file, whose bytes lie in memory until they are written.
+class MemoryFile {
+public:
+  MemoryFile();
+  [[nodiscard]] const Group& root() const { return root_; }
+  /// Writes the file with its checksum. The groups below the root must be closed.
+  /// @throws Failure, core::Error (write_whole)
+  void write(const std::filesystem::path& file) const;
+
+private:
+  Handle access_; ///< property list of the driver
+  Group root_;
+};
+
+/// Makes an HDF5 file: `fill` is given its root.
+/// @throws core::Error if the file cannot be made or written
+void write_file(const std::filesystem::path& file, const std::function<void(const Group&)>& fill);
 
 } // namespace fretwork::results::h5

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/checksum.hpp"
 #include "results/error_estimate.hpp"
 #include "results/flow_json.hpp"
-#include "results/text_file.hpp"
 #include "results/totals.hpp"
 #include "results/wear_json.hpp"
+#include "results/whole_file.hpp"
 #include "results/write.hpp"
 #include <algorithm>
 #include <cassert>
@@ -275,9 +276,10 @@ void write_summary(const std::filesystem::path& file, const RunResults& results)
   out["notes"] = results.notes;
   out["libraries"] = record.libraries;
   out["vector_width"] = record.vector_width;
+  out["sha256"] = no_checksum();
   // a title may come from a file of another encoding: what is not UTF-8 is replaced, the summary is written
   // all the same
-  write_text(file, out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+  write_whole(file, {with_checksum(out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n')});
 }
 
 } // namespace fretwork::results

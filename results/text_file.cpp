@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/text_file.hpp"
-#include "core/error.hpp"
-#include "results/write.hpp"
+#include "results/whole_file.hpp"
 #include <fmt/format.h>
-#include <fstream>
 
 namespace fretwork::results {
 
 void write_text(const std::filesystem::path& file, std::string_view text) {
-  write_whole(file, [&](const std::filesystem::path& part) {
-    std::ofstream out(part, std::ios::binary);
-    out.write(text.data(), static_cast<std::streamsize>(text.size()));
-    out.close();
-    if (!out)
-      throw core::Error(fmt::format(
-          "{}: cannot be written; check the folder, its permissions and the space left", file.string()));
-  });
+  write_whole(file, {text}, Durability::cached);
 }
 
 std::string path_name(std::string_view name) {

@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Result files. Each is written under a temporary name and renamed when it is whole: an interrupted run
-/// leaves the last good ones.
+/// Result files. Each is written under a temporary name and renamed when it is whole (whole_file.hpp): an interrupted
+/// run leaves the last good ones. Those that are read back carry a checksum (checksum.hpp).
 #pragma once
 #include "results/run_results.hpp"
 #include <filesystem>
-#include <functional>
 
 namespace fretwork::results {
 
 /// Number of the layout of the files: part of what tells whether stored results can be read. Raise it when the layout changes.
-inline constexpr int file_layout = 5;
-
-/// Calls `write` with a temporary name beside `file`, then renames. Removes the temporary file when `write`
-/// throws. Makes the folder where there is none.
-/// @throws core::Error if the folder cannot be written
-void write_whole(const std::filesystem::path& file,
-                 const std::function<void(const std::filesystem::path&)>& write);
+inline constexpr int file_layout = 6;
 
 /// summary.json: keys as in doc/study-file.md; numbers with the shortest text that reads back the same, null
 /// where they are not finite.
@@ -55,9 +48,16 @@ void write_bases(const std::filesystem::path& file, const RunRecord& record,
                  const std::vector<modal::Basis>& bases, const std::string& key,
                  const std::vector<core::Vec3>& nodes = {},
                  const std::vector<std::array<core::Index, 2>>& lines = {});
-/// The bases, if the file exists, is whole and has this key.
-[[nodiscard]] std::optional<std::vector<modal::Basis>> read_bases(const std::filesystem::path& file,
-                                                                  const std::string& key);
+/// The bases, if the file exists, is as it was written and has this key.
+struct FoundBases {
+  std::optional<std::vector<modal::Basis>> bases;
+  std::string
+      refusal; ///< why the file is of no use; empty where there is none, it is of other inputs, or good
+};
+[[nodiscard]] FoundBases read_bases(const std::filesystem::path& file, const std::string& key);
+
+/// Why results.h5 is not what a run of these inputs wrote; empty where it is.
+[[nodiscard]] std::string archive_refusal(const std::filesystem::path& file, const std::string& input_sha256);
 
 /// What the exports need, read back from results.h5, or from modes.h5 where there is no results.h5 (no
 /// contacts, no series): all but statistics, facts of the transient, timings and warnings, which are in

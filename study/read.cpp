@@ -72,6 +72,8 @@ std::string canonical_text(const std::filesystem::path& file, const std::vector<
       if (output->empty())
         continue;
     }
+    if (auto* mesh = std::get_if<Table>(&at->second.data); mesh && name == "mesh")
+      mesh->erase("trusted"); // how a file is read, not what it holds
     if (auto* entries = std::get_if<Array>(&at->second.data);
         entries && (name == "loads" || name == "base_motion" || name == "support_motion"))
       for (std::size_t i = 0; i < entries->size(); ++i)

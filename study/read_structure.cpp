@@ -23,7 +23,7 @@ std::uint8_t read_dofs(const Value& names, const std::string& path, const std::s
 
 mesh::Source read_mesh(const TableReader& root, const std::filesystem::path& folder) {
   const TableReader table(root.required("mesh", "a table [mesh] with the key file"), "mesh",
-                          {{"file", "element_size", "order", "scale", "merge_tolerance"}});
+                          {{"file", "element_size", "order", "scale", "merge_tolerance", "trusted"}});
   mesh::Source source;
   source.file = (folder / table.text("file", "the path of a mesh or a geometry")).lexically_normal();
   source.element_size = table.optional_number("element_size", {above_zero, "m"});
@@ -33,6 +33,7 @@ mesh::Source read_mesh(const TableReader& root, const std::filesystem::path& fol
     source.order = static_cast<int>(*order);
   }
   source.scale = table.number_or("scale", 1.0, {above_zero});
+  source.trusted = table.optional_flag("trusted").value_or(false);
   source.merge_tolerance = table.number_or("merge_tolerance", 0.0, {at_least_zero, "m"});
   return source;
 }

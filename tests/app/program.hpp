@@ -64,7 +64,7 @@ private:
 /// Passes where |value - reference| <= tolerance |reference|.
 [[nodiscard]] testing::AssertionResult close_to(double value, double reference, double tolerance);
 
-/// A summary without what may differ between runs of the same study: timings, ranks.
+/// A summary without what may differ between runs of the same study: timings, ranks, the checksum.
 [[nodiscard]] nlohmann::json lasting(nlohmann::json summary);
 /// Passes where two archives hold the same numbers in every series, mode and fact of a contact, bit for bit.
 [[nodiscard]] testing::AssertionResult same_numbers(const results::RunResults& a,

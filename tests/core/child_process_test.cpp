@@ -1,7 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/child_process.hpp"
+#include "core/confinement.hpp"
+#include "core/error.hpp"
+#include "core/temporary_directory.hpp"
+#include <chrono>
+#include <csignal>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
 
+using fretwork::core::Confinement;
 using fretwork::core::run_child;
 
 TEST(ChildProcess, GivesStatusAndBothOutputs) {
@@ -20,4 +30,128 @@ TEST(ChildProcess, TellsAMissingProgram) {
 
 TEST(ChildProcess, ReadsMoreThanAPipeHolds) {
   EXPECT_EQ(run_child({"sh", "-c", "head -c 1000000 /dev/zero | tr '\\0' x"}).output.size(), 1000000u);
+}
+
+TEST(ChildProcess, EndsAChildThatTakesTooLongAndItsChildren) {
+  constexpr double most_seconds = 20.0; // a busy machine; the child would take an hour
+  const auto begin = std::chrono::steady_clock::now();
+  const auto result = run_child({"sh", "-c", "sleep 3600 & sleep 3600; echo no"}, {.seconds = 0.2});
+  EXPECT_NE(result.stopped.find("it ran for more than"), std::string::npos);
+  EXPECT_EQ(result.status, 128 + SIGKILL);
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), most_seconds);
+}
+
+TEST(ChildProcess, EndsAChildThatWritesTooMuch) {
+  const auto result = run_child({"yes"}, {.seconds = 60.0, .output_bytes = 100'000});
+  EXPECT_EQ(result.stopped, "it wrote more than 100000 bytes of messages");
+  EXPECT_EQ(result.status, 128 + SIGKILL);
+}
+
+TEST(ChildProcess, LimitsMemoryAndFiles) {
+  EXPECT_EQ(
+      run_child({"sh", "-c", "ulimit -v; ulimit -f"}, {.memory_bytes = 1ull << 30, .file_bytes = 1ull << 20})
+          .output,
+      "1048576\n2048\n");
+}
+
+/// Runs `script` in a child process of its own that runs it by run_child, kills that child by `signal` when the script has written its process
+/// number to `file`, and tells whether the script outlives it.
+bool script_outlives_its_parent(const std::string& file, int signal) {
+  const pid_t parent = fork();
+  if (parent == 0) {
+    try {
+      (void)run_child(
+          {"sh", "-c", "echo $$ > " + file + ".part; mv " + file + ".part " + file + "; exec sleep 3600"});
+    } catch (const fretwork::core::ComputationError&) {
+    }
+    _exit(0);
+  }
+  const auto moment = std::chrono::milliseconds(10);
+  constexpr int most_moments = 2000; // 20 s
+  for (int i = 0; i < most_moments && !std::filesystem::exists(file); ++i)
+    std::this_thread::sleep_for(moment);
+  pid_t script = 0;
+  std::ifstream(file) >> script;
+  (void)kill(parent, signal);
+  (void)waitpid(parent, nullptr, 0);
+  for (int i = 0; i < most_moments && script > 0; ++i) {
+    std::string state; // a zombie that nobody waits for has ended too
+    std::ifstream stat("/proc/" + std::to_string(script) + "/stat");
+    std::string number, name;
+    if (!(stat >> number >> name >> state) || state == "Z")
+      return false;
+    std::this_thread::sleep_for(moment);
+  }
+  return true;
+}
+
+TEST(ChildProcess, DiesWithItsParent) {
+  const auto folder = std::filesystem::temp_directory_path() / ("fretwork_child_" + std::to_string(getpid()));
+  std::filesystem::create_directory(folder);
+  EXPECT_FALSE(script_outlives_its_parent((folder / "killed").string(), SIGKILL));
+  EXPECT_FALSE(script_outlives_its_parent((folder / "ended").string(), SIGTERM));
+  std::filesystem::remove_all(folder);
+}
+
+class Confined : public testing::Test {
+protected:
+  void SetUp() override {
+    if (!Confinement::available())
+      GTEST_SKIP() << "this kernel has no Landlock or no seccomp";
+  }
+  fretwork::core::TemporaryDirectory folder_, outside_;
+};
+
+TEST_F(Confined, ChildrenWriteInOneFolderOnly) {
+  const Confinement confinement(folder_.path());
+  const auto write = [&](const std::filesystem::path& file) {
+    return run_child({"/bin/sh", "-c", "echo text > " + file.string()}, {}, &confinement).status;
+  };
+  EXPECT_EQ(write(folder_.path() / "a"), 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "a"));
+  EXPECT_NE(write(outside_.path() / "a"), 0);
+  EXPECT_FALSE(std::filesystem::exists(outside_.path() / "a"));
+  std::filesystem::create_symlink(outside_.path() / "a", folder_.path() / "link");
+  EXPECT_NE(write(folder_.path() / "link"), 0);
+  EXPECT_FALSE(std::filesystem::exists(outside_.path() / "a"));
+}
+
+TEST_F(Confined, ChildrenStartNoProcess) {
+  const Confinement confinement(folder_.path());
+  EXPECT_EQ(run_child({"/bin/sh", "-c", "/bin/true; echo still here"}, {}, &confinement).status,
+            128 + fretwork::core::process_refused);
+}
+
+TEST_F(Confined, ChildrenRemoveAndChangeNothingElse) {
+  const Confinement confinement(folder_.path());
+  const auto file = outside_.path() / "a";
+  std::ofstream(file) << "kept";
+  for (const char* command : {"rm", "chmod 777", "truncate -s 0", "touch -d 2001-01-01"}) {
+    const auto before = std::filesystem::last_write_time(file);
+    EXPECT_NE(
+        run_child({"/bin/sh", "-c", std::string("exec ") + command + " " + file.string()}, {}, &confinement)
+            .status,
+        0)
+        << command;
+    ASSERT_TRUE(std::filesystem::exists(file)) << command;
+    EXPECT_EQ(std::filesystem::file_size(file), 4u) << command;
+    EXPECT_EQ(std::filesystem::last_write_time(file), before) << command;
+  }
+}
+
+TEST(TemporaryDirectory, IsRemovedAlsoWhereItsProcessWasKilled) {
+  const auto left_over = std::filesystem::temp_directory_path() / "fretwork-KiLLeD";
+  std::filesystem::create_directory(left_over);
+  std::ofstream(left_over / "a") << "text";
+  std::filesystem::last_write_time(left_over,
+                                   std::filesystem::file_time_type::clock::now() - std::chrono::hours(1));
+  std::filesystem::path path;
+  {
+    const fretwork::core::TemporaryDirectory fresh;
+    path = fresh.path();
+    EXPECT_FALSE(std::filesystem::exists(left_over));
+    const fretwork::core::TemporaryDirectory another;
+    EXPECT_TRUE(std::filesystem::exists(path)) << "a folder in use";
+  }
+  EXPECT_FALSE(std::filesystem::exists(path));
 }

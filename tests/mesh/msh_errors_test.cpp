@@ -34,6 +34,11 @@ TEST_F(MshErrors, RefuseGarbage) {
   EXPECT_TRUE(says(message(""), "not a gmsh mesh"));
 }
 
+TEST_F(MshErrors, RefuseAPhysicalTagWithoutPositiveCounterpart) {
+  EXPECT_TRUE(says(message(replaced(good_22, "1 1 \"a\"", "1 -2147483648 \"a\"")),
+                   "a physical tag of -2147483648 has no positive counterpart"));
+}
+
 TEST_F(MshErrors, RefuseOtherVersions) {
   EXPECT_TRUE(says(message("$MeshFormat\n4 0 8\n$EndMeshFormat\n"),
                    "format 4.0 is not read; save the mesh as 4.1 or 2.2"));

@@ -69,6 +69,14 @@ TEST_F(Read, KnowsGeometriesByTheirEnding) {
     EXPECT_FALSE(is_geometry(name)) << name;
 }
 
+TEST_F(Read, KnowsMeshesByTheirEnding) {
+  EXPECT_TRUE(is_msh("a.msh"));
+  EXPECT_TRUE(is_msh("a.MSH"));
+  EXPECT_FALSE(is_msh("a.vtu"));
+  const std::string text = msh22("0 1 \"clamp\"\n1 2 \"beam\"\n", "1 0 0 0\n2 1 0 0\n", "15 1 1\n1 2 1 2\n");
+  EXPECT_EQ(read({.file = write("a.MSH", text)}).points.size(), 1u);
+}
+
 /// An arc 1-2 through 3 and a line 2-4.
 const std::string arc_and_line = msh22("1 1 \"tube\"\n0 2 \"end\"\n", "1 0 0 0\n2 2 0 0\n3 1 1 0\n4 3 0 0\n",
                                        "8 1 1 2 3\n1 1 2 4\n15 2 4\n");
@@ -257,7 +265,8 @@ TEST_F(Geometry, NamesTheProgramThatIsMissingOrCrashes) {
   const fs::path crashing = write("crash.sh", "#!/bin/sh\nkill -SEGV $$\n");
   fs::permissions(crashing, fs::perms::owner_all);
   setenv("FRETWORK_GEOMETRY", crashing.c_str(), 1);
-  EXPECT_TRUE(says(message({.file = file}), "a.geo: gmsh cannot mesh the geometry: it crashed (signal 11)"));
+  EXPECT_TRUE(says(message({.file = file, .trusted = true}),
+                   "a.geo: gmsh cannot mesh the geometry: it crashed (signal 11)"));
   unsetenv("FRETWORK_GEOMETRY");
   EXPECT_FALSE(read({.file = file, .element_size = 100.0}).lines.empty())
       << "found beside the running executable";

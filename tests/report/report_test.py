@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tests of the report: report_test.py WRITE_MADE_UP REPORT_FOLDER (the program that makes results up, the folder of the report)."""
 
+import contextlib
 import json
 import re
 import sys
@@ -91,7 +92,18 @@ class Report(unittest.TestCase):
         file = self.folder / "summary.json"
         summary = json.loads(file.read_text())
         change(summary)
-        file.write_text(json.dumps(summary))
+        summary["sha256"] = summary.pop("sha256")  # the last key
+        file.write_text(run_data.with_checksum(json.dumps(summary)))
+
+    @contextlib.contextmanager
+    def archive(self):
+        """results.h5 to be changed, with the checksum that fits in the end."""
+        path = self.folder / "results.h5"
+        with h5py.File(path, "r+") as file:
+            yield file
+        block = path.read_bytes()[: run_data.USER_BLOCK]
+        with open(path, "r+b") as file:
+            file.write(re.sub(rb"[0-9a-f]{64}", run_data.checksum(path).encode(), block))
 
     def test_has_all_sections_for_a_few_contacts(self):
         made_up(self.folder, 5, 400)
@@ -123,7 +135,7 @@ class Report(unittest.TestCase):
 
     def test_shows_the_strongest_impacts_first(self):
         made_up(self.folder, 2, 400)
-        with h5py.File(self.folder / "results.h5", "r+") as file:
+        with self.archive() as file:
             impacts = file["contacts/tsp2/impacts"]
             for name, value in {"start": 1.2345, "duration": 2.5e-3, "peak_force": 9876.0, "impulse": 0.125, "velocity_before": 0.75,
                                 "velocity_after": np.nan, "energy_lost": 3.5e-3, "rebounds": 3}.items():
@@ -137,7 +149,7 @@ class Report(unittest.TestCase):
 
     def test_works_without_tables_of_impacts(self):
         made_up(self.folder, 2, 100)
-        with h5py.File(self.folder / "results.h5", "r+") as file:
+        with self.archive() as file:
             for contact in file["contacts"].values():
                 del contact["impacts"]
         self.assertNotIn("Impacts", self.headings(self.report()))
@@ -147,7 +159,7 @@ class Report(unittest.TestCase):
         one_node = ("circle", "plane_y", "plane_z", "stop_y", "stop_z", "profile", "drilled", "broached", "egg_crate", "bars_y", "bars_z")
         for other, kinds in ((7, two_nodes), (-1, one_node)):
             made_up(self.folder, len(kinds), 100)
-            with h5py.File(self.folder / "results.h5", "r+") as file:
+            with self.archive() as file:
                 for contact, kind in zip(file["contacts"].values(), kinds):
                     contact.attrs["obstacle"] = kind
                     contact.attrs["other"] = other
@@ -215,7 +227,7 @@ class Report(unittest.TestCase):
             summary["contacts"][0]["normal_force"] = {"mean": None, "rms": None, "max": None}
 
         self.change(diverge)
-        with h5py.File(self.folder / "results.h5", "r+") as file:
+        with self.archive() as file:
             for name in ("displacement", "normal_force", "gap"):
                 file[f"contacts/tsp1/{name}"][50:] = np.nan
                 file[f"contacts/tsp2/{name}"][...] = np.inf
@@ -262,8 +274,63 @@ class Report(unittest.TestCase):
         (self.folder / "results.h5").write_bytes(data[: len(data) // 2])
         status, said = run_report(self.folder)
         self.assertEqual(status, 1)
-        self.assertIn("damaged or of another version", said)
+        self.assertIn("results.h5 is not as it was written (its checksum does not fit)", said)
         self.assertNotIn("Traceback", said)
+
+    def test_refuses_a_summary_that_was_changed(self):
+        made_up(self.folder, 1, 50)
+        file = self.folder / "summary.json"
+        file.write_text(file.read_text().replace('"ranks": ', '"ranks": 1'))
+        status, said = run_report(self.folder)
+        self.assertEqual(status, 1)
+        self.assertIn("summary.json is not as it was written", said)
+
+    def test_refuses_results_of_another_run(self):
+        made_up(self.folder, 1, 50)
+        self.change(lambda summary: summary.update(input_sha256="b" * 64))
+        status, said = run_report(self.folder)
+        self.assertEqual(status, 1)
+        self.assertIn("summary.json and results.h5 are of different runs", said)
+
+    def test_shows_no_markup_of_a_summary(self):
+        """Every text and number in turn is replaced by markup, with the checksum that fits: it is escaped or refused, never a traceback."""
+        made_up(self.folder, 2, 50)
+        markup = "<img src=x onerror=alert(1)>"
+        original = json.loads((self.folder / "summary.json").read_text())
+
+        def places(value, path=()):
+            if isinstance(value, dict):
+                return [place for key, item in value.items() for place in places(item, (*path, key))]
+            if isinstance(value, list):
+                return [place for key, item in enumerate(value[:1]) for place in places(item, (*path, key))]
+            return [path]
+
+        found = [path for path in places(original) if path[0] not in ("sha256", "input_sha256")]
+        self.assertGreater(len(found), 50)
+        arguments = sys.argv
+        for path in found:
+            changed = json.loads(json.dumps(original))
+            holder = changed
+            for key in path[:-1]:
+                holder = holder[key]
+            holder[path[-1]] = markup
+            (self.folder / "summary.json").write_text(run_data.with_checksum(json.dumps(changed)))
+            sys.argv = ["fretwork_report.py", str(self.folder)]
+            (self.folder / "report.html").unlink(missing_ok=True)
+            try:
+                said = fretwork_report.main()
+            finally:
+                sys.argv = arguments
+            text = (self.folder / "report.html").read_text() if said == 0 else ""
+            self.assertFalse(said == 0 and "<img src=x" in text, path)
+
+    def test_follows_no_symbolic_link(self):
+        made_up(self.folder, 1, 50)
+        precious = self.folder / "precious"
+        precious.write_text("kept")
+        (self.folder / "report.html.part").symlink_to(precious)
+        self.assertEqual(run_report(self.folder), (0, ""))
+        self.assertEqual(precious.read_text(), "kept")
 
     def test_names_the_packages_that_are_missing(self):
         found = fretwork_report.importlib.util.find_spec

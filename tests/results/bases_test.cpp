@@ -35,7 +35,7 @@ TEST(Bases, ComeBackBitForBit) {
   const Folder folder;
   const auto out = bases();
   write_bases(folder / "modes.h5", {}, out, "key");
-  const auto in = read_bases(folder / "modes.h5", "key");
+  const auto in = read_bases(folder / "modes.h5", "key").bases;
   ASSERT_TRUE(in);
   ASSERT_EQ(in->size(), out.size());
   for (std::size_t s = 0; s < out.size(); ++s) {
@@ -64,7 +64,7 @@ TEST(Bases, OfOneStructureAndOfNoneComeBack) {
     auto out = bases();
     out.resize(count);
     write_bases(folder / "modes.h5", {}, out, "key");
-    const auto in = read_bases(folder / "modes.h5", "key");
+    const auto in = read_bases(folder / "modes.h5", "key").bases;
     ASSERT_TRUE(in);
     EXPECT_EQ(in->size(), count);
   }
@@ -72,11 +72,11 @@ TEST(Bases, OfOneStructureAndOfNoneComeBack) {
 
 TEST(Bases, AreNotThereWithoutAFileOrWithAnotherKey) {
   const Folder folder;
-  EXPECT_FALSE(read_bases(folder / "modes.h5", "key"));
+  EXPECT_FALSE(read_bases(folder / "modes.h5", "key").bases);
   write_bases(folder / "modes.h5", {}, bases(), "key");
-  EXPECT_FALSE(read_bases(folder / "modes.h5", "another key"));
-  EXPECT_FALSE(read_bases(folder / "modes.h5", ""));
-  EXPECT_TRUE(read_bases(folder / "modes.h5", "key"));
+  EXPECT_FALSE(read_bases(folder / "modes.h5", "another key").bases);
+  EXPECT_FALSE(read_bases(folder / "modes.h5", "").bases);
+  EXPECT_TRUE(read_bases(folder / "modes.h5", "key").bases);
 }
 
 TEST(Bases, AreNotThereWhereTheFileIsCutAnywhere) {
@@ -85,19 +85,19 @@ TEST(Bases, AreNotThereWhereTheFileIsCutAnywhere) {
   const std::string bytes = bytes_of(folder / "modes.h5");
   for (std::size_t part = 0; part < 20; ++part) {
     write_bytes(folder / "cut.h5", bytes.substr(0, bytes.size() * part / 20));
-    EXPECT_FALSE(read_bases(folder / "cut.h5", "key")) << part << "/20 of the file";
+    EXPECT_FALSE(read_bases(folder / "cut.h5", "key").bases) << part << "/20 of the file";
   }
   write_bytes(folder / "cut.h5", bytes.substr(0, bytes.size() - 1));
-  EXPECT_FALSE(read_bases(folder / "cut.h5", "key"));
+  EXPECT_FALSE(read_bases(folder / "cut.h5", "key").bases);
 }
 
 TEST(Bases, AreNotThereWhereTheFileIsSomethingElse) {
   const Folder folder;
   write_bytes(folder / "modes.h5", std::string(5000, '\x89'));
-  EXPECT_FALSE(read_bases(folder / "modes.h5", "key"));
+  EXPECT_FALSE(read_bases(folder / "modes.h5", "key").bases);
   std::filesystem::remove(folder / "modes.h5");
   std::filesystem::create_directory(folder / "modes.h5");
-  EXPECT_FALSE(read_bases(folder / "modes.h5", "key"));
+  EXPECT_FALSE(read_bases(folder / "modes.h5", "key").bases);
 }
 
 TEST(Bases, AreNotThereWhereSizesDoNotFit) {
@@ -106,7 +106,7 @@ TEST(Bases, AreNotThereWhereSizesDoNotFit) {
     std::vector<modal::Basis> out = bases();
     change(out[1]);
     write_bases(folder / "modes.h5", {}, out, "key");
-    return !read_bases(folder / "modes.h5", "key");
+    return !read_bases(folder / "modes.h5", "key").bases;
   };
   EXPECT_TRUE(spoil([](modal::Basis& basis) { basis.damping.conservativeResize(3); }));
   EXPECT_TRUE(spoil([](modal::Basis& basis) { basis.residuals.conservativeResize(3); }));
@@ -115,6 +115,22 @@ TEST(Bases, AreNotThereWhereSizesDoNotFit) {
   EXPECT_TRUE(spoil([](modal::Basis& basis) { basis.damping_matrix.setZero(2, 2); }));
   EXPECT_TRUE(spoil([](modal::Basis& basis) { basis.static_modes = 7; }));
   EXPECT_FALSE(spoil([](modal::Basis&) {}));
+}
+
+TEST(Bases, ThatAreDamagedAreTold) {
+  const Folder folder;
+  write_bases(folder / "modes.h5", {}, bases(), "key");
+  EXPECT_EQ(read_bases(folder / "modes.h5", "another key").refusal, "");
+  EXPECT_EQ(read_bases(folder / "none.h5", "key").refusal, "");
+  const std::string bytes = bytes_of(folder / "modes.h5");
+  for (std::size_t at = 0; at < bytes.size(); at += bytes.size() / 97) {
+    std::string damaged = bytes;
+    damaged[at] = static_cast<char>(damaged[at] ^ 1);
+    write_bytes(folder / "modes.h5", damaged);
+    const FoundBases found = read_bases(folder / "modes.h5", "key");
+    EXPECT_FALSE(found.bases) << "byte " << at;
+    EXPECT_NE(found.refusal.find("modes.h5 is damaged"), std::string::npos) << "byte " << at;
+  }
 }
 
 TEST(Bases, WithTheMeshAreEnoughToExportModes) {
@@ -135,7 +151,7 @@ TEST(Bases, ThatCannotBeWrittenAreAnError) {
     write_bases(folder / "modes.h5", {}, bases(), "key");
     FAIL() << "written into a folder";
   } catch (const core::Error& error) {
-    EXPECT_NE(std::string(error.what()).find("modes.h5: cannot be written (create "), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("modes.h5: cannot be written: File exists"), std::string::npos);
   }
 }
 

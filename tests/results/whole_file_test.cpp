@@ -2,56 +2,18 @@
 #include "core/error.hpp"
 #include "folder.hpp"
 #include "results/text_file.hpp"
-#include "results/write.hpp"
+#include "results/whole_file.hpp"
+#include <csignal>
+#include <functional>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 namespace fretwork::results {
 namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
-
-TEST(WriteWhole, ReplacesTheFileAndLeavesNothingElse) {
-  const Folder folder;
-  write_bytes(folder / "a", "old");
-  write_whole(folder / "a", [](const fs::path& part) { write_bytes(part, "new"); });
-  EXPECT_EQ(bytes_of(folder / "a"), "new");
-  EXPECT_EQ(folder.files(), 1u);
-}
-
-TEST(WriteWhole, KeepsTheOldFileWhileTheNewOneIsWritten) {
-  const Folder folder;
-  write_bytes(folder / "a", "old");
-  write_whole(folder / "a", [&](const fs::path& part) {
-    EXPECT_NE(part, folder / "a");
-    EXPECT_EQ(bytes_of(folder / "a"), "old");
-    write_bytes(part, "new");
-  });
-}
-
-TEST(WriteWhole, LeavesTheOldFileAndNoOtherWhenTheWriterFails) {
-  const Folder folder;
-  write_bytes(folder / "a", "old");
-  const auto failing = [](const fs::path& part) {
-    write_bytes(part, "half");
-    throw core::Error("the writer's own message");
-  };
-  try {
-    write_whole(folder / "a", failing);
-    FAIL() << "the error was lost";
-  } catch (const core::Error& error) {
-    EXPECT_STREQ(error.what(), "the writer's own message");
-  }
-  EXPECT_EQ(bytes_of(folder / "a"), "old");
-  EXPECT_EQ(folder.files(), 1u);
-}
-
-TEST(WriteWhole, MakesTheFolder) {
-  const Folder folder;
-  write_text(folder.path() / "b" / "c" / "a", "text");
-  EXPECT_EQ(bytes_of(folder.path() / "b" / "c" / "a"), "text");
-}
 
 std::string refusal(const std::function<void()>& work) {
   try {
@@ -60,6 +22,63 @@ std::string refusal(const std::function<void()>& work) {
     return error.what();
   }
   return {};
+}
+
+TEST(WriteWhole, ReplacesTheFileAndLeavesNothingElse) {
+  const Folder folder;
+  write_bytes(folder / "a", "old");
+  write_whole(folder / "a", {"ne", "w"});
+  EXPECT_EQ(bytes_of(folder / "a"), "new");
+  EXPECT_EQ(folder.files(), 1u);
+}
+
+/// While it lives no file grows beyond a size, as on a disk that is full.
+class FullDisk {
+public:
+  explicit FullDisk(rlim_t bytes) : before_(std::signal(SIGXFSZ, SIG_IGN)) {
+    (void)getrlimit(RLIMIT_FSIZE, &limit_);
+    const rlimit less{bytes, limit_.rlim_max};
+    (void)setrlimit(RLIMIT_FSIZE, &less);
+  }
+  ~FullDisk() {
+    (void)setrlimit(RLIMIT_FSIZE, &limit_);
+    (void)std::signal(SIGXFSZ, before_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+private:
+  rlimit limit_{};
+  void (*before_)(int);
+};
+
+TEST(WriteWhole, LeavesTheOldFileAndNoOtherWhenAWriteFails) {
+  const Folder folder;
+  write_bytes(folder / "a", "old");
+  std::string message;
+  {
+    const FullDisk full(1000);
+    message = refusal([&] { write_whole(folder / "a", {std::string(600, 'x'), std::string(600, 'y')}); });
+  }
+  EXPECT_THAT(message, HasSubstr((folder / "a").string() + ": cannot be written: File too large"));
+  EXPECT_EQ(bytes_of(folder / "a"), "old");
+  EXPECT_EQ(folder.files(), 1u);
+}
+
+TEST(WriteWhole, FollowsNoSymbolicLink) {
+  const Folder folder;
+  write_bytes(folder / "precious", "kept");
+  fs::create_symlink(folder / "precious", folder / "a.part.h5");
+  write_whole(folder / "a.h5", {"new"});
+  EXPECT_EQ(bytes_of(folder / "precious"), "kept");
+  EXPECT_EQ(bytes_of(folder / "a.h5"), "new");
+  EXPECT_EQ(folder.files(), 2u);
+}
+
+TEST(WriteWhole, MakesTheFolder) {
+  const Folder folder;
+  write_text(folder.path() / "b" / "c" / "a", "text");
+  EXPECT_EQ(bytes_of(folder.path() / "b" / "c" / "a"), "text");
 }
 
 TEST(WriteWhole, NamesTheFileWhenItsFolderIsAFile) {
@@ -76,16 +95,6 @@ TEST(WriteWhole, NamesTheFileWhenItIsAFolder) {
   const std::string message = refusal([&] { write_text(folder / "a", "text"); });
   EXPECT_THAT(message, HasSubstr((folder / "a").string() + ": cannot be written"));
   EXPECT_EQ(folder.files(), 1u);
-}
-
-TEST(WriteText, NamesTheFileWhenTheDiskIsFull) {
-  if (!fs::exists("/dev/full"))
-    GTEST_SKIP() << "no /dev/full on this system";
-  const Folder folder;
-  fs::create_symlink("/dev/full", folder / "a.part");
-  const std::string message = refusal([&] { write_text(folder / "a", std::string(100000, 'x')); });
-  EXPECT_THAT(message, HasSubstr((folder / "a").string() + ": cannot be written"));
-  EXPECT_EQ(folder.files(), 0u);
 }
 
 TEST(PathName, KeepsUsualNamesAndTellsOthersApart) {

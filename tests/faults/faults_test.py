@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Faults at every write of a run: faults_test.py FRETWORK LIBRARY STUDY [--long] [--table]
+
+Each call of a run that changes a file of its results folder fails in turn (failing_calls.cpp): once, from then on, as a full disk, as a
+broken one, half done, or by the death of the process. After each the command is given again without a fault. A case is
+- survived: the run with the fault ended with status 0 and its results are those of the run without,
+- told: it ended with another status, a message and no crash; and the next command gave the results of the run without,
+- wrong: anything else: other results with status 0 at any of the two, a crash, a hang.
+"""
+
+import argparse
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+from collections import Counter
+from pathlib import Path
+
+LONGEST = 60  # s: a command that takes longer hangs; it takes a fifth of a second
+STATUSES = {1, 2, -signal.SIGKILL}  # input or disk, computation, the fault "kill"; 3 would be a defect of the program
+SHORT = {"duration": 0.02, "kinds": [("ENOSPC", False), ("ENOSPC", True), ("kill", False)], "stride": 2, "damaged": 12}
+LONG = {
+    "duration": 0.2,
+    "kinds": [("ENOSPC", False), ("ENOSPC", True), ("EIO", False), ("EIO", True), ("short", False), ("kill", False)],
+    "stride": 1,
+    "damaged": 1000,
+}
+
+
+class Trial:
+    """A results folder in a fresh place and the command that fills it."""
+
+    def __init__(self, options, form):
+        self.options = options
+        self.temporary = tempfile.TemporaryDirectory(prefix="fretwork_faults_")
+        self.root = Path(self.temporary.name)
+        self.results = self.root / "results"
+        self.count = self.root / "calls"
+        self.command = [options.fretwork, "run", options.study, "-o", str(self.results)]
+        for value in (f"transient.duration={form['duration']}", "output.statistics_from=0"):
+            self.command += ["--set", value]
+
+    def run(self, kind="", at=0, lasting=False, more=()):
+        """Status and messages; a command that hangs is an error."""
+        self.count.unlink(missing_ok=True)
+        environment = dict(os.environ, LD_PRELOAD=self.options.library, FAULT_FOLDER=str(self.results), FAULT_AT=str(at), FAULT_KIND=kind,
+                           FAULT_LASTING="1" if lasting else "0", FAULT_COUNT=str(self.count))  # fmt: skip
+        done = subprocess.run([*self.command, *more], env=environment, capture_output=True, text=True, timeout=LONGEST, check=False)
+        return done.returncode, done.stdout + done.stderr
+
+    def calls(self):
+        return self.count.stat().st_size
+
+    def content(self):
+        """What must be the same: the series to the last bit, the summary without timings."""
+        summary = json.loads((self.results / "summary.json").read_text())
+        for key in ("timings_s", "sha256", "notes"):
+            summary.pop(key)
+        return (self.results / "results.h5").read_bytes(), summary
+
+
+def judge(trial, reference, kind, at, lasting):
+    try:
+        status, said = trial.run(kind, at, lasting)
+        if status == 0:
+            return "survived" if trial.content() == reference else f"wrong: status 0 and other results: {said[-300:]}"
+        if status not in STATUSES or (status > 0 and "fretwork: " not in said):
+            return f"wrong: status {status}: {said[-300:]}"
+        status, said = trial.run()
+        return "told" if status == 0 and trial.content() == reference else f"wrong: again: status {status}: {said[-300:]}"
+    except subprocess.TimeoutExpired:
+        return "wrong: it hangs"
+    except (OSError, ValueError) as error:
+        return f"wrong: {error}"
+
+
+def failing_calls(options, form, table, wrong):
+    trial = Trial(options, form)
+    status, said = trial.run()
+    if status != 0:
+        sys.exit(said)
+    reference, calls = trial.content(), trial.calls()
+    for kind, lasting in form["kinds"]:
+        outcomes = Counter()
+        for at in range(1, calls + 1, form["stride"]):
+            outcome = judge(Trial(options, form), reference, kind, at, lasting)
+            outcomes[outcome.split(":")[0]] += 1
+            if outcome.startswith("wrong"):
+                wrong.append(f"{kind}{' lasting' if lasting else ''} at call {at} of {calls}: {outcome}")
+        every = "every call" if form["stride"] == 1 else "every second call"
+        table.append((f"{kind} at {every}{', and from then on' if lasting else ''}", outcomes))
+
+
+def damaged_files(options, form, table, wrong):
+    """A byte, a block or the end of each file that is read back is changed; then `run` and `export`."""
+    trial = Trial(options, form)
+    trial.run()
+    reference = trial.content()
+    for name in ("modes.h5", "results.h5", "summary.json"):
+        file, outcomes = trial.results / name, Counter()
+        for case in range(form["damaged"]):
+            whole = file.read_bytes()
+            place = (case * 7919 * 31 + 13) % len(whole)  # spread over the file, the same in every run
+            length = (1, 64, 4096, len(whole))[case % 4]
+            end = min(len(whole), place + length)
+            damage = b"" if case % 4 == 3 else bytes(byte ^ 0x55 for byte in whole[place:end])
+            file.write_bytes(whole[:place] + damage + whole[end:])
+            if name == "modes.h5":
+                (trial.results / "summary.json").unlink()  # else nothing is computed again, and it is not read
+            outcome = judge_damage(trial, reference, name)
+            file.write_bytes(whole)
+            outcomes[outcome.split(":")[0]] += 1
+            if outcome.startswith("wrong"):
+                wrong.append(f"{name}, damage {case}: {outcome}")
+        table.append((f"{name} damaged", outcomes))
+
+
+def judge_damage(trial, reference, name):
+    try:
+        if name == "results.h5":
+            done = subprocess.run([trial.options.fretwork, "export", trial.results], capture_output=True, text=True, timeout=LONGEST, check=False)
+            if done.returncode != 1 or "cannot be read" not in done.stderr:
+                return f"wrong: export: status {done.returncode}: {done.stderr[-300:]}"
+        status, said = trial.run(more=["--no-report"])
+        if status != 0 or trial.content() != reference:
+            return f"wrong: status {status}: {said[-300:]}"
+        told = "modes.h5 is damaged" if name == "modes.h5" else f"{name} is not as it was written"
+        if told not in said.replace("\n", " "):
+            return f"wrong: not told: {said[-300:]}"
+        return "told"
+    except subprocess.TimeoutExpired:
+        return "wrong: it hangs"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("fretwork")
+    parser.add_argument("library")
+    parser.add_argument("study")
+    parser.add_argument("--long", action="store_true", help="every call, every kind of fault, a thousand damaged files of each kind")
+    options = parser.parse_args()
+    form, table, wrong = LONG if options.long else SHORT, [], []
+    failing_calls(options, form, table, wrong)
+    damaged_files(options, form, table, wrong)
+    print("| fault | injected | survived | told | wrong |\n| --- | --- | --- | --- | --- |")
+    for name, outcomes in table:
+        print(f"| {name} | {outcomes.total()} | {outcomes['survived']} | {outcomes['told']} | {outcomes['wrong']} |")
+    print("\n".join(wrong))
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
