@@ -201,6 +201,29 @@ std::vector<fem::BeamPoint> points_of(const study::Contact& contact, const fem::
   return points;
 }
 
+/// True where no restraint lets the point move across the axis of the contact.
+bool is_held_across(const fem::Model& model, const fem::BeamPoint& point, const contact::Frame& frame) {
+  for (const fem::NodeShare& share : point.motion)
+    for (int dof = 0; dof < 6; ++dof) {
+      const Vec3 moved = share.weights.col(dof);
+      if (!model.is_fixed(share.node, dof) &&
+          (std::abs(moved.dot(frame.y)) > negligible || std::abs(moved.dot(frame.z)) > negligible))
+        return false;
+    }
+  return true;
+}
+
+/// Of a contact that cannot change; empty where it can.
+std::string held_warning(const fem::Model& model, const PlacedContact& placed, const fem::BeamPoint& point) {
+  if (!is_held_across(model, point, placed.frame) ||
+      (placed.other >= 0 && !is_held_across(model, fem::point_at(model, placed.other), placed.frame)))
+    return {};
+  return fmt::format(
+      "contact \"{}\": its node is restrained in both normal directions: it neither opens nor "
+      "closes, and its forces move nothing; release the node in [[restraints]], or leave the contact out",
+      placed.name);
+}
+
 /// The contacts at one node of a group, appended.
 void place(const study::Study& study, const fem::Model& model, PlacedContact contact,
            std::vector<PlacedContact>& out, std::vector<std::string>& warnings) {
@@ -215,6 +238,8 @@ void place(const study::Study& study, const fem::Model& model, PlacedContact con
     if (points.size() > 1)
       placed.name = fmt::format("{}@{}", contact.name, k + 1);
     check_moves(model, placed, points[k]);
+    if (const std::string warning = held_warning(model, placed, points[k]); !warning.empty())
+      warnings.push_back(warning);
     placed.motion = points[k].motion;
     const Vec3 centre = placed.other >= 0 ? model.nodes[static_cast<std::size_t>(placed.other)]
                                           : entry.origin.value_or(points[k].place);

@@ -2,6 +2,7 @@
 #include "app/chain.hpp"
 #include "app/build_flow.hpp"
 #include "app/contact_notes.hpp"
+#include "app/folder_lock.hpp"
 #include "app/jobs.hpp"
 #include "app/modes_limit.hpp"
 #include "app/progress.hpp"
@@ -14,6 +15,7 @@
 #include "core/error.hpp"
 #include "core/mpi.hpp"
 #include "core/petsc.hpp"
+#include "core/printable.hpp"
 #include "results/summary_file.hpp"
 #include "results/write.hpp"
 #include "transient/kernels.hpp"
@@ -22,6 +24,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <petscversion.h>
 #include <slepcversion.h>
 
@@ -311,9 +314,10 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
   Progress progress(first_rank && !request.quiet);
   const auto say = [&](const std::string& text) {
     if (first_rank && !request.quiet)
-      fmt::print("{}", text);
+      fmt::print("{}", core::printable(text, core::longest_message_line));
   };
   Inputs inputs;
+  std::optional<FolderLock> lock;
   core::agree(comm, [&] {
     inputs = read_inputs(request);
     if (last == Stage::transient && !inputs.study.transient)
@@ -322,6 +326,8 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
     if (last == Stage::stability && inputs.study.flows.empty())
       throw core::Error("the study has no [[flow]] to be stable in; add it (doc/study-file.md)");
     make_directory(inputs.directory);
+    if (first_rank)
+      lock.emplace(inputs.directory, inputs.study.file.string());
   });
   results::RunResults out;
   out.timings.read = watch.lap();
@@ -421,15 +427,20 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
     const ProgressCallback callback =
         progress.shown() ? ProgressCallback([&](double share, double time) { progress.update(share, time); })
                          : ProgressCallback();
-    const CheckpointOptions checkpoints{inputs.directory,
-                                        FRETWORK_VERSION,
-                                        inputs.whole_key,
-                                        inputs.study.output.checkpoint,
-                                        !request.force,
-                                        [&](const std::string& line) { // from whichever rank makes the run
-                                          if (!request.quiet)
-                                            fmt::print("{}\n", line);
-                                        }};
+    const CheckpointOptions checkpoints{
+        inputs.directory,
+        FRETWORK_VERSION,
+        inputs.whole_key,
+        inputs.study.output.checkpoint,
+        !request.force,
+        [&](const std::string& line) { // from whichever rank makes the run
+          if (!request.quiet)
+            fmt::print("{}\n", line);
+        },
+        {inputs.study.transient->duration, inputs.study.transient->max_hours, [&](const std::string& line) {
+           if (!request.quiet)
+             fmt::print("{}\n", line);
+         }}};
     run_jobs(comm, inputs.study, scenes, placed.size(), nodes.size(), callback, checkpoints, out);
     core::agree(comm, [&] { add_wear(inputs.study, worn, placed, other_runs, out); });
     out.timings.transient = watch.lap();
@@ -488,6 +499,9 @@ std::string check(const Request& request) {
   for (const auto& structure : structures)
     dofs += structure.equations;
   std::string told;
+  if (const auto& transient = inputs.study.transient; transient && transient->step)
+    told +=
+        fmt::format("  {:.4g} steps of {:.4g} s\n", transient->duration / *transient->step, *transient->step);
   for (const std::string& warning : warnings)
     told += "  warning: " + warning + "\n";
   return fmt::format("{}: fine\n  {} nodes, {} beams, {} free dofs in {} structure{}, {:.6g} kg\n  {} "

@@ -2,6 +2,7 @@
 /// @file
 /// The checkpoints of a study's runs: DIR/checkpoint.h5 of the first, DIR/checkpoint-2.h5 of the second ...
 #pragma once
+#include "app/expected_time.hpp"
 #include "results/checkpoint.hpp"
 #include "transient/run.hpp"
 #include <chrono>
@@ -16,6 +17,7 @@ struct CheckpointOptions {
   double every = 0.0;                           ///< s on the clock; 0: none is written
   bool resume = true;                           ///< go on from what an earlier run has left
   std::function<void(const std::string&)> tell; ///< a line for the user
+  TimeLimit limit = {};                         ///< of each run
 };
 
 /// What the runs of one rank keep, one run after the other: after an interruption at most `every` seconds of their work are lost.
@@ -38,6 +40,7 @@ public:
   /// Saves the run, and those that have ended, when it is time to. What cannot be written is told, and the run goes on.
   /// @throws core::ComputationError after SIGTERM, when all is saved
   void look(std::size_t run, transient::Run& state);
+  [[nodiscard]] const TimeLimit& limit() const { return options_.limit; }
   /// The run has come to its end; others follow.
   void ended(std::size_t run, transient::Run& state);
 

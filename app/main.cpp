@@ -5,9 +5,14 @@
 #include "app/python_report.hpp"
 #include "core/error.hpp"
 #include "core/mpi.hpp"
+#include "core/printable.hpp"
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fmt/format.h>
+#include <system_error>
 
 namespace {
 
@@ -21,17 +26,32 @@ bool speaks() {
   return !rank || std::string(rank) == "0";
 }
 
+/// What the input holds may be repeated in a message: it is not obeyed by the terminal, and does not fill it.
+void complain(const std::string& message) {
+  fmt::print(stderr, "fretwork: {}\n", core::printable(message, core::longest_message_line));
+}
+
 int guarded(const std::function<void()>& work) {
   try {
     work();
+    if (std::fflush(stdout) != 0)
+      throw std::system_error(errno, std::generic_category());
     return 0;
   } catch (const core::Error& error) {
     if (speaks())
-      fmt::print(stderr, "fretwork: {}\n", error.what());
+      complain(error.what());
     return input_is_wrong;
   } catch (const core::ComputationError& error) {
     if (speaks())
-      fmt::print(stderr, "fretwork: {}\n", error.what());
+      complain(error.what());
+    return computation_failed;
+  } catch (const std::filesystem::filesystem_error& error) {
+    if (speaks())
+      complain(fmt::format("{}; check that the folder exists and its permissions", error.what()));
+    return input_is_wrong;
+  } catch (const std::system_error& error) { // of standard output
+    if (speaks())
+      complain(fmt::format("the output cannot be written: {}", error.code().message()));
     return computation_failed;
   } catch (const std::exception& error) {
     fmt::print(stderr, "fretwork: this is a defect of the program, please report it: {}\n", error.what());

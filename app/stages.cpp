@@ -2,6 +2,7 @@
 #include "app/stages.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/input_file.hpp"
 #include "core/mpi.hpp"
 #include "core/petsc.hpp"
 #include "modal/copies.hpp"
@@ -54,6 +55,7 @@ Inputs read_inputs(const Request& request) {
   in.study = study::read(request.study, request.overrides);
   in.directory = request.directory.value_or(fs::path(in.study.file).replace_extension(".results"));
   in.mesh_file = in.study.mesh.file;
+  core::check_input_file(in.mesh_file, fmt::format("mesh file \"{}\"", in.mesh_file.string()));
   if (!std::ifstream(in.mesh_file))
     throw core::Error(fmt::format(
         "mesh file \"{}\" cannot be read; check the path (relative paths start from the study's folder)",

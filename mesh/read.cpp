@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/read.hpp"
 #include "core/error.hpp"
+#include "core/input_file.hpp"
 #include "mesh/canonical_order.hpp"
 #include "mesh/msh_reader.hpp"
 #include "mesh/near_nodes.hpp"
@@ -30,10 +31,7 @@ void check_source(const Source& source) {
         fmt::format("{}: element_size = {} m must be a length > 0", file, *source.element_size));
   if (source.order && *source.order != 1 && *source.order != 2)
     throw core::Error(fmt::format("{}: order = {} must be 1 or 2", file, *source.order));
-  if (!fs::exists(source.file))
-    throw core::Error(fmt::format("{}: the mesh file does not exist", file));
-  if (fs::is_directory(source.file))
-    throw core::Error(fmt::format("{}: the mesh file is a directory", file));
+  core::check_input_file(source.file, fmt::format("mesh file {}", file));
   if (source.element_size && !is_geometry(source.file))
     throw core::Error(fmt::format(
         "{}: element_size is for geometries (.geo, .step, .brep); this file is meshed already, leave "

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "study/document.hpp"
 #include "core/error.hpp"
-#include <fstream>
+#include "core/input_file.hpp"
+#include <algorithm>
 #include <sstream>
 #include <toml++/toml.h>
 
 namespace fretwork::study {
 namespace {
+
+constexpr int deepest = 64;                                     ///< levels; the keys of a study have six
+constexpr std::uintmax_t most_bytes = std::uintmax_t{16} << 20; ///< of a study: a hundred thousand entries
 
 class Converter {
 public:
@@ -73,23 +77,46 @@ private:
   Lines lines_;
 };
 
-std::string read_text(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored))
-    throw core::Error("study file " + file.string() + " does not exist; give the path of a .toml file");
-  if (std::filesystem::is_directory(file, ignored))
-    throw core::Error("study file " + file.string() + " is a directory; give the path of a .toml file");
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream)
-    throw core::Error("study file " + file.string() + " cannot be read; check its permissions");
-  return text.str();
+/// TOML is parsed, converted and destroyed by functions that call themselves: what is nested too deep would exhaust their stack.
+/// @throws core::Error naming the line
+void check_depth(std::string_view text, const std::shared_ptr<const std::string>& origin, Lines lines) {
+  int line = 1, depth = 0, parts = 0;
+  char quote = '\0';
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '\n') {
+      ++line;
+      parts = 0;
+      quote = '\0'; // brackets in texts of several lines count
+    } else if (quote != '\0') {
+      if (c == '\\' && quote == '"')
+        ++i;
+      else if (c == quote)
+        quote = '\0';
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '#') {
+      i = std::min(text.find('\n', i), text.size()) - 1;
+    } else if (c == '[' || c == '{') {
+      ++depth;
+    } else if (c == ']' || c == '}') {
+      depth = std::max(0, depth - 1);
+    } else if (c == '.') {
+      ++parts;
+    } else if (c == ',' || c == '=') {
+      parts = 0;
+    }
+    if (depth > deepest || parts > deepest)
+      throw core::Error(Where{origin, lines == Lines::kept ? line : 0}.text() +
+                        ": tables or arrays nested more than " + std::to_string(deepest) +
+                        " deep; no key of a study is");
+  }
 }
 
 } // namespace
 
 Value parse_toml(std::string_view text, std::shared_ptr<const std::string> origin, Lines lines) {
+  check_depth(text, origin, lines);
   try {
     const toml::table parsed = toml::parse(text);
     Value root = Converter(origin, lines)(parsed);
@@ -105,7 +132,7 @@ Value parse_toml(std::string_view text, std::shared_ptr<const std::string> origi
 Document load(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   Document document;
   document.file = std::filesystem::absolute(file).lexically_normal();
-  document.text = read_text(file);
+  document.text = core::read_input_file(file, "study file " + file.string(), most_bytes);
   document.root = parse_toml(document.text, std::make_shared<const std::string>(file.string()));
   for (const std::string& text : overrides)
     apply_override(document.root, text);

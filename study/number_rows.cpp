@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "study/number_rows.hpp"
 #include "core/error.hpp"
+#include "core/input_file.hpp"
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -40,11 +41,10 @@ std::optional<double> to_real(std::string_view cell) {
 }
 
 NumberRows read_number_rows(const std::filesystem::path& file) {
-  std::error_code ignored;
+  core::check_input_file(file, "file " + file.string());
   std::ifstream stream(file);
-  if (!stream || std::filesystem::is_directory(file, ignored))
-    throw core::Error("file " + file.string() +
-                      " does not exist or cannot be read; paths start from the folder of the study");
+  if (!stream)
+    throw core::Error("file " + file.string() + " cannot be read; check its permissions");
   NumberRows out;
   std::string text;
   for (int number = 1; std::getline(stream, text); ++number) {

@@ -72,6 +72,8 @@ std::string canonical_text(const std::filesystem::path& file, const std::vector<
       if (output->empty())
         continue;
     }
+    if (auto* transient = std::get_if<Table>(&at->second.data); transient && name == "transient")
+      transient->erase("max_hours");
     if (auto* mesh = std::get_if<Table>(&at->second.data); mesh && name == "mesh")
       mesh->erase("trusted"); // how a file is read, not what it holds
     if (auto* entries = std::get_if<Array>(&at->second.data);

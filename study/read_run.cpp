@@ -55,6 +55,9 @@ modal::Damping read_damping(const TableReader& modes) {
                          table.number_or("mass", 0.0, {Range::at_least_zero, "1/s"})};
 }
 
+/// s; where times of 1e-300 s are squared nothing is left of them.
+constexpr double shortest_duration = 1e-9;
+
 /// The rule that derives modes from accuracy is measured up to here.
 constexpr double largest_mode_accuracy = 0.1;
 
@@ -107,10 +110,13 @@ std::optional<Transient> read_transient(const TableReader& root) {
   const Value* found = root.find("transient");
   if (!found)
     return std::nullopt;
-  const TableReader table(*found, "transient",
-                          {{"duration", "start", "scheme", "accuracy", "step", "tolerance", "verify"}});
+  const TableReader table(
+      *found, "transient",
+      {{"duration", "start", "scheme", "accuracy", "step", "tolerance", "verify", "max_hours"}});
   Transient transient;
   transient.duration = table.number("duration", {Range::above_zero, "s"});
+  if (transient.duration < shortest_duration)
+    table.fail_at("duration", "shorter than a nanosecond, in which no structure moves; give seconds");
   transient.start = table.choice("start", Start::rest,
                                  Choices<Start>{{{"rest", Start::rest}, {"static", Start::equilibrium}}});
   transient.scheme = table.choice("scheme", Scheme::automatic,
@@ -132,6 +138,7 @@ std::optional<Transient> read_transient(const TableReader& root) {
     table.fail_at("tolerance",
                   "the error of a step relative to the energy norm of the motion: at most 0.1 is expected");
   transient.verify = table.optional_flag("verify").value_or(false);
+  transient.max_hours = table.number_or("max_hours", transient.max_hours, {Range::above_zero, "hours"});
   transient.step = table.optional_number("step", {Range::above_zero, "s"});
   if (transient.step && *transient.step > transient.duration)
     table.fail_at("step",

@@ -194,6 +194,7 @@ struct Transient {
   std::optional<double> step;
   double tolerance = 1e-6; ///< of a step's error: adaptive schemes
   bool verify = false;     ///< run again at half the step and compare the statistics
+  double max_hours = 24.0; ///< on the clock: a run that would take longer is refused
 };
 
 struct Output {

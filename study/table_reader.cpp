@@ -4,6 +4,8 @@
 #include "core/names.hpp"
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
+#include <utility>
 
 namespace fretwork::study {
 namespace {
@@ -224,6 +226,7 @@ std::vector<Entry> array_entries(const TableReader& root, const std::string& key
     fail(*found, key, "several entries may follow: write " + brackets + ", not [" + key + "]");
   const Array& items = to_array(*found, key, "an array of tables " + brackets);
   std::vector<std::string> names;
+  std::unordered_map<std::string, int> count;
   for (const Value& item : items) {
     if (!item.table())
       fail(item, key, "a table is expected for each entry; write " + brackets);
@@ -231,11 +234,12 @@ std::vector<Entry> array_entries(const TableReader& root, const std::string& key
     for (const char* label : {"group", "name"})
       if (const auto at = item.table()->find(label); at != item.table()->end() && at->second.string())
         name = *at->second.string();
-    names.push_back(name);
+    ++count[name];
+    names.push_back(std::move(name));
   }
   std::vector<Entry> entries;
   for (std::size_t i = 0; i < items.size(); ++i) {
-    const bool unique = !names[i].empty() && std::count(names.begin(), names.end(), names[i]) == 1;
+    const bool unique = !names[i].empty() && count[names[i]] == 1;
     entries.push_back({&items[i], key + "." + (unique ? toml_key(names[i]) : std::to_string(i)), names[i]});
   }
   return entries;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "study/time_functions.hpp"
 #include "core/error.hpp"
+#include "core/input_file.hpp"
 #include "core/names.hpp"
 #include "study/number_rows.hpp"
 #include <fstream>
@@ -78,11 +79,10 @@ transient::Random read_random(const TableReader& entry, const char* unit) {
 } // namespace
 
 transient::Table read_time_table(const std::filesystem::path& file) {
-  std::error_code ignored;
+  core::check_input_file(file, "file " + file.string());
   std::ifstream stream(file);
-  if (!stream || std::filesystem::is_directory(file, ignored))
-    throw core::Error("file " + file.string() +
-                      " does not exist or cannot be read; paths start from the folder of the study");
+  if (!stream)
+    throw core::Error("file " + file.string() + " cannot be read; check its permissions");
   transient::Table table;
   bool header_allowed = true;
   std::string text;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Faults at every write of a run: faults_test.py FRETWORK LIBRARY STUDY [--long] [--table]
+"""Faults at every write of a run: faults_test.py FRETWORK LIBRARY STUDY [--long] [--damaged N]
 
 Each call of a run that changes a file of its results folder fails in turn (failing_calls.cpp): once, from then on, as a full disk, as a
 broken one, half done, or by the death of the process. After each the command is given again without a fault. A case is
@@ -140,13 +140,15 @@ def main():
     parser.add_argument("library")
     parser.add_argument("study")
     parser.add_argument("--long", action="store_true", help="every call, every kind of fault, a thousand damaged files of each kind")
+    parser.add_argument("--damaged", type=int, help="damaged files of each kind")
     options = parser.parse_args()
-    form, table, wrong = LONG if options.long else SHORT, [], []
+    form, table, wrong = dict(LONG if options.long else SHORT), [], []
+    form["damaged"] = options.damaged or form["damaged"]
     failing_calls(options, form, table, wrong)
     damaged_files(options, form, table, wrong)
     print("| fault | injected | survived | told | wrong |\n| --- | --- | --- | --- | --- |")
     for name, outcomes in table:
-        print(f"| {name} | {outcomes.total()} | {outcomes['survived']} | {outcomes['told']} | {outcomes['wrong']} |")
+        print(f"| {name} | {sum(outcomes.values())} | {outcomes['survived']} | {outcomes['told']} | {outcomes['wrong']} |")
     print("\n".join(wrong))
     return 1 if wrong else 0
 

@@ -382,8 +382,9 @@ TEST(Messages, OfTablesInTime) {
        {"loads.foot.table[0] = [1, 2, 3]: an array of numbers (2 in N m) is expected, not of 3"}},
       {table,
        "table = \"none.csv\"",
-       {"loads.foot.table = \"none.csv\": file none.csv does not exist or cannot be read; paths start from "
-        "the folder of the study"}},
+       {"loads.foot.table = \"none.csv\": file none.csv does not exist; check the path (relative paths start "
+        "from "
+        "the study's folder)"}},
       {table,
        "table = \"study.toml\"",
        {"loads.foot.table = \"study.toml\": study.toml:1: ", "a row is two finite numbers, t,value"}},

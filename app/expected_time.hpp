@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// How long a run will take, from its first seconds.
+#pragma once
+#include <chrono>
+#include <functional>
+#include <string>
+
+namespace fretwork::app {
+
+struct TimeLimit {
+  double duration = 0.0; ///< s, simulated, of a run
+  double most_hours = 0.0;
+  std::function<void(const std::string&)> tell; ///< a line for the user
+};
+
+/// Watches one run. After `settling` on the clock it tells what is left where that is more than `worth_telling`, once, and refuses a run that
+/// would take longer than the limit.
+class ExpectedTime {
+public:
+  static constexpr std::chrono::seconds settling{2};
+  static constexpr double worth_telling = 60.0; ///< s
+
+  /// @param begin  s, simulated: where the run starts or goes on
+  ExpectedTime(const TimeLimit& limit, double begin) : limit_(limit), begin_(begin) {}
+  /// @param time  s, simulated so far
+  /// @throws core::Error where the whole would take more than `limit.most_hours`
+  void look(double time);
+
+private:
+  using Clock = std::chrono::steady_clock;
+  const TimeLimit& limit_;
+  double begin_;
+  Clock::time_point start_ = Clock::now();
+  bool told_ = false;
+};
+
+} // namespace fretwork::app
