@@ -2,6 +2,7 @@
 // [[wear]] that does not fit its study: refused before the run, with the cure.
 #include "mesh_text.hpp"
 #include "program.hpp"
+#include "results/checksum.hpp"
 #include "study_text.hpp"
 #include <fstream>
 
@@ -94,15 +95,23 @@ TEST(WearInput, IsRefusedWhereTheOtherRunLacksTheContactOrDiverged) {
   fs::create_directories(folder.path("other"));
   const std::string study =
       worn_bundle(folder, 1, archard + "states = [{ share = 1, results = \"other\" }]\n");
-  const auto with_summary = [&](const std::string& text) {
-    std::ofstream(folder.path("other") / "summary.json") << text;
+  const auto refused_with = [&](const std::string& summary) {
+    std::ofstream(folder.path("other") / "summary.json") << summary;
     return refused_by_check(folder, study);
   };
-  EXPECT_TRUE(says(with_summary("{}"), "holds no results of a transient; run that study again"));
-  EXPECT_TRUE(says(with_summary(R"({"transient": {"outcome": "diverged"}, "contacts": []})"),
+  const auto with_summary = [&](const nlohmann::ordered_json& keys) {
+    nlohmann::ordered_json summary = keys;
+    summary["sha256"] = results::no_checksum();
+    return refused_with(results::with_checksum(summary.dump(2)));
+  };
+  EXPECT_TRUE(
+      says(refused_with("{}"), "is not as it was written (its checksum does not fit); run that study again"));
+  const auto parsed = [](const char* text) { return nlohmann::ordered_json::parse(text); };
+  EXPECT_TRUE(says(with_summary(parsed("{}")), "holds no results of a transient; run that study again"));
+  EXPECT_TRUE(says(with_summary(parsed(R"({"transient": {"outcome": "diverged"}, "contacts": []})")),
                    "diverged; take a smaller step there"));
-  EXPECT_TRUE(says(with_summary(R"({"transient": {"outcome": "done"}, "contacts": [
-    {"name": "tsp1", "work_rate": 1.0, "standard_error": {"work_rate": null}}]})"),
+  EXPECT_TRUE(says(with_summary(parsed(R"({"transient": {"outcome": "done"}, "contacts": [
+    {"name": "tsp1", "work_rate": 1.0, "standard_error": {"work_rate": null}}]})")),
                    "has no contact \"support0\""));
 }
 

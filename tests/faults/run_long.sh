@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The long form of the fault injection, on the release build: prints the table of doc/reliability.md.
+# The long form of the fault injection, on the release build: prints a table as in doc/reliability.md.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 build=${1:-build/release}
