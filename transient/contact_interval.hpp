@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// One contact over an interval of a step of the splitting scheme: its normal force and friction by the laws over intervals
+/// (contact/normal_interval.hpp, contact/friction_interval.hpp), and where they take it.
+#pragma once
+#include "contact/friction_interval.hpp"
+#include "contact/normal_interval.hpp"
+#include "contact/support.hpp"
+#include <cmath>
+
+namespace fretwork::transient {
+
+/// A vector along y z x.
+struct Components {
+  double y = 0.0, z = 0.0, x = 0.0;
+};
+inline Components operator+(const Components& a, const Components& b) {
+  return {a.y + b.y, a.z + b.z, a.x + b.x};
+}
+inline Components operator-(const Components& a, const Components& b) {
+  return {a.y - b.y, a.z - b.z, a.x - b.x};
+}
+inline Components operator*(double s, const Components& a) { return {s * a.y, s * a.z, s * a.x}; }
+[[nodiscard]] inline double dot(double ny, double nz, const Components& c) { return ny * c.y + nz * c.z; }
+inline double sum_of_sizes(const Components& c) { return std::abs(c.y) + std::abs(c.z) + std::abs(c.x); }
+
+/// Acceleration of one contact by a force on another, or on itself: W, 1/kg, rows and columns y z x.
+struct Mobility {
+  double w[3][3] = {};
+  [[nodiscard]] Components operator*(const Components& f) const {
+    return {w[0][0] * f.y + w[0][1] * f.z + w[0][2] * f.x, w[1][0] * f.y + w[1][1] * f.z + w[1][2] * f.x,
+            w[2][0] * f.y + w[2][1] * f.z + w[2][2] * f.x};
+  }
+};
+
+/// What is remembered of a contact from step to step.
+struct ContactPast {
+  contact::FrictionMemory friction;
+  double ny = 0.0, nz = 0.0; ///< normal of its last force
+  bool closed = false;       ///< at the end of the last step
+  bool before_run = false;   ///< it has been closed since before the run: its impact is still to be counted
+  double spring_at_opening = 0.0; ///< N2, square of the spring's force
+};
+
+/// Where a contact is in a step and what acts on it. Without its own force it moves by u + v t + a t^2/2 + j t^3/6.
+struct ContactPath {
+  double t = 0.0; ///< s, in the step
+  Components u, v, a, j;
+  Components force;     ///< N, of the last interval: the first guess of the next
+  contact::Location at; ///< its gap is that of the laws while the contact is closed
+  [[nodiscard]] Components displacement(double time) const {
+    return time * (v + 0.5 * time * (a + (time / 3.0) * j));
+  }
+  [[nodiscard]] Components velocity(double time) const { return v + time * (a + 0.5 * time * j); }
+  /// With a further constant acceleration.
+  void move(double time, const Components& by) {
+    u = u + displacement(time) + 0.5 * time * time * by;
+    v = velocity(time) + time * by;
+    a = a + time * j;
+    t += time;
+  }
+};
+
+/// What the laws need of an interval of a given length.
+struct IntervalTable {
+  double length = 0.0;            ///< s
+  double answer = 0.0;            ///< kg: force for an acceleration of 1 m/s2 over it
+  double normal_share = 0.5;      ///< beta of normal_interval.hpp
+  contact::PieceTable piece{};    ///< of friction_interval.hpp
+  contact::FrictionTable table{}; ///< of the memory `reference`
+};
+
+/// An interval with its forces.
+struct PressedInterval {
+  double ny, nz;        ///< normal of the interval
+  contact::Location to; ///< at its end
+  contact::NormalInterval normal;
+  contact::FrictionMemory memory; ///< at its end
+  contact::Vec2 friction, displacement;
+  double friction_square = 0.0, slider_work = 0.0, damper_work = 0.0, rubbed = 0.0, slid = 0.0,
+         sliding_time = 0.0;
+  Components force; ///< N
+};
+
+class ContactIntervals {
+public:
+  /// @param support  must live longer   @param rest  of the contact without displacement, m   @param in_plane  friction acts along x too
+  /// @param usual  s, length of most intervals
+  ContactIntervals(const contact::Support& support, const Components& rest, const Mobility& mobility,
+                   bool in_plane, double usual);
+  /// From now on most intervals have this length. No allocation.
+  void set_usual(double length) { usual_ = table(length); }
+  [[nodiscard]] const IntervalTable& usual() const { return usual_; }
+  [[nodiscard]] IntervalTable table(double length) const;
+
+  [[nodiscard]] contact::Location locate(const Components& u) const {
+    return contact::locate(obstacle_, u.y + rest_.y, u.z + rest_.z);
+  }
+  /// The forces of an interval. No allocation.
+  void press(const ContactPath& m, const ContactPast& past, const IntervalTable& of,
+             PressedInterval& p) const;
+  /// An open contact forgets over `time`. Returns what its spring gives up, J.
+  double relax(ContactPast& past, double time) const;
+  /// Of the tangential spring, J.
+  [[nodiscard]] double spring_energy(contact::Vec2 spring) const {
+    return 0.5 * dot(spring, spring) / friction_.stiffness;
+  }
+  [[nodiscard]] const Mobility& mobility() const { return w_; }
+
+private:
+  void find_normal_force(const ContactPath& m, const Components& guessed, const IntervalTable& of,
+                         PressedInterval& p) const;
+  void find_friction(const ContactPath& m, const ContactPast& past, const IntervalTable& of,
+                     PressedInterval& p) const;
+  void find_closed_friction(const ContactPath& m, const IntervalTable& of, PressedInterval& p) const;
+
+  const contact::Obstacle& obstacle_;
+  const contact::NormalLaw normal_;
+  const contact::FrictionLaw friction_;
+  Components rest_;
+  Mobility w_;
+  bool in_plane_;
+  double mobility_; ///< 1/kg, the largest along any direction
+  double across_;   ///< 1/kg: acceleration along one of its directions by a force along another
+  IntervalTable usual_;
+};
+
+} // namespace fretwork::transient
