@@ -45,7 +45,7 @@ struct ContactPoint {
   /// m, 3 x loads of the scene, with Scene::residual: what the modes lack of the static displacement under each load of value 1, so that
   /// u = b q + residual f + under_loads g(t); empty: nothing.
   Eigen::MatrixXd under_loads = {};
-  core::Vec3 loaded_at_start = core::Vec3::Zero(); ///< m, under_loads g(0) of the loads that are not inertial
+  core::Vec3 loaded_at_start = core::Vec3::Zero(); ///< m, under_loads times the static values of the loads that are not inertial
 };
 
 struct Scene {
