@@ -76,6 +76,7 @@ void broadcast(MPI_Comm comm, int root, const BuiltScene& built, JobResult& job)
   MPI_Bcast(&job.report, static_cast<int>(sizeof job.report), MPI_BYTE, root, comm);
   MPI_Bcast(&job.errors_of_sums, static_cast<int>(sizeof job.errors_of_sums), MPI_BYTE, root, comm);
   broadcast_plain(comm, root, job.contacts);
+  broadcast_plain(comm, root, job.step_errors);
   std::uint64_t tables = job.impacts.size();
   MPI_Bcast(&tables, 1, MPI_UINT64_T, root, comm);
   job.impacts.resize(tables);
@@ -118,6 +119,7 @@ JobResult Job::result() && {
   out.report = run_.finish();
   out.contacts = contacts_.summaries();
   out.errors_of_sums = contacts_.errors_of_sums();
+  out.step_errors = run_.step_errors();
   out.impacts = std::move(impacts_).impacts();
   out.sector_rates = sectors_.rates();
   out.classes = classes_.classes();

@@ -27,6 +27,7 @@ struct JobResult {
   transient::Report report{};
   std::vector<post::ContactSummary> contacts;
   post::StandardErrors errors_of_sums;           ///< of all contacts of the run
+  std::vector<transient::StepError> step_errors; ///< by contact; empty: not measured
   std::vector<post::ContactImpacts> impacts;     ///< empty without tables
   std::vector<std::vector<double>> sector_rates; ///< W, by contact; empty where nothing wears
   std::vector<wear::KwuClasses> classes;         ///< of the contacts under the law kwu_epri

@@ -60,8 +60,12 @@ void merge(const BuiltScene& built, JobResult&& job, const transient::StepChoice
            results::RunResults& out) {
   out.transients.push_back({choice, job.report});
   add_errors(out.errors_of_sums, job.errors_of_sums);
+  if (!job.step_errors.empty())
+    out.step_errors.resize(out.contact_summaries.size());
   for (std::size_t c = 0; c < built.contacts.size(); ++c) {
     out.contact_summaries[built.contacts[c]] = job.contacts[c];
+    if (!job.step_errors.empty())
+      out.step_errors[built.contacts[c]] = job.step_errors[c];
     out.series.contacts[built.contacts[c]] = std::move(job.series.contacts[c]);
     if (!job.impacts.empty())
       out.impacts[built.contacts[c]] = std::move(job.impacts[c]);
@@ -259,6 +263,7 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
   }
   if (verified)
     compare_with_half(scenes, outcomes.halves, out);
+  judge_step_errors(out);
   tell_impacts_left_out(study.output.impacts, out);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/judge_run.hpp"
 #include "core/error.hpp"
+#include "results/step_error.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -61,6 +62,11 @@ void judge_run(const BuiltScene& built, const transient::StepChoice& choice, con
                results::RunResults& out) {
   judge(choice, report, out);
   judge_memory(built, report, out);
+}
+
+void judge_step_errors(results::RunResults& out) {
+  if (std::string unmet = results::unmet_accuracy(out); !unmet.empty())
+    out.warnings.push_back(std::move(unmet));
 }
 
 void tell_impacts_left_out(std::int64_t kept, results::RunResults& out) {

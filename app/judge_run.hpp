@@ -13,6 +13,9 @@ namespace fretwork::app {
 void judge_run(const BuiltScene& built, const transient::StepChoice& choice, const transient::Report& report,
                results::RunResults& out);
 
+/// Adds a warning where the step changes statistics by more than the accuracy.
+void judge_step_errors(results::RunResults& out);
+
 /// A table that ends early never does so silently: a note where impacts have no row.
 /// @param kept  output.impacts
 void tell_impacts_left_out(std::int64_t kept, results::RunResults& out);

@@ -12,6 +12,7 @@
 //   --resolution x        w_c h of the reference solution of masses (0.02; below an accuracy of 0.005 0.01), of tubes 1.5 times that
 //   --budget s (1)        times the usual processor time of the reference solution a scene
 //   --ct-ratio x          C_T of single impacts over 2 (K_T m)^1/2; else automatic
+//   --print all           every figure, not only those that fail
 //   --csv FILE            all figures
 #include "bench/accuracy_study.hpp"
 #include "core/error.hpp"
@@ -35,6 +36,7 @@ constexpr double resolution = 0.02, tubes_to_masses = 1.5, fine_resolution = 0.0
 struct Arguments {
   std::string mode, only, csv;
   int scenes = 60;
+  bool all = false;
   std::uint64_t seed = 1;
   double budget = 1.0;
   std::optional<double> resolution, tangential_ratio;
@@ -71,6 +73,7 @@ Arguments parsed(int argc, char** argv) {
       {"--resolution", [&](Text t) { out.resolution = number(t); }},
       {"--budget", [&](Text t) { out.budget = number(t); }},
       {"--ct-ratio", [&](Text t) { out.tangential_ratio = number(t); }},
+      {"--print", [&](Text t) { out.all = t == "all"; }},
       {"--csv", [&](Text t) { out.csv = t; }}};
   int i = 1;
   if (argc > 1 && argv[1][0] != '-')
@@ -111,8 +114,9 @@ std::vector<bench::RandomScene> scenes_of(const Arguments& arguments) {
 
 void run_scenes(Arguments& arguments) {
   arguments.study.halved = arguments.mode == "reference";
-  std::printf("| scene | figure | %s | reference | difference, %% | standard error, %% |\n| --- | --- | --- "
-              "| --- | --- | --- |\n",
+  std::printf("| scene | figure | %s | reference | difference, %% | standard error, %% | as measured, %% | "
+              "intervals |\n"
+              "| --- | --- | --- | --- | --- | --- | --- | --- |\n",
               arguments.study.halved ? "at twice the step" : "ours");
   std::vector<bench::SceneResult> results;
   for (bench::RandomScene& scene : scenes_of(arguments)) {
@@ -121,7 +125,7 @@ void run_scenes(Arguments& arguments) {
     options.budget = arguments.budget * (mass ? mass_budget : tube_budget);
     options.resolution *= mass ? 1.0 : tubes_to_masses;
     results.push_back(bench::study(std::move(scene), options));
-    bench::print_failures(results.back());
+    bench::print_figures(results.back(), arguments.all);
     std::fflush(stdout);
   }
   bench::print_summary(results, arguments.study);

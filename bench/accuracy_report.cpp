@@ -34,14 +34,15 @@ struct Row {
 
 } // namespace
 
-void print_failures(const SceneResult& result) {
+void print_figures(const SceneResult& result, bool all) {
   if (!result.failure.empty())
     std::printf("| %s | %s | | | | |\n", result.scene.name.c_str(), result.failure.c_str());
   for (const FigureError& e : result.figures)
-    if (e.fails)
-      std::printf("| %s | %s | %.4g | %.4g | %+.2f | %.2f |\n", result.scene.name.c_str(),
-                  figure_names[e.figure], e.ours, e.reference, 100.0 * e.relative(),
-                  100.0 * e.standard_error / e.reference);
+    if (e.fails || (all && e.judged))
+      std::printf("| %s | %s | %.4g | %.4g | %+.2f | %.2f | %+.2f +- %.2f | %d |\n",
+                  result.scene.name.c_str(), figure_names[e.figure], e.ours, e.reference,
+                  100.0 * e.relative(), 100.0 * e.standard_error / e.reference, 100.0 * e.measured,
+                  100.0 * e.measured_spread, result.step_error.parts);
 }
 
 void print_summary(const std::vector<SceneResult>& results, const StudyOptions& options) {

@@ -6,6 +6,7 @@
 #include "post/contact_statistics.hpp"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace fretwork::bench {
 namespace {
@@ -115,6 +116,11 @@ void judge(SceneResult& result, const Ensemble& ensemble, const StudyOptions& op
     e.judged = counts(e, scales, result.scene.scene.contacts.size());
     e.fails = e.judged &&
               !(std::abs(e.ours - e.reference) <= options.tolerance() * e.reference + 2.0 * e.standard_error);
+    if (const transient::StepError& of = result.step_error; k < judged_figures && of.sums[k] > 0.0) {
+      const double half = k == normal_rms ? 0.5 : 1.0; // of the square
+      e.measured = half * of.errors[k] / of.sums[k];
+      e.measured_spread = half * std::sqrt(of.spreads[k]) / of.sums[k];
+    }
     result.figures.push_back(e);
   }
 }
@@ -134,8 +140,18 @@ Values run_of(const transient::Scene& scene, const StudyOptions& options, double
   post::ContactStatistics statistics(scene.contacts.size(), from);
   transient::Observer* const observers[] = {&statistics};
   const double begin = thread_seconds();
-  const transient::Report report = transient::run(scene, choice, observers, nullptr, {});
+  transient::Run run(scene, choice, observers, nullptr, {});
+  run.advance(std::numeric_limits<std::int64_t>::max());
+  const transient::Report report = run.finish();
   result.seconds += thread_seconds() - begin;
+  for (const transient::StepError& of : run.step_errors()) {
+    result.step_error.parts = std::max(result.step_error.parts, of.parts);
+    for (std::size_t k = 0; k < transient::replayed_figures; ++k) {
+      result.step_error.sums[k] += of.sums[k];
+      result.step_error.errors[k] += of.errors[k];
+      result.step_error.spreads[k] += of.spreads[k] * of.spreads[k];
+    }
+  }
   result.step = choice.step;
   result.resolution = choice.contact_frequency * choice.step;
   result.scheme = transient::name_of(choice.scheme);

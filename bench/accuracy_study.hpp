@@ -51,6 +51,8 @@ struct FigureError {
   Figure figure;
   double ours, reference, standard_error; ///< means; standard error of their difference
   bool judged, fails;
+  double measured = 0.0,
+         measured_spread = 0.0; ///< relative error by the step as the runs measure it, its standard error
   [[nodiscard]] double relative() const { return (ours - reference) / reference; }
 };
 
@@ -62,14 +64,15 @@ struct SceneResult {
   std::string scheme, failure;                   ///< failure: why there are no figures
   double seconds = 0.0, reference_seconds = 0.0; ///< of processor time, all members
   double closed = 0.0, sliding = 0.0;            ///< mean share of the time; of the closed time that slides
-  std::int64_t unresolved = 0; ///< contact forces and closures that the reference solution has not found
+  std::int64_t unresolved = 0;     ///< contact forces and closures that the reference solution has not found
+  transient::StepError step_error; ///< sums over contacts and members, squares of standard errors
   std::vector<FigureError> figures;
 };
 
 [[nodiscard]] SceneResult study(RandomScene scene, const StudyOptions& options);
 
-/// One line for each figure that fails.
-void print_failures(const SceneResult& result);
+/// One line for each figure that fails, or for all.
+void print_figures(const SceneResult& result, bool all);
 /// Shares within tolerance, errors and times, for each figure and kind of scene.
 void print_summary(const std::vector<SceneResult>& results, const StudyOptions& options);
 /// One row a figure. @throws core::Error where the file cannot be written

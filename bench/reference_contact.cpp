@@ -128,13 +128,23 @@ void ReferenceContact::commit(bool in_window, double weight) {
     add(weight * h_);
   }
   closed_ = true;
+  counted_ = in_window;
   slides_ = friction_.slides;
   spring_ = friction_.spring;
   force_ = friction_.force;
+  normal_before_ = normal_;
   ny_ = ny_now_;
   nz_ = nz_now_;
   gap_ = gap_now_;
   position_ = now_;
+}
+
+/// N: the slider's force where the spring meets the bound, both linear over the step. Without tangential damper.
+double ReferenceContact::slip_began() const {
+  const contact::FrictionLaw& law = support_.friction;
+  const double before = law.mu_static * normal_before_, after = law.mu_static * normal_;
+  const double spare = before - norm(force_), missing = norm(loaded_) - after;
+  return law.mu_dynamic / law.mu_static * (before + (after - before) * spare / (spare + missing));
 }
 
 void ReferenceContact::add(double h) {
@@ -155,14 +165,19 @@ void ReferenceContact::add(double h) {
   if (law.damping > 0.0) {
     const Vec2 stretching = (1.0 / law.damping) * (friction_.spring - force);
     slider_ -= h * dot(force, velocity_ - stretching);
-  } else { // -F.dz; in a slip under way F goes from the last one to this one
-    const Vec2 mean = slides_ && closed_ ? 0.5 * (force_ + force) : force;
+  } else { // -F.dz; F goes from where the slip begins to this one
+    const double bound = norm(force), began = slides_ || !closed_ ? norm(force_) : slip_began();
+    const Vec2 mean = (0.5 + 0.5 * began / bound) * force;
     slider_ -= dot(mean, force - loaded_) / law.stiffness;
   }
 }
 
 void ReferenceContact::leave_open(std::int64_t steps) {
   const double kept = steps == 1 ? relaxation_ : std::pow(relaxation_, static_cast<double>(steps));
+  if (const contact::FrictionLaw& law = support_.friction;
+      closed_ && counted_ && law.active() &&
+      !(law.damping > 0.0)) // the bound falls to 0: the slider takes the spring's energy
+    slider_ += dot(force_, force_) / (2.0 * law.stiffness);
   spring_ = kept * spring_ + (closed_ && support_.friction.damping > 0.0 ? by_first_ : 0.0) * force_;
   force_ = {};
   closed_ = slides_ = false;

@@ -63,11 +63,14 @@ private:
   [[nodiscard]] contact::Vec2 tangential(Local v, double ny, double nz) const;
   [[nodiscard]] Friction friction(double normal, contact::Vec2 free, const contact::Sym2& response) const;
   void add(double weight);
+  [[nodiscard]] double slip_began() const;
 
   contact::Support support_;
   double h_, relaxation_ = 0.0, by_first_ = 1.0, by_last_ = 0.0; ///< e, b_0, b_1
   // memory: of the last instant
   contact::Vec2 spring_, force_; ///< T, F, N
+  double normal_before_ = 0.0;   ///< N, at the last instant
+  bool counted_ = false;         ///< its last instant lay in the window
   bool closed_ = false, slides_ = false;
   double ny_ = 0.0, nz_ = 0.0, gap_ = 0.0; ///< normal where it was closed last
   Local position_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/error_estimate.hpp"
+#include "results/step_error.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -64,6 +65,8 @@ std::string name_of(ErrorKind kind) {
     return "none";
   case ErrorKind::statistical:
     return "statistical";
+  case ErrorKind::measured:
+    return "measured";
   case ErrorKind::verified:
     return "verified";
   }
@@ -90,6 +93,11 @@ ErrorEstimate error_estimate(const RunResults& results) {
     return {ErrorKind::none, nan,
             "none: no impacts in the window of the statistics, or steps too few for batches; "
             "transient.verify = true compares with half the step"};
+  if (const auto of_step = largest_error_of_sums(results))
+    return {ErrorKind::measured, std::hypot(relative, of_step->value),
+            fmt::format("{}; the step changes sums over contacts by {} +- {} % (replays)",
+                        scatter_text(relative), percent(std::abs(of_step->value)),
+                        percent(of_step->standard_error))};
   return {ErrorKind::statistical, relative,
           scatter_text(relative) + "; that of the step is unknown (transient.verify)"};
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// What the run knows of its own errors. The error of a figure has two parts: that of the step, which only a second run at half the step
-/// shows, and the scatter of a window of limited length, which batches show.
+/// What the run knows of its own errors. The error of a figure has two parts: that of the step, which replays measure (transient/replays.hpp) and a
+/// second run at half the step shows, and the scatter of a window of limited length, which batches show.
 #pragma once
 #include "results/run_results.hpp"
 
@@ -10,14 +10,15 @@ namespace fretwork::results {
 enum class ErrorKind {
   none,
   statistical, ///< the scatter only
+  measured,    ///< both: that of the step by replays
   verified     ///< both: the run was compared with one at half the step
 };
-/// As in summary.json: none, statistical, verified.
+/// As in summary.json: none, statistical, measured, verified.
 [[nodiscard]] std::string name_of(ErrorKind kind);
 
 struct ErrorEstimate {
   ErrorKind kind = ErrorKind::none;
-  /// The largest of work rate, friction power and impacts per second, each summed over the contacts: standard error and, where the run
+  /// The largest of work rate, friction power and impacts per second, each summed over the contacts: standard error and, where replays measure it or the run
   /// was compared with one at half the step, the error by the step that its difference stands for (post/verification.hpp), over the figure. Not a number where there is none.
   double relative;
   std::string text; ///< what it is, or why there is none

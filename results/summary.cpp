@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/error_estimate.hpp"
 #include "results/flow_json.hpp"
+#include "results/step_error.hpp"
 #include "results/text_file.hpp"
 #include "results/totals.hpp"
 #include "results/wear_json.hpp"
@@ -88,6 +89,16 @@ Json standard_error(const post::StandardErrors& e) {
           {"batches", number(e.batches)}};
 }
 
+/// Null where nothing was measured.
+Json step_error(const RunResults& results, const transient::StepError& of) {
+  if (results.step_errors.empty() || of.parts == 0)
+    return nullptr;
+  Json out{{"intervals", of.parts}};
+  for (const RelativeError& e : relative_errors(of))
+    out[e.name] = {{"relative", number(e.value)}, {"standard_error", number(e.standard_error)}};
+  return out;
+}
+
 Json flexibility(const std::optional<StaticFlexibility>& f) {
   if (!f)
     return nullptr;
@@ -140,7 +151,8 @@ Json contact_sums(const RunResults& results) {
            {{"work_rate", number(e.work_rate)},
             {"friction_power", number(e.friction_power)},
             {"impacts_per_second", number(e.impact_rate)},
-            {"batches", number(e.batches)}}}};
+            {"batches", number(e.batches)}}},
+          {"step_error", step_error(results, sum_of(results.step_errors))}};
 }
 
 Json compared(const std::vector<post::ComparedFigure>& figures) {
@@ -232,8 +244,11 @@ void add_transient(Json& out, const RunResults& results) {
   assert(results.node_summaries.size() == results.node_names.size());
   const TransientTotals totals = add_up(results.transients);
   out["contacts"] = Json::array();
-  for (std::size_t c = 0; c < results.contacts.size(); ++c)
+  for (std::size_t c = 0; c < results.contacts.size(); ++c) {
     out["contacts"].push_back(contact(results.contacts[c], results.contact_summaries[c]));
+    out["contacts"].back()["step_error"] =
+        results.step_errors.empty() ? Json(nullptr) : step_error(results, results.step_errors[c]);
+  }
   if (!results.contacts.empty())
     out["contact_sums"] = contact_sums(results);
   if (results.verification)

@@ -96,9 +96,11 @@ ContactStep::ContactStep(const contact::Support& support, const Components& rest
       across_ = std::max({across_, std::abs(w[to][from]), std::abs(w[from][to])});
   }
   across_ = std::max(across_, 0.5 * std::abs(w[1][1] - w[0][0]));
-  usual_ = interval(step / parts);
+  divide(parts);
   answer_ = interval(step).answer;
 }
+
+void ContactStep::divide(int parts) { usual_ = interval(h_ / parts); }
 
 ContactStep::Interval ContactStep::interval(double length) const {
   Interval of;

@@ -69,6 +69,8 @@ public:
   ContactStep(const contact::Support& support, const Components& rest, const Mobility& mobility,
               bool in_plane, double step, int parts, double clearance);
 
+  /// From now on the contact moves in so many intervals, >= 1, where it is closed throughout a step. No allocation.
+  void divide(int parts);
   /// Whether the contact can have a force in the step.
   [[nodiscard]] bool meets(const ContactPast& past, const FreePath& path) const;
   /// @param guess  N, its force at the start   @param act  overwritten. No allocation.

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int most_sweeps = 40;
 /// Of the largest force of a step: what contacts may still have to answer when the sweeps stop.
-constexpr double sweep_tolerance = 3e-4;
+constexpr double sweep_tolerance = 1e-3;
 
 } // namespace
 
@@ -18,6 +18,7 @@ ContactSweeps::ContactSweeps(const PackedContacts& contacts, std::vector<Mobilit
   const auto count = static_cast<std::size_t>(contacts.count);
   pasts_.resize(count);
   forces_.resize(count);
+  parts_.assign(count, parts);
   steps_.reserve(count);
   moving_.reserve(count);
   loaded_.reserve(count);
@@ -25,6 +26,26 @@ ContactSweeps::ContactSweeps(const PackedContacts& contacts, std::vector<Mobilit
     steps_.emplace_back(contacts.supports[c], Components{contacts.rest_y(c), contacts.rest_z(c), 0.0},
                         mobility_[static_cast<std::size_t>(c) * (count + 1)], contacts.in_plane[c] != 0, step,
                         parts, contacts.reach[c].limit[kernels::lane(c)]);
+}
+
+void ContactSweeps::divide(int c, int parts) {
+  parts_[c] = parts;
+  steps_[c].divide(parts);
+}
+
+void ContactSweeps::follow(const ContactSweeps& other) {
+  pasts_ = other.pasts_;
+  forces_ = other.forces_;
+  loaded_ = other.loaded_;
+  normal_springs_ = other.normal_springs_;
+  tangential_springs_ = other.tangential_springs_;
+}
+
+void ContactSweeps::visit(core::StateArchive& state) {
+  state(pasts_, forces_, parts_, loaded_, normal_springs_, tangential_springs_);
+  if (state.restores())
+    for (std::size_t c = 0; c < steps_.size(); ++c)
+      steps_[c].divide(parts_[c]);
 }
 
 void ContactSweeps::hold(int c, const contact::Location& at, double normal_force) {

@@ -26,6 +26,10 @@ public:
   /// @param step  h, s   @param parts  of contact_step.hpp
   ContactSweeps(const PackedContacts& contacts, std::vector<Mobility> mobility, double step, int parts);
 
+  /// From now on contact c moves in so many intervals a step, >= 1. No allocation.
+  void divide(int c, int parts);
+  /// All contacts are where those of `other` are, which has another step. No allocation.
+  void follow(const ContactSweeps& other);
   /// Contact c has borne this force before the run.
   void hold(int c, const contact::Location& at, double normal_force);
   /// Forces of a step. No allocation.
@@ -47,9 +51,7 @@ public:
   [[nodiscard]] const Force& force(int c) const { return forces_[c]; }
   /// Energy of all springs, J.
   [[nodiscard]] double spring_energy() const { return normal_springs_ + tangential_springs_; }
-  void visit(core::StateArchive& state) {
-    state(pasts_, forces_, loaded_, normal_springs_, tangential_springs_);
-  }
+  void visit(core::StateArchive& state);
 
 private:
   /// A contact in a step.
@@ -71,6 +73,7 @@ private:
   std::vector<Mobility> mobility_;
   double h_;
   std::vector<ContactStep> steps_;
+  std::vector<int> parts_; ///< of each contact
   std::vector<ContactPast> pasts_;
   std::vector<Force> forces_;
   std::vector<Moving> moving_;

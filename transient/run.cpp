@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/run.hpp"
+#include "transient/replays.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,10 +16,22 @@ constexpr int passing = 4;
 /// Of a fixed step, below all the parts that schemes cut it into: what the end of a run is told by.
 constexpr double least_part = 1.0 / 1024.0;
 
+/// Times as many intervals as the step rule gives that replays may ask for.
+constexpr int most_refined = 16;
+
+std::unique_ptr<Scheme> make_splitting_of(const Scene& scene, const StepChoice& c) {
+  if (!(c.replay > 0.0))
+    return make_splitting(scene, c.step, c.fastest, c.flight, c.parts);
+  return make_replayed(
+      make_replayable_splitting(scene, c.step, c.fastest, c.flight, c.parts),
+      make_replayable_splitting(scene, 0.5 * c.step, c.fastest, 2 * c.flight, c.parts),
+      {c.accuracy, c.replay, static_cast<int>(scene.contacts.size()), c.parts, most_refined * c.parts});
+}
+
 std::unique_ptr<Scheme> make_scheme(const Scene& scene, const StepChoice& choice) {
   switch (choice.scheme) {
   case SchemeKind::splitting:
-    return make_splitting(scene, choice.step, choice.fastest, choice.flight, choice.parts);
+    return make_splitting_of(scene, choice);
   case SchemeKind::collocation:
     return make_collocation(scene, choice.step);
   case SchemeKind::euler:

@@ -68,6 +68,8 @@ public:
   [[nodiscard]] double time() const { return report_.end_time; }
   /// After the last record: what was asked for up to the end. To be called once.
   [[nodiscard]] Report finish();
+  /// So far, contact by contact; empty: not measured.
+  [[nodiscard]] std::vector<StepError> step_errors() const { return scheme_->step_errors(); }
   /// With all that its scheme, observers and sampler know.
   void visit(core::StateArchive& state);
 

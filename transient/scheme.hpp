@@ -5,10 +5,12 @@
 #include "contact/vec2.hpp"
 #include "core/state_archive.hpp"
 #include "transient/scene.hpp"
+#include "transient/step_error.hpp"
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace fretwork::transient {
 
@@ -124,6 +126,8 @@ public:
   /// Modal force of the loads at a time, n values.
   virtual void load_at(double time, double* force) = 0;
   [[nodiscard]] virtual StepCounts counts() const = 0;
+  /// Errors by the step so far, measured by replays, contact by contact; empty: not measured.
+  [[nodiscard]] virtual std::vector<StepError> step_errors() const { return {}; }
   /// Why the scheme cannot go on from its last record.
   [[nodiscard]] virtual StepFailure failure() const { return StepFailure::none; }
   /// What lasts from record to record: a scheme made anew for the same scene and step that restores it gives the same records, states

@@ -21,6 +21,7 @@
 #include "transient/mass_scaling.hpp"
 #include "transient/modal_flow.hpp"
 #include "transient/obstacle_motion.hpp"
+#include "transient/replays.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -44,7 +45,7 @@ std::vector<int> lengths_up_to(int longest) {
   return lengths;
 }
 
-class Splitting final : public Scheme {
+class Splitting final : public Replayable {
 public:
   /// @param scene  in the coordinates p of mass_scaling.hpp   @param shown  n, q = shown p; empty: all 1
   Splitting(const Scene& scene, double step, const Eigen::VectorXd& shown, int longest, int parts)
@@ -111,6 +112,30 @@ public:
     modes_.load_at(time, force);
     scale(force, -1.0);
   }
+
+  double follow(const Replayable& running) override {
+    const auto& other = static_cast<const Splitting&>(running);
+    const Step& from = other.steps_[next(other.made_)];
+    Step& first = steps_[made_];
+    first.start = from.start;
+    first.from = from.from;
+    done_ = std::llround(from.start / h_);
+    modes_.load_about(first.start, first.load);
+    end_.u = other.end_.u;
+    end_.w = other.end_.w;
+    obstacles_.at(first.start, carried_[1]);
+    sweeps_.follow(other.sweeps_);
+    was_near_ = other.was_near_;
+    near_ = other.near_;
+    moving_ = other.moving_;
+    booked_ = other.booked_;
+    wait_ = other.wait_;
+    scatter(nullptr);
+    make();
+    return first.start;
+  }
+
+  void divide(int contact, int parts) override { sweeps_.divide(contact, parts); }
 
   [[nodiscard]] double next_time() const override { return steps_[made_].start + 0.5 * steps_[made_].length; }
 
@@ -367,15 +392,20 @@ private:
 
 } // namespace
 
-std::unique_ptr<Scheme> make_splitting(const Scene& scene, double step, double fastest, int longest,
-                                       int parts) {
-  if (scene.residual.size() > 0)
-    return make_flexible_splitting(scene, step, fastest);
+std::unique_ptr<Replayable> make_replayable_splitting(const Scene& scene, double step, double fastest,
+                                                      int longest, int parts) {
   const Eigen::VectorXd masses = scaled_masses(scene, fastest);
   if ((masses.array() == 1.0).all())
     return std::make_unique<Splitting>(scene, step, Eigen::VectorXd(), longest, parts);
   return std::make_unique<Splitting>(with_masses(scene, masses), step, masses.cwiseSqrt().cwiseInverse(),
                                      longest, parts);
+}
+
+std::unique_ptr<Scheme> make_splitting(const Scene& scene, double step, double fastest, int longest,
+                                       int parts) {
+  if (scene.residual.size() > 0)
+    return make_flexible_splitting(scene, step, fastest);
+  return make_replayable_splitting(scene, step, fastest, longest, parts);
 }
 
 } // namespace fretwork::transient

@@ -34,9 +34,11 @@ double most_normally_damped(SchemeKind scheme) { return scheme == SchemeKind::sp
 /// w_c h that normal dampers never make the step shorter than: a damper that is faster leaves no rebound (e < 0.001), and resolving it costs
 /// without end.
 constexpr double finest_for_dampers = 0.03;
-/// w_c dt and w_t dt of the intervals of splitting at an accuracy of 0.01, and how many a step has at most: 97 to 98 % of the figures of random masses
-/// are within 2 % then (bench/run accuracy); at 0.35 friction powers of contacts that mostly stick are up to 20 % off.
-constexpr double interval_share = 0.25, most_intervals = 64.0;
+/// w_c dt and w_t dt of the intervals of splitting at an accuracy of 0.01, and how many a step has at most. Of contacts that mostly stick figures are
+/// up to 20 % off then, until replays (replays.hpp) have shown it: they move in up to 16 times as many intervals.
+constexpr double interval_share = 0.35, most_intervals = 64.0;
+/// Length of a replay: w_c times it; in steps, at least; of the duration, at most.
+constexpr double contact_times = 30.0, least_replay = 8.0, longest_replay = 0.01;
 /// Of a damper's rate times the step of devogelaere, whose limit is 0.59.
 constexpr double most_damped = 0.5;
 /// The step of an accuracy of 0.02 is the longest: no statistics are worth having above it.
@@ -71,7 +73,7 @@ Shares shares(const StepChoice& c, const Scene& scene) {
   switch (c.scheme) {
   case SchemeKind::splitting:
     return {c.highest_mode <= slow_modes * c.contact_frequency ? 1.0 : 0.8,
-            has_intervals(c, scene) ? 0.5 : 0.25, 6.3};
+            has_intervals(c, scene) ? 1.0 : 0.25, 6.3};
   case SchemeKind::collocation:
     return {0.5, 0.5, 2.0};
   default:
@@ -249,6 +251,15 @@ int intervals_of_step(const StepChoice& c, const Scene& scene, double fineness) 
   return static_cast<int>(std::clamp(std::ceil(needed * (1.0 - 1e-9)), 1.0, most_intervals));
 }
 
+/// Length of replays: some five periods of closed contacts, sticking ones included.
+double replay_length(const StepChoice& c, const Scene& scene) {
+  if (!has_intervals(c, scene) || !(c.contact_frequency > 0.0))
+    return 0.0;
+  const double slowest =
+      c.stick_frequency > 0.0 ? std::min(c.contact_frequency, c.stick_frequency) : c.contact_frequency;
+  return std::min(std::max(contact_times / slowest, least_replay * c.step), longest_replay * scene.duration);
+}
+
 /// Steps that splitting may make at once where no contact can meet its obstacle: the flow is exact, but loads are linear over them and
 /// statistics are to see the modes (a dozen points a period of the highest). Tables may change inside.
 int flight_steps(const StepChoice& c, const Scene& scene, double fineness) {
@@ -324,14 +335,15 @@ StepChoice choice_of(const Scene& scene, const SceneRates& rates, const StepOpti
   if (scheme == SchemeKind::devogelaere)
     c.explicit_rate = std::max(c.explicit_rate, relaxation_rate(scene));
   c.tolerance = options.tolerance;
-  const double fineness = fineness_of(options.accuracy);
-  if (!options.step) {
+  c.accuracy = options.accuracy;
+  if (options.step)
+    c.step = *options.step;
+  else
     choose_automatic(c, scene, options.accuracy);
-    c.parts = intervals_of_step(c, scene, fineness);
+  c.parts = intervals_of_step(c, scene, fineness_of(options.accuracy));
+  c.replay = replay_length(c, scene);
+  if (!options.step)
     return c;
-  }
-  c.step = *options.step;
-  c.parts = intervals_of_step(c, scene, fineness);
   c.reason = "given in the study";
   if (c.scheme != SchemeKind::runge_kutta_54) {
     c.steps = count_steps(scene.duration, c);
@@ -386,9 +398,15 @@ int order_of_statistics(const Scene& scene, SchemeKind scheme) {
   case SchemeKind::euler:
   case SchemeKind::runge_kutta_54:
     return 1;
-  case SchemeKind::splitting:
   case SchemeKind::energy_conserving:
     return 2;
+  case SchemeKind::splitting:
+    return std::any_of(scene.contacts.begin(), scene.contacts.end(),
+                       [](const ContactPoint& point) {
+                         return point.support.normal.damping > 0.0 || point.support.friction.active();
+                       })
+               ? 1
+               : 2;
   case SchemeKind::collocation:
   case SchemeKind::devogelaere:
     return std::any_of(scene.contacts.begin(), scene.contacts.end(),

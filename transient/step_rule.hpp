@@ -5,7 +5,7 @@
 ///     h = min{ c/w_c, s t_s, r/r_t, max(2/r_n, 0.03/w_c), m/w_max },  the shares at an accuracy of 0.01; others grow and fall with its square root
 ///
 ///                          c      s      r     m
-///     splitting            1      0.25   6.3   2.5 where modes cannot be made heavier (mass_scaling.hpp); c = 0.45 where some are, 0.8
+///     splitting            1      1      6.3   2.5 where modes cannot be made heavier (mass_scaling.hpp); c = 0.45 where some are, 0.8
 ///                                              with modes above 0.6 w_c
 ///     collocation          0.5    0.5    2     -
 ///     energy_conserving    0.3    0.3    2     2.5
@@ -57,7 +57,10 @@ struct StepChoice : SceneRates {
       0.0; ///< rad/s: of the automatic step of splitting: faster modes are made heavier (mass_scaling.hpp); 0: none
   int scaled = 0; ///< how many modes that are
   int parts = 1;  ///< intervals in which splitting moves contacts within a step
-  int flight = 1; ///< steps that splitting makes at once while no contact can meet its obstacle
+  double replay =
+      0.0; ///< s, length of the replays that measure the error of the step and refine `parts` (replays.hpp); 0: none
+  double accuracy = 0.01; ///< asked for
+  int flight = 1;         ///< steps that splitting makes at once while no contact can meet its obstacle
   double explicit_rate =
       0.0; ///< r_e, 1/s: of the dampers that only Euler and devogelaere have to resolve; 0 with others
   std::string reason;        ///< one line for the user
@@ -73,7 +76,8 @@ struct StepChoice : SceneRates {
 [[nodiscard]] StepChoice halved(StepChoice choice);
 
 /// p of the statistics of a run with contacts: their error falls by 2^p from a choice to the halved one. 1 for euler, for the adaptive
-/// scheme, whose error goes as its tolerance, and with the memory `reference`, whose spring jumps once a step; of the schemes of order 4 where a
+/// scheme, whose error goes as its tolerance, and with the memory `reference`, whose spring jumps once a step; of splitting with friction or normal dampers
+/// (measured: 1.3 to 2); of the schemes of order 4 where a
 /// normal damper's force jumps at a touch or a spring of friction without damper is set once a step; else 2, also of the schemes of order 4:
 /// forces have a kink where a contact opens or closes inside a step, which costs them the order on all but single smooth paths
 /// (doc/schemes.md).

@@ -69,11 +69,26 @@ TEST(Summary, ListsStaticModesApart) {
 TEST(Summary, HasTheKeysOfTheContractForAContactAndANode) {
   const Json s = summary_of(made_up());
   const Json& c = s["contacts"][0];
-  EXPECT_EQ(keys(c),
-            (Keys{"name", "impacts", "impacts_per_second", "standard_error", "contact_time_ratio",
-                  "normal_force", "normal_force_in_contact", "tangential_force", "displacement", "work_rate",
-                  "friction_power", "impact_velocity", "contact_duration", "departure_velocity", "energy",
-                  "sliding_distance_m", "impulse_Ns", "sticking_ratio", "static_flexibility"}));
+  EXPECT_EQ(keys(c), (Keys{"name",
+                           "impacts",
+                           "impacts_per_second",
+                           "standard_error",
+                           "contact_time_ratio",
+                           "normal_force",
+                           "normal_force_in_contact",
+                           "tangential_force",
+                           "displacement",
+                           "work_rate",
+                           "friction_power",
+                           "impact_velocity",
+                           "contact_duration",
+                           "departure_velocity",
+                           "energy",
+                           "sliding_distance_m",
+                           "impulse_Ns",
+                           "sticking_ratio",
+                           "step_error",
+                           "static_flexibility"}));
   EXPECT_EQ(keys(c["departure_velocity"]), (Keys{"mean", "max"}));
   EXPECT_EQ(keys(c["energy"]), (Keys{"damping_J", "friction_J"}));
   EXPECT_EQ(keys(c["normal_force"]), (Keys{"mean", "rms", "max"}));
@@ -122,8 +137,23 @@ TEST(Summary, PutsEachStatisticUnderItsName) {
     "energy": {"damping_J": 27.0, "friction_J": 28.0},
     "standard_error": {"work_rate": 30.0, "friction_power": 31.0, "impacts_per_second": 33.0, "normal_force": {"rms": 32.0},
                        "displacement": {"y": {"std": 34.0}, "z": {"std": 35.0}}, "batches": 36.0},
-    "static_flexibility": {"exact": 37.0, "basis": 38.0, "missing": 39.0}})"));
+    "step_error": null, "static_flexibility": {"exact": 37.0, "basis": 38.0, "missing": 39.0}})"));
   EXPECT_TRUE(summary_of(results)["contacts"][0]["static_flexibility"].is_null()) << "there is none";
+}
+
+TEST(Summary, CarriesTheMeasuredErrorsOfTheStep) {
+  RunResults results = made_up({.contacts = 2});
+  results.step_errors.resize(2);
+  results.step_errors[1].parts = 3;
+  results.step_errors[1].sums[transient::replayed_work] = 2.0;
+  results.step_errors[1].errors[transient::replayed_work] = -0.5;
+  results.step_errors[1].spreads[transient::replayed_work] = 0.25;
+  const Json s = summary_of(results),
+             error = Json::parse(
+                 R"({"intervals": 3, "work_rate": {"relative": -0.25, "standard_error": 0.125}})");
+  EXPECT_TRUE(s["contacts"][0]["step_error"].is_null()) << "of a run without replays";
+  EXPECT_EQ(s["contacts"][1]["step_error"], error);
+  EXPECT_EQ(s["contact_sums"]["step_error"], error);
 }
 
 TEST(Summary, AddsUpTheContactsWithTheErrorsOfTheSums) {

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/error_estimate.hpp"
+#include "results/step_error.hpp"
+#include "synthetic.hpp"
+#include <gmock/gmock.h>
+
+using namespace fretwork;
+using namespace fretwork::results;
+using testing::HasSubstr;
+using transient::StepError;
+
+namespace {
+
+/// Work 2 J with an error of 0.1 +- 0.02, squares 4 N2 s with 0.4 +- 0.1, nothing else.
+StepError work_and_squares() {
+  StepError out;
+  out.parts = 4;
+  out.sums[transient::replayed_work] = 2.0;
+  out.errors[transient::replayed_work] = 0.1;
+  out.spreads[transient::replayed_work] = 0.02;
+  out.sums[transient::replayed_square] = 4.0;
+  out.errors[transient::replayed_square] = 0.4;
+  out.spreads[transient::replayed_square] = 0.1;
+  return out;
+}
+
+StepError work(double sum, double error, double spread) {
+  StepError out;
+  out.parts = 1;
+  out.sums[transient::replayed_work] = sum;
+  out.errors[transient::replayed_work] = error;
+  out.spreads[transient::replayed_work] = spread;
+  return out;
+}
+
+} // namespace
+
+TEST(StepErrors, AreRelativeToTheirFigureAndHalfOfThatOfASquare) {
+  const auto errors = relative_errors(work_and_squares());
+  ASSERT_EQ(errors.size(), 2u);
+  EXPECT_EQ(errors[0].name, "work_rate");
+  EXPECT_DOUBLE_EQ(errors[0].value, 0.05);
+  EXPECT_DOUBLE_EQ(errors[0].standard_error, 0.01);
+  EXPECT_EQ(errors[1].name, "normal_force_rms");
+  EXPECT_DOUBLE_EQ(errors[1].value, 0.05);
+  EXPECT_DOUBLE_EQ(errors[1].standard_error, 0.0125);
+  EXPECT_TRUE(relative_errors({}).empty());
+}
+
+TEST(StepErrors, OfSumsAddUpAndTheirStandardErrorsInSquares) {
+  const StepError sum = sum_of({work(2.0, 0.1, 0.03), work(3.0, -0.2, 0.04)});
+  EXPECT_DOUBLE_EQ(sum.sums[transient::replayed_work], 5.0);
+  EXPECT_DOUBLE_EQ(sum.errors[transient::replayed_work], -0.1);
+  EXPECT_DOUBLE_EQ(sum.spreads[transient::replayed_work], 0.05);
+}
+
+TEST(StepErrors, ThatStandOutAboveTheAccuracyAreNamed) {
+  RunResults results = made_up({.contacts = 2});
+  results.accuracy = 0.01;
+  results.step_errors = {work(2.0, 0.1, 0.02), work(2.0, 0.1, 0.1)}; // 5 +- 1 %, 5 +- 5 %
+  const std::string said = unmet_accuracy(results);
+  EXPECT_THAT(said, HasSubstr("\"" + results.contacts[0].name + "\""));
+  EXPECT_THAT(said, HasSubstr("work_rate of " + results.contacts[0].name + ": +5 +- 1 %"));
+  EXPECT_EQ(said.find("\"" + results.contacts[1].name + "\""), std::string::npos) << "may be chance";
+  results.step_errors[0] = work(2.0, 0.015, 0.001); // 0.75 %
+  EXPECT_EQ(unmet_accuracy(results), "");
+  results.step_errors[0] = work(0.01, 0.001, 1e-5); // 10 % of what matters to nobody
+  EXPECT_EQ(unmet_accuracy(results), "");
+  results.step_errors.clear();
+  EXPECT_EQ(unmet_accuracy(results), "");
+}
+
+TEST(StepErrors, ArePartOfTheErrorEstimate) {
+  RunResults results = made_up({.contacts = 2});
+  results.step_errors = {work(2.0, 0.1, 0.02), work(2.0, 0.1, 0.02)};
+  const ErrorEstimate e = error_estimate(results);
+  EXPECT_EQ(e.kind, ErrorKind::measured);
+  EXPECT_THAT(e.text, HasSubstr("the step changes sums over contacts by 5 +- 0.71 % (replays)"));
+  EXPECT_GT(e.relative, 0.05);
+}
