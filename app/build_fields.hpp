@@ -3,6 +3,7 @@
 /// Loads and initial state of a study as fields over the whole model.
 #pragma once
 #include "app/support_motion.hpp"
+#include "app/turbulent_loads.hpp"
 #include "fem/model.hpp"
 #include "mesh/line_mesh.hpp"
 #include "study/study.hpp"
@@ -21,6 +22,7 @@ struct Fields {
     bool of_support = false; ///< what a support motion does to the modes
   };
   std::vector<Load> loads;
+  std::vector<TurbulentLoad> turbulence; ///< set apart: of the placed flows
   std::vector<std::string> warnings;
   std::vector<Eigen::VectorXd> supports; ///< shapes of the study's support motions (support_motion.hpp)
   bool moves_at_start = false;

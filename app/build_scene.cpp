@@ -210,6 +210,10 @@ void drop_round_off(transient::Scene& scene) {
   };
   for (transient::Load& load : scene.loads)
     drop(load.modal_force);
+  for (transient::SampledLoad& load : scene.sampled_loads) {
+    drop(load.rms);
+    load.scale = (load.rms.array() != 0.0).select(load.scale, 0.0).eval();
+  }
   drop(scene.q0);
   drop(scene.v0);
 }
@@ -296,6 +300,9 @@ BuiltScene build_scene(const study::Study& study, const Fields& fields, const st
       append(force, basis->shapes.transpose() * restricted(*basis, load.force));
     scene.loads.push_back({load.function, force, load.inertial});
   }
+  for (const TurbulentLoad& load : fields.turbulence)
+    if (auto sampled = sampled_load(load, bases, out.notes))
+      scene.sampled_loads.push_back(std::move(*sampled));
   scene.q0 = scene.v0 = Eigen::VectorXd::Zero(scene.system.size());
   if (fields.moves_at_start) {
     scene.q0 = project(bases, fields.displacement_momentum, fields.displacement, "displacement", out);

@@ -4,10 +4,12 @@
 #include "app/contact_notes.hpp"
 #include "app/folder_lock.hpp"
 #include "app/jobs.hpp"
+#include "app/linear_response.hpp"
 #include "app/modes_limit.hpp"
 #include "app/progress.hpp"
 #include "app/python_report.hpp"
 #include "app/residual_flexibility.hpp"
+#include "app/run_spectra.hpp"
 #include "app/stability.hpp"
 #include "app/static_modes.hpp"
 #include "app/support_motion.hpp"
@@ -58,6 +60,8 @@ results::RunRecord make_record(const Inputs& inputs, int ranks) {
   for (const auto& load : inputs.study.loads)
     if (const auto* random = std::get_if<transient::Random>(&load.function))
       record.seeds.push_back(random->seed);
+  for (const study::Turbulence& turbulence : inputs.study.turbulence)
+    record.seeds.push_back(turbulence.seed);
   for (const auto& motion : inputs.study.base_motions)
     if (const auto* random = std::get_if<transient::Random>(&motion.acceleration))
       record.seeds.push_back(random->seed);
@@ -325,6 +329,8 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
           "the study has no [transient]; add it, or compute its modes with: fretwork modes STUDY");
     if (last == Stage::stability && inputs.study.flows.empty())
       throw core::Error("the study has no [[flow]] to be stable in; add it (doc/study-file.md)");
+    if (last == Stage::response && inputs.study.turbulence.empty())
+      throw core::Error("the study has no [[turbulence]] to respond to; add it (doc/study-file.md)");
     make_directory(inputs.directory);
     if (first_rank)
       lock.emplace(inputs.directory, inputs.study.file.string());
@@ -353,6 +359,7 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
   fem::Model model;
   std::vector<PlacedContact> placed, inactive;
   std::vector<PlacedFlow> flows;
+  std::vector<TurbulentLoad> turbulence;
   std::vector<NamedNode> nodes;
   std::vector<MovedSupport> moved;
   std::vector<WornPlace> worn;
@@ -362,6 +369,7 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
     placed = place_contacts(inputs.study, mesh, model, out.warnings);
     inactive = take_inactive(inputs.study, placed);
     flows = place_flows(inputs.study, mesh, model, out.notes);
+    turbulence = turbulent_loads(inputs.study, model, flows, out.notes);
     nodes = observed_nodes(inputs.study, mesh);
     moved = moved_supports(inputs.study, mesh, model);
     worn = worn_places(inputs.study, model, placed);
@@ -395,15 +403,22 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
     }
     const TubesInFlow tubes{inputs.study, mesh, model, flows};
     if (inputs.study.modes.flow_damping)
-      core::agree(comm, [&] { damp_by_flow(tubes, placed, inactive, out); });
+      core::agree(comm, [&] {
+        out.flow_damping = damp_by_flow(tubes, DampingSet::transient, placed, inactive, out.bases);
+        for (const results::TubeDamping& tube : out.flow_damping)
+          out.notes.insert(out.notes.end(), tube.limits.begin(), tube.limits.end());
+      });
     if (last == Stage::stability || (last == Stage::transient && !inputs.study.stabilities.empty()))
       assess_stability(comm, tubes, together(placed, inactive), out);
+    if (last == Stage::response || (last == Stage::transient && !inputs.study.responses.empty()))
+      linear_responses(comm, tubes, turbulence, together(placed, inactive), nodes, out);
     out.timings.modes = watch.lap();
     if (last == Stage::transient) {
       progress.stage("basis");
       core::agree(comm, [&] {
         at_contacts.fields =
             build_fields(inputs.study, mesh, model, support_fields(moved, model, modes.structures));
+        at_contacts.fields.turbulence = turbulence;
         at_contacts.joined = joined_structures(out.bases, placed);
       });
       at_contacts.flexibilities =
@@ -449,6 +464,17 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
   core::agree(comm, [&] {
     if (first_rank && !out.stability.empty())
       results::write_stability_csv(inputs.directory / "stability.csv", out);
+    for (const char* file : {"flow.csv", "spectra.csv"}) { // of an earlier state of the study
+      std::error_code ignored;
+      if (first_rank && last == Stage::transient)
+        fs::remove(inputs.directory / file, ignored);
+    }
+    if (first_rank && !flows.empty())
+      results::write_flow_csv(inputs.directory / "flow.csv", flow_rows(inputs.study, model, flows));
+    if (first_rank && last == Stage::transient && !turbulence.empty())
+      results::write_spectra_csv(inputs.directory / "spectra.csv", run_spectra(turbulence, out));
+    if (first_rank && !out.responses.empty())
+      results::write_response_csv(inputs.directory / "response.csv", out);
     if (!first_rank || current) // the results of a whole run hold its modes too: `modes` leaves them
       return;
     // whatever is interrupted from here on, no summary or report tells of other results than those in results.h5
@@ -472,7 +498,7 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
   if (last == Stage::modes)
     say(results::modes_table(out));
   if (last != Stage::transient)
-    say(results::flow_damping_table(out) + results::stability_table(out));
+    say(results::flow_damping_table(out) + results::stability_table(out) + results::response_table(out));
   say(results::terminal_table(out) + fmt::format("results: {}\n", inputs.directory.string()) + report_line);
 }
 
@@ -481,12 +507,17 @@ std::string check(const Request& request) {
   const mesh::LineMesh mesh = mesh::read(inputs.study.mesh);
   fem::Model model = build_model(inputs.study, mesh);
   const auto structures = moving_structures(model);
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings, notes;
   auto placed = place_contacts(inputs.study, mesh, model, warnings);
   const auto inactive = take_inactive(inputs.study, placed);
   const auto flows = place_flows(inputs.study, mesh, model, warnings);
+  static_cast<void>(turbulent_loads(inputs.study, model, flows, notes));
   for (const study::Stability& assessment : inputs.study.stabilities)
-    static_cast<void>(pins_of(assessment, inputs.study, model, together(placed, inactive), warnings));
+    static_cast<void>(
+        pins_of(pins_asked(assessment), inputs.study, model, together(placed, inactive), warnings));
+  for (const study::Response& response : inputs.study.responses)
+    static_cast<void>(
+        pins_of(pins_asked(response), inputs.study, model, together(placed, inactive), warnings));
   const auto nodes = observed_nodes(inputs.study, mesh);
   static_cast<void>(moved_supports(inputs.study, mesh, model));
   const auto worn = worn_places(inputs.study, model, placed);

@@ -6,7 +6,7 @@
 
 namespace fretwork::app {
 
-enum class Stage { mesh, modes, stability, transient };
+enum class Stage { mesh, modes, stability, response, transient };
 
 /// Collective. The chain up to a stage: mesh, modes, stability in flow, transient with results (and stability where the
 /// study asks for it). `with_report`: also

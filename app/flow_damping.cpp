@@ -112,37 +112,41 @@ results::TubeDamping damping_of_tube(const TubesInFlow& tubes, const PlacedFlow&
   return out;
 }
 
-void damp_by_flow(const TubesInFlow& tubes, const std::vector<PlacedContact>& contacts,
-                  const std::vector<PlacedContact>& inactive, results::RunResults& out) {
+std::vector<results::TubeDamping> damp_by_flow(const TubesInFlow& tubes, DampingSet set,
+                                               const std::vector<PlacedContact>& contacts,
+                                               const std::vector<PlacedContact>& left_out,
+                                               std::vector<modal::Basis>& bases) {
+  std::vector<results::TubeDamping> out;
   std::map<std::size_t, Mixture> mixtures;
   for (const PlacedFlow& placed : tubes.flows) {
     const study::Flow& flow = tubes.study.flows[placed.entry];
-    const std::size_t structure = structure_of(placed, flow.name, out.bases);
+    const std::size_t structure = structure_of(placed, flow.name, bases);
     const flow::Tube tube = tube_of(tubes.study, placed, tubes.model);
-    const flow::Sampling sampling = flow::sample(tube, placed.profile, out.bases[structure]);
+    const flow::Sampling sampling = flow::sample(tube, placed.profile, bases[structure]);
     results::TubeDamping found = damping_of_tube(
-        tubes, placed, tube, sampling, supports_of(tubes, placed, tube, contacts, inactive), name_of(flow));
+        tubes, placed, tube, sampling, supports_of(tubes, placed, tube, contacts, left_out), name_of(flow));
     found.structure = structure;
     const Eigen::VectorXd share = flow::transverse_share(sampling);
     auto [mixture, fresh] = mixtures.try_emplace(structure);
     if (fresh)
       mixture->second = {Eigen::VectorXd::Zero(share.size()), Eigen::VectorXd::Zero(share.size()),
                          flow.structural_damping};
-    mixture->second.weighted += share.cwiseProduct(found.damping.transient());
+    mixture->second.weighted += share.cwiseProduct(set == DampingSet::stability ? found.damping.stability()
+                                                                                : found.damping.transient());
     mixture->second.shares += share;
-    out.notes.insert(out.notes.end(), found.limits.begin(), found.limits.end());
-    out.flow_damping.push_back(std::move(found));
+    out.push_back(std::move(found));
   }
-  for (std::size_t s = 0; s < out.bases.size(); ++s) {
+  for (std::size_t s = 0; s < bases.size(); ++s) {
     const auto mixture = mixtures.find(s);
     if (mixture == mixtures.end())
       throw core::Error(
           fmt::format("modes.damping = \"flow\": the structure that starts at node {} has no [[flow]]; give "
                       "it one, or give "
                       "modes.damping ratios",
-                      fem::place(tubes.model.nodes[static_cast<std::size_t>(out.bases[s].nodes.front())])));
-    modal::apply_damping(out.bases[s], mixture->second.ratios());
+                      fem::place(tubes.model.nodes[static_cast<std::size_t>(bases[s].nodes.front())])));
+    modal::apply_damping(bases[s], mixture->second.ratios());
   }
+  return out;
 }
 
 } // namespace fretwork::app

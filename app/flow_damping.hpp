@@ -38,11 +38,18 @@ struct TubesInFlow {
                                                    std::span<const flow::TubeSupport> supports,
                                                    const std::string& what);
 
-/// Gives every mode the ratio of the transient set; a mode of several tubes the mean of theirs, weighted by the share of
-/// it that moves each (flow::transverse_share). Records the terms, and notes limits.
-/// @param contacts  the active ones   @param inactive  the others
+/// The two sets of flow/damping.hpp: for linear modes whose supports hold the tube, and beside contacts that take energy themselves.
+enum class DampingSet { stability, transient };
+
+/// Gives every mode the ratio of a set; a mode of several tubes the mean of theirs, weighted by the share of
+/// it that moves each (flow::transverse_share).
+/// @param contacts  those that support the tubes   @param left_out  the others
+/// @param bases     of a model with the nodes of tubes.model
+/// @return the terms, by tubes
 /// @throws core::Error for a structure without a flow
-void damp_by_flow(const TubesInFlow& tubes, const std::vector<PlacedContact>& contacts,
-                  const std::vector<PlacedContact>& inactive, results::RunResults& out);
+[[nodiscard]] std::vector<results::TubeDamping> damp_by_flow(const TubesInFlow& tubes, DampingSet set,
+                                                             const std::vector<PlacedContact>& contacts,
+                                                             const std::vector<PlacedContact>& left_out,
+                                                             std::vector<modal::Basis>& bases);
 
 } // namespace fretwork::app

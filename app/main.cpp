@@ -80,7 +80,7 @@ int main(int argc, char** argv) {
   CLI::App program{
       "Fretwork: from a line mesh of a vibrating structure to its impacts, friction and wear.\n\n"
       "A study is one TOML file (doc/study-file.md). Start from an example:\n"
-      "  fretwork run examples/u_bend/study.toml\n"
+      "  fretwork run examples/tube_study/study.toml\n"
       "  fretwork check study.toml\n"
       "  mpirun -n 2 fretwork run study.toml --set transient.duration=1"};
   program.name("fretwork");
@@ -102,6 +102,10 @@ int main(int argc, char** argv) {
   CLI::App* stability = program.add_subcommand(
       "stability", "fluid-elastic stability of tubes in their flow, on modes pinned at supports");
   add_run_options(*stability, request);
+  CLI::App* response = program.add_subcommand(
+      "response",
+      "linear response to turbulence by spectra, on modes pinned at supports, without a transient");
+  add_run_options(*response, request);
   CLI::App* transient =
       program.add_subcommand("transient", "up to the results of the transient, without report");
   add_run_options(*transient, request);
@@ -127,8 +131,10 @@ int main(int argc, char** argv) {
     return program.exit(error) == 0 ? 0 : input_is_wrong;
   }
   if (program.get_subcommands().empty()) {
-    fmt::print(stderr, "fretwork: a command is missing; give one of run, mesh, modes, stability, transient, "
-                       "check, report, export (--help explains them)\n");
+    fmt::print(
+        stderr,
+        "fretwork: a command is missing; give one of run, mesh, modes, stability, response, transient, "
+        "check, report, export (--help explains them)\n");
     return input_is_wrong;
   }
   request.report = !no_report;
@@ -153,6 +159,7 @@ int main(int argc, char** argv) {
   const app::Stage last = mesh->parsed()        ? app::Stage::mesh
                           : modes->parsed()     ? app::Stage::modes
                           : stability->parsed() ? app::Stage::stability
+                          : response->parsed()  ? app::Stage::response
                                                 : app::Stage::transient;
   static_cast<void>(transient);
   return guarded([&] { app::run_chain(MPI_COMM_WORLD, request, last); });

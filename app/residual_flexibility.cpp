@@ -33,7 +33,7 @@ Eigen::VectorXd static_values(const transient::Scene& scene) {
   Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Index>(scene.loads.size()));
   for (std::size_t l = 0; l < scene.loads.size(); ++l)
     if (!scene.loads[l].inertial)
-      values(static_cast<Index>(l)) = transient::Signal(scene.loads[l].function, scene.duration)(0.0);
+      values(static_cast<Index>(l)) = transient::static_value(scene.loads[l].function, scene.duration);
   return values;
 }
 

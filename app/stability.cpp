@@ -1,39 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/stability.hpp"
-#include "app/pinned_model.hpp"
-#include "app/stages.hpp"
 #include "core/error.hpp"
 #include "core/mpi.hpp"
 #include "flow/vortex_shedding.hpp"
-#include "modal/slepc_structures.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
 namespace fretwork::app {
 namespace {
-
-bool is_pinned(const study::Stability& assessment, const study::Contact& contact) {
-  switch (assessment.pinned) {
-  case study::Pinned::contacts:
-    return contact.active;
-  case study::Pinned::none:
-    return false;
-  case study::Pinned::named:
-    break;
-  }
-  const auto& names = assessment.contacts;
-  return std::find(names.begin(), names.end(), contact.name) != names.end();
-}
-
-std::vector<std::string> names_of(const study::Study& study, const std::vector<PlacedContact>& pins) {
-  std::vector<std::string> names;
-  for (const PlacedContact& pin : pins)
-    if (const std::string& name = study.contacts[pin.entry].name;
-        std::find(names.begin(), names.end(), name) == names.end())
-      names.push_back(name);
-  return names;
-}
 
 /// Modes near the frequency of vortices, one warning for each zone: the nearest.
 void screen_shedding(const std::string& what, const PlacedFlow& placed, const flow::Sampling& sampling,
@@ -64,22 +39,20 @@ void screen_shedding(const std::string& what, const PlacedFlow& placed, const fl
 
 /// One tube on the modes of one assessment. @param all  takes warnings
 results::StabilityAssessment assess(const TubesInFlow& tubes, const PlacedFlow& placed,
-                                    const study::Stability& assessment,
-                                    const std::vector<PlacedContact>& pins,
-                                    const std::vector<PlacedContact>& others,
-                                    const std::vector<modal::Basis>& bases, results::RunResults& all) {
+                                    const study::Stability& assessment, const PinnedModes& modes,
+                                    results::RunResults& all) {
   const study::Flow& flow = tubes.study.flows[placed.entry];
   const std::string what = fmt::format("stability \"{}\", {}", assessment.name, name_of(flow));
   const flow::Tube tube = tube_of(tubes.study, placed, tubes.model);
-  const std::size_t structure = structure_of(placed, flow.name, bases);
-  const flow::Sampling sampling = flow::sample(tube, placed.profile, bases[structure]);
+  const std::size_t structure = structure_of(placed, flow.name, modes.bases);
+  const flow::Sampling sampling = flow::sample(tube, placed.profile, modes.bases[structure]);
   results::StabilityAssessment out;
   out.name = assessment.name;
-  out.pinned = names_of(tubes.study, pins);
+  out.pinned = names_of(tubes.study, modes.pins.held);
   out.sweep = assessment.sweep;
   out.damping_given = assessment.damping.has_value();
-  out.damping =
-      damping_of_tube(tubes, placed, tube, sampling, supports_of(tubes, placed, tube, pins, others), what);
+  out.damping = damping_of_tube(tubes, placed, tube, sampling,
+                                supports_of(tubes, placed, tube, modes.pins.held, modes.pins.left_out), what);
   out.damping.structure = structure;
   const Eigen::VectorXd ratios = assessment.damping
                                      ? Eigen::VectorXd::Constant(sampling.modes(), *assessment.damping)
@@ -104,13 +77,16 @@ void report(const results::StabilityAssessment& found, results::RunResults& out)
     return;
   const bool unstable = worst->margin() <= 0.0;
   const auto& mode = found.stability.modes[static_cast<std::size_t>(worst->critical_mode)];
-  (unstable ? out.warnings : out.notes)
-      .push_back(fmt::format(
-          "stability \"{}\" of flow \"{}\": V/Vc = {:.4g} in mode {} at {:.4g} Hz, margin "
-          "{:.4g}{}",
-          found.name, found.damping.tube, 1.0 - worst->margin(), worst->critical_mode + 1, mode.frequency,
-          worst->margin(),
-          unstable ? ": fluid-elastically unstable, which no force of the transient stands for" : ""));
+  const std::string text = fmt::format(
+      "stability \"{}\" of flow \"{}\": V/Vc = {:.4g} in mode {} at {:.4g} Hz, margin {:.4g}{}", found.name,
+      found.damping.tube, 1.0 - worst->margin(), worst->critical_mode + 1, mode.frequency, worst->margin(),
+      unstable ? ": fluid-elastically unstable, which no force of the transient stands for" : "");
+  if (unstable)
+    out.warnings.push_back(text);
+  else // before the notes of other kinds
+    out.notes.insert(out.notes.begin() +
+                         static_cast<std::ptrdiff_t>(std::min(out.notes.size(), out.stability.size())),
+                     text);
 }
 
 } // namespace
@@ -123,49 +99,17 @@ std::vector<study::Stability> assessments_of(const study::Study& study) {
   return {one};
 }
 
-std::vector<PlacedContact> pins_of(const study::Stability& assessment, const study::Study& study,
-                                   const fem::Model& model, const std::vector<PlacedContact>& contacts,
-                                   std::vector<std::string>& notes) {
-  std::vector<PlacedContact> pins;
-  for (const PlacedContact& contact : contacts) {
-    if (!is_pinned(assessment, study.contacts[contact.entry]))
-      continue;
-    if (can_pin(model, contact)) {
-      pins.push_back(contact);
-      continue;
-    }
-    const std::string problem =
-        fmt::format("stability \"{}\": contact \"{}\" is between two nodes that move and "
-                    "pins nothing",
-                    assessment.name, contact.name);
-    if (assessment.pinned == study::Pinned::named)
-      throw core::Error(problem + "; leave it out of pinned");
-    notes.push_back(problem);
-  }
-  return pins;
+PinsAsked pins_asked(const study::Stability& assessment) {
+  return {fmt::format("stability \"{}\"", assessment.name), assessment.pinned, assessment.contacts};
 }
 
 void assess_stability(MPI_Comm comm, const TubesInFlow& tubes, const std::vector<PlacedContact>& contacts,
                       results::RunResults& out) {
-  const study::Modes& modes = tubes.study.modes;
   for (const study::Stability& assessment : assessments_of(tubes.study)) {
-    std::vector<PlacedContact> pins, others;
-    fem::Model pinned;
-    std::vector<fem::Structure> structures;
-    core::agree(comm, [&] {
-      pins = pins_of(assessment, tubes.study, tubes.model, contacts, out.notes);
-      std::copy_if(contacts.begin(), contacts.end(), std::back_inserter(others),
-                   [&](const PlacedContact& contact) {
-                     return !is_pinned(assessment, tubes.study.contacts[contact.entry]);
-                   });
-      pinned = pinned_model(tubes.study, tubes.model, pins);
-      structures = moving_structures(pinned);
-    });
-    const std::vector<modal::Basis> bases =
-        modal::solve_structures(comm, pinned, structures, {modes.count, modes.up_to_hz}, modes.distributed);
+    const PinnedModes modes = pinned_modes(comm, pins_asked(assessment), tubes, contacts, out.notes);
     core::agree(comm, [&] {
       for (const PlacedFlow& placed : tubes.flows) {
-        results::StabilityAssessment found = assess(tubes, placed, assessment, pins, others, bases, out);
+        results::StabilityAssessment found = assess(tubes, placed, assessment, modes, out);
         out.notes.insert(out.notes.end(), found.damping.limits.begin(), found.damping.limits.end());
         report(found, out);
         out.stability.push_back(std::move(found));

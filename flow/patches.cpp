@@ -70,7 +70,7 @@ double mean(const Eigen::VectorXd& values, const Eigen::VectorXd& ds) { return v
 /// Does the level of the spectrum follow from rho V^2?
 bool by_dynamic_pressure(const Spectrum& spectrum) {
   const auto* table = std::get_if<TableSpectrum>(&spectrum);
-  return !(table && table->absolute) && !std::holds_alternative<TwoPhase>(spectrum);
+  return !(table && table->absolute) && !std::holds_alternative<TwoPhaseSpectrum>(spectrum);
 }
 
 bool is_absolute(const Spectrum& spectrum) {

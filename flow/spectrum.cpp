@@ -85,7 +85,7 @@ Spectrum spectrum_named(std::string_view name, double rho_liquid) {
   if (name == "inlet")
     return Inlet{};
   if (name == "two_phase")
-    return TwoPhase{positive(rho_liquid, "density of the liquid", " kg/m3", "spectrum two_phase")};
+    return TwoPhaseSpectrum{positive(rho_liquid, "density of the liquid", " kg/m3", "spectrum two_phase")};
   if (name == "table")
     throw core::Error("spectrum \"table\": give its rows");
   throw core::Error(fmt::format("no spectrum is named \"{}\"{}", name,
@@ -166,7 +166,7 @@ PointSpectrum::PointSpectrum(const Spectrum& spectrum, const FlowState& state, d
     reference_equivalent(0.01, 0.5, no_end, 4e-4, 5e-5);
   } else if (std::holds_alternative<Inlet>(spectrum)) {
     reference_equivalent(0.01, 0.5, no_end, 1e-2, 1.25e-3);
-  } else if (const auto* mixture = std::get_if<TwoPhase>(&spectrum)) {
+  } else if (const auto* mixture = std::get_if<TwoPhaseSpectrum>(&spectrum)) {
     void_fraction(state, "two_phase", where);
     const double length = bubble_length(state);
     const double weight =

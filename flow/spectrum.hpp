@@ -50,7 +50,7 @@ struct Axisa {};
 struct Interior {};
 struct Inlet {};
 /// 0 < a < 1.
-struct TwoPhase {
+struct TwoPhaseSpectrum {
   double rho_liquid; ///< kg/m3, > 0
 };
 struct TableSpectrum {
@@ -58,11 +58,12 @@ struct TableSpectrum {
   std::vector<double> y; ///< Phi or N^2/m^2/Hz, > 0, as many
   bool absolute = false; ///< (f, G) in place of (f_r, Phi): the load acts whatever the velocity
 };
-using Spectrum = std::variant<Cor1, Cor2, Cor3, Cor4, Axisa, Interior, Inlet, TwoPhase, TableSpectrum>;
+using Spectrum =
+    std::variant<Cor1, Cor2, Cor3, Cor4, Axisa, Interior, Inlet, TwoPhaseSpectrum, TableSpectrum>;
 
 /// "cor_1", "cor_2", ...
 [[nodiscard]] std::string_view name_of(const Spectrum& spectrum);
-/// With its default parameters; TwoPhase with that density of the liquid.
+/// With its default parameters; TwoPhaseSpectrum with that density of the liquid.
 /// @throws core::Error  an unknown name, "table" (which has rows), two_phase without the density
 [[nodiscard]] Spectrum spectrum_named(std::string_view name, double rho_liquid = 0.0);
 

@@ -21,14 +21,16 @@ def missing_packages():
 
 def build(directory):
     """The report as HTML text."""
+    import flow_section
     import page
     import run_data
     import sections
     import wear_section
 
     run = run_data.load(directory)
-    parts = [sections.key_figures, sections.structure, sections.modes, sections.along_the_tube, sections.contacts,
-             sections.contact_table, wear_section.wear, sections.impacts, sections.energy, sections.computation, sections.study]
+    parts = [sections.key_figures, sections.structure, sections.modes, flow_section.profiles, flow_section.stability,
+             flow_section.response, sections.along_the_tube, sections.contacts,
+             sections.contact_table, wear_section.wear, sections.impacts, flow_section.spectra, sections.energy, sections.computation, sections.study]
     title = run.summary["study"] or Path(directory).resolve().stem
     subtitle = f"Impact, friction and wear: results of Fretwork {html.escape(run.summary['version'])}"
     return page.page(title, subtitle, "".join(part(run) for part in parts))

@@ -10,6 +10,8 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+import flow_data
+
 
 class NoResults(Exception):
     """The folder holds nothing to report; the message names what is missing and the cure."""
@@ -56,6 +58,8 @@ class Run:
     time: np.ndarray | None = None
     structures: int = 1
     window: float = field(default=0.0)  # s, start of the statistics
+    flows: list = field(default_factory=list)  # flow_data.TubeFlow
+    spectra: list = field(default_factory=list)  # flow_data.Spectrum
     wear: list = field(default_factory=list)  # of each support: the attributes and datasets of its group
 
     @property
@@ -216,6 +220,7 @@ def load(directory):
             if "time" in file:
                 run.time = file["time"][...]
                 run.window = float(file.attrs["statistics_from"])
+        run.flows, run.spectra = flow_data.flows(folder), flow_data.spectra(folder)
     except (OSError, KeyError, ValueError, TypeError, AttributeError, RuntimeError) as error:
         raise NoResults(f"{folder}: the results are damaged or of another version ({error}); run the study again") from error
     if run.attributes.get("input_sha256") != summary.get("input_sha256"):

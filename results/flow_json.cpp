@@ -92,6 +92,22 @@ Json stability(const StabilityAssessment& assessment) {
           {"damping", damping(assessment.damping)}};
 }
 
+Json response(const LinearResponse& r) {
+  Json points = Json::array();
+  for (const ResponsePoint& p : r.points)
+    points.push_back({{"name", p.name},
+                      {"direction", p.direction},
+                      {"rms_m", number(p.rms)},
+                      {"rms_velocity_m_s", number(p.rms_velocity)},
+                      {"up_crossings_per_second", number(p.up_crossings)},
+                      {"irregularity", number(p.irregularity)},
+                      {"maximum_m", p.maximum ? number(*p.maximum) : Json(nullptr)},
+                      {"share_outside", number(p.share_outside)},
+                      {"share_above", number(p.share_above)}});
+  return {{"name", r.name},           {"pinned", r.pinned},           {"modes", r.modes},
+          {"duration_s", r.duration}, {"probability", r.probability}, {"points", points}};
+}
+
 } // namespace
 
 void add_flow(Json& out, const RunResults& results) {
@@ -104,6 +120,11 @@ void add_flow(Json& out, const RunResults& results) {
     out["stability"] = Json::array();
     for (const StabilityAssessment& assessment : results.stability)
       out["stability"].push_back(stability(assessment));
+  }
+  if (!results.responses.empty()) {
+    out["response"] = Json::array();
+    for (const LinearResponse& one : results.responses)
+      out["response"].push_back(response(one));
   }
 }
 

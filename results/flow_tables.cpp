@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/flow_text.hpp"
 #include "results/text_file.hpp"
 #include "results/write.hpp"
 #include <algorithm>
@@ -19,17 +20,6 @@ std::string constants_text(const flow::StabilityCase& one, const StabilityAssess
       text += fmt::format("{}{} {:g}", text.empty() ? "" : between, assessment.damping.zones[z],
                           one.constants[z]);
   return text.empty() ? "no flow" : text;
-}
-
-std::string pinned_text(const std::vector<std::string>& names) {
-  if (names.empty())
-    return "nothing pinned";
-  std::string text = "pinned at ";
-  for (std::size_t k = 0; k < std::min(most_names, names.size()); ++k)
-    text += (k ? ", " : "") + names[k];
-  if (names.size() > most_names)
-    text += fmt::format(" and {} more", names.size() - most_names);
-  return text;
 }
 
 /// Number of the case with the largest ratio.
@@ -95,6 +85,23 @@ std::string sweep_line(const StabilityAssessment& assessment, std::size_t number
 
 } // namespace
 
+std::string pinned_text(const std::vector<std::string>& names) {
+  if (names.empty())
+    return "nothing pinned";
+  std::string text = "pinned at ";
+  for (std::size_t k = 0; k < std::min(most_names, names.size()); ++k)
+    text += (k ? ", " : "") + names[k];
+  if (names.size() > most_names)
+    text += fmt::format(" and {} more", names.size() - most_names);
+  return text;
+}
+
+std::string quoted(std::string text) {
+  for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2)
+    text.insert(at, 1, '"');
+  return '"' + text + '"';
+}
+
 std::string flow_damping_table(const RunResults& results) {
   std::string text;
   for (const TubeDamping& tube : results.flow_damping) {
@@ -136,11 +143,6 @@ std::string stability_table(const RunResults& results) {
 void write_stability_csv(const std::filesystem::path& file, const RunResults& results) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  const auto quoted = [](std::string name) { // a quote within is doubled
-    for (std::size_t at = 0; (at = name.find('"', at)) != std::string::npos; at += 2)
-      name.insert(at, 1, '"');
-    return '"' + name + '"';
-  };
   fmt::format_to(
       out, "assessment,tube,case,connors_constants,mode,frequency [Hz],damping [1],decrement [1],"
            "effective_velocity [m/s],critical_velocity [m/s],ratio [1],margin [1],critical_scale [1]\n");

@@ -9,6 +9,7 @@
 #include "post/recorder.hpp"
 #include "post/verification.hpp"
 #include "results/flow_results.hpp"
+#include "results/response_results.hpp"
 #include "results/wear_results.hpp"
 #include "transient/step_rule.hpp"
 #include "wear/kwu_epri.hpp"
@@ -96,6 +97,7 @@ struct RunResults {
   std::vector<modal::Basis> bases;               ///< by structure
   std::vector<TubeDamping> flow_damping;         ///< by tubes, where modes.damping = "flow"
   std::vector<StabilityAssessment> stability;    ///< by assessments and tubes
+  std::vector<LinearResponse> responses;         ///< to turbulence, on pinned modes
   std::optional<ModesLimit> modes_limit;         ///< where the study asks for an accuracy of them
   std::vector<ContactFacts> contacts;
   std::vector<post::ContactSummary> contact_summaries; ///< as `contacts`; empty without a transient

@@ -36,6 +36,13 @@ void write_summary(const std::filesystem::path& file, const RunResults& results)
 /// @throws core::Error if it cannot be written
 void write_stability_csv(const std::filesystem::path& file, const RunResults& results);
 
+/// Linear response to turbulence, a line a displacement, at most 60; empty without.
+[[nodiscard]] std::string response_table(const RunResults& results);
+
+/// One displacement a row.
+/// @throws core::Error if it cannot be written
+void write_response_csv(const std::filesystem::path& file, const RunResults& results);
+
 /// results.h5: layout as in doc/study-file.md and basis_file.hpp. The same results give the same bytes,
 /// whatever the ranks and timings.
 /// @throws core::Error if it cannot be written

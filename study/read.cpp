@@ -2,6 +2,7 @@
 #include "study/document.hpp"
 #include "study/flow_tables.hpp"
 #include "study/readers.hpp"
+#include "study/spectrum_rows.hpp"
 #include "study/time_functions.hpp"
 #include <algorithm>
 #include <cassert>
@@ -9,10 +10,10 @@
 namespace fretwork::study {
 namespace {
 
-const Keys study_keys{{"title",     "mesh",    "materials", "sections",    "beams",          "restraints",
-                       "masses",    "springs", "ties",      "modes",       "contacts",       "flow",
-                       "stability", "loads",   "gravity",   "base_motion", "support_motion", "initial",
-                       "transient", "output",  "wear"}};
+const Keys study_keys{{"title",          "mesh",       "materials", "sections", "beams",    "restraints",
+                       "masses",         "springs",    "ties",      "modes",    "contacts", "flow",
+                       "stability",      "turbulence", "response",  "loads",    "gravity",  "base_motion",
+                       "support_motion", "initial",    "transient", "output",   "wear"}};
 
 [[maybe_unused]] bool is_key(const std::string& name) {
   return std::find(study_keys.known.begin(), study_keys.known.end(), name) != study_keys.known.end();
@@ -45,6 +46,8 @@ Study read(const std::filesystem::path& file, const std::vector<std::string>& ov
   study.contacts = read_contacts(root);
   study.flows = read_flows(root, folder);
   study.stabilities = read_stabilities(root, study);
+  study.turbulence = read_turbulence(root, folder, study);
+  study.responses = read_responses(root, study);
   study.loads = read_loads(root, folder);
   study.gravity = read_gravity(root);
   study.base_motions = read_base_motions(root, folder);
@@ -83,6 +86,9 @@ std::string canonical_text(const std::filesystem::path& file, const std::vector<
     if (auto* entries = std::get_if<Array>(&at->second.data); entries && name == "flow")
       for (std::size_t i = 0; i < entries->size(); ++i)
         inline_flow_tables((*entries)[i], name + "." + std::to_string(i), folder);
+    if (auto* entries = std::get_if<Array>(&at->second.data); entries && name == "turbulence")
+      for (std::size_t i = 0; i < entries->size(); ++i)
+        inline_spectrum_rows((*entries)[i], name + "." + std::to_string(i), folder);
     text += name + " = " + toml_text(at->second, Digits::seventeen) + "\n";
   }
   return text;

@@ -16,16 +16,19 @@ flow::Component read_component(const TableReader& table) {
           Vec3::Zero()};
 }
 
-void read_pinned(const TableReader& table, const std::vector<Contact>& contacts, Stability& out) {
+} // namespace
+
+void read_pinned(const TableReader& table, const std::vector<Contact>& contacts, Pinned& pinned,
+                 std::vector<std::string>& named) {
   const Value* found = table.find("pinned");
   if (!found)
     return;
   if (!found->array()) {
-    out.pinned = table.choice("pinned", Pinned::contacts,
-                              Choices<Pinned>{{{"contacts", Pinned::contacts}, {"none", Pinned::none}}});
+    pinned = table.choice("pinned", Pinned::contacts,
+                          Choices<Pinned>{{{"contacts", Pinned::contacts}, {"none", Pinned::none}}});
     return;
   }
-  out.pinned = Pinned::named;
+  pinned = Pinned::named;
   std::vector<std::string> names;
   for (const Contact& contact : contacts)
     names.push_back(contact.name);
@@ -34,11 +37,9 @@ void read_pinned(const TableReader& table, const std::vector<Contact>& contacts,
     const std::string name = to_text(item, path);
     if (std::find(names.begin(), names.end(), name) == names.end())
       fail(item, path, "no contact is called so" + core::name_help(name, names));
-    out.contacts.push_back(name);
+    named.push_back(name);
   }
 }
-
-} // namespace
 
 std::vector<Stability> read_stabilities(const TableReader& root, const Study& study) {
   std::vector<Stability> all;
@@ -49,7 +50,7 @@ std::vector<Stability> read_stabilities(const TableReader& root, const Study& st
       table.fail_table("there is no [[flow]] to be stable in; add it, or leave [[stability]] out");
     Stability out;
     out.name = table.optional_text("name").value_or("assessment " + std::to_string(all.size() + 1));
-    read_pinned(table, study.contacts, out);
+    read_pinned(table, study.contacts, out.pinned, out.contacts);
     out.component = read_component(table);
     if (const Value* sweep = table.find("sweep"))
       out.sweep = to_numbers(*sweep, table.path("sweep"), 0, {Range::at_least_zero});

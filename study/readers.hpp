@@ -24,6 +24,14 @@ namespace fretwork::study {
 [[nodiscard]] std::vector<Flow> read_flows(const TableReader& root, const std::filesystem::path& folder);
 /// The contacts and flows of `study` must have been read.
 [[nodiscard]] std::vector<Stability> read_stabilities(const TableReader& root, const Study& study);
+/// `pinned`: "contacts", "none" or names of contacts. @param named  takes the names
+void read_pinned(const TableReader& table, const std::vector<Contact>& contacts, Pinned& pinned,
+                 std::vector<std::string>& named);
+/// The flows of `study` must have been read.
+[[nodiscard]] std::vector<Turbulence>
+read_turbulence(const TableReader& root, const std::filesystem::path& folder, const Study& study);
+/// The contacts and the turbulence of `study` must have been read.
+[[nodiscard]] std::vector<Response> read_responses(const TableReader& root, const Study& study);
 [[nodiscard]] std::vector<Load> read_loads(const TableReader& root, const std::filesystem::path& folder);
 [[nodiscard]] std::optional<Vec3> read_gravity(const TableReader& root);
 [[nodiscard]] std::vector<BaseMotion> read_base_motions(const TableReader& root,

@@ -10,6 +10,7 @@
 #include "mesh/read.hpp"
 #include "modal/damping.hpp"
 #include "study/flow.hpp"
+#include "study/turbulence.hpp"
 #include "study/wear.hpp"
 #include "transient/time_function.hpp"
 #include <array>
@@ -223,6 +224,8 @@ struct Study {
   std::vector<Contact> contacts;
   std::vector<Flow> flows;
   std::vector<Stability> stabilities;
+  std::vector<Turbulence> turbulence;
+  std::vector<Response> responses;
   std::vector<Load> loads;
   std::optional<Vec3> gravity; ///< m/s2
   std::vector<BaseMotion> base_motions;

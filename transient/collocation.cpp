@@ -41,7 +41,7 @@ class Collocation final : public Scheme {
 public:
   Collocation(const Scene& scene, double step)
       : system_(with_diagonal(scene.system)), h_(step),
-        loads_(scene.loads, scene.system.size(), scene.duration, step),
+        loads_(scene.loads, scene.system.size(), scene.duration, step, scene.sampled_loads),
         contacts_(scene.contacts, scene.system.size()), motion_(contacts_),
         obstacles_(scene, contacts_, step), obstacle_at_{obstacles_.room(), obstacles_.room(),
                                                          obstacles_.room()},

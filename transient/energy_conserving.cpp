@@ -40,7 +40,7 @@ class EnergyConserving final : public Scheme {
 public:
   EnergyConserving(const Scene& scene, double step)
       : system_(with_diagonal(scene.system)), h_(step),
-        loads_(scene.loads, scene.system.size(), scene.duration, step),
+        loads_(scene.loads, scene.system.size(), scene.duration, step, scene.sampled_loads),
         contacts_(scene.contacts, scene.system.size()), start_(contacts_), end_(contacts_),
         middle_(contacts_),
         obstacles_(scene, contacts_, step), carried_{obstacles_.room(), obstacles_.room(), obstacles_.room()},

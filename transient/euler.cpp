@@ -18,7 +18,8 @@ namespace {
 class Euler final : public Scheme {
 public:
   Euler(const Scene& scene, double step)
-      : system_(scene.system), h_(step), loads_(scene.loads, scene.system.size(), scene.duration, step),
+      : system_(scene.system), h_(step),
+        loads_(scene.loads, scene.system.size(), scene.duration, step, scene.sampled_loads),
         contacts_(scene.contacts, scene.system.size()), motion_(contacts_),
         obstacles_(scene, contacts_, step), carried_(obstacles_.room()), memory_(contacts_, step),
         trial_(contacts_.count), rows_(contacts_) {

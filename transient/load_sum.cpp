@@ -14,7 +14,8 @@ constexpr double most_grid_steps = 5.0;
 
 } // namespace
 
-LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double duration, double step)
+LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double duration, double step,
+                 const std::vector<SampledLoad>& sampled)
     : padded_modes_(kernels::padded(static_cast<int>(modes))), step_(step) {
   std::vector<const TimeFunction*> functions;
   for (const Load& load : loads) {
@@ -40,10 +41,14 @@ LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double dura
       shapes_[source * padded_modes_ + i] += load.modal_force(i);
   }
   values_.resize(signals_.size());
+  for (const SampledLoad& load : sampled)
+    if (load.acts())
+      sampled_.emplace_back(load);
+  constant_ = constant_ && sampled_.empty();
 }
 
 template <class Value, class Place>
-void LoadSum::combine(const Place& place_on, const Value& value, double* force) {
+void LoadSum::combine(double time, const Place& place_on, const Value& value, double* force) {
   const SampleGrid* grid = nullptr; // of the last random signal: those of a study mostly share one
   SampleGrid::Place place{};
   for (std::size_t k = 0; k < signals_.size(); ++k) {
@@ -57,27 +62,35 @@ void LoadSum::combine(const Place& place_on, const Value& value, double* force) 
     grid = &signal.grid();
     values_[k] = signal.at(place);
   }
-  kernels::combine(padded_modes_, static_cast<int>(signals_.size()), shapes_.data(), values_.data(), force);
+  if (signals_.empty())
+    std::fill_n(force, padded_modes_, 0.0);
+  else
+    kernels::combine(padded_modes_, static_cast<int>(signals_.size()), shapes_.data(), values_.data(), force);
+  for (SampledForce& sampled : sampled_)
+    sampled.add(time, force);
 }
 
 void LoadSum::at(double time, double* force) { at(time, Signal::window(time, step_), force); }
 
 void LoadSum::at(double time, Signal::Window window, double* force) {
-  combine([&](const SampleGrid& grid) { return grid.place(time); },
-          [&](std::size_t k) {
-            return sines_[k] ? (*sines_[k])(time) : signals_[k].over_step(time, step_, window);
-          },
-          force);
+  combine(
+      time, [&](const SampleGrid& grid) { return grid.place(time); },
+      [&](std::size_t k) {
+        return sines_[k] ? (*sines_[k])(time) : signals_[k].over_step(time, step_, window);
+      },
+      force);
 }
 
 void LoadSum::instant(double time, double* force) {
-  combine([&](const SampleGrid& grid) { return grid.place(time); },
-          [&](std::size_t k) { return signals_[k](time); }, force);
+  combine(
+      time, [&](const SampleGrid& grid) { return grid.place(time); },
+      [&](std::size_t k) { return signals_[k](time); }, force);
 }
 
 void LoadSum::corner(double time, double* force) {
   const Signal::Window window = Signal::window(time, step_);
   combine(
+      time,
       [&](const SampleGrid& grid) {
         return step_ * grid.per_step < most_grid_steps ? grid.corner(time, step_) : grid.place(time);
       },

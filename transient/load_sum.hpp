@@ -13,8 +13,10 @@ namespace fretwork::transient {
 class LoadSum {
 public:
   /// @param step  s: the force at a time stands for a step about it, so that what a table does inside a step keeps its impulse
-  LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double duration, double step);
-  [[nodiscard]] bool empty() const { return signals_.empty(); }
+  /// @param sampled  are added at the time itself, whatever the step: samples are far closer than the periods that carry their power
+  LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double duration, double step,
+          const std::vector<SampledLoad>& sampled = {});
+  [[nodiscard]] bool empty() const { return signals_.empty() && sampled_.empty(); }
   /// True where the force never changes.
   [[nodiscard]] bool constant() const { return constant_; }
   /// Modal force of the step about a time, at the start of the half step after it, padded. No allocation.
@@ -28,8 +30,9 @@ public:
   void instant(double time, double* force);
 
 private:
-  /// The force by the values of the signals: those that are not random as value(k) has them, the others at place(grid).
-  template <class Value, class Place> void combine(const Place& place, const Value& value, double* force);
+  /// The force at a time by the values of the signals: those that are not random as value(k) has them, the others at place(grid).
+  template <class Value, class Place>
+  void combine(double time, const Place& place, const Value& value, double* force);
 
   int padded_modes_;
   double step_;
@@ -38,6 +41,7 @@ private:
   std::vector<std::optional<GridSine>> sines_; ///< of the harmonic ones, on half steps
   std::vector<double> above_;                  ///< of the harmonic ones: a corner's height by their amplitude
   kernels::Array shapes_, values_;
+  std::vector<SampledForce> sampled_;
 };
 
 } // namespace fretwork::transient

@@ -8,8 +8,9 @@ namespace fretwork::transient {
 
 LoadedFlow::LoadedFlow(const Scene& scene, double step)
     : system_(with_diagonal(scene.system)), h_(step),
-      loads_(scene.loads, scene.system.size(), scene.duration, step), coupled_(system_, step),
-      first_(flow_table(system_, coupled_, 0.5 * step)), full_(flow_table(system_, coupled_, step)) {
+      loads_(scene.loads, scene.system.size(), scene.duration, step, scene.sampled_loads),
+      coupled_(system_, step), first_(flow_table(system_, coupled_, 0.5 * step)),
+      full_(flow_table(system_, coupled_, step)) {
   const auto n = static_cast<std::size_t>(kernels::padded(static_cast<int>(system_.size())));
   for (kernels::Array* a : {&q, &v, &k_, &f_now_, &f_next_, &slope_})
     a->assign(n, 0.0);

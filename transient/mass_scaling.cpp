@@ -46,6 +46,12 @@ bool may_scale(const Scene& scene, double fastest, double accuracy) {
     else
       at_start += Signal(load.function, scene.duration)(0.0) * load.modal_force.array();
   }
+  for (const SampledLoad& load : scene.sampled_loads) {
+    const Eigen::ArrayXd square = load.rms.array().square(), bent = square * flexibility;
+    if (scaled.select(bent, 0.0).sum() > accuracy * bent.sum())
+      return false;
+    noise += square;
+  }
   const Eigen::ArrayXd moving = scene.v0.array().square(), spring = k * scene.q0.array();
   const Eigen::ArrayXd vibrates = moving + ((spring - at_start).square() + noise) * flexibility,
                        all = moving + (spring.square() + at_start.square() + noise) * flexibility;
@@ -61,6 +67,8 @@ Scene with_masses(const Scene& scene, const Eigen::VectorXd& masses) {
     out.system.damping_matrix = s.asDiagonal() * scene.system.damping_matrix * s.asDiagonal();
   for (Load& load : out.loads)
     load.modal_force.array() *= s.array();
+  for (SampledLoad& load : out.sampled_loads)
+    load.multiply(s);
   for (ContactPoint& point : out.contacts)
     point.b = point.b * s.asDiagonal();
   out.q0.array() /= s.array();

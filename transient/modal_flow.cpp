@@ -32,8 +32,8 @@ kernels::MiddleTable middle_table(const System& system, const MatrixFlow& couple
 
 ModalFlow::ModalFlow(const Scene& scene, double step, const std::vector<int>& lengths)
     : system_(with_diagonal(scene.system)), h_(step),
-      loads_(scene.loads, scene.system.size(), scene.duration, step), coupled_(system_, step),
-      lengths_(lengths) {
+      loads_(scene.loads, scene.system.size(), scene.duration, step, scene.sampled_loads),
+      coupled_(system_, step), lengths_(lengths) {
   for (const int length : lengths) {
     tables_.push_back(flow_table(system_, coupled_, length * step));
     middles_.push_back(middle_table(system_, coupled_, length * step));

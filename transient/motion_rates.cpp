@@ -18,7 +18,8 @@ double energy_of(const contact::FrictionLaw& law, Vec2 spring) {
 } // namespace
 
 MotionRates::MotionRates(const Scene& scene, double step)
-    : system_(scene.system), loads_(scene.loads, scene.system.size(), scene.duration, step), smeared_(step),
+    : system_(scene.system),
+      loads_(scene.loads, scene.system.size(), scene.duration, step, scene.sampled_loads), smeared_(step),
       contacts_(scene.contacts, scene.system.size()), motion_(contacts_), difference_(contacts_),
       obstacles_(scene, contacts_, step), carried_(obstacles_.room()), trial_(contacts_.count),
       rows_(contacts_), regimes_(static_cast<std::size_t>(contacts_.count)),

@@ -9,6 +9,8 @@ std::vector<Eigen::Index> moving_modes(const Scene& scene) {
   Flags moves = scene.q0.array() != 0.0 || scene.v0.array() != 0.0;
   for (const Load& load : scene.loads)
     moves = moves || load.modal_force.array() != 0.0;
+  for (const SampledLoad& load : scene.sampled_loads)
+    moves = moves || load.scale.array() != 0.0;
   for (const ContactPoint& point : scene.contacts)
     moves = moves || (point.b.array() != 0.0).colwise().any().transpose();
   std::vector<Eigen::Index> modes;
@@ -35,6 +37,8 @@ Scene with_modes(const Scene& scene, const std::vector<Eigen::Index>& modes) {
     out.system.damping_matrix = scene.system.damping_matrix(modes, modes);
   for (std::size_t k = 0; k < out.loads.size(); ++k)
     out.loads[k].modal_force = scene.loads[k].modal_force(modes);
+  for (SampledLoad& load : out.sampled_loads)
+    load = load.of_modes(modes);
   for (std::size_t c = 0; c < out.contacts.size(); ++c)
     out.contacts[c].b = scene.contacts[c].b(Eigen::all, modes);
   out.q0 = scene.q0(modes);

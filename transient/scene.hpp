@@ -5,6 +5,7 @@
 #pragma once
 #include "contact/support.hpp"
 #include "core/types.hpp"
+#include "transient/sampled_load.hpp"
 #include "transient/time_function.hpp"
 #include <Eigen/Core>
 #include <string>
@@ -45,12 +46,14 @@ struct ContactPoint {
   /// m, 3 x loads of the scene, with Scene::residual: what the modes lack of the static displacement under each load of value 1, so that
   /// u = b q + residual f + under_loads g(t); empty: nothing.
   Eigen::MatrixXd under_loads = {};
-  core::Vec3 loaded_at_start = core::Vec3::Zero(); ///< m, under_loads g(0) of the loads that are not inertial
+  core::Vec3 loaded_at_start =
+      core::Vec3::Zero(); ///< m, under_loads times the static values of the loads that are not inertial
 };
 
 struct Scene {
   System system;
   std::vector<Load> loads;
+  std::vector<SampledLoad> sampled_loads; ///< random, of zero mean
   std::vector<ContactPoint> contacts;
   std::vector<PrescribedMotion>
       motions; ///< that carry contacts; the forces they cause on the modes are among the loads

@@ -134,6 +134,9 @@ SceneRates rates_of(const Scene& scene) {
   for (const Load& load : scene.loads)
     if (acts(load, scene))
       out.excitation = std::max(out.excitation, highest_frequency(load.function));
+  for (const SampledLoad& load : scene.sampled_loads)
+    if (load.acts())
+      out.excitation = std::max(out.excitation, load.highest);
   out.table_interval = table_interval(scene);
   return out;
 }

@@ -3,7 +3,7 @@
 /// Static equilibrium of a scene under its loads at t = 0, contacts included: where a run may start.
 ///
 ///     K q = F(0) + sum over contacts of B^T n F_N(p),   p = -gap(rest + B q),   F_N(p) = K_N p for p > 0, else 0
-/// Nothing moves: dampers give no force, tangential springs are unloaded, and F(0) are forces alone, without the inertia of a base or of
+/// Nothing moves: dampers give no force, tangential springs are unloaded, and F(0) are mean forces: random loads, whose mean is 0, are no part of it, nor is the inertia of a base or of
 /// supports that accelerate at t = 0 (Load::inertial), which begins with the run. It is a minimum of the energy
 ///     E(q) = q.K.q/2 - F.q + sum of K_N <p>^2/2,
 /// with, kappa being how the normal turns (contact::curvature: dn = kappa t (t.du), t = n x x_loc),

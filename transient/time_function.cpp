@@ -21,7 +21,14 @@ constexpr double samples_per_period = 32.0;
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
 /// Of a random signal: a gigabyte. An hour up to 500 Hz.
-constexpr std::size_t most_samples = std::size_t{1} << 26;
+constexpr double most_samples = 0x1p26;
+/// T_b in periods of the upper end of a band: lines resolve a thousandth of it.
+constexpr double periods_of_block = 1024.0;
+/// Of a block: fewer are no random signal. Fades smear an end of the band over two of them.
+constexpr double fewest_lines = 32.0;
+constexpr std::size_t fades_of_block = 8; ///< T_b/C
+/// Signals reach so many durations: the last steps stand for times beyond the end.
+constexpr double covered = 1.05;
 
 /// Two standard normal numbers by Box and Muller from the 53 upper bits of the generator:
 /// std::normal_distribution differs between libraries.
@@ -68,6 +75,76 @@ void transform(std::size_t n, std::vector<double>& values) {
   (*synthesis)(values.data());
 }
 
+/// The blocks of a random signal (time_function.hpp).
+class RandomBlocks {
+public:
+  explicit RandomBlocks(const Random& random)
+      : random_(random),
+        period_(std::max(periods_of_block / random.high, fewest_lines / (random.high - random.low))),
+        size_(fast_length(samples_per_period * random.high * period_)) {}
+
+  /// Samples of a block.
+  [[nodiscard]] std::size_t size() const { return size_; }
+  /// Samples a second.
+  [[nodiscard]] double per_step() const { return static_cast<double>(size_) / period_; }
+
+  /// Values and slopes times the step, interleaved, from t = 0 on.
+  [[nodiscard]] std::vector<double> samples(std::size_t count) const {
+    std::mt19937_64 generator(random_.seed);
+    std::vector<double> out(2 * count, 0.0), block;
+    const std::size_t fade = size_ / fades_of_block, hop = size_ - fade;
+    for (std::size_t number = 0; number * hop < count + fade; ++number) {
+      fill(generator, block);
+      for (std::size_t u = 0; u < size_; ++u) {
+        const std::size_t shifted = number * hop + u; // sample + fade
+        if (shifted < fade || shifted - fade >= count)
+          continue;
+        const auto [weight, slope] = weight_at(u, fade, hop);
+        double* to = out.data() + 2 * (shifted - fade);
+        to[0] += weight * block[2 * u];
+        to[1] += weight * block[2 * u + 1] + slope * block[2 * u];
+      }
+    }
+    return out;
+  }
+
+private:
+  /// w and its slope times the step.
+  static std::pair<double, double> weight_at(std::size_t u, std::size_t fade, std::size_t hop) {
+    const double turn = 0.5 * std::numbers::pi / static_cast<double>(fade);
+    if (u < fade)
+      return {std::sin(turn * static_cast<double>(u)), turn * std::cos(turn * static_cast<double>(u))};
+    if (u < hop)
+      return {1.0, 0.0};
+    const double angle = turn * static_cast<double>(u - hop);
+    return {std::cos(angle), -turn * std::sin(angle)};
+  }
+
+  /// One block. The signal x = sum over lines of Re(c exp(i w t)) and its slope x' make one complex signal x + i x', which one transform
+  /// gives interleaved: x' has the lines i w c, so that z_k = c (1 - w)/2 and z_(n-k) = conj(c) (1 + w)/2; w times the grid's step.
+  void fill(std::mt19937_64& generator, std::vector<double>& block) const {
+    const std::size_t n = size_;
+    const auto first =
+        std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(random_.low * period_))); // zero mean
+    const auto last = static_cast<std::size_t>(std::floor(random_.high * period_));
+    const double scale = random_.rms / std::sqrt(static_cast<double>(last - first + 1));
+    block.assign(2 * n, 0.0);
+    for (std::size_t k = first; k <= last; ++k) {
+      const std::complex<double> c = scale * normal_pair(generator);
+      const double w = two_pi * static_cast<double>(k) / static_cast<double>(n);
+      block[2 * k] = 0.5 * (1.0 - w) * c.real();
+      block[2 * k + 1] = 0.5 * (1.0 - w) * c.imag();
+      block[2 * (n - k)] = 0.5 * (1.0 + w) * c.real();
+      block[2 * (n - k) + 1] = -0.5 * (1.0 + w) * c.imag();
+    }
+    transform(n, block);
+  }
+
+  Random random_;
+  double period_; ///< T_b, s
+  std::size_t size_;
+};
+
 /// The same function as one of all kinds.
 TimeFunction widened(const decltype(Integral::function)& function) {
   return std::visit([](const auto& f) -> TimeFunction { return f; }, function);
@@ -82,35 +159,17 @@ Signal::Signal(const TimeFunction& function, double duration) : function_(functi
   const auto* random = std::get_if<Random>(&function);
   if (!random)
     return;
-  // Lines at multiples of 1/period; at least 8 of them in the band, so that a run shorter than the band's
-  // memory is still Gaussian.
-  const double period = std::max(1.05 * duration, 8.0 / (random->high - random->low));
-  auto first = static_cast<std::size_t>(std::ceil(random->low * period));
-  const auto last = static_cast<std::size_t>(std::floor(random->high * period));
-  first = std::max<std::size_t>(first, 1); // zero mean
-  const std::size_t n = fast_length(samples_per_period * random->high * period);
-  if (n > most_samples)
-    throw core::Error(fmt::format("a random signal up to {:.4g} Hz over {:.4g} s needs {} samples, more than "
-                                  "{}; lower the upper end of its "
-                                  "band, or shorten the run",
-                                  random->high, duration, n, most_samples));
-  // The signal x = sum over lines of Re(c exp(i w t)) and its slope x' make one complex signal x + i x', which one transform gives
-  // interleaved: x' has the lines i w c, so that z_k = c (1 - w)/2 and z_(n-k) = conj(c) (1 + w)/2; w times the grid's step.
-  std::mt19937_64 generator(random->seed);
-  const double scale = random->rms / std::sqrt(static_cast<double>(last - first + 1));
-  samples_.assign(2 * (n + 1), 0.0); // value, slope, value, slope ...
-  for (std::size_t k = first; k <= last; ++k) {
-    const std::complex<double> c = scale * normal_pair(generator);
-    const double w = two_pi * static_cast<double>(k) / static_cast<double>(n);
-    samples_[2 * k] = 0.5 * (1.0 - w) * c.real();
-    samples_[2 * k + 1] = 0.5 * (1.0 - w) * c.imag();
-    samples_[2 * (n - k)] = 0.5 * (1.0 + w) * c.real();
-    samples_[2 * (n - k) + 1] = -0.5 * (1.0 + w) * c.imag();
-  }
-  transform(n, samples_);
-  std::copy_n(samples_.begin(), 2, samples_.end() - 2);
-  const double grid_step = period / static_cast<double>(n);
-  grid_ = {grid_step, 1.0 / grid_step, static_cast<std::ptrdiff_t>(n)};
+  const RandomBlocks blocks(*random);
+  const double needed =
+      std::ceil(covered * duration * blocks.per_step()) + 2.0; // the ends of the first and the last interval
+  if (std::max(needed, static_cast<double>(blocks.size())) > most_samples)
+    throw core::Error(fmt::format(
+        "a random signal up to {:.4g} Hz over {:.4g} s needs {:.4g} samples, in blocks of {}, more than "
+        "{:.4g}; lower the upper end of its band, widen the band, or shorten the run",
+        random->high, duration, needed, blocks.size(), most_samples));
+  const auto intervals = static_cast<std::ptrdiff_t>(needed) - 1;
+  samples_ = blocks.samples(static_cast<std::size_t>(needed));
+  grid_ = {1.0 / blocks.per_step(), blocks.per_step(), intervals};
 }
 
 double Signal::operator()(double time) const {
@@ -163,6 +222,10 @@ double Signal::mean(const Table& table, double from, double to) const {
   const bool ends_at_jump = i + 1 < t.size() && t[i] == to && t[i + 1] == to;
   sum += 0.5 * (last_value + (ends_at_jump ? table.value[i] : (*this)(to))) * (to - last_time);
   return sum / (to - from);
+}
+
+double static_value(const TimeFunction& function, double duration) {
+  return std::holds_alternative<Random>(function) ? 0.0 : Signal(function, duration)(0.0);
 }
 
 double highest_frequency(const TimeFunction& function) {

@@ -33,8 +33,15 @@ struct Table {
   bool operator==(const Table&) const = default;
 };
 
-/// Band-limited Gaussian noise of zero mean: a flat spectrum between two frequencies. The realisation is
-/// fixed by the seed, the band and the duration of the run.
+/// Band-limited Gaussian noise of zero mean: a flat spectrum between two frequencies. The realisation is fixed by the seed and the band: a
+/// run begins like every longer one.
+///
+/// A periodic series of the run's length would change with the duration. So the signal is a sequence of independent blocks of a period T_b that
+/// the band alone gives, each faded into the next over C = T_b/8, with hop H = T_b - C:
+///     x(t) = sum over b of w(t - b H + C) x_b(t - b H + C),   x_b(t) = Re sum over lines of c_n exp(2 pi i n t/T_b)
+///     w(u) = sin(pi u/2C) on [0, C], 1 up to H, cos(pi (u - H)/2C) up to T_b
+/// The squares of the weights add up to 1: the signal is Gaussian with the same variance at every instant. Fades smear the ends of the
+/// band by 2/T_b. T_b is 1024 periods of the upper end of the band, and has 32 lines in it at least.
 struct Random {
   double rms;       ///< of the ensemble
   double low, high; ///< Hz, 0 <= low < high
@@ -50,6 +57,9 @@ struct Integral {
 };
 
 using TimeFunction = std::variant<Constant, Harmonic, Table, Random, Integral>;
+
+/// Value that a load has in the static equilibrium a run starts from: at t = 0, of a random signal its mean, 0.
+[[nodiscard]] double static_value(const TimeFunction& function, double duration);
 
 /// Highest frequency to be resolved, Hz: 0 for constants and tables.
 [[nodiscard]] double highest_frequency(const TimeFunction& function);

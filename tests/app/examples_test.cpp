@@ -23,7 +23,7 @@ TEST(Examples, EveryFolderOfExamplesIsRunHere) {
     if (fs::exists(entry.path() / "study.toml"))
       found.insert(entry.path().filename());
   EXPECT_EQ(found, (std::set<std::string>{"cantilever_stop", "oscillator", "straight_tube", "tube_in_flow",
-                                          "two_tubes", "u_bend"}));
+                                          "tube_study", "two_tubes", "u_bend"}));
 }
 
 TEST(Examples, OscillatorMeetsItsStopThreeTimes) {
@@ -51,6 +51,28 @@ TEST(Examples, TubeInFlowIsStableWithAndWithoutItsSecondPlate) {
   EXPECT_EQ(stability[0]["cases"].size(), 2u) << "one for each K of the liquid";
   EXPECT_GT(run.summary["contact_sums"]["work_rate"].get<double>(), 0.0);
   EXPECT_TRUE(run.summary["warnings"].empty()) << run.summary["warnings"];
+}
+
+TEST(Examples, TubeStudyGoesFromTheFlowToTheYears) {
+  const Workshop folder;
+  const Results run = folder.run(example("tube_study"), "results");
+  ASSERT_EQ(run.summary["stability"].size(), 2u);
+  constexpr double of_margin = 1e-3; // four digits of a ratio near 1
+  // all supports, inner bars out of action: bounds of a stable tube of the periphery
+  EXPECT_TRUE(close_to(run.summary["stability"][0]["cases"][0]["margin"], 1.0 - 0.6016, four_digits));
+  EXPECT_TRUE(close_to(run.summary["stability"][1]["cases"][0]["margin"], 1.0 - 0.9165, of_margin));
+  EXPECT_EQ(run.summary["contacts"].size(), 20u);
+  // a chaotic run of 9 s: the standard error of its work rate is 7 %
+  const double work = run.summary["contact_sums"]["work_rate"],
+               years = run.summary["wear"]["tubes"][0]["life_years"]["value"];
+  EXPECT_GT(work, 0.03);
+  EXPECT_LT(work, 0.07);
+  EXPECT_GT(years, 6.0);
+  EXPECT_LT(years, 15.0);
+  EXPECT_LT(run.summary["energy"]["residual_relative"].get<double>(), trusted_balance);
+  EXPECT_TRUE(run.summary["warnings"].empty()) << run.summary["warnings"];
+  for (const char* file : {"flow.csv", "spectra.csv", "stability.csv"})
+    EXPECT_TRUE(fs::exists(folder.path("results") / file)) << file;
 }
 
 TEST(Examples, StraightTubeHasItsFrequenciesAndItsWorkRate) {

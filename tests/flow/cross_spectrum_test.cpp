@@ -112,8 +112,9 @@ TEST(CrossSpectrum, FollowsTheScaleOfTheShapes) {
 
 TEST(CrossSpectrum, OfZoneMeanIsThatOfLocalScalingWhereTheFlowIsUniform) {
   constexpr double round_off = 1e-13;
-  for (const Spectrum& s : {Spectrum{Cor1{}}, Spectrum{Cor2{}}, Spectrum{Cor3{}}, Spectrum{Cor4{}},
-                            Spectrum{Axisa{}}, Spectrum{Inlet{}}, Spectrum{TwoPhase{740.0}}, white(2.0)}) {
+  for (const Spectrum& s :
+       {Spectrum{Cor1{}}, Spectrum{Cor2{}}, Spectrum{Cor3{}}, Spectrum{Cor4{}}, Spectrum{Axisa{}},
+        Spectrum{Inlet{}}, Spectrum{TwoPhaseSpectrum{740.0}}, white(2.0)}) {
     TurbulentZone zone = pinned_zone(1.0, 0.1, 60, 2);
     zone.void_fraction.setConstant(0.4);
     zone.spectrum = s;

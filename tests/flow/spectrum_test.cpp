@@ -63,7 +63,7 @@ TEST(Spectrum, HasTheReferenceForcesPerLength) {
   expect_near(at(Axisa{})(40.0), 7.540871e-4);
   expect_near(at(Interior{})(40.0), 1.256812e-2);
   expect_near(at(Inlet{})(40.0), 25.0 * 1.256812e-2);
-  expect_near(2.0 * lambda * at(TwoPhase{740.0}, 2e4, 0.85, 3.0)(40.0), 2.000575e-2);
+  expect_near(2.0 * lambda * at(TwoPhaseSpectrum{740.0}, 2e4, 0.85, 3.0)(40.0), 2.000575e-2);
 }
 
 TEST(Spectrum, OfCor3IsThatOfAxisaForTwoLambdaOfFourDiameters) {
@@ -78,7 +78,7 @@ TEST(Spectrum, OfCor3IsThatOfAxisaForTwoLambdaOfFourDiameters) {
 TEST(Spectrum, OfATwoSidedSourceIsTwiceAsLarge) {
   const FlowState state{1.5, 740.0, 0.5, 1e-7, diameter, 740.0};
   for (const Spectrum& s : {Spectrum{Cor1{}}, Spectrum{Cor2{}}, Spectrum{Cor3{}}, Spectrum{Cor4{}},
-                            Spectrum{Axisa{}}, Spectrum{TwoPhase{740.0}}, white(3.0)}) {
+                            Spectrum{Axisa{}}, Spectrum{TwoPhaseSpectrum{740.0}}, white(3.0)}) {
     const PointSpectrum one(s, state, lambda, false, ""), two(s, state, lambda, true, "");
     EXPECT_DOUBLE_EQ(two(7.0), 2.0 * one(7.0)) << name_of(s);
   }
@@ -144,7 +144,7 @@ TEST(Spectrum, RefusesWrongInput) {
   EXPECT_EQ(message(Cor4{}, state),
             "zone 'a': the spectrum cor_4 is one of two-phase flow, void fraction = 1; give one "
             "between 0 and 1 or another spectrum");
-  EXPECT_NE(message(TwoPhase{700.0}, state), "");
+  EXPECT_NE(message(TwoPhaseSpectrum{700.0}, state), "");
   EXPECT_EQ(message(Cor2{-1.0}, good), "zone 'a': phi0 of cor_2 = -1 makes no sense; give a number > 0");
   EXPECT_EQ(
       message(TableSpectrum{{1.0, 2.0}, {1.0}}, good),

@@ -170,6 +170,51 @@ class Report(unittest.TestCase):
                         contact["outline"] = np.array([[2e-4, 0.0], [0.0, 2e-4], [-2e-4, 0.0], [0.0, -2e-4]])
             self.assertEqual(self.report().count('class="wall"'), len(kinds) + (3 if other < 0 else 0))  # three pairs
 
+    def flow_files(self):
+        places = np.linspace(0.0, 2.0, 9)
+        rows = "".join(f'"T1","{"foot" if s < 1 else "bend"}",{s},{s * (2 - s)},{740 - 100 * s},{0.1 * s},700,1.1\n' for s in places)
+        head = "tube,zone,s [m],velocity [m/s],density [kg/m3],void_fraction [1],fluid_inside [kg/m3],mass [kg/m]\n"
+        (self.folder / "flow.csv").write_text(head + rows)
+        spectrum = "".join(f'"apex <1>","displacement y",m2/Hz,{f},{1e-12 / (1 + f**2)},{6e-13 / (1 + f**2)},{2e-12 / (1 + f**2)}\n' for f in range(50))
+        force = "".join(f'"T1, bend","force per length",N2/m2/Hz,{f},{2.0 / f},{2.0 / f},{2.0 / f}\n' for f in range(1, 50))
+        (self.folder / "spectra.csv").write_text("name,quantity,unit,frequency [Hz],density,low_95,high_95\n" + spectrum + force)
+
+    def test_shows_the_flow_and_spectra(self):
+        made_up(self.folder, 2, 100)
+        self.flow_files()
+        text = self.report()
+        self.assertEqual(self.headings(text)[2], "Flow along the tubes")
+        self.assertIn("Spectra", self.headings(text))
+        for word in ("gap velocity [m/s] along T1", "void fraction along T1", "foot, bend", "apex &lt;1&gt;", "force per length"):
+            self.assertIn(word, text)
+        flow = run_data.load(self.folder).flows[0]
+        self.assertEqual(flow.zones[:4], ["foot"] * 4)
+        self.assertAlmostEqual(flow.columns["velocity [m/s]"].max(), 1.0)
+        spectra = run_data.load(self.folder).spectra
+        self.assertEqual([(s.name, s.quantity, len(s.frequency)) for s in spectra],
+                         [("apex <1>", "displacement y", 50), ("T1, bend", "force per length", 49)])
+        self.assertAlmostEqual(spectra[0].high[3] / spectra[0].density[3], 2.0)
+
+    def test_shows_stability_and_the_linear_response(self):
+        made_up(self.folder, 2, 100)
+
+        def add(summary):
+            case = {"connors_constants": {"bend": 2.4}, "critical_mode": 2, "margin": -0.2, "critical_scale": 0.8333, "ratios": [0.5, 1.2, None],
+                    "critical_velocities_m_s": [2.0, 1.1, None], "sweep": []}
+            stable = {**case, "margin": 0.5, "ratios": [0.4, 0.5, None]}
+            modes = [{"frequency_hz": f, "damping": 0.02, "decrement": 0.12, "effective_velocity_m_s": 1.0} for f in (10, 20, 30)]
+            summary["stability"] = [{"name": "all <bars>", "tube": "T1", "pinned": ["tsp1"], "modes": modes, "cases": [stable, case]}]
+            point = {"name": "apex", "direction": "y", "rms_m": 1.5e-5, "rms_velocity_m_s": 2e-3, "up_crossings_per_second": 21.0, "irregularity": 0.9,
+                     "maximum_m": None, "share_outside": 0.0, "share_above": 0.0}
+            summary["response"] = [{"name": "free", "pinned": [], "modes": 12, "duration_s": 60.0, "probability": 0.5, "points": [point]}]
+
+        self.change(add)
+        text = self.report()
+        self.assertIn("Fluid-elastic stability", self.headings(text))
+        self.assertIn("Linear response to turbulence", self.headings(text))
+        for word in ("all &lt;bars&gt;", "the worst of 2: bend 2.4", "Fluid-elastically unstable", "apex</td>", ">15<", ">21<"):
+            self.assertIn(word, text)
+
     def test_shows_wear(self):
         made_up(self.folder, 5, 200, wear=True)
         text = self.report()

@@ -139,6 +139,37 @@ TEST(RandomSignal, IsFixedByItsSeed) {
   EXPECT_NE(a, sampled(Signal(other, 1.0), 1.0, 100));
 }
 
+TEST(RandomSignal, BeginsAlikeWhateverTheDurationOfItsRun) {
+  for (const Random& function :
+       {Random{2.0, 5.0, 60.0, 3}, Random{1.0, 0.0, 200.0, 1}, Random{1.0, 10.0, 10.5, 9}}) {
+    const Signal longest(function, 40.0); // over several blocks
+    for (const double duration : {0.05, 1.0, 7.0, 20.0}) {
+      const Signal signal(function, duration);
+      for (int j = 0; j <= 1000; ++j)
+        ASSERT_EQ(signal(duration * j / 1000.0), longest(duration * j / 1000.0)) << duration << " " << j;
+    }
+  }
+}
+
+TEST(RandomSignal, HasItsRmsInFadesToo) {
+  // blocks of 1024 periods of 50 Hz, 20.48 s: the middle of the first fade is at 20.48 (1 - 1/8) - 20.48/16
+  constexpr int seeds = 2000;
+  constexpr double block = 1024.0 / 50.0, middle = block * (1.0 - 3.0 / 16.0);
+  double squares = 0.0;
+  for (int seed = 1; seed <= seeds; ++seed)
+    squares += std::pow(Signal(Random{1.0, 5.0, 50.0, static_cast<std::uint64_t>(seed)}, middle)(middle), 2);
+  EXPECT_NEAR(squares / seeds, 1.0, 4.0 * std::sqrt(2.0 / seeds)); // four standard errors
+}
+
+TEST(StaticValue, IsThatAtTheStartButForRandomSignals) {
+  EXPECT_EQ(static_value(Constant{2.0}, 1.0), 2.0);
+  EXPECT_EQ(static_value(Table{{0.0, 1.0}, {3.0, 0.0}}, 1.0), 3.0);
+  EXPECT_EQ(static_value(Harmonic{2.0, 5.0, two_pi / 4.0}, 1.0), 2.0);
+  const Random random{1.0, 5.0, 45.0, 1};
+  EXPECT_NE(Signal(random, 1.0)(0.0), 0.0);
+  EXPECT_EQ(static_value(random, 1.0), 0.0);
+}
+
 TEST(RandomSignal, OfARunShorterThanItsBandsMemoryHasItsRmsToo) {
   constexpr int seeds = 4000;
   double squares = 0.0;

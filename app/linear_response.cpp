@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/linear_response.hpp"
+#include "core/error.hpp"
+#include "core/mpi.hpp"
+#include "flow/response.hpp"
+#include "modal/damping.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace fretwork::app {
+namespace {
+
+/// What a band loses is looked for so far above it; beyond, forces and modes are negligible.
+constexpr double looked_above = 4.0;
+
+/// A displacement whose statistics are asked for.
+struct Watched {
+  results::ResponsePoint point;
+  Eigen::VectorXd shape; ///< displacement of the modes
+};
+
+Eigen::MatrixXd node_rows(const modal::Basis& basis, core::Index node) {
+  return basis.shapes.middleRows<3>(basis.row_of(node));
+}
+
+void watch_nodes(const modal::Basis& basis, const std::vector<NamedNode>& nodes, std::vector<Watched>& out) {
+  for (const NamedNode& node : nodes)
+    if (basis.row_of(node.node) >= 0) {
+      const Eigen::MatrixXd rows = node_rows(basis, node.node);
+      for (int axis = 0; axis < 3; ++axis)
+        out.push_back({{node.name, std::string(1, "xyz"[axis])}, rows.row(axis).transpose()});
+    }
+}
+
+/// Of contacts between two nodes the relative motion, where both belong to the structure.
+void watch_contacts(const modal::Basis& basis, const std::vector<PlacedContact>& contacts,
+                    std::vector<Watched>& out) {
+  for (const PlacedContact& contact : contacts) {
+    if (basis.row_of(contact.node) < 0 || (contact.other >= 0 && basis.row_of(contact.other) < 0))
+      continue;
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(3, basis.size());
+    for (const fem::NodeShare& share : contact.motion)
+      rows += share.weights * basis.shapes.middleRows<6>(basis.row_of(share.node));
+    if (contact.other >= 0)
+      rows -= node_rows(basis, contact.other);
+    rows = contact.frame.rotation() * rows;
+    out.push_back({{contact.name, "y_loc"}, rows.row(1).transpose()});
+    out.push_back({{contact.name, "z_loc"}, rows.row(2).transpose()});
+  }
+}
+
+flow::LinearModes linear_modes(const std::string& what, const modal::Basis& basis) {
+  const Eigen::Index n = basis.true_modes();
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (basis.omega(i) > 0.0 && !(basis.damping(i) > 0.0 && basis.damping(i) < 1.0))
+      throw core::Error(
+          fmt::format("{}: mode {} has the damping ratio {:g}, and a linear response by spectra needs one "
+                      "above 0 and below 1; give modes.damping, or damping of [[response]]",
+                      what, i + 1, basis.damping(i)));
+  return {Eigen::VectorXd::Ones(n), basis.omega.head(n), basis.damping.head(n)};
+}
+
+/// Moments of all displacements, added over independent loads.
+struct Sums {
+  std::vector<flow::SpectralMoments> in_band;
+  Eigen::VectorXd outside, above; ///< variances from outside the range of the spectra, and above the band
+
+  explicit Sums(std::size_t points)
+      : in_band(points), outside(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(points))), above(outside) {}
+};
+
+void add_load(const TurbulentLoad& load, const modal::Basis& basis, const flow::LinearModes& modes,
+              const Eigen::MatrixXd& shapes, Sums& sums) {
+  std::vector<flow::TurbulentZone> zones = zones_on(load, {&basis});
+  if (zones.empty())
+    return;
+  for (flow::TurbulentZone& zone : zones)
+    for (flow::LoadAxis& axis : zone.axes)
+      axis.shapes = axis.shapes.topRows(modes.mass.size()).eval();
+  const double low = std::max(load.band.low, 1.0 / load.band.block_period), high = load.band.high;
+  const auto found =
+      flow::LinearResponse(modes, flow::load_spectrum(zones, low, high), low, high).at_points(shapes);
+  const Eigen::VectorXd outside = flow::share_outside(modes, zones, low, high, shapes);
+  const double far = looked_above * high;
+  const auto beyond =
+      flow::LinearResponse(modes, flow::load_spectrum(zones, high, far), high, far).at_points(shapes);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    flow::SpectralMoments& sum = sums.in_band[k];
+    sum.L0 += found[k].L0;
+    sum.L1 += found[k].L1;
+    sum.L2 += found[k].L2;
+    sum.L4 += found[k].L4;
+    const auto row = static_cast<Eigen::Index>(k);
+    sums.outside(row) += outside(row) * found[k].L0;
+    sums.above(row) += beyond[k].L0;
+  }
+}
+
+/// Adds the points of one structure.
+void respond(const study::Response& asked, const std::vector<TurbulentLoad>& loads, const modal::Basis& basis,
+             std::vector<Watched> watched, results::LinearResponse& out) {
+  const flow::LinearModes modes = linear_modes("response \"" + out.name + "\"", basis);
+  const auto points = static_cast<Eigen::Index>(watched.size());
+  Eigen::MatrixXd shapes(points, modes.mass.size());
+  for (Eigen::Index k = 0; k < points; ++k)
+    shapes.row(k) = watched[static_cast<std::size_t>(k)].shape.head(modes.mass.size());
+  Sums sums(watched.size());
+  for (const TurbulentLoad& load : loads)
+    add_load(load, basis, modes, shapes, sums);
+  for (std::size_t k = 0; k < watched.size(); ++k) {
+    const flow::SpectralMoments& m = sums.in_band[k];
+    results::ResponsePoint& point = watched[k].point;
+    point.rms = m.rms();
+    point.rms_velocity = m.rms_velocity();
+    point.up_crossings = m.up_crossings();
+    point.irregularity = m.irregularity();
+    point.maximum = m.maximum(asked.duration, asked.probability);
+    if (m.L0 > 0.0) {
+      point.share_outside = sums.outside(static_cast<Eigen::Index>(k)) / m.L0;
+      point.share_above = sums.above(static_cast<Eigen::Index>(k)) / m.L0;
+    }
+    out.points.push_back(std::move(point));
+  }
+}
+
+void damp(const TubesInFlow& tubes, const study::Response& asked, PinnedModes& modes) {
+  if (asked.damping)
+    for (modal::Basis& basis : modes.bases)
+      modal::apply_damping(basis, *asked.damping);
+  else if (tubes.study.modes.flow_damping)
+    static_cast<void>(
+        damp_by_flow(tubes, DampingSet::stability, modes.pins.held, modes.pins.left_out, modes.bases));
+  else
+    for (modal::Basis& basis : modes.bases)
+      modal::apply_damping(basis, tubes.study.modes.damping);
+}
+
+results::LinearResponse response_of(const TubesInFlow& tubes, const study::Response& asked,
+                                    const std::vector<TurbulentLoad>& loads,
+                                    const std::vector<NamedNode>& nodes, PinnedModes& modes) {
+  damp(tubes, asked, modes);
+  results::LinearResponse out;
+  out.name = asked.name;
+  out.pinned = names_of(tubes.study, modes.pins.held);
+  out.duration = asked.duration;
+  out.probability = asked.probability;
+  for (const modal::Basis& basis : modes.bases) {
+    out.modes += basis.true_modes();
+    std::vector<Watched> watched;
+    watch_nodes(basis, nodes, watched);
+    watch_contacts(basis, modes.pins.left_out, watched);
+    if (!watched.empty() && basis.true_modes() > 0)
+      respond(asked, loads, basis, std::move(watched), out);
+  }
+  return out;
+}
+
+/// What the response loses, where it matters.
+void note_losses(const results::LinearResponse& response, std::vector<std::string>& notes) {
+  constexpr double told = 1e-3;  // of a variance
+  constexpr double still = 1e-3; // of the largest rms: what pins leave is not looked at
+  double outside = 0.0, above = 0.0, largest = 0.0;
+  for (const results::ResponsePoint& point : response.points)
+    largest = std::max(largest, point.rms);
+  for (const results::ResponsePoint& point : response.points) {
+    if (point.rms < still * largest)
+      continue;
+    outside = std::max(outside, point.share_outside);
+    above = std::max(above, point.share_above);
+  }
+  if (outside > told)
+    notes.push_back(
+        fmt::format("response \"{}\": up to {:.2g} % of a variance comes from frequencies outside the range "
+                    "of the spectra, where they are continued",
+                    response.name, 100.0 * outside));
+  if (above > told)
+    notes.push_back(
+        fmt::format("response \"{}\": forces above the band of the turbulence would add up to {:.2g} % to a "
+                    "variance; give [[turbulence]] a wider band",
+                    response.name, 100.0 * above));
+}
+
+} // namespace
+
+PinsAsked pins_asked(const study::Response& response) {
+  return {fmt::format("response \"{}\"", response.name), response.pinned, response.contacts};
+}
+
+void linear_responses(MPI_Comm comm, const TubesInFlow& tubes, const std::vector<TurbulentLoad>& loads,
+                      const std::vector<PlacedContact>& contacts, const std::vector<NamedNode>& nodes,
+                      results::RunResults& out) {
+  std::vector<study::Response> asked = tubes.study.responses;
+  if (asked.empty()) {
+    asked.emplace_back();
+    asked.back().name = "all contacts pinned";
+  }
+  for (const study::Response& one : asked) {
+    PinnedModes modes = pinned_modes(comm, pins_asked(one), tubes, contacts, out.notes);
+    core::agree(comm, [&] {
+      out.responses.push_back(response_of(tubes, one, loads, nodes, modes));
+      if (out.responses.back().points.empty())
+        throw core::Error(
+            fmt::format("response \"{}\": nothing is observed: name groups in [output] nodes, or leave "
+                        "contacts unpinned",
+                        one.name));
+      note_losses(out.responses.back(), out.notes);
+    });
+  }
+}
+
+} // namespace fretwork::app

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/pinned_modes.hpp"
+#include "app/pinned_model.hpp"
+#include "app/stages.hpp"
+#include "core/error.hpp"
+#include "core/mpi.hpp"
+#include "modal/slepc_structures.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace fretwork::app {
+namespace {
+
+bool is_pinned(const PinsAsked& asked, const study::Contact& contact) {
+  switch (asked.pinned) {
+  case study::Pinned::contacts:
+    return contact.active;
+  case study::Pinned::none:
+    return false;
+  case study::Pinned::named:
+    break;
+  }
+  return std::find(asked.contacts.begin(), asked.contacts.end(), contact.name) != asked.contacts.end();
+}
+
+} // namespace
+
+Pins pins_of(const PinsAsked& asked, const study::Study& study, const fem::Model& model,
+             const std::vector<PlacedContact>& contacts, std::vector<std::string>& notes) {
+  Pins pins;
+  for (const PlacedContact& contact : contacts) {
+    if (!is_pinned(asked, study.contacts[contact.entry])) {
+      pins.left_out.push_back(contact);
+      continue;
+    }
+    if (can_pin(model, contact)) {
+      pins.held.push_back(contact);
+      continue;
+    }
+    const std::string problem = fmt::format(
+        "{}: contact \"{}\" is between two nodes that move and pins nothing", asked.what, contact.name);
+    if (asked.pinned == study::Pinned::named)
+      throw core::Error(problem + "; leave it out of pinned");
+    notes.push_back(problem);
+  }
+  return pins;
+}
+
+std::vector<std::string> names_of(const study::Study& study, const std::vector<PlacedContact>& pins) {
+  std::vector<std::string> names;
+  for (const PlacedContact& pin : pins)
+    if (const std::string& name = study.contacts[pin.entry].name;
+        std::find(names.begin(), names.end(), name) == names.end())
+      names.push_back(name);
+  return names;
+}
+
+PinnedModes pinned_modes(MPI_Comm comm, const PinsAsked& asked, const TubesInFlow& tubes,
+                         const std::vector<PlacedContact>& contacts, std::vector<std::string>& notes) {
+  const study::Modes& modes = tubes.study.modes;
+  PinnedModes out;
+  fem::Model pinned;
+  std::vector<fem::Structure> structures;
+  core::agree(comm, [&] {
+    out.pins = pins_of(asked, tubes.study, tubes.model, contacts, notes);
+    pinned = pinned_model(tubes.study, tubes.model, out.pins.held);
+    structures = moving_structures(pinned);
+  });
+  out.bases =
+      modal::solve_structures(comm, pinned, structures, {modes.count, modes.up_to_hz}, modes.distributed);
+  return out;
+}
+
+} // namespace fretwork::app

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Modes of the tubes pinned at supports (pinned_model.hpp), which an assessment of linear modes is made on.
+#pragma once
+#include "app/flow_damping.hpp"
+#include <mpi.h>
+
+namespace fretwork::app {
+
+/// What an assessment pins.
+struct PinsAsked {
+  std::string what; ///< for messages: `stability "both plates"`
+  study::Pinned pinned = study::Pinned::contacts;
+  std::vector<std::string> contacts = {}; ///< of Pinned::named
+};
+
+struct Pins {
+  std::vector<PlacedContact> held;     ///< at which the tubes are pinned
+  std::vector<PlacedContact> left_out; ///< the others
+};
+
+/// @param contacts  all of the study, inactive ones included
+/// @param notes     takes contacts between two moving nodes, which pin nothing
+/// @throws core::Error where a contact that the study names cannot pin
+[[nodiscard]] Pins pins_of(const PinsAsked& asked, const study::Study& study, const fem::Model& model,
+                           const std::vector<PlacedContact>& contacts, std::vector<std::string>& notes);
+
+/// Names of the `[[contacts]]`, each once.
+[[nodiscard]] std::vector<std::string> names_of(const study::Study& study,
+                                                const std::vector<PlacedContact>& pins);
+
+struct PinnedModes {
+  Pins pins;
+  std::vector<modal::Basis> bases; ///< by structures of the pinned model, without damping
+};
+
+/// Collective. As many modes as `[modes]` asks for.
+[[nodiscard]] PinnedModes pinned_modes(MPI_Comm comm, const PinsAsked& asked, const TubesInFlow& tubes,
+                                       const std::vector<PlacedContact>& contacts,
+                                       std::vector<std::string>& notes);
+
+} // namespace fretwork::app

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/turbulent_loads.hpp"
+#include "core/error.hpp"
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace fretwork::app {
+namespace {
+
+constexpr double most_bytes = 2147483648.0; ///< of one draw
+
+/// Samples of a draw that is made when the first of them is read.
+class DrawnForces final : public transient::ForceSamples {
+public:
+  explicit DrawnForces(flow::ForceDraw draw) : draw_(std::move(draw)) {}
+  [[nodiscard]] Eigen::Index rows() const override { return draw_.modes(); }
+  [[nodiscard]] double step() const override { return draw_.step(); }
+  void fill(std::int64_t first, Eigen::Ref<Eigen::MatrixXd> forces) override { draw_.fill(first, forces); }
+
+private:
+  flow::ForceDraw draw_;
+};
+
+/// Holds the shapes at the patches; blocks only while a run reads them.
+class DrawSource final : public transient::ForceSource {
+public:
+  DrawSource(std::vector<flow::TurbulentZone> zones, const flow::DrawOptions& options)
+      : zones_(std::move(zones)), options_(options) {}
+  [[nodiscard]] std::shared_ptr<transient::ForceSamples> open() const override {
+    std::shared_ptr<transient::ForceSamples> samples = opened_.lock();
+    if (!samples) {
+      samples = std::make_shared<DrawnForces>(flow::ForceDraw(zones_, {}, options_));
+      opened_ = samples;
+    }
+    return samples;
+  }
+
+private:
+  std::vector<flow::TurbulentZone> zones_;
+  flow::DrawOptions options_;
+  mutable std::weak_ptr<transient::ForceSamples> opened_;
+};
+
+/// Shapes of modes within the band that turn within a few patches.
+void note_coarse_patches(const TurbulentLoad& load, const std::vector<flow::TurbulentZone>& zones,
+                         const std::vector<const modal::Basis*>& bases, std::vector<std::string>& notes) {
+  std::vector<Eigen::Index> driven; // modes in the band
+  Eigen::Index first = 0;
+  for (const modal::Basis* basis : bases) {
+    for (Eigen::Index i = 0; i < basis->true_modes(); ++i)
+      if (basis->omega(i) <= 2.0 * std::numbers::pi * load.band.high)
+        driven.push_back(first + i);
+    first += basis->size();
+  }
+  for (const flow::TurbulentZone& zone : zones)
+    for (const flow::LoadAxis& axis : zone.axes) {
+      if (driven.empty())
+        return;
+      const double half = flow::shortest_half_wavelength(zone.s, axis.shapes(driven, Eigen::all)),
+                   width = zone.ds.maxCoeff();
+      if (width <= flow::required_patch_width(zone.correlation_length, half) * (1.0 + 1e-9))
+        continue;
+      const double turn = std::numbers::pi * width / half;
+      notes.push_back(
+          fmt::format("{}, zone \"{}\": patches of {:.3g} m are more than a tenth of the shortest "
+                      "half-wavelength of modes in the band, {:.3g} m; its force spectrum is up to {:.2g} % "
+                      "too large",
+                      load.name, zone.name, width, half, 100.0 * turn * turn / 12.0));
+      break;
+    }
+}
+
+} // namespace
+
+std::optional<transient::SampledLoad> sampled_load(const TurbulentLoad& load,
+                                                   const std::vector<const modal::Basis*>& bases,
+                                                   std::vector<std::string>& notes) {
+  std::vector<flow::TurbulentZone> zones = zones_on(load, bases);
+  if (zones.empty())
+    return std::nullopt;
+  if (const double bytes = flow::draw_bytes(zones, load.band); bytes > most_bytes)
+    throw core::Error(fmt::format("{}: a draw of {} modes on its patches would hold {:.3g} GB, at most "
+                                  "{:.3g}; take a longer correlation "
+                                  "length, fewer modes, or a lower end of band",
+                                  load.name, zones.front().modes(), 1e-9 * bytes, 1e-9 * most_bytes));
+  note_coarse_patches(load, zones, bases, notes);
+  transient::SampledLoad out;
+  out.rms = flow::modal_mean_squares(zones, load.band).cwiseSqrt();
+  const Eigen::Index modes = out.rms.size();
+  for (Eigen::Index i = 0; i < modes; ++i)
+    out.rows.push_back(i);
+  out.scale = Eigen::VectorXd::Ones(modes);
+  out.highest = load.band.high;
+  out.ramp = load.ramp;
+  out.source = std::make_shared<DrawSource>(std::move(zones), load.draw);
+  return out;
+}
+
+} // namespace fretwork::app

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// `[[turbulence]]` of a study: zones of the flow cut into patches, whatever the modes, and the modal forces that a basis makes of them.
+///
+/// Forces are the same for any basis, number of ranks and duration: band, period of blocks and patches follow from the flow alone
+/// (flow/load_band.hpp; patches a fifth of the correlation length wide), random numbers from the seed and the names of tube and zone.
+#pragma once
+#include "app/build_flow.hpp"
+#include "flow/load_band.hpp"
+#include "modal/basis.hpp"
+#include "transient/sampled_load.hpp"
+
+namespace fretwork::app {
+
+/// A zone of a tube under turbulence.
+struct PatchedZone {
+  flow::TurbulentZone zone; ///< its axes (drag, lift) with weights, their shapes of no meaning
+  flow::Tube tube;
+  core::Index start = -1;   ///< node of the model at s = 0
+  Eigen::Matrix3Xd axes[2]; ///< e_D and e_L at the patches
+  std::string flow;         ///< name
+};
+
+/// An entry of `[[turbulence]]` on all its tubes.
+struct TurbulentLoad {
+  std::string name; ///< for messages: `turbulence "inlet"`
+  std::vector<PatchedZone> zones;
+  flow::LoadBand band;
+  flow::DrawOptions draw;
+  double ramp = 0.0; ///< s
+};
+
+/// @param flows  of the study, placed
+/// @param notes  takes the band of each entry and what is lost outside
+/// @throws core::Error for names that do not exist, a zone of two entries, zones without velocity or direction, spectra that do not fit their fluid
+[[nodiscard]] std::vector<TurbulentLoad> turbulent_loads(const study::Study& study, const fem::Model& model,
+                                                         const std::vector<PlacedFlow>& flows,
+                                                         std::vector<std::string>& notes);
+
+/// The zones of a load with the shapes of a scene, structure after structure; those of other structures are left out.
+/// @param bases  of the structures of the scene
+[[nodiscard]] std::vector<flow::TurbulentZone> zones_on(const TurbulentLoad& load,
+                                                        const std::vector<const modal::Basis*>& bases);
+
+/// The modal forces of a draw for a scene; none where the load acts on no structure of it.
+/// @param notes  takes shapes that the patches do not resolve
+/// @throws core::Error where the draw would take too much memory
+[[nodiscard]] std::optional<transient::SampledLoad>
+sampled_load(const TurbulentLoad& load, const std::vector<const modal::Basis*>& bases,
+             std::vector<std::string>& notes);
+
+} // namespace fretwork::app

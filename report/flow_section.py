@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sections of the report on the flow: profile along tubes, stability, linear response, spectra."""
+
+import html
+
+import flow_view
+from drawing import short
+from page import figure, section, table, warning
+
+MOST_MODE_ROWS = 40
+MOST_POINT_ROWS = 60
+MOST_SPECTRA = 24
+
+PROFILES = (
+    ("velocity [m/s]", "gap velocity [m/s]"),
+    ("density [kg/m3]", "density [kg/m³]"),
+    ("void_fraction [1]", "void fraction"),
+    ("mass [kg/m]", "mass [kg/m]"),
+)
+
+
+def profiles(run):
+    if not run.flows:
+        return ""
+    parts = []
+    for flow in run.flows:
+        shown = [plot for plot in PROFILES if flow.columns[plot[0]].max() > 0]
+        panels = "".join(figure(flow_view.profile(flow, *plot)) for plot in shown)
+        zones = ", ".join(html.escape(zone) for zone in dict.fromkeys(flow.zones) if zone)
+        parts.append(f'<h3>{html.escape(flow.tube)}</h3><p class="soft">Zones: {zones}; red: where one ends.</p><div class="grid2">{panels}</div>')
+    return section("Flow along the tubes", *parts)
+
+
+def _worst(assessment):
+    return max(assessment["cases"], key=lambda case: max((v or 0.0 for v in case["ratios"]), default=0.0))
+
+
+def _constants(case):
+    return ", ".join(f"{html.escape(zone)} {short(k)}" for zone, k in case["connors_constants"].items())
+
+
+def _mode_rows(assessment, case):
+    rows = zip(assessment["modes"], case["critical_velocities_m_s"], case["ratios"])
+    return [
+        [f"{i}", short(m["frequency_hz"]), short(100 * m["damping"], 3), short(m["effective_velocity_m_s"], 3), short(v, 3), short(r, 3),
+         short(None if r is None else 1 - r, 3)]
+        for i, (m, v, r) in enumerate(rows, 1)
+    ][:MOST_MODE_ROWS]
+
+
+def _assessment(assessment):
+    title = f'<h3>{html.escape(assessment["name"])}, {html.escape(assessment["tube"])}</h3>'
+    if not assessment["modes"]:
+        return title + "<p>No modes.</p>"
+    case = _worst(assessment)
+    pinned = ", ".join(map(html.escape, assessment["pinned"])) or "nothing"
+    facts = (f'<p class="soft">Pinned at: {pinned}. Constants K of the case shown, the worst of {len(assessment["cases"])}: {_constants(case)}. '
+             f'Margin 1 − V/Vc: {short(case["margin"], 3)}, factor of all velocities at the limit: {short(case["critical_scale"], 3)}.</p>')
+    bad = warning("Fluid-elastically unstable.", bad=True) if (case["margin"] or 0.0) <= 0.0 else ""
+    pictures = "".join(map(figure, (flow_view.ratios(case), flow_view.critical_velocities(assessment, case), flow_view.damping(assessment))))
+    heads = ["mode", "frequency [Hz]", "damping [%]", "effective velocity [m/s]", "critical velocity [m/s]", "V/Vc", "margin"]
+    return title + bad + facts + f'<div class="grid2">{pictures}</div>' + table(heads, _mode_rows(assessment, case))
+
+
+def stability(run):
+    assessments = run.summary.get("stability", [])
+    return section("Fluid-elastic stability", *map(_assessment, assessments)) if assessments else ""
+
+
+def _micro(value):
+    return short(None if value is None else 1e6 * value, 4)
+
+
+def _response(response):
+    rows = [
+        [html.escape(p["name"]), p["direction"], _micro(p["rms_m"]), short(1e3 * p["rms_velocity_m_s"], 4),
+         short(p["up_crossings_per_second"], 4), _micro(p["maximum_m"])]
+        for p in response["points"][:MOST_POINT_ROWS]
+    ]
+    pinned = ", ".join(map(html.escape, response["pinned"])) or "nothing"
+    note = (f'<p class="soft">{response["modes"]} modes, pinned at: {pinned}. Largest value in {short(response["duration_s"])} s that is not exceeded with '
+            f'probability {short(response["probability"])}.</p>')
+    heads = ["node or contact", "along", "rms [µm]", "rms velocity [mm/s]", "up-crossings [1/s]", "largest [µm]"]
+    return f'<h3>{html.escape(response["name"])}</h3>' + note + table(heads, rows, (0, 1))
+
+
+def response(run):
+    responses = run.summary.get("response", [])
+    return section("Linear response to turbulence", *map(_response, responses)) if responses else ""
+
+
+def spectra(run):
+    if not run.spectra:
+        return ""
+    shown = run.spectra[:MOST_SPECTRA]
+    panels = "".join(
+        f'<div><h3>{html.escape(s.name)}</h3>{figure(flow_view.spectrum(s), html.escape(s.quantity))}</div>' for s in shown
+    )
+    note = (
+        '<p class="soft">One-sided in Hz. Force per length: spectrum of the turbulence where the zone is fastest. Others: Welch’s estimate from the output '
+        "instants in the statistics window, with its 95 % band; motion above half the output rate is folded back.</p>"
+    )
+    left = f'<p class="soft">The first {MOST_SPECTRA} of {len(run.spectra)}; all are in spectra.csv.</p>' if len(run.spectra) > MOST_SPECTRA else ""
+    return section("Spectra", note, f'<div class="grid3">{panels}</div>', left)

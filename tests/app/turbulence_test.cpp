@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Turbulence as users meet it: transients against closed forms, what forces may not depend on, the linear response, messages.
+#include "mesh_text.hpp"
+#include "program.hpp"
+#include "study_text.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+#include <sstream>
+
+namespace fretwork::app::test {
+namespace {
+
+using nlohmann::json;
+constexpr double pi = std::numbers::pi, level = 0.02, correlation = 0.1, ratio = 0.02;
+const double outer = 0.01905, bore = outer - 2.0 * 0.00109, displaced = pi / 4.0 * outer * outer,
+             bending = 2.0e11 * pi / 64.0 * (std::pow(outer, 4) - std::pow(bore, 4)),
+             mass = 8000.0 * (displaced - pi / 4.0 * bore * bore) +
+                    740.0 * displaced; // C_m = 1 of a single tube
+
+/// Pinned tubes of 1 m along x, 20 elements each, 0.1 m apart; drag along z, lift along y. `held`: components restrained all along.
+std::string tubes(const Workshop& folder, int count, const std::string& held, const std::string& more) {
+  MeshText mesh;
+  std::string study;
+  for (int k = 0; k < count; ++k) {
+    const std::string name = fmt::format("tube{}", k);
+    MeshText one = straight_line(name, {0.0, 0.1 * k, 0.0}, {1.0, 0.1 * k, 0.0}, 20);
+    one.points.emplace_back(fmt::format("middle{}", k), 10);
+    mesh = k == 0 ? one : together(mesh, one);
+    study += fmt::format("[[beams]]\ngroup = \"{0}\"\nmaterial = \"steel\"\nsection = \"tube\"\n"
+                         "[[restraints]]\ngroup = \"{0}\"\nfixed = {1}\n"
+                         "[[restraints]]\ngroup = \"{0}_begin\"\nfixed = [\"uy\", \"uz\"]\n"
+                         "[[restraints]]\ngroup = \"{0}_end\"\nfixed = [\"uy\", \"uz\"]\n"
+                         "[[flow]]\ngroup = \"{0}\"\nfrom = \"{0}_begin\"\n[[flow.zones]]\nname = \"water\"\n"
+                         "velocity = [0, 0, 1]\ndensity = 740\nviscosity = 1.23e-7\nconnors_constant = 3\n",
+                         name, held);
+  }
+  folder.write("mesh.msh", mesh.text());
+  return steel_pipe("mesh.msh") + study + more;
+}
+const std::string in_one_plane = R"(["ux", "uz", "rx", "ry"])", across = R"(["ux", "rx"])";
+
+/// White lift. @param keys  more of them
+std::string white(const std::string& keys = "band = [1, 300]\n") {
+  return fmt::format("[[turbulence]]\nname = \"t\"\nspectrum = \"table\"\ntable_frequency = \"hz\"\n"
+                     "table = [[1, {0}], [1000, {0}]]\ncorrelation_length = {1}\ndrag = 0\n",
+                     level, correlation) +
+         keys;
+}
+std::string modes(int count) { return fmt::format("[modes]\ncount = {}\ndamping = {}\n", count, ratio); }
+std::string run(double duration, const std::string& output, const std::string& keys = {}) {
+  return fmt::format("[transient]\nduration = {}\n{}[output]\n", duration, keys) + output;
+}
+
+/// Of mode m under the white lift: f, Hz, and the variance of the middle, m^2 (W7 and W8 of closed forms).
+double frequency(int m) { return pi / 2.0 * m * m * std::sqrt(bending / mass); }
+double variance_of_middle(int m) {
+  const double a = 1.0 / correlation, n = m * pi, even = 1.0 - (m % 2 == 0 ? 1.0 : -1.0) * std::exp(-a);
+  const double acceptance = a / (a * a + n * n) + 2.0 * n * n * even / std::pow(a * a + n * n, 2);
+  const double modal_mass = 0.5 * mass, w = 2.0 * pi * frequency(m);
+  return std::pow(std::sin(0.5 * n), 2) * level * acceptance /
+         (8.0 * ratio * w * w * w * modal_mass * modal_mass);
+}
+
+double rms_of(const json& points, const std::string& name, const std::string& direction) {
+  for (const json& point : points)
+    if (point["name"] == name && point["direction"] == direction)
+      return point["rms_m"];
+  ADD_FAILURE() << name;
+  return 0.0;
+}
+
+/// Displacement of the first observed node along y.
+Eigen::VectorXd lift_of(const Results& results) {
+  return results.archive.series.nodes[0].displacement.col(1);
+}
+
+Outcome outcome_of(const Workshop& folder, const std::string& text, const std::string& command,
+                   const std::vector<std::string>& more = {}) {
+  folder.write("study.toml", text);
+  std::vector<std::string> arguments{command, folder.path("study.toml").string(), "-o",
+                                     folder.path("out").string(), "--force"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return folder.fretwork(arguments);
+}
+
+TEST(Turbulence, GivesTheMeanSquareOfTheClosedFormOverManyDraws) {
+  // tubes of one study have independent forces: as many draws
+  constexpr int draws = 16;
+  constexpr double duration = 12.0, from = 1.0; // the start has decayed: 3/(xi w) = 0.5 s
+  const Workshop folder;
+  std::string nodes;
+  for (int k = 0; k < draws; ++k)
+    nodes += fmt::format("{}\"middle{}\"", k ? ", " : "nodes = [", k);
+  const Results results = folder.run_text(tubes(
+      folder, draws, in_one_plane,
+      white() + modes(3) + run(duration, nodes + "]\nevery = 0.01\nstatistics_from = 1\n", "step = 5e-4\n")));
+  double squares = 0.0;
+  for (const json& node : results.summary["nodes"])
+    squares += (std::pow(node["displacement"]["y"]["std"].get<double>(), 2) +
+                std::pow(node["displacement"]["y"]["mean"].get<double>(), 2)) /
+               draws;
+  const double closed = variance_of_middle(1) + variance_of_middle(3);
+  const double scatter = 1.0 / std::sqrt(ratio * 2.0 * pi * frequency(1) * (duration - from) * draws);
+  constexpr double of_patches = 7e-3,
+                   of_band = 2e-3; // (1/5)^2/6; the first mode's quasi-static part above 300 Hz, and samples
+  EXPECT_NEAR(squares / closed, 1.0, 3.0 * scatter + of_patches + of_band);
+  EXPECT_LT(3.0 * scatter, 0.11); // the test can fail
+}
+
+TEST(Turbulence, ForcesDoNotDependOnTheDuration) {
+  const Workshop folder;
+  const auto of = [&](double duration) {
+    return lift_of(folder.run_text(
+        tubes(folder, 1, in_one_plane,
+              white() + modes(3) + run(duration, "nodes = [\"middle0\"]\nevery = 0.01\n", "step = 1e-3\n"))));
+  };
+  const Eigen::VectorXd longer = of(9.0), shorter = of(1.0);
+  ASSERT_GT(shorter.cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_LT((shorter - longer.head(shorter.size())).cwiseAbs().maxCoeff(),
+            1e-12 * shorter.cwiseAbs().maxCoeff());
+}
+
+TEST(Turbulence, ForcesDoNotDependOnTheBasis) {
+  // modes across, and eight modes instead of four: lift reaches those in the plane x-y alone
+  const Workshop folder;
+  const std::string rest = run(1.0, "nodes = [\"middle0\"]\nevery = 0.01\n", "step = 1e-3\n");
+  const Eigen::VectorXd plane = lift_of(
+                            folder.run_text(tubes(folder, 1, in_one_plane, white() + modes(4) + rest))),
+                        both = lift_of(folder.run_text(tubes(folder, 1, across, white() + modes(8) + rest)));
+  constexpr double of_solver = 1e-6; // residuals of two solutions
+  EXPECT_LT((plane - both).norm(), of_solver * plane.norm());
+}
+
+TEST(Turbulence, ForcesDoNotDependOnRanksNorOnOtherTubes) {
+  const Workshop folder;
+  const std::string rest = white() + modes(3) + run(0.5, "nodes = [\"middle0\"]\n", "step = 1e-3\n");
+  const Results one = folder.run_text(tubes(folder, 2, in_one_plane, rest)),
+                two = folder.run_text(tubes(folder, 2, in_one_plane, rest), {"--force"}, 2);
+  EXPECT_TRUE(same_numbers(one.archive, two.archive));
+  const Eigen::VectorXd alone = lift_of(folder.run_text(tubes(folder, 1, in_one_plane, rest)));
+  EXPECT_LT((lift_of(one) - alone).norm(),
+            1e-6 * alone.norm()); // the band is that of the spectrum, not of the tubes
+  const Eigen::VectorXd other =
+      lift_of(folder.run_text(tubes(folder, 1, in_one_plane, rest), {"--set", "turbulence.t.seed=2"}));
+  EXPECT_GT((other - alone).norm(), 0.1 * alone.norm());
+}
+
+TEST(Turbulence, IsNoPartOfAStaticStart) {
+  const Workshop folder;
+  const Results results =
+      folder.run_text(tubes(folder, 1, in_one_plane,
+                            white() + modes(3) + "[gravity]\nacceleration = [0, -9.81, 0]\n" +
+                                run(0.01, "nodes = [\"middle0\"]\n", "start = \"static\"\nstep = 1e-3\n")));
+  const double weight = 9.81 * (8000.0 * (displaced - pi / 4.0 * bore * bore) - 740.0 * displaced),
+               sag = 5.0 * weight / (384.0 * bending);
+  constexpr double of_modes = 5e-3; // the modes 5, 7 ... : 1/5^5 and more
+  EXPECT_NEAR(results.archive.series.nodes[0].displacement(0, 1) / -sag, 1.0, of_modes);
+}
+
+TEST(LinearResponse, IsThatOfTheClosedForm) {
+  const Workshop folder;
+  const Outcome outcome =
+      outcome_of(folder,
+                 tubes(folder, 1, in_one_plane,
+                       white("band = [0.1, 2000]\n") + modes(3) + "[output]\nnodes = [\"middle0\"]\n"),
+                 "response");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, "Linear response \"all contacts pinned\" on 3 modes, nothing pinned"));
+  const json summary = json::parse(bytes_of(folder.path("out") / "summary.json"));
+  const double closed = std::sqrt(variance_of_middle(1) + variance_of_middle(3));
+  constexpr double of_patches = 4e-3; // half of (1/5)^2/6, and the coupling of modes 1 and 3
+  EXPECT_TRUE(close_to(rms_of(summary["response"][0]["points"], "middle0", "y"), closed, of_patches));
+  std::istringstream table(bytes_of(folder.path("out") / "response.csv"));
+  std::string header, first;
+  std::getline(table, header);
+  std::getline(table, first);
+  EXPECT_TRUE(header.starts_with("response,name,direction,rms [m]"));
+  EXPECT_TRUE(first.starts_with("\"all contacts pinned\",\"middle0\",x,"));
+}
+
+TEST(LinearResponse, PinsContactsAndLeavesOthersFree) {
+  const Workshop folder;
+  const std::string contact =
+      "[[contacts]]\nname = \"support\"\ngroup = \"middle0\"\ngap = 1e-3\nnormal_stiffness = 1e6\n";
+  const std::string study = tubes(folder, 1, across, white() + modes(6) + contact) +
+                            "[[response]]\nname = \"held\"\ndamping = 0.05\n[[response]]\nname = \"free\"\n"
+                            "pinned = \"none\"\n[output]\nnodes = [\"tube0\"]\n";
+  const Outcome outcome = outcome_of(folder, study, "response");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json responses = json::parse(bytes_of(folder.path("out") / "summary.json"))["response"];
+  ASSERT_EQ(responses.size(), 2u);
+  EXPECT_EQ(responses[0]["pinned"], json({"support"}));
+  EXPECT_TRUE(responses[1]["pinned"].empty());
+  const double held = rms_of(responses[0]["points"], "tube0[10]", "y"),
+               free = rms_of(responses[1]["points"], "tube0[10]", "y");
+  EXPECT_LT(held, 1e-3 * free);
+  // a contact that is not pinned is watched along its local axes: y_loc is y of a tube along x
+  EXPECT_TRUE(close_to(rms_of(responses[1]["points"], "support", "y_loc"), free, 1e-9));
+  for (const json& point : responses[0]["points"])
+    EXPECT_NE(point["name"], "support");
+}
+
+TEST(Turbulence, IsRefusedWhereItCannotAct) {
+  const Workshop folder;
+  const auto refused = [&](const std::string& text, const std::string& part, const std::string& command) {
+    const Outcome outcome = outcome_of(folder, text, command);
+    EXPECT_EQ(outcome.status, 1) << part;
+    EXPECT_TRUE(says(outcome.err, part));
+  };
+  const std::string entry = "[[turbulence]]\nspectrum = \"cor_3\"\ncorrelation_length = 0.06\n";
+  const auto with = [&](const std::string& keys) { return tubes(folder, 1, in_one_plane, entry + keys); };
+  const auto instead = [&](const std::string& old, const std::string& text) {
+    std::string study = with("");
+    return study.replace(study.find(old), old.size(), text);
+  };
+  refused(with("flow = \"tube9\"\n"), "no [[flow]] is called so", "mesh");
+  refused(with("zones = [\"wather\"]\n"), "did you mean \"water\"", "mesh");
+  refused(with("zones = \"water\"\n" + entry + "zones = \"water\"\n"), "would double it", "mesh");
+  refused(with(entry + "zones = \"water\"\n"), "acts on no zone", "mesh");
+  refused(instead("velocity = [0, 0, 1]", "velocity = 1.0"), "no direction of drag", "mesh");
+  refused(instead("cor_3", "two_phase"), "has one phase", "mesh");
+  refused(instead("0.06", "1e-5"), "correlation_length", "mesh");
+  refused(tubes(folder, 1, in_one_plane, ""), "no [[turbulence]]", "response");
+  refused(tubes(folder, 1, in_one_plane, white() + "[modes]\ncount = 3\n[output]\nnodes = [\"middle0\"]\n"),
+          "damping ratio 0", "response");
+  refused(tubes(folder, 1, in_one_plane, white() + modes(3)), "nothing is observed", "response");
+}
+
+} // namespace
+} // namespace fretwork::app::test
