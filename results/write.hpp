@@ -10,7 +10,7 @@
 namespace fretwork::results {
 
 /// Number of the layout of the files: part of what tells whether stored results can be read. Raise it when the layout changes.
-inline constexpr int file_layout = 5;
+inline constexpr int file_layout = 6;
 
 /// Calls `write` with a temporary name beside `file`, then renames. Removes the temporary file when `write`
 /// throws. Makes the folder where there is none.
