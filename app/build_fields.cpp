@@ -18,7 +18,8 @@ using core::Vec3;
 void support_loads(const study::SupportMotion& motion, double duration, const std::string& name,
                    const fem::Model& model, const SupportFields& fields, std::vector<Fields::Load>& loads) {
   const transient::PrescribedMotion moved = prescribed(motion, duration);
-  loads.push_back({name, moved.acceleration, -fem::mass_times(model, fields.shape), true, true});
+  loads.push_back(
+      {name, moved.acceleration, -fem::mass_times(model, fields.shape), true, true, motion.by_displacement});
   if (!fields.dampers.isZero(0.0))
     loads.push_back({name + ", dampers", transient::velocity_of(moved), fields.dampers, true, true});
 }
@@ -92,7 +93,10 @@ Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh, const
                     const std::vector<SupportFields>& supports) {
   Fields out;
   for (std::size_t e = 0; e < study.loads.size(); ++e) {
-    const std::string name = fmt::format("[[loads]] entry {} on \"{}\"", e + 1, study.loads[e].group);
+    const study::Load& load = study.loads[e];
+    const std::string name = load.name.empty()
+                                 ? fmt::format("[[loads]] entry {} on \"{}\"", e + 1, load.group)
+                                 : fmt::format("load \"{}\"", load.name);
     out.loads.push_back({name, study.loads[e].function, load_field(study.loads[e], name, mesh, model)});
   }
   const auto on_all_masses = [&](const core::Vec3& direction) {

@@ -20,6 +20,8 @@ struct Fields {
     Eigen::VectorXd force;
     bool inertial = false;   ///< as transient::Load
     bool of_support = false; ///< what a support motion does to the modes
+    bool of_curve =
+        false; ///< by the curve through a table of its displacement, whose acceleration may jump at the rows
   };
   std::vector<Load> loads;
   std::vector<TurbulentLoad> turbulence; ///< set apart: of the placed flows

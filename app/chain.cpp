@@ -5,23 +5,30 @@
 #include "app/folder_lock.hpp"
 #include "app/jobs.hpp"
 #include "app/linear_response.hpp"
+#include "app/modal_truncation.hpp"
 #include "app/modes_limit.hpp"
 #include "app/progress.hpp"
 #include "app/python_report.hpp"
 #include "app/residual_flexibility.hpp"
 #include "app/run_spectra.hpp"
+#include "app/size_of_results.hpp"
 #include "app/stability.hpp"
 #include "app/static_modes.hpp"
 #include "app/support_motion.hpp"
+#include "app/unit_slips.hpp"
 #include "app/wear_of_run.hpp"
 #include "core/error.hpp"
 #include "core/mpi.hpp"
 #include "core/petsc.hpp"
 #include "core/printable.hpp"
+#include "results/figures.hpp"
+#include "results/grouped_messages.hpp"
 #include "results/summary_file.hpp"
+#include "results/totals.hpp"
 #include "results/write.hpp"
 #include "transient/kernels.hpp"
 #include <chrono>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <functional>
 #include <limits>
@@ -56,6 +63,7 @@ results::RunRecord make_record(const Inputs& inputs, int ranks) {
   record.version = FRETWORK_VERSION;
   record.title = inputs.study.title;
   record.study_text = inputs.study.text;
+  record.overrides = inputs.study.overrides;
   record.input_sha256 = inputs.whole_key;
   for (const auto& load : inputs.study.loads)
     if (const auto* random = std::get_if<transient::Random>(&load.function))
@@ -169,7 +177,11 @@ std::vector<BuiltScene> build_scenes(const study::Study& study, const std::vecto
   const auto of_contacts = contact_notes(study, placed, scenes);
   out.notes.insert(out.notes.end(), of_contacts.begin(), of_contacts.end());
   if (const std::string note = flexibility_note(study, scenes); !note.empty())
-    out.notes.push_back(note);
+    out.notes.insert(out.notes.begin(), note);
+  for (const std::string& warning :
+       {missing_flexibility_warning(study, scenes), load_band_warning(study, bases, fields.loads)})
+    if (!warning.empty()) // what makes forces wrong by factors comes first
+      out.warnings.insert(out.warnings.begin(), warning);
   for (std::size_t k = 0; k < fields.loads.size(); ++k)
     for (std::size_t j = 0; j < k; ++j) {
       const auto* one = std::get_if<transient::Random>(&fields.loads[j].function);
@@ -198,6 +210,11 @@ std::vector<BuiltScene> build_scenes(const study::Study& study, const std::vecto
           "[output] nodes: \"{}\" belongs to no structure that moves; observe another node", node.name));
   }
   return scenes;
+}
+
+/// `1 node`, `3 nodes`
+template <class Things> std::string counted(const Things& things, const char* what) {
+  return results::counted(static_cast<std::int64_t>(things.size()), what);
 }
 
 /// True where the results in the folder are whole and were computed from the same inputs. Damage is told.
@@ -310,6 +327,28 @@ void report_coincident(const mesh::LineMesh& mesh, results::RunResults& out) {
                     mesh.coincident.size() == 1 ? "is" : "are"));
 }
 
+/// A line a warning, for `check`.
+std::string told_warnings(const results::RunResults& out) {
+  std::string told;
+  for (const std::string& warning : results::grouped_messages(out.warnings))
+    told += "  warning: " + warning + "\n";
+  return told;
+}
+
+/// How long a run would be and how much it would write; warnings of its steps go to `out`.
+std::string forecast_text(MPI_Comm comm, const study::Study& study, const std::vector<BuiltScene>& scenes,
+                          const std::vector<PlacedContact>& placed, results::RunResults& out) {
+  const Forecast forecast = check_jobs(comm, study, scenes);
+  out.warnings.insert(out.warnings.end(), forecast.warnings.begin(), forecast.warnings.end());
+  const SizeOfResults size = size_of_results(study, scenes, placed, forecast.outputs, forecast.impact_rows);
+  const std::string steps = forecast.steps > 0.0
+                                ? results::counted(static_cast<std::int64_t>(forecast.steps), "step")
+                                : std::string("steps as the tolerance asks for");
+  return fmt::format("  {}; a run: {:g} s, {}; results.h5: {} of series, up to {} of impacts\n",
+                     counted(results::sorted_modes(out.bases), "mode"), study.transient->duration, steps,
+                     size_text(size.series), size_text(size.impacts));
+}
+
 } // namespace
 
 void run_chain(MPI_Comm comm, const Request& request, Stage last) {
@@ -321,9 +360,11 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
       fmt::print("{}", core::printable(text, core::longest_message_line));
   };
   Inputs inputs;
+  bool scenes_wanted = last == Stage::transient;
   std::optional<FolderLock> lock;
   core::agree(comm, [&] {
     inputs = read_inputs(request);
+    scenes_wanted = scenes_wanted || (last == Stage::check && inputs.study.transient);
     if (last == Stage::transient && !inputs.study.transient)
       throw core::Error(
           "the study has no [transient]; add it, or compute its modes with: fretwork modes STUDY");
@@ -366,6 +407,7 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
   OtherRuns other_runs;
   core::agree(comm, [&] {
     model = build_model(inputs.study, mesh);
+    out.warnings = unit_slips(inputs.study, mesh, model);
     placed = place_contacts(inputs.study, mesh, model, out.warnings);
     inactive = take_inactive(inputs.study, placed);
     flows = place_flows(inputs.study, mesh, model, out.notes);
@@ -383,7 +425,7 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
   report_coincident(mesh, out);
   out.timings.assembly = watch.lap();
   if (last == Stage::mesh)
-    return say(fmt::format("{} nodes, {} lines, groups: {}\n", mesh.nodes.size(), mesh.lines.size(),
+    return say(fmt::format("{}, {}, groups: {}\n", counted(mesh.nodes, "node"), counted(mesh.lines, "line"),
                            fmt::join(mesh::group_names(mesh), ", ")));
 
   progress.stage("modes");
@@ -408,12 +450,12 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
         for (const results::TubeDamping& tube : out.flow_damping)
           out.notes.insert(out.notes.end(), tube.limits.begin(), tube.limits.end());
       });
-    if (last == Stage::stability || (last == Stage::transient && !inputs.study.stabilities.empty()))
+    if (last == Stage::stability || (scenes_wanted && !inputs.study.stabilities.empty()))
       assess_stability(comm, tubes, together(placed, inactive), out);
-    if (last == Stage::response || (last == Stage::transient && !inputs.study.responses.empty()))
+    if (last == Stage::response || (scenes_wanted && !inputs.study.responses.empty()))
       linear_responses(comm, tubes, turbulence, together(placed, inactive), nodes, out);
     out.timings.modes = watch.lap();
-    if (last == Stage::transient) {
+    if (scenes_wanted) {
       progress.stage("basis");
       core::agree(comm, [&] {
         at_contacts.fields =
@@ -426,10 +468,21 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
                                 placed, at_contacts.fields.loads);
     }
   }
-  if (last == Stage::transient) {
-    std::vector<BuiltScene> scenes;
+  std::vector<BuiltScene> scenes;
+  if (scenes_wanted)
     core::agree(comm,
                 [&] { scenes = build_scenes(inputs.study, out.bases, placed, nodes, at_contacts, out); });
+  if (last == Stage::check) {
+    progress.stage("");
+    const std::string forecast = scenes_wanted ? forecast_text(comm, inputs.study, scenes, placed, out) : "";
+    return say(fmt::format(
+        "{}: fine\n  {}, {}, {} in {}, {:.6g} kg\n  {}, {}, {}{}\n{}{}", request.study.string(),
+        counted(mesh.nodes, "node"), counted(model.beams, "beam"),
+        results::counted(out.model.dofs, "free dof"), counted(out.bases, "structure"), out.model.mass_kg,
+        counted(placed, "contact"), counted(inputs.study.loads, "load"), counted(nodes, "observed node"),
+        worn.empty() ? "" : ", " + counted(worn, "support") + " that wear", forecast, told_warnings(out)));
+  }
+  if (last == Stage::transient) {
     const WatchedWear watched = watched_wear(inputs.study, worn, placed.size());
     for (BuiltScene& scene : scenes)
       scene.watched_wear = watched.at(scene.contacts);
@@ -482,6 +535,7 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
       std::error_code ignored;
       fs::remove(inputs.directory / file, ignored);
     }
+    leave_out_series(inputs.study, placed, out);
     results::write_archive(inputs.directory / "results.h5", out);
     out.timings.output = watch.lap();
     out.timings.total = watch.total();
@@ -499,48 +553,27 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
     say(results::modes_table(out));
   if (last != Stage::transient)
     say(results::flow_damping_table(out) + results::stability_table(out) + results::response_table(out));
-  say(results::terminal_table(out) + fmt::format("results: {}\n", inputs.directory.string()) + report_line);
+  std::error_code absent;
+  const auto bytes = static_cast<double>(fs::file_size(inputs.directory / "results.h5", absent));
+  const std::string size = absent ? "" : fmt::format(" ({} of series and modes)", size_text(bytes));
+  say(results::terminal_table(out) + fmt::format("results: {}{}\n", inputs.directory.string(), size) +
+      report_line);
 }
 
-std::string check(const Request& request) {
-  const Inputs inputs = read_inputs(request);
-  const mesh::LineMesh mesh = mesh::read(inputs.study.mesh);
-  fem::Model model = build_model(inputs.study, mesh);
-  const auto structures = moving_structures(model);
-  std::vector<std::string> warnings, notes;
-  auto placed = place_contacts(inputs.study, mesh, model, warnings);
-  const auto inactive = take_inactive(inputs.study, placed);
-  const auto flows = place_flows(inputs.study, mesh, model, warnings);
-  static_cast<void>(turbulent_loads(inputs.study, model, flows, notes));
-  for (const study::Stability& assessment : inputs.study.stabilities)
-    static_cast<void>(
-        pins_of(pins_asked(assessment), inputs.study, model, together(placed, inactive), warnings));
-  for (const study::Response& response : inputs.study.responses)
-    static_cast<void>(
-        pins_of(pins_asked(response), inputs.study, model, together(placed, inactive), warnings));
-  const auto nodes = observed_nodes(inputs.study, mesh);
-  static_cast<void>(moved_supports(inputs.study, mesh, model));
-  const auto worn = worn_places(inputs.study, model, placed);
-  static_cast<void>(read_other_runs(inputs.study, worn, placed));
-  if (inputs.study.modes.accuracy)
-    static_cast<void>(modes_limit(inputs.study, model, placed));
-  const Fields fields = build_fields(inputs.study, mesh, model, {});
-  warnings.insert(warnings.end(), fields.warnings.begin(), fields.warnings.end());
-  std::int64_t dofs = 0;
-  for (const auto& structure : structures)
-    dofs += structure.equations;
-  std::string told;
-  if (const auto& transient = inputs.study.transient; transient && transient->step)
-    told +=
-        fmt::format("  {:.4g} steps of {:.4g} s\n", transient->duration / *transient->step, *transient->step);
-  for (const std::string& warning : warnings)
-    told += "  warning: " + warning + "\n";
-  return fmt::format("{}: fine\n  {} nodes, {} beams, {} free dofs in {} structure{}, {:.6g} kg\n  {} "
-                     "contacts, {} loads, {} observed nodes{}\n{}",
-                     request.study.string(), mesh.nodes.size(), model.beams.size(), dofs, structures.size(),
-                     structures.size() == 1 ? "" : "s", fem::total_mass(model), placed.size(),
-                     inputs.study.loads.size(), nodes.size(),
-                     worn.empty() ? "" : fmt::format(", {} supports that wear", worn.size()), told);
+void check(const Request& request) {
+  std::string folder = (fs::temp_directory_path() / "fretwork_check_XXXXXX").string();
+  if (!mkdtemp(folder.data()))
+    throw core::Error("no temporary folder can be made in " + fs::temp_directory_path().string());
+  struct Removed {
+    fs::path folder;
+    ~Removed() {
+      std::error_code ignored;
+      fs::remove_all(folder, ignored);
+    }
+  } const removed{folder};
+  Request in_folder = request;
+  in_folder.directory = folder;
+  run_chain(MPI_COMM_SELF, in_folder, Stage::check);
 }
 
 std::string export_results(const fs::path& directory, const std::string& format) {

@@ -6,16 +6,16 @@
 
 namespace fretwork::app {
 
-enum class Stage { mesh, modes, stability, response, transient };
+enum class Stage { mesh, modes, stability, response, check, transient };
 
 /// Collective. The chain up to a stage: mesh, modes, stability in flow, transient with results (and stability where the
 /// study asks for it). `with_report`: also
-/// DIR/report.html.
+/// DIR/report.html. `check`: all that the transient needs, without its steps; nothing is written but the mesh and the modes.
 void run_chain(MPI_Comm comm, const Request& request, Stage last);
 
-/// Reads and checks all that can be checked without computing, on one process without MPI.
-/// @return what was found, for the terminal
-[[nodiscard]] std::string check(const Request& request);
+/// Refuses what a run would refuse, and says what it would be: the chain up to the first step of the transient, in a temporary folder, on
+/// this process alone.
+void check(const Request& request);
 
 /// Writes DIR/export-<format>/ from the results in DIR; format csv, vtu or msh.
 /// @return where the files are, for the terminal

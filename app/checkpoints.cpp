@@ -15,7 +15,12 @@ namespace fs = std::filesystem;
 
 constexpr const char* file_start = "checkpoint";
 
-volatile std::sig_atomic_t terminated = 0;
+volatile std::sig_atomic_t ended_by = 0; ///< the signal that ends the run; 0: none
+
+void end_run(int signal) { ended_by = signal; }
+
+/// What the user calls the signal.
+std::string name_of_signal(int signal) { return signal == SIGINT ? "Ctrl-C (SIGINT)" : "SIGTERM"; }
 
 results::Checkpoint checkpoint_of(transient::Run& run) {
   core::StateArchive state;
@@ -36,13 +41,19 @@ const std::string& build() {
 } // namespace
 
 Checkpoints::Checkpoints(CheckpointOptions options) : options_(std::move(options)) {
-  if (options_.every > 0.0)
-    on_terminate_ = std::signal(SIGTERM, [](int) { terminated = 1; });
+  if (!(options_.every > 0.0))
+    return;
+  on_terminate_ = std::signal(SIGTERM, end_run);
+  on_interrupt_ = std::signal(SIGINT, end_run);
+  if (on_interrupt_ == SIG_IGN)
+    (void)std::signal(SIGINT, SIG_IGN);
 }
 
 Checkpoints::~Checkpoints() {
-  if (options_.every > 0.0)
-    (void)std::signal(SIGTERM, on_terminate_);
+  if (!(options_.every > 0.0))
+    return;
+  (void)std::signal(SIGTERM, on_terminate_);
+  (void)std::signal(SIGINT, on_interrupt_);
 }
 
 std::string Checkpoints::found(std::size_t run) const {
@@ -66,13 +77,14 @@ void Checkpoints::look(std::size_t run, transient::Run& state) {
   const auto due = [&] {
     return std::chrono::duration<double>(Clock::now() - last_).count() >= options_.every;
   };
-  if (!(options_.every > 0.0) || !(terminated || due()))
+  if (!(options_.every > 0.0) || !(ended_by != 0 || due()))
     return;
   pending_.push_back({run, checkpoint_of(state)});
   write();
-  if (terminated)
+  if (ended_by != 0)
     throw core::ComputationError(
-        fmt::format("ended by SIGTERM at t = {:.6g} s; the same command goes on from there", state.time()));
+        fmt::format("ended by {} at t = {:.6g} s; the same command goes on from there",
+                    name_of_signal(ended_by), state.time()));
 }
 
 void Checkpoints::ended(std::size_t run, transient::Run& state) {

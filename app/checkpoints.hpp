@@ -23,7 +23,8 @@ struct CheckpointOptions {
 /// What the runs of one rank keep, one run after the other: after an interruption at most `every` seconds of their work are lost.
 class Checkpoints {
 public:
-  /// While it lives SIGTERM ends the run at its next look, where checkpoints are written at all.
+  /// While it lives SIGTERM and SIGINT (Ctrl-C) end the run at its next look, where checkpoints are written at all. A SIGINT that the
+  /// program was started to ignore stays ignored.
   explicit Checkpoints(CheckpointOptions options);
   ~Checkpoints();
   Checkpoints(const Checkpoints&) = delete;
@@ -38,7 +39,7 @@ public:
   /// What was found does not fit the run, which starts at the beginning after all.
   void refuse(std::size_t run) const;
   /// Saves the run, and those that have ended, when it is time to. What cannot be written is told, and the run goes on.
-  /// @throws core::ComputationError after SIGTERM, when all is saved
+  /// @throws core::ComputationError after SIGTERM or SIGINT, when all is saved
   void look(std::size_t run, transient::Run& state);
   [[nodiscard]] const TimeLimit& limit() const { return options_.limit; }
   /// The run has come to its end; others follow.
@@ -62,6 +63,7 @@ private:
   Clock::time_point last_ = Clock::now();
   bool failed_ = false;
   void (*on_terminate_)(int) = nullptr; ///< what SIGTERM did before
+  void (*on_interrupt_)(int) = nullptr; ///< what SIGINT did before
 };
 
 } // namespace fretwork::app

@@ -84,6 +84,9 @@ void broadcast(MPI_Comm comm, int root, const BuiltScene& built, JobResult& job)
     broadcast_plain(comm, root, table.rows);
     MPI_Bcast(&table.left_out, 1, MPI_INT64_T, root, comm);
   }
+  job.largest_impacts.resize(built.scene.contacts.size());
+  for (std::vector<post::ForcePoint>& history : job.largest_impacts)
+    broadcast_plain(comm, root, history);
   job.sector_rates.resize(built.watched_wear.sectors.size());
   for (std::vector<double>& rates : job.sector_rates)
     broadcast_plain(comm, root, rates);
@@ -98,9 +101,10 @@ void broadcast(MPI_Comm comm, int root, const BuiltScene& built, JobResult& job)
 
 Job::Job(const study::Study& study, const BuiltScene& built, const transient::StepChoice& choice,
          ProgressObserver* progress)
-    : contacts_(built.scene.contacts.size(), study.output.statistics_from),
+    : contacts_(built.scene.contacts, study.output.statistics_from),
       impacts_(with_impacts(study) ? built.scene.contacts.size() : 0, study.output.statistics_from,
                study.output.rest_time, static_cast<std::size_t>(impact_rows(study, choice))),
+      largest_(built.scene.contacts.size(), study.output.statistics_from),
       sectors_(built.watched_wear.sectors, study.output.statistics_from),
       classes_(built.watched_wear.maxima, study.output.statistics_from),
       nodes_(rows_of(built.nodes), study.output.statistics_from), grid_(grid_of(study)),
@@ -121,6 +125,7 @@ JobResult Job::result() && {
   out.errors_of_sums = contacts_.errors_of_sums();
   out.step_errors = run_.step_errors();
   out.impacts = std::move(impacts_).impacts();
+  out.largest_impacts = largest_.histories();
   out.sector_rates = sectors_.rates();
   out.classes = classes_.classes();
   out.nodes = nodes_.summaries();
@@ -132,8 +137,10 @@ JobResult Job::result() && {
 std::vector<transient::Observer*> Job::watching(const study::Study& study, const BuiltScene& built,
                                                 ProgressObserver* progress) {
   std::vector<transient::Observer*> observers;
-  if (!built.scene.contacts.empty())
+  if (!built.scene.contacts.empty()) {
     observers.push_back(&contacts_);
+    observers.push_back(&largest_);
+  }
   if (with_impacts(study) && !built.scene.contacts.empty())
     observers.push_back(&impacts_);
   if (!built.watched_wear.sectors.empty())

@@ -7,6 +7,7 @@
 #include "post/contact_statistics.hpp"
 #include "post/force_speed_classes.hpp"
 #include "post/impact_table.hpp"
+#include "post/largest_impact.hpp"
 #include "post/node_statistics.hpp"
 #include "post/recorder.hpp"
 #include "post/sector_work.hpp"
@@ -26,11 +27,12 @@ namespace fretwork::app {
 struct JobResult {
   transient::Report report{};
   std::vector<post::ContactSummary> contacts;
-  post::StandardErrors errors_of_sums;           ///< of all contacts of the run
-  std::vector<transient::StepError> step_errors; ///< by contact; empty: not measured
-  std::vector<post::ContactImpacts> impacts;     ///< empty without tables
-  std::vector<std::vector<double>> sector_rates; ///< W, by contact; empty where nothing wears
-  std::vector<wear::KwuClasses> classes;         ///< of the contacts under the law kwu_epri
+  post::StandardErrors errors_of_sums;                        ///< of all contacts of the run
+  std::vector<transient::StepError> step_errors;              ///< by contact; empty: not measured
+  std::vector<post::ContactImpacts> impacts;                  ///< empty without tables
+  std::vector<std::vector<post::ForcePoint>> largest_impacts; ///< by contact
+  std::vector<std::vector<double>> sector_rates;              ///< W, by contact; empty where nothing wears
+  std::vector<wear::KwuClasses> classes;                      ///< of the contacts under the law kwu_epri
   std::vector<post::NodeSummary> nodes;
   post::TimeSeries series;
 };
@@ -54,6 +56,7 @@ private:
 
   post::ContactStatistics contacts_;
   post::ImpactTable impacts_;
+  post::LargestImpact largest_;
   post::SectorStatistics sectors_;
   post::ForceSpeedClasses classes_;
   post::NodeStatistics nodes_;

@@ -67,6 +67,7 @@ void merge(const BuiltScene& built, JobResult&& job, const transient::StepChoice
     if (!job.step_errors.empty())
       out.step_errors[built.contacts[c]] = job.step_errors[c];
     out.series.contacts[built.contacts[c]] = std::move(job.series.contacts[c]);
+    out.largest_impacts[built.contacts[c]] = std::move(job.largest_impacts[c]);
     if (!job.impacts.empty())
       out.impacts[built.contacts[c]] = std::move(job.impacts[c]);
   }
@@ -229,6 +230,7 @@ void make_room(const study::Study& study, std::size_t contacts, std::size_t node
   out.contact_summaries.resize(contacts);
   out.series.contacts.resize(contacts);
   out.impacts.resize(study.output.impacts > 0 ? contacts : 0);
+  out.largest_impacts.resize(contacts);
   out.sector_rates.resize(contacts);
   out.force_speed_classes.resize(contacts);
   out.rest_time = study.output.rest_time;
@@ -237,6 +239,18 @@ void make_room(const study::Study& study, std::size_t contacts, std::size_t node
 }
 
 } // namespace
+
+Forecast check_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltScene>& scenes) {
+  check_size_of_series(study, scenes);
+  Forecast out;
+  out.outputs = study.transient->duration / output_interval(study);
+  for (const transient::StepChoice& choice : choose_steps(comm, study, scenes)) {
+    out.steps += static_cast<double>(choice.steps);
+    out.impact_rows.push_back(static_cast<double>(impact_rows(study, choice)));
+    out.warnings.insert(out.warnings.end(), choice.warnings.begin(), choice.warnings.end());
+  }
+  return out;
+}
 
 void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltScene>& scenes,
               std::size_t contacts, std::size_t nodes, const ProgressCallback& progress,
@@ -258,7 +272,7 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
       broadcast(comm, owner[s], scenes[s], outcomes.jobs[s]);
     if (ranks > 1 && verified)
       broadcast(comm, owner[s], scenes[s].scene.contacts.size(), outcomes.halves[s]);
-    judge_run(scenes[s], choices[s], outcomes.jobs[s].report, out);
+    judge_run(study, scenes[s], choices[s], outcomes.jobs[s].report, out);
     merge(scenes[s], std::move(outcomes.jobs[s]), choices[s], out);
   }
   if (verified)

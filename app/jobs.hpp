@@ -17,4 +17,15 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
               std::size_t contacts, std::size_t nodes, const ProgressCallback& progress,
               const CheckpointOptions& checkpoints, results::RunResults& out);
 
+/// What a run of the scenes would be.
+struct Forecast {
+  double steps = 0.0, outputs = 0.0; ///< of all scenes; instants
+  std::vector<double> impact_rows;   ///< of one contact of each scene, at most
+  std::vector<std::string> warnings; ///< of the choice of steps
+};
+/// Collective. Refuses what run_jobs refuses before its first step.
+/// @throws core::Error
+[[nodiscard]] Forecast check_jobs(MPI_Comm comm, const study::Study& study,
+                                  const std::vector<BuiltScene>& scenes);
+
 } // namespace fretwork::app

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/judge_run.hpp"
+#include "app/modal_truncation.hpp"
 #include "core/error.hpp"
 #include "results/step_error.hpp"
 #include <algorithm>
@@ -15,7 +16,24 @@ constexpr double residual_warning = 0.05;
 /// Dampers of contacts that give back this share of the energy put in are no round-off.
 constexpr double given_by_dampers = 0.01;
 
-void judge(const transient::StepChoice& choice, const transient::Report& report, results::RunResults& out) {
+/// Of steps whose coupled contact forces missed their tolerance: with residual flexibility it is large beside the contacts' own, and a smaller
+/// step does not change that.
+std::string unconverged_warning(const study::Study& study, const BuiltScene& built,
+                                const transient::StepCounts& counts) {
+  const std::string missed = fmt::format(
+      "in {} of {} steps ({:.2g} %) the coupled contact forces missed their tolerance", counts.unconverged,
+      counts.steps, 100.0 * static_cast<double>(counts.unconverged) / static_cast<double>(counts.steps));
+  if (built.scene.residual.size() == 0)
+    return missed + "; take a smaller step";
+  return fmt::format(
+      "{}: the residual flexibility in series with the contacts is up to {:.2g}/K_N (\"{}\"), too much for "
+      "its "
+      "equations; forces and powers may be wrong by factors; {}, or set modes.static_modes = \"all\"",
+      missed, built.lacking, built.lacking_at, more_modes(study));
+}
+
+void judge(const study::Study& study, const BuiltScene& built, const transient::StepChoice& choice,
+           const transient::Report& report, results::RunResults& out) {
   for (const std::string& warning : choice.warnings)
     out.warnings.push_back(warning);
   if (report.outcome == transient::Outcome::diverged)
@@ -32,9 +50,7 @@ void judge(const transient::StepChoice& choice, const transient::Report& report,
         fmt::format("the energy balance is off by {:.2g} % of the energy put in; take a smaller step",
                     100.0 * report.residual_relative));
   if (report.counts.unconverged > report.counts.steps / 1000)
-    out.warnings.push_back(fmt::format(
-        "in {} of {} steps the coupled contact forces missed their tolerance; take a smaller step",
-        report.counts.unconverged, report.counts.steps));
+    out.warnings.insert(out.warnings.begin(), unconverged_warning(study, built, report.counts));
 }
 
 /// The spring of `reference` is set by every slip, and no work pays for it.
@@ -58,9 +74,9 @@ void judge_memory(const BuiltScene& built, const transient::Report& report, resu
 
 } // namespace
 
-void judge_run(const BuiltScene& built, const transient::StepChoice& choice, const transient::Report& report,
-               results::RunResults& out) {
-  judge(choice, report, out);
+void judge_run(const study::Study& study, const BuiltScene& built, const transient::StepChoice& choice,
+               const transient::Report& report, results::RunResults& out) {
+  judge(study, built, choice, report, out);
   judge_memory(built, report, out);
 }
 

@@ -10,8 +10,8 @@ namespace fretwork::app {
 
 /// Adds the warnings of a run to `out`.
 /// @throws core::ComputationError where the run diverged or stopped
-void judge_run(const BuiltScene& built, const transient::StepChoice& choice, const transient::Report& report,
-               results::RunResults& out);
+void judge_run(const study::Study& study, const BuiltScene& built, const transient::StepChoice& choice,
+               const transient::Report& report, results::RunResults& out);
 
 /// Adds a warning where the step changes statistics by more than the accuracy.
 void judge_step_errors(results::RunResults& out);

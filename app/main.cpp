@@ -5,6 +5,7 @@
 #include "app/python_report.hpp"
 #include "core/error.hpp"
 #include "core/mpi.hpp"
+#include "core/names.hpp"
 #include "core/printable.hpp"
 #include <CLI/CLI.hpp>
 #include <cerrno>
@@ -110,7 +111,8 @@ int main(int argc, char** argv) {
       program.add_subcommand("transient", "up to the results of the transient, without report");
   add_run_options(*transient, request);
   CLI::App* check =
-      program.add_subcommand("check", "read and check everything that can be checked without computing");
+      program.add_subcommand("check", "all that a run does before its first step: what it would refuse, how "
+                                      "long it would be, what it would write");
   add_study_options(*check, request);
   std::filesystem::path directory;
   CLI::App* report =
@@ -125,8 +127,28 @@ int main(int argc, char** argv) {
           "csv: time series and wear; vtu: mode shapes and snapshots for ParaView; msh: mode shapes for gmsh")
       ->check(CLI::IsMember({"csv", "vtu", "msh"}));
 
+  CLI::App* compare = program.add_subcommand(
+      "compare", "what differs between runs: inputs, frequencies, work rates with significance, wear");
+  std::vector<std::filesystem::path> compared;
+  std::string comparison_page;
+  compare->add_option("directories", compared, "folders of the results; the first is the reference")
+      ->required()
+      ->expected(2, -1);
+  compare->add_option("--html", comparison_page, "write the comparison with pictures to this file too");
+
   try {
     program.parse(argc, argv);
+  } catch (const CLI::ExtrasError& error) {
+    if (const std::string command = argv[1]; program.get_subcommands().empty() && !command.starts_with("-")) {
+      std::vector<std::string> commands;
+      for (const CLI::App* known : program.get_subcommands([](const CLI::App*) { return true; }))
+        commands.push_back(known->get_name());
+      if (speaks())
+        fmt::print(stderr, "fretwork: there is no command \"{}\"{}\n", command,
+                   core::name_help(command, commands, "commands"));
+      return input_is_wrong;
+    }
+    return program.exit(error) == 0 ? 0 : input_is_wrong;
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? 0 : input_is_wrong;
   }
@@ -134,27 +156,25 @@ int main(int argc, char** argv) {
     fmt::print(
         stderr,
         "fretwork: a command is missing; give one of run, mesh, modes, stability, response, transient, "
-        "check, report, export (--help explains them)\n");
+        "check, report, export, compare (--help explains them)\n");
     return input_is_wrong;
   }
   request.report = !no_report;
-  if (check->parsed())
-    return guarded([&] {
-      const std::string found = app::check(request);
-      if (speaks())
-        fmt::print("{}", found);
-    });
-  if ((report->parsed() || exporting->parsed()) && !speaks())
+  if ((report->parsed() || exporting->parsed() || compare->parsed()) && !speaks())
     return 0; // one process writes the files
   if (report->parsed())
     return guarded([&] {
       app::write_report(directory);
       fmt::print("written: {}\n", (directory / "report.html").string());
     });
+  if (compare->parsed())
+    return guarded([&] { fmt::print("{}", app::compare_results(compared, comparison_page)); });
   if (exporting->parsed())
     return guarded([&] { fmt::print("{}", app::export_results(directory, format)); });
 
   const core::MpiSession mpi(argc, argv);
+  if (check->parsed())
+    return speaks() ? guarded([&] { app::check(request); }) : 0;
   request.report = request.report && run->parsed();
   const app::Stage last = mesh->parsed()        ? app::Stage::mesh
                           : modes->parsed()     ? app::Stage::modes

@@ -11,6 +11,15 @@ constexpr std::chrono::milliseconds between_updates{200};
 
 } // namespace
 
+std::optional<double> Pace::left(double share, double seconds) {
+  if (!begin_) {
+    begin_ = {share, seconds};
+    return {};
+  }
+  const double done = share - begin_->first;
+  return done > 0.0 ? std::optional((seconds - begin_->second) * (1.0 - share) / done) : std::nullopt;
+}
+
 Progress::Progress(bool wanted)
     : shown_(wanted && isatty(STDERR_FILENO)), begin_(Clock::now()), last_(begin_) {}
 
@@ -24,6 +33,7 @@ void Progress::clear() const {
 void Progress::stage(const std::string& name) {
   stage_ = name;
   begin_ = last_ = Clock::now();
+  pace_ = {};
   if (!shown_)
     return;
   clear();
@@ -34,13 +44,16 @@ void Progress::stage(const std::string& name) {
 
 void Progress::update(double share, double time) {
   const auto now = Clock::now();
-  if (!shown_ || now - last_ < between_updates || !(share > 0.0))
+  if (!shown_ || !(share > 0.0))
+    return;
+  const std::optional<double> left = pace_.left(share, std::chrono::duration<double>(now - begin_).count());
+  if (now - last_ < between_updates)
     return;
   last_ = now;
-  const double spent = std::chrono::duration<double>(now - begin_).count();
   clear();
-  fmt::print(stderr, "{} {:5.1f} %   t = {:.4g} s   {:.0f} s left", stage_, 100.0 * share, time,
-             spent * (1.0 / share - 1.0));
+  fmt::print(stderr, "{} {:5.1f} %   t = {:.4g} s", stage_, 100.0 * share, time);
+  if (left)
+    fmt::print(stderr, "   {:.0f} s left", *left);
   std::fflush(stderr);
 }
 

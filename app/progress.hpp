@@ -4,9 +4,23 @@
 /// where stderr is not a terminal.
 #pragma once
 #include <chrono>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace fretwork::app {
+
+/// How long work will take: by the pace since it was first looked at. What was done before, by a run that this one goes on from, took none
+/// of its time.
+class Pace {
+public:
+  /// @param share  done, 0 to 1   @param seconds  on the clock
+  /// @return seconds left; none at the first call, which begins the measurement, and before anything more is done
+  std::optional<double> left(double share, double seconds);
+
+private:
+  std::optional<std::pair<double, double>> begin_; ///< share and seconds of the first call
+};
 
 class Progress {
 public:
@@ -25,6 +39,7 @@ private:
   bool shown_;
   std::string stage_;
   Clock::time_point begin_, last_;
+  Pace pace_;
 };
 
 } // namespace fretwork::app

@@ -12,41 +12,62 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The first interpreter that has the modules: FRETWORK_PYTHON, python3 of the PATH, Debian's own.
+constexpr int not_started = 127; // status of a child, core/child_process.hpp
+
+/// The interpreter named by FRETWORK_PYTHON, or the first that has the modules: python3 of the PATH, Debian's own.
 std::string find_python() {
   std::vector<std::string> candidates;
   if (const char* chosen = std::getenv("FRETWORK_PYTHON"))
     candidates.emplace_back(chosen);
-  candidates.insert(candidates.end(), {"python3", "/usr/bin/python3"});
-  for (const std::string& python : candidates)
-    if (core::run_child(
+  else
+    candidates = {"python3", "/usr/bin/python3"};
+  std::vector<std::string> found;
+  for (const std::string& python : candidates) {
+    const int status =
+        core::run_child(
             {python, "-I", "-c",
              "import importlib.util as u, sys; sys.exit(not (u.find_spec('h5py') and u.find_spec('numpy')))"})
-            .status == 0)
+            .status;
+    if (status == 0)
       return python;
-  throw core::Error(fmt::format("the report needs a Python with h5py and numpy, and {} have not both; "
-                                "install the packages python3-h5py "
-                                "and python3-numpy, or name an interpreter in FRETWORK_PYTHON",
-                                fmt::join(candidates, ", ")));
+    found.push_back(python + (status == not_started ? " cannot be started" : " has not both"));
+  }
+  throw core::Error(fmt::format("the report needs a Python with h5py and numpy: {}; install the packages "
+                                "python3-h5py and python3-numpy, or name an interpreter in FRETWORK_PYTHON",
+                                fmt::join(found, ", ")));
 }
 
-fs::path find_script() {
+/// @param name  of a program in the folder of the report
+fs::path find_script(const std::string& name) {
   const fs::path here = core::executable_directory();
   for (const fs::path& folder : {here / "../share/fretwork/report", here / "../../share/fretwork/report"})
-    if (const fs::path script = folder / "fretwork_report.py"; fs::exists(script))
+    if (const fs::path script = folder / name; fs::exists(script))
       return script;
-  throw core::Error(
-      fmt::format("the report's program fretwork_report.py is not at {}; install Fretwork whole",
-                  (here / "../share/fretwork/report").lexically_normal().string()));
+  throw core::Error(fmt::format("the report's program {} is not at {}; install Fretwork whole", name,
+                                (here / "../share/fretwork/report").lexically_normal().string()));
 }
 
 } // namespace
 
 void write_report(const fs::path& directory) {
   const core::ChildResult result =
-      core::run_child({find_python(), "-I", find_script().string(), directory.string()});
+      core::run_child({find_python(), "-I", find_script("fretwork_report.py").string(), directory.string()});
   if (result.status != 0)
     throw core::Error("the report could not be written: " + result.output);
+}
+
+std::string compare_results(const std::vector<fs::path>& directories, const std::string& page) {
+  std::vector<std::string> arguments{find_python(), find_script("fretwork_compare.py").string()};
+  for (const fs::path& directory : directories)
+    arguments.push_back(directory.string());
+  if (!page.empty()) {
+    arguments.emplace_back("--html");
+    arguments.push_back(page);
+  }
+  const core::ChildResult result = core::run_child(arguments);
+  if (result.status != 0)
+    throw core::Error("the results cannot be compared: " + result.output);
+  return result.output;
 }
 
 } // namespace fretwork::app

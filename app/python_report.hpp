@@ -3,6 +3,8 @@
 /// The HTML report, made by a Python program of ours in a child process.
 #pragma once
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace fretwork::app {
 
@@ -10,5 +12,11 @@ namespace fretwork::app {
 /// @throws core::Error with what is missing (an interpreter with h5py and numpy: Debian's python3-h5py,
 /// python3-numpy) or the report's own message
 void write_report(const std::filesystem::path& directory);
+
+/// What differs between runs, as tables; the first is the reference.
+/// @param page  file of an HTML page to write as well; empty: none
+/// @throws core::Error as write_report
+[[nodiscard]] std::string compare_results(const std::vector<std::filesystem::path>& directories,
+                                          const std::string& page);
 
 } // namespace fretwork::app

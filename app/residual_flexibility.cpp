@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/residual_flexibility.hpp"
+#include "app/modal_truncation.hpp"
 #include "core/error.hpp"
 #include <algorithm>
 #include <fmt/format.h>
@@ -11,8 +12,6 @@ using Eigen::Index;
 
 /// Missing flexibility times stiffness that makes impacts wrong by half of it: a percent.
 constexpr double told = 0.02;
-/// Up to here the force of an impact grows by half of what is missing, sqrt(1 + x) - 1.
-constexpr double linear = 0.5;
 
 /// What is in series has no inertia: where a load jumps, the contacts would jump with it, at no finite speed.
 void check_continuous(const Fields::Load& load) {
@@ -40,14 +39,20 @@ Eigen::VectorXd static_values(const transient::Scene& scene) {
 /// @param loads  those of the scene, with their names
 void give_residual_flexibility(const ContactFlexibility& flexibility, const std::vector<Fields::Load>& loads,
                                transient::Scene& scene) {
-  for (std::size_t l = 0; l < loads.size(); ++l)
-    if (!flexibility.under_loads.col(static_cast<Index>(l)).isZero(0.0))
+  Eigen::MatrixXd under_loads = flexibility.under_loads;
+  for (std::size_t l = 0; l < loads.size(); ++l) {
+    auto column = under_loads.col(static_cast<Index>(l));
+    // the acceleration of a curve jumps at its rows, and no structure follows that at once: its modes answer alone
+    if (loads[l].of_curve)
+      column.setZero();
+    if (!column.isZero(0.0))
       check_continuous(loads[l]);
+  }
   scene.residual = flexibility.missing;
   const Eigen::VectorXd at_start = static_values(scene);
   for (std::size_t k = 0; k < scene.contacts.size(); ++k) {
     transient::ContactPoint& point = scene.contacts[k];
-    const Eigen::MatrixXd under = flexibility.under_loads.middleRows<3>(3 * static_cast<Index>(k));
+    const Eigen::MatrixXd under = under_loads.middleRows<3>(3 * static_cast<Index>(k));
     if (under.isZero(0.0))
       continue;
     point.under_loads = under;
@@ -75,8 +80,10 @@ void take_residual_flexibility(const study::Study& study, const ContactFlexibili
                                const std::vector<Fields::Load>& loads, BuiltScene& built) {
   for (std::size_t k = 0; k < built.scene.contacts.size(); ++k) {
     const transient::ContactPoint& point = built.scene.contacts[k];
-    if (const double product = missing_times_stiffness(flexibility, k, point.support);
-        product > built.lacking || built.lacking_at.empty()) {
+    const double product = missing_times_stiffness(flexibility, k, point.support);
+    if (product > much_missing)
+      built.truncated.push_back(point.name);
+    if (product > built.lacking || built.lacking_at.empty()) {
       built.lacking = product;
       built.lacking_at = point.name;
     }
@@ -104,12 +111,9 @@ std::string flexibility_note(const study::Study& study, const std::vector<BuiltS
                   worst->lacking, worst->lacking_at);
   switch (study.modes.static_modes) {
   case study::StaticModes::none:
-    return worst->lacking > told
-               ? lack +
-                     (worst->lacking <= linear
-                          ? ": impacts there are too hard by about half of that"
-                          : ": impacts there are far too hard, what gives way being left out") +
-                     "; take modes.static_modes = \"auto\", or more modes"
+    return worst->lacking > told && worst->lacking <= much_missing // more is a warning
+               ? lack + ": contact forces are overestimated by up to half of that; set "
+                        "modes.static_modes = \"auto\", or ask for more modes"
                : std::string();
   case study::StaticModes::residual:
     return lack + (worst->lacking > worth_having ? ": it is taken in series with the contacts"

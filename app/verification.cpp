@@ -17,7 +17,7 @@ class HalfJob {
 public:
   HalfJob(const transient::Scene& scene, const transient::StepChoice& half, double from,
           ProgressObserver* progress)
-      : contacts_(scene.contacts.size(), from), observers_(watching(progress)),
+      : contacts_(scene.contacts, from), observers_(watching(progress)),
         run_(scene, half, observers_, nullptr, {}) {}
   [[nodiscard]] transient::Run& run() { return run_; }
   [[nodiscard]] HalfRun result() {

@@ -137,7 +137,7 @@ Values run_of(const transient::Scene& scene, const StudyOptions& options, double
     choice.step *= options.step_factor;
     choice.steps = static_cast<std::int64_t>(std::ceil(scene.duration / choice.step * (1 - 1e-12)));
   }
-  post::ContactStatistics statistics(scene.contacts.size(), from);
+  post::ContactStatistics statistics(scene.contacts, from);
   transient::Observer* const observers[] = {&statistics};
   const double begin = thread_seconds();
   transient::Run run(scene, choice, observers, nullptr, {});

@@ -83,7 +83,7 @@ Energies run_of(const Impact& impact, transient::Scene scene, transient::StepCho
   scene.contacts[0].rest.y() = -before;
   scene.duration = before + after;
   choice.steps = choice.steps > 0 ? static_cast<std::int64_t>(std::ceil(scene.duration / choice.step)) : 0;
-  post::ContactStatistics statistics(1, 0.0);
+  post::ContactStatistics statistics(scene.contacts, 0.0);
   transient::Observer* const observers[] = {&statistics};
   LastState last;
   const auto report = transient::run(scene, choice, observers, &last,

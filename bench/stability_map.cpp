@@ -23,7 +23,7 @@ Run run(const Scene& scene, SchemeKind scheme, double step) {
   options.scheme = scheme;
   options.step = step;
   const StepChoice choice = choose_step(scene, options);
-  post::ContactStatistics statistics(scene.contacts.size(), 0.25 * scene.duration);
+  post::ContactStatistics statistics(scene.contacts, 0.25 * scene.duration);
   Observer* const observers[] = {&statistics};
   const Report report = transient::run(scene, choice, observers, nullptr, {});
   const post::ContactSummary s = statistics.summaries()[0];

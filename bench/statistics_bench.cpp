@@ -55,7 +55,7 @@ Ensemble ensemble(transient::Scene scene, const transient::StepOptions& options,
   out.seconds = out.bare = 1e300;
   for (int run = 0; run < runs; ++run) {
     scene.q0(0) = disturbed * run;
-    post::ContactStatistics statistics(scene.contacts.size(), window_from);
+    post::ContactStatistics statistics(scene.contacts, window_from);
     transient::Observer* const observers[] = {&statistics};
     double begin = bench::thread_seconds();
     (void)transient::run(scene, out.choice, {}, nullptr, {});

@@ -41,7 +41,7 @@ transient::StepChoice choice_of(const transient::Scene& scene, double step) {
 
 void measure(const transient::Scene& scene, double step, Cost& cost) {
   const auto choice = choice_of(scene, step);
-  post::ContactStatistics statistics(scene.contacts.size(), 0.02 * duration);
+  post::ContactStatistics statistics(scene.contacts, 0.02 * duration);
   transient::Observer* observers[] = {&statistics};
   double begin = bench::thread_seconds();
   (void)transient::run(scene, choice, observers, nullptr, {});

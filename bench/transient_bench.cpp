@@ -22,7 +22,7 @@ void run_once(benchmark::State& state, const bench::TubeScene& tube, transient::
   const auto choice = transient::choose_step(scene, options);
   double steps = 0.0, closed = 0.0;
   for (auto _ : state) {
-    post::ContactStatistics statistics(scene.contacts.size(), 0.02 * tube.duration);
+    post::ContactStatistics statistics(scene.contacts, 0.02 * tube.duration);
     transient::Observer* observers[] = {&statistics};
     const auto report = transient::run(scene, choice, observers, nullptr, {});
     benchmark::DoNotOptimize(report.energy.stored);

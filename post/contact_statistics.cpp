@@ -34,26 +34,34 @@ FRETWORK_KERNEL(void, watch_coordinate,
                 (n, h, u, about, sum, square, least, most))
 
 template <class>
-FRETWORK_INLINE void watch_radius_on(std::size_t n, double h, const double* __restrict y,
-                                     const double* __restrict z, double* __restrict square,
+FRETWORK_INLINE void watch_radius_on(std::size_t n, double h, const double* __restrict y0,
+                                     const double* __restrict z0, const double* __restrict uy,
+                                     const double* __restrict uz, double* __restrict square,
                                      double* __restrict most) {
   for (std::size_t c = 0; c < n; ++c) {
-    const double r2 = y[c] * y[c] + z[c] * z[c];
+    const double y = y0[c] + uy[c], z = z0[c] + uz[c];
+    const double r2 = y * y + z * z;
     square[c] += h * r2;
     most[c] = r2 > most[c] ? r2 : most[c];
   }
 }
 FRETWORK_KERNEL(void, watch_radius,
-                (std::size_t n, double h, const double* y, const double* z, double* square, double* most),
-                (n, h, y, z, square, most))
+                (std::size_t n, double h, const double* y0, const double* z0, const double* uy,
+                 const double* uz, double* square, double* most),
+                (n, h, y0, z0, uy, uz, square, most))
 
 } // namespace
 
-ContactStatistics::ContactStatistics(std::size_t contacts, double from)
-    : from_(from), sums_(contacts), ends_(kept_sums * contacts) {
+ContactStatistics::ContactStatistics(const std::vector<transient::ContactPoint>& contacts, double from)
+    : from_(from), sums_(contacts.size()), ends_(kept_sums * contacts.size()) {
+  for (const transient::ContactPoint& contact : contacts) {
+    supports_.push_back(contact.support);
+    rest_y_.push_back(contact.rest.y());
+    rest_z_.push_back(contact.rest.z());
+  }
   for (auto* v : {&motion_.y0, &motion_.z0, &motion_.y, &motion_.z, &motion_.y2, &motion_.z2, &motion_.y_min,
                   &motion_.y_max, &motion_.z_min, &motion_.z_max, &motion_.r2, &motion_.r2_max})
-    v->assign(contacts, 0.0);
+    v->assign(contacts.size(), 0.0);
 }
 
 void ContactStatistics::step(const transient::Record& record) {
@@ -76,8 +84,10 @@ void ContactStatistics::step(const transient::Record& record) {
       s.impact_time += closed;
       s.longest = std::max(s.longest, s.duration);
     }
-    if (inside)
+    if (inside) {
       s.add(state, record.step);
+      watch_penetration(record, static_cast<std::size_t>(c));
+    }
   }
   for (const int c : record.opened) {
     Sums& s = sums_[static_cast<std::size_t>(c)];
@@ -120,7 +130,17 @@ void ContactStatistics::watch_motion(const transient::Record& record) {
     }
   watch_coordinate(n, h, record.uy, m.y0.data(), m.y.data(), m.y2.data(), m.y_min.data(), m.y_max.data());
   watch_coordinate(n, h, record.uz, m.z0.data(), m.z.data(), m.z2.data(), m.z_min.data(), m.z_max.data());
-  watch_radius(n, h, record.uy, record.uz, m.r2.data(), m.r2_max.data());
+  watch_radius(n, h, rest_y_.data(), rest_z_.data(), record.uy, record.uz, m.r2.data(), m.r2_max.data());
+}
+
+void ContactStatistics::watch_penetration(const transient::Record& record, std::size_t contact) {
+  const contact::Support& support = supports_[contact];
+  if (!support.normal.damps())
+    return; // the force has it
+  const double gap = contact::locate(support.obstacle, rest_y_[contact] + record.uy[contact],
+                                     rest_z_[contact] + record.uz[contact])
+                         .gap;
+  sums_[contact].deepest = std::max(sums_[contact].deepest, -gap);
 }
 
 void ContactStatistics::write_sums(double* row) const {
@@ -213,6 +233,8 @@ std::vector<ContactSummary> ContactStatistics::summaries() const {
     o.z = moments(m.z0[c], m.z[c], m.z2[c], m.z_min[c], m.z_max[c]);
     o.radial_rms = std::sqrt(m.r2[c] / time_);
     o.radial_max = std::sqrt(m.r2_max[c]);
+    const contact::NormalLaw& law = supports_[c].normal;
+    o.penetration_max = law.damps() ? s.deepest : s.normal_max / law.stiffness;
     o.work_rate = s.slid / time_;
     o.friction_power = s.friction / time_;
     o.impulse = s.impulse;

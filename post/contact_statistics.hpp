@@ -2,6 +2,10 @@
 /// @file
 /// Statistics of every contact over every step of a window, independent of any sampling. Means over time are
 /// sums of value times step over the length of the window, whether steps are equal or not.
+///
+/// y and z are displacements of the node, from its rest. Radial figures are those of its position, about the obstacle's centre:
+/// r^2 = (rest_y + y)^2 + (rest_z + z)^2. The penetration is that of the contact's law: F_N/K_N at the largest force where nothing damps
+/// along the normal, else the largest -gap of the records with a normal force.
 #pragma once
 #include "post/batch_means.hpp"
 #include "post/moments.hpp"
@@ -29,7 +33,8 @@ struct ContactSummary {
   double normal_in_contact_mean = 0.0, normal_in_contact_rms = 0.0; ///< N
   double tangential_rms = 0.0, tangential_max = 0.0;                ///< N, over all time
   Moments y, z;                                                     ///< m, displacement in local axes
-  double radial_rms = 0.0, radial_max = 0.0;                        ///< m, of sqrt(y^2 + z^2)
+  double radial_rms = 0.0, radial_max = 0.0; ///< m, distance from the obstacle's centre
+  double penetration_max = 0.0;              ///< m, >= 0
   double work_rate = 0.0;      ///< W: mean over time of F_N |v_T| while the contact slides (Archard's input)
   double friction_power = 0.0; ///< W: dissipated by the Coulomb slider
   double impact_velocity_mean = 0.0,
@@ -48,8 +53,8 @@ struct ContactSummary {
 
 class ContactStatistics final : public transient::Observer {
 public:
-  /// @param contacts  number of contacts   @param from  start of the window, s
-  ContactStatistics(std::size_t contacts, double from);
+  /// @param contacts  of the scene   @param from  start of the window, s
+  ContactStatistics(const std::vector<transient::ContactPoint>& contacts, double from);
   void step(const transient::Record& record) override;
   void visit(core::StateArchive& state) override { state(time_, sums_, motion_, ends_); }
   [[nodiscard]] std::vector<ContactSummary> summaries() const;
@@ -67,12 +72,13 @@ private:
     std::int64_t departures = 0;
     double duration = 0.0, longest = 0.0; ///< of the impact under way; of all
     double impact_time = 0.0;             ///< of impacts that started in the window
+    double deepest = 0.0;                 ///< m, penetration at the records
     bool counted = false;                 ///< the impact under way started in the window
     /// A step with force, in the window.
     void add(const transient::ContactState& state, double step);
   };
   /// Sums of displacements, weighted by the step, contact by contact in vector lanes (padded as the record's
-  /// arrays).
+  /// arrays); radii are those of positions.
   struct Motion {
     std::vector<double> y0, z0, y, z, y2, z2, y_min, y_max, z_min, z_max, r2, r2_max;
     void visit(core::StateArchive& state) {
@@ -80,11 +86,14 @@ private:
     }
   };
   void watch_motion(const transient::Record& record);
+  void watch_penetration(const transient::Record& record, std::size_t contact);
   void write_sums(double* row) const;
   [[nodiscard]] BatchSums batch_sums() const;
   [[nodiscard]] StandardErrors errors_of(const BatchSums& batches, std::size_t contact,
                                          const ContactSummary& o) const;
 
+  std::vector<contact::Support> supports_;
+  std::vector<double> rest_y_, rest_z_; ///< m, from the obstacle's centre
   double from_;
   double time_ = 0.0; ///< length of the window so far, s
   std::vector<Sums> sums_;

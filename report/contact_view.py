@@ -5,12 +5,14 @@ import math
 
 import numpy as np
 
-from drawing import Plot, unit_for
+from drawing import Plot, tick_room, unit_for
 
 FREE = np.array([31, 95, 168])  # colour of the free flight
 TOUCH = np.array([217, 95, 14])  # colour of the samples in contact
 MICRO = 1e6
 BARS = 24  # of a histogram
+MOST_NAMED = 30  # contacts whose names fit below an axis
+SLIT = 0.25  # a picture of a flat obstacle with sides of a ratio below this has its own scale on each axis
 FAR = 20.0  # a gap so many times larger than the orbit is left out of the picture
 
 
@@ -65,15 +67,23 @@ def _walls(contact):
 
 
 def _limits(contact, y, z):
-    """Middle and half width of a square that shows the orbit and, unless it is far away, the obstacle (m)."""
+    """Middle and half widths of a rectangle that shows the orbit and, unless it is far away, the obstacle (m): a square, but for a flat
+    obstacle whose orbit would be a slit in it."""
     low = np.array([y.min(), z.min()])
     high = np.array([y.max(), z.max()])
-    extent = float((high - low).max())
+    flat = bool(_planes(contact))
+    normal = (0 if contact.facts["obstacle"].endswith("y") else 1) if flat else None
+    extent = float((high - low).max() if normal is None else (high - low)[normal])
     walls = _walls(contact)
-    if extent == 0 or max(np.abs(walls - (low + high) / 2).max(initial=0.0), 0.0) <= FAR * extent:
-        low = np.minimum(low, walls.min(axis=0, initial=math.inf))
-        high = np.maximum(high, walls.max(axis=0, initial=-math.inf))
-    half = 0.56 * float((high - low).max()) or 1e-6
+    off = np.abs(walls - (low + high) / 2)
+    if extent == 0 or float((off if normal is None else off[:, normal]).max(initial=0.0)) <= FAR * extent:
+        seen = slice(None) if normal is None else normal
+        low[seen] = np.minimum(low[seen], walls.min(axis=0, initial=math.inf)[seen])
+        high[seen] = np.maximum(high[seen], walls.max(axis=0, initial=-math.inf)[seen])
+    span = high - low
+    if not (flat and 0 < span.min() < SLIT * span.max()):
+        span[:] = span.max()
+    half = 0.56 * np.where(span > 0, span, span.max()) if span.max() > 0 else np.full(2, 1e-6)
     return (low + high) / 2, half
 
 
@@ -109,7 +119,7 @@ def _obstacle(plot, contact):
     radius = _radius(contact)
     if radius is not None:
         centre = float(plot.px(0.0)), float(plot.py(0.0))
-        radius = abs(float(plot.px(MICRO * radius)) - centre[0])
+        radius = abs(float(plot.px(MICRO * radius)) - centre[0])  # of a square picture
         plot.add(f'<circle class="wall" cx="{centre[0]:.1f}" cy="{centre[1]:.1f}" r="{radius:.1f}"/>')
     upright = contact.facts["obstacle"].endswith("y")
     for place, side in _planes(contact):
@@ -131,14 +141,11 @@ def orbit(run, contact, size=250, labels=True):
         return '<p class="none">no finite motion</p>'
     middle, half = _limits(contact, contact.y[inside], contact.z[inside])
     middle, half = MICRO * middle, MICRO * half
-    margins = (46, 10, 10, 36) if labels else (34, 6, 6, 18)
+    x, upright = zip(middle - half, middle + half)
+    left = math.ceil(tick_room(upright, 4)) + 7
+    margins = (max(46, left + 13), 10, 10, 36) if labels else (max(34, left), 6, 6, 18)
     inner = size - margins[0] - margins[1]
-    plot = Plot(
-        (size, inner + margins[2] + margins[3]),
-        (middle[0] - half, middle[0] + half),
-        (middle[1] - half, middle[1] + half),
-        margins,
-    )
+    plot = Plot((size, inner + margins[2] + margins[3]), x, upright, margins)
     plot.axes("y_loc [µm]" if labels else "", "z_loc [µm]" if labels else "", x_most=4, y_most=4)
     _obstacle(plot, contact)
     _density(plot, y, z, contact.normal[inside] > 0)
@@ -150,14 +157,9 @@ def _force_axis(largest):
     return factor, f"force [{unit}]"
 
 
-def largest_impact(run, contact):
-    """(first, last) sample of a stretch round the largest normal force of the statistics window (of the whole run where nothing
-    touches in it); None where nothing touches at all."""
-    normal = np.nan_to_num(contact.normal, nan=0.0, posinf=0.0, neginf=0.0)
-    if len(normal) < 3 or normal.max() <= 0:
-        return None
-    counted = np.where(run.time >= run.window, normal, 0.0)
-    peak = int((counted if counted.max() > 0 else normal).argmax())
+def _about_peak(normal, counted):
+    """(first, last) index of a stretch about the largest value of `counted`: the interval of force there, and thrice its length on both sides."""
+    peak = int(counted.argmax())
     first, last = peak, peak
     while first > 0 and normal[first - 1] > 0:
         first -= 1
@@ -167,18 +169,39 @@ def largest_impact(run, contact):
     return max(0, peak - reach), min(len(normal) - 1, peak + reach)
 
 
+def largest_impact(run, contact):
+    """Time (s), normal and tangential force (N) about the largest normal force: at every step of the statistics window where the run kept
+    them, else at the output instants (of the whole run where nothing touches in the window). None where nothing touches at all."""
+    if contact.largest is not None:
+        time, normal, tangential = (contact.largest[name] for name in ("time", "normal_force", "tangential_force"))
+        counted = normal
+    else:
+        normal = np.nan_to_num(contact.normal, nan=0.0, posinf=0.0, neginf=0.0)
+        time, tangential = run.time, contact.tangential
+        counted = np.where(run.time >= run.window, normal, 0.0)
+        counted = counted if len(counted) and counted.max() > 0 else normal
+    if len(normal) < 3 or normal.max() <= 0:
+        return None
+    first, last = _about_peak(normal, counted)
+    return time[first:last + 1], normal[first:last + 1], tangential[first:last + 1]
+
+
 def history(run, contact, size=(410, 210)):
     normal = contact.normal
     zoom = largest_impact(run, contact)
     largest = float(np.nanmax(np.where(np.isfinite(normal), normal, np.nan))) if np.isfinite(normal).any() else 0.0
+    if zoom:
+        largest = max(largest, float(np.nanmax(zoom[1])))
     factor, label = _force_axis(largest)
     plot = Plot(size, (0.0, float(run.time[-1])), (0.0, 1.08 * factor * largest or 1.0))
     plot.axes("time [s]", label, x_most=6, y_most=4)
     if run.window > 0:
         plot.rectangle((0.0, run.window), plot.y, "before")
     if zoom:
-        plot.rectangle((run.time[zoom[0]], run.time[zoom[1]]), plot.y, "zoomed")
+        plot.rectangle((zoom[0][0], zoom[0][-1]), plot.y, "zoomed")
     plot.series(run.time, factor * normal, "force")
+    if contact.largest is not None and zoom:  # between the output instants too
+        plot.line(zoom[0], factor * zoom[1], "force")
     return plot.svg(f"Normal force of {contact.name}")
 
 
@@ -186,13 +209,13 @@ def impact(run, contact, size=(262, 210)):
     zoom = largest_impact(run, contact)
     if not zoom:
         return '<p class="none">no contact at any output instant</p>'
-    part = slice(zoom[0], zoom[1] + 1)
-    time = 1e3 * (run.time[part] - run.time[zoom[0]])
-    factor, label = _force_axis(float(np.nanmax(contact.normal[part])))
-    plot = Plot(size, (0.0, float(time[-1])), (0.0, 1.08 * factor * float(np.nanmax(contact.normal[part]))))
-    plot.axes(f"time after {run.time[zoom[0]]:.4f} s [ms]", label, x_most=4, y_most=4)
-    plot.line(time, factor * contact.tangential[part], "friction")
-    plot.line(time, factor * contact.normal[part], "force")
+    time, normal, tangential = zoom
+    largest = float(np.nanmax(normal))
+    factor, label = _force_axis(largest)
+    plot = Plot(size, (0.0, 1e3 * float(time[-1] - time[0])), (0.0, 1.08 * factor * largest))
+    plot.axes(f"time after {time[0]:.4f} s [ms]", label, x_most=4, y_most=4)
+    plot.line(1e3 * (time - time[0]), factor * tangential, "friction")
+    plot.line(1e3 * (time - time[0]), factor * normal, "force")
     return plot.svg(f"Largest impact of {contact.name}")
 
 
@@ -219,7 +242,7 @@ def along(run, values, name, unit, size=(480, 210)):
     length = float(np.linalg.norm(run.nodes[run.lines[:, 1]] - run.nodes[run.lines[:, 0]], axis=1).sum())
     limits = (0.0, length) if measured else (0.4, len(x) + 0.6)
     plot = Plot(size, limits, (0.0, 1.1 * factor * largest or 1.0), (58, 12, 10, 38))
-    few = [(i + 1, c.name) for i, c in enumerate(run.contacts)] if not measured and len(x) <= 6 else None
+    few = [(i + 1, c.name) for i, c in enumerate(run.contacts)] if not measured and len(x) <= MOST_NAMED else None
     plot.axes("abscissa along the tube [m]" if measured else ("" if few else "contact number"), f"{name} [{scaled}]", few)
     for place, value in zip(x, values):
         if value is not None and math.isfinite(value):

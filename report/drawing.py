@@ -35,7 +35,7 @@ def short(value, digits=4):
         text = f"{float(text):.0f}"
     if "e" in text:
         mantissa, exponent = text.split("e")
-        return f"{mantissa}·10<sup>{int(exponent)}</sup>"
+        return f"{mantissa}·10<sup>{int(exponent)}</sup>".replace("-", "−")
     return text.replace("-", "−")
 
 
@@ -44,6 +44,21 @@ def tick_label(value, step):
     if abs(value) >= 1e6 or decimals > 5:
         return f"{value:.3g}"
     return f"{value:.{decimals}f}".replace("-", "−") if abs(value) > 1e-12 * step else "0"
+
+
+_WIDTHS = {"−": 8.8, ".": 3.4}  # px of a character of a tick label, 10.5 px high, in the widest of the page's fonts; of digits 6.7
+
+
+def label_width(text, digit=6.7):
+    """px"""
+    return sum(_WIDTHS.get(character, digit) for character in text)
+
+
+def tick_room(interval, most):
+    """Width (px) of the longest tick label of an axis."""
+    values = ticks(*interval, most)
+    step = values[1] - values[0] if len(values) > 1 else 1
+    return max((label_width(tick_label(value, step)) for value in values), default=0.0)
 
 
 _prefixes = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
@@ -105,6 +120,10 @@ class Plot:
         self._parts.append(part)
 
     def axes(self, xlabel, ylabel, x_ticks=None, y_most=5, x_most=7):
+        self.left = max(self.left, math.ceil(tick_room(self.y, y_most)) + 7 + (13 if ylabel else 0))
+        slanted = x_ticks is not None and len(x_ticks) > 1 and max(label_width(label) for _, label in x_ticks) > self._between(x_ticks)
+        if slanted:
+            self.bottom = max(self.bottom, min(110, int(0.75 * max(label_width(label) for _, label in x_ticks)) + 22))
         right, base = self.width - self.right, self.height - self.bottom
         xs = ticks(*self.x, x_most) if x_ticks is None else []
         ys = ticks(*self.y, y_most)
@@ -115,7 +134,9 @@ class Plot:
             out.append(f'<path class="grid" d="M{at:.1f} {self.top}V{base}"/>')
             out.append(f'<text class="tick mid" x="{at:.1f}" y="{base + 14}">{label}</text>')
         for at, label in x_ticks or []:
-            out.append(f'<text class="tick mid" x="{float(self.px(at)):.1f}" y="{base + 14}">{html.escape(label)}</text>')
+            x = float(self.px(at))
+            turned = f'class="tick end" transform="translate({x + 3:.1f} {base + 12}) rotate(-45)"' if slanted else f'class="tick mid" x="{x:.1f}" y="{base + 14}"'
+            out.append(f"<text {turned}>{html.escape(label)}</text>")
         for value in ys:
             at = float(self.py(value))
             label = tick_label(value, ys[1] - ys[0] if len(ys) > 1 else 1)
@@ -127,6 +148,11 @@ class Plot:
         half = (self.top + base) / 2
         out.append(f'<text class="label mid" transform="translate(12 {half:.0f}) rotate(-90)">{html.escape(ylabel)}</text>')
         self._outside = out
+
+    def _between(self, x_ticks):
+        """Least distance (px) of two labels."""
+        places = sorted(float(self.px(at)) for at, _ in x_ticks)
+        return min(b - a for a, b in zip(places, places[1:])) - 4
 
     def line(self, x, y, kind):
         x, y = np.asarray(x, float), np.asarray(y, float)

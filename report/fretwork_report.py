@@ -30,7 +30,7 @@ def build(directory):
     run = run_data.load(directory)
     parts = [sections.key_figures, sections.structure, sections.modes, flow_section.profiles, flow_section.stability,
              flow_section.response, sections.along_the_tube, sections.contacts,
-             sections.contact_table, wear_section.wear, sections.impacts, flow_section.spectra, sections.energy, sections.computation, sections.study]
+             sections.contact_table, sections.nodes, wear_section.wear, sections.impacts, flow_section.spectra, sections.energy, sections.computation, sections.study]
     title = run.summary["study"] or Path(directory).resolve().stem
     subtitle = f"Impact, friction and wear: results of Fretwork {html.escape(run.summary['version'])}"
     return page.page(title, subtitle, "".join(part(run) for part in parts))

@@ -52,6 +52,7 @@ svg text { font-size: 11px; fill: var(--ink); } svg .tick { fill: var(--soft); f
 .wall { stroke: var(--ink); stroke-width: 1.4; fill: none; } .body { fill: #d8dee5; }
 .force { stroke: var(--blue); stroke-width: 1.1; fill: none; stroke-linejoin: round; }
 .friction { stroke: var(--orange); stroke-width: 1.1; fill: none; stroke-linejoin: round; }
+.third { stroke: var(--ink); stroke-width: 1; fill: none; stroke-linejoin: round; }
 .stem { stroke: var(--blue); stroke-width: 2; fill: none; } .before { fill: #eef1f5; } .zoomed { fill: #fbdcc2; }
 .band { fill: #cfe0f2; stroke: none; } .limit { stroke: #b3141e; stroke-width: 1.4; stroke-dasharray: 6 4; fill: none; }
 .rose { fill: #7aa6d6; stroke: #fff; stroke-width: 0.5; } .tube { fill: #d8dee5; stroke: var(--ink); stroke-width: 0.8; } .worn { fill: #f0a868; stroke: none; }

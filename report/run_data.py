@@ -45,6 +45,16 @@ class Contact:
     outline: np.ndarray | None = None  # m, (corners, 2) of a profile
     impacts: dict | None = None  # the columns of its table of impacts
     impacts_left_out: int = 0  # after the last row
+    largest: dict | None = None  # time (s), normal_force, tangential_force (N) about its largest impact, at every step
+
+
+@dataclass
+class Node:
+    """An observed node."""
+
+    name: str
+    summary: dict  # its statistics
+    displacement: np.ndarray | None  # m, (outputs, 3), global axes
 
 
 @dataclass
@@ -58,6 +68,7 @@ class Run:
     time: np.ndarray | None = None
     structures: int = 1
     window: float = field(default=0.0)  # s, start of the statistics
+    nodes_observed: list = field(default_factory=list)
     flows: list = field(default_factory=list)  # flow_data.TubeFlow
     spectra: list = field(default_factory=list)  # flow_data.Spectrum
     wear: list = field(default_factory=list)  # of each support: the attributes and datasets of its group
@@ -112,6 +123,8 @@ def _contact(group, summaries):
     if "impacts" in group:
         contact.impacts = {name: column[...] for name, column in group["impacts"].items()}
         contact.impacts_left_out = int(group["impacts"].attrs["left_out"])
+    if "largest_impact" in group:
+        contact.largest = {name: column[...] for name, column in group["largest_impact"].items()}
     return contact
 
 
@@ -217,6 +230,10 @@ def load(directory):
             )
             if "wear" in file:
                 run.wear = sorted((_support_wear(group) for group in file["wear"].values()), key=lambda support: int(support["index"]))
+            series = {_attributes(group).get("name", name): group for name, group in file["nodes"].items()} if "nodes" in file else {}
+            for entry in summary.get("nodes", []):
+                group = series.get(entry["name"])
+                run.nodes_observed.append(Node(entry["name"], entry, group["displacement"][...] if group is not None else None))
             if "time" in file:
                 run.time = file["time"][...]
                 run.window = float(file.attrs["statistics_from"])

@@ -5,6 +5,7 @@ import html
 import math
 
 import contact_view
+import node_view
 import structure_view
 from drawing import short, unit_for
 from page import cards, count, figure, section, table, warning
@@ -56,9 +57,11 @@ def key_figures(run):
 
 
 def structure(run):
-    picture, view = structure_view.structure(run)
+    picture, view, unnamed = structure_view.structure(run)
     supports = f"; {len(run.contacts)} contacts (orange)" if run.contacts else ""
     facts = f"{count(run.summary['model']['elements'])} beams, {count(run.summary['model']['dofs'])} free degrees of freedom{supports}. View: {view}."
+    if unnamed:
+        facts += f" Without room for a name: {html.escape(', '.join(unnamed))}."
     return section("Structure", figure(picture, facts))
 
 
@@ -102,24 +105,25 @@ def _panel(run, contact):
 
 
 _EXPLANATION = (
-    '<p class="soft">Left: position of the node from the obstacle’s centre at true scale, in the statistics window; dark where it stays long, '
+    '<p class="soft">Left: position of the node from the obstacle’s centre at true scale (each axis with its own at flat obstacles), in the statistics window; dark where it stays long, '
     "orange where it touches; black: the obstacle’s reach. Middle: normal force (grey: before the statistics window, orange: the stretch shown at "
-    "the right). Right: the largest impact, normal force blue, tangential force orange. Pictures show the output instants; statistics see every step.</p>"
+    "the right). Right: the largest impact, normal force blue, tangential force orange. Orbits and histories show the output instants, the largest impact every step; statistics see every step.</p>"
 )
 
 
 def contacts(run):
     if not run.contacts or run.time is None or not len(run.time):
         return ""
-    if len(run.contacts) <= MANY_CONTACTS:
-        return section("Contacts", _EXPLANATION, *[_panel(run, contact) for contact in run.contacts])
+    seen = [contact for contact in run.contacts if contact.normal is not None]  # the study may leave series out
+    if len(seen) <= MANY_CONTACTS:
+        return section("Contacts", _EXPLANATION, *[_panel(run, contact) for contact in seen]) if seen else ""
     small = "".join(
-        f"<div><h3>{html.escape(c.name)}</h3>{figure(contact_view.orbit(run, c, 184, labels=False))}</div>" for c in run.contacts
+        f"<div><h3>{html.escape(c.name)}</h3>{figure(contact_view.orbit(run, c, 184, labels=False))}</div>" for c in seen
     )
-    worst = sorted(run.contacts, key=_work, reverse=True)[:HISTORIES_OF_MANY]
+    worst = sorted(seen, key=_work, reverse=True)[:HISTORIES_OF_MANY]
     return section(
         "Orbits",
-        '<p class="soft">y_loc across, z_loc upwards, µm from the obstacle’s centre, at true scale, in the statistics window. Dark where the node stays '
+        '<p class="soft">y_loc across, z_loc upwards, µm from the obstacle’s centre, at true scale (each axis with its own at flat obstacles), in the statistics window. Dark where the node stays '
         "long, orange where it touches; black: the obstacle’s reach.</p>",
         f'<div class="small">{small}</div>',
     ) + section(f"The {HISTORIES_OF_MANY} contacts that wear most", _EXPLANATION, *[_panel(run, contact) for contact in worst])
@@ -166,25 +170,87 @@ def _losses(run):
     return table(heads, rows)
 
 
+_NOTHING = {"rms": None, "max": None}
+
+
+def _flat_axes(contact):
+    """The keys of the normal axis and of the one across it at a flat obstacle (plane, stop, bars); None at others."""
+    return {"_y": ("y", "z"), "_z": ("z", "y")}.get(contact.facts["obstacle"][-2:])
+
+
+def _flat(run):
+    """Table of flat obstacles: position along the normal and sliding across it, apart."""
+    heads = ["flat obstacle", "kind", "gap [µm]", "normal position from – to [µm]", "its deviation [µm]", "range of sliding [µm]", "its deviation [µm]"]
+    rows = []
+    for c in run.contacts:
+        axes = _flat_axes(c)
+        if not axes:
+            continue
+        normal, across = (c.summary["position"][axis] for axis in axes)
+        span = None if None in (across["max"], across["min"]) else across["max"] - across["min"]
+        rows.append([
+            html.escape(c.name), html.escape(c.facts["obstacle"]), short(1e6 * float(c.facts["gap"])),
+            f"{_times(normal['min'], 1e6)} – {_times(normal['max'], 1e6)}", _times(normal["std"], 1e6, 3), _times(span, 1e6), _times(across["std"], 1e6, 3),
+        ])
+    return table(heads, rows, (0, 1)) if rows else ""
+
+
+def _flexibility(run):
+    """Table of the static flexibility at contacts, of their modes, and of what these lack."""
+    heads = ["contact", "static flexibility [m/N]", "of the modes [m/N]", "missing [m/N]", "K<sub>N</sub> × missing"]
+    rows = []
+    for c in run.contacts:
+        found = c.summary.get("static_flexibility")
+        if found:
+            lack = None if found["missing"] is None else found["missing"] * float(c.facts["normal_stiffness"])
+            rows.append([html.escape(c.name), short(found["exact"]), short(found["basis"]), short(found["missing"], 3), short(lack, 3)])
+    return table(heads, rows) if rows else ""
+
+
+def nodes(run):
+    """Observed nodes: statistics of their displacement, and its history."""
+    if not run.nodes_observed:
+        return ""
+    heads = ["node", "along", "mean [µm]", "deviation [µm]", "± standard error", "least [µm]", "largest [µm]"]
+    rows = []
+    for node in run.nodes_observed:
+        errors = node.summary.get("standard_error", {}).get("displacement", {})
+        for axis in "xyz":
+            d = node.summary["displacement"][axis]
+            error = errors.get(axis, {}).get("std")
+            rows.append([html.escape(node.name) if axis == "x" else "", axis, _times(d["mean"], 1e6), _times(d["std"], 1e6),
+                         _times(error, 1e6, 2), _times(d["min"], 1e6), _times(d["max"], 1e6)])
+    shown = run.nodes_observed[:HISTORIES_OF_MANY]
+    panels = "".join(
+        f'<div class="panel"><h3>{html.escape(node.name)}</h3>{figure(node_view.history(run, node))}</div>' for node in shown if node.displacement is not None
+    )
+    note = '<p class="soft">Displacement from rest, global axes; x blue, y orange, z black. Statistics over every step.</p>'
+    left = f'<p class="soft">Histories of the first {len(shown)} of {len(run.nodes_observed)} nodes.</p>' if len(shown) < len(run.nodes_observed) else ""
+    return section("Observed nodes", f'<div class="grid2">{panels}</div>', note, left, table(heads, rows, (0, 1)))
+
+
 def contact_table(run):
     if not run.contacts or not run.transient:
         return ""
     heads = ["contact", "impacts", "in contact [%]", "F<sub>N</sub> mean [N]", "F<sub>N</sub> rms [N]", "F<sub>N</sub> max [N]",
-             "F<sub>T</sub> max [N]", "radial rms [µm]", "radial max [µm]", "work rate [mW]", "friction power [mW]",
+             "F<sub>T</sub> max [N]", "radial rms [µm]", "radial max [µm]", "penetration max [µm]", "work rate [mW]", "friction power [mW]",
              "impact speed mean / max [mm/s]", "contact mean / max [ms]"]
     rows = []
     for c in run.contacts:
         s = c.summary
-        force, radial = s["normal_force"], s["displacement"]["radial"]
+        force, radial = s["normal_force"], _NOTHING if _flat_axes(c) else s["position"]["radial"]
         speed, long = s["impact_velocity"], s["contact_duration"]
         rows.append([
             html.escape(c.name), count(s["impacts"]), _times(s["contact_time_ratio"], 100, 3), short(force["mean"]), short(force["rms"]),
-            short(force["max"]), short(s["tangential_force"]["max"]), _times(radial["rms"], 1e6), _times(radial["max"], 1e6),
+            short(force["max"]), short(s["tangential_force"]["max"]), _times(radial["rms"], 1e6), _times(radial["max"], 1e6), _times(s["penetration"]["max"], 1e6, 3),
             _times(s["work_rate"], 1e3), _times(s["friction_power"], 1e3),
             f"{_times(speed['mean'], 1e3, 3)} / {_times(speed['max'], 1e3, 3)}", f"{_times(long['mean'], 1e3, 3)} / {_times(long['max'], 1e3, 3)}",
         ])
-    note = f'<p class="soft">Statistics over every step from {short(run.window)} s on. Forces over all time; displacements in the contact’s plane.</p>'
-    return section("Table of contacts", table(heads, rows), _losses(run), note)
+    note = (
+        f'<p class="soft">Statistics over every step from {short(run.window)} s on. Forces over all time; radial: distance of the node from the '
+        "obstacle’s centre in the contact’s plane, none at flat obstacles.</p>"
+    )
+    return section("Table of contacts", table(heads, rows), _flat(run), _losses(run), _flexibility(run), note)
 
 
 def _strongest(contacts):

@@ -80,39 +80,62 @@ def _beside(run, view, middle, contact):
     return "left" if view(contact.position)[0] < middle[0] else "right"
 
 
+_PLACES = {"left": ("note end", (-9, 4)), "right": ("note", (9, 4)), "above": ("note mid", (0, -9)), "below": ("note mid", (0, 17))}
+_LETTER, _LINE = 6.5, 13  # px: widest mean letter and height of a line of a name
+
+
+def _box(spot, name, place):
+    """Left, top, right and bottom (px) of a name at a place beside a spot."""
+    kind, (right, down) = _PLACES[place]
+    width = _LETTER * len(name)
+    left = spot[0] + right - (width if kind.endswith("end") else width / 2 if kind.endswith("mid") else 0)
+    return left, spot[1] + down - _LINE + 2, left + width, spot[1] + down + 2
+
+
+def _overlap(a, b):
+    return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
+
+
+def _supports(contacts):
+    """Contacts of one support (points of its thickness, name@k) as one: name and contacts, in their order."""
+    found = {}
+    for contact in contacts:
+        found.setdefault(contact.name.split("@")[0], []).append(contact)
+    return found.items()
+
+
 def _name_supports(plot, supports):
-    """A dot and a name each; names above and below by turns where they would touch, left out where they still would."""
-    spots = {"left": ("note end", (-9, 4)), "right": ("note", (9, 4)), "above": ("note mid", (0, -9)), "below": ("note mid", (0, 17))}
-
-    def touch(one, other):
-        apart = [abs(float(a - b)) for a, b in zip(_spot(plot, one[1]), _spot(plot, other[1]))]
-        return apart[0] < 3.25 * (len(one[0]) + len(other[0])) + 8 and apart[1] < 13
-
-    lying = [support for support in supports if support[2] is None]
-    crowded = any(touch(*pair) for pair in zip(lying, lying[1:]))
-    written = {side: [] for side in spots}
-    for i, support in enumerate(supports):
-        name, at, beside = support
-        plot.dot(at[0], at[1], "support", 4)
-        side = beside or ("below" if crowded and i % 2 else "above")
-        if not any(touch(support, other) for other in written[side]):
-            plot.text(at[0], at[1], name, *spots[side])
-            written[side].append(support)
-
-
-def _spot(plot, at):
-    return plot.px(at[0]), plot.py(at[1])
+    """A dot and a name each: at the side asked for or another where it touches no other name. Names for which there is no room, which are
+    left out."""
+    written, left_out = [], []
+    for name, places, side in supports:
+        for at in places:
+            plot.dot(at[0], at[1], "support", 4)
+        at = np.mean(places, axis=0)
+        spot = float(plot.px(at[0])), float(plot.py(at[1]))
+        opposite = {"left": "right", "right": "left"}.get(side)
+        for place in [side, opposite] if side else ["above", "below"]:
+            box = _box(spot, name, place)
+            inside = box[0] >= 0 and box[2] <= plot.width and box[1] >= 0 and box[3] <= plot.height
+            if inside and not any(_overlap(box, other) for other in written):
+                plot.text(at[0], at[1], name, *_PLACES[place])
+                written.append(box)
+                break
+        else:
+            left_out.append(name)
+    return left_out
 
 
 def structure(run, width=980):
-    """The mesh with its supports, and how it is looked at."""
+    """The mesh with its supports, how it is looked at, and the names for which there was no room."""
     view = View(run.nodes)
     points = view(run.nodes)
     plot = _plot(points, width, (70, 420))
     _segments(plot, points, run.lines, "beam")
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
-    _name_supports(plot, [(c.name, view(c.position), _beside(run, view, middle, c)) for c in run.contacts])
-    return plot.svg("The structure and its supports"), view.name
+    supports = [(name, [view(c.position) for c in points], _beside(run, view, middle, points[0])) for name, points in _supports(run.contacts)]
+    left_out = _name_supports(plot, supports)
+    return plot.svg("The structure and its supports"), view.name, left_out
 
 
 def shares(mode):

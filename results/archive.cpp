@@ -110,6 +110,19 @@ void write_impacts(const h5::Group& contact, const post::ContactImpacts& impacts
   group.write<std::int64_t>("rebounds", rebounds, shape, "");
 }
 
+void write_largest_impact(const h5::Group& contact, const std::vector<post::ForcePoint>& history) {
+  const h5::Group group = contact.create("largest_impact");
+  const auto write = [&](const char* name, double post::ForcePoint::*value, const char* unit) {
+    std::vector<double> values;
+    for (const post::ForcePoint& point : history)
+      values.push_back(point.*value);
+    group.write<double>(name, values, h5::Shape{history.size()}, unit);
+  };
+  write("time", &post::ForcePoint::time, "s");
+  write("normal_force", &post::ForcePoint::normal, "N");
+  write("tangential_force", &post::ForcePoint::tangential, "N");
+}
+
 post::ContactImpacts read_impacts(const h5::Group& group) {
   post::ContactImpacts impacts;
   impacts.left_out = group.integer("left_out");
@@ -165,6 +178,8 @@ void write_contacts(const h5::Group& root, const RunResults& results) {
         write_series(group, series, results.series.time.size());
     if (!results.impacts.empty())
       write_impacts(group, results.impacts.at(c), results.rest_time);
+    if (!results.largest_impacts.empty() && !results.largest_impacts.at(c).empty())
+      write_largest_impact(group, results.largest_impacts.at(c));
   }
 }
 
@@ -176,6 +191,8 @@ void write_transient(const h5::Group& root, const RunResults& results) {
   const h5::Group nodes = root.create("nodes");
   for (std::size_t n = 0; n < series.nodes.size(); ++n)
     write_series(create_named(nodes, series.nodes[n].name, n), series.nodes[n], series.time.size());
+  if (series.modal_displacement.size() == 0)
+    return; // left out
   const h5::Group modal = root.create("modal");
   // one output is a column in memory: [nt, n] as HDF5 sees it, no copy
   const auto write = [&](const char* name, const Eigen::MatrixXd& values, const char* units) {
@@ -211,6 +228,8 @@ void read_transient(const h5::Group& root, RunResults& results) {
     results.series.nodes.push_back({group.text("name"), read_matrix(group, "displacement"),
                                     read_matrix(group, "velocity"), read_matrix(group, "acceleration")});
   }
+  if (!root.has("modal"))
+    return;
   const h5::Group modal = root.open("modal");
   results.series.modal_displacement = read_matrix(modal, "displacement").transpose();
   results.series.modal_velocity = read_matrix(modal, "velocity").transpose();

@@ -102,7 +102,7 @@ void export_vtu(const std::filesystem::path& directory, const RunResults& result
     modes += vectors(field.name, field.displacement);
   }
   write_text(directory / "modes.vtu", grid(results, shared, modes));
-  if (results.series.time.size() > 0)
+  if (results.series.modal_displacement.size() > 0)
     write_snapshots(directory, results, shared);
 }
 

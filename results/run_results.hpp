@@ -5,6 +5,7 @@
 #include "modal/basis.hpp"
 #include "post/contact_statistics.hpp"
 #include "post/impact_table.hpp"
+#include "post/largest_impact.hpp"
 #include "post/node_statistics.hpp"
 #include "post/recorder.hpp"
 #include "post/verification.hpp"
@@ -30,6 +31,7 @@ struct RunRecord {
   std::map<std::string, std::string> libraries; ///< name -> version
   std::string vector_width;
   int ranks = 1;
+  std::vector<std::string> overrides = {}; ///< key=value of --set, in their order
 };
 
 struct ModelFacts {
@@ -108,6 +110,8 @@ struct RunResults {
   double accuracy = 0.01;                    ///< what the run aims at
   std::vector<post::ContactImpacts> impacts; ///< as `contacts`; empty without a table
   double rest_time = 0.0;                    ///< s, of the table of impacts
+  /// Forces about the largest impact at every step, as `contacts`; empty: not kept.
+  std::vector<std::vector<post::ForcePoint>> largest_impacts;
   std::vector<std::vector<double>>
       sector_rates; ///< W, as `contacts`, by angular sector; no sector where nothing wears
   std::vector<std::optional<wear::KwuClasses>> force_speed_classes; ///< as `contacts`, under the law kwu_epri

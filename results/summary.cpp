@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/checksum.hpp"
+#include "results/contact_position.hpp"
 #include "results/error_estimate.hpp"
 #include "results/flow_json.hpp"
 #include "results/step_error.hpp"
@@ -107,6 +108,8 @@ Json flexibility(const std::optional<StaticFlexibility>& f) {
 }
 
 Json contact(const ContactFacts& facts, const post::ContactSummary& c) {
+  const ContactPosition position = position_of(facts, c);
+  const Json radial{{"rms", number(c.radial_rms)}, {"max", number(c.radial_max)}};
   return {
       {"name", facts.name},
       {"impacts", c.impacts},
@@ -117,10 +120,9 @@ Json contact(const ContactFacts& facts, const post::ContactSummary& c) {
       {"normal_force_in_contact",
        {{"mean", number(c.normal_in_contact_mean)}, {"rms", number(c.normal_in_contact_rms)}}},
       {"tangential_force", {{"rms", number(c.tangential_rms)}, {"max", number(c.tangential_max)}}},
-      {"displacement",
-       {{"y", moments(c.y)},
-        {"z", moments(c.z)},
-        {"radial", {{"rms", number(c.radial_rms)}, {"max", number(c.radial_max)}}}}},
+      {"displacement", {{"y", moments(c.y)}, {"z", moments(c.z)}, {"radial", radial}}},
+      {"position", {{"y", moments(position.y)}, {"z", moments(position.z)}, {"radial", radial}}},
+      {"penetration", {{"max", number(c.penetration_max)}}},
       {"work_rate", number(c.work_rate)},
       {"friction_power", number(c.friction_power)},
       {"impact_velocity", {{"mean", number(c.impact_velocity_mean)}, {"max", number(c.impact_velocity_max)}}},
@@ -240,6 +242,18 @@ Json timings(const Timings& t) {
           {"output", number(t.output)}, {"total", number(t.total)}};
 }
 
+/// `key=value` as {"key", "value"}: the value as JSON has it, text where it is none.
+Json overrides(const std::vector<std::string>& all) {
+  Json out = Json::array();
+  for (const std::string& text : all) {
+    const std::size_t equals = text.find('=');
+    const std::string value = text.substr(equals + 1);
+    Json parsed = Json::parse(value, nullptr, false);
+    out.push_back({{"key", text.substr(0, equals)}, {"value", parsed.is_discarded() ? Json(value) : parsed}});
+  }
+  return out;
+}
+
 void add_transient(Json& out, const RunResults& results) {
   assert(results.contact_summaries.size() == results.contacts.size());
   assert(results.node_summaries.size() == results.node_names.size());
@@ -276,6 +290,7 @@ void write_summary(const std::filesystem::path& file, const RunResults& results)
   out["seed"] = record.seeds.empty() ? Json(nullptr) : Json(record.seeds.front());
   out["seeds"] = record.seeds;
   out["input_sha256"] = record.input_sha256;
+  out["overrides"] = overrides(record.overrides);
   out["model"] = model(results.model);
   out["modes"] = modes(results.bases);
   if (const auto& limit = results.modes_limit)
@@ -288,7 +303,7 @@ void write_summary(const std::filesystem::path& file, const RunResults& results)
     add_transient(out, results);
   out["timings_s"] = timings(results.timings);
   out["warnings"] = all_warnings(results);
-  out["notes"] = results.notes;
+  out["notes"] = all_notes(results);
   out["libraries"] = record.libraries;
   out["vector_width"] = record.vector_width;
   out["sha256"] = no_checksum();

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/contact_table.hpp"
 #include "results/error_estimate.hpp"
+#include "results/figures.hpp"
 #include "results/text_file.hpp"
 #include "results/totals.hpp"
 #include "results/wear_json.hpp"
@@ -13,9 +15,8 @@
 namespace fretwork::results {
 namespace {
 
-constexpr std::size_t text_width = 88;    // of what follows the labels: about 100 columns in all
-constexpr std::size_t name_width = 20;    // of a contact
-constexpr std::size_t most_contacts = 12; // shown one by one; of more, the ten with the largest work rate
+constexpr std::size_t text_width = 88; // of what follows the labels: about 100 columns in all
+constexpr std::size_t name_width = 20; // of a contact
 constexpr std::size_t most_lacking = 3;
 constexpr double least_missing = 1e-3; // flexibility times stiffness of a contact from which on it is shown
 constexpr std::size_t most_frequencies = 8;
@@ -26,7 +27,7 @@ constexpr std::size_t most_notes = 3;
 class Lines {
 public:
   void add(const std::string& label, const std::string& text) {
-    const std::vector<std::string> parts = wrapped(text);
+    const std::vector<std::string> parts = wrapped(text, text_width);
     for (std::size_t i = 0; i < parts.size(); ++i)
       row(i == 0 ? label : "", parts[i]);
   }
@@ -37,28 +38,8 @@ public:
   [[nodiscard]] std::string text() && { return std::move(text_); }
 
 private:
-  static std::vector<std::string> wrapped(const std::string& text) {
-    std::vector<std::string> lines(1);
-    for (std::size_t at = 0; at < text.size();) {
-      const std::size_t end = std::min(text.find(' ', at), text.size());
-      const std::string word = text.substr(at, end - at);
-      if (!lines.back().empty() && lines.back().size() + 1 + word.size() > text_width)
-        lines.emplace_back();
-      lines.back() += (lines.back().empty() ? "" : " ") + word;
-      at = end + 1;
-    }
-    return lines;
-  }
   std::string text_;
 };
-
-/// 12 345 678
-std::string grouped(std::int64_t count) {
-  std::string digits = std::to_string(count);
-  for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3)
-    digits.insert(static_cast<std::size_t>(at), 1, ' ');
-  return digits;
-}
 
 std::string modes_text(const std::vector<modal::Basis>& bases) {
   const std::vector<ModeOf> modes = sorted_modes(bases);
@@ -77,60 +58,6 @@ std::string modes_text(const std::vector<modal::Basis>& bases) {
     if (basis.true_modes() > 0)
       residual = std::max(residual, basis.residuals.head(basis.true_modes()).maxCoeff());
   return text + fmt::format(" Hz (largest residual {:.0e})", residual);
-}
-
-/// 6.13+-0.05: the error in one digit (two where the first is 1), the value down to it; the value alone where
-/// there is no error.
-std::string with_error(double value, double error) {
-  if (!std::isfinite(value) || !(error > 0.0) || !std::isfinite(error))
-    return fmt::format("{:.3g}", value);
-  if (std::abs(value) < 1e-4 || std::max(std::abs(value), error) >= 1e6)
-    return fmt::format("{:.3g}+-{:.1g}", value, error);
-  const double first = std::floor(std::log10(error));
-  const bool one = error < 1.95 * std::pow(10.0, first);
-  const int decimals = std::clamp(static_cast<int>(-first) + (one ? 1 : 0), 0, 7);
-  return fmt::format("{:.{}f}+-{:.{}f}", value, decimals, error, decimals);
-}
-
-std::string contact_row(const std::string& name, const post::ContactSummary& c) {
-  return fmt::format("  {:<20} {:>8} {:>8.2f} {:>11} {:>8.3g} {:>8.3g} {:>8.4g} {:>13} {:>13}",
-                     shortened(name, name_width), grouped(c.impacts), 100.0 * c.contact_time_ratio,
-                     with_error(c.normal_rms, c.error.normal_rms), c.normal_max, c.tangential_max,
-                     1e6 * c.radial_max, with_error(c.work_rate, c.error.work_rate),
-                     with_error(c.friction_power, c.error.friction_power));
-}
-
-void add_contacts(Lines& lines, const RunResults& results) {
-  const auto& all = results.contact_summaries;
-  std::vector<std::size_t> shown(all.size());
-  std::iota(shown.begin(), shown.end(), std::size_t{0});
-  if (all.size() > most_contacts) {
-    std::stable_sort(shown.begin(), shown.end(),
-                     [&](std::size_t a, std::size_t b) { return all[a].work_rate > all[b].work_rate; });
-    shown.resize(10);
-  }
-  lines.plain("");
-  lines.plain(fmt::format("  {:<20} {:>8} {:>8} {:>11} {:>8} {:>8} {:>8} {:>13} {:>13}", "contact", "impacts",
-                          "closed %", "FN rms N", "FN max N", "FT max N", "r max um", "work W",
-                          "friction W"));
-  for (const std::size_t c : shown)
-    lines.plain(contact_row(results.contacts[c].name, all[c]));
-  if (shown.size() < all.size())
-    lines.plain(fmt::format("  the 10 of {} contacts with the largest work rate", all.size()));
-  if (all.size() > 1) {
-    std::int64_t impacts = 0;
-    double work = 0.0, friction = 0.0;
-    for (const post::ContactSummary& c : all) {
-      impacts += c.impacts;
-      work += c.work_rate;
-      friction += c.friction_power;
-    }
-    const post::StandardErrors& e = results.errors_of_sums;
-    lines.plain(fmt::format("  {:<20} {:>8} {:>8} {:>11} {:>8} {:>8} {:>8} {:>13} {:>13}", "all contacts",
-                            grouped(impacts), "", "", "", "", "", with_error(work, e.work_rate),
-                            with_error(friction, e.friction_power)));
-  }
-  lines.plain("");
 }
 
 /// Contacts whose modes lack flexibility beside their own, the worst first.
@@ -201,8 +128,12 @@ void add_transient(Lines& lines, const RunResults& results) {
   if (t.unconverged > 0)
     lines.add("contacts", fmt::format("{} of {} steps missed the tolerance of the contact forces",
                                       grouped(t.unconverged), grouped(t.steps)));
-  if (!results.contact_summaries.empty())
-    add_contacts(lines, results);
+  if (!results.contact_summaries.empty()) {
+    lines.plain("");
+    for (const std::string& line : contact_lines(results))
+      lines.plain(line);
+    lines.plain("");
+  }
   add_flexibility(lines, results);
   if (results.wear) {
     for (const std::string& line : wear_lines(*results.wear))
@@ -245,13 +176,13 @@ std::string terminal_table(const RunResults& results, const std::filesystem::pat
   if (!results.record.title.empty())
     lines.plain(results.record.title);
   const ModelFacts& m = results.model;
-  lines.add("model", fmt::format("{} nodes, {} beams, {} free dofs, {:.4g} kg", grouped(m.nodes),
-                                 grouped(m.elements), grouped(m.dofs), m.mass_kg));
+  lines.add("model", fmt::format("{}, {}, {}, {:.4g} kg", counted(m.nodes, "node"),
+                                 counted(m.elements, "beam"), counted(m.dofs, "free dof"), m.mass_kg));
   lines.add("modes", modes_text(results.bases));
   if (!results.transients.empty())
     add_transient(lines, results);
   add_messages(lines, "warning", all_warnings(results), most_warnings);
-  add_messages(lines, "note", results.notes, most_notes);
+  add_messages(lines, "note", all_notes(results), most_notes);
   lines.add("time", timings_text(results));
   if (!directory.empty())
     lines.row("results", directory.string());

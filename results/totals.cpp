@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/totals.hpp"
+#include "results/grouped_messages.hpp"
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -86,17 +87,14 @@ TransientTotals add_up(const std::vector<TransientFacts>& transients) {
 }
 
 std::vector<std::string> all_warnings(const RunResults& results) {
-  std::vector<std::string> out;
-  const auto add = [&](const std::string& warning) {
-    if (std::find(out.begin(), out.end(), warning) == out.end())
-      out.push_back(warning);
-  };
-  for (const std::string& warning : results.warnings)
-    add(warning);
+  std::vector<std::string> all = results.warnings;
   for (const TransientFacts& transient : results.transients)
     for (const std::string& warning : transient.choice.warnings)
-      add(warning);
-  return out;
+      if (std::find(all.begin(), all.end(), warning) == all.end())
+        all.push_back(warning);
+  return grouped_messages(all);
 }
+
+std::vector<std::string> all_notes(const RunResults& results) { return grouped_messages(results.notes); }
 
 } // namespace fretwork::results

@@ -51,7 +51,8 @@ struct TransientTotals {
 /// @param transients at least one
 [[nodiscard]] TransientTotals add_up(const std::vector<TransientFacts>& transients);
 
-/// Warnings of the run and of the choice of steps, each once.
+/// Warnings of the run and of the choice of steps; its notes. Those that say the same are one (grouped_messages.hpp).
 [[nodiscard]] std::vector<std::string> all_warnings(const RunResults& results);
+[[nodiscard]] std::vector<std::string> all_notes(const RunResults& results);
 
 } // namespace fretwork::results

@@ -136,6 +136,7 @@ Document load(const std::filesystem::path& file, const std::vector<std::string>&
   document.root = parse_toml(document.text, std::make_shared<const std::string>(file.string()));
   for (const std::string& text : overrides)
     apply_override(document.root, text);
+  apply_contact_defaults(document.root);
   return document;
 }
 

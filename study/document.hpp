@@ -31,10 +31,15 @@ enum class Lines { kept, none };
 
 /// Apply one override to the tree. The address is split at dots; a part with dots in it is put between double
 /// quotes. An entry of an array of tables is found by its name, else its group, else its index from 0. The
-/// last part may be a new key of an existing table; the tables [mesh], [modes], [gravity], [transient] and
-/// [output] are made where the study has none.
+/// last part may be a new key of an existing table; the tables [mesh], [modes], [contact_defaults], [gravity], [transient]
+/// and [output] are made where the study has none.
 /// @throws core::Error for an address that leads nowhere (listing what exists) and for a value that is not
 /// TOML
 void apply_override(Value& root, const std::string& override_text);
+
+/// Give every entry of [[contacts]] the keys of [contact_defaults] that it does not have, nor another key in their stead, and take the table
+/// away.
+/// @throws core::Error for keys of one contact (name, group, other) and where there is no contact
+void apply_contact_defaults(Value& root);
 
 } // namespace fretwork::study

@@ -10,17 +10,31 @@
 namespace fretwork::study {
 namespace {
 
-std::vector<std::string_view> cells_of(std::string_view line) {
-  std::vector<std::string_view> cells;
+constexpr std::string_view blanks = " \t";
+
+bool has(std::string_view line, char separator) { return line.find(separator) != std::string_view::npos; }
+
+} // namespace
+
+std::vector<std::string> cells_of(std::string_view line) {
+  const char separator = has(line, ';') ? ';' : has(line, '\t') ? '\t' : has(line, ',') ? ',' : ' ';
+  std::vector<std::string> cells;
   for (std::size_t at = 0; at <= line.size();) {
-    const std::size_t end = std::min(line.find(',', at), line.size());
-    cells.push_back(trimmed(line.substr(at, end - at)));
+    const std::size_t end = std::min(line.find(separator, at), line.size());
+    std::string cell(trimmed(line.substr(at, end - at)));
+    if (separator == ';')
+      std::replace(cell.begin(), cell.end(), ',', '.');
+    cells.push_back(std::move(cell));
     at = end + 1;
+    if (separator == ' ') // several blanks are one
+      at = std::max(at, std::min(line.find_first_not_of(blanks, std::min(at, line.size())), line.size() + 1));
   }
   return cells;
 }
 
-} // namespace
+bool is_header(const std::vector<std::string>& cells) {
+  return std::none_of(cells.begin(), cells.end(), [](const std::string& cell) { return to_real(cell); });
+}
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r");
@@ -45,6 +59,8 @@ NumberRows read_number_rows(const std::filesystem::path& file) {
   std::ifstream stream(file);
   if (!stream)
     throw core::Error("file " + file.string() + " cannot be read; check its permissions");
+  constexpr int most_headers = 2; // names, units
+  int headers = 0;
   NumberRows out;
   std::string text;
   for (int number = 1; std::getline(stream, text); ++number) {
@@ -55,19 +71,18 @@ NumberRows read_number_rows(const std::filesystem::path& file) {
       throw core::Error(file.string() + ":" + std::to_string(number) + ": \"" + std::string(line) +
                         "\": " + problem);
     };
-    const std::vector<std::string_view> cells = cells_of(line);
-    const bool words =
-        std::none_of(cells.begin(), cells.end(), [](std::string_view cell) { return to_real(cell); });
-    if (words && out.rows.empty() && out.columns.empty()) {
-      out.columns.assign(cells.begin(), cells.end());
+    const std::vector<std::string> cells = cells_of(line);
+    if (is_header(cells) && out.rows.empty() && headers < most_headers) {
+      if (headers++ == 0)
+        out.columns = cells;
       continue;
     }
     std::vector<double> row;
-    for (const std::string_view cell : cells)
+    for (const std::string& cell : cells)
       if (const auto value = to_real(cell))
         row.push_back(*value);
       else
-        refuse("a row of finite numbers between commas is expected");
+        refuse("a row of finite numbers is expected");
     const std::size_t wanted = !out.columns.empty() ? out.columns.size()
                                : out.rows.empty()   ? row.size()
                                                     : out.rows.front().size();
@@ -77,7 +92,7 @@ NumberRows read_number_rows(const std::filesystem::path& file) {
     out.rows.push_back(std::move(row));
   }
   if (out.rows.empty())
-    throw core::Error("file " + file.string() + " has no row; give rows of numbers between commas");
+    throw core::Error("file " + file.string() + " has no row; give rows of numbers");
   return out;
 }
 

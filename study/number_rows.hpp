@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Files of rows of numbers between commas. Empty lines and lines that begin with # are passed over; the first other line
-/// is a header where none of its cells is a number.
+/// Files of rows of numbers. Each line has its own separator: a semicolon (numbers may then have a decimal comma), else a tab, a comma, or
+/// blanks. Empty lines and lines that begin with # are passed over; the first other line is a header where none of its cells is a
+/// number, and a second one like it its units, which are passed over.
 #pragma once
 #include <filesystem>
 #include <optional>
@@ -18,6 +19,12 @@ struct NumberRows {
 
 /// @throws core::Error naming file and line, for a file that cannot be read, without rows, or with cells that are no numbers
 [[nodiscard]] NumberRows read_number_rows(const std::filesystem::path& file);
+
+/// The cells of a line, without blanks about them, a decimal comma made a point.
+[[nodiscard]] std::vector<std::string> cells_of(std::string_view line);
+
+/// Whether none of the cells is a number.
+[[nodiscard]] bool is_header(const std::vector<std::string>& cells);
 
 /// Without blanks at both ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);

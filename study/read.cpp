@@ -10,10 +10,11 @@
 namespace fretwork::study {
 namespace {
 
-const Keys study_keys{{"title",          "mesh",       "materials", "sections", "beams",    "restraints",
-                       "masses",         "springs",    "ties",      "modes",    "contacts", "flow",
-                       "stability",      "turbulence", "response",  "loads",    "gravity",  "base_motion",
-                       "support_motion", "initial",    "transient", "output",   "wear"}};
+const Keys study_keys{
+    {"title",          "mesh",       "materials", "sections", "beams",    "restraints",
+     "masses",         "springs",    "ties",      "modes",    "contacts", "flow",
+     "stability",      "turbulence", "response",  "loads",    "gravity",  "base_motion",
+     "support_motion", "initial",    "transient", "output",   "wear",     "contact_defaults"}};
 
 [[maybe_unused]] bool is_key(const std::string& name) {
   return std::find(study_keys.known.begin(), study_keys.known.end(), name) != study_keys.known.end();

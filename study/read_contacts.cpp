@@ -11,7 +11,7 @@ constexpr std::int64_t most_points = 1000; ///< along a thickness: each is a con
 
 Keys contact_keys() {
   Keys keys{{"name", "group", "axis", "y_axis", "angle", "origin", "offset", "thickness", "thickness_points",
-             "attached_to", "active"}};
+             "attached_to", "active", "series"}};
   for (const auto* more : {&obstacle_keys, &normal_law_keys, &friction_keys})
     keys.known.insert(keys.known.end(), more->begin(), more->end());
   return keys;
@@ -95,6 +95,7 @@ std::vector<Contact> read_contacts(const TableReader& root) {
     read_friction(table, contact);
     read_carrier(table, root, contact);
     contact.active = table.optional_flag("active").value_or(true);
+    contact.series = table.optional_flag("series").value_or(true);
     if (table.has("attached_to") && contact.other && (contact.grounded || contact.carrier))
       table.fail_at("attached_to", "an obstacle between two nodes moves with them; leave attached_to out");
     const auto [at, added] = places.emplace(contact.name, entry.value->where.text());

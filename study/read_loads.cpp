@@ -7,6 +7,7 @@ namespace {
 
 Keys with_time_function(std::vector<std::string> known) {
   known.insert(known.end(), time_function_keys.begin(), time_function_keys.end());
+  known.emplace_back("scale");
   return {std::move(known)};
 }
 
@@ -32,8 +33,9 @@ std::vector<Load> read_loads(const TableReader& root, const std::filesystem::pat
   std::vector<Load> all;
   for (const Entry& entry : array_entries(root, "loads")) {
     const TableReader table(*entry.value, entry.path,
-                            with_time_function({"group", "per_length", "moment", "direction"}));
+                            with_time_function({"name", "group", "per_length", "moment", "direction"}));
     Load load;
+    load.name = table.optional_text("name").value_or("");
     load.group = table.text("group", "the name of a physical point or curve of the mesh");
     load.per_length = table.optional_flag("per_length").value_or(false);
     load.moment = table.optional_flag("moment").value_or(false);

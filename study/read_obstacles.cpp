@@ -41,7 +41,7 @@ std::vector<std::string> keys_of(ObstacleKind kind) {
   case ObstacleKind::profile:
     return {"profile"};
   case ObstacleKind::drilled:
-    return {"tube_radius", "hole_radius"};
+    return {"tube_radius", "hole_radius", "clearance"};
   case ObstacleKind::broached:
     return {"tube_radius", "land_radius", "lobe_radius", "lands", "land_angle"};
   case ObstacleKind::egg_crate:
@@ -53,9 +53,9 @@ std::vector<std::string> keys_of(ObstacleKind kind) {
   return {};
 }
 
-const std::vector<std::string> size_keys{"gap",         "profile",     "tube_radius", "hole_radius",
-                                         "land_radius", "lobe_radius", "lands",       "land_angle",
-                                         "half_widths", "bars"};
+const std::vector<std::string> size_keys{"gap",        "profile",     "tube_radius", "hole_radius",
+                                         "clearance",  "land_radius", "lobe_radius", "lands",
+                                         "land_angle", "half_widths", "bars"};
 
 void refuse_foreign_sizes(const TableReader& table, ObstacleKind kind) {
   const auto own = keys_of(kind);
@@ -88,7 +88,13 @@ contact::Profile read_profile(const TableReader& table) {
 double tube_radius(const TableReader& table) { return table.number("tube_radius", {Range::above_zero, "m"}); }
 
 contact::Circle read_drilled(const TableReader& table) {
-  const double tube = tube_radius(table), hole = table.number("hole_radius", {Range::above_zero, "m"});
+  const double tube = tube_radius(table);
+  if (table.has("clearance")) {
+    if (table.has("hole_radius"))
+      table.fail_at("clearance", "hole_radius and the radial clearance both give the hole; keep one");
+    return {table.number("clearance", {Range::at_least_zero, "m"})};
+  }
+  const double hole = table.number("hole_radius", {Range::above_zero, "m"});
   return made(table, "hole_radius", [&] { return contact::drilled_hole(tube, hole); });
 }
 

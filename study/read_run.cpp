@@ -151,8 +151,9 @@ Output read_output(const TableReader& root, const std::optional<Transient>& tran
   const Value* found = root.find("output");
   if (!found)
     return output;
-  const TableReader table(*found, "output",
-                          {{"every", "nodes", "statistics_from", "impacts", "rest_time", "checkpoint"}});
+  const TableReader table(
+      *found, "output",
+      {{"every", "nodes", "modal", "statistics_from", "impacts", "rest_time", "checkpoint"}});
   output.every = table.optional_number("every", {Range::above_zero, "s"});
   if (transient && output.every && *output.every > transient->duration)
     table.fail_at("every", "longer than transient.duration; give the time between two samples");
@@ -164,6 +165,7 @@ Output read_output(const TableReader& root, const std::optional<Transient>& tran
       output.nodes.push_back(name);
     }
   }
+  output.modal = table.optional_flag("modal").value_or(true);
   output.statistics_from = table.number_or("statistics_from", 0.0, {Range::at_least_zero, "s"});
   if (transient && output.statistics_from >= transient->duration)
     table.fail_at("statistics_from", "the statistics must start before the end, transient.duration");

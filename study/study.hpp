@@ -126,6 +126,7 @@ struct Contact {
   double angle = 0.0;         ///< degrees
   std::optional<Vec3> origin;
   std::array<double, 2> offset{};
+  bool series = true;                     ///< false: no time series of it is kept in the results
   bool active = true;                     ///< false: it does nothing, but may be named by [[stability]]
   bool grounded = false;                  ///< with base motion the obstacle stays in space
   std::optional<std::string> carrier;     ///< group of the support motions that carry the obstacle
@@ -145,6 +146,7 @@ struct Contact {
 };
 
 struct Load {
+  std::string name; ///< for messages and --set; empty: none
   std::string group;
   bool per_length = false;
   bool moment = false;
@@ -200,6 +202,7 @@ struct Transient {
 
 struct Output {
   std::optional<double> every; ///< s; default duration / 5000
+  bool modal = true;           ///< keep the series of the modes
   std::vector<std::string> nodes;
   double statistics_from = 0.0;
   std::int64_t impacts = 10000; ///< rows kept of the table of impacts of each contact; 0: no table

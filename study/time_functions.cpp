@@ -3,13 +3,17 @@
 #include "core/error.hpp"
 #include "core/input_file.hpp"
 #include "core/names.hpp"
+#include "study/accelerogram.hpp"
 #include "study/number_rows.hpp"
 #include <fstream>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace fretwork::study {
 namespace {
+
+constexpr std::string_view acceleration_unit = "m/s2";
 
 /// Appends a row.
 /// @return what is wrong with its time, or an empty string
@@ -22,13 +26,6 @@ std::string append_row(transient::Table& table, double time, double value) {
   table.time.push_back(time);
   table.value.push_back(value);
   return {};
-}
-
-/// A line without any number at its cells: what a header is.
-bool is_header(std::string_view line) {
-  const auto comma = line.find(',');
-  return comma != std::string_view::npos && !to_real(line.substr(0, comma)) &&
-         !to_real(line.substr(comma + 1));
 }
 
 transient::Table rows_of(const Value& value, const std::string& path, const char* unit) {
@@ -52,10 +49,22 @@ transient::Table table_of(const Value& value, const std::string& path, const std
          "the name of a file of rows t,value or an array of rows [t, value] is expected, not " +
              kind_of(value));
   try {
-    return read_time_table(folder / to_text(value, path));
+    const std::filesystem::path file = folder / to_text(value, path);
+    if (!is_accelerogram(file))
+      return read_time_table(file);
+    if (std::string_view(unit) != acceleration_unit && !std::string_view(unit).empty())
+      throw core::Error("file " + file.string() + " is an accelerogram, and a table in " + unit +
+                        " is expected");
+    return read_accelerogram(file);
   } catch (const core::Error& error) {
     fail(value, path, error.what());
   }
+}
+
+transient::Table scaled(transient::Table table, double scale) {
+  for (double& value : table.value)
+    value *= scale;
+  return table;
 }
 
 transient::Harmonic read_harmonic(const TableReader& entry, const char* unit) {
@@ -84,23 +93,24 @@ transient::Table read_time_table(const std::filesystem::path& file) {
   if (!stream)
     throw core::Error("file " + file.string() + " cannot be read; check its permissions");
   transient::Table table;
-  bool header_allowed = true;
+  constexpr int most_headers = 2; // names, units
+  int headers = 0;
   std::string text;
   for (int number = 1; std::getline(stream, text); ++number) {
     const std::string_view line = trimmed(text);
     if (line.empty() || line.front() == '#')
       continue;
-    const bool header = header_allowed && is_header(line);
-    header_allowed = false;
-    if (header)
+    const std::vector<std::string> cells = cells_of(line);
+    if (table.time.empty() && cells.size() > 1 && headers < most_headers && is_header(cells)) {
+      ++headers;
       continue;
+    }
     const auto refuse = [&](const std::string& problem) {
       throw core::Error(file.string() + ":" + std::to_string(number) + ": \"" + std::string(line) +
                         "\": " + problem);
     };
-    const auto comma = line.find(',');
-    const auto time = to_real(line.substr(0, comma));
-    const auto value = comma == std::string_view::npos ? std::nullopt : to_real(line.substr(comma + 1));
+    const auto time = to_real(cells[0]);
+    const auto value = cells.size() == 2 ? to_real(cells[1]) : std::nullopt;
     if (!time || !value)
       refuse("a row is two finite numbers, t,value");
     if (const auto problem = append_row(table, *time, *value); !problem.empty())
@@ -122,12 +132,15 @@ transient::TimeFunction read_time_function(const TableReader& entry, const std::
   if (given.size() > 1)
     entry.fail_at(given[1], "several time functions: " + core::list_names(given) + "; keep one");
   const std::string& key = given[0];
+  if (key != "table" && entry.has("scale"))
+    entry.fail_at("scale", "belongs to a table, whose values it multiplies; leave it out");
   if (key == "constant")
     return transient::Constant{entry.number(key, {Range::any, unit})};
   if (key == "harmonic")
     return read_harmonic(entry, unit);
   if (key == "table")
-    return table_of(*entry.find(key), entry.path(key), folder, unit);
+    return scaled(table_of(*entry.find(key), entry.path(key), folder, unit),
+                  entry.number_or("scale", 1.0, {}));
   return read_random(entry, unit);
 }
 

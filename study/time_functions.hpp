@@ -16,8 +16,7 @@ inline const std::vector<std::string> time_function_keys{"constant", "harmonic",
 [[nodiscard]] transient::TimeFunction
 read_time_function(const TableReader& entry, const std::filesystem::path& folder, const char* unit);
 
-/// Read `t,value` rows (s and a value), comma separated. Empty lines and lines that begin with # are passed
-/// over; the first other line may be a header.
+/// Read rows of s and a value, with separators, header and units as number_rows.hpp says.
 /// @throws core::Error naming file, line and row: not two finite numbers, time that decreases, three rows of
 /// equal time, no row
 [[nodiscard]] transient::Table read_time_table(const std::filesystem::path& file);

@@ -1,8 +1,17 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Builds a preset (default: release) in build/<preset>.
+# Builds a preset (default: release) in build/<preset>: tools/build.sh [PRESET [TARGET ...]].
+# Without targets everything, tests and benchmarks too; with targets these alone, and where nothing was configured before, tests and
+# benchmarks are left out (their packages are then not needed). Ninja's counter shows how far the build is.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=${1:-release}
-cmake --preset "$preset" >/dev/null
-cmake --build --preset "$preset" -- --quiet
+targets=("${@:2}")
+options=(-DFRETWORK_TESTS=ON -DFRETWORK_BENCH=ON)
+if [ ${#targets[@]} -gt 0 ]; then
+  options=()
+  [ -e "build/$preset/CMakeCache.txt" ] || options=(-DFRETWORK_TESTS=OFF -DFRETWORK_BENCH=OFF)
+fi
+cmake --preset "$preset" "${options[@]}" >/dev/null
+export NINJA_STATUS="[%f/%t, %es] "
+cmake --build --preset "$preset" ${targets:+--target "${targets[@]}"}

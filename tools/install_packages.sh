@@ -16,4 +16,9 @@ if [ "$(id -u)" -ne 0 ]; then
 fi
 echo "installing: ${missing[*]}"
 $as_root apt-get update -qq
-$as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+install=(env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends)
+if [ -t 1 ]; then # with apt's progress bar
+  $as_root "${install[@]}" -q -o Dpkg::Progress-Fancy=1 "${missing[@]}"
+else
+  $as_root "${install[@]}" -qq "${missing[@]}" >/dev/null
+fi

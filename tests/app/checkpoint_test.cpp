@@ -36,6 +36,7 @@ void interrupt(const Workshop& folder, const std::vector<std::string>& arguments
                double delay, const std::string& signal, int expected_status,
                const fs::path& program = test_paths::binary_dir() / "bin" / "fretwork") {
   static const std::string script = R"sh(
+    set -m # a program in the background then does not ignore SIGINT
     file=$1; delay=$2; signal=$3; errors=$4; shift 4
     before=$(stat -c %y "$file" 2>/dev/null)
     "$@" >/dev/null 2>"$errors" & program=$!
@@ -174,6 +175,17 @@ TEST(Checkpoint, IsWrittenOnSigterm) {
   interrupt(folder, tube(folder, "results", {"--set", "output.checkpoint=0.05"}), file, 0.0, "TERM",
             computation_failed);
   EXPECT_TRUE(says(bytes_of(folder.path("stderr")), "ended by SIGTERM at t = 0."));
+  EXPECT_TRUE(says(completed(folder, tube(folder, "results")), "going on from " + file.string()));
+  expect_same(folder, "whole", "results");
+}
+
+TEST(Checkpoint, IsWrittenOnCtrlC) {
+  const Workshop folder;
+  (void)completed(folder, tube(folder, "whole"));
+  const fs::path file = folder.path("results") / "checkpoint.h5";
+  interrupt(folder, tube(folder, "results", {"--set", "output.checkpoint=0.05"}), file, 0.0, "INT",
+            computation_failed);
+  EXPECT_TRUE(says(bytes_of(folder.path("stderr")), "ended by Ctrl-C (SIGINT) at t = 0."));
   EXPECT_TRUE(says(completed(folder, tube(folder, "results")), "going on from " + file.string()));
   expect_same(folder, "whole", "results");
 }

@@ -45,10 +45,55 @@ TEST(Commands, HelpNamesThemAll) {
   const Outcome help = folder.fretwork({"--help"});
   EXPECT_EQ(help.status, 0);
   for (const char* command :
-       {"run", "mesh", "modes", "stability", "transient", "check", "report", "export"}) {
+       {"run", "mesh", "modes", "stability", "transient", "check", "report", "export", "compare"}) {
     EXPECT_TRUE(says(help.out, command));
     EXPECT_EQ(folder.fretwork({command, "--help"}).status, 0) << command;
   }
+}
+
+TEST(Commands, OneThatIsMistypedIsSuggested) {
+  const Workshop folder;
+  const Outcome outcome = folder.fretwork({"rnu", example("oscillator").string()});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(says(outcome.err, "there is no command \"rnu\"; did you mean \"run\"?"));
+}
+
+TEST(Commands, APythonThatIsMissingIsSaidByTheReport) {
+  const Workshop folder;
+  const fs::path results = folder.path("results");
+  ASSERT_EQ(folder.fretwork({"transient", example("oscillator").string(), "-o", results.string()}).status, 0);
+  setenv("FRETWORK_PYTHON", "/nowhere/python", 1);
+  const Outcome report = folder.fretwork({"report", results.string()});
+  unsetenv("FRETWORK_PYTHON");
+  EXPECT_EQ(report.status, 1);
+  EXPECT_TRUE(says(report.err, "/nowhere/python cannot be started"));
+  EXPECT_FALSE(fs::exists(results / "report.html"));
+}
+
+TEST(Commands, CompareSaysWhatDiffers) {
+  const Workshop folder;
+  const Results a = folder.run(example("cantilever_stop"), "a"),
+                b = folder.run(example("cantilever_stop"), "b", {"--set", "contacts.stop.gap=2e-4"});
+  const fs::path page = folder.path("page.html");
+  const std::string first = folder.path("a").string(), second = folder.path("b").string();
+  const Outcome outcome = folder.fretwork({"compare", first, second, "--html", page.string()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  for (const char* part :
+       {"Inputs that differ", "contacts.stop.gap", "0.0002", "Frequencies, Hz", "Work rates, W"})
+    EXPECT_TRUE(says(outcome.out, part));
+  EXPECT_TRUE(says(bytes_of(page), "Orbit of stop"));
+  EXPECT_TRUE(says(folder.fretwork({"compare", first, first}).out, "Inputs that differ: none"));
+  EXPECT_EQ(folder.fretwork({"compare", first}).status, 1);
+  EXPECT_TRUE(says(folder.fretwork({"compare", first, folder.path("none").string()}).err,
+                   "summary.json does not exist"));
+}
+
+TEST(Commands, OneNodeIsNoNodes) {
+  const Workshop folder;
+  const Outcome outcome = folder.fretwork({"check", example("oscillator").string()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, "1 node, 0 beams, "));
+  EXPECT_TRUE(says(outcome.out, " in 1 structure, "));
 }
 
 TEST(Commands, VersionIsThatOfTheResults) {
@@ -138,6 +183,8 @@ TEST(Commands, SetReachesTheRunAndTheRecord) {
   EXPECT_EQ(run.archive.contacts[0].normal_stiffness, 2e8);
   EXPECT_EQ(run.archive.contacts[0].gap, 2e-4);
   EXPECT_TRUE(says(run.archive.record.study_text, "loads.0.constant=2000"));
+  EXPECT_EQ(run.summary["overrides"][0]["value"], (std::vector<double>{0.05, 0.02, 0.02, 0.02, 0.03}));
+  EXPECT_EQ(run.summary["overrides"][3], json({{"key", "contacts.0.gap"}, {"value", 2e-4}}));
   const Outcome nowhere = folder.fretwork({"run", example("cantilever_stop").string(), "-o",
                                            folder.path("other").string(), "--set", "contacts.stp.gap=1"});
   EXPECT_EQ(nowhere.status, 1);

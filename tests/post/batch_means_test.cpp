@@ -163,7 +163,7 @@ TEST(ContactStatistics, HaveStandardErrorsThatAreTheScatterOfManyRuns) {
   std::normal_distribution<double> noise;
   std::vector<std::array<double, 6>> values, errors;
   for (std::size_t run = 0; run < ensemble; ++run) {
-    ContactStatistics statistics(1, 0.0);
+    ContactStatistics statistics(tests::centred(1), 0.0);
     tests::HandMade steps(statistics, 1, 0.01);
     double slow = 0.0, y = 0.0;
     for (int i = 0; i < 4096; ++i) {

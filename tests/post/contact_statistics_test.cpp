@@ -16,7 +16,7 @@ constexpr double round_off = 1e-12;
 } // namespace
 
 TEST(ContactStatistics, CountMaximalIntervalsOfForceAsImpacts) {
-  ContactStatistics statistics(1, 0.0);
+  ContactStatistics statistics(centred(1), 0.0);
   HandMade run(statistics, 1, h);
   run.open(5);
   run.closed(3, 10.0, 0.2);
@@ -33,7 +33,7 @@ TEST(ContactStatistics, CountMaximalIntervalsOfForceAsImpacts) {
 }
 
 TEST(ContactStatistics, OfAContactThatIsClosedFromTheStartHaveOneImpact) {
-  ContactStatistics statistics(1, 0.0);
+  ContactStatistics statistics(centred(1), 0.0);
   HandMade run(statistics, 1, h);
   run.closed(10, 5.0, 0.1);
   const ContactSummary s = statistics.summaries()[0];
@@ -43,7 +43,7 @@ TEST(ContactStatistics, OfAContactThatIsClosedFromTheStartHaveOneImpact) {
 }
 
 TEST(ContactStatistics, AverageTheNormalForceOverAllTimeAndInContact) {
-  ContactStatistics statistics(1, 0.0);
+  ContactStatistics statistics(centred(1), 0.0);
   HandMade run(statistics, 1, h);
   run.closed(2, 10.0);
   run.closed(2, 20.0);
@@ -57,7 +57,7 @@ TEST(ContactStatistics, AverageTheNormalForceOverAllTimeAndInContact) {
 }
 
 TEST(ContactStatistics, OfTheWindowLeaveOutWhatIsBeforeIt) {
-  ContactStatistics statistics(1, 0.1); // the first ten steps are before it
+  ContactStatistics statistics(centred(1), 0.1); // the first ten steps are before it
   HandMade run(statistics, 1, h);
   run.closed(2, 500.0, 9.0);
   run.y(0) = 7.0;
@@ -81,7 +81,7 @@ TEST(ContactStatistics, OfTheWindowLeaveOutWhatIsBeforeIt) {
 }
 
 TEST(ContactStatistics, OfAnEmptyWindowAreZero) {
-  ContactStatistics statistics(2, 100.0);
+  ContactStatistics statistics(centred(2), 100.0);
   HandMade run(statistics, 2, h);
   run.closed(5, 10.0, 0.1);
   for (const ContactSummary& s : statistics.summaries()) {
@@ -92,7 +92,7 @@ TEST(ContactStatistics, OfAnEmptyWindowAreZero) {
 }
 
 TEST(ContactStatistics, CountTheWorkRateOnlyWhileTheContactSlides) {
-  ContactStatistics statistics(1, 0.0);
+  ContactStatistics statistics(centred(1), 0.0);
   HandMade run(statistics, 1, h);
   for (const bool slides : {true, false}) {
     auto& state = run.contact(0);
@@ -113,7 +113,7 @@ TEST(ContactStatistics, CountTheWorkRateOnlyWhileTheContactSlides) {
 }
 
 TEST(ContactStatistics, SumWhatTheStepsTell) {
-  ContactStatistics statistics(1, 0.0);
+  ContactStatistics statistics(centred(1), 0.0);
   HandMade run(statistics, 1, h);
   for (int k = 0; k < 2; ++k) { // closed for half of a step, sliding for a quarter
     auto& state = run.contact(0);
@@ -147,7 +147,7 @@ TEST(ContactStatistics, SumWhatTheStepsTell) {
 }
 
 TEST(ContactStatistics, DescribeTheMotionOverAllSteps) {
-  ContactStatistics statistics(1, 0.0);
+  ContactStatistics statistics(centred(1), 0.0);
   HandMade run(statistics, 1, h);
   for (const double y : {3.0, -1.0, 3.0, -1.0}) {
     run.y(0) = y;
@@ -165,8 +165,44 @@ TEST(ContactStatistics, DescribeTheMotionOverAllSteps) {
   EXPECT_NEAR(s.radial_max, 5.0, round_off);
 }
 
+TEST(ContactStatistics, MeasureRadiiFromTheObstaclesCentre) {
+  std::vector<transient::ContactPoint> contacts = centred(1);
+  contacts[0].rest = {7.0, 3.0, -4.0}; // x_loc is along the tube
+  ContactStatistics statistics(contacts, 0.0);
+  HandMade run(statistics, 1, h);
+  for (const double z : {4.0, -4.0}) { // the centre but for y, then twice as far as at rest
+    run.y(0) = z > 0.0 ? -3.0 : 3.0;
+    run.z(0) = z;
+    run.step();
+  }
+  const ContactSummary s = statistics.summaries()[0];
+  EXPECT_NEAR(s.radial_max, 10.0, round_off);
+  EXPECT_NEAR(s.radial_rms, 10.0 / std::sqrt(2.0), round_off);
+  EXPECT_EQ(s.y.max, 3.0) << "displacements are those from rest";
+}
+
+TEST(ContactStatistics, KnowTheLargestPenetration) {
+  std::vector<transient::ContactPoint> contacts = centred(2);
+  for (transient::ContactPoint& contact : contacts)
+    contact.support.normal = {100.0};
+  contacts[1].support.normal.damping = 1.0;
+  contacts[1].rest.y() = 0.5;
+  ContactStatistics statistics(contacts, h);
+  HandMade run(statistics, 2, h);
+  for (const double y : {0.9, 0.6, 0.7, 0.6}) { // the first is before the window
+    run.contact(0).normal_force = run.contact(1).normal_force = 20.0 * y;
+    run.y(1) = y;
+    run.step();
+  }
+  run.y(1) = 0.8; // open, behind the damper
+  run.step();
+  const auto all = statistics.summaries();
+  EXPECT_NEAR(all[0].penetration_max, 14.0 / 100.0, round_off) << "F_N = K_N p";
+  EXPECT_NEAR(all[1].penetration_max, 0.5 + 0.7 - 1.0, round_off) << "the damper has a share of F_N";
+}
+
 TEST(ContactStatistics, KeepContactsApart) {
-  ContactStatistics statistics(3, 0.0);
+  ContactStatistics statistics(centred(3), 0.0);
   HandMade run(statistics, 3, h);
   for (int i = 0; i < 10; ++i) {
     if (i % 2 == 0)
@@ -184,7 +220,7 @@ TEST(ContactStatistics, KeepContactsApart) {
 }
 
 TEST(ContactStatistics, AddUpImpulseSlidingAndLosses) {
-  ContactStatistics statistics(1, 2 * h); // two steps are before the window
+  ContactStatistics statistics(centred(1), 2 * h); // two steps are before the window
   HandMade run(statistics, 1, h);
   for (int i = 0; i < 6; ++i) { // sticks for two steps of the window, slides for two
     auto& state = run.contact(0);
@@ -207,7 +243,7 @@ TEST(ContactStatistics, AddUpImpulseSlidingAndLosses) {
 }
 
 TEST(ContactStatistics, AverageTheDeparturesOfTheWindowsImpacts) {
-  ContactStatistics statistics(1, 0.1);
+  ContactStatistics statistics(centred(1), 0.1);
   HandMade run(statistics, 1, h);
   run.open(8);
   run.closed(4, 10.0, 0.5); // starts before the window
@@ -227,7 +263,7 @@ namespace {
 
 /// Uneven steps of two contacts that open, stick, slide and move, each cut into `parts` of equal length.
 std::vector<ContactSummary> of_uneven_steps(int parts) {
-  ContactStatistics statistics(2, 0.0);
+  ContactStatistics statistics(centred(2), 0.0);
   HandMade run(statistics, 2, h);
   const double lengths[] = {0.5, 0.125, 2.0, 0.25, 1.0, 0.0625, 4.0, 0.5};
   for (int i = 0; i < 8; ++i) {
@@ -300,7 +336,7 @@ TEST(ContactStatistics, OfUnevenStepsAreThoseOfTheirHalves) {
 }
 
 TEST(ContactStatistics, WeighEachStepByItsLength) {
-  ContactStatistics statistics(1, 0.0);
+  ContactStatistics statistics(centred(1), 0.0);
   HandMade run(statistics, 1, 0.1);
   run.y(0) = 1.0;
   run.closed(1, 10.0);

@@ -9,6 +9,12 @@
 
 namespace fretwork::tests {
 
+/// Contacts that rest at the centres of holes of 1 m, of 1 N/m.
+inline std::vector<transient::ContactPoint> centred(std::size_t count) {
+  return std::vector<transient::ContactPoint>(
+      count, {"", {contact::Circle{1.0}, {1.0}, {}}, core::Vec3::Zero(), {}});
+}
+
 /// Feeds an observer with steps; contacts without a state are open.
 class HandMade {
 public:

@@ -58,7 +58,7 @@ struct Seen {
 
 Seen watch(const Scene& scene, SchemeKind scheme, double step, double rest_time = 0.0) {
   ImpactTable table(1, 0.0, rest_time, 1000);
-  ContactStatistics statistics(1, 0.0);
+  ContactStatistics statistics(scene.contacts, 0.0);
   Observer* const observers[] = {&table, &statistics};
   const Report report = run(scene, choose_step(scene, {scheme, step}), observers, nullptr, {});
   EXPECT_EQ(report.outcome, Outcome::done);

@@ -71,7 +71,7 @@ TEST(NodeStatistics, WeighEachStepByItsLength) {
 
 TEST(NodeStatistics, TellTheErrorThatAContactTellsOfTheSameMotion) {
   post::NodeStatistics nodes({Eigen::MatrixXd::Identity(3, 3)}, 1.0);
-  post::ContactStatistics contacts(1, 1.0);
+  post::ContactStatistics contacts(centred(1), 1.0);
   HandMade of_nodes(nodes, 0, 0.1), of_contacts(contacts, 1, 0.1);
   std::mt19937 draw(7);
   std::normal_distribution<double> normal;

@@ -58,7 +58,7 @@ TEST(SectorStatistics, GiveTheWorkRateOfEachContactBySector) {
 
 TEST(SectorStatistics, SumToTheWorkRateWhateverTheSteps) {
   post::SectorStatistics sectors({36}, 2.5 * step);
-  post::ContactStatistics statistics(1, 2.5 * step);
+  post::ContactStatistics statistics(tests::centred(1), 2.5 * step);
   for (transient::Observer* observer :
        {static_cast<transient::Observer*>(&sectors), static_cast<transient::Observer*>(&statistics)}) {
     HandMade feed(*observer, 1, step);

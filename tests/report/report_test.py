@@ -18,7 +18,9 @@ sys.path.insert(0, REPORT)
 import h5py  # noqa: E402
 import numpy as np  # noqa: E402
 
+import compare_data  # noqa: E402
 import contact_view  # noqa: E402
+import fretwork_compare  # noqa: E402
 import drawing  # noqa: E402
 import fretwork_report  # noqa: E402
 import run_data  # noqa: E402
@@ -110,7 +112,7 @@ class Report(unittest.TestCase):
         text = self.report()
         self.assertEqual(
             self.headings(text),
-            ["Structure", "Modes", "Along the tube", "Contacts", "Table of contacts", "Impacts", "Energy balance", "How it was computed",
+            ["Structure", "Modes", "Along the tube", "Contacts", "Table of contacts", "Observed nodes", "Impacts", "Energy balance", "How it was computed",
              "Study"],
         )
         self.assertEqual(self.counts["image"], 5)  # an orbit each
@@ -153,6 +155,57 @@ class Report(unittest.TestCase):
             for contact in file["contacts"].values():
                 del contact["impacts"]
         self.assertNotIn("Impacts", self.headings(self.report()))
+
+    def test_shows_flat_obstacles_apart_and_the_static_flexibility(self):
+        made_up(self.folder, 2, 100)
+
+        def change(summary):
+            first, second = summary["contacts"]
+            first["position"]["radial"]["max"] = second["position"]["radial"]["max"] = 7.77e-3
+            first["static_flexibility"] = {"exact": 3e-6, "basis": 2.5e-6, "missing": 5e-7}
+            second["position"]["z"].update(min=-1.25e-4, max=0.75e-4)
+            second["position"]["y"].update(min=-2e-4, max=5e-4)
+            second["penetration"]["max"] = 5.25e-6
+
+        self.change(change)
+        with h5py.File(self.folder / "results.h5", "r+") as file:
+            file["contacts/tsp1"].attrs["obstacle"] = "circle"
+            file["contacts/tsp1"].attrs["normal_stiffness"] = 1e6
+            file["contacts/tsp2"].attrs["obstacle"] = "bars_z"
+        text = self.report()
+        self.assertEqual(text.count("<td>7770</td>"), 1)  # flat obstacles have no radius
+        self.assertIn("<td>−125 – 75</td>", text)
+        self.assertIn("<td>700</td>", text)
+        self.assertIn("<td>5.25</td>", text)
+        self.assertIn("<td>5·10<sup>−7</sup></td><td>0.5</td>", text)
+
+    def test_shows_observed_nodes(self):
+        made_up(self.folder, 1, 100)
+        text = self.report()
+        nodes = text[text.index("<h2>Observed nodes</h2>"):]
+        summary = json.loads((self.folder / "summary.json").read_text())
+        for node in summary["nodes"]:
+            self.assertIn(f'aria-label="Displacement of {node["name"]}"', nodes)
+            self.assertIn(f'<td>{drawing.short(1e6 * node["displacement"]["y"]["max"])}</td>', nodes)
+
+    def test_shows_the_largest_impact_at_every_step(self):
+        made_up(self.folder, 1, 100)
+        with h5py.File(self.folder / "results.h5", "r+") as file:
+            largest = file["contacts/tsp1"].require_group("largest_impact")
+            for name in list(largest):
+                del largest[name]
+            time = 0.5 + 1e-4 * np.arange(60)  # an output interval of 0.02 s has none of it
+            normal = np.where((time > 0.501) & (time < 0.504), 4321.0 * np.sin(np.pi * (time - 0.501) / 0.003), 0.0)
+            for name, values in {"time": time, "normal_force": normal, "tangential_force": 0.3 * normal}.items():
+                largest[name] = values
+        self.report()
+        run = run_data.load(self.folder)
+        time, normal, _ = contact_view.largest_impact(run, run.contacts[0])
+        self.assertGreater((normal > 0).sum(), 25)
+        self.assertAlmostEqual(normal.max(), 4321.0, delta=15.0)
+        picture = contact_view.impact(run, run.contacts[0])
+        self.assertIn("time after 0.5", picture)
+        self.assertIn("kN", picture)
 
     def test_draws_obstacles_of_every_kind(self):
         two_nodes = ("circle", "circle_inside", "plane_y", "plane_z")
@@ -218,7 +271,7 @@ class Report(unittest.TestCase):
     def test_shows_wear(self):
         made_up(self.folder, 5, 200, wear=True)
         text = self.report()
-        self.assertEqual(self.headings(text)[4:6], ["Table of contacts", "Wear"])
+        self.assertEqual(self.headings(text)[4:7], ["Table of contacts", "Observed nodes", "Wear"])
         wear = text[text.index("<h2>Wear</h2>"):text.index("<h2>Impacts</h2>")]
         first = re.search(r"<tbody><tr>(.*?)</tr>", wear).group(1)
         cells = re.findall(r"<td[^>]*>(.*?)</td>", first)
@@ -253,7 +306,7 @@ class Report(unittest.TestCase):
 
     def test_works_without_contacts(self):
         made_up(self.folder, 0, 100)
-        self.assertEqual(self.headings(self.report()), ["Structure", "Modes", "Energy balance", "How it was computed", "Study"])
+        self.assertEqual(self.headings(self.report()), ["Structure", "Modes", "Observed nodes", "Energy balance", "How it was computed", "Study"])
 
     def test_names_the_structure_of_each_mode_where_there_are_several(self):
         made_up(self.folder, 3, 100, 2)
@@ -394,6 +447,53 @@ class Report(unittest.TestCase):
         self.assertIn("the report cannot be written: ", said)
 
 
+class Comparison(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory(prefix="fretwork_compare_")
+        self.addCleanup(temporary.cleanup)
+        self.folders = [Path(temporary.name) / name for name in "ab"]
+        for folder in self.folders:
+            made_up(folder, 3, 100, wear=True)
+            with h5py.File(folder / "results.h5", "r+") as file:
+                file.attrs["study"] = '[modes]\ncount = 40\n[[contacts]]\nname = "tsp1"\ngap = 2e-4\n[[contacts]]\nname = "tsp2"\ngap = 3e-4\n'
+        file = self.folders[1] / "summary.json"
+        summary = json.loads(file.read_text())
+        summary["overrides"] = [{"key": "contacts.tsp2.gap", "value": 5e-4}]
+        summary["modes"]["frequencies_hz"][0] *= 1.01
+        for contact, factor in zip(summary["contacts"], (1.0, 1.001, 2.0)):
+            contact["work_rate"] *= factor
+        file.write_text(json.dumps(summary))
+
+    def table(self, title):
+        _, found = compare_data.tables(self.folders)
+        return next(table for table in found if table.title.startswith(title))
+
+    def test_shows_the_inputs_that_differ_with_overrides(self):
+        self.assertEqual(self.table("Inputs").rows, [["contacts.tsp2.gap", "0.0003", "0.0005"]])
+
+    def test_shows_changes_of_frequencies(self):
+        rows = self.table("Frequencies").rows
+        self.assertEqual([rows[0][3], rows[1][3]], ["+1 %", "0 %"])
+
+    def test_tells_significant_differences_from_scatter(self):
+        said = {row[0]: row[-1] for row in self.table("Work rates").rows}
+        self.assertEqual(said["tsp1"], "equal")
+        self.assertIn("within scatter", said["tsp2"])
+        self.assertIn("significant", said["tsp3"])
+        self.assertEqual(compare_data.significance((1.0, None), (2.0, 0.1)), "scatter unknown")
+
+    def test_shows_wear(self):
+        self.assertEqual(len(self.table("Wear").rows), 3)
+
+    def test_is_a_page_too(self):
+        runs, found = compare_data.tables(self.folders)
+        text = fretwork_compare.as_page(runs, ["a", "b"], found)
+        checker = Checker()
+        checker.feed(text)
+        self.assertEqual((checker.problems, checker.stack), ([], []))
+        self.assertEqual(text.count('aria-label="Orbit of'), 6)
+
+
 class Parts(unittest.TestCase):
     def test_histograms_count_every_finite_value(self):
         picture = contact_view.histogram(np.array([0.0, 1.0, 1.01, 24.0, np.nan]), "peak force", "N")
@@ -426,6 +526,52 @@ class Parts(unittest.TestCase):
         support["geometry"] = "tube_on_tube"
         self.assertIsNone(wear_view._worn_surface(support, x, 3e-4))
 
+    def test_tick_labels_stay_inside_the_picture(self):
+        for low, high in ((-1200.0, -900.0), (-0.00125, 0.001), (-5.0, 5.0)):
+            plot = drawing.Plot((184, 168), (low, high), (low, high), (34, 6, 6, 18))
+            plot.axes("", "", x_most=4, y_most=4)
+            for label in re.findall(r'class="tick end" x="([\d.]+)"[^>]*>([^<]*)<', plot.svg("")):
+                self.assertGreaterEqual(float(label[0]), drawing.label_width(label[1]), label)
+
+    def test_flat_obstacles_have_their_own_scale_on_each_axis(self):
+        class Bar:
+            facts = {"obstacle": "bars_z", "gap": 1e-4, "other": -1, "rest": (0.0, 0.0, 0.0)}
+            outline = None
+            y, z = np.linspace(-5e-3, 5e-3, 50), 9e-5 * np.sin(np.arange(50.0))
+            gap = 1e-4 - np.abs(z)
+
+        _, half = contact_view._limits(Bar, Bar.y, Bar.z)
+        self.assertAlmostEqual(half[0], 0.56 * 1e-2, delta=1e-9)
+        self.assertLess(half[1], 2e-4)
+        self.assertGreater(half[1], 1e-4)
+        Bar.y = 1e-4 * np.cos(np.arange(50.0))
+        _, half = contact_view._limits(Bar, Bar.y, Bar.z)
+        self.assertEqual(half[0], half[1])
+
+    def test_supports_are_named_once_without_overlap(self):
+        class Point:
+            def __init__(self, name):
+                self.name = name
+
+        found = dict(structure_view._supports([Point("a@1"), Point("a@2"), Point("b")]))
+        self.assertEqual({name: len(points) for name, points in found.items()}, {"a": 2, "b": 1})
+        plot = drawing.Plot((400, 400), (0.0, 1.0), (0.0, 1.0))
+        supports = [(f"support{i}", [np.array([0.5, 0.5 + 0.005 * i])], "left") for i in range(3)]
+        left_out = structure_view._name_supports(plot, supports)
+        text = plot.svg("")
+        self.assertEqual(left_out, ["support2"])  # one at each side, none over the other
+        self.assertEqual(text.count('class="note end"'), 1)
+        self.assertEqual(text.count('class="note"'), 1)
+        self.assertEqual(text.count('class="support"'), 3)
+
+    def test_names_below_an_axis_are_slanted_where_they_would_touch(self):
+        plot = drawing.Plot((480, 210), (0.4, 20.6), (0.0, 1.0), (58, 12, 10, 38))
+        plot.axes("", "work rate", [(i, f"support{i}") for i in range(1, 21)])
+        self.assertEqual(plot.svg("").count("rotate(-45)"), 20)
+        plot = drawing.Plot((480, 210), (0.4, 3.6), (0.0, 1.0), (58, 12, 10, 38))
+        plot.axes("", "work rate", [(i, f"tsp{i}") for i in range(1, 4)])
+        self.assertNotIn("rotate(-45)", plot.svg(""))
+
     def test_ticks_are_round_and_inside(self):
         self.assertEqual(drawing.ticks(0.0, 1.0, 5), [0.0, 0.2, 0.4, 0.6000000000000001, 0.8, 1.0])
         self.assertEqual(drawing.ticks(-210.0, 230.0, 4), [-200.0, 0.0, 200.0])
@@ -439,7 +585,7 @@ class Parts(unittest.TestCase):
         self.assertEqual(drawing.short(0.123456), "0.1235")
         self.assertEqual(drawing.short(-2.5), "−2.5")
         self.assertEqual(drawing.short(1000.0, 3), "1000")
-        self.assertEqual(drawing.short(3e-11), "3·10<sup>-11</sup>")
+        self.assertEqual(drawing.short(3e-11), "3·10<sup>−11</sup>")
         for none in (None, float("nan"), float("inf")):
             self.assertEqual(drawing.short(none), "–")
 

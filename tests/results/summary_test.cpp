@@ -36,10 +36,11 @@ using Keys = std::set<std::string>;
 
 TEST(Summary, HasTheKeysOfTheContract) {
   const Json s = summary_of(made_up());
-  EXPECT_EQ(keys(s), (Keys{"version",        "study", "ranks",     "seed",         "seeds",
-                           "input_sha256",   "model", "modes",     "contacts",     "contact_sums",
-                           "error_estimate", "nodes", "energy",    "transient",    "timings_s",
-                           "warnings",       "notes", "libraries", "vector_width", "sha256"}));
+  EXPECT_EQ(keys(s),
+            (Keys{"version",      "study",     "ranks",     "seed",         "seeds",          "input_sha256",
+                  "model",        "modes",     "contacts",  "contact_sums", "error_estimate", "nodes",
+                  "energy",       "transient", "timings_s", "warnings",     "notes",          "libraries",
+                  "vector_width", "sha256",    "overrides"}));
   EXPECT_EQ(keys(s["model"]), (Keys{"nodes", "elements", "dofs", "mass_kg", "different_structures"}));
   EXPECT_EQ(keys(s["modes"]),
             (Keys{"frequencies_hz", "residuals", "damping", "static_modes", "orthogonality", "distributed",
@@ -79,6 +80,8 @@ TEST(Summary, HasTheKeysOfTheContractForAContactAndANode) {
                            "normal_force_in_contact",
                            "tangential_force",
                            "displacement",
+                           "position",
+                           "penetration",
                            "work_rate",
                            "friction_power",
                            "impact_velocity",
@@ -98,6 +101,9 @@ TEST(Summary, HasTheKeysOfTheContractForAContactAndANode) {
   EXPECT_EQ(keys(c["displacement"]), (Keys{"y", "z", "radial"}));
   EXPECT_EQ(keys(c["displacement"]["y"]), (Keys{"mean", "std", "min", "max"}));
   EXPECT_EQ(keys(c["displacement"]["radial"]), (Keys{"rms", "max"}));
+  EXPECT_EQ(keys(c["position"]), (Keys{"y", "z", "radial"}));
+  EXPECT_EQ(keys(c["position"]["y"]), (Keys{"mean", "std", "min", "max"}));
+  EXPECT_EQ(keys(c["penetration"]), (Keys{"max"}));
   EXPECT_EQ(keys(c["impact_velocity"]), (Keys{"mean", "max"}));
   EXPECT_EQ(keys(c["contact_duration"]), (Keys{"mean", "max"}));
   EXPECT_EQ(keys(s["nodes"][0]), (Keys{"name", "displacement", "standard_error"}));
@@ -108,8 +114,8 @@ TEST(Summary, HasTheKeysOfTheContractForAContactAndANode) {
 TEST(Summary, PutsEachStatisticUnderItsName) {
   RunResults results = made_up();
   post::ContactSummary& c = results.contact_summaries[1];
-  c = {5,  0.5, 1.0, 2.0,  3.0,  4.0,  5.0,  6.0, 7.0, {8, 9, 10, 11}, {12, 13, 14, 15},
-       16, 17,  18,  0.25, 0.75, 19.0, 20.0, 21.0};
+  c = {5, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, {8, 9, 10, 11}, {12, 13, 14, 15}, 16, 17, 40};
+  results.contacts[1].rest = {0.5, 100.0, -200.0};
   c.work_rate = 18;
   c.friction_power = 18.5;
   c.impact_velocity_mean = 19;
@@ -132,6 +138,9 @@ TEST(Summary, PutsEachStatisticUnderItsName) {
     "tangential_force": {"rms": 6.0, "max": 7.0},
     "displacement": {"y": {"mean": 8.0, "std": 9.0, "min": 10.0, "max": 11.0},
                      "z": {"mean": 12.0, "std": 13.0, "min": 14.0, "max": 15.0}, "radial": {"rms": 16.0, "max": 17.0}},
+    "position": {"y": {"mean": 108.0, "std": 9.0, "min": 110.0, "max": 111.0},
+                 "z": {"mean": -188.0, "std": 13.0, "min": -186.0, "max": -185.0}, "radial": {"rms": 16.0, "max": 17.0}},
+    "penetration": {"max": 40.0},
     "work_rate": 18.0, "friction_power": 18.5, "impact_velocity": {"mean": 19.0, "max": 20.0},
     "contact_duration": {"mean": 21.0, "max": 22.0}, "departure_velocity": {"mean": 23.0, "max": 24.0},
     "impulse_Ns": 25.0, "sliding_distance_m": 26.0, "sticking_ratio": 0.125,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/figures.hpp"
 #include "results/write.hpp"
 #include "synthetic.hpp"
 #include <algorithm>
@@ -54,6 +55,52 @@ TEST(TerminalTable, GivesFiguresTheirStandardErrors) {
   shows(0.0, 0.0, "0");
   shows(6.1283, std::numeric_limits<double>::quiet_NaN(), "6.13");
   shows(1.23e-6, 4.0e-8, "1.23e-06+-4e-08");
+}
+
+TEST(TerminalTable, ShowsRoundOffAsZero) {
+  RunResults results = made_up({.contacts = 1});
+  post::ContactSummary& c = results.contact_summaries[0];
+  c.work_rate = 1.3e-41;
+  c.error.work_rate = 1e-41;
+  c.tangential_max = 2.5e-37;
+  const std::string text = terminal_table(results);
+  EXPECT_THAT(text, Not(HasSubstr("e-41")));
+  EXPECT_THAT(text, Not(HasSubstr("e-37")));
+}
+
+TEST(TerminalTable, BreaksNoNumber) {
+  const std::string number = grouped(50666123);
+  for (std::size_t before = 60; before < 100; ++before) {
+    RunResults results = made_up();
+    results.warnings = {std::string(before, 'w') + " " + number + " steps"};
+    EXPECT_THAT(terminal_table(results), HasSubstr(number)) << before;
+  }
+  EXPECT_THAT(wrapped("a 1 234.5 b", 4), testing::ElementsAre("a 1", "234.5", "b")) << "two numbers";
+}
+
+TEST(TerminalTable, SaysOneNode) {
+  RunResults results = made_up();
+  results.model.nodes = 1;
+  results.model.elements = 0;
+  EXPECT_THAT(terminal_table(results), HasSubstr("1 node, 0 beams, "));
+}
+
+TEST(TerminalTable, ShowsNormalPositionAndSlidingOfFlatObstaclesApart) {
+  RunResults results = made_up({.contacts = 1});
+  results.contacts[0].obstacle = "bars_z";
+  results.contacts[0].gap = 1e-4;
+  results.contacts[0].rest = {0.0, 5e-3, 2e-5};
+  post::ContactSummary& c = results.contact_summaries[0];
+  c.y = {0.0, 1e-4, -3e-4, 4e-4};
+  c.z = {0.0, 3e-5, -1.25e-4, 0.75e-4};
+  c.radial_max = 5.4e-3; // of no use: nothing is round here
+  c.penetration_max = 5e-6;
+  const std::string text = terminal_table(results);
+  EXPECT_THAT(text, testing::ContainsRegex("tsp1 +100 +-105 to 95 +30 +700\n"));
+  EXPECT_THAT(text, testing::ContainsRegex(" flat +5 "));
+  EXPECT_THAT(text, Not(HasSubstr("5400")));
+  results.contacts[0].obstacle = "circle";
+  EXPECT_THAT(terminal_table(results), testing::ContainsRegex(" 5400 +5 "));
 }
 
 TEST(TerminalTable, ShowsWhatAVerificationFound) {
@@ -179,8 +226,8 @@ TEST(TerminalTable, IsShortWithModesOnly) {
 
 TEST(TerminalTable, CutsLongNamesBetweenCharacters) {
   RunResults results = made_up();
-  results.contacts[0].name = "aaaaaaaaaaaaaaaa\xc3\xa9\xc3\xa9\xc3\xa9";
-  EXPECT_THAT(terminal_table(results), HasSubstr("  aaaaaaaaaaaaaaaa... "));
+  results.contacts[0].name = "aaaaaaaaaaaaaa\xc3\xa9\xc3\xa9\xc3\xa9";
+  EXPECT_THAT(terminal_table(results), HasSubstr("  aaaaaaaaaaaaaa... "));
 }
 
 } // namespace

@@ -217,7 +217,7 @@ TEST(FlowMessages, NameFilesAndTheirLines) {
       {"x,density\n0,1\n", "its header has no column \"s\""},
       {"0,1,2\n", "it has 3 columns and no header; give a header with s and density"},
       {"0,1\n1\n", "p.csv:2: \"1\": 1 numbers, the others have 2; give every row as many"},
-      {"s,density\n0,a\n", "p.csv:2: \"0,a\": a row of finite numbers between commas is expected"},
+      {"s,density\n0,a\n", "p.csv:2: \"0,a\": a row of finite numbers is expected"},
       {"s,density\n", "p.csv has no row"},
       {"0,0\n", "density[0] = 0: a number > 0 in kg/m3 is expected"},
       {"1,1\n0,1\n", "row 2 is not beyond the one before"}};

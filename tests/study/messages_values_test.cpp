@@ -387,7 +387,7 @@ TEST(Messages, OfTablesInTime) {
         "the study's folder)"}},
       {table,
        "table = \"study.toml\"",
-       {"loads.foot.table = \"study.toml\": study.toml:1: ", "a row is two finite numbers, t,value"}},
+       {"loads.foot.table = \"study.toml\": study.toml:3: ", "a row is two finite numbers, t,value"}},
       {table, "table = \"\"", {"loads.foot.table = \"\": the string is empty"}},
   });
 }

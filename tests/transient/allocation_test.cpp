@@ -66,7 +66,7 @@ long allocations_of_a_run(const Scene& scene, const StepOptions& options) {
   const OutputGrid grid = output_grid(scene.duration, 7.7e-4);
   const Eigen::MatrixXd node = Eigen::MatrixXd::Random(3, scene.system.size());
   post::Recorder recorder(scene, {{"node", node}}, grid);
-  post::ContactStatistics contacts(scene.contacts.size(), 0.1);
+  post::ContactStatistics contacts(scene.contacts, 0.1);
   post::NodeStatistics nodes({node}, 0.1);
   Gate gate(choice.steps);
   Observer* const observers[] = {&gate, &contacts, &nodes};

@@ -48,7 +48,7 @@ struct Result {
 };
 
 Result simulate_with(const Scene& scene, int flight, double from = 0.0) {
-  post::ContactStatistics contacts(1, from);
+  post::ContactStatistics contacts(scene.contacts, from);
   post::NodeStatistics nodes({scene.contacts[0].b}, from);
   post::ImpactTable impacts(1, from, 0.0, 1000);
   MostModalDamping damping;
@@ -136,7 +136,7 @@ TEST(Flights, GiveOutputsAtAnyInstantAndDoNotFeelThem) {
   };
   const auto watched = [&](int flight, double every) {
     Positions positions;
-    post::ContactStatistics statistics(1, 0.0);
+    post::ContactStatistics statistics(scene.contacts, 0.0);
     Observer* const observers[] = {&statistics};
     (void)run(scene, with_flights(scene, flight), observers, &positions, output_grid(scene.duration, every));
     return std::pair(positions.y, statistics.summaries()[0].radial_rms);

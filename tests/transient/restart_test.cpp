@@ -22,7 +22,7 @@ constexpr double from = 0.01;    // s, start of the statistics
 class Watched {
 public:
   Watched(const Scene& scene, const StepChoice& choice)
-      : node_(Eigen::MatrixXd::Constant(3, scene.system.size(), 0.3)), contacts_(scene.contacts.size(), from),
+      : node_(Eigen::MatrixXd::Constant(3, scene.system.size(), 0.3)), contacts_(scene.contacts, from),
         impacts_(scene.contacts.size(), from, 2e-3, 1000), nodes_({node_}, from),
         grid_(output_grid(scene.duration, every)), recorder_(scene, {{"node", node_}}, grid_),
         run_(scene, choice, observers_, &recorder_, grid_) {}

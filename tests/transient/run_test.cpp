@@ -50,7 +50,7 @@ struct Totals {
 Totals watched(const Scene& scene, const StepOptions& options, Sampler* sampler, const OutputGrid& grid,
                bool more_observers) {
   const StepChoice choice = choose_step(scene, options);
-  post::ContactStatistics statistics(scene.contacts.size(), 0.05);
+  post::ContactStatistics statistics(scene.contacts, 0.05);
   Trace other(static_cast<std::size_t>(choice.steps));
   Observer* const observers[] = {&statistics, &other};
   const Report report = run(scene, choice, std::span(observers, more_observers ? 2 : 1), sampler, grid);

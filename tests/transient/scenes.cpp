@@ -127,7 +127,7 @@ History simulate(const Scene& scene, const StepOptions& options, double every, d
   run.q = run.v = Eigen::MatrixXd::Zero(scene.system.size(), grid.count);
   run.normal = run.along_x = run.along_t = Eigen::MatrixXd::Zero(contacts, grid.count);
   Keeper keeper(run);
-  post::ContactStatistics statistics(scene.contacts.size(), from);
+  post::ContactStatistics statistics(scene.contacts, from);
   Observer* const observers[] = {&statistics};
   run.report = transient::run(scene, run.choice, observers, &keeper, grid);
   run.statistics = statistics.summaries();

@@ -27,7 +27,7 @@ TEST(Splitting, ShowsContactsAndNodesWhereTheyRest) {
     scene.q0.y() = std::sqrt(mass) * node;
     if (give > 0.0)
       scene.residual = flexibility * Eigen::Matrix3d::Identity();
-    post::ContactStatistics contacts(1, 0.5 * scene.duration);
+    post::ContactStatistics contacts(scene.contacts, 0.5 * scene.duration);
     post::NodeStatistics nodes({scene.contacts[0].b}, 0.5 * scene.duration);
     Observer* const observers[] = {&contacts, &nodes};
     (void)run(scene, choose_step(scene, splitting(step)), observers, nullptr, {});

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/size_of_results.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace fretwork::app {
+namespace {
+
+constexpr double number = sizeof(double);
+constexpr double of_contact = 10.0 * number + 1.0; // displacement, velocity, gap, forces; state
+constexpr double of_node = 9.0 * number, of_mode = 2.0 * number;
+constexpr double of_impact = 8.0 * number; // a row of the table
+
+} // namespace
+
+SizeOfResults size_of_results(const study::Study& study, const std::vector<BuiltScene>& scenes,
+                              const std::vector<PlacedContact>& placed, double outputs,
+                              const std::vector<double>& rows) {
+  SizeOfResults size;
+  double at_an_output = number; // the time
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    const BuiltScene& built = scenes[s];
+    at_an_output += of_node * static_cast<double>(built.nodes.size());
+    if (study.output.modal)
+      at_an_output += of_mode * static_cast<double>(built.modes);
+    for (const std::size_t c : built.contacts)
+      at_an_output += study.contacts[placed[c].entry].series ? of_contact : 0.0;
+    size.impacts += of_impact * rows[s] * static_cast<double>(built.contacts.size());
+  }
+  size.series = outputs * at_an_output;
+  return size;
+}
+
+std::string size_text(double bytes) {
+  constexpr double thousand = 1e3;
+  for (const char* unit : {"B", "kB", "MB"}) {
+    if (bytes < thousand)
+      return fmt::format("{:.3g} {}", bytes, unit);
+    bytes /= thousand;
+  }
+  return fmt::format("{:.3g} GB", bytes);
+}
+
+void leave_out_series(const study::Study& study, const std::vector<PlacedContact>& placed,
+                      results::RunResults& out) {
+  if (!study.output.modal) {
+    out.series.modal_displacement.resize(0, 0);
+    out.series.modal_velocity.resize(0, 0);
+  }
+  std::erase_if(out.series.contacts, [&](const post::ContactSeries& series) {
+    const auto found = std::find_if(placed.begin(), placed.end(), [&](const PlacedContact& contact) {
+      return contact.name == series.name;
+    });
+    return found != placed.end() && !study.contacts[found->entry].series;
+  });
+}
+
+} // namespace fretwork::app

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/unit_slips.hpp"
+#include "results/grouped_messages.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace fretwork::app {
+namespace {
+
+constexpr double largest_section = 3.0, largest_gap = 0.1, largest_mesh = 1000.0; // m
+constexpr double least_modulus = 1e7;                                             // Pa
+constexpr double least_density = 50.0, largest_density = 3e4;                     // kg/m3
+constexpr double largest_friction = 2.0;
+
+/// Sizes of a shape, m, by their keys.
+std::vector<std::pair<const char*, double>> sizes(const fem::Shape& shape) {
+  if (const auto* pipe = std::get_if<fem::Pipe>(&shape))
+    return {{"outer_diameter", pipe->outer_diameter}, {"thickness", pipe->thickness}};
+  if (const auto* circle = std::get_if<fem::Circle>(&shape))
+    return {{"diameter", circle->diameter}};
+  if (const auto* rectangle = std::get_if<fem::Rectangle>(&shape))
+    return {{"height_y", rectangle->height_y}, {"height_z", rectangle->height_z}};
+  return {};
+}
+
+/// The clearance of a shape that has one, m; 0 for others.
+double gap_of(const contact::Obstacle& obstacle) {
+  if (const auto* circle = std::get_if<contact::Circle>(&obstacle))
+    return circle->gap;
+  if (const auto* planes = std::get_if<contact::PlanePair>(&obstacle))
+    return planes->gap;
+  if (const auto* stop = std::get_if<contact::Stop>(&obstacle))
+    return stop->gap;
+  return 0.0;
+}
+
+/// Values that are too large for metres, each `key = value`.
+std::vector<std::string> too_long(const study::Study& study, const mesh::LineMesh& mesh) {
+  std::vector<std::string> out;
+  for (const auto& [name, section] : study.sections) {
+    const auto all = sizes(section.shape);
+    if (std::any_of(all.begin(), all.end(), [](const auto& size) { return size.second > largest_section; }))
+      for (const auto& [key, value] : all)
+        out.push_back(fmt::format("sections.{}.{} = {:g} m", name, key, value));
+  }
+  for (const study::Contact& contact : study.contacts)
+    if (const double gap = gap_of(contact.shape); gap > largest_gap)
+      out.push_back(fmt::format("gap = {:g} m of contact \"{}\"", gap, contact.name));
+  if (!mesh.nodes.empty()) {
+    core::Vec3 low = mesh.nodes.front(), high = low;
+    for (const core::Vec3& node : mesh.nodes) {
+      low = low.cwiseMin(node);
+      high = high.cwiseMax(node);
+    }
+    if (const double length = (high - low).maxCoeff(); length > largest_mesh)
+      out.push_back(fmt::format("a mesh {:g} m long (mesh.scale = 1e-3 turns mm into m)", length));
+  }
+  return out;
+}
+
+std::vector<std::string> odd_materials(const study::Study& study) {
+  std::vector<std::string> out;
+  for (const auto& [name, material] : study.materials) {
+    if (material.young_modulus < least_modulus)
+      out.push_back(
+          fmt::format("materials.{}.young_modulus = {:g} Pa (steel: 2e11)", name, material.young_modulus));
+    if (material.density > 0.0 && (material.density < least_density || material.density > largest_density))
+      out.push_back(fmt::format("materials.{}.density = {:g} kg/m3 (steel: 7850)", name, material.density));
+  }
+  return out;
+}
+
+std::vector<std::string> odd_friction(const study::Study& study) {
+  std::vector<std::string> out;
+  for (const study::Contact& contact : study.contacts)
+    if (contact.friction_static > largest_friction)
+      out.push_back(fmt::format("friction = {:g} of contact \"{}\"", contact.friction_static, contact.name));
+  return out;
+}
+
+/// A fixed step beyond the longest period that a contact can have, that of all the mass on its spring; else empty.
+std::string long_step(const study::Study& study, const fem::Model& model) {
+  if (!study.transient || !study.transient->step)
+    return {};
+  double stiffness = 0.0;
+  for (const study::Contact& contact : study.contacts)
+    if (contact.active)
+      stiffness = std::max(stiffness, contact.normal_stiffness.value_or(0.0));
+  const double mass = fem::total_mass(model), step = *study.transient->step;
+  if (!(stiffness > 0.0) || !(mass > 0.0))
+    return {};
+  const double period = 2.0 * std::numbers::pi * std::sqrt(mass / stiffness);
+  return step > period
+             ? fmt::format(
+                   "transient.step = {:g} s is longer than the slowest vibration on a contact can be, "
+                   "{:.2g} s: is it ms? Leave step out to have it chosen",
+                   step, period)
+             : std::string();
+}
+
+/// `values` with a question; nothing without values. Equal ones of several contacts are one.
+void ask(const std::vector<std::string>& values, const char* question, std::vector<std::string>& out) {
+  if (!values.empty())
+    out.push_back(fmt::format("units: {}: {}", fmt::join(results::grouped_messages(values), ", "), question));
+}
+
+} // namespace
+
+std::vector<std::string> unit_slips(const study::Study& study, const mesh::LineMesh& mesh,
+                                    const fem::Model& model) {
+  std::vector<std::string> out;
+  ask(too_long(study, mesh),
+      fmt::format("are these mm? Lengths are metres; the model weighs {:.3g} kg", fem::total_mass(model))
+          .c_str(),
+      out);
+  ask(odd_materials(study), "units are SI: Pa and kg/m3", out);
+  ask(odd_friction(study), "is this per cent? Coefficients of friction lie between 0 and 2", out);
+  if (std::string step = long_step(study, model); !step.empty())
+    out.push_back("units: " + step);
+  return out;
+}
+
+} // namespace fretwork::app

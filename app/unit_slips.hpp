@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Values that are legal and in another unit than the SI's: sizes in mm, moduli in MPa, densities in t/m3, coefficients in per cent.
+///
+/// A value is suspected where it is outside what slender structures have, with a factor of ten or more of room:
+///     sizes of sections      up to 3 m                        radial gaps           up to 0.1 m
+///     size of the mesh       up to 1000 m                     Young's modulus       from 1e7 Pa (rubber)
+///     density                0 or 50 (foam) to 30000 kg/m3    friction coefficient  up to 2
+///     fixed time step        up to the period of the stiffest contact against the whole mass of the model
+#pragma once
+#include "fem/model.hpp"
+#include "mesh/line_mesh.hpp"
+#include "study/study.hpp"
+#include <string>
+#include <vector>
+
+namespace fretwork::app {
+
+/// One warning for all suspected values of a unit, each value with its key; none where nothing is suspected.
+[[nodiscard]] std::vector<std::string> unit_slips(const study::Study& study, const mesh::LineMesh& mesh,
+                                                  const fem::Model& model);
+
+} // namespace fretwork::app

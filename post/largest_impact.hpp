@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The history of force about the largest impact of every contact, at every step, independent of any sampling.
+///
+/// A history has the records with a normal force about that with the largest one of the window, `points` / 2 before it and as many after
+/// at most; where the contact opens or is open before it closes, a point without force stands at that record. Forces are means over steps.
+#pragma once
+#include "transient/run.hpp"
+#include <vector>
+
+namespace fretwork::post {
+
+struct ForcePoint {
+  double time = 0.0;       ///< s
+  double normal = 0.0;     ///< N, >= 0
+  double tangential = 0.0; ///< N, length of the vector
+};
+
+class LargestImpact final : public transient::Observer {
+public:
+  static constexpr std::size_t points = 256;
+
+  /// @param contacts  number of contacts   @param from  start of the window, s
+  LargestImpact(std::size_t contacts, double from);
+  void step(const transient::Record& record) override;
+  void visit(core::StateArchive& state) override { state(contacts_); }
+  /// Of every contact, in time; empty where there was no force.
+  [[nodiscard]] std::vector<std::vector<ForcePoint>> histories() const;
+
+private:
+  struct Contact {
+    std::vector<ForcePoint> ring; ///< `points` of them, the last ones
+    std::vector<ForcePoint> kept; ///< about the largest force, in time
+    std::uint64_t count = 0;      ///< of points so far
+    std::uint64_t still = 0;      ///< points to come until the ring is kept; 0: it has been
+    double largest = 0.0;         ///< N
+    bool was_active = false;      ///< at the record before
+    void add(const ForcePoint& point);
+    void keep();
+    void visit(core::StateArchive& state) { state(ring, kept, count, still, largest, was_active); }
+  };
+  double from_;
+  std::vector<Contact> contacts_;
+};
+
+} // namespace fretwork::post

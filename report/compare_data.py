@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What differs between runs: inputs, frequencies, work rates, wear; each as rows of a table, the first run being the reference."""
+
+import math
+import tomllib
+from dataclasses import dataclass
+
+import run_data
+
+SIGNIFICANT = 3.0  # standard errors of a difference from which on it is none of scatter (0.3 % of the time by chance)
+FREQUENCIES = 10
+ROUND_OFF = 1e-6  # per cent
+
+
+@dataclass
+class Table:
+    title: str
+    heads: list
+    rows: list  # lists of texts
+
+
+def number(value, digits=4):
+    return "-" if value is None or not math.isfinite(value) else f"{value:.{digits}g}"
+
+
+def with_error(value, error):
+    if value is None or error is None or not math.isfinite(error):
+        return number(value)
+    return f"{value:.3g} +- {error:.1g}"
+
+
+def change(value, reference):
+    """Of a value against that of the first run, per cent."""
+    if value is None or not reference:
+        return "-"
+    per_cent = 100 * (value / reference - 1)
+    if abs(per_cent) < ROUND_OFF:
+        return "0 %"
+    return f"{per_cent:+.0f} %" if abs(per_cent) >= 10 else f"{per_cent:+.2g} %"
+
+
+def significance(one, other):
+    """What the difference of two (value, standard error) means."""
+    (a, a_error), (b, b_error) = one, other
+    if None in (a, b):
+        return "-"
+    if a == b:
+        return "equal"
+    errors = [error for error in (a_error, b_error) if error is not None and math.isfinite(error)]
+    if len(errors) < 2 or math.hypot(*errors) == 0:
+        return "scatter unknown"
+    size = abs(b - a) / math.hypot(*errors)
+    return f"{size:.2g} standard errors: " + ("significant" if size >= SIGNIFICANT else "within scatter")
+
+
+def _flat(value, path=""):
+    """Keys and values of a study; entries of arrays of tables by their name or group."""
+    if isinstance(value, dict):
+        return {key: item for name, inner in value.items() for key, item in _flat(inner, f"{path}.{name}" if path else name).items()}
+    if isinstance(value, list) and value and all(isinstance(item, dict) for item in value):
+        names = [str(item.get("name", item.get("group", i))) for i, item in enumerate(value)]
+        names = [name if names.count(name) == 1 else str(i) for i, name in enumerate(names)]
+        return {key: item for name, inner in zip(names, value) for key, item in _flat(inner, f"{path}.{name}").items()}
+    return {path: value}
+
+
+def inputs(run):
+    """All keys of the study with overrides."""
+    keys = _flat(tomllib.loads(run.attributes["study"]))
+    for override in run.summary.get("overrides", []):
+        keys.pop(override["key"], None)
+        keys.update(_flat(override["value"], override["key"]))
+    return keys
+
+
+def differing_inputs(runs, names):
+    studies = [inputs(run) for run in runs]
+    rows = []
+    for key in sorted(set().union(*studies)):
+        values = [study.get(key) for study in studies]
+        if any(value != values[0] for value in values):
+            rows.append([key, *("-" if value is None else str(value) for value in values)])
+    return Table("Inputs that differ", ["key", *names], rows)
+
+
+def frequencies(runs, names):
+    lists = [run.summary["modes"]["frequencies_hz"] for run in runs]
+    rows = []
+    for i in range(min(FREQUENCIES, max(map(len, lists)))):
+        values = [found[i] if i < len(found) else None for found in lists]
+        rows.append([f"{i + 1}", *(number(v, 6) for v in values), *(change(v, values[0]) for v in values[1:])])
+    return Table("Frequencies, Hz", ["mode", *names, *(f"change, {name}" for name in names[1:])], rows)
+
+
+def _work(entry):
+    return entry["work_rate"], entry.get("standard_error", {}).get("work_rate")
+
+
+def work_rates(runs, names):
+    """Of all contacts together, then of each, by name; contacts that some run has not are left to it."""
+    tables = [{"all contacts": run.summary["contact_sums"], **{c["name"]: c for c in run.summary["contacts"]}}
+              if "contact_sums" in run.summary else {} for run in runs]
+    order = list(dict.fromkeys(name for found in tables for name in found))
+    rows = []
+    for name in order:
+        values = [_work(found[name]) if name in found else (None, None) for found in tables]
+        rows.append([name, *(with_error(*value) for value in values)]
+                    + [text for value in values[1:] for text in (change(value[0], values[0][0]), significance(values[0], value))])
+    heads = ["contact", *names] + [text for name in names[1:] for text in (f"change, {name}", "significance")]
+    return Table("Work rates, W", heads, rows)
+
+
+def _wear(run):
+    return {s["name"]: (s["depth_m"]["value"] if s["depth_m"] else None, s["life_years"]["value"] if s["life_years"] else None)
+            for s in run.summary.get("wear", {}).get("supports", [])}
+
+
+def wear(runs, names):
+    tables = [_wear(run) for run in runs]
+    order = list(dict.fromkeys(name for found in tables for name in found))
+    rows = []
+    for name in order:
+        values = [found.get(name, (None, None)) for found in tables]
+        depths = [None if depth is None else 1e3 * depth for depth, _ in values]
+        rows.append([name, *(number(d, 3) for d in depths), *(change(d, depths[0]) for d in depths[1:]), *(number(life, 3) for _, life in values)])
+    heads = ["support", *(f"depth mm, {n}" for n in names), *(f"change, {n}" for n in names[1:]), *(f"life years, {n}" for n in names)]
+    return Table("Wear", heads, rows)
+
+
+def short_names(directories):
+    """The last part of each folder's path, the whole path where that is the same for two."""
+    last = [directory.resolve().name for directory in directories]
+    return [name if last.count(name) == 1 else str(directory) for name, directory in zip(last, directories)]
+
+
+def tables(directories):
+    """The runs, and what differs.
+
+    @param directories  pathlib.Path of each   @throws run_data.NoResults
+    """
+    runs = [run_data.load(directory) for directory in directories]
+    names = short_names(directories)
+    found = [compare(runs, names) for compare in (differing_inputs, frequencies, work_rates, wear)]
+    return runs, [table for table in found if table.rows or table.title == "Inputs that differ"]

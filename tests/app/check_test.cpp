@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `check` refuses what `run` refuses, and says what a run would be.
+#include "study_text.hpp"
+#include "tubes.hpp"
+#include <cmath>
+#include <fmt/format.h>
+#include <regex>
+
+namespace fretwork::app::test {
+namespace {
+
+const std::string support =
+    "[[contacts]]\nname = \"plate\"\ngroup = \"mid0\"\naxis = [1.0, 0.0, 0.0]\ngap = 2.0e-4\n"
+    "normal_stiffness = 1.0e6\n";
+
+std::vector<std::string> with(const std::string& command, const fs::path& study,
+                              const std::vector<std::string>& set) {
+  std::vector<std::string> all{command, study.string()};
+  for (const std::string& key : set) {
+    all.emplace_back("--set");
+    all.push_back(key);
+  }
+  return all;
+}
+
+TEST(Check, RefusesWhatTheRunRefuses) {
+  const Workshop folder;
+  const fs::path study = folder.write("study.toml", tubes(folder, 1) + support + push(0, 200.0));
+  const std::vector<std::vector<std::string>> wrong = {
+      {"modes.damping=[0.01, 0.02]"},
+      {"modes.up_to_hz=1"},
+      {"output.every=1e-14"},
+      {"output.statistics_from=0.0199999", "transient.step=1e-4"},
+      {"transient.duration=1e9"},
+      {"modes.static_modes=auto", "modes.count=2", "transient.scheme=euler"},
+      {"modes.static_modes=auto", "modes.count=2",
+       "loads.0={ group = \"mid0\", direction = [0, 1, 0.1], table = [[0, 0], [0.01, 0], [0.01, 50]] }"},
+  };
+  for (const auto& set : wrong) {
+    const Outcome checked = folder.fretwork(with("check", study, set)),
+                  run = folder.fretwork(with("run", study, set));
+    EXPECT_EQ(run.status, 1) << set[0];
+    EXPECT_EQ(checked.status, 1) << set[0] << checked.out;
+    EXPECT_EQ(checked.err, run.err);
+  }
+  EXPECT_EQ(folder.fretwork(with("check", study, {})).status, 0);
+}
+
+TEST(Check, LeavesNothing) {
+  const Workshop folder;
+  const fs::path study = folder.write("study.toml", tubes(folder, 1) + support + push(0, 200.0));
+  const Outcome outcome = folder.fretwork(with("check", study, {}));
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_FALSE(fs::exists(folder.path("study.results")));
+  EXPECT_TRUE(says(outcome.out, "8 modes; a run: 0.02 s, "));
+}
+
+/// MB of series that `check` forecasts.
+double forecast(const Workshop& folder, const fs::path& study, const std::vector<std::string>& set) {
+  const std::string said = folder.fretwork(with("check", study, set)).out;
+  std::smatch found;
+  EXPECT_TRUE(std::regex_search(said, found, std::regex("results.h5: ([0-9.]+) MB of series"))) << said;
+  return std::stod(found[1]);
+}
+
+TEST(Check, ForecastsTheSizeOfTheResults) {
+  constexpr double three_digits = 0.02; // of the figures that are said, and what HDF5 adds
+  const Workshop folder;
+  const fs::path study = folder.write("study.toml", tubes(folder, 1) + support + push(0, 200.0));
+  const auto size = [&](const std::string& every, const std::string& modal) {
+    (void)folder.run(study, "results", {"--set", every, "--set", modal});
+    return 1e-6 * static_cast<double>(fs::file_size(folder.path("results") / "results.h5"));
+  };
+  const std::string fine = "output.every=1e-6", coarse = "output.every=2e-3", all = "output.modal=true",
+                    none = "output.modal=false";
+  const double of_all = forecast(folder, study, {fine, all}), without = forecast(folder, study, {fine, none});
+  const double little = size(coarse, none);
+  EXPECT_NEAR(size(fine, all) - little, of_all, three_digits * of_all);
+  EXPECT_NEAR(size(fine, none) - little, without, three_digits * without);
+  EXPECT_GT(of_all, 1.5 * without);
+}
+
+TEST(Output, SeriesOfContactsAndModesCanBeLeftOut) {
+  const Workshop folder;
+  const std::string study = tubes(folder, 1) + support + "series = false\n" + push(0, 200.0);
+  const Results run = folder.run_text(study, {"--set", "output.modal=false"});
+  EXPECT_TRUE(run.archive.series.contacts.empty());
+  EXPECT_EQ(run.archive.series.modal_displacement.size(), 0);
+  EXPECT_EQ(run.archive.series.nodes.size(), 1u);
+  EXPECT_GT(run.statistics("plate")["impacts"], 0);
+  const std::string results = folder.path("results").string();
+  const Outcome report = folder.fretwork({"report", results});
+  EXPECT_EQ(report.status, 0) << report.err;
+  for (const char* format : {"csv", "vtu"})
+    EXPECT_EQ(folder.fretwork({"export", results, "--format", format}).status, 0) << format;
+}
+
+// A smooth start and a ramp: the acceleration of the curve jumps at rows, the support does not.
+TEST(ResidualFlexibility, TakesTablesOfDisplacement) {
+  const Workshop folder;
+  const std::string moved =
+      "[[support_motion]]\ngroup = \"tube0_begin\"\ndirection = [0, 1, 0]\nquantity = \"displacement\"\n"
+      "table = [[0, 0], [0.005, 0.0], [0.01, 1e-3], [0.02, 2e-3]]\n";
+  const std::string study = tubes(folder, 1) + support + moved;
+  const auto run = [&](const char* static_modes, const char* count) {
+    return folder.run_text(study, {"--set", fmt::format("modes.static_modes={}", static_modes), "--set",
+                                   count, "--set", "output.every=1e-4"});
+  };
+  const Results few = run("auto", "modes.count=6"), many = run("none", "modes.count=40");
+  constexpr double of_an_impact = 0.1; // relative: 6 modes with residual flexibility against all
+  EXPECT_GT(few.statistics("plate")["normal_force"]["max"], 1.0);
+  EXPECT_TRUE(close_to(few.statistics("plate")["normal_force"]["max"],
+                       many.statistics("plate")["normal_force"]["max"], of_an_impact));
+}
+
+} // namespace
+} // namespace fretwork::app::test

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hand_made.hpp"
+#include "post/largest_impact.hpp"
+#include <algorithm>
+#include <gtest/gtest.h>
+
+using namespace fretwork;
+using namespace fretwork::tests;
+using post::LargestImpact;
+
+namespace {
+
+constexpr double h = 0.01;
+
+double largest(const std::vector<post::ForcePoint>& history) {
+  double out = 0.0;
+  for (const post::ForcePoint& point : history)
+    out = std::max(out, point.normal);
+  return out;
+}
+
+} // namespace
+
+TEST(LargestImpact, IsKeptAtEveryStepBetweenPointsWithoutForce) {
+  LargestImpact impacts(2, 0.0);
+  HandMade run(impacts, 2, h);
+  run.closed(2, 3.0);
+  run.open(5);
+  for (const double force : {2.0, 7.0, 4.0}) {
+    run.contact(0).normal_force = force;
+    run.contact(0).friction = {3.0, 4.0};
+    run.step();
+  }
+  run.open(3);
+  run.closed(1, 5.0);
+  const auto history = impacts.histories()[0];
+  std::vector<double> forces, times;
+  for (const post::ForcePoint& point : history) {
+    forces.push_back(point.normal);
+    times.push_back(point.time);
+  }
+  EXPECT_EQ(forces, (std::vector<double>{0, 3, 3, 0, 0, 2, 7, 4, 0, 0, 5}));
+  EXPECT_TRUE(std::is_sorted(times.begin(), times.end()));
+  EXPECT_NEAR(history[6].time, 8.5 * h, 1e-12);
+  EXPECT_EQ(history[6].tangential, 5.0);
+  EXPECT_TRUE(impacts.histories()[1].empty()) << "it touched nothing";
+}
+
+TEST(LargestImpact, IsThatOfTheWindowHoweverManyFollow) {
+  LargestImpact impacts(1, 2.0 * h);
+  HandMade run(impacts, 1, h);
+  run.closed(2, 100.0); // before the window
+  run.open(1);
+  run.closed(1, 9.0);
+  for (std::size_t i = 0; i < 2 * LargestImpact::points; ++i) {
+    run.open(1);
+    run.closed(1, 1.0);
+  }
+  const auto history = impacts.histories()[0];
+  EXPECT_EQ(largest(history), 9.0);
+  EXPECT_LE(history.size(), LargestImpact::points);
+}
+
+TEST(LargestImpact, OfALongContactHasBothSidesOfItsPeak) {
+  LargestImpact impacts(1, 0.0);
+  HandMade run(impacts, 1, h);
+  constexpr int steps = 1000, peak = 600;
+  for (int i = 0; i < steps; ++i) {
+    run.contact(0).normal_force = i == peak ? 50.0 : 10.0;
+    run.step();
+  }
+  const auto history = impacts.histories()[0];
+  ASSERT_EQ(history.size(), LargestImpact::points);
+  EXPECT_EQ(history[LargestImpact::points / 2 - 1].normal, 50.0);
+}

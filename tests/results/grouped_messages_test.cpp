@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/grouped_messages.hpp"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace fretwork::results {
+namespace {
+
+using testing::ElementsAre;
+
+TEST(GroupedMessages, BecomeOneWhereOnlyNamesAndNumbersDiffer) {
+  EXPECT_THAT(grouped_messages({"contact \"a\": damping 3.5 N s/m", "the mesh is coarse",
+                                "contact \"b\": damping 2e-3 N s/m", "contact \"c\": damping 10 N s/m"}),
+              ElementsAre("contact \"a\", \"b\", \"c\": damping 2e-3 to 10 N s/m", "the mesh is coarse"));
+}
+
+TEST(GroupedMessages, NameTheFirstAndTheLastOfMany) {
+  std::vector<std::string> messages;
+  for (int i = 1; i <= 12; ++i)
+    messages.push_back("contact \"h" + std::to_string(i) + "\" starts in contact");
+  EXPECT_THAT(grouped_messages(messages), ElementsAre("contact \"h1\" ... \"h12\" (12) starts in contact"));
+}
+
+TEST(GroupedMessages, KeepWhatDiffersInWords) {
+  const std::vector<std::string> messages{"contact \"a\" opens", "contact \"a\" closes", "contact a opens",
+                                          "3 contacts", "three contacts"};
+  EXPECT_EQ(grouped_messages(messages), messages);
+}
+
+TEST(GroupedMessages, ThatAreEqualAreSaidOnce) {
+  EXPECT_THAT(grouped_messages({"x_1 = 2 m2", "x_1 = 2 m2"}), ElementsAre("x_1 = 2 m2"));
+}
+
+} // namespace
+} // namespace fretwork::results
