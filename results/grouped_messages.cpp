@@ -8,9 +8,12 @@ namespace fretwork::results {
 namespace {
 
 constexpr std::size_t most_names = 3;
+/// Fewer messages than these stand by themselves.
+constexpr std::size_t least_alike = 3;
 
 /// A message as the words around its names and numbers, and these.
 struct Parts {
+  std::string message;
   std::vector<std::string> words;  ///< one more than values
   std::vector<std::string> values; ///< a name with its quotes, or a number
 
@@ -26,7 +29,7 @@ struct Parts {
 /// A number that is part of a word (x_1, mm2) is none.
 Parts parts_of(const std::string& message) {
   static const std::regex value(R"("[^"]*"|\b\d+(\.\d+)?(e[-+]?\d+)?\b)");
-  Parts parts;
+  Parts parts{.message = message, .words = {}, .values = {}};
   auto from = message.begin();
   for (std::sregex_iterator at(message.begin(), message.end(), value), end; at != end; ++at) {
     parts.words.emplace_back(from, (*at)[0].first);
@@ -82,7 +85,13 @@ std::vector<std::string> grouped_messages(const std::vector<std::string>& messag
   }
   std::vector<std::string> out;
   for (const auto& group : groups)
-    out.push_back(text_of(group));
+    if (group.size() < least_alike)
+      for (const Parts& alone : group) {
+        if (std::find(out.begin(), out.end(), alone.message) == out.end())
+          out.push_back(alone.message);
+      }
+    else
+      out.push_back(text_of(group));
   return out;
 }
 

@@ -38,7 +38,9 @@ TEST(Examples, CantileverReachesThePublishedForce) {
   const Workshop folder;
   const Results run = folder.run(example("cantilever_stop"), "results");
   EXPECT_TRUE(close_to(run.statistics("stop")["normal_force"]["max"], 2796.8, five_digits));
-  EXPECT_TRUE(run.summary["warnings"].empty()) << run.summary["warnings"];
+  // the density of the published case is none of any metal
+  ASSERT_EQ(run.summary["warnings"].size(), 1u) << run.summary["warnings"];
+  EXPECT_TRUE(says(run.summary["warnings"][0], "units are SI"));
 }
 
 TEST(Examples, TubeInFlowIsStableWithAndWithoutItsSecondPlate) {
@@ -62,13 +64,13 @@ TEST(Examples, TubeStudyGoesFromTheFlowToTheYears) {
   EXPECT_TRUE(close_to(run.summary["stability"][0]["cases"][0]["margin"], 1.0 - 0.6016, four_digits));
   EXPECT_TRUE(close_to(run.summary["stability"][1]["cases"][0]["margin"], 1.0 - 0.9165, of_margin));
   EXPECT_EQ(run.summary["contacts"].size(), 20u);
-  // a chaotic run of 9 s: the standard error of its work rate is 7 %
+  // a chaotic run of 9 s: the standard error of its work rate is 6 %
   const double work = run.summary["contact_sums"]["work_rate"],
                years = run.summary["wear"]["tubes"][0]["life_years"]["value"];
-  EXPECT_GT(work, 0.03);
-  EXPECT_LT(work, 0.07);
-  EXPECT_GT(years, 6.0);
-  EXPECT_LT(years, 15.0);
+  EXPECT_GT(work, 0.02);
+  EXPECT_LT(work, 0.035);
+  EXPECT_GT(years, 20.0);
+  EXPECT_LT(years, 45.0);
   EXPECT_LT(run.summary["energy"]["residual_relative"].get<double>(), trusted_balance);
   EXPECT_TRUE(run.summary["warnings"].empty()) << run.summary["warnings"];
   for (const char* file : {"flow.csv", "spectra.csv", "stability.csv"})
@@ -96,7 +98,8 @@ TEST(Examples, StraightTubeHasItsFrequenciesAndItsWorkRate) {
   EXPECT_LT(work, 6.7);
   EXPECT_EQ(run.summary["contacts"].size(), 8u);
   EXPECT_LT(run.summary["energy"]["residual_relative"].get<double>(), trusted_balance);
-  EXPECT_TRUE(run.summary["warnings"].empty()) << run.summary["warnings"];
+  ASSERT_EQ(run.summary["warnings"].size(), 1u) << run.summary["warnings"];
+  EXPECT_TRUE(says(run.summary["warnings"][0], "modal truncation")); // 0.7/K_N
 }
 
 TEST(Examples, TwoTubesMeetInTheirSpanAndAtTheEdgesOfTheirPlate) {

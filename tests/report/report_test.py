@@ -31,6 +31,26 @@ LONGEST = 8.0  # s for 22 contacts and 10 000 outputs: the goal is 4 s on an idl
 VOID = {"meta", "path", "rect", "circle", "image", "polyline", "br", "i"}
 
 
+def change_summary(folder, change):
+    """summary.json as `change` leaves it, with the checksum that fits."""
+    file = folder / "summary.json"
+    summary = json.loads(file.read_text())
+    change(summary)
+    summary["sha256"] = summary.pop("sha256")  # the last key
+    file.write_text(run_data.with_checksum(json.dumps(summary)))
+
+
+@contextlib.contextmanager
+def archive_to_change(folder):
+    """results.h5 to be changed, with the checksum that fits in the end."""
+    path = folder / "results.h5"
+    with h5py.File(path, "r+") as file:
+        yield file
+    block = path.read_bytes()[: run_data.USER_BLOCK]
+    with open(path, "r+b") as file:
+        file.write(re.sub(rb"[0-9a-f]{64}", run_data.checksum(path).encode(), block))
+
+
 class Checker(HTMLParser):
     """Counts elements, collects links and checks that elements close in order."""
 
@@ -91,21 +111,10 @@ class Report(unittest.TestCase):
         return re.findall(r"<h2>(.*?)</h2>", text)
 
     def change(self, change):
-        file = self.folder / "summary.json"
-        summary = json.loads(file.read_text())
-        change(summary)
-        summary["sha256"] = summary.pop("sha256")  # the last key
-        file.write_text(run_data.with_checksum(json.dumps(summary)))
+        change_summary(self.folder, change)
 
-    @contextlib.contextmanager
     def archive(self):
-        """results.h5 to be changed, with the checksum that fits in the end."""
-        path = self.folder / "results.h5"
-        with h5py.File(path, "r+") as file:
-            yield file
-        block = path.read_bytes()[: run_data.USER_BLOCK]
-        with open(path, "r+b") as file:
-            file.write(re.sub(rb"[0-9a-f]{64}", run_data.checksum(path).encode(), block))
+        return archive_to_change(self.folder)
 
     def test_has_all_sections_for_a_few_contacts(self):
         made_up(self.folder, 5, 400)
@@ -168,7 +177,7 @@ class Report(unittest.TestCase):
             second["penetration"]["max"] = 5.25e-6
 
         self.change(change)
-        with h5py.File(self.folder / "results.h5", "r+") as file:
+        with self.archive() as file:
             file["contacts/tsp1"].attrs["obstacle"] = "circle"
             file["contacts/tsp1"].attrs["normal_stiffness"] = 1e6
             file["contacts/tsp2"].attrs["obstacle"] = "bars_z"
@@ -190,7 +199,7 @@ class Report(unittest.TestCase):
 
     def test_shows_the_largest_impact_at_every_step(self):
         made_up(self.folder, 1, 100)
-        with h5py.File(self.folder / "results.h5", "r+") as file:
+        with self.archive() as file:
             largest = file["contacts/tsp1"].require_group("largest_impact")
             for name in list(largest):
                 del largest[name]
@@ -454,15 +463,16 @@ class Comparison(unittest.TestCase):
         self.folders = [Path(temporary.name) / name for name in "ab"]
         for folder in self.folders:
             made_up(folder, 3, 100, wear=True)
-            with h5py.File(folder / "results.h5", "r+") as file:
+            with archive_to_change(folder) as file:
                 file.attrs["study"] = '[modes]\ncount = 40\n[[contacts]]\nname = "tsp1"\ngap = 2e-4\n[[contacts]]\nname = "tsp2"\ngap = 3e-4\n'
-        file = self.folders[1] / "summary.json"
-        summary = json.loads(file.read_text())
-        summary["overrides"] = [{"key": "contacts.tsp2.gap", "value": 5e-4}]
-        summary["modes"]["frequencies_hz"][0] *= 1.01
-        for contact, factor in zip(summary["contacts"], (1.0, 1.001, 2.0)):
-            contact["work_rate"] *= factor
-        file.write_text(json.dumps(summary))
+
+        def change(summary):
+            summary["overrides"] = [{"key": "contacts.tsp2.gap", "value": 5e-4}]
+            summary["modes"]["frequencies_hz"][0] *= 1.01
+            for contact, factor in zip(summary["contacts"], (1.0, 1.001, 2.0)):
+                contact["work_rate"] *= factor
+
+        change_summary(self.folders[1], change)
 
     def table(self, title):
         _, found = compare_data.tables(self.folders)

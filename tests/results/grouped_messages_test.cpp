@@ -21,6 +21,12 @@ TEST(GroupedMessages, NameTheFirstAndTheLastOfMany) {
   EXPECT_THAT(grouped_messages(messages), ElementsAre("contact \"h1\" ... \"h12\" (12) starts in contact"));
 }
 
+TEST(GroupedMessages, OfTwoStandByThemselves) {
+  const std::vector<std::string> messages{"stability \"a\": margin 0.4 in mode 1",
+                                          "stability \"b\": margin 0.1 in mode 2"};
+  EXPECT_EQ(grouped_messages(messages), messages);
+}
+
 TEST(GroupedMessages, KeepWhatDiffersInWords) {
   const std::vector<std::string> messages{"contact \"a\" opens", "contact \"a\" closes", "contact a opens",
                                           "3 contacts", "three contacts"};

@@ -32,7 +32,7 @@ struct Measured {
 };
 
 Measured measured(const Scene& scene, StepChoice choice) {
-  post::ContactStatistics contacts(scene.contacts.size(), 0.0);
+  post::ContactStatistics contacts(scene.contacts, 0.0);
   Observer* const observers[] = {&contacts};
   Run run(scene, choice, observers, nullptr, {});
   run.advance(std::numeric_limits<std::int64_t>::max());
@@ -162,12 +162,12 @@ TEST(Replays, RefineNoContactThatIsRightAsItIs) {
 TEST(Replays, GoOnAfterARestartBitForBit) {
   const Scene scene = mostly_sticking(60.0);
   const StepChoice choice = choice_of(scene, 1, 0.01);
-  post::ContactStatistics all(1, 0.0);
+  post::ContactStatistics all(scene.contacts, 0.0);
   Observer* const of_all[] = {&all};
   transient::Run whole(scene, choice, of_all, nullptr, {});
   whole.advance(std::numeric_limits<std::int64_t>::max());
   for (const std::int64_t records : {50, 1500, 7777}) { // within a replay, between two
-    post::ContactStatistics first(1, 0.0), rest(1, 0.0);
+    post::ContactStatistics first(scene.contacts, 0.0), rest(scene.contacts, 0.0);
     Observer *const of_first[] = {&first}, *const of_rest[] = {&rest};
     transient::Run left(scene, choice, of_first, nullptr, {});
     left.advance(records);
