@@ -134,11 +134,11 @@ ChildResult run_child(const std::vector<std::string>& arguments, const ChildLimi
   ChildResult result;
   if (failure == 0)
     result.stopped = read_all(ends[0], limits, result.output);
+  if (child > 0 && !result.stopped.empty()) // before its pipe is closed, which would end it by SIGPIPE
+    (void)kill(limits.seconds > 0.0 ? -child : child, SIGKILL);
   (void)close(ends[0]);
   if (child < 0)
     return {not_started, arguments[0] + ": " + std::strerror(failure)};
-  if (!result.stopped.empty())
-    (void)kill(limits.seconds > 0.0 ? -child : child, SIGKILL);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
