@@ -182,6 +182,8 @@ double ContactStep::pause(const ContactPath& m) const {
     return 0.0;
   const double leaves = std::max(-m.at.gap / out, shortest_way_out * intervals_.usual().length);
   const double pressed = pressing > 0.0 ? 2.0 * falls / (normal_.stiffness * pressing) : leaves;
+  if (pressed < shortest_way_out * intervals_.usual().length)
+    return 0.0;
   return std::min({h_ - m.t, intervals_.usual().length, leaves, pressed});
 }
 
@@ -208,7 +210,7 @@ void ContactStep::make(const ContactPast& past, const FreePath& path, const Comp
         open(m, act);
       if (!find_touch(m, act))
         break;
-    } else if (const double time = act.past.closed ? 0.0 : pause(m); time > 0.0) {
+    } else if (const double time = act.past.closed || events >= most_events ? 0.0 : pause(m); time > 0.0) {
       leave(m, time, act);
       continue;
     }
