@@ -159,11 +159,14 @@ private:
     out_.slid += t.length * (v0 + 2.0 * twice + v1) / 6.0;
     out_.rubbed += t.length * (normal_ * v0 + (normal_ + n1) * twice + n1 * v1) / 6.0;
     out_.sliding_time += t.length;
-    // the force and the slider's speed are linear: the product of their means and a twelfth of that of their changes
+    // The force is linear in time. The slider's speed is linear but for what is left of |T| - mu_d N at the start, which decays as e^-r: to the
+    // product of their means, by how much the motion of the slider lies before the middle of the piece.
+    const double mu = law_.mu_dynamic, growth = mu * (n1 - normal_);
+    const double before_middle = t.relaxed * (t.share - 0.5) / law_.stiffness;
     out_.slider_work -= dot(p.force, V(p.by + (1.0 / law_.stiffness) * (p.spring - out_.spring)));
-    if (law_.damping > 0.0)
-      out_.slider_work += t.length / 12.0 * law_.mu_dynamic * (n1 - normal_) *
-                          (slider_speed(p.along, p.spring, p.velocity, n1) - slider_speed(before));
+    out_.slider_work -= growth * (t.length / 12.0 * (dot(p.velocity, p.along) - dot(out_.velocity, before)) +
+                                  before_middle * (law_.damping / (law_.stiffness * t.length) * growth +
+                                                   dot(out_.spring, before) - mu * normal_));
     pass(t, p);
   }
 

@@ -151,6 +151,31 @@ TEST(FrictionInterval, StopsToSlideInsideTheInterval) {
   EXPECT_FALSE(f.sliding);
 }
 
+TEST(FrictionInterval, WorksAsMuchInOneIntervalAsInMany) {
+  // a slide that begins above the dynamic bound, under a falling normal force: the spring drops while that is still large
+  constexpr double dt = 1.0, v = 0.4, normal0 = 2.0, normal1 = 0.2, begin = -1.6;
+  constexpr int many = 64;
+  for (const double damping : {0.0, 1e-3, 0.3, 3.0, 100.0}) {
+    const FrictionLaw slipping{2.0, damping, 0.8, 0.5};
+    double spring = begin, work = 0.0, slid = 0.0;
+    for (int i = 0; i < many; ++i) {
+      const double n0 = normal0 + (normal1 - normal0) * i / many,
+                   n1 = normal0 + (normal1 - normal0) * (i + 1) / many;
+      const auto f = friction_over_interval(slipping, piece_table(slipping, 0.0, dt / many), 0.0, spring,
+                                            true, dt / many, n0, n1, driven<double, double>(v));
+      EXPECT_TRUE(f.sliding);
+      spring = f.spring;
+      work += f.slider_work;
+      slid += f.slid;
+    }
+    const auto one = friction_over_interval(slipping, piece_table(slipping, 0.0, dt), 0.0, begin, true, dt,
+                                            normal0, normal1, driven<double, double>(v));
+    EXPECT_NEAR(one.spring, spring, round_off) << damping;
+    EXPECT_NEAR(one.slid, slid, round_off) << damping;
+    EXPECT_NEAR(one.slider_work, work, round_off) << damping;
+  }
+}
+
 TEST(FrictionInterval, RestsUnderItsForce) {
   for (const double damping : {0.0, 0.3, 100.0}) {
     const FrictionLaw damped{2.0, damping, 0.5, 0.5};
