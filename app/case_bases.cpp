@@ -5,6 +5,7 @@
 #include "app/static_modes.hpp"
 #include "core/temporary_directory.hpp"
 #include "results/whole_file.hpp"
+#include "study/document.hpp"
 #include "study/time_functions.hpp"
 #include <algorithm>
 #include <array>
@@ -13,22 +14,26 @@
 namespace fretwork::app {
 namespace {
 
+/// The address of an override.
+std::vector<std::string> address_of(const std::string& override_text) {
+  return study::address_parts(override_text.substr(0, override_text.find('=')));
+}
+
 /// True where what an override changes enters a case behind the structure.
 bool is_of_case(const study::Study& study, const std::string& override_text) {
   constexpr std::array tables{"contacts", "contact_defaults", "output",  "wear",
                               "title",    "stability",        "response"};
-  const std::string key = override_text.substr(0, override_text.find('='));
-  const std::string table = key.substr(0, key.find('.')), last = key.substr(key.rfind('.') + 1);
+  constexpr std::size_t of_entry = 2; // table, entry, key
+  const std::vector<std::string> address = address_of(override_text);
+  const std::string table = address.front(), key = address.size() > of_entry ? address[of_entry] : "";
   if (std::find(tables.begin(), tables.end(), table) != tables.end())
     return true;
   if (table == "transient") // motions of supports without drift depend on the duration
     return study.support_motions.empty();
   if (table == "turbulence")
-    return last == "seed";
-  return table == "loads" && std::any_of(study::time_function_keys.begin(), study::time_function_keys.end(),
-                                         [&](const std::string& function) {
-                                           return (key + ".").find("." + function + ".") != std::string::npos;
-                                         });
+    return key == "seed";
+  const auto& functions = study::time_function_keys;
+  return table == "loads" && std::find(functions.begin(), functions.end(), key) != functions.end();
 }
 
 std::string key_of_structure(const study::Study& study, const std::vector<std::string>& overrides) {
@@ -76,9 +81,10 @@ std::string key_of_contacts(const study::Study& study, const std::vector<PlacedC
   return key;
 }
 
-mesh::LineMesh mesh_of(const Inputs& nominal, const study::Study& study) {
+/// Of a case whose mesh is not that of the study.
+mesh::LineMesh own_mesh(const study::Study& study) {
   mesh::Source source = study.mesh;
-  if (nominal.mesh_file == nominal.study.mesh.file && mesh::is_msh(source.file))
+  if (mesh::is_msh(source.file))
     return mesh::read(source);
   const core::TemporaryDirectory folder;
   source.file = folder.path() / "mesh.msh";
@@ -90,7 +96,7 @@ mesh::LineMesh mesh_of(const Inputs& nominal, const study::Study& study) {
 CaseStructure make_structure(const Inputs& nominal, const study::Study& study, bool same_mesh) {
   CaseStructure out;
   std::vector<std::string> notes;
-  out.mesh = same_mesh ? mesh_stage(MPI_COMM_SELF, nominal) : mesh_of(nominal, study);
+  out.mesh = same_mesh ? mesh_stage(MPI_COMM_SELF, nominal) : own_mesh(study);
   out.dry = out.model = build_model(study, out.mesh);
   out.flows = place_flows(study, out.mesh, out.model, notes);
   out.turbulence = turbulent_loads(study, out.model, out.flows, notes);
@@ -128,7 +134,7 @@ CaseContacts make_contacts(const study::Study& study, const CaseStructure& struc
 
 bool changes_mesh(const std::vector<std::string>& overrides) {
   return std::any_of(overrides.begin(), overrides.end(),
-                     [](const std::string& text) { return text.starts_with("mesh."); });
+                     [](const std::string& text) { return address_of(text).front() == "mesh"; });
 }
 
 } // namespace

@@ -9,21 +9,6 @@ namespace {
 
 bool is_pattern(const std::string& part) { return part.find_first_of("*?") != std::string::npos; }
 
-/// Parts of an address; a part between double quotes keeps its dots.
-std::vector<std::string> parts_of(const std::string& address) {
-  std::vector<std::string> parts(1);
-  bool quoted = false;
-  for (const char c : address) {
-    if (c == '"')
-      quoted = !quoted;
-    else if (c == '.' && !quoted)
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  }
-  return parts;
-}
-
 /// `name`, else `group` of an entry; empty: neither.
 std::string name_of(const Value& entry) {
   for (const char* key : {"name", "group"})
@@ -77,8 +62,9 @@ void match(const Value* value, const std::vector<std::string>& parts, std::size_
 
 std::vector<std::string> matching_keys(const Value& root, const Value& pattern, const std::string& path) {
   const std::string text = to_text(pattern, path);
-  const std::vector<std::string> parts = parts_of(text);
-  if (std::any_of(parts.begin(), parts.end(), [](const std::string& part) { return part.empty(); }) ||
+  const std::vector<std::string> parts = address_parts(text);
+  if (parts.empty() ||
+      std::any_of(parts.begin(), parts.end(), [](const std::string& part) { return part.empty(); }) ||
       text.find('=') != std::string::npos)
     fail(pattern, path, "the address of a key is expected, as of --set: contacts.tsp1.gap");
   if (parts.front() == "sweep")

@@ -2,6 +2,7 @@
 // fretwork sweep from end to end.
 #include "program.hpp"
 #include <map>
+#include <set>
 #include <sstream>
 
 namespace fretwork::app::test {
@@ -116,6 +117,38 @@ uniform = { from = 0.1, to = 0.5 }
   }
   EXPECT_EQ(largest, worst);
   EXPECT_GT(worst, 0.0);
+}
+
+TEST_F(Sweeps, CasesOfOtherStructuresLoadsAndMeshesAreRunsToo) {
+  const std::string text = sweep_of("straight_tube", R"(
+design = "grid"
+keep = "worst 8"
+[[sweep.variables]]
+name = "thickness"
+key = "sections.tube.thickness"
+values = [1.0e-3, 1.2e-3]
+[[sweep.variables]]
+name = "amplitude"
+key = "loads.0.harmonic.amplitude"
+values = [20.0, 30.0]
+[[sweep.variables]]
+name = "scale"
+key = "mesh.scale"
+values = [1.0, 1.05]
+)");
+  ASSERT_EQ(sweep(text, "out", short_tube, 2).status, 0);
+  const auto rows = table_of(folder.path("out"));
+  ASSERT_EQ(rows.size(), 8u);
+  std::set<std::string> different;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Results run = read_results(folder.path("out/runs/case_" + std::to_string(i)));
+    for (const auto& contact : run.summary["contacts"])
+      EXPECT_EQ(contact["work_rate"].get<double>(),
+                std::stod(rows[i].at(contact["name"].get<std::string>() + ".work_rate")))
+          << i;
+    different.insert(rows[i].at("total.work_rate"));
+  }
+  EXPECT_EQ(different.size(), 8u); // what was kept in memory was that of the case
 }
 
 TEST_F(Sweeps, TurbulenceOfASeedAndAMissingSupportAreThoseOfARun) {

@@ -69,6 +69,12 @@ class Report(unittest.TestCase):
         for case in kept:
             self.assertTrue((self.directory / f"runs/case_{case}/report.html").exists())
 
+    def test_the_report_command_writes_it_again(self):
+        self.report_of("draws = 5\n")
+        (self.directory / "report.html").unlink()
+        subprocess.run([FRETWORK, "report", str(self.directory)], check=True, capture_output=True, timeout=60)
+        self.assertEqual((self.directory / "report.html").read_text(), self.page)
+
     def test_few_cases_have_no_interval(self):
         self.report_of("draws = 3\n")
         self.assertIn("give no interval", self.page)
