@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/case_run.hpp"
 #include "app/checkpoints.hpp"
+#include "app/expected_time.hpp"
 #include "app/job.hpp"
 #include "app/jobs.hpp"
 #include "app/judge_run.hpp"
@@ -94,8 +95,12 @@ void run_scene(const study::Study& study, const BuiltScene& built, const transie
     observers.push_back(&classes);
   transient::Run run(built.scene, choice, observers, nullptr,
                      transient::output_grid(study.transient->duration, output_interval(study)));
-  while (run.advance(Checkpoints::records_between_looks))
+  const TimeLimit limit{study.transient->duration, study.transient->max_hours, [](const std::string&) {}};
+  ExpectedTime expected(limit, 0.0);
+  while (run.advance(Checkpoints::records_between_looks)) {
+    expected.look(run.time());
     between();
+  }
   const transient::Report report = run.finish();
   judge_run(study, built, choice, report, out);
   out.transients.push_back({choice, report});
