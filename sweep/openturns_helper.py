@@ -141,7 +141,7 @@ def rank_correlation(x, y, confidence):
 
 def sobol_indices(inputs, outputs, count, names, confidence):
     """First-order and total indices by Martinez's estimator with its asymptotic intervals; None where a case is missing or nothing varies."""
-    if not np.isfinite(outputs).all() or np.ptp(outputs) == 0.0:
+    if not names or len(outputs) != count * (len(names) + 2) or not np.isfinite(outputs).all() or np.ptp(outputs) == 0.0:
         return None
     algorithm = ot.MartinezSensitivityAlgorithm(ot.Sample(inputs), ot.Sample(outputs.reshape(-1, 1)), count)
     algorithm.setUseAsymptoticDistribution(True)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // fretwork sweep from end to end.
 #include "program.hpp"
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <sstream>
@@ -199,6 +201,30 @@ TEST_F(Sweeps, GatheringSaysWhatIsMissing) {
   const Outcome outcome = sweep(stops, "part", {"--gather"});
   EXPECT_TRUE(says(outcome.out, "6 missing"));
   EXPECT_EQ(table_of(folder.path("part")).size(), 6u);
+}
+
+TEST_F(Sweeps, SobolIndicesNeedEveryCase) {
+  const std::string text = sweep_of("oscillator", R"(
+design = "saltelli"
+draws = 30
+[[sweep.variables]]
+name = "speed"
+key = "initial.0.velocity.0"
+uniform = { from = 0.5, to = 1.5 }
+[[sweep.variables]]
+name = "gap"
+key = "contacts.stop.gap"
+uniform = { from = 0.0, to = 1.0e-3 }
+)");
+  ASSERT_EQ(sweep(text, "out", {"--shard", "1/2"}).status, 0);
+  ASSERT_EQ(sweep(text, "out", {"--gather"}).status, 0);
+  const auto sensitivities = [&] {
+    return nlohmann::json::parse(bytes_of(folder.path("out/summary.json")))["statistics"]["sensitivities"];
+  };
+  EXPECT_TRUE(sensitivities().empty());
+  ASSERT_EQ(sweep(text, "out").status, 0);
+  EXPECT_EQ(table_of(folder.path("out")).size(), 120u);
+  EXPECT_GT(sensitivities()["stop.normal_max"]["speed"]["value"], 0.9);
 }
 
 TEST_F(Sweeps, AChangedStudyKeepsNoRow) {

@@ -2,6 +2,9 @@
 // Designs by OpenTURNS: laws, strata, correlation, seeds, blocks that do not depend on those after them.
 #include "core/error.hpp"
 #include "sweep/design.hpp"
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <numeric>
 #include <set>

@@ -25,8 +25,9 @@ TEST(Row, ReadsBackBitForBit) {
   EXPECT_EQ(read->identity, "0123456789abcdef");
   ASSERT_EQ(read->values.size(), example().values.size());
   for (std::size_t i = 0; i < read->values.size(); ++i)
-    if (!std::isnan(example().values[i]))
+    if (!std::isnan(example().values[i])) {
       EXPECT_EQ(read->values[i], example().values[i]) << i;
+    }
   EXPECT_TRUE(std::isnan(read->values[4]));
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <numeric>
+#include <random>
 #include <set>
 
 namespace fretwork::sweep {

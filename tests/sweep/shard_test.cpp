@@ -5,6 +5,7 @@
 #include "sweep/shard.hpp"
 #include <fstream>
 #include <gtest/gtest.h>
+#include <string>
 
 namespace fretwork::sweep {
 namespace {
