@@ -70,8 +70,9 @@ void add_study_options(CLI::App& command, app::Request& request) {
 
 void add_run_options(CLI::App& command, app::Request& request) {
   add_study_options(command, request);
-  command.add_option("-o,--output", request.directory,
-                     "folder of the results (default: the study's name with .results, beside it)");
+  command.add_option(
+      "-o,--output", request.directory,
+      "folder of the results (default: the study's name with .results, of a sweep .sweep, beside it)");
   command.add_flag("--force", request.force, "compute every stage again, also where nothing has changed");
   command.add_flag("-q,--quiet", request.quiet, "nothing on the terminal but errors");
 }
