@@ -24,7 +24,6 @@ struct Fields {
         false; ///< by the curve through a table of its displacement, whose acceleration may jump at the rows
   };
   std::vector<Load> loads;
-  std::vector<TurbulentLoad> turbulence; ///< set apart: of the placed flows
   std::vector<std::string> warnings;
   std::vector<Eigen::VectorXd> supports; ///< shapes of the study's support motions (support_motion.hpp)
   bool moves_at_start = false;

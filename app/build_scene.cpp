@@ -282,7 +282,8 @@ std::vector<std::vector<std::size_t>> joined_structures(const std::vector<modal:
   return groups;
 }
 
-BuiltScene build_scene(const study::Study& study, const Fields& fields, const std::vector<modal::Basis>& all,
+BuiltScene build_scene(const study::Study& study, const Fields& fields,
+                       std::vector<transient::SampledLoad> turbulence, const std::vector<modal::Basis>& all,
                        const std::vector<std::size_t>& structures, const std::vector<PlacedContact>& contacts,
                        const ContactFlexibility& flexibility, const std::vector<NamedNode>& nodes) {
   BuiltScene out;
@@ -300,9 +301,7 @@ BuiltScene build_scene(const study::Study& study, const Fields& fields, const st
       append(force, basis->shapes.transpose() * restricted(*basis, load.force));
     scene.loads.push_back({load.function, force, load.inertial});
   }
-  for (const TurbulentLoad& load : fields.turbulence)
-    if (auto sampled = sampled_load(load, bases, out.notes))
-      scene.sampled_loads.push_back(std::move(*sampled));
+  scene.sampled_loads = std::move(turbulence);
   scene.q0 = scene.v0 = Eigen::VectorXd::Zero(scene.system.size());
   if (fields.moves_at_start) {
     scene.q0 = project(bases, fields.displacement_momentum, fields.displacement, "displacement", out);

@@ -43,10 +43,12 @@ struct NamedNode {
 [[nodiscard]] std::vector<std::vector<std::size_t>>
 joined_structures(const std::vector<modal::Basis>& bases, const std::vector<PlacedContact>& contacts);
 
+/// @param turbulence   on its modes (sampled_loads)
 /// @param flexibility  of its contacts
 [[nodiscard]] BuiltScene
-build_scene(const study::Study& study, const Fields& fields, const std::vector<modal::Basis>& bases,
-            const std::vector<std::size_t>& structures, const std::vector<PlacedContact>& contacts,
-            const ContactFlexibility& flexibility, const std::vector<NamedNode>& nodes);
+build_scene(const study::Study& study, const Fields& fields, std::vector<transient::SampledLoad> turbulence,
+            const std::vector<modal::Basis>& bases, const std::vector<std::size_t>& structures,
+            const std::vector<PlacedContact>& contacts, const ContactFlexibility& flexibility,
+            const std::vector<NamedNode>& nodes);
 
 } // namespace fretwork::app

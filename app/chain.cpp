@@ -129,6 +129,7 @@ results::ContactFacts facts_of(const study::Contact& contact, const PlacedContac
 /// What scenes are built from besides the modes.
 struct AtContacts {
   Fields fields;
+  std::vector<TurbulentLoad> turbulence;
   std::vector<std::vector<std::size_t>> joined;  ///< structures of each scene
   std::vector<ContactFlexibility> flexibilities; ///< of each scene
 };
@@ -155,12 +156,13 @@ std::vector<BuiltScene> build_scenes(const study::Study& study, const std::vecto
                                      const std::vector<PlacedContact>& placed,
                                      const std::vector<NamedNode>& nodes, const AtContacts& at_contacts,
                                      results::RunResults& out) {
-  const auto& [fields, joined, flexibilities] = at_contacts;
+  const auto& [fields, turbulence, joined, flexibilities] = at_contacts;
   std::vector<BuiltScene> scenes;
   out.contacts.resize(placed.size());
   for (std::size_t i = 0; i < joined.size(); ++i) {
     const ContactFlexibility& flexibility = flexibilities[i];
-    scenes.push_back(build_scene(study, fields, bases, joined[i], placed, flexibility, nodes));
+    scenes.push_back(build_scene(study, fields, sampled_loads(turbulence, bases, joined[i], out.notes), bases,
+                                 joined[i], placed, flexibility, nodes));
     const BuiltScene& scene = scenes.back();
     for (std::size_t k = 0; k < scene.contacts.size(); ++k) {
       const std::size_t c = scene.contacts[k];
@@ -233,14 +235,6 @@ bool up_to_date(const Inputs& inputs, const std::function<void(const std::string
     tell(fmt::format("{} is not as it was written ({}): the results are computed again", archive.string(),
                      refusal));
   return refusal.empty();
-}
-
-void make_directory(const fs::path& directory) {
-  std::error_code failure;
-  fs::create_directories(directory, failure);
-  if (failure)
-    throw core::Error(fmt::format("the results folder \"{}\" cannot be made ({}); give another with -o",
-                                  directory.string(), failure.message()));
 }
 
 /// Share of a frequency that the mesh may add before the user is told.
@@ -460,7 +454,7 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
       core::agree(comm, [&] {
         at_contacts.fields =
             build_fields(inputs.study, mesh, model, support_fields(moved, model, modes.structures));
-        at_contacts.fields.turbulence = turbulence;
+        at_contacts.turbulence = turbulence;
         at_contacts.joined = joined_structures(out.bases, placed);
       });
       at_contacts.flexibilities =

@@ -136,27 +136,6 @@ transient::StepOptions step_options(const study::Transient& transient) {
   return options;
 }
 
-/// Collective: the step of every scene.
-std::vector<transient::StepChoice> choose_steps(MPI_Comm comm, const study::Study& study,
-                                                const std::vector<BuiltScene>& scenes) {
-  const transient::StepOptions options = step_options(*study.transient);
-  std::vector<transient::StepChoice> choices;
-  core::agree(comm, [&] {
-    for (const BuiltScene& built : scenes)
-      choices.push_back(transient::choose_step(built.scene, options));
-  });
-  core::agree(comm, [&] {
-    for (const auto& choice : choices)
-      if (study.output.statistics_from > study.transient->duration - 2.0 * choice.step)
-        throw core::Error(fmt::format(
-            "output.statistics_from = {} s leaves less than two steps of {:.3g} s before the end at {} s; "
-            "start the statistics earlier",
-            study.output.statistics_from, choice.step, study.transient->duration));
-  });
-  core::agree(comm, [&] { check_size_of_impacts(study, scenes, choices); });
-  return choices;
-}
-
 /// The rank of every scene: a step costs as much as it has modes.
 std::vector<int> owners(const std::vector<BuiltScene>& scenes,
                         const std::vector<transient::StepChoice>& choices, int ranks) {
@@ -239,6 +218,26 @@ void make_room(const study::Study& study, std::size_t contacts, std::size_t node
 }
 
 } // namespace
+
+std::vector<transient::StepChoice> choose_steps(MPI_Comm comm, const study::Study& study,
+                                                const std::vector<BuiltScene>& scenes) {
+  const transient::StepOptions options = step_options(*study.transient);
+  std::vector<transient::StepChoice> choices;
+  core::agree(comm, [&] {
+    for (const BuiltScene& built : scenes)
+      choices.push_back(transient::choose_step(built.scene, options));
+  });
+  core::agree(comm, [&] {
+    for (const auto& choice : choices)
+      if (study.output.statistics_from > study.transient->duration - 2.0 * choice.step)
+        throw core::Error(fmt::format(
+            "output.statistics_from = {} s leaves less than two steps of {:.3g} s before the end at {} s; "
+            "start the statistics earlier",
+            study.output.statistics_from, choice.step, study.transient->duration));
+  });
+  core::agree(comm, [&] { check_size_of_impacts(study, scenes, choices); });
+  return choices;
+}
 
 Forecast check_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltScene>& scenes) {
   check_size_of_series(study, scenes);

@@ -10,6 +10,11 @@
 
 namespace fretwork::app {
 
+/// Collective: the step of every scene.
+/// @throws core::Error where there would be absurdly many, or hardly any in the window of statistics
+[[nodiscard]] std::vector<transient::StepChoice> choose_steps(MPI_Comm comm, const study::Study& study,
+                                                              const std::vector<BuiltScene>& scenes);
+
 /// Collective. Runs every scene and fills contact_summaries, node_summaries, transients and series of `out`,
 /// complete on rank 0. Each goes on from its checkpoint, if there is one.
 /// @throws core::Error where the series would not fit in memory, core::ComputationError where a run diverged

@@ -3,6 +3,7 @@
 /// The executable: command line, exit status. The only catch of the program is here.
 #include "app/chain.hpp"
 #include "app/python_report.hpp"
+#include "app/sweep.hpp"
 #include "core/error.hpp"
 #include "core/mpi.hpp"
 #include "core/names.hpp"
@@ -69,8 +70,9 @@ void add_study_options(CLI::App& command, app::Request& request) {
 
 void add_run_options(CLI::App& command, app::Request& request) {
   add_study_options(command, request);
-  command.add_option("-o,--output", request.directory,
-                     "folder of the results (default: the study's name with .results, beside it)");
+  command.add_option(
+      "-o,--output", request.directory,
+      "folder of the results (default: the study's name with .results, of a sweep .sweep, beside it)");
   command.add_flag("--force", request.force, "compute every stage again, also where nothing has changed");
   command.add_flag("-q,--quiet", request.quiet, "nothing on the terminal but errors");
 }
@@ -115,6 +117,14 @@ int main(int argc, char** argv) {
                                       "long it would be, what it would write");
   add_study_options(*check, request);
   std::filesystem::path directory;
+  CLI::App* sweep = program.add_subcommand(
+      "sweep", "the cases of [sweep]: draws of what is uncertain, their table, quantiles and sensitivities");
+  add_run_options(*sweep, request);
+  sweep->add_flag("--no-report", no_report, "do not write report.html");
+  std::string shard;
+  sweep->add_option("--shard", shard, "i/n: part i of n of the cases only, without table (job arrays)");
+  bool gather = false;
+  sweep->add_flag("--gather", gather, "no case: the table of what the shards have");
   CLI::App* report =
       program.add_subcommand("report", "report.html with its pictures, from the results in a folder");
   report->add_option("directory", directory, "folder of the results")->required();
@@ -153,10 +163,9 @@ int main(int argc, char** argv) {
     return program.exit(error) == 0 ? 0 : input_is_wrong;
   }
   if (program.get_subcommands().empty()) {
-    fmt::print(
-        stderr,
-        "fretwork: a command is missing; give one of run, mesh, modes, stability, response, transient, "
-        "check, report, export, compare (--help explains them)\n");
+    fmt::print(stderr,
+               "fretwork: a command is missing; give one of run, sweep, mesh, modes, stability, response, "
+               "transient, check, report, export, compare (--help explains them)\n");
     return input_is_wrong;
   }
   request.report = !no_report;
@@ -164,7 +173,10 @@ int main(int argc, char** argv) {
     return 0; // one process writes the files
   if (report->parsed())
     return guarded([&] {
-      app::write_report(directory);
+      if (std::filesystem::exists(directory / "table.h5"))
+        app::write_sweep_report(directory);
+      else
+        app::write_report(directory);
       fmt::print("written: {}\n", (directory / "report.html").string());
     });
   if (compare->parsed())
@@ -175,6 +187,11 @@ int main(int argc, char** argv) {
   const core::MpiSession mpi(argc, argv);
   if (check->parsed())
     return speaks() ? guarded([&] { app::check(request); }) : 0;
+  if (sweep->parsed())
+    return guarded([&] {
+      const auto part = shard.empty() ? std::nullopt : std::optional(sweep::shard_of(shard));
+      app::run_sweep(MPI_COMM_WORLD, {request, part, gather});
+    });
   request.report = request.report && run->parsed();
   const app::Stage last = mesh->parsed()        ? app::Stage::mesh
                           : modes->parsed()     ? app::Stage::modes

@@ -42,15 +42,34 @@ void Progress::stage(const std::string& name) {
   std::fflush(stderr);
 }
 
-void Progress::update(double share, double time) {
+bool Progress::is_due(double share, std::optional<double>& left) {
   const auto now = Clock::now();
   if (!shown_ || !(share > 0.0))
-    return;
-  const std::optional<double> left = pace_.left(share, std::chrono::duration<double>(now - begin_).count());
+    return false;
+  left = pace_.left(share, std::chrono::duration<double>(now - begin_).count());
   if (now - last_ < between_updates)
-    return;
+    return false;
   last_ = now;
   clear();
+  return true;
+}
+
+void Progress::update_cases(std::int64_t ended, std::int64_t all, std::int64_t failed) {
+  std::optional<double> left;
+  if (!is_due(static_cast<double>(ended) / static_cast<double>(all), left))
+    return;
+  fmt::print(stderr, "{} {} of {}", stage_, ended, all);
+  if (failed > 0)
+    fmt::print(stderr, ", {} without a result", failed);
+  if (left)
+    fmt::print(stderr, "   {:.0f} s left", *left);
+  std::fflush(stderr);
+}
+
+void Progress::update(double share, double time) {
+  std::optional<double> left;
+  if (!is_due(share, left))
+    return;
   fmt::print(stderr, "{} {:5.1f} %   t = {:.4g} s", stage_, 100.0 * share, time);
   if (left)
     fmt::print(stderr, "   {:.0f} s left", *left);

@@ -4,6 +4,7 @@
 /// where stderr is not a terminal.
 #pragma once
 #include <chrono>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -32,9 +33,13 @@ public:
   void stage(const std::string& name);
   /// @param share  done, 0 to 1   @param time  simulated, s
   void update(double share, double time);
+  /// Of a sweep: cases that have ended, of so many, and how many of them without a result.
+  void update_cases(std::int64_t ended, std::int64_t all, std::int64_t failed);
 
 private:
   using Clock = std::chrono::steady_clock;
+  /// Whether a line is due at a share of the work; the seconds left.
+  bool is_due(double share, std::optional<double>& left);
   void clear() const;
   bool shown_;
   std::string stage_;

@@ -56,6 +56,13 @@ void write_report(const fs::path& directory) {
     throw core::Error("the report could not be written: " + result.output);
 }
 
+void write_sweep_report(const fs::path& directory) {
+  const core::ChildResult result = core::run_child(
+      {find_python(), "-I", find_script("fretwork_sweep_report.py").string(), directory.string()});
+  if (result.status != 0)
+    throw core::Error("the report could not be written: " + result.output);
+}
+
 std::string compare_results(const std::vector<fs::path>& directories, const std::string& page) {
   std::vector<std::string> arguments{find_python(), find_script("fretwork_compare.py").string()};
   for (const fs::path& directory : directories)

@@ -19,4 +19,8 @@ void write_report(const std::filesystem::path& directory);
 [[nodiscard]] std::string compare_results(const std::vector<std::filesystem::path>& directories,
                                           const std::string& page);
 
+/// Writes DIR/report.html of a sweep from DIR/summary.json and DIR/table.h5.
+/// @throws core::Error as write_report
+void write_sweep_report(const std::filesystem::path& directory);
+
 } // namespace fretwork::app

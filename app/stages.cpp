@@ -63,6 +63,14 @@ Inputs read_inputs(const Request& request) {
   return in;
 }
 
+void make_directory(const fs::path& directory) {
+  std::error_code failure;
+  fs::create_directories(directory, failure);
+  if (failure)
+    throw core::Error(fmt::format("the results folder \"{}\" cannot be made ({}); give another with -o",
+                                  directory.string(), failure.message()));
+}
+
 void make_mesh_file(MPI_Comm comm, Inputs& inputs) {
   const fs::path source = inputs.study.mesh.file;
   if (mesh::is_msh(source))
@@ -137,6 +145,20 @@ namespace {
 
 } // namespace
 
+std::vector<modal::Basis> compute_modes(MPI_Comm comm, const study::Modes& modes, const fem::Model& model,
+                                        const std::vector<fem::Structure>& structures) {
+  std::vector<modal::Basis> bases =
+      modal::solve_structures(comm, model, structures, {modes.count, modes.up_to_hz}, modes.distributed);
+  core::agree(comm, [&] {
+    for (std::size_t s = 0; s < bases.size(); ++s) {
+      modal::apply_damping(bases[s], modes.damping);
+      if (bases[s].size() == 0)
+        refuse_without_modes(modes, model, structures[s]);
+    }
+  });
+  return bases;
+}
+
 ModesStage modes_stage(MPI_Comm comm, const Inputs& inputs, const fem::Model& model,
                        const results::RunRecord& record, bool force) {
   ModesStage out;
@@ -163,15 +185,8 @@ ModesStage modes_stage(MPI_Comm comm, const Inputs& inputs, const fem::Model& mo
     return out;
   }
   out.computed = true;
-  const study::Modes& modes = inputs.study.modes;
-  out.bases =
-      modal::solve_structures(comm, model, out.structures, {modes.count, modes.up_to_hz}, modes.distributed);
+  out.bases = compute_modes(comm, inputs.study.modes, model, out.structures);
   core::agree(comm, [&] {
-    for (std::size_t s = 0; s < out.bases.size(); ++s) {
-      modal::apply_damping(out.bases[s], modes.damping);
-      if (out.bases[s].size() == 0)
-        refuse_without_modes(modes, model, out.structures[s]);
-    }
     if (core::rank(comm) == 0)
       results::write_bases(file, record, out.bases, key);
   });

@@ -34,6 +34,9 @@ struct Inputs {
 /// @throws core::Error if the study, its mesh file or a table cannot be read
 [[nodiscard]] Inputs read_inputs(const Request& request);
 
+/// @throws core::Error if it cannot be made
+void make_directory(const std::filesystem::path& directory);
+
 /// Collective. Rank 0 turns a geometry or a foreign format into DIR/mesh.msh: every time, because such files may include others (it takes
 /// a tenth of a second).
 void make_mesh_file(MPI_Comm comm, Inputs& inputs);
@@ -55,6 +58,12 @@ struct ModesStage {
   std::vector<std::string> warnings, notes;
   bool computed = false; ///< false: read from DIR/modes.h5
 };
+
+/// Collective. The modes of every structure, computed, with the damping that the study gives in ratios.
+/// @throws core::Error for a structure without a mode
+[[nodiscard]] std::vector<modal::Basis> compute_modes(MPI_Comm comm, const study::Modes& modes,
+                                                      const fem::Model& model,
+                                                      const std::vector<fem::Structure>& structures);
 
 /// Collective. The modes of every structure (modal/slepc_structures.hpp), their damping as the study says.
 [[nodiscard]] ModesStage modes_stage(MPI_Comm comm, const Inputs& inputs, const fem::Model& model,

@@ -25,19 +25,24 @@ private:
 /// Holds the shapes at the patches; blocks only while a run reads them.
 class DrawSource final : public transient::ForceSource {
 public:
-  DrawSource(std::vector<flow::TurbulentZone> zones, const flow::DrawOptions& options)
-      : zones_(std::move(zones)), options_(options) {}
+  using Zones = std::shared_ptr<const std::vector<flow::TurbulentZone>>;
+  DrawSource(Zones zones, const flow::DrawOptions& options) : zones_(std::move(zones)), options_(options) {}
+  [[nodiscard]] std::shared_ptr<const DrawSource> with_seed(std::uint32_t seed) const {
+    flow::DrawOptions options = options_;
+    options.seed = seed;
+    return std::make_shared<DrawSource>(zones_, options);
+  }
   [[nodiscard]] std::shared_ptr<transient::ForceSamples> open() const override {
     std::shared_ptr<transient::ForceSamples> samples = opened_.lock();
     if (!samples) {
-      samples = std::make_shared<DrawnForces>(flow::ForceDraw(zones_, {}, options_));
+      samples = std::make_shared<DrawnForces>(flow::ForceDraw(*zones_, {}, options_));
       opened_ = samples;
     }
     return samples;
   }
 
 private:
-  std::vector<flow::TurbulentZone> zones_;
+  Zones zones_;
   flow::DrawOptions options_;
   mutable std::weak_ptr<transient::ForceSamples> opened_;
 };
@@ -93,8 +98,28 @@ std::optional<transient::SampledLoad> sampled_load(const TurbulentLoad& load,
   out.scale = Eigen::VectorXd::Ones(modes);
   out.highest = load.band.high;
   out.ramp = load.ramp;
-  out.source = std::make_shared<DrawSource>(std::move(zones), load.draw);
+  out.source = std::make_shared<DrawSource>(
+      std::make_shared<const std::vector<flow::TurbulentZone>>(std::move(zones)), load.draw);
   return out;
+}
+
+std::vector<transient::SampledLoad> sampled_loads(const std::vector<TurbulentLoad>& loads,
+                                                  const std::vector<modal::Basis>& all,
+                                                  const std::vector<std::size_t>& structures,
+                                                  std::vector<std::string>& notes) {
+  std::vector<const modal::Basis*> bases;
+  for (const std::size_t s : structures)
+    bases.push_back(&all[s]);
+  std::vector<transient::SampledLoad> out;
+  for (const TurbulentLoad& load : loads)
+    if (auto sampled = sampled_load(load, bases, notes))
+      out.push_back(std::move(*sampled));
+  return out;
+}
+
+transient::SampledLoad with_seed(transient::SampledLoad load, std::uint32_t seed) {
+  load.source = std::static_pointer_cast<const DrawSource>(load.source)->with_seed(seed);
+  return load;
 }
 
 } // namespace fretwork::app

@@ -49,4 +49,15 @@ struct TurbulentLoad {
 sampled_load(const TurbulentLoad& load, const std::vector<const modal::Basis*>& bases,
              std::vector<std::string>& notes);
 
+/// The modal forces of all loads that act on a scene.
+/// @param all, structures  bases, and the numbers of those of the scene
+[[nodiscard]] std::vector<transient::SampledLoad> sampled_loads(const std::vector<TurbulentLoad>& loads,
+                                                                const std::vector<modal::Basis>& all,
+                                                                const std::vector<std::size_t>& structures,
+                                                                std::vector<std::string>& notes);
+
+/// The same forces with the random numbers of another seed; nothing is projected again.
+/// @param load  of sampled_load
+[[nodiscard]] transient::SampledLoad with_seed(transient::SampledLoad load, std::uint32_t seed);
+
 } // namespace fretwork::app

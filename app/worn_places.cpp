@@ -15,15 +15,6 @@ namespace {
 /// Local axes of the contacts of one support agree up to this, a small part of a sector (rad).
 constexpr double same_axes = 0.01;
 
-bool fits(std::string_view name, std::string_view pattern) {
-  if (pattern.empty())
-    return name.empty();
-  if (pattern.front() == '*')
-    return fits(name, pattern.substr(1)) || (!name.empty() && fits(name.substr(1), pattern));
-  return !name.empty() && (pattern.front() == '?' || pattern.front() == name.front()) &&
-         fits(name.substr(1), pattern.substr(1));
-}
-
 /// The contact without the number of its point along the thickness.
 std::string support_name(const study::Study& study, const PlacedContact& placed) {
   return study.contacts[placed.entry].points > 1 ? placed.name.substr(0, placed.name.rfind('@'))
@@ -44,6 +35,13 @@ Supports all_supports(const study::Study& study, const std::vector<PlacedContact
   return out;
 }
 
+/// Whether a pattern names a contact that does nothing, or points of it.
+bool fits_inactive(const study::Study& study, const std::string& pattern) {
+  return std::any_of(study.contacts.begin(), study.contacts.end(), [&](const study::Contact& contact) {
+    return !contact.active && (core::fits(contact.name, pattern) || pattern.starts_with(contact.name + "["));
+  });
+}
+
 /// The entry of every support, -1 for those that do not wear.
 std::vector<int> entries_of(const study::Study& study, const std::vector<PlacedContact>& placed,
                             const Supports& supports) {
@@ -55,10 +53,10 @@ std::vector<int> entries_of(const study::Study& study, const std::vector<PlacedC
   }
   for (std::size_t e = 0; e < study.wear.size(); ++e)
     for (const std::string& pattern : study.wear[e].contacts) {
-      bool found = false;
+      bool found = fits_inactive(study, pattern);
       for (std::size_t s = 0; s < supports.size(); ++s) {
         const std::string& contact = study.contacts[placed[supports[s].second.front()].entry].name;
-        if (!fits(supports[s].first, pattern) && !fits(contact, pattern))
+        if (!core::fits(supports[s].first, pattern) && !core::fits(contact, pattern))
           continue;
         found = true;
         if (entry_of[s] >= 0 && entry_of[s] != static_cast<int>(e))

@@ -66,4 +66,13 @@ std::string name_help(std::string_view name, const std::vector<std::string>& can
   return out + (out.empty() ? "; " : " ") + std::string(existing) + ": " + list_names(candidates);
 }
 
+bool fits(std::string_view name, std::string_view pattern) {
+  if (pattern.empty())
+    return name.empty();
+  if (pattern.front() == '*')
+    return fits(name, pattern.substr(1)) || (!name.empty() && fits(name.substr(1), pattern));
+  return !name.empty() && (pattern.front() == '?' || pattern.front() == name.front()) &&
+         fits(name.substr(1), pattern.substr(1));
+}
+
 } // namespace fretwork::core

@@ -19,4 +19,7 @@ namespace fretwork::core {
 [[nodiscard]] std::string name_help(std::string_view name, const std::vector<std::string>& candidates,
                                     std::string_view existing = "existing");
 
+/// Whether a name fits a pattern, in which `*` stands for any characters and `?` for one.
+[[nodiscard]] bool fits(std::string_view name, std::string_view pattern);
+
 } // namespace fretwork::core

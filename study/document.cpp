@@ -2,6 +2,7 @@
 #include "study/document.hpp"
 #include "core/error.hpp"
 #include "core/input_file.hpp"
+#include "study/table_reader.hpp"
 #include <algorithm>
 #include <sstream>
 #include <toml++/toml.h>
@@ -129,14 +130,55 @@ Value parse_toml(std::string_view text, std::shared_ptr<const std::string> origi
   }
 }
 
-Document load(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+namespace {
+
+Document parse_one(const std::filesystem::path& file) {
   Document document;
   document.file = std::filesystem::absolute(file).lexically_normal();
   document.text = core::read_input_file(file, "study file " + file.string(), most_bytes);
   document.root = parse_toml(document.text, std::make_shared<const std::string>(file.string()));
+  return document;
+}
+
+/// `sweep.study`; nullptr: the file is a study itself.
+const Value* study_of_sweep(const Document& document) {
+  const auto& root = *document.root.table();
+  const auto sweep = root.find("sweep");
+  if (sweep == root.end() || !sweep->second.table())
+    return nullptr;
+  const auto study = sweep->second.table()->find("study");
+  return study == sweep->second.table()->end() ? nullptr : &study->second;
+}
+
+} // namespace
+
+Document parse(const std::filesystem::path& file) {
+  Document own = parse_one(file);
+  const Value* named = study_of_sweep(own);
+  if (!named)
+    return own;
+  const std::string path = to_text(*named, "sweep.study");
+  for (const auto& [key, value] : *own.root.table())
+    if (key != "sweep")
+      fail(value, key, "with sweep.study the file holds [sweep] only; give this in the study named there");
+  Document study = parse_one(own.file.parent_path() / path);
+  if (study_of_sweep(study))
+    fail(*named, "sweep.study", "that file names another study itself; name the study");
+  auto& root = std::get<Table>(study.root.data);
+  root["sweep"] = own.root.table()->at("sweep");
+  study.text += "\n# sweep\n" + own.text;
+  return study;
+}
+
+void complete(Document& document, const std::vector<std::string>& overrides) {
   for (const std::string& text : overrides)
     apply_override(document.root, text);
   apply_contact_defaults(document.root);
+}
+
+Document load(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  Document document = parse(file);
+  complete(document, overrides);
   return document;
 }
 

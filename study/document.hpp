@@ -10,15 +10,23 @@
 
 namespace fretwork::study {
 
+struct Study;
+
 struct Document {
   std::filesystem::path file; ///< absolute
   std::string text;           ///< as read
   Value root;                 ///< a table
 };
 
-/// Parse a study file and apply overrides (`key=value`), in their order.
-/// @throws core::Error if the file cannot be read or is not TOML, or an override has no valid address or
-/// value
+/// A study file as it stands. Where it has `sweep.study`, all but `[sweep]` is taken from the study named there.
+/// @throws core::Error if the file cannot be read or is not TOML
+[[nodiscard]] Document parse(const std::filesystem::path& file);
+
+/// Apply overrides (`key=value`), in their order, then the defaults of contacts.
+/// @throws core::Error if an override has no valid address or value
+void complete(Document& document, const std::vector<std::string>& overrides);
+
+/// Both: what a study says.
 [[nodiscard]] Document load(const std::filesystem::path& file, const std::vector<std::string>& overrides);
 
 /// Whether the values remember their lines: an override has none.
@@ -28,6 +36,9 @@ enum class Lines { kept, none };
 /// @throws core::Error naming the line and what is wrong
 [[nodiscard]] Value parse_toml(std::string_view text, std::shared_ptr<const std::string> origin,
                                Lines lines = Lines::kept);
+
+/// The parts of an address, which dots outside double quotes separate; none where a quote is not closed.
+[[nodiscard]] std::vector<std::string> address_parts(const std::string& address);
 
 /// Apply one override to the tree. The address is split at dots; a part with dots in it is put between double
 /// quotes. An entry of an array of tables is found by its name, else its group, else its index from 0. The
@@ -41,5 +52,9 @@ void apply_override(Value& root, const std::string& override_text);
 /// away.
 /// @throws core::Error for keys of one contact (name, group, other) and where there is no contact
 void apply_contact_defaults(Value& root);
+
+/// Read and check a completed document; `overrides` are those that were applied, for the results.
+/// @throws core::Error as read of a file
+[[nodiscard]] Study read(const Document& document, const std::vector<std::string>& overrides);
 
 } // namespace fretwork::study

@@ -32,17 +32,8 @@ struct Override {
 };
 
 std::vector<std::string> split_address(const Override& self, const std::string& text) {
-  std::vector<std::string> parts(1);
-  bool quoted = false;
-  for (const char c : text) {
-    if (c == '"')
-      quoted = !quoted;
-    else if (c == '.' && !quoted)
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  }
-  if (quoted)
+  std::vector<std::string> parts = address_parts(text);
+  if (parts.empty())
     self.fail("a double quote is not closed");
   if (std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.empty(); }))
     self.fail("a part of the address is empty; write for example transient.duration=1");
@@ -137,6 +128,20 @@ Value& table_item(const Override& self, Value& parent, std::size_t part) {
 }
 
 } // namespace
+
+std::vector<std::string> address_parts(const std::string& address) {
+  std::vector<std::string> parts(1);
+  bool quoted = false;
+  for (const char c : address) {
+    if (c == '"')
+      quoted = !quoted;
+    else if (c == '.' && !quoted)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return quoted ? std::vector<std::string>{} : parts;
+}
 
 void apply_override(Value& root, const std::string& override_text) {
   Override self{override_text, {}, {}};

@@ -3,6 +3,7 @@
 #include "study/flow_tables.hpp"
 #include "study/readers.hpp"
 #include "study/spectrum_rows.hpp"
+#include "study/sweep.hpp"
 #include "study/time_functions.hpp"
 #include <algorithm>
 #include <cassert>
@@ -14,7 +15,8 @@ const Keys study_keys{
     {"title",          "mesh",       "materials", "sections", "beams",    "restraints",
      "masses",         "springs",    "ties",      "modes",    "contacts", "flow",
      "stability",      "turbulence", "response",  "loads",    "gravity",  "base_motion",
-     "support_motion", "initial",    "transient", "output",   "wear",     "contact_defaults"}};
+     "support_motion", "initial",    "transient", "output",   "wear",     "contact_defaults",
+     "sweep"}};
 
 [[maybe_unused]] bool is_key(const std::string& name) {
   return std::find(study_keys.known.begin(), study_keys.known.end(), name) != study_keys.known.end();
@@ -24,6 +26,12 @@ const Keys study_keys{
 
 Study read(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   const Document document = load(file, overrides);
+  if (document.root.table()->contains("sweep"))
+    (void)read_sweep(document);
+  return read(document, overrides);
+}
+
+Study read(const Document& document, const std::vector<std::string>& overrides) {
   const std::filesystem::path folder = document.file.parent_path();
   const TableReader root(document.root, "", study_keys);
   Study study;

@@ -23,7 +23,7 @@ TEST(Examples, EveryFolderOfExamplesIsRunHere) {
     if (fs::exists(entry.path() / "study.toml"))
       found.insert(entry.path().filename());
   EXPECT_EQ(found, (std::set<std::string>{"cantilever_stop", "oscillator", "straight_tube", "tube_in_flow",
-                                          "tube_study", "two_tubes", "u_bend"}));
+                                          "tube_study", "tube_sweep", "two_tubes", "u_bend"}));
 }
 
 TEST(Examples, OscillatorMeetsItsStopThreeTimes) {

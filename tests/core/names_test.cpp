@@ -26,3 +26,13 @@ TEST(NameHelp, GivesTheNearestAndTheList) {
   EXPECT_EQ(name_help("endz", {"ends", "leg"}), "; did you mean \"ends\"? existing: \"ends\", \"leg\"");
   EXPECT_EQ(name_help("middle", {"ends"}, "groups"), "; groups: \"ends\"");
 }
+
+TEST(Fits, StarStandsForAnyCharactersAndQuestionMarkForOne) {
+  EXPECT_TRUE(fits("tsp12", "tsp*"));
+  EXPECT_TRUE(fits("tsp", "tsp*"));
+  EXPECT_TRUE(fits("tsp1.gap", "*.gap"));
+  EXPECT_TRUE(fits("tsp1", "tsp?"));
+  EXPECT_FALSE(fits("tsp12", "tsp?"));
+  EXPECT_FALSE(fits("avb1", "tsp*"));
+  EXPECT_FALSE(fits("tsp1", ""));
+}

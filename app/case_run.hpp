@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// One case of a sweep: the chain from its overrides to its row, without files. Statistics are those of a run of the study with the same
+/// overrides, bit for bit; series are not sampled.
+#pragma once
+#include "app/case_bases.hpp"
+#include "study/document.hpp"
+#include "sweep/table.hpp"
+#include <functional>
+
+namespace fretwork::app {
+
+/// The outputs of a sweep, the same for all its cases: by contact (work_rate, normal_rms, normal_max, impact_rate, contact_time_ratio), by
+/// support that wears (wear_depth, years), of all contacts together (total.work_rate, total.impact_rate, total.energy_residual), of the worst one
+/// (worst.work_rate, worst.normal_rms, worst.normal_max, worst.wear_depth, worst.years).
+/// What is not there in a case, such as a contact that is inactive, is not a number.
+class CaseRunner {
+public:
+  /// Collective over nothing; computes what the nominal case needs.
+  /// @param document  the study as it stands   @param nominal  with `base_overrides`
+  /// @param between   called now and then within a run
+  CaseRunner(study::Document document, std::vector<std::string> base_overrides, const Inputs& nominal,
+             std::function<void()> between);
+
+  [[nodiscard]] const std::vector<sweep::Column>& columns() const { return columns_; }
+  /// @throws core::Error, core::ComputationError where the case has no result
+  [[nodiscard]] std::vector<double> operator()(const std::vector<std::string>& overrides);
+
+private:
+  struct Case;
+  [[nodiscard]] Case prepare(const std::vector<std::string>& overrides);
+  [[nodiscard]] static std::vector<BuiltScene> scenes_of(const Case& of);
+  void name_columns(const Case& nominal);
+
+  study::Document document_; ///< with the base overrides, not yet completed
+  std::vector<std::string> base_overrides_;
+  std::function<void()> between_;
+  CaseBases bases_;
+  std::vector<sweep::Column> columns_;
+};
+
+} // namespace fretwork::app

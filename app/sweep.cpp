@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/sweep.hpp"
+#include "app/case_run.hpp"
+#include "app/chain.hpp"
+#include "app/folder_lock.hpp"
+#include "app/progress.hpp"
+#include "app/python_report.hpp"
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "core/mpi.hpp"
+#include "core/mpi_counter.hpp"
+#include "core/names.hpp"
+#include "core/petsc.hpp"
+#include "core/printable.hpp"
+#include "results/figures.hpp"
+#include "results/text_file.hpp"
+#include "sweep/schedule.hpp"
+#include "sweep/summary.hpp"
+#include <algorithm>
+#include <chrono>
+#include <fmt/format.h>
+#include <map>
+#include <nlohmann/json.hpp>
+
+namespace fretwork::app {
+namespace {
+
+namespace fs = std::filesystem;
+using sweep::Table;
+
+/// Increments of the counter of ended cases: those without a result are counted in its upper half.
+constexpr std::int64_t one_case = 1, one_failure = (std::int64_t{1} << 32) + 1, cases_part = one_failure - 2;
+
+/// All that a sweep is.
+struct Plan {
+  study::Document document; ///< as it stands, [sweep] included
+  study::Sweep sweep;
+  Inputs inputs;                            ///< of the nominal case; its directory is that of the shard
+  fs::path directory;                       ///< of the sweep
+  sweep::Shard shard;                       ///< 1/1: all cases
+  std::map<std::string, std::string> files; ///< digests of files that listed values name
+};
+
+fs::path directory_of(const Request& request) {
+  return request.directory.value_or(
+      fs::absolute(request.study).lexically_normal().replace_extension(".sweep"));
+}
+
+/// Listed texts may name files: what these hold is part of a case.
+std::map<std::string, std::string> files_of(const study::Sweep& sweep, const fs::path& folder) {
+  std::map<std::string, std::string> out;
+  for (const study::SweepVariable& variable : sweep.variables)
+    if (const auto* levels = std::get_if<study::SweepLevels>(&variable.source))
+      for (const std::string& value : levels->values) {
+        std::error_code absent;
+        const fs::path file =
+            folder / (value.size() > 2 && value.front() == '"' ? value.substr(1, value.size() - 2) : value);
+        if (fs::is_regular_file(file, absent))
+          out[value] = core::sha256_of_file(file.string(), 0);
+      }
+  return out;
+}
+
+Plan read_plan(const SweepRequest& request) {
+  Plan plan;
+  plan.inputs = read_inputs(request.request);
+  plan.document = study::parse(request.request.study);
+  plan.sweep = study::read_sweep(study::load(request.request.study, request.request.overrides));
+  plan.directory = directory_of(request.request);
+  plan.shard = request.shard.value_or(sweep::Shard{});
+  plan.inputs.directory =
+      plan.directory / "shards" / fmt::format("{}_of_{}", plan.shard.index, plan.shard.count);
+  plan.files = files_of(plan.sweep, plan.document.file.parent_path());
+  if ((request.shard || request.gather) && plan.sweep.until)
+    throw core::Error(
+        "sweep.until decides by all cases, of which a shard has a part; leave until out and give "
+        "draws, or run the sweep without --shard and --gather");
+  if (!plan.inputs.study.transient)
+    throw core::Error("the study has no [transient]; a sweep needs it (doc/study-file.md)");
+  return plan;
+}
+
+std::string identity_of(const Plan& plan, const sweep::Draws& draws, std::int64_t number) {
+  std::string text = plan.inputs.whole_key;
+  for (const std::string& override_text : sweep::overrides_of(plan.sweep, draws, number)) {
+    text += "\n" + override_text;
+    const auto file = plan.files.find(override_text.substr(override_text.find('=') + 1));
+    if (file != plan.files.end())
+      text += " " + file->second;
+  }
+  return sweep::short_digest(text);
+}
+
+/// Rows of earlier calls: those of the shard, or all.
+void remove_rows(const Plan& plan, bool all) {
+  std::vector<fs::path> files;
+  std::error_code absent;
+  const fs::path folder = all ? plan.directory / "shards" : plan.inputs.directory;
+  for (fs::recursive_directory_iterator at(folder, absent), end; at != end; at.increment(absent))
+    if (at->path().extension() == ".rows")
+      files.push_back(at->path());
+  for (const fs::path& file : files)
+    fs::remove(file);
+}
+
+/// Collective: the design of so many blocks, from rank 0.
+sweep::Draws shared_design(MPI_Comm comm, const study::Sweep& sweep, std::int64_t blocks) {
+  sweep::Draws draws;
+  core::agree(comm, [&] {
+    if (core::rank(comm) == 0)
+      draws = sweep::make_design(sweep, blocks);
+  });
+  std::int64_t shape[2] = {draws.rows(), draws.cols()};
+  MPI_Bcast(shape, 2, MPI_INT64_T, 0, comm);
+  draws.resize(shape[0], shape[1]);
+  constexpr Eigen::Index part = Eigen::Index{1} << 27; // counts stay within an int
+  for (Eigen::Index at = 0; at < draws.size(); at += part)
+    MPI_Bcast(draws.data() + at, static_cast<int>(std::min(part, draws.size() - at)), MPI_DOUBLE, 0, comm);
+  return draws;
+}
+
+std::string corrupt_text(const sweep::FoundRows& found) {
+  return found.corrupt == 0
+             ? std::string()
+             : fmt::format("{} not as written ({}): the cases are computed again\n",
+                           found.corrupt == 1 ? "1 row is" : fmt::format("{} rows are", found.corrupt),
+                           core::list_names(found.where));
+}
+
+/// Collective: numbers of the cases of this shard that no file has.
+std::vector<std::int64_t> missing_cases(MPI_Comm comm, const Plan& plan, std::int64_t cases,
+                                        const sweep::FoundRows& found) {
+  std::vector<std::int64_t> missing;
+  if (core::rank(comm) == 0)
+    for (std::int64_t number = 0, next = 0; number < cases; ++number) {
+      const auto place = static_cast<std::size_t>(next);
+      const bool there = place < found.rows.size() && found.rows[place].number == number;
+      next += there ? 1 : 0;
+      if (!there && plan.shard.has(number))
+        missing.push_back(number);
+    }
+  auto count = static_cast<std::int64_t>(missing.size());
+  MPI_Bcast(&count, 1, MPI_INT64_T, 0, comm);
+  missing.resize(static_cast<std::size_t>(count));
+  MPI_Bcast(missing.data(), static_cast<int>(count), MPI_INT64_T, 0, comm);
+  return missing;
+}
+
+/// The sweep at work on one rank.
+class SweepRun {
+public:
+  SweepRun(MPI_Comm comm, const SweepRequest& request, Plan plan)
+      : comm_(comm), request_(request), plan_(std::move(plan)), first_rank_(core::rank(comm) == 0),
+        progress_(first_rank_ && !request.request.quiet) {}
+
+  /// Collective: all cases, in stages where the sweep goes on until it knows enough.
+  void compute() {
+    const core::PetscSession petsc;
+    progress_.stage("basis");
+    std::optional<CaseRunner> runner;
+    core::agree(comm_, [&] {
+      runner.emplace(plan_.document, request_.request.overrides, plan_.inputs, [this] { look(); });
+    });
+    table_.outputs = runner->columns();
+    for (std::int64_t blocks = 1;; blocks = next_blocks(blocks)) {
+      draws_ = shared_design(comm_, plan_.sweep, blocks);
+      if (!request_.gather)
+        compute_missing(*runner);
+      gather();
+      if (request_.shard || enough(blocks))
+        return;
+    }
+  }
+
+  /// Collective: the worst cases once more with all their results.
+  void keep_worst() {
+    std::vector<std::int64_t> kept;
+    if (first_rank_ && plan_.sweep.keep > 0)
+      kept = sweep::worst_cases(table_, "worst.work_rate", plan_.sweep.keep);
+    auto count = static_cast<int>(kept.size());
+    MPI_Bcast(&count, 1, MPI_INT, 0, comm_);
+    kept.resize(static_cast<std::size_t>(count));
+    MPI_Bcast(kept.data(), count, MPI_INT64_T, 0, comm_);
+    for (const std::int64_t number : kept) {
+      progress_.stage(fmt::format("case {}", number));
+      Request run = request_.request;
+      for (const std::string& text : sweep::overrides_of(plan_.sweep, draws_, number))
+        run.overrides.push_back(text);
+      run.directory = plan_.directory / "runs" / fmt::format("case_{}", number);
+      run.quiet = true;
+      run_chain(comm_, run, Stage::transient);
+    }
+    summary_["worst"] = kept;
+  }
+
+  /// On rank 0: table, summary, report; the text for the terminal.
+  std::string write() {
+    progress_.stage("results");
+    const std::map<std::string, std::string> record{{"version", FRETWORK_VERSION},
+                                                    {"title", plan_.inputs.study.title},
+                                                    {"study", plan_.inputs.study.text},
+                                                    {"input_sha256", plan_.inputs.whole_key}};
+    sweep::write_csv(plan_.directory / "table.csv", plan_.sweep, draws_, table_);
+    sweep::write_archive(plan_.directory / "table.h5", plan_.sweep, draws_, table_, record);
+    for (const auto& [name, text] : record)
+      summary_[name] = text;
+    results::write_text(plan_.directory / "summary.json", summary_.dump(1) + "\n");
+    std::string text =
+        plan_.inputs.study.title.empty() ? "Sweep\n" : "Sweep: " + plan_.inputs.study.title + "\n";
+    text += sweep::summary_text(summary_);
+    for (const auto& number : summary_["worst"])
+      text += fmt::format(
+          "  kept         {}\n",
+          (plan_.directory / "runs" / fmt::format("case_{}", number.get<std::int64_t>())).string());
+    if (request_.request.report)
+      text += report();
+    progress_.stage("");
+    return text;
+  }
+
+  /// @throws core::ComputationError where cases have ended and none has a result
+  void check_results() const {
+    if (!table_.rows.empty() && table_.done().empty())
+      throw core::ComputationError(fmt::format("no case of the sweep has a result; case {}: {}",
+                                               table_.rows.front().number, table_.rows.front().message));
+  }
+
+  [[nodiscard]] std::string shard_text() const {
+    return fmt::format("shard {}/{}: {} of {} cases are there; when all shards have ended: fretwork sweep "
+                       "{} --gather\n",
+                       plan_.shard.index, plan_.shard.count,
+                       results::grouped(static_cast<std::int64_t>(table_.rows.size())),
+                       results::grouped(draws_.rows()), request_.request.study.string());
+  }
+
+private:
+  [[nodiscard]] std::int64_t next_blocks(std::int64_t blocks) const {
+    return std::min(2 * blocks, plan_.sweep.until->most_draws / plan_.sweep.draws);
+  }
+
+  /// Collective: whether the sweep ends here; its summary.
+  bool enough(std::int64_t blocks) {
+    int enough = 1;
+    core::agree(comm_, [&] {
+      if (!first_rank_)
+        return;
+      progress_.stage("statistics");
+      summary_ = sweep::summarize(plan_.sweep, draws_, table_);
+      const bool reached = !plan_.sweep.until || !summary_.contains("statistics") ||
+                           summary_["statistics"]["convergence"]["reached"].get<bool>();
+      enough = reached || next_blocks(blocks) <= blocks ? 1 : 0;
+    });
+    MPI_Bcast(&enough, 1, MPI_INT, 0, comm_);
+    return enough == 1;
+  }
+
+  [[nodiscard]] sweep::FoundRows read() const {
+    return sweep::read_rows(plan_.directory / "shards", draws_.rows(),
+                            [&](std::int64_t number) { return identity_of(plan_, draws_, number); });
+  }
+
+  void compute_missing(CaseRunner& runner) {
+    sweep::FoundRows found;
+    core::agree(comm_, [&] {
+      if (first_rank_)
+        found = read();
+    });
+    if (const std::string text = corrupt_text(found); first_rank_ && !request_.request.quiet && !text.empty())
+      fmt::print("{}", core::printable(text, core::longest_message_line));
+    const std::vector<std::int64_t> missing = missing_cases(comm_, plan_, draws_.rows(), found);
+    found = {};
+    progress_.stage("cases");
+    core::SharedCounters counters(comm_);
+    counters_ = &counters;
+    to_do_ = static_cast<std::int64_t>(missing.size());
+    core::agree(comm_, [&] {
+      sweep::ShardFile file(plan_.inputs.directory / fmt::format("rank_{}.rows", core::rank(comm_)));
+      sweep::work(
+          missing, core::size(comm_), [&] { return counters.add(0, 1); },
+          [&](std::int64_t number) { return identity_of(plan_, draws_, number); },
+          [&](std::int64_t number) { return runner(sweep::overrides_of(plan_.sweep, draws_, number)); },
+          [&](const sweep::Row& row) {
+            file.append(row);
+            counters.add(1, row.outcome == sweep::Outcome::done ? one_case : one_failure);
+            look();
+          });
+    });
+    counters_ = nullptr;
+  }
+
+  /// Now and then, within runs too.
+  void look() {
+    if (!counters_ || !first_rank_)
+      return;
+    counters_->progress();
+    if (!progress_.shown() || to_do_ == 0)
+      return;
+    const std::int64_t ended = counters_->add(1, 0);
+    progress_.update_cases(ended & cases_part, to_do_, ended >> 32);
+  }
+
+  /// On rank 0: the table of what the files have.
+  void gather() {
+    core::agree(comm_, [&] {
+      if (!first_rank_)
+        return;
+      sweep::FoundRows found = read();
+      table_.rows = std::move(found.rows);
+      for (const sweep::Row& row : table_.rows)
+        if (row.outcome == sweep::Outcome::done && row.values.size() != table_.outputs.size())
+          throw core::Error(fmt::format("the row of case {} has {} outputs instead of {}; give --force",
+                                        row.number, row.values.size(), table_.outputs.size()));
+    });
+  }
+
+  [[nodiscard]] std::string report() const {
+    try {
+      write_sweep_report(plan_.directory);
+      return fmt::format("  report       {}\n", (plan_.directory / "report.html").string());
+    } catch (const core::Error& error) {
+      return fmt::format("no report: {}\n", error.what());
+    }
+  }
+
+  MPI_Comm comm_;
+  const SweepRequest& request_;
+  Plan plan_;
+  bool first_rank_;
+  Progress progress_;
+  sweep::Draws draws_;
+  Table table_; ///< rows on rank 0 only
+  nlohmann::json summary_;
+  core::SharedCounters* counters_ = nullptr;
+  std::int64_t to_do_ = 0;
+};
+
+} // namespace
+
+void run_sweep(MPI_Comm comm, const SweepRequest& request) {
+  const auto begin = std::chrono::steady_clock::now();
+  const bool first_rank = core::rank(comm) == 0;
+  Plan plan;
+  std::optional<FolderLock> lock;
+  core::agree(comm, [&] {
+    plan = read_plan(request);
+    make_directory(plan.inputs.directory);
+    if (first_rank)
+      lock.emplace(plan.inputs.directory, request.request.study.string());
+    if (first_rank && request.request.force && !request.gather)
+      remove_rows(plan, !request.shard);
+  });
+  make_mesh_file(comm, plan.inputs);
+  core::agree(comm, [&] { make_keys(request.request, plan.inputs); });
+  SweepRun run(comm, request, std::move(plan));
+  run.compute();
+  if (!request.shard)
+    run.keep_worst();
+  std::string text;
+  core::agree(comm, [&] {
+    if (first_rank)
+      text = request.shard ? run.shard_text() : run.write();
+  });
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  if (first_rank && !request.request.quiet)
+    fmt::print("{}  time         {:.3g} s on {}\n", core::printable(text, core::longest_message_line),
+               seconds.count(), results::counted(core::size(comm), "rank"));
+  core::agree(comm, [&] {
+    if (first_rank)
+      run.check_results();
+  });
+}
+
+} // namespace fretwork::app

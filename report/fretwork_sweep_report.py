@@ -1,0 +1,213 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Writes report.html of a sweep, one file that needs nothing else, from its summary and its table: fretwork_sweep_report.py DIR"""
+
+import html
+import json
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))  # an isolated interpreter (-I) has no folder of its own there
+
+PRINCIPAL = ("total.work_rate", "worst.work_rate", "worst.wear_depth", "worst.years", "worst.normal_rms", "worst.normal_max")
+
+
+class Sweep:
+    """What the folder holds: summary, columns of inputs and outputs by name."""
+
+    def __init__(self, directory):
+        import h5py
+
+        self.directory = directory
+        self.summary = json.loads((directory / "summary.json").read_text(encoding="utf-8"))
+        with h5py.File(directory / "table.h5", "r") as file:
+            self.inputs = {name.replace("%2F", "/"): column[...] for name, column in file["inputs"].items()}
+            self.outputs = {name.replace("%2F", "/"): column[...] for name, column in file["outputs"].items()}
+            self.cases = file["case/number"][...].astype(int)
+
+    @property
+    def statistics(self):
+        return self.summary.get("statistics")
+
+    def unit(self, name):
+        return self.summary["units"].get(name, "")
+
+    def principal(self):
+        return [name for name in PRINCIPAL if name in self.outputs]
+
+
+def figure_of(value):
+    import drawing
+
+    return html.escape(value) if isinstance(value, str) else drawing.short(value, 3)
+
+
+def interval(entry):
+    return f"{figure_of(entry['value'])} ({figure_of(entry['low'])} to {figure_of(entry['high'])})"
+
+
+def key_figures(sweep):
+    import page
+
+    entries = [("cases", sweep.summary["cases"]), ("done", sweep.summary["done"]), ("without a result", len(sweep.summary["failures"]))]
+    out = page.cards([(name, f"{value}") for name, value in entries] + [("design", html.escape(sweep.summary["design"]))])
+    if sweep.summary["rows"] < sweep.summary["cases"]:
+        out += page.warning(f"{sweep.summary['cases'] - sweep.summary['rows']} cases have not been computed: the same command goes on.")
+    return out
+
+
+def quantiles(sweep):
+    import page
+
+    if not sweep.statistics:
+        return ""
+    percent = round(100 * sweep.summary["confidence"], 6)
+    first = sweep.statistics["outputs"][sweep.principal()[0]]["quantiles"]
+    heads = ["", *(f"{100 * q['probability']:g} %" for q in first), "windows"]
+    rows = []
+    for name in sweep.principal():
+        output = sweep.statistics["outputs"][name]
+        share = output.get("share_of_windows")
+        label = html.escape(f"{name} [{sweep.unit(name)}]" if sweep.unit(name) else name)
+        rows.append([label, *(interval(q) for q in output["quantiles"]), f"{100 * share:.0f} %" if share is not None else "–"])
+    note = (
+        f"<p class=soft>Quantiles over the cases. In brackets the interval at {percent:g} % confidence: what more draws would narrow. The distance "
+        "between the quantiles is the uncertain input, which draws do not change. Windows: the part of the variance that the finite duration of the runs makes; "
+        "longer runs would reduce it.</p>"
+    )
+    return page.section("Quantiles", page.table(heads, rows), note, limits(sweep), convergence(sweep))
+
+
+def limits(sweep):
+    out = ""
+    for limit in sweep.statistics["limits"]:
+        if "probability" in limit:
+            side = "above" if limit["above"] else "below"
+            out += (
+                f"<p>Probability of {html.escape(limit['output'])} {side} {limit['value']:g} {html.escape(sweep.unit(limit['output']))}: "
+                f"<b>{limit['probability']:.3g}</b> ({limit['low']:.3g} to {limit['high']:.3g}), {limit['hits']} of {limit['cases']} cases.</p>"
+            )
+    return out
+
+
+def convergence(sweep):
+    c = sweep.statistics["convergence"]
+    quantile = f"{100 * c['quantile']:g} % quantile of {html.escape(c['output'])}"
+    needed = f" About {c['cases_needed']} cases would make it {100 * c['relative_error']:g} %." if c["cases_needed"] and not c["reached"] else ""
+    if c["error"] is None:
+        return f"<p>Convergence: {c['cases']} cases give no interval of the {quantile}.{needed}</p>"
+    return f"<p>Convergence: the {quantile} is known to ±{100 * c['error']:.2g} % with {c['cases']} cases.{needed}</p>"
+
+
+def distributions(sweep):
+    import page
+    import sweep_view
+
+    pictures = []
+    for name in sweep.principal():
+        known = sweep_view.finite(sweep.outputs[name])
+        if len(known) < 2:
+            continue
+        lines = []
+        if sweep.statistics:
+            lines = [q["value"] for q in sweep.statistics["outputs"][name]["quantiles"] if isinstance(q["value"], float)]
+        pictures.append(page.figure(sweep_view.histogram(known, sweep.unit(name), lines, name)))
+    return page.section("Distributions", f'<div class="row">{"".join(pictures)}</div>') if pictures else ""
+
+
+def measure(sweep):
+    """The output that pictures are about."""
+    return sweep.statistics["convergence"]["output"] if sweep.statistics else sweep.principal()[0]
+
+
+def sensitivities(sweep):
+    import page
+    import sweep_view
+
+    of = measure(sweep)
+    parts = []
+    found = sweep.statistics["sensitivities"].get(of) if sweep.statistics else None
+    if found:
+        sobol = sweep.statistics["method"] == "sobol"
+        entries = [(name, entry["value"], entry["low"], entry["high"]) for name, entry in found.items()]
+        label = f"Sobol' index of first order of {of}" if sobol else f"rank correlation with {of}"
+        parts.append(page.figure(sweep_view.tornado(entries, label), "The lines are intervals of confidence."))
+    pictures = [page.figure(sweep_view.scatter(x, sweep.outputs[of], (name, f"{of} [{sweep.unit(of)}]"))) for name, x in sweep.inputs.items()]
+    return page.section("Sensitivity", *parts, f'<div class="row">{"".join(pictures)}</div>')
+
+
+def along(sweep):
+    import numpy as np
+
+    import page
+    import sweep_view
+
+    suffix = ".work_rate"
+    names = [name[: -len(suffix)] for name in sweep.summary["columns"] if name.endswith(suffix) and not name.startswith(("total.", "worst."))]
+    values = np.column_stack([sweep.outputs[name + suffix] for name in names])
+    if not np.isfinite(values).any():
+        return ""
+    note = "The line is the median over the cases, the bands hold 50 and 90 % of them. A contact that is inactive in a case does not count in it."
+    return page.section("Work rate by contact", page.figure(sweep_view.bands(names, values), note))
+
+
+def worst(sweep):
+    import numpy as np
+
+    import page
+
+    of = "worst.work_rate" if "worst.work_rate" in sweep.outputs else measure(sweep)
+    values = sweep.outputs[of]
+    order = [i for i in np.argsort(-np.nan_to_num(values, nan=-np.inf), kind="stable") if np.isfinite(values[i])][:10]
+    rows = []
+    for i in order:
+        case = int(sweep.cases[i])
+        kept = case in (sweep.summary.get("worst") or [])
+        name = f'<a href="runs/case_{case}/report.html">case {case}</a>' if kept else f"case {case}"
+        rows.append([name, figure_of(float(values[i])), *(figure_of(float(column[i])) for column in sweep.inputs.values())])
+    heads = ["", html.escape(f"{of} [{sweep.unit(of)}]"), *map(html.escape, sweep.inputs)]
+    return page.section("Worst cases", page.table(heads, rows)) if rows else ""
+
+
+def failures(sweep):
+    import page
+
+    rows = [[str(f["case"]), html.escape(f["outcome"]), html.escape(f["message"])] for f in sweep.summary["failures"]]
+    return page.section("Cases without a result", page.table(["case", "outcome", "message"], rows, (0, 1, 2))) if rows else ""
+
+
+def study(sweep):
+    import page
+
+    return page.section("Study", f"<pre>{html.escape(sweep.summary['study'])}</pre>")
+
+
+def build(directory):
+    """The report as HTML text."""
+    import page
+
+    sweep = Sweep(directory)
+    parts = [key_figures, quantiles, distributions, sensitivities, along, worst, failures, study]
+    title = sweep.summary["title"] or directory.resolve().stem
+    subtitle = f"Sweep: results of Fretwork {html.escape(sweep.summary['version'])}"
+    return page.page(title, subtitle, "".join(part(sweep) for part in parts))
+
+
+def main():
+    import fretwork_report
+
+    missing = fretwork_report.missing_packages()
+    if missing:
+        return f"the report needs {' and '.join(missing)}, which {sys.executable} does not have: apt install {' '.join(missing)}"
+    directory = Path(sys.argv[1])
+    try:
+        fretwork_report.write_whole(directory / "report.html", build(directory))
+    except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
+        return f"{directory}: the results are not those of a sweep ({type(error).__name__}: {str(error)[:200]})"
+    except OSError as error:
+        return f"the report cannot be written: {error}"
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures of a sweep: histograms, scatter against a variable, tornado of sensitivities, quantile bands by contact."""
+
+import math
+
+import numpy as np
+
+from drawing import Plot, label_width, unit_for
+
+MOST_DOTS = 2000  # of a scatter plot: more are thinned evenly
+
+
+def finite(values):
+    return values[np.isfinite(values)]
+
+
+def histogram(values, unit, quantiles, title, size=(340, 190)):
+    """Cases by value, with lines at quantiles (numbers in the unit of the values)."""
+    known = finite(values)
+    factor, scaled = unit_for(float(np.abs(known).max()), unit) if unit in ("W", "N", "m") else (1.0, unit)
+    counts, edges = np.histogram(factor * known, bins=max(5, min(40, int(math.sqrt(len(known))) * 2)))
+    plot = Plot(size, (edges[0], edges[-1]), (0.0, 1.05 * counts.max()))
+    plot.axes(f"{title} [{scaled}]" if scaled else title, "cases", x_most=5, y_most=4)
+    for count, low, high in zip(counts, edges, edges[1:]):
+        if count:
+            plot.rectangle((low, high), (0.0, count), "rose")
+    for value in quantiles:
+        plot.line([factor * value] * 2, [0.0, 1.05 * counts.max()], "limit")
+    return plot.svg(f"Distribution of {title}")
+
+
+def scatter(x, y, labels, size=(300, 190)):
+    """A dot a case. labels: of both axes."""
+    keep = np.flatnonzero(np.isfinite(x) & np.isfinite(y))
+    keep = keep[:: max(1, len(keep) // MOST_DOTS)]
+    if not len(keep):
+        return ""
+    x, y = x[keep], y[keep]
+    plot = Plot(size, (x.min(), x.max()), (min(0.0, y.min()), 1.05 * y.max()))
+    plot.axes(*labels, x_most=4, y_most=4)
+    for a, b in zip(x, y):
+        plot.dot(a, b, "bar", radius=2.0)
+    return plot.svg(f"{labels[1]} against {labels[0]}")
+
+
+def tornado(entries, label, width=640):
+    """Bars by size, the largest on top, with the interval of each: entries of (name, value, low, high)."""
+    entries = sorted(entries, key=lambda entry: abs(entry[1]))
+    room = math.ceil(max(label_width(name) for name, *_ in entries)) + 14
+    numbers = [number for _, *three in entries for number in three if number is not None]
+    margin = 0.03 * (max(0.0, *numbers) - min(0.0, *numbers))
+    plot = Plot((width, 26 * len(entries) + 48), (min(0.0, *numbers) - margin, max(0.0, *numbers) + margin), (0.4, len(entries) + 0.6), (room, 12, 8, 38))
+    plot.axes(label, "", y_most=0.1)  # no tick of the rows
+    for row, (name, value, low, high) in enumerate(entries, 1):
+        plot.rectangle(sorted((0.0, value)), (row - 0.32, row + 0.32), "rose")
+        if low is not None and high is not None:
+            plot.line([low, high], [row, row], "beam")
+        plot.text(plot.x[0], row, name, "tick end", (-8, 4))
+    return plot.svg("Sensitivities")
+
+
+def bands(names, values, size=(940, 300)):
+    """Of each contact the median of its work rate, the bands from 5 to 95 % and from 25 to 75 % of the cases. values: cases x contacts, W"""
+    levels = [np.nanquantile(values, p, axis=0) for p in (0.05, 0.25, 0.5, 0.75, 0.95)]
+    factor, unit = unit_for(float(np.nanmax(levels[4])), "W")
+    plot = Plot(size, (-0.6, len(names) - 0.4), (0.0, 1.05 * factor * float(np.nanmax(levels[4]))))
+    plot.axes("", f"work rate [{unit}]", x_ticks=list(enumerate(names)))
+    for i in range(len(names)):
+        five, quarter, median, three, most = (factor * level[i] for level in levels)
+        if math.isfinite(median):
+            plot.rectangle((i - 0.3, i + 0.3), (five, most), "band")
+            plot.rectangle((i - 0.3, i + 0.3), (quarter, three), "rose")
+            plot.line([i - 0.3, i + 0.3], [median, median], "beam")
+    return plot.svg("Work rate by contact")

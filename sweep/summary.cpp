@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sweep/summary.hpp"
+#include "results/figures.hpp"
+#include "results/text_file.hpp"
+#include "sweep/openturns.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace fretwork::sweep {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t most_failures = 100; ///< that the summary lists; the table has all
+constexpr std::size_t name_width = 24, cell_width = 31, shown_variables = 4;
+
+/// Drawn inputs and outputs of the rows that statistics are made from: the done ones; of a design whose estimator needs every case all.
+std::vector<double> values_of(const study::Sweep& sweep, const Draws& draws, const Table& table,
+                              std::size_t& rows) {
+  std::vector<double> out;
+  rows = 0;
+  for (const Row& row : table.rows) {
+    const bool done = row.outcome == Outcome::done;
+    if (!done && sweep.design != study::SweepDesign::saltelli)
+      continue;
+    ++rows;
+    for (Eigen::Index j = 0; j < draws.cols(); ++j)
+      out.push_back(draws(row.number, j));
+    for (std::size_t j = 0; j < table.outputs.size(); ++j)
+      out.push_back(done ? row.values[j] : std::numeric_limits<double>::quiet_NaN());
+  }
+  return out;
+}
+
+json statistics_request(const study::Sweep& sweep, const Table& table) {
+  json out{{"operation", "summarize"},     {"design", name_of(sweep.design)}, {"count", sweep.draws},
+           {"quantiles", sweep.quantiles}, {"confidence", sweep.confidence},  {"limits", json::array()},
+           {"inputs", json::array()},      {"outputs", json::array()}};
+  for (const std::size_t v : drawn_variables(sweep))
+    out["inputs"].push_back(sweep.variables[v].name);
+  for (const Column& column : table.outputs)
+    out["outputs"].push_back(column.name);
+  for (const study::SweepLimit& limit : sweep.limits) {
+    (void)table.place(limit.output, "sweep.limits");
+    out["limits"].push_back({{"output", limit.output}, {"value", limit.value}, {"above", limit.above}});
+  }
+  const study::SweepUntil until = sweep.until.value_or(study::SweepUntil{});
+  (void)table.place(until.output, "sweep.until");
+  out["until"] = {
+      {"output", until.output}, {"quantile", until.quantile}, {"relative_error", until.relative_error}};
+  return out;
+}
+
+std::string figure(const json& value) {
+  if (value.is_null())
+    return "-";
+  return value.is_string() ? value.get<std::string>() : fmt::format("{:.3g}", value.get<double>());
+}
+
+std::string interval(const json& entry) {
+  return fmt::format("{} ({} to {})", figure(entry["value"]), figure(entry["low"]), figure(entry["high"]));
+}
+
+bool is_of_all(const std::string& name) { return name.starts_with("worst.") || name.starts_with("total."); }
+
+/// A line of right-aligned cells behind a name.
+std::string line_of_cells(const std::string& head, const std::vector<std::string>& cells) {
+  std::string out = fmt::format("  {:<{}}", results::shortened(head, name_width), name_width);
+  for (const std::string& cell : cells)
+    out += fmt::format(" {:>{}}", cell, cell_width);
+  return out + "\n";
+}
+
+std::string quantile_lines(const json& summary) {
+  const json& outputs = summary["statistics"]["outputs"];
+  std::vector<std::string> heads;
+  for (const json& quantile : outputs.front()["quantiles"])
+    heads.push_back(fmt::format("{:g} %", 100.0 * quantile["probability"].get<double>()));
+  std::string out = line_of_cells("quantile", heads);
+  for (const auto& [name, output] : outputs.items()) {
+    if (!is_of_all(name))
+      continue;
+    std::vector<std::string> cells;
+    for (const json& quantile : output["quantiles"])
+      cells.push_back(interval(quantile));
+    const std::string unit = summary["units"].value(name, "");
+    out += line_of_cells(unit.empty() ? name : name + " " + unit, cells);
+  }
+  return out;
+}
+
+std::string limit_lines(const json& summary) {
+  std::string out;
+  for (const json& limit : summary["statistics"]["limits"])
+    if (limit.contains("probability"))
+      out += fmt::format("  probability  {} {} {:g}: {:.3g} ({:.3g} to {:.3g}), {} of {} cases\n",
+                         limit["output"].get<std::string>(), limit["above"].get<bool>() ? "above" : "below",
+                         limit["value"].get<double>(), limit["probability"].get<double>(),
+                         limit["low"].get<double>(), limit["high"].get<double>(), limit["hits"].get<int>(),
+                         limit["cases"].get<int>());
+  return out;
+}
+
+std::string sensitivity_lines(const json& summary) {
+  const json& statistics = summary["statistics"];
+  const std::string of = statistics["convergence"]["output"];
+  const auto found = statistics["sensitivities"].find(of);
+  if (found == statistics["sensitivities"].end())
+    return {};
+  std::vector<std::pair<double, std::string>> order;
+  for (const auto& [name, entry] : found->items())
+    order.emplace_back(-std::abs(entry["value"].get<double>()), name);
+  std::sort(order.begin(), order.end());
+  std::string out =
+      fmt::format("  sensitivity  {} of {}:",
+                  statistics["method"] == "sobol" ? "Sobol' indices, first order" : "rank correlation", of);
+  for (std::size_t i = 0; i < std::min(order.size(), shown_variables); ++i)
+    out += fmt::format("{} {} {}", i ? "," : "", order[i].second, interval((*found)[order[i].second]));
+  return out + "\n";
+}
+
+std::string convergence_line(const json& summary) {
+  const json& c = summary["statistics"]["convergence"];
+  const std::string quantile = fmt::format("{:g} % quantile of {}", 100.0 * c["quantile"].get<double>(),
+                                           c["output"].get<std::string>());
+  const double asked = 100.0 * c["relative_error"].get<double>();
+  const std::string needed =
+      c["cases_needed"].is_null()
+          ? ""
+          : fmt::format("; about {} would make it {:g} %",
+                        results::counted(c["cases_needed"].get<std::int64_t>(), "case"), asked);
+  if (c["error"].is_null())
+    return fmt::format(
+        "  convergence  {}: {} give no interval{}\n", quantile,
+        results::counted(c["cases"].get<std::int64_t>(), "case"),
+        c["cases_needed"].is_null()
+            ? ""
+            : fmt::format("; {} would", results::counted(c["cases_needed"].get<std::int64_t>(), "case")));
+  return fmt::format("  convergence  {}: +-{:.2g} % with {}{}\n", quantile, 100.0 * c["error"].get<double>(),
+                     results::counted(c["cases"].get<std::int64_t>(), "case"),
+                     c["reached"].get<bool>() ? fmt::format(", {:g} % are asked for: enough", asked)
+                                              : needed);
+}
+
+} // namespace
+
+json summarize(const study::Sweep& sweep, const Draws& draws, const Table& table) {
+  json out{{"design", name_of(sweep.design)}, {"cases", draws.rows()},     {"rows", table.rows.size()},
+           {"done", table.done().size()},     {"failures", json::array()}, {"units", json::object()},
+           {"confidence", sweep.confidence}};
+  for (const Column& column : table.outputs) {
+    out["columns"].push_back(column.name); // in their order
+    out["units"][column.name] = column.unit;
+  }
+  for (const Row& row : table.rows)
+    if (row.outcome != Outcome::done && out["failures"].size() < most_failures)
+      out["failures"].push_back(
+          {{"case", row.number}, {"outcome", name_of(row.outcome)}, {"message", row.message}});
+  if (sweep.design == study::SweepDesign::grid || table.done().empty())
+    return out;
+  json request = statistics_request(sweep, table);
+  std::size_t rows = 0;
+  const std::vector<double> values = values_of(sweep, draws, table, rows);
+  request["rows"] = rows;
+  out["statistics"] = ask_openturns(request, values).json;
+  return out;
+}
+
+std::vector<std::int64_t> worst_cases(const Table& table, const std::string& output, std::int64_t count) {
+  const std::size_t place = table.place(output, "the worst cases");
+  std::vector<std::size_t> rows = table.done();
+  std::erase_if(rows, [&](std::size_t i) { return std::isnan(table.rows[i].values[place]); });
+  std::stable_sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) {
+    return table.rows[a].values[place] > table.rows[b].values[place];
+  });
+  std::vector<std::int64_t> out;
+  for (std::size_t i = 0; i < rows.size() && static_cast<std::int64_t>(i) < count; ++i)
+    out.push_back(table.rows[rows[i]].number);
+  return out;
+}
+
+std::string summary_text(const json& summary) {
+  const auto done = summary["done"].get<std::int64_t>(), rows = summary["rows"].get<std::int64_t>(),
+             cases = summary["cases"].get<std::int64_t>();
+  std::string out = fmt::format("  cases        {} ({}), {} done", results::grouped(cases),
+                                summary["design"].get<std::string>(), results::grouped(done));
+  if (rows > done)
+    out += fmt::format(", {} without a result", results::grouped(rows - done));
+  if (cases > rows)
+    out += fmt::format(", {} missing", results::grouped(cases - rows));
+  out += "\n";
+  constexpr std::size_t shown = 3;
+  for (std::size_t i = 0; i < std::min(shown, summary["failures"].size()); ++i)
+    out += fmt::format("  case {} {}: {}\n", summary["failures"][i]["case"].get<std::int64_t>(),
+                       summary["failures"][i]["outcome"].get<std::string>(),
+                       summary["failures"][i]["message"].get<std::string>());
+  if (summary["failures"].size() > shown)
+    out += "  the others: table.csv\n";
+  if (!summary.contains("statistics"))
+    return out;
+  return out + quantile_lines(summary) + limit_lines(summary) + sensitivity_lines(summary) +
+         convergence_line(summary);
+}
+
+} // namespace fretwork::sweep

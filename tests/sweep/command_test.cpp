@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// fretwork sweep from end to end.
+#include "program.hpp"
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <sstream>
+
+namespace fretwork::app::test {
+namespace {
+
+/// `[sweep]` on an example.
+std::string sweep_of(const std::string& name, const std::string& text) {
+  return "[sweep]\nstudy = \"" + example(name).string() + "\"\n" + text;
+}
+
+const std::string stops = sweep_of("oscillator", R"(
+design = "grid"
+[[sweep.variables]]
+name = "gap"
+key = "contacts.stop.gap"
+values = [0.0, 0.001, -0.001, 0.002]
+[[sweep.variables]]
+name = "stiffness"
+key = "contacts.*.normal_stiffness"
+range = { from = 1.0e6, to = 2.0e6, count = 3 }
+)");
+
+const std::vector<std::string> short_tube{"--set", "transient.duration=0.1", "--set",
+                                          "output.statistics_from=0"};
+
+/// Cells of table.csv by the name of the column without its unit, a map a row.
+std::vector<std::map<std::string, std::string>> table_of(const fs::path& directory) {
+  std::istringstream in(bytes_of(directory / "table.csv"));
+  const auto cells = [](const std::string& line) {
+    std::vector<std::string> out;
+    std::istringstream row(line);
+    for (std::string cell; std::getline(row, cell, ',');)
+      out.push_back(cell.substr(0, cell.find(" [")));
+    return out;
+  };
+  std::string line;
+  std::getline(in, line);
+  const std::vector<std::string> head = cells(line);
+  std::vector<std::map<std::string, std::string>> rows;
+  while (std::getline(in, line)) {
+    const std::vector<std::string> row = cells(line);
+    rows.emplace_back();
+    for (std::size_t i = 0; i < std::min(row.size(), head.size()); ++i)
+      rows.back()[head[i]] = row[i];
+  }
+  return rows;
+}
+
+class Sweeps : public testing::Test {
+protected:
+  Outcome sweep(const std::string& text, const std::string& output, std::vector<std::string> more = {},
+                int ranks = 0) const {
+    std::vector<std::string> arguments{"sweep", folder.write("sweep.toml", text).string(), "-o",
+                                       folder.path(output).string(), "--no-report"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return folder.fretwork(arguments, ranks);
+  }
+  [[nodiscard]] std::string refusal(const std::string& text,
+                                    const std::vector<std::string>& more = {}) const {
+    const Outcome outcome = sweep(text, "refused", more);
+    EXPECT_EQ(outcome.status, 1) << outcome.out;
+    return outcome.err;
+  }
+  const Workshop folder;
+};
+
+TEST_F(Sweeps, AGridHasARowForEveryCaseAndAFailedOneStopsNoOther) {
+  const Outcome outcome = sweep(stops, "out");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, "12 (grid), 9 done, 3 without a result"));
+  const auto rows = table_of(folder.path("out"));
+  ASSERT_EQ(rows.size(), 12u);
+  EXPECT_EQ(rows[4].at("gap"), "0.001");
+  EXPECT_EQ(rows[4].at("stiffness"), "1500000");
+  EXPECT_EQ(rows[4].at("outcome"), "done");
+  EXPECT_EQ(rows[6].at("outcome"), "refused");
+  EXPECT_TRUE(says(rows[6].at("message"), "contacts.stop.gap"));
+  // the force of the stop goes with the root of its stiffness
+  const double soft = std::stod(rows[0].at("stop.normal_max")),
+               hard = std::stod(rows[2].at("stop.normal_max"));
+  EXPECT_TRUE(close_to(hard / soft, std::sqrt(2.01 / 1.01) * 2.0 / 2.01 * 1.01, 1e-2));
+}
+
+TEST_F(Sweeps, ARowIsARunWithTheSameOverridesBitForBit) {
+  const std::string text = sweep_of("straight_tube", R"(
+draws = 4
+keep = "worst 1"
+[[sweep.variables]]
+key = "contacts.support.gap"
+uniform = { from = 1.0e-4, to = 3.0e-4 }
+[[sweep.variables]]
+key = "contacts.support.friction"
+uniform = { from = 0.1, to = 0.5 }
+)");
+  ASSERT_EQ(sweep(text, "out", short_tube).status, 0);
+  double worst = 0.0;
+  std::size_t at = 0;
+  const auto rows = table_of(folder.path("out"));
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (const double value = std::stod(rows[i].at("worst.work_rate")); value > worst) {
+      worst = value;
+      at = i;
+    }
+  const Results run = read_results(folder.path("out/runs/case_" + std::to_string(at)));
+  double largest = 0.0;
+  for (const auto& contact : run.summary["contacts"]) {
+    const std::string name = contact["name"];
+    EXPECT_EQ(contact["work_rate"].get<double>(), std::stod(rows[at].at(name + ".work_rate"))) << name;
+    EXPECT_EQ(contact["normal_force"]["rms"].get<double>(), std::stod(rows[at].at(name + ".normal_rms")))
+        << name;
+    largest = std::max(largest, contact["work_rate"].get<double>());
+  }
+  EXPECT_EQ(largest, worst);
+  EXPECT_GT(worst, 0.0);
+}
+
+TEST_F(Sweeps, CasesOfOtherStructuresLoadsAndMeshesAreRunsToo) {
+  const std::string text = sweep_of("straight_tube", R"(
+design = "grid"
+keep = "worst 8"
+[[sweep.variables]]
+name = "thickness"
+key = "sections.tube.thickness"
+values = [1.0e-3, 1.2e-3]
+[[sweep.variables]]
+name = "amplitude"
+key = "loads.0.harmonic.amplitude"
+values = [20.0, 30.0]
+[[sweep.variables]]
+name = "scale"
+key = "mesh.scale"
+values = [1.0, 1.05]
+)");
+  ASSERT_EQ(sweep(text, "out", short_tube, 2).status, 0);
+  const auto rows = table_of(folder.path("out"));
+  ASSERT_EQ(rows.size(), 8u);
+  std::set<std::string> different;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Results run = read_results(folder.path("out/runs/case_" + std::to_string(i)));
+    for (const auto& contact : run.summary["contacts"])
+      EXPECT_EQ(contact["work_rate"].get<double>(),
+                std::stod(rows[i].at(contact["name"].get<std::string>() + ".work_rate")))
+          << i;
+    different.insert(rows[i].at("total.work_rate"));
+  }
+  EXPECT_EQ(different.size(), 8u); // what was kept in memory was that of the case
+}
+
+TEST_F(Sweeps, TurbulenceOfASeedAndAMissingSupportAreThoseOfARun) {
+  const std::string text = sweep_of("tube_study", R"(
+design = "grid"
+keep = "worst 2"
+[[sweep.variables]]
+key = "contacts.inner_bars.active"
+values = [true, false]
+[[sweep.variables]]
+key = "turbulence.*.seed"
+seeds = 7
+)");
+  ASSERT_EQ(sweep(text, "out", short_tube).status, 0);
+  const auto rows = table_of(folder.path("out"));
+  ASSERT_EQ(rows.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Results run = read_results(folder.path("out/runs/case_" + std::to_string(i)));
+    for (const auto& contact : run.summary["contacts"])
+      EXPECT_EQ(contact["work_rate"].get<double>(),
+                std::stod(rows[i].at(contact["name"].get<std::string>() + ".work_rate")))
+          << contact["name"];
+    EXPECT_EQ(run.summary["wear"]["tubes"][0]["depth_m"]["value"].get<double>(),
+              std::stod(rows[i].at("worst.wear_depth")));
+  }
+  EXPECT_EQ(rows[1].at("inner_bars[0].work_rate"), "nan");
+  EXPECT_EQ(rows[1].at("turbulence.*.seed"), "8");
+}
+
+TEST_F(Sweeps, RanksAndShardsGiveTheSameBytes) {
+  const std::vector<std::string> tables{"table.csv", "table.h5", "summary.json"};
+  ASSERT_EQ(sweep(stops, "one").status, 0);
+  ASSERT_EQ(sweep(stops, "three", {}, 3).status, 0);
+  for (const char* part : {"2/3", "1/3", "3/3"}) {
+    const Outcome outcome = sweep(stops, "shards", {"--shard", part}, part[0] == '1' ? 2 : 0);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_FALSE(fs::exists(folder.path("shards/table.csv")));
+  }
+  ASSERT_EQ(sweep(stops, "shards", {"--gather"}).status, 0);
+  for (const std::string& name : tables) {
+    EXPECT_EQ(bytes_of(folder.path("one/" + name)), bytes_of(folder.path("three/" + name))) << name;
+    EXPECT_EQ(bytes_of(folder.path("one/" + name)), bytes_of(folder.path("shards/" + name))) << name;
+  }
+}
+
+TEST_F(Sweeps, GatheringSaysWhatIsMissing) {
+  ASSERT_EQ(sweep(stops, "part", {"--shard", "1/2"}).status, 0);
+  const Outcome outcome = sweep(stops, "part", {"--gather"});
+  EXPECT_TRUE(says(outcome.out, "6 missing"));
+  EXPECT_EQ(table_of(folder.path("part")).size(), 6u);
+}
+
+TEST_F(Sweeps, SobolIndicesNeedEveryCase) {
+  const std::string text = sweep_of("oscillator", R"(
+design = "saltelli"
+draws = 30
+[[sweep.variables]]
+name = "speed"
+key = "initial.0.velocity.0"
+uniform = { from = 0.5, to = 1.5 }
+[[sweep.variables]]
+name = "gap"
+key = "contacts.stop.gap"
+uniform = { from = 0.0, to = 1.0e-3 }
+)");
+  ASSERT_EQ(sweep(text, "out", {"--shard", "1/2"}).status, 0);
+  ASSERT_EQ(sweep(text, "out", {"--gather"}).status, 0);
+  const auto sensitivities = [&] {
+    return nlohmann::json::parse(bytes_of(folder.path("out/summary.json")))["statistics"]["sensitivities"];
+  };
+  EXPECT_TRUE(sensitivities().empty());
+  ASSERT_EQ(sweep(text, "out").status, 0);
+  EXPECT_EQ(table_of(folder.path("out")).size(), 120u);
+  EXPECT_GT(sensitivities()["stop.normal_max"]["speed"]["value"], 0.9);
+}
+
+TEST_F(Sweeps, AChangedStudyKeepsNoRow) {
+  ASSERT_EQ(sweep(stops, "out").status, 0);
+  const double before = std::stod(table_of(folder.path("out"))[0].at("stop.normal_max"));
+  ASSERT_EQ(sweep(stops, "out", {"--set", "masses.0.mass=200"}).status, 0);
+  EXPECT_GT(std::stod(table_of(folder.path("out"))[0].at("stop.normal_max")), 1.2 * before);
+  const auto rows = [&] {
+    const std::string bytes = bytes_of(folder.path("out/shards/1_of_1/rank_0.rows"));
+    return std::count(bytes.begin(), bytes.end(), '\n');
+  };
+  EXPECT_EQ(rows(), 24);
+  ASSERT_EQ(sweep(stops, "out", {"--force"}).status, 0);
+  EXPECT_EQ(rows(), 12);
+}
+
+TEST_F(Sweeps, GoesOnUntilAQuantileIsKnown) {
+  const std::string text = sweep_of("oscillator", R"(
+draws = 20
+until = { output = "stop.normal_max", relative_error = 0.03, most_draws = 1000 }
+limits = [{ output = "stop.normal_max", above = 1.0e4 }]
+[[sweep.variables]]
+key = "initial.0.velocity.0"
+normal = { mean = 1.0, deviation = 0.2 }
+truncated = [0.1, 2.0]
+)");
+  const Outcome outcome = sweep(text, "out", {}, 2);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, "3 % are asked for: enough"));
+  const auto summary = nlohmann::json::parse(bytes_of(folder.path("out/summary.json")));
+  const int cases = summary["cases"];
+  EXPECT_TRUE(cases == 160 || cases == 320 || cases == 640) << cases; // (2.0/0.03 0.2/sqrt(2/pi))^2 = 280
+  // the force goes with the speed: half of the cases lie above that of 1 m/s
+  const auto& limit = summary["statistics"]["limits"][0];
+  EXPECT_LT(limit["low"], 0.5);
+  EXPECT_GT(limit["high"], 0.5);
+  EXPECT_GT(summary["statistics"]["sensitivities"]["stop.normal_max"]["initial.0.velocity.0"]["value"], 0.99);
+}
+
+TEST_F(Sweeps, WithoutAnyResultTheCommandFails) {
+  const Outcome outcome = sweep(sweep_of("oscillator", R"(
+design = "grid"
+[[sweep.variables]]
+key = "contacts.stop.gapp"
+values = [1, 2]
+)"),
+                                "none");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_TRUE(says(outcome.err, "did you mean \"gap\""));
+  EXPECT_EQ(table_of(folder.path("none")).size(), 2u);
+}
+
+TEST_F(Sweeps, WrongInputIsRefusedWithItsCure) {
+  const auto with = [](const std::string& text) { return sweep_of("oscillator", text); };
+  const std::string variable = "[[sweep.variables]]\nkey = \"contacts.stop.gap\"\n",
+                    law = "values = [0, 1e-3]\n";
+  EXPECT_TRUE(says(refusal("[mesh]\nfile = \"a.msh\"\n"), "a.msh"));
+  EXPECT_TRUE(says(refusal(with("draws = 3\n" + variable)), "exactly one of"));
+  EXPECT_TRUE(says(refusal(with(variable + law)), "draws, the number of cases, is needed"));
+  EXPECT_TRUE(
+      says(refusal(with("draws = 3\ndesing = \"grid\"\n" + variable + law)), "did you mean \"design\""));
+  EXPECT_TRUE(says(refusal(with("draws = 3\n[[sweep.variables]]\nkey = \"contacts.tsp*.gap\"\n" + law)),
+                   "the pattern fits no key"));
+  EXPECT_TRUE(says(refusal(with("draws = 3\n[[sweep.variables]]\nkey = \"contacts.tsp.gap\"\n" + law)),
+                   "contacts has no entry \"tsp\""));
+  EXPECT_TRUE(says(refusal(with("draws = 3\n" + variable + "normal = { mean = 1, deviation = -1 }\n")),
+                   "sweep.variables.0.normal.deviation = -1"));
+  EXPECT_TRUE(says(refusal(with("design = \"grid\"\n" + variable + "uniform = { from = 0, to = 1 }\n")),
+                   "a grid needs values"));
+  EXPECT_TRUE(
+      says(refusal(with("draws = 3\nlimits = [{ output = \"stop.work\", above = 1 }]\n" + variable + law)),
+           "no output is called \"stop.work\""));
+  EXPECT_TRUE(says(
+      refusal(with("draws = 3\nuntil = { relative_error = 0.1 }\n" + variable + law), {"--shard", "1/2"}),
+      "leave until out"));
+  EXPECT_TRUE(
+      says(refusal(with("draws = 3\n" + variable + law), {"--shard", "3/2"}), "i/n with 1 <= i <= n"));
+  EXPECT_TRUE(
+      says(refusal(with("draws = 3\n" + variable + law + variable + law)), "two variables are called"));
+}
+
+TEST_F(Sweeps, TheExampleOfTheTubeRunsReduced) {
+  const std::string study = (example("tube_sweep")).string();
+  const Outcome outcome = folder.fretwork(
+      {"sweep", study, "-o", folder.path("out").string(), "--no-report", "--set", "sweep.draws=6", "--set",
+       "sweep.keep=\"worst 1\"", "--set", "transient.duration=0.2", "--set", "output.statistics_from=0"},
+      2);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, "6 (monte_carlo), 6 done"));
+  EXPECT_TRUE(says(outcome.out, "worst.years"));
+  EXPECT_EQ(table_of(folder.path("out")).size(), 6u);
+}
+
+} // namespace
+} // namespace fretwork::app::test

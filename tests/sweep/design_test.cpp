@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Grids, overrides of cases, and the worst cases of a table.
+#include "core/error.hpp"
+#include "sweep/design.hpp"
+#include "sweep/summary.hpp"
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace fretwork::sweep {
+namespace {
+
+study::Sweep grid() {
+  study::Sweep sweep;
+  sweep.design = study::SweepDesign::grid;
+  sweep.variables = {
+      {"gap", {"contacts.a.gap", "contacts.b.gap"}, study::SweepLevels{{"1e-4", "2e-4"}, {0.5, 0.5}}},
+      {"seed", {"loads.0.random.seed"}, study::SweepSeeds{10}},
+      {"friction", {"contacts.a.friction"}, study::SweepLevels{{"0", "0.1", "0.3"}, {}}}};
+  return sweep;
+}
+
+TEST(Design, GridHasAllCombinations) {
+  const Draws draws = full_grid(grid());
+  ASSERT_EQ(draws.rows(), 6);
+  ASSERT_EQ(draws.cols(), 2);
+  const std::vector<std::string> fifth{"contacts.a.gap=2e-4", "contacts.b.gap=2e-4", "loads.0.random.seed=14",
+                                       "contacts.a.friction=0.1"};
+  EXPECT_EQ(overrides_of(grid(), draws, 4), fifth);
+}
+
+TEST(Design, NumbersAreWrittenSoThatTheyReadBack) {
+  const study::SweepVariable gap{"gap", {"a"}, study::SweepDistribution{"normal", {0.0, 1.0}, {}}};
+  const double drawn = 0.1 + 1e-17 / 3.0;
+  EXPECT_EQ(std::stod(value_text(gap, drawn, 0)), drawn);
+  const study::SweepVariable count{"n", {"a"}, study::SweepDistribution{"integers", {1.0, 9.0}, {}}};
+  EXPECT_EQ(value_text(count, 7.0, 0), "7");
+}
+
+TEST(Design, WorstCasesAreTheLargestThatAreDone) {
+  Table table;
+  table.outputs = {{"work", "W"}};
+  const double nan = std::nan("");
+  table.rows = {{0, "", Outcome::done, {2.0}},
+                {1, "", Outcome::failed, {}},
+                {2, "", Outcome::done, {5.0}},
+                {3, "", Outcome::done, {nan}},
+                {4, "", Outcome::done, {3.0}}};
+  EXPECT_EQ(worst_cases(table, "work", 2), (std::vector<std::int64_t>{2, 4}));
+  EXPECT_EQ(worst_cases(table, "work", 9).size(), 3u);
+  EXPECT_THROW((void)worst_cases(table, "works", 1), core::Error);
+}
+
+} // namespace
+} // namespace fretwork::sweep

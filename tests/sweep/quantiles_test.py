@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Intervals of quantiles and probabilities cover the truth as often as they say: quantiles_test.py SWEEP_FOLDER."""
+
+import math
+import sys
+import unittest
+
+sys.path.insert(0, sys.argv.pop(1))
+
+import numpy as np  # noqa: E402
+import openturns_helper as helper  # noqa: E402
+
+REPETITIONS, CASES, CONFIDENCE = 300, 200, 0.95
+# 300 repetitions at 0.95 give 285 +- 3.8 hits; order statistics are discrete, so that their coverage lies above, by up to a case's share
+FEWEST = REPETITIONS * CONFIDENCE - 3.0 * math.sqrt(REPETITIONS * CONFIDENCE * (1.0 - CONFIDENCE))
+MOST = REPETITIONS * 0.995
+
+
+def model(x):
+    """A cheap case: the years to a limit that a work rate reaches, lognormal."""
+    return 10.0 / np.exp(0.5 * x)
+
+
+def truth(probability):
+    from openturns import Normal
+
+    return 10.0 * math.exp(0.5 * Normal().computeQuantile(probability)[0])
+
+
+class Coverage(unittest.TestCase):
+    def repetitions(self):
+        for repetition in range(REPETITIONS):
+            points = helper.uniforms("monte_carlo", CASES, 1, 1, repetition)
+            yield model(helper.values_of({"law": "normal", "parameters": [0.0, 1.0]}, points[:, 0]))
+
+    def test_quantile_intervals_cover_as_often_as_they_say(self):
+        probabilities = (0.1, 0.5, 0.9)
+        hits = dict.fromkeys(probabilities, 0)
+        for values in self.repetitions():
+            for probability in probabilities:
+                _, low, high = helper.quantile_interval(values, probability, CONFIDENCE)
+                hits[probability] += low <= truth(probability) <= high
+        for probability, count in hits.items():
+            self.assertGreaterEqual(count, FEWEST, f"{probability}: {count} of {REPETITIONS}")
+            self.assertLessEqual(count, MOST, f"{probability}: {count} of {REPETITIONS}")
+
+    def test_intervals_of_probabilities_cover_at_least_as_often(self):
+        limit, hits = truth(0.9), 0
+        for values in self.repetitions():
+            low, high = helper.share_interval(int(np.sum(values > limit)), CASES, CONFIDENCE)
+            hits += low <= 0.1 <= high
+        self.assertGreaterEqual(hits, FEWEST)
+
+    def test_intervals_of_rank_correlations_cover(self):
+        hits, correlation = 0, 0.6
+        for repetition in range(REPETITIONS):
+            points = helper.correlated(helper.uniforms("monte_carlo", CASES, 2, 1, repetition), [[0, 1, correlation]])
+            found = helper.rank_correlation(points[:, 0], points[:, 1], CONFIDENCE)
+            hits += found["low"] <= correlation <= found["high"]
+        self.assertGreaterEqual(hits, FEWEST - 0.02 * REPETITIONS)  # Fisher's transform is asymptotic
+
+    def test_too_few_cases_have_no_interval(self):
+        values = np.arange(58.0)
+        self.assertIsNone(helper.quantile_interval(values, 0.95, 0.90)[2])  # Wilks: 59 for 95 % at 95 %, one-sided
+        self.assertEqual(helper.quantile_interval(np.arange(59.0), 0.95, 0.90)[2], 58.0)
+
+    def test_never_is_a_value(self):
+        values = np.array([1.0] * 50 + [math.inf] * 50)
+        value, low, high = helper.quantile_interval(values, 0.95, CONFIDENCE)
+        self.assertEqual((value, low), (math.inf, math.inf))
+        self.assertEqual(helper.finite_or_none(value), "never")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The report of a sweep: report_test.py FRETWORK STUDY. It is whole HTML, shows every section, and holds names of the user as text only."""
+
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from html.parser import HTMLParser
+from pathlib import Path
+
+FRETWORK, STUDY = sys.argv.pop(1), sys.argv.pop(1)
+HOSTILE = "<script>alert(1)</script>&"
+VARIABLES = f"""
+[[sweep.variables]]
+name = "{HOSTILE}"
+key = "initial.0.velocity.0"
+uniform = {{ from = 0.5, to = 1.5 }}
+[[sweep.variables]]
+name = "gap"
+key = "contacts.stop.gap"
+values = [0.0, 1e-3, -1.0]
+"""
+VOID = {"meta", "path", "rect", "circle", "polyline", "br"}
+
+
+class Checker(HTMLParser):
+    def __init__(self):
+        super().__init__()
+        self.stack, self.problems, self.counts, self.links = [], [], {}, []
+
+    def handle_starttag(self, tag, attributes):
+        self.counts[tag] = self.counts.get(tag, 0) + 1
+        self.links += [value for name, value in attributes if name == "href"]
+        if tag not in VOID:
+            self.stack.append(tag)
+
+    def handle_startendtag(self, tag, attributes):
+        self.counts[tag] = self.counts.get(tag, 0) + 1
+
+    def handle_endtag(self, tag):
+        if not self.stack or self.stack.pop() != tag:
+            self.problems.append(tag)
+
+
+class Report(unittest.TestCase):
+    def report_of(self, text):
+        folder = tempfile.TemporaryDirectory(prefix="fretwork_sweep_")
+        self.addCleanup(folder.cleanup)
+        self.directory = Path(folder.name) / "out"
+        study = Path(folder.name) / "sweep.toml"
+        study.write_text(f'[sweep]\nstudy = "{STUDY}"\n{text}{VARIABLES}')
+        done = subprocess.run([FRETWORK, "sweep", str(study), "-o", str(self.directory)], capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.page = (self.directory / "report.html").read_text()
+        checker = Checker()
+        checker.feed(self.page)
+        self.assertEqual((checker.problems, checker.stack), ([], []))
+        return checker
+
+    def test_statistics_pictures_worst_cases_and_failures(self):
+        checker = self.report_of('draws = 60\nkeep = "worst 2"\nlimits = [{ output = "stop.normal_max", above = 1e4 }]\n')
+        for title in ("Quantiles", "Distributions", "Sensitivity", "Work rate by contact", "Worst cases", "Cases without a result", "Study"):
+            self.assertIn(f"<h2>{title}</h2>", self.page)
+        self.assertEqual(checker.counts.get("script", 0), 0)
+        self.assertIn("&lt;script&gt;", self.page)
+        kept = json.loads((self.directory / "summary.json").read_text())["worst"]
+        self.assertEqual([link for link in checker.links if link.startswith("runs/")], [f"runs/case_{case}/report.html" for case in kept])
+        for case in kept:
+            self.assertTrue((self.directory / f"runs/case_{case}/report.html").exists())
+
+    def test_the_report_command_writes_it_again(self):
+        self.report_of("draws = 5\n")
+        (self.directory / "report.html").unlink()
+        subprocess.run([FRETWORK, "report", str(self.directory)], check=True, capture_output=True, timeout=60)
+        self.assertEqual((self.directory / "report.html").read_text(), self.page)
+
+    def test_few_cases_have_no_interval(self):
+        self.report_of("draws = 3\n")
+        self.assertIn("give no interval", self.page)
+
+
+if __name__ == "__main__":
+    unittest.main()
