@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-from drawing import Plot, tick_room, unit_for
+from .drawing import Plot, tick_room, unit_for
 
 FREE = np.array([31, 95, 168])  # colour of the free flight
 TOUCH = np.array([217, 95, 14])  # colour of the samples in contact

@@ -10,7 +10,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-import flow_data
+from . import flow_data
 
 
 class NoResults(Exception):

@@ -4,11 +4,9 @@
 import html
 import math
 
-import contact_view
-import node_view
-import structure_view
-from drawing import short, unit_for
-from page import cards, count, figure, section, table, warning
+from . import contact_view, node_view, structure_view
+from .drawing import short, unit_for
+from .page import cards, count, figure, section, table, warning
 
 MOST_MODES = 6  # pictures
 MOST_MODE_ROWS = 40

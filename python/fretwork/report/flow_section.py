@@ -3,9 +3,9 @@
 
 import html
 
-import flow_view
-from drawing import short
-from page import figure, section, table, warning
+from . import flow_view
+from .drawing import short
+from .page import figure, section, table, warning
 
 MOST_MODE_ROWS = 40
 MOST_POINT_ROWS = 60
