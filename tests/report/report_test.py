@@ -546,12 +546,12 @@ class Parts(unittest.TestCase):
             y, z = np.linspace(-5e-3, 5e-3, 50), 9e-5 * np.sin(np.arange(50.0))
             gap = 1e-4 - np.abs(z)
 
-        _, half = contact_view._limits(Bar, Bar.y, Bar.z)
+        _, half = contact_view.limits(Bar, Bar.y, Bar.z)
         self.assertAlmostEqual(half[0], 0.56 * 1e-2, delta=1e-9)
         self.assertLess(half[1], 2e-4)
         self.assertGreater(half[1], 1e-4)
         Bar.y = 1e-4 * np.cos(np.arange(50.0))
-        _, half = contact_view._limits(Bar, Bar.y, Bar.z)
+        _, half = contact_view.limits(Bar, Bar.y, Bar.z)
         self.assertEqual(half[0], half[1])
 
     def test_supports_are_named_once_without_overlap(self):
