@@ -86,7 +86,7 @@
     const size = box.getSize(new THREE.Vector3()).length() || 1;
     const camera = new THREE.PerspectiveCamera(35, width / height, 1e-3 * size, 20 * size);
     camera.up.set(0, 0, 1);
-    camera.position.copy(middle).add(new THREE.Vector3(...data.eye).normalize().multiplyScalar(1.75 * size));
+    camera.position.copy(middle).add(new THREE.Vector3(...data.eye).normalize().multiplyScalar(1.95 * size));
     const controls = new THREE.OrbitControls(camera, renderer.domElement);
     controls.target.copy(middle);
     controls.update();
