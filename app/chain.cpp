@@ -85,9 +85,11 @@ results::RunRecord make_record(const Inputs& inputs, int ranks) {
   return record;
 }
 
-void describe_model(const fem::Model& model, const std::vector<fem::Structure>& structures,
-                    results::RunResults& out) {
+void describe_model(const mesh::LineMesh& mesh, const fem::Model& model,
+                    const std::vector<fem::Structure>& structures, results::RunResults& out) {
   out.nodes = model.nodes;
+  for (const std::string& name : mesh::group_names(mesh))
+    out.groups[name] = mesh::group_nodes(mesh, name, "the results");
   for (const auto& beam : model.beams)
     out.lines.push_back({beam.a, beam.b});
   out.model.nodes = static_cast<std::int64_t>(model.nodes.size());
@@ -427,7 +429,7 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last) {
   {
     const core::PetscSession petsc;
     ModesStage modes = modes_stage(comm, inputs, model, out.record, request.force);
-    describe_model(model, modes.structures, out);
+    describe_model(mesh, model, modes.structures, out);
     out.model.different_structures = static_cast<std::int64_t>(modes.different);
     out.warnings.insert(out.warnings.end(), modes.warnings.begin(), modes.warnings.end());
     out.notes.insert(out.notes.end(), modes.notes.begin(), modes.notes.end());

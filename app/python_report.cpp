@@ -37,34 +37,45 @@ std::string find_python() {
                                 fmt::join(found, ", ")));
 }
 
-/// @param name  of a program in the folder of the report
-fs::path find_script(const std::string& name) {
+/// The folder of the Python package `fretwork`.
+fs::path find_package() {
   const fs::path here = core::executable_directory();
-  for (const fs::path& folder : {here / "../share/fretwork/report", here / "../../share/fretwork/report"})
-    if (const fs::path script = folder / name; fs::exists(script))
-      return script;
-  throw core::Error(fmt::format("the report's program {} is not at {}; install Fretwork whole", name,
-                                (here / "../share/fretwork/report").lexically_normal().string()));
+  for (const fs::path& folder : {here / "../share/fretwork/python", here / "../../share/fretwork/python"})
+    if (fs::exists(folder / "fretwork/report"))
+      return folder;
+  throw core::Error(fmt::format("the Python package of the report is not at {}; install Fretwork whole",
+                                (here / "../share/fretwork/python").lexically_normal().string()));
+}
+
+/// The command that runs `main` of a module of fretwork.report in an isolated interpreter: it sees the package, and
+/// neither the current folder nor the user's modules.
+std::vector<std::string> command_of(const std::string& module) {
+  return {find_python(), "-I", "-c",
+          "import sys; sys.path.insert(0, sys.argv.pop(1)); from fretwork.report." + module +
+              " import main; sys.exit(main())",
+          find_package().string()};
 }
 
 } // namespace
 
 void write_report(const fs::path& directory) {
-  const core::ChildResult result =
-      core::run_child({find_python(), "-I", find_script("fretwork_report.py").string(), directory.string()});
+  std::vector<std::string> command = command_of("build");
+  command.push_back(directory.string());
+  const core::ChildResult result = core::run_child(command);
   if (result.status != 0)
     throw core::Error("the report could not be written: " + result.output);
 }
 
 void write_sweep_report(const fs::path& directory) {
-  const core::ChildResult result = core::run_child(
-      {find_python(), "-I", find_script("fretwork_sweep_report.py").string(), directory.string()});
+  std::vector<std::string> command = command_of("sweep");
+  command.push_back(directory.string());
+  const core::ChildResult result = core::run_child(command);
   if (result.status != 0)
     throw core::Error("the report could not be written: " + result.output);
 }
 
 std::string compare_results(const std::vector<fs::path>& directories, const std::string& page) {
-  std::vector<std::string> arguments{find_python(), find_script("fretwork_compare.py").string()};
+  std::vector<std::string> arguments = command_of("compare");
   for (const fs::path& directory : directories)
     arguments.push_back(directory.string());
   if (!page.empty()) {

@@ -167,6 +167,22 @@ std::vector<h5::Group> in_order(const h5::Group& parent) {
   return groups;
 }
 
+/// mesh/groups: the nodes of each named group.
+void write_groups(const h5::Group& mesh, const std::map<std::string, std::vector<core::Index>>& groups) {
+  const h5::Group all = mesh.create("groups");
+  std::size_t number = 0;
+  for (const auto& [name, nodes] : groups)
+    create_named(all, name, number++).write<core::Index>("nodes", nodes, {nodes.size()}, "");
+}
+
+std::map<std::string, std::vector<core::Index>> read_groups(const h5::Group& mesh) {
+  std::map<std::string, std::vector<core::Index>> groups;
+  if (mesh.has("groups"))
+    for (const h5::Group& group : in_order(mesh.open("groups")))
+      groups[group.text("name")] = group.read<core::Index>("nodes");
+  return groups;
+}
+
 void write_contacts(const h5::Group& root, const RunResults& results) {
   const h5::Group contacts = root.create("contacts");
   for (std::size_t c = 0; c < results.contacts.size(); ++c) {
@@ -243,6 +259,7 @@ void write_archive(const fs::path& file, const RunResults& results) {
     root.set("dofs", results.model.dofs);
     root.set("mass", results.model.mass_kg);
     write_mesh(root, results.nodes, results.lines);
+    write_groups(root.open("mesh"), results.groups);
     write_modes(root, results.bases);
     write_contacts(root, results);
     if (!results.transients.empty())
@@ -276,6 +293,7 @@ RunResults read_archive(const fs::path& directory) {
     RunResults results;
     results.record = read_record(root);
     read_mesh(root, results.nodes, results.lines);
+    results.groups = read_groups(root.open("mesh"));
     results.model.nodes = static_cast<std::int64_t>(results.nodes.size());
     results.model.elements = static_cast<std::int64_t>(results.lines.size());
     results.bases = read_modes(root);

@@ -94,13 +94,14 @@ struct Timings { ///< s
 struct RunResults {
   RunRecord record;
   ModelFacts model;
-  std::vector<core::Vec3> nodes;                 ///< m
-  std::vector<std::array<core::Index, 2>> lines; ///< beams
-  std::vector<modal::Basis> bases;               ///< by structure
-  std::vector<TubeDamping> flow_damping;         ///< by tubes, where modes.damping = "flow"
-  std::vector<StabilityAssessment> stability;    ///< by assessments and tubes
-  std::vector<LinearResponse> responses;         ///< to turbulence, on pinned modes
-  std::optional<ModesLimit> modes_limit;         ///< where the study asks for an accuracy of them
+  std::vector<core::Vec3> nodes;                          ///< m
+  std::vector<std::array<core::Index, 2>> lines;          ///< beams
+  std::map<std::string, std::vector<core::Index>> groups; ///< nodes of the named groups of the mesh
+  std::vector<modal::Basis> bases;                        ///< by structure
+  std::vector<TubeDamping> flow_damping;                  ///< by tubes, where modes.damping = "flow"
+  std::vector<StabilityAssessment> stability;             ///< by assessments and tubes
+  std::vector<LinearResponse> responses;                  ///< to turbulence, on pinned modes
+  std::optional<ModesLimit> modes_limit;                  ///< where the study asks for an accuracy of them
   std::vector<ContactFacts> contacts;
   std::vector<post::ContactSummary> contact_summaries; ///< as `contacts`; empty without a transient
   post::StandardErrors errors_of_sums; ///< over all contacts: work_rate, friction_power, impact_rate

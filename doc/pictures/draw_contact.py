@@ -8,8 +8,8 @@ import sys
 
 import numpy as np
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "report"))
-import drawing  # noqa: E402
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+from fretwork.report import drawing  # noqa: E402
 
 MM, UM = 1e3, 1e6
 SIDE = 300  # px, of the square that shows an obstacle

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests of the report: report_test.py WRITE_MADE_UP REPORT_FOLDER (the program that makes results up, the folder of the report)."""
+"""Tests of the report: report_test.py WRITE_MADE_UP PYTHON_FOLDER (the program that makes results up, the folder of the Python package)."""
 
 import contextlib
 import json
+import os
 import re
 import sys
 import tempfile
@@ -12,20 +13,15 @@ from html.parser import HTMLParser
 from pathlib import Path
 import subprocess
 
-WRITE_MADE_UP, REPORT = sys.argv.pop(1), sys.argv.pop(1)
-sys.path.insert(0, REPORT)
+WRITE_MADE_UP, PYTHON = sys.argv.pop(1), sys.argv.pop(1)
+sys.path.insert(0, PYTHON)
 
 import h5py  # noqa: E402
 import numpy as np  # noqa: E402
 
-import compare_data  # noqa: E402
-import contact_view  # noqa: E402
-import fretwork_compare  # noqa: E402
-import drawing  # noqa: E402
-import fretwork_report  # noqa: E402
-import run_data  # noqa: E402
-import structure_view  # noqa: E402
-import wear_view  # noqa: E402
+from fretwork.report import compare, compare_data, contact_view, drawing, run_data, structure_view, wear_view  # noqa: E402
+from fretwork.report import build as build_module  # noqa: E402
+from fretwork.report.build import build  # noqa: E402
 
 LONGEST = 8.0  # s for 22 contacts and 10 000 outputs: the goal is 4 s on an idle machine, twice that beside other tests
 VOID = {"meta", "path", "rect", "circle", "image", "polyline", "br", "i"}
@@ -82,7 +78,7 @@ def made_up(folder, contacts, outputs, structures=1, wear=False):
 
 def run_report(*arguments):
     """(exit status, what it printed) of the report as a program of its own."""
-    done = subprocess.run([sys.executable, Path(REPORT) / "fretwork_report.py", *arguments], capture_output=True, text=True, check=False)
+    done = subprocess.run([sys.executable, "-m", "fretwork.report", *arguments], env={**os.environ, "PYTHONPATH": PYTHON}, capture_output=True, text=True, check=False)
     return done.returncode, done.stdout + done.stderr
 
 
@@ -96,7 +92,7 @@ class Report(unittest.TestCase):
 
     def report(self):
         """The report, checked: well formed, all in one file, no number that is none."""
-        text = fretwork_report.build(self.folder)
+        text = build(self.folder)
         checker = Checker()
         checker.feed(text)
         self.assertEqual(checker.problems, [])
@@ -422,10 +418,10 @@ class Report(unittest.TestCase):
                 holder = holder[key]
             holder[path[-1]] = markup
             (self.folder / "summary.json").write_text(run_data.with_checksum(json.dumps(changed)))
-            sys.argv = ["fretwork_report.py", str(self.folder)]
+            sys.argv = ["report", str(self.folder)]
             (self.folder / "report.html").unlink(missing_ok=True)
             try:
-                said = fretwork_report.main()
+                said = build_module.main()
             finally:
                 sys.argv = arguments
             text = (self.folder / "report.html").read_text() if said == 0 else ""
@@ -440,13 +436,13 @@ class Report(unittest.TestCase):
         self.assertEqual(precious.read_text(), "kept")
 
     def test_names_the_packages_that_are_missing(self):
-        found = fretwork_report.importlib.util.find_spec
-        fretwork_report.importlib.util.find_spec = lambda name: None if name == "h5py" else found(name)
-        arguments, sys.argv = sys.argv, ["fretwork_report.py", str(self.folder)]
+        found = build_module.importlib.util.find_spec
+        build_module.importlib.util.find_spec = lambda name: None if name == "h5py" else found(name)
+        arguments, sys.argv = sys.argv, ["report", str(self.folder)]
         try:
-            message = fretwork_report.main()
+            message = build_module.main()
         finally:
-            fretwork_report.importlib.util.find_spec, sys.argv = found, arguments
+            build_module.importlib.util.find_spec, sys.argv = found, arguments
         self.assertRegex(message, r"^the report needs python3-h5py, which .* does not have: apt install python3-h5py$")
 
     def test_tells_that_it_cannot_write(self):
@@ -497,7 +493,7 @@ class Comparison(unittest.TestCase):
 
     def test_is_a_page_too(self):
         runs, found = compare_data.tables(self.folders)
-        text = fretwork_compare.as_page(runs, ["a", "b"], found)
+        text = compare.as_page(runs, ["a", "b"], found)
         checker = Checker()
         checker.feed(text)
         self.assertEqual((checker.problems, checker.stack), ([], []))
@@ -550,12 +546,12 @@ class Parts(unittest.TestCase):
             y, z = np.linspace(-5e-3, 5e-3, 50), 9e-5 * np.sin(np.arange(50.0))
             gap = 1e-4 - np.abs(z)
 
-        _, half = contact_view._limits(Bar, Bar.y, Bar.z)
+        _, half = contact_view.limits(Bar, Bar.y, Bar.z)
         self.assertAlmostEqual(half[0], 0.56 * 1e-2, delta=1e-9)
         self.assertLess(half[1], 2e-4)
         self.assertGreater(half[1], 1e-4)
         Bar.y = 1e-4 * np.cos(np.arange(50.0))
-        _, half = contact_view._limits(Bar, Bar.y, Bar.z)
+        _, half = contact_view.limits(Bar, Bar.y, Bar.z)
         self.assertEqual(half[0], half[1])
 
     def test_supports_are_named_once_without_overlap(self):

@@ -71,6 +71,7 @@ TEST(Archive, GivesBackTheModelAndTheRecord) {
   const RunResults out = made_up({.structures = 2}), in = there_and_back(out);
   EXPECT_EQ(in.nodes, out.nodes);
   EXPECT_EQ(in.lines, out.lines);
+  EXPECT_EQ(in.groups, out.groups);
   EXPECT_EQ(in.model.nodes, out.model.nodes);
   EXPECT_EQ(in.model.elements, out.model.elements);
   EXPECT_EQ(in.model.dofs, out.model.dofs);

@@ -196,14 +196,16 @@ void add_transient(RunResults& r, const Made& made) {
 
 RunResults made_up(const Made& made) {
   RunResults r;
-  r.record = {"0.1.0",
-              "Straight tube on loose supports",
-              "title = \"Straight tube on loose supports\"\n\n[mesh]\nfile = \"tube.msh\"\n# <made up>\n",
-              std::string(64, 'a'),
-              {7, 18446744073709551615ull},
-              {{"HDF5", "1.10.8"}, {"PETSc", "3.18.5"}, {"SLEPc", "3.18.2"}},
-              "AVX2 (4 doubles)",
-              1};
+  r.record = {
+      "0.1.0",
+      "Straight tube on loose supports",
+      "title = \"Straight tube on loose supports\"\n\n[mesh]\nfile = \"tube.msh\"\n# <made up>\n"
+      "[[restraints]]\ngroup = \"feet\"\n[[loads]]\ngroup = \"tubes/1\"\ndirection = [0.0, 0.0, 1.0]\n",
+      std::string(64, 'a'),
+      {7, 18446744073709551615ull},
+      {{"HDF5", "1.10.8"}, {"PETSc", "3.18.5"}, {"SLEPc", "3.18.2"}},
+      "AVX2 (4 doubles)",
+      1};
   r.model.mass_kg = 4.6;
   for (int s = 0; s < made.structures; ++s) {
     const auto first = static_cast<core::Index>(r.nodes.size());
@@ -213,6 +215,7 @@ RunResults made_up(const Made& made) {
       r.lines.push_back({first + i, first + i + 1});
     r.bases.push_back(tube_modes(made, s));
   }
+  r.groups = {{"feet", {0}}, {"tubes/1", {0, 1, 2}}};
   r.model.nodes = static_cast<std::int64_t>(r.nodes.size());
   r.model.elements = static_cast<std::int64_t>(r.lines.size());
   r.model.dofs = 6 * r.model.nodes - 12;

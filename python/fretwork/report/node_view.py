@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from drawing import Plot, unit_for
+from .drawing import Plot, unit_for
 
 KINDS = ("force", "friction", "third")  # of x, y, z: blue, orange, black
 

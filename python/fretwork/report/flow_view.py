@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-from drawing import Plot
+from .drawing import Plot
 
 DECADES = 6  # of a spectrum: below, nothing is to be seen
 

@@ -3,9 +3,9 @@
 
 import html
 
-import flow_view
-from drawing import short
-from page import figure, section, table, warning
+from . import flow_view, live
+from .drawing import short
+from .page import figure, section, table, warning
 
 MOST_MODE_ROWS = 40
 MOST_POINT_ROWS = 60
@@ -94,7 +94,7 @@ def spectra(run):
         return ""
     shown = run.spectra[:MOST_SPECTRA]
     panels = "".join(
-        f'<div><h3>{html.escape(s.name)}</h3>{figure(flow_view.spectrum(s), html.escape(s.quantity))}</div>' for s in shown
+        f'<div><h3>{html.escape(s.name)}</h3>{live.figure(flow_view.spectrum(s), live.spectrum(s), html.escape(s.quantity))}</div>' for s in shown
     )
     note = (
         '<p class="soft">One-sided in Hz. Force per length: spectrum of the turbulence where the zone is fastest. Others: Welch’s estimate from the output '

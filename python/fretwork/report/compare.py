@@ -1,6 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Compares runs: fretwork_compare.py DIR DIR [DIR ...] [--html FILE]. Tables on the terminal; with --html also as a page with the pictures of the
+"""Compares runs: python3 -m fretwork.report.compare DIR DIR [DIR ...] [--html FILE]. Tables on the terminal; with --html also as a page with the pictures of the
 runs side by side."""
 
 import argparse
@@ -8,12 +7,10 @@ import html
 import sys
 from pathlib import Path
 
-import contact_view
-import page
-import structure_view
-from compare_data import short_names, tables
-from fretwork_report import write_whole
-from run_data import NoResults
+from . import contact_view, page, structure_view
+from .build import write_whole
+from .compare_data import short_names, tables
+from .run_data import NoResults
 
 MOST_ORBITS = 4  # contacts whose orbits are shown, those that wear most in the first run
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-import flow_data
+from . import flow_data
 
 
 class NoResults(Exception):
@@ -71,6 +71,7 @@ class Run:
     nodes_observed: list = field(default_factory=list)
     flows: list = field(default_factory=list)  # flow_data.TubeFlow
     spectra: list = field(default_factory=list)  # flow_data.Spectrum
+    groups: dict = field(default_factory=dict)  # nodes of each named group of the mesh
     wear: list = field(default_factory=list)  # of each support: the attributes and datasets of its group
 
     @property
@@ -228,6 +229,8 @@ def load(directory):
                 [_contact(group, summaries) for group in groups],
                 structures=structures,
             )
+            if "mesh/groups" in file:
+                run.groups = {_attributes(group)["name"]: group["nodes"][...] for group in file["mesh/groups"].values()}
             if "wear" in file:
                 run.wear = sorted((_support_wear(group) for group in file["wear"].values()), key=lambda support: int(support["index"]))
             series = {_attributes(group).get("name", name): group for name, group in file["nodes"].items()} if "nodes" in file else {}

@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-import wear_view
-from drawing import short
-from page import figure, section, table, warning
+from . import wear_view
+from .drawing import short
+from .page import figure, section, table, warning
 
 MANY_SUPPORTS = 12  # above, pictures are shown of a few
 PICTURES_OF_MANY = 6

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-from drawing import Plot, tick_room, unit_for
+from .drawing import Plot, tick_room, unit_for
 
 FREE = np.array([31, 95, 168])  # colour of the free flight
 TOUCH = np.array([217, 95, 14])  # colour of the samples in contact
@@ -16,7 +16,7 @@ SLIT = 0.25  # a picture of a flat obstacle with sides of a ratio below this has
 FAR = 20.0  # a gap so many times larger than the orbit is left out of the picture
 
 
-def _window(run, contact):
+def in_window(run, contact):
     """Samples of the statistics window with finite positions; all samples where there are none in it."""
     inside = run.time >= run.window
     if inside.sum() < 2:
@@ -24,7 +24,7 @@ def _window(run, contact):
     return inside & np.isfinite(contact.y) & np.isfinite(contact.z)
 
 
-def _planes(contact):
+def planes_of(contact):
     """The faces of a plane obstacle: (place, side of the body); none for other obstacles."""
     kind, gap = contact.facts["obstacle"], float(contact.facts["gap"])
     if not kind.startswith(("plane", "stop", "bars")):
@@ -44,7 +44,7 @@ def _has_second_bar(contact):
     return place[lowest] < 0 and contact.gap[lowest] < float(contact.facts["gap"])
 
 
-def _radius(contact):
+def radius_of(contact):
     """Of a circle in or round which the node moves; None for other obstacles."""
     kind, gap = contact.facts["obstacle"], float(contact.facts["gap"])
     if not kind.startswith(("circle", "drilled")):
@@ -59,19 +59,19 @@ def _walls(contact):
     """Points (n, 2) that a picture of the obstacle should show (m)."""
     if contact.outline is not None:
         return contact.outline
-    radius = _radius(contact)
+    radius = radius_of(contact)
     if radius is not None:
         return radius * np.array([[-1.0, -1.0], [1.0, 1.0]])
     upright = contact.facts["obstacle"].endswith("y")
-    return np.array([[place, 0.0] if upright else [0.0, place] for place, _ in _planes(contact)]).reshape(-1, 2)
+    return np.array([[place, 0.0] if upright else [0.0, place] for place, _ in planes_of(contact)]).reshape(-1, 2)
 
 
-def _limits(contact, y, z):
+def limits(contact, y, z):
     """Middle and half widths of a rectangle that shows the orbit and, unless it is far away, the obstacle (m): a square, but for a flat
     obstacle whose orbit would be a slit in it."""
     low = np.array([y.min(), z.min()])
     high = np.array([y.max(), z.max()])
-    flat = bool(_planes(contact))
+    flat = bool(planes_of(contact))
     normal = (0 if contact.facts["obstacle"].endswith("y") else 1) if flat else None
     extent = float((high - low).max() if normal is None else (high - low)[normal])
     walls = _walls(contact)
@@ -116,13 +116,13 @@ def _obstacle(plot, contact):
     if contact.outline is not None:
         closed = MICRO * np.vstack((contact.outline, contact.outline[:1]))
         plot.line(closed[:, 0], closed[:, 1], "wall")
-    radius = _radius(contact)
+    radius = radius_of(contact)
     if radius is not None:
         centre = float(plot.px(0.0)), float(plot.py(0.0))
         radius = abs(float(plot.px(MICRO * radius)) - centre[0])  # of a square picture
         plot.add(f'<circle class="wall" cx="{centre[0]:.1f}" cy="{centre[1]:.1f}" r="{radius:.1f}"/>')
     upright = contact.facts["obstacle"].endswith("y")
-    for place, side in _planes(contact):
+    for place, side in planes_of(contact):
         place *= MICRO
         beyond = side * 2e6 + place
         body = sorted((place, beyond))
@@ -135,11 +135,11 @@ def _obstacle(plot, contact):
 
 
 def orbit(run, contact, size=250, labels=True):
-    inside = _window(run, contact)
+    inside = in_window(run, contact)
     y, z = MICRO * contact.y[inside], MICRO * contact.z[inside]
     if len(y) == 0:
         return '<p class="none">no finite motion</p>'
-    middle, half = _limits(contact, contact.y[inside], contact.z[inside])
+    middle, half = limits(contact, contact.y[inside], contact.z[inside])
     middle, half = MICRO * middle, MICRO * half
     x, upright = zip(middle - half, middle + half)
     left = math.ceil(tick_room(upright, 4)) + 7
@@ -232,21 +232,24 @@ def histogram(values, name, unit, size=(320, 180)):
     return plot.svg(name)
 
 
-def along(run, values, name, unit, size=(480, 210)):
-    """A value a contact, as stems against the abscissa or the contact's number."""
+def along(run, values, name, unit, errors=None, size=(480, 210)):
+    """A value a contact, as stems against the abscissa or the contact's number, with bars of two standard errors to each side."""
     measured = run.contacts[0].abscissa is not None
     x = [c.abscissa for c in run.contacts] if measured else list(range(1, len(run.contacts) + 1))
     finite = [v for v in values if v is not None and math.isfinite(v)]
-    largest = max(finite, default=0.0)
+    bars = [2 * e if e is not None and math.isfinite(e) else 0.0 for e in errors or [None] * len(values)]
+    largest = max((v + b for v, b in zip(values, bars) if v is not None and math.isfinite(v)), default=0.0) if finite else 0.0
     factor, scaled = unit_for(largest, unit) if unit in ("W",) else (1.0, unit)
     length = float(np.linalg.norm(run.nodes[run.lines[:, 1]] - run.nodes[run.lines[:, 0]], axis=1).sum())
     limits = (0.0, length) if measured else (0.4, len(x) + 0.6)
     plot = Plot(size, limits, (0.0, 1.1 * factor * largest or 1.0), (58, 12, 10, 38))
     few = [(i + 1, c.name) for i, c in enumerate(run.contacts)] if not measured and len(x) <= MOST_NAMED else None
     plot.axes("abscissa along the tube [m]" if measured else ("" if few else "contact number"), f"{name} [{scaled}]", few)
-    for place, value in zip(x, values):
+    for place, value, bar in zip(x, values, bars):
         if value is not None and math.isfinite(value):
             plot.line([place, place], [0.0, factor * value], "stem")
+            if bar > 0:
+                plot.line([place, place], [factor * (value - bar), factor * (value + bar)], "errors")
             plot.dot(place, factor * value, "support", 3.5)
     return plot.svg(name)
 

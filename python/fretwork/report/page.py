@@ -1,10 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The frame of the report: style, sections, figures, tables."""
 
+import base64
+import functools
+import hashlib
 import html
+from pathlib import Path
 
-# What a browser lets the page do: show itself. Nothing is loaded, nothing runs.
-POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
+HERE = Path(__file__).parent
+SCRIPTS = ("vendor/uplot/uPlot.iife.min.js", "vendor/three/three.min.js", "vendor/three/OrbitControls.js", "page.js")
+
+
+@functools.cache
+def _scripts():
+    """The scripts of the page, as elements, and what a browser lets the page do: show itself and run these scripts, by their hashes. Nothing
+    is loaded, nothing else runs."""
+    texts = [(HERE / name).read_text(encoding="utf-8") for name in SCRIPTS]
+    hashes = " ".join(f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'" for text in texts)
+    policy = f"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src {hashes}"
+    return "".join(f'<script id="{Path(name).name}">{text}</script>\n' for name, text in zip(SCRIPTS, texts)), policy
+
 
 STYLE = """
 :root { --ink: #1c2733; --soft: #5b6b7b; --line: #dfe5eb; --blue: #1f5fa8; --orange: #d95f0e; --pale: #f5f7fa; }
@@ -53,14 +68,19 @@ svg text { font-size: 11px; fill: var(--ink); } svg .tick { fill: var(--soft); f
 .force { stroke: var(--blue); stroke-width: 1.1; fill: none; stroke-linejoin: round; }
 .friction { stroke: var(--orange); stroke-width: 1.1; fill: none; stroke-linejoin: round; }
 .third { stroke: var(--ink); stroke-width: 1; fill: none; stroke-linejoin: round; }
-.stem { stroke: var(--blue); stroke-width: 2; fill: none; } .before { fill: #eef1f5; } .zoomed { fill: #fbdcc2; }
+.errors { stroke: var(--ink); stroke-width: 1; fill: none; } .stem { stroke: var(--blue); stroke-width: 2; fill: none; } .before { fill: #eef1f5; } .zoomed { fill: #fbdcc2; }
 .band { fill: #cfe0f2; stroke: none; } .limit { stroke: #b3141e; stroke-width: 1.4; stroke-dasharray: 6 4; fill: none; }
 .rose { fill: #7aa6d6; stroke: #fff; stroke-width: 0.5; } .tube { fill: #d8dee5; stroke: var(--ink); stroke-width: 0.8; } .worn { fill: #f0a868; stroke: none; }
 .bar { fill: var(--blue); stroke: #fff; stroke-width: 0.6; }
 .share { stroke: #fff; } .stored { fill: #7aa6d6; } .modal_damping { fill: #1f5fa8; } .contact_damping { fill: #f0a868; }
 .share.friction { fill: #d95f0e; stroke-width: 1; stroke: #fff; } .share.residual { fill: #b3141e; }
 .swatch { display: inline-block; width: 11px; height: 11px; border-radius: 2px; margin-right: 5px; vertical-align: -1px; }
-@media print { body { max-width: none; padding: 0; font-size: 12px; } pre { max-height: none; white-space: pre-wrap; }
+.live-picture { max-width: 100%; overflow: hidden; } figure.on > .static { display: none; }
+.u-legend { font-size: 11px; text-align: left !important; margin: 0; } .u-legend th, .u-legend td { border: 0; padding: 1px 3px; } .live-picture canvas { display: block; } .bar-of-scene { margin: 0 0 4px; font-size: 13px; }
+table.data th { cursor: pointer; } th[aria-sort=descending]::after { content: " ▾"; } th[aria-sort=ascending]::after { content: " ▴"; }
+.csv { float: right; font-size: 11px; color: var(--soft); background: none; border: 1px solid var(--line); border-radius: 4px; cursor: pointer; margin: 0 0 2px; }
+@media print { .screen { display: none; } figure.on > .static { display: block; } .live-picture, .csv { display: none; } th[aria-sort]::after { content: "" !important; }
+  body { max-width: none; padding: 0; font-size: 12px; } pre { max-height: none; white-space: pre-wrap; }
   h2 { break-after: avoid; } .panel { border-color: #ccc; } * { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
 """
 
@@ -80,7 +100,7 @@ def table(heads, rows, text_columns=(0,)):
         return "".join(f"<{tag}{kind}>{cell}</{tag}>" for kind, cell in zip(kinds, row))
 
     body = "".join(f"<tr>{cells('td', row)}</tr>" for row in rows)
-    return f'<div class="scroll"><table><thead><tr>{cells("th", heads)}</tr></thead><tbody>{body}</tbody></table></div>'
+    return f'<div class="scroll"><table class="data"><thead><tr>{cells("th", heads)}</tr></thead><tbody>{body}</tbody></table></div>'
 
 
 def cards(entries):
@@ -99,10 +119,12 @@ def warning(text, bad=False):
 
 
 def page(title, subtitle, body):
+    scripts, policy = _scripts()
+    style = (HERE / "vendor/uplot/uPlot.min.css").read_text(encoding="utf-8") + STYLE
     return (
         '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
-        f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">\n'
-        f"<title>{html.escape(title)}</title><style>{STYLE}</style></head>\n"
-        f'<body><header><h1>{html.escape(title)}</h1><p class="soft">{subtitle}</p></header>\n{body}</body></html>\n'
+        f'<meta http-equiv="Content-Security-Policy" content="{policy}">\n'
+        f"<title>{html.escape(title)}</title><style>{style}</style></head>\n"
+        f'<body><header><h1>{html.escape(title)}</h1><p class="soft">{subtitle}</p></header>\n{body}{scripts}</body></html>\n'
     )

@@ -1,13 +1,10 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes report.html of a sweep, one file that needs nothing else, from its summary and its table: fretwork_sweep_report.py DIR"""
+"""Writes report.html of a sweep, one file that needs nothing else, from its summary and its table: python3 -m fretwork.report.sweep DIR"""
 
 import html
 import json
 import sys
 from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).resolve().parent))  # an isolated interpreter (-I) has no folder of its own there
 
 PRINCIPAL = ("total.work_rate", "worst.work_rate", "worst.wear_depth", "worst.years", "worst.normal_rms", "worst.normal_max")
 
@@ -37,7 +34,7 @@ class Sweep:
 
 
 def figure_of(value):
-    import drawing
+    from . import drawing
 
     return html.escape(value) if isinstance(value, str) else drawing.short(value, 3)
 
@@ -47,7 +44,7 @@ def interval(entry):
 
 
 def key_figures(sweep):
-    import page
+    from . import page
 
     entries = [("cases", sweep.summary["cases"]), ("done", sweep.summary["done"]), ("without a result", len(sweep.summary["failures"]))]
     out = page.cards([(name, f"{value}") for name, value in entries] + [("design", html.escape(sweep.summary["design"]))])
@@ -57,7 +54,7 @@ def key_figures(sweep):
 
 
 def quantiles(sweep):
-    import page
+    from . import page
 
     if not sweep.statistics:
         return ""
@@ -100,8 +97,7 @@ def convergence(sweep):
 
 
 def distributions(sweep):
-    import page
-    import sweep_view
+    from . import page, sweep_view
 
     pictures = []
     for name in sweep.principal():
@@ -121,8 +117,7 @@ def measure(sweep):
 
 
 def sensitivities(sweep):
-    import page
-    import sweep_view
+    from . import page, sweep_view
 
     of = measure(sweep)
     parts = []
@@ -139,8 +134,7 @@ def sensitivities(sweep):
 def along(sweep):
     import numpy as np
 
-    import page
-    import sweep_view
+    from . import page, sweep_view
 
     suffix = ".work_rate"
     names = [name[: -len(suffix)] for name in sweep.summary["columns"] if name.endswith(suffix) and not name.startswith(("total.", "worst."))]
@@ -154,7 +148,7 @@ def along(sweep):
 def worst(sweep):
     import numpy as np
 
-    import page
+    from . import page
 
     of = "worst.work_rate" if "worst.work_rate" in sweep.outputs else measure(sweep)
     values = sweep.outputs[of]
@@ -170,21 +164,21 @@ def worst(sweep):
 
 
 def failures(sweep):
-    import page
+    from . import page
 
     rows = [[str(f["case"]), html.escape(f["outcome"]), html.escape(f["message"])] for f in sweep.summary["failures"]]
     return page.section("Cases without a result", page.table(["case", "outcome", "message"], rows, (0, 1, 2))) if rows else ""
 
 
 def study(sweep):
-    import page
+    from . import page
 
     return page.section("Study", f"<pre>{html.escape(sweep.summary['study'])}</pre>")
 
 
 def build(directory):
     """The report as HTML text."""
-    import page
+    from . import page
 
     sweep = Sweep(directory)
     parts = [key_figures, quantiles, distributions, sensitivities, along, worst, failures, study]
@@ -194,14 +188,14 @@ def build(directory):
 
 
 def main():
-    import fretwork_report
+    from . import build as run_report
 
-    missing = fretwork_report.missing_packages()
+    missing = run_report.missing_packages()
     if missing:
         return f"the report needs {' and '.join(missing)}, which {sys.executable} does not have: apt install {' '.join(missing)}"
     directory = Path(sys.argv[1])
     try:
-        fretwork_report.write_whole(directory / "report.html", build(directory))
+        run_report.write_whole(directory / "report.html", build(directory))
     except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
         return f"{directory}: the results are not those of a sweep ({type(error).__name__}: {str(error)[:200]})"
     except OSError as error:

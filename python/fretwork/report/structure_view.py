@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-from drawing import Plot
+from .drawing import Plot
 
 AMPLITUDE = 0.08  # largest displacement of a drawn mode, as a share of the structure's size
 FLAT = 0.02  # a direction shorter than this share of the longest is not worth a view in depth

@@ -5,7 +5,7 @@ import math
 import tomllib
 from dataclasses import dataclass
 
-import run_data
+from . import run_data
 
 SIGNIFICANT = 3.0  # standard errors of a difference from which on it is none of scatter (0.3 % of the time by chance)
 FREQUENCIES = 10

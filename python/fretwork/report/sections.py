@@ -4,11 +4,9 @@
 import html
 import math
 
-import contact_view
-import node_view
-import structure_view
-from drawing import short, unit_for
-from page import cards, count, figure, section, table, warning
+from . import contact_view, live, node_view, structure_view
+from .drawing import short, unit_for
+from .page import cards, count, figure, section, table, warning
 
 MOST_MODES = 6  # pictures
 MOST_MODE_ROWS = 40
@@ -26,6 +24,20 @@ def quantity(value, unit):
 
 def _known(values):
     return [v for v in values if v is not None]
+
+
+def _error(contact, *keys):
+    """The standard error of an estimate of a contact; None where the run has none."""
+    found = contact.summary.get("standard_error") or {}
+    for key in keys:
+        found = found.get(key) if isinstance(found, dict) else None
+    return found
+
+
+def with_error(value, error, factor=1.0, digits=4):
+    """A value with its standard error."""
+    text = _times(value, factor, digits)
+    return text if value is None or error is None else f"{text} ± {_times(error, factor, 2)}"
 
 
 def _work(contact):
@@ -59,10 +71,11 @@ def key_figures(run):
 def structure(run):
     picture, view, unnamed = structure_view.structure(run)
     supports = f"; {len(run.contacts)} contacts (orange)" if run.contacts else ""
-    facts = f"{count(run.summary['model']['elements'])} beams, {count(run.summary['model']['dofs'])} free degrees of freedom{supports}. View: {view}."
+    loads = "; restraints (black), loads (green)" if run.groups else ""
+    facts = f"{count(run.summary['model']['elements'])} beams, {count(run.summary['model']['dofs'])} free degrees of freedom{supports}<span class=screen>{loads}</span>. View on paper: {view}."
     if unnamed:
         facts += f" Without room for a name: {html.escape(', '.join(unnamed))}."
-    return section("Structure", figure(picture, facts))
+    return section("Structure", live.figure(picture, live.scene(run), facts))
 
 
 def modes(run):
@@ -97,17 +110,17 @@ def _contact_line(contact):
 def _panel(run, contact):
     return (
         f'<div class="panel"><h3>{html.escape(contact.name)}</h3><p class="soft">{_contact_line(contact)}</p><div class="row">'
-        + figure(contact_view.orbit(run, contact))
-        + figure(contact_view.history(run, contact))
-        + figure(contact_view.impact(run, contact))
+        + live.figure(contact_view.orbit(run, contact), live.orbit(run, contact))
+        + live.figure(contact_view.history(run, contact), live.force(run, contact))
+        + live.figure(contact_view.impact(run, contact), live.impact(run, contact))
         + "</div></div>"
     )
 
 
 _EXPLANATION = (
     '<p class="soft">Left: position of the node from the obstacle’s centre at true scale (each axis with its own at flat obstacles), in the statistics window; dark where it stays long, '
-    "orange where it touches; black: the obstacle’s reach. Middle: normal force (grey: before the statistics window, orange: the stretch shown at "
-    "the right). Right: the largest impact, normal force blue, tangential force orange. Orbits and histories show the output instants, the largest impact every step; statistics see every step.</p>"
+    "orange where it touches; black: the obstacle’s reach. Middle: normal force (on paper: grey before the statistics window, orange the stretch shown at "
+    "the right). Right: the largest impact. Normal force blue, tangential force orange. Drag to zoom, double-click to show all. Orbits and histories show the output instants, the largest impact every step; statistics see every step.</p>"
 )
 
 
@@ -135,17 +148,18 @@ def along_the_tube(run):
     statistics = [c.summary for c in run.contacts]
     length = run.window_length
     rates = [s["impacts"] / length if length else None for s in statistics]
+    errors = [[_error(c, key) for c in run.contacts] for key in ("work_rate", "friction_power", "impacts_per_second")]
     ratio = [100 * s["contact_time_ratio"] if s["contact_time_ratio"] is not None else None for s in statistics]
     plots = [
-        ([s["work_rate"] for s in statistics], "work rate", "W"),
-        ([s["friction_power"] for s in statistics], "friction power", "W"),
+        ([s["work_rate"] for s in statistics], "work rate", "W", errors[0]),
+        ([s["friction_power"] for s in statistics], "friction power", "W", errors[1]),
         (ratio, "time in contact", "%"),
-        (rates, "impact rate", "1/s"),
+        (rates, "impact rate", "1/s", errors[2]),
     ]
     panels = "".join(figure(contact_view.along(run, *plot)) for plot in plots)
     note = (
         '<p class="soft">Work rate: mean over time of the normal force times the sliding speed while the contact slides (Archard’s input). Friction '
-        "power: energy that the sliders dissipate in a second.</p>"
+        "power: energy that the sliders dissipate in a second. Bars: two standard errors of this window to each side.</p>"
     )
     where = "Along the tube" if run.contacts[0].abscissa is not None else "Contact by contact"
     return section(where, f'<div class="grid2">{panels}</div>', note)
@@ -222,7 +236,7 @@ def nodes(run):
                          _times(error, 1e6, 2), _times(d["min"], 1e6), _times(d["max"], 1e6)])
     shown = run.nodes_observed[:HISTORIES_OF_MANY]
     panels = "".join(
-        f'<div class="panel"><h3>{html.escape(node.name)}</h3>{figure(node_view.history(run, node))}</div>' for node in shown if node.displacement is not None
+        f'<div class="panel"><h3>{html.escape(node.name)}</h3>{live.figure(node_view.history(run, node), live.node(run, node))}</div>' for node in shown if node.displacement is not None
     )
     note = '<p class="soft">Displacement from rest, global axes; x blue, y orange, z black. Statistics over every step.</p>'
     left = f'<p class="soft">Histories of the first {len(shown)} of {len(run.nodes_observed)} nodes.</p>' if len(shown) < len(run.nodes_observed) else ""
@@ -241,14 +255,14 @@ def contact_table(run):
         force, radial = s["normal_force"], _NOTHING if _flat_axes(c) else s["position"]["radial"]
         speed, long = s["impact_velocity"], s["contact_duration"]
         rows.append([
-            html.escape(c.name), count(s["impacts"]), _times(s["contact_time_ratio"], 100, 3), short(force["mean"]), short(force["rms"]),
+            html.escape(c.name), count(s["impacts"]), _times(s["contact_time_ratio"], 100, 3), short(force["mean"]), with_error(force["rms"], _error(c, "normal_force", "rms")),
             short(force["max"]), short(s["tangential_force"]["max"]), _times(radial["rms"], 1e6), _times(radial["max"], 1e6), _times(s["penetration"]["max"], 1e6, 3),
-            _times(s["work_rate"], 1e3), _times(s["friction_power"], 1e3),
+            with_error(s["work_rate"], _error(c, "work_rate"), 1e3), with_error(s["friction_power"], _error(c, "friction_power"), 1e3),
             f"{_times(speed['mean'], 1e3, 3)} / {_times(speed['max'], 1e3, 3)}", f"{_times(long['mean'], 1e3, 3)} / {_times(long['max'], 1e3, 3)}",
         ])
     note = (
         f'<p class="soft">Statistics over every step from {short(run.window)} s on. Forces over all time; radial: distance of the node from the '
-        "obstacle’s centre in the contact’s plane, none at flat obstacles.</p>"
+        "obstacle’s centre in the contact’s plane, none at flat obstacles. ±: standard error of the estimate over this window.</p>"
     )
     return section("Table of contacts", table(heads, rows), _flat(run), _losses(run), _flexibility(run), note)
 

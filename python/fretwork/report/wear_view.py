@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-from drawing import Plot
+from .drawing import Plot
 
 MILLI = 1e3
 YEAR = 31536000.0  # s

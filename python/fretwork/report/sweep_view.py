@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-from drawing import Plot, label_width, unit_for
+from .drawing import Plot, label_width, unit_for
 
 MOST_DOTS = 2000  # of a scatter plot: more are thinned evenly
 

@@ -1,6 +1,5 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes report.html, one file that needs nothing else, from the results of a run: fretwork_report.py DIR [-o FILE]"""
+"""Writes report.html, one file that needs nothing else, from the results of a run: python3 -m fretwork.report DIR [-o FILE]"""
 
 import argparse
 import html
@@ -8,8 +7,6 @@ import importlib.util
 import os
 import sys
 from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).resolve().parent))  # an isolated interpreter (-I) has no folder of its own there
 
 PACKAGES = {"numpy": "python3-numpy", "h5py": "python3-h5py"}
 
@@ -21,11 +18,7 @@ def missing_packages():
 
 def build(directory):
     """The report as HTML text."""
-    import flow_section
-    import page
-    import run_data
-    import sections
-    import wear_section
+    from . import flow_section, page, run_data, sections, wear_section
 
     run = run_data.load(directory)
     parts = [sections.key_figures, sections.structure, sections.modes, flow_section.profiles, flow_section.stability,
@@ -56,7 +49,7 @@ def main():
     missing = missing_packages()
     if missing:
         return f"the report needs {' and '.join(missing)}, which {sys.executable} does not have: apt install {' '.join(missing)}"
-    import run_data
+    from . import run_data
 
     try:
         text = build(arguments.directory)
@@ -68,7 +61,3 @@ def main():
     except OSError as error:
         return f"the report cannot be written: {error}"
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

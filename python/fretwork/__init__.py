@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fretwork in Python: results as labelled arrays, runs, plots, the report.
+
+    import fretwork
+    results = fretwork.run("study.toml", {"modes.count": 60})
+    results.contacts["work_rate"]
+
+Submodules and pandas, xarray and matplotlib are imported when they are first used."""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .results import Results
+    from .runs import RunFailed, read_study, run, write_study
+
+_HOMES = {"Results": "results", "run": "runs", "RunFailed": "runs", "read_study": "runs", "write_study": "runs"}
+__all__ = ["Results", "RunFailed", "read_study", "run", "write_study"]
+
+
+def __getattr__(name: str) -> Any:
+    if name in _HOMES:
+        return getattr(import_module(f".{_HOMES[name]}", __name__), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The report in a headless Chromium: browser_test.py WRITE_MADE_UP PYTHON_FOLDER CHROMIUM SCREENSHOTS"""
+
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+WRITE_MADE_UP, PYTHON, CHROMIUM, SCREENSHOTS = sys.argv.pop(1), sys.argv.pop(1), sys.argv.pop(1), Path(sys.argv.pop(1))
+sys.path[:0] = [PYTHON, str(Path(__file__).parent)]
+
+from browser import Browser  # noqa: E402
+from fretwork.report import write_report  # noqa: E402
+
+LIVE = "document.querySelectorAll('figure.on').length"
+
+
+class InABrowser(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory(prefix="fretwork_browser_test_")
+        folder = Path(cls.temporary.name)
+        subprocess.run([WRITE_MADE_UP, folder, "5", "4000", "1", "wear"], check=True, stdout=subprocess.DEVNULL)
+        rows = "".join(f'"apex","displacement y",m2/Hz,{f},{1e-12 / (1 + f**2)},{6e-13 / (1 + f**2)},{2e-12 / (1 + f**2)}\n' for f in range(200))
+        (folder / "spectra.csv").write_text("name,quantity,unit,frequency [Hz],density,low_95,high_95\n" + rows)
+        cls.page = write_report(folder)
+        SCREENSHOTS.mkdir(parents=True, exist_ok=True)
+        cls.browser = Browser(CHROMIUM)
+        cls.browser.open(cls.page)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.__exit__()
+        cls.temporary.cleanup()
+
+    def heading(self, title):
+        self.browser.run(f"[...document.querySelectorAll('h2')].find(h => h.textContent === '{title}').scrollIntoView()")
+
+    def tearDown(self):
+        self.assertEqual(self.browser.errors, [])
+
+    def test_makes_every_picture_interactive_that_has_data(self):
+        count = self.browser.run("document.querySelectorAll('script.live').length")
+        self.assertEqual(count, 1 + 3 * 5 + self.browser.run("document.querySelectorAll('svg[aria-label^=\"Displacement of\"]').length") + 1)
+        for i in range(count):
+            self.browser.box("script.live", 0)
+            self.browser.run(f"document.querySelectorAll('script.live')[{i}].closest('figure').scrollIntoView()")
+            self.browser.wait(f"document.querySelectorAll('script.live')[{i}].closest('figure').classList.contains('on')")
+        self.assertEqual(self.browser.run(LIVE), count)
+        for title, name in (("Contacts", "orbits"), ("Spectra", "spectra"), ("Structure", "structure")):
+            self.heading(title)
+            self.browser.screenshot(SCREENSHOTS / f"{name}.png")
+
+    def test_zooms_a_history_and_shows_all_again(self):
+        self.heading("Contacts")
+        self.browser.wait("fretworkReport.plots.some(p => p.axes[0].label === 'time [s]')")
+        self.browser.run("window.history_ = fretworkReport.plots.find(p => p.axes[0].label === 'time [s]'); history_.over.id = 'over'; 0")
+        span = "history_.scales.x.max - history_.scales.x.min"
+        whole = self.browser.run(span)
+        left, top, width, height = self.browser.box("#over")
+        self.browser.drag((left + 0.4 * width, top + 0.5 * height), (left + 0.6 * width, top + 0.52 * height))
+        self.browser.wait(f"{span} < {0.5 * whole}")
+        self.assertAlmostEqual(self.browser.run(span) / whole, 0.2, delta=0.02)
+        self.browser.screenshot(SCREENSHOTS / "zoomed_history.png")
+        self.browser.run("history_.over.dispatchEvent(new MouseEvent('dblclick', {bubbles: true})); 0")
+        self.browser.wait(f"{span} > {0.99 * whole}")
+
+    def test_zooms_an_orbit_and_shows_all_again(self):
+        self.heading("Contacts")
+        self.browser.wait("fretworkReport.plots.some(p => p.mode === 2)")
+        self.browser.run("window.orbit_ = fretworkReport.plots.find(p => p.mode === 2); orbit_.over.id = 'orbit'; 0")
+        span = "orbit_.scales.y.max - orbit_.scales.y.min"
+        whole = self.browser.run(span)
+        left, top, width, height = self.browser.box("#orbit")
+        self.browser.drag((left + 0.25 * width, top + 0.25 * height), (left + 0.75 * width, top + 0.75 * height))
+        self.browser.wait(f"{span} < {0.6 * whole}")
+        self.browser.screenshot(SCREENSHOTS / "zoomed_orbit.png")
+        self.browser.run("orbit_.over.dispatchEvent(new MouseEvent('dblclick', {bubbles: true})); 0")
+        self.browser.wait(f"{span} > {0.99 * whole}")
+
+    def test_turns_the_structure_and_moves_a_mode(self):
+        self.heading("Structure")
+        self.browser.wait("fretworkReport.scenes.length === 1")
+        position = "fretworkReport.scenes[0].camera.position.toArray()"
+        before = self.browser.run(position)
+        left, top, width, height = self.browser.box(".live-picture canvas")
+        self.browser.drag((left + 0.5 * width, top + 0.5 * height), (left + 0.7 * width, top + 0.4 * height))
+        after = self.browser.run(position)
+        self.assertGreater(sum(abs(a - b) for a, b in zip(before, after)), 0.1 * sum(abs(a) for a in before))
+        picture = "(() => { const c = fretworkReport.scenes[0]; c.renderer.domElement.toDataURL(); return 0; })()"
+        self.browser.run("(() => { const s = fretworkReport.scenes[0].select; s.value = 1; s.onchange(); window.frames_ = fretworkReport.scenes[0].renderer.info.render.frame; })()")
+        self.browser.run(picture)
+        self.browser.wait("fretworkReport.scenes[0].renderer.info.render.frame > frames_ + 3")
+        self.browser.screenshot(SCREENSHOTS / "mode.png")
+
+    def test_sorts_a_table_and_saves_it(self):
+        table = "[...document.querySelectorAll('section')].find(s => s.querySelector('h2').textContent === 'Modes').querySelector('table')"
+        column = f"[...{table}.querySelectorAll('tbody tr')].map(r => parseFloat(r.cells[1].textContent))"
+        self.browser.run(f"{table}.querySelectorAll('th')[1].click()")
+        values = self.browser.run(column)
+        self.assertEqual(values, sorted(values, reverse=True))
+        self.browser.run(f"{table}.querySelectorAll('th')[1].click()")
+        self.assertEqual(self.browser.run(column), sorted(values))
+        saved = self.browser.run(
+            "(async () => { let blob; const make = URL.createObjectURL; URL.createObjectURL = b => (blob = b, make.call(URL, b));"
+            f" {table}.parentElement.previousElementSibling.click(); URL.createObjectURL = make; return blob.text(); }})()")
+        lines = saved.splitlines()
+        self.assertTrue(lines[0].startswith("mode,frequency [Hz],damping [%]"), lines[0])
+        self.assertEqual([float(line.split(",")[1]) for line in lines[1:]], sorted(values))
+
+    def test_prints_static_pictures(self):
+        self.browser.send("Emulation.setEmulatedMedia", media="print")
+        try:
+            shown = self.browser.run("[...document.querySelectorAll('.live-picture')].filter(e => e.getBoundingClientRect().height > 0).length")
+            static = self.browser.run("[...document.querySelectorAll('figure > .static')].filter(e => e.getBoundingClientRect().height === 0).length")
+            self.assertEqual((shown, static), (0, 0))
+            self.browser.pdf(SCREENSHOTS / "report.pdf")
+        finally:
+            self.browser.send("Emulation.setEmulatedMedia", media="")
+
+    def test_runs_no_script_but_its_own(self):
+        self.browser.run("(() => { const s = document.createElement('script'); s.textContent = 'window.injected = 1'; document.body.append(s); })()")
+        self.assertIsNone(self.browser.run("window.injected"))
+        self.assertTrue(any("Content Security Policy" in error for error in self.browser.errors), self.browser.errors)
+        self.browser.errors.clear()
+
+
+if __name__ == "__main__":
+    unittest.main()
