@@ -48,12 +48,11 @@ constexpr double coarsest_accuracy = 0.02;
 constexpr double contact_share_with_scaling = 0.45;
 /// Steps of a flight. More gain little: its end, with displacements and velocities, costs as much as one step.
 constexpr double most_flight = 12.0;
-/// Steps of splitting that one of collocation takes the time of: measured 3 to 4 with 1 and 3 supports, 4 with 8 and 10, 4 to 5 with 20 and
-/// 30 (with friction in the plane 2 to 9); 7 to 10 where a damping matrix couples 40 or 80 modes (matrix_flow.hpp).
-double collocation_cost(const Scene& scene) {
-  const double contacts = std::min(6.0, 3.2 + 0.08 * static_cast<double>(scene.contacts.size()));
-  return scene.system.damping_matrix.size() > 0 ? std::max(contacts, 10.0) : contacts;
-}
+/// Steps of splitting that one of collocation takes the time of: measured 0.9 to 1.1 with 1 and 3 supports, 0.6 to 0.8 with 8 to 30; the same where a
+/// damping matrix couples the modes (0.4 to 0.9), and with friction in the plane.
+double collocation_cost(const Scene& scene) { return scene.contacts.size() > 3 ? 0.7 : 1.0; }
+/// Of the time of splitting: below it collocation is taken, which does not measure its error (replays.hpp).
+constexpr double worth_changing = 0.7;
 /// Contacts move in intervals within steps: not with residual flexibility, whose forces stand at instants.
 bool has_intervals(const StepChoice& c, const Scene& scene) {
   return c.scheme == SchemeKind::splitting && scene.residual.size() == 0;
@@ -364,7 +363,7 @@ StepChoice cheapest(const Scene& scene, const SceneRates& rates, const StepOptio
   StepChoice collocation = choice_of(scene, rates, options, SchemeKind::collocation);
   const double share = static_cast<double>(collocation.steps) / static_cast<double>(splitting.steps),
                step_cost = collocation_cost(scene), cost = step_cost * share;
-  StepChoice& chosen = cost < 1.0 ? collocation : splitting;
+  StepChoice& chosen = cost < worth_changing ? collocation : splitting;
   chosen.scheme_reason = fmt::format(
       "{}: collocation would need {:.2g} of the steps of splitting, each of about {:.2g} times the time",
       name_of(chosen.scheme), share, step_cost);

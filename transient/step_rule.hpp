@@ -30,7 +30,7 @@
 /// Never above 1/30 of the shortest period of the excitation at an accuracy of 0.01 (without contacts 1/200, and m = 0.3: statistics must
 /// see the modes), nor the shortest interval of a table (whose points runge_kutta_54 ends its steps at), nor duration/20000 (so many steps take milliseconds).
 ///
-/// Without a scheme given, collocation is taken where its predicted time (steps times the cost of one) is below that of splitting.
+/// Without a scheme given, collocation is taken where its predicted time (steps times the cost of one) is below 0.7 of that of splitting.
 #pragma once
 #include "transient/scene_rates.hpp"
 #include "transient/scheme.hpp"

@@ -5,9 +5,9 @@ import contextlib
 import json
 import os
 import re
+import resource
 import sys
 import tempfile
-import time
 import unittest
 from html.parser import HTMLParser
 from pathlib import Path
@@ -74,6 +74,12 @@ class Checker(HTMLParser):
 def made_up(folder, contacts, outputs, structures=1, wear=False):
     arguments = [WRITE_MADE_UP, folder, str(contacts), str(outputs), str(structures)] + (["wear"] if wear else [])
     subprocess.run(arguments, check=True, stdout=subprocess.DEVNULL)
+
+
+def time_of_children():
+    """Processor time, s: of a machine that does other things too."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def run_report(*arguments):
@@ -351,10 +357,10 @@ class Report(unittest.TestCase):
 
     def test_is_quick_for_many_contacts_and_outputs(self):
         made_up(self.folder, 22, 10000)
-        start = time.perf_counter()
+        start = time_of_children()
         status, said = run_report(self.folder)
         self.assertEqual((status, said), (0, ""))
-        self.assertLess(time.perf_counter() - start, LONGEST)
+        self.assertLess(time_of_children() - start, LONGEST)
         self.assertLess((self.folder / "report.html").stat().st_size, 5e6)
 
     def test_writes_where_it_is_told_and_nothing_else(self):

@@ -286,19 +286,22 @@ TEST(StepRule, TakesSplittingWhereCollocationCannotTakeTheScene) {
                        "splitting, because collocation does not take the residual flexibility"));
 }
 
-TEST(StepRule, WeighsAStepOfCollocationByADampingMatrix) {
-  Scene scene = vibrating(scene_with({Circle{0.1}, {8e4}, {}}, 1000.0, Vec3(0, 8e8, 0)));
-  for (const auto& [contacts, times] : {std::pair(1, "3.3"), std::pair(10, "4"), std::pair(40, "6")}) {
-    Scene many = scene;
-    many.contacts.assign(static_cast<std::size_t>(contacts), scene.contacts[0]);
-    const StepChoice choice = choose_step(many, {});
-    EXPECT_TRUE(mentions(choice.scheme_reason, std::string("of about ") + times + " times the time"))
-        << choice.scheme_reason;
+TEST(StepRule, TakesCollocationOnlyWhereItSavesMuch) {
+  // a step of both takes about as long; collocation does not measure its error
+  for (const double highest : {1e6, 4e6, 8e6, 4e7, 8e8}) {
+    const Scene scene = vibrating(scene_with({Circle{0.1}, {8e4}, {}}, 1000.0, Vec3(0, highest, 0)));
+    StepOptions collocation;
+    collocation.scheme = SchemeKind::collocation;
+    const double share = static_cast<double>(choose_step(scene, collocation).steps) /
+                         static_cast<double>(choose_step(scene, splitting()).steps);
+    const SchemeKind chosen = choose_step(scene, {}).scheme;
+    if (share < 0.5) {
+      EXPECT_EQ(chosen, SchemeKind::collocation) << share;
+    }
+    if (share > 0.9) {
+      EXPECT_EQ(chosen, SchemeKind::splitting) << share;
+    }
   }
-  scene.system.damping_matrix = Eigen::MatrixXd::Identity(3, 3);
-  const StepChoice choice = choose_step(scene, {});
-  EXPECT_EQ(choice.scheme, SchemeKind::collocation);
-  EXPECT_TRUE(mentions(choice.scheme_reason, "of about 10 times the time")) << choice.scheme_reason;
 }
 
 TEST(StepRule, GivesNoReasonForASchemeThatWasGiven) {

@@ -12,13 +12,14 @@ SCRIPTS = ("vendor/uplot/uPlot.iife.min.js", "vendor/three/three.min.js", "vendo
 
 
 @functools.cache
-def _scripts():
+def _scripts(live):
     """The scripts of the page, as elements, and what a browser lets the page do: show itself and run these scripts, by their hashes. Nothing
-    is loaded, nothing else runs."""
-    texts = [(HERE / name).read_text(encoding="utf-8") for name in SCRIPTS]
+    is loaded, nothing else runs. live: it has interactive pictures, which need the libraries."""
+    names = SCRIPTS if live else SCRIPTS[-1:]
+    texts = [(HERE / name).read_text(encoding="utf-8") for name in names]
     hashes = " ".join(f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'" for text in texts)
     policy = f"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src {hashes}"
-    return "".join(f'<script id="{Path(name).name}">{text}</script>\n' for name, text in zip(SCRIPTS, texts)), policy
+    return "".join(f'<script id="{Path(name).name}">{text}</script>\n' for name, text in zip(names, texts)), policy
 
 
 STYLE = """
@@ -119,7 +120,7 @@ def warning(text, bad=False):
 
 
 def page(title, subtitle, body):
-    scripts, policy = _scripts()
+    scripts, policy = _scripts('<script class="live"' in body)
     style = (HERE / "vendor/uplot/uPlot.min.css").read_text(encoding="utf-8") + STYLE
     return (
         '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
