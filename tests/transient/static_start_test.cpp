@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 using namespace fretwork;
 using namespace fretwork::tests;
@@ -176,6 +177,40 @@ TEST(StaticStart, InTheCornerOfAHole) {
     const Equilibrium e = found(scene);
     EXPECT_NEAR(e.normal_force(0), force, round_off * force);
     EXPECT_LT((e.q - Vec3(0, 1e-3, 1e-3) - force / stiffness * direction).norm(), round_off) << angle;
+  }
+}
+
+// Round a corner between two faces the normal turns within a penetration: Newton's steps pass it, from face to face.
+TEST(StaticStart, RoundTheCornersOfPolygons) {
+  std::vector<contact::PolarPoint> polygon;
+  constexpr int corners = 320, modes = 6, supports = 5, scenes = 60;
+  constexpr double radius = 2e-4, stiffness = 1e6;
+  for (int k = 0; k < corners; ++k)
+    polygon.push_back({(k + 0.5) * 2.0 * std::numbers::pi / corners, radius});
+  std::mt19937 engine(1);
+  const auto uniform = [&engine](double low, double high) {
+    return low + (high - low) * static_cast<double>(engine()) / 4294967296.0;
+  };
+  for (int i = 0; i < scenes; ++i) {
+    Scene scene = mass_point(1.0, Vec3::Zero(), 1.0);
+    for (Eigen::VectorXd* x : {&scene.system.stiffness, &scene.system.damping, &scene.q0, &scene.v0})
+      x->setZero(modes);
+    for (int j = 0; j < modes; ++j)
+      scene.system.stiffness(j) = std::pow(10.0, uniform(0.0, 4.0));
+    Eigen::VectorXd load(modes);
+    for (int j = 0; j < modes; ++j)
+      load(j) = uniform(-5.0, 5.0);
+    scene.loads = {{Constant{1.0}, load}};
+    for (int c = 0; c < supports; ++c) {
+      ContactPoint point = contact_of(1.0, spring_at(contact::Profile(polygon), stiffness));
+      point.b.resize(3, modes);
+      for (double& b : point.b.reshaped())
+        b = uniform(-1.0, 1.0);
+      point.rest = Vec3(0.0, uniform(-radius, radius), uniform(-radius, radius));
+      scene.contacts.push_back(point);
+    }
+    const Equilibrium e = static_equilibrium(scene);
+    EXPECT_EQ(e.balance, Balance::found) << i << ": " << e.residual << " after " << e.iterations;
   }
 }
 
