@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "study/accelerogram.hpp"
 #include "core/error.hpp"
+#include "core/input_file.hpp"
 #include "study/number_rows.hpp"
 #include <algorithm>
 #include <cctype>
 #include <fstream>
-#include <regex>
+#include <optional>
 #include <sstream>
 
 namespace fretwork::study {
 namespace {
 
 constexpr double standard_gravity = 9.80665; // m/s2
+constexpr double most_points = 1e12;         // more than any file holds; exact as an integer
 
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -24,15 +26,28 @@ struct Sampling {
   double step = 0.0; ///< s
 };
 
+/// The number after `name` and `=`.
+std::optional<double> named_number(std::string_view line, std::string_view name) {
+  const auto at = line.find(name);
+  if (at == std::string_view::npos)
+    return std::nullopt;
+  line = trimmed(line.substr(at + name.size()));
+  if (!line.starts_with('='))
+    return std::nullopt;
+  line = trimmed(line.substr(1));
+  return to_real(line.substr(0, line.find_first_not_of("0123456789.e+-")));
+}
+
+/// `NPTS= 4000, DT= .0050 SEC` or `4000 0.0050 NPTS, DT`.
 Sampling sampling_of(const std::string& line, const std::string& file) {
-  static const std::regex named(R"(npts\s*=\s*(\d+)\s*,\s*dt\s*=\s*([0-9.e+-]+))"),
-      plain(R"(^\s*(\d+)\s+([0-9.e+-]+)\s+npts)");
-  std::smatch found;
   const std::string text = lower(line);
-  if (std::regex_search(text, found, named) || std::regex_search(text, found, plain))
-    if (const auto points = to_real(found[1].str()), step = to_real(found[2].str());
-        points && step && *step > 0.0)
-      return {static_cast<std::size_t>(*points), *step};
+  std::optional<double> points = named_number(text, "npts"), step = named_number(text, "dt");
+  std::istringstream words(text);
+  if (std::string first, second, third;
+      !points && words >> first >> second >> third && third.starts_with("npts"))
+    points = to_real(first), step = to_real(second);
+  if (points && *points >= 0.0 && *points <= most_points && step && *step > 0.0)
+    return {static_cast<std::size_t>(*points), *step};
   throw core::Error(file + ":4: \"" + line + "\": NPTS and DT are expected, as NPTS= 4000, DT= .0050 SEC");
 }
 
@@ -42,6 +57,7 @@ bool is_accelerogram(const std::filesystem::path& file) { return lower(file.exte
 
 transient::Table read_accelerogram(const std::filesystem::path& file) {
   const std::string name = "file " + file.string();
+  core::check_input_file(file, name);
   std::ifstream stream(file);
   std::string header[4];
   for (std::string& line : header)

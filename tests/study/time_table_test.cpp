@@ -91,6 +91,9 @@ TEST(Accelerogram, ThatIsNoneIsRefused) {
   says("a\nb\n", "has not the four lines of header", base);
   says("a\nb\nVELOCITY IN CM/S\nNPTS= 1, DT= .1\n1\n", "values IN UNITS OF G are expected", base);
   says(accelerogram + "1 2 3\n1\n", "NPTS and DT are expected", base);
+  for (const std::string& points : {std::string(1'000'000, '1'), std::string("1e300"), std::string("-1")})
+    says(accelerogram + "NPTS= " + points + ", DT= .1\n1\n", "NPTS and DT are expected", base);
+  says(accelerogram + std::string(1'000'000, ' ') + "\n1\n", "NPTS and DT are expected", base);
   says(accelerogram + "NPTS= 3, DT= .1 SEC\n1 2\n", "has 2 values, and its header says 3", base);
   says(accelerogram + "NPTS= 1, DT= .1 SEC\nx\n", "\"x\" is no finite number", base);
   says(accelerogram + "NPTS= 1, DT= .1 SEC\n1\n", "is an accelerogram, and a table in N is expected",
