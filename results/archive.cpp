@@ -251,6 +251,33 @@ void read_transient(const h5::Group& root, RunResults& results) {
   results.series.modal_velocity = read_matrix(modal, "velocity").transpose();
 }
 
+/// Whether there are as many rows of so many columns as there are instants.
+bool fits(const Eigen::MatrixXd& series, const RunResults& results, Eigen::Index columns) {
+  return series.rows() == results.series.time.size() && series.cols() == columns;
+}
+
+/// What exports rely on: numbers of nodes that exist, series of one length.
+void check_sizes(const RunResults& results) {
+  Eigen::Index modes = 0;
+  for (const modal::Basis& basis : results.bases) {
+    if (!results.nodes.empty() && !all_below(basis.nodes, results.nodes.size()))
+      throw h5::Failure("nodes of the modes");
+    modes += basis.size();
+  }
+  for (const post::ContactSeries& s : results.series.contacts)
+    if (!fits(s.displacement, results, 3) || !fits(s.velocity, results, 3) || !fits(s.gap, results, 1) ||
+        !fits(s.normal_force, results, 1) || !fits(s.tangential_force, results, 2) ||
+        static_cast<Eigen::Index>(s.state.size()) != results.series.time.size())
+      throw h5::Failure("series of contact " + s.name + " of unequal length");
+  for (const post::NodeSeries& s : results.series.nodes)
+    if (!fits(s.displacement, results, 3) || !fits(s.velocity, results, 3) ||
+        !fits(s.acceleration, results, 3))
+      throw h5::Failure("series of node " + s.name + " of unequal length");
+  for (const Eigen::MatrixXd* series : {&results.series.modal_displacement, &results.series.modal_velocity})
+    if (series->size() > 0 && (series->rows() != modes || series->cols() != results.series.time.size()))
+      throw h5::Failure("series of the modes of another size");
+}
+
 } // namespace
 
 void write_archive(const fs::path& file, const RunResults& results) {
@@ -297,6 +324,7 @@ RunResults read_archive(const fs::path& directory) {
     results.model.nodes = static_cast<std::int64_t>(results.nodes.size());
     results.model.elements = static_cast<std::int64_t>(results.lines.size());
     results.bases = read_modes(root);
+    check_sizes(results);
     if (!whole)
       return results;
     results.model.dofs = root.integer("dofs");
@@ -306,8 +334,9 @@ RunResults read_archive(const fs::path& directory) {
       read_transient(root, results);
     if (root.has("wear"))
       results.wear = read_wear(root);
+    check_sizes(results);
     return results;
-  } catch (const h5::Failure& failure) {
+  } catch (const std::exception& failure) { // texts beyond memory included
     throw core::Error(fmt::format(
         "{}: cannot be read ({}): the file is damaged or not of this program; run the study again",
         file.string(), failure.what()));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/basis_file.hpp"
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -70,6 +71,12 @@ modal::Basis read_basis(const h5::Group& group) {
 
 } // namespace
 
+bool all_below(std::span<const core::Index> numbers, std::size_t count) {
+  return std::all_of(numbers.begin(), numbers.end(), [count](core::Index number) {
+    return number >= 0 && static_cast<std::size_t>(number) < count;
+  });
+}
+
 void write_vector(const h5::Group& group, const std::string& name, const Eigen::VectorXd& values,
                   const std::string& units) {
   group.write<double>(name, all_of(values), {static_cast<hsize_t>(values.size())}, units);
@@ -114,10 +121,14 @@ void read_mesh(const h5::Group& root, std::vector<core::Vec3>& nodes,
     return;
   const h5::Group mesh = root.open("mesh");
   const std::vector<double> positions = mesh.read<double>("nodes");
-  for (std::size_t i = 0; i + 2 < positions.size(); i += 3)
+  if (positions.size() % 3 != 0)
+    throw h5::Failure("nodes of the mesh");
+  for (std::size_t i = 0; i < positions.size(); i += 3)
     nodes.emplace_back(positions[i], positions[i + 1], positions[i + 2]);
   const std::vector<core::Index> ends = mesh.read<core::Index>("lines");
-  for (std::size_t i = 0; i + 1 < ends.size(); i += 2)
+  if (ends.size() % 2 != 0 || !all_below(ends, nodes.size()))
+    throw h5::Failure("lines of the mesh");
+  for (std::size_t i = 0; i < ends.size(); i += 2)
     lines.push_back({ends[i], ends[i + 1]});
 }
 

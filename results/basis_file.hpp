@@ -23,9 +23,13 @@ void write_matrix(const h5::Group& group, const std::string& name, const Eigen::
 [[nodiscard]] Eigen::VectorXd read_vector(const h5::Group& group, const std::string& name);
 [[nodiscard]] Eigen::MatrixXd read_matrix(const h5::Group& group, const std::string& name);
 
+/// Whether all are numbers of one of `count` things.
+[[nodiscard]] bool all_below(std::span<const core::Index> numbers, std::size_t count);
+
 void write_mesh(const h5::Group& root, const std::vector<core::Vec3>& nodes,
                 const std::vector<std::array<core::Index, 2>>& lines);
 /// Nothing where the file has no mesh.
+/// @throws h5::Failure if sizes do not fit together, or a line has a node that is not there
 void read_mesh(const h5::Group& root, std::vector<core::Vec3>& nodes,
                std::vector<std::array<core::Index, 2>>& lines);
 

@@ -128,6 +128,8 @@ std::string Group::text(const std::string& name) const {
   const Handle stored(H5Aget_type(attribute.id()), H5Tclose, "attribute " + name);
   if (H5Tis_variable_str(stored.id()) <= 0)
     throw Failure("attribute " + name + " is not a text");
+  if (attribute_size(name) != 1)
+    throw Failure("attribute " + name + " is not a single text");
   const Handle type = text_type();
   char* start = nullptr;
   check(H5Aread(attribute.id(), type.id(), &start), "attribute " + name);
@@ -170,6 +172,19 @@ Shape Group::shape(const std::string& name) const {
   Shape out(static_cast<std::size_t>(dimensions));
   check(H5Sget_simple_extent_dims(space.id(), out.data(), nullptr), "dataset " + name);
   return out;
+}
+
+std::size_t Group::stored_size(const std::string& name) const {
+  const Handle data(H5Dopen2(handle_.id(), name.c_str(), H5P_DEFAULT), H5Dclose, "dataset " + name);
+  const Handle type(H5Dget_type(data.id()), H5Tclose, "dataset " + name);
+  const std::size_t stored = H5Dget_storage_size(data.id()) / H5Tget_size(type.id()); // nothing is compressed
+  std::size_t count = 1;
+  for (const hsize_t length : shape(name)) {
+    if (length > 0 && count > stored / length)
+      throw Failure("dataset " + name + " holds less than its shape says");
+    count *= length;
+  }
+  return count;
 }
 
 void Group::read_values(const std::string& name, hid_t type, void* values) const {

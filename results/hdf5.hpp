@@ -94,10 +94,8 @@ public:
     get_values(name, type_of<T>(), out.data());
     return out;
   }
-  [[nodiscard]] double number(const std::string& name) const { return values<double>(name).at(0); }
-  [[nodiscard]] std::int64_t integer(const std::string& name) const {
-    return values<std::int64_t>(name).at(0);
-  }
+  [[nodiscard]] double number(const std::string& name) const { return single<double>(name); }
+  [[nodiscard]] std::int64_t integer(const std::string& name) const { return single<std::int64_t>(name); }
 
   /// A dataset, the last index running fastest, with its units as an attribute (none where `units` is empty).
   /// Not compressed: modal motion shrinks by a tenth, and that costs more time than the transient it comes
@@ -109,7 +107,7 @@ public:
   }
   [[nodiscard]] Shape shape(const std::string& name) const;
   template <class T> [[nodiscard]] std::vector<T> read(const std::string& name) const {
-    std::vector<T> out(size_of(shape(name)));
+    std::vector<T> out(stored_size(name));
     read_values(name, type_of<T>(), out.data());
     return out;
   }
@@ -121,6 +119,15 @@ private:
                   const Shape& shape) const;
   void write_values(const std::string& name, hid_t type, const void* values, std::size_t count,
                     const Shape& shape, const std::string& units) const;
+  template <class T> [[nodiscard]] T single(const std::string& name) const {
+    const std::vector<T> all = values<T>(name);
+    if (all.size() != 1)
+      throw Failure("attribute " + name + " is not a single value");
+    return all[0];
+  }
+  /// Number of values of a dataset.
+  /// @throws Failure where its shape promises more than the file holds
+  [[nodiscard]] std::size_t stored_size(const std::string& name) const;
   [[nodiscard]] std::size_t attribute_size(const std::string& name) const;
   void get_values(const std::string& name, hid_t type, void* values) const;
   void read_values(const std::string& name, hid_t type, void* values) const;

@@ -142,6 +142,16 @@ void write_support(const h5::Group& group, const WearOfSupport& s, std::size_t i
   write_states(group, s.states);
 }
 
+/// Curves against one time of at least one instant; depths by sector for all sectors or none.
+void check_lengths(const WearOfSupport& s) {
+  for (const CurvesOf& which : curves)
+    if (const std::size_t length = (s.*which.value).value.size(); length != s.time.size() || length == 0)
+      throw h5::Failure(std::string(which.name) + " of wear of unequal length");
+  for (const auto* depth : {&s.sector_depth, &s.sector_support_depth})
+    if (depth->size() != s.sector_depth.size() || (!depth->empty() && depth->size() != s.sector_rates.size()))
+      throw h5::Failure("depths of wear by sector of unequal length");
+}
+
 WearOfSupport read_support(const h5::Group& group) {
   WearOfSupport s;
   for (const TextOf& text : texts)
@@ -159,6 +169,7 @@ WearOfSupport read_support(const h5::Group& group) {
   for (const ListOf& list : lists)
     if (group.has(list.name))
       s.*list.value = group.read<double>(list.name);
+  check_lengths(s);
   const h5::Group states = group.open("states");
   for (std::size_t j = 0; states.has(std::to_string(j)); ++j) {
     const h5::Group state = states.open(std::to_string(j));

@@ -258,6 +258,25 @@ TEST(Archive, TellsADamagedFile) {
   }
 }
 
+TEST(Archive, TellsContentThatContradictsItself) {
+  const Folder folder;
+  const auto refused = [&](const char* part, auto change) {
+    RunResults results = made_up();
+    change(results);
+    write_archive(folder / "results.h5", results);
+    EXPECT_THAT(refusal(folder.path()), HasSubstr(part));
+  };
+  refused("lines of the mesh",
+          [](RunResults& r) { r.lines[0][1] = static_cast<core::Index>(r.nodes.size()); });
+  refused("lines of the mesh", [](RunResults& r) { r.lines[0][0] = -1; });
+  refused("nodes of the modes", [](RunResults& r) { r.bases[0].nodes[1] = 1'000'000; });
+  refused("series of contact",
+          [](RunResults& r) { r.series.contacts[0].velocity.conservativeResize(Eigen::NoChange, 2); });
+  refused("series of the modes", [](RunResults& r) {
+    r.series.modal_displacement.conservativeResize(r.series.modal_displacement.rows() - 1, Eigen::NoChange);
+  });
+}
+
 TEST(Archive, TellsAFileOfAnotherProgram) {
   const Folder folder;
   h5::MemoryFile().write(folder / "results.h5");
