@@ -30,6 +30,10 @@ function(fretwork_compile_options target)
     target_link_options(${target} PUBLIC -fsanitize=address,undefined)
     target_compile_definitions(${target} PUBLIC FRETWORK_SANITIZED)
   endif()
+  if(FRETWORK_FUZZ)
+    target_compile_options(${target} PUBLIC -fsanitize=fuzzer-no-link)
+    target_link_options(${target} PUBLIC -fsanitize=fuzzer-no-link)
+  endif()
 endfunction()
 
 # ccache looks at files with precompiled headers only where it is told that this is meant.
