@@ -11,35 +11,39 @@ broken one, half done, or by the death of the process. After each the command is
 import argparse
 import json
 import os
+import random
 import signal
 import subprocess
 import sys
 import tempfile
+import time
 from collections import Counter
 from pathlib import Path
 
 LONGEST = 60  # s: a command that takes longer hangs; it takes a fifth of a second
 STATUSES = {1, 2, -signal.SIGKILL}  # input or disk, computation, the fault "kill"; 3 would be a defect of the program
-SHORT = {"duration": 0.02, "kinds": [("ENOSPC", False), ("ENOSPC", True), ("kill", False)], "stride": 2, "damaged": 12}
+CHECKPOINTS = ["transient.step=1e-6", "output.checkpoint=0.01"]
+SHORT = {"duration": 0.02, "kinds": [("ENOSPC", False), ("ENOSPC", True), ("kill", False)], "stride": 2, "damaged": 12, "kills": 3}
 LONG = {
     "duration": 0.2,
     "kinds": [("ENOSPC", False), ("ENOSPC", True), ("EIO", False), ("EIO", True), ("short", False), ("kill", False)],
     "stride": 1,
     "damaged": 1000,
+    "kills": 50,
 }
 
 
 class Trial:
     """A results folder in a fresh place and the command that fills it."""
 
-    def __init__(self, options, form):
+    def __init__(self, options, form, more=()):
         self.options = options
         self.temporary = tempfile.TemporaryDirectory(prefix="fretwork_faults_")
         self.root = Path(self.temporary.name)
         self.results = self.root / "results"
         self.count = self.root / "calls"
         self.command = [options.fretwork, "run", options.study, "-o", str(self.results)]
-        for value in (f"transient.duration={form['duration']}", "output.statistics_from=0"):
+        for value in (f"transient.duration={form['duration']}", "output.statistics_from=0", *more):
             self.command += ["--set", value]
 
     def run(self, kind="", at=0, lasting=False, more=()):
@@ -49,6 +53,16 @@ class Trial:
                            FAULT_LASTING="1" if lasting else "0", FAULT_COUNT=str(self.count))  # fmt: skip
         done = subprocess.run([*self.command, *more], env=environment, capture_output=True, text=True, timeout=LONGEST, check=False)
         return done.returncode, done.stdout + done.stderr
+
+    def kill(self, after, delay):
+        """Starts the command and kills it `delay` seconds after the file `after` is there, or at once where it ends before."""
+        job = subprocess.Popen(self.command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        end = time.monotonic() + LONGEST
+        while not after.exists() and job.poll() is None and time.monotonic() < end:
+            time.sleep(0.001)
+        time.sleep(delay)
+        job.kill()
+        return job.wait()
 
     def calls(self):
         return self.count.stat().st_size
@@ -102,11 +116,7 @@ def damaged_files(options, form, table, wrong):
         file, outcomes = trial.results / name, Counter()
         for case in range(form["damaged"]):
             whole = file.read_bytes()
-            place = (case * 7919 * 31 + 13) % len(whole)  # spread over the file, the same in every run
-            length = (1, 64, 4096, len(whole))[case % 4]
-            end = min(len(whole), place + length)
-            damage = b"" if case % 4 == 3 else bytes(byte ^ 0x55 for byte in whole[place:end])
-            file.write_bytes(whole[:place] + damage + whole[end:])
+            file.write_bytes(damaged(whole, case))
             if name == "modes.h5":
                 (trial.results / "summary.json").unlink()  # else nothing is computed again, and it is not read
             outcome = judge_damage(trial, reference, name)
@@ -115,6 +125,63 @@ def damaged_files(options, form, table, wrong):
             if outcome.startswith("wrong"):
                 wrong.append(f"{name}, damage {case}: {outcome}")
         table.append((f"{name} damaged", outcomes))
+
+
+def random_kills(options, form, table, wrong):
+    """A run with checkpoints is killed at random moments and given again: it goes on, to the results of a run without kills."""
+    form = dict(form, duration=0.5)
+    whole = Trial(options, form, CHECKPOINTS)
+    started = time.monotonic()
+    whole.run()
+    longest = time.monotonic() - started
+    reference, draw, outcomes = whole.content(), random.Random(1), Counter()
+    for kill in range(form["kills"]):
+        trial = Trial(options, form, CHECKPOINTS)
+        ended = trial.kill(trial.root, draw.uniform(0.0, longest)) == 0
+        try:
+            status, said = trial.run()
+            same = status == 0 and trial.content() == reference
+            outcome = f"wrong: status {status}: {said[-300:]}" if not same else "survived" if ended else "told"
+        except (OSError, ValueError, subprocess.TimeoutExpired) as error:
+            outcome = f"wrong: {error}"
+        outcomes[outcome.split(":")[0]] += 1
+        if outcome.startswith("wrong"):
+            wrong.append(f"kill {kill}: {outcome}")
+    table.append(("kill at a random moment", outcomes))
+
+
+def damaged_checkpoints(options, form, table, wrong):
+    """A damaged checkpoint is told of and not used."""
+    form = dict(form, duration=0.1)
+    whole, trial = Trial(options, form, CHECKPOINTS), Trial(options, form, CHECKPOINTS)
+    whole.run()
+    reference, outcomes = whole.content(), Counter()
+    file = trial.results / "checkpoint.h5"
+    for _ in range(20):  # until one is killed between its first checkpoint and its end
+        if trial.kill(file, 0.0) != 0 and file.exists():
+            break
+    content = file.read_bytes()
+    for case in range(form["damaged"]):
+        for left in ("summary.json", "results.h5"):
+            (trial.results / left).unlink(missing_ok=True)
+        file.write_bytes(damaged(content, case))
+        try:
+            status, said = trial.run(more=["--no-report"])
+            told = "checkpoint.h5 is damaged" in said.replace("\n", " ")
+            outcome = "told" if status == 0 and told and trial.content() == reference else f"wrong: status {status}: {said[-300:]}"
+        except (OSError, ValueError, subprocess.TimeoutExpired) as error:
+            outcome = f"wrong: {error}"
+        outcomes[outcome.split(":")[0]] += 1
+        if outcome.startswith("wrong"):
+            wrong.append(f"checkpoint.h5, damage {case}: {outcome}")
+    table.append(("checkpoint.h5 damaged", outcomes))
+
+
+def damaged(whole, case):
+    """A byte, 64 or 4096 of them changed, or the end cut off; spread over the file, the same in every run."""
+    place = (case * 7919 * 31 + 13) % len(whole)
+    end = min(len(whole), place + (1, 64, 4096, len(whole))[case % 4])
+    return whole[:place] + (b"" if case % 4 == 3 else bytes(byte ^ 0x55 for byte in whole[place:end])) + whole[end:]
 
 
 def judge_damage(trial, reference, name):
@@ -146,6 +213,8 @@ def main():
     form["damaged"] = options.damaged or form["damaged"]
     failing_calls(options, form, table, wrong)
     damaged_files(options, form, table, wrong)
+    damaged_checkpoints(options, form, table, wrong)
+    random_kills(options, form, table, wrong)
     print("| fault | injected | survived | told | wrong |\n| --- | --- | --- | --- | --- |")
     for name, outcomes in table:
         print(f"| {name} | {sum(outcomes.values())} | {outcomes['survived']} | {outcomes['told']} | {outcomes['wrong']} |")
