@@ -26,7 +26,7 @@
 #include "results/summary_file.hpp"
 #include "results/totals.hpp"
 #include "results/write.hpp"
-#include "transient/kernels.hpp"
+#include "transient/simd/kernels.hpp"
 #include <chrono>
 #include <cstdlib>
 #include <fmt/format.h>

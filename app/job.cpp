@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/job.hpp"
 #include "core/mpi.hpp"
-#include "transient/mass_scaling.hpp"
+#include "transient/modes/mass_scaling.hpp"
 #include <algorithm>
 #include <type_traits>
 

@@ -2,8 +2,8 @@
 /// @file
 /// Time series at the output instants.
 #pragma once
-#include "transient/prescribed_motion.hpp"
 #include "transient/run.hpp"
+#include "transient/signals/prescribed_motion.hpp"
 #include <string>
 #include <vector>
 
@@ -46,7 +46,7 @@ struct ObservedNode {
 
 class Recorder final : public transient::Sampler {
 public:
-  /// @param masses  n, modal masses of the run (transient/mass_scaling.hpp); empty: all 1
+  /// @param masses  n, modal masses of the run (transient/modes/mass_scaling.hpp); empty: all 1
   Recorder(const transient::Scene& scene, std::vector<ObservedNode> nodes, const transient::OutputGrid& grid,
            Eigen::VectorXd masses = {});
   void state(std::int64_t index, double time, const double* q, const double* v) override;

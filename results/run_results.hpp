@@ -106,7 +106,7 @@ struct RunResults {
   std::vector<post::ContactSummary> contact_summaries; ///< as `contacts`; empty without a transient
   post::StandardErrors errors_of_sums; ///< over all contacts: work_rate, friction_power, impact_rate
   std::vector<transient::StepError>
-      step_errors; ///< as `contacts`, where replays measure them (transient/replays.hpp); else empty
+      step_errors; ///< as `contacts`, where replays measure them (transient/splitting/replays.hpp); else empty
   std::optional<Verification> verification;  ///< where the study asks for it
   double accuracy = 0.01;                    ///< what the run aims at
   std::vector<post::ContactImpacts> impacts; ///< as `contacts`; empty without a table
