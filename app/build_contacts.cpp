@@ -232,6 +232,7 @@ void place(const study::Study& study, const fem::Model& model, PlacedContact con
     if (const std::string warning = held_warning(model, placed, points[k]); !warning.empty())
       warnings.push_back(warning);
     placed.motion = points[k].motion;
+    placed.place = points[k].place;
     const Vec3 centre = placed.other >= 0 ? model.nodes[static_cast<std::size_t>(placed.other)]
                                           : entry.origin.value_or(points[k].place);
     placed.rest = placed.frame.rotation() * (points[k].place - centre);
