@@ -594,17 +594,4 @@ void check(const Request& request) {
   run_chain(MPI_COMM_SELF, in_folder, Stage::check);
 }
 
-std::string export_results(const fs::path& directory, const std::string& format) {
-  const results::RunResults stored = results::read_archive(directory);
-  const fs::path target = directory / ("export-" + format);
-  make_directory(target);
-  if (format == "csv")
-    results::export_csv(target, stored);
-  else if (format == "vtu")
-    results::export_vtu(target, stored);
-  else
-    results::export_msh(target, stored);
-  return fmt::format("written: {}\n", target.string());
-}
-
 } // namespace fretwork::app
