@@ -21,6 +21,8 @@ struct ContactSeries {
   Eigen::VectorXd normal_force;           ///< nt, N
   Eigen::MatrixXd tangential_force;       ///< nt x 2, N: along x_loc, along n x x_loc
   std::vector<std::uint8_t> state;        ///< nt, ContactMode; open where the normal force is 0
+  Eigen::MatrixXd
+      normal; ///< nt x 2, unit normal along y_loc, z_loc: of the forces, where there are none of the place
 };
 
 /// Global axes.
@@ -61,6 +63,7 @@ public:
 private:
   void add_motions();
   [[nodiscard]] core::Vec3 place(std::size_t contact, std::int64_t index, double time) const;
+  void set_gap(std::size_t contact, std::int64_t index, const core::Vec3& place);
   void give_way(std::int64_t index, double time, std::span<const transient::ContactForce> contacts);
 
   const transient::Scene& scene_;
