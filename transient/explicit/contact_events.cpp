@@ -93,16 +93,15 @@ double ContactEvents::zero(const DormandPrince& step, int c, bool friction, doub
 
 void ContactEvents::apply(const ContactEvent& event, MotionRates& rates, const double* y) {
   const int c = event.contact;
-  Regime regime = rates.regime(c);
+  const Regime regime = rates.regime(c);
   if (event.friction) {
-    regime.slides = !regime.slides;
+    rates.set_regime(c, regime.closed, !regime.slides);
   } else if (regime.closed) {
-    regime = {};
+    rates.set_regime(c, false, false);
   } else {
-    rates.set_regime(c, {true, false});
-    regime = {true, rates.margin(c, rates.motion(), rates.spring(y, c)).friction > 0.0};
+    rates.set_regime(c, true, false);
+    rates.set_regime(c, true, rates.margin(c, rates.motion(), rates.spring(y, c)).friction > 0.0);
   }
-  rates.set_regime(c, regime);
 }
 
 } // namespace fretwork::transient

@@ -39,8 +39,10 @@ void MotionRates::start(double* y) {
   std::copy(v0_.begin(), v0_.end(), y + modes());
   place(0.0, y);
   position_ = motion_.u;
-  for (int c = 0; c < contacts_.count; ++c)
-    regimes_[c] = regime_of_laws(c, motion_, {});
+  for (int c = 0; c < contacts_.count; ++c) {
+    const Regime regime = regime_of_laws(c, motion_, {});
+    set_regime(c, regime.closed, regime.slides);
+  }
 }
 
 /// The contacts where the state has them.
@@ -109,7 +111,7 @@ void MotionRates::act(const double* s, double* rate) {
 
 /// Whether there is a normal force; if not, the power of what the positive part cuts is in the rate.
 bool MotionRates::press(int c, Vec2 spring, double* rate) {
-  const auto at = motion_.locate(c);
+  const auto at = face_of(c, motion_);
   const Normal normal = normal_of(c, motion_, at);
   const double elastic = contacts_.supports[c].normal.stiffness * std::max(0.0, normal.penetration);
   trial_.springs += 0.5 * elastic * std::max(0.0, normal.penetration);
@@ -169,7 +171,11 @@ void MotionRates::commit(double* y) {
     const ContactState& state = trial_.states[c];
     const bool closed = located_ ? regimes_[c].closed : state.normal_force > 0.0;
     if (!located_ || !locates_friction(c))
-      regimes_[c] = {closed, closed && state.slides};
+      set_regime(c, closed, closed && state.slides);
+    if (closed) {
+      regimes_[c].ny = state.ny;
+      regimes_[c].nz = state.nz;
+    }
   }
   position_ = motion_.u;
 }
@@ -268,6 +274,25 @@ bool MotionRates::rated(int c) const {
   return law.active() && law.kind == contact::FrictionMemoryKind::return_map && law.damping > 0.0;
 }
 
+void MotionRates::set_regime(int c, bool closed, bool slides) {
+  Regime& regime = regimes_[c];
+  if (closed && !regime.closed) {
+    const auto at = motion_.locate(c);
+    regime.ny = at.ny;
+    regime.nz = at.nz;
+  }
+  regime.closed = closed;
+  regime.slides = slides;
+}
+
+/// Where a contact is; of one that is closed, from its face.
+contact::Location MotionRates::face_of(int c, const ContactMotion& motion) const {
+  const auto at = motion.locate(c);
+  const Regime& regime = regimes_[c];
+  const bool opposite = located_ && regime.closed && at.ny * regime.ny + at.nz * regime.nz < 0.0;
+  return opposite ? contact::Location{-at.gap, -at.ny, -at.nz} : at;
+}
+
 /// The force is that of the closed branch: where it ends, negative.
 MotionRates::Normal MotionRates::normal_of(int c, const ContactMotion& motion,
                                            const contact::Location& at) const {
@@ -283,7 +308,7 @@ Vec2 MotionRates::used_spring(int c, Vec2 spring, double ny, double nz) const {
 }
 
 Margins MotionRates::margin(int c, const ContactMotion& motion, Vec2 in_state) const {
-  const auto at = motion.locate(c);
+  const auto at = face_of(c, motion);
   const Normal normal = normal_of(c, motion, at);
   const contact::FrictionLaw& law = contacts_.supports[c].friction;
   Margins margins{std::min(contacts_.supports[c].normal.stiffness * normal.penetration, normal.force), -1.0};

@@ -14,7 +14,8 @@
 /// slider -F.(v - s'); of a spring that is set in `commit`, the element's whole power -F.v is shared out there.
 ///
 /// Forces are those of the laws (normal_law.hpp, friction_law.hpp), or `located`: each contact keeps the branch of its regime (friction of `reference` excepted), smooth
-/// across its bounds, so that a scheme sees smooth rates and finds by `margin` where a regime ends.
+/// across its bounds, so that a scheme sees smooth rates and finds by `margin` where a regime ends. A closed contact keeps its face, too: where
+/// the opposite one is nearer, its penetration is negative and its regime over.
 #pragma once
 #include "transient/contacts/contact_motion.hpp"
 #include "transient/contacts/contact_trial.hpp"
@@ -29,6 +30,7 @@ namespace fretwork::transient {
 struct Regime {
   bool closed = false; ///< with a normal force
   bool slides = false;
+  double ny = 0.0, nz = 0.0; ///< of a closed contact: the normal of its face
 };
 
 /// How far a contact is inside its laws' branches, N. Regimes end where a margin passes zero.
@@ -82,7 +84,8 @@ public:
   // Regimes:
   void locate_regimes(bool located) { located_ = located; }
   [[nodiscard]] Regime regime(int c) const { return regimes_[c]; }
-  void set_regime(int c, Regime regime) { regimes_[c] = regime; }
+  /// A contact that closes does so on the face where the state that `rate` was called for last has it.
+  void set_regime(int c, bool closed, bool slides);
   /// The margins of contact c where `motion` has it, `spring` the T of the state.
   [[nodiscard]] Margins margin(int c, const ContactMotion& motion, contact::Vec2 spring) const;
   /// The regime that the laws give to contact c there.
@@ -105,6 +108,7 @@ private:
   [[nodiscard]] const double* springs(const double* y) const { return y + 2 * modes(); }
   [[nodiscard]] bool rated(int c) const;
   [[nodiscard]] bool locates_friction(int c) const;
+  [[nodiscard]] contact::Location face_of(int c, const ContactMotion& motion) const;
   [[nodiscard]] Normal normal_of(int c, const ContactMotion& motion, const contact::Location& at) const;
   [[nodiscard]] contact::Vec2 used_spring(int c, contact::Vec2 spring, double ny, double nz) const;
   void place(double time, const double* y);

@@ -236,3 +236,18 @@ TEST(RungeKutta54, CoversTheWholeRunWithItsRecords) {
   constexpr double round_off = 1e-14;
   EXPECT_NEAR(sum.time, 0.05, round_off);
 }
+
+// Without clearance the contact closes on one plane in the instant in which it leaves the other: that ends a step too, or the spring of
+// such a step would be that of both faces. It sticks nearly all the time, under a slow force.
+TEST(RungeKutta54, EndsStepsWhereAContactPassesFromFaceToFace) {
+  Scene scene = mass_point(1.0, Vec3(0.0, 1.5e6, 2.6e6), 0.08);
+  scene.contacts = {
+      contact_of(1.0, {contact::PlanePair{0.0, PlaneAxis::y}, {3.9e5, 1240.0}, {3.9e5, 0.0, 3.0, 3.0}})};
+  scene.loads = {force_on(1.0, Vec3(0.0, 1.0, 0.3).normalized(), Harmonic{50.0, 50.0, 0.0})};
+  const Energy other = trace(scene, splitting(1e-6)).back().energy;
+  for (const auto& [tolerance, share] : {std::pair{1e-5, 1e-2}, {fine, 1e-3}}) { // without C_T of order 1
+    const Energy found = trace(scene, adaptive(tolerance)).back().energy;
+    EXPECT_NEAR(found.friction, other.friction, share * other.friction);
+    EXPECT_NEAR(found.contact_damping, other.contact_damping, share * other.contact_damping);
+  }
+}
