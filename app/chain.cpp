@@ -133,12 +133,10 @@ results::ContactFacts facts_of(const study::Contact& contact, const PlacedContac
                   ? contact::locate(support.obstacle, 0.0, 0.0).gap // of a tube at the obstacle's centre
                   : contact::locate(support.obstacle, placed.rest.y(), placed.rest.z()).gap;
   facts.rest = placed.rest;
-  if (const auto* profile = std::get_if<contact::Profile>(&support.obstacle)) {
-    const auto corners = profile->vertices();
-    facts.outline.resize(static_cast<Eigen::Index>(corners.size()), 2);
-    for (std::size_t i = 0; i < corners.size(); ++i)
-      facts.outline.row(static_cast<Eigen::Index>(i)) << corners[i].y, corners[i].z;
-  }
+  const auto outline = contact::outline_of(support.obstacle);
+  facts.outline.resize(static_cast<Eigen::Index>(outline.size()), 2);
+  for (std::size_t i = 0; i < outline.size(); ++i)
+    facts.outline.row(static_cast<Eigen::Index>(i)) << outline[i].y, outline[i].z;
   facts.normal_stiffness = support.normal.stiffness;
   facts.normal_damping = support.normal.damping;
   facts.normal_dissipation = support.normal.dissipation;

@@ -92,6 +92,7 @@ enum class ObstacleKind {
   stop_z,
   circle_inside,
   profile,
+  ellipse,
   drilled,
   broached,
   egg_crate,

@@ -23,7 +23,7 @@ constexpr double path_tolerance = 1e-2;
 /// Times that the paths inside a step are followed: a third time changes next to nothing, and without the second errors below 1e-4 grow.
 constexpr int paths = 2;
 
-/// Bound of contact::Reach: false where the node is surely out of its obstacle.
+/// Bound of contact::GapBound: false where the node is surely out of its obstacle.
 bool may_touch(const ReachLanes& reach, int c, double y, double z) {
   const kernels::ReachNumbers& r = reach[c];
   const int l = kernels::lane(c);

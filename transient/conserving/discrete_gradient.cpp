@@ -38,11 +38,11 @@ DiscreteGradient across_planes(PlaneAxis axis, const Location& to, double c0, do
 
 DiscreteGradient flat(const Location& to) { return {to.gap, to.ny, to.nz, to.ny, to.nz, 0.0, 0.0, 0.0, 0.0}; }
 
-DiscreteGradient along_profile(const contact::Profile& profile, PlanePoint x0, const Location& from,
-                               PlanePoint x1, const PlanePoint* held) {
-  const Location to = profile.locate(x1.y, x1.z);
+DiscreteGradient along_curve(const contact::Obstacle& obstacle, PlanePoint x0, const Location& from,
+                             PlanePoint x1, const PlanePoint* held) {
+  const Location to = contact::locate(obstacle, x1.y, x1.z);
   const PlanePoint b = held ? *held : PlanePoint{0.5 * (from.ny + to.ny), 0.5 * (from.nz + to.nz)};
-  const double bend = held ? 0.0 : 0.5 * profile.curvature(x1.y, x1.z);
+  const double bend = held ? 0.0 : 0.5 * contact::curvature(obstacle, x1.y, x1.z);
   const double ty = to.nz, tz = -to.ny;
   DiscreteGradient g{to.gap,         to.ny,          to.nz,          b.y,           b.z,
                      bend * ty * ty, bend * ty * tz, bend * tz * ty, bend * tz * tz};
@@ -63,33 +63,36 @@ DiscreteGradient along_profile(const contact::Profile& profile, PlanePoint x0, c
   return g;
 }
 
+struct OfKind {
+  const contact::Obstacle& obstacle;
+  PlanePoint x0, x1;
+  const Location& from;
+  const PlanePoint* held;
+  DiscreteGradient operator()(const contact::Circle& o) const {
+    return round(-1.0, contact::locate(o, x1.y, x1.z), x0, x1);
+  }
+  DiscreteGradient operator()(const contact::RoundPair& o) const {
+    return round(1.0, contact::locate(o, x1.y, x1.z), x0, x1);
+  }
+  DiscreteGradient operator()(const contact::PlanePair& o) const {
+    const bool y = o.axis == PlaneAxis::y;
+    return across_planes(o.axis, contact::locate(o, x1.y, x1.z), y ? x0.y : x0.z, y ? x1.y : x1.z);
+  }
+  DiscreteGradient operator()(const contact::Stop& o) const { return flat(contact::locate(o, x1.y, x1.z)); }
+  DiscreteGradient operator()(const contact::FacingPlanes& o) const {
+    return flat(contact::locate(o, x1.y, x1.z));
+  }
+  /// Of any obstacle.
+  template <class Other> DiscreteGradient operator()(const Other&) const {
+    return along_curve(obstacle, x0, from, x1, held);
+  }
+};
+
 } // namespace
 
 DiscreteGradient discrete_gradient(const contact::Obstacle& obstacle, PlanePoint x0, const Location& from,
                                    PlanePoint x1, const PlanePoint* held) {
-  struct Visitor {
-    PlanePoint x0, x1;
-    const Location& from;
-    const PlanePoint* held;
-    DiscreteGradient operator()(const contact::Circle& o) const {
-      return round(-1.0, contact::locate(o, x1.y, x1.z), x0, x1);
-    }
-    DiscreteGradient operator()(const contact::RoundPair& o) const {
-      return round(1.0, contact::locate(o, x1.y, x1.z), x0, x1);
-    }
-    DiscreteGradient operator()(const contact::PlanePair& o) const {
-      const bool y = o.axis == PlaneAxis::y;
-      return across_planes(o.axis, contact::locate(o, x1.y, x1.z), y ? x0.y : x0.z, y ? x1.y : x1.z);
-    }
-    DiscreteGradient operator()(const contact::Stop& o) const { return flat(contact::locate(o, x1.y, x1.z)); }
-    DiscreteGradient operator()(const contact::FacingPlanes& o) const {
-      return flat(contact::locate(o, x1.y, x1.z));
-    }
-    DiscreteGradient operator()(const contact::Profile& o) const {
-      return along_profile(o, x0, from, x1, held);
-    }
-  };
-  return std::visit(Visitor{x0, x1, from, held}, obstacle);
+  return std::visit(OfKind{obstacle, x0, x1, from, held}, obstacle);
 }
 
 } // namespace fretwork::transient

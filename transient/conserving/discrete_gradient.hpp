@@ -6,10 +6,10 @@
 ///     circle, round pair   D = -+ (x0 + x1)/(r0 + r1)
 ///     plane pair           the same along its axis: -(c0 + c1)/(|c0| + |c1|) e, which is the normal on either side
 ///     stop, facing planes  D = n
-///     profile              D = b + (gap1 - gap0 - b.d) d/|d|^2 with d = x1 - x0 and b = (n0 + n1)/2; on one facet D = n
+///     any other            D = b + (gap1 - gap0 - b.d) d/|d|^2 with d = x1 - x0 and b = (n0 + n1)/2; on one facet of a profile D = n
 /// The identity holds with any b: where a step ends near a place where n1 jumps (two parts of the profile are equally near), b may be
 /// held so that D is continuous in x1.
-/// |D| <= 1, for a profile <= sqrt(2): it falls short of 1 where the normal turns in the step.
+/// |D| <= 1, by the last form <= sqrt(2): it falls short of 1 where the normal turns in the step.
 /// Source: O. Gonzalez, J. Nonlinear Sci. 6 (1996) 449, eq. 3.1, with the mean of the ends in place of the middle.
 #pragma once
 #include "contact/obstacle.hpp"

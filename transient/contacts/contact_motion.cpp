@@ -10,9 +10,8 @@ void ContactMotion::gather(const double* q, const double* v) {
   kernels::gather_two(contacts_.gather, q, v, u.data(), w.data());
 }
 
-/// Of these the lanes only know a bound.
-void ContactMotion::locate_profiles() {
-  for (const int c : contacts_.profiles)
+void ContactMotion::locate_bounded() {
+  for (const int c : contacts_.located)
     if (near(c)) {
       const auto at = locate(c);
       gaps[c] = at.gap;

@@ -53,11 +53,11 @@ private:
   bool any_near() {
     if (places.first.empty())
       return false;
-    if (!contacts_.profiles.empty())
-      locate_profiles();
+    if (!contacts_.located.empty())
+      locate_bounded();
     return true;
   }
-  void locate_profiles();
+  void locate_bounded();
 
   const PackedContacts& contacts_;
 };

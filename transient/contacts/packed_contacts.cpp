@@ -32,7 +32,8 @@ PackedContacts::PackedContacts(const std::vector<ContactPoint>& contacts, Eigen:
   for (int c = 0; c < count; ++c) {
     const ContactPoint& point = contacts[static_cast<std::size_t>(c)];
     supports.push_back(point.support);
-    const contact::Reach bound = contact::reach(point.support.obstacle);
+    const contact::ObstacleProperties obstacle = contact::properties_of(point.support.obstacle);
+    const contact::GapBound& bound = obstacle.gap_bound;
     kernels::ReachNumbers& r = reach[c];
     const int l = kernels::lane(c);
     r.rest_y[l] = point.rest.y();
@@ -43,8 +44,9 @@ PackedContacts::PackedContacts(const std::vector<ContactPoint>& contacts, Eigen:
     r.ly[l] = bound.ly;
     r.lz[l] = bound.lz;
     r.limit[l] = bound.limit;
-    if (std::holds_alternative<contact::Profile>(point.support.obstacle))
-      profiles.push_back(c);
+    if (!obstacle.is_bound_gap)
+      located.push_back(c);
+    has_parts.push_back(obstacle.has_parts);
     for (int k = 0; k < components; ++k)
       for (int i = 0; i < modes; ++i) {
         by_mode[static_cast<std::size_t>(i) * stride() + k * width + c] = point.b(stored[k], i);

@@ -27,7 +27,8 @@ struct PackedContacts {
   kernels::Array mobility; ///< contact by contact: what a unit force along y, z, x does to `stride()` lanes
                            ///< (W = B B^T, 1/kg)
   kernels::ReachLanes reach;
-  std::vector<int> profiles; ///< contacts whose obstacle the lanes of `reach` only bound
+  std::vector<int> located;    ///< contacts whose gap the lanes of `reach` only bound: `locate` gives it
+  std::vector<char> has_parts; ///< contact by contact: contact::ObstacleProperties::has_parts
 
   /// Position of a contact without displacement, m.
   [[nodiscard]] double rest_y(int c) const { return reach[c].rest_y[kernels::lane(c)]; }

@@ -7,7 +7,7 @@
 
 namespace fretwork::transient::kernels {
 
-/// Contacts by their contact::Reach.
+/// Contacts by their contact::GapBound.
 struct alignas(alignment) ReachNumbers {
   Numbers rest_y, rest_z; ///< m: position = displacement + rest
   Numbers wy, wz, radial, ly, lz, limit;
@@ -23,9 +23,9 @@ struct MotionLanes {
   Places places;                  ///< in which some contact is near
 };
 
-/// Gap and its gradient: contact::locate of every obstacle that is one formula, with e = (wy y, wz z)/r, r = sqrt(wy y^2 + wz z^2),
+/// Gap and its gradient, contact::locate of the obstacles whose gap bound is their gap, with e = (wy y, wz z)/r, r = sqrt(wy y^2 + wz z^2),
 ///     gap = limit - (radial r + ly y + lz z),   n = -(radial e + (ly, lz)).
-/// For a profile it is a lower bound of the gap (its inscribed circle). A contact is near where gap <= half_window |w|; without a window
+/// For the others it is a lower bound. A contact is near where gap <= half_window |w|; without a window
 /// velocities are not looked at. Normals are found in the places in which some contact is near, the others keep theirs.
 extern const Kernel<void(const ReachLanes& reach, double half_window, MotionLanes& motion)> place_contacts;
 /// The same of few contacts.

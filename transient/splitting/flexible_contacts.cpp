@@ -173,10 +173,10 @@ void FlexibleContacts::foretell(ContactMotion& motion) {
     motion.u[lane] += given_[lane];
 }
 
-/// Gap of a contact where it stands in `motion`, by the normal there; of a profile by that where its own normal force takes it back to: deeper
+/// Gap of a contact where it stands in `motion`, by the normal there; of an obstacle in parts by that where its own normal force takes it back to: deeper
 /// another part may be nearest.
 contact::Location FlexibleContacts::face_at(int c, ContactMotion& motion) const {
-  if (!std::holds_alternative<contact::Profile>(contacts_.supports[c].obstacle))
+  if (!contacts_.has_parts[c])
     return motion.locate(c);
   double &y = motion.u[c], &z = motion.u[contacts_.width + c];
   const double deep_y = y, deep_z = z, own_y = own_[c], own_z = own_[contacts_.width + c];
@@ -270,7 +270,7 @@ double FlexibleContacts::turn(std::size_t i, ContactMotion& motion) {
     return motion.locate(s.contact);
   };
   double depth = s.deeper * s.force[0];
-  if (std::holds_alternative<contact::Profile>(contacts_.supports[s.contact].obstacle)) {
+  if (contacts_.has_parts[s.contact]) {
     const auto here = locate(0.0, 0.0, 0.0);
     if (here.gap - locate(depth, here.ny, here.nz).gap < same_part * depth)
       depth = 0.0;

@@ -68,8 +68,9 @@ public:
     for (auto& f : factors_)
       f.resize(3 * count);
     const bool convex =
-        std::any_of(contacts_.supports.begin(), contacts_.supports.end(),
-                    [](const contact::Support& s) { return contact::reach(s.obstacle).radial < 0.0; });
+        std::any_of(contacts_.supports.begin(), contacts_.supports.end(), [](const contact::Support& s) {
+          return contact::properties_of(s.obstacle).gap_bound.radial < 0.0;
+        });
     window_ = convex ? 1.0 : 1.0 / 3.0;
 
     Step& first = steps_[0];

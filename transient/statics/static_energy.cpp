@@ -21,21 +21,6 @@ constexpr double unseen_motion = 1e-12;
 /// A contact that has gone this many times the lengths of the scene will not meet anything any more.
 constexpr double carried_away = 1e6;
 
-bool is_convex(const contact::Obstacle& obstacle) {
-  return !std::holds_alternative<contact::RoundPair>(obstacle) &&
-         !std::holds_alternative<contact::Profile>(obstacle);
-}
-
-/// A length of the obstacle, m: how far it reaches.
-struct Size {
-  double operator()(const contact::Circle& o) const { return o.gap; }
-  double operator()(const contact::PlanePair& o) const { return o.gap; }
-  double operator()(const contact::Stop& o) const { return std::abs(o.gap); }
-  double operator()(const contact::RoundPair& o) const { return o.distance; }
-  double operator()(const contact::FacingPlanes& o) const { return o.distance; }
-  double operator()(const contact::Profile& o) const { return o.inscribed(); }
-};
-
 } // namespace
 
 StaticEnergy::StaticEnergy(const Scene& scene) : scene_(scene) {
@@ -54,7 +39,7 @@ StaticEnergy::StaticEnergy(const Scene& scene) : scene_(scene) {
       if (counts)
         by_contacts += point.support.normal.stiffness * point.b.row(row).cwiseAbs2().transpose();
     length_ = std::max(length_, std::hypot(point.rest.y(), point.rest.z()) +
-                                    std::visit(Size{}, point.support.obstacle));
+                                    contact::properties_of(point.support.obstacle).extent);
   }
   spring_ = VectorXd::Ones(n);
   const double all_loads = load_.norm();
@@ -186,12 +171,12 @@ double StaticEnergy::room_along(const VectorXd& step, const std::vector<Touch>& 
   const VectorXd u = rows_ * step;
   double room = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < touches.size(); ++c) {
-    const contact::Obstacle& obstacle = scene_.contacts[c].support.obstacle;
-    if (is_convex(obstacle))
+    const auto obstacle = contact::properties_of(scene_.contacts[c].support.obstacle);
+    if (obstacle.is_concave)
       continue;
     const auto i = static_cast<Index>(2 * c);
-    room = std::min(room, std::max(0.25 * std::visit(Size{}, obstacle), 0.5 * touches[c].gap) /
-                              std::hypot(u(i), u(i + 1)));
+    room =
+        std::min(room, std::max(0.25 * obstacle.extent, 0.5 * touches[c].gap) / std::hypot(u(i), u(i + 1)));
   }
   return room;
 }
@@ -202,7 +187,7 @@ bool StaticEnergy::is_carried_away(const VectorXd& x) const {
 
 bool StaticEnergy::is_convex_at(const std::vector<Touch>& touches) const {
   for (std::size_t c = 0; c < touches.size(); ++c)
-    if (touches[c].force > 0.0 && !is_convex(scene_.contacts[c].support.obstacle))
+    if (touches[c].force > 0.0 && !contact::properties_of(scene_.contacts[c].support.obstacle).is_concave)
       return false;
   return true;
 }

@@ -29,10 +29,15 @@ protected:
                                            contact::Stop{3e-4, PlaneAxis::y},
                                            contact::RoundPair{1e-3},
                                            contact::FacingPlanes{2e-4, PlaneAxis::z, -1.0},
+                                           contact::Ellipse{6.1e-3, 6e-3, 5e-3},
                                            contact::Profile(corners)};
+    constexpr std::size_t kinds = std::size(obstacles);
+    static_assert(kinds == std::variant_size_v<contact::Obstacle>); // one of each
+    for (std::size_t k = 0; k < kinds; ++k)
+      EXPECT_EQ(obstacles[k].index(), k);
     std::vector<ContactPoint> out(static_cast<std::size_t>(count));
     for (std::size_t c = 0; c < out.size(); ++c) {
-      out[c].support = {obstacles[(c + static_cast<std::size_t>(count)) % 6], {1e5}, {}};
+      out[c].support = {obstacles[(c + static_cast<std::size_t>(count)) % kinds], {1e5}, {}};
       if (rubs) // along x_loc too
         out[c].support.friction = {5e4, 15.0, 0.4, 0.3};
       out[c].rest = {0.0, 2e-4 * normal_(random_), 2e-4 * normal_(random_)};
@@ -74,7 +79,7 @@ TEST_P(ContactMotions, AreThoseOfTheRowsAndTheirPlaces) {
           const double left = at.gap - window * w.tail<2>().norm();
           if (std::abs(left) < 1e-15)
             continue;
-          const bool bound = std::holds_alternative<contact::Profile>(point.support.obstacle);
+          const bool bound = !contact::properties_of(point.support.obstacle).is_bound_gap;
           EXPECT_TRUE(motion.near(c) == (left < 0.0) || (bound && motion.near(c)))
               << count << " contacts, " << c;
           number += motion.near(c);
