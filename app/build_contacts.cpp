@@ -60,15 +60,6 @@ contact::Frame frame_of(const study::Contact& contact, const fem::Model& model, 
   return contact::nautical_frame(axis, contact.angle * std::numbers::pi / 180.0);
 }
 
-/// m, of a round section; none of others.
-std::optional<double> outer_radius(const fem::Section& section) {
-  if (const auto* pipe = std::get_if<fem::Pipe>(&section.shape))
-    return 0.5 * pipe->outer_diameter;
-  if (const auto* circle = std::get_if<fem::Circle>(&section.shape))
-    return 0.5 * circle->diameter;
-  return {};
-}
-
 /// A tube_radius that no beam at the node has, a diameter most often; empty where one has it.
 std::string radius_warning(const study::Contact& contact, const fem::Model& model, Index node,
                            const std::string& name) {
@@ -77,9 +68,9 @@ std::string radius_warning(const study::Contact& contact, const fem::Model& mode
   for (const fem::Beam& beam : model.beams)
     if (beam.a == node || beam.b == node) {
       const auto here =
-          outer_radius(fem::property_at(model.properties[static_cast<std::size_t>(beam.property)],
-                                        beam.along[beam.a == node ? 0 : 1])
-                           .section);
+          fem::outer_radius(fem::property_at(model.properties[static_cast<std::size_t>(beam.property)],
+                                             beam.along[beam.a == node ? 0 : 1])
+                                .section);
       if (!here || std::abs(*here - *contact.tube_radius) <= same_radius * *here)
         return {};
       other = here;
@@ -241,6 +232,7 @@ void place(const study::Study& study, const fem::Model& model, PlacedContact con
     if (const std::string warning = held_warning(model, placed, points[k]); !warning.empty())
       warnings.push_back(warning);
     placed.motion = points[k].motion;
+    placed.place = points[k].place;
     const Vec3 centre = placed.other >= 0 ? model.nodes[static_cast<std::size_t>(placed.other)]
                                           : entry.origin.value_or(points[k].place);
     placed.rest = placed.frame.rotation() * (points[k].place - centre);

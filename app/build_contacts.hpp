@@ -16,6 +16,7 @@ struct PlacedContact {
   core::Index node;  ///< of the group
   core::Index other = -1;             ///< the second node, -1: the obstacle is fixed
   std::vector<fem::NodeShare> motion; ///< of the point that meets the obstacle: the node, or one near it
+  core::Vec3 place;                   ///< m, of that point
   contact::Frame frame;
   contact::Obstacle obstacle; ///< of two flat bodies with the side on which the first stays
   core::Vec3 rest;            ///< m: the point from the obstacle's centre (from the second node), local axes

@@ -7,7 +7,7 @@
 #include "fem/model.hpp"
 #include "mesh/line_mesh.hpp"
 #include "study/study.hpp"
-#include "transient/time_function.hpp"
+#include "transient/signals/time_function.hpp"
 
 namespace fretwork::app {
 

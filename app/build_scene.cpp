@@ -6,7 +6,7 @@
 #include "app/support_motion.hpp"
 #include "core/error.hpp"
 #include "fem/disjoint_sets.hpp"
-#include "transient/moving_modes.hpp"
+#include "transient/modes/moving_modes.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

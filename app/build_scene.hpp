@@ -8,7 +8,7 @@
 #include "app/watched_wear.hpp"
 #include "modal/basis.hpp"
 #include "post/recorder.hpp"
-#include "transient/scene.hpp"
+#include "transient/scene/scene.hpp"
 
 namespace fretwork::app {
 

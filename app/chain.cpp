@@ -26,7 +26,8 @@
 #include "results/summary_file.hpp"
 #include "results/totals.hpp"
 #include "results/write.hpp"
-#include "transient/kernels.hpp"
+#include "transient/simd/kernels.hpp"
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <fmt/format.h>
@@ -85,6 +86,25 @@ results::RunRecord make_record(const Inputs& inputs, int ranks) {
   return record;
 }
 
+/// What the beams are made of: elements that differ by their masses alone (of the flow) have one property.
+void describe_beams(const fem::Model& model, results::RunResults& out) {
+  std::vector<core::Index> number;
+  for (fem::BeamProperty property : model.properties) {
+    property.added_mass = 0.0;
+    property.added_mass_direction = fem::AddedMass::transverse;
+    property.fluid = {};
+    if (property.taper)
+      property.taper = fem::Taper{property.taper->section};
+    const auto found = std::find(out.properties.begin(), out.properties.end(), property);
+    number.push_back(static_cast<core::Index>(found - out.properties.begin()));
+    if (found == out.properties.end())
+      out.properties.push_back(property);
+  }
+  out.beams = model.beams;
+  for (fem::Beam& beam : out.beams)
+    beam.property = number[static_cast<std::size_t>(beam.property)];
+}
+
 void describe_model(const mesh::LineMesh& mesh, const fem::Model& model,
                     const std::vector<fem::Structure>& structures, results::RunResults& out) {
   out.nodes = model.nodes;
@@ -92,6 +112,7 @@ void describe_model(const mesh::LineMesh& mesh, const fem::Model& model,
     out.groups[name] = mesh::group_nodes(mesh, name, "the results");
   for (const auto& beam : model.beams)
     out.lines.push_back({beam.a, beam.b});
+  describe_beams(model, out);
   out.model.nodes = static_cast<std::int64_t>(model.nodes.size());
   out.model.elements = static_cast<std::int64_t>(model.beams.size());
   for (const auto& structure : structures)
@@ -105,18 +126,17 @@ results::ContactFacts facts_of(const study::Contact& contact, const PlacedContac
   facts.name = placed.name;
   facts.node = placed.node;
   facts.other = placed.other;
+  facts.point = {placed.place, placed.motion};
   facts.axes = placed.frame.rotation();
   facts.obstacle = study::name_of(contact.obstacle);
   facts.gap = placed.other < 0
                   ? contact::locate(support.obstacle, 0.0, 0.0).gap // of a tube at the obstacle's centre
                   : contact::locate(support.obstacle, placed.rest.y(), placed.rest.z()).gap;
   facts.rest = placed.rest;
-  if (const auto* profile = std::get_if<contact::Profile>(&support.obstacle)) {
-    const auto corners = profile->vertices();
-    facts.outline.resize(static_cast<Eigen::Index>(corners.size()), 2);
-    for (std::size_t i = 0; i < corners.size(); ++i)
-      facts.outline.row(static_cast<Eigen::Index>(i)) << corners[i].y, corners[i].z;
-  }
+  const auto outline = contact::outline_of(support.obstacle);
+  facts.outline.resize(static_cast<Eigen::Index>(outline.size()), 2);
+  for (std::size_t i = 0; i < outline.size(); ++i)
+    facts.outline.row(static_cast<Eigen::Index>(i)) << outline[i].y, outline[i].z;
   facts.normal_stiffness = support.normal.stiffness;
   facts.normal_damping = support.normal.damping;
   facts.normal_dissipation = support.normal.dissipation;
@@ -570,19 +590,6 @@ void check(const Request& request) {
   Request in_folder = request;
   in_folder.directory = folder;
   run_chain(MPI_COMM_SELF, in_folder, Stage::check);
-}
-
-std::string export_results(const fs::path& directory, const std::string& format) {
-  const results::RunResults stored = results::read_archive(directory);
-  const fs::path target = directory / ("export-" + format);
-  make_directory(target);
-  if (format == "csv")
-    results::export_csv(target, stored);
-  else if (format == "vtu")
-    results::export_vtu(target, stored);
-  else
-    results::export_msh(target, stored);
-  return fmt::format("written: {}\n", target.string());
 }
 
 } // namespace fretwork::app

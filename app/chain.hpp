@@ -17,8 +17,4 @@ void run_chain(MPI_Comm comm, const Request& request, Stage last);
 /// this process alone.
 void check(const Request& request);
 
-/// Writes DIR/export-<format>/ from the results in DIR; format csv, vtu or msh.
-/// @return where the files are, for the terminal
-[[nodiscard]] std::string export_results(const std::filesystem::path& directory, const std::string& format);
-
 } // namespace fretwork::app

@@ -11,7 +11,7 @@
 /// whole support, which are found as if one contact had them all.
 #pragma once
 #include "app/build_contacts.hpp"
-#include "transient/scene.hpp"
+#include "transient/scene/scene.hpp"
 
 namespace fretwork::app {
 

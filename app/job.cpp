@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/job.hpp"
 #include "core/mpi.hpp"
-#include "transient/mass_scaling.hpp"
+#include "transient/modes/mass_scaling.hpp"
 #include <algorithm>
 #include <type_traits>
 
@@ -48,6 +48,7 @@ void broadcast(MPI_Comm comm, int root, const BuiltScene& built, post::TimeSerie
     core::broadcast(comm, root, series.gap);
     core::broadcast(comm, root, series.normal_force);
     core::broadcast(comm, root, series.tangential_force);
+    core::broadcast(comm, root, series.normal);
     broadcast_plain(comm, root, series.state);
   }
   all.nodes.resize(built.nodes.size());

@@ -32,6 +32,14 @@ std::string unconverged_warning(const study::Study& study, const BuiltScene& bui
       missed, built.lacking, built.lacking_at, more_modes(study));
 }
 
+std::string cure_of_divergence(const study::Study& study, const BuiltScene& built,
+                               const transient::Report& report) {
+  if (report.counts.unconverged > 0)
+    return unconverged_warning(study, built, report.counts);
+  return study.transient->step ? "take a smaller step, or leave step out to have one chosen"
+                               : "take a smaller step than this automatic one";
+}
+
 void judge(const study::Study& study, const BuiltScene& built, const transient::StepChoice& choice,
            const transient::Report& report, results::RunResults& out) {
   for (const std::string& warning : choice.warnings)
@@ -39,8 +47,9 @@ void judge(const study::Study& study, const BuiltScene& built, const transient::
   if (report.outcome == transient::Outcome::diverged)
     throw core::ComputationError(fmt::format(
         "the transient diverged at t = {:.6g} s (scheme {}, step {:.3g} s): its energy has left all that was "
-        "put in; take a smaller step, or leave step out to have one chosen",
-        report.end_time, transient::name_of(choice.scheme), choice.step));
+        "put in; {}",
+        report.end_time, transient::name_of(choice.scheme), choice.step,
+        cure_of_divergence(study, built, report)));
   if (report.outcome == transient::Outcome::step_failed)
     throw core::ComputationError(fmt::format("the transient stopped at t = {:.6g} s (scheme {}): {}",
                                              report.end_time, transient::name_of(choice.scheme),

@@ -2,6 +2,7 @@
 /// @file
 /// The executable: command line, exit status. The only catch of the program is here.
 #include "app/chain.hpp"
+#include "app/export.hpp"
 #include "app/python_report.hpp"
 #include "app/sweep.hpp"
 #include "core/error.hpp"
@@ -129,13 +130,18 @@ int main(int argc, char** argv) {
       program.add_subcommand("report", "report.html with its pictures, from the results in a folder");
   report->add_option("directory", directory, "folder of the results")->required();
   CLI::App* exporting = program.add_subcommand("export", "results in other formats: DIR/export-<format>/");
-  std::string format = "csv";
-  exporting->add_option("directory", directory, "folder of the results")->required();
+  app::ExportRequest exported;
+  exporting->add_option("directory", exported.directory, "folder of the results")->required();
   exporting
-      ->add_option(
-          "--format", format,
-          "csv: time series and wear; vtu: mode shapes and snapshots for ParaView; msh: mode shapes for gmsh")
+      ->add_option("--format", exported.format,
+                   "csv: time series and wear; vtu: modes, moving structure and contact forces for ParaView; "
+                   "msh: mode shapes for gmsh")
       ->check(CLI::IsMember({"csv", "vtu", "msh"}));
+  exporting->add_option("--from", exported.window.from,
+                        "of vtu: the first time, s (default: the first output)");
+  exporting->add_option("--to", exported.window.to, "of vtu: the last time, s (default: the last output)");
+  exporting->add_option("--every", exported.window.every,
+                        "of vtu: every n-th output (default: 200 outputs at most, evenly spread)");
 
   CLI::App* compare = program.add_subcommand(
       "compare", "what differs between runs: inputs, frequencies, work rates with significance, wear");
@@ -182,7 +188,7 @@ int main(int argc, char** argv) {
   if (compare->parsed())
     return guarded([&] { fmt::print("{}", app::compare_results(compared, comparison_page)); });
   if (exporting->parsed())
-    return guarded([&] { fmt::print("{}", app::export_results(directory, format)); });
+    return guarded([&] { fmt::print("{}", app::export_results(exported)); });
 
   const core::MpiSession mpi(argc, argv);
   if (check->parsed())

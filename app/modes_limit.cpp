@@ -4,7 +4,7 @@
 #include "fem/beam_constants.hpp"
 #include "modal/impact_modes.hpp"
 #include "modal/spans.hpp"
-#include "transient/time_function.hpp"
+#include "transient/signals/time_function.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>

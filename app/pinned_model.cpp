@@ -17,26 +17,14 @@ constexpr std::uint8_t translations = 0b000111, all_dofs = 0b111111;
 constexpr double slenderness = 1e-18;
 
 /// Local axes along which the obstacle presses.
-std::vector<Vec3> directions(study::ObstacleKind kind, const contact::Frame& frame) {
-  using Kind = study::ObstacleKind;
-  switch (kind) {
-  case Kind::plane_y:
-  case Kind::stop_y:
-  case Kind::bars_y:
-    return {frame.y};
-  case Kind::plane_z:
-  case Kind::stop_z:
-  case Kind::bars_z:
-    return {frame.z};
-  case Kind::circle:
-  case Kind::circle_inside:
-  case Kind::profile:
-  case Kind::drilled:
-  case Kind::broached:
-  case Kind::egg_crate:
-    break;
-  }
-  return {frame.y, frame.z};
+std::vector<Vec3> directions(const contact::Obstacle& obstacle, const contact::Frame& frame) {
+  const auto [y, z] = contact::normal_directions(obstacle);
+  std::vector<Vec3> out;
+  if (y)
+    out.push_back(frame.y);
+  if (z)
+    out.push_back(frame.z);
+  return out;
 }
 
 /// N/m, the largest on the diagonal of the beams at the node.
@@ -79,7 +67,7 @@ fem::Model pinned_model(const study::Study& study, const fem::Model& model,
                                     pin.name));
     const auto property = static_cast<Index>(out.properties.size());
     out.properties.push_back(rod(pin_stiffness * stiffness));
-    for (const Vec3& direction : directions(study.contacts[pin.entry].obstacle, pin.frame)) {
+    for (const Vec3& direction : directions(study.contacts[pin.entry].shape, pin.frame)) {
       out.nodes.push_back(model.nodes[static_cast<std::size_t>(pin.node)] + direction);
       out.fixed.push_back(all_dofs);
       out.beams.push_back({pin.node, static_cast<Index>(out.nodes.size()) - 1, property});

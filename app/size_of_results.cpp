@@ -7,7 +7,7 @@ namespace fretwork::app {
 namespace {
 
 constexpr double number = sizeof(double);
-constexpr double of_contact = 10.0 * number + 1.0; // displacement, velocity, gap, forces; state
+constexpr double of_contact = 12.0 * number + 1.0; // displacement, velocity, gap, forces, normal; state
 constexpr double of_node = 9.0 * number, of_mode = 2.0 * number;
 constexpr double of_impact = 8.0 * number; // a row of the table
 

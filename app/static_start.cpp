@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/static_start.hpp"
 #include "core/error.hpp"
-#include "transient/static_start.hpp"
+#include "transient/statics/static_start.hpp"
 #include <cmath>
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// transient.start = "static": a scene starts in equilibrium (transient/static_start.hpp).
+/// transient.start = "static": a scene starts in equilibrium (transient/statics/static_start.hpp).
 #pragma once
 #include "app/build_scene.hpp"
 

@@ -12,7 +12,7 @@
 /// every dof, moved supports included, and is not pushed by them, r.K.psi = 0. Of psi it has no part, r.M.psi = 0: it starts at rest.
 #pragma once
 #include "app/build_model.hpp"
-#include "transient/prescribed_motion.hpp"
+#include "transient/signals/prescribed_motion.hpp"
 
 namespace fretwork::app {
 

@@ -8,7 +8,7 @@
 #include "app/build_flow.hpp"
 #include "flow/load_band.hpp"
 #include "modal/basis.hpp"
-#include "transient/sampled_load.hpp"
+#include "transient/signals/sampled_load.hpp"
 
 namespace fretwork::app {
 

@@ -3,8 +3,9 @@
 // adds to a step of the splitting scheme beside its projections.
 #include "bench/tube_scene.hpp"
 #include "contact/support_shapes.hpp"
-#include "transient/packed_contacts.hpp"
-#include "transient/scheme.hpp"
+#include "transient/contacts/packed_contacts.hpp"
+#include "transient/scene/scheme.hpp"
+#include "transient/splitting/splitting.hpp"
 #include <algorithm>
 #include <array>
 #include <cstdio>

@@ -11,7 +11,7 @@
 /// fifth), automatic or 0.05 to 1 of the critical damping of the mass that the contact feels; friction in the tangent plane, or restricted
 /// to one direction. Contacts are open, touch, stand out of the middle or are pressed. Loads are harmonic, random and constant.
 #pragma once
-#include "transient/scene.hpp"
+#include "transient/scene/scene.hpp"
 #include <cstdint>
 #include <random>
 #include <string>

@@ -6,7 +6,7 @@
 ///
 /// Modes are sorted by what they move: those along y_loc of any contact first, those along z_loc next; both ranges may overlap.
 #pragma once
-#include "transient/scene.hpp"
+#include "transient/scene/scene.hpp"
 #include <cstdint>
 #include <vector>
 

@@ -6,7 +6,7 @@
 /// 0.14 to 0.26 mm at uneven places, K_T = K_N/2, C_T by the automatic formula with the first mode at its middle, mu = 0.3. Forces along the whole length
 /// in y and along a half-wave and a whole one in z, both of band-limited noise from 2 Hz on.
 #pragma once
-#include "transient/scene.hpp"
+#include "transient/scene/scene.hpp"
 #include <string>
 #include <vector>
 

@@ -8,7 +8,7 @@
 #include "bench/thread_time.hpp"
 #include "core/error.hpp"
 #include "post/contact_statistics.hpp"
-#include "transient/kernels.hpp"
+#include "transient/simd/kernels.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "bench/thread_time.hpp"
 #include "bench/tube_scene.hpp"
 #include "post/contact_statistics.hpp"
-#include "transient/moving_modes.hpp"
+#include "transient/modes/moving_modes.hpp"
 #include "transient/run.hpp"
 #include <cstdio>
 #include <limits>

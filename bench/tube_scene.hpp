@@ -3,7 +3,7 @@
 /// A simply supported straight tube on equally spaced circular supports, in its exact modes: the scene of the
 /// transient benchmarks.
 #pragma once
-#include "transient/scene.hpp"
+#include "transient/scene/scene.hpp"
 
 namespace fretwork::bench {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// A normal spring whose force acts at one instant t_k for a whole step h, between free flights (transient/flexible_contacts.hpp).
+/// A normal spring whose force acts at one instant t_k for a whole step h, between free flights (transient/splitting/flexible_contacts.hpp).
 ///
 /// A mass 1/W that meets the spring K at the speed v (w_c^2 = K W, x = w_c h, P = p/h, p > 0) under a constant acceleration (of the structure it
 /// belongs to) is to leave as it would from a force without end:

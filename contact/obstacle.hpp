@@ -13,6 +13,11 @@
 ///     profile      signed distance to a polygon round the origin (profile.hpp)
 ///     facing planes gap = s c - d,         n = s e        two flat bodies, d = D_1 + D_2, the first on
 ///                                                the side s = +-1 of the second
+///     ellipse      gap = h(m) - p.m - R,   n = -m         a round body of radius R in an elliptic hole of
+///                                                semi-axes a, b: its distance from the ellipse less R
+/// h(m) = (a^2 m_y^2 + b^2 m_z^2)^1/2 is the support function of the ellipse, m its outward normal where it is nearest
+/// to the position p: m ~ (y/(s + a^2 - b^2), z/s) for a >= b, where s is the largest root of
+/// (a y/(s + a^2 - b^2))^2 + (b z/s)^2 = 1, found by Newton's steps from below, which grow to it.
 /// Source: R5.06.03 sections 4.1.1 and 4.1.2 (whose normals are opposite to each other), 4.2.1 (where the
 /// side follows the sign of c, so that bodies that pass through each other are pushed on), 4.2.2.
 #pragma once
@@ -44,7 +49,12 @@ struct FacingPlanes {
   PlaneAxis axis;
   double side; ///< +1 or -1: of the second node on which the first stays
 };
-using Obstacle = std::variant<Circle, PlanePair, Stop, RoundPair, FacingPlanes, Profile>;
+struct Ellipse {
+  double semi_y, semi_z; ///< m, > 0: semi-axes of the hole
+  double
+      radius; ///< m, >= 0, of the body; above the hole's least radius of curvature it touches at two places where it reaches farthest
+};
+using Obstacle = std::variant<Circle, PlanePair, Stop, RoundPair, FacingPlanes, Ellipse, Profile>;
 
 /// Where a node is against its obstacle; the contact's tangent directions are x_loc and t = n x x_loc = (0,
 /// nz, -ny).
@@ -88,6 +98,8 @@ inline constexpr Location centred(double gap) { return {gap, -1.0, 0.0}; }
           along_y ? 0.0 : planes.side};
 }
 
+[[nodiscard]] Location locate(const Ellipse& ellipse, double y, double z);
+
 [[nodiscard]] inline Location locate(const Profile& profile, double y, double z) {
   return profile.locate(y, z);
 }
@@ -97,18 +109,32 @@ inline constexpr Location centred(double gap) { return {gap, -1.0, 0.0}; }
 }
 
 /// kappa, 1/m, with which the normal turns as the node moves: dn = kappa t (t.du), so that the Hessian of the
-/// gap is kappa t t^T. Circle -1/r, round pair 1/r, planes 0, profile: profile.hpp. Where the normal is a
+/// gap is kappa t t^T. Circle -1/r, round pair 1/r, planes 0, ellipse -1/(rho - distance from it) with the radius of curvature rho where it is
+/// nearest, profile: profile.hpp. Where the normal is a
 /// choice (centred tube, coincident nodes, on the corner of a profile) 0, as the choice does not turn.
 [[nodiscard]] double curvature(const Obstacle& obstacle, double y, double z);
 
-/// A bound that tells cheaply that a node is out of reach: the gap is at least
+/// A bound that tells cheaply that a node is out of reach, and the form of all gaps that are one formula:
 ///     limit - (radial sqrt(wy y^2 + wz z^2) + ly y + lz z),
-/// and its rate at least -sqrt(wy vy^2 + wz vz^2).
-struct Reach {
+/// whose rate is at least -sqrt(wy vy^2 + wz vz^2).
+struct GapBound {
   double wy, wz, limit;
   double radial = 1.0, ly = 0.0, lz = 0.0;
 };
-[[nodiscard]] Reach reach(const Obstacle& obstacle);
+
+/// What others ask of an obstacle without knowing its kind.
+struct ObstacleProperties {
+  double extent;      ///< m, how far it reaches
+  GapBound gap_bound; ///< the gap is at least this
+  bool
+      is_bound_gap; ///< it is this, and the normal its gradient: both are found in vector lanes; else by `locate`
+  bool is_concave; ///< the gap bends nowhere upwards: the energy of a spring on the penetration is convex
+  bool has_parts;  ///< deeper or farther on another part may be the nearest one, and the normal jump
+};
+[[nodiscard]] ObstacleProperties properties_of(const Obstacle& obstacle);
+
+/// Points of its surface, m, closed; none where its gap and kind tell all.
+[[nodiscard]] std::vector<PlanePoint> outline_of(const Obstacle& obstacle);
 
 /// Local directions (y, z) the normal can take: those whose stiffness counts in the contact frequency.
 [[nodiscard]] std::array<bool, 2> normal_directions(const Obstacle& obstacle);

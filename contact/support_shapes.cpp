@@ -109,6 +109,12 @@ Circle drilled_hole(double tube_radius, double hole_radius) {
   return {hole_radius - tube_radius};
 }
 
+Ellipse elliptic_hole(double tube_radius, double semi_y, double semi_z) {
+  check_clearance("elliptic hole", tube_radius, "semi-axis along y", semi_y);
+  check_clearance("elliptic hole", tube_radius, "semi-axis along z", semi_z);
+  return {semi_y, semi_z, tube_radius};
+}
+
 Obstacle flat_bars(double tube_radius, double distance, PlaneAxis axis, BarSides sides) {
   check_room("flat bars", tube_radius, "distance", distance);
   if (sides == BarSides::one)

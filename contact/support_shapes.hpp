@@ -5,6 +5,7 @@
 /// middle of the hole; angles from y_loc to z_loc; everything in m and rad.
 ///
 ///     drilled hole of radius h                  a circle of gap h - t
+///     elliptic hole                             the ellipse, and the tube as a round body in it
 ///     flat bars, faces at d from the centre     planes of gap d - t
 ///     egg crate, faces at y = +-hy, z = +-hz    the rectangle of half widths hy - t, hz - t
 ///
@@ -30,6 +31,11 @@ inline constexpr double default_chord_error = 1e-8; ///< m
 
 /// @throws core::Error if a radius is not positive or the tube does not fit
 [[nodiscard]] Circle drilled_hole(double tube_radius, double hole_radius);
+
+/// A hole worn or ovalised: an ellipse.
+/// @throws core::Error unless both semi-axes exceed the tube's radius, and the least radius of curvature (the smaller one squared by the
+/// larger one) does: the tube would touch at two places at once
+[[nodiscard]] Ellipse elliptic_hole(double tube_radius, double semi_y, double semi_z);
 
 enum class BarSides { one, two };
 

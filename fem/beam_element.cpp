@@ -122,8 +122,9 @@ BeamElement::BeamElement(const Vec3& a, const Vec3& b, const BeamProperty& prope
     check_orientation(a, b, property.section);
   if (!property.orientation && property.taper)
     check_orientation(a, b, property.taper->section);
-  stiffness_ = is_plain(axis_, property) ? uniform_stiffness(beam_constants(property), chord_)
-                                         : flexible().stiffness();
+  elastic_ = is_plain(axis_, property) ? uniform_stiffness(beam_constants(property), chord_)
+                                       : flexible().stiffness();
+  stiffness_ = elastic_;
   if (property.axial_force == 0.0)
     return;
   if (!axis_.is_straight())
@@ -165,10 +166,10 @@ InnerMotion BeamElement::inner_motion() const {
   return inner;
 }
 
-Eigen::Matrix<double, 6, 1> BeamElement::deformation(const Vector12& u) const {
+Vector6 BeamElement::deformation(const Vector12& u) const {
   const Vec3 d = axes_ * (u.segment<3>(6) - u.segment<3>(0));
   const Vec3 ra = axes_ * u.segment<3>(3);
-  Eigen::Matrix<double, 6, 1> e;
+  Vector6 e;
   e << d.x(), d.y() - chord_ * ra.z(), d.z() + chord_ * ra.y(), axes_ * (u.segment<3>(9) - u.segment<3>(3));
   return e;
 }
@@ -179,12 +180,12 @@ Vec3 BeamElement::across(const Vector12& u) const {
 }
 
 double BeamElement::twice_strain_energy(const Vector12& displacement) const {
-  const Eigen::Matrix<double, 6, 1> e = deformation(displacement);
+  const Vector6 e = deformation(displacement);
   return e.dot(stiffness_ * e) + string_ * across(displacement).squaredNorm();
 }
 
 Vector12 BeamElement::elastic_force(const Vector12& displacement) const {
-  const Eigen::Matrix<double, 6, 1> at_b = stiffness_ * deformation(displacement);
+  const Vector6 at_b = stiffness_ * deformation(displacement);
   const Vec3 force = axes_.transpose() * at_b.head<3>(), moment = axes_.transpose() * at_b.tail<3>();
   const Vec3 span = chord_ * axes_.row(0).transpose();
   const Vec3 pull = string_ * across(displacement);
@@ -199,6 +200,23 @@ Shapes BeamElement::shapes(double share) const {
     for (int j = 0; j < 12; j += 3)
       shapes.block<3, 3>(i, j) = (axes_.transpose() * shapes.block<3, 3>(i, j) * axes_).eval();
   return shapes;
+}
+
+Eigen::Matrix3d BeamElement::section_axes(double share) const {
+  const double length = axis_.length();
+  return frame_along(axis_.tangent(share * length), property_.orientation, axis_.point(0.0),
+                     axis_.point(length));
+}
+
+Vector6 BeamElement::section_forces(const Vector12& displacement, double share) const {
+  const Vector6 at_b = elastic_ * deformation(displacement);
+  const Vec3 force = axes_.transpose() * at_b.head<3>(), moment = axes_.transpose() * at_b.tail<3>();
+  const double length = axis_.length();
+  const Vec3 arm = axis_.point(length) - axis_.point(share * length);
+  const Eigen::Matrix3d axes = section_axes(share);
+  Vector6 forces;
+  forces << axes * force, axes * (moment + arm.cross(force));
+  return forces;
 }
 
 Vector12 BeamElement::line_force(const Vec3& force_per_length) const {

@@ -50,12 +50,20 @@ public:
 
   /// Displacement and rotation at the share (0 to 1) of the axis, of the dofs.
   [[nodiscard]] Shapes shapes(double share) const;
+  /// Rows: x_loc (along the axis towards b), y_loc, z_loc of the section at the share (0 to 1) of the axis, global axes.
+  [[nodiscard]] Eigen::Matrix3d section_axes(double share) const;
+  /// N Vy Vz T My Mz (N, N m) of the section there, in its axes: what the part beyond it, towards b, exerts on the part before it.
+  /// They follow from the deformation by the shapes of the element: on straight uniform beams N = EA u', T = GJ rx',
+  /// My = -EIy w'', Mz = EIz v'', Vy = -EIz v''', Vz = -EIy w''' (v, w without the deflection by shear), so that N, T, Vy and Vz are
+  /// constant along the element and My, Mz linear; exact for loads at the nodes, of order 2 in the length for loads between them. The
+  /// preload axial_force is not in N.
+  [[nodiscard]] Vector6 section_forces(const Vector12& displacement, double share) const;
   /// Consistent forces and moments at the dofs of a uniform line force (N/m along the axis, global direction).
   [[nodiscard]] Vector12 line_force(const Vec3& force_per_length) const;
 
 private:
   /// e, in element axes.
-  [[nodiscard]] Eigen::Matrix<double, 6, 1> deformation(const Vector12& displacement) const;
+  [[nodiscard]] Vector6 deformation(const Vector12& displacement) const;
   [[nodiscard]] Vec3 across(const Vector12& displacement) const; ///< d_t, global axes
   [[nodiscard]] FlexibleBeam flexible() const { return {axis_, axes_, property_, along_}; }
 
@@ -64,7 +72,8 @@ private:
   BeamAxis axis_;
   Eigen::Matrix3d axes_; ///< rows x, y, z of the element
   double chord_;         ///< m
-  Matrix6 stiffness_;    ///< S + N G, element axes
+  Matrix6 elastic_;      ///< S, element axes
+  Matrix6 stiffness_;    ///< S + N G
   double string_ = 0.0;  ///< N / L, N/m
 };
 

@@ -38,6 +38,7 @@ namespace fretwork::fem {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Vector12 = Eigen::Matrix<double, 12, 1>;
 using Shapes = Eigen::Matrix<double, 6, 12>; ///< displacement and rotation of a section, of the 12 dofs
 

@@ -126,6 +126,24 @@ std::optional<Outline> outline_of(const Section& section) {
   return std::nullopt;
 }
 
+std::optional<double> outer_radius(const Section& section) {
+  if (const auto* pipe = std::get_if<Pipe>(&section.shape))
+    return 0.5 * pipe->outer_diameter;
+  if (const auto* circle = std::get_if<Circle>(&section.shape))
+    return 0.5 * circle->diameter;
+  return std::nullopt;
+}
+
+std::optional<double> outer_fibre_stress(const Section& section, double n, double my, double mz) {
+  const double traction = std::abs(n) / section.area;
+  if (const auto radius = outer_radius(section))
+    return traction + *radius * std::hypot(my / section.iy, mz / section.iz);
+  if (const auto* bar = std::get_if<Rectangle>(&section.shape)) // at a corner
+    return traction +
+           0.5 * (std::abs(my) * bar->height_z / section.iy + std::abs(mz) * bar->height_y / section.iz);
+  return std::nullopt;
+}
+
 bool same_kind(const Section& a, const Section& b) {
   return a.shape.index() == b.shape.index() && a.shear.index() == b.shear.index() &&
          a.rotary_inertia == b.rotary_inertia;

@@ -71,6 +71,15 @@ struct Outline {
 /// None where the section is neither a pipe nor a circle.
 [[nodiscard]] std::optional<Outline> outline_of(const Section& section);
 
+/// m, of a pipe or circle; none of other sections.
+[[nodiscard]] std::optional<double> outer_radius(const Section& section);
+
+/// The largest |N/A + My z/Iy - Mz y/Iz| on the outline of a pipe, circle or rectangle, Pa; none of a section without shape, whose
+/// outline is unknown. Torsion and shear are not in it.
+/// @param n, my, mz  N, N m
+[[nodiscard]] std::optional<double> outer_fibre_stress(const Section& section, double n, double my,
+                                                       double mz);
+
 /// Whether one section can change into the other along a beam: of one shape, shearing alike, both with or both
 /// without rotary inertia.
 [[nodiscard]] bool same_kind(const Section& a, const Section& b);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "post/contact_statistics.hpp"
-#include "transient/vector_lanes.hpp"
+#include "transient/simd/vector_lanes.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -4,9 +4,9 @@
 #pragma once
 #include "post/batch_means.hpp"
 #include "post/moments.hpp"
-#include "transient/kernels.hpp"
-#include "transient/prescribed_motion.hpp"
 #include "transient/run.hpp"
+#include "transient/signals/prescribed_motion.hpp"
+#include "transient/simd/kernels.hpp"
 #include <array>
 #include <vector>
 

@@ -28,7 +28,8 @@ Recorder::Recorder(const transient::Scene& scene, std::vector<ObservedNode> node
                              Eigen::VectorXd::Zero(nt),
                              Eigen::VectorXd::Zero(nt),
                              Eigen::MatrixXd::Zero(nt, 2),
-                             std::vector<std::uint8_t>(static_cast<std::size_t>(nt), open)});
+                             std::vector<std::uint8_t>(static_cast<std::size_t>(nt), open),
+                             Eigen::MatrixXd::Zero(nt, 2)});
   for (const auto& node : nodes_)
     out_.nodes.push_back({node.name, {}, {}, Eigen::MatrixXd::Zero(nt, 3)});
 }
@@ -37,10 +38,14 @@ void Recorder::state(std::int64_t index, double time, const double* q, const dou
   out_.time(index) = time;
   std::copy_n(q, scene_.system.size(), out_.modal_displacement.col(index).data());
   std::copy_n(v, scene_.system.size(), out_.modal_velocity.col(index).data());
-  for (std::size_t c = 0; c < scene_.contacts.size(); ++c) {
-    const core::Vec3 x = place(c, index, time);
-    out_.contacts[c].gap(index) = contact::locate(scene_.contacts[c].support.obstacle, x.y(), x.z()).gap;
-  }
+  for (std::size_t c = 0; c < scene_.contacts.size(); ++c)
+    set_gap(c, index, place(c, index, time));
+}
+
+void Recorder::set_gap(std::size_t contact, std::int64_t index, const core::Vec3& place) {
+  const auto here = contact::locate(scene_.contacts[contact].support.obstacle, place.y(), place.z());
+  out_.contacts[contact].gap(index) = here.gap;
+  out_.contacts[contact].normal.row(index) << here.ny, here.nz;
 }
 
 /// A contact's node from its obstacle's centre, where the modes and what carries it have taken it.
@@ -65,11 +70,8 @@ void Recorder::give_way(std::int64_t index, double time, std::span<const transie
     for (Eigen::Index k = 0; k < scene_.contacts[c].under_loads.cols(); ++k)
       given_.col(index).segment<3>(3 * static_cast<Eigen::Index>(c)) +=
           loads_[static_cast<std::size_t>(k)](time) * scene_.contacts[c].under_loads.col(k);
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const core::Vec3 x =
-        place(c, index, time) + given_.col(index).segment<3>(3 * static_cast<Eigen::Index>(c));
-    out_.contacts[c].gap(index) = contact::locate(scene_.contacts[c].support.obstacle, x.y(), x.z()).gap;
-  }
+  for (std::size_t c = 0; c < contacts.size(); ++c)
+    set_gap(c, index, place(c, index, time) + given_.col(index).segment<3>(3 * static_cast<Eigen::Index>(c)));
 }
 
 void Recorder::forces(std::int64_t index, double time, const double* load,
@@ -93,6 +95,8 @@ void Recorder::forces(std::int64_t index, double time, const double* load,
       continue; // open at this instant, whatever the steps around it
     const auto& f = contacts[c];
     series.normal_force(index) = f.normal;
+    if (f.normal > 0.0 || f.friction.x != 0.0 || f.friction.t != 0.0)
+      series.normal.row(index) << f.ny, f.nz;
     if (f.normal > 0.0)
       series.state[static_cast<std::size_t>(index)] =
           f.slides || !scene_.contacts[c].support.friction.active() ? slides : sticks;
@@ -133,6 +137,7 @@ void Recorder::visit(core::StateArchive& state) {
     first_rows(c.gap);
     first_rows(c.normal_force);
     first_rows(c.tangential_force);
+    first_rows(c.normal);
     state.block(c.state.data(), static_cast<std::size_t>(served_));
   }
   for (NodeSeries& n : out_.nodes)
@@ -149,6 +154,7 @@ TimeSeries Recorder::series() && {
       c.gap.conservativeResize(served_);
       c.normal_force.conservativeResize(served_);
       c.tangential_force.conservativeResize(served_, Eigen::NoChange);
+      c.normal.conservativeResize(served_, Eigen::NoChange);
       c.state.resize(static_cast<std::size_t>(served_));
     }
     for (auto& n : out_.nodes)

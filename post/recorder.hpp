@@ -2,8 +2,8 @@
 /// @file
 /// Time series at the output instants.
 #pragma once
-#include "transient/prescribed_motion.hpp"
 #include "transient/run.hpp"
+#include "transient/signals/prescribed_motion.hpp"
 #include <string>
 #include <vector>
 
@@ -21,6 +21,8 @@ struct ContactSeries {
   Eigen::VectorXd normal_force;           ///< nt, N
   Eigen::MatrixXd tangential_force;       ///< nt x 2, N: along x_loc, along n x x_loc
   std::vector<std::uint8_t> state;        ///< nt, ContactMode; open where the normal force is 0
+  Eigen::MatrixXd
+      normal; ///< nt x 2, unit normal along y_loc, z_loc: of the forces, where there are none of the place
 };
 
 /// Global axes.
@@ -46,7 +48,7 @@ struct ObservedNode {
 
 class Recorder final : public transient::Sampler {
 public:
-  /// @param masses  n, modal masses of the run (transient/mass_scaling.hpp); empty: all 1
+  /// @param masses  n, modal masses of the run (transient/modes/mass_scaling.hpp); empty: all 1
   Recorder(const transient::Scene& scene, std::vector<ObservedNode> nodes, const transient::OutputGrid& grid,
            Eigen::VectorXd masses = {});
   void state(std::int64_t index, double time, const double* q, const double* v) override;
@@ -61,6 +63,7 @@ public:
 private:
   void add_motions();
   [[nodiscard]] core::Vec3 place(std::size_t contact, std::int64_t index, double time) const;
+  void set_gap(std::size_t contact, std::int64_t index, const core::Vec3& place);
   void give_way(std::int64_t index, double time, std::span<const transient::ContactForce> contacts);
 
   const transient::Scene& scene_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/error.hpp"
 #include "results/basis_file.hpp"
+#include "results/beam_file.hpp"
 #include "results/impact_columns.hpp"
 #include "results/text_file.hpp"
 #include "results/wear_file.hpp"
@@ -16,7 +17,42 @@ namespace fs = std::filesystem;
 constexpr const char* contact_units =
     "position, other_position, gap, rest: m; normal_stiffness, tangential_stiffness: N/m; normal_damping, "
     "tangential_damping: N s/m; normal_dissipation: s/m; axes: rows x_loc, y_loc, z_loc; friction_along: "
-    "along x_loc, across it";
+    "along x_loc, across it; point: m, where the tube meets the obstacle";
+
+/// The point that meets the obstacle; where it is the node, its motion is not written.
+void write_point(const h5::Group& group, const fem::BeamPoint& point, core::Index node) {
+  group.set<double>("point", {point.place.data(), 3}, {3});
+  if (point.motion.size() == 1 && point.motion[0].node == node)
+    return;
+  std::vector<core::Index> nodes;
+  std::vector<double> weights;
+  for (const fem::NodeShare& share : point.motion) {
+    nodes.push_back(share.node);
+    const Eigen::Matrix<double, 3, 6, Eigen::RowMajor> rows = share.weights;
+    weights.insert(weights.end(), rows.data(), rows.data() + rows.size());
+  }
+  group.write<core::Index>("point_nodes", nodes, {nodes.size()}, "");
+  group.write<double>("point_weights", weights, {nodes.size(), 3, 6}, "1, m: of ux uy uz rx ry rz");
+}
+
+fem::BeamPoint read_point(const h5::Group& group, core::Index node) {
+  using Weights = Eigen::Matrix<double, 3, 6, Eigen::RowMajor>;
+  const auto place = group.values<double>("point");
+  if (place.size() != 3)
+    throw h5::Failure("point of a contact");
+  fem::BeamPoint point{{place[0], place[1], place[2]}, {}};
+  if (!group.has("point_nodes")) {
+    point.motion = {{node, Weights::Identity()}};
+    return point;
+  }
+  const auto nodes = group.read<core::Index>("point_nodes");
+  const auto weights = group.read<double>("point_weights");
+  if (weights.size() != nodes.size() * Weights::SizeAtCompileTime)
+    throw h5::Failure("point_nodes and point_weights of different sizes");
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    point.motion.push_back({nodes[i], Eigen::Map<const Weights>(&weights[i * Weights::SizeAtCompileTime])});
+  return point;
+}
 
 void write_facts(const h5::Group& group, const ContactFacts& c, const std::vector<core::Vec3>& nodes) {
   const RowMajor axes = c.axes;
@@ -25,6 +61,7 @@ void write_facts(const h5::Group& group, const ContactFacts& c, const std::vecto
   group.set<double>("position", {nodes.at(static_cast<std::size_t>(c.node)).data(), 3}, {3});
   if (c.other >= 0)
     group.set<double>("other_position", {nodes.at(static_cast<std::size_t>(c.other)).data(), 3}, {3});
+  write_point(group, c.point, c.node);
   group.set<double>("axes", {axes.data(), 9}, {3, 3});
   group.set("obstacle", c.obstacle);
   group.set("gap", c.gap);
@@ -52,6 +89,7 @@ ContactFacts read_facts(const h5::Group& group) {
   c.name = group.text("name");
   c.node = static_cast<core::Index>(group.integer("node"));
   c.other = static_cast<core::Index>(group.integer("other"));
+  c.point = read_point(group, c.node);
   const auto axes = group.values<double>("axes"), rest = group.values<double>("rest"),
              along = group.values<double>("friction_along");
   if (axes.size() != 9 || rest.size() != 3 || along.size() != 2)
@@ -89,6 +127,7 @@ void write_series(const h5::Group& group, const post::ContactSeries& s, Eigen::I
   write_matrix(group, "tangential_force", s.tangential_force.topRows(nt), "N");
   group.write<std::uint8_t>("state", {s.state.data(), static_cast<std::size_t>(nt)},
                             {static_cast<hsize_t>(nt)}, "0 open, 1 sticks, 2 slides");
+  write_matrix(group, "normal", s.normal.topRows(nt), "1");
 }
 
 /// One dataset a column: a group that a table library reads as it is.
@@ -223,10 +262,11 @@ void read_contacts(const h5::Group& root, RunResults& results) {
   for (const h5::Group& group : in_order(root.open("contacts"))) {
     results.contacts.push_back(read_facts(group));
     if (group.has("normal_force"))
-      results.series.contacts.push_back(
-          {results.contacts.back().name, read_matrix(group, "displacement"), read_matrix(group, "velocity"),
-           read_vector(group, "gap"), read_vector(group, "normal_force"),
-           read_matrix(group, "tangential_force"), group.read<std::uint8_t>("state")});
+      results.series.contacts.push_back({results.contacts.back().name, read_matrix(group, "displacement"),
+                                         read_matrix(group, "velocity"), read_vector(group, "gap"),
+                                         read_vector(group, "normal_force"),
+                                         read_matrix(group, "tangential_force"),
+                                         group.read<std::uint8_t>("state"), read_matrix(group, "normal")});
     if (group.has("impacts")) {
       const h5::Group impacts = group.open("impacts");
       results.impacts.push_back(read_impacts(impacts));
@@ -287,6 +327,7 @@ void write_archive(const fs::path& file, const RunResults& results) {
     root.set("mass", results.model.mass_kg);
     write_mesh(root, results.nodes, results.lines);
     write_groups(root.open("mesh"), results.groups);
+    write_beams(root.open("mesh"), results);
     write_modes(root, results.bases);
     write_contacts(root, results);
     if (!results.transients.empty())
@@ -321,6 +362,7 @@ RunResults read_archive(const fs::path& directory) {
     results.record = read_record(root);
     read_mesh(root, results.nodes, results.lines);
     results.groups = read_groups(root.open("mesh"));
+    read_beams(root.open("mesh"), results);
     results.model.nodes = static_cast<std::int64_t>(results.nodes.size());
     results.model.elements = static_cast<std::int64_t>(results.lines.size());
     results.bases = read_modes(root);

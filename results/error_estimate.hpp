@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// What the run knows of its own errors. The error of a figure has two parts: that of the step, which replays measure (transient/replays.hpp) and a
+/// What the run knows of its own errors. The error of a figure has two parts: that of the step, which replays measure (transient/splitting/replays.hpp) and a
 /// second run at half the step shows, and the scatter of a window of limited length, which batches show.
 #pragma once
 #include "results/run_results.hpp"

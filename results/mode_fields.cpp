@@ -55,12 +55,15 @@ ModeField mode_field(const RunResults& results, Eigen::Index k) {
   return out;
 }
 
-Field motion(const RunResults& results, Eigen::Index index) {
-  Field out = zero(results);
+Motion motion(const RunResults& results, Eigen::Index index) {
+  Motion out = Motion::Zero(6, static_cast<Eigen::Index>(results.nodes.size()));
   Eigen::Index first = 0;
   for (const modal::Basis& basis : results.bases) {
     assert(first + basis.size() <= results.series.modal_displacement.rows());
-    add(basis, basis.shapes * results.series.modal_displacement.col(index).segment(first, basis.size()), out);
+    const Eigen::VectorXd values =
+        basis.shapes * results.series.modal_displacement.col(index).segment(first, basis.size());
+    for (std::size_t i = 0; i < basis.nodes.size(); ++i)
+      out.col(basis.nodes[i]) += values.segment<6>(static_cast<Eigen::Index>(6 * i));
     first += basis.size();
   }
   return out;

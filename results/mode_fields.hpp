@@ -20,8 +20,11 @@ struct ModeField {
 [[nodiscard]] Eigen::Index mode_count(const RunResults& results);
 [[nodiscard]] ModeField mode_field(const RunResults& results, Eigen::Index k);
 
-/// m, at output `index` of the series.
-[[nodiscard]] Field motion(const RunResults& results, Eigen::Index index);
+/// Displacement (m) and rotation (rad) of every mesh node, 6 x nodes.
+using Motion = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+/// Of all modes at output `index` of the series.
+[[nodiscard]] Motion motion(const RunResults& results, Eigen::Index index);
 
 /// Nodes that no line uses: lumped masses.
 [[nodiscard]] std::vector<core::Index> lone_nodes(const RunResults& results);

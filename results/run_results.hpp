@@ -2,6 +2,7 @@
 /// @file
 /// All that a run leaves: plain data, gathered by the application, written by the other files of this folder.
 #pragma once
+#include "fem/beam_point.hpp"
 #include "modal/basis.hpp"
 #include "post/contact_statistics.hpp"
 #include "post/impact_table.hpp"
@@ -51,6 +52,7 @@ struct ContactFacts {
   std::string name;
   core::Index node = 0;    ///< of the model
   core::Index other = -1;  ///< the second node; -1: the obstacle is fixed
+  fem::BeamPoint point;    ///< that meets the obstacle: the node, or a point of a beam near it
   Eigen::Matrix3d axes;    ///< rows x_loc y_loc z_loc
   std::string obstacle;    ///< as in the study file
   double gap = 0.0;        ///< m
@@ -94,8 +96,11 @@ struct Timings { ///< s
 struct RunResults {
   RunRecord record;
   ModelFacts model;
-  std::vector<core::Vec3> nodes;                          ///< m
-  std::vector<std::array<core::Index, 2>> lines;          ///< beams
+  std::vector<core::Vec3> nodes;                 ///< m
+  std::vector<std::array<core::Index, 2>> lines; ///< beams
+  std::vector<fem::Beam> beams;                  ///< as `lines`; empty: not known what they are made of
+  std::vector<fem::BeamProperty>
+      properties; ///< of the beams, without masses of fluids and added masses; none is there twice
   std::map<std::string, std::vector<core::Index>> groups; ///< nodes of the named groups of the mesh
   std::vector<modal::Basis> bases;                        ///< by structure
   std::vector<TubeDamping> flow_damping;                  ///< by tubes, where modes.damping = "flow"
@@ -106,7 +111,7 @@ struct RunResults {
   std::vector<post::ContactSummary> contact_summaries; ///< as `contacts`; empty without a transient
   post::StandardErrors errors_of_sums; ///< over all contacts: work_rate, friction_power, impact_rate
   std::vector<transient::StepError>
-      step_errors; ///< as `contacts`, where replays measure them (transient/replays.hpp); else empty
+      step_errors; ///< as `contacts`, where replays measure them (transient/splitting/replays.hpp); else empty
   std::optional<Verification> verification;  ///< where the study asks for it
   double accuracy = 0.01;                    ///< what the run aims at
   std::vector<post::ContactImpacts> impacts; ///< as `contacts`; empty without a table

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Relative errors of the contacts' statistics by the step, from what replays have measured (transient/replays.hpp).
+/// Relative errors of the contacts' statistics by the step, from what replays have measured (transient/splitting/replays.hpp).
 #pragma once
 #include "results/run_results.hpp"
 #include <optional>

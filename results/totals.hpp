@@ -41,7 +41,7 @@ struct TransientTotals {
   std::string scheme_reason;             ///< of that run's scheme; empty where it was given
   double contact_frequency = 0.0;        ///< rad/s, the highest
   Resolution resolution;
-  std::int64_t scaled_modes = 0; ///< made heavier (transient/mass_scaling.hpp)
+  std::int64_t scaled_modes = 0; ///< made heavier (transient/modes/mass_scaling.hpp)
   double fastest_hz = 0.0;       ///< Hz, the lowest frequency that they were given; 0: none
   bool diverged = false;         ///< any of them
   double end_time = 0.0;         ///< s, the earliest

@@ -4,12 +4,14 @@
 /// run leaves the last good ones. Those that are read back carry a checksum (checksum.hpp).
 #pragma once
 #include "results/run_results.hpp"
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 
 namespace fretwork::results {
 
 /// Number of the layout of the files: part of what tells whether stored results can be read. Raise it when the layout changes.
-inline constexpr int file_layout = 6;
+inline constexpr int file_layout = 7;
 
 /// summary.json: keys as in doc/study-file.md; numbers with the shortest text that reads back the same, null
 /// where they are not finite.
@@ -76,12 +78,32 @@ struct FoundBases {
 /// with units; numbers read back bit for bit. With wear also the files of export_wear_csv (wear_json.hpp).
 /// @throws core::Error without a transient
 void export_csv(const std::filesystem::path& directory, const RunResults& results);
-/// modes.vtu (one vector array a mode; with several structures the k-th mode of each in one array) and, with
-/// a transient, snapshots.pvd with its .vtu files: the displacement at `most_snapshots` instants at most,
-/// evenly spread.
-/// @throws core::Error without a mesh
-void export_vtu(const std::filesystem::path& directory, const RunResults& results);
+/// Which outputs of the series a VTU export holds; nothing given: all, or `most_snapshots` evenly spread where there are more.
+struct OutputWindow {
+  std::optional<double> from, to; ///< s
+  std::optional<std::int64_t>
+      every; ///< every n-th output of the window; none: `most_snapshots` of it at most
+  [[nodiscard]] bool given() const { return from || to || every; }
+};
 inline constexpr Eigen::Index most_snapshots = 200;
+
+/// What a VTU export wrote.
+struct VtuSeries {
+  Eigen::Index count = 0, outputs = 0; ///< instants written, of so many in the results
+  double from = 0.0, to = 0.0;         ///< s, the first and the last
+  double bytes = 0.0;                  ///< of all files
+  bool contacts = false;
+};
+
+/// For ParaView (doc/paraview.md):
+///     modes.vtu      structure, one vector array a mode (with several structures the k-th mode of each in one array)
+///     snapshots.pvd  the moving structure in time: displacements, rotations, frames, radius; section forces and stresses
+///     contacts.pvd   the contact points in time: forces as vectors, gaps, states
+/// The two series need series of the modes; what an earlier export left of them is removed.
+/// @throws core::Error without a mesh, for a window without outputs or where there are no series to choose from, and where the series
+///         would not fit on the disk
+VtuSeries export_vtu(const std::filesystem::path& directory, const RunResults& results,
+                     const OutputWindow& window = {});
 /// modes.msh: .msh 4.1 with a NodeData view a mode (with several structures the k-th mode of each in one
 /// view).
 /// @throws core::Error without a mesh

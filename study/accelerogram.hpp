@@ -4,7 +4,7 @@
 /// G") and the fourth gives the number of points and the time between two (`NPTS= 4000, DT= .0050 SEC`, or `4000 .0050 NPTS, DT`); then
 /// the values, several a line, the first at t = 0.
 #pragma once
-#include "transient/time_function.hpp"
+#include "transient/signals/time_function.hpp"
 #include <filesystem>
 
 namespace fretwork::study {

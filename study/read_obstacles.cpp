@@ -21,6 +21,7 @@ const Choices<ObstacleKind> obstacles{{{"circle", ObstacleKind::circle},
                                        {"stop_z", ObstacleKind::stop_z},
                                        {"circle_inside", ObstacleKind::circle_inside},
                                        {"profile", ObstacleKind::profile},
+                                       {"ellipse", ObstacleKind::ellipse},
                                        {"drilled", ObstacleKind::drilled},
                                        {"broached", ObstacleKind::broached},
                                        {"egg_crate", ObstacleKind::egg_crate},
@@ -40,6 +41,8 @@ std::vector<std::string> keys_of(ObstacleKind kind) {
     return {};
   case ObstacleKind::profile:
     return {"profile"};
+  case ObstacleKind::ellipse:
+    return {"tube_radius", "semi_axes"};
   case ObstacleKind::drilled:
     return {"tube_radius", "hole_radius", "clearance"};
   case ObstacleKind::broached:
@@ -55,7 +58,7 @@ std::vector<std::string> keys_of(ObstacleKind kind) {
 
 const std::vector<std::string> size_keys{"gap",        "profile",     "tube_radius", "hole_radius",
                                          "clearance",  "land_radius", "lobe_radius", "lands",
-                                         "land_angle", "half_widths", "bars"};
+                                         "land_angle", "half_widths", "bars",        "semi_axes"};
 
 void refuse_foreign_sizes(const TableReader& table, ObstacleKind kind) {
   const auto own = keys_of(kind);
@@ -96,6 +99,14 @@ contact::Circle read_drilled(const TableReader& table) {
   }
   const double hole = table.number("hole_radius", {Range::above_zero, "m"});
   return made(table, "hole_radius", [&] { return contact::drilled_hole(tube, hole); });
+}
+
+contact::Ellipse read_ellipse(const TableReader& table) {
+  const double tube = tube_radius(table);
+  (void)table.required("semi_axes",
+                       "two numbers [y, z] in m, half the width and half the height of the hole");
+  const auto axes = *table.optional_numbers("semi_axes", 2, {Range::above_zero, "m"});
+  return made(table, "semi_axes", [&] { return contact::elliptic_hole(tube, axes[0], axes[1]); });
 }
 
 contact::Profile read_broached(const TableReader& table, Contact& contact) {
@@ -172,6 +183,9 @@ void read_fixed_obstacle(const TableReader& table, Contact& contact) {
                   "a ring that moves with a second node; name that node in other, or take circle");
   case ObstacleKind::profile:
     contact.shape = read_profile(table);
+    return;
+  case ObstacleKind::ellipse:
+    contact.shape = read_ellipse(table);
     return;
   case ObstacleKind::drilled:
     contact.shape = read_drilled(table);

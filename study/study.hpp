@@ -12,7 +12,7 @@
 #include "study/flow.hpp"
 #include "study/turbulence.hpp"
 #include "study/wear.hpp"
-#include "transient/time_function.hpp"
+#include "transient/signals/time_function.hpp"
 #include <array>
 #include <filesystem>
 #include <map>
@@ -92,6 +92,7 @@ enum class ObstacleKind {
   stop_z,
   circle_inside,
   profile,
+  ellipse,
   drilled,
   broached,
   egg_crate,

@@ -3,7 +3,7 @@
 /// Time functions of loads and base motions: constant, harmonic, table, random.
 #pragma once
 #include "study/table_reader.hpp"
-#include "transient/time_function.hpp"
+#include "transient/signals/time_function.hpp"
 #include <filesystem>
 
 namespace fretwork::study {

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/run.hpp"
-#include "transient/replays.hpp"
+#include "transient/collocation/collocation.hpp"
+#include "transient/conserving/energy_conserving.hpp"
+#include "transient/explicit/devogelaere.hpp"
+#include "transient/explicit/euler.hpp"
+#include "transient/explicit/runge_kutta_54.hpp"
+#include "transient/splitting/replays.hpp"
+#include "transient/splitting/splitting.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>

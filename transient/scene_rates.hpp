@@ -2,7 +2,7 @@
 /// @file
 /// How fast a scene moves: what the steps of schemes have to resolve.
 #pragma once
-#include "transient/scene.hpp"
+#include "transient/scene/scene.hpp"
 
 namespace fretwork::transient {
 

@@ -2,7 +2,7 @@
 /// @file
 /// What of a scene each scheme can take.
 #pragma once
-#include "transient/scheme.hpp"
+#include "transient/scene/scheme.hpp"
 
 namespace fretwork::transient {
 

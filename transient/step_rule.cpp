@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/step_rule.hpp"
 #include "core/error.hpp"
-#include "transient/flights.hpp"
-#include "transient/mass_scaling.hpp"
+#include "transient/modes/mass_scaling.hpp"
 #include "transient/scheme_scope.hpp"
+#include "transient/splitting/flights.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -32,8 +32,8 @@
 ///
 /// Without a scheme given, collocation is taken where its predicted time (steps times the cost of one) is below 0.7 of that of splitting.
 #pragma once
+#include "transient/scene/scheme.hpp"
 #include "transient/scene_rates.hpp"
-#include "transient/scheme.hpp"
 #include <optional>
 #include <string>
 #include <vector>

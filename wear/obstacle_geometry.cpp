@@ -22,6 +22,11 @@ struct OfObstacle {
         "facing planes have no geometry of wear: neither body is a tube; give the geometry (flat_bar, "
         "drilled_hole, lands, ring, tube_on_tube) or leave the contact out of the wear");
   }
+  Geometry operator()(const contact::Ellipse&) const {
+    throw core::Error("an elliptic hole has no geometry of wear of its own; give the geometry: drilled_hole "
+                      "with the clearance where "
+                      "the tube wears, flat_bar, or sectors");
+  }
   Geometry operator()(const contact::Profile& profile) const {
     throw core::Error(
         fmt::format("a profile of {} points has no geometry of wear of its own; give the geometry: "

@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 _UNITS = {"work_rate": "W", "friction_power": "W", "impacts_per_second": "1/s", "sliding_distance_m": "m", "impulse_Ns": "N s"}
 _UNITS_OF = {"normal_force": "N", "normal_force_in_contact": "N", "tangential_force": "N", "displacement": "m", "position": "m", "penetration": "m",
              "impact_velocity": "m/s", "departure_velocity": "m/s", "contact_duration": "s", "energy": "J", "static_flexibility": "m/N"}
-_AXES = {"displacement": ("x_loc", "y_loc", "z_loc"), "velocity": ("x_loc", "y_loc", "z_loc"), "tangential_force": ("axis", "in_plane")}
+_AXES = {"displacement": ("x_loc", "y_loc", "z_loc"), "velocity": ("x_loc", "y_loc", "z_loc"), "tangential_force": ("axis", "in_plane"),
+         "normal": ("y_loc", "z_loc")}
 
 
 def _text(value: Any) -> Any:

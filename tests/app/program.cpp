@@ -128,7 +128,7 @@ testing::AssertionResult same_numbers(const results::RunResults& a, const result
     const auto &x = s.contacts[c], &y = t.contacts[c];
     if (x.name != y.name || !same(x.displacement, y.displacement) || !same(x.velocity, y.velocity) ||
         !same(x.gap, y.gap) || !same(x.normal_force, y.normal_force) ||
-        !same(x.tangential_force, y.tangential_force))
+        !same(x.tangential_force, y.tangential_force) || !same(x.normal, y.normal))
       return differ("series of contact " + x.name);
   }
   for (std::size_t n = 0; n < s.nodes.size(); ++n) {

@@ -45,6 +45,10 @@ std::vector<Named> every(double size = 1.0) {
           {"facing planes -y", FacingPlanes{g, y, -1.0}},
           {"facing planes +z", FacingPlanes{g, z, 1.0}},
           {"facing planes -z", FacingPlanes{g, z, -1.0}},
+          {"ellipse", Ellipse{1.7 * size, 1.4 * size, 0.8 * size}},
+          {"ellipse, higher than wide", Ellipse{1.1 * size, 1.2 * size, 0.9 * size}},
+          {"ellipse, pointed for the body", Ellipse{1.8 * size, 1.2 * size, 1.0 * size}},
+          {"circle as an ellipse", Ellipse{1.5 * size, 1.5 * size, 1.2 * size}},
           {"profile", star(size)}};
 }
 
@@ -217,10 +221,10 @@ TEST(TwoNodes, FlatBodiesKeepTheirSidesEvenWhereTheyHavePassed) {
   EXPECT_EQ(locate(below, 9.0, 0.5).nz, -1.0);
 }
 
-TEST(TwoNodes, ReachBoundsTheGapFromBelow) {
+TEST(TwoNodes, BoundIsBelowTheGap) {
   tests::Uniform uniform(46);
   for (const auto& [name, o] : every()) {
-    const Reach r = reach(o);
+    const GapBound r = properties_of(o).gap_bound;
     double least = 1.0;
     for (int i = 0; i < 1000; ++i) {
       const double y = uniform(-1, 1), z = uniform(-1, 1);

@@ -44,18 +44,18 @@ TEST(Obstacle, NormalIsAUnitVectorAtTheVeryCentre) {
   }
 }
 
-TEST(Obstacle, ReachBoundsTheGapAndItsRateFromBelow) {
+TEST(Obstacle, BoundIsBelowTheGapAndItsRate) {
   tests::Uniform uniform(5);
   for (const Obstacle& obstacle : all) {
-    const contact::Reach reach = contact::reach(obstacle);
+    const contact::GapBound bound = contact::properties_of(obstacle).gap_bound;
     for (int i = 0; i < 1000; ++i) {
       const double y = uniform(-1, 1), z = uniform(-1, 1), vy = uniform(-1, 1), vz = uniform(-1, 1);
       const auto at = locate(obstacle, y, z);
-      EXPECT_GE(at.gap, reach.limit - std::sqrt(reach.wy * y * y + reach.wz * z * z) - round_off);
-      EXPECT_GE(at.ny * vy + at.nz * vz, -std::sqrt(reach.wy * vy * vy + reach.wz * vz * vz) - round_off);
+      EXPECT_GE(at.gap, bound.limit - std::sqrt(bound.wy * y * y + bound.wz * z * z) - round_off);
+      EXPECT_GE(at.ny * vy + at.nz * vz, -std::sqrt(bound.wy * vy * vy + bound.wz * vz * vz) - round_off);
     }
     // the bound is sharp where the obstacle is approached head on
-    EXPECT_NEAR(locate(obstacle, 0.4 * reach.wy, 0.4 * reach.wz * (1 - reach.wy)).gap, reach.limit - 0.4,
+    EXPECT_NEAR(locate(obstacle, 0.4 * bound.wy, 0.4 * bound.wz * (1 - bound.wy)).gap, bound.limit - 0.4,
                 round_off);
   }
 }

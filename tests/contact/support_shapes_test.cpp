@@ -204,6 +204,37 @@ TEST(BroachedHole, TakesPointsInInverseProportionToTheRootOfTheChordError) {
   EXPECT_NEAR(number(1e-12) / number(1e-10), 10.0, 0.5);
 }
 
+TEST(EllipticHole, IsTheDistanceFromTheEllipseLessTheTube) {
+  tests::Uniform uniform(71);
+  for (const auto& [y_axis, z_axis] : {std::pair{9.9e-3, 9.8e-3}, {9.6e-3, 10.1e-3}, {9.8e-3, 9.8e-3}}) {
+    const contact::Ellipse hole = contact::elliptic_hole(tube, y_axis, z_axis);
+    const contact::PlanePoint axes{y_axis, z_axis};
+    for (int i = 0; i < 200; ++i) {
+      const double y = uniform(-8e-4, 8e-4), z = uniform(-8e-4, 8e-4);
+      const auto at = contact::locate(hole, y, z);
+      double least = 1.0; // of 20 000 places: off by their distance squared by the radius of curvature
+      for (int k = 0; k < 20000; ++k) {
+        const double angle = 2.0 * std::numbers::pi * k / 20000.0;
+        least = std::min(least, std::hypot(axes.y * std::cos(angle) - y, axes.z * std::sin(angle) - z));
+      }
+      EXPECT_NEAR(at.gap, least - tube, 1e-9);
+      const double foot_y = y - (at.gap + tube) * at.ny,
+                   foot_z = z - (at.gap + tube) * at.nz; // on the ellipse
+      EXPECT_NEAR(std::hypot(foot_y / axes.y, foot_z / axes.z), 1.0, 1e-13);
+    }
+  }
+}
+
+TEST(EllipticHole, HasAnOutlineWithoutGap) {
+  for (const auto& [y_axis, z_axis] : {std::pair{9.9e-3, 9.8e-3}, {10.1e-3, 9.6e-3}, {9.6e-3, 10.1e-3}}) {
+    const contact::Obstacle hole = contact::elliptic_hole(tube, y_axis, z_axis);
+    const auto outline = contact::outline_of(hole);
+    ASSERT_GT(outline.size(), 100u);
+    for (const auto& point : outline)
+      EXPECT_NEAR(contact::locate(hole, point.y, point.z).gap, 0.0, 1e-15);
+  }
+}
+
 TEST(SupportShapes, RefuseSizesThatAreNoLength) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   expect_refused([] { (void)contact::drilled_hole(-1.0, 1.0); },

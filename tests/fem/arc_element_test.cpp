@@ -19,7 +19,7 @@ using std::numbers::pi;
 namespace {
 
 constexpr double round_off = 1e-12; // of integrals and an inverse of order 6
-using Vector6 = Eigen::Matrix<double, 6, 1>;
+using fem::Vector6;
 
 /// An oblique circle.
 const Vec3 u = Vec3(1.0, 2.0, -0.5).normalized(), v = u.cross(Vec3(0.2, 0.3, 1.0)).normalized();

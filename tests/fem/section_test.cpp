@@ -69,3 +69,19 @@ TEST(Sections, RefuseSizesThatMakeNone) {
   expect_error([] { (void)fem::rectangle_section(1.0, std::numeric_limits<double>::infinity()); },
                {"height_z = inf"});
 }
+
+TEST(OuterFibreStress, AddsTractionAndBending) {
+  const auto pipe = fem::pipe_section(0.02, 0.003);
+  EXPECT_NEAR(*fem::outer_fibre_stress(pipe, -100.0, 3.0, -4.0) / (100.0 / pipe.area + 5.0 * 0.01 / pipe.iy),
+              1.0, round_off);
+  const auto bar = fem::rectangle_section(0.05, 0.01); // W = b h^2/6
+  EXPECT_NEAR(*fem::outer_fibre_stress(bar, 100.0, -3.0, 4.0) /
+                  (100.0 / 5e-4 + 3.0 / (0.05 * 0.01 * 0.01 / 6) + 4.0 / (0.01 * 0.05 * 0.05 / 6)),
+              1.0, round_off);
+  fem::Section general = bar;
+  general.shape = std::monostate{};
+  EXPECT_FALSE(fem::outer_fibre_stress(general, 100.0, 0.0, 0.0));
+  EXPECT_EQ(fem::outer_radius(pipe), 0.01);
+  EXPECT_EQ(fem::outer_radius(fem::circle_section(0.02)), 0.01);
+  EXPECT_FALSE(fem::outer_radius(bar));
+}

@@ -2,8 +2,8 @@
 /// @file
 /// Records of steps written by hand.
 #pragma once
-#include "transient/kernels.hpp"
 #include "transient/run.hpp"
+#include "transient/simd/kernels.hpp"
 #include <algorithm>
 #include <vector>
 

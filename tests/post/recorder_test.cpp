@@ -64,6 +64,7 @@ TEST(Recorder, GivesEverySeriesTheLengthOfTheGrid) {
     EXPECT_EQ(c.gap.size(), nt);
     EXPECT_EQ(c.normal_force.size(), nt);
     EXPECT_EQ(c.tangential_force.rows(), nt);
+    EXPECT_EQ(c.normal.rows(), nt);
   }
   EXPECT_EQ(s.nodes[0].displacement.rows(), nt);
   EXPECT_EQ(s.nodes[0].velocity.rows(), nt);
@@ -154,6 +155,27 @@ TEST(Recorder, TellsWhetherAContactIsOpenSticksOrSlides) {
   EXPECT_EQ(s.contacts[2].state, (State{post::open, post::slides, post::slides, post::open}));
 }
 
+TEST(Recorder, GivesTheNormalOfTheForcesOrOfThePlace) {
+  const Scene scene = pressed_node();
+  const OutputGrid grid = output_grid(scene.duration, 1e-2);
+  Recorder recorder(scene, {}, grid);
+  const Eigen::Vector3d v(0, 0, 0), pressed(0, 0, 0),
+      inside(0, 0.3, -0.602); // at (0, 1.002) and (0.3, 0.4) of the hole
+  const ContactForce free{0.0, {}, 0.0, 0.0, false}, held{2.0, {0.1, 0.0}, 0.6, -0.8, false};
+  const auto serve = [&](int j, const Eigen::Vector3d& q, const ContactForce& f) {
+    recorder.state(j, j * grid.every, q.data(), v.data());
+    recorder.forces(j, j * grid.every, v.data(), std::vector<ContactForce>{f, free});
+  };
+  serve(0, pressed, free);
+  serve(1, pressed, held);
+  serve(2, inside, held); // the force of a step around the instant
+  const TimeSeries s = std::move(recorder).series();
+  EXPECT_TRUE(s.contacts[0].normal.row(0).isApprox(Eigen::RowVector2d(0.0, -1.0), 1e-15));
+  EXPECT_EQ(s.contacts[0].normal.row(1), Eigen::RowVector2d(0.6, -0.8));
+  EXPECT_TRUE(s.contacts[0].normal.row(2).isApprox(Eigen::RowVector2d(-0.6, -0.8), 1e-15));
+  EXPECT_EQ(s.contacts[1].normal.row(1), Eigen::RowVector2d(-1.0, 0.0)); // the second node is at (3, 0)
+}
+
 TEST(Recorder, SeesTheBlockOfARunComeToRest) {
   Scene scene = pressed_node();
   scene.loads.pop_back(); // at 0.3 m/s under 20 N and mu = 0.2 it stops after 75 ms
@@ -192,6 +214,7 @@ TEST(Recorder, CutsTheSeriesOfARunThatEndedEarly) {
   EXPECT_EQ(s.contacts[1].gap.size(), 4);
   EXPECT_EQ(s.contacts[1].displacement.rows(), 4);
   EXPECT_EQ(s.contacts[1].tangential_force.rows(), 4);
+  EXPECT_EQ(s.contacts[1].normal.rows(), 4);
   EXPECT_EQ(s.nodes[0].acceleration.rows(), 4);
   EXPECT_EQ(s.nodes[0].velocity.rows(), 4);
 }

@@ -36,6 +36,7 @@ TEST(Archive, GivesBackEverySeriesBitForBit) {
     EXPECT_EQ(a.normal_force, b.normal_force);
     EXPECT_EQ(a.tangential_force, b.tangential_force);
     EXPECT_EQ(a.state, b.state);
+    EXPECT_EQ(a.normal, b.normal);
   }
   ASSERT_EQ(in.series.nodes.size(), 1u);
   EXPECT_EQ(in.series.nodes[0].name, "apex");
@@ -86,8 +87,35 @@ TEST(Archive, GivesBackTheModelAndTheRecord) {
   EXPECT_EQ(in.statistics_from, out.statistics_from);
 }
 
+TEST(Archive, GivesBackWhatBeamsAreMadeOf) {
+  RunResults out = made_up({.elements = 8});
+  fem::BeamProperty bar{{2.1e11, 0.29, 7800.0}, fem::rectangle_section(0.03, 0.01)};
+  bar.section.shear = fem::ShearCoefficients{0.8, 0.9};
+  bar.orientation = core::Vec3(0.1, 1.0, 0.2);
+  bar.axial_force = -120.0;
+  fem::BeamProperty cone{{2.1e11, 0.29, 7800.0}, fem::circle_section(0.03)};
+  cone.section.shear = fem::ShapeShear{};
+  cone.section.rotary_inertia = true;
+  cone.taper = fem::Taper{fem::circle_section(0.02)};
+  fem::BeamProperty general = bar;
+  general.section.shape = std::monostate{};
+  out.properties.insert(out.properties.end(), {bar, cone, general});
+  for (const std::size_t i : {std::size_t{1}, std::size_t{2}, std::size_t{3}})
+    out.beams[i].property = static_cast<core::Index>(i);
+  out.beams[2].along = {0.25, 0.75};
+  out.beams[3].middle = core::Vec3(1.0, 0.5, 0.0);
+  const RunResults in = there_and_back(out);
+  EXPECT_EQ(in.properties, out.properties);
+  EXPECT_EQ(in.beams, out.beams);
+  out.beams.clear();
+  EXPECT_TRUE(there_and_back(out).beams.empty());
+}
+
 TEST(Archive, GivesBackEveryContactAsItWasSetUp) {
   RunResults out = made_up();
+  Eigen::Matrix<double, 3, 6> weights = Eigen::Matrix<double, 3, 6>::Random();
+  out.contacts[1].point = {{1.0, 2.0, 3.0}, {{4, weights}, {5, -2.0 * weights}}};
+  out.contacts[2].point.motion[0].node += 1; // the neighbour
   out.contacts[1].axes << 0.0, 0.6, 0.8, 1.0, 0.0, 0.0, 0.0, 0.8, -0.6;
   out.contacts[1].friction_static = 0.4;
   out.contacts[1].normal_damping = 7.0;
@@ -105,6 +133,12 @@ TEST(Archive, GivesBackEveryContactAsItWasSetUp) {
     EXPECT_EQ(a.node, b.node);
     EXPECT_EQ(a.other, b.other);
     EXPECT_EQ(a.outline, b.outline);
+    EXPECT_EQ(a.point.place, b.point.place);
+    ASSERT_EQ(a.point.motion.size(), b.point.motion.size());
+    for (std::size_t i = 0; i < a.point.motion.size(); ++i) {
+      EXPECT_EQ(a.point.motion[i].node, b.point.motion[i].node);
+      EXPECT_EQ(a.point.motion[i].weights, b.point.motion[i].weights);
+    }
     EXPECT_EQ(a.normal_dissipation, b.normal_dissipation);
     EXPECT_EQ(a.friction_along, b.friction_along);
     ASSERT_EQ(a.static_flexibility.has_value(), b.static_flexibility.has_value());

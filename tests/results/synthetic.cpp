@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "synthetic.hpp"
+#include "fem/section.hpp"
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -62,7 +63,8 @@ post::ContactSeries orbit(const ContactFacts& facts, const Eigen::VectorXd& time
                         Eigen::VectorXd::Zero(nt),
                         Eigen::VectorXd::Zero(nt),
                         Eigen::MatrixXd::Zero(nt, 2),
-                        std::vector<std::uint8_t>(static_cast<std::size_t>(nt))};
+                        std::vector<std::uint8_t>(static_cast<std::size_t>(nt)),
+                        Eigen::MatrixXd::Zero(nt, 2)};
   for (Eigen::Index i = 0; i < nt; ++i) {
     const double t = time(i), wave = 1.0 + 0.3 * std::sin(3.1 * t + c);
     const double y = 1.9e-4 * wave * std::cos(2.0 * pi * 31.0 * t + c) * std::cos(1.3 * t);
@@ -77,6 +79,11 @@ post::ContactSeries orbit(const ContactFacts& facts, const Eigen::VectorXd& time
                          : kind == "stop_y"  ? py
                                              : pz;
     s.gap(i) = gap - reach;
+    if (kind == "circle")
+      s.normal.row(i) << -py / reach, -pz / reach;
+    else
+      s.normal(i, kind.ends_with("_y") ? 0 : 1) =
+          kind.starts_with("stop") || (kind == "plane_y" ? py : pz) > 0.0 ? -1.0 : 1.0;
     s.normal_force(i) = std::max(0.0, -stiffness * s.gap(i));
     s.tangential_force.row(i) << 0.0, 0.3 * s.normal_force(i) * (std::sin(200.0 * t) > 0.0 ? 1.0 : -1.0);
     if (s.normal_force(i) > 0.0)
@@ -213,14 +220,21 @@ RunResults made_up(const Made& made) {
       r.nodes.emplace_back(length * i / made.elements, 0.03 * s, 0.0);
     for (int i = 0; i < made.elements; ++i)
       r.lines.push_back({first + i, first + i + 1});
+    for (int i = 0; i < made.elements; ++i)
+      r.beams.push_back({first + i, first + i + 1, 0});
     r.bases.push_back(tube_modes(made, s));
   }
   r.groups = {{"feet", {0}}, {"tubes/1", {0, 1, 2}}};
   r.model.nodes = static_cast<std::int64_t>(r.nodes.size());
   r.model.elements = static_cast<std::int64_t>(r.lines.size());
   r.model.dofs = 6 * r.model.nodes - 12;
-  for (int c = 0; c < made.contacts; ++c)
+  r.properties = {{{2.0e11, 0.3, 8000.0}, fem::pipe_section(0.01905, 0.00109)}};
+  for (int c = 0; c < made.contacts; ++c) {
     r.contacts.push_back(support(made, c));
+    const core::Index node = r.contacts.back().node;
+    r.contacts.back().point = {r.nodes[static_cast<std::size_t>(node)],
+                               {{node, Eigen::Matrix<double, 3, 6>::Identity()}}};
+  }
   if (made.outputs > 0)
     add_transient(r, made);
   r.timings = {0.001, 0.02, 0.003, 0.02, 0.001, 0.81, 0.12, 0.98};

@@ -102,6 +102,14 @@ TEST(ReadObstacle, EggCrate) {
   EXPECT_NEAR(profile.locate(0.0, 2.5e-4).gap, 5e-5, subtraction);
 }
 
+TEST(ReadObstacle, EllipticHole) {
+  const Contact read =
+      contact_with("obstacle = \"ellipse\"\ntube_radius = 9.5e-3\nsemi_axes = [9.7e-3, 9.8e-3]");
+  EXPECT_NEAR(contact::locate(read.shape, 2.5e-4, 0.0).gap, -5e-5, subtraction);
+  EXPECT_NEAR(contact::locate(read.shape, 0.0, 2.5e-4).gap, 5e-5, subtraction);
+  EXPECT_FALSE(is_round(read.obstacle));
+}
+
 TEST(ReadObstacle, OneBarIsAStop) {
   const Contact read = contact_with("obstacle = \"bars_z\"\ntube_radius = 9.5e-3\nbars = 9.6e-3");
   const auto stop = std::get<contact::Stop>(read.shape);

@@ -36,6 +36,8 @@ TEST(MessagesOfContacts, SizesThatAreMissing) {
         "contacts.p.land_angle: this required key is missing; give a number > 0 in degrees"},
        {"obstacle = \"egg_crate\"\ntube_radius = 1",
         "contacts.p.half_widths: this required key is missing; give two numbers [y, z] in m"},
+       {"obstacle = \"ellipse\"\ntube_radius = 1",
+        "contacts.p.semi_axes: this required key is missing; give two numbers [y, z] in m"},
        {"obstacle = \"bars_y\"\ntube_radius = 1",
         "contacts.p.bars: this required key is missing; give the distance (m) of a bar's face"},
        {"other = \"q\"", "contacts.p.distance_1: this required key is missing"},
@@ -65,6 +67,8 @@ TEST(MessagesOfContacts, SizesThatMakeNoObstacle) {
         "contacts.p.half_widths = [0.9, 2]: egg crate: half width along y = 0.9 m"},
        {"obstacle = \"egg_crate\"\ntube_radius = 1\nhalf_widths = [2, 2, 2]",
         "contacts.p.half_widths = [2, 2, 2]: an array of numbers (2 in m) is expected, not of 3"},
+       {"obstacle = \"ellipse\"\ntube_radius = 1\nsemi_axes = [0.9, 2]",
+        "contacts.p.semi_axes = [0.9, 2]: elliptic hole: semi-axis along y = 0.9 m"},
        {"obstacle = \"bars_z\"\ntube_radius = 1\nbars = 0.9",
         "contacts.p.bars = 0.9: flat bars: distance = 0.9 m is less than the tube radius, 1 m"},
        {"obstacle = \"bars_z\"\ntube_radius = 1\nbars = [0.9, 1.0]",
@@ -98,7 +102,7 @@ TEST(MessagesOfContacts, KeysOfAnotherObstacle) {
         "contacts.p.side = 1: round bodies meet on any side; leave it out"}},
       "normal_stiffness = 1\n");
   for (const char* fixed :
-       {"stop_y", "stop_z", "profile", "drilled", "broached", "egg_crate", "bars_y", "bars_z"})
+       {"stop_y", "stop_z", "profile", "ellipse", "drilled", "broached", "egg_crate", "bars_y", "bars_z"})
     expect_said({{std::string("other = \"q\"\nobstacle = \"") + fixed + "\"",
                   std::string("contacts.p.obstacle = \"") + fixed +
                       "\": an obstacle fixed in space; between two nodes take circle"}});

@@ -2,7 +2,7 @@
 // The parts that schemes share: motion, forces, memory. Only a commit changes what lasts.
 #include "contact/restitution.hpp"
 #include "scenes.hpp"
-#include "transient/contact_forces.hpp"
+#include "transient/explicit/contact_forces.hpp"
 #include <cstring>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The energy ledger: its residual measures what the scheme gets wrong.
 #include "scenes.hpp"
+#include "transient/splitting/splitting.hpp"
 #include <algorithm>
 #include <gtest/gtest.h>
 

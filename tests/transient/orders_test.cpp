@@ -4,7 +4,7 @@
 // method.
 #include "contact/friction_law.hpp"
 #include "scenes.hpp"
-#include "transient/prescribed_motion.hpp"
+#include "transient/signals/prescribed_motion.hpp"
 #include <gtest/gtest.h>
 #include <numbers>
 

@@ -3,7 +3,7 @@
 /// The scheme of Euler written again, plainly: dense matrices, no padding, no skipping, forces solved to
 /// round-off.
 #pragma once
-#include "transient/scene.hpp"
+#include "transient/scene/scene.hpp"
 
 namespace fretwork::tests {
 

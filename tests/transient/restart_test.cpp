@@ -4,7 +4,8 @@
 #include "post/node_statistics.hpp"
 #include "post/recorder.hpp"
 #include "scenes.hpp"
-#include "transient/kernels.hpp"
+#include "transient/simd/kernels.hpp"
+#include "transient/splitting/splitting.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>

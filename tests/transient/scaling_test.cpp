@@ -39,6 +39,9 @@ contact::Obstacle in_units(const contact::Obstacle& obstacle, double length) {
     contact::Obstacle operator()(const contact::FacingPlanes& o) const {
       return contact::FacingPlanes{l * o.distance, o.axis, o.side};
     }
+    contact::Obstacle operator()(const contact::Ellipse& o) const {
+      return contact::Ellipse{l * o.semi_y, l * o.semi_z, l * o.radius};
+    }
     contact::Obstacle operator()(const contact::Profile& o) const {
       std::vector<contact::PolarPoint> points;
       for (const auto& vertex : o.vertices()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A contact that sticks: its spring is stretched by the displacement of the contact, however many steps ago it stuck.
-#include "transient/scheme.hpp"
+#include "transient/scene/scheme.hpp"
+#include "transient/splitting/splitting.hpp"
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 

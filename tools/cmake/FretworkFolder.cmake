@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # One folder = one namespace = one target. A folder's headers are seen as "folder/header.hpp", and only by the targets that
 # link the folder: each folder is published through an include directory of its own (build/include/<folder>/<folder> is a
-# link to it), so that an include against the direction of the architecture does not compile.
+# link to it), so that an include against the direction of the architecture does not compile. A folder inside another one,
+# "folder/room", is a target of its own likewise, in the namespace of the outer one.
 
 function(fretwork_publish target folder)
-  set(root ${CMAKE_BINARY_DIR}/include/${folder})
-  file(MAKE_DIRECTORY ${root})
+  string(REPLACE "/" "_" name ${folder})
+  set(root ${CMAKE_BINARY_DIR}/include/${name})
+  cmake_path(GET folder PARENT_PATH parent)
+  file(MAKE_DIRECTORY ${root}/${parent})
   if(NOT EXISTS ${root}/${folder})
     file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${folder} ${root}/${folder} SYMBOLIC)
   endif()
@@ -57,13 +60,15 @@ endfunction()
 function(fretwork_folder folder)
   cmake_parse_arguments(ARG "" "TARGET" "SOURCES;KNOWS;LIBRARIES" ${ARGN})
   if(NOT ARG_TARGET)
-    set(ARG_TARGET fretwork_${folder})
+    string(REPLACE "/" "_" name ${folder})
+    set(ARG_TARGET fretwork_${name})
   endif()
   add_library(${ARG_TARGET} STATIC ${ARG_SOURCES})
   fretwork_publish(${ARG_TARGET} ${folder})
   fretwork_compile_options(${ARG_TARGET})
   target_link_libraries(${ARG_TARGET} PUBLIC Eigen3::Eigen)
   foreach(known ${ARG_KNOWS})
+    string(REPLACE "/" "_" known ${known})
     target_link_libraries(${ARG_TARGET} PUBLIC fretwork_${known})
   endforeach()
   target_link_libraries(${ARG_TARGET} PRIVATE ${ARG_LIBRARIES})

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/modes/load_sum.hpp"
+#include <cmath>
+#include <complex>
+#include <gtest/gtest.h>
+#include <numbers>
+
+using namespace fretwork::transient;
+
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+/// Power of samples at a frequency, Hann's window; 1 for a unit sine there.
+double power_at(const std::vector<double>& samples, double step, double frequency) {
+  std::complex<double> sum = 0.0;
+  const auto n = static_cast<double>(samples.size());
+  for (std::size_t j = 0; j < samples.size(); ++j) {
+    const double t = static_cast<double>(j) * step,
+                 window = 1.0 - std::cos(two_pi * static_cast<double>(j) / n);
+    sum += window * samples[j] * std::exp(std::complex<double>(0.0, -two_pi * frequency * t));
+  }
+  return std::norm(2.0 * sum / n);
+}
+
+std::vector<double> sampled(const Signal& signal, double duration, int n) {
+  std::vector<double> out;
+  for (int j = 0; j < n; ++j)
+    out.push_back(signal(duration * j / n));
+  return out;
+}
+
+} // namespace
+
+TEST(Signal, OfAConstantIsTheConstant) {
+  const Signal signal(Constant{3.5}, 1.0);
+  EXPECT_EQ(signal(0.0), 3.5);
+  EXPECT_EQ(signal(0.7), 3.5);
+  EXPECT_TRUE(signal.is_constant());
+}
+
+TEST(Signal, OfAnIntegralIsTheVelocity) {
+  const double w = two_pi * 5.0;
+  const Signal of_harmonic(Integral{Harmonic{2.0, 5.0, 0.3}, -0.1}, 1.0);
+  const Signal of_table(Integral{Table{{0.5, 1.5}, {4.0, 0.0}}, 1.0}, 2.0);
+  for (const double t : {0.0, 0.013, 0.9})
+    EXPECT_NEAR(of_harmonic(t), -0.1 + 2.0 / w * (std::cos(0.3) - std::cos(w * t + 0.3)), 1e-14);
+  EXPECT_DOUBLE_EQ(of_table(0.25), 2.0);
+  EXPECT_DOUBLE_EQ(of_table(1.0), 1.0 + 2.0 + 1.5);
+  EXPECT_DOUBLE_EQ(of_table(1.9), 1.0 + 2.0 + 2.0);
+  EXPECT_EQ(highest_frequency(Integral{Random{1.0, 2.0, 8.0}, 0.0}), 8.0);
+  EXPECT_FALSE(of_table.is_constant());
+}
+
+TEST(Signal, OfAHarmonicIsItsSine) {
+  const Signal signal(Harmonic{2.0, 5.0, 0.3}, 1.0);
+  for (const double t : {0.0, 0.013, 0.9})
+    EXPECT_DOUBLE_EQ(signal(t), 2.0 * std::sin(two_pi * 5.0 * t + 0.3));
+  EXPECT_FALSE(signal.is_constant());
+}
+
+TEST(Signal, OfATableIsLinearBetweenAndConstantOutside) {
+  const Signal signal(Table{{1.0, 2.0, 4.0}, {10.0, 20.0, 0.0}}, 5.0);
+  EXPECT_EQ(signal(0.0), 10.0);
+  EXPECT_EQ(signal(1.0), 10.0);
+  EXPECT_EQ(signal(1.25), 12.5);
+  EXPECT_EQ(signal(2.0), 20.0);
+  EXPECT_EQ(signal(3.0), 10.0);
+  EXPECT_EQ(signal(4.0), 0.0);
+  EXPECT_EQ(signal(9.0), 0.0);
+}
+
+TEST(Signal, OfATableJumpsWhereTwoPointsHaveOneTime) {
+  const Signal signal(Table{{0.0, 1.0, 1.0, 2.0}, {1.0, 1.0, 5.0, 5.0}}, 2.0);
+  EXPECT_EQ(signal(std::nextafter(1.0, 0.0)), 1.0);
+  EXPECT_EQ(signal(1.0), 5.0); // the second value holds from there
+  const Signal last(Table{{0.0, 1.0, 1.0}, {2.0, 2.0, 7.0}}, 2.0);
+  EXPECT_EQ(last(0.5), 2.0);
+  EXPECT_EQ(last(1.0), 7.0);
+  EXPECT_EQ(Signal(Table{{1.0}, {4.0}}, 2.0)(0.0), 4.0);
+}
+
+TEST(RandomSignal, HasTheRmsOfItsEnsembleAndIsGaussianWithoutMean) {
+  constexpr int seeds = 400, points = 64;
+  constexpr double rms = 2.0;
+  double sum = 0.0, squares = 0.0, fourths = 0.0;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const Signal signal(Random{rms, 5.0, 45.0, static_cast<std::uint64_t>(seed)}, 2.0);
+    for (int j = 0; j < points; ++j) {
+      const double x = signal(2.0 * j / points);
+      sum += x;
+      squares += x * x;
+      fourths += x * x * x * x;
+    }
+  }
+  constexpr double n = seeds * points;
+  // four standard errors of n samples, of which about every second is independent
+  EXPECT_NEAR(sum / n, 0.0, 4.0 * rms * std::sqrt(2.0 / n));
+  EXPECT_NEAR(squares / n / (rms * rms), 1.0, 4.0 * std::sqrt(2.0 * 2.0 / n));
+  EXPECT_NEAR(fourths / n / (3.0 * rms * rms * rms * rms), 1.0, 4.0 * std::sqrt(96.0 * 2.0 / n) / 3.0);
+}
+
+TEST(RandomSignal, HasItsPowerInItsBand) {
+  constexpr double duration = 10.0, low = 20.0, high = 60.0, rms = 1.5;
+  constexpr int n = 4096;
+  const auto samples = sampled(Signal(Random{rms, low, high, 3}, duration), duration, n);
+  double inside = 0.0, outside = 0.0;
+  for (double f = 0.1; f < 150.0; f += 0.1) {
+    const double p = power_at(samples, duration / n, f);
+    if (f > low && f < high)
+      inside += p;
+    else if (f < low - 1.0 || f > high + 1.0) // a hertz for the window's skirts
+      outside += p;
+  }
+  constexpr double leak = 1e-8; // Hermite interpolation of the samples (4e-6)^2 and the window's side lobes
+  EXPECT_LT(outside, leak * inside);
+  // power of the band: sum over lines 1/duration apart of |c|^2/2, each seen 3/2 times through the window
+  constexpr double one_draw = 0.2; // 400 lines: 5 % standard error of one draw
+  EXPECT_NEAR(inside / 3.0 / (rms * rms), 1.0, one_draw);
+}
+
+TEST(RandomSignal, IsSmoothBetweenItsSamples) {
+  // the mean slope over a tiny interval is continuous: no interval of the grid shows
+  const Signal signal(Random{1.0, 10.0, 100.0, 5}, 1.0);
+  constexpr double d = 1e-6;
+  const double bend = 3.0 * std::pow(two_pi * 100.0, 2); // 3 rms of the second derivative of a 100 Hz sine
+  for (int j = 1; j < 20000; ++j) {
+    const double t = j * 5e-5, second = (signal(t + d) - 2.0 * signal(t) + signal(t - d)) / (d * d);
+    ASSERT_LT(std::abs(second), 2.0 * bend) << "at " << t;
+  }
+}
+
+TEST(RandomSignal, IsFixedByItsSeed) {
+  const Random function{1.0, 10.0, 50.0, 7};
+  Random other = function;
+  other.seed = 8;
+  const auto a = sampled(Signal(function, 1.0), 1.0, 100);
+  EXPECT_EQ(a, sampled(Signal(function, 1.0), 1.0, 100));
+  EXPECT_NE(a, sampled(Signal(other, 1.0), 1.0, 100));
+}
+
+TEST(RandomSignal, BeginsAlikeWhateverTheDurationOfItsRun) {
+  for (const Random& function :
+       {Random{2.0, 5.0, 60.0, 3}, Random{1.0, 0.0, 200.0, 1}, Random{1.0, 10.0, 10.5, 9}}) {
+    const Signal longest(function, 40.0); // over several blocks
+    for (const double duration : {0.05, 1.0, 7.0, 20.0}) {
+      const Signal signal(function, duration);
+      for (int j = 0; j <= 1000; ++j)
+        ASSERT_EQ(signal(duration * j / 1000.0), longest(duration * j / 1000.0)) << duration << " " << j;
+    }
+  }
+}
+
+TEST(RandomSignal, HasItsRmsInFadesToo) {
+  // blocks of 1024 periods of 50 Hz, 20.48 s: the middle of the first fade is at 20.48 (1 - 1/8) - 20.48/16
+  constexpr int seeds = 2000;
+  constexpr double block = 1024.0 / 50.0, middle = block * (1.0 - 3.0 / 16.0);
+  double squares = 0.0;
+  for (int seed = 1; seed <= seeds; ++seed)
+    squares += std::pow(Signal(Random{1.0, 5.0, 50.0, static_cast<std::uint64_t>(seed)}, middle)(middle), 2);
+  EXPECT_NEAR(squares / seeds, 1.0, 4.0 * std::sqrt(2.0 / seeds)); // four standard errors
+}
+
+TEST(StaticValue, IsThatAtTheStartButForRandomSignals) {
+  EXPECT_EQ(static_value(Constant{2.0}, 1.0), 2.0);
+  EXPECT_EQ(static_value(Table{{0.0, 1.0}, {3.0, 0.0}}, 1.0), 3.0);
+  EXPECT_EQ(static_value(Harmonic{2.0, 5.0, two_pi / 4.0}, 1.0), 2.0);
+  const Random random{1.0, 5.0, 45.0, 1};
+  EXPECT_NE(Signal(random, 1.0)(0.0), 0.0);
+  EXPECT_EQ(static_value(random, 1.0), 0.0);
+}
+
+TEST(RandomSignal, OfARunShorterThanItsBandsMemoryHasItsRmsToo) {
+  constexpr int seeds = 4000;
+  double squares = 0.0;
+  for (int seed = 1; seed <= seeds; ++seed)
+    squares += std::pow(Signal(Random{1.0, 10.0, 12.0, static_cast<std::uint64_t>(seed)}, 0.01)(0.005), 2);
+  EXPECT_NEAR(squares / seeds, 1.0, 4.0 * std::sqrt(2.0 / seeds)); // four standard errors
+}
+
+TEST(HighestFrequency, IsThatToBeResolved) {
+  EXPECT_EQ(highest_frequency(Constant{1.0}), 0.0);
+  EXPECT_EQ(highest_frequency(Harmonic{1.0, 37.0}), 37.0);
+  EXPECT_EQ(highest_frequency(Random{1.0, 2.0, 80.0}), 80.0);
+  EXPECT_EQ(highest_frequency(Table{{0.0, 1.0}, {0.0, 1.0}}), 0.0);
+}
+
+TEST(LoadSum, AddsLoadsWhateverTheyFollow) {
+  const Harmonic same{1.0, 3.0};
+  const std::vector<Load> loads = {{same, Eigen::Vector3d(1, 2, 3)},
+                                   {Constant{2.0}, Eigen::Vector3d(1, 0, 0)},
+                                   {same, Eigen::Vector3d(10, 20, 30)}};
+  LoadSum sum(loads, 3, 1.0, 1e-3);
+  kernels::Array force(8, -1.0);
+  sum.at(0.05, force.data());
+  const double s = std::sin(two_pi * 3.0 * 0.05);
+  EXPECT_DOUBLE_EQ(force[0], 11.0 * s + 2.0);
+  EXPECT_DOUBLE_EQ(force[1], 22.0 * s);
+  EXPECT_DOUBLE_EQ(force[2], 33.0 * s);
+  for (std::size_t i = 3; i < 8; ++i)
+    EXPECT_EQ(force[i], 0.0); // padding
+  EXPECT_FALSE(sum.constant());
+  EXPECT_FALSE(sum.empty());
+}
+
+TEST(LoadSum, GivesEachRandomSignalItsOwnValueWhateverGridsTheyShare) {
+  const double duration = 2.0, h = 1e-3;
+  const std::vector<TimeFunction> functions = {Random{1.0, 5.0, 45.0, 1}, Random{2.0, 0.0, 45.0, 2},
+                                               Harmonic{1.0, 3.0}, Random{1.0, 5.0, 90.0, 3},
+                                               Random{3.0, 5.0, 45.0, 4}};
+  std::vector<Load> loads;
+  std::vector<Signal> signals;
+  for (std::size_t s = 0; s < functions.size(); ++s) {
+    loads.push_back({functions[s], Eigen::VectorXd::Unit(5, static_cast<Eigen::Index>(s))});
+    signals.emplace_back(functions[s], duration);
+  }
+  EXPECT_EQ(signals[0].grid(), signals[1].grid());
+  EXPECT_NE(signals[0].grid(), signals[3].grid());
+  LoadSum sum(loads, 5, duration, h);
+  kernels::Array at(8), instant(8);
+  for (const double time : {0.0, 0.4567, 1.1, 2.0}) {
+    sum.at(time, at.data());
+    sum.instant(time, instant.data());
+    for (std::size_t s = 0; s < signals.size(); ++s) {
+      if (signals[s].is_random())
+        EXPECT_EQ(at[s], signals[s].over_step(time, h)) << s;
+      else // by tables of half steps (grid_sine.hpp)
+        EXPECT_NEAR(at[s], signals[s].over_step(time, h), 1e-16 * (4.0 + 3.0 * two_pi * 3.0 * time)) << s;
+      EXPECT_EQ(instant[s], signals[s](time)) << s;
+    }
+  }
+}
+
+TEST(RandomSignal, IsTheHermiteCubicOfItsSamples) {
+  const Signal signal(Random{1.0, 10.0, 100.0, 5}, 1.0);
+  for (const std::size_t interval : {0, 1, 77}) {
+    const double* p = signal.samples().data() + 2 * interval;
+    const auto at = [&](double s) {
+      return signal((static_cast<double>(interval) + s) * signal.grid_step());
+    };
+    constexpr double near = 1e-12;
+    EXPECT_NEAR(at(0.0), p[0], near);
+    EXPECT_NEAR(at(1.0), p[2], near);
+    EXPECT_NEAR(at(0.5), 0.5 * (p[0] + p[2]) + 0.125 * (p[1] - p[3]), near);
+    EXPECT_NEAR(at(0.25), (54.0 * p[0] + 10.0 * p[2] + 9.0 * p[1] - 3.0 * p[3]) / 64.0, near);
+  }
+}
+
+TEST(Signal, KeepsTheImpulseOfWhatATableDoesInsideAStep) {
+  constexpr double round_off = 1e-14;
+  const Signal spike(Table{{0.0, 0.41, 0.42, 0.43, 1.0}, {0.0, 0.0, 6.0, 0.0, 0.0}}, 1.0); // area 0.06
+  double impulse = 0.0;
+  for (int k = 0; k < 10; ++k)
+    impulse += 0.1 * spike.over_step(0.1 * k + 0.05, 0.1);
+  EXPECT_NEAR(impulse, 0.06, round_off);
+  // wherever it stands among the steps, also where they part it; Simpson's rule takes windows at the ends and the middle of steps
+  for (int phase = 0; phase < 50; ++phase) {
+    const double t = 0.4 + 0.1 * phase / 49.0;
+    const Signal pulse(Table{{0.0, t - 0.003, t, t + 0.005, 1.0}, {0.0, 0.0, 6.0, 0.0, 0.0}},
+                       1.0); // area 0.024
+    double sum = 0.0, simpson = 0.0;
+    for (int k = 0; k < 10; ++k) {
+      sum += 0.1 * pulse.over_step(0.1 * k + 0.05, 0.1);
+      simpson += 0.1 / 6.0 *
+                 (pulse.over_step(0.1 * k, 0.1) + 4.0 * pulse.over_step(0.1 * k + 0.05, 0.1) +
+                  pulse.over_step(0.1 * k + 0.1, 0.1));
+    }
+    EXPECT_NEAR(sum, 0.024, 2.0 * round_off) << t;
+    EXPECT_NEAR(simpson, 0.024, 2.0 * round_off) << t;
+  }
+  const Signal jump(Table{{0.0, 0.25, 0.25, 1.0}, {1.0, 1.0, 5.0, 5.0}}, 1.0);
+  EXPECT_NEAR(jump.over_step(0.3, 0.2), 0.25 * 1.0 + 0.75 * 5.0, round_off);
+  EXPECT_EQ(jump.over_step(0.15, 0.1), 1.0); // before it
+  EXPECT_EQ(jump.over_step(0.31, 0.1), 5.0); // after it
+}
+
+TEST(Signal, LeavesASingleBendToTheInterpolationBetweenSteps) {
+  const Signal bend(Table{{0.0, 0.5, 1.0}, {0.0, 1.0, 0.0}}, 1.0);
+  EXPECT_EQ(bend.over_step(0.5, 0.1), 1.0);
+}
+
+TEST(LoadSum, TakesAnInstantAsItIsAndAStepByItsMean) {
+  LoadSum sum({{Table{{0.0, 0.5, 0.5, 1.0}, {0.0, 0.0, 2.0, 2.0}}, Eigen::Vector2d(1, 0)}}, 2, 1.0, 0.2);
+  kernels::Array force(8);
+  sum.instant(0.45, force.data());
+  EXPECT_EQ(force[0], 0.0);
+  sum.at(0.45, force.data());
+  EXPECT_NEAR(force[0], 0.5, 1e-14); // a quarter of the step is past the jump
+}
+
+TEST(LoadSum, KnowsWhenItIsConstantOrNothing) {
+  const Load steady{Constant{2.0}, Eigen::Vector2d(1, 1)}, idle{Harmonic{1.0, 5.0}, Eigen::Vector2d::Zero()};
+  EXPECT_TRUE(LoadSum({steady}, 2, 1.0, 1e-3).constant());
+  EXPECT_TRUE(LoadSum({steady, idle}, 2, 1.0, 1e-3).constant()); // a load that moves no mode is left out
+  EXPECT_TRUE(LoadSum({idle}, 2, 1.0, 1e-3).empty());
+  EXPECT_TRUE(LoadSum({}, 2, 1.0, 1e-3).empty());
+  LoadSum opposite(
+      {{Harmonic{1.0, 5.0}, Eigen::Vector2d(1, 2)}, {Harmonic{1.0, 5.0}, Eigen::Vector2d(-1, -2)}}, 2, 1.0,
+      1e-3);
+  kernels::Array force(8);
+  opposite.at(0.01, force.data());
+  EXPECT_EQ(force[0], 0.0);
+  EXPECT_EQ(force[1], 0.0);
+}

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scenes.hpp"
+#include "single_mass.hpp"
+#include "transient/splitting/replays.hpp"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+
+using namespace fretwork;
+using namespace fretwork::tests;
+using namespace fretwork::transient;
+
+namespace {
+
+constexpr double step = 2e-5; // s
+
+/// A pressed mass that sticks most of the time, without tangential damper: the work of its short slips asks for fine intervals.
+Scene mostly_sticking(double duration) {
+  constexpr double mass = 1.0;
+  Scene s = mass_point(mass, Vec3(900.0, 1600.0, 2500.0), duration);
+  for (Eigen::Index i = 0; i < 3; ++i)
+    s.system.damping(i) = 2.0 * 0.02 * std::sqrt(s.system.stiffness(i));
+  s.contacts = {contact_of(mass, {contact::Stop{-1e-4, contact::PlaneAxis::y}, {1e6}, {3e5, 0.0, 0.7, 0.7}})};
+  s.loads = {force_on(mass, {0.0, 0.0, 60.0}, Harmonic{1.0, 7.0}),
+             force_on(mass, {0.0, 60.0, 0.0}, Harmonic{1.0, 11.3})};
+  return s;
+}
+
+struct Measured {
+  post::ContactSummary statistics;
+  StepError error;
+};
+
+Measured measured(const Scene& scene, StepChoice choice) {
+  post::ContactStatistics contacts(scene.contacts, 0.0);
+  Observer* const observers[] = {&contacts};
+  Run run(scene, choice, observers, nullptr, {});
+  run.advance(std::numeric_limits<std::int64_t>::max());
+  (void)run.finish();
+  return {contacts.summaries()[0], run.step_errors().empty() ? StepError{} : run.step_errors()[0]};
+}
+
+StepChoice choice_of(const Scene& scene, int parts, double accuracy) {
+  StepChoice choice = choose_step(scene, splitting());
+  choice.parts = parts;
+  choice.accuracy = accuracy;
+  return choice;
+}
+
+/// Hash of what a record says of the motion and of the contacts with a force.
+std::size_t digest(const Record& record, int modes) {
+  core::StateArchive out;
+  double time = record.time, length = record.step;
+  std::vector<double> q(record.q, record.q + modes);
+  out(time, length, q);
+  for (const int c : record.active) {
+    ContactState s = record.states[static_cast<std::size_t>(c)];
+    out(s.normal_force, s.friction, s.friction_work, s.damper_work, s.closed, s.touches, s.rubbed);
+  }
+  return std::hash<std::string>()(std::move(out).bytes());
+}
+
+} // namespace
+
+TEST(Replayable, GoesOnFromAnotherSchemeAsThatDoes) {
+  const Scene scene = rattling(12, 30, 0.05);
+  const int modes = static_cast<int>(scene.system.size());
+  const auto running = make_replayable_splitting(scene, step, 0.0, 1, 2);
+  const auto other = make_replayable_splitting(scene, step, 0.0, 1, 2);
+  for (const int steps : {700, 300, 41}) {
+    for (int i = 0; i < steps; ++i)
+      (void)running->advance();
+    const double from = other->follow(*running);
+    const Record& first = running->advance(); // made before
+    EXPECT_NEAR(first.time + 0.5 * first.step, from, 1e-9 * step);
+    for (int i = 0; i < 200; ++i)
+      ASSERT_EQ(digest(running->advance(), modes), digest(other->advance(), modes)) << steps << ' ' << i;
+  }
+}
+
+TEST(Replayable, OfHalfTheStepStaysBesideIt) {
+  const Scene scene = rattling(12, 30, 0.05);
+  const auto running = make_replayable_splitting(scene, step, 0.0, 1, 2);
+  const auto finer = make_replayable_splitting(scene, 0.5 * step, 0.0, 1, 4);
+  for (int i = 0; i < 1000; ++i)
+    (void)running->advance();
+  const double from = finer->follow(*running);
+  (void)running->advance();
+  double impulse = 0.0, of_finer = 0.0, now = from;
+  constexpr int steps = 100;
+  constexpr double agreement = 0.02; // forces of closed contacts over 100 steps, of order 2
+  for (int i = 0; i < steps; ++i) {
+    const Record& record = running->advance();
+    for (const int c : record.active)
+      impulse += record.step * record.states[static_cast<std::size_t>(c)].normal_force;
+  }
+  while (now < from + (steps - 0.5) * step) {
+    const Record& record = finer->advance();
+    now = record.time + 0.5 * record.step;
+    for (const int c : record.active)
+      of_finer += record.step * record.states[static_cast<std::size_t>(c)].normal_force;
+  }
+  ASSERT_GT(impulse, 0.0);
+  EXPECT_NEAR(of_finer / impulse, 1.0, agreement);
+}
+
+TEST(Replays, ChangeNothingWhereTheAccuracyIsMet) {
+  const Scene scene = mostly_sticking(60.0);
+  StepChoice choice = choice_of(scene, 2, 1e3);
+  ASSERT_GT(choice.replay, 0.0);
+  const Measured replayed = measured(scene, choice);
+  EXPECT_EQ(replayed.error.parts, 2);
+  choice.replay = 0.0;
+  const Measured plain = measured(scene, choice);
+  EXPECT_EQ(replayed.statistics.work_rate, plain.statistics.work_rate);
+  EXPECT_EQ(replayed.statistics.normal_rms, plain.statistics.normal_rms);
+  EXPECT_EQ(plain.error.parts, 0) << "not measured";
+}
+
+// Against a run of sixteen times as many intervals. Replays sum the errors of the step itself; what a run makes of them in the long term may be
+// less: a contact that slips too far sticks the longer.
+TEST(Replays, MeasureTheErrorOfTheRun) {
+  const Scene scene = mostly_sticking(300.0);
+  const Measured coarse = measured(scene, choice_of(scene, 1, 1e3));
+  StepChoice fine_choice = choice_of(scene, 16, 1e3);
+  fine_choice.replay = 0.0;
+  const Measured fine = measured(scene, fine_choice);
+  const double error = coarse.statistics.work_rate / fine.statistics.work_rate - 1.0;
+  const StepError& e = coarse.error;
+  const double told = e.errors[replayed_work] / e.sums[replayed_work],
+               spread = e.spreads[replayed_work] / e.sums[replayed_work];
+  ASSERT_GT(error, 0.015) << "there is an error to be measured";
+  EXPECT_GT(told, 3.0 * spread);
+  EXPECT_GT(told, 0.7 * error);
+  EXPECT_LT(told, 5.0 * error);
+}
+
+TEST(Replays, RefineTheIntervalsOfContactsUntilTheAccuracyIsMet) {
+  const Scene scene = mostly_sticking(60.0);
+  StepChoice fine_choice = choice_of(scene, 32, 1e3);
+  fine_choice.replay = 0.0;
+  const double work = measured(scene, fine_choice).statistics.work_rate;
+  const Measured unrefined = measured(scene, choice_of(scene, 1, 1e3)),
+                 refined = measured(scene, choice_of(scene, 1, 0.01));
+  EXPECT_GE(refined.error.parts, 4);
+  EXPECT_LT(std::abs(refined.statistics.work_rate / work - 1.0),
+            0.3 * std::abs(unrefined.statistics.work_rate / work - 1.0));
+}
+
+TEST(Replays, RefineNoContactThatIsRightAsItIs) {
+  // a mass that bounces without loss: the spring's energy is kept whatever the interval
+  constexpr double mass = 1.0;
+  Scene scene = mass_point(mass, Vec3::Zero(), 20.0);
+  start(scene, mass, Vec3::Zero(), Vec3(0.0, 0.5, 0.0));
+  scene.contacts = {contact_of(mass, {contact::PlanePair{1e-3, contact::PlaneAxis::y}, {1e6}, {}})};
+  const StepChoice choice = choose_step(scene, splitting());
+  const Measured run = measured(scene, choice);
+  EXPECT_GT(run.error.sums[replayed_impulse], 0.0);
+  EXPECT_EQ(run.error.parts, choice.parts);
+}
+
+TEST(Replays, GoOnAfterARestartBitForBit) {
+  const Scene scene = mostly_sticking(60.0);
+  const StepChoice choice = choice_of(scene, 1, 0.01);
+  post::ContactStatistics all(scene.contacts, 0.0);
+  Observer* const of_all[] = {&all};
+  transient::Run whole(scene, choice, of_all, nullptr, {});
+  whole.advance(std::numeric_limits<std::int64_t>::max());
+  for (const std::int64_t records : {50, 1500, 7777}) { // within a replay, between two
+    post::ContactStatistics first(scene.contacts, 0.0), rest(scene.contacts, 0.0);
+    Observer *const of_first[] = {&first}, *const of_rest[] = {&rest};
+    transient::Run left(scene, choice, of_first, nullptr, {});
+    left.advance(records);
+    core::StateArchive saved;
+    saved(left);
+    transient::Run on(scene, choice, of_rest, nullptr, {});
+    core::StateArchive restored(std::move(saved).bytes());
+    restored(on);
+    restored.end();
+    on.advance(std::numeric_limits<std::int64_t>::max());
+    EXPECT_EQ(rest.summaries()[0].work_rate, all.summaries()[0].work_rate) << records;
+    const StepError a = on.step_errors()[0], b = whole.step_errors()[0];
+    EXPECT_EQ(a.parts, b.parts);
+    EXPECT_EQ(a.errors, b.errors);
+    EXPECT_EQ(a.spreads, b.spreads);
+  }
+}

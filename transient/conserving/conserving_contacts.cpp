@@ -1,0 +1,397 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/conserving/conserving_contacts.hpp"
+#include "transient/conserving/conserving_normal.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace fretwork::transient {
+namespace {
+
+/// Of |force| + stiffness |position|: a residual below it is rounding.
+constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
+/// Where nothing improves any more, this many times the rounding passes.
+constexpr double stalled = 64.0;
+/// Newton's method takes 3 to 5; more only where contacts with friction catch each other at huge steps.
+constexpr int most_iterations = 40;
+/// After so many a mean normal that may jump from iteration to iteration is held.
+constexpr int hold_after = 12;
+constexpr int most_cuts = 10;
+/// Share of the predicted fall of the residual that a shortened iteration must reach (Armijo's usual value).
+constexpr double least_fall = 1e-4;
+
+/// Gauss elimination with partial pivoting: a x = b, row by row, x in b. False where a is singular.
+bool eliminate(std::size_t n, double* a, double* b) {
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t i = k + 1; i < n; ++i)
+      if (std::abs(a[i * n + k]) > std::abs(a[pivot * n + k]))
+        pivot = i;
+    if (!(std::abs(a[pivot * n + k]) > 0.0))
+      return false;
+    if (pivot != k) {
+      std::swap_ranges(a + k * n + k, a + k * n + n, a + pivot * n + k);
+      std::swap(b[k], b[pivot]);
+    }
+    for (std::size_t i = k + 1; i < n; ++i) {
+      const double factor = a[i * n + k] / a[k * n + k];
+      if (factor == 0.0)
+        continue;
+      for (std::size_t j = k + 1; j < n; ++j)
+        a[i * n + j] -= factor * a[k * n + j];
+      b[i] -= factor * b[k];
+    }
+  }
+  for (std::size_t k = n; k-- > 0;) {
+    for (std::size_t j = k + 1; j < n; ++j)
+      b[k] -= a[k * n + j] * b[j];
+    b[k] /= a[k * n + k];
+  }
+  return true;
+}
+
+} // namespace
+
+ConservingContacts::ConservingContacts(const PackedContacts& contacts)
+    : contacts_(contacts), size_(static_cast<std::size_t>(contacts.components)), answer_(contacts) {
+  const auto count = static_cast<std::size_t>(contacts.count);
+  shut_.reserve(count);
+  parts_.reserve(count);
+  response_.resize(count);
+  for (std::vector<double>* x : {&force_, &residual_, &step_, &base_})
+    x->assign(3 * count, 0.0);
+  matrix_.resize(9 * count * count);
+}
+
+bool ConservingContacts::solve(double step, const Mobilities& mobilities, const ConservingMemory& memory,
+                               ContactMotion& start, ContactMotion& free, ContactTrial& trial) {
+  const Setting s{step, mobilities, memory};
+  trial.clear();
+  shut_.clear();
+  parts_.clear();
+  const bool any = start.find_near(0.0) | free.find_near(0.0); // both marks are needed
+  if (!any)
+    return true;
+  for (int c = 0; c < contacts_.count; ++c)
+    if ((start.near(c) && start.locate(c).gap < 0.0) || (free.near(c) && free.locate(c).gap < 0.0))
+      take(c, s, start, free);
+  // each pass but the last takes one more contact or breaks one loose
+  for (bool again = !shut_.empty(); again;) {
+    if (!iterate(s))
+      return false;
+    const bool broken = break_loose(), more = recruit(s, start, free);
+    again = broken || more;
+  }
+  close(start, trial);
+  return true;
+}
+
+void ConservingContacts::take(int c, const Setting& s, const ContactMotion& start,
+                              const ContactMotion& free) {
+  const contact::Support& support = contacts_.supports[c];
+  const int width = contacts_.width;
+  const bool in_plane = contacts_.in_plane[c] != 0;
+  const std::size_t i = shut_.size();
+  Shut& shut = shut_.emplace_back();
+  shut = {};
+  shut.contact = c;
+  shut.in_plane = in_plane;
+  shut.x0 = {start.u[c] + contacts_.rest_y(c), start.u[width + c] + contacts_.rest_z(c)};
+  shut.from = start.locate(c);
+  shut.free[0] = free.u[c] + contacts_.rest_y(c);
+  shut.free[1] = free.u[width + c] + contacts_.rest_z(c);
+  shut.free[2] = in_plane ? free.u[2 * width + c] - start.u[2 * width + c] : 0.0;
+  const double trace =
+      mobility(s, i, 0, i, 0) + mobility(s, i, 1, i, 1) + (in_plane ? mobility(s, i, 2, i, 2) : 0.0);
+  const contact::Location face = shut.from.gap < 0.0 ? shut.from : free.locate(c);
+  shut.normal = {face.ny, face.nz};
+  shut.free_rate = free.sinking(c, face.ny, face.nz);
+  shut.end_share = 0.0;
+  if (support.normal.damping > 0.0)
+    shut.end_share = end_rate_share(support.normal.damping, rate_mobility(s, i, i, 0) * face.ny +
+                                                                rate_mobility(s, i, i, 1) * face.nz);
+  shut.rho = support.friction.active() && trace > 0.0 ? 1.0 / trace : 0.0;
+  shut.stiffness = support.normal.stiffness + support.friction.stiffness + shut.rho +
+                   (support.normal.damping + support.friction.damping) / s.h;
+  for (std::size_t k = 0; k < size_; ++k)
+    force_[size_ * i + k] = 0.0;
+}
+
+bool ConservingContacts::taken(int c) const {
+  return std::any_of(shut_.begin(), shut_.end(), [c](const Shut& s) { return s.contact == c; });
+}
+
+/// Takes the contacts that the forces found have closed. Returns whether there are any.
+bool ConservingContacts::recruit(const Setting& s, const ContactMotion& start, const ContactMotion& free) {
+  if (shut_.size() == static_cast<std::size_t>(contacts_.count))
+    return false;
+  const std::size_t before = shut_.size(), stride = answer_.u.size();
+  answer_.u = free.u;
+  for (std::size_t i = 0; i < before; ++i)
+    for (std::size_t b = 0; b < size_; ++b) {
+      const double f = force_[size_ * i + b];
+      const double* column =
+          &s.mobilities.place[(static_cast<std::size_t>(shut_[i].contact) * 3 + b) * stride];
+      for (std::size_t lane = 0; lane < stride; ++lane)
+        answer_.u[lane] += f * column[lane];
+    }
+  if (!answer_.find_near(0.0))
+    return false;
+  for (int c = 0; c < contacts_.count; ++c)
+    if (answer_.near(c) && !taken(c) && answer_.locate(c).gap < 0.0)
+      take(c, s, start, free);
+  return shut_.size() > before;
+}
+
+bool ConservingContacts::break_loose() {
+  bool any = false;
+  for (std::size_t i = 0; i < shut_.size(); ++i)
+    if (response_[i].breaks)
+      any = shut_[i].broken = true;
+  return any;
+}
+
+std::size_t ConservingContacts::place_of(std::size_t i, std::size_t a, std::size_t j, std::size_t b) const {
+  const auto stride = static_cast<std::size_t>(contacts_.stride()),
+             width = static_cast<std::size_t>(contacts_.width);
+  const auto to = static_cast<std::size_t>(shut_[i].contact),
+             from = static_cast<std::size_t>(shut_[j].contact);
+  return (from * 3 + b) * stride + a * width + to;
+}
+
+double ConservingContacts::mobility(const Setting& s, std::size_t i, std::size_t a, std::size_t j,
+                                    std::size_t b) const {
+  return s.mobilities.place[place_of(i, a, j, b)];
+}
+
+double ConservingContacts::rate_mobility(const Setting& s, std::size_t i, std::size_t j,
+                                         std::size_t b) const {
+  const auto [y, z] = shut_[i].normal;
+  return y * s.mobilities.rate[place_of(i, 0, j, b)] + z * s.mobilities.rate[place_of(i, 1, j, b)];
+}
+
+/// Newton's method from the forces there are. Returns whether it settled.
+bool ConservingContacts::iterate(const Setting& s) {
+  double merit = respond(s);
+  const std::size_t n = size_ * shut_.size();
+  for (int k = 0; k < most_iterations; ++k) {
+    if (settled(1.0))
+      return true;
+    if (!direction(s))
+      return false;
+    std::copy_n(force_.begin(), n, base_.begin());
+    double share = 1.0, reached = 0.0;
+    for (int cut = 0; cut < most_cuts; ++cut, share *= 0.5) {
+      for (std::size_t r = 0; r < n; ++r)
+        force_[r] = base_[r] + share * step_[r];
+      reached = respond(s);
+      if (reached < (1.0 - least_fall * share) * merit)
+        break;
+    }
+    if (!(reached < merit)) {
+      std::copy_n(base_.begin(), n, force_.begin());
+      (void)respond(s);
+      return settled(stalled);
+    }
+    merit = reached;
+    if (k == hold_after)
+      for (std::size_t i = 0; i < shut_.size(); ++i) {
+        Shut& shut = shut_[i];
+        shut.is_held = true;
+        const Response& r = response_[i];
+        shut.held = {0.5 * (shut.from.ny + r.ny), 0.5 * (shut.from.nz + r.nz)};
+      }
+  }
+  return false;
+}
+
+/// Residual f - Phi(xf + W f) at the forces there are. Returns its square.
+double ConservingContacts::respond(const Setting& s) {
+  ++evaluations_;
+  double merit = 0.0;
+  for (std::size_t i = 0; i < shut_.size(); ++i) {
+    const Shut& shut = shut_[i];
+    double place[3] = {shut.free[0], shut.free[1], shut.free[2]};
+    for (std::size_t j = 0; j < shut_.size(); ++j)
+      for (std::size_t a = 0; a < size_; ++a)
+        for (std::size_t b = 0; b < size_; ++b)
+          place[a] += mobility(s, i, a, j, b) * force_[size_ * j + b];
+    double rate = shut.free_rate;
+    if (shut.end_share > 0.0)
+      for (std::size_t j = 0; j < shut_.size(); ++j)
+        for (std::size_t b = 0; b < size_; ++b)
+          rate -= rate_mobility(s, i, j, b) * force_[size_ * j + b];
+    double force[3] = {};
+    std::copy_n(&force_[size_ * i], size_, force);
+    respond(s, shut, place, rate, force, response_[i]);
+    for (std::size_t a = 0; a < size_; ++a) {
+      const double r = force[a] - response_[i].force[a];
+      residual_[size_ * i + a] = r;
+      merit += r * r;
+    }
+  }
+  return merit;
+}
+
+void ConservingContacts::respond(const Setting& s, const Shut& shut, const double* place, double rate,
+                                 const double* force, Response& r) const {
+  const contact::Support& support = contacts_.supports[shut.contact];
+  const contact::NormalLaw& law = support.normal;
+  const auto g = discrete_gradient(support.obstacle, shut.x0, shut.from, {place[0], place[1]},
+                                   shut.is_held ? &shut.held : nullptr);
+  r = {};
+  r.p0 = -shut.from.gap;
+  r.p1 = -g.gap;
+  r.ny = g.ny;
+  r.nz = g.nz;
+  const double size = std::sqrt(g.y * g.y + g.z * g.z);
+  const StepNormal found = step_normal_force(law, shut.end_share, r.p0, r.p1, rate, s.h);
+  const double normal = found.force;
+  r.spring_force = found.spring;
+  const double extent = std::abs(shut.x0.y) + std::abs(shut.x0.z) + std::abs(shut.free[0]) +
+                        std::abs(shut.free[1]) + std::abs(shut.free[2]) + std::abs(place[0]) +
+                        std::abs(place[1]) + std::abs(place[2]);
+  r.rounding = rounding * (std::abs(normal) + shut.stiffness * extent);
+  if (!(normal > 0.0 && size > 0.0))
+    return;
+  r.normal_of_gap = normal;
+  r.normal = normal * size;
+  r.ny = g.y / size;
+  r.nz = g.z / size;
+  r.force[0] = normal * g.y;
+  r.force[1] = normal * g.z;
+  const double by_y = -found.by_end * g.ny, by_z = -found.by_end * g.nz; // of the normal force
+  r.by_place[0][0] = by_y * g.y + normal * g.yy;
+  r.by_place[0][1] = by_z * g.y + normal * g.yz;
+  r.by_place[1][0] = by_y * g.z + normal * g.zy;
+  r.by_place[1][1] = by_z * g.z + normal * g.zz;
+  r.by_rate[0] = found.by_rate * g.y;
+  r.by_rate[1] = found.by_rate * g.z;
+  if (!support.friction.active())
+    return;
+  const double ty = r.nz, tz = -r.ny;
+  r.closed = {contact::closed_share(r.p0, r.p1), !(r.p0 > 0.0)};
+  // of the share by p1, where the step is partly closed
+  const double by_p1 = r.closed.share < 1.0 ? std::abs(r.p0) / ((r.p1 - r.p0) * (r.p1 - r.p0)) : 0.0;
+  rub(s, shut, place, force,
+      {{(ty * g.yy + tz * g.zy) / size, (ty * g.yz + tz * g.zz) / size},
+       {size * by_y + normal * (r.ny * g.yy + r.nz * g.zy),
+        size * by_z + normal * (r.ny * g.yz + r.nz * g.zz)},
+       {-by_p1 * g.ny, -by_p1 * g.nz},
+       size * found.by_rate},
+      r);
+}
+
+/// Adds the friction. With n turning by theta, dn = t theta and dt = -n theta.
+void ConservingContacts::rub(const Setting& s, const Shut& shut, const double* place, const double* force,
+                             const Turning& turning, Response& r) const {
+  contact::FrictionLaw law = contacts_.supports[shut.contact].friction;
+  if (!shut.in_plane)
+    law.along.x = 0.0;
+  const double n[2] = {r.ny, r.nz}, t[2] = {r.nz, -r.ny};
+  const double d[2] = {place[0] - shut.x0.y, place[1] - shut.x0.z};
+  r.displacement = {law.along.x * place[2], law.along.t * (t[0] * d[0] + t[1] * d[1])};
+  const contact::FrictionMemory past = s.memory.at(shut.contact, r.ny, r.nz);
+  const bool reference = law.kind == contact::FrictionMemoryKind::reference;
+  const bool dynamic = shut.broken || past.sliding;
+  const StepFriction f =
+      reference && shut.broken
+          ? opposing(law, shut.rho, r.normal, r.displacement, {force[2], t[0] * force[0] + t[1] * force[1]})
+          : along_trial(law, past.spring, dynamic ? law.mu_dynamic : law.mu_static, r.normal, r.displacement,
+                        s.h, r.closed);
+  r.friction = f.force;
+  r.slides = f.slides;
+  r.breaks = f.slides && !shut.broken && (reference || (!dynamic && law.mu_static > law.mu_dynamic));
+  const double along_n = n[0] * d[0] + n[1] * d[1], force_n = n[0] * force[0] + n[1] * force[1];
+  r.force[0] += f.force.t * t[0];
+  r.force[1] += f.force.t * t[1];
+  r.force[2] = f.force.x;
+  const double by_rate_t = f.by_normal.t * turning.by_rate;
+  r.by_rate[0] += by_rate_t * t[0];
+  r.by_rate[1] += by_rate_t * t[1];
+  r.by_rate[2] = f.by_normal.x * turning.by_rate;
+  for (int k = 0; k < 2; ++k) { // by y, by z
+    const double turn = turning.turn[k], moved = t[k] - turn * along_n, given = -turn * force_n;
+    const double by_t = f.by_displacement.tt * moved + f.by_normal.t * turning.normal[k] +
+                        f.by_share.t * turning.share[k] + f.by_force.tt * given;
+    const double by_x = f.by_displacement.xt * moved + f.by_normal.x * turning.normal[k] +
+                        f.by_share.x * turning.share[k] + f.by_force.xt * given;
+    for (int a = 0; a < 2; ++a) {
+      r.by_place[a][k] += by_t * t[a] - f.force.t * turn * n[a];
+      r.by_force[a][k] = t[a] * f.by_force.tt * t[k];
+    }
+    r.by_place[2][k] = by_x;
+    r.by_place[k][2] = f.by_displacement.xt * t[k];
+    r.by_force[2][k] = r.by_force[k][2] = f.by_force.xt * t[k];
+  }
+  r.by_place[2][2] = f.by_displacement.xx;
+  r.by_force[2][2] = f.by_force.xx;
+}
+
+/// Never where a force is no number.
+bool ConservingContacts::settled(double slack) const {
+  for (std::size_t i = 0; i < shut_.size(); ++i)
+    for (std::size_t a = 0; a < size_; ++a)
+      if (const double r = residual_[size_ * i + a];
+          !std::isfinite(r) || !(std::abs(r) <= slack * response_[i].rounding))
+        return false;
+  return true;
+}
+
+/// (I - dPhi/df - dPhi/dx W) step = -residual.
+bool ConservingContacts::direction(const Setting& s) {
+  const std::size_t n = size_ * shut_.size();
+  for (std::size_t i = 0; i < shut_.size(); ++i) {
+    const Response& r = response_[i];
+    for (std::size_t j = 0; j < shut_.size(); ++j)
+      for (std::size_t b = 0; b < size_; ++b) {
+        const double moved[3] = {mobility(s, i, 0, j, b), mobility(s, i, 1, j, b),
+                                 size_ == 3 ? mobility(s, i, 2, j, b) : 0.0};
+        const double rate = shut_[i].end_share > 0.0 ? -rate_mobility(s, i, j, b) : 0.0;
+        for (std::size_t a = 0; a < size_; ++a) {
+          double x =
+              -(r.by_place[a][0] * moved[0] + r.by_place[a][1] * moved[1] + r.by_place[a][2] * moved[2]) -
+              r.by_rate[a] * rate;
+          if (i == j)
+            x += (a == b ? 1.0 : 0.0) - r.by_force[a][b];
+          matrix_[(size_ * i + a) * n + size_ * j + b] = x;
+        }
+      }
+  }
+  for (std::size_t k = 0; k < n; ++k)
+    step_[k] = -residual_[k];
+  return eliminate(n, matrix_.data(), step_.data());
+}
+
+/// Forces found: what the contacts do over the step.
+void ConservingContacts::close(const ContactMotion& start, ContactTrial& trial) {
+  for (std::size_t i = 0; i < shut_.size(); ++i) {
+    const Response& r = response_[i];
+    const int c = shut_[i].contact;
+    const contact::Support& support = contacts_.supports[c];
+    const double sunk = std::max(0.0, r.p1);
+    trial.springs += 0.5 * support.normal.stiffness * sunk * sunk;
+    const double loss = (r.normal_of_gap - r.spring_force) * (r.p1 - r.p0);
+    if (!(r.normal > 0.0)) {
+      trial.cut += loss;
+      continue;
+    }
+    ContactState& state = trial.states[c];
+    state.normal_force = r.normal;
+    state.ny = r.ny;
+    state.nz = r.nz;
+    state.friction = r.friction;
+    state.displacement = r.displacement;
+    state.approach = start.sinking(c, r.ny, r.nz);
+    state.damper_work = loss;
+    state.slides = r.slides;
+    parts_.push_back({c, r.closed, support.normal.stiffness,
+                      support.normal.damping + support.normal.stiffness * support.normal.dissipation * sunk,
+                      r.p1});
+    trial.active.push_back(c);
+  }
+  std::sort(trial.active.begin(), trial.active.end());
+}
+
+} // namespace fretwork::transient

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// What one evaluation of all contacts gives. It changes nothing that lasts: a scheme may evaluate as often as it likes and hand the
+/// trial of the step it accepts to ContactMemory::commit.
+#pragma once
+#include "transient/contacts/packed_contacts.hpp"
+#include "transient/scene/scheme.hpp"
+
+namespace fretwork::transient {
+
+struct ContactTrial {
+  explicit ContactTrial(int contacts);
+  /// All contacts open. No allocation.
+  void clear() {
+    if (!active.empty() || !opened.empty())
+      open_all();
+    springs = cut = 0.0;
+  }
+  void visit(core::StateArchive& state) { state(states, active, opened, springs, cut); }
+
+  std::vector<ContactState>
+      states; ///< of all contacts; friction_work and the tangential part of damper_work come with the commit
+  std::vector<int> active; ///< contacts with a force, by increasing number
+  std::vector<int>
+      opened;           ///< those that had one at the last commit and have none now: known after the commit
+  double springs = 0.0; ///< J, energy of the normal springs, and of the residual flexibility
+  double cut =
+      0.0; ///< J over the step, lost by springs that a damper holds free of force: what the positive part cuts
+
+private:
+  void open_all();
+};
+
+/// Sum over all contacts of the force on the node times a vector given in lanes (empty: 0): a power of velocities, W, a work of displacements, J.
+[[nodiscard]] double product(const PackedContacts& contacts, const ContactTrial& trial,
+                             const kernels::Array& lanes);
+
+/// Lets a record show these. Arrays of `q`: padded modes; of `u`: displacements in lanes, m; null: not made. All stay in their place until the next record.
+inline void show(Record& record, const PackedContacts& contacts, const double* q, const double* u,
+                 const ContactTrial& trial) {
+  record.q = q;
+  record.contacts = contacts.count;
+  record.uy = u;
+  record.uz = u ? u + contacts.width : nullptr;
+  record.states = trial.states;
+  record.active = trial.active;
+  record.opened = trial.opened;
+}
+
+/// The contacts' forces as rows over the modes.
+class ContactRows {
+public:
+  explicit ContactRows(const PackedContacts& contacts);
+  /// The forces of a trial times `scale`. No allocation.
+  void set(const ContactTrial& trial, double scale);
+  void clear() { count_ = 0; }
+  /// target += sum of rows; padded modes. No allocation.
+  void add_to(double* target) const;
+
+private:
+  const PackedContacts& contacts_;
+  std::vector<const double*> row_;
+  std::vector<double> factor_;
+  std::size_t count_ = 0; ///< of them
+};
+
+} // namespace fretwork::transient

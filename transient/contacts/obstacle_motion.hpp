@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Obstacles that move by themselves while the modes are counted from the base: a contact's node moves by
+///     u = b q + carried s(t),    u' = b q' + carried s'(t)
+/// from its obstacle, in the contact's local axes. An obstacle that stays in space while the base moves by s along d has
+/// carried = d. What it does on the structure is work from outside: each second, with the force f on the node, -f.(carried s').
+///
+/// With residual flexibility (Scene) loads move the contacts beside the modes, u = ... + under_loads g(t), at once: without inertia. g
+/// stands for the step about the instant, as in the loads on the modes (Signal::over_step: a table finer than steps by its mean). Their
+/// velocity is the difference of g over that step, which stays finite where a table jumps and adds up to what g does.
+#pragma once
+#include "transient/contacts/contact_motion.hpp"
+#include "transient/contacts/contact_trial.hpp"
+#include "transient/signals/prescribed_motion.hpp"
+
+namespace fretwork::transient {
+
+/// By how much and how fast the contacts are carried at an instant, lanes of PackedContacts. Empty: no contact is.
+struct Carried {
+  kernels::Array u, w; ///< m, m/s
+  void add_to(double* displacement, double* velocity) const {
+    for (std::size_t lane = 0; lane < u.size(); ++lane) {
+      displacement[lane] += u[lane];
+      velocity[lane] += w[lane];
+    }
+  }
+  void add_to(ContactMotion& motion) const { add_to(motion.u.data(), motion.w.data()); }
+};
+
+class ObstacleMotion {
+public:
+  /// @param contacts  those of the scene, must live longer   @param step  s
+  ObstacleMotion(const Scene& scene, const PackedContacts& contacts, double step);
+  /// Room for `at`: empty where nothing moves.
+  [[nodiscard]] Carried room() const;
+  /// At a time. No allocation.
+  void at(double time, Carried& carried) const;
+  /// The same for contact c alone, added to its lanes of a motion. No allocation.
+  void add(double time, int c, ContactMotion& motion) const;
+
+private:
+  /// move(lanes, displacement, velocity) for all that moves contacts.
+  template <class Move> void each(double time, const Move& move) const;
+
+  const PackedContacts& contacts_;
+  double h_;
+  std::vector<MotionSignal> signals_;
+  std::vector<Signal> loads_;
+  kernels::Array carried_; ///< lanes of each motion, one after the other; then under_loads of each load
+};
+
+} // namespace fretwork::transient

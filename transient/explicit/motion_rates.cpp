@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/explicit/motion_rates.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace fretwork::transient {
+
+using contact::Vec2;
+
+namespace {
+
+constexpr double round_off = 1e-12; ///< of a friction force at its bound
+
+double energy_of(const contact::FrictionLaw& law, Vec2 spring) {
+  return contact::spring_energy(law, {spring, false});
+}
+
+} // namespace
+
+MotionRates::MotionRates(const Scene& scene, double step)
+    : system_(scene.system),
+      loads_(scene.loads, scene.system.size(), scene.duration, step, scene.sampled_loads), smeared_(step),
+      contacts_(scene.contacts, scene.system.size()), motion_(contacts_), difference_(contacts_),
+      obstacles_(scene, contacts_, step), carried_(obstacles_.room()), trial_(contacts_.count),
+      rows_(contacts_), regimes_(static_cast<std::size_t>(contacts_.count)),
+      memory_(static_cast<std::size_t>(contacts_.count)) {
+  for (kernels::Array* a : {&q0_, &v0_, &k_, &c_, &load_})
+    a->assign(static_cast<std::size_t>(modes()), 0.0);
+  std::copy_n(scene.q0.data(), scene.q0.size(), q0_.begin());
+  std::copy_n(scene.v0.data(), scene.v0.size(), v0_.begin());
+  std::copy_n(system_.stiffness.data(), system_.size(), k_.begin());
+  if (system_.damping_matrix.size() == 0)
+    std::copy_n(system_.damping.data(), system_.size(), c_.begin());
+}
+
+void MotionRates::start(double* y) {
+  std::fill_n(y, size(), 0.0);
+  std::copy(q0_.begin(), q0_.end(), y);
+  std::copy(v0_.begin(), v0_.end(), y + modes());
+  place(0.0, y);
+  position_ = motion_.u;
+  for (int c = 0; c < contacts_.count; ++c) {
+    const Regime regime = regime_of_laws(c, motion_, {});
+    set_regime(c, regime.closed, regime.slides);
+  }
+}
+
+/// The contacts where the state has them.
+void MotionRates::place(double time, const double* y) {
+  motion_.gather(y, y + modes());
+  obstacles_.at(time, carried_);
+  carried_.add_to(motion_);
+}
+
+void MotionRates::rate(double time, const double* y, double* rate) {
+  if (!loaded_ || !loads_.constant())
+    smeared_ > 0.0 ? loads_.at(time, load_.data())
+                   : loads_.instant(std::min(time, last_instant_), load_.data());
+  loaded_ = true;
+  structure(y, rate);
+  std::fill_n(rate + 2 * modes(), size() - 2 * modes(), 0.0);
+  double* totals = rate + 2 * modes() + 4 * contacts_.count;
+  const double* v = y + modes();
+  double power = 0.0, damping = 0.0;
+  for (int i = 0; i < modes(); ++i) {
+    power += load_[i] * v[i];
+    damping += v[i] * (load_[i] - k_[i] * y[i] - rate[modes() + i]);
+  }
+  if (contacts_.count > 0) {
+    place(time, y);
+    act(springs(y), rate + 2 * modes());
+    rows_.set(trial_, 1.0);
+    rows_.add_to(rate + modes());
+    power -= product(contacts_, trial_, carried_.w);
+  }
+  totals[0] = power;
+  totals[1] = std::abs(power);
+  totals[2] = damping;
+}
+
+void MotionRates::structure(const double* y, double* rate) {
+  const int np = modes();
+  const double* v = y + np;
+  for (int i = 0; i < np; ++i) {
+    rate[i] = v[i];
+    rate[np + i] = load_[i] - k_[i] * y[i] - c_[i] * v[i];
+  }
+  if (system_.damping_matrix.size() > 0)
+    for (Eigen::Index j = 0; j < system_.size(); ++j)
+      for (Eigen::Index i = 0; i < system_.size(); ++i)
+        rate[np + i] -= system_.damping_matrix(i, j) * v[j];
+}
+
+void MotionRates::act(const double* s, double* rate) {
+  trial_.clear();
+  motion_.find_near(0.0);
+  for (int c = 0; c < contacts_.count; ++c) {
+    const Vec2 spring{s[4 * c], s[4 * c + 1]};
+    const bool held = located_ && regimes_[c].closed;
+    if ((held || motion_.near(c)) && press(c, spring, rate + 4 * c))
+      continue;
+    if (rated(c)) { // the spring of an open contact dies out through its damper
+      const contact::FrictionLaw& law = contacts_.supports[c].friction;
+      const Vec2 stretching = (1.0 / law.damping) * spring;
+      rate[4 * c] = -law.stiffness * stretching.x;
+      rate[4 * c + 1] = -law.stiffness * stretching.t;
+      rate[4 * c + 3] += dot(spring, stretching);
+    }
+  }
+}
+
+/// Whether there is a normal force; if not, the power of what the positive part cuts is in the rate.
+bool MotionRates::press(int c, Vec2 spring, double* rate) {
+  const auto at = face_of(c, motion_);
+  const Normal normal = normal_of(c, motion_, at);
+  const double elastic = contacts_.supports[c].normal.stiffness * std::max(0.0, normal.penetration);
+  trial_.springs += 0.5 * elastic * std::max(0.0, normal.penetration);
+  const bool closed = located_ ? regimes_[c].closed : normal.penetration >= 0.0 && normal.force > 0.0;
+  const double force = closed ? normal.force : 0.0;
+  rate[3] = (force - elastic) * normal.rate;
+  if (!closed)
+    return false;
+  ContactState& state = trial_.states[c];
+  state.normal_force = force;
+  state.ny = at.ny;
+  state.nz = at.nz;
+  state.approach = normal.rate;
+  if (contacts_.supports[c].friction.active())
+    rub(c, spring, state, rate);
+  trial_.active.push_back(c);
+  return true;
+}
+
+void MotionRates::rub(int c, Vec2 in_state, ContactState& state, double* rate) const {
+  const contact::FrictionLaw& law = contacts_.supports[c].friction;
+  const Vec2 velocity = motion_.slip(c, state.ny, state.nz);
+  const Vec2 spring = used_spring(c, in_state, state.ny, state.nz);
+  contact::Friction friction{spring - law.damping * velocity, regimes_[c].slides};
+  if (!located_ || !locates_friction(c)) {
+    friction = contact::evaluate(law, {spring, regimes_[c].slides}, state.normal_force, {}, velocity);
+    // A spring that was set to the bound at the end of a slide is still there when the next step begins.
+    const double bound = law.mu_dynamic * state.normal_force;
+    friction.slides = friction.slides || (regimes_[c].slides && dot(friction.force, velocity) < 0.0 &&
+                                          norm(friction.force) >= (1.0 - round_off) * bound);
+  } else if (friction.slides) {
+    const double size = norm(friction.force);
+    friction.force = size > 0.0 ? (law.mu_dynamic * state.normal_force / size) * friction.force : Vec2{};
+  }
+  state.friction = friction.force;
+  state.slides = friction.slides;
+  state.displacement = motion_.tangential(c, state.ny, state.nz, motion_.u) -
+                       motion_.tangential(c, state.ny, state.nz, position_);
+  state.slid = state.slides ? norm(state.displacement) : 0.0;
+  const Vec2 stretching = rated(c) ? (1.0 / law.damping) * (spring - friction.force) : velocity;
+  rate[0] = -law.stiffness * stretching.x;
+  rate[1] = -law.stiffness * stretching.t;
+  if (rated(c)) {
+    rate[2] -= dot(friction.force, velocity - stretching);
+    rate[3] += law.damping * dot(stretching, stretching);
+  } else {
+    rate[friction.slides ? 2 : 3] -= dot(friction.force, velocity);
+  }
+}
+
+void MotionRates::commit(double* y) {
+  double* s = y + 2 * modes();
+  for (int c = 0; c < contacts_.count; ++c)
+    if (contacts_.supports[c].friction.active())
+      set_spring(c, s + 4 * c);
+  for (int c = 0; c < contacts_.count; ++c) {
+    const ContactState& state = trial_.states[c];
+    const bool closed = located_ ? regimes_[c].closed : state.normal_force > 0.0;
+    if (!located_ || !locates_friction(c))
+      set_regime(c, closed, closed && state.slides);
+    if (closed) {
+      regimes_[c].ny = state.ny;
+      regimes_[c].nz = state.nz;
+    }
+  }
+  position_ = motion_.u;
+}
+
+void MotionRates::set_spring(int c, double* s) {
+  const contact::FrictionLaw& law = contacts_.supports[c].friction;
+  const ContactState& state = trial_.states[c];
+  Memory& memory = memory_[c];
+  const bool closed = state.ny != 0.0 || state.nz != 0.0; // in the trial
+  Vec2 spring{s[0], s[1]};
+  if (closed) {
+    const Vec2 loaded = used_spring(c, spring, state.ny, state.nz);
+    const Vec2 kept =
+        used_spring(c, memory.spring, state.ny, state.nz); // of what there was at the last commit
+    if (rated(c)) {
+      s[3] += energy_of(law, spring) - energy_of(law, loaded);
+      memory.forgotten += energy_of(law, spring) - energy_of(law, loaded);
+      spring = loaded;
+    } else {
+      spring = state.slides ? state.friction : loaded;
+      s[3] += energy_of(law, memory.spring) - energy_of(law, kept);
+      memory.forgotten += energy_of(law, memory.spring) - energy_of(law, kept);
+      const bool by_slider = state.slides && law.kind == contact::FrictionMemoryKind::return_map;
+      s[by_slider ? 2 : 3] -= energy_of(law, spring) - energy_of(law, kept);
+    }
+    memory.ny = state.ny;
+    memory.nz = state.nz;
+  } else if (!rated(c)) {
+    spring = {};
+    s[3] += energy_of(law, memory.spring);
+  }
+  s[0] = spring.x;
+  s[1] = spring.t;
+  memory.spring = spring;
+}
+
+void MotionRates::load_at(double time, double* force) {
+  loads_.instant(time, load_.data());
+  loaded_ = loads_.constant();
+  std::copy_n(load_.begin(), system_.size(), force);
+}
+
+double MotionRates::moving_energy(const double* y) const {
+  double sum = 0.5 * kernels::twice_energy(modes(), k_.data(), y, y + modes());
+  for (int c = 0; c < contacts_.count; ++c)
+    if (contacts_.supports[c].friction.active())
+      sum += energy_of(contacts_.supports[c].friction, spring(y, c));
+  return sum;
+}
+
+double MotionRates::norm2(const double* difference) {
+  double sum = 2.0 * moving_energy(difference);
+  difference_.gather(difference, difference + modes());
+  const int lanes = contacts_.stride(), width = contacts_.width;
+  for (int c = 0; c < contacts_.count; ++c)
+    if (regimes_[c].closed)
+      for (int lane = c; lane < lanes; lane += width)
+        sum += contacts_.supports[c].normal.stiffness * difference_.u[lane] * difference_.u[lane];
+  return sum;
+}
+
+/// The branches of `reference` depend on what the last step has set: they have no bounds in time.
+bool MotionRates::locates_friction(int c) const {
+  const contact::FrictionLaw& law = contacts_.supports[c].friction;
+  return law.active() && law.kind == contact::FrictionMemoryKind::return_map;
+}
+
+bool MotionRates::sets_springs() const {
+  for (int c = 0; c < contacts_.count; ++c)
+    if (contacts_.supports[c].friction.active() && !rated(c))
+      return true;
+  return false;
+}
+
+Energy MotionRates::energy(const double* y) const {
+  const double* s = springs(y);
+  const double* totals = s + 4 * contacts_.count;
+  Energy energy;
+  energy.load_work = totals[0];
+  energy.throughput = totals[1];
+  energy.modal_damping = totals[2];
+  energy.stored = moving_energy(y) + trial_.springs;
+  for (int c = 0; c < contacts_.count; ++c)
+    if (const contact::FrictionLaw& law = contacts_.supports[c].friction; law.active() && !rated(c))
+      energy.stored +=
+          energy_of(law, memory_[c].spring) - energy_of(law, spring(y, c)); // booked when it is set
+  for (int c = 0; c < contacts_.count; ++c) {
+    energy.friction += s[4 * c + 2];
+    energy.contact_damping += s[4 * c + 3];
+  }
+  return energy;
+}
+
+bool MotionRates::rated(int c) const {
+  const contact::FrictionLaw& law = contacts_.supports[c].friction;
+  return law.active() && law.kind == contact::FrictionMemoryKind::return_map && law.damping > 0.0;
+}
+
+void MotionRates::set_regime(int c, bool closed, bool slides) {
+  Regime& regime = regimes_[c];
+  if (closed && !regime.closed) {
+    const auto at = motion_.locate(c);
+    regime.ny = at.ny;
+    regime.nz = at.nz;
+  }
+  regime.closed = closed;
+  regime.slides = slides;
+}
+
+/// Where a contact is; of one that is closed, from its face.
+contact::Location MotionRates::face_of(int c, const ContactMotion& motion) const {
+  const auto at = motion.locate(c);
+  const Regime& regime = regimes_[c];
+  const bool opposite = located_ && regime.closed && at.ny * regime.ny + at.nz * regime.nz < 0.0;
+  return opposite ? contact::Location{-at.gap, -at.ny, -at.nz} : at;
+}
+
+/// The force is that of the closed branch: where it ends, negative.
+MotionRates::Normal MotionRates::normal_of(int c, const ContactMotion& motion,
+                                           const contact::Location& at) const {
+  const contact::NormalLaw& law = contacts_.supports[c].normal;
+  const double p = -at.gap, rate = motion.sinking(c, at.ny, at.nz);
+  return {p, rate, law.stiffness * p + law.damping_at(std::max(0.0, p)) * rate};
+}
+
+/// On another face than where the contact was last closed, only what has been loaded since the last commit.
+Vec2 MotionRates::used_spring(int c, Vec2 spring, double ny, double nz) const {
+  const Memory& memory = memory_[c];
+  return memory.ny * ny + memory.nz * nz < 0.0 ? spring - memory.spring : spring;
+}
+
+Margins MotionRates::margin(int c, const ContactMotion& motion, Vec2 in_state) const {
+  const auto at = face_of(c, motion);
+  const Normal normal = normal_of(c, motion, at);
+  const contact::FrictionLaw& law = contacts_.supports[c].friction;
+  Margins margins{std::min(contacts_.supports[c].normal.stiffness * normal.penetration, normal.force), -1.0};
+  if (law.active() && !locates_friction(c)) {
+    margins.friction = regimes_[c].slides ? 1.0 : -1.0;
+  } else if (law.active()) {
+    const Vec2 trial = used_spring(c, in_state, at.ny, at.nz) - law.damping * motion.slip(c, at.ny, at.nz);
+    margins.friction = norm(trial) - (regimes_[c].slides ? law.mu_dynamic : law.mu_static) * normal.force;
+  }
+  return margins;
+}
+
+Regime MotionRates::regime_of_laws(int c, const ContactMotion& motion, Vec2 spring) const {
+  const Margins margins = margin(c, motion, spring);
+  const bool closed = margins.normal > 0.0;
+  return {closed, closed && margins.friction > 0.0};
+}
+
+} // namespace fretwork::transient

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/modes/load_sum.hpp"
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace fretwork::transient {
+namespace {
+
+/// pi f h up to which a polygon is taken to follow a harmonic load.
+constexpr double most_corrected = 0.5;
+/// Likewise a random one, in intervals of its samples, of which there are 32 a period.
+constexpr double most_grid_steps = 5.0;
+
+} // namespace
+
+LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double duration, double step,
+                 const std::vector<SampledLoad>& sampled)
+    : padded_modes_(kernels::padded(static_cast<int>(modes))), step_(step) {
+  std::vector<const TimeFunction*> functions;
+  for (const Load& load : loads) {
+    if (load.modal_force.isZero(0.0))
+      continue;
+    const auto same =
+        std::find_if(functions.begin(), functions.end(), [&](const auto* f) { return *f == load.function; });
+    const auto source = static_cast<std::size_t>(same - functions.begin());
+    if (same == functions.end()) {
+      functions.push_back(&load.function);
+      signals_.emplace_back(load.function, duration);
+      const auto* harmonic = std::get_if<Harmonic>(&load.function);
+      sines_.push_back(harmonic && step > 0.0 && std::isfinite(step)
+                           ? std::optional<GridSine>({*harmonic, 0.5 * step})
+                           : std::nullopt);
+      const double half_turn = harmonic ? std::numbers::pi * harmonic->frequency * step : 0.0;
+      above_.push_back(
+          half_turn > 0.0 && half_turn < most_corrected ? std::pow(half_turn / std::sin(half_turn), 2) : 1.0);
+      shapes_.resize(shapes_.size() + static_cast<std::size_t>(padded_modes_), 0.0);
+      constant_ = constant_ && signals_.back().is_constant();
+    }
+    for (Eigen::Index i = 0; i < modes; ++i)
+      shapes_[source * padded_modes_ + i] += load.modal_force(i);
+  }
+  values_.resize(signals_.size());
+  for (const SampledLoad& load : sampled)
+    if (load.acts())
+      sampled_.emplace_back(load);
+  constant_ = constant_ && sampled_.empty();
+}
+
+template <class Value, class Place>
+void LoadSum::combine(double time, const Place& place_on, const Value& value, double* force) {
+  const SampleGrid* grid = nullptr; // of the last random signal: those of a study mostly share one
+  SampleGrid::Place place{};
+  for (std::size_t k = 0; k < signals_.size(); ++k) {
+    const Signal& signal = signals_[k];
+    if (!signal.is_random()) {
+      values_[k] = value(k);
+      continue;
+    }
+    if (!grid || *grid != signal.grid())
+      place = place_on(signal.grid());
+    grid = &signal.grid();
+    values_[k] = signal.at(place);
+  }
+  if (signals_.empty())
+    std::fill_n(force, padded_modes_, 0.0);
+  else
+    kernels::combine(padded_modes_, static_cast<int>(signals_.size()), shapes_.data(), values_.data(), force);
+  for (SampledForce& sampled : sampled_)
+    sampled.add(time, force);
+}
+
+void LoadSum::at(double time, double* force) { at(time, Signal::window(time, step_), force); }
+
+void LoadSum::at(double time, Signal::Window window, double* force) {
+  combine(
+      time, [&](const SampleGrid& grid) { return grid.place(time); },
+      [&](std::size_t k) {
+        return sines_[k] ? (*sines_[k])(time) : signals_[k].over_step(time, step_, window);
+      },
+      force);
+}
+
+void LoadSum::instant(double time, double* force) {
+  combine(
+      time, [&](const SampleGrid& grid) { return grid.place(time); },
+      [&](std::size_t k) { return signals_[k](time); }, force);
+}
+
+void LoadSum::corner(double time, double* force) {
+  const Signal::Window window = Signal::window(time, step_);
+  combine(
+      time,
+      [&](const SampleGrid& grid) {
+        return step_ * grid.per_step < most_grid_steps ? grid.corner(time, step_) : grid.place(time);
+      },
+      [&](std::size_t k) {
+        return sines_[k] ? above_[k] * (*sines_[k])(time) : signals_[k].over_step(time, step_, window);
+      },
+      force);
+}
+
+} // namespace fretwork::transient

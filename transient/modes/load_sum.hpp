@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The loads of a scene as one modal force: loads that follow the same function of time are added before the
+/// run.
+#pragma once
+#include "transient/scene/scene.hpp"
+#include "transient/signals/grid_sine.hpp"
+#include "transient/simd/kernels.hpp"
+#include <optional>
+
+namespace fretwork::transient {
+
+class LoadSum {
+public:
+  /// @param step  s: the force at a time stands for a step about it, so that what a table does inside a step keeps its impulse
+  /// @param sampled  are added at the time itself, whatever the step: samples are far closer than the periods that carry their power
+  LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double duration, double step,
+          const std::vector<SampledLoad>& sampled = {});
+  [[nodiscard]] bool empty() const { return signals_.empty() && sampled_.empty(); }
+  /// True where the force never changes.
+  [[nodiscard]] bool constant() const { return constant_; }
+  /// Modal force of the step about a time, at the start of the half step after it, padded. No allocation.
+  void at(double time, double* force);
+  /// Modal force at a corner of the polygon, with corners a step apart, that has the amplitudes of the loads: it is above that of straight lines
+  /// between their values, by (w h)^2/12 for what moves with w. Of tables as `at`. Padded. No allocation.
+  void corner(double time, double* force);
+  /// Modal force at a time that stands for another window, padded. No allocation.
+  void at(double time, Signal::Window window, double* force);
+  /// Modal force at an instant, padded. No allocation.
+  void instant(double time, double* force);
+
+private:
+  /// The force at a time by the values of the signals: those that are not random as value(k) has them, the others at place(grid).
+  template <class Value, class Place>
+  void combine(double time, const Place& place, const Value& value, double* force);
+
+  int padded_modes_;
+  double step_;
+  bool constant_ = true;
+  std::vector<Signal> signals_;
+  std::vector<std::optional<GridSine>> sines_; ///< of the harmonic ones, on half steps
+  std::vector<double> above_;                  ///< of the harmonic ones: a corner's height by their amplitude
+  kernels::Array shapes_, values_;
+  std::vector<SampledForce> sampled_;
+};
+
+} // namespace fretwork::transient

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/modes/mass_scaling.hpp"
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+namespace fretwork::transient {
+namespace {
+
+/// Shortest interval in which a table changes, s, 0 at a jump; infinite without a table.
+double shortest_change(const TimeFunction& function) {
+  double shortest = std::numeric_limits<double>::infinity();
+  if (const auto* table = std::get_if<Table>(&function))
+    for (std::size_t i = 1; i < table->time.size(); ++i)
+      if (table->value[i] != table->value[i - 1])
+        shortest = std::min(shortest, table->time[i] - table->time[i - 1]);
+  return shortest;
+}
+
+} // namespace
+
+Eigen::VectorXd scaled_masses(const Scene& scene, double fastest) {
+  Eigen::VectorXd masses = Eigen::VectorXd::Ones(scene.system.size());
+  if (!(fastest > 0.0))
+    return masses;
+  for (Eigen::Index i = 0; i < masses.size(); ++i)
+    for (const ContactPoint& point : scene.contacts)
+      if (!point.b.col(i).isZero(0.0))
+        masses(i) = std::max(1.0, scene.system.stiffness(i) / (fastest * fastest));
+  return masses;
+}
+
+bool may_scale(const Scene& scene, double fastest, double accuracy) {
+  const Eigen::Array<bool, Eigen::Dynamic, 1> scaled = scaled_masses(scene, fastest).array() > 1.0;
+  const Eigen::ArrayXd k = scene.system.stiffness.array(), flexibility = (k > 0.0).select(1.0 / k, 0.0);
+  Eigen::ArrayXd at_start = Eigen::ArrayXd::Zero(k.size()), noise = at_start; // modal forces; (rms force)^2
+  for (const Load& load : scene.loads) {
+    const Eigen::ArrayXd square = load.modal_force.array().square(), bent = square * flexibility;
+    if (scaled.select(bent, 0.0).sum() > accuracy * bent.sum())
+      return false;
+    if (scaled.select(square, 0.0).sum() > 0.0 &&
+        shortest_change(load.function) * fastest < 2.0 * std::numbers::pi)
+      return false;
+    if (const auto* random = std::get_if<Random>(&load.function)) // starts anywhere
+      noise += random->rms * random->rms * square;
+    else
+      at_start += Signal(load.function, scene.duration)(0.0) * load.modal_force.array();
+  }
+  for (const SampledLoad& load : scene.sampled_loads) {
+    const Eigen::ArrayXd square = load.rms.array().square(), bent = square * flexibility;
+    if (scaled.select(bent, 0.0).sum() > accuracy * bent.sum())
+      return false;
+    noise += square;
+  }
+  const Eigen::ArrayXd moving = scene.v0.array().square(), spring = k * scene.q0.array();
+  const Eigen::ArrayXd vibrates = moving + ((spring - at_start).square() + noise) * flexibility,
+                       all = moving + (spring.square() + at_start.square() + noise) * flexibility;
+  return scaled.select(vibrates, 0.0).sum() <= 0.1 * accuracy * all.sum();
+}
+
+Scene with_masses(const Scene& scene, const Eigen::VectorXd& masses) {
+  const Eigen::VectorXd s = masses.cwiseSqrt().cwiseInverse();
+  Scene out = scene;
+  out.system.stiffness.array() /= masses.array();
+  out.system.damping.array() /= masses.array();
+  if (out.system.damping_matrix.size() > 0)
+    out.system.damping_matrix = s.asDiagonal() * scene.system.damping_matrix * s.asDiagonal();
+  for (Load& load : out.loads)
+    load.modal_force.array() *= s.array();
+  for (SampledLoad& load : out.sampled_loads)
+    load.multiply(s);
+  for (ContactPoint& point : out.contacts)
+    point.b = point.b * s.asDiagonal();
+  out.q0.array() /= s.array();
+  out.v0.array() /= s.array();
+  return out;
+}
+
+} // namespace fretwork::transient

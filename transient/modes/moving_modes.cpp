@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/modes/moving_modes.hpp"
+#include <algorithm>
+
+namespace fretwork::transient {
+
+std::vector<Eigen::Index> moving_modes(const Scene& scene) {
+  using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
+  Flags moves = scene.q0.array() != 0.0 || scene.v0.array() != 0.0;
+  for (const Load& load : scene.loads)
+    moves = moves || load.modal_force.array() != 0.0;
+  for (const SampledLoad& load : scene.sampled_loads)
+    moves = moves || load.scale.array() != 0.0;
+  for (const ContactPoint& point : scene.contacts)
+    moves = moves || (point.b.array() != 0.0).colwise().any().transpose();
+  std::vector<Eigen::Index> modes;
+  for (Eigen::Index i = 0; i < moves.size(); ++i)
+    if (moves(i))
+      modes.push_back(i);
+  if (const Eigen::MatrixXd& c = scene.system.damping_matrix; c.size() > 0) {
+    for (std::size_t k = 0; k < modes.size(); ++k) // the list grows by those that its modes move
+      for (Eigen::Index i = 0; i < moves.size(); ++i)
+        if (!moves(i) && c(i, modes[k]) != 0.0) {
+          moves(i) = true;
+          modes.push_back(i);
+        }
+    std::sort(modes.begin(), modes.end());
+  }
+  return modes;
+}
+
+Scene with_modes(const Scene& scene, const std::vector<Eigen::Index>& modes) {
+  Scene out = scene;
+  out.system.stiffness = scene.system.stiffness(modes);
+  out.system.damping = scene.system.damping(modes);
+  if (scene.system.damping_matrix.size() > 0)
+    out.system.damping_matrix = scene.system.damping_matrix(modes, modes);
+  for (std::size_t k = 0; k < out.loads.size(); ++k)
+    out.loads[k].modal_force = scene.loads[k].modal_force(modes);
+  for (SampledLoad& load : out.sampled_loads)
+    load = load.of_modes(modes);
+  for (std::size_t c = 0; c < out.contacts.size(); ++c)
+    out.contacts[c].b = scene.contacts[c].b(Eigen::all, modes);
+  out.q0 = scene.q0(modes);
+  out.v0 = scene.v0(modes);
+  return out;
+}
+
+} // namespace fretwork::transient

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// All that a transient needs, in modal coordinates: q_i'' + c_i q_i' + k_i q_i = sum of loads + sum over
+/// contacts of (B^T f)_i.
+#pragma once
+#include "contact/support.hpp"
+#include "core/types.hpp"
+#include "transient/signals/prescribed_motion.hpp"
+#include "transient/signals/sampled_load.hpp"
+#include "transient/signals/time_function.hpp"
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace fretwork::transient {
+
+/// Modes of unit modal mass.
+struct System {
+  Eigen::VectorXd stiffness;      ///< n, omega^2, 1/s2, >= 0
+  Eigen::VectorXd damping;        ///< n, 2 zeta omega, 1/s, >= 0
+  Eigen::MatrixXd damping_matrix; ///< n x n, 1/s, replaces `damping` where it is not empty
+  [[nodiscard]] Eigen::Index size() const { return stiffness.size(); }
+};
+
+struct Load {
+  TimeFunction function;
+  Eigen::VectorXd modal_force; ///< n: the load is modal_force * function(t)
+  /// -M a of a base or support that accelerates, or the force of dampers that a support's velocity stretches: no part of a static equilibrium
+  bool inertial = false;
+};
+
+/// A contact: a support and how the modes move its node. Displacement from the obstacle in local axes: u = b q + carried s(t).
+struct ContactPoint {
+  std::string name;
+  contact::Support support;
+  core::Vec3 rest = core::Vec3::Zero(); ///< m: the node at q = 0, local axes, from the obstacle's centre
+  Eigen::MatrixXd b;                    ///< 3 x n, rows x_loc y_loc z_loc
+  Eigen::MatrixXd carried =
+      {}; ///< 3 x motions of the scene: of the node less the obstacle; empty: not carried
+  /// m, 3 x loads of the scene, with Scene::residual: what the modes lack of the static displacement under each load of value 1, so that
+  /// u = b q + residual f + under_loads g(t); empty: nothing.
+  Eigen::MatrixXd under_loads = {};
+  core::Vec3 loaded_at_start =
+      core::Vec3::Zero(); ///< m, under_loads times the static values of the loads that are not inertial
+};
+
+struct Scene {
+  System system;
+  std::vector<Load> loads;
+  std::vector<SampledLoad> sampled_loads; ///< random, of zero mean
+  std::vector<ContactPoint> contacts;
+  std::vector<PrescribedMotion>
+      motions; ///< that carry contacts; the forces they cause on the modes are among the loads
+  /// m/N, 3 nc x 3 nc over x_loc y_loc z_loc of each contact, symmetric, >= 0: what the modes lack of the static
+  /// flexibility between the contacts, which move by it at once, u = b q + residual f. Empty: none.
+  Eigen::MatrixXd residual;
+  Eigen::VectorXd q0, v0; ///< initial state, n
+  double duration = 0.0;  ///< s, > 0
+
+  /// Where a contact's node stands at t = 0 for q = 0, from the obstacle's centre, m.
+  [[nodiscard]] core::Vec3 place_at_start(const ContactPoint& point) const {
+    core::Vec3 place = point.rest + point.loaded_at_start;
+    for (Eigen::Index k = 0; k < point.carried.cols(); ++k)
+      place += motions[static_cast<std::size_t>(k)].displacement0 * point.carried.col(k);
+    return place;
+  }
+};
+
+} // namespace fretwork::transient

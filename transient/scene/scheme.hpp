@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// What all time schemes share: the record of a step that observers see, the energy ledger, the interface.
+#pragma once
+#include "contact/vec2.hpp"
+#include "core/state_archive.hpp"
+#include "transient/scene/scene.hpp"
+#include "transient/scene/step_error.hpp"
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace fretwork::transient {
+
+/// One contact over the step of a record.
+struct ContactState {
+  double normal_force = 0.0;    ///< N, mean over the step, >= 0
+  double ny = 0.0, nz = 0.0;    ///< normal, local axes
+  contact::Vec2 friction;       ///< N, mean over the step, along x_loc and t = n x x_loc, on the node
+  contact::Vec2 displacement;   ///< m, tangential, while the contact is closed
+  double slid = 0.0;            ///< m, path with friction at its bound
+  double friction_work = 0.0;   ///< J over the step, by the slider
+  double damper_work = 0.0;     ///< J over the step, by the normal and tangential dampers
+  double approach = 0.0;        ///< m/s, towards the obstacle: speed at which the contact closed, if it did
+  bool slides = false;          ///< at the end of the step
+  double closed = 0.0;          ///< share of the step with a normal force
+  double normal_square = 0.0;   ///< N2, mean over the step
+  double friction_square = 0.0; ///< N2, likewise
+  double peak = 0.0;            ///< N, largest normal force
+  double sliding = 0.0;         ///< share of the step in which it slides
+  double rubbed = 0.0;          ///< J, integral of F_N |v_T| while it slides
+  double departure = 0.0;       ///< m/s, away from the obstacle: speed at which the contact opened, if it did
+  int touches = 0;              ///< how often it closed in the step
+  double closed_at = 0.0, opened_at = 0.0; ///< shares of the step before it closed and opened last, if it did
+
+  /// Of schemes that know one force in the step: what follows from its mean, where it acts for a share of the step.
+  /// @param touched  the contact closed in the step
+  void act_for(double share, bool touched) {
+    closed = share;
+    normal_square = normal_force * normal_force / share;
+    friction_square = dot(friction, friction) / share;
+    peak = normal_force;
+    sliding = slides ? share : 0.0;
+    rubbed = normal_force * slid / share;
+    touches = touched ? 1 : 0;
+  }
+  void act_throughout(bool touched) { act_for(1.0, touched); }
+};
+
+/// Normal and tangential force of a contact at an instant, N.
+struct ContactForce {
+  double normal;
+  contact::Vec2 friction;
+  double ny, nz; ///< normal, local axes
+  bool slides;   ///< the friction bound is reached
+};
+
+/// Energy, J, at a record: load_work = stored - initial + modal_damping + contact_damping +
+/// friction + residual.
+struct Energy {
+  double initial = 0.0;   ///< kinetic, strain and contact energy at t = 0
+  double load_work = 0.0; ///< by loads and base motion
+  double stored = 0.0;    ///< kinetic + strain + contact springs
+  double modal_damping = 0.0;
+  double contact_damping = 0.0; ///< normal and tangential dampers, what the positive part cuts, what a spring
+                                ///< gives up after opening
+  double friction = 0.0;        ///< Coulomb sliders
+  double throughput = 0.0;      ///< initial + integral of |load power|: what the residual is measured against
+  [[nodiscard]] double residual() const {
+    return initial + load_work - stored - modal_damping - contact_damping - friction;
+  }
+};
+
+/// What observers see of a step. Positions belong to `time`; of schemes whose forces act over steps `time` is the middle of a step, and energies of
+/// splitting are those at its end; with forces at instants (residual flexibility) positions are those of the mean over the step.
+struct Record {
+  double time = 0.0;
+  double step =
+      0.0; ///< s, the length of time this record stands for; 0: an instant between two laws, for no time
+  const double* q = nullptr; ///< modal displacements, padded with zeros
+  int contacts = 0;
+  const double* uy =
+      nullptr; ///< displacement of contact i along y_loc, m; padded with zeros to a multiple of 8
+  const double* uz = nullptr;
+  std::span<const ContactState> states;
+  std::span<const int> active; ///< numbers of the contacts with a normal force in the step
+  std::span<const int> opened; ///< of those that opened in it, or since the record before
+  Energy energy;
+};
+
+/// What a scheme has done so far.
+struct StepCounts {
+  std::int64_t steps = 0;       ///< accepted
+  std::int64_t rejected = 0;    ///< tried and made again with a smaller step
+  std::int64_t evaluations = 0; ///< of the contact forces
+  std::int64_t unconverged = 0; ///< accepted though the coupled contact forces missed their tolerance
+  double step_min = 0.0, step_max = 0.0; ///< s, of the accepted ones
+};
+
+/// Why no further step can be made.
+enum class StepFailure {
+  none,
+  tolerance, ///< no step that the time can resolve meets the tolerance
+  contacts,  ///< the equations of the contacts were not solved, however small the step
+};
+[[nodiscard]] std::string name_of(StepFailure failure);
+
+/// A time scheme set up for one scene. It advances from record to record; no allocation after construction. After `advance` has given
+/// the record at t_k, the state is known at every instant up to `next_time`: a scheme whose records stand at the ends of its steps has
+/// then made the step that follows the record.
+class Scheme {
+public:
+  virtual ~Scheme() = default;
+  /// Advances to the next record: the first call gives the first one.
+  virtual const Record& advance() = 0;
+  /// Time of the record that `advance` will give, s; infinite after a failure.
+  [[nodiscard]] virtual double next_time() const = 0;
+  /// State at `time` between the last record and the next (before the first call: between 0 and the first).
+  /// Arrays of n values.
+  virtual void state_at(double time, double* q, double* v) = 0;
+  /// Contact forces of the laws at such a time, where the scheme knows its motion there as well as at its records. Returns whether it does;
+  /// else they are linear between the records. No allocation.
+  virtual bool forces_at(double /*time*/, std::span<ContactForce> /*forces*/) { return false; }
+  /// Modal force of the loads at a time, n values.
+  virtual void load_at(double time, double* force) = 0;
+  [[nodiscard]] virtual StepCounts counts() const = 0;
+  /// Errors by the step so far, measured by replays, contact by contact; empty: not measured.
+  [[nodiscard]] virtual std::vector<StepError> step_errors() const { return {}; }
+  /// Why the scheme cannot go on from its last record.
+  [[nodiscard]] virtual StepFailure failure() const { return StepFailure::none; }
+  /// What lasts from record to record: a scheme made anew for the same scene and step that restores it gives the same records, states
+  /// and counts, bit for bit, as the one that saved it.
+  virtual void visit(core::StateArchive& state) = 0;
+};
+
+enum class SchemeKind { splitting, collocation, euler, energy_conserving, devogelaere, runge_kutta_54 };
+[[nodiscard]] std::string name_of(SchemeKind kind);
+
+} // namespace fretwork::transient
+
+template <> inline constexpr bool fretwork::core::points_elsewhere<fretwork::transient::Record> = true;

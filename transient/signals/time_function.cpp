@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/signals/time_function.hpp"
+#include "core/error.hpp"
+#include "transient/signals/prescribed_motion.hpp"
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <complex>
+#include <fftw3.h>
+#include <fmt/format.h>
+#include <numbers>
+#include <optional>
+#include <random>
+
+namespace fretwork::transient {
+namespace {
+
+/// Samples per period of the highest frequency: cubic Hermite interpolation between them errs by (2 pi /
+/// 32)^4 / 384 = 4e-6.
+constexpr double samples_per_period = 32.0;
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+/// Of a random signal: a gigabyte. An hour up to 500 Hz.
+constexpr double most_samples = 0x1p26;
+/// T_b in periods of the upper end of a band: lines resolve a thousandth of it.
+constexpr double periods_of_block = 1024.0;
+/// Of a block: fewer are no random signal. Fades smear an end of the band over two of them.
+constexpr double fewest_lines = 32.0;
+constexpr std::size_t fades_of_block = 8; ///< T_b/C
+/// Signals reach so many durations: the last steps stand for times beyond the end.
+constexpr double covered = 1.05;
+
+/// Two standard normal numbers by Box and Muller from the 53 upper bits of the generator:
+/// std::normal_distribution differs between libraries.
+std::complex<double> normal_pair(std::mt19937_64& generator) {
+  const auto uniform = [&] { return (static_cast<double>(generator() >> 11) + 0.5) * 0x1p-53; };
+  const double radius = std::sqrt(-2.0 * std::log(uniform()));
+  const double angle = two_pi * uniform();
+  return {radius * std::cos(angle), radius * std::sin(angle)};
+}
+
+/// The smallest length >= least that transforms fast: 2^a times 1, 9/8, 5/4 or 3/2.
+std::size_t fast_length(double least) {
+  for (std::size_t power = 8;; power *= 2)
+    for (const std::size_t eighths : {8, 9, 10, 12})
+      if (const std::size_t n = power / 8 * eighths; static_cast<double>(n) >= least)
+        return n;
+}
+
+/// Complex transforms of one length in place, x_j = sum over k of z_k exp(i 2 pi k j / n).
+class Synthesis {
+public:
+  explicit Synthesis(std::size_t n, double* values)
+      : n_(n), plan_(fftw_plan_dft_1d(static_cast<int>(n), complex(values), complex(values), FFTW_BACKWARD,
+                                      FFTW_ESTIMATE | FFTW_UNALIGNED)) {}
+  Synthesis(const Synthesis&) = delete;
+  Synthesis& operator=(const Synthesis&) = delete;
+  ~Synthesis() { fftw_destroy_plan(plan_); }
+
+  [[nodiscard]] std::size_t size() const { return n_; }
+  void operator()(double* values) const { fftw_execute_dft(plan_, complex(values), complex(values)); }
+
+private:
+  static fftw_complex* complex(double* values) { return reinterpret_cast<fftw_complex*>(values); }
+  std::size_t n_;
+  fftw_plan plan_;
+};
+
+/// Transforms n complex values, whose real parts and imaginary parts follow each other.
+void transform(std::size_t n, std::vector<double>& values) {
+  // The plan of the last length stays: its tables take longer than the transform, and the signals of a run are mostly of one length.
+  thread_local std::optional<Synthesis> synthesis;
+  if (!synthesis || synthesis->size() != n)
+    synthesis.emplace(n, values.data());
+  (*synthesis)(values.data());
+}
+
+/// The blocks of a random signal (time_function.hpp).
+class RandomBlocks {
+public:
+  explicit RandomBlocks(const Random& random)
+      : random_(random),
+        period_(std::max(periods_of_block / random.high, fewest_lines / (random.high - random.low))),
+        size_(fast_length(samples_per_period * random.high * period_)) {}
+
+  /// Samples of a block.
+  [[nodiscard]] std::size_t size() const { return size_; }
+  /// Samples a second.
+  [[nodiscard]] double per_step() const { return static_cast<double>(size_) / period_; }
+
+  /// Values and slopes times the step, interleaved, from t = 0 on.
+  [[nodiscard]] std::vector<double> samples(std::size_t count) const {
+    std::mt19937_64 generator(random_.seed);
+    std::vector<double> out(2 * count, 0.0), block;
+    const std::size_t fade = size_ / fades_of_block, hop = size_ - fade;
+    for (std::size_t number = 0; number * hop < count + fade; ++number) {
+      fill(generator, block);
+      for (std::size_t u = 0; u < size_; ++u) {
+        const std::size_t shifted = number * hop + u; // sample + fade
+        if (shifted < fade || shifted - fade >= count)
+          continue;
+        const auto [weight, slope] = weight_at(u, fade, hop);
+        double* to = out.data() + 2 * (shifted - fade);
+        to[0] += weight * block[2 * u];
+        to[1] += weight * block[2 * u + 1] + slope * block[2 * u];
+      }
+    }
+    return out;
+  }
+
+private:
+  /// w and its slope times the step.
+  static std::pair<double, double> weight_at(std::size_t u, std::size_t fade, std::size_t hop) {
+    const double turn = 0.5 * std::numbers::pi / static_cast<double>(fade);
+    if (u < fade)
+      return {std::sin(turn * static_cast<double>(u)), turn * std::cos(turn * static_cast<double>(u))};
+    if (u < hop)
+      return {1.0, 0.0};
+    const double angle = turn * static_cast<double>(u - hop);
+    return {std::cos(angle), -turn * std::sin(angle)};
+  }
+
+  /// One block. The signal x = sum over lines of Re(c exp(i w t)) and its slope x' make one complex signal x + i x', which one transform
+  /// gives interleaved: x' has the lines i w c, so that z_k = c (1 - w)/2 and z_(n-k) = conj(c) (1 + w)/2; w times the grid's step.
+  void fill(std::mt19937_64& generator, std::vector<double>& block) const {
+    const std::size_t n = size_;
+    const auto first =
+        std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(random_.low * period_))); // zero mean
+    const auto last = static_cast<std::size_t>(std::floor(random_.high * period_));
+    const double scale = random_.rms / std::sqrt(static_cast<double>(last - first + 1));
+    block.assign(2 * n, 0.0);
+    for (std::size_t k = first; k <= last; ++k) {
+      const std::complex<double> c = scale * normal_pair(generator);
+      const double w = two_pi * static_cast<double>(k) / static_cast<double>(n);
+      block[2 * k] = 0.5 * (1.0 - w) * c.real();
+      block[2 * k + 1] = 0.5 * (1.0 - w) * c.imag();
+      block[2 * (n - k)] = 0.5 * (1.0 + w) * c.real();
+      block[2 * (n - k) + 1] = -0.5 * (1.0 + w) * c.imag();
+    }
+    transform(n, block);
+  }
+
+  Random random_;
+  double period_; ///< T_b, s
+  std::size_t size_;
+};
+
+/// The same function as one of all kinds.
+TimeFunction widened(const decltype(Integral::function)& function) {
+  return std::visit([](const auto& f) -> TimeFunction { return f; }, function);
+}
+
+} // namespace
+
+Signal::Signal(const TimeFunction& function, double duration) : function_(function) {
+  if (const auto* integral = std::get_if<Integral>(&function))
+    motion_ = std::make_shared<const MotionSignal>(
+        PrescribedMotion{widened(integral->function), integral->at_start}, duration);
+  const auto* random = std::get_if<Random>(&function);
+  if (!random)
+    return;
+  const RandomBlocks blocks(*random);
+  const double needed =
+      std::ceil(covered * duration * blocks.per_step()) + 2.0; // the ends of the first and the last interval
+  if (std::max(needed, static_cast<double>(blocks.size())) > most_samples)
+    throw core::Error(fmt::format(
+        "a random signal up to {:.4g} Hz over {:.4g} s needs {:.4g} samples, in blocks of {}, more than "
+        "{:.4g}; lower the upper end of its band, widen the band, or shorten the run",
+        random->high, duration, needed, blocks.size(), most_samples));
+  const auto intervals = static_cast<std::ptrdiff_t>(needed) - 1;
+  samples_ = blocks.samples(static_cast<std::size_t>(needed));
+  grid_ = {1.0 / blocks.per_step(), blocks.per_step(), intervals};
+}
+
+double Signal::operator()(double time) const {
+  struct Visitor {
+    double time;
+    const Signal& self;
+    double operator()(const Constant& f) const { return f.value; }
+    double operator()(const Harmonic& f) const {
+      return f.amplitude * std::sin(two_pi * f.frequency * time + f.phase);
+    }
+    double operator()(const Table& f) const {
+      const auto after =
+          std::upper_bound(f.time.begin(), f.time.end(), time); // the first point later than `time`
+      if (after == f.time.begin())
+        return f.value.front();
+      if (after == f.time.end())
+        return f.value.back();
+      const auto i = static_cast<std::size_t>(after - f.time.begin());
+      const double share = (time - f.time[i - 1]) / (f.time[i] - f.time[i - 1]);
+      return f.value[i - 1] + share * (f.value[i] - f.value[i - 1]);
+    }
+    double operator()(const Random&) const { return self.at(self.grid_.place(time)); }
+    double operator()(const Integral&) const { return (*self.motion_)(time).velocity; }
+  };
+  return std::visit(Visitor{time, *this}, function_);
+}
+
+double Signal::over_step(double time, double h, Window window) const {
+  if (const auto* table = std::get_if<Table>(&function_)) {
+    const auto begin = table->time.begin(), end = table->time.end();
+    const double shorter = h * (1.0 - 1e-9); // intervals of h are not short, whatever their round-off
+    for (auto after = std::max(std::lower_bound(begin, end, window.from), begin + 1);
+         after < end && *(after - 1) <= window.to; ++after)
+      if (*after - *(after - 1) < shorter)
+        return mean(*table, window.from, window.to);
+  }
+  return (*this)(time);
+}
+
+double Signal::mean(const Table& table, double from, double to) const {
+  // trapezia between `from`, the table's points inside, and `to`; at a jump the value before it ends one and the value after starts the next
+  const auto& t = table.time;
+  auto i = static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), from) - t.begin());
+  double sum = 0.0, last_time = from, last_value = (*this)(from);
+  for (; i < t.size() && t[i] < to; ++i) {
+    sum += 0.5 * (last_value + table.value[i]) * (t[i] - last_time);
+    last_time = t[i];
+    last_value = table.value[i];
+  }
+  const bool ends_at_jump = i + 1 < t.size() && t[i] == to && t[i + 1] == to;
+  sum += 0.5 * (last_value + (ends_at_jump ? table.value[i] : (*this)(to))) * (to - last_time);
+  return sum / (to - from);
+}
+
+double static_value(const TimeFunction& function, double duration) {
+  return std::holds_alternative<Random>(function) ? 0.0 : Signal(function, duration)(0.0);
+}
+
+double highest_frequency(const TimeFunction& function) {
+  if (const auto* harmonic = std::get_if<Harmonic>(&function))
+    return harmonic->frequency;
+  if (const auto* random = std::get_if<Random>(&function))
+    return random->high;
+  if (const auto* integral = std::get_if<Integral>(&function))
+    return highest_frequency(widened(integral->function));
+  return 0.0;
+}
+
+} // namespace fretwork::transient

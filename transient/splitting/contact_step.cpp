@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/splitting/contact_step.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace fretwork::transient {
+namespace {
+
+/// Share of its clearance that a contact may move between two looks for its obstacle, and the most looks a step.
+constexpr double longest_way = 0.5;
+constexpr int most_looks = 64;
+/// Of a step: what is shorter is none.
+constexpr double shortest = 1e-9;
+/// Of the time between two looks: how well a touch is found.
+constexpr double touch_tolerance = 1e-12;
+constexpr int most_iterations = 40;
+/// Of an interval: time in which a contact that has opened is out at least.
+constexpr double shortest_way_out = 1e-3;
+/// Touches and openings that are found in a step: more are none that a step could follow.
+constexpr int most_events = 200;
+
+} // namespace
+
+ContactStep::ContactStep(const contact::Support& support, const Components& rest, const Mobility& mobility,
+                         bool in_plane, double step, int parts, double clearance)
+    : normal_(support.normal), friction_(support.friction), in_plane_(in_plane), h_(step),
+      clearance_(clearance), intervals_(support, rest, mobility, in_plane, step / parts),
+      answer_(intervals_.table(step).answer) {}
+
+void ContactStep::divide(int parts) { intervals_.set_usual(h_ / parts); }
+
+/// How often an open contact is to be looked at in so much time.
+int ContactStep::looks(const Components& velocity, double time) const {
+  const double speed = std::sqrt(velocity.y * velocity.y + velocity.z * velocity.z);
+  const double by_time = time / intervals_.usual().length;
+  const double by_way = clearance_ > 0.0 ? speed * time / (longest_way * clearance_) : 0.0;
+  return static_cast<int>(std::ceil(std::clamp(std::max(by_time, by_way), 1.0, 1.0 * most_looks)));
+}
+
+bool ContactStep::meets(const ContactPast& past, const FreePath& path) const {
+  if (past.closed)
+    return true;
+  const ContactPath m{0.0, path.u, path.v, path.a, path.j, {}, {}};
+  const int count = looks(path.v, h_);
+  for (int i = count; i >= 0; --i)
+    if (intervals_.locate(m.u + m.displacement(h_ * i / count)).gap <= 0.0)
+      return true;
+  return false;
+}
+
+double ContactStep::spring_energy(const ContactPast& past) const {
+  return friction_.active() ? intervals_.spring_energy(past.friction.spring) : 0.0;
+}
+
+void ContactStep::stretch(ContactPast& past, const Components& missed) const {
+  if (!past.closed || !friction_.active() || past.friction.sliding ||
+      friction_.kind == contact::FrictionMemoryKind::reference)
+    return;
+  past.friction.spring.t -=
+      friction_.along.t * friction_.stiffness * (past.nz * missed.y - past.ny * missed.z);
+  if (in_plane_)
+    past.friction.spring.x -= friction_.along.x * friction_.stiffness * missed.x;
+}
+
+/// Takes an open contact to its touch, or to the end of the step. Returns whether it touches.
+bool ContactStep::find_touch(ContactPath& m, ContactAct& act) const {
+  const double left = h_ - m.t;
+  const int count = looks(m.v, left);
+  double from = 0.0, gap_from = m.at.gap, to = 0.0, gap_to = gap_from;
+  for (int i = 1; i <= count && gap_to > 0.0; ++i) {
+    from = to;
+    gap_from = gap_to;
+    to = left * i / count;
+    gap_to = intervals_.locate(m.u + m.displacement(to)).gap;
+  }
+  if (gap_to > 0.0) {
+    act.relaxed += intervals_.relax(act.past, left);
+    m.move(left, {});
+    m.at.gap = gap_to;
+    return false;
+  }
+  // the root by false position, the end that stays weighed less each time (Illinois)
+  const double tolerance = touch_tolerance * (to - from);
+  int side = 0;
+  double touch = to;
+  for (int i = 0; i < most_iterations && to - from > tolerance && gap_to < 0.0; ++i) {
+    touch = (from * gap_to - to * gap_from) / (gap_to - gap_from);
+    const double gap = intervals_.locate(m.u + m.displacement(touch)).gap;
+    if (gap > 0.0) {
+      from = touch;
+      gap_from = gap;
+      if (side == 1)
+        gap_to *= 0.5;
+      side = 1;
+    } else {
+      if (to - touch < tolerance)
+        break;
+      to = touch;
+      gap_to = gap;
+      if (side == -1)
+        gap_from *= 0.5;
+      side = -1;
+    }
+    if (std::abs(gap) <= tolerance * std::abs(gap_to - gap_from) / std::max(to - from, tolerance))
+      break;
+  }
+  act.relaxed += intervals_.relax(act.past, touch);
+  m.move(touch, {});
+  m.at = intervals_.locate(m.u);
+  m.at.gap = 0.0;
+  return true;
+}
+
+/// The contact opens now.
+void ContactStep::open(const ContactPath& m, ContactAct& act) const {
+  act.opened = true;
+  act.past.closed = false;
+  act.state.opened_at = m.t / h_;
+  act.state.departure = dot(m.at.ny, m.at.nz, m.v);
+}
+
+/// The interval is over: its forces are those of the contact.
+void ContactStep::book(ContactPath& m, const IntervalTable& of, const PressedInterval& p,
+                       ContactAct& act) const {
+  ContactState& state = act.state;
+  ContactPast& past = act.past;
+  const double share = of.length / h_, begin = m.t / h_, middle = begin + 0.5 * share;
+  const bool pressed = p.normal.force > 0.0, stays = pressed && p.normal.to == 1.0;
+  state.damper_work += p.damper_work;
+  if (pressed) {
+    if (!past.closed || p.normal.from > 0.0 || past.before_run) {
+      ++state.touches;
+      past.before_run = false;
+      state.closed_at = begin + p.normal.from * share;
+      state.approach = -dot(p.ny, p.nz, m.v);
+    }
+    const double closed = p.normal.to - p.normal.from;
+    state.normal_force += share * p.normal.force;
+    state.normal_square += share * p.normal.square();
+    state.closed += share * closed;
+    state.peak = std::max({state.peak, p.normal.first, p.normal.last});
+    past.ny = state.ny = p.ny;
+    past.nz = state.nz = p.nz;
+    act.mean = act.mean + share * p.force;
+    act.slope = act.slope + 6.0 * share * (middle - 0.5) * p.force;
+    if (friction_.active()) {
+      state.friction = state.friction + share * p.friction;
+      state.friction_square += share * p.friction_square;
+      state.displacement = state.displacement + p.displacement;
+      state.slid += p.slid;
+      state.rubbed += p.rubbed;
+      state.friction_work += p.slider_work;
+      state.sliding += p.sliding_time / h_;
+      state.slides = p.sliding_time > 0.0;
+    }
+  }
+  m.move(of.length, intervals_.mobility() * p.force);
+  m.at = p.to;
+  if ((past.closed || pressed) && !stays) {
+    const double to = pressed ? p.normal.to : 0.0, after = (1.0 - to) * of.length;
+    open(m, act);
+    state.opened_at = begin + to * share;
+    state.departure -= after * dot(p.ny, p.nz, m.a);
+  }
+  past.closed = stays;
+  act.last = m.force = p.force;
+  if (!stays && p.to.gap >= 0.0)
+    m.at = intervals_.locate(m.u);
+  if (!friction_.active())
+    return;
+  past.friction = p.memory;
+  if (pressed)
+    past.spring_at_opening = dot(p.memory.spring, p.memory.spring);
+}
+
+/// s: how long a contact that has opened while it penetrates, where its damper would pull, moves free of force: until it is out, or until
+/// K_N p + c p' = 0 again, p'' = a and from 0. 0: its force grows at once.
+double ContactStep::pause(const ContactPath& m) const {
+  const double out = dot(m.at.ny, m.at.nz, m.v), pressing = -dot(m.at.ny, m.at.nz, m.a);
+  const double falls = normal_.stiffness * out - normal_.damping_at(-m.at.gap) * pressing;
+  if (!(out > 0.0 && falls > 0.0))
+    return 0.0;
+  const double leaves = std::max(-m.at.gap / out, shortest_way_out * intervals_.usual().length);
+  const double pressed = pressing > 0.0 ? 2.0 * falls / (normal_.stiffness * pressing) : leaves;
+  if (pressed < shortest_way_out * intervals_.usual().length)
+    return 0.0;
+  return std::min({h_ - m.t, intervals_.usual().length, leaves, pressed});
+}
+
+void ContactStep::leave(ContactPath& m, double time, ContactAct& act) const {
+  const double before = m.at.gap;
+  act.relaxed += intervals_.relax(act.past, time);
+  m.move(time, {});
+  m.at = intervals_.locate(m.u);
+  const double left = std::min(0.0, m.at.gap);
+  act.state.damper_work +=
+      0.5 * normal_.stiffness * (before * before - left * left); // what the positive part cuts
+}
+
+void ContactStep::make(const ContactPast& past, const FreePath& path, const Components& guess,
+                       ContactAct& act) const {
+  act = {};
+  act.past = past;
+  ContactPath m{0.0, path.u, path.v, path.a, path.j, guess, intervals_.locate(path.u)};
+  IntervalTable cut;
+  PressedInterval p;
+  for (int events = 0; h_ - m.t > shortest * h_; ++events) {
+    if (m.at.gap > 0.0) {
+      if (act.past.closed)
+        open(m, act);
+      if (!find_touch(m, act))
+        break;
+    } else if (const double time = act.past.closed || events >= most_events ? 0.0 : pause(m); time > 0.0) {
+      leave(m, time, act);
+      continue;
+    }
+    const double left = h_ - m.t;
+    if (!(left > shortest * h_))
+      break;
+    const double length = left / std::ceil(left / intervals_.usual().length * (1.0 - shortest));
+    const IntervalTable* of = &intervals_.usual();
+    if (std::abs(length - intervals_.usual().length) > shortest * h_) {
+      cut = intervals_.table(length);
+      of = &cut;
+    }
+    intervals_.press(m, act.past, *of, p);
+    const double opens = p.normal.to * length;
+    if (p.normal.to < 1.0 && opens > shortest * h_ && events < most_events) { // to where it opens
+      cut = intervals_.table(opens);
+      of = &cut;
+      intervals_.press(m, act.past, *of, p);
+    } else if (!(opens > shortest * h_) && act.past.closed) {
+      open(m, act);
+      continue;
+    }
+    book(m, *of, p, act);
+  }
+  act.end = m.u;
+  act.penetrates = m.at.gap < 0.0;
+}
+
+} // namespace fretwork::transient

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// One contact over a step h of the splitting scheme, the forces of all others given. It moves by
+///     u'' = a + j t + W F
+/// a + j t: its acceleration along y, z, x without its own force; W: its mobility; F: its force, of the laws over intervals (contact/normal_interval.hpp,
+/// contact/friction_interval.hpp). While the contact is open the time of its touch is found on that motion; from there to the end of the step it moves in
+/// equal intervals. The modes take the mean of F over the step and its first moment.
+#pragma once
+#include "transient/scene/scheme.hpp"
+#include "transient/splitting/contact_interval.hpp"
+
+namespace fretwork::transient {
+
+/// Motion of a contact over a step without its own force: u + v t + a t^2/2 + j t^3/6.
+struct FreePath {
+  Components u, v, a, j;
+};
+
+/// What a contact does in a step.
+struct ContactAct {
+  Components mean, slope;  ///< N: its force is linear in time from mean - slope to mean + slope
+  Components last;         ///< N: in its last interval
+  Components end;          ///< m: where it is at the end
+  bool penetrates = false; ///< there, though it may be free of force
+  double relaxed = 0.0;    ///< J, given up by its tangential spring while it was open
+  bool opened = false;     ///< within the step
+  ContactState state;
+  ContactPast past; ///< at the end
+};
+
+class ContactStep {
+public:
+  /// @param support  must live longer   @param rest  of the contact without displacement, m
+  /// @param in_plane  friction acts along x too   @param step  h, s   @param parts  intervals of a step in which the contact is closed, >= 1
+  /// @param clearance  m, that is not to be passed unseen
+  ContactStep(const contact::Support& support, const Components& rest, const Mobility& mobility,
+              bool in_plane, double step, int parts, double clearance);
+
+  /// From now on the contact moves in so many intervals, >= 1, where it is closed throughout a step. No allocation.
+  void divide(int parts);
+  /// Whether the contact can have a force in the step.
+  [[nodiscard]] bool meets(const ContactPast& past, const FreePath& path) const;
+  /// @param guess  N, its force at the start   @param act  overwritten. No allocation.
+  void make(const ContactPast& past, const FreePath& path, const Components& guess, ContactAct& act) const;
+  /// An open contact forgets over `time`. Returns what its spring gives up, J.
+  double relax(ContactPast& past, double time) const { return intervals_.relax(past, time); }
+  /// A spring that sticks is stretched by what the modes moved, not by what the step took them to move: it would creep.
+  /// @param missed  m, what they moved further
+  void stretch(ContactPast& past, const Components& missed) const;
+  /// Energy of the tangential spring, J.
+  [[nodiscard]] double spring_energy(const ContactPast& past) const;
+  /// N: by how much its force can change for an acceleration of 1 m/s2 over the step.
+  [[nodiscard]] double answer() const { return answer_; }
+
+private:
+  [[nodiscard]] int looks(const Components& velocity, double time) const;
+  bool find_touch(ContactPath& m, ContactAct& act) const;
+  void open(const ContactPath& m, ContactAct& act) const;
+  [[nodiscard]] double pause(const ContactPath& m) const;
+  void leave(ContactPath& m, double time, ContactAct& act) const;
+  void book(ContactPath& m, const IntervalTable& of, const PressedInterval& p, ContactAct& act) const;
+
+  const contact::NormalLaw normal_;
+  const contact::FrictionLaw friction_;
+  bool in_plane_;
+  double h_, clearance_;
+  ContactIntervals intervals_;
+  double answer_; ///< kg, as `answer`
+};
+
+} // namespace fretwork::transient

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The contacts over a step h of the splitting scheme: each moves through the step by itself (contact_step.hpp), one after the other, with the forces
+/// of the others as linear functions of time, until none would answer what has changed since (Gauss-Seidel sweeps). A contact moves by
+///     u(t) = path(t) + r(t),   r'' = W (f - held)
+/// path: of the modes, the cubic through displacements and velocities at both ends of the step as they are under the forces `held` of the contacts
+/// that were closed (constant over the step); r: what the change of forces adds, with the mobility W for which W f h^2/2 is the exact displacement
+/// after a step under constant forces f. What rests stays at rest, whatever h: f = held then, and the path is constant.
+#pragma once
+#include "transient/contacts/contact_motion.hpp"
+#include "transient/contacts/contact_trial.hpp"
+#include "transient/splitting/contact_step.hpp"
+
+namespace fretwork::transient {
+
+/// J over a step, >= 0 but for errors of the order of the scheme.
+struct StepLosses {
+  double damping =
+      0.0; ///< normal and tangential dampers, what the positive part cuts, springs of open contacts
+  double friction = 0.0; ///< Coulomb sliders
+};
+
+class ContactSweeps {
+public:
+  /// @param contacts  must live longer   @param mobility  W: of contact `to` by a force on contact `from` at from * contacts + to
+  /// @param step  h, s   @param parts  of contact_step.hpp
+  ContactSweeps(const PackedContacts& contacts, std::vector<Mobility> mobility, double step, int parts);
+
+  /// From now on contact c moves in so many intervals a step, >= 1. No allocation.
+  void divide(int c, int parts);
+  /// All contacts are where those of `other` are, which has another step. No allocation.
+  void follow(const ContactSweeps& other);
+  /// Contact c has borne this force before the run.
+  void hold(int c, const contact::Location& at, double normal_force);
+  /// Forces of a step. No allocation.
+  /// @param start  motion at its start   @param end  at its end, under the forces held   @param near  contacts that may be closed in it, those
+  ///   with a force held among them, by increasing number
+  /// @param trial  overwritten   @return whether the sweeps settled
+  bool make(const ContactMotion& start, const ContactMotion& end, const std::vector<int>& near,
+            ContactTrial& trial, StepLosses& losses);
+  /// After `make`, when the modes have taken the forces: the contacts stand here.
+  void settle(const ContactMotion& end);
+  /// Steps in which all contacts stay open. No allocation.
+  void pass(int steps, ContactTrial& trial, StepLosses& losses);
+
+  /// Of contact c over the last step `make` made with it, along y z x, N: linear in time from mean - slope to mean + slope.
+  struct Force {
+    Components mean, slope;
+    Components held; ///< for the next step: 0 where it is open at the end
+  };
+  [[nodiscard]] const Force& force(int c) const { return forces_[c]; }
+  /// Energy of all springs, J.
+  [[nodiscard]] double spring_energy() const { return normal_springs_ + tangential_springs_; }
+  void visit(core::StateArchive& state);
+
+private:
+  /// A contact in a step.
+  struct Moving {
+    int c;
+    FreePath path; ///< without its own force, the others with those held
+    Components mean,
+        slope; ///< m/s2: by what the others' forces differ from those held, linear in time from mean - slope to mean + slope
+    Components answered[2]; ///< these as they were when its force was found
+    ContactAct act;         ///< as it was found last
+  };
+  [[nodiscard]] Components of_lanes(const kernels::Array& lanes, int c) const;
+  [[nodiscard]] FreePath path_of(int c, const ContactMotion& start, const ContactMotion& end) const;
+  void find(Moving& m);
+  [[nodiscard]] double unanswered(const Moving& m) const;
+  bool sweep();
+
+  const PackedContacts& contacts_;
+  std::vector<Mobility> mobility_;
+  double h_;
+  std::vector<ContactStep> steps_;
+  std::vector<int> parts_; ///< of each contact
+  std::vector<ContactPast> pasts_;
+  std::vector<Force> forces_;
+  std::vector<Moving> moving_;
+  std::vector<int> loaded_; ///< whose tangential spring bears a force
+  double normal_springs_ = 0.0, tangential_springs_ = 0.0;
+};
+
+} // namespace fretwork::transient

@@ -1,0 +1,489 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/splitting/flexible_contacts.hpp"
+#include "contact/instant_spring.hpp"
+#include "transient/contacts/sweeps.hpp"
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace fretwork::transient {
+namespace {
+
+/// Largest change of a sweep, relative to the largest force there is.
+constexpr double sweep_tolerance = 1e-9;
+/// Contacts beside each other share most of their flexibility (0.9 of it: a factor 0.8 a sweep).
+constexpr int most_sweeps = 300;
+/// Sweeps in which normals turn.
+constexpr int most_turns = 30;
+/// Sweeps that take each contact's solution whole; later ones the share `damped` of its change, so that contacts that answer each other by
+/// turns settle between.
+constexpr int most_full = 60;
+constexpr double damped = 0.5;
+/// Angle below which they do not: less than what the step leaves by some digits.
+constexpr double turn_tolerance = 1e-7;
+/// Share of a depth by which the gap falls, below which another part of a profile is nearest there.
+constexpr double same_part = 1.0 - 1e-6;
+/// Each place found at the start is nearer by the share of R F_N in the obstacle's radius: to the last digit, or nearly so.
+constexpr int most_places = 50;
+
+/// Largest eigenvalue of a symmetric matrix.
+/// s: how long before and after an action contacts may close that it has to see: those with C_N.
+double half_window(const PackedContacts& contacts, double step) {
+  const bool any = std::any_of(contacts.supports.begin(), contacts.supports.end(),
+                               [](const contact::Support& s) { return s.normal.damping > 0.0; });
+  return any ? 0.5 * step : 0.0;
+}
+
+double largest_eigenvalue(const Eigen::Matrix2d& m) {
+  return 0.5 * (m(0, 0) + m(1, 1)) + std::hypot(0.5 * (m(0, 0) - m(1, 1)), m(0, 1));
+}
+
+} // namespace
+
+FlexibleContacts::FlexibleContacts(const PackedContacts& contacts, const Eigen::MatrixXd& residual,
+                                   double step)
+    : contacts_(contacts), h_(step), half_window_(half_window(contacts, step)) {
+  constexpr std::array<Eigen::Index, 3> stored = {1, 2, 0}; // of blocks y, z, x
+  const auto count = static_cast<std::size_t>(contacts.count);
+  r_.resize(3 * contacts.count, 3 * contacts.count);
+  for (Eigen::Index row = 0; row < r_.rows(); ++row)
+    for (Eigen::Index column = 0; column < r_.cols(); ++column)
+      r_(row, column) = residual(row / 3 * 3 + stored[static_cast<std::size_t>(row % 3)],
+                                 column / 3 * 3 + stored[static_cast<std::size_t>(column % 3)]);
+  a_ = Eigen::MatrixXd::Zero(3 * contacts.count, 3 * contacts.count);
+  for (int from = 0; from < contacts.count; ++from)
+    for (int to = 0; to < contacts.count; ++to)
+      for (int k = 0; k < contacts.components; ++k)
+        for (int l = 0; l < contacts.components; ++l)
+          a_(3 * to + k, 3 * from + l) =
+              0.5 * step * contacts.column(from)[l * contacts.stride() + k * contacts.width + to];
+  shut_.reserve(count);
+  speed_.assign(3 * count, 0.0);
+  give_ = speed_;
+  for (kernels::Array* a : {&bare_, &flown_, &now_, &last_, &before_, &guess_, &given_, &given_last_,
+                            &given_before_, &own_, &own_last_, &own_before_})
+    a->assign(static_cast<std::size_t>(contacts.stride()), 0.0);
+}
+
+double FlexibleContacts::start(ContactMotion& motion) {
+  still_ = true;
+  for (int i = 0; i < most_places; ++i) { // the normals turn with the places that the forces give
+    (void)act(nullptr, motion);
+    const bool settled = now_ == last_;
+    for (int twice = 0; twice < 2; ++twice)
+      accept();
+    if (settled)
+      break;
+    motion.u = bare_;
+  }
+  for (std::size_t lane = 0; lane < now_.size(); ++lane)
+    motion.u[lane] = bare_[lane] + given_[lane];
+  still_ = false;
+  actions_ = 0;
+  return 0.5 * std::inner_product(now_.begin(), now_.end(), given_.begin(), 0.0);
+}
+
+FlexibleContacts::Action FlexibleContacts::solve(const ContactMemory& memory, ContactMotion& motion,
+                                                 ContactTrial& trial) {
+  Action action;
+  trial.clear();
+  action.converged = act(&memory, motion);
+  close(trial, action);
+  std::sort(trial.active.begin(), trial.active.end());
+  return action;
+}
+
+/// Finds the forces and moves the contacts. Returns whether the sweeps settled.
+bool FlexibleContacts::act(const ContactMemory* memory, ContactMotion& motion) {
+  shut_.clear();
+  std::fill(now_.begin(), now_.end(), 0.0);
+  std::fill(given_.begin(), given_.end(), 0.0);
+  bare_ = motion.u;
+  if (memory)
+    for (std::size_t lane = 0; lane < bare_.size(); ++lane)
+      flown_[lane] = (bare_[lane] - (memory->position()[lane] - given_last_[lane])) / h_;
+  differentiate();
+  if (quiet_) { // and not what `start` or another run has left
+    std::fill(guess_.begin(), guess_.end(), 0.0);
+    std::fill(own_.begin(), own_.end(), 0.0);
+  } else
+    foretell(motion);
+  const bool near = motion.find_near(half_window_);
+  if (!near && quiet_)
+    return true;
+  for (int c = 0; c < contacts_.count; ++c)
+    if ((near && motion.near(c)) || last_[c] != 0.0 || last_[contacts_.width + c] != 0.0)
+      take(c, motion);
+  bool settled = true;
+  do {
+    build(motion);
+    settled = sweep(memory, motion);
+    move(motion);
+  } while (recruit(motion));
+  return settled;
+}
+
+void FlexibleContacts::accept() {
+  before_.swap(last_);
+  given_before_.swap(given_last_);
+  last_ = now_;
+  given_last_ = given_;
+  const auto none = [](const kernels::Array& force) {
+    return std::all_of(force.begin(), force.end(), [](double f) { return f == 0.0; });
+  };
+  quiet_ = none(last_) && none(before_);
+  own_before_.swap(own_last_);
+  std::fill(own_last_.begin(), own_last_.end(), 0.0);
+  for (const Shut& s : shut_) {
+    const double own = s.residual(0, 0) * s.force[0];
+    own_last_[s.contact] = s.ny * own;
+    own_last_[contacts_.width + s.contact] = s.nz * own;
+  }
+  ++actions_;
+}
+
+/// The derivative of the parabola through f_k and the last two, of which the start is one in the first two steps.
+void FlexibleContacts::differentiate() {
+  rate_ = actions_ == 0   ? Rate{2.0 / h_, -2.0 / h_, 0.0}
+          : actions_ == 1 ? Rate{5.0 / 3.0 / h_, -3.0 / h_, 4.0 / 3.0 / h_}
+                          : Rate{1.5 / h_, -2.0 / h_, 0.5 / h_};
+  half_step_ = actions_ == 0   ? Rate{1.0, -1.0, 0.0}
+               : actions_ == 1 ? Rate{1.0, -2.0, 1.0}
+                               : Rate{1.0, -1.5, 0.5};
+}
+
+/// The force of this step, by the last two where the contact was closed in both, and where that takes the contacts, but for what each
+/// normal force does to its own contact.
+void FlexibleContacts::foretell(ContactMotion& motion) {
+  const int width = contacts_.width;
+  for (int c = 0; c < contacts_.count; ++c) {
+    const bool closed = last_[c] != 0.0 || last_[width + c] != 0.0;
+    const bool twice = closed && (before_[c] != 0.0 || before_[width + c] != 0.0);
+    for (int k = 0; k < contacts_.components; ++k) {
+      const int lane = k * width + c;
+      guess_[lane] = last_[lane] + (twice ? last_[lane] - before_[lane] : 0.0);
+      own_[lane] = own_last_[lane] + (twice ? own_last_[lane] - own_before_[lane] : 0.0);
+    }
+  }
+  give(guess_, given_);
+  for (std::size_t lane = 0; lane < given_.size(); ++lane)
+    given_[lane] -= own_[lane];
+  for (std::size_t lane = 0; lane < given_.size(); ++lane)
+    motion.u[lane] += given_[lane];
+}
+
+/// Gap of a contact where it stands in `motion`, by the normal there; of an obstacle in parts by that where its own normal force takes it back to: deeper
+/// another part may be nearest.
+contact::Location FlexibleContacts::face_at(int c, ContactMotion& motion) const {
+  if (!contacts_.has_parts[c])
+    return motion.locate(c);
+  double &y = motion.u[c], &z = motion.u[contacts_.width + c];
+  const double deep_y = y, deep_z = z, own_y = own_[c], own_z = own_[contacts_.width + c];
+  y += own_y;
+  z += own_z;
+  auto at = motion.locate(c);
+  at.gap -= at.ny * own_y + at.nz * own_z;
+  y = deep_y;
+  z = deep_z;
+  return at;
+}
+
+/// A contact where it stands in `motion`, moved there by `given_`.
+void FlexibleContacts::take(int c, ContactMotion& motion) {
+  const contact::Support& support = contacts_.supports[c];
+  const int width = contacts_.width;
+  const auto at = face_at(c, motion);
+  Shut& s = shut_.emplace_back();
+  s.contact = c;
+  s.friction = !still_ && support.friction.active();
+  s.in_plane = contacts_.in_plane[c] != 0;
+  s.deeper = largest_eigenvalue(r_.block<2, 2>(3 * c, 3 * c));
+  s.ny = at.ny;
+  s.nz = at.nz;
+  s.bare = -at.gap + at.ny * given_[c] + at.nz * given_[width + c];
+  const double reach = half_window_ * motion.sinking(c, at.ny, at.nz);
+  s.closed =
+      still_ ? 0.0 : contact::closed_share(-at.gap - reach, -at.gap + reach); // as the last forces leave it
+  face(s, motion);
+  along(s, guess_, s.force);
+  s.force[0] = std::max(0.0, s.force[0]);
+  if (!s.friction || s.force[0] == 0.0)
+    s.force[1] = s.force[2] = 0.0;
+  if (!s.friction)
+    return;
+  const contact::FrictionLaw& law = support.friction;
+  const double k = law.stiffness, damping = law.damping, scale = 0.5 * k * h_ + damping; // G h
+  s.rate = law.kind == contact::FrictionMemoryKind::reference
+               ? rate_
+               : Rate{(k * half_step_.now + damping * rate_.now) / scale,
+                      (k * half_step_.last + damping * rate_.last) / scale,
+                      (k * half_step_.before + damping * rate_.before) / scale};
+}
+
+/// Components along n, t, x_loc.
+void FlexibleContacts::along(const Shut& s, const kernels::Array& lanes, double* to) const {
+  const int width = contacts_.width, c = s.contact;
+  const double y = lanes[c], z = lanes[width + c];
+  to[0] = s.ny * y + s.nz * z;
+  to[1] = s.nz * y - s.ny * z;
+  to[2] = contacts_.components > 2 ? lanes[2 * width + c] : 0.0;
+}
+
+/// What a contact has along its directions before the action, and what its own forces do.
+void FlexibleContacts::face(Shut& s, const ContactMotion& motion) const {
+  s.approach = motion.sinking(s.contact, s.ny, s.nz);
+  s.flown = -(s.ny * flown_[s.contact] + s.nz * flown_[contacts_.width + s.contact]);
+  along(s, motion.w, s.velocity);
+  along(s, given_last_, s.last);
+  along(s, given_before_, s.before);
+  Eigen::Matrix3d d;
+  d << s.ny, s.nz, 0.0, s.nz, -s.ny, 0.0, 0.0, 0.0, 1.0;
+  s.mobility = d * a_.block<3, 3>(3 * s.contact, 3 * s.contact) * d.transpose();
+  s.residual = d * r_.block<3, 3>(3 * s.contact, 3 * s.contact) * d.transpose();
+  const contact::NormalLaw& law = contacts_.supports[s.contact].normal;
+  s.normal = law;
+  s.normal.damping *= s.closed;
+  if (still_)
+    s.normal.dissipation = 0.0;
+}
+
+/// p0 of a contact whose spring, in series with its residual flexibility, bears the force of an action: contact::InstantSpring.
+double FlexibleContacts::at_instant(Shut& s, double p0) const {
+  s.instant_share = 1.0;
+  if (still_ || !(p0 > 0.0))
+    return p0;
+  const double flexibility = 1.0 / s.normal.stiffness + s.residual(0, 0);
+  const auto push =
+      contact::InstantSpring(1.0 / flexibility, s.mobility(0, 0), h_).push(p0, s.flown, -s.velocity[0]);
+  s.instant_share = push.instant / push.force;
+  return flexibility * push.force;
+}
+
+/// Turns a contact to the normal of where it stands. Returns the change of its force, N.
+double FlexibleContacts::turn(std::size_t i, ContactMotion& motion) {
+  Shut& s = shut_[i];
+  const int y = s.contact, z = y + contacts_.width;
+  const auto locate = [&](double depth, double ny, double nz) {
+    motion.u[y] = bare_[y] + give_[3 * i] - depth * ny;
+    motion.u[z] = bare_[z] + give_[3 * i + 1] - depth * nz;
+    return motion.locate(s.contact);
+  };
+  double depth = s.deeper * s.force[0];
+  if (contacts_.has_parts[s.contact]) {
+    const auto here = locate(0.0, 0.0, 0.0);
+    if (here.gap - locate(depth, here.ny, here.nz).gap < same_part * depth)
+      depth = 0.0;
+  }
+  const auto at = locate(depth, s.ny, s.nz);
+  const double by_y = give_[3 * i] - depth * s.ny, by_z = give_[3 * i + 1] - depth * s.nz;
+  const double turned = std::hypot(at.ny - s.ny, at.nz - s.nz);
+  if (turned > turn_tolerance) {
+    const Eigen::Vector3d before = force(s);
+    s.ny = at.ny;
+    s.nz = at.nz;
+    face(s, motion);
+    push(s.contact, force(s) - before);
+  }
+  s.bare = -at.gap + s.ny * by_y + s.nz * by_z;
+  return turned > turn_tolerance ? turned * s.force[0] : 0.0;
+}
+
+/// Takes the contacts that the forces found have closed. Returns whether there are any.
+bool FlexibleContacts::recruit(ContactMotion& motion) {
+  const std::size_t before = shut_.size();
+  if (before == static_cast<std::size_t>(contacts_.count) || !motion.find_near(half_window_))
+    return false;
+  for (int c = 0; c < contacts_.count; ++c) {
+    const bool taken = std::any_of(shut_.begin(), shut_.end(), [c](const Shut& s) { return s.contact == c; });
+    if (taken || !motion.near(c))
+      continue;
+    take(c, motion);
+    if (!(motion.locate(c).gap < 0.0) && !(shut_.back().normal.damping > 0.0))
+      shut_.pop_back();
+  }
+  return shut_.size() > before;
+}
+
+/// What the forces of the shut contacts do.
+void FlexibleContacts::build(const ContactMotion& motion) {
+  for (std::size_t i = 0; i < shut_.size(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      const std::size_t row = 3 * i + static_cast<std::size_t>(k);
+      speed_[row] = k < contacts_.components ? motion.w[k * contacts_.width + shut_[i].contact] : 0.0;
+      give_[row] = 0.0;
+    }
+  for (const Shut& s : shut_)
+    push(s.contact, force(s));
+}
+
+/// Along y, z, x_loc.
+Eigen::Vector3d FlexibleContacts::force(const Shut& s) {
+  return {s.force[0] * s.ny + s.force[1] * s.nz, s.force[0] * s.nz - s.force[1] * s.ny, s.force[2]};
+}
+
+/// Adds to the force on a contact; all velocities and displacements answer.
+void FlexibleContacts::push(int from, const Eigen::Vector3d& by) {
+  for (int l = 0; l < 3; ++l) {
+    if (by(l) == 0.0)
+      continue;
+    const auto a = a_.col(3 * from + l), r = r_.col(3 * from + l);
+    for (std::size_t i = 0; i < shut_.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Eigen::Index row = 3 * shut_[i].contact + static_cast<Eigen::Index>(k);
+        speed_[3 * i + k] += a(row) * by(l);
+        give_[3 * i + k] += r(row) * by(l);
+      }
+  }
+}
+
+void FlexibleContacts::change(std::size_t i, int component, double by) {
+  if (by == 0.0)
+    return;
+  Shut& s = shut_[i];
+  s.force[component] += by;
+  push(s.contact, component == 0   ? Eigen::Vector3d(by * s.ny, by * s.nz, 0.0)
+                  : component == 1 ? Eigen::Vector3d(by * s.nz, -by * s.ny, 0.0)
+                                   : Eigen::Vector3d(0.0, 0.0, by));
+}
+
+/// A component along n, t, x_loc of what `speed_` or `give_` hold.
+double FlexibleContacts::component(const std::vector<double>& of, std::size_t i, int k) const {
+  const Shut& s = shut_[i];
+  const double y = of[3 * i], z = of[3 * i + 1];
+  return k == 0 ? s.ny * y + s.nz * z : k == 1 ? s.nz * y - s.ny * z : of[3 * i + 2];
+}
+
+bool FlexibleContacts::sweep(const ContactMemory* memory, ContactMotion& motion) {
+  for (int k = 0; k < most_sweeps; ++k) {
+    double changed = 0.0, largest = 0.0;
+    for (std::size_t i = 0; i < shut_.size(); ++i) {
+      if (k < most_turns)
+        changed = std::max(changed, turn(i, motion));
+      changed = std::max(changed, improve(i, memory, k < most_full ? 1.0 : damped));
+      largest = std::max(largest, shut_[i].force[0]);
+    }
+    if (changed <= sweep_tolerance * largest)
+      return true;
+  }
+  return false;
+}
+
+/// p' at the instant of the action.
+double FlexibleContacts::normal_rate(std::size_t i) const {
+  const Shut& s = shut_[i];
+  return -(component(speed_, i, 0) + rate_.now * component(give_, i, 0) + rate_.last * s.last[0] +
+           rate_.before * s.before[0]);
+}
+
+/// One contact solved with all others held. Returns the largest change of its forces, N.
+double FlexibleContacts::improve(std::size_t i, const ContactMemory* memory, double share) {
+  Shut& s = shut_[i];
+  const double own = s.residual(0, 0), mobility = s.mobility(0, 0) + rate_.now * own;
+  s.alone = at_instant(s, std::max(0.0, s.bare - (component(give_, i, 0) - own * s.force[0])));
+  const double normal =
+      s.acts()
+          ? contact::series_force(s.normal, s.alone, normal_rate(i) + mobility * s.force[0], mobility, own)
+          : 0.0;
+  double changed = std::abs(normal - s.force[0]);
+  change(i, 0, share * (normal - s.force[0]));
+  if (!s.friction || !memory)
+    return changed;
+  const contact::Friction found = normal > 0.0 ? friction(i, *memory) : contact::Friction{{}, false};
+  s.slides = found.slides;
+  const double by_t = found.force.t - s.force[1], by_x = found.force.x - s.force[2];
+  change(i, 1, share * by_t);
+  change(i, 2, share * by_x);
+  return std::max({changed, std::abs(by_t), std::abs(by_x)});
+}
+
+contact::Friction FlexibleContacts::friction(std::size_t i, const ContactMemory& memory) const {
+  const Shut& s = shut_[i];
+  constexpr int t = 1, x = 2;
+  const auto mobility = [&](int row, int column) {
+    return s.mobility(row, column) + s.rate.now * s.residual(row, column);
+  };
+  const auto velocity = [&](int k) {
+    return component(speed_, i, k) + s.rate.now * component(give_, i, k) + s.rate.last * s.last[k] +
+           s.rate.before * s.before[k];
+  };
+  const contact::FrictionLaw& law = contacts_.supports[s.contact].friction;
+  const auto& table = memory.table(s.contact);
+  const auto past = memory.at(s.contact, s.ny, s.nz);
+  const double tt = mobility(t, t);
+  if (!s.in_plane)
+    return contact::step_friction_line(law, table, past, s.force[0], velocity(t) - tt * s.force[1], tt);
+  const double xx = mobility(x, x), xt = mobility(x, t);
+  const contact::Vec2 free{velocity(x) - xx * s.force[2] - xt * s.force[1],
+                           velocity(t) - xt * s.force[2] - tt * s.force[1]};
+  return contact::step_friction_plane(law, table, past, s.force[0], free, {xx, xt, tt});
+}
+
+/// All contacts to where the forces found take them.
+void FlexibleContacts::move(ContactMotion& motion) {
+  std::fill(now_.begin(), now_.end(), 0.0);
+  for (const Shut& s : shut_) {
+    const Eigen::Vector3d f = force(s);
+    for (int a = 0; a < contacts_.components; ++a)
+      now_[a * contacts_.width + s.contact] = f(a);
+  }
+  give(now_, given_);
+  for (std::size_t lane = 0; lane < given_.size(); ++lane)
+    motion.u[lane] = bare_[lane] + given_[lane];
+}
+
+void FlexibleContacts::give(const kernels::Array& force, kernels::Array& displacement) const {
+  std::fill(displacement.begin(), displacement.end(), 0.0);
+  const int width = contacts_.width, components = contacts_.components;
+  for (int from = 0; from < contacts_.count; ++from)
+    for (int l = 0; l < components; ++l) {
+      const double f = force[l * width + from];
+      if (f == 0.0)
+        continue;
+      for (int to = 0; to < contacts_.count; ++to)
+        for (int k = 0; k < components; ++k)
+          displacement[k * width + to] += r_(3 * to + k, 3 * from + l) * f;
+    }
+}
+
+/// Forces found: what the contacts do over the step.
+void FlexibleContacts::close(ContactTrial& trial, Action& action) const {
+  for (std::size_t i = 0; i < shut_.size(); ++i) {
+    const Shut& s = shut_[i];
+    const int c = s.contact;
+    const double rate = normal_rate(i);
+    const double p = s.alone - s.residual(0, 0) * s.force[0], spring = s.normal.stiffness * p;
+    if (s.alone > 0.0)
+      trial.springs += 0.5 * s.normal.stiffness * p * p;
+    if (!s.acts())
+      continue;
+    const double loss = h_ * (s.force[0] - spring) * rate;
+    if (!(s.force[0] > 0.0)) { // the damper holds the contact free of force: it is open
+      trial.cut += loss;
+      continue;
+    }
+    ContactState& state = trial.states[c];
+    state.normal_force = s.force[0];
+    state.ny = s.ny;
+    state.nz = s.nz;
+    state.approach = s.approach;
+    state.damper_work = loss;
+    double moved[3] = {}; // over the step
+    for (int k = 0; k < 3; ++k) {
+      const double speed = component(speed_, i, k), give = component(give_, i, k);
+      action.work += h_ * s.force[k] * speed;
+      action.jump += h_ * s.force[k] * (speed - s.velocity[k]);
+      trial.springs += 0.5 * s.force[k] * give;
+      moved[k] = h_ * (speed + rate_.now * give + rate_.last * s.last[k] + rate_.before * s.before[k]);
+    }
+    if (s.friction) {
+      state.friction = {s.force[2], s.force[1]};
+      const contact::Vec2 along = contacts_.supports[c].friction.along;
+      state.displacement = {s.in_plane ? along.x * moved[2] : 0.0, along.t * moved[1]};
+      state.slides = s.slides;
+    }
+    trial.active.push_back(c);
+  }
+}
+
+} // namespace fretwork::transient

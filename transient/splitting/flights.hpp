@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Which scenes `splitting` may make several steps of at once while no contact can meet its obstacle (splitting.cpp).
+#pragma once
+#include "transient/scene/scene.hpp"
+
+namespace fretwork::transient {
+
+/// Contacts act where they touch and nowhere before (no normal damper, no residual flexibility); their displacements follow from uncoupled
+/// modes alone, their gaps bend nowhere upwards: not outside of a round body.
+[[nodiscard]] bool may_fly(const Scene& scene);
+
+} // namespace fretwork::transient

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The error of a run by its step, measured while it goes on. From time to time a second scheme of half the step and a quarter of the interval takes
+/// over the state of the running one and replays what follows, over a few periods of the contacts: too short for both to part by chaos. Let s be what
+/// a statistic of a contact sums over the replayed times and d by how much a replay's part of it differs. Then
+///     error = 4/3 d/s +- 4/3 (sum of d^2)^1/2/s
+/// the error that the step makes in that time; statistics of long runs may keep less of it, for a contact that slips too far sticks the longer.
+/// 4/3: of intervals, whose errors are of order 1 at least, a quarter shows three quarters. Contacts whose error is significant and above half of the
+/// accuracy are moved in twice as many intervals from then on.
+#pragma once
+#include "transient/scene/scheme.hpp"
+
+namespace fretwork::transient {
+
+/// A scheme that can go on from where another one of the same scene is.
+class Replayable : public Scheme {
+public:
+  /// Goes on after the last step that `running` has made, which is of the same class and has a whole multiple of this one's step. No allocation.
+  /// Returns the time from which on its records are to come, s.
+  virtual double follow(const Replayable& running) = 0;
+  /// From now on a contact moves in so many intervals a step, >= 1. No allocation.
+  virtual void divide(int contact, int parts) = 0;
+};
+
+struct ReplayOptions {
+  double accuracy; ///< of statistics
+  double length;   ///< s, of a replay
+  int contacts;    ///< of the scene
+  int parts;       ///< intervals of a step of the running scheme at its start
+  int most_parts;  ///< and at most
+};
+
+/// Splitting without residual flexibility, as make_splitting.
+[[nodiscard]] std::unique_ptr<Replayable> make_replayable_splitting(const Scene& scene, double step,
+                                                                    double fastest, int longest, int parts);
+/// @param running  whose records are those of the whole   @param finer  of half its step
+[[nodiscard]] std::unique_ptr<Scheme> make_replayed(std::unique_ptr<Replayable> running,
+                                                    std::unique_ptr<Replayable> finer,
+                                                    const ReplayOptions& options);
+
+} // namespace fretwork::transient
