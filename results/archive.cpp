@@ -304,9 +304,14 @@ void check_sizes(const RunResults& results) {
       throw h5::Failure("nodes of the modes");
     modes += basis.size();
   }
+  for (const ContactFacts& c : results.contacts)
+    for (const fem::NodeShare& share : c.point.motion)
+      if (!results.nodes.empty() && !all_below({&share.node, 1}, results.nodes.size()))
+        throw h5::Failure("nodes of contact " + c.name);
   for (const post::ContactSeries& s : results.series.contacts)
     if (!fits(s.displacement, results, 3) || !fits(s.velocity, results, 3) || !fits(s.gap, results, 1) ||
         !fits(s.normal_force, results, 1) || !fits(s.tangential_force, results, 2) ||
+        !fits(s.normal, results, 2) ||
         static_cast<Eigen::Index>(s.state.size()) != results.series.time.size())
       throw h5::Failure("series of contact " + s.name + " of unequal length");
   for (const post::NodeSeries& s : results.series.nodes)

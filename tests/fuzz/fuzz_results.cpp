@@ -69,10 +69,13 @@ void fuzz_exports(const Files& files, std::span<const std::uint8_t> edits, int f
   try {
     const results::RunResults run = results::read_archive(files.folder.path());
     check_modes(run.bases);
-    const auto write = format == 0   ? results::export_csv
-                       : format == 1 ? results::export_vtu
-                                     : results::export_msh;
-    write(files.folder.path(), run);
+    const results::OutputWindow all;
+    if (format == 0)
+      results::export_csv(files.folder.path(), run);
+    else if (format == 1)
+      (void)results::export_vtu(files.folder.path(), run, all);
+    else
+      results::export_msh(files.folder.path(), run);
   } catch (const core::Error&) {
   }
 }

@@ -306,6 +306,9 @@ TEST(Archive, TellsContentThatContradictsItself) {
   refused("nodes of the modes", [](RunResults& r) { r.bases[0].nodes[1] = 1'000'000; });
   refused("series of contact",
           [](RunResults& r) { r.series.contacts[0].velocity.conservativeResize(Eigen::NoChange, 2); });
+  refused("series of contact",
+          [](RunResults& r) { r.series.contacts[0].normal.conservativeResize(Eigen::NoChange, 1); });
+  refused("nodes of contact", [](RunResults& r) { r.contacts[0].point.motion[0].node = 1'000'000; });
   refused("series of the modes", [](RunResults& r) {
     r.series.modal_displacement.conservativeResize(r.series.modal_displacement.rows() - 1, Eigen::NoChange);
   });
