@@ -14,9 +14,6 @@ constexpr double shortest_piece = 1e-9;
 /// K_T tau/C_T above which the damper is none, and below which e^-r is a series.
 constexpr double no_damper = 1e8, slow_damper = 1e-4;
 
-double size(double a) { return std::abs(a); }
-double size(Vec2 a) { return norm(a); }
-double dot(double a, double b) { return a * b; }
 double unit(double a) { return std::copysign(1.0, a); }
 Vec2 unit(Vec2 a) {
   const double length = norm(a);
@@ -61,7 +58,7 @@ private:
   [[nodiscard]] PieceTable table(double time) const {
     return time == usual_.length ? usual_ : piece_table(law_, mobility_, time);
   }
-  [[nodiscard]] V trial() const { return out_.spring - law_.damping * out_.velocity; }
+  [[nodiscard]] V trial() const { return law_.trial(out_.spring, out_.velocity); }
 
   /// A piece with its state at the end.
   struct Piece {
@@ -85,7 +82,7 @@ private:
     return p;
   }
   void stick(bool last) {
-    const double over0 = size(trial()) - law_.mu_static * normal_;
+    const double over0 = norm(trial()) - law_.mu_static * normal_;
     if (over0 > 0.0 && !stands_ && !last) {
       out_.sliding = true;
       return;
@@ -93,7 +90,7 @@ private:
     PieceTable t = table(left_);
     Piece p = sticking(t);
     const double over1 =
-        size(V(p.spring - law_.damping * p.velocity)) - law_.mu_static * (normal_ + growth_ * left_);
+        norm(law_.trial(p.spring, p.velocity)) - law_.mu_static * (normal_ + growth_ * left_);
     if (over1 > 0.0 && !last) {
       out_.sliding = true;
       const double part = over0 < 0.0 ? over0 / (over0 - over1) : 0.0;
@@ -102,7 +99,7 @@ private:
       t = table(left_ * part);
       p = sticking(t);
     } else if (const double bound = law_.mu_static * (normal_ + 0.5 * growth_ * left_),
-               length = size(p.force);
+               length = norm(p.force);
                length > bound) {
       p.force =
           (bound / length) *
@@ -119,7 +116,7 @@ private:
   }
   [[nodiscard]] double slider_speed(V along, V spring, V velocity, double normal) const {
     return law_.damping > 0.0
-               ? (dot(spring - law_.damping * velocity, along) - law_.mu_dynamic * normal) / law_.damping
+               ? (dot(law_.trial(spring, velocity), along) - law_.mu_dynamic * normal) / law_.damping
                : -dot(velocity, along) - law_.mu_dynamic * growth_ / law_.stiffness;
   }
   [[nodiscard]] Piece slipping(const PieceTable& t, V before) const {
@@ -154,8 +151,8 @@ private:
       p = slipping(t, before);
     }
     const double n1 = normal_ + growth_ * t.length;
-    const double v0 = size(out_.velocity), twice = 2.0 * size(p.by) / t.length,
-                 v1 = size(p.velocity); // Simpson's rule
+    const double v0 = norm(out_.velocity), twice = 2.0 * norm(p.by) / t.length,
+                 v1 = norm(p.velocity); // Simpson's rule
     out_.slid += t.length * (v0 + 2.0 * twice + v1) / 6.0;
     out_.rubbed += t.length * (normal_ * v0 + (normal_ + n1) * twice + n1 * v1) / 6.0;
     out_.sliding_time += t.length;

@@ -13,14 +13,6 @@ constexpr double one_line =
     1e-12; ///< det A / trace^2 below which the node moves along one line only: round-off of W
 constexpr double bound_tolerance = 1e-14; ///< relative: |F| meets the bound to round-off
 
-Vec2 masked(const FrictionLaw& law, Vec2 v) { return {law.along.x * v.x, law.along.t * v.t}; }
-Sym2 masked(const FrictionLaw& law, const Sym2& a) {
-  return {law.along.x * a.xx, law.along.x * law.along.t * a.xt, law.along.t * a.tt};
-}
-
-/// s (I - e e^T) of a unit vector e.
-Sym2 across(Vec2 e, double s) { return {s * e.t * e.t, -s * e.x * e.t, s * e.x * e.x}; }
-
 /// Solves (M + s I) f = b, M + s I symmetric positive definite.
 Vec2 solve(const Mobility& m, double s, Vec2 b) {
   const double xx = m.xx + s, tt = m.tt + s;
@@ -72,34 +64,15 @@ Vec2 force_of_length(double length, const Mobility& m, Vec2 b) {
 
 Friction evaluate(const FrictionLaw& law, const FrictionMemory& memory, double normal_force, Vec2 dx,
                   Vec2 velocity) {
-  dx = masked(law, dx);
-  velocity = masked(law, velocity);
-  const Vec2 trial = memory.spring - law.stiffness * dx - law.damping * velocity;
-  const double bound = (memory.sliding ? law.mu_dynamic : law.mu_static) * normal_force;
+  dx = law.masked(dx);
+  velocity = law.masked(velocity);
+  const Vec2 trial = law.trial(memory.spring - law.stiffness * dx, velocity);
+  const double bound = law.coefficient(memory.sliding) * normal_force;
   if (norm(trial) <= bound)
     return {trial, false};
   const bool along_velocity = law.kind == FrictionMemoryKind::reference && norm(velocity) > 0.0;
   const double slip_bound = law.mu_dynamic * normal_force;
   return {along_velocity ? scaled_to(velocity, -slip_bound) : scaled_to(trial, slip_bound), true};
-}
-
-FrictionSlopes friction_slopes(const FrictionLaw& law, const FrictionMemory& memory, double normal_force,
-                               Vec2 dx, Vec2 velocity) {
-  const Friction friction = evaluate(law, memory, normal_force, dx, velocity);
-  dx = masked(law, dx);
-  velocity = masked(law, velocity);
-  const double k = law.stiffness, c = law.damping, speed = norm(velocity);
-  if (!friction.slides)
-    return {friction, masked(law, Sym2{-k, 0.0, -k}), masked(law, Sym2{-c, 0.0, -c}), {}};
-  const double slip_bound = law.mu_dynamic * normal_force;
-  if (law.kind == FrictionMemoryKind::reference && speed > 0.0) {
-    const Vec2 e = (-1.0 / speed) * velocity;
-    return {friction, {}, masked(law, across(e, -slip_bound / speed)), law.mu_dynamic * e};
-  }
-  const Vec2 trial = memory.spring - k * dx - c * velocity;
-  const double size = norm(trial), s = slip_bound / size;
-  const Vec2 e = (1.0 / size) * trial;
-  return {friction, masked(law, across(e, -k * s)), masked(law, across(e, -c * s)), law.mu_dynamic * e};
 }
 
 FrictionTable friction_table(const FrictionLaw& law, double h) {
@@ -110,7 +83,7 @@ FrictionTable friction_table(const FrictionLaw& law, double h) {
 
 FrictionStep close_step(const FrictionLaw& law, const FrictionTable& table, const FrictionMemory& memory,
                         Friction friction, Vec2 dx) {
-  dx = masked(law, dx);
+  dx = law.masked(dx);
   const auto [force, slides] = friction;
   FrictionStep step;
   step.memory.sliding = slides;
@@ -136,7 +109,7 @@ FrictionStep close_step(const FrictionLaw& law, const FrictionTable& table, cons
   }
   step.friction_work = -dot(force, step.slip);
   step.memory.spring = after;
-  step.stored = 0.5 * table.compliance * (dot(after, after) - dot(before, before));
+  step.stored = law.spring_energy(after) - law.spring_energy(before);
   step.damper_work = -dot(force, stretch) - step.stored;
   return step;
 }
@@ -144,8 +117,7 @@ FrictionStep close_step(const FrictionLaw& law, const FrictionTable& table, cons
 FrictionStep open_step(const FrictionLaw& law, const FrictionTable& table, const FrictionMemory& memory) {
   FrictionStep step;
   step.memory.spring = (law.kind == FrictionMemoryKind::return_map ? table.relaxation : 0.0) * memory.spring;
-  step.stored = 0.5 * table.compliance *
-                (dot(step.memory.spring, step.memory.spring) - dot(memory.spring, memory.spring));
+  step.stored = law.spring_energy(step.memory.spring) - law.spring_energy(memory.spring);
   step.damper_work = -step.stored;
   return step;
 }
@@ -153,12 +125,12 @@ FrictionStep open_step(const FrictionLaw& law, const FrictionTable& table, const
 Friction step_friction_plane(const FrictionLaw& law, const FrictionTable& table, const FrictionMemory& memory,
                              double normal_force, Vec2 free_velocity, const Mobility& mobility) {
   const double gh = table.gradient;
-  const Mobility a = masked(law, mobility);
-  free_velocity = masked(law, free_velocity);
+  const Mobility a = law.masked(mobility);
+  free_velocity = law.masked(free_velocity);
   const Mobility m{1.0 + gh * a.xx, gh * a.xt, 1.0 + gh * a.tt};
   const Vec2 b = memory.spring - gh * free_velocity;
   const Vec2 stick = solve(m, 0.0, b);
-  const double bound = (memory.sliding ? law.mu_dynamic : law.mu_static) * normal_force;
+  const double bound = law.coefficient(memory.sliding) * normal_force;
   if (norm(stick) <= bound)
     return {stick, false};
   const double slip_bound = law.mu_dynamic * normal_force;
@@ -167,6 +139,19 @@ Friction step_friction_plane(const FrictionLaw& law, const FrictionTable& table,
   if (law.kind == FrictionMemoryKind::reference && norm(free_velocity) > 0.0)
     return {opposing(slip_bound, a, free_velocity), true};
   return {force_of_length(slip_bound, m, b), true};
+}
+
+Friction step_friction_line(const FrictionLaw& law, const FrictionTable& table, const FrictionMemory& memory,
+                            double normal_force, double free_velocity, double mobility) {
+  const double gradient = law.along.t * table.gradient;
+  const double stick = (memory.spring.t - gradient * free_velocity) / (1.0 + gradient * mobility);
+  if (std::abs(stick) <= law.coefficient(memory.sliding) * normal_force)
+    return {{0.0, stick}, false};
+  const double bound = law.mu_dynamic * normal_force;
+  if (law.kind != FrictionMemoryKind::reference || free_velocity == 0.0)
+    return {{0.0, std::copysign(bound, stick)}, true};
+  const double speed = std::abs(free_velocity); // over the mobility: what brings the node to rest
+  return {{0.0, std::copysign(speed < mobility * bound ? speed / mobility : bound, -free_velocity)}, true};
 }
 
 } // namespace fretwork::contact

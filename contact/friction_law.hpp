@@ -39,6 +39,18 @@ struct FrictionLaw {
                         ///< along x_loc only, (0, 1) across it only
 
   [[nodiscard]] bool active() const { return mu_static > 0.0; }
+  [[nodiscard]] double coefficient(bool sliding) const { return sliding ? mu_dynamic : mu_static; }
+  /// In the directions in which friction acts.
+  [[nodiscard]] Vec2 masked(Vec2 v) const { return {along.x * v.x, along.t * v.t}; }
+  [[nodiscard]] Sym2 masked(const Sym2& a) const {
+    return {along.x * a.xx, along.x * along.t * a.xt, along.t * a.tt};
+  }
+  /// N: what spring and damper would bear in stick, T the spring's force as the node has stretched it. V: Vec2, or a number along t.
+  template <class V> [[nodiscard]] V trial(V spring, V velocity) const { return spring - damping * velocity; }
+  /// Energy of a spring that bears T, J.
+  template <class V> [[nodiscard]] double spring_energy(V spring) const {
+    return stiffness > 0.0 ? 0.5 * dot(spring, spring) / stiffness : 0.0;
+  }
 };
 
 /// What a contact remembers of its tangential past.
@@ -72,28 +84,13 @@ struct Friction {
                                             double normal_force, double dx, double velocity) {
   dx *= law.along.t;
   velocity *= law.along.t;
-  const double trial = memory.spring.t - law.stiffness * dx - law.damping * velocity;
-  const double bound = (memory.sliding ? law.mu_dynamic : law.mu_static) * normal_force;
+  const double trial = law.trial(memory.spring.t - law.stiffness * dx, velocity);
+  const double bound = law.coefficient(memory.sliding) * normal_force;
   if (std::abs(trial) <= bound)
     return {{0.0, trial}, false};
   const double along = law.kind == FrictionMemoryKind::reference && velocity != 0.0 ? -velocity : trial;
   return {{0.0, std::copysign(law.mu_dynamic * normal_force, along)}, true};
 }
-
-/// F of `evaluate` and its derivatives, for schemes that solve for the end of a step. With P = I - e e^T, e
-/// the direction of the force, all masked by `along`:
-///     stick                 dF/dx = -K_T I, dF/dv = -C_T I, dF/dF_N = 0
-///     slip along the trial  dF/dx = -K_T s P, dF/dv = -C_T s P, s = mu_d F_N/|trial|;  dF/dF_N = mu_d e
-///     slip along -v         dF/dx = 0, dF/dv = -(mu_d F_N/|v|) P;  dF/dF_N = mu_d e
-/// At the bound, where F bends (mu_s = mu_d) or jumps, those of the side that `evaluate` takes.
-struct FrictionSlopes {
-  Friction friction;
-  Sym2 by_displacement; ///< N/m
-  Sym2 by_velocity;     ///< N s/m
-  Vec2 by_normal_force;
-};
-[[nodiscard]] FrictionSlopes friction_slopes(const FrictionLaw& law, const FrictionMemory& memory,
-                                             double normal_force, Vec2 dx, Vec2 velocity);
 
 /// What a law needs of a step of length h, made once.
 struct FrictionTable {
@@ -118,11 +115,6 @@ struct FrictionTable {
 /// A spring that has relaxed to this share of what it bore when its contact opened is forgotten: round-off of its energy.
 inline constexpr double forgotten = 1e-12;
 
-/// Energy of the tangential spring, J.
-[[nodiscard]] inline double spring_energy(const FrictionLaw& law, const FrictionMemory& memory) {
-  return law.stiffness > 0.0 ? 0.5 * dot(memory.spring, memory.spring) / law.stiffness : 0.0;
-}
-
 /// Implicit friction of one contact over a step: the mean velocity answers the force, v = free_velocity + A F
 /// (A = (h/2) W_tt, symmetric, >= 0). Stick: (I + G h A) F = T - G h free_velocity. Slip: F of length
 /// mu_d F_N along the trial T - G h v; with M = I + G h A and b = T - G h free_velocity that is
@@ -136,37 +128,9 @@ using Mobility = Sym2; ///< m/s per N
                                            const FrictionMemory& memory, double normal_force,
                                            Vec2 free_velocity, const Mobility& mobility);
 
-/// The same where nothing moves along x_loc (the memory, the velocity and the coupling are 0 there): a scalar
-/// problem with F on a line. Made once a step, asked for many normal forces and free velocities.
-class LineStep {
-public:
-  LineStep() = default;
-  LineStep(const FrictionLaw& law, const FrictionTable& table, const FrictionMemory& memory, double mobility)
-      : spring_(memory.spring.t), gradient_(law.along.t * table.gradient), mobility_(mobility),
-        share_(1.0 / (1.0 + gradient_ * mobility)), mu_(memory.sliding ? law.mu_dynamic : law.mu_static),
-        mu_slip_(law.mu_dynamic), along_velocity_(law.kind == FrictionMemoryKind::reference) {}
-
-  [[nodiscard]] Friction friction(double normal_force, double free_velocity) const {
-    const double stick = (spring_ - gradient_ * free_velocity) * share_;
-    if (std::abs(stick) <= mu_ * normal_force)
-      return {{0.0, stick}, false};
-    const double bound = mu_slip_ * normal_force;
-    if (!along_velocity_ || free_velocity == 0.0)
-      return {{0.0, std::copysign(bound, stick)}, true};
-    const double speed = std::abs(free_velocity); // over the mobility: what brings the node to rest
-    return {{0.0, std::copysign(speed < mobility_ * bound ? speed / mobility_ : bound, -free_velocity)},
-            true};
-  }
-
-private:
-  double spring_ = 0.0, gradient_ = 0.0, mobility_ = 0.0, share_ = 1.0, mu_ = 0.0, mu_slip_ = 0.0;
-  bool along_velocity_ = false;
-};
-
-[[nodiscard]] inline Friction step_friction_line(const FrictionLaw& law, const FrictionTable& table,
-                                                 const FrictionMemory& memory, double normal_force,
-                                                 double free_velocity, double mobility) {
-  return LineStep(law, table, memory, mobility).friction(normal_force, free_velocity);
-}
+/// The same where nothing moves along x_loc (the memory, the velocity and the coupling are 0 there): a scalar problem with F on a line.
+[[nodiscard]] Friction step_friction_line(const FrictionLaw& law, const FrictionTable& table,
+                                          const FrictionMemory& memory, double normal_force,
+                                          double free_velocity, double mobility);
 
 } // namespace fretwork::contact

@@ -90,7 +90,7 @@ NormalInterval normal_over_interval(const NormalLaw& law, double dt, double usua
   const double p1 = out.end = path.end - b * out.force;
   const double closed0 = std::max(p0, 0.0), closed1 = std::max(p1, 0.0), s = closed_share(p0, p1);
   if (!(out.force > 0.0)) {
-    out.damper_work = 0.5 * law.stiffness * (closed0 * closed0 - closed1 * closed1);
+    out.damper_work = law.spring_energy(p0) - law.spring_energy(p1);
     return out;
   }
   const double spring = p0 >= 0.0 ? out.force + k * s * s * lag : out.force;

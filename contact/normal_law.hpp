@@ -19,15 +19,23 @@ struct NormalLaw {
 
   [[nodiscard]] bool damps() const { return damping > 0.0 || dissipation > 0.0; }
   /// c(p), N s/m.
-  [[nodiscard]] double damping_at(double penetration) const {
+  template <class T> [[nodiscard, gnu::always_inline]] T damping_at(T penetration) const {
     return damping + stiffness * dissipation * penetration;
+  }
+  /// K_N p + c(p) p', N: the force of a closed contact, whatever its sign. Numbers, or lanes of them.
+  template <class T> [[nodiscard, gnu::always_inline]] T spring_and_damper(T penetration, T rate) const {
+    return stiffness * penetration + damping_at(penetration) * rate;
+  }
+  /// Energy of the spring, J; none where the contact is open.
+  [[nodiscard]] double spring_energy(double penetration) const {
+    const double closed = std::max(0.0, penetration);
+    return 0.5 * stiffness * closed * closed;
   }
 };
 
 /// F_N at penetration p (m) and rate p' (m/s).
 [[nodiscard]] inline double normal_force(const NormalLaw& law, double penetration, double rate) {
-  return penetration < 0.0 ? 0.0
-                           : std::max(0.0, law.stiffness * penetration + law.damping_at(penetration) * rate);
+  return penetration < 0.0 ? 0.0 : std::max(0.0, law.spring_and_damper(penetration, rate));
 }
 
 /// F_N and its derivatives, those of the open side where the force is 0.
@@ -75,35 +83,9 @@ struct MeanSlopes {
   return low > 0.0 ? 1.0 : high > 0.0 ? high / (high - low) : 0.0;
 }
 
-/// Step form: F_N constant over a step, the damper implicit. `mean` is the mean penetration (> 0),
-/// `free_rate` the mean rate p' without this force, `mobility` = (h/2) n.W.n, what the mean normal speed
-/// changes by per newton: with p' = free_rate - mobility F_N,
-///     F_N = <K_N mean + c(mean) free_rate>+ / (1 + c(mean) mobility).
-/// Made once a step of its `spring`, N, and `damping`, N s/m, asked for many free rates.
-class NormalStep {
-public:
-  NormalStep() = default;
-  NormalStep(double spring, double damping, double mobility)
-      : spring_(spring), damping_(damping), share_(1.0 / (1.0 + damping * mobility)) {}
-  [[nodiscard]] double force(double free_rate) const {
-    return std::max(0.0, spring_ + damping_ * free_rate) * share_;
-  }
-  /// N: what the two bear at this rate, whatever the signs.
-  [[nodiscard]] double spring_and_damper(double rate) const { return spring_ + damping_ * std::abs(rate); }
-  /// N: of the spring alone.
-  [[nodiscard]] double spring() const { return spring_; }
-
-private:
-  double spring_ = 0.0, damping_ = 0.0, share_ = 1.0;
-};
-
-[[nodiscard]] inline double step_normal(const NormalLaw& law, double mean, double free_rate,
-                                        double mobility) {
-  return NormalStep(law.stiffness * mean, law.damping_at(mean), mobility).force(free_rate);
-}
-
-/// The same where the contact gives way by `compliance` F_N (R, m/N, >= 0), a spring in series, and `mean` (> 0) is the mean
-/// penetration there would be without: P = mean - R F_N,
+/// Step form: F_N constant over a step, the damper implicit. `mean` is the mean penetration (> 0) and `free_rate` the mean rate p' there would be without
+/// this force, `mobility` = (h/2) n.W.n what the mean normal speed changes by per newton, `compliance` R (m/N, >= 0) a spring in series by which the
+/// contact gives way: P = mean - R F_N,
 ///     F_N = <K_N P + c(P) p'>+,  p' = free_rate - mobility F_N,
 /// linear in F_N but for Hunt and Crossley's damper, which makes it a F^2 - b F + c = 0, the smaller root: K_N/(1 + K_N R) alone.
 [[nodiscard]] inline double series_force(const NormalLaw& law, double mean, double free_rate, double mobility,
@@ -115,23 +97,6 @@ private:
   const double a = growth * compliance * mobility;
   const double b = 1.0 + law.stiffness * compliance * impact + (law.damping + growth * mean) * mobility;
   return 2.0 * c / (b + std::sqrt(std::max(0.0, b * b - 4.0 * a * c)));
-}
-
-/// F_N of `step_normal` and its derivatives, with p' = free_rate - mobility F_N:
-///     dF_N/dmean = K_N (1 + d p')/(1 + c mobility),  dF_N/dfree_rate = c/(1 + c mobility)
-struct StepSlopes {
-  double force;        ///< N
-  double by_mean;      ///< N/m
-  double by_free_rate; ///< N s/m
-};
-[[nodiscard]] inline StepSlopes step_slopes(const NormalLaw& law, double mean, double free_rate,
-                                            double mobility) {
-  const double force = step_normal(law, mean, free_rate, mobility);
-  if (!(force > 0.0))
-    return {0.0, 0.0, 0.0};
-  const double c = law.damping_at(mean), divisor = 1.0 + c * mobility;
-  return {force, law.stiffness * (1.0 + law.dissipation * (free_rate - mobility * force)) / divisor,
-          c / divisor};
 }
 
 } // namespace fretwork::contact

@@ -21,6 +21,7 @@
 /// Source: R5.06.03 sections 4.1.1 and 4.1.2 (whose normals are opposite to each other), 4.2.1 (where the
 /// side follows the sign of c, so that bodies that pass through each other are pushed on), 4.2.2.
 #pragma once
+#include "contact/contact_axes.hpp"
 #include "contact/profile.hpp"
 #include <array>
 #include <cmath>
@@ -61,6 +62,9 @@ using Obstacle = std::variant<Circle, PlanePair, Stop, RoundPair, FacingPlanes, 
 struct Location {
   double gap;    ///< m
   double ny, nz; ///< unit normal in local axes
+  [[nodiscard]] ContactAxes axes() const { return {ny, nz}; }
+  /// The same place from the opposite face.
+  [[nodiscard]] Location from_opposite() const { return {-gap, -ny, -nz}; }
 };
 
 /// Direction taken for a node at the very centre of a circle, where every direction is as good.

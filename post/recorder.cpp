@@ -62,8 +62,7 @@ core::Vec3 Recorder::place(std::size_t contact, std::int64_t index, double time)
 void Recorder::give_way(std::int64_t index, double time, std::span<const transient::ContactForce> contacts) {
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto& f = contacts[c];
-    force_.segment<3>(3 * static_cast<Eigen::Index>(c)) << f.friction.x,
-        f.normal * f.ny + f.friction.t * f.nz, f.normal * f.nz - f.friction.t * f.ny;
+    force_.segment<3>(3 * static_cast<Eigen::Index>(c)) << f.friction.x, f.y(), f.z();
   }
   given_.col(index).noalias() = scene_.residual * force_;
   for (std::size_t c = 0; c < contacts.size(); ++c)
@@ -96,7 +95,7 @@ void Recorder::forces(std::int64_t index, double time, const double* load,
     const auto& f = contacts[c];
     series.normal_force(index) = f.normal;
     if (f.normal > 0.0 || f.friction.x != 0.0 || f.friction.t != 0.0)
-      series.normal.row(index) << f.ny, f.nz;
+      series.normal.row(index) << f.axes.ny, f.axes.nz;
     if (f.normal > 0.0)
       series.state[static_cast<std::size_t>(index)] =
           f.slides || !scene_.contacts[c].support.friction.active() ? slides : sticks;
@@ -104,9 +103,8 @@ void Recorder::forces(std::int64_t index, double time, const double* load,
     series.tangential_force(index, 1) = f.friction.t;
     if (wanted) {
       const auto& b = scene_.contacts[c].b;
-      acceleration_ += f.friction.x * b.row(0).transpose() +
-                       (f.normal * f.ny + f.friction.t * f.nz) * b.row(1).transpose() +
-                       (f.normal * f.nz - f.friction.t * f.ny) * b.row(2).transpose();
+      acceleration_ +=
+          f.friction.x * b.row(0).transpose() + f.y() * b.row(1).transpose() + f.z() * b.row(2).transpose();
     }
   }
   if (wanted && masses_.size() > 0)

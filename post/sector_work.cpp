@@ -19,7 +19,8 @@ void SectorStatistics::step(const transient::Record& record) {
     const transient::ContactState& state = record.states[static_cast<std::size_t>(c)];
     const int at = watched_[static_cast<std::size_t>(c)];
     if (at != none && state.rubbed > 0.0)
-      work_[static_cast<std::size_t>(at)].add(wear::contact_angle(state.ny, state.nz), state.rubbed);
+      work_[static_cast<std::size_t>(at)].add(wear::contact_angle(state.axes.ny, state.axes.nz),
+                                              state.rubbed);
   }
 }
 

@@ -80,9 +80,9 @@ struct FoundBases {
 void export_csv(const std::filesystem::path& directory, const RunResults& results);
 /// Which outputs of the series a VTU export holds; nothing given: all, or `most_snapshots` evenly spread where there are more.
 struct OutputWindow {
-  std::optional<double> from, to; ///< s
-  std::optional<std::int64_t>
-      every; ///< every n-th output of the window; none: `most_snapshots` of it at most
+  std::optional<double> from = {}, to = {}; ///< s
+  std::optional<std::int64_t> every =
+      {}; ///< every n-th output of the window; none: `most_snapshots` of it at most
   [[nodiscard]] bool given() const { return from || to || every; }
 };
 inline constexpr Eigen::Index most_snapshots = 200;

@@ -115,7 +115,7 @@ private:
   void fresh(const Record& record) {
     for (std::size_t c = 0; c < now_.size(); ++c) {
       const ContactState& s = record.states[c];
-      now_[c] = {s.normal_force, s.friction, s.ny, s.nz, s.slides};
+      now_[c] = {s.normal_force, s.friction, s.axes, s.slides};
     }
   }
 
@@ -129,7 +129,7 @@ private:
       const ContactForce &a = last_[c], &b = now_[c];
       const ContactForce& direction = b.normal > 0.0 ? b : a;
       mixed_[c] = {a.normal + share * (b.normal - a.normal), a.friction + share * (b.friction - a.friction),
-                   direction.ny, direction.nz, direction.slides};
+                   direction.axes, direction.slides};
     }
     return mixed_;
   }

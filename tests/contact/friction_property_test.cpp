@@ -47,8 +47,8 @@ void chain(FrictionMemoryKind kind, std::uint64_t seed, Check check, double leas
 /// Size of the energies of a step.
 double energies(const FrictionLaw& law, const FrictionMemory& before, const Moved& moved,
                 const FrictionStep& end) {
-  return norm(moved.friction.force) * norm(moved.dx) + spring_energy(law, before) +
-         spring_energy(law, end.memory);
+  return norm(moved.friction.force) * norm(moved.dx) + law.spring_energy(before.spring) +
+         law.spring_energy(end.memory.spring);
 }
 
 } // namespace
@@ -101,7 +101,7 @@ TEST(FrictionProperty, DamperNeverGivesEnergy) {
             return;
           }
           // a slip sets the spring: its energy jumps, and the jump is what is booked
-          const double jump = spring_energy(law, end.memory) - spring_energy(law, m);
+          const double jump = law.spring_energy(end.memory.spring) - law.spring_energy(m.spring);
           EXPECT_NEAR(end.damper_work, -jump, round_off * energies(law, m, moved, end));
           jumps += jump > 0.0;
         });
@@ -113,7 +113,7 @@ TEST(FrictionProperty, EnergyIsSharedOutWithoutRest) {
     chain(kind, 75,
           [&](const FrictionLaw& law, Form, const FrictionMemory& m, const StepInput&, const Moved& moved,
               const FrictionStep& end) {
-            const double stored = spring_energy(law, end.memory) - spring_energy(law, m);
+            const double stored = law.spring_energy(end.memory.spring) - law.spring_energy(m.spring);
             EXPECT_NEAR(-dot(moved.friction.force, moved.dx), end.friction_work + end.damper_work + stored,
                         round_off * energies(law, m, moved, end) + underflow);
           });

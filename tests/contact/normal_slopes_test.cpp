@@ -43,7 +43,7 @@ TEST(NormalLaw, NeverPullsAndNeverGivesEnergyByItsDampers) {
       EXPECT_GE(force, 0.0);
       if (p > 0.0) {
         EXPECT_GE((force - k * p) * rate, -round_off * force); // what is not the spring takes energy
-        const double step = step_normal(law, p, rate, mobility);
+        const double step = series_force(law, p, rate, mobility, 0.0);
         EXPECT_GE(step, 0.0);
         EXPECT_GE((step - k * p) * (rate - mobility * step), -round_off * step * v_max);
       } else {
@@ -105,30 +105,6 @@ TEST(MeanSlopes, AreContinuousWhereAnEndOpens) {
   EXPECT_EQ(mean_slopes(0.0, 0.0).by_p1, 0.0);
 }
 
-TEST(StepSlopes, AreThoseOfTheStepFormInEveryRegime) {
-  tests::Uniform uniform(54);
-  for (const NormalLaw& law : laws) {
-    int clipped = 0;
-    for (int i = 0; i < 2000; ++i) {
-      const double mean = uniform(0.01, 1.0) * p_max, rate = uniform(-v_max, v_max),
-                   mobility = uniform.scale(1e-6, 1e-1);
-      const double hm = relative_step * p_max, hv = relative_step * v_max;
-      if (std::abs(k * mean + law.damping_at(mean) * rate) < 6.0 * k * hm)
-        continue;
-      const StepSlopes s = step_slopes(law, mean, rate, mobility);
-      EXPECT_EQ(s.force, step_normal(law, mean, rate, mobility));
-      clipped += s.force == 0.0;
-      EXPECT_NEAR(s.by_mean,
-                  difference([&](double x) { return step_normal(law, x, rate, mobility); }, mean, hm),
-                  difference_error * k);
-      EXPECT_NEAR(s.by_free_rate,
-                  difference([&](double x) { return step_normal(law, mean, x, mobility); }, rate, hv),
-                  difference_error * k * p_max);
-    }
-    EXPECT_EQ(clipped > 50, law.damps());
-  }
-}
-
 TEST(NormalLaw, HidesNoUnit) {
   tests::Uniform uniform(55);
   struct Units {
@@ -147,8 +123,8 @@ TEST(NormalLaw, HidesNoUnit) {
                     u.tolerance * p_max * u.length);
         EXPECT_NEAR(normal_force(law, p, rate) * force, normal_force(scaled, p * u.length, rate * speed),
                     u.tolerance * scale * force);
-        EXPECT_NEAR(step_normal(law, mean, rate, mobility) * force,
-                    step_normal(scaled, mean * u.length, rate * speed, mobility * speed / force),
+        EXPECT_NEAR(series_force(law, mean, rate, mobility, 0.0) * force,
+                    series_force(scaled, mean * u.length, rate * speed, mobility * speed / force, 0.0),
                     u.tolerance * scale * force);
       }
     }
@@ -162,7 +138,7 @@ TEST(HuntCrossley, StepFormTendsToTheLawOfAnInstant) {
   for (double h = 1e-5; h > 1e-7; h *= 0.5) {
     const double reach = 0.5 * h * rate;
     const double error =
-        std::abs(step_normal(law, mean_penetration(p - reach, p + reach), rate, 0.5 * h * mobility) -
+        std::abs(series_force(law, mean_penetration(p - reach, p + reach), rate, 0.5 * h * mobility, 0.0) -
                  normal_force(law, p, rate));
     if (last > 0.0) {
       EXPECT_NEAR(error / last, 0.5, order);

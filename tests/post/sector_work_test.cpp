@@ -22,8 +22,8 @@ constexpr double round_off = 1e-12; ///< of sums of some thousand terms
 /// Presses with 10 N on the wall at an angle and slides by 1 um in the step.
 void slide(transient::ContactState& state, double angle, double path = 1e-6) {
   state.normal_force = 10.0;
-  state.ny = -std::cos(angle);
-  state.nz = -std::sin(angle);
+  state.axes.ny = -std::cos(angle);
+  state.axes.nz = -std::sin(angle);
   state.slid = path;
   state.slides = true;
 }

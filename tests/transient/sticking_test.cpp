@@ -45,8 +45,8 @@ double misfit(Scheme& scheme) {
     const Record& record = scheme.advance();
     EXPECT_FALSE(record.states[0].slides);
     // normal -y_loc: t = -y x x = z
-    sum += record.states[0].friction.t / stiffness + record.states[0].nz * record.uy[0] -
-           record.states[0].ny * record.uz[0];
+    sum +=
+        record.states[0].friction.t / stiffness + record.states[0].axes.tangent(record.uy[0], record.uz[0]);
   }
   return sum / period;
 }

@@ -299,8 +299,7 @@ private:
         const Power& p = powers_[3 * i + static_cast<std::size_t>(node)];
         const Power carried = node == 0 ? carried_[i] : Power{};
         state = {n.normal,
-                 n.ny,
-                 n.nz,
+                 n.axes,
                  n.friction,
                  record_.step * n.slip,
                  n.slides ? record_.step * norm(n.slip) : 0.0,

@@ -15,24 +15,24 @@ struct InnerForce {
 
 /// One contact at one node.
 struct ContactNode {
-  double ny = 0.0, nz = 0.0;         ///< normal
-  double penetration = 0.0;          ///< m
-  double rate = 0.0;                 ///< p', m/s
-  double across = 0.0;               ///< velocity along t, m/s
-  double curvature = 0.0;            ///< of the obstacle, 1/m
-  double normal = 0.0;               ///< F_N, N
-  contact::Vec2 slip;                ///< tangential velocity in the directions of friction, m/s
-  contact::Vec2 friction, spring;    ///< F and T, N
-  double face_y = 0.0, face_z = 0.0; ///< normal where the contact was closed last; 0: never
-  double approach = 0.0;             ///< m/s, p' of the node before where that was open
-  double loaded = 0.0;               ///< |T| where the contact was closed last, N
+  contact::ContactAxes axes;
+  double penetration = 0.0;       ///< m
+  double rate = 0.0;              ///< p', m/s
+  double across = 0.0;            ///< velocity along t, m/s
+  double curvature = 0.0;         ///< of the obstacle, 1/m
+  double normal = 0.0;            ///< F_N, N
+  contact::Vec2 slip;             ///< tangential velocity in the directions of friction, m/s
+  contact::Vec2 friction, spring; ///< F and T, N
+  contact::ContactAxes face;      ///< where the contact was closed last; none: never
+  double approach = 0.0;          ///< m/s, p' of the node before where that was open
+  double loaded = 0.0;            ///< |T| where the contact was closed last, N
   bool slides = false;
   InnerForce inner;
 };
 
 /// Of the laws on the node, along the local axes y, z, x, N.
 [[nodiscard]] inline std::array<double, 3> force_of_laws(const ContactNode& n) {
-  return {n.normal * n.ny + n.friction.t * n.nz, n.normal * n.nz - n.friction.t * n.ny, n.friction.x};
+  return {n.axes.y(n.normal, n.friction.t), n.axes.z(n.normal, n.friction.t), n.friction.x};
 }
 
 /// Coefficients of a friction spring over the half steps before the nodes 1/2 and 1.

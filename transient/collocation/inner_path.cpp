@@ -65,11 +65,6 @@ Branch branch_of(const ContactNode& node) {
   return !(node.normal > 0.0) ? Branch::open : node.slides ? Branch::slides : Branch::sticks;
 }
 
-/// Closed on the opposite face since.
-bool opposite(const ContactNode& from, const ContactNode& to) {
-  return from.face_y * to.face_y + from.face_z * to.face_z < 0.0;
-}
-
 /// D_0 and D_1 of a force.
 template <class Value> struct Moments {
   Value zeroth{}, first{};
@@ -109,7 +104,7 @@ FRETWORK_INLINE void go_along(const contact::NormalLaw& law, bool rubs, const Co
     };
     for (int i = 0; i < parts; i += kernels::size_of<V>) {
       const V depth = cubic(cubics.p, i), rate = per_half * cubic(cubics.rate, i);
-      const V force = law.stiffness * depth + (law.damping + law.stiffness * law.dissipation * depth) * rate;
+      const V force = law.spring_and_damper(depth, rate);
       at<V>(way.depth + j * parts + i) = depth;
       at<V>(way.rate + j * parts + i) = rate;
       at<V>(way.force + j * parts + i) = ((depth >= 0.0) & (force > 0.0)) ? force : V{};
@@ -169,9 +164,9 @@ public:
   using Vector = Tangential<D>;
   Slider(const contact::FrictionLaw& law, const SpringTable& table, const ContactNode& start, double part)
       : law_(law), table_(table), compliance_(law.stiffness > 0.0 ? 1.0 / law.stiffness : 0.0),
-        bound_(start.slides ? law.mu_dynamic : law.mu_static), half_part_(0.5 * part),
-        spring_(tangential<D>(start.spring)), slip_(tangential<D>(start.slip)),
-        force_(tangential<D>(start.friction)), held_(energy()), slides_(start.slides) {}
+        bound_(law.coefficient(start.slides)), half_part_(0.5 * part), spring_(tangential<D>(start.spring)),
+        slip_(tangential<D>(start.slip)), force_(tangential<D>(start.friction)), held_(energy()),
+        slides_(start.slides) {}
   void forget() {
     forgotten_ += energy();
     spring_ = {};
@@ -186,7 +181,7 @@ public:
   Closing close(double closed, double at_touch, double normal, Vector slip) {
     spring_ = std::pow(table_.keep_part, 1.0 - closed) * spring_;
     slip_ = slip_ + (1.0 - closed) * (slip - slip_);
-    const Vector trial = spring_ - law_.damping * slip_;
+    const Vector trial = law_.trial(spring_, slip_);
     const double length = norm(trial);
     slides_ = !(length <= bound_ * at_touch);
     force_ = slides_ ? with_length(law_.mu_dynamic * at_touch, trial, length) : trial;
@@ -217,7 +212,7 @@ private:
     slip_ = slip;
     last_ = force_;
     slid_ = slides_;
-    const Vector stuck = before - law_.stiffness * moved_, trial = stuck - law_.damping * slip;
+    const Vector stuck = before - law_.stiffness * moved_, trial = law_.trial(stuck, slip);
     const double length = norm(trial);
     if (normal > 0.0 && length <= bound_ * normal) {
       slides_ = false;
@@ -236,7 +231,7 @@ private:
     rubbed_ += slider_;
     return force_;
   }
-  [[nodiscard]] double energy() const { return 0.5 * compliance_ * dot(spring_, spring_); }
+  [[nodiscard]] double energy() const { return law_.spring_energy(spring_); }
   const contact::FrictionLaw& law_;
   const SpringTable& table_;
   double compliance_, bound_, half_part_;
@@ -261,15 +256,14 @@ FRETWORK_INLINE InnerPath follow_on(const contact::Support& support, const Sprin
   Way<D> way;
   go_along<V>(law, rubs, nodes, 0.5 * h, way);
   Slider<D> slider(support.friction, table, nodes[0], h / all_parts);
-  const auto energy = [&](double depth) { return depth > 0.0 ? 0.5 * law.stiffness * depth * depth : 0.0; };
   Pressed before{nodes[0].penetration, nodes[0].rate, nodes[0].normal};
-  const double held = energy(before.depth);
+  const double held = law.spring_energy(before.depth);
   double work = 0.0; // J, into the contact
   Moments<double> normal;
   Moments<Vector> friction;
   InnerPath out;
   for (int j = 0; j < 2; ++j) {
-    if (opposite(nodes[j], nodes[j + 1]))
+    if (nodes[j].face.opposite(nodes[j + 1].face))
       slider.forget();
     for (int i = j * parts; i < (j + 1) * parts; ++i) {
       const Pressed after{way.depth[i], way.rate[i], way.force[i]};
@@ -302,10 +296,11 @@ FRETWORK_INLINE InnerPath follow_on(const contact::Support& support, const Sprin
     }
     const PathLoss rubbed = slider.loss();
     out.force[j].spring = in_plane(slider.spring()) - nodes[j + 1].spring;
-    out.loss[j] = {rubbed.slider, rubbed.damper + work + held - energy(before.depth), rubbed.forgotten};
+    out.loss[j] = {rubbed.slider, rubbed.damper + work + held - law.spring_energy(before.depth),
+                   rubbed.forgotten};
   }
   // the node 1 has what the node 1/2 hands on
-  const double handed = opposite(nodes[1], nodes[2])            ? 0.0
+  const double handed = nodes[1].face.opposite(nodes[2].face)   ? 0.0
                         : branch_of(nodes[2]) == Branch::sticks ? 1.0
                                                                 : table.keep;
   out.force[1].spring = out.force[1].spring - handed * out.force[0].spring;

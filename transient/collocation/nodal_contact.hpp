@@ -115,11 +115,10 @@ template <int D>
 
 template <int D>
 [[gnu::always_inline]] inline typename NodalContact<D>::Vector NodalContact<D>::masked(Vector force) const {
-  const contact::Vec2 along = support_.friction.along;
   if constexpr (D == 2)
-    return along.t * force;
+    return support_.friction.along.t * force;
   else
-    return {along.x * force.x, along.t * force.t};
+    return support_.friction.masked(force);
 }
 
 template <int D> [[gnu::always_inline]] inline void NodalContact<D>::press(int j) {
@@ -134,7 +133,7 @@ template <int D> [[gnu::always_inline]] inline void NodalContact<D>::press(int j
     out.by_penetration = slopes.by_penetration;
     out.by_rate = slopes.by_rate;
   } else {
-    const double c = law.damping_at(p), by_law = law.stiffness * p + c * node.rate,
+    const double c = law.damping_at(p), by_law = law.spring_and_damper(p, node.rate),
                  limit = scales_.rho[j] > 0.0 ? force_[j * D] + scales_.rho[j] * p
                          : p > 0.0            ? by_law
                                               : 0.0;
@@ -146,8 +145,7 @@ template <int D> [[gnu::always_inline]] inline void NodalContact<D>::press(int j
     out.by_rate = c;
   }
   const ContactNode& before = node_[j];
-  node.face_y = node.normal > 0.0 ? node.ny : before.face_y;
-  node.face_z = node.normal > 0.0 ? node.nz : before.face_z;
+  node.face = node.normal > 0.0 ? node.axes : before.face;
 }
 
 template <int D> [[gnu::always_inline]] inline void NodalContact<D>::rub(int j) {
@@ -155,15 +153,15 @@ template <int D> [[gnu::always_inline]] inline void NodalContact<D>::rub(int j) 
   const ContactNode& before = node_[j];
   ContactNode& node = node_[j + 1];
   Law& out = law_[j];
-  out.carries = !(before.face_y * node.face_y + before.face_z * node.face_z < 0.0);
+  out.carries = !before.face.opposite(node.face);
   const Vector carried = out.carries ? tangential<D>(before.spring) : Vector{},
                inner = tangential<D>(node.inner.spring);
   const double* s = table_.by_slip[j];
   const Vector stuck = carried + s[0] * slip_[0] + s[1] * slip_[1] + s[2] * slip_[2] + inner,
-               trial = stuck - law.damping * slip_[j + 1];
+               trial = law.trial(stuck, slip_[j + 1]);
   const bool closed = node.normal > 0.0;
   node.slides = false;
-  if (closed && norm(trial) <= (node_[0].slides ? law.mu_dynamic : law.mu_static) * node.normal) {
+  if (closed && norm(trial) <= law.coefficient(node_[0].slides) * node.normal) {
     out.tangent = TangentBranch::stick;
     node.friction = in_plane(trial);
     node.spring = in_plane(stuck);
@@ -197,7 +195,7 @@ NodalContact<D>::slide(int j, Vector relaxed, Vector trial, double bound) {
     return bound * out.e; // the law does not feel how long the trial is
   } else {
     out.tangent = TangentBranch::trial;
-    const Vector candidate = relaxed - law.damping * slip_[j + 1];
+    const Vector candidate = law.trial(relaxed, slip_[j + 1]);
     if (table_.keep > 0.0 && norm(candidate) > bound && dot(candidate, trial) > 0.0) {
       trial = candidate;
       out.tangent = TangentBranch::relaxed;

@@ -59,8 +59,7 @@ void NodalSolver::start(NodalMotion& motion) {
       alive_.push_back(swept.contact);
     if (!(node.normal > 0.0))
       continue;
-    node.face_y = node.ny;
-    node.face_z = node.nz;
+    node.face = node.axes;
     if (!support.friction.active())
       continue;
     const auto friction = swept.in_plane
@@ -199,8 +198,7 @@ void NodalSolver::leave(SweptContact& swept, const NodalTables& tables) {
     node[j].inner = {};
     node[j].friction = {};
     node[j].slides = false;
-    node[j].face_y = node[j - 1].face_y;
-    node[j].face_z = node[j - 1].face_z;
+    node[j].face = node[j - 1].face;
     node[j].spring = keep * node[j - 1].spring;
     node[j].loaded = node[j - 1].loaded;
     if (contact::norm(node[j].spring) < contact::forgotten * node[j].loaded)
@@ -259,9 +257,7 @@ double NodalSolver::spring_energy(int j) const {
   for (const int c : alive_) {
     const ContactNode& node = swept_[c].node[j];
     const contact::Support& support = *swept_[c].support;
-    if (node.penetration > 0.0)
-      sum += 0.5 * support.normal.stiffness * node.penetration * node.penetration;
-    sum += contact::spring_energy(support.friction, {node.spring, false});
+    sum += support.normal.spring_energy(node.penetration) + support.friction.spring_energy(node.spring);
   }
   return sum;
 }

@@ -41,26 +41,26 @@ template <int D> Answer<D> NodalTables::answer(int contact, const ContactNode* n
   Answer<D> out;
   for (int k = 0; k < 2; ++k) {
     const double* column = columns(contact, k + 1) + contact;
-    const double ny = node[k + 1].ny, nz = node[k + 1].nz;
+    const contact::ContactAxes& from = node[k + 1].axes;
     for (int quantity = 0; quantity < 4; ++quantity) { // u at 1/2, u at 1, v at 1/2, v at 1
       const int j = quantity % 2;
-      const double my = node[j + 1].ny, mz = node[j + 1].nz;
+      const contact::ContactAxes& on = node[j + 1].axes;
       auto& to = quantity < 2 ? out.u[j] : out.v[j];
       const double* by_y = column + static_cast<std::size_t>(quantity) * stride_;
       const double* by_z = by_y + length;
-      const double n_y = ny * by_y[0] + nz * by_z[0], n_z = ny * by_y[width_] + nz * by_z[width_];
-      const double t_y = nz * by_y[0] - ny * by_z[0], t_z = nz * by_y[width_] - ny * by_z[width_];
+      const double n_y = from.normal(by_y[0], by_z[0]), n_z = from.normal(by_y[width_], by_z[width_]);
+      const double t_y = from.tangent(by_y[0], by_z[0]), t_z = from.tangent(by_y[width_], by_z[width_]);
       const auto at = static_cast<std::size_t>(k * D);
-      to[0][at] = my * n_y + mz * n_z;
-      to[0][at + 1] = my * t_y + mz * t_z;
-      to[1][at] = mz * n_y - my * n_z;
-      to[1][at + 1] = mz * t_y - my * t_z;
+      to[0][at] = on.normal(n_y, n_z);
+      to[0][at + 1] = on.normal(t_y, t_z);
+      to[1][at] = on.tangent(n_y, n_z);
+      to[1][at + 1] = on.tangent(t_y, t_z);
       if constexpr (D == 3) {
         const double* by_x = by_z + length;
-        to[0][at + 2] = my * by_x[0] + mz * by_x[width_];
-        to[1][at + 2] = mz * by_x[0] - my * by_x[width_];
-        to[2][at] = ny * by_y[2 * width_] + nz * by_z[2 * width_];
-        to[2][at + 1] = nz * by_y[2 * width_] - ny * by_z[2 * width_];
+        to[0][at + 2] = on.normal(by_x[0], by_x[width_]);
+        to[1][at + 2] = on.tangent(by_x[0], by_x[width_]);
+        to[2][at] = from.normal(by_y[2 * width_], by_z[2 * width_]);
+        to[2][at + 1] = from.tangent(by_y[2 * width_], by_z[2 * width_]);
         to[2][at + 2] = by_x[2 * width_];
       }
     }

@@ -69,15 +69,13 @@ FRETWORK_INLINE void meet_by(SweptContact& a, const double* u, const double* v, 
   const contact::Vec2 along = a.support->friction.along;
 #pragma GCC unroll 2
   for (int j = 0; j < nodes; ++j) {
-    const double ny = at[j].ny, nz = at[j].nz, vy = v[j * stride + a.y], vz = v[j * stride + a.z],
-                 across = nz * vy - ny * vz;
+    const double vy = v[j * stride + a.y], vz = v[j * stride + a.z];
     ContactNode& n = node[j];
-    n.ny = ny;
-    n.nz = nz;
+    n.axes = at[j].axes();
     n.penetration = -at[j].gap;
-    n.rate = -(ny * vy + nz * vz);
-    n.across = across;
-    n.slip.t = along.t * across;
+    n.rate = -n.axes.normal(vy, vz);
+    n.across = n.axes.tangent(vy, vz);
+    n.slip.t = along.t * n.across;
     if constexpr (D == 3)
       n.slip.x = along.x * v[j * stride + a.x];
   }
@@ -87,10 +85,10 @@ template <int D> FRETWORK_INLINE NodalContact<D> laws_of(SweptContact& a, NodalM
   meet_by<D, 2>(a, motion.u(1), motion.v(1), motion.stride, a.node + 1);
   typename NodalContact<D>::Row local;
   for (int j = 0; j < 2; ++j) {
-    const ContactNode& at = a.node[j + 1];
+    const contact::ContactAxes& axes = a.node[j + 1].axes;
     const double* f = a.force[j];
-    local[j * D] = at.ny * f[0] + at.nz * f[1];
-    local[j * D + 1] = at.nz * f[0] - at.ny * f[1];
+    local[j * D] = axes.normal(f[0], f[1]);
+    local[j * D + 1] = axes.tangent(f[0], f[1]);
     if constexpr (D == 3)
       local[j * D + 2] = f[2];
   }
@@ -126,9 +124,9 @@ FRETWORK_INLINE double improve_by(SweptContact& a, NodalMotion& motion, double s
   const double largest = step.abs().maxCoeff(), force = (laws.forces().abs() + step.abs()).maxCoeff();
   Forces change;
   for (int j = 0; j < 2; ++j) {
-    const ContactNode& at = a.node[j + 1];
-    change[j][0] = at.ny * step[j * D] + at.nz * step[j * D + 1];
-    change[j][1] = at.nz * step[j * D] - at.ny * step[j * D + 1];
+    const contact::ContactAxes& axes = a.node[j + 1].axes;
+    change[j][0] = axes.y(step[j * D], step[j * D + 1]);
+    change[j][1] = axes.z(step[j * D], step[j * D + 1]);
     change[j][2] = D == 3 ? step[j * D + D - 1] : 0.0;
     for (int k = 0; k < D; ++k)
       a.force[j][k] += change[j][k];
@@ -212,7 +210,7 @@ void follow_path(SweptContact& a, NodalMotion& motion) {
   for (int j = 0; j < 2; ++j) {
     ContactNode& at = a.node[j + 1];
     const PathForce& by = path.force[j];
-    const InnerForce now{at.ny * by.normal + at.nz * by.friction.t, at.nz * by.normal - at.ny * by.friction.t,
+    const InnerForce now{at.axes.y(by.normal, by.friction.t), at.axes.z(by.normal, by.friction.t),
                          by.friction.x, at.inner.spring + by.spring};
     a.path_change[j][0] = now.y - at.inner.y;
     a.path_change[j][1] = now.z - at.inner.z;

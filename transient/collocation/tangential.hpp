@@ -19,8 +19,8 @@ template <int D> Tangential<D> tangential(contact::Vec2 v) {
 inline contact::Vec2 in_plane(double v) { return {0.0, v}; }
 inline contact::Vec2 in_plane(contact::Vec2 v) { return v; }
 
-inline double dot(double a, double b) { return a * b; }
-inline double norm(double v) { return std::abs(v); }
+using contact::dot;
+using contact::norm;
 /// v with another length than its own.
 inline double with_length(double length, double v, double) { return std::copysign(length, v); }
 inline contact::Vec2 with_length(double length, contact::Vec2 v, double own) { return (length / own) * v; }

@@ -105,12 +105,12 @@ void ConservingContacts::take(int c, const Setting& s, const ContactMotion& star
   const double trace =
       mobility(s, i, 0, i, 0) + mobility(s, i, 1, i, 1) + (in_plane ? mobility(s, i, 2, i, 2) : 0.0);
   const contact::Location face = shut.from.gap < 0.0 ? shut.from : free.locate(c);
-  shut.normal = {face.ny, face.nz};
-  shut.free_rate = free.sinking(c, face.ny, face.nz);
+  shut.axes = face.axes();
+  shut.free_rate = free.sinking(c, face.axes());
   shut.end_share = 0.0;
   if (support.normal.damping > 0.0)
-    shut.end_share = end_rate_share(support.normal.damping, rate_mobility(s, i, i, 0) * face.ny +
-                                                                rate_mobility(s, i, i, 1) * face.nz);
+    shut.end_share = end_rate_share(support.normal.damping,
+                                    shut.axes.normal(rate_mobility(s, i, i, 0), rate_mobility(s, i, i, 1)));
   shut.rho = support.friction.active() && trace > 0.0 ? 1.0 / trace : 0.0;
   shut.stiffness = support.normal.stiffness + support.friction.stiffness + shut.rho +
                    (support.normal.damping + support.friction.damping) / s.h;
@@ -167,7 +167,7 @@ double ConservingContacts::mobility(const Setting& s, std::size_t i, std::size_t
 
 double ConservingContacts::rate_mobility(const Setting& s, std::size_t i, std::size_t j,
                                          std::size_t b) const {
-  const auto [y, z] = shut_[i].normal;
+  const auto [y, z] = shut_[i].axes;
   return y * s.mobilities.rate[place_of(i, 0, j, b)] + z * s.mobilities.rate[place_of(i, 1, j, b)];
 }
 
@@ -200,7 +200,7 @@ bool ConservingContacts::iterate(const Setting& s) {
         Shut& shut = shut_[i];
         shut.is_held = true;
         const Response& r = response_[i];
-        shut.held = {0.5 * (shut.from.ny + r.ny), 0.5 * (shut.from.nz + r.nz)};
+        shut.held = {0.5 * (shut.from.ny + r.axes.ny), 0.5 * (shut.from.nz + r.axes.nz)};
       }
   }
   return false;
@@ -243,8 +243,7 @@ void ConservingContacts::respond(const Setting& s, const Shut& shut, const doubl
   r = {};
   r.p0 = -shut.from.gap;
   r.p1 = -g.gap;
-  r.ny = g.ny;
-  r.nz = g.nz;
+  r.axes = {g.ny, g.nz};
   const double size = std::sqrt(g.y * g.y + g.z * g.z);
   const StepNormal found = step_normal_force(law, shut.end_share, r.p0, r.p1, rate, s.h);
   const double normal = found.force;
@@ -257,8 +256,7 @@ void ConservingContacts::respond(const Setting& s, const Shut& shut, const doubl
     return;
   r.normal_of_gap = normal;
   r.normal = normal * size;
-  r.ny = g.y / size;
-  r.nz = g.z / size;
+  r.axes = {g.y / size, g.z / size};
   r.force[0] = normal * g.y;
   r.force[1] = normal * g.z;
   const double by_y = -found.by_end * g.ny, by_z = -found.by_end * g.nz; // of the normal force
@@ -270,14 +268,12 @@ void ConservingContacts::respond(const Setting& s, const Shut& shut, const doubl
   r.by_rate[1] = found.by_rate * g.z;
   if (!support.friction.active())
     return;
-  const double ty = r.nz, tz = -r.ny;
   r.closed = {contact::closed_share(r.p0, r.p1), !(r.p0 > 0.0)};
   // of the share by p1, where the step is partly closed
   const double by_p1 = r.closed.share < 1.0 ? std::abs(r.p0) / ((r.p1 - r.p0) * (r.p1 - r.p0)) : 0.0;
   rub(s, shut, place, force,
-      {{(ty * g.yy + tz * g.zy) / size, (ty * g.yz + tz * g.zz) / size},
-       {size * by_y + normal * (r.ny * g.yy + r.nz * g.zy),
-        size * by_z + normal * (r.ny * g.yz + r.nz * g.zz)},
+      {{r.axes.tangent(g.yy, g.zy) / size, r.axes.tangent(g.yz, g.zz) / size},
+       {size * by_y + normal * r.axes.normal(g.yy, g.zy), size * by_z + normal * r.axes.normal(g.yz, g.zz)},
        {-by_p1 * g.ny, -by_p1 * g.nz},
        size * found.by_rate},
       r);
@@ -289,21 +285,20 @@ void ConservingContacts::rub(const Setting& s, const Shut& shut, const double* p
   contact::FrictionLaw law = contacts_.supports[shut.contact].friction;
   if (!shut.in_plane)
     law.along.x = 0.0;
-  const double n[2] = {r.ny, r.nz}, t[2] = {r.nz, -r.ny};
+  const double n[2] = {r.axes.ny, r.axes.nz}, t[2] = {r.axes.nz, -r.axes.ny};
   const double d[2] = {place[0] - shut.x0.y, place[1] - shut.x0.z};
-  r.displacement = {law.along.x * place[2], law.along.t * (t[0] * d[0] + t[1] * d[1])};
-  const contact::FrictionMemory past = s.memory.at(shut.contact, r.ny, r.nz);
+  r.displacement = {law.along.x * place[2], law.along.t * r.axes.tangent(d[0], d[1])};
+  const contact::FrictionMemory past = s.memory.friction().at(shut.contact, r.axes);
   const bool reference = law.kind == contact::FrictionMemoryKind::reference;
   const bool dynamic = shut.broken || past.sliding;
   const StepFriction f =
       reference && shut.broken
-          ? opposing(law, shut.rho, r.normal, r.displacement, {force[2], t[0] * force[0] + t[1] * force[1]})
-          : along_trial(law, past.spring, dynamic ? law.mu_dynamic : law.mu_static, r.normal, r.displacement,
-                        s.h, r.closed);
+          ? opposing(law, shut.rho, r.normal, r.displacement, {force[2], r.axes.tangent(force[0], force[1])})
+          : along_trial(law, past.spring, law.coefficient(dynamic), r.normal, r.displacement, s.h, r.closed);
   r.friction = f.force;
   r.slides = f.slides;
   r.breaks = f.slides && !shut.broken && (reference || (!dynamic && law.mu_static > law.mu_dynamic));
-  const double along_n = n[0] * d[0] + n[1] * d[1], force_n = n[0] * force[0] + n[1] * force[1];
+  const double along_n = r.axes.normal(d[0], d[1]), force_n = r.axes.normal(force[0], force[1]);
   r.force[0] += f.force.t * t[0];
   r.force[1] += f.force.t * t[1];
   r.force[2] = f.force.x;
@@ -369,9 +364,7 @@ void ConservingContacts::close(const ContactMotion& start, ContactTrial& trial) 
   for (std::size_t i = 0; i < shut_.size(); ++i) {
     const Response& r = response_[i];
     const int c = shut_[i].contact;
-    const contact::Support& support = contacts_.supports[c];
-    const double sunk = std::max(0.0, r.p1);
-    trial.springs += 0.5 * support.normal.stiffness * sunk * sunk;
+    trial.springs += contacts_.supports[c].normal.spring_energy(r.p1);
     const double loss = (r.normal_of_gap - r.spring_force) * (r.p1 - r.p0);
     if (!(r.normal > 0.0)) {
       trial.cut += loss;
@@ -379,16 +372,13 @@ void ConservingContacts::close(const ContactMotion& start, ContactTrial& trial) 
     }
     ContactState& state = trial.states[c];
     state.normal_force = r.normal;
-    state.ny = r.ny;
-    state.nz = r.nz;
+    state.axes = r.axes;
     state.friction = r.friction;
     state.displacement = r.displacement;
-    state.approach = start.sinking(c, r.ny, r.nz);
+    state.approach = start.sinking(c, r.axes);
     state.damper_work = loss;
     state.slides = r.slides;
-    parts_.push_back({c, r.closed, support.normal.stiffness,
-                      support.normal.damping + support.normal.stiffness * support.normal.dissipation * sunk,
-                      r.p1});
+    parts_.push_back({c, r.closed, r.p1});
     trial.active.push_back(c);
   }
   std::sort(trial.active.begin(), trial.active.end());

@@ -52,7 +52,7 @@ private:
     double free[3];              ///< y, z from the obstacle's centre and x_loc, from where it started
     double stiffness;            ///< N/m, of all its laws: what the rounding of a position weighs
     double rho;                  ///< N/m
-    contact::PlanePoint normal;  ///< where it is closed at the start, or would be at the end: of the rate p1'
+    contact::ContactAxes axes;   ///< where it is closed at the start, or would be at the end: of the rate p1'
     double free_rate, end_share; ///< m/s, p1' without contact forces; share of p1' in the damper's rate
   };
   /// What a contact answers to a place.
@@ -60,13 +60,14 @@ private:
     double force[3];       ///< y, z, x_loc
     double by_place[3][3]; ///< N/m
     double by_force[3][3];
-    double by_rate[3];     ///< N s/m, of p1'
-    double normal, ny, nz; ///< F |D| and D/|D|
-    double p0, p1;         ///< m
-    ClosedPart closed;     ///< where p > 0
-    double spring_force;   ///< N, of which `normal_of_gap` less this is the dampers'
-    double normal_of_gap;  ///< F
-    double rounding;       ///< N
+    double by_rate[3];         ///< N s/m, of p1'
+    double normal;             ///< F |D|
+    contact::ContactAxes axes; ///< D/|D|
+    double p0, p1;             ///< m
+    ClosedPart closed;         ///< where p > 0
+    double spring_force;       ///< N, of which `normal_of_gap` less this is the dampers'
+    double normal_of_gap;      ///< F
+    double rounding;           ///< N
     contact::Vec2 friction, displacement;
     bool slides, breaks; ///< breaks: to be taken again with the force of sliding
   };

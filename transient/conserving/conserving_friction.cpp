@@ -10,8 +10,6 @@ using contact::FrictionLaw;
 using contact::Sym2;
 using contact::Vec2;
 
-Vec2 masked(const FrictionLaw& law, Vec2 v) { return {law.along.x * v.x, law.along.t * v.t}; }
-
 /// s (I - e e^T), masked.
 Sym2 across(const FrictionLaw& law, Vec2 e, double s) {
   return {s * law.along.x * e.t * e.t, -s * law.along.x * law.along.t * e.x * e.t,
@@ -32,8 +30,6 @@ double end_weight(double k, double r) {
   constexpr double small = 0.03; // its series then has 1e-10 of itself, the difference 1e-12
   return k < small ? k * k / 6.0 * (1.0 - 0.5 * k + 3.0 / 20.0 * k * k) : 1.0 + r - 2.0 * (1.0 - r) / k;
 }
-
-double size_of_difference(Vec2 a, Vec2 b) { return contact::dot(a, a) - contact::dot(b, b); }
 
 /// Direction of the force of C_T = 0 at the end of a motion that by itself would change the spring by `push`: inside the bound
 /// straight, then along it.
@@ -72,7 +68,7 @@ StepFriction along_trial(const FrictionLaw& law, Vec2 spring, double coefficient
   const double s = part.share, bound = coefficient * normal;
   const double left = part.starts_open ? left_after(law, h, 1.0 - s) : 1.0;
   const Vec2 start = left * spring;
-  dx = masked(law, dx);
+  dx = law.masked(dx);
   const double gradient = s * (0.5 * s * law.stiffness + law.damping / h);
   const Vec2 w = s * start - gradient * dx;
   Vec2 by_share = start - (s * law.stiffness + law.damping / h) * dx;
@@ -109,7 +105,7 @@ ClosedStep close_part(const FrictionLaw& law, const contact::FrictionMemory& mem
   const double open = part.starts_open ? left_after(law, h, 1.0 - s) : 1.0;
   const double after = part.starts_open ? 1.0 : left_after(law, h, 1.0 - s);
   const Vec2 start = open * memory.spring, force = (1.0 / s) * friction.force;
-  dx = s * masked(law, dx);
+  dx = s * law.masked(dx);
   const double left = left_after(law, h, s);
   const double weight = law.damping > 0.0 ? end_weight(s * stiffness * h / law.damping, left) : 1.0;
 
@@ -127,19 +123,20 @@ ClosedStep close_part(const FrictionLaw& law, const contact::FrictionMemory& mem
       rests = true;
     }
   }
-  const double coefficient = memory.sliding ? law.mu_dynamic : law.mu_static;
+  const double coefficient = law.coefficient(memory.sliding);
   const double end_bound = coefficient * end_normal, held = norm(end);
   const bool cut = rests && held > end_bound;
   if (cut)
     end = (1.0 - weight * (1.0 - end_bound / held)) * end;
 
   ClosedStep out;
-  const double half_compliance = 0.5 / stiffness, work = -dot(force, dx);
-  double loss = work - half_compliance * size_of_difference(end, start);
+  const double work = -dot(force, dx), before = law.spring_energy(memory.spring),
+               held_at_start = law.spring_energy(start);
+  double loss = work - (law.spring_energy(end) - held_at_start);
   if (friction.slides && loss < 0.0) { // the spring cannot hold more than that
-    const double most = dot(start, start) + work / half_compliance;
-    end = std::sqrt(std::max(0.0, most) / dot(end, end)) * end;
-    loss = work - half_compliance * size_of_difference(end, start);
+    const double most = held_at_start + work;
+    end = std::sqrt(std::max(0.0, most) / law.spring_energy(end)) * end;
+    loss = work - (law.spring_energy(end) - held_at_start);
   }
   const double slider = -dot(force, dx - (1.0 / stiffness) * (start - end));
   if (rests && !cut) // the slider stands
@@ -148,9 +145,9 @@ ClosedStep close_part(const FrictionLaw& law, const contact::FrictionMemory& mem
     out.friction_work = law.damping > 0.0 ? std::max(0.0, std::min(slider, loss)) : std::max(0.0, loss);
   out.damper_work = loss - out.friction_work;
   out.spring = after * end;
-  out.given_up =
-      -half_compliance * (size_of_difference(start, memory.spring) + size_of_difference(out.spring, end));
-  out.stored = half_compliance * size_of_difference(out.spring, memory.spring);
+  const double after_all = law.spring_energy(out.spring);
+  out.given_up = (before - held_at_start) + (law.spring_energy(end) - after_all);
+  out.stored = after_all - before;
 
   const double bound = coefficient * normal / s;
   out.slid = norm(dx) * sliding_share(norm(start - damped) - std::max(0.0, 2.0 * bound - end_bound),

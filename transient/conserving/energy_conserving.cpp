@@ -310,10 +310,10 @@ private:
       places[k] = product(contacts_, s.trial, carried_[k].u);
     for (std::size_t half = 0; half < 2; ++half)
       work.carried[half] = places[half + 1] - places[half];
-    const double springs = springs_ + memory_.spring_energy();
+    const double springs = springs_ + memory_.friction().spring_energy();
     const ContactLosses losses = memory_.commit(s.length, solver_.parts(), end_, s.trial);
     springs_ = s.trial.springs;
-    const double springs_end = springs_ + memory_.spring_energy();
+    const double springs_end = springs_ + memory_.friction().spring_energy();
     middle_.gather(s.middle_q.data(), s.middle_v.data());
     carried_[1].add_to(middle_);
     s.middle_u = middle_.u;

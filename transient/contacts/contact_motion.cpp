@@ -27,8 +27,7 @@ bool ContactMotion::moves_less(double time, double share) const {
 double ContactMotion::spring_energy() const {
   double sum = 0.0;
   for (int c = 0; c < contacts_.count; ++c)
-    if (const double gap = locate(c).gap; gap < 0.0)
-      sum += 0.5 * contacts_.supports[c].normal.stiffness * gap * gap;
+    sum += contacts_.supports[c].normal.spring_energy(-locate(c).gap);
   return sum;
 }
 

@@ -30,18 +30,21 @@ public:
     return contact::locate(contacts_.supports[c].obstacle, u[c] + contacts_.rest_y(c),
                            u[contacts_.width + c] + contacts_.rest_z(c));
   }
-  /// Rate of the penetration where the normal is n, m/s.
-  [[nodiscard]] double sinking(int c, double ny, double nz) const {
-    return -(ny * w[c] + nz * w[contacts_.width + c]);
+  /// Rate of the penetration along these axes, m/s.
+  [[nodiscard]] double sinking(int c, const contact::ContactAxes& axes) const {
+    return -axes.normal(w[c], w[contacts_.width + c]);
   }
   /// Tangential velocity, m/s.
-  [[nodiscard]] contact::Vec2 slip(int c, double ny, double nz) const { return tangential(c, ny, nz, w); }
+  [[nodiscard]] contact::Vec2 slip(int c, const contact::ContactAxes& axes) const {
+    return tangential(c, axes, w);
+  }
   /// Tangential part of any vector given in lanes.
-  [[nodiscard]] contact::Vec2 tangential(int c, double ny, double nz, const kernels::Array& lanes) const {
+  [[nodiscard]] contact::Vec2 tangential(int c, const contact::ContactAxes& axes,
+                                         const kernels::Array& lanes) const {
     const contact::Vec2 along = contacts_.supports[c].friction.along;
     const int width = contacts_.width;
     return {contacts_.in_plane[c] ? along.x * lanes[2 * width + c] : 0.0,
-            along.t * (nz * lanes[c] - ny * lanes[width + c])};
+            along.t * axes.tangent(lanes[c], lanes[width + c])};
   }
   /// Energy of the normal springs, J.
   [[nodiscard]] double spring_energy() const;

@@ -27,8 +27,7 @@ double product(const PackedContacts& contacts, const ContactTrial& trial, const 
   for (const int active : trial.active) {
     const auto c = static_cast<std::size_t>(active);
     const ContactState& s = trial.states[c];
-    sum += (s.normal_force * s.ny + s.friction.t * s.nz) * lanes[c] +
-           (s.normal_force * s.nz - s.friction.t * s.ny) * lanes[width + c];
+    sum += s.force_y() * lanes[c] + s.force_z() * lanes[width + c];
     if (contacts.components == 3)
       sum += s.friction.x * lanes[2 * width + c];
   }
@@ -47,8 +46,8 @@ void ContactRows::set(const ContactTrial& trial, double scale) {
     const ContactState& s = trial.states[c];
     row[0] = contacts_.row(c, 0);
     row[1] = contacts_.row(c, 1);
-    factor[0] = scale * (s.normal_force * s.ny + s.friction.t * s.nz);
-    factor[1] = scale * (s.normal_force * s.nz - s.friction.t * s.ny);
+    factor[0] = scale * s.force_y();
+    factor[1] = scale * s.force_z();
     row += 2;
     factor += 2;
     if (contacts_.in_plane[c]) {

@@ -7,11 +7,10 @@ namespace {
 void add_friction(const PackedContacts& contacts, const ContactMemory& memory, const ContactMotion& motion,
                   int c, ContactState& state) {
   const contact::FrictionLaw& law = contacts.supports[c].friction;
-  const double ny = state.ny, nz = state.nz;
-  const contact::FrictionMemory past = memory.at(c, ny, nz);
-  const contact::Vec2 velocity = motion.slip(c, ny, nz);
+  const contact::FrictionMemory past = memory.friction().at(c, state.axes);
+  const contact::Vec2 velocity = motion.slip(c, state.axes);
   state.displacement =
-      motion.tangential(c, ny, nz, motion.u) - motion.tangential(c, ny, nz, memory.position());
+      motion.tangential(c, state.axes, motion.u) - motion.tangential(c, state.axes, memory.position());
   const auto friction =
       contacts.in_plane[c]
           ? contact::evaluate(law, past, state.normal_force, state.displacement, velocity)
@@ -32,11 +31,11 @@ void evaluate_contacts(const PackedContacts& contacts, const ContactMemory& memo
       continue;
     const contact::Support& support = contacts.supports[c];
     const auto at = motion.locate(c);
-    const double p = -at.gap, rate = motion.sinking(c, at.ny, at.nz);
+    const double p = -at.gap, rate = motion.sinking(c, at.axes());
     if (!(p >= 0.0))
       continue;
     const double spring = support.normal.stiffness * p;
-    trial.springs += 0.5 * spring * p;
+    trial.springs += support.normal.spring_energy(p);
     const double normal = contact::normal_force(support.normal, p, rate);
     const double loss = (normal - spring) * rate * step;
     if (!(normal > 0.0)) {
@@ -45,8 +44,7 @@ void evaluate_contacts(const PackedContacts& contacts, const ContactMemory& memo
     }
     ContactState& state = trial.states[c];
     state.normal_force = normal;
-    state.ny = at.ny;
-    state.nz = at.nz;
+    state.axes = at.axes();
     state.approach = rate;
     state.damper_work = loss;
     if (support.friction.active())

@@ -28,7 +28,7 @@ void EndRecord::prepare_part(const MotionRates& rates, const double* y, double t
   prepare_all(rates, y, time, until);
   for (const int c : next_.active) {
     ContactState& state = next_.states[c];
-    state.displacement = length * rates.motion().slip(c, state.ny, state.nz);
+    state.displacement = length * rates.motion().slip(c, state.axes);
     state.slid = state.slides ? norm(state.displacement) : 0.0;
     state.rubbed = state.normal_force * state.slid;
   }
@@ -71,7 +71,7 @@ void EndRecord::prepare_contact(const MotionRates& rates, const double* until, i
   if (!was_active && !rates.regime(c).closed)
     return;
   const auto at = rates.motion().locate(c);
-  const double rate = rates.motion().sinking(c, at.ny, at.nz);
+  const double rate = rates.motion().sinking(c, at.axes());
   if (was_active) {
     past.carried_friction = friction;
     past.carried_damper = damper;

@@ -104,7 +104,8 @@ private:
     const ContactLosses losses = memory_.commit(motion_, trial_);
     rows_.set(trial_, 1.0);
     rows_.add_to(force_.data());
-    return {trial_.springs + memory_.spring_energy(), -product(contacts_, trial_, carried_.w), losses};
+    return {trial_.springs + memory_.friction().spring_energy(), -product(contacts_, trial_, carried_.w),
+            losses};
   }
 
   /// The full damping matrix joins the forces. Returns its power.

@@ -11,10 +11,6 @@ namespace {
 
 constexpr double round_off = 1e-12; ///< of a friction force at its bound
 
-double energy_of(const contact::FrictionLaw& law, Vec2 spring) {
-  return contact::spring_energy(law, {spring, false});
-}
-
 } // namespace
 
 MotionRates::MotionRates(const Scene& scene, double step)
@@ -113,8 +109,9 @@ void MotionRates::act(const double* s, double* rate) {
 bool MotionRates::press(int c, Vec2 spring, double* rate) {
   const auto at = face_of(c, motion_);
   const Normal normal = normal_of(c, motion_, at);
-  const double elastic = contacts_.supports[c].normal.stiffness * std::max(0.0, normal.penetration);
-  trial_.springs += 0.5 * elastic * std::max(0.0, normal.penetration);
+  const contact::NormalLaw& law = contacts_.supports[c].normal;
+  const double elastic = law.stiffness * std::max(0.0, normal.penetration);
+  trial_.springs += law.spring_energy(normal.penetration);
   const bool closed = located_ ? regimes_[c].closed : normal.penetration >= 0.0 && normal.force > 0.0;
   const double force = closed ? normal.force : 0.0;
   rate[3] = (force - elastic) * normal.rate;
@@ -122,8 +119,7 @@ bool MotionRates::press(int c, Vec2 spring, double* rate) {
     return false;
   ContactState& state = trial_.states[c];
   state.normal_force = force;
-  state.ny = at.ny;
-  state.nz = at.nz;
+  state.axes = at.axes();
   state.approach = normal.rate;
   if (contacts_.supports[c].friction.active())
     rub(c, spring, state, rate);
@@ -133,9 +129,9 @@ bool MotionRates::press(int c, Vec2 spring, double* rate) {
 
 void MotionRates::rub(int c, Vec2 in_state, ContactState& state, double* rate) const {
   const contact::FrictionLaw& law = contacts_.supports[c].friction;
-  const Vec2 velocity = motion_.slip(c, state.ny, state.nz);
-  const Vec2 spring = used_spring(c, in_state, state.ny, state.nz);
-  contact::Friction friction{spring - law.damping * velocity, regimes_[c].slides};
+  const Vec2 velocity = motion_.slip(c, state.axes);
+  const Vec2 spring = used_spring(c, in_state, state.axes);
+  contact::Friction friction{law.trial(spring, velocity), regimes_[c].slides};
   if (!located_ || !locates_friction(c)) {
     friction = contact::evaluate(law, {spring, regimes_[c].slides}, state.normal_force, {}, velocity);
     // A spring that was set to the bound at the end of a slide is still there when the next step begins.
@@ -148,8 +144,8 @@ void MotionRates::rub(int c, Vec2 in_state, ContactState& state, double* rate) c
   }
   state.friction = friction.force;
   state.slides = friction.slides;
-  state.displacement = motion_.tangential(c, state.ny, state.nz, motion_.u) -
-                       motion_.tangential(c, state.ny, state.nz, position_);
+  state.displacement =
+      motion_.tangential(c, state.axes, motion_.u) - motion_.tangential(c, state.axes, position_);
   state.slid = state.slides ? norm(state.displacement) : 0.0;
   const Vec2 stretching = rated(c) ? (1.0 / law.damping) * (spring - friction.force) : velocity;
   rate[0] = -law.stiffness * stretching.x;
@@ -173,8 +169,7 @@ void MotionRates::commit(double* y) {
     if (!located_ || !locates_friction(c))
       set_regime(c, closed, closed && state.slides);
     if (closed) {
-      regimes_[c].ny = state.ny;
-      regimes_[c].nz = state.nz;
+      regimes_[c].axes = state.axes;
     }
   }
   position_ = motion_.u;
@@ -184,28 +179,26 @@ void MotionRates::set_spring(int c, double* s) {
   const contact::FrictionLaw& law = contacts_.supports[c].friction;
   const ContactState& state = trial_.states[c];
   Memory& memory = memory_[c];
-  const bool closed = state.ny != 0.0 || state.nz != 0.0; // in the trial
+  const bool closed = state.axes.ny != 0.0 || state.axes.nz != 0.0; // in the trial
   Vec2 spring{s[0], s[1]};
   if (closed) {
-    const Vec2 loaded = used_spring(c, spring, state.ny, state.nz);
-    const Vec2 kept =
-        used_spring(c, memory.spring, state.ny, state.nz); // of what there was at the last commit
+    const Vec2 loaded = used_spring(c, spring, state.axes);
+    const Vec2 kept = used_spring(c, memory.spring, state.axes); // of what there was at the last commit
     if (rated(c)) {
-      s[3] += energy_of(law, spring) - energy_of(law, loaded);
-      memory.forgotten += energy_of(law, spring) - energy_of(law, loaded);
+      s[3] += law.spring_energy(spring) - law.spring_energy(loaded);
+      memory.forgotten += law.spring_energy(spring) - law.spring_energy(loaded);
       spring = loaded;
     } else {
       spring = state.slides ? state.friction : loaded;
-      s[3] += energy_of(law, memory.spring) - energy_of(law, kept);
-      memory.forgotten += energy_of(law, memory.spring) - energy_of(law, kept);
+      s[3] += law.spring_energy(memory.spring) - law.spring_energy(kept);
+      memory.forgotten += law.spring_energy(memory.spring) - law.spring_energy(kept);
       const bool by_slider = state.slides && law.kind == contact::FrictionMemoryKind::return_map;
-      s[by_slider ? 2 : 3] -= energy_of(law, spring) - energy_of(law, kept);
+      s[by_slider ? 2 : 3] -= law.spring_energy(spring) - law.spring_energy(kept);
     }
-    memory.ny = state.ny;
-    memory.nz = state.nz;
+    memory.axes = state.axes;
   } else if (!rated(c)) {
     spring = {};
-    s[3] += energy_of(law, memory.spring);
+    s[3] += law.spring_energy(memory.spring);
   }
   s[0] = spring.x;
   s[1] = spring.t;
@@ -222,7 +215,7 @@ double MotionRates::moving_energy(const double* y) const {
   double sum = 0.5 * kernels::twice_energy(modes(), k_.data(), y, y + modes());
   for (int c = 0; c < contacts_.count; ++c)
     if (contacts_.supports[c].friction.active())
-      sum += energy_of(contacts_.supports[c].friction, spring(y, c));
+      sum += contacts_.supports[c].friction.spring_energy(spring(y, c));
   return sum;
 }
 
@@ -261,7 +254,7 @@ Energy MotionRates::energy(const double* y) const {
   for (int c = 0; c < contacts_.count; ++c)
     if (const contact::FrictionLaw& law = contacts_.supports[c].friction; law.active() && !rated(c))
       energy.stored +=
-          energy_of(law, memory_[c].spring) - energy_of(law, spring(y, c)); // booked when it is set
+          law.spring_energy(memory_[c].spring) - law.spring_energy(spring(y, c)); // booked when it is set
   for (int c = 0; c < contacts_.count; ++c) {
     energy.friction += s[4 * c + 2];
     energy.contact_damping += s[4 * c + 3];
@@ -276,11 +269,8 @@ bool MotionRates::rated(int c) const {
 
 void MotionRates::set_regime(int c, bool closed, bool slides) {
   Regime& regime = regimes_[c];
-  if (closed && !regime.closed) {
-    const auto at = motion_.locate(c);
-    regime.ny = at.ny;
-    regime.nz = at.nz;
-  }
+  if (closed && !regime.closed)
+    regime.axes = motion_.locate(c).axes();
   regime.closed = closed;
   regime.slides = slides;
 }
@@ -289,22 +279,21 @@ void MotionRates::set_regime(int c, bool closed, bool slides) {
 contact::Location MotionRates::face_of(int c, const ContactMotion& motion) const {
   const auto at = motion.locate(c);
   const Regime& regime = regimes_[c];
-  const bool opposite = located_ && regime.closed && at.ny * regime.ny + at.nz * regime.nz < 0.0;
-  return opposite ? contact::Location{-at.gap, -at.ny, -at.nz} : at;
+  const bool opposite = located_ && regime.closed && regime.axes.opposite(at.axes());
+  return opposite ? at.from_opposite() : at;
 }
 
 /// The force is that of the closed branch: where it ends, negative.
 MotionRates::Normal MotionRates::normal_of(int c, const ContactMotion& motion,
                                            const contact::Location& at) const {
-  const contact::NormalLaw& law = contacts_.supports[c].normal;
-  const double p = -at.gap, rate = motion.sinking(c, at.ny, at.nz);
-  return {p, rate, law.stiffness * p + law.damping_at(std::max(0.0, p)) * rate};
+  const double p = -at.gap, rate = motion.sinking(c, at.axes());
+  return {p, rate, contacts_.supports[c].normal.spring_and_damper(p, rate)};
 }
 
 /// On another face than where the contact was last closed, only what has been loaded since the last commit.
-Vec2 MotionRates::used_spring(int c, Vec2 spring, double ny, double nz) const {
+Vec2 MotionRates::used_spring(int c, Vec2 spring, const contact::ContactAxes& axes) const {
   const Memory& memory = memory_[c];
-  return memory.ny * ny + memory.nz * nz < 0.0 ? spring - memory.spring : spring;
+  return memory.axes.opposite(axes) ? spring - memory.spring : spring;
 }
 
 Margins MotionRates::margin(int c, const ContactMotion& motion, Vec2 in_state) const {
@@ -315,8 +304,8 @@ Margins MotionRates::margin(int c, const ContactMotion& motion, Vec2 in_state) c
   if (law.active() && !locates_friction(c)) {
     margins.friction = regimes_[c].slides ? 1.0 : -1.0;
   } else if (law.active()) {
-    const Vec2 trial = used_spring(c, in_state, at.ny, at.nz) - law.damping * motion.slip(c, at.ny, at.nz);
-    margins.friction = norm(trial) - (regimes_[c].slides ? law.mu_dynamic : law.mu_static) * normal.force;
+    const Vec2 trial = law.trial(used_spring(c, in_state, at.axes()), motion.slip(c, at.axes()));
+    margins.friction = norm(trial) - law.coefficient(regimes_[c].slides) * normal.force;
   }
   return margins;
 }
@@ -324,7 +313,7 @@ Margins MotionRates::margin(int c, const ContactMotion& motion, Vec2 in_state) c
 Regime MotionRates::regime_of_laws(int c, const ContactMotion& motion, Vec2 spring) const {
   const Margins margins = margin(c, motion, spring);
   const bool closed = margins.normal > 0.0;
-  return {closed, closed && margins.friction > 0.0};
+  return {closed, closed && margins.friction > 0.0, {}};
 }
 
 } // namespace fretwork::transient

@@ -30,7 +30,7 @@ namespace fretwork::transient {
 struct Regime {
   bool closed = false; ///< with a normal force
   bool slides = false;
-  double ny = 0.0, nz = 0.0; ///< of a closed contact: the normal of its face
+  contact::ContactAxes axes; ///< of a closed contact: of its face
 };
 
 /// How far a contact is inside its laws' branches, N. Regimes end where a margin passes zero.
@@ -99,7 +99,7 @@ public:
 private:
   struct Memory {
     contact::Vec2 spring;      ///< N, T at the last commit
-    double ny = 0.0, nz = 0.0; ///< normal when it was last closed
+    contact::ContactAxes axes; ///< when it was last closed
     double forgotten = 0.0;    ///< J, of springs of opposite faces, part of the damper work
   };
   struct Normal {
@@ -110,7 +110,8 @@ private:
   [[nodiscard]] bool locates_friction(int c) const;
   [[nodiscard]] contact::Location face_of(int c, const ContactMotion& motion) const;
   [[nodiscard]] Normal normal_of(int c, const ContactMotion& motion, const contact::Location& at) const;
-  [[nodiscard]] contact::Vec2 used_spring(int c, contact::Vec2 spring, double ny, double nz) const;
+  [[nodiscard]] contact::Vec2 used_spring(int c, contact::Vec2 spring,
+                                          const contact::ContactAxes& axes) const;
   void place(double time, const double* y);
   void structure(const double* y, double* rate);
   void act(const double* s, double* rate);

@@ -118,7 +118,7 @@ public:
       const auto i = static_cast<std::size_t>(c);
       const ContactState& s = rates_.trial().states[i];
       if (s.normal_force > 0.0)
-        forces[i] = {s.normal_force, s.friction, s.ny, s.nz, s.slides};
+        forces[i] = {s.normal_force, s.friction, s.axes, s.slides};
     }
     return true;
   }

@@ -16,7 +16,7 @@ namespace fretwork::transient {
 /// One contact over the step of a record.
 struct ContactState {
   double normal_force = 0.0;    ///< N, mean over the step, >= 0
-  double ny = 0.0, nz = 0.0;    ///< normal, local axes
+  contact::ContactAxes axes;    ///< of `normal_force` and `friction`; none: open
   contact::Vec2 friction;       ///< N, mean over the step, along x_loc and t = n x x_loc, on the node
   contact::Vec2 displacement;   ///< m, tangential, while the contact is closed
   double slid = 0.0;            ///< m, path with friction at its bound
@@ -45,6 +45,9 @@ struct ContactState {
     rubbed = normal_force * slid / share;
     touches = touched ? 1 : 0;
   }
+  /// Force on the node along the local axes, N.
+  [[nodiscard]] double force_y() const { return axes.y(normal_force, friction.t); }
+  [[nodiscard]] double force_z() const { return axes.z(normal_force, friction.t); }
   void act_throughout(bool touched) { act_for(1.0, touched); }
 };
 
@@ -52,8 +55,11 @@ struct ContactState {
 struct ContactForce {
   double normal;
   contact::Vec2 friction;
-  double ny, nz; ///< normal, local axes
-  bool slides;   ///< the friction bound is reached
+  contact::ContactAxes axes;
+  bool slides; ///< the friction bound is reached
+  /// On the node along the local axes, N.
+  [[nodiscard]] double y() const { return axes.y(normal, friction.t); }
+  [[nodiscard]] double z() const { return axes.z(normal, friction.t); }
 };
 
 /// Energy, J, at a record: load_work = stored - initial + modal_damping + contact_damping +

@@ -74,11 +74,11 @@ double ContactIntervals::relax(ContactPast& past, double time) const {
     return 0.0;
   const double left =
       friction_.kind == contact::FrictionMemoryKind::return_map ? contact::spring_left(friction_, time) : 0.0;
-  const double before = spring_energy(spring);
+  const double before = friction_.spring_energy(spring);
   spring = left * spring;
   if (dot(spring, spring) <= contact::forgotten * contact::forgotten * past.spring_at_opening)
     spring = {};
-  return before - spring_energy(spring);
+  return before - friction_.spring_energy(spring);
 }
 
 /// The gap is linear about where the force of the guess leads.
@@ -88,38 +88,36 @@ void ContactIntervals::find_normal_force(const ContactPath& m, const Components&
   const Components by_guess = w_ * guessed, a = m.a + 0.5 * dt * m.j + by_guess;
   const Components way = m.displacement(dt) + half * by_guess;
   const contact::Location there = locate(m.u + way);
-  const double turned = there.ny * m.at.ny + there.nz * m.at.nz;
-  const auto find = [&](double ny, double nz, double start, double end, double rate) {
+  const double turned = m.at.axes().normal(there.ny, there.nz);
+  const auto find = [&](const contact::ContactAxes& axes, double start, double end, double rate) {
     const auto& w = w_.w;
+    const auto [ny, nz] = axes;
     const double wnn = w[0][0] * ny * ny + (w[0][1] + w[1][0]) * ny * nz + w[1][1] * nz * nz;
-    const double guess = dot(ny, nz, guessed), acceleration = wnn * guess - dot(ny, nz, a);
-    p.ny = ny;
-    p.nz = nz;
+    const double guess = normal(axes, guessed), acceleration = wnn * guess - normal(axes, a);
+    p.axes = axes;
     p.normal = contact::normal_over_interval(
         normal_, dt, usual_.length, wnn, share,
         {start, end + half * wnn * guess + (share - 0.5) * dt * dt * acceleration, rate, acceleration});
   };
-  const double start = -m.at.gap, rate = -dot(m.at.ny, m.at.nz, m.v);
+  const double start = -m.at.gap, rate = -normal(m.at.axes(), m.v);
   // The gap that the laws follow strays from that of the position, by curvature and where beta is not 1/2: over a short interval a damper would
   // take that for a speed.
   const double drift = dt < short_interval * usual_.length ? start + locate(m.u).gap : 0.0;
   p.to = there;
   if (turned > 0.0) {
-    double ny = m.at.ny, nz = m.at.nz;
+    contact::ContactAxes axes = m.at.axes();
     if (there.gap < 0.0 && turned < 1.0) { // the mean of both; one that opens keeps its own
       const double per = 1.0 / std::sqrt(2.0 * (1.0 + turned));
-      ny = per * (ny + there.ny);
-      nz = per * (nz + there.nz);
+      axes = {per * (axes.ny + there.ny), per * (axes.nz + there.nz)};
     }
-    find(ny, nz, start, drift - there.gap, rate);
+    find(axes, start, drift - there.gap, rate);
   } else { // another face lies ahead of the guess: does the contact stay on its own, or leave it before?
-    find(m.at.ny, m.at.nz, start, start - dot(m.at.ny, m.at.nz, way), rate);
-    const Components by = w_ * (p.normal.force * Components{p.ny, p.nz, 0.0});
+    find(m.at.axes(), start, start - normal(m.at.axes(), way), rate);
+    const Components by = w_ * (p.normal.force * Components{p.axes.ny, p.axes.nz, 0.0});
     const contact::Location then = locate(m.u + way + half * (by - by_guess));
     p.to = m.at;
-    if (p.normal.to == 1.0 && then.gap < 0.0 && then.ny * m.at.ny + then.nz * m.at.nz <= 0.0) {
-      find(there.ny, there.nz, -there.gap + dot(there.ny, there.nz, way), -there.gap,
-           -dot(there.ny, there.nz, m.v));
+    if (p.normal.to == 1.0 && then.gap < 0.0 && m.at.axes().normal(then.ny, then.nz) <= 0.0) {
+      find(there.axes(), -there.gap + normal(there.axes(), way), -there.gap, -normal(there.axes(), m.v));
       p.to = there;
     }
   }
@@ -133,9 +131,10 @@ void ContactIntervals::find_closed_friction(const ContactPath& m, const Interval
   const bool by_reference =
       law.kind == contact::FrictionMemoryKind::reference; // which knows no parts of an interval
   const bool whole = by_reference || (p.normal.from == 0.0 && p.normal.to == 1.0);
-  const double ny = p.ny, nz = p.nz, dt = of.length, from = whole ? 0.0 : p.normal.from * dt;
+  const auto [ny, nz] = p.axes;
+  const double dt = of.length, from = whole ? 0.0 : p.normal.from * dt;
   const double length = whole ? dt : (p.normal.to - p.normal.from) * dt;
-  double stored = spring_energy(p.memory.spring);
+  double stored = friction_.spring_energy(p.memory.spring);
   if (from > 0.0) {
     p.memory.sliding = false;
     if (stored > 0.0) {
@@ -150,7 +149,7 @@ void ContactIntervals::find_closed_friction(const ContactPath& m, const Interval
                    v = m.v - (dt * dt / 12.0) * m.j + from * a;
   const auto& w = w_.w;
   const double wtt = w[0][0] * nz * nz - (w[0][1] + w[1][0]) * ny * nz + w[1][1] * ny * ny;
-  const double vt = nz * v.y - ny * v.z, at = nz * a.y - ny * a.z;
+  const double vt = tangent(p.axes, v), at = tangent(p.axes, a);
   const auto close = [&](const auto& f, contact::Vec2 impulse, contact::Vec2 by, contact::Vec2 spring) {
     p.friction = (1.0 / dt) * impulse;
     p.displacement = by;
@@ -160,15 +159,14 @@ void ContactIntervals::find_closed_friction(const ContactPath& m, const Interval
     p.slid = f.slid;
     p.sliding_time = f.sliding_time;
     // what goes into the element and is neither stored nor taken by the slider
-    p.damper_work += stored - spring_energy(spring) - p.slider_work - dot((1.0 / length) * impulse, by);
+    p.damper_work +=
+        stored - friction_.spring_energy(spring) - p.slider_work - dot((1.0 / length) * impulse, by);
   };
   if (in_plane_) {
-    const double wxt = nz * w[0][2] - ny * w[1][2];
-    const contact::Vec2 along = law.along;
+    const double wxt = p.axes.tangent(w[0][2], w[1][2]);
     const contact::TangentialPath<contact::Vec2, contact::Sym2> path{
-        {along.x * v.x, along.t * vt},
-        {along.x * a.x, along.t * at},
-        {along.x * w[2][2], along.x * along.t * wxt, along.t * wtt}};
+        law.masked(contact::Vec2{v.x, vt}), law.masked(contact::Vec2{a.x, at}),
+        law.masked(contact::Sym2{w[2][2], wxt, wtt})};
     const auto f = by_reference ? reference_friction(law, of.table, p.memory, p.normal.force, length, path)
                                 : contact::friction_over_interval(law, of.piece, mobility_, p.memory.spring,
                                                                   p.memory.sliding, length, p.normal.first,
@@ -189,7 +187,7 @@ void ContactIntervals::find_closed_friction(const ContactPath& m, const Interval
   p.friction_square = dt / length * dot(p.friction, p.friction);
   if (p.normal.to < 1.0) {
     const double rest = by_reference ? 0.0 : contact::spring_left(law, dt - from - length);
-    p.damper_work += (1.0 - rest * rest) * spring_energy(p.memory.spring);
+    p.damper_work += (1.0 - rest * rest) * friction_.spring_energy(p.memory.spring);
     p.memory = {rest * p.memory.spring, false};
   }
 }
@@ -197,9 +195,9 @@ void ContactIntervals::find_closed_friction(const ContactPath& m, const Interval
 void ContactIntervals::find_friction(const ContactPath& m, const ContactPast& past, const IntervalTable& of,
                                      PressedInterval& p) const {
   p.memory = past.friction;
-  if (past.ny * p.ny + past.nz * p.nz < 0.0 && p.normal.force > 0.0) { // another surface
+  if (past.axes.opposite(p.axes) && p.normal.force > 0.0) { // another surface
     p.memory = {};
-    p.damper_work += spring_energy(past.friction.spring);
+    p.damper_work += friction_.spring_energy(past.friction.spring);
   }
   if (p.normal.force > 0.0) {
     find_closed_friction(m, of, p);
@@ -216,13 +214,9 @@ void ContactIntervals::press(const ContactPath& m, const ContactPast& past, cons
   for (int i = 0;; ++i) {
     p = {};
     find_normal_force(m, guess, of, p);
-    p.force = {p.normal.force * p.ny, p.normal.force * p.nz, 0.0};
-    if (friction_.active()) {
+    if (friction_.active())
       find_friction(m, past, of, p);
-      p.force.y += p.friction.t * p.nz;
-      p.force.z -= p.friction.t * p.ny;
-      p.force.x = p.friction.x;
-    }
+    p.force = {p.axes.y(p.normal.force, p.friction.t), p.axes.z(p.normal.force, p.friction.t), p.friction.x};
     const double changed = sum_of_sizes(p.force - guess);
     if (of.answer * across_ * changed <= repeat_tolerance * sum_of_sizes(p.force) || i == most_repeats)
       return;

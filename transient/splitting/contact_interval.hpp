@@ -21,7 +21,13 @@ inline Components operator-(const Components& a, const Components& b) {
   return {a.y - b.y, a.z - b.z, a.x - b.x};
 }
 inline Components operator*(double s, const Components& a) { return {s * a.y, s * a.z, s * a.x}; }
-[[nodiscard]] inline double dot(double ny, double nz, const Components& c) { return ny * c.y + nz * c.z; }
+/// Along n, and along t.
+[[nodiscard]] inline double normal(const contact::ContactAxes& axes, const Components& c) {
+  return axes.normal(c.y, c.z);
+}
+[[nodiscard]] inline double tangent(const contact::ContactAxes& axes, const Components& c) {
+  return axes.tangent(c.y, c.z);
+}
 inline double sum_of_sizes(const Components& c) { return std::abs(c.y) + std::abs(c.z) + std::abs(c.x); }
 
 /// Acceleration of one contact by a force on another, or on itself: W, 1/kg, rows and columns y z x.
@@ -36,7 +42,7 @@ struct Mobility {
 /// What is remembered of a contact from step to step.
 struct ContactPast {
   contact::FrictionMemory friction;
-  double ny = 0.0, nz = 0.0; ///< normal of its last force
+  contact::ContactAxes axes; ///< of its last force
   bool closed = false;       ///< at the end of the last step
   bool before_run = false;   ///< it has been closed since before the run: its impact is still to be counted
   double spring_at_opening = 0.0; ///< N2, square of the spring's force
@@ -72,8 +78,8 @@ struct IntervalTable {
 
 /// An interval with its forces.
 struct PressedInterval {
-  double ny, nz;        ///< normal of the interval
-  contact::Location to; ///< at its end
+  contact::ContactAxes axes; ///< of the interval
+  contact::Location to;      ///< at its end
   contact::NormalInterval normal;
   contact::FrictionMemory memory; ///< at its end
   contact::Vec2 friction, displacement;
@@ -101,10 +107,6 @@ public:
              PressedInterval& p) const;
   /// An open contact forgets over `time`. Returns what its spring gives up, J.
   double relax(ContactPast& past, double time) const;
-  /// Of the tangential spring, J.
-  [[nodiscard]] double spring_energy(contact::Vec2 spring) const {
-    return 0.5 * dot(spring, spring) / friction_.stiffness;
-  }
   [[nodiscard]] const Mobility& mobility() const { return w_; }
 
 private:

@@ -48,16 +48,11 @@ bool ContactStep::meets(const ContactPast& past, const FreePath& path) const {
   return false;
 }
 
-double ContactStep::spring_energy(const ContactPast& past) const {
-  return friction_.active() ? intervals_.spring_energy(past.friction.spring) : 0.0;
-}
-
 void ContactStep::stretch(ContactPast& past, const Components& missed) const {
   if (!past.closed || !friction_.active() || past.friction.sliding ||
       friction_.kind == contact::FrictionMemoryKind::reference)
     return;
-  past.friction.spring.t -=
-      friction_.along.t * friction_.stiffness * (past.nz * missed.y - past.ny * missed.z);
+  past.friction.spring.t -= friction_.along.t * friction_.stiffness * tangent(past.axes, missed);
   if (in_plane_)
     past.friction.spring.x -= friction_.along.x * friction_.stiffness * missed.x;
 }
@@ -116,7 +111,7 @@ void ContactStep::open(const ContactPath& m, ContactAct& act) const {
   act.opened = true;
   act.past.closed = false;
   act.state.opened_at = m.t / h_;
-  act.state.departure = dot(m.at.ny, m.at.nz, m.v);
+  act.state.departure = normal(m.at.axes(), m.v);
 }
 
 /// The interval is over: its forces are those of the contact.
@@ -132,15 +127,14 @@ void ContactStep::book(ContactPath& m, const IntervalTable& of, const PressedInt
       ++state.touches;
       past.before_run = false;
       state.closed_at = begin + p.normal.from * share;
-      state.approach = -dot(p.ny, p.nz, m.v);
+      state.approach = -normal(p.axes, m.v);
     }
     const double closed = p.normal.to - p.normal.from;
     state.normal_force += share * p.normal.force;
     state.normal_square += share * p.normal.square();
     state.closed += share * closed;
     state.peak = std::max({state.peak, p.normal.first, p.normal.last});
-    past.ny = state.ny = p.ny;
-    past.nz = state.nz = p.nz;
+    past.axes = state.axes = p.axes;
     act.mean = act.mean + share * p.force;
     act.slope = act.slope + 6.0 * share * (middle - 0.5) * p.force;
     if (friction_.active()) {
@@ -160,7 +154,7 @@ void ContactStep::book(ContactPath& m, const IntervalTable& of, const PressedInt
     const double to = pressed ? p.normal.to : 0.0, after = (1.0 - to) * of.length;
     open(m, act);
     state.opened_at = begin + to * share;
-    state.departure -= after * dot(p.ny, p.nz, m.a);
+    state.departure -= after * normal(p.axes, m.a);
   }
   past.closed = stays;
   act.last = m.force = p.force;
@@ -176,7 +170,7 @@ void ContactStep::book(ContactPath& m, const IntervalTable& of, const PressedInt
 /// s: how long a contact that has opened while it penetrates, where its damper would pull, moves free of force: until it is out, or until
 /// K_N p + c p' = 0 again, p'' = a and from 0. 0: its force grows at once.
 double ContactStep::pause(const ContactPath& m) const {
-  const double out = dot(m.at.ny, m.at.nz, m.v), pressing = -dot(m.at.ny, m.at.nz, m.a);
+  const double out = normal(m.at.axes(), m.v), pressing = -normal(m.at.axes(), m.a);
   const double falls = normal_.stiffness * out - normal_.damping_at(-m.at.gap) * pressing;
   if (!(out > 0.0 && falls > 0.0))
     return 0.0;
@@ -188,13 +182,11 @@ double ContactStep::pause(const ContactPath& m) const {
 }
 
 void ContactStep::leave(ContactPath& m, double time, ContactAct& act) const {
-  const double before = m.at.gap;
+  const double before = normal_.spring_energy(-m.at.gap);
   act.relaxed += intervals_.relax(act.past, time);
   m.move(time, {});
   m.at = intervals_.locate(m.u);
-  const double left = std::min(0.0, m.at.gap);
-  act.state.damper_work +=
-      0.5 * normal_.stiffness * (before * before - left * left); // what the positive part cuts
+  act.state.damper_work += before - normal_.spring_energy(-m.at.gap); // what the positive part cuts
 }
 
 void ContactStep::make(const ContactPast& past, const FreePath& path, const Components& guess,

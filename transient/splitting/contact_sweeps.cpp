@@ -50,8 +50,7 @@ void ContactSweeps::visit(core::StateArchive& state) {
 
 void ContactSweeps::hold(int c, const contact::Location& at, double normal_force) {
   ContactPast& past = pasts_[c];
-  past.ny = at.ny;
-  past.nz = at.nz;
+  past.axes = at.axes();
   past.closed = past.before_run = true;
   forces_[c].held = {normal_force * at.ny, normal_force * at.nz, 0.0};
 }
@@ -153,15 +152,14 @@ void ContactSweeps::settle(const ContactMotion& end) {
   normal_springs_ = tangential_springs_ = 0.0;
   for (const Moving& m : moving_) {
     if (m.act.penetrates) // also where a damper holds the contact free of force
-      if (const double gap = end.locate(m.c).gap; gap < 0.0)
-        normal_springs_ += 0.5 * contacts_.supports[m.c].normal.stiffness * gap * gap;
+      normal_springs_ += contacts_.supports[m.c].normal.spring_energy(-end.locate(m.c).gap);
     steps_[m.c].stretch(pasts_[m.c], of_lanes(end.u, m.c) - m.act.end);
   }
   loaded_.clear();
   for (int c = 0; c < contacts_.count; ++c)
     if (const contact::Vec2 spring = pasts_[c].friction.spring; dot(spring, spring) > 0.0) {
       loaded_.push_back(c);
-      tangential_springs_ += steps_[c].spring_energy(pasts_[c]);
+      tangential_springs_ += contacts_.supports[c].friction.spring_energy(spring);
     }
 }
 
@@ -173,7 +171,7 @@ void ContactSweeps::pass(int steps, ContactTrial& trial, StepLosses& losses) {
     losses.damping += steps_[c].relax(pasts_[c], steps * h_);
     const contact::Vec2 spring = pasts_[c].friction.spring;
     if (dot(spring, spring) > 0.0) {
-      tangential_springs_ += steps_[c].spring_energy(pasts_[c]);
+      tangential_springs_ += contacts_.supports[c].friction.spring_energy(spring);
       *kept++ = c;
     }
   }

@@ -137,8 +137,8 @@ void FlexibleContacts::accept() {
   std::fill(own_last_.begin(), own_last_.end(), 0.0);
   for (const Shut& s : shut_) {
     const double own = s.residual(0, 0) * s.force[0];
-    own_last_[s.contact] = s.ny * own;
-    own_last_[contacts_.width + s.contact] = s.nz * own;
+    own_last_[s.contact] = s.axes.y(own, 0.0);
+    own_last_[contacts_.width + s.contact] = s.axes.z(own, 0.0);
   }
   ++actions_;
 }
@@ -183,7 +183,7 @@ contact::Location FlexibleContacts::face_at(int c, ContactMotion& motion) const 
   y += own_y;
   z += own_z;
   auto at = motion.locate(c);
-  at.gap -= at.ny * own_y + at.nz * own_z;
+  at.gap -= at.axes().normal(own_y, own_z);
   y = deep_y;
   z = deep_z;
   return at;
@@ -199,10 +199,9 @@ void FlexibleContacts::take(int c, ContactMotion& motion) {
   s.friction = !still_ && support.friction.active();
   s.in_plane = contacts_.in_plane[c] != 0;
   s.deeper = largest_eigenvalue(r_.block<2, 2>(3 * c, 3 * c));
-  s.ny = at.ny;
-  s.nz = at.nz;
-  s.bare = -at.gap + at.ny * given_[c] + at.nz * given_[width + c];
-  const double reach = half_window_ * motion.sinking(c, at.ny, at.nz);
+  s.axes = at.axes();
+  s.bare = -at.gap + s.axes.normal(given_[c], given_[width + c]);
+  const double reach = half_window_ * motion.sinking(c, s.axes);
   s.closed =
       still_ ? 0.0 : contact::closed_share(-at.gap - reach, -at.gap + reach); // as the last forces leave it
   face(s, motion);
@@ -225,20 +224,20 @@ void FlexibleContacts::take(int c, ContactMotion& motion) {
 void FlexibleContacts::along(const Shut& s, const kernels::Array& lanes, double* to) const {
   const int width = contacts_.width, c = s.contact;
   const double y = lanes[c], z = lanes[width + c];
-  to[0] = s.ny * y + s.nz * z;
-  to[1] = s.nz * y - s.ny * z;
+  to[0] = s.axes.normal(y, z);
+  to[1] = s.axes.tangent(y, z);
   to[2] = contacts_.components > 2 ? lanes[2 * width + c] : 0.0;
 }
 
 /// What a contact has along its directions before the action, and what its own forces do.
 void FlexibleContacts::face(Shut& s, const ContactMotion& motion) const {
-  s.approach = motion.sinking(s.contact, s.ny, s.nz);
-  s.flown = -(s.ny * flown_[s.contact] + s.nz * flown_[contacts_.width + s.contact]);
+  s.approach = motion.sinking(s.contact, s.axes);
+  s.flown = -s.axes.normal(flown_[s.contact], flown_[contacts_.width + s.contact]);
   along(s, motion.w, s.velocity);
   along(s, given_last_, s.last);
   along(s, given_before_, s.before);
   Eigen::Matrix3d d;
-  d << s.ny, s.nz, 0.0, s.nz, -s.ny, 0.0, 0.0, 0.0, 1.0;
+  d << s.axes.ny, s.axes.nz, 0.0, s.axes.nz, -s.axes.ny, 0.0, 0.0, 0.0, 1.0;
   s.mobility = d * a_.block<3, 3>(3 * s.contact, 3 * s.contact) * d.transpose();
   s.residual = d * r_.block<3, 3>(3 * s.contact, 3 * s.contact) * d.transpose();
   const contact::NormalLaw& law = contacts_.supports[s.contact].normal;
@@ -264,28 +263,27 @@ double FlexibleContacts::at_instant(Shut& s, double p0) const {
 double FlexibleContacts::turn(std::size_t i, ContactMotion& motion) {
   Shut& s = shut_[i];
   const int y = s.contact, z = y + contacts_.width;
-  const auto locate = [&](double depth, double ny, double nz) {
-    motion.u[y] = bare_[y] + give_[3 * i] - depth * ny;
-    motion.u[z] = bare_[z] + give_[3 * i + 1] - depth * nz;
+  const auto locate = [&](double depth, const contact::ContactAxes& axes) {
+    motion.u[y] = bare_[y] + give_[3 * i] - axes.y(depth, 0.0);
+    motion.u[z] = bare_[z] + give_[3 * i + 1] - axes.z(depth, 0.0);
     return motion.locate(s.contact);
   };
   double depth = s.deeper * s.force[0];
   if (contacts_.has_parts[s.contact]) {
-    const auto here = locate(0.0, 0.0, 0.0);
-    if (here.gap - locate(depth, here.ny, here.nz).gap < same_part * depth)
+    const auto here = locate(0.0, {});
+    if (here.gap - locate(depth, here.axes()).gap < same_part * depth)
       depth = 0.0;
   }
-  const auto at = locate(depth, s.ny, s.nz);
-  const double by_y = give_[3 * i] - depth * s.ny, by_z = give_[3 * i + 1] - depth * s.nz;
-  const double turned = std::hypot(at.ny - s.ny, at.nz - s.nz);
+  const auto at = locate(depth, s.axes);
+  const double by_y = give_[3 * i] - s.axes.y(depth, 0.0), by_z = give_[3 * i + 1] - s.axes.z(depth, 0.0);
+  const double turned = std::hypot(at.ny - s.axes.ny, at.nz - s.axes.nz);
   if (turned > turn_tolerance) {
     const Eigen::Vector3d before = force(s);
-    s.ny = at.ny;
-    s.nz = at.nz;
+    s.axes = at.axes();
     face(s, motion);
     push(s.contact, force(s) - before);
   }
-  s.bare = -at.gap + s.ny * by_y + s.nz * by_z;
+  s.bare = -at.gap + s.axes.normal(by_y, by_z);
   return turned > turn_tolerance ? turned * s.force[0] : 0.0;
 }
 
@@ -319,7 +317,7 @@ void FlexibleContacts::build(const ContactMotion& motion) {
 
 /// Along y, z, x_loc.
 Eigen::Vector3d FlexibleContacts::force(const Shut& s) {
-  return {s.force[0] * s.ny + s.force[1] * s.nz, s.force[0] * s.nz - s.force[1] * s.ny, s.force[2]};
+  return {s.axes.y(s.force[0], s.force[1]), s.axes.z(s.force[0], s.force[1]), s.force[2]};
 }
 
 /// Adds to the force on a contact; all velocities and displacements answer.
@@ -342,8 +340,8 @@ void FlexibleContacts::change(std::size_t i, int component, double by) {
     return;
   Shut& s = shut_[i];
   s.force[component] += by;
-  push(s.contact, component == 0   ? Eigen::Vector3d(by * s.ny, by * s.nz, 0.0)
-                  : component == 1 ? Eigen::Vector3d(by * s.nz, -by * s.ny, 0.0)
+  push(s.contact, component == 0   ? Eigen::Vector3d(s.axes.y(by, 0.0), s.axes.z(by, 0.0), 0.0)
+                  : component == 1 ? Eigen::Vector3d(s.axes.y(0.0, by), s.axes.z(0.0, by), 0.0)
                                    : Eigen::Vector3d(0.0, 0.0, by));
 }
 
@@ -351,7 +349,7 @@ void FlexibleContacts::change(std::size_t i, int component, double by) {
 double FlexibleContacts::component(const std::vector<double>& of, std::size_t i, int k) const {
   const Shut& s = shut_[i];
   const double y = of[3 * i], z = of[3 * i + 1];
-  return k == 0 ? s.ny * y + s.nz * z : k == 1 ? s.nz * y - s.ny * z : of[3 * i + 2];
+  return k == 0 ? s.axes.normal(y, z) : k == 1 ? s.axes.tangent(y, z) : of[3 * i + 2];
 }
 
 bool FlexibleContacts::sweep(const ContactMemory* memory, ContactMotion& motion) {
@@ -409,7 +407,7 @@ contact::Friction FlexibleContacts::friction(std::size_t i, const ContactMemory&
   };
   const contact::FrictionLaw& law = contacts_.supports[s.contact].friction;
   const auto& table = memory.table(s.contact);
-  const auto past = memory.at(s.contact, s.ny, s.nz);
+  const auto past = memory.friction().at(s.contact, s.axes);
   const double tt = mobility(t, t);
   if (!s.in_plane)
     return contact::step_friction_line(law, table, past, s.force[0], velocity(t) - tt * s.force[1], tt);
@@ -453,8 +451,7 @@ void FlexibleContacts::close(ContactTrial& trial, Action& action) const {
     const int c = s.contact;
     const double rate = normal_rate(i);
     const double p = s.alone - s.residual(0, 0) * s.force[0], spring = s.normal.stiffness * p;
-    if (s.alone > 0.0)
-      trial.springs += 0.5 * s.normal.stiffness * p * p;
+    trial.springs += s.normal.spring_energy(p);
     if (!s.acts())
       continue;
     const double loss = h_ * (s.force[0] - spring) * rate;
@@ -464,8 +461,7 @@ void FlexibleContacts::close(ContactTrial& trial, Action& action) const {
     }
     ContactState& state = trial.states[c];
     state.normal_force = s.force[0];
-    state.ny = s.ny;
-    state.nz = s.nz;
+    state.axes = s.axes;
     state.approach = s.approach;
     state.damper_work = loss;
     double moved[3] = {}; // over the step

@@ -61,7 +61,7 @@ private:
     Eigen::Matrix3d mobility, residual; ///< own A and R, along n, t, x_loc
     bool friction = false, in_plane = false, slides = false;
     contact::NormalLaw normal{};
-    double ny = 0.0, nz = 0.0;
+    contact::ContactAxes axes;
     double bare = 0.0;          ///< m: penetration without any R f
     double closed = 0.0;        ///< share of the step with penetration
     double approach = 0.0;      ///< m/s: p' before the action

@@ -97,13 +97,12 @@ private:
     for (int c = 0; c < contacts_.count; ++c) {
       const contact::Location at = motion_.locate(c);
       const double force =
-          contact::normal_force(contacts_.supports[c].normal, -at.gap, motion_.sinking(c, at.ny, at.nz));
+          contact::normal_force(contacts_.supports[c].normal, -at.gap, motion_.sinking(c, at.axes()));
       if (!(at.gap < 0.0 && force > 0.0))
         continue;
       ContactState& state = trial_.states[c];
       state.normal_force = force;
-      state.ny = at.ny;
-      state.nz = at.nz;
+      state.axes = at.axes();
       trial_.active.push_back(c);
     }
     rows_.set(trial_, h_);
@@ -144,8 +143,7 @@ private:
     for (const int active : trial_.active) {
       const auto c = static_cast<std::size_t>(active);
       const ContactState& s = trial_.states[c];
-      const double scale = h_ * h_ / 12.0, y = scale * (s.normal_force * s.ny + s.friction.t * s.nz),
-                   z = scale * (s.normal_force * s.nz - s.friction.t * s.ny);
+      const double scale = h_ * h_ / 12.0, y = scale * s.force_y(), z = scale * s.force_z();
       seen_[c] += contacts_.own_mobility(active, 0, 0) * y + contacts_.own_mobility(active, 0, 1) * z;
       seen_[width + c] += contacts_.own_mobility(active, 1, 0) * y + contacts_.own_mobility(active, 1, 1) * z;
     }
@@ -160,7 +158,7 @@ private:
     }
     const auto action = flexible_.solve(memory_, motion_, trial_);
     unconverged_ += !action.converged;
-    const double springs_before = memory_.spring_energy();
+    const double springs_before = memory_.friction().spring_energy();
     const ContactLosses losses = memory_.commit(motion_, trial_);
     flexible_.accept();
     rows_.set(trial_, h_);
@@ -186,7 +184,7 @@ private:
     energy.contact_damping = lost_.damping + 0.5 * losses.damping;
     energy.friction = lost_.friction + 0.5 * losses.friction;
     energy.stored = moving_ + 0.5 * work - 0.25 * action.jump + trial_.springs +
-                    0.5 * (springs_before + memory_.spring_energy());
+                    0.5 * (springs_before + memory_.friction().spring_energy());
     lost_.damping += losses.damping;
     lost_.friction += losses.friction;
     after_action_ = moving_ + work;

@@ -205,7 +205,7 @@ private:
     for (int c = 0; c < contacts_.count; ++c) {
       const contact::Location at = end_.locate(c);
       const double force =
-          contact::normal_force(contacts_.supports[c].normal, -at.gap, end_.sinking(c, at.ny, at.nz));
+          contact::normal_force(contacts_.supports[c].normal, -at.gap, end_.sinking(c, at.axes()));
       if (at.gap < 0.0 && force > 0.0) {
         sweeps_.hold(c, at, force);
         near_.push_back(c);

@@ -259,7 +259,7 @@ TEST(Collocation, LosesAtTheOppositeFaceWhatTheLastOneLoaded) {
     if (record.active.empty())
       continue;
     const ContactState& state = record.states[0];
-    if (state.ny < 0.0)
+    if (state.axes.ny < 0.0)
       at_first = contact::norm(state.friction);
     else if (at_second < 0.0)
       at_second = contact::norm(state.friction) - 1e5 * 0.1; // less than what its damper alone can give

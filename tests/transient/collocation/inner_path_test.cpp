@@ -19,7 +19,7 @@ struct Straight {
   Straight(const contact::Support& support, double touch, double rate) {
     for (int j = 0; j < 3; ++j) {
       ContactNode& node = nodes[j];
-      node.ny = node.face_y = 1.0;
+      node.axes.ny = node.face.ny = 1.0;
       node.rate = rate;
       node.penetration = rate * h * (0.5 * j - touch);
       node.normal = contact::normal_force(support.normal, node.penetration, rate);
@@ -90,7 +90,7 @@ TEST(InnerPath, FollowsASlideThatEndsAndTurnsRound) {
   for (const double turn : {0.6, 1.0, 1.4}) {
     ContactNode nodes[3];
     for (int j = 0; j < 3; ++j) {
-      nodes[j].ny = nodes[j].face_y = 1.0;
+      nodes[j].axes.ny = nodes[j].face.ny = 1.0;
       nodes[j].penetration = press / stiffness;
       nodes[j].normal = press;
       nodes[j].slip.t = 2.0 * speed * (1.0 - j / turn);
@@ -132,7 +132,7 @@ TEST(InnerPath, SlidesOnAtTheDynamicCoefficient) {
     const contact::Support support{contact::Stop{}, {stiffness}, {1e6, damping, 0.6, 0.3}};
     ContactNode nodes[3];
     for (int j = 0; j < 3; ++j) {
-      nodes[j].ny = nodes[j].face_y = 1.0;
+      nodes[j].axes.ny = nodes[j].face.ny = 1.0;
       nodes[j].penetration = press / stiffness;
       nodes[j].normal = press;
       nodes[j].slip.t = 0.15;

@@ -27,7 +27,7 @@ template <int D> struct Random {
     std::uniform_real_distribution<double> any(-1.0, 1.0);
     for (int j = 0; j < 3; ++j) {
       ContactNode& n = nodes[j];
-      n.ny = 1.0;
+      n.axes.ny = 1.0;
       n.penetration = 1e-4 * any(generator) + 0.5e-4;
       n.rate = 0.05 * any(generator);
       n.across = 0.1 * any(generator);
@@ -36,7 +36,7 @@ template <int D> struct Random {
                 support.friction.along.t * n.across};
     }
     ContactNode& start = nodes[0];
-    start.face_y = any(generator) < -0.8 ? -1.0 : 1.0;
+    start.face.ny = any(generator) < -0.8 ? -1.0 : 1.0;
     start.slides = any(generator) > 0.0;
     start.spring = {D == 3 ? 20.0 * any(generator) : 0.0, 20.0 * any(generator)};
     start.friction = start.spring;

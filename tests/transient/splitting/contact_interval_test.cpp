@@ -31,8 +31,7 @@ TEST(ContactIntervals, TakeNoDriftOfTheGapForASpeedInShortIntervals) {
   path.at.gap += drift;
   ContactPast past;
   past.closed = true;
-  past.ny = path.at.ny;
-  past.nz = path.at.nz;
+  past.axes = path.at.axes();
   PressedInterval p;
   intervals.press(path, past, intervals.table(1e-4 * usual), p);
   const double expected = stiffness * penetration + damping * speed;
@@ -48,8 +47,7 @@ TEST(ContactIntervals, FollowTheLawOfTheGapOverUsualIntervals) {
   path.at = intervals.locate(path.u);
   ContactPast past;
   past.closed = true;
-  past.ny = path.at.ny;
-  past.nz = path.at.nz;
+  past.axes = path.at.axes();
   PressedInterval p;
   intervals.press(path, past, intervals.usual(), p);
   EXPECT_NEAR(p.force.z, -stiffness * penetration, 1e-6 * stiffness * penetration); // towards the axis
