@@ -13,18 +13,22 @@
 ///       return_map   trial = T - K_T (h w/2 + R f_k - y) - C_T (w + R f'),  y = R (3 f_{k-1} - f_{k-2})/2
 ///       reference    trial = F0 - (K_T h/2 + C_T)(w + R f'), whose slip is opposite to w + R f'
 ///     over the step the spring is stretched by h (w + R f'): the sum of the f' is the f that y takes at its start
-/// all implicit in f, by Gauss-Seidel sweeps from the forces that the last two steps foretell. A contact that the others' forces close
+/// all implicit in f, by Gauss-Seidel sweeps from the forces that the last two steps foretell, after some of which forces are mixed
+/// (anderson_mixing.hpp): contacts that share a large K_N R answer each other strongly. A contact that the others' forces close
 /// joins the sweeps. A lone contact without friction and dampers is the one of stiffness K_N/(1 + K_N R) to the last digit.
 ///
 /// Normals turn with the forces: where R f is far above the gap, forces that only the last steps tell would swing round a hole. The
 /// normal at a place is that at u - r F_N n, r the largest eigenvalue of the contact's own R across x_loc, which lies on it, deeper: a
 /// round hole gives n = N(B q + (R - r) f), whose own part is a contraction at any r F_N, and nothing at all where R is the same along
 /// y and z. Deeper in a profile another part may be nearest, past a corner that protrudes: there the place itself gives the normal (a facet
-/// needs no contraction), and a step starts from the normal where the forces foretold take the contact. Normals are held after some sweeps.
+/// needs no contraction), and a step starts from the normal where the forces foretold take the contact. Normals are held after some sweeps, and so are
+/// what an impact's beginning or end adds to p0 and contacts that slide: all these make the forces jump, and where the sweeps swing between two sides of a
+/// jump there is no solution but on one of them.
 ///
 /// Energy: f.R f/2 is stored.
 #pragma once
 #include "transient/contacts/contact_memory.hpp"
+#include "transient/splitting/anderson_mixing.hpp"
 
 namespace fretwork::transient {
 
@@ -60,14 +64,16 @@ private:
     double deeper = 0.0;                ///< m/N: r
     Eigen::Matrix3d mobility, residual; ///< own A and R, along n, t, x_loc
     bool friction = false, in_plane = false, slides = false;
+    bool loose = false; ///< it has slid: from now on by the dynamic coefficient
     contact::NormalLaw normal{};
     contact::ContactAxes axes;
     double bare = 0.0;          ///< m: penetration without any R f
     double closed = 0.0;        ///< share of the step with penetration
     double approach = 0.0;      ///< m/s: p' before the action
     double flown = 0.0;         ///< m/s: of the modes, mean of p' since the last action
-    double alone = 0.0;         ///< m: p0, as the spring in series sees it at an instant, >= 0
-    double instant_share = 1.0; ///< of the spring's force: contact::InstantSpring::Push
+    double instant_more = 0.0;  ///< m: beyond p0, for the force that the spring in series bears at an instant
+    double instant_share = 1.0; ///< of that force: contact::InstantSpring::Push
+    double alone = 0.0;         ///< m: p0 and that, >= 0
     [[nodiscard]] bool acts() const { return alone > 0.0 || normal.damping > 0.0; }
     double force[3] = {};    ///< N, along n, t, x_loc, as all that follows
     double velocity[3] = {}; ///< m/s, of the modes before the action
@@ -83,14 +89,16 @@ private:
   void take(int c, ContactMotion& motion);
   [[nodiscard]] bool recruit(ContactMotion& motion);
   void along(const Shut& s, const kernels::Array& lanes, double* to) const;
-  double at_instant(Shut& s, double p0) const;
+  void find_instant(Shut& s, double p0) const;
   void face(Shut& s, const ContactMotion& motion) const;
   [[nodiscard]] double turn(std::size_t i, ContactMotion& motion);
   void build(const ContactMotion& motion);
   [[nodiscard]] static Eigen::Vector3d force(const Shut& s);
   void push(int from, const Eigen::Vector3d& by);
   [[nodiscard]] bool sweep(const ContactMemory* memory, ContactMotion& motion);
-  [[nodiscard]] double improve(std::size_t i, const ContactMemory* memory, double share);
+  [[nodiscard]] double improve(std::size_t i, const ContactMemory* memory, bool holds);
+  void take_forces(Eigen::VectorXd& to) const;
+  void set_forces(const Eigen::VectorXd& forces);
   [[nodiscard]] contact::Friction friction(std::size_t i, const ContactMemory& memory) const;
   void change(std::size_t i, int component, double by);
   [[nodiscard]] double component(const std::vector<double>& of, std::size_t i, int k) const;
@@ -107,6 +115,8 @@ private:
   std::int64_t actions_ = 0;
   bool still_ = false; ///< at the start: springs alone
   std::vector<Shut> shut_;
+  AndersonMixing mixing_;
+  Eigen::VectorXd mixed_, swept_;    ///< N: forces of the shut contacts before a sweep and after it
   std::vector<double> speed_, give_; ///< m/s, B (v- + v+)/2, and m, R f, of y, z, x_loc of the shut contacts
   kernels::Array bare_;              ///< m, lanes: B q
   kernels::Array flown_;             ///< m/s, lanes: mean of its rate since the last action

@@ -174,6 +174,35 @@ TEST(FlexibleContacts, ShareTheirFlexibility) {
   }
 }
 
+TEST(FlexibleContacts, AreSolvedWhereTheyShareMuchMoreThanTheyGiveWay) {
+  // nodes side by side on springs, each between planes with friction; K_N R = 300, of which they share 0.95; w_c h = 0.6 of the stiffest shape
+  constexpr int count = 10;
+  constexpr double stiffness = 1e10, flexibility = 3e-8, shared = 0.95;
+  Scene s;
+  s.system.stiffness = Eigen::VectorXd::LinSpaced(count, 1e4, 4e4);
+  s.system.damping = Eigen::VectorXd::Constant(count, 2.0);
+  s.q0 = s.v0 = Eigen::VectorXd::Zero(count);
+  s.duration = 0.2;
+  s.residual = Eigen::MatrixXd::Zero(3 * count, 3 * count);
+  for (int c = 0; c < count; ++c) {
+    ContactPoint p{std::to_string(c),
+                   {contact::PlanePair{1e-4, PlaneAxis::y}, {stiffness, 10.0}, {1e7, 10.0, 0.4, 0.3}},
+                   Vec3::Zero(),
+                   Eigen::MatrixXd::Zero(3, count)};
+    p.b(1, c) = 1.0;
+    p.b(2, (c + 1) % count) = 0.5;
+    s.contacts.push_back(p);
+    for (int other = 0; other < count; ++other)
+      for (int k = 1; k < 3; ++k)
+        s.residual(3 * c + k, 3 * other + k) = flexibility * (c == other ? 1.0 : shared);
+    s.loads.push_back({Harmonic{1.0, 20.0 + c, 0.3 * c}, 60.0 * Eigen::VectorXd::Unit(count, c)});
+  }
+  const History run = simulate(s, splitting(2.5e-5), 0.1);
+  EXPECT_EQ(run.report.counts.steps, 8000);
+  EXPECT_LT(run.report.residual_relative, 1e-2);
+  EXPECT_EQ(run.report.counts.unconverged, 0);
+}
+
 TEST(FlexibleContacts, StickWithTheStiffnessesInSeries) {
   // a block held by a sticking spring of K_T and R: x = (v0/w) sin(w t), w^2 = K_T/(1 + K_T R)/m
   constexpr double stiffness = 1e4, speed = 0.1;
