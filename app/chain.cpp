@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/chain.hpp"
 #include "app/build_flow.hpp"
-#include "app/contact_notes.hpp"
+#include "app/describe.hpp"
 #include "app/folder_lock.hpp"
 #include "app/jobs.hpp"
 #include "app/linear_response.hpp"
-#include "app/modal_truncation.hpp"
+#include "app/mode_notes.hpp"
 #include "app/modes_limit.hpp"
 #include "app/progress.hpp"
 #include "app/python_report.hpp"
-#include "app/residual_flexibility.hpp"
 #include "app/run_spectra.hpp"
+#include "app/scenes.hpp"
 #include "app/size_of_results.hpp"
 #include "app/stability.hpp"
 #include "app/static_modes.hpp"
+#include "app/stopwatch.hpp"
 #include "app/support_motion.hpp"
 #include "app/unit_slips.hpp"
 #include "app/wear_of_run.hpp"
@@ -26,215 +27,15 @@
 #include "results/summary_file.hpp"
 #include "results/totals.hpp"
 #include "results/write.hpp"
-#include "transient/simd/kernels.hpp"
-#include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <functional>
-#include <limits>
-#include <numbers>
 #include <optional>
-#include <petscversion.h>
-#include <slepcversion.h>
 
 namespace fretwork::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Seconds since it was made, or since the last lap.
-class Stopwatch {
-public:
-  double lap() {
-    const auto now = Clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    return seconds;
-  }
-  [[nodiscard]] double total() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
-
-private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point begin_ = Clock::now(), last_ = begin_;
-};
-
-results::RunRecord make_record(const Inputs& inputs, int ranks) {
-  results::RunRecord record;
-  record.version = FRETWORK_VERSION;
-  record.title = inputs.study.title;
-  record.study_text = inputs.study.text;
-  record.overrides = inputs.study.overrides;
-  record.input_sha256 = inputs.whole_key;
-  for (const auto& load : inputs.study.loads)
-    if (const auto* random = std::get_if<transient::Random>(&load.function))
-      record.seeds.push_back(random->seed);
-  for (const study::Turbulence& turbulence : inputs.study.turbulence)
-    record.seeds.push_back(turbulence.seed);
-  for (const auto& motion : inputs.study.base_motions)
-    if (const auto* random = std::get_if<transient::Random>(&motion.acceleration))
-      record.seeds.push_back(random->seed);
-  for (const auto& motion : inputs.study.support_motions)
-    if (const auto* random = std::get_if<transient::Random>(&motion.function))
-      record.seeds.push_back(random->seed);
-  record.libraries = {
-      {"PETSc", fmt::format("{}.{}.{}", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR)},
-      {"SLEPc", fmt::format("{}.{}.{}", SLEPC_VERSION_MAJOR, SLEPC_VERSION_MINOR, SLEPC_VERSION_SUBMINOR)},
-      {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
-  record.vector_width = transient::kernels::vector_width();
-  record.ranks = ranks;
-  return record;
-}
-
-/// What the beams are made of: elements that differ by their masses alone (of the flow) have one property.
-void describe_beams(const fem::Model& model, results::RunResults& out) {
-  std::vector<core::Index> number;
-  for (fem::BeamProperty property : model.properties) {
-    property.added_mass = 0.0;
-    property.added_mass_direction = fem::AddedMass::transverse;
-    property.fluid = {};
-    if (property.taper)
-      property.taper = fem::Taper{property.taper->section};
-    const auto found = std::find(out.properties.begin(), out.properties.end(), property);
-    number.push_back(static_cast<core::Index>(found - out.properties.begin()));
-    if (found == out.properties.end())
-      out.properties.push_back(property);
-  }
-  out.beams = model.beams;
-  for (fem::Beam& beam : out.beams)
-    beam.property = number[static_cast<std::size_t>(beam.property)];
-}
-
-void describe_model(const mesh::LineMesh& mesh, const fem::Model& model,
-                    const std::vector<fem::Structure>& structures, results::RunResults& out) {
-  out.nodes = model.nodes;
-  for (const std::string& name : mesh::group_names(mesh))
-    out.groups[name] = mesh::group_nodes(mesh, name, "the results");
-  for (const auto& beam : model.beams)
-    out.lines.push_back({beam.a, beam.b});
-  describe_beams(model, out);
-  out.model.nodes = static_cast<std::int64_t>(model.nodes.size());
-  out.model.elements = static_cast<std::int64_t>(model.beams.size());
-  for (const auto& structure : structures)
-    out.model.dofs += structure.equations;
-  out.model.mass_kg = fem::total_mass(model);
-}
-
-results::ContactFacts facts_of(const study::Contact& contact, const PlacedContact& placed,
-                               const contact::Support& support) {
-  results::ContactFacts facts;
-  facts.name = placed.name;
-  facts.node = placed.node;
-  facts.other = placed.other;
-  facts.point = {placed.place, placed.motion};
-  facts.axes = placed.frame.rotation();
-  facts.obstacle = study::name_of(contact.obstacle);
-  facts.gap = placed.other < 0
-                  ? contact::locate(support.obstacle, 0.0, 0.0).gap // of a tube at the obstacle's centre
-                  : contact::locate(support.obstacle, placed.rest.y(), placed.rest.z()).gap;
-  facts.rest = placed.rest;
-  const auto outline = contact::outline_of(support.obstacle);
-  facts.outline.resize(static_cast<Eigen::Index>(outline.size()), 2);
-  for (std::size_t i = 0; i < outline.size(); ++i)
-    facts.outline.row(static_cast<Eigen::Index>(i)) << outline[i].y, outline[i].z;
-  facts.normal_stiffness = support.normal.stiffness;
-  facts.normal_damping = support.normal.damping;
-  facts.normal_dissipation = support.normal.dissipation;
-  facts.tangential_stiffness = support.friction.stiffness;
-  facts.tangential_damping = support.friction.damping;
-  facts.friction_static = support.friction.mu_static;
-  facts.friction_dynamic = support.friction.mu_dynamic;
-  facts.friction_along = {support.friction.along.x, support.friction.along.t};
-  return facts;
-}
-
-/// What scenes are built from besides the modes.
-struct AtContacts {
-  Fields fields;
-  std::vector<TurbulentLoad> turbulence;
-  std::vector<std::vector<std::size_t>> joined;  ///< structures of each scene
-  std::vector<ContactFlexibility> flexibilities; ///< of each scene
-};
-
-/// Of a table of accelerations that ends before the run and not at 0, which drives the base or support away; else empty.
-std::string goes_on_note(const Fields::Load& load, double duration) {
-  constexpr double rest = 1e-3; // of the largest value: what a record is cut off at
-  const auto* table = std::get_if<transient::Table>(&load.function);
-  if (!load.inertial || !table || table->time.back() >= duration)
-    return {};
-  double largest = 0.0;
-  for (const double value : table->value)
-    largest = std::max(largest, std::abs(value));
-  return std::abs(table->value.back()) > rest * largest
-             ? fmt::format("{}: the table ends at {:g} s, before the run; its last acceleration, {:g} m/s2, "
-                           "goes on to "
-                           "the end: let it end at 0 where it should not",
-                           load.name, table->time.back(), table->value.back())
-             : std::string();
-}
-
-/// What the modes make of contacts and loads, for every structure that can move.
-std::vector<BuiltScene> build_scenes(const study::Study& study, const std::vector<modal::Basis>& bases,
-                                     const std::vector<PlacedContact>& placed,
-                                     const std::vector<NamedNode>& nodes, const AtContacts& at_contacts,
-                                     results::RunResults& out) {
-  const auto& [fields, turbulence, joined, flexibilities] = at_contacts;
-  std::vector<BuiltScene> scenes;
-  out.contacts.resize(placed.size());
-  for (std::size_t i = 0; i < joined.size(); ++i) {
-    const ContactFlexibility& flexibility = flexibilities[i];
-    scenes.push_back(build_scene(study, fields, sampled_loads(turbulence, bases, joined[i], out.notes), bases,
-                                 joined[i], placed, flexibility, nodes));
-    const BuiltScene& scene = scenes.back();
-    for (std::size_t k = 0; k < scene.contacts.size(); ++k) {
-      const std::size_t c = scene.contacts[k];
-      out.contacts[c] = facts_of(study.contacts[placed[c].entry], placed[c], scene.scene.contacts[k].support);
-      if (flexibility.failure.empty())
-        out.contacts[c].static_flexibility = flexibility.at(k, placed[c].obstacle);
-    }
-    if (!flexibility.failure.empty())
-      out.notes.push_back("no static flexibility at the contacts: " + flexibility.failure);
-    out.warnings.insert(out.warnings.end(), scene.warnings.begin(), scene.warnings.end());
-    out.notes.insert(out.notes.end(), scene.notes.begin(), scene.notes.end());
-  }
-  out.warnings.insert(out.warnings.end(), fields.warnings.begin(), fields.warnings.end());
-  const auto of_contacts = contact_notes(study, placed, scenes);
-  out.notes.insert(out.notes.end(), of_contacts.begin(), of_contacts.end());
-  if (const std::string note = flexibility_note(study, scenes); !note.empty())
-    out.notes.insert(out.notes.begin(), note);
-  for (const std::string& warning :
-       {missing_flexibility_warning(study, scenes), load_band_warning(study, bases, fields.loads)})
-    if (!warning.empty()) // what makes forces wrong by factors comes first
-      out.warnings.insert(out.warnings.begin(), warning);
-  for (std::size_t k = 0; k < fields.loads.size(); ++k)
-    for (std::size_t j = 0; j < k; ++j) {
-      const auto* one = std::get_if<transient::Random>(&fields.loads[j].function);
-      const auto* two = std::get_if<transient::Random>(&fields.loads[k].function);
-      if (one && two && one->seed == two->seed && one->low == two->low && one->high == two->high)
-        out.notes.push_back(
-            fmt::format("{} and {} follow one random signal: they have the same seed {} and band; give one "
-                        "another seed if they are independent",
-                        fields.loads[j].name, fields.loads[k].name, one->seed));
-    }
-  for (const Fields::Load& load : fields.loads)
-    if (const std::string note = goes_on_note(load, study.transient->duration); !note.empty())
-      out.notes.push_back(note);
-  // a support that moves nothing by its inertia may still carry an obstacle
-  for (std::size_t k = 0; k < fields.loads.size() && !fields.loads[k].of_support; ++k) {
-    const auto idle = [&](const BuiltScene& scene) { return scene.scene.loads[k].modal_force.isZero(0.0); };
-    if (std::all_of(scenes.begin(), scenes.end(), idle))
-      out.warnings.push_back(
-          fmt::format("{} moves nothing: its nodes are restrained in its direction; apply it elsewhere",
-                      fields.loads[k].name));
-  }
-  for (const NamedNode& node : nodes) {
-    const auto has = [&](const modal::Basis& basis) { return basis.row_of(node.node) >= 0; };
-    if (std::none_of(bases.begin(), bases.end(), has))
-      throw core::Error(fmt::format(
-          "[output] nodes: \"{}\" belongs to no structure that moves; observe another node", node.name));
-  }
-  return scenes;
-}
 
 /// `1 node`, `3 nodes`
 template <class Things> std::string counted(const Things& things, const char* what) {
@@ -259,72 +60,6 @@ bool up_to_date(const Inputs& inputs, const std::function<void(const std::string
   return refusal.empty();
 }
 
-/// Share of a frequency that the mesh may add before the user is told.
-constexpr double told_mesh_error = 0.01;
-
-/// Modes that the mesh is too coarse for.
-void report_mesh_error(results::RunResults& out) {
-  std::size_t coarse = 0, all = 0;
-  double lowest = std::numeric_limits<double>::infinity(), worst = 0.0;
-  for (const auto& basis : out.bases)
-    for (Eigen::Index i = 0; i < basis.size(); ++i, ++all)
-      if (basis.error(i) > told_mesh_error) {
-        ++coarse;
-        lowest = std::min(lowest, basis.omega(i) / (2.0 * std::numbers::pi));
-        worst = std::max(worst, basis.error(i));
-      }
-  if (coarse > 0)
-    out.warnings.push_back(
-        fmt::format("the mesh is coarse for {} of {} modes, from {:.4g} Hz on: it adds more than 1 % to "
-                    "their frequencies, up to "
-                    "about {:.2g} % (too few elements a half wave); mesh more finely, or ask for fewer modes",
-                    coarse, all, lowest, 100.0 * worst));
-}
-
-/// Of ratios given as per cent, most often.
-std::string overdamped_note(const std::vector<modal::Basis>& bases) {
-  double lowest = std::numeric_limits<double>::infinity(), ratio = 0.0;
-  for (const modal::Basis& basis : bases)
-    for (Eigen::Index i = 0; i < basis.true_modes(); ++i)
-      if (basis.omega(i) > 0.0 && basis.omega(i) < lowest) {
-        lowest = basis.omega(i);
-        ratio = basis.damping(i);
-      }
-  return ratio >= 1.0 ? fmt::format("the lowest mode has a damping ratio of {:.3g} and does not oscillate; "
-                                    "modes.damping = 0.02 "
-                                    "is 2 % of the critical damping",
-                                    ratio)
-                      : std::string();
-}
-
-/// What the user should know of the modes.
-void report_modes(const study::Study& study, results::RunResults& out) {
-  std::size_t split = 0, short_of = 0;
-  for (const auto& basis : out.bases) {
-    split += basis.splits_group ? 1 : 0;
-    short_of += study.modes.count_given && basis.size() < *study.modes.count ? 1 : 0;
-  }
-  if (split > 0)
-    out.warnings.push_back(fmt::format("modes.count = {} cuts a group of equal frequencies{}: the two planes "
-                                       "of a tube are not treated alike; take "
-                                       "one more or one less",
-                                       *study.modes.count,
-                                       split > 1 ? fmt::format(" of {} structures", split) : ""));
-  report_mesh_error(out);
-  if (const std::string note = overdamped_note(out.bases); !note.empty())
-    out.notes.push_back(note);
-  if (const auto all = static_cast<std::int64_t>(out.bases.size()); out.model.different_structures < all)
-    out.notes.push_back(
-        fmt::format("{} structures, {} different ones: the others are copies and take their modes", all,
-                    out.model.different_structures));
-  if (short_of > 0)
-    out.notes.push_back(out.bases.size() == 1
-                            ? fmt::format("modes.count = {} is more than the {} that the structure has",
-                                          *study.modes.count, out.bases[0].size())
-                            : fmt::format("{} of {} structures have fewer modes than modes.count = {}",
-                                          short_of, out.bases.size(), *study.modes.count));
-}
-
 /// The report, or why there is none: the results are whole without it.
 std::string make_report(const fs::path& directory) {
   try {
@@ -333,14 +68,6 @@ std::string make_report(const fs::path& directory) {
   } catch (const core::Error& error) {
     return fmt::format("no report: {}\n", error.what());
   }
-}
-
-void report_coincident(const mesh::LineMesh& mesh, results::RunResults& out) {
-  if (!mesh.coincident.empty())
-    out.notes.push_back(
-        fmt::format("{} of nodes at the same place {} not joined (mesh.merge_tolerance would join them)",
-                    mesh.coincident.size() == 1 ? "1 pair" : fmt::format("{} pairs", mesh.coincident.size()),
-                    mesh.coincident.size() == 1 ? "is" : "are"));
 }
 
 /// A line a warning, for `check`.
@@ -365,216 +92,286 @@ std::string forecast_text(MPI_Comm comm, const study::Study& study, const std::v
                      size_text(size.series), size_text(size.impacts));
 }
 
-} // namespace
+/// Of a file that may not be there.
+void remove_file(const fs::path& file) {
+  std::error_code ignored;
+  fs::remove(file, ignored);
+}
 
-void run_chain(MPI_Comm comm, const Request& request, Stage last) {
-  Stopwatch watch;
-  const bool first_rank = core::rank(comm) == 0;
-  Progress progress(first_rank && !request.quiet);
-  const auto say = [&](const std::string& text) {
-    if (first_rank && !request.quiet)
+/// The chain up to its last stage: what each stage makes is there for those after it. Every method is collective.
+class Chain {
+public:
+  Chain(MPI_Comm comm, const Request& request, Stage last)
+      : comm_(comm), request_(request), last_(last), first_rank_(core::rank(comm) == 0),
+        progress_(first_rank_ && !request.quiet) {}
+
+  void run() {
+    read();
+    if (is_up_to_date() && last_ == Stage::transient)
+      return tell_up_to_date();
+    make_model();
+    if (last_ == Stage::mesh)
+      return say(fmt::format("{}, {}, groups: {}\n", counted(mesh_.nodes, "node"),
+                             counted(mesh_.lines, "line"), fmt::join(mesh::group_names(mesh_), ", ")));
+    make_modes();
+    if (scenes_wanted_)
+      core::agree(comm_, [&] {
+        scenes_ = build_scenes(inputs_.study, out_.bases, placed_, nodes_, at_contacts_, out_);
+      });
+    if (last_ == Stage::check)
+      return tell_check();
+    if (last_ == Stage::transient)
+      run_transient();
+    write();
+    tell_results();
+  }
+
+private:
+  void say(const std::string& text) const {
+    if (first_rank_ && !request_.quiet)
       fmt::print("{}", core::printable(text, core::longest_message_line));
-  };
-  Inputs inputs;
-  bool scenes_wanted = last == Stage::transient;
-  std::optional<FolderLock> lock;
-  core::agree(comm, [&] {
-    inputs = read_inputs(request);
-    scenes_wanted = scenes_wanted || (last == Stage::check && inputs.study.transient);
-    if (last == Stage::transient && !inputs.study.transient)
+  }
+
+  /// The study, its folder and its mesh file.
+  void read() {
+    core::agree(comm_, [&] {
+      inputs_ = read_inputs(request_);
+      scenes_wanted_ = last_ == Stage::transient || (last_ == Stage::check && inputs_.study.transient);
+      refuse_what_is_missing();
+      make_directory(inputs_.directory);
+      if (first_rank_)
+        lock_.emplace(inputs_.directory, inputs_.study.file.string());
+    });
+    out_.timings.read = watch_.lap();
+    progress_.stage("mesh");
+    make_mesh_file(comm_, inputs_);
+    core::agree(comm_, [&] { make_keys(request_, inputs_); });
+  }
+
+  void refuse_what_is_missing() const {
+    if (last_ == Stage::transient && !inputs_.study.transient)
       throw core::Error(
           "the study has no [transient]; add it, or compute its modes with: fretwork modes STUDY");
-    if (last == Stage::stability && inputs.study.flows.empty())
+    if (last_ == Stage::stability && inputs_.study.flows.empty())
       throw core::Error("the study has no [[flow]] to be stable in; add it (doc/study-file.md)");
-    if (last == Stage::response && inputs.study.turbulence.empty())
+    if (last_ == Stage::response && inputs_.study.turbulence.empty())
       throw core::Error("the study has no [[turbulence]] to respond to; add it (doc/study-file.md)");
-    make_directory(inputs.directory);
-    if (first_rank)
-      lock.emplace(inputs.directory, inputs.study.file.string());
-  });
-  results::RunResults out;
-  out.timings.read = watch.lap();
-  progress.stage("mesh");
-  make_mesh_file(comm, inputs);
-  core::agree(comm, [&] { make_keys(request, inputs); });
-  int current =
-      first_rank && !request.force && up_to_date(inputs, [&](const std::string& line) { say(line + "\n"); })
-          ? 1
-          : 0;
-  MPI_Bcast(&current, 1, MPI_INT, 0, comm);
-  if (current && last == Stage::transient) {
-    if (first_rank && request.report && !fs::exists(inputs.directory / "report.html"))
-      say(make_report(inputs.directory));
-    return say(
-        fmt::format("Nothing has changed: the results in {} are up to date (--force computes them again).\n",
-                    inputs.directory.string()));
   }
 
-  const mesh::LineMesh mesh = mesh_stage(comm, inputs);
-  out.timings.mesh = watch.lap();
-  out.record = make_record(inputs, core::size(comm));
-  fem::Model model;
-  std::vector<PlacedContact> placed, inactive;
-  std::vector<PlacedFlow> flows;
-  std::vector<TurbulentLoad> turbulence;
-  std::vector<NamedNode> nodes;
-  std::vector<MovedSupport> moved;
-  std::vector<WornPlace> worn;
-  OtherRuns other_runs;
-  core::agree(comm, [&] {
-    model = build_model(inputs.study, mesh);
-    out.warnings = unit_slips(inputs.study, mesh, model);
-    placed = place_contacts(inputs.study, mesh, model, out.warnings);
-    inactive = take_inactive(inputs.study, placed);
-    flows = place_flows(inputs.study, mesh, model, out.notes);
-    turbulence = turbulent_loads(inputs.study, model, flows, out.notes);
-    nodes = observed_nodes(inputs.study, mesh);
-    moved = moved_supports(inputs.study, mesh, model);
-    worn = worn_places(inputs.study, model, placed);
-    other_runs = read_other_runs(inputs.study, worn, placed);
-    if (inputs.study.modes.accuracy) {
-      out.modes_limit = modes_limit(inputs.study, model, placed);
-      inputs.study.modes.up_to_hz = out.modes_limit->up_to;
-      report_modes_limit(inputs.study, *out.modes_limit, out);
-    }
-  });
-  report_coincident(mesh, out);
-  out.timings.assembly = watch.lap();
-  if (last == Stage::mesh)
-    return say(fmt::format("{}, {}, groups: {}\n", counted(mesh.nodes, "node"), counted(mesh.lines, "line"),
-                           fmt::join(mesh::group_names(mesh), ", ")));
+  [[nodiscard]] bool is_up_to_date() {
+    const auto tell = [&](const std::string& line) { say(line + "\n"); };
+    int current = first_rank_ && !request_.force && up_to_date(inputs_, tell) ? 1 : 0;
+    MPI_Bcast(&current, 1, MPI_INT, 0, comm_);
+    return up_to_date_ = current != 0;
+  }
 
-  progress.stage("modes");
-  AtContacts at_contacts;
-  {
+  void tell_up_to_date() const {
+    if (first_rank_ && request_.report && !fs::exists(inputs_.directory / "report.html"))
+      say(make_report(inputs_.directory));
+    say(fmt::format("Nothing has changed: the results in {} are up to date (--force computes them again).\n",
+                    inputs_.directory.string()));
+  }
+
+  /// The mesh, the model and where contacts, flows and loads are on it.
+  void make_model() {
+    mesh_ = mesh_stage(comm_, inputs_);
+    out_.timings.mesh = watch_.lap();
+    out_.record = make_record(inputs_, core::size(comm_));
+    core::agree(comm_, [&] {
+      study::Study& study = inputs_.study;
+      model_ = build_model(study, mesh_);
+      out_.warnings = unit_slips(study, mesh_, model_);
+      placed_ = place_contacts(study, mesh_, model_, out_.warnings);
+      inactive_ = take_inactive(study, placed_);
+      flows_ = place_flows(study, mesh_, model_, out_.notes);
+      turbulence_ = turbulent_loads(study, model_, flows_, out_.notes);
+      nodes_ = observed_nodes(study, mesh_);
+      moved_ = moved_supports(study, mesh_, model_);
+      worn_ = worn_places(study, model_, placed_);
+      other_runs_ = read_other_runs(study, worn_, placed_);
+      if (study.modes.accuracy) {
+        out_.modes_limit = modes_limit(study, model_, placed_);
+        study.modes.up_to_hz = out_.modes_limit->up_to;
+        report_modes_limit(study, *out_.modes_limit, out_);
+      }
+    });
+    note_coincident_nodes(mesh_, out_);
+    out_.timings.assembly = watch_.lap();
+  }
+
+  /// Modes, stability and response in flow, and what scenes are built from.
+  void make_modes() {
+    progress_.stage("modes");
     const core::PetscSession petsc;
-    ModesStage modes = modes_stage(comm, inputs, model, out.record, request.force);
-    describe_model(mesh, model, modes.structures, out);
-    out.model.different_structures = static_cast<std::int64_t>(modes.different);
-    out.warnings.insert(out.warnings.end(), modes.warnings.begin(), modes.warnings.end());
-    out.notes.insert(out.notes.end(), modes.notes.begin(), modes.notes.end());
-    out.bases = std::move(modes.bases);
-    report_modes(inputs.study, out);
-    if (inputs.study.modes.static_modes == study::StaticModes::added) {
-      add_static_modes(comm, inputs.study, model, modes.structures, placed, out.bases);
-      out.notes.push_back(static_modes_note(inputs.study, out.bases));
+    ModesStage modes = modes_stage(comm_, inputs_, model_, out_.record, request_.force);
+    describe_model(mesh_, model_, modes.structures, out_);
+    out_.model.different_structures = static_cast<std::int64_t>(modes.different);
+    out_.warnings.insert(out_.warnings.end(), modes.warnings.begin(), modes.warnings.end());
+    out_.notes.insert(out_.notes.end(), modes.notes.begin(), modes.notes.end());
+    out_.bases = std::move(modes.bases);
+    note_modes(inputs_.study, out_);
+    if (inputs_.study.modes.static_modes == study::StaticModes::added) {
+      add_static_modes(comm_, inputs_.study, model_, modes.structures, placed_, out_.bases);
+      out_.notes.push_back(static_modes_note(inputs_.study, out_.bases));
     }
-    const TubesInFlow tubes{inputs.study, mesh, model, flows};
-    if (inputs.study.modes.flow_damping)
-      core::agree(comm, [&] {
-        out.flow_damping = damp_by_flow(tubes, DampingSet::transient, placed, inactive, out.bases);
-        for (const results::TubeDamping& tube : out.flow_damping)
-          out.notes.insert(out.notes.end(), tube.limits.begin(), tube.limits.end());
-      });
-    if (last == Stage::stability || (scenes_wanted && !inputs.study.stabilities.empty()))
-      assess_stability(comm, tubes, together(placed, inactive), out);
-    if (last == Stage::response || (scenes_wanted && !inputs.study.responses.empty()))
-      linear_responses(comm, tubes, turbulence, together(placed, inactive), nodes, out);
-    out.timings.modes = watch.lap();
-    if (scenes_wanted) {
-      progress.stage("basis");
-      core::agree(comm, [&] {
-        at_contacts.fields =
-            build_fields(inputs.study, mesh, model, support_fields(moved, model, modes.structures));
-        at_contacts.turbulence = turbulence;
-        at_contacts.joined = joined_structures(out.bases, placed);
-      });
-      at_contacts.flexibilities =
-          contact_flexibilities(comm, inputs.study, model, modes.structures, out.bases, at_contacts.joined,
-                                placed, at_contacts.fields.loads);
-    }
-  }
-  std::vector<BuiltScene> scenes;
-  if (scenes_wanted)
-    core::agree(comm,
-                [&] { scenes = build_scenes(inputs.study, out.bases, placed, nodes, at_contacts, out); });
-  if (last == Stage::check) {
-    progress.stage("");
-    const std::string forecast = scenes_wanted ? forecast_text(comm, inputs.study, scenes, placed, out) : "";
-    return say(fmt::format(
-        "{}: fine\n  {}, {}, {} in {}, {:.6g} kg\n  {}, {}, {}{}\n{}{}", request.study.string(),
-        counted(mesh.nodes, "node"), counted(model.beams, "beam"),
-        results::counted(out.model.dofs, "free dof"), counted(out.bases, "structure"), out.model.mass_kg,
-        counted(placed, "contact"), counted(inputs.study.loads, "load"), counted(nodes, "observed node"),
-        worn.empty() ? "" : ", " + counted(worn, "support") + " that wear", forecast, told_warnings(out)));
-  }
-  if (last == Stage::transient) {
-    const WatchedWear watched = watched_wear(inputs.study, worn, placed.size());
-    for (BuiltScene& scene : scenes)
-      scene.watched_wear = watched.at(scene.contacts);
-    for (const NamedNode& node : nodes)
-      out.node_names.push_back(node.name);
-    out.duration = inputs.study.transient->duration;
-    out.statistics_from = inputs.study.output.statistics_from;
-    out.timings.basis = watch.lap();
-    progress.stage("transient");
-    const ProgressCallback callback =
-        progress.shown() ? ProgressCallback([&](double share, double time) { progress.update(share, time); })
-                         : ProgressCallback();
-    const CheckpointOptions checkpoints{
-        inputs.directory,
-        FRETWORK_VERSION,
-        inputs.whole_key,
-        inputs.study.output.checkpoint,
-        !request.force,
-        [&](const std::string& line) { // from whichever rank makes the run
-          if (!request.quiet)
-            fmt::print("{}\n", line);
-        },
-        {inputs.study.transient->duration, inputs.study.transient->max_hours, [&](const std::string& line) {
-           if (!request.quiet)
-             fmt::print("{}\n", line);
-         }}};
-    run_jobs(comm, inputs.study, scenes, placed.size(), nodes.size(), callback, checkpoints, out);
-    core::agree(comm, [&] { add_wear(inputs.study, worn, placed, other_runs, out); });
-    out.timings.transient = watch.lap();
-  }
-  progress.stage("results");
-  core::agree(comm, [&] {
-    if (first_rank && !out.stability.empty())
-      results::write_stability_csv(inputs.directory / "stability.csv", out);
-    for (const char* file : {"flow.csv", "spectra.csv"}) { // of an earlier state of the study
-      std::error_code ignored;
-      if (first_rank && last == Stage::transient)
-        fs::remove(inputs.directory / file, ignored);
-    }
-    if (first_rank && !flows.empty())
-      results::write_flow_csv(inputs.directory / "flow.csv", flow_rows(inputs.study, model, flows));
-    if (first_rank && last == Stage::transient && !turbulence.empty())
-      results::write_spectra_csv(inputs.directory / "spectra.csv", run_spectra(turbulence, out));
-    if (first_rank && !out.responses.empty())
-      results::write_response_csv(inputs.directory / "response.csv", out);
-    if (!first_rank || current) // the results of a whole run hold its modes too: `modes` leaves them
+    judge_in_flow();
+    out_.timings.modes = watch_.lap();
+    if (!scenes_wanted_)
       return;
-    // whatever is interrupted from here on, no summary or report tells of other results than those in results.h5
-    for (const char* file : {"summary.json", "report.html"}) {
-      std::error_code ignored;
-      fs::remove(inputs.directory / file, ignored);
-    }
-    leave_out_series(inputs.study, placed, out);
-    results::write_archive(inputs.directory / "results.h5", out);
-    out.timings.output = watch.lap();
-    out.timings.total = watch.total();
-    results::write_summary(inputs.directory / "summary.json", out);
-    if (last == Stage::transient)
-      Checkpoints::remove(inputs.directory);
-  });
-  std::string report_line;
-  if (first_rank && request.report && last == Stage::transient) {
-    progress.stage("report");
-    report_line = make_report(inputs.directory);
+    progress_.stage("basis");
+    core::agree(comm_, [&] {
+      at_contacts_.fields =
+          build_fields(inputs_.study, mesh_, model_, support_fields(moved_, model_, modes.structures));
+      at_contacts_.turbulence = turbulence_;
+      at_contacts_.joined = joined_structures(out_.bases, placed_);
+    });
+    at_contacts_.flexibilities =
+        contact_flexibilities(comm_, inputs_.study, model_, modes.structures, out_.bases, at_contacts_.joined,
+                              placed_, at_contacts_.fields.loads);
   }
-  progress.stage("");
-  if (last == Stage::modes)
-    say(results::modes_table(out));
-  if (last != Stage::transient)
-    say(results::flow_damping_table(out) + results::stability_table(out) + results::response_table(out));
-  std::error_code absent;
-  const auto bytes = static_cast<double>(fs::file_size(inputs.directory / "results.h5", absent));
-  const std::string size = absent ? "" : fmt::format(" ({} of series and modes)", size_text(bytes));
-  say(results::terminal_table(out) + fmt::format("results: {}{}\n", inputs.directory.string(), size) +
-      report_line);
-}
+
+  /// Damping by the flow, stability and linear response.
+  void judge_in_flow() {
+    const study::Study& study = inputs_.study;
+    const TubesInFlow tubes{study, mesh_, model_, flows_};
+    if (study.modes.flow_damping)
+      core::agree(comm_, [&] {
+        out_.flow_damping = damp_by_flow(tubes, DampingSet::transient, placed_, inactive_, out_.bases);
+        for (const results::TubeDamping& tube : out_.flow_damping)
+          out_.notes.insert(out_.notes.end(), tube.limits.begin(), tube.limits.end());
+      });
+    if (last_ == Stage::stability || (scenes_wanted_ && !study.stabilities.empty()))
+      assess_stability(comm_, tubes, together(placed_, inactive_), out_);
+    if (last_ == Stage::response || (scenes_wanted_ && !study.responses.empty()))
+      linear_responses(comm_, tubes, turbulence_, together(placed_, inactive_), nodes_, out_);
+  }
+
+  void tell_check() {
+    progress_.stage("");
+    const std::string forecast =
+        scenes_wanted_ ? forecast_text(comm_, inputs_.study, scenes_, placed_, out_) : "";
+    say(fmt::format(
+        "{}: fine\n  {}, {}, {} in {}, {:.6g} kg\n  {}, {}, {}{}\n{}{}", request_.study.string(),
+        counted(mesh_.nodes, "node"), counted(model_.beams, "beam"),
+        results::counted(out_.model.dofs, "free dof"), counted(out_.bases, "structure"), out_.model.mass_kg,
+        counted(placed_, "contact"), counted(inputs_.study.loads, "load"), counted(nodes_, "observed node"),
+        worn_.empty() ? "" : ", " + counted(worn_, "support") + " that wear", forecast, told_warnings(out_)));
+  }
+
+  void run_transient() {
+    const WatchedWear watched = watched_wear(inputs_.study, worn_, placed_.size());
+    for (BuiltScene& scene : scenes_)
+      scene.watched_wear = watched.at(scene.contacts);
+    for (const NamedNode& node : nodes_)
+      out_.node_names.push_back(node.name);
+    out_.duration = inputs_.study.transient->duration;
+    out_.statistics_from = inputs_.study.output.statistics_from;
+    out_.timings.basis = watch_.lap();
+    progress_.stage("transient");
+    const ProgressCallback callback =
+        progress_.shown()
+            ? ProgressCallback([&](double share, double time) { progress_.update(share, time); })
+            : ProgressCallback();
+    const auto print_line = [&](const std::string& line) { // from whichever rank makes the run
+      if (!request_.quiet)
+        fmt::print("{}\n", line);
+    };
+    const CheckpointOptions checkpoints{
+        inputs_.directory,
+        FRETWORK_VERSION,
+        inputs_.whole_key,
+        inputs_.study.output.checkpoint,
+        !request_.force,
+        print_line,
+        {inputs_.study.transient->duration, inputs_.study.transient->max_hours, print_line}};
+    run_jobs(comm_, inputs_.study, scenes_, placed_.size(), nodes_.size(), callback, checkpoints, out_);
+    core::agree(comm_, [&] { add_wear(inputs_.study, worn_, placed_, other_runs_, out_); });
+    out_.timings.transient = watch_.lap();
+  }
+
+  void write() {
+    progress_.stage("results");
+    core::agree(comm_, [&] {
+      if (!first_rank_)
+        return;
+      write_tables();
+      if (!up_to_date_) // the results of a whole run hold its modes too: `modes` leaves them
+        write_results();
+    });
+    if (first_rank_ && request_.report && last_ == Stage::transient) {
+      progress_.stage("report");
+      report_line_ = make_report(inputs_.directory);
+    }
+  }
+
+  void write_tables() const {
+    const fs::path& folder = inputs_.directory;
+    if (!out_.stability.empty())
+      results::write_stability_csv(folder / "stability.csv", out_);
+    if (last_ == Stage::transient)
+      for (const char* file : {"flow.csv", "spectra.csv"}) // of an earlier state of the study
+        remove_file(folder / file);
+    if (!flows_.empty())
+      results::write_flow_csv(folder / "flow.csv", flow_rows(inputs_.study, model_, flows_));
+    if (last_ == Stage::transient && !turbulence_.empty())
+      results::write_spectra_csv(folder / "spectra.csv", run_spectra(turbulence_, out_));
+    if (!out_.responses.empty())
+      results::write_response_csv(folder / "response.csv", out_);
+  }
+
+  void write_results() {
+    // whatever is interrupted from here on, no summary or report tells of other results than those in results.h5
+    for (const char* file : {"summary.json", "report.html"})
+      remove_file(inputs_.directory / file);
+    leave_out_series(inputs_.study, placed_, out_);
+    results::write_archive(inputs_.directory / "results.h5", out_);
+    out_.timings.output = watch_.lap();
+    out_.timings.total = watch_.total();
+    results::write_summary(inputs_.directory / "summary.json", out_);
+    if (last_ == Stage::transient)
+      Checkpoints::remove(inputs_.directory);
+  }
+
+  void tell_results() {
+    progress_.stage("");
+    if (last_ == Stage::modes)
+      say(results::modes_table(out_));
+    if (last_ != Stage::transient)
+      say(results::flow_damping_table(out_) + results::stability_table(out_) + results::response_table(out_));
+    std::error_code absent;
+    const auto bytes = static_cast<double>(fs::file_size(inputs_.directory / "results.h5", absent));
+    const std::string size = absent ? "" : fmt::format(" ({} of series and modes)", size_text(bytes));
+    say(results::terminal_table(out_) + fmt::format("results: {}{}\n", inputs_.directory.string(), size) +
+        report_line_);
+  }
+
+  MPI_Comm comm_;
+  const Request& request_;
+  Stage last_;
+  bool first_rank_;
+  Stopwatch watch_;
+  Progress progress_;
+  bool scenes_wanted_ = false, up_to_date_ = false;
+  Inputs inputs_;
+  std::optional<FolderLock> lock_;
+  mesh::LineMesh mesh_;
+  fem::Model model_;
+  std::vector<PlacedContact> placed_, inactive_;
+  std::vector<PlacedFlow> flows_;
+  std::vector<TurbulentLoad> turbulence_;
+  std::vector<NamedNode> nodes_;
+  std::vector<MovedSupport> moved_;
+  std::vector<WornPlace> worn_;
+  OtherRuns other_runs_;
+  AtContacts at_contacts_;
+  std::vector<BuiltScene> scenes_;
+  results::RunResults out_;
+  std::string report_line_;
+};
+
+} // namespace
+
+void run_chain(MPI_Comm comm, const Request& request, Stage last) { Chain(comm, request, last).run(); }
 
 void check(const Request& request) {
   std::string folder = (fs::temp_directory_path() / "fretwork_check_XXXXXX").string();

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// What the results say of a run and its model besides its figures.
+#pragma once
+#include "app/stages.hpp"
+
+namespace fretwork::app {
+
+/// Version, study, seeds, libraries and machine.
+[[nodiscard]] results::RunRecord make_record(const Inputs& inputs, int ranks);
+
+/// Nodes, groups, lines, what the beams are made of, and the size of the model.
+void describe_model(const mesh::LineMesh& mesh, const fem::Model& model,
+                    const std::vector<fem::Structure>& structures, results::RunResults& out);
+
+} // namespace fretwork::app

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/mode_notes.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
+#include <numbers>
+
+namespace fretwork::app {
+namespace {
+
+/// Share of a frequency that the mesh may add before the user is told.
+constexpr double told_mesh_error = 0.01;
+
+/// Modes that the mesh is too coarse for.
+void note_mesh_error(results::RunResults& out) {
+  std::size_t coarse = 0, all = 0;
+  double lowest = std::numeric_limits<double>::infinity(), worst = 0.0;
+  for (const auto& basis : out.bases)
+    for (Eigen::Index i = 0; i < basis.size(); ++i, ++all)
+      if (basis.error(i) > told_mesh_error) {
+        ++coarse;
+        lowest = std::min(lowest, basis.omega(i) / (2.0 * std::numbers::pi));
+        worst = std::max(worst, basis.error(i));
+      }
+  if (coarse > 0)
+    out.warnings.push_back(
+        fmt::format("the mesh is coarse for {} of {} modes, from {:.4g} Hz on: it adds more than 1 % to "
+                    "their frequencies, up to "
+                    "about {:.2g} % (too few elements a half wave); mesh more finely, or ask for fewer modes",
+                    coarse, all, lowest, 100.0 * worst));
+}
+
+/// Of ratios given as per cent, most often.
+std::string overdamped_note(const std::vector<modal::Basis>& bases) {
+  double lowest = std::numeric_limits<double>::infinity(), ratio = 0.0;
+  for (const modal::Basis& basis : bases)
+    for (Eigen::Index i = 0; i < basis.true_modes(); ++i)
+      if (basis.omega(i) > 0.0 && basis.omega(i) < lowest) {
+        lowest = basis.omega(i);
+        ratio = basis.damping(i);
+      }
+  return ratio >= 1.0 ? fmt::format("the lowest mode has a damping ratio of {:.3g} and does not oscillate; "
+                                    "modes.damping = 0.02 "
+                                    "is 2 % of the critical damping",
+                                    ratio)
+                      : std::string();
+}
+
+} // namespace
+
+void note_modes(const study::Study& study, results::RunResults& out) {
+  std::size_t split = 0, short_of = 0;
+  for (const auto& basis : out.bases) {
+    split += basis.splits_group ? 1 : 0;
+    short_of += study.modes.count_given && basis.size() < *study.modes.count ? 1 : 0;
+  }
+  if (split > 0)
+    out.warnings.push_back(fmt::format("modes.count = {} cuts a group of equal frequencies{}: the two planes "
+                                       "of a tube are not treated alike; take "
+                                       "one more or one less",
+                                       *study.modes.count,
+                                       split > 1 ? fmt::format(" of {} structures", split) : ""));
+  note_mesh_error(out);
+  if (const std::string note = overdamped_note(out.bases); !note.empty())
+    out.notes.push_back(note);
+  if (const auto all = static_cast<std::int64_t>(out.bases.size()); out.model.different_structures < all)
+    out.notes.push_back(
+        fmt::format("{} structures, {} different ones: the others are copies and take their modes", all,
+                    out.model.different_structures));
+  if (short_of > 0)
+    out.notes.push_back(out.bases.size() == 1
+                            ? fmt::format("modes.count = {} is more than the {} that the structure has",
+                                          *study.modes.count, out.bases[0].size())
+                            : fmt::format("{} of {} structures have fewer modes than modes.count = {}",
+                                          short_of, out.bases.size(), *study.modes.count));
+}
+
+void note_coincident_nodes(const mesh::LineMesh& mesh, results::RunResults& out) {
+  if (!mesh.coincident.empty())
+    out.notes.push_back(
+        fmt::format("{} of nodes at the same place {} not joined (mesh.merge_tolerance would join them)",
+                    mesh.coincident.size() == 1 ? "1 pair" : fmt::format("{} pairs", mesh.coincident.size()),
+                    mesh.coincident.size() == 1 ? "is" : "are"));
+}
+
+} // namespace fretwork::app

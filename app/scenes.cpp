@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/scenes.hpp"
+#include "app/contact_notes.hpp"
+#include "app/modal_truncation.hpp"
+#include "app/residual_flexibility.hpp"
+#include "core/error.hpp"
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace fretwork::app {
+namespace {
+
+results::ContactFacts facts_of(const study::Contact& contact, const PlacedContact& placed,
+                               const contact::Support& support) {
+  results::ContactFacts facts;
+  facts.name = placed.name;
+  facts.node = placed.node;
+  facts.other = placed.other;
+  facts.point = {placed.place, placed.motion};
+  facts.axes = placed.frame.rotation();
+  facts.obstacle = study::name_of(contact.obstacle);
+  facts.gap = placed.other < 0
+                  ? contact::locate(support.obstacle, 0.0, 0.0).gap // of a tube at the obstacle's centre
+                  : contact::locate(support.obstacle, placed.rest.y(), placed.rest.z()).gap;
+  facts.rest = placed.rest;
+  const auto outline = contact::outline_of(support.obstacle);
+  facts.outline.resize(static_cast<Eigen::Index>(outline.size()), 2);
+  for (std::size_t i = 0; i < outline.size(); ++i)
+    facts.outline.row(static_cast<Eigen::Index>(i)) << outline[i].y, outline[i].z;
+  facts.normal_stiffness = support.normal.stiffness;
+  facts.normal_damping = support.normal.damping;
+  facts.normal_dissipation = support.normal.dissipation;
+  facts.tangential_stiffness = support.friction.stiffness;
+  facts.tangential_damping = support.friction.damping;
+  facts.friction_static = support.friction.mu_static;
+  facts.friction_dynamic = support.friction.mu_dynamic;
+  facts.friction_along = {support.friction.along.x, support.friction.along.t};
+  return facts;
+}
+
+/// Of a table of accelerations that ends before the run and not at 0, which drives the base or support away; else empty.
+std::string goes_on_note(const Fields::Load& load, double duration) {
+  constexpr double rest = 1e-3; // of the largest value: what a record is cut off at
+  const auto* table = std::get_if<transient::Table>(&load.function);
+  if (!load.inertial || !table || table->time.back() >= duration)
+    return {};
+  double largest = 0.0;
+  for (const double value : table->value)
+    largest = std::max(largest, std::abs(value));
+  return std::abs(table->value.back()) > rest * largest
+             ? fmt::format("{}: the table ends at {:g} s, before the run; its last acceleration, {:g} m/s2, "
+                           "goes on to "
+                           "the end: let it end at 0 where it should not",
+                           load.name, table->time.back(), table->value.back())
+             : std::string();
+}
+
+/// What the user should know of the loads.
+void note_loads(const Fields& fields, const std::vector<BuiltScene>& scenes, double duration,
+                results::RunResults& out) {
+  for (std::size_t k = 0; k < fields.loads.size(); ++k)
+    for (std::size_t j = 0; j < k; ++j) {
+      const auto* one = std::get_if<transient::Random>(&fields.loads[j].function);
+      const auto* two = std::get_if<transient::Random>(&fields.loads[k].function);
+      if (one && two && one->seed == two->seed && one->low == two->low && one->high == two->high)
+        out.notes.push_back(
+            fmt::format("{} and {} follow one random signal: they have the same seed {} and band; give one "
+                        "another seed if they are independent",
+                        fields.loads[j].name, fields.loads[k].name, one->seed));
+    }
+  for (const Fields::Load& load : fields.loads)
+    if (const std::string note = goes_on_note(load, duration); !note.empty())
+      out.notes.push_back(note);
+  // a support that moves nothing by its inertia may still carry an obstacle
+  for (std::size_t k = 0; k < fields.loads.size() && !fields.loads[k].of_support; ++k) {
+    const auto idle = [&](const BuiltScene& scene) { return scene.scene.loads[k].modal_force.isZero(0.0); };
+    if (std::all_of(scenes.begin(), scenes.end(), idle))
+      out.warnings.push_back(
+          fmt::format("{} moves nothing: its nodes are restrained in its direction; apply it elsewhere",
+                      fields.loads[k].name));
+  }
+}
+
+} // namespace
+
+std::vector<BuiltScene> build_scenes(const study::Study& study, const std::vector<modal::Basis>& bases,
+                                     const std::vector<PlacedContact>& placed,
+                                     const std::vector<NamedNode>& nodes, const AtContacts& at_contacts,
+                                     results::RunResults& out) {
+  const auto& [fields, turbulence, joined, flexibilities] = at_contacts;
+  std::vector<BuiltScene> scenes;
+  out.contacts.resize(placed.size());
+  for (std::size_t i = 0; i < joined.size(); ++i) {
+    const ContactFlexibility& flexibility = flexibilities[i];
+    scenes.push_back(build_scene(study, fields, sampled_loads(turbulence, bases, joined[i], out.notes), bases,
+                                 joined[i], placed, flexibility, nodes));
+    const BuiltScene& scene = scenes.back();
+    for (std::size_t k = 0; k < scene.contacts.size(); ++k) {
+      const std::size_t c = scene.contacts[k];
+      out.contacts[c] = facts_of(study.contacts[placed[c].entry], placed[c], scene.scene.contacts[k].support);
+      if (flexibility.failure.empty())
+        out.contacts[c].static_flexibility = flexibility.at(k, placed[c].obstacle);
+    }
+    if (!flexibility.failure.empty())
+      out.notes.push_back("no static flexibility at the contacts: " + flexibility.failure);
+    out.warnings.insert(out.warnings.end(), scene.warnings.begin(), scene.warnings.end());
+    out.notes.insert(out.notes.end(), scene.notes.begin(), scene.notes.end());
+  }
+  out.warnings.insert(out.warnings.end(), fields.warnings.begin(), fields.warnings.end());
+  const auto of_contacts = contact_notes(study, placed, scenes);
+  out.notes.insert(out.notes.end(), of_contacts.begin(), of_contacts.end());
+  if (const std::string note = flexibility_note(study, scenes); !note.empty())
+    out.notes.insert(out.notes.begin(), note);
+  for (const std::string& warning :
+       {missing_flexibility_warning(study, scenes), load_band_warning(study, bases, fields.loads)})
+    if (!warning.empty()) // what makes forces wrong by factors comes first
+      out.warnings.insert(out.warnings.begin(), warning);
+  note_loads(fields, scenes, study.transient->duration, out);
+  for (const NamedNode& node : nodes) {
+    const auto has = [&](const modal::Basis& basis) { return basis.row_of(node.node) >= 0; };
+    if (std::none_of(bases.begin(), bases.end(), has))
+      throw core::Error(fmt::format(
+          "[output] nodes: \"{}\" belongs to no structure that moves; observe another node", node.name));
+  }
+  return scenes;
+}
+
+} // namespace fretwork::app
