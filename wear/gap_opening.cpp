@@ -13,8 +13,6 @@ namespace fretwork::wear {
 namespace {
 
 constexpr double round_off = 1e-12; ///< of a depth from a bracketed root
-constexpr double beyond =
-    std::numeric_limits<double>::max(); ///< where the geometry ends, any limit is exceeded
 
 /// A place with its rates of wear.
 struct Wearing {

@@ -87,37 +87,38 @@ double mean_list(const std::vector<Facet>& facets, double outermost) {
   return mean_list(facets, outermost, at_any_depth);
 }
 
-constexpr double few =
+constexpr double short_list =
     13.0; // facets: a short list, now and then a longer one, and the long lists of the middle
 
 } // namespace
 
 TEST(FacetCells, ListTheNearestOfARoundHoleAndFewMore) {
-  EXPECT_LT(mean_list(polygon([](double) { return 1.0; }), std::numbers::sqrt2), few);
+  EXPECT_LT(mean_list(polygon([](double) { return 1.0; }), std::numbers::sqrt2), short_list);
 }
 
 TEST(FacetCells, ListTheNearestOfASmoothHoleAndFewMore) {
-  EXPECT_LT(mean_list(polygon([](double angle) { return 0.7 + 0.4 * std::cos(3.0 * angle); }), 1.4), few);
+  EXPECT_LT(mean_list(polygon([](double angle) { return 0.7 + 0.4 * std::cos(3.0 * angle); }), 1.4),
+            short_list);
 }
 
 TEST(FacetCells, ListTheNearestOfSpikesAndFewMore) {
   tests::Uniform uniform(7);
-  EXPECT_LT(mean_list(polygon([&](double) { return uniform(0.9, 1.1); }), 1.6), few);
+  EXPECT_LT(mean_list(polygon([&](double) { return uniform(0.9, 1.1); }), 1.6), short_list);
 }
 
 TEST(FacetCells, ListTheNearestOfDeepSpikesAndFewMore) {
   tests::Uniform uniform(9); // flanks face each other at no distance: what no single point of one can tell
-  EXPECT_LT(mean_list(polygon([&](double) { return uniform(0.1, 1.0); }), 1.4), few);
+  EXPECT_LT(mean_list(polygon([&](double) { return uniform(0.1, 1.0); }), 1.4), short_list);
 }
 
 TEST(FacetCells, ListFewNextToUnevenWalls) {
   // cells that are long and narrow among spikes, and small ones of a wall that is thin for the cells it is in
   tests::Uniform uniform(11);
-  EXPECT_LT(mean_list(polygon([&](double) { return uniform(0.9, 1.1); }), 1.6, next_to_the_wall), few);
+  EXPECT_LT(mean_list(polygon([&](double) { return uniform(0.9, 1.1); }), 1.6, next_to_the_wall), short_list);
   double radius = 1.0;
   EXPECT_LT(mean_list(polygon([&](double) { return radius *= 1.0 + uniform(-0.005, 0.005); }), 3.0,
                       next_to_the_wall),
-            few);
+            short_list);
 }
 
 TEST(FacetCells, ListTheNearestOffTheOriginAndFewMore) {
@@ -125,7 +126,7 @@ TEST(FacetCells, ListTheNearestOffTheOriginAndFewMore) {
                         return std::sqrt(1.0 - std::pow(0.3 * std::sin(angle), 2)) - 0.3 * std::cos(angle);
                       }),
                       1.7),
-            few);
+            short_list);
 }
 
 TEST(FacetCells, ListTheNearestOnTheirBorders) {

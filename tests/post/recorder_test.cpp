@@ -138,8 +138,8 @@ TEST(Recorder, TellsWhetherAContactIsOpenSticksOrSlides) {
   const OutputGrid grid = output_grid(scene.duration, 1e-2);
   Recorder recorder(scene, {}, grid);
   const Eigen::Vector3d shut(0, 0, 0), away(0, 0, -0.5), v(0, 0, 0);
-  const ContactForce free{0.0, {}, 0.0, 0.0, false}, held{2.0, {0.1, 0.0}, 0.0, -1.0, false},
-      moving{2.0, {0.4, 0.0}, 0.0, -1.0, true};
+  const ContactForce free{0.0, {}, {0.0, 0.0}, false}, held{2.0, {0.1, 0.0}, {0.0, -1.0}, false},
+      moving{2.0, {0.4, 0.0}, {0.0, -1.0}, true};
   const auto serve = [&](int j, const Eigen::Vector3d& q, const ContactForce& f) {
     recorder.state(j, j * grid.every, q.data(), v.data());
     recorder.forces(j, j * grid.every, v.data(), std::vector<ContactForce>{f, free, f});
@@ -161,7 +161,7 @@ TEST(Recorder, GivesTheNormalOfTheForcesOrOfThePlace) {
   Recorder recorder(scene, {}, grid);
   const Eigen::Vector3d v(0, 0, 0), pressed(0, 0, 0),
       inside(0, 0.3, -0.602); // at (0, 1.002) and (0.3, 0.4) of the hole
-  const ContactForce free{0.0, {}, 0.0, 0.0, false}, held{2.0, {0.1, 0.0}, 0.6, -0.8, false};
+  const ContactForce free{0.0, {}, {0.0, 0.0}, false}, held{2.0, {0.1, 0.0}, {0.6, -0.8}, false};
   const auto serve = [&](int j, const Eigen::Vector3d& q, const ContactForce& f) {
     recorder.state(j, j * grid.every, q.data(), v.data());
     recorder.forces(j, j * grid.every, v.data(), std::vector<ContactForce>{f, free});

@@ -15,7 +15,6 @@ using contact::Stop;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double asked = 1e-3;       // accuracy asked of single impacts at the automatic step
 constexpr double two_steps = 1.6e-3; // of 2.5e-5 s, relative to a contact: its ends are known to a step each
 
 /// Records at equal distances but for flights, which tell single impacts.

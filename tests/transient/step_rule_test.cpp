@@ -290,9 +290,9 @@ TEST(StepRule, TakesCollocationOnlyWhereItSavesMuch) {
   // a step of both takes about as long; collocation does not measure its error
   for (const double highest : {1e6, 4e6, 8e6, 4e7, 8e8}) {
     const Scene scene = vibrating(scene_with({Circle{0.1}, {8e4}, {}}, 1000.0, Vec3(0, highest, 0)));
-    StepOptions collocation;
-    collocation.scheme = SchemeKind::collocation;
-    const double share = static_cast<double>(choose_step(scene, collocation).steps) /
+    StepOptions with_collocation;
+    with_collocation.scheme = SchemeKind::collocation;
+    const double share = static_cast<double>(choose_step(scene, with_collocation).steps) /
                          static_cast<double>(choose_step(scene, splitting()).steps);
     const SchemeKind chosen = choose_step(scene, {}).scheme;
     if (share < 0.5) {

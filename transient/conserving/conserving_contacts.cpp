@@ -70,8 +70,8 @@ bool ConservingContacts::solve(double step, const Mobilities& mobilities, const 
   trial.clear();
   shut_.clear();
   parts_.clear();
-  const bool any = start.find_near(0.0) | free.find_near(0.0); // both marks are needed
-  if (!any)
+  const bool at_start = start.find_near(0.0), at_end = free.find_near(0.0); // both marks are needed
+  if (!at_start && !at_end)
     return true;
   for (int c = 0; c < contacts_.count; ++c)
     if ((start.near(c) && start.locate(c).gap < 0.0) || (free.near(c) && free.locate(c).gap < 0.0))

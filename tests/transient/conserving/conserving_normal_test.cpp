@@ -55,7 +55,9 @@ TEST(ConservingNormal, HasTheDerivativesOfItsDifferences) {
   constexpr double small = 1e-9, of_differences = 1e-5; // m and m/s; relative
   for (const auto& [p0, p1, rate] : ends)
     for (const double share : {0.0, 0.3, 0.9}) {
-      const auto force = [&](double p, double r) { return step_normal_force(law, share, p0, p, r, h).force; };
+      const auto force = [&, p0 = p0](double p, double r) {
+        return step_normal_force(law, share, p0, p, r, h).force;
+      };
       const StepNormal f = step_normal_force(law, share, p0, p1, rate, h);
       EXPECT_NEAR(f.by_end, (force(p1 + small, rate) - force(p1 - small, rate)) / (2.0 * small),
                   of_differences * (law.stiffness + law.damping / h));

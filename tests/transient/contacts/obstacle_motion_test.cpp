@@ -49,16 +49,16 @@ constexpr double round_off = 1e-12;
 } // namespace
 
 TEST(PrescribedMotion, OfARandomAccelerationDoesNotDriftAway) {
-  constexpr double duration = 3.0;
+  constexpr double seconds = 3.0;
   for (const Random& random : {Random{2.0, 5.0, 50.0, 1}, Random{2.0, 0.0, 40.0, 7}}) {
-    const PrescribedMotion motion = without_drift(random, duration);
-    const MotionSignal s(motion, duration), from_rest({random}, duration);
+    const PrescribedMotion motion = without_drift(random, seconds);
+    const MotionSignal s(motion, seconds), from_rest({random}, seconds);
     constexpr int n = 30000; // midpoints: the trend is known to 1/n^2
     double mean = 0.0, trend = 0.0, squares = 0.0, drifted = 0.0;
     for (int i = 0; i < n; ++i) {
-      const double t = (i + 0.5) * duration / n, u = s(t).displacement;
+      const double t = (i + 0.5) * seconds / n, u = s(t).displacement;
       mean += u / n;
-      trend += u * (t / duration - 0.5) / n;
+      trend += u * (t / seconds - 0.5) / n;
       squares += u * u / n;
       drifted = std::max(drifted, std::abs(from_rest(t).displacement));
     }

@@ -13,7 +13,6 @@ using contact::Stop;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double fine = 1e-10;       // tolerance of a step
 constexpr double of_fine = 1e-8;     // what some hundred such steps may add up to, relative
 constexpr double of_duration = 1e-9; // s: events are found to this

@@ -19,8 +19,6 @@ using contact::PlaneAxis;
 namespace {
 
 constexpr double round_off = 1e-12;
-/// Of the sweeps over coupled contacts, relative.
-constexpr double of_sweeps = 1e-8;
 
 Eigen::MatrixXd diagonal(double x, double y, double z) { return Eigen::Vector3d(x, y, z).asDiagonal(); }
 
