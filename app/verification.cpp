@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 #include <type_traits>
 
 namespace fretwork::app {
@@ -36,14 +35,6 @@ private:
   std::vector<transient::Observer*> observers_;
   transient::Run run_;
 };
-
-/// Of the runs whose statistics are added up.
-int lowest_order(const std::vector<results::TransientFacts>& runs) {
-  int order = std::numeric_limits<int>::max();
-  for (const results::TransientFacts& run : runs)
-    order = std::min(order, run.choice.order);
-  return order;
-}
 
 } // namespace
 
@@ -93,12 +84,10 @@ void compare_with_half(const std::vector<BuiltScene>& scenes, const std::vector<
     for (std::size_t c = 0; c < scenes[s].contacts.size(); ++c)
       half[scenes[s].contacts[c]] = halves[s].contacts[c];
   }
-  v.order = lowest_order(out.transients);
   v.factor = post::critical_factor(post::compared_of_a_contact * half.size());
-  v.sums =
-      post::compare_sums(out.contact_summaries, out.errors_of_sums, half, errors, {out.accuracy, v.order});
+  v.sums = post::compare_sums(out.contact_summaries, out.errors_of_sums, half, errors, {out.accuracy});
   for (std::size_t c = 0; c < half.size(); ++c)
-    v.contacts.push_back(post::compare(out.contact_summaries[c], half[c], {out.accuracy, v.order, v.factor}));
+    v.contacts.push_back(post::compare(out.contact_summaries[c], half[c], {out.accuracy, v.factor}));
   const results::Disagreement found = results::disagreement(v, out.contacts);
   if (found.differ > 0)
     out.warnings.push_back(

@@ -11,8 +11,8 @@ ComparedFigure compared(std::string name, double a, double error_a, double b, do
                         const Criterion& criterion) {
   ComparedFigure out{std::move(name), a, b, std::hypot(error_a, error_b), true};
   const double noise = std::isfinite(out.error) ? criterion.factor * out.error : 0.0;
-  out.agrees = std::abs(a - b) <=
-               noise + share_shown(criterion.order) * criterion.accuracy * std::max(std::abs(a), std::abs(b));
+  out.agrees =
+      std::abs(a - b) <= noise + least_share_shown * criterion.accuracy * std::max(std::abs(a), std::abs(b));
   return out;
 }
 
@@ -28,8 +28,6 @@ double critical_factor(std::size_t figures) {
     (outside(0.5 * (low + high)) > wanted ? low : high) = 0.5 * (low + high);
   return figures == 1 ? factor_of_sums : 0.5 * (low + high);
 }
-
-double share_shown(int order) { return 1.0 - std::ldexp(1.0, -order); }
 
 std::vector<ComparedFigure> compare(const ContactSummary& run, const ContactSummary& half,
                                     const Criterion& criterion) {

@@ -2,10 +2,11 @@
 /// @file
 /// Statistics of a run against those of the same run at half the step (half the tolerance). Impacts with friction are chaotic: the two
 /// motions part, their statistics scatter. The run at half the step has an error too: of order p,
-///     a = x + C h^p,   b = x + C (h/2)^p,   a - b = r (a - x),   r = 1 - 2^-p,
-/// so that the difference shows the share r of the run's own error (L. F. Richardson, Phil. Trans. R. Soc. A 210 (1911) 307). The accuracy is
-/// asked of that error: a figure agrees where
-///     |a - b| <= k sqrt(s_a^2 + s_b^2) + r accuracy max(|a|, |b|)
+///     a = x + C h^p,   b = x + C (h/2)^p,   a - b = (1 - 2^-p) (a - x),
+/// so that the difference shows a share of the run's own error (L. F. Richardson, Phil. Trans. R. Soc. A 210 (1911) 307). Which p a figure of a
+/// chaotic motion has at a given step cannot be told from its scatter, but p >= 1 for every scheme: the error is at most twice the difference.
+/// The accuracy is asked of that bound: a figure agrees where
+///     |a - b| <= k sqrt(s_a^2 + s_b^2) + accuracy/2 max(|a|, |b|)
 /// with the standard errors s of batch_means.hpp. k = 2 for the sums over contacts, which chance alone exceeds with p = 0.0455. For the N figures
 /// of single contacts k is such that any of them exceeds it with that p at most (Bonferroni: p/N each), so that many contacts are no reason to warn.
 /// Without standard errors (a window too short) s = 0: a single event is compared as it is.
@@ -30,13 +31,11 @@ constexpr double factor_of_sums = 2.0;
 /// k for so many figures, at least 1.
 [[nodiscard]] double critical_factor(std::size_t figures);
 
-/// r of an order, >= 1: 1/2, 3/4, 7/8 ...
-[[nodiscard]] double share_shown(int order);
+constexpr double least_share_shown = 0.5; ///< of the run's error, by the difference from half the step: p = 1
 
 /// What agreement is measured by.
 struct Criterion {
   double accuracy; ///< of a figure, relative
-  int order;       ///< p of the statistics, >= 1
   double factor = factor_of_sums;
 };
 

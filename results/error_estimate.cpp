@@ -32,12 +32,12 @@ double relative_scatter(const RunResults& results) {
   return larger(out, e.impact_rate, sum(results, &post::ContactSummary::impact_rate));
 }
 
-/// Error of the run by its step: the difference is the share of it that halving the step takes away.
+/// Largest error of the run by its step that the differences allow.
 double relative_step_error(const Verification& verification) {
-  const double shown = post::share_shown(verification.order);
   double out = nan;
   for (const post::ComparedFigure& f : verification.sums)
-    out = larger(out, std::abs(f.difference()) / shown, std::max(std::abs(f.value), std::abs(f.at_half)));
+    out = larger(out, std::abs(f.difference()) / post::least_share_shown,
+                 std::max(std::abs(f.value), std::abs(f.at_half)));
   return out;
 }
 
@@ -85,7 +85,8 @@ ErrorEstimate error_estimate(const RunResults& results) {
                         found.compared,
                         std::isnan(of_step)
                             ? ""
-                            : fmt::format(", the step changes sums over contacts by {} %{}", percent(of_step),
+                            : fmt::format(", the step changes sums over contacts by at most {} %{}",
+                                          percent(of_step),
                                           std::isnan(scatter) ? "" : ", " + scatter_text(scatter)))};
   }
   const double relative = relative_scatter(results);

@@ -82,7 +82,6 @@ struct TransientFacts {
 /// The run against the same at half the step (half the tolerance).
 struct Verification {
   double step_max = 0.0; ///< s, of the second run
-  int order = 1;         ///< of the statistics in the step: post::share_shown
   double factor = 0.0;   ///< of standard errors that agreeing figures of contacts may differ by
   std::vector<std::vector<post::ComparedFigure>> contacts; ///< as `contacts`
   std::vector<post::ComparedFigure> sums;                  ///< over all contacts

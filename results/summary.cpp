@@ -178,7 +178,6 @@ Json verification(const Verification& v, const std::vector<ContactFacts>& contac
     by_contact.push_back({{"name", contacts[c].name}, {"figures", compared(v.contacts[c])}});
   return {{"agrees", disagreement(v, contacts).differ == 0},
           {"step_max_s", number(v.step_max)},
-          {"order", v.order},
           {"factor", {{"sums", post::factor_of_sums}, {"contacts", number(v.factor)}}},
           {"sums", compared(v.sums)},
           {"contacts", by_contact}};

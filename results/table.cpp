@@ -100,11 +100,9 @@ void add_verification(Lines& lines, const RunResults& results) {
   const Disagreement found = disagreement(v, results.contacts);
   lines.add("verified",
             fmt::format("at half the step ({:.3g} s): {} of {} figures agree within {:.2g} "
-                        "standard errors (sums {:.2g}) + {:.2g} % (of order {}, {:.3g} of the "
-                        "accuracy)",
+                        "standard errors (sums {:.2g}) + {:.2g} % (half the accuracy)",
                         v.step_max, found.compared - found.differ, found.compared, v.factor,
-                        post::factor_of_sums, 100.0 * results.accuracy * post::share_shown(v.order), v.order,
-                        post::share_shown(v.order)));
+                        post::factor_of_sums, 100.0 * results.accuracy * post::least_share_shown));
   lines.row("", fmt::format("{:<22} {:>11} {:>13} {:>11} {:>15}", "all contacts", "this run", "at half step",
                             "difference", "standard error"));
   for (const post::ComparedFigure& f : v.sums)

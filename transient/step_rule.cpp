@@ -328,7 +328,6 @@ StepChoice choice_of(const Scene& scene, const SceneRates& rates, const StepOpti
   StepChoice c;
   static_cast<SceneRates&>(c) = rates;
   c.scheme = scheme;
-  c.order = order_of_statistics(scene, scheme);
   if (scheme == SchemeKind::euler || scheme == SchemeKind::devogelaere)
     c.explicit_rate = explicit_damper_rate(scene);
   if (scheme == SchemeKind::devogelaere)
@@ -377,43 +376,6 @@ StepChoice choose_step(const Scene& scene, const StepOptions& options) {
   check_scope(scene, scheme);
   const SceneRates rates = rates_of(scene);
   return options.scheme ? choice_of(scene, rates, options, scheme) : cheapest(scene, rates, options);
-}
-
-namespace {
-
-/// Whether a contact's force jumps at a touch, or a spring of friction is set once a step.
-bool jumps(const contact::Support& support) {
-  return support.normal.damping > 0.0 || (support.friction.active() && !(support.friction.damping > 0.0));
-}
-
-} // namespace
-
-int order_of_statistics(const Scene& scene, SchemeKind scheme) {
-  for (const ContactPoint& point : scene.contacts)
-    if (point.support.friction.active() &&
-        point.support.friction.kind == contact::FrictionMemoryKind::reference)
-      return 1;
-  switch (scheme) {
-  case SchemeKind::euler:
-  case SchemeKind::runge_kutta_54:
-    return 1;
-  case SchemeKind::energy_conserving:
-    return 2;
-  case SchemeKind::splitting:
-    return std::any_of(scene.contacts.begin(), scene.contacts.end(),
-                       [](const ContactPoint& point) {
-                         return point.support.normal.damping > 0.0 || point.support.friction.active();
-                       })
-               ? 1
-               : 2;
-  case SchemeKind::collocation:
-  case SchemeKind::devogelaere:
-    return std::any_of(scene.contacts.begin(), scene.contacts.end(),
-                       [](const ContactPoint& point) { return jumps(point.support); })
-               ? 1
-               : 2;
-  }
-  return {};
 }
 
 StepChoice halved(StepChoice choice) {

@@ -50,7 +50,6 @@ struct StepOptions {
 struct StepChoice : SceneRates {
   SchemeKind scheme = SchemeKind::splitting;
   double step = 0.0;       ///< s; of an adaptive scheme the longest
-  int order = 2;           ///< of statistics: order_of_statistics
   std::int64_t steps = 0;  ///< that cover the duration; 0: adaptive
   double tolerance = 1e-6; ///< of an adaptive scheme
   double fastest =
@@ -74,13 +73,5 @@ struct StepChoice : SceneRates {
 
 /// The same run at half the step, or, adaptive, at half the tolerance.
 [[nodiscard]] StepChoice halved(StepChoice choice);
-
-/// p of the statistics of a run with contacts: their error falls by 2^p from a choice to the halved one. 1 for euler, for the adaptive
-/// scheme, whose error goes as its tolerance, and with the memory `reference`, whose spring jumps once a step; of splitting with friction or normal dampers
-/// (measured: 1.3 to 2); of the schemes of order 4 where a
-/// normal damper's force jumps at a touch or a spring of friction without damper is set once a step; else 2, also of the schemes of order 4:
-/// forces have a kink where a contact opens or closes inside a step, which costs them the order on all but single smooth paths
-/// (doc/schemes.md).
-[[nodiscard]] int order_of_statistics(const Scene& scene, SchemeKind scheme);
 
 } // namespace fretwork::transient

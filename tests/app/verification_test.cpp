@@ -72,7 +72,6 @@ TEST(Verification, RefusesAStepWhoseErrorIsAboveTheAccuracyAndTakesHalfOfIt) {
   };
   const Results exact = shaken_against_a_stop(folder, "exact", {"--set", "transient.step=5e-5"});
   EXPECT_TRUE(exact.summary["verification"]["agrees"]);
-  EXPECT_EQ(exact.summary["verification"]["order"], 1); // the least, with a normal damper
   constexpr double accuracy = 0.005;
   const Results coarse = euler(128), fine = euler(256);
   // of order 1: the error is 0.7 %, the difference from half the step 0.36 %
@@ -80,7 +79,6 @@ TEST(Verification, RefusesAStepWhoseErrorIsAboveTheAccuracyAndTakesHalfOfIt) {
   EXPECT_TRUE(close_to(deviation(coarse), deviation(fine), accuracy));
   EXPECT_FALSE(coarse.summary["verification"]["agrees"]);
   EXPECT_TRUE(says(coarse.summary["warnings"].dump(), "displacement.y.std of contact"));
-  EXPECT_EQ(coarse.summary["verification"]["order"], 1);
   EXPECT_TRUE(close_to(deviation(fine), deviation(exact), accuracy));
   EXPECT_TRUE(fine.summary["verification"]["agrees"]);
 }

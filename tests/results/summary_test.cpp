@@ -216,15 +216,13 @@ TEST(Summary, TellsAVerificationFigureByFigure) {
   RunResults results = made_up({.contacts = 1});
   Verification v;
   v.step_max = 1e-5;
-  v.order = 2;
   v.factor = 3.0;
   v.contacts = {{{"work_rate", 1.0, 1.5, 0.25, true}}};
   v.sums = {{"work_rate", 2.0, 4.0, nan, false}};
   results.verification = v;
   const Json told = summary_of(results)["verification"];
-  EXPECT_EQ(told,
-            Json::parse(
-                R"({"agrees": false, "step_max_s": 1e-5, "order": 2, "factor": {"sums": 2.0, "contacts": 3.0},
+  EXPECT_EQ(told, Json::parse(
+                      R"({"agrees": false, "step_max_s": 1e-5, "factor": {"sums": 2.0, "contacts": 3.0},
     "sums": [{"name": "work_rate", "value": 2.0, "value_at_half_step": 4.0, "difference": -2.0, "standard_error": null, "agrees": false}],
     "contacts": [{"name": "tsp1", "figures":
       [{"name": "work_rate", "value": 1.0, "value_at_half_step": 1.5, "difference": -0.5, "standard_error": 0.25, "agrees": true}]}]})"));

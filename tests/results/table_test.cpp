@@ -109,7 +109,6 @@ TEST(TerminalTable, ShowsWhatAVerificationFound) {
   Verification v;
   v.step_max = 1e-5;
   v.factor = 2.77;
-  v.order = 2;
   v.contacts = {{{"work_rate", 1.0, 1.0, 0.1, true}}};
   v.sums = {{"work_rate", 2.0, 4.0, 0.5, false}};
   results.verification = v;

@@ -322,19 +322,6 @@ TEST(StepRule, HalvesAStepOrATolerance) {
   EXPECT_EQ(halved(adaptive).tolerance, 0.5 * adaptive.tolerance);
 }
 
-TEST(StepRule, KnowsHowFastStatisticsSettle) {
-  Scene scene = scene_with({Circle{0.1}, {8e4}, {8e4, 10.0, 0.3, 0.3}});
-  EXPECT_EQ(order_of_statistics(scene, SchemeKind::euler), 1);
-  EXPECT_EQ(order_of_statistics(scene, SchemeKind::runge_kutta_54), 1); // of the tolerance
-  EXPECT_EQ(order_of_statistics(scene, SchemeKind::splitting), 1);
-  EXPECT_EQ(order_of_statistics(scene_with({Circle{0.1}, {8e4}, {}}), SchemeKind::splitting), 2);
-  for (const SchemeKind kind :
-       {SchemeKind::collocation, SchemeKind::energy_conserving, SchemeKind::devogelaere})
-    EXPECT_EQ(order_of_statistics(scene, kind), 2) << name_of(kind);
-  scene.contacts[0].support.friction.kind = contact::FrictionMemoryKind::reference;
-  EXPECT_EQ(choose_step(scene, splitting()).order, 1);
-}
-
 TEST(StepRule, NeverTakesAStepThatItWouldWarnOf) {
   for (const double damping : {0.0, 600.0, 5000.0, 5e4})
     for (const double accuracy : {0.01, 0.02, 0.04}) {
