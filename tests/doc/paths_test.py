@@ -2,6 +2,7 @@
 """Files of the tree that documents name exist, and so do the sections of links: paths_test.py ROOT (of the tree)."""
 
 import re
+import runpy
 import sys
 import unittest
 from pathlib import Path
@@ -24,6 +25,10 @@ class Paths(unittest.TestCase):
         for document in DOCUMENTS:
             with self.subTest(document):
                 self.assertEqual([], missing(document, document.read_text(encoding="utf-8")))
+
+    def test_picture_of_the_architecture_is_drawn_by_its_script(self):
+        script = runpy.run_path(str(ROOT / "doc/pictures/draw_architecture.py"))
+        self.assertEqual((ROOT / "doc/architecture.svg").read_text(encoding="utf-8"), script["picture"]())
 
     def test_missing_files_are_found(self):
         text = "`contact/support.hpp` `contact/nowhere.hpp` [a](doc/nothing.md) [b](README.md)"
