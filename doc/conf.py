@@ -33,7 +33,7 @@ def contents(text):
 
 
 def read(app, document, source):
-    source[0] = re.sub(r"\[([^]]*)\]\((?:\.\./)+([^)]*)\)", r"\1 (`\2`)", source[0])  # files outside of doc/ are no pages
+    source[0] = re.sub(r"\[[^]]*\]\((?:\.\./)+([^)]*)\)", r"`\1`", source[0])  # files outside of doc/ are no pages
     if document == "index":
         source[0] = contents(source[0])
 
