@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// The flow along tubes in summary.json: keys as in doc/study-file.md.
+/// The flow along tubes in summary.json: keys as in doc/results.md.
 #pragma once
 #include "results/run_results.hpp"
 #include <nlohmann/json_fwd.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Wear in summary.json, on the terminal and as CSV: keys and columns as in doc/study-file.md.
+/// Wear in summary.json, on the terminal and as CSV: keys and columns as in doc/results.md.
 #pragma once
 #include "results/wear_results.hpp"
 #include <filesystem>

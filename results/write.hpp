@@ -13,7 +13,7 @@ namespace fretwork::results {
 /// Number of the layout of the files: part of what tells whether stored results can be read. Raise it when the layout changes.
 inline constexpr int file_layout = 7;
 
-/// summary.json: keys as in doc/study-file.md; numbers with the shortest text that reads back the same, null
+/// summary.json: keys as in doc/results.md; numbers with the shortest text that reads back the same, null
 /// where they are not finite.
 /// @throws core::Error if it cannot be written
 void write_summary(const std::filesystem::path& file, const RunResults& results);
@@ -45,7 +45,7 @@ void write_stability_csv(const std::filesystem::path& file, const RunResults& re
 /// @throws core::Error if it cannot be written
 void write_response_csv(const std::filesystem::path& file, const RunResults& results);
 
-/// results.h5: layout as in doc/study-file.md and basis_file.hpp. The same results give the same bytes,
+/// results.h5: layout as in doc/results.md and basis_file.hpp. The same results give the same bytes,
 /// whatever the ranks and timings.
 /// @throws core::Error if it cannot be written
 void write_archive(const std::filesystem::path& file, const RunResults& results);

@@ -9,7 +9,7 @@ namespace {
 
 using nlohmann::json;
 
-/// The keys that scripts rely on: doc/study-file.md, Results.
+/// The keys that scripts rely on: doc/results.md.
 const json contract = json::parse(R"({
   "": ["version", "study", "ranks", "seed", "input_sha256", "model", "modes", "contacts", "nodes", "energy", "transient", "timings_s"],
   "/model": ["nodes", "elements", "dofs", "mass_kg"],

@@ -73,8 +73,9 @@ TEST(ErrorEstimate, OfAVerifiedRunIsItsDifferenceFromHalfTheStepAndTheScatter) {
   // turning verification on never makes the error that is told smaller
   results.errors_of_sums = {0.02, 0.05, 0.0, 3.0};
   EXPECT_DOUBLE_EQ(error_estimate(results).relative, std::hypot(0.2 / 0.5, 0.05));
-  EXPECT_THAT(error_estimate(results).text,
-              HasSubstr("the step changes sums over contacts by at most 40 %, 5 % standard error of this window"));
+  EXPECT_THAT(
+      error_estimate(results).text,
+      HasSubstr("the step changes sums over contacts by at most 40 %, 5 % standard error of this window"));
   results.verification->failure = "the run at half the step stopped";
   EXPECT_NE(error_estimate(results).kind, ErrorKind::verified);
 }
