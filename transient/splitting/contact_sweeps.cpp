@@ -106,10 +106,15 @@ bool ContactSweeps::make(const ContactMotion& start, const ContactMotion& end, c
     if (!moves_[c])
       losses.damping += steps_[c].relax(pasts_[c], h_);
   group();
+  double largest = 0.0;
+  for (Moving& m : moving_) {
+    find(m);
+    largest = std::max(largest, sum_of_sizes(m.act.mean));
+  }
   bool settled = true;
   for (const int b : touched_)
     if (moving_blocks_[b].parent == b)
-      settled = sweep(moving_blocks_[b].first) && settled;
+      settled = sweep(moving_blocks_[b].first, largest) && settled;
   for (const Moving& m : moving_) {
     const ContactAct& act = m.act;
     pasts_[m.c] = act.past;
@@ -159,13 +164,8 @@ void ContactSweeps::group() {
   }
 }
 
-/// A group by its first contact. Returns whether none would answer what has changed since it was found by more than the tolerance.
-bool ContactSweeps::sweep(int first) {
-  double largest = 0.0;
-  for (int i = first; i >= 0; i = moving_[i].next) {
-    find(moving_[i]);
-    largest = std::max(largest, sum_of_sizes(moving_[i].act.mean));
-  }
+/// Further sweeps of a group, by its first contact and the largest force of the step. Returns whether none would answer what has changed since it was found by more than the tolerance.
+bool ContactSweeps::sweep(int first, double largest) {
   for (int sweep = 1; sweep < most_sweeps; ++sweep) {
     bool settled = true;
     for (int i = first; i >= 0; i = moving_[i].next)

@@ -8,7 +8,7 @@
 /// after a step under constant forces f. What rests stays at rest, whatever h: f = held then, and the path is constant.
 ///
 /// W is known block by block (contact_blocks.hpp). Contacts that may be closed and share a block, directly or through others, make a group;
-/// groups know nothing of each other: tubes that do not touch in a step move in it as if each were alone.
+/// groups are swept apart, to a tolerance of the largest force of the step.
 #pragma once
 #include "transient/contacts/contact_blocks.hpp"
 #include "transient/contacts/contact_motion.hpp"
@@ -82,7 +82,7 @@ private:
   [[nodiscard]] FreePath path_of(int c, const ContactMotion& start, const ContactMotion& end) const;
   void find(Moving& m);
   [[nodiscard]] double unanswered(const Moving& m) const;
-  bool sweep(int first);
+  bool sweep(int first, double largest);
 
   const PackedContacts& contacts_;
   ContactBlocks blocks_;
