@@ -166,24 +166,54 @@ Eigen::MatrixXd carried_by_motions(const study::Study& study, const study::Conta
   return carried.isZero(0.0) ? Eigen::MatrixXd() : carried;
 }
 
+/// The structures of a scene that have a node of a contact.
+Bases touched_by(const Bases& all, const PlacedContact& placed) {
+  Bases out;
+  for (const modal::Basis* basis : all)
+    if ((placed.other >= 0 && basis->row_of(placed.other) >= 0) ||
+        std::any_of(placed.motion.begin(), placed.motion.end(),
+                    [&](const fem::NodeShare& share) { return basis->row_of(share.node) >= 0; }))
+      out.push_back(basis);
+  return out;
+}
+
+/// Where the modes of some structures are among those of all.
+std::vector<transient::ModeRange> modes_of(const Bases& some, const Bases& all) {
+  std::vector<transient::ModeRange> out;
+  Eigen::Index first = 0;
+  for (const modal::Basis* basis : all) {
+    if (std::find(some.begin(), some.end(), basis) != some.end())
+      out.push_back({first, basis->size()});
+    first += basis->size();
+  }
+  return out;
+}
+
 void add_contact(const study::Study& study, const study::Contact& contact, const PlacedContact& placed,
-                 const Bases& bases, const Fields& fields, BuiltScene& out) {
-  Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(3, out.scene.system.size());
+                 const Bases& all, const Fields& fields, BuiltScene& out) {
+  const Bases touched = touched_by(all, placed);
+  Eigen::Index modes = 0;
+  for (const modal::Basis* basis : touched)
+    modes += basis->size();
+  Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(3, modes);
   for (const fem::NodeShare& share : placed.motion)
-    add_motion(bases, share.node, share.weights, motion);
+    add_motion(touched, share.node, share.weights, motion);
   if (placed.other >= 0)
-    add_motion(bases, placed.other, -translations(), motion);
+    add_motion(touched, placed.other, -translations(), motion);
   transient::ContactPoint point;
   point.name = placed.name;
   point.rest = placed.rest;
   point.b = placed.frame.rotation() * motion;
+  if (all.size() > 1)
+    point.modes = modes_of(touched, all);
   const double largest = point.b.size() > 0 ? point.b.cwiseAbs().maxCoeff() : 0.0;
   point.b = (point.b.array().abs() > round_off_of_shapes * largest)
                 .select(point.b, 0.0); // a direction that is not used costs nothing
   if (const auto carried = carried_by_motions(study, contact, placed, fields, out.scene); carried.size() > 0)
     point.carried = placed.frame.rotation() * carried;
-  point.support = support_of(contact, placed, of_modes(out.scene.system, out.true_modes),
-                             point.b(Eigen::all, out.true_modes));
+  const TrueModes its = true_modes_of(point, out.true_modes);
+  point.support =
+      support_of(contact, placed, of_modes(out.scene.system, its.modes), point.b(Eigen::all, its.columns));
   out.scene.contacts.push_back(std::move(point));
 }
 
@@ -203,7 +233,10 @@ void drop_round_off(transient::Scene& scene) {
   Eigen::Array<bool, Eigen::Dynamic, 1> meets =
       Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(scene.system.size(), false);
   for (const transient::ContactPoint& point : scene.contacts)
-    meets = meets || (point.b.array() != 0.0).colwise().any().transpose();
+    point.for_ranges([&](Eigen::Index first, const auto& part) {
+      auto here = meets.segment(first, part.cols());
+      here = (here || (part.array() != 0.0).colwise().any().transpose()).eval();
+    });
   const auto drop = [&](Eigen::VectorXd& values) {
     const double largest = values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0;
     values = (meets || values.array().abs() > round_off_of_shapes * largest).select(values, 0.0).eval();
@@ -241,6 +274,20 @@ void leave_out_still_modes(BuiltScene& out) {
 }
 
 } // namespace
+
+TrueModes true_modes_of(const transient::ContactPoint& point, const std::vector<Eigen::Index>& true_modes) {
+  TrueModes out;
+  Eigen::Index column = 0;
+  point.for_ranges([&](Eigen::Index first, const auto& part) {
+    auto mode = std::lower_bound(true_modes.begin(), true_modes.end(), first);
+    for (; mode != true_modes.end() && *mode < first + part.cols(); ++mode) {
+      out.columns.push_back(column + *mode - first);
+      out.modes.push_back(*mode);
+    }
+    column += part.cols();
+  });
+  return out;
+}
 
 std::vector<NamedNode> observed_nodes(const study::Study& study, const mesh::LineMesh& mesh) {
   std::vector<NamedNode> out;

@@ -31,6 +31,14 @@ struct BuiltScene {
   std::vector<std::string> warnings;  ///< (a lost share of the initial field)
 };
 
+/// Numbers of a scene's true modes among the columns of a contact, and in the scene.
+struct TrueModes {
+  std::vector<Eigen::Index> columns, modes;
+};
+/// @param true_modes  of the scene, ascending
+[[nodiscard]] TrueModes true_modes_of(const transient::ContactPoint& point,
+                                      const std::vector<Eigen::Index>& true_modes);
+
 /// A node of `[output] nodes` and its name: the group's, with [i] where it has several nodes.
 struct NamedNode {
   std::string name;

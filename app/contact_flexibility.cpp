@@ -46,19 +46,75 @@ Eigen::VectorXd restricted(const modal::Basis& basis, const Eigen::VectorXd& fie
   return out;
 }
 
+/// Flexibilities between the loaded directions: all of them, or of each contact alone: (i, direction of j) for directions i, j of one contact.
+class LoadedFlexibility {
+public:
+  LoadedFlexibility(const std::vector<Index>& loaded, bool alone)
+      : loaded_(loaded), alone_(alone),
+        values_(MatrixXd::Zero(static_cast<Index>(loaded.size()),
+                               alone ? 3 : static_cast<Index>(loaded.size()))) {}
+  /// Adds a part between some of the directions.
+  void add(const std::vector<Index>& among, const MatrixXd& part) {
+    if (!alone_) {
+      values_(among, among) += part;
+      return;
+    }
+    for (std::size_t i = 0; i < among.size(); ++i)
+      for (std::size_t j = 0; j < among.size(); ++j)
+        if (contact(among[i]) == contact(among[j]))
+          values_(among[i], direction(among[j])) += part(static_cast<Index>(i), static_cast<Index>(j));
+  }
+  [[nodiscard]] const MatrixXd& all() const { return values_; }
+  /// Between the directions [first, first + size) of one contact.
+  [[nodiscard]] MatrixXd own(Index first, Index size) const {
+    MatrixXd out(size, size);
+    for (Index j = 0; j < size; ++j)
+      out.col(j) = values_.col(alone_ ? direction(first + j) : first + j).segment(first, size);
+    return out;
+  }
+  void set_own(Index first, const MatrixXd& own) {
+    for (Index j = 0; j < own.cols(); ++j)
+      values_.col(alone_ ? direction(first + j) : first + j).segment(first, own.rows()) = own.col(j);
+  }
+  /// Over all directions of the contacts.
+  [[nodiscard]] MatrixXd among_all(Index directions) const {
+    MatrixXd out = MatrixXd::Zero(directions, alone_ ? 3 : directions);
+    if (alone_)
+      out(loaded_, Eigen::all) = values_;
+    else
+      out(loaded_, loaded_) = values_;
+    return out;
+  }
+
+private:
+  [[nodiscard]] Index contact(Index i) const { return loaded_[static_cast<std::size_t>(i)] / 3; }
+  [[nodiscard]] Index direction(Index i) const { return loaded_[static_cast<std::size_t>(i)] % 3; }
+  const std::vector<Index>& loaded_;
+  bool alone_;
+  MatrixXd values_;
+};
+
+/// Of the loaded directions.
+struct Flexibilities {
+  Flexibilities(const std::vector<Index>& loaded, bool alone)
+      : exact(loaded, alone), basis(loaded, alone), inner(loaded, alone) {}
+  LoadedFlexibility exact, basis;
+  LoadedFlexibility inner; ///< modal::inner_flexibility
+};
+
 /// Adds what a structure gives to the flexibilities of the loaded directions.
-/// @param inner  of the loaded directions, modal::inner_flexibility
 void add_structure(const Parts& parts, std::size_t s, const StructureLoads& loaded,
-                   modal::StaticSolvers& solvers, ContactFlexibility& out, MatrixXd& inner) {
+                   modal::StaticSolvers& solvers, ContactFlexibility& out, Flexibilities& of_loaded) {
   const auto& [among, forces] = loaded;
   if (among.empty())
     return;
   const modal::Basis& basis = parts.bases[s];
   const MatrixXd u = solvers.of(s).solve(forces);
-  out.exact(among, among) += forces.transpose() * u;
-  out.basis(among, among) += modal::flexibility_of(basis, forces);
-  inner(among, among) += modal::inner_flexibility(
-      basis, forces, fem::largest_inner_changes(parts.model, parts.structures[s], basis.omega));
+  of_loaded.exact.add(among, forces.transpose() * u);
+  of_loaded.basis.add(among, modal::flexibility_of(basis, forces));
+  of_loaded.inner.add(
+      among, modal::inner_flexibility(
+                 basis, forces, fem::largest_inner_changes(parts.model, parts.structures[s], basis.omega)));
   if (!in_series(parts.study))
     return; // nothing is moved beside the modes
   const MatrixXd gain = modal::static_gain(basis, forces);
@@ -73,26 +129,21 @@ void add_structure(const Parts& parts, std::size_t s, const StructureLoads& load
 
 /// Between all contacts, or where the scene does not take it, what the table tells: of each contact alone.
 MatrixXd missing_flexibility(const Parts& parts, const std::vector<Index>& loaded,
-                             const ContactFlexibility& of_loaded, const MatrixXd& inner) {
+                             const Flexibilities& of_loaded, Index all) {
+  LoadedFlexibility out(loaded, !in_series(parts.study));
   if (in_series(parts.study))
-    return modal::missing_flexibility(of_loaded.exact, of_loaded.basis, inner);
-  MatrixXd out = MatrixXd::Zero(of_loaded.exact.rows(), of_loaded.exact.cols());
-  for (std::size_t begin = 0, end = 0; begin < loaded.size(); begin = end) {
-    while (end < loaded.size() && loaded[end] / 3 == loaded[begin] / 3)
-      ++end;
-    const auto first = static_cast<Index>(begin), size = static_cast<Index>(end - begin);
-    const auto own = [&](const MatrixXd& matrix) { return matrix.block(first, first, size, size); };
-    out.block(first, first, size, size) =
-        modal::missing_flexibility(own(of_loaded.exact), own(of_loaded.basis), own(inner));
-  }
-  return out;
-}
-
-/// Rows and columns of the loaded directions among all.
-MatrixXd among_all(const MatrixXd& some, const std::vector<Index>& loaded, Index all) {
-  MatrixXd out = MatrixXd::Zero(all, all);
-  out(loaded, loaded) = some;
-  return out;
+    out.set_own(
+        0, modal::missing_flexibility(of_loaded.exact.all(), of_loaded.basis.all(), of_loaded.inner.all()));
+  else
+    for (std::size_t begin = 0, end = 0; begin < loaded.size(); begin = end) {
+      while (end < loaded.size() && loaded[end] / 3 == loaded[begin] / 3)
+        ++end;
+      const auto first = static_cast<Index>(begin), size = static_cast<Index>(end - begin);
+      out.set_own(first, modal::missing_flexibility(of_loaded.exact.own(first, size),
+                                                    of_loaded.basis.own(first, size),
+                                                    of_loaded.inner.own(first, size)));
+    }
+  return out.among_all(all);
 }
 
 ContactFlexibility flexibility(const Parts& parts, const std::vector<std::size_t>& structures,
@@ -102,19 +153,18 @@ ContactFlexibility flexibility(const Parts& parts, const std::vector<std::size_t
   const std::vector<Index>& loaded = scene.directions;
   const auto all = static_cast<Index>(3 * contacts.size());
   const auto count = static_cast<Index>(loaded.size()), loads = static_cast<Index>(parts.loads.size());
-  out.exact = out.basis = MatrixXd::Zero(count, count);
-  MatrixXd inner = out.basis;
+  Flexibilities of_loaded(loaded, !in_series(parts.study));
   out.under_loads = MatrixXd::Zero(count, loads);
   for (std::size_t i = 0; i < structures.size(); ++i)
-    add_structure(parts, structures[i], scene.on[i], solvers, out, inner);
-  out.missing = among_all(missing_flexibility(parts, loaded, out, inner), loaded, all);
-  out.exact = among_all(out.exact, loaded, all);
-  out.basis = among_all(out.basis, loaded, all);
+    add_structure(parts, structures[i], scene.on[i], solvers, out, of_loaded);
+  out.missing = missing_flexibility(parts, loaded, of_loaded, all);
+  out.exact = of_loaded.exact.among_all(all);
+  out.basis = of_loaded.basis.among_all(all);
   MatrixXd under_loads = MatrixXd::Zero(all, loads);
   under_loads(loaded, Eigen::all) = out.under_loads;
   // a point that misses nothing is moved by the modes alone
   for (Index row = 0; row < all; ++row)
-    if (!(out.missing(row, row) > 0.0))
+    if (!(ContactFlexibility::own(out.missing, static_cast<std::size_t>(row / 3))(row % 3, row % 3) > 0.0))
       under_loads.row(row).setZero();
   out.under_loads = std::move(under_loads);
   return out;
@@ -129,18 +179,24 @@ void broadcast(MPI_Comm comm, int root, ContactFlexibility& flexibility) {
 
 } // namespace
 
+Eigen::Matrix3d ContactFlexibility::own(const MatrixXd& matrix, std::size_t k) {
+  const auto first = static_cast<Index>(3 * k);
+  return matrix.block<3, 3>(first, matrix.cols() == matrix.rows() ? first : 0);
+}
+
 results::StaticFlexibility ContactFlexibility::at(std::size_t k, const contact::Obstacle& obstacle) const {
   const auto [y, z] = contact::normal_directions(obstacle);
   std::vector<Index> rows;
   for (const auto& [taken, d] : {std::pair{y, 1}, std::pair{z, 2}})
     if (taken)
-      rows.push_back(static_cast<Index>(3 * k) + d);
+      rows.push_back(d);
+  const auto part = [&](const MatrixXd& matrix) { return MatrixXd(own(matrix, k)(rows, rows)); };
   const auto principal = [&](const MatrixXd& matrix) {
-    return Eigen::VectorXd(core::symmetric_eigenpairs(matrix(rows, rows)).vectors.rightCols<1>());
+    return Eigen::VectorXd(core::symmetric_eigenpairs(matrix).vectors.rightCols<1>());
   };
-  const bool lacks = missing(rows, rows).diagonal().maxCoeff() > 0.0;
-  const Eigen::VectorXd d = principal(lacks ? missing : exact);
-  const auto along = [&](const MatrixXd& matrix) { return d.dot(matrix(rows, rows) * d); };
+  const bool lacks = part(missing).diagonal().maxCoeff() > 0.0;
+  const Eigen::VectorXd d = principal(part(lacks ? missing : exact));
+  const auto along = [&](const MatrixXd& matrix) { return d.dot(part(matrix) * d); };
   return {along(exact), along(basis), along(missing)};
 }
 

@@ -16,13 +16,16 @@
 namespace fretwork::app {
 
 struct ContactFlexibility {
-  std::vector<std::size_t> contacts; ///< numbers of the scene's contacts among the placed ones, ascending
-  Eigen::MatrixXd exact, basis,
-      missing; ///< m/N, 3 nc x 3 nc over x_loc y_loc z_loc of each; symmetric, missing >= 0
+  std::vector<std::size_t>
+      contacts; ///< numbers of the scene's contacts among the placed ones: contacts_of (contact_loads.hpp)
+  /// m/N, 3 nc x 3 nc over x_loc y_loc z_loc of each; symmetric, missing >= 0. Unless static_modes = "auto" 3 nc x 3: of each contact alone.
+  Eigen::MatrixXd exact, basis, missing;
   Eigen::MatrixXd
       under_loads; ///< m, 3 nc x loads of the fields: what the modes lack of the static displacements; 0 unless static_modes = "auto"
   std::string failure; ///< why there is none of the above; empty: there is
 
+  /// Rows and columns of the k-th contact in one of the above.
+  [[nodiscard]] static Eigen::Matrix3d own(const Eigen::MatrixXd& matrix, std::size_t k);
   /// Of the k-th contact in the normal direction in which most is missing.
   [[nodiscard]] results::StaticFlexibility at(std::size_t k, const contact::Obstacle& obstacle) const;
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/contact_loads.hpp"
 #include <algorithm>
+#include <array>
+#include <map>
 
 namespace fretwork::app {
 namespace {
@@ -11,34 +13,38 @@ using Eigen::MatrixXd;
 /// Below this share of the largest, how modes move a contact is the eigensolver's round-off.
 constexpr double round_off_of_shapes = 1e-11;
 
-/// Unit forces along x_loc y_loc z_loc of contacts on the nodes of a structure, 6 n x 3 nc; 0 where it has not the node.
-MatrixXd unit_forces(const std::vector<PlacedContact>& placed, const std::vector<std::size_t>& contacts,
-                     const modal::Basis& basis) {
-  MatrixXd forces = MatrixXd::Zero(basis.shapes.rows(), static_cast<Index>(3 * contacts.size()));
+/// The unit forces along x_loc y_loc z_loc of contacts that act on a structure, 6 n rows: numbers of their columns among all, and these columns.
+StructureLoads forces_on(const std::vector<PlacedContact>& placed, const std::vector<std::size_t>& contacts,
+                         const modal::Basis& basis) {
+  std::vector<std::size_t> here; // those that have a node of the structure
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const PlacedContact& contact = placed[contacts[k]];
+    const auto has = [&](const fem::NodeShare& share) { return basis.row_of(share.node) >= 0; };
+    if (std::any_of(contact.motion.begin(), contact.motion.end(), has) ||
+        (contact.other >= 0 && basis.row_of(contact.other) >= 0))
+      here.push_back(k);
+  }
+  MatrixXd all = MatrixXd::Zero(basis.shapes.rows(), static_cast<Index>(3 * here.size()));
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    const PlacedContact& contact = placed[contacts[here[i]]];
     const Eigen::Matrix3d axes = contact.frame.rotation().transpose();
-    const auto column = static_cast<Index>(3 * k);
+    const auto column = static_cast<Index>(3 * i);
     for (const fem::NodeShare& share : contact.motion)
       if (const Index row = basis.row_of(share.node); row >= 0)
-        forces.block<6, 3>(row, column) += share.weights.transpose() * axes;
+        all.block<6, 3>(row, column) += share.weights.transpose() * axes;
     if (contact.other < 0)
       continue;
     if (const Index row = basis.row_of(contact.other); row >= 0)
-      forces.block<3, 3>(row, column) -= axes;
+      all.block<3, 3>(row, column) -= axes;
   }
-  return forces;
-}
-
-/// The unit forces that act on a structure: numbers of their columns among all, and these columns.
-StructureLoads forces_on(const std::vector<PlacedContact>& placed, const std::vector<std::size_t>& contacts,
-                         const modal::Basis& basis) {
-  const MatrixXd all = unit_forces(placed, contacts, basis);
   StructureLoads out;
+  std::vector<Index> columns;
   for (Index j = 0; j < all.cols(); ++j)
-    if (!all.col(j).isZero(0.0))
-      out.among.push_back(j);
-  out.forces = all(Eigen::all, out.among);
+    if (!all.col(j).isZero(0.0)) {
+      columns.push_back(j);
+      out.among.push_back(static_cast<Index>(3 * here[static_cast<std::size_t>(j / 3)]) + j % 3);
+    }
+  out.forces = all(Eigen::all, columns);
   return out;
 }
 
@@ -46,6 +52,7 @@ StructureLoads forces_on(const std::vector<PlacedContact>& placed, const std::ve
 std::vector<Index> loaded_directions(const study::Study& study, const std::vector<PlacedContact>& placed,
                                      const std::vector<std::size_t>& contacts, const Eigen::VectorXd& moved) {
   std::vector<Index> loaded;
+  const double most = moved.size() > 0 ? moved.maxCoeff() : 0.0;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const PlacedContact& contact = placed[contacts[k]];
     const auto [y, z] = contact::normal_directions(contact.obstacle);
@@ -53,7 +60,7 @@ std::vector<Index> loaded_directions(const study::Study& study, const std::vecto
     const bool normal[] = {false, y, z};
     for (Index d = 0; d < 3; ++d) {
       const Index column = static_cast<Index>(3 * k) + d;
-      if (normal[d] || (friction && moved(column) > round_off_of_shapes * moved.maxCoeff()))
+      if (normal[d] || (friction && moved(column) > round_off_of_shapes * most))
         loaded.push_back(column);
     }
   }
@@ -79,14 +86,27 @@ StructureLoads restricted(const StructureLoads& all, const std::vector<Index>& l
 std::vector<std::size_t> contacts_of(const std::vector<modal::Basis>& bases,
                                      const std::vector<std::size_t>& structures,
                                      const std::vector<PlacedContact>& placed) {
-  const auto has = [&](core::Index node) {
-    return node >= 0 && std::any_of(structures.begin(), structures.end(),
-                                    [&](std::size_t s) { return bases[s].row_of(node) >= 0; });
+  const auto of = [&](core::Index node) { // place among the structures; their number where none has it
+    if (node < 0)
+      return structures.size();
+    const auto has = [&](std::size_t s) { return bases[s].row_of(node) >= 0; };
+    return static_cast<std::size_t>(std::find_if(structures.begin(), structures.end(), has) -
+                                    structures.begin());
   };
+  // contacts of one structure by structures, then those between two: neighbours in the list move the same modes
+  std::map<std::array<std::size_t, 2>, std::vector<std::size_t>> by_structures;
+  const std::size_t none = structures.size();
+  for (std::size_t c = 0; c < placed.size(); ++c) {
+    const std::size_t one = of(placed[c].node), two = of(placed[c].other);
+    if (one == none && two == none)
+      continue;
+    const bool between = one != none && two != none && one != two;
+    by_structures[{between ? 1 + std::min(one, two) : 0, between ? std::max(one, two) : std::min(one, two)}]
+        .push_back(c);
+  }
   std::vector<std::size_t> out;
-  for (std::size_t c = 0; c < placed.size(); ++c)
-    if (has(placed[c].node) || has(placed[c].other))
-      out.push_back(c);
+  for (const auto& [key, numbers] : by_structures)
+    out.insert(out.end(), numbers.begin(), numbers.end());
   return out;
 }
 

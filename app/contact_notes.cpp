@@ -25,8 +25,8 @@ Point at_start(const PlacedContact& placed, std::size_t k, const BuiltScene& bui
     const double force = built.static_forces(static_cast<Eigen::Index>(k));
     return {&placed, &contact, &built.true_modes, -force / contact.support.normal.stiffness, force};
   }
-  const core::Vec3 place = scene.place_at_start(contact) + contact.b * scene.q0;
-  core::Vec3 speed = contact.b * scene.v0;
+  const core::Vec3 place = scene.place_at_start(contact) + contact.moved_by(scene.q0);
+  core::Vec3 speed = contact.moved_by(scene.v0);
   for (Eigen::Index m = 0; m < contact.carried.cols(); ++m)
     speed += scene.motions[static_cast<std::size_t>(m)].velocity0 * contact.carried.col(m);
   const contact::Location at = contact::locate(contact.support.obstacle, place.y(), place.z());
@@ -69,9 +69,11 @@ std::string restitution_text(const study::Contact& entry, const std::vector<Poin
   case study::NormalDamper::reference: {
     const auto damping = [](const Point& p) { return p.contact->support.normal.damping / p.placed->share; };
     const auto mass = [&](const Point& p) {
-      return wanted.mass ? *wanted.mass
-                         : normal_mass(p.contact->support.obstacle, p.contact->b(Eigen::all, *p.true_modes),
-                                       p.placed->name);
+      return wanted.mass
+                 ? *wanted.mass
+                 : normal_mass(p.contact->support.obstacle,
+                               p.contact->b(Eigen::all, true_modes_of(*p.contact, *p.true_modes).columns),
+                               p.placed->name);
     };
     return fmt::format("normal damping {} N s/m for restitution {:g} with a mass of {} kg",
                        range(points, damping), wanted.value, range(points, mass));

@@ -69,9 +69,8 @@ double missing_times_stiffness(const ContactFlexibility& flexibility, std::size_
   const double tangential = support.friction.active() ? support.friction.stiffness : 0.0;
   double largest = 0.0;
   for (int d = 0; d < 3; ++d) {
-    const Index row = 3 * static_cast<Index>(k) + d;
     const double stiffness = normal[d] ? std::max(support.normal.stiffness, tangential) : tangential;
-    largest = std::max(largest, stiffness * flexibility.missing(row, row));
+    largest = std::max(largest, stiffness * ContactFlexibility::own(flexibility.missing, k)(d, d));
   }
   return largest;
 }

@@ -52,7 +52,10 @@ void Recorder::set_gap(std::size_t contact, std::int64_t index, const core::Vec3
 core::Vec3 Recorder::place(std::size_t contact, std::int64_t index, double time) const {
   const auto& point = scene_.contacts[contact];
   core::Vec3 x = point.rest;
-  x.noalias() += point.b * out_.modal_displacement.col(index);
+  if (point.modes.empty())
+    x.noalias() += point.b * out_.modal_displacement.col(index);
+  else
+    x += point.moved_by(out_.modal_displacement.col(index));
   for (Eigen::Index k = 0; k < point.carried.cols(); ++k)
     x += motions_[static_cast<std::size_t>(k)](time).displacement * point.carried.col(k);
   return x;
@@ -102,9 +105,10 @@ void Recorder::forces(std::int64_t index, double time, const double* load,
     series.tangential_force(index, 0) = f.friction.x;
     series.tangential_force(index, 1) = f.friction.t;
     if (wanted) {
-      const auto& b = scene_.contacts[c].b;
-      acceleration_ +=
-          f.friction.x * b.row(0).transpose() + f.y() * b.row(1).transpose() + f.z() * b.row(2).transpose();
+      scene_.contacts[c].for_ranges([&](Eigen::Index first, const auto& b) {
+        acceleration_.segment(first, b.cols()) +=
+            f.friction.x * b.row(0).transpose() + f.y() * b.row(1).transpose() + f.z() * b.row(2).transpose();
+      });
     }
   }
   if (wanted && masses_.size() > 0)
@@ -158,21 +162,31 @@ TimeSeries Recorder::series() && {
     for (auto& n : out_.nodes)
       n.acceleration.conservativeResize(served_, Eigen::NoChange);
   }
-  // one product for all contacts and nodes: many rows at once use the processor's cache
+  // one product for all contacts and nodes: many rows at once use the processor's cache; contacts of single structures take theirs alone
   const auto contacts = static_cast<Eigen::Index>(scene_.contacts.size()),
              nodes = static_cast<Eigen::Index>(nodes_.size());
-  Eigen::MatrixXd rows(3 * (contacts + nodes), scene_.system.size());
-  for (Eigen::Index c = 0; c < contacts; ++c)
-    rows.middleRows<3>(3 * c) = scene_.contacts[static_cast<std::size_t>(c)].b;
+  const bool by_structure =
+      std::all_of(scene_.contacts.begin(), scene_.contacts.end(),
+                  [](const transient::ContactPoint& point) { return !point.modes.empty(); });
+  const Eigen::Index together = by_structure ? 0 : contacts;
+  Eigen::MatrixXd rows(3 * (together + nodes), scene_.system.size());
+  for (Eigen::Index c = 0; c < together; ++c)
+    rows.middleRows<3>(3 * c) = scene_.contacts[static_cast<std::size_t>(c)].over_all(scene_.system.size());
   for (Eigen::Index k = 0; k < nodes; ++k)
-    rows.middleRows<3>(3 * (contacts + k)) = nodes_[static_cast<std::size_t>(k)].rows;
+    rows.middleRows<3>(3 * (together + k)) = nodes_[static_cast<std::size_t>(k)].rows;
   const auto distribute = [&](const Eigen::MatrixXd& modal, Eigen::MatrixXd ContactSeries::*of_contact,
                               Eigen::MatrixXd NodeSeries::*of_node) {
     const Eigen::MatrixXd all = rows * modal;
-    for (Eigen::Index c = 0; c < contacts; ++c)
+    for (Eigen::Index c = 0; c < together; ++c)
       out_.contacts[static_cast<std::size_t>(c)].*of_contact = all.middleRows<3>(3 * c).transpose();
+    for (Eigen::Index c = together; c < contacts; ++c) {
+      Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(3, modal.cols());
+      scene_.contacts[static_cast<std::size_t>(c)].for_ranges(
+          [&](Eigen::Index first, const auto& b) { moved += b * modal.middleRows(first, b.cols()); });
+      out_.contacts[static_cast<std::size_t>(c)].*of_contact = moved.transpose();
+    }
     for (Eigen::Index k = 0; k < nodes; ++k)
-      out_.nodes[static_cast<std::size_t>(k)].*of_node = all.middleRows<3>(3 * (contacts + k)).transpose();
+      out_.nodes[static_cast<std::size_t>(k)].*of_node = all.middleRows<3>(3 * (together + k)).transpose();
   };
   distribute(out_.modal_displacement, &ContactSeries::displacement, &NodeSeries::displacement);
   distribute(out_.modal_velocity, &ContactSeries::velocity, &NodeSeries::velocity);

@@ -34,7 +34,16 @@ std::unique_ptr<Scheme> make_splitting_of(const Scene& scene, const StepChoice& 
       {c.accuracy, c.replay, static_cast<int>(scene.contacts.size()), c.parts, most_refined * c.parts});
 }
 
+/// Whether the scheme takes contacts by structures; others take them over all modes.
+bool takes_structures(const Scene& scene, SchemeKind scheme) {
+  return (scheme == SchemeKind::splitting && scene.residual.size() == 0) ||
+         std::all_of(scene.contacts.begin(), scene.contacts.end(),
+                     [](const ContactPoint& point) { return point.modes.empty(); });
+}
+
 std::unique_ptr<Scheme> make_scheme(const Scene& scene, const StepChoice& choice) {
+  if (!takes_structures(scene, choice.scheme))
+    return make_scheme(over_all_modes(scene), choice);
   switch (choice.scheme) {
   case SchemeKind::splitting:
     return make_splitting_of(scene, choice);

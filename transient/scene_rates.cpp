@@ -29,10 +29,65 @@ Eigen::MatrixXd series_rows(const Eigen::MatrixXd& rows, const Eigen::VectorXd& 
   return core::Cholesky(compliance).solve_lower(rows);
 }
 
+/// A row of a contact times the root of its weight.
+struct WeightedRow {
+  const ContactPoint* point;
+  int along;
+  double root_weight;
+};
+
+/// The same of rows over the modes of some structures each: by the Lanczos iteration (G. Golub, C. Van Loan, Matrix Computations, 4th edition,
+/// section 10.1), which takes the rows' own columns alone. Eigenvalues that it finds again for want of orthogonality are no larger ones.
+double largest_eigenvalue(const std::vector<WeightedRow>& rows, Eigen::Index modes) {
+  constexpr int most = 400, looks = 10;
+  constexpr double converged = 1e-13; // change of the value in so many iterations
+  const auto count = static_cast<Eigen::Index>(rows.size());
+  Eigen::VectorXd on_modes(modes), last = Eigen::VectorXd::Zero(count), next(count), now(count);
+  for (Eigen::Index i = 0; i < count; ++i)
+    now(i) = 1.0 + 0.5 * std::sin(static_cast<double>(i)); // no eigenvector is orthogonal to it but by chance
+  now.normalize();
+  Eigen::MatrixXd tridiagonal = Eigen::MatrixXd::Zero(most, most);
+  double largest = 0.0;
+  for (int k = 0; k < most; ++k) {
+    on_modes.setZero();
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const auto& [point, along, root] = rows[static_cast<std::size_t>(i)];
+      point->for_ranges([&, along = along, root = root](Eigen::Index first, const auto& part) {
+        on_modes.segment(first, part.cols()) += root * now(i) * part.row(along).transpose();
+      });
+    }
+    next.setZero();
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const auto& [point, along, root] = rows[static_cast<std::size_t>(i)];
+      point->for_ranges([&, along = along, root = root](Eigen::Index first, const auto& part) {
+        next(i) += root * part.row(along).dot(on_modes.segment(first, part.cols()));
+      });
+    }
+    const double diagonal = now.dot(next);
+    tridiagonal(k, k) = diagonal;
+    next -= diagonal * now;
+    if (k > 0)
+      next -= tridiagonal(k, k - 1) * last;
+    const double beside = next.norm();
+    const bool ends = !(beside > 1e-14 * std::abs(diagonal)) || k + 1 == most || k + 1 == count;
+    if (ends || k % looks == looks - 1) {
+      const double before = largest;
+      largest = core::symmetric_eigenvalues(tridiagonal.topLeftCorner(k + 1, k + 1)).maxCoeff();
+      if (ends || largest - before <= converged * largest)
+        break;
+    }
+    tridiagonal(k, k + 1) = tridiagonal(k + 1, k) = beside;
+    last = now;
+    now = next / beside;
+  }
+  return std::max(0.0, largest);
+}
+
 template <class Weight, class Directions>
 Eigen::MatrixXd weighted_rows(const Scene& scene, Weight weight, Directions directions,
                               const Eigen::MatrixXd& residual = {}) {
-  Eigen::MatrixXd rows(3 * static_cast<Eigen::Index>(scene.contacts.size()), scene.system.size());
+  Eigen::MatrixXd rows =
+      Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(scene.contacts.size()), scene.system.size());
   std::vector<Eigen::Index> number;
   std::vector<double> weights;
   Eigen::Index used = 0, c = 0;
@@ -41,7 +96,10 @@ Eigen::MatrixXd weighted_rows(const Scene& scene, Weight weight, Directions dire
     const std::array<bool, 3> along = directions(point.support);
     for (int k = 0; k < 3; ++k)
       if (along[static_cast<std::size_t>(k)] && w > 0.0) {
-        rows.row(used++) = point.b.row(k);
+        point.for_ranges([&](Eigen::Index first, const auto& part) {
+          rows.row(used).segment(first, part.cols()) = part.row(k);
+        });
+        ++used;
         weights.push_back(w);
         number.push_back(3 * c + k);
       }
@@ -52,6 +110,24 @@ Eigen::MatrixXd weighted_rows(const Scene& scene, Weight weight, Directions dire
   if (residual.size() > 0)
     return series_rows(rows, w, residual(number, number));
   return w.cwiseSqrt().asDiagonal() * rows;
+}
+
+/// Of the rows of contacts, largest_eigenvalue.
+template <class Weight, class Directions>
+double largest_of(const Scene& scene, Weight weight, Directions directions,
+                  const Eigen::MatrixXd& residual = {}) {
+  const auto by_structure = [](const ContactPoint& point) { return !point.modes.empty(); };
+  if (residual.size() > 0 || !std::all_of(scene.contacts.begin(), scene.contacts.end(), by_structure))
+    return largest_eigenvalue(weighted_rows(scene, weight, directions, residual));
+  std::vector<WeightedRow> rows;
+  for (const ContactPoint& point : scene.contacts) {
+    const double w = weight(point);
+    const std::array<bool, 3> along = directions(point.support);
+    for (int k = 0; k < 3; ++k)
+      if (along[static_cast<std::size_t>(k)] && w > 0.0)
+        rows.push_back({&point, k, std::sqrt(w)});
+  }
+  return rows.empty() ? 0.0 : largest_eigenvalue(rows, scene.system.size());
 }
 
 std::array<bool, 3> normal_rows(const contact::Support& support) {
@@ -76,7 +152,7 @@ double structure_rate(const System& system) {
 
 /// Penetration of a contact at t = 0, m, 0 where it is open.
 double initial_overlap(const Scene& scene, const ContactPoint& point) {
-  const core::Vec3 u = scene.place_at_start(point) + point.b * scene.q0;
+  const core::Vec3 u = scene.place_at_start(point) + point.moved_by(scene.q0);
   return std::max(0.0, -contact::locate(point.support.obstacle, u.y(), u.z()).gap);
 }
 
@@ -121,14 +197,12 @@ SceneRates rates_of(const Scene& scene) {
     return point.support.friction.active() ? point.support.friction.damping : 0.0;
   };
   SceneRates out;
-  out.contact_frequency =
-      std::sqrt(largest_eigenvalue(weighted_rows(scene, stiffness_n, normal_rows, scene.residual)));
-  out.stick_frequency =
-      std::sqrt(largest_eigenvalue(weighted_rows(scene, stiffness_t, tangent_rows, scene.residual)));
+  out.contact_frequency = std::sqrt(largest_of(scene, stiffness_n, normal_rows, scene.residual));
+  out.stick_frequency = std::sqrt(largest_of(scene, stiffness_t, tangent_rows, scene.residual));
   out.stick_relaxation = shortest_relaxation(scene);
-  out.damper_rate = largest_eigenvalue(weighted_rows(scene, damping_t, tangent_rows));
-  out.normal_damper_rate = largest_eigenvalue(weighted_rows(
-      scene, [](const ContactPoint& point) { return point.support.normal.damping; }, normal_rows));
+  out.damper_rate = largest_of(scene, damping_t, tangent_rows);
+  out.normal_damper_rate = largest_of(
+      scene, [](const ContactPoint& point) { return point.support.normal.damping; }, normal_rows);
   if (scene.system.size() > 0)
     out.highest_mode = std::sqrt(scene.system.stiffness.maxCoeff());
   for (const Load& load : scene.loads)
@@ -145,8 +219,7 @@ double explicit_damper_rate(const Scene& scene) {
   const auto damping_n = [&scene](const ContactPoint& point) {
     return point.support.normal.damping_at(initial_overlap(scene, point));
   };
-  return std::max(structure_rate(scene.system),
-                  largest_eigenvalue(weighted_rows(scene, damping_n, normal_rows)));
+  return std::max(structure_rate(scene.system), largest_of(scene, damping_n, normal_rows));
 }
 
 double relaxation_rate(const Scene& scene) {

@@ -22,8 +22,16 @@ TEST(Examples, EveryFolderOfExamplesIsRunHere) {
   for (const auto& entry : fs::directory_iterator(test_paths::source_dir() / "examples"))
     if (fs::exists(entry.path() / "study.toml"))
       found.insert(entry.path().filename());
-  EXPECT_EQ(found, (std::set<std::string>{"cantilever_stop", "oscillator", "straight_tube", "tube_in_flow",
-                                          "tube_study", "tube_sweep", "two_tubes", "u_bend"}));
+  EXPECT_EQ(found,
+            (std::set<std::string>{"bundle", "cantilever_stop", "oscillator", "straight_tube", "tube_in_flow",
+                                   "tube_study", "tube_sweep", "two_tubes", "u_bend"}));
+}
+
+TEST(Examples, BundleOfUBendsTouchesAtItsTops) {
+  const Workshop folder;
+  const Results run = folder.run(example("bundle"), "results");
+  for (const char* pair : {"tubes_12", "tubes_23", "tubes_34", "tubes_45"})
+    EXPECT_GT(run.statistics(pair)["contact_time_ratio"].get<double>(), 0.0) << pair;
 }
 
 TEST(Examples, OscillatorMeetsItsStopThreeTimes) {

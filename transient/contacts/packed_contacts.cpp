@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 
 namespace fretwork::transient {
 namespace {
 
 /// Local component (x y z of a ContactPoint's b) stored in block y, z, x.
 constexpr std::array<int, 3> stored = {1, 2, 0};
+/// Values of a row that take the time in which a row by itself begins and ends.
+constexpr std::size_t cost_of_row = 24;
 
 } // namespace
 
@@ -22,9 +25,6 @@ PackedContacts::PackedContacts(const std::vector<ContactPoint>& contacts, Eigen:
   }
   components = std::any_of(in_plane.begin(), in_plane.end(), [](char x) { return x; }) ? 3 : 2;
   reach = kernels::ReachLanes(width);
-  kernels::Array by_mode(static_cast<std::size_t>(modes) * stride(), 0.0);
-  rows.assign(static_cast<std::size_t>(count) * 3 * padded_modes, 0.0);
-  mobility.assign(static_cast<std::size_t>(count) * 3 * stride(), 0.0);
   for (int c = 0; c < width; ++c)
     reach[c].limit[kernels::lane(c)] =
         std::numeric_limits<double>::infinity(); // a lane of padding is never near
@@ -47,21 +47,94 @@ PackedContacts::PackedContacts(const std::vector<ContactPoint>& contacts, Eigen:
     if (!obstacle.is_bound_gap)
       located.push_back(c);
     has_parts.push_back(obstacle.has_parts);
-    for (int k = 0; k < components; ++k)
-      for (int i = 0; i < modes; ++i) {
-        by_mode[static_cast<std::size_t>(i) * stride() + k * width + c] = point.b(stored[k], i);
-        rows[(static_cast<std::size_t>(c) * 3 + k) * padded_modes + i] = point.b(stored[k], i);
-      }
-    for (int from = 0; from < components; ++from)
-      for (int other = 0; other < count; ++other)
-        for (int to = 0; to < components; ++to)
-          mobility[(static_cast<std::size_t>(c) * 3 + from) * stride() + to * width + other] =
-              contacts[static_cast<std::size_t>(other)].b.row(stored[to]).dot(point.b.row(stored[from]));
+    add_rows(point);
   }
   gather.half = lane_count().half();
   gather.rows = lane_count().few() ? count : 0;
   for (int lane = 0; lane < stride(); lane += kernels::lanes)
-    gather.add_pack(modes, stride(), by_mode.data() + lane);
+    add_pack(lane);
+}
+
+/// The rows of the next contact, over whole packs of modes.
+void PackedContacts::add_rows(const ContactPoint& point) {
+  std::vector<Span>& own = spans.emplace_back();
+  if (point.modes.empty() || lane_count().few())
+    own.push_back({0, padded_modes});
+  else
+    for (const ModeRange& range : point.modes) {
+      const int first = static_cast<int>(range.first) / kernels::lanes * kernels::lanes,
+                end = kernels::padded(static_cast<int>(range.first + range.size));
+      if (!own.empty() && own.back().first + own.back().size >= first)
+        own.back().size = end - own.back().first; // they share a pack, or follow each other
+      else if (range.size > 0)
+        own.push_back({first, end - first});
+    }
+  layout.push_back(spans.size() == 1 ? 0 : layout.back() + (own != spans[spans.size() - 2] ? 1 : 0));
+  std::size_t size = 0;
+  for (const Span& span : own)
+    size += static_cast<std::size_t>(span.size);
+  row_begin_.push_back(rows_.size());
+  row_size_.push_back(size);
+  const std::size_t begin = rows_.size();
+  rows_.resize(begin + 3 * size, 0.0);
+  point.for_ranges([&](Eigen::Index first, const auto& part) {
+    for (Eigen::Index i = 0; i < part.cols(); ++i) {
+      const auto mode = static_cast<int>(first + i);
+      std::size_t before = 0;
+      for (const Span& span : own) {
+        if (mode >= span.first && mode < span.first + span.size) {
+          const std::size_t at = begin + before + static_cast<std::size_t>(mode - span.first);
+          for (int k = 0; k < components; ++k)
+            rows_[at + static_cast<std::size_t>(k) * size] = part(stored[static_cast<std::size_t>(k)], i);
+        }
+        before += static_cast<std::size_t>(span.size);
+      }
+    }
+  });
+}
+
+double PackedContacts::mobility(int contact, int to, int other, int from) const {
+  if (to >= components || from >= components)
+    return 0.0;
+  const double *a = row(contact, to), *b = row(other, from);
+  double sum = 0.0;
+  for (int i = 0; i < modes; ++i)
+    sum += a[i] * b[i];
+  return sum;
+}
+
+/// The contacts whose lanes begin here: together over all modes that one of them moves, or each by itself where that is less.
+void PackedContacts::add_pack(int lane) {
+  const int component = lane / width, from = lane % width, end = std::min(from + kernels::lanes, count);
+  std::vector<Span> all;
+  std::size_t apart = 0;
+  for (int c = from; c < end; ++c) {
+    all.insert(all.end(), spans[static_cast<std::size_t>(c)].begin(),
+               spans[static_cast<std::size_t>(c)].end());
+    apart += row_size_[static_cast<std::size_t>(c)] + cost_of_row;
+  }
+  const bool same = std::all_of(all.begin(), all.end(), [&](const Span& s) { return s == all.front(); });
+  std::map<int, std::array<double, kernels::lanes>> by_mode; // those that some contact moves
+  for (int c = from; c < end; ++c) {
+    const double* value = row(c, component);
+    for (const Span& span : spans[static_cast<std::size_t>(c)])
+      for (int i = 0; i < span.size; ++i, ++value)
+        if (*value != 0.0 || gather.rows > 0)
+          by_mode[span.first + i][static_cast<std::size_t>(c - from)] = *value;
+  }
+  if (same || by_mode.size() * kernels::lanes <= apart) {
+    gather.add_pack(modes, by_mode);
+    return;
+  }
+  gather.add_pack(modes, {});
+  for (int c = from; c < end; ++c) {
+    const double* value = row(c, component);
+    for (const Span& span : spans[static_cast<std::size_t>(c)]) {
+      gather.parts.push_back({lane + c - from, span.first, span.size, gather.of_parts.size()});
+      gather.of_parts.insert(gather.of_parts.end(), value, value + span.size);
+      value += span.size;
+    }
+  }
 }
 
 } // namespace fretwork::transient

@@ -23,9 +23,13 @@ struct PackedContacts {
   std::vector<char>
       in_plane; ///< contact by contact: friction acts along x_loc too and something moves it along it
   kernels::GatherTable gather; ///< from modes to `stride()` lanes
-  kernels::Array rows;         ///< contact by contact: rows y, z, x over the padded modes
-  kernels::Array mobility; ///< contact by contact: what a unit force along y, z, x does to `stride()` lanes
-                           ///< (W = B B^T, 1/kg)
+  /// Modes that a contact moves, whole packs of `lanes`.
+  struct Span {
+    int first, size;
+    bool operator==(const Span&) const = default;
+  };
+  std::vector<std::vector<Span>>
+      spans; ///< contact by contact, ascending; all padded modes where the contact names none
   kernels::ReachLanes reach;
   std::vector<int> located;    ///< contacts whose gap the lanes of `reach` only bound: `locate` gives it
   std::vector<char> has_parts; ///< contact by contact: contact::ObstacleProperties::has_parts
@@ -33,17 +37,22 @@ struct PackedContacts {
   /// Position of a contact without displacement, m.
   [[nodiscard]] double rest_y(int c) const { return reach[c].rest_y[kernels::lane(c)]; }
   [[nodiscard]] double rest_z(int c) const { return reach[c].rest_z[kernels::lane(c)]; }
+  std::vector<int>
+      layout; ///< contact by contact: equal for contacts of the same spans that follow each other
+  /// 1/kg: velocity along component `to` of a contact by a unit force along `from` of another or the same; of contacts that name no modes.
+  [[nodiscard]] double mobility(int contact, int to, int other, int from) const;
+  /// Row y, z or x of a contact over its spans, one after the other: over all padded modes where it names no modes.
   [[nodiscard]] const double* row(int contact, int component) const {
-    return &rows[(static_cast<std::size_t>(contact) * 3 + component) * padded_modes];
+    const auto c = static_cast<std::size_t>(contact);
+    return &rows_[row_begin_[c] + static_cast<std::size_t>(component) * row_size_[c]];
   }
-  /// The 3 columns of contact `c`, `stride()` apart (the third is there with 2 components too, unused).
-  [[nodiscard]] const double* column(int c) const {
-    return &mobility[static_cast<std::size_t>(c) * 3 * stride()];
-  }
-  /// Velocity along component `to` of contact `c` by a unit force along `from` of the same contact, 1/kg.
-  [[nodiscard]] double own_mobility(int c, int to, int from) const {
-    return to < components && from < components ? column(c)[from * stride() + to * width + c] : 0.0;
-  }
+
+private:
+  void add_rows(const ContactPoint& point);
+  void add_pack(int lane);
+
+  std::vector<std::size_t> row_begin_, row_size_; ///< contact by contact
+  kernels::Array rows_;                           ///< contact by contact: rows y, z, x
 };
 
 } // namespace fretwork::transient

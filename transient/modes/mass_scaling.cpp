@@ -23,10 +23,12 @@ Eigen::VectorXd scaled_masses(const Scene& scene, double fastest) {
   Eigen::VectorXd masses = Eigen::VectorXd::Ones(scene.system.size());
   if (!(fastest > 0.0))
     return masses;
-  for (Eigen::Index i = 0; i < masses.size(); ++i)
-    for (const ContactPoint& point : scene.contacts)
-      if (!point.b.col(i).isZero(0.0))
-        masses(i) = std::max(1.0, scene.system.stiffness(i) / (fastest * fastest));
+  for (const ContactPoint& point : scene.contacts)
+    point.for_ranges([&](Eigen::Index first, const auto& part) {
+      for (Eigen::Index i = 0; i < part.cols(); ++i)
+        if (!part.col(i).isZero(0.0))
+          masses(first + i) = std::max(1.0, scene.system.stiffness(first + i) / (fastest * fastest));
+    });
   return masses;
 }
 
@@ -70,7 +72,15 @@ Scene with_masses(const Scene& scene, const Eigen::VectorXd& masses) {
   for (SampledLoad& load : out.sampled_loads)
     load.multiply(s);
   for (ContactPoint& point : out.contacts)
-    point.b = point.b * s.asDiagonal();
+    if (point.modes.empty()) {
+      point.b = point.b * s.asDiagonal();
+    } else {
+      Eigen::Index column = 0;
+      for (const ModeRange& range : point.modes) {
+        point.b.middleCols(column, range.size) *= s.segment(range.first, range.size).asDiagonal();
+        column += range.size;
+      }
+    }
   out.q0.array() /= s.array();
   out.v0.array() /= s.array();
   return out;

@@ -42,6 +42,11 @@ ModalFlow::ModalFlow(const Scene& scene, double step, const std::vector<int>& le
   for (kernels::Array* a : {&k_, &none_, &a_, &b_, &moved_, &rate_})
     a->assign(n, 0.0);
   std::copy_n(system_.stiffness.data(), system_.size(), k_.begin());
+  per_force_.assign(n, 0.0);
+  for (Eigen::Index j = 0; j < system_.size(); ++j) {
+    const StepCoefficients s = step_coefficients(system_.stiffness(j), system_.damping(j), h_);
+    per_force_[static_cast<std::size_t>(j)] = s.qf0 + s.qf1;
+  }
 }
 
 std::size_t ModalFlow::place(int length) const {
@@ -168,10 +173,8 @@ void ModalFlow::answer(const double* force, double* moved) {
   std::fill(b_.begin(), b_.end(), 0.0);
   (void)coupled_.advance(0, a_.data(), b_.data(), force, force);
   for (Eigen::Index j = 0; j < system_.size(); ++j)
-    if (!coupled_.couples(j)) {
-      const StepCoefficients s = step_coefficients(system_.stiffness(j), system_.damping(j), h_);
-      a_[static_cast<std::size_t>(j)] = (s.qf0 + s.qf1) * force[j];
-    }
+    if (!coupled_.couples(j))
+      a_[static_cast<std::size_t>(j)] = per_force_[static_cast<std::size_t>(j)] * force[j];
   std::copy(a_.begin(), a_.end(), moved);
 }
 

@@ -68,6 +68,7 @@ private:
   std::vector<int> lengths_;
   std::vector<kernels::FlowTable> tables_;
   std::vector<kernels::MiddleTable> middles_;
+  kernels::Array per_force_; ///< m/N of the modes that are not coupled: their displacement by `answer`
   kernels::Array k_, none_, a_, b_, moved_, rate_;
 };
 

@@ -12,7 +12,10 @@ std::vector<Eigen::Index> moving_modes(const Scene& scene) {
   for (const SampledLoad& load : scene.sampled_loads)
     moves = moves || load.scale.array() != 0.0;
   for (const ContactPoint& point : scene.contacts)
-    moves = moves || (point.b.array() != 0.0).colwise().any().transpose();
+    point.for_ranges([&](Eigen::Index first, const auto& part) {
+      auto here = moves.segment(first, part.cols());
+      here = (here || (part.array() != 0.0).colwise().any().transpose()).eval();
+    });
   std::vector<Eigen::Index> modes;
   for (Eigen::Index i = 0; i < moves.size(); ++i)
     if (moves(i))
@@ -29,6 +32,30 @@ std::vector<Eigen::Index> moving_modes(const Scene& scene) {
   return modes;
 }
 
+namespace {
+
+/// The modes of a contact that are among some, by their numbers there.
+void restrict_modes(const ContactPoint& from, const std::vector<Eigen::Index>& modes, ContactPoint& to) {
+  if (from.modes.empty()) {
+    to.b = from.b(Eigen::all, modes);
+    return;
+  }
+  std::vector<Eigen::Index> columns;
+  Eigen::Index before = 0;
+  for (std::size_t r = 0; r < from.modes.size(); ++r) {
+    const auto [first, size] = from.modes[r];
+    const auto begin = std::lower_bound(modes.begin(), modes.end(), first),
+               end = std::lower_bound(begin, modes.end(), first + size);
+    for (auto mode = begin; mode != end; ++mode)
+      columns.push_back(before + *mode - first);
+    to.modes[r] = {begin - modes.begin(), end - begin};
+    before += size;
+  }
+  to.b = from.b(Eigen::all, columns);
+}
+
+} // namespace
+
 Scene with_modes(const Scene& scene, const std::vector<Eigen::Index>& modes) {
   Scene out = scene;
   out.system.stiffness = scene.system.stiffness(modes);
@@ -40,7 +67,7 @@ Scene with_modes(const Scene& scene, const std::vector<Eigen::Index>& modes) {
   for (SampledLoad& load : out.sampled_loads)
     load = load.of_modes(modes);
   for (std::size_t c = 0; c < out.contacts.size(); ++c)
-    out.contacts[c].b = scene.contacts[c].b(Eigen::all, modes);
+    restrict_modes(scene.contacts[c], modes, out.contacts[c]);
   out.q0 = scene.q0(modes);
   out.v0 = scene.v0(modes);
   return out;

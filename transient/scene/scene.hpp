@@ -29,12 +29,17 @@ struct Load {
   bool inertial = false;
 };
 
+/// Modes that follow each other, such as those of a structure.
+struct ModeRange {
+  Eigen::Index first = 0, size = 0;
+};
+
 /// A contact: a support and how the modes move its node. Displacement from the obstacle in local axes: u = b q + carried s(t).
 struct ContactPoint {
   std::string name;
   contact::Support support;
   core::Vec3 rest = core::Vec3::Zero(); ///< m: the node at q = 0, local axes, from the obstacle's centre
-  Eigen::MatrixXd b;                    ///< 3 x n, rows x_loc y_loc z_loc
+  Eigen::MatrixXd b;                    ///< 3 x modes, rows x_loc y_loc z_loc
   Eigen::MatrixXd carried =
       {}; ///< 3 x motions of the scene: of the node less the obstacle; empty: not carried
   /// m, 3 x loads of the scene, with Scene::residual: what the modes lack of the static displacement under each load of value 1, so that
@@ -42,6 +47,37 @@ struct ContactPoint {
   Eigen::MatrixXd under_loads = {};
   core::Vec3 loaded_at_start =
       core::Vec3::Zero(); ///< m, under_loads times the static values of the loads that are not inertial
+  /// Modes of the columns of b: those of one structure, or of the two between which it is, ascending and apart; empty: all of the scene.
+  std::vector<ModeRange> modes = {};
+
+  /// b q.   @param q  n
+  template <class Vector> [[nodiscard]] core::Vec3 moved_by(const Vector& q) const {
+    if (modes.empty())
+      return b * q;
+    core::Vec3 u = core::Vec3::Zero();
+    for_ranges([&](Eigen::Index first, const auto& part) { u += part * q.segment(first, part.cols()); });
+    return u;
+  }
+  /// Each range's columns of b, called with the range's first mode.
+  template <class Visit> void for_ranges(const Visit& visit) const {
+    if (modes.empty()) {
+      visit(Eigen::Index{0}, b.leftCols(b.cols()));
+      return;
+    }
+    Eigen::Index column = 0;
+    for (const ModeRange& range : modes) {
+      visit(range.first, b.middleCols(column, range.size));
+      column += range.size;
+    }
+  }
+  /// b over all modes.   @param n  modes of the scene
+  [[nodiscard]] Eigen::MatrixXd over_all(Eigen::Index n) const {
+    if (modes.empty())
+      return b;
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(3, n);
+    for_ranges([&](Eigen::Index first, const auto& part) { out.middleCols(first, part.cols()) = part; });
+    return out;
+  }
 };
 
 struct Scene {
@@ -65,5 +101,14 @@ struct Scene {
     return place;
   }
 };
+
+/// The same scene, its contacts over all modes.
+[[nodiscard]] inline Scene over_all_modes(Scene scene) {
+  for (ContactPoint& point : scene.contacts) {
+    point.b = point.over_all(scene.system.size());
+    point.modes.clear();
+  }
+  return scene;
+}
 
 } // namespace fretwork::transient

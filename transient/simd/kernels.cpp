@@ -174,22 +174,30 @@ FRETWORK_KERNEL(void, middle,
                 (np, table, q0, v0, f0, f1, mean, slope, q))
 
 void GatherTable::add_pack(int mode_count, std::ptrdiff_t width, const double* values_of_mode) {
+  std::map<int, std::array<double, lanes>> values_of_modes;
+  for (int i = 0; i < mode_count; ++i) {
+    const double* row = values_of_mode + i * width;
+    if (rows > 0 || std::any_of(row, row + lanes, [](double x) { return x != 0.0; }))
+      std::copy_n(row, lanes, values_of_modes[i].begin());
+  }
+  add_pack(mode_count, values_of_modes);
+}
+
+void GatherTable::add_pack(int mode_count, const std::map<int, std::array<double, lanes>>& values_of_modes) {
   if (rows > 0) {
     padded_modes = padded(mode_count);
-    for (int r = 0; r < rows; ++r) {
-      for (int i = 0; i < mode_count; ++i)
-        values.push_back(values_of_mode[i * width + r]);
-      values.resize(values.size() + static_cast<std::size_t>(padded_modes - mode_count), 0.0);
+    for (std::size_t r = 0; r < static_cast<std::size_t>(rows); ++r) {
+      const std::size_t first = values.size();
+      values.resize(first + static_cast<std::size_t>(padded_modes), 0.0);
+      for (const auto& [mode, of_rows] : values_of_modes)
+        values[first + static_cast<std::size_t>(mode)] = of_rows[r];
     }
     begin.push_back(begin.back() + rows);
     return;
   }
-  for (int i = 0; i < mode_count; ++i) {
-    const double* row = values_of_mode + i * width;
-    if (std::all_of(row, row + lanes, [](double x) { return x == 0.0; }))
-      continue;
-    modes.push_back(i);
-    values.insert(values.end(), row, row + lanes);
+  for (const auto& [mode, of_rows] : values_of_modes) {
+    modes.push_back(mode);
+    values.insert(values.end(), of_rows.begin(), of_rows.end());
   }
   begin.push_back(static_cast<int>(modes.size()));
 }
@@ -245,12 +253,31 @@ FRETWORK_INLINE void gather_one(const GatherTable& g, int p, const double* const
     gather_pack<Grain<Widest, Pack>, count>(g, p, from, to);
 }
 
+/// Adds the parts of rows that stand by themselves.
+template <class V, std::size_t count>
+FRETWORK_INLINE void gather_parts(const GatherTable& g, const double* const (&from)[count],
+                                  double* const (&to)[count]) {
+  for (const GatherTable::Part& part : g.parts) {
+    const double* values = g.of_parts.data() + part.values;
+    Sums<V> sums[count] = {};
+    for_vectors<V>(
+        part.size, [&](int pack, int of_pack) __attribute__((always_inline)) {
+          const int i = pack + of_pack * size_of<V>;
+          for (std::size_t n = 0; n < count; ++n)
+            sums[n][of_pack] += at<V>(values + i) * at<V>(from[n] + part.first + i);
+        });
+    for (std::size_t n = 0; n < count; ++n)
+      to[n][part.lane] += sum(sums[n]);
+  }
+}
+
 template <class V>
 FRETWORK_INLINE void gather_two_on(const GatherTable& g, const double* q, const double* v, double* u,
                                    double* w) {
   const int packs = static_cast<int>(g.begin.size()) - 1;
   for (int p = 0; p < packs; ++p)
     gather_one<V, 2>(g, p, {q, v}, {u, w});
+  gather_parts<V, 2>(g, {q, v}, {u, w});
 }
 FRETWORK_KERNEL(void, gather_two,
                 (const GatherTable& g, const double* q, const double* v, double* u, double* w),
@@ -260,6 +287,7 @@ template <class V> FRETWORK_INLINE void gather_on(const GatherTable& g, const do
   const int packs = static_cast<int>(g.begin.size()) - 1;
   for (int p = 0; p < packs; ++p)
     gather_one<V, 1>(g, p, {q}, {u});
+  gather_parts<V, 1>(g, {q}, {u});
 }
 FRETWORK_KERNEL(void, gather, (const GatherTable& g, const double* q, double* u), (g, q, u))
 

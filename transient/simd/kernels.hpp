@@ -4,7 +4,9 @@
 /// is compiled for several widths of vector unit and the processor picks one when the program starts; sums
 /// always run over `lanes` partial sums, so that AVX2 and AVX-512 give the same bytes.
 #pragma once
+#include <array>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <new>
 #include <utility>
@@ -202,6 +204,17 @@ struct GatherTable {
   int padded_modes = 0;
   /// Appends a pack of rows from `width` values a mode.
   void add_pack(int mode_count, std::ptrdiff_t width, const double* values_of_mode);
+  /// Appends a pack of rows: their values in the modes in which one of them has any.
+  void add_pack(int mode_count, const std::map<int, std::array<double, lanes>>& values_of_modes);
+
+  /// A part of a row by itself, over modes that follow each other: to[lane] += values . from[first ...]. Rows whose modes have little in
+  /// common cost less so than in a pack.
+  struct Part {
+    int lane, first, size; ///< both multiples of `lanes`
+    std::size_t values;    ///< its first in `of_parts`
+  };
+  std::vector<Part> parts; ///< added to the packs, in this order
+  Array of_parts;
 };
 /// u = G q and w = G v. Vectors of the modes padded by finite numbers and aligned, as all that kernels take.
 extern const Kernel<void(const GatherTable& g, const double* q, const double* v, double* u, double* w)>

@@ -12,9 +12,9 @@ constexpr double sweep_tolerance = 1e-3;
 
 } // namespace
 
-ContactSweeps::ContactSweeps(const PackedContacts& contacts, std::vector<Mobility> mobility, double step,
-                             int parts)
-    : contacts_(contacts), mobility_(std::move(mobility)), h_(step) {
+ContactSweeps::ContactSweeps(const PackedContacts& contacts, ContactBlocks blocks,
+                             std::vector<std::vector<Mobility>> mobility, double step, int parts)
+    : contacts_(contacts), blocks_(std::move(blocks)), mobility_(std::move(mobility)), h_(step) {
   const auto count = static_cast<std::size_t>(contacts.count);
   pasts_.resize(count);
   forces_.resize(count);
@@ -22,10 +22,24 @@ ContactSweeps::ContactSweeps(const PackedContacts& contacts, std::vector<Mobilit
   steps_.reserve(count);
   moving_.reserve(count);
   loaded_.reserve(count);
-  for (int c = 0; c < contacts.count; ++c)
+  moves_.assign(count, 0);
+  moving_blocks_.resize(blocks_.size());
+  touched_.reserve(blocks_.size());
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    moving_blocks_[b].contacts.reserve(blocks_.contacts[b].size());
+  own_.resize(count);
+  for (int c = 0; c < contacts.count; ++c) {
+    for (const auto& [block, local] : blocks_.places[c]) {
+      const Mobility& part =
+          mobility_[block][static_cast<std::size_t>(local) * (blocks_.contacts[block].size() + 1)];
+      for (int to = 0; to < 3; ++to)
+        for (int from = 0; from < 3; ++from)
+          own_[c].w[to][from] += part.w[to][from];
+    }
     steps_.emplace_back(contacts.supports[c], Components{contacts.rest_y(c), contacts.rest_z(c), 0.0},
-                        mobility_[static_cast<std::size_t>(c) * (count + 1)], contacts.in_plane[c] != 0, step,
-                        parts, contacts.reach[c].limit[kernels::lane(c)]);
+                        own_[c], contacts.in_plane[c] != 0, step, parts,
+                        contacts.reach[c].limit[kernels::lane(c)]);
+  }
 }
 
 void ContactSweeps::divide(int c, int parts) {
@@ -64,7 +78,7 @@ FreePath ContactSweeps::path_of(int c, const ContactMotion& start, const Contact
   const double per = 1.0 / h_;
   const Components u0 = of_lanes(start.u, c), v0 = of_lanes(start.w, c), v1 = of_lanes(end.w, c),
                    mean = per * (of_lanes(end.u, c) - u0);
-  const Components by_held = mobility_[static_cast<std::size_t>(c) * (pasts_.size() + 1)] * forces_[c].held;
+  const Components by_held = own_[c] * forces_[c].held;
   return {u0, v0, per * (6.0 * mean - 4.0 * v0 - 2.0 * v1) - by_held,
           (6.0 * per * per) * (v0 + v1 - 2.0 * mean)};
 }
@@ -72,6 +86,8 @@ FreePath ContactSweeps::path_of(int c, const ContactMotion& start, const Contact
 bool ContactSweeps::make(const ContactMotion& start, const ContactMotion& end, const std::vector<int>& near,
                          ContactTrial& trial, StepLosses& losses) {
   trial.clear();
+  for (const Moving& m : moving_)
+    moves_[m.c] = 0;
   moving_.clear();
   for (const int c : near) {
     trial.states[c] = {}; // also of contacts that were near and open
@@ -82,13 +98,23 @@ bool ContactSweeps::make(const ContactMotion& start, const ContactMotion& end, c
       continue;
     Moving& m = moving_.emplace_back();
     m.c = c;
+    moves_[c] = 1;
     m.path = path;
     m.act.mean = force.held;
   }
   for (const int c : loaded_)
-    if (std::none_of(moving_.begin(), moving_.end(), [&](const Moving& m) { return m.c == c; }))
+    if (!moves_[c])
       losses.damping += steps_[c].relax(pasts_[c], h_);
-  const bool settled = sweep();
+  group();
+  double largest = 0.0;
+  for (Moving& m : moving_) {
+    find(m);
+    largest = std::max(largest, sum_of_sizes(m.act.mean));
+  }
+  bool settled = true;
+  for (const int b : touched_)
+    if (moving_blocks_[b].parent == b)
+      settled = sweep(moving_blocks_[b].first, largest) && settled;
   for (const Moving& m : moving_) {
     const ContactAct& act = m.act;
     pasts_[m.c] = act.past;
@@ -104,18 +130,47 @@ bool ContactSweeps::make(const ContactMotion& start, const ContactMotion& end, c
   return settled;
 }
 
-/// Returns whether no contact would answer what has changed since it was found by more than the tolerance.
-bool ContactSweeps::sweep() {
-  double largest = 0.0;
-  for (Moving& m : moving_) {
-    find(m);
-    largest = std::max(largest, sum_of_sizes(m.act.mean));
+/// The block that stands for the group of a block.
+int ContactSweeps::group_of(int block) {
+  while (moving_blocks_[block].parent != block)
+    block = moving_blocks_[block].parent = moving_blocks_[moving_blocks_[block].parent].parent;
+  return block;
+}
+
+/// The groups of the contacts that move, each by increasing contacts.
+void ContactSweeps::group() {
+  for (const int b : touched_) {
+    moving_blocks_[b].contacts.clear();
+    moving_blocks_[b].first = moving_blocks_[b].last = -1;
   }
-  for (int i = 1; i < most_sweeps; ++i) {
+  touched_.clear();
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    const auto& places = blocks_.places[moving_[i].c];
+    for (const auto& [block, local] : places) {
+      if (moving_blocks_[block].contacts.empty()) {
+        touched_.push_back(block);
+        moving_blocks_[block].parent = block;
+      }
+      moving_blocks_[block].contacts.push_back({static_cast<int>(i), local});
+      moving_blocks_[group_of(block)].parent = group_of(places.front().block);
+    }
+  }
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    Moving& m = moving_[i];
+    m.next = -1;
+    MovingBlock& group = moving_blocks_[group_of(blocks_.places[m.c].front().block)];
+    (group.first < 0 ? group.first : moving_[group.last].next) = static_cast<int>(i);
+    group.last = static_cast<int>(i);
+  }
+}
+
+/// Further sweeps of a group, by its first contact and the largest force of the step. Returns whether none would answer what has changed since it was found by more than the tolerance.
+bool ContactSweeps::sweep(int first, double largest) {
+  for (int sweep = 1; sweep < most_sweeps; ++sweep) {
     bool settled = true;
-    for (Moving& m : moving_)
-      if (unanswered(m) > sweep_tolerance * largest) {
-        find(m);
+    for (int i = first; i >= 0; i = moving_[i].next)
+      if (unanswered(moving_[i]) > sweep_tolerance * largest) {
+        find(moving_[i]);
         settled = false;
       }
     if (settled)
@@ -130,7 +185,7 @@ double ContactSweeps::unanswered(const Moving& m) const {
          (sum_of_sizes(m.mean - m.answered[0]) + sum_of_sizes(m.slope - m.answered[1]));
 }
 
-/// One contact with the forces of all others.
+/// One contact with the forces of all others that share a block with it.
 void ContactSweeps::find(Moving& m) {
   FreePath path = m.path;
   path.a = path.a + (m.mean - m.slope);
@@ -140,12 +195,14 @@ void ContactSweeps::find(Moving& m) {
   m.answered[0] = m.mean;
   m.answered[1] = m.slope;
   const Components by_mean = m.act.mean - mean, by_slope = m.act.slope - slope;
-  const Mobility* w = &mobility_[static_cast<std::size_t>(m.c) * pasts_.size()];
-  for (Moving& other : moving_)
-    if (&other != &m) {
-      other.mean = other.mean + w[other.c] * by_mean;
-      other.slope = other.slope + w[other.c] * by_slope;
-    }
+  for (const auto& [block, local] : blocks_.places[m.c]) {
+    const Mobility* w = &mobility_[block][static_cast<std::size_t>(local) * blocks_.contacts[block].size()];
+    for (const auto& [i, to] : moving_blocks_[block].contacts)
+      if (Moving& other = moving_[i]; &other != &m) {
+        other.mean = other.mean + w[to] * by_mean;
+        other.slope = other.slope + w[to] * by_slope;
+      }
+  }
 }
 
 void ContactSweeps::settle(const ContactMotion& end) {

@@ -6,7 +6,11 @@
 /// path: of the modes, the cubic through displacements and velocities at both ends of the step as they are under the forces `held` of the contacts
 /// that were closed (constant over the step); r: what the change of forces adds, with the mobility W for which W f h^2/2 is the exact displacement
 /// after a step under constant forces f. What rests stays at rest, whatever h: f = held then, and the path is constant.
+///
+/// W is known block by block (contact_blocks.hpp). Contacts that may be closed and share a block, directly or through others, make a group;
+/// groups are swept apart, to a tolerance of the largest force of the step.
 #pragma once
+#include "transient/contacts/contact_blocks.hpp"
 #include "transient/contacts/contact_motion.hpp"
 #include "transient/contacts/contact_trial.hpp"
 #include "transient/splitting/contact_step.hpp"
@@ -22,9 +26,11 @@ struct StepLosses {
 
 class ContactSweeps {
 public:
-  /// @param contacts  must live longer   @param mobility  W: of contact `to` by a force on contact `from` at from * contacts + to
+  /// @param contacts  must live longer   @param mobility  W by blocks: of the block's contact `to` by a force on its contact `from` at
+  ///   from * contacts of the block + to
   /// @param step  h, s   @param parts  of contact_step.hpp
-  ContactSweeps(const PackedContacts& contacts, std::vector<Mobility> mobility, double step, int parts);
+  ContactSweeps(const PackedContacts& contacts, ContactBlocks blocks,
+                std::vector<std::vector<Mobility>> mobility, double step, int parts);
 
   /// From now on contact c moves in so many intervals a step, >= 1. No allocation.
   void divide(int c, int parts);
@@ -62,22 +68,36 @@ private:
         slope; ///< m/s2: by what the others' forces differ from those held, linear in time from mean - slope to mean + slope
     Components answered[2]; ///< these as they were when its force was found
     ContactAct act;         ///< as it was found last
+    int next;               ///< of its group; -1: none
   };
+  /// Of the contacts that move in a step those of a block, and the group that it is part of.
+  struct MovingBlock {
+    std::vector<ContactBlocks::Place> contacts; ///< `block`: among moving_; `local`: in the block
+    int parent = 0;            ///< a block of the same group; the block itself: it stands for the group
+    int first = -1, last = -1; ///< of the group that it stands for
+  };
+  [[nodiscard]] int group_of(int block);
+  void group();
   [[nodiscard]] Components of_lanes(const kernels::Array& lanes, int c) const;
   [[nodiscard]] FreePath path_of(int c, const ContactMotion& start, const ContactMotion& end) const;
   void find(Moving& m);
   [[nodiscard]] double unanswered(const Moving& m) const;
-  bool sweep();
+  bool sweep(int first, double largest);
 
   const PackedContacts& contacts_;
-  std::vector<Mobility> mobility_;
+  ContactBlocks blocks_;
+  std::vector<std::vector<Mobility>> mobility_; ///< by blocks
+  std::vector<Mobility> own_;                   ///< of each contact by its own force
   double h_;
   std::vector<ContactStep> steps_;
   std::vector<int> parts_; ///< of each contact
   std::vector<ContactPast> pasts_;
   std::vector<Force> forces_;
   std::vector<Moving> moving_;
-  std::vector<int> loaded_; ///< whose tangential spring bears a force
+  std::vector<char> moves_; ///< each contact: among moving_
+  std::vector<MovingBlock> moving_blocks_;
+  std::vector<int> touched_; ///< blocks with contacts that move
+  std::vector<int> loaded_;  ///< whose tangential spring bears a force
   double normal_springs_ = 0.0, tangential_springs_ = 0.0;
 };
 

@@ -41,8 +41,7 @@ FlexibleContacts::FlexibleContacts(const PackedContacts& contacts, const Eigen::
     for (int to = 0; to < contacts.count; ++to)
       for (int k = 0; k < contacts.components; ++k)
         for (int l = 0; l < contacts.components; ++l)
-          a_(3 * to + k, 3 * from + l) =
-              0.5 * step * contacts.column(from)[l * contacts.stride() + k * contacts.width + to];
+          a_(3 * to + k, 3 * from + l) = 0.5 * step * contacts.mobility(to, k, from, l);
   shut_.reserve(count);
   speed_.assign(3 * count, 0.0);
   give_ = speed_;

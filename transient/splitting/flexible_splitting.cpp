@@ -37,6 +37,12 @@ public:
       std::copy_n(shown.data(), shown.size(), shown_.begin());
     }
     seen_ = motion_.u;
+    for (int c = 0; c < contacts_.count; ++c) {
+      Eigen::Matrix2d& w = own_mobility_.emplace_back();
+      for (int to = 0; to < 2; ++to)
+        for (int from = 0; from < 2; ++from)
+          w(to, from) = contacts_.mobility(c, to, c, from);
+    }
   }
 
   const Record& advance() override {
@@ -144,8 +150,9 @@ private:
       const auto c = static_cast<std::size_t>(active);
       const ContactState& s = trial_.states[c];
       const double scale = h_ * h_ / 12.0, y = scale * s.force_y(), z = scale * s.force_z();
-      seen_[c] += contacts_.own_mobility(active, 0, 0) * y + contacts_.own_mobility(active, 0, 1) * z;
-      seen_[width + c] += contacts_.own_mobility(active, 1, 0) * y + contacts_.own_mobility(active, 1, 1) * z;
+      const Eigen::Matrix2d& w = own_mobility_[c];
+      seen_[c] += w(0, 0) * y + w(0, 1) * z;
+      seen_[width + c] += w(1, 0) * y + w(1, 1) * z;
     }
   }
 
@@ -203,9 +210,10 @@ private:
 
   std::int64_t unconverged_ = 0;
   kernels::Array impulse_;
-  kernels::Array shown_;   ///< with scaled masses
-  kernels::Array shown_q_; ///< in the mean over the step
-  kernels::Array seen_;    ///< m, lanes, likewise
+  kernels::Array shown_;                      ///< with scaled masses
+  kernels::Array shown_q_;                    ///< in the mean over the step
+  std::vector<Eigen::Matrix2d> own_mobility_; ///< 1/kg, y z, contact by contact
+  kernels::Array seen_;                       ///< m, lanes, likewise
 
   Record record_;
   double moving_ = 0.0, after_action_ = 0.0; ///< modal energy before and after the action

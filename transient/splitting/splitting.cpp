@@ -18,6 +18,7 @@
 /// A record stands for a step and for the forces in it, its positions are those in the middle.
 #include "transient/splitting/splitting.hpp"
 #include "transient/contacts/obstacle_motion.hpp"
+#include "transient/contacts/row_scatter.hpp"
 #include "transient/modes/mass_scaling.hpp"
 #include "transient/modes/modal_flow.hpp"
 #include "transient/splitting/contact_sweeps.hpp"
@@ -52,9 +53,8 @@ public:
   Splitting(const Scene& scene, double step, const Eigen::VectorXd& shown, int longest, int parts)
       : h_(step), duration_(scene.duration), lengths_(lengths_up_to(longest)), modes_(scene, step, lengths_),
         contacts_(scene.contacts, scene.system.size()), start_(contacts_), end_(contacts_),
-        obstacles_(scene, contacts_, step), carried_{obstacles_.room(), obstacles_.room()},
-        sweeps_(contacts_, step_mobility(), step, parts), steps_{Step(contacts_), Step(contacts_),
-                                                                 Step(contacts_)} {
+        obstacles_(scene, contacts_, step), carried_{obstacles_.room(), obstacles_.room()}, rows_(contacts_),
+        sweeps_(make_sweeps(scene, parts)), steps_{Step(contacts_), Step(contacts_), Step(contacts_)} {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
     held_.assign(n, 0.0);
     if (shown.size() > 0) {
@@ -64,7 +64,6 @@ public:
     const auto count = static_cast<std::size_t>(contacts_.count);
     was_near_.assign(count, 1); // nothing is known yet
     near_.reserve(count);
-    rows_.resize(3 * count);
     for (auto& f : factors_)
       f.resize(3 * count);
     const bool convex =
@@ -176,22 +175,56 @@ private:
   };
   [[nodiscard]] static std::size_t next(std::size_t step) { return step == 2 ? 0 : step + 1; }
 
-  /// W of contact_sweeps.hpp.
-  std::vector<Mobility> step_mobility() {
-    const auto count = static_cast<std::size_t>(contacts_.count);
-    std::vector<Mobility> out(count * count);
-    kernels::Array moved(static_cast<std::size_t>(contacts_.padded_modes));
-    for (std::size_t c = 0; c < count; ++c)
-      for (int from = 0; from < contacts_.components; ++from) {
-        modes_.answer(contacts_.row(static_cast<int>(c), from), moved.data());
-        for (std::size_t other = 0; other < count; ++other)
-          for (int to = 0; to < contacts_.components; ++to)
-            out[c * count + other].w[to][from] =
-                2.0 / (h_ * h_) *
-                std::inner_product(moved.begin(), moved.end(), contacts_.row(static_cast<int>(other), to),
-                                   0.0);
+  ContactSweeps make_sweeps(const Scene& scene, int parts) {
+    ContactBlocks blocks(scene);
+    std::vector<std::vector<Mobility>> mobility = step_mobility(scene, blocks);
+    return {contacts_, std::move(blocks), std::move(mobility), h_, parts};
+  }
+
+  /// W of contact_sweeps.hpp. Blocks share no mode: one motion of all modes answers a force in each of them.
+  std::vector<std::vector<Mobility>> step_mobility(const Scene& scene, const ContactBlocks& blocks) {
+    std::vector<std::vector<Mobility>> out;
+    std::size_t most = 0;
+    for (const auto& contacts : blocks.contacts) {
+      out.emplace_back(contacts.size() * contacts.size());
+      most = std::max(most, contacts.size());
+    }
+    kernels::Array force(static_cast<std::size_t>(contacts_.padded_modes)), moved(force);
+    for (std::size_t from = 0; from < most; ++from)
+      for (int component = 0; component < contacts_.components; ++component) {
+        std::fill(force.begin(), force.end(), 0.0);
+        for (std::size_t b = 0; b < blocks.size(); ++b)
+          if (from < blocks.contacts[b].size())
+            for_modes(scene, blocks, b, blocks.contacts[b][from],
+                      [&](std::size_t mode, const auto& moves) { force[mode] = moves(local_of(component)); });
+        modes_.answer(force.data(), moved.data());
+        for (std::size_t b = 0; b < blocks.size(); ++b) {
+          const auto& contacts = blocks.contacts[b];
+          for (std::size_t other = 0; from < contacts.size() && other < contacts.size(); ++other)
+            for (int to = 0; to < contacts_.components; ++to) {
+              double sum = 0.0;
+              for_modes(scene, blocks, b, contacts[other], [&](std::size_t mode, const auto& moves) {
+                sum += moved[mode] * moves(local_of(to));
+              });
+              out[b][from * contacts.size() + other].w[to][component] = 2.0 / (h_ * h_) * sum;
+            }
+        }
       }
     return out;
+  }
+  /// Component x_loc y_loc z_loc of y z x.
+  [[nodiscard]] static Eigen::Index local_of(int component) { return (component + 1) % 3; }
+  /// visit(mode, column of b) for the modes of a contact in a block.
+  template <class Visit>
+  static void for_modes(const Scene& scene, const ContactBlocks& blocks, std::size_t block, int contact,
+                        const Visit& visit) {
+    scene.contacts[static_cast<std::size_t>(contact)].for_ranges([&](Eigen::Index first, const auto& part) {
+      if (part.cols() == 0 ||
+          blocks.block_of_mode[static_cast<std::size_t>(first)] != static_cast<int>(block))
+        return;
+      for (Eigen::Index i = 0; i < part.cols(); ++i)
+        visit(static_cast<std::size_t>(first + i), part.col(i));
+    });
   }
 
   void scale(double* modal, int power) const {
@@ -216,30 +249,29 @@ private:
 
   /// The held forces of the near contacts, and those of the step, as forces on the modes.
   void scatter(ModalForce* force) {
-    std::size_t count = 0;
     bool slopes = false;
     holds_ = false;
-    const auto add = [&](const double* row, double held, double mean, double slope) {
+    rows_.clear();
+    const auto add = [&](int c, int component, double held, double mean, double slope) {
       if (mean == 0.0 && held == 0.0)
         return;
-      rows_[count] = row;
-      factors_[0][count] = held;
-      factors_[1][count] = mean;
-      factors_[2][count++] = slope;
+      factors_[0][rows_.size()] = held;
+      factors_[1][rows_.size()] = mean;
+      factors_[2][rows_.size()] = slope;
+      rows_.add(c, component);
       holds_ = holds_ || held != 0.0;
       slopes = slopes || slope != 0.0;
     };
     for (const int c : near_) {
       const ContactSweeps::Force& f = sweeps_.force(c);
-      add(contacts_.row(c, 0), f.held.y, f.mean.y, f.slope.y);
-      add(contacts_.row(c, 1), f.held.z, f.mean.z, f.slope.z);
+      add(c, 0, f.held.y, f.mean.y, f.slope.y);
+      add(c, 1, f.held.z, f.mean.z, f.slope.z);
       if (contacts_.components == 3)
-        add(contacts_.row(c, 2), f.held.x, f.mean.x, f.slope.x);
+        add(c, 2, f.held.x, f.mean.x, f.slope.x);
     }
     const auto sum = [&](std::size_t which, kernels::Array& to) {
       std::fill(to.begin(), to.end(), 0.0);
-      kernels::scatter(contacts_.padded_modes, static_cast<int>(count), rows_.data(), factors_[which].data(),
-                       to.data());
+      rows_.add_to(factors_[which].data(), to.data());
     };
     if (holds_)
       sum(0, held_);
@@ -371,6 +403,7 @@ private:
   ContactMotion start_, end_; ///< of the step that is made
   ObstacleMotion obstacles_;
   std::array<Carried, 2> carried_; ///< likewise
+  RowScatter rows_;
   ContactSweeps sweeps_;
   std::array<Step, 3> steps_; ///< the one published, the one made, and where that ends
   std::size_t published_ = 0, made_ = 0;
@@ -380,7 +413,6 @@ private:
   std::vector<char> was_near_; ///< at the end of the last step
   std::vector<int> near_;
   double window_;
-  std::vector<const double*> rows_;
   std::array<std::vector<double>, 3> factors_; ///< held, mean, slope
   kernels::Array shown_;                       ///< with scaled masses
 

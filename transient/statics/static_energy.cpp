@@ -33,11 +33,12 @@ StaticEnergy::StaticEnergy(const Scene& scene) : scene_(scene) {
   VectorXd scale = scene.system.stiffness, by_contacts = VectorXd::Zero(n);
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
     const ContactPoint& point = scene.contacts[c];
-    rows_.middleRows<2>(2 * static_cast<Index>(c)) = point.b.middleRows<2>(1);
+    const Eigen::MatrixXd b = point.over_all(n);
+    rows_.middleRows<2>(2 * static_cast<Index>(c)) = b.middleRows<2>(1);
     const auto [y, z] = contact::normal_directions(point.support.obstacle);
     for (const auto& [counts, row] : {std::pair{y, 1}, std::pair{z, 2}})
       if (counts)
-        by_contacts += point.support.normal.stiffness * point.b.row(row).cwiseAbs2().transpose();
+        by_contacts += point.support.normal.stiffness * b.row(row).cwiseAbs2().transpose();
     length_ = std::max(length_, std::hypot(point.rest.y(), point.rest.z()) +
                                     contact::properties_of(point.support.obstacle).extent);
   }

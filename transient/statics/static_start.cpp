@@ -155,6 +155,8 @@ Scene with_residual_modes(const Scene& scene) {
     load.modal_force.tail(more).setZero();
   }
   for (std::size_t c = 0; c < out.contacts.size(); ++c) {
+    out.contacts[c].b = scene.contacts[c].over_all(n);
+    out.contacts[c].modes.clear();
     out.contacts[c].b.conservativeResize(3, n + more);
     out.contacts[c].b.rightCols(more) = shapes.middleRows(3 * static_cast<Index>(c), 3);
   }
