@@ -4,6 +4,7 @@
 #pragma once
 #include "app/support_motion.hpp"
 #include "app/turbulent_loads.hpp"
+#include "core/motion_forces.hpp"
 #include "fem/model.hpp"
 #include "mesh/line_mesh.hpp"
 #include "study/study.hpp"
@@ -25,7 +26,8 @@ struct Fields {
   };
   std::vector<Load> loads;
   std::vector<std::string> warnings;
-  std::vector<Eigen::VectorXd> supports; ///< shapes of the study's support motions (support_motion.hpp)
+  std::vector<Eigen::VectorXd> supports;  ///< shapes of the study's support motions (support_motion.hpp)
+  std::vector<core::MotionForces> motion; ///< of the fluid, by structures; empty: none
   bool moves_at_start = false;
   Eigen::VectorXd displacement, velocity;                   ///< where moves_at_start
   Eigen::VectorXd displacement_momentum, velocity_momentum; ///< M times them

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/build_scene.hpp"
 #include "app/contact_laws.hpp"
+#include "app/fluidelastic.hpp"
 #include "app/residual_flexibility.hpp"
 #include "app/static_start.hpp"
 #include "app/support_motion.hpp"
@@ -341,6 +342,7 @@ BuiltScene build_scene(const study::Study& study, const Fields& fields,
   transient::Scene& scene = out.scene;
   scene.duration = study.transient->duration;
   add_system(bases, scene.system);
+  add_motion_forces(fields.motion, structures, all, scene.system);
   out.true_modes = true_modes(bases);
   for (const auto& load : fields.loads) {
     Eigen::VectorXd force(0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/case_bases.hpp"
 #include "app/flow_damping.hpp"
+#include "app/fluidelastic.hpp"
 #include "app/modes_limit.hpp"
 #include "app/static_modes.hpp"
 #include "core/temporary_directory.hpp"
@@ -98,6 +99,7 @@ CaseStructure make_structure(const Inputs& nominal, const study::Study& study, b
   std::vector<std::string> notes;
   out.mesh = same_mesh ? mesh_stage(MPI_COMM_SELF, nominal) : own_mesh(study);
   out.dry = out.model = build_model(study, out.mesh);
+  refuse_fluidelastic_sweep(study);
   out.flows = place_flows(study, out.mesh, out.model, notes);
   out.turbulence = turbulent_loads(study, out.model, out.flows, notes);
   out.structures = moving_structures(out.model);

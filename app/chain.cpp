@@ -2,6 +2,7 @@
 #include "app/chain.hpp"
 #include "app/build_flow.hpp"
 #include "app/describe.hpp"
+#include "app/fluidelastic.hpp"
 #include "app/folder_lock.hpp"
 #include "app/jobs.hpp"
 #include "app/linear_response.hpp"
@@ -222,6 +223,7 @@ private:
     core::agree(comm_, [&] {
       at_contacts_.fields =
           build_fields(inputs_.study, mesh_, model_, support_fields(moved_, model_, modes.structures));
+      at_contacts_.fields.motion = fluidelastic_forces({inputs_.study, mesh_, model_, flows_}, out_.bases);
       at_contacts_.turbulence = turbulence_;
       at_contacts_.joined = joined_structures(out_.bases, placed_);
     });
@@ -242,6 +244,8 @@ private:
       });
     if (last_ == Stage::stability || (scenes_wanted_ && !study.stabilities.empty()))
       assess_stability(comm_, tubes, together(placed_, inactive_), out_);
+    if (last_ == Stage::stability || scenes_wanted_)
+      core::agree(comm_, [&] { judge_fluidelastic(tubes, out_.bases, out_); });
     if (last_ == Stage::response || (scenes_wanted_ && !study.responses.empty()))
       linear_responses(comm_, tubes, turbulence_, together(placed_, inactive_), nodes_, out_);
   }

@@ -93,11 +93,11 @@ void make_keys(const Request& request, Inputs& inputs) {
   inputs.modes_key = core::sha256(program + file_bytes(inputs.mesh_file) +
                                   text({"mesh", "materials", "sections", "beams", "restraints", "masses",
                                         "springs", "ties", "modes", "flow"}));
-  inputs.whole_key =
-      core::sha256(inputs.modes_key +
-                   text({"title", "contacts", "stability", "turbulence", "response", "loads", "gravity",
-                         "base_motion", "support_motion", "initial", "transient", "output", "wear"}) +
-                   results_of_states(inputs.study));
+  inputs.whole_key = core::sha256(
+      inputs.modes_key +
+      text({"title", "contacts", "flow_laws", "stability", "turbulence", "response", "loads", "gravity",
+            "base_motion", "support_motion", "initial", "transient", "output", "wear"}) +
+      results_of_states(inputs.study));
 }
 
 mesh::LineMesh mesh_stage(MPI_Comm comm, const Inputs& inputs) {

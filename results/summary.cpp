@@ -203,13 +203,16 @@ Json node(const std::string& name, const post::NodeSummary& n) {
 }
 
 Json energy(const EnergyTotals& e) {
-  return {{"input_J", number(e.input)},
-          {"initial_J", number(e.initial)},
-          {"stored_J", number(e.stored)},
-          {"modal_damping_J", number(e.modal_damping)},
-          {"contact_damping_J", number(e.contact_damping)},
-          {"friction_J", number(e.friction)},
-          {"residual_relative", number(e.residual_relative)}};
+  Json out = {{"input_J", number(e.input)},
+              {"initial_J", number(e.initial)},
+              {"stored_J", number(e.stored)},
+              {"modal_damping_J", number(e.modal_damping)},
+              {"contact_damping_J", number(e.contact_damping)},
+              {"friction_J", number(e.friction)},
+              {"residual_relative", number(e.residual_relative)}};
+  if (e.fluid != 0.0) // with a law of fluidelastic forces
+    out["fluid_J"] = number(e.fluid);
+  return out;
 }
 
 Json transient(const TransientTotals& t, const RunResults& results) {

@@ -86,10 +86,11 @@ void add_flexibility(Lines& lines, const RunResults& results) {
 }
 
 std::string energy_text(const EnergyTotals& e) {
+  const std::string fluid = e.fluid == 0.0 ? "" : fmt::format(" + fluid {:.4g}", e.fluid);
   return fmt::format(
-      "input {:.4g} J = stored {:.4g} + modal damping {:.4g} + contact damping {:.4g} + friction {:.4g}; "
+      "input {:.4g} J{} = stored {:.4g} + modal damping {:.4g} + contact damping {:.4g} + friction {:.4g}; "
       "balanced to {:.1e}",
-      e.input, e.stored, e.modal_damping, e.contact_damping, e.friction, e.residual_relative);
+      e.input, fluid, e.stored, e.modal_damping, e.contact_damping, e.friction, e.residual_relative);
 }
 
 /// The sums over contacts, and the one figure that differs most where one does.

@@ -74,6 +74,7 @@ TransientTotals add_up(const std::vector<TransientFacts>& transients) {
     const transient::Energy& e = report.energy;
     sum.energy.initial += e.initial;
     sum.energy.input += e.initial + e.load_work;
+    sum.energy.fluid += e.fluid_work;
     sum.energy.stored += e.stored;
     sum.energy.modal_damping += e.modal_damping;
     sum.energy.contact_damping += e.contact_damping;

@@ -17,14 +17,15 @@ struct ModeOf {
 [[nodiscard]] std::vector<ModeOf> sorted_modes(const std::vector<modal::Basis>& bases);
 [[nodiscard]] std::vector<ModeOf> sorted_static_modes(const std::vector<modal::Basis>& bases);
 
-/// Energies in J over the whole run: input = stored + modal_damping + contact_damping + friction + residual.
+/// Energies in J over the whole run: input + fluid = stored + modal_damping + contact_damping + friction + residual.
 struct EnergyTotals {
   double initial = 0.0; ///< in the structure at t = 0
   double input = 0.0;   ///< initial + work of the loads
+  double fluid = 0.0;   ///< work of forces that depend on the motion
   double stored = 0.0, modal_damping = 0.0, contact_damping = 0.0, friction = 0.0;
   double residual_relative = 0.0; ///< the largest of the structures (not finite where one of them is not)
   [[nodiscard]] double residual() const {
-    return input - stored - modal_damping - contact_damping - friction;
+    return input + fluid - stored - modal_damping - contact_damping - friction;
   }
 };
 

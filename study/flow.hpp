@@ -3,6 +3,7 @@
 /// The flow along tubes, and what its stability is assessed with, as the study says it.
 #pragma once
 #include "flow/damping.hpp"
+#include "flow/fluidelastic_law.hpp"
 #include "flow/stability.hpp"
 #include <limits>
 #include <map>
@@ -29,6 +30,8 @@ struct Flow {
   std::optional<std::vector<FlowSupport>> supports; ///< none: the contacts on the tube
   double structural_damping = 0.002;
   flow::DampingVoidFraction void_fraction = flow::DampingVoidFraction::of_the_zone;
+  std::optional<flow::FluidelasticLaw> law =
+      std::nullopt; ///< of the forces that depend on the motion; none: there are none
 };
 
 /// What holds the tubes in the modes that stability is assessed with.

@@ -16,7 +16,7 @@ const Keys study_keys{
      "masses",         "springs",    "ties",      "modes",    "contacts", "flow",
      "stability",      "turbulence", "response",  "loads",    "gravity",  "base_motion",
      "support_motion", "initial",    "transient", "output",   "wear",     "contact_defaults",
-     "sweep"}};
+     "sweep",          "flow_laws"}};
 
 [[maybe_unused]] bool is_key(const std::string& name) {
   return std::find(study_keys.known.begin(), study_keys.known.end(), name) != study_keys.known.end();

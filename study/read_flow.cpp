@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "study/flow_laws.hpp"
 #include "study/flow_tables.hpp"
 #include "study/readers.hpp"
 #include <algorithm>
@@ -169,10 +170,11 @@ std::vector<FlowSupport> read_supports(const TableReader& table) {
 
 std::vector<Flow> read_flows(const TableReader& root, const std::filesystem::path& folder) {
   std::vector<Flow> all;
+  const std::vector<NamedLaw> laws = read_flow_laws(root);
   for (const Entry& entry : array_entries(root, "flow")) {
-    const TableReader table(
-        *entry.value, entry.path,
-        {{"name", "group", "from", "zones", "supports", "structural_damping", "damping_void_fraction"}});
+    const TableReader table(*entry.value, entry.path,
+                            {{"name", "group", "from", "zones", "supports", "structural_damping",
+                              "damping_void_fraction", "law"}});
     Flow out;
     out.groups = read_groups(table);
     out.name = table.optional_text("name").value_or(out.groups.front());
@@ -190,6 +192,13 @@ std::vector<Flow> read_flows(const TableReader& root, const std::filesystem::pat
         "damping_void_fraction", flow::DampingVoidFraction::of_the_zone,
         Choices<flow::DampingVoidFraction>{{{"zone", flow::DampingVoidFraction::of_the_zone},
                                             {"homogeneous", flow::DampingVoidFraction::homogeneous}}});
+    if (const auto name = table.optional_text("law")) {
+      const auto found =
+          std::find_if(laws.begin(), laws.end(), [&](const NamedLaw& l) { return l.name == *name; });
+      if (found == laws.end())
+        table.fail_at("law", "no [flow_laws." + *name + "]; give one, or name another");
+      out.law = found->law;
+    }
     for (const Flow& before : all)
       if (before.name == out.name)
         table.fail_table("a second flow called \"" + out.name + "\"; give each a name of its own");

@@ -62,6 +62,8 @@ void MotionRates::rate(double time, const double* y, double* rate) {
     power += load_[i] * v[i];
     damping += v[i] * (load_[i] - k_[i] * y[i] - rate[modes() + i]);
   }
+  if (!system_.motion.empty())
+    move_fluid(y, rate);
   if (contacts_.count > 0) {
     place(time, y);
     act(springs(y), rate + 2 * modes());
@@ -85,6 +87,34 @@ void MotionRates::structure(const double* y, double* rate) {
     for (Eigen::Index j = 0; j < system_.size(); ++j)
       for (Eigen::Index i = 0; i < system_.size(); ++i)
         rate[np + i] -= system_.damping_matrix(i, j) * v[j];
+}
+
+/// The forces that depend on the motion, with the rates of their work and states.
+void MotionRates::move_fluid(const double* y, double* rate) {
+  const core::MotionForces& f = system_.motion;
+  const Eigen::Index n = system_.size(), r = f.states(), at = 2 * modes() + 4 * contacts_.count + 3;
+  const Eigen::Map<const Eigen::VectorXd> v(y + modes(), n), z(y + at + 1, r);
+  std::fill_n(load_.begin(), n, 0.0);
+  add_motion_forces(y, load_.data());
+  loaded_ = false;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double force = load_[static_cast<std::size_t>(i)];
+    rate[modes() + i] += force;
+    rate[at] += force * v(i);
+  }
+  for (Eigen::Index i = 0; i < r; ++i)
+    rate[at + 1 + i] = f.rates.row(i).dot(z) + f.output.row(i).dot(v);
+}
+
+void MotionRates::add_motion_forces(const double* y, double* force) const {
+  const core::MotionForces& f = system_.motion;
+  if (f.empty())
+    return;
+  const Eigen::Index n = system_.size();
+  const Eigen::Map<const Eigen::VectorXd> q(y, n), v(y + modes(), n),
+      z(y + 2 * modes() + 4 * contacts_.count + 4, f.states());
+  for (Eigen::Index i = 0; i < n; ++i)
+    force[i] += f.stiffness.row(i).dot(q) + f.damping.row(i).dot(v) + f.input.row(i).dot(z);
 }
 
 void MotionRates::act(const double* s, double* rate) {
@@ -250,6 +280,8 @@ Energy MotionRates::energy(const double* y) const {
   energy.load_work = totals[0];
   energy.throughput = totals[1];
   energy.modal_damping = totals[2];
+  if (!system_.motion.empty())
+    energy.fluid_work = totals[3];
   energy.stored = moving_energy(y) + trial_.springs;
   for (int c = 0; c < contacts_.count; ++c)
     if (const contact::FrictionLaw& law = contacts_.supports[c].friction; law.active() && !rated(c))

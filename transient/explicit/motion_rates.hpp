@@ -4,9 +4,9 @@
 ///     q, v   modal displacements and velocities
 ///     s      contact by contact: T_x, T_t (N, the spring of the friction), friction work, damper work (J);
 ///            then the work of the loads and of moving obstacles (obstacle_motion.hpp), the integral of |its power|, the work of the
-///            modal damping (J)
+///            modal damping (J); with forces of motion (core/motion_forces.hpp) their work (J) and their states z
 /// each padded to kernels::lanes, with the rates
-///     q' = v,   v' = loads + B^T f - C v - k q   (C the full damping matrix where there is one)
+///     q' = v,   v' = loads + B^T f - C v - k q + K_x q + C_x v + G z,   z' = R z + E v   (C the full damping matrix where there is one)
 ///     T' = -(K_T/C_T)(T - F)                     return_map with C_T > 0: -K_T v in stick, towards F in slip, dies out when open
 ///     T' = -K_T v while closed                   without C_T, and `reference`: in slip set to F by `commit`, once for every accepted
 ///                                                step; 0 when open
@@ -46,7 +46,9 @@ public:
   MotionRates(const Scene& scene, double step);
 
   [[nodiscard]] int modes() const { return contacts_.padded_modes; }
-  [[nodiscard]] int size() const { return 2 * modes() + kernels::padded(4 * contacts_.count + 3); }
+  [[nodiscard]] int size() const {
+    return 2 * modes() + kernels::padded(4 * contacts_.count + 3 + motion_values());
+  }
   [[nodiscard]] const PackedContacts& contacts() const { return contacts_; }
 
   /// The state at t = 0, whose regimes are those of the laws.
@@ -60,6 +62,9 @@ public:
   void commit(double* y);
   /// Modal force of the loads at an instant, n values.
   void load_at(double time, double* force);
+
+  /// Adds the forces of a state that depend on its motion, n values.
+  void add_motion_forces(const double* y, double* force) const;
 
   // Of the state that `rate` was called for last:
   [[nodiscard]] const ContactTrial& trial() const { return trial_; }
@@ -114,6 +119,10 @@ private:
                                           const contact::ContactAxes& axes) const;
   void place(double time, const double* y);
   void structure(const double* y, double* rate);
+  [[nodiscard]] int motion_values() const {
+    return system_.motion.empty() ? 0 : 1 + static_cast<int>(system_.motion.states());
+  }
+  void move_fluid(const double* y, double* rate);
   void act(const double* s, double* rate);
   bool press(int c, contact::Vec2 spring, double* rate);
   void rub(int c, contact::Vec2 spring, ContactState& state, double* rate) const;

@@ -123,7 +123,10 @@ public:
     return true;
   }
 
-  void load_at(double time, double* force) override { rates_.load_at(time, force); }
+  void load_at(double time, double* force) override {
+    rates_.load_at(time, force);
+    rates_.add_motion_forces(inside_.data(), force);
+  }
   [[nodiscard]] StepCounts counts() const override { return counts_; }
   [[nodiscard]] StepFailure failure() const override { return failure_; }
 

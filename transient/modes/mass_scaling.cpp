@@ -67,6 +67,12 @@ Scene with_masses(const Scene& scene, const Eigen::VectorXd& masses) {
   out.system.damping.array() /= masses.array();
   if (out.system.damping_matrix.size() > 0)
     out.system.damping_matrix = s.asDiagonal() * scene.system.damping_matrix * s.asDiagonal();
+  if (core::MotionForces& f = out.system.motion; !f.empty()) {
+    f.stiffness = s.asDiagonal() * f.stiffness * s.asDiagonal();
+    f.damping = s.asDiagonal() * f.damping * s.asDiagonal();
+    f.input = s.asDiagonal() * f.input;
+    f.output = f.output * s.asDiagonal();
+  }
   for (Load& load : out.loads)
     load.modal_force.array() *= s.array();
   for (SampledLoad& load : out.sampled_loads)

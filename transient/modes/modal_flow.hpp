@@ -4,6 +4,7 @@
 /// (oscillator.hpp; matrix_flow.hpp where a damping matrix couples modes). Steps may have several lengths, whole multiples of the shortest.
 #pragma once
 #include "core/state_archive.hpp"
+#include "transient/modes/feedback_flow.hpp"
 #include "transient/modes/load_sum.hpp"
 #include "transient/modes/matrix_flow.hpp"
 
@@ -20,18 +21,25 @@ struct ModalForce {
 
 class ModalFlow {
 public:
-  /// @param lengths  of steps in numbers of `step`, s; only 1 where a damping matrix couples modes
+  /// @param lengths  of steps in numbers of `step`, s; only 1 where a damping matrix or forces of motion couple modes
   ModalFlow(const Scene& scene, double step, const std::vector<int>& lengths);
 
   /// Padded.
   struct State {
-    kernels::Array q, v;
-    void visit(core::StateArchive& state) { state(q, v); }
+    kernels::Array q, v, z; ///< z: of forces of motion, not padded
+    void visit(core::StateArchive& state) {
+      state(q, v);
+      if (!z.empty())
+        state(z);
+    }
   };
   struct Sums {
     double load_work = 0.0, contact_work = 0.0; ///< J, of the loads and of the other force, over the step
     double energy = 0.0;                        ///< J, of the modes at its end
+    double fluid_work = 0.0;                    ///< J, of forces that depend on the motion
   };
+  /// Number of the states of forces that depend on the motion.
+  [[nodiscard]] std::size_t states() const { return static_cast<std::size_t>(fed_.states()); }
   /// Modal force of the loads of the step about a time; `load` stays where there are none. No allocation.
   void load_about(double time, kernels::Array& load);
   /// The modes over `length` steps under the loads load0 to load1, alone, with a constant force, with a force that changes. No allocation.
@@ -50,6 +58,8 @@ public:
               const kernels::Array& load1, const ModalForce* force, double* q, double* v);
   /// Modal force of the loads at an instant, n values.
   void load_at(double time, double* force);
+  /// Adds the forces of motion where `inside` was last, n values. No allocation.
+  void add_motion_forces(double* force) const { fed_.add_forces(force); }
   /// Displacement of the modes after one step from rest under a constant force, padded arrays.
   void answer(const double* force, double* moved);
 
@@ -60,16 +70,20 @@ private:
             const kernels::Array& mean, const kernels::Array& slope, State& to);
   void move_coupled(const State& from, const kernels::Array& load0, const kernels::Array& load1,
                     const kernels::Array& mean, const kernels::Array& slope, State& to, Sums& sums);
+  void move_fed(const kernels::Array& load0, const kernels::Array& load1, const kernels::Array& mean,
+                const kernels::Array& slope, State& to, Sums& sums);
+  [[nodiscard]] bool apart(Eigen::Index mode) const { return !coupled_.couples(mode) && !fed_.couples(mode); }
 
   System system_;
   double h_;
   LoadSum loads_;
-  MatrixFlow coupled_;
+  FeedbackFlow fed_;
+  MatrixFlow coupled_; ///< of what forces of motion leave alone
   std::vector<int> lengths_;
   std::vector<kernels::FlowTable> tables_;
   std::vector<kernels::MiddleTable> middles_;
   kernels::Array per_force_; ///< m/N of the modes that are not coupled: their displacement by `answer`
-  kernels::Array k_, none_, a_, b_, moved_, rate_;
+  kernels::Array k_, none_, a_, b_, moved_, rate_, states_;
 };
 
 } // namespace fretwork::transient

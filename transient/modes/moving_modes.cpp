@@ -9,6 +9,9 @@ std::vector<Eigen::Index> moving_modes(const Scene& scene) {
   Flags moves = scene.q0.array() != 0.0 || scene.v0.array() != 0.0;
   for (const Load& load : scene.loads)
     moves = moves || load.modal_force.array() != 0.0;
+  if (const core::MotionForces& f = scene.system.motion; !f.empty())
+    moves = moves || (f.stiffness.array() != 0.0).colwise().any().transpose() ||
+            (f.output.array() != 0.0).colwise().any().transpose();
   for (const SampledLoad& load : scene.sampled_loads)
     moves = moves || load.scale.array() != 0.0;
   for (const ContactPoint& point : scene.contacts)
@@ -62,6 +65,9 @@ Scene with_modes(const Scene& scene, const std::vector<Eigen::Index>& modes) {
   out.system.damping = scene.system.damping(modes);
   if (scene.system.damping_matrix.size() > 0)
     out.system.damping_matrix = scene.system.damping_matrix(modes, modes);
+  if (const core::MotionForces& f = scene.system.motion; !f.empty())
+    out.system.motion = {f.stiffness(modes, modes), f.damping(modes, modes), f.input(modes, Eigen::all),
+                         f.rates, f.output(Eigen::all, modes)};
   for (std::size_t k = 0; k < out.loads.size(); ++k)
     out.loads[k].modal_force = scene.loads[k].modal_force(modes);
   for (SampledLoad& load : out.sampled_loads)

@@ -4,6 +4,7 @@
 /// contacts of (B^T f)_i.
 #pragma once
 #include "contact/support.hpp"
+#include "core/motion_forces.hpp"
 #include "core/types.hpp"
 #include "transient/signals/prescribed_motion.hpp"
 #include "transient/signals/sampled_load.hpp"
@@ -19,6 +20,7 @@ struct System {
   Eigen::VectorXd stiffness;      ///< n, omega^2, 1/s2, >= 0
   Eigen::VectorXd damping;        ///< n, 2 zeta omega, 1/s, >= 0
   Eigen::MatrixXd damping_matrix; ///< n x n, 1/s, replaces `damping` where it is not empty
+  core::MotionForces motion = {}; ///< of the fluid; empty: none
   [[nodiscard]] Eigen::Index size() const { return stiffness.size(); }
 };
 

@@ -62,19 +62,20 @@ struct ContactForce {
   [[nodiscard]] double z() const { return axes.z(normal, friction.t); }
 };
 
-/// Energy, J, at a record: load_work = stored - initial + modal_damping + contact_damping +
+/// Energy, J, at a record: load_work + fluid_work = stored - initial + modal_damping + contact_damping +
 /// friction + residual.
 struct Energy {
-  double initial = 0.0;   ///< kinetic, strain and contact energy at t = 0
-  double load_work = 0.0; ///< by loads and base motion
-  double stored = 0.0;    ///< kinetic + strain + contact springs
+  double initial = 0.0;    ///< kinetic, strain and contact energy at t = 0
+  double load_work = 0.0;  ///< by loads and base motion
+  double fluid_work = 0.0; ///< by forces that depend on the motion, of either sign
+  double stored = 0.0;     ///< kinetic + strain + contact springs
   double modal_damping = 0.0;
   double contact_damping = 0.0; ///< normal and tangential dampers, what the positive part cuts, what a spring
                                 ///< gives up after opening
   double friction = 0.0;        ///< Coulomb sliders
   double throughput = 0.0;      ///< initial + integral of |load power|: what the residual is measured against
   [[nodiscard]] double residual() const {
-    return initial + load_work - stored - modal_damping - contact_damping - friction;
+    return initial + load_work + fluid_work - stored - modal_damping - contact_damping - friction;
   }
 };
 
@@ -128,7 +129,7 @@ public:
   /// Contact forces of the laws at such a time, where the scheme knows its motion there as well as at its records. Returns whether it does;
   /// else they are linear between the records. No allocation.
   virtual bool forces_at(double /*time*/, std::span<ContactForce> /*forces*/) { return false; }
-  /// Modal force of the loads at a time, n values.
+  /// Modal force of the loads at a time, n values, and of forces that depend on the motion: those of the `state_at` before it.
   virtual void load_at(double time, double* force) = 0;
   [[nodiscard]] virtual StepCounts counts() const = 0;
   /// Errors by the step so far, measured by replays, contact by contact; empty: not measured.

@@ -72,6 +72,8 @@ public:
         });
     window_ = convex ? 1.0 : 1.0 / 3.0;
 
+    for (Step& s : steps_)
+      s.from.z.assign(modes_.states(), 0.0);
     Step& first = steps_[0];
     std::copy_n(scene.q0.data(), scene.q0.size(), first.from.q.begin());
     std::copy_n(scene.v0.data(), scene.v0.size(), first.from.v.begin());
@@ -111,6 +113,7 @@ public:
 
   void load_at(double time, double* force) override {
     modes_.load_at(time, force);
+    modes_.add_motion_forces(force);
     scale(force, -1.0);
   }
 
@@ -388,7 +391,9 @@ private:
   void book(Step& s, const ModalFlow::Sums& sums, const StepLosses& losses, double brought) {
     booked_.load_work += sums.load_work + brought;
     booked_.throughput += std::abs(sums.load_work) + std::abs(brought);
-    booked_.modal_damping += sums.load_work + sums.contact_work - (sums.energy - moving_);
+    booked_.fluid_work += sums.fluid_work;
+    booked_.throughput += std::abs(sums.fluid_work);
+    booked_.modal_damping += sums.load_work + sums.contact_work + sums.fluid_work - (sums.energy - moving_);
     booked_.contact_damping += losses.damping;
     booked_.friction += losses.friction;
     moving_ = sums.energy;

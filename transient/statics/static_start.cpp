@@ -145,6 +145,7 @@ Scene with_residual_modes(const Scene& scene) {
   Scene out = scene;
   out.residual.resize(0, 0);
   out.system.damping_matrix.resize(0, 0); // nothing moves
+  out.system.motion = {};
   for (VectorXd* x : {&out.system.stiffness, &out.system.damping, &out.q0, &out.v0}) {
     x->conservativeResize(n + more);
     x->tail(more).setZero();

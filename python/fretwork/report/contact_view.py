@@ -261,7 +261,7 @@ def energy_bar(energy, size=(980, 44)):
     if None in parts or energy["input_J"] is None or min(parts) < -1e-6 * sum(map(abs, parts)):
         return None
     parts = [max(0.0, part) for part in parts]  # round-off of a term that is zero
-    residual = energy["input_J"] - sum(parts)
+    residual = energy["input_J"] + energy.get("fluid_J", 0.0) - sum(parts)
     total = sum(parts) + abs(residual)
     if total <= 0:
         return None

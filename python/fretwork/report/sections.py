@@ -314,7 +314,7 @@ def energy(run):
     residual = None
     parts = [energy[f"{kind}_J"] for kind in ("stored", "modal_damping", "contact_damping", "friction")]
     if energy["input_J"] is not None and None not in parts:
-        residual = energy["input_J"] - sum(parts)
+        residual = energy["input_J"] + energy.get("fluid_J", 0.0) - sum(parts)  # fluid_J: only with a law
     names = ["stored at the end", "modal damping", "contact damping", "friction", "residual"]
     swatches = [f'<span class="swatch" style="background:{colour}"></span>{name}' for colour, name in zip(_SHARES, names)]
     values = [energy["input_J"], energy["initial_J"], *parts, residual]

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/fluidelastic.hpp"
+#include "core/error.hpp"
+#include "core/general_eigenvalues.hpp"
+#include "flow/fluidelastic.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+#include <optional>
+
+namespace fretwork::app {
+namespace {
+
+using Eigen::Index;
+
+constexpr double largest_factor = 3.0, factor_step = 0.05; // of the search for the first crossing
+constexpr int halvings = 40;
+
+struct TubeWithLaw {
+  const study::Flow& flow;
+  std::size_t structure;
+  flow::Sampling sampling;
+  double fastest, diameter; ///< m/s, m, where V is largest
+};
+
+std::vector<TubeWithLaw> tubes_with_laws(const TubesInFlow& tubes, const std::vector<modal::Basis>& bases) {
+  std::vector<TubeWithLaw> out;
+  for (const PlacedFlow& placed : tubes.flows) {
+    const study::Flow& flow = tubes.study.flows[placed.entry];
+    if (!flow.law)
+      continue;
+    const std::size_t structure = structure_of(placed, flow.name, bases);
+    TubeWithLaw tube{
+        flow, structure,
+        flow::sample(tube_of(tubes.study, placed, tubes.model), placed.profile, bases[structure]), 0.0, 1.0};
+    for (const flow::Station& station : tube.sampling.stations)
+      if (station.flow.velocity > tube.fastest) {
+        tube.fastest = station.flow.velocity;
+        tube.diameter = station.tube.outer_diameter;
+      }
+    out.push_back(std::move(tube));
+  }
+  return out;
+}
+
+core::MotionForces forces_of(const TubeWithLaw& tube, Index modes, double factor) {
+  try {
+    return flow::motion_forces(tube.sampling, *tube.flow.law, modes, factor);
+  } catch (const core::Error& error) {
+    throw core::Error(fmt::format("{}: {}", name_of(tube.flow), error.what()));
+  }
+}
+
+/// The root of the true modes with the largest real part, 1/s; of a pair the upper one.
+std::complex<double> worst_root(const TubeWithLaw& tube, const modal::Basis& basis, double factor) {
+  const Index n = tube.sampling.modes();
+  const Eigen::VectorXd w = basis.omega.head(n);
+  Eigen::VectorXd damping = 2.0 * basis.damping.head(n).cwiseProduct(w);
+  if (basis.damping_matrix.size() > 0)
+    damping = basis.damping_matrix.diagonal().head(n);
+  const Eigen::VectorXcd roots =
+      core::general_eigenvalues(flow::state_matrix(w.cwiseAbs2(), damping, forces_of(tube, n, factor)));
+  Index at = 0;
+  roots.real().maxCoeff(&at);
+  return {roots(at).real(), std::abs(roots(at).imag())};
+}
+
+/// The least factor of all velocities at which a root crosses the imaginary axis, up to largest_factor.
+std::optional<double> critical_factor(const TubeWithLaw& tube, const modal::Basis& basis) {
+  double low = 0.0;
+  for (double high = factor_step; high <= largest_factor; high += factor_step) {
+    if (worst_root(tube, basis, high).real() > 0.0) {
+      for (int i = 0; i < halvings; ++i) {
+        const double middle = 0.5 * (low + high);
+        (worst_root(tube, basis, middle).real() > 0.0 ? high : low) = middle;
+      }
+      return high;
+    }
+    low = high;
+  }
+  return {};
+}
+
+} // namespace
+
+std::vector<core::MotionForces> fluidelastic_forces(const TubesInFlow& tubes,
+                                                    const std::vector<modal::Basis>& bases) {
+  std::vector<core::MotionForces> out;
+  for (const TubeWithLaw& tube : tubes_with_laws(tubes, bases)) {
+    out.resize(bases.size());
+    core::MotionForces& to = out[tube.structure];
+    if (!to.empty())
+      throw core::Error(fmt::format("{}: a second tube of its structure has a flow with a law; a law acts on "
+                                    "one tube of a structure, leave law out of the other [[flow]]",
+                                    name_of(tube.flow)));
+    to = forces_of(tube, bases[tube.structure].size(), 1.0);
+  }
+  return out;
+}
+
+void judge_fluidelastic(const TubesInFlow& tubes, const std::vector<modal::Basis>& bases,
+                        results::RunResults& out) {
+  for (const TubeWithLaw& tube : tubes_with_laws(tubes, bases)) {
+    if (tube.fastest == 0.0)
+      continue;
+    const modal::Basis& basis = bases[tube.structure];
+    const std::complex<double> root = worst_root(tube, basis, 1.0);
+    const double frequency = std::abs(root) / (2.0 * std::numbers::pi),
+                 reduced = tube.fastest / (frequency * tube.diameter);
+    const std::optional<double> critical = critical_factor(tube, basis);
+    const bool unstable = root.real() > 0.0;
+    const std::string crossing =
+        critical
+            ? fmt::format("critical velocity {:.5g} m/s, factor {:.5g}", *critical * tube.fastest, *critical)
+            : fmt::format("stable up to {:g} times the velocity", largest_factor);
+    std::string text =
+        fmt::format("{}: fluidelastic law, without contacts: {:.5g} Hz with damping {:.4g} at V/(f D) "
+                    "= {:.4g}; {}",
+                    name_of(tube.flow), frequency, -root.real() / std::abs(root), reduced, crossing);
+    if (unstable)
+      text += ": unstable, supports must limit the motion";
+    (unstable ? out.warnings : out.notes).push_back(std::move(text));
+    if (const auto& range = tube.flow.law->range;
+        range && unstable && (reduced < (*range)[0] || reduced > (*range)[1]))
+      out.warnings.push_back(
+          fmt::format("{}: reduced velocity {:.4g} of the unstable mode is outside the law's range "
+                      "{:g} to {:g}; the law is extrapolated",
+                      name_of(tube.flow), reduced, (*range)[0], (*range)[1]));
+  }
+}
+
+void add_motion_forces(const std::vector<core::MotionForces>& by_structure,
+                       const std::vector<std::size_t>& structures, const std::vector<modal::Basis>& bases,
+                       transient::System& system) {
+  Index states = 0;
+  for (const std::size_t s : structures)
+    if (s < by_structure.size())
+      states += by_structure[s].states();
+  const bool any = std::any_of(structures.begin(), structures.end(), [&](std::size_t s) {
+    return s < by_structure.size() && !by_structure[s].empty();
+  });
+  if (!any)
+    return;
+  const Index n = system.size();
+  core::MotionForces& to = system.motion;
+  to.stiffness = to.damping = Eigen::MatrixXd::Zero(n, n);
+  to.input = Eigen::MatrixXd::Zero(n, states);
+  to.rates = Eigen::MatrixXd::Zero(states, states);
+  to.output = Eigen::MatrixXd::Zero(states, n);
+  Index mode = 0, state = 0;
+  for (const std::size_t s : structures) {
+    const core::MotionForces& f = by_structure[s];
+    const Index m = bases[s].size(), r = f.states();
+    if (!f.empty()) {
+      to.stiffness.block(mode, mode, m, m) = f.stiffness;
+      to.damping.block(mode, mode, m, m) = f.damping;
+      to.input.block(mode, state, m, r) = f.input;
+      to.rates.block(state, state, r, r) = f.rates;
+      to.output.block(state, mode, r, m) = f.output;
+      state += r;
+    }
+    mode += m;
+  }
+}
+
+void refuse_fluidelastic_sweep(const study::Study& study) {
+  for (const study::Flow& flow : study.flows)
+    if (flow.law)
+      throw core::Error(
+          fmt::format("{}: law is not taken by sweeps; run the cases one by one with --set, or leave "
+                      "law out",
+                      name_of(flow)));
+}
+
+} // namespace fretwork::app

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Fluidelastic forces of the flows with a law: on the modes of structures, and what they make of frequencies and damping.
+#pragma once
+#include "app/flow_damping.hpp"
+#include "core/motion_forces.hpp"
+#include "results/run_results.hpp"
+
+namespace fretwork::app {
+
+/// By structures; nothing where no flow has a law.
+/// @throws core::Error what flow::motion_forces throws, named by the flow
+[[nodiscard]] std::vector<core::MotionForces> fluidelastic_forces(const TubesInFlow& tubes,
+                                                                  const std::vector<modal::Basis>& bases);
+
+/// Of the modes without contacts: a note, or where the tube is unstable a warning, for each flow with a law: the root of largest growth at
+/// the working point with its reduced velocity, and the factor of all velocities at which the tube becomes unstable first.
+void judge_fluidelastic(const TubesInFlow& tubes, const std::vector<modal::Basis>& bases,
+                        results::RunResults& out);
+
+/// Appends the forces on the modes of some structures, which follow each other in the system.
+void add_motion_forces(const std::vector<core::MotionForces>& by_structure,
+                       const std::vector<std::size_t>& structures, const std::vector<modal::Basis>& bases,
+                       transient::System& system);
+
+/// @throws core::Error where a flow has a law
+void refuse_fluidelastic_sweep(const study::Study& study);
+
+} // namespace fretwork::app

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Fluidelastic force on a length of tube that moves by u = (drag, lift) in a cross flow of gap velocity V, N/m:
+///     f = q [ K u + (D/V) C u' + sum_i Re(B_i z_i) ],   z_i' = -d_i (V/D) z_i + u',   q = rho V^2/2,  z_i(0) = 0
+/// K, C, B_i, d_i without dimension, Re d_i > 0. With p = s D/V, s the Laplace variable: f/u = q (K + p C + sum B_i p/(p + d_i)), the form
+/// of Roger (AGARD CP-228, 1977) without p^2: added mass is in the modes. C > 0 feeds energy in.
+///
+/// For u = e^(iwt), kr = w D/V = 2 pi/Vr, Vr = V/(f D):  f = q (c_k u + (D/V) c_d u'),  c_k = K + sum Re B_i kr^2/(kr^2 + d_i^2),
+/// c_d = C + sum B_i d_i/(kr^2 + d_i^2) for real d_i.
+///
+/// Quasi-steady: K from the gradients of the coefficients, C = [[-2 CD, CL], [-2 CL, -CD]], K delayed by mu D/V; e^(-mu p) is the Pade
+/// approximant (3, 3) = 1 - sum alpha_i p/(p + d_i). S. Price, M. Paidoussis, J. Sound and Vibration 97 (1984) 615.
+/// Quasi-unsteady: K acts by h(tau) = 1 - sum alpha_i e^(-d_i tau), tau = t V/D: B_i = -alpha_i K. S. Granger, M. Paidoussis,
+/// J. Fluid Mechanics 320 (1996) 163.
+/// Limits: linear in u, below some 0.1 D; a tube that touches a support has the same law.
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <complex>
+#include <optional>
+#include <vector>
+
+namespace fretwork::flow {
+
+struct FluidelasticLaw {
+  struct Lag {
+    std::complex<double>
+        rate;               ///< d_i; not real: z_i is complex and B_i twice what stands in f/u, for the pair
+    Eigen::Matrix2cd force; ///< B_i
+  };
+  Eigen::Matrix2d stiffness = Eigen::Matrix2d::Zero(); ///< K, rows and columns drag, lift
+  Eigen::Matrix2d damping = Eigen::Matrix2d::Zero();   ///< C
+  std::vector<Lag> lags;
+  std::optional<std::array<double, 2>> range = std::nullopt; ///< of Vr in which it was measured
+};
+
+/// @param drag, lift  CD, CL of the steady force q D (CD, CL)   @param gradients  by u/D, [[CD_x, CD_y], [CL_x, CL_y]]
+/// @param delay  mu >= 0
+[[nodiscard]] FluidelasticLaw quasi_steady_law(double drag, double lift, const Eigen::Matrix2d& gradients,
+                                               double delay);
+
+struct Memory {
+  double share; ///< alpha
+  double rate;  ///< d > 0
+};
+[[nodiscard]] FluidelasticLaw quasi_unsteady_law(double drag, double lift, const Eigen::Matrix2d& gradients,
+                                                 const std::vector<Memory>& memory);
+
+} // namespace fretwork::flow

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "study/flow_laws.hpp"
+#include "core/error.hpp"
+
+namespace fretwork::study {
+namespace {
+
+enum class Kind { rational, quasi_steady, quasi_unsteady };
+const Choices<Kind> kinds{{{"rational", Kind::rational},
+                           {"quasi_steady", Kind::quasi_steady},
+                           {"quasi_unsteady", Kind::quasi_unsteady}}};
+const std::string expected_matrix = "a number (lift alone) or [[a, b], [c, d]], rows and columns drag, lift";
+
+/// A number is that of lift alone.
+Eigen::Matrix2d to_matrix(const Value& value, const std::string& path) {
+  Eigen::Matrix2d out = Eigen::Matrix2d::Zero();
+  if (!value.array()) {
+    out(1, 1) = to_number(value, path, {});
+    return out;
+  }
+  const Array& rows = to_array(value, path, expected_matrix);
+  if (rows.size() != 2)
+    throw core::Error(path + ": " + std::to_string(rows.size()) + " rows; give " + expected_matrix);
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    const std::vector<double> row = to_numbers(rows[static_cast<std::size_t>(i)], path, 2, {});
+    out.row(i) << row[0], row[1];
+  }
+  return out;
+}
+
+Eigen::Matrix2d read_matrix(const TableReader& table, const std::string& key) {
+  return to_matrix(table.required(key, expected_matrix), table.path(key));
+}
+
+flow::FluidelasticLaw read_rational(const TableReader& table) {
+  flow::FluidelasticLaw law;
+  law.stiffness = read_matrix(table, "stiffness");
+  law.damping = read_matrix(table, "damping");
+  if (table.has("lags") != table.has("lag_forces"))
+    table.fail_table("lags and lag_forces belong together; give both, or neither");
+  if (!table.has("lags"))
+    return law;
+  const std::vector<double> rates =
+      to_numbers(*table.find("lags"), table.path("lags"), 0, {Range::above_zero});
+  const Array& forces = to_array(*table.find("lag_forces"), table.path("lag_forces"),
+                                 "an array with " + expected_matrix + " for each lag");
+  if (forces.size() != rates.size())
+    table.fail_at("lag_forces", "one for each of the " + std::to_string(rates.size()) + " lags is expected");
+  for (std::size_t i = 0; i < rates.size(); ++i)
+    law.lags.push_back(
+        {rates[i], to_matrix(forces[i], table.path("lag_forces")).cast<std::complex<double>>()});
+  return law;
+}
+
+flow::FluidelasticLaw read_quasi(const TableReader& table, Kind kind) {
+  const double drag = table.number("drag", {Range::at_least_zero}), lift = table.number_or("lift", 0.0, {});
+  const Eigen::Matrix2d gradients = read_matrix(table, "gradients");
+  if (kind == Kind::quasi_steady)
+    return flow::quasi_steady_law(drag, lift, gradients,
+                                  table.number_or("delay", 1.0, {Range::at_least_zero}));
+  std::vector<flow::Memory> memory;
+  const std::string expected = "rows [alpha, d] of the memory 1 - sum alpha exp(-d tau)";
+  for (const Value& row : to_array(table.required("memory", expected), table.path("memory"), expected)) {
+    const std::vector<double> pair = to_numbers(row, table.path("memory"), 2, {});
+    if (pair[1] <= 0.0)
+      table.fail_at("memory", "d = " + std::to_string(pair[1]) + " does not decay; give rates above 0");
+    memory.push_back({pair[0], pair[1]});
+  }
+  return flow::quasi_unsteady_law(drag, lift, gradients, memory);
+}
+
+std::vector<std::string> keys_of(Kind kind) {
+  switch (kind) {
+  case Kind::rational:
+    return {"law", "range", "stiffness", "damping", "lags", "lag_forces"};
+  case Kind::quasi_steady:
+    return {"law", "range", "drag", "lift", "gradients", "delay"};
+  case Kind::quasi_unsteady:
+    return {"law", "range", "drag", "lift", "gradients", "memory"};
+  }
+  return {};
+}
+
+} // namespace
+
+std::vector<NamedLaw> read_flow_laws(const TableReader& root) {
+  std::vector<NamedLaw> out;
+  for (const Entry& entry : table_entries(root, "flow_laws")) {
+    const TableReader any(*entry.value, entry.path,
+                          {{"law", "range", "stiffness", "damping", "lags", "lag_forces", "drag", "lift",
+                            "gradients", "delay", "memory"}});
+    (void)any.required("law", "\"rational\", \"quasi_steady\" or \"quasi_unsteady\"");
+    const Kind kind = any.choice("law", Kind::rational, kinds);
+    const TableReader table(*entry.value, entry.path, {keys_of(kind)});
+    flow::FluidelasticLaw law = kind == Kind::rational ? read_rational(table) : read_quasi(table, kind);
+    if (table.has("range")) {
+      const std::vector<double> range =
+          to_numbers(*table.find("range"), table.path("range"), 2, {Range::at_least_zero});
+      if (range[1] <= range[0])
+        table.fail_at("range", "[least, largest] reduced velocity is expected, in this order");
+      law.range = {range[0], range[1]};
+    }
+    out.push_back({entry.name, std::move(law)});
+  }
+  return out;
+}
+
+} // namespace fretwork::study

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Fluidelastic laws and their forces on modes, by the eigenvalues of the coupled system: one metre of tube, and a pinned tube in flow over
+// half its length. Reference values: Routh's criterion of the closed form, and a separate computation of the same equations.
+#include "core/error.hpp"
+#include "core/general_eigenvalues.hpp"
+#include "fem/gauss.hpp"
+#include "flow/fluidelastic.hpp"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+using namespace fretwork;
+using namespace fretwork::flow;
+
+namespace {
+
+constexpr double diameter = 0.01905; // m
+constexpr double digits = 1e-9;      // of the reference values, relative
+
+struct OneDof {
+  double mass, frequency, damping, density;
+};
+constexpr OneDof s1{0.9, 20.0, 0.01, 300.0}, c1{1.1, 30.0, 0.005, 1000.0};
+
+FluidelasticLaw law_s1() {
+  FluidelasticLaw law;
+  law.stiffness(1, 1) = -4.0;
+  law.damping(1, 1) = -0.4;
+  law.lags = {{0.4, Eigen::Vector2cd(0.0, 4.0).asDiagonal().toDenseMatrix()}};
+  return law;
+}
+
+/// One metre of tube that moves along lift, at one station.
+Sampling metre(const OneDof& of, double velocity) {
+  Sampling out;
+  out.frequency = Eigen::VectorXd::Constant(1, of.frequency);
+  out.modal_mass = Eigen::VectorXd::Ones(1);
+  out.zones = 1;
+  Station station;
+  station.weight = 1.0;
+  station.tube.outer_diameter = diameter;
+  station.flow.zone = 0;
+  station.flow.velocity = velocity;
+  station.flow.density = of.density;
+  station.flow.drag = Vec3::UnitX();
+  station.flow.lift = Vec3::UnitY();
+  station.shapes = Vec3::UnitY() / std::sqrt(of.mass);
+  out.stations = {station};
+  return out;
+}
+
+Eigen::VectorXcd roots(const Sampling& sampling, const FluidelasticLaw& law, double damping, double factor) {
+  const Eigen::VectorXd w = 2.0 * std::numbers::pi * sampling.frequency;
+  return core::general_eigenvalues(
+      state_matrix(w.cwiseAbs2(), 2.0 * damping * w, motion_forces(sampling, law, sampling.modes(), factor)));
+}
+
+/// Where the largest real part passes zero, V0 = 1 m/s.
+double critical(const Sampling& sampling, const FluidelasticLaw& law, double damping, double low,
+                double high) {
+  const auto growth = [&](double v) { return roots(sampling, law, damping, v).real().maxCoeff(); };
+  EXPECT_LT(growth(low), 0.0);
+  EXPECT_GT(growth(high), 0.0);
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (growth(middle) < 0.0 ? low : high) = middle;
+  }
+  return low;
+}
+
+std::complex<double> upper(const Eigen::VectorXcd& all) {
+  Eigen::Index at = 0;
+  all.imag().maxCoeff(&at);
+  return all(at);
+}
+
+TEST(Fluidelastic, QuasiUnsteadyMemoryOfALiftForce) {
+  Eigen::Matrix2d gradients = Eigen::Matrix2d::Zero();
+  gradients(1, 1) = -15.5;
+  const FluidelasticLaw law = quasi_unsteady_law(0.2, 0.0, gradients, {{1.25, 0.05}, {-0.12, 0.3}});
+  const Sampling one = metre(c1, 1.0);
+  const std::complex<double> slow = upper(roots(one, law, c1.damping, 1.0));
+  EXPECT_NEAR(std::abs(slow) / (2.0 * std::numbers::pi), 29.60857106, 1e-8 * 30.0);
+  EXPECT_NEAR(-slow.real() / std::abs(slow), 8.9536231015e-3, digits * 9e-3);
+  const Eigen::VectorXcd fast = roots(one, law, c1.damping, 2.0);
+  EXPECT_NEAR(upper(fast).real(), -1.39586667, 1e-8);
+  EXPECT_NEAR(upper(fast).imag(), 178.28561262, 1e-8);
+  EXPECT_NEAR(fast.real().minCoeff(), -27.05297322, 1e-8);
+  EXPECT_NEAR(critical(one, law, c1.damping, 2.0, 3.0), 2.6081342741, digits * 2.6);
+}
+
+TEST(Fluidelastic, OneLagByRouth) {
+  const Sampling one = metre(s1, 1.0);
+  EXPECT_NEAR(critical(one, law_s1(), s1.damping, 1.0, 2.5), 1.8175472134, digits * 1.8);
+  const Eigen::VectorXcd all = roots(one, law_s1(), s1.damping, 2.5);
+  EXPECT_NEAR(upper(all).real(), 2.767382391, digits * 100.0);
+  EXPECT_NEAR(upper(all).imag(), 128.198913480, digits * 100.0);
+  EXPECT_NEAR(all.real().minCoeff(), -63.716477226, digits * 100.0);
+}
+
+/// The lift of S1 with a delay of D/V: Pade (3, 3).
+TEST(Fluidelastic, DelayByPade) {
+  Eigen::Matrix2d gradients = Eigen::Matrix2d::Zero();
+  gradients(1, 1) = -4.0;
+  EXPECT_NEAR(critical(metre(s1, 1.0), quasi_steady_law(0.4, 0.0, gradients, 1.0), s1.damping, 0.5, 1.5),
+              0.9979707974, digits);
+}
+
+/// Drag and lift that push each other: V_c/(f D) = K sqrt(m delta/(rho D^2)) exactly.
+TEST(Fluidelastic, CouplingOfConnors) {
+  constexpr double constant = 3.0;
+  FluidelasticLaw law;
+  law.stiffness(0, 1) = 8.0 * std::numbers::pi / (constant * constant);
+  law.stiffness(1, 0) = -law.stiffness(0, 1);
+  Sampling two = metre(s1, 1.0);
+  two.frequency = Eigen::Vector2d(s1.frequency, s1.frequency);
+  two.modal_mass = Eigen::Vector2d::Ones();
+  two.stations[0].shapes = Eigen::Matrix3Xd::Identity(3, 2) / std::sqrt(s1.mass);
+  EXPECT_NEAR(critical(two, law, s1.damping, 0.5, 1.5), 0.8237621096, digits);
+  law.damping = -0.4 * Eigen::Matrix2d::Identity();
+  EXPECT_NEAR(critical(two, law, s1.damping, 0.5, 1.5), 1.0128649486, digits);
+}
+
+/// Pinned tube, L 1 m, shapes sqrt(2/(m L)) sin(k pi s/L) along lift, flow from L/4 to 3 L/4: 200 midpoints do not do, so Gauss of 8 points on
+/// 24 equal parts.
+Sampling pinned(Eigen::Index modes, double from, double to) {
+  constexpr double mass = 1.0993164814, first = 33.425241258;
+  constexpr int parts = 24;
+  Sampling out = metre(s1, 1.0);
+  const Station like = out.stations[0];
+  out.stations.clear();
+  out.frequency.resize(modes);
+  for (Eigen::Index k = 0; k < modes; ++k)
+    out.frequency(k) = first * static_cast<double>((k + 1) * (k + 1));
+  out.modal_mass = Eigen::VectorXd::Ones(modes);
+  const double width = (to - from) / parts;
+  for (int part = 0; part < parts; ++part)
+    for (const auto& [share, weight] : fem::gauss_points) {
+      Station station = like;
+      const double s = from + (part + share) * width;
+      station.weight = weight * width;
+      station.shapes = Eigen::Matrix3Xd::Zero(3, modes);
+      for (Eigen::Index k = 0; k < modes; ++k)
+        station.shapes(1, k) =
+            std::sqrt(2.0 / mass) * std::sin(static_cast<double>(k + 1) * std::numbers::pi * s);
+      out.stations.push_back(std::move(station));
+    }
+  return out;
+}
+
+TEST(Fluidelastic, PinnedTubeInFlowOverHalfItsLength) {
+  const std::vector<std::pair<Eigen::Index, double>> cases = {
+      {1, 3.3371847905}, {3, 3.3372210909}, {6, 3.3372216084}};
+  for (const auto& [modes, velocity] : cases)
+    EXPECT_NEAR(critical(pinned(modes, 0.25, 0.75), law_s1(), 0.01, 3.0, 4.0), velocity, digits * 3.3)
+        << modes;
+  EXPECT_NEAR(critical(pinned(6, 0.0, 1.0), law_s1(), 0.01, 3.0, 4.0), 3.1792635889, digits * 3.2);
+  double growth = -1.0, at = 0.0;
+  for (const std::complex<double>& s : roots(pinned(6, 0.25, 0.75), law_s1(), 0.01, 4.0))
+    if (s.real() > growth && s.imag() > 0.0) {
+      growth = s.real();
+      at = s.imag();
+    }
+  EXPECT_NEAR(growth, 1.915330586, digits * 200.0);
+  EXPECT_NEAR(at, 212.385903309, digits * 200.0);
+}
+
+TEST(Fluidelastic, OneStateAModeAndLagWhereTheVelocityIsConstant) {
+  EXPECT_EQ(motion_forces(pinned(6, 0.25, 0.75), law_s1(), 8).states(), 6);
+  const core::MotionForces f = motion_forces(pinned(6, 0.25, 0.75), law_s1(), 8);
+  EXPECT_TRUE(f.stiffness.bottomRows(2).isZero(0.0)); // static modes feel nothing
+}
+
+TEST(Fluidelastic, AskForADirection) {
+  Sampling one = metre(s1, 1.0);
+  one.stations[0].flow.drag.setZero();
+  EXPECT_THROW((void)motion_forces(one, law_s1(), 1), core::Error);
+}
+
+} // namespace

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Forces that depend on the motion and its past: one metre of tube under the law S1, lift alone,
+//     f = rho V^2/2 (-4 u - 0.4 (D/V) u' + 4 z),   z' = -0.4 (V/D) z + u'
+// against its exact linear motion and against limit cycles of a Runge-Kutta method of order 8 at 1e-9.
+#include "scenes.hpp"
+#include "transient/scheme_scope.hpp"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+using namespace fretwork;
+using namespace fretwork::tests;
+using namespace fretwork::transient;
+
+namespace {
+
+constexpr double mass = 0.9, diameter = 0.01905, density = 300.0, frequency = 20.0, ratio = 0.01; // SI
+constexpr double velocity = 2.5;                                                                  // m/s
+
+core::MotionForces law_s1(double v) {
+  const double pressure = 0.5 * density * v * v;
+  core::MotionForces f;
+  f.stiffness = f.damping = Eigen::MatrixXd::Zero(3, 3);
+  f.stiffness(1, 1) = -4.0 * pressure / mass;
+  f.damping(1, 1) = -0.4 * pressure * diameter / v / mass;
+  f.input = Eigen::MatrixXd::Zero(3, 1);
+  f.input(1, 0) = 4.0 * pressure / std::sqrt(mass);
+  f.rates = Eigen::MatrixXd::Constant(1, 1, -0.4 * v / diameter);
+  f.output = Eigen::MatrixXd::Zero(1, 3);
+  f.output(0, 1) = 1.0 / std::sqrt(mass);
+  return f;
+}
+
+/// @param displacement, speed  at the start, m and m/s
+Scene tube(double duration, double displacement, double speed) {
+  const double omega = 2.0 * std::numbers::pi * frequency;
+  Scene scene = mass_point(mass, mass * omega * omega * Vec3(1.0, 1.0, 1.0), duration);
+  scene.system.damping = 2.0 * ratio * omega * Vec3(1.0, 1.0, 1.0);
+  start(scene, mass, Vec3(0.0, displacement, 0.0), Vec3(0.0, speed, 0.0));
+  scene.system.motion = law_s1(velocity);
+  return scene;
+}
+
+/// Elastic stops at both sides, without loss.
+void add_stops(Scene& scene, double gap, double stiffness) {
+  scene.contacts.push_back(
+      contact_of(mass, {contact::PlanePair{gap, contact::PlaneAxis::y}, {stiffness}, {}}));
+}
+
+StepOptions adaptive(double tolerance) {
+  StepOptions options;
+  options.scheme = SchemeKind::runge_kutta_54;
+  options.tolerance = tolerance;
+  return options;
+}
+
+constexpr double digits = 1e-9; // of the reference values, relative
+
+TEST(FluidForces, LinearMotionIsExactForAnyStep) {
+  for (const double step : {1e-4, 1e-3, 1e-2}) {
+    const History h = simulate(tube(0.1, 0.0, 0.1), splitting(step), 0.1);
+    const Eigen::Index last = h.time.size() - 1;
+    ASSERT_NEAR(h.time(last), 0.1, 1e-12);
+    EXPECT_NEAR(h.q(1, last) / std::sqrt(mass), 3.173993207881e-4, digits * 3.2e-4) << step;
+    EXPECT_NEAR(h.v(1, last) / std::sqrt(mass), 0.1217013605055, digits * 0.12) << step;
+    const Energy& e = h.report.energy;
+    EXPECT_NEAR(e.fluid_work, 4.334707111e-3, digits * 4.4e-3) << step;
+    EXPECT_NEAR(e.modal_damping, 1.453771003e-3, digits * 1.5e-3) << step;
+    EXPECT_NEAR(e.stored, 7.380936108e-3, digits * 7.4e-3) << step;
+  }
+}
+
+/// z(0) = 0: the displacement at the start has been held for ever.
+TEST(FluidForces, AHeldDisplacementIsNoMotion) {
+  const History h = simulate(tube(0.1, 1e-3, 0.0), splitting(1e-3), 0.1);
+  EXPECT_NEAR(h.q(1, h.time.size() - 1) / std::sqrt(mass), 1.455521132913e-3, digits * 1.5e-3);
+}
+
+/// The adaptive scheme knows the forces by their rates alone.
+TEST(FluidForces, RungeKuttaHasTheSameMotionAndWorks) {
+  constexpr double of_tolerance = 1e-8; // relative, of some hundred steps at 1e-11
+  const History h = simulate(tube(0.1, 0.0, 0.1), adaptive(1e-11), 0.1);
+  const Eigen::Index last = h.time.size() - 1;
+  EXPECT_NEAR(h.q(1, last) / std::sqrt(mass), 3.173993207881e-4, of_tolerance * 3.2e-4);
+  constexpr double of_last_record = 2e-4; // its energies are those some 1e-5 s before the end
+  EXPECT_NEAR(h.report.energy.fluid_work, 4.334707111e-3, of_last_record * 4.4e-3);
+  EXPECT_NEAR(h.report.energy.modal_damping, 1.453771003e-3, of_last_record * 1.5e-3);
+  EXPECT_LT(h.report.residual_relative, of_tolerance);
+}
+
+/// Largest |u| over the second half of a run, m.
+double amplitude(const History& h) {
+  const Eigen::Index n = h.time.size();
+  return h.q.row(1).tail(n / 2).cwiseAbs().maxCoeff() / std::sqrt(mass);
+}
+
+/// Rising passages of u through 0 over the second half of a run, per second.
+double dominant_frequency(const History& h) {
+  double first = -1.0, last = -1.0;
+  int periods = -1;
+  for (Eigen::Index i = h.time.size() / 2; i + 1 < h.time.size(); ++i)
+    if (h.q(1, i) < 0.0 && h.q(1, i + 1) >= 0.0) {
+      const double share = h.q(1, i) / (h.q(1, i) - h.q(1, i + 1));
+      last = h.time(i) + share * (h.time(i + 1) - h.time(i));
+      if (periods++ < 0)
+        first = last;
+    }
+  return periods / (last - first);
+}
+
+constexpr double every = 1e-4; // s, outputs
+
+/// A stop raises the frequency, the reduced velocity falls, the fluid damps: a limit cycle without any contact loss.
+TEST(FluidForces, ElasticStopsLimitTheMotion) {
+  struct Case {
+    double stiffness, u_max, frequency;
+  };
+  for (const auto& [stiffness, u_max, f] :
+       {Case{1e5, 7.114824902e-4, 29.83458335}, Case{1e6, 5.399947031e-4, 29.42519052}}) {
+    Scene scene = tube(8.0, 0.0, 0.1);
+    add_stops(scene, 5e-4, stiffness);
+    const History h = simulate(scene, splitting(0.05 / std::sqrt(stiffness / mass)), every);
+    EXPECT_NEAR(amplitude(h) / u_max, 1.0, 1e-3) << stiffness;
+    EXPECT_NEAR(dominant_frequency(h) / f, 1.0, 1e-4) << stiffness;
+    EXPECT_LT(h.report.residual_relative, 1e-3) << stiffness;
+  }
+}
+
+TEST(FluidForces, RungeKuttaHasTheSameLimitCycle) {
+  Scene scene = tube(8.0, 0.0, 0.1);
+  add_stops(scene, 5e-4, 1e5);
+  const History h = simulate(scene, adaptive(1e-9), every);
+  EXPECT_NEAR(amplitude(h) / 7.114824902e-4, 1.0, 1e-4); // outputs miss the peak by at most (w every)^2/8
+  EXPECT_NEAR(dominant_frequency(h) / 29.83458335, 1.0, 1e-5);
+}
+
+/// Nothing but the gap has a length.
+TEST(FluidForces, AmplitudeIsProportionalToTheGap) {
+  const auto cycle = [](double scale) {
+    Scene scene = tube(4.0, 0.0, scale * 0.1);
+    add_stops(scene, scale * 5e-4, 1e5);
+    return simulate(scene, splitting(1e-4), 1e-3);
+  };
+  const History one = cycle(1.0), two = cycle(2.0);
+  EXPECT_NEAR(amplitude(two) / amplitude(one), 2.0, 1e-9);
+  EXPECT_NEAR(dominant_frequency(two) / dominant_frequency(one), 1.0, 1e-9);
+}
+
+/// A damping that is negative at every frequency has no limit cycle between stops without loss.
+TEST(FluidForces, FrozenNegativeDampingGrowsBetweenElasticStops) {
+  Scene scene = tube(6.0, 0.0, 0.1);
+  core::MotionForces& f = scene.system.motion;
+  f.stiffness.setZero();
+  f.input.setZero();
+  f.damping(1, 1) = 2.0 * scene.system.damping(1);
+  add_stops(scene, 5e-4, 1e5);
+  const History h = simulate(scene, splitting(1e-4), 1e-3);
+  const Eigen::Index n = h.time.size();
+  double before = 0.0;
+  for (int second = 0; second < 6; ++second) {
+    const double now = h.q.row(1).segment(second * n / 6, n / 6).cwiseAbs().maxCoeff();
+    EXPECT_GT(now, 1.2 * before) << second;
+    before = now;
+  }
+}
+
+TEST(FluidForces, OtherSchemesRefuseThem) {
+  const Scene scene = tube(1.0, 0.0, 0.1);
+  for (const SchemeKind kind :
+       {SchemeKind::euler, SchemeKind::collocation, SchemeKind::devogelaere, SchemeKind::energy_conserving})
+    EXPECT_NE(out_of_scope(scene, kind).find("depend on the motion"), std::string::npos);
+  for (const SchemeKind kind : {SchemeKind::splitting, SchemeKind::runge_kutta_54})
+    EXPECT_EQ(out_of_scope(scene, kind), "");
+}
+
+} // namespace
