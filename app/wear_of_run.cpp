@@ -21,7 +21,7 @@ double number(const nlohmann::json& value) {
 }
 
 /// Work rates of the contacts of another run.
-std::map<std::string, wear::WorkRate> read_run(const std::string& where, const fs::path& directory) {
+std::map<std::string, StatedRate> read_run(const std::string& where, const fs::path& directory) {
   const results::FoundSummary found = results::read_summary(directory / "summary.json");
   if (!found.refusal.empty())
     throw core::Error(fmt::format("{}: {}; run that study again", where, found.refusal));
@@ -35,16 +35,17 @@ std::map<std::string, wear::WorkRate> read_run(const std::string& where, const f
   if (summary["transient"].value("outcome", "") != "done")
     throw core::Error(
         fmt::format("{}: the run in {} diverged; take a smaller step there", where, directory.string()));
-  std::map<std::string, wear::WorkRate> out;
+  std::map<std::string, StatedRate> out;
   for (const auto& contact : summary["contacts"])
-    out[contact.value("name", "")] = wear::work_rate_with_error(
-        number(contact["work_rate"]), number(contact["standard_error"]["work_rate"]));
+    out[contact.value("name", "")] = {number(contact["work_rate"]),
+                                      number(contact["standard_error"]["work_rate"]),
+                                      number(contact["standard_error"]["batches"])};
   return out;
 }
 
-wear::WorkRate rate_of_contact(const results::RunResults& run, std::size_t contact) {
+StatedRate rate_of_contact(const results::RunResults& run, std::size_t contact) {
   const post::ContactSummary& statistics = run.contact_summaries[contact];
-  return wear::work_rate_with_error(statistics.work_rate, statistics.error.work_rate);
+  return {statistics.work_rate, statistics.error.work_rate, statistics.error.batches};
 }
 
 wear::WorkRate scaled(const wear::WorkRate& rate, double factor) {
@@ -219,6 +220,11 @@ void add_warnings(results::RunResults& out) {
 
 } // namespace
 
+wear::WorkRate StatedRate::with(std::optional<double> confidence) const {
+  return confidence ? wear::work_rate_with_confidence(value, error, batches, *confidence)
+                    : wear::work_rate_with_error(value, error);
+}
+
 OtherRuns read_other_runs(const study::Study& study, const std::vector<WornPlace>& places,
                           const std::vector<PlacedContact>& placed) {
   OtherRuns out;
@@ -227,7 +233,7 @@ OtherRuns read_other_runs(const study::Study& study, const std::vector<WornPlace
     for (std::size_t j = 0; j < entry.states.size(); ++j)
       states.push_back(entry.states[j].results ? read_run(fmt::format("{}.states[{}].results", entry.path, j),
                                                           *entry.states[j].results)
-                                               : std::map<std::string, wear::WorkRate>());
+                                               : std::map<std::string, StatedRate>());
   }
   for (const WornPlace& place : places)
     for (std::size_t j = 0; j < out[place.entry].size(); ++j) {
@@ -253,13 +259,15 @@ void add_wear(const study::Study& study, const std::vector<WornPlace>& places,
   for (const WornPlace& place : places) {
     const study::Wear& entry = study.wear[place.entry];
     results::WearOfSupport support = place.facts;
+    support.confidence = entry.confidence;
     support.tube = tube_of(out.bases, placed[place.contacts.front()].node);
     const auto indices = indices_of(entry, out, place.contacts, support);
     for (std::size_t j = 0; j < entry.states.size(); ++j) {
       const study::WearState& state = entry.states[j];
       std::vector<wear::WorkRate> points;
       for (const std::size_t c : place.contacts)
-        points.push_back(state.results ? others[place.entry][j].at(placed[c].name) : rate_of_contact(out, c));
+        points.push_back((state.results ? others[place.entry][j].at(placed[c].name) : rate_of_contact(out, c))
+                             .with(entry.confidence));
       support.states.push_back({state.name, state.share, state.given.value_or(wear::sum_of_points(points))});
     }
     support.work_rate = mean_of_states(support.states);

@@ -13,8 +13,16 @@
 
 namespace fretwork::app {
 
+/// A work rate as a run states it.
+struct StatedRate {
+  double value, error; ///< W, mean and its standard error, not a number: none
+  double batches;      ///< effective number behind the error
+  /// @param confidence  of the interval; none: +- the standard error
+  [[nodiscard]] wear::WorkRate with(std::optional<double> confidence) const;
+};
+
 /// Work rates by name of a contact, of each state of each entry; empty for states that are not results of another run.
-using OtherRuns = std::vector<std::vector<std::map<std::string, wear::WorkRate>>>;
+using OtherRuns = std::vector<std::vector<std::map<std::string, StatedRate>>>;
 
 /// @throws core::Error for a folder without results of a transient, a run that diverged, a contact that it does not have
 [[nodiscard]] OtherRuns read_other_runs(const study::Study& study, const std::vector<WornPlace>& places,

@@ -94,6 +94,8 @@ Json support(const WearOfSupport& s, const std::vector<std::string>& contacts) {
            {"life_years", life(s.life)},
            {"support_life_years", life(s.support_life)},
            {"sectors", sectors(s)}};
+  if (s.confidence)
+    out["confidence"] = *s.confidence;
   if (!std::isnan(s.impact_index))
     out["kwu_epri"] = {{"impact_index", number(s.impact_index)},
                        {"sliding_index", number(s.sliding_index)},

@@ -51,6 +51,7 @@ struct WearOfSupport {
   std::int64_t node = 0;              ///< of the first contact, in the model
   std::int64_t tube = 0;              ///< number of its structure
 
+  std::optional<double> confidence; ///< of the intervals; none: +- the standard error
   std::string law, source;          ///< of the law; where the coefficient of the tube is from
   double coefficient = 0.0;         ///< K of the tube, m2/N; not a number for a law that has none
   double support_coefficient = 0.0; ///< m2/N

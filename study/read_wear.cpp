@@ -35,6 +35,7 @@ const Keys wear_keys{{"name",
                       "limit",
                       "support_limit",
                       "years",
+                      "confidence",
                       "sectors",
                       "states"}};
 
@@ -264,6 +265,9 @@ std::vector<Wear> read_wear(const TableReader& root, const fs::path& folder) {
       table.fail_at("limit", "a share of the wall of at most 1 is expected");
     wear.support_limit = table.optional_number("support_limit", {Range::above_zero, "m"});
     wear.years = table.number_or("years", wear.years, {Range::above_zero, "years"});
+    wear.confidence = table.optional_number("confidence", {Range::above_zero});
+    if (wear.confidence && *wear.confidence >= 1.0)
+      table.fail_at("confidence", "a share below 1 is expected, such as 0.95");
     const auto sectors = table.optional_integer("sectors", 1).value_or(wear.sectors);
     if (sectors > fretwork::wear::SectorWork::most)
       table.fail_at("sectors", "at most 3600 sectors, a tenth of a degree each, are expected");

@@ -49,7 +49,8 @@ struct Wear {
   double limit = fretwork::wear::default_limit; ///< of the wall
   std::optional<double> support_limit;          ///< m
   double years = 40.0;
-  int sectors = 36; ///< of the work by angle
+  std::optional<double> confidence; ///< of the interval of a work rate; none: +- its standard error
+  int sectors = 36;                 ///< of the work by angle
   std::vector<WearState> states{{"this run", 1.0, {}, {}}};
 };
 

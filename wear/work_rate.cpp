@@ -2,6 +2,7 @@
 #include "wear/work_rate.hpp"
 #include "core/error.hpp"
 #include "wear/check.hpp"
+#include "wear/student.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -19,6 +20,18 @@ WorkRate work_rate_with_error(double value, double standard_error) {
   check_not_negative("work rate", "value", value, "W");
   check_not_negative("work rate", "standard error", standard_error, "W");
   return {value, std::max(0.0, value - standard_error), value + standard_error, value < standard_error, true};
+}
+
+WorkRate work_rate_with_confidence(double value, double standard_error, double batches, double confidence) {
+  if (std::isnan(standard_error))
+    return work_rate(value);
+  if (!(batches > 1.0))
+    throw core::Error(
+        fmt::format("work rate: an error from {:g} batches has no confidence; give more than 1", batches));
+  if (!(confidence > 0.0 && confidence < 1.0))
+    throw core::Error(
+        fmt::format("work rate: confidence {:g} makes no sense; give a number between 0 and 1", confidence));
+  return work_rate_with_error(value, student_factor(batches - 1.0, confidence) * standard_error);
 }
 
 WorkRate work_rate_between(double low, double value, double high) {

@@ -2,7 +2,8 @@
 /// @file
 /// A work rate with the interval in which it is known, and the quantiles of what is computed from many.
 ///
-/// Interval: value +- standard error of a run (post::StandardErrors), or bounds. A lower end below 0 becomes 0, which
+/// Interval: value +- standard error of a run (post::StandardErrors), or +- t times it with t of Student's distribution for a given
+/// confidence, or bounds. A lower end below 0 becomes 0, which
 /// is returned as `low_at_zero`.
 /// Points of one support (nodes along it, both sides of it) wear one scar: values, lower and upper ends are summed.
 /// Ends are summed linearly since contacts of one tube are not independent: an upper bound of the interval.
@@ -26,6 +27,10 @@ struct WorkRate {
 [[nodiscard]] WorkRate work_rate(double value);
 /// @param standard_error  W, >= 0, or not a number: there is none   @throws core::Error
 [[nodiscard]] WorkRate work_rate_with_error(double value, double standard_error);
+/// The interval value +- t(batches - 1) standard_error that covers the mean with this confidence.
+/// @param batches  effective number behind the error, > 1   @param confidence  0 < confidence < 1   @throws core::Error
+[[nodiscard]] WorkRate work_rate_with_confidence(double value, double standard_error, double batches,
+                                                 double confidence);
 /// @throws core::Error unless 0 <= low <= value <= high, finite
 [[nodiscard]] WorkRate work_rate_between(double low, double value, double high);
 

@@ -4,6 +4,7 @@
 #include "program.hpp"
 #include "study_text.hpp"
 #include "wear/depth.hpp"
+#include "wear/student.hpp"
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -75,10 +76,15 @@ TEST(Wear, FollowsFromTheWorkRateOfTheContact) {
 TEST(Wear, DoesNotDependOnTheOutputSampling) {
   const Workshop folder;
   const fs::path study = folder.write("study.toml", worn_bundle(folder, 1, archard));
-  const Results fine = folder.run(study, "fine"),
-                coarse = folder.run(study, "coarse", {"--set", "output.every=0.05"});
-  EXPECT_NE(fine.archive.series.time.size(), coarse.archive.series.time.size());
-  EXPECT_EQ(fine.summary["wear"], coarse.summary["wear"]);
+  const Results fine = folder.run(study, "fine");
+  for (const char* every :
+       {"0.05", "0.00037", "2.0e-5"}) { // coarse, no multiple of a step, finer than the step
+    const Results other = folder.run(study, every, {"--set", std::string("output.every=") + every});
+    EXPECT_NE(fine.archive.series.time.size(), other.archive.series.time.size()) << every;
+    EXPECT_EQ(fine.summary["wear"], other.summary["wear"])
+        << every; // to the last bit: numbers are written in full
+    EXPECT_EQ(fine.statistics("support0"), other.statistics("support0")) << every;
+  }
   EXPECT_GT(support(fine)["work_rate"]["value"], 0.0);
   EXPECT_TRUE(
       close_to(sum(support(fine)["sectors"]["work_rate"]), support(fine)["work_rate"]["value"], of_sums));
@@ -104,6 +110,22 @@ TEST(Wear, CarriesTheIntervalOfTheWorkRateToDepthAndLife) {
   EXPECT_TRUE(close_to(worn["life_years"]["value"], limit / (coefficient * w) / year, round_off));
   EXPECT_TRUE(close_to(worn["life_years"]["low"], limit / (coefficient * (w + error)) / year, round_off));
   EXPECT_TRUE(close_to(worn["life_years"]["high"], limit / (coefficient * (w - error)) / year, round_off));
+}
+
+TEST(Wear, HasTheIntervalOfTheConfidenceThatIsAskedFor) {
+  const Workshop folder;
+  const Results plain = folder.run_text(worn_bundle(folder, 1, archard)),
+                sure = folder.run_text(worn_bundle(folder, 1, archard + "confidence = 0.95\n"));
+  const auto &contact = sure.statistics("support0"), &rate = support(sure)["work_rate"];
+  const double w = contact["work_rate"], error = contact["standard_error"]["work_rate"],
+               batches = contact["standard_error"]["batches"];
+  const double half = wear::student_factor(batches - 1.0, 0.95) * error;
+  EXPECT_TRUE(close_to(rate["high"], w + half, round_off));
+  EXPECT_TRUE(
+      close_to(support(sure)["volume_m3"]["high"], coefficient * (w + half) * 40.0 * year, round_off));
+  EXPECT_EQ(support(sure)["confidence"], 0.95);
+  EXPECT_FALSE(support(plain).contains("confidence"));
+  EXPECT_EQ(rate["value"], support(plain)["work_rate"]["value"]);
 }
 
 TEST(Wear, OfPointsAlongAThicknessIsThatOfOneSupport) {

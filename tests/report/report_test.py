@@ -276,6 +276,7 @@ class Report(unittest.TestCase):
         text = self.report()
         self.assertIn("Fluid-elastic stability", self.headings(text))
         self.assertIn("Linear response to turbulence", self.headings(text))
+        self.assertIn("<b>−0.2</b><span>smallest stability margin, 1 − V/Vc</span>", text)
         for word in ("all &lt;bars&gt;", "the worst of 2: bend 2.4", "Fluid-elastically unstable", "apex</td>", ">15<", ">21<"):
             self.assertIn(word, text)
 
@@ -283,6 +284,9 @@ class Report(unittest.TestCase):
         made_up(self.folder, 5, 200, wear=True)
         text = self.report()
         self.assertEqual(self.headings(text)[4:7], ["Table of contacts", "Observed nodes", "Wear"])
+        lives = [(s["life_years"][0], s["name"]) for s in run_data.load(self.folder).wear]
+        years, name = min(life for life in lives if life[0] == life[0])  # not the one outside the law
+        self.assertIn(f"<b>{drawing.short(years, 3)}</b><span>years to the limit of wear, {name} (1 of 5 supports have no figure)</span>", text)
         wear = text[text.index("<h2>Wear</h2>"):text.index("<h2>Impacts</h2>")]
         first = re.search(r"<tbody><tr>(.*?)</tr>", wear).group(1)
         cells = re.findall(r"<td[^>]*>(.*?)</td>", first)

@@ -15,6 +15,16 @@ constexpr double round_off = 1e-15;
 
 } // namespace
 
+TEST(WorkRate, HasTheIntervalOfItsConfidence) {
+  constexpr double printed = 1e-6; // t(7) of 95 % = 2.364624
+  const WorkRate rate = work_rate_with_confidence(2e-3, 1e-4, 8.0, 0.95);
+  EXPECT_NEAR(rate.high, 2e-3 + 2.364624e-4, printed * 1e-4);
+  EXPECT_NEAR(rate.low, 2e-3 - 2.364624e-4, printed * 1e-4);
+  EXPECT_FALSE(work_rate_with_confidence(2e-3, not_a_number, 0.0, 0.95).has_interval);
+  expect_refused([] { (void)work_rate_with_confidence(2e-3, 1e-4, 1.0, 0.95); }, {"1 batches"});
+  expect_refused([] { (void)work_rate_with_confidence(2e-3, 1e-4, 8.0, 1.0); }, {"confidence 1"});
+}
+
 TEST(WorkRate, HasItsInterval) {
   const WorkRate rate = work_rate_with_error(2e-3, 5e-4);
   EXPECT_EQ(rate.low, 1.5e-3);

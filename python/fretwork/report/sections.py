@@ -45,6 +45,21 @@ def _work(contact):
     return value if value is not None else 0.0
 
 
+def _verdicts(run):
+    """The shortest time to a limit of wear and the smallest stability margin, where the run has them."""
+    out = []
+    lives = [(s["life_years"][0], s["name"]) for s in run.wear if not math.isnan(s["life_years"][0])]
+    if lives:
+        years, name = min(lives)
+        where = f", {html.escape(name)}" if math.isfinite(years) else ""
+        unknown = f" ({len(run.wear) - len(lives)} of {len(run.wear)} supports have no figure)" if len(lives) < len(run.wear) else ""
+        out.append((f"years to the limit of wear{where}{unknown}", short(years, 3) if math.isfinite(years) else "never"))
+    margins = [case["margin"] for one in run.summary.get("stability", []) for case in one["cases"] if case["margin"] is not None]
+    if margins:
+        out.append(("smallest stability margin, 1 − V/Vc", short(min(margins), 3)))
+    return out
+
+
 def key_figures(run):
     model, transient = run.summary["model"], run.transient
     entries = [("nodes", count(model["nodes"])), ("mass", f"{short(model['mass_kg'], 4)} kg")]
@@ -61,7 +76,7 @@ def key_figures(run):
             ("largest normal force", quantity(max(_known(s["normal_force"]["max"] for s in statistics), default=None), "N")),
             ("impacts", count(sum(s["impacts"] for s in statistics))),
         ]
-    out = cards(entries)
+    out = cards(entries + _verdicts(run))
     if transient and transient["outcome"] != "done":
         end = quantity(transient["end_time_s"], "s")
         out += warning(f"The run diverged at {end}: its numbers are of no use. Take a smaller step.", bad=True)
