@@ -9,8 +9,8 @@
 ///     a     p'' without this force; end: p1 without it
 ///     W     mobility of the contact along its normal, 1/kg
 /// Spring: its work is -(V1 - V0), V = K_h <p>^2/2, so that an impact without losses keeps its energy wherever in an interval it begins and ends.
-/// K_h and a give the mean force of a motion that bends, p'' = a - W F: a closed contact has the frequency of K_N to x^4/720, and rests where K_N
-/// lets it rest. Damper: the impulse of C_N p' over the time in which there is a force, which may begin with a jump.
+/// K_h and a give the mean force of a motion that bends, p'' = a - W F: a closed contact has the frequency of K_N to -x^2/24 (measured: -0.06 % at
+/// x = 0.12), and rests where K_N lets it rest. Damper: the impulse of C_N p' over the time in which there is a force, which may begin with a jump.
 /// beta = 1/2, and up to 1 where the damper stops the contact within the interval: implicit_share.
 /// Order 2. Above x = 1.7, where nothing is resolved, K_h stays 4/3 K_N.
 #pragma once

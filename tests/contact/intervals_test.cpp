@@ -59,7 +59,7 @@ TEST(NormalInterval, KeepsTheEnergyOfAnImpactWithoutLosses) {
 }
 
 TEST(NormalInterval, HasTheFrequencyOfTheContact) {
-  // x^4/720 of the frequency, and the ends of the contact by straight lines: of order 2
+  // x^2/24 of the frequency, and the ends of the contact by straight lines: of order 2
   EXPECT_NEAR(mean_impact({1.0}, 0.5).time / std::numbers::pi, 1.0, 1e-2);
   EXPECT_NEAR(mean_impact({1.0}, 0.25).time / std::numbers::pi, 1.0, 3e-3);
 }
