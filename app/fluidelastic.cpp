@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -14,8 +15,9 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double largest_factor = 3.0, factor_step = 0.05; // of the search for the first crossing
-constexpr int halvings = 40;
+constexpr double largest_factor = 3.0; // of the search for the first crossing
+constexpr int factors = 30, halvings = 30;
+constexpr Index most_searched = 600; // unknowns: their eigenvalues take a second
 
 struct TubeWithLaw {
   const study::Flow& flow;
@@ -44,43 +46,66 @@ std::vector<TubeWithLaw> tubes_with_laws(const TubesInFlow& tubes, const std::ve
   return out;
 }
 
-core::MotionForces forces_of(const TubeWithLaw& tube, Index modes, double factor) {
+core::MotionForces forces_of(const TubeWithLaw& tube, Index modes) {
   try {
-    return flow::motion_forces(tube.sampling, *tube.flow.law, modes, factor);
+    return flow::motion_forces(tube.sampling, *tube.flow.law, modes);
   } catch (const core::Error& error) {
     throw core::Error(fmt::format("{}: {}", name_of(tube.flow), error.what()));
   }
 }
 
-/// The root of the true modes with the largest real part, 1/s; of a pair the upper one.
-std::complex<double> worst_root(const TubeWithLaw& tube, const modal::Basis& basis, double factor) {
-  const Index n = tube.sampling.modes();
-  const Eigen::VectorXd w = basis.omega.head(n);
-  Eigen::VectorXd damping = 2.0 * basis.damping.head(n).cwiseProduct(w);
-  if (basis.damping_matrix.size() > 0)
-    damping = basis.damping_matrix.diagonal().head(n);
-  const Eigen::VectorXcd roots =
-      core::general_eigenvalues(flow::state_matrix(w.cwiseAbs2(), damping, forces_of(tube, n, factor)));
-  Index at = 0;
-  roots.real().maxCoeff(&at);
-  return {roots(at).real(), std::abs(roots(at).imag())};
-}
-
-/// The least factor of all velocities at which a root crosses the imaginary axis, up to largest_factor.
-std::optional<double> critical_factor(const TubeWithLaw& tube, const modal::Basis& basis) {
-  double low = 0.0;
-  for (double high = factor_step; high <= largest_factor; high += factor_step) {
-    if (worst_root(tube, basis, high).real() > 0.0) {
-      for (int i = 0; i < halvings; ++i) {
-        const double middle = 0.5 * (low + high);
-        (worst_root(tube, basis, middle).real() > 0.0 ? high : low) = middle;
-      }
-      return high;
-    }
-    low = high;
+/// The vibration modes of a tube in its flow.
+class Roots {
+public:
+  Roots(const TubeWithLaw& tube, const modal::Basis& basis)
+      : forces_(forces_of(tube, tube.sampling.modes())) {
+    const Index n = tube.sampling.modes();
+    k_ = basis.omega.head(n).cwiseAbs2();
+    c_ = 2.0 * basis.damping.head(n).cwiseProduct(basis.omega.head(n));
+    if (basis.damping_matrix.size() > 0)
+      c_ = basis.damping_matrix.diagonal().head(n);
   }
-  return {};
-}
+
+  [[nodiscard]] Index size() const { return 2 * k_.size() + forces_.states(); }
+
+  /// The root that grows fastest at `factor` times the velocity, 1/s; where none grows, the vibration of least damping ratio.
+  [[nodiscard]] std::complex<double> worst(double factor) const {
+    const Eigen::VectorXcd roots =
+        core::general_eigenvalues(flow::state_matrix(k_, c_, flow::scaled(forces_, factor)));
+    std::complex<double> growing = 0.0, vibrating = 0.0;
+    double ratio = std::numeric_limits<double>::infinity();
+    for (const std::complex<double>& s : roots) {
+      if (s.real() > growing.real())
+        growing = {s.real(), std::abs(s.imag())};
+      if (s.imag() > 0.0 && -s.real() / std::abs(s) < ratio) {
+        ratio = -s.real() / std::abs(s);
+        vibrating = s;
+      }
+    }
+    return growing.real() > 0.0 ? growing : vibrating;
+  }
+
+  /// The least factor of all velocities at which a root crosses the imaginary axis, up to largest_factor.
+  [[nodiscard]] std::optional<double> critical_factor() const {
+    double low = 0.0;
+    for (int i = 1; i <= factors; ++i) {
+      double high = largest_factor * i / factors;
+      if (worst(high).real() > 0.0) {
+        for (int k = 0; k < halvings; ++k) {
+          const double middle = 0.5 * (low + high);
+          (worst(middle).real() > 0.0 ? high : low) = middle;
+        }
+        return high;
+      }
+      low = high;
+    }
+    return {};
+  }
+
+private:
+  core::MotionForces forces_;
+  Eigen::VectorXd k_, c_;
+};
 
 } // namespace
 
@@ -94,7 +119,7 @@ std::vector<core::MotionForces> fluidelastic_forces(const TubesInFlow& tubes,
       throw core::Error(fmt::format("{}: a second tube of its structure has a flow with a law; a law acts on "
                                     "one tube of a structure, leave law out of the other [[flow]]",
                                     name_of(tube.flow)));
-    to = forces_of(tube, bases[tube.structure].size(), 1.0);
+    to = forces_of(tube, bases[tube.structure].size());
   }
   return out;
 }
@@ -104,16 +129,20 @@ void judge_fluidelastic(const TubesInFlow& tubes, const std::vector<modal::Basis
   for (const TubeWithLaw& tube : tubes_with_laws(tubes, bases)) {
     if (tube.fastest == 0.0)
       continue;
-    const modal::Basis& basis = bases[tube.structure];
-    const std::complex<double> root = worst_root(tube, basis, 1.0);
+    const Roots roots(tube, bases[tube.structure]);
+    const std::complex<double> root = roots.worst(1.0);
     const double frequency = std::abs(root) / (2.0 * std::numbers::pi),
                  reduced = tube.fastest / (frequency * tube.diameter);
-    const std::optional<double> critical = critical_factor(tube, basis);
     const bool unstable = root.real() > 0.0;
-    const std::string crossing =
-        critical
-            ? fmt::format("critical velocity {:.5g} m/s, factor {:.5g}", *critical * tube.fastest, *critical)
-            : fmt::format("stable up to {:g} times the velocity", largest_factor);
+    std::string crossing;
+    if (roots.size() > most_searched)
+      crossing = fmt::format("no critical velocity is searched with {} modes and states, more than {}",
+                             roots.size(), most_searched);
+    else if (const std::optional<double> critical = roots.critical_factor())
+      crossing =
+          fmt::format("critical velocity {:.5g} m/s, factor {:.5g}", *critical * tube.fastest, *critical);
+    else
+      crossing = fmt::format("stable up to {:g} times the velocity", largest_factor);
     std::string text =
         fmt::format("{}: fluidelastic law, without contacts: {:.5g} Hz with damping {:.4g} at V/(f D) "
                     "= {:.4g}; {}",

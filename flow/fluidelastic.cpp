@@ -2,84 +2,131 @@
 #include "flow/fluidelastic.hpp"
 #include "core/error.hpp"
 #include "core/symmetric.hpp"
+#include <algorithm>
 #include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
 
 namespace fretwork::flow {
 namespace {
 
 using Eigen::MatrixXd;
 
-constexpr double equal_rates = 1e-9; // relative
-constexpr double unseen = 1e-12;     // of the largest eigenvalue
+constexpr double equal_rates = 1e-9;      // relative
+constexpr double unseen = 1e-9;           // of the largest singular value
+constexpr double interpolated = 1e-5;     // error of a lag between nodes
+constexpr double least_rate = 1.0 / 20.0; // of the largest
 
-/// Stations of equal V/D.
-struct Group {
-  double rate; ///< 1/s
-  std::vector<MatrixXd> shapes;
-  std::vector<double> weights; ///< Pa m, q w
-};
-
-/// Directions of the modes that a lag of the group sees, n x r.
-MatrixXd seen(const Group& group, const Eigen::Matrix2cd& force, Eigen::Index modes) {
-  MatrixXd gram = MatrixXd::Zero(modes, modes);
-  const Eigen::Matrix2d square = (force.adjoint() * force).real();
-  for (std::size_t i = 0; i < group.shapes.size(); ++i)
-    gram += group.weights[i] * group.shapes[i].transpose() * square * group.shapes[i];
-  const core::Eigenpairs pairs = core::symmetric_eigenpairs(gram);
-  Eigen::Index count = 0;
-  while (count < modes && pairs.values(modes - 1 - count) > unseen * pairs.values(modes - 1))
-    ++count;
-  return pairs.vectors.rightCols(count);
-}
-
-class States {
+/// Where lags are: values of V/D, 1/s, and the share of each at any other value.
+class Nodes {
 public:
-  explicit States(core::MotionForces& forces, Eigen::Index modes) : forces_(forces), modes_(modes) {}
-
-  /// A lag of a group: y' = -d (V/D) y + S^T a' for the directions S, as real and imaginary part where d is complex.
-  void add(const Group& group, const FluidelasticLaw::Lag& lag) {
-    const MatrixXd directions = seen(group, lag.force, modes_);
-    const Eigen::Index r = directions.cols(), first = forces_.states(), n = forces_.stiffness.rows();
-    const bool pair = lag.rate.imag() != 0.0;
-    const Eigen::Index more = pair ? 2 * r : r, all = first + more;
-    forces_.rates.conservativeResizeLike(MatrixXd::Zero(all, all));
-    forces_.output.conservativeResizeLike(MatrixXd::Zero(all, n));
-    forces_.input.conservativeResizeLike(MatrixXd::Zero(n, all));
-    const MatrixXd unit = MatrixXd::Identity(r, r);
-    forces_.rates.block(first, first, r, r) = -group.rate * lag.rate.real() * unit;
-    forces_.output.block(first, 0, r, modes_) = directions.transpose();
-    forces_.input.block(0, first, modes_, r) = input(group, lag.force.real()) * directions;
-    if (!pair)
+  /// @param rates  V/D of the stations, > 0, at least one
+  explicit Nodes(std::vector<double> rates) {
+    std::sort(rates.begin(), rates.end());
+    const double largest = rates.back(), least = std::max(rates.front(), least_rate * largest);
+    least_ = least;
+    rates.erase(
+        std::unique(rates.begin(), rates.end(), [](double a, double b) { return b - a < equal_rates * b; }),
+        rates.end());
+    const double middle = 0.5 * std::log(largest * least), half = 0.5 * std::log(largest / least);
+    const double y = std::numbers::pi / (2.0 * half);
+    const double points = std::ceil(-std::log(interpolated) / std::asinh(y));
+    if (half == 0.0 || static_cast<double>(rates.size()) <= points) {
+      rates_ = std::move(rates);
       return;
-    forces_.rates.block(first + r, first + r, r, r) = -group.rate * lag.rate.real() * unit;
-    forces_.rates.block(first, first + r, r, r) = group.rate * lag.rate.imag() * unit;
-    forces_.rates.block(first + r, first, r, r) = -group.rate * lag.rate.imag() * unit;
-    forces_.input.block(0, first + r, modes_, r) = -input(group, lag.force.imag()) * directions;
+    }
+    exact_ = false;
+    for (double k = 0.5; k < points; k += 1.0)
+      rates_.push_back(std::exp(middle + half * std::cos(std::numbers::pi * k / points)));
+  }
+
+  [[nodiscard]] const std::vector<double>& rates() const { return rates_; }
+
+  /// Of the nodes, for a lag at this V/D; they add up to 1.
+  [[nodiscard]] std::vector<double> shares(double rate) const {
+    std::vector<double> out(rates_.size(), exact_ ? 0.0 : 1.0);
+    if (exact_) {
+      const auto near = std::min_element(rates_.begin(), rates_.end(), [rate](double a, double b) {
+        return std::abs(a - rate) < std::abs(b - rate);
+      });
+      out[static_cast<std::size_t>(near - rates_.begin())] = 1.0;
+      return out;
+    }
+    const double x = std::log(std::max(rate, least_));
+    for (std::size_t l = 0; l < rates_.size(); ++l)
+      for (std::size_t k = 0; k < rates_.size(); ++k)
+        if (k != l)
+          out[l] *= (x - std::log(rates_[k])) / std::log(rates_[l] / rates_[k]);
+    return out;
   }
 
 private:
-  [[nodiscard]] MatrixXd input(const Group& group, const Eigen::Matrix2d& force) const {
-    MatrixXd out = MatrixXd::Zero(modes_, modes_);
-    for (std::size_t i = 0; i < group.shapes.size(); ++i)
-      out += group.weights[i] * group.shapes[i].transpose() * force * group.shapes[i];
-    return out;
-  }
-  core::MotionForces& forces_;
-  Eigen::Index modes_;
+  std::vector<double> rates_;
+  double least_ = 0.0; ///< below it shares are those at it
+  bool exact_ = true;
 };
+
+/// A station in the flow.
+struct Wet {
+  MatrixXd shapes;            ///< along drag and lift, 2 x m
+  double pressure;            ///< q w, Pa m
+  double rate;                ///< V/D, 1/s
+  std::vector<double> shares; ///< of the nodes
+};
+
+/// Right singular vectors of A that count.
+MatrixXd seen(const MatrixXd& a) {
+  const Eigen::Index rows = a.rows(), columns = a.cols();
+  MatrixXd pairs = MatrixXd::Zero(rows + columns, rows + columns); // eigenvalues +-sigma
+  pairs.topRightCorner(rows, columns) = a;
+  pairs.bottomLeftCorner(columns, rows) = a.transpose();
+  const core::Eigenpairs found = core::symmetric_eigenpairs(pairs);
+  const Eigen::Index last = rows + columns - 1;
+  Eigen::Index count = 0;
+  while (count < columns && found.values(last - count) > unseen * found.values(last))
+    ++count;
+  return std::numbers::sqrt2 * found.vectors.rightCols(count).bottomRows(columns);
+}
+
+/// Adds y' = -d r y + V^T a' for the directions V that the force G of the modes on themselves sees, as real and imaginary part where d is complex.
+void add_states(core::MotionForces& forces, std::complex<double> decay, const Eigen::MatrixXcd& g) {
+  const bool pair = decay.imag() != 0.0;
+  MatrixXd parts(pair ? 2 * g.rows() : g.rows(), g.cols());
+  parts.topRows(g.rows()) = g.real();
+  if (pair)
+    parts.bottomRows(g.rows()) = g.imag();
+  const MatrixXd directions = seen(parts);
+  const Eigen::Index r = directions.cols(), m = g.rows(), first = forces.states(),
+                     n = forces.stiffness.rows();
+  const Eigen::Index all = first + (pair ? 2 * r : r);
+  forces.rates.conservativeResizeLike(MatrixXd::Zero(all, all));
+  forces.output.conservativeResizeLike(MatrixXd::Zero(all, n));
+  forces.input.conservativeResizeLike(MatrixXd::Zero(n, all));
+  const MatrixXd unit = MatrixXd::Identity(r, r);
+  forces.rates.block(first, first, r, r) = -decay.real() * unit;
+  forces.output.block(first, 0, r, m) = directions.transpose();
+  forces.input.block(0, first, m, r) = g.real() * directions;
+  if (!pair)
+    return;
+  forces.rates.block(first + r, first + r, r, r) = -decay.real() * unit;
+  forces.rates.block(first, first + r, r, r) = decay.imag() * unit;
+  forces.rates.block(first + r, first, r, r) = -decay.imag() * unit;
+  forces.input.block(0, first + r, m, r) = -g.imag() * directions;
+}
 
 } // namespace
 
-core::MotionForces motion_forces(const Sampling& sampling, const FluidelasticLaw& law, Eigen::Index modes,
-                                 double factor) {
+core::MotionForces motion_forces(const Sampling& sampling, const FluidelasticLaw& law, Eigen::Index modes) {
   const Eigen::Index m = sampling.modes();
   core::MotionForces out;
   out.stiffness = out.damping = MatrixXd::Zero(modes, modes);
   out.input = MatrixXd::Zero(modes, 0);
   out.output = MatrixXd::Zero(0, modes);
-  std::vector<Group> groups;
+  std::vector<Wet> wet;
+  std::vector<double> rates;
   for (const Station& station : sampling.stations) {
-    const double v = factor * station.flow.velocity;
+    const double v = station.flow.velocity;
     if (v == 0.0)
       continue;
     if (station.flow.drag.isZero(0.0))
@@ -87,23 +134,36 @@ core::MotionForces motion_forces(const Sampling& sampling, const FluidelasticLaw
                         "velocity as a vector");
     MatrixXd shapes(2, m);
     shapes << station.flow.drag.transpose() * station.shapes, station.flow.lift.transpose() * station.shapes;
-    const double d = station.tube.outer_diameter, rate = v / d,
-                 weight = 0.5 * station.flow.density * v * v * station.weight;
-    out.stiffness.topLeftCorner(m, m) += weight * shapes.transpose() * law.stiffness * shapes;
-    out.damping.topLeftCorner(m, m) += weight / rate * shapes.transpose() * law.damping * shapes;
-    std::size_t g = 0;
-    while (g < groups.size() && std::abs(groups[g].rate - rate) > equal_rates * rate)
-      ++g;
-    if (g == groups.size())
-      groups.push_back({rate, {}, {}});
-    groups[g].shapes.push_back(std::move(shapes));
-    groups[g].weights.push_back(weight);
+    const double rate = v / station.tube.outer_diameter,
+                 pressure = 0.5 * station.flow.density * v * v * station.weight;
+    out.stiffness.topLeftCorner(m, m) += pressure * shapes.transpose() * law.stiffness * shapes;
+    out.damping.topLeftCorner(m, m) += pressure / rate * shapes.transpose() * law.damping * shapes;
+    wet.push_back({std::move(shapes), pressure, rate, {}});
+    rates.push_back(rate);
   }
-  States states(out, m);
-  for (const Group& group : groups)
-    for (const FluidelasticLaw::Lag& lag : law.lags)
-      states.add(group, lag);
+  if (wet.empty() || law.lags.empty())
+    return out;
+  const Nodes nodes(std::move(rates));
+  for (Wet& station : wet)
+    station.shares = nodes.shares(station.rate);
+  for (const FluidelasticLaw::Lag& lag : law.lags)
+    for (std::size_t l = 0; l < nodes.rates().size(); ++l) {
+      Eigen::MatrixXcd g = Eigen::MatrixXcd::Zero(m, m);
+      for (const Wet& station : wet)
+        if (station.shares[l] != 0.0)
+          g += station.pressure * station.shares[l] *
+               (station.shapes.transpose() * (lag.force * station.shapes));
+      add_states(out, lag.rate * nodes.rates()[l], g);
+    }
   return out;
+}
+
+core::MotionForces scaled(core::MotionForces forces, double factor) {
+  forces.stiffness *= factor * factor;
+  forces.damping *= factor;
+  forces.input *= factor * factor;
+  forces.rates *= factor;
+  return forces;
 }
 
 MatrixXd state_matrix(const Eigen::VectorXd& k, const Eigen::VectorXd& c, const core::MotionForces& forces) {

@@ -4,10 +4,14 @@
 ///     K_x = int q N^T K N ds,  C_x = int q (D/V) N^T C N ds,  G_i z_i = int q N^T Re(B_i z_i(s)) ds,  z_i' = -d_i (V/D) z_i + N a'
 /// V is the part of the gap velocity across the tube, e_D in a bend in its plane where the flow is (independence principle).
 ///
-/// States: stations of equal V/D share theirs. There z_i(s) = N(s) y_i with y_i' = -d_i (V/D) y_i + a', of which only the directions count
-/// that N and B_i see: the eigenvectors of int |B_i N|^2 ds above 1e-12 of the largest. A velocity that is constant over a zone thus costs at most
-/// one state a mode and lag, one that changes costs up to two a station and lag.
-/// Source: S. Price, M. Paidoussis, J. Sound and Vibration 97 (1984) 615 for one tube; distribution: virtual work.
+/// States: y_i' = -d_i r y_i + V^T a' with r = V/D of a few nodes r_l, of which only the directions V count that the force of the node sees: the right
+/// singular vectors of int l_l q N^T B_i N ds above 1e-9 of the largest singular value. Where V/D has few values these are the nodes. Else the lag,
+/// as a function of x = ln r analytic for |Im x| < pi/2 in every harmonic motion, is interpolated between Chebyshev points in x, l_l(x) being
+/// Lagrange's polynomials: so many points that (y + (1 + y^2)^(1/2))^-L < 1e-5, y = pi/(x_max - x_min) (Bernstein's ellipse through the pole).
+/// Below a twentieth of the largest V/D, where q is 1/400 of the largest at most, x is that of the twentieth. Thus a constant velocity costs at most one state
+/// a mode and lag, a changing one up to 13.
+/// Source: S. Price, M. Paidoussis, J. Sound and Vibration 97 (1984) 615 for one tube; distribution: virtual work; interpolation: L. Trefethen,
+/// Approximation Theory and Approximation Practice (2013), chapter 8.
 #pragma once
 #include "core/motion_forces.hpp"
 #include "flow/fluidelastic_law.hpp"
@@ -16,10 +20,12 @@
 namespace fretwork::flow {
 
 /// @param sampling  with modal masses of 1   @param modes  n >= sampling.modes(): the modes that follow (static ones) feel nothing
-/// @param factor  > 0, times all velocities
 /// @throws core::Error where a zone with velocity has no direction of drag
 [[nodiscard]] core::MotionForces motion_forces(const Sampling& sampling, const FluidelasticLaw& law,
-                                               Eigen::Index modes, double factor = 1.0);
+                                               Eigen::Index modes);
+
+/// The same at `factor` > 0 times all velocities: q goes with its square, the rates of the lags with itself.
+[[nodiscard]] core::MotionForces scaled(core::MotionForces forces, double factor);
 
 /// A of x' = A x, x = (a, a', z), of modes with stiffness k (1/s2) and damping c (1/s) under such forces.
 [[nodiscard]] Eigen::MatrixXd state_matrix(const Eigen::VectorXd& k, const Eigen::VectorXd& c,

@@ -5,6 +5,7 @@
 #include "core/general_eigenvalues.hpp"
 #include "fem/gauss.hpp"
 #include "flow/fluidelastic.hpp"
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -51,8 +52,8 @@ Sampling metre(const OneDof& of, double velocity) {
 
 Eigen::VectorXcd roots(const Sampling& sampling, const FluidelasticLaw& law, double damping, double factor) {
   const Eigen::VectorXd w = 2.0 * std::numbers::pi * sampling.frequency;
-  return core::general_eigenvalues(
-      state_matrix(w.cwiseAbs2(), 2.0 * damping * w, motion_forces(sampling, law, sampling.modes(), factor)));
+  return core::general_eigenvalues(state_matrix(
+      w.cwiseAbs2(), 2.0 * damping * w, scaled(motion_forces(sampling, law, sampling.modes()), factor)));
 }
 
 /// Where the largest real part passes zero, V0 = 1 m/s.
@@ -150,7 +151,7 @@ Sampling pinned(Eigen::Index modes, double from, double to) {
 
 TEST(Fluidelastic, PinnedTubeInFlowOverHalfItsLength) {
   const std::vector<std::pair<Eigen::Index, double>> cases = {
-      {1, 3.3371847905}, {3, 3.3372210909}, {6, 3.3372216084}};
+      {1, 3.3371847905}, {3, 3.3372210909}, {6, 3.3372216084}, {12, 3.3372217687}};
   for (const auto& [modes, velocity] : cases)
     EXPECT_NEAR(critical(pinned(modes, 0.25, 0.75), law_s1(), 0.01, 3.0, 4.0), velocity, digits * 3.3)
         << modes;
@@ -163,6 +164,62 @@ TEST(Fluidelastic, PinnedTubeInFlowOverHalfItsLength) {
     }
   EXPECT_NEAR(growth, 1.915330586, digits * 200.0);
   EXPECT_NEAR(at, 212.385903309, digits * 200.0);
+}
+
+/// The forces of one lag along lift with a state a station.
+core::MotionForces with_a_state_a_station(const Sampling& sampling, const FluidelasticLaw& law) {
+  const Eigen::Index m = sampling.modes(), stations = static_cast<Eigen::Index>(sampling.stations.size());
+  FluidelasticLaw without = law;
+  without.lags.clear();
+  core::MotionForces out = motion_forces(sampling, without, m);
+  out.input = Eigen::MatrixXd::Zero(m, stations);
+  out.output = Eigen::MatrixXd::Zero(stations, m);
+  out.rates = Eigen::MatrixXd::Zero(stations, stations);
+  for (Eigen::Index i = 0; i < stations; ++i) {
+    const Station& station = sampling.stations[static_cast<std::size_t>(i)];
+    const double v = station.flow.velocity;
+    out.output.row(i) = station.shapes.row(1);
+    out.input.col(i) = 0.5 * station.flow.density * v * v * station.weight * law.lags[0].force(1, 1).real() *
+                       station.shapes.row(1).transpose();
+    out.rates(i, i) = -law.lags[0].rate.real() * v / station.tube.outer_diameter;
+  }
+  return out;
+}
+
+TEST(Fluidelastic, LagsOfAChangingVelocityAreInterpolated) {
+  constexpr Eigen::Index modes = 6;
+  constexpr double of_the_effect = 1e-5; // what nodes leave of a lag
+  for (const double least : {0.5, 0.1, 0.0}) {
+    Sampling tube = pinned(modes, 0.0, 1.0);
+    const auto number = static_cast<double>(tube.stations.size());
+    for (std::size_t i = 0; i < tube.stations.size(); ++i)
+      tube.stations[i].flow.velocity =
+          4.0 * (least + (1.0 - least) * (static_cast<double>(i) + 0.5) / number);
+    const core::MotionForces nodes = motion_forces(tube, law_s1(), modes),
+                             exact = with_a_state_a_station(tube, law_s1());
+    EXPECT_LE(nodes.states(), 13 * modes);
+    EXPECT_LT(nodes.states(), exact.states());
+    const Eigen::VectorXd w = 2.0 * std::numbers::pi * tube.frequency, c = 0.02 * w;
+    const auto vibrations = [&](const core::MotionForces& forces) {
+      std::vector<std::complex<double>> out;
+      for (const std::complex<double>& s : core::general_eigenvalues(state_matrix(w.cwiseAbs2(), c, forces)))
+        if (s.imag() > 100.0)
+          out.push_back(s);
+      std::sort(out.begin(), out.end(), [](auto a, auto b) { return a.imag() < b.imag(); });
+      return out;
+    };
+    core::MotionForces none;
+    none.stiffness = none.damping = Eigen::MatrixXd::Zero(modes, modes);
+    none.input = Eigen::MatrixXd::Zero(modes, 0);
+    none.rates = Eigen::MatrixXd::Zero(0, 0);
+    none.output = Eigen::MatrixXd::Zero(0, modes);
+    const auto by_nodes = vibrations(nodes), by_stations = vibrations(exact), dry = vibrations(none);
+    ASSERT_EQ(by_nodes.size(), by_stations.size());
+    ASSERT_EQ(by_nodes.size(), dry.size());
+    for (std::size_t k = 0; k < dry.size(); ++k)
+      EXPECT_LT(std::abs(by_nodes[k] - by_stations[k]), of_the_effect * std::abs(by_stations[k] - dry[k]))
+          << least << ", mode " << k;
+  }
 }
 
 TEST(Fluidelastic, OneStateAModeAndLagWhereTheVelocityIsConstant) {
