@@ -108,6 +108,16 @@ TEST(Fluidelastic, DelayByPade) {
 }
 
 /// Drag and lift that push each other: V_c/(f D) = K sqrt(m delta/(rho D^2)) exactly.
+// Fit of measured coefficients of one tube in a rigid bundle (doc/validation.md, D1) with two lags.
+TEST(Fluidelastic, FitOfMeasuredCoefficients) {
+  FluidelasticLaw law;
+  law.stiffness(1, 1) = -0.3278;
+  law.damping(1, 1) = 0.8767;
+  law.lags = {{0.5, Eigen::Vector2cd(0.0, 2.9113).asDiagonal().toDenseMatrix()},
+              {2.0, Eigen::Vector2cd(0.0, -4.9667).asDiagonal().toDenseMatrix()}};
+  EXPECT_NEAR(critical(metre(c1, 1.0), law, c1.damping, 2.0, 5.0), 3.3510485712, digits * 3.4);
+}
+
 TEST(Fluidelastic, CouplingOfConnors) {
   constexpr double constant = 3.0;
   FluidelasticLaw law;

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// [flow_laws.NAME] as values, and every message about them.
+#include "folder.hpp"
+#include <gtest/gtest.h>
+
+namespace fretwork::study {
+namespace {
+
+/// A flow with the law "bundle". @param law  the lines of its table
+std::string study_with(const std::string& law, const std::string& name = "bundle") {
+  return "[mesh]\nfile = \"a.msh\"\n[flow_laws." + name + "]\n" + law +
+         "[[flow]]\ngroup = \"tube\"\nfrom = \"foot\"\nlaw = \"bundle\"\n"
+         "[[flow.zones]]\nname = \"water\"\ndensity = 740\nviscosity = 1.23e-7\n";
+}
+const std::string rational = "law = \"rational\"\nstiffness = -4\ndamping = -0.4\n";
+const std::string unsteady =
+    "law = \"quasi_unsteady\"\ndrag = 0.2\ngradients = -15.5\nmemory = [[1.25, 0.05], [-0.12, 0.3]]\n";
+
+flow::FluidelasticLaw law_of(const std::string& text) { return read_text(text).flows.at(0).law.value(); }
+
+} // namespace
+
+TEST(FlowLawKeys, ANumberIsThatOfLiftAlone) {
+  const flow::FluidelasticLaw law = law_of(study_with(rational));
+  EXPECT_EQ(law.stiffness, Eigen::Matrix2d({{0.0, 0.0}, {0.0, -4.0}}));
+  EXPECT_EQ(law.damping, Eigen::Matrix2d({{0.0, 0.0}, {0.0, -0.4}}));
+  EXPECT_TRUE(law.lags.empty());
+  EXPECT_FALSE(law.range.has_value());
+}
+
+TEST(FlowLawKeys, MatricesAreInTheOrderDragLift) {
+  const flow::FluidelasticLaw law =
+      law_of(study_with("law = \"rational\"\nstiffness = [[1, 2], [3, 4]]\ndamping = 0\nlags = [0.4, 2]\n"
+                        "lag_forces = [5, [[6, 7], [8, 9]]]\nrange = [1, 3]\n"));
+  EXPECT_EQ(law.stiffness, Eigen::Matrix2d({{1.0, 2.0}, {3.0, 4.0}}));
+  ASSERT_EQ(law.lags.size(), 2u);
+  EXPECT_EQ(law.lags[0].rate, 0.4);
+  EXPECT_EQ(law.lags[0].force.real(), Eigen::Matrix2d({{0.0, 0.0}, {0.0, 5.0}}));
+  EXPECT_EQ(law.lags[1].rate, 2.0);
+  EXPECT_EQ(law.lags[1].force.real(), Eigen::Matrix2d({{6.0, 7.0}, {8.0, 9.0}}));
+  EXPECT_EQ(law.range, (std::array<double, 2>{1.0, 3.0}));
+}
+
+TEST(FlowLawKeys, QuasiUnsteadyForcesAreTheSteadyOnesWithMemory) {
+  const flow::FluidelasticLaw law = law_of(study_with(unsteady + "lift = 0.1\n"));
+  EXPECT_EQ(law.stiffness, Eigen::Matrix2d({{0.0, 0.0}, {0.0, -15.5}}));
+  EXPECT_EQ(law.damping, Eigen::Matrix2d({{-0.4, 0.1}, {-0.2, -0.2}}));
+  ASSERT_EQ(law.lags.size(), 2u);
+  EXPECT_EQ(law.lags[0].rate, 0.05);
+  EXPECT_EQ(law.lags[0].force(1, 1).real(), 1.25 * 15.5);
+}
+
+TEST(FlowLawMessages, NameTheKeyAndTheCure) {
+  const std::string at = "flow_laws.bundle.";
+  const std::pair<std::string, std::string> cases[] = {
+      {study_with("stiffness = 1\n"), at + "law: this required key is missing"},
+      {study_with("law = \"steady\"\n"), at + "law = \"steady\": unknown; available"},
+      {study_with(rational + "memory = [[1, 2]]\n"), at + "memory = "},
+      {study_with("law = \"rational\"\ndamping = 0\n"),
+       at + "stiffness: this required key is missing; give a number (lift alone) or [[a, b], [c, d]]"},
+      {study_with("law = \"rational\"\ndamping = 0\nstiffness = [[1, 2]]\n"),
+       at + "stiffness: 1 rows; give a number"},
+      {study_with("law = \"rational\"\ndamping = 0\nstiffness = [[1], [2]]\n"), at + "stiffness"},
+      {study_with(rational + "lags = [0.4]\n"), "lags and lag_forces belong together; give both, or neither"},
+      {study_with(rational + "lags = [0.4, 1]\nlag_forces = [1]\n"),
+       "one for each of the 2 lags is expected"},
+      {study_with(rational + "lags = [-0.4]\nlag_forces = [1]\n"), at + "lags"},
+      {study_with(rational + "range = [3, 1]\n"),
+       "[least, largest] reduced velocity is expected, in this order"},
+      {study_with("law = \"quasi_unsteady\"\ndrag = -1\ngradients = 1\nmemory = [[1, 1]]\n"),
+       at + "drag = -1"},
+      {study_with("law = \"quasi_unsteady\"\ndrag = 1\ngradients = 1\nmemory = [[1, 0]]\n"),
+       "does not decay; give rates above 0"},
+      {study_with("law = \"quasi_steady\"\ndrag = 1\ngradients = 1\ndelay = -1\n"), at + "delay = -1"},
+      {study_with(rational, "array"), "law = \"bundle\""}};
+  for (const auto& [text, expected] : cases) {
+    const std::string message = message_of(text);
+    EXPECT_NE(message.find(expected), std::string::npos) << message << "\nlacks: " << expected;
+  }
+}
+
+} // namespace fretwork::study
