@@ -164,6 +164,74 @@ TEST(FluidForces, FrozenNegativeDampingGrowsBetweenElasticStops) {
   }
 }
 
+/// Constant friction and a damping that is negative at every frequency: motion decays below the amplitude
+///     X = a (r + 1)/(r - 1), a = mu F_N/k, r = exp(-pi zeta/(1 - zeta^2)^(1/2)), and grows above it.
+TEST(FluidForces, FrictionHoldsNegativeDampingBelowAnAmplitude) {
+  constexpr double zeta = -0.01, friction = 0.5; // N
+  const double omega = 2.0 * std::numbers::pi * frequency, k = mass * omega * omega;
+  const double r = std::exp(-std::numbers::pi * zeta / std::sqrt(1.0 - zeta * zeta));
+  const double rigid = friction / k * (r + 1.0) / (r - 1.0);
+  EXPECT_NEAR(rigid, 2.2397621172e-3, 1e-12);
+  constexpr double elastic = 2.2392462080e-3; // with K_T = 1e6 N/m in series
+  const auto grows = [&](double amplitude) {
+    Scene scene = mass_point(mass, k * Vec3(1.0, 1.0, 1.0), 3.0);
+    scene.system.damping.setZero();
+    start(scene, mass, Vec3(0.0, amplitude, 0.0), Vec3::Zero());
+    core::MotionForces& f = scene.system.motion = law_s1(velocity);
+    f.stiffness.setZero();
+    f.input.setZero();
+    f.damping(1, 1) = -2.0 * zeta * omega;
+    scene.contacts = {pressed(mass, 1.0, {1e6, 0.0, friction, friction})};
+    const History h = simulate(scene, splitting(1e-4), 1e-3);
+    const Eigen::Index period = 50, n = h.time.size();
+    return h.q.row(1).tail(period).maxCoeff() > h.q.row(1).segment(n - 20 * period, period).maxCoeff();
+  };
+  constexpr double near = 3e-3; // of the amplitude
+  EXPECT_TRUE(grows(elastic * (1.0 + near)));
+  EXPECT_FALSE(grows(elastic * (1.0 - near)));
+}
+
+/// A pinned tube of 1 m in six modes along lift, flow over its middle half, stops at its middle.
+TEST(FluidForces, StopsLimitATubeInManyModes) {
+  constexpr Eigen::Index modes = 6;
+  constexpr double line = 1.0993164814, first = 33.425241258, v = 4.0, gap = 5e-4;
+  const double pressure = 0.5 * density * v * v;
+  Eigen::MatrixXd overlap(modes, modes); // int of products of shapes from 1/4 to 3/4
+  for (Eigen::Index j = 0; j < modes; ++j)
+    for (Eigen::Index k = 0; k < modes; ++k) {
+      const auto integral = [](Eigen::Index wave) { // of cos(wave pi s)
+        const double a = std::numbers::pi * static_cast<double>(wave);
+        return wave == 0 ? 0.5 : (std::sin(0.75 * a) - std::sin(0.25 * a)) / a;
+      };
+      overlap(j, k) = (integral(std::abs(j - k)) - integral(j + k + 2)) / line;
+    }
+  Scene scene;
+  scene.duration = 8.0;
+  scene.system.stiffness.resize(modes);
+  for (Eigen::Index k = 0; k < modes; ++k)
+    scene.system.stiffness(k) =
+        std::pow(2.0 * std::numbers::pi * first * static_cast<double>((k + 1) * (k + 1)), 2);
+  scene.system.damping = 2.0 * ratio * scene.system.stiffness.cwiseSqrt();
+  scene.q0 = Eigen::VectorXd::Zero(modes);
+  scene.v0 = 0.05 * Eigen::VectorXd::Unit(modes, 0);
+  core::MotionForces& f = scene.system.motion;
+  f.stiffness = -4.0 * pressure * overlap;
+  f.damping = -0.4 * pressure * diameter / v * overlap;
+  f.input = 4.0 * pressure * overlap;
+  f.rates = -0.4 * v / diameter * Eigen::MatrixXd::Identity(modes, modes);
+  f.output = Eigen::MatrixXd::Identity(modes, modes);
+  ContactPoint stop;
+  stop.support = {contact::PlanePair{gap, contact::PlaneAxis::y}, {1e5}, {}};
+  stop.b = Eigen::MatrixXd::Zero(3, modes);
+  for (Eigen::Index k = 0; k < modes; ++k)
+    stop.b(1, k) = std::sqrt(2.0 / line) * std::sin(0.5 * std::numbers::pi * static_cast<double>(k + 1));
+  scene.contacts = {stop};
+  const History h = simulate(scene, splitting(2e-5), every);
+  const Eigen::RowVectorXd u = stop.b.row(1) * h.q.rightCols(h.q.cols() / 2);
+  EXPECT_NEAR(u.cwiseAbs().maxCoeff() / 6.733738331e-4, 1.0, 1e-3);
+  EXPECT_NEAR(std::sqrt(u.squaredNorm() / static_cast<double>(u.size())) / 4.6423795e-4, 1.0, 1e-3);
+}
+
 TEST(FluidForces, OtherSchemesRefuseThem) {
   const Scene scene = tube(1.0, 0.0, 0.1);
   for (const SchemeKind kind :

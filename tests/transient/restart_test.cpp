@@ -300,6 +300,18 @@ TEST(Restart, WithADampingMatrix) {
   expect_restarts(scene, all_schemes());
 }
 
+TEST(Restart, WithForcesThatDependOnTheMotion) {
+  constexpr int modes = 6, states = 4;
+  Scene scene = pushed(3, modes);
+  core::MotionForces& f = scene.system.motion;
+  f.stiffness = Eigen::MatrixXd::Constant(modes, modes, -20.0);
+  f.damping = Eigen::MatrixXd::Constant(modes, modes, 0.3);
+  f.input = Eigen::MatrixXd::Constant(modes, states, 40.0);
+  f.output = Eigen::MatrixXd::Constant(states, modes, 0.5);
+  f.rates = -50.0 * Eigen::MatrixXd::Identity(states, states);
+  expect_restarts(scene, {splitting(1e-4), scheme(SchemeKind::runge_kutta_54, {})});
+}
+
 TEST(Restart, WithObstaclesThatMove) {
   Scene scene = pushed(3, 6);
   scene.motions = {{Harmonic{1.0, 20.0, 0.0}, -1.0 / 125.66, 0.0}, {Random{0.5, 5.0, 60.0, 1}, 0.0, 0.0}};
