@@ -46,9 +46,9 @@ std::vector<TubeWithLaw> tubes_with_laws(const TubesInFlow& tubes, const std::ve
   return out;
 }
 
-core::MotionForces forces_of(const TubeWithLaw& tube, Index modes) {
+core::MotionForces forces_of(const TubeWithLaw& tube, Index modes, double factor) {
   try {
-    return flow::motion_forces(tube.sampling, *tube.flow.law, modes);
+    return flow::motion_forces(tube.sampling, *tube.flow.law, modes, factor);
   } catch (const core::Error& error) {
     throw core::Error(fmt::format("{}: {}", name_of(tube.flow), error.what()));
   }
@@ -58,7 +58,7 @@ core::MotionForces forces_of(const TubeWithLaw& tube, Index modes) {
 class Roots {
 public:
   Roots(const TubeWithLaw& tube, const modal::Basis& basis)
-      : forces_(forces_of(tube, tube.sampling.modes())) {
+      : forces_(forces_of(tube, tube.sampling.modes(), largest_factor)) {
     const Index n = tube.sampling.modes();
     k_ = basis.omega.head(n).cwiseAbs2();
     c_ = 2.0 * basis.damping.head(n).cwiseProduct(basis.omega.head(n));
@@ -119,7 +119,7 @@ std::vector<core::MotionForces> fluidelastic_forces(const TubesInFlow& tubes,
       throw core::Error(fmt::format("{}: a second tube of its structure has a flow with a law; a law acts on "
                                     "one tube of a structure, leave law out of the other [[flow]]",
                                     name_of(tube.flow)));
-    to = forces_of(tube, bases[tube.structure].size());
+    to = forces_of(tube, bases[tube.structure].size(), 1.0);
   }
   return out;
 }

@@ -15,6 +15,7 @@ using Eigen::MatrixXd;
 
 constexpr double equal_rates = 1e-9;      // relative
 constexpr double unseen = 1e-9;           // of the largest singular value
+constexpr double slow = 0.3;              // reduced velocity above which the memory counts
 constexpr double interpolated = 1e-5;     // error of a lag between nodes
 constexpr double least_rate = 1.0 / 20.0; // of the largest
 
@@ -115,14 +116,37 @@ void add_states(core::MotionForces& forces, std::complex<double> decay, const Ei
   forces.input.block(0, first + r, m, r) = -g.imag() * directions;
 }
 
+/// How many modes the lags are for: up to the last one whose reduced velocity reaches `slow` anywhere.
+Eigen::Index slow_modes(const Sampling& sampling, double largest_factor) {
+  double rate = 0.0;
+  for (const Station& station : sampling.stations)
+    rate = std::max(rate, largest_factor * station.flow.velocity / station.tube.outer_diameter);
+  Eigen::Index m = sampling.modes();
+  while (m > 0 && slow * sampling.frequency(m - 1) > rate)
+    --m;
+  return m;
+}
+
+/// f/(q u) of a motion of shape n at the reduced frequency kr = w D/V.
+std::complex<double> along(const FluidelasticLaw& law, const Eigen::Vector2d& n, double kr) {
+  const std::complex<double> p(0.0, kr);
+  std::complex<double> sum = n.dot(law.stiffness * n) + p * n.dot(law.damping * n);
+  for (const FluidelasticLaw::Lag& lag : law.lags) {
+    const std::complex<double> b = n.cast<std::complex<double>>().dot(lag.force * n);
+    sum += 0.5 * p * (b / (p + lag.rate) + std::conj(b) / (p + std::conj(lag.rate)));
+  }
+  return sum;
+}
+
 } // namespace
 
-core::MotionForces motion_forces(const Sampling& sampling, const FluidelasticLaw& law, Eigen::Index modes) {
-  const Eigen::Index m = sampling.modes();
+core::MotionForces motion_forces(const Sampling& sampling, const FluidelasticLaw& law, Eigen::Index modes,
+                                 double largest_factor) {
   core::MotionForces out;
   out.stiffness = out.damping = MatrixXd::Zero(modes, modes);
   out.input = MatrixXd::Zero(modes, 0);
   out.output = MatrixXd::Zero(0, modes);
+  const Eigen::Index m = slow_modes(sampling, largest_factor);
   std::vector<Wet> wet;
   std::vector<double> rates;
   for (const Station& station : sampling.stations) {
@@ -132,16 +156,23 @@ core::MotionForces motion_forces(const Sampling& sampling, const FluidelasticLaw
     if (station.flow.drag.isZero(0.0))
       throw core::Error("the zone has no direction, which fluidelastic forces need; give direction, or the "
                         "velocity as a vector");
-    MatrixXd shapes(2, m);
-    shapes << station.flow.drag.transpose() * station.shapes, station.flow.lift.transpose() * station.shapes;
+    MatrixXd all(2, sampling.modes());
+    all << station.flow.drag.transpose() * station.shapes, station.flow.lift.transpose() * station.shapes;
     const double rate = v / station.tube.outer_diameter,
                  pressure = 0.5 * station.flow.density * v * v * station.weight;
+    for (Eigen::Index j = m; j < all.cols(); ++j) {
+      const std::complex<double> f =
+          along(law, all.col(j), 2.0 * std::numbers::pi * sampling.frequency(j) / rate);
+      out.stiffness(j, j) += pressure * f.real();
+      out.damping(j, j) += pressure * f.imag() / (2.0 * std::numbers::pi * sampling.frequency(j));
+    }
+    MatrixXd shapes = all.leftCols(m);
     out.stiffness.topLeftCorner(m, m) += pressure * shapes.transpose() * law.stiffness * shapes;
     out.damping.topLeftCorner(m, m) += pressure / rate * shapes.transpose() * law.damping * shapes;
     wet.push_back({std::move(shapes), pressure, rate, {}});
     rates.push_back(rate);
   }
-  if (wet.empty() || law.lags.empty())
+  if (m == 0 || wet.empty() || law.lags.empty())
     return out;
   const Nodes nodes(std::move(rates));
   for (Wet& station : wet)

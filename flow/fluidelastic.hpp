@@ -20,9 +20,11 @@
 namespace fretwork::flow {
 
 /// @param sampling  with modal masses of 1   @param modes  n >= sampling.modes(): the modes that follow (static ones) feel nothing
+/// @param largest_factor  > 0, by which they may be `scaled`: modes whose reduced velocity V/(f D) stays below 0.3 up to it are not coupled; they feel
+///     what the law is at their own frequency, K + sum B i kr/(i kr + d) and C, kr = 2 pi f D/V
 /// @throws core::Error where a zone with velocity has no direction of drag
 [[nodiscard]] core::MotionForces motion_forces(const Sampling& sampling, const FluidelasticLaw& law,
-                                               Eigen::Index modes);
+                                               Eigen::Index modes, double largest_factor);
 
 /// The same at `factor` > 0 times all velocities: q goes with its square, the rates of the lags with itself.
 [[nodiscard]] core::MotionForces scaled(core::MotionForces forces, double factor);

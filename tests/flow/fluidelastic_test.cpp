@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 #include <numbers>
 
 using namespace fretwork;
@@ -15,8 +16,9 @@ using namespace fretwork::flow;
 
 namespace {
 
-constexpr double diameter = 0.01905; // m
-constexpr double digits = 1e-9;      // of the reference values, relative
+constexpr double diameter = 0.01905;                                 // m
+constexpr double no_limit = std::numeric_limits<double>::infinity(); // of the velocity: memory for every mode
+constexpr double digits = 1e-9;                                      // of the reference values, relative
 
 struct OneDof {
   double mass, frequency, damping, density;
@@ -52,8 +54,9 @@ Sampling metre(const OneDof& of, double velocity) {
 
 Eigen::VectorXcd roots(const Sampling& sampling, const FluidelasticLaw& law, double damping, double factor) {
   const Eigen::VectorXd w = 2.0 * std::numbers::pi * sampling.frequency;
-  return core::general_eigenvalues(state_matrix(
-      w.cwiseAbs2(), 2.0 * damping * w, scaled(motion_forces(sampling, law, sampling.modes()), factor)));
+  return core::general_eigenvalues(
+      state_matrix(w.cwiseAbs2(), 2.0 * damping * w,
+                   scaled(motion_forces(sampling, law, sampling.modes(), no_limit), factor)));
 }
 
 /// Where the largest real part passes zero, V0 = 1 m/s.
@@ -181,7 +184,7 @@ core::MotionForces with_a_state_a_station(const Sampling& sampling, const Fluide
   const Eigen::Index m = sampling.modes(), stations = static_cast<Eigen::Index>(sampling.stations.size());
   FluidelasticLaw without = law;
   without.lags.clear();
-  core::MotionForces out = motion_forces(sampling, without, m);
+  core::MotionForces out = motion_forces(sampling, without, m, no_limit);
   out.input = Eigen::MatrixXd::Zero(m, stations);
   out.output = Eigen::MatrixXd::Zero(stations, m);
   out.rates = Eigen::MatrixXd::Zero(stations, stations);
@@ -205,7 +208,7 @@ TEST(Fluidelastic, LagsOfAChangingVelocityAreInterpolated) {
     for (std::size_t i = 0; i < tube.stations.size(); ++i)
       tube.stations[i].flow.velocity =
           4.0 * (least + (1.0 - least) * (static_cast<double>(i) + 0.5) / number);
-    const core::MotionForces nodes = motion_forces(tube, law_s1(), modes),
+    const core::MotionForces nodes = motion_forces(tube, law_s1(), modes, no_limit),
                              exact = with_a_state_a_station(tube, law_s1());
     EXPECT_LE(nodes.states(), 13 * modes);
     EXPECT_LT(nodes.states(), exact.states());
@@ -233,15 +236,51 @@ TEST(Fluidelastic, LagsOfAChangingVelocityAreInterpolated) {
 }
 
 TEST(Fluidelastic, OneStateAModeAndLagWhereTheVelocityIsConstant) {
-  EXPECT_EQ(motion_forces(pinned(6, 0.25, 0.75), law_s1(), 8).states(), 6);
-  const core::MotionForces f = motion_forces(pinned(6, 0.25, 0.75), law_s1(), 8);
+  EXPECT_EQ(motion_forces(pinned(6, 0.25, 0.75), law_s1(), 8, no_limit).states(), 6);
+  const core::MotionForces f = motion_forces(pinned(6, 0.25, 0.75), law_s1(), 8, no_limit);
   EXPECT_TRUE(f.stiffness.bottomRows(2).isZero(0.0)); // static modes feel nothing
+}
+
+// V/(f D) reaches 0.3 in four modes at the critical velocity.
+TEST(Fluidelastic, FastModesNeedNoStates) {
+  constexpr Eigen::Index modes = 12;
+  const Sampling tube = pinned(modes, 0.25, 0.75);
+  const core::MotionForces f = motion_forces(tube, law_s1(), modes, 3.4);
+  EXPECT_EQ(f.states(), 4);
+  const Eigen::VectorXd w = 2.0 * std::numbers::pi * tube.frequency;
+  const auto growth = [&](double v) {
+    return core::general_eigenvalues(state_matrix(w.cwiseAbs2(), 0.02 * w, scaled(f, v))).real().maxCoeff();
+  };
+  constexpr double all_modes = 3.3372217687, left_out = 1e-6; // m/s
+  EXPECT_LT(growth(all_modes - left_out), 0.0);
+  EXPECT_GT(growth(all_modes + left_out), 0.0);
+}
+
+// A mode that is not coupled keeps frequency and damping that the law gives it in harmonic motion.
+TEST(Fluidelastic, FastModesFeelTheLawAtTheirFrequency) {
+  const FluidelasticLaw law = quasi_steady_law(0.2, 0.1, Eigen::Matrix2d{{0.3, 0.1}, {-0.2, -8.0}}, 1.0);
+  const Sampling one = metre(s1, 0.1); // V/(f D) = 0.26
+  const core::MotionForces fast = motion_forces(one, law, 1, 1.0);
+  EXPECT_EQ(fast.states(), 0);
+  EXPECT_GT(motion_forces(one, law, 1, 1.2).states(), 0);
+  const auto upper = [](const Eigen::VectorXcd& roots) {
+    return *std::max_element(roots.begin(), roots.end(), [](auto a, auto b) { return a.imag() < b.imag(); });
+  };
+  const Eigen::VectorXd w = 2.0 * std::numbers::pi * one.frequency;
+  const std::complex<double> exact = upper(roots(one, law, s1.damping, 1.0)),
+                             frozen = upper(core::general_eigenvalues(
+                                 state_matrix(w.cwiseAbs2(), 2.0 * s1.damping * w, fast))),
+                             dry = w(0) * std::complex<double>(-s1.damping,
+                                                               std::sqrt(1.0 - s1.damping * s1.damping));
+  constexpr double of_the_effect =
+      0.05; // the motion decays by 1 % a radian, its frequency is not quite the mode's
+  EXPECT_LT(std::abs(frozen - exact), of_the_effect * std::abs(exact - dry));
 }
 
 TEST(Fluidelastic, AskForADirection) {
   Sampling one = metre(s1, 1.0);
   one.stations[0].flow.drag.setZero();
-  EXPECT_THROW((void)motion_forces(one, law_s1(), 1), core::Error);
+  EXPECT_THROW((void)motion_forces(one, law_s1(), 1, no_limit), core::Error);
 }
 
 } // namespace

@@ -1,183 +1,87 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/modes/feedback_flow.hpp"
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <utility>
 
 namespace fretwork::transient {
 namespace {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
-constexpr int series_terms = 20; ///< 1/20! = 4e-19
-
-/// Abscissae and weights of Gauss-Legendre quadrature with 8 points, on (-1, 1), the positive ones.
-constexpr std::array<std::pair<double, double>, 4> gauss = {{{0.1834346424956498, 0.3626837833783620},
-                                                             {0.5255324099163290, 0.3137066458778873},
-                                                             {0.7966664774136267, 0.2223810344533745},
-                                                             {0.9602898564975363, 0.1012285362903763}}};
-
-/// Modes that the forces move or that move them, and those that the damping matrix ties to them or to each other.
-std::vector<char> coupled_modes(const System& system) {
+/// Which modes and states (these follow the modes) depend on each other, directly.
+Eigen::MatrixX<char> dependences(const System& system) {
   const core::MotionForces& f = system.motion;
-  std::vector<char> out(static_cast<std::size_t>(system.size()), 0);
-  for (Index i = 0; i < system.size(); ++i) {
-    const bool moved = !f.stiffness.row(i).isZero(0.0) || !f.damping.row(i).isZero(0.0) ||
-                       !f.input.row(i).isZero(0.0) || !f.stiffness.col(i).isZero(0.0) ||
-                       !f.damping.col(i).isZero(0.0) || !f.output.col(i).isZero(0.0);
-    bool tied = false;
-    for (Index j = 0; j < system.damping_matrix.cols(); ++j)
-      tied = tied || (j != i && (system.damping_matrix(i, j) != 0.0 || system.damping_matrix(j, i) != 0.0));
-    out[static_cast<std::size_t>(i)] = moved || tied ? 1 : 0;
+  const Index n = system.size(), r = f.states();
+  Eigen::MatrixX<char> out = Eigen::MatrixX<char>::Zero(n + r, n + r);
+  const auto add = [&out](Index row, Index column, const Eigen::MatrixXd& a) {
+    for (Index j = 0; j < a.cols(); ++j)
+      for (Index i = 0; i < a.rows(); ++i)
+        if (a(i, j) != 0.0)
+          out(row + i, column + j) = out(column + j, row + i) = 1;
+  };
+  add(0, 0, f.stiffness);
+  add(0, 0, f.damping);
+  add(0, n, f.input);
+  add(n, 0, f.output);
+  add(n, n, f.rates);
+  if (system.damping_matrix.size() > 0) {
+    Eigen::MatrixXd between = system.damping_matrix;
+    between.diagonal().setZero();
+    add(0, 0, between);
   }
   return out;
 }
 
-double row_sum(const MatrixXd& a) { return a.size() == 0 ? 0.0 : a.cwiseAbs().rowwise().sum().maxCoeff(); }
-
-MatrixXd exponential(const MatrixXd& a, double t) {
-  MatrixXd term = MatrixXd::Identity(a.rows(), a.cols()), sum = term;
-  for (int j = 1; j < series_terms; ++j) {
-    term = (t / j) * (a * term).eval();
-    sum += term;
-  }
-  return sum;
-}
-
 } // namespace
 
-FeedbackFlow::FeedbackFlow(const System& system, double step) : step_(step) {
+FeedbackFlow::FeedbackFlow(const System& system, double step) {
   if (system.motion.empty())
     return;
-  coupled_ = coupled_modes(system);
-  for (Index i = 0; i < system.size(); ++i)
-    if (coupled_[static_cast<std::size_t>(i)])
-      modes_.push_back(i);
-  const core::MotionForces& f = system.motion;
-  const Index m = size();
-  r_ = f.states();
-  k_ = system.stiffness(modes_);
-  c_ = system.damping_matrix.size() > 0 ? MatrixXd(system.damping_matrix(modes_, modes_))
-                                        : MatrixXd(VectorXd(system.damping(modes_)).asDiagonal());
-  const MatrixXd stiffness = f.stiffness(modes_, modes_) - MatrixXd(k_.asDiagonal());
-  const MatrixXd damping = f.damping(modes_, modes_) - c_;
-  const MatrixXd input = f.input(modes_, Eigen::all), output = f.output(Eigen::all, modes_);
-  forces_.resize(m, 2 * m + r_);
-  forces_ << f.stiffness(modes_, modes_), f.damping(modes_, modes_), input;
-  a_ = MatrixXd::Zero(4 * m + r_, 4 * m + r_);
-  a_.block(0, m, m, m).setIdentity();
-  a_.block(m, 0, m, m) = stiffness;
-  a_.block(m, m, m, m) = damping;
-  a_.block(m, 2 * m, m, r_) = input;
-  a_.block(m, 2 * m + r_, m, m).setIdentity();
-  a_.block(2 * m, m, r_, m) = output;
-  a_.block(2 * m, 2 * m, r_, r_) = f.rates;
-  a_.block(2 * m + r_, 3 * m + r_, m, m).setIdentity();
-  for (VectorXd* x : {&x_, &term_, &next_})
-    *x = VectorXd::Zero(a_.rows());
-  moved_ = VectorXd::Zero(7 * m + 2 * r_);
-  make_flows(std::sqrt(row_sum(stiffness)) + row_sum(damping) + row_sum(f.rates) +
-             std::sqrt(row_sum(input * output)));
-}
-
-void FeedbackFlow::make_flows(double rate) {
-  const Index m = size(), n = a_.rows();
-  const int halvings = std::max(1, 1 + static_cast<int>(std::ceil(std::log2(std::max(1.0, rate * step_)))));
-  const double t = std::ldexp(step_, -halvings);
-  MatrixXd flow = exponential(a_, t), path = MatrixXd::Zero(m, n), loss = MatrixXd::Zero(n, n);
-  for (const auto& [abscissa, weight] : gauss)
-    for (const double share : {0.5 * (1.0 - abscissa), 0.5 * (1.0 + abscissa)}) {
-      const MatrixXd at = exponential(a_, share * t);
-      path += 0.5 * weight * t * at.topRows(m);
-      loss.noalias() +=
-          0.5 * weight * t * at.middleRows(m, m).transpose() * (c_ * at.middleRows(m, m)).eval();
-    }
-  halves_.push_back(flow);
-  for (int l = 0; l < halvings; ++l) {
-    path += (path * flow).eval();
-    loss += (flow.transpose() * (loss * flow).eval()).eval();
-    flow = (flow * flow).eval();
-    halves_.push_back(flow);
+  const Index n = system.size();
+  states_ = system.motion.states();
+  coupled_.assign(static_cast<std::size_t>(n), 0);
+  const Eigen::MatrixX<char> depend = dependences(system);
+  std::vector<char> taken(static_cast<std::size_t>(n + states_), 0);
+  for (Index first = 0; first < n; ++first) {
+    if (taken[static_cast<std::size_t>(first)] || depend.col(first).isZero())
+      continue;
+    std::vector<Index> reached{first};
+    taken[static_cast<std::size_t>(first)] = 1;
+    for (std::size_t k = 0; k < reached.size(); ++k)
+      for (Index other = 0; other < n + states_; ++other)
+        if (depend(other, reached[k]) && !std::exchange(taken[static_cast<std::size_t>(other)], 1))
+          reached.push_back(other);
+    std::sort(reached.begin(), reached.end());
+    std::vector<Index> modes, states;
+    for (const Index i : reached)
+      (i < n ? modes : states).push_back(i < n ? i : i - n);
+    for (const Index mode : modes)
+      coupled_[static_cast<std::size_t>(mode)] = 1;
+    blocks_.emplace_back(system, step, std::move(modes), std::move(states));
   }
-  std::reverse(halves_.begin(), halves_.end());
-  whole_.resize(moved_.size(), n);
-  whole_ << flow.topRows(2 * m + r_), path, loss;
-}
-
-void FeedbackFlow::start(const double* q, const double* v, const double* z) {
-  const Index m = size();
-  for (Index i = 0; i < m; ++i) {
-    x_(i) = q[modes_[static_cast<std::size_t>(i)]];
-    x_(m + i) = v[modes_[static_cast<std::size_t>(i)]];
-  }
-  std::copy_n(z, r_, x_.data() + 2 * m);
-}
-
-double FeedbackFlow::energy() const {
-  const Index m = size();
-  return 0.5 * (moved_.segment(m, m).squaredNorm() + k_.dot(moved_.head(m).cwiseAbs2()));
 }
 
 FeedbackFlow::Works FeedbackFlow::advance(double* q, double* v, double* z, const double* load0,
                                           const double* load1, const double* mean, const double* slope) {
-  const Index m = size();
-  start(q, v, z);
-  const double before = 0.5 * (x_.segment(m, m).squaredNorm() + k_.dot(x_.head(m).cwiseAbs2()));
-  for (Index i = 0; i < m; ++i) {
-    const Index j = modes_[static_cast<std::size_t>(i)];
-    x_(2 * m + r_ + i) = load0[j] + mean[j] - slope[j];
-    x_(3 * m + r_ + i) = (load1[j] - load0[j] + 2.0 * slope[j]) / step_;
+  Works sum;
+  for (FeedbackBlock& block : blocks_) {
+    const Works works = block.advance(q, v, z, load0, load1, mean, slope);
+    sum.load += works.load;
+    sum.contact += works.contact;
+    sum.motion += works.motion;
   }
-  moved_.noalias() = whole_ * x_;
-  Works works;
-  for (Index i = 0; i < m; ++i) { // int f q' dt by parts
-    const Index j = modes_[static_cast<std::size_t>(i)];
-    const double way = moved_(i) - q[j], late = moved_(i) - moved_(2 * m + r_ + i) / step_;
-    works.load += load0[j] * way + (load1[j] - load0[j]) * late;
-    works.contact += (mean[j] - slope[j]) * way + 2.0 * slope[j] * late;
-    q[j] = moved_(i);
-    v[j] = moved_(m + i);
-  }
-  std::copy_n(moved_.data() + 2 * m, r_, z);
-  works.motion = energy() - before + x_.dot(moved_.tail(x_.size())) - works.load - works.contact;
-  return works;
+  return sum;
 }
 
 void FeedbackFlow::inside(double t, const double* q, const double* v, const double* z, const double* f0,
                           const double* slope, double* q_at, double* v_at) {
-  if (modes_.empty())
-    return;
-  const Index m = size();
-  start(q, v, z);
-  for (Index i = 0; i < m; ++i) {
-    x_(2 * m + r_ + i) = f0[modes_[static_cast<std::size_t>(i)]];
-    x_(3 * m + r_ + i) = slope[modes_[static_cast<std::size_t>(i)]];
-  }
-  double left = t, length = step_;
-  for (std::size_t level = 0; level < halves_.size(); ++level, length *= 0.5)
-    if (left >= length) {
-      next_.noalias() = halves_[level] * x_;
-      x_.swap(next_);
-      left -= length;
-    }
-  term_ = x_;
-  for (int j = 1; j < series_terms; ++j) {
-    next_.noalias() = a_ * term_;
-    term_ = (left / j) * next_;
-    x_ += term_;
-  }
-  for (Index i = 0; i < m; ++i) {
-    q_at[modes_[static_cast<std::size_t>(i)]] = x_(i);
-    v_at[modes_[static_cast<std::size_t>(i)]] = x_(m + i);
-  }
+  for (FeedbackBlock& block : blocks_)
+    block.inside(t, q, v, z, f0, slope, q_at, v_at);
 }
 
 void FeedbackFlow::add_forces(double* force) const {
-  for (Index i = 0; i < size(); ++i)
-    force[modes_[static_cast<std::size_t>(i)]] += forces_.row(i).dot(x_.head(forces_.cols()));
+  for (const FeedbackBlock& block : blocks_)
+    block.add_forces(force);
 }
 
 } // namespace fretwork::transient
