@@ -62,7 +62,11 @@ void add_errors(post::StandardErrors& sum, const post::StandardErrors& of) {
   sum.work_rate = std::hypot(sum.work_rate, of.work_rate);
   sum.friction_power = std::hypot(sum.friction_power, of.friction_power);
   sum.impact_rate = std::hypot(sum.impact_rate, of.impact_rate);
-  sum.batches = sum.batches > 0.0 ? std::min(sum.batches, of.batches) : of.batches;
+  const auto smaller = [](double& batches, double other) {
+    batches = batches > 0.0 ? std::min(batches, other) : other;
+  };
+  smaller(sum.batches, of.batches);
+  smaller(sum.work_rate_batches, of.work_rate_batches);
 }
 
 void compare_with_half(const std::vector<BuiltScene>& scenes, const std::vector<HalfRun>& halves,

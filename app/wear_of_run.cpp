@@ -16,8 +16,10 @@ namespace fs = std::filesystem;
 constexpr int history_steps = 40;     ///< of depth against time
 constexpr std::size_t most_names = 3; ///< in a warning
 
-double number(const nlohmann::json& value) {
-  return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+double number(const nlohmann::json& of, const char* key) {
+  const auto found = of.find(key);
+  return found != of.end() && found->is_number() ? found->get<double>()
+                                                 : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// Work rates of the contacts of another run.
@@ -37,15 +39,15 @@ std::map<std::string, StatedRate> read_run(const std::string& where, const fs::p
         fmt::format("{}: the run in {} diverged; take a smaller step there", where, directory.string()));
   std::map<std::string, StatedRate> out;
   for (const auto& contact : summary["contacts"])
-    out[contact.value("name", "")] = {number(contact["work_rate"]),
-                                      number(contact["standard_error"]["work_rate"]),
-                                      number(contact["standard_error"]["batches"])};
+    out[contact.value("name", "")] = {number(contact, "work_rate"),
+                                      number(contact["standard_error"], "work_rate"),
+                                      number(contact["standard_error"], "work_rate_batches")};
   return out;
 }
 
 StatedRate rate_of_contact(const results::RunResults& run, std::size_t contact) {
   const post::ContactSummary& statistics = run.contact_summaries[contact];
-  return {statistics.work_rate, statistics.error.work_rate, statistics.error.batches};
+  return {statistics.work_rate, statistics.error.work_rate, statistics.error.work_rate_batches};
 }
 
 wear::WorkRate scaled(const wear::WorkRate& rate, double factor) {

@@ -67,9 +67,9 @@ Run run_of(transient::Scene scene, std::uint64_t number) {
     throw core::ComputationError("a run did not end");
   Run out;
   const auto add = [&](const post::ContactSummary& c, const post::StandardErrors& e) {
-    const double n = e.batches;
+    const double n = e.batches, w = e.work_rate_batches;
     auto& row = out.emplace_back();
-    row = {interval(c.work_rate, e.work_rate, n),   interval(c.friction_power, e.friction_power, n),
+    row = {interval(c.work_rate, e.work_rate, w),   interval(c.friction_power, e.friction_power, n),
            interval(c.normal_rms, e.normal_rms, n), interval(c.impact_rate, e.impact_rate, n),
            interval(c.y.std, e.y_std, n),           interval(c.z.std, e.z_std, n)};
     const auto worn = wear_of(row[0]);

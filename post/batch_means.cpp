@@ -9,52 +9,79 @@
 namespace fretwork::post {
 namespace {
 
-constexpr double fewest =
-    7.5; ///< 8 that need not be quite equal: the error itself is then known to a quarter
-constexpr double quantile = 1.645; ///< of the normal distribution, 95 %
+constexpr double fewest = 7.5; ///< 8 that need not be quite equal
+constexpr std::size_t enough =
+    31; ///< of more batches pairs are joined: what follows one another over several of them is seen
+constexpr double strongest =
+    0.8; ///< correlation that so few batches can tell: beyond, the window is shorter than the memory
+constexpr double weakest = -0.35; ///< neighbours that undo each other: the variance falls to 0.3 at most
+constexpr double least_freedom = 2.0;
+constexpr double least_seen =
+    0.2; ///< share of the variance of batches that their scatter about the mean of the window shows
 
-struct Batches {
-  std::vector<double> lengths, deviations; ///< T_b, e_b
-
-  /// Pairs become one, an odd last one joins the pair before it.
-  void join_pairs() {
-    const std::size_t pairs = lengths.size() / 2;
-    for (std::vector<double>* values : {&lengths, &deviations}) {
-      const double odd = values->size() % 2 == 1 ? values->back() : 0.0;
-      for (std::size_t i = 0; i < pairs; ++i)
-        (*values)[i] = (*values)[2 * i] + (*values)[2 * i + 1];
-      values->resize(pairs);
-      values->back() += odd;
-    }
-  }
-};
+/// Pairs become one, an odd last one joins the pair before it.
+std::vector<double> joined(std::span<const double> values) {
+  std::vector<double> out(values.size() / 2);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = values[2 * i] + values[2 * i + 1];
+  if (values.size() % 2 == 1)
+    out.back() += values.back();
+  return out;
+}
 
 double sum_of_squares(const std::vector<double>& values) {
   return std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
+}
+
+/// For a memory exp(-t/tau) and batches of length a tau.
+double correlation_of_neighbours(double a) {
+  const double fades = -std::expm1(-a);
+  return fades * fades / (2.0 * (a - fades));
+}
+
+/// Variance of the mean of many batches over that of as many independent ones of the same variance.
+double inflation(double correlation) {
+  if (correlation <= 0.0)
+    return 1.0 + 2.0 * correlation;
+  double
+      low = 0.1,
+      high =
+          2.0 +
+          1.0 / correlation; // a: correlation_of_neighbours(low) > strongest; for large a it is 1/(2 (a - 1))
+  constexpr int halvings = 50;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (correlation_of_neighbours(middle) > correlation ? low : high) = middle;
+  }
+  return low / (low + std::expm1(-low));
 }
 
 } // namespace
 
 BatchEstimate batch_means(std::span<const double> lengths, std::span<const double> sums) {
   assert(lengths.size() == sums.size());
+  if (lengths.size() > enough)
+    return batch_means(joined(lengths), joined(sums));
   const double time = std::accumulate(lengths.begin(), lengths.end(), 0.0);
   if (!(time > 0.0))
     return {std::numeric_limits<double>::quiet_NaN(), 0.0};
   const double mean = std::accumulate(sums.begin(), sums.end(), 0.0) / time;
-  Batches b{{lengths.begin(), lengths.end()}, {sums.begin(), sums.end()}};
+  std::vector<double> deviations(sums.begin(), sums.end());
   for (std::size_t i = 0; i < lengths.size(); ++i)
-    b.deviations[i] -= mean * lengths[i];
-  if (time * time < fewest * sum_of_squares(b.lengths))
-    return {std::numeric_limits<double>::quiet_NaN(), time * time / sum_of_squares(b.lengths)};
-  for (;;) {
-    const double n = time * time / sum_of_squares(b.lengths), squares = sum_of_squares(b.deviations);
-    const double neighbours =
-        std::inner_product(b.deviations.begin(), b.deviations.end() - 1, b.deviations.begin() + 1, 0.0);
-    const bool follow = neighbours > (quantile / std::sqrt(n) - 1.0 / n) * squares;
-    if (!follow || n < 2.0 * fewest)
-      return {std::sqrt(squares / (1.0 - 1.0 / n)) / time, n};
-    b.join_pairs();
-  }
+    deviations[i] -= mean * lengths[i];
+  const double n = time * time / std::inner_product(lengths.begin(), lengths.end(), lengths.begin(), 0.0);
+  if (n < fewest)
+    return {std::numeric_limits<double>::quiet_NaN(), n};
+  const double squares = sum_of_squares(deviations);
+  if (!(squares > 0.0))
+    return {squares, n};
+  const double neighbours =
+      std::inner_product(deviations.begin(), deviations.end() - 1, deviations.begin() + 1, 0.0);
+  const double biased = neighbours / squares;
+  const double r = std::clamp(biased + (1.0 + 3.0 * biased) / n, weakest, strongest), f = inflation(r);
+  const double seen = std::max(1.0 - (f - 1.0) / (n - 1.0), least_seen);
+  return {std::sqrt(f * squares / (seen * (1.0 - 1.0 / n))) / time,
+          1.0 + std::max(n * (1.0 - r * r) / (3.0 + r * r), least_freedom)};
 }
 
 BatchEstimate batch_deviation(std::span<const double> lengths, std::span<const double> first,

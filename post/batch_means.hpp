@@ -3,15 +3,21 @@
 /// Standard errors of means over time, from one run. A window of length T is cut into consecutive batches b of lengths T_b, in which
 /// the integral of x is X_b:
 ///     m = sum X_b / T,   e_b = X_b - m T_b,   n = 1 / sum (T_b/T)^2
-///     standard error^2 = sum e_b^2 / T^2 / (1 - 1/n)
-/// n is the effective number of batches, their number where they are equally long. Where batches are independent, variances of their
-/// means being as 1/T_b, the estimate of the square has no bias, whatever their lengths.
-/// Batches that are too short follow one another and make the error too small: while the correlation of neighbours
-///     r = sum e_b e_(b+1) / sum e_b^2
-/// is above 1.645/sqrt(n) - 1/n, which independent ones exceed once in twenty (a form of von Neumann's ratio), pairs are joined, down to 8
-/// batches at least. Source: G. S. Fishman, Grouping observations in digital simulation, Management Science 24 (1978) 510-521.
-/// Limits: it is the scatter of a stationary motion; of a window with a single event it says only that there is no more than one. Motions
-/// slower than an eighth of the window are not seen.
+///     standard error^2 = f sum e_b^2 / T^2 / (1 - 1/n) / (1 - (f - 1)/(n - 1))
+/// n is the effective number of batches, their number where they are equally long. Where batches are independent f = 1, variances of their
+/// means being as 1/T_b, and the estimate of the square has no bias, whatever their lengths.
+/// Of more than 31 batches pairs are joined: a weak slow motion beside a fast one shows in long batches.
+/// Batches that are shorter than the memory of the motion follow one another. Their correlation is that of neighbours, less the bias of a
+/// window of n batches (F. H. C. Marriott and J. A. Pope, Biometrika 41 (1954) 390):
+///     r' = sum e_b e_(b+1) / sum e_b^2,   r = r' + (1 + 3 r')/n,   cut to -0.35..0.8
+/// f is that of a memory exp(-t/tau), whose batches of length a tau have
+///     r = (1 - e^-a)^2 / (2 (a - 1 + e^-a)),   f = a / (a - 1 + e^-a);   f = 1 + 2 r for r <= 0.
+/// The last factor is what the mean of the window takes of the scatter about it.
+/// Degrees of freedom: the relative variance of sum e_b^2 is 2 (1 + r^2)/(n (1 - r^2)), that of f, of an autoregression of order 1,
+/// 4/(n (1 - r^2)); both together are those of a chi-squared variable with n (1 - r^2)/(3 + r^2) degrees of freedom, at least 2. Intervals
+/// take Student's t with them.
+/// Limits: it is the scatter of a stationary motion; of a window with a single event it says only that there is no more than one. A weak
+/// motion that remembers far longer than the rest is seen where its batches stand out (measured: doc/benchmarks.md, Coverage).
 #pragma once
 #include "core/state_archive.hpp"
 #include <cstddef>
@@ -22,7 +28,7 @@ namespace fretwork::post {
 
 struct BatchEstimate {
   double error;   ///< of the mean, in its unit; not a number where there are fewer than 8 batches
-  double batches; ///< n, after joining
+  double batches; ///< degrees of freedom of the error + 1; n where it has none
 };
 
 /// @param lengths  T_b, s   @param sums  X_b

@@ -175,6 +175,7 @@ StandardErrors ContactStatistics::errors_of(const BatchSums& batches, std::size_
     return take(batch_deviation(batches.lengths, sums[first], sums[squares], shift, deviation));
   };
   out.work_rate = of_mean(slid);
+  out.work_rate_batches = out.batches;
   out.friction_power = of_mean(friction);
   out.impact_rate = of_mean(impacts);
   out.normal_rms = of_deviation(normal2, normal2, 0.0, o.normal_rms); // about 0
@@ -199,6 +200,7 @@ StandardErrors ContactStatistics::errors_of_sums() const {
     return estimate.error;
   };
   out.work_rate = error(slid);
+  out.work_rate_batches = out.batches;
   out.friction_power = error(friction);
   out.impact_rate = error(impacts);
   return out;

@@ -21,7 +21,8 @@ struct StandardErrors {
   double normal_rms = 0.0;                      ///< N, over all time
   double impact_rate = 0.0;                     ///< 1/s
   double y_std = 0.0, z_std = 0.0;              ///< m
-  double batches = 0.0;                         ///< the smallest effective number behind one of them
+  double batches = 0.0;           ///< the smallest effective number behind one of them (batch_means.hpp)
+  double work_rate_batches = 0.0; ///< that behind the error of the work rate
 };
 
 /// Over the window. An impact is a maximal interval of normal force > 0; those that start in the window

@@ -88,7 +88,8 @@ Json standard_error(const post::StandardErrors& e) {
           {"impacts_per_second", number(e.impact_rate)},
           {"normal_force", {{"rms", number(e.normal_rms)}}},
           {"displacement", {{"y", {{"std", number(e.y_std)}}}, {"z", {{"std", number(e.z_std)}}}}},
-          {"batches", number(e.batches)}};
+          {"batches", number(e.batches)},
+          {"work_rate_batches", number(e.work_rate_batches)}};
 }
 
 /// Null where nothing was measured.
@@ -154,7 +155,8 @@ Json contact_sums(const RunResults& results) {
            {{"work_rate", number(e.work_rate)},
             {"friction_power", number(e.friction_power)},
             {"impacts_per_second", number(e.impact_rate)},
-            {"batches", number(e.batches)}}},
+            {"batches", number(e.batches)},
+            {"work_rate_batches", number(e.work_rate_batches)}}},
           {"step_error", step_error(results, sum_of(results.step_errors))}};
 }
 

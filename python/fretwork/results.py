@@ -38,7 +38,7 @@ def _flat(entry: dict, prefix: str = "") -> dict:
 
 def _unit(column: str) -> str:
     parts = column.split(".")
-    if "relative" in parts or parts[0] == "step_error" or parts[-1] == "batches":
+    if "relative" in parts or parts[0] == "step_error" or parts[-1].endswith("batches"):
         return "1"
     parts = parts[1:] if parts[0] == "standard_error" else parts
     return _UNITS.get(column, _UNITS.get(parts[0], _UNITS_OF.get(parts[0], "1")))

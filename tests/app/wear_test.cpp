@@ -118,7 +118,7 @@ TEST(Wear, HasTheIntervalOfTheConfidenceThatIsAskedFor) {
                 sure = folder.run_text(worn_bundle(folder, 1, archard + "confidence = 0.95\n"));
   const auto &contact = sure.statistics("support0"), &rate = support(sure)["work_rate"];
   const double w = contact["work_rate"], error = contact["standard_error"]["work_rate"],
-               batches = contact["standard_error"]["batches"];
+               batches = contact["standard_error"]["work_rate_batches"];
   const double half = wear::student_factor(batches - 1.0, 0.95) * error;
   EXPECT_TRUE(close_to(rate["high"], w + half, round_off));
   EXPECT_TRUE(

@@ -70,24 +70,32 @@ double ratio_of_errors(double phi) {
 
 TEST(BatchMeans, HaveTheErrorOfWhiteNoise) {
   constexpr double tolerance =
-      0.03; // 400 errors, each known to 1/sqrt(2 . 40): 0.6 %; joining by chance adds 1 %
+      0.06; // of 16 to 31 batches the correction of their correlation makes the square up to 8 % too large
   EXPECT_NEAR(ratio_of_errors(0.0), 1.0, tolerance);
 }
 
 TEST(BatchMeans, HaveTheErrorOfAProcessThatRemembers) {
-  constexpr double tolerance = 0.05;                  // the same, and what the shortest batches miss
-  EXPECT_NEAR(ratio_of_errors(0.9), 1.0, tolerance);  // correlated over 10 samples, a batch has 256 to 512
-  EXPECT_NEAR(ratio_of_errors(-0.5), 1.0, tolerance); // anticorrelated
-  constexpr double of_long_memory =
-      0.16; // correlated over 200, a window of 40 such times: 13 % too small, measured
-  EXPECT_NEAR(ratio_of_errors(0.995), 1.0, of_long_memory);
+  constexpr double tolerance = 0.08;                   // the same, and what the shortest batches miss
+  EXPECT_NEAR(ratio_of_errors(0.9), 1.0, tolerance);   // correlated over 10 samples, a batch has 256 to 512
+  EXPECT_NEAR(ratio_of_errors(-0.5), 1.0, tolerance);  // anticorrelated
+  EXPECT_NEAR(ratio_of_errors(0.995), 1.0, tolerance); // correlated over 200, a window of 82 such times
+  constexpr double of_short_window =
+      0.35; // over 1000, a window of 16: the mean of squares of few degrees of freedom is above
+  EXPECT_NEAR(ratio_of_errors(0.999), 1.0, of_short_window);
 }
 
-TEST(BatchMeans, JoinBatchesThatFollowOneAnother) {
+TEST(BatchMeans, HaveFewDegreesOfFreedomWhereBatchesFollowOneAnother) {
   std::mt19937_64 generator(3);
   const std::vector<double> equal(samples, 1.0);
-  EXPECT_GE(estimate(autoregressive(0.0, generator), equal).batches, 32.0);
-  EXPECT_LE(estimate(autoregressive(0.9995, generator), equal).batches, 16.0);
+  const auto mean = [&](double phi) {
+    constexpr int series = 40;
+    double sum = 0.0;
+    for (int i = 0; i < series; ++i)
+      sum += estimate(autoregressive(phi, generator), equal).batches / series;
+    return sum;
+  };
+  EXPECT_GT(mean(0.0), 5.5); // a third of 16 to 31, and 1
+  EXPECT_LT(mean(0.9995), 5.0);
 }
 
 TEST(BatchMeans, WeighUnequalStepsByTheirLengths) {
@@ -109,16 +117,17 @@ TEST(BatchMeans, WeighUnequalStepsByTheirLengths) {
     squares += error * error;
     exact += sum2 / (sum * sum);
   }
-  constexpr double tolerance = 0.03;
+  constexpr double tolerance = 0.06; // as of white noise
   EXPECT_NEAR(std::sqrt(squares / exact), 1.0, tolerance);
 }
 
-TEST(BatchMeans, HaveNoBiasForBatchesOfUnequalLengths) {
+TEST(BatchMeans, WeighUnequalBatchesByTheirLengths) {
   // X_b of variance T_b: the estimate of the square has the mean 1/T
   std::mt19937_64 generator(5);
   std::normal_distribution<double> noise;
-  std::vector<double> lengths, sums(12);
-  for (int b = 0; b < 12; ++b)
+  constexpr int batches = 60;
+  std::vector<double> lengths, sums(batches);
+  for (int b = 0; b < batches; ++b)
     lengths.push_back(b % 3 == 0 ? 2.0 : 1.0);
   constexpr int many = 20000;
   double squares = 0.0;
@@ -126,17 +135,16 @@ TEST(BatchMeans, HaveNoBiasForBatchesOfUnequalLengths) {
     for (std::size_t b = 0; b < sums.size(); ++b)
       sums[b] = std::sqrt(lengths[b]) * noise(generator);
     const BatchEstimate e = batch_means(lengths, sums);
-    EXPECT_NEAR(e.batches, 16.0 * 16.0 / 24.0, 1e-12);
     squares += e.error * e.error;
   }
-  constexpr double tolerance = 0.02; // 20000 squares of 10 degrees of freedom: 0.3 %
-  EXPECT_NEAR(squares / many * 16.0, 1.0, tolerance);
+  constexpr double tolerance = 0.04; // the correction of their correlation, of second order in 1/60
+  EXPECT_NEAR(squares / many * 80.0, 1.0, tolerance);
 }
 
 TEST(BatchMeans, OfAConstantAreZero) {
   const BatchEstimate e = estimate(std::vector<double>(1000, 3.25), std::vector<double>(1000, 0.5));
   EXPECT_EQ(e.error, 0.0);
-  EXPECT_GE(e.batches, 32.0);
+  EXPECT_GE(e.batches, 16.0);
 }
 
 TEST(BatchMeans, OfTooFewAreNotANumber) {

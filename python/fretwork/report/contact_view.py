@@ -92,23 +92,24 @@ def _density(plot, y, z, touching):
     width, height = (2 * int(length) for length in plot.inner)  # twice the size, for print
     px = 2 * (plot.px(y) - plot.left)
     py = 2 * (plot.py(z) - plot.top)
-    longest = float(np.hypot(np.diff(px), np.diff(py)).max()) if len(px) > 1 else 0.0
-    parts = int(np.clip(math.ceil(longest), 1, 24))
-    share = np.arange(parts) / parts
-    along_x = (px[:-1, None] + np.diff(px)[:, None] * share).ravel()
-    along_y = (py[:-1, None] + np.diff(py)[:, None] * share).ravel()
-    weight = np.repeat(touching[:-1] & touching[1:], parts)
-    column, row = along_x.astype(int), along_y.astype(int)
+    parts = np.clip(np.ceil(np.hypot(np.diff(px), np.diff(py))), 1, 24).astype(int)  # of each line between two instants
+    share = (np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)) / np.repeat(parts, parts)
+    column = (np.repeat(px[:-1], parts) + np.repeat(np.diff(px), parts) * share).astype(int)
+    row = (np.repeat(py[:-1], parts) + np.repeat(np.diff(py), parts) * share).astype(int)
+    time = 1.0 / np.repeat(parts, parts)  # in intervals between instants
+    touch = np.repeat(touching[:-1] & touching[1:], parts) * time
     seen = (column >= 0) & (column < width) & (row >= 0) & (row < height)
     cell = row[seen] * width + column[seen]
-    count = np.bincount(cell, minlength=width * height).astype(float)
-    contact = np.bincount(cell, weights=weight[seen], minlength=width * height)
-    top = np.quantile(count[count > 0], 0.98) if (count > 0).any() else 1.0
-    strength = np.clip(np.log1p(count) / np.log1p(top), 0, 1)
-    mix = np.divide(contact, count, out=np.zeros_like(count), where=count > 0)[:, None]
+    count = np.bincount(cell, weights=time[seen], minlength=width * height)
+    met = np.flatnonzero(count)
+    count = count[met]
+    contact = np.bincount(cell, weights=touch[seen], minlength=width * height)[met]
+    top = np.quantile(count, 0.98) if len(met) else 1.0
+    strength = np.clip(np.log1p(24 * count) / np.log1p(24 * top), 0, 1)
+    mix = (contact / count)[:, None]
     pixels = np.zeros((width * height, 4), np.uint8)
-    pixels[:, :3] = FREE * (1 - mix) + TOUCH * mix
-    pixels[:, 3] = np.where(count > 0, 60 + 195 * strength, 0)
+    pixels[met, :3] = FREE * (1 - mix) + TOUCH * mix
+    pixels[met, 3] = 60 + 195 * strength
     plot.picture(pixels.reshape(height, width, 4))
 
 

@@ -2,6 +2,7 @@
 """flow.csv and spectra.csv of a results folder: the flow along tubes, and power spectra."""
 
 import csv
+import itertools
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -28,30 +29,40 @@ class Spectrum:
     high: np.ndarray
 
 
-def _rows(path):
+def _columns(path):
+    """The columns of a table by their heads, as texts; none where there is no file, or no row."""
     if not path.exists():
-        return []
+        return {}
     with path.open(encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
+        rows = list(csv.reader(file))
+    return dict(zip(rows[0], zip(*rows[1:]))) if len(rows) > 1 else {}
+
+
+def _places(keys):
+    """Where each key stands, in the order of the first ones."""
+    found, first = {}, 0
+    for key, rows in itertools.groupby(keys):
+        last = first + sum(1 for _ in rows)
+        found.setdefault(key, []).extend(range(first, last))
+        first = last
+    return found
 
 
 def flows(folder):
     """In the order of the file."""
-    found = {}
-    for row in _rows(Path(folder) / "flow.csv"):
-        tube = found.setdefault(row["tube"], TubeFlow(row["tube"]))
-        tube.zones.append(row["zone"])
-        for head in row.keys() - {"tube", "zone"}:
-            tube.columns.setdefault(head, []).append(float(row[head]))
-    for tube in found.values():
-        tube.columns = {head: np.array(values) for head, values in tube.columns.items()}
-    return list(found.values())
+    columns = _columns(Path(folder) / "flow.csv")
+    numbers = {head: np.array(values, float) for head, values in columns.items() if head not in ("tube", "zone")}
+    return [
+        TubeFlow(tube, [columns["zone"][i] for i in places], {head: values[places] for head, values in numbers.items()})
+        for tube, places in _places(columns.get("tube", ())).items()
+    ]
 
 
 def spectra(folder):
     """In the order of the file."""
-    found = {}
-    for row in _rows(Path(folder) / "spectra.csv"):
-        values = found.setdefault((row["name"], row["quantity"], row["unit"]), [])
-        values.append([float(row[head]) for head in ("frequency [Hz]", "density", "low_95", "high_95")])
-    return [Spectrum(*key, *np.array(values).T) for key, values in found.items()]
+    columns = _columns(Path(folder) / "spectra.csv")
+    if not columns:
+        return []
+    values = np.array([columns[head] for head in ("frequency [Hz]", "density", "low_95", "high_95")], float)
+    keys = zip(columns["name"], columns["quantity"], columns["unit"])
+    return [Spectrum(*key, *values[:, places]) for key, places in _places(keys).items()]
