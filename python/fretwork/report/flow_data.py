@@ -37,7 +37,7 @@ def _rows(path):
 
 def flows(folder):
     """In the order of the file."""
-    found = {}
+    found: dict[str, TubeFlow] = {}
     for row in _rows(Path(folder) / "flow.csv"):
         tube = found.setdefault(row["tube"], TubeFlow(row["tube"]))
         tube.zones.append(row["zone"])
@@ -50,7 +50,7 @@ def flows(folder):
 
 def spectra(folder):
     """In the order of the file."""
-    found = {}
+    found: dict[tuple[str, str, str], list[list[float]]] = {}
     for row in _rows(Path(folder) / "spectra.csv"):
         values = found.setdefault((row["name"], row["quantity"], row["unit"]), [])
         values.append([float(row[head]) for head in ("frequency [Hz]", "density", "low_95", "high_95")])
