@@ -28,9 +28,9 @@ def _text(value: Any) -> Any:
     return value.decode() if isinstance(value, bytes) else value
 
 
-def _flat(entry: dict, prefix: str = "") -> dict:
+def _flat(entry: dict[str, Any], prefix: str = "") -> dict[str, Any]:
     """Nested statistics as one level: normal_force.max."""
-    found: dict = {}
+    found: dict[str, Any] = {}
     for key, value in entry.items():
         found |= _flat(value, f"{prefix}{key}.") if isinstance(value, dict) else {prefix + key: value}
     return found
@@ -63,19 +63,19 @@ class Results:
         return h5py.File(self.directory / "results.h5", "r")
 
     @cached_property
-    def summary(self) -> dict:
+    def summary(self) -> dict[str, Any]:
         """summary.json."""
         return json.loads((self.directory / "summary.json").read_text(encoding="utf-8"))
 
     @cached_property
-    def study(self) -> dict:
+    def study(self) -> dict[str, Any]:
         """The study of the run, without its overrides (summary["overrides"])."""
         import tomllib
 
         with self._file() as file:
             return tomllib.loads(_text(file.attrs["study"]))
 
-    def _table(self, entries: list[dict]) -> pandas.DataFrame:
+    def _table(self, entries: list[dict[str, Any]]) -> pandas.DataFrame:
         import pandas
 
         table = pandas.DataFrame([_flat(entry) for entry in entries])
@@ -113,7 +113,7 @@ class Results:
         return table
 
     @staticmethod
-    def _in_order(group: h5py.Group) -> list:
+    def _in_order(group: h5py.Group) -> list[h5py.Group]:
         return sorted(group.values(), key=lambda item: int(item.attrs["index"]))
 
     def series(self, name: str) -> xarray.Dataset:
@@ -155,7 +155,7 @@ class Results:
         return table
 
     @staticmethod
-    def _mode_groups(file: h5py.File) -> list:
+    def _mode_groups(file: h5py.File) -> list[tuple[int, h5py.Group]]:
         modes = file["modes"]
         return [(0, modes)] if "shapes" in modes else [(int(key), modes[key]) for key in sorted(modes, key=int)]
 
@@ -173,7 +173,7 @@ class Results:
                                             "component": ["dx", "dy", "dz", "rx", "ry", "rz"]})
 
     @cached_property
-    def mesh(self) -> tuple[np.ndarray, np.ndarray]:
+    def mesh(self) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
         """Nodes (m) and the two nodes of each beam."""
         with self._file() as file:
             return file["mesh/nodes"][...], file["mesh/lines"][...]

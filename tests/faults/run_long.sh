@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The long form of what the tests do shortly; prints the tables of doc/reliability.md: tests/faults/run_long.sh [SECONDS_OF_FUZZING [PART ...]].
-# Parts: faults (every call, six kinds of faults, 1 000 damaged files of each kind, 50 kills), surroundings, grid (2 000 cells), compilers
+# Parts: faults (every call, six kinds of faults, 1 000 damaged files of each kind, 50 kills), surroundings, grid (2 000 cells), mutations (300 studies that `check` and `run` agree on), compilers
 # (g++ against clang), sanitizers (all tests), fuzzing (by default an hour for each reader). Some ten hours on two cores.
 # Every part runs, whatever the others found; the status is 1 where one of them found something.
 set -uo pipefail
 cd "$(dirname "$0")/../.."
 seconds=${1:-3600}
 parts=("${@:2}")
-[ ${#parts[@]} -gt 0 ] || parts=(faults surroundings grid compilers sanitizers fuzzing)
+[ ${#parts[@]} -gt 0 ] || parts=(faults surroundings grid mutations compilers sanitizers fuzzing)
 program=$PWD/build/release/bin/fretwork
 python=${FRETWORK_PYTHON:-/usr/bin/python3}
 study=examples/straight_tube/study.toml
@@ -18,6 +18,7 @@ faults() {
 }
 surroundings() { "$python" -B tests/faults/surroundings_test.py "$program" $study mpirun; }
 grid() { "$python" -B tests/faults/grid_test.py "$program" --cells 2000 --keep build/faults; }
+mutations() { "$python" -B tests/faults/mutations_test.py "$program" examples --studies 300 --keep build/faults; }
 compilers() {
   cmake -B build/clang -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14 \
     -DFRETWORK_TESTS=OFF -DFRETWORK_BENCH=OFF >/dev/null && cmake --build build/clang --target fretwork >/dev/null &&

@@ -13,6 +13,7 @@ sys.path[:0] = [PYTHON, str(Path(__file__).parent)]
 from browser import Browser  # noqa: E402
 from fretwork.report import write_report  # noqa: E402
 
+PAPER = 695  # px: A4 between its margins, page.py
 LIVE = "document.querySelectorAll('figure.on').length"
 
 
@@ -115,6 +116,10 @@ class InABrowser(unittest.TestCase):
             shown = self.browser.run("[...document.querySelectorAll('.live-picture')].filter(e => e.getBoundingClientRect().height > 0).length")
             static = self.browser.run("[...document.querySelectorAll('figure > .static')].filter(e => e.getBoundingClientRect().height === 0).length")
             self.assertEqual((shown, static), (0, 0))
+            self.browser.send("Emulation.setDeviceMetricsOverride", width=PAPER, height=1000, deviceScaleFactor=1, mobile=False)
+            clipped = self.browser.run("[...document.querySelectorAll('.scroll, .row, .panel, pre')].filter(e => e.scrollWidth > e.clientWidth + 1).map(e => e.outerHTML.slice(0, 80))")
+            self.assertEqual(clipped, [], "wider than the paper")
+            self.browser.send("Emulation.clearDeviceMetricsOverride")
             self.browser.pdf(SCREENSHOTS / "report.pdf")
         finally:
             self.browser.send("Emulation.setEmulatedMedia", media="")
@@ -124,6 +129,28 @@ class InABrowser(unittest.TestCase):
         self.assertIsNone(self.browser.run("window.injected"))
         self.assertTrue(any("Content Security Policy" in error for error in self.browser.errors), self.browser.errors)
         self.browser.errors.clear()
+
+
+class ManyContacts(unittest.TestCase):
+    CONTACTS, FOLDED = 24, 15  # more than a table shows at first
+
+    def test_folds_long_tables_on_the_screen_alone(self):
+        section = "[...document.querySelectorAll('section')].find(s => s.querySelector('h2').textContent === 'Table of contacts')"
+        rows = f"[...{section}.querySelector('tbody').rows].filter(r => r.getBoundingClientRect().height > 0).length"
+        fold = f"{section}.querySelector('.fold')"
+        with tempfile.TemporaryDirectory(prefix="fretwork_browser_test_") as folder, Browser(CHROMIUM) as browser:
+            subprocess.run([WRITE_MADE_UP, folder, str(self.CONTACTS), "100", "1"], check=True, stdout=subprocess.DEVNULL)
+            browser.open(write_report(Path(folder)))
+            self.assertEqual(browser.run(rows), self.FOLDED)
+            browser.send("Emulation.setEmulatedMedia", media="print")
+            self.assertEqual(browser.run(rows), self.CONTACTS)
+            browser.send("Emulation.setEmulatedMedia", media="")
+            self.assertIn(f"all {self.CONTACTS} rows", browser.run(fold + ".textContent"))
+            browser.run(fold + ".click()")
+            self.assertEqual(browser.run(rows), self.CONTACTS)
+            browser.run(fold + ".click()")
+            self.assertEqual(browser.run(rows), self.FOLDED)
+            self.assertEqual(browser.errors, [])
 
 
 if __name__ == "__main__":

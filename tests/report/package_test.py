@@ -100,6 +100,17 @@ class Package(unittest.TestCase):
         with self.assertRaisesRegex(fretwork.RunFailed, "modes.cuont"):
             fretwork.run(folder / "study.toml", {"modes.cuont": 3}, output=folder / "out", progress=False)
 
+    def test_runs_on_two_ranks(self):
+        folder = self.folder.parent / "two_tubes"
+        shutil.copytree(Path(EXAMPLES) / "two_tubes", folder, ignore=shutil.ignore_patterns("*.results"))
+        short = {"transient.duration": 0.02, "modes.count": 9}
+        one, two = (fretwork.run(folder / "study.toml", short, ranks=ranks, output=folder / str(ranks), progress=False) for ranks in (1, 2))
+        self.assertEqual([results.summary["ranks"] for results in (one, two)], [1, 2])
+        for name in one.contacts.index:
+            np.testing.assert_array_equal(one.series(name)["normal_force"], two.series(name)["normal_force"])
+        with self.assertRaisesRegex(fretwork.RunFailed, "modes.cuont"):
+            fretwork.run(folder / "study.toml", {"modes.cuont": 3}, ranks=2, output=folder / "out", progress=False)
+
 
 if __name__ == "__main__":
     unittest.main()

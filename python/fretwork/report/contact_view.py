@@ -77,7 +77,7 @@ def limits(contact, y, z):
     walls = _walls(contact)
     off = np.abs(walls - (low + high) / 2)
     if extent == 0 or float((off if normal is None else off[:, normal]).max(initial=0.0)) <= FAR * extent:
-        seen = slice(None) if normal is None else normal
+        seen = slice(None) if normal is None else slice(normal, normal + 1)
         low[seen] = np.minimum(low[seen], walls.min(axis=0, initial=math.inf)[seen])
         high[seen] = np.maximum(high[seen], walls.max(axis=0, initial=-math.inf)[seen])
     span = high - low

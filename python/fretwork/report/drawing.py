@@ -56,7 +56,7 @@ def label_width(text, digit=6.7):
 
 def tick_room(interval, most):
     """Width (px) of the longest tick label of an axis."""
-    values = ticks(*interval, most)
+    values = ticks(interval[0], interval[1], most)
     step = values[1] - values[0] if len(values) > 1 else 1
     return max((label_width(tick_label(value, step)) for value in values), default=0.0)
 
@@ -126,8 +126,8 @@ class Plot:
         if slanted:
             self.bottom = max(self.bottom, min(110, int(0.75 * max(label_width(label) for _, label in x_ticks)) + 22))
         right, base = self.width - self.right, self.height - self.bottom
-        xs = ticks(*self.x, x_most) if x_ticks is None else []
-        ys = ticks(*self.y, y_most)
+        xs = ticks(self.x[0], self.x[1], x_most) if x_ticks is None else []
+        ys = ticks(self.y[0], self.y[1], y_most)
         out = []
         for value in xs:
             at = float(self.px(value))
@@ -165,7 +165,8 @@ class Plot:
         self.add(f'<polyline class="{kind}" points="{path}"/>')
 
     def series(self, x, y, kind):
-        self.line(*envelope(np.asarray(x), np.asarray(y), int(self.inner[0])), kind)
+        x, y = envelope(np.asarray(x), np.asarray(y), int(self.inner[0]))
+        self.line(x, y, kind)
 
     def rectangle(self, x, y, kind):
         x0, x1 = (float(self.px(v)) for v in x)

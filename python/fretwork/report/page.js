@@ -159,7 +159,8 @@
   }, { rootMargin: "200px" });
   document.querySelectorAll("script.live").forEach(script => watcher.observe(script.closest("figure")));
 
-  // Tables: a click on a head sorts, a button saves the table as CSV.
+  // Tables: a click on a head sorts, a button saves the table as CSV; long ones show their first rows, in the order in which they are sorted.
+  const LONG = 20, FOLDED = 15;  // rows; page.py's style hides those after FOLDED on the screen
   const plain = cell => cell.innerHTML.replace(/·10<sup>(.*?)<\/sup>/g, "e$1").replace(/<[^>]*>/g, "").replace(/−/g, "-")
     .replace(/&lt;/g, "<").replace(/&gt;/g, ">").replace(/&amp;/g, "&").trim();
   for (const table of document.querySelectorAll("table.data")) {
@@ -189,5 +190,12 @@
       URL.revokeObjectURL(link.href);
     };
     table.parentElement.before(button);
+    if (body.rows.length <= LONG) continue;
+    const fold = element("button", null, "", "fold");
+    fold.onclick = () => {
+      fold.textContent = table.classList.toggle("folded") ? `▾ all ${body.rows.length} rows` : `▴ the first ${FOLDED} rows`;
+    };
+    fold.onclick();
+    table.parentElement.after(fold);
   }
 })();

@@ -53,7 +53,7 @@ table { border-collapse: collapse; width: 100%; font-size: 13px; font-variant-nu
 th { text-align: right; color: var(--soft); font-weight: 600; border-bottom: 1.5px solid var(--ink); padding: 3px 7px; vertical-align: bottom; }
 td { text-align: right; border-bottom: 1px solid var(--line); padding: 3px 7px; white-space: nowrap; }
 th:first-child, td:first-child, .text { text-align: left; white-space: normal; }
-.scroll { overflow-x: auto; }
+.scroll { overflow-x: auto; clear: both; }
 .warning { border-left: 4px solid var(--orange); background: #fdf3ea; padding: 6px 12px; margin: 8px 0; }
 .bad { border-left-color: #b3141e; background: #fdecec; }
 pre { background: var(--pale); border: 1px solid var(--line); border-radius: 6px; padding: 12px 14px; font-size: 12px;
@@ -80,9 +80,13 @@ svg text { font-size: 11px; fill: var(--ink); } svg .tick { fill: var(--soft); f
 .u-legend { font-size: 11px; text-align: left !important; margin: 0; } .u-legend th, .u-legend td { border: 0; padding: 1px 3px; } .live-picture canvas { display: block; } .bar-of-scene { margin: 0 0 4px; font-size: 13px; }
 table.data th { cursor: pointer; } th[aria-sort=descending]::after { content: " ▾"; } th[aria-sort=ascending]::after { content: " ▴"; }
 .csv { float: right; font-size: 11px; color: var(--soft); background: none; border: 1px solid var(--line); border-radius: 4px; cursor: pointer; margin: 0 0 2px; }
-@media print { .screen { display: none; } figure.on > .static { display: block; } .live-picture, .csv { display: none; } th[aria-sort]::after { content: "" !important; }
+.fold { font-size: 12px; color: var(--blue); background: none; border: 0; padding: 2px 7px; cursor: pointer; }
+@media screen { table.folded > tbody > tr:nth-child(n+16) { display: none; } }
+@page { size: A4; margin: 13mm; }
+@media print { .screen { display: none; } figure.on > .static { display: block; } .live-picture, .csv, .fold { display: none; } th[aria-sort]::after { content: "" !important; }
   body { max-width: none; padding: 0; font-size: 12px; } pre { max-height: none; white-space: pre-wrap; }
-  h2 { break-after: avoid; } .panel { border-color: #ccc; } * { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
+  h2, h3 { break-after: avoid; } table { font-size: 9.5px; } th, td { padding: 2px 4px; white-space: normal; } .scroll { overflow: visible; } tr, .small > * { break-inside: avoid; }
+  .row { flex-wrap: nowrap; } .row figure { min-width: 0; } .panel { border-color: #ccc; } * { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
 """
 
 

@@ -139,7 +139,7 @@ def _support_wear(group):
 
 def _chain_abscissae(nodes, lines):
     """Length along the line from its first end to each node, where the mesh is one open chain; else None."""
-    neighbours = [[] for _ in nodes]
+    neighbours: list[list[int]] = [[] for _ in nodes]
     for a, b in lines:
         neighbours[a].append(b)
         neighbours[b].append(a)

@@ -98,7 +98,7 @@ def _overlap(a, b):
 
 def _supports(contacts):
     """Contacts of one support (points of its thickness, name@k) as one: name and contacts, in their order."""
-    found = {}
+    found: dict[str, list] = {}
     for contact in contacts:
         found.setdefault(contact.name.split("@")[0], []).append(contact)
     return found.items()
@@ -107,7 +107,8 @@ def _supports(contacts):
 def _name_supports(plot, supports):
     """A dot and a name each: at the side asked for or another where it touches no other name. Names for which there is no room, which are
     left out."""
-    written, left_out = [], []
+    written: list[tuple] = []
+    left_out: list[str] = []
     for name, places, side in supports:
         for at in places:
             plot.dot(at[0], at[1], "support", 4)

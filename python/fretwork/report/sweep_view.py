@@ -37,7 +37,7 @@ def scatter(x, y, labels, size=(300, 190)):
         return ""
     x, y = x[keep], y[keep]
     plot = Plot(size, (x.min(), x.max()), (min(0.0, y.min()), 1.05 * y.max()))
-    plot.axes(*labels, x_most=4, y_most=4)
+    plot.axes(labels[0], labels[1], x_most=4, y_most=4)
     for a, b in zip(x, y):
         plot.dot(a, b, "bar", radius=2.0)
     return plot.svg(f"{labels[1]} against {labels[0]}")
