@@ -81,7 +81,7 @@ std::vector<modal::Basis> nodes_of(const std::vector<modal::Basis>& bases) {
 
 /// The run of one scene, its statistics at their places among those of the case.
 void run_scene(const study::Study& study, const BuiltScene& built, const transient::StepChoice& choice,
-               const std::function<void()>& between, results::RunResults& out) {
+               results::RunResults& out) {
   const double from = study.output.statistics_from;
   post::ContactStatistics contacts(built.scene.contacts, from);
   post::SectorStatistics sectors(built.watched_wear.sectors, from);
@@ -97,10 +97,8 @@ void run_scene(const study::Study& study, const BuiltScene& built, const transie
                      transient::output_grid(study.transient->duration, output_interval(study)));
   const TimeLimit limit{study.transient->duration, study.transient->max_hours, [](const std::string&) {}};
   ExpectedTime expected(limit, 0.0);
-  while (run.advance(Checkpoints::records_between_looks)) {
+  while (run.advance(Checkpoints::records_between_looks))
     expected.look(run.time());
-    between();
-  }
   const transient::Report report = run.finish();
   judge_run(study, built, choice, report, out);
   out.transients.push_back({choice, report});
@@ -186,9 +184,8 @@ std::vector<BuiltScene> CaseRunner::scenes_of(const Case& c) {
 }
 
 CaseRunner::CaseRunner(study::Document document, std::vector<std::string> base_overrides,
-                       const Inputs& nominal, std::function<void()> between)
-    : document_(std::move(document)), base_overrides_(std::move(base_overrides)),
-      between_(std::move(between)), bases_(nominal) {
+                       const Inputs& nominal)
+    : document_(std::move(document)), base_overrides_(std::move(base_overrides)), bases_(nominal) {
   for (const std::string& text : base_overrides_)
     study::apply_override(document_.root, text);
   name_columns(prepare({}));
@@ -218,9 +215,11 @@ void CaseRunner::name_columns(const Case& nominal) {
   const std::vector<PlacedContact> all = together(nominal.placed, nominal.inactive);
   if (all.empty())
     throw core::Error("the study has no [[contacts]]; a sweep gives their statistics");
-  for (const PlacedContact& contact : all)
+  for (const PlacedContact& contact : all) {
+    contacts_.emplace_back(contact.name, contact.node);
     for (const Figure& figure : figures)
       add(fmt::format("{}.{}", contact.name, figure.name), figure.unit, figure.error != nullptr);
+  }
   const std::vector<WornPlace> worn = worn_places(nominal.study, nominal.structure->model, all);
   for (const WornPlace& place : worn) {
     add(place.name + ".wear_depth", "m", true);
@@ -254,7 +253,7 @@ std::vector<double> CaseRunner::operator()(const std::vector<std::string>& overr
   out.sector_rates.resize(c.placed.size());
   out.force_speed_classes.resize(c.placed.size());
   for (std::size_t i = 0; i < scenes.size(); ++i)
-    run_scene(c.study, scenes[i], choices[i], between_, out);
+    run_scene(c.study, scenes[i], choices[i], out);
   out.bases = nodes_of(c.contacts->bases);
   add_wear(c.study, c.worn, c.placed, others, out);
   Filling row(columns_);

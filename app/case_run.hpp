@@ -6,7 +6,6 @@
 #include "app/case_bases.hpp"
 #include "study/document.hpp"
 #include "sweep/table.hpp"
-#include <functional>
 
 namespace fretwork::app {
 
@@ -18,11 +17,11 @@ class CaseRunner {
 public:
   /// Collective over nothing; computes what the nominal case needs.
   /// @param document  the study as it stands   @param nominal  with `base_overrides`
-  /// @param between   called now and then within a run
-  CaseRunner(study::Document document, std::vector<std::string> base_overrides, const Inputs& nominal,
-             std::function<void()> between);
+  CaseRunner(study::Document document, std::vector<std::string> base_overrides, const Inputs& nominal);
 
   [[nodiscard]] const std::vector<sweep::Column>& columns() const { return columns_; }
+  /// Name and node of each contact, inactive ones included.
+  [[nodiscard]] const std::vector<std::pair<std::string, core::Index>>& contacts() const { return contacts_; }
   /// @throws core::Error, core::ComputationError where the case has no result
   [[nodiscard]] std::vector<double> operator()(const std::vector<std::string>& overrides);
 
@@ -34,9 +33,9 @@ private:
 
   study::Document document_; ///< with the base overrides, not yet completed
   std::vector<std::string> base_overrides_;
-  std::function<void()> between_;
   CaseBases bases_;
   std::vector<sweep::Column> columns_;
+  std::vector<std::pair<std::string, core::Index>> contacts_;
 };
 
 } // namespace fretwork::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// The executable: command line, exit status. The only catch of the program is here.
+#include "app/case_worker.hpp"
 #include "app/chain.hpp"
 #include "app/export.hpp"
 #include "app/python_report.hpp"
@@ -126,6 +127,9 @@ int main(int argc, char** argv) {
   sweep->add_option("--shard", shard, "i/n: part i of n of the cases only, without table (job arrays)");
   bool gather = false;
   sweep->add_flag("--gather", gather, "no case: the table of what the shards have");
+  CLI::App* cases =
+      program.add_subcommand("sweep-cases", "the process that computes cases for a sweep")->group("");
+  add_run_options(*cases, request);
   CLI::App* report =
       program.add_subcommand("report", "report.html with its pictures, from the results in a folder");
   report->add_option("directory", directory, "folder of the results")->required();
@@ -157,7 +161,8 @@ int main(int argc, char** argv) {
   } catch (const CLI::ExtrasError& error) {
     if (const std::string command = argv[1]; program.get_subcommands().empty() && !command.starts_with("-")) {
       std::vector<std::string> commands;
-      for (const CLI::App* known : program.get_subcommands([](const CLI::App*) { return true; }))
+      for (const CLI::App* known :
+           program.get_subcommands([](const CLI::App* listed) { return !listed->get_group().empty(); }))
         commands.push_back(known->get_name());
       if (speaks())
         fmt::print(stderr, "fretwork: there is no command \"{}\"{}\n", command,
@@ -198,6 +203,8 @@ int main(int argc, char** argv) {
       const auto part = shard.empty() ? std::nullopt : std::optional(sweep::shard_of(shard));
       app::run_sweep(MPI_COMM_WORLD, {request, part, gather});
     });
+  if (cases->parsed())
+    return guarded([&] { app::serve_cases(request); });
   request.report = request.report && run->parsed();
   const app::Stage last = mesh->parsed()        ? app::Stage::mesh
                           : modes->parsed()     ? app::Stage::modes

@@ -71,11 +71,15 @@ void make_directory(const fs::path& directory) {
                                   directory.string(), failure.message()));
 }
 
+void use_made_mesh(Inputs& inputs) {
+  if (!mesh::is_msh(inputs.study.mesh.file))
+    inputs.mesh_file = inputs.directory / "mesh.msh";
+}
+
 void make_mesh_file(MPI_Comm comm, Inputs& inputs) {
-  const fs::path source = inputs.study.mesh.file;
-  if (mesh::is_msh(source))
+  if (mesh::is_msh(inputs.study.mesh.file))
     return;
-  inputs.mesh_file = inputs.directory / "mesh.msh";
+  use_made_mesh(inputs);
   core::agree(comm, [&] {
     if (core::rank(comm) != 0)
       return;

@@ -41,6 +41,9 @@ void make_directory(const std::filesystem::path& directory);
 /// a tenth of a second).
 void make_mesh_file(MPI_Comm comm, Inputs& inputs);
 
+/// What make_mesh_file has made is the mesh file.
+void use_made_mesh(Inputs& inputs);
+
 /// The keys, from the mesh as it is read and the study without its comments and formatting.
 void make_keys(const Request& request, Inputs& inputs);
 

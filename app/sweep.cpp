@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/sweep.hpp"
-#include "app/case_run.hpp"
+#include "app/case_worker.hpp"
 #include "app/chain.hpp"
 #include "app/folder_lock.hpp"
 #include "app/progress.hpp"
@@ -10,7 +10,6 @@
 #include "core/mpi.hpp"
 #include "core/mpi_counter.hpp"
 #include "core/names.hpp"
-#include "core/petsc.hpp"
 #include "core/printable.hpp"
 #include "results/figures.hpp"
 #include "results/text_file.hpp"
@@ -18,7 +17,9 @@
 #include "sweep/summary.hpp"
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -31,7 +32,6 @@ using sweep::Table;
 /// Increments of the counter of ended cases: those without a result are counted in its upper half.
 constexpr std::int64_t one_case = 1, one_failure = (std::int64_t{1} << 32) + 1, cases_part = one_failure - 2;
 
-/// All that a sweep is.
 struct Plan {
   study::Document document; ///< as it stands, [sweep] included
   study::Sweep sweep;
@@ -146,6 +146,22 @@ std::vector<std::int64_t> missing_cases(MPI_Comm comm, const Plan& plan, std::in
   return missing;
 }
 
+/// Of each node its length along the mesh, m, where that is one open chain; else empty.
+std::vector<double> abscissae(const mesh::LineMesh& mesh) {
+  std::vector<double> out(mesh.nodes.size(), std::numeric_limits<double>::quiet_NaN());
+  double length = 0.0;
+  for (std::size_t i = 0; i < mesh.lines.size(); ++i) { // in walking order
+    const auto [from, to] = mesh.lines[i].nodes;
+    const auto begin = static_cast<std::size_t>(from), end = static_cast<std::size_t>(to);
+    if ((i > 0 && from != mesh.lines[i - 1].nodes[1]) || !std::isnan(out[end]))
+      return {}; // another chain, or a closed one
+    out[begin] = length;
+    length += (mesh.nodes[end] - mesh.nodes[begin]).norm();
+    out[end] = length;
+  }
+  return out;
+}
+
 /// The sweep at work on one rank.
 class SweepRun {
 public:
@@ -155,17 +171,20 @@ public:
 
   /// Collective: all cases, in stages where the sweep goes on until it knows enough.
   void compute() {
-    const core::PetscSession petsc;
     progress_.stage("basis");
-    std::optional<CaseRunner> runner;
+    std::optional<CaseWorker> worker;
     core::agree(comm_, [&] {
-      runner.emplace(plan_.document, request_.request.overrides, plan_.inputs, [this] { look(); });
+      Request nominal = request_.request;
+      nominal.directory = plan_.inputs.directory;
+      worker.emplace(std::move(nominal), plan_.inputs.whole_key, [this] { look(); });
     });
-    table_.outputs = runner->columns();
     for (std::int64_t blocks = 1;; blocks = next_blocks(blocks)) {
-      draws_ = shared_design(comm_, plan_.sweep, blocks);
+      draws_ = shared_design(comm_, plan_.sweep, blocks); // the first ones while the worker starts
+      if (blocks == 1)
+        core::agree(comm_, [&] { facts_ = worker->facts(); });
+      table_.outputs = facts_.columns;
       if (!request_.gather)
-        compute_missing(*runner);
+        compute_missing(*worker);
       gather();
       if (request_.shard || enough(blocks))
         return;
@@ -202,6 +221,12 @@ public:
                                                     {"input_sha256", plan_.inputs.whole_key}};
     sweep::write_csv(plan_.directory / "table.csv", plan_.sweep, draws_, table_);
     sweep::write_archive(plan_.directory / "table.h5", plan_.sweep, draws_, table_, record);
+    const std::vector<double> places = abscissae(mesh_stage(MPI_COMM_SELF, plan_.inputs));
+    for (const auto& [name, node] : facts_.contacts) {
+      summary_["contacts"].push_back({{"name", name}, {"node", node}});
+      if (!places.empty() && !std::isnan(places[static_cast<std::size_t>(node)]))
+        summary_["contacts"].back()["abscissa_m"] = places[static_cast<std::size_t>(node)];
+    }
     for (const auto& [name, text] : record)
       summary_[name] = text;
     results::write_text(plan_.directory / "summary.json", summary_.dump(1) + "\n");
@@ -259,7 +284,7 @@ private:
                             [&](std::int64_t number) { return identity_of(plan_, draws_, number); });
   }
 
-  void compute_missing(CaseRunner& runner) {
+  void compute_missing(CaseWorker& worker) {
     sweep::FoundRows found;
     core::agree(comm_, [&] {
       if (first_rank_)
@@ -277,8 +302,10 @@ private:
       sweep::ShardFile file(plan_.inputs.directory / fmt::format("rank_{}.rows", core::rank(comm_)));
       sweep::work(
           missing, core::size(comm_), [&] { return counters.add(0, 1); },
-          [&](std::int64_t number) { return identity_of(plan_, draws_, number); },
-          [&](std::int64_t number) { return runner(sweep::overrides_of(plan_.sweep, draws_, number)); },
+          [&](std::int64_t number) {
+            return worker(number, identity_of(plan_, draws_, number),
+                          sweep::overrides_of(plan_.sweep, draws_, number));
+          },
           [&](const sweep::Row& row) {
             file.append(row);
             counters.add(1, row.outcome == sweep::Outcome::done ? one_case : one_failure);
@@ -288,7 +315,6 @@ private:
     counters_ = nullptr;
   }
 
-  /// Now and then, within runs too.
   void look() {
     if (!counters_ || !first_rank_)
       return;
@@ -328,6 +354,7 @@ private:
   bool first_rank_;
   Progress progress_;
   sweep::Draws draws_;
+  SweepFacts facts_;
   Table table_; ///< rows on rank 0 only
   nlohmann::json summary_;
   core::SharedCounters* counters_ = nullptr;

@@ -2,7 +2,7 @@
 /// @file
 /// `fretwork sweep`: the cases of `[sweep]` over all ranks, their table, what they say together (doc/sweep.md).
 ///
-///     study -> Sweep -> Draws -> cases (overrides) -> CaseRunner -> Row -> ShardFile -> Table -> summary, report
+///     study -> Sweep -> Draws -> cases (overrides) -> CaseWorker -> Row -> ShardFile -> Table -> summary, report
 #pragma once
 #include "app/stages.hpp"
 #include "sweep/shard.hpp"

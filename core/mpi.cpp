@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/mpi.hpp"
 #include "core/error.hpp"
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <unistd.h>
 
 namespace fretwork::core {
 
@@ -17,6 +20,17 @@ void set_mpi_defaults() {
     // under the others
     setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
   }
+}
+
+std::vector<std::string> environment_without_launcher() {
+  constexpr std::array prefixes{"OMPI_", "ORTE_",  "PRTE_", "PMIX_", "PMI_",
+                                "MPI_",  "HYDRA_", "HYDI_", "SLURM_"};
+  std::vector<std::string> out;
+  for (char** entry = environ; *entry; ++entry)
+    if (const std::string text = *entry;
+        std::none_of(prefixes.begin(), prefixes.end(), [&](const char* p) { return text.starts_with(p); }))
+      out.push_back(text);
+  return out;
 }
 
 MpiSession::MpiSession(int& argc, char**& argv) {

@@ -11,7 +11,8 @@
 namespace fretwork::sweep {
 namespace {
 
-constexpr std::array outcomes{Outcome::done, Outcome::refused, Outcome::failed, Outcome::defect};
+constexpr std::array outcomes{Outcome::done, Outcome::refused, Outcome::failed, Outcome::defect,
+                              Outcome::crashed};
 constexpr std::size_t longest_message = 1000;
 
 /// Takes the first word, and the blank behind it, off a text.
@@ -40,6 +41,8 @@ std::string name_of(Outcome outcome) {
     return "failed";
   case Outcome::defect:
     return "defect";
+  case Outcome::crashed:
+    return "crashed";
   }
   return {};
 }

@@ -18,7 +18,8 @@ enum class Outcome {
   done,
   refused, ///< the inputs of the case are wrong: a gap below 0, for example
   failed,  ///< the computation gave no result: divergence, no convergence
-  defect   ///< of the program
+  defect,  ///< of the program
+  crashed  ///< its process ended in the case: a signal, no memory
 };
 [[nodiscard]] std::string name_of(Outcome outcome);
 

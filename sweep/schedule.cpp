@@ -2,31 +2,13 @@
 #include "sweep/schedule.hpp"
 #include "core/error.hpp"
 #include <algorithm>
+#include <new>
 
 namespace fretwork::sweep {
 namespace {
 
 /// Of what is left, the part of a worker that it takes at once: the costs of cases may differ by as much.
 constexpr std::int64_t caution = 8;
-
-Row evaluated(std::int64_t number, const std::string& identity,
-              const std::function<std::vector<double>(std::int64_t)>& evaluate) {
-  Row row{number, identity};
-  const auto ended = [&](Outcome outcome, const std::exception& error) {
-    row.outcome = outcome;
-    row.message = error.what();
-  };
-  try {
-    row.values = evaluate(number);
-  } catch (const core::Error& error) {
-    ended(Outcome::refused, error);
-  } catch (const core::ComputationError& error) {
-    ended(Outcome::failed, error);
-  } catch (const std::exception& error) {
-    ended(Outcome::defect, error);
-  }
-  return row;
-}
 
 } // namespace
 
@@ -39,17 +21,34 @@ std::vector<std::int64_t> guided_blocks(std::int64_t cases, int workers) {
   return ends;
 }
 
+Row evaluated(std::int64_t number, const std::string& identity,
+              const std::function<std::vector<double>()>& evaluate) {
+  Row row{number, identity};
+  const auto ended = [&](Outcome outcome, const char* message) {
+    row.outcome = outcome;
+    row.message = message;
+  };
+  try {
+    row.values = evaluate();
+  } catch (const core::Error& error) {
+    ended(Outcome::refused, error.what());
+  } catch (const core::ComputationError& error) {
+    ended(Outcome::failed, error.what());
+  } catch (const std::bad_alloc&) {
+    ended(Outcome::failed, "the case needs more memory than there is");
+  } catch (const std::exception& error) {
+    ended(Outcome::defect, error.what());
+  }
+  return row;
+}
+
 void work(const std::vector<std::int64_t>& numbers, int workers, const std::function<std::int64_t()>& take,
-          const std::function<std::string(std::int64_t)>& identity,
-          const std::function<std::vector<double>(std::int64_t)>& evaluate,
-          const std::function<void(const Row&)>& finish) {
+          const std::function<Row(std::int64_t)>& evaluate, const std::function<void(const Row&)>& finish) {
   const std::vector<std::int64_t> ends = guided_blocks(static_cast<std::int64_t>(numbers.size()), workers);
   for (std::int64_t block = take(); block < static_cast<std::int64_t>(ends.size()); block = take())
     for (std::int64_t at = block == 0 ? 0 : ends[static_cast<std::size_t>(block - 1)];
-         at < ends[static_cast<std::size_t>(block)]; ++at) {
-      const std::int64_t number = numbers[static_cast<std::size_t>(at)];
-      finish(evaluated(number, identity(number), evaluate));
-    }
+         at < ends[static_cast<std::size_t>(block)]; ++at)
+      finish(evaluate(numbers[static_cast<std::size_t>(at)]));
 }
 
 } // namespace fretwork::sweep

@@ -12,16 +12,17 @@ namespace fretwork::sweep {
 /// Ends of the blocks of `cases` cases for so many workers: each block is a share of what is left.
 [[nodiscard]] std::vector<std::int64_t> guided_blocks(std::int64_t cases, int workers);
 
-/// What a worker does: takes blocks until none is left, evaluates their cases, hands over the rows. What `evaluate` throws becomes the
-/// outcome of its case: core::Error refused, core::ComputationError failed, any other a defect.
+/// The row of a case: the values that `evaluate` gives, or what it throws as the outcome: core::Error refused, core::ComputationError and
+/// std::bad_alloc failed, any other a defect.
+[[nodiscard]] Row evaluated(std::int64_t number, const std::string& identity,
+                            const std::function<std::vector<double>()>& evaluate);
+
+/// What a worker does: takes blocks until none is left, evaluates their cases, hands over the rows.
 /// @param numbers   of the cases to be done, the same for all workers
 /// @param take      the number of the next block, each given to one worker
-/// @param identity  of a case
-/// @param evaluate  the values of a case
+/// @param evaluate  the row of a case
 /// @param finish    takes a row
 void work(const std::vector<std::int64_t>& numbers, int workers, const std::function<std::int64_t()>& take,
-          const std::function<std::string(std::int64_t)>& identity,
-          const std::function<std::vector<double>(std::int64_t)>& evaluate,
-          const std::function<void(const Row&)>& finish);
+          const std::function<Row(std::int64_t)>& evaluate, const std::function<void(const Row&)>& finish);
 
 } // namespace fretwork::sweep

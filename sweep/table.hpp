@@ -31,7 +31,7 @@ struct Table {
 void write_csv(const std::filesystem::path& file, const study::Sweep& sweep, const Draws& draws,
                const Table& table);
 
-/// table.h5: /case/number, /case/outcome (0 done, 1 refused, 2 failed, 3 defect), /inputs/<variable> (of listed texts their places, which the
+/// table.h5: /case/number, /case/outcome (0 done, 1 refused, 2 failed, 3 defect, 4 crashed), /inputs/<variable> (of listed texts their places, which the
 /// attribute `values of <variable>` lists), /outputs/<output>. Cases that are not done have no numbers.
 /// @param attributes  texts of the file
 /// @throws core::Error if it cannot be written

@@ -2,12 +2,18 @@
 """The report of a sweep: report_test.py FRETWORK STUDY. It is whole HTML, shows every section, and holds names of the user as text only."""
 
 import json
+import re
 import subprocess
 import sys
 import tempfile
 import unittest
 from html.parser import HTMLParser
 from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "python"))
+from fretwork.report import sweep_view  # noqa: E402
 
 FRETWORK, STUDY = sys.argv.pop(1), sys.argv.pop(1)
 HOSTILE = "<script>alert(1)</script>&"
@@ -44,13 +50,14 @@ class Checker(HTMLParser):
 
 
 class Report(unittest.TestCase):
-    def report_of(self, text):
+    def report_of(self, text, base=STUDY, variables=VARIABLES, *overrides):
         folder = tempfile.TemporaryDirectory(prefix="fretwork_sweep_")
         self.addCleanup(folder.cleanup)
         self.directory = Path(folder.name) / "out"
         study = Path(folder.name) / "sweep.toml"
-        study.write_text(f'[sweep]\nstudy = "{STUDY}"\n{text}{VARIABLES}')
-        done = subprocess.run([FRETWORK, "sweep", str(study), "-o", str(self.directory)], capture_output=True, text=True, timeout=120)
+        study.write_text(f'[sweep]\nstudy = "{base}"\n{text}{variables}')
+        settings = [word for text in overrides for word in ("--set", text)]
+        done = subprocess.run([FRETWORK, "sweep", str(study), "-o", str(self.directory), *settings], capture_output=True, text=True, timeout=120)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.page = (self.directory / "report.html").read_text()
         checker = Checker()
@@ -69,6 +76,25 @@ class Report(unittest.TestCase):
         self.assertEqual([link for link in checker.links if link.startswith("runs/")], [f"runs/case_{case}/report.html" for case in kept])
         for case in kept:
             self.assertTrue((self.directory / f"runs/case_{case}/report.html").exists())
+
+    def test_work_rate_along_a_tube_is_shown_by_abscissa(self):
+        tube = Path(STUDY).parent.parent / "straight_tube/study.toml"
+        variables = '[[sweep.variables]]\nname = "gap"\nkey = "contacts.support.gap"\nuniform = { from = 1e-4, to = 3e-4 }\n'
+        self.report_of("draws = 5\n", tube, variables, "transient.duration=0.1", "output.statistics_from=0")
+        self.assertIn("<h2>Work rate along the tube</h2>", self.page)
+        self.assertIn("abscissa along the tube [m]", self.page)
+        contacts = json.loads((self.directory / "summary.json").read_text())["contacts"]
+        self.assertEqual([contact["name"] for contact in contacts], [f"support[{i}]" for i in range(8)])
+        for i, contact in enumerate(contacts):
+            self.assertAlmostEqual(contact["abscissa_m"], 1.0 + i)  # one each metre
+
+    def test_contacts_at_one_place_are_taken_together(self):
+        nan = float("nan")
+        values = np.array([[1.0, 2.0, nan], [1.0, nan, nan]])
+        pictures = sweep_view.bands_along([0.5, 0.5, 2.0], values), sweep_view.bands_along([0.5, 2.0], np.array([[3.0, nan], [1.0, nan]]))
+        page, of_sums = (re.sub(r"clip\d+", "clip", picture) for picture in pictures)
+        self.assertEqual(page, of_sums)
+        self.assertEqual(page.count('class="band"'), 1)  # no band where no case has a number
 
     def test_the_report_command_writes_it_again(self):
         self.report_of("draws = 5\n")

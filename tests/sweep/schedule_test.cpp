@@ -4,6 +4,7 @@
 #include "sweep/schedule.hpp"
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <new>
 #include <numeric>
 #include <random>
 #include <set>
@@ -67,8 +68,9 @@ TEST(Schedule, EveryCaseIsDoneOnceByWhicheverWorker) {
   for (int worker = 0; worker < 2; ++worker) // the first one takes a part and stops, as one that is killed
     work(
         numbers, 2, [&] { return worker == 0 && counter == 3 ? 1000 : counter++; },
-        [](std::int64_t number) { return std::to_string(number); },
-        [](std::int64_t number) { return std::vector<double>{static_cast<double>(number)}; },
+        [](std::int64_t number) {
+          return Row{number, std::to_string(number)};
+        },
         [&](const Row& row) { rows.push_back(row); });
   ASSERT_EQ(rows.size(), numbers.size());
   std::set<std::int64_t> seen;
@@ -78,26 +80,20 @@ TEST(Schedule, EveryCaseIsDoneOnceByWhicheverWorker) {
 }
 
 TEST(Schedule, WhatACaseThrowsIsItsOutcome) {
-  std::int64_t counter = 0;
-  std::vector<Row> rows;
-  work(
-      {0, 1, 2, 3}, 1, [&] { return counter++; }, [](std::int64_t) { return std::string(); },
-      [](std::int64_t number) -> std::vector<double> {
-        if (number == 0)
-          throw core::Error("a gap below 0");
-        if (number == 1)
-          throw core::ComputationError("diverged");
-        if (number == 2)
-          throw std::logic_error("ours");
-        return {1.0};
-      },
-      [&](const Row& row) { rows.push_back(row); });
-  ASSERT_EQ(rows.size(), 4u);
-  EXPECT_EQ(rows[0].outcome, Outcome::refused);
-  EXPECT_EQ(rows[0].message, "a gap below 0");
-  EXPECT_EQ(rows[1].outcome, Outcome::failed);
-  EXPECT_EQ(rows[2].outcome, Outcome::defect);
-  EXPECT_EQ(rows[3].outcome, Outcome::done);
+  const auto outcome_of = [](const auto& exception) {
+    return evaluated(7, "seven", [&]() -> std::vector<double> { throw exception; });
+  };
+  const Row refused = outcome_of(core::Error("a gap below 0"));
+  EXPECT_EQ(refused.outcome, Outcome::refused);
+  EXPECT_EQ(refused.message, "a gap below 0");
+  EXPECT_EQ(refused.number, 7);
+  EXPECT_EQ(refused.identity, "seven");
+  EXPECT_EQ(outcome_of(core::ComputationError("diverged")).outcome, Outcome::failed);
+  EXPECT_EQ(outcome_of(std::bad_alloc()).outcome, Outcome::failed);
+  EXPECT_EQ(outcome_of(std::logic_error("ours")).outcome, Outcome::defect);
+  const Row done = evaluated(8, "eight", [] { return std::vector<double>{1.0}; });
+  EXPECT_EQ(done.outcome, Outcome::done);
+  EXPECT_EQ(done.values, std::vector<double>{1.0});
 }
 
 } // namespace

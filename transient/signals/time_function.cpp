@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <complex>
+#include <deque>
 #include <fftw3.h>
 #include <fmt/format.h>
 #include <numbers>
@@ -91,7 +92,8 @@ public:
   /// Values and slopes times the step, interleaved, from t = 0 on.
   [[nodiscard]] std::vector<double> samples(std::size_t count) const {
     std::mt19937_64 generator(random_.seed);
-    std::vector<double> out(2 * count, 0.0), block;
+    std::vector<double> out(2 * count, 0.0);
+    thread_local std::vector<double> block; // its pages are not asked for again
     const std::size_t fade = size_ / fades_of_block, hop = size_ - fade;
     for (std::size_t number = 0; number * hop < count + fade; ++number) {
       fill(generator, block);
@@ -145,6 +147,33 @@ private:
   std::size_t size_;
 };
 
+/// The samples of the signals made last: a run and its replays load the same structure, and cases of a sweep share the loads that they do not vary.
+/// The synthesis takes a hundred times as long as a copy.
+class RecentSamples {
+public:
+  [[nodiscard]] std::vector<double> get(const Random& random, const RandomBlocks& blocks, std::size_t count) {
+    for (const Entry& entry : entries_)
+      if (entry.random == random && entry.samples.size() == 2 * count)
+        return entry.samples;
+    std::vector<double> samples = blocks.samples(count);
+    if (samples.size() > most) // a long run: its steps take longer by far
+      return samples;
+    for (kept_ += samples.size(); kept_ > most; entries_.pop_front())
+      kept_ -= entries_.front().samples.size();
+    entries_.push_back({random, samples});
+    return samples;
+  }
+
+private:
+  static constexpr std::size_t most = std::size_t{1} << 19; ///< numbers: 4 MB
+  struct Entry {
+    Random random;
+    std::vector<double> samples;
+  };
+  std::deque<Entry> entries_;
+  std::size_t kept_ = 0;
+};
+
 /// The same function as one of all kinds.
 TimeFunction widened(const decltype(Integral::function)& function) {
   return std::visit([](const auto& f) -> TimeFunction { return f; }, function);
@@ -168,7 +197,8 @@ Signal::Signal(const TimeFunction& function, double duration) : function_(functi
         "{:.4g}; lower the upper end of its band, widen the band, or shorten the run",
         random->high, duration, needed, blocks.size(), most_samples));
   const auto intervals = static_cast<std::ptrdiff_t>(needed) - 1;
-  samples_ = blocks.samples(static_cast<std::size_t>(needed));
+  thread_local RecentSamples recent;
+  samples_ = recent.get(*random, blocks, static_cast<std::size_t>(needed));
   grid_ = {1.0 / blocks.per_step(), blocks.per_step(), intervals};
 }
 

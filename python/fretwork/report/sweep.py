@@ -22,6 +22,11 @@ class Sweep:
             self.outputs = {name.replace("%2F", "/"): column[...] for name, column in file["outputs"].items()}
             self.cases = file["case/number"][...].astype(int)
 
+    def abscissae(self):
+        """m along the tube of each contact; none where one has none: the mesh is no open chain."""
+        places = [contact.get("abscissa_m") for contact in self.summary["contacts"]]
+        return None if None in places else places
+
     @property
     def statistics(self):
         return self.summary.get("statistics")
@@ -137,12 +142,18 @@ def along(sweep):
     from . import page, sweep_view
 
     suffix = ".work_rate"
-    names = [name[: -len(suffix)] for name in sweep.summary["columns"] if name.endswith(suffix) and not name.startswith(("total.", "worst."))]
+    names = [contact["name"] for contact in sweep.summary["contacts"]]
     values = np.column_stack([sweep.outputs[name + suffix] for name in names])
     if not np.isfinite(values).any():
         return ""
     note = "The line is the median over the cases, the bands hold 50 and 90 % of them. A contact that is inactive in a case does not count in it."
-    return page.section("Work rate by contact", page.figure(sweep_view.bands(names, values), note))
+    by_name = page.figure(sweep_view.bands(names, values), note)
+    abscissae = sweep.abscissae()
+    if abscissae is None:
+        return page.section("Work rate by contact", by_name)
+    together = "Contacts at one place of the tube are taken together."
+    picture = page.figure(sweep_view.bands_along(abscissae, values), f"{note} {together}")
+    return page.section("Work rate along the tube", picture, page.figure(sweep_view.bands(names, values), "Contact by contact.") if len(names) > 1 else "")
 
 
 def worst(sweep):

@@ -7,6 +7,7 @@ import numpy as np
 
 from .drawing import Plot, label_width, unit_for
 
+SAME_PLACE = 6  # decimals, m: contacts nearer than a micrometre are at one place
 MOST_DOTS = 2000  # of a scatter plot: more are thinned evenly
 
 
@@ -59,16 +60,41 @@ def tornado(entries, label, width=640):
     return plot.svg("Sensitivities")
 
 
+LEVELS = (0.05, 0.25, 0.5, 0.75, 0.95)
+
+
+def _boxes(places, half, values, limits, axis, title, size):
+    """At each place the median, the bands from 5 to 95 % and from 25 to 75 % of the cases. values: cases x places, W; axis: label, ticks"""
+    known = [column[np.isfinite(column)] for column in values.T]
+    levels = [np.quantile(column, LEVELS) if len(column) else None for column in known]
+    largest = max(level[-1] for level in levels if level is not None)
+    factor, unit = unit_for(float(largest), "W")
+    plot = Plot(size, limits, (0.0, 1.05 * factor * float(largest)))
+    plot.axes(axis[0], f"work rate [{unit}]", x_ticks=axis[1])
+    for place, level in zip(places, levels):
+        if level is not None:
+            five, quarter, median, three, most = factor * level
+            plot.rectangle((place - half, place + half), (five, most), "band")
+            plot.rectangle((place - half, place + half), (quarter, three), "rose")
+            plot.line([place - half, place + half], [median, median], "beam")
+    return plot.svg(title)
+
+
 def bands(names, values, size=(940, 300)):
-    """Of each contact the median of its work rate, the bands from 5 to 95 % and from 25 to 75 % of the cases. values: cases x contacts, W"""
-    levels = [np.nanquantile(values, p, axis=0) for p in (0.05, 0.25, 0.5, 0.75, 0.95)]
-    factor, unit = unit_for(float(np.nanmax(levels[4])), "W")
-    plot = Plot(size, (-0.6, len(names) - 0.4), (0.0, 1.05 * factor * float(np.nanmax(levels[4]))))
-    plot.axes("", f"work rate [{unit}]", x_ticks=list(enumerate(names)))
-    for i in range(len(names)):
-        five, quarter, median, three, most = (factor * level[i] for level in levels)
-        if math.isfinite(median):
-            plot.rectangle((i - 0.3, i + 0.3), (five, most), "band")
-            plot.rectangle((i - 0.3, i + 0.3), (quarter, three), "rose")
-            plot.line([i - 0.3, i + 0.3], [median, median], "beam")
-    return plot.svg("Work rate by contact")
+    """By contact. values: cases x contacts, W"""
+    limits, ticks = (-0.6, len(names) - 0.4), list(enumerate(names))
+    return _boxes(range(len(names)), 0.3, values, limits, ("", ticks), "Work rate by contact", size)
+
+
+def bands_along(abscissae, values, size=(940, 300)):
+    """By place on the tube, the contacts of one place together. abscissae: m, of each contact; values: cases x contacts, W"""
+    numbers = np.round(abscissae, SAME_PLACE)
+    places = np.unique(numbers)
+    known = np.isfinite(values)
+    present = np.column_stack([known[:, numbers == place].any(axis=1) for place in places])
+    sums = np.column_stack([np.where(known, values, 0.0)[:, numbers == place].sum(axis=1) for place in places])
+    span = float(np.ptp(places)) or 1.0
+    nearest = float(np.diff(places).min()) if len(places) > 1 else span
+    half = min(0.35 * nearest, 0.012 * span)
+    axis = ("abscissa along the tube [m]", None)
+    return _boxes(places, half, np.where(present, sums, np.nan), (places[0] - 2 * half, places[-1] + 2 * half), axis, "Work rate along the tube", size)
