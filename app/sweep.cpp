@@ -13,7 +13,7 @@
 #include "core/petsc.hpp"
 #include "core/printable.hpp"
 #include "results/figures.hpp"
-#include "results/text_file.hpp"
+#include "results/summary_file.hpp"
 #include "sweep/schedule.hpp"
 #include "sweep/summary.hpp"
 #include <algorithm>
@@ -204,7 +204,7 @@ public:
     sweep::write_archive(plan_.directory / "table.h5", plan_.sweep, draws_, table_, record);
     for (const auto& [name, text] : record)
       summary_[name] = text;
-    results::write_text(plan_.directory / "summary.json", summary_.dump(1) + "\n");
+    results::save_summary(plan_.directory / "summary.json", summary_);
     std::string text =
         plan_.inputs.study.title.empty() ? "Sweep\n" : "Sweep: " + plan_.inputs.study.title + "\n";
     text += sweep::summary_text(summary_);

@@ -76,6 +76,18 @@ class Report(unittest.TestCase):
         subprocess.run([FRETWORK, "report", str(self.directory)], check=True, capture_output=True, timeout=60)
         self.assertEqual((self.directory / "report.html").read_text(), self.page)
 
+    def test_refuses_what_was_changed(self):
+        self.report_of("draws = 3\n")
+        for name in ("summary.json", "table.h5"):
+            file = self.directory / name
+            whole = file.read_bytes()
+            place = len(whole) // 2
+            file.write_bytes(whole[:place] + bytes([whole[place] ^ 1]) + whole[place + 1 :])
+            done = subprocess.run([FRETWORK, "report", str(self.directory)], capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, 1, name)
+            self.assertIn(f"{name} is not as it was written", done.stderr)
+            file.write_bytes(whole)
+
     def test_few_cases_have_no_interval(self):
         self.report_of("draws = 3\n")
         self.assertIn("give no interval", self.page)

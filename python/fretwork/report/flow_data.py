@@ -3,7 +3,6 @@
 
 import csv
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import numpy as np
 
@@ -29,16 +28,16 @@ class Spectrum:
 
 
 def _rows(path):
-    if not path.exists():
+    if path is None:
         return []
     with path.open(encoding="utf-8", newline="") as file:
         return list(csv.DictReader(file))
 
 
-def flows(folder):
-    """In the order of the file."""
+def flows(path):
+    """In the order of the file; none without a file."""
     found = {}
-    for row in _rows(Path(folder) / "flow.csv"):
+    for row in _rows(path):
         tube = found.setdefault(row["tube"], TubeFlow(row["tube"]))
         tube.zones.append(row["zone"])
         for head in row.keys() - {"tube", "zone"}:
@@ -48,10 +47,10 @@ def flows(folder):
     return list(found.values())
 
 
-def spectra(folder):
-    """In the order of the file."""
+def spectra(path):
+    """In the order of the file; none without a file."""
     found = {}
-    for row in _rows(Path(folder) / "spectra.csv"):
+    for row in _rows(path):
         values = found.setdefault((row["name"], row["quantity"], row["unit"]), [])
         values.append([float(row[head]) for head in ("frequency [Hz]", "density", "low_95", "high_95")])
     return [Spectrum(*key, *np.array(values).T) for key, values in found.items()]
