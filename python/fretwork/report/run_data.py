@@ -167,7 +167,8 @@ def _place_along(contacts, nodes, lines):
             contact.abscissa = place
 
 
-USER_BLOCK = 512  # bytes before the HDF5 content, with its checksum
+USER_BLOCK = 512  # bytes before the HDF5 content: a line with its checksum, then zeros
+ANNOUNCEMENT = "Fretwork. SHA-256 of all bytes after the first 512: "
 CHUNK = 1 << 20  # bytes read at a time
 
 
@@ -203,9 +204,10 @@ def verify(folder, archive_name="results.h5"):
         if not path.is_file():
             raise NoResults(f"{path} is no regular file; give the folder that `fretwork run` wrote")
     with open(archive, "rb") as file:
-        digest = re.search(rb"\b([0-9a-f]{64})\n", file.read(USER_BLOCK))
+        block = file.read(USER_BLOCK)
+    expected = f"{ANNOUNCEMENT}{checksum(archive)}\n".encode().ljust(USER_BLOCK, b"\0")
     text = summary.read_text(encoding="utf-8", errors="replace")
-    for path, good in ((archive, digest and digest[1].decode() == checksum(archive)), (summary, with_checksum(text) == text)):
+    for path, good in ((archive, block == expected), (summary, with_checksum(text) == text)):
         if not good:
             raise NoResults(f"{path} is not as it was written (its checksum does not fit); run the study again")
 
