@@ -50,9 +50,13 @@ bool up_to_date(const Inputs& inputs, const std::function<void(const std::string
     tell(found.refusal + ": the results are computed again");
   const nlohmann::json& summary = found.summary;
   if (!summary.is_object() || !summary.contains("transient") ||
-      summary.value("input_sha256", "") != inputs.whole_key ||
-      summary.value("version", "") != FRETWORK_VERSION)
+      results::text_of(summary, "input_sha256") != inputs.whole_key ||
+      results::text_of(summary, "version") != FRETWORK_VERSION)
     return false;
+  if (const std::string table = results::changed_table(inputs.directory, summary); !table.empty()) {
+    tell(fmt::format("{} is not as it was written: the results are computed again", table));
+    return false;
+  }
   const fs::path archive = inputs.directory / "results.h5";
   const std::string refusal = results::archive_refusal(archive, inputs.whole_key);
   if (!refusal.empty() && fs::exists(archive))
@@ -312,7 +316,7 @@ private:
     const fs::path& folder = inputs_.directory;
     if (!out_.stability.empty())
       results::write_stability_csv(folder / "stability.csv", out_);
-    if (last_ == Stage::transient)
+    if (!up_to_date_)
       for (const char* file : {"flow.csv", "spectra.csv"}) // of an earlier state of the study
         remove_file(folder / file);
     if (!flows_.empty())

@@ -16,6 +16,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
+#include <iostream>
 #include <system_error>
 
 namespace {
@@ -58,9 +59,18 @@ int guarded(const std::function<void()>& work) {
       complain(fmt::format("the output cannot be written: {}", error.code().message()));
     return computation_failed;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "fretwork: this is a defect of the program, please report it: {}\n", error.what());
+    complain(fmt::format("this is a defect of the program, please report it: {}", error.what()));
     return program_defect;
   }
+}
+
+/// The status of a command line that asked for nothing but text (help, version), or is wrong.
+int ended_by(const CLI::App& program, const CLI::ParseError& reason) {
+  const bool good = program.exit(reason) == 0;
+  if (std::cout.flush())
+    return good ? 0 : input_is_wrong;
+  complain("the output cannot be written");
+  return computation_failed;
 }
 
 void add_study_options(CLI::App& command, app::Request& request) {
@@ -169,9 +179,9 @@ int main(int argc, char** argv) {
                    core::name_help(command, commands, "commands"));
       return input_is_wrong;
     }
-    return program.exit(error) == 0 ? 0 : input_is_wrong;
+    return ended_by(program, error);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? 0 : input_is_wrong;
+    return ended_by(program, error);
   }
   if (program.get_subcommands().empty()) {
     fmt::print(stderr,

@@ -6,6 +6,8 @@
 #include "core/error.hpp"
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
+#include <tuple>
 
 namespace fretwork::app {
 namespace {
@@ -58,15 +60,16 @@ std::string goes_on_note(const Fields::Load& load, double duration) {
 /// What the user should know of the loads.
 void note_loads(const Fields& fields, const std::vector<BuiltScene>& scenes, double duration,
                 results::RunResults& out) {
-  for (std::size_t k = 0; k < fields.loads.size(); ++k)
-    for (std::size_t j = 0; j < k; ++j) {
-      const auto* one = std::get_if<transient::Random>(&fields.loads[j].function);
-      const auto* two = std::get_if<transient::Random>(&fields.loads[k].function);
-      if (one && two && one->seed == two->seed && one->low == two->low && one->high == two->high)
+  std::map<std::tuple<std::uint64_t, double, double>, std::string>
+      signals; // seed and band: the first load with them
+  for (const Fields::Load& load : fields.loads)
+    if (const auto* random = std::get_if<transient::Random>(&load.function)) {
+      const auto [first, is_new] = signals.try_emplace({random->seed, random->low, random->high}, load.name);
+      if (!is_new)
         out.notes.push_back(
             fmt::format("{} and {} follow one random signal: they have the same seed {} and band; give one "
                         "another seed if they are independent",
-                        fields.loads[j].name, fields.loads[k].name, one->seed));
+                        first->second, load.name, random->seed));
     }
   for (const Fields::Load& load : fields.loads)
     if (const std::string note = goes_on_note(load, duration); !note.empty())

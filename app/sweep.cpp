@@ -12,7 +12,7 @@
 #include "core/names.hpp"
 #include "core/printable.hpp"
 #include "results/figures.hpp"
-#include "results/text_file.hpp"
+#include "results/summary_file.hpp"
 #include "sweep/schedule.hpp"
 #include "sweep/summary.hpp"
 #include <algorithm>
@@ -229,7 +229,7 @@ public:
     }
     for (const auto& [name, text] : record)
       summary_[name] = text;
-    results::write_text(plan_.directory / "summary.json", summary_.dump(1) + "\n");
+    results::save_summary(plan_.directory / "summary.json", summary_);
     std::string text =
         plan_.inputs.study.title.empty() ? "Sweep\n" : "Sweep: " + plan_.inputs.study.title + "\n";
     text += sweep::summary_text(summary_);

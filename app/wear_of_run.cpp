@@ -16,10 +16,14 @@ namespace fs = std::filesystem;
 constexpr int history_steps = 40;     ///< of depth against time
 constexpr std::size_t most_names = 3; ///< in a warning
 
-double number(const nlohmann::json& of, const char* key) {
-  const auto found = of.find(key);
-  return found != of.end() && found->is_number() ? found->get<double>()
-                                                 : std::numeric_limits<double>::quiet_NaN();
+/// What is not there, or of another type, as nothing: a summary is only as good as who wrote it.
+nlohmann::json entry(const nlohmann::json& table, const char* key) {
+  const auto found = table.is_object() ? table.find(key) : table.end();
+  return found == table.end() ? nlohmann::json() : *found;
+}
+
+double number(const nlohmann::json& value) {
+  return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// Work rates of the contacts of another run.
@@ -31,17 +35,20 @@ std::map<std::string, StatedRate> read_run(const std::string& where, const fs::p
     throw core::Error(fmt::format("{}: {} holds no summary.json; give the folder that `fretwork run` wrote",
                                   where, directory.string()));
   const nlohmann::json& summary = found.summary;
-  if (!summary.contains("transient") || !summary.contains("contacts"))
+  const nlohmann::json contacts = entry(summary, "contacts");
+  if (!summary.contains("transient") || !contacts.is_array())
     throw core::Error(fmt::format("{}: {} holds no results of a transient; run that study again", where,
                                   directory.string()));
-  if (summary["transient"].value("outcome", "") != "done")
+  if (results::text_of(summary["transient"], "outcome") != "done")
     throw core::Error(
         fmt::format("{}: the run in {} diverged; take a smaller step there", where, directory.string()));
   std::map<std::string, StatedRate> out;
-  for (const auto& contact : summary["contacts"])
-    out[contact.value("name", "")] = {number(contact, "work_rate"),
-                                      number(contact["standard_error"], "work_rate"),
-                                      number(contact["standard_error"], "work_rate_batches")};
+  for (const auto& contact : contacts) {
+    const nlohmann::json error = entry(contact, "standard_error");
+    out[results::text_of(contact, "name")] = {number(entry(contact, "work_rate")),
+                                              number(entry(error, "work_rate")),
+                                              number(entry(error, "work_rate_batches"))};
+  }
   return out;
 }
 

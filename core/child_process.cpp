@@ -63,11 +63,13 @@ void become(char* const* argv, int output, pid_t parent, const ChildLimits& limi
   if (getppid() != parent)
     _exit(not_started); // it has died before the line above
   if (limits.seconds > 0.0)
-    (void)setpgid(0, 0);
+    (void)setsid(); // a group that can be ended as a whole, without a terminal to type into
   const int nothing = open("/dev/null", O_RDONLY);
   (void)dup2(nothing, STDIN_FILENO);
   (void)dup2(output, STDOUT_FILENO);
   (void)dup2(output, STDERR_FILENO);
+  (void)close_range(STDERR_FILENO + 1, ~0u,
+                    CLOSE_RANGE_CLOEXEC); // what this process was given is not the child's
   limit(RLIMIT_AS, limits.memory_bytes);
   limit(RLIMIT_FSIZE, limits.file_bytes);
   if (confinement && !confinement->enforce())

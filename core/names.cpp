@@ -38,6 +38,9 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(1, wanted.size() / 3) + 1;
   for (const auto& candidate : candidates) {
+    if (wanted.size() >= candidate.size() + best_distance ||
+        candidate.size() >= wanted.size() + best_distance)
+      continue; // a letter each at least; a name may have millions
     const std::size_t distance = edit_distance(wanted, lower(candidate));
     if (distance < best_distance) {
       best_distance = distance;

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
-#include <regex>
 
 namespace fretwork::mesh {
 namespace {
@@ -26,9 +25,18 @@ std::string lower_case_ending(const fs::path& file) {
   return ending;
 }
 
-/// What a child wrote, without terminal colours and the empty lines at its end.
+/// What a child wrote, without terminal colours (ESC [ numbers m) and the empty lines at its end.
 std::string trimmed(const std::string& output) {
-  std::string text = std::regex_replace(output, std::regex("\x1b\\[[0-9;]*m"), "");
+  std::string text;
+  for (std::size_t i = 0; i < output.size(); ++i) {
+    const std::size_t end = output.compare(i, 2, "\x1b[") == 0
+                                ? output.find_first_not_of("0123456789;", i + 2)
+                                : std::string::npos;
+    if (end != std::string::npos && output[end] == 'm')
+      i = end;
+    else
+      text += output[i];
+  }
   while (!text.empty() && (text.back() == '\n' || text.back() == ' '))
     text.pop_back();
   return text.empty() ? "no message" : text;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/converter.hpp"
 #include "core/error.hpp"
+#include <algorithm>
+#include <array>
 #include <csignal>
 #include <fmt/format.h>
 #include <fstream>
-#include <regex>
+#include <string>
 
 namespace fretwork::mesh {
 namespace {
@@ -13,25 +15,37 @@ namespace fs = std::filesystem;
 
 constexpr int of_a_signal = 128; ///< a status above it: the number of the signal that ended the child
 
-/// Commands of gmsh's language that run programs, write files or read others, which may hold any command. A word of this kind in a comment
-/// counts too.
-const char* const commands =
-    R"(SystemCall|Onelab\w*|CreateDir|Print\w*|Save|Include|Merge\w*|Plugin|Parse|ShapeFromFile|ListFromFile|ExternalProcess|\w*FileName|Error|Warning)";
+/// Beginnings of words of gmsh's language that run programs, write files or read others, which may hold any command; and of the functions
+/// that make a name of a text, which could be that of such a command. They count in comments too.
+constexpr std::array commands{
+    "System",       "Onelab", "CreateDir",       "Print",          "Save",          "Include", "Merge",
+    "Plugin",       "Parse",  "ShapeFromFile",   "FileName",       "Error",         "Warning", "ListFromFile",
+    "StringToName", "S2N",    "ExternalProcess", "NameFromString", "StringFromName"};
 
-/// Files that gmsh reads as geometries without commands.
-const char* const exchange_files = R"(.*\.(step|STEP|stp|STP|brep|BREP))";
+/// Endings of files that gmsh reads as geometries without commands; under one of another case (.Step) it takes its language.
+constexpr std::array exchange_files{".step", ".STEP", ".stp", ".STP", ".brep"};
 
 /// The first command of a geometry that reaches beyond it; empty where there is none.
 std::string reaching_command(const fs::path& geometry) {
-  if (std::regex_match(geometry.string(), std::regex(exchange_files)))
+  if (std::ranges::find(exchange_files, geometry.extension().string()) != exchange_files.end())
     return {};
-  const std::regex wanted(commands);
   std::ifstream in(geometry, std::ios::binary);
-  std::smatch found;
   for (std::string line; std::getline(in, line);)
-    if (std::regex_search(line, found, wanted))
-      return found.str();
+    for (const char* command : commands)
+      if (line.find(command) != std::string::npos)
+        return command;
   return {};
+}
+
+/// gmsh runs the file GEOMETRY.opt beside a geometry.
+void refuse_options(const fs::path& geometry) {
+  fs::path options = geometry;
+  options += ".opt";
+  if (fs::exists(fs::symlink_status(options)))
+    throw core::Error(fmt::format("{}: gmsh would run it, and this system cannot confine it (no Landlock or "
+                                  "no seccomp); remove it, or set "
+                                  "mesh.trusted = true if you trust it",
+                                  options.string()));
 }
 
 } // namespace
@@ -45,13 +59,14 @@ Converter::Converter(const Source& source, const fs::path& folder) : source_(sou
                          is_geometry(source.file) ? core::Processes::refused : core::Processes::allowed);
     return;
   }
-  if (const std::string command = is_geometry(source.file) ? reaching_command(source.file) : "";
-      !command.empty())
-    throw core::Error(
-        fmt::format("{}: it has the command {}, which may run programs or reach other files, and this system "
-                    "cannot confine "
-                    "it (no Landlock or no seccomp); set mesh.trusted = true if you trust the file",
-                    source.file.string(), command));
+  if (!is_geometry(source.file))
+    return;
+  refuse_options(source.file);
+  if (const std::string command = reaching_command(source.file); !command.empty())
+    throw core::Error(fmt::format(
+        "{}: it has the command {}, which may run programs or reach other files, and this system "
+        "cannot confine it (no Landlock or no seccomp); set mesh.trusted = true if you trust the file",
+        source.file.string(), command));
 }
 
 core::ChildResult Converter::run(const std::vector<std::string>& arguments) const {

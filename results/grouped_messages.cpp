@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/grouped_messages.hpp"
 #include <algorithm>
+#include <cstdlib>
 #include <fmt/format.h>
-#include <regex>
 
 namespace fretwork::results {
 namespace {
@@ -26,17 +26,52 @@ struct Parts {
   }
 };
 
-/// A number that is part of a word (x_1, mm2) is none.
-Parts parts_of(const std::string& message) {
-  static const std::regex value(R"("[^"]*"|\b\d+(\.\d+)?(e[-+]?\d+)?\b)");
-  Parts parts{.message = message, .words = {}, .values = {}};
-  auto from = message.begin();
-  for (std::sregex_iterator at(message.begin(), message.end(), value), end; at != end; ++at) {
-    parts.words.emplace_back(from, (*at)[0].first);
-    parts.values.push_back(at->str());
-    from = (*at)[0].second;
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_of_word(char c) {
+  return is_digit(c) || c == '_' || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+std::size_t after_digits(const std::string& text, std::size_t at) {
+  while (at < text.size() && is_digit(text[at]))
+    ++at;
+  return at;
+}
+
+/// The end of the name or the number that begins at a place; the place itself where none does. A number that is part of a word (x_1, mm2) is
+/// none. No regular expression: those of the standard library need a stack as long as the name.
+std::size_t end_of_value(const std::string& text, std::size_t at) {
+  if (text[at] == '"') {
+    const std::size_t end = text.find('"', at + 1);
+    return end == std::string::npos ? at : end + 1;
   }
-  parts.words.emplace_back(from, message.end());
+  if (!is_digit(text[at]) || (at > 0 && is_of_word(text[at - 1])))
+    return at;
+  std::size_t end = after_digits(text, at);
+  if (end + 1 < text.size() && text[end] == '.' && is_digit(text[end + 1]))
+    end = after_digits(text, end + 1);
+  if (end < text.size() && text[end] == 'e') {
+    const std::size_t digits =
+        end + (end + 1 < text.size() && (text[end + 1] == '-' || text[end + 1] == '+') ? 2 : 1);
+    if (const std::size_t last = after_digits(text, digits); last > digits)
+      end = last;
+  }
+  return end < text.size() && is_of_word(text[end]) ? at : end;
+}
+
+Parts parts_of(const std::string& message) {
+  Parts parts{.message = message, .words = {}, .values = {}};
+  std::size_t from = 0;
+  for (std::size_t at = 0; at < message.size();) {
+    const std::size_t end = end_of_value(message, at);
+    if (end == at) {
+      ++at;
+      continue;
+    }
+    parts.words.push_back(message.substr(from, at - from));
+    parts.values.push_back(message.substr(at, end - at));
+    from = at = end;
+  }
+  parts.words.push_back(message.substr(from));
   return parts;
 }
 
@@ -53,8 +88,9 @@ std::string together(std::vector<std::string> values) {
                ? fmt::format("{}", fmt::join(different, ", "))
                : fmt::format("{} ... {} ({})", different.front(), different.back(), different.size());
   const auto [least, most] =
-      std::minmax_element(different.begin(), different.end(),
-                          [](const auto& a, const auto& b) { return std::stod(a) < std::stod(b); });
+      std::minmax_element(different.begin(), different.end(), [](const auto& a, const auto& b) {
+        return std::strtod(a.c_str(), nullptr) < std::strtod(b.c_str(), nullptr);
+      });
   return *least + " to " + *most;
 }
 

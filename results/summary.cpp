@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "results/checksum.hpp"
 #include "results/contact_position.hpp"
 #include "results/error_estimate.hpp"
 #include "results/flow_json.hpp"
 #include "results/step_error.hpp"
+#include "results/summary_file.hpp"
 #include "results/totals.hpp"
 #include "results/wear_json.hpp"
-#include "results/whole_file.hpp"
 #include "results/write.hpp"
 #include <algorithm>
 #include <cassert>
@@ -310,10 +309,8 @@ void write_summary(const std::filesystem::path& file, const RunResults& results)
   out["notes"] = all_notes(results);
   out["libraries"] = record.libraries;
   out["vector_width"] = record.vector_width;
-  out["sha256"] = no_checksum();
-  // a title may come from a file of another encoding: what is not UTF-8 is replaced, the summary is written
-  // all the same
-  write_whole(file, {with_checksum(out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n')});
+  out["files_sha256"] = digests_of_tables(file.parent_path());
+  save_summary(file, std::move(out));
 }
 
 } // namespace fretwork::results

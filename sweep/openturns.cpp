@@ -43,35 +43,54 @@ core::ChildResult run_helper(const fs::path& folder) {
                   result.output.substr(0, result.output.find('\n'))));
 }
 
-void write_values(const fs::path& file, const std::vector<double>& values) {
-  std::ofstream(file, std::ios::binary)
-      .write(reinterpret_cast<const char*>(values.data()),
-             static_cast<std::streamsize>(values.size() * sizeof(double)));
+void write(const fs::path& file, const void* bytes, std::size_t size) {
+  std::ofstream out(file, std::ios::binary);
+  out.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(size));
+  out.close();
+  if (!out)
+    throw core::Error(fmt::format(
+        "{}: cannot be written; check the space left there, or set TMPDIR to another folder", file.string()));
 }
 
-std::vector<double> read_values(const fs::path& file) {
-  std::error_code absent;
-  const std::uintmax_t bytes = fs::file_size(file, absent);
-  std::vector<double> out(absent ? 0 : bytes / sizeof(double));
-  std::ifstream(file, std::ios::binary)
-      .read(reinterpret_cast<char*>(out.data()), static_cast<std::streamsize>(out.size() * sizeof(double)));
+/// @throws core::Error where the file is not whole
+std::vector<double> read_values(const fs::path& file, std::size_t count) {
+  std::vector<double> out(count);
+  const auto bytes = static_cast<std::streamsize>(count * sizeof(double));
+  std::ifstream in(file, std::ios::binary);
+  if (!in.read(reinterpret_cast<char*>(out.data()), bytes) || in.peek() != std::ifstream::traits_type::eof())
+    throw core::Error(
+        fmt::format("{}: OpenTURNS has not written {} numbers there; check the space left in this folder, or "
+                    "set TMPDIR to another",
+                    file.string(), count));
   return out;
+}
+
+nlohmann::json read_answer(const fs::path& file) {
+  std::ifstream in(file);
+  nlohmann::json answer = nlohmann::json::parse(in, nullptr, false);
+  if (!answer.is_object())
+    throw core::Error(
+        fmt::format("{}: the answer of OpenTURNS is not whole; check the space left in this folder, or set "
+                    "TMPDIR to another",
+                    file.string()));
+  return answer;
 }
 
 } // namespace
 
 Answer ask_openturns(const nlohmann::json& request, const std::vector<double>& values) {
   const core::TemporaryDirectory folder;
-  std::ofstream(folder.path() / "request.json") << request.dump();
+  const std::string text = request.dump();
+  write(folder.path() / "request.json", text.data(), text.size());
   if (!values.empty())
-    write_values(folder.path() / "values.bin", values);
+    write(folder.path() / "values.bin", values.data(), values.size() * sizeof(double));
   const core::ChildResult result = run_helper(folder.path());
   if (result.status != 0)
     throw core::Error(fmt::format("draws and statistics by OpenTURNS: {}", result.output));
-  Answer out;
-  std::ifstream(folder.path() / "answer.json") >> out.json;
+  Answer out{.json = read_answer(folder.path() / "answer.json"), .values = {}};
   if (request.at("operation") == "draw")
-    out.values = read_values(folder.path() / "values.bin");
+    out.values = read_values(folder.path() / "values.bin", out.json.at("rows").get<std::size_t>() *
+                                                               out.json.at("columns").get<std::size_t>());
   return out;
 }
 

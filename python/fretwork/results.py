@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import h5py
 import numpy as np
 
-from .report.run_data import NoResults, verify
+from .report.run_data import table, verify
 
 if TYPE_CHECKING:
     import pandas
@@ -51,9 +51,6 @@ class Results:
 
     def __init__(self, directory: str | Path):
         self.directory = Path(directory)
-        for name in ("summary.json", "results.h5"):
-            if not (self.directory / name).is_file():
-                raise NoResults(f"{self.directory / name} does not exist; give the folder that `fretwork run` wrote")
         verify(self.directory)
 
     def __repr__(self) -> str:
@@ -181,8 +178,8 @@ class Results:
     def _csv(self, name: str) -> pandas.DataFrame | None:
         import pandas
 
-        path = self.directory / name
-        return pandas.read_csv(path) if path.exists() else None
+        path = table(self.directory, self.summary, name)
+        return pandas.read_csv(path) if path else None
 
     @property
     def spectra(self) -> pandas.DataFrame | None:

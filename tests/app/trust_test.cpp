@@ -122,8 +122,12 @@ TEST_F(Strange, MessagesAreShortAndNotObeyed) {
 TEST_F(Strange, OutputThatCannotBeWrittenIsNoSuccess) {
   if (!fs::exists("/dev/full"))
     GTEST_SKIP() << "no /dev/full on this system";
-  EXPECT_EQ(status_with_output_to("/dev/full", {"check", example("straight_tube").string()}),
-            computation_failed);
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"check", example("oscillator").string()},
+        {"--help"},
+        {"--version"},
+        {"run", "--help"}})
+    EXPECT_EQ(status_with_output_to("/dev/full", command), computation_failed) << command.front();
 }
 
 TEST_F(Strange, ARunWithoutAnEndIsRefused) {

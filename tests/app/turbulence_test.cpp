@@ -147,6 +147,27 @@ TEST(Turbulence, ForcesDoNotDependOnRanksNorOnOtherTubes) {
   EXPECT_GT((other - alone).norm(), 0.1 * alone.norm());
 }
 
+TEST(Turbulence, TablesThatWereChangedAreNotTakenForGood) {
+  const Workshop folder;
+  const std::string study = tubes(folder, 1, in_one_plane,
+                                  white() + modes(3) + run(0.5, "nodes = [\"middle0\"]\n", "step = 1e-3\n"));
+  const std::vector<std::string> command{"run", folder.write("study.toml", study).string(), "-o",
+                                         folder.path("results").string(), "--no-report"};
+  ASSERT_EQ(folder.fretwork(command).status, 0);
+  for (const char* name : {"flow.csv", "spectra.csv"}) {
+    const fs::path table = folder.path("results") / name;
+    const std::string whole = bytes_of(table);
+    const fs::path changed = folder.write("changed", whole + "\n");
+    fs::copy_file(changed, table, fs::copy_options::overwrite_existing);
+    const Outcome report = folder.fretwork({"report", folder.path("results").string()});
+    EXPECT_EQ(report.status, 1) << name;
+    EXPECT_TRUE(says(report.err, std::string(name) + " is not as it was written"));
+    EXPECT_TRUE(says(folder.fretwork(command).out, std::string(name) + " is not as it was written"));
+    EXPECT_EQ(bytes_of(table), whole);
+  }
+  EXPECT_TRUE(says(folder.fretwork(command).out, "up to date"));
+}
+
 TEST(Turbulence, IsNoPartOfAStaticStart) {
   const Workshop folder;
   const Results results =

@@ -5,6 +5,7 @@
 #include "results/checksum.hpp"
 #include "study_text.hpp"
 #include <fstream>
+#include <sys/stat.h>
 
 namespace fretwork::app::test {
 namespace {
@@ -113,6 +114,16 @@ TEST(WearInput, IsRefusedWhereTheOtherRunLacksTheContactOrDiverged) {
   EXPECT_TRUE(says(with_summary(parsed(R"({"transient": {"outcome": "done"}, "contacts": [
     {"name": "tsp1", "work_rate": 1.0, "standard_error": {"work_rate": null}}]})")),
                    "has no contact \"support0\""));
+  // a checksum that fits does not make a content
+  EXPECT_TRUE(says(with_summary(parsed(R"({"transient": 1, "contacts": [1]})")), "diverged"));
+  EXPECT_TRUE(says(with_summary(parsed(R"({"transient": {"outcome": "done"}, "contacts": 1})")),
+                   "holds no results of a transient"));
+  EXPECT_TRUE(
+      says(with_summary(parsed(R"({"transient": {"outcome": "done"}, "contacts": [1, {}, {"name": 1}]})")),
+           "has no contact \"support0\""));
+  fs::remove(folder.path("other") / "summary.json");
+  ASSERT_EQ(mkfifo((folder.path("other") / "summary.json").c_str(), 0600), 0);
+  EXPECT_TRUE(says(refused_by_check(folder, study), "summary.json is no regular file"));
 }
 
 } // namespace fretwork::app::test

@@ -3,10 +3,13 @@
 #include "core/confinement.hpp"
 #include "core/error.hpp"
 #include "core/temporary_directory.hpp"
+#include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <fcntl.h>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -93,8 +96,34 @@ TEST(ChildProcess, DiesWithItsParent) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(ChildProcess, IsGivenNoOpenFilesOfItsParent) {
+  const fretwork::core::TemporaryDirectory folder;
+  const std::string file = (folder.path() / "a").string();
+  const int open_file = open(file.c_str(), O_WRONLY | O_CREAT, 0600); // without O_CLOEXEC
+  ASSERT_GE(open_file, 0);
+  EXPECT_NE(run_child({"sh", "-c", "echo text >&" + std::to_string(open_file)}).status, 0);
+  (void)close(open_file);
+  EXPECT_EQ(std::filesystem::file_size(file), 0u);
+}
+
+TEST(ChildProcess, WithALimitOfTimeHasASessionAndNoTerminal) {
+  // its process, its state, its parent, its group, its session
+  const auto result = run_child(
+      {"sh", "-c", "read -r all < /proc/self/stat; set -- $all; echo $(($1 - $6)) $7"}, {.seconds = 60.0});
+  EXPECT_EQ(result.output, "0 0\n");
+}
+
 class Confined : public testing::Test {
 protected:
+  /// Makes a system call in a confined process. @return its errno; 0: it went well
+  template <class Call> static int error_of(const Confinement& confinement, Call call) {
+    const pid_t child = fork();
+    if (child == 0)
+      _exit(!confinement.enforce() ? 255 : call() >= 0 ? 0 : errno);
+    int status = 0;
+    (void)waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
   void SetUp() override {
     if (!Confinement::available())
       GTEST_SKIP() << "this kernel has no Landlock or no seccomp";
@@ -137,6 +166,37 @@ TEST_F(Confined, ChildrenRemoveAndChangeNothingElse) {
     EXPECT_EQ(std::filesystem::file_size(file), 4u) << command;
     EXPECT_EQ(std::filesystem::last_write_time(file), before) << command;
   }
+}
+
+TEST_F(Confined, ChildrenEmptyNoFileByOpeningItForReading) {
+  const Confinement confinement(folder_.path());
+  const auto file = outside_.path() / "a";
+  std::ofstream(file) << "kept";
+  for (const int access : {O_RDONLY, O_ACCMODE, O_WRONLY})
+    EXPECT_NE(error_of(confinement, [&] { return open(file.c_str(), access | O_TRUNC); }), 0) << access;
+  EXPECT_NE(error_of(confinement, [&] { return syscall(SYS_open, file.c_str(), O_RDONLY | O_TRUNC); }), 0);
+  EXPECT_EQ(std::filesystem::file_size(file), 4u);
+  EXPECT_EQ(error_of(confinement, [&] { return open(file.c_str(), O_RDONLY); }), 0);
+  const auto own = folder_.path() / "a";
+  EXPECT_EQ(error_of(confinement, [&] { return open(own.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600); }), 0);
+}
+
+TEST_F(Confined, ChildrenHaveNoCallsOfLaterKernels) {
+  const Confinement confinement(folder_.path());
+  const auto file = outside_.path() / "a";
+  std::ofstream(file) << "kept";
+  std::filesystem::permissions(file, std::filesystem::perms::owner_read);
+  constexpr long fchmodat2 = 452; // of Linux 6.6
+  EXPECT_EQ(error_of(confinement, [&] { return syscall(fchmodat2, AT_FDCWD, file.c_str(), 0777, 0); }),
+            ENOSYS);
+  EXPECT_EQ(std::filesystem::status(file).permissions(), std::filesystem::perms::owner_read);
+}
+
+TEST_F(Confined, ChildrenSendNoSignals) {
+  const Confinement confinement(folder_.path());
+  const pid_t self = getpid();
+  EXPECT_EQ(error_of(confinement, [&] { return kill(self, 0); }), EPERM);
+  EXPECT_EQ(error_of(confinement, [&] { return syscall(SYS_tgkill, self, self, 0); }), EPERM);
 }
 
 TEST(TemporaryDirectory, IsRemovedAlsoWhereItsProcessWasKilled) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/names.hpp"
+#include <chrono>
 #include <gtest/gtest.h>
 
 using namespace fretwork::core;
@@ -14,6 +15,15 @@ TEST(NearestName, FindsASlipOfTheHand) {
 TEST(NearestName, SaysNothingWhereNothingResembles) {
   EXPECT_EQ(nearest_name("friction", {"gap", "offset"}), "");
   EXPECT_EQ(nearest_name("x", {}), "");
+}
+
+TEST(NearestName, TakesNoTimeForNamesOfMillionsOfLetters) {
+  constexpr double most_seconds =
+      2.0; // a comparison letter by letter takes 10 s with this name and these candidates
+  const std::vector<std::string> keys(40, "normal_stiffness_of_the_contact");
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(nearest_name(std::string(5'000'000, 'k'), keys), "");
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), most_seconds);
 }
 
 TEST(ListNames, QuotesAndCutsLongLists) {

@@ -13,8 +13,13 @@ program=$PWD/build/release/bin/fretwork
 python=${FRETWORK_PYTHON:-/usr/bin/python3}
 study=examples/straight_tube/study.toml
 
+# The content of damaged files is that of the example that runs fastest: what is tried is that damage is found.
 faults() {
-  "$python" -B tests/faults/faults_test.py "$program" "$(find "$PWD/build/release" -name 'libfailing_calls.so')" $study --long
+  local library
+  library=$(find "$PWD/build/release" -name 'libfailing_calls.so')
+  "$python" -B tests/faults/faults_test.py "$program" "$library" $study --long --parts runs sweeps kills
+  local found=$?
+  "$python" -B tests/faults/faults_test.py "$program" "$library" examples/oscillator/study.toml --long --parts files checkpoints && return $found
 }
 surroundings() { "$python" -B tests/faults/surroundings_test.py "$program" $study mpirun; }
 grid() { "$python" -B tests/faults/grid_test.py "$program" --cells 2000 --keep build/faults; }

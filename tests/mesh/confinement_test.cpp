@@ -24,8 +24,15 @@ protected:
   /// Commands that would make the file "made".
   [[nodiscard]] std::vector<std::string> attacks() const {
     const std::string made = '"' + path("made").string() + '"';
-    return {touch(), "NonBlocking" + touch(), "Printf(\"text\") > " + made + ";",
-            "Mesh 1; Save " + made + ";", "Print " + made + ";"};
+    const std::string touch_made = "\"touch " + path("made").string() + "\";";
+    return {touch(),
+            "NonBlocking" + touch(),
+            "System " + touch_made,
+            "StringToName[StrCat(\"Sys\", \"temCall\")] " + touch_made,
+            "S2N[StrCat(\"Sys\", \"temCall\")] " + touch_made,
+            "Printf(\"text\") > " + made + ";",
+            "Mesh 1; Save " + made + ";",
+            "Print " + made + ";"};
   }
 };
 
@@ -53,6 +60,28 @@ TEST_F(Stranger, IsRefusedWithCommandsWhereNothingConfinesIt) {
     EXPECT_TRUE(says(refusal(attack), "and this system cannot confine it")) << attack;
     EXPECT_FALSE(fs::exists(path("made"))) << attack;
   }
+}
+
+TEST_F(Stranger, IsRefusedWithOptionsWhereNothingConfinesIt) {
+  setenv("FRETWORK_CONFINEMENT", "off", 1);
+  (void)write("a.geo.opt", touch() + "\n"); // gmsh runs it after a.geo
+  EXPECT_TRUE(says(refusal(""), "a.geo.opt: gmsh would run it, and this system cannot confine it"));
+  EXPECT_FALSE(fs::exists(path("made")));
+}
+
+TEST_F(Stranger, IsReadAsACommandFileUnderEndingsThatGmshDoesNotKnow) {
+  setenv("FRETWORK_CONFINEMENT", "off", 1);
+  for (const char* name : {"a.Step", "a.sTP", "a.BREP"}) {
+    const Source source{.file = write(name, line + touch() + "\n")};
+    EXPECT_TRUE(says(message_of([&] { static_cast<void>(read(source)); }), "it has the command System"))
+        << name;
+    EXPECT_FALSE(fs::exists(path("made"))) << name;
+  }
+}
+
+TEST_F(Stranger, IsRefusedWithAWordOfAnyLength) {
+  setenv("FRETWORK_CONFINEMENT", "off", 1);
+  EXPECT_TRUE(says(refusal("Onelab" + std::string(1'000'000, 'a') + ";"), "it has the command Onelab"));
 }
 
 TEST_F(Stranger, MayDoAllOfItWhereItIsTrusted) {

@@ -11,6 +11,7 @@ WRITE_MADE_UP, PYTHON, CHROMIUM, SCREENSHOTS = sys.argv.pop(1), sys.argv.pop(1),
 sys.path[:0] = [PYTHON, str(Path(__file__).parent)]
 
 from browser import Browser  # noqa: E402
+from made_up_tables import add_tables  # noqa: E402
 from fretwork.report import write_report  # noqa: E402
 
 PAPER = 695  # px: A4 between its margins, page.py
@@ -25,6 +26,7 @@ class InABrowser(unittest.TestCase):
         subprocess.run([WRITE_MADE_UP, folder, "5", "4000", "1", "wear"], check=True, stdout=subprocess.DEVNULL)
         rows = "".join(f'"apex","displacement y",m2/Hz,{f},{1e-12 / (1 + f**2)},{6e-13 / (1 + f**2)},{2e-12 / (1 + f**2)}\n' for f in range(200))
         (folder / "spectra.csv").write_text("name,quantity,unit,frequency [Hz],density,low_95,high_95\n" + rows)
+        add_tables(folder)
         cls.page = write_report(folder)
         SCREENSHOTS.mkdir(parents=True, exist_ok=True)
         cls.browser = Browser(CHROMIUM)

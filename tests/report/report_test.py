@@ -22,18 +22,10 @@ import numpy as np  # noqa: E402
 from fretwork.report import compare, compare_data, contact_view, drawing, run_data, structure_view, wear_view  # noqa: E402
 from fretwork.report import build as build_module  # noqa: E402
 from fretwork.report.build import build  # noqa: E402
+from made_up_tables import add_tables, change_summary  # noqa: E402
 
 LONGEST = 8.0  # s for 22 contacts and 10 000 outputs: the goal is 4 s on an idle machine, twice that beside other tests
 VOID = {"meta", "path", "rect", "circle", "image", "polyline", "br", "i"}
-
-
-def change_summary(folder, change):
-    """summary.json as `change` leaves it, with the checksum that fits."""
-    file = folder / "summary.json"
-    summary = json.loads(file.read_text())
-    change(summary)
-    summary["sha256"] = summary.pop("sha256")  # the last key
-    file.write_text(run_data.with_checksum(json.dumps(summary)))
 
 
 @contextlib.contextmanager
@@ -242,6 +234,24 @@ class Report(unittest.TestCase):
         spectrum = "".join(f'"apex <1>","displacement y",m2/Hz,{f},{1e-12 / (1 + f**2)},{6e-13 / (1 + f**2)},{2e-12 / (1 + f**2)}\n' for f in range(50))
         force = "".join(f'"T1, bend","force per length",N2/m2/Hz,{f},{2.0 / f},{2.0 / f},{2.0 / f}\n' for f in range(1, 50))
         (self.folder / "spectra.csv").write_text("name,quantity,unit,frequency [Hz],density,low_95,high_95\n" + spectrum + force)
+        add_tables(self.folder)
+
+    def test_shows_no_table_that_the_run_has_not_written(self):
+        made_up(self.folder, 2, 100)
+        self.flow_files()
+        change_summary(self.folder, lambda summary: summary.update(files_sha256={}))
+        self.assertEqual((run_data.load(self.folder).flows, run_data.load(self.folder).spectra), ([], []))
+
+    def test_refuses_tables_that_were_changed(self):
+        made_up(self.folder, 2, 100)
+        self.flow_files()
+        for name in ("flow.csv", "spectra.csv"):
+            file = self.folder / name
+            whole = file.read_bytes()
+            file.write_bytes(whole.replace(b"1", b"2", 1))
+            with self.assertRaisesRegex(run_data.NoResults, f"{name} is not as it was written"):
+                run_data.load(self.folder)
+            file.write_bytes(whole)
 
     def test_shows_the_flow_and_spectra(self):
         made_up(self.folder, 2, 100)

@@ -37,5 +37,15 @@ TEST(GroupedMessages, ThatAreEqualAreSaidOnce) {
   EXPECT_THAT(grouped_messages({"x_1 = 2 m2", "x_1 = 2 m2"}), ElementsAre("x_1 = 2 m2"));
 }
 
+TEST(GroupedMessages, MayHoldNamesOfAnyLength) {
+  const std::string name = '"' + std::string(1'000'000, 'a') + '"';
+  EXPECT_THAT(grouped_messages({"contact " + name + " opens"}), ElementsAre("contact " + name + " opens"));
+}
+
+TEST(GroupedMessages, KeepNumbersWithinWords) {
+  EXPECT_THAT(grouped_messages({"a 1e5x 2.5e-3 7 mm", "a 1e5x 2e-3 3 mm", "a 1e5x 4e-3 9 mm"}),
+              ElementsAre("a 1e5x 2e-3 to 4e-3 3 to 9 mm"));
+}
+
 } // namespace
 } // namespace fretwork::results

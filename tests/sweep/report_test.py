@@ -2,6 +2,7 @@
 """The report of a sweep: report_test.py FRETWORK STUDY. It is whole HTML, shows every section, and holds names of the user as text only."""
 
 import json
+import os
 import re
 import subprocess
 import sys
@@ -101,6 +102,31 @@ class Report(unittest.TestCase):
         (self.directory / "report.html").unlink()
         subprocess.run([FRETWORK, "report", str(self.directory)], check=True, capture_output=True, timeout=60)
         self.assertEqual((self.directory / "report.html").read_text(), self.page)
+
+    def test_refuses_what_was_changed(self):
+        self.report_of("draws = 3\n")
+        for name in ("summary.json", "table.h5"):
+            file = self.directory / name
+            whole = file.read_bytes()
+            place = len(whole) // 2
+            file.write_bytes(whole[:place] + bytes([whole[place] ^ 1]) + whole[place + 1 :])
+            done = subprocess.run([FRETWORK, "report", str(self.directory)], capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, 1, name)
+            self.assertIn(f"{name} is not as it was written", done.stderr)
+            file.write_bytes(whole)
+
+    def test_draws_that_are_cut_off_are_refused(self):
+        """As on a full disk: the helper ends with status 0, and its file of numbers or its answer is short."""
+        for answer in ('{"rows": 4, "columns": 2}', '{"rows": 4'):
+            with tempfile.TemporaryDirectory(prefix="fretwork_sweep_") as name:
+                helper, study = Path(name) / "python", Path(name) / "sweep.toml"
+                helper.write_text(f"#!/bin/sh\nprintf 12345678 > \"$3/values.bin\"\necho '{answer}' > \"$3/answer.json\"\n")
+                helper.chmod(0o755)
+                study.write_text(f'[sweep]\nstudy = "{STUDY}"\ndraws = 4\n{VARIABLES}')
+                done = subprocess.run([FRETWORK, "sweep", str(study), "-o", f"{name}/out"], capture_output=True, text=True, timeout=120,
+                                      env=dict(os.environ, FRETWORK_PYTHON=str(helper)))  # fmt: skip
+                self.assertEqual(done.returncode, 1, done.stderr)
+                self.assertIn("set TMPDIR to another", done.stderr)
 
     def test_few_cases_have_no_interval(self):
         self.report_of("draws = 3\n")

@@ -4,7 +4,6 @@
 import csv
 import itertools
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import numpy as np
 
@@ -31,7 +30,7 @@ class Spectrum:
 
 def _columns(path):
     """The columns of a table by their heads, as texts; none where there is no file, or no row."""
-    if not path.exists():
+    if path is None:
         return {}
     with path.open(encoding="utf-8", newline="") as file:
         rows = list(csv.reader(file))
@@ -48,9 +47,9 @@ def _places(keys):
     return found
 
 
-def flows(folder):
-    """In the order of the file."""
-    columns = _columns(Path(folder) / "flow.csv")
+def flows(path):
+    """In the order of the file; none without a file."""
+    columns = _columns(path)
     numbers = {head: np.array(values, float) for head, values in columns.items() if head not in ("tube", "zone")}
     return [
         TubeFlow(tube, [columns["zone"][i] for i in places], {head: values[places] for head, values in numbers.items()})
@@ -58,9 +57,9 @@ def flows(folder):
     ]
 
 
-def spectra(folder):
-    """In the order of the file."""
-    columns = _columns(Path(folder) / "spectra.csv")
+def spectra(path):
+    """In the order of the file; none without a file."""
+    columns = _columns(path)
     if not columns:
         return []
     values = np.array([columns[head] for head in ("frequency [Hz]", "density", "low_95", "high_95")], float)

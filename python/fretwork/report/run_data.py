@@ -167,7 +167,8 @@ def _place_along(contacts, nodes, lines):
             contact.abscissa = place
 
 
-USER_BLOCK = 512  # bytes before the HDF5 content, with its checksum
+USER_BLOCK = 512  # bytes before the HDF5 content: a line with its checksum, then zeros
+ANNOUNCEMENT = "Fretwork. SHA-256 of all bytes after the first 512: "
 CHUNK = 1 << 20  # bytes read at a time
 
 
@@ -194,25 +195,37 @@ def with_checksum(text):
     return text[:begin] + digest + text[end:]
 
 
-def verify(folder):
-    """Before any library looks at the files. @throws NoResults if one is not as it was written"""
-    archive, summary = folder / "results.h5", folder / "summary.json"
+def verify(folder, archive_name="results.h5"):
+    """Before any library looks at the files. @throws NoResults if one is missing or is not as it was written"""
+    archive, summary = folder / archive_name, folder / "summary.json"
+    for path in (summary, archive):
+        if not path.exists():
+            raise NoResults(f"{path} does not exist; give the folder that `fretwork run` wrote")
+        if not path.is_file():
+            raise NoResults(f"{path} is no regular file; give the folder that `fretwork run` wrote")
     with open(archive, "rb") as file:
-        digest = re.search(rb"\b([0-9a-f]{64})\n", file.read(USER_BLOCK))
+        block = file.read(USER_BLOCK)
+    expected = f"{ANNOUNCEMENT}{checksum(archive)}\n".encode().ljust(USER_BLOCK, b"\0")
     text = summary.read_text(encoding="utf-8", errors="replace")
-    for path, good in ((archive, digest and digest[1].decode() == checksum(archive)), (summary, with_checksum(text) == text)):
+    for path, good in ((archive, block == expected), (summary, with_checksum(text) == text)):
         if not good:
             raise NoResults(f"{path} is not as it was written (its checksum does not fit); run the study again")
+
+
+def table(folder, summary, name):
+    """The path of a table beside the summary; None where the run has none of that name. @throws NoResults if it is not as it was written"""
+    digests = summary.get("files_sha256")
+    if not isinstance(digests, dict) or name not in digests:
+        return None
+    path = folder / name
+    if not path.is_file() or hashlib.sha256(path.read_bytes()).hexdigest() != digests[name]:
+        raise NoResults(f"{path} is not as it was written (its checksum does not fit); run the study again")
+    return path
 
 
 def load(directory):
     """@throws NoResults if a file is missing or is not as it was written"""
     folder = Path(directory)
-    for name in ("summary.json", "results.h5"):
-        if not (folder / name).exists():
-            raise NoResults(f"{folder / name} does not exist; give the folder that `fretwork run` wrote")
-        if not (folder / name).is_file():
-            raise NoResults(f"{folder / name} is no regular file; give the folder that `fretwork run` wrote")
     verify(folder)
     try:
         summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
@@ -240,7 +253,8 @@ def load(directory):
             if "time" in file:
                 run.time = file["time"][...]
                 run.window = float(file.attrs["statistics_from"])
-        run.flows, run.spectra = flow_data.flows(folder), flow_data.spectra(folder)
+        run.flows = flow_data.flows(table(folder, summary, "flow.csv"))
+        run.spectra = flow_data.spectra(table(folder, summary, "spectra.csv"))
     except (OSError, KeyError, ValueError, TypeError, AttributeError, RuntimeError) as error:
         raise NoResults(f"{folder}: the results are damaged or of another version ({error}); run the study again") from error
     if run.attributes.get("input_sha256") != summary.get("input_sha256"):

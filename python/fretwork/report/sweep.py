@@ -15,7 +15,10 @@ class Sweep:
     def __init__(self, directory):
         import h5py
 
+        from .run_data import verify
+
         self.directory = directory
+        verify(directory, "table.h5")
         self.summary = json.loads((directory / "summary.json").read_text(encoding="utf-8"))
         with h5py.File(directory / "table.h5", "r") as file:
             self.inputs = {name.replace("%2F", "/"): column[...] for name, column in file["inputs"].items()}
@@ -200,6 +203,7 @@ def build(directory):
 
 def main():
     from . import build as run_report
+    from . import run_data
 
     missing = run_report.missing_packages()
     if missing:
@@ -209,6 +213,8 @@ def main():
         run_report.write_whole(directory / "report.html", build(directory))
     except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
         return f"{directory}: the results are not those of a sweep ({type(error).__name__}: {str(error)[:200]})"
+    except run_data.NoResults as error:
+        return str(error)
     except OSError as error:
         return f"the report cannot be written: {error}"
     return 0
