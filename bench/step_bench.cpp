@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cost of whole runs of the splitting scheme, 10 s of tubes in steps that give statistics to 1 %, with statistics and without; and what
-// a run saves that leaves out the modes that nothing moves.
+// Cost of whole runs of the splitting scheme, 10 s of tubes in steps that give statistics to 1 %, with statistics and without; what
+// a run saves that leaves out the modes that nothing moves; and what a fluidelastic law costs.
 #include "bench/thread_time.hpp"
 #include "bench/tube_scene.hpp"
 #include "post/contact_statistics.hpp"
 #include "transient/modes/moving_modes.hpp"
 #include "transient/run.hpp"
+#include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <limits>
 #include <numbers>
 
@@ -118,9 +120,82 @@ void print_still_modes() {
   }
 }
 
+/// Flow of a velocity V over the middle half of a tube, under a stable law with three lags that couples drag and lift.
+constexpr double velocity = 2.0, density = 300.0, diameter = 0.01905, slow = 0.3; // m/s, kg/m3, m, V/(f D)
+
+/// Gives the first modes the law with its memory, the others nothing.
+void add_law(transient::Scene& scene, Eigen::Index modes) {
+  const Eigen::Matrix2d stiffness{{-1.0, 0.3}, {-0.3, -1.0}}, damping{{-1.0, 0.1}, {-0.1, -1.0}};
+  constexpr double rates[] = {0.3, 0.6, 1.2};
+  constexpr double line = 0.738; // kg/m, of tube_scene
+  constexpr double pressure = 0.5 * density * velocity * velocity / line;
+  Eigen::MatrixXd overlap(modes, modes); // of sines, by pairs of planes
+  for (Eigen::Index j = 0; j < modes; ++j)
+    for (Eigen::Index k = 0; k < modes; ++k) {
+      const auto integral = [](Eigen::Index wave) { // of cos(wave pi s) from 1/4 to 3/4
+        const double a = std::numbers::pi * static_cast<double>(wave);
+        return wave == 0 ? 0.5 : (std::sin(0.75 * a) - std::sin(0.25 * a)) / a;
+      };
+      overlap(j, k) = pressure * (integral(std::abs(j / 2 - k / 2)) - integral(j / 2 + k / 2 + 2));
+    }
+  const auto coupled = [&](const Eigen::Matrix2d& law) {
+    Eigen::MatrixXd out(modes, modes);
+    for (Eigen::Index j = 0; j < modes; ++j)
+      for (Eigen::Index k = 0; k < modes; ++k)
+        out(j, k) = law(j % 2, k % 2) * overlap(j, k);
+    return out;
+  };
+  const Eigen::Index n = scene.system.size(), states = 3 * modes;
+  core::MotionForces& f = scene.system.motion;
+  f.stiffness = f.damping = Eigen::MatrixXd::Zero(n, n);
+  f.input = Eigen::MatrixXd::Zero(n, states);
+  f.output = Eigen::MatrixXd::Zero(states, n);
+  f.rates = Eigen::MatrixXd::Zero(states, states);
+  f.stiffness.topLeftCorner(modes, modes) = coupled(stiffness);
+  f.damping.topLeftCorner(modes, modes) = diameter / velocity * coupled(damping);
+  for (Eigen::Index lag = 0; lag < 3; ++lag) {
+    f.input.block(0, lag * modes, modes, modes) = coupled(-stiffness / 3.0);
+    f.output.block(lag * modes, 0, modes, modes).setIdentity();
+    f.rates.diagonal().segment(lag * modes, modes).setConstant(-rates[lag] * velocity / diameter);
+  }
+}
+
+void print_laws() {
+  std::printf("\n| tube | modes with memory | without a law, ns a step | with | ratio |\n"
+              "| --- | --- | --- | --- | --- |\n");
+  constexpr Tube with_law[] = {tubes[1], tubes[2], {"100 modes, 8 supports", 100, 8, 9.0, 1e6, 1e-4}};
+  for (const Tube& tube : with_law) {
+    const transient::Scene dry = scene_of(tube);
+    Eigen::Index slow_modes = 0;
+    while (slow_modes < tube.modes &&
+           slow * std::sqrt(dry.system.stiffness(slow_modes)) * diameter < 2.0 * std::numbers::pi * velocity)
+      ++slow_modes;
+    for (const Eigen::Index modes : {slow_modes, Eigen::Index{tube.modes}}) {
+      transient::Scene wet = dry;
+      add_law(wet, modes);
+      Cost without, with;
+      for (int i = 0; i < repeats; ++i) { // in turn: a disturbance falls on both
+        measure(dry, tube.step, without);
+        measure(wet, tube.step, with);
+      }
+      const double steps = duration / tube.step;
+      std::printf("| %s | %d | %.0f | %.0f | %.2f |\n", tube.name, static_cast<int>(modes),
+                  1e9 * without.with / steps, 1e9 * with.with / steps, with.with / without.with);
+      std::fflush(stdout);
+      if (slow_modes == tube.modes)
+        break;
+    }
+  }
+}
+
 } // namespace
 
-int main() {
+int main(int count, char** arguments) {
+  if (count > 1 && std::strcmp(arguments[1], "law") == 0) {
+    print_laws();
+    return 0;
+  }
   print_tubes();
   print_still_modes();
+  print_laws();
 }

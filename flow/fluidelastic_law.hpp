@@ -12,6 +12,9 @@
 /// approximant (3, 3) = 1 - sum alpha_i p/(p + d_i). S. Price, M. Paidoussis, J. Sound and Vibration 97 (1984) 615.
 /// Quasi-unsteady: K acts by h(tau) = 1 - sum alpha_i e^(-d_i tau), tau = t V/D: B_i = -alpha_i K. S. Granger, M. Paidoussis,
 /// J. Fluid Mechanics 320 (1996) 163.
+/// Connors' coupling: K = kappa [[0, 1], [-1, 0]], kappa = 8 pi/K^2. Two directions of equal frequency f and decrement delta become unstable at
+/// V_c/(f D) = K (m delta/(rho D^2))^(1/2), whatever the frequency: the energy of a circular orbit, with K of H. Connors (ASME 1970).
+/// Table: measured c_k, c_d of lift over Vr, as the law of the form above with the least squares of its differences, c_d counted ten times.
 /// Limits: linear in u, below some 0.1 D; a tube that touches a support has the same law.
 #pragma once
 #include <Eigen/Core>
@@ -45,5 +48,22 @@ struct Memory {
 };
 [[nodiscard]] FluidelasticLaw quasi_unsteady_law(double drag, double lift, const Eigen::Matrix2d& gradients,
                                                  const std::vector<Memory>& memory);
+
+/// @param constant  K > 0
+[[nodiscard]] FluidelasticLaw connors_law(double constant);
+
+struct MeasuredForce {
+  double reduced_velocity;   ///< Vr > 0
+  double stiffness, damping; ///< c_k, c_d
+};
+/// A table as lags, and how far it is from its rows.
+struct FittedLaw {
+  FluidelasticLaw law;          ///< of lift; its range is that of the rows
+  double stiffness_error = 0.0; ///< largest difference of c_k
+  double damping_error = 0.0;   ///< and of c_d
+};
+/// @param rows  of different Vr, at least lags + 1
+/// @param lags  1 to 3: their rates are those of 16 values between a fifth of the least kr and the largest that fit best
+[[nodiscard]] FittedLaw fitted_law(const std::vector<MeasuredForce>& rows, int lags);
 
 } // namespace fretwork::flow

@@ -5,10 +5,12 @@
 namespace fretwork::study {
 namespace {
 
-enum class Kind { rational, quasi_steady, quasi_unsteady };
+enum class Kind { rational, quasi_steady, quasi_unsteady, table, connors };
 const Choices<Kind> kinds{{{"rational", Kind::rational},
                            {"quasi_steady", Kind::quasi_steady},
-                           {"quasi_unsteady", Kind::quasi_unsteady}}};
+                           {"quasi_unsteady", Kind::quasi_unsteady},
+                           {"table", Kind::table},
+                           {"connors", Kind::connors}}};
 const std::string expected_matrix = "a number (lift alone) or [[a, b], [c, d]], rows and columns drag, lift";
 
 /// A number is that of lift alone.
@@ -69,6 +71,42 @@ flow::FluidelasticLaw read_quasi(const TableReader& table, Kind kind) {
   return flow::quasi_unsteady_law(drag, lift, gradients, memory);
 }
 
+flow::FluidelasticLaw read_table(const TableReader& table) {
+  const std::string expected = "rows [Vr, c_k, c_d] of measured coefficients";
+  std::vector<flow::MeasuredForce> rows;
+  for (const Value& row : to_array(table.required("table", expected), table.path("table"), expected)) {
+    const std::vector<double> values = to_numbers(row, table.path("table"), 3, {});
+    if (values[0] <= 0.0)
+      table.fail_at("table", "Vr = " + std::to_string(values[0]) + "; give reduced velocities above 0");
+    for (const flow::MeasuredForce& other : rows)
+      if (other.reduced_velocity == values[0])
+        table.fail_at("table", "Vr = " + std::to_string(values[0]) + " has two rows; give one");
+    rows.push_back({values[0], values[1], values[2]});
+  }
+  const auto lags = static_cast<int>(table.optional_integer("fit", 1).value_or(2));
+  if (lags > 3)
+    table.fail_at("fit", "at most 3 lags are fitted");
+  if (static_cast<int>(rows.size()) <= lags)
+    table.fail_at("table", std::to_string(rows.size()) + " rows do not determine " + std::to_string(lags) +
+                               " lags; give more rows, or a smaller fit");
+  return flow::fitted_law(rows, lags).law;
+}
+
+flow::FluidelasticLaw read_law(const TableReader& table, Kind kind) {
+  switch (kind) {
+  case Kind::rational:
+    return read_rational(table);
+  case Kind::quasi_steady:
+  case Kind::quasi_unsteady:
+    return read_quasi(table, kind);
+  case Kind::table:
+    return read_table(table);
+  case Kind::connors:
+    return flow::connors_law(table.number("constant", {Range::above_zero}));
+  }
+  return {};
+}
+
 std::vector<std::string> keys_of(Kind kind) {
   switch (kind) {
   case Kind::rational:
@@ -77,6 +115,10 @@ std::vector<std::string> keys_of(Kind kind) {
     return {"law", "range", "drag", "lift", "gradients", "delay"};
   case Kind::quasi_unsteady:
     return {"law", "range", "drag", "lift", "gradients", "memory"};
+  case Kind::table:
+    return {"law", "range", "table", "fit"};
+  case Kind::connors:
+    return {"law", "range", "constant"};
   }
   return {};
 }
@@ -88,11 +130,11 @@ std::vector<NamedLaw> read_flow_laws(const TableReader& root) {
   for (const Entry& entry : table_entries(root, "flow_laws")) {
     const TableReader any(*entry.value, entry.path,
                           {{"law", "range", "stiffness", "damping", "lags", "lag_forces", "drag", "lift",
-                            "gradients", "delay", "memory"}});
-    (void)any.required("law", "\"rational\", \"quasi_steady\" or \"quasi_unsteady\"");
+                            "gradients", "delay", "memory", "table", "fit", "constant"}});
+    (void)any.required("law", "\"rational\", \"quasi_steady\", \"quasi_unsteady\", \"table\" or \"connors\"");
     const Kind kind = any.choice("law", Kind::rational, kinds);
     const TableReader table(*entry.value, entry.path, {keys_of(kind)});
-    flow::FluidelasticLaw law = kind == Kind::rational ? read_rational(table) : read_quasi(table, kind);
+    flow::FluidelasticLaw law = read_law(table, kind);
     if (table.has("range")) {
       const std::vector<double> range =
           to_numbers(*table.find("range"), table.path("range"), 2, {Range::at_least_zero});

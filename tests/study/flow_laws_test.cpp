@@ -50,6 +50,19 @@ TEST(FlowLawKeys, QuasiUnsteadyForcesAreTheSteadyOnesWithMemory) {
   EXPECT_EQ(law.lags[0].force(1, 1).real(), 1.25 * 15.5);
 }
 
+TEST(FlowLawKeys, TablesAndConnors) {
+  const std::string rows =
+      "law = \"table\"\ntable = [[2, -1, 0.1], [3, -1.5, 0.2], [4, -2, 0.4], [6, -2, 0.9]]\n";
+  const flow::FluidelasticLaw table = law_of(study_with(rows));
+  EXPECT_EQ(table.lags.size(), 2u);
+  EXPECT_EQ(table.range, (std::array<double, 2>{2.0, 6.0}));
+  EXPECT_EQ(law_of(study_with(rows + "fit = 1\n")).lags.size(), 1u);
+  EXPECT_EQ(law_of(study_with(rows + "range = [1, 9]\n")).range, (std::array<double, 2>{1.0, 9.0}));
+  const flow::FluidelasticLaw connors = law_of(study_with("law = \"connors\"\nconstant = 3.0\n"));
+  EXPECT_NEAR(connors.stiffness(0, 1), 2.792526803, 1e-9); // 8 pi/9
+  EXPECT_EQ(connors.stiffness(1, 0), -connors.stiffness(0, 1));
+}
+
 TEST(FlowLawMessages, NameTheKeyAndTheCure) {
   const std::string at = "flow_laws.bundle.";
   const std::pair<std::string, std::string> cases[] = {
@@ -72,6 +85,13 @@ TEST(FlowLawMessages, NameTheKeyAndTheCure) {
       {study_with("law = \"quasi_unsteady\"\ndrag = 1\ngradients = 1\nmemory = [[1, 0]]\n"),
        "does not decay; give rates above 0"},
       {study_with("law = \"quasi_steady\"\ndrag = 1\ngradients = 1\ndelay = -1\n"), at + "delay = -1"},
+      {study_with("law = \"table\"\ntable = [[1, 1, 1], [2, 1, 1]]\n"),
+       "2 rows do not determine 2 lags; give more rows, or a smaller fit"},
+      {study_with("law = \"table\"\ntable = [[1, 1, 1], [1, 2, 2], [3, 1, 1]]\n"), "has two rows; give one"},
+      {study_with("law = \"table\"\ntable = [[0, 1, 1]]\n"), "give reduced velocities above 0"},
+      {study_with("law = \"table\"\ntable = [[1, 1]]\n"), at + "table"},
+      {study_with("law = \"table\"\nfit = 4\ntable = [[1, 1, 1]]\n"), "at most 3 lags are fitted"},
+      {study_with("law = \"connors\"\nconstant = 0\n"), at + "constant = 0"},
       {study_with(rational, "array"), "law = \"bundle\""}};
   for (const auto& [text, expected] : cases) {
     const std::string message = message_of(text);

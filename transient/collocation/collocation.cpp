@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// Collocation at the nodes 0, 1/2, 1 of a step (Lobatto): the modes move exactly under a force that is the quadratic through its
-/// values at the nodes (force_polynomial.hpp; matrix_flow.hpp where a damping matrix couples them), and the contact forces obey their laws at the nodes (nodal_solver.hpp, nodal_contact.hpp).
+/// values at the nodes (force_polynomial.hpp; coupled_flow.hpp where a damping matrix couples them), and the contact forces obey their laws at the nodes (nodal_solver.hpp, nodal_contact.hpp).
 /// Loads are sampled at the nodes.
 ///
 /// Order 4 in displacement, velocity and force, with damping and friction, on a path along which the laws are smooth: the end of a
@@ -140,7 +140,7 @@ public:
 
 private:
   struct Level {
-    Level(const System& system, const PackedContacts& contacts, double h, MatrixFlow& coupled, int level)
+    Level(const System& system, const PackedContacts& contacts, double h, CoupledFlow& coupled, int level)
         : flow(system, h, &coupled, level), tables(contacts, flow, h) {}
     PolynomialFlow flow;
     NodalTables tables;
@@ -324,7 +324,7 @@ private:
   std::array<Carried, 3> obstacle_at_; ///< what carries the contacts at the nodes
   NodalSolver solver_;
   ContactTrial trial_;
-  MatrixFlow coupled_; ///< of modes that a damping matrix couples, over h
+  CoupledFlow coupled_; ///< of modes that a damping matrix couples, over h
   std::vector<Level> levels_;
   std::array<double, halvings + 1> spans_; ///< s, of their steps
   Nodes q_, v_, load_, force_; ///< modes, their velocities, modal forces of loads and contacts at the nodes

@@ -154,7 +154,7 @@ ImpulseChain impulse_chain(double k, double c, double t) {
   return out;
 }
 
-PolynomialFlow::PolynomialFlow(const System& system, double h, MatrixFlow* coupled, int halvings)
+PolynomialFlow::PolynomialFlow(const System& system, double h, CoupledFlow* coupled, int halvings)
     : modes_(system.size()), coupled_(coupled && !coupled->empty() ? coupled : nullptr), halvings_(halvings),
       padded_modes_(padded(static_cast<int>(system.size()))) {
   table_.assign(static_cast<std::size_t>(2 * rows_of_node * padded_modes_), 0.0);

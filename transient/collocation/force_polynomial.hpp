@@ -8,10 +8,10 @@
 /// The work of a part L of the force (loads, contacts) up to s is exact too, by parts:
 ///     int L q' dt = L0 (q - q0) + B_L (s q - M_0) + D_L (s^2 q - 2 M_1),   M_j = int_0^s s^j q ds
 /// M_j from q integrated once and twice, which raises every index of the formula of q.
-/// k >= 0 and c >= 0 are arbitrary (oscillator.hpp). Modes that a damping matrix couples: matrix_flow.hpp, of degree 2.
+/// k >= 0 and c >= 0 are arbitrary (oscillator.hpp). Modes that a damping matrix couples: coupled_flow.hpp, of degree 2.
 #pragma once
 #include "core/state_archive.hpp"
-#include "transient/modes/matrix_flow.hpp"
+#include "transient/modes/coupled_flow.hpp"
 #include "transient/scene/scene.hpp"
 #include "transient/simd/kernels.hpp"
 #include <array>
@@ -39,7 +39,7 @@ class PolynomialFlow {
 public:
   PolynomialFlow(const System& system, double h) : PolynomialFlow(system, h, nullptr, 0) {}
   /// @param coupled  of degree 2, over h 2^halvings, with one halving more: moves the modes that it couples; must live longer. Null: none
-  PolynomialFlow(const System& system, double h, MatrixFlow* coupled, int halvings);
+  PolynomialFlow(const System& system, double h, CoupledFlow* coupled, int halvings);
 
   /// q and v at the nodes 1/2 and 1 from those at 0, under the loads and the contact forces of node 0 alone. No allocation.
   void predict(const Nodes& load, const Nodes& contact, Nodes& q, Nodes& v) const;
@@ -61,7 +61,7 @@ private:
   void move_coupled(const Nodes& load, const Nodes& contact, Nodes& q, Nodes& v, Works& works) const;
 
   Eigen::Index modes_;
-  MatrixFlow* coupled_;
+  CoupledFlow* coupled_;
   int halvings_;
   int padded_modes_;
   kernels::Array

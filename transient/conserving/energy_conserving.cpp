@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// The scheme that keeps the energy at any step: exact motion of the modes under loads that are linear and contact forces that are
-/// constant over a step (oscillator.hpp; matrix_flow.hpp where a damping matrix couples them), the forces made from both ends of the step (conserving_contacts.hpp). Order 2 in displacement,
+/// constant over a step (oscillator.hpp; coupled_flow.hpp where a damping matrix couples them), the forces made from both ends of the step (conserving_contacts.hpp). Order 2 in displacement,
 /// velocity and force, with damping and friction. Implicit: a step has no limit of stability, neither by the contacts nor by the modes;
 /// what it does not resolve is still wrong.
 ///
@@ -16,8 +16,8 @@
 #include "transient/conserving/energy_conserving.hpp"
 #include "transient/conserving/conserving_contacts.hpp"
 #include "transient/contacts/obstacle_motion.hpp"
+#include "transient/modes/coupled_flow.hpp"
 #include "transient/modes/load_sum.hpp"
-#include "transient/modes/matrix_flow.hpp"
 #include "transient/modes/oscillator.hpp"
 #include <algorithm>
 #include <array>
@@ -348,7 +348,7 @@ private:
   ConservingContacts solver_;
   ContactRows rows_;
   std::array<Tables, halvings + 1> tables_;
-  MatrixFlow coupled_;
+  CoupledFlow coupled_;
   kernels::Array q_, v_, k_, load_, next_load_, middle_load_, contact_, moved_, slope_;
 
   std::array<Step, 2> steps_; ///< that of the last record, and the next

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// The modes between instants at which contact forces act: their exact flow under loads that are linear in time from one action to the next
-/// (oscillator.hpp; matrix_flow.hpp where a damping matrix couples them).
+/// (oscillator.hpp; coupled_flow.hpp where a damping matrix couples them).
 #pragma once
 #include "core/state_archive.hpp"
+#include "transient/modes/coupled_flow.hpp"
 #include "transient/modes/load_sum.hpp"
-#include "transient/modes/matrix_flow.hpp"
 
 namespace fretwork::transient {
 
@@ -43,7 +43,7 @@ private:
   System system_;
   double h_;
   LoadSum loads_;
-  MatrixFlow coupled_;
+  CoupledFlow coupled_;
   kernels::FlowTable first_, full_;
   kernels::Array k_, f_now_, f_next_, slope_;
   std::int64_t steps_ = 0;

@@ -2,6 +2,8 @@
 #include "transient/modes/modal_flow.hpp"
 #include "transient/modes/oscillator.hpp"
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace fretwork::transient {
 
@@ -10,7 +12,7 @@ namespace {
 constexpr StepCoefficients stays{1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0};
 } // namespace
 
-kernels::FlowTable flow_table(const System& system, const MatrixFlow& coupled, double h) {
+kernels::FlowTable flow_table(const System& system, const CoupledFlow& coupled, double h) {
   kernels::FlowTable t(kernels::padded(static_cast<int>(system.size())));
   for (Eigen::Index j = 0; j < system.size(); ++j) {
     const double k = system.stiffness(j);
@@ -21,22 +23,23 @@ kernels::FlowTable flow_table(const System& system, const MatrixFlow& coupled, d
 
 namespace {
 
-/// Under a load that goes to the mean of both ends by then; coupled modes as above.
-kernels::MiddleTable middle_table(const System& system, const MatrixFlow& coupled, double h) {
-  kernels::MiddleTable t(kernels::padded(static_cast<int>(system.size())));
-  for (Eigen::Index j = 0; j < system.size(); ++j) {
-    const StepCoefficients s = step_coefficients(system.stiffness(j), system.damping(j), 0.5 * h);
-    if (!coupled.couples(j))
-      t.set(j, {s.qq, s.qv, s.qf0 + 0.5 * s.qf1, 0.5 * s.qf1});
-  }
-  return t;
+/// The force of a mode's own, linear over the step, by what displacement and velocity at its end differ from without it; none where half a period
+/// is shorter than the step, which does not show it then.
+std::array<double, 4> own_force(double k, const StepCoefficients& s, double h) {
+  constexpr double longest = 3.0; // w h; the matrix is singular at 2 pi
+  if (std::sqrt(k) * h > longest)
+    return {};
+  const double det = s.qf0 * s.vf1 - s.qf1 * s.vf0;
+  return {s.vf1 / det, -s.qf1 / det, -s.vf0 / det, s.qf0 / det};
 }
 
-/// What is left to MatrixFlow: nothing where forces of motion have taken the damping matrix.
-System without_matrix(System system) {
-  if (!system.motion.empty())
-    system.damping_matrix.resize(0, 0);
-  return system;
+/// A force of motion on a mode by itself, which is then one of another stiffness and damping.
+bool acts_alone(const System& system, const CoupledBlock& block) {
+  if (block.modes.size() > 1 || !block.states.empty())
+    return false;
+  const Eigen::Index j = block.modes.front();
+  return system.stiffness(j) >= system.motion.stiffness(j, j) &&
+         system.damping(j) >= system.motion.damping(j, j);
 }
 
 } // namespace
@@ -44,26 +47,71 @@ System without_matrix(System system) {
 ModalFlow::ModalFlow(const Scene& scene, double step, const std::vector<int>& lengths)
     : system_(with_diagonal(scene.system)), h_(step),
       loads_(scene.loads, scene.system.size(), scene.duration, step, scene.sampled_loads),
-      fed_(system_, step), coupled_(without_matrix(system_), step), lengths_(lengths) {
-  for (const int length : lengths) {
-    tables_.push_back(flow_table(system_, coupled_, length * step));
-    middles_.push_back(middle_table(system_, coupled_, length * step));
-    for (Eigen::Index j = 0; j < system_.size(); ++j)
-      if (fed_.couples(j)) {
-        tables_.back().set(j, system_.stiffness(j), stays);
-        middles_.back().set(j, {0, 0, 0, 0});
-      }
+      lone_k_(system_.stiffness), lone_c_(system_.damping), lengths_(lengths) {
+  std::vector<CoupledBlock> blocks = coupled_blocks(system_);
+  apart_.assign(static_cast<std::size_t>(system_.size()), 1);
+  if (fed()) {
+    std::erase_if(blocks, [&](const CoupledBlock& block) {
+      if (!acts_alone(system_, block))
+        return false;
+      const Eigen::Index j = block.modes.front();
+      lone_k_(j) -= system_.motion.stiffness(j, j);
+      lone_c_(j) -= system_.motion.damping(j, j);
+      return true;
+    });
   }
+  for (const CoupledBlock& block : blocks)
+    for (const Eigen::Index j : block.modes)
+      apart_[static_cast<std::size_t>(j)] = 0;
+  if (fed()) {
+    Scene diagonal = scene;
+    diagonal.system = system_;
+    diagonal_ = {diagonal, blocks, step, lengths};
+  }
+  coupled_ = {system_, blocks, step};
+  for (const int length : lengths)
+    make_tables(length * step);
   const auto n = static_cast<std::size_t>(kernels::padded(static_cast<int>(system_.size())));
-  for (kernels::Array* a : {&k_, &none_, &a_, &b_, &moved_, &rate_})
+  for (kernels::Array* a : {&k_, &none_, &a_, &b_, &moved_, &rate_, &own0_, &own1_, &mean_})
     a->assign(n, 0.0);
-  states_.assign(states(), 0.0);
+  states_.assign(diagonal_.size() + static_cast<std::size_t>(system_.motion.states()), 0.0);
   std::copy_n(system_.stiffness.data(), system_.size(), k_.begin());
   per_force_.assign(n, 0.0);
   for (Eigen::Index j = 0; j < system_.size(); ++j) {
-    const StepCoefficients s = step_coefficients(system_.stiffness(j), system_.damping(j), h_);
+    const StepCoefficients s = step_coefficients(lone_k_(j), lone_c_(j), h_);
     per_force_[static_cast<std::size_t>(j)] = s.qf0 + s.qf1;
   }
+}
+
+/// Of a step of this length.
+void ModalFlow::make_tables(double h) {
+  const int np = kernels::padded(static_cast<int>(system_.size()));
+  kernels::FlowTable& apart = tables_.emplace_back(np);
+  kernels::MiddleTable& middle = middles_.emplace_back(np);
+  for (Eigen::Index j = 0; j < system_.size(); ++j) {
+    const bool moves = apart_[static_cast<std::size_t>(j)] != 0;
+    apart.set(j, system_.stiffness(j), moves ? step_coefficients(lone_k_(j), lone_c_(j), h) : stays);
+    const StepCoefficients s = step_coefficients(system_.stiffness(j), system_.damping(j), 0.5 * h);
+    if (moves || fed()) // under a load that goes to the mean of both ends by then
+      middle.set(j, {s.qq, s.qv, s.qf0 + 0.5 * s.qf1, 0.5 * s.qf1});
+  }
+  if (!fed())
+    return;
+  kernels::FlowTable& own = own_.emplace_back(np);
+  kernels::MiddleTable& inverse = inverses_.emplace_back(np);
+  for (Eigen::Index j = 0; j < system_.size(); ++j) {
+    const double k = system_.stiffness(j);
+    const StepCoefficients s = step_coefficients(k, system_.damping(j), h);
+    own.set(j, k, s);
+    const std::array<double, 4> by = own_force(k, s, h);
+    if (!apart_[static_cast<std::size_t>(j)] || lone_k_(j) != k || lone_c_(j) != system_.damping(j))
+      inverse.set(j, {by[0], by[1], by[2], by[3]});
+  }
+}
+
+void ModalFlow::start(State& state) const {
+  state.z.assign(states_.size(), 0.0);
+  diagonal_.start(state.q.data(), state.v.data(), state.z.data());
 }
 
 std::size_t ModalFlow::place(int length) const {
@@ -73,17 +121,18 @@ std::size_t ModalFlow::place(int length) const {
 void ModalFlow::middle(int length, const State& from, const kernels::Array& load0,
                        const kernels::Array& load1, const ModalForce* force, kernels::Array& q) {
   const kernels::Array &mean = force ? force->mean : none_, &slope = force ? force->slope : none_;
-  kernels::middle(padded(), middles_[place(length)], from.q.data(), from.v.data(), load0.data(), load1.data(),
-                  mean.data(), slope.data(), q.data());
-  if (!fed_.empty()) {
-    const double h = h_;
+  const auto uncoupled = [&](const kernels::Array& f0, const kernels::Array& f1) {
+    kernels::middle(padded(), middles_[place(length)], from.q.data(), from.v.data(), f0.data(), f1.data(),
+                    mean.data(), slope.data(), q.data());
+  };
+  if (fed()) {
     for (std::size_t i = 0; i < a_.size(); ++i) {
-      a_[i] = load0[i] + mean[i] - slope[i];
-      b_[i] = (load1[i] - load0[i] + 2.0 * slope[i]) / h;
+      a_[i] = load0[i] + own0_[i];
+      b_[i] = load1[i] + own1_[i];
     }
-    fed_.inside(0.5 * h, from.q.data(), from.v.data(), from.z.data(), a_.data(), b_.data(), q.data(),
-                rate_.data());
+    return uncoupled(a_, b_);
   }
+  uncoupled(load0, load1);
   if (coupled_.empty())
     return;
   for (std::size_t i = 0; i < a_.size(); ++i) {
@@ -105,57 +154,112 @@ void ModalFlow::load_about(double time, kernels::Array& load) {
 
 ModalFlow::Sums ModalFlow::move(int length, const State& from, const kernels::Array& load0,
                                 const kernels::Array& load1, State& to) {
-  to.q = from.q;
-  to.v = from.v;
-  to.z = from.z;
-  const kernels::FlowTable& flow = tables_[place(length)];
-  const kernels::FlowSums s = loads_.empty() ? kernels::flow_free(padded(), flow, to.q.data(), to.v.data())
-                                             : kernels::flow_loaded(padded(), flow, to.q.data(), to.v.data(),
-                                                                    load0.data(), load1.data());
-  Sums sums{s.work, 0.0, 0.5 * s.twice_energy};
-  if (!coupled_.empty())
+  const std::size_t at = place(length);
+  if (!fed() && coupled_.empty()) {
+    to.q = from.q;
+    to.v = from.v;
+    const kernels::FlowSums s = loads_.empty()
+                                    ? kernels::flow_free(padded(), tables_[at], to.q.data(), to.v.data())
+                                    : kernels::flow_loaded(padded(), tables_[at], to.q.data(), to.v.data(),
+                                                           load0.data(), load1.data());
+    return {s.work, 0.0, 0.5 * s.twice_energy};
+  }
+  Sums sums = move_apart(at, from, load0, load1, none_, none_, to);
+  if (!fed()) {
     move_coupled(from, load0, load1, none_, none_, to, sums);
-  if (!fed_.empty())
-    move_fed(load0, load1, none_, none_, to, sums);
-  return sums;
+    return sums;
+  }
+  to.z = from.z;
+  const bool loaded = !loads_.empty();
+  diagonal_.move(at, from.z.data(), loaded ? load0.data() : nullptr, loaded ? load1.data() : nullptr,
+                 to.z.data(), to.q.data(), to.v.data());
+  move_remembering(length, load0, load1, none_, none_, to);
+  return own_works(at, from, load0, load1, none_, none_, to);
 }
 
-ModalFlow::Sums ModalFlow::move(int length, const State& from, const kernels::Array& load0,
-                                const kernels::Array& load1, const kernels::Array& constant, State& to) {
-  return move(length, from, load0, load1, constant, none_, to);
+ModalFlow::Sums ModalFlow::move(const State& from, const kernels::Array& load0, const kernels::Array& load1,
+                                const kernels::Array& constant, const RowForces& by_rows, State& to) {
+  const std::size_t at = place(1);
+  Sums sums = move_apart(at, from, load0, load1, constant, none_, to);
+  if (!coupled_.empty() && !fed())
+    move_coupled(from, load0, load1, constant, none_, to, sums);
+  if (!fed())
+    return sums;
+  to.z = from.z;
+  const bool loaded = !loads_.empty();
+  diagonal_.move(at, from.z.data(), loaded ? load0.data() : nullptr, loaded ? load1.data() : nullptr,
+                 to.z.data(), to.q.data(), to.v.data());
+  diagonal_.push(by_rows, to.z.data(), to.q.data(), to.v.data());
+  move_remembering(1, load0, load1, constant, none_, to);
+  return own_works(at, from, load0, load1, constant, none_, to);
 }
 
-ModalFlow::Sums ModalFlow::move(int length, const State& from, const kernels::Array& load0,
-                                const kernels::Array& load1, const ModalForce& force, State& to) {
-  return move(length, from, load0, load1, force.mean, force.slope, to);
+ModalFlow::Sums ModalFlow::push(const State& from, const kernels::Array& load0, const kernels::Array& load1,
+                                const ModalForce& force, const RowForces& by_rows, State& to) {
+  const std::size_t at = place(1);
+  Sums sums = move_apart(at, from, load0, load1, force.mean, force.slope, to);
+  if (!coupled_.empty() && !fed())
+    move_coupled(from, load0, load1, force.mean, force.slope, to, sums);
+  if (!fed())
+    return sums;
+  diagonal_.push(by_rows, to.z.data(), to.q.data(), to.v.data());
+  if (!coupled_.empty())
+    std::copy(from.z.begin() + static_cast<std::ptrdiff_t>(diagonal_.size()), from.z.end(), rest(to.z));
+  move_remembering(1, load0, load1, force.mean, force.slope, to);
+  return own_works(at, from, load0, load1, force.mean, force.slope, to);
 }
 
-ModalFlow::Sums ModalFlow::move(int length, const State& from, const kernels::Array& load0,
-                                const kernels::Array& load1, const kernels::Array& mean,
-                                const kernels::Array& slope, State& to) {
+ModalFlow::Sums ModalFlow::move_apart(std::size_t at, const State& from, const kernels::Array& load0,
+                                      const kernels::Array& load1, const kernels::Array& mean,
+                                      const kernels::Array& slope, State& to) {
   to.q = from.q;
   to.v = from.v;
-  to.z = from.z;
-  const kernels::ForcedSums s =
-      kernels::flow_forced(padded(), tables_[place(length)], to.q.data(), to.v.data(), load0.data(),
-                           load1.data(), mean.data(), slope.data());
-  Sums sums{s.load_work, s.contact_work, 0.5 * s.twice_energy};
-  if (!coupled_.empty())
-    move_coupled(from, load0, load1, mean, slope, to, sums);
-  if (!fed_.empty())
-    move_fed(load0, load1, mean, slope, to, sums);
-  return sums;
+  const kernels::ForcedSums s = kernels::flow_forced(padded(), tables_[at], to.q.data(), to.v.data(),
+                                                     load0.data(), load1.data(), mean.data(), slope.data());
+  return {s.load_work, s.contact_work, 0.5 * s.twice_energy};
 }
 
-/// The modes that forces of motion couple, over one step.
-void ModalFlow::move_fed(const kernels::Array& load0, const kernels::Array& load1, const kernels::Array& mean,
-                         const kernels::Array& slope, State& to, Sums& sums) {
-  const FeedbackFlow::Works works = fed_.advance(to.q.data(), to.v.data(), to.z.data(), load0.data(),
-                                                 load1.data(), mean.data(), slope.data());
-  sums.load_work += works.load;
-  sums.contact_work += works.contact;
-  sums.fluid_work += works.motion;
-  sums.energy = energy(to);
+/// The blocks that are not diagonalised, with their states, step by step.
+void ModalFlow::move_remembering(int length, const kernels::Array& load0, const kernels::Array& load1,
+                                 const kernels::Array& mean, const kernels::Array& slope, State& to) {
+  if (coupled_.empty())
+    return;
+  for (int step = 0; step < length; ++step) {
+    const double early = static_cast<double>(step) / length, late = static_cast<double>(step + 1) / length;
+    for (std::size_t i = 0; i < a_.size(); ++i) {
+      const double grows = load1[i] - load0[i];
+      a_[i] = load0[i] + early * grows + mean[i] - slope[i];
+      b_[i] = load0[i] + late * grows + mean[i] + slope[i];
+    }
+    (void)coupled_.advance(0, to.q.data(), to.v.data(), a_.data(), b_.data(), rest(to.z));
+  }
+}
+
+ModalFlow::Sums ModalFlow::own_works(std::size_t at, const State& from, const kernels::Array& load0,
+                                     const kernels::Array& load1, const kernels::Array& mean,
+                                     const kernels::Array& slope, const State& to) {
+  const kernels::OwnWorks s = kernels::own_works(
+      padded(), own_[at], inverses_[at].data(), from.q.data(), from.v.data(), to.q.data(), to.v.data(),
+      load0.data(), load1.data(), mean.data(), slope.data(), own0_.data(), own1_.data(), mean_.data());
+  return {s.load, s.contact, 0.5 * s.twice_energy, s.own + work_between_modes(from, to, lengths_[at] * h_)};
+}
+
+/// That a damping matrix takes beside its diagonal, J, which is no work of the fluid: int v_i v_j by means and first Legendre coefficients.
+double ModalFlow::work_between_modes(const State& from, const State& to, double duration) const {
+  if (system_.damping_matrix.size() == 0)
+    return 0.0;
+  double work = 0.0;
+  for (Eigen::Index j = 0; j < system_.size(); ++j)
+    for (Eigen::Index i = 0; i < system_.size(); ++i) {
+      if (i == j || system_.damping_matrix(i, j) == 0.0)
+        continue;
+      const auto way = [&](Eigen::Index k) { return to.q[std::size_t(k)] - from.q[std::size_t(k)]; };
+      const auto bend = [&](Eigen::Index k) {
+        return to.q[std::size_t(k)] + from.q[std::size_t(k)] - 2.0 * mean_[std::size_t(k)];
+      };
+      work += system_.damping_matrix(i, j) * (way(i) * way(j) + 3.0 * bend(i) * bend(j)) / duration;
+    }
+  return work;
 }
 
 /// The coupled modes, over one step.
@@ -192,15 +296,32 @@ void ModalFlow::inside(double time, double duration, const State& from, const ke
     b_[i] = (load1[i] - load0[i] + 2.0 * slope) / duration;
   }
   for (Eigen::Index j = 0; j < system_.size(); ++j) {
-    if (!apart(j))
-      continue;
     const auto i = static_cast<std::size_t>(j);
-    const DenseCoefficients d = dense_coefficients(system_.stiffness(j), system_.damping(j), time);
+    if (!apart_[i])
+      continue;
+    const DenseCoefficients d = dense_coefficients(lone_k_(j), lone_c_(j), time);
     q[j] = d.qq * from.q[i] + d.qv * from.v[i] + d.qf * a_[i] + d.qs * b_[i];
     v[j] = d.vq * from.q[i] + d.vv * from.v[i] + d.vf * a_[i] + d.vs * b_[i];
   }
-  fed_.inside(time, from.q.data(), from.v.data(), from.z.data(), a_.data(), b_.data(), q, v);
-  coupled_.inside(time, from.q.data(), from.v.data(), a_.data(), b_.data(), q, v);
+  if (fed())
+    diagonal_.inside(time, from.z.data(), a_.data(), b_.data(), q, v);
+  coupled_.inside(time, from.q.data(), from.v.data(), a_.data(), b_.data(), q, v,
+                  fed() ? from.z.data() + diagonal_.size() : nullptr);
+  if (fed()) {
+    std::copy_n(q, system_.size(), moved_.begin());
+    std::copy_n(v, system_.size(), rate_.begin());
+  }
+}
+
+void ModalFlow::add_motion_forces(double* force) const {
+  if (!fed())
+    return;
+  diagonal_.add_forces(force);
+  coupled_.add_forces(force);
+  for (Eigen::Index j = 0; j < system_.size(); ++j)
+    if (const auto i = static_cast<std::size_t>(j); apart_[i])
+      force[j] +=
+          (system_.stiffness(j) - lone_k_(j)) * moved_[i] + (system_.damping(j) - lone_c_(j)) * rate_[i];
 }
 
 void ModalFlow::load_at(double time, double* force) {
@@ -215,13 +336,12 @@ void ModalFlow::load_at(double time, double* force) {
 void ModalFlow::answer(const double* force, double* moved) {
   std::fill(a_.begin(), a_.end(), 0.0);
   std::fill(b_.begin(), b_.end(), 0.0);
-  (void)coupled_.advance(0, a_.data(), b_.data(), force, force);
   std::fill(states_.begin(), states_.end(), 0.0);
-  if (!fed_.empty())
-    (void)fed_.advance(a_.data(), b_.data(), states_.data(), force, force, none_.data(), none_.data());
-  for (Eigen::Index j = 0; j < system_.size(); ++j)
-    if (apart(j))
-      a_[static_cast<std::size_t>(j)] = per_force_[static_cast<std::size_t>(j)] * force[j];
+  (void)coupled_.advance(0, a_.data(), b_.data(), force, force, rest(states_));
+  diagonal_.answer(force, a_.data());
+  for (std::size_t i = 0; i < apart_.size(); ++i)
+    if (apart_[i])
+      a_[i] = per_force_[i] * force[i];
   std::copy(a_.begin(), a_.end(), moved);
 }
 

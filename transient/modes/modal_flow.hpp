@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// The exact motion of the modes over a step of the splitting scheme, under loads and contact forces that are linear in time within it
-/// (oscillator.hpp; matrix_flow.hpp where a damping matrix couples modes). Steps may have several lengths, whole multiples of the shortest.
+/// (oscillator.hpp; coupled_flow.hpp where a damping matrix couples modes, diagonal_flow.hpp where forces of motion do). Steps may have several
+/// lengths, whole multiples of the shortest.
+///
+/// Forces of motion: where such a force acts on one mode alone, that has another stiffness and damping. Their works, and displacements within a step
+/// for records, are those of the linear force in time that moves each mode by itself to where it is at the end: exact in the energy of the modes,
+/// to (w h)^4/720 in what of it the fluid has brought and what the damping taken; w the frequency of the mode, for w h < 3 (above it all is damping).
 #pragma once
 #include "core/state_archive.hpp"
-#include "transient/modes/feedback_flow.hpp"
+#include "transient/modes/coupled_flow.hpp"
+#include "transient/modes/diagonal_flow.hpp"
 #include "transient/modes/load_sum.hpp"
-#include "transient/modes/matrix_flow.hpp"
 
 namespace fretwork::transient {
 
 /// The exact flow of the modes over h seconds; modes that a damping matrix couples stay where they are, for theirs follows.
-[[nodiscard]] kernels::FlowTable flow_table(const System& system, const MatrixFlow& coupled, double h);
+[[nodiscard]] kernels::FlowTable flow_table(const System& system, const CoupledFlow& coupled, double h);
 
-/// A force on the modes over a step, from mean - slope at its start to mean + slope at its end, padded.
+/// A force on the modes over a step, from mean - slope at its start to mean + slope at its end, padded. It is that of forces on contacts.
 struct ModalForce {
   kernels::Array mean, slope;
   void visit(core::StateArchive& state) { state(mean, slope); }
@@ -21,12 +26,12 @@ struct ModalForce {
 
 class ModalFlow {
 public:
-  /// @param lengths  of steps in numbers of `step`, s; only 1 where a damping matrix or forces of motion couple modes
+  /// @param lengths  of steps in numbers of `step`, s; only 1 where a damping matrix couples modes
   ModalFlow(const Scene& scene, double step, const std::vector<int>& lengths);
 
   /// Padded.
   struct State {
-    kernels::Array q, v, z; ///< z: of forces of motion, not padded
+    kernels::Array q, v, z; ///< z: what forces of motion remember
     void visit(core::StateArchive& state) {
       state(q, v);
       if (!z.empty())
@@ -38,18 +43,20 @@ public:
     double energy = 0.0;                        ///< J, of the modes at its end
     double fluid_work = 0.0;                    ///< J, of forces that depend on the motion
   };
-  /// Number of the states of forces that depend on the motion.
-  [[nodiscard]] std::size_t states() const { return static_cast<std::size_t>(fed_.states()); }
+  /// Sets z for the start of a run with the displacements and velocities of the state.
+  void start(State& state) const;
   /// Modal force of the loads of the step about a time; `load` stays where there are none. No allocation.
   void load_about(double time, kernels::Array& load);
-  /// The modes over `length` steps under the loads load0 to load1, alone, with a constant force, with a force that changes. No allocation.
+  /// The modes over `length` steps under the loads load0 to load1, alone. No allocation.
   Sums move(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
             State& to);
-  Sums move(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
-            const kernels::Array& constant, State& to);
-  Sums move(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
-            const ModalForce& force, State& to);
-  /// Displacements in the middle of such a step (force null: none). No allocation.
+  /// Over one step, with a constant force, on the modes and by the contacts that bear it.
+  Sums move(const State& from, const kernels::Array& load0, const kernels::Array& load1,
+            const kernels::Array& constant, const RowForces& by_rows, State& to);
+  /// After `move` over this step: the same with another force, which changes.
+  Sums push(const State& from, const kernels::Array& load0, const kernels::Array& load1,
+            const ModalForce& force, const RowForces& by_rows, State& to);
+  /// Displacements in the middle of the step moved last (force null: none). No allocation.
   void middle(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
               const ModalForce* force, kernels::Array& q);
   [[nodiscard]] double energy(const State& state) const;
@@ -59,31 +66,46 @@ public:
   /// Modal force of the loads at an instant, n values.
   void load_at(double time, double* force);
   /// Adds the forces of motion where `inside` was last, n values. No allocation.
-  void add_motion_forces(double* force) const { fed_.add_forces(force); }
+  void add_motion_forces(double* force) const;
   /// Displacement of the modes after one step from rest under a constant force, padded arrays.
   void answer(const double* force, double* moved);
 
 private:
   [[nodiscard]] std::size_t place(int length) const;
   [[nodiscard]] int padded() const { return static_cast<int>(k_.size()); }
-  Sums move(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
-            const kernels::Array& mean, const kernels::Array& slope, State& to);
+  [[nodiscard]] bool fed() const { return !system_.motion.empty(); }
+  void make_tables(double h);
+  /// `to` follows: displacements and velocities of the modes that nothing couples, under the loads and a force.
+  Sums move_apart(std::size_t place, const State& from, const kernels::Array& load0,
+                  const kernels::Array& load1, const kernels::Array& mean, const kernels::Array& slope,
+                  State& to);
   void move_coupled(const State& from, const kernels::Array& load0, const kernels::Array& load1,
                     const kernels::Array& mean, const kernels::Array& slope, State& to, Sums& sums);
-  void move_fed(const kernels::Array& load0, const kernels::Array& load1, const kernels::Array& mean,
-                const kernels::Array& slope, State& to, Sums& sums);
-  [[nodiscard]] bool apart(Eigen::Index mode) const { return !coupled_.couples(mode) && !fed_.couples(mode); }
+  void move_remembering(int length, const kernels::Array& load0, const kernels::Array& load1,
+                        const kernels::Array& mean, const kernels::Array& slope, State& to);
+  [[nodiscard]] Sums own_works(std::size_t place, const State& from, const kernels::Array& load0,
+                               const kernels::Array& load1, const kernels::Array& mean,
+                               const kernels::Array& slope, const State& to);
+  [[nodiscard]] double work_between_modes(const State& from, const State& to, double duration) const;
+  /// Of the states: those of blocks that are not diagonalised.
+  [[nodiscard]] double* rest(kernels::Array& z) const { return z.data() + diagonal_.size(); }
 
   System system_;
   double h_;
   LoadSum loads_;
-  FeedbackFlow fed_;
-  MatrixFlow coupled_; ///< of what forces of motion leave alone
+  Eigen::VectorXd lone_k_, lone_c_; ///< n: stiffness and damping of modes by themselves
+  std::vector<char> apart_;         ///< n: whether the mode moves with these
+  DiagonalFlow diagonal_;
+  CoupledFlow coupled_; ///< of blocks that are not diagonalised
   std::vector<int> lengths_;
-  std::vector<kernels::FlowTable> tables_;
+  std::vector<kernels::FlowTable> tables_;     ///< of the modes that nothing couples
+  std::vector<kernels::FlowTable> own_;        ///< of all modes by themselves; with forces of motion
+  std::vector<kernels::MiddleTable> inverses_; ///< likewise: of kernels::own_works
   std::vector<kernels::MiddleTable> middles_;
   kernels::Array per_force_; ///< m/N of the modes that are not coupled: their displacement by `answer`
   kernels::Array k_, none_, a_, b_, moved_, rate_, states_;
+  kernels::Array own0_, own1_,
+      mean_; ///< of the step moved last: force of its own on each mode, mean displacement
 };
 
 } // namespace fretwork::transient

@@ -6,8 +6,8 @@
 
 namespace fretwork::transient {
 
-/// Contacts act where they touch and nowhere before (no normal damper, no residual flexibility); their displacements follow from uncoupled
-/// modes alone, their gaps bend nowhere upwards: not outside of a round body.
+/// Contacts act where they touch and nowhere before (no normal damper, no residual flexibility); their displacements follow from modes
+/// that no damping matrix couples, their gaps bend nowhere upwards: not outside of a round body.
 [[nodiscard]] bool may_fly(const Scene& scene);
 
 } // namespace fretwork::transient

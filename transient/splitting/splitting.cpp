@@ -66,17 +66,18 @@ public:
     near_.reserve(count);
     for (auto& f : factors_)
       f.resize(3 * count);
+    row_numbers_.resize(3 * count);
     const bool convex =
         std::any_of(contacts_.supports.begin(), contacts_.supports.end(), [](const contact::Support& s) {
           return contact::properties_of(s.obstacle).gap_bound.radial < 0.0;
         });
     window_ = convex ? 1.0 : 1.0 / 3.0;
 
-    for (Step& s : steps_)
-      s.from.z.assign(modes_.states(), 0.0);
     Step& first = steps_[0];
     std::copy_n(scene.q0.data(), scene.q0.size(), first.from.q.begin());
     std::copy_n(scene.v0.data(), scene.v0.size(), first.from.v.begin());
+    for (Step& s : steps_)
+      modes_.start(s.from);
     modes_.load_about(0.0, first.load);
     end_.gather(first.from.q.data(), first.from.v.data());
     obstacles_.at(0.0, carried_[1]);
@@ -152,6 +153,7 @@ public:
   void visit(core::StateArchive& state) override {
     state(steps_, published_, made_, end_, held_, holds_, was_near_, sweeps_);
     state(carried_[1].u, carried_[1].w, done_, wait_, moving_, booked_, counts_);
+    state(row_count_, row_numbers_, factors_[0]);
   }
 
 private:
@@ -261,6 +263,7 @@ private:
       factors_[0][rows_.size()] = held;
       factors_[1][rows_.size()] = mean;
       factors_[2][rows_.size()] = slope;
+      row_numbers_[rows_.size()] = 3 * c + component;
       rows_.add(c, component);
       holds_ = holds_ || held != 0.0;
       slopes = slopes || slope != 0.0;
@@ -272,6 +275,7 @@ private:
       if (contacts_.components == 3)
         add(c, 2, f.held.x, f.mean.x, f.slope.x);
     }
+    row_count_ = rows_.size();
     const auto sum = [&](std::size_t which, kernels::Array& to) {
       std::fill(to.begin(), to.end(), 0.0);
       rows_.add_to(factors_[which].data(), to.data());
@@ -285,6 +289,12 @@ private:
       sum(2, force->slope);
     else
       std::fill(force->slope.begin(), force->slope.end(), 0.0);
+  }
+
+  /// Of the contacts scattered last: 0: held; 1: over the step.
+  [[nodiscard]] RowForces row_forces(std::size_t which) const {
+    return {row_count_, row_numbers_.data(), factors_[which].data(),
+            which == 0 ? nullptr : factors_[2].data()};
   }
 
   /// Contacts that may be closed in a step of so many h that ends as `end_` tells.
@@ -302,7 +312,7 @@ private:
     s.length = length * h_;
     to.start = static_cast<double>(done_ + length) * h_;
     modes_.load_about(to.start, to.load);
-    const ModalFlow::Sums sums = holds_ ? modes_.move(length, s.from, s.load, to.load, held_, to.from)
+    const ModalFlow::Sums sums = holds_ ? modes_.move(s.from, s.load, to.load, held_, row_forces(0), to.from)
                                         : modes_.move(length, s.from, s.load, to.load, to.from);
     end_.gather(to.from.q.data(), to.from.v.data());
     if (!carried_[1].u.empty()) {
@@ -358,7 +368,7 @@ private:
   /// The modes take the forces of the contacts.
   ModalFlow::Sums push(Step& s, Step& to) {
     scatter(&s.force);
-    const ModalFlow::Sums sums = modes_.move(s.steps, s.from, s.load, to.load, s.force, to.from);
+    const ModalFlow::Sums sums = modes_.push(s.from, s.load, to.load, s.force, row_forces(1), to.from);
     end_.gather(to.from.q.data(), to.from.v.data());
     carried_[1].add_to(end_);
     return sums;
@@ -419,7 +429,9 @@ private:
   std::vector<int> near_;
   double window_;
   std::array<std::vector<double>, 3> factors_; ///< held, mean, slope
-  kernels::Array shown_;                       ///< with scaled masses
+  std::vector<int> row_numbers_;               ///< of these: 3 times the contact plus the component
+  std::size_t row_count_ = 0;
+  kernels::Array shown_; ///< with scaled masses
 
   std::int64_t done_ = 0; ///< steps of h up to the one that is made
   int wait_ = 0;          ///< steps until macro-steps are tried again

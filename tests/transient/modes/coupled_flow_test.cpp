@@ -3,7 +3,7 @@
 // damping matrix they are oscillators of their own.
 #include "scenes.hpp"
 #include "transient/collocation/force_polynomial.hpp"
-#include "transient/modes/matrix_flow.hpp"
+#include "transient/modes/coupled_flow.hpp"
 #include "transient/modes/oscillator.hpp"
 #include <Eigen/Geometry>
 #include <array>
@@ -78,9 +78,9 @@ void expect_equal(const Motion& a, const Motion& b, const char* name) {
 
 } // namespace
 
-TEST(MatrixFlow, MovesTurnedOscillatorsExactly) {
+TEST(CoupledFlow, MovesTurnedOscillatorsExactly) {
   for (const Turned& t : regimes) {
-    MatrixFlow flow(t.system(), h);
+    CoupledFlow flow(t.system(), h);
     for (const int halvings : {0, 1}) {
       Motion m{q0, v0, 0.0};
       m.work = flow.advance(halvings, m.q.data(), m.v.data(), f0.data(), f1.data());
@@ -92,10 +92,10 @@ TEST(MatrixFlow, MovesTurnedOscillatorsExactly) {
   }
 }
 
-TEST(MatrixFlow, KnowsTheStateAtAnyInstantOfAStep) {
+TEST(CoupledFlow, KnowsTheStateAtAnyInstantOfAStep) {
   const Vector3d slope = (f1 - f0) / h;
   for (const Turned& t : regimes) {
-    MatrixFlow flow(t.system(), h);
+    CoupledFlow flow(t.system(), h);
     for (const double share : {0.0, 1e-9, 0.123, 0.5, 0.77, 0.999, 1.0}) {
       Motion m{Vector3d::Zero(), Vector3d::Zero(), 0.0};
       flow.inside(share * h, q0.data(), v0.data(), f0.data(), slope.data(), m.q.data(), m.v.data());
@@ -117,7 +117,7 @@ struct TurnedStep {
   struct Axes {
     Nodes q, v, load, contact;
   };
-  MatrixFlow coupled;
+  CoupledFlow coupled;
   PolynomialFlow turned_flow, plain_flow;
   Axes turned_axes, plain_axes;
 
@@ -213,18 +213,18 @@ TEST(PolynomialFlow, IsKnownAtAnyInstantOfAStepInTurnedAxes) {
   }
 }
 
-TEST(MatrixFlow, TakesOnlyTheModesThatTheMatrixCouples) {
+TEST(CoupledFlow, TakesOnlyTheModesThatTheMatrixCouples) {
   System s;
   s.stiffness = VectorXd::LinSpaced(6, 1.0, 6.0);
   s.damping_matrix = VectorXd::Constant(6, 2.0).asDiagonal();
-  EXPECT_TRUE(MatrixFlow(s, h).empty());
+  EXPECT_TRUE(CoupledFlow(s, h).empty());
   s.damping_matrix(1, 4) = s.damping_matrix(4, 1) = 0.5;
   s.damping_matrix(4, 5) = s.damping_matrix(5, 4) = 0.5;
-  const MatrixFlow flow(s, h);
+  const CoupledFlow flow(s, h);
   for (Eigen::Index i = 0; i < 6; ++i)
     EXPECT_EQ(flow.couples(i), i == 1 || i >= 4);
   s.damping_matrix.resize(0, 0);
-  EXPECT_TRUE(MatrixFlow(s, h).empty());
+  EXPECT_TRUE(CoupledFlow(s, h).empty());
 }
 
 namespace {
