@@ -11,8 +11,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int of_a_signal = 128; ///< a status above it: the number of the signal that ended the child
-
 /// Commands of gmsh's language that run programs, write files or read others, which may hold any command. A word of this kind in a comment
 /// counts too.
 const char* const commands =
