@@ -6,7 +6,7 @@
 #include "study_text.hpp"
 #include <fstream>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::wear_input_test {
 namespace {
 
 const std::string short_run = "[transient]\nduration = 0.3\n";
@@ -115,4 +115,4 @@ TEST(WearInput, IsRefusedWhereTheOtherRunLacksTheContactOrDiverged) {
                    "has no contact \"support0\""));
 }
 
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::wear_input_test

@@ -2,6 +2,8 @@
 #include "core/names.hpp"
 #include <gtest/gtest.h>
 
+namespace names_test {
+
 using namespace fretwork::core;
 
 TEST(NearestName, FindsASlipOfTheHand) {
@@ -36,3 +38,5 @@ TEST(Fits, StarStandsForAnyCharactersAndQuestionMarkForOne) {
   EXPECT_FALSE(fits("avb1", "tsp*"));
   EXPECT_FALSE(fits("tsp1", ""));
 }
+
+} // namespace names_test

@@ -11,6 +11,8 @@
 #include <limits>
 #include <numbers>
 
+namespace fluidelastic_test {
+
 using namespace fretwork;
 using namespace fretwork::flow;
 
@@ -284,3 +286,5 @@ TEST(Fluidelastic, AskForADirection) {
 }
 
 } // namespace
+
+} // namespace fluidelastic_test

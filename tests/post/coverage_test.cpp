@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+namespace coverage_test {
+
 using namespace fretwork;
 
 namespace {
@@ -124,3 +126,5 @@ TEST(Coverage, HoldsForDepthAndYearsOfASupportThatWears) {
     EXPECT_LE(covered, 99);
   }
 }
+
+} // namespace coverage_test

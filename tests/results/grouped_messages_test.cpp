@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace fretwork::results {
+namespace fretwork::results::grouped_messages_test {
 namespace {
 
 using testing::ElementsAre;
@@ -38,4 +38,4 @@ TEST(GroupedMessages, ThatAreEqualAreSaidOnce) {
 }
 
 } // namespace
-} // namespace fretwork::results
+} // namespace fretwork::results::grouped_messages_test

@@ -8,7 +8,7 @@
 #include <random>
 #include <set>
 
-namespace fretwork::sweep {
+namespace fretwork::sweep::schedule_test {
 namespace {
 
 TEST(Schedule, BlocksShrinkToSingleCases) {
@@ -101,4 +101,4 @@ TEST(Schedule, WhatACaseThrowsIsItsOutcome) {
 }
 
 } // namespace
-} // namespace fretwork::sweep
+} // namespace fretwork::sweep::schedule_test
