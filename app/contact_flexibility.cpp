@@ -39,7 +39,7 @@ bool in_series(const study::Study& study) {
 }
 
 /// Part of a field over the model that belongs to a structure.
-Eigen::VectorXd restricted(const modal::Basis& basis, const Eigen::VectorXd& field) {
+Eigen::VectorXd part_of(const modal::Basis& basis, const Eigen::VectorXd& field) {
   Eigen::VectorXd out(basis.shapes.rows());
   for (std::size_t i = 0; i < basis.nodes.size(); ++i)
     out.segment<6>(static_cast<Index>(6 * i)) = field.segment<6>(static_cast<Index>(basis.nodes[i]) * 6);
@@ -119,7 +119,7 @@ void add_structure(const Parts& parts, std::size_t s, const StructureLoads& load
     return; // nothing is moved beside the modes
   const MatrixXd gain = modal::static_gain(basis, forces);
   for (std::size_t l = 0; l < parts.loads.size(); ++l) {
-    const Eigen::VectorXd load = restricted(basis, parts.loads[l].force);
+    const Eigen::VectorXd load = part_of(basis, parts.loads[l].force);
     const Eigen::VectorXd all = u.transpose() * load, size = u.cwiseAbs().transpose() * load.cwiseAbs();
     const Eigen::VectorXd lacking = all - gain * (basis.shapes.transpose() * load);
     out.under_loads(among, static_cast<Index>(l)) +=

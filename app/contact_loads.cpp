@@ -11,7 +11,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 /// Below this share of the largest, how modes move a contact is the eigensolver's round-off.
-constexpr double round_off_of_shapes = 1e-11;
+constexpr double unmoved = 1e-11;
 
 /// The unit forces along x_loc y_loc z_loc of contacts that act on a structure, 6 n rows: numbers of their columns among all, and these columns.
 StructureLoads forces_on(const std::vector<PlacedContact>& placed, const std::vector<std::size_t>& contacts,
@@ -60,7 +60,7 @@ std::vector<Index> loaded_directions(const study::Study& study, const std::vecto
     const bool normal[] = {false, y, z};
     for (Index d = 0; d < 3; ++d) {
       const Index column = static_cast<Index>(3 * k) + d;
-      if (normal[d] || (friction && moved(column) > round_off_of_shapes * most))
+      if (normal[d] || (friction && moved(column) > unmoved * most))
         loaded.push_back(column);
     }
   }

@@ -157,8 +157,8 @@ results::LinearResponse response_of(const TubesInFlow& tubes, const study::Respo
 
 /// What the response loses, where it matters.
 void note_losses(const results::LinearResponse& response, std::vector<std::string>& notes) {
-  constexpr double told = 1e-3;  // of a variance
-  constexpr double still = 1e-3; // of the largest rms: what pins leave is not looked at
+  constexpr double reported = 1e-3; // of a variance
+  constexpr double still = 1e-3;    // of the largest rms: what pins leave is not looked at
   double outside = 0.0, above = 0.0, largest = 0.0;
   for (const results::ResponsePoint& point : response.points)
     largest = std::max(largest, point.rms);
@@ -168,12 +168,12 @@ void note_losses(const results::LinearResponse& response, std::vector<std::strin
     outside = std::max(outside, point.share_outside);
     above = std::max(above, point.share_above);
   }
-  if (outside > told)
+  if (outside > reported)
     notes.push_back(
         fmt::format("response \"{}\": up to {:.2g} % of a variance comes from frequencies outside the range "
                     "of the spectra, where they are continued",
                     response.name, 100.0 * outside));
-  if (above > told)
+  if (above > reported)
     notes.push_back(
         fmt::format("response \"{}\": forces above the band of the turbulence would add up to {:.2g} % to a "
                     "variance; give [[turbulence]] a wider band",

@@ -17,15 +17,16 @@ using core::Index;
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
-/// What a node of a contact is on. Of several beams the one that yields most.
+/// What a node of a contact is on. Of several beams the one of the largest receptance.
 struct Site {
   int beams = 0;        ///< with mass
   double bending = 0.0; ///< N m2, of the softer plane
   double mass = 0.0;    ///< kg/m
   double span = 0.0;    ///< m
 
-  [[nodiscard]] double yield() const {
-    return beams > 0 ? modal::beam_yield(bending, mass, beams > 1 ? modal::Met::along : modal::Met::end)
+  [[nodiscard]] double receptance() const {
+    return beams > 0 ? modal::point_receptance(bending, mass,
+                                               beams > 1 ? modal::BeamPoint::interior : modal::BeamPoint::end)
                      : 0.0;
   }
 };
@@ -44,8 +45,9 @@ void add_beams(const fem::Model& model, Sites& sites) {
       if (!(mass > 0.0))
         continue;
       Site& site = found->second;
-      if (++site.beams == 1 || modal::beam_yield(bending, mass, modal::Met::along) >
-                                   modal::beam_yield(site.bending, site.mass, modal::Met::along)) {
+      if (++site.beams == 1 ||
+          modal::point_receptance(bending, mass, modal::BeamPoint::interior) >
+              modal::point_receptance(site.bending, site.mass, modal::BeamPoint::interior)) {
         site.bending = bending;
         site.mass = mass;
       }
@@ -101,15 +103,15 @@ results::ModesLimit modes_limit(const study::Study& study, const fem::Model& mod
   results::ModesLimit limit;
   limit.accuracy = accuracy;
   for (const PlacedContact& contact : placed) {
-    std::vector<Site> met;
-    double yield = 0.0;
+    std::vector<Site> sites_of_contact;
+    double receptance = 0.0;
     for (const Index node : {contact.node, contact.other})
       if (node >= 0 && sites.at(node).beams > 0) {
-        met.push_back(sites.at(node));
-        yield += met.back().yield();
+        sites_of_contact.push_back(sites.at(node));
+        receptance += sites_of_contact.back().receptance();
       }
-    for (const Site& site : met) {
-      const double frequency = modal::contact_frequency(contact.normal_stiffness, yield);
+    for (const Site& site : sites_of_contact) {
+      const double frequency = modal::contact_frequency(contact.normal_stiffness, receptance);
       const double span = modal::clamped_span_frequency(site.span, site.bending, site.mass);
       const double up_to =
           modal::modes_needed_up_to(frequency, span, accuracy, takes_residual(study.modes)) / two_pi;

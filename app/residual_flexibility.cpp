@@ -11,7 +11,7 @@ namespace {
 using Eigen::Index;
 
 /// Missing flexibility times stiffness that makes impacts wrong by half of it: a percent.
-constexpr double told = 0.02;
+constexpr double reported = 0.02;
 
 /// What is in series has no inertia: where a load jumps, the contacts would jump with it, at no finite speed.
 void check_continuous(const Fields::Load& load) {
@@ -110,7 +110,7 @@ std::string flexibility_note(const study::Study& study, const std::vector<BuiltS
                   worst->lacking, worst->lacking_at);
   switch (study.modes.static_modes) {
   case study::StaticModes::none:
-    return worst->lacking > told && worst->lacking <= much_missing // more is a warning
+    return worst->lacking > reported && worst->lacking <= much_missing // more is a warning
                ? lack + ": contact forces are overestimated by up to half of that; set "
                         "modes.static_modes = \"auto\", or ask for more modes"
                : std::string();

@@ -11,12 +11,12 @@ namespace {
 /// A motion whose mean displacement is below this share of its largest is told as a turn.
 constexpr double turning = 0.6;
 /// Components of a direction below this share are round-off.
-constexpr double round_off = 1e-6;
+constexpr double negligible_component = 1e-6;
 
 std::string text(core::Vec3 direction) {
   direction.normalize();
   for (double& component : direction)
-    component = std::abs(component) < round_off ? 0.0 : component;
+    component = std::abs(component) < negligible_component ? 0.0 : component;
   return fmt::format("({:.3g}, {:.3g}, {:.3g})", direction.x(), direction.y(), direction.z());
 }
 

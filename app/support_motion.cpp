@@ -10,7 +10,7 @@
 namespace fretwork::app {
 namespace {
 
-constexpr double round_off = 1e-12;
+constexpr double perpendicular = 1e-12;
 
 using core::Index;
 
@@ -103,7 +103,7 @@ std::vector<MovedSupport> moved_supports(const study::Study& study, const mesh::
     for (const Index node : mesh::group_nodes(mesh, motion.group, what))
       for (int axis = 0; axis < 3; ++axis) {
         const double along = motion.direction(axis);
-        if (std::abs(along) < round_off) // of a unit vector: cos 90 degrees
+        if (std::abs(along) < perpendicular) // of a unit vector: cos 90 degrees
           continue;
         const Eigen::Index row = static_cast<Eigen::Index>(node) * core::dofs_per_node + axis;
         const Grounding grounded = grounding(model, node, axis);

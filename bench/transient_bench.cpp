@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cost of a step against modes and contacts, open and working, with statistics and the energy ledger; 10 s of
+// Cost of a step against modes and contacts, open and working, with statistics and the energy balance; 10 s of
 // the straight tube.
 #include "bench/tube_scene.hpp"
 #include "post/contact_statistics.hpp"

@@ -6,18 +6,25 @@ of the manual, each link in the section's list a page of that part.
 """
 
 import re
+import shutil
 from pathlib import Path
 
 project = "Fretwork"
 author = "The Fretwork authors"
 version = release = re.search(r"project\(\w+ VERSION ([\d.]+)", (Path(__file__).parent.parent / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
-extensions = ["myst_parser"]
+extensions = ["myst_parser", "sphinx.ext.mathjax"]
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4
 exclude_patterns = ["pictures/README.md"]
 html_theme = "furo"
 html_title = f"Fretwork {release}"
 numfig = True
+# The manual shows its formulas without a network: MathJax of Debian (libjs-mathjax), as SVG, is copied into it.
+MATHJAX = Path("/usr/share/javascript/mathjax")
+MATHJAX_PARTS = ["MathJax.js", "config/TeX-AMS_SVG-full.js", "extensions", "jax/element", "jax/input/TeX", "jax/output/SVG/jax.js",
+                 "jax/output/SVG/config.js", "jax/output/SVG/autoload", "jax/output/SVG/fonts/TeX"]
+mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_SVG-full"
+mathjax2_config = {"tex2jax": {"processClass": "math"}, "messageStyle": "none"}  # only what Sphinx marks as a formula
 
 
 def contents(text):
@@ -38,5 +45,14 @@ def read(app, document, source):
         source[0] = contents(source[0])
 
 
+def copy_mathjax(app, error):
+    if error is None and app.builder.format == "html":
+        for part in MATHJAX_PARTS:
+            source, target = MATHJAX / part, Path(app.outdir) / "_static/mathjax" / part
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copytree(source, target, dirs_exist_ok=True) if source.is_dir() else shutil.copy(source, target)
+
+
 def setup(app):
     app.connect("source-read", read)
+    app.connect("build-finished", copy_mathjax)

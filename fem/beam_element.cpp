@@ -110,8 +110,6 @@ Matrix12 in_global_axes(const Matrix12& matrix, const Eigen::Matrix3d& axes) {
   return turned;
 }
 
-const Vec3& node_at(const Model& model, Index node) { return model.nodes[static_cast<std::size_t>(node)]; }
-
 } // namespace
 
 BeamElement::BeamElement(const Vec3& a, const Vec3& b, const BeamProperty& property,
@@ -136,7 +134,7 @@ BeamElement::BeamElement(const Vec3& a, const Vec3& b, const BeamProperty& prope
 }
 
 BeamElement::BeamElement(const Model& model, const Beam& beam)
-    : BeamElement(node_at(model, beam.a), node_at(model, beam.b),
+    : BeamElement(model.node(beam.a), model.node(beam.b),
                   model.properties[static_cast<std::size_t>(beam.property)], beam.middle, beam.along) {}
 
 Matrix12 BeamElement::stiffness() const {

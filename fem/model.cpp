@@ -17,8 +17,6 @@ namespace {
 
 constexpr std::array<const char*, dofs_per_node> dof_names{"ux", "uy", "uz", "rx", "ry", "rz"};
 
-const Vec3& node_at(const Model& model, Index node) { return model.nodes[static_cast<std::size_t>(node)]; }
-
 const BeamProperty& property_of(const Model& model, const Beam& beam) {
   return model.properties[static_cast<std::size_t>(beam.property)];
 }
@@ -78,13 +76,13 @@ void check_properties(const Model& model) {
 
 void check_lumped(const Model& model) {
   for (const LumpedMass& m : model.masses) {
-    const std::string what = "mass at " + place(node_at(model, m.node));
+    const std::string what = "mass at " + place(model.node(m.node));
     require(m.mass >= 0.0, what, "mass", m.mass, "a value >= 0 (kg)");
     for (const double j : m.inertia)
       require(j >= 0.0, what, "inertia", j, "values >= 0 (kg m2)");
   }
   for (const Spring& s : model.springs) {
-    const std::string what = "spring at " + place(node_at(model, s.node));
+    const std::string what = "spring at " + place(model.node(s.node));
     for (const double k : s.stiffness)
       require(k >= 0.0, what, "stiffness", k, "values >= 0 (N/m, N m/rad)");
     for (const double c : s.damping)
@@ -102,11 +100,10 @@ void check_ties(const Model& model, const std::vector<Index>& first) {
     for (int d = 0; d < dofs_per_node; ++d) {
       const Index other = first[static_cast<std::size_t>(node * dofs_per_node + d)] / dofs_per_node;
       if (model.is_fixed(node, d) != model.is_fixed(other, d))
-        throw core::Error(
-            fmt::format("tie of the nodes at {} and {}: {} is restrained at one and free at the "
-                        "other; restrain it at both",
-                        place(node_at(model, node)), place(node_at(model, other)),
-                        dof_names[static_cast<std::size_t>(d)]));
+        throw core::Error(fmt::format(
+            "tie of the nodes at {} and {}: {} is restrained at one and free at the "
+            "other; restrain it at both",
+            place(model.node(node)), place(model.node(other)), dof_names[static_cast<std::size_t>(d)]));
     }
 }
 
@@ -176,7 +173,7 @@ void number_equations(const Model& model, const std::vector<Index>& first, Struc
 std::vector<Vec3> positions(const Model& model, const Structure& structure) {
   std::vector<Vec3> out;
   for (const Index node : structure.nodes)
-    out.push_back(node_at(model, node));
+    out.push_back(model.node(node));
   return out;
 }
 
@@ -231,7 +228,7 @@ std::vector<Structure> structures(const Model& model) {
 double total_mass(const Model& model) {
   double sum = 0.0;
   for (const Beam& beam : model.beams) {
-    const double length = BeamAxis(node_at(model, beam.a), node_at(model, beam.b), beam.middle).length();
+    const double length = BeamAxis(model.node(beam.a), model.node(beam.b), beam.middle).length();
     for (const auto& [share, weight] : gauss_points)
       sum += weight * length *
              beam_constants(property_of(model, beam), std::lerp(beam.along[0], beam.along[1], share))

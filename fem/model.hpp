@@ -98,6 +98,7 @@ struct Model {
   std::vector<std::uint8_t> fixed; ///< per node: bit d set = dof d restrained
   std::vector<Tie> ties{};
 
+  [[nodiscard]] const Vec3& node(Index number) const { return nodes[static_cast<std::size_t>(number)]; }
   [[nodiscard]] bool is_fixed(Index node, int dof) const {
     return (fixed[static_cast<std::size_t>(node)] >> dof) & 1u;
   }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double patches_per_correlation_length = 5.0; ///< a modal force spectrum is at most 0.7 % too large
 constexpr double patches_per_half_wavelength = 10.0;
-constexpr double round_off = 1e-9; ///< of widths
+constexpr double same_width = 1e-9; ///< of widths
 constexpr double negligible_share =
     1e-6; ///< of the largest velocity, and of the largest displacement of a shape
 constexpr std::uint32_t most_zones = std::uint32_t{1} << 24;
@@ -32,14 +32,14 @@ void check_array(const TurbulentZone& zone, const Eigen::VectorXd& values, std::
 void check_widths(const TurbulentZone& zone) {
   for (Eigen::Index k = 1; k < zone.patches(); ++k) {
     const double distance = zone.s[k] - zone.s[k - 1], width = 0.5 * (zone.ds[k] + zone.ds[k - 1]);
-    if (!(distance >= width * (1.0 - round_off)))
+    if (!(distance >= width * (1.0 - same_width)))
       throw core::Error(
           fmt::format("zone '{}': the patches at s = {:g} m and {:g} m overlap; give midpoints in "
                       "ascending order and widths that fit between them",
                       zone.name, zone.s[k - 1], zone.s[k]));
   }
   const double widest = zone.ds.maxCoeff(), most = zone.correlation_length / patches_per_correlation_length;
-  if (widest > most * (1.0 + round_off))
+  if (widest > most * (1.0 + same_width))
     throw core::Error(
         fmt::format("zone '{}': a patch is {:g} m wide, more than a fifth of the correlation length "
                     "{:g} m; cut the zone into patches of {:g} m at most",
@@ -164,7 +164,7 @@ PatchGrid cut_into_patches(double from, double to, double width) {
         fmt::format("a zone from s = {:g} m to {:g} m cannot be cut into patches of {:g} m; give an end "
                     "beyond its start and a width > 0",
                     from, to, width));
-  const auto n = static_cast<Eigen::Index>(std::ceil((to - from) / width * (1.0 - round_off)));
+  const auto n = static_cast<Eigen::Index>(std::ceil((to - from) / width * (1.0 - same_width)));
   const double ds = (to - from) / static_cast<double>(n);
   const Eigen::ArrayXd number = Eigen::ArrayXd::LinSpaced(n, 0.0, static_cast<double>(n - 1));
   return {from + ds * (number + 0.5), Eigen::VectorXd::Constant(n, ds)};

@@ -14,12 +14,12 @@ namespace {
 constexpr double table_slack = 0.005; ///< of the tube's length: how early a table or how late a zone may end
 constexpr double along_tube =
     1e-6; ///< of the largest velocity: below it the flow has no direction across the tube
-constexpr double round_off = 1e-9; ///< of the tube's length: zones that share an end given in decimals
+constexpr double same_end = 1e-9; ///< of the tube's length: zones that share an end given in decimals
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 std::string name_of(const Zone& zone) { return fmt::format("zone \"{}\"", zone.name); }
 
-void require_positive(double value, const std::string& what, const char* unit) {
+void require_above_zero(double value, const std::string& what, const char* unit) {
   if (!(value > 0.0) || !std::isfinite(value))
     throw core::Error(fmt::format("{} = {:g} {}; give a number > 0", what, value, unit));
 }
@@ -82,13 +82,13 @@ struct CheckFluid {
       throw core::Error(name_of(zone) +
                         ": a single phase is liquid or gas; name one, or give a two-phase fluid");
     check_table(fluid.density, unbounded, zone, length, "density");
-    require_positive(fluid.viscosity, name_of(zone) + ": viscosity", "m2/s");
+    require_above_zero(fluid.viscosity, name_of(zone) + ": viscosity", "m2/s");
   }
   void operator()(const TwoPhase& fluid) const {
     const Phases& p = fluid.phases;
-    require_positive(p.gas_density, name_of(zone) + ": gas density", "kg/m3");
-    require_positive(p.liquid_viscosity, name_of(zone) + ": liquid viscosity", "m2/s");
-    require_positive(p.gas_viscosity, name_of(zone) + ": gas viscosity", "m2/s");
+    require_above_zero(p.gas_density, name_of(zone) + ": gas density", "kg/m3");
+    require_above_zero(p.liquid_viscosity, name_of(zone) + ": liquid viscosity", "m2/s");
+    require_above_zero(p.gas_viscosity, name_of(zone) + ": gas viscosity", "m2/s");
     if (!(p.liquid_density > p.gas_density) || !std::isfinite(p.liquid_density))
       throw core::Error(
           fmt::format("{}: liquid density = {:g} kg/m3 is not above gas density = {:g} kg/m3; give the "
@@ -104,10 +104,10 @@ struct CheckFluid {
   void check_mass_flux(const Table<double>& mass_flux, const Phases& phases) const {
     check_table(mass_flux, unbounded, zone, length, "mass flux");
     for (const double g : mass_flux.values)
-      require_positive(g, name_of(zone) + ": mass flux", "kg/m2/s");
-    require_positive(phases.surface_tension,
-                     name_of(zone) + ": surface tension (of Feenstra's void fraction)", "N/m");
-    require_positive(phases.gravity, name_of(zone) + ": gravity", "m/s2");
+      require_above_zero(g, name_of(zone) + ": mass flux", "kg/m2/s");
+    require_above_zero(phases.surface_tension,
+                       name_of(zone) + ": surface tension (of Feenstra's void fraction)", "N/m");
+    require_above_zero(phases.gravity, name_of(zone) + ": gravity", "m/s2");
     if (is_single(zone.bundle))
       throw core::Error(name_of(zone) +
                         ": Feenstra's void fraction needs a bundle; give arrangement and pitch, or leave "
@@ -121,7 +121,7 @@ void check_overlaps(const std::vector<Zone>& zones, double length) {
     order.push_back(&zone);
   std::sort(order.begin(), order.end(), [](const Zone* a, const Zone* b) { return a->from < b->from; });
   for (std::size_t k = 1; k < order.size(); ++k)
-    if (order[k - 1]->to > order[k]->from + round_off * length)
+    if (order[k - 1]->to > order[k]->from + same_end * length)
       throw core::Error(
           fmt::format("{} ends at s = {:g} m, after {} has begun at {:g} m; end it there or before",
                       name_of(*order[k - 1]), order[k - 1]->to, name_of(*order[k]), order[k]->from));
@@ -219,7 +219,7 @@ Profile::Profile(std::vector<Zone> zones, double length) : zones_(std::move(zone
     std::visit(CheckFluid{zone, length}, zone.fluid);
     check_table(zone.inner_density, unbounded, zone, length, "inner density");
     for (const double k : zone.connors_constants)
-      require_positive(k, name_of(zone) + ": Connors constant", "");
+      require_above_zero(k, name_of(zone) + ": Connors constant", "");
   }
   check_overlaps(zones_, length);
 }

@@ -9,7 +9,7 @@
 namespace fretwork::flow {
 namespace {
 
-constexpr double round_off = 1e-12; ///< of the tube's length: a shorter interval is none
+constexpr double no_interval = 1e-12; ///< of the tube's length: a shorter interval is none
 
 Station station_at(const Tube& tube, const Profile& profile, const modal::Basis& basis, double s,
                    double weight) {
@@ -29,7 +29,7 @@ std::vector<double> intervals(const Tube& tube, const Profile& profile) {
     if (s > 0.0 && s < tube.length())
       ends.push_back(s);
   std::sort(ends.begin(), ends.end());
-  const double least = round_off * tube.length();
+  const double least = no_interval * tube.length();
   ends.erase(std::unique(ends.begin(), ends.end(), [least](double a, double b) { return b - a <= least; }),
              ends.end());
   return ends;

@@ -8,7 +8,7 @@
 namespace fretwork::flow {
 namespace {
 
-constexpr double round_off =
+constexpr double hermitian_error =
     1e-8; ///< of eigenvalues against the trace, of the Hermitian part against the largest entry
 
 Eigen::MatrixXcd checked(const MatrixLoad& load, double f) {
@@ -20,7 +20,7 @@ Eigen::MatrixXcd checked(const MatrixLoad& load, double f) {
         fmt::format("random load '{}': its spectral matrix at {:g} Hz is {} x {}, its forces are {}; give a "
                     "row and a column for each force",
                     load.name, f, g.rows(), g.cols(), load.shapes.cols()));
-  if (!g.allFinite() || (g - g.adjoint()).cwiseAbs().maxCoeff() > round_off * g.cwiseAbs().maxCoeff())
+  if (!g.allFinite() || (g - g.adjoint()).cwiseAbs().maxCoeff() > hermitian_error * g.cwiseAbs().maxCoeff())
     throw core::Error(
         fmt::format("random load '{}': its spectral matrix at {:g} Hz is not Hermitian; give G_ji = conj "
                     "G_ij",
@@ -41,7 +41,7 @@ Eigen::MatrixXcd hermitian_root(const MatrixLoad& load, double f) {
   Eigen::MatrixXd real(2 * n, 2 * n);
   real << g.real(), -g.imag(), g.imag(), g.real();
   core::Eigenpairs pairs = core::symmetric_eigenpairs(real);
-  const double least = -round_off * g.real().trace();
+  const double least = -hermitian_error * g.real().trace();
   if (pairs.values[0] < least)
     throw core::Error(
         fmt::format("random load '{}': its spectral matrix at {:g} Hz has the eigenvalue {:g}, that of no "

@@ -12,7 +12,7 @@
 namespace fretwork::flow {
 namespace {
 
-constexpr double round_off =
+constexpr double same_abscissa =
     1e-9; ///< of the tube's length: what sums of arc lengths and printed abscissae leave
 
 std::string beam_name(const fem::Model& model, const fem::Beam& beam) {
@@ -120,7 +120,7 @@ void Tube::append(const fem::Model& model, Index beam, Index first) {
 }
 
 Tube::Place Tube::locate(double s) const {
-  if (!(s >= -round_off * length() && s <= (1.0 + round_off) * length()))
+  if (!(s >= -same_abscissa * length() && s <= (1.0 + same_abscissa) * length()))
     throw core::Error(
         fmt::format("tube \"{}\": s = {:g} m is not on it; give an abscissa from 0 to its length, {:g} m",
                     name_, s, length()));

@@ -16,7 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int not_started = 127;
-constexpr int of_a_signal = 128; ///< a status above it: the number of the signal that ended the child
 
 std::string lower_case_ending(const fs::path& file) {
   std::string ending = file.extension().string();

@@ -19,6 +19,8 @@ inline constexpr std::uint64_t most_memory = std::uint64_t{4} << 30; ///< bytes 
 inline constexpr std::uint64_t most_file = std::uint64_t{2} << 30;   ///< bytes
 inline constexpr std::uint64_t most_output = std::uint64_t{1} << 20; ///< bytes of messages
 
+inline constexpr int of_a_signal = 128; ///< a status above it: the number of the signal that ended the child
+
 class Converter {
 public:
   /// @param folder  the only one in which the children may write

@@ -12,19 +12,21 @@ constexpr double clamped_root = 4.730040744862704;
 
 } // namespace
 
-double beam_yield(double bending, double mass, Met met) {
+double point_receptance(double bending, double mass, BeamPoint point) {
   assert(bending > 0.0 && mass > 0.0);
   const double along = 1.0 / (2.0 * std::numbers::sqrt2 * std::pow(bending, 0.25) * std::pow(mass, 0.75));
-  switch (met) {
-  case Met::along:
+  switch (point) {
+  case BeamPoint::interior:
     return along;
-  case Met::end:
+  case BeamPoint::end:
     return 4.0 * along;
   }
   return along;
 }
 
-double contact_frequency(double stiffness, double yield) { return std::pow(stiffness * yield, 2.0 / 3.0); }
+double contact_frequency(double stiffness, double receptance) {
+  return std::pow(stiffness * receptance, 2.0 / 3.0);
+}
 
 double clamped_span_frequency(double length, double bending, double mass) {
   const double wave_number = clamped_root / length;

@@ -19,7 +19,7 @@ namespace {
 
 /// Of the residual of (K - sigma M)^-1 M: gives orthogonality of 1e-14 for a third more solves than the usual
 /// 1e-8.
-constexpr double tolerance = 1e-12;
+constexpr double krylov_tolerance = 1e-12;
 /// Modes beyond those wanted: the next cluster begins among them, in nearly all structures.
 constexpr int reserve = 4;
 /// Rounds in search of missed modes. A round finds one vector at least of each multiple eigenvalue, normally
@@ -48,7 +48,7 @@ struct Solver {
     FW_PETSC(EPSCreate(comm, &handle));
     FW_PETSC(EPSSetProblemType(handle, EPS_GHEP));
     FW_PETSC(EPSSetType(handle, EPSKRYLOVSCHUR));
-    FW_PETSC(EPSSetTolerances(handle, tolerance, PETSC_DEFAULT));
+    FW_PETSC(EPSSetTolerances(handle, krylov_tolerance, PETSC_DEFAULT));
     DS projected = nullptr;
     FW_PETSC(EPSGetDS(handle, &projected));
     FW_PETSC(DSSetMethod(projected, divide_and_conquer));

@@ -13,7 +13,6 @@
 namespace fretwork::modal {
 namespace {
 
-using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -32,8 +31,8 @@ void take_out(const fem::Model& model, const fem::Structure& structure, const Ma
 MatrixXd independent(const MatrixXd& v, const MatrixXd& loads, const MatrixXd& displacements) {
   const VectorXd missing = v.cwiseProduct(loads).colwise().sum().transpose();
   const VectorXd whole = displacements.cwiseProduct(loads).colwise().sum().transpose();
-  std::vector<Index> lacking;
-  for (Index j = 0; j < v.cols(); ++j)
+  std::vector<Eigen::Index> lacking;
+  for (Eigen::Index j = 0; j < v.cols(); ++j)
     if (missing(j) > negligible_share * whole(j))
       lacking.push_back(j);
   if (lacking.empty())
@@ -42,8 +41,8 @@ MatrixXd independent(const MatrixXd& v, const MatrixXd& loads, const MatrixXd& d
   const MatrixXd columns = v(Eigen::all, lacking) * scale.asDiagonal();
   const MatrixXd r = columns.transpose() * loads(Eigen::all, lacking) * scale.asDiagonal();
   const auto [lambda, vectors] = core::symmetric_eigenpairs(0.5 * (r + r.transpose()));
-  const Index left_out = (lambda.array() <= dependent_share * lambda.maxCoeff()).count();
-  const Index kept = lambda.size() - left_out;
+  const Eigen::Index left_out = (lambda.array() <= dependent_share * lambda.maxCoeff()).count();
+  const Eigen::Index kept = lambda.size() - left_out;
   return columns * vectors.rightCols(kept) * lambda.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
 }
 
@@ -60,7 +59,7 @@ VectorXd take_stationary(const fem::Model& model, const fem::Structure& structur
   const MatrixXd mass = columns.transpose() * fem::mass_times(model, structure, columns);
   const auto [values, vectors] = core::symmetric_eigenpairs(mass);
   const VectorXd mu = values.reverse();
-  const Index rigid = (basis.omega.array() == 0.0).count();
+  const Eigen::Index rigid = (basis.omega.array() == 0.0).count();
   const double slowest = rigid < basis.size() ? std::pow(basis.omega(rigid), -2) : mu.maxCoeff();
   if (!(mu.minCoeff() * most_range > slowest))
     throw core::Error("static modes: one of them moves no mass; give the beams at the contacts a density, or "
@@ -95,7 +94,7 @@ void add_static_modes(const fem::Model& model, const fem::Structure& structure, 
 
   const MatrixXd mixed = basis.shapes.transpose() * fem::mass_times(model, structure, added.shapes);
   basis.orthogonality = std::max({basis.orthogonality, added.orthogonality, mixed.cwiseAbs().maxCoeff()});
-  const Index before = basis.size();
+  const Eigen::Index before = basis.size();
   basis.shapes.conservativeResize(Eigen::NoChange, before + added.size());
   basis.shapes.rightCols(added.size()) = added.shapes;
   basis.participation.conservativeResize(before + added.size(), Eigen::NoChange);

@@ -11,7 +11,7 @@ namespace {
 using namespace transient::kernels;
 
 /// Sums of a contact whose batches are kept: row of BatchEnds, contact after contact. Those of y and z are about their first values.
-enum Kept : std::size_t { impacts, slid, friction, normal2, y1, y2, z1, z2, kept_sums };
+enum Kept : std::size_t { impacts, slid, friction, normal2, y1, y2, z1, z2, contact_sums };
 
 // No array overlaps another: the compiler takes as many contacts at once as a vector has numbers.
 
@@ -53,7 +53,7 @@ FRETWORK_KERNEL(void, watch_radius,
 } // namespace
 
 ContactStatistics::ContactStatistics(const std::vector<transient::ContactPoint>& contacts, double from)
-    : from_(from), sums_(contacts.size()), ends_(kept_sums * contacts.size()) {
+    : from_(from), sums_(contacts.size()), ends_(contact_sums * contacts.size()) {
   for (const transient::ContactPoint& contact : contacts) {
     supports_.push_back(contact.support);
     rest_y_.push_back(contact.rest.y());
@@ -144,7 +144,7 @@ void ContactStatistics::watch_penetration(const transient::Record& record, std::
 }
 
 void ContactStatistics::write_sums(double* row) const {
-  for (std::size_t c = 0; c < sums_.size(); ++c, row += kept_sums) {
+  for (std::size_t c = 0; c < sums_.size(); ++c, row += contact_sums) {
     const Sums& s = sums_[c];
     row[impacts] = static_cast<double>(s.impacts);
     row[slid] = s.slid;
@@ -165,7 +165,7 @@ StandardErrors ContactStatistics::errors_of(const BatchSums& batches, std::size_
                                             const ContactSummary& o) const {
   StandardErrors out;
   out.batches = std::numeric_limits<double>::infinity();
-  const auto* sums = batches.sums.data() + kept_sums * contact;
+  const auto* sums = batches.sums.data() + contact_sums * contact;
   const auto take = [&](const BatchEstimate& estimate) {
     out.batches = std::min(out.batches, estimate.batches);
     return estimate.error;
@@ -194,7 +194,7 @@ StandardErrors ContactStatistics::errors_of_sums() const {
     std::vector<double> sum(batches.lengths.size(), 0.0);
     for (std::size_t c = 0; c < sums_.size(); ++c)
       for (std::size_t b = 0; b < sum.size(); ++b)
-        sum[b] += batches.sums[kept_sums * c + which][b];
+        sum[b] += batches.sums[contact_sums * c + which][b];
     const BatchEstimate estimate = batch_means(batches.lengths, sum);
     out.batches = std::min(out.batches, estimate.batches);
     return estimate.error;

@@ -9,12 +9,12 @@ namespace {
 namespace kernels = transient::kernels;
 
 /// Sums whose batches are kept, of each direction of each node.
-enum Kept : std::size_t { first, squares, kept_sums };
+enum Sum : std::size_t { first, squares, node_sums };
 
 } // namespace
 
 NodeStatistics::NodeStatistics(const std::vector<Eigen::MatrixXd>& rows, double from)
-    : from_(from), sums_(rows.size()), ends_(3 * kept_sums * rows.size()) {
+    : from_(from), sums_(rows.size()), ends_(3 * node_sums * rows.size()) {
   const int modes = rows.empty() ? 0 : static_cast<int>(rows.front().cols());
   const int width = kernels::padded(3 * static_cast<int>(rows.size()));
   kernels::Array by_mode(static_cast<std::size_t>(modes) * width, 0.0);
@@ -62,7 +62,7 @@ void NodeStatistics::write_sums(double* row) const {
     for (const Accumulator& signal : node) {
       row[first] = signal.sum();
       row[squares] = signal.sum_of_squares();
-      row += kept_sums;
+      row += node_sums;
     }
 }
 
@@ -75,7 +75,7 @@ std::vector<NodeSummary> NodeStatistics::summaries() const {
     NodeSummary& o = out[node];
     o.batches = std::numeric_limits<double>::infinity();
     for (std::size_t d = 0; d < 3; ++d) {
-      const auto* sums = batches.sums.data() + kept_sums * (3 * node + d);
+      const auto* sums = batches.sums.data() + node_sums * (3 * node + d);
       o.displacement[d] = sums_[node][d].moments();
       const BatchEstimate estimate = batch_deviation(batches.lengths, sums[first], sums[squares],
                                                      sums_[node][d].sum() / time_, o.displacement[d].std);

@@ -11,7 +11,7 @@
 namespace fretwork::results {
 namespace {
 
-constexpr std::size_t name_width = 18;    // of a contact
+constexpr std::size_t contact_width = 18; // of a contact
 constexpr std::size_t most_contacts = 12; // shown one by one; of more, the ten with the largest work rate
 constexpr std::size_t most_flat = 4;      // of those shown
 constexpr double micro = 1e6;             // um in a metre
@@ -30,7 +30,7 @@ std::string row(const std::string& name, const std::string& impacts, const std::
 }
 
 std::string contact_row(const ContactFacts& facts, const post::ContactSummary& c) {
-  return row(shortened(facts.name, name_width), grouped(c.impacts),
+  return row(shortened(facts.name, contact_width), grouped(c.impacts),
              fmt::format("{:.2f}", 100.0 * c.contact_time_ratio),
              with_error(c.normal_rms, c.error.normal_rms), figure(c.normal_max, 3),
              figure(c.tangential_max, 3),
@@ -66,7 +66,7 @@ std::vector<std::string> flat_lines(const RunResults& results, const std::vector
       continue;
     }
     lines.push_back(fmt::format(
-        "  {:<18} {:>14} {:>23} {:>23} {:>23}", shortened(facts.name, name_width),
+        "  {:<18} {:>14} {:>23} {:>23} {:>23}", shortened(facts.name, contact_width),
         figure(micro * facts.gap, 4),
         fmt::format("{} to {}", figure(micro * flat->normal.min, 4), figure(micro * flat->normal.max, 4)),
         figure(micro * flat->normal.std, 3), figure(micro * (flat->sliding.max - flat->sliding.min), 4)));

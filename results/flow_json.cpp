@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/flow_json.hpp"
-#include <cmath>
-#include <nlohmann/json.hpp>
+#include "results/json_number.hpp"
 
 namespace fretwork::results {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json list(const Eigen::VectorXd& values) {
   Json out = Json::array();

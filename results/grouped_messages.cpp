@@ -7,7 +7,7 @@
 namespace fretwork::results {
 namespace {
 
-constexpr std::size_t most_names = 3;
+constexpr std::size_t most_in_group = 3;
 /// Fewer messages than these stand by themselves.
 constexpr std::size_t least_alike = 3;
 
@@ -84,7 +84,7 @@ std::string together(std::vector<std::string> values) {
   if (different.size() == 1)
     return different.front();
   if (different.front().front() == '"')
-    return different.size() <= most_names
+    return different.size() <= most_in_group
                ? fmt::format("{}", fmt::join(different, ", "))
                : fmt::format("{} ... {} ({})", different.front(), different.back(), different.size());
   const auto [least, most] =

@@ -6,7 +6,7 @@
 namespace fretwork::results {
 namespace {
 
-constexpr std::size_t most_rows = 60;
+constexpr std::size_t most_modes = 60;
 
 std::string shares(const core::Vec3& masses, const core::Vec3& whole) {
   std::string text;
@@ -27,15 +27,15 @@ std::string modes_table(const RunResults& results) {
   std::string text = fmt::format(
       "  {:>5} {:>9} {:>14} {:>10} {:>11}   effective mass, % of {:.4g}, {:.4g}, {:.4g} kg: x y z\n", "mode",
       "structure", "Hz", "damping %", "mesh error", whole.x(), whole.y(), whole.z());
-  for (std::size_t k = 0; k < std::min(most_rows, modes.size()); ++k) {
+  for (std::size_t k = 0; k < std::min(most_modes, modes.size()); ++k) {
     const auto& [structure, mode, frequency] = modes[k];
     const modal::Basis& basis = results.bases[structure];
     text += fmt::format("  {:>5} {:>9} {:>14.8g} {:>10.3g} {:>11.1e} {}\n", k + 1, structure, frequency,
                         100.0 * basis.damping(mode), basis.error(mode),
                         shares(basis.participation.row(mode).cwiseAbs2().transpose(), whole));
   }
-  if (modes.size() > most_rows)
-    text += fmt::format("  ... {} more in summary.json\n", modes.size() - most_rows);
+  if (modes.size() > most_modes)
+    text += fmt::format("  ... {} more in summary.json\n", modes.size() - most_modes);
   text += fmt::format("  {:<53} {}\n", "all modes together", shares(kept, whole));
   for (const auto& [structure, mode, frequency] : sorted_static_modes(results.bases))
     text += fmt::format("  {:>5} {:>9} {:>14.8g} {:>10.3g}\n", "static", structure, frequency,

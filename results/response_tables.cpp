@@ -9,7 +9,7 @@
 namespace fretwork::results {
 namespace {
 
-constexpr std::size_t most_rows = 60;
+constexpr std::size_t most_points = 60;
 
 std::string in_micrometres(double metres) { return fmt::format("{:.4g}", 1e6 * metres); }
 
@@ -24,14 +24,14 @@ std::string response_table(const RunResults& results) {
                         response.probability);
     text += fmt::format("  {:<24} {:>6} {:>10} {:>12} {:>12} {:>10}\n", "node or contact", "along", "rms um",
                         "rms mm/s", "crossings/s", "max um");
-    for (std::size_t k = 0; k < std::min(most_rows, response.points.size()); ++k) {
+    for (std::size_t k = 0; k < std::min(most_points, response.points.size()); ++k) {
       const ResponsePoint& p = response.points[k];
       text += fmt::format("  {:<24} {:>6} {:>10} {:>12.4g} {:>12.4g} {:>10}\n", p.name, p.direction,
                           in_micrometres(p.rms), 1e3 * p.rms_velocity, p.up_crossings,
                           p.maximum ? in_micrometres(*p.maximum) : "-");
     }
-    if (response.points.size() > most_rows)
-      text += fmt::format("  ... {} more in response.csv\n", response.points.size() - most_rows);
+    if (response.points.size() > most_points)
+      text += fmt::format("  ... {} more in response.csv\n", response.points.size() - most_points);
   }
   return text;
 }

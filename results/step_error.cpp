@@ -12,7 +12,7 @@ namespace {
 constexpr double significance = 2.0;
 /// Of what the busiest contact does: below, the error of a contact matters to nobody.
 constexpr double negligible = 0.01;
-constexpr std::size_t most_names = 5;
+constexpr std::size_t most_named = 5;
 
 struct Figure {
   transient::ReplayedFigure of;
@@ -95,7 +95,7 @@ std::string unmet_accuracy(const RunResults& results) {
   return fmt::format(
       "the step changes statistics of {} by more than the accuracy of {:.2g} %, most of all {} of "
       "{}: {:+.2g} +- {:.1g} %; set a smaller transient.accuracy or transient.step",
-      core::list_names(names, most_names), 100.0 * results.accuracy, worst.name, where, 100.0 * worst.value,
+      core::list_names(names, most_named), 100.0 * results.accuracy, worst.name, where, 100.0 * worst.value,
       100.0 * worst.standard_error);
 }
 

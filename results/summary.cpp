@@ -2,6 +2,7 @@
 #include "results/contact_position.hpp"
 #include "results/error_estimate.hpp"
 #include "results/flow_json.hpp"
+#include "results/json_number.hpp"
 #include "results/step_error.hpp"
 #include "results/summary_file.hpp"
 #include "results/totals.hpp"
@@ -10,15 +11,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace fretwork::results {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-/// JSON knows no infinity and no NaN: a run that diverged leaves null.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json triple(const core::Vec3& v) { return {number(v.x()), number(v.y()), number(v.z())}; }
 

@@ -19,7 +19,7 @@ std::string cell(const std::string& text) {
   return out + '"';
 }
 
-std::string bounds(const Bounds& b) { return fmt::format("{},{},{}", b.value, b.low, b.high); }
+std::string value_and_bounds(const Bounds& b) { return fmt::format("{},{},{}", b.value, b.low, b.high); }
 
 std::string bounds_head(const char* name, const char* unit) {
   return fmt::format("{0} [{1}],{0}_low [{1}],{0}_high [{1}]", name, unit);
@@ -32,11 +32,12 @@ std::string supports_text(const Wear& wear) {
       bounds_head("work_rate", "W"), bounds_head("volume", "m3"), bounds_head("depth", "m"),
       bounds_head("support_volume", "m3"), bounds_head("support_depth", "m"), bounds_head("life", "years"));
   for (const WearOfSupport& s : wear.supports)
-    text += fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", cell(s.name), s.tube, s.law, s.coefficient,
-        cell(s.source), bounds({s.work_rate.value, s.work_rate.low, s.work_rate.high}), s.geometry,
-        bounds(s.volume.last()), bounds(s.depth.last()), bounds(s.support_volume.last()),
-        bounds(s.support_depth.last()), s.scar_width, s.scar_length, s.life.end, bounds(s.life.years));
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", cell(s.name), s.tube, s.law,
+                        s.coefficient, cell(s.source),
+                        value_and_bounds({s.work_rate.value, s.work_rate.low, s.work_rate.high}), s.geometry,
+                        value_and_bounds(s.volume.last()), value_and_bounds(s.depth.last()),
+                        value_and_bounds(s.support_volume.last()), value_and_bounds(s.support_depth.last()),
+                        s.scar_width, s.scar_length, s.life.end, value_and_bounds(s.life.years));
   return text;
 }
 
@@ -47,7 +48,7 @@ std::string curves_text(const WearOfSupport& s) {
   for (std::size_t i = 0; i < s.time.size(); ++i) {
     text += fmt::format("{}", s.time[i]);
     for (const WearCurves* c : {&s.volume, &s.depth, &s.support_volume, &s.support_depth})
-      text += ',' + bounds({c->value[i], c->low[i], c->high[i]});
+      text += ',' + value_and_bounds({c->value[i], c->low[i], c->high[i]});
     text += '\n';
   }
   return text;

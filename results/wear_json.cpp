@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/wear_json.hpp"
-#include <cmath>
-#include <nlohmann/json.hpp>
+#include "results/json_number.hpp"
 
 namespace fretwork::results {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-/// JSON knows no infinity and no NaN.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json numbers(const std::vector<double>& values) {
   Json out = Json::array();

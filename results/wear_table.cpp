@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t most_supports = 12; // shown one by one; of more, the ten with the shortest lives
 constexpr std::size_t most_tubes = 5;
-constexpr std::size_t name_width = 16;
+constexpr std::size_t support_width = 16;
 constexpr double millimetre = 1e3, cubic_millimetre = 1e9;
 
 /// 0.12 (0.11 to 0.13); a dash where there is no value, "never" where it is not reached.
@@ -32,7 +32,7 @@ std::string law_text(const WearOfSupport& s) {
 }
 
 std::string row(const WearOfSupport& s) {
-  return fmt::format("  {:<16} {:>8.3g} {:>9} {:>22} {:>7} {:>22}  {}", shortened(s.name, name_width),
+  return fmt::format("  {:<16} {:>8.3g} {:>9} {:>22} {:>7} {:>22}  {}", shortened(s.name, support_width),
                      s.work_rate.value, with_bounds({s.volume.last().value}, cubic_millimetre),
                      with_bounds(s.depth.last(), millimetre), with_bounds({s.scar_width}, millimetre),
                      s.life.end == "outside_law" ? "outside the law" : with_bounds(s.life.years, 1.0),
@@ -41,15 +41,15 @@ std::string row(const WearOfSupport& s) {
 
 /// Where coefficients of a bank are from, each once.
 void add_sources(std::vector<std::string>& lines, const Wear& wear) {
-  std::vector<std::string> told;
+  std::vector<std::string> distinct;
   for (const WearOfSupport& s : wear.supports) {
     if (std::isnan(s.coefficient) || s.source == given_source)
       continue;
     const std::string line = fmt::format("  K = {:.3g} m2/N: {}", s.coefficient, s.source);
-    if (std::find(told.begin(), told.end(), line) == told.end())
-      told.push_back(line);
+    if (std::find(distinct.begin(), distinct.end(), line) == distinct.end())
+      distinct.push_back(line);
   }
-  lines.insert(lines.end(), told.begin(), told.end());
+  lines.insert(lines.end(), distinct.begin(), distinct.end());
 }
 
 /// Tubes of several supports, the shortest lives where there are many.
@@ -68,7 +68,7 @@ void add_tubes(std::vector<std::string>& lines, const Wear& wear) {
                                 wear.tubes.size() > 1 ? fmt::format("tube {}", t.tube) : "all supports",
                                 t.work_rate.value, with_bounds({t.volume.value}, cubic_millimetre),
                                 with_bounds(t.depth, millimetre), "", with_bounds(t.years, 1.0),
-                                t.first.empty() ? "" : "first: " + shortened(t.first, name_width)));
+                                t.first.empty() ? "" : "first: " + shortened(t.first, support_width)));
 }
 
 } // namespace

@@ -12,6 +12,9 @@ namespace fretwork::study {
 void read_obstacle(const TableReader& table, Contact& contact);
 extern const std::vector<std::string> obstacle_keys;
 
+/// The number of lands of a broached hole.
+[[nodiscard]] int read_lands(const TableReader& table, int otherwise);
+
 /// Stiffness and damper along the normal.
 void read_normal_law(const TableReader& table, Contact& contact);
 extern const std::vector<std::string> normal_law_keys;

@@ -9,9 +9,7 @@
 namespace fretwork::study {
 namespace {
 
-constexpr Range any = Range::any;
-constexpr Range at_least_zero = Range::at_least_zero;
-constexpr Range above_zero = Range::above_zero;
+using enum Range;
 
 /// The section of one shape, from the keys of that shape.
 struct Shape {

@@ -7,7 +7,7 @@
 namespace fretwork::study {
 namespace {
 
-constexpr std::int64_t most_points = 1000; ///< along a thickness: each is a contact of its own
+constexpr std::int64_t most_along = 1000; ///< along a thickness: each is a contact of its own
 
 Keys contact_keys() {
   Keys keys{{"name", "group", "axis", "y_axis", "angle", "origin", "offset", "thickness", "thickness_points",
@@ -49,9 +49,9 @@ void read_thickness(const TableReader& table, Contact& contact) {
     table.fail_at("thickness", "belongs to a support fixed in space; between two nodes make one contact for "
                                "each pair of nodes that meet");
   const auto points = table.optional_integer("thickness_points", 2).value_or(2);
-  if (points > most_points)
+  if (points > most_along)
     table.fail_at("thickness_points",
-                  "each point is a contact of its own; give at most " + std::to_string(most_points));
+                  "each point is a contact of its own; give at most " + std::to_string(most_along));
   contact.points = static_cast<int>(points);
 }
 

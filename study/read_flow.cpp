@@ -7,8 +7,7 @@
 namespace fretwork::study {
 namespace {
 
-constexpr Range above_zero = Range::above_zero;
-constexpr Range at_least_zero = Range::at_least_zero;
+using enum Range;
 
 const std::vector<std::string> single_phase_keys{"density", "viscosity"};
 const std::vector<std::string> two_phase_keys{"liquid",        "gas",     "surface_tension",

@@ -4,15 +4,11 @@
 #include "study/contact_readers.hpp"
 #include <algorithm>
 #include <fmt/format.h>
-#include <numbers>
 
 namespace fretwork::study {
 namespace {
 
 using contact::PlaneAxis;
-
-constexpr double degree = std::numbers::pi / 180.0;
-constexpr std::int64_t most_lands = 360; ///< one a degree
 
 const Choices<ObstacleKind> obstacles{{{"circle", ObstacleKind::circle},
                                        {"plane_y", ObstacleKind::plane_y},
@@ -114,16 +110,13 @@ contact::Profile read_broached(const TableReader& table, Contact& contact) {
   contact::BroachedHole hole{};
   hole.land_radius = table.number("land_radius", {Range::above_zero, "m"});
   hole.lobe_radius = table.number("lobe_radius", {Range::above_zero, "m"});
-  const auto lands = table.optional_integer("lands", 2).value_or(3);
-  if (lands > most_lands)
-    table.fail_at("lands", "more lands than a hole has room for; 3 make a trefoil, 4 a quatrefoil");
-  hole.lands = static_cast<int>(lands);
+  hole.lands = read_lands(table, 3);
   const double land_angle = table.number("land_angle", {Range::above_zero, "degrees"});
-  if (const double whole = 360.0 / static_cast<double>(lands); land_angle >= whole)
+  if (const double whole = 360.0 / hole.lands; land_angle >= whole)
     table.fail_at(
         "land_angle",
-        fmt::format("{} lands of this angle leave no lobe between them; give less than {:g} degrees", lands,
-                    whole));
+        fmt::format("{} lands of this angle leave no lobe between them; give less than {:g} degrees",
+                    hole.lands, whole));
   hole.land_angle = land_angle * degree;
   contact.broached = hole;
   return made(table, "land_radius", [&] { return contact::broached_hole(tube, hole); });
@@ -253,6 +246,14 @@ bool is_round(ObstacleKind kind) {
 std::string name_of(ObstacleKind kind) {
   const auto& all = obstacles.available;
   return std::find_if(all.begin(), all.end(), [&](const auto& entry) { return entry.second == kind; })->first;
+}
+
+int read_lands(const TableReader& table, int otherwise) {
+  constexpr std::int64_t most = 360; // one a degree
+  const std::int64_t lands = table.optional_integer("lands", 2).value_or(otherwise);
+  if (lands > most)
+    table.fail_at("lands", "more lands than a hole has room for; 3 make a trefoil, 4 a quatrefoil");
+  return static_cast<int>(lands);
 }
 
 void read_obstacle(const TableReader& table, Contact& contact) {

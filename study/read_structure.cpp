@@ -5,9 +5,7 @@
 namespace fretwork::study {
 namespace {
 
-constexpr Range any = Range::any;
-constexpr Range at_least_zero = Range::at_least_zero;
-constexpr Range above_zero = Range::above_zero;
+using enum Range;
 
 const std::vector<std::string> dof_names{"ux", "uy", "uz", "rx", "ry", "rz"};
 

@@ -7,7 +7,7 @@
 namespace fretwork::study {
 namespace {
 
-constexpr Range above_zero = Range::above_zero;
+using enum Range;
 
 enum class SpectrumKind { cor_1, cor_2, cor_3, cor_4, axisa, interior, inlet, two_phase, table };
 const Choices<SpectrumKind> spectra{{{"cor_1", SpectrumKind::cor_1},

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "study/contact_readers.hpp"
 #include "study/readers.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <numbers>
 
 namespace fretwork::study {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr double sum_of_shares = 1e-9; ///< digits of shares that people write
-constexpr std::int64_t most_lands = 360;
 
 const Keys wear_keys{{"name",
                       "contacts",
@@ -167,10 +165,7 @@ void read_geometry(const TableReader& table, Wear& wear) {
     *to = table.optional_number(key, {Range::above_zero, "m"});
   if (wear.geometry == WearGeometry::lands) {
     wear.half_angle = degree * table.number("half_angle", {Range::above_zero, "degrees"});
-    const auto lands = table.optional_integer("lands", 2).value_or(4);
-    if (lands > most_lands)
-      table.fail_at("lands", "more lands than a hole has room for; 3 make a trefoil, 4 a quatrefoil");
-    wear.lands = static_cast<int>(lands);
+    wear.lands = read_lands(table, 4);
   }
   const double inclination = table.number_or("inclination", 0.0, {Range::at_least_zero, "degrees"});
   if (inclination >= 90.0)

@@ -8,7 +8,7 @@ namespace {
 
 using Rows = std::vector<std::vector<double>>;
 
-Rows file_rows(const Value& value, const std::string& path, const std::filesystem::path& folder) {
+Rows spectrum_of_file(const Value& value, const std::string& path, const std::filesystem::path& folder) {
   try {
     NumberRows file = read_number_rows(folder / to_text(value, path));
     if (file.rows.front().size() != 2)
@@ -20,9 +20,9 @@ Rows file_rows(const Value& value, const std::string& path, const std::filesyste
   }
 }
 
-Rows rows_of(const Value& value, const std::string& path, const std::filesystem::path& folder) {
+Rows spectrum_rows(const Value& value, const std::string& path, const std::filesystem::path& folder) {
   if (value.string())
-    return file_rows(value, path, folder);
+    return spectrum_of_file(value, path, folder);
   const Array& items =
       to_array(value, path, "an array of rows [frequency, density] or the name of a file of rows");
   Rows out;
@@ -37,7 +37,7 @@ SpectrumRows read_spectrum_rows(const TableReader& table, const std::string& key
                                 const std::filesystem::path& folder) {
   const Value& value = table.required(key, "rows [frequency, density], or the name of a file of rows");
   const std::string path = table.path(key);
-  const Rows rows = rows_of(value, path, folder);
+  const Rows rows = spectrum_rows(value, path, folder);
   if (rows.size() < 2)
     fail(value, path, "a spectrum of one row has no slope; give two rows at least");
   SpectrumRows out;
@@ -62,7 +62,7 @@ void inline_spectrum_rows(Value& entry, const std::string& path, const std::file
   if (!keys || at == keys->end() || !at->second.string())
     return;
   Array rows;
-  for (const auto& row : file_rows(at->second, path + ".table", folder))
+  for (const auto& row : spectrum_of_file(at->second, path + ".table", folder))
     rows.push_back({Array{{row[0], {}}, {row[1], {}}}, {}});
   at->second.data = std::move(rows);
 }

@@ -6,6 +6,7 @@
 #pragma once
 #include "core/types.hpp"
 #include "study/value.hpp"
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,6 +15,8 @@
 namespace fretwork::study {
 
 using core::Vec3;
+
+inline constexpr double degree = std::numbers::pi / 180.0; ///< rad: studies give angles in degrees
 
 enum class Range { any, at_least_zero, above_zero };
 

@@ -16,8 +16,8 @@ namespace {
 
 /// A run whose energy residual passes this many times all the energy put in is unstable: physics cannot
 /// recover from it.
-constexpr double hopeless = 100.0;
-/// Records that it may last: a pulse that ends a rest gives its energy before all of its work is booked.
+constexpr double divergence_threshold = 100.0;
+/// Records that it may last: a pulse that ends a rest gives its energy before all of its work is counted.
 constexpr int passing = 4;
 /// Of a fixed step, below all the parts that schemes cut it into: what the end of a run is told by.
 constexpr double least_part = 1.0 / 1024.0;
@@ -185,8 +185,8 @@ bool Run::advance(std::int64_t records) {
     largest_throughput_ = std::max(largest_throughput_, record.energy.throughput);
     for (Observer* observer : observers_)
       observer->step(record);
-    hopeless_records_ = residual <= hopeless * largest_throughput_ ? 0 : hopeless_records_ + 1;
-    if (!std::isfinite(residual) || hopeless_records_ > passing)
+    diverged_records_ = residual <= divergence_threshold * largest_throughput_ ? 0 : diverged_records_ + 1;
+    if (!std::isfinite(residual) || diverged_records_ > passing)
       report_.outcome = Outcome::diverged;
     ++report_.records;
   }
@@ -210,7 +210,7 @@ Report Run::finish() {
 }
 
 void Run::visit(core::StateArchive& state) {
-  state(*scheme_, *outputs_, report_, largest_residual_, largest_throughput_, hopeless_records_);
+  state(*scheme_, *outputs_, report_, largest_residual_, largest_throughput_, diverged_records_);
   for (Observer* observer : observers_)
     state(*observer);
   if (sampler_)

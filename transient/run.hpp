@@ -81,7 +81,7 @@ private:
   double end_; ///< s: a record at or after it is not made
   Report report_;
   double largest_residual_ = 0.0, largest_throughput_ = 0.0;
-  int hopeless_records_ = 0; ///< in a row
+  int diverged_records_ = 0; ///< in a row
 };
 
 /// Runs the scene with the step chosen, from start to end.

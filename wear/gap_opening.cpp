@@ -12,7 +12,7 @@ namespace fretwork::wear {
 
 namespace {
 
-constexpr double round_off = 1e-12; ///< of a depth from a bracketed root
+constexpr double root_error = 1e-12; ///< of a depth from a bracketed root
 
 /// A place with its rates of wear.
 struct Wearing {
@@ -81,7 +81,7 @@ void limit_by(const Wearing& at, std::size_t place, const AdvanceOptions& option
     const auto depth = at.depth(time);
     return depth ? depth->tube - limit : -limit;
   };
-  if (shorten(out.time, life) || life(out.time) >= -round_off * limit) {
+  if (shorten(out.time, life) || life(out.time) >= -root_error * limit) {
     out.limit = AdvanceLimit::life;
     out.place = place;
     out.progress = Progress::life_reached;

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <numbers>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::arcs_test {
 namespace {
 
 constexpr double leg = 0.2504, radius = 0.412947;
@@ -104,4 +104,4 @@ TEST(Arcs, BecomeChordsWhereOrderOneIsWanted) {
 }
 
 } // namespace
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::arcs_test

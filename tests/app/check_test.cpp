@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <regex>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::check_test {
 namespace {
 
 const std::string support =
@@ -114,4 +114,4 @@ TEST(ResidualFlexibility, TakesTablesOfDisplacement) {
 }
 
 } // namespace
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::check_test

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <fstream>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::checkpoint_test {
 namespace {
 
 constexpr int killed = 128 + 9, computation_failed = 2; ///< exit statuses
@@ -232,4 +232,4 @@ TEST(Checkpoint, EveryRunOfAStudyHasItsOwnOnAnyNumberOfRanks) {
 }
 
 } // namespace
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::checkpoint_test

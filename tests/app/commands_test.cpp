@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::commands_test {
 namespace {
 
 using nlohmann::json;
@@ -278,4 +278,4 @@ TEST(Archive, HasTheShapesOfTheContract) {
 }
 
 } // namespace
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::commands_test

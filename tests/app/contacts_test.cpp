@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::contacts_test {
 namespace {
 
 constexpr double rounding = 1e-12; ///< relative
@@ -272,4 +272,4 @@ TEST(ReferenceMemory, ThatGivesEnergyIsWarnedOf) {
 }
 
 } // namespace
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::contacts_test

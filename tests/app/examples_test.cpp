@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <set>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::examples_test {
 namespace {
 
 constexpr double single_impact = 1e-4; ///< the rule's least number of steps aims at this
@@ -145,4 +145,4 @@ TEST(Examples, UBendRattles) {
 }
 
 } // namespace
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::examples_test

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <numbers>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::flow_test {
 namespace {
 
 constexpr double pi = std::numbers::pi, outer = 0.01905, bore = outer - 2.0 * 0.00109;
@@ -137,4 +137,4 @@ TEST(Flow, NotesZonesOfFewElements) {
 }
 
 } // namespace
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::flow_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::meeting_structures_test {
 namespace {
 
 constexpr double rounding = 1e-12; ///< relative
@@ -233,4 +233,4 @@ TEST(Origin, BetweenTwoNodesIsToldToMoveNothing) {
 }
 
 } // namespace
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::meeting_structures_test

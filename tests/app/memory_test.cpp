@@ -3,7 +3,7 @@
 #include "program.hpp"
 #include <sys/resource.h>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::memory_test {
 namespace {
 
 /// kB: the largest of all child processes so far.
@@ -30,4 +30,4 @@ TEST(Memory, DoesNotGrowWithTheSteps) {
 }
 
 } // namespace
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::memory_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::modal_truncation_test {
 namespace {
 
 /// A clamped tube of 1 m, first modes at 113 Hz and 312 Hz, with a stiff support in the middle.
@@ -89,4 +89,4 @@ TEST(ModalTruncation, ResidualFlexibilityThatIsTooLargeAsksForModesNotForASmalle
 }
 
 } // namespace
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::modal_truncation_test

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <numbers>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::modes_accuracy_test {
 namespace {
 
 constexpr double bending = 496.0, mass = 1.0; // N m2, kg/m of a span of 1 m
@@ -136,4 +136,4 @@ duration = 0.01
 }
 
 } // namespace
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::modes_accuracy_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::modes_test {
 namespace {
 
 /// Clamped tubes side by side, of the given lengths.
@@ -102,4 +102,4 @@ TEST(ModesCommand, WarnsOfSpansOfTooManyElementsAndRefusesMore) {
 }
 
 } // namespace
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::modes_test

@@ -4,7 +4,7 @@
 #include "program.hpp"
 #include "study_text.hpp"
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::notes_test {
 namespace {
 
 /// Notes and warnings of a run.
@@ -49,4 +49,4 @@ TEST(Notes, OfTangentialStiffnessWithoutFriction) {
   EXPECT_FALSE(says(told(stop + "friction = 0.1\ntangential_damping = 10.0\n"), "without friction"));
 }
 
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::notes_test

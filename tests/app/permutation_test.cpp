@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <random>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::permutation_test {
 namespace {
 
 constexpr double no_difference =
@@ -176,4 +176,4 @@ TEST(Permutation, OfTheTubesEndsMirrorsTheModes) {
 }
 
 } // namespace
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::permutation_test

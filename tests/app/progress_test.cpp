@@ -2,7 +2,7 @@
 #include "app/progress.hpp"
 #include <gtest/gtest.h>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::progress_test {
 
 TEST(Pace, OfARunThatGoesOnCountsOnlyItsOwnSteps) {
   Pace pace;
@@ -17,4 +17,4 @@ TEST(Pace, OfARunFromTheStartIsThatOfAllSteps) {
   EXPECT_NEAR(*pace.left(0.25, 10.0), 30.0, 1e-9);
 }
 
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::progress_test

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::ranks_test {
 namespace {
 
 constexpr double distributed_solver =
@@ -163,4 +163,4 @@ TEST(Ranks, SayOneMessageAboutADivergingRun) {
 }
 
 } // namespace
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::ranks_test

@@ -3,7 +3,7 @@
 #include "program.hpp"
 #include <fmt/format.h>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::reuse_test {
 namespace {
 
 /// 0.2 s of the straight tube.
@@ -156,4 +156,4 @@ TEST(Reuse, OutputInstantsDoNotChangeStatistics) {
 }
 
 } // namespace
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::reuse_test

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <numbers>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::sag_test {
 namespace {
 
 constexpr double pi = std::numbers::pi, outer = 0.01905, bore = outer - 2.0 * 0.00109, gravity = 9.81;
@@ -74,4 +74,4 @@ TEST(Sag, InAirIsThatOfTheTubeAndWhatIsInIt) {
 }
 
 } // namespace
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::sag_test

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <numbers>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::sections_test {
 namespace {
 
 using std::numbers::pi;
@@ -250,4 +250,4 @@ TEST(Taper, WithoutAPlaceIsRefused) {
   (void)of_two("tube_begin"); // each has its own
 }
 
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::sections_test

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <numbers>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::stability_test {
 namespace {
 
 using nlohmann::json;
@@ -369,4 +369,4 @@ TEST(FlowDamping, MeetsTubesThatAreTiedTogetherByTheirShares) {
 }
 
 } // namespace
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::stability_test

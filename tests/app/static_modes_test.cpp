@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <numbers>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::static_modes_test {
 namespace {
 
 constexpr double young = 2.0e11, density = 8000.0, side = 0.02;
@@ -365,4 +365,4 @@ TEST(StaticModes, AreExportedAfterTheModesOfAllStructures) {
   EXPECT_TRUE(says(modes, "\"static mode 1 of each structure\""));
 }
 
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::static_modes_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::static_start_test {
 namespace {
 
 constexpr double length = 1.0, overlap = 2.0e-4, stiffness = 1.0e6;
@@ -178,4 +178,4 @@ start = "static"
 }
 
 } // namespace
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::static_start_test

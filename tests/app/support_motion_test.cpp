@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <numbers>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::support_motion_test {
 namespace {
 
 constexpr double static_solution = 1e-9; ///< relative, of the factorisation on a mesh of some ten beams
@@ -347,4 +347,4 @@ TEST(SupportMotion, FrictionOfTheReferenceOnACarriedNodeIsRefusedWhereItCannotBe
                    "does take \"return_map\"); use scheme = \"splitting\""));
 }
 
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::support_motion_test

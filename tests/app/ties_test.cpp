@@ -5,7 +5,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::ties_test {
 namespace {
 
 const std::string rods = R"([mesh]
@@ -154,4 +154,4 @@ TEST(Ties, CarryAnInitialStateAndRefuseOneThatContradictsThem) {
                    "given as 0.001 and 0.002; give it the same value, or at one of the nodes only"));
 }
 
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::ties_test

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <sys/stat.h>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::trust_test {
 namespace {
 
 constexpr int input_is_wrong = 1, computation_failed = 2; ///< exit statuses
@@ -178,4 +178,4 @@ TEST_F(Strange, ADurationOfNothingIsRefused) {
 }
 
 } // namespace
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::trust_test

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <sstream>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::turbulence_test {
 namespace {
 
 using nlohmann::json;
@@ -250,4 +250,4 @@ TEST(Turbulence, IsRefusedWhereItCannotAct) {
 }
 
 } // namespace
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::turbulence_test

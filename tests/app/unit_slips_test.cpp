@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <sstream>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::unit_slips_test {
 namespace {
 
 std::string supports(const std::string& keys) {
@@ -73,4 +73,4 @@ TEST(UnitSlips, AreSaidByTheRunToo) {
       says(run.summary["warnings"].dump(), "friction = 30 of contact \\\"h0\\\" ... \\\"h14\\\" (15)"));
 }
 
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::unit_slips_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::verification_test {
 namespace {
 
 constexpr double half = 1e-9; ///< steps cover the duration in whole numbers
@@ -153,4 +153,4 @@ TEST(ErrorEstimate, IsTheScatterOfTheWindowAndTheMeasuredErrorOfTheStep) {
   EXPECT_TRUE(says(run.summary["transient"]["scheme_reason"], "splitting: collocation would need"));
 }
 
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::verification_test

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sys/stat.h>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::wear_input_test {
 namespace {
 
 const std::string short_run = "[transient]\nduration = 0.3\n";
@@ -126,4 +126,4 @@ TEST(WearInput, IsRefusedWhereTheOtherRunLacksTheContactOrDiverged) {
   EXPECT_TRUE(says(refused_by_check(folder, study), "summary.json is no regular file"));
 }
 
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::wear_input_test

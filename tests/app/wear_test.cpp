@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <numbers>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::wear_test {
 namespace {
 
 constexpr double round_off = 1e-12;   ///< of sums and products of a few numbers
@@ -366,4 +366,4 @@ TEST(Wear, IsPrintedAndExported) {
       says(bytes_of(csv / "support1_wear_sectors.csv"), "from [rad],to [rad],work_rate [W]\n-3.14159"));
 }
 
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::wear_test

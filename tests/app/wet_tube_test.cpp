@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::wet_tube_test {
 namespace {
 
 /// Case E2: clamped at both ends, motion across the tube.
@@ -85,4 +85,4 @@ TEST(WetTube, TakesItsDampingFromATableByFrequency) {
 }
 
 } // namespace
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::wet_tube_test

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <ostream>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::wrong_input_test {
 namespace {
 
 MeshText good_mesh() { return straight_line("beam", {0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, 4); }
@@ -273,4 +273,4 @@ TEST(Diverging, RunFailsWithStatusTwoAndLeavesOldResults) {
 }
 
 } // namespace
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::wrong_input_test

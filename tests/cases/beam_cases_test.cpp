@@ -4,7 +4,7 @@
 #include "paths.hpp"
 #include "transient_case.hpp"
 
-namespace fretwork::cases {
+namespace fretwork::cases::beam_cases_test {
 namespace {
 
 using app::test::bytes_of;
@@ -300,4 +300,4 @@ TEST(BeamCases, ChainWithDampersThatCoupleItsModes) {
 }
 
 } // namespace
-} // namespace fretwork::cases
+} // namespace fretwork::cases::beam_cases_test

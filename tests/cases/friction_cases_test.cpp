@@ -5,7 +5,7 @@
 #include "mesh_text.hpp"
 #include "transient_case.hpp"
 
-namespace fretwork::cases {
+namespace fretwork::cases::friction_cases_test {
 namespace {
 
 using app::test::lone_points;
@@ -201,4 +201,4 @@ TEST(FrictionCases, HarmonicSlidingLosesTheAreaOfItsLoop) {
 }
 
 } // namespace
-} // namespace fretwork::cases
+} // namespace fretwork::cases::friction_cases_test

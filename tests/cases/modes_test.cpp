@@ -5,6 +5,8 @@
 #include "frequencies.hpp"
 #include <array>
 
+namespace modes_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using std::numbers::pi;
@@ -441,3 +443,5 @@ TEST(CaseB2, CantileverHeldAtItsTip) {
   expect_frequencies("B1_10_elements", solve(10, 0.0), {2.7980, 17.5351, 49.1096}, five_digits);
   expect_frequencies("B2_80_elements", solve(80, 1e8), {10.8921, 26.6883, 52.8922, 98.0103}, six_digits);
 }
+
+} // namespace modes_test

@@ -6,6 +6,8 @@
 #include <Eigen/LU>
 #include <functional>
 
+namespace section_cases_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using std::numbers::pi;
@@ -350,3 +352,5 @@ TEST(Taper, GoesOnOverATie) {
   for (std::size_t i = 0; i < 4; ++i)
     EXPECT_NEAR(found[i] / expected[i], 1.0, round_off) << i;
 }
+
+} // namespace section_cases_test

@@ -3,7 +3,7 @@
 #include "mesh_text.hpp"
 #include "transient_case.hpp"
 
-namespace fretwork::cases {
+namespace fretwork::cases::stop_cases_test {
 namespace {
 
 using app::test::lone_points;
@@ -185,4 +185,4 @@ every = 1.0e-3
 }
 
 } // namespace
-} // namespace fretwork::cases
+} // namespace fretwork::cases::stop_cases_test

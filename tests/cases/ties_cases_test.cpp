@@ -3,6 +3,8 @@
 #include "../fem/model_builder.hpp"
 #include "frequencies.hpp"
 
+namespace ties_cases_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using std::numbers::pi;
@@ -115,3 +117,5 @@ TEST(CaseD3, SteadyAmplitude) {
   expect_frequency("D3_middle", amplitude(grid.middle), -0.100377195, nine_digits);
   expect_frequency("D3_centre", amplitude(grid.centre), -0.227396528, nine_digits);
 }
+
+} // namespace ties_cases_test

@@ -3,7 +3,7 @@
 // friction the scheme against itself and the oracle.
 #include "transient_case.hpp"
 
-namespace fretwork::cases {
+namespace fretwork::cases::tube_cases_test {
 namespace {
 
 constexpr double accepted = 5e-7; ///< m: against another program's scheme, steps and modes
@@ -78,4 +78,4 @@ TEST(TubeCases, WithFrictionConverges) {
 }
 
 } // namespace
-} // namespace fretwork::cases
+} // namespace fretwork::cases::tube_cases_test

@@ -3,7 +3,7 @@
 #include "mesh_text.hpp"
 #include "transient_case.hpp"
 
-namespace fretwork::cases {
+namespace fretwork::cases::two_node_cases_test {
 namespace {
 
 using app::test::lone_points;
@@ -279,4 +279,4 @@ TEST(TwoNodeCases, FreeMassesCollideWithADamper) {
 }
 
 } // namespace
-} // namespace fretwork::cases
+} // namespace fretwork::cases::two_node_cases_test

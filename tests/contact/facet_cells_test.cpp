@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <limits>
 
+namespace facet_cells_test {
+
 using namespace fretwork;
 using contact::Facet;
 using contact::FacetCells;
@@ -157,3 +159,5 @@ TEST(FacetCells, TellWhereTheyKnowNotAll) {
     EXPECT_FALSE(cells.near(y, infinite).pairs.empty()) << y;
   }
 }
+
+} // namespace facet_cells_test

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <limits>
 
+namespace facet_index_test {
+
 using namespace fretwork;
 using contact::Facet;
 using contact::FacetIndex;
@@ -237,3 +239,5 @@ TEST(FacetIndex, FindsTheNearestWhereAllAreNearlyAsNear) {
     expect_nearest(about_a_point, 0.3 + r * std::cos(angle), r * std::sin(angle));
   }
 }
+
+} // namespace facet_index_test

@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+namespace frame_test {
+
 using namespace fretwork;
 using contact::Frame;
 using contact::frame_from_y;
@@ -129,3 +131,5 @@ TEST(FrameFromY, RefusesAVectorAlongTheAxis) {
       EXPECT_STREQ(error.what(), "y_axis is along the axis of the contact; give a vector across it");
     }
 }
+
+} // namespace frame_test

@@ -4,6 +4,8 @@
 #include "uniform.hpp"
 #include <gtest/gtest.h>
 
+namespace friction_law_test {
+
 using namespace fretwork;
 using namespace fretwork::contact;
 
@@ -190,3 +192,5 @@ TEST(HarmonicSliding, LosesPerCycleWhatThePenalisedLawSays) {
   const double loss = 4.0 * l.mu_dynamic * normal * (a - l.mu_dynamic * normal / l.stiffness);
   EXPECT_NEAR((node.friction_work - before) / loss, 1.0, accuracy);
 }
+
+} // namespace friction_law_test

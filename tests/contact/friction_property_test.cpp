@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <limits>
 
+namespace friction_property_test {
+
 using namespace fretwork;
 using namespace fretwork::contact;
 using namespace fretwork::tests;
@@ -238,3 +240,5 @@ TEST(FrictionProperty, HidesNoUnit) {
           },
           alike);
 }
+
+} // namespace friction_property_test

@@ -3,6 +3,8 @@
 #include "friction_forms.hpp"
 #include <gtest/gtest.h>
 
+namespace friction_regimes_test {
+
 using namespace fretwork;
 using namespace fretwork::contact;
 using namespace fretwork::tests;
@@ -140,3 +142,5 @@ TEST(FrictionRegimes2D, LineFormTendsToTheLawOfAnInstantAsTheStepGoesToZero) {
       EXPECT_LE(last, 1e-4 * std::abs(instant.force.t));
     }
 }
+
+} // namespace friction_regimes_test

@@ -5,6 +5,8 @@
 #include <array>
 #include <gtest/gtest.h>
 
+namespace friction_step_test {
+
 using namespace fretwork;
 using namespace fretwork::contact;
 
@@ -158,3 +160,5 @@ TEST(FrictionStep, TendsToTheLawOfAnInstantAsTheStepGoesToZero) {
       EXPECT_LT(last, 1e-4 * norm(instant.force));
     }
 }
+
+} // namespace friction_step_test

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace fretwork::contact {
+namespace fretwork::contact::instant_spring_test {
 namespace {
 
 constexpr double round_off = 1e-13;
@@ -137,4 +137,4 @@ TEST(InstantSpring, IsLinearInTheMotion) {
                 round_off * spring.force(h, rate));
 }
 
-} // namespace fretwork::contact
+} // namespace fretwork::contact::instant_spring_test

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+namespace intervals_test {
+
 using namespace fretwork::contact;
 
 namespace {
@@ -185,3 +187,5 @@ TEST(FrictionInterval, RestsUnderItsForce) {
     EXPECT_NEAR(f.spring, 0.2, round_off) << damping;
   }
 }
+
+} // namespace intervals_test

@@ -3,6 +3,8 @@
 #include "uniform.hpp"
 #include <gtest/gtest.h>
 
+namespace normal_law_test {
+
 using namespace fretwork;
 using contact::mean_penetration;
 using contact::normal_force;
@@ -80,3 +82,5 @@ TEST(SeriesForce, TendsToTheLawOfAnInstantAsTheStepGoesToZero) {
     last = error;
   }
 }
+
+} // namespace normal_law_test

@@ -5,6 +5,8 @@
 #include <array>
 #include <gtest/gtest.h>
 
+namespace normal_slopes_test {
+
 using namespace fretwork;
 using namespace fretwork::contact;
 
@@ -146,3 +148,5 @@ TEST(HuntCrossley, StepFormTendsToTheLawOfAnInstant) {
     last = error;
   }
 }
+
+} // namespace normal_slopes_test

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <string>
 
+namespace obstacle_derivatives_test {
+
 using namespace fretwork;
 using namespace fretwork::contact;
 
@@ -237,3 +239,5 @@ TEST(TwoNodes, BoundIsBelowTheGap) {
     EXPECT_LT(least, 0.01) << name; // and is met
   }
 }
+
+} // namespace obstacle_derivatives_test

@@ -3,6 +3,8 @@
 #include "uniform.hpp"
 #include <gtest/gtest.h>
 
+namespace obstacle_test {
+
 using namespace fretwork;
 using contact::Circle;
 using contact::locate;
@@ -68,3 +70,5 @@ TEST(Obstacle, NormalTakesEveryDirectionOfACircleAndOneOfAPlane) {
   EXPECT_EQ(contact::normal_directions(all[3]), (Directions{true, false}));
   EXPECT_EQ(contact::normal_directions(all[4]), (Directions{false, true}));
 }
+
+} // namespace obstacle_test

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <string>
 
+namespace profile_errors_test {
+
 using namespace fretwork;
 using contact::PolarPoint;
 using contact::Profile;
@@ -112,3 +114,5 @@ TEST(Profile, RefusesAnIncompleteTurn) {
                  {"between point 4 (180 degrees, 1 m) and point 1 (0 degrees, 1 m) the angle is 180 degrees",
                   "leave less than 180"});
 }
+
+} // namespace profile_errors_test

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <string>
 
+namespace restitution_test {
+
 using namespace fretwork;
 using namespace fretwork::contact;
 
@@ -142,3 +144,5 @@ TEST(WallStiffness, RefusesWhatIsNoTube) {
       message([] { (void)wall_stiffness(2e11, 0.02, 0.01); }),
       "wall thickness = 0.01 m leaves no tube of outer diameter 0.02 m; give less than half the diameter");
 }
+
+} // namespace restitution_test

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <limits>
 
+namespace support_shapes_test {
+
 using namespace fretwork;
 using contact::BarSides;
 using contact::BroachedHole;
@@ -279,3 +281,5 @@ TEST(SupportShapes, RefuseChordErrorsTooLargeOrTooSmall) {
                  {"chord error = 0.001 m", "not less than the clearance at the lands, 0.0002 m"}, 1e-3);
   expect_refused(narrow_trefoil, {"chord error = 1e-18 m asks for", "points; give a larger one"}, 1e-18);
 }
+
+} // namespace support_shapes_test

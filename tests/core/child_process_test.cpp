@@ -14,6 +14,8 @@
 #include <thread>
 #include <unistd.h>
 
+namespace child_process_test {
+
 using fretwork::core::Confinement;
 using fretwork::core::run_child;
 
@@ -215,3 +217,5 @@ TEST(TemporaryDirectory, IsRemovedAlsoWhereItsProcessWasKilled) {
   }
   EXPECT_FALSE(std::filesystem::exists(path));
 }
+
+} // namespace child_process_test

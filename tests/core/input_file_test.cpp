@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-namespace fretwork::core {
+namespace fretwork::core::input_file_test {
 namespace {
 
 std::string refusal(const std::filesystem::path& file, std::uintmax_t most = 0) {
@@ -44,4 +44,4 @@ TEST(InputFile, HasALimit) {
 }
 
 } // namespace
-} // namespace fretwork::core
+} // namespace fretwork::core::input_file_test

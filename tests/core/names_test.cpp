@@ -3,6 +3,8 @@
 #include <chrono>
 #include <gtest/gtest.h>
 
+namespace names_test {
+
 using namespace fretwork::core;
 
 TEST(NearestName, FindsASlipOfTheHand) {
@@ -46,3 +48,5 @@ TEST(Fits, StarStandsForAnyCharactersAndQuestionMarkForOne) {
   EXPECT_FALSE(fits("avb1", "tsp*"));
   EXPECT_FALSE(fits("tsp1", ""));
 }
+
+} // namespace names_test

@@ -2,6 +2,8 @@
 #include "core/printable.hpp"
 #include <gtest/gtest.h>
 
+namespace printable_test {
+
 using fretwork::core::printable;
 
 TEST(Printable, KeepsLinesAndCharactersOfAllLanguages) {
@@ -22,3 +24,5 @@ TEST(Printable, ShortensLongLinesAtACharacter) {
   EXPECT_EQ(printable(std::string(10, 'x') + "\nshort", 4), "xxxx... (6 more bytes)\nshor... (1 more bytes)");
   EXPECT_EQ(printable("abc\xc3\xb4", 4), "abc... (2 more bytes)");
 }
+
+} // namespace printable_test

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace fretwork::core {
+namespace fretwork::core::state_archive_test {
 namespace {
 
 struct Plain {
@@ -97,4 +97,4 @@ TEST(StateArchive, RefusesWhatDoesNotFit) {
 }
 
 } // namespace
-} // namespace fretwork::core
+} // namespace fretwork::core::state_archive_test

@@ -8,6 +8,8 @@
 #include <Eigen/Geometry>
 #include <numbers>
 
+namespace arc_element_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using fem::BeamElement;
@@ -230,3 +232,5 @@ TEST(ArcElement, CountsItsLengthInTheMassOfAModel) {
   const Eigen::VectorXd slide = fem::translation_field(model, Vec3::UnitZ());
   EXPECT_NEAR(slide.dot(fem::mass_times(model, slide)) / fem::total_mass(model), 1.0, round_off);
 }
+
+} // namespace arc_element_test

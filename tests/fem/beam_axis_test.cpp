@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+namespace beam_axis_test {
+
 using namespace fretwork;
 using fem::BeamAxis;
 using fem::Vec3;
@@ -68,3 +70,5 @@ TEST(BeamAxis, RefusesAMiddleThatIsNotBetweenTheEnds) {
     expect_error([&] { (void)BeamAxis(a, b, middle); },
                  {"beam from (0, 0, 0) to (1, 0, 0)", "not between its ends", "on the arc"});
 }
+
+} // namespace beam_axis_test

@@ -5,6 +5,8 @@
 #include "model_builder.hpp"
 #include <Eigen/Geometry>
 
+namespace beam_element_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using fem::Matrix12;
@@ -187,3 +189,5 @@ TEST(BeamElement, NamesWhatItCannotBuild) {
   expect_error([&] { (void)fem::BeamElement(a, b, p); },
                {"iy = 2.5e-09", "iz = 2.25e-08", "give orientation"});
 }
+
+} // namespace beam_element_test

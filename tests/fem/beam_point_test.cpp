@@ -5,7 +5,7 @@
 #include "fem/beam_point.hpp"
 #include <gtest/gtest.h>
 
-namespace fretwork::fem {
+namespace fretwork::fem::beam_point_test {
 namespace {
 
 constexpr double rounding = 1e-13; ///< of sums of a dozen terms of order 1
@@ -131,4 +131,4 @@ TEST(BeamPoint, SaysWhereTheBeamEndsOrBranches) {
 }
 
 } // namespace
-} // namespace fretwork::fem
+} // namespace fretwork::fem::beam_point_test

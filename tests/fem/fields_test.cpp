@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <random>
 
+namespace fields_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 
@@ -147,3 +149,5 @@ TEST(LineForces, DoTheWorkOfTheLineForceInRigidMotions) {
   }
   EXPECT_NEAR(work / work_of_rotation, 1.0, round_off);
 }
+
+} // namespace fields_test

@@ -6,6 +6,8 @@
 #include "model_builder.hpp"
 #include <Eigen/Geometry>
 
+namespace model_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 
@@ -148,3 +150,5 @@ TEST(IsChain, CountsNeighbours) {
   b.line_from(1, {0.5, 1, 1}, 1, 0);
   EXPECT_FALSE(fem::is_chain(b.model, fem::structures(b.model)[0]));
 }
+
+} // namespace model_test

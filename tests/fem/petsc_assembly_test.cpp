@@ -9,6 +9,8 @@
 #include "model_builder.hpp"
 #include <Eigen/Geometry>
 
+namespace petsc_assembly_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 
@@ -300,3 +302,5 @@ TEST(StaticSolution, OfAFineMeshIsNotTakenForSingular) {
   constexpr double conditioned = 1e-3; // round-off times elements^4, with a margin
   EXPECT_NEAR(u[6 * nodes.back() + 1] * 3 * p.material.young_modulus * p.section.iy, 1.0, conditioned);
 }
+
+} // namespace petsc_assembly_test

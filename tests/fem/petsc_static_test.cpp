@@ -8,6 +8,8 @@
 #include "fem/rigid_motions.hpp"
 #include "model_builder.hpp"
 
+namespace petsc_static_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 
@@ -142,3 +144,5 @@ TEST(StaticSolver, IsGoodOrRefusesWhatIsHardlyHeld) {
   EXPECT_NEAR(moved_on_springs(soft) * soft, 2.0, round_off);
   EXPECT_THROW((void)moved_on_springs(1e-12), core::ComputationError);
 }
+
+} // namespace petsc_static_test

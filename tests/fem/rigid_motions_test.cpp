@@ -4,6 +4,8 @@
 #include "fem/rigid_motions.hpp"
 #include "model_builder.hpp"
 
+namespace rigid_motions_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 
@@ -116,3 +118,5 @@ TEST(RigidMotions, StayWhereAxialForcesBalance) {
   EXPECT_EQ(square(-100.0 * std::sqrt(2.0)), 6);
   EXPECT_EQ(square(-10.0), 3); // translations
 }
+
+} // namespace rigid_motions_test

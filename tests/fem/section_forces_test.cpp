@@ -6,6 +6,8 @@
 #include "model_builder.hpp"
 #include <Eigen/Geometry>
 
+namespace section_forces_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using fem::BeamElement;
@@ -158,3 +160,5 @@ TEST(SectionForces, ConvergeToTheMomentOfAModeWithOrderTwo) {
     last = here;
   }
 }
+
+} // namespace section_forces_test

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+namespace section_test {
+
 using namespace fretwork;
 using fretwork::tests::expect_error;
 using std::numbers::pi;
@@ -85,3 +87,5 @@ TEST(OuterFibreStress, AddsTractionAndBending) {
   EXPECT_EQ(fem::outer_radius(fem::circle_section(0.02)), 0.01);
   EXPECT_FALSE(fem::outer_radius(bar));
 }
+
+} // namespace section_test

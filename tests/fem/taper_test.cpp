@@ -6,6 +6,8 @@
 #include "fem/beam_element.hpp"
 #include "model_builder.hpp"
 
+namespace taper_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using fem::BeamElement;
@@ -129,3 +131,5 @@ TEST(Taper, NeedsSectionsOfAKind) {
   model.properties[0].section.shear = fem::ShapeShear{};
   expect_error([&] { (void)fem::structures(model); }, {"no formula for the shear"});
 }
+
+} // namespace taper_test

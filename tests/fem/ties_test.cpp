@@ -6,6 +6,8 @@
 #include "fem/ties.hpp"
 #include "model_builder.hpp"
 
+namespace ties_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 
@@ -151,3 +153,5 @@ TEST(RigidMotions, KnowBallHingeSlideAndRigidJoint) {
   constexpr double round_off = 1e-13; // of fields of order 1
   EXPECT_LT((fields.middleRows(24, 3) - fields.middleRows(30, 3)).cwiseAbs().maxCoeff(), round_off);
 }
+
+} // namespace ties_test

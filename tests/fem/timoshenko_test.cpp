@@ -5,6 +5,8 @@
 #include "fem/beam_element.hpp"
 #include "model_builder.hpp"
 
+namespace timoshenko_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using fem::BeamElement;
@@ -134,3 +136,5 @@ TEST(AxialForce, IsRefusedInAnArc) {
   expect_error([&] { (void)BeamElement(origin, end, p, Vec3(0.4, 0.1, 0.0)); },
                {"beam from (0, 0, 0)", "axial_force = 10 N in an arc", "straight beams only"});
 }
+
+} // namespace timoshenko_test

@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+namespace weight_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 
@@ -88,3 +90,5 @@ TEST(Weight, OfABendIsItsLengthTimesTheWeightPerLength) {
   const Vec3 expected = 0.3 * pi * mass * gravity;
   EXPECT_LT((resultant(fem::weight(b.model, gravity)) - expected).norm(), of_quadrature * expected.norm());
 }
+
+} // namespace weight_test

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace fretwork::flow {
+namespace fretwork::flow::added_mass_test {
 namespace {
 
 constexpr double printed = 0.5e-6;   ///< six decimals
@@ -65,4 +65,4 @@ TEST(AddedMass, GapVelocityIsThatThroughTheGaps) {
 }
 
 } // namespace
-} // namespace fretwork::flow
+} // namespace fretwork::flow::added_mass_test

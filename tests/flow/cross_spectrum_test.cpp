@@ -3,6 +3,8 @@
 #include "turbulent_zone.hpp"
 #include <gtest/gtest.h>
 
+namespace cross_spectrum_test {
+
 using namespace fretwork;
 using namespace fretwork::flow;
 
@@ -276,3 +278,5 @@ TEST(Patches, RefuseWrongInput) {
   EXPECT_EQ(message_of([] { (void)CrossSpectrum(std::vector<TurbulentZone>{}); }),
             "a cross-spectrum of turbulence without a zone; give one at least");
 }
+
+} // namespace cross_spectrum_test

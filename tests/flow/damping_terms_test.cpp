@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-namespace fretwork::flow {
+namespace fretwork::flow::damping_terms_test {
 namespace {
 
 constexpr double printed = 0.5e-6;  ///< six decimals, per cent
@@ -72,4 +72,4 @@ TEST(DampingTerms, SpansLieBetweenSupportsAndEnds) {
 }
 
 } // namespace
-} // namespace fretwork::flow
+} // namespace fretwork::flow::damping_terms_test

@@ -3,7 +3,7 @@
 #include "flow/damping.hpp"
 #include "hand_made.hpp"
 
-namespace fretwork::flow {
+namespace fretwork::flow::damping_test {
 namespace {
 
 using tests::constant;
@@ -225,4 +225,4 @@ TEST(FlowDamping, RefusesWrongSupportsAndOptions) {
 }
 
 } // namespace
-} // namespace fretwork::flow
+} // namespace fretwork::flow::damping_test

@@ -7,6 +7,8 @@
 #include <complex>
 #include <gtest/gtest.h>
 
+namespace draws_test {
+
 using namespace fretwork;
 using namespace fretwork::flow;
 
@@ -372,3 +374,5 @@ TEST(ForceStream, IsLinearBetweenSamplesAndStartsSmoothly) {
     EXPECT_LT((force - expected).norm(), round_off * whole.col(j).norm()) << time;
   }
 }
+
+} // namespace draws_test

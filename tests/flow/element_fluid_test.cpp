@@ -5,7 +5,7 @@
 #include "flow/vortex_shedding.hpp"
 #include "hand_made.hpp"
 
-namespace fretwork::flow {
+namespace fretwork::flow::element_fluid_test {
 namespace {
 
 using tests::HandMade;
@@ -100,4 +100,4 @@ TEST(VortexShedding, IsFoundWithinAFifthInLiquid) {
 }
 
 } // namespace
-} // namespace fretwork::flow
+} // namespace fretwork::flow::element_fluid_test

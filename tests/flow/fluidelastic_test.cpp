@@ -11,6 +11,8 @@
 #include <limits>
 #include <numbers>
 
+namespace fluidelastic_test {
+
 using namespace fretwork;
 using namespace fretwork::flow;
 
@@ -343,3 +345,5 @@ TEST(Fluidelastic, AskForADirection) {
 }
 
 } // namespace
+
+} // namespace fluidelastic_test

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+namespace line_kernels_test {
+
 using namespace fretwork::flow;
 
 namespace {
@@ -124,3 +126,5 @@ TEST(Lines, AreProjectedAsByAProductOfMatrices) {
       EXPECT_NEAR(sums[mode * group_size + l], sum, round_off);
     }
 }
+
+} // namespace line_kernels_test

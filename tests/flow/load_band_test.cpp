@@ -5,7 +5,7 @@
 #include "turbulent_zone.hpp"
 #include <gtest/gtest.h>
 
-namespace fretwork::flow {
+namespace fretwork::flow::load_band_test {
 namespace {
 
 constexpr double of_sums = 5e-3; ///< trapezia of 12 points an octave across a corner
@@ -76,4 +76,4 @@ TEST(LoadBand, RefusesForcesThatAreNoneAndBandsThatAreNone) {
 }
 
 } // namespace
-} // namespace fretwork::flow
+} // namespace fretwork::flow::load_band_test

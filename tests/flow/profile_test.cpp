@@ -2,7 +2,7 @@
 #include "../fem/expect_error.hpp"
 #include "hand_made.hpp"
 
-namespace fretwork::flow {
+namespace fretwork::flow::profile_test {
 namespace {
 
 using tests::constant;
@@ -196,4 +196,4 @@ TEST(FlowProfile, RefusesVelocitiesAndBundlesWithoutSense) {
 }
 
 } // namespace
-} // namespace fretwork::flow
+} // namespace fretwork::flow::profile_test

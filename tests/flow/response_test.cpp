@@ -3,6 +3,8 @@
 #include "turbulent_zone.hpp"
 #include <gtest/gtest.h>
 
+namespace response_test {
+
 using namespace fretwork;
 using namespace fretwork::flow;
 
@@ -233,3 +235,5 @@ TEST(LinearResponse, RefusesWrongInput) {
             "mode 1 is a rigid motion, whose response has no end towards 0 Hz; begin above 0 Hz");
   EXPECT_EQ(message(rigid, 1.0), "");
 }
+
+} // namespace response_test

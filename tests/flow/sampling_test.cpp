@@ -4,7 +4,7 @@
 #include "hand_made.hpp"
 #include <random>
 
-namespace fretwork::flow {
+namespace fretwork::flow::sampling_test {
 namespace {
 
 using tests::HandMade;
@@ -96,4 +96,4 @@ TEST(FlowSampling, RefusesModalMassesWithoutSense) {
 }
 
 } // namespace
-} // namespace fretwork::flow
+} // namespace fretwork::flow::sampling_test

@@ -6,7 +6,7 @@
 #include "flow/stability.hpp"
 #include "hand_made.hpp"
 
-namespace fretwork::flow {
+namespace fretwork::flow::solved_modes_test {
 namespace {
 
 using tests::ModelBuilder;
@@ -116,4 +116,4 @@ TEST(SolvedModes, OfAUTubeMoveNoMoreThanTheirMass) {
 }
 
 } // namespace
-} // namespace fretwork::flow
+} // namespace fretwork::flow::solved_modes_test

@@ -4,6 +4,8 @@
 #include "turbulent_zone.hpp"
 #include <gtest/gtest.h>
 
+namespace spectral_matrix_test {
+
 using namespace fretwork;
 using namespace fretwork::flow;
 
@@ -96,3 +98,5 @@ TEST(SpectralMatrix, RefusesWrongInput) {
             "matrix without "
             "negative eigenvalues");
 }
+
+} // namespace spectral_matrix_test

@@ -3,6 +3,8 @@
 #include "turbulent_zone.hpp"
 #include <gtest/gtest.h>
 
+namespace spectrum_test {
+
 using namespace fretwork;
 using namespace fretwork::flow;
 
@@ -154,3 +156,5 @@ TEST(Spectrum, RefusesWrongInput) {
   EXPECT_EQ(message(TableSpectrum{{1.0}, {0.0}}, good),
             "zone 'a': value 1 of the spectrum's table = 0 makes no sense; give a number > 0");
 }
+
+} // namespace spectrum_test

@@ -3,7 +3,7 @@
 #include "flow/stability.hpp"
 #include "hand_made.hpp"
 
-namespace fretwork::flow {
+namespace fretwork::flow::stability_test {
 namespace {
 
 using tests::constant;
@@ -325,4 +325,4 @@ TEST(Stability, RefusesWhatCannotBeAssessed) {
 }
 
 } // namespace
-} // namespace fretwork::flow
+} // namespace fretwork::flow::stability_test

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace fretwork::flow {
+namespace fretwork::flow::table_test {
 namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
@@ -46,4 +46,4 @@ TEST(FlowTable, NamesTheRowThatIsWrong) {
 }
 
 } // namespace
-} // namespace fretwork::flow
+} // namespace fretwork::flow::table_test

@@ -2,7 +2,7 @@
 #include "../fem/expect_error.hpp"
 #include "hand_made.hpp"
 
-namespace fretwork::flow {
+namespace fretwork::flow::tube_test {
 namespace {
 
 using tests::HandMade;
@@ -192,4 +192,4 @@ TEST(Tube, RefusesAbscissaeOffTheTubeAndModesOfOthers) {
 }
 
 } // namespace
-} // namespace fretwork::flow
+} // namespace fretwork::flow::tube_test

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace fretwork::flow {
+namespace fretwork::flow::void_fraction_test {
 namespace {
 
 constexpr double printed = 0.5e-6; ///< six decimals
@@ -89,4 +89,4 @@ TEST(VoidFraction, SaysWhereThereIsNoRoot) {
 }
 
 } // namespace
-} // namespace fretwork::flow
+} // namespace fretwork::flow::void_fraction_test

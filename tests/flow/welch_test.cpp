@@ -5,6 +5,8 @@
 #include <numeric>
 #include <random>
 
+namespace welch_test {
+
 using namespace fretwork;
 using namespace fretwork::flow;
 
@@ -100,3 +102,5 @@ TEST(Welch, RefusesWrongInput) {
             "and 1, and up to 1e6 "
             "degrees of freedom");
 }
+
+} // namespace welch_test

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <random>
 
-namespace fretwork::mesh::test {
+namespace fretwork::mesh::test::canonical_order_test {
 namespace {
 
 /// A mesh under construction: its node and line numbers mean nothing.
@@ -216,4 +216,4 @@ TEST(CanonicalOrder, GivesNeighboursOfAChainNeighbouringNumbers) {
 }
 
 } // namespace
-} // namespace fretwork::mesh::test
+} // namespace fretwork::mesh::test::canonical_order_test

@@ -4,7 +4,7 @@
 #include "mesh_files.hpp"
 #include <cstdlib>
 
-namespace fretwork::mesh::test {
+namespace fretwork::mesh::test::confinement_test {
 namespace {
 
 constexpr const char* line = "Point(1) = {0, 0, 0, 0.5}; Point(2) = {1, 0, 0, 0.5};\nLine(1) = {1, 2};\n";
@@ -117,4 +117,4 @@ TEST_F(Stranger, GivesNoModulesToTheInterpreter) {
 }
 
 } // namespace
-} // namespace fretwork::mesh::test
+} // namespace fretwork::mesh::test::confinement_test

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <gmsh.h>
 
-namespace fretwork::mesh::test {
+namespace fretwork::mesh::test::gmsh_formats_test {
 namespace {
 
 /// gmsh writes 16 digits of a number as text, one less than a double may need.
@@ -86,4 +86,4 @@ TEST_F(GmshFormats, TellATruncatedBinaryFile) {
 }
 
 } // namespace
-} // namespace fretwork::mesh::test
+} // namespace fretwork::mesh::test::gmsh_formats_test

@@ -2,7 +2,7 @@
 #include "mesh_files.hpp"
 #include <gmsh.h>
 
-namespace fretwork::mesh::test {
+namespace fretwork::mesh::test::gmsh_geometry_test {
 namespace {
 
 /// A mesher places nodes to 2e-12 of the length of a curve; STEP files carry 15 digits.
@@ -64,4 +64,4 @@ TEST_F(GmshGeometry, OfBrepKeepsItsUnits) {
 }
 
 } // namespace
-} // namespace fretwork::mesh::test
+} // namespace fretwork::mesh::test::gmsh_geometry_test

@@ -2,7 +2,7 @@
 #include "mesh/line_mesh.hpp"
 #include "mesh_files.hpp"
 
-namespace fretwork::mesh::test {
+namespace fretwork::mesh::test::line_mesh_test {
 namespace {
 
 /// Nodes 0-1-2-3 in a row; line 1 (from 1 to 2) is an arc; node 4 is alone.
@@ -59,4 +59,4 @@ TEST(GroupLines, RefusePointsMissingAndEmptyCurves) {
 }
 
 } // namespace
-} // namespace fretwork::mesh::test
+} // namespace fretwork::mesh::test::line_mesh_test

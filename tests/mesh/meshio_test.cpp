@@ -2,7 +2,7 @@
 #include "core/child_process.hpp"
 #include "mesh_files.hpp"
 
-namespace fretwork::mesh::test {
+namespace fretwork::mesh::test::meshio_test {
 namespace {
 
 /// Debian's interpreter, for which Debian's meshio is installed.
@@ -106,4 +106,4 @@ TEST_F(Meshio, NamesThePackageWhereNoPythonHasIt) {
 }
 
 } // namespace
-} // namespace fretwork::mesh::test
+} // namespace fretwork::mesh::test::meshio_test

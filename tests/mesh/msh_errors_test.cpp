@@ -3,7 +3,7 @@
 #include "mesh_files.hpp"
 #include <cstring>
 
-namespace fretwork::mesh::test {
+namespace fretwork::mesh::test::msh_errors_test {
 namespace {
 
 class MshErrors : public MeshFiles {
@@ -112,4 +112,4 @@ TEST_F(MshErrors, RefuseElementsThatCannotBeRead) {
 }
 
 } // namespace
-} // namespace fretwork::mesh::test
+} // namespace fretwork::mesh::test::msh_errors_test

@@ -2,7 +2,7 @@
 #include "mesh/msh_reader.hpp"
 #include "mesh_files.hpp"
 
-namespace fretwork::mesh::test {
+namespace fretwork::mesh::test::msh_reader_test {
 namespace {
 
 using MshReader = MeshFiles;
@@ -119,4 +119,4 @@ TEST_F(MshReader, ReadsWithoutEntities) {
 }
 
 } // namespace
-} // namespace fretwork::mesh::test
+} // namespace fretwork::mesh::test::msh_reader_test

@@ -3,7 +3,7 @@
 #include "mesh_files.hpp"
 #include <random>
 
-namespace fretwork::mesh::test {
+namespace fretwork::mesh::test::near_nodes_test {
 namespace {
 
 using Pairs = std::vector<std::pair<Index, Index>>;
@@ -81,4 +81,4 @@ TEST(MergeNodes, RefusesToCollapseALineThroughAChainOfNodes) {
 }
 
 } // namespace
-} // namespace fretwork::mesh::test
+} // namespace fretwork::mesh::test::near_nodes_test

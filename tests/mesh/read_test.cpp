@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-namespace fretwork::mesh::test {
+namespace fretwork::mesh::test::read_test {
 namespace {
 
 /// A mesher places nodes to 2e-12 of the length of a curve.
@@ -275,4 +275,4 @@ TEST_F(Geometry, NamesTheProgramThatIsMissingOrCrashes) {
 }
 
 } // namespace
-} // namespace fretwork::mesh::test
+} // namespace fretwork::mesh::test::read_test

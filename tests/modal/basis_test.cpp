@@ -2,6 +2,8 @@
 #include "modal/basis.hpp"
 #include <gtest/gtest.h>
 
+namespace basis_test {
+
 TEST(Basis, FindsTheRowsOfItsNodes) {
   fretwork::modal::Basis basis;
   basis.nodes = {2, 5, 9};
@@ -10,3 +12,5 @@ TEST(Basis, FindsTheRowsOfItsNodes) {
   EXPECT_EQ(basis.row_of(3), -1);
   EXPECT_EQ(basis.row_of(10), -1);
 }
+
+} // namespace basis_test

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <random>
 
+namespace canonical_test {
+
 using namespace fretwork;
 using core::Vec3;
 
@@ -107,3 +109,5 @@ TEST(ClusterEnds, SplitAtGapsAndKeepRigidModesTogether) {
   EXPECT_EQ(modal::cluster_ends(lambda.tail(5), 0), (std::vector<Eigen::Index>{2, 3, 4, 5}));
   EXPECT_TRUE(modal::cluster_ends(Eigen::VectorXd(0), 0).empty());
 }
+
+} // namespace canonical_test

@@ -6,6 +6,8 @@
 #include <functional>
 #include <gtest/gtest.h>
 
+namespace copies_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 
@@ -138,3 +140,5 @@ TEST(Copies, HaveTheModesOfAnOwnSolve) {
   EXPECT_LT((bases[2].omega.array() / own.omega.array() - 1.0).abs().maxCoeff(), 2.0 * modal::same_place);
   EXPECT_LT((bases[2].shapes - own.shapes).cwiseAbs().maxCoeff(), 1e-8 * own.shapes.cwiseAbs().maxCoeff());
 }
+
+} // namespace copies_test

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+namespace damping_test {
+
 using namespace fretwork;
 using tests::expect_error;
 
@@ -113,3 +115,5 @@ TEST(Damping, RefusesWhatMakesNone) {
   expect_error(table({{-1.0, 0.1}}), {"frequency of the table = -1"});
   expect_error(table({{2.0, 0.1}, {2.0, 0.2}}), {"2 Hz after 2 Hz", "rise from row to row"});
 }
+
+} // namespace damping_test

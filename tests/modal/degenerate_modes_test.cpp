@@ -4,6 +4,8 @@
 #include "solve.hpp"
 #include <gtest/gtest.h>
 
+namespace degenerate_modes_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 
@@ -77,3 +79,5 @@ TEST(EqualFrequencies, OfTwentyTubesAreAllFound) {
   for (Eigen::Index i = 0; i < 60; ++i)
     EXPECT_NEAR(twenty.omega[i] / single.omega[2 * (i / 40)], 1.0, 1e-10) << i;
 }
+
+} // namespace degenerate_modes_test

@@ -5,6 +5,8 @@
 #include "solve.hpp"
 #include <gtest/gtest.h>
 
+namespace distributed_modes_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 
@@ -78,3 +80,5 @@ TEST(SerialModes, AreTheSameBytesOnEveryRank) {
   EXPECT_TRUE(same_on_all_ranks(basis.shapes));
   EXPECT_TRUE(same_on_all_ranks(basis.omega));
 }
+
+} // namespace distributed_modes_test

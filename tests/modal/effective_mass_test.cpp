@@ -6,6 +6,8 @@
 #include "solve.hpp"
 #include <gtest/gtest.h>
 
+namespace effective_mass_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 
@@ -76,3 +78,5 @@ TEST(EffectiveMass, OfACantileverIsThePublishedShare) {
   EXPECT_NEAR(std::pow(basis.participation(2, 1), 2) / basis.moving_mass.y(), 0.1883, 1e-4);
   EXPECT_NEAR(basis.participation(0, 0), 0.0, 1e-9);
 }
+
+} // namespace effective_mass_test

@@ -7,6 +7,8 @@
 #include <functional>
 #include <gtest/gtest.h>
 
+namespace inner_motion_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using std::numbers::pi;
@@ -391,3 +393,5 @@ TEST(InnerMotion, TakesADenseSolveWhereItMayReorderNearlyAllModes) {
   const auto dense = modal::solve_modes(MPI_COMM_SELF, b.model, part, wanted);
   EXPECT_TRUE(iterated.omega == dense.omega);
 }
+
+} // namespace inner_motion_test

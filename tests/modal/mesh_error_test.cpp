@@ -4,6 +4,8 @@
 #include "solve.hpp"
 #include <gtest/gtest.h>
 
+namespace mesh_error_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using std::numbers::pi;
@@ -248,3 +250,5 @@ TEST(MeshError, OfARigidMotionIsNone) {
   EXPECT_TRUE(basis.error.head(6).isZero(0.0));
   EXPECT_GT(basis.error[6], 0.0);
 }
+
+} // namespace mesh_error_test

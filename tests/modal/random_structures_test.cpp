@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 #include <random>
 
+namespace random_structures_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 
@@ -170,3 +172,5 @@ TEST(RandomStructures, AreTheSameBytesForAnyNumberOfRanks) {
     EXPECT_TRUE(shared[s].participation == alone.participation) << s;
   }
 }
+
+} // namespace random_structures_test

@@ -10,6 +10,8 @@
 #include <Eigen/Geometry>
 #include <random>
 
+namespace slepc_modes_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using std::numbers::pi;
@@ -253,3 +255,5 @@ TEST(Modes, RefuseARequestWithoutSense) {
   refused({0, std::nullopt}, {"count = 0", "> 0"});
   refused({std::nullopt, -5.0}, {"up_to_hz = -5", "> 0"});
 }
+
+} // namespace slepc_modes_test

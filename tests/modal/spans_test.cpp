@@ -3,6 +3,8 @@
 #include "../fem/model_builder.hpp"
 #include "modal/spans.hpp"
 
+namespace spans_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 
@@ -99,3 +101,5 @@ TEST(Spans, HaveTheLengthBetweenWhatHoldsTheTube) {
   for (std::size_t i = 0; i < lengths.size(); ++i)
     EXPECT_NEAR(lengths[i], expected[i], round_off) << i;
 }
+
+} // namespace spans_test

@@ -9,6 +9,8 @@
 #include "solve.hpp"
 #include <gtest/gtest.h>
 
+namespace static_flexibility_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 
@@ -125,3 +127,5 @@ TEST(StaticFlexibility, TakesMotionInsideBeamsForNoRoundOff) {
       modal::inner_flexibility(basis, force, fem::largest_inner_changes(b.model, part, basis.omega));
   EXPECT_EQ(modal::missing_flexibility(exact, share, inner)(0, 0), 0.0);
 }
+
+} // namespace static_flexibility_test

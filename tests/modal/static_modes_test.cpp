@@ -11,6 +11,8 @@
 #include "solve.hpp"
 #include <gtest/gtest.h>
 
+namespace static_modes_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 
@@ -173,3 +175,5 @@ TEST(StaticModes, NeedMass) {
       },
       {"one of them moves no mass", "static_modes = \"auto\""});
 }
+
+} // namespace static_modes_test

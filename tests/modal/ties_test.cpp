@@ -3,6 +3,8 @@
 #include "solve.hpp"
 #include <gtest/gtest.h>
 
+namespace ties_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 
@@ -67,3 +69,5 @@ TEST(TiedModes, OfATubeOnABallAreRigidAndElastic) {
   EXPECT_EQ((basis.omega.array() == 0.0).count(), 3);
   EXPECT_GT(basis.omega[3], 1.0);
 }
+
+} // namespace ties_test

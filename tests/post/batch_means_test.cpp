@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <random>
 
+namespace batch_means_test {
+
 using namespace fretwork;
 using namespace fretwork::post;
 
@@ -207,3 +209,5 @@ TEST(ContactStatistics, HaveStandardErrorsThatAreTheScatterOfManyRuns) {
     EXPECT_NEAR(std::sqrt(told / scatter), 1.0, tolerance) << k;
   }
 }
+
+} // namespace batch_means_test

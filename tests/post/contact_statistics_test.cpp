@@ -3,6 +3,8 @@
 #include "post/contact_statistics.hpp"
 #include <gtest/gtest.h>
 
+namespace contact_statistics_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using post::ContactStatistics;
@@ -352,3 +354,5 @@ TEST(ContactStatistics, WeighEachStepByItsLength) {
   EXPECT_NEAR(s.y.mean, 0.1 + 0.9 * 5.0, round_off);
   EXPECT_NEAR(s.y.std, 4.0 * std::sqrt(0.1 * 0.9), round_off);
 }
+
+} // namespace contact_statistics_test

@@ -10,6 +10,8 @@
 #include <map>
 #include <numbers>
 
+namespace coverage_test {
+
 using namespace fretwork;
 
 namespace {
@@ -133,3 +135,5 @@ TEST(Coverage, HoldsForDepthAndYearsOfASupportThatWears) {
     EXPECT_LE(covered, 99);
   }
 }
+
+} // namespace coverage_test

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+namespace impact_table_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using post::ContactImpacts;
@@ -156,3 +158,5 @@ TEST(ImpactTable, KeepsContactsApart) {
   ASSERT_EQ(all[2].rows.size(), 1u);
   EXPECT_NEAR(all[2].rows[0].impulse, 10.0 * h, round_off);
 }
+
+} // namespace impact_table_test

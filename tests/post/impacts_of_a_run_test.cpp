@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+namespace impacts_of_a_run_test {
+
 using namespace fretwork;
 using namespace fretwork::transient;
 using post::ContactStatistics;
@@ -146,3 +148,5 @@ TEST(ImpactsOfARun, FrictionTakesItsForceTimesThePath) {
   EXPECT_TRUE(std::isnan(seen.impacts[0].velocity_after)); // pressed to the end
   EXPECT_EQ(s.departure_velocity_mean, 0.0);
 }
+
+} // namespace impacts_of_a_run_test

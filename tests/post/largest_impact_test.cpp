@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
+namespace largest_impact_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using post::LargestImpact;
@@ -73,3 +75,5 @@ TEST(LargestImpact, OfALongContactHasBothSidesOfItsPeak) {
   ASSERT_EQ(history.size(), LargestImpact::points);
   EXPECT_EQ(history[LargestImpact::points / 2 - 1].normal, 50.0);
 }
+
+} // namespace largest_impact_test

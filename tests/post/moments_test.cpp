@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+namespace moments_test {
+
 using namespace fretwork::post;
 
 TEST(Accumulator, GivesMeanDeviationAndExtremes) {
@@ -61,3 +63,5 @@ TEST(Accumulator, KeepsASmallMotionAboutALargeMean) {
   EXPECT_NEAR(a.moments().std / (amplitude / std::numbers::sqrt2), 1.0, last_digit);
   EXPECT_NEAR(a.moments().mean, mean, 1e-9);
 }
+
+} // namespace moments_test

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <random>
 
+namespace node_statistics_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 
@@ -121,3 +123,5 @@ TEST(NodeStatistics, OfNoNodeAreNone) {
   run.open(3);
   EXPECT_TRUE(statistics.summaries().empty());
 }
+
+} // namespace node_statistics_test

@@ -2,6 +2,8 @@
 #include "post/recorder.hpp"
 #include <gtest/gtest.h>
 
+namespace recorder_test {
+
 using namespace fretwork;
 using namespace fretwork::transient;
 using post::Recorder;
@@ -218,3 +220,5 @@ TEST(Recorder, CutsTheSeriesOfARunThatEndedEarly) {
   EXPECT_EQ(s.nodes[0].acceleration.rows(), 4);
   EXPECT_EQ(s.nodes[0].velocity.rows(), 4);
 }
+
+} // namespace recorder_test

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <numeric>
 
+namespace sector_work_test {
+
 using namespace fretwork;
 using fretwork::tests::HandMade;
 
@@ -169,3 +171,5 @@ TEST(KwuClasses, OfSeveralPointsAreCountedTogether) {
   EXPECT_NEAR(one.share(4, 0), 0.2, round_off);
   EXPECT_NEAR(one.share_above(), 0.2, round_off);
 }
+
+} // namespace sector_work_test

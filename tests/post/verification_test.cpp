@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <limits>
 
+namespace verification_test {
+
 using namespace fretwork::post;
 
 namespace {
@@ -105,3 +107,5 @@ TEST(Verification, AddsUpTheContacts) {
   EXPECT_FALSE(sums[1].agrees);
   EXPECT_EQ(sums[2].at_half, 14.0);
 }
+
+} // namespace verification_test

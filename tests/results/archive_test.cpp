@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <thread>
 
-namespace fretwork::results {
+namespace fretwork::results::archive_test {
 namespace {
 
 using testing::HasSubstr;
@@ -333,4 +333,4 @@ TEST(Archive, TellsAFolderThatCannotBeWritten) {
 }
 
 } // namespace
-} // namespace fretwork::results
+} // namespace fretwork::results::archive_test

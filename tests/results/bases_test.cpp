@@ -8,7 +8,7 @@
 #include <functional>
 #include <gtest/gtest.h>
 
-namespace fretwork::results {
+namespace fretwork::results::bases_test {
 namespace {
 
 /// Two structures; numbers with all their digits, a damping matrix without symmetry, a structure without
@@ -156,4 +156,4 @@ TEST(Bases, ThatCannotBeWrittenAreAnError) {
 }
 
 } // namespace
-} // namespace fretwork::results
+} // namespace fretwork::results::bases_test

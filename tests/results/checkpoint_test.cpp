@@ -5,7 +5,7 @@
 #include <fstream>
 #include <gmock/gmock.h>
 
-namespace fretwork::results {
+namespace fretwork::results::checkpoint_test {
 namespace {
 
 using testing::HasSubstr;
@@ -79,4 +79,4 @@ TEST(Checkpoint, ThatCannotBeWrittenIsAnError) {
 }
 
 } // namespace
-} // namespace fretwork::results
+} // namespace fretwork::results::checkpoint_test

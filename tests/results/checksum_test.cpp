@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-namespace fretwork::results {
+namespace fretwork::results::checksum_test {
 namespace {
 
 using testing::HasSubstr;
@@ -74,4 +74,4 @@ TEST(Checksum, OfASummaryThatIsNotThereIsNoRefusal) {
 }
 
 } // namespace
-} // namespace fretwork::results
+} // namespace fretwork::results::checksum_test

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace fretwork::results {
+namespace fretwork::results::error_estimate_test {
 namespace {
 
 using testing::HasSubstr;
@@ -92,4 +92,4 @@ TEST(ErrorEstimate, NamesTheFigureThatDiffersMost) {
             "work_rate of all contacts is 2, at half the step 4 (standard error of the difference 0.1)");
 }
 
-} // namespace fretwork::results
+} // namespace fretwork::results::error_estimate_test

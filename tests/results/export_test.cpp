@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <sstream>
 
-namespace fretwork::results {
+namespace fretwork::results::export_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -261,4 +261,4 @@ TEST(ExportMsh, IsMsh41WithAViewAMode) {
 }
 
 } // namespace
-} // namespace fretwork::results
+} // namespace fretwork::results::export_test

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace fretwork::results {
+namespace fretwork::results::export_vtu_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -170,4 +170,4 @@ TEST(BeamFields, GivesNoStressWhereTheOutlineIsNotKnown) {
 }
 
 } // namespace
-} // namespace fretwork::results
+} // namespace fretwork::results::export_vtu_test

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace fretwork::results {
+namespace fretwork::results::grouped_messages_test {
 namespace {
 
 using testing::ElementsAre;
@@ -48,4 +48,4 @@ TEST(GroupedMessages, KeepNumbersWithinWords) {
 }
 
 } // namespace
-} // namespace fretwork::results
+} // namespace fretwork::results::grouped_messages_test

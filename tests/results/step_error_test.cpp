@@ -4,6 +4,8 @@
 #include "synthetic.hpp"
 #include <gmock/gmock.h>
 
+namespace step_error_test {
+
 using namespace fretwork;
 using namespace fretwork::results;
 using testing::HasSubstr;
@@ -78,3 +80,5 @@ TEST(StepErrors, ArePartOfTheErrorEstimate) {
   EXPECT_THAT(e.text, HasSubstr("the step changes sums over contacts by 5 +- 0.71 % (replays)"));
   EXPECT_GT(e.relative, 0.05);
 }
+
+} // namespace step_error_test

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <set>
 
-namespace fretwork::results {
+namespace fretwork::results::summary_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -322,4 +322,4 @@ TEST(Summary, SurvivesATitleThatIsNotUtf8) {
 }
 
 } // namespace
-} // namespace fretwork::results
+} // namespace fretwork::results::summary_test

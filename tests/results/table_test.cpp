@@ -8,7 +8,7 @@
 #include <limits>
 #include <sstream>
 
-namespace fretwork::results {
+namespace fretwork::results::table_test {
 namespace {
 
 using testing::HasSubstr;
@@ -230,4 +230,4 @@ TEST(TerminalTable, CutsLongNamesBetweenCharacters) {
 }
 
 } // namespace
-} // namespace fretwork::results
+} // namespace fretwork::results::table_test

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace fretwork::results {
+namespace fretwork::results::wear_test {
 namespace {
 
 using testing::HasSubstr;
@@ -201,4 +201,4 @@ TEST(ExportCsv, HasFilesOfWear) {
   EXPECT_FALSE(std::filesystem::exists(folder / "tsp2_wear_sectors.csv"));
 }
 
-} // namespace fretwork::results
+} // namespace fretwork::results::wear_test

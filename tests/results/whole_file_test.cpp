@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-namespace fretwork::results {
+namespace fretwork::results::whole_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -108,4 +108,4 @@ TEST(PathName, KeepsUsualNamesAndTellsOthersApart) {
 }
 
 } // namespace
-} // namespace fretwork::results
+} // namespace fretwork::results::whole_file_test

@@ -4,7 +4,7 @@
 #include "study/study.hpp"
 #include <gtest/gtest.h>
 
-namespace fretwork::study {
+namespace fretwork::study::beams_test {
 namespace {
 
 std::string with(const std::string& section, const std::string& beams) {
@@ -93,4 +93,4 @@ TEST(ReadBeams, TellsWhatMakesNoTaper) {
 }
 
 } // namespace
-} // namespace fretwork::study
+} // namespace fretwork::study::beams_test

@@ -2,7 +2,7 @@
 #include "folder.hpp"
 #include <gtest/gtest.h>
 
-namespace fretwork::study {
+namespace fretwork::study::canonical_text_test {
 namespace {
 
 std::string canonical(const std::string& text, const std::vector<std::string>& tables,
@@ -72,4 +72,4 @@ TEST(CanonicalText, HoldsTheRowsOfATableFile) {
 }
 
 } // namespace
-} // namespace fretwork::study
+} // namespace fretwork::study::canonical_text_test

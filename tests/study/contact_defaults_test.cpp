@@ -2,7 +2,7 @@
 #include "folder.hpp"
 #include <gtest/gtest.h>
 
-namespace fretwork::study {
+namespace fretwork::study::contact_defaults_test {
 namespace {
 
 const std::string mesh = "[mesh]\nfile = \"a.msh\"\n";
@@ -74,4 +74,4 @@ TEST(Loads, HaveNames) {
 }
 
 } // namespace
-} // namespace fretwork::study
+} // namespace fretwork::study::contact_defaults_test

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace fretwork::study {
+namespace fretwork::study::contacts_test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
@@ -195,4 +195,4 @@ TEST(ReadFriction, Directions) {
 }
 
 } // namespace
-} // namespace fretwork::study
+} // namespace fretwork::study::contacts_test

@@ -3,7 +3,7 @@
 #include "folder.hpp"
 #include <gtest/gtest.h>
 
-namespace fretwork::study {
+namespace fretwork::study::flow_laws_test {
 namespace {
 
 /// A flow with the law "bundle". @param law  the lines of its table
@@ -99,4 +99,4 @@ TEST(FlowLawMessages, NameTheKeyAndTheCure) {
   }
 }
 
-} // namespace fretwork::study
+} // namespace fretwork::study::flow_laws_test

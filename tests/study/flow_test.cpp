@@ -3,7 +3,7 @@
 #include "folder.hpp"
 #include <gtest/gtest.h>
 
-namespace fretwork::study {
+namespace fretwork::study::flow_test {
 namespace {
 
 /// A flow with one zone. @param zone, flow  further lines of the zone and before it
@@ -238,4 +238,4 @@ TEST(FlowMessages, NameFilesAndTheirLines) {
 }
 
 } // namespace
-} // namespace fretwork::study
+} // namespace fretwork::study::flow_test

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-namespace fretwork::study {
+namespace fretwork::study::messages_contacts_test {
 namespace {
 
 struct Wrong {
@@ -185,4 +185,4 @@ TEST(MessagesOfContacts, DirectionOfWhatIsNotRound) {
 }
 
 } // namespace
-} // namespace fretwork::study
+} // namespace fretwork::study::messages_contacts_test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "expect_messages.hpp"
 
-namespace fretwork::study {
+namespace fretwork::study::messages_keys_test {
 namespace {
 
 TEST(Messages, TheFullStudyIsRight) { EXPECT_EQ(message_of(full_study), ""); }
@@ -252,4 +252,4 @@ TEST(Messages, OfMissingKeys) {
 }
 
 } // namespace
-} // namespace fretwork::study
+} // namespace fretwork::study::messages_keys_test

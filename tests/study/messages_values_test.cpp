@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "expect_messages.hpp"
 
-namespace fretwork::study {
+namespace fretwork::study::messages_values_test {
 namespace {
 
 TEST(Messages, OfNumbersThatAreNotFinite) {
@@ -400,4 +400,4 @@ TEST(Messages, ShowOnlyTheBeginningOfALongValue) {
 }
 
 } // namespace
-} // namespace fretwork::study
+} // namespace fretwork::study::messages_values_test

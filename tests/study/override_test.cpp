@@ -2,7 +2,7 @@
 #include "folder.hpp"
 #include <gtest/gtest.h>
 
-namespace fretwork::study {
+namespace fretwork::study::override_test {
 namespace {
 
 TEST(Override, AddressesAContactByItsName) {
@@ -119,4 +119,4 @@ TEST(Override, IsWhatAMessageNamesInsteadOfALine) {
 }
 
 } // namespace
-} // namespace fretwork::study
+} // namespace fretwork::study::override_test

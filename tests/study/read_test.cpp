@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace fretwork::study {
+namespace fretwork::study::read_test {
 namespace {
 
 constexpr double rounding = 1e-15; // a few units in the last place of numbers of size 1
@@ -323,4 +323,4 @@ TEST(ReadStudy, RefusesAFileThatIsNotThere) {
 }
 
 } // namespace
-} // namespace fretwork::study
+} // namespace fretwork::study::read_test

@@ -4,7 +4,7 @@
 #include "folder.hpp"
 #include <gtest/gtest.h>
 
-namespace fretwork::study {
+namespace fretwork::study::support_motion_test {
 namespace {
 
 const std::string mesh = "[mesh]\nfile = \"a.msh\"\n";
@@ -74,4 +74,4 @@ TEST(ReadSupportMotion, IsPartOfTheInputs) {
 }
 
 } // namespace
-} // namespace fretwork::study
+} // namespace fretwork::study::support_motion_test

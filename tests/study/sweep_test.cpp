@@ -5,7 +5,7 @@
 #include "study/sweep.hpp"
 #include <gtest/gtest.h>
 
-namespace fretwork::study {
+namespace fretwork::study::sweep_test {
 namespace {
 
 Sweep sweep_of(const std::string& variables, const std::string& keys = "draws = 10\n") {
@@ -88,4 +88,4 @@ TEST(Sweep, AStudyWithAWrongSweepIsRefused) {
 }
 
 } // namespace
-} // namespace fretwork::study
+} // namespace fretwork::study::sweep_test

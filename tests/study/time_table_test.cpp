@@ -3,7 +3,7 @@
 #include "study/time_functions.hpp"
 #include <gtest/gtest.h>
 
-namespace fretwork::study {
+namespace fretwork::study::time_table_test {
 namespace {
 
 transient::Table read_rows(const std::string& text) {
@@ -135,4 +135,4 @@ TEST(TimeTable, StartsFromTheFolderOfTheStudy) {
 }
 
 } // namespace
-} // namespace fretwork::study
+} // namespace fretwork::study::time_table_test

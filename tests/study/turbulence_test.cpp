@@ -3,7 +3,7 @@
 #include "folder.hpp"
 #include <gtest/gtest.h>
 
-namespace fretwork::study {
+namespace fretwork::study::turbulence_test {
 namespace {
 
 const std::string flow =
@@ -151,4 +151,4 @@ TEST(ResponseKeys, AreReadAndRefused) {
 }
 
 } // namespace
-} // namespace fretwork::study
+} // namespace fretwork::study::turbulence_test

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-namespace fretwork::study {
+namespace fretwork::study::wear_test {
 namespace {
 
 constexpr double digits = 1e-15; ///< of degrees turned into radians
@@ -197,4 +197,4 @@ TEST(MessagesOfWear, NeedsContacts) {
 }
 
 } // namespace
-} // namespace fretwork::study
+} // namespace fretwork::study::wear_test

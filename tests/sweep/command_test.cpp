@@ -7,7 +7,7 @@
 #include <set>
 #include <sstream>
 
-namespace fretwork::app::test {
+namespace fretwork::app::test::command_test {
 namespace {
 
 /// `[sweep]` on an example.
@@ -319,4 +319,4 @@ TEST_F(Sweeps, TheExampleOfTheTubeRunsReduced) {
 }
 
 } // namespace
-} // namespace fretwork::app::test
+} // namespace fretwork::app::test::command_test

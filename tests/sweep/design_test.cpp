@@ -6,7 +6,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace fretwork::sweep {
+namespace fretwork::sweep::design_test {
 namespace {
 
 study::Sweep grid() {
@@ -51,4 +51,4 @@ TEST(Design, WorstCasesAreTheLargestThatAreDone) {
 }
 
 } // namespace
-} // namespace fretwork::sweep
+} // namespace fretwork::sweep::design_test

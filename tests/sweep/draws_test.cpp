@@ -9,7 +9,7 @@
 #include <numeric>
 #include <set>
 
-namespace fretwork::sweep {
+namespace fretwork::sweep::draws_test {
 namespace {
 
 using study::SweepDesign;
@@ -102,4 +102,4 @@ TEST(Draws, FollowFromTheSeedAndBlocksDoNotDependOnLaterOnes) {
 }
 
 } // namespace
-} // namespace fretwork::sweep
+} // namespace fretwork::sweep::draws_test

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-namespace fretwork::sweep {
+namespace fretwork::sweep::ishigami_test {
 namespace {
 
 constexpr double a = 7.0, b = 0.1, pi = std::numbers::pi;
@@ -104,4 +104,4 @@ TEST(Ishigami, ConvergenceSaysHowManyCasesAreNeeded) {
 }
 
 } // namespace
-} // namespace fretwork::sweep
+} // namespace fretwork::sweep::ishigami_test

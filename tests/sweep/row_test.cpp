@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace fretwork::sweep {
+namespace fretwork::sweep::row_test {
 namespace {
 
 Row example() {
@@ -51,4 +51,4 @@ TEST(Row, EveryChangedCharacterIsNoticed) {
 }
 
 } // namespace
-} // namespace fretwork::sweep
+} // namespace fretwork::sweep::row_test

@@ -9,7 +9,7 @@
 #include <random>
 #include <set>
 
-namespace fretwork::sweep {
+namespace fretwork::sweep::schedule_test {
 namespace {
 
 TEST(Schedule, BlocksShrinkToSingleCases) {
@@ -97,4 +97,4 @@ TEST(Schedule, WhatACaseThrowsIsItsOutcome) {
 }
 
 } // namespace
-} // namespace fretwork::sweep
+} // namespace fretwork::sweep::schedule_test

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <string>
 
-namespace fretwork::sweep {
+namespace fretwork::sweep::shard_test {
 namespace {
 
 std::string identity_of(std::int64_t number) { return short_digest(std::to_string(number)); }
@@ -70,4 +70,4 @@ TEST(Shard, TextIsIOfN) {
 }
 
 } // namespace
-} // namespace fretwork::sweep
+} // namespace fretwork::sweep::shard_test

@@ -3,6 +3,8 @@
 #include "scenes.hpp"
 #include <gtest/gtest.h>
 
+namespace accuracy_cases_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -65,3 +67,5 @@ TEST(AccuracyCases, AFreeMassCrossesItsGapWithinAStep) {
     EXPECT_NEAR(c.departure_velocity_mean, speed, 0.01) << step;
   }
 }
+
+} // namespace accuracy_cases_test

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <gtest/gtest.h>
 
+namespace contact_engine_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -226,3 +228,5 @@ TEST(Friction, MovesNoForceAlongABarredDirection) {
       EXPECT_EQ(run.along_t.cwiseAbs().maxCoeff() > 0.0, along.t > 0.0);
     }
 }
+
+} // namespace contact_engine_test

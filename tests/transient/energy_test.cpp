@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The energy ledger: its residual measures what the scheme gets wrong.
+// The energy balance: its residual measures what the scheme gets wrong.
 #include "scenes.hpp"
 #include "transient/splitting/splitting.hpp"
 #include <algorithm>
 #include <gtest/gtest.h>
+
+namespace energy_test {
 
 using namespace fretwork;
 using namespace fretwork::tests;
@@ -130,3 +132,5 @@ TEST(ConservativeScene, KeepsItsEnergyOverManyImpacts) {
   const double step = choose_step(conservative(), splitting()).step;
   EXPECT_LT(loss_of_an_impact(splitting(step / 4.0)), finer * loss);
 }
+
+} // namespace energy_test

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+namespace fluid_forces_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -279,3 +281,5 @@ TEST(FluidForces, OtherSchemesRefuseThem) {
 }
 
 } // namespace
+
+} // namespace fluid_forces_test

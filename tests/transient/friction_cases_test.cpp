@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+namespace friction_cases_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -101,3 +103,5 @@ TEST_P(FrictionCases, OscillatorHasDenHartogsAmplitude) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Schemes, FrictionCases, testing::ValuesIn(candidates), name_of_candidate);
+
+} // namespace friction_cases_test

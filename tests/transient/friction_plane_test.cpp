@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+namespace friction_plane_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -359,3 +361,5 @@ TEST(FallingNormalForce, LetsGoAlongTheTrialWithTheBound) {
     LettingGo::check(memory, euler(2e-5), 1e-2);
   }
 }
+
+} // namespace friction_plane_test

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+namespace impact_orders_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -85,3 +87,5 @@ TEST(ImpactOrders, DevogelaereIsOfOrderTwoWithoutJumps) {
   const Impact impact{0.0, 0.3, 20.0, partly};
   EXPECT_GT(order(SchemeKind::devogelaere, coarse / 4.0, impact), near_two);
 }
+
+} // namespace impact_orders_test

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+namespace impacts_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -203,3 +205,5 @@ TEST_P(Impacts, ThatSlideLoseTangentialSpeedByTheNormalImpulse) {
 
 INSTANTIATE_TEST_SUITE_P(Schemes, ImpactTables, testing::ValuesIn(with_fixed_steps), name_of_candidate);
 INSTANTIATE_TEST_SUITE_P(Schemes, Impacts, testing::ValuesIn(candidates), name_of_candidate);
+
+} // namespace impacts_test

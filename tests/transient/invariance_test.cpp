@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+namespace invariance_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -183,3 +185,5 @@ TEST(Invariance, OfASceneTurnedInSpaceIsTheSameMotionForEveryObstacle) {
       }
     }
 }
+
+} // namespace invariance_test

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+namespace orders_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -341,3 +343,5 @@ TEST(EnergyConserving, BalancesWhatAMovingObstacleBringsAtAnyStep) {
       EXPECT_LT(report.residual_relative, round_off) << steps;
     }
 }
+
+} // namespace orders_test

@@ -6,6 +6,8 @@
 #include "transient/splitting/splitting.hpp"
 #include <gtest/gtest.h>
 
+namespace padding_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -108,3 +110,5 @@ TEST(Padding, OfSplittingIsNotSeen) {
     expect_same(a, b, sweep_tolerance, size);
   }
 }
+
+} // namespace padding_test

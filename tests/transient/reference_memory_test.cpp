@@ -3,6 +3,8 @@
 #include "scenes.hpp"
 #include <gtest/gtest.h>
 
+namespace reference_memory_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -66,3 +68,5 @@ TEST(ReferenceMemory, SlidesInEveryStageOfTheAdaptiveScheme) {
   constexpr double ends = 1e-2; // of slides, which fall inside steps
   EXPECT_NEAR(run.friction_power, 0.3 * run.work_rate, ends * run.friction_power);
 }
+
+} // namespace reference_memory_test

@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+namespace restart_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -353,3 +355,5 @@ TEST(Restart, RefusesTheStateOfAnotherRun) {
   EXPECT_THROW(restore(again.run(), saved(again.run()) + "x"), core::StateMismatch);
   EXPECT_THROW(restore(longer.run(), saved(longer.run()).substr(1)), core::StateMismatch);
 }
+
+} // namespace restart_test

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <unsupported/Eigen/MatrixFunctions>
 
+namespace run_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -225,7 +227,7 @@ TEST(Run, KeepsTheImpulseOfPulsesShorterThanSteps) {
       const History run = simulate(scene, {kind, h}, 1e-3);
       EXPECT_NEAR(run.v(1, 45) / std::sqrt(mass), impulse / mass, round_off) << name_of(kind) << " " << t;
       const bool booked_in_part =
-          kind == SchemeKind::euler && t - half < h;            // its first record starts the ledger
+          kind == SchemeKind::euler && t - half < h;            // its first record starts the energy balance
       if (kind != SchemeKind::devogelaere && !booked_in_part) { // which books power at its nodes
         EXPECT_NEAR(run.report.energy.load_work, 0.5 * impulse * impulse / mass, round_off) << name_of(kind);
       }
@@ -247,3 +249,5 @@ TEST(Run, TakesNoImpulseFromBeforeItsStart) {
           << name_of(kind) << " " << length;
     }
 }
+
+} // namespace run_test

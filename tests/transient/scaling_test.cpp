@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+namespace scaling_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -271,3 +273,5 @@ TEST(Units, OfMillimetresAndTonnesGiveTheSameImpact) {
     }
   }
 }
+
+} // namespace scaling_test

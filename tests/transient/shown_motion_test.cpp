@@ -8,6 +8,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+namespace shown_motion_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -82,3 +84,5 @@ TEST(Splitting, LetsALightContactRestBesideAHeavyOne) {
       EXPECT_NEAR(last.most, light, of_damping * light) << side << " " << in_lanes;
     }
 }
+
+} // namespace shown_motion_test

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+namespace small_damper_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -85,3 +87,5 @@ TEST(SmallDamper, MayBeShortBesideTheStep) {
       EXPECT_NEAR(work_rate(scene, automatic), right, of_short_one * right) << ratio;
     }
 }
+
+} // namespace small_damper_test

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <vector>
 
+namespace stability_map_test {
+
 using namespace fretwork;
 using transient::SchemeKind;
 
@@ -51,3 +53,5 @@ INSTANTIATE_TEST_SUITE_P(Schemes, StabilityMap,
                                          SchemeKind::energy_conserving, SchemeKind::euler,
                                          SchemeKind::devogelaere),
                          [](const auto& tested) { return transient::name_of(tested.param); });
+
+} // namespace stability_map_test

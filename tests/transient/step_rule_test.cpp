@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <string>
 
+namespace step_rule_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -437,3 +439,5 @@ TEST(StepRule, NamesItsSchemes) {
   EXPECT_EQ(name_of(SchemeKind::euler), "euler");
   EXPECT_EQ(name_of(SchemeKind::energy_conserving), "energy_conserving");
 }
+
+} // namespace step_rule_test

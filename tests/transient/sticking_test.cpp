@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
+namespace sticking_test {
+
 using namespace fretwork;
 using namespace fretwork::transient;
 
@@ -68,3 +70,5 @@ TEST(Sticking, StretchesTheSpringByTheDisplacementForAHundredThousandSteps) {
       EXPECT_NEAR(early, 0.0, 1e-3 * displacement) << stiff << ' ' << share; // it stuck at z = 0; half steps
     }
 }
+
+} // namespace sticking_test

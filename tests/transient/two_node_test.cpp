@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+namespace two_node_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -168,7 +170,7 @@ TEST(TwoNodes, ThatOverlapAtTheStartArePushedApartByTheStoredEnergy) {
       const History run = simulate(s, options, 1e-4);
       const double energy = 0.5 * stiffness * overlap * overlap;
       EXPECT_EQ(run.report.outcome, Outcome::done);
-      // of the overlap's round-off; Euler's ledger starts h/2 away in the velocity
+      // of the overlap's round-off; Euler's energy balance starts h/2 away in the velocity
       EXPECT_NEAR(run.report.energy.initial / energy, 1.0,
                   options.scheme == SchemeKind::euler ? second_order : 1e-10);
       EXPECT_NEAR(run.normal(0, 0) / (stiffness * overlap), 1.0,
@@ -244,3 +246,5 @@ TEST(TwoNodes, ExchangedGiveTheSameMotion) {
       EXPECT_LT(apart_at_most(b.normal, a.normal), round_off);
     }
 }
+
+} // namespace two_node_test

@@ -4,6 +4,8 @@
 #include <set>
 #include <utility>
 
+namespace coefficients_test {
+
 using namespace fretwork::wear;
 
 TEST(Coefficients, AreFoundByClassAndPair) {
@@ -61,3 +63,5 @@ TEST(Coefficients, HaveTheClassOfAGeometry) {
       },
       {"no class for the geometry \"tube_sector\"", "in m2/N"});
 }
+
+} // namespace coefficients_test

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+namespace cross_section_test {
+
 using namespace fretwork::wear;
 
 namespace {
@@ -131,3 +133,5 @@ TEST(LandArea, AddsUpAndIsSymmetric) {
   EXPECT_EQ(land_area(radius, clearance, p, edge + 1e-6, 2.0), 0.0); // beyond the scar
   EXPECT_EQ(land_area(radius, clearance, 0.0, -1.0, 1.0), 0.0);
 }
+
+} // namespace cross_section_test

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+namespace depth_test {
+
 using namespace fretwork::wear;
 
 namespace {
@@ -326,3 +328,5 @@ TEST(Depth, RefusesVolumesAndDepthsThatMakeNoSense) {
       {"support sector"});
   expect_refused([&] { check(Pairing(SharedScar{FlatBar{0.0, length}})); }, {"flat bar"});
 }
+
+} // namespace depth_test

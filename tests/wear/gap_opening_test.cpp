@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+namespace gap_opening_test {
+
 using namespace fretwork;
 using namespace fretwork::wear;
 
@@ -266,3 +268,5 @@ TEST(GapOpening, RefusesWhatMakesNoSense) {
       },
       {"place 1: wear leaves what its geometry describes (depth 8e-05 m)", "exact form"});
 }
+
+} // namespace gap_opening_test

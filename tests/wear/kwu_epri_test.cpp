@@ -3,6 +3,8 @@
 #include "wear/kwu_epri.hpp"
 #include <random>
 
+namespace kwu_epri_test {
+
 using namespace fretwork::wear;
 
 namespace {
@@ -119,3 +121,5 @@ TEST(KwuClasses, RefuseWhatMakesNoSense) {
   expect_refused([&] { (void)count_classes(none, two); }, {"none of the 2 samples", "never closes"});
   expect_refused([&] { (void)count_classes(one, std::vector<double>{0.0}); }, {"largest sliding speed = 0"});
 }
+
+} // namespace kwu_epri_test

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+namespace laws_test {
+
 using namespace fretwork::wear;
 
 namespace {
@@ -141,3 +143,5 @@ TEST(OperatingStates, AreRefusedWhereTheyMakeNoSense) {
   expect_states_refused({{1.1, 1e-3}, {-0.1, 1e-3}}, {"operating state 2: share of the time = -0.1"});
   expect_states_refused({{1.0, not_a_number}}, {"operating state 1: work rate = nan W"});
 }
+
+} // namespace laws_test

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+namespace life_test {
+
 using namespace fretwork::wear;
 
 namespace {
@@ -177,3 +179,5 @@ TEST(WornSupport, IsRefusedWhereItMakesNoSense) {
   expect_refused([&] { (void)time_to_limit(place, std::span<const OperatingState>{}); },
                  {"no operating state"});
 }
+
+} // namespace life_test

@@ -3,6 +3,8 @@
 #include "wear/obstacle_geometry.hpp"
 #include <numbers>
 
+namespace obstacle_geometry_test {
+
 using namespace fretwork;
 using namespace fretwork::wear;
 
@@ -71,3 +73,5 @@ TEST(ObstacleGeometry, ThatDoesNotExistIsRefused) {
       },
       {"drilled hole", "tube radius"});
 }
+
+} // namespace obstacle_geometry_test

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+namespace reference_cases_test {
+
 using namespace fretwork;
 using namespace fretwork::wear;
 
@@ -145,3 +147,5 @@ TEST(ReferenceCases, KwuEpri) {
   expect_printed(indices.sliding, 0.492777778, 9);
   expect_printed(combined_index(indices), 8.12612852e-4, 9);
 }
+
+} // namespace reference_cases_test

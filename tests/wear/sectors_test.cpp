@@ -4,6 +4,8 @@
 #include <limits>
 #include <random>
 
+namespace sectors_test {
+
 using namespace fretwork;
 using namespace fretwork::wear;
 
@@ -93,3 +95,5 @@ TEST(SectorWork, RefusesWhatMakesNoSense) {
   expect_refused([] { SectorWork(3601); }, {"3601 sectors"});
   expect_refused([] { (void)SectorWork(4).rates(0.0); }, {"length of the window = 0 s"});
 }
+
+} // namespace sectors_test

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+namespace student_test {
+
 using fretwork::wear::student_factor;
 
 TEST(StudentFactor, IsThatOfPrintedTables) {
@@ -33,3 +35,5 @@ TEST(StudentFactor, FallsWithTheDegreesOfFreedom) {
   for (double degrees = 1.0; degrees < 100.0; degrees += 0.5)
     EXPECT_GT(student_factor(degrees, 0.95), student_factor(degrees + 0.5, 0.95)) << degrees;
 }
+
+} // namespace student_test

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+namespace work_rate_test {
+
 using namespace fretwork::wear;
 
 namespace {
@@ -99,3 +101,5 @@ TEST(Quantiles, RefuseWhatMakesNoSense) {
   expect_refused([] { (void)quantiles({1.0, not_a_number}, std::array{0.5}); }, {"sample 2 is not a number"});
   expect_refused([] { (void)quantiles({1.0}, std::array{1.5}); }, {"probability 1.5", "from 0 to 1"});
 }
+
+} // namespace work_rate_test

@@ -2,7 +2,7 @@
 # One folder = one namespace = one target. A folder's headers are seen as "folder/header.hpp", and only by the targets that
 # link the folder: each folder is published through an include directory of its own (build/include/<folder>/<folder> is a
 # link to it), so that an include against the direction of the architecture does not compile. A folder inside another one,
-# "folder/room", is a target of its own likewise, in the namespace of the outer one.
+# "folder/component", is a target of its own likewise, in the namespace of the outer one.
 
 function(fretwork_publish target folder)
   string(REPLACE "/" "_" name ${folder})
@@ -60,6 +60,15 @@ function(fretwork_precompile target)
   endif()
 endfunction()
 
+# Several sources of a target compiled as one: the headers that they share, and what these instantiate, are then paid for once. Names of unnamed
+# namespaces must differ within a folder. Sources with options of their own are left alone.
+function(fretwork_unity target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${FRETWORK_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+  if(FRETWORK_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU") # g++ takes a source that another one includes for a header
+    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+  endif()
+endfunction()
+
 # fretwork_folder(<folder> [TARGET name] SOURCES ... [KNOWS folders ...] [LIBRARIES private third-party ...])
 function(fretwork_folder folder)
   cmake_parse_arguments(ARG "" "TARGET" "SOURCES;KNOWS;LIBRARIES" ${ARGN})
@@ -78,4 +87,7 @@ function(fretwork_folder folder)
   endforeach()
   target_link_libraries(${ARG_TARGET} PRIVATE ${ARG_LIBRARIES})
   fretwork_precompile(${ARG_TARGET})
+  if(NOT folder MATCHES "^(contact|transient)")   # the time loop: a change of one file compiles that file alone
+    fretwork_unity(${ARG_TARGET})
+  endif()
 endfunction()

@@ -25,13 +25,13 @@ install(CODE "
   file(INSTALL \"${PROJECT_SOURCE_DIR}/app/completion/_fretwork\" DESTINATION \"\${CMAKE_INSTALL_PREFIX}/share/zsh/\${functions}\")"
   COMPONENT program)
 
-# fretwork_<x> is exported as Fretwork::<x>, with the rooms of transient.
+# fretwork_<x> is exported as Fretwork::<x>, with the components of transient.
 set(folders core mesh fem modal contact transient)
 set(libraries core core_mpi core_petsc mesh fem fem_petsc modal modal_slepc contact)
-get_property(rooms DIRECTORY transient PROPERTY SUBDIRECTORIES)
-foreach(room ${rooms})
-  cmake_path(GET room FILENAME room)
-  list(APPEND libraries transient_${room})
+get_property(components DIRECTORY transient PROPERTY SUBDIRECTORIES)
+foreach(component ${components})
+  cmake_path(GET component FILENAME component)
+  list(APPEND libraries transient_${component})
 endforeach()
 list(APPEND libraries transient)
 foreach(library ${libraries})

@@ -56,7 +56,7 @@ bool eliminate(std::size_t n, double* a, double* b) {
 ConservingContacts::ConservingContacts(const PackedContacts& contacts)
     : contacts_(contacts), size_(static_cast<std::size_t>(contacts.components)), answer_(contacts) {
   const auto count = static_cast<std::size_t>(contacts.count);
-  shut_.reserve(count);
+  active_.reserve(count);
   parts_.reserve(count);
   response_.resize(count);
   for (std::vector<double>* x : {&force_, &residual_, &step_, &base_})
@@ -68,95 +68,96 @@ bool ConservingContacts::solve(double step, const Mobilities& mobilities, const 
                                ContactMotion& start, ContactMotion& free, ContactTrial& trial) {
   const Setting s{step, mobilities, memory};
   trial.clear();
-  shut_.clear();
+  active_.clear();
   parts_.clear();
   const bool at_start = start.find_near(0.0), at_end = free.find_near(0.0); // both marks are needed
   if (!at_start && !at_end)
     return true;
   for (int c = 0; c < contacts_.count; ++c)
     if ((start.near(c) && start.locate(c).gap < 0.0) || (free.near(c) && free.locate(c).gap < 0.0))
-      take(c, s, start, free);
+      activate(c, s, start, free);
   // each pass but the last takes one more contact or breaks one loose
-  for (bool again = !shut_.empty(); again;) {
+  for (bool again = !active_.empty(); again;) {
     if (!iterate(s))
       return false;
-    const bool broken = break_loose(), more = recruit(s, start, free);
+    const bool broken = break_loose(), more = extend_active_set(s, start, free);
     again = broken || more;
   }
   close(start, trial);
   return true;
 }
 
-void ConservingContacts::take(int c, const Setting& s, const ContactMotion& start,
-                              const ContactMotion& free) {
+void ConservingContacts::activate(int c, const Setting& s, const ContactMotion& start,
+                                  const ContactMotion& free) {
   const contact::Support& support = contacts_.supports[c];
   const int width = contacts_.width;
   const bool in_plane = contacts_.in_plane[c] != 0;
-  const std::size_t i = shut_.size();
-  Shut& shut = shut_.emplace_back();
-  shut = {};
-  shut.contact = c;
-  shut.in_plane = in_plane;
-  shut.x0 = {start.u[c] + contacts_.rest_y(c), start.u[width + c] + contacts_.rest_z(c)};
-  shut.from = start.locate(c);
-  shut.free[0] = free.u[c] + contacts_.rest_y(c);
-  shut.free[1] = free.u[width + c] + contacts_.rest_z(c);
-  shut.free[2] = in_plane ? free.u[2 * width + c] - start.u[2 * width + c] : 0.0;
+  const std::size_t i = active_.size();
+  ActiveContact& active = active_.emplace_back();
+  active = {};
+  active.contact = c;
+  active.in_plane = in_plane;
+  active.x0 = {start.u[c] + contacts_.rest_y(c), start.u[width + c] + contacts_.rest_z(c)};
+  active.from = start.locate(c);
+  active.free[0] = free.u[c] + contacts_.rest_y(c);
+  active.free[1] = free.u[width + c] + contacts_.rest_z(c);
+  active.free[2] = in_plane ? free.u[2 * width + c] - start.u[2 * width + c] : 0.0;
   const double trace =
       mobility(s, i, 0, i, 0) + mobility(s, i, 1, i, 1) + (in_plane ? mobility(s, i, 2, i, 2) : 0.0);
-  const contact::Location face = shut.from.gap < 0.0 ? shut.from : free.locate(c);
-  shut.axes = face.axes();
-  shut.free_rate = free.sinking(c, face.axes());
-  shut.end_share = 0.0;
+  const contact::Location face = active.from.gap < 0.0 ? active.from : free.locate(c);
+  active.axes = face.axes();
+  active.free_rate = free.sinking(c, face.axes());
+  active.end_share = 0.0;
   if (support.normal.damping > 0.0)
-    shut.end_share = end_rate_share(support.normal.damping,
-                                    shut.axes.normal(rate_mobility(s, i, i, 0), rate_mobility(s, i, i, 1)));
-  shut.rho = support.friction.active() && trace > 0.0 ? 1.0 / trace : 0.0;
-  shut.stiffness = support.normal.stiffness + support.friction.stiffness + shut.rho +
-                   (support.normal.damping + support.friction.damping) / s.h;
+    active.end_share = end_rate_share(
+        support.normal.damping, active.axes.normal(rate_mobility(s, i, i, 0), rate_mobility(s, i, i, 1)));
+  active.rho = support.friction.active() && trace > 0.0 ? 1.0 / trace : 0.0;
+  active.stiffness = support.normal.stiffness + support.friction.stiffness + active.rho +
+                     (support.normal.damping + support.friction.damping) / s.h;
   for (std::size_t k = 0; k < size_; ++k)
     force_[size_ * i + k] = 0.0;
 }
 
-bool ConservingContacts::taken(int c) const {
-  return std::any_of(shut_.begin(), shut_.end(), [c](const Shut& s) { return s.contact == c; });
+bool ConservingContacts::is_active(int c) const {
+  return std::any_of(active_.begin(), active_.end(), [c](const ActiveContact& s) { return s.contact == c; });
 }
 
 /// Takes the contacts that the forces found have closed. Returns whether there are any.
-bool ConservingContacts::recruit(const Setting& s, const ContactMotion& start, const ContactMotion& free) {
-  if (shut_.size() == static_cast<std::size_t>(contacts_.count))
+bool ConservingContacts::extend_active_set(const Setting& s, const ContactMotion& start,
+                                           const ContactMotion& free) {
+  if (active_.size() == static_cast<std::size_t>(contacts_.count))
     return false;
-  const std::size_t before = shut_.size(), stride = answer_.u.size();
+  const std::size_t before = active_.size(), stride = answer_.u.size();
   answer_.u = free.u;
   for (std::size_t i = 0; i < before; ++i)
     for (std::size_t b = 0; b < size_; ++b) {
       const double f = force_[size_ * i + b];
       const double* column =
-          &s.mobilities.place[(static_cast<std::size_t>(shut_[i].contact) * 3 + b) * stride];
+          &s.mobilities.place[(static_cast<std::size_t>(active_[i].contact) * 3 + b) * stride];
       for (std::size_t lane = 0; lane < stride; ++lane)
         answer_.u[lane] += f * column[lane];
     }
   if (!answer_.find_near(0.0))
     return false;
   for (int c = 0; c < contacts_.count; ++c)
-    if (answer_.near(c) && !taken(c) && answer_.locate(c).gap < 0.0)
-      take(c, s, start, free);
-  return shut_.size() > before;
+    if (answer_.near(c) && !is_active(c) && answer_.locate(c).gap < 0.0)
+      activate(c, s, start, free);
+  return active_.size() > before;
 }
 
 bool ConservingContacts::break_loose() {
   bool any = false;
-  for (std::size_t i = 0; i < shut_.size(); ++i)
+  for (std::size_t i = 0; i < active_.size(); ++i)
     if (response_[i].breaks)
-      any = shut_[i].broken = true;
+      any = active_[i].broken = true;
   return any;
 }
 
 std::size_t ConservingContacts::place_of(std::size_t i, std::size_t a, std::size_t j, std::size_t b) const {
   const auto stride = static_cast<std::size_t>(contacts_.stride()),
              width = static_cast<std::size_t>(contacts_.width);
-  const auto to = static_cast<std::size_t>(shut_[i].contact),
-             from = static_cast<std::size_t>(shut_[j].contact);
+  const auto to = static_cast<std::size_t>(active_[i].contact),
+             from = static_cast<std::size_t>(active_[j].contact);
   return (from * 3 + b) * stride + a * width + to;
 }
 
@@ -167,14 +168,14 @@ double ConservingContacts::mobility(const Setting& s, std::size_t i, std::size_t
 
 double ConservingContacts::rate_mobility(const Setting& s, std::size_t i, std::size_t j,
                                          std::size_t b) const {
-  const auto [y, z] = shut_[i].axes;
+  const auto [y, z] = active_[i].axes;
   return y * s.mobilities.rate[place_of(i, 0, j, b)] + z * s.mobilities.rate[place_of(i, 1, j, b)];
 }
 
 /// Newton's method from the forces there are. Returns whether it settled.
 bool ConservingContacts::iterate(const Setting& s) {
   double merit = respond(s);
-  const std::size_t n = size_ * shut_.size();
+  const std::size_t n = size_ * active_.size();
   for (int k = 0; k < most_iterations; ++k) {
     if (settled(1.0))
       return true;
@@ -196,11 +197,11 @@ bool ConservingContacts::iterate(const Setting& s) {
     }
     merit = reached;
     if (k == hold_after)
-      for (std::size_t i = 0; i < shut_.size(); ++i) {
-        Shut& shut = shut_[i];
-        shut.is_held = true;
+      for (std::size_t i = 0; i < active_.size(); ++i) {
+        ActiveContact& active = active_[i];
+        active.is_held = true;
         const Response& r = response_[i];
-        shut.held = {0.5 * (shut.from.ny + r.axes.ny), 0.5 * (shut.from.nz + r.axes.nz)};
+        active.held = {0.5 * (active.from.ny + r.axes.ny), 0.5 * (active.from.nz + r.axes.nz)};
       }
   }
   return false;
@@ -210,21 +211,21 @@ bool ConservingContacts::iterate(const Setting& s) {
 double ConservingContacts::respond(const Setting& s) {
   ++evaluations_;
   double merit = 0.0;
-  for (std::size_t i = 0; i < shut_.size(); ++i) {
-    const Shut& shut = shut_[i];
-    double place[3] = {shut.free[0], shut.free[1], shut.free[2]};
-    for (std::size_t j = 0; j < shut_.size(); ++j)
+  for (std::size_t i = 0; i < active_.size(); ++i) {
+    const ActiveContact& active = active_[i];
+    double place[3] = {active.free[0], active.free[1], active.free[2]};
+    for (std::size_t j = 0; j < active_.size(); ++j)
       for (std::size_t a = 0; a < size_; ++a)
         for (std::size_t b = 0; b < size_; ++b)
           place[a] += mobility(s, i, a, j, b) * force_[size_ * j + b];
-    double rate = shut.free_rate;
-    if (shut.end_share > 0.0)
-      for (std::size_t j = 0; j < shut_.size(); ++j)
+    double rate = active.free_rate;
+    if (active.end_share > 0.0)
+      for (std::size_t j = 0; j < active_.size(); ++j)
         for (std::size_t b = 0; b < size_; ++b)
           rate -= rate_mobility(s, i, j, b) * force_[size_ * j + b];
     double force[3] = {};
     std::copy_n(&force_[size_ * i], size_, force);
-    respond(s, shut, place, rate, force, response_[i]);
+    respond(s, active, place, rate, force, response_[i]);
     for (std::size_t a = 0; a < size_; ++a) {
       const double r = force[a] - response_[i].force[a];
       residual_[size_ * i + a] = r;
@@ -234,24 +235,24 @@ double ConservingContacts::respond(const Setting& s) {
   return merit;
 }
 
-void ConservingContacts::respond(const Setting& s, const Shut& shut, const double* place, double rate,
-                                 const double* force, Response& r) const {
-  const contact::Support& support = contacts_.supports[shut.contact];
+void ConservingContacts::respond(const Setting& s, const ActiveContact& active, const double* place,
+                                 double rate, const double* force, Response& r) const {
+  const contact::Support& support = contacts_.supports[active.contact];
   const contact::NormalLaw& law = support.normal;
-  const auto g = discrete_gradient(support.obstacle, shut.x0, shut.from, {place[0], place[1]},
-                                   shut.is_held ? &shut.held : nullptr);
+  const auto g = discrete_gradient(support.obstacle, active.x0, active.from, {place[0], place[1]},
+                                   active.is_held ? &active.held : nullptr);
   r = {};
-  r.p0 = -shut.from.gap;
+  r.p0 = -active.from.gap;
   r.p1 = -g.gap;
   r.axes = {g.ny, g.nz};
   const double size = std::sqrt(g.y * g.y + g.z * g.z);
-  const StepNormal found = step_normal_force(law, shut.end_share, r.p0, r.p1, rate, s.h);
+  const StepNormal found = step_normal_force(law, active.end_share, r.p0, r.p1, rate, s.h);
   const double normal = found.force;
   r.spring_force = found.spring;
-  const double extent = std::abs(shut.x0.y) + std::abs(shut.x0.z) + std::abs(shut.free[0]) +
-                        std::abs(shut.free[1]) + std::abs(shut.free[2]) + std::abs(place[0]) +
+  const double extent = std::abs(active.x0.y) + std::abs(active.x0.z) + std::abs(active.free[0]) +
+                        std::abs(active.free[1]) + std::abs(active.free[2]) + std::abs(place[0]) +
                         std::abs(place[1]) + std::abs(place[2]);
-  r.rounding = rounding * (std::abs(normal) + shut.stiffness * extent);
+  r.rounding = rounding * (std::abs(normal) + active.stiffness * extent);
   if (!(normal > 0.0 && size > 0.0))
     return;
   r.normal_of_gap = normal;
@@ -271,7 +272,8 @@ void ConservingContacts::respond(const Setting& s, const Shut& shut, const doubl
   r.closed = {contact::closed_share(r.p0, r.p1), !(r.p0 > 0.0)};
   // of the share by p1, where the step is partly closed
   const double by_p1 = r.closed.share < 1.0 ? std::abs(r.p0) / ((r.p1 - r.p0) * (r.p1 - r.p0)) : 0.0;
-  rub(s, shut, place, force,
+  find_friction(
+      s, active, place, force,
       {{r.axes.tangent(g.yy, g.zy) / size, r.axes.tangent(g.yz, g.zz) / size},
        {size * by_y + normal * r.axes.normal(g.yy, g.zy), size * by_z + normal * r.axes.normal(g.yz, g.zz)},
        {-by_p1 * g.ny, -by_p1 * g.nz},
@@ -280,24 +282,24 @@ void ConservingContacts::respond(const Setting& s, const Shut& shut, const doubl
 }
 
 /// Adds the friction. With n turning by theta, dn = t theta and dt = -n theta.
-void ConservingContacts::rub(const Setting& s, const Shut& shut, const double* place, const double* force,
-                             const Turning& turning, Response& r) const {
-  contact::FrictionLaw law = contacts_.supports[shut.contact].friction;
-  if (!shut.in_plane)
+void ConservingContacts::find_friction(const Setting& s, const ActiveContact& active, const double* place,
+                                       const double* force, const Turning& turning, Response& r) const {
+  contact::FrictionLaw law = contacts_.supports[active.contact].friction;
+  if (!active.in_plane)
     law.along.x = 0.0;
   const double n[2] = {r.axes.ny, r.axes.nz}, t[2] = {r.axes.nz, -r.axes.ny};
-  const double d[2] = {place[0] - shut.x0.y, place[1] - shut.x0.z};
+  const double d[2] = {place[0] - active.x0.y, place[1] - active.x0.z};
   r.displacement = {law.along.x * place[2], law.along.t * r.axes.tangent(d[0], d[1])};
-  const contact::FrictionMemory past = s.memory.friction().at(shut.contact, r.axes);
+  const contact::FrictionMemory past = s.memory.friction().at(active.contact, r.axes);
   const bool reference = law.kind == contact::FrictionMemoryKind::reference;
-  const bool dynamic = shut.broken || past.sliding;
-  const StepFriction f =
-      reference && shut.broken
-          ? opposing(law, shut.rho, r.normal, r.displacement, {force[2], r.axes.tangent(force[0], force[1])})
-          : along_trial(law, past.spring, law.coefficient(dynamic), r.normal, r.displacement, s.h, r.closed);
+  const bool dynamic = active.broken || past.sliding;
+  const StepFriction f = reference && active.broken ? opposing(law, active.rho, r.normal, r.displacement,
+                                                               {force[2], r.axes.tangent(force[0], force[1])})
+                                                    : along_trial(law, past.spring, law.coefficient(dynamic),
+                                                                  r.normal, r.displacement, s.h, r.closed);
   r.friction = f.force;
   r.slides = f.slides;
-  r.breaks = f.slides && !shut.broken && (reference || (!dynamic && law.mu_static > law.mu_dynamic));
+  r.breaks = f.slides && !active.broken && (reference || (!dynamic && law.mu_static > law.mu_dynamic));
   const double along_n = r.axes.normal(d[0], d[1]), force_n = r.axes.normal(force[0], force[1]);
   r.force[0] += f.force.t * t[0];
   r.force[1] += f.force.t * t[1];
@@ -326,7 +328,7 @@ void ConservingContacts::rub(const Setting& s, const Shut& shut, const double* p
 
 /// Never where a force is no number.
 bool ConservingContacts::settled(double slack) const {
-  for (std::size_t i = 0; i < shut_.size(); ++i)
+  for (std::size_t i = 0; i < active_.size(); ++i)
     for (std::size_t a = 0; a < size_; ++a)
       if (const double r = residual_[size_ * i + a];
           !std::isfinite(r) || !(std::abs(r) <= slack * response_[i].rounding))
@@ -336,14 +338,14 @@ bool ConservingContacts::settled(double slack) const {
 
 /// (I - dPhi/df - dPhi/dx W) step = -residual.
 bool ConservingContacts::direction(const Setting& s) {
-  const std::size_t n = size_ * shut_.size();
-  for (std::size_t i = 0; i < shut_.size(); ++i) {
+  const std::size_t n = size_ * active_.size();
+  for (std::size_t i = 0; i < active_.size(); ++i) {
     const Response& r = response_[i];
-    for (std::size_t j = 0; j < shut_.size(); ++j)
+    for (std::size_t j = 0; j < active_.size(); ++j)
       for (std::size_t b = 0; b < size_; ++b) {
         const double moved[3] = {mobility(s, i, 0, j, b), mobility(s, i, 1, j, b),
                                  size_ == 3 ? mobility(s, i, 2, j, b) : 0.0};
-        const double rate = shut_[i].end_share > 0.0 ? -rate_mobility(s, i, j, b) : 0.0;
+        const double rate = active_[i].end_share > 0.0 ? -rate_mobility(s, i, j, b) : 0.0;
         for (std::size_t a = 0; a < size_; ++a) {
           double x =
               -(r.by_place[a][0] * moved[0] + r.by_place[a][1] * moved[1] + r.by_place[a][2] * moved[2]) -
@@ -361,9 +363,9 @@ bool ConservingContacts::direction(const Setting& s) {
 
 /// Forces found: what the contacts do over the step.
 void ConservingContacts::close(const ContactMotion& start, ContactTrial& trial) {
-  for (std::size_t i = 0; i < shut_.size(); ++i) {
+  for (std::size_t i = 0; i < active_.size(); ++i) {
     const Response& r = response_[i];
-    const int c = shut_[i].contact;
+    const int c = active_[i].contact;
     trial.springs += contacts_.supports[c].normal.spring_energy(r.p1);
     const double loss = (r.normal_of_gap - r.spring_force) * (r.p1 - r.p0);
     if (!(r.normal > 0.0)) {

@@ -44,7 +44,7 @@ public:
 
 private:
   /// A contact that takes part in the step.
-  struct Shut {
+  struct ActiveContact {
     int contact;
     bool in_plane, broken, is_held;
     contact::PlanePoint x0, held;
@@ -81,16 +81,17 @@ private:
     const ConservingMemory& memory;
   };
 
-  void take(int c, const Setting& s, const ContactMotion& start, const ContactMotion& free);
-  [[nodiscard]] bool taken(int c) const;
-  [[nodiscard]] bool recruit(const Setting& s, const ContactMotion& start, const ContactMotion& free);
+  void activate(int c, const Setting& s, const ContactMotion& start, const ContactMotion& free);
+  [[nodiscard]] bool is_active(int c) const;
+  [[nodiscard]] bool extend_active_set(const Setting& s, const ContactMotion& start,
+                                       const ContactMotion& free);
   [[nodiscard]] bool break_loose();
   [[nodiscard]] bool iterate(const Setting& s);
   double respond(const Setting& s);
-  void respond(const Setting& s, const Shut& shut, const double* place, double rate, const double* force,
-               Response& r) const;
-  void rub(const Setting& s, const Shut& shut, const double* place, const double* force,
-           const Turning& turning, Response& r) const;
+  void respond(const Setting& s, const ActiveContact& active, const double* place, double rate,
+               const double* force, Response& r) const;
+  void find_friction(const Setting& s, const ActiveContact& active, const double* place, const double* force,
+                     const Turning& turning, Response& r) const;
   [[nodiscard]] bool settled(double slack) const;
   [[nodiscard]] bool direction(const Setting& s);
   [[nodiscard]] std::size_t place_of(std::size_t i, std::size_t a, std::size_t j, std::size_t b) const;
@@ -101,7 +102,7 @@ private:
 
   const PackedContacts& contacts_;
   std::size_t size_; ///< components of a contact: y, z and, where a contact slides in the plane, x
-  std::vector<Shut> shut_;
+  std::vector<ActiveContact> active_;
   std::vector<Response> response_;
   std::vector<ContactPart> parts_;
   std::vector<double> force_, residual_, matrix_, step_, base_;

@@ -6,7 +6,7 @@
 /// what it does not resolve is still wrong.
 ///
 /// Energy: the work of a constant force on an exact motion is f.(u1 - u0), which is what the springs store and the dampers and sliders
-/// take: the ledger's residual is round-off, and without losses the energy is constant. Obstacles that move (obstacle_motion.hpp) move
+/// take: the residual of the energy balance is round-off, and without losses the energy is constant. Obstacles that move (obstacle_motion.hpp) move
 /// the contacts at both ends of the step; they bring -f.(carried (s1 - s0)).
 ///
 /// A record stands in the middle of its step, where the mean forces are of order 2. Its contact springs hold what the constant force

@@ -4,7 +4,7 @@
 ///     v_{n+1} = v_n + h (loads(t_n) + B^T f(q_n, v_n) - c v_n - k q_n),   q_{n+1} = q_n + h v_{n+1}
 /// The contact laws are evaluated explicitly and their memory is committed once a step. Stable for h w_max <
 /// 2 and h w_c < 2; an explicit tangential damper asks for C_T W h well below 1. It takes a full damping
-/// matrix. Energy: v_n belongs to t_n - h/2; the ledger uses (v_n + v_{n+1})/2 at t_n, and its residual is of
+/// matrix. Energy: v_n belongs to t_n - h/2; the energy balance uses (v_n + v_{n+1})/2 at t_n, and its residual is of
 /// the order of the scheme.
 #include "transient/explicit/euler.hpp"
 #include "transient/contacts/obstacle_motion.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// What all time schemes share: the record of a step that observers see, the energy ledger, the interface.
+/// What all time schemes share: the record of a step that observers see, the energy balance, the interface.
 #pragma once
 #include "contact/vec2.hpp"
 #include "core/state_archive.hpp"

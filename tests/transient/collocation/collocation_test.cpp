@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
+namespace collocation_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -267,3 +269,5 @@ TEST(Collocation, LosesAtTheOppositeFaceWhatTheLastOneLoaded) {
   EXPECT_GE(at_first, 0.0);
   EXPECT_LT(at_second, 0.0);
 }
+
+} // namespace collocation_test

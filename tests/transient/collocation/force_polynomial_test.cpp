@@ -4,6 +4,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+namespace force_polynomial_test {
+
 using namespace fretwork;
 using namespace fretwork::transient;
 
@@ -200,3 +202,5 @@ TEST(DecayFunctions, MeetBetweenSeriesAndClosedForm) {
     EXPECT_NEAR(phi[0] * x, -std::expm1(-x), round_off) << x;
   }
 }
+
+} // namespace force_polynomial_test

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+namespace inner_path_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -182,3 +184,5 @@ TEST(InnerPath, BringsTrajectoriesThroughImpacts) {
     EXPECT_LT(errors[1], rubs ? 5e-5 : 5e-6);
   }
 }
+
+} // namespace inner_path_test

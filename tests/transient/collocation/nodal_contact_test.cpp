@@ -5,6 +5,8 @@
 #include <map>
 #include <random>
 
+namespace nodal_contact_test {
+
 using namespace fretwork;
 using namespace fretwork::transient;
 using contact::FrictionMemoryKind;
@@ -186,3 +188,5 @@ TEST(NodalContact, HasThemWhereTheNormalTurns) {
                   {none, stick, line}, curvature, {{0.0, 0.0}, 500.0});
   }
 }
+
+} // namespace nodal_contact_test

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <limits>
 
+namespace swept_contact_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -80,3 +82,5 @@ TEST(SweptContact, ForgetsAMatrixThatIsNoGood) {
   EXPECT_LT(pressed.improve(), 1e-9);
   EXPECT_NEAR(pressed.swept.force[0][0], force, 1e-9 * std::abs(force));
 }
+
+} // namespace swept_contact_test

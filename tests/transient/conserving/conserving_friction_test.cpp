@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
+namespace conserving_friction_test {
+
 using namespace fretwork;
 using namespace fretwork::transient;
 using contact::Vec2;
@@ -143,3 +145,5 @@ TEST(ConservingFriction, SharesOutTheWorkAndNeverGivesEnergy) {
               EXPECT_LE(step.slid, contact::norm(dx) * (1.0 + round_off));
             }
 }
+
+} // namespace conserving_friction_test

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+namespace conserving_impacts_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -166,3 +168,5 @@ TEST(EnergyConserving, IsOfOrderTwoThroughImpactsWithDampersAndFriction) {
     EXPECT_LT(order / figures, 2.4) << "C_T " << damping;
   }
 }
+
+} // namespace conserving_impacts_test

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+namespace conserving_normal_test {
+
 using namespace fretwork;
 using namespace fretwork::transient;
 
@@ -65,3 +67,5 @@ TEST(ConservingNormal, HasTheDerivativesOfItsDifferences) {
                   of_differences * law.damping);
     }
 }
+
+} // namespace conserving_normal_test

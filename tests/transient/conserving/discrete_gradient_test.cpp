@@ -5,6 +5,8 @@
 #include <numbers>
 #include <random>
 
+namespace discrete_gradient_test {
+
 using namespace fretwork;
 using namespace fretwork::transient;
 using contact::PlaneAxis;
@@ -137,3 +139,5 @@ TEST(DiscreteGradient, HasTheDerivativesOfItsDifferences) {
     }
   EXPECT_GT(compared, 2000);
 }
+
+} // namespace discrete_gradient_test

@@ -8,6 +8,8 @@
 #include <limits>
 #include <numbers>
 
+namespace energy_conserving_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -280,3 +282,5 @@ TEST(EnergyConserving, TakesDampersThatCoupleTheModes) {
     EXPECT_LT(b.report.residual_relative, round_off);
   }
 }
+
+} // namespace energy_conserving_test

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-namespace fretwork::transient {
+namespace fretwork::transient::contact_motion_test {
 namespace {
 
 constexpr Eigen::Index modes = 21;
@@ -104,4 +104,4 @@ INSTANTIATE_TEST_SUITE_P(InVectors, ContactMotions,
                                          kernels::VectorSize::pack));
 
 } // namespace
-} // namespace fretwork::transient
+} // namespace fretwork::transient::contact_motion_test

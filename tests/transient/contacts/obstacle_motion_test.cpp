@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+namespace obstacle_motion_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -354,3 +356,5 @@ TEST(ObstacleMotion, SlidesAlongAnAxisThatNoModeMoves) {
   EXPECT_NEAR(run.along_x(0, 1), -1.0, 1e-9); // the bound, against the motion of the node from the obstacle
   EXPECT_NEAR(run.statistics[0].work_rate, 2.0, 1e-2);
 }
+
+} // namespace obstacle_motion_test

@@ -3,6 +3,8 @@
 #include "scenes.hpp"
 #include <gtest/gtest.h>
 
+namespace devogelaere_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -75,3 +77,5 @@ TEST(Devogelaere, ItsRuleResolvesDampersWithinItsLimit) {
   options.step = 1e-5;
   EXPECT_EQ(choose_step(s, options).warnings.size(), 1u);
 }
+
+} // namespace devogelaere_test

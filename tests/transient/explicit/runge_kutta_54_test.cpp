@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+namespace runge_kutta_54_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -250,3 +252,5 @@ TEST(RungeKutta54, EndsStepsWhereAContactPassesFromFaceToFace) {
     EXPECT_NEAR(found.contact_damping, other.contact_damping, share * other.contact_damping);
   }
 }
+
+} // namespace runge_kutta_54_test

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+namespace matrix_flow_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -355,3 +357,5 @@ TEST(CaseA5, ChainWithNonProportionalDamping) {
     EXPECT_NEAR(shapes.row(3).dot(run.q.col(k)), exact[static_cast<std::size_t>(k - 1)], digits)
         << "0.09 * " << k;
 }
+
+} // namespace matrix_flow_test

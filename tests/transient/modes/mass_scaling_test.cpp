@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+namespace mass_scaling_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -186,3 +188,5 @@ TEST(MassScaling, IsNotForModesThatJumpsAndPulsesShake) {
   EXPECT_FALSE(allowed(Table{{0.0, 0.5, 0.5 + 1e-9, 0.5 + 2e-9, 1.0}, {0.0, 0.0, 1e6, 0.0, 0.0}}, 1.0));
   EXPECT_TRUE(allowed(ramp(0.0), 0.0)) << "which does not act on them";
 }
+
+} // namespace mass_scaling_test

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
+namespace moving_modes_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -124,3 +126,5 @@ TEST(MovingModes, MayBeNone) {
     EXPECT_EQ(run.report.energy.stored, 0.0);
   }
 }
+
+} // namespace moving_modes_test

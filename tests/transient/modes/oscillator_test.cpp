@@ -6,6 +6,8 @@
 #include <unsupported/Eigen/MatrixFunctions>
 #include <vector>
 
+namespace oscillator_test {
+
 using namespace fretwork::transient;
 
 namespace {
@@ -130,3 +132,5 @@ TEST(ImpulseResponse, PassesSmoothlyThroughCriticalDamping) {
     EXPECT_NEAR(impulse_response(critical + 1.001 * d, c, t).g, at.g + 1.001 * d * slope, curvature);
   }
 }
+
+} // namespace oscillator_test

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <random>
 
+namespace grid_sine_test {
+
 using namespace fretwork::transient;
 
 namespace {
@@ -45,3 +47,5 @@ TEST(GridSine, DoesNotRememberWhatItGave) {
   for (int k = 999; k >= 0; --k)
     EXPECT_EQ(back(k * d), values[static_cast<std::size_t>(k)]) << k;
 }
+
+} // namespace grid_sine_test

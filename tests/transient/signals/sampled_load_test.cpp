@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace fretwork::transient {
+namespace fretwork::transient::sampled_load_test {
 namespace {
 
 using tests::sampled_sines;
@@ -113,4 +113,4 @@ TEST(SampledLoad, DrivesEverySchemeAlike) {
 }
 
 } // namespace
-} // namespace fretwork::transient
+} // namespace fretwork::transient::sampled_load_test

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <random>
 
+namespace table_curve_test {
+
 using namespace fretwork::transient;
 
 namespace {
@@ -140,3 +142,5 @@ TEST(TableCurve, IsOfOrderTwoWhereASmoothRampEndsInAHold) {
       },
       50, 2.0, 1.0);
 }
+
+} // namespace table_curve_test

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+namespace time_function_test {
+
 using namespace fretwork::transient;
 
 namespace {
@@ -302,3 +304,5 @@ TEST(LoadSum, KnowsWhenItIsConstantOrNothing) {
   EXPECT_EQ(force[0], 0.0);
   EXPECT_EQ(force[1], 0.0);
 }
+
+} // namespace time_function_test

@@ -9,6 +9,8 @@
 #include <tuple>
 #include <vector>
 
+namespace kernels_test {
+
 using namespace fretwork::transient;
 
 namespace {
@@ -131,3 +133,5 @@ INSTANTIATE_TEST_SUITE_P(OfModes, MovingKernels,
                                           testing::Values(kernels::VectorSize::pair,
                                                           kernels::VectorSize::half,
                                                           kernels::VectorSize::pack)));
+
+} // namespace kernels_test

@@ -4,6 +4,8 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
+namespace anderson_mixing_test {
+
 using namespace fretwork;
 using transient::AndersonMixing;
 
@@ -63,3 +65,5 @@ TEST(AndersonMixing, GetsPastAKink) {
   }
   EXPECT_NEAR(x(0), 0.5, solved);
 }
+
+} // namespace anderson_mixing_test

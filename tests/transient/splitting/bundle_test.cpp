@@ -5,6 +5,8 @@
 #include "transient/splitting/splitting.hpp"
 #include <gtest/gtest.h>
 
+namespace bundle_test {
+
 using namespace fretwork;
 using namespace fretwork::transient;
 
@@ -71,3 +73,5 @@ TEST(Bundle, HasTheRatesOfTheSameContactsOverAllModes) {
 }
 
 } // namespace
+
+} // namespace bundle_test

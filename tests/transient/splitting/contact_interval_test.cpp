@@ -2,6 +2,8 @@
 #include "transient/splitting/contact_interval.hpp"
 #include <gtest/gtest.h>
 
+namespace contact_interval_test {
+
 using namespace fretwork;
 using namespace fretwork::transient;
 
@@ -53,3 +55,5 @@ TEST(ContactIntervals, FollowTheLawOfTheGapOverUsualIntervals) {
   EXPECT_NEAR(p.force.z, -stiffness * penetration, 1e-6 * stiffness * penetration); // towards the axis
   EXPECT_NEAR(p.force.y, 0.0, 1e-9);
 }
+
+} // namespace contact_interval_test

@@ -2,6 +2,8 @@
 #include "transient/splitting/contact_step.hpp"
 #include <gtest/gtest.h>
 
+namespace contact_step_test {
+
 using namespace fretwork;
 using namespace fretwork::transient;
 
@@ -26,3 +28,5 @@ TEST(ContactStep, EndsWhereTheForceIsAlwaysAboutToReturn) {
   EXPECT_GE(act.state.normal_force, 0.0);
   EXPECT_TRUE(std::isfinite(act.end.y));
 }
+
+} // namespace contact_step_test

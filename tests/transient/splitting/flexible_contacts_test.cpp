@@ -11,6 +11,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+namespace flexible_contacts_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -293,3 +295,5 @@ TEST(FlexibleContacts, AreRefusedBySchemesThatDoNotTakeThem) {
     }
   }
 }
+
+} // namespace flexible_contacts_test

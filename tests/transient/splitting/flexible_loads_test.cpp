@@ -6,6 +6,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+namespace flexible_loads_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -112,3 +114,5 @@ TEST(FlexibleContacts, BalanceTheirEnergyUnderLoads) {
   const Scene s = without_it(with_a_high_mode(Harmonic{400.0, 30.0, 0.3}, 0.3));
   EXPECT_LT(simulate(s, splitting(2e-5), 1e-3).report.residual_relative, of_the_splitting);
 }
+
+} // namespace flexible_loads_test

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <vector>
 
+namespace flexible_paths_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -189,3 +191,5 @@ TEST(FlexibleContacts, TakeTheNearestPartOfAHoleWithLands) {
       EXPECT_LT((run.q - wanted.q.topRows(3)).cwiseAbs().maxCoeff(), of_displacements * size) << give;
     }
 }
+
+} // namespace flexible_paths_test

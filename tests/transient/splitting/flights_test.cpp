@@ -7,6 +7,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+namespace flights_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -191,3 +193,5 @@ TEST(
   EXPECT_EQ(single.contact.impacts, flown.contact.impacts);
   EXPECT_GT(single.contact.impacts, 0);
 }
+
+} // namespace flights_test

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <limits>
 
+namespace replays_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -185,3 +187,5 @@ TEST(Replays, GoOnAfterARestartBitForBit) {
     EXPECT_EQ(a.spreads, b.spreads);
   }
 }
+
+} // namespace replays_test

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace fretwork::tests {
+namespace fretwork::tests::slides_test {
 
 using namespace transient;
 
@@ -24,7 +24,7 @@ Scene rocking() {
   return scene;
 }
 
-/// What the ledger misses, of the work of friction.
+/// Residual of the energy balance, of the work of friction.
 double missed(double resolution) {
   const Energy energy = simulate(rocking(), splitting(resolution / contact_frequency), 1.0).report.energy;
   return std::abs(energy.residual()) / energy.friction;
@@ -170,4 +170,4 @@ TEST(Slides, InventNoSlideOfAContactThatStartsPressed) {
   EXPECT_EQ(simulate(scene, splitting(h), 0.05).statistics[0].sliding_distance, 0.0);
 }
 
-} // namespace fretwork::tests
+} // namespace fretwork::tests::slides_test

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <random>
 
+namespace static_minimum_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -155,3 +157,5 @@ TEST(StaticStart, OfManyModesAndContactsIsFoundToRoundOff) {
     EXPECT_EQ((e.q - static_equilibrium(scene).q).norm(), 0.0);
   }
 }
+
+} // namespace static_minimum_test

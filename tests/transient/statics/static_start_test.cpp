@@ -6,6 +6,8 @@
 #include <numbers>
 #include <random>
 
+namespace static_start_test {
+
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
@@ -309,3 +311,5 @@ TEST(StaticStart, IsWhereSplittingStaysAtAnyStep) {
     EXPECT_LT(d.force, sweeps) << wh;
   }
 }
+
+} // namespace static_start_test
