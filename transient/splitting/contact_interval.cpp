@@ -81,8 +81,7 @@ IntervalTable ContactIntervals::table(double length) const {
   const double answer = 0.5 * length * length * (normal.stiffness + friction_.stiffness) +
                         length * (normal.damping + friction_.damping);
   of.answer = answer / (1.0 + answer * mobility_);
-  of.normal_share =
-      normal.damping > 0.0 ? contact::implicit_share(normal.damping * mobility_ * length) : 0.5;
+  of.normal_share = normal.damping > 0.0 ? contact::implicit_share(normal.damping * mobility_ * length) : 0.5;
   if (friction_.active()) {
     of.piece = contact::piece_table(friction_, mobility_, length);
     if (friction_.kind == contact::FrictionMemoryKind::reference)
@@ -170,8 +169,15 @@ void ContactIntervals::find_closed_friction(const ContactPath& m, const Interval
   const Components a = m.a + 0.5 * dt * m.j + w_ * Components{p.normal.force * ny, p.normal.force * nz, 0.0},
                    v = m.v - (dt * dt / 12.0) * m.j + from * a;
   const auto& w = w_.w;
-  const double wtt = w[0][0] * nz * nz - (w[0][1] + w[1][0]) * ny * nz + w[1][1] * ny * ny;
-  const double vt = tangent(p.axes, v), at = tangent(p.axes, a);
+  double wtt = w[0][0] * nz * nz - (w[0][1] + w[1][0]) * ny * nz + w[1][1] * ny * ny;
+  double vt = tangent(p.axes, v), at = tangent(p.axes, a);
+  if (const double deflected = laws_.flexibility(p.axes) * p.normal.force; deflected > 0.0) {
+    // the deflection R F_N n turns with the normal: the node slides by that much less, or more, than the modes take it
+    const double turned = 1.0 + deflected * contact::curvature(obstacle_, m.u.y + rest_.y, m.u.z + rest_.z);
+    vt *= turned;
+    at *= turned;
+    wtt *= turned;
+  }
   const auto close = [&](const auto& f, contact::Vec2 impulse, contact::Vec2 by, contact::Vec2 spring) {
     p.friction = (1.0 / dt) * impulse;
     p.displacement = by;

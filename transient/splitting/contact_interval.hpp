@@ -96,6 +96,8 @@ public:
   /// Along the normal in which the flexibility is least.
   [[nodiscard]] const contact::NormalLaw& stiffest() const { return stiffest_; }
   [[nodiscard]] const contact::FrictionLaw& friction() const { return friction_; }
+  /// m/N: n.R n.
+  [[nodiscard]] double flexibility(const contact::ContactAxes& axes) const { return residual_.normal(axes); }
   /// m: what a force moves the contact by its own flexibility as far as the laws hold it, and beyond.
   [[nodiscard]] Components within(const contact::ContactAxes& axes, const Components& force) const;
   [[nodiscard]] Components beyond(const contact::ContactAxes& axes, const Components& force) const {
@@ -106,7 +108,7 @@ private:
   contact::NormalLaw bare_, stiffest_;
   contact::FrictionLaw friction_;
   Response residual_;
-  bool turns_ = false;    ///< n.R n depends on n
+  bool turns_ = false;   ///< n.R n depends on n
   double tangent_ = 0.0; ///< m/N, in series with the friction law
 };
 

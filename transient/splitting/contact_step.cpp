@@ -49,12 +49,16 @@ bool ContactStep::meets(const ContactPast& past, const FreePath& path) const {
 }
 
 void ContactStep::stretch(ContactPast& past, const Components& missed) const {
-  if (!past.closed || !friction_.active() || past.friction.sliding ||
-      friction_.kind == contact::FrictionMemoryKind::reference)
+  if (friction_.kind != contact::FrictionMemoryKind::reference)
+    displace(past, missed);
+}
+
+void ContactStep::displace(ContactPast& past, const Components& by) const {
+  if (!past.closed || !friction_.active() || past.friction.sliding)
     return;
-  past.friction.spring.t -= friction_.along.t * friction_.stiffness * tangent(past.axes, missed);
+  past.friction.spring.t -= friction_.along.t * friction_.stiffness * tangent(past.axes, by);
   if (in_plane_)
-    past.friction.spring.x -= friction_.along.x * friction_.stiffness * missed.x;
+    past.friction.spring.x -= friction_.along.x * friction_.stiffness * by.x;
 }
 
 /// Takes an open contact to its touch, or to the end of the step. Returns whether it touches.

@@ -47,6 +47,8 @@ public:
   /// A spring that sticks is stretched by what the modes moved, not by what the step took them to move: it would creep.
   /// @param missed  m, what they moved further
   void stretch(ContactPast& past, const Components& missed) const;
+  /// The same where the contact stands elsewhere than at the end of its last step. `reference` too: it is a motion like any other.
+  void displace(ContactPast& past, const Components& by) const;
   /// Over the displacement of the modes.
   [[nodiscard]] const SeriesLaws& laws() const { return intervals_.laws(); }
   /// N: by how much its force can change for an acceleration of 1 m/s2 over the step.

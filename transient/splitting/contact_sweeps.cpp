@@ -41,10 +41,13 @@ ContactSweeps::ContactSweeps(const PackedContacts& contacts, ContactBlocks block
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     moving_blocks_[b].contacts.reserve(blocks_.contacts[b].size());
   own_.resize(count);
-  if (residual.size() > 0)
+  if (residual.size() > 0) {
+    shifts_.resize(count);
+    followed_.resize(count);
     for (int to = 0; to < contacts.count; ++to)
       for (int from = 0; from < contacts.count; ++from)
         residual_.push_back(block_of(residual, to, from));
+  }
   for (int c = 0; c < contacts.count; ++c) {
     for (const auto& [block, local] : blocks_.places[c]) {
       const Response& part =
@@ -68,36 +71,50 @@ void ContactSweeps::follow(const ContactSweeps& other) {
   pasts_ = other.pasts_;
   forces_ = other.forces_;
   loaded_ = other.loaded_;
+  shifts_ = other.shifts_;
+  followed_ = other.followed_;
   normal_springs_ = other.normal_springs_;
   tangential_springs_ = other.tangential_springs_;
 }
 
 void ContactSweeps::visit(core::StateArchive& state) {
-  state(pasts_, forces_, parts_, loaded_, normal_springs_, tangential_springs_);
+  state(pasts_, forces_, parts_, loaded_, followed_, normal_springs_, tangential_springs_);
+  if (state.restores() && !residual_.empty())
+    find_shifts();
   if (state.restores())
     for (std::size_t c = 0; c < steps_.size(); ++c)
       steps_[c].divide(parts_[c]);
 }
 
-/// m: where the forces held move contact c beyond what its laws hold.
-Components ContactSweeps::shift(int c) const {
-  Components out = steps_[c].laws().beyond(pasts_[c].axes, forces_[c].held);
+/// From now on contact c holds this force, along these axes.
+void ContactSweeps::hold(int c, const contact::ContactAxes& axes, const Components& force) {
+  Components& held = forces_[c].held;
+  if (!residual_.empty()) {
+    const SeriesLaws& laws = steps_[c].laws();
+    for (int to = 0; to < contacts_.count; ++to)
+      if (to != c)
+        shifts_[to] = shifts_[to] + residual(to, c) * (force - held);
+    shifts_[c] = shifts_[c] + (laws.beyond(axes, force) - laws.beyond(pasts_[c].axes, held));
+  }
+  held = force;
+  pasts_[c].axes = axes;
+}
+
+void ContactSweeps::find_shifts() {
+  std::fill(shifts_.begin(), shifts_.end(), Components{});
   for (int from = 0; from < contacts_.count; ++from)
-    if (from != c && sum_of_sizes(forces_[from].held) > 0.0)
-      out = out + residual(c, from) * forces_[from].held;
-  return out;
+    if (const Components& held = forces_[from].held; sum_of_sizes(held) > 0.0)
+      for (int to = 0; to < contacts_.count; ++to)
+        shifts_[to] = shifts_[to] + (to == from ? steps_[from].laws().beyond(pasts_[from].axes, held)
+                                                : residual(to, from) * held);
 }
 
 void ContactSweeps::add_shifts(ContactMotion& motion) const {
-  if (residual_.empty() || std::none_of(forces_.begin(), forces_.end(),
-                                        [](const Force& f) { return sum_of_sizes(f.held) > 0.0; }))
-    return;
-  for (int c = 0; c < contacts_.count; ++c) {
-    const Components by = shift(c);
-    motion.u[c] += by.y;
-    motion.u[contacts_.width + c] += by.z;
+  for (std::size_t c = 0; c < shifts_.size(); ++c) {
+    motion.u[c] += shifts_[c].y;
+    motion.u[static_cast<std::size_t>(contacts_.width) + c] += shifts_[c].z;
     if (contacts_.components == 3)
-      motion.u[2 * contacts_.width + c] += by.x;
+      motion.u[2 * static_cast<std::size_t>(contacts_.width) + c] += shifts_[c].x;
   }
 }
 
@@ -106,8 +123,7 @@ Components ContactSweeps::deflection(int c) const {
 }
 
 contact::Location ContactSweeps::locate_shifted(const ContactMotion& motion, int c) const {
-  const Components u =
-      of_lanes(motion.u, c) + (residual_.empty() ? Components{} : shift(c));
+  const Components u = of_lanes(motion.u, c) + (residual_.empty() ? Components{} : shifts_[c]);
   return contact::locate(contacts_.supports[c].obstacle, u.y + contacts_.rest_y(c),
                          u.z + contacts_.rest_z(c));
 }
@@ -123,13 +139,11 @@ double ContactSweeps::hold_at_start(ContactMotion& motion, std::vector<int>& pre
       const double force = at.gap < 0.0 ? contact::normal_force(steps_[c].laws().normal(axes), -at.gap,
                                                                 motion.sinking(c, axes))
                                         : 0.0;
-      ContactPast& past = pasts_[c];
-      past.closed = past.before_run = force > 0.0;
-      past.axes = past.closed ? axes : contact::ContactAxes{};
+      pasts_[c].closed = pasts_[c].before_run = force > 0.0;
       const Components held{force * at.ny, force * at.nz, 0.0};
       changed = std::max(changed, sum_of_sizes(held - forces_[c].held));
       largest = std::max(largest, force);
-      forces_[c].held = held;
+      hold(c, force > 0.0 ? axes : contact::ContactAxes{}, held);
     }
   } while (!residual_.empty() && changed > tolerance_at_start * largest && ++sweep < most_sweeps_at_start);
   pressed.clear();
@@ -138,11 +152,12 @@ double ContactSweeps::hold_at_start(ContactMotion& motion, std::vector<int>& pre
     const contact::Location at = locate_shifted(motion, c);
     springs += steps_[c].laws().normal(at.axes()).spring_energy(-at.gap);
     if (!residual_.empty())
-      springs += 0.5 * dot(forces_[c].held, shift(c));
+      springs += 0.5 * dot(forces_[c].held, shifts_[c]);
     if (pasts_[c].closed)
       pressed.push_back(c);
   }
   add_shifts(motion);
+  followed_ = shifts_;
   return springs;
 }
 
@@ -206,6 +221,11 @@ bool ContactSweeps::make(const ContactMotion& start, const ContactMotion& end, c
     if (act.opened)
       trial.opened.push_back(m.c);
   }
+  if (!residual_.empty()) {
+    for (Moving& m : moving_)
+      m.shifted = followed_[m.c] = shifts_[m.c] + m.given.shift.mean + m.given.shift.slope;
+    find_shifts();
+  }
   return settled;
 }
 
@@ -264,8 +284,7 @@ double ContactSweeps::unanswered(const Moving& m) const {
     return sum_of_sizes(now.mean - then.mean) + sum_of_sizes(now.slope - then.slope);
   };
   const double out = steps_[m.c].answer() * change(m.given.acceleration, m.answered.acceleration);
-  return residual_.empty() ? out
-                           : out + steps_[m.c].stiffness() * change(m.given.shift, m.answered.shift);
+  return residual_.empty() ? out : out + steps_[m.c].stiffness() * change(m.given.shift, m.answered.shift);
 }
 
 /// One contact with the forces of all others that share a block with it.
@@ -281,7 +300,7 @@ void ContactSweeps::find(Moving& m) {
     path.u = path.u + jump;
     path.v = path.v + (2.0 / h_) * shift.slope;
     stretched = *past;
-    steps_[m.c].stretch(stretched, jump);
+    steps_[m.c].displace(stretched, shifts_[m.c] + jump - followed_[m.c]);
     past = &stretched;
   }
   const Line before{m.act.mean, m.act.slope};
@@ -320,8 +339,11 @@ void ContactSweeps::settle(const ContactMotion& end) {
       normal_springs_ += steps_[m.c].laws().normal(at.axes()).spring_energy(-at.gap);
     }
     if (!residual_.empty())
-      normal_springs_ += 0.5 * dot(forces_[m.c].held, shift(m.c));
-    steps_[m.c].stretch(pasts_[m.c], of_lanes(end.u, m.c) - m.act.end);
+      normal_springs_ += 0.5 * dot(forces_[m.c].held, shifts_[m.c]);
+    Components missed = of_lanes(end.u, m.c) - m.act.end;
+    if (!residual_.empty())
+      missed = missed + (m.shifted - shifts_[m.c]);
+    steps_[m.c].stretch(pasts_[m.c], missed);
   }
   loaded_.clear();
   for (int c = 0; c < contacts_.count; ++c)

@@ -89,6 +89,7 @@ private:
     FreePath path;         ///< without its own force, the others with those held
     Given given, answered; ///< now, and when its force was found
     Line beyond;           ///< m: part of its own force in the shift
+    Components shifted;    ///< m: at the end of the step, with that of the forces held
     ContactAct act;        ///< as it was found last
     int next;              ///< of its group; -1: none
   };
@@ -105,7 +106,8 @@ private:
   [[nodiscard]] const Response& residual(int to, int from) const {
     return residual_[static_cast<std::size_t>(to) * parts_.size() + static_cast<std::size_t>(from)];
   }
-  [[nodiscard]] Components shift(int c) const;
+  void hold(int c, const contact::ContactAxes& axes, const Components& force);
+  void find_shifts();
   [[nodiscard]] contact::Location locate_shifted(const ContactMotion& motion, int c) const;
   void shift_all(Moving& m, const Line& by);
   void find(Moving& m);
@@ -117,6 +119,8 @@ private:
   std::vector<std::vector<Response>> mobility_; ///< by blocks
   std::vector<Response> own_;                   ///< of each contact by its own force
   std::vector<Response> residual_;              ///< `to` by `from`, row by row; empty: none
+  std::vector<Components> shifts_,
+      followed_; ///< m, with residual flexibility: by the forces held, beyond what the laws hold; as far as tangential springs have followed it
   double h_;
   std::vector<ContactStep> steps_;
   std::vector<int> parts_; ///< of each contact
