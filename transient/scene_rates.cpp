@@ -156,15 +156,6 @@ double initial_overlap(const Scene& scene, const ContactPoint& point) {
   return std::max(0.0, -contact::locate(point.support.obstacle, u.y(), u.z()).gap);
 }
 
-/// Shortest time in which the dampers of sticking contacts give way to their springs, C_T/K_T, s; 0 without friction.
-double shortest_relaxation(const Scene& scene) {
-  double shortest = std::numeric_limits<double>::infinity();
-  for (const ContactPoint& point : scene.contacts)
-    if (const auto& law = point.support.friction; law.active())
-      shortest = std::min(shortest, law.damping / law.stiffness);
-  return std::isfinite(shortest) ? shortest : 0.0;
-}
-
 /// Whether a load has to do with the scene: it moves its modes, or contacts beside them, or may be that of a motion that carries its
 /// obstacles.
 bool acts(const Load& load, const Scene& scene) {
@@ -199,7 +190,6 @@ SceneRates rates_of(const Scene& scene) {
   SceneRates out;
   out.contact_frequency = std::sqrt(largest_of(scene, stiffness_n, normal_rows, scene.residual));
   out.stick_frequency = std::sqrt(largest_of(scene, stiffness_t, tangent_rows, scene.residual));
-  out.stick_relaxation = shortest_relaxation(scene);
   out.damper_rate = largest_of(scene, damping_t, tangent_rows);
   out.normal_damper_rate = largest_of(
       scene, [](const ContactPoint& point) { return point.support.normal.damping; }, normal_rows);

@@ -12,9 +12,7 @@ struct SceneRates {
   /// contacts; with residual flexibility R of (K_N^-1 + R)^-1 in place of K_N.
   double contact_frequency = 0.0;
   double stick_frequency = 0.0; ///< w_t, rad/s, the same with K_T over the tangent directions
-  double stick_relaxation =
-      0.0; ///< s, smallest C_T/K_T of the contacts with friction: their dampers give way in it
-  double damper_rate = 0.0; ///< r_t, 1/s, the largest eigenvalue of C_T^1/2 W C_T^1/2
+  double damper_rate = 0.0;     ///< r_t, 1/s, the largest eigenvalue of C_T^1/2 W C_T^1/2
   double normal_damper_rate =
       0.0; ///< r_n, 1/s, the largest eigenvalue of C_N^1/2 W C_N^1/2 over the normal directions; not of Hunt and
            ///< Crossley's dampers, whose rate w_c bounds (step_rule.hpp)
