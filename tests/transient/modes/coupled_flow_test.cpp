@@ -4,6 +4,7 @@
 #include "scenes.hpp"
 #include "transient/collocation/force_polynomial.hpp"
 #include "transient/modes/coupled_flow.hpp"
+#include "transient/modes/diagonal_flow.hpp"
 #include "transient/modes/oscillator.hpp"
 #include <Eigen/Geometry>
 #include <array>
@@ -212,6 +213,75 @@ TEST(PolynomialFlow, IsKnownAtAnyInstantOfAStepInTurnedAxes) {
         EXPECT_NEAR(turned().col(i).dot(v), wanted.v, round_off * std::sqrt(4e6)) << t.name << share;
       }
     }
+  }
+}
+
+/// Four modes with a state each, all coupled, one of them growing.
+Scene fed() {
+  constexpr Eigen::Index n = 4;
+  Scene scene;
+  scene.duration = 1.0;
+  scene.system.stiffness = Eigen::Vector4d(1e4, 4e4, 9e4, 4e6);
+  scene.system.damping = Eigen::Vector4d(1.0, 4.0, 600.0, 40.0);
+  core::MotionForces& f = scene.system.motion;
+  f.stiffness = f.damping = f.input = f.rates = Eigen::MatrixXd::Zero(n, n);
+  f.output = Eigen::MatrixXd::Identity(n, n);
+  for (Eigen::Index j = 0; j < n; ++j)
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const auto d = static_cast<double>(i - j);
+      f.stiffness(i, j) = -3e3 / (1.0 + d * d);
+      f.damping(i, j) = 5.0 / (1.0 + d * d);
+      f.input(i, j) = 2e3 / (1.0 + 2.0 * d * d);
+      f.rates(i, i) = -20.0 - 7.0 * static_cast<double>(i);
+    }
+  scene.q0 = scene.v0 = Eigen::VectorXd::Zero(n);
+  return scene;
+}
+
+TEST(DiagonalFlow, MovesAsTheMatrixExponential) {
+  const Scene scene = fed();
+  std::vector<CoupledBlock> blocks = coupled_blocks(scene.system);
+  ASSERT_EQ(blocks.size(), 1u);
+  constexpr double step = 1e-3;
+  CoupledFlow exponential(scene.system, blocks, step);
+  DiagonalFlow diagonal(scene, blocks, step, {3, 1});
+  EXPECT_TRUE(blocks.empty());
+  kernels::Array q(8, 0.0), v(8, 0.0), f0(8, 0.0), f1(8, 0.0), y(diagonal.size());
+  for (std::size_t i = 0; i < 4; ++i) {
+    q[i] = 1e-3 * static_cast<double>(i + 1);
+    v[i] = 0.1 - 0.07 * static_cast<double>(i);
+    f0[i] = 3.0 - static_cast<double>(i);
+    f1[i] = 1.0 + 2.0 * static_cast<double>(i);
+  }
+  diagonal.start(q.data(), v.data(), y.data());
+  kernels::Array q_e = q, v_e = v, z(4, 0.0), q_in(8, 0.0), v_in(8, 0.0), slope(8, 0.0);
+  for (int k = 0; k < 5; ++k) {
+    const kernels::Array y0 = y;
+    diagonal.move(1, y0.data(), f0.data(), f1.data(), y.data(), q.data(), v.data());
+    (void)exponential.advance(0, q_e.data(), v_e.data(), f0.data(), f1.data(), z.data());
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_NEAR(q[i], q_e[i], round_off * 0.01) << k << " " << i;
+      EXPECT_NEAR(v[i], v_e[i], round_off * 10.0) << k << " " << i;
+    }
+  }
+  // three steps at once under one line of the load
+  kernels::Array y3 = y, q3 = q, v3 = v;
+  diagonal.move(0, y.data(), f0.data(), f1.data(), y3.data(), q3.data(), v3.data());
+  for (int k = 0; k < 3; ++k) {
+    kernels::Array from(8, 0.0), to(8, 0.0);
+    for (std::size_t i = 0; i < 4; ++i) {
+      from[i] = f0[i] + k / 3.0 * (f1[i] - f0[i]);
+      to[i] = f0[i] + (k + 1) / 3.0 * (f1[i] - f0[i]);
+      slope[i] = (f1[i] - f0[i]) / (3.0 * step);
+    }
+    (void)exponential.advance(0, q_e.data(), v_e.data(), from.data(), to.data(), z.data());
+  }
+  diagonal.inside(3.0 * step, y.data(), f0.data(), slope.data(), q_in.data(), v_in.data());
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(q3[i], q_e[i], round_off * 0.01) << i;
+    EXPECT_NEAR(v3[i], v_e[i], round_off * 10.0) << i;
+    EXPECT_NEAR(q_in[i], q_e[i], round_off * 0.01) << i;
+    EXPECT_NEAR(v_in[i], v_e[i], round_off * 10.0) << i;
   }
 }
 
