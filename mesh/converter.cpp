@@ -13,7 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-
 /// Beginnings of words of gmsh's language that run programs, write files or read others, which may hold any command; and of the functions
 /// that make a name of a text, which could be that of such a command. They count in comments too.
 constexpr std::array commands{
