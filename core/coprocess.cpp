@@ -15,8 +15,8 @@
 namespace fretwork::core {
 namespace {
 
-constexpr int not_started = 127;
-constexpr std::chrono::milliseconds between_looks{100};
+constexpr int no_program = 127;
+constexpr std::chrono::milliseconds between_looks_at_stop{100};
 
 std::vector<char*> pointers(const std::vector<std::string>& texts) {
   std::vector<char*> out;
@@ -39,7 +39,7 @@ Coprocess::Coprocess(const std::vector<std::string>& arguments, const std::vecto
     (void)prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() == parent && dup2(ends[1], STDIN_FILENO) >= 0 && dup2(ends[1], STDOUT_FILENO) >= 0)
       (void)execvpe(argv[0], argv.data(), envp.data());
-    _exit(not_started);
+    _exit(no_program);
   }
   const int failure = errno;
   (void)close(ends[1]);
@@ -77,7 +77,7 @@ std::optional<std::string> Coprocess::read(const std::function<void()>& between)
     }
     searched = received_.size();
     pollfd waiting{socket_, POLLIN, 0};
-    if (poll(&waiting, 1, static_cast<int>(between_looks.count())) <= 0) {
+    if (poll(&waiting, 1, static_cast<int>(between_looks_at_stop.count())) <= 0) {
       between();
       continue;
     }
