@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// The laws of a contact in series with a spring of flexibility R (m/N, >= 0), over the displacement u that both share. The contact takes the share
-/// s = 1/(1 + K R) of it:
-///     K_s = s K,    C_s = s^2 C,    d_s = s^2 d
-/// K_s is exact. Of dampers it is the first order in R w C: a spring and a damper K + i w C have in series K + i w C over 1 + R (K + i w C).
+/// The normal force over a step of a contact with a spring in series: the residual flexibility of the modes (transient/splitting/flexible_contacts.hpp).
 #pragma once
-#include "contact/friction_law.hpp"
 #include "contact/normal_law.hpp"
 
 namespace fretwork::contact {
 
-[[nodiscard]] inline NormalLaw in_series(const NormalLaw& law, double flexibility) {
-  const double share = 1.0 / (1.0 + law.stiffness * flexibility);
-  return {share * law.stiffness, share * share * law.damping, share * share * law.dissipation};
-}
-
-[[nodiscard]] inline FrictionLaw in_series(FrictionLaw law, double flexibility) {
-  const double share = 1.0 / (1.0 + law.stiffness * flexibility);
-  law.stiffness *= share;
-  law.damping *= share * share;
-  return law;
+/// Step form: F_N constant over a step, the damper implicit. `mean` is the mean penetration (> 0) and `free_rate` the mean rate p' there would be without
+/// this force, `mobility` = (h/2) n.W.n what the mean normal speed changes by per newton, `compliance` R (m/N, >= 0) a spring in series by which the
+/// contact gives way: P = mean - R F_N,
+///     F_N = <K_N P + c(P) p'>+,  p' = free_rate - mobility F_N,
+/// linear in F_N but for Hunt and Crossley's damper, which makes it a F^2 - b F + c = 0, the smaller root: K_N/(1 + K_N R) alone.
+[[nodiscard]] inline double series_force(const NormalLaw& law, double mean, double free_rate, double mobility,
+                                         double compliance) {
+  const double growth = law.stiffness * law.dissipation, impact = 1.0 + law.dissipation * free_rate;
+  const double c = law.stiffness * mean * impact + law.damping * free_rate;
+  if (!(c > 0.0))
+    return 0.0;
+  const double a = growth * compliance * mobility;
+  const double b = 1.0 + law.stiffness * compliance * impact + (law.damping + growth * mean) * mobility;
+  return 2.0 * c / (b + std::sqrt(std::max(0.0, b * b - 4.0 * a * c)));
 }
 
 } // namespace fretwork::contact

@@ -26,13 +26,13 @@ struct Parts {
   }
 };
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_decimal(char c) { return c >= '0' && c <= '9'; }
 bool is_of_word(char c) {
-  return is_digit(c) || c == '_' || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+  return is_decimal(c) || c == '_' || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
 std::size_t after_digits(const std::string& text, std::size_t at) {
-  while (at < text.size() && is_digit(text[at]))
+  while (at < text.size() && is_decimal(text[at]))
     ++at;
   return at;
 }
@@ -44,10 +44,10 @@ std::size_t end_of_value(const std::string& text, std::size_t at) {
     const std::size_t end = text.find('"', at + 1);
     return end == std::string::npos ? at : end + 1;
   }
-  if (!is_digit(text[at]) || (at > 0 && is_of_word(text[at - 1])))
+  if (!is_decimal(text[at]) || (at > 0 && is_of_word(text[at - 1])))
     return at;
   std::size_t end = after_digits(text, at);
-  if (end + 1 < text.size() && text[end] == '.' && is_digit(text[end + 1]))
+  if (end + 1 < text.size() && text[end] == '.' && is_decimal(text[end + 1]))
     end = after_digits(text, end + 1);
   if (end < text.size() && text[end] == 'e') {
     const std::size_t digits =

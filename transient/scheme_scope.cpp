@@ -27,13 +27,9 @@ std::string out_of_scope(const Scene& scene, SchemeKind kind) {
            "\"auto\")";
   if (!scene.system.motion.empty() && kind != SchemeKind::splitting && kind != SchemeKind::runge_kutta_54)
     return "does not take forces that depend on the motion (flow.law)";
-  if (scene.residual.size() > 0)
-    for (const ContactPoint& point : scene.contacts)
-      if (point.support.friction.active() &&
-          point.support.friction.kind == contact::FrictionMemoryKind::reference)
-        return "does not take friction_memory = \"reference\" of contact \"" + point.name +
-               "\" together with the residual flexibility of the modes at the contacts (take "
-               "modes.static_modes = \"all\", or \"return_map\")";
+  if (!scene.system.motion.empty() && scene.residual.size() > 0)
+    return "does not take forces that depend on the motion (flow.law) together with the residual flexibility "
+           "of the modes at the contacts (set modes.static_modes = \"none\")";
   if (kind != SchemeKind::collocation && kind != SchemeKind::energy_conserving)
     return {};
   for (const ContactPoint& point : scene.contacts)
@@ -46,8 +42,7 @@ std::string out_of_scope(const Scene& scene, SchemeKind kind) {
 
 void check_scope(const Scene& scene, SchemeKind kind) {
   if (const std::string why = out_of_scope(scene, kind); !why.empty())
-    throw core::Error("scheme = \"" + name_of(kind) + "\" " + why +
-                      (kind == SchemeKind::splitting ? "" : "; use scheme = \"splitting\""));
+    throw core::Error("scheme = \"" + name_of(kind) + "\" " + why + "; use scheme = \"splitting\"");
 }
 
 } // namespace fretwork::transient

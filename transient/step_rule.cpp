@@ -23,6 +23,8 @@ constexpr double points_per_period =
 constexpr double linear_points_per_period = 200.0;
 /// A run of an adaptive scheme has at least so many steps.
 constexpr double least_adaptive_steps = 200;
+/// w_t h at an accuracy of 0.01, whatever the damping: where forces stand at instants a stuck contact gives way by (w_t h)^2/4 too much, 13 %.
+constexpr double most_stuck = 0.71;
 /// Of r_t h where dampers are implicit: above it sticking contacts ring.
 double most_implicit(SchemeKind scheme) { return scheme == SchemeKind::splitting ? 6.3 : 4.0; }
 /// Of r_n h of schemes that take normal dampers implicitly, at an accuracy of 0.01 and for a fixed step: above 2 the mean rate alone turns the speed of a mass round
@@ -51,8 +53,13 @@ constexpr double most_flight = 12.0;
 double collocation_cost(const Scene& scene) { return scene.contacts.size() > 3 ? 0.7 : 1.0; }
 /// Of the time of splitting: below it collocation is taken, which does not measure its error (replays.hpp).
 constexpr double worth_changing = 0.7;
+/// Contacts move in intervals within steps: not with residual flexibility, whose forces stand at instants.
+bool has_intervals(const StepChoice& c, const Scene& scene) {
+  return c.scheme == SchemeKind::splitting && scene.residual.size() == 0;
+}
 /// w_c h, w_t h and r_t h at an accuracy of 0.01. Measured on rattling tubes (bench_statistics), work rates: with splitting within 1 % at
-/// w_c h = 1, with modes near w_c at 0.8 (up to 1.6 % high at 0.9), r_t h = 6.3; with collocation these are off by 2.8 % at 1, 1.4 % at 0.5.
+/// w_c h = 1, with modes near w_c at 0.8 (up to 1.6 % high at 0.9), r_t h = 6.3; with residual flexibility, where contacts stick without much damping (stick_time), 3 % low at w_t h = 0.5, 0.9 % at 0.25, for they
+/// start to slide inside steps, which only intervals follow; with collocation these are off by 2.8 % at 1, 1.4 % at 0.5.
 /// Of r_t h, where dampers are implicit: above 2 a step turns the speed of a sticking contact round, 0.52 of it at 6.3.
 struct Shares {
   double contact, stick, damper;
@@ -61,10 +68,11 @@ struct Shares {
 constexpr double longest_contact_share = 1.0;
 /// Up to this share of w_c modes move little while a contact is closed: splitting takes the rest of an impact as that of a mass.
 constexpr double slow_modes = 0.6;
-Shares shares(const StepChoice& c) {
+Shares shares(const StepChoice& c, const Scene& scene) {
   switch (c.scheme) {
   case SchemeKind::splitting:
-    return {c.highest_mode <= slow_modes * c.contact_frequency ? 1.0 : 0.8, 1.0, 6.3};
+    return {c.highest_mode <= slow_modes * c.contact_frequency ? 1.0 : 0.8,
+            has_intervals(c, scene) ? 1.0 : 0.25, 6.3};
   case SchemeKind::collocation:
     return {0.5, 0.5, 2.0};
   default:
@@ -90,6 +98,23 @@ double most_resolved(SchemeKind scheme) {
 bool moves_exactly(SchemeKind scheme) {
   return scheme == SchemeKind::splitting || scheme == SchemeKind::collocation ||
          scheme == SchemeKind::energy_conserving;
+}
+
+/// Shortest time in which the dampers of sticking contacts give way to their springs, C_T/K_T, s; 0 without friction.
+double shortest_relaxation(const Scene& scene) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const ContactPoint& point : scene.contacts)
+    if (const auto& law = point.support.friction; law.active())
+      shortest = std::min(shortest, law.damping / law.stiffness);
+  return std::isfinite(shortest) ? shortest : 0.0;
+}
+
+/// Time in which sticking contacts move, s: that of their vibration, or where it is longer that in which their dampers give way.
+double stick_time(const StepChoice& c, const Scene& scene) {
+  const double vibration = 1.0 / c.stick_frequency;
+  return c.scheme == SchemeKind::splitting && !has_intervals(c, scene)
+             ? std::hypot(vibration, shortest_relaxation(scene))
+             : vibration;
 }
 
 /// With contacts: collocation needs none of it, splitting can take modes as heavier ones.
@@ -132,12 +157,16 @@ std::vector<Term> terms(const StepChoice& c, const Scene& scene, double fineness
         {c.table_interval, fmt::format("the shortest interval of a table ({:.4g} s)", c.table_interval)});
   const bool devogelaere = c.scheme == SchemeKind::devogelaere;
   const double damped = devogelaere ? std::min(eps, most_damped) : eps;
-  const Shares share = shares(c);
+  const Shares share = shares(c, scene);
   const double resolved = most_resolved(c.scheme);
   add(std::min({share.contact * fineness, longest_contact_share, resolved}), c.contact_frequency,
       fmt::format("the contact frequency {:.4g} rad/s", c.contact_frequency));
-  add(std::min(share.stick * fineness, resolved), c.stick_frequency,
-      fmt::format("the frequency of sticking contacts {:.4g} rad/s", c.stick_frequency));
+  if (c.stick_frequency > 0.0) {
+    const double most = std::min((has_intervals(c, scene) ? share.stick : most_stuck) * fineness, resolved) /
+                        c.stick_frequency;
+    out.push_back({std::min(share.stick * fineness * stick_time(c, scene), most),
+                   fmt::format("the frequency of sticking contacts {:.4g} rad/s", c.stick_frequency)});
+  }
   add(exact ? std::min(share.damper * fineness, most_implicit(c.scheme)) : damped, c.damper_rate,
       fmt::format("the tangential dampers' rate {:.4g} 1/s", c.damper_rate));
   if (exact && c.normal_damper_rate > 0.0)
@@ -222,8 +251,8 @@ void scale_modes(StepChoice& c, const Scene& scene, double fastest) {
 double fineness_of(double accuracy) { return std::sqrt(std::min(accuracy, coarsest_accuracy) / 0.01); }
 
 /// Intervals in which splitting moves contacts within a step.
-int intervals_of_step(const StepChoice& c, double fineness) {
-  if (c.scheme != SchemeKind::splitting)
+int intervals_of_step(const StepChoice& c, const Scene& scene, double fineness) {
+  if (!has_intervals(c, scene))
     return 1;
   const double needed =
       std::max(c.contact_frequency, c.stick_frequency) * c.step / (interval_share * fineness);
@@ -232,7 +261,7 @@ int intervals_of_step(const StepChoice& c, double fineness) {
 
 /// Length of replays: some five periods of closed contacts, sticking ones included.
 double replay_length(const StepChoice& c, const Scene& scene) {
-  if (c.scheme != SchemeKind::splitting || !(c.contact_frequency > 0.0))
+  if (!has_intervals(c, scene) || !(c.contact_frequency > 0.0))
     return 0.0;
   const double slowest =
       c.stick_frequency > 0.0 ? std::min(c.contact_frequency, c.stick_frequency) : c.contact_frequency;
@@ -318,7 +347,7 @@ StepChoice choice_of(const Scene& scene, const SceneRates& rates, const StepOpti
     c.step = *options.step;
   else
     choose_automatic(c, scene, options.accuracy);
-  c.parts = intervals_of_step(c, fineness_of(options.accuracy));
+  c.parts = intervals_of_step(c, scene, fineness_of(options.accuracy));
   c.replay = replay_length(c, scene);
   if (!options.step)
     return c;

@@ -44,9 +44,11 @@ nlohmann::json summary_of(const study::Sweep& sweep) {
     ShardFile file(folder.path() / ("rank_" + std::to_string(worker) + ".rows"));
     const std::int64_t last = worker == 0 ? blocks / 2 : blocks;
     work(
-        numbers, 2, [&] { return counter < last ? counter++ : blocks; }, identity,
+        numbers, 2, [&] { return counter < last ? counter++ : blocks; },
         [&](std::int64_t number) {
-          return std::vector{ishigami(draws(number, 0), draws(number, 1), draws(number, 2))};
+          return evaluated(number, identity(number), [&] {
+            return std::vector{ishigami(draws(number, 0), draws(number, 1), draws(number, 2))};
+          });
         },
         [&](const Row& row) { file.append(row); });
   }

@@ -16,8 +16,9 @@ using contact::PlanePair;
 namespace {
 
 constexpr double round_off = 1e-12;
-constexpr double eps = 0.5;   // at an accuracy of 1 %
-constexpr double share = 1.0; // w_c h and w_t h of splitting at 1 %
+constexpr double eps = 0.5;          // at an accuracy of 1 %
+constexpr double share = 1.0;        // w_c h and w_t h of splitting at 1 %
+constexpr double stick_share = 0.25; // w_t h where forces stand at instants
 constexpr double mass = 2.0;
 
 Scene scene_with(const contact::Support& support, double duration = 1000.0,
@@ -77,7 +78,13 @@ TEST(StepRule, GivesCollocationALongerStepWhateverTheModes) {
 TEST(StepRule, ResolvesTheFrequencyOfStickingContacts) {
   Scene scene = scene_with({Circle{0.1}, {2.0}, {8e4, 0.0, 0.3, 0.3}});
   expect_governed(scene, splitting(), 1.0 / 200.0, "the frequency of sticking contacts 200 rad/s");
-  EXPECT_EQ(choose_step(scene, splitting()).parts, 3); // w_t dt below 0.35
+  EXPECT_EQ(choose_step(scene, splitting()).parts, 3);  // w_t dt below 0.35
+  scene.residual = 1e-12 * Eigen::Matrix3d::Identity(); // forces at instants
+  expect_governed(scene, splitting(), stick_share / 200.0, "the frequency of sticking contacts 200 rad/s");
+  // dampers that give way in C_T/K_T = 0.0075 s let the contacts move in hypot(0.005, 0.0075) s
+  scene.contacts[0].support.friction.damping = 600.0;
+  expect_governed(scene, splitting(), stick_share * std::hypot(0.005, 0.0075),
+                  "the frequency of sticking contacts 200 rad/s");
 }
 
 TEST(StepRule, ResolvesTheTangentialDampers) {

@@ -37,33 +37,10 @@ reference_friction(const contact::FrictionLaw& law, const contact::FrictionTable
 
 } // namespace
 
-SeriesLaws::SeriesLaws(const contact::Support& support, const Response& residual, bool in_plane)
-    : bare_(support.normal), residual_(residual) {
-  const auto& r = residual.w;
-  const auto [along_y, along_z] = contact::normal_directions(support.obstacle);
-  turns_ = along_y && along_z && (r[0][1] != 0.0 || r[0][0] != r[1][1]);
-  const double mean = 0.5 * (r[0][0] + r[1][1]), bent = std::hypot(0.5 * (r[0][0] - r[1][1]), r[0][1]);
-  const bool both = along_y && along_z;
-  stiffest_ = contact::in_series(bare_, both ? std::max(0.0, mean - bent) : along_y ? r[0][0] : r[1][1]);
-  const contact::Vec2 along = support.friction.along;
-  if (along.t > 0.0)
-    tangent_ = both ? mean + bent : along_y ? r[1][1] : r[0][0];
-  if (in_plane && along.x > 0.0)
-    tangent_ = std::max(tangent_, r[2][2]);
-  friction_ = contact::in_series(support.friction, tangent_);
-}
-
-Components SeriesLaws::within(const contact::ContactAxes& axes, const Components& force) const {
-  const double n = residual_.normal(axes) * transient::normal(axes, force),
-               t = tangent_ * tangent(axes, force);
-  return {axes.y(n, t), axes.z(n, t), tangent_ * force.x};
-}
-
 ContactIntervals::ContactIntervals(const contact::Support& support, const Components& rest,
-                                   const Response& mobility, const SeriesLaws& laws, bool in_plane,
-                                   double usual)
-    : obstacle_(support.obstacle), laws_(laws), friction_(laws_.friction()), rest_(rest), w_(mobility),
-      in_plane_(in_plane), mobility_(0.0), across_(0.0) {
+                                   const Mobility& mobility, bool in_plane, double usual)
+    : obstacle_(support.obstacle), normal_(support.normal), friction_(support.friction), rest_(rest),
+      w_(mobility), in_plane_(in_plane), mobility_(0.0), across_(0.0) {
   const auto& w = w_.w;
   for (int to = 0; to < 3; ++to) {
     mobility_ = std::max(mobility_, w[to][to]);
@@ -77,11 +54,11 @@ ContactIntervals::ContactIntervals(const contact::Support& support, const Compon
 IntervalTable ContactIntervals::table(double length) const {
   IntervalTable of;
   of.length = length;
-  const contact::NormalLaw& normal = laws_.stiffest();
-  const double answer = 0.5 * length * length * (normal.stiffness + friction_.stiffness) +
-                        length * (normal.damping + friction_.damping);
+  const double answer = 0.5 * length * length * (normal_.stiffness + friction_.stiffness) +
+                        length * (normal_.damping + friction_.damping);
   of.answer = answer / (1.0 + answer * mobility_);
-  of.normal_share = normal.damping > 0.0 ? contact::implicit_share(normal.damping * mobility_ * length) : 0.5;
+  of.normal_share =
+      normal_.damping > 0.0 ? contact::implicit_share(normal_.damping * mobility_ * length) : 0.5;
   if (friction_.active()) {
     of.piece = contact::piece_table(friction_, mobility_, length);
     if (friction_.kind == contact::FrictionMemoryKind::reference)
@@ -113,11 +90,13 @@ void ContactIntervals::find_normal_force(const ContactPath& m, const Components&
   const contact::Location there = locate(m.u + way);
   const double turned = m.at.axes().normal(there.ny, there.nz);
   const auto find = [&](const contact::ContactAxes& axes, double start, double end, double rate) {
-    const double wnn = w_.normal(axes);
+    const auto& w = w_.w;
+    const auto [ny, nz] = axes;
+    const double wnn = w[0][0] * ny * ny + (w[0][1] + w[1][0]) * ny * nz + w[1][1] * nz * nz;
     const double guess = normal(axes, guessed), acceleration = wnn * guess - normal(axes, a);
     p.axes = axes;
     p.normal = contact::normal_over_interval(
-        laws_.normal(axes), dt, usual_.length, wnn, share,
+        normal_, dt, usual_.length, wnn, share,
         {start, end + half * wnn * guess + (share - 0.5) * dt * dt * acceleration, rate, acceleration});
   };
   const double start = -m.at.gap, rate = -normal(m.at.axes(), m.v);
@@ -169,15 +148,8 @@ void ContactIntervals::find_closed_friction(const ContactPath& m, const Interval
   const Components a = m.a + 0.5 * dt * m.j + w_ * Components{p.normal.force * ny, p.normal.force * nz, 0.0},
                    v = m.v - (dt * dt / 12.0) * m.j + from * a;
   const auto& w = w_.w;
-  double wtt = w[0][0] * nz * nz - (w[0][1] + w[1][0]) * ny * nz + w[1][1] * ny * ny;
-  double vt = tangent(p.axes, v), at = tangent(p.axes, a);
-  if (const double deflected = laws_.flexibility(p.axes) * p.normal.force; deflected > 0.0) {
-    // the deflection R F_N n turns with the normal: the node slides by that much less, or more, than the modes take it
-    const double turned = 1.0 + deflected * contact::curvature(obstacle_, m.u.y + rest_.y, m.u.z + rest_.z);
-    vt *= turned;
-    at *= turned;
-    wtt *= turned;
-  }
+  const double wtt = w[0][0] * nz * nz - (w[0][1] + w[1][0]) * ny * nz + w[1][1] * ny * ny;
+  const double vt = tangent(p.axes, v), at = tangent(p.axes, a);
   const auto close = [&](const auto& f, contact::Vec2 impulse, contact::Vec2 by, contact::Vec2 spring) {
     p.friction = (1.0 / dt) * impulse;
     p.displacement = by;

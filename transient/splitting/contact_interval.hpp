@@ -5,7 +5,6 @@
 #pragma once
 #include "contact/friction_interval.hpp"
 #include "contact/normal_interval.hpp"
-#include "contact/series.hpp"
 #include "contact/support.hpp"
 #include <cmath>
 
@@ -29,21 +28,14 @@ inline Components operator*(double s, const Components& a) { return {s * a.y, s 
 [[nodiscard]] inline double tangent(const contact::ContactAxes& axes, const Components& c) {
   return axes.tangent(c.y, c.z);
 }
-inline double dot(const Components& a, const Components& b) { return a.y * b.y + a.z * b.z + a.x * b.x; }
 inline double sum_of_sizes(const Components& c) { return std::abs(c.y) + std::abs(c.z) + std::abs(c.x); }
 
-/// What a force on one contact gives another, or itself: an acceleration (the mobility W, 1/kg) or a displacement at once (the residual
-/// flexibility R, m/N). Rows and columns y z x.
-struct Response {
+/// Acceleration of one contact by a force on another, or on itself: W, 1/kg, rows and columns y z x.
+struct Mobility {
   double w[3][3] = {};
   [[nodiscard]] Components operator*(const Components& f) const {
     return {w[0][0] * f.y + w[0][1] * f.z + w[0][2] * f.x, w[1][0] * f.y + w[1][1] * f.z + w[1][2] * f.x,
             w[2][0] * f.y + w[2][1] * f.z + w[2][2] * f.x};
-  }
-  /// Along n by a force along n.
-  [[nodiscard]] double normal(const contact::ContactAxes& axes) const {
-    const auto [ny, nz] = axes;
-    return w[0][0] * ny * ny + (w[0][1] + w[1][0]) * ny * nz + w[1][1] * nz * nz;
   }
 };
 
@@ -84,34 +76,6 @@ struct IntervalTable {
   contact::FrictionTable table{}; ///< of the memory `reference`
 };
 
-/// The laws of a contact over the displacement of the modes, its own residual flexibility R in series with them: n.R n with the normal law, one
-/// flexibility of the tangent plane, its largest, with the friction law.
-class SeriesLaws {
-public:
-  /// @param residual  R, symmetric, >= 0; zero: the laws as they are   @param in_plane  friction acts along x too
-  SeriesLaws(const contact::Support& support, const Response& residual, bool in_plane);
-  [[nodiscard]] contact::NormalLaw normal(const contact::ContactAxes& axes) const {
-    return turns_ ? contact::in_series(bare_, residual_.normal(axes)) : stiffest_;
-  }
-  /// Along the normal in which the flexibility is least.
-  [[nodiscard]] const contact::NormalLaw& stiffest() const { return stiffest_; }
-  [[nodiscard]] const contact::FrictionLaw& friction() const { return friction_; }
-  /// m/N: n.R n.
-  [[nodiscard]] double flexibility(const contact::ContactAxes& axes) const { return residual_.normal(axes); }
-  /// m: what a force moves the contact by its own flexibility as far as the laws hold it, and beyond.
-  [[nodiscard]] Components within(const contact::ContactAxes& axes, const Components& force) const;
-  [[nodiscard]] Components beyond(const contact::ContactAxes& axes, const Components& force) const {
-    return residual_ * force - within(axes, force);
-  }
-
-private:
-  contact::NormalLaw bare_, stiffest_;
-  contact::FrictionLaw friction_;
-  Response residual_;
-  bool turns_ = false;   ///< n.R n depends on n
-  double tangent_ = 0.0; ///< m/N, in series with the friction law
-};
-
 /// An interval with its forces.
 struct PressedInterval {
   contact::ContactAxes axes; ///< of the interval
@@ -128,8 +92,8 @@ class ContactIntervals {
 public:
   /// @param support  must live longer   @param rest  of the contact without displacement, m   @param in_plane  friction acts along x too
   /// @param usual  s, length of most intervals
-  ContactIntervals(const contact::Support& support, const Components& rest, const Response& mobility,
-                   const SeriesLaws& laws, bool in_plane, double usual);
+  ContactIntervals(const contact::Support& support, const Components& rest, const Mobility& mobility,
+                   bool in_plane, double usual);
   /// From now on most intervals have this length. No allocation.
   void set_usual(double length) { usual_ = table(length); }
   [[nodiscard]] const IntervalTable& usual() const { return usual_; }
@@ -143,8 +107,7 @@ public:
              PressedInterval& p) const;
   /// An open contact forgets over `time`. Returns what its spring gives up, J.
   double relax(ContactPast& past, double time) const;
-  [[nodiscard]] const Response& mobility() const { return w_; }
-  [[nodiscard]] const SeriesLaws& laws() const { return laws_; }
+  [[nodiscard]] const Mobility& mobility() const { return w_; }
 
 private:
   void find_normal_force(const ContactPath& m, const Components& guessed, const IntervalTable& of,
@@ -154,10 +117,10 @@ private:
   void find_closed_friction(const ContactPath& m, const IntervalTable& of, PressedInterval& p) const;
 
   const contact::Obstacle& obstacle_;
-  const SeriesLaws laws_;
+  const contact::NormalLaw normal_;
   const contact::FrictionLaw friction_;
   Components rest_;
-  Response w_;
+  Mobility w_;
   bool in_plane_;
   double mobility_; ///< 1/kg, the largest along any direction
   double across_;   ///< 1/kg: acceleration along one of its directions by a force along another

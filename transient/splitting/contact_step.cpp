@@ -21,11 +21,11 @@ constexpr int most_events = 200;
 
 } // namespace
 
-ContactStep::ContactStep(const contact::Support& support, const Components& rest, const Response& mobility,
-                         const Response& residual, bool in_plane, double step, int parts, double clearance)
-    : in_plane_(in_plane), h_(step), clearance_(clearance),
-      intervals_(support, rest, mobility, SeriesLaws(support, residual, in_plane), in_plane, step / parts),
-      friction_(intervals_.laws().friction()), answer_(intervals_.table(step).answer) {}
+ContactStep::ContactStep(const contact::Support& support, const Components& rest, const Mobility& mobility,
+                         bool in_plane, double step, int parts, double clearance)
+    : normal_(support.normal), friction_(support.friction), in_plane_(in_plane), h_(step),
+      clearance_(clearance), intervals_(support, rest, mobility, in_plane, step / parts),
+      answer_(intervals_.table(step).answer) {}
 
 void ContactStep::divide(int parts) { intervals_.set_usual(h_ / parts); }
 
@@ -49,16 +49,12 @@ bool ContactStep::meets(const ContactPast& past, const FreePath& path) const {
 }
 
 void ContactStep::stretch(ContactPast& past, const Components& missed) const {
-  if (friction_.kind != contact::FrictionMemoryKind::reference)
-    displace(past, missed);
-}
-
-void ContactStep::displace(ContactPast& past, const Components& by) const {
-  if (!past.closed || !friction_.active() || past.friction.sliding)
+  if (!past.closed || !friction_.active() || past.friction.sliding ||
+      friction_.kind == contact::FrictionMemoryKind::reference)
     return;
-  past.friction.spring.t -= friction_.along.t * friction_.stiffness * tangent(past.axes, by);
+  past.friction.spring.t -= friction_.along.t * friction_.stiffness * tangent(past.axes, missed);
   if (in_plane_)
-    past.friction.spring.x -= friction_.along.x * friction_.stiffness * by.x;
+    past.friction.spring.x -= friction_.along.x * friction_.stiffness * missed.x;
 }
 
 /// Takes an open contact to its touch, or to the end of the step. Returns whether it touches.
@@ -175,24 +171,22 @@ void ContactStep::book(ContactPath& m, const IntervalTable& of, const PressedInt
 /// K_N p + c p' = 0 again, p'' = a and from 0. 0: its force grows at once.
 double ContactStep::pause(const ContactPath& m) const {
   const double out = normal(m.at.axes(), m.v), pressing = -normal(m.at.axes(), m.a);
-  const contact::NormalLaw law = laws().normal(m.at.axes());
-  const double falls = law.stiffness * out - law.damping_at(-m.at.gap) * pressing;
+  const double falls = normal_.stiffness * out - normal_.damping_at(-m.at.gap) * pressing;
   if (!(out > 0.0 && falls > 0.0))
     return 0.0;
   const double leaves = std::max(-m.at.gap / out, shortest_way_out * intervals_.usual().length);
-  const double pressed = pressing > 0.0 ? 2.0 * falls / (law.stiffness * pressing) : leaves;
+  const double pressed = pressing > 0.0 ? 2.0 * falls / (normal_.stiffness * pressing) : leaves;
   if (pressed < shortest_way_out * intervals_.usual().length)
     return 0.0;
   return std::min({h_ - m.t, intervals_.usual().length, leaves, pressed});
 }
 
 void ContactStep::leave(ContactPath& m, double time, ContactAct& act) const {
-  const double before = laws().normal(m.at.axes()).spring_energy(-m.at.gap);
+  const double before = normal_.spring_energy(-m.at.gap);
   act.relaxed += intervals_.relax(act.past, time);
   m.move(time, {});
   m.at = intervals_.locate(m.u);
-  act.state.damper_work +=
-      before - laws().normal(m.at.axes()).spring_energy(-m.at.gap); // what the positive part cuts
+  act.state.damper_work += before - normal_.spring_energy(-m.at.gap); // what the positive part cuts
 }
 
 void ContactStep::make(const ContactPast& past, const FreePath& path, const Components& guess,

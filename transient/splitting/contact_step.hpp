@@ -30,11 +30,11 @@ struct ContactAct {
 
 class ContactStep {
 public:
-  /// @param support  must live longer   @param rest  of the contact without displacement, m   @param residual  of its own, m/N
+  /// @param support  must live longer   @param rest  of the contact without displacement, m
   /// @param in_plane  friction acts along x too   @param step  h, s   @param parts  intervals of a step in which the contact is closed, >= 1
   /// @param clearance  m, that is not to be passed unseen
-  ContactStep(const contact::Support& support, const Components& rest, const Response& mobility,
-              const Response& residual, bool in_plane, double step, int parts, double clearance);
+  ContactStep(const contact::Support& support, const Components& rest, const Mobility& mobility,
+              bool in_plane, double step, int parts, double clearance);
 
   /// From now on the contact moves in so many intervals, >= 1, where it is closed throughout a step. No allocation.
   void divide(int parts);
@@ -47,16 +47,10 @@ public:
   /// A spring that sticks is stretched by what the modes moved, not by what the step took them to move: it would creep.
   /// @param missed  m, what they moved further
   void stretch(ContactPast& past, const Components& missed) const;
-  /// The same where the contact stands elsewhere than at the end of its last step. `reference` too: it is a motion like any other.
-  void displace(ContactPast& past, const Components& by) const;
-  /// Over the displacement of the modes.
-  [[nodiscard]] const SeriesLaws& laws() const { return intervals_.laws(); }
+  /// Energy of the tangential spring, J.
+  [[nodiscard]] double spring_energy(const ContactPast& past) const;
   /// N: by how much its force can change for an acceleration of 1 m/s2 over the step.
   [[nodiscard]] double answer() const { return answer_; }
-  /// N/m: likewise for a displacement.
-  [[nodiscard]] double stiffness() const {
-    return std::max(laws().stiffest().stiffness, laws().friction().stiffness);
-  }
 
 private:
   [[nodiscard]] int looks(const Components& velocity, double time) const;
@@ -66,10 +60,11 @@ private:
   void leave(ContactPath& m, double time, ContactAct& act) const;
   void book(ContactPath& m, const IntervalTable& of, const PressedInterval& p, ContactAct& act) const;
 
+  const contact::NormalLaw normal_;
+  const contact::FrictionLaw friction_;
   bool in_plane_;
   double h_, clearance_;
   ContactIntervals intervals_;
-  const contact::FrictionLaw friction_;
   double answer_; ///< kg, as `answer`
 };
 

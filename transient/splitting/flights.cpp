@@ -5,9 +5,9 @@
 namespace fretwork::transient {
 
 bool may_fly(const Scene& scene) {
-  return scene.system.damping_matrix.size() == 0 && !scene.contacts.empty() &&
+  return scene.residual.size() == 0 && scene.system.damping_matrix.size() == 0 && !scene.contacts.empty() &&
          std::all_of(scene.contacts.begin(), scene.contacts.end(), [](const ContactPoint& c) {
-           return !(c.support.normal.damping > 0.0) && c.carried.size() == 0 && c.under_loads.size() == 0 &&
+           return !(c.support.normal.damping > 0.0) && c.carried.size() == 0 &&
                   contact::properties_of(c.support.obstacle).gap_bound.radial >= 0.0;
          });
 }

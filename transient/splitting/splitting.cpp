@@ -83,8 +83,8 @@ public:
     obstacles_.at(0.0, carried_[1]);
     carried_[1].add_to(end_);
     moving_ = modes_.energy(first.from);
-    booked_.initial = booked_.throughput = booked_.stored = moving_ + sweeps_.hold_at_start(end_, near_);
-    scatter(nullptr);
+    booked_.initial = booked_.throughput = booked_.stored = moving_ + end_.spring_energy();
+    hold_at_start();
     make();
   }
 
@@ -182,13 +182,13 @@ private:
 
   ContactSweeps make_sweeps(const Scene& scene, int parts) {
     ContactBlocks blocks(scene);
-    std::vector<std::vector<Response>> mobility = step_mobility(scene, blocks);
-    return {contacts_, std::move(blocks), std::move(mobility), scene.residual, h_, parts};
+    std::vector<std::vector<Mobility>> mobility = step_mobility(scene, blocks);
+    return {contacts_, std::move(blocks), std::move(mobility), h_, parts};
   }
 
   /// W of contact_sweeps.hpp. Blocks share no mode: one motion of all modes answers a force in each of them.
-  std::vector<std::vector<Response>> step_mobility(const Scene& scene, const ContactBlocks& blocks) {
-    std::vector<std::vector<Response>> out;
+  std::vector<std::vector<Mobility>> step_mobility(const Scene& scene, const ContactBlocks& blocks) {
+    std::vector<std::vector<Mobility>> out;
     std::size_t most = 0;
     for (const auto& contacts : blocks.contacts) {
       out.emplace_back(contacts.size() * contacts.size());
@@ -235,6 +235,21 @@ private:
   void scale(double* modal, int power) const {
     for (std::size_t j = 0; j < std::min(shown_.size(), static_cast<std::size_t>(contacts_.modes)); ++j)
       modal[j] *= power > 0 ? shown_[j] : 1.0 / shown_[j];
+  }
+
+  /// Contacts that are pressed at the start have been so.
+  void hold_at_start() {
+    near_.clear();
+    for (int c = 0; c < contacts_.count; ++c) {
+      const contact::Location at = end_.locate(c);
+      const double force =
+          contact::normal_force(contacts_.supports[c].normal, -at.gap, end_.sinking(c, at.axes()));
+      if (at.gap < 0.0 && force > 0.0) {
+        sweeps_.hold(c, at, force);
+        near_.push_back(c);
+      }
+    }
+    scatter(nullptr);
   }
 
   /// The held forces of the near contacts, and those of the step, as forces on the modes.
@@ -304,7 +319,6 @@ private:
       obstacles_.at(to.start, carried_[1]);
       carried_[1].add_to(end_);
     }
-    sweeps_.add_shifts(end_);
     return sums;
   }
 
@@ -357,7 +371,6 @@ private:
     const ModalFlow::Sums sums = modes_.push(s.from, s.load, to.load, s.force, row_forces(1), to.from);
     end_.gather(to.from.q.data(), to.from.v.data());
     carried_[1].add_to(end_);
-    sweeps_.add_shifts(end_);
     return sums;
   }
 
@@ -381,11 +394,6 @@ private:
     const double eighth = 0.125 * s.length; // of contacts: by the cubic through both ends
     for (std::size_t lane = 0; lane < s.u.size(); ++lane)
       s.u[lane] = 0.5 * (start_.u[lane] + end_.u[lane]) + eighth * (start_.w[lane] - end_.w[lane]);
-    for (const int c : s.trial.active) {
-      const Components by = sweeps_.deflection(c);
-      s.u[static_cast<std::size_t>(c)] += by.y;
-      s.u[static_cast<std::size_t>(contacts_.width + c)] += by.z;
-    }
     for (std::size_t i = 0; i < shown_.size(); ++i)
       s.q[i] *= shown_[i];
   }
@@ -446,6 +454,8 @@ std::unique_ptr<Replayable> make_replayable_splitting(const Scene& scene, double
 
 std::unique_ptr<Scheme> make_splitting(const Scene& scene, double step, double fastest, int longest,
                                        int parts) {
+  if (scene.residual.size() > 0)
+    return make_flexible_splitting(scene, step, fastest);
   return make_replayable_splitting(scene, step, fastest, longest, parts);
 }
 

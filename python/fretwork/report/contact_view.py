@@ -104,7 +104,7 @@ def _density(plot, y, z, touching):
     met = np.flatnonzero(count)
     count = count[met]
     contact = np.bincount(cell, weights=touch[seen], minlength=width * height)[met]
-    top = np.quantile(count, 0.98) if len(met) else 1.0
+    top = float(np.quantile(count, 0.98)) if len(met) else 1.0
     strength = np.clip(np.log1p(24 * count) / np.log1p(24 * top), 0, 1)
     mix = (contact / count)[:, None]
     pixels = np.zeros((width * height, 4), np.uint8)

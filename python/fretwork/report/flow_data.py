@@ -39,7 +39,8 @@ def _columns(path):
 
 def _places(keys):
     """Where each key stands, in the order of the first ones."""
-    found, first = {}, 0
+    found: dict[str | tuple[str, ...], list[int]] = {}
+    first = 0
     for key, rows in itertools.groupby(keys):
         last = first + sum(1 for _ in rows)
         found.setdefault(key, []).extend(range(first, last))

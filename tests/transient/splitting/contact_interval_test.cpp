@@ -11,8 +11,8 @@ namespace {
 
 constexpr double usual = 1e-4; // s
 
-Response isotropic(double w) {
-  Response out;
+Mobility isotropic(double w) {
+  Mobility out;
   for (int i = 0; i < 3; ++i)
     out.w[i][i] = w;
   return out;
@@ -25,7 +25,7 @@ Response isotropic(double w) {
 TEST(ContactIntervals, TakeNoDriftOfTheGapForASpeedInShortIntervals) {
   constexpr double stiffness = 1e6, damping = 500.0, speed = 0.1, penetration = 1e-5, drift = 1e-7;
   const contact::Support support{contact::Circle{1e-3}, {stiffness, damping}, {}};
-  const ContactIntervals intervals(support, {}, isotropic(1.0), SeriesLaws(support, {}, false), false, usual);
+  const ContactIntervals intervals(support, {}, isotropic(1.0), false, usual);
   ContactPath path;
   path.u = {1e-3 + penetration, 0.0, 0.0};
   path.v = {speed, 0.0, 0.0};
@@ -43,8 +43,7 @@ TEST(ContactIntervals, TakeNoDriftOfTheGapForASpeedInShortIntervals) {
 TEST(ContactIntervals, FollowTheLawOfTheGapOverUsualIntervals) {
   constexpr double stiffness = 1e6, penetration = 1e-5;
   const contact::Support support{contact::Circle{1e-3}, {stiffness}, {}};
-  const ContactIntervals intervals(support, {}, isotropic(1e-6), SeriesLaws(support, {}, false), false,
-                                   usual);
+  const ContactIntervals intervals(support, {}, isotropic(1e-6), false, usual);
   ContactPath path;
   path.u = {0.0, 1e-3 + penetration, 0.0};
   path.at = intervals.locate(path.u);

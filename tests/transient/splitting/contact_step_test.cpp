@@ -11,11 +11,11 @@ using namespace fretwork::transient;
 // returns is estimated again and again, below what the time of the step can resolve. The step ends nevertheless.
 TEST(ContactStep, EndsWhereTheForceIsAlwaysAboutToReturn) {
   constexpr double step = 2e-5, stiffness = 1e8, damping = 1700.0, out = 8e-3, penetration = 1e-7;
-  Response mobility;
+  Mobility mobility;
   for (int i = 0; i < 3; ++i)
     mobility.w[i][i] = 12.0;
   const contact::Support support{contact::Stop{0.0, contact::PlaneAxis::y}, {stiffness, damping}, {}};
-  const ContactStep contact(support, {}, mobility, {}, false, step, 6, 1e-3);
+  const ContactStep contact(support, {}, mobility, false, step, 6, 1e-3);
   const double side = contact::locate(support.obstacle, penetration, 0.0).gap < 0.0 ? 1.0 : -1.0;
   const double pressing = stiffness * out / damping * (1.0 - 1e-14); // K_N p' = C_N p'' but for round-off
   const double falling = stiffness * pressing / damping;             // and so it stays

@@ -8,7 +8,6 @@
 #include "transient/statics/static_start.hpp"
 #include <Eigen/LU>
 #include <cmath>
-#include <complex>
 #include <gtest/gtest.h>
 #include <numbers>
 
@@ -49,16 +48,16 @@ Peak peak(const Scene& scene, const StepOptions& options) {
 
 } // namespace
 
-TEST(SeriesLaws, HoldWhatASpringInSeriesLeavesThem) {
-  constexpr double stiffness = 1e5, flexibility = 3e-6, displacement = 1e-3;
-  const contact::NormalLaw law = contact::in_series({stiffness, 40.0, 2.0}, flexibility);
-  const double force = law.stiffness * displacement, taken = displacement - flexibility * force;
-  EXPECT_NEAR(force, stiffness * taken, round_off * force);
-  // a slow motion: K + i w C in series with 1/R
-  constexpr double w = 1.0, damping = 40.0;
-  const std::complex<double> bare(stiffness, w * damping), both = bare / (1.0 + flexibility * bare);
-  const double second_order = std::pow(flexibility * w * damping, 2);
-  EXPECT_NEAR(w * law.damping, both.imag(), second_order * both.imag() + round_off * stiffness);
+TEST(SeriesForce, SolvesTheLawOfItsPlace) {
+  const contact::NormalLaw laws[] = {{1e5}, {1e5, 40.0}, {1e5, 0.0, 2.0}, {1e5, 40.0, 2.0}};
+  for (const auto& law : laws)
+    for (const double rate : {-0.8, -0.1, 0.0, 0.1, 0.8})
+      for (const double flexibility : {0.0, 1e-7, 1e-5, 1e-2}) {
+        constexpr double mean = 1e-3, mobility = 3e-4;
+        const double f = contact::series_force(law, mean, rate, mobility, flexibility);
+        const double p = mean - flexibility * f, speed = rate - mobility * f;
+        EXPECT_NEAR(f, std::max(0.0, law.stiffness * p + law.damping_at(p) * speed), round_off * 1e3);
+      }
 }
 
 TEST(FlexibleContacts, AreSpringsInSeries) {
@@ -88,7 +87,7 @@ TEST(FlexibleContacts, GiveTheClosedFormOfAnImpactInOrderTwo) {
   const Peak fine = peak(s, splitting(0.0125 / w));
   constexpr double bound = 1e-2; // an instant off the peak by half a step sees (w h)^2/8 less, 5e-3
   EXPECT_LT(coarse, bound);
-  EXPECT_LT(std::abs(fine.force / force - 1.0), bound / 256.0); // order 2
+  EXPECT_LT(std::abs(fine.force / force - 1.0), bound / 1000.0); // of 256 in the worst phase
   EXPECT_NEAR(fine.time, time, 0.0125 / w);
 }
 
@@ -176,9 +175,9 @@ TEST(FlexibleContacts, ShareTheirFlexibility) {
 }
 
 TEST(FlexibleContacts, AreSolvedWhereTheyShareMuchMoreThanTheyGiveWay) {
-  // nodes side by side on springs, each between planes with friction; K_N R = 300, of which they share a half
+  // nodes side by side on springs, each between planes with friction; K_N R = 300, of which they share 0.95; w_c h = 0.6 of the stiffest shape
   constexpr int count = 10;
-  constexpr double stiffness = 1e10, flexibility = 3e-8, shared = 0.5;
+  constexpr double stiffness = 1e10, flexibility = 3e-8, shared = 0.95;
   Scene s;
   s.system.stiffness = Eigen::VectorXd::LinSpaced(count, 1e4, 4e4);
   s.system.damping = Eigen::VectorXd::Constant(count, 2.0);
@@ -201,30 +200,32 @@ TEST(FlexibleContacts, AreSolvedWhereTheyShareMuchMoreThanTheyGiveWay) {
   const History run = simulate(s, splitting(2.5e-5), 0.1);
   EXPECT_EQ(run.report.counts.steps, 8000);
   EXPECT_LT(run.report.residual_relative, 1e-2);
-  EXPECT_LE(run.report.counts.unconverged, 8);
+  EXPECT_EQ(run.report.counts.unconverged, 0);
 }
 
 TEST(FlexibleContacts, StickWithTheStiffnessesInSeries) {
   // a block held by a sticking spring of K_T and R: x = (v0/w) sin(w t), w^2 = K_T/(1 + K_T R)/m
   constexpr double stiffness = 1e4, speed = 0.1;
-  for (const double flexibility : {1e-5, 1e-4, 1e-2}) {
-    const double w = std::sqrt(in_series(stiffness, flexibility));
-    Scene s = mass_point(1.0, Vec3::Zero(), 10.0 / w);
-    s.contacts = {pressed(1.0, 1e4, {stiffness, 0.0, 1e3, 1e3})};
-    s.residual = diagonal(flexibility, flexibility, 0.0);
-    start(s, 1.0, Vec3::Zero(), Vec3(0.6, 0.8, 0.0) * speed);
-    const auto error = [&](double h) {
-      const History run = simulate(s, splitting(h), 0.5 / w);
-      double largest = 0.0;
-      for (Eigen::Index i = 0; i < run.time.size(); ++i)
-        largest = std::max(
-            largest, (run.q.col(i) - speed / w * std::sin(w * run.time(i)) * Vec3(0.6, 0.8, 0.0)).norm());
-      return largest * w / speed;
-    };
-    const double coarse = error(0.1 / w), fine = error(0.0125 / w);
-    EXPECT_LT(coarse, 2e-2) << flexibility;
-    EXPECT_LT(fine, coarse / 45.0) << flexibility; // of 64
-  }
+  for (const double flexibility : {1e-5, 1e-4, 1e-2})
+    for (const auto kind :
+         {contact::FrictionMemoryKind::return_map, contact::FrictionMemoryKind::reference}) {
+      const double w = std::sqrt(in_series(stiffness, flexibility));
+      Scene s = mass_point(1.0, Vec3::Zero(), 10.0 / w);
+      s.contacts = {pressed(1.0, 1e4, {stiffness, 0.0, 1e3, 1e3, kind})};
+      s.residual = diagonal(flexibility, flexibility, 0.0);
+      start(s, 1.0, Vec3::Zero(), Vec3(0.6, 0.8, 0.0) * speed);
+      const auto error = [&](double h) {
+        const History run = simulate(s, splitting(h), 0.5 / w);
+        double largest = 0.0;
+        for (Eigen::Index i = 0; i < run.time.size(); ++i)
+          largest = std::max(
+              largest, (run.q.col(i) - speed / w * std::sin(w * run.time(i)) * Vec3(0.6, 0.8, 0.0)).norm());
+        return largest * w / speed;
+      };
+      const double coarse = error(0.1 / w), fine = error(0.0125 / w);
+      EXPECT_LT(coarse, 2e-2) << flexibility;
+      EXPECT_LT(fine, coarse / 45.0) << flexibility; // of 64
+    }
 }
 
 TEST(FlexibleContacts, HaveNoStepLimitOfTheirOwn) {

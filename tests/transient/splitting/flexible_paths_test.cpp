@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contacts with residual flexibility along a smooth path, with every law: convergence, the limit of stiff modes, energy balance.
+// Contacts that give way beside the modes along a smooth path, with every law: of order 2, the limit of stiff modes, in balance.
 #include "core/symmetric.hpp"
 #include "scenes.hpp"
 #include <array>
@@ -64,6 +64,7 @@ struct Law {
   contact::FrictionLaw friction;
   Vec3 velocity;
 };
+constexpr auto reference = contact::FrictionMemoryKind::reference;
 const Law laws[] = {
     {"spring", {1000.0}, {}, {0.05, 0.1, 0.05}},
     {"damper", {1000.0, 10.0}, {}, {0.0, 0.0, 0.0}},
@@ -71,6 +72,8 @@ const Law laws[] = {
     {"stick", {1000.0}, {800.0, 0.0, 20.0, 20.0}, {0.05, 0.1, 0.05}},
     {"damped stick", {1000.0, 5.0}, {800.0, 5.0, 20.0, 20.0}, {0.0, 0.0, 0.0}},
     {"slip", {1000.0}, {800.0, 20.0, 0.1, 0.1}, {1.5, 2.0, 0.0}},
+    {"reference stick", {1000.0}, {800.0, 0.0, 20.0, 20.0, reference}, {0.05, 0.1, 0.05}},
+    {"reference slip", {1000.0}, {800.0, 20.0, 0.1, 0.1, reference}, {1.5, 2.0, 0.0}},
 };
 
 /// The force on the node of the path in equilibrium at t = 0.
@@ -87,8 +90,7 @@ Vec3 pressed_at_start(double stiffness) {
 
 } // namespace
 
-TEST(FlexibleContacts, ConvergeAlongASmoothPath) {
-  constexpr double of_coarse = 4e-3, of_fine = 2e-3; // sweeps find forces to 1e-3
+TEST(FlexibleContacts, KeepOrderTwo) {
   for (const Law& law : laws) {
     Scene s = pressed_on_a_circle(law.normal, 1.0, law.friction, law.velocity);
     s.residual = flexibility;
@@ -96,15 +98,15 @@ TEST(FlexibleContacts, ConvergeAlongASmoothPath) {
     const auto coarse = apart(motion(s, splitting(s.duration / 256.0)), finest),
                fine = apart(motion(s, splitting(s.duration / 2048.0)), finest);
     for (std::size_t i = 0; i < 3; ++i) {
-      EXPECT_LT(coarse[i], of_coarse) << law.name << " " << i;
-      EXPECT_LT(fine[i], of_fine) << law.name << " " << i;
+      EXPECT_GT(std::log2(coarse[i] / fine[i]) / 3.0, 1.8)
+          << law.name << " " << i << " " << coarse[i] << " " << fine[i];
+      EXPECT_LT(fine[i], 1e-3) << law.name << " " << i;
     }
   }
 }
 
 TEST(FlexibleContacts, AreTheLimitOfStiffModes) {
-  // dampers in series are of first order in R w C, here up to 0.15, with (R w C)^2 = 2 % of the force (contact/series.hpp)
-  constexpr double w = 1e4, zeta = 0.5, share = 0.08, share_without_dampers = 0.05, of_a_spring = 5e-3;
+  constexpr double w = 1e4, zeta = 0.5, share = 0.02;
   for (const Law& law : laws) {
     const Scene rigid = pressed_on_a_circle(law.normal, 1.0, law.friction, law.velocity);
     Scene flexible = rigid;
@@ -117,32 +119,32 @@ TEST(FlexibleContacts, AreTheLimitOfStiffModes) {
                without = apart(motion(rigid, splitting(5e-5)), wanted);
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_GT(without[i], 0.01) << law.name << " " << i;
-      const bool damped = law.normal.damps() || law.friction.damping > 0.0;
-      EXPECT_LT(with[i], (damped                  ? share
-                          : law.friction.active() ? share_without_dampers
-                                                  : of_a_spring) *
-                             without[i])
-          << law.name << " " << i;
+      EXPECT_LT(with[i], share * without[i]) << law.name << " " << i;
     }
   }
 }
 
-TEST(FlexibleContacts, BalanceTheEnergy) {
-  constexpr double on_a_path = 3e-3, rattling_share = 1e-2, unconverged_share = 5e-3;
+TEST(FlexibleContacts, BalanceTheEnergyInOrderTwo) {
   for (const Law& law : laws) {
     Scene s = pressed_on_a_circle(law.normal, 1.0, law.friction, law.velocity);
     s.residual = flexibility;
     const auto residual = [&](double h) {
       return simulate(s, splitting(h), s.duration).report.residual_relative;
     };
-    EXPECT_LT(residual(s.duration / 1024.0), on_a_path) << law.name;
+    const double coarse = residual(s.duration / 128.0), fine = residual(s.duration / 1024.0);
+    const double fall = law.velocity.norm() > 1.0
+                            ? 6.0
+                            : 30.0; // of 8, of 64: those that slip stick at first, which is a kink
+    EXPECT_LT(fine, coarse / fall) << law.name;
+    EXPECT_LT(fine, 1e-4) << law.name;
   }
   Scene s = rattling(4, 12, 0.5);
   s.residual = 2e-6 * (Eigen::MatrixXd::Identity(12, 12) + 0.5 * Eigen::MatrixXd::Ones(12, 12));
   const History run = simulate(s, splitting(5e-5), 0.1);
-  EXPECT_LT(run.report.residual_relative, rattling_share);
-  const StepCounts counts = run.report.counts;
-  EXPECT_LE(static_cast<double>(counts.unconverged), unconverged_share * static_cast<double>(counts.steps));
+  EXPECT_LT(run.report.residual_relative, 5e-3);
+  EXPECT_EQ(run.report.counts.unconverged, 0);
+  const StepCounts fine = simulate(s, splitting(1e-5), 0.1).report.counts;
+  EXPECT_EQ(fine.unconverged, 0);
 }
 
 TEST(FlexibleContacts, TurnWithTheirForcesRoundHoles) {
@@ -159,21 +161,19 @@ TEST(FlexibleContacts, TurnWithTheirForcesRoundHoles) {
   s.residual = shared;
   const History run = simulate(s, splitting(5e-5), 0.1);
   EXPECT_GT(run.normal.maxCoeff(), 0.0);
-  EXPECT_LT(run.report.residual_relative, 1e-2);
-  constexpr double unconverged_share = 0.05; // where K_N R is shared contacts answer one another's touches
-  const StepCounts counts = run.report.counts;
-  EXPECT_LE(static_cast<double>(counts.unconverged), unconverged_share * static_cast<double>(counts.steps));
+  EXPECT_LT(run.report.residual_relative, 5e-3);
+  EXPECT_EQ(run.report.counts.unconverged, 0);
 }
 
-TEST(FlexibleContacts, ArePressedAlongLandsWithEdges) {
-  // the deflection is up to 8 % of the radius here: the nearest part is sought at the place of the modes, which lies deeper by it
-  constexpr double stiffness = 1e6, tolerance = 0.12, of_displacements = 0.03;
+TEST(FlexibleContacts, TakeTheNearestPartOfAHoleWithLands) {
+  // pressed along lands that protrude with edges; deeper than the contact stands by its flexibility, another land is nearest
+  constexpr double stiffness = 1e6, tolerance = 0.03, of_displacements = 0.01;
   std::vector<contact::PolarPoint> lands;
   for (int i = 0; i < 24; ++i) {
     const double angle = 0.01 + i * std::numbers::pi / 12.0;
     lands.push_back({angle, 1e-3 * (1.0 + 0.25 * std::cos(4.0 * angle))});
   }
-  for (const double give : {1.0})
+  for (const double give : {1.0, 5.0})
     for (const contact::FrictionLaw& friction : {contact::FrictionLaw{}, {5e4, 10.0, 0.3, 0.3}}) {
       Scene s = mass_point(1.0, Vec3::Constant(400.0), 0.4);
       s.system.damping.setConstant(400.0);
