@@ -10,7 +10,10 @@ targets=("${@:2}")
 [ ${#targets[@]} -gt 0 ] || targets=(mesh study table results)
 tools/install_packages.sh clang-14 libclang-rt-14-dev
 [ -e build/fuzz/CMakeCache.txt ] || cmake --preset fuzz >/dev/null
-cmake --build --preset fuzz --target "${targets[@]/#/fuzz_}" >/dev/null
+if ! cmake --build --preset fuzz --target "${targets[@]/#/fuzz_}" >build/fuzz/build.log; then
+  tail -n 60 build/fuzz/build.log
+  exit 1
+fi
 mkdir -p build/fuzz/found build/fuzz/corpus/study_examples
 for study in examples/*/*.toml; do
   cp "$study" "build/fuzz/corpus/study_examples/$(basename "$(dirname "$study")")_$(basename "$study")"
