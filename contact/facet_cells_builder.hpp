@@ -21,6 +21,9 @@ public:
 
 private:
   static constexpr std::size_t most_corners = 16;
+  static constexpr std::size_t short_list = 4; ///< pairs: what is no longer is not worth another cut
+  static constexpr std::size_t sampled = 32;   ///< pairs to choose a cut by
+  [[nodiscard]] static double squared(double y, double z) { return y * y + z * z; }
   /// Some corners, or other points of a cell, in order.
   template <class T> struct Some {
     std::array<T, most_corners> of;

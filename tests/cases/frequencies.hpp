@@ -6,6 +6,7 @@
 #include "modal/slepc_modes.hpp"
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -26,6 +27,21 @@ inline std::vector<double> hertz(const modal::Basis& basis) {
   std::vector<double> values;
   for (const double omega : basis.omega)
     values.push_back(omega / (2.0 * std::numbers::pi));
+  return values;
+}
+
+/// Frequencies of the modes that move in the plane of x and z (or out of it).
+inline std::vector<double> plane_frequencies(const modal::Basis& basis, bool in_plane) {
+  std::vector<double> values;
+  for (Eigen::Index j = 0; j < basis.size(); ++j) {
+    double in = 0.0, out = 0.0;
+    for (Eigen::Index row = 0; row < basis.shapes.rows(); row += 6) {
+      in += std::pow(basis.shapes(row, j), 2) + std::pow(basis.shapes(row + 2, j), 2);
+      out += std::pow(basis.shapes(row + 1, j), 2);
+    }
+    if ((in > out) == in_plane)
+      values.push_back(basis.omega[j] / (2.0 * std::numbers::pi));
+  }
   return values;
 }
 

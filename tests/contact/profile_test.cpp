@@ -1,25 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/obstacle.hpp"
 #include "contact/profile.hpp"
-#include "uniform.hpp"
+#include "profile_holes.hpp"
 #include <algorithm>
-#include <atomic>
-#include <cstdlib>
 #include <gtest/gtest.h>
 #include <limits>
-#include <new>
 
 using namespace fretwork;
 using contact::Location;
 using contact::PlanePoint;
 using contact::PolarPoint;
 using contact::Profile;
+using namespace fretwork::tests::holes;
 
 namespace {
 
-std::atomic<long> allocations{0};
-
-constexpr double pi = std::numbers::pi;
 constexpr double round_off = 2e-14; // positions and radii are of order 1; a few operations
 constexpr double feet_apart = 1e-6; // two feet farther apart than this, equally near: the gap has no gradient
 constexpr double near_the_line =
@@ -28,41 +23,6 @@ constexpr double direction_error = 1e-9; // round_off / near_the_line, rounded u
 constexpr double difference_step = 1e-7;
 constexpr double difference_error =
     1e-6; // of central differences: round_off / step, and step / distance to a corner
-
-std::vector<PolarPoint> polygon(int n, auto radius, double turned = 0.0) {
-  std::vector<PolarPoint> points;
-  for (int k = 0; k < n; ++k)
-    points.push_back({2.0 * pi * k / n + turned, radius(2.0 * pi * k / n)});
-  return points;
-}
-std::vector<PolarPoint> jagged(int n, std::uint64_t seed) {
-  tests::Uniform uniform(seed);
-  std::vector<PolarPoint> points;
-  for (int k = 0; k < n; ++k)
-    points.push_back({2.0 * pi * (k + uniform(-0.45, 0.45)) / n, uniform(0.4, 1.2)});
-  return points;
-}
-double round_hole(double) { return 1.0; }
-double trefoil(double angle) { return 0.7 + 0.4 * std::cos(3.0 * angle); }
-double quatrefoil(double angle) { return 0.8 + 0.3 * std::cos(4.0 * angle); }
-double slot(double angle) {
-  return std::min(1.0 / std::abs(std::cos(angle)), 0.05 / std::abs(std::sin(angle)));
-}
-
-/// Holes from few to many facets, convex or not, smooth or not.
-std::vector<Profile> all() {
-  return {Profile(polygon(3, round_hole)),
-          Profile(polygon(4, round_hole, 0.3)),
-          Profile(polygon(10, round_hole)),
-          Profile(polygon(997, round_hole)),
-          Profile(polygon(60, trefoil)),
-          Profile(polygon(2000, trefoil, -1.0)),
-          Profile(polygon(301, quatrefoil)),
-          Profile(polygon(400, slot, 0.01)),
-          Profile(jagged(7, 1)),
-          Profile(jagged(50, 2)),
-          Profile(jagged(400, 3))};
-}
 
 /// Every foot as near as the nearest one, by a plain look at all facets; inside by the crossings of a ray.
 struct Reference {
@@ -115,15 +75,6 @@ void expect_same_bytes(const Location& a, const Location& b) {
 }
 
 } // namespace
-
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* p = std::malloc(size))
-    return p;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 
 TEST(Profile, GapIsTheDistanceToTheNearestOfAllFacets) {
   tests::Uniform uniform(11);
@@ -398,13 +349,4 @@ TEST(Profile, LastPointThatRepeatsTheFirstIsDropped) {
   const Profile closed(points);
   EXPECT_EQ(closed.vertices().size(), 50u);
   expect_same_bytes(open.locate(0.3, -0.4), closed.locate(0.3, -0.4));
-}
-
-TEST(Profile, LooksUpWithoutAllocating) {
-  for (const Profile& profile : all()) {
-    const long before = allocations;
-    for (int i = 0; i < 100; ++i)
-      EXPECT_FALSE(std::isnan(profile.locate(0.02 * i - 1.0, 0.03 * i - 1.5).gap));
-    EXPECT_EQ(allocations, before);
-  }
 }
