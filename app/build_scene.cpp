@@ -145,26 +145,26 @@ Eigen::MatrixXd support_dofs(const Fields& fields, Index node) {
 
 /// What the motions of the scene do to a contact's point less its obstacle, global axes, 3 x motions; empty where nothing. The base
 /// leaves behind an obstacle that stays in space; supports move the point, and the obstacles they carry.
-Eigen::MatrixXd carried_by_motions(const study::Study& study, const study::Contact& contact,
+Eigen::MatrixXd imposed_by_motions(const study::Study& study, const study::Contact& contact,
                                    const PlacedContact& placed, const Fields& fields,
                                    const transient::Scene& scene) {
-  Eigen::MatrixXd carried = Eigen::MatrixXd::Zero(3, static_cast<Eigen::Index>(scene.motions.size()));
+  Eigen::MatrixXd imposed = Eigen::MatrixXd::Zero(3, static_cast<Eigen::Index>(scene.motions.size()));
   const auto supports = static_cast<Eigen::Index>(study.support_motions.size());
-  const Eigen::Index bases = carried.cols() - supports;
+  const Eigen::Index bases = imposed.cols() - supports;
   for (Eigen::Index k = 0; contact.grounded && k < bases; ++k)
-    carried.col(k) = study.base_motions[static_cast<std::size_t>(k)].direction;
+    imposed.col(k) = study.base_motions[static_cast<std::size_t>(k)].direction;
   for (const fem::NodeShare& share : placed.motion)
-    carried.rightCols(supports) += share.weights * support_dofs(fields, share.node);
+    imposed.rightCols(supports) += share.weights * support_dofs(fields, share.node);
   if (placed.other >= 0)
-    carried.rightCols(supports) -= support_dofs(fields, placed.other).topRows(3);
+    imposed.rightCols(supports) -= support_dofs(fields, placed.other).topRows(3);
   for (Eigen::Index k = 0; k < supports; ++k)
     if (const auto& motion = study.support_motions[static_cast<std::size_t>(k)];
         contact.carrier == motion.group)
-      carried.col(bases + k) -= motion.direction;
+      imposed.col(bases + k) -= motion.direction;
   // a static solution leaves round-off where the obstacle moves as its node does
   constexpr double round_off = 1e-9; // of a support's unit motion
-  carried = (carried.array().abs() < round_off).select(0.0, carried);
-  return carried.isZero(0.0) ? Eigen::MatrixXd() : carried;
+  imposed = (imposed.array().abs() < round_off).select(0.0, imposed);
+  return imposed.isZero(0.0) ? Eigen::MatrixXd() : imposed;
 }
 
 /// The structures of a scene that have a node of a contact.
@@ -210,8 +210,8 @@ void add_contact(const study::Study& study, const study::Contact& contact, const
   const double largest = point.b.size() > 0 ? point.b.cwiseAbs().maxCoeff() : 0.0;
   point.b = (point.b.array().abs() > round_off_of_shapes * largest)
                 .select(point.b, 0.0); // a direction that is not used costs nothing
-  if (const auto carried = carried_by_motions(study, contact, placed, fields, out.scene); carried.size() > 0)
-    point.carried = placed.frame.rotation() * carried;
+  if (const auto imposed = imposed_by_motions(study, contact, placed, fields, out.scene); imposed.size() > 0)
+    point.imposed = placed.frame.rotation() * imposed;
   const TrueModes its = true_modes_of(point, out.true_modes);
   point.support =
       support_of(contact, placed, of_modes(out.scene.system, its.modes), point.b(Eigen::all, its.columns));
@@ -219,14 +219,14 @@ void add_contact(const study::Study& study, const study::Contact& contact, const
 }
 
 /// What the support motions do to an observed node; the base's are not counted.
-Eigen::MatrixXd carried_node(const study::Study& study, Index node, const Fields& fields,
-                             const transient::Scene& scene) {
+Eigen::MatrixXd imposed_on_node(const study::Study& study, Index node, const Fields& fields,
+                                const transient::Scene& scene) {
   if (study.support_motions.empty())
     return {};
-  Eigen::MatrixXd carried = Eigen::MatrixXd::Zero(3, static_cast<Eigen::Index>(scene.motions.size()));
-  carried.rightCols(static_cast<Eigen::Index>(study.support_motions.size())) =
+  Eigen::MatrixXd imposed = Eigen::MatrixXd::Zero(3, static_cast<Eigen::Index>(scene.motions.size()));
+  imposed.rightCols(static_cast<Eigen::Index>(study.support_motions.size())) =
       support_dofs(fields, node).topRows(3);
-  return carried;
+  return imposed;
 }
 
 /// Forces and initial values that are round-off beside the largest, in modes that no contact moves.
@@ -373,7 +373,7 @@ BuiltScene build_scene(const study::Study& study, const Fields& fields,
       Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(3, scene.system.size());
       add_motion(bases, nodes[k].node, translations(), rows);
       out.nodes.push_back(
-          {nodes[k].name, std::move(rows), carried_node(study, nodes[k].node, fields, scene)});
+          {nodes[k].name, std::move(rows), imposed_on_node(study, nodes[k].node, fields, scene)});
       out.node_numbers.push_back(k);
     }
   if (study.transient->start == study::Start::equilibrium)

@@ -27,12 +27,12 @@ Point at_start(const PlacedContact& placed, std::size_t k, const BuiltScene& bui
   }
   const core::Vec3 place = scene.place_at_start(contact) + contact.moved_by(scene.q0);
   core::Vec3 speed = contact.moved_by(scene.v0);
-  for (Eigen::Index m = 0; m < contact.carried.cols(); ++m)
-    speed += scene.motions[static_cast<std::size_t>(m)].velocity0 * contact.carried.col(m);
+  for (Eigen::Index m = 0; m < contact.imposed.cols(); ++m)
+    speed += scene.motions[static_cast<std::size_t>(m)].velocity0 * contact.imposed.col(m);
   const contact::Location at = contact::locate(contact.support.obstacle, place.y(), place.z());
-  const double sinking = -(at.ny * speed.y() + at.nz * speed.z());
+  const double penetration_rate = -(at.ny * speed.y() + at.nz * speed.z());
   return {&placed, &contact, &built.true_modes, at.gap,
-          contact::normal_force(contact.support.normal, -at.gap, sinking)};
+          contact::normal_force(contact.support.normal, -at.gap, penetration_rate)};
 }
 
 /// Empty where nothing overlaps.

@@ -113,10 +113,10 @@ Job::Job(const study::Study& study, const BuiltScene& built, const transient::St
       observers_(watching(study, built, progress)), run_(built.scene, choice, observers_, &recorder_, grid_) {
   if (study.support_motions.empty())
     return;
-  std::vector<Eigen::MatrixXd> carried;
+  std::vector<Eigen::MatrixXd> imposed;
   for (const auto& node : built.nodes)
-    carried.push_back(node.carried);
-  nodes_.carry(carried, built.scene.motions, built.scene.duration);
+    imposed.push_back(node.imposed);
+  nodes_.add_imposed_motion(imposed, built.scene.motions, built.scene.duration);
 }
 
 JobResult Job::result() && {

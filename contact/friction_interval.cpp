@@ -154,7 +154,7 @@ private:
     const double v0 = norm(out_.velocity), twice = 2.0 * norm(p.by) / t.length,
                  v1 = norm(p.velocity); // Simpson's rule
     out_.slid += t.length * (v0 + 2.0 * twice + v1) / 6.0;
-    out_.rubbed += t.length * (normal_ * v0 + (normal_ + n1) * twice + n1 * v1) / 6.0;
+    out_.wear_work += t.length * (normal_ * v0 + (normal_ + n1) * twice + n1 * v1) / 6.0;
     out_.sliding_time += t.length;
     // The force is linear in time. The slider's speed is linear but for what is left of |T| - mu_d N at the start, which decays as e^-r: to the
     // product of their means, by how much the motion of the slider lies before the middle of the piece.

@@ -41,7 +41,7 @@ template <class V> struct FrictionInterval {
   V velocity{};              ///< m/s, at the end
   bool sliding = false;      ///< at the end
   double slider_work = 0.0;  ///< J
-  double rubbed = 0.0;       ///< J, integral of N |v| while it slides
+  double wear_work = 0.0;    ///< J, integral of N |v| while it slides
   double slid = 0.0;         ///< m, the path of that
   double sliding_time = 0.0; ///< s
 };

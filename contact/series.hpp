@@ -7,8 +7,8 @@
 namespace fretwork::contact {
 
 /// Step form: F_N constant over a step, the damper implicit. `mean` is the mean penetration (> 0) and `free_rate` the mean rate p' there would be without
-/// this force, `mobility` = (h/2) n.W.n what the mean normal speed changes by per newton, `compliance` R (m/N, >= 0) a spring in series by which the
-/// contact gives way: P = mean - R F_N,
+/// this force, `mobility` = (h/2) n.W.n what the mean normal speed changes by per newton, `compliance` R (m/N, >= 0) a spring in series that the
+/// force compresses: P = mean - R F_N,
 ///     F_N = <K_N P + c(P) p'>+,  p' = free_rate - mobility F_N,
 /// linear in F_N but for Hunt and Crossley's damper, which makes it a F^2 - b F + c = 0, the smaller root: K_N/(1 + K_N R) alone.
 [[nodiscard]] inline double series_force(const NormalLaw& law, double mean, double free_rate, double mobility,

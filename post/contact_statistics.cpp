@@ -112,7 +112,7 @@ void ContactStatistics::Sums::add(const transient::ContactState& state, double s
   normal_max = std::max(normal_max, state.peak);
   tangential2 += state.friction_square * step;
   tangential_max = std::max(tangential_max, dot(state.friction, state.friction));
-  slid += state.rubbed;
+  slid += state.wear_work;
   distance += state.slid;
   sliding_time += state.sliding * step;
   friction += state.friction_work;

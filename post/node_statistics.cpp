@@ -27,16 +27,17 @@ NodeStatistics::NodeStatistics(const std::vector<Eigen::MatrixXd>& rows, double 
     gather_.add_pack(modes, width, by_mode.data() + lane);
 }
 
-void NodeStatistics::carry(const std::vector<Eigen::MatrixXd>& carried,
-                           const std::vector<transient::PrescribedMotion>& motions, double duration) {
+void NodeStatistics::add_imposed_motion(const std::vector<Eigen::MatrixXd>& imposed,
+                                        const std::vector<transient::PrescribedMotion>& motions,
+                                        double duration) {
   const std::size_t width = u_.size();
-  carried_.assign(motions.size() * width, 0.0);
+  imposed_.assign(motions.size() * width, 0.0);
   for (std::size_t k = 0; k < motions.size(); ++k) {
     motions_.emplace_back(motions[k], duration);
-    for (std::size_t node = 0; node < carried.size(); ++node)
-      for (std::size_t d = 0; d < 3 && carried[node].size() > 0; ++d)
-        carried_[k * width + 3 * node + d] =
-            carried[node](static_cast<Eigen::Index>(d), static_cast<Eigen::Index>(k));
+    for (std::size_t node = 0; node < imposed.size(); ++node)
+      for (std::size_t d = 0; d < 3 && imposed[node].size() > 0; ++d)
+        imposed_[k * width + 3 * node + d] =
+            imposed[node](static_cast<Eigen::Index>(d), static_cast<Eigen::Index>(k));
   }
 }
 
@@ -44,11 +45,11 @@ void NodeStatistics::step(const transient::Record& record) {
   if (record.time < from_ || sums_.empty())
     return;
   kernels::gather(gather_, record.q, u_.data());
-  const double* carried = carried_.data();
+  const double* imposed = imposed_.data();
   for (const transient::MotionSignal& motion : motions_) {
     const double s = motion(record.time).displacement;
     for (double& u : u_)
-      u += s * *carried++;
+      u += s * *imposed++;
   }
   for (std::size_t node = 0; node < sums_.size(); ++node)
     for (std::size_t d = 0; d < 3; ++d)

@@ -24,9 +24,9 @@ class NodeStatistics final : public transient::Observer {
 public:
   /// @param rows  for each node its 3 x n translations of the modes   @param from  start of the window, s
   NodeStatistics(const std::vector<Eigen::MatrixXd>& rows, double from);
-  /// The nodes are carried by imposed motions too: u = rows q + carried s, 3 x motions for each node, or empty.
-  void carry(const std::vector<Eigen::MatrixXd>& carried,
-             const std::vector<transient::PrescribedMotion>& motions, double duration);
+  /// The nodes are imposed by imposed motions too: u = rows q + imposed s, 3 x motions for each node, or empty.
+  void add_imposed_motion(const std::vector<Eigen::MatrixXd>& imposed,
+                          const std::vector<transient::PrescribedMotion>& motions, double duration);
   void step(const transient::Record& record) override;
   void visit(core::StateArchive& state) override { state(sums_, time_, ends_); }
   [[nodiscard]] std::vector<NodeSummary> summaries() const;
@@ -41,7 +41,7 @@ private:
   double time_ = 0.0; ///< length of the window so far, s
   BatchEnds ends_;
   std::vector<transient::MotionSignal> motions_;
-  transient::kernels::Array carried_; ///< in lanes, motion after motion
+  transient::kernels::Array imposed_; ///< in lanes, motion after motion
 };
 
 } // namespace fretwork::post

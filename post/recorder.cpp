@@ -56,8 +56,8 @@ core::Vec3 Recorder::place(std::size_t contact, std::int64_t index, double time)
     x.noalias() += point.b * out_.modal_displacement.col(index);
   else
     x += point.moved_by(out_.modal_displacement.col(index));
-  for (Eigen::Index k = 0; k < point.carried.cols(); ++k)
-    x += motions_[static_cast<std::size_t>(k)](time).displacement * point.carried.col(k);
+  for (Eigen::Index k = 0; k < point.imposed.cols(); ++k)
+    x += motions_[static_cast<std::size_t>(k)](time).displacement * point.imposed.col(k);
   return x;
 }
 
@@ -116,8 +116,8 @@ void Recorder::forces(std::int64_t index, double time, const double* load,
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     auto row = out_.nodes[k].acceleration.row(index).transpose();
     row.noalias() = nodes_[k].rows * acceleration_;
-    for (Eigen::Index m = 0; m < nodes_[k].carried.cols(); ++m)
-      row += motions_[static_cast<std::size_t>(m)].acceleration(time) * nodes_[k].carried.col(m);
+    for (Eigen::Index m = 0; m < nodes_[k].imposed.cols(); ++m)
+      row += motions_[static_cast<std::size_t>(m)].acceleration(time) * nodes_[k].imposed.col(m);
   }
   served_ = index + 1;
 }
@@ -207,11 +207,11 @@ void Recorder::add_motions() {
     for (Eigen::Index i = 0; i < out_.time.size(); ++i) {
       const transient::MotionState s = motions_[k](out_.time(i));
       for (std::size_t c = 0; c < scene_.contacts.size(); ++c)
-        if (const Eigen::MatrixXd& carried = scene_.contacts[c].carried; carried.size() > 0)
-          add(out_.contacts[c], i, s, carried.col(static_cast<Eigen::Index>(k)).transpose());
+        if (const Eigen::MatrixXd& imposed = scene_.contacts[c].imposed; imposed.size() > 0)
+          add(out_.contacts[c], i, s, imposed.col(static_cast<Eigen::Index>(k)).transpose());
       for (std::size_t n = 0; n < nodes_.size(); ++n)
-        if (const Eigen::MatrixXd& carried = nodes_[n].carried; carried.size() > 0)
-          add(out_.nodes[n], i, s, carried.col(static_cast<Eigen::Index>(k)).transpose());
+        if (const Eigen::MatrixXd& imposed = nodes_[n].imposed; imposed.size() > 0)
+          add(out_.nodes[n], i, s, imposed.col(static_cast<Eigen::Index>(k)).transpose());
     }
 }
 

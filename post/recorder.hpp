@@ -42,8 +42,8 @@ struct TimeSeries {
 struct ObservedNode {
   std::string name;
   Eigen::MatrixXd rows; ///< 3 x n, global axes
-  Eigen::MatrixXd carried =
-      {}; ///< 3 x motions of the scene, global axes: u = rows q + carried s; empty: not carried
+  Eigen::MatrixXd imposed =
+      {}; ///< 3 x motions of the scene, global axes: u = rows q + imposed s; empty: none
 };
 
 class Recorder final : public transient::Sampler {

@@ -18,9 +18,9 @@ void SectorStatistics::step(const transient::Record& record) {
   for (const int c : record.active) {
     const transient::ContactState& state = record.states[static_cast<std::size_t>(c)];
     const int at = watched_[static_cast<std::size_t>(c)];
-    if (at != none && state.rubbed > 0.0)
+    if (at != none && state.wear_work > 0.0)
       work_[static_cast<std::size_t>(at)].add(wear::contact_angle(state.axes.ny, state.axes.nz),
-                                              state.rubbed);
+                                              state.wear_work);
   }
 }
 

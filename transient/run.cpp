@@ -27,10 +27,10 @@ constexpr int most_refined = 16;
 
 std::unique_ptr<Scheme> make_splitting_of(const Scene& scene, const StepChoice& c) {
   if (!(c.replay > 0.0))
-    return make_splitting(scene, c.step, c.fastest, c.flight, c.parts);
+    return make_splitting(scene, c.step, c.fastest, c.macro_steps, c.parts);
   return make_replayed(
-      make_replayable_splitting(scene, c.step, c.fastest, c.flight, c.parts),
-      make_replayable_splitting(scene, 0.5 * c.step, c.fastest, 2 * c.flight, c.parts),
+      make_replayable_splitting(scene, c.step, c.fastest, c.macro_steps, c.parts),
+      make_replayable_splitting(scene, 0.5 * c.step, c.fastest, 2 * c.macro_steps, c.parts),
       {c.accuracy, c.replay, static_cast<int>(scene.contacts.size()), c.parts, most_refined * c.parts});
 }
 
@@ -182,10 +182,10 @@ bool Run::advance(std::int64_t records) {
     outputs_->keep(record, next + 0.5 * record.step); // the last output may lie at the end
     const double residual = std::abs(record.energy.residual());
     largest_residual_ = std::max(largest_residual_, residual);
-    largest_throughput_ = std::max(largest_throughput_, record.energy.throughput);
+    largest_energy_scale_ = std::max(largest_energy_scale_, record.energy.scale);
     for (Observer* observer : observers_)
       observer->step(record);
-    diverged_records_ = residual <= divergence_threshold * largest_throughput_ ? 0 : diverged_records_ + 1;
+    diverged_records_ = residual <= divergence_threshold * largest_energy_scale_ ? 0 : diverged_records_ + 1;
     if (!std::isfinite(residual) || diverged_records_ > passing)
       report_.outcome = Outcome::diverged;
     ++report_.records;
@@ -205,12 +205,12 @@ Report Run::finish() {
   report.failure = scheme_->failure();
   if (report.outcome == Outcome::done)
     outputs_->finish(*scheme_);
-  report.residual_relative = largest_throughput_ > 0.0 ? largest_residual_ / largest_throughput_ : 0.0;
+  report.residual_relative = largest_energy_scale_ > 0.0 ? largest_residual_ / largest_energy_scale_ : 0.0;
   return report;
 }
 
 void Run::visit(core::StateArchive& state) {
-  state(*scheme_, *outputs_, report_, largest_residual_, largest_throughput_, diverged_records_);
+  state(*scheme_, *outputs_, report_, largest_residual_, largest_energy_scale_, diverged_records_);
   for (Observer* observer : observers_)
     state(*observer);
   if (sampler_)

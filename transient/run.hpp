@@ -47,7 +47,7 @@ struct Report {
   StepCounts counts;
   StepFailure failure = StepFailure::none;
   Energy energy;                  ///< at the last step
-  double residual_relative = 0.0; ///< largest |residual| over largest throughput
+  double residual_relative = 0.0; ///< largest |residual| over largest scale
 };
 
 class OutputQueue;
@@ -80,7 +80,7 @@ private:
   std::unique_ptr<OutputQueue> outputs_;
   double end_; ///< s: a record at or after it is not made
   Report report_;
-  double largest_residual_ = 0.0, largest_throughput_ = 0.0;
+  double largest_residual_ = 0.0, largest_energy_scale_ = 0.0;
   int diverged_records_ = 0; ///< in a row
 };
 

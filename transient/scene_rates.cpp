@@ -161,7 +161,7 @@ double initial_overlap(const Scene& scene, const ContactPoint& point) {
 bool acts(const Load& load, const Scene& scene) {
   return !load.modal_force.isZero(0.0) ||
          std::any_of(scene.contacts.begin(), scene.contacts.end(), [](const ContactPoint& contact) {
-           return contact.carried.size() > 0 || contact.under_loads.size() > 0;
+           return contact.imposed.size() > 0 || contact.under_loads.size() > 0;
          });
 }
 

@@ -13,7 +13,7 @@ constexpr double round_off_of_shapes = 1e-11;
 bool slips_unmoved(const ContactPoint& point) {
   const contact::FrictionLaw& law = point.support.friction;
   return law.active() && law.kind == contact::FrictionMemoryKind::reference && law.along.x != 0.0 &&
-         point.carried.size() > 0 && !point.carried.row(0).isZero(0.0) &&
+         point.imposed.size() > 0 && !point.imposed.row(0).isZero(0.0) &&
          point.b.row(0).cwiseAbs().maxCoeff() <= round_off_of_shapes * point.b.cwiseAbs().maxCoeff();
 }
 

@@ -59,7 +59,7 @@ struct StepChoice : SceneRates {
   double replay =
       0.0; ///< s, length of the replays that measure the error of the step and refine `parts` (replays.hpp); 0: none
   double accuracy = 0.01; ///< asked for
-  int flight = 1;         ///< steps that splitting makes at once while no contact can meet its obstacle
+  int macro_steps = 1;    ///< steps that splitting makes at once while no contact can meet its obstacle
   double explicit_rate =
       0.0; ///< r_e, 1/s: of the dampers that only Euler and devogelaere have to resolve; 0 with others
   std::string reason;        ///< one line for the user

@@ -69,7 +69,7 @@ nodes = ["mass"]
 )" + more;
 }
 
-/// u = s + q, q'' + w0^2 q = -s'', s = A sin(w t): carried by the foot at t = 0.
+/// u = s + q, q'' + w0^2 q = -s'', s = A sin(w t): imposed by the foot at t = 0.
 void expect_shaken(const post::NodeSeries& mass, const Eigen::VectorXd& time) {
   constexpr double amplitude = 1e-3, w0 = 100.0, w = 2.0 * pi * 10.0;
   constexpr double of_linear_loads = 1e-4; // (2 pi/200)^2/12 of the loads and what they force

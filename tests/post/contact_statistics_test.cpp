@@ -126,7 +126,7 @@ TEST(ContactStatistics, SumWhatTheStepsTell) {
     state.peak = 30.0;
     state.friction_square = 20.0;
     state.sliding = 0.25;
-    state.rubbed = 2e-3;
+    state.wear_work = 2e-3;
     state.slid = 1e-3;
     state.touches = 1;
     state.approach = 0.2 + 0.2 * k;

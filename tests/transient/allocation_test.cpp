@@ -149,7 +149,7 @@ TEST(Allocation, NeverHappensWithObstaclesThatMove) {
                    {Random{0.5, 5.0, 60.0, 1}, 0.0, 0.0},
                    {Table{{0.0, 0.5, 0.5, 1.0}, {0.0, 1e-3, -1e-3, 0.0}}}};
   for (auto& c : scene.contacts)
-    c.carried = 0.1 * Eigen::Matrix3d::Identity();
+    c.imposed = 0.1 * Eigen::Matrix3d::Identity();
   EXPECT_EQ(allocations_of_a_run(scene, splitting(1e-4)), 0);
   EXPECT_EQ(allocations_of_a_run(scene, energy_conserving(1e-4)), 0);
   EXPECT_EQ(allocations_of_a_run(scene, collocation(1e-4)), 0);

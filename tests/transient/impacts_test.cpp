@@ -19,7 +19,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double two_steps = 1.6e-3; // of 2.5e-5 s, relative to a contact: its ends are known to a step each
 
-/// Records at equal distances but for flights, which tell single impacts.
+/// Records at equal distances but for macro-steps, which separate single impacts.
 constexpr Candidate with_fixed_steps[] = {{SchemeKind::splitting},
                                           {SchemeKind::collocation},
                                           {SchemeKind::euler},
@@ -33,7 +33,7 @@ struct Impact {
 /// The impacts of contact 0; the peak by the parabola through its three highest steps.
 std::vector<Impact> impacts(std::vector<Trace::Entry> records) {
   std::vector<Impact> out;
-  double h = records[1].time - records[0].time; // of a step: flights, in which no force acts, are longer
+  double h = records[1].time - records[0].time; // of a step: macro-steps, in which no force acts, are longer
   for (std::size_t i = 1; i < records.size(); ++i)
     h = std::min(h, records[i].time - records[i - 1].time);
   records.insert(records.begin(), Trace::Entry{}); // open before the start

@@ -47,8 +47,8 @@ struct Oracle {
     Vec3 u = point.rest + point.b * q, w = point.b * v;
     for (std::size_t k = 0; k < motions.size(); ++k) {
       const MotionState s = motions[k](time);
-      u += s.displacement * point.carried.col(static_cast<Eigen::Index>(k));
-      w += s.velocity * point.carried.col(static_cast<Eigen::Index>(k));
+      u += s.displacement * point.imposed.col(static_cast<Eigen::Index>(k));
+      w += s.velocity * point.imposed.col(static_cast<Eigen::Index>(k));
     }
     const auto at = contact::locate(point.support.obstacle, u.y(), u.z());
     opens += at.gap >= 0.0;
@@ -107,8 +107,8 @@ Scene on_a_circle(double normal_damping, double modal_damping, const contact::Fr
 Scene on_a_moving_circle(const contact::FrictionLaw& friction, const Vec3& velocity) {
   Scene scene = on_a_circle(3.0, 1.0, friction, velocity);
   scene.motions = {{Harmonic{2.0, 2.0, 0.4}, -0.05, 1e-3}, {Harmonic{1.5, 3.0, 1.1}, 0.02, 0.0}};
-  scene.contacts[0].carried.resize(3, 2);
-  scene.contacts[0].carried << 0.3, -0.8, //
+  scene.contacts[0].imposed.resize(3, 2);
+  scene.contacts[0].imposed << 0.3, -0.8, //
       0.9, 0.2,                           //
       -0.3, 0.5;
   return scene;

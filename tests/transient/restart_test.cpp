@@ -240,7 +240,7 @@ TEST(Restart, InsideFlights) {
         c.b.row(0).setZero();
     }
     StepChoice choice = choose_step(scene, splitting(2e-5));
-    choice.flight = 8;
+    choice.macro_steps = 8;
     const auto counts = run(scene, choice, {}, nullptr, {}).counts;
     EXPECT_LT(counts.evaluations, 9 * counts.steps / 10);
     const std::string whole = in_one_go(scene, choice);
@@ -318,7 +318,7 @@ TEST(Restart, WithObstaclesThatMove) {
   Scene scene = pushed(3, 6);
   scene.motions = {{Harmonic{1.0, 20.0, 0.0}, -1.0 / 125.66, 0.0}, {Random{0.5, 5.0, 60.0, 1}, 0.0, 0.0}};
   for (auto& c : scene.contacts)
-    c.carried = 0.1 * Eigen::MatrixXd::Identity(3, 2);
+    c.imposed = 0.1 * Eigen::MatrixXd::Identity(3, 2);
   expect_restarts(scene, all_schemes());
 }
 

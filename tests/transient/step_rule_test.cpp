@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/error.hpp"
-#include "scenes.hpp"
+#include "step_rule_scenes.hpp"
 #include <gtest/gtest.h>
 #include <string>
 
@@ -8,48 +8,11 @@ namespace step_rule_test {
 
 using namespace fretwork;
 using namespace fretwork::tests;
+using namespace fretwork::tests::step_rule;
 using namespace fretwork::transient;
 using contact::Circle;
 using contact::PlaneAxis;
 using contact::PlanePair;
-
-namespace {
-
-constexpr double round_off = 1e-12;
-constexpr double eps = 0.5;          // at an accuracy of 1 %
-constexpr double share = 1.0;        // w_c h and w_t h of splitting at 1 %
-constexpr double stick_share = 0.25; // w_t h where forces stand at instants
-constexpr double mass = 2.0;
-
-Scene scene_with(const contact::Support& support, double duration = 1000.0,
-                 const Vec3& stiffness = Vec3::Zero()) {
-  Scene scene = mass_point(mass, stiffness, duration);
-  scene.contacts = {contact_of(mass, support)};
-  return scene;
-}
-
-/// Its stiff direction y vibrates by itself, so that no heavier mode may stand for it.
-Scene vibrating(Scene scene) {
-  scene.v0(1) = 1.0;
-  return scene;
-}
-
-bool mentions(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-/// The step is the limit, rounded down so that whole steps cover the duration.
-void expect_governed(const Scene& scene, const StepOptions& options, double limit,
-                     const std::string& reason) {
-  const StepChoice choice = choose_step(scene, options);
-  EXPECT_LE(choice.step, limit * (1.0 + round_off));
-  EXPECT_GT(choice.step, limit * (1.0 - 2.0 * limit / scene.duration));
-  EXPECT_NEAR(choice.step * static_cast<double>(choice.steps), scene.duration, round_off * scene.duration);
-  EXPECT_TRUE(mentions(choice.reason, reason)) << choice.reason;
-  EXPECT_TRUE(choice.warnings.empty());
-}
-
-} // namespace
 
 TEST(StepRule, ResolvesTheContactFrequency) {
   expect_governed(scene_with({Circle{0.1}, {8e4}, {}}), splitting(), share / std::sqrt(8e4 / mass),
@@ -129,23 +92,23 @@ TEST(StepRule, GivesThirtyPointsAPeriodToTheExcitationAndTwoHundredWithoutContac
 
 TEST(StepRule, LetsSplittingFlyWhereModesAndLoadsAreSlow) {
   const double at_rate = share / 200.0; // s, the step that the contact asks for
-  const auto flight = [&](double slow, const TimeFunction& function) {
+  const auto macro_steps = [&](double slow, const TimeFunction& function) {
     Scene scene = scene_with({Circle{0.1}, {8e4}, {}}, 1000.0, Vec3(0, mass * slow * slow, 0));
     scene.loads = {force_on(mass, Vec3(0, 1, 0), function)};
-    return choose_step(scene, splitting()).flight;
+    return choose_step(scene, splitting()).macro_steps;
   };
-  EXPECT_EQ(flight(0.0, Constant{1.0}), 12);
-  EXPECT_EQ(flight(0.5 / (5.1 * at_rate), Constant{1.0}), 5);
-  EXPECT_EQ(flight(0.5 / (0.9 * at_rate), Constant{1.0}), 1);
-  EXPECT_EQ(flight(0.0, Harmonic{1.0, 1.0 / (30.0 * 3.1 * at_rate)}), 3);
-  EXPECT_EQ(flight(0.0, Table{{0.0, 500.0, 1000.0}, {0.0, 1.0, 0.0}}), 1);
+  EXPECT_EQ(macro_steps(0.0, Constant{1.0}), 12);
+  EXPECT_EQ(macro_steps(0.5 / (5.1 * at_rate), Constant{1.0}), 5);
+  EXPECT_EQ(macro_steps(0.5 / (0.9 * at_rate), Constant{1.0}), 1);
+  EXPECT_EQ(macro_steps(0.0, Harmonic{1.0, 1.0 / (30.0 * 3.1 * at_rate)}), 3);
+  EXPECT_EQ(macro_steps(0.0, Table{{0.0, 500.0, 1000.0}, {0.0, 1.0, 0.0}}), 1);
   Scene scene = scene_with({Circle{0.1}, {8e4}, {}});
-  EXPECT_EQ(choose_step(scene, splitting(at_rate)).flight, 1) << "a given step is kept to the letter";
-  EXPECT_EQ(choose_step(scene, collocation()).flight, 1);
-  EXPECT_EQ(choose_step(scene, splitting()).flight, 12);
+  EXPECT_EQ(choose_step(scene, splitting(at_rate)).macro_steps, 1) << "a given step is kept to the letter";
+  EXPECT_EQ(choose_step(scene, collocation()).macro_steps, 1);
+  EXPECT_EQ(choose_step(scene, splitting()).macro_steps, 12);
   EXPECT_TRUE(mentions(choose_step(scene, splitting()).reason, "up to 12 of them at once"));
   scene.contacts[0].support.normal.damping = 1.0;
-  EXPECT_EQ(choose_step(scene, splitting()).flight, 1);
+  EXPECT_EQ(choose_step(scene, splitting()).macro_steps, 1);
   EXPECT_FALSE(mentions(choose_step(scene, splitting()).reason, "at once"));
 }
 
@@ -355,75 +318,6 @@ TEST(StepRule, LooksOnlyAlongTheDirectionsThatTheObstacleUses) {
   EXPECT_NEAR(choice.stick_frequency, 3.0 * 100.0, 1e-10);
   scene.contacts[0].support.friction = {};
   EXPECT_EQ(choose_step(scene, {}).stick_frequency, 0.0);
-}
-
-TEST(StepRule, KeepsAFixedStepAndCoversTheDuration) {
-  const Scene scene = scene_with({Circle{0.1}, {8e4}, {}}, 1.0);
-  const StepChoice choice = choose_step(scene, splitting(1e-3));
-  EXPECT_EQ(choice.step, 1e-3);
-  EXPECT_EQ(choice.steps, 1000);
-  EXPECT_EQ(choice.reason, "given in the study");
-  EXPECT_TRUE(choice.warnings.empty());
-  EXPECT_EQ(choose_step(scene, splitting(0.3e-3)).steps, 3334);
-}
-
-TEST(StepRule, WarnsWhereAFixedStepDoesNotResolve) {
-  const auto warnings = [](const Scene& scene, const StepOptions& options) {
-    return choose_step(scene, options).warnings;
-  };
-  const auto only = [](const std::vector<std::string>& list, const std::string& what) {
-    ASSERT_EQ(list.size(), 1u);
-    EXPECT_TRUE(mentions(list[0], what)) << list[0];
-    EXPECT_TRUE(mentions(list[0], "take a smaller step or leave it out"));
-  };
-  only(warnings(scene_with({Circle{0.1}, {8e4}, {}}), splitting(6e-3)), "the contact frequency: w_c h = 1.2");
-  const Scene dampers = scene_with({Circle{0.1}, {2.0}, {2.0, 4e3, 0.3, 0.3}});
-  only(warnings(dampers, splitting(3.25e-3)), "the tangential dampers: r_t h = 6.5");
-  only(warnings(dampers, euler(0.6e-3)), "the tangential dampers: r_t h = 1.2");
-  const Scene mode = scene_with({Circle{0.1}, {2.0}, {}}, 1.0, Vec3(0, 2.0 * 1e6, 0));
-  only(warnings(mode, splitting(3.1e-3)), "the highest mode: w_max h = 3.1");
-  only(warnings(mode, euler(1.9e-3)), "the highest mode: w_max h = 1.9");
-  only(warnings(scene_with({Circle{0.1}, {2.0, 4e3}, {}}), euler(0.6e-3)), "the dampers: r_e h = 1.2");
-  Scene excited = mass_point(mass, Vec3::Zero(), 1.0);
-  excited.loads = {force_on(mass, Vec3(1, 0, 0), Harmonic{1.0, 25.0})};
-  only(warnings(excited, splitting(5e-3)), "the excitation: 20 f h = 2.5");
-}
-
-TEST(StepRule, ResolvesNormalDampersThatActImplicitly) {
-  // w_c = 200 rad/s, r_n = C_N/m
-  for (const auto scheme : {SchemeKind::splitting, SchemeKind::collocation, SchemeKind::energy_conserving})
-    expect_governed(scene_with({Circle{0.1}, {8e4, 3200.0 * mass}, {}}), {scheme, {}}, 2.0 / 3200.0,
-                    "the normal dampers' rate 3200 1/s");
-  expect_governed(scene_with({Circle{0.1}, {8e4, 20.0}, {}}), splitting(), share / 200.0,
-                  "the contact frequency 200 rad/s");
-  EXPECT_EQ(choose_step(scene_with({Circle{0.1}, {8e4, 0.0, 5.0}, {}}), splitting()).normal_damper_rate, 0.0);
-}
-
-TEST(StepRule, NamesNormalDampersThatNoStepResolves) {
-  // one that leaves no rebound does not ask for steps without end
-  const Scene scene = scene_with({Circle{0.1}, {8e4, 1e9}, {}}, 1.0);
-  for (const auto scheme : {SchemeKind::splitting, SchemeKind::collocation, SchemeKind::energy_conserving}) {
-    const StepChoice choice = choose_step(scene, {scheme, {}});
-    EXPECT_EQ(choice.steps, 20000) << choice.reason; // a third of 0.03/w_c
-    ASSERT_EQ(choice.warnings.size(), 1u);
-    EXPECT_TRUE(
-        mentions(choice.warnings[0], "does not resolve the normal dampers: r_n h = 2.5e+04, at most "));
-    const bool keeps = scheme == SchemeKind::energy_conserving;
-    EXPECT_EQ(mentions(choice.warnings[0], "rebounds are right at any step"), keeps);
-    EXPECT_EQ(mentions(choice.warnings[0], "take scheme = \"energy_conserving\""), !keeps);
-    const StepChoice given = choose_step(scene, {scheme, 1e-3});
-    ASSERT_EQ(given.warnings.size(), 1u);
-    EXPECT_TRUE(mentions(given.warnings[0], "r_n h = 5e+05")) << given.warnings[0];
-    EXPECT_TRUE(mentions(given.warnings[0], "take a smaller step or leave it out"));
-  }
-  const double slow = 2.0 * mass; // r_n = 2
-  EXPECT_TRUE(choose_step(scene_with({Circle{0.1}, {8e4, slow}, {}}), splitting(4e-3)).warnings.empty());
-}
-
-TEST(StepRule, WarnsOfLargestForcesThatEnergyConservingHasTooLow) {
-  const Scene scene = scene_with({Circle{0.1}, {8e4}, {}}); // w_c = 200 rad/s
-  EXPECT_TRUE(choose_step(scene, energy_conserving(2.4e-3)).warnings.empty());
-  EXPECT_EQ(choose_step(scene, energy_conserving(5e-3)).warnings.size(), 1u); // 14 % at w_c h = 1
 }
 
 TEST(StepRule, TakesSplittingForAFullDampingMatrixToo) {

@@ -64,9 +64,6 @@ endfunction()
 # namespaces must differ within a folder. Sources with options of their own are left alone.
 function(fretwork_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${FRETWORK_UNITY} UNITY_BUILD_BATCH_SIZE 8)
-  if(FRETWORK_UNITY AND CMAKE_CXX_COMPILER_ID MATCHES "Clang") # names of one source would shadow those of its neighbours
-    target_compile_options(${target} PRIVATE -Wno-shadow)
-  endif()
   if(FRETWORK_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU") # g++ takes a source that another one includes for a header
     target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
   endif()

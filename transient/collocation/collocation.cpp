@@ -44,8 +44,8 @@ public:
       : system_(with_diagonal(scene.system)), h_(step),
         loads_(scene.loads, scene.system.size(), scene.duration, step, scene.sampled_loads),
         contacts_(scene.contacts, scene.system.size()), motion_(contacts_),
-        obstacles_(scene, contacts_, step), obstacle_at_{obstacles_.room(), obstacles_.room(),
-                                                         obstacles_.room()},
+        obstacles_(scene, contacts_, step), obstacle_at_{obstacles_.workspace(), obstacles_.workspace(),
+                                                         obstacles_.workspace()},
         solver_(contacts_), trial_(contacts_.count), coupled_(system_, step, 2, halvings + 1),
         powers_(3 * static_cast<std::size_t>(contacts_.count)),
         carried_(static_cast<std::size_t>(contacts_.count)) {
@@ -71,8 +71,7 @@ public:
     obstacle_at_[0].add_to(motion_.u(0), motion_.v(0));
     solver_.start(motion_);
     solver_.add_forces(0, force_.at[0].data());
-    energy_[0].initial = energy_[0].throughput = energy_[0].stored =
-        modal_energy(0) + solver_.spring_energy(0);
+    energy_[0].initial = energy_[0].scale = energy_[0].stored = modal_energy(0) + solver_.spring_energy(0);
     counts_.step_min = counts_.step_max = h_;
   }
 
@@ -218,7 +217,7 @@ private:
       solver_.add_forces(1, force_.at[1].data());
       solver_.add_forces(2, force_.at[2].data());
     }
-    book(now.flow.move(load_, force_, q_, v_));
+    balance_energy(now.flow.move(load_, force_, q_, v_));
     return true;
   }
 
@@ -236,7 +235,7 @@ private:
   }
 
   /// Energies at the nodes 1/2 and 1.
-  void book(const PolynomialFlow::Works& work) {
+  void balance_energy(const PolynomialFlow::Works& work) {
     const double before = modal_energy(0), h = span();
     Power to[2];
     for (const int c : solver_.alive()) {
@@ -270,7 +269,7 @@ private:
       Energy& e = energy_[j + 1] = energy_[0];
       const double moving = modal_energy(j + 1);
       e.load_work += input[j];
-      e.throughput += through[j];
+      e.scale += through[j];
       e.modal_damping += work.load[j] + work.contact[j] - (moving - before);
       e.contact_damping += to[j].damper;
       e.friction += to[j].slider;
@@ -321,7 +320,7 @@ private:
   PackedContacts contacts_;
   NodalMotion motion_;
   ObstacleMotion obstacles_;
-  std::array<Carried, 3> obstacle_at_; ///< what carries the contacts at the nodes
+  std::array<ImposedMotion, 3> obstacle_at_; ///< what carries the contacts at the nodes
   NodalSolver solver_;
   ContactTrial trial_;
   CoupledFlow coupled_; ///< of modes that a damping matrix couples, over h

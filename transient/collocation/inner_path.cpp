@@ -294,10 +294,10 @@ FRETWORK_INLINE InnerPath follow_on(const contact::Support& support, const Sprin
       }
       before = after;
     }
-    const PathLoss rubbed = slider.loss();
+    const PathLoss wear_work = slider.loss();
     out.force[j].spring = in_plane(slider.spring()) - nodes[j + 1].spring;
-    out.loss[j] = {rubbed.slider, rubbed.damper + work + held - law.spring_energy(before.depth),
-                   rubbed.forgotten};
+    out.loss[j] = {wear_work.slider, wear_work.damper + work + held - law.spring_energy(before.depth),
+                   wear_work.forgotten};
   }
   // the node 1 has what the node 1/2 hands on
   const double handed = nodes[1].face.opposite(nodes[2].face)   ? 0.0

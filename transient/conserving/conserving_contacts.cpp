@@ -106,7 +106,7 @@ void ConservingContacts::activate(int c, const Setting& s, const ContactMotion& 
       mobility(s, i, 0, i, 0) + mobility(s, i, 1, i, 1) + (in_plane ? mobility(s, i, 2, i, 2) : 0.0);
   const contact::Location face = active.from.gap < 0.0 ? active.from : free.locate(c);
   active.axes = face.axes();
-  active.free_rate = free.sinking(c, face.axes());
+  active.free_rate = free.penetration_rate(c, face.axes());
   active.end_share = 0.0;
   if (support.normal.damping > 0.0)
     active.end_share = end_rate_share(
@@ -377,7 +377,7 @@ void ConservingContacts::close(const ContactMotion& start, ContactTrial& trial) 
     state.axes = r.axes;
     state.friction = r.friction;
     state.displacement = r.displacement;
-    state.approach = start.sinking(c, r.axes);
+    state.approach = start.penetration_rate(c, r.axes);
     state.damper_work = loss;
     state.slides = r.slides;
     parts_.push_back({c, r.closed, r.p1});

@@ -41,8 +41,8 @@ void ConservingMemory::close(double h, const ContactPart& part, const ContactMot
   const contact::Support& support = contacts_.supports[static_cast<std::size_t>(part.contact)];
   const contact::FrictionMemory& memory = friction_.meet(part.contact, state.axes, losses);
   const contact::Friction friction{state.friction, state.slides};
-  const double end_force =
-      contact::normal_force(support.normal, part.end_penetration, end.sinking(part.contact, state.axes));
+  const double end_force = contact::normal_force(support.normal, part.end_penetration,
+                                                 end.penetration_rate(part.contact, state.axes));
   const ClosedStep step = support.friction.kind == contact::FrictionMemoryKind::reference
                               ? reference_step(support.friction, h, memory, friction, state.displacement)
                               : close_part(support.friction, memory, friction, state.normal_force, end_force,

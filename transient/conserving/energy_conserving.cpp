@@ -7,7 +7,7 @@
 ///
 /// Energy: the work of a constant force on an exact motion is f.(u1 - u0), which is what the springs store and the dampers and sliders
 /// take: the residual of the energy balance is round-off, and without losses the energy is constant. Obstacles that move (obstacle_motion.hpp) move
-/// the contacts at both ends of the step; they bring -f.(carried (s1 - s0)).
+/// the contacts at both ends of the step; they bring -f.(imposed (s1 - s0)).
 ///
 /// A record stands in the middle of its step, where the mean forces are of order 2. Its contact springs hold what the constant force
 /// has left them, V0 - f.(u - u0) less half of the step's losses, written (V0 + V1)/2 + f.((u0 + u1)/2 - u).
@@ -44,7 +44,8 @@ public:
         loads_(scene.loads, scene.system.size(), scene.duration, step, scene.sampled_loads),
         contacts_(scene.contacts, scene.system.size()), start_(contacts_), end_(contacts_),
         middle_(contacts_),
-        obstacles_(scene, contacts_, step), carried_{obstacles_.room(), obstacles_.room(), obstacles_.room()},
+        obstacles_(scene, contacts_, step), imposed_{obstacles_.workspace(), obstacles_.workspace(),
+                                                     obstacles_.workspace()},
         memory_(contacts_), solver_(contacts_), rows_(contacts_),
         coupled_(system_, step, 1, halvings + 1), steps_{Step(contacts_), Step(contacts_)} {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
@@ -58,12 +59,12 @@ public:
     loads_.at(0.0, load_.data());
     next_load_ = load_;
     end_.gather(q_.data(), v_.data());
-    obstacles_.at(0.0, carried_[2]);
-    carried_[2].add_to(end_);
+    obstacles_.at(0.0, imposed_[2]);
+    imposed_[2].add_to(end_);
     springs_ = end_.spring_energy();
     moving_ = moving(q_, v_);
-    booked_.initial = booked_.throughput = booked_.stored = moving_ + springs_;
-    record_.energy = booked_;
+    energy_.initial = energy_.scale = energy_.stored = moving_ + springs_;
+    record_.energy = energy_;
     show(steps_[0]);
     make(steps_[ahead_]);
   }
@@ -124,7 +125,7 @@ public:
 
   void visit(core::StateArchive& state) override {
     state(q_, v_, load_, next_load_, end_, memory_, solver_, steps_, ahead_, whole_, part_, level_);
-    state(springs_, moving_, booked_, counts_, failure_);
+    state(springs_, moving_, energy_, counts_, failure_);
   }
 
 private:
@@ -231,7 +232,7 @@ private:
       if (!loads_.constant())
         loads_.at(s.start + s.length, next_load_.data());
       for (std::size_t k = 0; k < 3; ++k)
-        obstacles_.at(s.start + 0.5 * static_cast<double>(k) * s.length, carried_[k]);
+        obstacles_.at(s.start + 0.5 * static_cast<double>(k) * s.length, imposed_[k]);
       std::fill(contact_.begin(), contact_.end(), 0.0);
       Work work = move(t, s);
       if (contacts_.count > 0) {
@@ -246,7 +247,7 @@ private:
           work = move(t, s);
         }
       }
-      book(s, work);
+      balance_energy(s, work);
       break;
     }
     part_ += parts >> level_;
@@ -272,9 +273,9 @@ private:
   /// On the modes, by all forces and by the contacts alone, and of the contact forces on what carries the contacts, over the two halves
   /// of a step, J.
   struct Work {
-    double all[2] = {0.0, 0.0}, contact[2] = {0.0, 0.0}, carried[2] = {0.0, 0.0};
+    double all[2] = {0.0, 0.0}, contact[2] = {0.0, 0.0}, imposed[2] = {0.0, 0.0};
     /// On the contacts' whole motion.
-    [[nodiscard]] double on_contacts(std::size_t half) const { return contact[half] + carried[half]; }
+    [[nodiscard]] double on_contacts(std::size_t half) const { return contact[half] + imposed[half]; }
   };
 
   /// From s.q, s.v through the middle to the end of the step.
@@ -299,27 +300,27 @@ private:
     work.contact[0] = dot(contact_, s.middle_q, s.q);
     work.contact[1] = dot(contact_, q_, s.middle_q);
     end_.gather(q_.data(), v_.data());
-    carried_[2].add_to(end_);
+    imposed_[2].add_to(end_);
     return work;
   }
 
   /// The step is accepted.
-  void book(Step& s, Work work) {
+  void balance_energy(Step& s, Work work) {
     double places[3];
     for (std::size_t k = 0; k < 3; ++k)
-      places[k] = product(contacts_, s.trial, carried_[k].u);
+      places[k] = product(contacts_, s.trial, imposed_[k].u);
     for (std::size_t half = 0; half < 2; ++half)
-      work.carried[half] = places[half + 1] - places[half];
+      work.imposed[half] = places[half + 1] - places[half];
     const double springs = springs_ + memory_.friction().spring_energy();
     const ContactLosses losses = memory_.commit(s.length, solver_.parts(), end_, s.trial);
     springs_ = s.trial.springs;
     const double springs_end = springs_ + memory_.friction().spring_energy();
     middle_.gather(s.middle_q.data(), s.middle_v.data());
-    carried_[1].add_to(middle_);
+    imposed_[1].add_to(middle_);
     s.middle_u = middle_.u;
     const double middle = moving(s.middle_q, s.middle_v);
     pass(losses, work, 0, middle);
-    s.energy = booked_;
+    s.energy = energy_;
     s.energy.stored =
         middle + 0.5 * (springs + springs_end) + 0.5 * (work.on_contacts(1) - work.on_contacts(0));
     pass(losses, work, 1, moving(q_, v_));
@@ -327,13 +328,13 @@ private:
 
   /// Losses and works of half a step; the modes then have the energy `moving_now`.
   void pass(const ContactLosses& losses, const Work& work, std::size_t half, double moving_now) {
-    const double input = (loads_.empty() ? 0.0 : work.all[half] - work.contact[half]) - work.carried[half];
-    booked_.load_work += input;
-    booked_.throughput += std::abs(input);
-    booked_.modal_damping +=
+    const double input = (loads_.empty() ? 0.0 : work.all[half] - work.contact[half]) - work.imposed[half];
+    energy_.load_work += input;
+    energy_.scale += std::abs(input);
+    energy_.modal_damping +=
         work.all[half] - (moving_now - moving_); // the flow is exact: what the modes did not keep
-    booked_.contact_damping += 0.5 * losses.damping;
-    booked_.friction += 0.5 * losses.friction;
+    energy_.contact_damping += 0.5 * losses.damping;
+    energy_.friction += 0.5 * losses.friction;
     moving_ = moving_now;
   }
 
@@ -343,7 +344,7 @@ private:
   PackedContacts contacts_;
   ContactMotion start_, end_, middle_; ///< of the step that is made
   ObstacleMotion obstacles_;
-  std::array<Carried, 3> carried_; ///< at its start, middle and end
+  std::array<ImposedMotion, 3> imposed_; ///< at its start, middle and end
   ConservingMemory memory_;
   ConservingContacts solver_;
   ContactRows rows_;
@@ -356,7 +357,7 @@ private:
   std::int64_t whole_ = 0, part_ = 0; ///< where the next step starts: whole steps and `parts` of one
   std::size_t level_ = 0;
   double springs_ = 0.0, moving_ = 0.0; ///< J, normal springs and modes at the end of the last step
-  Energy booked_;                       ///< up to there; `stored` is not kept
+  Energy energy_;                       ///< up to there; `stored` is not kept
   Record record_;
   StepCounts counts_;
   StepFailure failure_ = StepFailure::none;

@@ -31,7 +31,7 @@ public:
                            u[contacts_.width + c] + contacts_.rest_z(c));
   }
   /// Rate of the penetration along these axes, m/s.
-  [[nodiscard]] double sinking(int c, const contact::ContactAxes& axes) const {
+  [[nodiscard]] double penetration_rate(int c, const contact::ContactAxes& axes) const {
     return -axes.normal(w[c], w[contacts_.width + c]);
   }
   /// Tangential velocity, m/s.

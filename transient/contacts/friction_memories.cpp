@@ -54,7 +54,7 @@ bool FrictionMemories::was_closed(int c) const {
 void FrictionMemories::end(const ContactMotion& end, ContactTrial& trial) {
   for (const int c : closed_)
     if (!acts(trial, c)) {
-      trial.states[static_cast<std::size_t>(c)].departure = -end.sinking(c, end.locate(c).axes());
+      trial.states[static_cast<std::size_t>(c)].departure = -end.penetration_rate(c, end.locate(c).axes());
       trial.opened.push_back(c);
     }
   closed_.assign(trial.active.begin(), trial.active.end());

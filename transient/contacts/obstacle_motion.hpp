@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// Obstacles that move by themselves while the modes are counted from the base: a contact's node moves by
-///     u = b q + carried s(t),    u' = b q' + carried s'(t)
+///     u = b q + imposed s(t),    u' = b q' + imposed s'(t)
 /// from its obstacle, in the contact's local axes. An obstacle that stays in space while the base moves by s along d has
-/// carried = d. What it does on the structure is work from outside: each second, with the force f on the node, -f.(carried s').
+/// imposed = d. What it does on the structure is work from outside: each second, with the force f on the node, -f.(imposed s').
 ///
 /// With residual flexibility (Scene) loads move the contacts beside the modes, u = ... + under_loads g(t), at once: without inertia. g
 /// stands for the step about the instant, as in the loads on the modes (Signal::over_step: a table finer than steps by its mean). Their
@@ -15,8 +15,8 @@
 
 namespace fretwork::transient {
 
-/// By how much and how fast the contacts are carried at an instant, lanes of PackedContacts. Empty: no contact is.
-struct Carried {
+/// By how much and how fast the contacts are imposed at an instant, lanes of PackedContacts. Empty: no contact is.
+struct ImposedMotion {
   kernels::Array u, w; ///< m, m/s
   void add_to(double* displacement, double* velocity) const {
     for (std::size_t lane = 0; lane < u.size(); ++lane) {
@@ -32,9 +32,9 @@ public:
   /// @param contacts  those of the scene, must live longer   @param step  s
   ObstacleMotion(const Scene& scene, const PackedContacts& contacts, double step);
   /// Room for `at`: empty where nothing moves.
-  [[nodiscard]] Carried room() const;
+  [[nodiscard]] ImposedMotion workspace() const;
   /// At a time. No allocation.
-  void at(double time, Carried& carried) const;
+  void at(double time, ImposedMotion& imposed) const;
   /// The same for contact c alone, added to its lanes of a motion. No allocation.
   void add(double time, int c, ContactMotion& motion) const;
 
@@ -46,7 +46,7 @@ private:
   double h_;
   std::vector<MotionSignal> signals_;
   std::vector<Signal> loads_;
-  kernels::Array carried_; ///< lanes of each motion, one after the other; then under_loads of each load
+  kernels::Array imposed_; ///< lanes of each motion, one after the other; then under_loads of each load
 };
 
 } // namespace fretwork::transient

@@ -20,7 +20,7 @@ PackedContacts::PackedContacts(const std::vector<ContactPoint>& contacts, Eigen:
       modes(static_cast<int>(mode_count)), padded_modes(kernels::padded(static_cast<int>(mode_count))) {
   for (const ContactPoint& c : contacts) {
     const contact::FrictionLaw& law = c.support.friction;
-    const bool moves = !c.b.row(0).isZero(0.0) || (c.carried.size() > 0 && !c.carried.row(0).isZero(0.0));
+    const bool moves = !c.b.row(0).isZero(0.0) || (c.imposed.size() > 0 && !c.imposed.row(0).isZero(0.0));
     in_plane.push_back(law.active() && law.along.x != 0.0 && moves);
   }
   components = std::any_of(in_plane.begin(), in_plane.end(), [](char x) { return x; }) ? 3 : 2;

@@ -31,7 +31,7 @@ void evaluate_contacts(const PackedContacts& contacts, const ContactMemory& memo
       continue;
     const contact::Support& support = contacts.supports[c];
     const auto at = motion.locate(c);
-    const double p = -at.gap, rate = motion.sinking(c, at.axes());
+    const double p = -at.gap, rate = motion.penetration_rate(c, at.axes());
     if (!(p >= 0.0))
       continue;
     const double spring = support.normal.stiffness * p;

@@ -30,7 +30,7 @@ void EndRecord::prepare_part(const MotionRates& rates, const double* y, double t
     ContactState& state = next_.states[c];
     state.displacement = length * rates.motion().slip(c, state.axes);
     state.slid = state.slides ? norm(state.displacement) : 0.0;
-    state.rubbed = state.normal_force * state.slid;
+    state.wear_work = state.normal_force * state.slid;
   }
 }
 
@@ -41,7 +41,7 @@ void EndRecord::prepare_all(const MotionRates& rates, const double* y, double ti
   std::copy(rates.motion().u.begin(), rates.motion().u.end(), s.u.begin());
   s.energy = rates.energy(y);
   s.energy.initial = first_ ? s.energy.stored : shown_.energy.initial;
-  s.energy.throughput += s.energy.initial;
+  s.energy.scale += s.energy.initial;
   first_ = false;
   s.active.clear();
   s.opened.clear();
@@ -71,7 +71,7 @@ void EndRecord::prepare_contact(const MotionRates& rates, const double* until, i
   if (!was_active && !rates.regime(c).closed)
     return;
   const auto at = rates.motion().locate(c);
-  const double rate = rates.motion().sinking(c, at.axes());
+  const double rate = rates.motion().penetration_rate(c, at.axes());
   if (was_active) {
     past.carried_friction = friction;
     past.carried_damper = damper;

@@ -22,7 +22,7 @@ public:
       : system_(scene.system), h_(step),
         loads_(scene.loads, scene.system.size(), scene.duration, step, scene.sampled_loads),
         contacts_(scene.contacts, scene.system.size()), motion_(contacts_),
-        obstacles_(scene, contacts_, step), carried_(obstacles_.room()), memory_(contacts_, step),
+        obstacles_(scene, contacts_, step), imposed_(obstacles_.workspace()), memory_(contacts_, step),
         trial_(contacts_.count), rows_(contacts_) {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
     for (kernels::Array* a : {&q_, &v_, &k_, &c_, &load_, &force_, &before_q_, &before_v_, &scratch_})
@@ -33,8 +33,8 @@ public:
     if (system_.damping_matrix.size() == 0)
       std::copy_n(system_.damping.data(), system_.size(), c_.begin());
     motion_.gather(q_.data(), v_.data());
-    obstacles_.at(0.0, carried_);
-    carried_.add_to(motion_);
+    obstacles_.at(0.0, imposed_);
+    imposed_.add_to(motion_);
     memory_.start(motion_);
     loads_.at(0.0, {0.0, h_}, load_.data());
     record_.step = h_;
@@ -52,7 +52,7 @@ public:
     const auto sums = kernels::euler_step(contacts_.padded_modes, h_, c_.data(), k_.data(), load_.data(),
                                           force_.data(), q_.data(), v_.data());
     damper_power += sums.damping_power;
-    book(contact, sums, damper_power);
+    balance_energy(contact, sums, damper_power);
     ++steps_;
     show(record_, contacts_, before_q_.data(), motion_.u.data(), trial_);
     return record_;
@@ -98,13 +98,13 @@ private:
     if (contacts_.count == 0)
       return {};
     motion_.gather(q_.data(), v_.data());
-    obstacles_.at(record_.time, carried_);
-    carried_.add_to(motion_);
+    obstacles_.at(record_.time, imposed_);
+    imposed_.add_to(motion_);
     evaluate_contacts(contacts_, memory_, h_, motion_, trial_);
     const ContactLosses losses = memory_.commit(motion_, trial_);
     rows_.set(trial_, 1.0);
     rows_.add_to(force_.data());
-    return {trial_.springs + memory_.friction().spring_energy(), -product(contacts_, trial_, carried_.w),
+    return {trial_.springs + memory_.friction().spring_energy(), -product(contacts_, trial_, imposed_.w),
             losses};
   }
 
@@ -124,17 +124,17 @@ private:
     return power;
   }
 
-  void book(const Contacts& contact, const kernels::EulerSums& sums, double damper_power) {
+  void balance_energy(const Contacts& contact, const kernels::EulerSums& sums, double damper_power) {
     Energy& energy = record_.energy;
     energy.stored = 0.5 * sums.twice_energy + contact.stored;
     const bool start = steps_ == 0;
     if (start)
-      energy.initial = energy.throughput = energy.stored;
+      energy.initial = energy.scale = energy.stored;
     // A record stands in the middle of its step: half of what the step brings belongs to it, at t = 0 nothing
     // (only the second half is run).
     const double before = start ? 0.0 : 0.5, all = start ? 0.5 : 1.0;
     const double work = h_ * (sums.load_power + contact.power), loss = h_ * damper_power;
-    energy.throughput += all * std::abs(work);
+    energy.scale += all * std::abs(work);
     energy.load_work = load_work_ + before * work;
     energy.modal_damping = modal_damping_ + before * loss;
     energy.contact_damping = lost_.damping + before * contact.losses.damping;
@@ -151,7 +151,7 @@ private:
   PackedContacts contacts_;
   ContactMotion motion_;
   ObstacleMotion obstacles_;
-  Carried carried_;
+  ImposedMotion imposed_;
   ContactMemory memory_;
   ContactTrial trial_;
   ContactRows rows_;

@@ -17,7 +17,7 @@ MotionRates::MotionRates(const Scene& scene, double step)
     : system_(scene.system),
       loads_(scene.loads, scene.system.size(), scene.duration, step, scene.sampled_loads), smeared_(step),
       contacts_(scene.contacts, scene.system.size()), motion_(contacts_), difference_(contacts_),
-      obstacles_(scene, contacts_, step), carried_(obstacles_.room()), trial_(contacts_.count),
+      obstacles_(scene, contacts_, step), imposed_(obstacles_.workspace()), trial_(contacts_.count),
       rows_(contacts_), regimes_(static_cast<std::size_t>(contacts_.count)),
       memory_(static_cast<std::size_t>(contacts_.count)) {
   for (kernels::Array* a : {&q0_, &v0_, &k_, &c_, &load_})
@@ -44,8 +44,8 @@ void MotionRates::start(double* y) {
 /// The contacts where the state has them.
 void MotionRates::place(double time, const double* y) {
   motion_.gather(y, y + modes());
-  obstacles_.at(time, carried_);
-  carried_.add_to(motion_);
+  obstacles_.at(time, imposed_);
+  imposed_.add_to(motion_);
 }
 
 void MotionRates::rate(double time, const double* y, double* rate) {
@@ -69,7 +69,7 @@ void MotionRates::rate(double time, const double* y, double* rate) {
     act(springs(y), rate + 2 * modes());
     rows_.set(trial_, 1.0);
     rows_.add_to(rate + modes());
-    power -= product(contacts_, trial_, carried_.w);
+    power -= product(contacts_, trial_, imposed_.w);
   }
   totals[0] = power;
   totals[1] = std::abs(power);
@@ -278,7 +278,7 @@ Energy MotionRates::energy(const double* y) const {
   const double* totals = s + 4 * contacts_.count;
   Energy energy;
   energy.load_work = totals[0];
-  energy.throughput = totals[1];
+  energy.scale = totals[1];
   energy.modal_damping = totals[2];
   if (!system_.motion.empty())
     energy.fluid_work = totals[3];
@@ -318,7 +318,7 @@ contact::Location MotionRates::face_of(int c, const ContactMotion& motion) const
 /// The force is that of the closed branch: where it ends, negative.
 MotionRates::Normal MotionRates::normal_of(int c, const ContactMotion& motion,
                                            const contact::Location& at) const {
-  const double p = -at.gap, rate = motion.sinking(c, at.axes());
+  const double p = -at.gap, rate = motion.penetration_rate(c, at.axes());
   return {p, rate, contacts_.supports[c].normal.spring_and_damper(p, rate)};
 }
 

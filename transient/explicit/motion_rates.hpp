@@ -135,7 +135,7 @@ private:
   PackedContacts contacts_;
   ContactMotion motion_, difference_;
   ObstacleMotion obstacles_;
-  Carried carried_;
+  ImposedMotion imposed_;
   ContactTrial trial_;
   ContactRows rows_;
   std::vector<Regime> regimes_;

@@ -321,7 +321,7 @@ void DiagonalFlow::push(const RowForces& forces, double* y, double* q, double* v
   }
 }
 
-void DiagonalFlow::answer(const double* force, double* moved) {
+void DiagonalFlow::response(const double* force, double* moved) {
   for (Block& b : blocks_) {
     kernels::multiply(b.rows, static_cast<int>(b.modes.size()), b.constant.data(), part(b, force, a_),
                       moved_.data());

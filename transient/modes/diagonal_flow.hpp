@@ -47,7 +47,7 @@ public:
   /// After `move` over one step: what forces on contacts add to it. No allocation.
   void push(const RowForces& forces, double* y, double* q, double* v);
   /// Displacement after one step from rest under a constant force.
-  void answer(const double* force, double* moved);
+  void response(const double* force, double* moved);
   /// State a time t after y0 under the load f0 + t slope. No allocation.
   void inside(double t, const double* y0, const double* f0, const double* slope, double* q, double* v);
   /// Adds the forces of motion where `inside` was last. No allocation.

@@ -333,12 +333,12 @@ void ModalFlow::load_at(double time, double* force) {
   std::copy_n(a_.data(), system_.size(), force);
 }
 
-void ModalFlow::answer(const double* force, double* moved) {
+void ModalFlow::response(const double* force, double* moved) {
   std::fill(a_.begin(), a_.end(), 0.0);
   std::fill(b_.begin(), b_.end(), 0.0);
   std::fill(states_.begin(), states_.end(), 0.0);
   (void)coupled_.advance(0, a_.data(), b_.data(), force, force, rest(states_));
-  diagonal_.answer(force, a_.data());
+  diagonal_.response(force, a_.data());
   for (std::size_t i = 0; i < apart_.size(); ++i)
     if (apart_[i])
       a_[i] = per_force_[i] * force[i];

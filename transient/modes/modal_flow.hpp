@@ -68,7 +68,7 @@ public:
   /// Adds the forces of motion where `inside` was last, n values. No allocation.
   void add_motion_forces(double* force) const;
   /// Displacement of the modes after one step from rest under a constant force, padded arrays.
-  void answer(const double* force, double* moved);
+  void response(const double* force, double* moved);
 
 private:
   [[nodiscard]] std::size_t place(int length) const;

@@ -36,14 +36,13 @@ struct ModeRange {
   Eigen::Index first = 0, size = 0;
 };
 
-/// A contact: a support and how the modes move its node. Displacement from the obstacle in local axes: u = b q + carried s(t).
+/// A contact: a support and how the modes move its node. Displacement from the obstacle in local axes: u = b q + imposed s(t).
 struct ContactPoint {
   std::string name;
   contact::Support support;
   core::Vec3 rest = core::Vec3::Zero(); ///< m: the node at q = 0, local axes, from the obstacle's centre
   Eigen::MatrixXd b;                    ///< 3 x modes, rows x_loc y_loc z_loc
-  Eigen::MatrixXd carried =
-      {}; ///< 3 x motions of the scene: of the node less the obstacle; empty: not carried
+  Eigen::MatrixXd imposed = {}; ///< 3 x motions of the scene: of the node less the obstacle; empty: none
   /// m, 3 x loads of the scene, with Scene::residual: what the modes lack of the static displacement under each load of value 1, so that
   /// u = b q + residual f + under_loads g(t); empty: nothing.
   Eigen::MatrixXd under_loads = {};
@@ -98,8 +97,8 @@ struct Scene {
   /// Where a contact's node stands at t = 0 for q = 0, from the obstacle's centre, m.
   [[nodiscard]] core::Vec3 place_at_start(const ContactPoint& point) const {
     core::Vec3 place = point.rest + point.loaded_at_start;
-    for (Eigen::Index k = 0; k < point.carried.cols(); ++k)
-      place += motions[static_cast<std::size_t>(k)].displacement0 * point.carried.col(k);
+    for (Eigen::Index k = 0; k < point.imposed.cols(); ++k)
+      place += motions[static_cast<std::size_t>(k)].displacement0 * point.imposed.col(k);
     return place;
   }
 };

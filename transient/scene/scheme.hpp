@@ -29,7 +29,7 @@ struct ContactState {
   double friction_square = 0.0; ///< N2, likewise
   double peak = 0.0;            ///< N, largest normal force
   double sliding = 0.0;         ///< share of the step in which it slides
-  double rubbed = 0.0;          ///< J, integral of F_N |v_T| while it slides
+  double wear_work = 0.0;       ///< J, integral of F_N |v_T| while it slides
   double departure = 0.0;       ///< m/s, away from the obstacle: speed at which the contact opened, if it did
   int touches = 0;              ///< how often it closed in the step
   double closed_at = 0.0, opened_at = 0.0; ///< shares of the step before it closed and opened last, if it did
@@ -42,7 +42,7 @@ struct ContactState {
     friction_square = dot(friction, friction) / share;
     peak = normal_force;
     sliding = slides ? share : 0.0;
-    rubbed = normal_force * slid / share;
+    wear_work = normal_force * slid / share;
     touches = touched ? 1 : 0;
   }
   /// Force on the node along the local axes, N.
@@ -73,7 +73,7 @@ struct Energy {
   double contact_damping = 0.0; ///< normal and tangential dampers, what the positive part cuts, what a spring
                                 ///< gives up after opening
   double friction = 0.0;        ///< Coulomb sliders
-  double throughput = 0.0;      ///< initial + integral of |load power|: what the residual is measured against
+  double scale = 0.0;           ///< initial + integral of |load power|: what the residual is measured against
   [[nodiscard]] double residual() const {
     return initial + load_work + fluid_work - stored - modal_damping - contact_damping - friction;
   }

@@ -29,7 +29,7 @@ reference_friction(const contact::FrictionLaw& law, const contact::FrictionTable
   out.slider_work = step.friction_work;
   if (friction.slides) {
     out.slid = norm(out.displacement);
-    out.rubbed = normal * out.slid;
+    out.wear_work = normal * out.slid;
     out.sliding_time = length;
   }
   return out;
@@ -54,9 +54,9 @@ ContactIntervals::ContactIntervals(const contact::Support& support, const Compon
 IntervalTable ContactIntervals::table(double length) const {
   IntervalTable of;
   of.length = length;
-  const double answer = 0.5 * length * length * (normal_.stiffness + friction_.stiffness) +
-                        length * (normal_.damping + friction_.damping);
-  of.answer = answer / (1.0 + answer * mobility_);
+  const double force = 0.5 * length * length * (normal_.stiffness + friction_.stiffness) +
+                       length * (normal_.damping + friction_.damping);
+  of.apparent_mass = force / (1.0 + force * mobility_);
   of.normal_share =
       normal_.damping > 0.0 ? contact::implicit_share(normal_.damping * mobility_ * length) : 0.5;
   if (friction_.active()) {
@@ -83,7 +83,7 @@ double ContactIntervals::relax(ContactPast& past, double time) const {
 
 /// The gap is linear about where the force of the guess leads.
 void ContactIntervals::find_normal_force(const ContactPath& m, const Components& guessed,
-                                         const IntervalTable& of, PressedInterval& p) const {
+                                         const IntervalTable& of, IntervalForces& p) const {
   const double dt = of.length, half = 0.5 * dt * dt, share = of.normal_share;
   const Components by_guess = w_ * guessed, a = m.a + 0.5 * dt * m.j + by_guess;
   const Components way = m.displacement(dt) + half * by_guess;
@@ -126,7 +126,7 @@ void ContactIntervals::find_normal_force(const ContactPath& m, const Components&
 }
 
 void ContactIntervals::find_closed_friction(const ContactPath& m, const IntervalTable& of,
-                                            PressedInterval& p) const {
+                                            IntervalForces& p) const {
   const contact::FrictionLaw& law = friction_;
   const bool by_reference =
       law.kind == contact::FrictionMemoryKind::reference; // which knows no parts of an interval
@@ -155,7 +155,7 @@ void ContactIntervals::find_closed_friction(const ContactPath& m, const Interval
     p.displacement = by;
     p.memory = {spring, f.sliding};
     p.slider_work = f.slider_work;
-    p.rubbed = f.rubbed;
+    p.wear_work = f.wear_work;
     p.slid = f.slid;
     p.sliding_time = f.sliding_time;
     // what goes into the element and is neither stored nor taken by the slider
@@ -193,7 +193,7 @@ void ContactIntervals::find_closed_friction(const ContactPath& m, const Interval
 }
 
 void ContactIntervals::find_friction(const ContactPath& m, const ContactPast& past, const IntervalTable& of,
-                                     PressedInterval& p) const {
+                                     IntervalForces& p) const {
   p.memory = past.friction;
   if (past.axes.opposite(p.axes) && p.normal.force > 0.0) { // another surface
     p.memory = {};
@@ -208,8 +208,8 @@ void ContactIntervals::find_friction(const ContactPath& m, const ContactPast& pa
   p.memory = open.friction;
 }
 
-void ContactIntervals::press(const ContactPath& m, const ContactPast& past, const IntervalTable& of,
-                             PressedInterval& p) const {
+void ContactIntervals::find_forces(const ContactPath& m, const ContactPast& past, const IntervalTable& of,
+                                   IntervalForces& p) const {
   Components guess = m.force;
   for (int i = 0;; ++i) {
     p = {};
@@ -218,7 +218,7 @@ void ContactIntervals::press(const ContactPath& m, const ContactPast& past, cons
       find_friction(m, past, of, p);
     p.force = {p.axes.y(p.normal.force, p.friction.t), p.axes.z(p.normal.force, p.friction.t), p.friction.x};
     const double changed = sum_of_sizes(p.force - guess);
-    if (of.answer * across_ * changed <= repeat_tolerance * sum_of_sizes(p.force) || i == most_repeats)
+    if (of.apparent_mass * across_ * changed <= repeat_tolerance * sum_of_sizes(p.force) || i == most_repeats)
       return;
     guess = p.force;
   }

@@ -70,20 +70,20 @@ struct ContactPath {
 /// What the laws need of an interval of a given length.
 struct IntervalTable {
   double length = 0.0;            ///< s
-  double answer = 0.0;            ///< kg: force for an acceleration of 1 m/s2 over it
+  double apparent_mass = 0.0;     ///< kg: force for an acceleration of 1 m/s2 over it
   double normal_share = 0.5;      ///< beta of normal_interval.hpp
   contact::PieceTable piece{};    ///< of friction_interval.hpp
   contact::FrictionTable table{}; ///< of the memory `reference`
 };
 
 /// An interval with its forces.
-struct PressedInterval {
+struct IntervalForces {
   contact::ContactAxes axes; ///< of the interval
   contact::Location to;      ///< at its end
   contact::NormalInterval normal;
   contact::FrictionMemory memory; ///< at its end
   contact::Vec2 friction, displacement;
-  double friction_square = 0.0, slider_work = 0.0, damper_work = 0.0, rubbed = 0.0, slid = 0.0,
+  double friction_square = 0.0, slider_work = 0.0, damper_work = 0.0, wear_work = 0.0, slid = 0.0,
          sliding_time = 0.0;
   Components force; ///< N
 };
@@ -103,18 +103,18 @@ public:
     return contact::locate(obstacle_, u.y + rest_.y, u.z + rest_.z);
   }
   /// The forces of an interval. No allocation.
-  void press(const ContactPath& m, const ContactPast& past, const IntervalTable& of,
-             PressedInterval& p) const;
-  /// An open contact forgets over `time`. Returns what its spring gives up, J.
+  void find_forces(const ContactPath& m, const ContactPast& past, const IntervalTable& of,
+                   IntervalForces& p) const;
+  /// An open contact forgets over `time`. Returns what its spring dissipates, J.
   double relax(ContactPast& past, double time) const;
   [[nodiscard]] const Mobility& mobility() const { return w_; }
 
 private:
   void find_normal_force(const ContactPath& m, const Components& guessed, const IntervalTable& of,
-                         PressedInterval& p) const;
+                         IntervalForces& p) const;
   void find_friction(const ContactPath& m, const ContactPast& past, const IntervalTable& of,
-                     PressedInterval& p) const;
-  void find_closed_friction(const ContactPath& m, const IntervalTable& of, PressedInterval& p) const;
+                     IntervalForces& p) const;
+  void find_closed_friction(const ContactPath& m, const IntervalTable& of, IntervalForces& p) const;
 
   const contact::Obstacle& obstacle_;
   const contact::NormalLaw normal_;

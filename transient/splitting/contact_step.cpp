@@ -25,12 +25,12 @@ ContactStep::ContactStep(const contact::Support& support, const Components& rest
                          bool in_plane, double step, int parts, double clearance)
     : normal_(support.normal), friction_(support.friction), in_plane_(in_plane), h_(step),
       clearance_(clearance), intervals_(support, rest, mobility, in_plane, step / parts),
-      answer_(intervals_.table(step).answer) {}
+      apparent_mass_(intervals_.table(step).apparent_mass) {}
 
 void ContactStep::divide(int parts) { intervals_.set_usual(h_ / parts); }
 
 /// How often an open contact is to be looked at in so much time.
-int ContactStep::looks(const Components& velocity, double time) const {
+int ContactStep::gap_samples(const Components& velocity, double time) const {
   const double speed = std::sqrt(velocity.y * velocity.y + velocity.z * velocity.z);
   const double by_time = time / intervals_.usual().length;
   const double by_way = clearance_ > 0.0 ? speed * time / (longest_way * clearance_) : 0.0;
@@ -41,7 +41,7 @@ bool ContactStep::meets(const ContactPast& past, const FreePath& path) const {
   if (past.closed)
     return true;
   const ContactPath m{0.0, path.u, path.v, path.a, path.j, {}, {}};
-  const int count = looks(path.v, h_);
+  const int count = gap_samples(path.v, h_);
   for (int i = count; i >= 0; --i)
     if (intervals_.locate(m.u + m.displacement(h_ * i / count)).gap <= 0.0)
       return true;
@@ -60,7 +60,7 @@ void ContactStep::stretch(ContactPast& past, const Components& missed) const {
 /// Takes an open contact to its touch, or to the end of the step. Returns whether it touches.
 bool ContactStep::find_touch(ContactPath& m, ContactAct& act) const {
   const double left = h_ - m.t;
-  const int count = looks(m.v, left);
+  const int count = gap_samples(m.v, left);
   double from = 0.0, gap_from = m.at.gap, to = 0.0, gap_to = gap_from;
   for (int i = 1; i <= count && gap_to > 0.0; ++i) {
     from = to;
@@ -115,8 +115,8 @@ void ContactStep::open(const ContactPath& m, ContactAct& act) const {
 }
 
 /// The interval is over: its forces are those of the contact.
-void ContactStep::book(ContactPath& m, const IntervalTable& of, const PressedInterval& p,
-                       ContactAct& act) const {
+void ContactStep::finish_interval(ContactPath& m, const IntervalTable& of, const IntervalForces& p,
+                                  ContactAct& act) const {
   ContactState& state = act.state;
   ContactPast& past = act.past;
   const double share = of.length / h_, begin = m.t / h_, middle = begin + 0.5 * share;
@@ -142,7 +142,7 @@ void ContactStep::book(ContactPath& m, const IntervalTable& of, const PressedInt
       state.friction_square += share * p.friction_square;
       state.displacement = state.displacement + p.displacement;
       state.slid += p.slid;
-      state.rubbed += p.rubbed;
+      state.wear_work += p.wear_work;
       state.friction_work += p.slider_work;
       state.sliding += p.sliding_time / h_;
       state.slides = p.sliding_time > 0.0;
@@ -195,7 +195,7 @@ void ContactStep::make(const ContactPast& past, const FreePath& path, const Comp
   act.past = past;
   ContactPath m{0.0, path.u, path.v, path.a, path.j, guess, intervals_.locate(path.u)};
   IntervalTable cut;
-  PressedInterval p;
+  IntervalForces p;
   for (int events = 0; h_ - m.t > shortest * h_; ++events) {
     if (m.at.gap > 0.0) {
       if (act.past.closed)
@@ -215,17 +215,17 @@ void ContactStep::make(const ContactPast& past, const FreePath& path, const Comp
       cut = intervals_.table(length);
       of = &cut;
     }
-    intervals_.press(m, act.past, *of, p);
+    intervals_.find_forces(m, act.past, *of, p);
     const double opens = p.normal.to * length;
     if (p.normal.to < 1.0 && opens > shortest * h_ && events < most_events) { // to where it opens
       cut = intervals_.table(opens);
       of = &cut;
-      intervals_.press(m, act.past, *of, p);
+      intervals_.find_forces(m, act.past, *of, p);
     } else if (!(opens > shortest * h_) && act.past.closed) {
       open(m, act);
       continue;
     }
-    book(m, *of, p, act);
+    finish_interval(m, *of, p, act);
   }
   act.end = m.u;
   act.penetrates = m.at.gap < 0.0;

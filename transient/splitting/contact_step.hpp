@@ -42,7 +42,7 @@ public:
   [[nodiscard]] bool meets(const ContactPast& past, const FreePath& path) const;
   /// @param guess  N, its force at the start   @param act  overwritten. No allocation.
   void make(const ContactPast& past, const FreePath& path, const Components& guess, ContactAct& act) const;
-  /// An open contact forgets over `time`. Returns what its spring gives up, J.
+  /// An open contact forgets over `time`. Returns what its spring dissipates, J.
   double relax(ContactPast& past, double time) const { return intervals_.relax(past, time); }
   /// A spring that sticks is stretched by what the modes moved, not by what the step took them to move: it would creep.
   /// @param missed  m, what they moved further
@@ -50,22 +50,23 @@ public:
   /// Energy of the tangential spring, J.
   [[nodiscard]] double spring_energy(const ContactPast& past) const;
   /// N: by how much its force can change for an acceleration of 1 m/s2 over the step.
-  [[nodiscard]] double answer() const { return answer_; }
+  [[nodiscard]] double apparent_mass() const { return apparent_mass_; }
 
 private:
-  [[nodiscard]] int looks(const Components& velocity, double time) const;
+  [[nodiscard]] int gap_samples(const Components& velocity, double time) const;
   bool find_touch(ContactPath& m, ContactAct& act) const;
   void open(const ContactPath& m, ContactAct& act) const;
   [[nodiscard]] double pause(const ContactPath& m) const;
   void leave(ContactPath& m, double time, ContactAct& act) const;
-  void book(ContactPath& m, const IntervalTable& of, const PressedInterval& p, ContactAct& act) const;
+  void finish_interval(ContactPath& m, const IntervalTable& of, const IntervalForces& p,
+                       ContactAct& act) const;
 
   const contact::NormalLaw normal_;
   const contact::FrictionLaw friction_;
   bool in_plane_;
   double h_, clearance_;
   ContactIntervals intervals_;
-  double answer_; ///< kg, as `answer`
+  double apparent_mass_; ///< kg, as `apparent_mass`
 };
 
 } // namespace fretwork::transient

@@ -47,7 +47,7 @@ void ContactSweeps::divide(int c, int parts) {
   steps_[c].divide(parts);
 }
 
-void ContactSweeps::follow(const ContactSweeps& other) {
+void ContactSweeps::continue_from(const ContactSweeps& other) {
   pasts_ = other.pasts_;
   forces_ = other.forces_;
   loaded_ = other.loaded_;
@@ -62,7 +62,7 @@ void ContactSweeps::visit(core::StateArchive& state) {
       steps_[c].divide(parts_[c]);
 }
 
-void ContactSweeps::hold(int c, const contact::Location& at, double normal_force) {
+void ContactSweeps::preload(int c, const contact::Location& at, double normal_force) {
   ContactPast& past = pasts_[c];
   past.axes = at.axes();
   past.closed = past.before_run = true;
@@ -111,10 +111,10 @@ bool ContactSweeps::make(const ContactMotion& start, const ContactMotion& end, c
     find(m);
     largest = std::max(largest, sum_of_sizes(m.act.mean));
   }
-  bool settled = true;
+  bool converged = true;
   for (const int b : touched_)
     if (moving_blocks_[b].parent == b)
-      settled = sweep(moving_blocks_[b].first, largest) && settled;
+      converged = sweep(moving_blocks_[b].first, largest) && converged;
   for (const Moving& m : moving_) {
     const ContactAct& act = m.act;
     pasts_[m.c] = act.past;
@@ -127,7 +127,7 @@ bool ContactSweeps::make(const ContactMotion& start, const ContactMotion& end, c
     if (act.opened)
       trial.opened.push_back(m.c);
   }
-  return settled;
+  return converged;
 }
 
 /// The block that stands for the group of a block.
@@ -167,22 +167,22 @@ void ContactSweeps::group() {
 /// Further sweeps of a group, by its first contact and the largest force of the step. Returns whether none would answer what has changed since it was found by more than the tolerance.
 bool ContactSweeps::sweep(int first, double largest) {
   for (int sweep = 1; sweep < most_sweeps; ++sweep) {
-    bool settled = true;
+    bool converged = true;
     for (int i = first; i >= 0; i = moving_[i].next)
-      if (unanswered(moving_[i]) > sweep_tolerance * largest) {
+      if (outstanding_force(moving_[i]) > sweep_tolerance * largest) {
         find(moving_[i]);
-        settled = false;
+        converged = false;
       }
-    if (settled)
+    if (converged)
       return true;
   }
   return false;
 }
 
 /// N.
-double ContactSweeps::unanswered(const Moving& m) const {
-  return steps_[m.c].answer() *
-         (sum_of_sizes(m.mean - m.answered[0]) + sum_of_sizes(m.slope - m.answered[1]));
+double ContactSweeps::outstanding_force(const Moving& m) const {
+  return steps_[m.c].apparent_mass() *
+         (sum_of_sizes(m.mean - m.solved_for[0]) + sum_of_sizes(m.slope - m.solved_for[1]));
 }
 
 /// One contact with the forces of all others that share a block with it.
@@ -192,8 +192,8 @@ void ContactSweeps::find(Moving& m) {
   path.j = path.j + (2.0 / h_) * m.slope;
   const Components mean = m.act.mean, slope = m.act.slope;
   steps_[m.c].make(pasts_[m.c], path, forces_[m.c].held, m.act);
-  m.answered[0] = m.mean;
-  m.answered[1] = m.slope;
+  m.solved_for[0] = m.mean;
+  m.solved_for[1] = m.slope;
   const Components by_mean = m.act.mean - mean, by_slope = m.act.slope - slope;
   for (const auto& [block, local] : blocks_.places[m.c]) {
     const Mobility* w = &mobility_[block][static_cast<std::size_t>(local) * blocks_.contacts[block].size()];
@@ -205,7 +205,7 @@ void ContactSweeps::find(Moving& m) {
   }
 }
 
-void ContactSweeps::settle(const ContactMotion& end) {
+void ContactSweeps::finish_step(const ContactMotion& end) {
   normal_springs_ = tangential_springs_ = 0.0;
   for (const Moving& m : moving_) {
     if (m.act.penetrates) // also where a damper holds the contact free of force

@@ -35,17 +35,17 @@ public:
   /// From now on contact c moves in so many intervals a step, >= 1. No allocation.
   void divide(int c, int parts);
   /// All contacts are where those of `other` are, which has another step. No allocation.
-  void follow(const ContactSweeps& other);
+  void continue_from(const ContactSweeps& other);
   /// Contact c has borne this force before the run.
-  void hold(int c, const contact::Location& at, double normal_force);
+  void preload(int c, const contact::Location& at, double normal_force);
   /// Forces of a step. No allocation.
   /// @param start  motion at its start   @param end  at its end, under the forces held   @param near  contacts that may be closed in it, those
   ///   with a force held among them, by increasing number
-  /// @param trial  overwritten   @return whether the sweeps settled
+  /// @param trial  overwritten   @return whether the sweeps converged
   bool make(const ContactMotion& start, const ContactMotion& end, const std::vector<int>& near,
             ContactTrial& trial, StepLosses& losses);
   /// After `make`, when the modes have taken the forces: the contacts stand here.
-  void settle(const ContactMotion& end);
+  void finish_step(const ContactMotion& end);
   /// Steps in which all contacts stay open. No allocation.
   void pass(int steps, ContactTrial& trial, StepLosses& losses);
 
@@ -66,9 +66,9 @@ private:
     FreePath path; ///< without its own force, the others with those held
     Components mean,
         slope; ///< m/s2: by what the others' forces differ from those held, linear in time from mean - slope to mean + slope
-    Components answered[2]; ///< these as they were when its force was found
-    ContactAct act;         ///< as it was found last
-    int next;               ///< of its group; -1: none
+    Components solved_for[2]; ///< these as they were when its force was found
+    ContactAct act;           ///< as it was found last
+    int next;                 ///< of its group; -1: none
   };
   /// Of the contacts that move in a step those of a block, and the group that it is part of.
   struct MovingBlock {
@@ -81,7 +81,7 @@ private:
   [[nodiscard]] Components of_lanes(const kernels::Array& lanes, int c) const;
   [[nodiscard]] FreePath path_of(int c, const ContactMotion& start, const ContactMotion& end) const;
   void find(Moving& m);
-  [[nodiscard]] double unanswered(const Moving& m) const;
+  [[nodiscard]] double outstanding_force(const Moving& m) const;
   bool sweep(int first, double largest);
 
   const PackedContacts& contacts_;

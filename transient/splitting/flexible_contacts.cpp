@@ -42,30 +42,31 @@ FlexibleContacts::FlexibleContacts(const PackedContacts& contacts, const Eigen::
       for (int k = 0; k < contacts.components; ++k)
         for (int l = 0; l < contacts.components; ++l)
           a_(3 * to + k, 3 * from + l) = 0.5 * step * contacts.mobility(to, k, from, l);
-  shut_.reserve(count);
+  active_.reserve(count);
   speed_.assign(3 * count, 0.0);
-  give_ = speed_;
-  for (kernels::Array* a : {&bare_, &flown_, &now_, &last_, &before_, &guess_, &given_, &given_last_,
-                            &given_before_, &own_, &own_last_, &own_before_})
+  active_deflection_ = speed_;
+  for (kernels::Array* a :
+       {&modal_u_, &mean_rate_, &now_, &last_, &before_, &extrapolated_, &deflection_, &last_deflection_,
+        &deflection_before_, &own_deflection_, &last_own_deflection_, &own_deflection_before_})
     a->assign(static_cast<std::size_t>(contacts.stride()), 0.0);
 }
 
 double FlexibleContacts::start(ContactMotion& motion) {
-  still_ = true;
+  static_ = true;
   for (int i = 0; i < most_places; ++i) { // the normals turn with the places that the forces give
     (void)act(nullptr, motion);
-    const bool settled = now_ == last_;
+    const bool converged = now_ == last_;
     for (int twice = 0; twice < 2; ++twice)
       accept();
-    if (settled)
+    if (converged)
       break;
-    motion.u = bare_;
+    motion.u = modal_u_;
   }
   for (std::size_t lane = 0; lane < now_.size(); ++lane)
-    motion.u[lane] = bare_[lane] + given_[lane];
-  still_ = false;
+    motion.u[lane] = modal_u_[lane] + deflection_[lane];
+  static_ = false;
   actions_ = 0;
-  return 0.5 * std::inner_product(now_.begin(), now_.end(), given_.begin(), 0.0);
+  return 0.5 * std::inner_product(now_.begin(), now_.end(), deflection_.begin(), 0.0);
 }
 
 FlexibleContacts::Action FlexibleContacts::solve(const ContactMemory& memory, ContactMotion& motion,
@@ -78,51 +79,51 @@ FlexibleContacts::Action FlexibleContacts::solve(const ContactMemory& memory, Co
   return action;
 }
 
-/// Finds the forces and moves the contacts. Returns whether the sweeps settled.
+/// Finds the forces and moves the contacts. Returns whether the sweeps converged.
 bool FlexibleContacts::act(const ContactMemory* memory, ContactMotion& motion) {
-  shut_.clear();
+  active_.clear();
   std::fill(now_.begin(), now_.end(), 0.0);
-  std::fill(given_.begin(), given_.end(), 0.0);
-  bare_ = motion.u;
+  std::fill(deflection_.begin(), deflection_.end(), 0.0);
+  modal_u_ = motion.u;
   if (memory)
-    for (std::size_t lane = 0; lane < bare_.size(); ++lane)
-      flown_[lane] = (bare_[lane] - (memory->position()[lane] - given_last_[lane])) / h_;
+    for (std::size_t lane = 0; lane < modal_u_.size(); ++lane)
+      mean_rate_[lane] = (modal_u_[lane] - (memory->position()[lane] - last_deflection_[lane])) / h_;
   differentiate();
-  if (quiet_) { // and not what `start` or another run has left
-    std::fill(guess_.begin(), guess_.end(), 0.0);
-    std::fill(own_.begin(), own_.end(), 0.0);
+  if (inactive_) { // and not what `start` or another run has left
+    std::fill(extrapolated_.begin(), extrapolated_.end(), 0.0);
+    std::fill(own_deflection_.begin(), own_deflection_.end(), 0.0);
   } else
-    foretell(motion);
+    extrapolate(motion);
   const bool near = motion.find_near(half_window_);
-  if (!near && quiet_)
+  if (!near && inactive_)
     return true;
   for (int c = 0; c < contacts_.count; ++c)
     if ((near && motion.near(c)) || last_[c] != 0.0 || last_[contacts_.width + c] != 0.0)
-      take(c, motion);
-  bool settled = true;
+      activate(c, motion);
+  bool converged = true;
   do {
     build(motion);
-    settled = sweep(memory, motion);
+    converged = sweep(memory, motion);
     move(motion);
-  } while (recruit(motion));
-  return settled;
+  } while (extend_active_set(motion));
+  return converged;
 }
 
 void FlexibleContacts::accept() {
   before_.swap(last_);
-  given_before_.swap(given_last_);
+  deflection_before_.swap(last_deflection_);
   last_ = now_;
-  given_last_ = given_;
+  last_deflection_ = deflection_;
   const auto none = [](const kernels::Array& force) {
     return std::all_of(force.begin(), force.end(), [](double f) { return f == 0.0; });
   };
-  quiet_ = none(last_) && none(before_);
-  own_before_.swap(own_last_);
-  std::fill(own_last_.begin(), own_last_.end(), 0.0);
-  for (const Shut& s : shut_) {
+  inactive_ = none(last_) && none(before_);
+  own_deflection_before_.swap(last_own_deflection_);
+  std::fill(last_own_deflection_.begin(), last_own_deflection_.end(), 0.0);
+  for (const ActiveContact& s : active_) {
     const double own = s.residual(0, 0) * s.force[0];
-    own_last_[s.contact] = s.axes.y(own, 0.0);
-    own_last_[contacts_.width + s.contact] = s.axes.z(own, 0.0);
+    last_own_deflection_[s.contact] = s.axes.y(own, 0.0);
+    last_own_deflection_[contacts_.width + s.contact] = s.axes.z(own, 0.0);
   }
   ++actions_;
 }
@@ -139,31 +140,33 @@ void FlexibleContacts::differentiate() {
 
 /// The force of this step, by the last two where the contact was closed in both, and where that takes the contacts, but for what each
 /// normal force does to its own contact.
-void FlexibleContacts::foretell(ContactMotion& motion) {
+void FlexibleContacts::extrapolate(ContactMotion& motion) {
   const int width = contacts_.width;
   for (int c = 0; c < contacts_.count; ++c) {
     const bool closed = last_[c] != 0.0 || last_[width + c] != 0.0;
     const bool twice = closed && (before_[c] != 0.0 || before_[width + c] != 0.0);
     for (int k = 0; k < contacts_.components; ++k) {
       const int lane = k * width + c;
-      guess_[lane] = last_[lane] + (twice ? last_[lane] - before_[lane] : 0.0);
-      own_[lane] = own_last_[lane] + (twice ? own_last_[lane] - own_before_[lane] : 0.0);
+      extrapolated_[lane] = last_[lane] + (twice ? last_[lane] - before_[lane] : 0.0);
+      own_deflection_[lane] = last_own_deflection_[lane] +
+                              (twice ? last_own_deflection_[lane] - own_deflection_before_[lane] : 0.0);
     }
   }
-  give(guess_, given_);
-  for (std::size_t lane = 0; lane < given_.size(); ++lane)
-    given_[lane] -= own_[lane];
-  for (std::size_t lane = 0; lane < given_.size(); ++lane)
-    motion.u[lane] += given_[lane];
+  apply_compliance(extrapolated_, deflection_);
+  for (std::size_t lane = 0; lane < deflection_.size(); ++lane)
+    deflection_[lane] -= own_deflection_[lane];
+  for (std::size_t lane = 0; lane < deflection_.size(); ++lane)
+    motion.u[lane] += deflection_[lane];
 }
 
 /// Gap of a contact where it stands in `motion`, by the normal there; of an obstacle in parts by that where its own normal force takes it back to: deeper
 /// another part may be nearest.
-contact::Location FlexibleContacts::face_at(int c, ContactMotion& motion) const {
+contact::Location FlexibleContacts::locate_active(int c, ContactMotion& motion) const {
   if (!contacts_.has_parts[c])
     return motion.locate(c);
   double &y = motion.u[c], &z = motion.u[contacts_.width + c];
-  const double deep_y = y, deep_z = z, own_y = own_[c], own_z = own_[contacts_.width + c];
+  const double deep_y = y, deep_z = z, own_y = own_deflection_[c],
+               own_z = own_deflection_[contacts_.width + c];
   y += own_y;
   z += own_z;
   auto at = motion.locate(c);
@@ -173,23 +176,23 @@ contact::Location FlexibleContacts::face_at(int c, ContactMotion& motion) const 
   return at;
 }
 
-/// A contact where it stands in `motion`, moved there by `given_`.
-void FlexibleContacts::take(int c, ContactMotion& motion) {
+/// A contact where it stands in `motion`, moved there by `deflection_`.
+void FlexibleContacts::activate(int c, ContactMotion& motion) {
   const contact::Support& support = contacts_.supports[c];
   const int width = contacts_.width;
-  const auto at = face_at(c, motion);
-  Shut& s = shut_.emplace_back();
+  const auto at = locate_active(c, motion);
+  ActiveContact& s = active_.emplace_back();
   s.contact = c;
-  s.friction = !still_ && support.friction.active();
+  s.friction = !static_ && support.friction.active();
   s.in_plane = contacts_.in_plane[c] != 0;
-  s.deeper = largest_eigenvalue(r_.block<2, 2>(3 * c, 3 * c));
+  s.compliance = largest_eigenvalue(r_.block<2, 2>(3 * c, 3 * c));
   s.axes = at.axes();
-  s.bare = -at.gap + s.axes.normal(given_[c], given_[width + c]);
-  const double reach = half_window_ * motion.sinking(c, s.axes);
+  s.modal_penetration = -at.gap + s.axes.normal(deflection_[c], deflection_[width + c]);
+  const double reach = half_window_ * motion.penetration_rate(c, s.axes);
   s.closed =
-      still_ ? 0.0 : contact::closed_share(-at.gap - reach, -at.gap + reach); // as the last forces leave it
-  face(s, motion);
-  along(s, guess_, s.force);
+      static_ ? 0.0 : contact::closed_share(-at.gap - reach, -at.gap + reach); // as the last forces leave it
+  rotate_axes(s, motion);
+  to_local(s, extrapolated_, s.force);
   s.force[0] = std::max(0.0, s.force[0]);
   if (!s.friction || s.force[0] == 0.0)
     s.force[1] = s.force[2] = 0.0;
@@ -205,7 +208,7 @@ void FlexibleContacts::take(int c, ContactMotion& motion) {
 }
 
 /// Components along n, t, x_loc.
-void FlexibleContacts::along(const Shut& s, const kernels::Array& lanes, double* to) const {
+void FlexibleContacts::to_local(const ActiveContact& s, const kernels::Array& lanes, double* to) const {
   const int width = contacts_.width, c = s.contact;
   const double y = lanes[c], z = lanes[width + c];
   to[0] = s.axes.normal(y, z);
@@ -214,12 +217,12 @@ void FlexibleContacts::along(const Shut& s, const kernels::Array& lanes, double*
 }
 
 /// What a contact has along its directions before the action, and what its own forces do.
-void FlexibleContacts::face(Shut& s, const ContactMotion& motion) const {
-  s.approach = motion.sinking(s.contact, s.axes);
-  s.flown = -s.axes.normal(flown_[s.contact], flown_[contacts_.width + s.contact]);
-  along(s, motion.w, s.velocity);
-  along(s, given_last_, s.last);
-  along(s, given_before_, s.before);
+void FlexibleContacts::rotate_axes(ActiveContact& s, const ContactMotion& motion) const {
+  s.approach = motion.penetration_rate(s.contact, s.axes);
+  s.mean_rate = -s.axes.normal(mean_rate_[s.contact], mean_rate_[contacts_.width + s.contact]);
+  to_local(s, motion.w, s.velocity);
+  to_local(s, last_deflection_, s.last);
+  to_local(s, deflection_before_, s.before);
   Eigen::Matrix3d d;
   d << s.axes.ny, s.axes.nz, 0.0, s.axes.nz, -s.axes.ny, 0.0, 0.0, 0.0, 1.0;
   s.mobility = d * a_.block<3, 3>(3 * s.contact, 3 * s.contact) * d.transpose();
@@ -227,52 +230,53 @@ void FlexibleContacts::face(Shut& s, const ContactMotion& motion) const {
   const contact::NormalLaw& law = contacts_.supports[s.contact].normal;
   s.normal = law;
   s.normal.damping *= s.closed;
-  if (still_)
+  if (static_)
     s.normal.dissipation = 0.0;
 }
 
 /// Takes the contacts that the forces found have closed. Returns whether there are any.
-bool FlexibleContacts::recruit(ContactMotion& motion) {
-  const std::size_t before = shut_.size();
+bool FlexibleContacts::extend_active_set(ContactMotion& motion) {
+  const std::size_t before = active_.size();
   if (before == static_cast<std::size_t>(contacts_.count) || !motion.find_near(half_window_))
     return false;
   for (int c = 0; c < contacts_.count; ++c) {
-    const bool taken = std::any_of(shut_.begin(), shut_.end(), [c](const Shut& s) { return s.contact == c; });
+    const bool taken =
+        std::any_of(active_.begin(), active_.end(), [c](const ActiveContact& s) { return s.contact == c; });
     if (taken || !motion.near(c))
       continue;
-    take(c, motion);
-    if (!(motion.locate(c).gap < 0.0) && !(shut_.back().normal.damping > 0.0))
-      shut_.pop_back();
+    activate(c, motion);
+    if (!(motion.locate(c).gap < 0.0) && !(active_.back().normal.damping > 0.0))
+      active_.pop_back();
   }
-  return shut_.size() > before;
+  return active_.size() > before;
 }
 
-/// What the forces of the shut contacts do.
+/// What the forces of the active contacts do.
 void FlexibleContacts::build(const ContactMotion& motion) {
-  for (std::size_t i = 0; i < shut_.size(); ++i)
+  for (std::size_t i = 0; i < active_.size(); ++i)
     for (int k = 0; k < 3; ++k) {
       const std::size_t row = 3 * i + static_cast<std::size_t>(k);
-      speed_[row] = k < contacts_.components ? motion.w[k * contacts_.width + shut_[i].contact] : 0.0;
-      give_[row] = 0.0;
+      speed_[row] = k < contacts_.components ? motion.w[k * contacts_.width + active_[i].contact] : 0.0;
+      active_deflection_[row] = 0.0;
     }
-  for (const Shut& s : shut_)
-    push(s.contact, force(s));
+  for (const ActiveContact& s : active_)
+    add_force(s.contact, force(s));
 }
 
 /// All contacts to where the forces found take them.
 void FlexibleContacts::move(ContactMotion& motion) {
   std::fill(now_.begin(), now_.end(), 0.0);
-  for (const Shut& s : shut_) {
+  for (const ActiveContact& s : active_) {
     const Eigen::Vector3d f = force(s);
     for (int a = 0; a < contacts_.components; ++a)
       now_[a * contacts_.width + s.contact] = f(a);
   }
-  give(now_, given_);
-  for (std::size_t lane = 0; lane < given_.size(); ++lane)
-    motion.u[lane] = bare_[lane] + given_[lane];
+  apply_compliance(now_, deflection_);
+  for (std::size_t lane = 0; lane < deflection_.size(); ++lane)
+    motion.u[lane] = modal_u_[lane] + deflection_[lane];
 }
 
-void FlexibleContacts::give(const kernels::Array& force, kernels::Array& displacement) const {
+void FlexibleContacts::apply_compliance(const kernels::Array& force, kernels::Array& displacement) const {
   std::fill(displacement.begin(), displacement.end(), 0.0);
   const int width = contacts_.width, components = contacts_.components;
   for (int from = 0; from < contacts_.count; ++from)
@@ -288,8 +292,8 @@ void FlexibleContacts::give(const kernels::Array& force, kernels::Array& displac
 
 /// Forces found: what the contacts do over the step.
 void FlexibleContacts::close(ContactTrial& trial, Action& action) const {
-  for (std::size_t i = 0; i < shut_.size(); ++i) {
-    const Shut& s = shut_[i];
+  for (std::size_t i = 0; i < active_.size(); ++i) {
+    const ActiveContact& s = active_[i];
     const int c = s.contact;
     const double rate = normal_rate(i);
     const double p = s.alone - s.residual(0, 0) * s.force[0], spring = s.normal.stiffness * p;
@@ -308,7 +312,7 @@ void FlexibleContacts::close(ContactTrial& trial, Action& action) const {
     state.damper_work = loss;
     double moved[3] = {}; // over the step
     for (int k = 0; k < 3; ++k) {
-      const double speed = component(speed_, i, k), give = component(give_, i, k);
+      const double speed = component(speed_, i, k), give = component(active_deflection_, i, k);
       action.work += h_ * s.force[k] * speed;
       action.jump += h_ * s.force[k] * (speed - s.velocity[k]);
       trial.springs += 0.5 * s.force[k] * give;

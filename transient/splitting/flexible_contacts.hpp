@@ -13,7 +13,7 @@
 ///       return_map   trial = T - K_T (h w/2 + R f_k - y) - C_T (w + R f'),  y = R (3 f_{k-1} - f_{k-2})/2
 ///       reference    trial = F0 - (K_T h/2 + C_T)(w + R f'), whose slip is opposite to w + R f'
 ///     over the step the spring is stretched by h (w + R f'): the sum of the f' is the f that y takes at its start
-/// all implicit in f, by Gauss-Seidel sweeps from the forces that the last two steps foretell, after some of which forces are mixed
+/// all implicit in f, by Gauss-Seidel sweeps from the forces that the last two steps extrapolate, after some of which forces are mixed
 /// (anderson_mixing.hpp): contacts that share a large K_N R answer each other strongly. A contact that the others' forces close
 /// joins the sweeps. A lone contact without friction and dampers is the one of stiffness K_N/(1 + K_N R) to the last digit.
 ///
@@ -21,7 +21,7 @@
 /// normal at a place is that at u - r F_N n, r the largest eigenvalue of the contact's own R across x_loc, which lies on it, deeper: a
 /// round hole gives n = N(B q + (R - r) f), whose own part is a contraction at any r F_N, and nothing at all where R is the same along
 /// y and z. Deeper in a profile another part may be nearest, past a corner that protrudes: there the place itself gives the normal (a facet
-/// needs no contraction), and a step starts from the normal where the forces foretold take the contact. Normals are held after some sweeps, and so are
+/// needs no contraction), and a step starts from the normal where the forces extrapolated take the contact. Normals are held after some sweeps, and so are
 /// what an impact's beginning or end adds to p0 and contacts that slide: all these make the forces jump, and where the sweeps swing between two sides of a
 /// jump there is no solution but on one of them.
 ///
@@ -52,7 +52,8 @@ public:
   /// The forces of the last `solve` have acted. No allocation.
   void accept();
   void visit(core::StateArchive& state) {
-    state(last_, before_, given_last_, given_before_, own_last_, own_before_, actions_, quiet_);
+    state(last_, before_, last_deflection_, deflection_before_, last_own_deflection_, own_deflection_before_,
+          actions_, inactive_);
   }
 
 private:
@@ -60,18 +61,18 @@ private:
   struct Rate {
     double now, last, before;
   };
-  struct Shut {
+  struct ActiveContact {
     int contact = 0;
-    double deeper = 0.0;                ///< m/N: r
+    double compliance = 0.0;            ///< m/N: r
     Eigen::Matrix3d mobility, residual; ///< own A and R, along n, t, x_loc
     bool friction = false, in_plane = false, slides = false;
-    bool loose = false; ///< it has slid: from now on by the dynamic coefficient
+    bool has_slid = false; ///< it has slid: from now on by the dynamic coefficient
     contact::NormalLaw normal{};
     contact::ContactAxes axes;
-    double bare = 0.0;          ///< m: penetration without any R f
-    double closed = 0.0;        ///< share of the step with penetration
-    double approach = 0.0;      ///< m/s: p' before the action
-    double flown = 0.0;         ///< m/s: of the modes, mean of p' since the last action
+    double modal_penetration = 0.0; ///< m: penetration without any R f
+    double closed = 0.0;            ///< share of the step with penetration
+    double approach = 0.0;          ///< m/s: p' before the action
+    double mean_rate = 0.0;         ///< m/s: of the modes, mean of p' since the last action
     double instant_more = 0.0;  ///< m: beyond p0, for the force that the spring in series bears at an instant
     double instant_share = 1.0; ///< of that force: contact::InstantSpring::Push
     double alone = 0.0;         ///< m: p0 and that, >= 0
@@ -85,19 +86,19 @@ private:
 
   [[nodiscard]] bool act(const ContactMemory* memory, ContactMotion& motion);
   void differentiate();
-  void foretell(ContactMotion& motion);
-  [[nodiscard]] contact::Location face_at(int c, ContactMotion& motion) const;
-  void take(int c, ContactMotion& motion);
-  [[nodiscard]] bool recruit(ContactMotion& motion);
-  void along(const Shut& s, const kernels::Array& lanes, double* to) const;
-  void find_instant(Shut& s, double p0) const;
-  void face(Shut& s, const ContactMotion& motion) const;
-  [[nodiscard]] double turn(std::size_t i, ContactMotion& motion);
+  void extrapolate(ContactMotion& motion);
+  [[nodiscard]] contact::Location locate_active(int c, ContactMotion& motion) const;
+  void activate(int c, ContactMotion& motion);
+  [[nodiscard]] bool extend_active_set(ContactMotion& motion);
+  void to_local(const ActiveContact& s, const kernels::Array& lanes, double* to) const;
+  void find_instant(ActiveContact& s, double p0) const;
+  void rotate_axes(ActiveContact& s, const ContactMotion& motion) const;
+  [[nodiscard]] double turn_normal(std::size_t i, ContactMotion& motion);
   void build(const ContactMotion& motion);
-  [[nodiscard]] static Eigen::Vector3d force(const Shut& s);
-  void push(int from, const Eigen::Vector3d& by);
+  [[nodiscard]] static Eigen::Vector3d force(const ActiveContact& s);
+  void add_force(int from, const Eigen::Vector3d& by);
   [[nodiscard]] bool sweep(const ContactMemory* memory, ContactMotion& motion);
-  [[nodiscard]] double improve(std::size_t i, const ContactMemory* memory, bool holds);
+  [[nodiscard]] double solve_contact(std::size_t i, const ContactMemory* memory, bool holds);
   void take_forces(Eigen::VectorXd& to) const;
   void set_forces(const Eigen::VectorXd& forces);
   [[nodiscard]] contact::Friction friction(std::size_t i, const ContactMemory& memory) const;
@@ -105,7 +106,7 @@ private:
   [[nodiscard]] double component(const std::vector<double>& of, std::size_t i, int k) const;
   void move(ContactMotion& motion);
   void close(ContactTrial& trial, Action& action) const;
-  void give(const kernels::Array& force, kernels::Array& displacement) const;
+  void apply_compliance(const kernels::Array& force, kernels::Array& displacement) const;
   [[nodiscard]] double normal_rate(std::size_t i) const;
 
   const PackedContacts& contacts_;
@@ -114,18 +115,20 @@ private:
   Rate rate_{};           ///< f', 1/s
   Rate half_step_{};      ///< f_k less the f of y, 1
   std::int64_t actions_ = 0;
-  bool still_ = false; ///< at the start: springs alone
-  std::vector<Shut> shut_;
+  bool static_ = false; ///< at the start: springs alone
+  std::vector<ActiveContact> active_;
   AndersonMixing mixing_;
-  Eigen::VectorXd mixed_, swept_;    ///< N: forces of the shut contacts before a sweep and after it
-  std::vector<double> speed_, give_; ///< m/s, B (v- + v+)/2, and m, R f, of y, z, x_loc of the shut contacts
-  kernels::Array bare_;              ///< m, lanes: B q
-  kernels::Array flown_;             ///< m/s, lanes: mean of its rate since the last action
-  kernels::Array now_, last_, before_;                       ///< N, lanes: f_k, f_{k-1}, f_{k-2}
-  kernels::Array guess_, given_, given_last_, given_before_; ///< foretold f_k; R times it and the last two
-  kernels::Array own_, own_last_,
-      own_before_;    ///< m, lanes: n.R n F_N along the normal, foretold and of the last two steps
-  bool quiet_ = true; ///< no force in the last two steps
+  Eigen::VectorXd mixed_, swept_; ///< N: forces of the active contacts before a sweep and after it
+  std::vector<double> speed_,
+      active_deflection_;    ///< m/s, B (v- + v+)/2, and m, R f, of y, z, x_loc of the active contacts
+  kernels::Array modal_u_;   ///< m, lanes: B q
+  kernels::Array mean_rate_; ///< m/s, lanes: mean of its rate since the last action
+  kernels::Array now_, last_, before_; ///< N, lanes: f_k, f_{k-1}, f_{k-2}
+  kernels::Array extrapolated_, deflection_, last_deflection_,
+      deflection_before_; ///< extrapolated f_k; R times it and the last two
+  kernels::Array own_deflection_, last_own_deflection_,
+      own_deflection_before_; ///< m, lanes: n.R n F_N along the normal, extrapolated and of the last two steps
+  bool inactive_ = true;      ///< no force in the last two steps
 };
 
 } // namespace fretwork::transient

@@ -18,25 +18,25 @@ namespace {
 
 class FlexibleSplitting final : public Scheme {
 public:
-  /// @param scene  in the coordinates p of mass_scaling.hpp   @param shown  n, q = shown p; empty: all 1
-  FlexibleSplitting(const Scene& scene, double step, const Eigen::VectorXd& shown)
+  /// @param scene  in the coordinates p of mass_scaling.hpp   @param mode_scales  n, q = mode_scales p; empty: all 1
+  FlexibleSplitting(const Scene& scene, double step, const Eigen::VectorXd& mode_scales)
       : h_(step), modes_(scene, step), contacts_(scene.contacts, scene.system.size()), motion_(contacts_),
-        obstacles_(scene, contacts_, step), carried_(obstacles_.room()), memory_(contacts_, step),
+        obstacles_(scene, contacts_, step), imposed_(obstacles_.workspace()), memory_(contacts_, step),
         flexible_(contacts_, scene.residual, step), trial_(contacts_.count), rows_(contacts_),
-        impulse_(modes_.q.size(), 0.0), shown_q_(modes_.q.size(), 0.0) {
+        impulse_(modes_.q.size(), 0.0), output_q_(modes_.q.size(), 0.0) {
     motion_.gather(modes_.q.data(), modes_.v.data());
-    obstacles_.at(0.0, carried_);
-    carried_.add_to(motion_);
-    const double given = flexible_.start(motion_); // J
+    obstacles_.at(0.0, imposed_);
+    imposed_.add_to(motion_);
+    const double stored = flexible_.start(motion_); // J
     memory_.start(motion_);
-    record_.energy.initial = record_.energy.throughput = modes_.energy() + motion_.spring_energy() + given;
-    press_from_start();
+    record_.energy.initial = record_.energy.scale = modes_.energy() + motion_.spring_energy() + stored;
+    preload();
     after_action_ = modes_.energy();
-    if (shown.size() > 0) {
-      shown_.assign(modes_.q.size(), 0.0);
-      std::copy_n(shown.data(), shown.size(), shown_.begin());
+    if (mode_scales.size() > 0) {
+      mode_scales_.assign(modes_.q.size(), 0.0);
+      std::copy_n(mode_scales.data(), mode_scales.size(), mode_scales_.begin());
     }
-    seen_ = motion_.u;
+    mean_u_ = motion_.u;
     for (int c = 0; c < contacts_.count; ++c) {
       Eigen::Matrix2d& w = own_mobility_.emplace_back();
       for (int to = 0; to < 2; ++to)
@@ -48,9 +48,9 @@ public:
   const Record& advance() override {
     flow();
     act();
-    see();
+    average_displacements();
     record_.step = h_;
-    show(record_, contacts_, displacements(), seen_.data(), trial_);
+    show(record_, contacts_, displacements(), mean_u_.data(), trial_);
     return record_;
   }
 
@@ -69,18 +69,18 @@ public:
       q[j] += 0.5 * (share * share - 1.0 / 12.0) * h_ * impulse; // nothing in the mean over the step
       v[j] += share * impulse;
     }
-    if (!shown_.empty())
+    if (!mode_scales_.empty())
       for (Eigen::Index j = 0; j < contacts_.modes; ++j) {
-        q[j] *= shown_[static_cast<std::size_t>(j)];
-        v[j] *= shown_[static_cast<std::size_t>(j)];
+        q[j] *= mode_scales_[static_cast<std::size_t>(j)];
+        v[j] *= mode_scales_[static_cast<std::size_t>(j)];
       }
   }
 
   void load_at(double time, double* force) override {
     modes_.load_at(time, force);
-    if (!shown_.empty())
+    if (!mode_scales_.empty())
       for (Eigen::Index j = 0; j < contacts_.modes; ++j)
-        force[j] /= shown_[static_cast<std::size_t>(j)];
+        force[j] /= mode_scales_[static_cast<std::size_t>(j)];
   }
 
   [[nodiscard]] double next_time() const override { return modes_.instant(1); }
@@ -99,11 +99,11 @@ public:
 private:
   /// Contacts that are pressed at the start have been so: half a step after an action that stands for these forces modes are (h^2/24) W f
   /// before their mean between two actions. From the mean itself a tube that rests would ring, at w_c h = 1 with 4 % of its forces.
-  void press_from_start() {
+  void preload() {
     for (int c = 0; c < contacts_.count; ++c) {
       const contact::Location at = motion_.locate(c);
-      const double force =
-          contact::normal_force(contacts_.supports[c].normal, -at.gap, motion_.sinking(c, at.axes()));
+      const double force = contact::normal_force(contacts_.supports[c].normal, -at.gap,
+                                                 motion_.penetration_rate(c, at.axes()));
       if (!(at.gap < 0.0 && force > 0.0))
         continue;
       ContactState& state = trial_.states[c];
@@ -120,9 +120,9 @@ private:
 
   /// Of the modes in the mean over the step, as `see` has the contacts; padded.
   const double* displacements() {
-    for (std::size_t i = 0; i < shown_.size(); ++i)
-      shown_q_[i] *= shown_[i];
-    return shown_q_.data();
+    for (std::size_t i = 0; i < mode_scales_.size(); ++i)
+      output_q_[i] *= mode_scales_[i];
+    return output_q_.data();
   }
 
   /// From the last action (or the start) to the next.
@@ -133,7 +133,7 @@ private:
     Energy& energy = record_.energy;
     load_work_ += work;
     energy.load_work = load_work_;
-    energy.throughput += std::abs(work);
+    energy.scale += std::abs(work);
     energy.modal_damping +=
         work - (moving_ - after_action_); // the flow is exact: what the load gave and the modes did not keep
     after_action_ = moving_;
@@ -143,25 +143,25 @@ private:
 
   /// Where the contacts are in the mean over the step: at the action the modes stand (h^2/12) W f behind (contact/instant_spring.hpp); of W the
   /// block of the contact itself.
-  void see() {
-    seen_ = motion_.u;
+  void average_displacements() {
+    mean_u_ = motion_.u;
     const auto width = static_cast<std::size_t>(contacts_.width);
     for (const int active : trial_.active) {
       const auto c = static_cast<std::size_t>(active);
       const ContactState& s = trial_.states[c];
       const double scale = h_ * h_ / 12.0, y = scale * s.force_y(), z = scale * s.force_z();
       const Eigen::Matrix2d& w = own_mobility_[c];
-      seen_[c] += w(0, 0) * y + w(0, 1) * z;
-      seen_[width + c] += w(1, 0) * y + w(1, 1) * z;
+      mean_u_[c] += w(0, 0) * y + w(0, 1) * z;
+      mean_u_[width + c] += w(1, 0) * y + w(1, 1) * z;
     }
   }
 
   /// The contacts act.
   void act() {
     motion_.gather(modes_.q.data(), modes_.v.data());
-    if (!carried_.u.empty()) {
-      obstacles_.at(modes_.time(), carried_);
-      carried_.add_to(motion_);
+    if (!imposed_.u.empty()) {
+      obstacles_.at(modes_.time(), imposed_);
+      imposed_.add_to(motion_);
     }
     const auto action = flexible_.solve(memory_, motion_, trial_);
     unconverged_ += !action.converged;
@@ -179,14 +179,14 @@ private:
     rows_.add_to(impulse_.data());
     for (std::size_t i = 0; i < impulse_.size(); ++i) {
       modes_.v[i] += impulse_[i];
-      shown_q_[i] = modes_.q[i] + h_ / 12.0 * impulse_[i];
+      output_q_[i] = modes_.q[i] + h_ / 12.0 * impulse_[i];
     }
     // The record stands in the middle of the action: half of its losses belong to it, and its velocity is (v-
     // + v+)/2, whose energy is moving + work/2 - (h^2/8) f.W.f. What moving obstacles do is work from outside.
     Energy& energy = record_.energy;
-    const double brought = -h_ * product(contacts_, trial_, carried_.w), work = action.work + brought;
+    const double brought = -h_ * product(contacts_, trial_, imposed_.w), work = action.work + brought;
     energy.load_work = load_work_ + 0.5 * brought;
-    energy.throughput += std::abs(brought);
+    energy.scale += std::abs(brought);
     load_work_ += brought;
     energy.contact_damping = lost_.damping + 0.5 * losses.damping;
     energy.friction = lost_.friction + 0.5 * losses.friction;
@@ -202,7 +202,7 @@ private:
   PackedContacts contacts_;
   ContactMotion motion_;
   ObstacleMotion obstacles_;
-  Carried carried_;
+  ImposedMotion imposed_;
   ContactMemory memory_;
   FlexibleContacts flexible_;
   ContactTrial trial_;
@@ -210,10 +210,10 @@ private:
 
   std::int64_t unconverged_ = 0;
   kernels::Array impulse_;
-  kernels::Array shown_;                      ///< with scaled masses
-  kernels::Array shown_q_;                    ///< in the mean over the step
+  kernels::Array mode_scales_;                ///< with scaled masses
+  kernels::Array output_q_;                   ///< in the mean over the step
   std::vector<Eigen::Matrix2d> own_mobility_; ///< 1/kg, y z, contact by contact
-  kernels::Array seen_;                       ///< m, lanes, likewise
+  kernels::Array mean_u_;                     ///< m, lanes, likewise
 
   Record record_;
   double moving_ = 0.0, after_action_ = 0.0; ///< modal energy before and after the action

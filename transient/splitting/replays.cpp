@@ -43,7 +43,7 @@ void add(std::vector<Figures>& sums, const Record& record) {
   for (const int c : record.active) {
     const ContactState& s = record.states[static_cast<std::size_t>(c)];
     Figures one;
-    one[replayed_work] = s.rubbed;
+    one[replayed_work] = s.wear_work;
     one[replayed_friction] = s.friction_work;
     one[replayed_square] = record.step * s.normal_square;
     one[replayed_impulse] = record.step * s.normal_force;
@@ -79,7 +79,7 @@ public:
         replay(end - tolerance);
     } else if (!replaying_ && record.time > next_) {
       std::fill(of_run_.begin(), of_run_.end(), Figures{});
-      from_ = finer_->follow(*running_);
+      from_ = finer_->continue_from(*running_);
       replaying_ = true;
     }
     return record;

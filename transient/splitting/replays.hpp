@@ -17,7 +17,7 @@ class Replayable : public Scheme {
 public:
   /// Goes on after the last step that `running` has made, which is of the same class and has a whole multiple of this one's step. No allocation.
   /// Returns the time from which on its records are to come, s.
-  virtual double follow(const Replayable& running) = 0;
+  virtual double continue_from(const Replayable& running) = 0;
   /// From now on a contact moves in so many intervals a step, >= 1. No allocation.
   virtual void divide(int contact, int parts) = 0;
 };

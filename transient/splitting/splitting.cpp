@@ -18,12 +18,12 @@
 /// A record stands for a step and for the forces in it, its positions are those in the middle.
 #include "transient/splitting/splitting.hpp"
 #include "transient/contacts/obstacle_motion.hpp"
-#include "transient/contacts/row_scatter.hpp"
 #include "transient/modes/mass_scaling.hpp"
 #include "transient/modes/modal_flow.hpp"
-#include "transient/splitting/contact_sweeps.hpp"
-#include "transient/splitting/flights.hpp"
+#include "transient/splitting/macro_steps.hpp"
 #include "transient/splitting/replays.hpp"
+#include "transient/splitting/step_forces.hpp"
+#include "transient/splitting/step_mobility.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -49,24 +49,21 @@ std::vector<int> lengths_up_to(int longest) {
 
 class Splitting final : public Replayable {
 public:
-  /// @param scene  in the coordinates p of mass_scaling.hpp   @param shown  n, q = shown p; empty: all 1
-  Splitting(const Scene& scene, double step, const Eigen::VectorXd& shown, int longest, int parts)
+  /// @param scene  in the coordinates p of mass_scaling.hpp   @param mode_scales  n, q = mode_scales p; empty: all 1
+  Splitting(const Scene& scene, double step, const Eigen::VectorXd& mode_scales, int longest, int parts)
       : h_(step), duration_(scene.duration), lengths_(lengths_up_to(longest)), modes_(scene, step, lengths_),
         contacts_(scene.contacts, scene.system.size()), start_(contacts_), end_(contacts_),
-        obstacles_(scene, contacts_, step), carried_{obstacles_.room(), obstacles_.room()}, rows_(contacts_),
+        obstacles_(scene, contacts_, step), imposed_{obstacles_.workspace(), obstacles_.workspace()},
+        forces_(contacts_),
         sweeps_(make_sweeps(scene, parts)), steps_{Step(contacts_), Step(contacts_), Step(contacts_)} {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
-    held_.assign(n, 0.0);
-    if (shown.size() > 0) {
-      shown_.assign(n, 1.0);
-      std::copy_n(shown.data(), shown.size(), shown_.begin());
+    if (mode_scales.size() > 0) {
+      mode_scales_.assign(n, 1.0);
+      std::copy_n(mode_scales.data(), mode_scales.size(), mode_scales_.begin());
     }
     const auto count = static_cast<std::size_t>(contacts_.count);
     was_near_.assign(count, 1); // nothing is known yet
     near_.reserve(count);
-    for (auto& f : factors_)
-      f.resize(3 * count);
-    row_numbers_.resize(3 * count);
     const bool convex =
         std::any_of(contacts_.supports.begin(), contacts_.supports.end(), [](const contact::Support& s) {
           return contact::properties_of(s.obstacle).gap_bound.radial < 0.0;
@@ -80,11 +77,11 @@ public:
       modes_.start(s.from);
     modes_.load_about(0.0, first.load);
     end_.gather(first.from.q.data(), first.from.v.data());
-    obstacles_.at(0.0, carried_[1]);
-    carried_[1].add_to(end_);
+    obstacles_.at(0.0, imposed_[1]);
+    imposed_[1].add_to(end_);
     moving_ = modes_.energy(first.from);
-    booked_.initial = booked_.throughput = booked_.stored = moving_ + end_.spring_energy();
-    hold_at_start();
+    energy_.initial = energy_.scale = energy_.stored = moving_ + end_.spring_energy();
+    preload();
     make();
   }
 
@@ -118,7 +115,7 @@ public:
     scale(force, -1.0);
   }
 
-  double follow(const Replayable& running) override {
+  double continue_from(const Replayable& running) override {
     const auto& other = static_cast<const Splitting&>(running);
     const Step& from = other.steps_[next(other.made_)];
     Step& first = steps_[made_];
@@ -128,14 +125,14 @@ public:
     modes_.load_about(first.start, first.load);
     end_.u = other.end_.u;
     end_.w = other.end_.w;
-    obstacles_.at(first.start, carried_[1]);
-    sweeps_.follow(other.sweeps_);
+    obstacles_.at(first.start, imposed_[1]);
+    sweeps_.continue_from(other.sweeps_);
     was_near_ = other.was_near_;
     near_ = other.near_;
     moving_ = other.moving_;
-    booked_ = other.booked_;
+    energy_ = other.energy_;
     wait_ = other.wait_;
-    scatter(nullptr);
+    forces_.assemble(sweeps_, near_, nullptr);
     make();
     return first.start;
   }
@@ -151,9 +148,8 @@ public:
   }
 
   void visit(core::StateArchive& state) override {
-    state(steps_, published_, made_, end_, held_, holds_, was_near_, sweeps_);
-    state(carried_[1].u, carried_[1].w, done_, wait_, moving_, booked_, counts_);
-    state(row_count_, row_numbers_, factors_[0]);
+    state(steps_, published_, made_, end_, was_near_, sweeps_, forces_);
+    state(imposed_[1].u, imposed_[1].w, done_, wait_, moving_, energy_, counts_);
   }
 
 private:
@@ -182,119 +178,29 @@ private:
 
   ContactSweeps make_sweeps(const Scene& scene, int parts) {
     ContactBlocks blocks(scene);
-    std::vector<std::vector<Mobility>> mobility = step_mobility(scene, blocks);
+    auto mobility = step_mobility(scene, blocks, contacts_.components,
+                                  static_cast<std::size_t>(contacts_.padded_modes), modes_, h_);
     return {contacts_, std::move(blocks), std::move(mobility), h_, parts};
   }
 
-  /// W of contact_sweeps.hpp. Blocks share no mode: one motion of all modes answers a force in each of them.
-  std::vector<std::vector<Mobility>> step_mobility(const Scene& scene, const ContactBlocks& blocks) {
-    std::vector<std::vector<Mobility>> out;
-    std::size_t most = 0;
-    for (const auto& contacts : blocks.contacts) {
-      out.emplace_back(contacts.size() * contacts.size());
-      most = std::max(most, contacts.size());
-    }
-    kernels::Array force(static_cast<std::size_t>(contacts_.padded_modes)), moved(force);
-    for (std::size_t from = 0; from < most; ++from)
-      for (int component = 0; component < contacts_.components; ++component) {
-        std::fill(force.begin(), force.end(), 0.0);
-        for (std::size_t b = 0; b < blocks.size(); ++b)
-          if (from < blocks.contacts[b].size())
-            for_modes(scene, blocks, b, blocks.contacts[b][from],
-                      [&](std::size_t mode, const auto& moves) { force[mode] = moves(local_of(component)); });
-        modes_.answer(force.data(), moved.data());
-        for (std::size_t b = 0; b < blocks.size(); ++b) {
-          const auto& contacts = blocks.contacts[b];
-          for (std::size_t other = 0; from < contacts.size() && other < contacts.size(); ++other)
-            for (int to = 0; to < contacts_.components; ++to) {
-              double sum = 0.0;
-              for_modes(scene, blocks, b, contacts[other], [&](std::size_t mode, const auto& moves) {
-                sum += moved[mode] * moves(local_of(to));
-              });
-              out[b][from * contacts.size() + other].w[to][component] = 2.0 / (h_ * h_) * sum;
-            }
-        }
-      }
-    return out;
-  }
-  /// Component x_loc y_loc z_loc of y z x.
-  [[nodiscard]] static Eigen::Index local_of(int component) { return (component + 1) % 3; }
-  /// visit(mode, column of b) for the modes of a contact in a block.
-  template <class Visit>
-  static void for_modes(const Scene& scene, const ContactBlocks& blocks, std::size_t block, int contact,
-                        const Visit& visit) {
-    scene.contacts[static_cast<std::size_t>(contact)].for_ranges([&](Eigen::Index first, const auto& part) {
-      if (part.cols() == 0 ||
-          blocks.block_of_mode[static_cast<std::size_t>(first)] != static_cast<int>(block))
-        return;
-      for (Eigen::Index i = 0; i < part.cols(); ++i)
-        visit(static_cast<std::size_t>(first + i), part.col(i));
-    });
-  }
-
   void scale(double* modal, int power) const {
-    for (std::size_t j = 0; j < std::min(shown_.size(), static_cast<std::size_t>(contacts_.modes)); ++j)
-      modal[j] *= power > 0 ? shown_[j] : 1.0 / shown_[j];
+    for (std::size_t j = 0; j < std::min(mode_scales_.size(), static_cast<std::size_t>(contacts_.modes)); ++j)
+      modal[j] *= power > 0 ? mode_scales_[j] : 1.0 / mode_scales_[j];
   }
 
   /// Contacts that are pressed at the start have been so.
-  void hold_at_start() {
+  void preload() {
     near_.clear();
     for (int c = 0; c < contacts_.count; ++c) {
       const contact::Location at = end_.locate(c);
       const double force =
-          contact::normal_force(contacts_.supports[c].normal, -at.gap, end_.sinking(c, at.axes()));
+          contact::normal_force(contacts_.supports[c].normal, -at.gap, end_.penetration_rate(c, at.axes()));
       if (at.gap < 0.0 && force > 0.0) {
-        sweeps_.hold(c, at, force);
+        sweeps_.preload(c, at, force);
         near_.push_back(c);
       }
     }
-    scatter(nullptr);
-  }
-
-  /// The held forces of the near contacts, and those of the step, as forces on the modes.
-  void scatter(ModalForce* force) {
-    bool slopes = false;
-    holds_ = false;
-    rows_.clear();
-    const auto add = [&](int c, int component, double held, double mean, double slope) {
-      if (mean == 0.0 && held == 0.0)
-        return;
-      factors_[0][rows_.size()] = held;
-      factors_[1][rows_.size()] = mean;
-      factors_[2][rows_.size()] = slope;
-      row_numbers_[rows_.size()] = 3 * c + component;
-      rows_.add(c, component);
-      holds_ = holds_ || held != 0.0;
-      slopes = slopes || slope != 0.0;
-    };
-    for (const int c : near_) {
-      const ContactSweeps::Force& f = sweeps_.force(c);
-      add(c, 0, f.held.y, f.mean.y, f.slope.y);
-      add(c, 1, f.held.z, f.mean.z, f.slope.z);
-      if (contacts_.components == 3)
-        add(c, 2, f.held.x, f.mean.x, f.slope.x);
-    }
-    row_count_ = rows_.size();
-    const auto sum = [&](std::size_t which, kernels::Array& to) {
-      std::fill(to.begin(), to.end(), 0.0);
-      rows_.add_to(factors_[which].data(), to.data());
-    };
-    if (holds_)
-      sum(0, held_);
-    if (!force)
-      return;
-    sum(1, force->mean);
-    if (slopes)
-      sum(2, force->slope);
-    else
-      std::fill(force->slope.begin(), force->slope.end(), 0.0);
-  }
-
-  /// Of the contacts scattered last: 0: held; 1: over the step.
-  [[nodiscard]] RowForces row_forces(std::size_t which) const {
-    return {row_count_, row_numbers_.data(), factors_[which].data(),
-            which == 0 ? nullptr : factors_[2].data()};
+    forces_.assemble(sweeps_, near_, nullptr);
   }
 
   /// Contacts that may be closed in a step of so many h that ends as `end_` tells.
@@ -312,12 +218,13 @@ private:
     s.length = length * h_;
     to.start = static_cast<double>(done_ + length) * h_;
     modes_.load_about(to.start, to.load);
-    const ModalFlow::Sums sums = holds_ ? modes_.move(s.from, s.load, to.load, held_, row_forces(0), to.from)
-                                        : modes_.move(length, s.from, s.load, to.load, to.from);
+    const ModalFlow::Sums sums = forces_.any_held() ? modes_.move(s.from, s.load, to.load, forces_.held(),
+                                                                  forces_.held_by_rows(), to.from)
+                                                    : modes_.move(length, s.from, s.load, to.load, to.from);
     end_.gather(to.from.q.data(), to.from.v.data());
-    if (!carried_[1].u.empty()) {
-      obstacles_.at(to.start, carried_[1]);
-      carried_[1].add_to(end_);
+    if (!imposed_[1].u.empty()) {
+      obstacles_.at(to.start, imposed_[1]);
+      imposed_[1].add_to(end_);
     }
     return sums;
   }
@@ -327,7 +234,7 @@ private:
     Step &s = steps_[made_], &to = steps_[next(made_)];
     start_.u.swap(end_.u); // normals and marks stay with `end_`
     start_.w.swap(end_.w);
-    std::swap(carried_[0], carried_[1]);
+    std::swap(imposed_[0], imposed_[1]);
     ModalFlow::Sums sums;
     const bool far = std::none_of(was_near_.begin(), was_near_.end(), [](char near) { return near != 0; });
     std::size_t length = lengths_.size() - 1;
@@ -349,10 +256,10 @@ private:
     if (s.pushed) {
       ++counts_.evaluations;
       counts_.unconverged += !sweeps_.make(start_, end_, near_, s.trial, losses);
-      s.pushed = holds_ || !s.trial.active.empty();
+      s.pushed = forces_.any_held() || !s.trial.active.empty();
       if (s.pushed)
         sums = push(s, to);
-      sweeps_.settle(end_);
+      sweeps_.finish_step(end_);
       brought = work_of_obstacles(s);
     } else {
       sweeps_.pass(s.steps, s.trial, losses);
@@ -360,26 +267,27 @@ private:
     std::fill(was_near_.begin(), was_near_.end(), 0);
     for (const int c : near_)
       was_near_[c] = end_.near(c) || sum_of_sizes(sweeps_.force(c).held) > 0.0;
-    show_middle(s, to);
-    book(s, sums, losses, brought);
+    prepare_output(s, to);
+    balance_energy(s, sums, losses, brought);
     done_ += s.steps;
   }
 
   /// The modes take the forces of the contacts.
   ModalFlow::Sums push(Step& s, Step& to) {
-    scatter(&s.force);
-    const ModalFlow::Sums sums = modes_.push(s.from, s.load, to.load, s.force, row_forces(1), to.from);
+    forces_.assemble(sweeps_, near_, &s.force);
+    const ModalFlow::Sums sums =
+        modes_.push(s.from, s.load, to.load, s.force, forces_.found_by_rows(), to.from);
     end_.gather(to.from.q.data(), to.from.v.data());
-    carried_[1].add_to(end_);
+    imposed_[1].add_to(end_);
     return sums;
   }
 
   /// By obstacles that move, on the structure, J.
   [[nodiscard]] double work_of_obstacles(const Step& s) const {
     double work = 0.0;
-    if (carried_[0].u.empty() || !s.pushed)
+    if (imposed_[0].u.empty() || !s.pushed)
       return work;
-    const auto moved = [&](int lane) { return carried_[1].u[lane] - carried_[0].u[lane]; };
+    const auto moved = [&](int lane) { return imposed_[1].u[lane] - imposed_[0].u[lane]; };
     for (const int c : near_) {
       const Components& mean = sweeps_.force(c).mean;
       work -= mean.y * moved(c) + mean.z * moved(contacts_.width + c);
@@ -389,26 +297,26 @@ private:
     return work;
   }
 
-  void show_middle(Step& s, const Step& to) {
+  void prepare_output(Step& s, const Step& to) {
     modes_.middle(s.steps, s.from, s.load, to.load, s.pushed ? &s.force : nullptr, s.q);
     const double eighth = 0.125 * s.length; // of contacts: by the cubic through both ends
     for (std::size_t lane = 0; lane < s.u.size(); ++lane)
       s.u[lane] = 0.5 * (start_.u[lane] + end_.u[lane]) + eighth * (start_.w[lane] - end_.w[lane]);
-    for (std::size_t i = 0; i < shown_.size(); ++i)
-      s.q[i] *= shown_[i];
+    for (std::size_t i = 0; i < mode_scales_.size(); ++i)
+      s.q[i] *= mode_scales_[i];
   }
 
-  void book(Step& s, const ModalFlow::Sums& sums, const StepLosses& losses, double brought) {
-    booked_.load_work += sums.load_work + brought;
-    booked_.throughput += std::abs(sums.load_work) + std::abs(brought);
-    booked_.fluid_work += sums.fluid_work;
-    booked_.throughput += std::abs(sums.fluid_work);
-    booked_.modal_damping += sums.load_work + sums.contact_work + sums.fluid_work - (sums.energy - moving_);
-    booked_.contact_damping += losses.damping;
-    booked_.friction += losses.friction;
+  void balance_energy(Step& s, const ModalFlow::Sums& sums, const StepLosses& losses, double brought) {
+    energy_.load_work += sums.load_work + brought;
+    energy_.scale += std::abs(sums.load_work) + std::abs(brought);
+    energy_.fluid_work += sums.fluid_work;
+    energy_.scale += std::abs(sums.fluid_work);
+    energy_.modal_damping += sums.load_work + sums.contact_work + sums.fluid_work - (sums.energy - moving_);
+    energy_.contact_damping += losses.damping;
+    energy_.friction += losses.friction;
     moving_ = sums.energy;
-    booked_.stored = moving_ + sweeps_.spring_energy();
-    s.energy = booked_;
+    energy_.stored = moving_ + sweeps_.spring_energy();
+    s.energy = energy_;
   }
 
   double h_, duration_;
@@ -417,26 +325,21 @@ private:
   PackedContacts contacts_;
   ContactMotion start_, end_; ///< of the step that is made
   ObstacleMotion obstacles_;
-  std::array<Carried, 2> carried_; ///< likewise
-  RowScatter rows_;
+  std::array<ImposedMotion, 2> imposed_; ///< likewise
+  StepForces forces_;
   ContactSweeps sweeps_;
   std::array<Step, 3> steps_; ///< the one published, the one made, and where that ends
   std::size_t published_ = 0, made_ = 0;
 
-  kernels::Array held_; ///< modal force of the contacts held
-  bool holds_ = false;
   std::vector<char> was_near_; ///< at the end of the last step
   std::vector<int> near_;
   double window_;
-  std::array<std::vector<double>, 3> factors_; ///< held, mean, slope
-  std::vector<int> row_numbers_;               ///< of these: 3 times the contact plus the component
-  std::size_t row_count_ = 0;
-  kernels::Array shown_; ///< with scaled masses
+  kernels::Array mode_scales_; ///< with scaled masses
 
   std::int64_t done_ = 0; ///< steps of h up to the one that is made
   int wait_ = 0;          ///< steps until macro-steps are tried again
   double moving_ = 0.0;   ///< J, of the modes at the end of the last step
-  Energy booked_;
+  Energy energy_;
   Record record_;
   StepCounts counts_;
 };

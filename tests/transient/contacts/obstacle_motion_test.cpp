@@ -218,7 +218,7 @@ Scene from_the_foot(double friction) {
   const Harmonic a{foot_acceleration, foot_frequency, 0.0};
   const double w = two_pi * foot_frequency;
   s.motions = {{a, -foot_acceleration / w, 0.0}};
-  s.contacts[0].carried = along;
+  s.contacts[0].imposed = along;
   s.loads = {force_on(1.0, -along, a)};
   start(s, 1.0, Vec3::Zero(), foot_acceleration / w * along); // at rest in space
   return s;
@@ -310,7 +310,7 @@ TEST_P(ObstacleMotions, HitABodyAtRest) {
   Scene s = mass_point(mass, Vec3::Zero(), 0.1);
   s.contacts = {contact_of(mass, {contact::Stop{gap, PlaneAxis::y}, {stiffness}, {}})};
   s.motions = {{Constant{0.0}, speed}};
-  s.contacts[0].carried = Vec3(0, 1, 0);
+  s.contacts[0].imposed = Vec3(0, 1, 0);
   const History run = simulate(s, GetParam().options(1e-6), s.duration / 100.0);
   const double w = std::sqrt(stiffness / mass), touch = gap / speed, leave = touch + std::numbers::pi / w;
   for (Eigen::Index i = 0; i < run.time.size(); ++i) {
@@ -326,7 +326,7 @@ TEST(ObstacleMotion, IsMetByRungeAndKuttaWhereItIs) {
   Scene s = mass_point(1.0, Vec3::Zero(), 1.0);
   s.contacts = {contact_of(1.0, {contact::Stop{1e-3, PlaneAxis::y}, {100.0}, {}})};
   s.motions = {{Constant{0.0}, 0.003}};
-  s.contacts[0].carried = Vec3(0, 1, 0);
+  s.contacts[0].imposed = Vec3(0, 1, 0);
   StepOptions options{SchemeKind::runge_kutta_54, {}};
   options.tolerance = 1e-9;
   const History run = simulate(s, options, 1.0);
@@ -339,7 +339,7 @@ TEST(ObstacleMotion, CarriesATableUnderABlock) {
   Scene s = mass_point(1.0, Vec3::Zero(), 12.0);
   s.contacts = {pressed(1.0, 10.0, {9e6, 600.0, 0.1, 0.1})};
   s.motions = {{Harmonic{1.5, 1.0, 0.0}}};
-  s.contacts[0].carried = Vec3(0, -1, 0);
+  s.contacts[0].imposed = Vec3(0, -1, 0);
   const History run = simulate(s, splitting(), 12.0, 4.0);
   constexpr double asked = 1e-3;
   EXPECT_NEAR(run.statistics[0].work_rate / 0.40906245, 1.0, asked);
@@ -351,7 +351,7 @@ TEST(ObstacleMotion, SlidesAlongAnAxisThatNoModeMoves) {
   s.contacts = {pressed(1.0, 10.0, {1e5, 100.0, 0.1, 0.1})};
   s.contacts[0].b.row(0).setZero();
   s.motions = {{Constant{0.0}, 0.2}};
-  s.contacts[0].carried = Vec3(1, 0, 0);
+  s.contacts[0].imposed = Vec3(1, 0, 0);
   const History run = simulate(s, splitting(), 0.5);
   EXPECT_NEAR(run.along_x(0, 1), -1.0, 1e-9); // the bound, against the motion of the node from the obstacle
   EXPECT_NEAR(run.statistics[0].work_rate, 2.0, 1e-2);

@@ -34,8 +34,8 @@ TEST(ContactIntervals, TakeNoDriftOfTheGapForASpeedInShortIntervals) {
   ContactPast past;
   past.closed = true;
   past.axes = path.at.axes();
-  PressedInterval p;
-  intervals.press(path, past, intervals.table(1e-4 * usual), p);
+  IntervalForces p;
+  intervals.find_forces(path, past, intervals.table(1e-4 * usual), p);
   const double expected = stiffness * penetration + damping * speed;
   EXPECT_NEAR(p.normal.force, expected, 0.02 * expected); // the spring is compressed by the drift less
 }
@@ -50,8 +50,8 @@ TEST(ContactIntervals, FollowTheLawOfTheGapOverUsualIntervals) {
   ContactPast past;
   past.closed = true;
   past.axes = path.at.axes();
-  PressedInterval p;
-  intervals.press(path, past, intervals.usual(), p);
+  IntervalForces p;
+  intervals.find_forces(path, past, intervals.usual(), p);
   EXPECT_NEAR(p.force.z, -stiffness * penetration, 1e-6 * stiffness * penetration); // towards the axis
   EXPECT_NEAR(p.force.y, 0.0, 1e-9);
 }

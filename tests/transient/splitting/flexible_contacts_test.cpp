@@ -258,7 +258,7 @@ TEST(SchemeScope, RefusesReferenceFrictionOnANodeThatIsCarriedAndCannotMove) {
     Scene s = mass_point(2.0, Vec3::Zero(), 0.1);
     s.contacts = {contact_of(2.0, {contact::Stop{1e-3, PlaneAxis::y}, {1e6}, {1e5, 2.0, 0.3, 0.3, kind}})};
     s.contacts[0].b.row(0) *= moves;
-    s.contacts[0].carried = Vec3(-1.0, 0.0, 0.0);
+    s.contacts[0].imposed = Vec3(-1.0, 0.0, 0.0);
     s.motions.resize(1);
     return s;
   };

@@ -57,7 +57,7 @@ std::size_t digest(const Record& record, int modes) {
   out(time, length, q);
   for (const int c : record.active) {
     ContactState s = record.states[static_cast<std::size_t>(c)];
-    out(s.normal_force, s.friction, s.friction_work, s.damper_work, s.closed, s.touches, s.rubbed);
+    out(s.normal_force, s.friction, s.friction_work, s.damper_work, s.closed, s.touches, s.wear_work);
   }
   return std::hash<std::string>()(std::move(out).bytes());
 }
@@ -72,7 +72,7 @@ TEST(Replayable, GoesOnFromAnotherSchemeAsThatDoes) {
   for (const int steps : {700, 300, 41}) {
     for (int i = 0; i < steps; ++i)
       (void)running->advance();
-    const double from = other->follow(*running);
+    const double from = other->continue_from(*running);
     const Record& first = running->advance(); // made before
     EXPECT_NEAR(first.time + 0.5 * first.step, from, 1e-9 * step);
     for (int i = 0; i < 200; ++i)
@@ -86,7 +86,7 @@ TEST(Replayable, OfHalfTheStepStaysBesideIt) {
   const auto finer = make_replayable_splitting(scene, 0.5 * step, 0.0, 1, 4);
   for (int i = 0; i < 1000; ++i)
     (void)running->advance();
-  const double from = finer->follow(*running);
+  const double from = finer->continue_from(*running);
   (void)running->advance();
   double impulse = 0.0, of_finer = 0.0, now = from;
   constexpr int steps = 100;

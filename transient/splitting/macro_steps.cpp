@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "transient/splitting/flights.hpp"
+#include "transient/splitting/macro_steps.hpp"
 #include <algorithm>
 
 namespace fretwork::transient {
 
-bool may_fly(const Scene& scene) {
+bool allows_macro_steps(const Scene& scene) {
   return scene.residual.size() == 0 && scene.system.damping_matrix.size() == 0 && !scene.contacts.empty() &&
          std::all_of(scene.contacts.begin(), scene.contacts.end(), [](const ContactPoint& c) {
-           return !(c.support.normal.damping > 0.0) && c.carried.size() == 0 &&
+           return !(c.support.normal.damping > 0.0) && c.imposed.size() == 0 &&
                   contact::properties_of(c.support.obstacle).gap_bound.radial >= 0.0;
          });
 }

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace flights_test {
+namespace macro_steps_test {
 
 using namespace fretwork;
 using namespace fretwork::tests;
@@ -18,9 +18,9 @@ namespace {
 constexpr double mass = 0.5, stiffness = 1e7, gap = 2e-4;
 const double frequency = std::sqrt(stiffness / mass), h = 0.2 / frequency;
 
-StepChoice with_flights(const Scene& scene, int flight) {
+StepChoice with_macro_steps(const Scene& scene, int macro_steps) {
   StepChoice choice = choose_step(scene, splitting(h));
-  choice.flight = flight;
+  choice.macro_steps = macro_steps;
   return choice;
 }
 
@@ -49,14 +49,14 @@ struct Result {
   std::vector<post::Impact> impacts;
 };
 
-Result simulate_with(const Scene& scene, int flight, double from = 0.0) {
+Result simulate_with(const Scene& scene, int macro_steps, double from = 0.0) {
   post::ContactStatistics contacts(scene.contacts, from);
   post::NodeStatistics nodes({scene.contacts[0].b}, from);
   post::ImpactTable impacts(1, from, 0.0, 1000);
   MostModalDamping damping;
   Observer* const observers[] = {&contacts, &nodes, &impacts, &damping};
   Result out;
-  out.report = run(scene, with_flights(scene, flight), observers, nullptr, {});
+  out.report = run(scene, with_macro_steps(scene, macro_steps), observers, nullptr, {});
   out.modal_damping = damping.energy;
   out.contact = contacts.summaries()[0];
   out.node = nodes.summaries()[0];
@@ -66,69 +66,70 @@ Result simulate_with(const Scene& scene, int flight, double from = 0.0) {
 
 } // namespace
 
-TEST(Flights, LeadToTheSameImpacts) {
+TEST(MacroSteps, LeadToTheSameImpacts) {
   const Scene scene = swinging(0.1);
-  const Result single = simulate_with(scene, 1), flown = simulate_with(scene, 12);
-  EXPECT_EQ(single.report.counts.steps, flown.report.counts.steps);
+  const Result single = simulate_with(scene, 1), by_macro_steps = simulate_with(scene, 12);
+  EXPECT_EQ(single.report.counts.steps, by_macro_steps.report.counts.steps);
   EXPECT_LT(single.report.counts.evaluations, 6 * single.report.counts.steps / 10);
-  ASSERT_EQ(single.impacts.size(), flown.impacts.size());
+  ASSERT_EQ(single.impacts.size(), by_macro_steps.impacts.size());
   EXPECT_GT(single.impacts.size(), 20U);
   for (std::size_t i = 0; i < single.impacts.size(); ++i) { // exact flows: only round-off differs
-    EXPECT_NEAR(single.impacts[i].start, flown.impacts[i].start, 1e-9);
-    EXPECT_NEAR(single.impacts[i].impulse / flown.impacts[i].impulse, 1.0, 1e-6);
+    EXPECT_NEAR(single.impacts[i].start, by_macro_steps.impacts[i].start, 1e-9);
+    EXPECT_NEAR(single.impacts[i].impulse / by_macro_steps.impacts[i].impulse, 1.0, 1e-6);
   }
-  EXPECT_NEAR(flown.report.energy.friction / single.report.energy.friction, 1.0, 1e-6);
-  EXPECT_NEAR(flown.report.energy.contact_damping / single.report.energy.contact_damping, 1.0, 1e-6);
-  EXPECT_NEAR(flown.report.residual_relative, single.report.residual_relative, 1e-6);
-  EXPECT_LT(flown.modal_damping, 1e-12 * flown.report.energy.throughput);
+  EXPECT_NEAR(by_macro_steps.report.energy.friction / single.report.energy.friction, 1.0, 1e-6);
+  EXPECT_NEAR(by_macro_steps.report.energy.contact_damping / single.report.energy.contact_damping, 1.0, 1e-6);
+  EXPECT_NEAR(by_macro_steps.report.residual_relative, single.report.residual_relative, 1e-6);
+  EXPECT_LT(by_macro_steps.modal_damping, 1e-12 * by_macro_steps.report.energy.scale);
 }
 
-// Records that stand for flights weigh as much time as these take, and show displacements whose sums are integrals.
-TEST(Flights, LeaveStatisticsOfTheMotionWhatTheyAre) {
+// Records that stand for macro-steps weigh as much time as these take, and show displacements whose sums are integrals.
+TEST(MacroSteps, LeaveStatisticsOfTheMotionWhatTheyAre) {
   const Scene scene = swinging(0.5, {});
-  const Result single = simulate_with(scene, 1), flown = simulate_with(scene, 12);
-  EXPECT_NEAR(flown.contact.normal_mean / single.contact.normal_mean, 1.0, 1e-3);
-  EXPECT_NEAR(flown.contact.y.std / single.contact.y.std, 1.0, 1e-3); // 3e-3 by the displacements at the ends
-  EXPECT_NEAR(flown.contact.z.std / single.contact.z.std, 1.0, 1e-3);
-  EXPECT_NEAR(flown.contact.radial_rms / single.contact.radial_rms, 1.0, 1e-3);
+  const Result single = simulate_with(scene, 1), by_macro_steps = simulate_with(scene, 12);
+  EXPECT_NEAR(by_macro_steps.contact.normal_mean / single.contact.normal_mean, 1.0, 1e-3);
+  EXPECT_NEAR(by_macro_steps.contact.y.std / single.contact.y.std, 1.0,
+              1e-3); // 3e-3 by the displacements at the ends
+  EXPECT_NEAR(by_macro_steps.contact.z.std / single.contact.z.std, 1.0, 1e-3);
+  EXPECT_NEAR(by_macro_steps.contact.radial_rms / single.contact.radial_rms, 1.0, 1e-3);
   for (int k = 1; k < 3; ++k) {
     const auto axis = static_cast<std::size_t>(k);
-    EXPECT_NEAR(flown.node.displacement[axis].std / single.node.displacement[axis].std, 1.0, 1e-3);
+    EXPECT_NEAR(by_macro_steps.node.displacement[axis].std / single.node.displacement[axis].std, 1.0, 1e-3);
   }
 }
 
 // The record at its end is the first of the window, and weighs half of it too much or too little.
-TEST(Flights, AreNoMatterToWindowsThatBeginInsideThem) {
+TEST(MacroSteps, AreNoMatterToWindowsThatBeginInsideThem) {
   const Scene scene = swinging(0.5, {});
   for (const double from : {0.1, 0.1001, 0.1002, 0.1003}) {
-    const Result single = simulate_with(scene, 1, from), flown = simulate_with(scene, 12, from);
-    EXPECT_EQ(flown.contact.impacts, single.contact.impacts);
-    EXPECT_NEAR(flown.contact.impact_rate / single.contact.impact_rate, 1.0, 6.0 * h / 0.4);
-    EXPECT_NEAR(flown.contact.z.std / single.contact.z.std, 1.0, 1e-3);
-    EXPECT_NEAR(flown.node.displacement[1].std / single.node.displacement[1].std, 1.0, 1e-3);
+    const Result single = simulate_with(scene, 1, from), by_macro_steps = simulate_with(scene, 12, from);
+    EXPECT_EQ(by_macro_steps.contact.impacts, single.contact.impacts);
+    EXPECT_NEAR(by_macro_steps.contact.impact_rate / single.contact.impact_rate, 1.0, 6.0 * h / 0.4);
+    EXPECT_NEAR(by_macro_steps.contact.z.std / single.contact.z.std, 1.0, 1e-3);
+    EXPECT_NEAR(by_macro_steps.node.displacement[1].std / single.node.displacement[1].std, 1.0, 1e-3);
   }
 }
 
-// An arc that touches its obstacle between the ends of a flight, from any phase.
-TEST(Flights, MissNoImpact) {
+// An arc that touches its obstacle between the ends of a macro-step, from any phase.
+TEST(MacroSteps, MissNoImpact) {
   constexpr int phases = 200;
-  std::int64_t flown = 0;
-  const double swing = 0.5 / (12.0 * h); // rad/s: beyond the stop for half the time of a flight
+  std::int64_t by_macro_steps = 0;
+  const double swing = 0.5 / (12.0 * h); // rad/s: beyond the stop for half the time of a macro-step
   for (int i = 0; i < phases; ++i) {
     Scene scene = mass_point(mass, mass * swing * swing * Vec3::Ones(), 200.0 * h);
     scene.contacts = {contact_of(mass, {contact::Stop{gap, contact::PlaneAxis::y}, {stiffness}, {}})};
     start(scene, mass, Vec3(0.0, -1.01 * gap * std::cos(0.01 + 0.031 * i), 0.0),
           Vec3(0.0, 1.01 * gap * swing * std::sin(0.01 + 0.031 * i), 0.0));
-    const auto first = [&](int flight) { return simulate_with(scene, flight).impacts.at(0).start; };
+    const auto first = [&](int macro_steps) { return simulate_with(scene, macro_steps).impacts.at(0).start; };
     EXPECT_NEAR(first(12), first(1), 1e-9) << i;
     const auto counts = simulate_with(scene, 12).report.counts;
-    flown += counts.steps - counts.evaluations;
+    by_macro_steps += counts.steps - counts.evaluations;
   }
-  EXPECT_GT(flown, 10000); // of 40 000 steps
+  EXPECT_GT(by_macro_steps, 10000); // of 40 000 steps
 }
 
-// Outputs come from the exact flow inside a flight, and change none of it.
-TEST(Flights, GiveOutputsAtAnyInstantAndDoNotFeelThem) {
+// Outputs come from the exact flow inside a macro-step, and change none of it.
+TEST(MacroSteps, GiveOutputsAtAnyInstantAndDoNotFeelThem) {
   const Scene scene = swinging(0.02);
   struct Positions final : Sampler {
     void state(std::int64_t, double, const double* q, const double*) override { y.push_back(q[1]); }
@@ -136,23 +137,24 @@ TEST(Flights, GiveOutputsAtAnyInstantAndDoNotFeelThem) {
     void visit(core::StateArchive&) override {}
     std::vector<double> y;
   };
-  const auto watched = [&](int flight, double every) {
+  const auto watched = [&](int macro_steps, double every) {
     Positions positions;
     post::ContactStatistics statistics(scene.contacts, 0.0);
     Observer* const observers[] = {&statistics};
-    (void)run(scene, with_flights(scene, flight), observers, &positions, output_grid(scene.duration, every));
+    (void)run(scene, with_macro_steps(scene, macro_steps), observers, &positions,
+              output_grid(scene.duration, every));
     return std::pair(positions.y, statistics.summaries()[0].radial_rms);
   };
   const auto [single, same] = watched(1, 1.7e-5);
-  const auto [flown, dense] = watched(12, 1.7e-5);
-  ASSERT_EQ(single.size(), flown.size());
+  const auto [by_macro_steps, dense] = watched(12, 1.7e-5);
+  ASSERT_EQ(single.size(), by_macro_steps.size());
   for (std::size_t i = 0; i < single.size(); ++i)
-    EXPECT_NEAR(single[i], flown[i], 1e-9 * gap) << i;
+    EXPECT_NEAR(single[i], by_macro_steps[i], 1e-9 * gap) << i;
   EXPECT_EQ(watched(12, 0.01).second, dense);
 }
 
 // Without observers nobody looks at the positions of records: outputs and energies are the same bytes.
-TEST(Flights, DoNotFeelWhetherSomebodyLooks) {
+TEST(MacroSteps, DoNotFeelWhetherSomebodyLooks) {
   const Scene scene = swinging(0.1);
   struct Forces final : Sampler {
     void state(std::int64_t, double, const double* q, const double* v) override { keep(q, v); }
@@ -167,7 +169,7 @@ TEST(Flights, DoNotFeelWhetherSomebodyLooks) {
     std::vector<double> all;
   };
   for (const double fastest : {0.0, 5.0}) { // heavier modes: positions are in other coordinates
-    StepChoice choice = with_flights(scene, 12);
+    StepChoice choice = with_macro_steps(scene, 12);
     choice.fastest = fastest;
     Forces unseen, seen;
     MostModalDamping observer;
@@ -183,15 +185,15 @@ TEST(Flights, DoNotFeelWhetherSomebodyLooks) {
 }
 
 TEST(
-    Flights,
+    MacroSteps,
     AreNotMadeRoundAnObstacle) { // gaps outside a circle bend upwards: a straight path between two free places may cross it
   Scene scene = swinging(0.1);
   scene.duration = 0.3;
   scene.contacts[0].support.obstacle = contact::RoundPair{2e-3};
   scene.contacts[0].rest.y() = 3e-3;
-  const Result single = simulate_with(scene, 1), flown = simulate_with(scene, 12);
-  EXPECT_EQ(single.contact.impacts, flown.contact.impacts);
+  const Result single = simulate_with(scene, 1), by_macro_steps = simulate_with(scene, 12);
+  EXPECT_EQ(single.contact.impacts, by_macro_steps.contact.impacts);
   EXPECT_GT(single.contact.impacts, 0);
 }
 
-} // namespace flights_test
+} // namespace macro_steps_test

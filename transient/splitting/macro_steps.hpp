@@ -8,6 +8,6 @@ namespace fretwork::transient {
 
 /// Contacts act where they touch and nowhere before (no normal damper, no residual flexibility); their displacements follow from modes
 /// that no damping matrix couples, their gaps bend nowhere upwards: not outside of a round body.
-[[nodiscard]] bool may_fly(const Scene& scene);
+[[nodiscard]] bool allows_macro_steps(const Scene& scene);
 
 } // namespace fretwork::transient

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Fixed steps, and what is said of rates that a step does not resolve.
+#include "step_rule_scenes.hpp"
+
+namespace step_warnings_test {
+
+using namespace fretwork;
+using namespace fretwork::tests;
+using namespace fretwork::tests::step_rule;
+using contact::Circle;
+
+TEST(StepWarnings, KeepsAFixedStepAndCoversTheDuration) {
+  const Scene scene = scene_with({Circle{0.1}, {8e4}, {}}, 1.0);
+  const StepChoice choice = choose_step(scene, splitting(1e-3));
+  EXPECT_EQ(choice.step, 1e-3);
+  EXPECT_EQ(choice.steps, 1000);
+  EXPECT_EQ(choice.reason, "given in the study");
+  EXPECT_TRUE(choice.warnings.empty());
+  EXPECT_EQ(choose_step(scene, splitting(0.3e-3)).steps, 3334);
+}
+
+TEST(StepWarnings, WarnsWhereAFixedStepDoesNotResolve) {
+  const auto warnings = [](const Scene& scene, const StepOptions& options) {
+    return choose_step(scene, options).warnings;
+  };
+  const auto only = [](const std::vector<std::string>& list, const std::string& what) {
+    ASSERT_EQ(list.size(), 1u);
+    EXPECT_TRUE(mentions(list[0], what)) << list[0];
+    EXPECT_TRUE(mentions(list[0], "take a smaller step or leave it out"));
+  };
+  only(warnings(scene_with({Circle{0.1}, {8e4}, {}}), splitting(6e-3)), "the contact frequency: w_c h = 1.2");
+  const Scene dampers = scene_with({Circle{0.1}, {2.0}, {2.0, 4e3, 0.3, 0.3}});
+  only(warnings(dampers, splitting(3.25e-3)), "the tangential dampers: r_t h = 6.5");
+  only(warnings(dampers, euler(0.6e-3)), "the tangential dampers: r_t h = 1.2");
+  const Scene mode = scene_with({Circle{0.1}, {2.0}, {}}, 1.0, Vec3(0, 2.0 * 1e6, 0));
+  only(warnings(mode, splitting(3.1e-3)), "the highest mode: w_max h = 3.1");
+  only(warnings(mode, euler(1.9e-3)), "the highest mode: w_max h = 1.9");
+  only(warnings(scene_with({Circle{0.1}, {2.0, 4e3}, {}}), euler(0.6e-3)), "the dampers: r_e h = 1.2");
+  Scene excited = mass_point(mass, Vec3::Zero(), 1.0);
+  excited.loads = {force_on(mass, Vec3(1, 0, 0), Harmonic{1.0, 25.0})};
+  only(warnings(excited, splitting(5e-3)), "the excitation: 20 f h = 2.5");
+}
+
+TEST(StepWarnings, ResolvesNormalDampersThatActImplicitly) {
+  // w_c = 200 rad/s, r_n = C_N/m
+  for (const auto scheme : {SchemeKind::splitting, SchemeKind::collocation, SchemeKind::energy_conserving})
+    expect_governed(scene_with({Circle{0.1}, {8e4, 3200.0 * mass}, {}}), {scheme, {}}, 2.0 / 3200.0,
+                    "the normal dampers' rate 3200 1/s");
+  expect_governed(scene_with({Circle{0.1}, {8e4, 20.0}, {}}), splitting(), share / 200.0,
+                  "the contact frequency 200 rad/s");
+  EXPECT_EQ(choose_step(scene_with({Circle{0.1}, {8e4, 0.0, 5.0}, {}}), splitting()).normal_damper_rate, 0.0);
+}
+
+TEST(StepWarnings, NamesNormalDampersThatNoStepResolves) {
+  // one that leaves no rebound does not ask for steps without end
+  const Scene scene = scene_with({Circle{0.1}, {8e4, 1e9}, {}}, 1.0);
+  for (const auto scheme : {SchemeKind::splitting, SchemeKind::collocation, SchemeKind::energy_conserving}) {
+    const StepChoice choice = choose_step(scene, {scheme, {}});
+    EXPECT_EQ(choice.steps, 20000) << choice.reason; // a third of 0.03/w_c
+    ASSERT_EQ(choice.warnings.size(), 1u);
+    EXPECT_TRUE(
+        mentions(choice.warnings[0], "does not resolve the normal dampers: r_n h = 2.5e+04, at most "));
+    const bool keeps = scheme == SchemeKind::energy_conserving;
+    EXPECT_EQ(mentions(choice.warnings[0], "rebounds are right at any step"), keeps);
+    EXPECT_EQ(mentions(choice.warnings[0], "take scheme = \"energy_conserving\""), !keeps);
+    const StepChoice given = choose_step(scene, {scheme, 1e-3});
+    ASSERT_EQ(given.warnings.size(), 1u);
+    EXPECT_TRUE(mentions(given.warnings[0], "r_n h = 5e+05")) << given.warnings[0];
+    EXPECT_TRUE(mentions(given.warnings[0], "take a smaller step or leave it out"));
+  }
+  const double slow = 2.0 * mass; // r_n = 2
+  EXPECT_TRUE(choose_step(scene_with({Circle{0.1}, {8e4, slow}, {}}), splitting(4e-3)).warnings.empty());
+}
+
+TEST(StepWarnings, WarnsOfLargestForcesThatEnergyConservingHasTooLow) {
+  const Scene scene = scene_with({Circle{0.1}, {8e4}, {}}); // w_c = 200 rad/s
+  EXPECT_TRUE(choose_step(scene, energy_conserving(2.4e-3)).warnings.empty());
+  EXPECT_EQ(choose_step(scene, energy_conserving(5e-3)).warnings.size(), 1u); // 14 % at w_c h = 1
+}
+
+} // namespace step_warnings_test

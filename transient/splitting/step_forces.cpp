@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/splitting/step_forces.hpp"
+#include <algorithm>
+
+namespace fretwork::transient {
+
+StepForces::StepForces(const PackedContacts& contacts)
+    : components_(contacts.components), rows_(contacts), numbers_(3 * static_cast<std::size_t>(contacts.count)),
+      held_(static_cast<std::size_t>(contacts.padded_modes), 0.0) {
+  for (auto& f : factors_)
+    f.resize(numbers_.size());
+}
+
+void StepForces::add(int c, int component, double held, double mean, double slope) {
+  if (mean == 0.0 && held == 0.0)
+    return;
+  factors_[0][rows_.size()] = held;
+  factors_[1][rows_.size()] = mean;
+  factors_[2][rows_.size()] = slope;
+  numbers_[rows_.size()] = 3 * c + component;
+  rows_.add(c, component);
+  any_held_ = any_held_ || held != 0.0;
+  any_slope_ = any_slope_ || slope != 0.0;
+}
+
+void StepForces::sum(std::size_t which, kernels::Array& to) {
+  std::fill(to.begin(), to.end(), 0.0);
+  rows_.add_to(factors_[which].data(), to.data());
+}
+
+void StepForces::assemble(const ContactSweeps& sweeps, const std::vector<int>& contacts, ModalForce* found) {
+  any_held_ = any_slope_ = false;
+  rows_.clear();
+  for (const int c : contacts) {
+    const ContactSweeps::Force& f = sweeps.force(c);
+    add(c, 0, f.held.y, f.mean.y, f.slope.y);
+    add(c, 1, f.held.z, f.mean.z, f.slope.z);
+    if (components_ == 3)
+      add(c, 2, f.held.x, f.mean.x, f.slope.x);
+  }
+  count_ = rows_.size();
+  if (any_held_)
+    sum(0, held_);
+  if (!found)
+    return;
+  sum(1, found->mean);
+  if (any_slope_)
+    sum(2, found->slope);
+  else
+    std::fill(found->slope.begin(), found->slope.end(), 0.0);
+}
+
+} // namespace fretwork::transient

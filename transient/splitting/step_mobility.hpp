@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Mobility of contacts over a step of the splitting scheme: W of contact_sweeps.hpp, for which W f h^2/2 is the exact displacement after one step
+/// from rest under constant forces f.
+#pragma once
+#include "transient/contacts/contact_blocks.hpp"
+#include "transient/modes/modal_flow.hpp"
+#include "transient/splitting/contact_interval.hpp"
+
+namespace fretwork::transient {
+
+/// By blocks: of the block's contact `to` by a force on its contact `from`, at from * contacts of the block + to.
+/// @param components  2, or 3 where friction acts along x_loc   @param padded_modes  size of the arrays of `modes`   @param step  h, s
+[[nodiscard]] std::vector<std::vector<Mobility>> step_mobility(const Scene& scene,
+                                                               const ContactBlocks& blocks, int components,
+                                                               std::size_t padded_modes, ModalFlow& modes,
+                                                               double step);
+
+} // namespace fretwork::transient

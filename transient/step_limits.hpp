@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// What limits the automatic step (step_rule.hpp): shares of the rates of a scene that each scheme has to resolve.
+#pragma once
+#include "transient/step_rule.hpp"
+
+namespace fretwork::transient {
+
+/// A limit of the step and where it comes from.
+struct StepLimit {
+  double limit; ///< s
+  std::string reason;
+};
+
+/// What limits the step, the highest mode where contacts meet exact flows apart.
+/// @param choice  with its rates and scheme   @param fineness  1 at an accuracy of 0.01, as its square root
+[[nodiscard]] std::vector<StepLimit> step_limits(const StepChoice& choice, const Scene& scene,
+                                                 double fineness);
+/// What the highest mode asks of the step.
+[[nodiscard]] StepLimit mode_limit(const StepChoice& choice, bool contacts, double fineness);
+
+/// The modes move exactly between the contact impulses.
+[[nodiscard]] bool moves_exactly(SchemeKind scheme);
+/// Contacts move in intervals within steps: not with residual flexibility, whose forces stand at instants.
+[[nodiscard]] bool has_intervals(const StepChoice& choice, const Scene& scene);
+/// Points in a period of the excitation at an accuracy of 0.01, with contacts: loads linear between steps lose (2 pi/30)^2/12 = 0.4 % of it.
+constexpr double points_per_period = 30.0;
+
+/// Largest w_c h and w_t h without a warning: above it an impact changes the energy by more than 1 % or the statistics are wrong, however
+/// stable the run (doc/schemes.md, Stability map).
+[[nodiscard]] double most_resolved(SchemeKind scheme);
+/// Largest r_t h where dampers are implicit: above it sticking contacts ring.
+[[nodiscard]] double most_implicit(SchemeKind scheme);
+/// Largest r_n h of schemes that take normal dampers implicitly: above 2 the mean rate alone turns the speed of a mass round (splitting); with collocation a
+/// tenth of it is left at 4, where 0.02 is right.
+[[nodiscard]] double most_normally_damped(SchemeKind scheme);
+/// Of a damper's rate times the step of devogelaere, whose limit is 0.59.
+constexpr double most_damped = 0.5;
+
+} // namespace fretwork::transient
