@@ -118,7 +118,7 @@ inline constexpr Location centred(double gap) { return {gap, -1.0, 0.0}; }
 /// choice (centred tube, coincident nodes, on the corner of a profile) 0, as the choice does not turn.
 [[nodiscard]] double curvature(const Obstacle& obstacle, double y, double z);
 
-/// A bound that tells cheaply that a node is out of reach, and the form of all gaps that are one formula:
+/// A bound that shows cheaply that a node is out of reach, and the form of all gaps that are one formula:
 ///     limit - (radial sqrt(wy y^2 + wz z^2) + ly y + lz z),
 /// whose rate is at least -sqrt(wy vy^2 + wz vz^2).
 struct GapBound {

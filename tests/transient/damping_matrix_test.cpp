@@ -18,7 +18,9 @@ using Eigen::VectorXd;
 namespace {
 
 /// Axes that couple all three.
-Matrix3d turned() { return Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix(); }
+Matrix3d turned() {
+  return Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+}
 
 MatrixXd turned_modes() {
   MatrixXd r = MatrixXd::Identity(6, 6); // mode 2 stays alone

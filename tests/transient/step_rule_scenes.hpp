@@ -17,7 +17,7 @@ constexpr double stick_share = 0.25; // w_t h where forces stand at instants
 constexpr double mass = 2.0;
 
 inline Scene scene_with(const contact::Support& support, double duration = 1000.0,
-                 const Vec3& stiffness = Vec3::Zero()) {
+                        const Vec3& stiffness = Vec3::Zero()) {
   Scene scene = mass_point(mass, stiffness, duration);
   scene.contacts = {contact_of(mass, support)};
   return scene;
@@ -35,7 +35,7 @@ inline bool mentions(const std::string& text, const std::string& part) {
 
 /// The step is the limit, rounded down so that whole steps cover the duration.
 inline void expect_governed(const Scene& scene, const StepOptions& options, double limit,
-                     const std::string& reason) {
+                            const std::string& reason) {
   const StepChoice choice = choose_step(scene, options);
   EXPECT_LE(choice.step, limit * (1.0 + round_off));
   EXPECT_GT(choice.step, limit * (1.0 - 2.0 * limit / scene.duration));

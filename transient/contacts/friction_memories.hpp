@@ -44,7 +44,7 @@ public:
   }
   /// Whether contact c had a force at the last step.
   [[nodiscard]] bool was_closed(int c) const;
-  /// Ends a step: the contacts that have opened are told to the trial with the speed at which they leave. `end`: motion at its end.
+  /// Ends a step: the contacts that have opened are handed to the trial with the speed at which they leave. `end`: motion at its end.
   void end(const ContactMotion& end, ContactTrial& trial);
   void visit(core::StateArchive& state) { state(entries_, remembering_, closed_, springs_); }
 

@@ -14,7 +14,7 @@
 
 namespace fretwork::transient {
 
-/// w h of splitting above which modes are scaled; between kicks h apart a mode gives way by (x/2) cot(x/2) of its flexibility, x = w h: 0.8 at 1.5,
+/// w h of splitting above which modes are scaled; under impulses h apart a mode deflects by (x/2) cot(x/2) of its flexibility, x = w h: 0.8 at 1.5,
 /// 0.4 at 2.5, nothing at pi.
 constexpr double before_resonance = 2.5;
 

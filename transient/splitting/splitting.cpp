@@ -203,7 +203,7 @@ private:
     forces_.assemble(sweeps_, near_, nullptr);
   }
 
-  /// Contacts that may be closed in a step of so many h that ends as `end_` tells.
+  /// Contacts that may be closed in a step of so many h whose end is `end_`.
   void find_near(int length) {
     near_.clear();
     const bool any = end_.find_near(window_ * length * h_);

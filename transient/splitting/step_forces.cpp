@@ -5,7 +5,8 @@
 namespace fretwork::transient {
 
 StepForces::StepForces(const PackedContacts& contacts)
-    : components_(contacts.components), rows_(contacts), numbers_(3 * static_cast<std::size_t>(contacts.count)),
+    : components_(contacts.components), rows_(contacts),
+      numbers_(3 * static_cast<std::size_t>(contacts.count)),
       held_(static_cast<std::size_t>(contacts.padded_modes), 0.0) {
   for (auto& f : factors_)
     f.resize(numbers_.size());

@@ -13,8 +13,7 @@ template <class Visit>
 void for_modes(const Scene& scene, const ContactBlocks& blocks, std::size_t block, int contact,
                const Visit& visit) {
   scene.contacts[static_cast<std::size_t>(contact)].for_ranges([&](Eigen::Index first, const auto& part) {
-    if (part.cols() == 0 ||
-        blocks.block_of_mode[static_cast<std::size_t>(first)] != static_cast<int>(block))
+    if (part.cols() == 0 || blocks.block_of_mode[static_cast<std::size_t>(first)] != static_cast<int>(block))
       return;
     for (Eigen::Index i = 0; i < part.cols(); ++i)
       visit(static_cast<std::size_t>(first + i), part.col(i));
@@ -39,9 +38,8 @@ std::vector<std::vector<Mobility>> step_mobility(const Scene& scene, const Conta
       std::fill(force.begin(), force.end(), 0.0);
       for (std::size_t b = 0; b < blocks.size(); ++b)
         if (from < blocks.contacts[b].size())
-          for_modes(scene, blocks, b, blocks.contacts[b][from], [&](std::size_t mode, const auto& column) {
-            force[mode] = column(local_of(component));
-          });
+          for_modes(scene, blocks, b, blocks.contacts[b][from],
+                    [&](std::size_t mode, const auto& column) { force[mode] = column(local_of(component)); });
       modes.response(force.data(), moved.data());
       for (std::size_t b = 0; b < blocks.size(); ++b) {
         const auto& contacts = blocks.contacts[b];

@@ -66,17 +66,17 @@ void StaticEnergy::find_unseen() {
   unseen_.resize(size(), 0);
   if (rigid.empty())
     return;
-  MatrixXd seen = MatrixXd::Zero(static_cast<Index>(rigid.size()), static_cast<Index>(rigid.size()));
+  MatrixXd stiffness = MatrixXd::Zero(static_cast<Index>(rigid.size()), static_cast<Index>(rigid.size()));
   for (std::size_t c = 0; c < scene_.contacts.size(); ++c) {
     const contact::Support& support = scene_.contacts[c].support;
     const auto [y, z] = contact::normal_directions(support.obstacle);
     for (const auto& [counts, offset] : {std::pair{y, 0}, std::pair{z, 1}})
       if (counts) {
         const VectorXd row = rows_.row(2 * static_cast<Index>(c) + offset)(rigid).transpose();
-        seen += support.normal.stiffness * row * row.transpose();
+        stiffness += support.normal.stiffness * row * row.transpose();
       }
   }
-  const auto [values, vectors] = core::symmetric_eigenpairs(seen);
+  const auto [values, vectors] = core::symmetric_eigenpairs(stiffness);
   const double limit = unseen_motion * values.maxCoeff();
   Index count = 0;
   while (count < values.size() && values(count) <= limit)
