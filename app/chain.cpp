@@ -2,6 +2,7 @@
 #include "app/chain.hpp"
 #include "app/build_flow.hpp"
 #include "app/describe.hpp"
+#include "app/expected_time.hpp"
 #include "app/fluidelastic.hpp"
 #include "app/folder_lock.hpp"
 #include "app/jobs.hpp"
@@ -92,9 +93,9 @@ std::string forecast_text(MPI_Comm comm, const study::Study& study, const std::v
   const std::string steps = forecast.steps > 0.0
                                 ? results::counted(static_cast<std::int64_t>(forecast.steps), "step")
                                 : std::string("steps as the tolerance asks for");
-  return fmt::format("  {}; a run: {:g} s, {}; results.h5: {} of series, up to {} of impacts\n",
+  return fmt::format("  {}; a run: {:g} s, {}, about {}; results.h5: {} of series, up to {} of impacts\n",
                      counted(results::sorted_modes(out.bases), "mode"), study.transient->duration, steps,
-                     size_text(size.series), size_text(size.impacts));
+                     time_text(forecast.seconds), size_text(size.series), size_text(size.impacts));
 }
 
 /// Of a file that may not be there.

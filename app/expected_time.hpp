@@ -2,6 +2,7 @@
 /// @file
 /// How long a run will take, from its first seconds.
 #pragma once
+#include "transient/run.hpp"
 #include <chrono>
 #include <functional>
 #include <string>
@@ -34,5 +35,15 @@ private:
   Clock::time_point start_ = Clock::now();
   bool told_ = false;
 };
+
+/// s on the clock that a run of the scene would take, extrapolated from its first steps, of which so much time is spent (or the whole, if it takes less).
+/// The first impacts may be still to come: an estimate of the order.
+[[nodiscard]] double trial_of(const transient::Scene& scene, const transient::StepChoice& choice,
+                              std::chrono::duration<double> budget);
+/// @throws core::Error where `seconds`, the forecast of a whole run, are more than `most_hours`
+void check_expected_time(double seconds, double most_hours);
+
+/// `0.62 s`, `12 min`, `3.4 h`
+[[nodiscard]] std::string time_text(double seconds);
 
 } // namespace fretwork::app

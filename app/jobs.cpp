@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/jobs.hpp"
+#include "app/expected_time.hpp"
 #include "app/job.hpp"
 #include "app/judge_run.hpp"
 #include "app/resumed_run.hpp"
@@ -17,6 +18,8 @@ namespace {
 /// Series and tables are held in memory until they are written; a study that asks for more than this has a slip in
 /// output.every or output.impacts.
 constexpr double most_series_bytes = 4294967296.0;
+/// On the clock: what `check` spends on the first steps of all scenes.
+constexpr std::chrono::duration<double> longest_trials{0.2};
 
 void check_size_of_series(const study::Study& study, const std::vector<BuiltScene>& scenes) {
   const double duration = study.transient->duration, every = output_interval(study);
@@ -243,11 +246,17 @@ Forecast check_jobs(MPI_Comm comm, const study::Study& study, const std::vector<
   check_size_of_series(study, scenes);
   Forecast out;
   out.outputs = study.transient->duration / output_interval(study);
-  for (const transient::StepChoice& choice : choose_steps(comm, study, scenes)) {
+  const std::vector<transient::StepChoice> choices = choose_steps(comm, study, scenes);
+  const double with_verification = study.transient->verify && !study.contacts.empty() ? 3.0 : 1.0;
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    const transient::StepChoice& choice = choices[s];
     out.steps += static_cast<double>(choice.steps);
     out.impact_rows.push_back(static_cast<double>(impact_rows(study, choice)));
     out.warnings.insert(out.warnings.end(), choice.warnings.begin(), choice.warnings.end());
+    out.seconds += with_verification *
+                   trial_of(scenes[s].scene, choice, longest_trials / static_cast<double>(scenes.size()));
   }
+  check_expected_time(out.seconds, study.transient->max_hours);
   return out;
 }
 

@@ -3,6 +3,7 @@
 # Builds a preset (default: release) in build/<preset>: tools/build.sh [PRESET [TARGET ...]].
 # Without targets everything, tests and benchmarks too; with targets these alone, and where nothing was configured before, tests and
 # benchmarks are left out (their packages are then not needed). Ninja's counter shows how far the build is.
+# Where CI=true warnings are errors.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=${1:-release}
@@ -12,6 +13,7 @@ if [ ${#targets[@]} -gt 0 ]; then
   options=()
   [ -e "build/$preset/CMakeCache.txt" ] || options=(-DFRETWORK_TESTS=OFF -DFRETWORK_BENCH=OFF)
 fi
+[ "${CI:-}" != true ] || options+=(-DFRETWORK_WARNINGS_AS_ERRORS=ON)
 cmake --preset "$preset" "${options[@]}" >/dev/null
 export NINJA_STATUS="[%f/%t, %es] "
 cmake --build --preset "$preset" ${targets:+--target "${targets[@]}"}

@@ -80,6 +80,25 @@ TEST(Check, ForecastsTheSizeOfTheResults) {
   EXPECT_GT(of_all, 1.5 * without);
 }
 
+// A trial of the first steps: the same order as the run takes, however busy the machine.
+TEST(Check, ForecastsTheTimeOfARun) {
+  constexpr double same_order = 10.0;
+  const Workshop folder;
+  const fs::path study = folder.write("study.toml", tubes(folder, 1) + support + push(0, 200.0));
+  const std::vector<std::string> set{"transient.duration=4", "output.every=0.1"};
+  std::smatch found;
+  const std::string said = folder.fretwork(with("check", study, set)).out;
+  ASSERT_TRUE(std::regex_search(said, found, std::regex("steps, about ([0-9.e-]+) s; "))) << said;
+  const Results run = folder.run(study, "results", {"--set", set[0], "--set", set[1]});
+  const double took = run.summary["timings_s"]["transient"], forecast_s = std::stod(found[1]);
+  EXPECT_GT(forecast_s, took / same_order);
+  EXPECT_LT(forecast_s, took * same_order);
+  const Outcome days = folder.fretwork(with("check", study, {"transient.duration=1e6", "output.every=1e3"}));
+  EXPECT_EQ(days.status, 1) << days.out;
+  EXPECT_TRUE(says(days.err, "transient: as its first steps show, a run would take ")) << days.err;
+  EXPECT_TRUE(says(days.err, "more than transient.max_hours = 24; shorten the duration")) << days.err;
+}
+
 TEST(Output, SeriesOfContactsAndModesCanBeLeftOut) {
   const Workshop folder;
   const std::string study = tubes(folder, 1) + support + "series = false\n" + push(0, 200.0);
