@@ -2,7 +2,7 @@
 #include "app/build_scene.hpp"
 #include "app/contact_laws.hpp"
 #include "app/fluidelastic.hpp"
-#include "app/residual_flexibility.hpp"
+#include "app/missing_flexibility.hpp"
 #include "app/static_start.hpp"
 #include "app/support_motion.hpp"
 #include "core/error.hpp"
@@ -367,7 +367,7 @@ BuiltScene build_scene(const study::Study& study, const Fields& fields,
   for (const std::size_t c : out.contacts)
     add_contact(study, study.contacts[contacts[c].entry], contacts[c], bases, fields, out);
   if (!out.contacts.empty() && flexibility.failure.empty())
-    take_residual_flexibility(study, flexibility, fields.loads, out);
+    find_missing(flexibility, out);
   for (std::size_t k = 0; k < nodes.size(); ++k)
     if (has_node(bases, nodes[k].node)) {
       Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(3, scene.system.size());

@@ -23,8 +23,7 @@ struct BuiltScene {
   WatchedWear watched_wear;          ///< of its contacts
   std::vector<post::ObservedNode> nodes; ///< observed nodes of these structures
   std::vector<std::size_t> node_numbers; ///< their numbers among all observed nodes
-  Eigen::VectorXd static_forces;         ///< N, normal, of its contacts, of a static start; else empty
-  double lacking = 0.0;   ///< largest missing flexibility times stiffness (residual_flexibility.hpp)
+  double lacking = 0.0;   ///< largest missing flexibility times stiffness (missing_flexibility.hpp)
   std::string lacking_at; ///< name of the contact
   std::vector<std::string> truncated; ///< names of the contacts where it is much (modal_truncation.hpp)
   std::vector<std::string> notes;     ///< to be told the user (the projection, the equilibrium)

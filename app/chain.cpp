@@ -232,9 +232,8 @@ private:
       at_contacts_.turbulence = turbulence_;
       at_contacts_.joined = joined_structures(out_.bases, placed_);
     });
-    at_contacts_.flexibilities =
-        contact_flexibilities(comm_, inputs_.study, model_, modes.structures, out_.bases, at_contacts_.joined,
-                              placed_, at_contacts_.fields.loads);
+    at_contacts_.flexibilities = contact_flexibilities(comm_, inputs_.study, model_, modes.structures,
+                                                       out_.bases, at_contacts_.joined, placed_);
   }
 
   /// Damping by the flow, stability and linear response.

@@ -23,66 +23,35 @@ struct Parts {
   const std::vector<fem::Structure>& structures;
   const std::vector<modal::Basis>& bases;
   const std::vector<PlacedContact>& placed;
-  const std::vector<Fields::Load>& loads;
 };
 
-/// Whether the scene takes what is missing beside its modes; otherwise it is for the table only.
-bool in_series(const study::Study& study) {
-  switch (study.modes.static_modes) {
-  case study::StaticModes::none:
-  case study::StaticModes::added:
-    return false;
-  case study::StaticModes::residual:
-    return true;
-  }
-  return false;
-}
-
-/// Part of a field over the model that belongs to a structure.
-Eigen::VectorXd part_of(const modal::Basis& basis, const Eigen::VectorXd& field) {
-  Eigen::VectorXd out(basis.shapes.rows());
-  for (std::size_t i = 0; i < basis.nodes.size(); ++i)
-    out.segment<6>(static_cast<Index>(6 * i)) = field.segment<6>(static_cast<Index>(basis.nodes[i]) * 6);
-  return out;
-}
-
-/// Flexibilities between the loaded directions: all of them, or of each contact alone: (i, direction of j) for directions i, j of one contact.
+/// Flexibilities between the loaded directions of each contact: (i, direction of j) for directions i, j of one contact.
 class LoadedFlexibility {
 public:
-  LoadedFlexibility(const std::vector<Index>& loaded, bool alone)
-      : loaded_(loaded), alone_(alone),
-        values_(MatrixXd::Zero(static_cast<Index>(loaded.size()),
-                               alone ? 3 : static_cast<Index>(loaded.size()))) {}
+  explicit LoadedFlexibility(const std::vector<Index>& loaded)
+      : loaded_(loaded), values_(MatrixXd::Zero(static_cast<Index>(loaded.size()), 3)) {}
   /// Adds a part between some of the directions.
   void add(const std::vector<Index>& among, const MatrixXd& part) {
-    if (!alone_) {
-      values_(among, among) += part;
-      return;
-    }
     for (std::size_t i = 0; i < among.size(); ++i)
       for (std::size_t j = 0; j < among.size(); ++j)
         if (contact(among[i]) == contact(among[j]))
           values_(among[i], direction(among[j])) += part(static_cast<Index>(i), static_cast<Index>(j));
   }
-  [[nodiscard]] const MatrixXd& all() const { return values_; }
   /// Between the directions [first, first + size) of one contact.
   [[nodiscard]] MatrixXd own(Index first, Index size) const {
     MatrixXd out(size, size);
     for (Index j = 0; j < size; ++j)
-      out.col(j) = values_.col(alone_ ? direction(first + j) : first + j).segment(first, size);
+      out.col(j) = values_.col(direction(first + j)).segment(first, size);
     return out;
   }
   void set_own(Index first, const MatrixXd& own) {
     for (Index j = 0; j < own.cols(); ++j)
-      values_.col(alone_ ? direction(first + j) : first + j).segment(first, own.rows()) = own.col(j);
+      values_.col(direction(first + j)).segment(first, own.rows()) = own.col(j);
   }
   /// Over all directions of the contacts.
   [[nodiscard]] MatrixXd among_all(Index directions) const {
-    MatrixXd out = MatrixXd::Zero(directions, alone_ ? 3 : directions);
-    if (alone_)
-      out(loaded_, Eigen::all) = values_;
-    else
-      out(loaded_, loaded_) = values_;
+    MatrixXd out = MatrixXd::Zero(directions, 3);
+    out(loaded_, Eigen::all) = values_;
     return out;
   }
 
@@ -90,21 +59,19 @@ private:
   [[nodiscard]] Index contact(Index i) const { return loaded_[static_cast<std::size_t>(i)] / 3; }
   [[nodiscard]] Index direction(Index i) const { return loaded_[static_cast<std::size_t>(i)] % 3; }
   const std::vector<Index>& loaded_;
-  bool alone_;
   MatrixXd values_;
 };
 
 /// Of the loaded directions.
 struct Flexibilities {
-  Flexibilities(const std::vector<Index>& loaded, bool alone)
-      : exact(loaded, alone), basis(loaded, alone), inner(loaded, alone) {}
+  explicit Flexibilities(const std::vector<Index>& loaded) : exact(loaded), basis(loaded), inner(loaded) {}
   LoadedFlexibility exact, basis;
   LoadedFlexibility inner; ///< modal::inner_flexibility
 };
 
 /// Adds what a structure gives to the flexibilities of the loaded directions.
 void add_structure(const Parts& parts, std::size_t s, const StructureLoads& loaded,
-                   modal::StaticSolvers& solvers, ContactFlexibility& out, Flexibilities& of_loaded) {
+                   modal::StaticSolvers& solvers, Flexibilities& of_loaded) {
   const auto& [among, forces] = loaded;
   if (among.empty())
     return;
@@ -115,34 +82,19 @@ void add_structure(const Parts& parts, std::size_t s, const StructureLoads& load
   of_loaded.inner.add(
       among, modal::inner_flexibility(
                  basis, forces, fem::largest_inner_changes(parts.model, parts.structures[s], basis.omega)));
-  if (!in_series(parts.study))
-    return; // nothing is moved beside the modes
-  const MatrixXd gain = modal::static_gain(basis, forces);
-  for (std::size_t l = 0; l < parts.loads.size(); ++l) {
-    const Eigen::VectorXd load = part_of(basis, parts.loads[l].force);
-    const Eigen::VectorXd all = u.transpose() * load, size = u.cwiseAbs().transpose() * load.cwiseAbs();
-    const Eigen::VectorXd lacking = all - gain * (basis.shapes.transpose() * load);
-    out.under_loads(among, static_cast<Index>(l)) +=
-        (lacking.array().abs() > modal::negligible_share * size.array()).select(lacking, 0.0);
-  }
 }
 
-/// Between all contacts, or where the scene does not take it, what the table tells: of each contact alone.
-MatrixXd missing_flexibility(const Parts& parts, const std::vector<Index>& loaded,
-                             const Flexibilities& of_loaded, Index all) {
-  LoadedFlexibility out(loaded, !in_series(parts.study));
-  if (in_series(parts.study))
-    out.set_own(
-        0, modal::missing_flexibility(of_loaded.exact.all(), of_loaded.basis.all(), of_loaded.inner.all()));
-  else
-    for (std::size_t begin = 0, end = 0; begin < loaded.size(); begin = end) {
-      while (end < loaded.size() && loaded[end] / 3 == loaded[begin] / 3)
-        ++end;
-      const auto first = static_cast<Index>(begin), size = static_cast<Index>(end - begin);
-      out.set_own(first, modal::missing_flexibility(of_loaded.exact.own(first, size),
-                                                    of_loaded.basis.own(first, size),
-                                                    of_loaded.inner.own(first, size)));
-    }
+/// Of each contact alone.
+MatrixXd missing_flexibility(const std::vector<Index>& loaded, const Flexibilities& of_loaded, Index all) {
+  LoadedFlexibility out(loaded);
+  for (std::size_t begin = 0, end = 0; begin < loaded.size(); begin = end) {
+    while (end < loaded.size() && loaded[end] / 3 == loaded[begin] / 3)
+      ++end;
+    const auto first = static_cast<Index>(begin), size = static_cast<Index>(end - begin);
+    out.set_own(first,
+                modal::missing_flexibility(of_loaded.exact.own(first, size), of_loaded.basis.own(first, size),
+                                           of_loaded.inner.own(first, size)));
+  }
   return out.among_all(all);
 }
 
@@ -152,27 +104,17 @@ ContactFlexibility flexibility(const Parts& parts, const std::vector<std::size_t
   const ContactLoads scene = contact_loads(parts.study, parts.bases, structures, parts.placed, contacts);
   const std::vector<Index>& loaded = scene.directions;
   const auto all = static_cast<Index>(3 * contacts.size());
-  const auto count = static_cast<Index>(loaded.size()), loads = static_cast<Index>(parts.loads.size());
-  Flexibilities of_loaded(loaded, !in_series(parts.study));
-  out.under_loads = MatrixXd::Zero(count, loads);
+  Flexibilities of_loaded(loaded);
   for (std::size_t i = 0; i < structures.size(); ++i)
-    add_structure(parts, structures[i], scene.on[i], solvers, out, of_loaded);
-  out.missing = missing_flexibility(parts, loaded, of_loaded, all);
+    add_structure(parts, structures[i], scene.on[i], solvers, of_loaded);
+  out.missing = missing_flexibility(loaded, of_loaded, all);
   out.exact = of_loaded.exact.among_all(all);
   out.basis = of_loaded.basis.among_all(all);
-  MatrixXd under_loads = MatrixXd::Zero(all, loads);
-  under_loads(loaded, Eigen::all) = out.under_loads;
-  // a point that misses nothing is moved by the modes alone
-  for (Index row = 0; row < all; ++row)
-    if (!(ContactFlexibility::own(out.missing, static_cast<std::size_t>(row / 3))(row % 3, row % 3) > 0.0))
-      under_loads.row(row).setZero();
-  out.under_loads = std::move(under_loads);
   return out;
 }
 
 void broadcast(MPI_Comm comm, int root, ContactFlexibility& flexibility) {
-  for (MatrixXd* matrix :
-       {&flexibility.exact, &flexibility.basis, &flexibility.missing, &flexibility.under_loads})
+  for (MatrixXd* matrix : {&flexibility.exact, &flexibility.basis, &flexibility.missing})
     core::broadcast(comm, root, *matrix);
   core::broadcast(comm, root, flexibility.failure);
 }
@@ -181,7 +123,7 @@ void broadcast(MPI_Comm comm, int root, ContactFlexibility& flexibility) {
 
 Eigen::Matrix3d ContactFlexibility::own(const MatrixXd& matrix, std::size_t k) {
   const auto first = static_cast<Index>(3 * k);
-  return matrix.block<3, 3>(first, matrix.cols() == matrix.rows() ? first : 0);
+  return matrix.block<3, 3>(first, 0);
 }
 
 results::StaticFlexibility ContactFlexibility::at(std::size_t k, const contact::Obstacle& obstacle) const {
@@ -200,12 +142,13 @@ results::StaticFlexibility ContactFlexibility::at(std::size_t k, const contact::
   return {along(exact), along(basis), along(missing)};
 }
 
-std::vector<ContactFlexibility>
-contact_flexibilities(MPI_Comm comm, const study::Study& study, const fem::Model& model,
-                      const std::vector<fem::Structure>& structures, const std::vector<modal::Basis>& bases,
-                      const std::vector<std::vector<std::size_t>>& scenes,
-                      const std::vector<PlacedContact>& placed, const std::vector<Fields::Load>& loads) {
-  const Parts parts{study, model, structures, bases, placed, loads};
+std::vector<ContactFlexibility> contact_flexibilities(MPI_Comm comm, const study::Study& study,
+                                                      const fem::Model& model,
+                                                      const std::vector<fem::Structure>& structures,
+                                                      const std::vector<modal::Basis>& bases,
+                                                      const std::vector<std::vector<std::size_t>>& scenes,
+                                                      const std::vector<PlacedContact>& placed) {
+  const Parts parts{study, model, structures, bases, placed};
   std::vector<double> costs;
   std::vector<std::vector<std::size_t>> contacts;
   for (const auto& scene : scenes) {
@@ -217,12 +160,6 @@ contact_flexibilities(MPI_Comm comm, const study::Study& study, const fem::Model
   }
   const std::vector<int> owner = core::share_out(costs, core::size(comm));
   std::vector<ContactFlexibility> out(scenes.size());
-  // where the scene does not take them, they are for the table only
-  const auto fail = [&](const std::exception& error, ContactFlexibility& of_scene) {
-    if (in_series(study))
-      throw;
-    of_scene.failure = error.what();
-  };
   core::agree(comm, [&] {
     modal::StaticSolvers solvers(model, structures);
     for (std::size_t i = 0; i < scenes.size(); ++i) {
@@ -231,9 +168,9 @@ contact_flexibilities(MPI_Comm comm, const study::Study& study, const fem::Model
       try {
         out[i] = flexibility(parts, scenes[i], contacts[i], solvers);
       } catch (const core::Error& error) {
-        fail(error, out[i]);
+        out[i].failure = error.what();
       } catch (const core::ComputationError& error) {
-        fail(error, out[i]);
+        out[i].failure = error.what();
       }
     }
   });

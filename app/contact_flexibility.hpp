@@ -5,10 +5,8 @@
 ///
 /// Between the directions that are loaded (contact_loads.hpp); between two nodes the flexibility is that of the relative motion. Rows and
 /// columns of other directions are 0.
-/// What the modes lack of the displacement under the loads of the study is theirs by the same solutions: S = U^T f - P^T Phi Omega^-2 Phi^T f.
 #pragma once
 #include "app/build_contacts.hpp"
-#include "app/build_fields.hpp"
 #include "modal/basis.hpp"
 #include "results/run_results.hpp"
 #include <mpi.h>
@@ -18,10 +16,8 @@ namespace fretwork::app {
 struct ContactFlexibility {
   std::vector<std::size_t>
       contacts; ///< numbers of the scene's contacts among the placed ones: contacts_of (contact_loads.hpp)
-  /// m/N, 3 nc x 3 nc over x_loc y_loc z_loc of each; symmetric, missing >= 0. Unless static_modes = "auto" 3 nc x 3: of each contact alone.
+  /// m/N, 3 nc x 3: of each contact alone, over its x_loc y_loc z_loc; symmetric, missing >= 0.
   Eigen::MatrixXd exact, basis, missing;
-  Eigen::MatrixXd
-      under_loads; ///< m, 3 nc x loads of the fields: what the modes lack of the static displacements; 0 unless static_modes = "auto"
   std::string failure; ///< why there is none of the above; empty: there is
 
   /// Rows and columns of the k-th contact in one of the above.
@@ -32,14 +28,12 @@ struct ContactFlexibility {
 
 /// Collective; needs PETSc. Scenes are shared out over ranks; the same bytes on every rank and for any number of ranks. Equal structures
 /// are factorised once a rank.
-/// Unless static_modes = "auto" `missing` is that of each contact alone, which is what `at` tells, and `failure` says why there is none.
+/// Where there is none, `failure` says why.
 /// @param scenes  numbers of the structures of each
-/// @throws with static_modes = "auto": core::ComputationError where a structure's stiffness is singular to working precision, core::Error
-///         where a motion without strain moves no mass
 [[nodiscard]] std::vector<ContactFlexibility>
 contact_flexibilities(MPI_Comm comm, const study::Study& study, const fem::Model& model,
                       const std::vector<fem::Structure>& structures, const std::vector<modal::Basis>& bases,
                       const std::vector<std::vector<std::size_t>>& scenes,
-                      const std::vector<PlacedContact>& placed, const std::vector<Fields::Load>& loads);
+                      const std::vector<PlacedContact>& placed);
 
 } // namespace fretwork::app

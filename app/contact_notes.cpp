@@ -21,10 +21,6 @@ struct Point {
 Point at_start(const PlacedContact& placed, std::size_t k, const BuiltScene& built) {
   const transient::Scene& scene = built.scene;
   const transient::ContactPoint& contact = scene.contacts[k];
-  if (built.static_forces.size() > 0) { // residual flexibility has part of the displacement
-    const double force = built.static_forces(static_cast<Eigen::Index>(k));
-    return {&placed, &contact, &built.true_modes, -force / contact.support.normal.stiffness, force};
-  }
   const core::Vec3 place = scene.place_at_start(contact) + contact.moved_by(scene.q0);
   core::Vec3 speed = contact.moved_by(scene.v0);
   for (Eigen::Index m = 0; m < contact.imposed.cols(); ++m)

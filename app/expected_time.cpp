@@ -33,10 +33,9 @@ double trial_of(const transient::Scene& scene, const transient::StepChoice& choi
 
 void check_expected_time(double seconds, double most_hours) {
   if (seconds > most_hours * hour)
-    throw core::Error(
-        fmt::format("transient: as its first steps show, a run would take {}, more than "
-                    "transient.max_hours = {:g}; {}",
-                    time_text(seconds), most_hours, cure));
+    throw core::Error(fmt::format("transient: as its first steps show, a run would take {}, more than "
+                                  "transient.max_hours = {:g}; {}",
+                                  time_text(seconds), most_hours, cure));
 }
 
 void ExpectedTime::look(double time) {
@@ -46,10 +45,10 @@ void ExpectedTime::look(double time) {
   const double spent = std::chrono::duration<double>(Clock::now() - start_).count();
   const double left = spent * (limit_.duration - time) / (time - begin_);
   if (left > limit_.most_hours * hour)
-    throw core::Error(fmt::format(
-        "transient: {:.3g} s of {:.6g} s have taken {:.2g} s; the rest would take {}, more than "
-        "transient.max_hours = {:g}; {}",
-        time - begin_, limit_.duration, spent, time_text(left), limit_.most_hours, cure));
+    throw core::Error(
+        fmt::format("transient: {:.3g} s of {:.6g} s have taken {:.2g} s; the rest would take {}, more than "
+                    "transient.max_hours = {:g}; {}",
+                    time - begin_, limit_.duration, spent, time_text(left), limit_.most_hours, cure));
   if (left > worth_telling)
     limit_.tell(fmt::format("transient: {} to go", time_text(left)));
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/judge_run.hpp"
-#include "app/modal_truncation.hpp"
 #include "core/error.hpp"
 #include "results/step_error.hpp"
 #include <algorithm>
@@ -16,40 +15,30 @@ constexpr double residual_warning = 0.05;
 /// Dampers of contacts that give back this share of the energy put in are no round-off.
 constexpr double given_by_dampers = 0.01;
 
-/// Of steps whose coupled contact forces missed their tolerance: with residual flexibility it is large beside the contacts' own, and a smaller
-/// step does not change that.
-std::string unconverged_warning(const study::Study& study, const BuiltScene& built,
-                                const transient::StepCounts& counts) {
-  const std::string missed = fmt::format(
-      "in {} of {} steps ({:.2g} %) the coupled contact forces missed their tolerance", counts.unconverged,
-      counts.steps, 100.0 * static_cast<double>(counts.unconverged) / static_cast<double>(counts.steps));
-  if (built.scene.residual.size() == 0)
-    return missed + "; take a smaller step";
+/// Of steps whose coupled contact forces missed their tolerance.
+std::string unconverged_warning(const transient::StepCounts& counts) {
   return fmt::format(
-      "{}: the residual flexibility in series with the contacts is up to {:.2g}/K_N (\"{}\"), too much for "
-      "its "
-      "equations; forces and powers may be wrong by factors; {}, or set modes.static_modes = \"all\"",
-      missed, built.lacking, built.lacking_at, more_modes(study));
+      "in {} of {} steps ({:.2g} %) the coupled contact forces missed their tolerance; take a smaller step",
+      counts.unconverged, counts.steps,
+      100.0 * static_cast<double>(counts.unconverged) / static_cast<double>(counts.steps));
 }
 
-std::string cure_of_divergence(const study::Study& study, const BuiltScene& built,
-                               const transient::Report& report) {
+std::string cure_of_divergence(const study::Study& study, const transient::Report& report) {
   if (report.counts.unconverged > 0)
-    return unconverged_warning(study, built, report.counts);
+    return unconverged_warning(report.counts);
   return study.transient->step ? "take a smaller step, or leave step out to have one chosen"
                                : "take a smaller step than this automatic one";
 }
 
-void judge(const study::Study& study, const BuiltScene& built, const transient::StepChoice& choice,
-           const transient::Report& report, results::RunResults& out) {
+void judge(const study::Study& study, const transient::StepChoice& choice, const transient::Report& report,
+           results::RunResults& out) {
   for (const std::string& warning : choice.warnings)
     out.warnings.push_back(warning);
   if (report.outcome == transient::Outcome::diverged)
     throw core::ComputationError(fmt::format(
         "the transient diverged at t = {:.6g} s (scheme {}, step {:.3g} s): its energy has left all that was "
         "put in; {}",
-        report.end_time, transient::name_of(choice.scheme), choice.step,
-        cure_of_divergence(study, built, report)));
+        report.end_time, transient::name_of(choice.scheme), choice.step, cure_of_divergence(study, report)));
   if (report.outcome == transient::Outcome::step_failed)
     throw core::ComputationError(fmt::format("the transient stopped at t = {:.6g} s (scheme {}): {}",
                                              report.end_time, transient::name_of(choice.scheme),
@@ -59,7 +48,7 @@ void judge(const study::Study& study, const BuiltScene& built, const transient::
         fmt::format("the energy balance is off by {:.2g} % of the energy put in; take a smaller step",
                     100.0 * report.residual_relative));
   if (report.counts.unconverged > report.counts.steps / 1000)
-    out.warnings.insert(out.warnings.begin(), unconverged_warning(study, built, report.counts));
+    out.warnings.insert(out.warnings.begin(), unconverged_warning(report.counts));
 }
 
 /// The spring of `reference` is set by every slip, and no work pays for it.
@@ -85,7 +74,7 @@ void judge_memory(const BuiltScene& built, const transient::Report& report, resu
 
 void judge_run(const study::Study& study, const BuiltScene& built, const transient::StepChoice& choice,
                const transient::Report& report, results::RunResults& out) {
-  judge(study, built, choice, report, out);
+  judge(study, choice, report, out);
   judge_memory(built, report, out);
 }
 

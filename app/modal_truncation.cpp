@@ -81,8 +81,6 @@ std::string missing_flexibility_warning(const study::Study& study, const std::ve
   std::size_t all = 0;
   for (const BuiltScene& built : scenes) {
     all += built.contacts.size();
-    if (built.scene.residual.size() > 0)
-      continue;
     names.insert(names.end(), built.truncated.begin(), built.truncated.end());
     if (!built.truncated.empty() && built.lacking > most) {
       most = built.lacking;
@@ -91,14 +89,11 @@ std::string missing_flexibility_warning(const study::Study& study, const std::ve
   }
   if (names.empty())
     return {};
-  const bool splits = study.transient->scheme == study::Scheme::automatic ||
-                      study.transient->scheme == study::Scheme::splitting;
   return fmt::format(
       "modal truncation: the modes lack flexibility at {} of {} contact{}, up to {:.2g}/K_N (\"{}\"); "
       "their forces are too high, peaks by up to a factor {:.2g}; set modes.static_modes = "
-      "\"{}\", or {}",
-      names.size(), all, all == 1 ? "" : "s", most, worst, std::sqrt(1.0 + most), splits ? "auto" : "all",
-      more_modes(study));
+      "\"all\", or {}",
+      names.size(), all, all == 1 ? "" : "s", most, worst, std::sqrt(1.0 + most), more_modes(study));
 }
 
 } // namespace fretwork::app

@@ -20,7 +20,7 @@ constexpr double much_missing = 0.3;
 [[nodiscard]] std::string load_band_warning(const study::Study& study, const std::vector<modal::Basis>& bases,
                                             const std::vector<Fields::Load>& loads);
 
-/// Of all contacts that lack more than `much_missing` and have no residual flexibility; empty where there is none.
+/// Of all contacts that lack more than `much_missing`; empty where there is none.
 [[nodiscard]] std::string missing_flexibility_warning(const study::Study& study,
                                                       const std::vector<BuiltScene>& scenes);
 

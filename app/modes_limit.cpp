@@ -79,20 +79,7 @@ Sites sites_of(const fem::Model& model, const std::vector<PlacedContact>& placed
   return sites;
 }
 
-/// What has the flexibility of the modes that are left out; empty: nothing.
-std::string residual_of(const study::Modes& modes) {
-  switch (modes.static_modes) {
-  case study::StaticModes::none:
-    return {};
-  case study::StaticModes::residual:
-    return "residual flexibility";
-  case study::StaticModes::added:
-    return "static modes";
-  }
-  return {};
-}
-
-bool takes_residual(const study::Modes& modes) { return !residual_of(modes).empty(); }
+bool has_static_modes(const study::Modes& modes) { return modes.static_modes == study::StaticModes::added; }
 
 } // namespace
 
@@ -114,7 +101,7 @@ results::ModesLimit modes_limit(const study::Study& study, const fem::Model& mod
       const double frequency = modal::contact_frequency(contact.normal_stiffness, receptance);
       const double span = modal::clamped_span_frequency(site.span, site.bending, site.mass);
       const double up_to =
-          modal::modes_needed_up_to(frequency, span, accuracy, takes_residual(study.modes)) / two_pi;
+          modal::modes_needed_up_to(frequency, span, accuracy, has_static_modes(study.modes)) / two_pi;
       if (up_to > limit.up_to) {
         limit.up_to = up_to;
         limit.contact = contact.name;
@@ -131,13 +118,12 @@ results::ModesLimit modes_limit(const study::Study& study, const fem::Model& mod
 
 void report_modes_limit(const study::Study& study, const results::ModesLimit& limit,
                         results::RunResults& out) {
-  const bool residual = takes_residual(study.modes);
+  const bool residual = has_static_modes(study.modes);
   out.notes.push_back(fmt::format(
       "modes up to {:.4g} Hz for contact forces within modes.accuracy = {:g}: contact \"{}\" on its beams "
       "vibrates at {:.4g} Hz, {:.3g} times that is needed{}, and a mode of its span beyond",
       limit.up_to, limit.accuracy, limit.contact, limit.contact_frequency,
-      modal::contact_frequencies_needed(limit.accuracy, residual),
-      residual ? " with " + residual_of(study.modes) : ""));
+      modal::contact_frequencies_needed(limit.accuracy, residual), residual ? " with static modes" : ""));
   double fastest = 0.0;
   for (const study::Load& load : study.loads)
     fastest = std::max(fastest, transient::highest_frequency(load.function));

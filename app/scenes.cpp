@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/scenes.hpp"
 #include "app/contact_notes.hpp"
+#include "app/missing_flexibility.hpp"
 #include "app/modal_truncation.hpp"
-#include "app/residual_flexibility.hpp"
 #include "core/error.hpp"
 #include <algorithm>
 #include <fmt/format.h>
@@ -112,7 +112,7 @@ std::vector<BuiltScene> build_scenes(const study::Study& study, const std::vecto
   out.warnings.insert(out.warnings.end(), fields.warnings.begin(), fields.warnings.end());
   const auto of_contacts = contact_notes(study, placed, scenes);
   out.notes.insert(out.notes.end(), of_contacts.begin(), of_contacts.end());
-  if (const std::string note = flexibility_note(study, scenes); !note.empty())
+  if (const std::string note = flexibility_note(scenes); !note.empty())
     out.notes.insert(out.notes.begin(), note);
   for (const std::string& warning :
        {missing_flexibility_warning(study, scenes), load_band_warning(study, bases, fields.loads)})

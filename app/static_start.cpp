@@ -73,7 +73,6 @@ void start_in_equilibrium(const std::vector<const modal::Basis*>& bases, BuiltSc
                     e.iterations, e.residual));
   }
   scene.q0 = e.q;
-  built.static_forces = e.normal_force;
   const auto closed = (e.normal_force.array() > 0.0).count();
   built.notes.push_back(
       closed > 0

@@ -22,7 +22,7 @@ namespace fretwork::bench {
 
 class ReferenceSolution {
 public:
-  /// @param scene  with modal damping only; neither moving obstacles nor residual flexibility
+  /// @param scene  with modal damping only; no moving obstacles
   /// @throws core::Error for other scenes
   ReferenceSolution(const transient::Scene& scene, double resolution);
 

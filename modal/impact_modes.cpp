@@ -33,14 +33,14 @@ double clamped_span_frequency(double length, double bending, double mass) {
   return wave_number * wave_number * std::sqrt(bending / mass);
 }
 
-double contact_frequencies_needed(double error, bool residual) {
+double contact_frequencies_needed(double error, bool static_modes) {
   assert(error > 0.0 && error <= 0.1);
-  return residual ? 3.0 * std::pow(0.01 / error, 2.0 / 7.0) : 7.0 * std::pow(0.01 / error, 2.0 / 3.0);
+  return static_modes ? 3.0 * std::pow(0.01 / error, 2.0 / 7.0) : 7.0 * std::pow(0.01 / error, 2.0 / 3.0);
 }
 
-double modes_needed_up_to(double contact_frequency, double span_frequency, double error, bool residual) {
-  const double root =
-      std::sqrt(contact_frequencies_needed(error, residual) * contact_frequency) + std::sqrt(span_frequency);
+double modes_needed_up_to(double contact_frequency, double span_frequency, double error, bool static_modes) {
+  const double root = std::sqrt(contact_frequencies_needed(error, static_modes) * contact_frequency) +
+                      std::sqrt(span_frequency);
   return root * root;
 }
 

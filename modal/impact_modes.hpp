@@ -7,7 +7,7 @@
 ///     w_c^(3/2) = K sum over the beams of y,   y = c / (2 sqrt(2) EI^(1/4) m^(3/4)),   c = 1 along a beam, 4 at its end.
 /// Modes above w leave a static flexibility that goes with w^(-3/2), what it leaves of their inertia with w^(-7/2); so does the error a of
 /// the largest force. The modes needed reach up to s w_c,
-///     s = 7 (0.01/a)^(2/3), or with residual flexibility 3 (0.01/a)^(2/7),
+///     s = 7 (0.01/a)^(2/3), or with static modes 3 (0.01/a)^(2/7),
 /// and one mode of each span beyond, or else few modes may end far below:
 ///     sqrt(w) = sqrt(s w_c) + sqrt(w_l),   w_l = (4.730/l)^2 sqrt(EI/m), the lowest of a span of length l clamped at both ends.
 /// (In wave numbers, which sqrt(w) is like: modes of a span are pi/l apart.)
@@ -35,11 +35,11 @@ enum class BeamPoint { interior, end };
 [[nodiscard]] double clamped_span_frequency(double length, double bending, double mass);
 
 /// s, of contact frequencies.
-/// @param error  a, relative, > 0 and at most 0.1; @param residual  whether residual flexibility is in series with the contact
-[[nodiscard]] double contact_frequencies_needed(double error, bool residual);
+/// @param error  a, relative, > 0 and at most 0.1; @param static_modes  whether these have the flexibility of the modes left out
+[[nodiscard]] double contact_frequencies_needed(double error, bool static_modes);
 
 /// w, rad/s.
 [[nodiscard]] double modes_needed_up_to(double contact_frequency, double span_frequency, double error,
-                                        bool residual);
+                                        bool static_modes);
 
 } // namespace fretwork::modal

@@ -13,12 +13,6 @@ Recorder::Recorder(const transient::Scene& scene, std::vector<ObservedNode> node
   for (const auto& motion : scene.motions)
     motions_.emplace_back(motion, scene.duration);
   out_.time.setZero(nt);
-  if (scene.residual.size() > 0) {
-    force_.setZero(scene.residual.rows());
-    given_.setZero(scene.residual.rows(), nt);
-    for (const auto& load : scene.loads)
-      loads_.emplace_back(load.function, scene.duration);
-  }
   out_.modal_displacement.setZero(scene.system.size(), nt);
   out_.modal_velocity.setZero(scene.system.size(), nt);
   for (const auto& point : scene.contacts)
@@ -61,21 +55,6 @@ core::Vec3 Recorder::place(std::size_t contact, std::int64_t index, double time)
   return x;
 }
 
-/// The contacts move by what the modes lack of their flexibility and of their displacements under the loads.
-void Recorder::give_way(std::int64_t index, double time, std::span<const transient::ContactForce> contacts) {
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const auto& f = contacts[c];
-    force_.segment<3>(3 * static_cast<Eigen::Index>(c)) << f.friction.x, f.y(), f.z();
-  }
-  given_.col(index).noalias() = scene_.residual * force_;
-  for (std::size_t c = 0; c < contacts.size(); ++c)
-    for (Eigen::Index k = 0; k < scene_.contacts[c].under_loads.cols(); ++k)
-      given_.col(index).segment<3>(3 * static_cast<Eigen::Index>(c)) +=
-          loads_[static_cast<std::size_t>(k)](time) * scene_.contacts[c].under_loads.col(k);
-  for (std::size_t c = 0; c < contacts.size(); ++c)
-    set_gap(c, index, place(c, index, time) + given_.col(index).segment<3>(3 * static_cast<Eigen::Index>(c)));
-}
-
 void Recorder::forces(std::int64_t index, double time, const double* load,
                       std::span<const transient::ContactForce> contacts) {
   const bool wanted = !nodes_.empty();
@@ -89,8 +68,6 @@ void Recorder::forces(std::int64_t index, double time, const double* load,
     else
       acceleration_.array() -= system.damping.array() * v.array();
   }
-  if (given_.size() > 0)
-    give_way(index, time, contacts);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     ContactSeries& series = out_.contacts[c];
     if (series.gap(index) > 0.0)
@@ -144,7 +121,6 @@ void Recorder::visit(core::StateArchive& state) {
   }
   for (NodeSeries& n : out_.nodes)
     first_rows(n.acceleration);
-  state.block(given_.data(), static_cast<std::size_t>(served_ * given_.rows()));
 }
 
 TimeSeries Recorder::series() && {
@@ -190,9 +166,6 @@ TimeSeries Recorder::series() && {
   };
   distribute(out_.modal_displacement, &ContactSeries::displacement, &NodeSeries::displacement);
   distribute(out_.modal_velocity, &ContactSeries::velocity, &NodeSeries::velocity);
-  for (Eigen::Index c = 0; given_.size() > 0 && c < contacts; ++c)
-    out_.contacts[static_cast<std::size_t>(c)].displacement +=
-        given_.middleRows<3>(3 * c).leftCols(out_.time.size()).transpose();
   add_motions();
   return std::move(out_);
 }

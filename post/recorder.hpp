@@ -12,8 +12,7 @@ namespace fretwork::post {
 /// What a contact does at an output instant. One without friction slides whenever it is closed.
 enum ContactMode : std::uint8_t { open = 0, sticks = 1, slides = 2 };
 
-/// Local axes of the contact; the motion is that of the node from the obstacle (residual flexibility: in the displacement and the gap,
-/// not in the velocity).
+/// Local axes of the contact; the motion is that of the node from the obstacle.
 struct ContactSeries {
   std::string name;
   Eigen::MatrixXd displacement, velocity; ///< nt x 3, m and m/s
@@ -64,17 +63,13 @@ private:
   void add_motions();
   [[nodiscard]] core::Vec3 place(std::size_t contact, std::int64_t index, double time) const;
   void set_gap(std::size_t contact, std::int64_t index, const core::Vec3& place);
-  void give_way(std::int64_t index, double time, std::span<const transient::ContactForce> contacts);
 
   const transient::Scene& scene_;
   std::vector<ObservedNode> nodes_;
   TimeSeries out_;
   std::vector<transient::MotionSignal> motions_; ///< that carry contacts and nodes
-  std::vector<transient::Signal> loads_;         ///< with residual flexibility
   Eigen::VectorXd masses_;                       ///< modal, empty: all 1
   Eigen::VectorXd acceleration_;                 ///< modal
-  Eigen::VectorXd force_;                        ///< N, local axes of all contacts: with residual flexibility
-  Eigen::MatrixXd given_; ///< m, 3 nc x nt: residual flexibility times that, and under_loads of the scene
   std::int64_t served_ = 0;
 };
 

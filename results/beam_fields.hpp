@@ -5,7 +5,7 @@
 ///
 /// The displacements are sums over the modes, u = sum phi_i q_i. Where a force F acts on a beam, the part of mode i in u falls as
 /// 1/omega_i^2, in the moments EI w'' as 1/omega_i, and in the shear forces not faster than omega_i^(-1/2): moments and shear forces need
-/// more modes than displacements. What residual flexibility adds to contacts is not in u.
+/// more modes than displacements.
 #pragma once
 #include "fem/beam_element.hpp"
 #include "results/mode_fields.hpp"

@@ -101,7 +101,7 @@ Modes read_modes(const TableReader& root) {
   modes.static_modes = table.choice(
       "static_modes", StaticModes::none,
       Choices<StaticModes>{
-          {{"none", StaticModes::none}, {"auto", StaticModes::residual}, {"all", StaticModes::added}}});
+          {{"none", StaticModes::none}, {"auto", StaticModes::added}, {"all", StaticModes::added}}});
   modes.distributed = table.optional_flag("distributed");
   return modes;
 }

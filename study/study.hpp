@@ -69,8 +69,8 @@ struct Tie {
   std::uint8_t tied; ///< bit d set = dof d (ux uy uz rx ry rz) tied
 };
 
-/// What stands in for the modes that are left out at the contacts: nothing, residual flexibility in series with them, or static modes.
-enum class StaticModes { none, residual, added };
+/// What stands in for the modes that are left out at the contacts: nothing, or static modes.
+enum class StaticModes { none, added };
 
 struct Modes {
   std::optional<int> count = 40; ///< exactly one of count, up_to_hz and accuracy has a value

@@ -36,7 +36,7 @@ std::unique_ptr<Scheme> make_splitting_of(const Scene& scene, const StepChoice& 
 
 /// Whether the scheme takes contacts by structures; others take them over all modes.
 bool takes_structures(const Scene& scene, SchemeKind scheme) {
-  return (scheme == SchemeKind::splitting && scene.residual.size() == 0) ||
+  return scheme == SchemeKind::splitting ||
          std::all_of(scene.contacts.begin(), scene.contacts.end(),
                      [](const ContactPoint& point) { return point.modes.empty(); });
 }

@@ -22,13 +22,6 @@ double largest_eigenvalue(const Eigen::MatrixXd& rows) {
   return std::max(0.0, core::symmetric_eigenvalues(product).maxCoeff());
 }
 
-/// Rows weighted by (1/w + R)^-1, w the weights: contacts in series with the residual flexibility. R of the same rows.
-Eigen::MatrixXd series_rows(const Eigen::MatrixXd& rows, const Eigen::VectorXd& weights,
-                            const Eigen::MatrixXd& residual) {
-  const Eigen::MatrixXd compliance = residual + Eigen::MatrixXd(weights.cwiseInverse().asDiagonal());
-  return core::Cholesky(compliance).solve_lower(rows);
-}
-
 /// A row of a contact times the root of its weight.
 struct WeightedRow {
   const ContactPoint* point;
@@ -84,13 +77,11 @@ double largest_eigenvalue(const std::vector<WeightedRow>& rows, Eigen::Index mod
 }
 
 template <class Weight, class Directions>
-Eigen::MatrixXd weighted_rows(const Scene& scene, Weight weight, Directions directions,
-                              const Eigen::MatrixXd& residual = {}) {
+Eigen::MatrixXd weighted_rows(const Scene& scene, Weight weight, Directions directions) {
   Eigen::MatrixXd rows =
       Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(scene.contacts.size()), scene.system.size());
-  std::vector<Eigen::Index> number;
   std::vector<double> weights;
-  Eigen::Index used = 0, c = 0;
+  Eigen::Index used = 0;
   for (const ContactPoint& point : scene.contacts) {
     const double w = weight(point);
     const std::array<bool, 3> along = directions(point.support);
@@ -101,24 +92,19 @@ Eigen::MatrixXd weighted_rows(const Scene& scene, Weight weight, Directions dire
         });
         ++used;
         weights.push_back(w);
-        number.push_back(3 * c + k);
       }
-    ++c;
   }
   rows.conservativeResize(used, Eigen::NoChange);
   const Eigen::VectorXd w = Eigen::Map<const Eigen::VectorXd>(weights.data(), used);
-  if (residual.size() > 0)
-    return series_rows(rows, w, residual(number, number));
   return w.cwiseSqrt().asDiagonal() * rows;
 }
 
 /// Of the rows of contacts, largest_eigenvalue.
 template <class Weight, class Directions>
-double largest_of(const Scene& scene, Weight weight, Directions directions,
-                  const Eigen::MatrixXd& residual = {}) {
+double largest_of(const Scene& scene, Weight weight, Directions directions) {
   const auto by_structure = [](const ContactPoint& point) { return !point.modes.empty(); };
-  if (residual.size() > 0 || !std::all_of(scene.contacts.begin(), scene.contacts.end(), by_structure))
-    return largest_eigenvalue(weighted_rows(scene, weight, directions, residual));
+  if (!std::all_of(scene.contacts.begin(), scene.contacts.end(), by_structure))
+    return largest_eigenvalue(weighted_rows(scene, weight, directions));
   std::vector<WeightedRow> rows;
   for (const ContactPoint& point : scene.contacts) {
     const double w = weight(point);
@@ -156,13 +142,12 @@ double initial_overlap(const Scene& scene, const ContactPoint& point) {
   return std::max(0.0, -contact::locate(point.support.obstacle, u.y(), u.z()).gap);
 }
 
-/// Whether a load has to do with the scene: it moves its modes, or contacts beside them, or may be that of a motion that carries its
+/// Whether a load has to do with the scene: it moves its modes, or may be that of a motion that carries its
 /// obstacles.
 bool acts(const Load& load, const Scene& scene) {
   return !load.modal_force.isZero(0.0) ||
-         std::any_of(scene.contacts.begin(), scene.contacts.end(), [](const ContactPoint& contact) {
-           return contact.imposed.size() > 0 || contact.under_loads.size() > 0;
-         });
+         std::any_of(scene.contacts.begin(), scene.contacts.end(),
+                     [](const ContactPoint& contact) { return contact.imposed.size() > 0; });
 }
 
 /// Shortest interval between points of the tables, s, those left out that are too fine to rule; 0 without tables.
@@ -188,8 +173,8 @@ SceneRates rates_of(const Scene& scene) {
     return point.support.friction.active() ? point.support.friction.damping : 0.0;
   };
   SceneRates out;
-  out.contact_frequency = std::sqrt(largest_of(scene, stiffness_n, normal_rows, scene.residual));
-  out.stick_frequency = std::sqrt(largest_of(scene, stiffness_t, tangent_rows, scene.residual));
+  out.contact_frequency = std::sqrt(largest_of(scene, stiffness_n, normal_rows));
+  out.stick_frequency = std::sqrt(largest_of(scene, stiffness_t, tangent_rows));
   out.damper_rate = largest_of(scene, damping_t, tangent_rows);
   out.normal_damper_rate = largest_of(
       scene, [](const ContactPoint& point) { return point.support.normal.damping; }, normal_rows);

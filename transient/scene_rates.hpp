@@ -9,7 +9,7 @@ namespace fretwork::transient {
 /// Each 0 where there is no such thing.
 struct SceneRates {
   /// w_c, rad/s, of all contacts closed: w_c^2 = largest eigenvalue of K_N^1/2 W K_N^1/2, W = B B^T over the normal directions of all
-  /// contacts; with residual flexibility R of (K_N^-1 + R)^-1 in place of K_N.
+  /// contacts.
   double contact_frequency = 0.0;
   double stick_frequency = 0.0; ///< w_t, rad/s, the same with K_T over the tangent directions
   double damper_rate = 0.0;     ///< r_t, 1/s, the largest eigenvalue of C_T^1/2 W C_T^1/2

@@ -19,17 +19,9 @@ bool slips_unmoved(const ContactPoint& point) {
 
 } // namespace
 
-bool takes_residual(SchemeKind kind) { return kind == SchemeKind::splitting; }
-
 std::string out_of_scope(const Scene& scene, SchemeKind kind) {
-  if (scene.residual.size() > 0 && !takes_residual(kind))
-    return "does not take the residual flexibility of the modes at the contacts (modes.static_modes = "
-           "\"auto\")";
   if (!scene.system.motion.empty() && kind != SchemeKind::splitting && kind != SchemeKind::runge_kutta_54)
     return "does not take forces that depend on the motion (flow.law)";
-  if (!scene.system.motion.empty() && scene.residual.size() > 0)
-    return "does not take forces that depend on the motion (flow.law) together with the residual flexibility "
-           "of the modes at the contacts (set modes.static_modes = \"none\")";
   if (kind != SchemeKind::collocation && kind != SchemeKind::energy_conserving)
     return {};
   for (const ContactPoint& point : scene.contacts)

@@ -6,8 +6,6 @@
 
 namespace fretwork::transient {
 
-/// True where the scheme takes residual flexibility (Scene::residual).
-[[nodiscard]] bool takes_residual(SchemeKind kind);
 /// What of the scene the scheme cannot take, as the end of a sentence that begins with its name; empty where it takes all.
 [[nodiscard]] std::string out_of_scope(const Scene& scene, SchemeKind kind);
 

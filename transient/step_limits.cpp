@@ -11,16 +11,14 @@ namespace {
 
 /// Without contacts little else limits the step: linear interpolation then errs by (2 pi/200)^2/12 = 8e-5.
 constexpr double linear_points_per_period = 200.0;
-/// w_t h at an accuracy of 0.01, whatever the damping: where forces stand at instants the displacement of a sticking contact is (w_t h)^2/4 too large, 13 %.
-constexpr double most_stuck = 0.71;
 /// Of r_n h of schemes that take normal dampers implicitly, at an accuracy of 0.01.
 constexpr double normally_damped = 2.0;
 /// w_c h that normal dampers never make the step shorter than: a damper that is faster leaves no rebound (e < 0.001), and resolving it costs
 /// without end.
 constexpr double finest_for_dampers = 0.03;
 /// w_c h, w_t h and r_t h at an accuracy of 0.01. Measured on rattling tubes (bench_statistics), work rates: with splitting within 1 % at
-/// w_c h = 1, with modes near w_c at 0.8 (up to 1.6 % high at 0.9), r_t h = 6.3; with residual flexibility, where contacts stick without much damping (stick_time), 3 % low at w_t h = 0.5, 0.9 % at 0.25, for they
-/// start to slide inside steps, which only intervals follow; with collocation these are off by 2.8 % at 1, 1.4 % at 0.5.
+/// w_c h = 1, with modes near w_c at 0.8 (up to 1.6 % high at 0.9), r_t h = 6.3; with collocation
+/// 2.8 % off at w_t h = 1, 1.4 % at 0.5: contacts start to slide inside steps, which only intervals follow.
 /// Of r_t h, where dampers are implicit: above 2 a step turns the speed of a sticking contact round, 0.52 of it at 6.3.
 struct Shares {
   double contact, stick, damper;
@@ -29,44 +27,22 @@ struct Shares {
 constexpr double longest_contact_share = 1.0;
 /// Up to this share of w_c modes move little while a contact is closed: splitting takes the rest of an impact as that of a mass.
 constexpr double slow_modes = 0.6;
-Shares shares(const StepChoice& c, const Scene& scene) {
+Shares shares(const StepChoice& c) {
   switch (c.scheme) {
   case SchemeKind::splitting:
-    return {c.highest_mode <= slow_modes * c.contact_frequency ? 1.0 : 0.8,
-            has_intervals(c, scene) ? 1.0 : 0.25, 6.3};
+    return {c.highest_mode <= slow_modes * c.contact_frequency ? 1.0 : 0.8, 1.0, 6.3};
   case SchemeKind::collocation:
     return {0.5, 0.5, 2.0};
   default:
     return {0.3, 0.3, 2.0};
   }
 }
-/// Shortest time in which the dampers of sticking contacts relax into their springs, C_T/K_T, s; 0 without friction.
-double shortest_relaxation(const Scene& scene) {
-  double shortest = std::numeric_limits<double>::infinity();
-  for (const ContactPoint& point : scene.contacts)
-    if (const auto& law = point.support.friction; law.active())
-      shortest = std::min(shortest, law.damping / law.stiffness);
-  return std::isfinite(shortest) ? shortest : 0.0;
-}
-
-/// Time in which sticking contacts move, s: that of their vibration, or where it is longer that in which their dampers relax.
-double stick_time(const StepChoice& c, const Scene& scene) {
-  const double vibration = 1.0 / c.stick_frequency;
-  return c.scheme == SchemeKind::splitting && !has_intervals(c, scene)
-             ? std::hypot(vibration, shortest_relaxation(scene))
-             : vibration;
-}
-
 /// With contacts: collocation needs none of it, splitting can take modes as heavier ones.
 bool may_go_past_modes(SchemeKind scheme) {
   return scheme == SchemeKind::collocation || scheme == SchemeKind::splitting;
 }
 
 } // namespace
-
-bool has_intervals(const StepChoice& c, const Scene& scene) {
-  return c.scheme == SchemeKind::splitting && scene.residual.size() == 0;
-}
 
 double most_resolved(SchemeKind scheme) {
   switch (scheme) {
@@ -117,14 +93,12 @@ std::vector<StepLimit> step_limits(const StepChoice& c, const Scene& scene, doub
         {c.table_interval, fmt::format("the shortest interval of a table ({:.4g} s)", c.table_interval)});
   const bool devogelaere = c.scheme == SchemeKind::devogelaere;
   const double damped = devogelaere ? std::min(eps, most_damped) : eps;
-  const Shares share = shares(c, scene);
+  const Shares share = shares(c);
   const double resolved = most_resolved(c.scheme);
   add(std::min({share.contact * fineness, longest_contact_share, resolved}), c.contact_frequency,
       fmt::format("the contact frequency {:.4g} rad/s", c.contact_frequency));
   if (c.stick_frequency > 0.0) {
-    const double most = std::min((has_intervals(c, scene) ? share.stick : most_stuck) * fineness, resolved) /
-                        c.stick_frequency;
-    out.push_back({std::min(share.stick * fineness * stick_time(c, scene), most),
+    out.push_back({std::min(share.stick * fineness, resolved) / c.stick_frequency,
                    fmt::format("the frequency of sticking contacts {:.4g} rad/s", c.stick_frequency)});
   }
   add(exact ? std::min(share.damper * fineness, most_implicit(c.scheme)) : damped, c.damper_rate,

@@ -21,8 +21,6 @@ struct StepLimit {
 
 /// The modes move exactly between the contact impulses.
 [[nodiscard]] bool moves_exactly(SchemeKind scheme);
-/// Contacts move in intervals within steps: not with residual flexibility, whose forces stand at instants.
-[[nodiscard]] bool has_intervals(const StepChoice& choice, const Scene& scene);
 /// Points in a period of the excitation at an accuracy of 0.01, with contacts: loads linear between steps lose (2 pi/30)^2/12 = 0.4 % of it.
 constexpr double points_per_period = 30.0;
 

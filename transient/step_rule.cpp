@@ -27,9 +27,6 @@ constexpr double interval_share = 0.35, most_intervals = 64.0;
 constexpr double contact_times = 30.0, least_replay = 8.0, longest_replay = 0.01;
 /// The step of an accuracy of 0.02 is the longest: no statistics are worth having above it.
 constexpr double coarsest_accuracy = 0.02;
-/// w_c h of splitting at an accuracy of 0.01 where modes are made heavier: impulses on modes of w h near 2.5 cost energy that grows with h^2
-/// (damping of the modes 12 % too high at w_c h = 0.7, 4 % here), and the modes that are left as they are reach further above w_c.
-constexpr double contact_share_with_scaling = 0.45;
 /// Steps of a macro-step. More gain little: its end, with displacements and velocities, costs as much as one step.
 constexpr double most_macro_steps = 12.0;
 /// Steps of splitting that one of collocation takes the time of: measured 0.9 to 1.1 with 1 and 3 supports, 0.6 to 0.8 with 8 to 30; the same where a
@@ -108,8 +105,8 @@ void scale_modes(StepChoice& c, const Scene& scene, double fastest) {
 double fineness_of(double accuracy) { return std::sqrt(std::min(accuracy, coarsest_accuracy) / 0.01); }
 
 /// Intervals in which splitting moves contacts within a step.
-int intervals_of_step(const StepChoice& c, const Scene& scene, double fineness) {
-  if (!has_intervals(c, scene))
+int intervals_of_step(const StepChoice& c, double fineness) {
+  if (c.scheme != SchemeKind::splitting)
     return 1;
   const double needed =
       std::max(c.contact_frequency, c.stick_frequency) * c.step / (interval_share * fineness);
@@ -118,7 +115,7 @@ int intervals_of_step(const StepChoice& c, const Scene& scene, double fineness) 
 
 /// Length of replays: some five periods of closed contacts, sticking ones included.
 double replay_length(const StepChoice& c, const Scene& scene) {
-  if (!has_intervals(c, scene) || !(c.contact_frequency > 0.0))
+  if (c.scheme != SchemeKind::splitting || !(c.contact_frequency > 0.0))
     return 0.0;
   const double slowest =
       c.stick_frequency > 0.0 ? std::min(c.contact_frequency, c.stick_frequency) : c.contact_frequency;
@@ -160,17 +157,9 @@ void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
   if (c.scheme == SchemeKind::splitting && !scene.contacts.empty() && c.highest_mode > 0.0) {
     const StepLimit modes = mode_limit(c, true, fineness);
     const double most = modes.limit * c.highest_mode;
-    if (modes.limit < c.step) {
-      const StepLimit scaled{
-          std::max(modes.limit, contact_share_with_scaling * fineness / c.contact_frequency),
-          fmt::format("the contact frequency {:.4g} rad/s, with modes far above it,", c.contact_frequency)};
-      const double step = std::min(c.step, scaled.limit);
-      if (step > modes.limit && may_scale(scene, most / step, accuracy)) {
-        limit(scaled);
-        followed = most;
-      }
-    }
-    if (followed == 0.0)
+    if (modes.limit < c.step && may_scale(scene, most / c.step, accuracy))
+      followed = most;
+    else
       limit(modes);
   }
   if (accuracy < asked)
@@ -205,7 +194,7 @@ StepChoice choice_of(const Scene& scene, const SceneRates& rates, const StepOpti
     c.step = *options.step;
   else
     choose_automatic(c, scene, options.accuracy);
-  c.parts = intervals_of_step(c, scene, fineness_of(options.accuracy));
+  c.parts = intervals_of_step(c, fineness_of(options.accuracy));
   c.replay = replay_length(c, scene);
   if (!options.step)
     return c;

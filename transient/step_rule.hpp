@@ -2,17 +2,16 @@
 /// @file
 /// The time step and its reason.
 ///
-///     h = min{ c/w_c, s t_s, r/r_t, max(2/r_n, 0.03/w_c), m/w_max },  the shares at an accuracy of 0.01; others grow and fall with its square root
+///     h = min{ c/w_c, s/w_t, r/r_t, max(2/r_n, 0.03/w_c), m/w_max },  the shares at an accuracy of 0.01; others grow and fall with its square root
 ///
 ///                          c      s      r     m
-///     splitting            1      1      6.3   2.5 where modes cannot be made heavier (mass_scaling.hpp); c = 0.45 where some are, 0.8
-///                                              with modes above 0.6 w_c
+///     splitting            1      1      6.3   2.5 where modes cannot be made heavier (mass_scaling.hpp); c = 0.8 with modes above
+///                                              0.6 w_c
 ///     collocation          0.5    0.5    2     -
 ///     energy_conserving    0.3    0.3    2     2.5
 ///     euler, devogelaere   0.3    0.3    0.5   0.5
 /// over the terms that exist, with:
 ///     w_c, w_t, r_t, r_n, w_max   scene_rates.hpp
-///     t_s    time in which sticking contacts move: 1/w_t; with splitting (1/w_t^2 + (C_T/K_T)^2)^1/2, and never w_t h above 0.71
 /// r_n counts for splitting, collocation and energy_conserving, which take normal dampers implicitly. A damper of r_n h = 2 stops a mass in one step;
 /// above, splitting turns its speed round, whatever the step. So a damper that even 0.03/w_c does not resolve is warned about, also with the automatic
 /// step: of energy_conserving the rebounds are right (conserving_normal.hpp), the largest force at first touch is not.

@@ -95,7 +95,7 @@ TEST(StaticStart, TellsTheForceOfAContactInSeriesWithTheModes) {
   const Workshop folder;
   folder.write("tube.msh", tube().text());
   const Results start =
-      folder.run_text(study("static"), {"--set", "modes.static_modes=auto", "--set", "modes.count=3"});
+      folder.run_text(study("static"), {"--set", "modes.static_modes=all", "--set", "modes.count=3"});
   const double force = start.contact("bar").normal_force(0);
   EXPECT_TRUE(says(start.summary["notes"].dump(), fmt::format("it presses with {:.4g} N", force)));
 }

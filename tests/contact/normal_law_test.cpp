@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/normal_law.hpp"
-#include "contact/series.hpp"
 #include "uniform.hpp"
 #include <gtest/gtest.h>
 
@@ -10,7 +9,6 @@ using namespace fretwork;
 using contact::mean_penetration;
 using contact::normal_force;
 using contact::NormalLaw;
-using contact::series_force;
 
 namespace {
 
@@ -54,34 +52,6 @@ TEST(MeanPenetration, HasItsLimitsWithoutASpeedAndAtTheEdge) {
   EXPECT_EQ(mean_penetration(0.0, 0.5), 0.25);
   EXPECT_NEAR(mean_penetration(1e-20, 0.5), 0.25, round_off); // continuous across p1 = 0
   EXPECT_NEAR(mean_penetration(-1e-20, 0.5), 0.25, round_off);
-}
-
-TEST(SeriesForce, SolvesTheLawForAVelocityThatAnswers) {
-  tests::Uniform uniform(8);
-  for (int i = 0; i < 1000; ++i) {
-    const double mean = uniform(1e-9, 1e-4), free_rate = uniform(-1, 1), mobility = uniform.scale(1e-8, 1.0);
-    const double force = series_force(law, mean, free_rate, mobility, 0.0);
-    const double rate = free_rate - mobility * force;
-    EXPECT_NEAR(force, normal_force(law, mean, rate),
-                round_off * (law.stiffness * mean + law.damping * std::abs(free_rate)) *
-                    (1 + law.damping * mobility));
-    EXPECT_GE(force, 0.0);
-  }
-}
-
-TEST(SeriesForce, TendsToTheLawOfAnInstantAsTheStepGoesToZero) {
-  constexpr double p = 1e-4, rate = 0.3, mobility = 5.0;
-  double last = 0.0;
-  for (double h = 1e-3; h > 1e-7; h *= 0.5) {
-    const double reach = 0.5 * h * rate;
-    const double error =
-        std::abs(series_force(law, mean_penetration(p - reach, p + reach), rate, 0.5 * h * mobility, 0.0) -
-                 normal_force(law, p, rate));
-    if (h < 1e-5) { // order 1: the velocity is that of the middle of the step
-      EXPECT_NEAR(error / last, 0.5, 0.02);
-    }
-    last = error;
-  }
 }
 
 } // namespace normal_law_test

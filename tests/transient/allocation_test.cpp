@@ -137,12 +137,6 @@ TEST(Allocation, NeverHappensUnderTablesAndNoise) {
   EXPECT_EQ(allocations_of_a_run(scene, collocation(1e-4)), 0);
 }
 
-TEST(Allocation, NeverHappensWithResidualFlexibility) {
-  Scene scene = rattling(3, 12, 1.0);
-  scene.residual = 1e-6 * (Eigen::MatrixXd::Identity(9, 9) + Eigen::MatrixXd::Ones(9, 9));
-  EXPECT_EQ(allocations_of_a_run(scene, splitting(1e-4)), 0);
-}
-
 TEST(Allocation, NeverHappensWithObstaclesThatMove) {
   Scene scene = rattling(3, 12, 1.0);
   scene.motions = {{Harmonic{1.0, 20.0, 0.0}, -1.0 / 125.66, 0.0},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plain_schemes.hpp"
-#include "contact/instant_spring.hpp"
+#include "contact/normal_law.hpp"
 #include "transient/modes/oscillator.hpp"
 #include <vector>
 

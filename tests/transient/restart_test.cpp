@@ -249,15 +249,8 @@ TEST(Restart, InsideFlights) {
   }
 }
 
-TEST(Restart, WithResidualFlexibility) {
+TEST(Restart, WithContactsThatTheStartPresses) {
   Scene scene = pushed(3, 9);
-  scene.residual = 1e-6 * (Eigen::MatrixXd::Identity(9, 9) + Eigen::MatrixXd::Ones(9, 9));
-  expect_restarts(scene, {splitting(1e-4)});
-}
-
-TEST(Restart, WithFlexibleContactsThatTheStartPresses) {
-  Scene scene = pushed(3, 9);
-  scene.residual = 1e-6 * (Eigen::MatrixXd::Identity(9, 9) + Eigen::MatrixXd::Ones(9, 9));
   scene.q0.setConstant(7e-5);
   scene.duration = 0.3;
   expect_restarts(scene, {splitting(1e-4)});

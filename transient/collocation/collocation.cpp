@@ -44,8 +44,8 @@ public:
       : system_(with_diagonal(scene.system)), h_(step),
         loads_(scene.loads, scene.system.size(), scene.duration, step, scene.sampled_loads),
         contacts_(scene.contacts, scene.system.size()), motion_(contacts_),
-        obstacles_(scene, contacts_, step), obstacle_at_{obstacles_.workspace(), obstacles_.workspace(),
-                                                         obstacles_.workspace()},
+        obstacles_(scene, contacts_), obstacle_at_{obstacles_.workspace(), obstacles_.workspace(),
+                                                   obstacles_.workspace()},
         solver_(contacts_), trial_(contacts_.count), coupled_(system_, step, 2, halvings + 1),
         powers_(3 * static_cast<std::size_t>(contacts_.count)),
         carried_(static_cast<std::size_t>(contacts_.count)) {

@@ -44,8 +44,8 @@ public:
         loads_(scene.loads, scene.system.size(), scene.duration, step, scene.sampled_loads),
         contacts_(scene.contacts, scene.system.size()), start_(contacts_), end_(contacts_),
         middle_(contacts_),
-        obstacles_(scene, contacts_, step), imposed_{obstacles_.workspace(), obstacles_.workspace(),
-                                                     obstacles_.workspace()},
+        obstacles_(scene, contacts_), imposed_{obstacles_.workspace(), obstacles_.workspace(),
+                                               obstacles_.workspace()},
         memory_(contacts_), solver_(contacts_), rows_(contacts_),
         coupled_(system_, step, 1, halvings + 1), steps_{Step(contacts_), Step(contacts_)} {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);

@@ -23,7 +23,7 @@ struct ContactTrial {
   std::vector<int> active; ///< contacts with a force, by increasing number
   std::vector<int>
       opened;           ///< those that had one at the last commit and have none now: known after the commit
-  double springs = 0.0; ///< J, energy of the normal springs, and of the residual flexibility
+  double springs = 0.0; ///< J, energy of the normal springs
   double cut =
       0.0; ///< J over the step, lost by springs that a damper holds free of force: what the positive part cuts
 

@@ -4,10 +4,6 @@
 ///     u = b q + imposed s(t),    u' = b q' + imposed s'(t)
 /// from its obstacle, in the contact's local axes. An obstacle that stays in space while the base moves by s along d has
 /// imposed = d. What it does on the structure is work from outside: each second, with the force f on the node, -f.(imposed s').
-///
-/// With residual flexibility (Scene) loads move the contacts beside the modes, u = ... + under_loads g(t), at once: without inertia. g
-/// stands for the step about the instant, as in the loads on the modes (Signal::over_step: a table finer than steps by its mean). Their
-/// velocity is the difference of g over that step, which stays finite where a table jumps and adds up to what g does.
 #pragma once
 #include "transient/contacts/contact_motion.hpp"
 #include "transient/contacts/contact_trial.hpp"
@@ -29,8 +25,8 @@ struct ImposedMotion {
 
 class ObstacleMotion {
 public:
-  /// @param contacts  those of the scene, must live longer   @param step  s
-  ObstacleMotion(const Scene& scene, const PackedContacts& contacts, double step);
+  /// @param contacts  those of the scene, must live longer
+  ObstacleMotion(const Scene& scene, const PackedContacts& contacts);
   /// Room for `at`: empty where nothing moves.
   [[nodiscard]] ImposedMotion workspace() const;
   /// At a time. No allocation.
@@ -43,10 +39,8 @@ private:
   template <class Move> void each(double time, const Move& move) const;
 
   const PackedContacts& contacts_;
-  double h_;
   std::vector<MotionSignal> signals_;
-  std::vector<Signal> loads_;
-  kernels::Array imposed_; ///< lanes of each motion, one after the other; then under_loads of each load
+  kernels::Array imposed_; ///< lanes of each motion, one after the other
 };
 
 } // namespace fretwork::transient

@@ -21,9 +21,9 @@ public:
   Euler(const Scene& scene, double step)
       : system_(scene.system), h_(step),
         loads_(scene.loads, scene.system.size(), scene.duration, step, scene.sampled_loads),
-        contacts_(scene.contacts, scene.system.size()), motion_(contacts_),
-        obstacles_(scene, contacts_, step), imposed_(obstacles_.workspace()), memory_(contacts_, step),
-        trial_(contacts_.count), rows_(contacts_) {
+        contacts_(scene.contacts, scene.system.size()), motion_(contacts_), obstacles_(scene, contacts_),
+        imposed_(obstacles_.workspace()), memory_(contacts_, step), trial_(contacts_.count),
+        rows_(contacts_) {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
     for (kernels::Array* a : {&q_, &v_, &k_, &c_, &load_, &force_, &before_q_, &before_v_, &scratch_})
       a->assign(n, 0.0);

@@ -17,7 +17,7 @@ MotionRates::MotionRates(const Scene& scene, double step)
     : system_(scene.system),
       loads_(scene.loads, scene.system.size(), scene.duration, step, scene.sampled_loads), smeared_(step),
       contacts_(scene.contacts, scene.system.size()), motion_(contacts_), difference_(contacts_),
-      obstacles_(scene, contacts_, step), imposed_(obstacles_.workspace()), trial_(contacts_.count),
+      obstacles_(scene, contacts_), imposed_(obstacles_.workspace()), trial_(contacts_.count),
       rows_(contacts_), regimes_(static_cast<std::size_t>(contacts_.count)),
       memory_(static_cast<std::size_t>(contacts_.count)) {
   for (kernels::Array* a : {&q0_, &v0_, &k_, &c_, &load_})

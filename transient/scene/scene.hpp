@@ -43,11 +43,6 @@ struct ContactPoint {
   core::Vec3 rest = core::Vec3::Zero(); ///< m: the node at q = 0, local axes, from the obstacle's centre
   Eigen::MatrixXd b;                    ///< 3 x modes, rows x_loc y_loc z_loc
   Eigen::MatrixXd imposed = {}; ///< 3 x motions of the scene: of the node less the obstacle; empty: none
-  /// m, 3 x loads of the scene, with Scene::residual: what the modes lack of the static displacement under each load of value 1, so that
-  /// u = b q + residual f + under_loads g(t); empty: nothing.
-  Eigen::MatrixXd under_loads = {};
-  core::Vec3 loaded_at_start =
-      core::Vec3::Zero(); ///< m, under_loads times the static values of the loads that are not inertial
   /// Modes of the columns of b: those of one structure, or of the two between which it is, ascending and apart; empty: all of the scene.
   std::vector<ModeRange> modes = {};
 
@@ -87,16 +82,13 @@ struct Scene {
   std::vector<SampledLoad> sampled_loads; ///< random, of zero mean
   std::vector<ContactPoint> contacts;
   std::vector<PrescribedMotion>
-      motions; ///< that carry contacts; the forces they cause on the modes are among the loads
-  /// m/N, 3 nc x 3 nc over x_loc y_loc z_loc of each contact, symmetric, >= 0: what the modes lack of the static
-  /// flexibility between the contacts, which move by it at once, u = b q + residual f. Empty: none.
-  Eigen::MatrixXd residual;
+      motions;            ///< that carry contacts; the forces they cause on the modes are among the loads
   Eigen::VectorXd q0, v0; ///< initial state, n
   double duration = 0.0;  ///< s, > 0
 
   /// Where a contact's node stands at t = 0 for q = 0, from the obstacle's centre, m.
   [[nodiscard]] core::Vec3 place_at_start(const ContactPoint& point) const {
-    core::Vec3 place = point.rest + point.loaded_at_start;
+    core::Vec3 place = point.rest;
     for (Eigen::Index k = 0; k < point.imposed.cols(); ++k)
       place += motions[static_cast<std::size_t>(k)].displacement0 * point.imposed.col(k);
     return place;

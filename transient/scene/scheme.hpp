@@ -80,7 +80,7 @@ struct Energy {
 };
 
 /// What observers see of a step. Positions belong to `time`; of schemes whose forces act over steps `time` is the middle of a step, and energies of
-/// splitting are those at its end; with forces at instants (residual flexibility) positions are those of the mean over the step.
+/// splitting are those at its end.
 struct Record {
   double time = 0.0;
   double step =

@@ -5,7 +5,7 @@
 namespace fretwork::transient {
 
 bool allows_macro_steps(const Scene& scene) {
-  return scene.residual.size() == 0 && scene.system.damping_matrix.size() == 0 && !scene.contacts.empty() &&
+  return scene.system.damping_matrix.size() == 0 && !scene.contacts.empty() &&
          std::all_of(scene.contacts.begin(), scene.contacts.end(), [](const ContactPoint& c) {
            return !(c.support.normal.damping > 0.0) && c.imposed.size() == 0 &&
                   contact::properties_of(c.support.obstacle).gap_bound.radial >= 0.0;

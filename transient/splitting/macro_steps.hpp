@@ -6,7 +6,7 @@
 
 namespace fretwork::transient {
 
-/// Contacts act where they touch and nowhere before (no normal damper, no residual flexibility); their displacements follow from modes
+/// Contacts act where they touch and nowhere before (no normal damper); their displacements follow from modes
 /// that no damping matrix couples, their gaps bend nowhere upwards: not outside of a round body.
 [[nodiscard]] bool allows_macro_steps(const Scene& scene);
 

@@ -30,7 +30,7 @@ struct ReplayOptions {
   int most_parts;  ///< and at most
 };
 
-/// Splitting without residual flexibility, as make_splitting.
+/// As make_splitting.
 [[nodiscard]] std::unique_ptr<Replayable> make_replayable_splitting(const Scene& scene, double step,
                                                                     double fastest, int longest, int parts);
 /// @param running  whose records are those of the whole   @param finer  of half its step

@@ -53,7 +53,7 @@ public:
   Splitting(const Scene& scene, double step, const Eigen::VectorXd& mode_scales, int longest, int parts)
       : h_(step), duration_(scene.duration), lengths_(lengths_up_to(longest)), modes_(scene, step, lengths_),
         contacts_(scene.contacts, scene.system.size()), start_(contacts_), end_(contacts_),
-        obstacles_(scene, contacts_, step), imposed_{obstacles_.workspace(), obstacles_.workspace()},
+        obstacles_(scene, contacts_), imposed_{obstacles_.workspace(), obstacles_.workspace()},
         forces_(contacts_),
         sweeps_(make_sweeps(scene, parts)), steps_{Step(contacts_), Step(contacts_), Step(contacts_)} {
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
@@ -357,8 +357,6 @@ std::unique_ptr<Replayable> make_replayable_splitting(const Scene& scene, double
 
 std::unique_ptr<Scheme> make_splitting(const Scene& scene, double step, double fastest, int longest,
                                        int parts) {
-  if (scene.residual.size() > 0)
-    return make_flexible_splitting(scene, step, fastest);
   return make_replayable_splitting(scene, step, fastest, longest, parts);
 }
 

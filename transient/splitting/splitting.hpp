@@ -12,8 +12,5 @@ namespace fretwork::transient {
 /// @param parts  intervals in which contacts move within a step
 [[nodiscard]] std::unique_ptr<Scheme> make_splitting(const Scene& scene, double step, double fastest = 0.0,
                                                      int longest = 1, int parts = 1);
-/// The same for scenes with residual flexibility.
-[[nodiscard]] std::unique_ptr<Scheme> make_flexible_splitting(const Scene& scene, double step,
-                                                              double fastest = 0.0);
 
 } // namespace fretwork::transient

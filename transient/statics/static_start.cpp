@@ -137,43 +137,9 @@ private:
   double lambda_ = least_damping;
 };
 
-/// The scene with modes of stiffness 1 in place of its residual flexibility.
-Scene with_residual_modes(const Scene& scene) {
-  const auto [values, vectors] = core::symmetric_eigenpairs(scene.residual);
-  const MatrixXd shapes = vectors * values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
-  const Index n = scene.system.size(), more = shapes.cols();
-  Scene out = scene;
-  out.residual.resize(0, 0);
-  out.system.damping_matrix.resize(0, 0); // nothing moves
-  out.system.motion = {};
-  for (VectorXd* x : {&out.system.stiffness, &out.system.damping, &out.q0, &out.v0}) {
-    x->conservativeResize(n + more);
-    x->tail(more).setZero();
-  }
-  out.system.stiffness.tail(more).setOnes();
-  for (Load& load : out.loads) {
-    load.modal_force.conservativeResize(n + more);
-    load.modal_force.tail(more).setZero();
-  }
-  for (std::size_t c = 0; c < out.contacts.size(); ++c) {
-    out.contacts[c].b = scene.contacts[c].over_all(n);
-    out.contacts[c].modes.clear();
-    out.contacts[c].b.conservativeResize(3, n + more);
-    out.contacts[c].b.rightCols(more) = shapes.middleRows(3 * static_cast<Index>(c), 3);
-  }
-  return out;
-}
-
 } // namespace
 
 Equilibrium static_equilibrium(const Scene& scene) {
-  if (scene.residual.size() > 0) {
-    Equilibrium out = static_equilibrium(with_residual_modes(scene));
-    out.q.conservativeResize(scene.system.size());
-    if (out.motion.size() > 0)
-      out.motion.conservativeResize(scene.system.size());
-    return out;
-  }
   const StaticEnergy energy(scene);
   Equilibrium out;
   Descent descent(energy, VectorXd::Zero(energy.size()));

@@ -13,9 +13,6 @@
 /// steps that are small against the obstacle; a point of equilibrium where E'' has a negative direction (two round
 /// bodies on top of each other) is left, because any disturbance would.
 ///
-/// Residual flexibility (Scene): contacts in series with it. With R = L L^T and u = B q + L z the energy has z.z/2 more: z are
-/// further modes of stiffness 1 that no load moves.
-///
 /// Rigid motions (omega = 0) are held by contacts alone. One without load that meets no contact stays where it is;
 /// one that the loads push and that nothing stops has no equilibrium.
 ///
