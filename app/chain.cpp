@@ -2,10 +2,9 @@
 #include "app/chain.hpp"
 #include "app/build_flow.hpp"
 #include "app/describe.hpp"
-#include "app/expected_time.hpp"
 #include "app/fluidelastic.hpp"
 #include "app/folder_lock.hpp"
-#include "app/jobs.hpp"
+#include "app/gap_opening.hpp"
 #include "app/linear_response.hpp"
 #include "app/mode_notes.hpp"
 #include "app/modes_limit.hpp"
@@ -17,9 +16,10 @@
 #include "app/stability.hpp"
 #include "app/static_modes.hpp"
 #include "app/stopwatch.hpp"
+#include "app/stored_results.hpp"
 #include "app/support_motion.hpp"
+#include "app/transient_stage.hpp"
 #include "app/unit_slips.hpp"
-#include "app/wear_of_run.hpp"
 #include "core/error.hpp"
 #include "core/mpi.hpp"
 #include "core/petsc.hpp"
@@ -44,28 +44,6 @@ template <class Things> std::string counted(const Things& things, const char* wh
   return results::counted(static_cast<std::int64_t>(things.size()), what);
 }
 
-/// True where the results in the folder are whole and were computed from the same inputs. Damage is told.
-bool up_to_date(const Inputs& inputs, const std::function<void(const std::string&)>& tell) {
-  const results::FoundSummary found = results::read_summary(inputs.directory / "summary.json");
-  if (!found.refusal.empty())
-    tell(found.refusal + ": the results are computed again");
-  const nlohmann::json& summary = found.summary;
-  if (!summary.is_object() || !summary.contains("transient") ||
-      results::text_of(summary, "input_sha256") != inputs.whole_key ||
-      results::text_of(summary, "version") != FRETWORK_VERSION)
-    return false;
-  if (const std::string table = results::changed_table(inputs.directory, summary); !table.empty()) {
-    tell(fmt::format("{} is not as it was written: the results are computed again", table));
-    return false;
-  }
-  const fs::path archive = inputs.directory / "results.h5";
-  const std::string refusal = results::archive_refusal(archive, inputs.whole_key);
-  if (!refusal.empty() && fs::exists(archive))
-    tell(fmt::format("{} is not as it was written ({}): the results are computed again", archive.string(),
-                     refusal));
-  return refusal.empty();
-}
-
 /// The report, or why there is none: the results are whole without it.
 std::string make_report(const fs::path& directory) {
   try {
@@ -82,20 +60,6 @@ std::string told_warnings(const results::RunResults& out) {
   for (const std::string& warning : results::grouped_messages(out.warnings))
     told += "  warning: " + warning + "\n";
   return told;
-}
-
-/// How long a run would be and how much it would write; warnings of its steps go to `out`.
-std::string forecast_text(MPI_Comm comm, const study::Study& study, const std::vector<BuiltScene>& scenes,
-                          const std::vector<PlacedContact>& placed, results::RunResults& out) {
-  const Forecast forecast = check_jobs(comm, study, scenes);
-  out.warnings.insert(out.warnings.end(), forecast.warnings.begin(), forecast.warnings.end());
-  const SizeOfResults size = size_of_results(study, scenes, placed, forecast.outputs, forecast.impact_rows);
-  const std::string steps = forecast.steps > 0.0
-                                ? results::counted(static_cast<std::int64_t>(forecast.steps), "step")
-                                : std::string("steps as the tolerance asks for");
-  return fmt::format("  {}; a run: {:g} s, {}, about {}; results.h5: {} of series, up to {} of impacts\n",
-                     counted(results::sorted_modes(out.bases), "mode"), study.transient->duration, steps,
-                     time_text(forecast.seconds), size_text(size.series), size_text(size.impacts));
 }
 
 /// Of a file that may not be there.
@@ -194,14 +158,17 @@ private:
       nodes_ = observed_nodes(study, mesh_);
       moved_ = moved_supports(study, mesh_, model_);
       worn_ = worn_places(study, model_, placed_);
-      other_runs_ = read_other_runs(study, worn_, placed_);
-      if (study.modes.accuracy) {
-        out_.modes_limit = modes_limit(study, model_, placed_);
-        study.modes.up_to_hz = out_.modes_limit->up_to;
+      check_gap_opening(study, worn_, placed_);
+      other_runs_ = read_other_runs(study, inputs_.run_directory);
+      check_contacts_of(other_runs_, study, worn_, placed_);
+      note_other_runs(other_runs_, out_);
+      out_.modes_limit = take_modes_limit(study, model_, placed_);
+      if (out_.modes_limit)
         report_modes_limit(study, *out_.modes_limit, out_);
-      }
     });
     note_coincident_nodes(mesh_, out_);
+    if (last_ == Stage::transient && !other_runs_.missing.empty()) // before the time is spent
+      say("warning: " + other_runs_.missing + "\n");
     out_.timings.assembly = watch_.lap();
   }
 
@@ -216,6 +183,8 @@ private:
     out_.notes.insert(out_.notes.end(), modes.notes.begin(), modes.notes.end());
     out_.bases = std::move(modes.bases);
     note_modes(inputs_.study, out_);
+    if (std::string few = few_modes_warning(inputs_.study, model_, placed_, out_.bases); !few.empty())
+      out_.warnings.insert(out_.warnings.begin(), std::move(few)); // forces may be wrong by factors
     if (inputs_.study.modes.static_modes == study::StaticModes::added) {
       add_static_modes(comm_, inputs_.study, model_, modes.structures, placed_, out_.bases);
       out_.notes.push_back(static_modes_note(inputs_.study, out_.bases));
@@ -257,7 +226,8 @@ private:
   void tell_check() {
     progress_.stage("");
     const std::string forecast =
-        scenes_wanted_ ? forecast_text(comm_, inputs_.study, scenes_, placed_, out_) : "";
+        scenes_wanted_ ? forecast_text(comm_, inputs_.study, scenes_, placed_, out_)
+                       : "  no [transient]: run would refuse it; modes, stability and response take it\n";
     say(fmt::format(
         "{}: fine\n  {}, {}, {} in {}, {:.6g} kg\n  {}, {}, {}{}\n{}{}", request_.study.string(),
         counted(mesh_.nodes, "node"), counted(model_.beams, "beam"),
@@ -267,33 +237,26 @@ private:
   }
 
   void run_transient() {
-    const WatchedWear watched = watched_wear(inputs_.study, worn_, placed_.size());
-    for (BuiltScene& scene : scenes_)
-      scene.watched_wear = watched.at(scene.contacts);
     for (const NamedNode& node : nodes_)
       out_.node_names.push_back(node.name);
     out_.duration = inputs_.study.transient->duration;
     out_.statistics_from = inputs_.study.output.statistics_from;
     out_.timings.basis = watch_.lap();
-    progress_.stage("transient");
-    const ProgressCallback callback =
-        progress_.shown()
-            ? ProgressCallback([&](double share, double time) { progress_.update(share, time); })
-            : ProgressCallback();
     const auto print_line = [&](const std::string& line) { // from whichever rank makes the run
       if (!request_.quiet)
         fmt::print("{}\n", line);
     };
-    const CheckpointOptions checkpoints{
-        inputs_.directory,
-        FRETWORK_VERSION,
-        inputs_.whole_key,
-        inputs_.study.output.checkpoint,
-        !request_.force,
-        print_line,
-        {inputs_.study.transient->duration, inputs_.study.transient->max_hours, print_line}};
-    run_jobs(comm_, inputs_.study, scenes_, placed_.size(), nodes_.size(), callback, checkpoints, out_);
-    core::agree(comm_, [&] { add_wear(inputs_.study, worn_, placed_, other_runs_, out_); });
+    Checkpoints checkpoints(
+        {inputs_.directory,
+         FRETWORK_VERSION,
+         inputs_.whole_key,
+         inputs_.study.output.checkpoint,
+         !request_.force,
+         print_line,
+         {inputs_.study.transient->duration, inputs_.study.transient->max_hours, print_line}});
+    app::run_transient(
+        {comm_, inputs_.study, placed_, worn_, other_runs_, at_contacts_, progress_, checkpoints}, scenes_,
+        nodes_.size(), out_);
     out_.timings.transient = watch_.lap();
   }
 
@@ -312,7 +275,7 @@ private:
     }
   }
 
-  void write_tables() const {
+  void write_tables() {
     const fs::path& folder = inputs_.directory;
     if (!out_.stability.empty())
       results::write_stability_csv(folder / "stability.csv", out_);
@@ -321,8 +284,12 @@ private:
         remove_file(folder / file);
     if (!flows_.empty())
       results::write_flow_csv(folder / "flow.csv", flow_rows(inputs_.study, model_, flows_));
-    if (last_ == Stage::transient && !turbulence_.empty())
-      results::write_spectra_csv(folder / "spectra.csv", run_spectra(turbulence_, out_));
+    if (last_ == Stage::transient && !turbulence_.empty()) {
+      const std::vector<results::Spectrum> spectra = run_spectra(turbulence_, out_);
+      results::write_spectra_csv(folder / "spectra.csv", spectra);
+      if (std::string note = folding_note(spectra); !note.empty())
+        out_.notes.push_back(std::move(note));
+    }
     if (!out_.responses.empty())
       results::write_response_csv(folder / "response.csv", out_);
   }
@@ -393,7 +360,7 @@ void check(const Request& request) {
     }
   } const removed{folder};
   Request in_folder = request;
-  in_folder.directory = folder;
+  in_folder.scratch = folder;
   run_chain(MPI_COMM_SELF, in_folder, Stage::check);
 }
 

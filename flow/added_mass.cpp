@@ -51,18 +51,4 @@ double added_mass(const Bundle& bundle, double diameter, double density) {
          diameter * diameter;
 }
 
-double gap_velocity(double approach_velocity, const Bundle& bundle, double diameter) {
-  if (is_single(bundle))
-    return approach_velocity;
-  const double ratio = pitch_ratio(bundle, diameter);
-  return approach_velocity * ratio / (ratio - 1.0);
-}
-
-double velocity_of_mass_flux(double pitch_mass_flux, double density) {
-  if (!(density > 0.0))
-    throw core::Error(
-        fmt::format("velocity of a mass flux: density = {:g} kg/m3; give a density > 0", density));
-  return pitch_mass_flux / density;
-}
-
 } // namespace fretwork::flow

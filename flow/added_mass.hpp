@@ -49,14 +49,4 @@ inline constexpr double correlated_confinement = 2.0;
 /// @throws core::Error for P/D <= 1.05
 [[nodiscard]] double added_mass(const Bundle& bundle, double diameter, double density);
 
-/// V = V_inf P/(P - D): gap (pitch) velocity of an approach velocity; of a single tube the velocity itself. Turns an
-/// approach mass flux (kg/m2/s) into the pitch mass flux G_p as well.
-/// @throws core::Error for P/D <= 1.05
-[[nodiscard]] double gap_velocity(double approach_velocity, const Bundle& bundle, double diameter);
-
-/// V = G_p/rho, m/s.
-/// @param pitch_mass_flux  kg/m2/s, G_p   @param density  kg/m3, > 0
-/// @throws core::Error for a density that is not positive
-[[nodiscard]] double velocity_of_mass_flux(double pitch_mass_flux, double density);
-
 } // namespace fretwork::flow

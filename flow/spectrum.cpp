@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flow/spectrum.hpp"
 #include "core/error.hpp"
-#include "core/names.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -68,29 +67,6 @@ std::vector<PointSpectrum::Piece> pieces(const TableSpectrum& t, std::string_vie
 } // namespace
 
 std::string_view name_of(const Spectrum& spectrum) { return names[spectrum.index()]; }
-
-Spectrum spectrum_named(std::string_view name, double rho_liquid) {
-  if (name == "cor_1")
-    return Cor1{};
-  if (name == "cor_2")
-    return Cor2{};
-  if (name == "cor_3")
-    return Cor3{};
-  if (name == "cor_4")
-    return Cor4{};
-  if (name == "axisa")
-    return Axisa{};
-  if (name == "interior")
-    return Interior{};
-  if (name == "inlet")
-    return Inlet{};
-  if (name == "two_phase")
-    return TwoPhaseSpectrum{positive(rho_liquid, "density of the liquid", " kg/m3", "spectrum two_phase")};
-  if (name == "table")
-    throw core::Error("spectrum \"table\": give its rows");
-  throw core::Error(fmt::format("no spectrum is named \"{}\"{}", name,
-                                core::name_help(name, std::vector<std::string>(names.begin(), names.end()))));
-}
 
 double cor4_level(double a) {
   const double root = std::sqrt(a);

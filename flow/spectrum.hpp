@@ -63,9 +63,6 @@ using Spectrum =
 
 /// "cor_1", "cor_2", ...
 [[nodiscard]] std::string_view name_of(const Spectrum& spectrum);
-/// With its default parameters; TwoPhaseSpectrum with that density of the liquid.
-/// @throws core::Error  an unknown name, "table" (which has rows), two_phase without the density
-[[nodiscard]] Spectrum spectrum_named(std::string_view name, double rho_liquid = 0.0);
 
 /// Flow at a point of the tube.
 struct FlowState {

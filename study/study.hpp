@@ -74,7 +74,7 @@ enum class StaticModes { none, added };
 
 struct Modes {
   std::optional<int> count = 40; ///< exactly one of count, up_to_hz and accuracy has a value
-  bool count_given = false;      ///< by the study
+  bool number_given = false;     ///< one of the three by the study; otherwise contacts at beams say how many
   std::optional<double> up_to_hz;
   std::optional<double> accuracy; ///< relative error of contact forces, > 0 and at most 0.1
   modal::Damping damping = 0.0;
@@ -238,6 +238,7 @@ struct Study {
   std::optional<Transient> transient; ///< needed by `run` and `transient` only
   Output output;
   std::vector<Wear> wear;
+  std::optional<GapOpening> gap_opening;
 };
 
 /// Read and check a study file and the files of its load tables; the mesh is not opened. `overrides` are the

@@ -109,6 +109,39 @@ TEST(Turbulence, GivesTheMeanSquareOfTheClosedFormOverManyDraws) {
   EXPECT_LT(3.0 * scatter, 0.11); // the test can fail
 }
 
+TEST(Turbulence, TellsTheModesAboveItsBand) {
+  const Workshop folder;
+  const std::string study =
+      tubes(folder, 1, in_one_plane, white() + modes(3) + "[output]\nnodes = [\"middle0\"]\n");
+  ASSERT_GT(frequency(3), 300.0);
+  ASSERT_LT(frequency(2), 300.0);
+  const Results narrow = folder.run_text(study + "[transient]\nduration = 0.1\nstep = 5e-4\n");
+  EXPECT_TRUE(says(narrow.summary["notes"].dump(),
+                   "1 of 3 modes lie above its band, which ends at 300 Hz, and get no force from it"));
+  const Results wide = folder.run_text(
+      tubes(folder, 1, in_one_plane,
+            white("band = [1, 400]\n") + modes(3) + run(0.1, "every = 0.01\n", "step = 5e-4\n")));
+  EXPECT_FALSE(says(wide.summary["notes"].dump(), "lie above its band"));
+  ASSERT_EQ(outcome_of(folder, study, "response").status, 0);
+  EXPECT_TRUE(says(read_results(folder.path("out")).summary["notes"].dump(),
+                   "1 of 3 modes, up to " + fmt::format("{:.4g}", frequency(3))));
+}
+
+TEST(Turbulence, TellsSpectraThatMotionAboveHalfTheOutputRateIsFoldedInto) {
+  const Workshop folder;
+  const auto notes = [&](const std::string& every) {
+    return folder
+        .run_text(tubes(folder, 1, in_one_plane,
+                        white() + modes(1) +
+                            run(3.0, "nodes = [\"middle0\"]\nevery = " + every + "\n", "step = 5e-4\n")))
+        .summary["notes"]
+        .dump();
+  };
+  EXPECT_TRUE(
+      says(notes("0.008"), "is folded into it; give a shorter output.every")); // 62.5 Hz, the mode at 55
+  EXPECT_FALSE(says(notes("0.001"), "is folded into"));
+}
+
 TEST(Turbulence, ForcesDoNotDependOnTheDuration) {
   const Workshop folder;
   const auto of = [&](double duration) {

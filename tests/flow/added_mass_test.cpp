@@ -57,12 +57,5 @@ TEST(AddedMass, RefusesTubesThatNearlyTouch) {
                       {"a single tube has no pitch", "name the arrangement"});
 }
 
-TEST(AddedMass, GapVelocityIsThatThroughTheGaps) {
-  EXPECT_NEAR(gap_velocity(1.0, {Arrangement::square, 1.5 * 0.02}, 0.02), 3.0, 3.0 * round_off);
-  EXPECT_EQ(gap_velocity(1.2, {}, 0.02), 1.2);
-  EXPECT_EQ(velocity_of_mass_flux(400.0, 200.0), 2.0);
-  tests::expect_error([] { (void)velocity_of_mass_flux(400.0, 0.0); }, {"density = 0 kg/m3", "> 0"});
-}
-
 } // namespace
 } // namespace fretwork::flow::added_mass_test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "exact_mode.hpp"
 #include "flow/cross_spectrum.hpp"
-#include "flow/force_stream.hpp"
+#include "flow/draws.hpp"
 #include "flow/welch.hpp"
 #include "turbulent_zone.hpp"
 #include <complex>
@@ -35,6 +35,11 @@ TurbulentZone sheared_zone(int modes = 4) {
 MatrixLoad white_forces(const Eigen::MatrixXd& g) {
   const Eigen::MatrixXcd matrix = g.cast<std::complex<double>>();
   return {"white", 0, [matrix](double) { return matrix; }, Eigen::MatrixXd::Identity(g.rows(), g.rows())};
+}
+
+/// Relative standard deviation of the mean square of a mode's displacement over n draws of length T.
+double mean_square_scatter(double damping, double omega, double duration, int draws) {
+  return 1.0 / std::sqrt(damping * omega * duration * draws);
 }
 
 Eigen::MatrixXd samples(ForceDraw draw, std::int64_t first, Eigen::Index count) {
@@ -259,7 +264,7 @@ TEST(Draw, GivesTwoModesTheirVariancesUnderWhiteNoise) {
     DrawOptions o = options(160.0, block_period(36.0));
     o.draw = static_cast<std::uint32_t>(n);
     ForceDraw draw({}, {white_forces(g)}, o);
-    const double start = statistics_start(0.0, xi1, w1);
+    const double start = 3.0 / (xi1 * w1); // 5 % of the amplitude at the start is left
     const Eigen::MatrixXd f = draw_forces(draw, start + duration);
     ExactMode first(mass, w1, xi1, draw.step()), second(mass, w2, xi2, draw.step());
     for (Eigen::Index j = 1; j < f.cols(); ++j) {
@@ -311,15 +316,8 @@ TEST(Draw, TakesItsOptionsFromTheModes) {
   EXPECT_EQ(block_period(31.0), 2.0);
   EXPECT_EQ(block_period(5.0), 8.0);
   EXPECT_DOUBLE_EQ(highest_line(100.0), 120.0);
-  EXPECT_DOUBLE_EQ(ramp_time(10.0), 0.5);
-  EXPECT_DOUBLE_EQ(statistics_start(0.5, 0.01, 60.0), 5.5);
-  EXPECT_DOUBLE_EQ(mean_square_scatter(0.01, 100.0, 4.0, 25), 0.1);
   EXPECT_EQ(message_of([] { (void)block_period(0.0); }),
             "a lowest frequency of 0 Hz gives no period of blocks; give one > 0");
-  EXPECT_EQ(message_of([] { (void)ramp_time(-1.0); }),
-            "a lowest frequency of -1 Hz gives no ramp; give one > 0");
-  EXPECT_EQ(message_of([] { (void)statistics_start(0.0, 0.0, 1.0); }),
-            "a mode of damping ratio 0 and 1 rad/s does not decay; give both > 0");
 }
 
 TEST(Draw, RefusesWrongInput) {
@@ -355,24 +353,6 @@ TEST(Draw, RefusesWrongInput) {
   ForceDraw draw({sheared_zone()}, {}, o);
   EXPECT_EQ(message_of([&] { (void)draw_forces(draw, -1.0); }),
             "a draw of -1 s makes no sense; give a duration >= 0");
-  EXPECT_EQ(message_of([&] { ForceStream(ForceDraw({sheared_zone()}, {}, o), -1.0); }),
-            "a ramp of -1 s makes no sense; give a time >= 0");
-}
-
-TEST(ForceStream, IsLinearBetweenSamplesAndStartsSmoothly) {
-  ForceDraw draw({sheared_zone()}, {}, options(50.0, 1.0));
-  const Eigen::MatrixXd whole = draw_forces(draw, 3.0);
-  ForceStream stream(ForceDraw({sheared_zone()}, {}, options(50.0, 1.0)), 0.5);
-  Eigen::VectorXd force(4);
-  constexpr double round_off = 1e-11;
-  for (const double time : {0.0, 0.1, 0.25, 0.6, 2.9, 0.55}) {
-    stream.at(time, force.data());
-    const double place = time / draw.step(), share = place - std::floor(place);
-    const auto j = static_cast<Eigen::Index>(place);
-    const double ramp = time < 0.5 ? 0.5 - 0.5 * std::cos(2.0 * pi * time) : 1.0;
-    const Eigen::VectorXd expected = ramp * ((1.0 - share) * whole.col(j) + share * whole.col(j + 1));
-    EXPECT_LT((force - expected).norm(), round_off * whole.col(j).norm()) << time;
-  }
 }
 
 } // namespace draws_test

@@ -116,19 +116,6 @@ TEST(Spectrum, OfATableIsLinearInLogarithms) {
   EXPECT_EQ(absolute.highest(), 100.0);
 }
 
-TEST(Spectrum, IsFoundByItsName) {
-  for (const std::string_view name :
-       {"cor_1", "cor_2", "cor_3", "cor_4", "axisa", "interior", "inlet", "two_phase"})
-    EXPECT_EQ(name_of(spectrum_named(name, 700.0)), name);
-  EXPECT_EQ(message_of([] {
-              (void)spectrum_named("cor1");
-            }).find("no spectrum is named \"cor1\"; did you mean \"cor_1\"?"),
-            0u);
-  EXPECT_EQ(message_of([] { (void)spectrum_named("table"); }), "spectrum \"table\": give its rows");
-  EXPECT_EQ(message_of([] { (void)spectrum_named("two_phase"); }),
-            "spectrum two_phase: density of the liquid = 0 kg/m3 makes no sense; give a number > 0");
-}
-
 TEST(Spectrum, RefusesWrongInput) {
   const auto message = [](const Spectrum& s, const FlowState& state) {
     return message_of([&] { (void)PointSpectrum(s, state, lambda, false, "zone 'a'"); });
