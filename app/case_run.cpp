@@ -163,6 +163,7 @@ struct CaseRunner::Case {
   std::shared_ptr<const CaseContacts> contacts;
   std::vector<PlacedContact> placed, inactive;
   std::vector<WornPlace> worn;
+  OtherRuns other_runs;
 };
 
 std::vector<BuiltScene> CaseRunner::scenes_of(const Case& c) {
@@ -194,7 +195,7 @@ CaseRunner::CaseRunner(study::Document document, std::vector<std::string> base_o
 CaseRunner::Case CaseRunner::prepare(const std::vector<std::string>& overrides) {
   study::Document document = document_;
   study::complete(document, overrides);
-  Case out{study::read(document, {}), {}, {}, {}, {}, {}};
+  Case out{study::read(document, {}), {}, {}, {}, {}, {}, {}};
   if (!out.study.transient)
     throw core::Error("the study has no [transient]; a sweep needs it (doc/study-file.md)");
   std::vector<std::string> warnings;
@@ -203,6 +204,10 @@ CaseRunner::Case CaseRunner::prepare(const std::vector<std::string>& overrides) 
   out.inactive = take_inactive(out.study, out.placed);
   out.contacts = bases_.contacts(out.study, overrides, *out.structure, out.placed, out.inactive);
   out.worn = worn_places(out.study, out.structure->model, out.placed);
+  out.other_runs = read_other_runs(out.study, {}); // a case has no folder that a state could name
+  if (!out.other_runs.missing.empty())
+    throw core::Error(out.other_runs.missing);
+  check_contacts_of(out.other_runs, out.study, out.worn, out.placed);
   return out;
 }
 
@@ -246,7 +251,6 @@ void CaseRunner::name_columns(const Case& nominal) {
 std::vector<double> CaseRunner::operator()(const std::vector<std::string>& overrides) {
   const Case c = prepare(overrides);
   const std::vector<BuiltScene> scenes = scenes_of(c);
-  const OtherRuns others = read_other_runs(c.study, c.worn, c.placed);
   const auto choices = choose_steps(MPI_COMM_SELF, c.study, scenes);
   results::RunResults out;
   out.contact_summaries.resize(c.placed.size());
@@ -255,7 +259,7 @@ std::vector<double> CaseRunner::operator()(const std::vector<std::string>& overr
   for (std::size_t i = 0; i < scenes.size(); ++i)
     run_scene(c.study, scenes[i], choices[i], out);
   out.bases = nodes_of(c.contacts->bases);
-  add_wear(c.study, c.worn, c.placed, others, out);
+  add_wear(c.study, c.worn, c.placed, c.other_runs, out);
   Filling row(columns_);
   fill_contacts(c.placed, out, row);
   if (out.wear)

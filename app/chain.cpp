@@ -193,7 +193,9 @@ private:
       nodes_ = observed_nodes(study, mesh_);
       moved_ = moved_supports(study, mesh_, model_);
       worn_ = worn_places(study, model_, placed_);
-      other_runs_ = read_other_runs(study, worn_, placed_);
+      other_runs_ = read_other_runs(study, inputs_.run_directory);
+      check_contacts_of(other_runs_, study, worn_, placed_);
+      note_other_runs(other_runs_, out_);
       if (study.modes.accuracy) {
         out_.modes_limit = modes_limit(study, model_, placed_);
         study.modes.up_to_hz = out_.modes_limit->up_to;
@@ -201,6 +203,8 @@ private:
       }
     });
     note_coincident_nodes(mesh_, out_);
+    if (last_ == Stage::transient && !other_runs_.missing.empty()) // before the time is spent
+      say("warning: " + other_runs_.missing + "\n");
     out_.timings.assembly = watch_.lap();
   }
 
@@ -393,7 +397,7 @@ void check(const Request& request) {
     }
   } const removed{folder};
   Request in_folder = request;
-  in_folder.directory = folder;
+  in_folder.scratch = folder;
   run_chain(MPI_COMM_SELF, in_folder, Stage::check);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/stages.hpp"
+#include "app/other_runs.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "core/input_file.hpp"
@@ -42,22 +43,13 @@ std::string stored_key(MPI_Comm comm, const Inputs& inputs, const std::vector<fe
          (distributed ? fmt::format(" over {} ranks", core::size(comm)) : "");
 }
 
-/// What operating states of wear take from other runs.
-std::string results_of_states(const study::Study& study) {
-  std::string bytes;
-  for (const study::Wear& wear : study.wear)
-    for (const study::WearState& state : wear.states)
-      if (state.results)
-        bytes += file_bytes(*state.results / "summary.json");
-  return bytes;
-}
-
 } // namespace
 
 Inputs read_inputs(const Request& request) {
   Inputs in;
   in.study = study::read(request.study, request.overrides);
-  in.directory = request.directory.value_or(fs::path(in.study.file).replace_extension(".results"));
+  in.run_directory = request.directory.value_or(fs::path(in.study.file).replace_extension(".results"));
+  in.directory = request.scratch.value_or(in.run_directory);
   in.mesh_file = in.study.mesh.file;
   core::check_input_file(in.mesh_file, fmt::format("mesh file \"{}\"", in.mesh_file.string()));
   if (!std::ifstream(in.mesh_file))
@@ -105,7 +97,7 @@ void make_keys(const Request& request, Inputs& inputs) {
       inputs.modes_key +
       text({"title", "contacts", "flow_laws", "stability", "turbulence", "response", "loads", "gravity",
             "base_motion", "support_motion", "initial", "transient", "output", "wear"}) +
-      results_of_states(inputs.study));
+      text_of(read_other_runs(inputs.study, inputs.run_directory)));
 }
 
 mesh::LineMesh mesh_stage(MPI_Comm comm, const Inputs& inputs) {

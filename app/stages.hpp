@@ -16,6 +16,7 @@ struct Request {
   std::filesystem::path study;
   std::vector<std::string> overrides;
   std::optional<std::filesystem::path> directory; ///< default: the study's name with .results, beside it
+  std::optional<std::filesystem::path> scratch;   ///< takes the files of a check in place of `directory`
   bool force = false;                             ///< compute every stage again
   bool report = true;
   bool quiet = false; ///< nothing on the terminal but errors
@@ -24,10 +25,11 @@ struct Request {
 /// The study and what identifies its inputs.
 struct Inputs {
   study::Study study;
-  std::filesystem::path directory;
-  std::filesystem::path mesh_file; ///< the .msh that is read
-  std::string modes_key;           ///< hash of the mesh and of all that the modes depend on
-  std::string whole_key;           ///< and of everything else: input_sha256
+  std::filesystem::path run_directory; ///< of the results of `run`
+  std::filesystem::path directory;     ///< the same, or request.scratch
+  std::filesystem::path mesh_file;     ///< the .msh that is read
+  std::string modes_key;               ///< hash of the mesh and of all that the modes depend on
+  std::string whole_key;               ///< and of everything else: input_sha256
 };
 
 /// The study; keys not yet made.

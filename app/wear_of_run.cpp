@@ -2,7 +2,6 @@
 #include "app/wear_of_run.hpp"
 #include "core/error.hpp"
 #include "core/names.hpp"
-#include "results/summary_file.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -11,46 +10,8 @@
 namespace fretwork::app {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr int history_steps = 40;     ///< of depth against time
 constexpr std::size_t most_names = 3; ///< in a warning
-
-/// What is not there, or of another type, as nothing: a summary is only as good as who wrote it.
-nlohmann::json entry(const nlohmann::json& table, const char* key) {
-  const auto found = table.is_object() ? table.find(key) : table.end();
-  return found == table.end() ? nlohmann::json() : *found;
-}
-
-double number(const nlohmann::json& value) {
-  return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
-}
-
-/// Work rates of the contacts of another run.
-std::map<std::string, StatedRate> read_run(const std::string& where, const fs::path& directory) {
-  const results::FoundSummary found = results::read_summary(directory / "summary.json");
-  if (!found.refusal.empty())
-    throw core::Error(fmt::format("{}: {}; run that study again", where, found.refusal));
-  if (found.summary.is_null())
-    throw core::Error(fmt::format("{}: {} holds no summary.json; give the folder that `fretwork run` wrote",
-                                  where, directory.string()));
-  const nlohmann::json& summary = found.summary;
-  const nlohmann::json contacts = entry(summary, "contacts");
-  if (!summary.contains("transient") || !contacts.is_array())
-    throw core::Error(fmt::format("{}: {} holds no results of a transient; run that study again", where,
-                                  directory.string()));
-  if (results::text_of(summary["transient"], "outcome") != "done")
-    throw core::Error(
-        fmt::format("{}: the run in {} diverged; take a smaller step there", where, directory.string()));
-  std::map<std::string, StatedRate> out;
-  for (const auto& contact : contacts) {
-    const nlohmann::json error = entry(contact, "standard_error");
-    out[results::text_of(contact, "name")] = {number(entry(contact, "work_rate")),
-                                              number(entry(error, "work_rate")),
-                                              number(entry(error, "work_rate_batches"))};
-  }
-  return out;
-}
 
 StatedRate rate_of_contact(const results::RunResults& run, std::size_t contact) {
   const post::ContactSummary& statistics = run.contact_summaries[contact];
@@ -229,40 +190,9 @@ void add_warnings(results::RunResults& out) {
 
 } // namespace
 
-wear::WorkRate StatedRate::with(std::optional<double> confidence) const {
-  return confidence ? wear::work_rate_with_confidence(value, error, batches, *confidence)
-                    : wear::work_rate_with_error(value, error);
-}
-
-OtherRuns read_other_runs(const study::Study& study, const std::vector<WornPlace>& places,
-                          const std::vector<PlacedContact>& placed) {
-  OtherRuns out;
-  for (const study::Wear& entry : study.wear) {
-    auto& states = out.emplace_back();
-    for (std::size_t j = 0; j < entry.states.size(); ++j)
-      states.push_back(entry.states[j].results ? read_run(fmt::format("{}.states[{}].results", entry.path, j),
-                                                          *entry.states[j].results)
-                                               : std::map<std::string, StatedRate>());
-  }
-  for (const WornPlace& place : places)
-    for (std::size_t j = 0; j < out[place.entry].size(); ++j) {
-      const study::WearState& state = study.wear[place.entry].states[j];
-      std::vector<std::string> names;
-      for (const auto& contact : out[place.entry][j])
-        names.push_back(contact.first);
-      for (const std::size_t c : place.contacts)
-        if (state.results && !out[place.entry][j].contains(placed[c].name))
-          throw core::Error(fmt::format("{}.states[{}].results: the run in {} has no contact \"{}\"{}; name "
-                                        "its contacts alike",
-                                        study.wear[place.entry].path, j, state.results->string(),
-                                        placed[c].name, core::name_help(placed[c].name, names)));
-    }
-  return out;
-}
-
 void add_wear(const study::Study& study, const std::vector<WornPlace>& places,
               const std::vector<PlacedContact>& placed, const OtherRuns& others, results::RunResults& out) {
-  if (places.empty())
+  if (places.empty() || !others.complete())
     return;
   out.wear.emplace();
   for (const WornPlace& place : places) {
@@ -273,10 +203,11 @@ void add_wear(const study::Study& study, const std::vector<WornPlace>& places,
     const auto indices = indices_of(entry, out, place.contacts, support);
     for (std::size_t j = 0; j < entry.states.size(); ++j) {
       const study::WearState& state = entry.states[j];
+      const auto& elsewhere = others.rates[place.entry][j];
       std::vector<wear::WorkRate> points;
       for (const std::size_t c : place.contacts)
-        points.push_back((state.results ? others[place.entry][j].at(placed[c].name) : rate_of_contact(out, c))
-                             .with(entry.confidence));
+        points.push_back(
+            (elsewhere ? elsewhere->at(placed[c].name) : rate_of_contact(out, c)).with(entry.confidence));
       support.states.push_back({state.name, state.share, state.given.value_or(wear::sum_of_points(points))});
     }
     support.work_rate = mean_of_states(support.states);

@@ -22,4 +22,7 @@ class Workshop;
 /// load (drive0 ...): as many runs. Writes bundle.msh. @param run  [transient] and [output]
 [[nodiscard]] std::string bundle(const Workshop& folder, int tubes, const std::string& run);
 
+/// A random load across the one of the bundle: the tube then slides round its support instead of bouncing along one line.
+[[nodiscard]] std::string across(const std::string& group);
+
 } // namespace fretwork::app::test

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Operating states of wear: one study makes the runs of all its states.
+#include "mesh_text.hpp"
+#include "program.hpp"
+#include "study_text.hpp"
+
+namespace fretwork::app::test::wear_states_test {
+namespace {
+
+constexpr double round_off = 1e-12; ///< of a sum of three terms, one of which was printed with 17 digits
+
+std::string with_states(const Workshop& folder, const std::string& states) {
+  return bundle(folder, 1, "[transient]\nduration = 0.3\n") + across("drive0") +
+         "[[wear]]\ncoefficient = 2.0e-14\nlength = 0.02\nstates = [" + states + "]\n";
+}
+
+const std::vector<std::string> part_load{"--set", "loads.0.random.rms=15"};
+const std::string half_and_half = "{ share = 0.5 }, { share = 0.5, results = \"part\" }";
+
+std::string notes_of(const Results& run) { return run.summary["notes"].dump(); }
+std::string warnings_of(const Results& run) { return run.summary["warnings"].dump(); }
+double work_rate(const Results& run) { return run.statistics("support0")["work_rate"]; }
+
+} // namespace
+
+TEST(WearStates, AreMadeByTheStudyThatNamesThem) {
+  const Workshop folder;
+  const fs::path study = folder.write("study.toml", with_states(folder, half_and_half));
+  const Results part = folder.run(study, "part", part_load), whole = folder.run(study, "whole");
+  EXPECT_FALSE(part.summary.contains("wear"));
+  EXPECT_FALSE(says(warnings_of(part), "wear is not computed"));
+  EXPECT_TRUE(says(notes_of(part), "this run is an operating state of wear.0: wear is computed by the run of "
+                                   "its state without results"));
+  ASSERT_TRUE(whole.summary.contains("wear"));
+  EXPECT_NE(work_rate(part), work_rate(whole));
+  EXPECT_TRUE(close_to(whole.summary["wear"]["supports"][0]["work_rate"]["value"],
+                       0.5 * (work_rate(part) + work_rate(whole)), round_off));
+}
+
+TEST(WearStates, ThatHaveNotBeenMadeLeaveTheTransientWithoutWear) {
+  const Workshop folder;
+  const fs::path study = folder.write("study.toml", with_states(folder, half_and_half));
+  const std::string told = "wear.0.states[1].results = \"" + folder.path("part").string() + "\"";
+  const Outcome checked = folder.fretwork({"check", study.string()});
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  EXPECT_TRUE(says(checked.out, told));
+  const Results first = folder.run(study, "whole");
+  EXPECT_GT(work_rate(first), 0.0);
+  EXPECT_FALSE(first.summary.contains("wear"));
+  EXPECT_TRUE(says(first.summary["warnings"][0], told));
+  (void)folder.run(study, "part", part_load);
+  EXPECT_TRUE(folder.run(study, "whole").summary.contains("wear")); // not up to date any more
+}
+
+TEST(WearStates, ThatAllNameTheirFoldersHaveTheSameWearInEachRun) {
+  const Workshop folder;
+  const fs::path study = folder.write(
+      "study.toml",
+      with_states(folder, "{ share = 0.5, results = \"full\" }, { share = 0.5, results = \"part\" }"));
+  EXPECT_TRUE(says(warnings_of(folder.run(study, "full")), "wear is not computed"));
+  const Results part = folder.run(study, "part", part_load), full = folder.run(study, "full");
+  EXPECT_TRUE(close_to(part.summary["wear"]["supports"][0]["work_rate"]["value"],
+                       full.summary["wear"]["supports"][0]["work_rate"]["value"], round_off));
+  EXPECT_EQ(part.summary["wear"]["supports"][0]["states"].size(), 2u);
+  // the work rates of each run are what the other one depends on: neither ages the other
+  EXPECT_TRUE(says(folder
+                       .fretwork({"transient", study.string(), "-o", folder.path("part").string(), "--set",
+                                  "loads.0.random.rms=15"})
+                       .out,
+                   "up to date"));
+}
+
+TEST(WearStates, ThatHaveNotBeenMadeAreRefusedByASweep) {
+  const Workshop folder;
+  const fs::path study = folder.write(
+      "study.toml", with_states(folder, half_and_half) +
+                        "[sweep]\ndraws = 2\n[[sweep.variables]]\nkey = \"contacts.support0.gap\"\n"
+                        "uniform = { from = 1e-5, to = 2e-5 }\n");
+  const Outcome sweep = folder.fretwork({"sweep", study.string(), "-o", folder.path("sweep").string()});
+  EXPECT_NE(sweep.status, 0);
+  EXPECT_TRUE(
+      says(sweep.err + sweep.out, "wear is not computed, its states have runs that have not been made"));
+}
+
+} // namespace fretwork::app::test::wear_states_test
