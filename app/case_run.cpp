@@ -198,6 +198,9 @@ CaseRunner::Case CaseRunner::prepare(const std::vector<std::string>& overrides) 
   Case out{study::read(document, {}), {}, {}, {}, {}, {}, {}};
   if (!out.study.transient)
     throw core::Error("the study has no [transient]; a sweep needs it (doc/study-file.md)");
+  if (out.study.gap_opening)
+    throw core::Error(
+        "the study has [gap_opening]; a sweep computes wear at the gaps of each case: leave it out there");
   std::vector<std::string> warnings;
   out.structure = bases_.structure(out.study, overrides);
   out.placed = place_contacts(out.study, out.structure->mesh, out.structure->dry, warnings);

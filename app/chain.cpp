@@ -4,7 +4,7 @@
 #include "app/describe.hpp"
 #include "app/fluidelastic.hpp"
 #include "app/folder_lock.hpp"
-#include "app/jobs.hpp"
+#include "app/gap_opening.hpp"
 #include "app/linear_response.hpp"
 #include "app/mode_notes.hpp"
 #include "app/modes_limit.hpp"
@@ -16,9 +16,10 @@
 #include "app/stability.hpp"
 #include "app/static_modes.hpp"
 #include "app/stopwatch.hpp"
+#include "app/stored_results.hpp"
 #include "app/support_motion.hpp"
+#include "app/transient_stage.hpp"
 #include "app/unit_slips.hpp"
-#include "app/wear_of_run.hpp"
 #include "core/error.hpp"
 #include "core/mpi.hpp"
 #include "core/petsc.hpp"
@@ -43,28 +44,6 @@ template <class Things> std::string counted(const Things& things, const char* wh
   return results::counted(static_cast<std::int64_t>(things.size()), what);
 }
 
-/// True where the results in the folder are whole and were computed from the same inputs. Damage is told.
-bool up_to_date(const Inputs& inputs, const std::function<void(const std::string&)>& tell) {
-  const results::FoundSummary found = results::read_summary(inputs.directory / "summary.json");
-  if (!found.refusal.empty())
-    tell(found.refusal + ": the results are computed again");
-  const nlohmann::json& summary = found.summary;
-  if (!summary.is_object() || !summary.contains("transient") ||
-      results::text_of(summary, "input_sha256") != inputs.whole_key ||
-      results::text_of(summary, "version") != FRETWORK_VERSION)
-    return false;
-  if (const std::string table = results::changed_table(inputs.directory, summary); !table.empty()) {
-    tell(fmt::format("{} is not as it was written: the results are computed again", table));
-    return false;
-  }
-  const fs::path archive = inputs.directory / "results.h5";
-  const std::string refusal = results::archive_refusal(archive, inputs.whole_key);
-  if (!refusal.empty() && fs::exists(archive))
-    tell(fmt::format("{} is not as it was written ({}): the results are computed again", archive.string(),
-                     refusal));
-  return refusal.empty();
-}
-
 /// The report, or why there is none: the results are whole without it.
 std::string make_report(const fs::path& directory) {
   try {
@@ -81,20 +60,6 @@ std::string told_warnings(const results::RunResults& out) {
   for (const std::string& warning : results::grouped_messages(out.warnings))
     told += "  warning: " + warning + "\n";
   return told;
-}
-
-/// How long a run would be and how much it would write; warnings of its steps go to `out`.
-std::string forecast_text(MPI_Comm comm, const study::Study& study, const std::vector<BuiltScene>& scenes,
-                          const std::vector<PlacedContact>& placed, results::RunResults& out) {
-  const Forecast forecast = check_jobs(comm, study, scenes);
-  out.warnings.insert(out.warnings.end(), forecast.warnings.begin(), forecast.warnings.end());
-  const SizeOfResults size = size_of_results(study, scenes, placed, forecast.outputs, forecast.impact_rows);
-  const std::string steps = forecast.steps > 0.0
-                                ? results::counted(static_cast<std::int64_t>(forecast.steps), "step")
-                                : std::string("steps as the tolerance asks for");
-  return fmt::format("  {}; a run: {:g} s, {}; results.h5: {} of series, up to {} of impacts\n",
-                     counted(results::sorted_modes(out.bases), "mode"), study.transient->duration, steps,
-                     size_text(size.series), size_text(size.impacts));
 }
 
 /// Of a file that may not be there.
@@ -193,6 +158,7 @@ private:
       nodes_ = observed_nodes(study, mesh_);
       moved_ = moved_supports(study, mesh_, model_);
       worn_ = worn_places(study, model_, placed_);
+      check_gap_opening(study, worn_, placed_);
       other_runs_ = read_other_runs(study, inputs_.run_directory);
       check_contacts_of(other_runs_, study, worn_, placed_);
       note_other_runs(other_runs_, out_);
@@ -271,33 +237,26 @@ private:
   }
 
   void run_transient() {
-    const WatchedWear watched = watched_wear(inputs_.study, worn_, placed_.size());
-    for (BuiltScene& scene : scenes_)
-      scene.watched_wear = watched.at(scene.contacts);
     for (const NamedNode& node : nodes_)
       out_.node_names.push_back(node.name);
     out_.duration = inputs_.study.transient->duration;
     out_.statistics_from = inputs_.study.output.statistics_from;
     out_.timings.basis = watch_.lap();
-    progress_.stage("transient");
-    const ProgressCallback callback =
-        progress_.shown()
-            ? ProgressCallback([&](double share, double time) { progress_.update(share, time); })
-            : ProgressCallback();
     const auto print_line = [&](const std::string& line) { // from whichever rank makes the run
       if (!request_.quiet)
         fmt::print("{}\n", line);
     };
-    const CheckpointOptions checkpoints{
-        inputs_.directory,
-        FRETWORK_VERSION,
-        inputs_.whole_key,
-        inputs_.study.output.checkpoint,
-        !request_.force,
-        print_line,
-        {inputs_.study.transient->duration, inputs_.study.transient->max_hours, print_line}};
-    run_jobs(comm_, inputs_.study, scenes_, placed_.size(), nodes_.size(), callback, checkpoints, out_);
-    core::agree(comm_, [&] { add_wear(inputs_.study, worn_, placed_, other_runs_, out_); });
+    Checkpoints checkpoints(
+        {inputs_.directory,
+         FRETWORK_VERSION,
+         inputs_.whole_key,
+         inputs_.study.output.checkpoint,
+         !request_.force,
+         print_line,
+         {inputs_.study.transient->duration, inputs_.study.transient->max_hours, print_line}});
+    app::run_transient(
+        {comm_, inputs_.study, placed_, worn_, other_runs_, at_contacts_, progress_, checkpoints}, scenes_,
+        nodes_.size(), out_);
     out_.timings.transient = watch_.lap();
   }
 

@@ -176,7 +176,7 @@ struct Outcomes {
 /// Collective: runs the scenes of this rank, those of `mine`.
 Outcomes run_own(MPI_Comm comm, const study::Study& study, const std::vector<BuiltScene>& scenes,
                  const std::vector<transient::StepChoice>& choices, const std::vector<std::size_t>& mine,
-                 bool verified, const ProgressCallback& progress, const CheckpointOptions& options) {
+                 bool verified, const AroundRuns& around) {
   Outcomes out{std::vector<JobResult>(scenes.size()), std::vector<HalfRun>(verified ? scenes.size() : 0)};
   const auto half_steps = [&](std::size_t s) {
     return verified ? transient::halved(choices[s]).steps : std::int64_t{0};
@@ -184,20 +184,22 @@ Outcomes run_own(MPI_Comm comm, const study::Study& study, const std::vector<Bui
   std::int64_t all_steps = 0;
   for (const std::size_t s : mine)
     all_steps += choices[s].steps + half_steps(s);
+  const ProgressCallback& progress = around.progress;
   SharedProgress shared(progress, all_steps, study.transient->duration);
-  Checkpoints checkpoints(options);
   core::agree(comm, [&] {
     for (const std::size_t s : mine) {
       ProgressObserver observer = shared.next(choices[s].steps);
       const auto make = [&] {
         return std::make_unique<Job>(study, scenes[s], choices[s], progress ? &observer : nullptr);
       };
-      const bool others = s != mine.back();
-      out.jobs[s] = std::move(*resumed_run(make, s, checkpoints, others || verified)).result();
+      const bool others = s != mine.back() || around.others_follow;
+      const std::size_t number = around.first_checkpoint + s;
+      out.jobs[s] = std::move(*resumed_run(make, number, around.checkpoints, others || verified)).result();
       if (verified) {
         ProgressObserver at_half = shared.next(half_steps(s));
-        out.halves[s] = run_at_half(scenes[s].scene, choices[s], study.output.statistics_from,
-                                    progress ? &at_half : nullptr, scenes.size() + s, checkpoints, others);
+        out.halves[s] =
+            run_at_half(scenes[s].scene, choices[s], study.output.statistics_from,
+                        progress ? &at_half : nullptr, scenes.size() + number, around.checkpoints, others);
       }
     }
   });
@@ -252,8 +254,7 @@ Forecast check_jobs(MPI_Comm comm, const study::Study& study, const std::vector<
 }
 
 void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltScene>& scenes,
-              std::size_t contacts, std::size_t nodes, const ProgressCallback& progress,
-              const CheckpointOptions& checkpoint_options, results::RunResults& out) {
+              std::size_t contacts, std::size_t nodes, const AroundRuns& around, results::RunResults& out) {
   check_size_of_series(study, scenes);
   const std::vector<transient::StepChoice> choices = choose_steps(comm, study, scenes);
   const int ranks = core::size(comm);
@@ -264,7 +265,7 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
       mine.push_back(s);
   const bool verified =
       study.transient->verify && contacts > 0; // statistics of contacts are what is compared
-  Outcomes outcomes = run_own(comm, study, scenes, choices, mine, verified, progress, checkpoint_options);
+  Outcomes outcomes = run_own(comm, study, scenes, choices, mine, verified, around);
   make_room(study, contacts, nodes, out);
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     if (ranks > 1)

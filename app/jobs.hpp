@@ -15,12 +15,20 @@ namespace fretwork::app {
 [[nodiscard]] std::vector<transient::StepChoice> choose_steps(MPI_Comm comm, const study::Study& study,
                                                               const std::vector<BuiltScene>& scenes);
 
+/// What watches and keeps the runs.
+struct AroundRuns {
+  const ProgressCallback& progress;
+  Checkpoints& checkpoints;
+  /// Of a study that is run several times: the numbers of its checkpoints start here; whether this time is not the last.
+  std::size_t first_checkpoint = 0;
+  bool others_follow = false;
+};
+
 /// Collective. Runs every scene and fills contact_summaries, node_summaries, transients and series of `out`,
 /// complete on rank 0. Each goes on from its checkpoint, if there is one.
 /// @throws core::Error where the series would not fit in memory, core::ComputationError where a run diverged
 void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltScene>& scenes,
-              std::size_t contacts, std::size_t nodes, const ProgressCallback& progress,
-              const CheckpointOptions& checkpoints, results::RunResults& out);
+              std::size_t contacts, std::size_t nodes, const AroundRuns& around, results::RunResults& out);
 
 /// What a run of the scenes would be.
 struct Forecast {

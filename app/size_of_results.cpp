@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/size_of_results.hpp"
+#include "app/jobs.hpp"
+#include "results/figures.hpp"
+#include "results/totals.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -53,6 +56,22 @@ void leave_out_series(const study::Study& study, const std::vector<PlacedContact
     });
     return found != placed.end() && !study.contacts[found->entry].series;
   });
+}
+
+std::string forecast_text(MPI_Comm comm, const study::Study& study, const std::vector<BuiltScene>& scenes,
+                          const std::vector<PlacedContact>& placed, results::RunResults& out) {
+  const Forecast forecast = check_jobs(comm, study, scenes);
+  out.warnings.insert(out.warnings.end(), forecast.warnings.begin(), forecast.warnings.end());
+  const SizeOfResults size = size_of_results(study, scenes, placed, forecast.outputs, forecast.impact_rows);
+  const std::string steps = forecast.steps > 0.0
+                                ? results::counted(static_cast<std::int64_t>(forecast.steps), "step")
+                                : std::string("steps as the tolerance asks for");
+  return fmt::format(
+      "  {}; a run: {:g} s, {}{}; results.h5: {} of series, up to {} of impacts\n",
+      results::counted(static_cast<std::int64_t>(results::sorted_modes(out.bases).size()), "mode"),
+      study.transient->duration, steps,
+      study.gap_opening ? fmt::format(", up to {} times", study.gap_opening->stages) : "",
+      size_text(size.series), size_text(size.impacts));
 }
 
 } // namespace fretwork::app

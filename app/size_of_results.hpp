@@ -4,6 +4,7 @@
 #pragma once
 #include "app/build_scene.hpp"
 #include "results/run_results.hpp"
+#include <mpi.h>
 
 namespace fretwork::app {
 
@@ -19,6 +20,12 @@ struct SizeOfResults {
 
 /// 950 kB, 26 MB, 1.04 GB
 [[nodiscard]] std::string size_text(double bytes);
+
+/// Collective. How long a run would be and how much it would write, for `check`; warnings of its steps go to `out`.
+/// @throws core::Error  what a run would refuse before its first step
+[[nodiscard]] std::string forecast_text(MPI_Comm comm, const study::Study& study,
+                                        const std::vector<BuiltScene>& scenes,
+                                        const std::vector<PlacedContact>& placed, results::RunResults& out);
 
 /// Takes the series that the study does not want (output.modal, series of [[contacts]]) out of the results.
 void leave_out_series(const study::Study& study, const std::vector<PlacedContact>& placed,

@@ -96,7 +96,7 @@ void make_keys(const Request& request, Inputs& inputs) {
   inputs.whole_key = core::sha256(
       inputs.modes_key +
       text({"title", "contacts", "flow_laws", "stability", "turbulence", "response", "loads", "gravity",
-            "base_motion", "support_motion", "initial", "transient", "output", "wear"}) +
+            "base_motion", "support_motion", "initial", "transient", "output", "wear", "gap_opening"}) +
       text_of(read_other_runs(inputs.study, inputs.run_directory)));
 }
 

@@ -10,6 +10,7 @@ namespace {
 
 constexpr const char* curve_suffix = "_wear.csv";
 constexpr const char* sector_suffix = "_wear_sectors.csv";
+constexpr const char* opening_name = "gap_opening.csv";
 
 /// A text cell: between quotes, those in it doubled.
 std::string cell(const std::string& text) {
@@ -68,14 +69,33 @@ std::string sectors_text(const WearOfSupport& s) {
   return text;
 }
 
+std::string opening_text(const Wear& wear) {
+  std::string text = fmt::format("support,stage,end [s],gap [m],{},{},{}\n", bounds_head("work_rate", "W"),
+                                 bounds_head("depth", "m"), bounds_head("support_depth", "m"));
+  for (std::size_t s = 0; s < wear.opening->supports.size(); ++s) {
+    const OpenedSupport& opened = wear.opening->supports[s];
+    for (std::size_t i = 0; i < wear.opening->time.size(); ++i) {
+      text += fmt::format("{},{},{},{}", cell(wear.supports[s].name), i + 1, wear.opening->time[i],
+                          opened.gap[i]);
+      for (const WearCurves* c : {&opened.work_rate, &opened.depth, &opened.support_depth})
+        text += ',' + value_and_bounds({c->value[i], c->low[i], c->high[i]});
+      text += '\n';
+    }
+  }
+  return text;
+}
+
 } // namespace
 
 bool is_wear_csv(const std::string& file_name) {
-  return file_name == "wear.csv" || file_name.ends_with(curve_suffix) || file_name.ends_with(sector_suffix);
+  return file_name == "wear.csv" || file_name == opening_name || file_name.ends_with(curve_suffix) ||
+         file_name.ends_with(sector_suffix);
 }
 
 void export_wear_csv(const std::filesystem::path& directory, const Wear& wear) {
   write_text(directory / "wear.csv", supports_text(wear));
+  if (wear.opening)
+    write_text(directory / opening_name, opening_text(wear));
   for (const WearOfSupport& s : wear.supports) {
     write_text(directory / (path_name(s.name) + curve_suffix), curves_text(s));
     write_text(directory / (path_name(s.name) + sector_suffix), sectors_text(s));

@@ -91,11 +91,11 @@ WearLife read_life(const h5::Group& group, const std::string& name) {
 }
 
 /// n rows of value, low, high.
-void write_curves(const h5::Group& group, const CurvesOf& which, const WearCurves& c) {
+void write_curves(const h5::Group& group, const char* name, const char* unit, const WearCurves& c) {
   std::vector<double> rows;
   for (std::size_t i = 0; i < c.value.size(); ++i)
     rows.insert(rows.end(), {c.value[i], c.low[i], c.high[i]});
-  group.write<double>(which.name, rows, {c.value.size(), 3}, std::string(which.unit) + ": value, low, high");
+  group.write<double>(name, rows, {c.value.size(), 3}, std::string(unit) + ": value, low, high");
 }
 
 WearCurves read_curves(const h5::Group& group, const char* name) {
@@ -135,7 +135,7 @@ void write_support(const h5::Group& group, const WearOfSupport& s, std::size_t i
   write_life(group, "support_life", s.support_life);
   group.write<std::int64_t>("contacts", s.contacts, {s.contacts.size()}, "numbers of contacts");
   for (const CurvesOf& which : curves)
-    write_curves(group, which, s.*which.value);
+    write_curves(group, which.name, which.unit, s.*which.value);
   for (const ListOf& list : lists)
     if (!(s.*list.value).empty())
       group.write<double>(list.name, s.*list.value, {(s.*list.value).size()}, list.unit);
@@ -178,12 +178,58 @@ WearOfSupport read_support(const h5::Group& group) {
   return s;
 }
 
+struct OpenedCurves {
+  const char* name;
+  const char* unit;
+  WearCurves OpenedSupport::*value;
+};
+constexpr OpenedCurves opened_curves[] = {{"work_rate", "W", &OpenedSupport::work_rate},
+                                          {"depth", "m", &OpenedSupport::depth},
+                                          {"support_depth", "m", &OpenedSupport::support_depth}};
+
+void write_opening(const h5::Group& root, const Wear& wear) {
+  const GapOpening& opening = *wear.opening;
+  const h5::Group all = root.create("gap_opening");
+  all.set("end", opening.end);
+  all.set("reason", opening.reason);
+  all.write<double>("time", opening.time, {opening.time.size()}, "s, at the end of each stage");
+  const h5::Group supports = all.create("supports");
+  for (std::size_t s = 0; s < opening.supports.size(); ++s) {
+    const OpenedSupport& opened = opening.supports[s];
+    const h5::Group group = supports.create(path_name(wear.supports[s].name));
+    group.write<double>("gap", opened.gap, {opened.gap.size()}, "m, during each stage");
+    for (const OpenedCurves& which : opened_curves)
+      write_curves(group, which.name, which.unit, opened.*which.value);
+    write_life(group, "life", opened.life);
+  }
+}
+
+GapOpening read_opening(const h5::Group& root, const Wear& wear) {
+  const h5::Group all = root.open("gap_opening"), supports = all.open("supports");
+  GapOpening out{all.text("end"), all.text("reason"), all.read<double>("time"), {}};
+  for (const WearOfSupport& s : wear.supports) {
+    const h5::Group group = supports.open(path_name(s.name));
+    OpenedSupport opened;
+    opened.gap = group.read<double>("gap");
+    for (const OpenedCurves& which : opened_curves)
+      opened.*which.value = read_curves(group, which.name);
+    opened.life = read_life(group, "life");
+    for (const OpenedCurves& which : opened_curves)
+      if ((opened.*which.value).value.size() != out.time.size() || opened.gap.size() != out.time.size())
+        throw h5::Failure("stages of gap opening of unequal length");
+    out.supports.push_back(std::move(opened));
+  }
+  return out;
+}
+
 } // namespace
 
 void write_wear(const h5::Group& root, const Wear& wear) {
   const h5::Group all = root.create("wear");
   for (std::size_t s = 0; s < wear.supports.size(); ++s)
     write_support(all.create(path_name(wear.supports[s].name)), wear.supports[s], s);
+  if (wear.opening)
+    write_opening(root, wear);
 }
 
 Wear read_wear(const h5::Group& root) {
@@ -196,6 +242,8 @@ Wear read_wear(const h5::Group& root) {
   for (const auto& entry : order)
     wear.supports.push_back(read_support(all.open(entry.second)));
   wear.tubes = wear_by_tube(wear.supports);
+  if (root.has("gap_opening"))
+    wear.opening = read_opening(root, wear);
   return wear;
 }
 

@@ -108,6 +108,33 @@ Json tube(const WearOfTube& t) {
           {"first_support", t.first.empty() ? Json(nullptr) : Json(t.first)}};
 }
 
+Json by_stage(const WearCurves& c) {
+  Json out = Json::array();
+  for (std::size_t i = 0; i < c.value.size(); ++i)
+    out.push_back(bounds({c.value[i], c.low[i], c.high[i]}));
+  return out;
+}
+
+Json gap_opening(const Wear& wear) {
+  const GapOpening& opening = *wear.opening;
+  Json years = Json::array(), supports = Json::array();
+  for (const double time : opening.time)
+    years.push_back(number(time / fretwork::wear::year));
+  for (std::size_t s = 0; s < opening.supports.size(); ++s) {
+    const OpenedSupport& opened = opening.supports[s];
+    supports.push_back({{"name", wear.supports[s].name},
+                        {"gap_m", numbers(opened.gap)},
+                        {"work_rate", by_stage(opened.work_rate)},
+                        {"depth_m", by_stage(opened.depth)},
+                        {"support_depth_m", by_stage(opened.support_depth)},
+                        {"life_years", life(opened.life)}});
+  }
+  return {{"end", opening.end},
+          {"reason", opening.reason.empty() ? Json(nullptr) : Json(opening.reason)},
+          {"years", years},
+          {"supports", supports}};
+}
+
 } // namespace
 
 Json wear_json(const Wear& wear, const std::vector<std::string>& contacts) {
@@ -116,7 +143,10 @@ Json wear_json(const Wear& wear, const std::vector<std::string>& contacts) {
     supports.push_back(support(s, contacts));
   for (const WearOfTube& t : wear.tubes)
     tubes.push_back(tube(t));
-  return {{"supports", supports}, {"tubes", tubes}};
+  Json out{{"supports", supports}, {"tubes", tubes}};
+  if (wear.opening)
+    out["gap_opening"] = gap_opening(wear);
+  return out;
 }
 
 } // namespace fretwork::results

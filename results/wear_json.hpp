@@ -16,7 +16,8 @@ namespace fretwork::results {
 /// Lines of the terminal table, without a label: one a support, at most a dozen, of more the shortest lives; one a tube; one a coefficient of the bank.
 [[nodiscard]] std::vector<std::string> wear_lines(const Wear& wear);
 
-/// wear.csv: one support a row; <name>_wear.csv: volume and depth against time; <name>_wear_sectors.csv: work and depth by angle.
+/// wear.csv: one support a row; <name>_wear.csv: volume and depth against time; <name>_wear_sectors.csv: work and depth by angle;
+/// gap_opening.csv, where gaps were opened: one stage of one support a row.
 /// @throws core::Error if a file cannot be written
 void export_wear_csv(const std::filesystem::path& directory, const Wear& wear);
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -91,9 +92,28 @@ struct WearOfTube {
   std::string first;   ///< the support that ends it
 };
 
+/// One support through the stages of gap opening; lists by stage.
+struct OpenedSupport {
+  std::vector<double> gap;  ///< m, during the stage, in the direction of wear
+  WearCurves work_rate;     ///< W, mean over its states, at that gap
+  WearCurves depth;         ///< m, of the tube at the end of the stage; not a number beyond the geometry
+  WearCurves support_depth; ///< m
+  WearLife life;            ///< beyond the last stage at its work rates
+};
+
+/// The run repeated at the gaps that its wear has opened (wear/gap_opening.hpp). The wear of supports above is that of the first stage alone.
+struct GapOpening {
+  /// "life_reached", "geometry_stands", "horizon_reached", "stages_used", "beyond_geometry"
+  std::string end;
+  std::string reason;                  ///< of "beyond_geometry", the message; else empty
+  std::vector<double> time;            ///< s, at the end of each stage
+  std::vector<OpenedSupport> supports; ///< as Wear::supports
+};
+
 struct Wear {
   std::vector<WearOfSupport> supports;
   std::vector<WearOfTube> tubes;
+  std::optional<GapOpening> opening; ///< where the study asks for it
 };
 
 /// Sums and extremes over the supports of each tube, by the number of the tube.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/figures.hpp"
 #include "results/text_file.hpp"
 #include "results/wear_json.hpp"
 #include <algorithm>
@@ -71,6 +72,36 @@ void add_tubes(std::vector<std::string>& lines, const Wear& wear) {
                                 t.first.empty() ? "" : "first: " + shortened(t.first, support_width)));
 }
 
+std::string end_text(const GapOpening& opening) {
+  if (opening.end == "life_reached")
+    return "a tube has lost its limit";
+  if (opening.end == "geometry_stands")
+    return "the geometry stands";
+  if (opening.end == "horizon_reached")
+    return "the end of the time";
+  return opening.end == "stages_used" ? "no more stages" : "beyond the geometry";
+}
+
+/// Gap and work rate from the first stage to the last, depth at the end, life.
+void add_opening(std::vector<std::string>& lines, const Wear& wear, const std::vector<std::size_t>& shown) {
+  const GapOpening& opening = *wear.opening;
+  if (opening.time.empty())
+    return;
+  lines.push_back(fmt::format("  gaps opened in {} up to {:.4g} years: {}",
+                              counted(static_cast<std::int64_t>(opening.time.size()), "stage"),
+                              opening.time.back() / fretwork::wear::year, end_text(opening)));
+  lines.push_back(fmt::format("  {:<16} {:>18} {:>22} {:>22} {:>22}", "", "gap mm", "work W", "depth mm",
+                              "years to the limit"));
+  for (const std::size_t s : shown) {
+    const OpenedSupport& o = opening.supports[s];
+    lines.push_back(
+        fmt::format("  {:<16} {:>18} {:>22} {:>22} {:>22}", shortened(wear.supports[s].name, support_width),
+                    fmt::format("{:.3g} -> {:.3g}", millimetre * o.gap.front(), millimetre * o.gap.back()),
+                    fmt::format("{:.3g} -> {:.3g}", o.work_rate.value.front(), o.work_rate.value.back()),
+                    with_bounds(o.depth.last(), millimetre), with_bounds(o.life.years, 1.0)));
+  }
+}
+
 } // namespace
 
 std::vector<std::string> wear_lines(const Wear& wear) {
@@ -102,6 +133,8 @@ std::vector<std::string> wear_lines(const Wear& wear) {
     lines.push_back(fmt::format("  the 10 of {} supports with the shortest lives", wear.supports.size()));
   add_tubes(lines, wear);
   add_sources(lines, wear);
+  if (wear.opening)
+    add_opening(lines, wear, shown);
   return lines;
 }
 

@@ -12,11 +12,11 @@ namespace fretwork::study {
 namespace {
 
 const Keys study_keys{
-    {"title",          "mesh",       "materials", "sections", "beams",    "restraints",
-     "masses",         "springs",    "ties",      "modes",    "contacts", "flow",
-     "stability",      "turbulence", "response",  "loads",    "gravity",  "base_motion",
-     "support_motion", "initial",    "transient", "output",   "wear",     "contact_defaults",
-     "sweep",          "flow_laws"}};
+    {"title",          "mesh",       "materials",  "sections", "beams",    "restraints",
+     "masses",         "springs",    "ties",       "modes",    "contacts", "flow",
+     "stability",      "turbulence", "response",   "loads",    "gravity",  "base_motion",
+     "support_motion", "initial",    "transient",  "output",   "wear",     "contact_defaults",
+     "sweep",          "flow_laws",  "gap_opening"}};
 
 [[maybe_unused]] bool is_key(const std::string& name) {
   return std::find(study_keys.known.begin(), study_keys.known.end(), name) != study_keys.known.end();
@@ -65,6 +65,7 @@ Study read(const Document& document, const std::vector<std::string>& overrides) 
   study.initial = read_initial(root, study.transient);
   study.output = read_output(root, study.transient);
   study.wear = read_wear(root, folder);
+  study.gap_opening = read_gap_opening(root, study.wear);
   return study;
 }
 

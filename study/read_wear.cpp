@@ -273,4 +273,29 @@ std::vector<Wear> read_wear(const TableReader& root, const fs::path& folder) {
   return all;
 }
 
+std::optional<GapOpening> read_gap_opening(const TableReader& root, const std::vector<Wear>& wear) {
+  const Value* found = root.find("gap_opening");
+  if (!found)
+    return {};
+  const TableReader table(*found, "gap_opening",
+                          {{"stages", "years", "gap_share", "wall_share", "least_wall_share"}});
+  if (wear.empty())
+    table.fail_table("there is no [[wear]] that could open gaps; add it, or leave [gap_opening] out");
+  GapOpening out;
+  out.stages = table.optional_integer("stages", 1).value_or(out.stages);
+  out.years = 0.0;
+  for (const Wear& entry : wear)
+    out.years = std::max(out.years, entry.years);
+  out.years = table.number_or("years", out.years, {Range::above_zero, "years"});
+  out.gap_share = table.number_or("gap_share", out.gap_share, {Range::above_zero});
+  out.wall_share = table.number_or("wall_share", out.wall_share, {Range::above_zero});
+  out.least_wall_share = table.number_or("least_wall_share", std::min(out.least_wall_share, out.wall_share),
+                                         {Range::above_zero});
+  if (out.least_wall_share > out.wall_share)
+    table.fail_at("least_wall_share", fmt::format("above wall_share = {:g}, of which it is the lower bound; "
+                                                  "give at most as much",
+                                                  out.wall_share));
+  return out;
+}
+
 } // namespace fretwork::study

@@ -46,5 +46,8 @@ read_turbulence(const TableReader& root, const std::filesystem::path& folder, co
 [[nodiscard]] std::optional<Transient> read_transient(const TableReader& root);
 [[nodiscard]] Output read_output(const TableReader& root, const std::optional<Transient>& transient);
 [[nodiscard]] std::vector<Wear> read_wear(const TableReader& root, const std::filesystem::path& folder);
+/// The wear must have been read.
+[[nodiscard]] std::optional<GapOpening> read_gap_opening(const TableReader& root,
+                                                         const std::vector<Wear>& wear);
 
 } // namespace fretwork::study

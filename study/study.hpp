@@ -238,6 +238,7 @@ struct Study {
   std::optional<Transient> transient; ///< needed by `run` and `transient` only
   Output output;
   std::vector<Wear> wear;
+  std::optional<GapOpening> gap_opening;
 };
 
 /// Read and check a study file and the files of its load tables; the mesh is not opened. `overrides` are the

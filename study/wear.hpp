@@ -8,6 +8,7 @@
 #include "wear/life.hpp"
 #include "wear/sectors.hpp"
 #include "wear/work_rate.hpp"
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -52,6 +53,14 @@ struct Wear {
   std::optional<double> confidence; ///< of the interval of a work rate; none: +- its standard error
   int sectors = 36;                 ///< of the work by angle
   std::vector<WearState> states{{"this run", 1.0, {}, {}}};
+};
+
+/// `[gap_opening]`: the run is repeated at the gaps that wear has opened.
+struct GapOpening {
+  std::int64_t stages = 20; ///< runs at most, the first one included
+  double years = 40.0;      ///< that are followed at most
+  double gap_share = 0.1, wall_share = 0.05,
+         least_wall_share = 0.005; ///< of wear::AdvanceOptions
 };
 
 } // namespace fretwork::study

@@ -7,12 +7,15 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace fretwork::wear {
 
 namespace {
 
 constexpr double root_error = 1e-12; ///< of a depth from a bracketed root
+/// A time to the limit is looked for between these, s, in steps of a factor.
+constexpr double first_look = 0.01 * year, last_look = 1e9 * year, look_factor = 1.05;
 
 /// A place with its rates of wear.
 struct Wearing {
@@ -69,7 +72,7 @@ void limit_by(const Wearing& at, std::size_t place, const AdvanceOptions& option
   const Allowed allowed = allowed_growth(at, options);
   if (shorten(out.time, [&](double time) {
         const auto depth = at.depth(time);
-        // beyond the geometry: as deep as it describes; if even that is allowed, state_after refuses
+        // beyond the geometry: as deep as it describes; if even that is allowed, described_state_after refuses
         return (depth ? depth->total() : largest_depth(at.place.support.pairing)) - before - allowed.growth;
       })) {
     out.limit = allowed.limit;
@@ -109,11 +112,13 @@ void check_lengths(std::size_t places, std::size_t states, std::size_t loads) {
 }
 
 /// Runs `work` and names the place in its message.
-template <class Work> auto at_place(std::size_t place, Work work) {
+template <class Work> auto at_place(std::span<const Place> places, std::size_t place, Work work) {
   try {
     return work();
   } catch (const core::Error& error) {
-    throw core::Error(fmt::format("place {}: {}", place + 1, error.what()));
+    const std::string& name = places[place].name;
+    throw core::Error(
+        fmt::format("{}: {}", name.empty() ? fmt::format("place {}", place + 1) : name, error.what()));
   }
 }
 
@@ -133,7 +138,8 @@ Wearing wearing_at(const Place& place, const PlaceState& state, std::span<const 
   return out;
 }
 
-PlaceState state_after(const Wearing& at, double time) {
+/// Nothing beyond the geometry.
+std::optional<PlaceState> state_after(const Wearing& at, double time) {
   PlaceState out = at.state;
   out.tube_volume = at.tube_volume(time);
   out.support_volume = at.support_volume(time);
@@ -141,13 +147,19 @@ PlaceState state_after(const Wearing& at, double time) {
   out.support_age += time;
   const auto depth = at.depth_of(out.tube_volume, out.support_volume);
   if (!depth)
-    throw core::Error(
-        fmt::format("wear leaves what its geometry describes (depth {:g} m); take the exact form or a "
-                    "lower limit",
-                    largest_depth(at.place.support.pairing)));
+    return {};
   out.depth = *depth;
   out.gap = at.place.initial_gap + depth->total();
   return out;
+}
+
+PlaceState described_state_after(const Wearing& at, double time) {
+  if (auto out = state_after(at, time))
+    return *out;
+  throw core::Error(
+      fmt::format("wear leaves what its geometry describes (depth {:g} m); take the exact form or a "
+                  "lower limit",
+                  largest_depth(at.place.support.pairing)));
 }
 
 } // namespace
@@ -178,16 +190,16 @@ Advance advance(std::span<const Place> places, std::span<const PlaceState> state
   std::vector<Wearing> wearing;
   for (std::size_t k = 0; k < places.size(); ++k)
     wearing.push_back(
-        at_place(k, [&] { return wearing_at(places[k], states[k], loads[k], k, out.outside); }));
+        at_place(places, k, [&] { return wearing_at(places[k], states[k], loads[k], k, out.outside); }));
   bool any = false;
   for (std::size_t k = 0; k < places.size(); ++k) {
-    at_place(k, [&] { limit_by(wearing[k], k, options, out); });
+    at_place(places, k, [&] { limit_by(wearing[k], k, options, out); });
     any = any || wearing[k].wears();
   }
   if (!any && out.progress == Progress::horizon_reached)
     out.progress = Progress::geometry_stands;
   for (std::size_t k = 0; k < places.size(); ++k)
-    out.states.push_back(at_place(k, [&] { return state_after(wearing[k], out.time); }));
+    out.states.push_back(at_place(places, k, [&] { return described_state_after(wearing[k], out.time); }));
   return out;
 }
 
@@ -197,6 +209,36 @@ Advance advance(std::span<const Place> places, std::span<const PlaceState> state
   for (const double work_rate : work_rates)
     loads.push_back({OperatingState{1.0, work_rate}});
   return advance(places, states, loads, options);
+}
+
+std::optional<PlaceState> state_after(const Place& place, const PlaceState& state,
+                                      std::span<const OperatingState> loads, double time) {
+  check_not_negative("gap opening", "time", time, "s");
+  std::vector<PlaceOutside> outside;
+  return state_after(wearing_at(place, state, loads, 0, outside), time);
+}
+
+double time_to_limit(const Place& place, const PlaceState& state, std::span<const OperatingState> loads) {
+  std::vector<PlaceOutside> outside;
+  const Wearing at = wearing_at(place, state, loads, 0, outside);
+  const double limit = place.support.limit * place.support.wall;
+  const auto lost = [&](double time) {
+    const auto depth = at.depth(time);
+    return depth ? depth->tube - limit : limit; // beyond the geometry: the root is then checked
+  };
+  if (lost(0.0) >= 0.0)
+    return 0.0;
+  if (!at.wears())
+    return std::numeric_limits<double>::infinity();
+  double before = 0.0;
+  for (double time = first_look; time < last_look; time *= look_factor) {
+    if (lost(time) >= 0.0) {
+      const double found = root(lost, before, time);
+      return at.depth(found) ? found : std::numeric_limits<double>::infinity();
+    }
+    before = time;
+  }
+  return std::numeric_limits<double>::infinity();
 }
 
 std::vector<contact::PolarPoint> opened_profile(std::span<const PlaceState> sectors) {

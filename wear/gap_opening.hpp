@@ -24,13 +24,15 @@
 #include "wear/laws.hpp"
 #include "wear/life.hpp"
 #include <span>
+#include <string>
 #include <vector>
 
 namespace fretwork::wear {
 
 struct Place {
-  WornSupport support; ///< its `support_limit` does not count here
-  double initial_gap;  ///< m, >= 0: of new tube and support, in the direction of wear
+  WornSupport support;   ///< its `support_limit` does not count here
+  double initial_gap;    ///< m, >= 0: of new tube and support, in the direction of wear
+  std::string name = {}; ///< in messages; empty: the number of the place
 };
 
 struct PlaceState {
@@ -74,7 +76,7 @@ struct Advance {
 };
 
 /// @param loads  operating states of each place at the present gaps
-/// @throws core::Error for input out of range (naming the place, from 1), lists of different lengths, and for a place
+/// @throws core::Error for input out of range (naming the place), lists of different lengths, and for a place
 /// whose wear leaves what its geometry describes
 [[nodiscard]] Advance advance(std::span<const Place> places, std::span<const PlaceState> states,
                               std::span<const std::vector<OperatingState>> loads,
@@ -82,6 +84,16 @@ struct Advance {
 /// One operating state each. @param work_rates  W
 [[nodiscard]] Advance advance(std::span<const Place> places, std::span<const PlaceState> states,
                               std::span<const double> work_rates, const AdvanceOptions& options);
+
+/// The state after a time (s, >= 0) at constant work rates; nothing: the wear leaves what its geometry describes. A law that does not
+/// apply wears nothing.
+/// @throws core::Error for input out of range
+[[nodiscard]] std::optional<PlaceState> state_after(const Place& place, const PlaceState& state,
+                                                    std::span<const OperatingState> loads, double time);
+/// s from the state until the tube has lost its limit at constant work rates; infinity: never, or beyond the geometry.
+/// @throws core::Error for input out of range
+[[nodiscard]] double time_to_limit(const Place& place, const PlaceState& state,
+                                   std::span<const OperatingState> loads);
 
 /// Polar points (rad, m) of the free space of the tube's centre, one at the middle of each sector of sectors.hpp, for
 /// contact::Profile. Facets join them: between two middles of gap g the free space is narrower by up to

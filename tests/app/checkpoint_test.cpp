@@ -111,6 +111,26 @@ TEST(Checkpoint, KeepsTheWorkByAngleOfAWornTube) {
   EXPECT_TRUE(read_results(folder.path("results")).summary.contains("wear"));
 }
 
+TEST(Checkpoint, GoesOnInTheStageOfGapOpeningThatWasKilled) {
+  const Workshop folder;
+  const fs::path study = folder.write(
+      "worn.toml",
+      bundle(folder, 1, "[transient]\nduration = 0.5\nstep = 2e-6\n[output]\ncheckpoint = 0.01\n") +
+          across("drive0") + "[[wear]]\ncoefficient = 2e-14\nlength = 0.02\n[gap_opening]\nstages = 3\n");
+  const auto arguments = [&](const std::string& output) {
+    return std::vector<std::string>{"run", study.string(), "--no-report", "-o", folder.path(output).string()};
+  };
+  (void)completed(folder, arguments("whole"));
+  const fs::path second =
+      folder.path("results") / "checkpoint-3.h5"; // two numbers a stage: one may be verified
+  kill_after(folder, arguments("results"), second, 0.0);
+  const std::string told = completed(folder, arguments("results"));
+  EXPECT_TRUE(says(told, "going on from " + (folder.path("results") / "checkpoint.h5").string()));
+  EXPECT_TRUE(says(told, "going on from " + second.string()));
+  expect_same(folder, "whole", "results");
+  EXPECT_FALSE(fs::exists(second));
+}
+
 TEST(Checkpoint, HowOftenItIsWrittenIsNoInput) {
   const Workshop folder;
   (void)completed(folder, tube(folder, "results", {"--set", "output.checkpoint=0"}));

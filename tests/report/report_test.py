@@ -308,6 +308,8 @@ class Report(unittest.TestCase):
         self.assertIn("outside the law", wear)
         self.assertIn("tsp3: edf_mz does not apply: V0 is below S", wear)
         self.assertIn("never (124 – never)", wear)
+        self.assertIn("Gaps opened by wear in 2 stages up to 12.5 years: a tube has lost its limit.", wear)
+        self.assertIn(">0.2 → 0.25<", wear)
         for kind, count in (("Depth of wear of", 5), ("Scar of", 4), ("Work by angle of", 5), ("worn volume", 1)):
             self.assertEqual(wear.count(f'aria-label="{kind}'), count, kind)
         self.assertEqual(wear.count('class="band"'), 4)  # none outside the law

@@ -88,6 +88,20 @@ Wear made_up_wear(const RunResults& results) {
   for (std::size_t c = 0; c < results.contacts.size(); ++c)
     wear.supports.push_back(support(results, c));
   wear.tubes = wear_by_tube(wear.supports);
+  GapOpening& opening = wear.opening.emplace();
+  opening.end = "life_reached";
+  opening.time = {5.0 * wear::year, 12.5 * wear::year};
+  for (std::size_t c = 0; c < results.contacts.size(); ++c) {
+    const double rate = 1e-4 * static_cast<double>(c + 1);
+    const auto figures = [](double a, double b) {
+      return WearCurves{{a, b}, {0.9 * a, 0.8 * b}, {1.1 * a, 1.2 * b}};
+    };
+    opening.supports.push_back({{2e-4, 2.5e-4},
+                                figures(rate, 1.5 * rate),
+                                figures(1e-4, 3e-4),
+                                figures(5e-5, 1.5e-4),
+                                {"reached", {12.5 / (c + 1.0), 10.0 / (c + 1.0), 15.0 / (c + 1.0)}}});
+  }
   return wear;
 }
 

@@ -108,6 +108,14 @@ TEST(WearInTheSummary, HasEverySupportWithItsIntervals) {
   EXPECT_EQ(supports[3]["support_life_years"]["value"], 77.0);
   EXPECT_EQ(supports[3]["sectors"]["depth_m"].size(), 36u);
   EXPECT_EQ(summary["wear"]["tubes"][0]["supports"], 4);
+  const auto& opening = summary["wear"]["gap_opening"];
+  EXPECT_EQ(opening["end"], "life_reached");
+  EXPECT_TRUE(opening["reason"].is_null());
+  EXPECT_EQ(opening["years"], (std::vector<double>{5.0, 12.5}));
+  EXPECT_EQ(opening["supports"][1]["name"], "tsp2");
+  EXPECT_EQ(opening["supports"][1]["gap_m"], (std::vector<double>{2e-4, 2.5e-4}));
+  EXPECT_EQ(opening["supports"][1]["depth_m"][1]["high"], 1.2 * 3e-4);
+  EXPECT_EQ(opening["supports"][1]["life_years"]["low"], 5.0);
 }
 
 TEST(WearInTheSummary, IsThereOnlyWhereTheStudyAsksForIt) {
@@ -150,6 +158,19 @@ TEST(WearInTheArchive, IsReadBackBitForBit) {
     EXPECT_EQ(a.states[1].work_rate.has_interval, false);
   }
   EXPECT_EQ(in.wear->tubes.size(), out.wear->tubes.size());
+  const GapOpening &a = in.wear->opening.value(), &b = out.wear->opening.value();
+  EXPECT_EQ(a.end + a.reason, b.end + b.reason);
+  EXPECT_TRUE(same(a.time, b.time));
+  ASSERT_EQ(a.supports.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_TRUE(same(a.supports[i].gap, b.supports[i].gap));
+    for (const auto which : {&OpenedSupport::work_rate, &OpenedSupport::depth, &OpenedSupport::support_depth})
+      EXPECT_TRUE(same((a.supports[i].*which).value, (b.supports[i].*which).value) &&
+                  same((a.supports[i].*which).low, (b.supports[i].*which).low) &&
+                  same((a.supports[i].*which).high, (b.supports[i].*which).high));
+    EXPECT_EQ(a.supports[i].life.end, "reached");
+    EXPECT_EQ(a.supports[i].life.years.high, b.supports[i].life.years.high);
+  }
 }
 
 TEST(WearInTheArchive, IsThereOnlyWhereTheStudyAsksForIt) {
@@ -160,7 +181,7 @@ TEST(WearInTheArchive, IsThereOnlyWhereTheStudyAsksForIt) {
 
 TEST(WearOnTheTerminal, FitsItsWidthAndShowsTheShortestLives) {
   const auto lines = wear_lines(*worn(20).wear);
-  EXPECT_EQ(lines.size(), 1u + 10u + 1u + 1u + 1u);
+  EXPECT_EQ(lines.size(), 1u + 10u + 1u + 1u + 1u + 2u + 10u); // the last ones of gap opening
   for (const std::string& line : lines)
     EXPECT_LE(line.size(), widest) << line;
   EXPECT_THAT(lines[0], HasSubstr("in 40 years"));
@@ -170,6 +191,9 @@ TEST(WearOnTheTerminal, FitsItsWidthAndShowsTheShortestLives) {
   EXPECT_THAT(lines[11], HasSubstr("the 10 of 20 supports with the shortest lives"));
   EXPECT_THAT(lines[12], HasSubstr("first: tsp20"));
   EXPECT_EQ(lines[13], "  K = 2e-14 m2/N: 690_405 on flat_bar: made up");
+  EXPECT_EQ(lines[14], "  gaps opened in 2 stages up to 12.5 years: a tube has lost its limit");
+  EXPECT_THAT(lines[16],
+              HasSubstr("tsp20                   0.2 -> 0.25         0.002 -> 0.003     0.3 (0.24 to 0.36)"));
 }
 
 TEST(WearOnTheTerminal, SaysNeverAndOutsideTheLaw) {
@@ -193,11 +217,13 @@ TEST(ExportCsv, HasFilesOfWear) {
               HasSubstr("support,tube,law,coefficient [m2/N],source,work_rate [W],work_rate_low [W]"));
   EXPECT_THAT(table[1], HasSubstr("\"tsp1\",0,archard,2e-14,"));
   EXPECT_THAT(table[2], HasSubstr("\"a \"\"b\"\", c\""));
+  EXPECT_EQ(lines_of(folder / "gap_opening.csv").size(), 1u + 2u * 2u);
   EXPECT_EQ(lines_of(folder / "tsp1_wear.csv").size(), 42u);
   EXPECT_EQ(lines_of(folder / "tsp2_wear_sectors.csv").size(), 37u);
   EXPECT_EQ(lines_of(folder / "tsp2_wear_sectors.csv")[0], "from [rad],to [rad],work_rate [W]");
   export_csv(folder.path(), made_up({.contacts = 2, .outputs = 20})); // removes them
   EXPECT_FALSE(std::filesystem::exists(folder / "wear.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "gap_opening.csv"));
   EXPECT_FALSE(std::filesystem::exists(folder / "tsp2_wear_sectors.csv"));
 }
 

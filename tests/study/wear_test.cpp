@@ -190,6 +190,44 @@ TEST(MessagesOfWear, NameTheKeyTheValueAndTheCure) {
   }
 }
 
+TEST(GapOpening, HasTheYearsOfTheWear) {
+  const std::string wear =
+      "coefficient = 1e-14\nyears = 60\ncontacts = \"c\"\n[[wear]]\ncoefficient = 1e-14\n";
+  const Study study = read_text(wear_entry(wear + "[gap_opening]\n"));
+  EXPECT_EQ(study.gap_opening->stages, 20);
+  EXPECT_EQ(study.gap_opening->years, 60.0);
+  EXPECT_EQ(study.gap_opening->gap_share, 0.1);
+  EXPECT_EQ(study.gap_opening->wall_share, 0.05);
+  EXPECT_EQ(study.gap_opening->least_wall_share, 0.005);
+  EXPECT_FALSE(read_text(wear_entry(wear)).gap_opening);
+  const Study given = read_text(wear_entry(
+      wear +
+      "[gap_opening]\nstages = 5\nyears = 10\ngap_share = 0.2\nwall_share = 0.1\nleast_wall_share = 0.01"));
+  EXPECT_EQ(given.gap_opening->stages, 5);
+  EXPECT_EQ(given.gap_opening->years, 10.0);
+  EXPECT_EQ(given.gap_opening->gap_share, 0.2);
+  EXPECT_EQ(given.gap_opening->wall_share, 0.1);
+  EXPECT_EQ(given.gap_opening->least_wall_share, 0.01);
+}
+
+TEST(MessagesOfWear, NameTheKeyOfGapOpening) {
+  const std::string wear = "coefficient = 1e-14\n[gap_opening]\n";
+  const std::vector<Wrong> cases{
+      {wear + "stages = 0", "gap_opening.stages = 0: an integer >= 1 is expected"},
+      {wear + "years = 0", "gap_opening.years = 0: a number > 0 in years is expected"},
+      {wear + "gap_share = -1", "gap_opening.gap_share = -1: a number > 0"},
+      {wear + "wall_share = 0", "gap_opening.wall_share = 0: a number > 0"},
+      {wear + "least_wall_share = 0.06",
+       "gap_opening.least_wall_share = 0.06: above wall_share = 0.05, of which it is the lower bound"},
+      {wear + "stage = 3", "gap_opening.stage = 3: unknown key; did you mean \"stages\"?"}};
+  for (const Wrong& wrong : cases) {
+    const std::string message = message_of(wear_entry(wrong.keys));
+    EXPECT_NE(message.find(wrong.said), std::string::npos) << wrong.keys << "\n" << message;
+  }
+  EXPECT_NE(message_of(contact("[gap_opening]\n")).find("there is no [[wear]] that could open gaps"),
+            std::string::npos);
+}
+
 TEST(MessagesOfWear, NeedsContacts) {
   EXPECT_NE(message_of("[mesh]\nfile = \"a.msh\"\n[[wear]]\ncoefficient = 1e-14")
                 .find("wear.0: there are no [[contacts]] that could wear"),

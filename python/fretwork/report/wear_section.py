@@ -79,6 +79,36 @@ def _tubes(run):
     return table(heads, rows, (0, 5, 7)) if rows else ""
 
 
+_ENDS = {"life_reached": "a tube has lost its limit", "geometry_stands": "the geometry stands", "horizon_reached": "the end of the years",
+         "stages_used": "no more stages", "beyond_geometry": "beyond the geometry"}
+
+
+def _gap_opening(run):
+    """First and last stage of each support."""
+    opening = run.summary.get("wear", {}).get("gap_opening")
+    if not opening or not opening["years"]:
+        return ""
+
+    def bounds(figure, absent=math.nan):
+        return tuple(absent if figure[key] is None else figure[key] for key in ("value", "low", "high"))
+
+    def life(figure):  # summary.json has no infinity
+        known = figure["end"] in ("reached", "never")
+        return _bounds(bounds(figure, math.inf)) if known else figure["end"].replace("_", " the ")
+
+    rows = [
+        [html.escape(s["name"]), f"{short(1e3 * s['gap_m'][0])} → {short(1e3 * s['gap_m'][-1])}",
+         f"{_bounds(bounds(s['work_rate'][0]), 1e3)} → {_bounds(bounds(s['work_rate'][-1]), 1e3)}", _bounds(bounds(s["depth_m"][-1]), 1e3),
+         life(s["life_years"])]
+        for s in opening["supports"]
+    ]
+    note = (
+        f'<p class="soft">Gaps opened by wear in {len(opening["years"])} stages up to {short(opening["years"][-1])} years: {_ENDS[opening["end"]]}. '
+        "From the first stage to the last; all else of this section is the first stage.</p>"
+    )
+    return note + table(["support", "gap [mm]", "work rate [mW]", "depth at the end [mm]", "years to the limit"], rows, (0,))
+
+
 def _angles(run, support):
     window = run.time >= run.window
     parts = [wear_view.contact_angles(run.contacts[c], window) for c in support["contacts"] if run.contacts[c].normal is not None]
@@ -130,4 +160,4 @@ def wear(run):
     outside = "".join(warning(f"{s['name']}: {s['outside_law']}") for s in run.wear if s["outside_law"])
     panels = [_panel(run, support) for support in _shown(run.wear)]
     left = f'<p class="soft">The {PICTURES_OF_MANY} of {len(run.wear)} supports with the shortest lives.</p>' if len(panels) < len(run.wear) else ""
-    return section("Wear", note, outside, _supports(run.wear), _tubes(run), along, left + _EXPLANATION, *panels)
+    return section("Wear", note, outside, _supports(run.wear), _tubes(run), _gap_opening(run), along, left + _EXPLANATION, *panels)

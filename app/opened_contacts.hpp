@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Obstacles of contacts after wear.
+///
+/// All sides of an obstacle move away from the tube by p_t + p_s of its support: the sum of the clearances of two sides is an upper bound.
+///     circle, planes, stop      gap + growth
+///     ellipse                   semi-axes + growth
+///     broached                  radius of the lands + growth
+///     egg crate                 half widths + growth
+///     profile                   radius of each point + growth
+///     two nodes                 the bodies are smaller by growth: distances - growth, the gap of circle_inside + growth
+/// A circle that wears by angular sectors becomes the profile of its sectors (wear::opened_profile).
+#pragma once
+#include "app/build_contacts.hpp"
+#include "contact/profile.hpp"
+#include <span>
+
+namespace fretwork::app {
+
+/// @param growth  m, >= 0, of the gap as it was placed
+/// @throws core::Error where the obstacle does not exist any more (lands as wide as the lobes)
+[[nodiscard]] contact::Obstacle opened_obstacle(const study::Contact& contact,
+                                                const contact::Obstacle& obstacle, double growth);
+
+/// Whether its gap can open by angle: a circle round one node, of gap > 0.
+[[nodiscard]] bool opens_by_angle(const PlacedContact& placed);
+
+} // namespace fretwork::app

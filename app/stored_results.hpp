@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// What the results folder holds already.
+#pragma once
+#include "app/stages.hpp"
+#include <functional>
+#include <string>
+
+namespace fretwork::app {
+
+/// True where the results in the folder are whole and were computed from the same inputs. Damage is told.
+[[nodiscard]] bool up_to_date(const Inputs& inputs, const std::function<void(const std::string&)>& tell);
+
+} // namespace fretwork::app

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Obstacles whose sides have moved away by wear.
+#include "app/opened_contacts.hpp"
+#include "contact/support_shapes.hpp"
+#include "core/error.hpp"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <vector>
+
+namespace fretwork::app {
+namespace {
+
+constexpr double growth = 1e-4, radius = 9.525e-3; // m
+constexpr double round_off = 1e-15;                // m
+
+double gap_at(const contact::Obstacle& obstacle, double y, double z) {
+  return contact::locate(obstacle, y, z).gap;
+}
+
+void expect_wider(const study::Contact& contact, const contact::Obstacle& obstacle, double y, double z) {
+  EXPECT_NEAR(gap_at(opened_obstacle(contact, obstacle, growth), y, z), gap_at(obstacle, y, z) + growth,
+              round_off)
+      << y << ", " << z;
+}
+
+study::Contact of_kind(study::ObstacleKind kind) {
+  study::Contact contact;
+  contact.obstacle = kind;
+  contact.tube_radius = radius;
+  return contact;
+}
+
+} // namespace
+
+TEST(OpenedContacts, MoveEverySideAway) {
+  using contact::PlaneAxis;
+  const study::Contact any = of_kind(study::ObstacleKind::circle);
+  for (const auto& [y, z] : {std::pair(1e-4, 5e-5), std::pair(-2e-4, 0.0)}) {
+    expect_wider(any, contact::Circle{3e-4}, y, z);
+    expect_wider(any, contact::PlanePair{3e-4, PlaneAxis::y}, y, z);
+    expect_wider(any, contact::Stop{3e-4, PlaneAxis::y}, y, z);
+    expect_wider(any, contact::FacingPlanes{0.02, PlaneAxis::y, -1.0}, y - 0.02, z);
+    expect_wider(any, contact::RoundPair{0.02}, y, z + 0.03);
+  }
+  const contact::Obstacle ellipse = contact::elliptic_hole(radius, radius + 2e-4, radius + 3e-4);
+  expect_wider(any, ellipse, 1e-5, 0.0); // along an axis of the hole
+}
+
+TEST(OpenedContacts, MoveTheFacesOfAnEggCrate) {
+  const contact::Profile crate = contact::egg_crate(radius, radius + 2e-4, radius + 5e-4);
+  for (const auto& [y, z] : {std::pair(1e-4, 0.0), std::pair(0.0, -3e-4), std::pair(-3e-4, 1e-4)})
+    expect_wider(of_kind(study::ObstacleKind::egg_crate), crate, y, z);
+}
+
+TEST(OpenedContacts, WidenTheLandsOfABroachedHole) {
+  study::Contact contact = of_kind(study::ObstacleKind::broached);
+  contact.broached = contact::BroachedHole{radius + 2e-4, radius + 3e-3, 4, 0.3};
+  const contact::Obstacle hole = contact::broached_hole(radius, *contact.broached);
+  constexpr double chords = 2.0 * contact::default_chord_error;
+  EXPECT_NEAR(gap_at(opened_obstacle(contact, hole, growth), 1e-4, 0.0), gap_at(hole, 1e-4, 0.0) + growth,
+              chords);
+  EXPECT_THROW((void)opened_obstacle(contact, hole, 5e-3), core::Error); // no lobe is left
+}
+
+TEST(OpenedContacts, MoveThePointsOfAProfileOutward) {
+  std::vector<contact::PolarPoint> points;
+  constexpr int n = 720;
+  for (int k = 0; k < n; ++k)
+    points.push_back({2.0 * std::numbers::pi * k / n - 2.5, 3e-4 + 1e-4 * std::cos(0.01745 * k)});
+  const contact::Profile hole(points);
+  const auto wider =
+      std::get<contact::Profile>(opened_obstacle(of_kind(study::ObstacleKind::profile), hole, growth));
+  ASSERT_EQ(wider.vertices().size(), points.size());
+  for (std::size_t k = 0; k < points.size(); ++k)
+    EXPECT_NEAR(std::hypot(wider.vertices()[k].y, wider.vertices()[k].z),
+                std::hypot(hole.vertices()[k].y, hole.vertices()[k].z) + growth, round_off);
+}
+
+TEST(OpenedContacts, OpenByAngleOnlyWhereTheyAreCirclesInSpace) {
+  PlacedContact placed{};
+  placed.obstacle = contact::Circle{1e-4};
+  EXPECT_TRUE(opens_by_angle(placed));
+  placed.other = 3;
+  EXPECT_FALSE(opens_by_angle(placed));
+  placed.other = -1;
+  placed.obstacle = contact::Circle{0.0};
+  EXPECT_FALSE(opens_by_angle(placed));
+}
+
+} // namespace fretwork::app
