@@ -121,7 +121,7 @@ CaseContacts make_contacts(const study::Study& study, const CaseStructure& struc
                        placed, inactive, out.bases);
   out.joined = joined_structures(out.bases, placed);
   out.flexibilities = contact_flexibilities(MPI_COMM_SELF, study, structure.model, structure.structures,
-                                            out.bases, out.joined, placed, structure.fields.loads);
+                                            out.bases, out.joined, placed, structure.fields.loads, {});
   std::vector<std::string> notes;
   for (const std::vector<std::size_t>& scene : out.joined) {
     std::vector<const modal::Basis*> bases;

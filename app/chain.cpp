@@ -203,7 +203,7 @@ private:
     });
     at_contacts_.flexibilities =
         contact_flexibilities(comm_, inputs_.study, model_, modes.structures, out_.bases, at_contacts_.joined,
-                              placed_, at_contacts_.fields.loads);
+                              placed_, at_contacts_.fields.loads, turbulence_);
   }
 
   /// Damping by the flow, stability and linear response.
@@ -275,7 +275,7 @@ private:
     }
   }
 
-  void write_tables() const {
+  void write_tables() {
     const fs::path& folder = inputs_.directory;
     if (!out_.stability.empty())
       results::write_stability_csv(folder / "stability.csv", out_);
@@ -284,8 +284,12 @@ private:
         remove_file(folder / file);
     if (!flows_.empty())
       results::write_flow_csv(folder / "flow.csv", flow_rows(inputs_.study, model_, flows_));
-    if (last_ == Stage::transient && !turbulence_.empty())
-      results::write_spectra_csv(folder / "spectra.csv", run_spectra(turbulence_, out_));
+    if (last_ == Stage::transient && !turbulence_.empty()) {
+      const std::vector<results::Spectrum> spectra = run_spectra(turbulence_, out_);
+      results::write_spectra_csv(folder / "spectra.csv", spectra);
+      if (std::string note = folding_note(spectra); !note.empty())
+        out_.notes.push_back(std::move(note));
+    }
     if (!out_.responses.empty())
       results::write_response_csv(folder / "response.csv", out_);
   }

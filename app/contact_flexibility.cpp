@@ -24,6 +24,7 @@ struct Parts {
   const std::vector<modal::Basis>& bases;
   const std::vector<PlacedContact>& placed;
   const std::vector<Fields::Load>& loads;
+  const std::vector<TurbulentLoad>& turbulence;
 };
 
 /// Whether the scene takes what is missing beside its modes; otherwise it is for the table only.
@@ -102,6 +103,20 @@ struct Flexibilities {
   LoadedFlexibility inner; ///< modal::inner_flexibility
 };
 
+/// Mean squares of the displacements that fields of unit forces give under the turbulence, m2: f^T S f of a force f along the tube.
+/// @param fields  m/N, 6 n rows, one loaded direction a column
+Eigen::VectorXd under_turbulence(const Parts& parts, const modal::Basis& basis, const MatrixXd& fields) {
+  modal::Basis lacking; // fields in place of shapes
+  lacking.nodes = basis.nodes;
+  lacking.shapes = fields;
+  lacking.omega = Eigen::VectorXd::Zero(fields.cols());
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(fields.cols());
+  for (const TurbulentLoad& load : parts.turbulence)
+    if (const auto zones = zones_on(load, {&lacking}); !zones.empty())
+      out += flow::modal_mean_squares(zones, load.band);
+  return out;
+}
+
 /// Adds what a structure gives to the flexibilities of the loaded directions.
 void add_structure(const Parts& parts, std::size_t s, const StructureLoads& loaded,
                    modal::StaticSolvers& solvers, ContactFlexibility& out, Flexibilities& of_loaded) {
@@ -118,6 +133,7 @@ void add_structure(const Parts& parts, std::size_t s, const StructureLoads& load
   if (!in_series(parts.study))
     return; // nothing is moved beside the modes
   const MatrixXd gain = modal::static_gain(basis, forces);
+  out.under_turbulence(among) += under_turbulence(parts, basis, u - basis.shapes * gain.transpose());
   for (std::size_t l = 0; l < parts.loads.size(); ++l) {
     const Eigen::VectorXd load = part_of(basis, parts.loads[l].force);
     const Eigen::VectorXd all = u.transpose() * load, size = u.cwiseAbs().transpose() * load.cwiseAbs();
@@ -155,6 +171,7 @@ ContactFlexibility flexibility(const Parts& parts, const std::vector<std::size_t
   const auto count = static_cast<Index>(loaded.size()), loads = static_cast<Index>(parts.loads.size());
   Flexibilities of_loaded(loaded, !in_series(parts.study));
   out.under_loads = MatrixXd::Zero(count, loads);
+  out.under_turbulence = Eigen::VectorXd::Zero(count);
   for (std::size_t i = 0; i < structures.size(); ++i)
     add_structure(parts, structures[i], scene.on[i], solvers, out, of_loaded);
   out.missing = missing_flexibility(parts, loaded, of_loaded, all);
@@ -167,6 +184,9 @@ ContactFlexibility flexibility(const Parts& parts, const std::vector<std::size_t
     if (!(ContactFlexibility::own(out.missing, static_cast<std::size_t>(row / 3))(row % 3, row % 3) > 0.0))
       under_loads.row(row).setZero();
   out.under_loads = std::move(under_loads);
+  Eigen::VectorXd turbulent = Eigen::VectorXd::Zero(all);
+  turbulent(loaded) = out.under_turbulence.cwiseSqrt();
+  out.under_turbulence = std::move(turbulent);
   return out;
 }
 
@@ -174,6 +194,7 @@ void broadcast(MPI_Comm comm, int root, ContactFlexibility& flexibility) {
   for (MatrixXd* matrix :
        {&flexibility.exact, &flexibility.basis, &flexibility.missing, &flexibility.under_loads})
     core::broadcast(comm, root, *matrix);
+  core::broadcast(comm, root, flexibility.under_turbulence);
   core::broadcast(comm, root, flexibility.failure);
 }
 
@@ -204,8 +225,9 @@ std::vector<ContactFlexibility>
 contact_flexibilities(MPI_Comm comm, const study::Study& study, const fem::Model& model,
                       const std::vector<fem::Structure>& structures, const std::vector<modal::Basis>& bases,
                       const std::vector<std::vector<std::size_t>>& scenes,
-                      const std::vector<PlacedContact>& placed, const std::vector<Fields::Load>& loads) {
-  const Parts parts{study, model, structures, bases, placed, loads};
+                      const std::vector<PlacedContact>& placed, const std::vector<Fields::Load>& loads,
+                      const std::vector<TurbulentLoad>& turbulence) {
+  const Parts parts{study, model, structures, bases, placed, loads, turbulence};
   std::vector<double> costs;
   std::vector<std::vector<std::size_t>> contacts;
   for (const auto& scene : scenes) {

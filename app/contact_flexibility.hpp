@@ -9,6 +9,7 @@
 #pragma once
 #include "app/build_contacts.hpp"
 #include "app/build_fields.hpp"
+#include "app/turbulent_loads.hpp"
 #include "modal/basis.hpp"
 #include "results/run_results.hpp"
 #include <mpi.h>
@@ -22,6 +23,9 @@ struct ContactFlexibility {
   Eigen::MatrixXd exact, basis, missing;
   Eigen::MatrixXd
       under_loads; ///< m, 3 nc x loads of the fields: what the modes lack of the static displacements; 0 unless static_modes = "auto"
+  Eigen::VectorXd
+      under_turbulence; ///< m, rms, 3 nc: what the modes lack of the displacement under the turbulence, were it as slow as
+                        ///< statics; 0 unless static_modes = "auto"
   std::string failure; ///< why there is none of the above; empty: there is
 
   /// Rows and columns of the k-th contact in one of the above.
@@ -40,6 +44,7 @@ struct ContactFlexibility {
 contact_flexibilities(MPI_Comm comm, const study::Study& study, const fem::Model& model,
                       const std::vector<fem::Structure>& structures, const std::vector<modal::Basis>& bases,
                       const std::vector<std::vector<std::size_t>>& scenes,
-                      const std::vector<PlacedContact>& placed, const std::vector<Fields::Load>& loads);
+                      const std::vector<PlacedContact>& placed, const std::vector<Fields::Load>& loads,
+                      const std::vector<TurbulentLoad>& turbulence);
 
 } // namespace fretwork::app

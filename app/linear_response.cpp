@@ -6,6 +6,7 @@
 #include "modal/damping.hpp"
 #include <algorithm>
 #include <fmt/format.h>
+#include <numbers>
 
 namespace fretwork::app {
 namespace {
@@ -96,17 +97,32 @@ void add_load(const TurbulentLoad& load, const modal::Basis& basis, const flow::
   }
 }
 
+/// Modes on which the band leaves no force; what that loses of a displacement is `share_above`.
+void note_pinned_modes_above(const TurbulentLoad& load, const modal::Basis& basis,
+                             const std::string& response, std::vector<std::string>& notes) {
+  if (const Eigen::Index above = modes_above(load.band, basis);
+      above > 0 && !zones_on(load, {&basis}).empty())
+    notes.push_back(fmt::format(
+        "response \"{}\": {} of {} modes, up to {:.4g} Hz, lie above the band of {}, which ends at {:.4g} "
+        "Hz: "
+        "they get no force; share_above is what that loses, band of [[turbulence]] widens it",
+        response, above, basis.true_modes(), basis.omega(basis.true_modes() - 1) / (2.0 * std::numbers::pi),
+        load.name, load.band.high));
+}
+
 /// Adds the points of one structure.
 void respond(const study::Response& asked, const std::vector<TurbulentLoad>& loads, const modal::Basis& basis,
-             std::vector<Watched> watched, results::LinearResponse& out) {
+             std::vector<Watched> watched, results::LinearResponse& out, std::vector<std::string>& notes) {
   const flow::LinearModes modes = linear_modes("response \"" + out.name + "\"", basis);
   const auto points = static_cast<Eigen::Index>(watched.size());
   Eigen::MatrixXd shapes(points, modes.mass.size());
   for (Eigen::Index k = 0; k < points; ++k)
     shapes.row(k) = watched[static_cast<std::size_t>(k)].shape.head(modes.mass.size());
   Sums sums(watched.size());
-  for (const TurbulentLoad& load : loads)
+  for (const TurbulentLoad& load : loads) {
     add_load(load, basis, modes, shapes, sums);
+    note_pinned_modes_above(load, basis, out.name, notes);
+  }
   for (std::size_t k = 0; k < watched.size(); ++k) {
     const flow::SpectralMoments& m = sums.in_band[k];
     results::ResponsePoint& point = watched[k].point;
@@ -137,7 +153,8 @@ void damp(const TubesInFlow& tubes, const study::Response& asked, PinnedModes& m
 
 results::LinearResponse response_of(const TubesInFlow& tubes, const study::Response& asked,
                                     const std::vector<TurbulentLoad>& loads,
-                                    const std::vector<NamedNode>& nodes, PinnedModes& modes) {
+                                    const std::vector<NamedNode>& nodes, PinnedModes& modes,
+                                    std::vector<std::string>& notes) {
   damp(tubes, asked, modes);
   results::LinearResponse out;
   out.name = asked.name;
@@ -150,7 +167,7 @@ results::LinearResponse response_of(const TubesInFlow& tubes, const study::Respo
     watch_nodes(basis, nodes, watched);
     watch_contacts(basis, modes.pins.left_out, watched);
     if (!watched.empty() && basis.true_modes() > 0)
-      respond(asked, loads, basis, std::move(watched), out);
+      respond(asked, loads, basis, std::move(watched), out, notes);
   }
   return out;
 }
@@ -197,7 +214,7 @@ void linear_responses(MPI_Comm comm, const TubesInFlow& tubes, const std::vector
   for (const study::Response& one : asked) {
     PinnedModes modes = pinned_modes(comm, pins_asked(one), tubes, contacts, out.notes);
     core::agree(comm, [&] {
-      out.responses.push_back(response_of(tubes, one, loads, nodes, modes));
+      out.responses.push_back(response_of(tubes, one, loads, nodes, modes, out.notes));
       if (out.responses.back().points.empty())
         throw core::Error(
             fmt::format("response \"{}\": nothing is observed: name groups in [output] nodes, or leave "

@@ -3,7 +3,9 @@
 #include "app/modal_truncation.hpp"
 #include "core/error.hpp"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
+#include <tuple>
 
 namespace fretwork::app {
 namespace {
@@ -12,6 +14,9 @@ using Eigen::Index;
 
 /// Missing flexibility times stiffness that makes impacts wrong by half of it: a percent.
 constexpr double reported = 0.02;
+
+/// Of the rms motion of a contact, by how much it is low without what turbulence moves beside the modes.
+constexpr double low_motion = 0.01;
 
 /// What is in series has no inertia: where a load jumps, the contacts would jump with it, at no finite speed.
 void check_continuous(const Fields::Load& load) {
@@ -121,6 +126,30 @@ std::string flexibility_note(const study::Study& study, const std::vector<BuiltS
     return {}; // static_modes_note says what there is
   }
   return {};
+}
+
+void judge_turbulence(const std::vector<BuiltScene>& scenes,
+                      const std::vector<ContactFlexibility>& flexibilities, results::RunResults& out) {
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    const Eigen::VectorXd& beside = flexibilities[s].under_turbulence;
+    for (std::size_t k = 0; k < scenes[s].contacts.size() && beside.size() > 0; ++k) {
+      const post::ContactSummary& motion = out.contact_summaries[scenes[s].contacts[k]];
+      const transient::ContactPoint& point = scenes[s].scene.contacts[k];
+      const auto [y, z] = contact::normal_directions(point.support.obstacle);
+      for (const auto& [is_normal, d, deviation] :
+           {std::tuple(y, 1, motion.y.std), std::tuple(z, 2, motion.z.std)}) {
+        const double rms = beside(static_cast<Index>(3 * k) + d);
+        const double low = 1.0 - deviation / std::hypot(deviation, rms); // both parts add in squares
+        if (!is_normal || !(low > low_motion))
+          continue;
+        out.warnings.push_back(fmt::format(
+            "contact \"{}\": the turbulence would move it by {:.2g} m rms beside the modes, which "
+            "the transient leaves out: its rms motion is low by up to {:.2g} %; ask for more modes",
+            point.name, rms, 100.0 * low));
+        break;
+      }
+    }
+  }
 }
 
 } // namespace fretwork::app

@@ -29,4 +29,9 @@ void take_residual_flexibility(const study::Study& study, const ContactFlexibili
 /// What was done about it, or what should be where impacts are wrong by a percent; empty where there is nothing to tell.
 [[nodiscard]] std::string flexibility_note(const study::Study& study, const std::vector<BuiltScene>& scenes);
 
+/// Turbulence acts on the modes alone. Warns where what they lack of its displacement, were it as slow as statics and the contact open,
+/// makes the rms motion of a contact low by more than a percent.
+void judge_turbulence(const std::vector<BuiltScene>& scenes,
+                      const std::vector<ContactFlexibility>& flexibilities, results::RunResults& out);
+
 } // namespace fretwork::app

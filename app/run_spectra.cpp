@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/run_spectra.hpp"
+#include "core/names.hpp"
 #include "flow/welch.hpp"
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <functional>
@@ -11,6 +13,9 @@ namespace {
 constexpr double stretches = 8.0; ///< of the window: the 95 % band of a density is then 0.6 to 2 times it
 constexpr Eigen::Index fewest_samples = 256;
 constexpr int excitation_points = 200;
+constexpr double upper_frequencies = 0.75; ///< of half the output rate
+constexpr double much_above = 0.01;        ///< of the variance: what a spectrum that falls by 1/f^2 has there
+constexpr std::size_t most_spectra_named = 3;
 
 results::Spectrum excitation(const TurbulentLoad& load, const PatchedZone& patched) {
   const flow::ZoneSpectra spectra(patched.zone);
@@ -93,6 +98,33 @@ std::vector<results::Spectrum> run_spectra(const std::vector<TurbulentLoad>& loa
     window.add(contact.name, "normal force", "N2/Hz", contact.normal_force, out);
   }
   return out;
+}
+
+std::string folding_note(const std::vector<results::Spectrum>& spectra) {
+  std::vector<std::string> names;
+  double largest = 0.0, highest = 0.0;
+  for (const results::Spectrum& spectrum : spectra) {
+    if (spectrum.lower == spectrum.upper) // no estimate
+      continue;
+    double sum = 0.0, upper = 0.0;
+    for (std::size_t k = 0; k < spectrum.density.size(); ++k) {
+      sum += spectrum.density[k];
+      upper +=
+          spectrum.frequency[k] > upper_frequencies * spectrum.frequency.back() ? spectrum.density[k] : 0.0;
+    }
+    if (!(upper > much_above * sum))
+      continue;
+    names.push_back(fmt::format("{} of {}", spectrum.quantity, spectrum.name));
+    largest = std::max(largest, upper / sum);
+    highest = spectrum.frequency.back();
+  }
+  return names.empty()
+             ? std::string()
+             : fmt::format(
+                   "spectra.csv: {} {} up to {:.2g} % of the variance above {:.4g} Hz: motion above half the "
+                   "output rate, {:.4g} Hz, is folded into {}; give a shorter output.every",
+                   core::list_names(names, most_spectra_named), names.size() > 1 ? "have" : "has",
+                   100.0 * largest, upper_frequencies * highest, highest, names.size() > 1 ? "them" : "it");
 }
 
 } // namespace fretwork::app

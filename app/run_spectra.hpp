@@ -14,8 +14,12 @@ namespace fretwork::app {
 
 /// Force per length of the turbulence where each zone is fastest, over its band; then, of a run, displacements of observed nodes and
 /// contacts and normal forces from the output instants in the window of the statistics, by Welch's method (flow/welch.hpp) in eight stretches of the window.
-/// Motion above half the output rate is folded back.
+/// Motion above half the output rate is folded back: folding_note.
 [[nodiscard]] std::vector<results::Spectrum> run_spectra(const std::vector<TurbulentLoad>& loads,
                                                          const results::RunResults& results);
+
+/// Names the estimates that have more than a hundredth of their variance in the upper quarter of their frequencies, so that motion above
+/// half the output rate is folded into them; empty where none has.
+[[nodiscard]] std::string folding_note(const std::vector<results::Spectrum>& spectra);
 
 } // namespace fretwork::app

@@ -2,6 +2,7 @@
 #include "app/transient_stage.hpp"
 #include "app/gap_opening.hpp"
 #include "app/jobs.hpp"
+#include "app/residual_flexibility.hpp"
 #include "app/watched_wear.hpp"
 #include <fmt/format.h>
 
@@ -51,6 +52,7 @@ void run_transient(const AroundTransient& around, std::vector<BuiltScene>& scene
                    results::RunResults& out) {
   around.progress.stage("transient");
   run_scenes(around, around.study, scenes, nodes, 1, out);
+  judge_turbulence(scenes, around.at_contacts.flexibilities, out);
   const study::Study later = without_series(around.study);
   open_gaps(
       around.study, around.worn, around.placed,

@@ -76,6 +76,20 @@ void note_coarse_patches(const TurbulentLoad& load, const std::vector<flow::Turb
     }
 }
 
+/// Modes above the band move by contacts and other loads alone.
+void note_modes_above(const TurbulentLoad& load, const std::vector<const modal::Basis*>& bases,
+                      std::vector<std::string>& notes) {
+  Eigen::Index above = 0, all = 0;
+  for (const modal::Basis* basis : bases) {
+    above += modes_above(load.band, *basis);
+    all += basis->true_modes();
+  }
+  if (above > 0)
+    notes.push_back(fmt::format(
+        "{}: {} of {} modes lie above its band, which ends at {:.4g} Hz, and get no force from it", load.name,
+        above, all, load.band.high));
+}
+
 } // namespace
 
 std::optional<transient::SampledLoad> sampled_load(const TurbulentLoad& load,
@@ -90,6 +104,7 @@ std::optional<transient::SampledLoad> sampled_load(const TurbulentLoad& load,
                                   "length, fewer modes, or a lower end of band",
                                   load.name, zones.front().modes(), 1e-9 * bytes, 1e-9 * most_bytes));
   note_coarse_patches(load, zones, bases, notes);
+  note_modes_above(load, bases, notes);
   transient::SampledLoad out;
   out.rms = flow::modal_mean_squares(zones, load.band).cwiseSqrt();
   const Eigen::Index modes = out.rms.size();

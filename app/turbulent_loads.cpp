@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <numbers>
 #include <set>
 
 namespace fretwork::app {
@@ -243,6 +244,10 @@ std::vector<TurbulentLoad> turbulent_loads(const study::Study& study, const fem:
     notes.push_back(band_note(out.back()));
   }
   return out;
+}
+
+Eigen::Index modes_above(const flow::LoadBand& band, const modal::Basis& basis) {
+  return (basis.omega.head(basis.true_modes()).array() > 2.0 * std::numbers::pi * band.high).count();
 }
 
 std::vector<flow::TurbulentZone> zones_on(const TurbulentLoad& load,

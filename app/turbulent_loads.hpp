@@ -37,6 +37,9 @@ struct TurbulentLoad {
                                                          const std::vector<PlacedFlow>& flows,
                                                          std::vector<std::string>& notes);
 
+/// How many true modes of a basis lie above the band of a load, on which it does not act.
+[[nodiscard]] Eigen::Index modes_above(const flow::LoadBand& band, const modal::Basis& basis);
+
 /// The zones of a load with the shapes of a scene, structure after structure; those of other structures are left out.
 /// @param bases  of the structures of the scene
 [[nodiscard]] std::vector<flow::TurbulentZone> zones_on(const TurbulentLoad& load,
