@@ -87,6 +87,11 @@ void mesh_geometry(const Source& source, const fs::path& msh_file, const Convert
 
 void convert_with_meshio(const Source& source, const fs::path& msh_file, const Converter& converter) {
   const fs::path& file = source.file;
+  if (lower_case_ending(file) == ".unv") // meshio has no reader, and gmsh 4.8 ends at their groups
+    throw core::Error(
+        fmt::format("{}: universal files (.unv) cannot be read; save the mesh with its groups as "
+                    ".med (Salome), .msh (gmsh) or .inp (Abaqus)",
+                    file.string()));
   std::string tried;
   for (const std::string& python : pythons()) {
     // -I: neither the current folder nor PYTHONPATH gives modules

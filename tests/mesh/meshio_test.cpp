@@ -97,6 +97,11 @@ TEST_F(Meshio, ShowsItsMessageForAFileItCannotRead) {
   EXPECT_TRUE(says(message(write("a.unknown", "nonsense")), "a.unknown: meshio cannot read the mesh: "));
 }
 
+TEST_F(Meshio, SaysWhichFormatsToSaveInPlaceOfUniversalFiles) {
+  EXPECT_TRUE(says(message(write("a.unv", "    -1\n  2411\n")),
+                   "a.unv: universal files (.unv) cannot be read; save the mesh with its groups as .med"));
+}
+
 TEST_F(Meshio, NamesThePackageWhereNoPythonHasIt) {
   setenv("FRETWORK_PYTHON", "/nowhere/python", 1);
   const std::string text = message(write("a.vtu", "nonsense"));
