@@ -60,8 +60,10 @@ void refuse_foreign_sizes(const TableReader& table, ObstacleKind kind) {
   const auto own = keys_of(kind);
   for (const std::string& key : size_keys)
     if (table.has(key) && std::find(own.begin(), own.end(), key) == own.end())
-      table.fail_at(key, "does not belong to obstacle = \"" + name_of(kind) +
-                             "\"; leave it out, or take the obstacle that has it");
+      table.fail_at(key,
+                    fmt::format("does not belong to obstacle = \"{}\", whose sizes are {}; leave it out, "
+                                "or take the obstacle that has it",
+                                name_of(kind), fmt::join(own, ", ")));
 }
 
 /// A shape made in contact/: its own message, after the key that is the cause.

@@ -90,7 +90,8 @@ TEST(MessagesOfContacts, KeysOfAnotherObstacle) {
   expect_said(
       {{"gap = 0\ntube_radius = 1", "contacts.p.tube_radius = 1: does not belong to obstacle = \"circle\""},
        {"gap = 0\nobstacle = \"drilled\"", "contacts.p.gap = 0: does not belong to obstacle = \"drilled\""},
-       {"gap = 0\nobstacle = \"bars_y\"\nhole_radius = 1", "does not belong to obstacle = \"bars_y\""},
+       {"gap = 0\nobstacle = \"bars_y\"\nhole_radius = 1",
+        "does not belong to obstacle = \"bars_y\", whose sizes are tube_radius, bars; leave"},
        {"gap = 0\ndistance_1 = 1",
         "contacts.p.distance_1 = 1: belongs to a contact between two nodes; name the second one in other"},
        {"gap = 0\nside = 1", "contacts.p.side = 1: belongs to a contact between two nodes"},
