@@ -227,7 +227,8 @@ private:
   void tell_check() {
     progress_.stage("");
     const std::string forecast =
-        scenes_wanted_ ? forecast_text(comm_, inputs_.study, scenes_, placed_, out_) : "";
+        scenes_wanted_ ? forecast_text(comm_, inputs_.study, scenes_, placed_, out_)
+                       : "  no [transient]: run would refuse it; modes, stability and response take it\n";
     say(fmt::format(
         "{}: fine\n  {}, {}, {} in {}, {:.6g} kg\n  {}, {}, {}{}\n{}{}", request_.study.string(),
         counted(mesh_.nodes, "node"), counted(model_.beams, "beam"),

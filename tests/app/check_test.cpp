@@ -46,6 +46,16 @@ TEST(Check, RefusesWhatTheRunRefuses) {
   EXPECT_EQ(folder.fretwork(with("check", study, {})).status, 0);
 }
 
+TEST(Check, SaysThatAStudyWithoutTransientIsForModesAlone) {
+  const Workshop folder;
+  std::string text = tubes(folder, 1) + support;
+  const std::string transient = "[transient]\nduration = 0.02\n";
+  text.erase(text.find(transient), transient.size());
+  const fs::path study = folder.write("study.toml", text);
+  EXPECT_TRUE(says(folder.fretwork(with("check", study, {})).out, "no [transient]: run would refuse it"));
+  EXPECT_TRUE(says(folder.fretwork(with("run", study, {})).err, "the study has no [transient]"));
+}
+
 TEST(Check, LeavesNothing) {
   const Workshop folder;
   const fs::path study = folder.write("study.toml", tubes(folder, 1) + support + push(0, 200.0));
