@@ -153,10 +153,8 @@ std::shared_ptr<const CaseContacts> CaseBases::contacts(study::Study& study,
                                                         const std::vector<PlacedContact>& placed,
                                                         const std::vector<PlacedContact>& inactive) {
   std::string key = key_of_structure(study, overrides);
-  if (study.modes.accuracy) {
-    study.modes.up_to_hz = modes_limit(study, structure.model, placed).up_to;
-    key += fmt::format("up to {:.17g} Hz\n", *study.modes.up_to_hz);
-  }
+  if (const auto limit = take_modes_limit(study, structure.model, placed))
+    key += fmt::format("up to {:.17g} Hz\n", limit->up_to);
   const auto modes = modes_.get(
       key, [&] { return compute_modes(MPI_COMM_SELF, study.modes, structure.model, structure.structures); });
   return contacts_.get(key + key_of_contacts(study, placed, inactive),

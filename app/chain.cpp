@@ -162,11 +162,9 @@ private:
       other_runs_ = read_other_runs(study, inputs_.run_directory);
       check_contacts_of(other_runs_, study, worn_, placed_);
       note_other_runs(other_runs_, out_);
-      if (study.modes.accuracy) {
-        out_.modes_limit = modes_limit(study, model_, placed_);
-        study.modes.up_to_hz = out_.modes_limit->up_to;
+      out_.modes_limit = take_modes_limit(study, model_, placed_);
+      if (out_.modes_limit)
         report_modes_limit(study, *out_.modes_limit, out_);
-      }
     });
     note_coincident_nodes(mesh_, out_);
     if (last_ == Stage::transient && !other_runs_.missing.empty()) // before the time is spent
@@ -185,6 +183,8 @@ private:
     out_.notes.insert(out_.notes.end(), modes.notes.begin(), modes.notes.end());
     out_.bases = std::move(modes.bases);
     note_modes(inputs_.study, out_);
+    if (std::string few = few_modes_warning(inputs_.study, model_, placed_, out_.bases); !few.empty())
+      out_.warnings.insert(out_.warnings.begin(), std::move(few)); // forces may be wrong by factors
     if (inputs_.study.modes.static_modes == study::StaticModes::added) {
       add_static_modes(comm_, inputs_.study, model_, modes.structures, placed_, out_.bases);
       out_.notes.push_back(static_modes_note(inputs_.study, out_.bases));

@@ -16,16 +16,6 @@ bool acts_on(const Fields::Load& load, const modal::Basis& basis) {
   });
 }
 
-/// Hz up to which the structure was given modes; infinite where it has no more.
-double reach_of(const study::Modes& modes, const modal::Basis& basis) {
-  if (modes.up_to_hz)
-    return *modes.up_to_hz;
-  const Eigen::Index found = basis.true_modes();
-  if (found == 0 || found < *modes.count)
-    return std::numeric_limits<double>::infinity();
-  return basis.omega.head(found).maxCoeff() / (2.0 * std::numbers::pi);
-}
-
 /// Share of the power of a load above a frequency, Hz; its highest frequency is above it.
 double share_above(const transient::TimeFunction& function, double frequency) {
   const auto* random = std::get_if<transient::Random>(&function);
@@ -35,10 +25,19 @@ double share_above(const transient::TimeFunction& function, double frequency) {
 std::string asked_for(const study::Modes& modes) {
   if (modes.up_to_hz)
     return fmt::format("modes.up_to_hz = {:g}", *modes.up_to_hz);
-  return fmt::format("modes.count = {}{}", *modes.count, modes.count_given ? "" : ", the default");
+  return fmt::format("modes.count = {}{}", *modes.count, modes.number_given ? "" : ", the default");
 }
 
 } // namespace
+
+double end_of_modes(const study::Modes& modes, const modal::Basis& basis) {
+  if (modes.up_to_hz)
+    return *modes.up_to_hz;
+  const Eigen::Index found = basis.true_modes();
+  if (found == 0 || found < *modes.count)
+    return std::numeric_limits<double>::infinity();
+  return basis.omega.head(found).maxCoeff() / (2.0 * std::numbers::pi);
+}
 
 std::string load_band_warning(const study::Study& study, const std::vector<modal::Basis>& bases,
                               const std::vector<Fields::Load>& loads) {
@@ -49,7 +48,7 @@ std::string load_band_warning(const study::Study& study, const std::vector<modal
   for (const Fields::Load& load : loads) {
     const double frequency = transient::highest_frequency(load.function);
     for (const modal::Basis& basis : bases)
-      if (const double limit = reach_of(study.modes, basis);
+      if (const double limit = end_of_modes(study.modes, basis);
           frequency > beyond * limit && acts_on(load, basis)) {
         worst = &load;
         highest = frequency;
@@ -59,13 +58,12 @@ std::string load_band_warning(const study::Study& study, const std::vector<modal
   }
   if (!worst)
     return {};
-  constexpr double above = 2.0; // modes up to twice the band: what lies higher answers as a spring
   return fmt::format(
       "modal truncation: {} acts with up to {:.4g} Hz, but the modes end at {:.4g} Hz ({}); {:.0f} % "
       "of its power excites no mode, contact forces may be wrong by more; set modes.up_to_hz = "
       "{:.3g}, or modes.accuracy = 0.01 where contacts need more",
       worst->name, highest, reach, asked_for(study.modes), 100.0 * share_above(worst->function, reach),
-      above * highest);
+      modes_above_loads * highest);
 }
 
 std::string more_modes(const study::Study& study) {

@@ -14,8 +14,14 @@ namespace fretwork::app {
 /// K_N times the missing flexibility from which on it is warned about: forces are too high by up to 14 %.
 constexpr double much_missing = 0.3;
 
+/// Modes are wanted up to so many times the highest frequency of the loads: what lies higher answers as a spring.
+constexpr double modes_above_loads = 2.0;
+
+/// Hz up to which the structure was given modes; infinite where it has no more.
+[[nodiscard]] double end_of_modes(const study::Modes& modes, const modal::Basis& basis);
+
 /// Of the load that goes farthest beyond the modes of a structure that it acts on; empty where none does, where the structure has no more
-/// modes, and with modes.accuracy, which has a warning of its own (modes_limit.hpp).
+/// modes, and with modes.accuracy, which takes as many as the loads need (modes_limit.hpp).
 /// @param bases  of all structures   @param loads  those of the fields
 [[nodiscard]] std::string load_band_warning(const study::Study& study, const std::vector<modal::Basis>& bases,
                                             const std::vector<Fields::Load>& loads);

@@ -52,7 +52,7 @@ void note_modes(const study::Study& study, results::RunResults& out) {
   std::size_t split = 0, short_of = 0;
   for (const auto& basis : out.bases) {
     split += basis.splits_group ? 1 : 0;
-    short_of += study.modes.count_given && basis.size() < *study.modes.count ? 1 : 0;
+    short_of += study.modes.number_given && study.modes.count && basis.size() < *study.modes.count ? 1 : 0;
   }
   if (split > 0)
     out.warnings.push_back(fmt::format("modes.count = {} cuts a group of equal frequencies{}: the two planes "

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/modes_limit.hpp"
+#include "app/modal_truncation.hpp"
 #include "core/error.hpp"
 #include "fem/beam_constants.hpp"
 #include "modal/impact_modes.hpp"
@@ -94,62 +95,136 @@ std::string residual_of(const study::Modes& modes) {
 
 bool takes_residual(const study::Modes& modes) { return !residual_of(modes).empty(); }
 
-} // namespace
+/// What a contact needs of the modes, Hz; 0: it is at no beam with mass.
+struct Need {
+  double up_to = 0.0, contact_frequency = 0.0;
+};
 
-results::ModesLimit modes_limit(const study::Study& study, const fem::Model& model,
-                                const std::vector<PlacedContact>& placed) {
-  const double accuracy = *study.modes.accuracy;
+Need need_of(const PlacedContact& contact, const Sites& sites, double accuracy, bool residual) {
+  std::vector<Site> sites_of_contact;
+  double receptance = 0.0;
+  for (const Index node : {contact.node, contact.other})
+    if (node >= 0 && sites.at(node).beams > 0) {
+      sites_of_contact.push_back(sites.at(node));
+      receptance += sites_of_contact.back().receptance();
+    }
+  Need need;
+  for (const Site& site : sites_of_contact) {
+    const double frequency = modal::contact_frequency(contact.normal_stiffness, receptance);
+    const double span = modal::clamped_span_frequency(site.span, site.bending, site.mass);
+    need.contact_frequency = frequency / two_pi;
+    need.up_to =
+        std::max(need.up_to, modal::modes_needed_up_to(frequency, span, accuracy, residual) / two_pi);
+  }
+  return need;
+}
+
+/// Of the contact that asks for most; `up_to` is 0 where none is at a beam with mass.
+results::ModesLimit need_of_contacts(const fem::Model& model, const std::vector<PlacedContact>& placed,
+                                     double accuracy, bool residual) {
   const Sites sites = sites_of(model, placed);
   results::ModesLimit limit;
   limit.accuracy = accuracy;
-  for (const PlacedContact& contact : placed) {
-    std::vector<Site> sites_of_contact;
-    double receptance = 0.0;
-    for (const Index node : {contact.node, contact.other})
-      if (node >= 0 && sites.at(node).beams > 0) {
-        sites_of_contact.push_back(sites.at(node));
-        receptance += sites_of_contact.back().receptance();
-      }
-    for (const Site& site : sites_of_contact) {
-      const double frequency = modal::contact_frequency(contact.normal_stiffness, receptance);
-      const double span = modal::clamped_span_frequency(site.span, site.bending, site.mass);
-      const double up_to =
-          modal::modes_needed_up_to(frequency, span, accuracy, takes_residual(study.modes)) / two_pi;
-      if (up_to > limit.up_to) {
-        limit.up_to = up_to;
-        limit.contact = contact.name;
-        limit.contact_frequency = frequency / two_pi;
-      }
+  for (const PlacedContact& contact : placed)
+    if (const Need need = need_of(contact, sites, accuracy, residual); need.up_to > limit.up_to) {
+      limit.up_to = need.up_to;
+      limit.contact = contact.name;
+      limit.contact_frequency = need.contact_frequency;
     }
-  }
-  if (!(limit.up_to > 0.0))
+  return limit;
+}
+
+/// Hz, of everything whose frequencies are known.
+double highest_frequency(const study::Study& study) {
+  double highest = 0.0;
+  for (const study::Load& load : study.loads)
+    highest = std::max(highest, transient::highest_frequency(load.function));
+  for (const study::BaseMotion& motion : study.base_motions)
+    highest = std::max(highest, transient::highest_frequency(motion.acceleration));
+  for (const study::SupportMotion& motion : study.support_motions)
+    highest = std::max(highest, transient::highest_frequency(motion.function));
+  return highest;
+}
+
+/// Whether the study says how many modes it wants without the contacts.
+bool says_how_many(const study::Modes& modes) { return modes.number_given && !modes.accuracy; }
+
+} // namespace
+
+std::optional<results::ModesLimit> take_modes_limit(study::Study& study, const fem::Model& model,
+                                                    const std::vector<PlacedContact>& placed) {
+  study::Modes& modes = study.modes;
+  if (says_how_many(modes))
+    return std::nullopt;
+  results::ModesLimit limit =
+      need_of_contacts(model, placed, modes.accuracy.value_or(default_modes_accuracy), takes_residual(modes));
+  if (!(limit.up_to > 0.0)) {
+    if (!modes.accuracy)
+      return std::nullopt;
     throw core::Error(fmt::format("modes.accuracy = {:g}: no contact is at a beam with mass, whose waves "
                                   "would say which modes matter; give modes.count or modes.up_to_hz",
-                                  accuracy));
+                                  *modes.accuracy));
+  }
+  limit.up_to = std::max(limit.up_to, modes_above_loads * highest_frequency(study));
+  modes.accuracy = limit.accuracy;
+  modes.up_to_hz = limit.up_to;
+  modes.count.reset();
   return limit;
 }
 
 void report_modes_limit(const study::Study& study, const results::ModesLimit& limit,
                         results::RunResults& out) {
   const bool residual = takes_residual(study.modes);
-  out.notes.push_back(fmt::format(
-      "modes up to {:.4g} Hz for contact forces within modes.accuracy = {:g}: contact \"{}\" on its beams "
-      "vibrates at {:.4g} Hz, {:.3g} times that is needed{}, and a mode of its span beyond",
-      limit.up_to, limit.accuracy, limit.contact, limit.contact_frequency,
-      modal::contact_frequencies_needed(limit.accuracy, residual),
-      residual ? " with " + residual_of(study.modes) : ""));
-  double fastest = 0.0;
-  for (const study::Load& load : study.loads)
-    fastest = std::max(fastest, transient::highest_frequency(load.function));
-  for (const study::BaseMotion& motion : study.base_motions)
-    fastest = std::max(fastest, transient::highest_frequency(motion.acceleration));
-  for (const study::SupportMotion& motion : study.support_motions)
-    fastest = std::max(fastest, transient::highest_frequency(motion.function));
-  if (fastest > limit.up_to)
-    out.warnings.push_back(fmt::format("loads or supports shake with up to {:.4g} Hz, faster than the modes "
-                                       "that modes.accuracy = {:g} takes "
-                                       "for the contacts, {:.4g} Hz; give modes.up_to_hz instead",
-                                       fastest, limit.accuracy, limit.up_to));
+  const double fastest = highest_frequency(study);
+  const std::string chosen = study.modes.number_given ? "" : " (the default; modes.count takes a number)";
+  if (limit.up_to > modes_above_loads * fastest)
+    out.notes.push_back(
+        fmt::format("modes up to {:.4g} Hz for contact forces within modes.accuracy = {:g}{}: contact \"{}\" "
+                    "on its beams "
+                    "vibrates at {:.4g} Hz, {:.3g} times that is needed{}, and a mode of its span beyond",
+                    limit.up_to, limit.accuracy, chosen, limit.contact, limit.contact_frequency,
+                    modal::contact_frequencies_needed(limit.accuracy, residual),
+                    residual ? " with " + residual_of(study.modes) : ""));
+  else
+    out.notes.push_back(fmt::format(
+        "modes up to {:.4g} Hz, twice the highest frequency of loads and motions, {:.4g} Hz: contact forces "
+        "within modes.accuracy = {:g}{} need fewer",
+        limit.up_to, fastest, limit.accuracy, chosen));
+}
+
+std::string few_modes_warning(const study::Study& study, const fem::Model& model,
+                              const std::vector<PlacedContact>& placed,
+                              const std::vector<modal::Basis>& bases) {
+  constexpr double accuracy = 0.1;  // the largest error for which the rule is measured
+  constexpr double far_below = 0.5; // of a contact frequency: work rates are then wrong by tens of per cent
+  if (study.modes.accuracy || !takes_residual(study.modes))
+    return {};
+  const Sites sites = sites_of(model, placed);
+  std::string worst;
+  double most = 1.0, reach = 0.0;
+  Need of_worst;
+  for (const PlacedContact& contact : placed) {
+    const Need need = need_of(contact, sites, accuracy, true);
+    for (const modal::Basis& basis : bases) {
+      const bool touches =
+          basis.row_of(contact.node) >= 0 || (contact.other >= 0 && basis.row_of(contact.other) >= 0);
+      const double end = touches ? end_of_modes(study.modes, basis) : need.up_to;
+      if (end < far_below * need.contact_frequency && need.up_to > most * end) {
+        most = need.up_to / end;
+        worst = contact.name;
+        reach = end;
+        of_worst = need;
+      }
+    }
+  }
+  if (worst.empty())
+    return {};
+  return fmt::format(
+      "modal truncation: the modes end at {:.4g} Hz; contact \"{}\" vibrates on its beams at {:.4g} Hz, and "
+      "impacts within 10 % need modes up to {:.4g} Hz with {}; work rates and forces may be wrong by tens of "
+      "per "
+      "cent, with very few modes by factors; {}",
+      reach, worst, of_worst.contact_frequency, of_worst.up_to, residual_of(study.modes), more_modes(study));
 }
 
 } // namespace fretwork::app

@@ -1,21 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// How far modes reach where the study gives modes.accuracy instead of their number (modal/impact_modes.hpp).
+/// How far modes reach where the study gives modes.accuracy, or says nothing of their number (modal/impact_modes.hpp).
 #pragma once
 #include "app/build_contacts.hpp"
+#include "modal/basis.hpp"
 #include "results/run_results.hpp"
 
 namespace fretwork::app {
 
-/// Of the contact that asks for most: its stiffness (of the whole support) on the beams at its nodes, bent in the softer plane; the span
-/// that its node is on. A beam that ends at the node without another is taken as free there.
-/// @param study  with modes.accuracy
-/// @throws core::Error where no contact is at a beam with mass
-[[nodiscard]] results::ModesLimit modes_limit(const study::Study& study, const fem::Model& model,
-                                              const std::vector<PlacedContact>& placed);
+/// Of a study that says nothing of the number of its modes.
+constexpr double default_modes_accuracy = 0.01;
 
-/// A note what was chosen and why; a warning where something shakes the structure faster than that.
+/// What the contact that asks for most needs, or twice the highest frequency of loads and motions where that is more. The contact's: its
+/// stiffness (of the whole support) on the beams at its nodes, bent in the softer plane; the span that its node is on. A beam that ends at
+/// the node without another is taken as free there.
+/// Sets modes.up_to_hz (and modes.accuracy) of the study. Empty, and nothing is set, where the study gives count or up_to_hz, and where it
+/// gives nothing and no contact is at a beam with mass: the default count holds.
+/// @throws core::Error where the study gives modes.accuracy and no contact is at a beam with mass
+[[nodiscard]] std::optional<results::ModesLimit>
+take_modes_limit(study::Study& study, const fem::Model& model, const std::vector<PlacedContact>& placed);
+
+/// A note what was chosen and why.
 void report_modes_limit(const study::Study& study, const results::ModesLimit& limit,
                         results::RunResults& out);
+
+/// What is right in statics may be wrong in impacts: of the contact whose structure has modes that end farthest below what forces within
+/// 10 % need with residual flexibility or static modes, and below half its frequency. Empty where there is none, without these, and with
+/// modes.accuracy.
+[[nodiscard]] std::string few_modes_warning(const study::Study& study, const fem::Model& model,
+                                            const std::vector<PlacedContact>& placed,
+                                            const std::vector<modal::Basis>& bases);
 
 } // namespace fretwork::app

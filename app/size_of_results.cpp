@@ -66,9 +66,13 @@ std::string forecast_text(MPI_Comm comm, const study::Study& study, const std::v
   const std::string steps = forecast.steps > 0.0
                                 ? results::counted(static_cast<std::int64_t>(forecast.steps), "step")
                                 : std::string("steps as the tolerance asks for");
+  const std::string limit = out.modes_limit ? fmt::format(" up to {:.4g} Hz (modes.accuracy = {:g}{})",
+                                                          out.modes_limit->up_to, out.modes_limit->accuracy,
+                                                          study.modes.number_given ? "" : ", the default")
+                                            : "";
   return fmt::format(
-      "  {}; a run: {:g} s, {}{}; results.h5: {} of series, up to {} of impacts\n",
-      results::counted(static_cast<std::int64_t>(results::sorted_modes(out.bases).size()), "mode"),
+      "  {}{}; a run: {:g} s, {}{}; results.h5: {} of series, up to {} of impacts\n",
+      results::counted(static_cast<std::int64_t>(results::sorted_modes(out.bases).size()), "mode"), limit,
       study.transient->duration, steps,
       study.gap_opening ? fmt::format(", up to {} times", study.gap_opening->stages) : "",
       size_text(size.series), size_text(size.impacts));

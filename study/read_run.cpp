@@ -69,12 +69,12 @@ void read_number_of_modes(const TableReader& root, const TableReader& table, Mod
         table.fail_at(key, given + " and " + key + " both say how many modes; keep one");
       given = key;
     }
+  modes.number_given = !given.empty();
   if (given.empty())
     return;
   const auto count = table.optional_integer("count", 1);
   if (count && *count > std::numeric_limits<int>::max())
     table.fail_at("count", "more modes than a structure can have");
-  modes.count_given = count.has_value();
   modes.count = count ? std::optional<int>(static_cast<int>(*count)) : std::nullopt;
   modes.up_to_hz = table.optional_number("up_to_hz", {Range::above_zero, "Hz"});
   modes.accuracy = table.optional_number("accuracy", {Range::above_zero});

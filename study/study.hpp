@@ -74,7 +74,7 @@ enum class StaticModes { none, residual, added };
 
 struct Modes {
   std::optional<int> count = 40; ///< exactly one of count, up_to_hz and accuracy has a value
-  bool count_given = false;      ///< by the study
+  bool number_given = false;     ///< one of the three by the study; otherwise contacts at beams say how many
   std::optional<double> up_to_hz;
   std::optional<double> accuracy; ///< relative error of contact forces, > 0 and at most 0.1
   modal::Damping damping = 0.0;

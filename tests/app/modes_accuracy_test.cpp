@@ -70,7 +70,28 @@ TEST(ModesAccuracy, SaysWhatItTakesAndFollowsTheContacts) {
   }
 }
 
-TEST(ModesAccuracy, WarnsOfLoadsThatAreFasterThanItsModes) {
+TEST(ModesAccuracy, OfAPercentIsTheDefaultWhereContactsAreAtBeams) {
+  const Workshop folder;
+  const Results given = span(folder, {"modes.accuracy=0.01"}), by_default = span(folder, {});
+  EXPECT_EQ(by_default.summary["modes"]["limit"], given.summary["modes"]["limit"]);
+  EXPECT_EQ(by_default.summary["modes"]["frequencies_hz"], given.summary["modes"]["frequencies_hz"]);
+  EXPECT_EQ(largest_force(by_default), largest_force(given));
+  EXPECT_TRUE(says(by_default.summary["notes"].dump(),
+                   "within modes.accuracy = 0.01 (the default; modes.count takes a number)"));
+  const Results with_residual = span(folder, {"modes.static_modes=auto"});
+  EXPECT_LT(with_residual.summary["modes"]["limit"]["up_to_hz"],
+            by_default.summary["modes"]["limit"]["up_to_hz"]);
+  EXPECT_FALSE(span(folder, {"modes.count=12"}).summary["modes"].contains("limit"));
+}
+
+TEST(ModesAccuracy, WithoutContactsAtBeamsTheDefaultIsANumber) {
+  const Workshop folder;
+  const Results run = folder.run(example("oscillator"), "results", {"--set", "transient.duration=0.01"});
+  EXPECT_FALSE(run.summary["modes"].contains("limit"));
+  EXPECT_FALSE(run.summary["modes"]["frequencies_hz"].empty());
+}
+
+TEST(ModesAccuracy, TakesModesUpToTwiceTheFrequenciesOfLoads) {
   const Workshop folder;
   const fs::path scene = test_paths::source_dir() / "bench" / "span";
   fs::copy_file(scene / "span.geo", folder.path("span.geo"));
@@ -80,7 +101,11 @@ direction = [0.0, 1.0, 0.0]
 harmonic = { amplitude = 1.0, frequency = 5000.0 }
 )",
                                       {"--set", "modes.accuracy=0.1", "--set", stiffness_of(1e5)});
-  EXPECT_TRUE(says(run.summary["warnings"].dump(), "shake with up to 5000 Hz, faster than the modes"));
+  EXPECT_EQ(run.summary["modes"]["limit"]["up_to_hz"], 10000.0);
+  EXPECT_GT(run.summary["modes"]["frequencies_hz"].back(), 5000.0);
+  EXPECT_TRUE(
+      says(run.summary["notes"].dump(), "modes up to 1e+04 Hz, twice the highest frequency of loads"));
+  EXPECT_EQ(run.summary["warnings"].dump().find("acts with up to"), std::string::npos);
 }
 
 TEST(ModesAccuracy, TellsWhatHasTheFlexibilityOfTheOtherModes) {

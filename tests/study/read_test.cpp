@@ -31,6 +31,7 @@ TEST(ReadStudy, TakesAStudyThatNamesOnlyAMesh) {
 TEST(ReadStudy, GivesModesAndOutputTheirDefaults) {
   const Study study = read_text("[mesh]\nfile = \"a.msh\"\n");
   EXPECT_EQ(study.modes.count, 40);
+  EXPECT_FALSE(study.modes.number_given);
   EXPECT_FALSE(study.modes.up_to_hz);
   EXPECT_EQ(std::get<double>(study.modes.damping), 0.0);
   EXPECT_FALSE(study.modes.distributed);
@@ -237,6 +238,7 @@ TEST(ReadStudy, ReadsEveryKeyOfTheLoads) {
 TEST(ReadStudy, ReadsEveryKeyOfTheRun) {
   const Study study = read_text(full_study);
   EXPECT_EQ(study.modes.count, 12);
+  EXPECT_TRUE(study.modes.number_given);
   EXPECT_EQ(std::get<std::vector<double>>(study.modes.damping), (std::vector{0.01, 0.02}));
   EXPECT_EQ(study.modes.distributed, true);
   ASSERT_TRUE(study.transient);
