@@ -22,7 +22,7 @@ TEST(Examples, EveryFolderOfExamplesIsRunHere) {
   for (const auto& entry : fs::directory_iterator(test_paths::source_dir() / "examples"))
     if (fs::exists(entry.path() / "study.toml"))
       found.insert(entry.path().filename());
-  EXPECT_EQ(found, (std::set<std::string>{"bundle", "cantilever_stop", "oscillator",
+  EXPECT_EQ(found, (std::set<std::string>{"bundle", "bundle_flow", "cantilever_stop", "oscillator",
                                           "straight_tube", "tube_in_flow", "tube_study", "tube_sweep",
                                           "two_tubes", "u_bend", "u_bend_flow"}));
 }
@@ -32,6 +32,26 @@ TEST(Examples, BundleOfUBendsTouchesAtItsTops) {
   const Results run = folder.run(example("bundle"), "results");
   for (const char* pair : {"tubes_12", "tubes_23", "tubes_34", "tubes_45"})
     EXPECT_GT(run.statistics(pair)["contact_time_ratio"].get<double>(), 0.0) << pair;
+}
+
+/// Past the threshold of the free bends neighbours and the frame limit the motion; with bars at the tops none of them is touched.
+TEST(Examples, RowOfUBendsInFlowTouchesPastItsThreshold) {
+  const char* clips[] = {"tubes_12", "tubes_23", "tubes_34", "tubes_45", "frame_1", "frame_5"};
+  const Workshop folder;
+  const Results run = folder.run(example("bundle_flow"), "results");
+  const auto& stability = run.summary["stability"];
+  ASSERT_EQ(stability.size(), 10u) << "two assessments of five tubes";
+  for (std::size_t tube = 0; tube < 5; ++tube) {
+    EXPECT_TRUE(close_to(stability[tube]["law"]["critical_factor"], 0.71292, four_digits));
+    EXPECT_TRUE(stability[5 + tube]["law"]["critical_factor"].is_null());
+  }
+  for (const char* name : clips)
+    EXPECT_GT(run.statistics(name)["impacts"].get<int>(), 20) << name; // some 40 to 110
+  EXPECT_GT(run.summary["energy"]["fluid_J"].get<double>(), 0.3);
+  EXPECT_LT(run.summary["energy"]["residual_relative"].get<double>(), trusted_balance);
+  const Results held = folder.run(example("bundle_flow"), "held", {"--set", "contacts.bars.active=true"});
+  for (const char* name : clips)
+    EXPECT_EQ(held.statistics(name)["impacts"].get<int>(), 0) << name;
 }
 
 /// The motion in the plane of the bend grows to the stops, and no further; bars without clearance hold it by friction.
