@@ -217,7 +217,7 @@ private:
       });
     if (last_ == Stage::stability || (scenes_wanted_ && !study.stabilities.empty()))
       assess_stability(comm_, tubes, together(placed_, inactive_), out_);
-    if (last_ == Stage::stability || scenes_wanted_)
+    if (scenes_wanted_)
       core::agree(comm_, [&] { judge_fluidelastic(tubes, out_.bases, out_); });
     if (last_ == Stage::response || (scenes_wanted_ && !study.responses.empty()))
       linear_responses(comm_, tubes, turbulence_, together(placed_, inactive_), nodes_, out_);
@@ -277,11 +277,11 @@ private:
 
   void write_tables() {
     const fs::path& folder = inputs_.directory;
-    if (!out_.stability.empty())
-      results::write_stability_csv(folder / "stability.csv", out_);
-    if (!up_to_date_)
-      for (const char* file : {"flow.csv", "spectra.csv"}) // of an earlier state of the study
+    if (!up_to_date_) // of an earlier state of the study
+      for (const char* file : {"flow.csv", "spectra.csv", "stability_diagram.csv"})
         remove_file(folder / file);
+    if (!out_.stability.empty())
+      results::write_stability_csv(folder, out_);
     if (!flows_.empty())
       results::write_flow_csv(folder / "flow.csv", flow_rows(inputs_.study, model_, flows_));
     if (last_ == Stage::transient && !turbulence_.empty()) {

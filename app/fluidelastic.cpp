@@ -16,14 +16,26 @@ namespace {
 using Eigen::Index;
 
 constexpr double largest_factor = 3.0; // of the search for the first crossing
-constexpr int factors = 30, halvings = 30;
+constexpr int steps = 30, halvings = 30;
 constexpr Index most_searched = 600; // unknowns: their eigenvalues take a second
+
+/// Where V is largest.
+struct Fastest {
+  double velocity = 0.0, diameter = 1.0; ///< m/s, m
+};
+
+Fastest fastest(const flow::Sampling& sampling) {
+  Fastest out;
+  for (const flow::Station& station : sampling.stations)
+    if (station.flow.velocity > out.velocity)
+      out = {station.flow.velocity, station.tube.outer_diameter};
+  return out;
+}
 
 struct TubeWithLaw {
   const study::Flow& flow;
   std::size_t structure;
   flow::Sampling sampling;
-  double fastest, diameter; ///< m/s, m, where V is largest
 };
 
 std::vector<TubeWithLaw> tubes_with_laws(const TubesInFlow& tubes, const std::vector<modal::Basis>& bases) {
@@ -35,30 +47,48 @@ std::vector<TubeWithLaw> tubes_with_laws(const TubesInFlow& tubes, const std::ve
     const std::size_t structure = structure_of(placed, flow.name, bases);
     TubeWithLaw tube{
         flow, structure,
-        flow::sample(tube_of(tubes.study, placed, tubes.model), placed.profile, bases[structure]), 0.0, 1.0};
-    for (const flow::Station& station : tube.sampling.stations)
-      if (station.flow.velocity > tube.fastest) {
-        tube.fastest = station.flow.velocity;
-        tube.diameter = station.tube.outer_diameter;
-      }
+        flow::sample(tube_of(tubes.study, placed, tubes.model), placed.profile, bases[structure])};
     out.push_back(std::move(tube));
   }
   return out;
 }
 
-core::MotionForces forces_of(const TubeWithLaw& tube, Index modes, double factor) {
+core::MotionForces forces_of(const study::Flow& flow, const flow::Sampling& sampling, Index modes,
+                             double factor) {
   try {
-    return flow::motion_forces(tube.sampling, *tube.flow.law, modes, factor);
+    return flow::motion_forces(sampling, *flow.law, modes, factor);
   } catch (const core::Error& error) {
-    throw core::Error(fmt::format("{}: {}", name_of(tube.flow), error.what()));
+    throw core::Error(fmt::format("{}: {}", name_of(flow), error.what()));
   }
+}
+
+/// The modes of lowest frequency.
+flow::Sampling lowest(flow::Sampling sampling, Index modes) {
+  const Index n = std::min(modes, sampling.modes());
+  sampling.frequency.conservativeResize(n);
+  sampling.modal_mass.conservativeResize(n);
+  for (flow::Station& station : sampling.stations)
+    station.shapes.conservativeResize(Eigen::NoChange, n);
+  return sampling;
+}
+
+/// Between the first and the last, and 1 where it is between them.
+std::vector<double> factors_of(const study::Stability& assessment) {
+  const auto [first, last] = assessment.factors;
+  std::vector<double> out;
+  for (int i = 0; i < assessment.points; ++i)
+    out.push_back(first + (last - first) * i / (assessment.points - 1));
+  if (first < 1.0 && last > 1.0)
+    if (const auto at = std::lower_bound(out.begin(), out.end(), 1.0); *at != 1.0)
+      out.insert(at, 1.0);
+  return out;
 }
 
 /// The vibration modes of a tube in its flow.
 class Roots {
 public:
   Roots(const TubeWithLaw& tube, const modal::Basis& basis)
-      : forces_(forces_of(tube, tube.sampling.modes(), largest_factor)) {
+      : forces_(forces_of(tube.flow, tube.sampling, tube.sampling.modes(), largest_factor)) {
     const Index n = tube.sampling.modes();
     k_ = basis.omega.head(n).cwiseAbs2();
     c_ = 2.0 * basis.damping.head(n).cwiseProduct(basis.omega.head(n));
@@ -88,8 +118,8 @@ public:
   /// The least factor of all velocities at which a root crosses the imaginary axis, up to largest_factor.
   [[nodiscard]] std::optional<double> critical_factor() const {
     double low = 0.0;
-    for (int i = 1; i <= factors; ++i) {
-      double high = largest_factor * i / factors;
+    for (int i = 1; i <= steps; ++i) {
+      double high = largest_factor * i / steps;
       if (worst(high).real() > 0.0) {
         for (int k = 0; k < halvings; ++k) {
           const double middle = 0.5 * (low + high);
@@ -119,28 +149,48 @@ std::vector<core::MotionForces> fluidelastic_forces(const TubesInFlow& tubes,
       throw core::Error(fmt::format("{}: a second tube of its structure has a flow with a law; a law acts on "
                                     "one tube of a structure, leave law out of the other [[flow]]",
                                     name_of(tube.flow)));
-    to = forces_of(tube, bases[tube.structure].size(), 1.0);
+    to = forces_of(tube.flow, tube.sampling, bases[tube.structure].size(), 1.0);
   }
+  return out;
+}
+
+std::optional<results::LawStability> law_stability(const study::Flow& flow, const flow::Sampling& sampling,
+                                                   const Eigen::VectorXd& damping,
+                                                   const study::Stability& assessment) {
+  const auto [velocity, diameter] = fastest(sampling);
+  if (!flow.law || velocity == 0.0 || sampling.modes() == 0)
+    return {};
+  const flow::Sampling low = lowest(sampling, assessment.modes);
+  const Eigen::VectorXd w = 2.0 * std::numbers::pi * low.frequency;
+  const core::MotionForces forces = forces_of(flow, low, low.modes(), assessment.factors[1]);
+  if (const Index size = 2 * low.modes() + forces.states(); size > most_searched)
+    throw core::Error(fmt::format(
+        "stability \"{}\", {}: the diagram has {} unknowns of modes and lags, more than {}; give a "
+        "smaller modes (now {})",
+        assessment.name, name_of(flow), size, most_searched, low.modes()));
+  results::LawStability out{velocity, diameter, flow.law->range, {}};
+  out.diagram = flow::stability_diagram(w.cwiseAbs2(), 2.0 * damping.head(low.modes()).cwiseProduct(w),
+                                        forces, factors_of(assessment));
   return out;
 }
 
 void judge_fluidelastic(const TubesInFlow& tubes, const std::vector<modal::Basis>& bases,
                         results::RunResults& out) {
   for (const TubeWithLaw& tube : tubes_with_laws(tubes, bases)) {
-    if (tube.fastest == 0.0)
+    const auto [velocity, diameter] = fastest(tube.sampling);
+    if (velocity == 0.0)
       continue;
     const Roots roots(tube, bases[tube.structure]);
     const std::complex<double> root = roots.worst(1.0);
     const double frequency = std::abs(root) / (2.0 * std::numbers::pi),
-                 reduced = tube.fastest / (frequency * tube.diameter);
+                 reduced = velocity / (frequency * diameter);
     const bool unstable = root.real() > 0.0;
     std::string crossing;
     if (roots.size() > most_searched)
       crossing = fmt::format("no critical velocity is searched with {} modes and states, more than {}",
                              roots.size(), most_searched);
     else if (const std::optional<double> critical = roots.critical_factor())
-      crossing =
-          fmt::format("critical velocity {:.5g} m/s, factor {:.5g}", *critical * tube.fastest, *critical);
+      crossing = fmt::format("critical velocity {:.5g} m/s, factor {:.5g}", *critical * velocity, *critical);
     else
       crossing = fmt::format("stable up to {:g} times the velocity", largest_factor);
     std::string text =

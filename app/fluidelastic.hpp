@@ -13,6 +13,14 @@ namespace fretwork::app {
 [[nodiscard]] std::vector<core::MotionForces> fluidelastic_forces(const TubesInFlow& tubes,
                                                                   const std::vector<modal::Basis>& bases);
 
+/// The stability diagram of a tube whose flow has a law, on the modes of an assessment; none without law or velocity.
+/// @param damping  ratios of the modes of `sampling`
+/// @throws core::Error where modes and lags are too many
+[[nodiscard]] std::optional<results::LawStability> law_stability(const study::Flow& flow,
+                                                                 const flow::Sampling& sampling,
+                                                                 const Eigen::VectorXd& damping,
+                                                                 const study::Stability& assessment);
+
 /// Of the modes without contacts: a note, or where the tube is unstable a warning, for each flow with a law: the root of largest growth at
 /// the working point with its reduced velocity, and the factor of all velocities at which the tube becomes unstable first.
 void judge_fluidelastic(const TubesInFlow& tubes, const std::vector<modal::Basis>& bases,

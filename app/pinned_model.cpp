@@ -16,14 +16,28 @@ constexpr std::uint8_t translations = 0b000111, all_dofs = 0b111111;
 /// Of the rod's bending and torsion to its axial stiffness: nothing is felt of them.
 constexpr double slenderness = 1e-18;
 
-/// Local axes along which the obstacle presses.
-std::vector<Vec3> directions(const contact::Obstacle& obstacle, const contact::Frame& frame) {
-  const auto [y, z] = contact::normal_directions(obstacle);
-  std::vector<Vec3> out;
+struct Rod {
+  Vec3 direction;
+  double stiffness; ///< N/m
+};
+
+/// What the pin of a contact holds. @param rigid  N/m, of pins that are not elastic
+std::vector<Rod> rods_of(const study::Contact& contact, const PlacedContact& pin, const PinKind& kind,
+                         double rigid) {
+  const auto [y, z] = contact::normal_directions(contact.shape);
+  const double normal = kind.elastic ? pin.normal_stiffness : rigid,
+               tangential = kind.elastic ? contact.tangential_stiffness : rigid;
+  std::vector<Rod> out;
   if (y)
-    out.push_back(frame.y);
+    out.push_back({pin.frame.y, normal});
   if (z)
-    out.push_back(frame.z);
+    out.push_back({pin.frame.z, normal});
+  if (!kind.sticking || !(contact.friction_static > 0.0) || !(tangential > 0.0))
+    return out;
+  if (contact.friction_along.x > 0.0)
+    out.push_back({pin.frame.x, tangential});
+  if (contact.friction_along.t > 0.0 && !(y && z))
+    out.push_back({y ? pin.frame.z : pin.frame.y, tangential});
   return out;
 }
 
@@ -54,7 +68,7 @@ bool can_pin(const fem::Model& model, const PlacedContact& contact) {
 }
 
 fem::Model pinned_model(const study::Study& study, const fem::Model& model,
-                        const std::vector<PlacedContact>& pins) {
+                        const std::vector<PlacedContact>& pins, const PinKind& kind) {
   fem::Model out = model;
   std::set<std::pair<Index, std::size_t>> done; // nodes and entries: points along a thickness pin once
   for (const PlacedContact& pin : pins) {
@@ -65,12 +79,12 @@ fem::Model pinned_model(const study::Study& study, const fem::Model& model,
       throw core::Error(fmt::format("contact \"{}\" cannot pin: its node carries no beam; leave it out of "
                                     "[[stability]] pinned",
                                     pin.name));
-    const auto property = static_cast<Index>(out.properties.size());
-    out.properties.push_back(rod(pin_stiffness * stiffness));
-    for (const Vec3& direction : directions(study.contacts[pin.entry].shape, pin.frame)) {
-      out.nodes.push_back(model.nodes[static_cast<std::size_t>(pin.node)] + direction);
+    for (const Rod& held : rods_of(study.contacts[pin.entry], pin, kind, pin_stiffness * stiffness)) {
+      out.nodes.push_back(model.nodes[static_cast<std::size_t>(pin.node)] + held.direction);
       out.fixed.push_back(all_dofs);
-      out.beams.push_back({pin.node, static_cast<Index>(out.nodes.size()) - 1, property});
+      out.properties.push_back(rod(held.stiffness));
+      out.beams.push_back({pin.node, static_cast<Index>(out.nodes.size()) - 1,
+                           static_cast<Index>(out.properties.size()) - 1});
     }
   }
   return out;

@@ -4,9 +4,9 @@
 /// transient hangs in its clearances.
 ///
 /// A pin holds its node along the directions in which the obstacle of the contact can press: y_loc or z_loc of planes, stops
-/// and bars, both of all others. Rotations and the direction of the tube stay free. The pin is a massless rod of 1 m along
-/// the direction to a fixed point, with pin_stiffness times the largest translational stiffness of the beams at
-/// the node: the node moves by some 1e-6 of what a span bends.
+/// and bars, both of all others; where it sticks, along those too in which the friction of the contact acts. Rotations stay free. The pin is a
+/// massless rod of 1 m along the direction to a fixed point, with pin_stiffness times the largest translational stiffness of the beams at
+/// the node: the node moves by some 1e-6 of what a span bends. An elastic pin has the normal or tangential stiffness of the contact.
 #pragma once
 #include "app/build_contacts.hpp"
 
@@ -14,12 +14,17 @@ namespace fretwork::app {
 
 inline constexpr double pin_stiffness = 1e3; ///< times that of the beams at the node
 
+struct PinKind {
+  bool elastic = false;  ///< as stiff as the contact
+  bool sticking = false; ///< also where friction acts
+};
+
 /// Contacts between two nodes pin where the other is restrained in all translations.
 [[nodiscard]] bool can_pin(const fem::Model& model, const PlacedContact& contact);
 
 /// @param pins  contacts, each of which can pin
 /// @return the model with the nodes of the old one first, under their numbers
 [[nodiscard]] fem::Model pinned_model(const study::Study& study, const fem::Model& model,
-                                      const std::vector<PlacedContact>& pins);
+                                      const std::vector<PlacedContact>& pins, const PinKind& kind);
 
 } // namespace fretwork::app

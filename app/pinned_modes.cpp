@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/pinned_modes.hpp"
-#include "app/pinned_model.hpp"
 #include "app/stages.hpp"
 #include "core/error.hpp"
 #include "core/mpi.hpp"
@@ -63,7 +62,7 @@ PinnedModes pinned_modes(MPI_Comm comm, const PinsAsked& asked, const TubesInFlo
   std::vector<fem::Structure> structures;
   core::agree(comm, [&] {
     out.pins = pins_of(asked, tubes.study, tubes.model, contacts, notes);
-    pinned = pinned_model(tubes.study, tubes.model, out.pins.held);
+    pinned = pinned_model(tubes.study, tubes.model, out.pins.held, asked.kind);
     structures = moving_structures(pinned);
   });
   out.bases =

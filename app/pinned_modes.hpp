@@ -3,6 +3,7 @@
 /// Modes of the tubes pinned at supports (pinned_model.hpp), which an assessment of linear modes is made on.
 #pragma once
 #include "app/flow_damping.hpp"
+#include "app/pinned_model.hpp"
 #include <mpi.h>
 
 namespace fretwork::app {
@@ -12,6 +13,7 @@ struct PinsAsked {
   std::string what; ///< for messages: `stability "both plates"`
   study::Pinned pinned = study::Pinned::contacts;
   std::vector<std::string> contacts = {}; ///< of Pinned::named
+  PinKind kind = {};
 };
 
 struct Pins {

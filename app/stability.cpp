@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/stability.hpp"
+#include "app/fluidelastic.hpp"
 #include "core/error.hpp"
 #include "core/mpi.hpp"
 #include "flow/vortex_shedding.hpp"
@@ -49,6 +50,8 @@ results::StabilityAssessment assess(const TubesInFlow& tubes, const PlacedFlow& 
   results::StabilityAssessment out;
   out.name = assessment.name;
   out.pinned = names_of(tubes.study, modes.pins.held);
+  out.elastic = assessment.elastic;
+  out.sticking = assessment.sticking;
   out.sweep = assessment.sweep;
   out.damping_given = assessment.damping.has_value();
   out.damping = damping_of_tube(tubes, placed, tube, sampling,
@@ -63,6 +66,7 @@ results::StabilityAssessment assess(const TubesInFlow& tubes, const PlacedFlow& 
     throw core::Error(
         fmt::format("{}: {} (a ratio may be given by [[stability]] damping)", what, error.what()));
   }
+  out.law = law_stability(flow, sampling, ratios, assessment);
   if (assessment.strouhal)
     screen_shedding(what, placed, sampling, *assessment.strouhal, all);
   return out;
@@ -77,16 +81,50 @@ void report(const results::StabilityAssessment& found, results::RunResults& out)
     return;
   const bool unstable = worst->margin() <= 0.0;
   const auto& mode = found.stability.modes[static_cast<std::size_t>(worst->critical_mode)];
+  const char* stands_for = found.law ? ", by Connors" : ", which no force of the transient stands for";
   const std::string text = fmt::format(
-      "stability \"{}\" of flow \"{}\": V/Vc = {:.4g} in mode {} at {:.4g} Hz, margin {:.4g}{}", found.name,
+      "stability \"{}\" of flow \"{}\": V/Vc = {:.4g} in mode {} at {:.4g} Hz, margin {:.4g}{}{}", found.name,
       found.damping.tube, 1.0 - worst->margin(), worst->critical_mode + 1, mode.frequency, worst->margin(),
-      unstable ? ": fluid-elastically unstable, which no force of the transient stands for" : "");
+      unstable ? ": fluid-elastically unstable" : "", unstable ? stands_for : "");
   if (unstable)
     out.warnings.push_back(text);
   else // before the notes of other kinds
     out.notes.insert(out.notes.begin() +
                          static_cast<std::ptrdiff_t>(std::min(out.notes.size(), out.stability.size())),
                      text);
+}
+
+/// What the law of the flow says in words; a warning where the velocities given are unstable, or where a crossing is outside of the range of the law.
+void report_law(const results::StabilityAssessment& found, results::RunResults& out) {
+  if (!found.law)
+    return;
+  const results::LawStability& law = *found.law;
+  const std::string what =
+      fmt::format("stability \"{}\" of flow \"{}\", fluidelastic law", found.name, found.damping.tube);
+  const flow::Crossing* critical = law.diagram.critical();
+  if (!critical) {
+    out.notes.push_back(
+        fmt::format("{}: stable up to {:g} times the velocity", what, law.diagram.factors.back()));
+    return;
+  }
+  const double frequency = flow::frequency_of(critical->root);
+  const std::string at =
+      fmt::format("{}: critical velocity {:.5g} m/s, factor {:.5g}, {}", what,
+                  critical->factor * law.velocity, critical->factor,
+                  frequency > 0.0 ? fmt::format("at {:.5g} Hz", frequency) : std::string("by divergence"));
+  const bool unstable = law.diagram.factors.back() >= 1.0 && law.unstable_at(1.0);
+  (unstable ? out.warnings : out.notes)
+      .push_back(at + (unstable ? ": unstable at the velocities given" : ""));
+  for (const flow::Crossing& one : law.diagram.crossings) {
+    if (one.factor == 0.0)
+      continue;
+    if (const auto reduced = law.reduced_velocity(one.factor, flow::frequency_of(one.root));
+        reduced && law.outside(*reduced))
+      out.warnings.push_back(fmt::format(
+          "{}: reduced velocity {:.4g} of the crossing at factor {:.5g} is outside the law's range "
+          "{:g} to {:g}; the law is extrapolated",
+          what, *reduced, one.factor, (*law.range)[0], (*law.range)[1]));
+  }
 }
 
 } // namespace
@@ -96,11 +134,25 @@ std::vector<study::Stability> assessments_of(const study::Study& study) {
     return study.stabilities;
   study::Stability one;
   one.name = "all contacts pinned";
-  return {one};
+  const bool law = std::any_of(study.flows.begin(), study.flows.end(),
+                               [](const study::Flow& flow) { return flow.law.has_value(); });
+  if (!law)
+    return {one};
+  study::Stability free; // a law is told where the tube is between its supports, and where they hold it
+  free.name = "without contacts";
+  free.pinned = study::Pinned::none;
+  if (study.contacts.empty())
+    return {free};
+  one.name = "contacts closed";
+  one.elastic = one.sticking = true;
+  return {free, one};
 }
 
 PinsAsked pins_asked(const study::Stability& assessment) {
-  return {fmt::format("stability \"{}\"", assessment.name), assessment.pinned, assessment.contacts};
+  return {fmt::format("stability \"{}\"", assessment.name),
+          assessment.pinned,
+          assessment.contacts,
+          {assessment.elastic, assessment.sticking}};
 }
 
 void assess_stability(MPI_Comm comm, const TubesInFlow& tubes, const std::vector<PlacedContact>& contacts,
@@ -112,6 +164,7 @@ void assess_stability(MPI_Comm comm, const TubesInFlow& tubes, const std::vector
         results::StabilityAssessment found = assess(tubes, placed, assessment, modes, out);
         out.notes.insert(out.notes.end(), found.damping.limits.begin(), found.damping.limits.end());
         report(found, out);
+        report_law(found, out);
         out.stability.push_back(std::move(found));
       }
     });

@@ -6,7 +6,8 @@
 
 namespace fretwork::app {
 
-/// The assessments of a study: its `[[stability]]` entries, or one of all active contacts where it has none.
+/// The assessments of a study: its `[[stability]]` entries. Where it has none, one of all active contacts; of flows with a law one without
+/// contacts, and one with all closed, sticking, as stiff as they are.
 [[nodiscard]] std::vector<study::Stability> assessments_of(const study::Study& study);
 
 /// What an assessment pins the tubes at.

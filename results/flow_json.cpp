@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/flow_json.hpp"
+#include "results/flow_text.hpp"
 #include "results/json_number.hpp"
 
 namespace fretwork::results {
@@ -67,6 +68,46 @@ Json stability_case(const flow::StabilityCase& one, const StabilityAssessment& a
   return out;
 }
 
+Json crossing(const flow::Crossing& one, const LawStability& law) {
+  const double hertz = flow::frequency_of(one.root);
+  const auto reduced = law.reduced_velocity(one.factor, hertz);
+  return {{"factor", number(one.factor)},
+          {"velocity_m_s", number(one.factor * law.velocity)},
+          {"frequency_hz", number(hertz)},
+          {"reduced_velocity", reduced ? number(*reduced) : Json(nullptr)},
+          {"mode", one.mode < 0 ? Json(nullptr) : Json(one.mode + 1)},
+          {"becomes", one.to_unstable ? "unstable" : "stable"},
+          {"outside_range", reduced && law.outside(*reduced)}};
+}
+
+Json law(const LawStability& of, const Eigen::VectorXd& ratios) {
+  const flow::StabilityDiagram& diagram = of.diagram;
+  Json modes = Json::array(), crossings = Json::array();
+  for (Eigen::Index mode = 0; mode < diagram.roots.cols(); ++mode) {
+    Json frequency = Json::array(), damping = Json::array();
+    for (const std::complex<double>& root : diagram.roots.col(mode)) {
+      frequency.push_back(number(flow::frequency_of(root)));
+      damping.push_back(number(flow::damping_of(root)));
+    }
+    const auto critical = of.critical_factor(mode);
+    modes.push_back({{"frequencies_hz", frequency},
+                     {"dampings", damping},
+                     {"critical_factor", critical ? number(*critical) : Json(nullptr)},
+                     {"connors_factor", number(1.0 / ratios(mode))}});
+  }
+  for (const flow::Crossing& one : diagram.crossings)
+    crossings.push_back(crossing(one, of));
+  const flow::Crossing* critical = diagram.critical();
+  return {{"velocity_m_s", number(of.velocity)},
+          {"diameter_m", number(of.diameter)},
+          {"range", of.range ? Json(*of.range) : Json(nullptr)},
+          {"critical_factor", critical ? number(critical->factor) : Json(nullptr)},
+          {"critical_velocity_m_s", critical ? number(critical->factor * of.velocity) : Json(nullptr)},
+          {"crossings", crossings},
+          {"factors", diagram.factors},
+          {"modes", modes}};
+}
+
 Json stability(const StabilityAssessment& assessment) {
   Json modes = Json::array(), cases = Json::array();
   for (std::size_t i = 0; i < assessment.stability.modes.size(); ++i) {
@@ -78,13 +119,18 @@ Json stability(const StabilityAssessment& assessment) {
   }
   for (const flow::StabilityCase& one : assessment.stability.cases)
     cases.push_back(stability_case(one, assessment));
-  return {{"name", assessment.name},
-          {"tube", assessment.damping.tube},
-          {"pinned", assessment.pinned},
-          {"damping_given", assessment.damping_given},
-          {"modes", modes},
-          {"cases", cases},
-          {"damping", damping(assessment.damping)}};
+  Json out{{"name", assessment.name},
+           {"tube", assessment.damping.tube},
+           {"pinned", assessment.pinned},
+           {"elastic", assessment.elastic},
+           {"sticking", assessment.sticking},
+           {"damping_given", assessment.damping_given},
+           {"modes", modes},
+           {"cases", cases},
+           {"damping", damping(assessment.damping)}};
+  if (assessment.law)
+    out["law"] = law(*assessment.law, assessment.stability.cases[worst_case(assessment.stability)].ratio);
+  return out;
 }
 
 Json response(const LinearResponse& r) {

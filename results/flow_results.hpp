@@ -4,6 +4,9 @@
 #pragma once
 #include "flow/damping.hpp"
 #include "flow/stability.hpp"
+#include "flow/stability_diagram.hpp"
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,14 +23,49 @@ struct TubeDamping {
   std::vector<std::string> limits; ///< those of `damping`, in words
 };
 
+/// The roots of the modes of one tube under the fluidelastic law of its flow.
+struct LawStability {
+  double velocity = 0.0, diameter = 0.0;      ///< m/s, m, where V is largest at factor 1
+  std::optional<std::array<double, 2>> range; ///< of V/(f D) in which the law was measured
+  flow::StabilityDiagram diagram;
+
+  /// V/(f D); none of divergence.
+  [[nodiscard]] std::optional<double> reduced_velocity(double factor, double frequency) const {
+    if (!(frequency > 0.0))
+      return {};
+    return factor * velocity / (frequency * diameter);
+  }
+  /// Where a mode becomes unstable first.
+  [[nodiscard]] std::optional<double> critical_factor(Eigen::Index mode) const {
+    for (const flow::Crossing& one : diagram.crossings)
+      if (one.mode == mode && one.to_unstable)
+        return one.factor;
+    return {};
+  }
+  /// True where a root of the modes or lags grows: more crossings to there than back.
+  [[nodiscard]] bool unstable_at(double factor) const {
+    int growing = 0;
+    for (const flow::Crossing& one : diagram.crossings)
+      if (one.factor < factor)
+        growing += one.to_unstable ? 1 : -1;
+    return growing > 0;
+  }
+  /// True where the law says nothing on a vibration of this reduced velocity.
+  [[nodiscard]] bool outside(double reduced) const {
+    return range && (reduced < (*range)[0] || reduced > (*range)[1]);
+  }
+};
+
 /// Stability of one tube on modes pinned at supports.
 struct StabilityAssessment {
   std::string name;
-  std::vector<std::string> pinned; ///< names of the contacts at which the modes are held
-  bool damping_given = false;      ///< by the study: then not of `damping`
-  TubeDamping damping;             ///< on the pinned modes
+  std::vector<std::string> pinned;        ///< names of the contacts at which the modes are held
+  bool elastic = false, sticking = false; ///< the pins: as stiff as the contacts; also where friction acts
+  bool damping_given = false;             ///< by the study: then not of `damping`
+  TubeDamping damping;                    ///< on the pinned modes
   flow::Stability stability;
-  std::vector<double> sweep; ///< factors of all velocities
+  std::vector<double> sweep;       ///< factors of all velocities
+  std::optional<LawStability> law; ///< where the flow has a fluidelastic law
 };
 
 } // namespace fretwork::results

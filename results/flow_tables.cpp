@@ -22,16 +22,6 @@ std::string constants_text(const flow::StabilityCase& one, const StabilityAssess
   return text.empty() ? "no flow" : text;
 }
 
-/// Number of the case with the largest ratio.
-std::size_t worst_case(const flow::Stability& stability) {
-  const auto scale = [](const flow::StabilityCase& one) { return one.critical_scale(); };
-  const auto& cases = stability.cases;
-  return static_cast<std::size_t>(
-      std::min_element(cases.begin(), cases.end(),
-                       [&](const auto& a, const auto& b) { return scale(a) < scale(b); }) -
-      cases.begin());
-}
-
 std::string case_row(std::size_t number, const flow::StabilityCase& one,
                      const StabilityAssessment& assessment) {
   if (one.critical_mode < 0)
@@ -85,6 +75,15 @@ std::string sweep_line(const StabilityAssessment& assessment, std::size_t number
 
 } // namespace
 
+std::size_t worst_case(const flow::Stability& stability) {
+  const auto scale = [](const flow::StabilityCase& one) { return one.critical_scale(); };
+  const auto& cases = stability.cases;
+  return static_cast<std::size_t>(
+      std::min_element(cases.begin(), cases.end(),
+                       [&](const auto& a, const auto& b) { return scale(a) < scale(b); }) -
+      cases.begin());
+}
+
 std::string pinned_text(const std::vector<std::string>& names) {
   if (names.empty())
     return "nothing pinned";
@@ -128,19 +127,21 @@ std::string flow_damping_table(const RunResults& results) {
 std::string stability_table(const RunResults& results) {
   std::string text;
   for (const StabilityAssessment& assessment : results.stability) {
-    text += fmt::format("Stability \"{}\" of tube \"{}\", {}\n", assessment.name, assessment.damping.tube,
-                        pinned_text(assessment.pinned));
+    text += fmt::format("Stability \"{}\" of tube \"{}\", {}{}{}\n", assessment.name, assessment.damping.tube,
+                        pinned_text(assessment.pinned), assessment.elastic ? ", elastic" : "",
+                        assessment.sticking ? ", sticking" : "");
     if (assessment.stability.modes.empty()) {
       text += "  no modes up to the limit of [modes]\n";
       continue;
     }
     const std::size_t worst = worst_case(assessment.stability);
-    text += cases_table(assessment) + case_modes(assessment, worst) + sweep_line(assessment, worst);
+    text += cases_table(assessment) + case_modes(assessment, worst) + sweep_line(assessment, worst) +
+            law_table(assessment);
   }
   return text;
 }
 
-void write_stability_csv(const std::filesystem::path& file, const RunResults& results) {
+void write_stability_csv(const std::filesystem::path& folder, const RunResults& results) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
   fmt::format_to(
@@ -157,7 +158,9 @@ void write_stability_csv(const std::filesystem::path& file, const RunResults& re
                        one.critical_velocity(i), one.ratio(i), 1.0 - one.ratio(i), 1.0 / one.ratio(i));
       }
     }
-  write_text(file, {text.data(), text.size()});
+  write_text(folder / "stability.csv", {text.data(), text.size()});
+  if (const std::string diagram = stability_diagram_csv(results); !diagram.empty())
+    write_text(folder / "stability_diagram.csv", diagram);
 }
 
 } // namespace fretwork::results

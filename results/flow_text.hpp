@@ -2,6 +2,7 @@
 /// @file
 /// Words that the tables of assessments on linear modes share.
 #pragma once
+#include "results/run_results.hpp"
 #include <string>
 #include <vector>
 
@@ -9,6 +10,15 @@ namespace fretwork::results {
 
 /// `pinned at tsp1, tsp2 and 4 more`, `nothing pinned`.
 [[nodiscard]] std::string pinned_text(const std::vector<std::string>& names);
+
+/// Number of the case with the largest ratio, of at least one.
+[[nodiscard]] std::size_t worst_case(const flow::Stability& stability);
+
+/// Crossings of zero damping and the modes at the velocities given, beside Connors; empty without a law.
+[[nodiscard]] std::string law_table(const StabilityAssessment& assessment);
+
+/// The text of stability_diagram.csv: one mode at one factor of the velocity a row; empty without a law.
+[[nodiscard]] std::string stability_diagram_csv(const RunResults& results);
 
 /// A cell of a CSV file between quotes; a quote within is doubled.
 [[nodiscard]] std::string quoted(std::string text);

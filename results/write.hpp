@@ -34,9 +34,9 @@ void write_summary(const std::filesystem::path& file, const RunResults& results)
 /// its sweep of velocities; empty without.
 [[nodiscard]] std::string stability_table(const RunResults& results);
 
-/// One mode of one case a row.
-/// @throws core::Error if it cannot be written
-void write_stability_csv(const std::filesystem::path& file, const RunResults& results);
+/// stability.csv: one mode of one case a row; where flows have laws stability_diagram.csv: one mode at one factor of the velocity a row.
+/// @throws core::Error if they cannot be written
+void write_stability_csv(const std::filesystem::path& folder, const RunResults& results);
 
 /// Linear response to turbulence, a line a displacement, at most 60; empty without.
 [[nodiscard]] std::string response_table(const RunResults& results);

@@ -5,6 +5,7 @@
 #include "flow/damping.hpp"
 #include "flow/fluidelastic_law.hpp"
 #include "flow/stability.hpp"
+#include <array>
 #include <limits>
 #include <map>
 #include <optional>
@@ -49,6 +50,12 @@ struct Stability {
   std::vector<double> sweep = {0.5, 1.0, 1.5, 2.0}; ///< factors of all velocities, >= 0
   std::optional<double> strouhal = std::nullopt;    ///< of the bundle: vortex shedding is screened for
   std::optional<double> damping = std::nullopt;     ///< one ratio for all modes, instead of that of the flow
+  bool elastic = false;                             ///< pins have the stiffness of their contacts
+  bool sticking = false;                            ///< pins hold where friction acts too
+  /// Of the stability diagram of flows with a law:
+  std::array<double, 2> factors{0.0, 2.0}; ///< of all velocities, first and last, 0 <= first < last
+  int points = 101;                        ///< evenly between them
+  int modes = 10;                          ///< those of lowest frequency
 };
 
 } // namespace fretwork::study

@@ -22,9 +22,9 @@ TEST(Examples, EveryFolderOfExamplesIsRunHere) {
   for (const auto& entry : fs::directory_iterator(test_paths::source_dir() / "examples"))
     if (fs::exists(entry.path() / "study.toml"))
       found.insert(entry.path().filename());
-  EXPECT_EQ(found,
-            (std::set<std::string>{"bundle", "cantilever_stop", "oscillator", "straight_tube", "tube_in_flow",
-                                   "tube_study", "tube_sweep", "two_tubes", "u_bend"}));
+  EXPECT_EQ(found, (std::set<std::string>{"bundle", "bundle_flow", "cantilever_stop", "oscillator",
+                                          "straight_tube", "tube_in_flow", "tube_study", "tube_sweep",
+                                          "two_tubes", "u_bend", "u_bend_flow"}));
 }
 
 TEST(Examples, BundleOfUBendsTouchesAtItsTops) {
@@ -32,6 +32,51 @@ TEST(Examples, BundleOfUBendsTouchesAtItsTops) {
   const Results run = folder.run(example("bundle"), "results");
   for (const char* pair : {"tubes_12", "tubes_23", "tubes_34", "tubes_45"})
     EXPECT_GT(run.statistics(pair)["contact_time_ratio"].get<double>(), 0.0) << pair;
+}
+
+/// Past the threshold of the free bends neighbours and the frame limit the motion; with bars at the tops none of them is touched.
+TEST(Examples, RowOfUBendsInFlowTouchesPastItsThreshold) {
+  const char* clips[] = {"tubes_12", "tubes_23", "tubes_34", "tubes_45", "frame_1", "frame_5"};
+  const Workshop folder;
+  const Results run = folder.run(example("bundle_flow"), "results");
+  const auto& stability = run.summary["stability"];
+  ASSERT_EQ(stability.size(), 10u) << "two assessments of five tubes";
+  for (std::size_t tube = 0; tube < 5; ++tube) {
+    EXPECT_TRUE(close_to(stability[tube]["law"]["critical_factor"], 0.71292, four_digits));
+    EXPECT_TRUE(stability[5 + tube]["law"]["critical_factor"].is_null());
+  }
+  for (const char* name : clips)
+    EXPECT_GT(run.statistics(name)["impacts"].get<int>(), 20) << name; // some 40 to 110
+  EXPECT_GT(run.summary["energy"]["fluid_J"].get<double>(), 0.3);
+  EXPECT_LT(run.summary["energy"]["residual_relative"].get<double>(), trusted_balance);
+  const Results held = folder.run(example("bundle_flow"), "held", {"--set", "contacts.bars.active=true"});
+  for (const char* name : clips)
+    EXPECT_EQ(held.statistics(name)["impacts"].get<int>(), 0) << name;
+}
+
+/// The motion in the plane of the bend grows to the stops, and no further; bars without clearance hold it by friction.
+TEST(Examples, UBendPastItsInPlaneThresholdIsLimitedByStops) {
+  const Workshop folder;
+  const Results run = folder.run(example("u_bend_flow"), "results");
+  const auto& stability = run.summary["stability"];
+  ASSERT_EQ(stability.size(), 3u);
+  EXPECT_TRUE(close_to(stability[0]["law"]["critical_factor"], 0.75265, four_digits)) << "loose bars";
+  EXPECT_TRUE(stability[1]["law"]["critical_factor"].is_null()) << "bars hold";
+  EXPECT_TRUE(close_to(stability[2]["law"]["critical_factor"], 2.4534, four_digits)) << "stops closed";
+  constexpr double gap = 1e-3, deepest = 0.06e-3; // m; 0.04 mm of penetration in a run of 8 s
+  for (const char* stop : {"stops[0]", "stops[1]"}) {
+    EXPECT_GT(run.statistics(stop)["impacts"].get<int>(), 50) << stop; // some 150
+    EXPECT_GT(run.statistics(stop)["position"]["z"]["max"].get<double>(), gap) << stop;
+    EXPECT_LT(run.statistics(stop)["position"]["z"]["max"].get<double>(), gap + deepest) << stop;
+  }
+  EXPECT_GT(run.summary["energy"]["fluid_J"].get<double>(), 0.2);
+  EXPECT_LT(run.summary["energy"]["residual_relative"].get<double>(), trusted_balance);
+  const Results held =
+      folder.run(example("u_bend_flow"), "held", {"--set", "contacts.bars.bars=[0.009525, 0.009525]"});
+  for (const char* stop : {"stops[0]", "stops[1]"})
+    EXPECT_LT(held.statistics(stop)["position"]["z"]["max"].get<double>(), 0.1 * gap) << stop;
+  EXPECT_LT(held.summary["contact_sums"]["work_rate"].get<double>(),
+            0.1 * run.summary["contact_sums"]["work_rate"].get<double>());
 }
 
 TEST(Examples, OscillatorMeetsItsStopThreeTimes) {

@@ -290,6 +290,37 @@ class Report(unittest.TestCase):
         for word in ("all &lt;bars&gt;", "the worst of 2: bend 2.4", "Fluid-elastically unstable", "apex</td>", ">15<", ">21<"):
             self.assertIn(word, text)
 
+    def test_shows_the_stability_diagram_of_a_law(self):
+        made_up(self.folder, 2, 100)
+        case = {"connors_constants": {}, "critical_mode": 1, "margin": 0.5, "critical_scale": 2.0, "ratios": [0.5, 0.1], "critical_velocities_m_s": [2.0, 9.0],
+                "sweep": []}
+        modes = [{"frequency_hz": f, "damping": 0.01, "decrement": 0.06, "effective_velocity_m_s": 1.0} for f in (10, 20)]
+        law = {"velocity_m_s": 4.0, "diameter_m": 0.019, "range": [2, 40], "critical_factor": 1.25, "critical_velocity_m_s": 5.0, "factors": [0.0, 1.0, 2.0],
+               "crossings": [{"factor": 1.25, "velocity_m_s": 5.0, "frequency_hz": 10.5, "reduced_velocity": 25.0, "mode": 1, "becomes": "unstable",
+                              "outside_range": False},
+                             {"factor": 1.9, "velocity_m_s": 7.6, "frequency_hz": 0.0, "reduced_velocity": None, "mode": None, "becomes": "unstable",
+                              "outside_range": False}],
+               "modes": [{"frequencies_hz": [10, 10.4, 11], "dampings": [0.01, 0.004, -0.01], "critical_factor": 1.25, "connors_factor": 2.0},
+                         {"frequencies_hz": [20, 19, None], "dampings": [0.01, 0.02, None], "critical_factor": None, "connors_factor": None}]}
+
+        def add(summary):
+            summary["stability"] = [{"name": "loose", "tube": "T1", "pinned": ["tsp1"], "elastic": True, "sticking": False, "modes": modes, "cases": [case],
+                                     "law": law}]
+
+        self.change(add)
+        text = self.report()
+        section = text[text.index("<h2>Fluid-elastic stability</h2>"):]
+        for word in ("Pinned at: tsp1, elastic.", "critical velocity 5 m/s, factor 1.25", ">25<", "unstable (divergence)", ">lag<"):
+            self.assertIn(word, section)
+        for title in ("damping of the modes over the velocity", "frequency of the modes over the velocity"):
+            picture = section[section.index(f'aria-label="{title}"'):]
+            picture = picture[:picture.index("</svg>")]
+            self.assertEqual(picture.count("<polyline class=\"mode"), 2)
+            self.assertEqual(picture.count("<circle"), 2)
+        law["crossings"], law["critical_factor"], law["critical_velocity_m_s"] = [], None, None
+        self.change(add)
+        self.assertIn("stable up to 2 times the velocity", self.report())
+
     def test_shows_wear(self):
         made_up(self.folder, 5, 200, wear=True)
         text = self.report()

@@ -50,6 +50,29 @@ TEST(FlowLawKeys, QuasiUnsteadyForcesAreTheSteadyOnesWithMemory) {
   EXPECT_EQ(law.lags[0].force(1, 1).real(), 1.25 * 15.5);
 }
 
+TEST(FlowLawKeys, StabilityDiagramsHaveFactorsPointsAndModes) {
+  const Study study = read_text(study_with(rational) +
+                                "[[stability]]\n[[stability]]\nfactors = [0.5, 3]\npoints = 51\nmodes = 4\n"
+                                "elastic = true\nsticking = true\n");
+  EXPECT_EQ(study.stabilities.at(0).factors, (std::array<double, 2>{0.0, 2.0}));
+  EXPECT_EQ(study.stabilities[0].points, 101);
+  EXPECT_EQ(study.stabilities[0].modes, 10);
+  EXPECT_EQ(study.stabilities.at(1).factors, (std::array<double, 2>{0.5, 3.0}));
+  EXPECT_EQ(study.stabilities[1].points, 51);
+  EXPECT_EQ(study.stabilities[1].modes, 4);
+  EXPECT_TRUE(study.stabilities[1].elastic && study.stabilities[1].sticking);
+  const std::pair<std::string, std::string> wrong[] = {
+      {"factors = [2, 1]", "[first, last] factor of all velocities"},
+      {"factors = [-1, 1]", "stability.0.factors[0] = -1: a number >= 0"},
+      {"points = 1", "stability.0.points = 1: an integer >= 2"},
+      {"points = 20000", "stability.0.points = 20000: at most 10000"},
+      {"modes = 0", "stability.0.modes = 0: an integer >= 1"}};
+  for (const auto& [keys, message] : wrong)
+    EXPECT_NE(message_of(study_with(rational) + "[[stability]]\n" + keys + "\n").find(message),
+              std::string::npos)
+        << message;
+}
+
 TEST(FlowLawKeys, TablesAndConnors) {
   const std::string rows =
       "law = \"table\"\ntable = [[2, -1, 0.1], [3, -1.5, 0.2], [4, -2, 0.4], [6, -2, 0.9]]\n";

@@ -128,6 +128,7 @@ TEST(StabilityKeys, HaveDefaultsAndValues) {
   EXPECT_EQ(study.stabilities[1].damping, 0.01);
   EXPECT_EQ(study.stabilities[1].strouhal, 0.2);
   EXPECT_EQ(study.stabilities[2].pinned, Pinned::none);
+  EXPECT_FALSE(study.stabilities[0].elastic || study.stabilities[0].sticking);
   EXPECT_EQ(study.stabilities[2].component.axis, Vec3(1, 0, 0));
 }
 
@@ -201,6 +202,9 @@ TEST(FlowMessages, NameTheKeyAndTheCure) {
        "stability.0.damping = 1: a ratio to critical below 1"},
       {study_with(water) + "[[stability]]\nstrouhal = 0\n", "stability.0.strouhal = 0: a number > 0"},
       {study_with(water) + "[[stability]]\ncomponent = [0, 0, 0]\n", "a zero vector has no direction"},
+      {study_with(water) + "[[stability]]\nelastic = 1\n", "stability.0.elastic"},
+      {study_with(water) + "[[stability]]\nmodes = 4\n",
+       "stability.0.modes = 4: it is of the stability diagram of a [[flow]] with a law, and none has one"},
       {study_with(water) + "[[stability]]\nname = \"a\"\n[[stability]]\nname = \"a\"\n",
        "a second assessment called \"a\""},
       {"[mesh]\nfile = \"a\"\n[modes]\ndamping = \"flow\"\n",

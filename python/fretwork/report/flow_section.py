@@ -48,18 +48,45 @@ def _mode_rows(assessment, case):
     ][:MOST_MODE_ROWS]
 
 
+def _crossing_rows(law):
+    return [
+        [short(c["factor"]), short(c["velocity_m_s"]), short(c["frequency_hz"]), short(c["reduced_velocity"], 3),
+         "lag" if c["mode"] is None else f'{c["mode"]}', c["becomes"] + (" (divergence)" if c["frequency_hz"] == 0 else "")
+         + (", outside the law’s range" if c["outside_range"] else "")]
+        for c in law["crossings"]
+    ]
+
+
+def _law(law):
+    """The stability diagram of a flow with a fluidelastic law."""
+    if law is None:
+        return ""
+    critical = law["critical_factor"]
+    last = law["factors"][-1]
+    found = (f'critical velocity {short(law["critical_velocity_m_s"])} m/s, factor {short(critical)}' if critical is not None
+             else f"stable up to {short(last)} times the velocity")
+    note = (f'<p class="soft">Fluidelastic law: {found}. A line a mode, over the factor of {short(law["velocity_m_s"])} m/s; grey: the velocities given, '
+            "orange marks below: Connors’ critical factors of the modes, dots: zero damping.</p>")
+    pictures = figure(flow_view.law_damping(law)) + figure(flow_view.law_frequencies(law))
+    heads = ["factor", "velocity [m/s]", "frequency [Hz]", "V/(f D)", "mode", "becomes"]
+    crossings = table(heads, _crossing_rows(law)) if law["crossings"] else ""
+    return note + f'<div class="grid2">{pictures}</div>' + crossings
+
+
 def _assessment(assessment):
     title = f'<h3>{html.escape(assessment["name"])}, {html.escape(assessment["tube"])}</h3>'
     if not assessment["modes"]:
         return title + "<p>No modes.</p>"
     case = _worst(assessment)
     pinned = ", ".join(map(html.escape, assessment["pinned"])) or "nothing"
+    pinned += "".join(f", {word}" for word in ("elastic", "sticking") if assessment.get(word))
     facts = (f'<p class="soft">Pinned at: {pinned}. Constants K of the case shown, the worst of {len(assessment["cases"])}: {_constants(case)}. '
              f'Margin 1 − V/Vc: {short(case["margin"], 3)}, factor of all velocities at the limit: {short(case["critical_scale"], 3)}.</p>')
     bad = warning("Fluid-elastically unstable.", bad=True) if (case["margin"] or 0.0) <= 0.0 else ""
     pictures = "".join(map(figure, (flow_view.ratios(case), flow_view.critical_velocities(assessment, case), flow_view.damping(assessment))))
     heads = ["mode", "frequency [Hz]", "damping [%]", "effective velocity [m/s]", "critical velocity [m/s]", "V/Vc", "margin"]
-    return title + bad + facts + f'<div class="grid2">{pictures}</div>' + table(heads, _mode_rows(assessment, case))
+    connors = f'<div class="grid2">{pictures}</div>' + table(heads, _mode_rows(assessment, case))
+    return title + bad + facts + _law(assessment.get("law")) + connors
 
 
 def stability(run):

@@ -64,6 +64,51 @@ def damping(assessment, size=(480, 210)):
     return plot.svg("damping and frequency of modes")
 
 
+HUES = 5  # classes mode0 to mode4 of the page
+
+
+def _clear_factors(law):
+    """Where a broken line stands: the velocities given, and Connors' critical ones of the modes; within the factors of the diagram."""
+    low, high = law["factors"][0], law["factors"][-1]
+    connors = [m["connors_factor"] for m in law["modes"] if m["connors_factor"] is not None]
+    return [f for f in (1.0,) if low <= f <= high], [f for f in connors if low <= f <= high]
+
+
+def _over_factor(law, key, scale, interval, ylabel, title, size):
+    """A quantity of the modes over the factor of all velocities."""
+    plot = Plot(size, (law["factors"][0], law["factors"][-1]), interval)
+    plot.axes("factor of all velocities", ylabel, y_most=5)
+    given, connors = _clear_factors(law)
+    for factor in given:
+        plot.line([factor, factor], interval, "rest")
+    for factor in connors:
+        plot.line([factor, factor], [interval[0], interval[0] + 0.06 * (interval[1] - interval[0])], "friction")
+    for number, mode in enumerate(law["modes"]):
+        values = [math.nan if v is None else scale * v for v in mode[key]]
+        plot.line(law["factors"], values, f"mode{number % HUES}")
+    return plot, title
+
+
+def law_damping(law, size=(480, 240)):
+    """Damping of the modes over the factor; below the red line they are unstable. Lines are cut where damping is past three times its largest value at rest."""
+    values = np.array([m["dampings"] for m in law["modes"]], float) * 100.0
+    rest = 3.0 * float(np.nanmax(np.abs(values[:, 0]), initial=0.1))
+    interval = (max(float(np.nanmin(values)), -2.0 * rest) - 0.1 * rest, min(float(np.nanmax(values)), 2.0 * rest) + 0.1 * rest)
+    plot, title = _over_factor(law, "dampings", 100.0, interval, "damping [%]", "damping of the modes over the velocity", size)
+    plot.line([law["factors"][0], law["factors"][-1]], [0.0, 0.0], "limit")
+    for crossing in law["crossings"]:
+        plot.dot(crossing["factor"], 0.0, "support")
+    return plot.svg(title)
+
+
+def law_frequencies(law, size=(480, 240)):
+    """Frequency of the modes over the factor; crossings of zero damping as dots."""
+    top = max((v for m in law["modes"] for v in m["frequencies_hz"] if v is not None), default=1.0)
+    plot, title = _over_factor(law, "frequencies_hz", 1.0, (0.0, 1.05 * top), "frequency [Hz]", "frequency of the modes over the velocity", size)
+    for crossing in law["crossings"]:
+        plot.dot(crossing["factor"], crossing["frequency_hz"], "support")
+    return plot.svg(title)
+
 
 def _powers(plot, ylabel):
     """Axes of logarithms to the base 10."""

@@ -72,6 +72,8 @@ svg text { font-size: 11px; fill: var(--ink); } svg .tick { fill: var(--soft); f
 .errors { stroke: var(--ink); stroke-width: 1; fill: none; } .stem { stroke: var(--blue); stroke-width: 2; fill: none; } .before { fill: #eef1f5; } .zoomed { fill: #fbdcc2; }
 .band { fill: #cfe0f2; stroke: none; } .limit { stroke: #b3141e; stroke-width: 1.4; stroke-dasharray: 6 4; fill: none; }
 .rose { fill: #7aa6d6; stroke: #fff; stroke-width: 0.5; } .tube { fill: #d8dee5; stroke: var(--ink); stroke-width: 0.8; } .worn { fill: #f0a868; stroke: none; }
+.mode0, .mode1, .mode2, .mode3, .mode4 { fill: none; stroke-width: 1.6; stroke-linejoin: round; }
+.mode0 { stroke: #1f5fa8; } .mode1 { stroke: #d95f0e; } .mode2 { stroke: #2c8a57; } .mode3 { stroke: #7b4fa3; } .mode4 { stroke: #5b6773; }
 .bar { fill: var(--blue); stroke: #fff; stroke-width: 0.6; }
 .share { stroke: #fff; } .stored { fill: #7aa6d6; } .modal_damping { fill: #1f5fa8; } .contact_damping { fill: #f0a868; }
 .share.friction { fill: #d95f0e; stroke-width: 1; stroke: #fff; } .share.residual { fill: #b3141e; }

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Stability diagrams of flows with a law by the program: reference values of pinned tubes, supports that are closed, ranges of laws.
+#include "mesh_text.hpp"
+#include "program.hpp"
+#include "study_text.hpp"
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace fretwork::app::test::fluidelastic_test {
+namespace {
+
+using nlohmann::json;
+constexpr double pi = std::numbers::pi, outer = 0.01905, bore = outer - 2.0 * 0.00109, metal = 8320.0;
+constexpr double of_mesh = 2e-7; // 40 elements: (pi/40)^4/1440 of the first frequency, more of the others
+constexpr double of_pins = 1e-8; // springs and elastic pins are the same rods, of another residual
+const std::string s1 =
+    "[flow_laws.s1]\nlaw = \"rational\"\nstiffness = -4\ndamping = -0.4\nlags = [0.4]\nlag_forces = [4]\n";
+
+/// A pinned tube of 1 m along x that moves along z alone, which is lift. @param more  what follows
+std::string tube(const std::string& more) {
+  return steel_pipe("mesh.msh", metal) +
+         "[[beams]]\ngroup = \"tube\"\nmaterial = \"steel\"\nsection = \"tube\"\n"
+         "[[restraints]]\ngroup = \"tube\"\nfixed = [\"ux\", \"uy\", \"rx\", \"rz\"]\n"
+         "[[restraints]]\ngroup = \"tube_begin\"\nfixed = [\"uz\"]\n[[restraints]]\ngroup = \"tube_end\"\n"
+         "fixed = [\"uz\"]\n[modes]\ncount = 12\ndamping = 0.01\n" +
+         more;
+}
+std::string flow(const std::string& law, const std::string& zones) {
+  return "[[flow]]\nname = \"T1\"\ngroup = \"tube\"\nfrom = \"tube_begin\"\nlaw = \"" + law + "\"\n" + zones;
+}
+std::string zone(double from, double to, double velocity, double density, double inside) {
+  return fmt::format(
+      "[[flow.zones]]\nfrom = {}\nto = {}\nvelocity = {}\ndirection = [0, 1, 0]\ndensity = {}\n"
+      "viscosity = 1e-7\nfluid_inside = {:.17g}\narrangement = \"square\"\npitch = 0.028575\n",
+      from, to, velocity, density, inside);
+}
+std::string assessment(const std::string& keys) { return "[[stability]]\ndamping = 0.01\n" + keys; }
+
+/// Density inside that makes up for 300 kg/m3 outside instead of 1000: 1.0993164814 kg/m in all.
+double inside_of_light() {
+  const double ratio = (1.07 + 0.56 * 1.5) * 1.5, added = (ratio * ratio + 1.0) / (ratio * ratio - 1.0);
+  return 1000.0 + added * 700.0 * outer * outer / (bore * bore);
+}
+const std::string uniform = zone(0.0, 1.0, 2.0, 300.0, inside_of_light());
+
+Outcome outcome_of(const Workshop& folder, const std::string& study,
+                   const std::string& command = "stability") {
+  MeshText text = straight_line("tube", {0, 0, 0}, {1, 0, 0}, 40);
+  text.points.emplace_back("middle", 20);
+  folder.write("mesh.msh", text.text());
+  folder.write("study.toml", study);
+  Outcome outcome = folder.fretwork(
+      {command, folder.path("study.toml").string(), "-o", folder.path("out").string(), "--force"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return outcome;
+}
+json summary_of(const Workshop& folder, const std::string& study, const std::string& command = "stability") {
+  (void)outcome_of(folder, study, command);
+  return json::parse(bytes_of(folder.path("out") / "summary.json"));
+}
+json law_of(const Workshop& folder, const std::string& study) {
+  return summary_of(folder, study)["stability"][0]["law"];
+}
+
+/// Measured coefficients of a cell of tubes at the frequency under flow: Code_Aster's test SDLL117A with Euler's beam.
+TEST(FluidelasticStability, OfATubeWhoseFrequencyUnderFlowIsPublished) {
+  constexpr double frequency = 32.320739664, ratio = 8.947294371e-3, x = 1.5 / (frequency * outer);
+  const std::string law =
+      fmt::format("[flow_laws.cell]\nlaw = \"rational\"\nstiffness = {:.17g}\ndamping = {:.17g}\n",
+                  88.73 - 637.1517 / x + 1398.2465 / (x * x) - 867.31 / (x * x * x),
+                  -0.225 + 2.417 / x - 0.458 / (x * x));
+  const Workshop folder;
+  const json found = law_of(folder, tube(law + flow("cell", zone(0.0, 1.0, 1.5, 1000.0, 1000.0)) +
+                                         "[[stability]]\ndamping = 0.03\nfactors = [0, 1.5]\npoints = 8\n"));
+  const auto& factors = found["factors"];
+  const auto at = static_cast<std::size_t>(std::find(factors.begin(), factors.end(), 1.0) - factors.begin());
+  ASSERT_LT(at, factors.size()) << "the velocities given are always among the points";
+  EXPECT_TRUE(close_to(found["modes"][0]["frequencies_hz"][0], 33.425241258, of_mesh));
+  EXPECT_TRUE(close_to(found["modes"][0]["dampings"][0], 0.03, 1e-12));
+  EXPECT_TRUE(close_to(found["modes"][0]["frequencies_hz"][at], frequency, of_mesh));
+  EXPECT_TRUE(close_to(found["modes"][0]["dampings"][at], ratio, 10.0 * of_mesh)); // small difference of two
+}
+
+TEST(FluidelasticStability, OfATubeInFlowOverItsMiddleHalf) {
+  const double in = inside_of_light();
+  const Workshop folder;
+  const std::string study =
+      tube(s1 +
+           flow("s1", zone(0.0, 0.25, 0.0, 300.0, in) + zone(0.25, 0.75, 2.0, 300.0, in) +
+                          zone(0.75, 1.0, 0.0, 300.0, in)) +
+           assessment("modes = 12\n"));
+  const Outcome outcome = outcome_of(folder, study);
+  const json summary = json::parse(bytes_of(folder.path("out") / "summary.json")),
+             found = summary["stability"][0]["law"];
+  EXPECT_TRUE(close_to(found["critical_velocity_m_s"], 3.3372217687, of_mesh));
+  EXPECT_TRUE(close_to(found["critical_factor"], 3.3372217687 / 2.0, of_mesh));
+  ASSERT_EQ(found["crossings"].size(), 1u);
+  EXPECT_EQ(found["crossings"][0]["mode"], 1);
+  EXPECT_EQ(found["crossings"][0]["becomes"], "unstable");
+  EXPECT_EQ(found["modes"][0]["critical_factor"], found["critical_factor"]);
+  EXPECT_TRUE(found["modes"][1]["critical_factor"].is_null());
+  EXPECT_TRUE(close_to(found["modes"][0]["connors_factor"],
+                       summary["stability"][0]["cases"][0]["critical_scale"], 1e-12));
+  EXPECT_TRUE(says(outcome.out, "becomes UNSTABLE"));
+  EXPECT_TRUE(says(outcome.out, "fluidelastic law, factors 0 to 2 of 2 m/s"));
+  const std::string csv = bytes_of(folder.path("out") / "stability_diagram.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 12 * 101); // 1 is among the 101
+}
+
+std::string middle(const std::string& keys) {
+  return "[[contacts]]\ngroup = \"middle\"\nnormal_stiffness = 2e4\ngap = 1e-3\n" + keys;
+}
+
+/// A closed stop adds its stiffness: a spring in its place does the same.
+TEST(FluidelasticStability, OfATubeWhoseElasticStopIsClosed) {
+  const Workshop folder;
+  const std::string in_flow = s1 + flow("s1", uniform), wide = "factors = [0, 8]\n",
+                    across = middle("obstacle = \"plane_z\"\naxis = [1, 0, 0]\n");
+  const auto critical = [&](const std::string& more) {
+    return law_of(folder, tube(in_flow + more))["critical_velocity_m_s"].get<double>();
+  };
+  const double free = critical(assessment(wide)), rigid = critical(across + assessment(wide)),
+               elastic = critical(across + assessment(wide + "elastic = true\n")),
+               spring = critical("[[springs]]\ngroup = \"middle\"\nstiffness = [0, 0, 2e4, 0, 0, 0]\n" +
+                                 assessment(wide));
+  EXPECT_TRUE(close_to(free, 3.1792635889, of_mesh));
+  EXPECT_GT(elastic, 1.2 * free);
+  EXPECT_GT(rigid, 1.2 * elastic);
+  EXPECT_TRUE(close_to(elastic, spring, of_pins));
+}
+
+/// A bar across the other direction holds this one by friction alone.
+TEST(FluidelasticStability, OfATubeThatSticksToItsBar) {
+  const Workshop folder;
+  const std::string
+      in_flow = s1 + flow("s1", uniform),
+      wide = "factors = [0, 8]\n",
+      bar = middle("obstacle = \"plane_y\"\naxis = [1, 0, 0]\nfriction = 0.3\ntangential_stiffness = 5e3\n");
+  const auto critical = [&](const std::string& more) {
+    return law_of(folder, tube(in_flow + more))["critical_velocity_m_s"].get<double>();
+  };
+  const double slips = critical(bar + assessment(wide + "elastic = true\n")),
+               sticks = critical(bar + assessment(wide + "elastic = true\nsticking = true\n")),
+               spring = critical("[[springs]]\ngroup = \"middle\"\nstiffness = [0, 0, 5e3, 0, 0, 0]\n" +
+                                 assessment(wide));
+  EXPECT_TRUE(close_to(slips, 3.1792635889, of_mesh));
+  EXPECT_TRUE(close_to(sticks, spring, of_pins));
+}
+
+TEST(FluidelasticStability, WithoutEntriesIsOfTheFreeAndOfTheHeldTube) {
+  const Workshop folder;
+  const json found =
+      summary_of(folder, tube(s1 + flow("s1", uniform) +
+                              middle("obstacle = \"plane_z\"\naxis = [1, 0, 0]\n")))["stability"];
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0]["name"], "without contacts");
+  EXPECT_EQ(found[1]["name"], "contacts closed");
+  EXPECT_TRUE(found[1]["elastic"].get<bool>() && found[1]["sticking"].get<bool>());
+  EXPECT_TRUE(found[0]["pinned"].empty());
+}
+
+TEST(FluidelasticStability, WarnsOutsideTheRangeOfTheLaw) {
+  const Workshop folder;
+  const auto warnings = [&](const std::string& range, const std::string& command) {
+    return summary_of(folder,
+                      tube(s1 + range + flow("s1", zone(0.0, 1.0, 4.0, 300.0, inside_of_light())) +
+                           (command == "run" ? "[transient]\nduration = 0.01\n" : assessment(""))),
+                      command)["warnings"]
+        .dump();
+  };
+  // V/(f D) is some 5 where the tube becomes unstable, some 6 at 4 m/s
+  for (const std::string command : {"stability", "run"}) {
+    for (const char* range : {"range = [0.5, 2.0]\n", "range = [20, 30]\n"})
+      EXPECT_TRUE(says(warnings(range, command), "outside the law's range")) << command;
+    EXPECT_FALSE(says(warnings("range = [0.5, 9.0]\n", command), "outside the law's range")) << command;
+    EXPECT_TRUE(says(warnings("", command), "unstable")) << command;
+  }
+  EXPECT_TRUE(
+      says(outcome_of(folder, tube(s1 + "range = [0.5, 2.0]\n" + flow("s1", uniform) + assessment(""))).out,
+           "becomes UNSTABLE, outside the law's range"));
+}
+
+TEST(FluidelasticStability, OfMoreUnknownsThanCanBeFollowedIsRefused) {
+  const Workshop folder;
+  folder.write("mesh.msh", straight_line("tube", {0, 0, 0}, {1, 0, 0}, 40).text());
+  std::string lags, forces;
+  for (int i = 1; i <= 60; ++i) {
+    lags += fmt::format("{}, ", 0.1 * i);
+    forces += "1, ";
+  }
+  const Outcome outcome = folder.fretwork(
+      {"stability",
+       folder
+           .write("study.toml",
+                  tube("[flow_laws.many]\nlaw = \"rational\"\nstiffness = -4\ndamping = -0.4\nlags = [" +
+                       lags + "]\nlag_forces = [" + forces + "]\n" +
+                       flow("many", zone(0.0, 1.0, 40.0, 300.0, 0.0)) + assessment("modes = 12\n")))
+           .string()});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(
+      says(outcome.err, "744 unknowns of modes and lags, more than 600; give a smaller modes (now 12)"));
+}
+
+} // namespace
+} // namespace fretwork::app::test::fluidelastic_test
