@@ -96,11 +96,14 @@ Wear made_up_wear(const RunResults& results) {
     const auto figures = [](double a, double b) {
       return WearCurves{{a, b}, {0.9 * a, 0.8 * b}, {1.1 * a, 1.2 * b}};
     };
-    opening.supports.push_back({{2e-4, 2.5e-4},
-                                figures(rate, 1.5 * rate),
-                                figures(1e-4, 3e-4),
-                                figures(5e-5, 1.5e-4),
-                                {"reached", {12.5 / (c + 1.0), 10.0 / (c + 1.0), 15.0 / (c + 1.0)}}});
+    opening.supports.push_back(
+        {{2e-4, 2.5e-4},
+         figures(rate, 1.5 * rate),
+         figures(1e-4, 3e-4),
+         figures(5e-5, 1.5e-4),
+         {"reached",
+          {12.5 / (static_cast<double>(c) + 1.0), 10.0 / (static_cast<double>(c) + 1.0),
+           15.0 / (static_cast<double>(c) + 1.0)}}});
   }
   return wear;
 }
