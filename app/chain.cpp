@@ -257,6 +257,9 @@ private:
     app::run_transient(
         {comm_, inputs_.study, placed_, worn_, other_runs_, at_contacts_, progress_, checkpoints}, scenes_,
         nodes_.size(), out_);
+    core::agree(comm_, [&] {
+      judge_amplitudes({inputs_.study, mesh_, model_, flows_}, placed_, nodes_, out_);
+    });
     out_.timings.transient = watch_.lap();
   }
 

@@ -209,6 +209,36 @@ void judge_fluidelastic(const TubesInFlow& tubes, const std::vector<modal::Basis
   }
 }
 
+void judge_amplitudes(const TubesInFlow& tubes, const std::vector<PlacedContact>& placed,
+                      const std::vector<NamedNode>& nodes, results::RunResults& out) {
+  constexpr double linear = 0.1; // of the diameter
+  const auto amplitude = [](const post::Moments& m) { return std::max(m.max - m.mean, m.mean - m.min); };
+  for (const TubeWithLaw& tube : tubes_with_laws(tubes, out.bases)) {
+    const modal::Basis& basis = out.bases[tube.structure];
+    double largest = 0.0;
+    std::string where;
+    const auto look = [&](const std::string& name, core::Index node, const post::Moments& moments) {
+      if (basis.row_of(node) >= 0 && amplitude(moments) > largest) {
+        largest = amplitude(moments);
+        where = name;
+      }
+    };
+    for (std::size_t c = 0; c < out.contact_summaries.size(); ++c)
+      for (const post::Moments* moments : {&out.contact_summaries[c].y, &out.contact_summaries[c].z})
+        look(fmt::format("contact \"{}\"", placed[c].name), placed[c].node, *moments);
+    for (std::size_t k = 0; k < out.node_summaries.size(); ++k)
+      for (const post::Moments& moments : out.node_summaries[k].displacement)
+        look(fmt::format("node \"{}\"", nodes[k].name), nodes[k].node, moments);
+    const double diameter = fastest(tube.sampling).diameter;
+    if (diameter > 0.0 && !(largest <= linear * diameter))
+      out.warnings.push_back(
+          fmt::format("{}: {} moves by {:.3g} m about its mean, {:.2g} of the diameter: the fluidelastic law "
+                      "is linear, good to "
+                      "some {:g} of it; amplitudes, forces and work rates are not to be trusted",
+                      name_of(tube.flow), where, largest, largest / diameter, linear));
+  }
+}
+
 void add_motion_forces(const std::vector<core::MotionForces>& by_structure,
                        const std::vector<std::size_t>& structures, const std::vector<modal::Basis>& bases,
                        transient::System& system) {

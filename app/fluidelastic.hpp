@@ -2,6 +2,7 @@
 /// @file
 /// Fluidelastic forces of the flows with a law: on the modes of structures, and what they make of frequencies and damping.
 #pragma once
+#include "app/build_scene.hpp"
 #include "app/flow_damping.hpp"
 #include "core/motion_forces.hpp"
 #include "results/run_results.hpp"
@@ -25,6 +26,12 @@ namespace fretwork::app {
 /// the working point with its reduced velocity, and the factor of all velocities at which the tube becomes unstable first.
 void judge_fluidelastic(const TubesInFlow& tubes, const std::vector<modal::Basis>& bases,
                         results::RunResults& out);
+
+/// After a run: a warning for each flow with a law beyond whose range of amplitudes contacts or observed nodes of its tube moved. The laws are
+/// linear in the displacement: good to some 0.1 of the diameter.
+/// @param placed, nodes  those of `out`
+void judge_amplitudes(const TubesInFlow& tubes, const std::vector<PlacedContact>& placed,
+                      const std::vector<NamedNode>& nodes, results::RunResults& out);
 
 /// Appends the forces on the modes of some structures, which follow each other in the system.
 void add_motion_forces(const std::vector<core::MotionForces>& by_structure,

@@ -8,7 +8,7 @@
 /// (Clough and Penzien, Dynamics of Structures, 2nd ed. 1993, section 26-2) and damped as motion from the static one: modal damping takes
 /// nothing of psi s'. Dampers take it: one that psi_k stretches by e adds the forces of c e s_k' at its ends. Few modes do: the static
 /// part is exact.
-/// A structure that spins, slides or is a mechanism with all supports held is imposed as well: a motion r that strains nothing has K r = 0 at
+/// A structure that spins, slides or is a mechanism with all supports held is moved as well: a motion r that strains nothing has K r = 0 at
 /// every dof, moved supports included, and is not pushed by them, r.K.psi = 0. Of psi it has no part, r.M.psi = 0: it starts at rest.
 #pragma once
 #include "app/build_model.hpp"

@@ -24,7 +24,7 @@ class NodeStatistics final : public transient::Observer {
 public:
   /// @param rows  for each node its 3 x n translations of the modes   @param from  start of the window, s
   NodeStatistics(const std::vector<Eigen::MatrixXd>& rows, double from);
-  /// The nodes are imposed by imposed motions too: u = rows q + imposed s, 3 x motions for each node, or empty.
+  /// Imposed motions move the nodes too: u = rows q + imposed s, 3 x motions for each node, or empty.
   void add_imposed_motion(const std::vector<Eigen::MatrixXd>& imposed,
                           const std::vector<transient::PrescribedMotion>& motions, double duration);
   void step(const transient::Record& record) override;

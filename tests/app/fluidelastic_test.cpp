@@ -181,6 +181,24 @@ TEST(FluidelasticStability, WarnsOutsideTheRangeOfTheLaw) {
            "becomes UNSTABLE, outside the law's range"));
 }
 
+// A pinned tube past its threshold without any stop: nothing limits its motion.
+TEST(Fluidelastic, WarnsOfAmplitudesThatALinearLawDoesNotHold) {
+  const Workshop folder;
+  const auto warnings = [&](double duration) {
+    return summary_of(
+               folder,
+               tube(
+                   s1 + flow("s1", zone(0.0, 1.0, 4.0, 300.0, inside_of_light())) +
+                   "[[initial]]\ngroup = \"tube\"\nvelocity = [0, 0, 0.1]\n[output]\nnodes = [\"middle\"]\n" +
+                   fmt::format("[transient]\nduration = {}\n", duration)),
+               "run")["warnings"]
+        .dump();
+  };
+  EXPECT_EQ(warnings(0.01).find("the fluidelastic law is linear"), std::string::npos);
+  EXPECT_TRUE(says(warnings(2.0), "node \\\"middle\\\" moves by "));
+  EXPECT_TRUE(says(warnings(2.0), "the fluidelastic law is linear, good to some 0.1 of it"));
+}
+
 TEST(FluidelasticStability, OfMoreUnknownsThanCanBeFollowedIsRefused) {
   const Workshop folder;
   folder.write("mesh.msh", straight_line("tube", {0, 0, 0}, {1, 0, 0}, 40).text());

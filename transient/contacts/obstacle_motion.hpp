@@ -11,7 +11,7 @@
 
 namespace fretwork::transient {
 
-/// By how much and how fast the contacts are imposed at an instant, lanes of PackedContacts. Empty: no contact is.
+/// By how much and how fast imposed motions move the contacts at an instant, lanes of PackedContacts. Empty: not at all.
 struct ImposedMotion {
   kernels::Array u, w; ///< m, m/s
   void add_to(double* displacement, double* velocity) const {
