@@ -281,7 +281,7 @@ private:
   void write_tables() {
     const fs::path& folder = inputs_.directory;
     if (!up_to_date_) // of an earlier state of the study
-      for (const char* file : {"flow.csv", "spectra.csv", "stability_diagram.csv"})
+      for (const char* file : {"flow.csv", "spectra.csv"})
         remove_file(folder / file);
     if (!out_.stability.empty())
       results::write_stability_csv(folder, out_);

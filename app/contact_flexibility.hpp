@@ -3,8 +3,8 @@
 /// Static flexibility at the contacts of a scene: the structures', what of it their modes have, what they lack
 /// (modal/static_flexibility.hpp).
 ///
-/// Between the directions that are loaded (contact_loads.hpp); between two nodes the flexibility is that of the relative motion. Rows and
-/// columns of other directions are 0.
+/// Of each contact alone, between its directions that are loaded (contact_loads.hpp); between two nodes the flexibility is that of the relative
+/// motion. Rows and columns of other directions are 0.
 #pragma once
 #include "app/build_contacts.hpp"
 #include "modal/basis.hpp"
@@ -20,7 +20,7 @@ struct ContactFlexibility {
   Eigen::MatrixXd exact, basis, missing;
   std::string failure; ///< why there is none of the above; empty: there is
 
-  /// Rows and columns of the k-th contact in one of the above.
+  /// Of the k-th contact, in one of the above.
   [[nodiscard]] static Eigen::Matrix3d own(const Eigen::MatrixXd& matrix, std::size_t k);
   /// Of the k-th contact in the normal direction in which most is missing.
   [[nodiscard]] results::StaticFlexibility at(std::size_t k, const contact::Obstacle& obstacle) const;

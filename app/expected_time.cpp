@@ -22,10 +22,10 @@ std::string time_text(double seconds) {
 double trial_of(const transient::Scene& scene, const transient::StepChoice& choice,
                 std::chrono::duration<double> budget) {
   using Clock = std::chrono::steady_clock;
-  const auto begin = Clock::now();
-  const auto spent = [&] { return std::chrono::duration<double>(Clock::now() - begin); };
   transient::Run trial(scene, choice, {}, nullptr, {});
-  bool more = true;
+  const auto begin = Clock::now(); // after what is made once
+  const auto spent = [&] { return std::chrono::duration<double>(Clock::now() - begin); };
+  bool more = trial.advance(records_between_looks);
   while (more && spent() < budget)
     more = trial.advance(records_between_looks);
   return more ? spent().count() * scene.duration / trial.time() : spent().count();

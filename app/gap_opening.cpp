@@ -257,7 +257,7 @@ void check_gap_opening(const study::Study& study, const std::vector<WornPlace>& 
       if (by_sector(place) && !opens_by_angle(placed[c]))
         throw core::Error(
             fmt::format("{}, contact \"{}\": with [gap_opening] only a circle or a drilled hole "
-                        "with a gap > 0, fixed in space, opens by sectors; give another geometry",
+                        "with a gap > 0, not between two nodes, opens by sectors; give another geometry",
                         study.wear[place.entry].path, placed[c].name));
 }
 
@@ -267,7 +267,7 @@ void open_gaps(const study::Study& study, const std::vector<WornPlace>& places,
     return;
   Opening opening(study, places, placed, out.contacts);
   const std::int64_t stages = study.gap_opening->stages;
-  std::string reason;
+  std::string reason, end;
   wear::Progress progress = wear::Progress::go_on;
   results::Wear rates = *out.wear;
   for (std::int64_t stage = 1;; ++stage) {
@@ -279,9 +279,17 @@ void open_gaps(const study::Study& study, const std::vector<WornPlace>& places,
       opened = opening.opened(study);
     } catch (const core::Error& error) { // the stages so far stand
       reason = error.what();
+      end = "beyond_geometry";
       break;
     }
-    results::RunResults next = run(opened, stage + 1);
+    results::RunResults next;
+    try {
+      next = run(opened, stage + 1);
+    } catch (const core::Error& error) { // no static start, too long a run: alike on all ranks
+      reason = fmt::format("stage {}: {}", stage + 1, error.what());
+      end = "stage_refused";
+      break;
+    }
     for (const std::string& warning : next.warnings)
       out.warnings.push_back(fmt::format("gap opening, stage {}: {}", stage + 1, warning));
     rates = std::move(*next.wear);
@@ -292,8 +300,7 @@ void open_gaps(const study::Study& study, const std::vector<WornPlace>& places,
   }
   if (!reason.empty())
     out.warnings.push_back("gap opening: " + reason);
-  out.wear->opening =
-      std::move(opening).result(reason.empty() ? name_of(progress) : std::string("beyond_geometry"), reason);
+  out.wear->opening = std::move(opening).result(reason.empty() ? name_of(progress) : end, reason);
   if (out.wear->opening->end == "stages_used")
     out.warnings.push_back(fmt::format("gap opening: {} after {:.3g} years, lives are those at the last work "
                                        "rates; give more gap_opening.stages",

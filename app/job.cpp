@@ -106,7 +106,9 @@ Job::Job(const study::Study& study, const BuiltScene& built, const transient::St
       impacts_(with_impacts(study) ? built.scene.contacts.size() : 0, study.output.statistics_from,
                study.output.rest_time, static_cast<std::size_t>(impact_rows(study, choice))),
       largest_(built.scene.contacts.size(), study.output.statistics_from),
-      sectors_(built.watched_wear.sectors, study.output.statistics_from),
+      sectors_(built.watched_wear.sectors, study.output.statistics_from,
+               built.watched_wear.by_place ? std::span(built.scene.contacts)
+                                           : std::span<const transient::ContactPoint>()),
       classes_(built.watched_wear.maxima, study.output.statistics_from),
       nodes_(rows_of(built.nodes), study.output.statistics_from), grid_(grid_of(study)),
       recorder_(built.scene, built.nodes, grid_, transient::scaled_masses(built.scene, choice.fastest)),

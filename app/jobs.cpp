@@ -255,10 +255,11 @@ Forecast check_jobs(MPI_Comm comm, const study::Study& study, const std::vector<
     out.steps += static_cast<double>(choice.steps);
     out.impact_rows.push_back(static_cast<double>(impact_rows(study, choice)));
     out.warnings.insert(out.warnings.end(), choice.warnings.begin(), choice.warnings.end());
-    out.seconds += with_verification *
-                   trial_of(scenes[s].scene, choice, longest_trials / static_cast<double>(scenes.size()));
+    const double seconds =
+        trial_of(scenes[s].scene, choice, longest_trials / static_cast<double>(scenes.size()));
+    check_expected_time(seconds, study.transient->max_hours);
+    out.seconds += with_verification * seconds;
   }
-  check_expected_time(out.seconds, study.transient->max_hours);
   return out;
 }
 

@@ -72,11 +72,11 @@ std::string forecast_text(MPI_Comm comm, const study::Study& study, const std::v
                                                           study.modes.number_given ? "" : ", the default")
                                             : "";
   return fmt::format(
-      "  {}{}; a run: {:g} s, {}{}, about {}; results.h5: {} of series, up to {} of impacts\n",
+      "  {}{}; a run: {:g} s, {}, about {}{}; results.h5: {} of series, up to {} of impacts\n",
       results::counted(static_cast<std::int64_t>(results::sorted_modes(out.bases).size()), "mode"), limit,
-      study.transient->duration, steps,
-      study.gap_opening ? fmt::format(", up to {} times", study.gap_opening->stages) : "",
-      time_text(forecast.seconds), size_text(size.series), size_text(size.impacts));
+      study.transient->duration, steps, time_text(forecast.seconds),
+      study.gap_opening ? fmt::format(" each of up to {} times", study.gap_opening->stages) : "",
+      size_text(size.series), size_text(size.impacts));
 }
 
 } // namespace fretwork::app

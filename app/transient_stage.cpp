@@ -12,7 +12,8 @@ namespace {
 /// @param stage  of gap opening, from 1 on
 void run_scenes(const AroundTransient& around, const study::Study& study, std::vector<BuiltScene>& scenes,
                 std::size_t nodes, std::int64_t stage, results::RunResults& out) {
-  const WatchedWear watched = watched_wear(study, around.worn, around.placed.size());
+  WatchedWear watched = watched_wear(study, around.worn, around.placed.size());
+  watched.by_place = stage > 1;
   for (BuiltScene& scene : scenes)
     scene.watched_wear = watched.at(scene.contacts);
   const ProgressCallback progress =

@@ -13,9 +13,13 @@ struct WatchedWear {
   std::vector<int> sectors;                           ///< of the work by angle; 0: the contact does not wear
   std::vector<std::optional<wear::KwuMaxima>> maxima; ///< of contacts under the law kwu_epri
 
+  bool by_place =
+      false; ///< sectors are those of the places of contacts, not of their normals: holes that wear has opened by angle
+
   /// Of some of the contacts.
   [[nodiscard]] WatchedWear at(const std::vector<std::size_t>& contacts) const {
     WatchedWear out;
+    out.by_place = by_place;
     if (sectors.empty())
       return out;
     for (const std::size_t c : contacts) {

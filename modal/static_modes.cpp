@@ -63,7 +63,7 @@ VectorXd take_stationary(const fem::Model& model, const fem::Structure& structur
   const double slowest = rigid < basis.size() ? std::pow(basis.omega(rigid), -2) : mu.maxCoeff();
   if (!(mu.minCoeff() * most_range > slowest))
     throw core::Error("static modes: one of them moves no mass; give the beams at the contacts a density, or "
-                      "take modes.static_modes = \"auto\"");
+                      "leave modes.static_modes out");
   columns = columns * vectors.rowwise().reverse() * mu.cwiseSqrt().cwiseInverse().asDiagonal();
   take_out(model, structure, basis.shapes, columns);
   orthonormalise(model, structure, columns);

@@ -3,12 +3,25 @@
 
 namespace fretwork::post {
 
-SectorStatistics::SectorStatistics(const std::vector<int>& sectors, double from) : from_(from) {
+SectorStatistics::SectorStatistics(const std::vector<int>& sectors, double from,
+                                   std::span<const transient::ContactPoint> by_place)
+    : from_(from), by_place_(by_place) {
   for (const int n : sectors) {
     watched_.push_back(n == 0 ? none : static_cast<int>(work_.size()));
     if (n != 0)
       work_.emplace_back(n);
   }
+}
+
+double SectorStatistics::angle(const transient::Record& record, std::size_t contact) const {
+  if (!by_place_.empty()) {
+    const transient::ContactPoint& point = by_place_[contact];
+    if (contact::properties_of(point.support.obstacle).has_parts)
+      return wear::contact_angle(-(point.rest.y() + record.uy[contact]),
+                                 -(point.rest.z() + record.uz[contact]));
+  }
+  const contact::ContactAxes& axes = record.states[contact].axes;
+  return wear::contact_angle(axes.ny, axes.nz);
 }
 
 void SectorStatistics::step(const transient::Record& record) {
@@ -19,8 +32,7 @@ void SectorStatistics::step(const transient::Record& record) {
     const transient::ContactState& state = record.states[static_cast<std::size_t>(c)];
     const int at = watched_[static_cast<std::size_t>(c)];
     if (at != none && state.wear_work > 0.0)
-      work_[static_cast<std::size_t>(at)].add(wear::contact_angle(state.axes.ny, state.axes.nz),
-                                              state.wear_work);
+      work_[static_cast<std::size_t>(at)].add(angle(record, static_cast<std::size_t>(c)), state.wear_work);
   }
 }
 

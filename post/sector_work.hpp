@@ -7,6 +7,7 @@
 #pragma once
 #include "transient/run.hpp"
 #include "wear/sectors.hpp"
+#include <span>
 #include <vector>
 
 namespace fretwork::post {
@@ -14,8 +15,11 @@ namespace fretwork::post {
 class SectorStatistics final : public transient::Observer {
 public:
   /// @param sectors  number for each contact; 0: the contact is not watched   @param from  start of the window, s
+  /// @param by_place  the contacts of the scene, where obstacles in parts have their work by the angle of the contact's place: the normals of
+  ///   facets, of a hole that has opened by angle, are few; empty: all by their normals. Must live longer.
   /// @throws core::Error for a number of sectors out of range
-  SectorStatistics(const std::vector<int>& sectors, double from);
+  SectorStatistics(const std::vector<int>& sectors, double from,
+                   std::span<const transient::ContactPoint> by_place = {});
   void step(const transient::Record& record) override;
   void visit(core::StateArchive& state) override {
     state(time_);
@@ -28,7 +32,10 @@ public:
 private:
   static constexpr int none = -1;
 
+  [[nodiscard]] double angle(const transient::Record& record, std::size_t contact) const;
+
   double from_;
+  std::span<const transient::ContactPoint> by_place_;
   double time_ = 0.0;        ///< length of the window so far, s
   std::vector<int> watched_; ///< by contact: its place in work_, or none
   std::vector<wear::SectorWork> work_;

@@ -2,9 +2,7 @@
 #include "transient/step_limits.hpp"
 #include "transient/modes/mass_scaling.hpp"
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
-#include <limits>
 
 namespace fretwork::transient {
 namespace {

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 #include <numbers>
 
 namespace fretwork::transient {
@@ -34,6 +33,7 @@ constexpr double most_macro_steps = 12.0;
 double collocation_cost(const Scene& scene) { return scene.contacts.size() > 3 ? 0.7 : 1.0; }
 /// Of the time of splitting: below it collocation is taken, which does not measure its error (replays.hpp).
 constexpr double worth_changing = 0.7;
+
 /// @throws core::Error where there would be absurdly many
 std::int64_t count_steps(double duration, const StepChoice& c) {
   const double steps = std::ceil(duration / c.step * (1.0 - 1e-12));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `check` refuses what `run` refuses, and says what a run would be.
+#include "paths.hpp"
 #include "study_text.hpp"
 #include "tubes.hpp"
 #include <cmath>
@@ -83,6 +84,19 @@ TEST(Check, ForecastsTheSizeOfTheResults) {
   EXPECT_NEAR(size(fine, all) - little, of_all, three_digits * of_all);
   EXPECT_NEAR(size(fine, none) - little, without, three_digits * without);
   EXPECT_GT(of_all, 1.5 * without);
+}
+
+TEST(Check, FindsNothingWrongWithTheExamples) {
+  const Workshop folder;
+  for (const auto& entry : fs::recursive_directory_iterator(test_paths::source_dir() / "examples")) {
+    if (entry.path().filename() != "study.toml")
+      continue;
+    const Outcome outcome = folder.fretwork({"check", entry.path().string()});
+    if (says(bytes_of(entry.path()), "[sweep]"))
+      continue; // of a sweep there is no run to check
+    EXPECT_EQ(outcome.status, 0) << entry.path() << outcome.err;
+    EXPECT_FALSE(says(outcome.out, "about inf")) << entry.path();
+  }
 }
 
 // A trial of the first steps: the same order as the run takes, however busy the machine.

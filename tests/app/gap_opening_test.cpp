@@ -136,7 +136,7 @@ TEST(GapOpening, IsRefusedWhereNoGapCanOpen) {
   planes.replace(planes.find("gap = 1.0e-5"), 12, "gap = 1.0e-5\nobstacle = \"plane_y\"\ny_axis = [0, 1, 0]");
   EXPECT_TRUE(says(refused(planes + archard + "geometry = \"sectors\"\nclearance = 1e-5\n" + opening("")),
                    "contact \"support0\": with [gap_opening] only a circle or a drilled hole with a gap > 0, "
-                   "fixed in space, opens by sectors; give another geometry"));
+                   "not between two nodes, opens by sectors; give another geometry"));
   EXPECT_TRUE(says(refused(sliding_bundle(folder, 1) + opening("")), "there is no [[wear]]"));
   const Outcome sweep = folder.fretwork(
       {"sweep",

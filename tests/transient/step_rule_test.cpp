@@ -84,7 +84,7 @@ TEST(StepRule, GivesThirtyPointsAPeriodToTheExcitationAndTwoHundredWithoutContac
   expect_governed(linear, splitting(), 1.0 / (200.0 * 40.0), "excitation (40 Hz)");
 }
 
-TEST(StepRule, LetsSplittingFlyWhereModesAndLoadsAreSlow) {
+TEST(StepRule, LetsSplittingMakeMacroStepsWhereModesAndLoadsAreSlow) {
   const double at_rate = share / 200.0; // s, the step that the contact asks for
   const auto macro_steps = [&](double slow, const TimeFunction& function) {
     Scene scene = scene_with({Circle{0.1}, {8e4}, {}}, 1000.0, Vec3(0, mass * slow * slow, 0));

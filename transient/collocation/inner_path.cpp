@@ -294,10 +294,9 @@ FRETWORK_INLINE InnerPath follow_on(const contact::Support& support, const Sprin
       }
       before = after;
     }
-    const PathLoss wear_work = slider.loss();
+    const PathLoss loss = slider.loss();
     out.force[j].spring = in_plane(slider.spring()) - nodes[j + 1].spring;
-    out.loss[j] = {wear_work.slider, wear_work.damper + work + held - law.spring_energy(before.depth),
-                   wear_work.forgotten};
+    out.loss[j] = {loss.slider, loss.damper + work + held - law.spring_energy(before.depth), loss.forgotten};
   }
   // the node 1 has what the node 1/2 hands on
   const double handed = nodes[1].face.opposite(nodes[2].face)   ? 0.0
