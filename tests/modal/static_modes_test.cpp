@@ -173,7 +173,7 @@ TEST(StaticModes, NeedMass) {
       [&] {
         modal::add_static_modes(b.model, part, force, fem::StaticSolver(b.model, part).solve(force), basis);
       },
-      {"one of them moves no mass", "static_modes = \"auto\""});
+      {"one of them moves no mass", "leave modes.static_modes out"});
 }
 
 } // namespace static_modes_test
