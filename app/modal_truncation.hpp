@@ -14,7 +14,7 @@ namespace fretwork::app {
 /// K_N times the missing flexibility from which on it is warned about: forces are too high by up to 14 %.
 constexpr double much_missing = 0.3;
 
-/// Modes are wanted up to so many times the highest frequency of the loads: what lies higher answers as a spring.
+/// Modes are wanted up to so many times the highest frequency of the loads: what lies higher responds quasi-statically.
 constexpr double modes_above_loads = 2.0;
 
 /// Hz up to which the structure was given modes; infinite where it has no more.

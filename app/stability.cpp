@@ -138,7 +138,7 @@ std::vector<study::Stability> assessments_of(const study::Study& study) {
                                [](const study::Flow& flow) { return flow.law.has_value(); });
   if (!law)
     return {one};
-  study::Stability free; // a law is told where the tube is between its supports, and where they hold it
+  study::Stability free; // a law is assessed for the tube between its supports, and held by them
   free.name = "without contacts";
   free.pinned = study::Pinned::none;
   if (study.contacts.empty())

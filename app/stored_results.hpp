@@ -8,7 +8,7 @@
 
 namespace fretwork::app {
 
-/// True where the results in the folder are whole and were computed from the same inputs. Damage is told.
+/// True where the results in the folder are whole and were computed from the same inputs. @param tell  takes a line on results that are damaged
 [[nodiscard]] bool up_to_date(const Inputs& inputs, const std::function<void(const std::string&)>& tell);
 
 } // namespace fretwork::app

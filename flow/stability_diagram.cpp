@@ -149,7 +149,7 @@ private:
     return (before.real() > 0.0) != (after.real() > 0.0) && !(before.imag() < 0.0 && after.imag() < 0.0);
   }
 
-  /// Whether a pair becomes two real roots, or back, in the same step as one crosses: which is which is not told there.
+  /// Whether a pair becomes two real roots, or back, in the same step as one crosses: the two cannot be distinguished there.
   [[nodiscard]] bool meets_where_it_crosses(const System& next) const {
     for (Eigen::Index k = 0; k < next.values.size(); ++k)
       if (crosses(next, k) && (at_.values(k).imag() == 0.0) != (next.values(k).imag() == 0.0))

@@ -159,8 +159,12 @@ void write_stability_csv(const std::filesystem::path& folder, const RunResults& 
       }
     }
   write_text(folder / "stability.csv", {text.data(), text.size()});
-  if (const std::string diagram = stability_diagram_csv(results); !diagram.empty())
-    write_text(folder / "stability_diagram.csv", diagram);
+  const std::filesystem::path diagram = folder / "stability_diagram.csv";
+  std::error_code absent; // one of an earlier state of the study, with a law
+  if (const std::string text_of_laws = stability_diagram_csv(results); !text_of_laws.empty())
+    write_text(diagram, text_of_laws);
+  else
+    std::filesystem::remove(diagram, absent);
 }
 
 } // namespace fretwork::results

@@ -160,6 +160,18 @@ TEST(FluidelasticStability, WithoutEntriesIsOfTheFreeAndOfTheHeldTube) {
   EXPECT_TRUE(found[0]["pinned"].empty());
 }
 
+TEST(FluidelasticStability, LeavesNoDiagramOfALawThatIsGone) {
+  const Workshop folder;
+  const std::string no_law = "[[flow]]\nname = \"T1\"\ngroup = \"tube\"\nfrom = \"tube_begin\"\n";
+  (void)outcome_of(folder, tube(s1 + flow("s1", uniform) + assessment("")));
+  EXPECT_TRUE(fs::exists(folder.path("out") / "stability_diagram.csv"));
+  (void)outcome_of(folder, tube(no_law + uniform + assessment("")), "modes");
+  EXPECT_TRUE(fs::exists(folder.path("out") / "stability_diagram.csv")) << "nothing was assessed";
+  (void)outcome_of(folder, tube(no_law + uniform + assessment("")));
+  EXPECT_TRUE(fs::exists(folder.path("out") / "stability.csv"));
+  EXPECT_FALSE(fs::exists(folder.path("out") / "stability_diagram.csv"));
+}
+
 TEST(FluidelasticStability, WarnsOutsideTheRangeOfTheLaw) {
   const Workshop folder;
   const auto warnings = [&](const std::string& range, const std::string& command) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/profile.hpp"
 #include "core/error.hpp"
 #include "hand_made.hpp"
 #include "post/contact_statistics.hpp"
@@ -56,6 +57,42 @@ TEST(SectorStatistics, GiveTheWorkRateOfEachContactBySector) {
   EXPECT_EQ(rates[0][0] + rates[0][3], 0.0);
   ASSERT_EQ(rates[1].size(), 36u);
   EXPECT_NEAR(rates[1][18], rate, round_off);
+}
+
+// A hole of three facets has three normals; work at places along one of them is that of their angles. A round hole has its normals.
+TEST(SectorStatistics, GoByThePlaceInAHoleThatHasOpenedByAngle) {
+  auto contacts = fretwork::tests::centred(2);
+  const std::vector<contact::PolarPoint> corners = {{0.0, 1.0}, {2.0 * pi / 3.0, 1.0}, {4.0 * pi / 3.0, 1.0}};
+  contacts[0].support.obstacle = contact::Profile(corners);
+  contacts[0].rest = {0.0, 0.1, 0.0};
+  post::SectorStatistics by_place({36, 36}, 0.0, contacts), by_normal({36, 36}, 0.0);
+  for (const double angle :
+       {0.35, 1.75}) { // of the facet between the first two corners, whose normal points to -pi/3
+    for (post::SectorStatistics* sectors : {&by_place, &by_normal}) {
+      HandMade feed(*sectors, 2, step);
+      for (const std::size_t c : {0u, 1u})
+        slide(feed.contact(c), pi / 3.0 + 0.01);
+      feed.y(0) = 0.5 * std::cos(angle) - contacts[0].rest.y();
+      feed.z(0) = 0.5 * std::sin(angle);
+      feed.y(1) = feed.z(1) = -0.5;
+      feed.step();
+    }
+  }
+  const wear::SectorWork sectors(36);
+  const auto at = [&](double angle) {
+    std::size_t nearest = 0;
+    for (std::size_t k = 0; k < sectors.size(); ++k)
+      if (std::abs(sectors.middle(k) - angle) < std::abs(sectors.middle(nearest) - angle))
+        nearest = k;
+    return nearest;
+  };
+  const double rate = 10.0 * 1e-6 / step / 2.0;
+  for (const double angle : {0.35, 1.75}) {
+    EXPECT_NEAR(by_place.rates()[0][at(angle)], rate, round_off);
+    EXPECT_EQ(by_normal.rates()[0][at(angle)], 0.0);
+  }
+  EXPECT_NEAR(by_normal.rates()[0][at(pi / 3.0 + 0.01)], 2.0 * rate, round_off);
+  EXPECT_EQ(by_place.rates()[1], by_normal.rates()[1]);
 }
 
 TEST(SectorStatistics, SumToTheWorkRateWhateverTheSteps) {

@@ -93,16 +93,6 @@ void PackedContacts::add_rows(const ContactPoint& point) {
   });
 }
 
-double PackedContacts::mobility(int contact, int to, int other, int from) const {
-  if (to >= components || from >= components)
-    return 0.0;
-  const double *a = row(contact, to), *b = row(other, from);
-  double sum = 0.0;
-  for (int i = 0; i < modes; ++i)
-    sum += a[i] * b[i];
-  return sum;
-}
-
 /// The contacts whose lanes begin here: together over all modes that one of them moves, or each by itself where that is less.
 void PackedContacts::add_pack(int lane) {
   const int component = lane / width, from = lane % width, end = std::min(from + kernels::lanes, count);

@@ -39,8 +39,6 @@ struct PackedContacts {
   [[nodiscard]] double rest_z(int c) const { return reach[c].rest_z[kernels::lane(c)]; }
   std::vector<int>
       layout; ///< contact by contact: equal for contacts of the same spans that follow each other
-  /// 1/kg: velocity along component `to` of a contact by a unit force along `from` of another or the same; of contacts that name no modes.
-  [[nodiscard]] double mobility(int contact, int to, int other, int from) const;
   /// Row y, z or x of a contact over its spans, one after the other: over all padded modes where it names no modes.
   [[nodiscard]] const double* row(int contact, int component) const {
     const auto c = static_cast<std::size_t>(contact);
