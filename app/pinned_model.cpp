@@ -12,7 +12,7 @@ namespace {
 using core::Index;
 using core::Vec3;
 
-constexpr std::uint8_t translations = 0b000111, all_dofs = 0b111111;
+constexpr std::uint8_t translation_dofs = 0b000111, all_dofs = 0b111111;
 /// Of the rod's bending and torsion to its axial stiffness: nothing is felt of them.
 constexpr double slenderness = 1e-18;
 
@@ -64,7 +64,7 @@ fem::BeamProperty rod(double stiffness) {
 
 bool can_pin(const fem::Model& model, const PlacedContact& contact) {
   return contact.other < 0 ||
-         (model.fixed[static_cast<std::size_t>(contact.other)] & translations) == translations;
+         (model.fixed[static_cast<std::size_t>(contact.other)] & translation_dofs) == translation_dofs;
 }
 
 fem::Model pinned_model(const study::Study& study, const fem::Model& model,

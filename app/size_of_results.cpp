@@ -10,10 +10,10 @@
 namespace fretwork::app {
 namespace {
 
-constexpr double number = sizeof(double);
-constexpr double of_contact = 12.0 * number + 1.0; // displacement, velocity, gap, forces, normal; state
-constexpr double of_node = 9.0 * number, of_mode = 2.0 * number;
-constexpr double of_impact = 8.0 * number; // a row of the table
+constexpr double of_number = sizeof(double);
+constexpr double of_contact = 12.0 * of_number + 1.0; // displacement, velocity, gap, forces, normal; state
+constexpr double of_node = 9.0 * of_number, of_mode = 2.0 * of_number;
+constexpr double of_impact = 8.0 * of_number; // a row of the table
 
 } // namespace
 
@@ -21,7 +21,7 @@ SizeOfResults size_of_results(const study::Study& study, const std::vector<Built
                               const std::vector<PlacedContact>& placed, double outputs,
                               const std::vector<double>& rows) {
   SizeOfResults size;
-  double at_an_output = number; // the time
+  double at_an_output = of_number; // the time
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     const BuiltScene& built = scenes[s];
     at_an_output += of_node * static_cast<double>(built.nodes.size());

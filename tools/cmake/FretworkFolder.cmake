@@ -18,9 +18,9 @@ endfunction()
 function(fretwork_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # version 12 sees uninitialised values where Eigen's kernels have been inlined. A file takes some 600 MB in any case: looking for memory to
+    # version 12 sees uninitialised values where Eigen's kernels have been inlined. Units of several sources take up to 2 GB in any case: looking for memory to
     # free takes a seventh of its time.
-    target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized --param=ggc-min-heapsize=500000)
+    target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized --param=ggc-min-heapsize=1500000)
   endif()
   if(FRETWORK_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
@@ -48,30 +48,39 @@ if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache" AND NOT CMAKE_DISABLE_PRECOMPILE
   list(PREPEND CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros)
 endif()
 
-# The headers of others that most files include, compiled once with the first folder. Neither fmt nor toml++: they differ by the macros of the
-# folders that link them, and a precompiled header fits no other macros than its own. Files include what they use all the same: the preset
-# dev builds without.
-function(fretwork_precompile target)
-  if(target STREQUAL "fretwork_core")
-    target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <cmath> <functional> <map> <optional> <string>
+# The headers of others that most files include, compiled once for each set of options, with a target that has no macros: neither fmt nor toml++, which
+# differ by the macros of the folders that link them, and a precompiled header fits no other macros than its own. Files include what they
+# use all the same: the preset dev builds without.
+function(fretwork_precompiled_headers name)
+  if(NOT TARGET ${name})
+    file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/${name}.cpp CONTENT "")
+    add_library(${name} STATIC ${CMAKE_BINARY_DIR}/${name}.cpp)
+    fretwork_compile_options(${name})
+    target_compile_options(${name} PRIVATE ${ARGN})
+    target_link_libraries(${name} PRIVATE Eigen3::Eigen)
+    target_precompile_headers(${name} PRIVATE <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <cmath> <functional> <map> <optional> <string>
                               <variant> <vector>)
-  else()
-    target_precompile_headers(${target} REUSE_FROM fretwork_core)
   endif()
 endfunction()
 
-# Several sources of a target compiled as one: the headers that they share, and what these instantiate, are then paid for once. Names of unnamed
-# namespaces must differ within a folder. Sources with options of their own are left alone.
+# Sources of a target compiled as one, at most 28: the headers that they share, and what these instantiate, are then paid for once; two units of 28
+# take three quarters of the time of seven of 8, and up to 2 GB each. Names of unnamed namespaces must differ within a folder. Sources with options of their own are left alone.
 function(fretwork_unity target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${FRETWORK_UNITY} UNITY_BUILD_BATCH_SIZE 8)
-  if(FRETWORK_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU") # g++ takes a source that another one includes for a header
-    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+  get_target_property(sources ${target} SOURCES)
+  list(LENGTH sources count)
+  math(EXPR units "(${count} + 27) / 28")
+  math(EXPR size "(${count} + ${units} - 1) / ${units}")
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${FRETWORK_UNITY} UNITY_BUILD_BATCH_SIZE ${size})
+  if(FRETWORK_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # g++ takes a source that another one includes for a header; names of other sources of the folder are no shadows (without unity builds they are told)
+    target_compile_options(${target} PRIVATE -Wno-subobject-linkage -Wno-shadow -Wshadow=local)
   endif()
 endfunction()
 
-# fretwork_folder(<folder> [TARGET name] SOURCES ... [KNOWS folders ...] [LIBRARIES private third-party ...])
+# fretwork_folder(<folder> [SURFACE] [TARGET name] SOURCES ... [KNOWS folders ...] [LIBRARIES private third-party ...])
+# SURFACE: what users meet, texts and files. Its time goes to the compiler, not to the processor that runs it.
 function(fretwork_folder folder)
-  cmake_parse_arguments(ARG "" "TARGET" "SOURCES;KNOWS;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "SURFACE" "TARGET" "SOURCES;KNOWS;LIBRARIES" ${ARGN})
   if(NOT ARG_TARGET)
     string(REPLACE "/" "_" name ${folder})
     set(ARG_TARGET fretwork_${name})
@@ -86,7 +95,14 @@ function(fretwork_folder folder)
     target_link_libraries(${ARG_TARGET} PUBLIC fretwork_${known})
   endforeach()
   target_link_libraries(${ARG_TARGET} PRIVATE ${ARG_LIBRARIES})
-  fretwork_precompile(${ARG_TARGET})
+  if(ARG_SURFACE)
+    fretwork_precompiled_headers(fretwork_surface_headers $<$<CONFIG:Release>:-O1>)
+    target_compile_options(${ARG_TARGET} PRIVATE $<$<CONFIG:Release>:-O1>)
+    target_precompile_headers(${ARG_TARGET} REUSE_FROM fretwork_surface_headers)
+  else()
+    fretwork_precompiled_headers(fretwork_headers)
+    target_precompile_headers(${ARG_TARGET} REUSE_FROM fretwork_headers)
+  endif()
   if(NOT folder MATCHES "^(contact|transient)")   # the time loop: a change of one file compiles that file alone
     fretwork_unity(${ARG_TARGET})
   endif()
