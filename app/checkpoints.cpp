@@ -82,9 +82,8 @@ void Checkpoints::look(std::size_t run, transient::Run& state) {
   pending_.push_back({run, checkpoint_of(state)});
   write();
   if (ended_by != 0)
-    throw core::ComputationError(
-        fmt::format("ended by {} at t = {:.6g} s; the same command goes on from there",
-                    name_of_signal(ended_by), state.time()));
+    throw core::Interrupted(fmt::format("ended by {} at t = {:.6g} s; the same command goes on from there",
+                                        name_of_signal(ended_by), state.time()));
 }
 
 void Checkpoints::ended(std::size_t run, transient::Run& state) {

@@ -39,7 +39,7 @@ public:
   /// What was found does not fit the run, which starts at the beginning after all.
   void refuse(std::size_t run) const;
   /// Saves the run, and those that have ended, when it is time to. What cannot be written is told, and the run goes on.
-  /// @throws core::ComputationError after SIGTERM or SIGINT, when all is saved
+  /// @throws core::Interrupted after SIGTERM or SIGINT, when all is saved
   void look(std::size_t run, transient::Run& state);
   [[nodiscard]] const TimeLimit& limit() const { return options_.limit; }
   /// The run has come to its end; others follow.

@@ -285,7 +285,14 @@ void open_gaps(const study::Study& study, const std::vector<WornPlace>& places,
     results::RunResults next;
     try {
       next = run(opened, stage + 1);
-    } catch (const core::Error& error) { // no static start, too long a run: alike on all ranks
+    } catch (const core::Interrupted&) {
+      throw;
+    } catch (
+        const core::ComputationError& error) { // it diverged, or found no static start: alike on all ranks
+      reason = fmt::format("stage {}: {}", stage + 1, error.what());
+      end = "stage_failed";
+      break;
+    } catch (const core::Error& error) { // too long a run
       reason = fmt::format("stage {}: {}", stage + 1, error.what());
       end = "stage_refused";
       break;

@@ -93,7 +93,10 @@ OtherRuns read_other_runs(const study::Study& study, const fs::path& folder) {
     if (is_named && is_plain)
       out.is_state_of = entry.path;
   }
-  if (!missing.empty() && out.is_state_of.empty())
+  if (!out.is_state_of.empty()) // its results do not depend on the other states
+    for (auto& rates : out.rates)
+      rates.assign(rates.size(), std::nullopt);
+  else if (!missing.empty())
     out.missing = missing_text(missing);
   return out;
 }

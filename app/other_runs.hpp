@@ -20,7 +20,8 @@ struct StatedRate {
 };
 
 struct OtherRuns {
-  /// Work rates by name of a contact, of each state of each entry; nothing for states that are no other run.
+  /// Work rates by name of a contact, of each state of each entry; nothing for states that are no other run,
+  /// and in a run that is a state itself.
   std::vector<std::vector<std::optional<std::map<std::string, StatedRate>>>> rates;
   std::string missing; ///< why wear cannot be computed: runs that have not been made; empty: it can
   std::string

@@ -26,7 +26,7 @@ template <class Job> bool restore(Job& job, std::string bytes) {
 /// @param number        of the run among those of the study, which names its checkpoint
 /// @param others_follow runs of this rank: an interruption of theirs must not lose this one
 /// @return              the job, its run advanced to the end
-/// @throws core::ComputationError after SIGTERM or SIGINT, when all is saved; core::Error where the run would take too long
+/// @throws core::Interrupted after SIGTERM or SIGINT, when all is saved; core::Error where the run would take too long
 template <class MakeJob>
 auto resumed_run(const MakeJob& make, std::size_t number, Checkpoints& checkpoints, bool others_follow) {
   auto job = make();

@@ -145,7 +145,7 @@ ChildResult run_child(const std::vector<std::string>& arguments, const ChildLimi
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (ended_by != 0)
-    throw ComputationError("ended while " + arguments[0] + " was at work: " + result.stopped);
+    throw Interrupted("ended while " + arguments[0] + " was at work: " + result.stopped);
   if (failure != 0)
     return {not_started, arguments[0] + ": " + std::strerror(failure)};
   result.status = WIFEXITED(status) ? WEXITSTATUS(status) : of_a_signal + WTERMSIG(status);

@@ -27,7 +27,7 @@ struct ChildLimits {
 /// Run `arguments[0]` (searched on PATH) with its arguments, no shell, no standard input; wait for its end. It dies with this process,
 /// however that ends; with a limit of time so do the processes that it started.
 /// @param confinement  nullptr: none
-/// @throws core::ComputationError after SIGTERM, SIGINT or SIGHUP where these would end this process: the child is ended first, and what the
+/// @throws core::Interrupted after SIGTERM, SIGINT or SIGHUP where these would end this process: the child is ended first, and what the
 ///         caller has made for it is removed on the way
 [[nodiscard]] ChildResult run_child(const std::vector<std::string>& arguments, const ChildLimits& limits = {},
                                     const Confinement* confinement = nullptr);

@@ -20,4 +20,10 @@ public:
   using std::runtime_error::runtime_error;
 };
 
+/// SIGTERM, SIGINT or SIGHUP has ended the computation; the same command goes on: exit status 2.
+class Interrupted : public ComputationError {
+public:
+  using ComputationError::ComputationError;
+};
+
 } // namespace fretwork::core

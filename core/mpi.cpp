@@ -83,13 +83,16 @@ void broadcast(MPI_Comm comm, int root, Eigen::VectorXd& values) {
 }
 
 void agree(MPI_Comm comm, const std::function<void()>& work) {
-  enum Kind : int { fine = 0, input = 1, computation = 2, other = 3 };
+  enum Kind : int { fine = 0, input = 1, computation = 2, interrupted = 3, other = 4 };
   int kind = fine;
   std::string message;
   try {
     work();
   } catch (const Error& e) {
     kind = input;
+    message = e.what();
+  } catch (const Interrupted& e) {
+    kind = interrupted;
     message = e.what();
   } catch (const ComputationError& e) {
     kind = computation;
@@ -109,6 +112,8 @@ void agree(MPI_Comm comm, const std::function<void()>& work) {
     throw Error(message);
   if (kind == computation)
     throw ComputationError(message);
+  if (kind == interrupted)
+    throw Interrupted(message);
   throw std::runtime_error(message);
 }
 

@@ -35,7 +35,7 @@ private:
 [[nodiscard]] int size(MPI_Comm comm);
 
 /// Collective. Runs `work` on this rank; if it threw on any rank, every rank throws what the lowest failing
-/// rank threw (core::Error, core::ComputationError, or std::runtime_error for anything else), so that no rank
+/// rank threw (one of core/error.hpp, or std::runtime_error for anything else), so that no rank
 /// waits for another.
 void agree(MPI_Comm comm, const std::function<void()>& work);
 

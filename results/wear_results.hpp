@@ -103,9 +103,9 @@ struct OpenedSupport {
 
 /// The run repeated at the gaps that its wear has opened (wear/gap_opening.hpp). The wear of supports above is that of the first stage alone.
 struct GapOpening {
-  /// "life_reached", "geometry_stands", "horizon_reached", "stages_used", "beyond_geometry", "stage_refused"
+  /// "life_reached", "geometry_stands", "horizon_reached", "stages_used", "beyond_geometry", "stage_failed", "stage_refused"
   std::string end;
-  std::string reason;                  ///< of "beyond_geometry" and "stage_refused", the message; else empty
+  std::string reason;                  ///< of the last three, the message; else empty
   std::vector<double> time;            ///< s, at the end of each stage
   std::vector<OpenedSupport> supports; ///< as Wear::supports
 };

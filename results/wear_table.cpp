@@ -79,6 +79,8 @@ std::string end_text(const GapOpening& opening) {
     return "the geometry stands";
   if (opening.end == "horizon_reached")
     return "the end of the time";
+  if (opening.end == "stage_failed" || opening.end == "stage_refused")
+    return opening.reason;
   return opening.end == "stages_used" ? "no more stages" : "beyond the geometry";
 }
 

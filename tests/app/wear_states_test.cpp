@@ -70,6 +70,21 @@ TEST(WearStates, ThatAllNameTheirFoldersHaveTheSameWearInEachRun) {
                    "up to date"));
 }
 
+TEST(WearStates, DoNotAgeByTheRunsOfOtherStates) {
+  const Workshop folder;
+  const fs::path study =
+      folder.write("study.toml",
+                   with_states(folder, "{ share = 0.4 }, { share = 0.3, results = \"part\" }, { share = 0.3, "
+                                       "results = \"other\" }"));
+  (void)folder.run(study, "part", part_load);
+  (void)folder.run(study, "other");
+  EXPECT_TRUE(says(folder
+                       .fretwork({"transient", study.string(), "-o", folder.path("part").string(), "--set",
+                                  "loads.0.random.rms=15"})
+                       .out,
+                   "up to date"));
+}
+
 TEST(WearStates, ThatHaveNotBeenMadeAreRefusedByASweep) {
   const Workshop folder;
   const fs::path study = folder.write(

@@ -80,7 +80,8 @@ def _tubes(run):
 
 
 _ENDS = {"life_reached": "a tube has lost its limit", "geometry_stands": "the geometry stands", "horizon_reached": "the end of the years",
-         "stages_used": "no more stages", "beyond_geometry": "beyond the geometry", "stage_refused": "a stage was refused"}
+         "stages_used": "no more stages", "beyond_geometry": "beyond the geometry", "stage_failed": "a stage failed",
+         "stage_refused": "a stage was refused"}
 
 
 def _gap_opening(run):
