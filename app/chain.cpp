@@ -167,7 +167,11 @@ private:
         report_modes_limit(study, *out_.modes_limit, out_);
     });
     note_coincident_nodes(mesh_, out_);
-    if (last_ == Stage::transient && !other_runs_.missing.empty()) // before the time is spent
+    if (out_.modes_limit) // by the values that may be slips: before the time is spent
+      for (const std::string& warning : out_.warnings)
+        if (warning.starts_with("units: "))
+          say("warning: " + warning + "\n");
+    if (last_ == Stage::transient && !other_runs_.missing.empty()) // likewise
       say("warning: " + other_runs_.missing + "\n");
     out_.timings.assembly = watch_.lap();
   }

@@ -93,9 +93,9 @@ std::string laws_note(const study::Contact& entry, const std::vector<Point>& poi
   if (entry.restitution)
     found.push_back(restitution_text(entry, points));
   if (entry.friction_static > 0.0 && !entry.tangential_damping)
-    found.push_back(fmt::format("automatic tangential damping {} N s/m", range(points, [](const Point& p) {
-                                  return p.contact->support.friction.damping / p.placed->share;
-                                })));
+    found.push_back(fmt::format(
+        "automatic tangential damping {} N s/m (tangential_damping gives another)",
+        range(points, [](const Point& p) { return p.contact->support.friction.damping / p.placed->share; })));
   if (entry.friction_static == 0.0 && entry.tangential_stiffness > 0.0)
     found.push_back("tangential_stiffness without friction: nothing tangential is computed");
   if (found.empty())

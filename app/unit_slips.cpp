@@ -13,6 +13,8 @@ constexpr double largest_section = 3.0, largest_gap = 0.1, largest_mesh = 1000.0
 constexpr double least_modulus = 1e7;                                             // Pa
 constexpr double least_density = 50.0, largest_density = 3e4;                     // kg/m3
 constexpr double largest_friction = 2.0;
+constexpr double largest_support = 1.0, largest_correlation = 10.0; // m
+constexpr double largest_damping = 0.3;
 
 /// Sizes of a shape, m, by their keys.
 std::vector<std::pair<const char*, double>> sizes(const fem::Shape& shape) {
@@ -48,6 +50,13 @@ std::vector<std::string> too_long(const study::Study& study, const mesh::LineMes
   for (const study::Contact& contact : study.contacts)
     if (const double gap = gap_of(contact.shape); gap > largest_gap)
       out.push_back(fmt::format("gap = {:g} m of contact \"{}\"", gap, contact.name));
+  for (const study::Wear& wear : study.wear)
+    if (wear.length && *wear.length > largest_support)
+      out.push_back(fmt::format("{}.length = {:g} m", wear.path, *wear.length));
+  for (const study::Turbulence& turbulence : study.turbulence)
+    if (turbulence.correlation_length > largest_correlation)
+      out.push_back(fmt::format("turbulence.{}.correlation_length = {:g} m", turbulence.name,
+                                turbulence.correlation_length));
   if (!mesh.nodes.empty()) {
     core::Vec3 low = mesh.nodes.front(), high = low;
     for (const core::Vec3& node : mesh.nodes) {
@@ -78,6 +87,12 @@ std::vector<std::string> odd_friction(const study::Study& study) {
     if (contact.friction_static > largest_friction)
       out.push_back(fmt::format("friction = {:g} of contact \"{}\"", contact.friction_static, contact.name));
   return out;
+}
+
+std::vector<std::string> odd_damping(const study::Study& study) {
+  const double* ratio = study.modes.flow_damping ? nullptr : std::get_if<double>(&study.modes.damping);
+  return ratio && *ratio > largest_damping ? std::vector{fmt::format("modes.damping = {:g}", *ratio)}
+                                           : std::vector<std::string>();
 }
 
 /// A fixed step beyond the longest period that a contact can have, that of all the mass on its spring; else empty.
@@ -117,6 +132,8 @@ std::vector<std::string> unit_slips(const study::Study& study, const mesh::LineM
       out);
   ask(odd_materials(study), "units are SI: Pa and kg/m3", out);
   ask(odd_friction(study), "is this per cent? Coefficients of friction lie between 0 and 2", out);
+  ask(odd_damping(study), "is this per cent? It is the share of critical damping, 0.002 to 0.05 of tubes",
+      out);
   if (std::string step = long_step(study, model); !step.empty())
     out.push_back("units: " + step);
   return out;

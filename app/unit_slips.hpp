@@ -6,6 +6,8 @@
 ///     sizes of sections      up to 3 m                        radial gaps           up to 0.1 m
 ///     size of the mesh       up to 1000 m                     Young's modulus       from 1e7 Pa (rubber)
 ///     density                0 or 50 (foam) to 30000 kg/m3    friction coefficient  up to 2
+///     supports of wear       up to 1 m long               correlation lengths   up to 10 m
+///     modal damping          up to 0.3
 ///     fixed time step        up to the period of the stiffest contact against the whole mass of the model
 #pragma once
 #include "fem/model.hpp"

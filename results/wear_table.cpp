@@ -40,6 +40,20 @@ std::string row(const WearOfSupport& s) {
                      law_text(s));
 }
 
+/// What the intervals of depth and years are; nothing where there is none.
+void add_confidence(std::vector<std::string>& lines, const Wear& wear) {
+  const auto has_interval = [](const WearOfSupport& s) { return s.work_rate.low < s.work_rate.high; };
+  if (std::none_of(wear.supports.begin(), wear.supports.end(), has_interval))
+    return;
+  const std::optional<double> confidence = wear.supports.front().confidence;
+  const bool alike = std::all_of(wear.supports.begin(), wear.supports.end(),
+                                 [&](const WearOfSupport& s) { return s.confidence == confidence; });
+  lines.push_back(
+      !alike       ? "  in brackets: intervals of the confidence of each [[wear]], else +- one standard error"
+      : confidence ? fmt::format("  in brackets: intervals of {:.4g} % confidence", 100.0 * *confidence)
+                   : "  in brackets: +- one standard error of the work rate");
+}
+
 /// Where coefficients of a bank are from, each once.
 void add_sources(std::vector<std::string>& lines, const Wear& wear) {
   std::vector<std::string> distinct;
@@ -79,8 +93,10 @@ std::string end_text(const GapOpening& opening) {
     return "the geometry stands";
   if (opening.end == "horizon_reached")
     return "the end of the time";
-  if (opening.end == "stage_failed" || opening.end == "stage_refused")
-    return opening.reason;
+  if (opening.end == "stage_failed")
+    return "the next stage failed";
+  if (opening.end == "stage_refused")
+    return "the next stage was refused";
   return opening.end == "stages_used" ? "no more stages" : "beyond the geometry";
 }
 
@@ -134,6 +150,7 @@ std::vector<std::string> wear_lines(const Wear& wear) {
   if (shown.size() < wear.supports.size())
     lines.push_back(fmt::format("  the 10 of {} supports with the shortest lives", wear.supports.size()));
   add_tubes(lines, wear);
+  add_confidence(lines, wear);
   add_sources(lines, wear);
   if (wear.opening)
     add_opening(lines, wear, shown);

@@ -219,9 +219,12 @@ void read_states(const TableReader& table, const fs::path& folder, Wear& wear) {
     table.fail_at("states", "a state without results and work_rate is this run, which can be one of them "
                             "only; name the results folder of the others");
   if (std::abs(sum - 1.0) > sum_of_shares)
-    table.fail_at("states", fmt::format("the shares sum to {:g}; they are shares of the whole time: add "
-                                        "{{ share = {:g}, work_rate = 0 }} for time at rest",
-                                        sum, std::max(0.0, 1.0 - sum)));
+    table.fail_at(
+        "states",
+        fmt::format("the shares sum to {:g}; they are shares of the whole time: {}", sum,
+                    sum < 1.0
+                        ? fmt::format("add {{ share = {:g}, work_rate = 0 }} for time at rest", 1.0 - sum)
+                        : "give smaller ones"));
   if (std::holds_alternative<fretwork::wear::KwuEpri>(wear.law) && (wear.states.size() > 1 || !of_this_run))
     table.fail_at("states", "law = \"kwu_epri\" takes the forces and speeds of this run; leave states out");
 }

@@ -20,8 +20,12 @@ protected:
     contact_.name = "bar";
     contact_.entry = 0;
     contact_.obstacle = contact::Circle{1e-4};
-    places_.push_back(
-        {"bar", 0, {0}, {wear::SharedScar{wear::FlatBar{9.525e-3, 0.01}}, wear::Archard{1e-14}, wall}, {}, {}});
+    places_.push_back({"bar",
+                       0,
+                       {0},
+                       {wear::SharedScar{wear::FlatBar{9.525e-3, 0.01}}, wear::Archard{1e-14}, wall},
+                       {},
+                       {}});
     run_.contacts.resize(1);
     run_.contacts[0].gap = 1e-4;
     run_.wear = stage();

@@ -59,6 +59,12 @@ TEST(UnitSlips, OfFrictionMaterialsAndStepAreAskedAbout) {
   ASSERT_EQ(material.size(), 1u);
   EXPECT_TRUE(
       says(material[0], "young_modulus = 200000 Pa (steel: 2e11), materials.steel.density = 8 kg/m3"));
+  const auto damping = asked(folder, study, {"modes.damping=0.5"});
+  ASSERT_EQ(damping.size(), 1u);
+  EXPECT_TRUE(says(damping[0], "modes.damping = 0.5: is this per cent?"));
+  const auto length = asked(folder, study + "[[wear]]\ncoefficient = 1.0e-14\nlength = 30\n", {});
+  ASSERT_EQ(length.size(), 1u);
+  EXPECT_TRUE(says(length[0], "wear.0.length = 30 m: are these mm?"));
   const auto step = asked(folder, study, {"transient.duration=2", "transient.step=0.1"});
   ASSERT_EQ(step.size(), 1u);
   EXPECT_TRUE(

@@ -181,7 +181,7 @@ TEST(WearInTheArchive, IsThereOnlyWhereTheStudyAsksForIt) {
 
 TEST(WearOnTheTerminal, FitsItsWidthAndShowsTheShortestLives) {
   const auto lines = wear_lines(*worn(20).wear);
-  EXPECT_EQ(lines.size(), 1u + 10u + 1u + 1u + 1u + 2u + 10u); // the last ones of gap opening
+  EXPECT_EQ(lines.size(), 1u + 10u + 1u + 1u + 1u + 1u + 2u + 10u); // the last ones of gap opening
   for (const std::string& line : lines)
     EXPECT_LE(line.size(), widest) << line;
   EXPECT_THAT(lines[0], HasSubstr("in 40 years"));
@@ -190,10 +190,20 @@ TEST(WearOnTheTerminal, FitsItsWidthAndShowsTheShortestLives) {
   EXPECT_THAT(lines[1], HasSubstr("25 (21.7 to 29.4)"));
   EXPECT_THAT(lines[11], HasSubstr("the 10 of 20 supports with the shortest lives"));
   EXPECT_THAT(lines[12], HasSubstr("first: tsp20"));
-  EXPECT_EQ(lines[13], "  K = 2e-14 m2/N: 690_405 on flat_bar: made up");
-  EXPECT_EQ(lines[14], "  gaps opened in 2 stages up to 12.5 years: a tube has lost its limit");
-  EXPECT_THAT(lines[16],
+  EXPECT_EQ(lines[13], "  in brackets: +- one standard error of the work rate");
+  EXPECT_EQ(lines[14], "  K = 2e-14 m2/N: 690_405 on flat_bar: made up");
+  EXPECT_EQ(lines[15], "  gaps opened in 2 stages up to 12.5 years: a tube has lost its limit");
+  EXPECT_THAT(lines[17],
               HasSubstr("tsp20                   0.2 -> 0.25         0.002 -> 0.003     0.3 (0.24 to 0.36)"));
+}
+
+TEST(WearOnTheTerminal, SaysWhatItsIntervalsAre) {
+  RunResults run = worn(2);
+  for (WearOfSupport& support : run.wear->supports)
+    support.confidence = 0.95;
+  EXPECT_THAT(terminal_table(run), HasSubstr("in brackets: intervals of 95 % confidence"));
+  run.wear->supports[1].confidence.reset();
+  EXPECT_THAT(terminal_table(run), HasSubstr("in brackets: intervals of the confidence of each [[wear]]"));
 }
 
 TEST(WearOnTheTerminal, SaysNeverAndOutsideTheLaw) {

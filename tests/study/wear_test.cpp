@@ -172,6 +172,8 @@ TEST(MessagesOfWear, NameTheKeyTheValueAndTheCure) {
       {k + "sectors = 4000", "wear.0.sectors = 4000: at most 3600 sectors"},
       {k + "states = [{ share = 0.7 }]",
        "the shares sum to 0.7; they are shares of the whole time: add { share = 0.3, work_rate = 0 }"},
+      {k + "states = [{ share = 0.8 }, { share = 0.3, work_rate = 0.01 }]",
+       "the shares sum to 1.1; they are shares of the whole time: give smaller ones"},
       {k + "states = [{ share = 0.5 }, { share = 0.5 }]",
        "a state without results and work_rate is this run, which can be one of them only"},
       {k + "states = [{ work_rate = 1 }]", "wear.0.states[0].share: this required key is missing"},
