@@ -17,6 +17,7 @@ using Eigen::Index;
 
 constexpr double largest_factor = 3.0; // of the search for the first crossing
 constexpr int steps = 30, halvings = 30;
+constexpr double round_off = 1e-10;  // of the largest root: growth below is none
 constexpr Index most_searched = 600; // unknowns: their eigenvalues take a second
 
 /// Where V is largest.
@@ -102,7 +103,8 @@ public:
   [[nodiscard]] std::complex<double> worst(double factor) const {
     const Eigen::VectorXcd roots =
         core::general_eigenvalues(flow::state_matrix(k_, c_, flow::scaled(forces_, factor)));
-    std::complex<double> growing = 0.0, vibrating = 0.0;
+    std::complex<double> growing = {round_off * roots.cwiseAbs().maxCoeff(), 0.0}, vibrating = 0.0;
+    const double none = growing.real();
     double ratio = std::numeric_limits<double>::infinity();
     for (const std::complex<double>& s : roots) {
       if (s.real() > growing.real())
@@ -112,7 +114,7 @@ public:
         vibrating = s;
       }
     }
-    return growing.real() > 0.0 ? growing : vibrating;
+    return growing.real() > none ? growing : std::complex(std::min(vibrating.real(), 0.0), vibrating.imag());
   }
 
   /// The least factor of all velocities at which a root crosses the imaginary axis, up to largest_factor.
@@ -193,15 +195,17 @@ void judge_fluidelastic(const TubesInFlow& tubes, const std::vector<modal::Basis
       crossing = fmt::format("critical velocity {:.5g} m/s, factor {:.5g}", *critical * velocity, *critical);
     else
       crossing = fmt::format("stable up to {:g} times the velocity", largest_factor);
+    const bool diverges = unstable && root.imag() == 0.0;
+    const std::string motion = diverges ? fmt::format("divergence, which grows by {:.4g} 1/s", root.real())
+                                        : fmt::format("{:.5g} Hz with damping {:.4g} at V/(f D) = {:.4g}",
+                                                      frequency, -root.real() / std::abs(root), reduced);
     std::string text =
-        fmt::format("{}: fluidelastic law, without contacts: {:.5g} Hz with damping {:.4g} at V/(f D) "
-                    "= {:.4g}; {}",
-                    name_of(tube.flow), frequency, -root.real() / std::abs(root), reduced, crossing);
+        fmt::format("{}: fluidelastic law, without contacts: {}; {}", name_of(tube.flow), motion, crossing);
     if (unstable)
       text += ": unstable, supports must limit the motion";
     (unstable ? out.warnings : out.notes).push_back(std::move(text));
     if (const auto& range = tube.flow.law->range;
-        range && unstable && (reduced < (*range)[0] || reduced > (*range)[1]))
+        range && unstable && !diverges && (reduced < (*range)[0] || reduced > (*range)[1]))
       out.warnings.push_back(
           fmt::format("{}: reduced velocity {:.4g} of the unstable mode is outside the law's range "
                       "{:g} to {:g}; the law is extrapolated",

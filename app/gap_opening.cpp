@@ -252,6 +252,14 @@ void check_gap_opening(const study::Study& study, const std::vector<WornPlace>& 
     return;
   if (places.empty())
     throw core::Error("[gap_opening]: no active contact wears, so that no gap opens; leave it out");
+  constexpr std::int64_t fewest_sectors = 3; // that enclose a hole
+  for (const WornPlace& place : places)
+    if (const study::Wear& entry = study.wear[place.entry];
+        by_sector(place) && entry.sectors < fewest_sectors)
+      throw core::Error(
+          fmt::format("{}.sectors = {}: with [gap_opening] the sectors enclose the hole; give {} "
+                      "or more",
+                      entry.path, entry.sectors, fewest_sectors));
   for (const WornPlace& place : places)
     for (const std::size_t c : place.contacts)
       if (by_sector(place) && !opens_by_angle(placed[c]))

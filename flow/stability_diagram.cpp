@@ -18,7 +18,7 @@ constexpr int most_halvings = 3;           // of a step in which a mode keeps le
 constexpr int most_halvings_of_pairs = 20; // of a step in which a pair meets on the real axis and crosses 0
 constexpr double found = 1e-13;            // width of a bracket, of the factor
 constexpr int most_secants = 100;
-constexpr double round_off = 1e-12; // of the largest root: growth below is none
+constexpr double round_off = 1e-10; // of the largest root: growth below is none
 
 /// Places of largest entries, one in each row and each column, by descending entry.
 /// @return for each column its row
@@ -49,9 +49,9 @@ public:
   void begin(double factor, std::vector<Crossing>& crossings) {
     at_ = solved(factor);
     name_roots();
-    const double none = round_off * at_.values.cwiseAbs().maxCoeff();
+    none_ = round_off * at_.values.cwiseAbs().maxCoeff();
     for (Eigen::Index j = 0; j < at_.values.size(); ++j)
-      if (const std::complex<double> s = at_.values(j); s.real() > none && s.imag() >= 0.0)
+      if (const std::complex<double> s = at_.values(j); s.real() > none_ && s.imag() >= 0.0)
         crossings.push_back({0.0, {0.0, s.imag()}, mode_[static_cast<std::size_t>(j)], true});
   }
 
@@ -146,7 +146,7 @@ private:
   /// Whether the real part of a root changes its sign on the way to `next`; of conjugates one does.
   [[nodiscard]] bool crosses(const System& next, Eigen::Index k) const {
     const std::complex<double> before = at_.values(k), after = next.values(k);
-    return (before.real() > 0.0) != (after.real() > 0.0) && !(before.imag() < 0.0 && after.imag() < 0.0);
+    return (before.real() > none_) != (after.real() > none_) && !(before.imag() < 0.0 && after.imag() < 0.0);
   }
 
   /// Whether a pair becomes two real roots, or back, in the same step as one crosses: the two cannot be distinguished there.
@@ -159,8 +159,9 @@ private:
 
   /// Between here and a system in the same order whose root k has its real part on the other side of 0.
   [[nodiscard]] Crossing crossing(const System& next, Eigen::Index k) const {
-    double low = at_.factor, high = next.factor, at_low = at_.values(k).real(),
-           at_high = next.values(k).real();
+    const double before = at_.values(k).real(), after = next.values(k).real();
+    const double zero = (before > 0.0) != (after > 0.0) ? 0.0 : none_; // below, all is round-off
+    double low = at_.factor, high = next.factor, at_low = before - zero, at_high = after - zero;
     const bool to_unstable = at_high > 0.0;
     std::complex<double> root = next.values(k);
     double factor = high, kept = 0.0;
@@ -170,7 +171,7 @@ private:
       if (!(factor > low && factor < high))
         break; // round-off
       root = ordered(at_, solved(factor), kept).values(k);
-      const double here = root.real();
+      const double here = root.real() - zero;
       if (here == 0.0)
         break;
       const int now = (here > 0.0) == to_unstable ? 1 : -1;
@@ -191,6 +192,7 @@ private:
   const Eigen::VectorXd &k_, &c_;
   const core::MotionForces& forces_;
   System at_{};
+  double none_ = 0.0;              ///< 1/s, growth that is round-off
   std::vector<Eigen::Index> mode_; ///< of each root, -1 of lags
 };
 
@@ -201,6 +203,18 @@ double damping_of(std::complex<double> root) {
   const double size = std::abs(root);
   return size > 0.0 ? -root.real() / size : 0.0;
 }
+
+namespace {
+
+/// Between factors; of a single one a twentieth of it.
+double largest_step(const std::vector<double>& factors) {
+  double step = 0.0;
+  for (std::size_t i = 1; i < factors.size(); ++i)
+    step = std::max(step, factors[i] - factors[i - 1]);
+  return step > 0.0 ? step : 0.05 * factors.back();
+}
+
+} // namespace
 
 const Crossing* StabilityDiagram::critical() const {
   const auto at =
@@ -217,6 +231,8 @@ StabilityDiagram stability_diagram(const Eigen::VectorXd& k, const Eigen::Vector
   for (const double factor : out.factors)
     if (factor > 0.0)
       first = std::min(first, factor);
+  const double spacing = largest_step(out.factors);
+  double before = first;
   Roots roots(k, c, forces);
   roots.begin(first, out.crossings);
   for (std::size_t i = 0; i < out.factors.size(); ++i) {
@@ -227,8 +243,12 @@ StabilityDiagram stability_diagram(const Eigen::VectorXd& k, const Eigen::Vector
             -0.5 * c(mode) + std::sqrt(std::complex<double>(0.25 * c(mode) * c(mode) - k(mode)));
       continue;
     }
-    if (out.factors[i] > first)
+    if (out.factors[i] > first) {
+      for (; before + spacing < out.factors[i]; before += spacing) // up to the first of them
+        roots.advance(before + spacing, out.crossings);
       roots.advance(out.factors[i], out.crossings);
+    }
+    before = std::max(before, out.factors[i]);
     out.roots.row(row) = roots.of_modes();
   }
   std::sort(out.crossings.begin(), out.crossings.end(),

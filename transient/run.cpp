@@ -76,24 +76,27 @@ public:
   /// States at the instants before `limit`; their forces wait for the next record where the scheme does not give them.
   void states(Scheme& scheme, double limit) {
     first_ = next_;
+    waiting_.clear();
     while (next_ < grid_.count && time(next_) < limit) {
       scheme.state_at(time(next_), q_.data(), v_.data());
       sampler_->state(next_, time(next_), q_.data(), v_.data());
+      scheme.load_at(time(next_), load_.data()); // with the forces of the motion at that state
       if (scheme.forces_at(time(next_), mixed_)) {
-        scheme.load_at(time(next_), load_.data());
         sampler_->forces(next_, time(next_), load_.data(), mixed_);
         first_ = next_ + 1;
+      } else {
+        waiting_.insert(waiting_.end(), load_.begin(), load_.end());
       }
       ++next_;
     }
   }
 
-  void forces(Scheme& scheme, const Record& record) {
+  void forces(const Record& record) {
     if (first_ == next_)
       return;
     fresh(record);
     for (std::int64_t j = first_; j < next_; ++j)
-      serve(scheme, j, last_time_ < 0.0 ? 1.0 : (time(j) - last_time_) / (record.time - last_time_));
+      serve(j, last_time_ < 0.0 ? 1.0 : (time(j) - last_time_) / (record.time - last_time_));
   }
 
   /// Keeps the forces of a record that output instants will follow before the one after it.
@@ -112,7 +115,7 @@ public:
   void finish(Scheme& scheme) {
     states(scheme, std::numeric_limits<double>::infinity());
     if (first_ < next_)
-      forces(scheme, scheme.advance());
+      forces(scheme.advance());
   }
 
   /// Between two records.
@@ -128,9 +131,9 @@ private:
     }
   }
 
-  void serve(Scheme& scheme, std::int64_t j, double share) {
-    scheme.load_at(time(j), load_.data());
-    sampler_->forces(j, time(j), load_.data(), between(share));
+  void serve(std::int64_t j, double share) {
+    const auto at = static_cast<std::size_t>(j - first_) * size_;
+    sampler_->forces(j, time(j), waiting_.data() + at, between(share));
   }
 
   std::span<const ContactForce> between(double share) {
@@ -147,6 +150,7 @@ private:
   OutputGrid grid_;
   std::size_t size_;
   std::vector<double> q_, v_, load_;
+  std::vector<double> waiting_; ///< loads of the instants from first_ on, whose contact forces follow
   std::vector<ContactForce> last_, now_, mixed_;
   std::int64_t first_ = 0, next_ = 0;
   double last_time_ = -1.0;
@@ -178,7 +182,7 @@ bool Run::advance(std::int64_t records) {
     const Record& record = scheme_->advance();
     next = scheme_->next_time(); // infinite where the scheme fails: the loop ends
     last = &record;
-    outputs_->forces(*scheme_, record);
+    outputs_->forces(record);
     outputs_->keep(record, next + 0.5 * record.step); // the last output may lie at the end
     const double residual = std::abs(record.energy.residual());
     largest_residual_ = std::max(largest_residual_, residual);

@@ -137,6 +137,9 @@ TEST(GapOpening, IsRefusedWhereNoGapCanOpen) {
   EXPECT_TRUE(says(refused(planes + archard + "geometry = \"sectors\"\nclearance = 1e-5\n" + opening("")),
                    "contact \"support0\": with [gap_opening] only a circle or a drilled hole with a gap > 0, "
                    "not between two nodes, opens by sectors; give another geometry"));
+  EXPECT_TRUE(says(refused(sliding_bundle(folder, 1) + archard +
+                           "geometry = \"sectors\"\nclearance = 1e-5\nsectors = 2\n" + opening("")),
+                   "wear.0.sectors = 2: with [gap_opening] the sectors enclose the hole; give 3 or more"));
   EXPECT_TRUE(says(refused(sliding_bundle(folder, 1) + opening("")), "there is no [[wear]]"));
   const Outcome sweep = folder.fretwork(
       {"sweep",

@@ -19,11 +19,15 @@ std::vector<double> evenly(double last, int points) {
 }
 
 /// Factors are velocities, m/s.
-StabilityDiagram diagram(const Sampling& sampling, const FluidelasticLaw& law, double damping, double last,
-                         int points = 21) {
+StabilityDiagram diagram(const Sampling& sampling, const FluidelasticLaw& law, double damping,
+                         const std::vector<double>& factors) {
   const Eigen::VectorXd w = 2.0 * std::numbers::pi * sampling.frequency;
   return stability_diagram(w.cwiseAbs2(), 2.0 * damping * w,
-                           motion_forces(sampling, law, sampling.modes(), no_limit), evenly(last, points));
+                           motion_forces(sampling, law, sampling.modes(), no_limit), factors);
+}
+StabilityDiagram diagram(const Sampling& sampling, const FluidelasticLaw& law, double damping, double last,
+                         int points = 21) {
+  return diagram(sampling, law, damping, evenly(last, points));
 }
 
 double critical(const Sampling& sampling, const FluidelasticLaw& law, double damping, double last) {
@@ -96,6 +100,9 @@ TEST(StabilityDiagram, FindsBothEndsOfAWindow) {
   EXPECT_TRUE(found.crossings[0].to_unstable);
   EXPECT_FALSE(found.crossings[1].to_unstable);
   EXPECT_GT(found.crossings[1].factor, 1.5 * found.crossings[0].factor);
+  const double end = found.crossings[1].factor; // also where all factors lie beyond it
+  EXPECT_EQ(
+      diagram(metre(heavy, 1.0), law, heavy.damping, {1.1 * end, 1.2 * end, 1.3 * end}).crossings.size(), 2u);
   for (const Crossing& one : found.crossings) {
     const double v = one.factor, w0 = 2.0 * std::numbers::pi * heavy.frequency, w = one.root.imag();
     const Complex p(0.0, w * diameter / v);
@@ -106,6 +113,17 @@ TEST(StabilityDiagram, FindsBothEndsOfAWindow) {
                             0.5 * heavy.density * v * v * force;
     EXPECT_LT(std::abs(balance), digits * heavy.mass * w0 * w0) << v;
   }
+}
+
+/// A rigid motion and undamped modes that the flow does not move stay what they are.
+TEST(StabilityDiagram, TakesNoRoundOffForGrowth) {
+  core::MotionForces forces;
+  forces.stiffness = forces.damping = Eigen::MatrixXd::Zero(4, 4);
+  forces.damping(1, 1) = -2.0;
+  forces.input.resize(4, 0);
+  forces.output.resize(0, 4);
+  const Eigen::Vector4d k(0.0, 1e4, 1e6, 1e10), c = Eigen::Vector4d::Zero();
+  EXPECT_TRUE(stability_diagram(k, c, forces, evenly(3.0, 31)).crossings.empty());
 }
 
 /// A static force that grows with the displacement outweighs the stiffness: m w^2 = q K.

@@ -240,7 +240,8 @@ private:
     if (far && wait_ == 0)
       length = 0;
     while (length + 1 < lengths_.size() && (s.start + lengths_[length] * h_ > duration_ ||
-                                            !start_.moves_less(lengths_[length] * h_, longest_macro_step)))
+                                            !start_.moves_less(lengths_[length] * h_, longest_macro_step) ||
+                                            start_.find_near(window_ * lengths_[length] * h_)))
       ++length;
     wait_ = std::max(0, wait_ - 1);
     for (;; length = lengths_.size() - 1, wait_ = steps_after_meeting) {
