@@ -71,9 +71,14 @@ function(fretwork_unity target)
   math(EXPR units "(${count} + 27) / 28")
   math(EXPR size "(${count} + ${units} - 1) / ${units}")
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${FRETWORK_UNITY} UNITY_BUILD_BATCH_SIZE ${size})
-  if(FRETWORK_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # g++ takes a source that another one includes for a header; names of other sources of the folder are no shadows (without unity builds they are told)
+  if(NOT FRETWORK_UNITY)
+    return()
+  endif()
+  # names of other sources of the folder are no shadows; without unity builds they are told
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU") # which takes a source that another one includes for a header
     target_compile_options(${target} PRIVATE -Wno-subobject-linkage -Wno-shadow -Wshadow=local)
+  else()
+    target_compile_options(${target} PRIVATE -Wno-shadow)
   endif()
 endfunction()
 
