@@ -69,7 +69,10 @@ public:
   OutputQueue(const Scene& scene, Sampler* sampler, const OutputGrid& grid)
       : sampler_(sampler), grid_(grid), size_(static_cast<std::size_t>(scene.system.size())), q_(size_),
         v_(size_), load_(size_), last_(scene.contacts.size()), now_(last_), mixed_(last_) {
-    if (!sampler)
+    constexpr std::size_t usually_waiting = 64; // instants between records; of more memory is taken once
+    if (sampler)
+      waiting_.reserve(usually_waiting * size_);
+    else
       grid_.count = 0;
   }
 
