@@ -103,8 +103,8 @@ public:
   [[nodiscard]] std::complex<double> worst(double factor) const {
     const Eigen::VectorXcd roots =
         core::general_eigenvalues(flow::state_matrix(k_, c_, flow::scaled(forces_, factor)));
-    std::complex<double> growing = {round_off * roots.cwiseAbs().maxCoeff(), 0.0}, vibrating = 0.0;
-    const double none = growing.real();
+    const double none = round_off * roots.cwiseAbs().maxCoeff();
+    std::complex<double> growing = none, vibrating = 0.0;
     double ratio = std::numeric_limits<double>::infinity();
     for (const std::complex<double>& s : roots) {
       if (s.real() > growing.real())

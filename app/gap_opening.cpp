@@ -291,18 +291,19 @@ void open_gaps(const study::Study& study, const std::vector<WornPlace>& places,
       break;
     }
     results::RunResults next;
+    const auto stop = [&](const char* how, const std::exception& error) { // alike on all ranks
+      reason = fmt::format("stage {}: {}", stage + 1, error.what());
+      end = how;
+    };
     try {
       next = run(opened, stage + 1);
     } catch (const core::Interrupted&) {
       throw;
-    } catch (
-        const core::ComputationError& error) { // it diverged, or found no static start: alike on all ranks
-      reason = fmt::format("stage {}: {}", stage + 1, error.what());
-      end = "stage_failed";
+    } catch (const core::ComputationError& error) { // it diverged, or found no static start
+      stop("stage_failed", error);
       break;
     } catch (const core::Error& error) { // too long a run
-      reason = fmt::format("stage {}: {}", stage + 1, error.what());
-      end = "stage_refused";
+      stop("stage_refused", error);
       break;
     }
     for (const std::string& warning : next.warnings)

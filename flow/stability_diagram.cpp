@@ -206,12 +206,13 @@ double damping_of(std::complex<double> root) {
 
 namespace {
 
-/// Between factors; of a single one a twentieth of it.
-double largest_step(const std::vector<double>& factors) {
-  double step = 0.0;
+/// Of the way to the nearest factor: the largest between factors, so that no window is passed over that is wider; at most `most_steps_before`.
+double step_before(const std::vector<double>& factors, double nearest) {
+  constexpr double most_steps_before = 200.0;
+  double step = factors.size() > 1 ? nearest / most_steps_before : 0.05 * nearest;
   for (std::size_t i = 1; i < factors.size(); ++i)
     step = std::max(step, factors[i] - factors[i - 1]);
-  return step > 0.0 ? step : 0.05 * factors.back();
+  return step;
 }
 
 } // namespace
@@ -231,10 +232,14 @@ StabilityDiagram stability_diagram(const Eigen::VectorXd& k, const Eigen::Vector
   for (const double factor : out.factors)
     if (factor > 0.0)
       first = std::min(first, factor);
-  const double spacing = largest_step(out.factors);
-  double before = first;
   Roots roots(k, c, forces);
   roots.begin(first, out.crossings);
+  if (const auto nearest = std::upper_bound(out.factors.begin(), out.factors.end(), first);
+      nearest != out.factors.end()) {
+    const double step = step_before(out.factors, *nearest);
+    for (int i = 1; first + i * step < *nearest; ++i)
+      roots.advance(first + i * step, out.crossings);
+  }
   for (std::size_t i = 0; i < out.factors.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     if (out.factors[i] == 0.0) { // the lags stand still
@@ -243,12 +248,8 @@ StabilityDiagram stability_diagram(const Eigen::VectorXd& k, const Eigen::Vector
             -0.5 * c(mode) + std::sqrt(std::complex<double>(0.25 * c(mode) * c(mode) - k(mode)));
       continue;
     }
-    if (out.factors[i] > first) {
-      for (; before + spacing < out.factors[i]; before += spacing) // up to the first of them
-        roots.advance(before + spacing, out.crossings);
+    if (out.factors[i] > first)
       roots.advance(out.factors[i], out.crossings);
-    }
-    before = std::max(before, out.factors[i]);
     out.roots.row(row) = roots.of_modes();
   }
   std::sort(out.crossings.begin(), out.crossings.end(),

@@ -4,6 +4,7 @@
 // against its exact linear motion and against limit cycles of a Runge-Kutta method of order 8 at 1e-9.
 #include "scenes.hpp"
 #include "transient/scheme_scope.hpp"
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -57,6 +58,33 @@ StepOptions adaptive(double tolerance) {
 }
 
 constexpr double digits = 1e-9; // of the reference values, relative
+
+/// A law without memory, several outputs in a step.
+TEST(FluidForces, AreThoseOfTheStateAtEachOutput) {
+  struct Forces final : Sampler {
+    void state(std::int64_t, double, const double* q, const double* v) override {
+      expected.push_back(stiffness * q[1] + damping * v[1]);
+    }
+    void forces(std::int64_t, double, const double* load, std::span<const ContactForce>) override {
+      found.push_back(load[1]);
+    }
+    void visit(core::StateArchive&) override {}
+    double stiffness = 0.0, damping = 0.0;
+    std::vector<double> expected, found;
+  } forces;
+  Scene scene = tube(0.05, 1e-4, 0.1);
+  core::MotionForces& law = scene.system.motion;
+  law.input.resize(3, 0);
+  law.rates.resize(0, 0);
+  law.output.resize(0, 3);
+  forces.stiffness = law.stiffness(1, 1);
+  forces.damping = law.damping(1, 1);
+  (void)run(scene, choose_step(scene, splitting(1e-3)), {}, &forces, output_grid(scene.duration, 1e-4));
+  ASSERT_EQ(forces.found.size(), 501u);
+  const double largest = *std::max_element(forces.expected.begin(), forces.expected.end());
+  for (std::size_t i = 0; i < forces.found.size(); ++i)
+    EXPECT_NEAR(forces.found[i], forces.expected[i], digits * largest) << i;
+}
 
 TEST(FluidForces, LinearMotionIsExactForAnyStep) {
   for (const double step : {1e-4, 1e-3, 1e-2}) {

@@ -128,6 +128,30 @@ TEST(MacroSteps, MissNoImpact) {
   EXPECT_GT(by_macro_steps, 10000); // of 40 000 steps
 }
 
+// A mass that a force holds just off its stop: its swing is a hundredth of the clearance, by which speeds are judged slow, and only just reaches it.
+TEST(MacroSteps, MissNoGrazingImpact) {
+  constexpr double w = 100.0, held_off = 1e-2, swing = 1e-4, reach = 0.995; // rad/s, m, m, share of the swing
+  Scene scene = mass_point(1.0, w * w * Vec3::Ones(), 10.0);
+  scene.contacts = {
+      contact_of(1.0, {contact::Stop{held_off + reach * swing, contact::PlaneAxis::y}, {1e4}, {}})};
+  start(scene, 1.0, Vec3(0.0, held_off - swing, 0.0), Vec3::Zero());
+  scene.loads.push_back({Constant{w * w * held_off}, Vec3(0.0, 1.0, 0.0)});
+  const auto simulated = [&](int macro_steps) {
+    StepChoice choice = choose_step(scene, splitting(5e-4));
+    choice.macro_steps = macro_steps;
+    post::ContactStatistics contacts(scene.contacts, 0.0);
+    Observer* const observers[] = {&contacts};
+    const Report report = run(scene, choice, observers, nullptr, {});
+    return std::pair(contacts.summaries()[0], report.counts);
+  };
+  const auto [single, all] = simulated(1);
+  const auto [by_macro_steps, some] = simulated(10);
+  EXPECT_GT(single.impacts, 150);
+  EXPECT_EQ(by_macro_steps.impacts, single.impacts);
+  EXPECT_NEAR(by_macro_steps.normal_mean / single.normal_mean, 1.0, 1e-3); // where a record ends
+  EXPECT_LT(some.evaluations, all.steps / 2);                              // steps with contacts near
+}
+
 // Outputs come from the exact flow inside a macro-step, and change none of it.
 TEST(MacroSteps, GiveOutputsAtAnyInstantAndDoNotFeelThem) {
   const Scene scene = swinging(0.02);
