@@ -25,7 +25,7 @@ public:
   /// @param begin  s, simulated: where the run starts or goes on
   ExpectedTime(const TimeLimit& limit, double begin) : limit_(limit), begin_(begin) {}
   /// @param time  s, simulated so far
-  /// @throws core::Error where the whole would take more than `limit.most_hours`
+  /// @throws core::Error where the rest would take more than `limit.most_hours`
   void look(double time);
 
 private:

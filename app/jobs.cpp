@@ -209,7 +209,8 @@ Outcomes run_own(MPI_Comm comm, const study::Study& study, const std::vector<Bui
   return out;
 }
 
-void make_room(const study::Study& study, std::size_t contacts, std::size_t nodes, results::RunResults& out) {
+void resize_results(const study::Study& study, std::size_t contacts, std::size_t nodes,
+                    results::RunResults& out) {
   out.accuracy = study.transient->accuracy;
   out.contact_summaries.resize(contacts);
   out.series.contacts.resize(contacts);
@@ -276,7 +277,7 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
   const bool verified =
       study.transient->verify && contacts > 0; // statistics of contacts are what is compared
   Outcomes outcomes = run_own(comm, study, scenes, choices, mine, verified, around);
-  make_room(study, contacts, nodes, out);
+  resize_results(study, contacts, nodes, out);
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     if (ranks > 1)
       broadcast(comm, owner[s], scenes[s], outcomes.jobs[s]);

@@ -198,15 +198,15 @@ TEST(ContactStatistics, HaveStandardErrorsThatAreTheScatterOfManyRuns) {
     EXPECT_EQ(sums.impact_rate, e.impact_rate);
   }
   for (std::size_t k = 0; k < 6; ++k) {
-    double mean = 0.0, scatter = 0.0, told = 0.0;
+    double mean = 0.0, scatter = 0.0, estimated = 0.0;
     for (const auto& v : values)
       mean += v[k] / ensemble;
     for (std::size_t r = 0; r < ensemble; ++r) {
       scatter += (values[r][k] - mean) * (values[r][k] - mean) / (ensemble - 1.0);
-      told += errors[r][k] * errors[r][k] / ensemble;
+      estimated += errors[r][k] * errors[r][k] / ensemble;
     }
     constexpr double tolerance = 0.2; // the scatter of 200 runs is known to 5 %: four times that
-    EXPECT_NEAR(std::sqrt(told / scatter), 1.0, tolerance) << k;
+    EXPECT_NEAR(std::sqrt(estimated / scatter), 1.0, tolerance) << k;
   }
 }
 

@@ -120,7 +120,7 @@ TEST(ContactStatistics, SumWhatTheStepsTell) {
   for (int k = 0; k < 2; ++k) { // closed for half of a step, sliding for a quarter
     auto& state = run.contact(0);
     state.normal_force = 10.0;
-    run.told(0) = true;
+    run.in_full(0) = true;
     state.closed = 0.5;
     state.normal_square = 300.0;
     state.peak = 30.0;

@@ -40,7 +40,7 @@ public:
     for (std::size_t c = 0; c < states_.size(); ++c)
       if (states_[c].normal_force > 0.0) {
         active_.push_back(static_cast<int>(c));
-        if (!told_)
+        if (!in_full_)
           states_[c].act_throughout(std::find(opened_.begin(), opened_.end(), static_cast<int>(c)) ==
                                     opened_.end());
       }
@@ -52,10 +52,10 @@ public:
     observer_.step(record_);
     for (auto& state : states_)
       state = {};
-    told_ = false;
+    in_full_ = false;
   }
-  /// The next step has states that are told in full.
-  bool& told(std::size_t) { return told_; }
+  /// The next step has states in full.
+  bool& in_full(std::size_t) { return in_full_; }
   /// Open steps, contact 0 having left at a speed before the first.
   void open(int steps, double leaving = 0.0) {
     for (int i = 0; i < steps; ++i) {
@@ -79,7 +79,7 @@ private:
   std::vector<transient::ContactState> states_;
   transient::kernels::Array uy_, uz_, q_;
   std::vector<int> active_, opened_;
-  bool told_ = false;
+  bool in_full_ = false;
   double end_ = 0.0; ///< s: of the last step
 };
 

@@ -191,7 +191,7 @@ TEST(ForceSpeedClasses, CountTheTimeInContactByForceAndSpeed) {
 TEST(ForceSpeedClasses, TakeForceAndSpeedWhileTheContactIsClosed) {
   post::ForceSpeedClasses classes({wear::KwuMaxima{50.0, 0.05}}, 0.0);
   HandMade feed(classes, 1, step);
-  feed.told(0) = true;
+  feed.in_full(0) = true;
   slide(feed.contact(0), 0.0, 4.5e-6); // mean 10 N over a step of which a quarter is closed: 40 N, 0.018 m/s
   feed.contact(0).act_for(0.25, true);
   feed.step();

@@ -91,8 +91,8 @@ template <int D> struct Way {
   alignas(64) double slip[D - 1][all_parts];                              ///< along t, x_loc
 };
 template <class V, int D>
-FRETWORK_INLINE void go_along(const contact::NormalLaw& law, bool rubs, const ContactNode* nodes, double half,
-                              Way<D>& way) {
+FRETWORK_INLINE void go_along(const contact::NormalLaw& law, bool with_friction, const ContactNode* nodes,
+                              double half, Way<D>& way) {
   using kernels::at;
   const double per_half = 1.0 / half;
   for (int j = 0; j < 2; ++j) {
@@ -110,7 +110,7 @@ FRETWORK_INLINE void go_along(const contact::NormalLaw& law, bool rubs, const Co
       at<V>(way.force + j * parts + i) = ((depth >= 0.0) & (force > 0.0)) ? force : V{};
     }
   }
-  for (int a = 0; a < (rubs ? D - 1 : 0); ++a) {
+  for (int a = 0; a < (with_friction ? D - 1 : 0); ++a) {
     const auto slip = [&](int j) { return a == 0 ? nodes[j].slip.t : nodes[j].slip.x; };
     const double v[3] = {slip(0), slip(1), slip(2)};
     for (int i = 0; i < all_parts; i += kernels::size_of<V>)
@@ -195,13 +195,13 @@ public:
     if (!slid_)
       return {};
     const Vector more = share * last_;
-    jumped_ += std::max(-slider_, -dot(more, moved_));
+    jump_loss_ += std::max(-slider_, -dot(more, moved_));
     return more;
   }
   [[nodiscard]] Vector spring() const { return spring_; }
   /// Up to now.
   [[nodiscard]] PathLoss loss() const {
-    return {rubbed_ + jumped_, held_ - energy() - work_ - rubbed_, forgotten_};
+    return {friction_loss_ + jump_loss_, held_ - energy() - work_ - friction_loss_, forgotten_};
   }
 
 private:
@@ -228,7 +228,7 @@ private:
       slider_ = std::max(0.0, 0.5 * dot(force_ + last_, compliance_ * (before - spring_) - moved_));
     }
     work_ += 0.5 * dot(force_ + last_, moved_);
-    rubbed_ += slider_;
+    friction_loss_ += slider_;
     return force_;
   }
   [[nodiscard]] double energy() const { return law_.spring_energy(spring_); }
@@ -236,12 +236,11 @@ private:
   const SpringTable& table_;
   double compliance_, bound_, half_part_;
   Vector spring_, slip_, force_, last_{}, moved_{};
-  double held_; ///< J, by the spring at the begin
-  double slider_ = 0.0;
-  double forgotten_ =
-      0.0;            ///< J, of springs of the opposite face                ///< J, lost in the last part
-  double work_ = 0.0; ///< J, of the force
-  double rubbed_ = 0.0, jumped_ = 0.0; ///< J, lost by the slider
+  double held_;                                  ///< J, by the spring at the begin
+  double slider_ = 0.0;                          ///< J, lost in the last part
+  double forgotten_ = 0.0;                       ///< J, of springs of the opposite face
+  double work_ = 0.0;                            ///< J, of the force
+  double friction_loss_ = 0.0, jump_loss_ = 0.0; ///< J, lost by the slider
   bool slides_, slid_ = false;
 };
 
@@ -252,9 +251,9 @@ FRETWORK_INLINE InnerPath follow_on(const contact::Support& support, const Sprin
   using Vector = Tangential<D>;
   const Quadratics& q = quadratics;
   const contact::NormalLaw& law = support.normal;
-  const bool rubs = support.friction.active();
+  const bool with_friction = support.friction.active();
   Way<D> way;
-  go_along<V>(law, rubs, nodes, 0.5 * h, way);
+  go_along<V>(law, with_friction, nodes, 0.5 * h, way);
   Slider<D> slider(support.friction, table, nodes[0], h / all_parts);
   Pressed before{nodes[0].penetration, nodes[0].rate, nodes[0].normal};
   const double held = law.spring_energy(before.depth);
@@ -276,18 +275,18 @@ FRETWORK_INLINE InnerPath follow_on(const contact::Support& support, const Sprin
       else
         slip = {way.slip[1][i], way.slip[0][i]};
       if ((before.depth > 0.0) == (after.depth > 0.0)) {
-        if (rubs)
+        if (with_friction)
           friction.add(q.s[i], q.weight[i] * slider.move(after.force, slip));
       } else {
         const Jump jump(law, before, after);
         const double at = q.s[i] - jump.before_end / all_parts;
         normal.add(at, jump.missing / all_parts);
         work += jump.missing * deeper;
-        if (rubs && closes(before, after)) {
+        if (with_friction && closes(before, after)) {
           const auto closing = slider.close(jump.closed, jump.at_touch, after.force, slip);
           friction.add(q.s[i], q.weight[i] * closing.force);
           friction.add(at, (1.0 / all_parts) * closing.missing);
-        } else if (rubs) {
+        } else if (with_friction) {
           friction.add(q.s[i], q.weight[i] * slider.move(after.force, slip));
           friction.add(at, (1.0 / all_parts) * slider.open(jump.share));
         }
@@ -334,8 +333,8 @@ FRETWORK_KERNEL(InnerPath, follow_plane,
 } // namespace
 
 bool changes_inside(const contact::Support& support, const ContactNode* nodes) {
-  const bool rubs = support.friction.active();
-  if (rubs && support.friction.kind != contact::FrictionMemoryKind::return_map)
+  const bool with_friction = support.friction.active();
+  if (with_friction && support.friction.kind != contact::FrictionMemoryKind::return_map)
     return false;
   for (int j = 1; j <= 2; ++j) {
     const Branch branch = branch_of(nodes[j]);

@@ -87,7 +87,7 @@ template <int D>
                                                             const SpringTable& table, ContactNode* nodes,
                                                             const Row& forces, const JumpScales& scales)
     : support_(support), table_(table), node_(nodes), force_(forces), scales_(scales) {
-  const bool rubs = support_.friction.active();
+  const bool with_friction = support_.friction.active();
   for (int j = 0; j < 3; ++j)
     slip_[j] = tangential<D>(node_[j].slip);
 #pragma GCC unroll 2
@@ -95,7 +95,7 @@ template <int D>
     press(j);
     law_[j].tangent = TangentBranch::none;
     law_[j].carries = false;
-    if (rubs)
+    if (with_friction)
       rub(j);
     const ContactNode& node = node_[j + 1];
     residual_[j * D] = force_[j * D] - node.normal;

@@ -172,12 +172,12 @@ double ConservingContacts::rate_mobility(const Setting& s, std::size_t i, std::s
   return y * s.mobilities.rate[place_of(i, 0, j, b)] + z * s.mobilities.rate[place_of(i, 1, j, b)];
 }
 
-/// Newton's method from the forces there are. Returns whether it settled.
+/// Newton's method from the forces there are. Returns whether it converged.
 bool ConservingContacts::iterate(const Setting& s) {
   double merit = respond(s);
   const std::size_t n = size_ * active_.size();
   for (int k = 0; k < most_iterations; ++k) {
-    if (settled(1.0))
+    if (converged(1.0))
       return true;
     if (!direction(s))
       return false;
@@ -193,7 +193,7 @@ bool ConservingContacts::iterate(const Setting& s) {
     if (!(reached < merit)) {
       std::copy_n(base_.begin(), n, force_.begin());
       (void)respond(s);
-      return settled(stalled);
+      return converged(stalled);
     }
     merit = reached;
     if (k == hold_after)
@@ -327,7 +327,7 @@ void ConservingContacts::find_friction(const Setting& s, const ActiveContact& ac
 }
 
 /// Never where a force is no number.
-bool ConservingContacts::settled(double slack) const {
+bool ConservingContacts::converged(double slack) const {
   for (std::size_t i = 0; i < active_.size(); ++i)
     for (std::size_t a = 0; a < size_; ++a)
       if (const double r = residual_[size_ * i + a];

@@ -92,7 +92,7 @@ private:
                const double* force, Response& r) const;
   void find_friction(const Setting& s, const ActiveContact& active, const double* place, const double* force,
                      const Turning& turning, Response& r) const;
-  [[nodiscard]] bool settled(double slack) const;
+  [[nodiscard]] bool converged(double slack) const;
   [[nodiscard]] bool direction(const Setting& s);
   [[nodiscard]] std::size_t place_of(std::size_t i, std::size_t a, std::size_t j, std::size_t b) const;
   [[nodiscard]] double mobility(const Setting& s, std::size_t i, std::size_t a, std::size_t j,

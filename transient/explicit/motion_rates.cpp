@@ -286,7 +286,7 @@ Energy MotionRates::energy(const double* y) const {
   for (int c = 0; c < contacts_.count; ++c)
     if (const contact::FrictionLaw& law = contacts_.supports[c].friction; law.active() && !rated(c))
       energy.stored +=
-          law.spring_energy(memory_[c].spring) - law.spring_energy(spring(y, c)); // booked when it is set
+          law.spring_energy(memory_[c].spring) - law.spring_energy(spring(y, c)); // counted when it is set
   for (int c = 0; c < contacts_.count; ++c) {
     energy.friction += s[4 * c + 2];
     energy.contact_damping += s[4 * c + 3];
