@@ -153,7 +153,7 @@ std::shared_ptr<const CaseContacts> CaseBases::contacts(study::Study& study,
                                                         const std::vector<PlacedContact>& placed,
                                                         const std::vector<PlacedContact>& inactive) {
   std::string key = key_of_structure(study, overrides);
-  if (const auto limit = take_modes_limit(study, structure.model, placed))
+  if (const auto limit = take_modes_limit(study, structure.model, placed, structure.turbulence))
     key += fmt::format("up to {:.17g} Hz\n", limit->up_to);
   const auto modes = modes_.get(
       key, [&] { return compute_modes(MPI_COMM_SELF, study.modes, structure.model, structure.structures); });

@@ -162,7 +162,7 @@ private:
       other_runs_ = read_other_runs(study, inputs_.run_directory);
       check_contacts_of(other_runs_, study, worn_, placed_);
       note_other_runs(other_runs_, out_);
-      out_.modes_limit = take_modes_limit(study, model_, placed_);
+      out_.modes_limit = take_modes_limit(study, model_, placed_, turbulence_);
       if (out_.modes_limit)
         report_modes_limit(study, *out_.modes_limit, out_);
     });

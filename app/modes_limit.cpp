@@ -121,16 +121,26 @@ results::ModesLimit need_of_contacts(const fem::Model& model, const std::vector<
   return limit;
 }
 
-/// Hz, of everything whose frequencies are known.
-double highest_frequency(const study::Study& study) {
-  double highest = 0.0;
+/// How far the loads need modes.
+struct LoadsReach {
+  double up_to = 0.0; ///< Hz
+  std::string why;
+};
+
+LoadsReach reach_of_loads(const study::Study& study, const std::vector<TurbulentLoad>& turbulence) {
+  double highest = 0.0; // Hz, of everything whose frequencies are known
   for (const study::Load& load : study.loads)
     highest = std::max(highest, transient::highest_frequency(load.function));
   for (const study::BaseMotion& motion : study.base_motions)
     highest = std::max(highest, transient::highest_frequency(motion.acceleration));
   for (const study::SupportMotion& motion : study.support_motions)
     highest = std::max(highest, transient::highest_frequency(motion.function));
-  return highest;
+  LoadsReach reach{modes_above_loads * highest,
+                   fmt::format("twice the highest frequency of loads and motions, {:.4g} Hz", highest)};
+  for (const TurbulentLoad& load : turbulence)
+    if (load.band.high > reach.up_to)
+      reach = {load.band.high, fmt::format("as far as {} acts", load.name)};
+  return reach;
 }
 
 /// Whether the study says how many modes it wants without the contacts.
@@ -139,20 +149,23 @@ bool says_how_many(const study::Modes& modes) { return modes.number_given && !mo
 } // namespace
 
 std::optional<results::ModesLimit> take_modes_limit(study::Study& study, const fem::Model& model,
-                                                    const std::vector<PlacedContact>& placed) {
+                                                    const std::vector<PlacedContact>& placed,
+                                                    const std::vector<TurbulentLoad>& turbulence) {
   study::Modes& modes = study.modes;
   if (says_how_many(modes))
     return std::nullopt;
   results::ModesLimit limit = need_of_contacts(model, placed, modes.accuracy.value_or(default_modes_accuracy),
                                                has_static_modes(modes));
-  if (!(limit.up_to > 0.0)) {
-    if (!modes.accuracy)
-      return std::nullopt;
+  if (!(limit.up_to > 0.0) && modes.accuracy)
     throw core::Error(fmt::format("modes.accuracy = {:g}: no contact is at a beam with mass, whose waves "
                                   "would say which modes matter; give modes.count or modes.up_to_hz",
                                   *modes.accuracy));
+  if (!(limit.up_to > 0.0) && turbulence.empty())
+    return std::nullopt;
+  if (LoadsReach loads = reach_of_loads(study, turbulence); loads.up_to > limit.up_to) {
+    limit.up_to = loads.up_to;
+    limit.loads = std::move(loads.why);
   }
-  limit.up_to = std::max(limit.up_to, modes_above_loads * highest_frequency(study));
   modes.accuracy = limit.accuracy;
   modes.up_to_hz = limit.up_to;
   modes.count.reset();
@@ -162,9 +175,8 @@ std::optional<results::ModesLimit> take_modes_limit(study::Study& study, const f
 void report_modes_limit(const study::Study& study, const results::ModesLimit& limit,
                         results::RunResults& out) {
   const bool static_modes = has_static_modes(study.modes);
-  const double fastest = highest_frequency(study);
   const std::string chosen = study.modes.number_given ? "" : " (the default; modes.count takes a number)";
-  if (limit.up_to > modes_above_loads * fastest)
+  if (limit.loads.empty())
     out.notes.push_back(
         fmt::format("modes up to {:.4g} Hz for contact forces within modes.accuracy = {:g}{}: contact \"{}\" "
                     "on its beams "
@@ -172,11 +184,12 @@ void report_modes_limit(const study::Study& study, const results::ModesLimit& li
                     limit.up_to, limit.accuracy, chosen, limit.contact, limit.contact_frequency,
                     modal::contact_frequencies_needed(limit.accuracy, static_modes),
                     static_modes ? " with static modes" : ""));
+  else if (limit.contact.empty())
+    out.notes.push_back(fmt::format("modes up to {:.4g} Hz, {}{}", limit.up_to, limit.loads, chosen));
   else
-    out.notes.push_back(fmt::format(
-        "modes up to {:.4g} Hz, twice the highest frequency of loads and motions, {:.4g} Hz: contact forces "
-        "within modes.accuracy = {:g}{} need fewer",
-        limit.up_to, fastest, limit.accuracy, chosen));
+    out.notes.push_back(
+        fmt::format("modes up to {:.4g} Hz, {}: contact forces within modes.accuracy = {:g}{} need fewer",
+                    limit.up_to, limit.loads, limit.accuracy, chosen));
 }
 
 std::string few_modes_warning(const study::Study& study, const fem::Model& model,

@@ -3,6 +3,7 @@
 /// How far modes reach where the study gives modes.accuracy, or says nothing of their number (modal/impact_modes.hpp).
 #pragma once
 #include "app/build_contacts.hpp"
+#include "app/turbulent_loads.hpp"
 #include "modal/basis.hpp"
 #include "results/run_results.hpp"
 
@@ -11,14 +12,16 @@ namespace fretwork::app {
 /// Of a study that says nothing of the number of its modes.
 constexpr double default_modes_accuracy = 0.01;
 
-/// What the contact that asks for most needs, or twice the highest frequency of loads and motions where that is more. The contact's: its
+/// What the contact that asks for most needs, or the loads where that is more: twice the highest frequency of loads and motions, the end of the
+/// band of turbulence, above which a thousandth of its forces lies. The contact's: its
 /// stiffness (of the whole support) on the beams at its nodes, bent in the softer plane; the span that its node is on. A beam that ends at
 /// the node without another is taken as free there.
 /// Sets modes.up_to_hz (and modes.accuracy) of the study. Empty, and nothing is set, where the study gives count or up_to_hz, and where it
-/// gives nothing and no contact is at a beam with mass: the default count holds.
+/// gives nothing, no contact is at a beam with mass and there is no turbulence: the default count holds.
 /// @throws core::Error where the study gives modes.accuracy and no contact is at a beam with mass
 [[nodiscard]] std::optional<results::ModesLimit>
-take_modes_limit(study::Study& study, const fem::Model& model, const std::vector<PlacedContact>& placed);
+take_modes_limit(study::Study& study, const fem::Model& model, const std::vector<PlacedContact>& placed,
+                 const std::vector<TurbulentLoad>& turbulence);
 
 /// A note what was chosen and why.
 void report_modes_limit(const study::Study& study, const results::ModesLimit& limit,

@@ -69,8 +69,9 @@ struct ContactFacts {
 struct ModesLimit {
   double accuracy = 0.0;
   double up_to = 0.0;             ///< Hz
-  std::string contact;            ///< that asks for most
+  std::string contact;            ///< that asks for most; empty: none is at a beam with mass
   double contact_frequency = 0.0; ///< Hz, of that contact on its beams
+  std::string loads;              ///< what of the loads asks for more than contacts do; empty: nothing
 };
 
 /// One independent transient (a connected structure with its contacts).

@@ -127,6 +127,15 @@ TEST(Turbulence, TellsTheModesAboveItsBand) {
                    "1 of 3 modes, up to " + fmt::format("{:.4g}", frequency(3))));
 }
 
+TEST(Turbulence, GivesModesToTheEndOfItsBandByDefault) {
+  const Workshop folder;
+  const Results results = folder.run_text(tubes(folder, 1, across, white() + run(0.1, "", "step = 5e-4\n")));
+  EXPECT_EQ(results.summary["modes"]["limit"]["up_to_hz"], 300.0);
+  EXPECT_LT(results.summary["modes"]["frequencies_hz"].back(), 300.0);
+  EXPECT_GT(results.summary["modes"]["frequencies_hz"].back(), 150.0);
+  EXPECT_TRUE(says(results.summary["notes"].dump(), "modes up to 300 Hz, as far as turbulence"));
+}
+
 TEST(Turbulence, TellsSpectraThatMotionAboveHalfTheOutputRateIsFoldedInto) {
   const Workshop folder;
   const auto notes = [&](const std::string& every) {
