@@ -92,6 +92,8 @@ void add_run_options(CLI::App& command, app::Request& request) {
 } // namespace
 
 int main(int argc, char** argv) {
+  std::setvbuf(stdout, nullptr, _IOLBF,
+               0); // each line is seen when it is written, also in a log or by Python
   CLI::App program{
       "Fretwork: from a line mesh of a vibrating structure to its impacts, friction and wear.\n\n"
       "A study is one TOML file (doc/study-file.md). Start from an example:\n"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// One line on a terminal that tells how far the work is: stage, percent, simulated time, time left. Nothing
-/// where stderr is not a terminal.
+/// How far the work is: stage, percent, simulated time, time left. One line that changes on a terminal; where stderr
+/// is a file or a pipe, lines of work that takes long.
 #pragma once
 #include <chrono>
 #include <cstdint>
@@ -25,7 +25,8 @@ private:
 
 class Progress {
 public:
-  explicit Progress(bool wanted);
+  /// @param between_lines  least time from one line to the next where stderr is no terminal
+  explicit Progress(bool wanted, std::chrono::milliseconds between_lines = std::chrono::seconds(10));
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -40,8 +41,11 @@ private:
   using Clock = std::chrono::steady_clock;
   /// Whether a line is due at a share of the work; the seconds left.
   bool is_due(double share, std::optional<double>& left);
+  void print(std::string text, std::optional<double> left) const;
   void clear() const;
-  bool shown_;
+  bool shown_, on_terminal_;
+  std::chrono::milliseconds between_lines_;
+  double last_share_ = 0.0; ///< of the last line
   std::string stage_;
   Clock::time_point begin_, last_;
   Pace pace_;
