@@ -20,7 +20,7 @@ def _axes(axes: Axes | None) -> Axes:
 def force(results: Results, contact: str, axes: Axes | None = None) -> Axes:
     """Normal force of a contact at the output instants."""
     axes = _axes(axes)
-    data = results.series(contact)
+    data = results.series(contact, "contact")
     axes.plot(data["time"], data["normal_force"], linewidth=0.7)
     axes.set(xlabel="time [s]", ylabel="normal force [N]", title=contact)
     return axes
@@ -29,7 +29,7 @@ def force(results: Results, contact: str, axes: Axes | None = None) -> Axes:
 def orbit(results: Results, contact: str, axes: Axes | None = None) -> Axes:
     """Displacement of a contact's node from rest in the contact's plane; orange where it touches."""
     axes = _axes(axes)
-    data = results.series(contact)
+    data = results.series(contact, "contact")
     y, z = (1e6 * data["displacement"].sel(displacement_axis=axis).values for axis in ("y_loc", "z_loc"))
     touching = data["normal_force"].values > 0
     axes.plot(y, z, linewidth=0.4, color="tab:gray")
@@ -52,8 +52,10 @@ def work_rates(results: Results, axes: Axes | None = None) -> Axes:
 def spectrum(results: Results, name: str, axes: Axes | None = None) -> Axes:
     """Power spectra of a point, each quantity with its 95 % band."""
     table = results.spectra
-    if table is None or name not in set(table["name"]):
-        raise KeyError(f"no spectrum of {name!r}; spectra.csv has: {', '.join(sorted(set(table['name']))) if table is not None else 'none'}")
+    if table is None:
+        raise KeyError(f"no spectrum of {name!r}: this run has no spectra.csv, which runs with [[turbulence]] have")
+    if name not in set(table["name"]):
+        raise KeyError(f"no spectrum of {name!r}; spectra.csv has: {', '.join(table['name'].unique())}")
     axes = _axes(axes)
     for (quantity, unit), rows in table[table["name"] == name].groupby(["quantity", "unit"]):
         rows = rows[rows["frequency [Hz]"] > 0]

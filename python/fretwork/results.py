@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import h5py
 import numpy as np
@@ -89,9 +89,7 @@ class Results:
     @cached_property
     def nodes(self) -> pandas.DataFrame:
         """Statistics of the observed nodes (m)."""
-        table = self._table(self.summary.get("nodes", []))
-        table.attrs["units"] = dict.fromkeys(table.columns, "m")
-        return table
+        return self._table(self.summary.get("nodes", []))
 
     @cached_property
     def impacts(self) -> pandas.DataFrame:
@@ -113,16 +111,22 @@ class Results:
     def _in_order(group: h5py.Group) -> list[h5py.Group]:
         return sorted(group.values(), key=lambda item: int(item.attrs["index"]))
 
-    def series(self, name: str) -> xarray.Dataset:
+    def series(self, name: str, kind: Literal["contact", "node"] | None = None) -> xarray.Dataset:
         """Series of a contact or an observed node at the output instants.
 
+        kind: "contact" or "node"; without it the contact, where both have this name.
         Raises KeyError, which lists the names, if there is none of this name."""
         import xarray
 
+        if kind not in (None, "contact", "node"):
+            raise ValueError(f'kind = {kind!r}: "contact" or "node" is expected')
         with self._file() as file:
-            groups = {_text(g.attrs["name"]): g for kind in ("nodes", "contacts") if kind in file for g in file[kind].values()}
+            kinds = (kind,) if kind else ("contact", "node")
+            groups: dict[str, h5py.Group] = {}
+            for group in (group for each in kinds if f"{each}s" in file for group in self._in_order(file[f"{each}s"])):
+                groups.setdefault(_text(group.attrs["name"]), group)
             if name not in groups or "time" not in file:
-                raise KeyError(f"no series of {name!r}; there are: {', '.join(sorted(groups)) or 'none'}")
+                raise KeyError(f"no series of {f'the {kind} ' if kind else ''}{name!r}; there are: {', '.join(groups) or 'none'}")
             time = file["time"][...]
             found, group = {}, groups[name]
             of_node = group.parent.name == "/nodes"
@@ -132,7 +136,7 @@ class Results:
                     dims = ("time",) if item.ndim == 1 else ("time", f"{key}_axis")
                     coords = {} if item.ndim == 1 or not axes else {dims[1]: list(axes[: item.shape[1]])}
                     found[key] = xarray.DataArray(item[...], dims=dims, coords=coords, attrs={"units": _text(item.attrs.get("units", ""))})
-        data = xarray.Dataset(found, coords={"time": ("time", time, {"units": "s"})}, attrs={"name": name})
+        data = xarray.Dataset(found, coords={"time": ("time", time, {"units": "s"})}, attrs={"name": name, "kind": "node" if of_node else "contact"})
         return data
 
     @cached_property

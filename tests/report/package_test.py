@@ -2,12 +2,16 @@
 """The Python package: package_test.py WRITE_MADE_UP PYTHON_FOLDER FRETWORK EXAMPLES"""
 
 import os
+import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import tomllib
 import unittest
+import unittest.mock
 from pathlib import Path
 
 WRITE_MADE_UP, PYTHON, FRETWORK, EXAMPLES = (sys.argv.pop(1) for _ in range(4))
@@ -57,6 +61,30 @@ class Package(unittest.TestCase):
         with self.assertRaisesRegex(KeyError, "no series of 'tsp9'; there are: .*tsp1"):
             self.results.series("tsp9")
 
+    def test_tells_a_node_from_a_contact_of_the_same_name(self):
+        folder = self.folder.parent / "twins"
+        shutil.copytree(Path(EXAMPLES) / "oscillator", folder, ignore=shutil.ignore_patterns("*.results"))
+        study = fretwork.read_study(folder / "study.toml")
+        contact = study["contacts"][0]
+        study["output"] = {"nodes": [contact["group"]]}
+        contact["name"] = contact["group"]
+        results = fretwork.run(fretwork.write_study(study, folder / "study.toml"), progress=False)
+        self.assertEqual(results.series(contact["name"]).attrs["kind"], "contact")
+        node = results.series(contact["name"], "node")
+        self.assertEqual((node.attrs["kind"], "acceleration" in node, "normal_force" in node), ("node", True, False))
+        with self.assertRaisesRegex(KeyError, "no series of the node 'x'; there are: "):
+            results.series("x", "node")
+        with self.assertRaisesRegex(ValueError, '"contact" or "node" is expected'):
+            results.series("x", "nodes")
+
+    def test_completes_its_names(self):
+        self.assertLessEqual({"Results", "run", "read_study", "write_study", "plots"}, set(dir(fretwork)))
+
+    def test_gives_units_of_nodes(self):
+        units = self.results.nodes.attrs["units"]
+        self.assertEqual({units[column] for column in units if column.startswith("displacement")}, {"m"})
+        self.assertEqual({units[column] for column in units if column.endswith("batches")} - {"1"}, set())
+
     def test_gives_impacts_modes_and_wear(self):
         impacts = self.results.impacts
         with h5py.File(self.folder / "results.h5") as file:
@@ -75,7 +103,7 @@ class Package(unittest.TestCase):
         np.testing.assert_array_equal(line.get_ydata(), self.results.series("tsp1")["normal_force"])
         self.assertEqual(plots.orbit(self.results, "tsp1").get_xlabel(), "y_loc [µm]")
         self.assertEqual(len(plots.work_rates(self.results).get_xticklabels()), 3)
-        with self.assertRaisesRegex(KeyError, "no spectrum of 'apex'"):
+        with self.assertRaisesRegex(KeyError, "no spectrum of 'apex': this run has no spectra.csv"):
             plots.spectrum(self.results, "apex")
 
     def test_refuses_a_folder_without_results(self):
@@ -88,8 +116,76 @@ class Package(unittest.TestCase):
         self.assertEqual(fretwork.read_study(file), study)
         example = fretwork.read_study(Path(EXAMPLES) / "u_bend/study.toml")
         self.assertEqual(tomllib.loads(fretwork.write_study(example, file).read_text()), example)
-        with self.assertRaisesRegex(TypeError, "not set"):
-            fretwork.write_study({"a": {1, 2}}, file)
+        with self.assertRaisesRegex(TypeError, r"modes.count = None: .* leave the key out"):
+            fretwork.write_study({"modes": {"count": None}}, file)
+
+    def test_writes_studies_that_people_read(self):
+        study = {"title": "größer 𝜋", "mesh": {"file": Path("tube.geo")}, "flow": [{"name": "a b", "zones": [{"s": np.int64(1)}, {}]}, {"name": "c"}], "m": {"x y": {"e": np.array([1.5, 2])}}}
+        file = fretwork.write_study(study, self.folder.parent / "written.toml")
+        expected = """title = "größer 𝜋"
+
+[mesh]
+file = "tube.geo"
+
+[[flow]]
+name = "a b"
+
+[[flow.zones]]
+s = 1
+
+[[flow.zones]]
+
+[[flow]]
+name = "c"
+
+[m]
+
+[m."x y"]
+e = [1.5, 2.0]
+"""
+        self.assertEqual(file.read_text(encoding="utf-8"), expected)
+        self.assertEqual(fretwork.read_study(file)["flow"][0]["zones"], [{"s": 1}, {}])
+
+    def test_says_what_is_missing_for_a_run(self):
+        study = Path(EXAMPLES) / "oscillator/study.toml"
+        with unittest.mock.patch.dict(os.environ, {"FRETWORK": "/nowhere/fretwork"}), self.assertRaisesRegex(fretwork.RunFailed, "FRETWORK = /nowhere/fretwork is no program"):
+            fretwork.run(study, progress=False)
+        with unittest.mock.patch.dict(os.environ, {"PATH": "/nowhere"}), self.assertRaisesRegex(fretwork.RunFailed, "ranks = 2 needs mpirun.*install openmpi-bin"):
+            fretwork.run(study, ranks=2, progress=False)
+        with self.assertRaisesRegex(ValueError, "ranks = 0"):
+            fretwork.run(study, ranks=0, progress=False)
+
+    def test_installs_as_the_manual_says(self):
+        manual = (Path(PYTHON).parent / "doc/python.md").read_text(encoding="utf-8")
+        with tempfile.TemporaryDirectory() as name:
+            shutil.copytree(PYTHON, Path(name) / "python", ignore=shutil.ignore_patterns("__pycache__"))
+            environment = {**os.environ, "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}"}
+            commands = re.search(r"```sh\n(.*?)```", manual, flags=re.S)[1]
+            done = subprocess.run(["bash", "-e"], input=commands, cwd=name, env=environment, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            environment.pop("PYTHONPATH", None)
+            command = [f"{name}/venv/bin/python", "-c", "import sys, fretwork; print(fretwork.__file__, fretwork.Results(sys.argv[1]).report(sys.argv[2]))"]
+            done = subprocess.run([*command, self.folder, f"{name}/report.html"], cwd=name, env=environment, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertTrue(done.stdout.startswith(f"{name}/venv/lib"), done.stdout)
+            self.assertTrue(Path(f"{name}/report.html").exists())
+
+    def test_an_interrupt_ends_the_program_with_a_checkpoint(self):
+        folder = self.folder.parent / "interrupted"
+        shutil.copytree(Path(EXAMPLES) / "oscillator", folder, ignore=shutil.ignore_patterns("*.results"))
+        script = "import fretwork, sys; fretwork.run(sys.argv[1], {'transient.duration': 1e6, 'output.every': 1e3})"
+        # a session of its own: an interrupt reaches Python only, as in a notebook
+        with subprocess.Popen([sys.executable, "-c", script, folder / "study.toml"], env={**os.environ, "PYTHONPATH": PYTHON}, start_new_session=True,
+                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
+            lock, checkpoint = folder / "study.results/.lock", folder / "study.results/checkpoint.h5"
+            until = time.monotonic() + 60
+            while not lock.exists() and time.monotonic() < until:
+                time.sleep(0.05)
+            time.sleep(1)  # into the transient
+            os.kill(process.pid, signal.SIGINT)
+            self.assertIn("KeyboardInterrupt", process.stderr.read())
+        self.assertFalse(lock.exists())
+        self.assertTrue(checkpoint.exists())
 
     def test_runs_a_study_with_overrides(self):
         folder = self.folder.parent / "oscillator"
