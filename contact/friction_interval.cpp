@@ -98,12 +98,11 @@ private:
         return;
       t = table(left_ * part);
       p = sticking(t);
-    } else if (const double bound = law_.mu_static * (normal_ + 0.5 * growth_ * left_),
-               length = norm(p.force);
-               length > bound) {
-      p.force =
-          (bound / length) *
-          p.force; // what `last` leaves undecided, or the mean of a force that touches its bound at both ends
+    }
+    const double bound = law_.mu_static * (normal_ + 0.5 * growth_ * t.length), length = norm(p.force);
+    if (length >
+        bound) { // the mean: of what `last` leaves undecided, of a bound that is touched at both ends, or passed near the end
+      p.force = (bound / length) * p.force;
       move(t, free_displacement(t, t.answer), t.answer, p);
     }
     stands_ = false;

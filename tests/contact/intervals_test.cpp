@@ -3,11 +3,13 @@
 #include "contact/friction_interval.hpp"
 #include "contact/normal_interval.hpp"
 #include "contact/restitution.hpp"
+#include "uniform.hpp"
 #include <gtest/gtest.h>
 #include <numbers>
 
 namespace intervals_test {
 
+using namespace fretwork;
 using namespace fretwork::contact;
 
 namespace {
@@ -124,6 +126,25 @@ TEST(FrictionInterval, LeadsASpringWithoutDamperBackToTheBoundRadially) {
         2.0 * std::atan(std::exp(-law.stiffness * speed * length / bound)); // from -velocity
     const double angle = std::acos(-spring.t / bound);
     EXPECT_NEAR(angle, turned, 0.2 / intervals) << intervals; // of order 1
+  }
+}
+
+TEST(FrictionInterval, StaysWithinItsBoundOnTheMean) {
+  tests::Uniform draw(7);
+  constexpr int draws = 200000;
+  for (int i = 0; i < draws; ++i) {
+    const FrictionLaw any{draw.scale(0.01, 100.0), draw.scale(0.01, 100.0), 0.5, draw(0.2, 0.5)};
+    const double dt = draw.scale(0.01, 2.0), normal0 = draw(0.0, 2.0), normal1 = draw(0.0, 2.0);
+    const double bound = any.mu_static * 0.5 * (normal0 + normal1) * dt * (1.0 + round_off);
+    const PieceTable table = piece_table(any, 1.0, dt);
+    const Vec2 spring = draw.vector(any.mu_static * normal0), velocity = draw.vector(1.0),
+               acceleration = draw.vector(1.0);
+    const auto line = friction_over_interval(any, table, 1.0, spring.t, false, dt, normal0, normal1,
+                                             {velocity.t, acceleration.t, 1.0});
+    ASSERT_LE(std::abs(line.impulse), bound) << i;
+    const auto plane = friction_over_interval(any, table, 1.0, spring, false, dt, normal0, normal1,
+                                              {velocity, acceleration, {1.0, 0.0, 1.0}});
+    ASSERT_LE(norm(plane.impulse), bound) << i;
   }
 }
 

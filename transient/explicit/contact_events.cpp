@@ -4,7 +4,8 @@
 namespace fretwork::transient {
 namespace {
 
-constexpr int parts = 4; ///< of a step, at whose ends margins are looked at
+/// Shares of a step where margins are looked at, the first soon after an event at its start: what slides no more may slide again at once.
+constexpr double looks[] = {0.0625, 0.25, 0.5, 0.75, 1.0};
 constexpr double round_off = 1e-15;
 constexpr int most_iterations =
     120; ///< bisection alone ends after 50; two iterations of regula falsi to one of it
@@ -30,8 +31,8 @@ std::optional<ContactEvent> ContactEvents::first(const DormandPrince& step, doub
 
 void ContactEvents::follow(const DormandPrince& step, int c, std::optional<ContactEvent>& best) {
   const Regime regime = rates_.regime(c);
-  for (int part = 1; part <= parts; ++part) {
-    const double from = (part - 1.0) / parts, to = static_cast<double>(part) / parts;
+  double from = 0.0;
+  for (const double to : looks) {
     if (best && best->share <= from)
       return;
     const Margins now = margins(step, c, to);
@@ -43,6 +44,7 @@ void ContactEvents::follow(const DormandPrince& step, int c, std::optional<Conta
           best = ContactEvent{share, c, kind};
     if (normal || friction)
       return;
+    from = to;
   }
 }
 

@@ -253,4 +253,21 @@ TEST(RungeKutta54, EndsStepsWhereAContactPassesFromFaceToFace) {
   }
 }
 
+// Near the middle of a hole without clearance the normal turns round within a step: a contact that comes to stick there slides again at once.
+TEST(RungeKutta54, KeepsFrictionWithinItsBoundWhereTheNormalTurns) {
+  constexpr double mass = 2.55e-4, friction = 3.0, duration = 0.0644;
+  Scene scene = mass_point(mass, Vec3(0.0, 616.13, 1047.42), duration);
+  scene.system.damping = (0.0 + scene.system.stiffness.array()).sqrt().matrix();
+  scene.contacts = {
+      contact_of(mass, {contact::Circle{0.0}, {104.9, 3.27e-3}, {104.9, 0.0, friction, friction}})};
+  scene.loads = {force_on(mass, 2.59e-2 * Vec3(0.0, 1.0, 0.3).normalized(), Harmonic{1.0, 185.686, 0.0})};
+  const History run = simulate(scene, adaptive(1e-6), duration / 20000.0);
+  constexpr double of_step = 1e-6; // tolerance of a step, of the largest force
+  const double allowed = of_step * friction * run.normal.maxCoeff();
+  EXPECT_GT(run.normal.maxCoeff(), 1e-3);
+  for (Eigen::Index j = 0; j < run.time.size(); ++j)
+    EXPECT_LE(std::hypot(run.along_x(0, j), run.along_t(0, j)), friction * run.normal(0, j) + allowed)
+        << run.time(j);
+}
+
 } // namespace runge_kutta_54_test
