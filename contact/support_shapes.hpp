@@ -24,10 +24,12 @@
 #pragma once
 #include "contact/obstacle.hpp"
 #include "contact/profile.hpp"
+#include <algorithm>
 
 namespace fretwork::contact {
 
-inline constexpr double default_chord_error = 1e-8; ///< m
+inline constexpr double default_chord_error = 1e-8; ///< m; a share of larger clearances than those of tubes:
+inline constexpr double default_chord_share = 1e-5;
 
 /// @throws core::Error if a radius is not positive or the tube does not fit
 [[nodiscard]] Circle drilled_hole(double tube_radius, double hole_radius);
@@ -71,7 +73,11 @@ struct BroachedHole {
 /// @throws core::Error if the tube does not fit, the lands leave no lobe, the lobe lets the tube pass behind
 /// a corner (the free space would
 ///         not be visible from the middle), or the chord error asks for more than a million points
-[[nodiscard]] Profile broached_hole(double tube_radius, const BroachedHole& hole,
-                                    double chord_error = default_chord_error);
+[[nodiscard]] Profile broached_hole(double tube_radius, const BroachedHole& hole, double chord_error);
+/// @throws core::Error as above
+[[nodiscard]] inline Profile broached_hole(double tube_radius, const BroachedHole& hole) {
+  return broached_hole(tube_radius, hole,
+                       std::max(default_chord_error, default_chord_share * (hole.land_radius - tube_radius)));
+}
 
 } // namespace fretwork::contact

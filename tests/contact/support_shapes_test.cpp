@@ -182,6 +182,15 @@ TEST(BroachedHole, NormalAtACornerPointsFromItToTheTubesCentre) {
   }
 }
 
+TEST(BroachedHole, OfAnySizeHasAFewThousandFacets) {
+  for (const double size : {1.0, 10.0, 1e3, 1e6}) { // of a hole of 10 mm: given in mm, by mistake, too
+    const Profile profile = contact::broached_hole(9.5e-3 * size, {9.7e-3 * size, 11e-3 * size, 4, pi / 9.0});
+    EXPECT_LT(profile.vertices().size(), 5000U) << size;
+    EXPECT_NEAR(profile.inscribed(), 2e-4 * size,
+                std::max(contact::default_chord_error, contact::default_chord_share * 2e-4 * size));
+  }
+}
+
 TEST(BroachedHole, IsTheSameFromLandToLandAndTurnsWithItsOrientation) {
   tests::Uniform uniform(23);
   const Profile profile = contact::broached_hole(tube, quatrefoil);
