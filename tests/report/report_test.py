@@ -19,7 +19,7 @@ sys.path.insert(0, PYTHON)
 import h5py  # noqa: E402
 import numpy as np  # noqa: E402
 
-from fretwork.report import compare, compare_data, contact_view, drawing, run_data, structure_view, wear_view  # noqa: E402
+from fretwork.report import compare, compare_data, contact_view, drawing, run_data, sections, structure_view, wear_section, wear_view  # noqa: E402
 from fretwork.report import build as build_module  # noqa: E402
 from fretwork.report.build import build  # noqa: E402
 from made_up_tables import add_tables, change_summary  # noqa: E402
@@ -591,6 +591,8 @@ class Parts(unittest.TestCase):
             plot.axes("", "", x_most=4, y_most=4)
             for label in re.findall(r'class="tick end" x="([\d.]+)"[^>]*>([^<]*)<', plot.svg("")):
                 self.assertGreaterEqual(float(label[0]), drawing.label_width(label[1]), label)
+            for at, label in re.findall(r'class="tick mid" x="([\d.]+)"[^>]*>([^<]*)<', plot.svg("")):
+                self.assertLessEqual(float(at) + drawing.label_width(label) / 2, plot.width + 0.1, label)
 
     def test_flat_obstacles_have_their_own_scale_on_each_axis(self):
         class Bar:
@@ -606,6 +608,20 @@ class Parts(unittest.TestCase):
         Bar.y = 1e-4 * np.cos(np.arange(50.0))
         _, half = contact_view.limits(Bar, Bar.y, Bar.z)
         self.assertEqual(half[0], half[1])
+        Bar.y, Bar.z = np.linspace(-2e-3, 2e-3, 50), 1e-17 * np.sin(np.arange(50.0))  # no motion to the bars: they are shown
+        _, half = contact_view.limits(Bar, Bar.y, Bar.z)
+        self.assertGreater(half[1], 1e-4)
+        self.assertLess(half[1], 2e-4)
+        Bar.z = 9e-5 * np.sin(np.arange(50.0))
+        Bar.y = 1e-16 * Bar.z  # nothing slides: round-off has no scale
+        _, half = contact_view.limits(Bar, Bar.y, Bar.z)
+        self.assertEqual(half[0], half[1])
+
+    def test_round_off_is_zero(self):
+        self.assertEqual(sections.quantity(5.4e-45, "W"), "0 W")
+        self.assertEqual(sections.quantity(1e-12, "W"), "1 pW")
+        self.assertEqual(wear_section._bounds((5.4e-45, 4.5e-45, 6e-45), 1e3), "0")
+        self.assertEqual(wear_section._bounds((9.8e42, 8e42, 1.3e43)), "never")
 
     def test_supports_are_named_once_without_overlap(self):
         class Point:
@@ -615,13 +631,18 @@ class Parts(unittest.TestCase):
         found = dict(structure_view._supports([Point("a@1"), Point("a@2"), Point("b")]))
         self.assertEqual({name: len(points) for name, points in found.items()}, {"a": 2, "b": 1})
         plot = drawing.Plot((400, 400), (0.0, 1.0), (0.0, 1.0))
-        supports = [(f"support{i}", [np.array([0.5, 0.5 + 0.005 * i])], "left") for i in range(3)]
+        supports = [(f"support{i}", [np.array([0.5, 0.5 + 0.005 * i])], "left") for i in range(4)]
         left_out = structure_view._name_supports(plot, supports)
         text = plot.svg("")
-        self.assertEqual(left_out, ["support2"])  # one at each side, none over the other
+        self.assertEqual(left_out, ["support3"])  # one at each side and one above, none over the other
         self.assertEqual(text.count('class="note end"'), 1)
         self.assertEqual(text.count('class="note"'), 1)
-        self.assertEqual(text.count('class="support"'), 3)
+        self.assertEqual(text.count('class="note mid"'), 1)
+        self.assertEqual(text.count('class="support"'), 4)
+        plot = drawing.Plot((400, 400), (0.0, 1.0), (0.0, 1.0))
+        upright = np.column_stack((np.full(99, 0.5), np.linspace(0.0, 1.0, 99)))
+        structure_view._name_supports(plot, [("support", [np.array([0.5, 0.5])], None)], upright)
+        self.assertIn('class="note end"', plot.svg(""))  # beside the beam, not across it
 
     def test_names_below_an_axis_are_slanted_where_they_would_touch(self):
         plot = drawing.Plot((480, 210), (0.4, 20.6), (0.0, 1.0), (58, 12, 10, 38))

@@ -12,6 +12,7 @@ TOUCH = np.array([217, 95, 14])  # colour of the samples in contact
 MICRO = 1e6
 BARS = 24  # of a histogram
 MOST_NAMED = 30  # contacts whose names fit below an axis
+SLIVER = 1e-6  # below this ratio the shorter side is round-off
 SLIT = 0.25  # a picture of a flat obstacle with sides of a ratio below this has its own scale on each axis
 FAR = 20.0  # a gap so many times larger than the orbit is left out of the picture
 
@@ -76,12 +77,12 @@ def limits(contact, y, z):
     extent = float((high - low).max() if normal is None else (high - low)[normal])
     walls = _walls(contact)
     off = np.abs(walls - (low + high) / 2)
-    if extent == 0 or float((off if normal is None else off[:, normal]).max(initial=0.0)) <= FAR * extent:
+    if extent <= SLIVER * float((high - low).max()) or float((off if normal is None else off[:, normal]).max(initial=0.0)) <= FAR * extent:
         seen = slice(None) if normal is None else slice(normal, normal + 1)
         low[seen] = np.minimum(low[seen], walls.min(axis=0, initial=math.inf)[seen])
         high[seen] = np.maximum(high[seen], walls.max(axis=0, initial=-math.inf)[seen])
     span = high - low
-    if not (flat and 0 < span.min() < SLIT * span.max()):
+    if not (flat and SLIVER * span.max() < span.min() < SLIT * span.max()):
         span[:] = span.max()
     half = 0.56 * np.where(span > 0, span, span.max()) if span.max() > 0 else np.full(2, 1e-6)
     return (low + high) / 2, half

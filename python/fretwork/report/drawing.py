@@ -26,6 +26,14 @@ def ticks(low, high, most=6):
     return [i * step for i in range(first, last + 1)]
 
 
+ROUND_OFF = 1e-15  # below it, in SI units, a power, length or force is the round-off of a sum
+
+
+def of_sum(value):
+    """The value, 0 where it is round-off."""
+    return 0.0 if value is not None and abs(value) < ROUND_OFF else value
+
+
 def short(value, digits=4):
     """A number for people: as few characters as `digits` significant digits allow; a dash where there is none."""
     if value is None or not math.isfinite(value):
@@ -133,7 +141,9 @@ class Plot:
             at = float(self.px(value))
             label = tick_label(value, xs[1] - xs[0] if len(xs) > 1 else 1)
             out.append(f'<path class="grid" d="M{at:.1f} {self.top}V{base}"/>')
-            out.append(f'<text class="tick mid" x="{at:.1f}" y="{base + 14}">{label}</text>')
+            half = label_width(label) / 2
+            inside = max(half, min(at, self.width - half))
+            out.append(f'<text class="tick mid" x="{inside:.1f}" y="{base + 14}">{label}</text>')
         for at, label in x_ticks or []:
             x = float(self.px(at))
             turned = f'class="tick end" transform="translate({x + 3:.1f} {base + 12}) rotate(-45)"' if slanted else f'class="tick mid" x="{x:.1f}" y="{base + 14}"'

@@ -5,7 +5,7 @@ import html
 import math
 
 from . import contact_view, live, node_view, structure_view
-from .drawing import short, unit_for
+from .drawing import of_sum, short, unit_for
 from .page import cards, count, figure, section, table, warning
 
 MOST_MODES = 6  # pictures
@@ -18,6 +18,7 @@ MOST_IMPACT_ROWS = 12
 def quantity(value, unit):
     if value is None or not math.isfinite(value):
         return "–"
+    value = of_sum(value)
     factor, scaled = unit_for(abs(value), unit)
     return f"{short(factor * value, 3)} {scaled}"
 

@@ -80,8 +80,8 @@ def _beside(run, view, middle, contact):
     return "left" if view(contact.position)[0] < middle[0] else "right"
 
 
-_PLACES = {"left": ("note end", (-9, 4)), "right": ("note", (9, 4)), "above": ("note mid", (0, -9)), "below": ("note mid", (0, 17))}
-_LETTER, _LINE = 6.5, 13  # px: widest mean letter and height of a line of a name
+_PLACES = {"above": ("note mid", (0, -9)), "below": ("note mid", (0, 17)), "left": ("note end", (-9, 4)), "right": ("note", (9, 4))}
+_LETTER, _LINE = 6.5, 11  # px: widest mean letter and height of a line of a name
 
 
 def _box(spot, name, place):
@@ -104,9 +104,10 @@ def _supports(contacts):
     return found.items()
 
 
-def _name_supports(plot, supports):
-    """A dot and a name each: at the side asked for or another where it touches no other name. Names for which there is no room, which are
-    left out."""
+def _name_supports(plot, supports, drawn=np.empty((0, 2))):
+    """A dot and a name each: at the side asked for or another where it touches no other name and covers least of the points that are drawn.
+    Names for which there is no room, which are left out."""
+    drawn = np.column_stack((plot.px(drawn[:, 0]), plot.py(drawn[:, 1])))
     written: list[tuple] = []
     left_out: list[str] = []
     for name, places, side in supports:
@@ -114,14 +115,17 @@ def _name_supports(plot, supports):
             plot.dot(at[0], at[1], "support", 4)
         at = np.mean(places, axis=0)
         spot = float(plot.px(at[0])), float(plot.py(at[1]))
-        opposite = {"left": "right", "right": "left"}.get(side)
-        for place in [side, opposite] if side else ["above", "below"]:
+        free = []
+        for place in {"left": ["left", "right", "above", "below"], "right": ["right", "left", "above", "below"]}.get(side, list(_PLACES)):
             box = _box(spot, name, place)
             inside = box[0] >= 0 and box[2] <= plot.width and box[1] >= 0 and box[3] <= plot.height
             if inside and not any(_overlap(box, other) for other in written):
-                plot.text(at[0], at[1], name, *_PLACES[place])
-                written.append(box)
-                break
+                covered = ((drawn >= box[:2]) & (drawn <= box[2:])).all(axis=1).sum()
+                free.append((covered, place, box))
+        if free:
+            _, place, box = min(free, key=lambda found: found[0])
+            plot.text(at[0], at[1], name, *_PLACES[place])
+            written.append(box)
         else:
             left_out.append(name)
     return left_out
@@ -135,7 +139,9 @@ def structure(run, width=980):
     _segments(plot, points, run.lines, "beam")
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
     supports = [(name, [view(c.position) for c in points], _beside(run, view, middle, points[0])) for name, points in _supports(run.contacts)]
-    left_out = _name_supports(plot, supports)
+    along = np.linspace(0.0, 1.0, 9)[:, None, None]  # of each line
+    drawn = ((1 - along) * points[run.lines[:, 0]] + along * points[run.lines[:, 1]]).reshape(-1, 2)
+    left_out = _name_supports(plot, supports, drawn)
     return plot.svg("The structure and its supports"), view.name, left_out
 
 

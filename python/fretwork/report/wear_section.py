@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from . import wear_view
-from .drawing import short
+from .drawing import ROUND_OFF, of_sum, short
 from .page import figure, section, table, warning
 
 MANY_SUPPORTS = 12  # above, pictures are shown of a few
@@ -18,13 +18,14 @@ def _bounds(bounds, factor=1.0, digits=3):
     """0.12 (0.11 – 0.13)"""
     value, low, high = bounds
     text = _one(value, factor, digits)
-    if math.isnan(value) or not low < high:
+    first, last = _one(low, factor, digits), _one(high, factor, digits)
+    if math.isnan(value) or not low < high or first == last:
         return text
-    return f"{text} ({_one(low, factor, digits)} – {_one(high, factor, digits)})"
+    return f"{text} ({first} – {last})"
 
 
 def _one(value, factor, digits):
-    return "never" if math.isinf(value) else short(factor * value, digits)
+    return "never" if value > 1 / ROUND_OFF else short(of_sum(factor * value), digits)
 
 
 def _life(support):
@@ -42,7 +43,7 @@ def _law(support):
 
 def _scar(support):
     width, length = (1e3 * support[key] for key in ("scar_width", "scar_length"))
-    return f"{short(width, 3)} × {short(length, 3)}" if math.isfinite(width) else "–"
+    return f"{short(of_sum(width), 3)} × {short(length, 3)}" if math.isfinite(width) else "–"
 
 
 def _states(support):
