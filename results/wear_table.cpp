@@ -3,6 +3,7 @@
 #include "results/text_file.hpp"
 #include "results/wear_json.hpp"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <iterator>
@@ -16,28 +17,53 @@ constexpr std::size_t most_tubes = 5;
 constexpr std::size_t support_width = 16;
 constexpr double millimetre = 1e3, cubic_millimetre = 1e9;
 
+/// Round-off is 0, and a time of which round-off is the reciprocal "never".
+std::string figure(double value) {
+  if (value > 1.0 / shown_as_zero)
+    return "never";
+  return fmt::format("{:.3g}", value < shown_as_zero ? 0.0 : value);
+}
+
 /// 0.12 (0.11 to 0.13); a dash where there is no value, "never" where it is not reached.
 std::string with_bounds(const Bounds& b, double factor) {
-  const auto one = [&](double value) {
-    return std::isinf(value) ? std::string("never") : fmt::format("{:.3g}", factor * value);
-  };
   if (std::isnan(b.value))
     return "-";
-  if (!(b.low < b.high) || std::isnan(b.low) || std::isnan(b.high))
-    return one(b.value);
-  return fmt::format("{} ({} to {})", one(b.value), one(b.low), one(b.high));
+  const std::string low = figure(factor * b.low), high = figure(factor * b.high);
+  if (!(b.low < b.high) || low == high)
+    return figure(factor * b.value);
+  return fmt::format("{} ({} to {})", figure(factor * b.value), low, high);
+}
+
+using Row = std::array<std::string, 7>;
+
+/// Columns as wide as their widest text, numbers to the right.
+std::vector<std::string> aligned(const std::vector<Row>& rows) {
+  std::array<std::size_t, 7> width{};
+  for (const Row& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i)
+      width[i] = std::max(width[i], row[i].size());
+  std::vector<std::string> lines;
+  for (const Row& row : rows) {
+    lines.push_back(fmt::format("  {:<{}}", row.front(), width.front()));
+    for (std::size_t i = 1; i + 1 < row.size(); ++i)
+      lines.back() += fmt::format("  {:>{}}", row[i], width[i]);
+    lines.back() += "  " + row.back();
+  }
+  return lines;
 }
 
 std::string law_text(const WearOfSupport& s) {
   return std::isnan(s.coefficient) ? s.law : fmt::format("{} {:.3g}", s.law, s.coefficient);
 }
 
-std::string row(const WearOfSupport& s) {
-  return fmt::format("  {:<16} {:>8.3g} {:>9} {:>22} {:>7} {:>22}  {}", shortened(s.name, support_width),
-                     s.work_rate.value, with_bounds({s.volume.last().value}, cubic_millimetre),
-                     with_bounds(s.depth.last(), millimetre), with_bounds({s.scar_width}, millimetre),
-                     s.life.end == "outside_law" ? "outside the law" : with_bounds(s.life.years, 1.0),
-                     law_text(s));
+Row row(const WearOfSupport& s) {
+  return {shortened(s.name, support_width),
+          figure(s.work_rate.value),
+          with_bounds({s.volume.last().value}, cubic_millimetre),
+          with_bounds(s.depth.last(), millimetre),
+          with_bounds({s.scar_width}, millimetre),
+          s.life.end == "outside_law" ? "outside the law" : with_bounds(s.life.years, 1.0),
+          law_text(s)};
 }
 
 /// What the intervals of depth and years are; nothing where there is none.
@@ -68,7 +94,7 @@ void add_sources(std::vector<std::string>& lines, const Wear& wear) {
 }
 
 /// Tubes of several supports, the shortest lives where there are many.
-void add_tubes(std::vector<std::string>& lines, const Wear& wear) {
+void add_tubes(std::vector<Row>& rows, const Wear& wear) {
   std::vector<WearOfTube> tubes;
   std::copy_if(wear.tubes.begin(), wear.tubes.end(), std::back_inserter(tubes),
                [](const WearOfTube& t) { return t.supports > 1; });
@@ -79,11 +105,10 @@ void add_tubes(std::vector<std::string>& lines, const Wear& wear) {
     tubes.resize(most_tubes);
   }
   for (const WearOfTube& t : tubes)
-    lines.push_back(fmt::format("  {:<16} {:>8.3g} {:>9} {:>22} {:>7} {:>22}  {}",
-                                wear.tubes.size() > 1 ? fmt::format("tube {}", t.tube) : "all supports",
-                                t.work_rate.value, with_bounds({t.volume.value}, cubic_millimetre),
-                                with_bounds(t.depth, millimetre), "", with_bounds(t.years, 1.0),
-                                t.first.empty() ? "" : "first: " + shortened(t.first, support_width)));
+    rows.push_back({wear.tubes.size() > 1 ? fmt::format("tube {}", t.tube) : "all supports",
+                    figure(t.work_rate.value), with_bounds({t.volume.value}, cubic_millimetre),
+                    with_bounds(t.depth, millimetre), "", with_bounds(t.years, 1.0),
+                    t.first.empty() ? "" : "first: " + shortened(t.first, support_width)});
 }
 
 std::string end_text(const GapOpening& opening) {
@@ -133,23 +158,23 @@ std::vector<std::string> wear_lines(const Wear& wear) {
     std::stable_sort(shown.begin(), shown.end(), [&](auto a, auto b) { return life(a) < life(b); });
     shown.resize(10);
   }
-  std::vector<std::string> lines;
   const bool alike = std::all_of(wear.supports.begin(), wear.supports.end(), [&](const WearOfSupport& s) {
     return s.time == wear.supports.front().time && s.limit == wear.supports.front().limit;
   });
   const WearOfSupport& first = wear.supports.front();
-  lines.push_back(fmt::format(
-      "  {:<16} {:>8} {:>9} {:>22} {:>7} {:>22}  {}",
-      alike && !first.time.empty() ? fmt::format("in {:.4g} years", first.time.back() / fretwork::wear::year)
-                                   : "wear",
-      "work W", "worn mm3", "depth mm", "scar mm",
-      alike ? fmt::format("years to {:.3g} mm", millimetre * first.limit) : "years to the limit",
-      "law, m2/N"));
+  std::vector<Row> rows = {
+      {alike && !first.time.empty() ? fmt::format("in {:.4g} years", first.time.back() / fretwork::wear::year)
+                                    : "wear",
+       "work W", "worn mm3", "depth mm", "scar mm",
+       alike ? fmt::format("years to {:.3g} mm", millimetre * first.limit) : "years to the limit",
+       "law, m2/N"}};
   for (const std::size_t s : shown)
-    lines.push_back(row(wear.supports[s]));
+    rows.push_back(row(wear.supports[s]));
+  add_tubes(rows, wear);
+  std::vector<std::string> lines = aligned(rows);
   if (shown.size() < wear.supports.size())
-    lines.push_back(fmt::format("  the 10 of {} supports with the shortest lives", wear.supports.size()));
-  add_tubes(lines, wear);
+    lines.insert(lines.begin() + 1 + static_cast<std::ptrdiff_t>(shown.size()),
+                 fmt::format("  the 10 of {} supports with the shortest lives", wear.supports.size()));
   add_confidence(lines, wear);
   add_sources(lines, wear);
   if (wear.opening)

@@ -15,6 +15,7 @@ namespace fretwork::results::wear_test {
 namespace {
 
 using testing::HasSubstr;
+using testing::MatchesRegex;
 using testing::Not;
 
 constexpr std::size_t widest = 112; // columns that a terminal shows without wrapping, roughly
@@ -214,6 +215,28 @@ TEST(WearOnTheTerminal, SaysNeverAndOutsideTheLaw) {
   EXPECT_THAT(lines[4], HasSubstr("never (124 to never)"));
   EXPECT_THAT(terminal_table(worn(2)), HasSubstr("in 40 years"));
   EXPECT_THAT(terminal_table(made_up({.contacts = 2})), Not(HasSubstr("years")));
+}
+
+TEST(WearOnTheTerminal, ShowsRoundOffAsZero) {
+  RunResults run = worn(2);
+  WearOfSupport& support = run.wear->supports[0];
+  support.work_rate.value = 5.4e-45;
+  support.volume.value.back() = 1.4e-49;
+  support.depth.value.back() = 1.1e-31;
+  support.depth.low.back() = 9.3e-32;
+  support.depth.high.back() = 1.3e-31;
+  support.life.years = {9.8e42, 8e42, 1.3e43};
+  EXPECT_THAT(wear_lines(*run.wear)[1], MatchesRegex("  tsp1 +0 +0 +0 .*  never  archard.*"));
+}
+
+TEST(WearOnTheTerminal, AlignsItsColumns) {
+  RunResults run = worn(2);
+  run.wear->supports[0].life.years = {1371.0, 957.0, 2412.0};
+  const auto lines = wear_lines(*run.wear);
+  const auto of_law = [](const std::string& line) { return line.find("archard"); };
+  EXPECT_THAT(lines[1], HasSubstr("1.37e+03 (957 to 2.41e+03)"));
+  EXPECT_EQ(of_law(lines[1]), of_law(lines[2]));
+  EXPECT_EQ(of_law(lines[1]), lines[0].find("law, m2/N"));
 }
 
 TEST(ExportCsv, HasFilesOfWear) {
