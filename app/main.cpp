@@ -164,8 +164,7 @@ int main(int argc, char** argv) {
   std::vector<std::filesystem::path> compared;
   std::string comparison_page;
   compare->add_option("directories", compared, "folders of the results; the first is the reference")
-      ->required()
-      ->expected(2, -1);
+      ->required();
   compare->add_option("--html", comparison_page, "write the comparison with pictures to this file too");
 
   try {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace fretwork::app {
@@ -32,9 +33,10 @@ std::string find_python() {
       return python;
     found.push_back(python + (status == not_started ? " cannot be started" : " has not both"));
   }
-  throw core::Error(fmt::format("the report needs a Python with h5py and numpy: {}; install the packages "
-                                "python3-h5py and python3-numpy, or name an interpreter in FRETWORK_PYTHON",
-                                fmt::join(found, ", ")));
+  throw core::Error(
+      fmt::format("reports and comparisons need a Python with h5py and numpy: {}; install the packages "
+                  "python3-h5py and python3-numpy, or name an interpreter in FRETWORK_PYTHON",
+                  fmt::join(found, ", ")));
 }
 
 /// The folder of the Python package `fretwork`.
@@ -47,45 +49,43 @@ fs::path find_package() {
                                 (here / "../share/fretwork/python").lexically_normal().string()));
 }
 
-/// The command that runs `main` of a module of fretwork.report in an isolated interpreter: it sees the package, and
-/// neither the current folder nor the user's modules.
-std::vector<std::string> command_of(const std::string& module) {
-  return {find_python(), "-I", "-c",
-          "import sys; sys.path.insert(0, sys.argv.pop(1)); from fretwork.report." + module +
-              " import main; sys.exit(main())",
-          find_package().string()};
+/// What `main` of a module of fretwork.report prints, run in an isolated interpreter: it sees the package, and neither
+/// the current folder nor the user's modules. @throws core::Error with its message after `failure`
+std::string run_module(const std::string& module, const std::vector<std::string>& arguments,
+                       const std::string& failure) {
+  std::vector<std::string> command = {
+      find_python(), "-I", "-c",
+      "import sys; sys.path.insert(0, sys.argv.pop(1)); from fretwork.report." + module +
+          " import main; sys.exit(main())",
+      find_package().string()};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  core::ChildResult result = core::run_child(command);
+  if (result.status == 0)
+    return std::move(result.output);
+  while (result.output.ends_with('\n'))
+    result.output.pop_back();
+  throw core::Error(failure + ": " + result.output);
 }
 
 } // namespace
 
 void write_report(const fs::path& directory) {
-  std::vector<std::string> command = command_of("build");
-  command.push_back(directory.string());
-  const core::ChildResult result = core::run_child(command);
-  if (result.status != 0)
-    throw core::Error("the report could not be written: " + result.output);
+  run_module("build", {directory.string()}, "the report could not be written");
 }
 
 void write_sweep_report(const fs::path& directory) {
-  std::vector<std::string> command = command_of("sweep");
-  command.push_back(directory.string());
-  const core::ChildResult result = core::run_child(command);
-  if (result.status != 0)
-    throw core::Error("the report could not be written: " + result.output);
+  run_module("sweep", {directory.string()}, "the report could not be written");
 }
 
 std::string compare_results(const std::vector<fs::path>& directories, const std::string& page) {
-  std::vector<std::string> arguments = command_of("compare");
+  std::vector<std::string> arguments;
   for (const fs::path& directory : directories)
     arguments.push_back(directory.string());
   if (!page.empty()) {
     arguments.emplace_back("--html");
     arguments.push_back(page);
   }
-  const core::ChildResult result = core::run_child(arguments);
-  if (result.status != 0)
-    throw core::Error("the results cannot be compared: " + result.output);
-  return result.output;
+  return run_module("compare", arguments, "the results cannot be compared");
 }
 
 } // namespace fretwork::app

@@ -82,10 +82,63 @@ TEST(Commands, CompareSaysWhatDiffers) {
        {"Inputs that differ", "contacts.stop.gap", "0.0002", "Frequencies, Hz", "Work rates, W"})
     EXPECT_TRUE(says(outcome.out, part));
   EXPECT_TRUE(says(bytes_of(page), "Orbit of stop"));
-  EXPECT_TRUE(says(folder.fretwork({"compare", first, first}).out, "Inputs that differ: none"));
-  EXPECT_EQ(folder.fretwork({"compare", first}).status, 1);
-  EXPECT_TRUE(says(folder.fretwork({"compare", first, folder.path("none").string()}).err,
-                   "summary.json does not exist"));
+  fs::copy(folder.path("a"), folder.path("copy"));
+  EXPECT_TRUE(says(folder.fretwork({"compare", first, folder.path("copy").string()}).out,
+                   "Inputs that differ: none"));
+}
+
+/// What comparing the folder with `other` and the report of `other` say.
+void expect_refused(const Workshop& folder, const fs::path& other, const std::string& message) {
+  const std::string first = folder.path("results").string();
+  for (const Outcome& outcome :
+       {folder.fretwork({"compare", first, other.string()}), folder.fretwork({"report", other.string()})}) {
+    EXPECT_EQ(outcome.status, 1) << message;
+    EXPECT_TRUE(says(outcome.err, other.string() + message)) << outcome.err;
+    EXPECT_FALSE(outcome.err.ends_with("\n\n"));
+  }
+}
+
+TEST(Commands, CompareAndReportRefuseWhatIsNoRunThatHasEnded) {
+  const Workshop folder;
+  const fs::path results = folder.path("results");
+  ASSERT_EQ(folder.fretwork({"run", example("oscillator").string(), "-o", results.string()}).status, 0);
+
+  expect_refused(folder, folder.path("none"), " does not exist; give the folder that `fretwork run` wrote");
+  fs::create_directory(folder.path("empty"));
+  expect_refused(folder, folder.path("empty"), "/summary.json does not exist; give the folder that");
+  folder.write("results.toml", "");
+  expect_refused(folder, folder.path("results.toml"),
+                 " is a file; give the folder that `fretwork run` wrote");
+
+  fs::copy(results, folder.path("running"));
+  fs::remove(folder.path("running") / "summary.json");
+  folder.write("running/checkpoint.h5", "");
+  expect_refused(folder, folder.path("running"), ": the run has not ended; wait for it, or start it again");
+
+  fs::copy(results, folder.path("damaged"));
+  fs::resize_file(folder.path("damaged") / "results.h5", 3000);
+  expect_refused(folder, folder.path("damaged"), "/results.h5 is not as it was written");
+}
+
+TEST(Commands, CompareRefusesOneRunTheSameTwiceAndASweep) {
+  const Workshop folder;
+  const std::string run = folder.path("run").string(), page = folder.path("none/page.html").string();
+  ASSERT_EQ(folder.fretwork({"run", example("oscillator").string(), "-o", run}).status, 0);
+  fs::copy(run, folder.path("other"));
+  const auto says_of = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "compare");
+    const Outcome outcome = folder.fretwork(arguments);
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_TRUE(outcome.out.empty()) << outcome.out;
+    return outcome.err;
+  };
+  EXPECT_TRUE(says(says_of({run}), "only " + run + " is given; give the folders of two runs or more"));
+  EXPECT_TRUE(says(says_of({run, run + "/"}), run + " is given twice; give the folders of different runs"));
+  EXPECT_TRUE(
+      says(says_of({run, folder.path("other").string(), "--html", page}), page + " cannot be written"));
+  folder.write("other/table.h5", "");
+  EXPECT_TRUE(
+      says(says_of({run, folder.path("other").string()}), "holds the results of a sweep; run the study"));
 }
 
 TEST(Commands, OneNodeIsNoNodes) {

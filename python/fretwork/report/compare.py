@@ -51,17 +51,23 @@ def main():
     parser.add_argument("directories", type=Path, nargs="+", help="folders with summary.json and results.h5")
     parser.add_argument("--html", type=Path, help="write the comparison as a page too")
     arguments = parser.parse_args()
+    if len(arguments.directories) < 2:
+        return f"only {arguments.directories[0]} is given; give the folders of two runs or more, the reference first"
+    for i, directory in enumerate(arguments.directories):
+        if directory.resolve() in [earlier.resolve() for earlier in arguments.directories[:i]]:
+            return f"{directory} is given twice; give the folders of different runs"
     names = short_names(arguments.directories)
     try:
         runs, found = tables(arguments.directories)
-        print("\n".join(as_text(table) for table in found))
         if arguments.html:
             write_whole(arguments.html, as_page(runs, names, found))
+        print("\n".join(as_text(table) for table in found))
+        if arguments.html:
             print(f"written: {arguments.html}")
     except NoResults as error:
         return str(error)
     except OSError as error:
-        return f"the comparison cannot be written: {error}"
+        return f"{arguments.html} cannot be written ({error.strerror}); name a file in a folder that exists and may be written to"
     return 0
 
 

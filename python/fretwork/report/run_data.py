@@ -195,8 +195,24 @@ def with_checksum(text):
     return text[:begin] + digest + text[end:]
 
 
+def _require_folder_of_run(folder):
+    """@throws NoResults if the folder cannot hold the results of a run that has ended"""
+    cure = "give the folder that `fretwork run` wrote"
+    if not folder.exists():
+        raise NoResults(f"{folder} does not exist; {cure}")
+    if not folder.is_dir():
+        results = folder.with_suffix(".results")  # of a study
+        raise NoResults(f"{folder} is a file; {cure}" + (f", {results}" if (results / "summary.json").exists() else ""))
+    if (folder / "table.h5").exists():
+        raise NoResults(f"{folder} holds the results of a sweep; run the study with the values of a case (--set) and give the folder of that run")
+    if not (folder / "summary.json").exists() and ((folder / ".lock").exists() or any(folder.glob("checkpoint*.h5"))):
+        raise NoResults(f"{folder}: the run has not ended; wait for it, or start it again if it was interrupted: it goes on from its checkpoint")
+
+
 def verify(folder, archive_name="results.h5"):
     """Before any library looks at the files. @throws NoResults if one is missing or is not as it was written"""
+    if archive_name == "results.h5":
+        _require_folder_of_run(folder)
     archive, summary = folder / archive_name, folder / "summary.json"
     for path in (summary, archive):
         if not path.exists():
