@@ -124,6 +124,11 @@ Obstacle flat_bars(double tube_radius, double distance, PlaneAxis axis, BarSides
 
 OffsetPlanes flat_bars_between(double tube_radius, double negative_side, double positive_side,
                                PlaneAxis axis) {
+  if (!(negative_side + positive_side > 0.0))
+    throw core::Error(
+        fmt::format("flat bars: {:g} m from the centre towards the negative side and {:g} m towards "
+                    "the positive one leave nothing between the bars; give two distances > 0",
+                    negative_side, positive_side));
   check_room("flat bars", tube_radius, "half the distance between the bars",
              0.5 * (negative_side + positive_side));
   return {{0.5 * (negative_side + positive_side) - tube_radius, axis}, 0.5 * (positive_side - negative_side)};

@@ -264,6 +264,8 @@ TEST(SupportShapes, RefuseATubeThatDoesNotFit) {
                  {"distance = 0.9 m is less"});
   expect_refused([] { (void)contact::flat_bars_between(1.0, 0.9, 1.0, PlaneAxis::y); },
                  {"half the distance between the bars = 0.95 m is less"});
+  expect_refused([] { (void)contact::flat_bars_between(1.0, -1.1, 1.1, PlaneAxis::y); },
+                 {"flat bars: -1.1 m", "leave nothing between the bars; give two distances > 0"});
   expect_refused([] { (void)contact::egg_crate(1.0, 0.9, 2.0); }, {"half width along y = 0.9 m is less"});
   expect_refused([] { (void)contact::egg_crate(1.0, 2.0, 1.0); },
                  {"half width along z = 1 m", "leaves no room"});
