@@ -541,6 +541,10 @@ class Comparison(unittest.TestCase):
         self.assertIn("significant", said["tsp3"])
         self.assertEqual(compare_data.significance((1.0, None), (2.0, 0.1)), "scatter unknown")
 
+    def test_round_off_does_not_differ(self):
+        one, other = (compare_data._work({"work_rate": rate, "standard_error": {"work_rate": 1e-46}}) for rate in (5e-46, 1.5e-45))
+        self.assertEqual(compare_data.significance(one, other), "equal")
+
     def test_shows_wear(self):
         self.assertEqual(len(self.table("Wear").rows), 3)
 

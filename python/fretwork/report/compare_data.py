@@ -6,10 +6,11 @@ import tomllib
 from dataclasses import dataclass
 
 from . import run_data
+from .drawing import ROUND_OFF, of_sum
 
 SIGNIFICANT = 3.0  # standard errors of a difference from which on it is none of scatter (0.3 % of the time by chance)
 FREQUENCIES = 10
-ROUND_OFF = 1e-6  # per cent
+NO_CHANGE = 1e-6  # per cent
 
 
 @dataclass
@@ -34,7 +35,7 @@ def change(value, reference):
     if value is None or not reference:
         return "-"
     per_cent = 100 * (value / reference - 1)
-    if abs(per_cent) < ROUND_OFF:
+    if abs(per_cent) < NO_CHANGE:
         return "0 %"
     return f"{per_cent:+.0f} %" if abs(per_cent) >= 10 else f"{per_cent:+.2g} %"
 
@@ -93,7 +94,7 @@ def frequencies(runs, names):
 
 
 def _work(entry):
-    return entry["work_rate"], entry.get("standard_error", {}).get("work_rate")
+    return of_sum(entry["work_rate"]), of_sum(entry.get("standard_error", {}).get("work_rate"))
 
 
 def work_rates(runs, names):
@@ -111,8 +112,11 @@ def work_rates(runs, names):
 
 
 def _wear(run):
-    return {s["name"]: (s["depth_m"]["value"] if s["depth_m"] else None, s["life_years"]["value"] if s["life_years"] else None)
-            for s in run.summary.get("wear", {}).get("supports", [])}
+    def life(support):
+        years = support["life_years"]["value"] if support["life_years"] else None
+        return None if years is None or years > 1 / ROUND_OFF else years
+
+    return {s["name"]: (of_sum(s["depth_m"]["value"]) if s["depth_m"] else None, life(s)) for s in run.summary.get("wear", {}).get("supports", [])}
 
 
 def wear(runs, names):
