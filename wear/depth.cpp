@@ -87,7 +87,8 @@ struct Checked {
     if (g.crossing == 0.0)
       throw core::Error(
           "tube on tube: crossing angle = 0 degrees: parallel tubes touch over a length that the "
-          "formula does not know; give the angle between the tubes, > 0");
+          "formula does not know; give the angle between the tubes (inclination), > 0, or leave the contact "
+          "out");
     check_angle("tube on tube", "crossing angle", g.crossing, 0.0, false, 0.5 * pi, false);
   }
   void operator()(const TubeSector& g) const {

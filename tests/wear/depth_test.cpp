@@ -303,7 +303,8 @@ TEST(Geometry, RefusesSizesThatMakeNoSense) {
           {"none of the 2 worn lands", "half-angle 5.7", "direction of penetration"});
   refused(Lands{radius, clearance, length, 0.1, 5}, {"3 and 4 lands, not 5", "exact"}, Form::reference);
   refused(Ring{radius, 0.0}, {"ring", "length of the support = 0 m"});
-  refused(TubeOnTube{radius, 0.0}, {"crossing angle = 0 degrees", "parallel tubes", "> 0"});
+  refused(TubeOnTube{radius, 0.0},
+          {"crossing angle = 0 degrees", "parallel tubes", "(inclination), > 0, or leave the contact out"});
   refused(TubeOnTube{0.0, 0.1}, {"tube on tube", "tube radius"});
   refused(TubeOnTube{radius, 2.0}, {"crossing angle = 2 rad"});
   refused(TubeSector{radius, length, 7.0}, {"tube sector", "angle = 7 rad", "360 degrees"});
