@@ -12,6 +12,12 @@
 
 namespace fretwork::app {
 
+/// Forces of a fluid on the modes of some structures, one after the other.
+struct FluidForces {
+  std::vector<std::size_t> structures; ///< numbers, ascending
+  core::MotionForces forces;
+};
+
 /// Everything of a study over the whole model that does not depend on modes: nodal forces, initial fields (6
 /// values a node).
 struct Fields {
@@ -26,8 +32,8 @@ struct Fields {
   };
   std::vector<Load> loads;
   std::vector<std::string> warnings;
-  std::vector<Eigen::VectorXd> supports;  ///< shapes of the study's support motions (support_motion.hpp)
-  std::vector<core::MotionForces> motion; ///< of the fluid, by structures; empty: none
+  std::vector<Eigen::VectorXd> supports; ///< shapes of the study's support motions (support_motion.hpp)
+  std::vector<FluidForces> motion;       ///< by laws; empty: none
   bool moves_at_start = false;
   Eigen::VectorXd displacement, velocity;                   ///< where moves_at_start
   Eigen::VectorXd displacement_momentum, velocity_momentum; ///< M times them

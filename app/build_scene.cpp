@@ -308,7 +308,8 @@ std::vector<NamedNode> observed_nodes(const study::Study& study, const mesh::Lin
 }
 
 std::vector<std::vector<std::size_t>> joined_structures(const std::vector<modal::Basis>& bases,
-                                                        const std::vector<PlacedContact>& contacts) {
+                                                        const std::vector<PlacedContact>& contacts,
+                                                        const std::vector<FluidForces>& fluid) {
   const auto structure_of = [&](Index node) {
     const auto has = [&](const modal::Basis& basis) { return basis.row_of(node) >= 0; };
     return std::find_if(bases.begin(), bases.end(), has) - bases.begin();
@@ -322,6 +323,9 @@ std::vector<std::vector<std::size_t>> joined_structures(const std::vector<modal:
     if (a < count && b < count)
       sets.join(static_cast<Index>(a), static_cast<Index>(b));
   }
+  for (const FluidForces& law : fluid)
+    for (const std::size_t s : law.structures)
+      sets.join(static_cast<Index>(law.structures.front()), static_cast<Index>(s));
   std::size_t number = 0;
   const auto label = sets.labels(number);
   std::vector<std::vector<std::size_t>> groups(number);

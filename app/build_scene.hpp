@@ -45,10 +45,11 @@ struct NamedNode {
 };
 [[nodiscard]] std::vector<NamedNode> observed_nodes(const study::Study& study, const mesh::LineMesh& mesh);
 
-/// Groups of structures that contacts between two nodes join, by their lowest member; a structure that meets
+/// Groups of structures that contacts between two nodes, or a fluid, join, by their lowest member; a structure that meets
 /// no other is a group by itself. A second node that belongs to no structure is fixed.
 [[nodiscard]] std::vector<std::vector<std::size_t>>
-joined_structures(const std::vector<modal::Basis>& bases, const std::vector<PlacedContact>& contacts);
+joined_structures(const std::vector<modal::Basis>& bases, const std::vector<PlacedContact>& contacts,
+                  const std::vector<FluidForces>& fluid);
 
 /// @param turbulence   on its modes (sampled_loads)
 /// @param flexibility  of its contacts

@@ -119,7 +119,7 @@ CaseContacts make_contacts(const study::Study& study, const CaseStructure& struc
   if (study.modes.flow_damping)
     (void)damp_by_flow({study, structure.mesh, structure.model, structure.flows}, DampingSet::transient,
                        placed, inactive, out.bases);
-  out.joined = joined_structures(out.bases, placed);
+  out.joined = joined_structures(out.bases, placed, {});
   out.flexibilities = contact_flexibilities(MPI_COMM_SELF, study, structure.model, structure.structures,
                                             out.bases, out.joined, placed);
   std::vector<std::string> notes;

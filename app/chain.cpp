@@ -203,7 +203,7 @@ private:
           build_fields(inputs_.study, mesh_, model_, support_fields(moved_, model_, modes.structures));
       at_contacts_.fields.motion = fluidelastic_forces({inputs_.study, mesh_, model_, flows_}, out_.bases);
       at_contacts_.turbulence = turbulence_;
-      at_contacts_.joined = joined_structures(out_.bases, placed_);
+      at_contacts_.joined = joined_structures(out_.bases, placed_, at_contacts_.fields.motion);
     });
     at_contacts_.flexibilities = contact_flexibilities(comm_, inputs_.study, model_, modes.structures,
                                                        out_.bases, at_contacts_.joined, placed_);

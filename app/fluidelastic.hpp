@@ -9,21 +9,21 @@
 
 namespace fretwork::app {
 
-/// By structures; nothing where no flow has a law.
-/// @throws core::Error what flow::motion_forces throws, named by the flow
-[[nodiscard]] std::vector<core::MotionForces> fluidelastic_forces(const TubesInFlow& tubes,
-                                                                  const std::vector<modal::Basis>& bases);
+/// By laws and, where a law is of one tube, by tubes; nothing where no flow has a law.
+/// @throws core::Error what flow::motion_forces throws, named by the flow; for two laws on one structure
+[[nodiscard]] std::vector<FluidForces> fluidelastic_forces(const TubesInFlow& tubes,
+                                                           const std::vector<modal::Basis>& bases);
 
-/// The stability diagram of a tube whose flow has a law, on the modes of an assessment; none without law or velocity.
-/// @param damping  ratios of the modes of `sampling`
+/// Stability diagrams of the tubes with a law, on the modes of an assessment; of several tubes of a law with the first of them.
+/// @param bases  of the model that the assessment pins
+/// @param found  the assessments of all tubes, with damping and Connors' ratios   @param ratios  damping of the modes, by tubes
 /// @throws core::Error where modes and lags are too many
-[[nodiscard]] std::optional<results::LawStability> law_stability(const study::Flow& flow,
-                                                                 const flow::Sampling& sampling,
-                                                                 const Eigen::VectorXd& damping,
-                                                                 const study::Stability& assessment);
+void assess_laws(const TubesInFlow& tubes, const std::vector<modal::Basis>& bases,
+                 const study::Stability& assessment, const std::vector<Eigen::VectorXd>& ratios,
+                 std::vector<results::StabilityAssessment>& found);
 
-/// Of the modes without contacts: a note, or where the tube is unstable a warning, for each flow with a law: the root of largest growth at
-/// the working point with its reduced velocity, and the factor of all velocities at which the tube becomes unstable first.
+/// Of the modes without contacts: a note, or where the tubes are unstable a warning, for each law: the root of largest growth at
+/// the working point with its reduced velocity, and the factor of all velocities at which they become unstable first.
 void judge_fluidelastic(const TubesInFlow& tubes, const std::vector<modal::Basis>& bases,
                         results::RunResults& out);
 
@@ -33,10 +33,9 @@ void judge_fluidelastic(const TubesInFlow& tubes, const std::vector<modal::Basis
 void judge_amplitudes(const TubesInFlow& tubes, const std::vector<PlacedContact>& placed,
                       const std::vector<NamedNode>& nodes, results::RunResults& out);
 
-/// Appends the forces on the modes of some structures, which follow each other in the system.
-void add_motion_forces(const std::vector<core::MotionForces>& by_structure,
-                       const std::vector<std::size_t>& structures, const std::vector<modal::Basis>& bases,
-                       transient::System& system);
+/// Adds the forces on the modes of some structures, which follow each other in the system.
+void add_motion_forces(const std::vector<FluidForces>& by_laws, const std::vector<std::size_t>& structures,
+                       const std::vector<modal::Basis>& bases, transient::System& system);
 
 /// @throws core::Error where a flow has a law
 void refuse_fluidelastic_sweep(const study::Study& study);

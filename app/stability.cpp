@@ -38,10 +38,10 @@ void screen_shedding(const std::string& what, const PlacedFlow& placed, const fl
   }
 }
 
-/// One tube on the modes of one assessment. @param all  takes warnings
+/// One tube on the modes of one assessment. @param ratios  its damping   @param all  takes warnings
 results::StabilityAssessment assess(const TubesInFlow& tubes, const PlacedFlow& placed,
                                     const study::Stability& assessment, const PinnedModes& modes,
-                                    results::RunResults& all) {
+                                    Eigen::VectorXd& ratios, results::RunResults& all) {
   const study::Flow& flow = tubes.study.flows[placed.entry];
   const std::string what = fmt::format("stability \"{}\", {}", assessment.name, name_of(flow));
   const flow::Tube tube = tube_of(tubes.study, placed, tubes.model);
@@ -57,23 +57,21 @@ results::StabilityAssessment assess(const TubesInFlow& tubes, const PlacedFlow& 
   out.damping = damping_of_tube(tubes, placed, tube, sampling,
                                 supports_of(tubes, placed, tube, modes.pins.held, modes.pins.left_out), what);
   out.damping.structure = structure;
-  const Eigen::VectorXd ratios = assessment.damping
-                                     ? Eigen::VectorXd::Constant(sampling.modes(), *assessment.damping)
-                                     : out.damping.damping.stability();
+  ratios = assessment.damping ? Eigen::VectorXd::Constant(sampling.modes(), *assessment.damping)
+                              : out.damping.damping.stability();
   try {
     out.stability = flow::stability(placed.profile, sampling, ratios, assessment.component);
   } catch (const core::Error& error) {
     throw core::Error(
         fmt::format("{}: {} (a ratio may be given by [[stability]] damping)", what, error.what()));
   }
-  out.law = law_stability(flow, sampling, ratios, assessment);
   if (assessment.strouhal)
     screen_shedding(what, placed, sampling, *assessment.strouhal, all);
   return out;
 }
 
-/// The worst case in words, as a warning where it is unstable.
-void report(const results::StabilityAssessment& found, results::RunResults& out) {
+/// The worst case in words, as a warning where it is unstable. @param has_law  of fluidelastic forces
+void report(const results::StabilityAssessment& found, bool has_law, results::RunResults& out) {
   const auto& cases = found.stability.cases;
   const auto worst = std::max_element(cases.begin(), cases.end(),
                                       [](const auto& a, const auto& b) { return a.margin() > b.margin(); });
@@ -81,7 +79,7 @@ void report(const results::StabilityAssessment& found, results::RunResults& out)
     return;
   const bool unstable = worst->margin() <= 0.0;
   const auto& mode = found.stability.modes[static_cast<std::size_t>(worst->critical_mode)];
-  const char* stands_for = found.law ? ", by Connors" : ", which no force of the transient stands for";
+  const char* stands_for = has_law ? ", by Connors" : ", which no force of the transient stands for";
   const std::string text = fmt::format(
       "stability \"{}\" of flow \"{}\": V/Vc = {:.4g} in mode {} at {:.4g} Hz, margin {:.4g}{}{}", found.name,
       found.damping.tube, 1.0 - worst->margin(), worst->critical_mode + 1, mode.frequency, worst->margin(),
@@ -100,7 +98,8 @@ void report_law(const results::StabilityAssessment& found, results::RunResults& 
     return;
   const results::LawStability& law = *found.law;
   const std::string what =
-      fmt::format("stability \"{}\" of flow \"{}\", fluidelastic law", found.name, found.damping.tube);
+      fmt::format("stability \"{}\" of flow \"{}\", fluidelastic law{}", found.name, found.damping.tube,
+                  law.tubes.size() > 1 ? fmt::format(" of {} tubes", law.tubes.size()) : "");
   const flow::Crossing* critical = law.diagram.critical();
   if (!critical) {
     out.notes.push_back(
@@ -160,10 +159,15 @@ void assess_stability(MPI_Comm comm, const TubesInFlow& tubes, const std::vector
   for (const study::Stability& assessment : assessments_of(tubes.study)) {
     const PinnedModes modes = pinned_modes(comm, pins_asked(assessment), tubes, contacts, out.notes);
     core::agree(comm, [&] {
-      for (const PlacedFlow& placed : tubes.flows) {
-        results::StabilityAssessment found = assess(tubes, placed, assessment, modes, out);
+      std::vector<results::StabilityAssessment> all;
+      std::vector<Eigen::VectorXd> ratios(tubes.flows.size());
+      for (std::size_t f = 0; f < tubes.flows.size(); ++f)
+        all.push_back(assess(tubes, tubes.flows[f], assessment, modes, ratios[f], out));
+      assess_laws(tubes, modes.bases, assessment, ratios, all);
+      for (std::size_t f = 0; f < all.size(); ++f) {
+        results::StabilityAssessment& found = all[f];
         out.notes.insert(out.notes.end(), found.damping.limits.begin(), found.damping.limits.end());
-        report(found, out);
+        report(found, tubes.study.flows[tubes.flows[f].entry].law.has_value(), out);
         report_law(found, out);
         out.stability.push_back(std::move(found));
       }

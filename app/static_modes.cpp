@@ -43,7 +43,7 @@ void add_static_modes(MPI_Comm comm, const study::Study& study, const fem::Model
   const auto mine = [&](std::size_t s) { return owner[s] == core::rank(comm); };
   core::agree(comm, [&] {
     modal::StaticSolvers solvers(model, structures);
-    for (const std::vector<std::size_t>& scene : joined_structures(bases, placed)) {
+    for (const std::vector<std::size_t>& scene : joined_structures(bases, placed, {})) {
       if (std::none_of(scene.begin(), scene.end(), mine))
         continue;
       const ContactLoads loads =

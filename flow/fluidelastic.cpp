@@ -68,12 +68,18 @@ private:
   bool exact_ = true;
 };
 
-/// A station in the flow.
-struct Wet {
-  MatrixXd shapes;            ///< along drag and lift, 2 x m
-  double pressure;            ///< q w, Pa m
-  double rate;                ///< V/D, 1/s
-  std::vector<double> shares; ///< of the nodes
+/// A station of a tube; still where V = 0.
+struct Place {
+  MatrixXd shapes;                 ///< along drag and lift, 2 x modes of its structure
+  double pressure = 0.0;           ///< q w, Pa m
+  double rate = 0.0;               ///< V/D, 1/s
+  std::vector<double> shares = {}; ///< of the nodes
+};
+
+/// Tubes of one structure.
+struct Structure {
+  Eigen::Index first, slow;       ///< its modes among all; how many of them the lags are for
+  std::vector<std::size_t> tubes; ///< numbers
 };
 
 /// Right singular vectors of A that count.
@@ -90,103 +96,185 @@ MatrixXd seen(const MatrixXd& a) {
   return std::numbers::sqrt2 * found.vectors.rightCols(count).bottomRows(columns);
 }
 
-/// Adds y' = -d r y + V^T a' for the directions V that the force G of the modes on themselves sees, as real and imaginary part where d is complex.
-void add_states(core::MotionForces& forces, std::complex<double> decay, const Eigen::MatrixXcd& g) {
+/// Adds y' = -d r y + V^T a' for the directions V of the modes from `first` on that their force G sees, as real and imaginary part where d is
+/// complex. @param rows  the modes that it acts on
+void add_states(core::MotionForces& forces, std::complex<double> decay, const Eigen::MatrixXcd& g,
+                const std::vector<Eigen::Index>& rows, Eigen::Index first) {
   const bool pair = decay.imag() != 0.0;
   MatrixXd parts(pair ? 2 * g.rows() : g.rows(), g.cols());
   parts.topRows(g.rows()) = g.real();
   if (pair)
     parts.bottomRows(g.rows()) = g.imag();
   const MatrixXd directions = seen(parts);
-  const Eigen::Index r = directions.cols(), m = g.rows(), first = forces.states(),
-                     n = forces.stiffness.rows();
-  const Eigen::Index all = first + (pair ? 2 * r : r);
+  const Eigen::Index r = directions.cols(), before = forces.states(), n = forces.stiffness.rows();
+  const Eigen::Index all = before + (pair ? 2 * r : r);
   forces.rates.conservativeResizeLike(MatrixXd::Zero(all, all));
   forces.output.conservativeResizeLike(MatrixXd::Zero(all, n));
   forces.input.conservativeResizeLike(MatrixXd::Zero(n, all));
   const MatrixXd unit = MatrixXd::Identity(r, r);
-  forces.rates.block(first, first, r, r) = -decay.real() * unit;
-  forces.output.block(first, 0, r, m) = directions.transpose();
-  forces.input.block(0, first, m, r) = g.real() * directions;
+  forces.rates.block(before, before, r, r) = -decay.real() * unit;
+  forces.output.block(before, first, r, g.cols()) = directions.transpose();
+  forces.input(rows, Eigen::seqN(before, r)) = g.real() * directions;
   if (!pair)
     return;
-  forces.rates.block(first + r, first + r, r, r) = -decay.real() * unit;
-  forces.rates.block(first, first + r, r, r) = decay.imag() * unit;
-  forces.rates.block(first + r, first, r, r) = -decay.imag() * unit;
-  forces.input.block(0, first + r, m, r) = -g.imag() * directions;
+  forces.rates.block(before + r, before + r, r, r) = -decay.real() * unit;
+  forces.rates.block(before, before + r, r, r) = decay.imag() * unit;
+  forces.rates.block(before + r, before, r, r) = -decay.imag() * unit;
+  forces.input(rows, Eigen::seqN(before + r, r)) = -g.imag() * directions;
 }
 
-/// How many modes the lags are for: up to the last one whose reduced velocity reaches `slow` anywhere.
-Eigen::Index slow_modes(const Sampling& sampling, double largest_factor) {
+/// Structure by structure, each with its modes up to the last one whose reduced velocity reaches `slow` anywhere.
+std::vector<Structure> structures_of(const std::vector<TubeOfLaw>& tubes, double largest_factor) {
   double rate = 0.0;
-  for (const Station& station : sampling.stations)
-    rate = std::max(rate, largest_factor * station.flow.velocity / station.tube.outer_diameter);
-  Eigen::Index m = sampling.modes();
-  while (m > 0 && slow * sampling.frequency(m - 1) > rate)
-    --m;
-  return m;
+  for (const TubeOfLaw& tube : tubes)
+    for (const Station& station : tube.sampling.stations)
+      rate = std::max(rate, largest_factor * station.flow.velocity / station.tube.outer_diameter);
+  std::vector<Structure> out;
+  for (std::size_t i = 0; i < tubes.size(); ++i) {
+    auto at = std::find_if(out.begin(), out.end(),
+                           [&](const Structure& one) { return one.first == tubes[i].first; });
+    if (at == out.end()) {
+      Eigen::Index m = tubes[i].sampling.modes();
+      while (m > 0 && slow * tubes[i].sampling.frequency(m - 1) > rate)
+        --m;
+      at = out.insert(at, {tubes[i].first, m, {}});
+    }
+    at->tubes.push_back(i);
+  }
+  return out;
 }
 
-/// f/(q u) of a motion of shape n at the reduced frequency kr = w D/V.
-std::complex<double> along(const FluidelasticLaw& law, const Eigen::Vector2d& n, double kr) {
+/// @throws core::Error where a zone with velocity has no direction of drag
+std::vector<Place> places_of(const Sampling& sampling) {
+  std::vector<Place> out;
+  for (const Station& station : sampling.stations) {
+    const double v = station.flow.velocity;
+    if (v > 0.0 && station.flow.drag.isZero(0.0))
+      throw core::Error("the zone has no direction, which fluidelastic forces need; give direction, or the "
+                        "velocity as a vector");
+    MatrixXd shapes(2, sampling.modes());
+    shapes << station.flow.drag.transpose() * station.shapes, station.flow.lift.transpose() * station.shapes;
+    out.push_back({std::move(shapes), 0.5 * station.flow.density * v * v * station.weight,
+                   v / station.tube.outer_diameter});
+  }
+  return out;
+}
+
+/// Block of a matrix of a law: the force on tube i by the motion of tube j.
+template <class Matrix> auto block_of(const Matrix& matrix, std::size_t i, std::size_t j) {
+  return matrix.template block<2, 2>(static_cast<Eigen::Index>(2 * i), static_cast<Eigen::Index>(2 * j));
+}
+
+/// f/q on tube i along n_i, where tube j moves by n_j at the reduced frequency kr = w D/V.
+std::complex<double> along(const FluidelasticLaw& law, std::size_t i, std::size_t j,
+                           const Eigen::Vector2d& ni, const Eigen::Vector2d& nj, double kr) {
   const std::complex<double> p(0.0, kr);
-  std::complex<double> sum = n.dot(law.stiffness * n) + p * n.dot(law.damping * n);
+  std::complex<double> sum =
+      ni.dot(block_of(law.stiffness, i, j) * nj) + p * ni.dot(block_of(law.damping, i, j) * nj);
   for (const FluidelasticLaw::Lag& lag : law.lags) {
-    const std::complex<double> b = n.cast<std::complex<double>>().dot(lag.force * n);
+    const std::complex<double> b = ni.cast<std::complex<double>>().dot(block_of(lag.force, i, j) * nj);
     sum += 0.5 * p * (b / (p + lag.rate) + std::conj(b) / (p + std::conj(lag.rate)));
   }
   return sum;
 }
 
+/// K_x and C_x; of fast modes what the law is at their frequency, on the diagonal.
+void add_direct_forces(const std::vector<TubeOfLaw>& tubes, const FluidelasticLaw& law,
+                       const std::vector<Structure>& structures,
+                       const std::vector<std::vector<Place>>& places, core::MotionForces& out) {
+  for (const Structure& on : structures)
+    for (const Structure& by : structures)
+      for (const std::size_t i : on.tubes)
+        for (const std::size_t j : by.tubes)
+          for (std::size_t k = 0; k < places[i].size(); ++k) {
+            const Place& here = places[i][k];
+            if (here.rate == 0.0)
+              continue;
+            const MatrixXd &mine = here.shapes, &its = places[j][k].shapes;
+            for (Eigen::Index mode = on.slow; &on == &by && mode < mine.cols(); ++mode) {
+              const double w = 2.0 * std::numbers::pi * tubes[i].sampling.frequency(mode);
+              const std::complex<double> f = along(law, i, j, mine.col(mode), its.col(mode), w / here.rate);
+              out.stiffness(on.first + mode, on.first + mode) += here.pressure * f.real();
+              out.damping(on.first + mode, on.first + mode) += here.pressure * f.imag() / w;
+            }
+            const auto slow_on = mine.leftCols(on.slow), slow_by = its.leftCols(by.slow);
+            out.stiffness.block(on.first, by.first, on.slow, by.slow) +=
+                here.pressure * slow_on.transpose() * block_of(law.stiffness, i, j) * slow_by;
+            out.damping.block(on.first, by.first, on.slow, by.slow) +=
+                here.pressure / here.rate * slow_on.transpose() * block_of(law.damping, i, j) * slow_by;
+          }
+}
+
+/// The lag of the motion of one structure at a node of V/D.
+void add_lag(const FluidelasticLaw::Lag& lag, std::size_t node, double rate, const Structure& by,
+             const std::vector<Structure>& structures, const std::vector<std::vector<Place>>& places,
+             core::MotionForces& out) {
+  std::vector<const Structure*> moved;
+  std::vector<Eigen::Index> rows;
+  for (const Structure& on : structures) {
+    const bool coupled = std::any_of(on.tubes.begin(), on.tubes.end(), [&](std::size_t i) {
+      return std::any_of(by.tubes.begin(), by.tubes.end(),
+                         [&](std::size_t j) { return !block_of(lag.force, i, j).isZero(0.0); });
+    });
+    if (!coupled || on.slow == 0)
+      continue;
+    moved.push_back(&on);
+    for (Eigen::Index mode = 0; mode < on.slow; ++mode)
+      rows.push_back(on.first + mode);
+  }
+  if (rows.empty() || by.slow == 0)
+    return;
+  Eigen::MatrixXcd g = Eigen::MatrixXcd::Zero(static_cast<Eigen::Index>(rows.size()), by.slow);
+  Eigen::Index row = 0;
+  for (const Structure* on : moved) {
+    for (const std::size_t i : on->tubes)
+      for (const std::size_t j : by.tubes)
+        for (std::size_t k = 0; k < places[i].size(); ++k)
+          if (const Place& here = places[i][k]; here.rate > 0.0 && here.shares[node] != 0.0)
+            g.middleRows(row, on->slow) +=
+                here.pressure * here.shares[node] *
+                (here.shapes.leftCols(on->slow).transpose() *
+                 (block_of(lag.force, i, j) * places[j][k].shapes.leftCols(by.slow)));
+    row += on->slow;
+  }
+  add_states(out, lag.rate * rate, g, rows, by.first);
+}
+
 } // namespace
 
-core::MotionForces motion_forces(const Sampling& sampling, const FluidelasticLaw& law, Eigen::Index modes,
-                                 double largest_factor) {
+core::MotionForces motion_forces(const std::vector<TubeOfLaw>& tubes, const FluidelasticLaw& law,
+                                 Eigen::Index modes, double largest_factor) {
   core::MotionForces out;
   out.stiffness = out.damping = MatrixXd::Zero(modes, modes);
   out.input = MatrixXd::Zero(modes, 0);
   out.output = MatrixXd::Zero(0, modes);
-  const Eigen::Index m = slow_modes(sampling, largest_factor);
-  std::vector<Wet> wet;
+  const std::vector<Structure> structures = structures_of(tubes, largest_factor);
+  std::vector<std::vector<Place>> places;
   std::vector<double> rates;
-  for (const Station& station : sampling.stations) {
-    const double v = station.flow.velocity;
-    if (v == 0.0)
-      continue;
-    if (station.flow.drag.isZero(0.0))
-      throw core::Error("the zone has no direction, which fluidelastic forces need; give direction, or the "
-                        "velocity as a vector");
-    MatrixXd all(2, sampling.modes());
-    all << station.flow.drag.transpose() * station.shapes, station.flow.lift.transpose() * station.shapes;
-    const double rate = v / station.tube.outer_diameter,
-                 pressure = 0.5 * station.flow.density * v * v * station.weight;
-    for (Eigen::Index j = m; j < all.cols(); ++j) {
-      const std::complex<double> f =
-          along(law, all.col(j), 2.0 * std::numbers::pi * sampling.frequency(j) / rate);
-      out.stiffness(j, j) += pressure * f.real();
-      out.damping(j, j) += pressure * f.imag() / (2.0 * std::numbers::pi * sampling.frequency(j));
-    }
-    MatrixXd shapes = all.leftCols(m);
-    out.stiffness.topLeftCorner(m, m) += pressure * shapes.transpose() * law.stiffness * shapes;
-    out.damping.topLeftCorner(m, m) += pressure / rate * shapes.transpose() * law.damping * shapes;
-    wet.push_back({std::move(shapes), pressure, rate, {}});
-    rates.push_back(rate);
+  for (const TubeOfLaw& tube : tubes) {
+    places.push_back(places_of(tube.sampling));
+    for (const Place& place : places.back())
+      if (place.rate > 0.0)
+        rates.push_back(place.rate);
   }
-  if (m == 0 || wet.empty() || law.lags.empty())
+  add_direct_forces(tubes, law, structures, places, out);
+  if (rates.empty() || law.lags.empty())
     return out;
   const Nodes nodes(std::move(rates));
-  for (Wet& station : wet)
-    station.shares = nodes.shares(station.rate);
+  for (std::vector<Place>& of_tube : places)
+    for (Place& place : of_tube)
+      if (place.rate > 0.0)
+        place.shares = nodes.shares(place.rate);
   for (const FluidelasticLaw::Lag& lag : law.lags)
-    for (std::size_t l = 0; l < nodes.rates().size(); ++l) {
-      Eigen::MatrixXcd g = Eigen::MatrixXcd::Zero(m, m);
-      for (const Wet& station : wet)
-        if (station.shares[l] != 0.0)
-          g += station.pressure * station.shares[l] *
-               (station.shapes.transpose() * (lag.force * station.shapes));
-      add_states(out, lag.rate * nodes.rates()[l], g);
-    }
+    for (std::size_t l = 0; l < nodes.rates().size(); ++l)
+      for (const Structure& by : structures)
+        add_lag(lag, l, nodes.rates()[l], by, structures, places, out);
   return out;
+}
+
+core::MotionForces motion_forces(const Sampling& sampling, const FluidelasticLaw& law, Eigen::Index modes,
+                                 double largest_factor) {
+  return motion_forces(std::vector<TubeOfLaw>{{sampling, 0}}, law, modes, largest_factor);
 }
 
 core::MotionForces scaled(core::MotionForces forces, double factor) {

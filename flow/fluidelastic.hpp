@@ -10,6 +10,8 @@
 /// Lagrange's polynomials: so many points that (y + (1 + y^2)^(1/2))^-L < 1e-5, y = pi/(x_max - x_min) (Bernstein's ellipse through the pole).
 /// Below a twentieth of the largest V/D, where q is 1/400 of the largest at most, x is that of the twentieth. Thus a constant velocity costs at most one state
 /// a mode and lag, a changing one up to 13.
+/// Of several tubes N(s) is of all of them, at the same share of their lengths; q, V and D are those of the tube that the force is on. Lags are of
+/// each structure's motion, so that tubes which a law does not couple keep states of their own.
 /// Source: S. Price, M. Paidoussis, J. Sound and Vibration 97 (1984) 615 for one tube; distribution: virtual work; interpolation: L. Trefethen,
 /// Approximation Theory and Approximation Practice (2013), chapter 8.
 #pragma once
@@ -19,10 +21,21 @@
 
 namespace fretwork::flow {
 
-/// @param sampling  with modal masses of 1   @param modes  n >= sampling.modes(): the modes that follow (static ones) feel nothing
+/// A tube of a law.
+struct TubeOfLaw {
+  Sampling sampling; ///< with modal masses of 1; the k-th stations of all tubes are beside each other
+  Eigen::Index first =
+      0; ///< mode of its structure among those of all; tubes of one structure have the same modes
+};
+
+/// @param tubes  as many as the law has   @param modes  of all structures: those of which no tube has shapes (static ones) feel nothing
 /// @param largest_factor  > 0, by which they may be `scaled`: modes whose reduced velocity V/(f D) stays below 0.3 up to it are not coupled; they feel
 ///     what the law is at their own frequency, K + sum B i kr/(i kr + d) and C, kr = 2 pi f D/V
 /// @throws core::Error where a zone with velocity has no direction of drag
+[[nodiscard]] core::MotionForces motion_forces(const std::vector<TubeOfLaw>& tubes,
+                                               const FluidelasticLaw& law, Eigen::Index modes,
+                                               double largest_factor);
+/// Of one tube.
 [[nodiscard]] core::MotionForces motion_forces(const Sampling& sampling, const FluidelasticLaw& law,
                                                Eigen::Index modes, double largest_factor);
 

@@ -12,10 +12,11 @@ namespace {
 
 using Complex = std::complex<double>;
 
-FluidelasticLaw steady_part(double drag, double lift, const Eigen::Matrix2d& gradients) {
+FluidelasticLaw steady_part(double drag, double lift, const Eigen::MatrixXd& gradients) {
   FluidelasticLaw law;
   law.stiffness = gradients;
   law.damping << -2.0 * drag, lift, -2.0 * lift, -drag;
+  law.damping = for_each_tube(law.damping, law.tubes());
   return law;
 }
 
@@ -70,7 +71,7 @@ struct Fit {
 
 } // namespace
 
-FluidelasticLaw quasi_steady_law(double drag, double lift, const Eigen::Matrix2d& gradients, double delay) {
+FluidelasticLaw quasi_steady_law(double drag, double lift, const Eigen::MatrixXd& gradients, double delay) {
   FluidelasticLaw law = steady_part(drag, lift, gradients);
   if (delay == 0.0)
     return law;
@@ -83,7 +84,7 @@ FluidelasticLaw quasi_steady_law(double drag, double lift, const Eigen::Matrix2d
   return law;
 }
 
-FluidelasticLaw quasi_unsteady_law(double drag, double lift, const Eigen::Matrix2d& gradients,
+FluidelasticLaw quasi_unsteady_law(double drag, double lift, const Eigen::MatrixXd& gradients,
                                    const std::vector<Memory>& memory) {
   FluidelasticLaw law = steady_part(drag, lift, gradients);
   for (const Memory& m : memory)
@@ -124,7 +125,7 @@ FittedLaw fitted_law(const std::vector<MeasuredForce>& table, int lags) {
   out.law.stiffness(1, 1) = fit.coefficients(0);
   out.law.damping(1, 1) = fit.coefficients(1);
   for (std::size_t l = 0; l < best.size(); ++l) {
-    Eigen::Matrix2cd force = Eigen::Matrix2cd::Zero();
+    Eigen::MatrixXcd force = Eigen::MatrixXcd::Zero(2, 2);
     force(1, 1) = fit.coefficients(2 + static_cast<Eigen::Index>(l));
     out.law.lags.push_back({best[l], force});
   }

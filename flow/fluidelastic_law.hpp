@@ -4,6 +4,7 @@
 ///     f = q [ K u + (D/V) C u' + sum_i Re(B_i z_i) ],   z_i' = -d_i (V/D) z_i + u',   q = rho V^2/2,  z_i(0) = 0
 /// K, C, B_i, d_i without dimension, Re d_i > 0. With p = s D/V, s the Laplace variable: f/u = q (K + p C + sum B_i p/(p + d_i)), the form
 /// of Roger (AGARD CP-228, 1977) without p^2: added mass is in the modes. C > 0 feeds energy in.
+/// Of N tubes: u = (drag, lift of the first, of the second, ...), matrices 2N x 2N; q and V/D in a row are those of its tube.
 ///
 /// For u = e^(iwt), kr = w D/V = 2 pi/Vr, Vr = V/(f D):  f = q (c_k u + (D/V) c_d u'),  c_k = K + sum Re B_i kr^2/(kr^2 + d_i^2),
 /// c_d = C + sum B_i d_i/(kr^2 + d_i^2) for real d_i.
@@ -29,24 +30,35 @@ struct FluidelasticLaw {
   struct Lag {
     std::complex<double>
         rate;               ///< d_i; not real: z_i is complex and B_i twice what stands in f/u, for the pair
-    Eigen::Matrix2cd force; ///< B_i
+    Eigen::MatrixXcd force; ///< B_i
   };
-  Eigen::Matrix2d stiffness = Eigen::Matrix2d::Zero(); ///< K, rows and columns drag, lift
-  Eigen::Matrix2d damping = Eigen::Matrix2d::Zero();   ///< C
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(2, 2); ///< K, rows and columns drag, lift of each tube
+  Eigen::MatrixXd damping = Eigen::MatrixXd::Zero(2, 2);   ///< C
   std::vector<Lag> lags;
   std::optional<std::array<double, 2>> range = std::nullopt; ///< of Vr in which it was measured
+
+  [[nodiscard]] Eigen::Index tubes() const { return stiffness.rows() / 2; }
 };
 
-/// @param drag, lift  CD, CL of the steady force q D (CD, CL)   @param gradients  by u/D, [[CD_x, CD_y], [CL_x, CL_y]]
+/// The same for each of some tubes by itself. @param one  a matrix of one tube
+template <class Matrix> [[nodiscard]] Matrix for_each_tube(const Matrix& one, Eigen::Index tubes) {
+  Matrix out = Matrix::Zero(one.rows() * tubes, one.cols() * tubes);
+  for (Eigen::Index i = 0; i < tubes; ++i)
+    out.block(i * one.rows(), i * one.cols(), one.rows(), one.cols()) = one;
+  return out;
+}
+
+/// @param drag, lift  CD, CL of the steady force q D (CD, CL) on each tube   @param gradients  by u/D, [[CD_x, CD_y], [CL_x, CL_y]], of several
+///     tubes by the motion of each
 /// @param delay  mu >= 0
-[[nodiscard]] FluidelasticLaw quasi_steady_law(double drag, double lift, const Eigen::Matrix2d& gradients,
+[[nodiscard]] FluidelasticLaw quasi_steady_law(double drag, double lift, const Eigen::MatrixXd& gradients,
                                                double delay);
 
 struct Memory {
   double share; ///< alpha
   double rate;  ///< d > 0
 };
-[[nodiscard]] FluidelasticLaw quasi_unsteady_law(double drag, double lift, const Eigen::Matrix2d& gradients,
+[[nodiscard]] FluidelasticLaw quasi_unsteady_law(double drag, double lift, const Eigen::MatrixXd& gradients,
                                                  const std::vector<Memory>& memory);
 
 /// @param constant  K > 0

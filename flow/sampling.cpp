@@ -20,6 +20,13 @@ Station station_at(const Tube& tube, const Profile& profile, const modal::Basis&
   return out;
 }
 
+/// Ascending, those closer than `least` once.
+void keep_apart(std::vector<double>& ends, double least) {
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end(), [least](double a, double b) { return b - a <= least; }),
+             ends.end());
+}
+
 /// Abscissae between which everything is smooth, from 0 to the tube's length.
 std::vector<double> intervals(const Tube& tube, const Profile& profile) {
   std::vector<double> ends{0.0};
@@ -28,11 +35,23 @@ std::vector<double> intervals(const Tube& tube, const Profile& profile) {
   for (const double s : profile.breaks())
     if (s > 0.0 && s < tube.length())
       ends.push_back(s);
-  std::sort(ends.begin(), ends.end());
-  const double least = no_interval * tube.length();
-  ends.erase(std::unique(ends.begin(), ends.end(), [least](double a, double b) { return b - a <= least; }),
-             ends.end());
+  keep_apart(ends, no_interval * tube.length());
   return ends;
+}
+
+/// @param ends  of intervals, m
+Sampling sampled(const TubeToSample& of, const Eigen::VectorXd& modal_mass, const std::vector<double>& ends) {
+  const Eigen::Index modes = of.basis.true_modes();
+  Sampling out{
+      of.basis.omega.head(modes) / (2.0 * std::numbers::pi), modal_mass, {}, of.profile.zones().size()};
+  out.stations.reserve((ends.size() - 1) * fem::gauss_points.size());
+  for (std::size_t k = 1; k < ends.size(); ++k)
+    for (const auto& [share, weight] : fem::gauss_points) {
+      const double width = ends[k] - ends[k - 1];
+      out.stations.push_back(
+          station_at(of.tube, of.profile, of.basis, ends[k - 1] + share * width, weight * width));
+    }
+  return out;
 }
 
 void check_modal_mass(const Eigen::VectorXd& modal_mass, Eigen::Index modes) {
@@ -53,17 +72,23 @@ Sampling sample(const Tube& tube, const Profile& profile, const modal::Basis& ba
 Sampling sample(const Tube& tube, const Profile& profile, const modal::Basis& basis,
                 const Eigen::VectorXd& modal_mass) {
   check_modal_mass(modal_mass, basis.true_modes());
-  Sampling out{basis.omega.head(basis.true_modes()) / (2.0 * std::numbers::pi),
-               modal_mass,
-               {},
-               profile.zones().size()};
-  const std::vector<double> ends = intervals(tube, profile);
-  out.stations.reserve((ends.size() - 1) * fem::gauss_points.size());
-  for (std::size_t k = 1; k < ends.size(); ++k)
-    for (const auto& [share, weight] : fem::gauss_points) {
-      const double width = ends[k] - ends[k - 1];
-      out.stations.push_back(station_at(tube, profile, basis, ends[k - 1] + share * width, weight * width));
-    }
+  return sampled({tube, profile, basis}, modal_mass, intervals(tube, profile));
+}
+
+std::vector<Sampling> sample_beside(std::span<const TubeToSample> tubes) {
+  const double length = tubes.front().tube.length();
+  std::vector<double> ends;
+  for (const TubeToSample& one : tubes)
+    for (const double end : intervals(one.tube, one.profile))
+      ends.push_back(end * (length / one.tube.length()));
+  keep_apart(ends, no_interval * length);
+  std::vector<Sampling> out;
+  for (const TubeToSample& one : tubes) {
+    std::vector<double> own = ends;
+    for (double& end : own)
+      end *= one.tube.length() / length;
+    out.push_back(sampled(one, Eigen::VectorXd::Ones(one.basis.true_modes()), own));
+  }
   return out;
 }
 

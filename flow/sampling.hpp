@@ -39,6 +39,14 @@ struct Sampling {
 [[nodiscard]] Sampling sample(const Tube& tube, const Profile& profile, const modal::Basis& basis,
                               const Eigen::VectorXd& modal_mass);
 
+struct TubeToSample {
+  const Tube& tube;
+  const Profile& profile;
+  const modal::Basis& basis;
+};
+/// Tubes beside each other: the k-th stations of all are at the same share of their lengths, with intervals between the nodes, ends and rows of all.
+[[nodiscard]] std::vector<Sampling> sample_beside(std::span<const TubeToSample> tubes);
+
 /// The same at given abscissae (m, 0 to the tube's length), in their order, weights 0.
 [[nodiscard]] std::vector<Station> stations_at(const Tube& tube, const Profile& profile,
                                                const modal::Basis& basis, std::span<const double> abscissae);

@@ -80,7 +80,7 @@ Json crossing(const flow::Crossing& one, const LawStability& law) {
           {"outside_range", reduced && law.outside(*reduced)}};
 }
 
-Json law(const LawStability& of, const Eigen::VectorXd& ratios) {
+Json law(const LawStability& of) {
   const flow::StabilityDiagram& diagram = of.diagram;
   Json modes = Json::array(), crossings = Json::array();
   for (Eigen::Index mode = 0; mode < diagram.roots.cols(); ++mode) {
@@ -90,15 +90,19 @@ Json law(const LawStability& of, const Eigen::VectorXd& ratios) {
       damping.push_back(number(flow::damping_of(root)));
     }
     const auto critical = of.critical_factor(mode);
-    modes.push_back({{"frequencies_hz", frequency},
+    const LawStability::Mode& its = of.modes[static_cast<std::size_t>(mode)];
+    modes.push_back({{"tube", its.tube},
+                     {"mode", its.number + 1},
+                     {"frequencies_hz", frequency},
                      {"dampings", damping},
                      {"critical_factor", critical ? number(*critical) : Json(nullptr)},
-                     {"connors_factor", number(1.0 / ratios(mode))}});
+                     {"connors_factor", number(its.connors)}});
   }
   for (const flow::Crossing& one : diagram.crossings)
     crossings.push_back(crossing(one, of));
   const flow::Crossing* critical = diagram.critical();
-  return {{"velocity_m_s", number(of.velocity)},
+  return {{"tubes", of.tubes},
+          {"velocity_m_s", number(of.velocity)},
           {"diameter_m", number(of.diameter)},
           {"range", of.range ? Json(*of.range) : Json(nullptr)},
           {"critical_factor", critical ? number(critical->factor) : Json(nullptr)},
@@ -129,7 +133,7 @@ Json stability(const StabilityAssessment& assessment) {
            {"cases", cases},
            {"damping", damping(assessment.damping)}};
   if (assessment.law)
-    out["law"] = law(*assessment.law, assessment.stability.cases[worst_case(assessment.stability)].ratio);
+    out["law"] = law(*assessment.law);
   return out;
 }
 

@@ -23,11 +23,19 @@ struct TubeDamping {
   std::vector<std::string> limits; ///< those of `damping`, in words
 };
 
-/// The roots of the modes of one tube under the fluidelastic law of its flow.
+/// The roots of the modes of the tubes of a fluidelastic law.
 struct LawStability {
+  /// A column of the diagram.
+  struct Mode {
+    std::string tube;
+    Eigen::Index number; ///< from 0, of the tube's structure
+    double connors;      ///< factor of all velocities at which Connors has it unstable; not finite: none
+  };
   double velocity = 0.0, diameter = 0.0;      ///< m/s, m, where V is largest at factor 1
   std::optional<std::array<double, 2>> range; ///< of V/(f D) in which the law was measured
   flow::StabilityDiagram diagram;
+  std::vector<std::string> tubes; ///< names, in the order of the law
+  std::vector<Mode> modes;
 
   /// V/(f D); none of divergence.
   [[nodiscard]] std::optional<double> reduced_velocity(double factor, double frequency) const {
@@ -65,7 +73,7 @@ struct StabilityAssessment {
   TubeDamping damping;                    ///< on the pinned modes
   flow::Stability stability;
   std::vector<double> sweep;       ///< factors of all velocities
-  std::optional<LawStability> law; ///< where the flow has a fluidelastic law
+  std::optional<LawStability> law; ///< where the flow has a fluidelastic law, of several tubes with the first
 };
 
 } // namespace fretwork::results

@@ -32,7 +32,8 @@ struct Flow {
   double structural_damping = 0.002;
   flow::DampingVoidFraction void_fraction = flow::DampingVoidFraction::of_the_zone;
   std::optional<flow::FluidelasticLaw> law =
-      std::nullopt; ///< of the forces that depend on the motion; none: there are none
+      std::nullopt;     ///< of the forces that depend on the motion; none: there are none
+  std::string law_name; ///< the flows of a law of several tubes are these tubes, in their order
 };
 
 /// What holds the tubes in the modes that stability is assessed with.

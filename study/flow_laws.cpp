@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "study/flow_laws.hpp"
 #include "core/error.hpp"
+#include <algorithm>
 
 namespace fretwork::study {
 namespace {
@@ -11,27 +12,35 @@ const Choices<Kind> kinds{{{"rational", Kind::rational},
                            {"quasi_unsteady", Kind::quasi_unsteady},
                            {"table", Kind::table},
                            {"connors", Kind::connors}}};
-const std::string expected_matrix = "a number (lift alone) or [[a, b], [c, d]], rows and columns drag, lift";
+const std::string expected_matrix =
+    "a number (lift alone) or [[a, b], [c, d]], rows and columns drag, lift; 2N x 2N of N tubes";
 
-/// A number is that of lift alone.
-Eigen::Matrix2d to_matrix(const Value& value, const std::string& path) {
-  Eigen::Matrix2d out = Eigen::Matrix2d::Zero();
-  if (!value.array()) {
-    out(1, 1) = to_number(value, path, {});
-    return out;
-  }
+/// 2N x 2N; a number is that of lift alone.
+Eigen::MatrixXd to_matrix(const Value& value, const std::string& path) {
+  if (!value.array())
+    return Eigen::Vector2d(0.0, to_number(value, path, {})).asDiagonal();
   const Array& rows = to_array(value, path, expected_matrix);
-  if (rows.size() != 2)
-    throw core::Error(path + ": " + std::to_string(rows.size()) + " rows; give " + expected_matrix);
-  for (Eigen::Index i = 0; i < 2; ++i) {
-    const std::vector<double> row = to_numbers(rows[static_cast<std::size_t>(i)], path, 2, {});
-    out.row(i) << row[0], row[1];
+  const auto size = static_cast<Eigen::Index>(rows.size());
+  if (size == 0 || size % 2 != 0)
+    throw core::Error(path + ": " + std::to_string(size) + " rows; give " + expected_matrix);
+  Eigen::MatrixXd out(size, size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const std::vector<double> row = to_numbers(rows[static_cast<std::size_t>(i)], path, rows.size(), {});
+    out.row(i) = Eigen::VectorXd::Map(row.data(), size);
   }
   return out;
 }
 
-Eigen::Matrix2d read_matrix(const TableReader& table, const std::string& key) {
+Eigen::MatrixXd read_matrix(const TableReader& table, const std::string& key) {
   return to_matrix(table.required(key, expected_matrix), table.path(key));
+}
+
+/// Of several tubes; a matrix of one is that of each by itself.
+Eigen::MatrixXd of_tubes(const Eigen::MatrixXd& matrix, Eigen::Index tubes, const std::string& path) {
+  if (matrix.rows() != 2 && matrix.rows() != 2 * tubes)
+    throw core::Error(path + ": " + std::to_string(matrix.rows()) + " rows, another matrix of the law has " +
+                      std::to_string(2 * tubes) + "; give as many, or two for each tube by itself");
+  return matrix.rows() == 2 ? flow::for_each_tube(matrix, tubes) : matrix;
 }
 
 flow::FluidelasticLaw read_rational(const TableReader& table) {
@@ -40,23 +49,31 @@ flow::FluidelasticLaw read_rational(const TableReader& table) {
   law.damping = read_matrix(table, "damping");
   if (table.has("lags") != table.has("lag_forces"))
     table.fail_table("lags and lag_forces belong together; give both, or neither");
-  if (!table.has("lags"))
-    return law;
-  const std::vector<double> rates =
-      to_numbers(*table.find("lags"), table.path("lags"), 0, {Range::above_zero});
-  const Array& forces = to_array(*table.find("lag_forces"), table.path("lag_forces"),
-                                 "an array with " + expected_matrix + " for each lag");
-  if (forces.size() != rates.size())
-    table.fail_at("lag_forces", "one for each of the " + std::to_string(rates.size()) + " lags is expected");
+  std::vector<double> rates;
+  std::vector<Eigen::MatrixXd> lag_forces;
+  if (table.has("lags")) {
+    rates = to_numbers(*table.find("lags"), table.path("lags"), 0, {Range::above_zero});
+    for (const Value& force : to_array(*table.find("lag_forces"), table.path("lag_forces"),
+                                       "an array with " + expected_matrix + " for each lag"))
+      lag_forces.push_back(to_matrix(force, table.path("lag_forces")));
+    if (lag_forces.size() != rates.size())
+      table.fail_at("lag_forces",
+                    "one for each of the " + std::to_string(rates.size()) + " lags is expected");
+  }
+  Eigen::Index tubes = std::max(law.stiffness.rows(), law.damping.rows()) / 2;
+  for (const Eigen::MatrixXd& force : lag_forces)
+    tubes = std::max(tubes, force.rows() / 2);
+  law.stiffness = of_tubes(law.stiffness, tubes, table.path("stiffness"));
+  law.damping = of_tubes(law.damping, tubes, table.path("damping"));
   for (std::size_t i = 0; i < rates.size(); ++i)
     law.lags.push_back(
-        {rates[i], to_matrix(forces[i], table.path("lag_forces")).cast<std::complex<double>>()});
+        {rates[i], of_tubes(lag_forces[i], tubes, table.path("lag_forces")).cast<std::complex<double>>()});
   return law;
 }
 
 flow::FluidelasticLaw read_quasi(const TableReader& table, Kind kind) {
   const double drag = table.number("drag", {Range::at_least_zero}), lift = table.number_or("lift", 0.0, {});
-  const Eigen::Matrix2d gradients = read_matrix(table, "gradients");
+  const Eigen::MatrixXd gradients = read_matrix(table, "gradients");
   if (kind == Kind::quasi_steady)
     return flow::quasi_steady_law(drag, lift, gradients,
                                   table.number_or("delay", 1.0, {Range::at_least_zero}));

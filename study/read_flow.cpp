@@ -165,6 +165,18 @@ std::vector<FlowSupport> read_supports(const TableReader& table) {
   return out;
 }
 
+/// A law of several tubes has as many flows.
+void check_tubes_of_laws(const TableReader& root, const std::vector<Flow>& flows) {
+  for (const Flow& flow : flows) {
+    const auto named = std::count_if(flows.begin(), flows.end(),
+                                     [&](const Flow& other) { return other.law_name == flow.law_name; });
+    if (flow.law && flow.law->tubes() > 1 && named != flow.law->tubes())
+      root.fail_at("flow", "law \"" + flow.law_name + "\" is of " + std::to_string(flow.law->tubes()) +
+                               " tubes and has " + std::to_string(named) +
+                               " [[flow]]; give one for each tube, in the order of the rows");
+  }
+}
+
 } // namespace
 
 std::vector<Flow> read_flows(const TableReader& root, const std::filesystem::path& folder) {
@@ -197,12 +209,14 @@ std::vector<Flow> read_flows(const TableReader& root, const std::filesystem::pat
       if (found == laws.end())
         table.fail_at("law", "no [flow_laws." + *name + "]; give one, or name another");
       out.law = found->law;
+      out.law_name = *name;
     }
     for (const Flow& before : all)
       if (before.name == out.name)
         table.fail_table("a second flow called \"" + out.name + "\"; give each a name of its own");
     all.push_back(std::move(out));
   }
+  check_tubes_of_laws(root, all);
   return all;
 }
 

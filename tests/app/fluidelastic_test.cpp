@@ -3,6 +3,7 @@
 #include "mesh_text.hpp"
 #include "program.hpp"
 #include "study_text.hpp"
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -209,6 +210,103 @@ TEST(Fluidelastic, WarnsOfAmplitudesThatALinearLawDoesNotHold) {
   EXPECT_EQ(warnings(0.01).find("the fluidelastic law is linear"), std::string::npos);
   EXPECT_TRUE(says(warnings(2.0), "node \\\"middle\\\" moves by "));
   EXPECT_TRUE(says(warnings(2.0), "the fluidelastic law is linear, good to some 0.1 of it"));
+}
+
+/// Two pinned tubes side by side that move along lift alone. @param laws  [flow_laws.one] and [flow_laws.other]
+std::string two_tubes(const std::string& laws, const std::string& of_first, const std::string& of_second,
+                      const std::string& more) {
+  std::string text = steel_pipe("mesh.msh", metal) + "[modes]\ncount = 4\ndamping = 0.01\n" + laws;
+  for (const auto& [group, law] : {std::pair("tube", of_first), std::pair("other", of_second)}) {
+    text += fmt::format("[[beams]]\ngroup = \"{0}\"\nmaterial = \"steel\"\nsection = \"tube\"\n"
+                        "[[restraints]]\ngroup = \"{0}\"\nfixed = [\"ux\", \"uy\", \"rx\", \"rz\"]\n"
+                        "[[restraints]]\ngroup = \"{0}_begin\"\nfixed = [\"uz\"]\n"
+                        "[[restraints]]\ngroup = \"{0}_end\"\nfixed = [\"uz\"]\n"
+                        "[[flow]]\ngroup = \"{0}\"\nfrom = \"{0}_begin\"\nlaw = \"{1}\"\n",
+                        group, law) +
+            zone(0.0, 1.0, 4.0, 300.0, inside_of_light());
+  }
+  return text + more;
+}
+Outcome outcome_of_two(const Workshop& folder, const std::string& study, const std::string& command) {
+  MeshText text = together(straight_line("tube", {0, 0, 0}, {1, 0, 0}, 40),
+                           straight_line("other", {0, 0.03, 0}, {1, 0.03, 0}, 25));
+  text.points.emplace_back("middle", 20);
+  text.points.emplace_back("of_other", 41 + 12);
+  folder.write("mesh.msh", text.text());
+  folder.write("study.toml", study);
+  Outcome outcome = folder.fretwork(
+      {command, folder.path("study.toml").string(), "-o", folder.path("out").string(), "--force"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return outcome;
+}
+
+/// Neighbours that push each other by kappa = 8 pi/K^2: V_c/(f D) = K sqrt(m delta/(rho D^2)), of tubes in uniform flow too.
+TEST(FluidelasticStability, OfTwoTubesThatTheirLawCouples) {
+  constexpr double mass = 1.0993164814, frequency = 33.425241258, ratio = 0.01, density = 300.0, k = 3.0;
+  const double closed =
+      k * frequency * outer * std::sqrt(mass * 2.0 * pi * ratio / (density * outer * outer));
+  const std::string kappa = fmt::format("{:.17g}", 8.0 * pi / (k * k));
+  const Workshop folder;
+  const Outcome outcome = outcome_of_two(
+      folder,
+      two_tubes("[flow_laws.row]\nlaw = \"rational\"\ndamping = 0\nstiffness = [[0, 0, 0, 0], [0, 0, 0, " +
+                    kappa + "], [0, 0, 0, 0], [0, -" + kappa + ", 0, 0]]\n",
+                "row", "row", assessment("modes = 2\n")),
+      "stability");
+  const json found = json::parse(bytes_of(folder.path("out") / "summary.json"))["stability"];
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_FALSE(found[1].contains("law")) << "the diagram is of both tubes, with the first";
+  const json law = found[0]["law"];
+  // frequencies of 40 and 25 elements differ by 1e-6
+  EXPECT_TRUE(close_to(law["critical_velocity_m_s"], closed, 1e-6));
+  EXPECT_EQ(law["tubes"], json::parse(R"(["tube", "other"])"));
+  ASSERT_EQ(law["modes"].size(), 4u);
+  EXPECT_EQ(law["modes"][2]["tube"], "other");
+  EXPECT_EQ(law["modes"][2]["mode"], 1);
+  EXPECT_TRUE(says(outcome.out, "fluidelastic law of 2 tubes, factors 0 to 2 of 4 m/s"));
+  EXPECT_TRUE(says(outcome.out, "other:2"));
+}
+
+/// Two tubes, the first of which is moved: standard deviations of both.
+std::array<double, 2> motion_of_two(const std::string& laws, const std::string& of_first,
+                                    const std::string& of_second, const std::string& scheme) {
+  const Workshop folder;
+  (void)outcome_of_two(folder,
+                       two_tubes(laws, of_first, of_second,
+                                 "[[initial]]\ngroup = \"tube\"\nvelocity = [0, 0, 0.01]\n"
+                                 "[output]\nnodes = [\"middle\", \"of_other\"]\n"
+                                 "[transient]\nduration = 0.5\nstep = 2e-4\n" +
+                                     scheme),
+                       "run");
+  const json nodes = json::parse(bytes_of(folder.path("out") / "summary.json"))["nodes"];
+  return {nodes[0]["displacement"]["z"]["std"], nodes[1]["displacement"]["z"]["std"]};
+}
+
+TEST(Fluidelastic, TubesThatALawDoesNotCoupleMoveAsWithLawsOfTheirOwn) {
+  constexpr double round_off = 1e-9;
+  const std::string of_each = "[flow_laws.row]\nlaw = \"rational\"\nstiffness = [[0, 0, 0, 0], [0, -4, 0, "
+                              "0], [0, 0, 0, 0], [0, 0, 0, "
+                              "-4]]\ndamping = -0.4\nlags = [0.4]\nlag_forces = [4]\n";
+  const auto [first, second] = motion_of_two(s1, "s1", "s1", "");
+  const auto [coupled, still] = motion_of_two(of_each, "row", "row", "");
+  EXPECT_GT(first, 1e-5);
+  EXPECT_TRUE(close_to(coupled, first, round_off));
+  EXPECT_EQ(second, 0.0);
+  EXPECT_EQ(still, 0.0);
+}
+
+/// The tube at rest is moved by its neighbour, as the reference scheme has it.
+TEST(Fluidelastic, TubesThatALawCouplesMoveEachOther) {
+  constexpr double of_outputs = 1e-4; // the reference integrates the mean square over its own steps
+  const std::string row = "[flow_laws.row]\nlaw = \"rational\"\nstiffness = [[0, 0, 0, 0], [0, -4, 0, 2], "
+                          "[0, 0, 0, 0], [0, 1, 0, "
+                          "-4]]\ndamping = -0.4\nlags = [0.4]\n"
+                          "lag_forces = [[[0, 0, 0, 0], [0, 4, 0, 1], [0, 0, 0, 0], [0, 0, 0, 4]]]\n";
+  const auto [first, second] = motion_of_two(row, "row", "row", "");
+  const auto [of_first, of_second] = motion_of_two(row, "row", "row", "scheme = \"runge_kutta_54\"\n");
+  EXPECT_GT(second, 0.1 * first);
+  EXPECT_TRUE(close_to(first, of_first, of_outputs));
+  EXPECT_TRUE(close_to(second, of_second, of_outputs));
 }
 
 TEST(FluidelasticStability, OfMoreUnknownsThanCanBeFollowedIsRefused) {

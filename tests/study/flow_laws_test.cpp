@@ -50,6 +50,29 @@ TEST(FlowLawKeys, QuasiUnsteadyForcesAreTheSteadyOnesWithMemory) {
   EXPECT_EQ(law.lags[0].force(1, 1).real(), 1.25 * 15.5);
 }
 
+const std::string of_two =
+    "law = \"rational\"\nstiffness = [[0, 0, 0, 0], [0, -4, 0, 3], [0, 0, 0, 0], [0, -3, 0, -4]]\n"
+    "damping = -0.4\nlags = [0.4]\nlag_forces = [[[1, 2], [3, 4]]]\n";
+const std::string second = "[[flow]]\ngroup = \"other\"\nfrom = \"foot\"\nlaw = \"bundle\"\n"
+                           "[[flow.zones]]\nname = \"water\"\ndensity = 740\nviscosity = 1.23e-7\n";
+
+TEST(FlowLawKeys, SmallMatricesOfALawOfSeveralTubesAreThoseOfEach) {
+  const flow::FluidelasticLaw law = law_of(study_with(of_two) + second);
+  ASSERT_EQ(law.tubes(), 2);
+  EXPECT_EQ(law.stiffness(1, 3), 3.0);
+  EXPECT_EQ(law.stiffness(3, 1), -3.0);
+  EXPECT_EQ(law.damping, Eigen::MatrixXd(Eigen::Vector4d(0.0, -0.4, 0.0, -0.4).asDiagonal()));
+  EXPECT_EQ(law.lags.at(0).force.real(),
+            Eigen::Matrix4d({{1, 2, 0, 0}, {3, 4, 0, 0}, {0, 0, 1, 2}, {0, 0, 3, 4}}));
+  const flow::FluidelasticLaw quasi =
+      law_of(study_with("law = \"quasi_steady\"\ndrag = 0.2\nlift = 0.1\n"
+                        "gradients = [[0, 0, 0, 0], [0, 1, 0, 2], [0, 0, 0, 0], [0, 3, 0, 4]]\n") +
+             second);
+  EXPECT_EQ(quasi.stiffness(3, 1), 3.0);
+  EXPECT_EQ(quasi.damping.bottomRightCorner(2, 2), Eigen::Matrix2d({{-0.4, 0.1}, {-0.2, -0.2}}));
+  EXPECT_TRUE(quasi.damping.topRightCorner(2, 2).isZero(0.0));
+}
+
 TEST(FlowLawKeys, StabilityDiagramsHaveFactorsPointsAndModes) {
   const Study study = read_text(study_with(rational) +
                                 "[[stability]]\n[[stability]]\nfactors = [0.5, 3]\npoints = 51\nmodes = 4\n"
@@ -115,6 +138,15 @@ TEST(FlowLawMessages, NameTheKeyAndTheCure) {
       {study_with("law = \"table\"\ntable = [[1, 1]]\n"), at + "table"},
       {study_with("law = \"table\"\nfit = 4\ntable = [[1, 1, 1]]\n"), "at most 3 lags are fitted"},
       {study_with("law = \"connors\"\nconstant = 0\n"), at + "constant = 0"},
+      {study_with(of_two),
+       "law \"bundle\" is of 2 tubes and has 1 [[flow]]; give one for each tube, in the order of the rows"},
+      {study_with("law = \"rational\"\ndamping = 0\nstiffness = [[1, 2, 3], [4, 5, 6], [7, 8, 9]]\n"),
+       at + "stiffness: 3 rows; give a number"},
+      {study_with(of_two + "range = [1, 2]\n")
+           .replace(study_with(of_two + "range = [1, 2]\n").find("damping = -0.4"), 14,
+                    "damping = [[1,0,0,0,0,0],[0,1,0,0,0,0],[0,0,1,0,0,0],[0,0,0,1,0,0],[0,0,0,0,1,0],[0,0,"
+                    "0,0,0,1]]"),
+       at + "stiffness: 4 rows, another matrix of the law has 6; give as many, or two for each tube"},
       {study_with(rational, "array"), "law = \"bundle\""}};
   for (const auto& [text, expected] : cases) {
     const std::string message = message_of(text);

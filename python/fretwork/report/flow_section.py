@@ -48,10 +48,18 @@ def _mode_rows(assessment, case):
     ][:MOST_MODE_ROWS]
 
 
+def _mode_of_law(law, number):
+    """A mode of the diagram; of several tubes with its tube."""
+    if number is None:
+        return "lag"
+    mode = law["modes"][number - 1]
+    return html.escape(f'{mode["tube"]}:{mode["mode"]}') if len(law["tubes"]) > 1 else f"{number}"
+
+
 def _crossing_rows(law):
     return [
         [short(c["factor"]), short(c["velocity_m_s"]), short(c["frequency_hz"]), short(c["reduced_velocity"], 3),
-         "lag" if c["mode"] is None else f'{c["mode"]}', c["becomes"] + (" (divergence)" if c["frequency_hz"] == 0 else "")
+         _mode_of_law(law, c["mode"]), c["becomes"] + (" (divergence)" if c["frequency_hz"] == 0 else "")
          + (", outside the law’s range" if c["outside_range"] else "")]
         for c in law["crossings"]
     ]
@@ -65,7 +73,8 @@ def _law(law):
     last = law["factors"][-1]
     found = (f'critical velocity {short(law["critical_velocity_m_s"])} m/s, factor {short(critical)}' if critical is not None
              else f"stable up to {short(last)} times the velocity")
-    note = (f'<p class="soft">Fluidelastic law: {found}. A line a mode, over the factor of {short(law["velocity_m_s"])} m/s; grey: the velocities given, '
+    of = f' of {len(law["tubes"])} tubes' if len(law["tubes"]) > 1 else ""
+    note = (f'<p class="soft">Fluidelastic law{of}: {found}. A line a mode, over the factor of {short(law["velocity_m_s"])} m/s; grey: the velocities given, '
             "orange marks below: Connors’ critical factors of the modes, dots: zero damping.</p>")
     pictures = figure(flow_view.law_damping(law)) + figure(flow_view.law_frequencies(law))
     heads = ["factor", "velocity [m/s]", "frequency [Hz]", "V/(f D)", "mode", "becomes"]
