@@ -83,33 +83,56 @@ TEST(Fluidelastic, VelocityUpToWhichAClosedStopHolds) {
   }
 }
 
+MeasuredForce a1(double x) { // a cell of flexible tubes
+  return {x, 88.73 - 637.1517 / x + 1398.2465 / (x * x) - 867.31 / std::pow(x, 3),
+          -0.225 + 2.417 / x - 0.458 / (x * x)};
+}
+MeasuredForce a3(double x) { // one flexible tube in a rigid bundle
+  return {x, -0.0796 + 7.95 / x - 21.49 / (x * x),
+          2.06 - 20.68 / x + 54.45 / (x * x) - 14.8 / std::pow(x, 3) - 53.6 / std::pow(x, 4)};
+}
+
+/// The root at v (m/s) of a tube whose coefficients are those at its own frequency under flow.
+std::complex<double> frozen_root(const Sampling& tube, MeasuredForce (*measured)(double), double damping,
+                                 double v) {
+  std::complex<double> root = 0.0;
+  double frequency = tube.frequency(0);
+  for (int i = 0; i < 60; ++i) {
+    const MeasuredForce force = measured(v / (frequency * diameter));
+    FluidelasticLaw law;
+    law.stiffness(1, 1) = force.stiffness;
+    law.damping(1, 1) = force.damping;
+    root = upper(roots(tube, law, damping, v));
+    frequency = std::abs(root) / (2.0 * std::numbers::pi);
+  }
+  return root;
+}
+
 /// Measured coefficients of a cell of tubes (A1), frozen at the frequency under flow; frequency and damping published with Code_Aster's test
 /// SDLL117A.
 TEST(Fluidelastic, FrozenCoefficientsOfAPinnedTube) {
-  constexpr double v = 1.5, dry = 33.384181674, damping = 0.03; // m/s, Hz
   Sampling tube = pinned(1, 0.0, 1.0);
-  tube.frequency(0) = dry;
+  tube.frequency(0) = 33.384181674; // Hz, dry
   for (Station& station : tube.stations)
     station.flow.density = 1000.0;
-  double frequency = dry, ratio = 0.0;
+  const std::complex<double> root = frozen_root(tube, a1, 0.03, 1.5);
+  EXPECT_NEAR(std::abs(root) / (2.0 * std::numbers::pi), 32.28970218, 1e-8 * 32.0);
+  EXPECT_NEAR(-root.real() / std::abs(root), 8.9435177660e-3, digits * 9e-3);
+}
+
+TEST(Fluidelastic, CriticalVelocityOfFrozenCoefficients) {
+  const Sampling one = metre(c1, 1.0);
+  double low = 2.5, high = 4.0;
   for (int i = 0; i < 60; ++i) {
-    const double x = v / (frequency * diameter);
-    FluidelasticLaw law;
-    law.stiffness(1, 1) = 88.73 - 637.1517 / x + 1398.2465 / (x * x) - 867.31 / (x * x * x);
-    law.damping(1, 1) = -0.225 + 2.417 / x - 0.458 / (x * x);
-    const std::complex<double> root = upper(roots(tube, law, damping, v));
-    frequency = std::abs(root) / (2.0 * std::numbers::pi);
-    ratio = -root.real() / std::abs(root);
+    const double middle = 0.5 * (low + high);
+    (frozen_root(one, a3, c1.damping, middle).real() < 0.0 ? low : high) = middle;
   }
-  EXPECT_NEAR(frequency, 32.28970218, 1e-8 * 32.0);
-  EXPECT_NEAR(ratio, 8.9435177660e-3, digits * 9e-3);
+  EXPECT_NEAR(low, 3.4488399331, digits * 3.4);
+  EXPECT_NEAR(frozen_root(one, a3, c1.damping, low).imag() / (2.0 * std::numbers::pi), 28.5033004825,
+              1e-8 * 28.0);
 }
 
 TEST(Fluidelastic, TablesBecomeLags) {
-  const auto a3 = [](double x) { // one flexible tube in a rigid bundle
-    return MeasuredForce{x, -0.0796 + 7.95 / x - 21.49 / (x * x),
-                         2.06 - 20.68 / x + 54.45 / (x * x) - 14.8 / std::pow(x, 3) - 53.6 / std::pow(x, 4)};
-  };
   std::vector<MeasuredForce> rows;
   for (int i = 0; i <= 20; ++i)
     rows.push_back(a3(2.16 + (6.57 - 2.16) * i / 20.0));
@@ -136,6 +159,58 @@ TEST(Fluidelastic, DelayByPade) {
   gradients(1, 1) = -4.0;
   EXPECT_NEAR(critical(metre(s1, 1.0), quasi_steady_law(0.4, 0.0, gradients, 1.0), s1.damping, 0.5, 1.5),
               0.9979707974, digits);
+}
+
+/// The same delay as a rational law of Pade's approximant (n, n): e^-x = D(-x)/D(x) = 1 - sum alpha x/(x + d).
+FluidelasticLaw delay_by_pade(int n) {
+  constexpr double lift = -4.0, drag = 0.4;
+  Eigen::VectorXd d = Eigen::VectorXd::Ones(n + 1); // coefficients of D; that of x^n is 1
+  for (int k = n; k-- > 0;)
+    d(k) = d(k + 1) * (2 * n - k) * (k + 1) / (n - k);
+  Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(n, n);
+  companion.diagonal(-1).setOnes();
+  companion.col(n - 1) = -d.head(n);
+  FluidelasticLaw law;
+  law.stiffness(1, 1) = lift;
+  law.damping(1, 1) = -drag;
+  for (const std::complex<double>& x : core::general_eigenvalues(companion)) {
+    if (x.imag() < 0.0)
+      continue; // of a pair one stands for both
+    std::complex<double> numerator = 0.0, slope = 0.0;
+    for (int k = n; k >= 0; --k) {
+      numerator = -x * numerator + d(k);
+      slope = k > 0 ? x * slope + static_cast<double>(k) * d(k) : slope;
+    }
+    const std::complex<double> share = numerator / (slope * -x);
+    Eigen::MatrixXcd force = Eigen::MatrixXcd::Zero(2, 2);
+    force(1, 1) = -(x.imag() > 0.0 ? 2.0 : 1.0) * share * lift;
+    law.lags.push_back({-x, force});
+  }
+  return law;
+}
+
+TEST(Fluidelastic, DelayByPadeOfOtherOrders) {
+  const std::pair<int, double> cases[] = {
+      {1, 0.8441987395}, {2, 0.9809269250}, {3, 0.9979707974}, {4, 0.9987254949}};
+  for (const auto& [order, velocity] : cases)
+    EXPECT_NEAR(critical(metre(s1, 1.0), delay_by_pade(order), s1.damping, 0.5, 1.5), velocity, digits)
+        << order;
+  // on the imaginary axis the exact delay has a closed form: m (w0^2 - w^2) = q K cos kr, 2 m zeta w0 w = q (C kr - K sin kr)
+  const double w0 = 2.0 * std::numbers::pi * s1.frequency;
+  const auto growth = [&](double v) {
+    const double q = 0.5 * s1.density * v * v;
+    double w = w0;
+    for (int i = 0; i < 200; ++i)
+      w = std::sqrt(w0 * w0 + 4.0 * q * std::cos(w * diameter / v) / s1.mass);
+    const double kr = w * diameter / v;
+    return q * (-0.4 * kr + 4.0 * std::sin(kr)) - 2.0 * s1.mass * s1.damping * w0 * w;
+  };
+  double low = 0.9, high = 1.1;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (growth(middle) < 0.0 ? low : high) = middle;
+  }
+  EXPECT_NEAR(low, 0.9987435667, digits);
 }
 
 /// Drag and lift that push each other: V_c/(f D) = K sqrt(m delta/(rho D^2)) exactly.

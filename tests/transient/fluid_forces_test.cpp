@@ -162,17 +162,53 @@ double amplitude(const History& h) {
 }
 
 /// Rising passages of u through 0 over the second half of a run, per second.
-double dominant_frequency(const History& h) {
+double dominant_frequency(const Eigen::VectorXd& time, const Eigen::RowVectorXd& u) {
   double first = -1.0, last = -1.0;
   int periods = -1;
-  for (Eigen::Index i = h.time.size() / 2; i + 1 < h.time.size(); ++i)
-    if (h.q(1, i) < 0.0 && h.q(1, i + 1) >= 0.0) {
-      const double share = h.q(1, i) / (h.q(1, i) - h.q(1, i + 1));
-      last = h.time(i) + share * (h.time(i + 1) - h.time(i));
+  for (Eigen::Index i = time.size() / 2; i + 1 < time.size(); ++i)
+    if (u(i) < 0.0 && u(i + 1) >= 0.0) {
+      const double share = u(i) / (u(i) - u(i + 1));
+      last = time(i) + share * (time(i + 1) - time(i));
       if (periods++ < 0)
         first = last;
     }
   return periods / (last - first);
+}
+double dominant_frequency(const History& h) { return dominant_frequency(h.time, h.q.row(1)); }
+
+/// Mean speed where |u| passes the gap outwards, over the second half of a run.
+double speed_at_touch(const Eigen::RowVectorXd& u, const Eigen::RowVectorXd& v, double gap) {
+  double sum = 0.0;
+  int touches = 0;
+  for (Eigen::Index i = u.size() / 2; i + 1 < u.size(); ++i) {
+    const double before = std::abs(u(i)) - gap, after = std::abs(u(i + 1)) - gap;
+    if (before < 0.0 && after >= 0.0) {
+      sum += std::abs(v(i) + before / (before - after) * (v(i + 1) - v(i)));
+      ++touches;
+    }
+  }
+  return sum / touches;
+}
+
+/// Work of the forces of law S1 in a period, J: the lag from the outputs, linear between them, over whole periods of the second half of a run.
+double fluid_work_of_a_period(const History& h) {
+  const core::MotionForces f = law_s1(velocity);
+  const Eigen::RowVectorXd u = h.q.row(1), v = h.v.row(1);
+  double lag = 0.0, work = 0.0, power = 0.0, from_last_start = 0.0;
+  int periods = -1;
+  for (Eigen::Index i = 1; i < h.time.size(); ++i) {
+    const double dt = h.time(i) - h.time(i - 1), x = f.rates(0, 0) * dt;
+    lag = lag * std::exp(x) + f.output(0, 1) * (u(i) - u(i - 1)) * std::expm1(x) / x;
+    const double now = v(i) * (f.stiffness(1, 1) * u(i) + f.damping(1, 1) * v(i) + f.input(1, 0) * lag);
+    from_last_start += 0.5 * (power + now) * dt;
+    power = now;
+    if (i >= h.time.size() / 2 && u(i - 1) < 0.0 && u(i) >= 0.0) {
+      if (periods++ >= 0)
+        work += from_last_start;
+      from_last_start = 0.0;
+    }
+  }
+  return work / periods;
 }
 
 constexpr double every = 1e-4; // s, outputs
@@ -199,6 +235,11 @@ TEST(FluidForces, RungeKuttaHasTheSameLimitCycle) {
   const History h = simulate(scene, adaptive(1e-9), every);
   EXPECT_NEAR(amplitude(h) / 7.114824902e-4, 1.0, 1e-4); // outputs miss the peak by at most (w every)^2/8
   EXPECT_NEAR(dominant_frequency(h) / 29.83458335, 1.0, 1e-5);
+  // outputs are 1/300 of a period apart: both are linear between them
+  EXPECT_NEAR(speed_at_touch(h.q.row(1), h.v.row(1), 5e-4 * std::sqrt(mass)) / std::sqrt(mass) /
+                  0.09552107695,
+              1.0, 1e-4);
+  EXPECT_NEAR(fluid_work_of_a_period(h) / 6.2601893315e-4, 1.0, 1e-3);
 }
 
 /// Nothing but the gap has a length.
@@ -240,7 +281,7 @@ TEST(FluidForces, FrictionHoldsNegativeDampingBelowAnAmplitude) {
   const double rigid = friction / k * (r + 1.0) / (r - 1.0);
   EXPECT_NEAR(rigid, 2.2397621172e-3, 1e-12);
   constexpr double elastic = 2.2392462080e-3; // with K_T = 1e6 N/m in series
-  const auto grows = [&](double amplitude) {
+  const auto grows = [&](double amplitude, double tangential) {
     Scene scene = mass_point(mass, k * Vec3(1.0, 1.0, 1.0), 3.0);
     scene.system.damping.setZero();
     start(scene, mass, Vec3(0.0, amplitude, 0.0), Vec3::Zero());
@@ -248,14 +289,16 @@ TEST(FluidForces, FrictionHoldsNegativeDampingBelowAnAmplitude) {
     f.stiffness.setZero();
     f.input.setZero();
     f.damping(1, 1) = -2.0 * zeta * omega;
-    scene.contacts = {pressed(mass, 1.0, {1e6, 0.0, friction, friction})};
+    scene.contacts = {pressed(mass, 1.0, {tangential, 0.0, friction, friction})};
     const History h = simulate(scene, splitting(1e-4), 1e-3);
     const Eigen::Index period = 50, n = h.time.size();
     return h.q.row(1).tail(period).maxCoeff() > h.q.row(1).segment(n - 20 * period, period).maxCoeff();
   };
   constexpr double near = 3e-3; // of the amplitude
-  EXPECT_TRUE(grows(elastic * (1.0 + near)));
-  EXPECT_FALSE(grows(elastic * (1.0 - near)));
+  for (const auto& [tangential, threshold] : {std::pair(1e6, elastic), std::pair(1e9, rigid)}) {
+    EXPECT_TRUE(grows(threshold * (1.0 + near), tangential)) << tangential;
+    EXPECT_FALSE(grows(threshold * (1.0 - near), tangential)) << tangential;
+  }
 }
 
 /// A pinned tube of 1 m in six modes along lift, flow over its middle half, stops at its middle.
@@ -294,7 +337,10 @@ TEST(FluidForces, StopsLimitATubeInManyModes) {
     stop.b(1, k) = std::sqrt(2.0 / line) * std::sin(0.5 * std::numbers::pi * static_cast<double>(k + 1));
   scene.contacts = {stop};
   const History h = simulate(scene, splitting(2e-5), every);
-  const Eigen::RowVectorXd u = stop.b.row(1) * h.q.rightCols(h.q.cols() / 2);
+  const Eigen::RowVectorXd all = stop.b.row(1) * h.q, v_all = stop.b.row(1) * h.v,
+                           u = all.tail(all.size() / 2);
+  EXPECT_NEAR(dominant_frequency(h.time, all) / 42.24715150, 1.0, 1e-4);
+  EXPECT_NEAR(speed_at_touch(all, v_all, gap) / 0.117968157, 1.0, 1e-3);
   EXPECT_NEAR(u.cwiseAbs().maxCoeff() / 6.733738331e-4, 1.0, 1e-3);
   EXPECT_NEAR(std::sqrt(u.squaredNorm() / static_cast<double>(u.size())) / 4.6423795e-4, 1.0, 1e-3);
 }
