@@ -99,7 +99,6 @@ CaseStructure make_structure(const Inputs& nominal, const study::Study& study, b
   std::vector<std::string> notes;
   out.mesh = same_mesh ? mesh_stage(MPI_COMM_SELF, nominal) : own_mesh(study);
   out.dry = out.model = build_model(study, out.mesh);
-  refuse_fluidelastic_sweep(study);
   out.flows = place_flows(study, out.mesh, out.model, notes);
   out.turbulence = turbulent_loads(study, out.model, out.flows, notes);
   out.structures = moving_structures(out.model);
@@ -116,10 +115,11 @@ CaseContacts make_contacts(const study::Study& study, const CaseStructure& struc
   out.bases = modes;
   if (study.modes.static_modes == study::StaticModes::added)
     add_static_modes(MPI_COMM_SELF, study, structure.model, structure.structures, placed, out.bases);
+  const TubesInFlow tubes{study, structure.mesh, structure.model, structure.flows};
   if (study.modes.flow_damping)
-    (void)damp_by_flow({study, structure.mesh, structure.model, structure.flows}, DampingSet::transient,
-                       placed, inactive, out.bases);
-  out.joined = joined_structures(out.bases, placed, {});
+    (void)damp_by_flow(tubes, DampingSet::transient, placed, inactive, out.bases);
+  out.fluid = fluidelastic_forces(tubes, out.bases);
+  out.joined = joined_structures(out.bases, placed, out.fluid);
   out.flexibilities = contact_flexibilities(MPI_COMM_SELF, study, structure.model, structure.structures,
                                             out.bases, out.joined, placed);
   std::vector<std::string> notes;

@@ -27,6 +27,7 @@ struct CaseStructure {
 
 struct CaseContacts {
   std::vector<modal::Basis> bases; ///< damped
+  std::vector<FluidForces> fluid;
   std::vector<std::vector<std::size_t>> joined;
   std::vector<ContactFlexibility> flexibilities;
   std::vector<std::vector<std::optional<transient::SampledLoad>>> turbulence; ///< by scenes and entries

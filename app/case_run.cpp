@@ -168,6 +168,7 @@ struct CaseRunner::Case {
 
 std::vector<BuiltScene> CaseRunner::scenes_of(const Case& c) {
   Fields fields = c.structure->fields;
+  fields.motion = c.contacts->fluid;
   for (std::size_t e = 0; e < c.study.loads.size(); ++e)
     fields.loads[e].function = c.study.loads[e].function;
   const WatchedWear watched = watched_wear(c.study, c.worn, c.placed.size());

@@ -370,13 +370,4 @@ void add_motion_forces(const std::vector<FluidForces>& by_laws, const std::vecto
   }
 }
 
-void refuse_fluidelastic_sweep(const study::Study& study) {
-  for (const study::Flow& flow : study.flows)
-    if (flow.law)
-      throw core::Error(
-          fmt::format("{}: law is not taken by sweeps; run the cases one by one with --set, or leave "
-                      "law out",
-                      name_of(flow)));
-}
-
 } // namespace fretwork::app

@@ -37,7 +37,4 @@ void judge_amplitudes(const TubesInFlow& tubes, const std::vector<PlacedContact>
 void add_motion_forces(const std::vector<FluidForces>& by_laws, const std::vector<std::size_t>& structures,
                        const std::vector<modal::Basis>& bases, transient::System& system);
 
-/// @throws core::Error where a flow has a law
-void refuse_fluidelastic_sweep(const study::Study& study);
-
 } // namespace fretwork::app

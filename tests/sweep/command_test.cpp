@@ -153,6 +153,31 @@ values = [1.0, 1.05]
   EXPECT_EQ(different.size(), 8u); // what was kept in memory was that of the case
 }
 
+TEST_F(Sweeps, FluidelasticForcesAreThoseOfARun) {
+  const std::string text = sweep_of("u_bend_flow", R"(
+design = "grid"
+keep = "worst 2"
+[[sweep.variables]]
+name = "velocity"
+key = "flow.tube.zones.top.velocity"
+values = [5.0, 9.0]
+)");
+  ASSERT_EQ(sweep(text, "out", short_tube).status, 0);
+  const auto rows = table_of(folder.path("out"));
+  ASSERT_EQ(rows.size(), 2u);
+  std::set<std::string> different;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Results run = read_results(folder.path("out/runs/case_" + std::to_string(i)));
+    for (const auto& contact : run.summary["contacts"])
+      EXPECT_EQ(contact["work_rate"].get<double>(),
+                std::stod(rows[i].at(contact["name"].get<std::string>() + ".work_rate")))
+          << i;
+    EXPECT_NE(run.summary["energy"]["fluid_J"].get<double>(), 0.0);
+    different.insert(rows[i].at("total.work_rate"));
+  }
+  EXPECT_EQ(different.size(), 2u);
+}
+
 TEST_F(Sweeps, TurbulenceOfASeedAndAMissingSupportAreThoseOfARun) {
   const std::string text = sweep_of("tube_study", R"(
 design = "grid"
