@@ -276,11 +276,14 @@ void judge_fluidelastic(const TubesInFlow& tubes, const std::vector<modal::Basis
     for (; found->size() > most_searched && most > 1; some = true)
       found.emplace(of, bases, most /= 2);
     const Roots& roots = *found;
-    const std::complex<double> root = roots.worst(1.0);
-    const double frequency = std::abs(root) / (2.0 * std::numbers::pi),
-                 reduced = velocity / (frequency * diameter);
+    results::LawAtWork now{{}, roots.size(), roots.worst(1.0), velocity, diameter, roots.critical_factor()};
+    for (const std::size_t f : of.flows)
+      now.tubes.push_back(tubes.study.flows[tubes.flows[f].entry].name);
+    const std::complex<double> root = now.root;
+    const double frequency = flow::frequency_of(root), reduced = now.reduced_velocity();
+    const std::optional<double> critical = now.critical_factor;
+    out.laws.push_back(std::move(now));
     const bool unstable = root.real() > 0.0;
-    const std::optional<double> critical = roots.critical_factor();
     std::string crossing =
         critical ? fmt::format("critical velocity {:.5g} m/s, factor {:.5g}", *critical * velocity, *critical)
                  : fmt::format("stable up to {:g} times the velocity", largest_factor);
@@ -290,7 +293,7 @@ void judge_fluidelastic(const TubesInFlow& tubes, const std::vector<modal::Basis
     const bool diverges = unstable && root.imag() == 0.0;
     const std::string motion = diverges ? fmt::format("divergence, which grows by {:.4g} 1/s", root.real())
                                         : fmt::format("{:.5g} Hz with damping {:.4g} at V/(f D) = {:.4g}",
-                                                      frequency, -root.real() / std::abs(root), reduced);
+                                                      frequency, flow::damping_of(root), reduced);
     std::string text =
         fmt::format("{}: fluidelastic law, without contacts: {}; {}", of.name, motion, crossing);
     if (unstable)

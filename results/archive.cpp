@@ -3,6 +3,7 @@
 #include "results/basis_file.hpp"
 #include "results/beam_file.hpp"
 #include "results/impact_columns.hpp"
+#include "results/stability_file.hpp"
 #include "results/text_file.hpp"
 #include "results/wear_file.hpp"
 #include "results/write.hpp"
@@ -334,6 +335,7 @@ void write_archive(const fs::path& file, const RunResults& results) {
     write_groups(root.open("mesh"), results.groups);
     write_beams(root.open("mesh"), results);
     write_modes(root, results.bases);
+    write_stability(root, results.stability);
     write_contacts(root, results);
     if (!results.transients.empty())
       write_transient(root, results);

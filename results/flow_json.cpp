@@ -84,10 +84,11 @@ Json law(const LawStability& of) {
   const flow::StabilityDiagram& diagram = of.diagram;
   Json modes = Json::array(), crossings = Json::array();
   for (Eigen::Index mode = 0; mode < diagram.roots.cols(); ++mode) {
-    Json frequency = Json::array(), damping = Json::array();
+    Json frequency = Json::array(), damping = Json::array(), growth = Json::array();
     for (const std::complex<double>& root : diagram.roots.col(mode)) {
       frequency.push_back(number(flow::frequency_of(root)));
       damping.push_back(number(flow::damping_of(root)));
+      growth.push_back(number(root.real()));
     }
     const auto critical = of.critical_factor(mode);
     const LawStability::Mode& its = of.modes[static_cast<std::size_t>(mode)];
@@ -95,6 +96,7 @@ Json law(const LawStability& of) {
                      {"mode", its.number + 1},
                      {"frequencies_hz", frequency},
                      {"dampings", damping},
+                     {"growths_per_s", growth},
                      {"critical_factor", critical ? number(*critical) : Json(nullptr)},
                      {"connors_factor", number(its.connors)}});
   }
@@ -110,6 +112,19 @@ Json law(const LawStability& of) {
           {"crossings", crossings},
           {"factors", diagram.factors},
           {"modes", modes}};
+}
+
+Json law_at_work(const LawAtWork& of) {
+  const auto& critical = of.critical_factor;
+  return {{"tubes", of.tubes},
+          {"unknowns", of.unknowns},
+          {"growth_per_s", number(of.root.real())},
+          {"frequency_hz", number(flow::frequency_of(of.root))},
+          {"damping", number(flow::damping_of(of.root))},
+          {"velocity_m_s", number(of.velocity)},
+          {"reduced_velocity", number(of.root.imag() == 0.0 ? no_value : of.reduced_velocity())},
+          {"critical_factor", critical ? number(*critical) : Json(nullptr)},
+          {"critical_velocity_m_s", critical ? number(*critical * of.velocity) : Json(nullptr)}};
 }
 
 Json stability(const StabilityAssessment& assessment) {
@@ -165,6 +180,11 @@ void add_flow(Json& out, const RunResults& results) {
     out["stability"] = Json::array();
     for (const StabilityAssessment& assessment : results.stability)
       out["stability"].push_back(stability(assessment));
+  }
+  if (!results.laws.empty()) {
+    out["fluidelastic"] = Json::array();
+    for (const LawAtWork& one : results.laws)
+      out["fluidelastic"].push_back(law_at_work(one));
   }
   if (!results.responses.empty()) {
     out["response"] = Json::array();

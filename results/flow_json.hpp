@@ -7,7 +7,7 @@
 
 namespace fretwork::results {
 
-/// Adds `flow`, `stability` and `response` where there are any.
+/// Adds `flow`, `stability`, `fluidelastic` and `response` where there are any.
 void add_flow(nlohmann::ordered_json& out, const RunResults& results);
 
 } // namespace fretwork::results

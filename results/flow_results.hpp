@@ -6,6 +6,8 @@
 #include "flow/stability.hpp"
 #include "flow/stability_diagram.hpp"
 #include <array>
+#include <complex>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -62,6 +64,18 @@ struct LawStability {
   [[nodiscard]] bool outside(double reduced) const {
     return range && (reduced < (*range)[0] || reduced > (*range)[1]);
   }
+};
+
+/// What a fluidelastic law makes of the modes without contacts at the velocities given.
+struct LawAtWork {
+  std::vector<std::string> tubes;        ///< names, in the order of the law
+  std::int64_t unknowns = 0;             ///< of modes and lags
+  std::complex<double> root;             ///< 1/s, that grows fastest, or else the vibration of least damping
+  double velocity = 0.0, diameter = 0.0; ///< m/s, m, where V is largest
+  std::optional<double> critical_factor = {}; ///< of all velocities; none: stable up to the last one searched
+
+  /// V/(f D); not finite of divergence.
+  [[nodiscard]] double reduced_velocity() const { return velocity / (flow::frequency_of(root) * diameter); }
 };
 
 /// Stability of one tube on modes pinned at supports.

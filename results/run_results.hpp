@@ -105,6 +105,7 @@ struct RunResults {
   std::vector<modal::Basis> bases;                        ///< by structure
   std::vector<TubeDamping> flow_damping;                  ///< by tubes, where modes.damping = "flow"
   std::vector<StabilityAssessment> stability;             ///< by assessments and tubes
+  std::vector<LawAtWork> laws;                            ///< of fluidelastic forces, of a run
   std::vector<LinearResponse> responses;                  ///< to turbulence, on pinned modes
   std::optional<ModesLimit> modes_limit;                  ///< where the study asks for an accuracy of them
   std::vector<ContactFacts> contacts;

@@ -173,6 +173,22 @@ class Results:
                                     coords={"frequency": ("mode", group["frequency"][...]), "node": group["nodes"][...],
                                             "component": ["dx", "dy", "dz", "rx", "ry", "rz"]})
 
+    def stability_diagrams(self) -> list[xarray.Dataset]:
+        """Frequency, damping and growth (factor, mode) under fluidelastic laws, one for each assessment and law of the run."""
+        import xarray
+
+        found = []
+        with self._file() as file:
+            diagrams = file.get("stability", {})
+            for key in sorted(diagrams, key=int):
+                group = diagrams[key]
+                curves = {name: (("factor", "mode"), group[name][...], {"units": _text(group[name].attrs["units"])}) for name in ("frequency", "damping", "growth")}
+                tubes = _text(group.attrs["tubes"]).split(", ")
+                coords = {"factor": group["factor"][...], "tube": ("mode", [tubes[i] for i in group["tube"][...]]), "number": ("mode", group["mode"][...])}
+                found.append(xarray.Dataset(curves, coords=coords, attrs={"assessment": _text(group.attrs["assessment"]), "velocity": float(group.attrs["velocity"]),
+                                                                                      "diameter": float(group.attrs["diameter"])}))
+        return found
+
     @cached_property
     def mesh(self) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
         """Nodes (m) and the two nodes of each beam."""

@@ -195,6 +195,25 @@ e = [1.5, 2.0]
         with self.assertRaisesRegex(fretwork.RunFailed, "modes.cuont"):
             fretwork.run(folder / "study.toml", {"modes.cuont": 3}, output=folder / "out", progress=False)
 
+    def test_gives_stability_diagrams_of_laws(self):
+        folder = self.folder.parent / "u_bend_flow"
+        short = {"transient.duration": 0.01, "output.statistics_from": 0.0}
+        results = fretwork.run(Path(EXAMPLES) / "u_bend_flow/study.toml", short, output=folder, progress=False)
+        found = results.stability_diagrams()
+        laws = [a for a in results.summary["stability"] if "law" in a]
+        self.assertEqual([d.attrs["assessment"] for d in found], [a["name"] for a in laws])
+        first, law = found[0], laws[0]["law"]
+        self.assertEqual(first["frequency"].dims, ("factor", "mode"))
+        self.assertEqual(first["growth"].attrs["units"], "1/s")
+        self.assertEqual(set(first["tube"].values), {"tube"})
+        for mode, curves in enumerate(law["modes"]):
+            np.testing.assert_allclose(first["damping"][:, mode], curves["dampings"], rtol=1e-12)
+            np.testing.assert_allclose(first["growth"][:, mode], curves["growths_per_s"], rtol=1e-12)
+        now = results.summary["fluidelastic"][0]
+        self.assertEqual(now["tubes"], ["tube"])
+        self.assertGreater(now["growth_per_s"], 0.0)  # unstable in the clearances
+        self.assertEqual(self.results.stability_diagrams(), [])
+
     def test_runs_on_two_ranks(self):
         folder = self.folder.parent / "two_tubes"
         shutil.copytree(Path(EXAMPLES) / "two_tubes", folder, ignore=shutil.ignore_patterns("*.results"))

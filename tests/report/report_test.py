@@ -306,10 +306,14 @@ class Report(unittest.TestCase):
         def add(summary):
             summary["stability"] = [{"name": "loose", "tube": "T1", "pinned": ["tsp1"], "elastic": True, "sticking": False, "modes": modes, "cases": [case],
                                      "law": law}]
+            summary["fluidelastic"] = [{"tubes": ["T1"], "unknowns": 6, "growth_per_s": 0.75, "frequency_hz": 10.4, "damping": -0.012, "velocity_m_s": 4.0,
+                                        "reduced_velocity": 20.2, "critical_factor": 0.875, "critical_velocity_m_s": 3.5}]
 
         self.change(add)
         text = self.report()
         section = text[text.index("<h2>Fluid-elastic stability</h2>"):]
+        for word in ("Fluidelastic laws of the run", "T1</td>", ">0.75<", ">20.2<", ">3.5<", ">0.875<"):
+            self.assertIn(word, section)
         for word in ("Pinned at: tsp1, elastic.", "critical velocity 5 m/s, factor 1.25", ">25<", "unstable (divergence)", ">lag<"):
             self.assertIn(word, section)
         for title in ("damping of the modes over the velocity", "frequency of the modes over the velocity"):
@@ -317,6 +321,14 @@ class Report(unittest.TestCase):
             picture = picture[:picture.index("</svg>")]
             self.assertEqual(picture.count("<polyline class=\"mode"), 2)
             self.assertEqual(picture.count("<circle"), 2)
+        law["tubes"] = ["T1", "T2"]
+        for mode, tube in zip(law["modes"], law["tubes"]):
+            mode.update(tube=tube, mode=1)
+        law["crossings"][1]["mode"] = 2
+        self.change(add)
+        section = self.report()
+        self.assertIn("Fluidelastic law of 2 tubes", section)
+        self.assertIn(">T2:1<", section)
         law["crossings"], law["critical_factor"], law["critical_velocity_m_s"] = [], None, None
         self.change(add)
         self.assertIn("stable up to 2 times the velocity", self.report())

@@ -53,7 +53,7 @@ def _mode_of_law(law, number):
     if number is None:
         return "lag"
     mode = law["modes"][number - 1]
-    return html.escape(f'{mode["tube"]}:{mode["mode"]}') if len(law["tubes"]) > 1 else f"{number}"
+    return html.escape(f'{mode["tube"]}:{mode["mode"]}') if len(law.get("tubes", [])) > 1 else f"{number}"
 
 
 def _crossing_rows(law):
@@ -73,7 +73,8 @@ def _law(law):
     last = law["factors"][-1]
     found = (f'critical velocity {short(law["critical_velocity_m_s"])} m/s, factor {short(critical)}' if critical is not None
              else f"stable up to {short(last)} times the velocity")
-    of = f' of {len(law["tubes"])} tubes' if len(law["tubes"]) > 1 else ""
+    tubes = law.get("tubes", [])
+    of = f" of {len(tubes)} tubes" if len(tubes) > 1 else ""
     note = (f'<p class="soft">Fluidelastic law{of}: {found}. A line a mode, over the factor of {short(law["velocity_m_s"])} m/s; grey: the velocities given, '
             "orange marks below: Connors’ critical factors of the modes, dots: zero damping.</p>")
     pictures = figure(flow_view.law_damping(law)) + figure(flow_view.law_frequencies(law))
@@ -98,9 +99,19 @@ def _assessment(assessment):
     return title + bad + facts + _law(assessment.get("law")) + connors
 
 
+def _laws_at_work(laws):
+    """What fluidelastic laws make of the modes of a run without its contacts."""
+    heads = ["tubes", "growth [1/s]", "frequency [Hz]", "damping [%]", "V/(f D)", "critical velocity [m/s]", "critical factor"]
+    rows = [[html.escape(", ".join(law["tubes"])), short(law["growth_per_s"], 4), short(law["frequency_hz"], 4), short(100 * law["damping"], 3),
+             short(law["reduced_velocity"], 3), short(law["critical_velocity_m_s"], 4), short(law["critical_factor"], 4)] for law in laws]
+    note = '<p class="soft">The root that grows fastest, or the vibration of least damping, of the modes of the run without contacts at the velocities given.</p>'
+    return "<h3>Fluidelastic laws of the run</h3>" + note + table(heads, rows)
+
+
 def stability(run):
-    assessments = run.summary.get("stability", [])
-    return section("Fluid-elastic stability", *map(_assessment, assessments)) if assessments else ""
+    laws, assessments = run.summary.get("fluidelastic", []), run.summary.get("stability", [])
+    parts = ([_laws_at_work(laws)] if laws else []) + [*map(_assessment, assessments)]
+    return section("Fluid-elastic stability", *parts) if parts else ""
 
 
 def _micro(value):
