@@ -155,14 +155,16 @@ public:
     const TubesOfLaw of = lowest(all, bases, most);
     forces_ = forces_of(of, largest_factor);
     k_.resize(of.modes);
-    c_.resize(of.modes);
+    c_ = Eigen::MatrixXd::Zero(of.modes, of.modes);
     for (std::size_t i = 0; i < of.structures.size(); ++i) {
       const modal::Basis& basis = bases[of.structures[i]];
       const Index n = std::min(most, basis.true_modes());
       k_.segment(of.first[i], n) = basis.omega.head(n).cwiseAbs2();
-      c_.segment(of.first[i], n) = 2.0 * basis.damping.head(n).cwiseProduct(basis.omega.head(n));
+      auto c = c_.block(of.first[i], of.first[i], n, n);
       if (basis.damping_matrix.size() > 0)
-        c_.segment(of.first[i], n) = basis.damping_matrix.diagonal().head(n);
+        c = basis.damping_matrix.topLeftCorner(n, n);
+      else
+        c.diagonal() = 2.0 * basis.damping.head(n).cwiseProduct(basis.omega.head(n));
     }
   }
 
@@ -170,8 +172,10 @@ public:
 
   /// The root that grows fastest at `factor` times the velocity, 1/s; where none grows, the vibration of least damping ratio.
   [[nodiscard]] std::complex<double> worst(double factor) const {
-    const Eigen::VectorXcd roots =
-        core::general_eigenvalues(flow::state_matrix(k_, c_, flow::scaled(forces_, factor)));
+    const Index n = k_.size();
+    Eigen::MatrixXd a = flow::state_matrix(k_, Eigen::VectorXd::Zero(n), flow::scaled(forces_, factor));
+    a.block(n, n, n, n) -= c_;
+    const Eigen::VectorXcd roots = core::general_eigenvalues(a);
     const double none = round_off * roots.cwiseAbs().maxCoeff();
     std::complex<double> growing = none, vibrating = 0.0;
     double ratio = std::numeric_limits<double>::infinity();
@@ -205,7 +209,8 @@ public:
 
 private:
   core::MotionForces forces_;
-  Eigen::VectorXd k_, c_;
+  Eigen::VectorXd k_;
+  Eigen::MatrixXd c_;
 };
 
 } // namespace

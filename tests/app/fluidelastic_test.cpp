@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Stability diagrams of flows with a law by the program: reference values of pinned tubes, supports that are closed, ranges of laws.
+#include "core/general_eigenvalues.hpp"
 #include "mesh_text.hpp"
 #include "program.hpp"
 #include "study_text.hpp"
@@ -210,6 +211,45 @@ TEST(Fluidelastic, WarnsOfAmplitudesThatALinearLawDoesNotHold) {
   EXPECT_EQ(warnings(0.01).find("the fluidelastic law is linear"), std::string::npos);
   EXPECT_TRUE(says(warnings(2.0), "node \\\"middle\\\" moves by "));
   EXPECT_TRUE(says(warnings(2.0), "the fluidelastic law is linear, good to some 0.1 of it"));
+}
+
+/// A damper couples modes: growth by the whole of its matrix, from closed forms of the shapes.
+TEST(Fluidelastic, GrowthBesideADamperIsThatOfCoupledModes) {
+  constexpr Eigen::Index n = 12;
+  constexpr double v = 12.0, damper = 40.0, at = 0.4, mass = 1.0993164814; // m/s, N s/m, m, kg/m
+  constexpr double of_meshes = 1e-5; // of shapes and frequencies of all modes
+  const Workshop folder;
+  MeshText text = straight_line("tube", {0, 0, 0}, {1, 0, 0}, 40);
+  text.points.emplace_back("damped", 16);
+  folder.write("mesh.msh", text.text());
+  folder.write("study.toml", tube(s1 + flow("s1", zone(0.0, 1.0, v, 300.0, inside_of_light())) +
+                                  "[[springs]]\ngroup = \"damped\"\ndamping = [0, 0, 40, 0, 0, 0]\n"
+                                  "[transient]\nduration = 0.001\n"));
+  const Outcome outcome =
+      folder.fretwork({"run", folder.path("study.toml").string(), "-o", folder.path("out").string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json summary = json::parse(bytes_of(folder.path("out") / "summary.json"));
+  const double pressure = 150.0 * v * v / mass, rate = v / outer;
+  Eigen::VectorXd w(n), shape(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    w(k) = 2.0 * pi * 33.425241258 * static_cast<double>((k + 1) * (k + 1));
+    shape(k) = std::sqrt(2.0 / mass) * std::sin(static_cast<double>(k + 1) * pi * at);
+  }
+  const auto growth = [&](const Eigen::MatrixXd& of_damper) {
+    const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(n, n);
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(3 * n, 3 * n);
+    a.block(0, n, n, n) = a.block(2 * n, n, n, n) = one;
+    a.block(n, 0, n, n) = -4.0 * pressure * one - Eigen::MatrixXd(w.cwiseAbs2().asDiagonal());
+    a.block(n, n, n, n) = -0.4 * pressure / rate * one - 0.02 * Eigen::MatrixXd(w.asDiagonal()) - of_damper;
+    a.block(n, 2 * n, n, n) = 4.0 * pressure * one;
+    a.block(2 * n, 2 * n, n, n) = -0.4 * rate * one;
+    return core::general_eigenvalues(a).real().maxCoeff();
+  };
+  const Eigen::MatrixXd whole = damper * shape * shape.transpose();
+  const double expected = growth(whole), by_diagonal = growth(whole.diagonal().asDiagonal());
+  EXPECT_GT(expected, 0.0);
+  EXPECT_GT(std::abs(by_diagonal / expected - 1.0), 50.0 * of_meshes);
+  EXPECT_TRUE(close_to(summary["fluidelastic"][0]["growth_per_s"], expected, of_meshes));
 }
 
 /// Two pinned tubes side by side that move along lift alone. @param laws  [flow_laws.one] and [flow_laws.other]
