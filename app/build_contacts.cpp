@@ -238,6 +238,7 @@ void place(const study::Study& study, const fem::Model& model, PlacedContact con
     placed.rest = placed.frame.rotation() * (points[k].place - centre);
     placed.rest.y() -= entry.offset[0];
     placed.rest.z() -= entry.offset[1];
+    placed.order = out.size();
     out.push_back(std::move(placed));
   }
 }
@@ -253,6 +254,17 @@ void check_names(const study::Study& study, const std::vector<PlacedContact>& co
                                     study.contacts[seen->second].name, study.contacts[placed.entry].name,
                                     placed.name));
   }
+}
+
+void deactivate(const study::Study& study, std::vector<PlacedContact>& contacts) {
+  for (PlacedContact& placed : contacts) {
+    const study::Contact& entry = study.contacts[placed.entry];
+    placed.active = entry.active && std::find(entry.inactive.begin(), entry.inactive.end(), placed.support) ==
+                                        entry.inactive.end();
+  }
+  for (const study::Contact& entry : study.contacts)
+    for (const std::string& name : entry.inactive)
+      check_index("inactive", name, study, contacts);
 }
 
 } // namespace
@@ -274,7 +286,8 @@ std::vector<PlacedContact> place_contacts(const study::Study& study, const mesh:
     std::string radius_said; // of the first node of the group that it is true of
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       PlacedContact placed{};
-      placed.name = nodes.size() == 1 ? contact.name : fmt::format("{}[{}]", contact.name, i);
+      placed.name = placed.support =
+          nodes.size() == 1 ? contact.name : fmt::format("{}[{}]", contact.name, i);
       placed.entry = e;
       placed.node = nodes[i];
       placed.other = others[i];
@@ -286,13 +299,34 @@ std::vector<PlacedContact> place_contacts(const study::Study& study, const mesh:
       warnings.push_back(radius_said);
   }
   check_names(study, out);
+  deactivate(study, out);
   return out;
 }
 
-std::vector<PlacedContact> take_inactive(const study::Study& study, std::vector<PlacedContact>& placed) {
-  const auto first = std::stable_partition(placed.begin(), placed.end(), [&](const PlacedContact& contact) {
-    return study.contacts[contact.entry].active;
-  });
+void check_index(const std::string& what, const std::string& name, const study::Study& study,
+                 const std::vector<PlacedContact>& placed) {
+  const study::Contact* group = nullptr;
+  for (const study::Contact& contact : study.contacts)
+    if (name.starts_with(contact.name + "[") && (!group || contact.name.size() > group->name.size()))
+      group = &contact;
+  std::vector<std::string> supports;
+  for (const PlacedContact& contact : placed) {
+    if (contact.support == name || study.contacts[contact.entry].name == name)
+      return;
+    if (&study.contacts[contact.entry] == group &&
+        contact.support != (supports.empty() ? "" : supports.back()))
+      supports.push_back(contact.support);
+  }
+  throw core::Error(fmt::format("{} \"{}\": contact \"{}\" has {} support{}, {}", what, name, group->name,
+                                supports.size(), supports.size() == 1 ? "" : "s",
+                                supports.size() == 1
+                                    ? fmt::format("called \"{}\"", supports.front())
+                                    : fmt::format("\"{}\" to \"{}\"", supports.front(), supports.back())));
+}
+
+std::vector<PlacedContact> take_inactive(std::vector<PlacedContact>& placed) {
+  const auto first = std::stable_partition(placed.begin(), placed.end(),
+                                           [](const PlacedContact& contact) { return contact.active; });
   std::vector<PlacedContact> inactive(first, placed.end());
   placed.erase(first, placed.end());
   return inactive;
@@ -302,7 +336,7 @@ std::vector<PlacedContact> together(std::vector<PlacedContact> placed,
                                     const std::vector<PlacedContact>& inactive) {
   placed.insert(placed.end(), inactive.begin(), inactive.end());
   std::stable_sort(placed.begin(), placed.end(),
-                   [](const PlacedContact& a, const PlacedContact& b) { return a.entry < b.entry; });
+                   [](const PlacedContact& a, const PlacedContact& b) { return a.order < b.order; });
   return placed;
 }
 

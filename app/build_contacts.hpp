@@ -11,9 +11,12 @@
 namespace fretwork::app {
 
 struct PlacedContact {
-  std::string name;  ///< the study's, with [i] where the group has several nodes and @k along a thickness
-  std::size_t entry; ///< in study.contacts
-  core::Index node;  ///< of the group
+  std::string name;      ///< the study's, with [i] where the group has several nodes and @k along a thickness
+  std::string support;   ///< the same without @k
+  std::size_t entry;     ///< in study.contacts
+  std::size_t order = 0; ///< among all contacts of the study
+  bool active = true;
+  core::Index node;                   ///< of the group
   core::Index other = -1;             ///< the second node, -1: the obstacle is fixed
   std::vector<fem::NodeShare> motion; ///< of the point that meets the obstacle: the node, or one near it
   core::Vec3 place;                   ///< m, of that point
@@ -33,9 +36,13 @@ struct PlacedContact {
                                                         const fem::Model& model,
                                                         std::vector<std::string>& warnings);
 
+/// @throws core::Error where a name is neither that of a contact nor of one of its supports, and says how many it has
+/// @param name  of a contact, or such a name with an index behind it
+void check_index(const std::string& what, const std::string& name, const study::Study& study,
+                 const std::vector<PlacedContact>& placed);
+
 /// Takes the contacts that the study has made inactive out of all.
-[[nodiscard]] std::vector<PlacedContact> take_inactive(const study::Study& study,
-                                                       std::vector<PlacedContact>& placed);
+[[nodiscard]] std::vector<PlacedContact> take_inactive(std::vector<PlacedContact>& placed);
 
 /// Both, in the order of the study.
 [[nodiscard]] std::vector<PlacedContact> together(std::vector<PlacedContact> placed,

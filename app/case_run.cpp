@@ -205,7 +205,7 @@ CaseRunner::Case CaseRunner::prepare(const std::vector<std::string>& overrides) 
   std::vector<std::string> warnings;
   out.structure = bases_.structure(out.study, overrides);
   out.placed = place_contacts(out.study, out.structure->mesh, out.structure->dry, warnings);
-  out.inactive = take_inactive(out.study, out.placed);
+  out.inactive = take_inactive(out.placed);
   out.contacts = bases_.contacts(out.study, overrides, *out.structure, out.placed, out.inactive);
   out.worn = worn_places(out.study, out.structure->model, out.placed);
   out.other_runs = read_other_runs(out.study, {}); // a case has no folder that a state could name

@@ -152,7 +152,7 @@ private:
       model_ = build_model(study, mesh_);
       out_.warnings = unit_slips(study, mesh_, model_);
       placed_ = place_contacts(study, mesh_, model_, out_.warnings);
-      inactive_ = take_inactive(study, placed_);
+      inactive_ = take_inactive(placed_);
       flows_ = place_flows(study, mesh_, model_, out_.notes);
       turbulence_ = turbulent_loads(study, model_, flows_, out_.notes);
       nodes_ = observed_nodes(study, mesh_);

@@ -158,7 +158,7 @@ results::LinearResponse response_of(const TubesInFlow& tubes, const study::Respo
   damp(tubes, asked, modes);
   results::LinearResponse out;
   out.name = asked.name;
-  out.pinned = names_of(tubes.study, modes.pins.held);
+  out.pinned = names_of(tubes.study, modes.pins);
   out.duration = asked.duration;
   out.probability = asked.probability;
   for (const modal::Basis& basis : modes.bases) {

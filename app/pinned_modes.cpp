@@ -10,7 +10,8 @@
 namespace fretwork::app {
 namespace {
 
-bool is_pinned(const PinsAsked& asked, const study::Contact& contact) {
+/// @param entry  the name of the contact, whose group of supports it is one of
+bool is_pinned(const PinsAsked& asked, const std::string& entry, const PlacedContact& contact) {
   switch (asked.pinned) {
   case study::Pinned::contacts:
     return contact.active;
@@ -19,7 +20,8 @@ bool is_pinned(const PinsAsked& asked, const study::Contact& contact) {
   case study::Pinned::named:
     break;
   }
-  return std::find(asked.contacts.begin(), asked.contacts.end(), contact.name) != asked.contacts.end();
+  return std::any_of(asked.contacts.begin(), asked.contacts.end(),
+                     [&](const std::string& name) { return name == entry || name == contact.support; });
 }
 
 } // namespace
@@ -27,8 +29,10 @@ bool is_pinned(const PinsAsked& asked, const study::Contact& contact) {
 Pins pins_of(const PinsAsked& asked, const study::Study& study, const fem::Model& model,
              const std::vector<PlacedContact>& contacts, std::vector<std::string>& notes) {
   Pins pins;
+  for (const std::string& name : asked.contacts)
+    check_index(asked.what + ": pinned", name, study, contacts);
   for (const PlacedContact& contact : contacts) {
-    if (!is_pinned(asked, study.contacts[contact.entry])) {
+    if (!is_pinned(asked, study.contacts[contact.entry].name, contact)) {
       pins.left_out.push_back(contact);
       continue;
     }
@@ -45,12 +49,15 @@ Pins pins_of(const PinsAsked& asked, const study::Study& study, const fem::Model
   return pins;
 }
 
-std::vector<std::string> names_of(const study::Study& study, const std::vector<PlacedContact>& pins) {
+std::vector<std::string> names_of(const study::Study& study, const Pins& pins) {
   std::vector<std::string> names;
-  for (const PlacedContact& pin : pins)
-    if (const std::string& name = study.contacts[pin.entry].name;
-        std::find(names.begin(), names.end(), name) == names.end())
+  for (const PlacedContact& pin : pins.held) {
+    const bool in_part = std::any_of(pins.left_out.begin(), pins.left_out.end(),
+                                     [&](const PlacedContact& other) { return other.entry == pin.entry; });
+    const std::string& name = in_part ? pin.support : study.contacts[pin.entry].name;
+    if (std::find(names.begin(), names.end(), name) == names.end())
       names.push_back(name);
+  }
   return names;
 }
 

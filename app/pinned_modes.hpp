@@ -27,9 +27,8 @@ struct Pins {
 [[nodiscard]] Pins pins_of(const PinsAsked& asked, const study::Study& study, const fem::Model& model,
                            const std::vector<PlacedContact>& contacts, std::vector<std::string>& notes);
 
-/// Names of the `[[contacts]]`, each once.
-[[nodiscard]] std::vector<std::string> names_of(const study::Study& study,
-                                                const std::vector<PlacedContact>& pins);
+/// Names of the `[[contacts]]` that are held, each once; where some nodes of a group are left out those of the supports that are held.
+[[nodiscard]] std::vector<std::string> names_of(const study::Study& study, const Pins& pins);
 
 struct PinnedModes {
   Pins pins;

@@ -49,7 +49,7 @@ results::StabilityAssessment assess(const TubesInFlow& tubes, const PlacedFlow& 
   const flow::Sampling sampling = flow::sample(tube, placed.profile, modes.bases[structure]);
   results::StabilityAssessment out;
   out.name = assessment.name;
-  out.pinned = names_of(tubes.study, modes.pins.held);
+  out.pinned = names_of(tubes.study, modes.pins);
   out.elastic = assessment.elastic;
   out.sticking = assessment.sticking;
   out.sweep = assessment.sweep;

@@ -15,19 +15,13 @@ namespace {
 /// Local axes of the contacts of one support agree up to this, a small part of a sector (rad).
 constexpr double same_axes = 0.01;
 
-/// The contact without the number of its point along the thickness.
-std::string support_name(const study::Study& study, const PlacedContact& placed) {
-  return study.contacts[placed.entry].points > 1 ? placed.name.substr(0, placed.name.rfind('@'))
-                                                 : placed.name;
-}
-
 /// Contacts by support, in the order of the contacts.
 using Supports = std::vector<std::pair<std::string, std::vector<std::size_t>>>;
 
-Supports all_supports(const study::Study& study, const std::vector<PlacedContact>& placed) {
+Supports all_supports(const std::vector<PlacedContact>& placed) {
   Supports out;
   for (std::size_t c = 0; c < placed.size(); ++c) {
-    const std::string name = support_name(study, placed[c]);
+    const std::string& name = placed[c].support;
     if (out.empty() || out.back().first != name)
       out.emplace_back(name, std::vector<std::size_t>{});
     out.back().second.push_back(c);
@@ -38,7 +32,10 @@ Supports all_supports(const study::Study& study, const std::vector<PlacedContact
 /// Whether a pattern names a contact that does nothing, or points of it.
 bool fits_inactive(const study::Study& study, const std::string& pattern) {
   return std::any_of(study.contacts.begin(), study.contacts.end(), [&](const study::Contact& contact) {
-    return !contact.active && (core::fits(contact.name, pattern) || pattern.starts_with(contact.name + "["));
+    return (!contact.active &&
+            (core::fits(contact.name, pattern) || pattern.starts_with(contact.name + "["))) ||
+           std::any_of(contact.inactive.begin(), contact.inactive.end(),
+                       [&](const std::string& support) { return core::fits(support, pattern); });
   });
 }
 
@@ -167,7 +164,7 @@ WornPlace place_of(const study::Study& study, const fem::Model& model,
 
 std::vector<WornPlace> worn_places(const study::Study& study, const fem::Model& model,
                                    const std::vector<PlacedContact>& placed) {
-  const Supports supports = all_supports(study, placed);
+  const Supports supports = all_supports(placed);
   const std::vector<int> entry_of = entries_of(study, placed, supports);
   std::vector<WornPlace> out;
   for (std::size_t e = 0; e < study.wear.size(); ++e) {

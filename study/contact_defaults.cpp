@@ -33,7 +33,7 @@ void apply_contact_defaults(Value& root) {
     throw core::Error(found->second.where.text() +
                       ": contact_defaults: a table [contact_defaults] is expected, not " +
                       kind_of(found->second));
-  for (const char* own : {"name", "group", "other"})
+  for (const char* own : {"name", "group", "other", "inactive"})
     if (const auto at = defaults->find(own); at != defaults->end())
       throw core::Error(at->second.where.text() + ": contact_defaults." + own +
                         ": belongs to one contact; give it in its [[contacts]]");

@@ -8,6 +8,9 @@
 
 namespace fretwork::study {
 
+/// Whether a name is that of a contact, or of its support at one node of a group: `avb`, `avb[2]`. How many it has only the mesh knows.
+[[nodiscard]] bool names_contact(std::string_view name, const std::string& contact);
+
 /// obstacle and its sizes, other, distance_1, distance_2, side.
 void read_obstacle(const TableReader& table, Contact& contact);
 extern const std::vector<std::string> obstacle_keys;

@@ -3,6 +3,7 @@
 #include "study/readers.hpp"
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cctype>
 
 namespace fretwork::study {
 namespace {
@@ -11,7 +12,7 @@ constexpr std::int64_t most_along = 1000; ///< along a thickness: each is a cont
 
 Keys contact_keys() {
   Keys keys{{"name", "group", "axis", "y_axis", "angle", "origin", "offset", "thickness", "thickness_points",
-             "attached_to", "active", "series"}};
+             "attached_to", "active", "inactive", "series"}};
   for (const auto* more : {&obstacle_keys, &normal_law_keys, &friction_keys})
     keys.known.insert(keys.known.end(), more->begin(), more->end());
   return keys;
@@ -78,7 +79,35 @@ void read_carrier(const TableReader& table, const TableReader& root, Contact& co
     contact.carrier = carrier;
 }
 
+/// What of the contact does nothing: all of it, or the supports that it names.
+void read_active(const TableReader& table, Contact& contact) {
+  contact.active = table.optional_flag("active").value_or(true);
+  const Value* found = table.find("inactive");
+  if (!found)
+    return;
+  const std::string path = table.path("inactive"), first = contact.name + "[0]";
+  if (!contact.active)
+    table.fail_at("inactive", "with active = false no support of this contact is; keep one of the keys");
+  for (const Value& item : to_array(*found, path, "an array of names as of the results, \"" + first + "\"")) {
+    const std::string name = to_text(item, path);
+    if (name == contact.name || !names_contact(name, contact.name))
+      fail(item, path,
+           "no support of this contact; they are called \"" + first +
+               "\" ... in the order of its group; active = false is for all");
+    contact.inactive.push_back(name);
+  }
+}
+
 } // namespace
+
+bool names_contact(std::string_view name, const std::string& contact) {
+  if (!name.starts_with(contact))
+    return false;
+  name.remove_prefix(contact.size());
+  return name.empty() || (name.size() > 2 && name.front() == '[' && name.back() == ']' &&
+                          std::all_of(name.begin() + 1, name.end() - 1,
+                                      [](unsigned char c) { return std::isdigit(c) != 0; }));
+}
 
 std::vector<Contact> read_contacts(const TableReader& root) {
   std::vector<Contact> all;
@@ -94,7 +123,7 @@ std::vector<Contact> read_contacts(const TableReader& root) {
     read_normal_law(table, contact);
     read_friction(table, contact);
     read_carrier(table, root, contact);
-    contact.active = table.optional_flag("active").value_or(true);
+    read_active(table, contact);
     contact.series = table.optional_flag("series").value_or(true);
     if (table.has("attached_to") && contact.other && (contact.grounded || contact.carrier))
       table.fail_at("attached_to", "an obstacle between two nodes moves with them; leave attached_to out");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/names.hpp"
+#include "study/contact_readers.hpp"
 #include "study/readers.hpp"
 #include <algorithm>
 
@@ -35,7 +36,8 @@ void read_pinned(const TableReader& table, const std::vector<Contact>& contacts,
   const std::string path = table.path("pinned");
   for (const Value& item : to_array(*found, path, "an array of names of contacts")) {
     const std::string name = to_text(item, path);
-    if (std::find(names.begin(), names.end(), name) == names.end())
+    if (std::none_of(names.begin(), names.end(),
+                     [&](const std::string& contact) { return names_contact(name, contact); }))
       fail(item, path, "no contact is called so" + core::name_help(name, names));
     named.push_back(name);
   }

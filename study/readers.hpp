@@ -24,7 +24,7 @@ namespace fretwork::study {
 [[nodiscard]] std::vector<Flow> read_flows(const TableReader& root, const std::filesystem::path& folder);
 /// The contacts and flows of `study` must have been read.
 [[nodiscard]] std::vector<Stability> read_stabilities(const TableReader& root, const Study& study);
-/// `pinned`: "contacts", "none" or names of contacts. @param named  takes the names
+/// `pinned`: "contacts", "none" or names of contacts or of their supports (`avb[2]`). @param named  takes the names
 void read_pinned(const TableReader& table, const std::vector<Contact>& contacts, Pinned& pinned,
                  std::vector<std::string>& named);
 /// The flows of `study` must have been read.

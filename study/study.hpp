@@ -129,6 +129,7 @@ struct Contact {
   std::array<double, 2> offset{};
   bool series = true;                     ///< false: no time series of it is kept in the results
   bool active = true;                     ///< false: it does nothing, but may be named by [[stability]]
+  std::vector<std::string> inactive;      ///< of a group of nodes: `name[2]` ..., those that are not active
   bool grounded = false;                  ///< with base motion the obstacle stays in space
   std::optional<std::string> carrier;     ///< group of the support motions that carry the obstacle
   double thickness = 0.0;                 ///< m, of the support along the tube

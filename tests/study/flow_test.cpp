@@ -138,7 +138,8 @@ TEST(FlowKeys, DampingFollowsFromTheFlow) {
 }
 
 TEST(FlowMessages, NameTheKeyAndTheCure) {
-  const std::string at = "flow.tube.zones.water.";
+  const std::string at = "flow.tube.zones.water.",
+                    bar = "[[contacts]]\ngroup = \"p\"\ngap = 0.1\nnormal_stiffness = 1e6\n";
   const std::pair<std::string, std::string> cases[] = {
       {study_with(water + "velocty = 1\n"), at + "velocty = 1: unknown key; did you mean \"velocity\"?"},
       {study_with(water + "velocity = -1\n"),
@@ -195,6 +196,13 @@ TEST(FlowMessages, NameTheKeyAndTheCure) {
       {"[mesh]\nfile = \"a\"\n[[stability]]\n", "stability.0: there is no [[flow]] to be stable in"},
       {study_with(water) + "[[stability]]\npinned = [\"tsp\"]\n",
        "stability.0.pinned = \"tsp\": no contact is called so"},
+      {study_with(water) + bar + "[[stability]]\npinned = [\"p[x]\"]\n",
+       "stability.0.pinned = \"p[x]\": no contact is called so; existing: \"p\""},
+      {study_with(water) + bar + "inactive = [\"q[0]\"]\n",
+       "contacts.p.inactive = \"q[0]\": no support of this contact; they are called \"p[0]\" ..."},
+      {study_with(water) + bar + "inactive = [\"p\"]\n", "active = false is for all"},
+      {study_with(water) + bar + "inactive = [\"p[0]\"]\nactive = false\n",
+       "contacts.p.inactive = [\"p[0]\"]: with active = false"},
       {study_with(water) + "[[stability]]\npinned = \"all\"\n",
        "stability.0.pinned = \"all\": unknown; available"},
       {study_with(water) + "[[stability]]\nsweep = [-1]\n", "stability.0.sweep[0] = -1: a number >= 0"},
