@@ -183,7 +183,7 @@ std::vector<std::string> limit_notes(const std::string& what, const flow::Limits
       text += fmt::format(", zone \"{}\"", profile.zones()[static_cast<std::size_t>(worst.zone)].name);
     text += ": " + limit_text(worst.kind, worst.value, worst.bound);
     if (modes > 1)
-      text += fmt::format(" ({} modes, this one the farthest)", modes);
+      text += fmt::format(", the farthest of {} modes", modes);
     else if (modes == 1)
       text += fmt::format(" (mode {})", worst.mode + 1);
     out.push_back(std::move(text));

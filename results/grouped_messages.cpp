@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <string_view>
 
 namespace fretwork::results {
 namespace {
@@ -15,7 +16,7 @@ constexpr std::size_t least_alike = 3;
 struct Parts {
   std::string message;
   std::vector<std::string> words;  ///< one more than values
-  std::vector<std::string> values; ///< a name with its quotes, or a number
+  std::vector<std::string> values; ///< a name with its quotes, a number, or a range of numbers
 
   [[nodiscard]] bool alike(const Parts& other) const {
     const auto same_kind = [](const std::string& a, const std::string& b) {
@@ -37,16 +38,15 @@ std::size_t after_digits(const std::string& text, std::size_t at) {
   return at;
 }
 
-/// The end of the name or the number that begins at a place; the place itself where none does. A number that is part of a word (x_1, mm2) is
-/// none. No regular expression: those of the standard library need a stack as long as the name.
-std::size_t end_of_value(const std::string& text, std::size_t at) {
-  if (text[at] == '"') {
-    const std::size_t end = text.find('"', at + 1);
-    return end == std::string::npos ? at : end + 1;
-  }
-  if (!is_decimal(text[at]) || (at > 0 && is_of_word(text[at - 1])))
+constexpr std::string_view between = " to "; // of the ends of a range
+
+/// The end of the number that begins at a place; the place itself where none does. A number that is part of a word (x_1, mm2) is none, nor is
+/// a minus a sign within one (pressure-3).
+std::size_t end_of_number(const std::string& text, std::size_t at) {
+  const std::size_t first = at < text.size() && text[at] == '-' ? at + 1 : at;
+  if (first >= text.size() || !is_decimal(text[first]) || (at > 0 && is_of_word(text[at - 1])))
     return at;
-  std::size_t end = after_digits(text, at);
+  std::size_t end = after_digits(text, first);
   if (end + 1 < text.size() && text[end] == '.' && is_decimal(text[end + 1]))
     end = after_digits(text, end + 1);
   if (end < text.size() && text[end] == 'e') {
@@ -56,6 +56,20 @@ std::size_t end_of_value(const std::string& text, std::size_t at) {
       end = last;
   }
   return end < text.size() && is_of_word(text[end]) ? at : end;
+}
+
+/// The end of the name, number or range that begins at a place; the place itself where none does. No regular expression: those of the standard
+/// library need a stack as long as the name.
+std::size_t end_of_value(const std::string& text, std::size_t at) {
+  if (text[at] == '"') {
+    const std::size_t end = text.find('"', at + 1);
+    return end == std::string::npos ? at : end + 1;
+  }
+  const std::size_t end = end_of_number(text, at);
+  if (end == at || text.compare(end, between.size(), between) != 0)
+    return end;
+  const std::size_t second = end + between.size(), last = end_of_number(text, second);
+  return last > second ? last : end;
 }
 
 Parts parts_of(const std::string& message) {
@@ -87,11 +101,17 @@ std::string together(std::vector<std::string> values) {
     return different.size() <= most_in_group
                ? fmt::format("{}", fmt::join(different, ", "))
                : fmt::format("{} ... {} ({})", different.front(), different.back(), different.size());
-  const auto [least, most] =
-      std::minmax_element(different.begin(), different.end(), [](const auto& a, const auto& b) {
-        return std::strtod(a.c_str(), nullptr) < std::strtod(b.c_str(), nullptr);
-      });
-  return *least + " to " + *most;
+  std::vector<std::string> ends;
+  for (const std::string& value : different) {
+    const std::size_t split = value.find(between);
+    ends.push_back(value.substr(0, split));
+    if (split != std::string::npos)
+      ends.push_back(value.substr(split + between.size()));
+  }
+  const auto [least, most] = std::minmax_element(ends.begin(), ends.end(), [](const auto& a, const auto& b) {
+    return std::strtod(a.c_str(), nullptr) < std::strtod(b.c_str(), nullptr);
+  });
+  return fmt::format("{}{}{}", *least, between, *most);
 }
 
 std::string text_of(const std::vector<Parts>& group) {

@@ -8,7 +8,7 @@
 namespace fretwork::results {
 
 /// Messages that differ only in names ("...") and numbers become one, at the place of the first: names are listed (of more than three the
-/// first, the last and their number), numbers become a range. Equal messages are said once.
+/// first, the last and their number), numbers and ranges become a range. Equal messages are said once.
 ///     contact "a": stiffness 3 N/m  +  contact "b": stiffness 5 N/m  ->  contact "a", "b": stiffness 3 to 5 N/m
 [[nodiscard]] std::vector<std::string> grouped_messages(const std::vector<std::string>& messages);
 

@@ -42,6 +42,16 @@ TEST(GroupedMessages, MayHoldNamesOfAnyLength) {
   EXPECT_THAT(grouped_messages({"contact " + name + " opens"}), ElementsAre("contact " + name + " opens"));
 }
 
+TEST(GroupedMessages, JoinRangesToOne) {
+  EXPECT_THAT(grouped_messages({"damping 3 to 5 N s/m", "damping 4 N s/m", "damping 2.5 to 4.5 N s/m"}),
+              ElementsAre("damping 2.5 to 5 N s/m"));
+}
+
+TEST(GroupedMessages, KeepSigns) {
+  EXPECT_THAT(grouped_messages({"margin -0.3", "margin 0.2", "margin -1.5"}),
+              ElementsAre("margin -1.5 to 0.2"));
+}
+
 TEST(GroupedMessages, KeepNumbersWithinWords) {
   EXPECT_THAT(grouped_messages({"a 1e5x 2.5e-3 7 mm", "a 1e5x 2e-3 3 mm", "a 1e5x 4e-3 9 mm"}),
               ElementsAre("a 1e5x 2e-3 to 4e-3 3 to 9 mm"));
