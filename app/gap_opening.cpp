@@ -297,8 +297,8 @@ void open_gaps(const study::Study& study, const std::vector<WornPlace>& places,
     };
     try {
       next = run(opened, stage + 1);
-    } catch (const core::Interrupted&) {
-      throw;
+    } catch (const core::Interrupted& error) {
+      throw core::Interrupted(fmt::format("gap opening, stage {}: {}", stage + 1, error.what()));
     } catch (const core::ComputationError& error) { // it diverged, or found no static start
       stop("stage_failed", error);
       break;

@@ -343,6 +343,10 @@ Sweep read_sweep(const Document& document) {
   }
   out.confidence = probability(sweep, "confidence", out.confidence);
   out.limits = read_limits(sweep);
+  if (out.design == SweepDesign::grid && sweep.has("limits"))
+    sweep.fail_at("limits", "the cases of a grid have no probabilities, and all outputs of each are in "
+                            "table.csv; leave limits out, or "
+                            "take a design that draws");
   out.until = read_until(sweep, out);
   out.keep = read_keep(sweep);
   check_design(sweep, out);

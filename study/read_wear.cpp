@@ -164,6 +164,9 @@ void read_geometry(const TableReader& table, Wear& wear) {
                                 {"clearance", &wear.clearance}})
     *to = table.optional_number(key, {Range::above_zero, "m"});
   if (wear.geometry == WearGeometry::lands) {
+    (void)table.required("half_angle",
+                         "half of a land's angle at the middle of the hole, degrees; of a broached contact "
+                         "geometry = \"obstacle\" takes it from land_angle");
     wear.half_angle = degree * table.number("half_angle", {Range::above_zero, "degrees"});
     wear.lands = read_lands(table, 4);
   }

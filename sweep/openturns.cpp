@@ -21,7 +21,9 @@ fs::path find_helper() {
   for (const fs::path& folder : {here / "../share/fretwork/sweep", here / "../../share/fretwork/sweep"})
     if (const fs::path script = folder / "openturns_helper.py"; fs::exists(script))
       return script;
-  throw core::Error(fmt::format("the helper program openturns_helper.py is not at {}; install Fretwork whole",
+  throw core::Error(fmt::format("sweeps draw and evaluate by the helper program openturns_helper.py, which "
+                                "is not in {}; it belongs there beside "
+                                "the program: install the package fretwork, or use cmake --install",
                                 (here / "../share/fretwork/sweep").lexically_normal().string()));
 }
 

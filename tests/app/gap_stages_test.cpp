@@ -74,6 +74,15 @@ protected:
 
 } // namespace
 
+TEST_F(GapStages, NameTheOneThatWasInterrupted) {
+  try {
+    open([] { throw core::Interrupted("ended by SIGTERM at t = 1 s"); });
+    FAIL() << "an interruption ends the run";
+  } catch (const core::Interrupted& error) {
+    EXPECT_STREQ(error.what(), "gap opening, stage 3: ended by SIGTERM at t = 1 s");
+  }
+}
+
 TEST_F(GapStages, StandWhereALaterOneDiverges) {
   open([] { throw core::ComputationError("the transient diverged"); });
   expect_two_stages("stage_failed", "stage 3: the transient diverged");

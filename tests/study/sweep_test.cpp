@@ -87,5 +87,17 @@ TEST(Sweep, AStudyWithAWrongSweepIsRefused) {
   EXPECT_THROW((void)read(folder.write("s.toml", full_study + "\n[sweep]\ndraws = 0\n")), core::Error);
 }
 
+TEST(Sweep, LimitsOfAGridAreRefused) {
+  const std::string values = "[[sweep.variables]]\nkey = \"contacts.tsp1.gap\"\nvalues = [1e-4, 2e-4]\n";
+  EXPECT_NO_THROW((void)sweep_of(values, "design = \"grid\"\n"));
+  try {
+    (void)sweep_of(values, "design = \"grid\"\nlimits = [{ output = \"worst.work_rate\", above = 1 }]\n");
+    FAIL() << "they have no effect";
+  } catch (const core::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("the cases of a grid have no probabilities"), std::string::npos)
+        << error.what();
+  }
+}
+
 } // namespace
 } // namespace fretwork::study::sweep_test
