@@ -324,6 +324,11 @@ void check_index(const std::string& what, const std::string& name, const study::
                                     : fmt::format("\"{}\" to \"{}\"", supports.front(), supports.back())));
 }
 
+double gap_of(const PlacedContact& placed, const contact::Obstacle& obstacle) {
+  return placed.other < 0 ? contact::locate(obstacle, 0.0, 0.0).gap
+                          : contact::locate(obstacle, placed.rest.y(), placed.rest.z()).gap;
+}
+
 std::vector<PlacedContact> take_inactive(std::vector<PlacedContact>& placed) {
   const auto first = std::stable_partition(placed.begin(), placed.end(),
                                            [](const PlacedContact& contact) { return contact.active; });

@@ -36,6 +36,9 @@ struct PlacedContact {
                                                         const fem::Model& model,
                                                         std::vector<std::string>& warnings);
 
+/// m, of a tube at the obstacle's centre; between two nodes as the study places them.
+[[nodiscard]] double gap_of(const PlacedContact& placed, const contact::Obstacle& obstacle);
+
 /// @throws core::Error where a name is neither that of a contact nor of one of its supports, and says how many it has
 /// @param name  of a contact, or such a name with an index behind it
 void check_index(const std::string& what, const std::string& name, const study::Study& study,

@@ -161,6 +161,8 @@ private:
       check_gap_opening(study, worn_, placed_);
       other_runs_ = read_other_runs(study, inputs_.run_directory);
       check_contacts_of(other_runs_, study, worn_, placed_);
+      for (std::string& warning : compare_with_other_runs(other_runs_, study, worn_, placed_, model_))
+        out_.warnings.push_back(std::move(warning));
       note_other_runs(other_runs_, out_);
       out_.modes_limit = take_modes_limit(study, model_, placed_, turbulence_);
       if (out_.modes_limit)

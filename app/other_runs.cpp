@@ -3,7 +3,9 @@
 #include "core/error.hpp"
 #include "core/names.hpp"
 #include "results/summary_file.hpp"
+#include "results/write.hpp"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <limits>
 
@@ -52,6 +54,76 @@ std::optional<std::map<std::string, StatedRate>> read_run(const std::string& whe
                                               number(entry(error, "work_rate_batches"))};
   }
   return out;
+}
+
+/// A contact of this study.
+struct Here {
+  const study::Contact& entry;
+  const PlacedContact& placed;
+  const fem::Model& model;
+};
+
+/// The beam at a node; null where none is.
+const fem::Beam* beam_at(const std::vector<fem::Beam>& beams, core::Index node) {
+  const auto found = std::find_if(beams.begin(), beams.end(),
+                                  [&](const fem::Beam& beam) { return beam.a == node || beam.b == node; });
+  return found == beams.end() ? nullptr : &*found;
+}
+
+/// What makes work rates those of something else: place, obstacle, section and material of the tube; empty where these are the same.
+std::string other_structure(const results::RunResults& other, const results::ContactFacts& there,
+                            const Here& here) {
+  constexpr double same_place = 1e-6; // m, of meshes of one geometry
+  if (!(there.point.place - here.placed.place).isZero(same_place))
+    return fmt::format("is at {} there, at {} here", fem::place(there.point.place),
+                       fem::place(here.placed.place));
+  if (const std::string obstacle = study::name_of(here.entry.obstacle); there.obstacle != obstacle)
+    return fmt::format("has the obstacle \"{}\" there, \"{}\" here", there.obstacle, obstacle);
+  const fem::Beam *beam_there = beam_at(other.beams, there.node),
+                  *beam_here = beam_at(here.model.beams, here.placed.node);
+  if (!beam_there || !beam_here)
+    return {};
+  const fem::BeamProperty& property_there = other.properties[static_cast<std::size_t>(beam_there->property)];
+  const fem::BeamProperty& property_here =
+      here.model.properties[static_cast<std::size_t>(beam_here->property)];
+  if (!(property_there.material == property_here.material))
+    return fmt::format("is on a beam of {:g} Pa, {:g} kg/m3 there, of {:g} Pa, {:g} kg/m3 here",
+                       property_there.material.young_modulus, property_there.material.density,
+                       property_here.material.young_modulus, property_here.material.density);
+  if (!(property_there.section == property_here.section))
+    return fmt::format("is on a beam of another section there, of {:g} m2, here of {:g} m2",
+                       property_there.section.area, property_here.section.area);
+  return {};
+}
+
+/// What may be another one in another operating state; empty where nothing is.
+std::string other_contact(const results::ContactFacts& there, const Here& here) {
+  constexpr double round_off = 1e-9; // relative, of places of a mesh
+  const auto differs = [](double a, double b) {
+    return std::abs(a - b) > round_off * std::max(std::abs(a), std::abs(b));
+  };
+  if (const double gap = gap_of(here.placed, here.placed.obstacle); differs(there.gap, gap))
+    return fmt::format("a gap of {:.4g} m there, {:.4g} m here", there.gap, gap);
+  if (const double stiffness = here.placed.normal_stiffness * here.placed.share;
+      differs(there.normal_stiffness, stiffness))
+    return fmt::format("a normal stiffness of {:.4g} N/m there, {:.4g} N/m here", there.normal_stiffness,
+                       stiffness);
+  if (differs(there.friction_dynamic, here.entry.friction_dynamic))
+    return fmt::format("friction {:g} there, {:g} here", there.friction_dynamic, here.entry.friction_dynamic);
+  return {};
+}
+
+struct Differences {
+  std::string structure; ///< what is of something else there; empty: nothing
+  std::string laws;      ///< what may be another one in another operating state; empty: nothing
+};
+
+Differences differences(const results::RunResults& there, const Here& here) {
+  const auto found = std::find_if(there.contacts.begin(), there.contacts.end(),
+                                  [&](const auto& contact) { return contact.name == here.placed.name; });
+  if (found == there.contacts.end())
+    return {"is not in its results.h5", {}};
+  return {other_structure(there, *found, here), other_contact(*found, here)};
 }
 
 std::string missing_text(const std::vector<std::string>& missing) {
@@ -119,6 +191,48 @@ void check_contacts_of(const OtherRuns& others, const study::Study& study,
                                         study.wear[place.entry].states[j].results->string(), placed[c].name,
                                         core::name_help(placed[c].name, names)));
     }
+}
+
+std::vector<std::string> compare_with_other_runs(const OtherRuns& others, const study::Study& study,
+                                                 const std::vector<WornPlace>& places,
+                                                 const std::vector<PlacedContact>& placed,
+                                                 const fem::Model& model) {
+  std::map<fs::path, std::optional<results::RunResults>> set_ups;
+  std::map<fs::path, std::string> warnings;
+  for (const WornPlace& place : places)
+    for (std::size_t j = 0; j < others.rates[place.entry].size(); ++j) {
+      if (!others.rates[place.entry][j])
+        continue;
+      const study::Wear& entry = study.wear[place.entry];
+      const fs::path& folder = *entry.states[j].results;
+      const std::string where =
+          fmt::format("{}.states[{}].results: the run in {}", entry.path, j, folder.string());
+      if (!set_ups.contains(folder))
+        set_ups[folder] = results::read_set_up(folder);
+      if (!set_ups[folder]) {
+        warnings.emplace(
+            folder,
+            where + " has no results.h5, which would say whether it is of this tube and these supports");
+        continue;
+      }
+      for (const std::size_t c : place.contacts) {
+        const Here here{study.contacts[placed[c].entry], placed[c], model};
+        const Differences found = differences(*set_ups[folder], here);
+        if (!found.structure.empty())
+          throw core::Error(
+              fmt::format("{} is of another structure: contact \"{}\" {}; make it from this study", where,
+                          placed[c].name, found.structure));
+        if (!found.laws.empty())
+          warnings.emplace(folder,
+                           fmt::format("{} differs from this study: contact \"{}\" has {}; its work rates "
+                                       "are taken as they stand: run it again unless the state is meant so",
+                                       where, placed[c].name, found.laws));
+      }
+    }
+  std::vector<std::string> out;
+  for (const auto& [folder, warning] : warnings)
+    out.push_back(warning);
+  return out;
 }
 
 void note_other_runs(const OtherRuns& others, results::RunResults& out) {

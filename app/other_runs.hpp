@@ -37,6 +37,15 @@ struct OtherRuns {
 void check_contacts_of(const OtherRuns& others, const study::Study& study,
                        const std::vector<WornPlace>& places, const std::vector<PlacedContact>& placed);
 
+/// The contacts that wear against those of the other runs, which have them all.
+/// @return a warning for each run that has another gap, stiffness or friction at one of them: the first difference
+/// @throws core::Error for one at another place, with another obstacle or on another tube (section and material)
+[[nodiscard]] std::vector<std::string> compare_with_other_runs(const OtherRuns& others,
+                                                               const study::Study& study,
+                                                               const std::vector<WornPlace>& places,
+                                                               const std::vector<PlacedContact>& placed,
+                                                               const fem::Model& model);
+
 /// Why no wear is computed: a warning, or a note where another run computes it.
 void note_other_runs(const OtherRuns& others, results::RunResults& out);
 

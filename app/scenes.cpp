@@ -21,9 +21,7 @@ results::ContactFacts facts_of(const study::Contact& contact, const PlacedContac
   facts.point = {placed.place, placed.motion};
   facts.axes = placed.frame.rotation();
   facts.obstacle = study::name_of(contact.obstacle);
-  facts.gap = placed.other < 0
-                  ? contact::locate(support.obstacle, 0.0, 0.0).gap // of a tube at the obstacle's centre
-                  : contact::locate(support.obstacle, placed.rest.y(), placed.rest.z()).gap;
+  facts.gap = gap_of(placed, support.obstacle);
   facts.rest = placed.rest;
   const auto outline = contact::outline_of(support.obstacle);
   facts.outline.resize(static_cast<Eigen::Index>(outline.size()), 2);

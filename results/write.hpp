@@ -74,6 +74,10 @@ struct FoundBases {
 /// @throws core::Error if the folder holds no results or the file is damaged
 [[nodiscard]] RunResults read_archive(const std::filesystem::path& directory);
 
+/// Of results.h5 what was computed: the nodes, the contacts without their series, what the beams are made of. Nothing where there is no file.
+/// @throws core::Error if the file is damaged
+[[nodiscard]] std::optional<RunResults> read_set_up(const std::filesystem::path& directory);
+
 /// contact_<name>.csv and node_<name>.csv: time and all series; <name>_impacts.csv: one impact a row. Header
 /// with units; numbers read back bit for bit. With wear also the files of export_wear_csv (wear_json.hpp).
 /// @throws core::Error without a transient

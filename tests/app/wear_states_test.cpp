@@ -85,6 +85,30 @@ TEST(WearStates, DoNotAgeByTheRunsOfOtherStates) {
                    "up to date"));
 }
 
+TEST(WearStates, AreOfTheTubeAndTheSupportsOfTheStudy) {
+  const Workshop folder;
+  const fs::path study = folder.write("study.toml", with_states(folder, half_and_half));
+  const auto part_with = [&](const std::string& override) {
+    (void)folder.run(study, "part", {"--set", override});
+    return folder.fretwork({"check", study.string()});
+  };
+  const Outcome gap = part_with("contacts.support0.gap=2e-5");
+  EXPECT_EQ(gap.status, 0) << gap.err;
+  EXPECT_TRUE(says(gap.out,
+                   "differs from this study: contact \"support0\" has a gap of 2e-05 m there, 1e-05 m here"));
+  EXPECT_TRUE(says(part_with("contacts.support0.friction=0.2").out, "has friction 0.2 there, 0.3 here"));
+  EXPECT_FALSE(says(part_with("loads.0.random.rms=15").out, "differs from this study"));
+  for (const auto& [override, found] :
+       {std::pair("materials.steel.young_modulus=1e11", "is on a beam of 1e+11 Pa, 12000 kg/m3 there"),
+        std::pair("sections.tube.thickness=0.002", "is on a beam of another section there"),
+        std::pair("contacts.support0.group=\"drive0\"", "is at ")}) {
+    const Outcome other = part_with(override);
+    EXPECT_EQ(other.status, 1) << other.out;
+    EXPECT_TRUE(says(other.err, "is of another structure: contact \"support0\""));
+    EXPECT_TRUE(says(other.err, found));
+  }
+}
+
 TEST(WearStates, ThatHaveNotBeenMadeAreRefusedByASweep) {
   const Workshop folder;
   const fs::path study = folder.write(
