@@ -153,8 +153,10 @@ std::shared_ptr<const CaseContacts> CaseBases::contacts(study::Study& study,
                                                         const std::vector<PlacedContact>& placed,
                                                         const std::vector<PlacedContact>& inactive) {
   std::string key = key_of_structure(study, overrides);
-  if (const auto limit = take_modes_limit(study, structure.model, placed, structure.turbulence))
+  if (auto limit = take_modes_limit(study, structure.model, placed, structure.turbulence)) {
+    static_cast<void>(cap_default_modes(study, structure.model, placed, *limit));
     key += fmt::format("up to {:.17g} Hz\n", limit->up_to);
+  }
   const auto modes = modes_.get(
       key, [&] { return compute_modes(MPI_COMM_SELF, study.modes, structure.model, structure.structures); });
   return contacts_.get(key + key_of_contacts(study, placed, inactive),

@@ -166,16 +166,24 @@ private:
       note_other_runs(other_runs_, out_);
       out_.modes_limit = take_modes_limit(study, model_, placed_, turbulence_);
       if (out_.modes_limit)
-        report_modes_limit(study, *out_.modes_limit, out_);
+        limit_modes();
     });
     note_coincident_nodes(mesh_, out_);
     if (out_.modes_limit) // by the values that may be slips: before the time is spent
       for (const std::string& warning : out_.warnings)
-        if (warning.starts_with("units: "))
+        if (warning.starts_with("units: ") || warning.starts_with("modes: "))
           say("warning: " + warning + "\n");
     if (last_ == Stage::transient && !other_runs_.missing.empty()) // likewise
       say("warning: " + other_runs_.missing + "\n");
     out_.timings.assembly = watch_.lap();
+  }
+
+  void limit_modes() {
+    if (std::string capped = cap_default_modes(inputs_.study, model_, placed_, *out_.modes_limit);
+        !capped.empty())
+      out_.warnings.push_back(std::move(capped));
+    else
+      report_modes_limit(inputs_.study, *out_.modes_limit, out_);
   }
 
   /// Modes, stability and response in flow, and what scenes are built from.

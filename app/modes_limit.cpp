@@ -7,7 +7,9 @@
 #include "modal/spans.hpp"
 #include "transient/signals/time_function.hpp"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -107,9 +109,8 @@ Need need_of(const PlacedContact& contact, const Sites& sites, double accuracy, 
 }
 
 /// Of the contact that asks for most; `up_to` is 0 where none is at a beam with mass.
-results::ModesLimit need_of_contacts(const fem::Model& model, const std::vector<PlacedContact>& placed,
+results::ModesLimit need_of_contacts(const Sites& sites, const std::vector<PlacedContact>& placed,
                                      double accuracy, bool static_modes) {
-  const Sites sites = sites_of(model, placed);
   results::ModesLimit limit;
   limit.accuracy = accuracy;
   for (const PlacedContact& contact : placed)
@@ -146,6 +147,48 @@ LoadsReach reach_of_loads(const study::Study& study, const std::vector<Turbulent
 /// Whether the study says how many modes it wants without the contacts.
 bool says_how_many(const study::Modes& modes) { return modes.number_given && !modes.accuracy; }
 
+/// Modes of a structure below a frequency, counted by the waves along its beams, of which a mode more fits in every half: bending in both
+/// planes, stretch and twist.
+double modes_below(const fem::Model& model, const fem::Structure& structure, double hertz) {
+  const double w = two_pi * hertz;
+  double phase = 0.0; // rad
+  for (const Index i : structure.beams) {
+    const fem::Beam& beam = model.beams[static_cast<std::size_t>(i)];
+    const fem::BeamConstants c =
+        fem::beam_constants(model.properties[static_cast<std::size_t>(beam.property)], beam.along[0]);
+    const double length =
+        (model.nodes[static_cast<std::size_t>(beam.b)] - model.nodes[static_cast<std::size_t>(beam.a)])
+            .norm();
+    phase += length * (std::sqrt(w) * (std::pow(c.mass_transverse / c.bending_y, 0.25) +
+                                       std::pow(c.mass_transverse / c.bending_z, 0.25)) +
+                       w * (std::sqrt(c.mass_axial / c.axial) + std::sqrt(c.inertia_x / c.torsion)));
+  }
+  return std::min(phase / std::numbers::pi, static_cast<double>(structure.equations));
+}
+
+/// The largest x between two ends of which something is true that is true of the lower end and of no x above some other; the upper end where it is
+/// true of that.
+template <class True> double last_true(double low, double high, True is_true) {
+  constexpr int halvings = 50; // to 1e-15 of the interval
+  if (is_true(high))
+    return high;
+  for (int i = 0; i < halvings; ++i)
+    (is_true(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+  return low;
+}
+
+/// `by some 3.2 %`: the error of contact forces that modes up to a frequency leave.
+std::string remaining_error(const Sites& sites, const std::vector<PlacedContact>& placed, double hertz,
+                            bool static_modes) {
+  constexpr double largest = 0.1; // that the rule is measured for
+  const auto misses = [&](double accuracy) {
+    return need_of_contacts(sites, placed, accuracy, static_modes).up_to > hertz;
+  };
+  if (misses(largest))
+    return fmt::format("by more than {:g} %", 100.0 * largest);
+  return fmt::format("by some {:.2g} %", 100.0 * last_true(default_modes_accuracy, largest, misses));
+}
+
 } // namespace
 
 std::optional<results::ModesLimit> take_modes_limit(study::Study& study, const fem::Model& model,
@@ -154,8 +197,9 @@ std::optional<results::ModesLimit> take_modes_limit(study::Study& study, const f
   study::Modes& modes = study.modes;
   if (says_how_many(modes))
     return std::nullopt;
-  results::ModesLimit limit = need_of_contacts(model, placed, modes.accuracy.value_or(default_modes_accuracy),
-                                               has_static_modes(modes));
+  results::ModesLimit limit =
+      need_of_contacts(sites_of(model, placed), placed, modes.accuracy.value_or(default_modes_accuracy),
+                       has_static_modes(modes));
   if (!(limit.up_to > 0.0) && modes.accuracy)
     throw core::Error(fmt::format("modes.accuracy = {:g}: no contact is at a beam with mass, whose waves "
                                   "would say which modes matter; give modes.count or modes.up_to_hz",
@@ -170,6 +214,36 @@ std::optional<results::ModesLimit> take_modes_limit(study::Study& study, const f
   modes.up_to_hz = limit.up_to;
   modes.count.reset();
   return limit;
+}
+
+std::string cap_default_modes(study::Study& study, const fem::Model& model,
+                              const std::vector<PlacedContact>& placed, results::ModesLimit& limit) {
+  if (study.modes.number_given)
+    return {};
+  const std::vector<fem::Structure> structures = fem::structures(model);
+  const auto most = [&](double hertz) {
+    double modes = 0.0;
+    for (const fem::Structure& structure : structures)
+      modes = std::max(modes, modes_below(model, structure, hertz));
+    return modes;
+  };
+  const double asked = limit.up_to, needed = most(asked);
+  if (needed <= most_default_modes)
+    return {};
+  limit.up_to = last_true(0.0, asked, [&](double hertz) { return most(hertz) <= most_default_modes; });
+  limit.accuracy = std::numeric_limits<double>::quiet_NaN();
+  study.modes.up_to_hz = limit.up_to;
+  return fmt::format("modes: {} asks for modes up to {:.4g} Hz, some {:.0f} of one structure; the default "
+                     "takes {} at most, up to "
+                     "{:.4g} Hz{}; check stiffnesses and units, or ask for them by modes.accuracy, "
+                     "modes.up_to_hz or modes.count",
+                     limit.loads.empty() ? fmt::format("contact \"{}\"", limit.contact) : limit.loads, asked,
+                     needed, most_default_modes, limit.up_to,
+                     limit.contact.empty()
+                         ? std::string()
+                         : fmt::format(": forces of impacts may be wrong {}",
+                                       remaining_error(sites_of(model, placed), placed, limit.up_to,
+                                                       has_static_modes(study.modes))));
 }
 
 void report_modes_limit(const study::Study& study, const results::ModesLimit& limit,

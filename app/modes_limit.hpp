@@ -12,6 +12,9 @@ namespace fretwork::app {
 /// Of a study that says nothing of the number of its modes.
 constexpr double default_modes_accuracy = 0.01;
 
+/// Of each structure, that a study takes which says nothing of their number.
+constexpr int most_default_modes = 1000;
+
 /// What the contact that asks for most needs, or the loads where that is more: twice the highest frequency of loads and motions, the end of the
 /// band of turbulence, above which a thousandth of its forces lies. The contact's: its
 /// stiffness (of the whole support) on the beams at its nodes, bent in the softer plane; the span that its node is on. A beam that ends at
@@ -22,6 +25,13 @@ constexpr double default_modes_accuracy = 0.01;
 [[nodiscard]] std::optional<results::ModesLimit>
 take_modes_limit(study::Study& study, const fem::Model& model, const std::vector<PlacedContact>& placed,
                  const std::vector<TurbulentLoad>& turbulence);
+
+/// Lowers the limit of a study that says nothing of the number of its modes to that of most_default_modes of one structure, by the waves along
+/// its beams; the accuracy of the limit is then not a number.
+/// @return a warning with the error that remains; empty where nothing was lowered
+[[nodiscard]] std::string cap_default_modes(study::Study& study, const fem::Model& model,
+                                            const std::vector<PlacedContact>& placed,
+                                            results::ModesLimit& limit);
 
 /// A note what was chosen and why.
 void report_modes_limit(const study::Study& study, const results::ModesLimit& limit,

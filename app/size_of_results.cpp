@@ -5,6 +5,7 @@
 #include "results/figures.hpp"
 #include "results/totals.hpp"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace fretwork::app {
@@ -67,10 +68,13 @@ std::string forecast_text(MPI_Comm comm, const study::Study& study, const std::v
   const std::string steps = forecast.steps > 0.0
                                 ? results::counted(static_cast<std::int64_t>(forecast.steps), "step")
                                 : std::string("steps as the tolerance asks for");
-  const std::string limit = out.modes_limit ? fmt::format(" up to {:.4g} Hz (modes.accuracy = {:g}{})",
-                                                          out.modes_limit->up_to, out.modes_limit->accuracy,
-                                                          study.modes.number_given ? "" : ", the default")
-                                            : "";
+  std::string limit;
+  if (out.modes_limit)
+    limit = fmt::format(" up to {:.4g} Hz ({})", out.modes_limit->up_to,
+                        std::isnan(out.modes_limit->accuracy)
+                            ? std::string("the most that the default takes")
+                            : fmt::format("modes.accuracy = {:g}{}", out.modes_limit->accuracy,
+                                          study.modes.number_given ? "" : ", the default"));
   return fmt::format(
       "  {}{}; a run: {:g} s, {}, about {}{}; results.h5: {} of series, up to {} of impacts\n",
       results::counted(static_cast<std::int64_t>(results::sorted_modes(out.bases).size()), "mode"), limit,

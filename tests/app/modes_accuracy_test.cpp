@@ -84,6 +84,42 @@ TEST(ModesAccuracy, OfAPercentIsTheDefaultWhereContactsAreAtBeams) {
   EXPECT_FALSE(span(folder, {"modes.count=12"}).summary["modes"].contains("limit"));
 }
 
+TEST(ModesAccuracy, TheDefaultHasACeiling) {
+  const Workshop folder;
+  folder.write("line.msh", straight_line("tube", {0, 0, 0}, {1, 0, 0}, 600).text());
+  const fs::path study = folder.write("study.toml", steel_pipe("line.msh") + R"([[beams]]
+group = "tube"
+material = "steel"
+section = "tube"
+[[restraints]]
+group = "tube_begin"
+fixed = "all"
+[[contacts]]
+group = "tube_end"
+gap = 1e-3
+normal_stiffness = 1e14
+[transient]
+duration = 1e-4
+)");
+  const Outcome checked = folder.fretwork({"check", study.string()});
+  ASSERT_EQ(checked.status, 0) << checked.err;
+  const std::string told = "the default takes 1000 at most, up to ";
+  EXPECT_TRUE(says(checked.out, "warning: modes: contact \"tube_end\" asks for modes up to "))
+      << "before they are computed";
+  EXPECT_TRUE(says(checked.out, told));
+  const auto computed = [&](const std::string& more) {
+    const Outcome done =
+        folder.fretwork({"modes", study.string(), "-o", folder.path("out").string(), "--set", more});
+    EXPECT_EQ(done.status, 0) << done.err;
+    return nlohmann::json::parse(bytes_of(folder.path("out") / "summary.json"));
+  };
+  const auto capped = computed("transient.duration=1e-5"), asked = computed("modes.count=10");
+  constexpr double of_the_count = 0.2; // by waves: half the shortest ones have an element and a half
+  EXPECT_NEAR(static_cast<double>(capped["modes"]["frequencies_hz"].size()), 1000.0, 1000.0 * of_the_count);
+  EXPECT_TRUE(says(capped["warnings"].dump(), "forces of impacts may be wrong by "));
+  EXPECT_FALSE(says(asked["warnings"].dump(), told));
+}
+
 TEST(ModesAccuracy, WithoutContactsAtBeamsTheDefaultIsANumber) {
   const Workshop folder;
   const Results run = folder.run(example("oscillator"), "results", {"--set", "transient.duration=0.01"});
