@@ -8,6 +8,7 @@
 #include "app/linear_response.hpp"
 #include "app/mode_notes.hpp"
 #include "app/modes_limit.hpp"
+#include "app/numbering.hpp"
 #include "app/progress.hpp"
 #include "app/python_report.hpp"
 #include "app/run_spectra.hpp"
@@ -163,6 +164,9 @@ private:
       check_contacts_of(other_runs_, study, worn_, placed_);
       for (std::string& warning : compare_with_other_runs(other_runs_, study, worn_, placed_, model_))
         out_.warnings.push_back(std::move(warning));
+      numbering_ = numbering_text(study, model_, together(placed_, inactive_), flows_);
+      if (!numbering_.empty())
+        out_.notes.push_back(numbering_);
       note_other_runs(other_runs_, out_);
       out_.modes_limit = take_modes_limit(study, model_, placed_, turbulence_);
       if (out_.modes_limit)
@@ -242,12 +246,13 @@ private:
     const std::string forecast =
         scenes_wanted_ ? forecast_text(comm_, inputs_.study, scenes_, placed_, out_)
                        : "  no [transient]: run would refuse it; modes, stability and response take it\n";
-    say(fmt::format(
-        "{}: fine\n  {}, {}, {} in {}, {:.6g} kg\n  {}, {}, {}{}\n{}{}", request_.study.string(),
-        counted(mesh_.nodes, "node"), counted(model_.beams, "beam"),
-        results::counted(out_.model.dofs, "free dof"), counted(out_.bases, "structure"), out_.model.mass_kg,
-        counted(placed_, "contact"), counted(inputs_.study.loads, "load"), counted(nodes_, "observed node"),
-        worn_.empty() ? "" : ", " + counted(worn_, "support") + " that wear", forecast, told_warnings(out_)));
+    say(fmt::format("{}: fine\n  {}, {}, {} in {}, {:.6g} kg\n  {}, {}, {}{}\n{}{}{}",
+                    request_.study.string(), counted(mesh_.nodes, "node"), counted(model_.beams, "beam"),
+                    results::counted(out_.model.dofs, "free dof"), counted(out_.bases, "structure"),
+                    out_.model.mass_kg, counted(placed_, "contact"), counted(inputs_.study.loads, "load"),
+                    counted(nodes_, "observed node"),
+                    worn_.empty() ? "" : ", " + counted(worn_, "support") + " that wear",
+                    numbering_.empty() ? "" : "  " + numbering_ + "\n", forecast, told_warnings(out_)));
   }
 
   void run_transient() {
@@ -355,6 +360,7 @@ private:
   std::vector<MovedSupport> moved_;
   std::vector<WornPlace> worn_;
   OtherRuns other_runs_;
+  std::string numbering_; ///< where supports of groups are
   AtContacts at_contacts_;
   std::vector<BuiltScene> scenes_;
   results::RunResults out_;

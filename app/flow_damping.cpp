@@ -7,11 +7,9 @@
 #include <map>
 
 namespace fretwork::app {
-namespace {
 
 using core::Index;
 
-/// m along the tube; none of a node that is not on it.
 std::optional<double> abscissa_of(const flow::Tube& tube, Index node) {
   for (const flow::Tube::Element& element : tube.elements()) {
     if (element.first == node)
@@ -21,6 +19,8 @@ std::optional<double> abscissa_of(const flow::Tube& tube, Index node) {
   }
   return std::nullopt;
 }
+
+namespace {
 
 bool has_contact(const std::vector<PlacedContact>& contacts, Index node) {
   return std::any_of(contacts.begin(), contacts.end(), [node](const PlacedContact& contact) {

@@ -16,6 +16,9 @@ struct TubesInFlow {
   const std::vector<PlacedFlow>& flows;
 };
 
+/// m along the tube; none of a node that is not on it.
+[[nodiscard]] std::optional<double> abscissa_of(const flow::Tube& tube, core::Index node);
+
 /// The supports of a tube: those that the study lists, else the contacts at its nodes. Of listed supports with a contact
 /// in `left_out`, none.
 /// @param contacts  modelled, or standing for supports that hold the tube

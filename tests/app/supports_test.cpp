@@ -3,6 +3,7 @@
 #include "mesh_text.hpp"
 #include "program.hpp"
 #include "study_text.hpp"
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace fretwork::app::test::supports_test {
@@ -47,8 +48,10 @@ velocity = 1.5
 connors_constant = 3.0
 )" + "[[contacts]]\nnormal_stiffness = 1e6\ngap = 1e-3\ngroup = " +
                                     bars + more);
-    return folder_.fretwork(
-        {command, folder_.path("study.toml").string(), "-o", folder_.path("out").string(), "--force"});
+    std::vector<std::string> arguments{command, folder_.path("study.toml").string()};
+    if (command != "check")
+      arguments.insert(arguments.end(), {"-o", folder_.path("out").string(), "--force"});
+    return folder_.fretwork(arguments);
   }
 
   [[nodiscard]] json summary(const std::string& bars, const std::string& more,
@@ -81,6 +84,15 @@ TEST_F(Supports, AreInactiveOneByOne) {
   EXPECT_EQ(one["stability"][0]["pinned"], json({"bars[0]"}));
   ASSERT_EQ(one["contacts"].size(), 1u) << "nor is the other in the transient";
   EXPECT_EQ(one["contacts"][0]["name"], "bars[0]");
+}
+
+TEST_F(Supports, AreSaidWhereTheyAre) {
+  const std::string places =
+      "supports of groups are numbered along them: \"bars[0]\" at s = 0.35 m to \"bars[1]\" at s = 0.65 m";
+  EXPECT_TRUE(says(outcome("\"bars\"\n", "", "check").out, places));
+  const json notes = summary("\"bars\"\n", "", "modes")["notes"];
+  EXPECT_NE(std::find(notes.begin(), notes.end(), places), notes.end()) << notes;
+  EXPECT_FALSE(says(outcome("\"first\"\n", "", "check").out, "numbered"));
 }
 
 TEST_F(Supports, ThatAGroupDoesNotHaveAreRefused) {
