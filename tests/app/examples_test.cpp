@@ -17,6 +17,34 @@ constexpr double independent = 1e-5;     ///< six digits of an independent beam 
 constexpr double four_digits = 3e-4;     ///< as printed
 constexpr double trusted_balance = 2e-2; ///< of the energy put in: above it the step was wrong
 
+/// Keys of a summary, but names of zones, libraries and files.
+void add_keys(const nlohmann::json& value, std::set<std::string>& keys) {
+  static const std::set<std::string> of_names{"zones", "connors_constants", "libraries", "files_sha256"};
+  if (value.is_object()) {
+    for (const auto& [key, item] : value.items()) {
+      keys.insert(key);
+      for (const auto& part : of_names.contains(key) ? std::vector<nlohmann::json>(item.begin(), item.end())
+                                                     : std::vector<nlohmann::json>{item})
+        add_keys(part, keys);
+    }
+  } else if (value.is_array()) {
+    for (const auto& item : value)
+      add_keys(item, keys);
+  }
+}
+
+/// Runs an example; every key of its summary is in the manual.
+Results example_run(const Workshop& folder, const std::string& name, const std::string& output,
+                    const std::vector<std::string>& more = {}) {
+  static const std::string manual = bytes_of(test_paths::source_dir() / "doc" / "results.md");
+  Results out = folder.run(example(name), output, more);
+  std::set<std::string> keys;
+  add_keys(out.summary, keys);
+  for (const std::string& key : keys)
+    EXPECT_TRUE(says(manual, "`" + key + "`")) << key << " of the summary of " << name;
+  return out;
+}
+
 TEST(Examples, EveryFolderOfExamplesIsRunHere) {
   std::set<std::string> found;
   for (const auto& entry : fs::directory_iterator(test_paths::source_dir() / "examples"))
@@ -29,7 +57,7 @@ TEST(Examples, EveryFolderOfExamplesIsRunHere) {
 
 TEST(Examples, BundleOfUBendsTouchesAtItsTops) {
   const Workshop folder;
-  const Results run = folder.run(example("bundle"), "results");
+  const Results run = example_run(folder, "bundle", "results");
   for (const char* pair : {"tubes_12", "tubes_23", "tubes_34", "tubes_45"})
     EXPECT_GT(run.statistics(pair)["contact_time_ratio"].get<double>(), 0.0) << pair;
 }
@@ -38,7 +66,7 @@ TEST(Examples, BundleOfUBendsTouchesAtItsTops) {
 TEST(Examples, RowOfUBendsInFlowTouchesPastItsThreshold) {
   const char* clips[] = {"tubes_12", "tubes_23", "tubes_34", "tubes_45", "frame_1", "frame_5"};
   const Workshop folder;
-  const Results run = folder.run(example("bundle_flow"), "results");
+  const Results run = example_run(folder, "bundle_flow", "results");
   const auto& stability = run.summary["stability"];
   ASSERT_EQ(stability.size(), 10u) << "two assessments of five tubes";
   for (std::size_t tube = 0; tube < 5; ++tube) {
@@ -49,7 +77,7 @@ TEST(Examples, RowOfUBendsInFlowTouchesPastItsThreshold) {
     EXPECT_GT(run.statistics(name)["impacts"].get<int>(), 20) << name; // some 40 to 110
   EXPECT_GT(run.summary["energy"]["fluid_J"].get<double>(), 0.3);
   EXPECT_LT(run.summary["energy"]["residual_relative"].get<double>(), trusted_balance);
-  const Results held = folder.run(example("bundle_flow"), "held", {"--set", "contacts.bars.active=true"});
+  const Results held = example_run(folder, "bundle_flow", "held", {"--set", "contacts.bars.active=true"});
   for (const char* name : clips)
     EXPECT_EQ(held.statistics(name)["impacts"].get<int>(), 0) << name;
 }
@@ -57,7 +85,7 @@ TEST(Examples, RowOfUBendsInFlowTouchesPastItsThreshold) {
 /// The motion in the plane of the bend grows to the stops, and no further; bars without clearance hold it by friction.
 TEST(Examples, UBendPastItsInPlaneThresholdIsLimitedByStops) {
   const Workshop folder;
-  const Results run = folder.run(example("u_bend_flow"), "results");
+  const Results run = example_run(folder, "u_bend_flow", "results");
   const auto& stability = run.summary["stability"];
   ASSERT_EQ(stability.size(), 3u);
   EXPECT_TRUE(close_to(stability[0]["law"]["critical_factor"], 0.75265, four_digits)) << "loose bars";
@@ -72,7 +100,7 @@ TEST(Examples, UBendPastItsInPlaneThresholdIsLimitedByStops) {
   EXPECT_GT(run.summary["energy"]["fluid_J"].get<double>(), 0.2);
   EXPECT_LT(run.summary["energy"]["residual_relative"].get<double>(), trusted_balance);
   const Results held =
-      folder.run(example("u_bend_flow"), "held", {"--set", "contacts.bars.bars=[0.009525, 0.009525]"});
+      example_run(folder, "u_bend_flow", "held", {"--set", "contacts.bars.bars=[0.009525, 0.009525]"});
   for (const char* stop : {"stops[0]", "stops[1]"})
     EXPECT_LT(held.statistics(stop)["position"]["z"]["max"].get<double>(), 0.1 * gap) << stop;
   EXPECT_LT(held.summary["contact_sums"]["work_rate"].get<double>(),
@@ -81,7 +109,7 @@ TEST(Examples, UBendPastItsInPlaneThresholdIsLimitedByStops) {
 
 TEST(Examples, OscillatorMeetsItsStopThreeTimes) {
   const Workshop folder;
-  const Results run = folder.run(example("oscillator"), "results");
+  const Results run = example_run(folder, "oscillator", "results");
   EXPECT_EQ(run.statistics("stop")["impacts"], 3);
   EXPECT_TRUE(close_to(run.statistics("stop")["normal_force"]["max"], 9950.37, single_impact));
   EXPECT_TRUE(run.summary["warnings"].empty()) << run.summary["warnings"];
@@ -89,7 +117,7 @@ TEST(Examples, OscillatorMeetsItsStopThreeTimes) {
 
 TEST(Examples, CantileverReachesThePublishedForce) {
   const Workshop folder;
-  const Results run = folder.run(example("cantilever_stop"), "results");
+  const Results run = example_run(folder, "cantilever_stop", "results");
   EXPECT_TRUE(close_to(run.statistics("stop")["normal_force"]["max"], 2796.8, five_digits));
   // the density of the published case is none of any metal
   ASSERT_EQ(run.summary["warnings"].size(), 1u) << run.summary["warnings"];
@@ -98,7 +126,7 @@ TEST(Examples, CantileverReachesThePublishedForce) {
 
 TEST(Examples, TubeInFlowIsStableWithAndWithoutItsSecondPlate) {
   const Workshop folder;
-  const Results run = folder.run(example("tube_in_flow"), "results");
+  const Results run = example_run(folder, "tube_in_flow", "results");
   const auto& stability = run.summary["stability"];
   ASSERT_EQ(stability.size(), 2u);
   EXPECT_TRUE(close_to(stability[0]["cases"][0]["ratios"][0], 0.1710, four_digits));
@@ -110,7 +138,7 @@ TEST(Examples, TubeInFlowIsStableWithAndWithoutItsSecondPlate) {
 
 TEST(Examples, TubeStudyGoesFromTheFlowToTheYears) {
   const Workshop folder;
-  const Results run = folder.run(example("tube_study"), "results");
+  const Results run = example_run(folder, "tube_study", "results");
   ASSERT_EQ(run.summary["stability"].size(), 2u);
   constexpr double of_margin = 1e-3; // four digits of a ratio near 1
   // all supports, inner bars out of action: bounds of a stable tube of the periphery
@@ -132,7 +160,7 @@ TEST(Examples, TubeStudyGoesFromTheFlowToTheYears) {
 
 TEST(Examples, StraightTubeHasItsFrequenciesAndItsWorkRate) {
   const Workshop folder;
-  const Results run = folder.run(example("straight_tube"), "results");
+  const Results run = example_run(folder, "straight_tube", "results");
   const auto& frequencies = run.summary["modes"]["frequencies_hz"];
   ASSERT_EQ(frequencies.size(), 41u);
   std::size_t bending = 0;
@@ -157,7 +185,7 @@ TEST(Examples, StraightTubeHasItsFrequenciesAndItsWorkRate) {
 
 TEST(Examples, TwoTubesMeetInTheirSpanAndAtTheEdgesOfTheirPlate) {
   const Workshop folder;
-  const Results run = folder.run(example("two_tubes"), "results");
+  const Results run = example_run(folder, "two_tubes", "results");
   ASSERT_EQ(run.summary["contacts"].size(), 5u);
   EXPECT_GT(run.statistics("span")["impacts"].get<int>(), 0);
   for (const char* edge : {"plate[0]@1", "plate[0]@2", "plate[1]@1", "plate[1]@2"})
