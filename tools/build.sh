@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds a preset (default: release) in build/<preset>: tools/build.sh [PRESET [TARGET ...]].
-# Without targets everything, tests and benchmarks too; with targets these alone, and where nothing was configured before, tests and
-# benchmarks are left out (their packages are then not needed). Ninja's counter shows how far the build is.
+# Without targets the program and its tests; with targets these alone, and where nothing was configured before, tests and benchmarks are
+# left out (their packages are then not needed). Benchmarks: the target benchmarks, once all has been built. Ninja's counter shows how far the build is.
 # Where CI=true warnings are errors.
 set -euo pipefail
 cd "$(dirname "$0")/.."
