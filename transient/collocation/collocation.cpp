@@ -41,24 +41,20 @@ constexpr double to_end[3] = {1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0};
 class Collocation final : public Scheme {
 public:
   Collocation(const Scene& scene, double step)
-      : system_(with_diagonal(scene.system)), h_(step),
-        loads_(scene.loads, scene.system.size(), scene.duration, step, scene.sampled_loads),
+      : system_(with_diagonal(scene.system)), h_(step), loads_(scene, step),
         contacts_(scene.contacts, scene.system.size()), motion_(contacts_),
         obstacles_(scene, contacts_), obstacle_at_{obstacles_.workspace(), obstacles_.workspace(),
                                                    obstacles_.workspace()},
         solver_(contacts_), trial_(contacts_.count), coupled_(system_, step, 2, halvings + 1),
-        powers_(3 * static_cast<std::size_t>(contacts_.count)),
+        k_(kernels::padded_copy(system_.stiffness)), powers_(3 * static_cast<std::size_t>(contacts_.count)),
         carried_(static_cast<std::size_t>(contacts_.count)) {
     closed_.reserve(static_cast<std::size_t>(contacts_.count));
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
     for (Nodes* nodes : {&q_, &v_, &load_, &force_})
       for (kernels::Array& a : nodes->at)
         a.assign(n, 0.0);
-    k_.assign(n, 0.0);
-    scratch_.assign(n, 0.0);
-    std::copy_n(scene.q0.data(), scene.q0.size(), q_.at[0].begin());
-    std::copy_n(scene.v0.data(), scene.v0.size(), v_.at[0].begin());
-    std::copy_n(system_.stiffness.data(), system_.size(), k_.begin());
+    q_.at[0] = kernels::padded_copy(scene.q0);
+    v_.at[0] = kernels::padded_copy(scene.v0);
     levels_.reserve(halvings + 1);
     for (int level = 0; level <= halvings; ++level) {
       spans_[static_cast<std::size_t>(level)] = std::ldexp(h_, -level);
@@ -71,7 +67,7 @@ public:
     obstacle_at_[0].add_to(motion_.u(0), motion_.v(0));
     solver_.start(motion_);
     solver_.add_forces(0, force_.at[0].data());
-    energy_[0].initial = energy_[0].scale = energy_[0].stored = modal_energy(0) + solver_.spring_energy(0);
+    energy_[0].start(modal_energy(0) + solver_.spring_energy(0));
     counts_.step_min = counts_.step_max = h_;
   }
 
@@ -120,10 +116,7 @@ public:
     coupled_.inside(t, q_.at[0].data(), v_.at[0].data(), force, q, v);
   }
 
-  void load_at(double time, double* force) override {
-    loads_.instant(time, scratch_.data());
-    std::copy_n(scratch_.begin(), system_.size(), force);
-  }
+  void load_at(double time, double* force) override { loads_.observe(time, force); }
 
   [[nodiscard]] StepCounts counts() const override {
     StepCounts out = counts_;
@@ -327,7 +320,7 @@ private:
   std::vector<Level> levels_;
   std::array<double, halvings + 1> spans_; ///< s, of their steps
   Nodes q_, v_, load_, force_; ///< modes, their velocities, modal forces of loads and contacts at the nodes
-  kernels::Array k_, scratch_;
+  kernels::Array k_;
 
   std::int64_t place_ = 0; ///< of node 0, in steps of h/1024
   int level_ = 0;          ///< the step is h/2^level

@@ -40,30 +40,23 @@ double dot(const kernels::Array& force, const kernels::Array& to, const kernels:
 class EnergyConserving final : public Scheme {
 public:
   EnergyConserving(const Scene& scene, double step)
-      : system_(with_diagonal(scene.system)), h_(step),
-        loads_(scene.loads, scene.system.size(), scene.duration, step, scene.sampled_loads),
+      : system_(with_diagonal(scene.system)), h_(step), loads_(scene, step),
         contacts_(scene.contacts, scene.system.size()), start_(contacts_), end_(contacts_),
         middle_(contacts_),
         obstacles_(scene, contacts_), imposed_{obstacles_.workspace(), obstacles_.workspace(),
                                                obstacles_.workspace()},
-        memory_(contacts_), solver_(contacts_), rows_(contacts_),
-        coupled_(system_, step, 1, halvings + 1), steps_{Step(contacts_), Step(contacts_)} {
-    const auto n = static_cast<std::size_t>(contacts_.padded_modes);
-    for (kernels::Array* a : {&q_, &v_, &k_, &load_, &next_load_, &middle_load_, &contact_, &moved_, &slope_})
-      a->assign(n, 0.0);
-    std::copy_n(scene.q0.data(), scene.q0.size(), q_.begin());
-    std::copy_n(scene.v0.data(), scene.v0.size(), v_.begin());
-    std::copy_n(system_.stiffness.data(), system_.size(), k_.begin());
+        memory_(contacts_), solver_(contacts_), rows_(contacts_), coupled_(system_, step, 1, halvings + 1),
+        q_(kernels::padded_copy(scene.q0)), v_(kernels::padded_copy(scene.v0)),
+        k_(kernels::padded_copy(system_.stiffness)), load_(q_.size(), 0.0), middle_load_(load_),
+        contact_(load_), moved_(load_), slope_(load_), steps_{Step(contacts_), Step(contacts_)} {
     for (Tables& t : tables_)
       t.reserve(contacts_);
     loads_.at(0.0, load_.data());
     next_load_ = load_;
-    end_.gather(q_.data(), v_.data());
-    obstacles_.at(0.0, imposed_[2]);
-    imposed_[2].add_to(end_);
+    obstacles_.place(0.0, q_.data(), v_.data(), imposed_[2], end_);
     springs_ = end_.spring_energy();
     moving_ = moving(q_, v_);
-    energy_.initial = energy_.scale = energy_.stored = moving_ + springs_;
+    energy_.start(moving_ + springs_);
     record_.energy = energy_;
     show(steps_[0]);
     make(steps_[ahead_]);
@@ -74,10 +67,7 @@ public:
       return record_;
     const Step& now = steps_[ahead_];
     show(now);
-    const double length = now.length;
-    counts_.step_min = counts_.steps == 0 ? length : std::min(counts_.step_min, length);
-    counts_.step_max = std::max(counts_.step_max, length);
-    ++counts_.steps;
+    counts_.add(now.length);
     ahead_ = 1 - ahead_;
     make(steps_[ahead_]);
     return record_;
@@ -102,12 +92,7 @@ public:
     coupled_.inside(t, s.q.data(), s.v.data(), s.f0.data(), slope_.data(), q, v);
   }
 
-  void load_at(double time, double* force) override {
-    std::fill(middle_load_.begin(), middle_load_.end(), 0.0);
-    if (!loads_.empty())
-      loads_.instant(time, middle_load_.data());
-    std::copy_n(middle_load_.data(), system_.size(), force);
-  }
+  void load_at(double time, double* force) override { loads_.observe(time, force); }
 
   [[nodiscard]] double next_time() const override {
     const Step& next = steps_[ahead_];
@@ -242,8 +227,7 @@ private:
           continue;
         }
         if (!s.trial.active.empty()) {
-          rows_.set(s.trial, 1.0);
-          rows_.add_to(contact_.data());
+          rows_.add_to(s.trial, contact_.data());
           work = move(t, s);
         }
       }

@@ -34,33 +34,23 @@ double product(const PackedContacts& contacts, const ContactTrial& trial, const 
   return sum;
 }
 
-ContactRows::ContactRows(const PackedContacts& contacts) : contacts_(contacts) {
-  row_.resize(3 * static_cast<std::size_t>(contacts.count));
-  factor_.resize(3 * static_cast<std::size_t>(contacts.count));
-}
+ContactRows::ContactRows(const PackedContacts& contacts)
+    : contacts_(contacts), rows_(contacts), factors_(3 * static_cast<std::size_t>(contacts.count)) {}
 
-void ContactRows::set(const ContactTrial& trial, double scale) {
-  const double** row = row_.data();
-  double* factor = factor_.data();
+void ContactRows::add_to(const ContactTrial& trial, double* target) {
+  rows_.clear();
+  const auto add = [&](int c, int component, double force) {
+    factors_[rows_.size()] = force;
+    rows_.add(c, component);
+  };
   for (const int c : trial.active) {
-    const ContactState& s = trial.states[c];
-    row[0] = contacts_.row(c, 0);
-    row[1] = contacts_.row(c, 1);
-    factor[0] = scale * s.force_y();
-    factor[1] = scale * s.force_z();
-    row += 2;
-    factor += 2;
-    if (contacts_.in_plane[c]) {
-      *row++ = contacts_.row(c, 2);
-      *factor++ = scale * s.friction.x;
-    }
+    const ContactState& s = trial.states[static_cast<std::size_t>(c)];
+    add(c, 0, s.force_y());
+    add(c, 1, s.force_z());
+    if (contacts_.in_plane[static_cast<std::size_t>(c)])
+      add(c, 2, s.friction.x);
   }
-  count_ = static_cast<std::size_t>(factor - factor_.data());
-}
-
-void ContactRows::add_to(double* target) const {
-  if (count_ > 0)
-    kernels::scatter(contacts_.padded_modes, static_cast<int>(count_), row_.data(), factor_.data(), target);
+  rows_.add_to(factors_.data(), target);
 }
 
 } // namespace fretwork::transient

@@ -3,7 +3,7 @@
 /// What one evaluation of all contacts gives. It changes nothing that lasts: a scheme may evaluate as often as it likes and hand the
 /// trial of the step it accepts to ContactMemory::commit.
 #pragma once
-#include "transient/contacts/packed_contacts.hpp"
+#include "transient/contacts/row_scatter.hpp"
 #include "transient/scene/scheme.hpp"
 
 namespace fretwork::transient {
@@ -47,21 +47,18 @@ inline void show(Record& record, const PackedContacts& contacts, const double* q
   record.opened = trial.opened;
 }
 
-/// The contacts' forces as rows over the modes.
+/// The contacts' forces as forces on the modes.
 class ContactRows {
 public:
+  /// @param contacts  must live longer
   explicit ContactRows(const PackedContacts& contacts);
-  /// The forces of a trial times `scale`. No allocation.
-  void set(const ContactTrial& trial, double scale);
-  void clear() { count_ = 0; }
-  /// target += sum of rows; padded modes. No allocation.
-  void add_to(double* target) const;
+  /// target += B^T f of a trial; padded modes. No allocation.
+  void add_to(const ContactTrial& trial, double* target);
 
 private:
   const PackedContacts& contacts_;
-  std::vector<const double*> row_;
-  std::vector<double> factor_;
-  std::size_t count_ = 0; ///< of them
+  RowScatter rows_;
+  std::vector<double> factors_; ///< N, of the rows
 };
 
 } // namespace fretwork::transient

@@ -46,6 +46,13 @@ void ObstacleMotion::at(double time, ImposedMotion& imposed) const {
   });
 }
 
+void ObstacleMotion::place(double time, const double* q, const double* v, ImposedMotion& imposed,
+                           ContactMotion& motion) const {
+  motion.gather(q, v);
+  at(time, imposed);
+  imposed.add_to(motion);
+}
+
 void ObstacleMotion::add(double time, int c, ContactMotion& motion) const {
   each(time, [&](const double* lanes, double displacement, double velocity) {
     for (int lane = c; lane < contacts_.stride(); lane += contacts_.width) {

@@ -31,7 +31,10 @@ public:
   [[nodiscard]] ImposedMotion workspace() const;
   /// At a time. No allocation.
   void at(double time, ImposedMotion& imposed) const;
-  /// The same for contact c alone, added to its lanes of a motion. No allocation.
+  /// The contacts where modes q, v have them at a time, `imposed` included. No allocation.
+  void place(double time, const double* q, const double* v, ImposedMotion& imposed,
+             ContactMotion& motion) const;
+  /// What `at` gives for contact c alone, added to its lanes of a motion. No allocation.
   void add(double time, int c, ContactMotion& motion) const;
 
 private:

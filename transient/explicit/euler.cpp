@@ -19,22 +19,13 @@ namespace {
 class Euler final : public Scheme {
 public:
   Euler(const Scene& scene, double step)
-      : system_(scene.system), h_(step),
-        loads_(scene.loads, scene.system.size(), scene.duration, step, scene.sampled_loads),
-        contacts_(scene.contacts, scene.system.size()), motion_(contacts_), obstacles_(scene, contacts_),
-        imposed_(obstacles_.workspace()), memory_(contacts_, step), trial_(contacts_.count),
-        rows_(contacts_) {
-    const auto n = static_cast<std::size_t>(contacts_.padded_modes);
-    for (kernels::Array* a : {&q_, &v_, &k_, &c_, &load_, &force_, &before_q_, &before_v_, &scratch_})
-      a->assign(n, 0.0);
-    std::copy_n(scene.q0.data(), scene.q0.size(), q_.begin());
-    std::copy_n(scene.v0.data(), scene.v0.size(), v_.begin());
-    std::copy_n(system_.stiffness.data(), system_.size(), k_.begin());
-    if (system_.damping_matrix.size() == 0)
-      std::copy_n(system_.damping.data(), system_.size(), c_.begin());
-    motion_.gather(q_.data(), v_.data());
-    obstacles_.at(0.0, imposed_);
-    imposed_.add_to(motion_);
+      : system_(scene.system), h_(step), loads_(scene, step), contacts_(scene.contacts, scene.system.size()),
+        motion_(contacts_), obstacles_(scene, contacts_), imposed_(obstacles_.workspace()),
+        memory_(contacts_, step), trial_(contacts_.count), rows_(contacts_),
+        q_(kernels::padded_copy(scene.q0)), v_(kernels::padded_copy(scene.v0)),
+        k_(kernels::padded_copy(system_.stiffness)), c_(kernels::padded_copy(system_.lone_damping())),
+        load_(q_.size(), 0.0), force_(load_), before_q_(load_), before_v_(load_) {
+    obstacles_.place(0.0, q_.data(), v_.data(), imposed_, motion_);
     memory_.start(motion_);
     loads_.at(0.0, {0.0, h_}, load_.data());
     record_.step = h_;
@@ -71,10 +62,7 @@ public:
     }
   }
 
-  void load_at(double time, double* force) override {
-    loads_.instant(time, scratch_.data());
-    std::copy_n(scratch_.begin(), system_.size(), force);
-  }
+  void load_at(double time, double* force) override { loads_.observe(time, force); }
 
   [[nodiscard]] double next_time() const override { return static_cast<double>(steps_) * h_; }
 
@@ -97,13 +85,10 @@ private:
   Contacts act() {
     if (contacts_.count == 0)
       return {};
-    motion_.gather(q_.data(), v_.data());
-    obstacles_.at(record_.time, imposed_);
-    imposed_.add_to(motion_);
+    obstacles_.place(record_.time, q_.data(), v_.data(), imposed_, motion_);
     evaluate_contacts(contacts_, memory_, h_, motion_, trial_);
     const ContactLosses losses = memory_.commit(motion_, trial_);
-    rows_.set(trial_, 1.0);
-    rows_.add_to(force_.data());
+    rows_.add_to(trial_, force_.data());
     return {trial_.springs + memory_.friction().spring_energy(), -product(contacts_, trial_, imposed_.w),
             losses};
   }
@@ -129,7 +114,7 @@ private:
     energy.stored = 0.5 * sums.twice_energy + contact.stored;
     const bool start = steps_ == 0;
     if (start)
-      energy.initial = energy.scale = energy.stored;
+      energy.start(energy.stored);
     // A record stands in the middle of its step: half of what the step brings belongs to it, at t = 0 nothing
     // (only the second half is run).
     const double before = start ? 0.0 : 0.5, all = start ? 0.5 : 1.0;
@@ -156,7 +141,7 @@ private:
   ContactTrial trial_;
   ContactRows rows_;
   std::int64_t steps_ = 0;
-  kernels::Array q_, v_, k_, c_, load_, force_, before_q_, before_v_, scratch_;
+  kernels::Array q_, v_, k_, c_, load_, force_, before_q_, before_v_;
   Record record_;
   double load_work_ = 0.0, modal_damping_ = 0.0; ///< up to now, the last step included
   ContactLosses lost_;                           ///< likewise

@@ -14,38 +14,24 @@ constexpr double round_off = 1e-12; ///< of a friction force at its bound
 } // namespace
 
 MotionRates::MotionRates(const Scene& scene, double step)
-    : system_(scene.system),
-      loads_(scene.loads, scene.system.size(), scene.duration, step, scene.sampled_loads), smeared_(step),
+    : system_(scene.system), loads_(scene, step), smeared_(step),
       contacts_(scene.contacts, scene.system.size()), motion_(contacts_), difference_(contacts_),
       obstacles_(scene, contacts_), imposed_(obstacles_.workspace()), trial_(contacts_.count),
       rows_(contacts_), regimes_(static_cast<std::size_t>(contacts_.count)),
-      memory_(static_cast<std::size_t>(contacts_.count)) {
-  for (kernels::Array* a : {&q0_, &v0_, &k_, &c_, &load_})
-    a->assign(static_cast<std::size_t>(modes()), 0.0);
-  std::copy_n(scene.q0.data(), scene.q0.size(), q0_.begin());
-  std::copy_n(scene.v0.data(), scene.v0.size(), v0_.begin());
-  std::copy_n(system_.stiffness.data(), system_.size(), k_.begin());
-  if (system_.damping_matrix.size() == 0)
-    std::copy_n(system_.damping.data(), system_.size(), c_.begin());
-}
+      memory_(static_cast<std::size_t>(contacts_.count)), q0_(kernels::padded_copy(scene.q0)),
+      v0_(kernels::padded_copy(scene.v0)), k_(kernels::padded_copy(system_.stiffness)),
+      c_(kernels::padded_copy(system_.lone_damping())), load_(q0_.size(), 0.0) {}
 
 void MotionRates::start(double* y) {
   std::fill_n(y, size(), 0.0);
   std::copy(q0_.begin(), q0_.end(), y);
   std::copy(v0_.begin(), v0_.end(), y + modes());
-  place(0.0, y);
+  obstacles_.place(0.0, y, y + modes(), imposed_, motion_);
   position_ = motion_.u;
   for (int c = 0; c < contacts_.count; ++c) {
     const Regime regime = regime_of_laws(c, motion_, {});
     set_regime(c, regime.closed, regime.slides);
   }
-}
-
-/// The contacts where the state has them.
-void MotionRates::place(double time, const double* y) {
-  motion_.gather(y, y + modes());
-  obstacles_.at(time, imposed_);
-  imposed_.add_to(motion_);
 }
 
 void MotionRates::rate(double time, const double* y, double* rate) {
@@ -65,10 +51,9 @@ void MotionRates::rate(double time, const double* y, double* rate) {
   if (!system_.motion.empty())
     move_fluid(y, rate);
   if (contacts_.count > 0) {
-    place(time, y);
+    obstacles_.place(time, y, v, imposed_, motion_);
     act(springs(y), rate + 2 * modes());
-    rows_.set(trial_, 1.0);
-    rows_.add_to(rate + modes());
+    rows_.add_to(trial_, rate + modes());
     power -= product(contacts_, trial_, imposed_.w);
   }
   totals[0] = power;
@@ -233,12 +218,6 @@ void MotionRates::set_spring(int c, double* s) {
   s[0] = spring.x;
   s[1] = spring.t;
   memory.spring = spring;
-}
-
-void MotionRates::load_at(double time, double* force) {
-  loads_.instant(time, load_.data());
-  loaded_ = loads_.constant();
-  std::copy_n(load_.begin(), system_.size(), force);
 }
 
 double MotionRates::moving_energy(const double* y) const {

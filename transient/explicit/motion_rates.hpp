@@ -61,7 +61,7 @@ public:
   /// takes over the regimes that are not located.
   void commit(double* y);
   /// Modal force of the loads at an instant, n values.
-  void load_at(double time, double* force);
+  void load_at(double time, double* force) { loads_.observe(time, force); }
 
   /// Adds the forces of a state that depend on its motion, n values.
   void add_motion_forces(const double* y, double* force) const;
@@ -117,7 +117,6 @@ private:
   [[nodiscard]] Normal normal_of(int c, const ContactMotion& motion, const contact::Location& at) const;
   [[nodiscard]] contact::Vec2 used_spring(int c, contact::Vec2 spring,
                                           const contact::ContactAxes& axes) const;
-  void place(double time, const double* y);
   void structure(const double* y, double* rate);
   [[nodiscard]] int motion_values() const {
     return system_.motion.empty() ? 0 : 1 + static_cast<int>(system_.motion.states());

@@ -224,9 +224,7 @@ private:
         step_.extend(h_);
       }
       crowded_ = event_ && located_ ? crowded_ + (event_->share < crowding) : 0;
-      counts_.step_min = counts_.steps == 0 ? h_ : std::min(counts_.step_min, h_);
-      counts_.step_max = std::max(counts_.step_max, h_);
-      ++counts_.steps;
+      counts_.add(h_);
       return;
     }
   }

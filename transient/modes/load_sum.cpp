@@ -16,7 +16,8 @@ constexpr double most_grid_steps = 5.0;
 
 LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double duration, double step,
                  const std::vector<SampledLoad>& sampled)
-    : padded_modes_(kernels::padded(static_cast<int>(modes))), step_(step) {
+    : modes_(modes), padded_modes_(kernels::padded(static_cast<int>(modes))), step_(step),
+      observed_(static_cast<std::size_t>(padded_modes_)) {
   std::vector<const TimeFunction*> functions;
   for (const Load& load : loads) {
     if (load.modal_force.isZero(0.0))
@@ -85,6 +86,11 @@ void LoadSum::instant(double time, double* force) {
   combine(
       time, [&](const SampleGrid& grid) { return grid.place(time); },
       [&](std::size_t k) { return signals_[k](time); }, force);
+}
+
+void LoadSum::observe(double time, double* force) {
+  instant(time, observed_.data());
+  std::copy_n(observed_.begin(), modes_, force);
 }
 
 void LoadSum::corner(double time, double* force) {

@@ -16,6 +16,8 @@ public:
   /// @param sampled  are added at the time itself, whatever the step: samples are far closer than the periods that carry their power
   LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double duration, double step,
           const std::vector<SampledLoad>& sampled = {});
+  LoadSum(const Scene& scene, double step)
+      : LoadSum(scene.loads, scene.system.size(), scene.duration, step, scene.sampled_loads) {}
   [[nodiscard]] bool empty() const { return signals_.empty() && sampled_.empty(); }
   /// True where the force never changes.
   [[nodiscard]] bool constant() const { return constant_; }
@@ -28,19 +30,22 @@ public:
   void at(double time, Signal::Window window, double* force);
   /// Modal force at an instant, padded. No allocation.
   void instant(double time, double* force);
+  /// The same without padding: what observers see.
+  void observe(double time, double* force);
 
 private:
   /// The force at a time by the values of the signals: those that are not random as value(k) has them, the others at place(grid).
   template <class Value, class Place>
   void combine(double time, const Place& place, const Value& value, double* force);
 
+  Eigen::Index modes_;
   int padded_modes_;
   double step_;
   bool constant_ = true;
   std::vector<Signal> signals_;
   std::vector<std::optional<GridSine>> sines_; ///< of the harmonic ones, on half steps
   std::vector<double> above_;                  ///< of the harmonic ones: a corner's height by their amplitude
-  kernels::Array shapes_, values_;
+  kernels::Array shapes_, values_, observed_;
   std::vector<SampledForce> sampled_;
 };
 

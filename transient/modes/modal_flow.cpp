@@ -45,9 +45,8 @@ bool acts_alone(const System& system, const CoupledBlock& block) {
 } // namespace
 
 ModalFlow::ModalFlow(const Scene& scene, double step, const std::vector<int>& lengths)
-    : system_(with_diagonal(scene.system)), h_(step),
-      loads_(scene.loads, scene.system.size(), scene.duration, step, scene.sampled_loads),
-      lone_k_(system_.stiffness), lone_c_(system_.damping), lengths_(lengths) {
+    : system_(with_diagonal(scene.system)), h_(step), loads_(scene, step), lone_k_(system_.stiffness),
+      lone_c_(system_.damping), lengths_(lengths) {
   std::vector<CoupledBlock> blocks = coupled_blocks(system_);
   apart_.assign(static_cast<std::size_t>(system_.size()), 1);
   if (fed()) {
@@ -322,15 +321,6 @@ void ModalFlow::add_motion_forces(double* force) const {
     if (const auto i = static_cast<std::size_t>(j); apart_[i])
       force[j] +=
           (system_.stiffness(j) - lone_k_(j)) * moved_[i] + (system_.damping(j) - lone_c_(j)) * rate_[i];
-}
-
-void ModalFlow::load_at(double time, double* force) {
-  if (loads_.empty()) {
-    std::fill_n(force, system_.size(), 0.0);
-    return;
-  }
-  loads_.instant(time, a_.data());
-  std::copy_n(a_.data(), system_.size(), force);
 }
 
 void ModalFlow::response(const double* force, double* moved) {

@@ -64,7 +64,7 @@ public:
   void inside(double time, double duration, const State& from, const kernels::Array& load0,
               const kernels::Array& load1, const ModalForce* force, double* q, double* v);
   /// Modal force of the loads at an instant, n values.
-  void load_at(double time, double* force);
+  void load_at(double time, double* force) { loads_.observe(time, force); }
   /// Adds the forces of motion where `inside` was last, n values. No allocation.
   void add_motion_forces(double* force) const;
   /// Displacement of the modes after one step from rest under a constant force, padded arrays.

@@ -22,6 +22,10 @@ struct System {
   Eigen::MatrixXd damping_matrix; ///< n x n, 1/s, replaces `damping` where it is not empty
   core::MotionForces motion = {}; ///< of the fluid; empty: none
   [[nodiscard]] Eigen::Index size() const { return stiffness.size(); }
+  /// That of the modes one by one: none where the matrix has it.
+  [[nodiscard]] Eigen::VectorXd lone_damping() const {
+    return damping_matrix.size() == 0 ? damping : Eigen::VectorXd::Zero(size());
+  }
 };
 
 struct Load {

@@ -6,6 +6,7 @@
 #include "core/state_archive.hpp"
 #include "transient/scene/scene.hpp"
 #include "transient/scene/step_error.hpp"
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -74,6 +75,7 @@ struct Energy {
                                 ///< gives up after opening
   double friction = 0.0;        ///< Coulomb sliders
   double scale = 0.0;           ///< initial + integral of |load power|: what the residual is measured against
+  void start(double energy) { initial = scale = stored = energy; }
   [[nodiscard]] double residual() const {
     return initial + load_work + fluid_work - stored - modal_damping - contact_damping - friction;
   }
@@ -103,6 +105,11 @@ struct StepCounts {
   std::int64_t evaluations = 0; ///< of the contact forces
   std::int64_t unconverged = 0; ///< accepted though the coupled contact forces missed their tolerance
   double step_min = 0.0, step_max = 0.0; ///< s, of the accepted ones
+  void add(double length) {
+    step_min = steps == 0 ? length : std::min(step_min, length);
+    step_max = std::max(step_max, length);
+    ++steps;
+  }
 };
 
 /// Why no further step can be made.

@@ -4,6 +4,7 @@
 /// is compiled for several widths of vector unit and the processor picks one when the program starts; sums
 /// always run over `lanes` partial sums, so that AVX2 and AVX-512 give the same bytes.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <map>
@@ -43,6 +44,13 @@ template <class T> struct AlignedAllocator {
   template <class U> bool operator==(const AlignedAllocator<U>&) const { return true; }
 };
 using Array = std::vector<double, AlignedAllocator<double>>;
+
+/// Values of the modes, then zeros up to a multiple of `lanes`.
+template <class Vector> [[nodiscard]] Array padded_copy(const Vector& values) {
+  Array out(static_cast<std::size_t>(padded(static_cast<int>(values.size()))), 0.0);
+  std::copy(values.data(), values.data() + values.size(), out.begin());
+  return out;
+}
 
 /// The exact flow of all modes over one step: stiffness and StepCoefficients of `lanes` modes after those of others.
 class FlowTable {

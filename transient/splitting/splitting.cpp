@@ -70,16 +70,14 @@ public:
     window_ = convex ? 1.0 : 1.0 / 3.0;
 
     Step& first = steps_[0];
-    std::copy_n(scene.q0.data(), scene.q0.size(), first.from.q.begin());
-    std::copy_n(scene.v0.data(), scene.v0.size(), first.from.v.begin());
+    first.from.q = kernels::padded_copy(scene.q0);
+    first.from.v = kernels::padded_copy(scene.v0);
     for (Step& s : steps_)
       modes_.start(s.from);
     modes_.load_about(0.0, first.load);
-    end_.gather(first.from.q.data(), first.from.v.data());
-    obstacles_.at(0.0, imposed_[1]);
-    imposed_[1].add_to(end_);
+    obstacles_.place(0.0, first.from.q.data(), first.from.v.data(), imposed_[1], end_);
     moving_ = modes_.energy(first.from);
-    energy_.initial = energy_.scale = energy_.stored = moving_ + end_.spring_energy();
+    energy_.start(moving_ + end_.spring_energy());
     preload();
     make();
   }
@@ -220,11 +218,7 @@ private:
     const ModalFlow::Sums sums = forces_.any_held() ? modes_.move(s.from, s.load, to.load, forces_.held(),
                                                                   forces_.held_by_rows(), to.from)
                                                     : modes_.move(length, s.from, s.load, to.load, to.from);
-    end_.gather(to.from.q.data(), to.from.v.data());
-    if (!imposed_[1].u.empty()) {
-      obstacles_.at(to.start, imposed_[1]);
-      imposed_[1].add_to(end_);
-    }
+    obstacles_.place(to.start, to.from.q.data(), to.from.v.data(), imposed_[1], end_);
     return sums;
   }
 
