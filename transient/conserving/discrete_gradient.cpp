@@ -11,7 +11,7 @@ using contact::PlaneAxis;
 using contact::PlanePoint;
 
 /// Of the positions: what a gap's difference is not known better than.
-constexpr double rounding = 8.0 * std::numeric_limits<double>::epsilon();
+constexpr double round_off = 8.0 * std::numeric_limits<double>::epsilon();
 
 /// sign (x0 + x1)/(r0 + r1): sign -1 for a circle, +1 for a round pair.
 DiscreteGradient round(double sign, const Location& to, PlanePoint x0, PlanePoint x1) {
@@ -48,7 +48,7 @@ DiscreteGradient along_curve(const contact::Obstacle& obstacle, PlanePoint x0, c
                      bend * ty * ty, bend * ty * tz, bend * tz * ty, bend * tz * tz};
   const double dy = x1.y - x0.y, dz = x1.z - x0.z, d2 = dy * dy + dz * dz;
   const double missing = to.gap - from.gap - (b.y * dy + b.z * dz);
-  if (!(std::abs(missing) > rounding * (std::abs(x0.y) + std::abs(x0.z) + std::abs(x1.y) + std::abs(x1.z))))
+  if (!(std::abs(missing) > round_off * (std::abs(x0.y) + std::abs(x0.z) + std::abs(x1.y) + std::abs(x1.z))))
     return g; // also where the node has not moved
   const double c = missing / d2;
   // dc = ((n1 - b - 2 c d).dx1 - d.db)/d2

@@ -6,7 +6,7 @@ namespace {
 
 /// Shares of a step where margins are looked at, the first soon after an event at its start: what slides no more may slide again at once.
 constexpr double looks[] = {0.0625, 0.25, 0.5, 0.75, 1.0};
-constexpr double round_off = 1e-15;
+constexpr double instant_round_off = 1e-15;
 constexpr int most_iterations =
     120; ///< bisection alone ends after 50; two iterations of regula falsi to one of it
 
@@ -73,7 +73,7 @@ double ContactEvents::zero(const DormandPrince& step, int c, bool friction, doub
   if ((fa > 0.0) == (fb > 0.0))
     return from;
   double weight_a = fa, weight_b = fb;
-  for (int i = 0; i < most_iterations && b - a > round_off; ++i) {
+  for (int i = 0; i < most_iterations && b - a > instant_round_off; ++i) {
     double x = i % 3 == 2 ? 0.5 * (a + b) : b - weight_b * (b - a) / (weight_b - weight_a);
     if (!(x > a && x < b))
       x = 0.5 * (a + b);
