@@ -2,9 +2,9 @@
 #include "fem/petsc_static.hpp"
 #include "core/error.hpp"
 #include "core/petsc.hpp"
+#include "core/pivoted_columns.hpp"
 #include "fem/fields.hpp"
 #include "fem/rigid_motions.hpp"
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -90,10 +90,10 @@ std::vector<PetscInt> equations_to_hold(const Structure& structure, const Eigen:
       const auto row = static_cast<Eigen::Index>(i);
       motion.col(e) += std::sqrt(scale(row)) * rigid.row(row).transpose();
     }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> pivots(motion);
+  const Eigen::VectorXi farthest = core::pivoted_columns(motion).order;
   std::vector<PetscInt> out;
   for (Eigen::Index k = 0; k < rigid.cols(); ++k)
-    out.push_back(static_cast<PetscInt>(pivots.colsPermutation().indices()(k)));
+    out.push_back(static_cast<PetscInt>(farthest(k)));
   return out;
 }
 

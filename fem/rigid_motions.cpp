@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/rigid_motions.hpp"
 #include "core/error.hpp"
+#include "core/pivoted_columns.hpp"
 #include "core/symmetric.hpp"
 #include "fem/disjoint_sets.hpp"
 #include "fem/fields.hpp"
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -24,13 +24,12 @@ constexpr double massless = 1e-14;
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& rows) {
   if (rows.rows() == 0 || rows.cols() == 0)
     return Eigen::MatrixXd::Identity(rows.cols(), rows.cols());
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows.transpose());
-  const auto pivots = qr.matrixR().diagonal(); // falling: each the distance of a row from those before it
+  const core::PivotedColumns independent = core::pivoted_columns(rows.transpose());
+  const Eigen::VectorXd& pivots = independent.pivots;
   Eigen::Index rank = 0;
   while (rank < pivots.size() && std::abs(pivots[rank]) > geometry_tolerance)
     ++rank;
-  const Eigen::MatrixXd q = qr.householderQ();
-  return q.rightCols(rows.cols() - rank);
+  return independent.q.rightCols(rows.cols() - rank);
 }
 
 /// A set of nodes that beams make rigid, when nothing is strained.
