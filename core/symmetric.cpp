@@ -38,13 +38,6 @@ VectorXd Cholesky::solve(const VectorXd& b) const {
   return x;
 }
 
-MatrixXd Cholesky::solve_lower(const MatrixXd& b) const {
-  assert(positive_definite_);
-  MatrixXd x = b;
-  lower_.triangularView<Eigen::Lower>().solveInPlace(x);
-  return x;
-}
-
 void Cholesky::orthonormalise(MatrixXd& x) const {
   assert(positive_definite_);
   lower_.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(x);

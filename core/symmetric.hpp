@@ -33,9 +33,6 @@ public:
   /// A^-1 b
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
 
-  /// L^-1 B
-  [[nodiscard]] Eigen::MatrixXd solve_lower(const Eigen::MatrixXd& b) const;
-
   /// X <- X L^-T: columns whose Gram matrix is A become orthonormal, in order.
   void orthonormalise(Eigen::MatrixXd& x) const;
 

@@ -72,8 +72,10 @@ Matrix12 condensed(const BeamElement& first, const BeamElement& second) {
   Matrix12 ends = Matrix12::Zero();
   ends.topLeftCorner<6, 6>() = k.topLeftCorner<6, 6>();
   ends.bottomRightCorner<6, 6>() = l.bottomRightCorner<6, 6>();
-  const Eigen::Matrix<double, 6, 12> half = core::Cholesky(middle).solve_lower(to_ends);
-  return ends - half.transpose().lazyProduct(half);
+  const core::Cholesky factor(middle);
+  for (Eigen::Index end = 0; end < to_ends.cols(); ++end)
+    ends.col(end) -= to_ends.transpose().lazyProduct(factor.solve(to_ends.col(end)));
+  return ends;
 }
 
 } // namespace

@@ -115,8 +115,6 @@ public:
   /// Value that stands for a window of steps of length h: that at `time`, but where an interval of a table that is
   /// shorter (a jump: 0) meets the window the mean over the window: windows side by side keep the impulse. No allocation.
   [[nodiscard]] double over_step(double time, double h, Window window) const;
-  /// The same for window(time, h).
-  [[nodiscard]] double over_step(double time, double h) const { return over_step(time, h, window(time, h)); }
 
   /// Of a random signal: values and slopes times the grid's step, interleaved. Else empty.
   [[nodiscard]] std::span<const double> samples() const { return samples_; }
