@@ -9,11 +9,11 @@ namespace {
 
 constexpr double coefficient = 2e-14; // m2/N
 constexpr double years = 40.0;
-constexpr double radius = 9.525e-3, length = 0.02; // m
+constexpr double radius = 9.525e-3, tube_length = 0.02; // m
 
 /// Of a flat bar, small depths: V = (4/3) sqrt(2 R) B p^1.5.
 double depth_of(double volume) {
-  return std::pow(0.75 * volume / (std::sqrt(2.0 * radius) * length), 2.0 / 3.0);
+  return std::pow(0.75 * volume / (std::sqrt(2.0 * radius) * tube_length), 2.0 / 3.0);
 }
 
 void add_curves(WearOfSupport& s, double rate, std::vector<double> WearCurves::*which) {
@@ -51,7 +51,7 @@ WearOfSupport support(const RunResults& results, std::size_t c) {
   s.form = "exact";
   s.radius = radius;
   s.wall = 1.09e-3;
-  s.length = length;
+  s.length = tube_length;
   s.limit = 0.4 * s.wall;
   const double rate = 1e-4 * static_cast<double>(c + 1);
   s.states = {{"this run", 0.75, wear::work_rate_between(rate, 1.2 * rate, 1.4 * rate)},
@@ -63,7 +63,7 @@ WearOfSupport support(const RunResults& results, std::size_t c) {
   add_curves(s, s.work_rate.low, &WearCurves::low);
   add_curves(s, s.work_rate.high, &WearCurves::high);
   s.scar_width = 2.0 * std::sqrt(2.0 * radius * (s.depth.last().value + s.support_depth.last().value));
-  s.scar_length = length;
+  s.scar_length = tube_length;
   s.scar_half_angle = 0.5 * s.scar_width / radius;
   s.life = {"reached", {0.05 / rate, 0.05 / s.work_rate.high, 0.05 / s.work_rate.low}};
   for (int k = 0; k < 36; ++k)

@@ -25,6 +25,7 @@ function(fretwork_test_library name)
   if(NOT name STREQUAL "fretwork_test_main")
     target_precompile_headers(${name} REUSE_FROM fretwork_test_main)
   endif()
+  fretwork_unity(${name})
 endfunction()
 
 function(fretwork_test name)
