@@ -13,7 +13,6 @@
 namespace fretwork::app {
 namespace {
 
-using Eigen::Index;
 using Eigen::MatrixXd;
 
 /// The parts of a model that the flexibilities are made from.
@@ -28,43 +27,49 @@ struct Parts {
 /// Flexibilities between the loaded directions of each contact: (i, direction of j) for directions i, j of one contact.
 class LoadedFlexibility {
 public:
-  explicit LoadedFlexibility(const std::vector<Index>& loaded)
-      : loaded_(loaded), values_(MatrixXd::Zero(static_cast<Index>(loaded.size()), 3)) {}
+  explicit LoadedFlexibility(const std::vector<Eigen::Index>& loaded)
+      : loaded_(loaded), values_(MatrixXd::Zero(static_cast<Eigen::Index>(loaded.size()), 3)) {}
   /// Adds a part between some of the directions.
-  void add(const std::vector<Index>& among, const MatrixXd& part) {
+  void add(const std::vector<Eigen::Index>& among, const MatrixXd& part) {
     for (std::size_t i = 0; i < among.size(); ++i)
       for (std::size_t j = 0; j < among.size(); ++j)
         if (contact(among[i]) == contact(among[j]))
-          values_(among[i], direction(among[j])) += part(static_cast<Index>(i), static_cast<Index>(j));
+          values_(among[i], direction(among[j])) +=
+              part(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   }
   /// Between the directions [first, first + size) of one contact.
-  [[nodiscard]] MatrixXd own(Index first, Index size) const {
+  [[nodiscard]] MatrixXd own(Eigen::Index first, Eigen::Index size) const {
     MatrixXd out(size, size);
-    for (Index j = 0; j < size; ++j)
+    for (Eigen::Index j = 0; j < size; ++j)
       out.col(j) = values_.col(direction(first + j)).segment(first, size);
     return out;
   }
-  void set_own(Index first, const MatrixXd& own) {
-    for (Index j = 0; j < own.cols(); ++j)
+  void set_own(Eigen::Index first, const MatrixXd& own) {
+    for (Eigen::Index j = 0; j < own.cols(); ++j)
       values_.col(direction(first + j)).segment(first, own.rows()) = own.col(j);
   }
   /// Over all directions of the contacts.
-  [[nodiscard]] MatrixXd among_all(Index directions) const {
+  [[nodiscard]] MatrixXd among_all(Eigen::Index directions) const {
     MatrixXd out = MatrixXd::Zero(directions, 3);
     out(loaded_, Eigen::all) = values_;
     return out;
   }
 
 private:
-  [[nodiscard]] Index contact(Index i) const { return loaded_[static_cast<std::size_t>(i)] / 3; }
-  [[nodiscard]] Index direction(Index i) const { return loaded_[static_cast<std::size_t>(i)] % 3; }
-  const std::vector<Index>& loaded_;
+  [[nodiscard]] Eigen::Index contact(Eigen::Index i) const {
+    return loaded_[static_cast<std::size_t>(i)] / 3;
+  }
+  [[nodiscard]] Eigen::Index direction(Eigen::Index i) const {
+    return loaded_[static_cast<std::size_t>(i)] % 3;
+  }
+  const std::vector<Eigen::Index>& loaded_;
   MatrixXd values_;
 };
 
 /// Of the loaded directions.
 struct Flexibilities {
-  explicit Flexibilities(const std::vector<Index>& loaded) : exact(loaded), basis(loaded), inner(loaded) {}
+  explicit Flexibilities(const std::vector<Eigen::Index>& loaded)
+      : exact(loaded), basis(loaded), inner(loaded) {}
   LoadedFlexibility exact, basis;
   LoadedFlexibility inner; ///< modal::inner_flexibility
 };
@@ -85,12 +90,13 @@ void add_structure(const Parts& parts, std::size_t s, const StructureLoads& load
 }
 
 /// Of each contact alone.
-MatrixXd missing_flexibility(const std::vector<Index>& loaded, const Flexibilities& of_loaded, Index all) {
+MatrixXd missing_flexibility(const std::vector<Eigen::Index>& loaded, const Flexibilities& of_loaded,
+                             Eigen::Index all) {
   LoadedFlexibility out(loaded);
   for (std::size_t begin = 0, end = 0; begin < loaded.size(); begin = end) {
     while (end < loaded.size() && loaded[end] / 3 == loaded[begin] / 3)
       ++end;
-    const auto first = static_cast<Index>(begin), size = static_cast<Index>(end - begin);
+    const auto first = static_cast<Eigen::Index>(begin), size = static_cast<Eigen::Index>(end - begin);
     out.set_own(first,
                 modal::missing_flexibility(of_loaded.exact.own(first, size), of_loaded.basis.own(first, size),
                                            of_loaded.inner.own(first, size)));
@@ -102,8 +108,8 @@ ContactFlexibility flexibility(const Parts& parts, const std::vector<std::size_t
                                const std::vector<std::size_t>& contacts, modal::StaticSolvers& solvers) {
   ContactFlexibility out;
   const ContactLoads scene = contact_loads(parts.study, parts.bases, structures, parts.placed, contacts);
-  const std::vector<Index>& loaded = scene.directions;
-  const auto all = static_cast<Index>(3 * contacts.size());
+  const std::vector<Eigen::Index>& loaded = scene.directions;
+  const auto all = static_cast<Eigen::Index>(3 * contacts.size());
   Flexibilities of_loaded(loaded);
   for (std::size_t i = 0; i < structures.size(); ++i)
     add_structure(parts, structures[i], scene.on[i], solvers, of_loaded);
@@ -122,13 +128,13 @@ void broadcast(MPI_Comm comm, int root, ContactFlexibility& flexibility) {
 } // namespace
 
 Eigen::Matrix3d ContactFlexibility::own(const MatrixXd& matrix, std::size_t k) {
-  const auto first = static_cast<Index>(3 * k);
+  const auto first = static_cast<Eigen::Index>(3 * k);
   return matrix.block<3, 3>(first, 0);
 }
 
 results::StaticFlexibility ContactFlexibility::at(std::size_t k, const contact::Obstacle& obstacle) const {
   const auto [y, z] = contact::normal_directions(obstacle);
-  std::vector<Index> rows;
+  std::vector<Eigen::Index> rows;
   for (const auto& [taken, d] : {std::pair{y, 1}, std::pair{z, 2}})
     if (taken)
       rows.push_back(d);

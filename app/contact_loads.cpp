@@ -7,7 +7,6 @@
 namespace fretwork::app {
 namespace {
 
-using Eigen::Index;
 using Eigen::MatrixXd;
 
 /// Below this share of the largest, how modes move a contact is the eigensolver's round-off.
@@ -24,42 +23,44 @@ StructureLoads forces_on(const std::vector<PlacedContact>& placed, const std::ve
         (contact.other >= 0 && basis.row_of(contact.other) >= 0))
       here.push_back(k);
   }
-  MatrixXd all = MatrixXd::Zero(basis.shapes.rows(), static_cast<Index>(3 * here.size()));
+  MatrixXd all = MatrixXd::Zero(basis.shapes.rows(), static_cast<Eigen::Index>(3 * here.size()));
   for (std::size_t i = 0; i < here.size(); ++i) {
     const PlacedContact& contact = placed[contacts[here[i]]];
     const Eigen::Matrix3d axes = contact.frame.rotation().transpose();
-    const auto column = static_cast<Index>(3 * i);
+    const auto column = static_cast<Eigen::Index>(3 * i);
     for (const fem::NodeShare& share : contact.motion)
-      if (const Index row = basis.row_of(share.node); row >= 0)
+      if (const Eigen::Index row = basis.row_of(share.node); row >= 0)
         all.block<6, 3>(row, column) += share.weights.transpose() * axes;
     if (contact.other < 0)
       continue;
-    if (const Index row = basis.row_of(contact.other); row >= 0)
+    if (const Eigen::Index row = basis.row_of(contact.other); row >= 0)
       all.block<3, 3>(row, column) -= axes;
   }
   StructureLoads out;
-  std::vector<Index> columns;
-  for (Index j = 0; j < all.cols(); ++j)
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index j = 0; j < all.cols(); ++j)
     if (!all.col(j).isZero(0.0)) {
       columns.push_back(j);
-      out.among.push_back(static_cast<Index>(3 * here[static_cast<std::size_t>(j / 3)]) + j % 3);
+      out.among.push_back(static_cast<Eigen::Index>(3 * here[static_cast<std::size_t>(j / 3)]) + j % 3);
     }
   out.forces = all(Eigen::all, columns);
   return out;
 }
 
 /// @param moved  how far the true modes move each column
-std::vector<Index> loaded_directions(const study::Study& study, const std::vector<PlacedContact>& placed,
-                                     const std::vector<std::size_t>& contacts, const Eigen::VectorXd& moved) {
-  std::vector<Index> loaded;
+std::vector<Eigen::Index> loaded_directions(const study::Study& study,
+                                            const std::vector<PlacedContact>& placed,
+                                            const std::vector<std::size_t>& contacts,
+                                            const Eigen::VectorXd& moved) {
+  std::vector<Eigen::Index> loaded;
   const double most = moved.size() > 0 ? moved.maxCoeff() : 0.0;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const PlacedContact& contact = placed[contacts[k]];
     const auto [y, z] = contact::normal_directions(contact.obstacle);
     const bool friction = study.contacts[contact.entry].friction_static > 0.0;
     const bool normal[] = {false, y, z};
-    for (Index d = 0; d < 3; ++d) {
-      const Index column = static_cast<Index>(3 * k) + d;
+    for (Eigen::Index d = 0; d < 3; ++d) {
+      const Eigen::Index column = static_cast<Eigen::Index>(3 * k) + d;
       if (normal[d] || (friction && moved(column) > unmoved * most))
         loaded.push_back(column);
     }
@@ -68,13 +69,13 @@ std::vector<Index> loaded_directions(const study::Study& study, const std::vecto
 }
 
 /// Of the columns of all directions those that are loaded.
-StructureLoads restricted(const StructureLoads& all, const std::vector<Index>& loaded) {
+StructureLoads restricted(const StructureLoads& all, const std::vector<Eigen::Index>& loaded) {
   StructureLoads out;
-  std::vector<Index> columns;
+  std::vector<Eigen::Index> columns;
   for (std::size_t j = 0; j < all.among.size(); ++j)
     if (const auto found = std::lower_bound(loaded.begin(), loaded.end(), all.among[j]);
         found != loaded.end() && *found == all.among[j]) {
-      columns.push_back(static_cast<Index>(j));
+      columns.push_back(static_cast<Eigen::Index>(j));
       out.among.push_back(found - loaded.begin());
     }
   out.forces = all.forces(Eigen::all, columns);
@@ -115,7 +116,7 @@ ContactLoads contact_loads(const study::Study& study, const std::vector<modal::B
                            const std::vector<PlacedContact>& placed,
                            const std::vector<std::size_t>& contacts) {
   ContactLoads out;
-  Eigen::VectorXd moved = Eigen::VectorXd::Zero(static_cast<Index>(3 * contacts.size()));
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * contacts.size()));
   for (const std::size_t s : structures) {
     const StructureLoads& all = out.on.emplace_back(forces_on(placed, contacts, bases[s]));
     const MatrixXd b = all.forces.transpose() * bases[s].shapes.leftCols(bases[s].true_modes());
