@@ -12,7 +12,7 @@ namespace fretwork::contact {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double most_points = 1e6;
+constexpr double most_points_of_hole = 1e6;
 constexpr double no_arc =
     1e-9; // rad: a lobe's arc that rounding alone leaves between the circles of its corners
 
@@ -153,7 +153,7 @@ Profile broached_hole(double tube_radius, const BroachedHole& hole, double chord
   const double corner_chords = chords(t, lobe.corner_angle, chord_error);
   const double lobe_chords = free_arc > no_arc ? chords(b - t, free_arc, chord_error) : 0.0;
   const double number = hole.lands * (land_chords + 2.0 * corner_chords + lobe_chords);
-  if (number > most_points)
+  if (number > most_points_of_hole)
     throw core::Error(
         fmt::format("broached hole: chord error = {:g} m asks for {:.2g} points; give a larger one",
                     chord_error, number));

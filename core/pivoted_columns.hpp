@@ -8,9 +8,10 @@
 namespace fretwork::core {
 
 struct PivotedColumns {
-  Eigen::MatrixXd q;      ///< orthogonal, as many rows as A has
-  Eigen::VectorXd pivots; ///< diagonal of R, of falling magnitude: each the distance of a column from those before it
-  Eigen::VectorXi order;  ///< column k of A P is column order(k) of A
+  Eigen::MatrixXd q; ///< orthogonal, as many rows as A has
+  Eigen::VectorXd
+      pivots; ///< diagonal of R, of falling magnitude: each the distance of a column from those before it
+  Eigen::VectorXi order; ///< column k of A P is column order(k) of A
 };
 
 [[nodiscard]] PivotedColumns pivoted_columns(const Eigen::MatrixXd& a);

@@ -21,7 +21,8 @@ TEST(PivotedColumns, ComeByTheirDistanceFromThoseBeforeThem) {
   ASSERT_EQ(found.q.rows(), 4);
   ASSERT_EQ(found.q.cols(), 4);
   EXPECT_LT((found.q.transpose() * found.q - Eigen::Matrix4d::Identity()).cwiseAbs().maxCoeff(), round_off);
-  EXPECT_LT((found.q.rightCols(2).transpose() * a).cwiseAbs().maxCoeff(), round_off); // no column has a part there
+  EXPECT_LT((found.q.rightCols(2).transpose() * a).cwiseAbs().maxCoeff(),
+            round_off); // no column has a part there
 }
 
 } // namespace pivoted_columns_test

@@ -108,7 +108,5 @@ function(fretwork_folder folder)
     fretwork_precompiled_headers(fretwork_headers)
     target_precompile_headers(${ARG_TARGET} REUSE_FROM fretwork_headers)
   endif()
-  if(NOT folder STREQUAL "contact") # a change of a law compiles that law alone
-    fretwork_unity(${ARG_TARGET})
-  endif()
+  fretwork_unity(${ARG_TARGET})
 endfunction()
