@@ -107,7 +107,7 @@ class Package(unittest.TestCase):
             plots.spectrum(self.results, "apex")
 
     def test_refuses_a_folder_without_results(self):
-        with self.assertRaisesRegex(Exception, "summary.json does not exist; give the folder"):
+        with self.assertRaisesRegex(Exception, "does not exist; give the folder"):
             fretwork.Results(self.folder / "absent")
 
     def test_writes_studies_that_read_back(self):
