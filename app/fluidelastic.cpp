@@ -248,19 +248,21 @@ void assess_laws(const TubesInFlow& tubes, const std::vector<modal::Basis>& base
           "smaller modes (now {})",
           assessment.name, of.name, size, most_searched, assessment.modes));
     results::LawStability out{velocity, diameter, of.law.range, {}, {}, {}};
+    out.modes.resize(static_cast<std::size_t>(of.modes));
     Eigen::VectorXd k(of.modes), c(of.modes);
     for (std::size_t i = 0; i < of.flows.size(); ++i) {
       const results::StabilityAssessment& its = found[of.flows[i]];
       out.tubes.push_back(its.damping.tube);
       const Index first = of.tubes[i].first, n = of.tubes[i].sampling.modes();
-      if (first < static_cast<Index>(out.modes.size()))
+      if (n == 0 || !out.modes[static_cast<std::size_t>(first)].tube.empty())
         continue; // a second tube of a structure
       const Eigen::VectorXd w = 2.0 * std::numbers::pi * of.tubes[i].sampling.frequency;
       k.segment(first, n) = w.cwiseAbs2();
       c.segment(first, n) = 2.0 * ratios[of.flows[i]].head(n).cwiseProduct(w);
       const auto& connors = its.stability.cases[results::worst_case(its.stability)];
       for (Index mode = 0; mode < n; ++mode)
-        out.modes.push_back({its.damping.tube, mode, 1.0 / connors.ratio(mode)});
+        out.modes[static_cast<std::size_t>(first + mode)] = {its.damping.tube, mode,
+                                                             1.0 / connors.ratio(mode)};
     }
     out.diagram = flow::stability_diagram(k, c, forces, factors_of(assessment));
     found[of.flows.front()].law = std::move(out);
