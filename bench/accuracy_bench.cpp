@@ -9,6 +9,7 @@
 //   --only CASE           scenes of one kind (mass, tube, pair), or one scene (tube-7)
 //   --accuracy a (0.01)   of the automatic step; the tolerance is 2 a, at least 0.4 %
 //   --scheme NAME, --step-factor f (1), --tolerance t (1e-6)   of the run under test: scheme, times its automatic step, of an adaptive one
+//   --against NAME        compares that scheme with another, at the same factor and tolerance, in place of the reference solution
 //   --resolution x        w_c h of the reference solution of masses (0.02; below an accuracy of 0.005 0.01), of tubes 1.5 times that
 //   --budget s (1)        times the usual processor time of the reference solution a scene
 //   --ct-ratio x          C_T of single impacts over 2 (K_T m)^1/2; else automatic
@@ -68,6 +69,7 @@ Arguments parsed(int argc, char** argv) {
       {"--only", [&](Text t) { out.only = t; }},
       {"--accuracy", [&](Text t) { out.study.step.accuracy = number(t); }},
       {"--scheme", [&](Text t) { out.study.step.scheme = scheme_named(t); }},
+      {"--against", [&](Text t) { out.study.against = scheme_named(t); }},
       {"--step-factor", [&](Text t) { out.study.step_factor = number(t); }},
       {"--tolerance", [&](Text t) { out.study.step.tolerance = number(t); }},
       {"--resolution", [&](Text t) { out.resolution = number(t); }},

@@ -194,6 +194,11 @@ SceneResult study(RandomScene scene, const StudyOptions& options) {
     ensemble.ours.push_back(options.halved ? solution_of(one, options.resolution, from, result, nullptr)
                                            : run_of(one, options, from, result));
     ensemble.reference.push_back(solution_of(one, fine, from, result, &ensemble.scales));
+    if (options.against) {
+      StudyOptions other = options;
+      other.step.scheme = *options.against;
+      ensemble.reference.back() = run_of(one, other, from, result);
+    }
     ++result.members;
     if (result.members < fewest_members)
       continue;
