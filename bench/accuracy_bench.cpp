@@ -6,7 +6,7 @@
 //   bench_accuracy impacts [OPTIONS]     single impacts (impact_bench.cpp)
 // Options:
 //   --scenes N (60), --seed S (1)   how many scenes: of ten, five are masses, three tubes and two pairs; random numbers
-//   --only CASE           scenes of one kind (mass, tube, pair), or one scene (tube-7)
+//   --only CASE           scenes of one kind (mass, tube, pair, mixed), or one scene (tube-7)
 //   --accuracy a (0.01)   of the automatic step; the tolerance is 2 a, at least 0.4 %
 //   --scheme NAME, --step-factor f (1), --tolerance t (1e-6)   of the run under test: scheme, times its automatic step, of an adaptive one
 //   --against NAME        compares that scheme with another, at the same factor and tolerance, in place of the reference solution
@@ -94,7 +94,7 @@ Arguments parsed(int argc, char** argv) {
 
 std::vector<bench::RandomScene> scenes_of(const Arguments& arguments) {
   std::vector<bench::RandomScene> out;
-  for (const SceneKind kind : {SceneKind::mass, SceneKind::tube, SceneKind::pair}) {
+  for (const SceneKind kind : {SceneKind::mass, SceneKind::tube, SceneKind::pair, SceneKind::mixed}) {
     const std::string name = bench::name_of(kind);
     if (arguments.only == name)
       for (int i = 0; i < arguments.scenes; ++i)
@@ -104,8 +104,8 @@ std::vector<bench::RandomScene> scenes_of(const Arguments& arguments) {
                                         static_cast<int>(number(arguments.only.substr(name.size() + 1)))));
   }
   if (!arguments.only.empty() && out.empty())
-    throw core::Error(
-        fmt::format("--only {}: mass, tube, pair or one of them with its number, as mass-3", arguments.only));
+    throw core::Error(fmt::format(
+        "--only {}: mass, tube, pair, mixed or one of them with its number, as mass-3", arguments.only));
   std::map<SceneKind, int> numbers;
   for (int i = 0; arguments.only.empty() && i < arguments.scenes; ++i) {
     const SceneKind kind = order[static_cast<std::size_t>(i) % std::size(order)];

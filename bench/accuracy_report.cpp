@@ -53,7 +53,7 @@ void print_summary(const std::vector<SceneResult>& results, const StudyOptions& 
               "| --- | --- | --- | --- | --- | --- | --- | --- |\n",
               100.0 * options.tolerance());
   Row all;
-  for (const SceneKind kind : {SceneKind::mass, SceneKind::tube, SceneKind::pair})
+  for (const SceneKind kind : {SceneKind::mass, SceneKind::tube, SceneKind::pair, SceneKind::mixed})
     for (std::size_t k = 0; k < figure_count; ++k) {
       Row row;
       for (const SceneResult& result : results)

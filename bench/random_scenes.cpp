@@ -33,6 +33,8 @@ std::string name_of(SceneKind kind) {
     return "tube";
   case SceneKind::pair:
     return "pair";
+  case SceneKind::mixed:
+    return "mixed";
   }
   return {};
 }
@@ -207,8 +209,8 @@ RandomScene random_mass(Draw& draw) {
 RandomScene random_scene(SceneKind kind, std::uint64_t seed, int number) {
   Draw draw(seed, static_cast<std::uint64_t>(kind), static_cast<std::uint64_t>(number));
   RandomScene out = kind == SceneKind::mass   ? random_mass(draw)
-                    : kind == SceneKind::tube ? random_tube(draw)
-                                              : random_pair(draw);
+                    : kind == SceneKind::pair ? random_pair(draw)
+                                              : random_tube(draw, kind == SceneKind::mixed);
   out.kind = kind;
   out.name = fmt::format("{}-{}", name_of(kind), number);
   out.scene.duration = 100.0 * out.period;

@@ -5,6 +5,7 @@
 ///
 ///     mass   a mass on springs in three directions, one contact
 ///     tube   a simply supported tube in its sine modes of two planes, 15 to 60, 1 to 20 contacts
+///     mixed  a tube whose contacts have laws of their own in wider ranges, some at one node
 ///     pair   two such tubes, 1 to 3 contacts between them (rows B_1 - B_2) beside their supports
 /// Common to all: w_c is 5 to 50 times the lowest mode (tubes: of one span); normal damping ratio 0 (two fifths) to 0.3, sometimes Hunt and
 /// Crossley's; mu 0.1 to 1, in a quarter of the scenes with a static coefficient up to 1.6 times as large; K_T/K_N 0.01 to 1; C_T 0 (a
@@ -18,7 +19,7 @@
 
 namespace fretwork::bench {
 
-enum class SceneKind { mass, tube, pair };
+enum class SceneKind { mass, tube, pair, mixed };
 [[nodiscard]] std::string name_of(SceneKind kind);
 
 struct RandomScene {
@@ -77,7 +78,7 @@ struct Place {
 
 /// Of a mass, of one tube or of two (random_tubes.cpp).
 [[nodiscard]] RandomScene random_mass(Draw& draw);
-[[nodiscard]] RandomScene random_tube(Draw& draw);
+[[nodiscard]] RandomScene random_tube(Draw& draw, bool mixed);
 [[nodiscard]] RandomScene random_pair(Draw& draw);
 
 } // namespace fretwork::bench

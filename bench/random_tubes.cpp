@@ -47,6 +47,7 @@ double mobility(const Tube& tube) { return 0.5 * (tube.modes / 2) * std::pow(tub
 struct Laws {
   LawDraw draw;
   double normal_stiffness, ratio, gap;
+  bool mixed = false; ///< each contact has laws of its own
 };
 
 /// Nothing moves along x_loc.
@@ -54,6 +55,16 @@ LawDraw draw_tube_laws(Draw& draw) {
   LawDraw out = draw_laws(draw);
   if (out.along.t == 0.0)
     out.along.t = 1.0;
+  return out;
+}
+
+/// Laws in wider ranges.
+LawDraw draw_mixed_laws(Draw& draw) {
+  LawDraw out = draw_tube_laws(draw);
+  if (out.normal_ratio > 0.0)
+    out.normal_ratio = draw.logarithmic(0.01, 0.8);
+  out.mu_dynamic = draw.logarithmic(0.05, 1.5);
+  out.mu_static = out.mu_dynamic * (draw.chance(0.25) ? draw.uniform(1.1, 2.0) : 1.0);
   return out;
 }
 
@@ -70,10 +81,14 @@ void add_supports(Draw& draw, transient::Scene& scene, const Tube& tube, const L
     point.support.obstacle = place.obstacle;
     point.rest = place.rest;
     const double w_1 = tube.frequency(1), mass = 0.5 * mass_per_length * tube.length;
-    set_laws(point.support, laws.draw, laws.normal_stiffness, 1.0 / mobility(tube),
+    const double stiffness = laws.normal_stiffness * (laws.mixed ? draw.logarithmic(0.1, 10.0) : 1.0);
+    set_laws(point.support, laws.mixed ? draw_mixed_laws(draw) : laws.draw, stiffness, 1.0 / mobility(tube),
              {w_1 * w_1 * mass, mass, laws.ratio}, tube.of_spans() * laws.gap);
     point.b = Eigen::MatrixXd::Zero(3, scene.system.size());
-    tube.enter(point.b, tube.length * (c + 1 + draw.uniform(-0.25, 0.25)) / (tube.supports + 1), 1.0);
+    if (laws.mixed && c > 0 && draw.chance(0.15)) // at the same node
+      point.b = scene.contacts.back().b;
+    else
+      tube.enter(point.b, tube.length * (c + 1 + draw.uniform(-0.25, 0.25)) / (tube.supports + 1), 1.0);
     scene.contacts.push_back(point);
     if (!equal || c == 0)
       names += (names.empty() ? "" : ", ") + place.name;
@@ -138,23 +153,23 @@ transient::ContactPoint between(Draw& draw, const Tube& a, const Tube& b, double
 
 } // namespace
 
-RandomScene random_tube(Draw& draw) {
+RandomScene random_tube(Draw& draw, bool mixed) {
   RandomScene out;
   const int supports = std::min(20, static_cast<int>(draw.logarithmic(1.0, 21.0)));
   const Tube tube = draw_tube(draw, draw.logarithmic(0.4, 1.2), supports, 15, 60, 0);
-  const double ratio = draw.logarithmic(0.003, 0.03), gap = draw.logarithmic(2e-5, 4e-4);
-  const double frequency_ratio = draw.logarithmic(5.0, 50.0);
+  const double ratio = draw.logarithmic(mixed ? 0.0005 : 0.003, 0.03), gap = draw.logarithmic(2e-5, 4e-4);
+  const double frequency_ratio = draw.logarithmic(5.0, mixed ? 100.0 : 50.0);
   add_modes(out.scene, tube, ratio);
   const Laws laws{draw_tube_laws(draw), std::pow(frequency_ratio * tube.of_spans(), 2) / mobility(tube),
-                  ratio, gap};
+                  ratio, gap, mixed};
   std::string places, loads;
   add_supports(draw, out.scene, tube, laws, places);
   add_loads(draw, out.scene, tube, ratio, gap * draw.logarithmic(0.5, 3.0), loads);
   finish(out, tube, gap);
   out.description = fmt::format(
       "{} modes, {} contacts: {}, w_c/w_s {:.0f}, {}, loads {}, {:.3g} Hz, zeta {:.2g}, gap {:.2g} mm",
-      tube.modes, supports, places, frequency_ratio, described(laws.draw), loads, 1.0 / out.period, ratio,
-      1e3 * gap);
+      tube.modes, supports, places, frequency_ratio, mixed ? "mixed laws" : described(laws.draw), loads,
+      1.0 / out.period, ratio, 1e3 * gap);
   return out;
 }
 
