@@ -30,10 +30,11 @@ constexpr std::array<std::vector<double> results::WearCurves::*, 3> curve_at{
 constexpr std::array<double results::Bounds::*, 3> life_at{&results::Bounds::value, &results::Bounds::high,
                                                            &results::Bounds::low};
 
-/// Operating states of a support at one end of their intervals, or of a share of its work.
-std::vector<OperatingState> loads_of(const results::WearOfSupport& support, End end, double share) {
+/// Operating states of a scar at one end of their intervals, or of a share of its work.
+std::vector<OperatingState> loads_of(const results::WearOfSupport& support, const results::WornScar& scar,
+                                     End end, double share) {
   std::vector<OperatingState> out;
-  for (const results::WearStateRate& state : support.states) {
+  for (const results::WearStateRate& state : scar.states) {
     OperatingState load{state.share, share * state.work_rate.*rate_at[at(end)], {}};
     if (!std::isnan(support.impact_index))
       load.indices = wear::ImpactSliding{support.impact_index, support.sliding_index};
@@ -46,7 +47,7 @@ bool by_sector(const WornPlace& place) {
   return std::holds_alternative<wear::SectorPair>(place.worn.pairing);
 }
 
-/// The places of a support: one, or its sectors.
+/// The places of a support: one, its sides, or its sectors.
 struct OpenedPlaces {
   std::size_t first, count;
 };
@@ -58,8 +59,8 @@ public:
           const std::vector<PlacedContact>& placed, const std::vector<results::ContactFacts>& facts)
       : options_(*study.gap_opening), worn_(worn), placed_(placed) {
     for (const WornPlace& place : worn) {
-      const std::size_t count =
-          by_sector(place) ? static_cast<std::size_t>(study.wear[place.entry].sectors) : 1;
+      const std::size_t count = by_sector(place) ? static_cast<std::size_t>(study.wear[place.entry].sectors)
+                                                 : std::max<std::size_t>(1, place.sides.size());
       supports_.push_back({places_.size(), count});
       places_.insert(places_.end(), count,
                      {place.worn, std::max(0.0, facts[place.contacts.front()].gap), place.name});
@@ -94,13 +95,17 @@ public:
 
   [[nodiscard]] std::vector<PlacedContact> opened(const study::Study& study) const {
     std::vector<PlacedContact> out = placed_;
-    for (std::size_t s = 0; s < worn_.size(); ++s)
+    for (std::size_t s = 0; s < worn_.size(); ++s) {
+      const std::vector<PlaceState> worn = values(supports_[s]);
       for (const std::size_t c : worn_[s].contacts)
-        out[c].obstacle =
-            by_sector(worn_[s])
-                ? contact::Obstacle(contact::Profile(wear::opened_profile(values(supports_[s]))))
-                : opened_obstacle(study.contacts[placed_[c].entry], placed_[c].obstacle,
-                                  states_[supports_[s].first][at(End::value)]->depth.total());
+        if (by_sector(worn_[s]))
+          out[c].obstacle = contact::Profile(wear::opened_profile(worn));
+        else if (worn_[s].sides.empty())
+          out[c].obstacle = opened_obstacle(study.contacts[placed_[c].entry], placed_[c].obstacle,
+                                            worn.front().depth.total());
+        else
+          open_sides(growth_of(worn_[s].sides, worn), out[c]);
+    }
     return out;
   }
 
@@ -127,6 +132,15 @@ private:
     return out;
   }
 
+  /// m, by number of a side.
+  [[nodiscard]] static SideGrowth growth_of(const std::vector<std::size_t>& sides,
+                                            const std::vector<PlaceState>& worn) {
+    SideGrowth out{};
+    for (std::size_t k = 0; k < sides.size(); ++k)
+      out[sides[k]] = worn[k].depth.total();
+    return out;
+  }
+
   void set_loads(const results::Wear& stage) {
     loads_.clear();
     for (std::size_t s = 0; s < worn_.size(); ++s) {
@@ -137,11 +151,14 @@ private:
         sum += rate;
       for (std::size_t k = 0; k < supports_[s].count; ++k) {
         const auto count = static_cast<double>(supports_[s].count);
-        const double share = supports_[s].count == 1 ? 1.0
-                             : sum > 0.0             ? support.sector_rates[k] / sum
-                                                     : 1.0 / count;
-        loads_.push_back({loads_of(support, End::value, share), loads_of(support, End::low, share),
-                          loads_of(support, End::high, share)});
+        const double share = !by_sector(worn_[s]) ? 1.0
+                             : sum > 0.0          ? support.sector_rates[k] / sum
+                                                  : 1.0 / count;
+        const results::WornScar& scar =
+            worn_[s].sides.empty() ? static_cast<const results::WornScar&>(support) : support.sides[k];
+        loads_.push_back({loads_of(support, scar, End::value, share),
+                          loads_of(support, scar, End::low, share),
+                          loads_of(support, scar, End::high, share)});
       }
     }
   }

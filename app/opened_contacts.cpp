@@ -7,15 +7,11 @@
 namespace fretwork::app {
 namespace {
 
-/// The corners moved away from the origin, along the radius or, of a rectangle, along both axes.
-contact::Profile opened_profile_of(const contact::Profile& profile, bool is_rectangle, double growth) {
+/// The corners moved away from the origin by a function of their place.
+template <class Moved> contact::Profile moved_profile(const contact::Profile& profile, Moved moved) {
   std::vector<contact::PolarPoint> points;
   for (const contact::PlanePoint& corner : profile.vertices()) {
-    const double radius = std::hypot(corner.y, corner.z);
-    const double y =
-        is_rectangle ? corner.y + std::copysign(growth, corner.y) : corner.y * (1.0 + growth / radius);
-    const double z =
-        is_rectangle ? corner.z + std::copysign(growth, corner.z) : corner.z * (1.0 + growth / radius);
+    const auto [y, z] = moved(corner);
     points.push_back({std::atan2(z, y), std::hypot(y, z)});
   }
   // the first corner keeps its place: angles increase from it on, within one turn
@@ -23,6 +19,13 @@ contact::Profile opened_profile_of(const contact::Profile& profile, bool is_rect
     if (points[i].angle < points[i - 1].angle)
       points[i].angle += 2.0 * std::numbers::pi;
   return contact::Profile(points);
+}
+
+contact::Profile opened_rectangle(const contact::Profile& profile, double growth_y, double growth_z) {
+  return moved_profile(profile, [&](const contact::PlanePoint& corner) {
+    return contact::PlanePoint{corner.y + std::copysign(growth_y, corner.y),
+                               corner.z + std::copysign(growth_z, corner.z)};
+  });
 }
 
 struct Opened {
@@ -45,8 +48,13 @@ struct Opened {
     return contact::Ellipse{shape.semi_y + growth, shape.semi_z + growth, shape.radius};
   }
   contact::Obstacle operator()(const contact::Profile& shape) const {
+    if (!contact::flat_sides(shape).empty())
+      return opened_rectangle(shape, growth, growth);
     if (!contact.broached)
-      return opened_profile_of(shape, contact.obstacle == study::ObstacleKind::egg_crate, growth);
+      return moved_profile(shape, [this](const contact::PlanePoint& corner) {
+        const double factor = 1.0 + growth / std::hypot(corner.y, corner.z);
+        return contact::PlanePoint{corner.y * factor, corner.z * factor};
+      });
     contact::BroachedHole hole = *contact.broached;
     hole.land_radius += growth;
     return contact::broached_hole(*contact.tube_radius, hole);
@@ -58,6 +66,18 @@ struct Opened {
 contact::Obstacle opened_obstacle(const study::Contact& contact, const contact::Obstacle& obstacle,
                                   double growth) {
   return std::visit(Opened{contact, growth}, obstacle);
+}
+
+void open_sides(const SideGrowth& growth, PlacedContact& placed) {
+  // of two opposite sides
+  const auto mean = [&](std::size_t side) { return 0.5 * (growth[side] + growth[side + 2]); };
+  const auto shift = [&](std::size_t side) { return 0.5 * (growth[side] - growth[side + 2]); };
+  placed.rest.y() -= shift(0);
+  placed.rest.z() -= shift(1);
+  if (auto* planes = std::get_if<contact::PlanePair>(&placed.obstacle))
+    planes->gap += mean(planes->axis == contact::PlaneAxis::y ? 0 : 1);
+  else
+    placed.obstacle = opened_rectangle(std::get<contact::Profile>(placed.obstacle), mean(0), mean(1));
 }
 
 bool opens_by_angle(const PlacedContact& placed) {

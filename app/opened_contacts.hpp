@@ -2,18 +2,21 @@
 /// @file
 /// Obstacles of contacts after wear.
 ///
-/// All sides of an obstacle move away from the tube by p_t + p_s of its support: the sum of the clearances of two sides is an upper bound.
+/// Flat faces on several sides of the tube, of planes, bars and egg crates, move away from it each by p_t + p_s of its own side: the
+/// obstacle grows by the mean of two opposite sides, and its centre moves by half their difference. All of any other obstacle moves by
+/// p_t + p_s of its support: the sum of the clearances of two sides is an upper bound.
 ///     circle, planes, stop      gap + growth
 ///     ellipse                   semi-axes + growth
 ///     broached                  radius of the lands + growth
-///     egg crate                 half widths + growth
+///     rectangle (egg crate)     half widths + growth
 ///     profile                   radius of each point + growth
 ///     two nodes                 the bodies are smaller by growth: distances - growth, the gap of circle_inside + growth
 /// A circle that wears by angular sectors becomes the profile of its sectors (wear::opened_profile).
 #pragma once
 #include "app/build_contacts.hpp"
 #include "contact/profile.hpp"
-#include <span>
+#include "contact/sides.hpp"
+#include <array>
 
 namespace fretwork::app {
 
@@ -21,6 +24,12 @@ namespace fretwork::app {
 /// @throws core::Error where the obstacle does not exist any more (lands as wide as the lobes)
 [[nodiscard]] contact::Obstacle opened_obstacle(const study::Contact& contact,
                                                 const contact::Obstacle& obstacle, double growth);
+
+/// m, by number of a side (contact/sides.hpp).
+using SideGrowth = std::array<double, contact::side_names.size()>;
+
+/// Of an obstacle of flat faces on several sides.
+void open_sides(const SideGrowth& growth, PlacedContact& placed);
 
 /// Whether its gap can open by angle: a circle round one node, of gap > 0.
 [[nodiscard]] bool opens_by_angle(const PlacedContact& placed);

@@ -30,9 +30,16 @@ bool is_folder(const fs::path& one, const fs::path& other) {
   return fs::weakly_canonical(one) == fs::weakly_canonical(other);
 }
 
+/// `work_rate` of a contact or of one of its sides.
+StatedRate stated(const nlohmann::json& table) {
+  const nlohmann::json error = entry(table, "standard_error");
+  return {number(entry(table, "work_rate")), number(entry(error, "work_rate")),
+          number(entry(error, "work_rate_batches"))};
+}
+
 /// Work rates of the contacts of another run; nothing where it has not been made.
-std::optional<std::map<std::string, StatedRate>> read_run(const std::string& where,
-                                                          const fs::path& directory) {
+std::optional<std::map<std::string, ContactRates>> read_run(const std::string& where,
+                                                            const fs::path& directory) {
   const results::FoundSummary found = results::read_summary(directory / summary_name);
   if (!found.refusal.empty())
     throw core::Error(fmt::format("{}: {}; run that study again", where, found.refusal));
@@ -46,12 +53,14 @@ std::optional<std::map<std::string, StatedRate>> read_run(const std::string& whe
   if (results::text_of(summary["transient"], "outcome") != "done")
     throw core::Error(
         fmt::format("{}: the run in {} diverged; take a smaller step there", where, directory.string()));
-  std::map<std::string, StatedRate> out;
+  std::map<std::string, ContactRates> out;
   for (const auto& contact : contacts) {
-    const nlohmann::json error = entry(contact, "standard_error");
-    out[results::text_of(contact, "name")] = {number(entry(contact, "work_rate")),
-                                              number(entry(error, "work_rate")),
-                                              number(entry(error, "work_rate_batches"))};
+    ContactRates rates{stated(contact), {}};
+    const nlohmann::json sides = entry(contact, "sides");
+    for (std::size_t side = 0; side < rates.sides.size(); ++side)
+      if (const nlohmann::json own = entry(sides, contact::side_names[side]); own.is_object())
+        rates.sides[side] = stated(own);
+    out[results::text_of(contact, "name")] = rates;
   }
   return out;
 }
@@ -126,6 +135,10 @@ Differences differences(const results::RunResults& there, const Here& here) {
   return {other_structure(there, *found, here), other_contact(*found, here)};
 }
 
+std::string text_of(const StatedRate& rate) {
+  return fmt::format(" {:.17g} {:.17g} {:.17g}", rate.value, rate.error, rate.batches);
+}
+
 std::string missing_text(const std::vector<std::string>& missing) {
   return fmt::format(
       "wear is not computed, its states have runs that have not been made: {}; make them first, each of "
@@ -183,13 +196,21 @@ void check_contacts_of(const OtherRuns& others, const study::Study& study,
       std::vector<std::string> names;
       for (const auto& contact : *rates)
         names.push_back(contact.first);
-      for (const std::size_t c : place.contacts)
-        if (!rates->contains(placed[c].name))
-          throw core::Error(fmt::format("{}.states[{}].results: the run in {} has no contact \"{}\"{}; name "
-                                        "its contacts alike",
-                                        study.wear[place.entry].path, j,
-                                        study.wear[place.entry].states[j].results->string(), placed[c].name,
-                                        core::name_help(placed[c].name, names)));
+      const auto refuse = [&](const std::string& why) {
+        throw core::Error(fmt::format("{}.states[{}].results: the run in {} {}", study.wear[place.entry].path,
+                                      j, study.wear[place.entry].states[j].results->string(), why));
+      };
+      for (const std::size_t c : place.contacts) {
+        const auto found = rates->find(placed[c].name);
+        if (found == rates->end())
+          refuse(fmt::format("has no contact \"{}\"{}; name its contacts alike", placed[c].name,
+                             core::name_help(placed[c].name, names)));
+        for (const std::size_t side : place.sides)
+          if (!found->second.sides[side])
+            refuse(fmt::format(
+                "has no work of contact \"{}\" on its side {}; make it from this study, with this version",
+                placed[c].name, contact::side_names[side]));
+      }
     }
 }
 
@@ -249,8 +270,12 @@ std::string text_of(const OtherRuns& others) {
   std::string out;
   for (const auto& states : others.rates)
     for (const auto& rates : states)
-      for (const auto& [name, rate] : rates.value_or(std::map<std::string, StatedRate>()))
-        out += fmt::format("{} {:.17g} {:.17g} {:.17g}\n", name, rate.value, rate.error, rate.batches);
+      for (const auto& [name, of_contact] : rates.value_or(std::map<std::string, ContactRates>())) {
+        out += name + text_of(of_contact.total);
+        for (const auto& side : of_contact.sides)
+          out += side ? text_of(*side) : "";
+        out += '\n';
+      }
   return out;
 }
 

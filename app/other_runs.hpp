@@ -6,6 +6,7 @@
 /// `results` nor `work_rate` is then another one, whose work rates are not known there. So one study makes the runs of all its states.
 #pragma once
 #include "app/worn_places.hpp"
+#include "contact/sides.hpp"
 #include "results/run_results.hpp"
 #include <map>
 
@@ -19,10 +20,21 @@ struct StatedRate {
   [[nodiscard]] wear::WorkRate with(std::optional<double> confidence) const;
 };
 
+/// Of a contact.
+struct ContactRates {
+  StatedRate total;
+  std::array<std::optional<StatedRate>, contact::side_names.size()>
+      sides; ///< of obstacles of several flat faces
+  /// @param side  nothing: the total
+  [[nodiscard]] const StatedRate& at(std::optional<std::size_t> side) const {
+    return side ? sides[*side].value() : total;
+  }
+};
+
 struct OtherRuns {
   /// Work rates by name of a contact, of each state of each entry; nothing for states that are no other run,
   /// and in a run that is a state itself.
-  std::vector<std::vector<std::optional<std::map<std::string, StatedRate>>>> rates;
+  std::vector<std::vector<std::optional<std::map<std::string, ContactRates>>>> rates;
   std::string missing; ///< why wear cannot be computed: runs that have not been made; empty: it can
   std::string
       is_state_of; ///< the entry of which this run is a state for another run, which computes the wear; empty: none
@@ -33,7 +45,7 @@ struct OtherRuns {
 /// @throws core::Error for a folder without results of a transient, and a run that diverged
 [[nodiscard]] OtherRuns read_other_runs(const study::Study& study, const std::filesystem::path& folder);
 
-/// @throws core::Error for a contact that wears and that another run does not have
+/// @throws core::Error for a contact that wears and that another run does not have, or not by side
 void check_contacts_of(const OtherRuns& others, const study::Study& study,
                        const std::vector<WornPlace>& places, const std::vector<PlacedContact>& placed);
 

@@ -13,9 +13,16 @@ namespace {
 constexpr int history_steps = 40;     ///< of depth against time
 constexpr std::size_t most_names = 3; ///< in a warning
 
-StatedRate rate_of_contact(const results::RunResults& run, std::size_t contact) {
+/// Work rates of a contact in this run.
+ContactRates rates_of_contact(const results::RunResults& run, std::size_t contact) {
   const post::ContactSummary& statistics = run.contact_summaries[contact];
-  return {statistics.work_rate, statistics.error.work_rate, statistics.error.work_rate_batches};
+  ContactRates out{{statistics.work_rate, statistics.error.work_rate, statistics.error.work_rate_batches},
+                   {}};
+  for (std::size_t side = 0; side < out.sides.size(); ++side) {
+    const post::SideWork& own = statistics.sides[side];
+    out.sides[side] = StatedRate{own.work_rate, own.error, own.batches};
+  }
+  return out;
 }
 
 wear::WorkRate scaled(const wear::WorkRate& rate, double factor) {
@@ -74,7 +81,7 @@ std::optional<wear::ImpactSliding> indices_of(const study::Wear& entry, const re
 
 /// Appends a list against time; where the law does not apply, as many times without a value.
 void append(const std::vector<wear::DepthAt>& history, std::size_t times, double share,
-            std::vector<double> results::WearCurves::*which, results::WearOfSupport& out) {
+            std::vector<double> results::WearCurves::*which, results::WornScar& out) {
   for (std::size_t i = 0; i < times; ++i) {
     const bool applies = i < history.size();
     const auto depth = applies ? history[i].depth : std::nullopt;
@@ -105,7 +112,7 @@ results::WearLife life_of(const wear::TimeToLimit& value, const wear::TimeToLimi
   return {name_of(value.end), {value.years(), at_high.years(), at_low.years()}};
 }
 
-void set_scar(const wear::WornSupport& worn, results::WearOfSupport& out) {
+void set_scar(const wear::WornSupport& worn, results::WornScar& out) {
   const auto* shared = std::get_if<wear::SharedScar>(&worn.pairing);
   const double depth = out.depth.last().value + out.support_depth.last().value;
   if (!shared || std::isnan(depth) || depth > wear::largest_depth(shared->geometry))
@@ -127,21 +134,114 @@ void set_sector_depths(const wear::WornSupport& worn, const std::vector<double>&
   }
 }
 
-void set_histories(const wear::WornSupport& worn, double years,
-                   const std::vector<wear::UncertainState>& states, double share,
-                   results::WearOfSupport& out) {
-  for (int k = 0; k <= history_steps; ++k)
-    out.time.push_back(years * wear::year * k / history_steps);
-  const wear::DepthHistory history = wear::depth_history(worn, states, out.time);
-  append(history.value, out.time.size(), share, &results::WearCurves::value, out);
-  append(history.low, out.time.size(), share, &results::WearCurves::low, out);
-  append(history.high, out.time.size(), share, &results::WearCurves::high, out);
+/// Volume, depth and life of a scar.
+/// @param share  of the work rates of its states that is counted: of the sector with most
+void set_histories(const wear::WornSupport& worn, const std::vector<double>& time,
+                   const std::optional<wear::ImpactSliding>& indices, double share, results::WornScar& out) {
+  std::vector<wear::UncertainState> states;
+  for (const auto& state : out.states)
+    states.push_back({state.share, scaled(state.work_rate, share), indices});
+  const wear::DepthHistory history = wear::depth_history(worn, states, time);
+  append(history.value, time.size(), share, &results::WearCurves::value, out);
+  append(history.low, time.size(), share, &results::WearCurves::low, out);
+  append(history.high, time.size(), share, &results::WearCurves::high, out);
   if (history.outside)
     out.outside = history.outside->text;
   const wear::Life life = wear::time_to_limit(worn, states);
   out.life = life_of(life.value.tube, life.at_low.tube, life.at_high.tube);
   if (life.value.support)
     out.support_life = life_of(*life.value.support, *life.at_low.support, *life.at_high.support);
+  set_scar(worn, out);
+}
+
+std::vector<double> times_over(double years) {
+  std::vector<double> out;
+  for (int k = 0; k <= history_steps; ++k)
+    out.push_back(years * wear::year * k / history_steps);
+  return out;
+}
+
+/// Work rates of the operating states of a place.
+class StateRates {
+public:
+  StateRates(const study::Study& study, const WornPlace& place, const std::vector<PlacedContact>& placed,
+             const OtherRuns& others, const results::RunResults& run)
+      : entry_(study.wear[place.entry]), place_(place), placed_(placed), others_(others.rates[place.entry]),
+        run_(run) {}
+
+  /// @param side  nothing: all of the support
+  [[nodiscard]] std::vector<results::WearStateRate> of(std::optional<std::size_t> side) const {
+    std::vector<results::WearStateRate> out;
+    for (std::size_t j = 0; j < entry_.states.size(); ++j) {
+      const study::WearState& state = entry_.states[j];
+      out.push_back(
+          {state.name, state.share, state.given ? of_given(*state.given, side) : of_state(j, side)});
+    }
+    return out;
+  }
+
+private:
+  [[nodiscard]] wear::WorkRate of_state(std::size_t j, std::optional<std::size_t> side) const {
+    std::vector<wear::WorkRate> points;
+    for (const std::size_t c : place_.contacts)
+      points.push_back((others_[j] ? others_[j]->at(placed_[c].name) : rates_of_contact(run_, c))
+                           .at(side)
+                           .with(entry_.confidence));
+    return wear::sum_of_points(points);
+  }
+
+  /// A rate that the study gives has the shares of this run; where nothing slides in it, one side bears all.
+  [[nodiscard]] wear::WorkRate of_given(const wear::WorkRate& given, std::optional<std::size_t> side) const {
+    if (!side)
+      return given;
+    double own = 0.0, sum = 0.0;
+    for (const std::size_t other : place_.sides)
+      for (const std::size_t c : place_.contacts) {
+        const double rate = run_.contact_summaries[c].sides[other].work_rate;
+        sum += rate;
+        own += other == *side ? rate : 0.0;
+      }
+    return scaled(given, sum > 0.0 ? own / sum : *side == place_.sides.front() ? 1.0 : 0.0);
+  }
+
+  const study::Wear& entry_;
+  const WornPlace& place_;
+  const std::vector<PlacedContact>& placed_;
+  const std::vector<std::optional<std::map<std::string, ContactRates>>>& others_;
+  const results::RunResults& run_;
+};
+
+bool is_at_rest(const std::vector<results::WearStateRate>& states) {
+  return std::all_of(states.begin(), states.end(),
+                     [](const auto& state) { return !(state.work_rate.high > 0.0); });
+}
+
+/// The scar of each side, and the support from them. A side at which nothing slides does not wear, by any law.
+void add_sides(const WornPlace& place, const StateRates& rates,
+               const std::optional<wear::ImpactSliding>& indices, results::WearOfSupport& support) {
+  for (const std::size_t number : place.sides) {
+    results::WearOfSide side;
+    side.name = contact::side_names[number];
+    side.states = rates.of(number);
+    side.work_rate = mean_of_states(side.states);
+    wear::WornSupport worn = place.worn;
+    if (is_at_rest(side.states))
+      worn.tube = worn.support = wear::Archard{0.0};
+    set_histories(worn, support.time, indices, 1.0, side);
+    support.sides.push_back(std::move(side));
+  }
+  results::combine_sides(support);
+}
+
+/// One scar, or by sector the deepest of them.
+void add_scar(const WornPlace& place, const std::optional<wear::ImpactSliding>& indices,
+              results::WearOfSupport& support) {
+  const bool by_sector = std::holds_alternative<wear::SectorPair>(place.worn.pairing);
+  const std::vector<double> shares = shares_of(support.sector_rates);
+  set_histories(place.worn, support.time, indices,
+                by_sector ? *std::max_element(shares.begin(), shares.end()) : 1.0, support);
+  if (by_sector)
+    set_sector_depths(place.worn, shares, support);
 }
 
 /// Number of the structure that a node belongs to; -1: none.
@@ -201,27 +301,15 @@ void add_wear(const study::Study& study, const std::vector<WornPlace>& places,
     support.confidence = entry.confidence;
     support.tube = tube_of(out.bases, placed[place.contacts.front()].node);
     const auto indices = indices_of(entry, out, place.contacts, support);
-    for (std::size_t j = 0; j < entry.states.size(); ++j) {
-      const study::WearState& state = entry.states[j];
-      const auto& elsewhere = others.rates[place.entry][j];
-      std::vector<wear::WorkRate> points;
-      for (const std::size_t c : place.contacts)
-        points.push_back(
-            (elsewhere ? elsewhere->at(placed[c].name) : rate_of_contact(out, c)).with(entry.confidence));
-      support.states.push_back({state.name, state.share, state.given.value_or(wear::sum_of_points(points))});
-    }
+    const StateRates rates(study, place, placed, others, out);
+    support.states = rates.of({});
     support.work_rate = mean_of_states(support.states);
     support.sector_rates = sum_of_sectors(out, place.contacts);
-    const bool by_sector = std::holds_alternative<wear::SectorPair>(place.worn.pairing);
-    const std::vector<double> shares = shares_of(support.sector_rates);
-    const double share = by_sector ? *std::max_element(shares.begin(), shares.end()) : 1.0;
-    std::vector<wear::UncertainState> states;
-    for (const auto& state : support.states)
-      states.push_back({state.share, scaled(state.work_rate, share), indices});
-    set_histories(place.worn, entry.years, states, share, support);
-    set_scar(place.worn, support);
-    if (by_sector)
-      set_sector_depths(place.worn, shares, support);
+    support.time = times_over(entry.years);
+    if (place.sides.empty())
+      add_scar(place, indices, support);
+    else
+      add_sides(place, rates, indices, support);
     out.wear->supports.push_back(std::move(support));
   }
   out.wear->tubes = results::wear_by_tube(out.wear->supports);

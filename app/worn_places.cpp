@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/worn_places.hpp"
 #include "app/worn_geometry.hpp"
+#include "contact/sides.hpp"
 #include "core/error.hpp"
 #include "core/names.hpp"
 #include "wear/coefficients.hpp"
@@ -126,6 +127,19 @@ void check_axes(const std::vector<PlacedContact>& placed, const std::vector<std:
           first.name, placed[c].name));
 }
 
+/// Sides of flat bars on which all contacts of a support have faces.
+std::vector<std::size_t> sides_of(const wear::Pairing& pairing, const std::vector<PlacedContact>& placed,
+                                  const std::vector<std::size_t>& contacts) {
+  const auto* shared = std::get_if<wear::SharedScar>(&pairing);
+  if (!shared || !std::holds_alternative<wear::FlatBar>(shared->geometry))
+    return {};
+  std::vector<std::size_t> sides = contact::flat_sides(placed[contacts.front()].obstacle);
+  for (const std::size_t c : contacts)
+    if (contact::flat_sides(placed[c].obstacle) != sides)
+      return {};
+  return sides;
+}
+
 /// Results are filed under the names of supports.
 void check_names(const study::Study& study, const std::vector<WornPlace>& places) {
   std::set<std::string> names;
@@ -144,9 +158,10 @@ WornPlace place_of(const study::Study& study, const fem::Model& model,
     const PlacedContact& first = placed[contacts.front()];
     const study::Contact& contact = study.contacts[first.entry];
     const WornGeometry geometry = worn_geometry(entry, contact, first, model);
-    WornPlace place{name, e, contacts, {}, {}, {}};
+    WornPlace place{name, e, contacts, {}, {}, {}, {}};
     place.worn.pairing = geometry.pairing;
     place.worn.wall = geometry.wall;
+    place.sides = sides_of(place.worn.pairing, placed, contacts);
     place.worn.limit = entry.limit;
     place.worn.support_limit = entry.support_limit;
     std::tie(place.worn.tube, place.source) = law_of(entry, place.worn.pairing);

@@ -18,8 +18,9 @@ struct WornPlace {
   std::size_t entry;                 ///< in study.wear
   std::vector<std::size_t> contacts; ///< numbers among the placed ones
   wear::WornSupport worn;
-  std::string source;           ///< of the tube's coefficient
-  results::WearOfSupport facts; ///< name, contacts, law, geometry and sizes, ready for the results
+  std::vector<std::size_t> sides; ///< of contact::side_names, each with a scar of its own; empty: one scar
+  std::string source;             ///< of the tube's coefficient
+  results::WearOfSupport facts;   ///< name, contacts, law, geometry and sizes, ready for the results
 };
 
 /// @throws core::Error for a name that fits no contact, a contact that two entries name, a size that nothing gives, an obstacle without a

@@ -11,7 +11,18 @@ namespace {
 using namespace transient::kernels;
 
 /// Sums of a contact whose batches are kept: row of BatchEnds, contact after contact. Those of y and z are about their first values.
-enum Kept : std::size_t { impacts, slid, friction, normal2, y1, y2, z1, z2, contact_sums };
+enum Kept : std::size_t {
+  impacts,
+  slid,
+  friction,
+  normal2,
+  y1,
+  y2,
+  z1,
+  z2,
+  slid_at,
+  contact_sums = slid_at + contact::side_names.size()
+};
 
 // No array overlaps another: the compiler takes as many contacts at once as a vector has numbers.
 
@@ -113,6 +124,8 @@ void ContactStatistics::Sums::add(const transient::ContactState& state, double s
   tangential2 += state.friction_square * step;
   tangential_max = std::max(tangential_max, dot(state.friction, state.friction));
   slid += state.wear_work;
+  if (state.wear_work > 0.0)
+    slid_at[contact::side_of(state.axes)] += state.wear_work;
   distance += state.slid;
   sliding_time += state.sliding * step;
   friction += state.friction_work;
@@ -154,6 +167,7 @@ void ContactStatistics::write_sums(double* row) const {
     row[y2] = motion_.y2[c];
     row[z1] = motion_.z[c];
     row[z2] = motion_.z2[c];
+    std::copy(s.slid_at.begin(), s.slid_at.end(), row + slid_at);
   }
 }
 
@@ -181,6 +195,19 @@ StandardErrors ContactStatistics::errors_of(const BatchSums& batches, std::size_
   out.normal_rms = of_deviation(normal2, normal2, 0.0, o.normal_rms); // about 0
   out.y_std = of_deviation(y1, y2, motion_.y[contact] / time_, o.y.std);
   out.z_std = of_deviation(z1, z2, motion_.z[contact] / time_, o.z.std);
+  return out;
+}
+
+SideWorks ContactStatistics::sides_of(const BatchSums& batches, std::size_t contact) const {
+  SideWorks out;
+  for (std::size_t side = 0; side < out.size(); ++side) {
+    const double work = sums_[contact].slid_at[side];
+    if (!(work > 0.0))
+      continue;
+    const BatchEstimate estimate =
+        batch_means(batches.lengths, batches.sums[contact_sums * contact + slid_at + side]);
+    out[side] = {work / time_, estimate.error, estimate.batches};
+  }
   return out;
 }
 
@@ -255,6 +282,7 @@ std::vector<ContactSummary> ContactStatistics::summaries() const {
     }
     o.impact_rate = static_cast<double>(s.impacts) / time_;
     o.error = errors_of(batches, c, o);
+    o.sides = sides_of(batches, c);
   }
   return out;
 }

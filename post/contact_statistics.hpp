@@ -7,9 +7,12 @@
 /// r^2 = (rest_y + y)^2 + (rest_z + z)^2. The penetration is that of the contact's law: F_N/K_N at the largest force where nothing damps
 /// along the normal, else the largest -gap of the records with a normal force.
 #pragma once
+#include "contact/sides.hpp"
 #include "post/batch_means.hpp"
 #include "post/moments.hpp"
 #include "transient/run.hpp"
+#include <array>
+#include <limits>
 #include <vector>
 
 namespace fretwork::post {
@@ -24,6 +27,15 @@ struct StandardErrors {
   double batches = 0.0;           ///< the smallest effective number behind one of them (batch_means.hpp)
   double work_rate_batches = 0.0; ///< that behind the error of the work rate
 };
+
+/// Work rate at one side of the tube.
+struct SideWork {
+  double work_rate = 0.0; ///< W
+  double error = std::numeric_limits<
+      double>::quiet_NaN(); ///< W, standard error; not a number: nothing slides, or a short window
+  double batches = 0.0;     ///< effective number behind the error
+};
+using SideWorks = std::array<SideWork, contact::side_names.size()>;
 
 /// Over the window. An impact is a maximal interval of normal force > 0; those that start in the window
 /// count.
@@ -50,6 +62,7 @@ struct ContactSummary {
   double friction_work = 0.0;          ///< J, by the Coulomb slider
   double impact_rate = 0.0;            ///< 1/s, impacts over the length of the window
   StandardErrors error = {};
+  SideWorks sides = {}; ///< `work_rate` by side of the contact point (contact/sides.hpp)
 };
 
 class ContactStatistics final : public transient::Observer {
@@ -71,10 +84,11 @@ private:
     double impulse = 0.0, distance = 0.0, sliding_time = 0.0, damping = 0.0;
     double leaving = 0.0, leaving_max = 0.0;
     std::int64_t departures = 0;
-    double duration = 0.0, longest = 0.0; ///< of the impact under way; of all
-    double impact_time = 0.0;             ///< of impacts that started in the window
-    double deepest = 0.0;                 ///< m, penetration at the records
-    bool counted = false;                 ///< the impact under way started in the window
+    double duration = 0.0, longest = 0.0;                     ///< of the impact under way; of all
+    double impact_time = 0.0;                                 ///< of impacts that started in the window
+    double deepest = 0.0;                                     ///< m, penetration at the records
+    bool counted = false;                                     ///< the impact under way started in the window
+    std::array<double, contact::side_names.size()> slid_at{}; ///< `slid` by side
     /// A step with force, in the window.
     void add(const transient::ContactState& state, double step);
   };
@@ -92,6 +106,7 @@ private:
   [[nodiscard]] BatchSums batch_sums() const;
   [[nodiscard]] StandardErrors errors_of(const BatchSums& batches, std::size_t contact,
                                          const ContactSummary& o) const;
+  [[nodiscard]] SideWorks sides_of(const BatchSums& batches, std::size_t contact) const;
 
   std::vector<contact::Support> supports_;
   std::vector<double> rest_y_, rest_z_; ///< m, from the obstacle's centre

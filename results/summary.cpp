@@ -102,10 +102,22 @@ Json flexibility(const std::optional<StaticFlexibility>& f) {
   return {{"exact", number(f->exact)}, {"basis", number(f->basis)}, {"missing", number(f->missing)}};
 }
 
+/// By name of the side, of obstacles of several flat faces.
+Json sides(const ContactFacts& facts, const post::SideWorks& works) {
+  Json out = Json::object();
+  for (const std::size_t side : facts.sides) {
+    const post::SideWork& w = works[side];
+    out[contact::side_names[side]] = {
+        {"work_rate", number(w.work_rate)},
+        {"standard_error", {{"work_rate", number(w.error)}, {"work_rate_batches", number(w.batches)}}}};
+  }
+  return out;
+}
+
 Json contact(const ContactFacts& facts, const post::ContactSummary& c) {
   const ContactPosition position = position_of(facts, c);
   const Json radial{{"rms", number(c.radial_rms)}, {"max", number(c.radial_max)}};
-  return {
+  Json out{
       {"name", facts.name},
       {"impacts", c.impacts},
       {"impacts_per_second", number(c.impact_rate)},
@@ -132,6 +144,9 @@ Json contact(const ContactFacts& facts, const post::ContactSummary& c) {
       {"sticking_ratio", facts.friction_static > 0.0 ? number(c.sticking_ratio) : Json(nullptr)},
       {"standard_error", standard_error(c.error)},
       {"static_flexibility", flexibility(facts.static_flexibility)}};
+  if (!facts.sides.empty())
+    out["sides"] = sides(facts, c.sides);
+  return out;
 }
 
 Json contact_sums(const RunResults& results) {

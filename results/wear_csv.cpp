@@ -10,6 +10,7 @@ namespace {
 
 constexpr const char* curve_suffix = "_wear.csv";
 constexpr const char* sector_suffix = "_wear_sectors.csv";
+constexpr const char* sides_suffix = "_wear_sides.csv";
 constexpr const char* opening_name = "gap_opening.csv";
 
 /// A text cell: between quotes, those in it doubled.
@@ -26,19 +27,45 @@ std::string bounds_head(const char* name, const char* unit) {
   return fmt::format("{0} [{1}],{0}_low [{1}],{0}_high [{1}]", name, unit);
 }
 
+/// Figures of one scar: work rate; volumes and depths; sizes and life.
+struct ScarCells {
+  std::string rate, depths, sizes;
+};
+
+ScarCells cells_of(const WornScar& s) {
+  return {
+      value_and_bounds({s.work_rate.value, s.work_rate.low, s.work_rate.high}),
+      fmt::format("{},{},{},{}", value_and_bounds(s.volume.last()), value_and_bounds(s.depth.last()),
+                  value_and_bounds(s.support_volume.last()), value_and_bounds(s.support_depth.last())),
+      fmt::format("{},{},{},{}", s.scar_width, s.scar_length, s.life.end, value_and_bounds(s.life.years))};
+}
+
+ScarCells scar_heads() {
+  return {bounds_head("work_rate", "W"),
+          fmt::format("{},{},{},{}", bounds_head("volume", "m3"), bounds_head("depth", "m"),
+                      bounds_head("support_volume", "m3"), bounds_head("support_depth", "m")),
+          "scar_width [m],scar_length [m],life_end," + bounds_head("life", "years")};
+}
+
+std::string sides_text(const WearOfSupport& s) {
+  const ScarCells heads = scar_heads();
+  std::string text = fmt::format("side,{},{},{}\n", heads.rate, heads.depths, heads.sizes);
+  for (const WearOfSide& side : s.sides) {
+    const ScarCells cells = cells_of(side);
+    text += fmt::format("{},{},{},{}\n", side.name, cells.rate, cells.depths, cells.sizes);
+  }
+  return text;
+}
+
 std::string supports_text(const Wear& wear) {
-  std::string text = fmt::format(
-      "support,tube,law,coefficient [m2/N],source,{},geometry,{},{},{},{},scar_width [m],scar_length [m],"
-      "life_end,{}\n",
-      bounds_head("work_rate", "W"), bounds_head("volume", "m3"), bounds_head("depth", "m"),
-      bounds_head("support_volume", "m3"), bounds_head("support_depth", "m"), bounds_head("life", "years"));
-  for (const WearOfSupport& s : wear.supports)
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", cell(s.name), s.tube, s.law,
-                        s.coefficient, cell(s.source),
-                        value_and_bounds({s.work_rate.value, s.work_rate.low, s.work_rate.high}), s.geometry,
-                        value_and_bounds(s.volume.last()), value_and_bounds(s.depth.last()),
-                        value_and_bounds(s.support_volume.last()), value_and_bounds(s.support_depth.last()),
-                        s.scar_width, s.scar_length, s.life.end, value_and_bounds(s.life.years));
+  const ScarCells heads = scar_heads();
+  std::string text = fmt::format("support,tube,law,coefficient [m2/N],source,{},geometry,{},{}\n", heads.rate,
+                                 heads.depths, heads.sizes);
+  for (const WearOfSupport& s : wear.supports) {
+    const ScarCells cells = cells_of(s);
+    text += fmt::format("{},{},{},{},{},{},{},{},{}\n", cell(s.name), s.tube, s.law, s.coefficient,
+                        cell(s.source), cells.rate, s.geometry, cells.depths, cells.sizes);
+  }
   return text;
 }
 
@@ -89,7 +116,7 @@ std::string opening_text(const Wear& wear) {
 
 bool is_wear_csv(const std::string& file_name) {
   return file_name == "wear.csv" || file_name == opening_name || file_name.ends_with(curve_suffix) ||
-         file_name.ends_with(sector_suffix);
+         file_name.ends_with(sector_suffix) || file_name.ends_with(sides_suffix);
 }
 
 void export_wear_csv(const std::filesystem::path& directory, const Wear& wear) {
@@ -99,6 +126,8 @@ void export_wear_csv(const std::filesystem::path& directory, const Wear& wear) {
   for (const WearOfSupport& s : wear.supports) {
     write_text(directory / (path_name(s.name) + curve_suffix), curves_text(s));
     write_text(directory / (path_name(s.name) + sector_suffix), sectors_text(s));
+    if (!s.sides.empty())
+      write_text(directory / (path_name(s.name) + sides_suffix), sides_text(s));
   }
 }
 

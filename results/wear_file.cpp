@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/wear_file.hpp"
+#include "contact/sides.hpp"
 #include "results/text_file.hpp"
 #include <algorithm>
 
@@ -21,10 +22,14 @@ constexpr NumberOf figures[] = {{"coefficient", &WearOfSupport::coefficient},
                                 {"support_limit", &WearOfSupport::support_limit},
                                 {"impact_index", &WearOfSupport::impact_index},
                                 {"sliding_index", &WearOfSupport::sliding_index},
-                                {"share_above", &WearOfSupport::share_above},
-                                {"scar_width", &WearOfSupport::scar_width},
-                                {"scar_length", &WearOfSupport::scar_length},
-                                {"scar_half_angle", &WearOfSupport::scar_half_angle}};
+                                {"share_above", &WearOfSupport::share_above}};
+struct SizeOf {
+  const char* name;
+  double WornScar::*value;
+};
+constexpr SizeOf scar_sizes[] = {{"scar_width", &WornScar::scar_width},
+                                 {"scar_length", &WornScar::scar_length},
+                                 {"scar_half_angle", &WornScar::scar_half_angle}};
 constexpr const char* units =
     "coefficient, support_coefficient: m2/N; radius, wall, length, clearance, limit, support_limit, "
     "scar_width, "
@@ -35,19 +40,21 @@ struct TextOf {
   const char* name;
   std::string WearOfSupport::*value;
 };
-constexpr TextOf texts[] = {{"name", &WearOfSupport::name},     {"law", &WearOfSupport::law},
-                            {"source", &WearOfSupport::source}, {"geometry", &WearOfSupport::geometry},
-                            {"form", &WearOfSupport::form},     {"outside_law", &WearOfSupport::outside}};
+constexpr TextOf texts[] = {{"name", &WearOfSupport::name},
+                            {"law", &WearOfSupport::law},
+                            {"source", &WearOfSupport::source},
+                            {"geometry", &WearOfSupport::geometry},
+                            {"form", &WearOfSupport::form}};
 
 struct CurvesOf {
   const char* name;
   const char* unit;
-  WearCurves WearOfSupport::*value;
+  WearCurves WornScar::*value;
 };
-constexpr CurvesOf curves[] = {{"volume", "m3", &WearOfSupport::volume},
-                               {"support_volume", "m3", &WearOfSupport::support_volume},
-                               {"depth", "m", &WearOfSupport::depth},
-                               {"support_depth", "m", &WearOfSupport::support_depth}};
+constexpr CurvesOf curves[] = {{"volume", "m3", &WornScar::volume},
+                               {"support_volume", "m3", &WornScar::support_volume},
+                               {"depth", "m", &WornScar::depth},
+                               {"support_depth", "m", &WornScar::support_depth}};
 
 struct ListOf {
   const char* name;
@@ -121,6 +128,18 @@ void write_states(const h5::Group& group, const std::vector<WearStateRate>& stat
   }
 }
 
+void write_scar(const h5::Group& group, const WornScar& s) {
+  group.set("outside_law", s.outside);
+  for (const SizeOf& size : scar_sizes)
+    group.set(size.name, s.*size.value);
+  write_rate(group, s.work_rate);
+  write_life(group, "life", s.life);
+  write_life(group, "support_life", s.support_life);
+  for (const CurvesOf& which : curves)
+    write_curves(group, which.name, which.unit, s.*which.value);
+  write_states(group, s.states);
+}
+
 void write_support(const h5::Group& group, const WearOfSupport& s, std::size_t index) {
   for (const TextOf& text : texts)
     group.set(text.name, s.*text.value);
@@ -130,23 +149,40 @@ void write_support(const h5::Group& group, const WearOfSupport& s, std::size_t i
   for (const NumberOf& figure : figures)
     group.set(figure.name, s.*figure.value);
   group.set("units", std::string(units));
-  write_rate(group, s.work_rate);
-  write_life(group, "life", s.life);
-  write_life(group, "support_life", s.support_life);
   group.write<std::int64_t>("contacts", s.contacts, {s.contacts.size()}, "numbers of contacts");
-  for (const CurvesOf& which : curves)
-    write_curves(group, which.name, which.unit, s.*which.value);
+  write_scar(group, s);
   for (const ListOf& list : lists)
     if (!(s.*list.value).empty())
       group.write<double>(list.name, s.*list.value, {(s.*list.value).size()}, list.unit);
-  write_states(group, s.states);
+  if (s.sides.empty())
+    return;
+  const h5::Group sides = group.create("sides");
+  for (const WearOfSide& side : s.sides)
+    write_scar(sides.create(side.name), side);
 }
 
-/// Curves against one time of at least one instant; depths by sector for all sectors or none.
-void check_lengths(const WearOfSupport& s) {
-  for (const CurvesOf& which : curves)
-    if (const std::size_t length = (s.*which.value).value.size(); length != s.time.size() || length == 0)
+/// @param times  number of instants of the curves, at least one
+void read_scar(const h5::Group& group, std::size_t times, WornScar& s) {
+  s.outside = group.text("outside_law");
+  for (const SizeOf& size : scar_sizes)
+    s.*size.value = group.number(size.name);
+  s.work_rate = read_rate(group);
+  s.life = read_life(group, "life");
+  s.support_life = read_life(group, "support_life");
+  for (const CurvesOf& which : curves) {
+    s.*which.value = read_curves(group, which.name);
+    if (const std::size_t length = (s.*which.value).value.size(); length != times || length == 0)
       throw h5::Failure(std::string(which.name) + " of wear of unequal length");
+  }
+  const h5::Group states = group.open("states");
+  for (std::size_t j = 0; states.has(std::to_string(j)); ++j) {
+    const h5::Group state = states.open(std::to_string(j));
+    s.states.push_back({state.text("name"), state.number("share"), read_rate(state)});
+  }
+}
+
+/// Depths by sector for all sectors or none.
+void check_lengths(const WearOfSupport& s) {
   for (const auto* depth : {&s.sector_depth, &s.sector_support_depth})
     if (depth->size() != s.sector_depth.size() || (!depth->empty() && depth->size() != s.sector_rates.size()))
       throw h5::Failure("depths of wear by sector of unequal length");
@@ -160,21 +196,19 @@ WearOfSupport read_support(const h5::Group& group) {
   s.tube = group.integer("tube");
   for (const NumberOf& figure : figures)
     s.*figure.value = group.number(figure.name);
-  s.work_rate = read_rate(group);
-  s.life = read_life(group, "life");
-  s.support_life = read_life(group, "support_life");
   s.contacts = group.read<std::int64_t>("contacts");
-  for (const CurvesOf& which : curves)
-    s.*which.value = read_curves(group, which.name);
   for (const ListOf& list : lists)
     if (group.has(list.name))
       s.*list.value = group.read<double>(list.name);
   check_lengths(s);
-  const h5::Group states = group.open("states");
-  for (std::size_t j = 0; states.has(std::to_string(j)); ++j) {
-    const h5::Group state = states.open(std::to_string(j));
-    s.states.push_back({state.text("name"), state.number("share"), read_rate(state)});
-  }
+  read_scar(group, s.time.size(), s);
+  if (group.has("sides"))
+    for (const char* name : contact::side_names)
+      if (const h5::Group sides = group.open("sides"); sides.has(name)) {
+        WearOfSide& side = s.sides.emplace_back();
+        side.name = name;
+        read_scar(sides.open(name), s.time.size(), side);
+      }
   return s;
 }
 

@@ -59,6 +59,31 @@ Json sectors(const WearOfSupport& s) {
   return out;
 }
 
+/// Figures of one scar, after the years asked for.
+Json scar(const WornScar& s) {
+  return {{"outside_law", s.outside.empty() ? Json(nullptr) : Json(s.outside)},
+          {"volume_m3", bounds(s.volume.last())},
+          {"depth_m", bounds(s.depth.last())},
+          {"support_volume_m3", bounds(s.support_volume.last())},
+          {"support_depth_m", bounds(s.support_depth.last())},
+          {"scar",
+           {{"width_m", number(s.scar_width)},
+            {"length_m", number(s.scar_length)},
+            {"half_angle_rad", number(s.scar_half_angle)}}},
+          {"life_years", life(s.life)},
+          {"support_life_years", life(s.support_life)}};
+}
+
+Json sides(const WearOfSupport& s) {
+  Json out = Json::array();
+  for (const WearOfSide& side : s.sides) {
+    out.push_back(
+        {{"name", side.name}, {"states", states(side.states)}, {"work_rate", rate(side.work_rate)}});
+    out.back().update(scar(side));
+  }
+  return out;
+}
+
 Json support(const WearOfSupport& s, const std::vector<std::string>& contacts) {
   Json names = Json::array();
   for (const std::int64_t c : s.contacts)
@@ -75,19 +100,11 @@ Json support(const WearOfSupport& s, const std::vector<std::string>& contacts) {
            {"support_limit_m", number(s.support_limit)},
            {"states", states(s.states)},
            {"work_rate", rate(s.work_rate)},
-           {"outside_law", s.outside.empty() ? Json(nullptr) : Json(s.outside)},
-           {"years", s.time.empty() ? Json(nullptr) : number(s.time.back() / fretwork::wear::year)},
-           {"volume_m3", bounds(s.volume.last())},
-           {"depth_m", bounds(s.depth.last())},
-           {"support_volume_m3", bounds(s.support_volume.last())},
-           {"support_depth_m", bounds(s.support_depth.last())},
-           {"scar",
-            {{"width_m", number(s.scar_width)},
-             {"length_m", number(s.scar_length)},
-             {"half_angle_rad", number(s.scar_half_angle)}}},
-           {"life_years", life(s.life)},
-           {"support_life_years", life(s.support_life)},
-           {"sectors", sectors(s)}};
+           {"years", s.time.empty() ? Json(nullptr) : number(s.time.back() / fretwork::wear::year)}};
+  out.update(scar(s));
+  if (!s.sides.empty())
+    out["sides"] = sides(s);
+  out["sectors"] = sectors(s);
   if (s.confidence)
     out["confidence"] = *s.confidence;
   if (!std::isnan(s.impact_index))

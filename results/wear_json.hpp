@@ -17,6 +17,7 @@ namespace fretwork::results {
 [[nodiscard]] std::vector<std::string> wear_lines(const Wear& wear);
 
 /// wear.csv: one support a row; <name>_wear.csv: volume and depth against time; <name>_wear_sectors.csv: work and depth by angle;
+/// <name>_wear_sides.csv: the scars of several flat faces;
 /// gap_opening.csv, where gaps were opened: one stage of one support a row.
 /// @throws core::Error if a file cannot be written
 void export_wear_csv(const std::filesystem::path& directory, const Wear& wear);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/wear_results.hpp"
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <fmt/format.h>
+#include <functional>
 #include <map>
 
 namespace fretwork::results {
@@ -26,7 +29,70 @@ template <class Better> void take(Bounds& extreme, const Bounds& of, Better bett
   one(extreme.high, of.high);
 }
 
+constexpr std::array ends{&WearCurves::value, &WearCurves::low, &WearCurves::high};
+
+/// At one time and one end of the intervals.
+struct WornAt {
+  double volume = no_value, support_volume = no_value, depth = no_value, support_depth = no_value;
+};
+
+double larger(double a, double b) { return std::isnan(a) || std::isnan(b) ? no_value : std::max(a, b); }
+
+WornAt worn_at(const std::vector<WearOfSide>& sides, std::vector<double> WearCurves::*end, std::size_t i) {
+  WornAt out;
+  for (const WearOfSide& side : sides) {
+    const WornAt own{(side.volume.*end)[i], (side.support_volume.*end)[i], (side.depth.*end)[i],
+                     (side.support_depth.*end)[i]};
+    if (std::isnan(own.volume)) // outside its law
+      continue;
+    out = std::isnan(out.volume)
+              ? own
+              : WornAt{out.volume + own.volume, out.support_volume + own.support_volume,
+                       larger(out.depth, own.depth), larger(out.support_depth, own.support_depth)};
+  }
+  return out;
+}
+
+/// The first of the lives of the sides.
+WearLife first_life(const std::vector<WearOfSide>& sides, WearLife WornScar::*life) {
+  WearLife out = sides.front().*life;
+  for (const WearOfSide& side : sides) {
+    const WearLife& own = side.*life;
+    if (!std::isnan(own.years.value) && !(own.years.value >= out.years.value))
+      out.end = own.end;
+    take(out.years, own.years, std::less<>());
+  }
+  return out;
+}
+
 } // namespace
+
+void combine_sides(WearOfSupport& support) {
+  const auto& sides = support.sides;
+  support.volume = support.support_volume = support.depth = support.support_depth = {};
+  for (const auto end : ends)
+    for (std::size_t i = 0; i < support.time.size(); ++i) {
+      const WornAt worn = worn_at(sides, end, i);
+      (support.volume.*end).push_back(worn.volume);
+      (support.support_volume.*end).push_back(worn.support_volume);
+      (support.depth.*end).push_back(worn.depth);
+      (support.support_depth.*end).push_back(worn.support_depth);
+    }
+  support.life = first_life(sides, &WornScar::life);
+  support.support_life = first_life(sides, &WornScar::support_life);
+  double deepest = -1.0;
+  for (const WearOfSide& side : sides) {
+    if (!side.outside.empty())
+      support.outside +=
+          fmt::format("{}side {}: {}", support.outside.empty() ? "" : "; ", side.name, side.outside);
+    if (const double depth = side.depth.last().value; depth > deepest) {
+      deepest = depth;
+      support.scar_width = side.scar_width;
+      support.scar_length = side.scar_length;
+      support.scar_half_angle = side.scar_half_angle;
+    }
+  }
+}
 
 std::vector<WearOfTube> wear_by_tube(const std::vector<WearOfSupport>& supports) {
   std::map<std::int64_t, WearOfTube> tubes;

@@ -45,8 +45,26 @@ struct WearLife {
   Bounds years; ///< a: low is the short life, of the upper end of the work rate; infinity: never
 };
 
-/// One scar: a support, all points of it.
-struct WearOfSupport {
+/// One scar, by the work rates of its states.
+struct WornScar {
+  std::vector<WearStateRate> states;
+  wear::WorkRate work_rate{};        ///< W, mean over the states by their shares
+  std::string outside;               ///< why the law does not apply; empty: it does
+  WearCurves volume, support_volume; ///< m3
+  WearCurves depth, support_depth;   ///< m; not a number beyond the geometry
+  double scar_width = no_value, scar_length = no_value,
+         scar_half_angle = no_value; ///< m, m, rad: at the last time
+  WearLife life, support_life;       ///< an empty end: the support has no limit
+};
+
+/// The scar of one flat face.
+struct WearOfSide : WornScar {
+  std::string name; ///< of contact::side_names
+};
+
+/// A support, all points of it: one scar, or where flat faces meet the tube on several sides the sum of their volumes, the deepest of their
+/// depths and the first of their lives.
+struct WearOfSupport : WornScar {
   std::string name;
   std::vector<std::int64_t> contacts; ///< their numbers
   std::int64_t node = 0;              ///< of the first contact, in the model
@@ -64,19 +82,12 @@ struct WearOfSupport {
   double limit = 0.0;              ///< m, depth that the tube may lose
   double support_limit = no_value; ///< m
 
-  std::vector<WearStateRate> states;
-  wear::WorkRate work_rate{};                               ///< W, mean over the states by their shares
   double impact_index = no_value, sliding_index = no_value; ///< Si, Sg of kwu_epri
   double share_above = no_value; ///< of the time in contact that is above the maxima of kwu_epri's classes
-  std::string outside;           ///< why the law does not apply; empty: it does
 
-  std::vector<double> time;          ///< s, from 0 to the years asked for
-  WearCurves volume, support_volume; ///< m3
-  WearCurves depth, support_depth;   ///< m; not a number beyond the geometry
-  double scar_width = no_value, scar_length = no_value,
-         scar_half_angle = no_value; ///< m, m, rad: at the last time
-  WearLife life, support_life;       ///< an empty end: the support has no limit
-  std::vector<double> sector_rates;  ///< W, of this run by angular sector of the contact point, from -pi on
+  std::vector<double> time;         ///< s, from 0 to the years asked for
+  std::vector<WearOfSide> sides;    ///< scars of several flat faces; else empty
+  std::vector<double> sector_rates; ///< W, of this run by angular sector of the contact point, from -pi on
   std::vector<double> sector_depth, sector_support_depth; ///< m, at the last time; geometry "sectors" only
 };
 
@@ -115,6 +126,10 @@ struct Wear {
   std::vector<WearOfTube> tubes;
   std::optional<GapOpening> opening; ///< where the study asks for it
 };
+
+/// Volumes, depths, scar and lives of a support from its sides, at each end of the intervals. Sides that are outside their law count only
+/// where all are.
+void combine_sides(WearOfSupport& support);
 
 /// Sums and extremes over the supports of each tube, by the number of the tube.
 [[nodiscard]] std::vector<WearOfTube> wear_by_tube(const std::vector<WearOfSupport>& supports);

@@ -47,7 +47,8 @@ std::vector<std::string> aligned(const std::vector<Row>& rows) {
     lines.push_back(fmt::format("  {:<{}}", row.front(), width.front()));
     for (std::size_t i = 1; i + 1 < row.size(); ++i)
       lines.back() += fmt::format("  {:>{}}", row[i], width[i]);
-    lines.back() += "  " + row.back();
+    if (!row.back().empty())
+      lines.back() += "  " + row.back();
   }
   return lines;
 }
@@ -56,14 +57,21 @@ std::string law_text(const WearOfSupport& s) {
   return std::isnan(s.coefficient) ? s.law : fmt::format("{} {:.3g}", s.law, s.coefficient);
 }
 
-Row row(const WearOfSupport& s) {
-  return {shortened(s.name, support_width),
+Row row(const std::string& name, const WornScar& s, const std::string& law) {
+  return {name,
           figure(s.work_rate.value),
           with_bounds({s.volume.last().value}, cubic_millimetre),
           with_bounds(s.depth.last(), millimetre),
           with_bounds({s.scar_width}, millimetre),
           s.life.end == "outside_law" ? "outside the law" : with_bounds(s.life.years, 1.0),
-          law_text(s)};
+          law};
+}
+
+/// A support, and below it the scars of its sides.
+void add_support(std::vector<Row>& rows, const WearOfSupport& s) {
+  rows.push_back(row(shortened(s.name, support_width), s, law_text(s)));
+  for (const WearOfSide& side : s.sides)
+    rows.push_back(row("  side " + side.name, side, ""));
 }
 
 /// What the intervals of depth and years are; nothing where there is none.
@@ -169,11 +177,12 @@ std::vector<std::string> wear_lines(const Wear& wear) {
        alike ? fmt::format("years to {:.3g} mm", millimetre * first.limit) : "years to the limit",
        "law, m2/N"}};
   for (const std::size_t s : shown)
-    rows.push_back(row(wear.supports[s]));
+    add_support(rows, wear.supports[s]);
+  const std::size_t supports_end = rows.size();
   add_tubes(rows, wear);
   std::vector<std::string> lines = aligned(rows);
   if (shown.size() < wear.supports.size())
-    lines.insert(lines.begin() + 1 + static_cast<std::ptrdiff_t>(shown.size()),
+    lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(supports_end),
                  fmt::format("  the 10 of {} supports with the shortest lives", wear.supports.size()));
   add_confidence(lines, wear);
   add_sources(lines, wear);

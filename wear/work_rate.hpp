@@ -5,7 +5,7 @@
 /// Interval: value +- standard error of a run (post::StandardErrors), or +- t times it with t of Student's distribution for a given
 /// confidence, or bounds. A lower end below 0 becomes 0, which
 /// is returned as `low_at_zero`.
-/// Points of one support (nodes along it, both sides of it) wear one scar: values, lower and upper ends are summed.
+/// Points of one support (nodes along it) wear one scar: values, lower and upper ends are summed.
 /// Ends are summed linearly since contacts of one tube are not independent: an upper bound of the interval.
 /// Quantile at p of n sorted samples x_1..x_n: with h = (n - 1) p + 1, x_[h] + (h - [h])(x_[h]+1 - x_[h])  (type 7 of
 /// R. J. Hyndman and Y. Fan, The American Statistician 50 (1996) 361). An infinite sample ("never") is the largest;

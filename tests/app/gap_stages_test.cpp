@@ -25,6 +25,7 @@ protected:
                        {0},
                        {wear::SharedScar{wear::FlatBar{9.525e-3, 0.01}}, wear::Archard{1e-14}, wall},
                        {},
+                       {},
                        {}});
     run_.contacts.resize(1);
     run_.contacts[0].gap = 1e-4;

@@ -47,6 +47,27 @@ TEST(OpenedContacts, MoveEverySideAway) {
   expect_wider(any, ellipse, 1e-5, 0.0); // along an axis of the hole
 }
 
+// Each face of two bars or of an egg crate moves by the wear of its own side.
+TEST(OpenedContacts, MoveEachFaceByItsOwnSide) {
+  const SideGrowth growth_of{3e-4, 2e-4, 1e-4, 0.0};
+  const auto gaps = [](const PlacedContact& placed, double y, double z) {
+    return gap_at(placed.obstacle, placed.rest.y() + y, placed.rest.z() + z);
+  };
+  constexpr double out = 4e-4; // m, nearest to the face on that side
+  PlacedContact bars, crate;
+  bars.rest = crate.rest = {0.0, 5e-5, 0.0}; // a tube beside the middle
+  bars.obstacle = contact::PlanePair{5e-4, contact::PlaneAxis::y};
+  crate.obstacle = contact::egg_crate(radius, radius + 5e-4, radius + 5e-4);
+  for (PlacedContact* placed : {&bars, &crate}) {
+    const double plus = gaps(*placed, out, 0.0), minus = gaps(*placed, -out, 0.0);
+    open_sides(growth_of, *placed);
+    EXPECT_NEAR(gaps(*placed, out, 0.0), plus + growth_of[0], round_off);
+    EXPECT_NEAR(gaps(*placed, -out, 0.0), minus + growth_of[2], round_off);
+  }
+  EXPECT_NEAR(gaps(crate, 0.0, out), 1e-4 + growth_of[1], round_off);
+  EXPECT_NEAR(gaps(crate, 0.0, -out), 1e-4 + growth_of[3], round_off);
+}
+
 TEST(OpenedContacts, MoveTheFacesOfAnEggCrate) {
   const contact::Profile crate = contact::egg_crate(radius, radius + 2e-4, radius + 5e-4);
   for (const auto& [y, z] : {std::pair(1e-4, 0.0), std::pair(0.0, -3e-4), std::pair(-3e-4, 1e-4)})

@@ -114,6 +114,31 @@ TEST(ContactStatistics, CountTheWorkRateOnlyWhileTheContactSlides) {
   EXPECT_NEAR(s.tangential_max, 3.0, round_off);
 }
 
+// Work in bursts on one side, evenly on the other: each side has the error of its own batches.
+TEST(ContactStatistics, HaveTheWorkRateOfEachSideWithItsError) {
+  ContactStatistics statistics(centred(1), 0.0);
+  HandMade run(statistics, 1, h);
+  constexpr int steps = 640;
+  for (int k = 0; k < steps; ++k) {
+    auto& state = run.contact(0);
+    state.normal_force = 10.0;
+    state.slides = true;
+    state.slid = k % 2 == 0 && k % 160 >= 80 ? 0.0 : 1e-4;
+    state.axes = {k % 2 == 0 ? -1.0 : 1.0, 0.0}; // even steps: +y
+    run.step();
+  }
+  const ContactSummary s = statistics.summaries()[0];
+  const double half = 10.0 * 1e-4 / (2.0 * h);
+  EXPECT_NEAR(s.sides[0].work_rate, 0.5 * half, round_off);
+  EXPECT_NEAR(s.sides[2].work_rate, half, round_off);
+  EXPECT_NEAR(s.sides[0].work_rate + s.sides[2].work_rate, s.work_rate, round_off);
+  EXPECT_GT(s.sides[0].error, 0.1 * half);
+  EXPECT_LT(s.sides[2].error, 0.01 * half);
+  EXPECT_GT(s.sides[0].batches, 1.0);
+  EXPECT_EQ(s.sides[1].work_rate, 0.0);
+  EXPECT_TRUE(std::isnan(s.sides[1].error));
+}
+
 TEST(ContactStatistics, SumWhatTheStepsTell) {
   ContactStatistics statistics(centred(1), 0.0);
   HandMade run(statistics, 1, h);

@@ -333,6 +333,19 @@ class Report(unittest.TestCase):
         self.change(add)
         self.assertIn("stable up to 2 times the velocity", self.report())
 
+    def test_shows_the_scars_of_several_sides_below_their_support(self):
+        made_up(self.folder, 2, 100, wear=True)
+        with h5py.File(self.folder / "results.h5", "a") as file:
+            sides = file["wear/tsp1"].create_group("sides")
+            file.copy(file["wear/tsp2"], sides, "-y")
+            supports = [run_data._support_wear(file["wear"][name]) for name in ("tsp1", "tsp2")]
+        self.assertEqual(list(supports[0]["sides"]), ["-y"])
+        self.assertEqual(supports[1]["sides"], {})
+        rows = [re.findall(r"<td[^>]*>(.*?)</td>", row) for row in re.findall(r"<tr>(.*?)</tr>", wear_section._supports(supports))[1:]]
+        self.assertEqual([row[0] for row in rows], ["tsp1", "tsp1, side -y", "tsp2"])
+        self.assertEqual(rows[1][1:7], rows[2][1:7])
+        self.assertEqual(len(rows[1]), len(rows[2]))
+
     def test_shows_wear(self):
         made_up(self.folder, 5, 200, wear=True)
         text = self.report()

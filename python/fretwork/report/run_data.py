@@ -131,7 +131,8 @@ def _contact(group, summaries):
 
 def _support_wear(group):
     support = _attributes(group)
-    support.update({name: item[...] for name, item in group.items() if name != "states"})
+    support.update({name: item[...] for name, item in group.items() if name not in ("states", "sides")})
+    support["sides"] = {name: _support_wear(side) for name, side in group.get("sides", {}).items()}
     states = group["states"]
     support["states"] = [(_text(states[j].attrs["name"]), float(states[j].attrs["share"])) for j in sorted(states, key=int)]
     return support

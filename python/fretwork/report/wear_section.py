@@ -54,12 +54,15 @@ def _supports(supports):
     heads = ["support", "work rate [mW]", "worn volume [mm³]", "depth [mm]", "support's depth [mm]", "scar width × length [mm]",
              "years to the limit", "limit [mm]", "law", "geometry"]
     several = any(len(support["states"]) > 1 for support in supports)
-    rows = [
-        [html.escape(s["name"]), _bounds(s["work_rate"], 1e3), _bounds(s["volume"][-1], 1e9), _bounds(s["depth"][-1], 1e3),
-         _bounds(s["support_depth"][-1], 1e3), _scar(s), _life(s), short(1e3 * s["limit"], 3), _law(s), html.escape(s["geometry"])]
-        + ([_states(s)] if several else [])
-        for s in supports
-    ]
+
+    def scar(name, s):
+        return [html.escape(name), _bounds(s["work_rate"], 1e3), _bounds(s["volume"][-1], 1e9), _bounds(s["depth"][-1], 1e3),
+                _bounds(s["support_depth"][-1], 1e3), _scar(s), _life(s)]
+
+    rows = []
+    for s in supports:
+        rows.append(scar(s["name"], s) + [short(1e3 * s["limit"], 3), _law(s), html.escape(s["geometry"])] + ([_states(s)] if several else []))
+        rows += [scar(f"{s['name']}, side {side}", own) + [""] * (3 + several) for side, own in s["sides"].items()]
     return table(heads + (["operating states"] if several else []), rows, (0, 8, 9, 10))
 
 
