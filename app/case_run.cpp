@@ -190,7 +190,10 @@ CaseRunner::CaseRunner(study::Document document, std::vector<std::string> base_o
     : document_(std::move(document)), base_overrides_(std::move(base_overrides)), bases_(nominal) {
   for (const std::string& text : base_overrides_)
     study::apply_override(document_.root, text);
-  name_columns(prepare({}));
+  const Case unvaried = prepare({});
+  name_columns(unvaried);
+  warnings_ = compare_with_other_runs(unvaried.other_runs, unvaried.study, unvaried.worn, unvaried.placed,
+                                      unvaried.structure->model);
 }
 
 CaseRunner::Case CaseRunner::prepare(const std::vector<std::string>& overrides) {

@@ -22,6 +22,8 @@ public:
   [[nodiscard]] const std::vector<sweep::Column>& columns() const { return columns_; }
   /// Name and node of each contact, inactive ones included.
   [[nodiscard]] const std::vector<std::pair<std::string, core::Index>>& contacts() const { return contacts_; }
+  /// Of the nominal case.
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
   /// @throws core::Error, core::ComputationError where the case has no result
   [[nodiscard]] std::vector<double> operator()(const std::vector<std::string>& overrides);
 
@@ -36,6 +38,7 @@ private:
   CaseBases bases_;
   std::vector<sweep::Column> columns_;
   std::vector<std::pair<std::string, core::Index>> contacts_;
+  std::vector<std::string> warnings_;
 };
 
 } // namespace fretwork::app

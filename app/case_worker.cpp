@@ -39,6 +39,7 @@ json nominal_answer(const Request& request, Inputs& inputs, std::optional<CaseRu
     out["columns"].push_back({column.name, column.unit});
   for (const auto& [name, node] : runner->contacts())
     out["contacts"].push_back({name, node});
+  out["warnings"] = runner->warnings();
   return out;
 }
 
@@ -49,7 +50,7 @@ SweepFacts facts_of(const json& answer) {
     throw core::ComputationError(answer["failed"].get<std::string>());
   if (answer.contains("defect"))
     throw std::runtime_error(answer["defect"].get<std::string>());
-  SweepFacts out{answer.at("key").get<std::string>(), {}, {}};
+  SweepFacts out{answer.at("key").get<std::string>(), {}, {}, answer.at("warnings")};
   for (const json& column : answer.at("columns"))
     out.columns.push_back({column[0].get<std::string>(), column[1].get<std::string>()});
   for (const json& contact : answer.at("contacts"))

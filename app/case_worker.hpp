@@ -20,6 +20,7 @@ struct SweepFacts {
   std::string key; ///< of the study as the process read it: Inputs::whole_key
   std::vector<sweep::Column> columns;
   std::vector<std::pair<std::string, core::Index>> contacts; ///< name and node of each
+  std::vector<std::string> warnings;                         ///< of the nominal case
 };
 
 class CaseWorker {

@@ -229,10 +229,13 @@ public:
     }
     for (const auto& [name, text] : record)
       summary_[name] = text;
+    summary_["warnings"] = facts_.warnings;
     results::save_summary(plan_.directory / "summary.json", summary_);
     std::string text =
         plan_.inputs.study.title.empty() ? "Sweep\n" : "Sweep: " + plan_.inputs.study.title + "\n";
     text += sweep::summary_text(summary_);
+    for (const std::string& warning : facts_.warnings)
+      text += fmt::format("  warning      {}\n", warning);
     for (const auto& number : summary_["worst"])
       text += fmt::format(
           "  kept         {}\n",

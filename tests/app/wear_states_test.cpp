@@ -21,6 +21,15 @@ std::string notes_of(const Results& run) { return run.summary["notes"].dump(); }
 std::string warnings_of(const Results& run) { return run.summary["warnings"].dump(); }
 double work_rate(const Results& run) { return run.statistics("support0")["work_rate"]; }
 
+/// A sweep of the gap, with half and half.
+Outcome sweep_of_states(const Workshop& folder) {
+  const fs::path study = folder.write(
+      "sweep.toml", with_states(folder, half_and_half) +
+                        "[sweep]\ndraws = 2\n[[sweep.variables]]\nkey = \"contacts.support0.gap\"\n"
+                        "uniform = { from = 1e-5, to = 2e-5 }\n");
+  return folder.fretwork({"sweep", study.string(), "--no-report", "-o", folder.path("sweep").string()});
+}
+
 } // namespace
 
 TEST(WearStates, AreMadeByTheStudyThatNamesThem) {
@@ -111,14 +120,27 @@ TEST(WearStates, AreOfTheTubeAndTheSupportsOfTheStudy) {
 
 TEST(WearStates, ThatHaveNotBeenMadeAreRefusedByASweep) {
   const Workshop folder;
-  const fs::path study = folder.write(
-      "study.toml", with_states(folder, half_and_half) +
-                        "[sweep]\ndraws = 2\n[[sweep.variables]]\nkey = \"contacts.support0.gap\"\n"
-                        "uniform = { from = 1e-5, to = 2e-5 }\n");
-  const Outcome sweep = folder.fretwork({"sweep", study.string(), "-o", folder.path("sweep").string()});
+  const Outcome sweep = sweep_of_states(folder);
   EXPECT_NE(sweep.status, 0);
   EXPECT_TRUE(
       says(sweep.err + sweep.out, "wear is not computed, its states have runs that have not been made"));
+}
+
+TEST(WearStates, OfASweepAreOfItsTubeAndItsSupports) {
+  const Workshop folder;
+  const fs::path study = folder.write("study.toml", with_states(folder, half_and_half));
+  (void)folder.run(study, "part", {"--set", "contacts.support0.friction=0.2"});
+  const Outcome warned = sweep_of_states(folder);
+  EXPECT_EQ(warned.status, 0) << warned.err;
+  const std::string told = "differs from this study: contact \"support0\" has friction 0.2 there, 0.3 here";
+  EXPECT_TRUE(says(warned.out, told));
+  const auto summary = nlohmann::json::parse(bytes_of(folder.path("sweep") / "summary.json"));
+  ASSERT_EQ(summary["warnings"].size(), 1u);
+  EXPECT_TRUE(says(summary["warnings"][0], told));
+  (void)folder.run(study, "part", {"--set", "sections.tube.thickness=0.002"});
+  const Outcome refused = sweep_of_states(folder);
+  EXPECT_EQ(refused.status, 1) << refused.out;
+  EXPECT_TRUE(says(refused.err, "is of another structure: contact \"support0\""));
 }
 
 } // namespace fretwork::app::test::wear_states_test
