@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/hash.hpp"
+#include <array>
 #include <fstream>
-#include <sodium.h>
+#include <memory>
+#include <new>
+#include <openssl/evp.h>
 #include <vector>
 
 namespace fretwork::core {
@@ -9,22 +12,30 @@ namespace {
 
 constexpr std::size_t block_bytes = std::size_t{1} << 20; ///< read at a time
 
+/// OpenSSL's calls fail for want of memory only.
+void require(int success) {
+  if (success != 1)
+    throw std::bad_alloc();
+}
+
 class Digest {
 public:
-  Digest() { crypto_hash_sha256_init(&state_); }
-  void add(const char* bytes, std::size_t count) {
-    crypto_hash_sha256_update(&state_, reinterpret_cast<const unsigned char*>(bytes), count);
-  }
+  Digest() { require(EVP_DigestInit_ex(state_.get(), EVP_sha256(), nullptr)); }
+  void add(const char* bytes, std::size_t count) { require(EVP_DigestUpdate(state_.get(), bytes, count)); }
   [[nodiscard]] std::string hexadecimal() && {
-    unsigned char digest[crypto_hash_sha256_BYTES];
-    crypto_hash_sha256_final(&state_, digest);
-    char hex[sha256_digits + 1];
-    sodium_bin2hex(hex, sizeof hex, digest, sizeof digest);
+    std::array<unsigned char, sha256_digits / 2> digest{};
+    require(EVP_DigestFinal_ex(state_.get(), digest.data(), nullptr));
+    std::string hex;
+    for (const unsigned char byte : digest) {
+      constexpr const char* digits = "0123456789abcdef";
+      hex += digits[byte / 16];
+      hex += digits[byte % 16];
+    }
     return hex;
   }
 
 private:
-  crypto_hash_sha256_state state_;
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> state_{EVP_MD_CTX_new(), &EVP_MD_CTX_free};
 };
 
 } // namespace

@@ -32,7 +32,7 @@ class Packages(unittest.TestCase):
 
     def test_the_program_depends_on_the_libraries_it_links(self):
         depends = field(self.program, "Depends")
-        for library in ("libslepc-real", "libpetsc-real", "libhdf5-openmpi", "libgmsh", "libopenmpi", "libfftw3-double", "libsodium", "libstdc++"):
+        for library in ("libslepc-real", "libpetsc-real", "libhdf5-openmpi", "libgmsh", "libopenmpi", "libfftw3-double", "libssl", "libstdc++"):
             self.assertTrue(any(name.startswith(library) for name in depends), f"{library} in {depends}")
         self.assertFalse([name for name in depends if name.endswith("-dev")], "needed to build, not to run")
 
@@ -44,7 +44,7 @@ class Packages(unittest.TestCase):
     def test_the_libraries_depend_on_what_their_configuration_looks_for(self):
         """Every package of tools/packages.txt that FretworkConfig.cmake names by its module."""
         configuration = (self.root / "usr/lib/cmake/Fretwork/FretworkConfig.cmake").read_text()
-        package_of = {"Eigen3": "libeigen3-dev", "fmt": "libfmt-dev", "PkgConfig": "pkg-config", "libsodium": "libsodium-dev",
+        package_of = {"Eigen3": "libeigen3-dev", "fmt": "libfmt-dev", "PkgConfig": "pkg-config", "libcrypto": "libssl-dev",
                       "fftw3": "libfftw3-dev", "MPI": "libopenmpi-dev", "slepc": "libslepc-real-dev"}
         looked_for = set(re.findall(r"find_dependency\((\w+)", configuration)) | set(re.findall(r"IMPORTED_TARGET (\w+)", configuration))
         self.assertEqual({package_of[module] for module in looked_for}, field(self.libraries, "Depends"))

@@ -7,7 +7,7 @@ pkg_search_module(SLEPC REQUIRED IMPORTED_TARGET slepc SLEPc)
 pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-openmpi)   # the flavour PETSc uses: never two HDF5 in one process
 # Debian's *.pc files carry flags its own packages were built with (-D_FORTIFY_SOURCE=2): not ours, and precompiled headers fit no others.
 set_target_properties(PkgConfig::SLEPC PkgConfig::HDF5 PROPERTIES INTERFACE_COMPILE_OPTIONS "")
-pkg_check_modules(SODIUM REQUIRED IMPORTED_TARGET libsodium)
+pkg_check_modules(CRYPTO REQUIRED IMPORTED_TARGET libcrypto)   # OpenSSL: SHA-256 by the instructions of the processor
 pkg_check_modules(FFTW REQUIRED IMPORTED_TARGET fftw3)
 find_package(tomlplusplus REQUIRED)
 find_package(CLI11 REQUIRED)

@@ -27,6 +27,6 @@ set(CPACK_DEBIAN_LIBRARIES_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARIES_DESCRIPTION "Headers, archives and the CMake package of the libraries mesh, fem, modal,
 contact and transient.")
 set(CPACK_DEBIAN_LIBRARIES_PACKAGE_DEPENDS
-    "libeigen3-dev (>= 3.4), libfmt-dev, libsodium-dev, libfftw3-dev, libslepc-real-dev, libopenmpi-dev, pkg-config")
+    "libeigen3-dev (>= 3.4), libfmt-dev, libssl-dev, libfftw3-dev, libslepc-real-dev, libopenmpi-dev, pkg-config")
 set(CPACK_DEBIAN_LIBRARIES_PACKAGE_RECOMMENDS "cmake (>= 3.23), g++, fretwork")
 include(CPack)
