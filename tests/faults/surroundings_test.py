@@ -25,7 +25,7 @@ FRETWORK, STUDY, MPIRUN = sys.argv[1:4]
 SHORT = ["transient.duration=0.02", "output.statistics_from=0"]
 # An environment of its own may name the kernels of the linear algebra, which decide the last digits.
 KERNELS = {key: value for key, value in os.environ.items() if key.startswith("OPENBLAS_")}
-LONG = ["transient.duration=1", "transient.step=1e-6", "output.statistics_from=0", "output.checkpoint=0.01"]
+LONG = ["transient.duration=0.25", "transient.step=1e-6", "output.statistics_from=0", "output.checkpoint=0.01"]
 
 
 def command(study, results, keys=SHORT):
