@@ -2,9 +2,7 @@
 #include "transient/run.hpp"
 #include "transient/collocation/collocation.hpp"
 #include "transient/conserving/energy_conserving.hpp"
-#include "transient/explicit/devogelaere.hpp"
-#include "transient/explicit/euler.hpp"
-#include "transient/explicit/runge_kutta_54.hpp"
+#include "transient/explicit/explicit_schemes.hpp"
 #include "transient/splitting/replays.hpp"
 #include "transient/splitting/splitting.hpp"
 #include <algorithm>

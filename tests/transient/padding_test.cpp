@@ -2,7 +2,7 @@
 // Any number of contacts and modes gives what plain loops give.
 #include "plain_schemes.hpp"
 #include "scenes.hpp"
-#include "transient/explicit/euler.hpp"
+#include "transient/explicit/explicit_schemes.hpp"
 #include "transient/splitting/splitting.hpp"
 #include <gtest/gtest.h>
 

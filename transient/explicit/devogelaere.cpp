@@ -17,8 +17,8 @@
 /// a normal damper jumps at a touch or a spring is set.
 /// Stable for w h < 2.8 without damping (from 1.5 on 2 % of the amplitude are lost in a step), w h < 1.7 at 10 % of damping, and a damper's rate
 /// c h < 0.59 (C_T W, C_N W, K_T/C_T).
-#include "transient/explicit/devogelaere.hpp"
 #include "transient/explicit/end_record.hpp"
+#include "transient/explicit/explicit_schemes.hpp"
 #include "transient/scene/scheme.hpp"
 #include <algorithm>
 

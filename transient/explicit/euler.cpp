@@ -6,7 +6,7 @@
 /// 2 and h w_c < 2; an explicit tangential damper asks for C_T W h well below 1. It takes a full damping
 /// matrix. Energy: v_n belongs to t_n - h/2; the energy balance uses (v_n + v_{n+1})/2 at t_n, and its residual is of
 /// the order of the scheme.
-#include "transient/explicit/euler.hpp"
+#include "transient/explicit/explicit_schemes.hpp"
 #include "transient/contacts/obstacle_motion.hpp"
 #include "transient/explicit/contact_forces.hpp"
 #include "transient/modes/load_sum.hpp"

@@ -23,9 +23,9 @@
 /// contacts close and open.
 /// C_T = 0 and `reference` set the spring of a sliding contact once a step, which the error estimate does not see; `reference`, whose bounds
 /// depend on that, slides and sticks by its law, unlocated.
-#include "transient/explicit/runge_kutta_54.hpp"
 #include "transient/explicit/contact_events.hpp"
 #include "transient/explicit/end_record.hpp"
+#include "transient/explicit/explicit_schemes.hpp"
 #include <algorithm>
 #include <cmath>
 #include <iterator>
