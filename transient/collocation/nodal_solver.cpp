@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/collocation/nodal_solver.hpp"
-#include "transient/contacts/sweeps.hpp"
 #include <algorithm>
 #include <cmath>
 
