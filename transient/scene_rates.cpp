@@ -11,16 +11,6 @@ namespace {
 /// A table whose points are closer than this share of the run does not rule the step: its mean over steps is taken.
 constexpr double finest_table = 1e-6;
 
-/// Largest eigenvalue of D B B^T D over the rows chosen, D the square roots of the weights: that of the
-/// smaller of the two products.
-double largest_eigenvalue(const Eigen::MatrixXd& rows) {
-  if (rows.rows() == 0)
-    return 0.0;
-  const Eigen::MatrixXd product = rows.rows() <= rows.cols() ? Eigen::MatrixXd(rows * rows.transpose())
-                                                             : Eigen::MatrixXd(rows.transpose() * rows);
-  return std::max(0.0, core::symmetric_eigenvalues(product).maxCoeff());
-}
-
 /// A row of a contact times the root of its weight.
 struct WeightedRow {
   const ContactPoint* point;
@@ -28,9 +18,23 @@ struct WeightedRow {
   double root_weight;
 };
 
+/// Largest eigenvalue of D B B^T D, B the rows, D the square roots of their weights: that of the smaller of the two products.
+double largest_of_dense(const std::vector<WeightedRow>& rows, Eigen::Index modes) {
+  Eigen::MatrixXd b = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()), modes);
+  for (Eigen::Index i = 0; i < b.rows(); ++i) {
+    const auto& [point, along, root] = rows[static_cast<std::size_t>(i)];
+    point->for_ranges([&, along = along, root = root](Eigen::Index first, const auto& part) {
+      b.row(i).segment(first, part.cols()) = root * part.row(along);
+    });
+  }
+  const Eigen::MatrixXd product =
+      b.rows() <= b.cols() ? Eigen::MatrixXd(b * b.transpose()) : Eigen::MatrixXd(b.transpose() * b);
+  return std::max(0.0, core::symmetric_eigenvalues(product).maxCoeff());
+}
+
 /// The same of rows over the modes of some structures each: by the Lanczos iteration (G. Golub, C. Van Loan, Matrix Computations, 4th edition,
 /// section 10.1), which takes the rows' own columns alone. Eigenvalues that it finds again for want of orthogonality are no larger ones.
-double largest_eigenvalue(const std::vector<WeightedRow>& rows, Eigen::Index modes) {
+double largest_by_lanczos(const std::vector<WeightedRow>& rows, Eigen::Index modes) {
   constexpr int most = 400, looks = 10;
   constexpr double converged = 1e-13; // change of the value in so many iterations
   const auto count = static_cast<Eigen::Index>(rows.size());
@@ -75,35 +79,9 @@ double largest_eigenvalue(const std::vector<WeightedRow>& rows, Eigen::Index mod
   return std::max(0.0, largest);
 }
 
-template <class Weight, class Directions>
-Eigen::MatrixXd weighted_rows(const Scene& scene, Weight weight, Directions directions) {
-  Eigen::MatrixXd rows =
-      Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(scene.contacts.size()), scene.system.size());
-  std::vector<double> weights;
-  Eigen::Index used = 0;
-  for (const ContactPoint& point : scene.contacts) {
-    const double w = weight(point);
-    const std::array<bool, 3> along = directions(point.support);
-    for (int k = 0; k < 3; ++k)
-      if (along[static_cast<std::size_t>(k)] && w > 0.0) {
-        point.for_ranges([&](Eigen::Index first, const auto& part) {
-          rows.row(used).segment(first, part.cols()) = part.row(k);
-        });
-        ++used;
-        weights.push_back(w);
-      }
-  }
-  rows.conservativeResize(used, Eigen::NoChange);
-  const Eigen::VectorXd w = Eigen::Map<const Eigen::VectorXd>(weights.data(), used);
-  return w.cwiseSqrt().asDiagonal() * rows;
-}
-
-/// Of the rows of contacts, largest_eigenvalue.
+/// Of the rows of contacts along `directions`, the largest eigenvalue.
 template <class Weight, class Directions>
 double largest_of(const Scene& scene, Weight weight, Directions directions) {
-  const auto by_structure = [](const ContactPoint& point) { return !point.modes.empty(); };
-  if (!std::all_of(scene.contacts.begin(), scene.contacts.end(), by_structure))
-    return largest_eigenvalue(weighted_rows(scene, weight, directions));
   std::vector<WeightedRow> rows;
   for (const ContactPoint& point : scene.contacts) {
     const double w = weight(point);
@@ -112,7 +90,11 @@ double largest_of(const Scene& scene, Weight weight, Directions directions) {
       if (along[static_cast<std::size_t>(k)] && w > 0.0)
         rows.push_back({&point, k, std::sqrt(w)});
   }
-  return rows.empty() ? 0.0 : largest_eigenvalue(rows, scene.system.size());
+  if (rows.empty())
+    return 0.0;
+  const bool by_structure = std::all_of(scene.contacts.begin(), scene.contacts.end(),
+                                        [](const ContactPoint& point) { return !point.modes.empty(); });
+  return (by_structure ? largest_by_lanczos : largest_of_dense)(rows, scene.system.size());
 }
 
 std::array<bool, 3> normal_rows(const contact::Support& support) {
