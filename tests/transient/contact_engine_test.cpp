@@ -2,7 +2,7 @@
 // The parts that schemes share: motion, forces, memory. Only a commit changes what lasts.
 #include "contact/restitution.hpp"
 #include "scenes.hpp"
-#include "transient/explicit/contact_forces.hpp"
+#include "transient/explicit/euler_contacts.hpp"
 #include <cstring>
 #include <gtest/gtest.h>
 
@@ -21,18 +21,18 @@ constexpr double round_off = 1e-12;
 /// The contacts of a scene with all that acts on them.
 struct Engine {
   explicit Engine(const Scene& scene)
-      : contacts(scene.contacts, scene.system.size()), motion(contacts), memory(contacts, h),
+      : contacts(scene.contacts, scene.system.size()), motion(contacts), laws(contacts, h),
         trial(contacts.count), q(static_cast<std::size_t>(contacts.padded_modes)), v(q) {}
   void move(const Eigen::VectorXd& to, const Eigen::VectorXd& speed) {
     std::copy_n(to.data(), to.size(), q.begin());
     std::copy_n(speed.data(), speed.size(), v.begin());
     motion.gather(q.data(), v.data());
   }
-  void evaluate() { evaluate_contacts(contacts, memory, h, motion, trial); }
+  void evaluate() { laws.evaluate(motion, trial); }
 
   PackedContacts contacts;
   ContactMotion motion;
-  ContactMemory memory;
+  EulerContacts laws;
   ContactTrial trial;
   kernels::Array q, v;
 };
@@ -108,16 +108,16 @@ TEST(ContactEngine, ForgetsEvaluationsThatAreNotCommitted) {
       for (Engine* e : {&plain, &tried}) {
         e->move(s.q, s.v);
         e->evaluate();
-        (void)e->memory.commit(e->motion, e->trial);
+        (void)e->laws.commit(e->motion, e->trial);
       }
       ASSERT_EQ(bytes(plain.trial), bytes(tried.trial)) << "step " << k;
       ASSERT_EQ(plain.trial.active, tried.trial.active);
       ASSERT_EQ(plain.trial.opened, tried.trial.opened);
-      ASSERT_EQ(plain.memory.friction().spring_energy(), tried.memory.friction().spring_energy());
+      ASSERT_EQ(plain.laws.memory().spring_energy(), tried.laws.memory().spring_energy());
       closed += static_cast<int>(plain.trial.active.size());
     }
     EXPECT_GT(closed, 100);
-    EXPECT_GT(plain.memory.friction().spring_energy(), 0.0);
+    EXPECT_GT(plain.laws.memory().spring_energy(), 0.0);
   }
 }
 
@@ -132,44 +132,44 @@ TEST(ContactEngine, GivesTheSameTrialTwice) {
   EXPECT_EQ(bytes(engine.trial), first);
 }
 
-TEST(ContactMemory, LosesWhatTheOppositeFaceHasLoaded) {
+TEST(FrictionMemories, LosesWhatTheOppositeFaceHasLoaded) {
   Scene scene = mass_point(1.0, Vec3::Zero(), 1.0);
   scene.contacts = {contact_of(1.0, {contact::PlanePair{1e-3, PlaneAxis::y}, {1e6}, {1e5, 10.0, 1.0, 1.0}})};
   Engine e(scene);
   e.move(Vec3(0, 1.1e-3, 1e-5), Vec3(0, 0, 0.1));
   e.evaluate();
-  (void)e.memory.commit(e.motion, e.trial);
-  const double stored = e.memory.friction().spring_energy();
+  (void)e.laws.commit(e.motion, e.trial);
+  const double stored = e.laws.memory().spring_energy();
   EXPECT_GT(stored, 0.0);
-  EXPECT_GT(contact::norm(e.memory.friction().at(0, {-1.0, 0.0}).spring), 0.0);
-  EXPECT_EQ(contact::norm(e.memory.friction().at(0, {1.0, 0.0}).spring), 0.0);
+  EXPECT_GT(contact::norm(e.laws.memory().at(0, {-1.0, 0.0}).spring), 0.0);
+  EXPECT_EQ(contact::norm(e.laws.memory().at(0, {1.0, 0.0}).spring), 0.0);
   e.move(Vec3(0, -1.1e-3, 1e-5), Vec3::Zero());
   e.evaluate();
-  const ContactLosses losses = e.memory.commit(e.motion, e.trial);
+  const ContactLosses losses = e.laws.commit(e.motion, e.trial);
   EXPECT_NEAR(losses.damping, stored, round_off * stored);
-  EXPECT_NEAR(e.memory.friction().spring_energy(), 0.0, round_off * stored);
+  EXPECT_NEAR(e.laws.memory().spring_energy(), 0.0, round_off * stored);
 }
 
-TEST(ContactMemory, LetsTheSpringOfAnOpenContactDieOutAndBooksIt) {
+TEST(FrictionMemories, LetsTheSpringOfAnOpenContactDieOutAndBooksIt) {
   Scene scene = mass_point(1.0, Vec3::Zero(), 1.0);
   const contact::FrictionLaw law{1e5, 50.0, 1.0, 1.0};
   scene.contacts = {contact_of(1.0, {contact::Stop{1e-3, PlaneAxis::y}, {1e6}, law})};
   Engine e(scene);
   e.move(Vec3(0, 1.1e-3, 0), Vec3(0, 0, 0.1));
   e.evaluate();
-  (void)e.memory.commit(e.motion, e.trial);
-  const double stored = e.memory.friction().spring_energy();
+  (void)e.laws.commit(e.motion, e.trial);
+  const double stored = e.laws.memory().spring_energy();
   e.move(Vec3::Zero(), Vec3(0, -0.2, 0));
   e.evaluate();
-  const ContactLosses losses = e.memory.commit(e.motion, e.trial);
+  const ContactLosses losses = e.laws.commit(e.motion, e.trial);
   ASSERT_EQ(e.trial.opened, std::vector<int>{0});
   EXPECT_EQ(e.trial.states[0].departure, 0.2);
   EXPECT_EQ(e.trial.states[0].normal_force, 0.0);
   const double left = std::exp(-2.0 * law.stiffness * h / law.damping); // of the energy
-  EXPECT_NEAR(e.memory.friction().spring_energy(), left * stored, round_off * stored);
+  EXPECT_NEAR(e.laws.memory().spring_energy(), left * stored, round_off * stored);
   EXPECT_NEAR(losses.damping, (1.0 - left) * stored, round_off * stored);
   e.evaluate();
-  (void)e.memory.commit(e.motion, e.trial);
+  (void)e.laws.commit(e.motion, e.trial);
   EXPECT_TRUE(e.trial.opened.empty());
   EXPECT_EQ(e.trial.states[0].departure, 0.0);
 }

@@ -55,7 +55,7 @@ struct Point {
     const Vec2 along = at.support.friction.along;
     return {along.x * u.x(), along.t * (last_nz * u.y() - last_ny * u.z())};
   }
-  /// What the spring of a sticking contact lacks of its displacement since the last action (contact_memory.hpp).
+  /// What the spring of a sticking contact lacks of its displacement since the last action.
   void follow(const Vec3& u, const Vec3& v, double h) {
     if (!was_closed || !at.support.friction.active() || memory.sliding)
       return;

@@ -64,7 +64,7 @@ ConservingContacts::ConservingContacts(const PackedContacts& contacts)
   matrix_.resize(9 * count * count);
 }
 
-bool ConservingContacts::solve(double step, const Mobilities& mobilities, const ConservingMemory& memory,
+bool ConservingContacts::solve(double step, const Mobilities& mobilities, const FrictionMemories& memory,
                                ContactMotion& start, ContactMotion& free, ContactTrial& trial) {
   const Setting s{step, mobilities, memory};
   trial.clear();
@@ -290,7 +290,7 @@ void ConservingContacts::find_friction(const Setting& s, const ActiveContact& ac
   const double n[2] = {r.axes.ny, r.axes.nz}, t[2] = {r.axes.nz, -r.axes.ny};
   const double d[2] = {place[0] - active.x0.y, place[1] - active.x0.z};
   r.displacement = {law.along.x * place[2], law.along.t * r.axes.tangent(d[0], d[1])};
-  const contact::FrictionMemory past = s.memory.friction().at(active.contact, r.axes);
+  const contact::FrictionMemory past = s.memory.at(active.contact, r.axes);
   const bool reference = law.kind == contact::FrictionMemoryKind::reference;
   const bool dynamic = active.broken || past.sliding;
   const StepFriction f = reference && active.broken ? opposing(law, active.rho, r.normal, r.displacement,
@@ -381,9 +381,32 @@ void ConservingContacts::close(const ContactMotion& start, ContactTrial& trial) 
     state.damper_work = loss;
     state.slides = r.slides;
     parts_.push_back({c, r.closed, r.p1});
-    trial.active.push_back(c);
   }
-  std::sort(trial.active.begin(), trial.active.end());
+  std::sort(parts_.begin(), parts_.end(),
+            [](const ContactPart& a, const ContactPart& b) { return a.contact < b.contact; });
+  for (const ContactPart& part : parts_)
+    trial.active.push_back(part.contact);
+}
+
+ContactLosses ConservingContacts::commit(double h, const ContactMotion& end, FrictionMemories& memory,
+                                         ContactTrial& trial) const {
+  const auto table = [&](int c) {
+    return contact::friction_table(contacts_.supports[static_cast<std::size_t>(c)].friction, h);
+  };
+  const auto close_contact = [&](std::size_t k, const contact::FrictionMemory& past) {
+    const auto& [c, closed, end_penetration] = parts_[k];
+    const contact::Support& support = contacts_.supports[static_cast<std::size_t>(c)];
+    const ContactState& state = trial.states[static_cast<std::size_t>(c)];
+    const contact::Friction friction{state.friction, state.slides};
+    if (support.friction.kind == contact::FrictionMemoryKind::reference)
+      return closed_throughout(support.friction, table(c), past, friction, state.displacement);
+    const double end_force =
+        contact::normal_force(support.normal, end_penetration, end.penetration_rate(c, state.axes));
+    return close_part(support.friction, past, friction, state.normal_force, end_force, state.displacement, h,
+                      closed);
+  };
+  return memory.commit(
+      end, trial, close_contact, [&](std::size_t k) { return parts_[k].closed.share; }, table);
 }
 
 } // namespace fretwork::transient

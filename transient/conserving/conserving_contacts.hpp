@@ -15,7 +15,7 @@
 ///   - a profile's mean normal is held after some iterations (discrete_gradient.hpp).
 /// Contacts that are open at both ends have no force. Those taken as open are tested again with the forces found.
 #pragma once
-#include "transient/conserving/conserving_memory.hpp"
+#include "transient/conserving/conserving_friction.hpp"
 #include "transient/conserving/discrete_gradient.hpp"
 
 namespace fretwork::transient {
@@ -34,10 +34,11 @@ public:
   /// @param start, free  motion at the start of the step, and at its end without contact forces
   /// @param trial  overwritten: the step as it is to be committed; `springs` belong to its end
   /// @return whether the forces were found
-  [[nodiscard]] bool solve(double step, const Mobilities& mobilities, const ConservingMemory& memory,
+  [[nodiscard]] bool solve(double step, const Mobilities& mobilities, const FrictionMemories& memory,
                            ContactMotion& start, ContactMotion& free, ContactTrial& trial);
-  /// The contacts of the last solution with a force.
-  [[nodiscard]] const std::vector<ContactPart>& parts() const { return parts_; }
+  /// Accepts the step of the last solution, of h seconds (FrictionMemories::commit).   @param end  motion at its end
+  ContactLosses commit(double h, const ContactMotion& end, FrictionMemories& memory,
+                       ContactTrial& trial) const;
   /// Evaluations of all forces so far.
   [[nodiscard]] std::int64_t evaluations() const { return evaluations_; }
   void visit(core::StateArchive& state) { state(evaluations_); }
@@ -71,6 +72,12 @@ private:
     contact::Vec2 friction, displacement;
     bool slides, breaks; ///< breaks: to be taken again with the force of sliding
   };
+  /// A contact with a force in the step: what its memory needs.
+  struct ContactPart {
+    int contact;
+    ClosedPart closed;
+    double end_penetration; ///< m, < 0: open
+  };
   /// Derivatives of D/|D|, of F |D| and of the share of the step that is closed by the place, 1/m, N/m and 1/m; of F |D| by p1', N s/m.
   struct Turning {
     double turn[2], normal[2], share[2], by_rate;
@@ -78,7 +85,7 @@ private:
   struct Setting {
     double h;
     const Mobilities& mobilities;
-    const ConservingMemory& memory;
+    const FrictionMemories& memory;
   };
 
   void activate(int c, const Setting& s, const ContactMotion& start, const ContactMotion& free);
@@ -104,7 +111,7 @@ private:
   std::size_t size_; ///< components of a contact: y, z and, where a contact slides in the plane, x
   std::vector<ActiveContact> active_;
   std::vector<Response> response_;
-  std::vector<ContactPart> parts_;
+  std::vector<ContactPart> parts_; ///< by increasing contact: those of the trial
   std::vector<double> force_, residual_, matrix_, step_, base_;
   ContactMotion answer_; ///< where all contacts end with the forces there are
   std::int64_t evaluations_ = 0;

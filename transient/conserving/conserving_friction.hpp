@@ -19,7 +19,7 @@
 /// Order 2 for every C_T >= 0. Slider and damper never give energy: T_1 is shortened where they would.
 /// The path with friction at its bound is that share of dx in which |T - C_T dx/h| - mu F_N, taken as linear in time, is positive.
 #pragma once
-#include "contact/friction_law.hpp"
+#include "transient/contacts/friction_memories.hpp"
 
 namespace fretwork::transient {
 
@@ -49,15 +49,6 @@ struct StepFriction {
 [[nodiscard]] StepFriction opposing(const contact::FrictionLaw& law, double rho, double normal,
                                     contact::Vec2 dx, contact::Vec2 force);
 
-/// What a step has done to the spring.
-struct ClosedStep {
-  contact::Vec2 spring;       ///< N, at the end of the step
-  double slid = 0.0;          ///< m, path of the node while the friction is at its bound
-  double friction_work = 0.0; ///< J, by the slider, >= 0
-  double damper_work = 0.0;   ///< J, by C_T, >= 0
-  double given_up = 0.0;      ///< J, by the spring while the contact is open
-  double stored = 0.0;        ///< J, what the spring's energy grew by
-};
 /// Closes a step with the force of `along_trial`. `return_map` only.
 /// @param memory  at the start of the step   @param normal, end_normal  F_N, mean over the step and at its end, N
 [[nodiscard]] ClosedStep close_part(const contact::FrictionLaw& law, const contact::FrictionMemory& memory,

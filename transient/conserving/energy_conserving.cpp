@@ -295,10 +295,10 @@ private:
       places[k] = product(contacts_, s.trial, imposed_[k].u);
     for (std::size_t half = 0; half < 2; ++half)
       work.imposed[half] = places[half + 1] - places[half];
-    const double springs = springs_ + memory_.friction().spring_energy();
-    const ContactLosses losses = memory_.commit(s.length, solver_.parts(), end_, s.trial);
+    const double springs = springs_ + memory_.spring_energy();
+    const ContactLosses losses = solver_.commit(s.length, end_, memory_, s.trial);
     springs_ = s.trial.springs;
-    const double springs_end = springs_ + memory_.friction().spring_energy();
+    const double springs_end = springs_ + memory_.spring_energy();
     middle_.gather(s.middle_q.data(), s.middle_v.data());
     imposed_[1].add_to(middle_);
     s.middle_u = middle_.u;
@@ -329,7 +329,7 @@ private:
   ContactMotion start_, end_, middle_; ///< of the step that is made
   ObstacleMotion obstacles_;
   std::array<ImposedMotion, 3> imposed_; ///< at its start, middle and end
-  ConservingMemory memory_;
+  FrictionMemories memory_;
   ConservingContacts solver_;
   ContactRows rows_;
   std::array<Tables, halvings + 1> tables_;

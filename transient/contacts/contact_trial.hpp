@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// What one evaluation of all contacts gives. It changes nothing that lasts: a scheme may evaluate as often as it likes and hand the
-/// trial of the step it accepts to ContactMemory::commit.
+/// trial of the step it accepts to FrictionMemories::commit.
 #pragma once
 #include "transient/contacts/row_scatter.hpp"
 #include "transient/scene/scheme.hpp"
@@ -29,6 +29,13 @@ struct ContactTrial {
 
 private:
   void open_all();
+};
+
+/// J over a step, >= 0 but for errors of the order of the scheme.
+struct ContactLosses {
+  double damping =
+      0.0; ///< normal and tangential dampers, what the positive part cuts, springs of open contacts
+  double friction = 0.0; ///< Coulomb sliders
 };
 
 /// Sum over all contacts of the force on the node times a vector given in lanes (empty: 0): a power of velocities, W, a work of displacements, J.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// The tangential springs of all contacts from step to step and which contacts were closed, for schemes whose contacts act over whole steps: they
-/// say what a step makes of the spring of a closed contact, all else is here. It changes where a step is accepted only.
+/// say what a step makes of the spring of a closed contact, all else is here. It changes in `commit` only, once for every step that is accepted.
 ///
 /// A memory is kept in components along x_loc and t = n x x_loc, so it turns with the normal. On the opposite face it is lost: another
 /// surface. The spring of an open contact dies out by contact::open_step and is forgotten when round-off is left of it.
@@ -11,12 +11,20 @@
 
 namespace fretwork::transient {
 
-/// J over a step, >= 0 but for errors of the order of the scheme.
-struct ContactLosses {
-  double damping =
-      0.0; ///< normal and tangential dampers, what the positive part cuts, springs of open contacts
-  double friction = 0.0; ///< Coulomb sliders
+/// What a step in which a contact is closed has done to its spring.
+struct ClosedStep {
+  contact::Vec2 spring;       ///< N, at the end of the step
+  double slid = 0.0;          ///< m, path of the node while the friction is at its bound
+  double friction_work = 0.0; ///< J, by the slider, >= 0
+  double damper_work = 0.0;   ///< J, by C_T, >= 0
+  double given_up = 0.0;      ///< J, by the spring while the contact is open
+  double stored = 0.0;        ///< J, what the spring's energy grew by
 };
+/// Of a contact that is closed throughout: contact::close_step.
+[[nodiscard]] ClosedStep closed_throughout(const contact::FrictionLaw& law,
+                                           const contact::FrictionTable& table,
+                                           const contact::FrictionMemory& memory, contact::Friction friction,
+                                           contact::Vec2 dx);
 
 class FrictionMemories {
 public:
@@ -31,21 +39,29 @@ public:
   /// Energy of all springs, J.
   [[nodiscard]] double spring_energy() const { return springs_; }
 
-  /// Contact c with friction is closed in this step. What it remembers; what the opposite face has loaded is lost.
-  const contact::FrictionMemory& meet(int c, const contact::ContactAxes& axes, ContactLosses& losses);
-  /// What it remembers after the step, in which the energy of its spring has grown by `stored`, J.
-  void keep(int c, const contact::ContactAxes& axes, const contact::FrictionMemory& memory, double stored);
-  /// The springs of all other contacts die out. @param table  of the law of a contact and the step
-  template <class Table> void relax_open(const ContactTrial& trial, Table table, ContactLosses& losses) {
+  /// Accepts a step: advances the memories of the closed contacts, lets those of the others die out, fills the friction and damper work
+  /// and the sliding paths of the states, and the contacts that have opened. No allocation.
+  /// @param end  motion at the end of the step   @param close(k, memory)  a ClosedStep of contact trial.active[k], which has friction
+  /// @param share(k)  of the step in which it is closed   @param table(c)  friction_table of contact c over the step
+  template <class Close, class Share, class Table>
+  ContactLosses commit(const ContactMotion& end, ContactTrial& trial, const Close& close, const Share& share,
+                       const Table& table) {
+    ContactLosses losses{trial.cut, 0.0};
+    for (std::size_t k = 0; k < trial.active.size(); ++k) {
+      const int c = trial.active[k];
+      ContactState& state = trial.states[static_cast<std::size_t>(c)];
+      losses.damping += state.damper_work; // of the normal dampers
+      if (contacts_.supports[static_cast<std::size_t>(c)].friction.active())
+        keep(c, close(k, recall(c, state.axes, losses)), state, losses);
+      state.act_for(share(k), !was_closed(c));
+    }
     for (const int c : remembering_)
       if (!acts(trial, c))
         relax(c, table(c), losses);
     std::erase_if(remembering_, [&](int c) { return !(entries_[static_cast<std::size_t>(c)].left > 0.0); });
+    find_opened(end, trial);
+    return losses;
   }
-  /// Whether contact c had a force at the last step.
-  [[nodiscard]] bool was_closed(int c) const;
-  /// Ends a step: the contacts that have opened are handed to the trial with the speed at which they leave. `end`: motion at its end.
-  void end(const ContactMotion& end, ContactTrial& trial);
   void visit(core::StateArchive& state) { state(entries_, remembering_, closed_, springs_); }
 
 private:
@@ -57,6 +73,12 @@ private:
   [[nodiscard]] static bool acts(const ContactTrial& trial, int c) {
     return trial.states[static_cast<std::size_t>(c)].normal_force > 0.0;
   }
+  /// What a closed contact remembers; what the opposite face has loaded is lost.
+  const contact::FrictionMemory& recall(int c, const contact::ContactAxes& axes, ContactLosses& losses);
+  void keep(int c, const ClosedStep& step, ContactState& state, ContactLosses& losses);
+  [[nodiscard]] bool was_closed(int c) const;
+  /// The contacts that have opened are handed to the trial with the speed at which they leave.
+  void find_opened(const ContactMotion& end, ContactTrial& trial);
   void relax(int c, const contact::FrictionTable& table, ContactLosses& losses);
   void forget(int c, ContactLosses& losses);
 

@@ -6,9 +6,9 @@
 /// 2 and h w_c < 2; an explicit tangential damper asks for C_T W h well below 1. It takes a full damping
 /// matrix. Energy: v_n belongs to t_n - h/2; the energy balance uses (v_n + v_{n+1})/2 at t_n, and its residual is of
 /// the order of the scheme.
-#include "transient/explicit/explicit_schemes.hpp"
 #include "transient/contacts/obstacle_motion.hpp"
-#include "transient/explicit/contact_forces.hpp"
+#include "transient/explicit/euler_contacts.hpp"
+#include "transient/explicit/explicit_schemes.hpp"
 #include "transient/modes/load_sum.hpp"
 #include <algorithm>
 #include <cmath>
@@ -21,12 +21,12 @@ public:
   Euler(const Scene& scene, double step)
       : system_(scene.system), h_(step), loads_(scene, step), contacts_(scene.contacts, scene.system.size()),
         motion_(contacts_), obstacles_(scene, contacts_), imposed_(obstacles_.workspace()),
-        memory_(contacts_, step), trial_(contacts_.count), rows_(contacts_),
-        q_(kernels::padded_copy(scene.q0)), v_(kernels::padded_copy(scene.v0)),
-        k_(kernels::padded_copy(system_.stiffness)), c_(kernels::padded_copy(system_.lone_damping())),
-        load_(q_.size(), 0.0), force_(load_), before_q_(load_), before_v_(load_) {
+        laws_(contacts_, step), trial_(contacts_.count), rows_(contacts_), q_(kernels::padded_copy(scene.q0)),
+        v_(kernels::padded_copy(scene.v0)), k_(kernels::padded_copy(system_.stiffness)),
+        c_(kernels::padded_copy(system_.lone_damping())), load_(q_.size(), 0.0), force_(load_),
+        before_q_(load_), before_v_(load_) {
     obstacles_.place(0.0, q_.data(), v_.data(), imposed_, motion_);
-    memory_.start(motion_);
+    laws_.start(motion_);
     loads_.at(0.0, {0.0, h_}, load_.data());
     record_.step = h_;
   }
@@ -71,7 +71,7 @@ public:
   }
 
   void visit(core::StateArchive& state) override {
-    state(steps_, q_, v_, before_q_, before_v_, memory_);
+    state(steps_, q_, v_, before_q_, before_v_, laws_);
     state(record_.time, record_.energy, load_work_, modal_damping_, lost_);
   }
 
@@ -86,11 +86,10 @@ private:
     if (contacts_.count == 0)
       return {};
     obstacles_.place(record_.time, q_.data(), v_.data(), imposed_, motion_);
-    evaluate_contacts(contacts_, memory_, h_, motion_, trial_);
-    const ContactLosses losses = memory_.commit(motion_, trial_);
+    laws_.evaluate(motion_, trial_);
+    const ContactLosses losses = laws_.commit(motion_, trial_);
     rows_.add_to(trial_, force_.data());
-    return {trial_.springs + memory_.friction().spring_energy(), -product(contacts_, trial_, imposed_.w),
-            losses};
+    return {trial_.springs + laws_.memory().spring_energy(), -product(contacts_, trial_, imposed_.w), losses};
   }
 
   /// The full damping matrix joins the forces. Returns its power.
@@ -137,7 +136,7 @@ private:
   ContactMotion motion_;
   ObstacleMotion obstacles_;
   ImposedMotion imposed_;
-  ContactMemory memory_;
+  EulerContacts laws_;
   ContactTrial trial_;
   ContactRows rows_;
   std::int64_t steps_ = 0;

@@ -84,7 +84,7 @@ FreePath ContactSweeps::path_of(int c, const ContactMotion& start, const Contact
 }
 
 bool ContactSweeps::make(const ContactMotion& start, const ContactMotion& end, const std::vector<int>& near,
-                         ContactTrial& trial, StepLosses& losses) {
+                         ContactTrial& trial, ContactLosses& losses) {
   trial.clear();
   for (const Moving& m : moving_)
     moves_[m.c] = 0;
@@ -220,7 +220,7 @@ void ContactSweeps::finish_step(const ContactMotion& end) {
     }
 }
 
-void ContactSweeps::pass(int steps, ContactTrial& trial, StepLosses& losses) {
+void ContactSweeps::pass(int steps, ContactTrial& trial, ContactLosses& losses) {
   trial.clear();
   normal_springs_ = tangential_springs_ = 0.0;
   auto kept = loaded_.begin();

@@ -17,13 +17,6 @@
 
 namespace fretwork::transient {
 
-/// J over a step, >= 0 but for errors of the order of the scheme.
-struct StepLosses {
-  double damping =
-      0.0; ///< normal and tangential dampers, what the positive part cuts, springs of open contacts
-  double friction = 0.0; ///< Coulomb sliders
-};
-
 class ContactSweeps {
 public:
   /// @param contacts  must live longer   @param mobility  W by blocks: of the block's contact `to` by a force on its contact `from` at
@@ -43,11 +36,11 @@ public:
   ///   with a force held among them, by increasing number
   /// @param trial  overwritten   @return whether the sweeps converged
   bool make(const ContactMotion& start, const ContactMotion& end, const std::vector<int>& near,
-            ContactTrial& trial, StepLosses& losses);
+            ContactTrial& trial, ContactLosses& losses);
   /// After `make`, when the modes have taken the forces: the contacts stand here.
   void finish_step(const ContactMotion& end);
   /// Steps in which all contacts stay open. No allocation.
-  void pass(int steps, ContactTrial& trial, StepLosses& losses);
+  void pass(int steps, ContactTrial& trial, ContactLosses& losses);
 
   /// Of contact c over the last step `make` made with it, along y z x, N: linear in time from mean - slope to mean + slope.
   struct Force {

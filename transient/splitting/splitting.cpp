@@ -244,7 +244,7 @@ private:
       if (near_.empty() || length + 1 == lengths_.size())
         break;
     }
-    StepLosses losses;
+    ContactLosses losses;
     double brought = 0.0;
     s.pushed = !near_.empty();
     if (s.pushed) {
@@ -300,7 +300,7 @@ private:
       s.q[i] *= mode_scales_[i];
   }
 
-  void balance_energy(Step& s, const ModalFlow::Sums& sums, const StepLosses& losses, double brought) {
+  void balance_energy(Step& s, const ModalFlow::Sums& sums, const ContactLosses& losses, double brought) {
     energy_.load_work += sums.load_work + brought;
     energy_.scale += std::abs(sums.load_work) + std::abs(brought);
     energy_.fluid_work += sums.fluid_work;
