@@ -5,19 +5,9 @@
 
 namespace fretwork::transient {
 
-EndRecord::EndRecord(const MotionRates& rates) : width_(rates.contacts().width) {
-  const auto count = static_cast<std::size_t>(rates.contacts().count);
-  next_.q.assign(static_cast<std::size_t>(rates.modes()), 0.0);
-  next_.u.assign(rates.motion().u.size(), 0.0);
-  next_.states.resize(count);
-  shown_ = next_;
-  for (Sheet* sheet : {&next_, &shown_}) {
-    sheet->active.reserve(count);
-    sheet->opened.reserve(count);
-  }
-  past_.resize(count);
-  record_.contacts = rates.contacts().count;
-}
+EndRecord::EndRecord(const MotionRates& rates)
+    : contacts_(rates.contacts()), next_(rates), shown_(rates),
+      past_(static_cast<std::size_t>(contacts_.count)) {}
 
 void EndRecord::prepare(const MotionRates& rates, const double* y, double time) {
   prepare_all(rates, y, time, y);
@@ -26,8 +16,8 @@ void EndRecord::prepare(const MotionRates& rates, const double* y, double time) 
 void EndRecord::prepare_part(const MotionRates& rates, const double* y, double time, double length,
                              const double* until) {
   prepare_all(rates, y, time, until);
-  for (const int c : next_.active) {
-    ContactState& state = next_.states[c];
+  for (const int c : next_.trial.active) {
+    ContactState& state = next_.trial.states[c];
     state.displacement = length * rates.motion().slip(c, state.axes);
     state.slid = state.slides ? norm(state.displacement) : 0.0;
     state.wear_work = state.normal_force * state.slid;
@@ -43,15 +33,15 @@ void EndRecord::prepare_all(const MotionRates& rates, const double* y, double ti
   s.energy.initial = first_ ? s.energy.stored : shown_.energy.initial;
   s.energy.scale += s.energy.initial;
   first_ = false;
-  s.active.clear();
-  s.opened.clear();
-  for (int c = 0; c < record_.contacts; ++c)
-    prepare_contact(rates, until, c, shown_.states[c].normal_force > 0.0);
+  s.trial.active.clear();
+  s.trial.opened.clear();
+  for (int c = 0; c < contacts_.count; ++c)
+    prepare_contact(rates, until, c, shown_.trial.states[c].normal_force > 0.0);
 }
 
 void EndRecord::prepare_contact(const MotionRates& rates, const double* until, int c, bool was_active) {
   Past& past = past_[c];
-  ContactState& state = next_.states[c];
+  ContactState& state = next_.trial.states[c];
   const double friction = rates.friction_work(until, c) - past.friction,
                damper = rates.damper_work(until, c) - rates.forgotten(c) - past.damper;
   past.friction += friction;
@@ -64,7 +54,7 @@ void EndRecord::prepare_contact(const MotionRates& rates, const double* until, i
     if (entered)
       state.approach = past.entry;
     state.act_throughout(!was_active);
-    next_.active.push_back(c);
+    next_.trial.active.push_back(c);
     return;
   }
   state = {};
@@ -76,7 +66,7 @@ void EndRecord::prepare_contact(const MotionRates& rates, const double* until, i
     past.carried_friction = friction;
     past.carried_damper = damper;
     state.departure = -rate;
-    next_.opened.push_back(c);
+    next_.trial.opened.push_back(c);
   } else {
     past.entry = rate;
     past.entered = true;
@@ -86,13 +76,8 @@ void EndRecord::prepare_contact(const MotionRates& rates, const double* until, i
 void EndRecord::publish() {
   std::swap(next_, shown_);
   record_.time = shown_.time;
-  record_.q = shown_.q.data();
-  record_.uy = shown_.u.data();
-  record_.uz = shown_.u.data() + width_;
-  record_.states = shown_.states;
-  record_.active = shown_.active;
-  record_.opened = shown_.opened;
   record_.energy = shown_.energy;
+  show(record_, contacts_, shown_.q.data(), shown_.u.data(), shown_.trial);
 }
 
 } // namespace fretwork::transient

@@ -30,12 +30,14 @@ public:
 
 private:
   struct Sheet {
+    explicit Sheet(const MotionRates& rates)
+        : q(static_cast<std::size_t>(rates.modes()), 0.0), u(rates.motion().u.size(), 0.0),
+          trial(rates.contacts().count) {}
     double time = 0.0;
     Energy energy;
     kernels::Array q, u;
-    std::vector<ContactState> states;
-    std::vector<int> active, opened;
-    void visit(core::StateArchive& state) { state(time, energy, q, u, states, active, opened); }
+    ContactTrial trial;
+    void visit(core::StateArchive& state) { state(time, energy, q, u, trial); }
   };
   struct Past {
     double friction = 0.0, damper = 0.0;                 ///< J, works up to the last record
@@ -46,10 +48,10 @@ private:
   void prepare_all(const MotionRates& rates, const double* y, double time, const double* until);
   void prepare_contact(const MotionRates& rates, const double* until, int c, bool was_active);
 
+  const PackedContacts& contacts_;
   Sheet next_, shown_;
   Record record_;
   std::vector<Past> past_;
-  int width_;
   bool first_ = true;
 };
 
