@@ -236,7 +236,7 @@ private:
     if (last_ == Stage::stability || (scenes_wanted_ && !study.stabilities.empty()))
       assess_stability(comm_, tubes, together(placed_, inactive_), out_);
     if (scenes_wanted_)
-      core::agree(comm_, [&] { judge_fluidelastic(tubes, out_.bases, out_); });
+      core::agree(comm_, [&] { judge_fluidelastic(tubes, out_.bases, placed_, out_); });
     if (last_ == Stage::response || (scenes_wanted_ && !study.responses.empty()))
       linear_responses(comm_, tubes, turbulence_, together(placed_, inactive_), nodes_, out_);
   }

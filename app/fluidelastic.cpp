@@ -127,9 +127,12 @@ Fastest fastest(const TubesOfLaw& of) {
   return out;
 }
 
-core::MotionForces forces_of(const TubesOfLaw& of, double factor) {
+/// @param factor  the largest
+flow::ForcesOverFactor forces_of(const TubesOfLaw& of, double factor) {
   try {
-    return flow::motion_forces(of.tubes, of.law, of.modes, factor);
+    flow::ForcesOverFactor out = flow::forces_over_factor(of.tubes, of.law, of.modes, factor);
+    (void)out(factor); // what it refuses
+    return out;
   } catch (const core::Error& error) {
     throw core::Error(fmt::format("{}: {}", of.name, error.what()));
   }
@@ -168,12 +171,12 @@ public:
     }
   }
 
-  [[nodiscard]] Index size() const { return 2 * k_.size() + forces_.states(); }
+  [[nodiscard]] Index size() const { return 2 * k_.size() + forces_(1.0).states(); }
 
   /// The root that grows fastest at `factor` times the velocity, 1/s; where none grows, the vibration of least damping ratio.
   [[nodiscard]] std::complex<double> worst(double factor) const {
     const Index n = k_.size();
-    Eigen::MatrixXd a = flow::state_matrix(k_, Eigen::VectorXd::Zero(n), flow::scaled(forces_, factor));
+    Eigen::MatrixXd a = flow::state_matrix(k_, Eigen::VectorXd::Zero(n), forces_(factor));
     a.block(n, n, n, n) -= c_;
     const Eigen::VectorXcd roots = core::general_eigenvalues(a);
     const double none = round_off * roots.cwiseAbs().maxCoeff();
@@ -208,7 +211,7 @@ public:
   }
 
 private:
-  core::MotionForces forces_;
+  flow::ForcesOverFactor forces_;
   Eigen::VectorXd k_;
   Eigen::MatrixXd c_;
 };
@@ -228,7 +231,7 @@ std::vector<FluidForces> fluidelastic_forces(const TubesInFlow& tubes,
                         of.name));
       taken[s] = true;
     }
-    out.push_back({of.structures, forces_of(of, 1.0)});
+    out.push_back({of.structures, forces_of(of, 1.0)(1.0)});
   }
   return out;
 }
@@ -241,8 +244,8 @@ void assess_laws(const TubesInFlow& tubes, const std::vector<modal::Basis>& base
     const auto [velocity, diameter] = fastest(of);
     if (velocity == 0.0 || of.modes == 0)
       continue;
-    const core::MotionForces forces = forces_of(of, assessment.factors[1]);
-    if (const Index size = 2 * of.modes + forces.states(); size > most_searched)
+    const flow::ForcesOverFactor forces = forces_of(of, assessment.factors[1]);
+    if (const Index size = 2 * of.modes + forces(1.0).states(); size > most_searched)
       throw core::Error(fmt::format(
           "stability \"{}\", {}: the diagram has {} unknowns of modes and lags, more than {}; give a "
           "smaller modes (now {})",
@@ -270,7 +273,7 @@ void assess_laws(const TubesInFlow& tubes, const std::vector<modal::Basis>& base
 }
 
 void judge_fluidelastic(const TubesInFlow& tubes, const std::vector<modal::Basis>& bases,
-                        results::RunResults& out) {
+                        const std::vector<PlacedContact>& placed, results::RunResults& out) {
   for (const TubesOfLaw& of : tubes_of_laws(tubes, bases)) {
     const auto [velocity, diameter] = fastest(of);
     if (velocity == 0.0)
@@ -286,6 +289,11 @@ void judge_fluidelastic(const TubesInFlow& tubes, const std::vector<modal::Basis
     results::LawAtWork now{{}, roots.size(), roots.worst(1.0), velocity, diameter, roots.critical_factor()};
     for (const std::size_t f : of.flows)
       now.tubes.push_back(tubes.study.flows[tubes.flows[f].entry].name);
+    if (of.law.frozen && !placed.empty())
+      out.warnings.push_back(fmt::format(
+          "{}: the law is frozen at the frequency of each mode, which contacts change: it holds up to the "
+          "threshold, and past it no stop limits the motion; give a law with lags",
+          of.name));
     const std::complex<double> root = now.root;
     const double frequency = flow::frequency_of(root), reduced = now.reduced_velocity();
     const std::optional<double> critical = now.critical_factor;

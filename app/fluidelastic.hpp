@@ -24,8 +24,9 @@ void assess_laws(const TubesInFlow& tubes, const std::vector<modal::Basis>& base
 
 /// Of the modes without contacts: a note, or where the tubes are unstable a warning, for each law: the root of largest growth at
 /// the working point with its reduced velocity, and the factor of all velocities at which they become unstable first.
+/// @param placed  contacts of the run
 void judge_fluidelastic(const TubesInFlow& tubes, const std::vector<modal::Basis>& bases,
-                        results::RunResults& out);
+                        const std::vector<PlacedContact>& placed, results::RunResults& out);
 
 /// After a run: a warning for each flow with a law beyond whose range of amplitudes contacts or observed nodes of its tube moved. The laws are
 /// linear in the displacement: good to some 0.1 of the diameter.

@@ -2,6 +2,7 @@
 #include "flow/fluidelastic.hpp"
 #include "core/error.hpp"
 #include "core/symmetric.hpp"
+#include "flow/frozen_forces.hpp"
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -66,14 +67,6 @@ private:
   std::vector<double> rates_;
   double least_ = 0.0; ///< below it shares are those at it
   bool exact_ = true;
-};
-
-/// A station of a tube; still where V = 0.
-struct Place {
-  MatrixXd shapes;                 ///< along drag and lift, 2 x modes of its structure
-  double pressure = 0.0;           ///< q w, Pa m
-  double rate = 0.0;               ///< V/D, 1/s
-  std::vector<double> shares = {}; ///< of the nodes
 };
 
 /// Tubes of one structure.
@@ -144,22 +137,6 @@ std::vector<Structure> structures_of(const std::vector<TubeOfLaw>& tubes, double
   return out;
 }
 
-/// @throws core::Error where a zone with velocity has no direction of drag
-std::vector<Place> places_of(const Sampling& sampling) {
-  std::vector<Place> out;
-  for (const Station& station : sampling.stations) {
-    const double v = station.flow.velocity;
-    if (v > 0.0 && station.flow.drag.isZero(0.0))
-      throw core::Error("the zone has no direction, which fluidelastic forces need; give direction, or the "
-                        "velocity as a vector");
-    MatrixXd shapes(2, sampling.modes());
-    shapes << station.flow.drag.transpose() * station.shapes, station.flow.lift.transpose() * station.shapes;
-    out.push_back({std::move(shapes), 0.5 * station.flow.density * v * v * station.weight,
-                   v / station.tube.outer_diameter});
-  }
-  return out;
-}
-
 /// Block of a matrix of a law: the force on tube i by the motion of tube j.
 template <class Matrix> auto block_of(const Matrix& matrix, std::size_t i, std::size_t j) {
   return matrix.template block<2, 2>(static_cast<Eigen::Index>(2 * i), static_cast<Eigen::Index>(2 * j));
@@ -181,13 +158,13 @@ std::complex<double> along(const FluidelasticLaw& law, std::size_t i, std::size_
 /// K_x and C_x; of fast modes what the law is at their frequency, on the diagonal.
 void add_direct_forces(const std::vector<TubeOfLaw>& tubes, const FluidelasticLaw& law,
                        const std::vector<Structure>& structures,
-                       const std::vector<std::vector<Place>>& places, core::MotionForces& out) {
+                       const std::vector<std::vector<LawPlace>>& places, core::MotionForces& out) {
   for (const Structure& on : structures)
     for (const Structure& by : structures)
       for (const std::size_t i : on.tubes)
         for (const std::size_t j : by.tubes)
           for (std::size_t k = 0; k < places[i].size(); ++k) {
-            const Place& here = places[i][k];
+            const LawPlace& here = places[i][k];
             if (here.rate == 0.0)
               continue;
             const MatrixXd &mine = here.shapes, &its = places[j][k].shapes;
@@ -207,7 +184,7 @@ void add_direct_forces(const std::vector<TubeOfLaw>& tubes, const FluidelasticLa
 
 /// The lag of the motion of one structure at a node of V/D.
 void add_lag(const FluidelasticLaw::Lag& lag, std::size_t node, double rate, const Structure& by,
-             const std::vector<Structure>& structures, const std::vector<std::vector<Place>>& places,
+             const std::vector<Structure>& structures, const std::vector<std::vector<LawPlace>>& places,
              core::MotionForces& out) {
   std::vector<const Structure*> moved;
   std::vector<Eigen::Index> rows;
@@ -230,7 +207,7 @@ void add_lag(const FluidelasticLaw::Lag& lag, std::size_t node, double rate, con
     for (const std::size_t i : on->tubes)
       for (const std::size_t j : by.tubes)
         for (std::size_t k = 0; k < places[i].size(); ++k)
-          if (const Place& here = places[i][k]; here.rate > 0.0 && here.shares[node] != 0.0)
+          if (const LawPlace& here = places[i][k]; here.rate > 0.0 && here.shares[node] != 0.0)
             g.middleRows(row, on->slow) +=
                 here.pressure * here.shares[node] *
                 (here.shapes.leftCols(on->slow).transpose() *
@@ -242,6 +219,21 @@ void add_lag(const FluidelasticLaw::Lag& lag, std::size_t node, double rate, con
 
 } // namespace
 
+std::vector<LawPlace> law_places(const Sampling& sampling) {
+  std::vector<LawPlace> out;
+  for (const Station& station : sampling.stations) {
+    const double v = station.flow.velocity;
+    if (v > 0.0 && station.flow.drag.isZero(0.0))
+      throw core::Error("the zone has no direction, which fluidelastic forces need; give direction, or the "
+                        "velocity as a vector");
+    MatrixXd shapes(2, sampling.modes());
+    shapes << station.flow.drag.transpose() * station.shapes, station.flow.lift.transpose() * station.shapes;
+    out.push_back({std::move(shapes), 0.5 * station.flow.density * v * v * station.weight,
+                   v / station.tube.outer_diameter});
+  }
+  return out;
+}
+
 core::MotionForces motion_forces(const std::vector<TubeOfLaw>& tubes, const FluidelasticLaw& law,
                                  Eigen::Index modes, double largest_factor) {
   core::MotionForces out;
@@ -249,11 +241,11 @@ core::MotionForces motion_forces(const std::vector<TubeOfLaw>& tubes, const Flui
   out.input = MatrixXd::Zero(modes, 0);
   out.output = MatrixXd::Zero(0, modes);
   const std::vector<Structure> structures = structures_of(tubes, largest_factor);
-  std::vector<std::vector<Place>> places;
+  std::vector<std::vector<LawPlace>> places;
   std::vector<double> rates;
   for (const TubeOfLaw& tube : tubes) {
-    places.push_back(places_of(tube.sampling));
-    for (const Place& place : places.back())
+    places.push_back(law_places(tube.sampling));
+    for (const LawPlace& place : places.back())
       if (place.rate > 0.0)
         rates.push_back(place.rate);
   }
@@ -261,8 +253,8 @@ core::MotionForces motion_forces(const std::vector<TubeOfLaw>& tubes, const Flui
   if (rates.empty() || law.lags.empty())
     return out;
   const Nodes nodes(std::move(rates));
-  for (std::vector<Place>& of_tube : places)
-    for (Place& place : of_tube)
+  for (std::vector<LawPlace>& of_tube : places)
+    for (LawPlace& place : of_tube)
       if (place.rate > 0.0)
         place.shares = nodes.shares(place.rate);
   for (const FluidelasticLaw::Lag& lag : law.lags)
@@ -283,6 +275,19 @@ core::MotionForces scaled(core::MotionForces forces, double factor) {
   forces.input *= factor * factor;
   forces.rates *= factor;
   return forces;
+}
+
+ForcesOverFactor forces_over_factor(const std::vector<TubeOfLaw>& tubes, const FluidelasticLaw& law,
+                                    Eigen::Index modes, double largest_factor) {
+  if (!law.frozen)
+    return [forces = motion_forces(tubes, law, modes, largest_factor)](double factor) {
+      return scaled(forces, factor);
+    };
+  const TubeOfLaw& tube = tubes.front();
+  return [places = law_places(tube.sampling), frequency = tube.sampling.frequency, first = tube.first, modes,
+          frozen = *law.frozen](double factor) {
+    return frozen_forces(places, frozen, frequency, first, modes, factor);
+  };
 }
 
 MatrixXd state_matrix(const Eigen::VectorXd& k, const Eigen::VectorXd& c, const core::MotionForces& forces) {

@@ -18,6 +18,7 @@
 #include "core/motion_forces.hpp"
 #include "flow/fluidelastic_law.hpp"
 #include "flow/sampling.hpp"
+#include <functional>
 
 namespace fretwork::flow {
 
@@ -28,6 +29,7 @@ struct TubeOfLaw {
       0; ///< mode of its structure among those of all; tubes of one structure have the same modes
 };
 
+/// Of a law that is not frozen.
 /// @param tubes  as many as the law has   @param modes  of all structures: those of which no tube has shapes (static ones) feel nothing
 /// @param largest_factor  > 0, by which they may be `scaled`: modes whose reduced velocity V/(f D) stays below 0.3 up to it are not coupled; they feel
 ///     what the law is at their own frequency, K + sum B i kr/(i kr + d) and C, kr = 2 pi f D/V
@@ -41,6 +43,15 @@ struct TubeOfLaw {
 
 /// The same at `factor` > 0 times all velocities: q goes with its square, the rates of the lags with itself.
 [[nodiscard]] core::MotionForces scaled(core::MotionForces forces, double factor);
+
+/// Forces at a factor >= 0 of all velocities.
+using ForcesOverFactor = std::function<core::MotionForces(double)>;
+
+/// Of any law: `scaled` ones with lags, those frozen at frequencies (frozen_forces.hpp) at each factor anew, up to `largest_factor`.
+/// @throws core::Error as motion_forces; the function what frozen_forces throws
+[[nodiscard]] ForcesOverFactor forces_over_factor(const std::vector<TubeOfLaw>& tubes,
+                                                  const FluidelasticLaw& law, Eigen::Index modes,
+                                                  double largest_factor);
 
 /// A of x' = A x, x = (a, a', z), of modes with stiffness k (1/s2) and damping c (1/s) under such forces.
 [[nodiscard]] Eigen::MatrixXd state_matrix(const Eigen::VectorXd& k, const Eigen::VectorXd& c,

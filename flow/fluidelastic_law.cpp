@@ -99,6 +99,27 @@ FluidelasticLaw connors_law(double constant) {
   return law;
 }
 
+FluidelasticLaw connors_damping_law(double constant) {
+  FluidelasticLaw law;
+  law.frozen.emplace().connors = 4.0 / (constant * constant);
+  return law;
+}
+
+FluidelasticLaw frozen_law(std::vector<MeasuredForce> rows) {
+  std::sort(rows.begin(), rows.end(),
+            [](const auto& a, const auto& b) { return a.reduced_velocity < b.reduced_velocity; });
+  FluidelasticLaw law;
+  law.range = {rows.front().reduced_velocity, rows.back().reduced_velocity};
+  law.frozen = FrozenForce{{{}, {}}, {{}, {}}};
+  for (const MeasuredForce& row : rows) {
+    law.frozen->stiffness.s.push_back(row.reduced_velocity);
+    law.frozen->stiffness.values.push_back(row.stiffness);
+    law.frozen->damping.values.push_back(row.damping);
+  }
+  law.frozen->damping.s = law.frozen->stiffness.s;
+  return law;
+}
+
 FittedLaw fitted_law(const std::vector<MeasuredForce>& table, int lags) {
   const auto [slowest, fastest] =
       std::minmax_element(table.begin(), table.end(), [](const auto& a, const auto& b) {

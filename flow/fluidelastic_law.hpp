@@ -16,8 +16,12 @@
 /// Connors' coupling: K = kappa [[0, 1], [-1, 0]], kappa = 8 pi/K^2. Two directions of equal frequency f and decrement delta become unstable at
 /// V_c/(f D) = K (m delta/(rho D^2))^(1/2), whatever the frequency: the energy of a circular orbit, with K of H. Connors (ASME 1970).
 /// Table: measured c_k, c_d of lift over Vr, as the law of the form above with the least squares of its differences, c_d counted ten times.
+/// Frozen at the frequency of each mode (frozen_forces.hpp): c_k and c_d of a table at the mode's own Vr under flow, no lags; or Connors' threshold as a
+/// damping, c_k = 0, c_d = (4/K^2) Vr along drag and lift: zeta(V) = zeta_0 (1 - (V/V_c)^2) with the V_c above. Right at the threshold, and wrong
+/// as soon as contacts change the frequency.
 /// Limits: linear in u, below some 0.1 D; a tube that touches a support has the same law.
 #pragma once
+#include "flow/table.hpp"
 #include <Eigen/Core>
 #include <array>
 #include <complex>
@@ -25,6 +29,13 @@
 #include <vector>
 
 namespace fretwork::flow {
+
+/// Coefficients of harmonic motion, each mode at its own reduced velocity.
+struct FrozenForce {
+  Table<double> stiffness = Table<double>::constant(0.0),
+                damping = Table<double>::constant(0.0); ///< c_k, c_d of lift over Vr
+  double connors = 0.0;                                 ///< 4/K^2: c_d/Vr along drag and lift besides
+};
 
 struct FluidelasticLaw {
   struct Lag {
@@ -35,6 +46,7 @@ struct FluidelasticLaw {
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(2, 2); ///< K, rows and columns drag, lift of each tube
   Eigen::MatrixXd damping = Eigen::MatrixXd::Zero(2, 2);   ///< C
   std::vector<Lag> lags;
+  std::optional<FrozenForce> frozen = std::nullopt;          ///< in the place of all these, of one tube
   std::optional<std::array<double, 2>> range = std::nullopt; ///< of Vr in which it was measured
 
   [[nodiscard]] Eigen::Index tubes() const { return stiffness.rows() / 2; }
@@ -63,11 +75,17 @@ struct Memory {
 
 /// @param constant  K > 0
 [[nodiscard]] FluidelasticLaw connors_law(double constant);
+/// The same threshold as a damping.
+[[nodiscard]] FluidelasticLaw connors_damping_law(double constant);
 
 struct MeasuredForce {
   double reduced_velocity;   ///< Vr > 0
   double stiffness, damping; ///< c_k, c_d
 };
+/// A table frozen at the frequency of each mode: linear between its rows, constant beyond.
+/// @param rows  of different Vr, at least one
+[[nodiscard]] FluidelasticLaw frozen_law(std::vector<MeasuredForce> rows);
+
 /// A table as lags, and how far it is from its rows.
 struct FittedLaw {
   FluidelasticLaw law;          ///< of lift; its range is that of the rows

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flow/stability_diagram.hpp"
+#include "core/bracketed_root.hpp"
 #include "core/general_eigenvalues.hpp"
-#include "flow/fluidelastic.hpp"
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,8 +17,7 @@ constexpr double kept_share = 0.5;         // of a mode in its root from one fac
 constexpr int most_halvings = 3;           // of a step in which a mode keeps less
 constexpr int most_halvings_of_pairs = 20; // of a step in which a pair meets on the real axis and crosses 0
 constexpr double found = 1e-13;            // width of a bracket, of the factor
-constexpr int most_secants = 100;
-constexpr double round_off = 1e-10; // of the largest root: growth below is none
+constexpr double round_off = 1e-10;        // of the largest root: growth below is none
 
 /// Places of largest entries, one in each row and each column, by descending entry.
 /// @return for each column its row
@@ -42,7 +41,7 @@ std::vector<Eigen::Index> assigned(const MatrixXd& entries) {
 
 class Roots {
 public:
-  Roots(const Eigen::VectorXd& k, const Eigen::VectorXd& c, const core::MotionForces& forces)
+  Roots(const Eigen::VectorXd& k, const Eigen::VectorXd& c, const ForcesOverFactor& forces)
       : k_(k), c_(c), forces_(forces) {}
 
   /// Follows all roots from a small factor on; those that grow there cross at 0.
@@ -83,7 +82,7 @@ private:
   };
 
   [[nodiscard]] System solved(double factor) const {
-    core::Diagonalised roots = core::diagonalised(state_matrix(k_, c_, scaled(forces_, factor)));
+    core::Diagonalised roots = core::diagonalised(state_matrix(k_, c_, forces_(factor)));
     return {factor, std::move(roots.values), std::move(roots.vectors), std::move(roots.inverse)};
   }
 
@@ -161,36 +160,19 @@ private:
   [[nodiscard]] Crossing crossing(const System& next, Eigen::Index k) const {
     const double before = at_.values(k).real(), after = next.values(k).real();
     const double zero = (before > 0.0) != (after > 0.0) ? 0.0 : none_; // below, all is round-off
-    double low = at_.factor, high = next.factor, at_low = before - zero, at_high = after - zero;
-    const bool to_unstable = at_high > 0.0;
     std::complex<double> root = next.values(k);
-    double factor = high, kept = 0.0;
-    int side = 0;
-    for (int i = 0; i < most_secants && high - low > found * high; ++i) {
-      factor = (low * at_high - high * at_low) / (at_high - at_low);
-      if (!(factor > low && factor < high))
-        break; // round-off
+    double kept = 0.0;
+    const auto growth = [&](double factor) {
       root = ordered(at_, solved(factor), kept).values(k);
-      const double here = root.real() - zero;
-      if (here == 0.0)
-        break;
-      const int now = (here > 0.0) == to_unstable ? 1 : -1;
-      if (now > 0) {
-        high = factor;
-        at_high = here;
-        at_low *= side > 0 ? 0.5 : 1.0;
-      } else {
-        low = factor;
-        at_low = here;
-        at_high *= side < 0 ? 0.5 : 1.0;
-      }
-      side = now;
-    }
-    return {factor, {0.0, root.imag()}, mode_[static_cast<std::size_t>(k)], to_unstable};
+      return root.real() - zero;
+    };
+    const double factor =
+        core::bracketed_root(growth, at_.factor, next.factor, before - zero, after - zero, found);
+    return {factor, {0.0, root.imag()}, mode_[static_cast<std::size_t>(k)], after - zero > 0.0};
   }
 
   const Eigen::VectorXd &k_, &c_;
-  const core::MotionForces& forces_;
+  const ForcesOverFactor& forces_;
   System at_{};
   double none_ = 0.0;              ///< 1/s, growth that is round-off
   std::vector<Eigen::Index> mode_; ///< of each root, -1 of lags
@@ -224,7 +206,7 @@ const Crossing* StabilityDiagram::critical() const {
 }
 
 StabilityDiagram stability_diagram(const Eigen::VectorXd& k, const Eigen::VectorXd& c,
-                                   const core::MotionForces& forces, std::vector<double> factors) {
+                                   const ForcesOverFactor& forces, std::vector<double> factors) {
   StabilityDiagram out;
   out.factors = std::move(factors);
   out.roots.resize(static_cast<Eigen::Index>(out.factors.size()), k.size());

@@ -10,7 +10,7 @@
 /// Source: left and right vectors: M. Eldred, V. Venkayya, W. Anderson, AIAA J. 33 (1995) 1292; participation of modes in roots: I. Perez-Arriaga,
 /// G. Verghese, F. Schweppe, IEEE Trans. PAS-101 (1982) 3117.
 #pragma once
-#include "core/motion_forces.hpp"
+#include "flow/fluidelastic.hpp"
 #include <complex>
 #include <vector>
 
@@ -38,11 +38,10 @@ struct StabilityDiagram {
 [[nodiscard]] double damping_of(std::complex<double> root);
 
 /// @param k, c     1/s2 and 1/s, n stiffnesses and dampings of the modes of unit mass
-/// @param forces   at factor 1
+/// @param forces   over the factor
 /// @param factors  ascending, >= 0, the last > 0
 /// @throws core::ComputationError where eigenvalues do not converge
 [[nodiscard]] StabilityDiagram stability_diagram(const Eigen::VectorXd& k, const Eigen::VectorXd& c,
-                                                 const core::MotionForces& forces,
-                                                 std::vector<double> factors);
+                                                 const ForcesOverFactor& forces, std::vector<double> factors);
 
 } // namespace fretwork::flow

@@ -100,13 +100,19 @@ flow::FluidelasticLaw read_table(const TableReader& table) {
         table.fail_at("table", "Vr = " + std::to_string(values[0]) + " has two rows; give one");
     rows.push_back({values[0], values[1], values[2]});
   }
-  const auto lags = static_cast<int>(table.optional_integer("fit", 1).value_or(2));
+  const auto lags = static_cast<int>(table.optional_integer("fit", 0).value_or(2));
   if (lags > 3)
     table.fail_at("fit", "at most 3 lags are fitted");
   if (static_cast<int>(rows.size()) <= lags)
     table.fail_at("table", std::to_string(rows.size()) + " rows do not determine " + std::to_string(lags) +
                                " lags; give more rows, or a smaller fit");
-  return flow::fitted_law(rows, lags).law;
+  return lags == 0 ? flow::frozen_law(rows) : flow::fitted_law(rows, lags).law;
+}
+
+flow::FluidelasticLaw read_connors_law(const TableReader& table) {
+  const double constant = table.number("constant", {Range::above_zero});
+  const bool as_damping = table.choice("form", false, Choices<bool>{{{"coupled", false}, {"damping", true}}});
+  return as_damping ? flow::connors_damping_law(constant) : flow::connors_law(constant);
 }
 
 flow::FluidelasticLaw read_law(const TableReader& table, Kind kind) {
@@ -119,7 +125,7 @@ flow::FluidelasticLaw read_law(const TableReader& table, Kind kind) {
   case Kind::table:
     return read_table(table);
   case Kind::connors:
-    return flow::connors_law(table.number("constant", {Range::above_zero}));
+    return read_connors_law(table);
   }
   return {};
 }
@@ -135,7 +141,7 @@ std::vector<std::string> keys_of(Kind kind) {
   case Kind::table:
     return {"law", "range", "table", "fit"};
   case Kind::connors:
-    return {"law", "range", "constant"};
+    return {"law", "range", "constant", "form"};
   }
   return {};
 }
@@ -147,7 +153,7 @@ std::vector<NamedLaw> read_flow_laws(const TableReader& root) {
   for (const Entry& entry : table_entries(root, "flow_laws")) {
     const TableReader any(*entry.value, entry.path,
                           {{"law", "range", "stiffness", "damping", "lags", "lag_forces", "drag", "lift",
-                            "gradients", "delay", "memory", "table", "fit", "constant"}});
+                            "gradients", "delay", "memory", "table", "fit", "constant", "form"}});
     (void)any.required("law", "\"rational\", \"quasi_steady\", \"quasi_unsteady\", \"table\" or \"connors\"");
     const Kind kind = any.choice("law", Kind::rational, kinds);
     const TableReader table(*entry.value, entry.path, {keys_of(kind)});

@@ -213,6 +213,24 @@ TEST(Fluidelastic, WarnsOfAmplitudesThatALinearLawDoesNotHold) {
   EXPECT_TRUE(says(warnings(2.0), "the fluidelastic law is linear, good to some 0.1 of it"));
 }
 
+/// Connors' threshold as a damping is that of the criterion; beside contacts a run warns that the law is frozen.
+TEST(FluidelasticStability, OfADampingByConnorsIsThatOfTheCriterion) {
+  const Workshop folder;
+  const std::string connors = "[flow_laws.c]\nlaw = \"connors\"\nform = \"damping\"\nconstant = 3\n",
+                    study = tube(connors + flow("c", uniform + "connors_constant = 3\n") + assessment(""));
+  const json found = summary_of(folder, study)["stability"][0];
+  // the criterion takes the decrement 2 pi zeta/(1 - zeta^2)^(1/2), zeta = 0.01
+  const double criterion = found["cases"][0]["critical_scale"].get<double>() * std::pow(1.0 - 1e-4, 0.25);
+  EXPECT_TRUE(close_to(found["law"]["critical_factor"], criterion, of_pins));
+  const std::string transient = "[transient]\nduration = 0.001\n";
+  const auto warnings = [&](const std::string& more) {
+    return summary_of(folder, tube(connors + flow("c", uniform) + more + transient), "run")["warnings"]
+        .dump();
+  };
+  EXPECT_TRUE(says(warnings(middle("obstacle = \"plane_z\"\naxis = [1, 0, 0]\n")), "the law is frozen"));
+  EXPECT_EQ(warnings("").find("the law is frozen"), std::string::npos);
+}
+
 /// A damper couples modes: growth by the whole of its matrix, from closed forms of the shapes.
 TEST(Fluidelastic, GrowthBesideADamperIsThatOfCoupledModes) {
   constexpr Eigen::Index n = 12;

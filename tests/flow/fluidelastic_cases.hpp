@@ -30,6 +30,15 @@ inline FluidelasticLaw law_s1() {
   return law;
 }
 
+inline MeasuredForce a1(double x) { // a cell of flexible tubes
+  return {x, 88.73 - 637.1517 / x + 1398.2465 / (x * x) - 867.31 / std::pow(x, 3),
+          -0.225 + 2.417 / x - 0.458 / (x * x)};
+}
+inline MeasuredForce a3(double x) { // one flexible tube in a rigid bundle
+  return {x, -0.0796 + 7.95 / x - 21.49 / (x * x),
+          2.06 - 20.68 / x + 54.45 / (x * x) - 14.8 / std::pow(x, 3) - 53.6 / std::pow(x, 4)};
+}
+
 /// One metre of tube that moves along lift, at one station.
 inline Sampling metre(const OneDof& of, double velocity) {
   Sampling out;

@@ -83,55 +83,6 @@ TEST(Fluidelastic, VelocityUpToWhichAClosedStopHolds) {
   }
 }
 
-MeasuredForce a1(double x) { // a cell of flexible tubes
-  return {x, 88.73 - 637.1517 / x + 1398.2465 / (x * x) - 867.31 / std::pow(x, 3),
-          -0.225 + 2.417 / x - 0.458 / (x * x)};
-}
-MeasuredForce a3(double x) { // one flexible tube in a rigid bundle
-  return {x, -0.0796 + 7.95 / x - 21.49 / (x * x),
-          2.06 - 20.68 / x + 54.45 / (x * x) - 14.8 / std::pow(x, 3) - 53.6 / std::pow(x, 4)};
-}
-
-/// The root at v (m/s) of a tube whose coefficients are those at its own frequency under flow.
-std::complex<double> frozen_root(const Sampling& tube, MeasuredForce (*measured)(double), double damping,
-                                 double v) {
-  std::complex<double> root = 0.0;
-  double frequency = tube.frequency(0);
-  for (int i = 0; i < 60; ++i) {
-    const MeasuredForce force = measured(v / (frequency * diameter));
-    FluidelasticLaw law;
-    law.stiffness(1, 1) = force.stiffness;
-    law.damping(1, 1) = force.damping;
-    root = upper(roots(tube, law, damping, v));
-    frequency = std::abs(root) / (2.0 * std::numbers::pi);
-  }
-  return root;
-}
-
-/// Measured coefficients of a cell of tubes (A1), frozen at the frequency under flow; frequency and damping published with Code_Aster's test
-/// SDLL117A.
-TEST(Fluidelastic, FrozenCoefficientsOfAPinnedTube) {
-  Sampling tube = pinned(1, 0.0, 1.0);
-  tube.frequency(0) = 33.384181674; // Hz, dry
-  for (Station& station : tube.stations)
-    station.flow.density = 1000.0;
-  const std::complex<double> root = frozen_root(tube, a1, 0.03, 1.5);
-  EXPECT_NEAR(std::abs(root) / (2.0 * std::numbers::pi), 32.28970218, 1e-8 * 32.0);
-  EXPECT_NEAR(-root.real() / std::abs(root), 8.9435177660e-3, digits * 9e-3);
-}
-
-TEST(Fluidelastic, CriticalVelocityOfFrozenCoefficients) {
-  const Sampling one = metre(c1, 1.0);
-  double low = 2.5, high = 4.0;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (frozen_root(one, a3, c1.damping, middle).real() < 0.0 ? low : high) = middle;
-  }
-  EXPECT_NEAR(low, 3.4488399331, digits * 3.4);
-  EXPECT_NEAR(frozen_root(one, a3, c1.damping, low).imag() / (2.0 * std::numbers::pi), 28.5033004825,
-              1e-8 * 28.0);
-}
-
 TEST(Fluidelastic, TablesBecomeLags) {
   std::vector<MeasuredForce> rows;
   for (int i = 0; i <= 20; ++i)

@@ -23,7 +23,7 @@ StabilityDiagram diagram(const Sampling& sampling, const FluidelasticLaw& law, d
                          const std::vector<double>& factors) {
   const Eigen::VectorXd w = 2.0 * std::numbers::pi * sampling.frequency;
   return stability_diagram(w.cwiseAbs2(), 2.0 * damping * w,
-                           motion_forces(sampling, law, sampling.modes(), no_limit), factors);
+                           forces_over_factor({{sampling, 0}}, law, sampling.modes(), no_limit), factors);
 }
 StabilityDiagram diagram(const Sampling& sampling, const FluidelasticLaw& law, double damping, double last,
                          int points = 21) {
@@ -123,7 +123,9 @@ TEST(StabilityDiagram, TakesNoRoundOffForGrowth) {
   forces.input.resize(4, 0);
   forces.output.resize(0, 4);
   const Eigen::Vector4d k(0.0, 1e4, 1e6, 1e10), c = Eigen::Vector4d::Zero();
-  EXPECT_TRUE(stability_diagram(k, c, forces, evenly(3.0, 31)).crossings.empty());
+  EXPECT_TRUE(stability_diagram(
+                  k, c, [&](double factor) { return scaled(forces, factor); }, evenly(3.0, 31))
+                  .crossings.empty());
 }
 
 /// A static force that grows with the displacement outweighs the stiffness: m w^2 = q K.

@@ -107,6 +107,15 @@ TEST(FlowLawKeys, TablesAndConnors) {
   const flow::FluidelasticLaw connors = law_of(study_with("law = \"connors\"\nconstant = 3.0\n"));
   EXPECT_NEAR(connors.stiffness(0, 1), 2.792526803, 1e-9); // 8 pi/9
   EXPECT_EQ(connors.stiffness(1, 0), -connors.stiffness(0, 1));
+  EXPECT_FALSE(connors.frozen.has_value());
+  const flow::FluidelasticLaw frozen = law_of(study_with(rows + "fit = 0\n"));
+  ASSERT_TRUE(frozen.frozen.has_value());
+  EXPECT_EQ(frozen.frozen->damping.at(5.0), 0.65);
+  EXPECT_EQ(frozen.frozen->stiffness.at(1.0), -1.0) << "constant beyond the rows";
+  const flow::FluidelasticLaw damping =
+      law_of(study_with("law = \"connors\"\nconstant = 2\nform = \"damping\"\n"));
+  ASSERT_TRUE(damping.frozen.has_value());
+  EXPECT_EQ(damping.frozen->connors, 1.0);
 }
 
 TEST(FlowLawMessages, NameTheKeyAndTheCure) {
@@ -137,6 +146,8 @@ TEST(FlowLawMessages, NameTheKeyAndTheCure) {
       {study_with("law = \"table\"\ntable = [[0, 1, 1]]\n"), "give reduced velocities above 0"},
       {study_with("law = \"table\"\ntable = [[1, 1]]\n"), at + "table"},
       {study_with("law = \"table\"\nfit = 4\ntable = [[1, 1, 1]]\n"), "at most 3 lags are fitted"},
+      {study_with("law = \"connors\"\nconstant = 3\nform = \"frozen\"\n"),
+       at + "form = \"frozen\": unknown; available: "},
       {study_with("law = \"connors\"\nconstant = 0\n"), at + "constant = 0"},
       {study_with(of_two),
        "law \"bundle\" is of 2 tubes and has 1 [[flow]]; give one for each tube, in the order of the rows"},
