@@ -29,7 +29,7 @@ compilers() {
     -DFRETWORK_TESTS=OFF -DFRETWORK_BENCH=OFF >/dev/null && cmake --build build/clang --target fretwork >/dev/null &&
     "$python" -B tests/faults/golden_test.py "$program" examples --compare build/clang/bin/fretwork
 }
-sanitizers() { tools/build.sh sanitize >/dev/null && ctest --preset sanitize -j "$(nproc)"; }
+sanitizers() { tests/sanitize.sh all; }
 fuzzing() { tests/fuzz/run.sh "$seconds"; }
 
 tools/build.sh release >/dev/null || exit 1
