@@ -11,6 +11,7 @@ import shutil
 import subprocess
 import tomllib
 from collections.abc import Iterator, Mapping
+from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
@@ -87,7 +88,8 @@ def _tables(value: Mapping[str, Any], path: str) -> Iterator[str]:
         else:
             yield f"{_key(name)} = {_toml(item, key)}"
     for header, table in inner:
-        yield from ("", header)
+        if header.startswith("[[") or not table or not all(isinstance(item, Mapping) for item in table.values()):  # a header that something follows
+            yield from ("", header)
         yield from _tables(table, header.strip("[]"))
 
 
@@ -104,6 +106,8 @@ def run(study: str | Path, overrides: Mapping[str, Any] | None = None, ranks: in
     overrides: values by key, e.g. {"modes.count": 60}, as `--set` of the program takes them. ranks: processes (mpirun). output: folder of the
     results; by default the study's name with .results. progress: what the program prints is printed,
     and how far it is. An interrupted run goes on from its checkpoint when it is started again. Raises RunFailed with the program's message."""
+    if isinstance(study, Mapping):
+        raise TypeError("study is a dict: run takes a file; write it first, run(write_study(study, \"mine.toml\"))")
     file = Path(study)
     folder = Path(output) if output else file.with_suffix(".results")
     command = [*_command(ranks), "run", str(file), "--output", str(folder)]
@@ -121,5 +125,6 @@ def run(study: str | Path, overrides: Mapping[str, Any] | None = None, ranks: in
             process.wait()
             raise
     if process.returncode:
-        raise RunFailed("".join(lines[-20:]).strip() or f"fretwork ended with status {process.returncode}")
+        own = list(takewhile(lambda line: not re.fullmatch("-+\n", line), lines))  # what mpirun adds to it is between such rules
+        raise RunFailed("".join(own[-20:]).strip() or "".join(lines[-20:]).strip() or f"fretwork ended with status {process.returncode}")
     return Results(folder)

@@ -138,8 +138,6 @@ s = 1
 [[flow]]
 name = "c"
 
-[m]
-
 [m."x y"]
 e = [1.5, 2.0]
 """
@@ -152,6 +150,8 @@ e = [1.5, 2.0]
             fretwork.run(study, progress=False)
         with unittest.mock.patch.dict(os.environ, {"PATH": "/nowhere"}), self.assertRaisesRegex(fretwork.RunFailed, "ranks = 2 needs mpirun.*install openmpi-bin"):
             fretwork.run(study, ranks=2, progress=False)
+        with self.assertRaisesRegex(TypeError, "write_study"):
+            fretwork.run({"title": "no file"})
         with self.assertRaisesRegex(ValueError, "ranks = 0"):
             fretwork.run(study, ranks=0, progress=False)
 
@@ -222,8 +222,9 @@ e = [1.5, 2.0]
         self.assertEqual([results.summary["ranks"] for results in (one, two)], [1, 2])
         for name in one.contacts.index:
             np.testing.assert_array_equal(one.series(name)["normal_force"], two.series(name)["normal_force"])
-        with self.assertRaisesRegex(fretwork.RunFailed, "modes.cuont"):
+        with self.assertRaisesRegex(fretwork.RunFailed, "modes.cuont") as failed:
             fretwork.run(folder / "study.toml", {"modes.cuont": 3}, ranks=2, output=folder / "out", progress=False)
+        self.assertNotIn("mpirun", str(failed.exception))
 
 
 if __name__ == "__main__":
