@@ -27,23 +27,27 @@ void LargestImpact::Contact::add(const ForcePoint& point) {
 void LargestImpact::step(const transient::Record& record) {
   if (record.time < from_)
     return;
-  for (const int c : record.opened) {
-    Contact& contact = contacts_[static_cast<std::size_t>(c)];
-    if (contact.was_active)
-      contact.add({record.time, 0.0, 0.0});
-    contact.was_active = false;
-  }
+  const double start = record.time - 0.5 * record.step, end = record.time + 0.5 * record.step;
   for (const int c : record.active) {
     const transient::ContactState& state = record.states[static_cast<std::size_t>(c)];
     Contact& contact = contacts_[static_cast<std::size_t>(c)];
-    if (!contact.was_active)
-      contact.add({record.time - record.step, 0.0, 0.0});
-    contact.was_active = true;
+    if (!contact.closed)
+      contact.add({start, 0.0, 0.0});
+    contact.closed = true;
     contact.add({record.time, state.normal_force, norm(state.friction)});
     if (state.peak > contact.largest) {
       contact.largest = state.peak;
       contact.still = points / 2;
     }
+  }
+  for (const int c : record.opened) {
+    const transient::ContactState& state = record.states[static_cast<std::size_t>(c)];
+    Contact& contact = contacts_[static_cast<std::size_t>(c)];
+    if (state.touches > 0 && state.opened_at < state.closed_at)
+      continue; // it closed again
+    if (contact.closed)
+      contact.add({state.normal_force > 0.0 ? end : start, 0.0, 0.0});
+    contact.closed = false;
   }
 }
 

@@ -3,7 +3,8 @@
 /// The history of force about the largest impact of every contact, at every step, independent of any sampling.
 ///
 /// A history has the records with a normal force about that with the largest one of the window, `points` / 2 before it and as many after
-/// at most; where the contact opens or is open before it closes, a point without force stands at that record. Forces are means over steps.
+/// at most; points without force stand at the start of the step in which the contact closes and at the end of that in which it opens.
+/// Forces are means over steps.
 #pragma once
 #include "transient/run.hpp"
 #include <vector>
@@ -34,10 +35,10 @@ private:
     std::uint64_t count = 0;      ///< of points so far
     std::uint64_t still = 0;      ///< points to come until the ring is kept; 0: it has been
     double largest = 0.0;         ///< N
-    bool was_active = false;      ///< at the record before
+    bool closed = false;          ///< at the end of the record before
     void add(const ForcePoint& point);
     void keep();
-    void visit(core::StateArchive& state) { state(ring, kept, count, still, largest, was_active); }
+    void visit(core::StateArchive& state) { state(ring, kept, count, still, largest, closed); }
   };
   double from_;
   std::vector<Contact> contacts_;

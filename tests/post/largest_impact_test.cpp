@@ -3,6 +3,7 @@
 #include "post/largest_impact.hpp"
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <utility>
 
 namespace largest_impact_test {
 
@@ -46,6 +47,41 @@ TEST(LargestImpact, IsKeptAtEveryStepBetweenPointsWithoutForce) {
   EXPECT_NEAR(history[6].time, 8.5 * h, 1e-12);
   EXPECT_EQ(history[6].tangential, 5.0);
   EXPECT_TRUE(impacts.histories()[1].empty()) << "it touched nothing";
+}
+
+/// Two impacts, the first of two steps and open at the end of the second, with a contact-free macro-step between them.
+TEST(LargestImpact, HasNoForceBetweenTwoImpacts) {
+  LargestImpact impacts(1, 0.0);
+  transient::ContactState state;
+  const int contact = 0;
+  transient::Record record;
+  record.states = {&state, 1};
+  double end = 0.0;
+  const auto step = [&](double length, double force, int touches, bool opened) {
+    state = {};
+    state.normal_force = state.peak = force;
+    state.touches = touches;
+    state.opened_at = opened ? 0.7 : 0.0;
+    state.closed_at = touches > 0 ? 0.2 : 0.0;
+    record.active = {&contact, force > 0.0 ? 1u : 0u};
+    record.opened = {&contact, opened ? 1u : 0u};
+    record.step = length;
+    record.time = end + 0.5 * length;
+    end += length;
+    impacts.step(record);
+  };
+  step(h, 3.0, 1, false);
+  step(h, 1.0, 0, true);
+  step(5.0 * h, 0.0, 0, false);
+  step(h, 9.0, 1, true);
+  const auto history = impacts.histories()[0];
+  const std::vector<std::pair<double, double>> expected{{0.0, 0.0}, {0.5, 3.0}, {1.5, 1.0}, {2.0, 0.0},
+                                                        {7.0, 0.0}, {7.5, 9.0}, {8.0, 0.0}};
+  ASSERT_EQ(history.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_DOUBLE_EQ(history[i].time, expected[i].first * h) << i;
+    EXPECT_EQ(history[i].normal, expected[i].second) << i;
+  }
 }
 
 TEST(LargestImpact, IsThatOfTheWindowHoweverManyFollow) {
