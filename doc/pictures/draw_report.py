@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The picture of README.md: sections of a report in a headless Chromium, one below the other.
+"""Sections of a report in a headless Chromium, one below the other.
 
-draw_report.py REPORT.html CHROMIUM PICTURE.png "SECTION" ...     (needs Pillow)
+draw_report.py REPORT.html CHROMIUM PICTURE.png HEIGHT "SECTION" ...     (needs Pillow)
 """
 
 import base64
@@ -14,7 +14,7 @@ from PIL import Image
 sys.path.insert(0, str(Path(__file__).parents[2] / "tests" / "report"))
 from browser import Browser  # noqa: E402
 
-WIDTH, HEIGHT = 800, 1055  # px
+WIDTH = 800  # px
 COLOURS = 128
 
 # Leaves nothing but these sections, whose interactive pictures are not yet live.
@@ -32,14 +32,19 @@ SHOWN = """(() => {
 })()"""
 
 
-def main(page, chromium, picture, *titles):
-    with Browser(chromium, (WIDTH, HEIGHT)) as browser:
-        browser.send("Emulation.setDeviceMetricsOverride", width=WIDTH, height=HEIGHT, deviceScaleFactor=1, mobile=False)
+def save(browser, clip, picture):
+    """A rectangle of the page (px), in few colours."""
+    data = browser.send("Page.captureScreenshot", format="png", captureBeyondViewport=True, clip={**clip, "scale": 1})["data"]
+    Image.open(io.BytesIO(base64.b64decode(data))).convert("RGB").quantize(COLOURS).save(picture, optimize=True)
+
+
+def main(page, chromium, picture, height, *titles):
+    height = int(height)
+    with Browser(chromium, (WIDTH, height)) as browser:
+        browser.send("Emulation.setDeviceMetricsOverride", width=WIDTH, height=height, deviceScaleFactor=1, mobile=False)
         browser.open(Path(page))
         browser.run(SHOWN % list(titles))
-        data = browser.send("Page.captureScreenshot", format="png", captureBeyondViewport=True,
-                            clip={"x": 0, "y": 0, "width": WIDTH, "height": HEIGHT, "scale": 1})["data"]
-    Image.open(io.BytesIO(base64.b64decode(data))).convert("RGB").quantize(COLOURS).save(picture, optimize=True)
+        save(browser, {"x": 0, "y": 0, "width": WIDTH, "height": height}, picture)
 
 
 if __name__ == "__main__":
