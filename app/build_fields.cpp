@@ -90,7 +90,7 @@ void initial_field(const study::Study& study, const mesh::LineMesh& mesh, const 
 } // namespace
 
 Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh, const fem::Model& model,
-                    const std::vector<SupportFields>& supports) {
+                    const std::vector<PlacedFlow>& flows, const std::vector<SupportFields>& supports) {
   Fields out;
   for (std::size_t e = 0; e < study.loads.size(); ++e) {
     const study::Load& load = study.loads[e];
@@ -104,6 +104,9 @@ Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh, const
   };
   if (study.gravity)
     out.loads.push_back({"[gravity]", transient::Constant{1.0}, fem::weight(model, *study.gravity)});
+  for (const PlacedFlow& flow : flows)
+    if (auto force = steady_force(study, flow, model))
+      out.loads.push_back({name_of(study.flows[flow.entry]), transient::Constant{1.0}, std::move(*force)});
   for (const auto& motion : study.base_motions)
     out.loads.push_back({"[[base_motion]]", motion.acceleration, -on_all_masses(motion.direction), true});
   for (std::size_t k = 0; k < supports.size(); ++k) {

@@ -2,6 +2,7 @@
 /// @file
 /// Loads and initial state of a study as fields over the whole model.
 #pragma once
+#include "app/build_flow.hpp"
 #include "app/support_motion.hpp"
 #include "app/turbulent_loads.hpp"
 #include "core/motion_forces.hpp"
@@ -40,6 +41,7 @@ struct Fields {
 };
 /// @param supports  of the study's support motions; none where only the study is checked
 [[nodiscard]] Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh,
-                                  const fem::Model& model, const std::vector<SupportFields>& supports);
+                                  const fem::Model& model, const std::vector<PlacedFlow>& flows,
+                                  const std::vector<SupportFields>& supports);
 
 } // namespace fretwork::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/build_flow.hpp"
 #include "core/error.hpp"
+#include "fem/fields.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -156,6 +157,26 @@ std::vector<PlacedFlow> place_flows(const study::Study& study, const mesh::LineM
       notes.push_back(std::move(note));
     fill(model, fluid);
     out.push_back(std::move(placed));
+  }
+  return out;
+}
+
+std::optional<Eigen::VectorXd> steady_force(const study::Study& study, const PlacedFlow& placed,
+                                            const fem::Model& model) {
+  const study::Flow& flow = study.flows[placed.entry];
+  if (!(flow.law && flow.law->steady))
+    return std::nullopt;
+  const auto [drag, lift] = *flow.law->steady;
+  Eigen::VectorXd out =
+      Eigen::VectorXd::Zero(core::dofs_per_node * static_cast<Eigen::Index>(model.nodes.size()));
+  const flow::Tube tube = tube_of(study, placed, model);
+  for (const flow::Tube::Element& element : tube.elements()) {
+    const flow::TubePoint point = tube.at(0.5 * (element.from + element.to));
+    const flow::FlowPoint at = placed.profile.at(point);
+    if (at.velocity > 0.0)
+      out += fem::line_forces(model, {&element.beam, 1},
+                              0.5 * at.density * at.velocity * at.velocity * point.outer_diameter *
+                                  (drag * at.drag + lift * at.lift));
   }
   return out;
 }

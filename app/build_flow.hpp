@@ -5,6 +5,7 @@
 #include "flow/element_fluid.hpp"
 #include "mesh/line_mesh.hpp"
 #include "study/study.hpp"
+#include <optional>
 
 namespace fretwork::app {
 
@@ -27,6 +28,11 @@ struct PlacedFlow {
 /// The tube as it is in the model: once its beams have their fluid, with all mass.
 [[nodiscard]] flow::Tube tube_of(const study::Study& study, const PlacedFlow& placed,
                                  const fem::Model& model);
+
+/// The force of the fluid on a tube at rest, q D (CD, CL) by its law, each beam at its middle: consistent nodal forces, N and N m. Nothing
+/// where the law has none.
+[[nodiscard]] std::optional<Eigen::VectorXd> steady_force(const study::Study& study, const PlacedFlow& placed,
+                                                          const fem::Model& model);
 
 /// `flow "T1"`: for messages.
 [[nodiscard]] std::string name_of(const study::Flow& flow);

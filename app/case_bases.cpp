@@ -103,7 +103,7 @@ CaseStructure make_structure(const Inputs& nominal, const study::Study& study, b
   out.turbulence = turbulent_loads(study, out.model, out.flows, notes);
   out.structures = moving_structures(out.model);
   out.fields =
-      build_fields(study, out.mesh, out.model,
+      build_fields(study, out.mesh, out.model, out.flows,
                    support_fields(moved_supports(study, out.mesh, out.model), out.model, out.structures));
   return out;
 }

@@ -213,8 +213,8 @@ private:
       return;
     progress_.stage("basis");
     core::agree(comm_, [&] {
-      at_contacts_.fields =
-          build_fields(inputs_.study, mesh_, model_, support_fields(moved_, model_, modes.structures));
+      at_contacts_.fields = build_fields(inputs_.study, mesh_, model_, flows_,
+                                         support_fields(moved_, model_, modes.structures));
       at_contacts_.fields.motion = fluidelastic_forces({inputs_.study, mesh_, model_, flows_}, out_.bases);
       at_contacts_.turbulence = turbulence_;
       at_contacts_.joined = joined_structures(out_.bases, placed_, at_contacts_.fields.motion);

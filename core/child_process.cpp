@@ -70,7 +70,7 @@ void become(char* const* argv, int output, pid_t parent, const ChildLimits& limi
   (void)dup2(output, STDERR_FILENO);
   (void)close_range(STDERR_FILENO + 1, ~0u,
                     CLOSE_RANGE_CLOEXEC); // what this process was given is not the child's
-#ifndef FRETWORK_SANITIZED // whose shadow memory alone spans 16 TB of addresses
+#ifndef FRETWORK_SANITIZED                // whose shadow memory alone spans 16 TB of addresses
   limit(RLIMIT_AS, limits.memory_bytes);
 #endif
   limit(RLIMIT_FSIZE, limits.file_bytes);

@@ -48,6 +48,8 @@ struct FluidelasticLaw {
   std::vector<Lag> lags;
   std::optional<FrozenForce> frozen = std::nullopt;          ///< in the place of all these, of one tube
   std::optional<std::array<double, 2>> range = std::nullopt; ///< of Vr in which it was measured
+  /// CD, CL of the force at rest q D (CD, CL) on each tube; none: it is left out.
+  std::optional<std::array<double, 2>> steady = std::nullopt;
 
   [[nodiscard]] Eigen::Index tubes() const { return stiffness.rows() / 2; }
 };

@@ -100,7 +100,8 @@ MatrixXd moved_along_lift(const std::vector<LawPlace>& places, Eigen::Index firs
 } // namespace
 
 core::MotionForces frozen_forces(const std::vector<LawPlace>& places, const FrozenForce& law,
-                                 const Eigen::VectorXd& frequency, Eigen::Index first, Eigen::Index modes, double factor) {
+                                 const Eigen::VectorXd& frequency, Eigen::Index first, Eigen::Index modes,
+                                 double factor) {
   core::MotionForces out;
   out.stiffness = out.damping = MatrixXd::Zero(modes, modes);
   out.input = MatrixXd::Zero(modes, 0);
@@ -119,14 +120,14 @@ core::MotionForces frozen_forces(const std::vector<LawPlace>& places, const Froz
     for (Eigen::Index i = 0; i < count; ++i) {
       const FrozenMode mode(places, law, turned.col(i), at, factor);
       if (law.connors > 0.0 && w == 0.0 && mode.is_moved())
-        throw core::Error("a motion without stiffness has no reduced velocity, which Connors' damping needs; restrain "
-                          "it, or give form = \"coupled\"");
+        throw core::Error(
+            "a motion without stiffness has no reduced velocity, which Connors' damping needs; restrain "
+            "it, or give form = \"coupled\"");
       const double square = mode.square_under_flow(w * w);
       k(i) = mode.stiffness(square);
       c(i) = mode.damping(square);
     }
-    out.stiffness.block(first + at, first + at, count, count) =
-        turned * k.asDiagonal() * turned.transpose();
+    out.stiffness.block(first + at, first + at, count, count) = turned * k.asDiagonal() * turned.transpose();
     out.damping.block(first + at, first + at, count, count) = turned * c.asDiagonal() * turned.transpose();
   }
   return out;

@@ -74,9 +74,14 @@ flow::FluidelasticLaw read_rational(const TableReader& table) {
 flow::FluidelasticLaw read_quasi(const TableReader& table, Kind kind) {
   const double drag = table.number("drag", {Range::at_least_zero}), lift = table.number_or("lift", 0.0, {});
   const Eigen::MatrixXd gradients = read_matrix(table, "gradients");
+  const auto with_steady = [&](flow::FluidelasticLaw law) {
+    if (table.optional_flag("steady").value_or(false))
+      law.steady = {drag, lift};
+    return law;
+  };
   if (kind == Kind::quasi_steady)
-    return flow::quasi_steady_law(drag, lift, gradients,
-                                  table.number_or("delay", 1.0, {Range::at_least_zero}));
+    return with_steady(
+        flow::quasi_steady_law(drag, lift, gradients, table.number_or("delay", 1.0, {Range::at_least_zero})));
   std::vector<flow::Memory> memory;
   const std::string expected = "rows [alpha, d] of the memory 1 - sum alpha exp(-d tau)";
   for (const Value& row : to_array(table.required("memory", expected), table.path("memory"), expected)) {
@@ -85,7 +90,7 @@ flow::FluidelasticLaw read_quasi(const TableReader& table, Kind kind) {
       table.fail_at("memory", "d = " + std::to_string(pair[1]) + " does not decay; give rates above 0");
     memory.push_back({pair[0], pair[1]});
   }
-  return flow::quasi_unsteady_law(drag, lift, gradients, memory);
+  return with_steady(flow::quasi_unsteady_law(drag, lift, gradients, memory));
 }
 
 flow::FluidelasticLaw read_table(const TableReader& table) {
@@ -135,9 +140,9 @@ std::vector<std::string> keys_of(Kind kind) {
   case Kind::rational:
     return {"law", "range", "stiffness", "damping", "lags", "lag_forces"};
   case Kind::quasi_steady:
-    return {"law", "range", "drag", "lift", "gradients", "delay"};
+    return {"law", "range", "drag", "lift", "gradients", "delay", "steady"};
   case Kind::quasi_unsteady:
-    return {"law", "range", "drag", "lift", "gradients", "memory"};
+    return {"law", "range", "drag", "lift", "gradients", "memory", "steady"};
   case Kind::table:
     return {"law", "range", "table", "fit"};
   case Kind::connors:
@@ -153,7 +158,7 @@ std::vector<NamedLaw> read_flow_laws(const TableReader& root) {
   for (const Entry& entry : table_entries(root, "flow_laws")) {
     const TableReader any(*entry.value, entry.path,
                           {{"law", "range", "stiffness", "damping", "lags", "lag_forces", "drag", "lift",
-                            "gradients", "delay", "memory", "table", "fit", "constant", "form"}});
+                            "gradients", "delay", "memory", "steady", "table", "fit", "constant", "form"}});
     (void)any.required("law", "\"rational\", \"quasi_steady\", \"quasi_unsteady\", \"table\" or \"connors\"");
     const Kind kind = any.choice("law", Kind::rational, kinds);
     const TableReader table(*entry.value, entry.path, {keys_of(kind)});

@@ -11,7 +11,7 @@
 namespace fluidelastic_test::frozen {
 namespace {
 
-constexpr double digits = 1e-9;    // of the reference values, relative
+constexpr double digits = 1e-9;     // of the reference values, relative
 constexpr double round_off = 1e-12; // relative
 
 /// Rows so near that linear interpolation leaves 1e-11 of the coefficients.
@@ -62,8 +62,7 @@ TEST(FrozenForces, OfAPinnedTubeArePublished) {
 
 /// Below there is a window of instability at reduced velocities near 2.
 TEST(FrozenForces, HaveTheThresholdOfMeasuredCoefficients) {
-  const StabilityDiagram found =
-      diagram(metre(c1, 1.0), table_of(a3, 1.5, 8.0, 1e-5), c1.damping, 4.0);
+  const StabilityDiagram found = diagram(metre(c1, 1.0), table_of(a3, 1.5, 8.0, 1e-5), c1.damping, 4.0);
   ASSERT_EQ(found.crossings.size(), 3u);
   const Crossing& last = found.crossings.back();
   EXPECT_TRUE(found.crossings[0].to_unstable && !found.crossings[1].to_unstable && last.to_unstable);

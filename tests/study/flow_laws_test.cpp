@@ -48,6 +48,12 @@ TEST(FlowLawKeys, QuasiUnsteadyForcesAreTheSteadyOnesWithMemory) {
   ASSERT_EQ(law.lags.size(), 2u);
   EXPECT_EQ(law.lags[0].rate, 0.05);
   EXPECT_EQ(law.lags[0].force(1, 1).real(), 1.25 * 15.5);
+  EXPECT_FALSE(law.steady.has_value());
+}
+
+TEST(FlowLawKeys, TheForceAtRestIsThatOfDragAndLift) {
+  const flow::FluidelasticLaw law = law_of(study_with(unsteady + "lift = 0.1\nsteady = true\n"));
+  EXPECT_EQ(law.steady, (std::array<double, 2>{0.2, 0.1}));
 }
 
 const std::string of_two =
