@@ -4,7 +4,6 @@
 #include "results/figures.hpp"
 #include "results/text_file.hpp"
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <numeric>
 
@@ -15,11 +14,6 @@ constexpr std::size_t contact_width = 18; // of a contact
 constexpr std::size_t most_contacts = 12; // shown one by one; of more, the ten with the largest work rate
 constexpr std::size_t most_flat = 4;      // of those shown
 constexpr double micro = 1e6;             // um in a metre
-
-/// A figure of at most four digits, 0 where it is round-off.
-std::string figure(double value, int digits) {
-  return std::abs(value) < shown_as_zero ? "0" : fmt::format("{:.{}g}", value, digits);
-}
 
 std::string row(const std::string& name, const std::string& impacts, const std::string& closed,
                 const std::string& normal_rms, const std::string& normal_max,
@@ -33,7 +27,7 @@ std::string contact_row(const ContactFacts& facts, const post::ContactSummary& c
   return row(shortened(facts.name, contact_width), grouped(c.impacts),
              fmt::format("{:.2f}", 100.0 * c.contact_time_ratio),
              with_error(c.normal_rms, c.error.normal_rms), figure(c.normal_max, 3),
-             figure(c.tangential_max, 3),
+             figure(without_round_off(c.tangential_max, c.normal_max), 3),
              flat_position_of(facts, c) ? "flat" : figure(micro * c.radial_max, 4),
              figure(micro * c.penetration_max, 3), with_error(c.work_rate, c.error.work_rate),
              with_error(c.friction_power, c.error.friction_power));

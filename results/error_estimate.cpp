@@ -45,8 +45,10 @@ double relative_step_error(const Verification& verification) {
 
 namespace {
 
-/// 3.6, 15, 104: two digits, more where there are more before the point.
+/// 3.6, 15, 104: two digits, more where there are more before the point; of little more than nothing, over 1000.
 std::string percent(double share) {
+  if (share > 10.0)
+    return "over 1000";
   return fmt::format(fmt::runtime(share < 0.995 ? "{:.2g}" : "{:.0f}"), 100.0 * share);
 }
 

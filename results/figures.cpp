@@ -28,6 +28,18 @@ std::string grouped(std::int64_t count) {
   return digits;
 }
 
+std::string figure(double value, int digits) {
+  const double size = std::abs(value);
+  if (size < shown_as_zero)
+    return "0";
+  return size >= 1e3 && size < 1e6 ? fmt::format("{:.0f}", value) : fmt::format("{:.{}g}", value, digits);
+}
+
+double without_round_off(double value, double beside) {
+  constexpr double round_off = 1e-12; // of a long sum
+  return std::abs(value) < round_off * std::abs(beside) ? 0.0 : value;
+}
+
 std::string counted(std::int64_t count, const std::string& what) {
   return grouped(count) + " " + what + (count == 1 ? "" : "s");
 }

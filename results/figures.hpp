@@ -12,6 +12,12 @@ namespace fretwork::results {
 /// a structure is so small.
 inline constexpr double shown_as_zero = 1e-15;
 
+/// A figure of `digits` digits, those before the point in full from 1000 to 10^6; 0 where it is round-off.
+[[nodiscard]] std::string figure(double value, int digits);
+
+/// The value, 0 where it is round-off beside what it was computed with: a force beside the others of its contact, an energy beside the input.
+[[nodiscard]] double without_round_off(double value, double beside);
+
 /// 12 345 678
 [[nodiscard]] std::string grouped(std::int64_t count);
 

@@ -86,11 +86,14 @@ void add_flexibility(Lines& lines, const RunResults& results) {
 }
 
 std::string energy_text(const EnergyTotals& e) {
-  const std::string fluid = e.fluid == 0.0 ? "" : fmt::format(" + fluid {:.4g}", e.fluid);
+  const auto shown = [&](double part) {
+    return fmt::format("{:.4g}", without_round_off(part, std::max(std::abs(e.input), std::abs(e.stored))));
+  };
+  const std::string fluid = e.fluid == 0.0 ? "" : " + fluid " + shown(e.fluid);
   return fmt::format(
-      "input {:.4g} J{} = stored {:.4g} + modal damping {:.4g} + contact damping {:.4g} + friction {:.4g}; "
-      "balanced to {:.1e}",
-      e.input, fluid, e.stored, e.modal_damping, e.contact_damping, e.friction, e.residual_relative);
+      "input {} J{} = stored {} + modal damping {} + contact damping {} + friction {}; balanced to {:.1e}",
+      shown(e.input), fluid, shown(e.stored), shown(e.modal_damping), shown(e.contact_damping),
+      shown(e.friction), e.residual_relative);
 }
 
 /// The sums over contacts, and the one figure that differs most where one does.

@@ -17,21 +17,17 @@ constexpr std::size_t most_tubes = 5;
 constexpr std::size_t support_width = 16;
 constexpr double millimetre = 1e3, cubic_millimetre = 1e9;
 
-/// Round-off is 0, and a time of which round-off is the reciprocal "never".
-std::string figure(double value) {
-  if (value > 1.0 / shown_as_zero)
-    return "never";
-  return fmt::format("{:.3g}", value < shown_as_zero ? 0.0 : value);
-}
+/// Three digits; a time of which round-off is the reciprocal is "never".
+std::string figure_of_wear(double value) { return value > 1.0 / shown_as_zero ? "never" : figure(value, 3); }
 
 /// 0.12 (0.11 to 0.13); a dash where there is no value, "never" where it is not reached.
 std::string with_bounds(const Bounds& b, double factor) {
   if (std::isnan(b.value))
     return "-";
-  const std::string low = figure(factor * b.low), high = figure(factor * b.high);
+  const std::string low = figure_of_wear(factor * b.low), high = figure_of_wear(factor * b.high);
   if (!(b.low < b.high) || low == high)
-    return figure(factor * b.value);
-  return fmt::format("{} ({} to {})", figure(factor * b.value), low, high);
+    return figure_of_wear(factor * b.value);
+  return fmt::format("{} ({} to {})", figure_of_wear(factor * b.value), low, high);
 }
 
 using Row = std::array<std::string, 7>;
@@ -59,7 +55,7 @@ std::string law_text(const WearOfSupport& s) {
 
 Row row(const std::string& name, const WornScar& s, const std::string& law) {
   return {name,
-          figure(s.work_rate.value),
+          figure_of_wear(s.work_rate.value),
           with_bounds({s.volume.last().value}, cubic_millimetre),
           with_bounds(s.depth.last(), millimetre),
           with_bounds({s.scar_width}, millimetre),
@@ -114,7 +110,7 @@ void add_tubes(std::vector<Row>& rows, const Wear& wear) {
   }
   for (const WearOfTube& t : tubes)
     rows.push_back({wear.tubes.size() > 1 ? fmt::format("tube {}", t.tube) : "all supports",
-                    figure(t.work_rate.value), with_bounds({t.volume.value}, cubic_millimetre),
+                    figure_of_wear(t.work_rate.value), with_bounds({t.volume.value}, cubic_millimetre),
                     with_bounds(t.depth, millimetre), "", with_bounds(t.years, 1.0),
                     t.first.empty() ? "" : "first: " + shortened(t.first, support_width)});
 }

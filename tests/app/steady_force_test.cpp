@@ -21,19 +21,19 @@ json middle_of(const std::string& law_keys, const std::string& loads) {
   MeshText text = straight_line("tube", {0, 0, 0}, {1, 0, 0}, 40);
   text.points.emplace_back("middle", 20);
   folder.write("mesh.msh", text.text());
-  folder.write("study.toml",
-               steel_pipe("mesh.msh") +
-                   "[[beams]]\ngroup = \"tube\"\nmaterial = \"steel\"\nsection = \"tube\"\n" +
-                   fmt::format("[[restraints]]\ngroup = \"tube_begin\"\nfixed = [\"ux\", \"uy\", \"uz\", \"rx\"]\n"
-                               "[[restraints]]\ngroup = \"tube_end\"\nfixed = [\"uy\", \"uz\"]\n"
-                               "[modes]\ncount = 40\ndamping = 0.02\n"
-                               "[flow_laws.cell]\nlaw = \"quasi_steady\"\ndrag = {}\nlift = {}\ngradients = 0\n{}"
-                               "[[flow]]\ngroup = \"tube\"\nfrom = \"tube_begin\"\nlaw = \"cell\"\n"
-                               "[[flow.zones]]\nvelocity = {}\ndirection = [0, 1, 0]\ndensity = {}\n"
-                               "viscosity = 1e-7\narrangement = \"square\"\npitch = 0.028575\n{}"
-                               "[output]\nnodes = [\"middle\"]\n"
-                               "[transient]\nduration = 0.01\nstep = 1e-4\nstart = \"static\"\n",
-                               drag, lift, law_keys, velocity, density, loads));
+  folder.write(
+      "study.toml",
+      steel_pipe("mesh.msh") + "[[beams]]\ngroup = \"tube\"\nmaterial = \"steel\"\nsection = \"tube\"\n" +
+          fmt::format("[[restraints]]\ngroup = \"tube_begin\"\nfixed = [\"ux\", \"uy\", \"uz\", \"rx\"]\n"
+                      "[[restraints]]\ngroup = \"tube_end\"\nfixed = [\"uy\", \"uz\"]\n"
+                      "[modes]\ncount = 40\ndamping = 0.02\n"
+                      "[flow_laws.cell]\nlaw = \"quasi_steady\"\ndrag = {}\nlift = {}\ngradients = 0\n{}"
+                      "[[flow]]\ngroup = \"tube\"\nfrom = \"tube_begin\"\nlaw = \"cell\"\n"
+                      "[[flow.zones]]\nvelocity = {}\ndirection = [0, 1, 0]\ndensity = {}\n"
+                      "viscosity = 1e-7\narrangement = \"square\"\npitch = 0.028575\n{}"
+                      "[output]\nnodes = [\"middle\"]\n"
+                      "[transient]\nduration = 0.01\nstep = 1e-4\nstart = \"static\"\n",
+                      drag, lift, law_keys, velocity, density, loads));
   const Outcome outcome = folder.fretwork(
       {"run", folder.path("study.toml").string(), "-o", folder.path("out").string(), "--no-report"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -48,8 +48,8 @@ TEST(SteadyForce, IsTheLoadOfTheFlowAtRest) {
                        direction, force);
   };
   const json steady = middle_of("steady = true\n", "");
-  const json loaded = middle_of("", load("[0, 1, 0]", drag * per_coefficient) +
-                                        load("[0, 0, 1]", lift * per_coefficient));
+  const json loaded =
+      middle_of("", load("[0, 1, 0]", drag * per_coefficient) + load("[0, 0, 1]", lift * per_coefficient));
   const double inertia = std::numbers::pi / 64.0 * (std::pow(outer, 4) - std::pow(bore, 4));
   const double flexibility = 5.0 / (384.0 * young * inertia); // of 1 m
   EXPECT_TRUE(close_to(steady["y"]["mean"], flexibility * drag * per_coefficient, of_modes));

@@ -190,6 +190,12 @@ class Report(unittest.TestCase):
         for node in summary["nodes"]:
             self.assertIn(f'aria-label="Displacement of {node["name"]}"', nodes)
             self.assertIn(f'<td>{drawing.short(1e6 * node["displacement"]["y"]["max"])}</td>', nodes)
+            self.assertEqual(nodes.count(f'{node["name"]}</td>'), 3, "each row has its name, however the table is sorted")
+
+    def test_nodes_do_not_move_by_round_off(self):
+        made_up(self.folder, 1, 100)
+        self.change(lambda summary: [node["displacement"].update(x=dict.fromkeys(("mean", "std", "min", "max"), 3e-21)) for node in summary["nodes"]])
+        self.assertNotIn("3·10<sup>−15", self.report().split("<h2>Observed nodes</h2>")[1].split("</table>")[0])
 
     def test_shows_the_largest_impact_at_every_step(self):
         made_up(self.folder, 1, 100)
@@ -416,6 +422,29 @@ class Report(unittest.TestCase):
         self.assertIn("diverged", text)
         self.assertIn(">–<", text)
         self.assertNotRegex(text, r"[>\s](nan|inf)[<\s]")
+
+    def test_names_only_the_marks_that_the_structure_has(self):
+        made_up(self.folder, 2, 100)
+        self.assertIn("restraints (black), loads (green)", self.report())
+        with self.archive() as file:
+            file.attrs["study"] = file.attrs["study"].split("[[loads]]")[0]
+        text = self.report()
+        self.assertIn("restraints (black)<", text)
+        self.assertNotIn("loads (green)", text)
+
+    def test_contacts_without_friction_have_no_tangential_force(self):
+        made_up(self.folder, 2, 100)
+
+        def remove_friction(summary):
+            for contact in summary["contacts"]:
+                contact["tangential_force"]["max"] = 5e-14 * contact["normal_force"]["max"]
+
+            summary["energy"]["contact_damping_J"] = -1e-14 * summary["energy"]["input_J"]
+
+        self.change(remove_friction)
+        text = self.report()
+        for title in ("Table of contacts", "Energy balance"):
+            self.assertNotIn("10<sup>−1", text.split(f"<h2>{title}")[1].split("</table>")[0], title)
 
     def test_survives_a_run_that_stopped_at_once(self):
         made_up(self.folder, 2, 1)

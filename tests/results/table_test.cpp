@@ -64,8 +64,17 @@ TEST(TerminalTable, ShowsRoundOffAsZero) {
   c.error.work_rate = 1e-41;
   c.tangential_max = 2.5e-37;
   const std::string text = terminal_table(results);
+  EXPECT_THAT(text, HasSubstr("over 1000 % standard error"));
   EXPECT_THAT(text, Not(HasSubstr("e-41")));
   EXPECT_THAT(text, Not(HasSubstr("e-37")));
+  c.normal_max = 2803.0;
+  c.tangential_max = 1.3e-13; // of directions, without friction
+  for (auto& transient : results.transients)
+    transient.report.energy.contact_damping = -4.3e-16; // of sums, without dampers
+  const std::string undamped = terminal_table(results);
+  EXPECT_THAT(undamped, Not(HasSubstr("e-13")));
+  EXPECT_THAT(undamped, HasSubstr(" 2803 ")) << "no 2.8e+03";
+  EXPECT_THAT(undamped, HasSubstr("contact damping 0 + friction"));
 }
 
 TEST(TerminalTable, BreaksNoNumber) {

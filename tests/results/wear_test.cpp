@@ -234,7 +234,7 @@ TEST(WearOnTheTerminal, AlignsItsColumns) {
   run.wear->supports[0].life.years = {1371.0, 957.0, 2412.0};
   const auto lines = wear_lines(*run.wear);
   const auto of_law = [](const std::string& line) { return line.find("archard"); };
-  EXPECT_THAT(lines[1], HasSubstr("1.37e+03 (957 to 2.41e+03)"));
+  EXPECT_THAT(lines[1], HasSubstr("1371 (957 to 2412)"));
   EXPECT_EQ(of_law(lines[1]), of_law(lines[2]));
   EXPECT_EQ(of_law(lines[1]), lines[0].find("law, m2/N"));
 }

@@ -29,9 +29,12 @@ def ticks(low, high, most=6):
 ROUND_OFF = 1e-15  # below it, in SI units, a power, length or force is the round-off of a sum
 
 
-def of_sum(value):
-    """The value, 0 where it is round-off."""
-    return 0.0 if value is not None and abs(value) < ROUND_OFF else value
+SHARE_OF_ROUND_OFF = 1e-12  # of what a value was computed with
+
+
+def of_sum(value, beside=None):
+    """The value, 0 where it is round-off: by itself or, a force beside the others of its contact, an energy beside the input."""
+    return 0.0 if value is not None and abs(value) < max(ROUND_OFF, SHARE_OF_ROUND_OFF * abs(beside or 0.0)) else value
 
 
 def short(value, digits=4):

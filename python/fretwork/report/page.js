@@ -58,7 +58,7 @@
     const plot = new uPlot({
       mode: 2, width, height: width - 16, padding: [8, 8, 0, 0],  // a square between the axes
       scales: { x: scale("x"), y: scale("y") },
-      axes: [axis(data.xlabel, 34), axis(data.ylabel, 50)],
+      axes: [{ ...axis(data.xlabel, 34), space: 36 }, axis(data.ylabel, 50)],  // of 180 px
       series: [{}, ...data.series.map(s => ({ label: s.name, stroke: s.colour, fill: s.colour, paths: path(s.dots), facets: [{ scale: "x", auto: false }, { scale: "y", auto: false }] }))],
       legend: { show: false },
       cursor: { drag: { x: true, y: true, uni: 0 }, points: { show: false }, dataIdx: () => null, bind: { dblclick: u => () => whole(u) } },

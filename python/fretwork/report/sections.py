@@ -87,11 +87,13 @@ def key_figures(run):
 def structure(run):
     picture, view, unnamed = structure_view.structure(run)
     supports = f"; {len(run.contacts)} contacts (orange)" if run.contacts else ""
-    loads = "; restraints (black), loads (green)" if run.groups else ""
-    facts = f"{count(run.summary['model']['elements'])} beams, {count(run.summary['model']['dofs'])} free degrees of freedom{supports}<span class=screen>{loads}</span>. View on paper: {view}."
+    scene = live.scene(run)
+    drawn = [text for kind, text in (("restraints", "restraints (black)"), ("loads", "loads (green)")) if scene and scene[kind]]
+    marks = f"; {', '.join(drawn)}" if drawn else ""
+    facts = f"{count(run.summary['model']['elements'])} beams, {count(run.summary['model']['dofs'])} free degrees of freedom{supports}<span class=screen>{marks}</span>. View on paper: {view}."
     if unnamed:
         facts += f" Without room for a name: {html.escape(', '.join(unnamed))}."
-    return section("Structure", live.figure(picture, live.scene(run), facts))
+    return section("Structure", live.figure(picture, scene, facts))
 
 
 def modes(run):
@@ -245,11 +247,13 @@ def nodes(run):
     rows = []
     for node in run.nodes_observed:
         errors = node.summary.get("standard_error", {}).get("displacement", {})
+        found = node.summary["displacement"]
+        largest = max((abs(value) for axis in "xyz" for value in _known(found[axis].values())), default=0.0)
         for axis in "xyz":
-            d = node.summary["displacement"][axis]
+            d = found[axis]
             error = errors.get(axis, {}).get("std")
-            rows.append([html.escape(node.name) if axis == "x" else "", axis, _times(d["mean"], 1e6), _times(d["std"], 1e6),
-                         _times(error, 1e6, 2), _times(d["min"], 1e6), _times(d["max"], 1e6)])
+            mean, deviation, least, most = (_times(of_sum(d[kind], largest), 1e6) for kind in ("mean", "std", "min", "max"))
+            rows.append([html.escape(node.name), axis, mean, deviation, _times(of_sum(error, largest), 1e6, 2), least, most])
     shown = run.nodes_observed[:HISTORIES_OF_MANY]
     panels = "".join(
         f'<div class="panel"><h3>{html.escape(node.name)}</h3>{live.figure(node_view.history(run, node), live.node(run, node))}</div>' for node in shown if node.displacement is not None
@@ -272,7 +276,7 @@ def contact_table(run):
         speed, long = s["impact_velocity"], s["contact_duration"]
         rows.append([
             html.escape(c.name), count(s["impacts"]), _times(s["contact_time_ratio"], 100, 3), short(force["mean"]), with_error(force["rms"], _error(c, "normal_force", "rms")),
-            short(force["max"]), short(s["tangential_force"]["max"]), _times(radial["rms"], 1e6), _times(radial["max"], 1e6), _times(s["penetration"]["max"], 1e6, 3),
+            short(force["max"]), short(of_sum(s["tangential_force"]["max"], force["max"])), _times(radial["rms"], 1e6), _times(radial["max"], 1e6), _times(s["penetration"]["max"], 1e6, 3),
             with_error(s["work_rate"], _error(c, "work_rate"), 1e3), with_error(s["friction_power"], _error(c, "friction_power"), 1e3),
             f"{_times(speed['mean'], 1e3, 3)} / {_times(speed['max'], 1e3, 3)}", f"{_times(long['mean'], 1e3, 3)} / {_times(long['max'], 1e3, 3)}",
         ])
@@ -333,7 +337,7 @@ def energy(run):
         residual = energy["input_J"] + energy.get("fluid_J", 0.0) - sum(parts)  # fluid_J: only with a law
     names = ["stored at the end", "modal damping", "contact damping", "friction", "residual"]
     swatches = [f'<span class="swatch" style="background:{colour}"></span>{name}' for colour, name in zip(_SHARES, names)]
-    values = [energy["input_J"], energy["initial_J"], *parts, residual]
+    values = [energy["input_J"], *(of_sum(part, energy["input_J"]) for part in (energy["initial_J"], *parts)), residual]
     rows = [["energy [J]"] + [short(value) for value in values]]
     if energy["input_J"]:
         shares = [None if value is None else 100 * value / energy["input_J"] for value in values]
