@@ -216,13 +216,15 @@ StepChoice cheapest(const Scene& scene, const SceneRates& rates, const StepOptio
     return splitting;
   }
   StepChoice collocation = choice_of(scene, rates, options, SchemeKind::collocation);
-  const double share = static_cast<double>(collocation.steps) / static_cast<double>(splitting.steps),
-               step_cost = collocation_cost(scene), cost = step_cost * share;
-  StepChoice& chosen = cost < worth_changing ? collocation : splitting;
-  chosen.scheme_reason = fmt::format(
-      "{}: collocation would need {:.2g} of the steps of splitting, each of about {:.2g} times the time",
-      name_of(chosen.scheme), share, step_cost);
-  return std::move(chosen);
+  const double time = collocation_cost(scene) * static_cast<double>(collocation.steps) /
+                      static_cast<double>(splitting.steps); // of that of splitting
+  if (time < worth_changing) {
+    collocation.scheme_reason =
+        fmt::format("collocation, which takes about {:.2g} of the time of splitting", time);
+    return collocation;
+  }
+  splitting.scheme_reason = fmt::format("splitting; collocation would take about {:.2g} times as long", time);
+  return splitting;
 }
 
 } // namespace
