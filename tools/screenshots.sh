@@ -13,5 +13,5 @@ done
 draw() { /usr/bin/python3 -B "doc/pictures/$1" "${@:2}"; }
 draw draw_live_report.py "$work/tube_study/report.html" chromium doc/pictures
 draw draw_report.py "$work/tube_study/report.html" chromium doc/tube_study.png 1055 "Along the tube" Orbits
-draw draw_report.py "$work/u_bend_flow/report.html" chromium doc/pictures/u_bend_flow_stability.png 452 "Fluid-elastic stability"
+draw draw_report.py "$work/u_bend_flow/report.html" chromium doc/pictures/u_bend_flow_stability.png 755 "Fluid-elastic stability"
 ls -l doc/tube_study.png doc/pictures/report_*.png doc/pictures/u_bend_flow_stability.png
