@@ -5,6 +5,7 @@
 #include "app/fluidelastic.hpp"
 #include "app/folder_lock.hpp"
 #include "app/gap_opening.hpp"
+#include "app/judge_fluidelastic.hpp"
 #include "app/linear_response.hpp"
 #include "app/mode_notes.hpp"
 #include "app/modes_limit.hpp"

@@ -22,18 +22,6 @@ void assess_laws(const TubesInFlow& tubes, const std::vector<modal::Basis>& base
                  const study::Stability& assessment, const std::vector<Eigen::VectorXd>& ratios,
                  std::vector<results::StabilityAssessment>& found);
 
-/// Of the modes without contacts: a note, or where the tubes are unstable a warning, for each law: the root of largest growth at
-/// the working point with its reduced velocity, and the factor of all velocities at which they become unstable first.
-/// @param placed  contacts of the run
-void judge_fluidelastic(const TubesInFlow& tubes, const std::vector<modal::Basis>& bases,
-                        const std::vector<PlacedContact>& placed, results::RunResults& out);
-
-/// After a run: a warning for each flow with a law beyond whose range of amplitudes contacts or observed nodes of its tube moved. The laws are
-/// linear in the displacement: good to some 0.1 of the diameter.
-/// @param placed, nodes  those of `out`
-void judge_amplitudes(const TubesInFlow& tubes, const std::vector<PlacedContact>& placed,
-                      const std::vector<NamedNode>& nodes, results::RunResults& out);
-
 /// Adds the forces on the modes of some structures, which follow each other in the system.
 void add_motion_forces(const std::vector<FluidForces>& by_laws, const std::vector<std::size_t>& structures,
                        const std::vector<modal::Basis>& bases, transient::System& system);
