@@ -4,6 +4,7 @@
 #include "mesh_text.hpp"
 #include "program.hpp"
 #include "study_text.hpp"
+#include "tube_in_flow.hpp"
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -12,55 +13,13 @@
 namespace fretwork::app::test::fluidelastic_test {
 namespace {
 
+using namespace tube_in_flow;
 using nlohmann::json;
-constexpr double pi = std::numbers::pi, outer = 0.01905, bore = outer - 2.0 * 0.00109, metal = 8320.0;
-constexpr double of_mesh = 2e-7; // 40 elements: (pi/40)^4/1440 of the first frequency, more of the others
+constexpr double pi = std::numbers::pi;
 constexpr double of_pins = 1e-8; // springs and elastic pins are the same rods, of another residual
-const std::string s1 =
-    "[flow_laws.s1]\nlaw = \"rational\"\nstiffness = -4\ndamping = -0.4\nlags = [0.4]\nlag_forces = [4]\n";
-
-/// A pinned tube of 1 m along x that moves along z alone, which is lift. @param more  what follows
-std::string tube(const std::string& more) {
-  return steel_pipe("mesh.msh", metal) +
-         "[[beams]]\ngroup = \"tube\"\nmaterial = \"steel\"\nsection = \"tube\"\n"
-         "[[restraints]]\ngroup = \"tube\"\nfixed = [\"ux\", \"uy\", \"rx\", \"rz\"]\n"
-         "[[restraints]]\ngroup = \"tube_begin\"\nfixed = [\"uz\"]\n[[restraints]]\ngroup = \"tube_end\"\n"
-         "fixed = [\"uz\"]\n[modes]\ncount = 12\ndamping = 0.01\n" +
-         more;
-}
-std::string flow(const std::string& law, const std::string& zones) {
-  return "[[flow]]\nname = \"T1\"\ngroup = \"tube\"\nfrom = \"tube_begin\"\nlaw = \"" + law + "\"\n" + zones;
-}
-std::string zone(double from, double to, double velocity, double density, double inside) {
-  return fmt::format(
-      "[[flow.zones]]\nfrom = {}\nto = {}\nvelocity = {}\ndirection = [0, 1, 0]\ndensity = {}\n"
-      "viscosity = 1e-7\nfluid_inside = {:.17g}\narrangement = \"square\"\npitch = 0.028575\n",
-      from, to, velocity, density, inside);
-}
 std::string assessment(const std::string& keys) { return "[[stability]]\ndamping = 0.01\n" + keys; }
-
-/// Density inside that makes up for 300 kg/m3 outside instead of 1000: 1.0993164814 kg/m in all.
-double inside_of_light() {
-  const double ratio = (1.07 + 0.56 * 1.5) * 1.5, added = (ratio * ratio + 1.0) / (ratio * ratio - 1.0);
-  return 1000.0 + added * 700.0 * outer * outer / (bore * bore);
-}
 const std::string uniform = zone(0.0, 1.0, 2.0, 300.0, inside_of_light());
 
-Outcome outcome_of(const Workshop& folder, const std::string& study,
-                   const std::string& command = "stability") {
-  MeshText text = straight_line("tube", {0, 0, 0}, {1, 0, 0}, 40);
-  text.points.emplace_back("middle", 20);
-  folder.write("mesh.msh", text.text());
-  folder.write("study.toml", study);
-  Outcome outcome = folder.fretwork(
-      {command, folder.path("study.toml").string(), "-o", folder.path("out").string(), "--force"});
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
-  return outcome;
-}
-json summary_of(const Workshop& folder, const std::string& study, const std::string& command = "stability") {
-  (void)outcome_of(folder, study, command);
-  return json::parse(bytes_of(folder.path("out") / "summary.json"));
-}
 json law_of(const Workshop& folder, const std::string& study) {
   return summary_of(folder, study)["stability"][0]["law"];
 }
@@ -275,11 +234,7 @@ std::string two_tubes(const std::string& laws, const std::string& of_first, cons
                       const std::string& more, bool other_first = false) {
   std::string text = steel_pipe("mesh.msh", metal) + "[modes]\ncount = 4\ndamping = 0.01\n" + laws;
   for (const char* group : {"tube", "other"})
-    text += fmt::format("[[beams]]\ngroup = \"{0}\"\nmaterial = \"steel\"\nsection = \"tube\"\n"
-                        "[[restraints]]\ngroup = \"{0}\"\nfixed = [\"ux\", \"uy\", \"rx\", \"rz\"]\n"
-                        "[[restraints]]\ngroup = \"{0}_begin\"\nfixed = [\"uz\"]\n"
-                        "[[restraints]]\ngroup = \"{0}_end\"\nfixed = [\"uz\"]\n",
-                        group);
+    text += pinned(group);
   std::array flows{std::pair("tube", of_first), std::pair("other", of_second)};
   if (other_first)
     std::swap(flows[0], flows[1]);
