@@ -75,6 +75,8 @@ std::int64_t impact_rows(const study::Study& study, const transient::StepChoice&
 void broadcast(MPI_Comm comm, int root, const BuiltScene& built, JobResult& job) {
   static_assert(std::is_trivially_copyable_v<transient::Report>);
   MPI_Bcast(&job.report, static_cast<int>(sizeof job.report), MPI_BYTE, root, comm);
+  static_assert(std::is_trivially_copyable_v<post::PowerBalance>);
+  MPI_Bcast(&job.power, static_cast<int>(sizeof job.power), MPI_BYTE, root, comm);
   MPI_Bcast(&job.errors_of_sums, static_cast<int>(sizeof job.errors_of_sums), MPI_BYTE, root, comm);
   broadcast_plain(comm, root, job.contacts);
   broadcast_plain(comm, root, job.step_errors);
@@ -110,7 +112,8 @@ Job::Job(const study::Study& study, const BuiltScene& built, const transient::St
                built.watched_wear.by_place ? std::span(built.scene.contacts)
                                            : std::span<const transient::ContactPoint>()),
       classes_(built.watched_wear.maxima, study.output.statistics_from),
-      nodes_(rows_of(built.nodes), study.output.statistics_from), grid_(grid_of(study)),
+      nodes_(rows_of(built.nodes), study.output.statistics_from), powers_(study.output.statistics_from),
+      grid_(grid_of(study)),
       recorder_(built.scene, built.nodes, grid_, transient::scaled_masses(built.scene, choice.fastest)),
       observers_(watching(study, built, progress)), run_(built.scene, choice, observers_, &recorder_, grid_) {
   if (study.support_motions.empty())
@@ -132,6 +135,7 @@ JobResult Job::result() && {
   out.sector_rates = sectors_.rates();
   out.classes = classes_.classes();
   out.nodes = nodes_.summaries();
+  out.power = powers_.balance();
   out.series = std::move(recorder_).series();
   return out;
 }
@@ -152,6 +156,8 @@ std::vector<transient::Observer*> Job::watching(const study::Study& study, const
     observers.push_back(&classes_);
   if (!built.nodes.empty())
     observers.push_back(&nodes_);
+  if (!built.scene.system.motion.empty())
+    observers.push_back(&powers_);
   if (progress)
     observers.push_back(progress);
   return observers;

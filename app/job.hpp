@@ -9,6 +9,7 @@
 #include "post/impact_table.hpp"
 #include "post/largest_impact.hpp"
 #include "post/node_statistics.hpp"
+#include "post/power_balance.hpp"
 #include "post/recorder.hpp"
 #include "post/sector_work.hpp"
 #include "study/study.hpp"
@@ -34,6 +35,7 @@ struct JobResult {
   std::vector<std::vector<double>> sector_rates;              ///< W, by contact; empty where nothing wears
   std::vector<wear::KwuClasses> classes;                      ///< of the contacts under the law kwu_epri
   std::vector<post::NodeSummary> nodes;
+  post::PowerBalance power; ///< under a fluidelastic law, else 0
   post::TimeSeries series;
 };
 
@@ -60,6 +62,7 @@ private:
   post::SectorStatistics sectors_;
   post::ForceSpeedClasses classes_;
   post::NodeStatistics nodes_;
+  post::PowerStatistics powers_;
   transient::OutputGrid grid_;
   post::Recorder recorder_;
   std::vector<transient::Observer*> observers_;

@@ -61,7 +61,7 @@ void merge_wear(const BuiltScene& built, const JobResult& job, results::RunResul
 /// Puts the result of a job at its places among those of the study.
 void merge(const BuiltScene& built, JobResult&& job, const transient::StepChoice& choice,
            results::RunResults& out) {
-  out.transients.push_back({choice, job.report});
+  out.transients.push_back({choice, job.report, built.structures, job.power});
   add_errors(out.errors_of_sums, job.errors_of_sums);
   if (!job.step_errors.empty())
     out.step_errors.resize(out.contact_summaries.size());

@@ -8,6 +8,7 @@
 #include "post/impact_table.hpp"
 #include "post/largest_impact.hpp"
 #include "post/node_statistics.hpp"
+#include "post/power_balance.hpp"
 #include "post/recorder.hpp"
 #include "post/verification.hpp"
 #include "results/flow_results.hpp"
@@ -80,6 +81,8 @@ struct ModesLimit {
 struct TransientFacts {
   transient::StepChoice choice;
   transient::Report report;
+  std::vector<std::size_t> structures = {}; ///< numbers in RunResults::bases
+  post::PowerBalance power = {};            ///< of the window, under a fluidelastic law
 };
 
 /// The run against the same at half the step (half the tolerance).

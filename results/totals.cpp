@@ -43,7 +43,9 @@ TransientTotals add_up(const std::vector<TransientFacts>& transients) {
   TransientTotals sum;
   std::vector<std::string> schemes;
   sum.end_time = transients[0].report.end_time;
-  for (const auto& [choice, report] : transients) {
+  for (const TransientFacts& one : transients) {
+    const transient::StepChoice& choice = one.choice;
+    const transient::Report& report = one.report;
     const std::string scheme = transient::name_of(choice.scheme);
     if (std::find(schemes.begin(), schemes.end(), scheme) == schemes.end()) {
       sum.scheme += (schemes.empty() ? "" : ", ") + scheme;

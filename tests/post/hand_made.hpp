@@ -33,6 +33,8 @@ public:
   double& y(std::size_t c) { return uy_[c]; }
   double& z(std::size_t c) { return uz_[c]; }
   transient::kernels::Array& q() { return q_; }
+  /// At the end of the steps that follow.
+  transient::Energy& energy() { return record_.energy; }
   /// One step; contacts with a normal force are active. The states are opened again.
   void step() {
     opened_ = active_;
