@@ -6,6 +6,7 @@
 #include "app/folder_lock.hpp"
 #include "app/gap_opening.hpp"
 #include "app/judge_fluidelastic.hpp"
+#include "app/law_motion.hpp"
 #include "app/linear_response.hpp"
 #include "app/mode_notes.hpp"
 #include "app/modes_limit.hpp"
@@ -277,9 +278,7 @@ private:
     app::run_transient(
         {comm_, inputs_.study, placed_, worn_, other_runs_, at_contacts_, progress_, checkpoints}, scenes_,
         nodes_.size(), out_);
-    core::agree(comm_, [&] {
-      judge_amplitudes({inputs_.study, mesh_, model_, flows_}, placed_, nodes_, out_);
-    });
+    core::agree(comm_, [&] { judge_motion({inputs_.study, mesh_, model_, flows_}, placed_, nodes_, out_); });
     out_.timings.transient = watch_.lap();
   }
 

@@ -134,37 +134,4 @@ void judge_fluidelastic(const TubesInFlow& tubes, const std::vector<modal::Basis
   }
 }
 
-void judge_amplitudes(const TubesInFlow& tubes, const std::vector<PlacedContact>& placed,
-                      const std::vector<NamedNode>& nodes, results::RunResults& out) {
-  constexpr double linear = 0.1; // of the diameter
-  const auto amplitude = [](const post::Moments& m) { return std::max(m.max - m.mean, m.mean - m.min); };
-  for (const TubesOfLaw& of : tubes_of_laws(tubes, out.bases)) {
-    const auto has = [&](core::Index node) {
-      return std::any_of(of.structures.begin(), of.structures.end(),
-                         [&](std::size_t s) { return out.bases[s].row_of(node) >= 0; });
-    };
-    double largest = 0.0;
-    std::string where;
-    const auto look = [&](const std::string& name, core::Index node, const post::Moments& moments) {
-      if (amplitude(moments) > largest && has(node)) {
-        largest = amplitude(moments);
-        where = name;
-      }
-    };
-    for (std::size_t c = 0; c < out.contact_summaries.size(); ++c)
-      for (const post::Moments* moments : {&out.contact_summaries[c].y, &out.contact_summaries[c].z})
-        look(fmt::format("contact \"{}\"", placed[c].name), placed[c].node, *moments);
-    for (std::size_t k = 0; k < out.node_summaries.size(); ++k)
-      for (const post::Moments& moments : out.node_summaries[k].displacement)
-        look(fmt::format("node \"{}\"", nodes[k].name), nodes[k].node, moments);
-    const double diameter = fastest(of).diameter;
-    if (diameter > 0.0 && !(largest <= linear * diameter))
-      out.warnings.push_back(
-          fmt::format("{}: {} moves by {:.3g} m about its mean, {:.2g} of the diameter: the fluidelastic law "
-                      "is linear, good to "
-                      "some {:g} of it; amplitudes, forces and work rates are not to be trusted",
-                      of.name, where, largest, largest / diameter, linear));
-  }
-}
-
 } // namespace fretwork::app

@@ -114,6 +114,43 @@ Json law(const LawStability& of) {
           {"modes", modes}};
 }
 
+Json power(const post::MeanPower& of) {
+  return {{"mean", number(of.mean)}, {"standard_error", number(of.error)}};
+}
+
+Json law_motion(const LawMotion& of, const LawAtWork& law) {
+  Json place = nullptr, growth = nullptr;
+  if (const auto& p = of.place) {
+    const double hertz = p->frequency.value_or(no_value);
+    place = {{"kind", p->contact ? "contact" : "node"},
+             {"name", p->name},
+             {"axis", std::string(1, p->axis)},
+             {"rms_m", number(p->rms)},
+             {"largest_m", number(p->largest)},
+             {"largest_of_diameter", number(p->largest / law.diameter)},
+             {"frequency_hz", number(hertz)},
+             {"frequency_resolution_hz", number(p->frequency ? p->resolution : no_value)},
+             {"reduced_velocity", number(law.reduced_velocity(hertz))}};
+  }
+  if (const auto& g = of.growth)
+    growth = {{"rate_per_s", number(g->rate)},
+              {"standard_error_per_s", number(g->error)},
+              {"rms_ratio", number(g->rms_ratio)},
+              {"grows", g->significant}};
+  const post::PowerBalance& p = of.power;
+  return {{"place", place},
+          {"later_from_s", number(of.later_from)},
+          {"growth", growth},
+          {"power_tubes", of.tubes},
+          {"power_W",
+           {{"loads", power(p.loads)},
+            {"fluid", power(p.fluid)},
+            {"modal_damping", power(p.modal_damping)},
+            {"contact_damping", power(p.contact_damping)},
+            {"friction", power(p.friction)},
+            {"stored", power(p.stored)}}}};
+}
+
 Json law_at_work(const LawAtWork& of) {
   const auto& critical = of.critical_factor;
   return {{"tubes", of.tubes},
@@ -124,7 +161,8 @@ Json law_at_work(const LawAtWork& of) {
           {"velocity_m_s", number(of.velocity)},
           {"reduced_velocity", number(of.root.imag() == 0.0 ? no_value : of.reduced_velocity())},
           {"critical_factor", critical ? number(*critical) : Json(nullptr)},
-          {"critical_velocity_m_s", critical ? number(*critical * of.velocity) : Json(nullptr)}};
+          {"critical_velocity_m_s", critical ? number(*critical * of.velocity) : Json(nullptr)},
+          {"motion", of.motion ? law_motion(*of.motion, of) : Json(nullptr)}};
 }
 
 Json stability(const StabilityAssessment& assessment) {

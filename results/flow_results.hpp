@@ -5,6 +5,7 @@
 #include "flow/damping.hpp"
 #include "flow/stability.hpp"
 #include "flow/stability_diagram.hpp"
+#include "post/power_balance.hpp"
 #include <array>
 #include <complex>
 #include <cstdint>
@@ -66,6 +67,32 @@ struct LawStability {
   }
 };
 
+/// How the motion changes from the third to the last quarter of a run, or of what the statistics see of them.
+struct Growth {
+  double rate = 0.0, error = 0.0; ///< 1/s, of the amplitude, and its standard error
+  double rms_ratio = 1.0;         ///< of the second of the two stretches to the first
+  bool significant = false;       ///< it grows
+};
+
+/// What a run found of the motion of tubes that a law makes unstable without contacts: in the window of the statistics, and `later`, in
+/// that of the second half of the run.
+struct LawMotion {
+  /// Where it moves most about its mean.
+  struct Place {
+    bool contact = false; ///< or an observed node
+    std::string name;
+    char axis = 'x';                 ///< of a contact y or z of its local axes
+    double rms = 0.0, largest = 0.0; ///< m, from the mean
+    std::optional<double> frequency; ///< Hz, dominant, later; none: few outputs, or folded ones
+    double resolution = 0.0;         ///< Hz, between lines of its spectrum
+  };
+  std::optional<Place> place; ///< none without contacts and observed nodes, or at rest
+  double later_from = 0.0;    ///< s
+  std::optional<Growth> growth;
+  std::vector<std::string> tubes; ///< with laws, that run together: theirs are the powers
+  post::PowerBalance power;
+};
+
 /// What a fluidelastic law makes of the modes without contacts at the velocities given.
 struct LawAtWork {
   std::vector<std::string> tubes;        ///< names, in the order of the law
@@ -74,8 +101,12 @@ struct LawAtWork {
   double velocity = 0.0, diameter = 0.0; ///< m/s, m, where V is largest
   std::optional<double> critical_factor = {}; ///< of all velocities; none: stable up to the last one searched
 
+  std::optional<LawMotion> motion = {}; ///< after a run, of an unstable one
+
+  [[nodiscard]] bool unstable() const { return root.real() > 0.0; }
   /// V/(f D); not finite of divergence.
-  [[nodiscard]] double reduced_velocity() const { return velocity / (flow::frequency_of(root) * diameter); }
+  [[nodiscard]] double reduced_velocity() const { return reduced_velocity(flow::frequency_of(root)); }
+  [[nodiscard]] double reduced_velocity(double frequency) const { return velocity / (frequency * diameter); }
 };
 
 /// Stability of one tube on modes pinned at supports.

@@ -17,6 +17,10 @@ namespace fretwork::results {
 /// Crossings of zero damping and the modes at the velocities given, beside Connors; empty without a law.
 [[nodiscard]] std::string law_table(const StabilityAssessment& assessment);
 
+/// Of a run under fluidelastic laws, for the terminal: of each that is unstable without contacts where its tubes move most, and what the
+/// fluid brings and dampers take; of the others that they are stable.
+[[nodiscard]] std::vector<std::string> law_motion_lines(const RunResults& results);
+
 /// The text of stability_diagram.csv: one mode at one factor of the velocity a row; empty without a law.
 [[nodiscard]] std::string stability_diagram_csv(const RunResults& results);
 

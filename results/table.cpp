@@ -2,6 +2,7 @@
 #include "results/contact_table.hpp"
 #include "results/error_estimate.hpp"
 #include "results/figures.hpp"
+#include "results/flow_text.hpp"
 #include "results/text_file.hpp"
 #include "results/totals.hpp"
 #include "results/wear_json.hpp"
@@ -143,6 +144,8 @@ void add_transient(Lines& lines, const RunResults& results) {
     lines.plain("");
   }
   lines.add("energy", energy_text(t.energy));
+  for (const std::string& line : law_motion_lines(results))
+    lines.add("law", line);
   if (results.verification)
     add_verification(lines, results);
   lines.add("error", error_estimate(results).text);

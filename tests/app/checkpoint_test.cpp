@@ -107,6 +107,21 @@ TEST(Checkpoint, KeepsTheWorkByAngleOfAWornTube) {
   EXPECT_TRUE(read_results(folder.path("results")).summary.contains("wear"));
 }
 
+TEST(Checkpoint, KeepsThePowersUnderAFluidelasticLaw) {
+  const Workshop folder;
+  const auto arguments = [&](const std::string& output) {
+    std::vector<std::string> all = tube(folder, output, {"--set", "transient.step=1e-5"});
+    all[1] = example("u_bend_flow").string();
+    return all;
+  };
+  (void)completed(folder, arguments("whole"));
+  kill_after(folder, arguments("results"), folder.path("results") / "checkpoint.h5", 0.013);
+  EXPECT_TRUE(says(completed(folder, arguments("results")), "going on from "));
+  expect_same(folder, "whole", "results");
+  const auto law = read_results(folder.path("results")).summary["fluidelastic"][0];
+  EXPECT_NE(law["motion"]["power_W"]["fluid"]["mean"], 0.0);
+}
+
 TEST(Checkpoint, GoesOnInTheStageOfGapOpeningThatWasKilled) {
   const Workshop folder;
   const fs::path study = folder.write(
