@@ -3,7 +3,7 @@
 
 Studies of the examples, shortened, with one to three mutations each: keys and tables removed, values out of range or of another type, names
 of groups and of choices misspelt or exchanged, keys that do not exist, entries given twice. For each of them
-- both refuse it with the same message, or
+- both refuse it with the same message, but for how long the run would take, or
 - both take it, and `run` warns of all that `check` warns of; what becomes known in the course of the run (the energy balance, the size of
   the errors) `run` may warn of alone; or
 - `check` takes it and it has no [transient]: it is for `modes`, `stability` and `response` alone; or
@@ -119,7 +119,8 @@ def command(fretwork, *arguments):
 
 def first_message(text):
     found = re.search(r"fretwork: .*", text, re.S)
-    return found.group().strip() if found else text.strip()
+    message = found.group().strip() if found else text.strip()
+    return re.sub(r"would take \S+ (s|min|h),", "would take #,", message)  # measured: each time another
 
 
 def judge(fretwork, study, results):
