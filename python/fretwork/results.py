@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 _UNITS = {"work_rate": "W", "friction_power": "W", "impacts_per_second": "1/s", "sliding_distance_m": "m", "impulse_Ns": "N s"}
 _UNITS_OF = {"normal_force": "N", "normal_force_in_contact": "N", "tangential_force": "N", "displacement": "m", "position": "m", "penetration": "m",
              "impact_velocity": "m/s", "departure_velocity": "m/s", "contact_duration": "s", "energy": "J", "static_flexibility": "m/N"}
+_SUFFIXES = {"_m_s": "m/s", "_per_s": "1/s", "_s": "s", "_m": "m", "_hz": "Hz", "_W": "W"}
 _AXES = {"displacement": ("x_loc", "y_loc", "z_loc"), "velocity": ("x_loc", "y_loc", "z_loc"), "tangential_force": ("axis", "in_plane"),
          "normal": ("y_loc", "z_loc")}
 
@@ -42,6 +44,11 @@ def _unit(column: str) -> str:
         return "1"
     parts = parts[1:] if parts[0] == "standard_error" else parts
     return _UNITS.get(column, _UNITS.get(parts[0], _UNITS_OF.get(parts[0], "1")))
+
+
+def _unit_by_suffix(column: str) -> str:
+    """Of a key, or one above it, that names its unit: motion.power_W.fluid.mean."""
+    return next((unit for part in reversed(column.split(".")) for suffix, unit in _SUFFIXES.items() if part.endswith(suffix)), "1")
 
 
 class Results:
@@ -72,13 +79,13 @@ class Results:
         with self._file() as file:
             return tomllib.loads(_text(file.attrs["study"]))
 
-    def _table(self, entries: list[dict[str, Any]]) -> pandas.DataFrame:
+    def _table(self, entries: list[dict[str, Any]], unit: Callable[[str], str] = _unit) -> pandas.DataFrame:
         import pandas
 
         table = pandas.DataFrame([_flat(entry) for entry in entries])
         if "name" in table:
             table = table.set_index("name")
-        table.attrs["units"] = {column: _unit(column) for column in table.columns}
+        table.attrs["units"] = {column: unit(column) for column in table.columns}
         return table
 
     @cached_property
@@ -188,6 +195,12 @@ class Results:
                 found.append(xarray.Dataset(curves, coords=coords, attrs={"assessment": _text(group.attrs["assessment"]), "velocity": float(group.attrs["velocity"]),
                                                                                       "diameter": float(group.attrs["diameter"])}))
         return found
+
+    @cached_property
+    def fluidelastic(self) -> pandas.DataFrame | None:
+        """Fluidelastic laws of the run, a row a law: their root without contacts, and past the threshold motion.*; None where no flow has one."""
+        laws = self.summary.get("fluidelastic")
+        return self._table(laws, _unit_by_suffix) if laws else None
 
     @cached_property
     def mesh(self) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:

@@ -212,6 +212,12 @@ e = [1.5, 2.0]
         now = results.summary["fluidelastic"][0]
         self.assertEqual(now["tubes"], ["tube"])
         self.assertGreater(now["growth_per_s"], 0.0)  # unstable in the clearances
+        row = results.fluidelastic.iloc[0]
+        self.assertEqual(row["growth_per_s"], now["growth_per_s"])
+        self.assertEqual(row["motion.power_W.fluid.mean"], now["motion"]["power_W"]["fluid"]["mean"])
+        units = {"growth_per_s": "1/s", "velocity_m_s": "m/s", "motion.later_from_s": "s", "motion.power_W.fluid.standard_error": "W", "damping": "1"}
+        self.assertEqual({column: results.fluidelastic.attrs["units"][column] for column in units}, units)
+        self.assertIsNone(self.results.fluidelastic)
         self.assertEqual(self.results.stability_diagrams(), [])
 
     def test_runs_on_two_ranks(self):

@@ -331,6 +331,7 @@ class Report(unittest.TestCase):
         for mode, tube in zip(law["modes"], law["tubes"]):
             mode.update(tube=tube, mode=1)
         law["crossings"][1]["mode"] = 2
+        self.assertNotIn("Motion past the threshold", section)
         self.change(add)
         section = self.report()
         self.assertIn("Fluidelastic law of 2 tubes", section)
@@ -338,6 +339,36 @@ class Report(unittest.TestCase):
         law["crossings"], law["critical_factor"], law["critical_velocity_m_s"] = [], None, None
         self.change(add)
         self.assertIn("stable up to 2 times the velocity", self.report())
+
+    def test_shows_the_motion_past_the_threshold(self):
+        made_up(self.folder, 2, 100)
+        terms = ("loads", "fluid", "modal_damping", "contact_damping", "friction", "stored")
+        powers = {term: {"mean": 1e-3 * (k + 1), "standard_error": 1e-5 if k else None} for k, term in enumerate(terms)}
+        place = {"kind": "contact", "name": "stop<1>", "axis": "z", "rms_m": 4.6e-4, "largest_m": 6.7e-4, "largest_of_diameter": 0.035, "frequency_hz": 42.25,
+                 "frequency_resolution_hz": 1.0, "reduced_velocity": 4.97}
+
+        def law(tube, motion):
+            return {"tubes": [tube], "unknowns": 6, "growth_per_s": 0.75, "frequency_hz": 10.4, "damping": -0.012, "velocity_m_s": 4.0, "reduced_velocity": 20.2,
+                    "critical_factor": 0.875, "critical_velocity_m_s": 3.5, "motion": motion}
+
+        def motion(place, growth):
+            return {"place": place, "later_from_s": 4.0, "growth": growth, "power_tubes": ["T1", "T2"], "power_W": powers}
+
+        def growth(grows):
+            return {"rate_per_s": 1.25, "standard_error_per_s": 0.02, "rms_ratio": 1.9, "grows": grows}
+
+        def section_of(laws):
+            self.change(lambda summary: summary.update(fluidelastic=laws))
+            text = self.report()
+            return text[text.index("<h2>Fluid-elastic stability</h2>"):text.index("<h2>How it was computed</h2>")]
+
+        section = section_of([law("T1", motion(place, growth(False))), law("T2", motion(None, None)), law("T3", None)])
+        for cell in ("contact stop&lt;1&gt;, z_loc", ">0.46<", ">0.67<", ">3.5<", ">42.25<", ">4.97<", ">1.25 ± 0.02<", "at rest", ">1<", ">2 ± 0.01<"):
+            self.assertIn(cell, section)
+        self.assertEqual(section.count(">6 ± 0.01<"), 1)  # powers of tubes that run together, once
+        self.assertNotIn("still grows", section)
+        self.assertIn("The motion still grows", section_of([law("T1", motion(place, growth(True)))]))
+        self.assertNotIn("Motion past the threshold", section_of([law("T3", None)]))
 
     def test_shows_the_scars_of_several_sides_below_their_support(self):
         made_up(self.folder, 2, 100, wear=True)

@@ -6,6 +6,7 @@ import html
 from . import flow_view, live
 from .drawing import short
 from .page import figure, section, table, warning
+from .sections import with_error
 
 MOST_MODE_ROWS = 40
 MOST_POINT_ROWS = 60
@@ -108,9 +109,49 @@ def _laws_at_work(laws):
     return "<h3>Fluidelastic laws of the run</h3>" + note + table(heads, rows)
 
 
+def _motion_row(law):
+    """Where the tubes of a law move most."""
+    motion = law["motion"]
+    place, growth = motion["place"], motion["growth"]
+    cells = [html.escape(", ".join(law["tubes"]))]
+    if place is None:
+        cells += ["at rest, or no contact or observed node"] + 5 * ["–"]
+    else:
+        axis = place["axis"] + ("_loc" if place["kind"] == "contact" else "")
+        cells += [f'{place["kind"]} {html.escape(place["name"])}, {axis}', short(1e3 * place["rms_m"]), short(1e3 * place["largest_m"]),
+                  short(100 * place["largest_of_diameter"], 3), short(place["frequency_hz"]), short(place["reduced_velocity"], 3)]
+    return cells + ["–" if growth is None else with_error(growth["rate_per_s"], growth["standard_error_per_s"]) + (", grows" if growth["grows"] else "")]
+
+
+POWERS = ("fluid", "loads", "modal_damping", "contact_damping", "friction", "stored")
+
+
+def _power_rows(motions):
+    """Powers of tubes that run together, once."""
+    balances = {tuple(motion["power_tubes"]): motion["power_W"] for motion in motions}
+    return [[html.escape(", ".join(tubes))] + [with_error(power[term]["mean"], power[term]["standard_error"], 1e3) for term in POWERS]
+            for tubes, power in balances.items()]
+
+
+def _motions(laws):
+    """The motion that the run found past the threshold."""
+    unstable = [law for law in laws if law.get("motion")]
+    if not unstable:
+        return ""
+    grows = any(law["motion"]["growth"] and law["motion"]["growth"]["grows"] for law in unstable)
+    bad = warning("The motion still grows: statistics are of no steady state.", bad=True) if grows else ""
+    later = short(unstable[0]["motion"]["later_from_s"])
+    note = ('<p class="soft">Tubes that are unstable without contacts: where they move most about their mean, in the window of the statistics. '
+            f"Dominant frequency, and growth of the amplitude with its standard error, from {later} s on.</p>")
+    heads = ["tubes", "moves most", "rms [mm]", "largest [mm]", "of the diameter [%]", "frequency [Hz]", "V/(f D)", "growth [1/s]"]
+    powers = '<p class="soft">Mean powers in the window, with standard errors: fluid + loads = damping + friction + stored.</p>'
+    return ("<h3>Motion past the threshold</h3>" + bad + note + table(heads, [_motion_row(law) for law in unstable], (0, 1)) + powers
+            + table(["tubes", *(f'{term.replace("_", " ")} [mW]' for term in POWERS)], _power_rows([law["motion"] for law in unstable])))
+
+
 def stability(run):
     laws, assessments = run.summary.get("fluidelastic", []), run.summary.get("stability", [])
-    parts = ([_laws_at_work(laws)] if laws else []) + [*map(_assessment, assessments)]
+    parts = ([_laws_at_work(laws), _motions(laws)] if laws else []) + [*map(_assessment, assessments)]
     return section("Fluid-elastic stability", *parts) if parts else ""
 
 
