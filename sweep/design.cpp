@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sweep/design.hpp"
 #include "sweep/openturns.hpp"
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
+#include <optional>
 
 namespace fretwork::sweep {
 namespace {
@@ -10,6 +13,13 @@ namespace {
 using study::SweepDistribution;
 using study::SweepLevels;
 using study::SweepSeeds;
+
+/// The number that a text is; none where it is anything else.
+std::optional<double> parsed(const std::string& text) {
+  double number = 0.0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return failure == std::errc{} && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
+}
 
 nlohmann::json request_of(const study::SweepVariable& variable) {
   if (const auto* levels = std::get_if<SweepLevels>(&variable.source))
@@ -87,6 +97,25 @@ std::string value_text(const study::SweepVariable& variable, double drawn, std::
   if (std::get<SweepDistribution>(variable.source).law == "integers")
     return std::to_string(std::llround(drawn));
   return fmt::format("{}", drawn);
+}
+
+std::vector<std::string> value_names(const study::SweepVariable& variable) {
+  const auto* levels = std::get_if<SweepLevels>(&variable.source);
+  if (!levels || std::all_of(levels->values.begin(), levels->values.end(),
+                             [](const std::string& text) { return parsed(text).has_value(); }))
+    return {};
+  const std::vector<std::string> booleans{"false", "true"};
+  const bool is_boolean = std::all_of(levels->values.begin(), levels->values.end(), [&](const auto& text) {
+    return std::find(booleans.begin(), booleans.end(), text) != booleans.end();
+  });
+  return is_boolean ? booleans : levels->values;
+}
+
+double value_number(const study::SweepVariable& variable, double drawn, std::int64_t number) {
+  const std::string text = value_text(variable, drawn, number);
+  const std::vector<std::string> names = value_names(variable);
+  return names.empty() ? parsed(text).value()
+                       : static_cast<double>(std::find(names.begin(), names.end(), text) - names.begin());
 }
 
 std::vector<std::string> overrides_of(const study::Sweep& sweep, const Draws& draws, std::int64_t number) {

@@ -24,6 +24,14 @@ using Draws = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMa
 /// The value of a variable in a case as TOML text.
 [[nodiscard]] std::string value_text(const study::SweepVariable& variable, double drawn, std::int64_t number);
 
+/// Texts of the listed values that are not all numbers, by the number that stands for them (`value_number`): of booleans "false" and "true",
+/// else the list. Empty: the values are numbers.
+[[nodiscard]] std::vector<std::string> value_names(const study::SweepVariable& variable);
+
+/// The value of a variable in a case as a number, of tables and statistics: the number itself; false 0 and true 1; of other listed texts
+/// the place in the list.
+[[nodiscard]] double value_number(const study::SweepVariable& variable, double drawn, std::int64_t number);
+
 /// The overrides (`key=value`) of a case.
 [[nodiscard]] std::vector<std::string> overrides_of(const study::Sweep& sweep, const Draws& draws,
                                                     std::int64_t number);

@@ -15,9 +15,10 @@ using nlohmann::json;
 constexpr std::size_t most_failures = 100; ///< that the summary lists; the table has all
 constexpr std::size_t name_width = 24, cell_width = 31, shown_variables = 4;
 
-/// Drawn inputs and outputs of the rows that statistics are made from: the done ones; of a design whose estimator needs every case all.
+/// Inputs that are drawn and outputs, as numbers, of the rows that statistics are made from: the done ones; of a design whose estimator needs every case all.
 std::vector<double> values_of(const study::Sweep& sweep, const Draws& draws, const Table& table,
                               std::size_t& rows) {
+  const std::vector<std::size_t> drawn = drawn_variables(sweep);
   std::vector<double> out;
   rows = 0;
   for (const Row& row : table.rows) {
@@ -26,7 +27,8 @@ std::vector<double> values_of(const study::Sweep& sweep, const Draws& draws, con
       continue;
     ++rows;
     for (Eigen::Index j = 0; j < draws.cols(); ++j)
-      out.push_back(draws(row.number, j));
+      out.push_back(value_number(sweep.variables[drawn[static_cast<std::size_t>(j)]], draws(row.number, j),
+                                 row.number));
     for (std::size_t j = 0; j < table.outputs.size(); ++j)
       out.push_back(done ? row.values[j] : std::numeric_limits<double>::quiet_NaN());
   }

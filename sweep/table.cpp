@@ -5,11 +5,9 @@
 #include "results/columns_file.hpp"
 #include "results/text_file.hpp"
 #include <algorithm>
-#include <charconv>
 #include <fmt/format.h>
 #include <limits>
 #include <map>
-#include <optional>
 
 namespace fretwork::sweep {
 namespace {
@@ -29,24 +27,6 @@ std::string cell(const std::string& text) {
 
 std::string head(const std::string& name, const std::string& unit) {
   return cell(unit.empty() ? name : name + " [" + unit + "]");
-}
-
-std::optional<double> number_of(const std::string& text) {
-  double number = 0.0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return failure == std::errc{} && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
-}
-
-/// True where every value of a variable is a number.
-bool is_number(const study::SweepVariable& variable) {
-  const auto* levels = std::get_if<study::SweepLevels>(&variable.source);
-  return !levels || std::all_of(levels->values.begin(), levels->values.end(),
-                                [](const std::string& value) { return number_of(value).has_value(); });
-}
-
-/// What a variable is in a row: its number, or the place of its text in the list.
-double input_of(const study::SweepVariable& variable, double drawn, std::int64_t number) {
-  return is_number(variable) ? number_of(value_text(variable, drawn, number)).value_or(no_number) : drawn;
 }
 
 /// Column of each variable among the draws; -1: it is not drawn.
@@ -119,10 +99,10 @@ void write_archive(const std::filesystem::path& file, const study::Sweep& sweep,
     const study::SweepVariable& variable = sweep.variables[v];
     results::NumberColumn& column = out.emplace_back(results::NumberColumn{"inputs", variable.name, "", {}});
     for (const Row& row : table.rows)
-      column.values.push_back(input_of(variable, drawn_at(draws, row.number, columns[v]), row.number));
-    if (!is_number(variable))
+      column.values.push_back(value_number(variable, drawn_at(draws, row.number, columns[v]), row.number));
+    if (const std::vector<std::string> names = value_names(variable); !names.empty())
       attributes["values of " + results::path_name(variable.name)] =
-          fmt::format("{}", fmt::join(std::get<study::SweepLevels>(variable.source).values, "\n"));
+          fmt::format("{}", fmt::join(names, "\n"));
   }
   for (std::size_t j = 0; j < table.outputs.size(); ++j) {
     results::NumberColumn& column =

@@ -31,8 +31,8 @@ struct Table {
 void write_csv(const std::filesystem::path& file, const study::Sweep& sweep, const Draws& draws,
                const Table& table);
 
-/// table.h5: /case/number, /case/outcome (0 done, 1 refused, 2 failed, 3 defect, 4 crashed), /inputs/<variable> (of listed texts their places, which the
-/// attribute `values of <variable>` lists), /outputs/<output>. Cases that are not done have no numbers.
+/// table.h5: /case/number, /case/outcome (0 done, 1 refused, 2 failed, 3 defect, 4 crashed), /inputs/<variable> (numbers as of `value_number`; the
+/// attribute `values of <variable>` lists the texts they stand for), /outputs/<output>. Cases that are not done have no numbers.
 /// @param attributes  texts of the file
 /// @throws core::Error if it cannot be written
 void write_archive(const std::filesystem::path& file, const study::Sweep& sweep, const Draws& draws,

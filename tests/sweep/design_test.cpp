@@ -36,6 +36,21 @@ TEST(Design, NumbersAreWrittenSoThatTheyReadBack) {
   EXPECT_EQ(value_text(count, 7.0, 0), "7");
 }
 
+TEST(Design, ListedValuesAreNumbersOfTheirOwn) {
+  const auto number = [](const std::vector<std::string>& values, double place) {
+    return value_number({"v", {"a"}, study::SweepLevels{values, {}}}, place, 0);
+  };
+  EXPECT_EQ(number({"0.5", "0.1", "0.3"}, 0.0), 0.5);
+  EXPECT_EQ(number({"0.5", "0.1", "0.3"}, 2.0), 0.3);
+  EXPECT_EQ(number({"true", "false"}, 0.0), 1.0);
+  EXPECT_EQ(number({"true", "false"}, 1.0), 0.0);
+  EXPECT_EQ(number({"\"circle\"", "\"plane_y\""}, 1.0), 1.0);
+  EXPECT_EQ(value_names({"v", {"a"}, study::SweepLevels{{"true"}, {}}}),
+            (std::vector<std::string>{"false", "true"}));
+  EXPECT_TRUE(value_names({"v", {"a"}, study::SweepLevels{{"1", "2"}, {}}}).empty());
+  EXPECT_EQ(value_number({"seed", {"a"}, study::SweepSeeds{10}}, 0.0, 3), 13.0);
+}
+
 TEST(Design, WorstCasesAreTheLargestThatAreDone) {
   Table table;
   table.outputs = {{"work", "W"}};

@@ -95,6 +95,22 @@ TEST(Ishigami, QuantilesAndProbabilitiesHaveIntervals) {
   EXPECT_GT(ranks["x3"]["high"], 0.0);
 }
 
+TEST(Sensitivities, AreThoseOfListedValuesWhateverTheirOrder) {
+  study::Sweep sweep = sweep_of(study::SweepDesign::monte_carlo, 60);
+  sweep.variables = {{"number", {"a"}, study::SweepLevels{{"0.5", "0.1", "0.3"}, {0.3, 0.4, 0.3}}},
+                     {"boolean", {"b"}, study::SweepLevels{{"true", "false"}, {0.5, 0.5}}}};
+  const Draws draws = make_design(sweep, 1);
+  Table table{{{"f", ""}, {"g", ""}}, {}};
+  for (Eigen::Index i = 0; i < draws.rows(); ++i) {
+    const double friction = std::stod(value_text(sweep.variables[0], draws(i, 0), i));
+    const bool active = value_text(sweep.variables[1], draws(i, 1), i) == "true";
+    table.rows.push_back({i, "", Outcome::done, {friction, active ? 1.0 : 0.0}});
+  }
+  const auto found = summarize(sweep, draws, table)["statistics"]["sensitivities"];
+  EXPECT_NEAR(found["f"]["number"]["value"].get<double>(), 1.0, 1e-12);
+  EXPECT_NEAR(found["g"]["boolean"]["value"].get<double>(), 1.0, 1e-12);
+}
+
 TEST(Ishigami, ConvergenceSaysHowManyCasesAreNeeded) {
   const auto few = summary_of(sweep_of(study::SweepDesign::monte_carlo, 100))["statistics"]["convergence"];
   EXPECT_FALSE(few["reached"].get<bool>());

@@ -97,6 +97,18 @@ class Report(unittest.TestCase):
         self.assertEqual(page, of_sums)
         self.assertEqual(page.count('class="band"'), 1)  # no band where no case has a number
 
+    def test_listed_texts_are_shown_as_they_are(self):
+        variables = '[[sweep.variables]]\nname = "on"\nkey = "contacts.stop.active"\nvalues = [true, false]\n'
+        self.report_of("draws = 8\n", STUDY, variables)
+        rows = [line.split(",") for line in (self.directory / "table.csv").read_text().splitlines()]
+        shown = re.findall(r"<td class=\"text\">(?:<a[^>]*>)?case (\d+)(?:</a>)?</td><td>[^<]*</td><td>(\w+)</td>", self.page)
+        self.assertGreater(len(shown), 0)
+        for case, value in shown:
+            self.assertEqual(value, dict((row[0], row[3]) for row in rows)[case])
+        picture = sweep_view.scatter(np.array([0.0, 1.0]), np.array([2e-3, 1e-3]), ("on", "work"), "W", ["false", "true"])
+        self.assertIn(">true</text>", picture)
+        self.assertIn("work [mW]", picture)
+
     def test_the_report_command_writes_it_again(self):
         self.report_of("draws = 5\n")
         (self.directory / "report.html").unlink()

@@ -22,6 +22,7 @@ class Sweep:
         self.summary = json.loads((directory / "summary.json").read_text(encoding="utf-8"))
         with h5py.File(directory / "table.h5", "r") as file:
             self.inputs = {name.replace("%2F", "/"): column[...] for name, column in file["inputs"].items()}
+            self.names = {key.removeprefix("values of ").replace("%2F", "/"): text.split("\n") for key, text in file.attrs.items() if key.startswith("values of ")}
             self.outputs = {name.replace("%2F", "/"): column[...] for name, column in file["outputs"].items()}
             self.cases = file["case/number"][...].astype(int)
 
@@ -36,6 +37,11 @@ class Sweep:
 
     def unit(self, name):
         return self.summary["units"].get(name, "")
+
+    def value(self, name, case):
+        """The value of a variable as text."""
+        number = float(self.inputs[name][case])
+        return html.escape(self.names[name][int(number)].strip('"')) if name in self.names else figure_of(number)
 
     def principal(self):
         return [name for name in PRINCIPAL if name in self.outputs]
@@ -68,7 +74,7 @@ def quantiles(sweep):
         return ""
     percent = round(100 * sweep.summary["confidence"], 6)
     first = sweep.statistics["outputs"][sweep.principal()[0]]["quantiles"]
-    heads = ["", *(f"{100 * q['probability']:g} %" for q in first), "windows"]
+    heads = ["output", *(f"{100 * q['probability']:g} %" for q in first), "windows"]
     rows = []
     for name in sweep.principal():
         output = sweep.statistics["outputs"][name]
@@ -78,7 +84,7 @@ def quantiles(sweep):
     note = (
         f"<p class=soft>Quantiles over the cases. In brackets the interval at {percent:g} % confidence: what more draws would narrow. The distance "
         "between the quantiles is the uncertain input, which draws do not change. Windows: the part of the variance that the finite duration of the runs makes; "
-        "longer runs would reduce it.</p>"
+        "longer runs would reduce it; at 100 % and more all that is seen is the finite duration.</p>"
     )
     return page.section("Quantiles", page.table(heads, rows), note, limits(sweep), convergence(sweep))
 
@@ -134,8 +140,8 @@ def sensitivities(sweep):
         sobol = sweep.statistics["method"] == "sobol"
         entries = [(name, entry["value"], entry["low"], entry["high"]) for name, entry in found.items()]
         label = f"Sobol' index of first order of {of}" if sobol else f"rank correlation with {of}"
-        parts.append(page.figure(sweep_view.tornado(entries, label), "The lines are intervals of confidence."))
-    pictures = [page.figure(sweep_view.scatter(x, sweep.outputs[of], (name, f"{of} [{sweep.unit(of)}]"))) for name, x in sweep.inputs.items()]
+        parts.append(page.figure(sweep_view.tornado(entries, label), "The lines are intervals of confidence. Of true and false, true is the larger value; other listed texts have the order of their list."))
+    pictures = [page.figure(sweep_view.scatter(x, sweep.outputs[of], (name, of), sweep.unit(of), sweep.names.get(name))) for name, x in sweep.inputs.items()]
     return page.section("Sensitivity", *parts, f'<div class="row">{"".join(pictures)}</div>')
 
 
@@ -172,8 +178,8 @@ def worst(sweep):
         case = int(sweep.cases[i])
         kept = case in (sweep.summary.get("worst") or [])
         name = f'<a href="runs/case_{case}/report.html">case {case}</a>' if kept else f"case {case}"
-        rows.append([name, figure_of(float(values[i])), *(figure_of(float(column[i])) for column in sweep.inputs.values())])
-    heads = ["", html.escape(f"{of} [{sweep.unit(of)}]"), *map(html.escape, sweep.inputs)]
+        rows.append([name, figure_of(float(values[i])), *(sweep.value(variable, i) for variable in sweep.inputs)])
+    heads = ["case", html.escape(f"{of} [{sweep.unit(of)}]"), *map(html.escape, sweep.inputs)]
     return page.section("Worst cases", page.table(heads, rows)) if rows else ""
 
 

@@ -15,10 +15,15 @@ def finite(values):
     return values[np.isfinite(values)]
 
 
+def _scaled(values, unit):
+    """The factor and the unit of an axis."""
+    return unit_for(float(np.abs(values).max()), unit) if unit in ("W", "N", "m") else (1.0, unit)
+
+
 def histogram(values, unit, quantiles, title, size=(340, 190)):
     """Cases by value, with lines at quantiles (numbers in the unit of the values)."""
     known = finite(values)
-    factor, scaled = unit_for(float(np.abs(known).max()), unit) if unit in ("W", "N", "m") else (1.0, unit)
+    factor, scaled = _scaled(known, unit)
     counts, edges = np.histogram(factor * known, bins=max(5, min(40, int(math.sqrt(len(known))) * 2)))
     plot = Plot(size, (edges[0], edges[-1]), (0.0, 1.05 * counts.max()))
     plot.axes(f"{title} [{scaled}]" if scaled else title, "cases", x_most=5, y_most=4)
@@ -30,18 +35,22 @@ def histogram(values, unit, quantiles, title, size=(340, 190)):
     return plot.svg(f"Distribution of {title}")
 
 
-def scatter(x, y, labels, size=(300, 190)):
-    """A dot a case. labels: of both axes."""
+def scatter(x, y, titles, unit, names=None, size=(300, 190)):
+    """A dot a case. titles: of both axes; unit: of y; names: of x = 0, 1 ... where it stands for texts."""
     keep = np.flatnonzero(np.isfinite(x) & np.isfinite(y))
     keep = keep[:: max(1, len(keep) // MOST_DOTS)]
     if not len(keep):
         return ""
-    x, y = x[keep], y[keep]
-    plot = Plot(size, (x.min(), x.max()), (min(0.0, y.min()), 1.05 * y.max()))
-    plot.axes(labels[0], labels[1], x_most=4, y_most=4)
+    factor, scaled = _scaled(y[keep], unit)
+    x, y = x[keep], factor * y[keep]
+    low, high = (-0.5, len(names) - 0.5) if names else (x.min(), x.max())
+    margin = 0.03 * (high - low)
+    plot = Plot(size, (low - margin, high + margin), (min(0.0, y.min()), 1.05 * y.max()))
+    ticks = [(place, name.strip('"')) for place, name in enumerate(names)] if names else None
+    plot.axes(titles[0], f"{titles[1]} [{scaled}]" if scaled else titles[1], ticks, x_most=4, y_most=4)
     for a, b in zip(x, y):
         plot.dot(a, b, "bar", radius=2.0)
-    return plot.svg(f"{labels[1]} against {labels[0]}")
+    return plot.svg(f"{titles[1]} against {titles[0]}")
 
 
 def tornado(entries, label, width=640):
