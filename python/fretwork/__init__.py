@@ -11,11 +11,12 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .report.run_data import NoResults
     from .results import Results
     from .runs import RunFailed, read_study, run, write_study
 
-_HOMES = {"Results": "results", "run": "runs", "RunFailed": "runs", "read_study": "runs", "write_study": "runs"}
-__all__ = ["Results", "RunFailed", "read_study", "run", "write_study"]
+_HOMES = {"NoResults": "report.run_data", "Results": "results", "run": "runs", "RunFailed": "runs", "read_study": "runs", "write_study": "runs"}
+__all__ = ["NoResults", "Results", "RunFailed", "read_study", "run", "write_study"]
 
 
 def __getattr__(name: str) -> Any:

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from .results import Results
 
 
-def _axes(axes: Axes | None) -> Axes:
-    return axes if axes is not None else plt.subplots()[1]
+def _axes(axes: Axes | None, size: tuple[float, float] | None = None) -> Axes:
+    return axes if axes is not None else plt.subplots(figsize=size, layout="constrained")[1]
 
 
 def force(results: Results, contact: str, axes: Axes | None = None) -> Axes:
@@ -34,14 +34,17 @@ def orbit(results: Results, contact: str, axes: Axes | None = None) -> Axes:
     touching = data["normal_force"].values > 0
     axes.plot(y, z, linewidth=0.4, color="tab:gray")
     axes.plot(y[touching], z[touching], ".", markersize=2, color="tab:orange")
-    axes.set(xlabel="y_loc [µm]", ylabel="z_loc [µm]", title=contact, aspect="equal")
+    axes.set(xlabel="y_loc [µm]", ylabel="z_loc [µm]", title=contact)
+    axes.set_aspect("equal", adjustable="datalim")  # a motion along one line keeps its picture
     return axes
 
 
 def work_rates(results: Results, axes: Axes | None = None) -> Axes:
     """Work rate of each contact, with two standard errors to each side where the run has them."""
-    axes = _axes(axes)
     table = results.contacts
+    if "work_rate" not in table:
+        raise KeyError("no work rates: this run has no transient with contacts")
+    axes = _axes(axes, (max(6.4, 0.2 * len(table)), 4.8))
     errors = 2 * table["standard_error.work_rate"].astype(float) if "standard_error.work_rate" in table else None
     axes.errorbar(range(len(table)), table["work_rate"].astype(float), yerr=errors, fmt="o", capsize=3)
     axes.set_xticks(range(len(table)), table.index, rotation=60, ha="right")
@@ -58,9 +61,11 @@ def spectrum(results: Results, name: str, axes: Axes | None = None) -> Axes:
         raise KeyError(f"no spectrum of {name!r}; spectra.csv has: {', '.join(table['name'].unique())}")
     axes = _axes(axes)
     for (quantity, unit), rows in table[table["name"] == name].groupby(["quantity", "unit"]):
-        rows = rows[rows["frequency [Hz]"] > 0]
+        rows = rows[(rows["frequency [Hz]"] > 0) & (rows["density"] > 0)]
+        if not len(rows):  # no motion in this direction
+            continue
         axes.loglog(rows["frequency [Hz]"], rows["density"], label=f"{quantity} [{unit}]")
         axes.fill_between(rows["frequency [Hz]"], rows["low_95"], rows["high_95"], alpha=0.2)
-    axes.set(xlabel="frequency [Hz]", title=name)
+    axes.set(xlabel="frequency [Hz]", ylabel="one-sided spectral density", title=name)
     axes.legend()
     return axes

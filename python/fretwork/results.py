@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+import re
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -18,10 +18,13 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-_UNITS = {"work_rate": "W", "friction_power": "W", "impacts_per_second": "1/s", "sliding_distance_m": "m", "impulse_Ns": "N s"}
-_UNITS_OF = {"normal_force": "N", "normal_force_in_contact": "N", "tangential_force": "N", "displacement": "m", "position": "m", "penetration": "m",
-             "impact_velocity": "m/s", "departure_velocity": "m/s", "contact_duration": "s", "energy": "J", "static_flexibility": "m/N"}
-_SUFFIXES = {"_m_s": "m/s", "_per_s": "1/s", "_s": "s", "_m": "m", "_hz": "Hz", "_W": "W"}
+_UNITS = {"work_rate": "W", "friction_power": "W", "normal_force": "N", "normal_force_in_contact": "N", "tangential_force": "N", "displacement": "m",
+          "position": "m", "penetration": "m", "impact_velocity": "m/s", "departure_velocity": "m/s", "contact_duration": "s", "energy": "J",
+          "static_flexibility": "m/N", "years": "a", "life_years": "a", "support_life_years": "a"}
+_SUFFIXES = {"m2_per_N": "m2/N", "m_s": "m/s", "m3": "m3", "per_second": "1/s", "per_s": "1/s",
+             "hz": "Hz", "rad": "rad", "Ns": "N s", "kg": "kg", "J": "J", "W": "W", "m": "m", "s": "s"}
+_SUFFIX = re.compile(f"_({'|'.join(_SUFFIXES)})$")
+_NO_QUANTITY = ("has_interval", "low_at_zero", "end", "batches", "work_rate_batches")  # beside values with a unit
 _AXES = {"displacement": ("x_loc", "y_loc", "z_loc"), "velocity": ("x_loc", "y_loc", "z_loc"), "tangential_force": ("axis", "in_plane"),
          "normal": ("y_loc", "z_loc")}
 
@@ -39,16 +42,21 @@ def _flat(entry: dict[str, Any], prefix: str = "") -> dict[str, Any]:
 
 
 def _unit(column: str) -> str:
+    """SI, of a column of summary.json: by its name or the unit that this ends with; "1" of ratios and counts; a: years."""
     parts = column.split(".")
-    if "relative" in parts or parts[0] == "step_error" or parts[-1].endswith("batches"):
+    if "relative" in parts or parts[0] == "step_error" or parts[-1] in _NO_QUANTITY:
         return "1"
-    parts = parts[1:] if parts[0] == "standard_error" else parts
-    return _UNITS.get(column, _UNITS.get(parts[0], _UNITS_OF.get(parts[0], "1")))
+    for name in parts:
+        suffix = _SUFFIX.search(name)
+        unit = _UNITS.get(name) or (_SUFFIXES[suffix[1]] if suffix else None)
+        if unit:
+            return unit
+    return "1"
 
 
-def _unit_by_suffix(column: str) -> str:
-    """Of a key, or one above it, that names its unit: motion.power_W.fluid.mean."""
-    return next((unit for part in reversed(column.split(".")) for suffix, unit in _SUFFIXES.items() if part.endswith(suffix)), "1")
+def _numbers(values: list[float | None]) -> np.ndarray[Any, Any]:
+    """NaN where summary.json has null."""
+    return np.array(values, float)
 
 
 class Results:
@@ -79,13 +87,14 @@ class Results:
         with self._file() as file:
             return tomllib.loads(_text(file.attrs["study"]))
 
-    def _table(self, entries: list[dict[str, Any]], unit: Callable[[str], str] = _unit) -> pandas.DataFrame:
+    def _table(self, entries: list[dict[str, Any]]) -> pandas.DataFrame:
         import pandas
 
         table = pandas.DataFrame([_flat(entry) for entry in entries])
         if "name" in table:
             table = table.set_index("name")
-        table.attrs["units"] = {column: unit(column) for column in table.columns}
+        texts = [column for column in table.columns if table[column].map(lambda value: isinstance(value, (str, list))).any()]
+        table.attrs["units"] = {column: "" if column in texts else _unit(column) for column in table.columns}
         return table
 
     @cached_property
@@ -168,7 +177,10 @@ class Results:
         return [(0, modes)] if "shapes" in modes else [(int(key), modes[key]) for key in sorted(modes, key=int)]
 
     def mode_shapes(self, structure: int = 0) -> xarray.DataArray:
-        """Shapes (mode, node, component) of a structure; translations in m, rotations in rad, at modal mass 1 kg."""
+        """Shapes (mode, node, component) of a structure; translations in m, rotations in rad, at modal mass 1 kg. Static modes, which `modes`
+        leaves out, are the last.
+
+        Raises KeyError if there is no structure of this number."""
         import xarray
 
         with self._file() as file:
@@ -177,30 +189,55 @@ class Results:
                 raise KeyError(f"no structure {structure}; there are {len(groups)}, from 0")
             group = groups[structure]
             return xarray.DataArray(group["shapes"][...], dims=("mode", "node", "component"), attrs={"units": "m, rad"},
-                                    coords={"frequency": ("mode", group["frequency"][...]), "node": group["nodes"][...],
+                                    coords={"frequency": ("mode", group["frequency"][...], {"units": "Hz"}), "node": group["nodes"][...],
                                             "component": ["dx", "dy", "dz", "rx", "ry", "rz"]})
 
     def stability_diagrams(self) -> list[xarray.Dataset]:
-        """Frequency, damping and growth (factor, mode) under fluidelastic laws, one for each assessment and law of the run."""
+        """Frequency (Hz), damping and growth (1/s) by (factor, mode) under fluidelastic laws, one for each assessment and law of the run.
+
+        Coordinates: factor of all velocities and the velocity (m/s) that it makes; of each mode its tube, its number there, from 0, and its
+        critical factors under the law and by Connors (NaN: none). attrs: velocity (m/s) at factor 1, diameter (m)."""
         import xarray
 
         found = []
+        laws = [entry["law"] for entry in self.summary.get("stability", []) if entry.get("law")]
         with self._file() as file:
             diagrams = file.get("stability", {})
-            for key in sorted(diagrams, key=int):
+            for key, law in zip(sorted(diagrams, key=int), laws):
                 group = diagrams[key]
                 curves = {name: (("factor", "mode"), group[name][...], {"units": _text(group[name].attrs["units"])}) for name in ("frequency", "damping", "growth")}
-                tubes = _text(group.attrs["tubes"]).split(", ")
-                coords = {"factor": group["factor"][...], "tube": ("mode", [tubes[i] for i in group["tube"][...]]), "number": ("mode", group["mode"][...])}
-                found.append(xarray.Dataset(curves, coords=coords, attrs={"assessment": _text(group.attrs["assessment"]), "velocity": float(group.attrs["velocity"]),
-                                                                                      "diameter": float(group.attrs["diameter"])}))
+                factor, velocity = group["factor"][...], float(group.attrs["velocity"])
+                coords = {"factor": ("factor", factor, {"units": "1"}), "velocity": ("factor", velocity * factor, {"units": "m/s"}),
+                          "tube": ("mode", [law["tubes"][i] for i in group["tube"][...]]), "number": ("mode", group["mode"][...]),
+                          **{name: ("mode", _numbers([mode[name] for mode in law["modes"]]), {"units": "1"}) for name in ("critical_factor", "connors_factor")}}
+                attrs = {"assessment": _text(group.attrs["assessment"]), "velocity": velocity, "diameter": float(group.attrs["diameter"])}
+                found.append(xarray.Dataset(curves, coords=coords, attrs=attrs))
         return found
 
     @cached_property
     def fluidelastic(self) -> pandas.DataFrame | None:
         """Fluidelastic laws of the run, a row a law: their root without contacts, and past the threshold motion.*; None where no flow has one."""
         laws = self.summary.get("fluidelastic")
-        return self._table(laws, _unit_by_suffix) if laws else None
+        return self._table(laws) if laws else None
+
+    @cached_property
+    def stability(self) -> pandas.DataFrame | None:
+        """Fluid-elastic stability by Connors, a row for each mode of each case (constants K) of each assessment: frequency, damping, effective and
+        critical velocity, ratio V/Vc, margin; NaN of a mode that the flow does not move. None where the run has none."""
+        rows: list[dict[str, Any]] = []
+        for entry in self.summary.get("stability", []):
+            for number, case in enumerate(entry["cases"], 1):
+                of_modes = zip(entry["modes"], case["critical_velocities_m_s"], case["ratios"])
+                rows += [{"assessment": entry["name"], "tube": entry["tube"], "case": number, "mode": i, **mode, "critical_velocity_m_s": critical, "ratio": ratio,
+                          "margin": None if ratio is None else 1 - ratio} for i, (mode, critical, ratio) in enumerate(of_modes, 1)]
+        return self._table(rows) if rows else None
+
+    @cached_property
+    def response(self) -> pandas.DataFrame | None:
+        """Linear response to turbulence, a row for each displacement of each response: rms, rms velocity, up-crossings, expected maximum.
+        None where the run has none."""
+        rows = [{"response": entry["name"], **point} for entry in self.summary.get("response", []) for point in entry["points"]]
+        return self._table(rows) if rows else None
 
     @cached_property
     def mesh(self) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
@@ -212,7 +249,11 @@ class Results:
         import pandas
 
         path = table(self.directory, self.summary, name)
-        return pandas.read_csv(path) if path else None
+        if not path:
+            return None
+        found = pandas.read_csv(path)
+        found.attrs["units"] = {column: unit[1] if (unit := re.search(r"\[(.*)\]$", column)) else "" for column in found.columns}
+        return found
 
     @property
     def spectra(self) -> pandas.DataFrame | None:
@@ -226,9 +267,58 @@ class Results:
 
     @cached_property
     def wear(self) -> pandas.DataFrame | None:
-        """Wear of each support: law, coefficient, life; None where the study asks for none."""
+        """Wear of each support: law, coefficient, work rate, volume, depth, life, each figure as value, low and high. None where the study asks for none."""
         supports = (self.summary.get("wear") or {}).get("supports")
-        return self._table(supports) if supports else None
+        return self._table([{key: value for key, value in entry.items() if key not in ("sides", "sectors")} for entry in supports]) if supports else None
+
+    @cached_property
+    def wear_sides(self) -> pandas.DataFrame | None:
+        """Wear of each side (+y, -y, +z, -z) of supports with flat faces on several sides; columns as of `wear`. None where there are none."""
+        supports = (self.summary.get("wear") or {}).get("supports", [])
+        rows = [{"name": entry["name"], "side": side["name"], **{key: value for key, value in side.items() if key != "name"}}
+                for entry in supports for side in entry.get("sides", [])]
+        return self._table(rows) if rows else None
+
+    def wear_series(self, support: str, side: str | None = None) -> xarray.Dataset:
+        """Volume (m3) and depth (m) against time (s) as (time, bound): value, low, high; sector_work_rate (W) and, with this geometry, sector depths (m)
+        over the angle of the contact point (degrees, middle of the sector). side: of flat faces on several sides.
+
+        Raises KeyError, which lists the names, if there is no wear of this name."""
+        import xarray
+
+        with self._file() as file:
+            groups = {_text(group.attrs["name"]): group for group in self._in_order(file["wear"])} if "wear" in file else {}
+            if support not in groups:
+                raise KeyError(f"no wear of {support!r}; there is that of: {', '.join(groups) or 'none'}")
+            group = groups[support]
+            time = group["time"][...]
+            if side is not None:
+                sides = group.get("sides", {})
+                if side not in sides:
+                    raise KeyError(f"{support!r} has no side {side!r}; there are: {', '.join(sides) or 'none'}")
+                group = sides[side]
+            found = {}
+            for key, item in group.items():
+                dims = ("angle",) if key.startswith("sector_") else ("time", "bound")
+                if isinstance(item, h5py.Dataset) and item.ndim == len(dims):
+                    found[key] = xarray.DataArray(item[...], dims=dims, attrs={"units": _text(item.attrs["units"]).partition(":")[0]})
+            coords: dict[str, Any] = {"time": ("time", time, {"units": "s"}), "bound": ["value", "low", "high"]}
+            if "sector_work_rate" in found:
+                count = len(found["sector_work_rate"])
+                coords["angle"] = ("angle", -180 + (np.arange(count) + 0.5) * 360 / count, {"units": "degrees"})
+            return xarray.Dataset(found, coords=coords, attrs={"support": support, "side": side or ""})
+
+    @cached_property
+    def gap_opening(self) -> pandas.DataFrame | None:
+        """Stages of gap opening, a row for each stage of each support: its end in years, the gap during it, work rate and depths as value, low
+        and high. None where the study asks for none. The lives: summary["wear"]["gap_opening"]["supports"]."""
+        opening = (self.summary.get("wear") or {}).get("gap_opening")
+        if not opening:
+            return None
+        keys = ("gap_m", "work_rate", "depth_m", "support_depth_m")
+        rows = [{"name": support["name"], "stage": i, "years": years, **{key: support[key][i - 1] for key in keys}}
+                for support in opening["supports"] for i, years in enumerate(opening["years"], 1)]
+        return self._table(rows)
 
     def report(self, output: str | Path | None = None) -> Path:
         """Writes the HTML report; returns its file."""

@@ -137,8 +137,8 @@ TEST(Commands, CompareRefusesOneRunTheSameTwiceAndASweep) {
   EXPECT_TRUE(
       says(says_of({run, folder.path("other").string(), "--html", page}), page + " cannot be written"));
   folder.write("other/table.h5", "");
-  EXPECT_TRUE(
-      says(says_of({run, folder.path("other").string()}), "holds the results of a sweep; run the study"));
+  EXPECT_TRUE(says(says_of({run, folder.path("other").string()}),
+                   "holds the results of a sweep, whose table is table.csv"));
 }
 
 TEST(Commands, OneNodeIsNoNodes) {

@@ -21,6 +21,7 @@ os.environ["MPLBACKEND"] = "Agg"
 
 import h5py  # noqa: E402
 import numpy as np  # noqa: E402
+import pandas  # noqa: E402
 
 import fretwork  # noqa: E402
 
@@ -106,8 +107,76 @@ class Package(unittest.TestCase):
         with self.assertRaisesRegex(KeyError, "no spectrum of 'apex': this run has no spectra.csv"):
             plots.spectrum(self.results, "apex")
 
+    def test_an_orbit_along_a_line_keeps_its_picture(self):
+        from fretwork import plots
+
+        displacement = np.zeros((50, 3))
+        displacement[:, 1] = np.linspace(-1e-4, 1e-4, 50)
+        data = self.results.series("tsp1").isel(time=slice(0, 50))
+        with unittest.mock.patch.object(fretwork.Results, "series", lambda *_: data.assign(displacement=(data["displacement"].dims, displacement))):
+            axes = plots.orbit(self.results, "tsp1")
+        axes.figure.canvas.draw()
+        self.assertGreater(axes.get_window_extent().height, 0.5 * axes.figure.bbox.height)
+        self.assertAlmostEqual(np.ptp(axes.get_xlim()) / axes.get_window_extent().width, np.ptp(axes.get_ylim()) / axes.get_window_extent().height)
+
+    def test_labels_of_many_contacts_stay_apart_and_on_the_figure(self):
+        from fretwork import plots
+
+        many = fretwork.Results(self.folder)
+        many.summary["contacts"] = [{**many.summary["contacts"][0], "name": f"support[{i}]"} for i in range(60)]
+        axes = plots.work_rates(many)
+        axes.figure.canvas.draw()
+        labels = [label.get_window_extent() for label in axes.get_xticklabels()]
+        self.assertGreater(min(box.y0 for box in labels), 0.0)
+        self.assertGreater(min(b.x1 - a.x1 for a, b in zip(labels, labels[1:])), 10.0)  # px
+        with self.assertRaisesRegex(KeyError, "no transient with contacts"):
+            many.summary["contacts"] = []
+            del many.__dict__["contacts"]
+            plots.work_rates(many)
+
+    def test_wear_has_units_sides_and_curves(self):
+        units = self.results.wear.attrs["units"]
+        found = [units[c] for c in ("depth_m.value", "volume_m3.low", "life_years.value", "work_rate.value", "work_rate.has_interval", "coefficient_m2_per_N", "law")]
+        self.assertEqual(found, ["m", "m3", "a", "W", "1", "m2/N", ""])
+        name = self.results.wear.index[0]
+        curves = self.results.wear_series(name)
+        self.assertEqual((curves["depth"].dims, curves["depth"].attrs["units"], curves["time"].attrs["units"]), (("time", "bound"), "m", "s"))
+        self.assertEqual(float(curves["depth"].sel(bound="value")[-1]), self.results.wear.loc[name, "depth_m.value"])
+        self.assertEqual(float(curves["angle"][0]), -180 + 180 / len(curves["angle"]))
+        self.assertEqual(list(curves["sector_work_rate"]), self.results.summary["wear"]["supports"][0]["sectors"]["work_rate"])
+        with self.assertRaisesRegex(KeyError, f"no wear of 'x'; there is that of: .*{name}"):
+            self.results.wear_series("x")
+        with self.assertRaisesRegex(KeyError, "no side '\\+y'; there are: none"):
+            self.results.wear_series(name, "+y")
+        self.assertIsNone(self.results.wear_sides)
+
+    def test_wear_of_sides_and_stages_are_tables(self):
+        results = fretwork.Results(self.folder)
+        support = results.summary["wear"]["supports"][0]
+        figure = {"value": 1.0, "low": 0.5, "high": 2.0}
+        support["sides"] = [{"name": side, "work_rate": figure, "depth_m": figure} for side in ("+y", "-y")]
+        results.summary["wear"]["gap_opening"] = {"years": [10.0, 20.0], "supports": [{"name": support["name"], "gap_m": [1e-4, 2e-4], "life_years": None,
+                                                  **{key: [figure, figure] for key in ("work_rate", "depth_m", "support_depth_m")}}]}
+        self.assertEqual(list(results.wear_sides["side"]), ["+y", "-y"])
+        self.assertEqual(results.wear_sides.attrs["units"]["depth_m.high"], "m")
+        stages = results.gap_opening
+        self.assertEqual((list(stages["years"]), list(stages["gap_m"]), stages.index[1]), ([10.0, 20.0], [1e-4, 2e-4], support["name"]))
+        self.assertEqual([stages.attrs["units"][c] for c in ("years", "gap_m", "work_rate.low", "stage")], ["a", "m", "W", "1"])
+
+    def test_response_is_a_table_with_units(self):
+        results = fretwork.Results(self.folder)
+        self.assertIsNone(results.response)
+        point = {"name": "apex", "direction": "y", "rms_m": 1.5e-5, "rms_velocity_m_s": 2e-3, "up_crossings_per_second": 21.0, "irregularity": 0.9, "maximum_m": None}
+        results.summary["response"] = [{"name": "free", "points": [point, {**point, "direction": "z", "maximum_m": 1e-4}]}]
+        del results.__dict__["response"]
+        table = results.response
+        self.assertEqual((list(table["response"]), list(table["direction"])), (["free", "free"], ["y", "z"]))
+        self.assertTrue(np.isnan(table["maximum_m"].iloc[0]))
+        self.assertEqual([table.attrs["units"][c] for c in ("rms_m", "rms_velocity_m_s", "up_crossings_per_second", "irregularity", "direction")],
+                         ["m", "m/s", "1/s", "1", ""])
+
     def test_refuses_a_folder_without_results(self):
-        with self.assertRaisesRegex(Exception, "does not exist; give the folder"):
+        with self.assertRaisesRegex(fretwork.NoResults, "does not exist; give the folder"):
             fretwork.Results(self.folder / "absent")
 
     def test_writes_studies_that_read_back(self):
@@ -209,6 +278,13 @@ e = [1.5, 2.0]
         for mode, curves in enumerate(law["modes"]):
             np.testing.assert_allclose(first["damping"][:, mode], curves["dampings"], rtol=1e-12)
             np.testing.assert_allclose(first["growth"][:, mode], curves["growths_per_s"], rtol=1e-12)
+        np.testing.assert_allclose(first["velocity"], law["velocity_m_s"] * np.array(law["factors"]), rtol=1e-12)
+        np.testing.assert_array_equal(first["critical_factor"], np.array([mode["critical_factor"] for mode in law["modes"]], float))
+        table, csv = results.stability, pandas.read_csv(folder / "stability.csv")
+        for column, head in (("frequency_hz", "frequency [Hz]"), ("critical_velocity_m_s", "critical_velocity [m/s]"), ("margin", "margin [1]")):
+            np.testing.assert_allclose(table[column], csv[head], rtol=1e-12, atol=1e-12)
+        self.assertEqual(table.attrs["units"]["critical_velocity_m_s"], "m/s")
+        self.assertEqual(results.flow.attrs["units"]["velocity [m/s]"], "m/s")
         now = results.summary["fluidelastic"][0]
         self.assertEqual(now["tubes"], ["tube"])
         self.assertGreater(now["growth_per_s"], 0.0)  # unstable in the clearances

@@ -205,7 +205,7 @@ def _require_folder_of_run(folder):
         results = folder.with_suffix(".results")  # of a study
         raise NoResults(f"{folder} is a file; {cure}" + (f", {results}" if (results / "summary.json").exists() else ""))
     if (folder / "table.h5").exists():
-        raise NoResults(f"{folder} holds the results of a sweep; run the study with the values of a case (--set) and give the folder of that run")
+        raise NoResults(f"{folder} holds the results of a sweep, whose table is table.csv; give the folder of a case that it kept ({folder}/runs), or run the study with the values of a case (--set)")
     if not (folder / "summary.json").exists() and ((folder / ".lock").exists() or any(folder.glob("checkpoint*.h5"))):
         raise NoResults(f"{folder}: the run has not ended; wait for it, or start it again if it was interrupted: it goes on from its checkpoint")
 
