@@ -138,6 +138,18 @@ class Report(unittest.TestCase):
         for cell in ("4.2", "6.4", "310", "4.5", "27", "17 / 44"):  # of the made-up statistics, in the table's units
             self.assertIn(f"<td>{cell}</td>", text)
 
+    def test_losses_that_are_round_off_are_zero(self):
+        made_up(self.folder, 2, 100)
+
+        def add(summary):
+            summary["energy"]["input_J"] = 50.0
+            summary["contacts"][0]["energy"] = {"damping_J": -4e-14, "friction_J": 4.2e-3}
+
+        self.change(add)
+        losses = self.report()
+        losses = losses[losses.index("lost in dampers"):]
+        self.assertIn('<td class="text">tsp1</td><td>0</td><td>4.2</td>', losses)
+
     def test_shows_the_strongest_impacts_first(self):
         made_up(self.folder, 2, 400)
         with self.archive() as file:
@@ -292,8 +304,8 @@ class Report(unittest.TestCase):
         text = self.report()
         self.assertIn("Fluid-elastic stability", self.headings(text))
         self.assertIn("Linear response to turbulence", self.headings(text))
-        self.assertIn("<b>−0.2</b><span>smallest stability margin, 1 − V/Vc</span>", text)
-        for word in ("all &lt;bars&gt;", "the worst of 2: bend 2.4", "Fluid-elastically unstable", "apex</td>", ">15<", ">21<"):
+        self.assertIn("<b>−0.2</b><span>smallest stability margin by Connors, 1 − V/Vc</span>", text)
+        for word in ("all &lt;bars&gt;", "the worst of 2: bend 2.4", "unstable by Connors: V/Vc = 1.2", "Bars: critical velocity", "apex</td>", ">15<", ">21<"):
             self.assertIn(word, text)
 
     def test_shows_the_stability_diagram_of_a_law(self):
@@ -327,6 +339,17 @@ class Report(unittest.TestCase):
             picture = picture[:picture.index("</svg>")]
             self.assertEqual(picture.count("<polyline class=\"mode"), 2)
             self.assertEqual(picture.count("<circle"), 2)
+        self.assertNotIn("Fluid-elastically unstable", section)
+        for crossing, factor in zip(law["crossings"], (0.5, 0.75)):  # unstable and stable again: at the velocities given stable
+            crossing.update(factor=factor, becomes="unstable" if factor == 0.5 else "stable")
+        law.update(critical_factor=0.5, critical_velocity_m_s=2.0)
+        self.change(add)
+        self.assertNotIn("Fluid-elastically unstable", self.report())
+        law["crossings"][1]["factor"] = 1.9
+        self.change(add)
+        section = self.report()
+        self.assertIn("Fluid-elastically unstable under the fluidelastic law: critical velocity 2 m/s, factor 0.5", section)
+        self.assertNotIn("unstable by Connors", section)  # whose margin is above 0
         law["tubes"] = ["T1", "T2"]
         for mode, tube in zip(law["modes"], law["tubes"]):
             mode.update(tube=tube, mode=1)
@@ -369,6 +392,23 @@ class Report(unittest.TestCase):
         self.assertNotIn("still grows", section)
         self.assertIn("The motion still grows", section_of([law("T1", motion(place, growth(True)))]))
         self.assertNotIn("Motion past the threshold", section_of([law("T3", None)]))
+
+    def test_says_how_many_modes_and_displacements_its_tables_leave_out(self):
+        made_up(self.folder, 2, 100)
+
+        def add(summary):
+            modes = [{"frequency_hz": f, "damping": 0.01, "decrement": 0.06, "effective_velocity_m_s": 1.0} for f in range(1, 51)]
+            case = {"connors_constants": {}, "critical_mode": 1, "margin": 0.5, "critical_scale": 2.0, "ratios": [0.5] * 50, "critical_velocities_m_s": [2.0] * 50,
+                    "sweep": []}
+            summary["stability"] = [{"name": "all", "tube": "T1", "pinned": [], "modes": modes, "cases": [case]}]
+            point = {"name": "apex", "direction": "y", "rms_m": 1.5e-5, "rms_velocity_m_s": 2e-3, "up_crossings_per_second": 21.0, "irregularity": 0.9,
+                     "maximum_m": None, "share_outside": 0.0, "share_above": 0.0}
+            summary["response"] = [{"name": "free", "pinned": [], "modes": 12, "duration_s": 60.0, "probability": 0.5, "points": [point] * 61}]
+
+        self.change(add)
+        text = self.report()
+        self.assertIn("The first 40 of 50 modes; all are in stability.csv.", text)
+        self.assertIn("The first 60 of 61 displacements; all are in response.csv.", text)
 
     def test_shows_the_scars_of_several_sides_below_their_support(self):
         made_up(self.folder, 2, 100, wear=True)
@@ -705,6 +745,10 @@ class Parts(unittest.TestCase):
         Bar.y = 1e-16 * Bar.z  # nothing slides: round-off has no scale
         _, half = contact_view.limits(Bar, Bar.y, Bar.z)
         self.assertEqual(half[0], half[1])
+
+    def test_an_axis_has_two_ticks_at_least(self):
+        self.assertEqual(drawing.ticks(-415.0, 415.0, 4), [-400.0, -200.0, 0.0, 200.0, 400.0])
+        self.assertEqual(drawing.ticks(0.0, 10.0, 5), [0.0, 2.0, 4.0, 6.0, 8.0, 10.0])
 
     def test_round_off_is_zero(self):
         self.assertEqual(sections.quantity(5.4e-45, "W"), "0 W")

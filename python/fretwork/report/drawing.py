@@ -14,13 +14,19 @@ _ids = itertools.count(1)
 
 
 def ticks(low, high, most=6):
-    """Round numbers (1, 2, 5 times a power of ten) inside an interval."""
+    """Round numbers (1, 2, 5 times a power of ten) inside an interval: at most `most`, and a few more where that would leave one alone."""
     span = high - low
     if not (math.isfinite(span) and span > 0):
         return [low]
     raw = span / most
     power = 10.0 ** math.floor(math.log10(raw))
-    step = next(factor * power for factor in (1, 2, 5, 10) if factor * power >= raw * 0.999)
+    steps = [factor * power for factor in (0.5, 1, 2, 5, 10)]
+    place = next(i for i, step in enumerate(steps) if i and step >= raw * 0.999)
+    found = _multiples(low, high, steps[place])
+    return found if len(found) > 1 else _multiples(low, high, steps[place - 1])
+
+
+def _multiples(low, high, step):
     first = math.ceil(low / step - 1e-9)
     last = math.floor(high / step + 1e-9)
     return [i * step for i in range(first, last + 1)]
@@ -132,7 +138,7 @@ class Plot:
         self._parts.append(part)
 
     def axes(self, xlabel, ylabel, x_ticks=None, y_most=5, x_most=7):
-        self.left = max(self.left, math.ceil(tick_room(self.y, y_most)) + 7 + (13 if ylabel else 0))
+        self.left = max(self.left, math.ceil(tick_room(self.y, y_most)) + 7 + (16 if ylabel else 0))
         slanted = x_ticks is not None and len(x_ticks) > 1 and max(label_width(label) for _, label in x_ticks) > self._between(x_ticks)
         if slanted:
             self.bottom = max(self.bottom, min(110, int(0.75 * max(label_width(label) for _, label in x_ticks)) + 22))

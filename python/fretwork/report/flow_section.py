@@ -46,7 +46,7 @@ def _mode_rows(assessment, case):
         [f"{i}", short(m["frequency_hz"]), short(100 * m["damping"], 3), short(m["effective_velocity_m_s"], 3), short(v, 3), short(r, 3),
          short(None if r is None else 1 - r, 3)]
         for i, (m, v, r) in enumerate(rows, 1)
-    ][:MOST_MODE_ROWS]
+    ]
 
 
 def _mode_of_law(law, number):
@@ -64,6 +64,22 @@ def _crossing_rows(law):
          + (", outside the law’s range" if c["outside_range"] else "")]
         for c in law["crossings"]
     ]
+
+
+def _unstable_under_law(law):
+    """At the velocities given: more roots have become unstable up to there than stable again."""
+    return law["factors"][-1] >= 1.0 and sum(1 if c["becomes"] == "unstable" else -1 for c in law["crossings"] if c["factor"] < 1.0) > 0
+
+
+def _verdict(case, law):
+    """Warnings of an assessment that is unstable at the velocities given, each by its criterion."""
+    found = []
+    if case["margin"] is not None and case["margin"] <= 0.0:
+        found.append(f"Fluid-elastically unstable by Connors: V/Vc = {1.0 - case['margin']:.3g}.")
+    if law is not None and _unstable_under_law(law):
+        found.append(f"Fluid-elastically unstable under the fluidelastic law: critical velocity {law['critical_velocity_m_s']:.4g} m/s, "
+                     f"factor {law['critical_factor']:.4g} of the velocities given.")
+    return "".join(warning(text, bad=True) for text in found)
 
 
 def _law(law):
@@ -93,11 +109,19 @@ def _assessment(assessment):
     pinned += "".join(f", {word}" for word in ("elastic", "sticking") if assessment.get(word))
     facts = (f'<p class="soft">Pinned at: {pinned}. Constants K of the case shown, the worst of {len(assessment["cases"])}: {_constants(case)}. '
              f'Margin 1 − V/Vc: {short(case["margin"], 3)}, factor of all velocities at the limit: {short(case["critical_scale"], 3)}.</p>')
-    bad = warning("Fluid-elastically unstable.", bad=True) if (case["margin"] or 0.0) <= 0.0 else ""
-    pictures = "".join(map(figure, (flow_view.ratios(case), flow_view.critical_velocities(assessment, case), flow_view.damping(assessment))))
+    pictures = (figure(flow_view.ratios(case), "V/Vc of the modes; unstable above the red line.")
+                + figure(flow_view.critical_velocities(assessment, case), "Bars: critical velocity Vc, cut where it is far above; dots: effective velocity V.")
+                + figure(flow_view.damping(assessment)))
     heads = ["mode", "frequency [Hz]", "damping [%]", "effective velocity [m/s]", "critical velocity [m/s]", "V/Vc", "margin"]
-    connors = f'<div class="grid2">{pictures}</div>' + table(heads, _mode_rows(assessment, case))
-    return title + bad + facts + _law(assessment.get("law")) + connors
+    rows = _mode_rows(assessment, case)
+    connors = f'<div class="grid2">{pictures}</div>' + table(heads, rows[:MOST_MODE_ROWS]) + _first(MOST_MODE_ROWS, rows, "modes", "stability.csv")
+    law = assessment.get("law")
+    return title + _verdict(case, law) + facts + _law(law) + connors
+
+
+def _first(most, rows, things, file):
+    """A line below a table that has only the first rows."""
+    return f'<p class="soft">The first {most} of {len(rows)} {things}; all are in {file}.</p>' if len(rows) > most else ""
 
 
 def _laws_at_work(laws):
@@ -163,13 +187,13 @@ def _response(response):
     rows = [
         [html.escape(p["name"]), p["direction"], _micro(p["rms_m"]), short(1e3 * p["rms_velocity_m_s"], 4),
          short(p["up_crossings_per_second"], 4), _micro(p["maximum_m"])]
-        for p in response["points"][:MOST_POINT_ROWS]
+        for p in response["points"]
     ]
     pinned = ", ".join(map(html.escape, response["pinned"])) or "nothing"
     note = (f'<p class="soft">{response["modes"]} modes, pinned at: {pinned}. Largest value in {short(response["duration_s"])} s that is not exceeded with '
             f'probability {short(response["probability"])}.</p>')
     heads = ["node or contact", "along", "rms [µm]", "rms velocity [mm/s]", "up-crossings [1/s]", "largest [µm]"]
-    return f'<h3>{html.escape(response["name"])}</h3>' + note + table(heads, rows, (0, 1))
+    return f'<h3>{html.escape(response["name"])}</h3>' + note + table(heads, rows[:MOST_POINT_ROWS], (0, 1)) + _first(MOST_POINT_ROWS, rows, "displacements", "response.csv")
 
 
 def response(run):

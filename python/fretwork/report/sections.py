@@ -57,7 +57,7 @@ def _verdicts(run):
         out.append((f"years to the limit of wear{where}{unknown}", short(years, 3) if math.isfinite(years) else "never"))
     margins = [case["margin"] for one in run.summary.get("stability", []) for case in one["cases"] if case["margin"] is not None]
     if margins:
-        out.append(("smallest stability margin, 1 − V/Vc", short(min(margins), 3)))
+        out.append(("smallest stability margin by Connors, 1 − V/Vc", short(min(margins), 3)))
     return out
 
 
@@ -192,11 +192,13 @@ def _losses(run):
     heads = ["contact", "lost in dampers [mJ]", "lost in friction [mJ]", "path while sliding [mm]", "impulse [N s]", "sticking [% of contact]",
              "departure speed mean / max [mm/s]"]
     rows = []
+    input_energy = (run.summary.get("energy") or {}).get("input_J")
     for c in run.contacts:
         s = c.summary
         speed = s["departure_velocity"]
+        lost = [_times(of_sum(s["energy"][f"{kind}_J"], input_energy), 1e3) for kind in ("damping", "friction")]
         rows.append([
-            html.escape(c.name), _times(s["energy"]["damping_J"], 1e3), _times(s["energy"]["friction_J"], 1e3), _times(s["sliding_distance_m"], 1e3),
+            html.escape(c.name), *lost, _times(s["sliding_distance_m"], 1e3),
             short(s["impulse_Ns"]), _times(s["sticking_ratio"], 100, 3), f"{_times(speed['mean'], 1e3, 3)} / {_times(speed['max'], 1e3, 3)}",
         ])
     return table(heads, rows)
@@ -296,7 +298,7 @@ def _strongest(contacts):
         value = {name: float(column[i]) for name, column in c.impacts.items()}
         rows.append([
             html.escape(c.name), short(value["start"], 6), _times(value["duration"], 1e3, 3), short(peak), _times(value["impulse"], 1e3),
-            f"{_times(value['velocity_before'], 1e3, 3)} / {_times(value['velocity_after'], 1e3, 3)}", _times(value["energy_lost"], 1e3, 3),
+            f"{_times(value['velocity_before'], 1e3, 3)} / {_times(value['velocity_after'], 1e3, 3)}", _times(of_sum(value["energy_lost"], value["impulse"] * value["velocity_before"]), 1e3, 3),
             f"{value['rebounds']:.0f}",
         ])
     return table(heads, rows)
