@@ -112,6 +112,46 @@ class InABrowser(unittest.TestCase):
         self.assertTrue(lines[0].startswith("mode,frequency [Hz],damping [%]"), lines[0])
         self.assertEqual([float(line.split(",")[1]) for line in lines[1:]], sorted(values))
 
+    def test_sorts_by_the_keyboard_and_names_by_their_numbers(self):
+        table = "[...document.querySelectorAll('section')].find(s => s.querySelector('h2').textContent === 'Modes').querySelector('table')"
+        names = ["plate[10]", "plate[9]", "plate[100]"]
+        last = f"{table}.rows[0].cells.length - 1"
+        self.browser.run(f"{table}.querySelectorAll('tbody tr').forEach((r, i) => r.cells[{last}].textContent = {names}[i % 3])")
+        for key in ("Enter", " "):
+            self.browser.run(f"{table}.rows[0].cells[{last}].dispatchEvent(new KeyboardEvent('keydown', {{ key: '{key}', bubbles: true }}))")
+            found = self.browser.run(f"[...{table}.querySelectorAll('tbody tr')].map(r => r.cells[{last}].textContent)")
+            expected = sorted(found, key=lambda name: int(name[6:-1]), reverse=key == "Enter")
+            self.assertEqual(found, expected)
+        self.browser.open(self.page)
+
+    def test_fits_a_narrow_window(self):
+        try:
+            self.browser.send("Emulation.setDeviceMetricsOverride", width=420, height=900, deviceScaleFactor=1, mobile=False)
+            self.browser.open(self.page)
+            for title in ("Structure", "Contacts", "Spectra", "Wear"):
+                self.heading(title)
+                self.browser.wait("document.readyState === 'complete'")
+            outside = ("[...document.querySelectorAll('figure, .panel, h3, p')].filter(e => !e.closest('.scroll') && e.getBoundingClientRect().right > innerWidth)"
+                       ".map(e => e.textContent.slice(0, 40))")
+            self.assertEqual(self.browser.run(outside), [])
+            self.assertLessEqual(self.browser.run("document.documentElement.scrollWidth"), 420)
+        finally:
+            self.browser.send("Emulation.clearDeviceMetricsOverride")
+            self.browser.open(self.page)
+
+    def test_labels_of_ticks_are_those_of_the_page_in_any_language(self):
+        self.heading("Contacts")
+        self.browser.wait("fretworkReport.plots.some(p => p.axes[0].label === 'time [s]')")
+        label = "fretworkReport.plots.find(p => p.axes[0].label === 'time [s]').axes[0].values(null, {}, 0, 50, {})"
+        self.assertEqual(self.browser.run(label.format("[-25000, 0, 25000]", 25000)), ["−25000", "0", "25000"])
+        self.assertEqual(self.browser.run(label.format("[0, 0.25, 0.5]", 0.25)), ["0", "0.25", "0.50"])
+        self.heading("Spectra")
+        self.browser.wait("fretworkReport.plots.some(p => p.axes[0].label === 'frequency [Hz]')")
+        label = "fretworkReport.plots.find(p => p.axes[0].label === 'frequency [Hz]').axes[0].values(null, {})"
+        self.assertEqual(self.browser.run(label.format("[100, 200, 1000, 2000]")), ["100", "", "1000", ""])
+        self.assertEqual(self.browser.run(label.format("[30, 40, 50, 60]")), ["", "", "50", ""])
+        self.assertEqual(self.browser.run(label.format("[1e-9, 1e-8]")), ["1e−9", "1e−8"])
+
     def test_prints_static_pictures(self):
         self.browser.send("Emulation.setEmulatedMedia", media="print")
         try:

@@ -11,7 +11,23 @@
     if (parent) parent.append(made);
     return made;
   };
-  const axis = (label, size) => ({ label, size, labelSize: 18, font: "11px sans-serif", labelFont: "11px sans-serif", stroke: "#5b6b7b", grid: { stroke: "#edf0f4", width: 1 } });
+  // Labels of ticks, whatever the language of the browser: with the decimals of their distance; on logarithms powers of ten, below two of them also 2 and 5.
+  const number = text => text.replace("-", "−");
+  const tick = (value, step) => {
+    let decimals = 0;
+    while (decimals < 6 && Math.abs(step * 10 ** decimals - Math.round(step * 10 ** decimals)) > 1e-6 * step * 10 ** decimals) decimals++;
+    return number(decimals < 6 && Math.abs(value) < 1e6 ? value.toFixed(decimals) : String(+value.toPrecision(3)));
+  };
+  const even = (u, ticks, index, space, step) => ticks.map(v => v == null ? "" : Math.abs(v) < 1e-9 * step ? "0" : tick(v, step));
+  const powers = (u, ticks) => {
+    const mantissa = v => Math.round(v / 10 ** Math.floor(Math.log10(v) + 1e-9));
+    const few = ticks.filter(v => v && mantissa(v) === 1).length < 2;
+    return ticks.map(v => !v || !(few ? [1, 2, 5] : [1]).includes(mantissa(v)) ? "" : number(v >= 1e-3 && v < 1e5 ? String(+v.toPrecision(3)) : v.toExponential(0)));
+  };
+  // Room (px) for labels beside an axis; of an axis kept while uPlot settles.
+  const beside = labels => 17 + 7.2 * Math.max(0, ...labels.map(t => t.length));
+  const room = least => (u, labels, index, cycle) => cycle > 1 ? u.axes[index]._size : Math.max(least, beside(labels || []));
+  const axis = (label, size) => ({ label, size, values: even, labelSize: 18, font: "11px sans-serif", labelFont: "11px sans-serif", stroke: "#5b6b7b", grid: { stroke: "#edf0f4", width: 1 } });
   const plots = window.fretworkReport = { plots: [], scenes: [] };  // for scripts and tests
 
   // Histories and spectra: zoom by dragging, a double click shows all.
@@ -22,7 +38,7 @@
     const plot = new uPlot({
       width, height,
       scales: { x: { time: false, distr: data.log ? 3 : 1 }, y: { distr: data.log ? 3 : 1 } },
-      axes: [axis(data.xlabel, 34), { ...axis(data.ylabel, 58), ...(data.log ? { values: (u, ticks) => ticks.map(v => v && Math.abs(Math.log10(v) % 1) < 1e-6 ? v.toExponential(0) : "") } : {}) }],
+      axes: [axis(data.xlabel, 34), axis(data.ylabel, room(58))].map(one => data.log ? { ...one, values: powers } : one),
       series: [{ label: data.xlabel, value: (u, v) => v == null ? "–" : v.toPrecision(7) }, ...series],
       bands: (data.bands || []).map(([upper, lower, fill]) => ({ series: [upper + 1, lower + 1], fill })),
       cursor: { drag: { x: true, y: true, uni: 30 } },
@@ -54,11 +70,12 @@
       return null;
     };
     const ranges = { x: data.x, y: data.y };
+    const left = Math.max(50, beside(data.y.map(v => v.toFixed(0))));
     const scale = key => ({ time: false, auto: false, range: (u, low, high) => low == null || u.whole ? ranges[key] : [low, high] });
     const plot = new uPlot({
-      mode: 2, width, height: width - 16, padding: [8, 8, 0, 0],  // a square between the axes
+      mode: 2, width, height: width - 16 - (left - 50), padding: [8, 8, 0, 0],  // a square between the axes
       scales: { x: scale("x"), y: scale("y") },
-      axes: [{ ...axis(data.xlabel, 34), space: 36 }, axis(data.ylabel, 50)],  // of 180 px
+      axes: [{ ...axis(data.xlabel, 34), space: 36 }, axis(data.ylabel, left)],  // of 180 px
       series: [{}, ...data.series.map(s => ({ label: s.name, stroke: s.colour, fill: s.colour, paths: path(s.dots), facets: [{ scale: "x", auto: false }, { scale: "y", auto: false }] }))],
       legend: { show: false },
       cursor: { drag: { x: true, y: true, uni: 0 }, points: { show: false }, dataIdx: () => null, bind: { dblclick: u => () => whole(u) } },
@@ -166,6 +183,7 @@
   for (const table of document.querySelectorAll("table.data")) {
     const heads = [...table.querySelectorAll("th")], body = table.querySelector("tbody");
     heads.forEach((head, column) => {
+      if (!head.textContent.trim()) return;
       head.tabIndex = 0;
       head.title = "sort";
       const sort = () => {
@@ -173,11 +191,11 @@
         heads.forEach(other => other.removeAttribute("aria-sort"));
         head.setAttribute("aria-sort", way > 0 ? "ascending" : "descending");
         const key = row => { const text = plain(row.cells[column]), number = parseFloat(text); return Number.isNaN(number) ? text : number; };
-        const order = (p, q) => typeof p === typeof q ? (p < q ? -1 : p > q ? 1 : 0) : typeof p === "number" ? way * -1 : way;
+        const order = (p, q) => typeof p === typeof q ? (typeof p === "number" ? p - q : p.localeCompare(q, "en", { numeric: true })) : typeof p === "number" ? way * -1 : way;
         [...body.rows].map(row => [key(row), row]).sort((p, q) => way * order(p[0], q[0])).forEach(([, row]) => body.append(row));
       };
       head.onclick = sort;
-      head.onkeydown = event => { if (event.key === "Enter") sort(); };
+      head.onkeydown = event => { if (event.key === "Enter" || event.key === " ") { event.preventDefault(); sort(); } };
     });
     const button = element("button", null, "CSV", "csv");
     button.onclick = () => {

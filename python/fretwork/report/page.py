@@ -8,6 +8,7 @@ import html
 from pathlib import Path
 
 HERE = Path(__file__).parent
+MANY_COLUMNS = 8  # above, a page has no room for texts of several words
 SCRIPTS = ("vendor/uplot/uPlot.iife.min.js", "vendor/three/three.min.js", "vendor/three/OrbitControls.js", "page.js")
 
 
@@ -42,8 +43,8 @@ figure svg { max-width: 100%; height: auto; display: block; }
 figcaption { margin-top: 3px; }
 .row { display: flex; flex-wrap: wrap; gap: 4px 12px; align-items: flex-start; break-inside: avoid; }
 .row figure { margin: 2px 0; }
-.grid3 { display: grid; grid-template-columns: repeat(3, 1fr); gap: 10px; }
-.grid2 { display: grid; grid-template-columns: repeat(2, 1fr); gap: 10px; }
+.grid3 { display: grid; grid-template-columns: repeat(3, minmax(0, 1fr)); gap: 10px; }
+.grid2 { display: grid; grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 10px; }
 .small { display: grid; grid-template-columns: repeat(auto-fill, minmax(182px, 1fr)); gap: 8px; }
 .small h3 { margin: 2px 0 0 34px; font-size: 13px; }
 .panel { border: 1px solid var(--line); border-radius: 6px; padding: 8px 10px; break-inside: avoid; }
@@ -83,7 +84,9 @@ svg text { font-size: 11px; fill: var(--ink); } svg .tick { fill: var(--soft); f
 table.data th { cursor: pointer; } th[aria-sort=descending]::after { content: " ▾"; } th[aria-sort=ascending]::after { content: " ▴"; }
 .csv { float: right; font-size: 11px; color: var(--soft); background: none; border: 1px solid var(--line); border-radius: 4px; cursor: pointer; margin: 0 0 2px; }
 .fold { font-size: 12px; color: var(--blue); background: none; border: 0; padding: 2px 7px; cursor: pointer; }
-@media screen { table.folded > tbody > tr:nth-child(n+16) { display: none; } }
+@media screen { table.folded > tbody > tr:nth-child(n+16) { display: none; } table.wide td { white-space: nowrap; } }
+@media screen and (max-width: 720px) { body { padding: 18px 14px 40px; } .grid2, .grid3 { grid-template-columns: minmax(0, 1fr); }
+  .cards { grid-template-columns: repeat(auto-fit, minmax(140px, 1fr)); } }
 @page { size: A4; margin: 13mm; }
 @media print { .screen { display: none; } figure.on > .static { display: block; } .live-picture, .csv, .fold { display: none; } th[aria-sort]::after { content: "" !important; }
   body { max-width: none; padding: 0; font-size: 12px; } pre { max-height: none; white-space: pre-wrap; }
@@ -101,13 +104,14 @@ def section(title, *parts):
 
 
 def table(heads, rows, text_columns=(0,)):
-    """Cells are HTML; columns of text stand left, numbers right."""
+    """Cells are HTML; columns of text stand left, numbers right. A table of many columns is scrolled, its texts stay on one line."""
     def cells(tag, row):
         kinds = [' class="text"' if i in text_columns else "" for i in range(len(row))]
         return "".join(f"<{tag}{kind}>{cell}</{tag}>" for kind, cell in zip(kinds, row))
 
     body = "".join(f"<tr>{cells('td', row)}</tr>" for row in rows)
-    return f'<div class="scroll"><table class="data"><thead><tr>{cells("th", heads)}</tr></thead><tbody>{body}</tbody></table></div>'
+    kind = "data wide" if len(heads) > MANY_COLUMNS else "data"
+    return f'<div class="scroll"><table class="{kind}"><thead><tr>{cells("th", heads)}</tr></thead><tbody>{body}</tbody></table></div>'
 
 
 def cards(entries):
