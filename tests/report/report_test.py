@@ -655,6 +655,18 @@ class Comparison(unittest.TestCase):
     def test_shows_the_inputs_that_differ_with_overrides(self):
         self.assertEqual(self.table("Inputs").rows, [["contacts.tsp2.gap", "0.0003", "0.0005"]])
 
+    def test_shows_inputs_as_a_study_has_them_and_none_of_a_sweep(self):
+        with archive_to_change(self.folders[1]) as file:
+            file.attrs["study"] += 'active = false\nbars = [0.1, 0.2]\n[sweep]\ndraws = 30\n'
+        self.assertEqual(self.table("Inputs").rows[0], ["contacts.tsp2.active", "-", "false"])
+        self.assertEqual(self.table("Inputs").rows[1], ["contacts.tsp2.bars", "-", "[0.1, 0.2]"])
+        self.assertEqual(len(self.table("Inputs").rows), 3)
+
+    def test_figures_are_written_in_full_and_lives_without_end_named(self):
+        self.assertEqual([compare_data.number(v, 3) for v in (7062.4, 0.5, 2.5e-7, 3e6, None)], ["7060", "0.5", "2.5e-07", "3e+06", "-"])
+        change_summary(self.folders[1], lambda summary: summary["wear"]["supports"][0].update(life_years={"end": "never", "value": None, "low": None, "high": None}))
+        self.assertEqual(self.table("Wear").rows[0][-1], "never")
+
     def test_shows_changes_of_frequencies(self):
         rows = self.table("Frequencies").rows
         self.assertEqual([rows[0][3], rows[1][3]], ["+1 %", "0 %"])

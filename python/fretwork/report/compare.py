@@ -36,7 +36,7 @@ def _orbit(run, name):
 
 def as_page(runs, names, found):
     body = "".join(
-        page.section(t.title, page.table([html.escape(h) for h in t.heads], [[html.escape(cell) for cell in row] for row in t.rows]) if t.rows else "<p>none</p>")
+        page.section(t.title, page.table([html.escape(h) for h in t.heads], [[html.escape(cell).replace("+-", "±") for cell in row] for row in t.rows]) if t.rows else "<p>none</p>")
         for t in found
     )
     body += page.section("Structure", _side_by_side(runs, names, lambda run: structure_view.structure(run, 480)[0]))

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What differs between runs: inputs, frequencies, work rates, wear; each as rows of a table, the first run being the reference."""
 
+import json
 import math
 import tomllib
 from dataclasses import dataclass
@@ -21,13 +22,17 @@ class Table:
 
 
 def number(value, digits=4):
-    return "-" if value is None or not math.isfinite(value) else f"{value:.{digits}g}"
+    """As text, in full up to 10^6."""
+    if value is None or not math.isfinite(value):
+        return "never" if value == math.inf else "-"  # infinite: a life
+    text = f"{value:.{digits}g}"
+    return f"{float(text):.0f}" if "e" in text and 1 <= abs(value) < 1e6 else text
 
 
 def with_error(value, error):
     if value is None or error is None or not math.isfinite(error):
         return number(value)
-    return f"{value:.3g} +- {error:.1g}"
+    return f"{number(value, 3)} +- {number(error, 1)}"
 
 
 def change(value, reference):
@@ -66,12 +71,17 @@ def _flat(value, path=""):
 
 
 def inputs(run):
-    """All keys of the study with overrides."""
+    """All keys of the study with overrides; what a sweep would vary is no input of a run."""
     keys = _flat(tomllib.loads(run.attributes["study"]))
     for override in run.summary.get("overrides", []):
         keys.pop(override["key"], None)
         keys.update(_flat(override["value"], override["key"]))
-    return keys
+    return {key: value for key, value in keys.items() if not key.startswith("sweep.")}
+
+
+def _as_written(value):
+    """As a study has it, texts without their quotes."""
+    return "-" if value is None else value if isinstance(value, str) else json.dumps(value, default=str, ensure_ascii=False)
 
 
 def differing_inputs(runs, names):
@@ -80,7 +90,7 @@ def differing_inputs(runs, names):
     for key in sorted(set().union(*studies)):
         values = [study.get(key) for study in studies]
         if any(value != values[0] for value in values):
-            rows.append([key, *("-" if value is None else str(value) for value in values)])
+            rows.append([key, *map(_as_written, values)])
     return Table("Inputs that differ", ["key", *names], rows)
 
 
@@ -113,8 +123,9 @@ def work_rates(runs, names):
 
 def _wear(run):
     def life(support):
-        years = support["life_years"]["value"] if support["life_years"] else None
-        return None if years is None or years > 1 / ROUND_OFF else years
+        life = support["life_years"] or {"end": None, "value": None}
+        years = life["value"]
+        return math.inf if life["end"] == "never" or (years is not None and years > 1 / ROUND_OFF) else years
 
     return {s["name"]: (of_sum(s["depth_m"]["value"]) if s["depth_m"] else None, life(s)) for s in run.summary.get("wear", {}).get("supports", [])}
 
