@@ -71,6 +71,7 @@ class Report(unittest.TestCase):
         for title in ("Quantiles", "Distributions", "Sensitivity", "Work rate by contact", "Worst cases", "Cases without a result", "Study"):
             self.assertIn(f"<h2>{title}</h2>", self.page)
         self.assertEqual(checker.counts["script"], 1)  # the page's own: no interactive picture
+        self.assertEqual(self.page.count('class="grid3"'), 2)  # on paper a row does not wrap: six histograms would be too small to read
         self.assertNotIn(HOSTILE, self.page)
         self.assertIn("&lt;script&gt;", self.page)
         kept = json.loads((self.directory / "summary.json").read_text())["worst"]

@@ -90,7 +90,7 @@ table.data th { cursor: pointer; } th[aria-sort=descending]::after { content: " 
 @page { size: A4; margin: 13mm; }
 @media print { .screen { display: none; } figure.on > .static { display: block; } .live-picture, .csv, .fold { display: none; } th[aria-sort]::after { content: "" !important; }
   body { max-width: none; padding: 0; font-size: 12px; } pre { max-height: none; white-space: pre-wrap; }
-  h2, h3 { break-after: avoid; } table { font-size: 9.5px; } th, td { padding: 2px 4px; white-space: normal; } .scroll { overflow: visible; } tr, .small > * { break-inside: avoid; }
+  h2, h3, h2 + p { break-after: avoid; } table { font-size: 9.5px; } th, td { padding: 2px 4px; white-space: normal; } .scroll { overflow: visible; } tr, .small > * { break-inside: avoid; }
   .row { flex-wrap: nowrap; } .row figure { min-width: 0; } .panel { border-color: #ccc; } * { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
 """
 

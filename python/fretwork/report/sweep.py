@@ -122,7 +122,7 @@ def distributions(sweep):
         if sweep.statistics:
             lines = [q["value"] for q in sweep.statistics["outputs"][name]["quantiles"] if isinstance(q["value"], float)]
         pictures.append(page.figure(sweep_view.histogram(known, sweep.unit(name), lines, name)))
-    return page.section("Distributions", f'<div class="row">{"".join(pictures)}</div>') if pictures else ""
+    return page.section("Distributions", f'<div class="grid3">{"".join(pictures)}</div>') if pictures else ""
 
 
 def measure(sweep):
@@ -142,7 +142,7 @@ def sensitivities(sweep):
         label = f"Sobol' index of first order of {of}" if sobol else f"rank correlation with {of}"
         parts.append(page.figure(sweep_view.tornado(entries, label), "The lines are intervals of confidence. Of true and false, true is the larger value; other listed texts have the order of their list."))
     pictures = [page.figure(sweep_view.scatter(x, sweep.outputs[of], (name, of), sweep.unit(of), sweep.names.get(name))) for name, x in sweep.inputs.items()]
-    return page.section("Sensitivity", *parts, f'<div class="row">{"".join(pictures)}</div>')
+    return page.section("Sensitivity", *parts, f'<div class="grid3">{"".join(pictures)}</div>')
 
 
 def along(sweep):
