@@ -29,7 +29,8 @@ RunResults worn(int contacts, int structures = 1) {
 
 /// NaN and infinity included.
 bool same(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
 }
 
 nlohmann::json summary_of(const RunResults& results) {
