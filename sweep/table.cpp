@@ -25,6 +25,12 @@ std::string cell(const std::string& text) {
   return out;
 }
 
+/// A text of TOML without its quotes.
+std::string unquoted(const std::string& text) {
+  return text.size() >= 2 && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2)
+                                                                       : text;
+}
+
 std::string head(const std::string& name, const std::string& unit) {
   return cell(unit.empty() ? name : name + " [" + unit + "]");
 }
@@ -77,8 +83,8 @@ void write_csv(const std::filesystem::path& file, const study::Sweep& sweep, con
   for (const Row& row : table.rows) {
     cells = {std::to_string(row.number), name_of(row.outcome), row.identity};
     for (std::size_t v = 0; v < sweep.variables.size(); ++v)
-      cells.push_back(
-          cell(value_text(sweep.variables[v], drawn_at(draws, row.number, columns[v]), row.number)));
+      cells.push_back(cell(
+          unquoted(value_text(sweep.variables[v], drawn_at(draws, row.number, columns[v]), row.number))));
     for (std::size_t j = 0; j < table.outputs.size(); ++j)
       cells.push_back(row.values.empty() ? "" : fmt::format("{}", row.values[j]));
     cells.push_back(cell(row.message));
@@ -100,7 +106,9 @@ void write_archive(const std::filesystem::path& file, const study::Sweep& sweep,
     results::NumberColumn& column = out.emplace_back(results::NumberColumn{"inputs", variable.name, "", {}});
     for (const Row& row : table.rows)
       column.values.push_back(value_number(variable, drawn_at(draws, row.number, columns[v]), row.number));
-    if (const std::vector<std::string> names = value_names(variable); !names.empty())
+    std::vector<std::string> names = value_names(variable);
+    std::transform(names.begin(), names.end(), names.begin(), unquoted);
+    if (!names.empty())
       attributes["values of " + results::path_name(variable.name)] =
           fmt::format("{}", fmt::join(names, "\n"));
   }

@@ -13,10 +13,11 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .report.run_data import NoResults
     from .results import Results
-    from .runs import RunFailed, read_study, run, write_study
+    from .runs import RunFailed, read_study, run, sweep, write_study
+    from .sweeps import Sweep
 
-_HOMES = {"NoResults": "report.run_data", "Results": "results", "run": "runs", "RunFailed": "runs", "read_study": "runs", "write_study": "runs"}
-__all__ = ["NoResults", "Results", "RunFailed", "read_study", "run", "write_study"]
+_HOMES = {"NoResults": "report.run_data", "Results": "results", "run": "runs", "RunFailed": "runs", "Sweep": "sweeps", "read_study": "runs", "sweep": "runs", "write_study": "runs"}
+__all__ = ["NoResults", "Results", "RunFailed", "Sweep", "read_study", "run", "sweep", "write_study"]
 
 
 def __getattr__(name: str) -> Any:

@@ -251,7 +251,7 @@ class Results:
         path = table(self.directory, self.summary, name)
         if not path:
             return None
-        found = pandas.read_csv(path)
+        found = pandas.read_csv(path, float_precision="round_trip")
         found.attrs["units"] = {column: unit[1] if (unit := re.search(r"\[(.*)\]$", column)) else "" for column in found.columns}
         return found
 

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from .results import Results
+from .sweeps import Sweep
 
 
 class RunFailed(Exception):
@@ -100,21 +101,17 @@ def write_study(study: Mapping[str, Any], file: str | Path) -> Path:
     return path
 
 
-def run(study: str | Path, overrides: Mapping[str, Any] | None = None, ranks: int = 1, output: str | Path | None = None, progress: bool = True) -> Results:
-    """Runs a study file (of a dict: write_study); returns its results.
-
-    overrides: values by key, e.g. {"modes.count": 60}, as `--set` of the program takes them. ranks: processes (mpirun). output: folder of the
-    results; by default the study's name with .results. progress: what the program prints is printed,
-    and how far it is. An interrupted run goes on from its checkpoint when it is started again. Raises RunFailed with the program's message."""
+def _execute(command: str, ending: str, study: str | Path, overrides: Mapping[str, Any] | None, ranks: int, output: str | Path | None, progress: bool) -> Path:
+    """The folder of the results."""
     if isinstance(study, Mapping):
-        raise TypeError("study is a dict: run takes a file; write it first, run(write_study(study, \"mine.toml\"))")
+        raise TypeError(f"study is a dict: {command} takes a file; write it first, {command}(write_study(study, \"mine.toml\"))")
     file = Path(study)
-    folder = Path(output) if output else file.with_suffix(".results")
-    command = [*_command(ranks), "run", str(file), "--output", str(folder)]
+    folder = Path(output) if output else file.with_suffix(ending)
+    words = [*_command(ranks), command, str(file), "--output", str(folder)]
     for key, value in (overrides or {}).items():
-        command += ["--set", f"{key}={_toml(value, key)}"]
+        words += ["--set", f"{key}={_toml(value, key)}"]
     lines: list[str] = []
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
         try:
             for line in process.stdout or ():
                 lines.append(line)
@@ -127,4 +124,21 @@ def run(study: str | Path, overrides: Mapping[str, Any] | None = None, ranks: in
     if process.returncode:
         own = list(takewhile(lambda line: not re.fullmatch("-+\n", line), lines))  # what mpirun adds to it is between such rules
         raise RunFailed("".join(own[-20:]).strip() or "".join(lines[-20:]).strip() or f"fretwork ended with status {process.returncode}")
-    return Results(folder)
+    return folder
+
+
+def run(study: str | Path, overrides: Mapping[str, Any] | None = None, ranks: int = 1, output: str | Path | None = None, progress: bool = True) -> Results:
+    """Runs a study file (of a dict: write_study); returns its results.
+
+    overrides: values by key, e.g. {"modes.count": 60}, as `--set` of the program takes them. ranks: processes (mpirun). output: folder of the
+    results; by default the study's name with .results. progress: what the program prints is printed,
+    and how far it is. An interrupted run goes on from its checkpoint when it is started again. Raises RunFailed with the program's message."""
+    return Results(_execute("run", ".results", study, overrides, ranks, output, progress))
+
+
+def sweep(study: str | Path, overrides: Mapping[str, Any] | None = None, ranks: int = 1, output: str | Path | None = None, progress: bool = True) -> Sweep:
+    """Computes the cases of [sweep] of a study file; returns their table and statistics.
+
+    Arguments as of `run`; by default the folder is the study's name with .sweep. An interrupted sweep goes on when it is started again.
+    Raises RunFailed with the program's message, also where no case has a result."""
+    return Sweep(_execute("sweep", ".sweep", study, overrides, ranks, output, progress))

@@ -296,6 +296,37 @@ e = [1.5, 2.0]
         self.assertIsNone(self.results.fluidelastic)
         self.assertEqual(self.results.stability_diagrams(), [])
 
+    def test_computes_a_sweep_whose_table_has_units(self):
+        folder = self.folder.parent / "swept"
+        folder.mkdir()
+        study = {"sweep": {"study": (Path(EXAMPLES) / "oscillator/study.toml").resolve(), "design": "grid", "keep": "worst 1", "variables": [
+            {"name": "gap", "key": "contacts.stop.gap", "values": [1e-3, 0.0, -1.0]}, {"name": "scheme", "key": "transient.scheme", "values": ["splitting", "devogelaere"]},
+            {"name": "on", "key": "contacts.stop.active", "values": [True]}]}}
+        file = fretwork.write_study(study, folder / "study.toml")
+        short = {"transient.duration": 0.2}
+        sweep = fretwork.sweep(file, short, progress=False)
+        self.assertEqual(sweep.directory, folder / "study.sweep")
+        table = sweep.table
+        self.assertEqual(list(table["gap"]), [1e-3, 1e-3, 0.0, 0.0, -1.0, -1.0])
+        self.assertEqual(list(table["scheme"]), 3 * ["splitting", "devogelaere"])
+        self.assertEqual(list(table["on"]), 6 * [True])
+        self.assertEqual(list(table["outcome"]), 4 * ["done"] + 2 * ["refused"])
+        csv = pandas.read_csv(folder / "study.sweep/table.csv", index_col="case", float_precision="round_trip")
+        self.assertEqual(list(csv["scheme"]), list(table["scheme"]))
+        np.testing.assert_array_equal(table["stop.normal_max"], csv["stop.normal_max [N]"])
+        units = table.attrs["units"]
+        self.assertEqual([units[c] for c in ("stop.normal_max", "stop.contact_time_ratio", "gap")], ["N", "1", ""])
+        one = fretwork.run(Path(EXAMPLES) / "oscillator/study.toml", {**short, "contacts.stop.gap": 1e-3, "transient.scheme": "devogelaere"}, output=folder / "one", progress=False)
+        self.assertEqual(one.contacts.loc["stop", "normal_force.max"], table.loc[1, "stop.normal_max"])
+        kept = sweep.summary["worst"][0]
+        self.assertEqual(sweep.case(kept).contacts.loc["stop", "normal_force.max"], table.loc[kept, "stop.normal_max"])
+        with self.assertRaisesRegex(KeyError, f"has not kept case 7; it has: {kept}"):
+            sweep.case(7)
+        with self.assertRaisesRegex(fretwork.NoResults, "no table of a sweep .*give the folder that `fretwork sweep` wrote"):
+            fretwork.Sweep(self.folder)
+        with self.assertRaisesRegex(TypeError, "sweep takes a file; write it first, sweep"):
+            fretwork.sweep(study)
+
     def test_runs_on_two_ranks(self):
         folder = self.folder.parent / "two_tubes"
         shutil.copytree(Path(EXAMPLES) / "two_tubes", folder, ignore=shutil.ignore_patterns("*.results"))
