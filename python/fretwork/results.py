@@ -195,7 +195,7 @@ class Results:
     def stability_diagrams(self) -> list[xarray.Dataset]:
         """Frequency (Hz), damping and growth (1/s) by (factor, mode) under fluidelastic laws, one for each assessment and law of the run.
 
-        Coordinates: factor of all velocities and the velocity (m/s) that it makes; of each mode its tube, its number there, from 0, and its
+        Coordinates: factor of all velocities and the velocity (m/s) that it makes; of each mode, from 1 as in all tables, its tube, its number there and its
         critical factors under the law and by Connors (NaN: none). attrs: velocity (m/s) at factor 1, diameter (m)."""
         import xarray
 
@@ -208,7 +208,8 @@ class Results:
                 curves = {name: (("factor", "mode"), group[name][...], {"units": _text(group[name].attrs["units"])}) for name in ("frequency", "damping", "growth")}
                 factor, velocity = group["factor"][...], float(group.attrs["velocity"])
                 coords = {"factor": ("factor", factor, {"units": "1"}), "velocity": ("factor", velocity * factor, {"units": "m/s"}),
-                          "tube": ("mode", [law["tubes"][i] for i in group["tube"][...]]), "number": ("mode", group["mode"][...]),
+                          "tube": ("mode", [law["tubes"][i] for i in group["tube"][...]]), "number": ("mode", group["mode"][...] + 1),
+                          "mode": np.arange(1, len(law["modes"]) + 1),
                           **{name: ("mode", _numbers([mode[name] for mode in law["modes"]]), {"units": "1"}) for name in ("critical_factor", "connors_factor")}}
                 attrs = {"assessment": _text(group.attrs["assessment"]), "velocity": velocity, "diameter": float(group.attrs["diameter"])}
                 found.append(xarray.Dataset(curves, coords=coords, attrs=attrs))

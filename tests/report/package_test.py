@@ -279,6 +279,7 @@ e = [1.5, 2.0]
             np.testing.assert_allclose(first["damping"][:, mode], curves["dampings"], rtol=1e-12)
             np.testing.assert_allclose(first["growth"][:, mode], curves["growths_per_s"], rtol=1e-12)
         np.testing.assert_allclose(first["velocity"], law["velocity_m_s"] * np.array(law["factors"]), rtol=1e-12)
+        self.assertEqual((list(first["mode"].values), list(first["number"].values)), (list(range(1, len(law["modes"]) + 1)), [m["mode"] for m in law["modes"]]))
         np.testing.assert_array_equal(first["critical_factor"], np.array([mode["critical_factor"] for mode in law["modes"]], float))
         table, csv = results.stability, pandas.read_csv(folder / "stability.csv")
         for column, head in (("frequency_hz", "frequency [Hz]"), ("critical_velocity_m_s", "critical_velocity [m/s]"), ("margin", "margin [1]")):
