@@ -151,26 +151,10 @@ private:
     out_.timings.mesh = watch_.lap();
     out_.record = make_record(inputs_, core::size(comm_));
     core::agree(comm_, [&] {
-      study::Study& study = inputs_.study;
-      model_ = build_model(study, mesh_);
-      out_.warnings = unit_slips(study, mesh_, model_);
-      placed_ = place_contacts(study, mesh_, model_, out_.warnings);
-      inactive_ = take_inactive(placed_);
-      flows_ = place_flows(study, mesh_, model_, out_.notes);
-      turbulence_ = turbulent_loads(study, model_, flows_, out_.notes);
-      nodes_ = observed_nodes(study, mesh_);
-      moved_ = moved_supports(study, mesh_, model_);
-      worn_ = worn_places(study, model_, placed_);
-      check_gap_opening(study, worn_, placed_);
-      other_runs_ = read_other_runs(study, inputs_.run_directory);
-      check_contacts_of(other_runs_, study, worn_, placed_);
-      for (std::string& warning : compare_with_other_runs(other_runs_, study, worn_, placed_, model_))
-        out_.warnings.push_back(std::move(warning));
-      numbering_ = numbering_text(study, model_, together(placed_, inactive_), flows_);
-      if (!numbering_.empty())
-        out_.notes.push_back(numbering_);
-      note_other_runs(other_runs_, out_);
-      out_.modes_limit = take_modes_limit(study, model_, placed_, turbulence_);
+      model_ = build_model(inputs_.study, mesh_);
+      out_.warnings = unit_slips(inputs_.study, mesh_, model_);
+      asking_about_units(out_.warnings, [&] { place_on_model(); });
+      out_.modes_limit = take_modes_limit(inputs_.study, model_, placed_, turbulence_);
       if (out_.modes_limit)
         limit_modes();
     });
@@ -182,6 +166,29 @@ private:
     if (last_ == Stage::transient && !other_runs_.missing.empty()) // likewise
       say("warning: " + other_runs_.missing + "\n");
     out_.timings.assembly = watch_.lap();
+  }
+
+  void place_on_model() {
+    const study::Study& study = inputs_.study;
+    placed_ = place_contacts(study, mesh_, model_, out_.warnings);
+    inactive_ = take_inactive(placed_);
+    flows_ = place_flows(study, mesh_, model_, out_.notes);
+    turbulence_ = turbulent_loads(study, model_, flows_, out_.notes);
+    nodes_ = observed_nodes(study, mesh_);
+    moved_ = moved_supports(study, mesh_, model_);
+    worn_ = worn_places(study, model_, placed_);
+    check_gap_opening(study, worn_, placed_);
+    other_runs_ = read_other_runs(study, inputs_.run_directory);
+    check_contacts_of(other_runs_, study, worn_, placed_);
+    warn(compare_with_other_runs(other_runs_, study, worn_, placed_, model_));
+    numbering_ = numbering_text(study, model_, together(placed_, inactive_), flows_);
+    if (!numbering_.empty())
+      out_.notes.push_back(numbering_);
+    note_other_runs(other_runs_, out_);
+  }
+
+  void warn(const std::vector<std::string>& warnings) {
+    out_.warnings.insert(out_.warnings.end(), warnings.begin(), warnings.end());
   }
 
   void limit_modes() {
@@ -199,7 +206,7 @@ private:
     ModesStage modes = modes_stage(comm_, inputs_, model_, out_.record, request_.force);
     describe_model(mesh_, model_, modes.structures, out_);
     out_.model.different_structures = static_cast<std::int64_t>(modes.different);
-    out_.warnings.insert(out_.warnings.end(), modes.warnings.begin(), modes.warnings.end());
+    warn(modes.warnings);
     out_.notes.insert(out_.notes.end(), modes.notes.begin(), modes.notes.end());
     out_.bases = std::move(modes.bases);
     note_modes(inputs_.study, out_);

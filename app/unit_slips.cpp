@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/unit_slips.hpp"
+#include "core/error.hpp"
 #include "results/grouped_messages.hpp"
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,7 @@ constexpr double least_density = 50.0, largest_density = 3e4;                   
 constexpr double largest_friction = 2.0;
 constexpr double largest_support = 1.0, largest_correlation = 10.0; // m
 constexpr double largest_damping = 0.3;
+constexpr double largest_viscosity = 2e-5; // m2/s
 
 /// Sizes of a shape, m, by their keys.
 std::vector<std::pair<const char*, double>> sizes(const fem::Shape& shape) {
@@ -95,6 +97,28 @@ std::vector<std::string> odd_damping(const study::Study& study) {
                                            : std::vector<std::string>();
 }
 
+/// Liquids of g/cm3, and dynamic viscosities.
+std::vector<std::string> odd_liquids(const study::Study& study) {
+  std::vector<std::string> out;
+  const auto look = [&](const std::string& keys, double density, double viscosity) {
+    if (density < least_density)
+      out.push_back(fmt::format("{}.density = {:g} kg/m3", keys, density));
+    if (viscosity > largest_viscosity)
+      out.push_back(fmt::format("{}.viscosity = {:g} m2/s", keys, viscosity));
+  };
+  for (const study::Flow& flow : study.flows)
+    for (const flow::Zone& zone : flow.zones) {
+      const std::string keys = fmt::format("flow.{}.zones.{}", flow.name, zone.name);
+      if (const auto* two = std::get_if<flow::TwoPhase>(&zone.fluid))
+        look(keys + ".liquid", two->phases.liquid_density, two->phases.liquid_viscosity);
+      else if (const auto& single = std::get<flow::SinglePhase>(zone.fluid);
+               single.phase == flow::Phase::liquid)
+        look(keys, *std::max_element(single.density.values.begin(), single.density.values.end()),
+             single.viscosity);
+    }
+  return out;
+}
+
 /// A fixed step beyond the longest period that a contact can have, that of all the mass on its spring; else empty.
 std::string long_step(const study::Study& study, const fem::Model& model) {
   if (!study.transient || !study.transient->step)
@@ -134,9 +158,24 @@ std::vector<std::string> unit_slips(const study::Study& study, const mesh::LineM
   ask(odd_friction(study), "is this per cent? Coefficients of friction lie between 0 and 2", out);
   ask(odd_damping(study), "is this per cent? It is the share of critical damping, 0.002 to 0.05 of tubes",
       out);
+  ask(odd_liquids(study),
+      "units are SI: kg/m3, and m2/s of the kinematic viscosity, which is the dynamic one (Pa s) over the "
+      "density (water: 1e-7 to 2e-6)",
+      out);
   if (std::string step = long_step(study, model); !step.empty())
     out.push_back("units: " + step);
   return out;
+}
+
+void asking_about_units(const std::vector<std::string>& slips, const std::function<void()>& work) {
+  const std::vector<std::string> questions = slips; // work may add to them
+  try {
+    work();
+  } catch (const core::Error& error) {
+    if (questions.empty())
+      throw;
+    throw core::Error(fmt::format("{}; {}", error.what(), fmt::join(questions, "; ")));
+  }
 }
 
 } // namespace fretwork::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Values that are legal and in another unit than the SI's: sizes in mm, moduli in MPa, densities in t/m3, coefficients in per cent.
+/// Values that are legal and in another unit than the SI's: sizes in mm, moduli in MPa, densities in t/m3, coefficients in per cent,
+/// dynamic viscosities.
 ///
 /// A value is suspected where it is outside what slender structures have, with a factor of ten or more of room:
 ///     sizes of sections      up to 3 m                        radial gaps           up to 0.1 m
@@ -8,11 +9,13 @@
 ///     density                0 or 50 (foam) to 30000 kg/m3    friction coefficient  up to 2
 ///     supports of wear       up to 1 m long               correlation lengths   up to 10 m
 ///     modal damping          up to 0.3
+///     liquids of flows       from 50 kg/m3         their kinematic viscosity   up to 2e-5 m2/s (ten times that of cold water)
 ///     fixed time step        up to the period of the stiffest contact against the whole mass of the model
 #pragma once
 #include "fem/model.hpp"
 #include "mesh/line_mesh.hpp"
 #include "study/study.hpp"
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,5 +24,9 @@ namespace fretwork::app {
 /// One warning for all suspected values of a unit, each value with its key; none where nothing is suspected.
 [[nodiscard]] std::vector<std::string> unit_slips(const study::Study& study, const mesh::LineMesh& mesh,
                                                   const fem::Model& model);
+
+/// Runs `work`; what it refuses may follow from values in another unit, and its message then ends with the questions of unit_slips.
+/// @throws core::Error  what `work` throws
+void asking_about_units(const std::vector<std::string>& slips, const std::function<void()>& work);
 
 } // namespace fretwork::app

@@ -34,6 +34,13 @@ std::vector<std::string> asked(const Workshop& folder, const std::string& study,
   return out;
 }
 
+/// Fluid round the tube of `tubes`. @param zone  its density and viscosity
+std::string water(const std::string& zone) {
+  return "[[flow]]\nname = \"w\"\ngroup = \"tube0\"\nfrom = \"tube0_begin\"\n[[flow.zones]]\n"
+         "name = \"z\"\n" +
+         zone;
+}
+
 } // namespace
 
 TEST(UnitSlips, OfSizesAreOneQuestion) {
@@ -77,6 +84,30 @@ TEST(UnitSlips, AreSaidByTheRunToo) {
       tubes(folder, 1) + supports("gap = 2.0e-4\nfriction = 30\ntangential_stiffness = 1.0e6\n"));
   EXPECT_TRUE(
       says(run.summary["warnings"].dump(), "friction = 30 of contact \\\"h0\\\" ... \\\"h14\\\" (15)"));
+}
+
+TEST(UnitSlips, OfLiquidsAreAskedAbout) {
+  const Workshop folder;
+  const std::string study = tubes(folder, 1);
+  EXPECT_TRUE(asked(folder, study + water("density = 740.0\nviscosity = 1.2e-7\n"), {}).empty());
+  const auto dynamic = asked(folder, study + water("density = 0.74\nviscosity = 9.0e-5\n"), {});
+  ASSERT_EQ(dynamic.size(), 1u);
+  EXPECT_TRUE(says(dynamic[0], "flow.w.zones.z.density = 0.74 kg/m3, flow.w.zones.z.viscosity = 9e-05 m2/s: "
+                               "units are SI: kg/m3, and m2/s of the kinematic viscosity"));
+  const std::string gas = "phase = \"gas\"\ndensity = 1.2\nviscosity = 5.0e-5\nconnors_constant = 3\n";
+  EXPECT_TRUE(asked(folder, study + water(gas), {}).empty());
+}
+
+// The cause may be the unit: zones in m are off a tube in mm.
+TEST(UnitSlips, EndTheMessageOfWhatIsRefused) {
+  const Workshop folder;
+  const fs::path study = folder.write(
+      "study.toml", tubes(folder, 1) + water("density = 740.0\nviscosity = 1.2e-7\nfrom = 6000.0\n"));
+  const Outcome outcome = folder.fretwork({"check", study.string(), "--set", "mesh.scale=5000"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(says(outcome.err, "zone \"z\" goes from"));
+  EXPECT_TRUE(
+      says(outcome.err, "units: a mesh 5000 m long (mesh.scale = 1e-3 turns mm into m): are these mm?"));
 }
 
 } // namespace fretwork::app::test::unit_slips_test
