@@ -2,6 +2,7 @@
 #include "app/chain.hpp"
 #include "app/build_flow.hpp"
 #include "app/describe.hpp"
+#include "app/flow_coverage.hpp"
 #include "app/fluidelastic.hpp"
 #include "app/folder_lock.hpp"
 #include "app/gap_opening.hpp"
@@ -173,6 +174,7 @@ private:
     placed_ = place_contacts(study, mesh_, model_, out_.warnings);
     inactive_ = take_inactive(placed_);
     flows_ = place_flows(study, mesh_, model_, out_.notes);
+    warn(parts_without_fluid(study, model_, flows_));
     turbulence_ = turbulent_loads(study, model_, flows_, out_.notes);
     nodes_ = observed_nodes(study, mesh_);
     moved_ = moved_supports(study, mesh_, model_);

@@ -136,5 +136,38 @@ TEST(Flow, NotesZonesOfFewElements) {
   EXPECT_TRUE(says(summary["notes"].dump(), "zone \\\"water\\\": 4 elements, fewer than 10"));
 }
 
+TEST(Flow, WarnsOfPartsOfTheTubeInNoZone) {
+  const Workshop folder;
+  const auto warnings = [&](const std::string& zone) {
+    return summary_of(folder, pinned_tube() + "[modes]\ncount = 3\n" + flow_of(zone))["warnings"].dump();
+  };
+  EXPECT_TRUE(says(warnings("from = 0.2\nto = 0.7\n"),
+                   "no zone has s = 0 to 0.2 m, s = 0.7 to 1 m of its tube, which is 1 m long"));
+  EXPECT_EQ(warnings("").find("no zone has"), std::string::npos);
+  EXPECT_EQ(warnings("to = 0.996\n").find("no zone has"), std::string::npos); // as tables may end early
+}
+
+TEST(Flow, WarnsOfBeamsThatGoOnBeyondItsGroup) {
+  const Workshop folder;
+  MeshText mesh = straight_line("tube", {0, 0, 0}, {1, 0, 0}, 10);
+  mesh.lines[8].group = mesh.lines[9].group = "rest";
+  mesh.points.emplace_back("joint", 8);
+  folder.write("mesh.msh", mesh.text());
+  const std::string study = pinned_tube() + "[[beams]]\ngroup = \"rest\"\nmaterial = \"steel\"\n"
+                                            "section = \"tube\"\n[modes]\ncount = 3\n";
+  const auto warnings = [&](const std::string& more) {
+    const Outcome outcome =
+        folder.fretwork({"check", folder.write("study.toml", study + flow_of("") + more).string()});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.out;
+  };
+  EXPECT_TRUE(says(warnings(""), "flow \"tube\": 2 beams go on beyond its tube, from (0.8, 0, 0) on, without "
+                                 "the mass and damping of a fluid"));
+  EXPECT_EQ(warnings("[[flow]]\ngroup = \"rest\"\nfrom = \"joint\"\n[[flow.zones]]\ndensity = 740.0\n"
+                     "viscosity = 1.23e-7\n")
+                .find("go on beyond"),
+            std::string::npos);
+}
+
 } // namespace
 } // namespace fretwork::app::test::flow_test
