@@ -9,6 +9,7 @@
 #include "app/judge_fluidelastic.hpp"
 #include "app/law_motion.hpp"
 #include "app/linear_response.hpp"
+#include "app/load_flexibility.hpp"
 #include "app/mode_notes.hpp"
 #include "app/modes_limit.hpp"
 #include "app/numbering.hpp"
@@ -46,16 +47,6 @@ namespace fs = std::filesystem;
 /// `1 node`, `3 nodes`
 template <class Things> std::string counted(const Things& things, const char* what) {
   return results::counted(static_cast<std::int64_t>(things.size()), what);
-}
-
-/// The report, or why there is none: the results are whole without it.
-std::string make_report(const fs::path& directory) {
-  try {
-    write_report(directory);
-    return fmt::format("report: {}\n", (directory / "report.html").string());
-  } catch (const core::Error& error) {
-    return fmt::format("no report: {}\n", error.what());
-  }
 }
 
 /// A line a warning, for `check`.
@@ -230,6 +221,7 @@ private:
       at_contacts_.turbulence = turbulence_;
       at_contacts_.joined = joined_structures(out_.bases, placed_, at_contacts_.fields.motion);
     });
+    warn_of_load_flexibility(comm_, inputs_.study, model_, modes.structures, out_.bases, at_contacts_.fields);
     at_contacts_.flexibilities = contact_flexibilities(comm_, inputs_.study, model_, modes.structures,
                                                        out_.bases, at_contacts_.joined, placed_);
   }

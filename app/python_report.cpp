@@ -77,6 +77,15 @@ void write_sweep_report(const fs::path& directory) {
   run_module("sweep", {directory.string()}, "the report could not be written");
 }
 
+std::string make_report(const fs::path& directory) {
+  try {
+    write_report(directory);
+    return fmt::format("report: {}\n", (directory / "report.html").string());
+  } catch (const core::Error& error) {
+    return fmt::format("no report: {}\n", error.what());
+  }
+}
+
 std::string compare_results(const std::vector<fs::path>& directories, const std::string& page) {
   std::vector<std::string> arguments;
   for (const fs::path& directory : directories)

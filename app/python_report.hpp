@@ -13,6 +13,9 @@ namespace fretwork::app {
 /// python3-numpy) or the report's own message
 void write_report(const std::filesystem::path& directory);
 
+/// Writes it, and says so in a line, or why there is none: the results are whole without it.
+[[nodiscard]] std::string make_report(const std::filesystem::path& directory);
+
 /// What differs between runs, as tables; the first is the reference.
 /// @param page  file of an HTML page to write as well; empty: none
 /// @throws core::Error as write_report

@@ -94,5 +94,23 @@ TEST(ModalTruncation, ModesThatEndBelowTheContactsAreWarnedAboutWithStaticModes)
   EXPECT_EQ(said("modes.count=200").find("the modes end at"), std::string::npos);
 }
 
+// The first 8 modes bend the tube: none has a part of its deflection under a force along it.
+TEST(ModalTruncation, ALoadAlongTheTubeLacksDeflection) {
+  const Workshop folder;
+  const auto warnings = [&](const char* direction, const char* count) {
+    const Results run = folder.run_text(tubes(folder, 1) +
+                                            "[[loads]]\nname = \"pull\"\ngroup = \"mid0\"\n"
+                                            "constant = 100.0\ndirection = " +
+                                            std::string(direction) + "\n",
+                                        {"--set", count});
+    return run.summary["warnings"].dump();
+  };
+  EXPECT_TRUE(
+      says(warnings("[1, 0, 0]", "modes.count=8"),
+           "modal truncation: the modes lack up to 100 % of the static deflection under load \\\"pull"));
+  EXPECT_EQ(warnings("[1, 0, 0]", "modes.count=48").find("static deflection"), std::string::npos);
+  EXPECT_EQ(warnings("[0, 1, 0]", "modes.count=8").find("static deflection"), std::string::npos);
+}
+
 } // namespace
 } // namespace fretwork::app::test::modal_truncation_test
