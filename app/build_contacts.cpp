@@ -25,6 +25,14 @@ constexpr double digits_of_axes = 1e-8, digits_of_places = 1e-12;
 /// Relative difference up to which two walls are one: round-off of sizes that change along a tube.
 constexpr double same_wall = 1e-9;
 
+/// What is missing at a node that no beam meets: most often lines that gmsh has left out of the mesh.
+std::string without_beam(const fem::Model& model, Index node) {
+  return fmt::format(
+      "no beam meets its node at {}; name the curves there in a physical curve of the mesh (gmsh "
+      "leaves out those that are in none)",
+      fem::place(model.nodes[static_cast<std::size_t>(node)]));
+}
+
 /// Beams are walked along their chain, so that the tangents before and after a node point the same way.
 Vec3 mean_tangent(const fem::Model& model, Index node, const std::string& name) {
   Vec3 sum = Vec3::Zero();
@@ -35,8 +43,8 @@ Vec3 mean_tangent(const fem::Model& model, Index node, const std::string& name) 
       ++beams;
     }
   if (beams == 0)
-    throw core::Error(fmt::format(
-        "contact \"{}\": its node carries no beam that would give the axis; give axis = [x, y, z]", name));
+    throw core::Error(fmt::format("contact \"{}\": {}, or, for a mass by itself, give axis = [x, y, z]", name,
+                                  without_beam(model, node)));
   if (beams > 2 || sum.norm() < shortest_mean)
     throw core::Error(
         fmt::format("contact \"{}\": {} beams meet at its node in no common direction; give axis = [x, y, z]",
@@ -132,13 +140,21 @@ bool is_held(const fem::Model& model, const fem::BeamPoint& point) {
   return true;
 }
 
+bool has_beam(const fem::Model& model, Index node) {
+  return std::any_of(model.beams.begin(), model.beams.end(),
+                     [node](const fem::Beam& beam) { return beam.a == node || beam.b == node; });
+}
+
 void check_moves(const fem::Model& model, const PlacedContact& placed, const fem::BeamPoint& point) {
   if (!is_held(model, point))
     return;
+  if (placed.other < 0 && !has_beam(model, placed.node))
+    throw core::Error(
+        fmt::format("contact \"{}\" is at a node that cannot move: {}, or give it a [[masses]] entry",
+                    placed.name, without_beam(model, placed.node)));
   if (placed.other < 0)
     throw core::Error(fmt::format(
-        "contact \"{}\" is at a node that cannot move; release it in [[restraints]] or give it a mass",
-        placed.name));
+        "contact \"{}\" is at a node that cannot move; release it in [[restraints]]", placed.name));
   if (is_held(model, fem::point_at(model, placed.other)))
     throw core::Error(fmt::format(
         "contact \"{}\" joins two nodes that cannot move; release one in [[restraints]] or give it a mass",

@@ -161,6 +161,10 @@ std::vector<Wrong> wrong_meshes() {
 
 std::vector<Wrong> wrong_models() {
   const std::string mass = lone_points({"mass"}).text(), mesh = good_mesh().text();
+  MeshText lone = good_mesh();
+  lone.nodes.emplace_back(9.0, 0.0, 0.0);
+  lone.points.emplace_back("far", static_cast<int>(lone.nodes.size()) - 1);
+  const std::string mesh_and_point = lone.text();
   const std::string stop =
       "[[contacts]]\nname = \"stop\"\ngroup = \"mass\"\ngap = 0.1\nnormal_stiffness = 1e3\n";
   return {
@@ -173,6 +177,14 @@ std::vector<Wrong> wrong_models() {
        good_but("group = \"beam_end\"\nobstacle", "group = \"beam_begin\"\nobstacle"),
        mesh,
        {"contact \"stop\"", "cannot move"}},
+      {"ContactOnAPointWithoutBeam",
+       good_but("group = \"beam_end\"\nobstacle", "group = \"far\"\nobstacle"),
+       mesh_and_point,
+       {"contact \"stop\"", "no beam meets its node at (9, 0, 0)", "physical curve"}},
+      {"ContactWithAxisOnAPointWithoutBeam",
+       good_but("group = \"beam_end\"\nobstacle", "group = \"far\"\naxis = [1, 0, 0]\nobstacle"),
+       mesh_and_point,
+       {"contact \"stop\"", "cannot move", "no beam meets its node at (9, 0, 0)", "[[masses]]"}},
       {"ContactWithoutAxis", lone_mass() + stop, mass, {"contact \"stop\"", "axis"}},
       {"EverythingRestrained",
        with(lone_mass(), "[\"uy\", \"uz\", \"rx\", \"ry\", \"rz\"]", "\"all\""),
