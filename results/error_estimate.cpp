@@ -52,10 +52,12 @@ std::string percent(double share) {
   return fmt::format(fmt::runtime(share < 0.995 ? "{:.2g}" : "{:.0f}"), 100.0 * share);
 }
 
-/// The scatter of a window, and that it says little where it is large.
-std::string scatter_text(double scatter) {
+/// The scatter of a window, and that it says little where it is large. Where nothing slides it is that of the impacts alone.
+std::string scatter_text(const RunResults& results, double scatter) {
   constexpr double says_little = 0.3;
-  return percent(scatter) + " % standard error of this window" +
+  const bool slides = sum(results, &post::ContactSummary::work_rate) > 0.0;
+  return percent(scatter) + " % standard error of " +
+         (slides ? "this window" : "the rate of impacts in this window (there is no work of sliding)") +
          (scatter > says_little ? ", which is too short for statistics or holds no stationary motion" : "");
 }
 
@@ -89,7 +91,7 @@ ErrorEstimate error_estimate(const RunResults& results) {
                             ? ""
                             : fmt::format(", the step changes sums over contacts by at most {} %{}",
                                           percent(of_step),
-                                          std::isnan(scatter) ? "" : ", " + scatter_text(scatter)))};
+                                          std::isnan(scatter) ? "" : ", " + scatter_text(results, scatter)))};
   }
   const double relative = relative_scatter(results);
   if (std::isnan(relative))
@@ -99,10 +101,10 @@ ErrorEstimate error_estimate(const RunResults& results) {
   if (const auto of_step = largest_error_of_sums(results))
     return {ErrorKind::measured, std::hypot(relative, of_step->value),
             fmt::format("{}; the step changes sums over contacts by {} +- {} % (replays)",
-                        scatter_text(relative), percent(std::abs(of_step->value)),
+                        scatter_text(results, relative), percent(std::abs(of_step->value)),
                         percent(of_step->standard_error))};
   return {ErrorKind::statistical, relative,
-          scatter_text(relative) + "; that of the step is unknown (transient.verify)"};
+          scatter_text(results, relative) + "; that of the step is unknown (transient.verify)"};
 }
 
 Disagreement disagreement(const Verification& verification, const std::vector<ContactFacts>& contacts) {

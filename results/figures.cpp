@@ -8,6 +8,8 @@
 namespace fretwork::results {
 namespace {
 
+constexpr int most_decimals = 7;
+
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
 /// Whether the space at `at` stands between two groups of digits of one number, as `grouped` writes them.
@@ -51,9 +53,14 @@ std::string with_error(double value, double error) {
     return fmt::format("{:.3g}", value);
   if (std::abs(value) < 1e-4 || std::max(std::abs(value), error) >= 1e6)
     return fmt::format("{:.3g}+-{:.1g}", value, error);
+  constexpr double round_off = 1e-9; // of what does not scatter
+  if (error < round_off * std::abs(value))
+    return fmt::format("{:.3g}", value);
   const double first = std::floor(std::log10(error));
+  if (first < -most_decimals)
+    return fmt::format("{:.3g}+-{:.1g}", value, error);
   const bool one = error < 1.95 * std::pow(10.0, first);
-  const int decimals = std::clamp(static_cast<int>(-first) + (one ? 1 : 0), 0, 7);
+  const int decimals = std::clamp(static_cast<int>(-first) + (one ? 1 : 0), 0, most_decimals);
   return fmt::format("{:.{}f}+-{:.{}f}", value, decimals, error, decimals);
 }
 

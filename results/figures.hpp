@@ -24,7 +24,8 @@ inline constexpr double shown_as_zero = 1e-15;
 /// `1 node`, `1 234 nodes`: the plural by "s".
 [[nodiscard]] std::string counted(std::int64_t count, const std::string& what);
 
-/// 6.13+-0.05: the error in one digit (two where the first is 1), the value down to it; the value alone where there is no error.
+/// 6.13+-0.05: the error in one digit (two where the first is 1), the value down to it; the value alone where there is no error, or one of
+/// round-off.
 [[nodiscard]] std::string with_error(double value, double error);
 
 /// Lines of at most `width` characters, broken at spaces, but not between the groups of digits of one number. A longer word is a line.

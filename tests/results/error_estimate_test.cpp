@@ -51,6 +51,16 @@ TEST(ErrorEstimate, SaysWhereAWindowIsTooShort) {
   EXPECT_THAT(error_estimate(results).text, HasSubstr("too short for statistics"));
 }
 
+TEST(ErrorEstimate, SaysWhereItIsThatOfImpactsAlone) {
+  RunResults results = two_contacts();
+  for (post::ContactSummary& c : results.contact_summaries)
+    c.work_rate = c.friction_power = 0.0;
+  results.errors_of_sums = {0.0, 0.0, 0.0, 105.0};
+  EXPECT_THAT(
+      error_estimate(results).text,
+      HasSubstr("105 % standard error of the rate of impacts in this window (there is no work of sliding)"));
+}
+
 TEST(ErrorEstimate, SaysThatThereIsNoneAndWhy) {
   RunResults results = two_contacts();
   results.errors_of_sums = {nan, nan, 0.0, nan};

@@ -55,6 +55,8 @@ TEST(TerminalTable, GivesFiguresTheirStandardErrors) {
   shows(0.0, 0.0, "0");
   shows(6.1283, std::numeric_limits<double>::quiet_NaN(), "6.13");
   shows(1.23e-6, 4.0e-8, "1.23e-06+-4e-08");
+  shows(16.5452681, 3e-8, "16.5+-3e-08");
+  shows(16.5452681, 3e-12, "16.5"); // round-off of what stands still
 }
 
 TEST(TerminalTable, ShowsRoundOffAsZero) {
