@@ -127,7 +127,8 @@ namespace {
                                        const fem::Structure& structure) {
   const std::string which = "structure that starts at node " +
                             fem::place(model.nodes[static_cast<std::size_t>(structure.nodes.front())]);
-  const modal::Basis lowest = modal::solve_modes(MPI_COMM_SELF, model, structure, {1, std::nullopt});
+  const modal::Basis lowest =
+      modal::solve_modes(MPI_COMM_SELF, model, structure, {.count = 1, .up_to_hz = std::nullopt});
   if (lowest.size() == 0)
     throw core::Error("the " + which +
                       " has no mode: nothing that moves has mass; give its material a density, or it a "
@@ -147,8 +148,10 @@ namespace {
 
 std::vector<modal::Basis> compute_modes(MPI_Comm comm, const study::Modes& modes, const fem::Model& model,
                                         const std::vector<fem::Structure>& structures) {
-  std::vector<modal::Basis> bases =
-      modal::solve_structures(comm, model, structures, {modes.count, modes.up_to_hz}, modes.distributed);
+  std::vector<modal::Basis> bases = modal::solve_structures(
+      comm, model, structures,
+      {.count = modes.count, .up_to_hz = modes.up_to_hz, .whole_groups = !modes.number_given},
+      modes.distributed);
   core::agree(comm, [&] {
     for (std::size_t s = 0; s < bases.size(); ++s) {
       modal::apply_damping(bases[s], modes.damping);

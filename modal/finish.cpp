@@ -72,9 +72,17 @@ std::vector<Eigen::Index> grouped(Eigen::VectorXd& values, Eigen::Index rigid) {
   return order;
 }
 
+/// Whether a cut before this mode parts it from another of its frequency.
+bool cuts_group(const Eigen::VectorXd& squares, Eigen::Index mode) {
+  return mode > 0 && mode < squares.size() &&
+         squares[mode] - squares[mode - 1] <= cluster_gap * squares[mode];
+}
+
 Eigen::Index count_kept(const Eigen::VectorXd& squares, const Cut& cut) {
   Eigen::Index kept = 0;
   while (kept < std::min(squares.size(), cut.count) && std::sqrt(squares[kept]) <= cut.omega)
+    ++kept;
+  while (cut.whole_groups && cuts_group(squares, kept))
     ++kept;
   return kept;
 }
@@ -175,8 +183,7 @@ Basis finish(const fem::Model& model, const fem::Structure& structure, const Eig
   const Eigen::Index kept = count_kept(squares, cut);
   const auto kept_places = std::span(places).first(static_cast<std::size_t>(kept));
   basis.shapes = basis.shapes(Eigen::all, kept_places).eval();
-  basis.splits_group =
-      kept > 0 && kept < squares.size() && squares[kept] - squares[kept - 1] <= cluster_gap * squares[kept];
+  basis.splits_group = cuts_group(squares, kept);
   basis.omega = squares.head(kept).cwiseSqrt();
   describe(model, structure, lambda(kept_places), basis);
   basis.error += 0.5 * refused(kept_places);

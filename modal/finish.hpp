@@ -14,6 +14,7 @@ namespace fretwork::modal {
 struct Cut {
   Eigen::Index count = std::numeric_limits<Eigen::Index>::max();
   double omega = std::numeric_limits<double>::infinity(); ///< rad/s
+  bool whole_groups = false; ///< keeps also those whose frequency is that of the last
 };
 
 /// lambda of a mode is its Rayleigh quotient with the strain energy (not K u): on a fine mesh this regains

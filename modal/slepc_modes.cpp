@@ -48,6 +48,7 @@ Cut cut_of(const Wanted& wanted) {
     cut.count = *wanted.count;
   else
     cut.omega = 2.0 * std::numbers::pi * *wanted.up_to_hz * (1.0 + limit_margin);
+  cut.whole_groups = wanted.whole_groups;
   return cut;
 }
 

@@ -12,6 +12,7 @@ namespace fretwork::modal {
 struct Wanted {
   std::optional<int> count;       ///< > 0: so many modes, fewer where the structure has fewer
   std::optional<double> up_to_hz; ///< > 0: all modes up to this frequency (exactly one of the two)
+  bool whole_groups = false;      ///< `count` and those whose frequency is that of the last
   int dense_up_to = 200; ///< free dofs: a dense solve of all modes takes tens of milliseconds and asks no
                          ///< question
 };
@@ -21,7 +22,8 @@ struct Wanted {
 /// damping zero, damping_matrix the projected dampers (empty without dampers). Small structures, and requests
 /// for more than a third of all modes, are solved densely on one rank; the others by Krylov-Schur, and no
 /// mode is missing: the count is checked by the inertia of K - s M. Fewer modes come back where the structure
-/// has fewer. A `count` that cuts a cluster of equal frequencies keeps the first of its canonical modes.
+/// has fewer. Without
+/// `whole_groups` a `count` that cuts a cluster of equal frequencies keeps the first of its canonical modes.
 /// @throws core::Error for a wrong request or a motion with neither stiffness nor mass;
 /// core::ComputationError where modes do not converge,
 ///         stay missing, or are made of round-off

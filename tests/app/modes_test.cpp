@@ -101,5 +101,24 @@ TEST(ModesCommand, WarnsOfSpansOfTooManyElementsAndRefusesMore) {
   EXPECT_TRUE(says(outcome.err, "the span that starts at (0, 0, 0) has 3001 elements"));
 }
 
+// A mode of torsion is below the 20th pair of bending, which a count of 40 would part.
+TEST(ModesCommand, TakesWholeGroupsOfEqualFrequenciesByDefault) {
+  const Workshop folder;
+  const std::string study = bytes_of(tubes(folder, {20.0}, 120, 40));
+  const auto summary = [&](const std::string& count) {
+    std::string text = study;
+    text.replace(text.find("count = 40"), std::string("count = 40").size(), count);
+    const Outcome outcome = folder.fretwork({"modes", folder.write("study.toml", text).string(), "--force"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return summary_of(folder);
+  };
+  const auto of_default = summary(""), cut = summary("count = 40");
+  const auto& f = of_default["modes"]["frequencies_hz"];
+  ASSERT_EQ(f.size(), 41u);
+  EXPECT_EQ(f[40], f[39]);
+  EXPECT_EQ(of_default["warnings"].dump().find("cuts a group"), std::string::npos);
+  EXPECT_TRUE(says(cut["warnings"].dump(), "modes.count = 40 cuts a group of equal frequencies"));
+}
+
 } // namespace
 } // namespace fretwork::app::test::modes_test
