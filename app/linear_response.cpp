@@ -68,6 +68,17 @@ struct Sums {
 
   explicit Sums(std::size_t points)
       : in_band(points), outside(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(points))), above(outside) {}
+
+  /// Points that move by no more than the round-off of the others are at rest: along a straight tube that the flow crosses.
+  void leave_out_round_off() {
+    constexpr double round_off = 1e-9; // of a displacement
+    double largest = 0.0;
+    for (const flow::SpectralMoments& m : in_band)
+      largest = std::max(largest, m.L0);
+    for (flow::SpectralMoments& m : in_band)
+      if (m.L0 < round_off * round_off * largest)
+        m = {};
+  }
 };
 
 void add_load(const TurbulentLoad& load, const modal::Basis& basis, const flow::LinearModes& modes,
@@ -123,6 +134,7 @@ void respond(const study::Response& asked, const std::vector<TurbulentLoad>& loa
     add_load(load, basis, modes, shapes, sums);
     note_pinned_modes_above(load, basis, out.name, notes);
   }
+  sums.leave_out_round_off();
   for (std::size_t k = 0; k < watched.size(); ++k) {
     const flow::SpectralMoments& m = sums.in_band[k];
     results::ResponsePoint& point = watched[k].point;

@@ -243,6 +243,21 @@ TEST(LinearResponse, IsThatOfTheClosedForm) {
   EXPECT_TRUE(first.starts_with("\"all contacts pinned\",\"middle0\",x,"));
 }
 
+// Its modes move along the tube by round-off alone: no up-crossings and no maximum follow from that.
+TEST(LinearResponse, AlongATubeThatTheFlowCrossesIsNone) {
+  const Workshop folder;
+  const std::string study = tubes(folder, 1, R"(["rx"])",
+                                  white("band = [0.1, 2000]\n") + modes(12) +
+                                      "[[restraints]]\ngroup = \"tube0_begin\"\nfixed = [\"ux\"]\n"
+                                      "[output]\nnodes = [\"middle0\"]\n");
+  const Outcome outcome = outcome_of(folder, study, "response");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json point = json::parse(bytes_of(folder.path("out") / "summary.json"))["response"][0]["points"][0];
+  EXPECT_EQ(point["direction"], "x");
+  EXPECT_EQ(point["rms_m"], 0.0);
+  EXPECT_EQ(point["up_crossings_per_second"], 0.0);
+}
+
 TEST(LinearResponse, PinsContactsAndLeavesOthersFree) {
   const Workshop folder;
   const std::string contact =
