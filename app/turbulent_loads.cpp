@@ -222,8 +222,13 @@ std::vector<TurbulentLoad> turbulent_loads(const study::Study& study, const fem:
     const flow::Tube tube = tube_of(study, placed, model);
     for (std::size_t z = 0; z < owner[placed.entry].size(); ++z) {
       const int e = owner[placed.entry][z];
-      if (e < 0)
+      if (e < 0) {
+        if (const flow::Zone& left = study.flows[placed.entry].zones[z]; has_velocity(left))
+          notes.push_back(fmt::format("{}, zone \"{}\": it has a velocity and no [[turbulence]] names it: no "
+                                      "random forces act there",
+                                      name_of(study.flows[placed.entry]), left.name));
         continue;
+      }
       const auto entry = static_cast<std::size_t>(e);
       zones[entry].push_back(patched(study.turbulence[entry], placed, z, tube));
       const flow::TurbulentZone& zone = zones[entry].back().zone;

@@ -127,6 +127,18 @@ TEST(Turbulence, TellsTheModesAboveItsBand) {
                    "1 of 3 modes, up to " + fmt::format("{:.4g}", frequency(3))));
 }
 
+TEST(Turbulence, TellsZonesWithVelocityThatItLeavesOut) {
+  const Workshop folder;
+  const std::string study =
+      tubes(folder, 2, across, white("band = [1, 300]\nflow = \"tube0\"\n") + modes(3) + run(0.01, "", ""));
+  const Outcome outcome = outcome_of(folder, study, "modes");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string notes = json::parse(bytes_of(folder.path("out") / "summary.json"))["notes"].dump();
+  EXPECT_TRUE(says(
+      notes, "flow \\\"tube1\\\", zone \\\"water\\\": it has a velocity and no [[turbulence]] names it"));
+  EXPECT_EQ(notes.find("flow \\\"tube0\\\", zone"), std::string::npos);
+}
+
 TEST(Turbulence, GivesModesToTheEndOfItsBandByDefault) {
   const Workshop folder;
   const Results results = folder.run_text(tubes(folder, 1, across, white() + run(0.1, "", "step = 5e-4\n")));
