@@ -166,7 +166,8 @@ void assess_stability(MPI_Comm comm, const TubesInFlow& tubes, const std::vector
       assess_laws(tubes, modes.bases, assessment, ratios, all);
       for (std::size_t f = 0; f < all.size(); ++f) {
         results::StabilityAssessment& found = all[f];
-        out.notes.insert(out.notes.end(), found.damping.limits.begin(), found.damping.limits.end());
+        if (!found.damping_given) // correlations of damping are of no effect on a given ratio
+          out.notes.insert(out.notes.end(), found.damping.limits.begin(), found.damping.limits.end());
         report(found, tubes.study.flows[tubes.flows[f].entry].law.has_value(), out);
         report_law(found, out);
         out.stability.push_back(std::move(found));

@@ -368,5 +368,17 @@ TEST(FlowDamping, MeetsTubesThatAreTiedTogetherByTheirShares) {
   EXPECT_GE(of_second, 2);
 }
 
+TEST(Stability, SaysNothingOfCorrelationsWhereTheDampingIsGiven) {
+  const Workshop folder;
+  std::string viscous = flow();
+  viscous.replace(viscous.find("1.23e-7"), 7, "1.23e-5");
+  const auto notes = [&](const std::string& given) {
+    return summary_of(folder, tube(in_one_plane, modes(1) + viscous + "[[stability]]\n" + given))["notes"]
+        .dump();
+  };
+  EXPECT_TRUE(says(notes(""), "viscous damping is correlated"));
+  EXPECT_EQ(notes("damping = 0.02\n").find("viscous damping is correlated"), std::string::npos);
+}
+
 } // namespace
 } // namespace fretwork::app::test::stability_test
