@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <string_view>
 
 namespace fretwork::app {
 namespace {
@@ -62,8 +63,9 @@ results::StabilityAssessment assess(const TubesInFlow& tubes, const PlacedFlow& 
   try {
     out.stability = flow::stability(placed.profile, sampling, ratios, assessment.component);
   } catch (const core::Error& error) {
-    throw core::Error(
-        fmt::format("{}: {} (a ratio may be given by [[stability]] damping)", what, error.what()));
+    const bool of_ratio = std::string_view(error.what()).find("damping ratio") != std::string_view::npos;
+    throw core::Error(fmt::format("{}: {}{}", what, error.what(),
+                                  of_ratio ? " (a ratio may be given by [[stability]] damping)" : ""));
   }
   if (assessment.strouhal)
     screen_shedding(what, placed, sampling, *assessment.strouhal, all);

@@ -84,8 +84,10 @@ std::vector<std::vector<double>> constants_of(const Profile& profile, const Inte
     const auto* single = std::get_if<SinglePhase>(&zone.fluid);
     const bool gas = single && single->phase == Phase::gas;
     if (gas || is_single(zone.bundle))
-      throw core::Error(fmt::format("zone \"{}\": no Connors constant, and the default is not for {}; give K",
-                                    zone.name, gas ? "gas" : "a single tube"));
+      throw core::Error(
+          fmt::format("zone \"{}\": no Connors constant, and the default is not for {}; give its "
+                      "connors_constant (K)",
+                      zone.name, gas ? "gas" : "a single tube"));
     out.push_back({default_connors_constant(zone.bundle, integrals.bundle_width[z])});
   }
   return out;

@@ -316,7 +316,7 @@ TEST(Stability, RefusesWhatCannotBeAssessed) {
        "damping ratio = 0; stability needs a ratio above 0 and below 1 (a ratio may be given by "
        "[[stability]] damping)"},
       {tube(across, flow({}, "velocity = 1\nphase = \"gas\"\n") + "[[stability]]\ndamping = 0.01\n"),
-       "give K"}};
+       "give its connors_constant (K)"}};
   for (const auto& [study, expected] : cases) {
     const Outcome outcome = outcome_of(folder, study);
     EXPECT_EQ(outcome.status, 1);

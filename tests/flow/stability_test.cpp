@@ -310,8 +310,9 @@ TEST(Stability, RefusesWhatCannotBeAssessed) {
       {"3 damping ratios for 2 modes"});
   Zone zone = first_zone();
   zone.connors_constants.clear();
-  tests::expect_error([&] { (void)stability_of(hand, {zone}); },
-                      {"zone \"riser\": no Connors constant", "a single tube", "give K"});
+  tests::expect_error(
+      [&] { (void)stability_of(hand, {zone}); },
+      {"zone \"riser\": no Connors constant", "a single tube", "give its connors_constant (K)"});
   zone.bundle = {Arrangement::square, 1.44 * diameter};
   zone.fluid = SinglePhase{Phase::gas, constant(36.5), 5e-7};
   tests::expect_error([&] { (void)stability_of(hand, {zone}); }, {"no Connors constant", "not for gas"});
