@@ -31,12 +31,18 @@ std::string export_results(const ExportRequest& request) {
   const std::filesystem::path target = request.directory / ("export-" + request.format);
   make_directory(target);
   std::string more;
-  if (request.format == "csv")
-    results::export_csv(target, stored);
-  else if (request.format == "vtu")
-    more = series_text(results::export_vtu(target, stored, request.window));
-  else
-    results::export_msh(target, stored);
+  try {
+    if (request.format == "csv")
+      results::export_csv(target, stored);
+    else if (request.format == "vtu")
+      more = series_text(results::export_vtu(target, stored, request.window));
+    else
+      results::export_msh(target, stored);
+  } catch (...) {
+    std::error_code not_empty; // what was written, or an earlier export, stays
+    std::filesystem::remove(target, not_empty);
+    throw;
+  }
   return fmt::format("written: {}\n{}", target.string(), more);
 }
 

@@ -330,5 +330,15 @@ TEST(Archive, HasTheShapesOfTheContract) {
   EXPECT_TRUE(says(run.archive.record.study_text, "transient.duration=0.2"));
 }
 
+TEST(Export, LeavesNoEmptyFolderWhereThereIsNothingToWrite) {
+  const Workshop folder;
+  const fs::path results = folder.path("results");
+  ASSERT_EQ(folder.fretwork(short_tube("modes", results)).status, 0);
+  const Outcome outcome = folder.fretwork({"export", results.string(), "--format", "csv"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(says(outcome.err, "no time series"));
+  EXPECT_FALSE(fs::exists(results / "export-csv"));
+}
+
 } // namespace
 } // namespace fretwork::app::test::commands_test
