@@ -2,7 +2,6 @@
 #include "app/law_motion.hpp"
 #include "app/tubes_of_laws.hpp"
 #include "flow/welch.hpp"
-#include "wear/student.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -11,13 +10,9 @@
 namespace fretwork::app {
 namespace {
 
-constexpr double linear_share = 0.1;           ///< of the diameter, up to which the laws hold
-constexpr Eigen::Index growth_blocks = 16;     ///< of each of the two stretches that are compared
-constexpr Eigen::Index fewest_in_block = 4;    ///< outputs
-constexpr double probability_of_growth = 0.99; ///< with which a motion that grows does
-constexpr double least_growth = 1.02;          ///< of the rms: what statistics do not show
-constexpr double most_building_up = 0.7;       ///< rms of the first quarter of the statistics over that later
-constexpr double spectrum_stretches = 4.0;     ///< of the later part
+constexpr double linear_share = 0.1;       ///< of the diameter, up to which the laws hold
+constexpr double most_building_up = 0.7;   ///< rms of the first quarter of the statistics over that later
+constexpr double spectrum_stretches = 4.0; ///< of the later part
 constexpr Eigen::Index fewest_in_spectrum = 256; ///< outputs
 constexpr double same_motion = 1e-3;             ///< relative, of motions
 constexpr double least_unfolded = 0.75;          ///< of half the output rate
@@ -63,31 +58,6 @@ Eigen::VectorXd modal_energies(const TubesOfLaw& of, const Outputs& outputs,
     row += basis.size();
   }
   return out;
-}
-
-/// @param energies  of the later part
-std::optional<results::Growth> amplitude_growth(const Eigen::VectorXd& energies, double step) {
-  const Eigen::Index length = energies.size() / (2 * growth_blocks);
-  if (length < fewest_in_block)
-    return {};
-  const Eigen::VectorXd used = energies.tail(2 * growth_blocks * length);
-  std::vector<double> lengths(growth_blocks, 1.0), logarithms;
-  for (Eigen::Index k = 0; k < growth_blocks; ++k) {
-    const double before = used.segment(k * length, length).sum(),
-                 after = used.segment((growth_blocks + k) * length, length).sum();
-    if (!(before > 0.0 && after > 0.0 && std::isfinite(before) &&
-          std::isfinite(after))) // at rest, or diverged
-      return {};
-    logarithms.push_back(0.5 * std::log(after / before));
-  }
-  const double mean = Eigen::Map<const Eigen::VectorXd>(logarithms.data(), growth_blocks).mean(),
-               time = static_cast<double>(growth_blocks * length) * step;
-  const post::BatchEstimate estimate = post::batch_means(lengths, logarithms);
-  const double quantile =
-      wear::student_factor(estimate.batches - 1.0, 2.0 * probability_of_growth - 1.0); // of one side
-  const double half = 0.5 * static_cast<double>(energies.size()) * step; // blocks may leave some outputs out
-  return results::Growth{mean / time, estimate.error / time, std::exp(mean / time * half),
-                         mean > std::log(least_growth) && mean > quantile * estimate.error};
 }
 
 /// Where the contacts and observed nodes of a law's tubes move most, with its dominant frequency.
@@ -183,7 +153,7 @@ std::vector<std::string> tube_names(const TubesOfLaw& of, const TubesInFlow& tub
   return out;
 }
 
-std::string told_growth(const std::string& name, const results::Growth& growth, double from, double end) {
+std::string told_growth(const std::string& name, const post::Growth& growth, double from, double end) {
   return fmt::format(
       "{}: the motion still grows, by {:.3g} 1/s from {:.4g} to {:.4g} s (its rms in the second "
       "half of that time is {:.4g} times that in the first): amplitudes, forces and work rates "
@@ -225,7 +195,8 @@ void judge_motion(const TubesInFlow& tubes, const std::vector<PlacedContact>& pl
           motion.tubes.push_back(std::move(name));
     const Eigen::VectorXd energies = modal_energies(of, outputs, out);
     const Eigen::Index later = outputs.count - outputs.later, quarter = energies.size() / 4;
-    motion.growth = amplitude_growth(energies.tail(later), outputs.step);
+    motion.growth = post::amplitude_growth(
+        {energies.data() + energies.size() - later, static_cast<std::size_t>(later)}, outputs.step);
     if (motion.growth && motion.growth->significant)
       out.warnings.push_back(told_growth(of.name, *motion.growth, motion.later_from, out.duration));
     else if (motion.growth && outputs.from < outputs.later) {

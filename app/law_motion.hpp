@@ -11,9 +11,7 @@ namespace fretwork::app {
 /// After a run: LawAtWork::motion of each law of `out` that is unstable without contacts.
 ///
 /// The later part of a run is its second half, as far as the statistics see it. Energies are those of the law's modes at the outputs,
-/// sum (v^2 + omega^2 (a - mean of a later)^2)/2, whatever contacts store. Growth: the later part is cut into two times 16 blocks,
-///     d_k = ln(E_(16+k)/E_k)/2,   rate = mean of d / half of the later part
-/// with the standard error of the mean of d. An exponential growth has no scatter.
+/// sum (v^2 + omega^2 (a - mean of a later)^2)/2, whatever contacts store. Growth: post/growth.hpp.
 /// The dominant frequency is that of the largest line of Welch's spectrum of the outputs in four stretches, between lines by its larger
 /// neighbour. There is none where the mean frequency, the rms of the speed over 2 pi times that of the displacement, is above
 /// three quarters of half the output rate: lines are then folded.

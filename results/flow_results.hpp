@@ -5,6 +5,7 @@
 #include "flow/damping.hpp"
 #include "flow/stability.hpp"
 #include "flow/stability_diagram.hpp"
+#include "post/growth.hpp"
 #include "post/power_balance.hpp"
 #include <array>
 #include <complex>
@@ -67,13 +68,6 @@ struct LawStability {
   }
 };
 
-/// How the motion changes from the third to the last quarter of a run, or of what the statistics see of them.
-struct Growth {
-  double rate = 0.0, error = 0.0; ///< 1/s, of the amplitude, and its standard error
-  double rms_ratio = 1.0;         ///< of the second of the two stretches to the first
-  bool significant = false;       ///< it grows
-};
-
 /// What a run found of the motion of tubes that a law makes unstable without contacts: in the window of the statistics, and `later`, in
 /// that of the second half of the run.
 struct LawMotion {
@@ -86,10 +80,10 @@ struct LawMotion {
     std::optional<double> frequency; ///< Hz, dominant, later; none: few outputs, or folded ones
     double resolution = 0.0;         ///< Hz, between lines of its spectrum
   };
-  std::optional<Place> place; ///< none without contacts and observed nodes, or at rest
-  double later_from = 0.0;    ///< s
-  std::optional<Growth> growth;
-  std::vector<std::string> tubes; ///< with laws, that run together: theirs are the powers
+  std::optional<Place> place;         ///< none without contacts and observed nodes, or at rest
+  double later_from = 0.0;            ///< s
+  std::optional<post::Growth> growth; ///< later
+  std::vector<std::string> tubes;     ///< with laws, that run together: theirs are the powers
   post::PowerBalance power;
 };
 

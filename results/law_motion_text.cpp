@@ -26,7 +26,7 @@ std::string place_text(const LawMotion::Place& place, const LawAtWork& law) {
   return text;
 }
 
-std::string growth_text(const Growth& growth) {
+std::string growth_text(const post::Growth& growth) {
   return growth.significant ? fmt::format("STILL GROWS by {} 1/s", with_error(growth.rate, growth.error))
                             : std::string("does not grow");
 }

@@ -15,8 +15,8 @@ using testing::HasSubstr;
 LawAtWork law(const std::string& tube, double growth) { return {{tube}, 6, {growth, 100.0}, 4.0, 0.02}; }
 LawAtWork unstable(const std::string& tube, const std::vector<std::string>& together) {
   LawAtWork out = law(tube, 1.0);
-  out.motion =
-      LawMotion{LawMotion::Place{true, "stop", 'z', 1e-4, 2e-4, 20.0, 1.0}, 1.0, Growth{}, together, {}};
+  out.motion = LawMotion{
+      LawMotion::Place{true, "stop", 'z', 1e-4, 2e-4, 20.0, 1.0}, 1.0, post::Growth{}, together, {}};
   post::PowerBalance& power = out.motion->power;
   power.fluid = {5e-3, 1e-4};
   power.modal_damping = {4e-3, 1e-6};
@@ -41,7 +41,7 @@ TEST(LawMotionLines, SayWhatGrowsAndWhatIsNotKnown) {
   RunResults results;
   results.laws = {unstable("T1", {"T1"})};
   LawMotion& motion = *results.laws[0].motion;
-  motion.growth = Growth{2.0, 0.1, 3.0, true};
+  motion.growth = post::Growth{2.0, 0.1, 3.0, true};
   motion.place->frequency.reset();
   EXPECT_THAT(law_motion_lines(results)[0],
               HasSubstr("(1 % of the diameter); STILL GROWS by 2.00+-0.10 1/s"));
