@@ -20,4 +20,4 @@ cmake --preset fuzz >/dev/null
 export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
 export NINJA_STATUS="[%f/%t, %es] "
 cmake --build --preset fuzz --target "${targets[@]}"
-ctest --test-dir build/fuzz -j "$(nproc)" --output-on-failure --timeout 1800 -L "$label" -E '^(FacetIndex|FacetCells|Memory|ChildProcess.LimitsMemory)'
+ctest --test-dir build/fuzz -j "$(nproc)" --output-on-failure -L "$label" -E '^(FacetIndex|FacetCells|Memory|ChildProcess.LimitsMemory)'

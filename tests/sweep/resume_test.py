@@ -40,7 +40,7 @@ class Sweeps(unittest.TestCase):
 
     def run_whole(self, directory, ranks, *more):
         process = self.start(directory, ranks, *more)
-        out, _ = process.communicate(timeout=120)
+        out, _ = process.communicate(timeout=600)
         self.assertEqual(process.returncode, 0, out)
         return out
 

@@ -5,6 +5,12 @@ include(GoogleTest)
 set(FRETWORK_MPI_ENVIRONMENT
     "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_rmaps_base_oversubscribe=1;OMPI_MCA_pml=ob1;OMPI_MCA_btl=self,vader,tcp;OMPI_MCA_btl_vader_single_copy_mechanism=none;OMP_NUM_THREADS=1")
 
+# s: a test that takes longer hangs.
+set(FRETWORK_LONGEST_TEST 600)
+if(FRETWORK_SANITIZE)
+  set(FRETWORK_LONGEST_TEST 1800)
+endif()
+
 # What every test's own code is compiled with. Its time goes to the compiler, that of the tests to the folders they test.
 function(fretwork_test_options target)
   fretwork_compile_options(${target})
@@ -43,9 +49,9 @@ function(fretwork_test name)
       add_test(NAME ${name}_${ranks}_ranks
                COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} $<TARGET_FILE:${name}>)
       set_tests_properties(${name}_${ranks}_ranks PROPERTIES ENVIRONMENT "${FRETWORK_MPI_ENVIRONMENT}"
-                           LABELS ${name} PROCESSORS ${ranks} TIMEOUT 300)
+                           LABELS ${name} PROCESSORS ${ranks} TIMEOUT ${FRETWORK_LONGEST_TEST})
     endforeach()
   else()
-    gtest_discover_tests(${name} PROPERTIES LABELS ${name} TIMEOUT 300 DISCOVERY_TIMEOUT 60)
+    gtest_discover_tests(${name} PROPERTIES LABELS ${name} TIMEOUT ${FRETWORK_LONGEST_TEST} DISCOVERY_TIMEOUT 60)
   endif()
 endfunction()
