@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs compared."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+from report_case import Checker, archive_to_change, made_up  # first: it makes the package known
+
+from fretwork.report import compare, compare_data
+from made_up_tables import change_summary
+
+
+class Comparison(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory(prefix="fretwork_compare_")
+        self.addCleanup(temporary.cleanup)
+        self.folders = [Path(temporary.name) / name for name in "ab"]
+        for folder in self.folders:
+            made_up(folder, 3, 100, wear=True)
+            with archive_to_change(folder) as file:
+                file.attrs["study"] = '[modes]\ncount = 40\n[[contacts]]\nname = "tsp1"\ngap = 2e-4\n[[contacts]]\nname = "tsp2"\ngap = 3e-4\n'
+
+        def change(summary):
+            summary["overrides"] = [{"key": "contacts.tsp2.gap", "value": 5e-4}]
+            summary["modes"]["frequencies_hz"][0] *= 1.01
+            for contact, factor in zip(summary["contacts"], (1.0, 1.001, 2.0)):
+                contact["work_rate"] *= factor
+
+        change_summary(self.folders[1], change)
+
+    def table(self, title):
+        _, found = compare_data.tables(self.folders)
+        return next(table for table in found if table.title.startswith(title))
+
+    def test_shows_the_inputs_that_differ_with_overrides(self):
+        self.assertEqual(self.table("Inputs").rows, [["contacts.tsp2.gap", "0.0003", "0.0005"]])
+
+    def test_shows_inputs_as_a_study_has_them_and_none_of_a_sweep(self):
+        with archive_to_change(self.folders[1]) as file:
+            file.attrs["study"] += 'active = false\nbars = [0.1, 0.2]\n[sweep]\ndraws = 30\n'
+        self.assertEqual(self.table("Inputs").rows[0], ["contacts.tsp2.active", "-", "false"])
+        self.assertEqual(self.table("Inputs").rows[1], ["contacts.tsp2.bars", "-", "[0.1, 0.2]"])
+        self.assertEqual(len(self.table("Inputs").rows), 3)
+
+    def test_figures_are_written_in_full_and_lives_without_end_named(self):
+        self.assertEqual([compare_data.number(v, 3) for v in (7062.4, 0.5, 2.5e-7, 3e6, None)], ["7060", "0.5", "2.5e-07", "3e+06", "-"])
+        change_summary(self.folders[1], lambda summary: summary["wear"]["supports"][0].update(life_years={"end": "never", "value": None, "low": None, "high": None}))
+        self.assertEqual(self.table("Wear").rows[0][-1], "never")
+
+    def test_shows_changes_of_frequencies(self):
+        rows = self.table("Frequencies").rows
+        self.assertEqual([rows[0][3], rows[1][3]], ["+1 %", "0 %"])
+
+    def test_tells_significant_differences_from_scatter(self):
+        said = {row[0]: row[-1] for row in self.table("Work rates").rows}
+        self.assertEqual(said["tsp1"], "equal")
+        self.assertIn("within scatter", said["tsp2"])
+        self.assertIn("significant", said["tsp3"])
+        self.assertEqual(compare_data.significance((1.0, None), (2.0, 0.1)), "scatter unknown")
+
+    def test_round_off_does_not_differ(self):
+        one, other = (compare_data._work({"work_rate": rate, "standard_error": {"work_rate": 1e-46}}) for rate in (5e-46, 1.5e-45))
+        self.assertEqual(compare_data.significance(one, other), "equal")
+
+    def test_shows_wear(self):
+        self.assertEqual(len(self.table("Wear").rows), 3)
+
+    def test_is_a_page_too(self):
+        runs, found = compare_data.tables(self.folders)
+        text = compare.as_page(runs, ["a", "b"], found)
+        checker = Checker()
+        checker.feed(text)
+        self.assertEqual((checker.problems, checker.stack), ([], []))
+        self.assertEqual(text.count('aria-label="Orbit of'), 6)
+
+
+if __name__ == "__main__":
+    unittest.main()
