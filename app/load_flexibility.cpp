@@ -39,7 +39,7 @@ void warn_of_load_flexibility(MPI_Comm comm, const study::Study& study, const fe
     std::vector<std::string> names;
     double most = 0.0;
     try {
-      for (std::size_t l = 0; l < study.loads.size(); ++l) {
+      for (std::size_t l = 0; l < std::min(study.loads.size(), most_loads); ++l) {
         Work work;
         for (std::size_t s = 0; s < bases.size(); ++s) {
           const Eigen::VectorXd force = on_structure(fields.loads[l].force, bases[s]);

@@ -12,10 +12,13 @@
 
 namespace fretwork::app {
 
+/// Loads that are looked at: each costs a static solution.
+constexpr std::size_t most_loads = 100;
+
 /// Share of the deflection that a load may lack before it is warned about.
 constexpr double much_deflection = 0.05;
 
-/// Collective; needs PETSc. Adds a warning of the [[loads]] that lack more than `much_deflection`, with the largest share; none where none does,
+/// Collective; needs PETSc. Adds a warning of those [[loads]] that lack more than `much_deflection`, with the largest share; none where none does,
 /// and where a static solution fails.
 /// @param fields  of the study: its loads come first
 void warn_of_load_flexibility(MPI_Comm comm, const study::Study& study, const fem::Model& model,
