@@ -23,8 +23,8 @@ LOCALES = ["C", "C.UTF-8", "de_DE.UTF-8", "tr_TR.UTF-8", "no such locale"]
 NAMES = ["with spaces", "it's \"quoted\"", "Röhre_管_🎻", "$HOME;`x`&|", "-o", "new\nline"]
 FRETWORK, STUDY, MPIRUN = sys.argv[1:4]
 SHORT = ["transient.duration=0.02", "output.statistics_from=0"]
-# An environment of its own may name the kernels of the linear algebra, which decide the last digits.
-KERNELS = {key: value for key, value in os.environ.items() if key.startswith("OPENBLAS_")}
+# An environment of its own may name the kernels of the linear algebra, which decide the last digits, and what sanitizers look at.
+KEPT = {key: value for key, value in os.environ.items() if key.startswith(("OPENBLAS_", "ASAN_", "UBSAN_"))}
 LONG = ["transient.duration=0.25", "transient.step=1e-6", "output.statistics_from=0", "output.checkpoint=0.01"]
 
 
@@ -59,9 +59,9 @@ class Surroundings(unittest.TestCase):
         self.assertEqual(((results or self.results) / "results.h5").read_bytes(), self.reference)
 
     def test_no_home_and_an_empty_environment(self):
-        self.same(run(command(self.study, self.results), env={"PATH": os.environ["PATH"], **KERNELS}))
+        self.same(run(command(self.study, self.results), env={"PATH": os.environ["PATH"], **KEPT}))
         shutil.rmtree(self.results)
-        self.same(run(command(self.study, self.results), env={"PATH": os.environ["PATH"], "HOME": "/no/such/folder", **KERNELS}))
+        self.same(run(command(self.study, self.results), env={"PATH": os.environ["PATH"], "HOME": "/no/such/folder", **KEPT}))
 
     def test_locales(self):
         for name in LOCALES:
