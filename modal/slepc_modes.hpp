@@ -22,8 +22,8 @@ struct Wanted {
 /// damping zero, damping_matrix the projected dampers (empty without dampers). Small structures, and requests
 /// for more than a third of all modes, are solved densely on one rank; the others by Krylov-Schur, and no
 /// mode is missing: the count is checked by the inertia of K - s M. Fewer modes come back where the structure
-/// has fewer. Without
-/// `whole_groups` a `count` that cuts a cluster of equal frequencies keeps the first of its canonical modes.
+/// has fewer. Without `whole_groups` a `count` that cuts a cluster of equal frequencies keeps the first of its
+/// canonical modes.
 /// @throws core::Error for a wrong request or a motion with neither stiffness nor mass;
 /// core::ComputationError where modes do not converge,
 ///         stay missing, or are made of round-off

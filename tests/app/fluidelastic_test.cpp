@@ -244,16 +244,11 @@ std::string two_tubes(const std::string& laws, const std::string& of_first, cons
   return text + more;
 }
 Outcome outcome_of_two(const Workshop& folder, const std::string& study, const std::string& command) {
-  MeshText text = together(straight_line("tube", {0, 0, 0}, {1, 0, 0}, 40),
+  MeshText mesh = together(straight_line("tube", {0, 0, 0}, {1, 0, 0}, 40),
                            straight_line("other", {0, 0.03, 0}, {1, 0.03, 0}, 25));
-  text.points.emplace_back("middle", 20);
-  text.points.emplace_back("of_other", 41 + 12);
-  folder.write("mesh.msh", text.text());
-  folder.write("study.toml", study);
-  Outcome outcome = folder.fretwork(
-      {command, folder.path("study.toml").string(), "-o", folder.path("out").string(), "--force"});
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
-  return outcome;
+  mesh.points.emplace_back("middle", 20);
+  mesh.points.emplace_back("of_other", 41 + 12);
+  return outcome_on(mesh, folder, study, command);
 }
 
 /// Neighbours that push each other by kappa = 8 pi/K^2: V_c/(f D) = K sqrt(m delta/(rho D^2)), of tubes in uniform flow too.

@@ -32,15 +32,19 @@ double inside_of_light() {
   const double ratio = (1.07 + 0.56 * 1.5) * 1.5, added = (ratio * ratio + 1.0) / (ratio * ratio - 1.0);
   return 1000.0 + added * 700.0 * outer * outer / (bore * bore);
 }
-Outcome outcome_of(const Workshop& folder, const std::string& study, const std::string& command) {
-  MeshText text = straight_line("tube", {0, 0, 0}, {1, 0, 0}, 40);
-  text.points.emplace_back("middle", 20);
-  folder.write("mesh.msh", text.text());
+Outcome outcome_on(const MeshText& mesh, const Workshop& folder, const std::string& study,
+                   const std::string& command) {
+  folder.write("mesh.msh", mesh.text());
   folder.write("study.toml", study);
   Outcome outcome = folder.fretwork(
       {command, folder.path("study.toml").string(), "-o", folder.path("out").string(), "--force"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   return outcome;
+}
+Outcome outcome_of(const Workshop& folder, const std::string& study, const std::string& command) {
+  MeshText mesh = straight_line("tube", {0, 0, 0}, {1, 0, 0}, 40);
+  mesh.points.emplace_back("middle", 20);
+  return outcome_on(mesh, folder, study, command);
 }
 nlohmann::json summary_of(const Workshop& folder, const std::string& study, const std::string& command) {
   (void)outcome_of(folder, study, command);

@@ -2,6 +2,7 @@
 /// @file
 /// A pinned tube under a fluidelastic law, whose roots and limit cycles are known.
 #pragma once
+#include "mesh_text.hpp"
 #include "program.hpp"
 
 namespace fretwork::app::test::tube_in_flow {
@@ -24,6 +25,9 @@ extern const std::string s1;
 /// Density inside that makes up for 300 kg/m3 outside instead of 1000: 1.0993164814 kg/m in all.
 [[nodiscard]] double inside_of_light();
 
+/// Runs the program on tubes of a mesh; the results are in `out`.
+Outcome outcome_on(const MeshText& mesh, const Workshop& folder, const std::string& study,
+                   const std::string& command);
 /// Runs the program on the tube, whose middle is the group `middle`; the results are in `out`.
 Outcome outcome_of(const Workshop& folder, const std::string& study,
                    const std::string& command = "stability");
