@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "post/node_statistics.hpp"
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <map>
 
 namespace fretwork::post {
 namespace {
@@ -15,16 +17,15 @@ enum Sum : std::size_t { first, squares, node_sums };
 
 NodeStatistics::NodeStatistics(const std::vector<Eigen::MatrixXd>& rows, double from)
     : from_(from), sums_(rows.size()), ends_(3 * node_sums * rows.size()) {
-  const int modes = rows.empty() ? 0 : static_cast<int>(rows.front().cols());
-  const int width = kernels::padded(3 * static_cast<int>(rows.size()));
-  kernels::Array by_mode(static_cast<std::size_t>(modes) * width, 0.0);
-  u_.assign(static_cast<std::size_t>(width), 0.0);
-  for (std::size_t node = 0; node < rows.size(); ++node)
-    for (int i = 0; i < modes; ++i)
-      for (int d = 0; d < 3; ++d)
-        by_mode[static_cast<std::size_t>(i) * width + 3 * node + d] = rows[node](d, i);
-  for (int lane = 0; lane < width; lane += kernels::lanes)
-    gather_.add_pack(modes, width, by_mode.data() + lane);
+  const auto width = static_cast<std::size_t>(kernels::padded(3 * static_cast<int>(rows.size())));
+  std::vector<std::map<int, std::array<double, kernels::lanes>>> packs(width / kernels::lanes);
+  u_.assign(width, 0.0);
+  for (std::size_t lane = 0; lane < 3 * rows.size(); ++lane)
+    for (int i = 0; i < rows[lane / 3].cols(); ++i)
+      if (const double value = rows[lane / 3](static_cast<Eigen::Index>(lane % 3), i); value != 0.0)
+        packs[lane / kernels::lanes][i][lane % kernels::lanes] = value;
+  for (const auto& pack : packs)
+    gather_.add_pack(pack);
 }
 
 void NodeStatistics::add_imposed_motion(const std::vector<Eigen::MatrixXd>& imposed,

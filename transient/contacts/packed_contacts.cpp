@@ -50,7 +50,6 @@ PackedContacts::PackedContacts(const std::vector<ContactPoint>& contacts, Eigen:
     add_rows(point);
   }
   gather.half = lane_count().half();
-  gather.rows = lane_count().few() ? count : 0;
   for (int lane = 0; lane < stride(); lane += kernels::lanes)
     add_pack(lane);
 }
@@ -109,14 +108,14 @@ void PackedContacts::add_pack(int lane) {
     const double* value = row(c, component);
     for (const Span& span : spans[static_cast<std::size_t>(c)])
       for (int i = 0; i < span.size; ++i, ++value)
-        if (*value != 0.0 || gather.rows > 0)
+        if (*value != 0.0)
           by_mode[span.first + i][static_cast<std::size_t>(c - from)] = *value;
   }
-  if (same || by_mode.size() * kernels::lanes <= apart) {
-    gather.add_pack(modes, by_mode);
+  if (!lane_count().few() && (same || by_mode.size() * kernels::lanes <= apart)) {
+    gather.add_pack(by_mode);
     return;
   }
-  gather.add_pack(modes, {});
+  gather.add_pack({});
   for (int c = from; c < end; ++c) {
     const double* value = row(c, component);
     for (const Span& span : spans[static_cast<std::size_t>(c)]) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/contacts/reach_lanes.hpp"
-#include "transient/simd/row_sums.hpp"
+#include "transient/simd/vector_lanes.hpp"
 
 namespace fretwork::transient::kernels {
 

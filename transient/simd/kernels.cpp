@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/simd/kernels.hpp"
-#include "transient/simd/row_sums.hpp"
+#include "transient/simd/vector_lanes.hpp"
 #include <algorithm>
 
 namespace fretwork::transient::kernels {
@@ -173,28 +173,7 @@ FRETWORK_KERNEL(void, middle,
                  const double* f1, const double* mean, const double* slope, double* q),
                 (np, table, q0, v0, f0, f1, mean, slope, q))
 
-void GatherTable::add_pack(int mode_count, std::ptrdiff_t width, const double* values_of_mode) {
-  std::map<int, std::array<double, lanes>> values_of_modes;
-  for (int i = 0; i < mode_count; ++i) {
-    const double* row = values_of_mode + i * width;
-    if (rows > 0 || std::any_of(row, row + lanes, [](double x) { return x != 0.0; }))
-      std::copy_n(row, lanes, values_of_modes[i].begin());
-  }
-  add_pack(mode_count, values_of_modes);
-}
-
-void GatherTable::add_pack(int mode_count, const std::map<int, std::array<double, lanes>>& values_of_modes) {
-  if (rows > 0) {
-    padded_modes = padded(mode_count);
-    for (std::size_t r = 0; r < static_cast<std::size_t>(rows); ++r) {
-      const std::size_t first = values.size();
-      values.resize(first + static_cast<std::size_t>(padded_modes), 0.0);
-      for (const auto& [mode, of_rows] : values_of_modes)
-        values[first + static_cast<std::size_t>(mode)] = of_rows[r];
-    }
-    begin.push_back(begin.back() + rows);
-    return;
-  }
+void GatherTable::add_pack(const std::map<int, std::array<double, lanes>>& values_of_modes) {
   for (const auto& [mode, of_rows] : values_of_modes) {
     modes.push_back(mode);
     values.insert(values.end(), of_rows.begin(), of_rows.end());
@@ -231,23 +210,10 @@ FRETWORK_INLINE void gather_pack(const GatherTable& g, int p, const double* cons
   });
 }
 
-/// The same row by row.
-template <class V, int rows, std::size_t count>
-FRETWORK_INLINE void gather_rows(const GatherTable& g, int p, const double* const (&from)[count],
-                                 double* const (&to)[count]) {
-  const RowSums<rows, count> sums = row_sums<V, rows, count>(g, p, from);
-  for (std::size_t n = 0; n < count; ++n)
-    store_rows<V, rows>(sums.of[n], to[n] + p * lanes);
-}
-
 template <class Widest, std::size_t count>
 FRETWORK_INLINE void gather_one(const GatherTable& g, int p, const double* const (&from)[count],
                                 double* const (&to)[count]) {
-  if (g.rows == 1)
-    gather_rows<Widest, 1, count>(g, p, from, to);
-  else if (g.rows == 2)
-    gather_rows<Widest, 2, count>(g, p, from, to);
-  else if (g.half)
+  if (g.half)
     gather_pack<Grain<Widest, Half>, count>(g, p, from, to);
   else
     gather_pack<Grain<Widest, Pack>, count>(g, p, from, to);

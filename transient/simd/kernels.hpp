@@ -207,16 +207,11 @@ struct GatherTable {
   std::vector<int> modes;
   Array values;      ///< `lanes` an entry
   bool half = false; ///< all rows stand in the first half of their packs
-  int rows =
-      0; ///< of a pack, where they are so few that each by itself takes less: `padded_modes` of `values` each
-  int padded_modes = 0;
-  /// Appends a pack of rows from `width` values a mode.
-  void add_pack(int mode_count, std::ptrdiff_t width, const double* values_of_mode);
   /// Appends a pack of rows: their values in the modes in which one of them has any.
-  void add_pack(int mode_count, const std::map<int, std::array<double, lanes>>& values_of_modes);
+  void add_pack(const std::map<int, std::array<double, lanes>>& values_of_modes);
 
-  /// A part of a row by itself, over modes that follow each other: to[lane] += values . from[first ...]. Rows whose modes have little in
-  /// common cost less so than in a pack.
+  /// A part of a row by itself, over modes that follow each other: to[lane] += values . from[first ...]. One or two rows, and rows whose
+  /// modes have little in common, cost less so than in a pack.
   struct Part {
     int lane, first, size; ///< both multiples of `lanes`
     std::size_t values;    ///< its first in `of_parts`
