@@ -29,9 +29,6 @@ LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double dura
       functions.push_back(&load.function);
       signals_.emplace_back(load.function, duration);
       const auto* harmonic = std::get_if<Harmonic>(&load.function);
-      sines_.push_back(harmonic && step > 0.0 && std::isfinite(step)
-                           ? std::optional<GridSine>({*harmonic, 0.5 * step})
-                           : std::nullopt);
       const double half_turn = harmonic ? std::numbers::pi * harmonic->frequency * step : 0.0;
       above_.push_back(
           half_turn > 0.0 && half_turn < most_corrected ? std::pow(half_turn / std::sin(half_turn), 2) : 1.0);
@@ -76,10 +73,7 @@ void LoadSum::at(double time, double* force) { at(time, Signal::window(time, ste
 void LoadSum::at(double time, Signal::Window window, double* force) {
   combine(
       time, [&](const SampleGrid& grid) { return grid.place(time); },
-      [&](std::size_t k) {
-        return sines_[k] ? (*sines_[k])(time) : signals_[k].over_step(time, step_, window);
-      },
-      force);
+      [&](std::size_t k) { return signals_[k].over_step(time, step_, window); }, force);
 }
 
 void LoadSum::instant(double time, double* force) {
@@ -100,10 +94,7 @@ void LoadSum::corner(double time, double* force) {
       [&](const SampleGrid& grid) {
         return step_ * grid.per_step < most_grid_steps ? grid.corner(time, step_) : grid.place(time);
       },
-      [&](std::size_t k) {
-        return sines_[k] ? above_[k] * (*sines_[k])(time) : signals_[k].over_step(time, step_, window);
-      },
-      force);
+      [&](std::size_t k) { return above_[k] * signals_[k].over_step(time, step_, window); }, force);
 }
 
 } // namespace fretwork::transient

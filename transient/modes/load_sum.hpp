@@ -4,9 +4,7 @@
 /// run.
 #pragma once
 #include "transient/scene/scene.hpp"
-#include "transient/signals/grid_sine.hpp"
 #include "transient/simd/kernels.hpp"
-#include <optional>
 
 namespace fretwork::transient {
 
@@ -43,8 +41,7 @@ private:
   double step_;
   bool constant_ = true;
   std::vector<Signal> signals_;
-  std::vector<std::optional<GridSine>> sines_; ///< of the harmonic ones, on half steps
-  std::vector<double> above_;                  ///< of the harmonic ones: a corner's height by their amplitude
+  std::vector<double> above_; ///< a corner's height by the value there: above 1 of harmonic ones
   kernels::Array shapes_, values_, observed_;
   std::vector<SampledForce> sampled_;
 };
