@@ -13,8 +13,11 @@
 namespace fretwork::transient {
 namespace {
 
-/// Per run: they take milliseconds, single impacts come out to 1e-4, and statistics see the motion.
-constexpr double least_steps = 20000;
+/// Of a run: with the most of them single impacts come out to 1e-4, with the fewest its statistics see the motion.
+constexpr double fewest_steps = 2000, most_least_steps = 20000;
+/// The cost of those between, in steps of one mode: some ten milliseconds; a contact costs as much as so many
+/// modes (instructions: 10 of short steps, 40 and more of long ones).
+constexpr double least_cost = 5e5, cost_of_contact = 20.0;
 /// More steps than this are a mistake in a value rather than a wish: days of computing.
 constexpr double most_steps = 1e12;
 /// A run of an adaptive scheme has at least so many steps.
@@ -138,11 +141,18 @@ int longest_macro_step(const StepChoice& c, const Scene& scene, double fineness)
   return std::max(1, static_cast<int>(longest / c.step * (1.0 + 1e-9)));
 }
 
+/// Steps of a run that nothing asks to be resolved in: as many as cost next to nothing.
+double least_steps(const Scene& scene) {
+  const double cost =
+      static_cast<double>(scene.system.size()) + cost_of_contact * static_cast<double>(scene.contacts.size());
+  return std::floor(std::clamp(least_cost / cost, fewest_steps, most_least_steps));
+}
+
 /// The longest step that the terms allow, but for whole steps that cover the duration.
 void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
   const double accuracy = std::min(asked, coarsest_accuracy), fineness = fineness_of(asked);
   const bool adaptive = c.scheme == SchemeKind::runge_kutta_54;
-  const double least = adaptive ? least_adaptive_steps : least_steps;
+  const double least = adaptive ? least_adaptive_steps : least_steps(scene);
   c.step = scene.duration / least;
   c.reason = fmt::format("a run has at least {} steps", least);
   const auto limit = [&](const StepLimit& term) {
