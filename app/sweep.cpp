@@ -5,8 +5,8 @@
 #include "app/folder_lock.hpp"
 #include "app/progress.hpp"
 #include "app/python_report.hpp"
+#include "app/sweep_plan.hpp"
 #include "core/error.hpp"
-#include "core/hash.hpp"
 #include "core/mpi.hpp"
 #include "core/mpi_counter.hpp"
 #include "core/names.hpp"
@@ -32,67 +32,8 @@ using sweep::Table;
 /// Increments of the counter of ended cases: those without a result are counted in its upper half.
 constexpr std::int64_t one_case = 1, one_failure = (std::int64_t{1} << 32) + 1, cases_part = one_failure - 2;
 
-struct Plan {
-  study::Document document; ///< as it stands, [sweep] included
-  study::Sweep sweep;
-  Inputs inputs;                            ///< of the nominal case; its directory is that of the shard
-  fs::path directory;                       ///< of the sweep
-  sweep::Shard shard;                       ///< 1/1: all cases
-  std::map<std::string, std::string> files; ///< digests of files that listed values name
-};
-
-fs::path directory_of(const Request& request) {
-  return request.directory.value_or(
-      fs::absolute(request.study).lexically_normal().replace_extension(".sweep"));
-}
-
-/// Listed texts may name files: what these hold is part of a case.
-std::map<std::string, std::string> files_of(const study::Sweep& sweep, const fs::path& folder) {
-  std::map<std::string, std::string> out;
-  for (const study::SweepVariable& variable : sweep.variables)
-    if (const auto* levels = std::get_if<study::SweepLevels>(&variable.source))
-      for (const std::string& value : levels->values) {
-        std::error_code absent;
-        const fs::path file =
-            folder / (value.size() > 2 && value.front() == '"' ? value.substr(1, value.size() - 2) : value);
-        if (fs::is_regular_file(file, absent))
-          out[value] = core::sha256_of_file(file.string(), 0);
-      }
-  return out;
-}
-
-Plan read_plan(const SweepRequest& request) {
-  Plan plan;
-  plan.inputs = read_inputs(request.request);
-  plan.document = study::parse(request.request.study);
-  plan.sweep = study::read_sweep(study::load(request.request.study, request.request.overrides));
-  plan.directory = directory_of(request.request);
-  plan.shard = request.shard.value_or(sweep::Shard{});
-  plan.inputs.directory =
-      plan.directory / "shards" / fmt::format("{}_of_{}", plan.shard.index, plan.shard.count);
-  plan.files = files_of(plan.sweep, plan.document.file.parent_path());
-  if ((request.shard || request.gather) && plan.sweep.until)
-    throw core::Error(
-        "sweep.until decides by all cases, of which a shard has a part; leave until out and give "
-        "draws, or run the sweep without --shard and --gather");
-  if (!plan.inputs.study.transient)
-    throw core::Error("the study has no [transient]; a sweep needs it (doc/study-file.md)");
-  return plan;
-}
-
-std::string identity_of(const Plan& plan, const sweep::Draws& draws, std::int64_t number) {
-  std::string text = plan.inputs.whole_key;
-  for (const std::string& override_text : sweep::overrides_of(plan.sweep, draws, number)) {
-    text += "\n" + override_text;
-    const auto file = plan.files.find(override_text.substr(override_text.find('=') + 1));
-    if (file != plan.files.end())
-      text += " " + file->second;
-  }
-  return sweep::short_digest(text);
-}
-
 /// Rows of earlier calls: those of the shard, or all.
-void remove_rows(const Plan& plan, bool all) {
+void remove_rows(const SweepPlan& plan, bool all) {
   std::vector<fs::path> files;
   std::error_code absent;
   const fs::path folder = all ? plan.directory / "shards" : plan.inputs.directory;
@@ -128,7 +69,7 @@ std::string corrupt_text(const sweep::FoundRows& found) {
 }
 
 /// Collective: numbers of the cases of this shard that no file has.
-std::vector<std::int64_t> missing_cases(MPI_Comm comm, const Plan& plan, std::int64_t cases,
+std::vector<std::int64_t> missing_cases(MPI_Comm comm, const SweepPlan& plan, std::int64_t cases,
                                         const sweep::FoundRows& found) {
   std::vector<std::int64_t> missing;
   if (core::rank(comm) == 0)
@@ -165,7 +106,7 @@ std::vector<double> abscissae(const mesh::LineMesh& mesh) {
 /// The sweep at work on one rank.
 class SweepRun {
 public:
-  SweepRun(MPI_Comm comm, const SweepRequest& request, Plan plan)
+  SweepRun(MPI_Comm comm, const SweepRequest& request, SweepPlan plan)
       : comm_(comm), request_(request), plan_(std::move(plan)), first_rank_(core::rank(comm) == 0),
         progress_(first_rank_ && !request.request.quiet) {}
 
@@ -353,7 +294,7 @@ private:
 
   MPI_Comm comm_;
   const SweepRequest& request_;
-  Plan plan_;
+  SweepPlan plan_;
   bool first_rank_;
   Progress progress_;
   sweep::Draws draws_;
@@ -369,10 +310,10 @@ private:
 void run_sweep(MPI_Comm comm, const SweepRequest& request) {
   const auto begin = std::chrono::steady_clock::now();
   const bool first_rank = core::rank(comm) == 0;
-  Plan plan;
+  SweepPlan plan;
   std::optional<FolderLock> lock;
   core::agree(comm, [&] {
-    plan = read_plan(request);
+    plan = read_sweep_plan(request);
     make_directory(plan.inputs.directory);
     if (first_rank)
       lock.emplace(plan.inputs.directory, request.request.study.string());
