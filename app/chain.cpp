@@ -150,6 +150,10 @@ private:
       if (out_.modes_limit)
         limit_modes();
     });
+    if (inputs_.study.varied)
+      out_.notes.emplace_back(
+          "[sweep] varies keys of this study: the cases are computed by fretwork sweep, this run "
+          "has the values of the study (and of --set)");
     note_coincident_nodes(mesh_, out_);
     if (out_.modes_limit) // by the values that may be slips: before the time is spent
       for (const std::string& warning : out_.warnings)

@@ -26,9 +26,12 @@ const Keys study_keys{
 
 Study read(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   const Document document = load(file, overrides);
-  if (document.root.table()->contains("sweep"))
+  const bool varied = document.root.table()->contains("sweep");
+  if (varied)
     (void)read_sweep(document);
-  return read(document, overrides);
+  Study study = read(document, overrides);
+  study.varied = varied;
+  return study;
 }
 
 Study read(const Document& document, const std::vector<std::string>& overrides) {

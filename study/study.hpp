@@ -216,6 +216,7 @@ struct Study {
   std::filesystem::path file; ///< absolute; relative paths of the study start from its folder
   std::string text;           ///< as read, overrides written at the end as comments: kept in the results
   std::vector<std::string> overrides;
+  bool varied = false; ///< by the [sweep] of its file, whose cases are computed by `fretwork sweep` alone
   std::string title;
   mesh::Source mesh; ///< its file is absolute
   std::map<std::string, fem::Material> materials;

@@ -49,4 +49,11 @@ TEST(Notes, OfTangentialStiffnessWithoutFriction) {
   EXPECT_FALSE(says(told(stop + "friction = 0.1\ntangential_damping = 10.0\n"), "without friction"));
 }
 
+TEST(Notes, OfASweepThatARunDoesNotCompute) {
+  const std::string sweep = "[sweep]\ndesign = \"grid\"\n[[sweep.variables]]\nkey = "
+                            "\"springs.mass.stiffness.0\"\nvalues = [50, 100]\n";
+  EXPECT_TRUE(says(told(sweep), "the cases are computed by fretwork sweep"));
+  EXPECT_FALSE(says(told(""), "fretwork sweep"));
+}
+
 } // namespace fretwork::app::test::notes_test
