@@ -75,11 +75,16 @@ void check_beams(const study::Study& study, std::size_t entry, const std::vector
 
 flow::Profile profile_of(const study::Flow& flow, double length) {
   std::vector<flow::Zone> zones = flow.zones;
-  for (flow::Zone& zone : zones)
-    if (zone.to == study::end_of_tube)
-      zone.to = length;
+  std::vector<flow::Extent> dry = flow.dry;
+  const auto end_at_length = [length](auto& all) {
+    for (auto& zone : all)
+      if (zone.to == study::end_of_tube)
+        zone.to = length;
+  };
+  end_at_length(zones);
+  end_at_length(dry);
   try {
-    return {std::move(zones), length};
+    return {std::move(zones), length, std::move(dry)};
   } catch (const core::Error& error) {
     throw core::Error(fmt::format("{}: {}", name_of(flow), error.what()));
   }

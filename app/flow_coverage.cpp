@@ -11,11 +11,13 @@ using core::Index;
 
 constexpr double least_share = 0.005; ///< of the tube: what tables of zones may leave out too
 
-/// The parts of the tube between its zones, `s = 0.5 to 2 m`.
+/// The parts of the tube between its zones, with and without fluid, `s = 0.5 to 2 m`.
 std::string parts_outside_zones(const PlacedFlow& placed) {
   std::vector<std::pair<double, double>> zones;
   for (const flow::Zone& zone : placed.profile.zones())
     zones.emplace_back(zone.from, zone.to);
+  for (const flow::Extent& dry : placed.profile.dry())
+    zones.emplace_back(dry.from, dry.to);
   zones.emplace_back(placed.length, placed.length);
   std::sort(zones.begin(), zones.end());
   std::vector<std::string> parts;
@@ -92,16 +94,18 @@ std::vector<std::string> parts_without_fluid(const study::Study& study, const fe
   for (const PlacedFlow& placed : flows) {
     const std::string name = name_of(study.flows[placed.entry]);
     if (const std::string parts = parts_outside_zones(placed); !parts.empty())
-      out.push_back(fmt::format("{}: no zone has {} of its tube, which is {:.4g} m long: it is without the "
-                                "mass and damping of a fluid there; give it a zone",
-                                name, parts, placed.length));
+      out.push_back(
+          fmt::format("{}: no zone has {} of its tube, which is {:.4g} m long: it is without the "
+                      "mass and damping of a fluid there; give it a zone, with phase = \"none\" if it is dry",
+                      name, parts, placed.length));
     Index first = -1;
     if (const std::size_t beyond = dry.beyond(placed, first); beyond > 0)
-      out.push_back(
-          fmt::format("{}: {} on beyond its tube, from {} on, without the mass and damping of a fluid; name "
-                      "their curves in its group, or give their [[beams]] fluid_inside and fluid_outside",
-                      name, beyond == 1 ? "1 beam goes" : fmt::format("{} beams go", beyond),
-                      fem::place(model.nodes[static_cast<std::size_t>(first)])));
+      out.push_back(fmt::format(
+          "{}: {} on beyond its tube, from {} on, without the mass and damping of a fluid; name "
+          "their curves in its group, where a zone with phase = \"none\" may say that they are dry, or give "
+          "their [[beams]] fluid_inside and fluid_outside",
+          name, beyond == 1 ? "1 beam goes" : fmt::format("{} beams go", beyond),
+          fem::place(model.nodes[static_cast<std::size_t>(first)])));
   }
   return out;
 }

@@ -17,7 +17,9 @@ constexpr double along_tube =
 constexpr double same_end = 1e-9; ///< of the tube's length: zones that share an end given in decimals
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-std::string name_of(const Zone& zone) { return fmt::format("zone \"{}\"", zone.name); }
+template <class AnyZone> std::string name_of(const AnyZone& zone) {
+  return fmt::format("zone \"{}\"", zone.name);
+}
 
 void require_above_zero(double value, const std::string& what, const char* unit) {
   if (!(value > 0.0) || !std::isfinite(value))
@@ -43,7 +45,7 @@ void check_table(const Table<double>& table, double greatest, const Zone& zone, 
   check_reach(table, zone, length, what);
 }
 
-void check_extent(const Zone& zone, double length) {
+void check_extent(const Extent& zone, double length) {
   const double slack = table_slack * length;
   if (!(zone.to > zone.from))
     throw core::Error(fmt::format("{} goes from s = {:g} to {:g} m; give an end beyond its beginning",
@@ -115,16 +117,14 @@ struct CheckFluid {
   }
 };
 
-void check_overlaps(const std::vector<Zone>& zones, double length) {
-  std::vector<const Zone*> order;
-  for (const Zone& zone : zones)
-    order.push_back(&zone);
-  std::sort(order.begin(), order.end(), [](const Zone* a, const Zone* b) { return a->from < b->from; });
-  for (std::size_t k = 1; k < order.size(); ++k)
-    if (order[k - 1]->to > order[k]->from + same_end * length)
+/// @param extents  of all zones, with and without fluid
+void check_overlaps(std::vector<Extent> extents, double length) {
+  std::sort(extents.begin(), extents.end(), [](const Extent& a, const Extent& b) { return a.from < b.from; });
+  for (std::size_t k = 1; k < extents.size(); ++k)
+    if (extents[k - 1].to > extents[k].from + same_end * length)
       throw core::Error(
           fmt::format("{} ends at s = {:g} m, after {} has begun at {:g} m; end it there or before",
-                      name_of(*order[k - 1]), order[k - 1]->to, name_of(*order[k]), order[k]->from));
+                      name_of(extents[k - 1]), extents[k - 1].to, name_of(extents[k]), extents[k].from));
 }
 
 void set_fluid(FlowPoint& out, const SinglePhase& fluid, const TubePoint& point) {
@@ -212,16 +212,21 @@ void set_velocity(FlowPoint& out, const Zone& zone, const TubePoint& point, doub
 
 } // namespace
 
-Profile::Profile(std::vector<Zone> zones, double length) : zones_(std::move(zones)) {
+Profile::Profile(std::vector<Zone> zones, double length, std::vector<Extent> dry)
+    : zones_(std::move(zones)), dry_(std::move(dry)) {
+  std::vector<Extent> extents = dry_;
+  for (const Zone& zone : zones_)
+    extents.push_back({zone.name, zone.from, zone.to});
+  for (const Extent& extent : extents)
+    check_extent(extent, length);
   for (const Zone& zone : zones_) {
-    check_extent(zone, length);
     fastest_ = std::max(fastest_, check_velocity(zone, length));
     std::visit(CheckFluid{zone, length}, zone.fluid);
     check_table(zone.inner_density, unbounded, zone, length, "inner density");
     for (const double k : zone.connors_constants)
       require_above_zero(k, name_of(zone) + ": Connors constant", "");
   }
-  check_overlaps(zones_, length);
+  check_overlaps(std::move(extents), length);
 }
 
 int Profile::zone_at(double s) const {

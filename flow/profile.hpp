@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// The flow along a tube: zones [s0, s1] that do not overlap, each with its tables over s, its fluid and its bundle.
-/// Outside all zones there is no fluid and V = 0.
+/// Outside all zones there is no fluid and V = 0; where that is meant, a dry zone says so.
 ///
 /// V is the gap (pitch) velocity. A velocity vector U(s) acts by its part across the tube,
 ///     U_n = U - (U.t) t,   V = |U_n|,   drag axis e_D = U_n/V,   lift axis e_L = t x e_D,
@@ -65,6 +65,12 @@ struct Zone {
       {}; ///< K > 0; several are tabulated, none: by P/D (connors_constant.hpp)
 };
 
+/// Where a zone is.
+struct Extent {
+  std::string name;
+  double from = 0.0, to = 0.0; ///< m
+};
+
 /// The fluid at a point of the tube.
 struct FlowPoint {
   int zone = -1; ///< -1: outside all zones, all else is 0
@@ -82,11 +88,13 @@ struct FlowPoint {
 class Profile {
 public:
   /// @param zones   in any order, which is kept   @param length  m, of the tube
+  /// @param dry  zones that are declared to be without fluid
   /// @throws core::Error naming the zone: for zones that overlap, are empty or leave the tube, tables that end early or
   ///         hold values out of range, fluids and bundles without sense
-  Profile(std::vector<Zone> zones, double length);
+  Profile(std::vector<Zone> zones, double length, std::vector<Extent> dry = {});
 
   [[nodiscard]] const std::vector<Zone>& zones() const { return zones_; }
+  [[nodiscard]] const std::vector<Extent>& dry() const { return dry_; }
   /// Number of the zone at s, or -1. Where one zone ends and another begins: the one that begins.
   [[nodiscard]] int zone_at(double s) const;
   /// @throws core::Error where the drag direction is along the tube, or P/D <= 1.05
@@ -96,6 +104,7 @@ public:
 
 private:
   std::vector<Zone> zones_;
+  std::vector<Extent> dry_;
   double fastest_ = 0.0; ///< m/s, largest |U| or V
 };
 

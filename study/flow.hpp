@@ -27,7 +27,8 @@ struct Flow {
   std::string name;
   std::vector<std::string> groups;                  ///< curves that make up the tube
   std::string from;                                 ///< a group with the end of the tube at s = 0
-  std::vector<flow::Zone> zones;                    ///< `to` may be end_of_tube
+  std::vector<flow::Zone> zones;                    ///< those with a fluid; `to` may be end_of_tube
+  std::vector<flow::Extent> dry;                    ///< those that are declared to have none; `to` likewise
   std::optional<std::vector<FlowSupport>> supports; ///< none: the contacts on the tube
   double structural_damping = 0.002;
   flow::DampingVoidFraction void_fraction = flow::DampingVoidFraction::of_the_zone;

@@ -13,8 +13,10 @@ const std::vector<std::string> single_phase_keys{"density", "viscosity"};
 const std::vector<std::string> two_phase_keys{"liquid",        "gas",     "surface_tension",
                                               "void_fraction", "quality", "mass_flux"};
 
-const Choices<flow::Phase> phases{
-    {{"liquid", flow::Phase::liquid}, {"gas", flow::Phase::gas}, {"two_phase", flow::Phase::two_phase}}};
+const Choices<flow::Phase> phases{{{"liquid", flow::Phase::liquid},
+                                   {"gas", flow::Phase::gas},
+                                   {"two_phase", flow::Phase::two_phase},
+                                   {"none", flow::Phase::none}}};
 const Choices<flow::Arrangement> arrangements{{{"single", flow::Arrangement::single},
                                                {"triangle", flow::Arrangement::triangle},
                                                {"rotated_triangle", flow::Arrangement::rotated_triangle},
@@ -105,23 +107,25 @@ std::vector<double> read_connors(const TableReader& zone) {
   return to_numbers(*found, zone.path("connors_constant"), 0, {above_zero});
 }
 
-flow::Zone read_zone(const Entry& entry, std::size_t number, const std::filesystem::path& folder) {
-  Keys keys{{"name", "from", "to", "direction", "phase", "velocity", "fluid_inside", "arrangement", "pitch",
-             "connors_constant"}};
-  for (const auto* more : {&single_phase_keys, &two_phase_keys})
-    keys.known.insert(keys.known.end(), more->begin(), more->end());
-  const TableReader table(*entry.value, entry.path, keys);
-  const ZoneTable zone{table, folder};
-  flow::Zone out{};
-  out.name = table.optional_text("name").value_or(std::to_string(number + 1));
-  out.from = table.number_or("from", 0.0, {at_least_zero, "m"});
-  out.to = table.optional_number("to", {above_zero, "m"}).value_or(end_of_tube);
+/// What every zone has.
+flow::Extent read_extent(const TableReader& table, std::size_t number) {
+  flow::Extent out{table.optional_text("name").value_or(std::to_string(number + 1)),
+                   table.number_or("from", 0.0, {at_least_zero, "m"}),
+                   table.optional_number("to", {above_zero, "m"}).value_or(end_of_tube)};
   if (out.to <= out.from)
     table.fail_at(table.has("to") ? "to" : "from", "a zone from " + std::to_string(out.from) + " m to " +
                                                        std::to_string(out.to) +
                                                        " m has no length; let to be larger");
-  out.velocity = read_velocity(table, folder);
-  const flow::Phase phase = table.choice("phase", flow::Phase::liquid, phases);
+  return out;
+}
+
+flow::Zone read_zone(const ZoneTable& zone, const flow::Extent& extent, flow::Phase phase) {
+  const TableReader& table = zone.table;
+  flow::Zone out{};
+  out.name = extent.name;
+  out.from = extent.from;
+  out.to = extent.to;
+  out.velocity = read_velocity(table, zone.folder);
   if (phase == flow::Phase::two_phase)
     out.fluid = read_two_phase(zone);
   else
@@ -134,6 +138,27 @@ flow::Zone read_zone(const Entry& entry, std::size_t number, const std::filesyst
                                "and pitch, or leave it out");
   out.connors_constants = read_connors(table);
   return out;
+}
+
+/// Adds a zone to those with or without fluid.
+void add_zone(Flow& out, const Entry& entry, std::size_t number, const std::filesystem::path& folder) {
+  std::vector<std::string> of_fluids{"direction",   "velocity", "fluid_inside",
+                                     "arrangement", "pitch",    "connors_constant"};
+  for (const auto* more : {&single_phase_keys, &two_phase_keys})
+    of_fluids.insert(of_fluids.end(), more->begin(), more->end());
+  Keys keys{{"name", "from", "to", "phase"}};
+  keys.known.insert(keys.known.end(), of_fluids.begin(), of_fluids.end());
+  const TableReader table(*entry.value, entry.path, keys);
+  const ZoneTable zone{table, folder};
+  const flow::Extent extent = read_extent(table, number);
+  const flow::Phase phase = table.choice("phase", flow::Phase::liquid, phases);
+  if (phase != flow::Phase::none) {
+    out.zones.push_back(read_zone(zone, extent, phase));
+    return;
+  }
+  zone.refuse(of_fluids, "phase = \"none\" is a zone without fluid inside and outside; leave it out, or give "
+                         "the phase of the fluid");
+  out.dry.push_back(extent);
 }
 
 /// Entries of an array of tables inside an entry, with whole paths.
@@ -193,7 +218,9 @@ std::vector<Flow> read_flows(const TableReader& root, const std::filesystem::pat
     (void)table.required("zones", "[[flow.zones]], the fluid along the tube");
     const std::vector<Entry> zones = entries_in(table, "zones");
     for (std::size_t i = 0; i < zones.size(); ++i)
-      out.zones.push_back(read_zone(zones[i], i, folder));
+      add_zone(out, zones[i], i, folder);
+    if (out.zones.empty())
+      table.fail_at("zones", "no zone has a fluid; give one a phase, or leave the [[flow]] out");
     if (table.has("supports"))
       out.supports = read_supports(table);
     out.structural_damping = table.number_or("structural_damping", out.structural_damping, {at_least_zero});

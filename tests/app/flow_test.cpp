@@ -143,6 +143,13 @@ TEST(Flow, WarnsOfPartsOfTheTubeInNoZone) {
   };
   EXPECT_TRUE(says(warnings("from = 0.2\nto = 0.7\n"),
                    "no zone has s = 0 to 0.2 m, s = 0.7 to 1 m of its tube, which is 1 m long"));
+  EXPECT_TRUE(says(warnings("from = 0.2\n"), "give it a zone, with phase = \\\"none\\\" if it is dry"));
+  const std::string dry = "[[flow.zones]]\nphase = \"none\"\n";
+  EXPECT_EQ(
+      warnings("from = 0.2\nto = 0.7\n" + dry + "to = 0.2\n" + dry + "from = 0.7\n").find("no zone has"),
+      std::string::npos);
+  EXPECT_TRUE(says(warnings("from = 0.2\nto = 0.7\n" + dry + "from = 0.7\n"),
+                   "no zone has s = 0 to 0.2 m of its tube"));
   EXPECT_EQ(warnings("").find("no zone has"), std::string::npos);
   EXPECT_EQ(warnings("to = 0.996\n").find("no zone has"), std::string::npos); // as tables may end early
 }

@@ -122,11 +122,25 @@ TEST(FlowProfile, RefusesZonesThatOverlapOrLeaveTheTube) {
         (void)Profile({liquid_zone("b", 0.5, 1.0, 1, 1), liquid_zone("a", 0.0, 0.6, 1, 1)}, 2.0);
       },
       {"zone \"a\" ends at s = 0.6 m, after zone \"b\" has begun at 0.5 m"});
+  const auto beside_dry = [](double from, double to) {
+    return [from, to] { (void)Profile({liquid_zone("a", 0.0, 0.6, 1, 1)}, 2.0, {{"dry", from, to}}); };
+  };
+  tests::expect_error(beside_dry(0.5, 2.0), {"zone \"a\" ends at s = 0.6 m, after zone \"dry\" has begun"});
+  tests::expect_error(beside_dry(0.6, 2.02), {"zone \"dry\" goes from s = 0.6 to 2.02 m, off the tube"});
+  EXPECT_NO_THROW(beside_dry(0.6, 2.0)());
   expect_refused(liquid_zone("a", 0.5, 0.5, 1, 1),
                  {"zone \"a\" goes from s = 0.5 to 0.5 m", "beyond its beginning"});
   expect_refused(liquid_zone("a", 0.5, 2.02, 1, 1), {"from s = 0.5 to 2.02 m, off the tube", "0 to 2 m"});
   expect_refused(liquid_zone("a", -0.02, 1.0, 1, 1), {"off the tube"});
   EXPECT_NO_THROW(Profile({liquid_zone("a", -0.009, 2.009, 1, 1)}, 2.0)) << "within 0.5 % of the length";
+}
+
+TEST(FlowProfile, HasNoFluidInDryZones) {
+  const Profile profile({liquid_zone("a", 0.0, 0.6, 740.0, 1.0)}, 2.0, {{"dry", 0.6, 2.0}});
+  EXPECT_EQ(profile.zones().size(), 1u);
+  ASSERT_EQ(profile.dry().size(), 1u);
+  EXPECT_EQ(profile.dry()[0].from, 0.6);
+  EXPECT_EQ(profile.zone_at(1.0), -1);
 }
 
 TEST(FlowProfile, RefusesTablesThatEndEarly) {

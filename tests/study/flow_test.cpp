@@ -137,6 +137,20 @@ TEST(FlowKeys, DampingFollowsFromTheFlow) {
   EXPECT_FALSE(read_text(study_with(water)).modes.flow_damping);
 }
 
+TEST(FlowKeys, DeclareZonesThatAreDry) {
+  const Study study = read_text(
+      study_with(water + "to = 0.6\n[[flow.zones]]\nphase = \"none\"\nfrom = 0.6\nto = 0.9\n[[flow.zones]]\n"
+                         "name = \"top\"\nphase = \"none\"\nfrom = 0.9\n"));
+  const Flow& flow = study.flows.at(0);
+  EXPECT_EQ(flow.zones.size(), 1u);
+  ASSERT_EQ(flow.dry.size(), 2u);
+  EXPECT_EQ(flow.dry[0].name, "2");
+  EXPECT_EQ(flow.dry[0].from, 0.6);
+  EXPECT_EQ(flow.dry[0].to, 0.9);
+  EXPECT_EQ(flow.dry[1].name, "top");
+  EXPECT_EQ(flow.dry[1].to, end_of_tube);
+}
+
 TEST(FlowMessages, NameTheKeyAndTheCure) {
   const std::string at = "flow.tube.zones.water.",
                     bar = "[[contacts]]\ngroup = \"p\"\ngap = 0.1\nnormal_stiffness = 1e6\n";
@@ -181,6 +195,11 @@ TEST(FlowMessages, NameTheKeyAndTheCure) {
            "density = 2, viscosity = 1 }\n"),
        at + "liquid: its density is not above that of the gas"},
       {study_with(water + "from = 2\nto = 1\n"), at + "to = 1: a zone from 2"},
+      {study_with("phase = \"none\"\nfrom = 2\nto = 1\n"), at + "to = 1: a zone from 2"},
+      {study_with(water + "phase = \"none\"\n"),
+       at + "density = 740: phase = \"none\" is a zone without fluid inside and outside; leave it out"},
+      {study_with("phase = \"none\"\nfluid_inside = 700\n"), at + "fluid_inside = 700: phase = \"none\""},
+      {study_with("phase = \"none\"\n"), "no zone has a fluid; give one a phase, or leave the [[flow]] out"},
       {study_with(water + "arrangement = \"square\"\n"), at + "pitch: this required key is missing"},
       {study_with(water + "pitch = 0.02\n"), at + "pitch = 0.02: a single tube has none"},
       {study_with(water + "connors_constant = 0\n"), at + "connors_constant = 0: a number > 0 is expected"},
