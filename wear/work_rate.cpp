@@ -8,6 +8,12 @@
 #include <fmt/format.h>
 
 namespace fretwork::wear {
+namespace {
+
+constexpr double least_freedom = 2.0;      ///< as of batch means
+constexpr double largest_exponent = 100.0; ///< ends of an interval that says nothing stay finite
+
+} // namespace
 
 WorkRate work_rate(double value) {
   check_not_negative("work rate", "value", value, "W");
@@ -31,7 +37,15 @@ WorkRate work_rate_with_confidence(double value, double standard_error, double b
   if (!(confidence > 0.0 && confidence < 1.0))
     throw core::Error(
         fmt::format("work rate: confidence {:g} makes no sense; give a number between 0 and 1", confidence));
-  return work_rate_with_error(value, student_factor(batches - 1.0, confidence) * standard_error);
+  check_not_negative("work rate", "value", value, "W");
+  check_not_negative("work rate", "standard error", standard_error, "W");
+  if (value == 0.0 || standard_error == 0.0)
+    return work_rate_with_error(value, standard_error);
+  const double of_batches = batches - 1.0, share = standard_error / value,
+               freedom = std::max(1.0 / (1.0 / of_batches + 0.5 * share * share),
+                                  std::min(of_batches, least_freedom)),
+               factor = std::exp(std::min(student_factor(freedom, confidence) * share, largest_exponent));
+  return {value, value / factor, value * factor, false, true};
 }
 
 WorkRate work_rate_between(double low, double value, double high) {

@@ -4,7 +4,7 @@
 #include "program.hpp"
 #include "study_text.hpp"
 #include "wear/depth.hpp"
-#include "wear/student.hpp"
+#include "wear/work_rate.hpp"
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -119,10 +119,12 @@ TEST(Wear, HasTheIntervalOfTheConfidenceThatIsAskedFor) {
   const auto &contact = sure.statistics("support0"), &rate = support(sure)["work_rate"];
   const double w = contact["work_rate"], error = contact["standard_error"]["work_rate"],
                batches = contact["standard_error"]["work_rate_batches"];
-  const double half = wear::student_factor(batches - 1.0, 0.95) * error;
-  EXPECT_TRUE(close_to(rate["high"], w + half, round_off));
+  const auto interval = wear::work_rate_with_confidence(w, error, batches, 0.95);
+  EXPECT_LT(rate["low"], w - error);
+  EXPECT_TRUE(close_to(rate["low"], interval.low, round_off));
+  EXPECT_TRUE(close_to(rate["high"], interval.high, round_off));
   EXPECT_TRUE(
-      close_to(support(sure)["volume_m3"]["high"], coefficient * (w + half) * 40.0 * year, round_off));
+      close_to(support(sure)["volume_m3"]["high"], coefficient * interval.high * 40.0 * year, round_off));
   EXPECT_EQ(support(sure)["confidence"], 0.95);
   EXPECT_FALSE(support(plain).contains("confidence"));
   EXPECT_EQ(rate["value"], support(plain)["work_rate"]["value"]);

@@ -18,10 +18,23 @@ constexpr double round_off = 1e-15;
 } // namespace
 
 TEST(WorkRate, HasTheIntervalOfItsConfidence) {
-  constexpr double printed = 1e-6; // t(7) of 95 % = 2.364624
-  const WorkRate rate = work_rate_with_confidence(2e-3, 1e-4, 8.0, 0.95);
-  EXPECT_NEAR(rate.high, 2e-3 + 2.364624e-4, printed * 1e-4);
-  EXPECT_NEAR(rate.low, 2e-3 - 2.364624e-4, printed * 1e-4);
+  constexpr double printed = 1e-6; // t(6) of 95 % = 2.446912, t(3) = 3.182446, t(2) = 4.302653
+  // d = 6 of an error of 10 % from 6.185567 degrees, of 6 that of 57.7 % leaves 3, of 1000 one of 100 % leaves 2
+  const auto factor = [](double error, double batches) {
+    const WorkRate rate = work_rate_with_confidence(2e-3, 2e-3 * error, batches, 0.95);
+    EXPECT_NEAR(rate.low * rate.high / (rate.value * rate.value), 1.0, 4.0 * round_off);
+    EXPECT_FALSE(rate.low_at_zero);
+    EXPECT_TRUE(rate.has_interval);
+    return std::log(rate.high / rate.value) / error;
+  };
+  EXPECT_NEAR(factor(0.1, 1.0 + 1.0 / (1.0 / 6.0 - 0.005)), 2.446912, printed);
+  EXPECT_NEAR(factor(std::sqrt(1.0 / 3.0), 7.0), 3.182446, printed);
+  EXPECT_NEAR(factor(1.0, 1001.0), 4.302653, 0.01);
+  EXPECT_NEAR(factor(2.0, 1001.0), 4.302653, printed) << "no fewer degrees than 2";
+  EXPECT_NEAR(factor(0.01, 2.0), 12.7062, 0.1) << "but those of the batches";
+  EXPECT_EQ(work_rate_with_confidence(2e-3, 0.0, 8.0, 0.95).high, 2e-3);
+  EXPECT_EQ(work_rate_with_confidence(0.0, 0.0, 8.0, 0.95).high, 0.0);
+  EXPECT_TRUE(std::isfinite(work_rate_with_confidence(2e-3, 2e-3, 3.0, 1.0 - 1e-12).high));
   EXPECT_FALSE(work_rate_with_confidence(2e-3, not_a_number, 0.0, 0.95).has_interval);
   expect_refused([] { (void)work_rate_with_confidence(2e-3, 1e-4, 1.0, 0.95); }, {"1 batches"});
   expect_refused([] { (void)work_rate_with_confidence(2e-3, 1e-4, 8.0, 1.0); }, {"confidence 1"});
