@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
+#include <complex>
 
 namespace fretwork::core {
 
@@ -40,6 +41,32 @@ Eigen::EigenSolver<Eigen::MatrixXd> solved(const Eigen::MatrixXd& a, bool vector
   return solver;
 }
 
+/// V^-1 by real numbers: x = sum of y v with pairs v, y and their conjugates is sum of 2 Re(y) Re(v) - 2 Im(y) Im(v).
+Eigen::MatrixXcd inverse_of_pairs(const Diagonalised& of) {
+  using Complex = std::complex<double>;
+  const Eigen::Index n = of.values.size();
+  Eigen::MatrixXd parts(n, n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    parts.col(k) = of.vectors.col(k).real();
+    if (of.values(k).imag() != 0.0) {
+      parts.col(k + 1) = of.vectors.col(k).imag();
+      ++k;
+    }
+  }
+  const Eigen::MatrixXd inverse = parts.partialPivLu().inverse();
+  Eigen::MatrixXcd out(n, n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    out.row(k) = inverse.row(k).cast<Complex>();
+    if (of.values(k).imag() != 0.0) {
+      out.row(k) =
+          0.5 * (inverse.row(k).cast<Complex>() - Complex(0.0, 1.0) * inverse.row(k + 1).cast<Complex>());
+      out.row(k + 1) = out.row(k).conjugate();
+      ++k;
+    }
+  }
+  return out;
+}
+
 double column_sum(const Eigen::MatrixXcd& a) { return a.cwiseAbs().colwise().sum().maxCoeff(); }
 
 } // namespace
@@ -55,7 +82,10 @@ Diagonalised diagonalised(const Eigen::MatrixXd& a) {
   const Eigen::VectorXd d = balance(balanced);
   const auto solver = solved(balanced, true);
   Diagonalised out{solver.eigenvalues(), solver.eigenvectors(), {}, 0.0};
-  out.inverse = out.vectors.partialPivLu().inverse() * d.cwiseInverse().asDiagonal();
+  for (Eigen::Index k = 0; k < out.values.size(); ++k)
+    if (out.vectors.col(k).imag().isZero(0.0)) // an imaginary part of round-off, and two real vectors
+      out.values(k) = out.values(k).real();
+  out.inverse = inverse_of_pairs(out) * d.cwiseInverse().asDiagonal();
   out.vectors = (d.asDiagonal() * out.vectors).eval();
   const Eigen::VectorXd lengths = out.vectors.colwise().norm();
   out.vectors = (out.vectors * lengths.cwiseInverse().asDiagonal()).eval();
