@@ -17,6 +17,9 @@ public:
   /// @param duration  s, of the run
   ProgressObserver(const ProgressCallback& callback, double before, double share, double duration)
       : callback_(callback), before_(before), share_(share), duration_(duration) {}
+  [[nodiscard]] transient::RecordParts parts_of(const transient::Record&, double) const override {
+    return {false, false};
+  }
   void step(const transient::Record& record) override {
     if (++count_ % look_every == 0)
       callback_(before_ + share_ * record.time / duration_, record.time);

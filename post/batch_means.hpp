@@ -54,10 +54,12 @@ public:
 
   explicit BatchEnds(std::size_t sums) : sums_(sums), times_(most), rows_(most * sums) {}
 
+  /// Whether a batch is to end; the first record may stand for no time.
+  [[nodiscard]] bool due(double elapsed) const { return elapsed >= next_ && elapsed > 0.0; }
   /// Ends a batch where it is time for it. A record longer than a batch is a batch of its own.
   /// @param elapsed  s, since the window began, growing   @param fill  writes the sums so far to the row it is given
   template <class Fill> void watch(double elapsed, Fill fill) {
-    if (elapsed < next_ || !(elapsed > 0.0)) // the first record may stand for no time
+    if (!due(elapsed))
       return;
     fill(rows_.data() + count_ * sums_);
     times_[count_++] = elapsed;

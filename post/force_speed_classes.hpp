@@ -17,6 +17,9 @@ public:
   /// @throws core::Error for maxima out of range
   ForceSpeedClasses(const std::vector<std::optional<wear::KwuMaxima>>& maxima, double from);
   void step(const transient::Record& record) override;
+  [[nodiscard]] transient::RecordParts parts_of(const transient::Record&, double) const override {
+    return {false, false};
+  }
   void visit(core::StateArchive& state) override {
     for (wear::KwuClasses& of_contact : classes_)
       state(of_contact);

@@ -47,6 +47,9 @@ public:
   /// @param most       rows of each contact, reserved here; further impacts are counted
   ImpactTable(std::size_t contacts, double from, double rest_time, std::size_t most);
   void step(const transient::Record& record) override;
+  [[nodiscard]] transient::RecordParts parts_of(const transient::Record&, double) const override {
+    return {false, false};
+  }
   void visit(core::StateArchive& state) override { state(under_way_, out_); }
   /// One entry a contact; impacts under way end where the run stands.
   [[nodiscard]] std::vector<ContactImpacts> impacts() &&;

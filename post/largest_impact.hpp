@@ -24,6 +24,9 @@ public:
   /// @param contacts  number of contacts   @param from  start of the window, s
   LargestImpact(std::size_t contacts, double from);
   void step(const transient::Record& record) override;
+  [[nodiscard]] transient::RecordParts parts_of(const transient::Record&, double) const override {
+    return {false, false};
+  }
   void visit(core::StateArchive& state) override { state(contacts_); }
   /// Of every contact, in time; empty where there was no force.
   [[nodiscard]] std::vector<std::vector<ForcePoint>> histories() const;

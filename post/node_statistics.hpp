@@ -28,6 +28,9 @@ public:
   void add_imposed_motion(const std::vector<Eigen::MatrixXd>& imposed,
                           const std::vector<transient::PrescribedMotion>& motions, double duration);
   void step(const transient::Record& record) override;
+  [[nodiscard]] transient::RecordParts parts_of(const transient::Record& record, double) const override {
+    return {record.time >= from_ && !sums_.empty(), false};
+  }
   void visit(core::StateArchive& state) override { state(sums_, time_, ends_); }
   [[nodiscard]] std::vector<NodeSummary> summaries() const;
 

@@ -31,6 +31,10 @@ public:
   /// @param from  start of the window, s
   explicit PowerStatistics(double from);
   void step(const transient::Record& record) override;
+  /// Energies where the window begins and where a batch ends.
+  [[nodiscard]] transient::RecordParts parts_of(const transient::Record& record, double next) const override {
+    return {false, record.time < from_ ? next >= from_ : ends_.due(time_ + record.step)};
+  }
   void visit(core::StateArchive& state) override { state(seen_, time_, before_, now_, ends_); }
   [[nodiscard]] PowerBalance balance() const;
 

@@ -21,6 +21,9 @@ public:
   SectorStatistics(const std::vector<int>& sectors, double from,
                    std::span<const transient::ContactPoint> by_place = {});
   void step(const transient::Record& record) override;
+  [[nodiscard]] transient::RecordParts parts_of(const transient::Record&, double) const override {
+    return {false, false};
+  }
   void visit(core::StateArchive& state) override {
     state(time_);
     for (wear::SectorWork& of_contact : work_)

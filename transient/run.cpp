@@ -174,6 +174,18 @@ Run::Run(const Scene& scene, const StepChoice& choice, std::span<Observer* const
 
 Run::~Run() = default;
 
+/// What observers, and the report after the last record, ask for.
+void Run::complete(const Record& record, double next) {
+  RecordParts parts{false, next >= end_};
+  for (const Observer* observer : observers_) {
+    const RecordParts asked = observer->parts_of(record, next);
+    parts.modes = parts.modes || asked.modes;
+    parts.energies = parts.energies || asked.energies;
+  }
+  if (parts.modes || parts.energies)
+    scheme_->complete(parts);
+}
+
 bool Run::advance(std::int64_t records) {
   const auto goes_on = [&](double next) { return report_.outcome == Outcome::done && next < end_; };
   const Record* last = nullptr;
@@ -188,11 +200,14 @@ bool Run::advance(std::int64_t records) {
     const double residual = std::abs(record.energy.residual());
     largest_residual_ = std::max(largest_residual_, residual);
     largest_energy_scale_ = std::max(largest_energy_scale_, record.energy.scale);
+    complete(record, next);
     for (Observer* observer : observers_)
       observer->step(record);
     diverged_records_ = residual <= divergence_threshold * largest_energy_scale_ ? 0 : diverged_records_ + 1;
-    if (!std::isfinite(residual) || diverged_records_ > passing)
+    if (!std::isfinite(residual) || diverged_records_ > passing) {
       report_.outcome = Outcome::diverged;
+      scheme_->complete({false, true});
+    }
     ++report_.records;
   }
   if (last) {

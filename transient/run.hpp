@@ -12,6 +12,8 @@ class Observer {
 public:
   virtual ~Observer() = default;
   virtual void step(const Record& record) = 0;
+  /// What it asks of a record that comes next; of this one only its times are known.   @param next  s, time of the record after it
+  [[nodiscard]] virtual RecordParts parts_of(const Record& /*record*/, double /*next*/) const { return {}; }
   /// What it has seen so far.
   virtual void visit(core::StateArchive& state) = 0;
 };
@@ -74,6 +76,8 @@ public:
   void visit(core::StateArchive& state);
 
 private:
+  void complete(const Record& record, double next);
+
   std::span<Observer* const> observers_;
   Sampler* sampler_;
   std::unique_ptr<Scheme> scheme_;

@@ -137,6 +137,20 @@ TEST(Allocation, NeverHappensUnderTablesAndNoise) {
   EXPECT_EQ(allocations_of_a_run(scene, collocation(1e-4)), 0);
 }
 
+TEST(Allocation, NeverHappensWithForcesThatDependOnTheMotion) {
+  constexpr int modes = 12, coupled = 9;
+  Scene scene = rattling(3, modes, 1.0);
+  core::MotionForces& f = scene.system.motion;
+  f.stiffness = f.damping = Eigen::MatrixXd::Zero(modes, modes);
+  f.stiffness.topLeftCorner(coupled, coupled).setConstant(-20.0);
+  f.damping(10, 10) = -0.3;
+  f.input = Eigen::MatrixXd::Zero(modes, 2);
+  f.input.topRows(coupled).setConstant(40.0);
+  f.output = 0.01 * f.input.transpose();
+  f.rates = -50.0 * Eigen::Matrix2d::Identity();
+  EXPECT_EQ(allocations_of_a_run(scene, splitting(1e-4)), 0);
+}
+
 TEST(Allocation, NeverHappensWithObstaclesThatMove) {
   Scene scene = rattling(3, 12, 1.0);
   scene.motions = {{Harmonic{1.0, 20.0, 0.0}, -1.0 / 125.66, 0.0},

@@ -15,7 +15,7 @@ constexpr std::size_t cost_of_row = 24;
 
 } // namespace
 
-PackedContacts::PackedContacts(const std::vector<ContactPoint>& contacts, Eigen::Index mode_count)
+PackedContacts::PackedContacts(const std::vector<ContactPoint>& contacts, Eigen::Index mode_count, bool full)
     : count(static_cast<int>(contacts.size())), width(kernels::padded(static_cast<int>(contacts.size()))),
       modes(static_cast<int>(mode_count)), padded_modes(kernels::padded(static_cast<int>(mode_count))) {
   for (const ContactPoint& c : contacts) {
@@ -50,6 +50,7 @@ PackedContacts::PackedContacts(const std::vector<ContactPoint>& contacts, Eigen:
     add_rows(point);
   }
   gather.half = lane_count().half();
+  apart_ = lane_count().few() || (full && lane_count().half());
   for (int lane = 0; lane < stride(); lane += kernels::lanes)
     add_pack(lane);
 }
@@ -111,7 +112,7 @@ void PackedContacts::add_pack(int lane) {
         if (*value != 0.0)
           by_mode[span.first + i][static_cast<std::size_t>(c - from)] = *value;
   }
-  if (!lane_count().few() && (same || by_mode.size() * kernels::lanes <= apart)) {
+  if (!apart_ && (same || by_mode.size() * kernels::lanes <= apart)) {
     gather.add_pack(by_mode);
     return;
   }

@@ -10,7 +10,8 @@ namespace fretwork::transient {
 /// Velocities and displacements of all contacts are arrays of `components` blocks of `width` lanes: y of all
 /// contacts, then z, then x (x_loc only where friction acts on a contact that modes or obstacles move along it).
 struct PackedContacts {
-  explicit PackedContacts(const std::vector<ContactPoint>& contacts, Eigen::Index modes);
+  /// @param full  rows have few zeros: up to 4 contacts are taken row by row, not only up to 2
+  PackedContacts(const std::vector<ContactPoint>& contacts, Eigen::Index modes, bool full = false);
 
   int count = 0;      ///< contacts
   int width = 0;      ///< lanes: count, padded
@@ -51,6 +52,7 @@ private:
 
   std::vector<std::size_t> row_begin_, row_size_; ///< contact by contact
   kernels::Array rows_;                           ///< contact by contact: rows y, z, x
+  bool apart_ = false;                            ///< rows are gathered one by one
 };
 
 } // namespace fretwork::transient

@@ -10,15 +10,22 @@ RowScatter::RowScatter(const PackedContacts& contacts) : contacts_(contacts) {
   contact_.resize(most);
 }
 
-void RowScatter::add_to(const double* factors, double* target) {
+void RowScatter::add_to(Targets targets, int count) {
   for (std::size_t begin = 0, end = 0; begin < count_; begin = end) {
     const auto c = static_cast<std::size_t>(contact_[begin]);
     for (; end < count_ && contacts_.layout[static_cast<std::size_t>(contact_[end])] == contacts_.layout[c];
          ++end)
       parts_[end] = rows_[end];
     for (const PackedContacts::Span& span : contacts_.spans[c]) {
-      kernels::scatter(span.size, static_cast<int>(end - begin), &parts_[begin], factors + begin,
-                       target + span.first);
+      Targets here = targets;
+      for (kernels::ScatterTarget& target : here)
+        if (target.v)
+          target = {target.factor + begin, target.v + span.first};
+      const int rows = static_cast<int>(end - begin);
+      if (count == 1)
+        kernels::scatter(span.size, rows, &parts_[begin], here[0].factor, here[0].v);
+      else
+        kernels::scatter_several(span.size, rows, &parts_[begin], count, here.data());
       for (std::size_t r = begin; r < end; ++r)
         parts_[r] += span.size;
     }

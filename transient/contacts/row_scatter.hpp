@@ -3,6 +3,7 @@
 /// Forces on contacts as forces on the modes that these move.
 #pragma once
 #include "transient/contacts/packed_contacts.hpp"
+#include <array>
 
 namespace fretwork::transient {
 
@@ -20,7 +21,10 @@ public:
   [[nodiscard]] std::size_t size() const { return count_; }
   /// target += sum of factor times row, in the order of the list; padded modes. No allocation.
   /// @param factors  one for each row of the list
-  void add_to(const double* factors, double* target);
+  void add_to(const double* factors, double* target) { add_to({{{factors, target}}}, 1); }
+  /// To the first `count` of some targets.
+  using Targets = std::array<kernels::ScatterTarget, kernels::most_scattered>;
+  void add_to(Targets targets, int count);
 
 private:
   const PackedContacts& contacts_;

@@ -60,6 +60,14 @@ std::vector<CoupledBlock> coupled_blocks(const System& system) {
   return out;
 }
 
+bool acts_alone(const System& system, const CoupledBlock& block) {
+  if (block.modes.size() > 1 || !block.states.empty() || system.motion.empty())
+    return false;
+  const Index j = block.modes.front();
+  return system.stiffness(j) >= system.motion.stiffness(j, j) &&
+         system.damping(j) >= system.motion.damping(j, j);
+}
+
 System with_diagonal(System system) {
   if (system.damping_matrix.size() > 0)
     system.damping = system.damping_matrix.diagonal();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/modes/diagonal_flow.hpp"
-#include "core/error.hpp"
 #include "core/general_eigenvalues.hpp"
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace fretwork::transient {
@@ -10,27 +10,35 @@ namespace {
 
 using Complex = std::complex<double>;
 using Eigen::Index;
+using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double largest_condition = 1e6;
+constexpr double largest_condition = 1e6, largest_form = 1e6;
+constexpr double unseen = 1e-12;    ///< of what a velocity makes of scaled q and v
+constexpr double round_off = 1e-14; ///< of a power
 /// Blocks of fewer modes are put together: a pack of displacements and velocities takes no longer than one of them.
 constexpr std::size_t modes_of_pack = kernels::lanes / 2;
 
 int padded(std::size_t n) { return kernels::padded(static_cast<int>(n)); }
 
-/// phi_1 and phi_2; the series where the closed forms would cancel.
-std::pair<Complex, Complex> phi(Complex x) {
+/// phi_0 to phi_4; the series where the closed forms would cancel.
+std::array<Complex, 5> phi(Complex x) {
+  constexpr std::array<double, 5> first = {1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0}; // 1/k!
+  std::array<Complex, 5> out{std::exp(x)};
   if (std::abs(x) > 1.0) {
-    const Complex one = (std::exp(x) - 1.0) / x;
-    return {one, (one - 1.0) / x};
+    for (std::size_t k = 0; k < 4; ++k)
+      out[k + 1] = (out[k] - first[k]) / x;
+    return out;
   }
-  Complex two = 0.0, term = 0.5; // x^j/(j+2)!
-  for (int j = 0; j < 20; ++j) {
-    two += term;
-    term *= x / (j + 3.0);
+  Complex term = first[4]; // x^j/(j+4)!
+  for (int j = 0; j < 18; ++j) {
+    out[4] += term;
+    term *= x / (j + 5.0);
   }
-  return {1.0 + x * two, two};
+  for (std::size_t k = 4; k-- > 1;)
+    out[k] = first[k] + x * out[k + 1];
+  return out;
 }
 
 /// A of (q, v, z).
@@ -87,33 +95,53 @@ std::vector<CoupledBlock> put_together(const std::vector<CoupledBlock>& blocks) 
   return out;
 }
 
+/// How y of the places of a block (pairs, then real ones) stand for complex coordinates, those of a pair and of its conjugate: coordinate by coordinate
+/// the places and their factors.
+struct Coordinate {
+  Index column; ///< of the eigenvectors
+  std::array<Index, 2> places;
+  std::array<Complex, 2> factors;
+};
+
+/// P by places.   @return empty: an element is too large
+MatrixXd work_form(const core::Diagonalised& found, const std::vector<Coordinate>& coordinates, Index width,
+                   const MatrixXcd& velocities, const MatrixXcd& forces) {
+  MatrixXcd powers = velocities.transpose() * forces;
+  powers += powers.transpose().eval();
+  MatrixXd out = MatrixXd::Zero(width, width);
+  for (const Coordinate& a : coordinates)
+    for (const Coordinate& b : coordinates) {
+      const Complex power = 0.5 * powers(a.column, b.column);
+      const Complex la = found.values(a.column), lb = found.values(b.column);
+      if (std::abs(power) <= round_off * (std::abs(la) + std::abs(lb)))
+        continue;
+      const Complex p = -power / (la + lb);
+      if (!(std::abs(p) <= largest_form))
+        return {};
+      for (std::size_t i = 0; i < 2; ++i)
+        for (std::size_t j = 0; j < 2; ++j)
+          out(a.places[i], b.places[j]) += (a.factors[i] * b.factors[j] * p).real();
+    }
+  return out;
+}
+
 } // namespace
 
-DiagonalFlow::DiagonalFlow(const Scene& scene, std::vector<CoupledBlock>& blocks, double step,
+DiagonalFlow::DiagonalFlow(const System& system, std::vector<CoupledBlock>& blocks, double step,
                            const std::vector<int>& lengths) {
   std::vector<CoupledBlock> left;
   for (const CoupledBlock& block : put_together(blocks))
-    if (!add_block(scene.system, block, step, lengths))
+    if (!add_block(system, block, step, lengths))
       left.push_back(block);
   blocks = std::move(left);
-  std::size_t width = 0, modes = 0, rows = 0;
-  for (Block& b : blocks_) {
-    add_rows(scene, b, step);
+  std::size_t width = 0, modes = 0;
+  for (const Block& b : blocks_) {
     width = std::max(width, static_cast<std::size_t>(b.width()));
-    modes = std::max(modes, b.modes.size());
-    rows = std::max(rows, static_cast<std::size_t>(b.rows));
+    modes = std::max(modes, static_cast<std::size_t>(b.rows()));
   }
-  for (kernels::Array* x : {&g0_, &g1_, &decay_})
-    x->assign(width, 0.0);
-  answer_.assign(2 * width, 0.0);
-  for (kernels::Array* x : {&a_, &b_})
-    x->assign(modes, 0.0);
-  moved_.assign(rows, 0.0);
-  inside_.assign(size_, 0.0);
-  for (auto& list : parts_)
-    list.resize(3 * scene.contacts.size());
-  for (auto& list : factors_)
-    list.resize(3 * scene.contacts.size());
+  modes_.assign(modes, 0.0);
+  moved_.assign(std::max(modes, kernels::numbers_of_input * width), 0.0);
+  table_.assign(kernels::StateTable::numbers * width, 0.0);
 }
 
 bool DiagonalFlow::add_block(const System& system, const CoupledBlock& of, double step,
@@ -124,22 +152,25 @@ bool DiagonalFlow::add_block(const System& system, const CoupledBlock& of, doubl
       core::diagonalised(scale.asDiagonal() * state_matrix(system, of) * scale.cwiseInverse().asDiagonal());
   if (!(found.condition <= largest_condition))
     return false;
-  const Eigen::MatrixXcd vectors = scale.cwiseInverse().asDiagonal() * found.vectors,
-                         inverse = found.inverse * scale.asDiagonal();
+  const MatrixXcd vectors = scale.cwiseInverse().asDiagonal() * found.vectors,
+                  inverse = found.inverse * scale.asDiagonal();
   std::vector<Index> pairs, reals;
-  for (Index k = 0; k < found.values.size(); ++k)
-    if (found.values(k).imag() != 0.0)
-      pairs.push_back(k++);
-    else
-      reals.push_back(k);
+  for (Index k = 0; k < found.values.size(); ++k) {
+    const bool pair = found.values(k).imag() != 0.0;
+    if (found.vectors.col(k).head(2 * m).norm() * found.inverse.row(k).head(2 * m).norm() > unseen)
+      (pair ? pairs : reals).push_back(k);
+    k += pair ? 1 : 0;
+  }
   Block b;
   b.modes = of.modes;
   b.count = {padded(pairs.size()), padded(reals.size())};
   b.first = size_;
-  b.rows = padded(2 * of.modes.size());
+  b.stiffness = system.stiffness(of.modes);
   b.values.assign(static_cast<std::size_t>(b.width()), 0.0);
-  b.start = MatrixXd::Zero(b.width(), 2 * m);
-  MatrixXd state = MatrixXd::Zero(scale.size(), b.width()); // X of y
+  const Index width = b.width();
+  b.start = MatrixXd::Zero(width, 2 * m);
+  MatrixXd state = MatrixXd::Zero(scale.size(), width); // X of y
+  std::vector<Coordinate> coordinates;
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const auto re = static_cast<Index>(p), im = re + b.count.pairs;
     b.values[p] = found.values(pairs[p]);
@@ -147,100 +178,76 @@ bool DiagonalFlow::add_block(const System& system, const CoupledBlock& of, doubl
     b.start.row(im) = inverse.row(pairs[p]).head(2 * m).imag();
     state.col(re) = 2.0 * vectors.col(pairs[p]).real();
     state.col(im) = -2.0 * vectors.col(pairs[p]).imag();
+    coordinates.push_back({pairs[p], {re, im}, {1.0, Complex(0.0, 1.0)}});
+    coordinates.push_back({pairs[p] + 1, {re, im}, {1.0, Complex(0.0, -1.0)}});
   }
   for (std::size_t p = 0; p < reals.size(); ++p) {
     const auto at = static_cast<Index>(p) + 2 * b.count.pairs;
     b.values[static_cast<std::size_t>(at)] = found.values(reals[p]);
     b.start.row(at) = inverse.row(reals[p]).head(2 * m).real();
     state.col(at) = vectors.col(reals[p]).real();
+    coordinates.push_back({reals[p], {at, at}, {1.0, 0.0}});
   }
   const core::MotionForces& f = system.motion;
   MatrixXd forces(m, scale.size());
   forces << f.stiffness(of.modes, of.modes), f.damping(of.modes, of.modes), f.input(of.modes, of.states);
+  const MatrixXd form =
+      work_form(found, coordinates, width, vectors.middleRows(m, m), forces.cast<Complex>() * vectors);
+  if (form.size() == 0)
+    return false;
   b.forces = forces * state;
-  b.top = in_tiles(state.topRows(2 * m), b.rows);
-  b.input = in_tiles(b.start.rightCols(m), b.width());
+  b.state = state.topRows(2 * m);
+  b.input.resize(kernels::numbers_of_input * width, m);
+  b.input << b.start.rightCols(m), b.state.bottomRows(m).transpose(), 2.0 * form * b.start.rightCols(m);
+  b.top = in_tiles(b.state, b.rows());
+  b.input_tiles = in_tiles(b.input, static_cast<int>(b.input.rows()));
+  b.form = in_tiles(form, b.width());
+  const auto table_of = [&](double t) {
+    kernels::Array table(static_cast<std::size_t>(kernels::StateTable::numbers * width), 0.0);
+    set_table(b, t, table.data());
+    return table;
+  };
   for (const int length : lengths) {
-    b.decay.emplace_back(static_cast<std::size_t>(b.width()), 0.0);
-    b.answers.emplace_back(static_cast<std::size_t>(2 * b.width()), 0.0);
-    set_times(b, length * step, b.decay.back().data(), b.answers.back().data());
+    b.tables.push_back(table_of(length * step));
+    b.halves.push_back(table_of(0.5 * length * step));
   }
-  b.load.assign(of.modes.size(), 0.0);
-  b.load_input.assign(static_cast<std::size_t>(b.width()), 0.0);
-  b.y = b.load_input;
-  b.qv.assign(static_cast<std::size_t>(b.rows), 0.0);
-  size_ += static_cast<std::size_t>(b.width());
+  const kernels::Array one_step = table_of(step);
+  const auto constant = [&](const VectorXd& input) {
+    const kernels::Array none(static_cast<std::size_t>(width), 0.0), g = kernels::padded_copy(input);
+    kernels::Array y(none), rate(none);
+    kernels::move_states(b.count, one_step.data(), none.data(),
+                         {none.data(), none.data(), g.data(), none.data()}, y.data(), rate.data());
+    return VectorXd(Eigen::Map<VectorXd>(y.data(), width));
+  };
+  b.response.resize(m, m);
+  for (Index j = 0; j < m; ++j)
+    b.response.col(j) = b.state.topRows(m) * constant(b.start.col(m + j));
+  size_ += static_cast<std::size_t>(width);
   blocks_.push_back(std::move(b));
   return true;
 }
 
-/// What forces of value 1 on the modes, and on the contacts, make of the block in a step.
-void DiagonalFlow::add_rows(const Scene& scene, Block& b, double step) {
-  const auto m = static_cast<Index>(b.modes.size()), width = static_cast<Index>(b.width());
-  kernels::Array answer(static_cast<std::size_t>(2 * width), 0.0), decay(answer), y,
-      g(static_cast<std::size_t>(width)), less(g);
-  set_times(b, step, decay.data(), answer.data());
-  const auto moved_by = [&](const kernels::Array& early, const kernels::Array& late, double* qv) {
-    y.assign(g.size(), 0.0);
-    kernels::load_states(b.count, answer.data(), early.data(), late.data(), y.data());
-    kernels::multiply(b.rows, b.width(), b.top.data(), y.data(), qv);
-  };
-  kernels::Array qv(static_cast<std::size_t>(b.rows));
-  MatrixXd constant(b.rows, m);
-  for (Index j = 0; j < m; ++j) {
-    Eigen::Map<VectorXd>(g.data(), width) = b.start.col(m + j);
-    moved_by(g, g, qv.data());
-    constant.col(j) = Eigen::Map<VectorXd>(qv.data(), b.rows);
-  }
-  b.constant = in_tiles(constant, b.rows);
-  b.row_places.assign(3 * scene.contacts.size(), -1);
-  int count = 0;
-  for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
-    const MatrixXd over_block = scene.contacts[c].over_all(scene.system.size())(Eigen::all, b.modes);
-    for (std::size_t component = 0; component < 3; ++component) {
-      const Eigen::RowVectorXd row = over_block.row(static_cast<Index>((component + 1) % 3)); // y z x
-      if (row.isZero(0.0))
-        continue;
-      b.row_places[3 * c + component] = count++;
-      b.of_rows.resize(static_cast<std::size_t>(count) * b.row_size());
-      double* to = &b.of_rows[b.of_rows.size() - b.row_size()];
-      Eigen::Map<VectorXd>(g.data(), width) = b.start.rightCols(m) * row.transpose();
-      std::transform(g.begin(), g.end(), less.begin(), [](double x) { return -x; });
-      std::copy(g.begin(), g.end(), to);
-      moved_by(g, g, to + width);
-      moved_by(less, g, to + width + b.rows);
-    }
-  }
-}
-
-/// e^(l t), and what y gains by the load's input at the start and at the end.
-void DiagonalFlow::set_times(const Block& b, double t, double* decay, double* answer) const {
+void DiagonalFlow::set_table(const Block& b, double t, double* table) const {
+  using Table = kernels::StateTable;
   const auto pairs = static_cast<std::size_t>(b.count.pairs), width = static_cast<std::size_t>(b.width());
-  for (std::size_t k = 0; k < width; k = k + 1 == pairs ? 2 * pairs : k + 1) {
-    const Complex x = b.values[k] * t, e = std::exp(x);
-    const auto [one, two] = phi(x);
-    const Complex early = t * (one - two), late = t * two;
-    decay[k] = e.real();
-    answer[k] = early.real();
-    answer[width + k] = late.real();
-    if (k >= pairs)
-      continue;
-    decay[pairs + k] = e.imag();
-    answer[pairs + k] = early.imag();
-    answer[width + pairs + k] = late.imag();
-  }
-}
-
-const double* DiagonalFlow::part(const Block& b, const double* all, kernels::Array& to) const {
-  for (std::size_t i = 0; i < b.modes.size(); ++i)
-    to[i] = all[b.modes[i]];
-  return to.data();
-}
-
-void DiagonalFlow::give(const Block& b, const double* qv, double* q, double* v) {
-  for (std::size_t i = 0, m = b.modes.size(); i < m; ++i) {
-    q[b.modes[i]] = qv[i];
-    v[b.modes[i]] = qv[m + i];
+  for (std::size_t i = 0; i < width; i = i + 1 == pairs ? 2 * pairs : i + 1) {
+    const auto set = [&](Table::Number number, Complex x) {
+      double* to = table + static_cast<std::size_t>(number) * width + i;
+      *to = x.real();
+      if (i < pairs)
+        to[pairs] = x.imag();
+    };
+    const std::array<Complex, 5> f = phi(b.values[i] * t);
+    set(Table::e, f[0]);
+    set(Table::a0, t * (f[1] - f[2]));
+    set(Table::a1, t * f[2]);
+    set(Table::l, b.values[i]);
+    set(Table::p, t * f[2]);
+    set(Table::p0, t * t * (f[3] - f[4]));
+    set(Table::p1, t * t * f[4]);
+    set(Table::r, t * (f[1] - f[2]));
+    set(Table::r0, t * t * (f[2] - 2.0 * f[3] + f[4]));
+    set(Table::r1, t * t * (f[3] - f[4]));
   }
 }
 
@@ -256,105 +263,125 @@ void DiagonalFlow::start(const double* q, const double* v, double* y) const {
   }
 }
 
-/// Adds what the loads make of y; the input of load1 stays for the step after it.
-void DiagonalFlow::load_block(Block& b, std::size_t place, const double* load0, const double* load1) {
-  const int m = static_cast<int>(b.modes.size());
-  const auto input = [&](const double* load, kernels::Array& to) {
-    (void)part(b, load, a_);
-    if (!std::equal(b.load.begin(), b.load.end(), a_.begin())) {
-      std::copy_n(a_.begin(), b.load.size(), b.load.begin());
-      kernels::multiply(b.width(), m, b.input.data(), a_.data(), b.load_input.data());
-    }
-    std::copy(b.load_input.begin(), b.load_input.end(), to.begin());
-  };
-  input(load0, g0_);
-  input(load1, g1_);
-  kernels::load_states(b.count, b.answers[place].data(), g0_.data(), g1_.data(), b.y.data());
-}
-
-void DiagonalFlow::move(std::size_t place, const double* y0, const double* load0, const double* load1,
-                        double* y, double* q, double* v) {
-  for (Block& b : blocks_) {
-    std::copy_n(y0 + b.first, b.y.size(), b.y.begin());
-    kernels::decay_states(b.count, b.decay[place].data(), b.y.data());
-    if (load0)
-      load_block(b, place, load0, load1);
-    kernels::multiply(b.rows, b.width(), b.top.data(), b.y.data(), b.qv.data());
-    std::copy(b.y.begin(), b.y.end(), y + b.first);
-    give(b, b.qv.data(), q, v);
-  }
-}
-
-void DiagonalFlow::push(const RowForces& forces, double* y, double* q, double* v) {
-  for (Block& b : blocks_) {
-    int count = 0;
-    const auto width = static_cast<std::size_t>(b.width()), rows = static_cast<std::size_t>(b.rows);
-    for (std::size_t k = 0; k < forces.count; ++k) {
-      const int place = b.row_places[static_cast<std::size_t>(forces.rows[k])];
-      if (place < 0)
-        continue;
-      const double* row = &b.of_rows[static_cast<std::size_t>(place) * b.row_size()];
-      const double mean = forces.mean[k], slope = forces.slope ? forces.slope[k] : 0.0;
-      const auto at = static_cast<std::size_t>(count++);
-      parts_[0][at] = row;
-      parts_[1][at] = row + width;
-      parts_[2][at] = row + width + rows;
-      factors_[0][at] = mean - slope;
-      factors_[1][at] = mean + slope;
-      factors_[2][at] = mean;
-      factors_[3][at] = slope;
-    }
-    std::copy(b.y.begin(), b.y.end(), y + b.first);
-    if (count == 0) {
-      give(b, b.qv.data(), q, v);
-      continue;
-    }
-    std::copy(b.qv.begin(), b.qv.end(), moved_.begin());
-    kernels::scatter(b.rows, count, parts_[1].data(), factors_[2].data(), moved_.data());
-    kernels::scatter(b.rows, count, parts_[2].data(), factors_[3].data(), moved_.data());
-    give(b, moved_.data(), q, v);
-    std::fill_n(g0_.begin(), width, 0.0);
-    std::fill_n(g1_.begin(), width, 0.0);
-    kernels::scatter(b.width(), count, parts_[0].data(), factors_[0].data(), g0_.data());
-    kernels::scatter(b.width(), count, parts_[0].data(), factors_[1].data(), g1_.data());
-    kernels::load_states(b.count, b.answers.back().data(), g0_.data(), g1_.data(), y + b.first);
-  }
-}
-
-void DiagonalFlow::response(const double* force, double* moved) {
-  for (Block& b : blocks_) {
-    kernels::multiply(b.rows, static_cast<int>(b.modes.size()), b.constant.data(), part(b, force, a_),
+void DiagonalFlow::add_input(const double* force, double* input) {
+  for (const Block& b : blocks_) {
+    for (std::size_t i = 0; i < b.modes.size(); ++i)
+      modes_[i] = force[b.modes[i]];
+    const int rows = kernels::numbers_of_input * b.width();
+    kernels::multiply(rows, static_cast<int>(b.modes.size()), b.input_tiles.data(), modes_.data(),
                       moved_.data());
-    for (std::size_t i = 0; i < b.modes.size(); ++i)
-      moved[b.modes[i]] = moved_[i];
+    double* to = input + kernels::numbers_of_input * b.first;
+    for (int i = 0; i < rows; ++i)
+      to[i] += moved_[static_cast<std::size_t>(i)];
   }
 }
 
-void DiagonalFlow::inside(double t, const double* y0, const double* f0, const double* slope, double* q,
-                          double* v) {
+namespace {
+/// Those of the block whose numbers of y begin at `first`.
+kernels::StateInputs of_block(const kernels::StateInputs& inputs, std::size_t first) {
+  const std::size_t at = kernels::numbers_of_input * first;
+  return {inputs.load0 + at, inputs.load1 + at, inputs.mean + at, inputs.slope + at};
+}
+} // namespace
+
+void DiagonalFlow::move(std::size_t place, const double* y0, const kernels::StateInputs& inputs, double* y,
+                        double* rate) const {
+  for (const Block& b : blocks_)
+    kernels::move_states(b.count, b.tables[place].data(), y0 + b.first, of_block(inputs, b.first),
+                         y + b.first, rate + b.first);
+}
+
+kernels::StateWorks DiagonalFlow::works(std::size_t place, const double* y0,
+                                        const kernels::StateInputs& inputs) const {
+  kernels::StateWorks sum;
   for (const Block& b : blocks_) {
-    const int m = static_cast<int>(b.modes.size());
-    set_times(b, t, decay_.data(), answer_.data());
-    (void)part(b, f0, a_);
-    (void)part(b, slope, b_);
-    for (std::size_t i = 0; i < b.modes.size(); ++i)
-      b_[i] = a_[i] + t * b_[i];
-    kernels::multiply(b.width(), m, b.input.data(), a_.data(), g0_.data());
-    kernels::multiply(b.width(), m, b.input.data(), b_.data(), g1_.data());
-    double* y = inside_.data() + b.first;
-    std::copy_n(y0 + b.first, b.y.size(), y);
-    kernels::decay_states(b.count, decay_.data(), y);
-    kernels::load_states(b.count, answer_.data(), g0_.data(), g1_.data(), y);
-    kernels::multiply(b.rows, b.width(), b.top.data(), y, moved_.data());
-    give(b, moved_.data(), q, v);
+    const kernels::StateWorks of =
+        kernels::state_works(b.count, b.tables[place].data(), y0 + b.first, of_block(inputs, b.first));
+    sum.load += of.load;
+    sum.contact += of.contact;
+    sum.fluid += of.fluid;
+  }
+  return sum;
+}
+
+/// q, then v.
+const double* DiagonalFlow::modes_of_block(const Block& b, const double* y) {
+  kernels::multiply(b.rows(), b.width(), b.top.data(), y + b.first, modes_.data());
+  return modes_.data();
+}
+
+void DiagonalFlow::modes_of(const double* y, double* q, double* v) {
+  for (const Block& b : blocks_) {
+    const double* qv = modes_of_block(b, y);
+    for (std::size_t i = 0, m = b.modes.size(); i < m; ++i) {
+      q[b.modes[i]] = qv[i];
+      v[b.modes[i]] = qv[m + i];
+    }
   }
 }
 
-void DiagonalFlow::add_forces(double* force) const {
+// In the middle of a load from load0 to load1 that is (load0 + load1)/2, the contact force `mean`: what a load of half the length comes to.
+void DiagonalFlow::middle(std::size_t place, const double* y0, const kernels::StateInputs& inputs,
+                          double* y) {
   for (const Block& b : blocks_) {
-    const Eigen::Map<const VectorXd> y(inside_.data() + b.first, b.width());
+    const kernels::StateInputs of = of_block(inputs, b.first);
+    const auto width = static_cast<std::size_t>(b.width());
+    double *late = moved_.data(), *none = table_.data();
+    for (std::size_t i = 0; i < width; ++i) { // without `mean`, which is added at both ends
+      late[i] = 0.5 * (of.load0[i] + of.load1[i]);
+      late[width + i] = of.load0[i] - of.slope[i];
+    }
+    std::fill_n(none, width, 0.0);
+    kernels::move_states(b.count, b.halves[place].data(), y0 + b.first, {late + width, late, of.mean, none},
+                         y + b.first, late + 2 * width);
+  }
+}
+
+void DiagonalFlow::inside(double t, const double* y0, const kernels::StateInputs& inputs, double* y,
+                          double* rate) {
+  for (const Block& b : blocks_) {
+    set_table(b, t, table_.data());
+    kernels::move_states(b.count, table_.data(), y0 + b.first, of_block(inputs, b.first), y + b.first,
+                         rate ? rate + b.first : moved_.data());
+  }
+}
+
+double DiagonalFlow::energy(const double* y) {
+  double twice = 0.0;
+  for (const Block& b : blocks_) {
+    const auto m = static_cast<Index>(b.modes.size());
+    const Eigen::Map<const VectorXd> qv(modes_of_block(b, y), 2 * m);
+    twice += qv.tail(m).squaredNorm() + qv.head(m).cwiseAbs2().dot(b.stiffness);
+  }
+  return 0.5 * twice;
+}
+
+double DiagonalFlow::fluid_form(const double* y) {
+  double sum = 0.0;
+  for (const Block& b : blocks_) {
+    kernels::multiply(b.width(), b.width(), b.form.data(), y + b.first, moved_.data());
+    sum += Eigen::Map<const VectorXd>(moved_.data(), b.width())
+               .dot(Eigen::Map<const VectorXd>(y + b.first, b.width()));
+  }
+  return sum;
+}
+
+void DiagonalFlow::add_forces(const double* y, double* force) const {
+  for (const Block& b : blocks_) {
+    const Eigen::Map<const VectorXd> of(y + b.first, b.width());
     for (std::size_t i = 0; i < b.modes.size(); ++i)
-      force[b.modes[i]] += b.forces.row(static_cast<Index>(i)).dot(y);
+      force[b.modes[i]] += b.forces.row(static_cast<Index>(i)).dot(of);
+  }
+}
+
+void DiagonalFlow::response(const double* force, double* moved) const {
+  for (const Block& b : blocks_) {
+    VectorXd f(static_cast<Index>(b.modes.size()));
+    for (std::size_t i = 0; i < b.modes.size(); ++i)
+      f(static_cast<Index>(i)) = force[b.modes[i]];
+    const VectorXd q = b.response * f;
+    for (std::size_t i = 0; i < b.modes.size(); ++i)
+      moved[b.modes[i]] = q(static_cast<Index>(i));
   }
 }
 

@@ -2,92 +2,101 @@
 /// @file
 /// The exact motion of modes under forces that depend on their motion (core/motion_forces.hpp), in coordinates in which it is apart. With
 /// X = (q, v, z) of a block (coupled_blocks.hpp), X' = A X + f on v, A = T diag(l) T^-1 and y = T^-1 X:
-///     y' = l y + Q f,   over a step under f from f0 to f1:   y <- e^(l h) y + h (phi_1 - phi_2) Q f0 + h phi_2 Q f1,   phi_k of l h
-/// phi_1(x) = (e^x - 1)/x, phi_2(x) = (phi_1(x) - 1)/x, Q the columns of T^-1 for v. Growth and decay are no special cases: the flow does not
-/// limit the step. A step of m modes and r states costs some 4 (2m + r) multiplications for y and 2m (2m + r) for q and v.
+///     y' = l y + G,  G = Q f,  Q the columns of T^-1 for v
+/// over a step under G linear in time by phi functions, phi_0 = e^x, phi_(k+1) = (phi_k - 1/k!)/x, of l h. Growth and decay are no special cases:
+/// the flow does not limit the step. A step of m modes and r states costs some 30 (2m + r) multiplications, and contacts as many numbers a row as
+/// there are of y; q and v of all modes cost 2m (2m + r) and are found where they are asked for.
 ///
-/// T is that of the scaled unknowns (w q, v, w_1 z), w_1 the lowest frequency of the block. Blocks where its condition is above 1e6 are left to
-/// coupled_flow.hpp: round-off of q and v would exceed 1e-10.
+/// Works. A force has the power f^T v = (T_v^T f)^T y, T_v the rows of T for v. The power of the forces of motion, F = K q + C v + G z, is a quadratic
+/// form, F^T v = y^T S y. With P_ab = -S_ab/(l_a + l_b) (the Lyapunov equation A^T P + P A = -S in coordinates y)
+///     d(y^T P y)/dt = -y^T S y + 2 G^T P y:   fluid work = y^T P y at the start - y^T P y now + int 2 (P Q f)^T y dt
+/// exactly. A step needs the last integral alone, of the same kind as a power.
+///
+/// T is that of the scaled unknowns (w q, v, w_1 z), w_1 the lowest frequency of the block. Blocks where its condition or an element of P is above 1e6
+/// (a motion that neither grows nor decays, though the fluid feeds it) are left to coupled_flow.hpp: round-off of q and v, or of the fluid work, would
+/// exceed 1e-10. Eigenvalues that leave q and v alone to 1e-12 are left out.
 #pragma once
 #include "transient/modes/coupled_blocks.hpp"
 #include "transient/simd/state_kernels.hpp"
-#include <array>
 #include <complex>
 #include <vector>
 
 namespace fretwork::transient {
 
-/// Forces on contacts along components y z x of their local axes.
-struct RowForces {
-  std::size_t count = 0;
-  const int* rows = nullptr; ///< 3 times the contact plus the component
-  const double *mean = nullptr,
-               *slope = nullptr; ///< N, from mean - slope to mean + slope; slope null: constant
-};
-
 class DiagonalFlow {
 public:
   DiagonalFlow() = default;
-  /// @param scene  with the system, whose contacts bear the forces
   /// @param blocks  those of the system that are to be moved; those that cannot be diagonalised stay there, the others are taken out
   /// @param lengths  of steps in numbers of `step`, s
-  DiagonalFlow(const Scene& scene, std::vector<CoupledBlock>& blocks, double step,
+  DiagonalFlow(const System& system, std::vector<CoupledBlock>& blocks, double step,
                const std::vector<int>& lengths);
 
   [[nodiscard]] bool empty() const { return blocks_.empty(); }
-  /// Numbers of y, of all blocks; a multiple of kernels::lanes.
+  /// Numbers of y, of all blocks; a multiple of kernels::lanes. A force on them has `kernels::numbers_of_input` times as many.
   [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] std::size_t blocks() const { return blocks_.size(); }
+  /// Modes of a block, and its part of y.
+  [[nodiscard]] const std::vector<Eigen::Index>& modes(std::size_t block) const {
+    return blocks_[block].modes;
+  }
+  [[nodiscard]] ModeRange range(std::size_t block) const {
+    return {static_cast<Eigen::Index>(blocks_[block].first), blocks_[block].width()};
+  }
+  /// T_q, its columns in the places of y: displacements of the block's modes, m x width.
+  [[nodiscard]] auto displacements(std::size_t block) const {
+    return blocks_[block].state.topRows(static_cast<Eigen::Index>(blocks_[block].modes.size()));
+  }
+  /// Forces on the block's modes as inputs, 3 width x m.
+  [[nodiscard]] const Eigen::MatrixXd& inputs(std::size_t block) const { return blocks_[block].input; }
 
   /// y for q and v and z = 0. Arrays of modes hold all of them.
   void start(const double* q, const double* v, double* y) const;
-  /// Over a step of the length at `place` of the list. No allocation.
-  /// @param load0, load1  null: there are none
-  void move(std::size_t place, const double* y0, const double* load0, const double* load1, double* y,
-            double* q, double* v);
-  /// After `move` over one step: what forces on contacts add to it. No allocation.
-  void push(const RowForces& forces, double* y, double* q, double* v);
-  /// Displacement after one step from rest under a constant force.
-  void response(const double* force, double* moved);
-  /// State a time t after y0 under the load f0 + t slope. No allocation.
-  void inside(double t, const double* y0, const double* f0, const double* slope, double* q, double* v);
-  /// Adds the forces of motion where `inside` was last. No allocation.
-  void add_forces(double* force) const;
+  /// Adds forces on all modes to inputs. No allocation.
+  void add_input(const double* force, double* input);
+  /// Over a step of the length at `place` of the list: y and l y, y0 something else. No allocation.
+  void move(std::size_t place, const double* y0, const kernels::StateInputs& inputs, double* y,
+            double* rate) const;
+  /// Of this step, J. No allocation.
+  [[nodiscard]] kernels::StateWorks works(std::size_t place, const double* y0,
+                                          const kernels::StateInputs& inputs) const;
+  /// q and v of the blocks' modes. No allocation.
+  void modes_of(const double* y, double* q, double* v);
+  /// y in the middle of such a step. No allocation.
+  void middle(std::size_t place, const double* y0, const kernels::StateInputs& inputs, double* y);
+  /// y, and l y where it is asked for, a time t after y0, the inputs being those at the start and then. No allocation.
+  void inside(double t, const double* y0, const kernels::StateInputs& inputs, double* y,
+              double* rate = nullptr);
+  /// Energy of the blocks' modes, and y^T P y, J. No allocation.
+  [[nodiscard]] double energy(const double* y);
+  [[nodiscard]] double fluid_form(const double* y);
+  /// Adds the forces of motion on all modes. No allocation.
+  void add_forces(const double* y, double* force) const;
+  /// Displacement of the blocks' modes after one step from rest under a constant force.
+  void response(const double* force, double* moved) const;
 
 private:
   struct Block {
     std::vector<Eigen::Index> modes;
     kernels::StateCount count;
-    std::size_t first = 0;                      ///< of its numbers in y
-    int rows = 0;                               ///< 2m, padded
-    std::vector<std::complex<double>> values;   ///< by numbers of y: pairs, then reals after 2 count.pairs
-    kernels::Array top;                         ///< rows x width: q and v of y
-    kernels::Array input;                       ///< width x m: Q
-    Eigen::MatrixXd start, forces;              ///< width x 2m; m x width: the forces of motion of y
-    std::vector<kernels::Array> decay, answers; ///< by lengths
-    kernels::Array constant;                    ///< rows x m: q and v after one step under a constant force
-    kernels::Array
-        of_rows; ///< input, then q and v after one step by mean and slope, of the rows of contacts that move the block
-    std::vector<int> row_places;     ///< by rows of contacts: which of them; -1: it does not move the block
-    kernels::Array load, load_input; ///< modal force and Q of it, at the end of the last step
-    kernels::Array y, qv;            ///< after the last move
+    std::size_t first = 0;                    ///< of its numbers in y
+    std::vector<std::complex<double>> values; ///< by numbers of y: pairs, then reals after 2 count.pairs
+    Eigen::VectorXd stiffness;
+    Eigen::MatrixXd state, start, forces;       ///< 2m x width, T; width x 2m; m x width: F of y
+    Eigen::MatrixXd input;                      ///< 3 width x m
+    Eigen::MatrixXd response;                   ///< m x m
+    kernels::Array top, input_tiles, form;      ///< T, `input` and P in tiles
+    std::vector<kernels::Array> tables, halves; ///< by lengths; of half the lengths
     [[nodiscard]] int width() const { return count.width(); }
-    [[nodiscard]] std::size_t row_size() const { return static_cast<std::size_t>(width() + 2 * rows); }
+    [[nodiscard]] int rows() const { return kernels::padded(2 * static_cast<int>(modes.size())); }
   };
   [[nodiscard]] bool add_block(const System& system, const CoupledBlock& of, double step,
                                const std::vector<int>& lengths);
-  void add_rows(const Scene& scene, Block& b, double step);
-  void set_times(const Block& b, double t, double* decay, double* answer) const;
-  void load_block(Block& b, std::size_t place, const double* load0, const double* load1);
-  /// The block's part of a modal array.
-  const double* part(const Block& b, const double* all, kernels::Array& to) const;
-  static void give(const Block& b, const double* qv, double* q, double* v);
+  void set_table(const Block& b, double t, double* table) const;
+  [[nodiscard]] const double* modes_of_block(const Block& b, const double* y);
 
   std::vector<Block> blocks_;
   std::size_t size_ = 0;
-  kernels::Array a_, b_, g0_, g1_, moved_, decay_, answer_,
-      inside_;                                      ///< of the largest block; inside_: of all
-  std::array<std::vector<const double*>, 3> parts_; ///< of the rows that push a block
-  std::array<std::vector<double>, 4> factors_;      ///< early, late, mean, slope
+  kernels::Array modes_, moved_, table_; ///< of the largest block
 };
 
 } // namespace fretwork::transient

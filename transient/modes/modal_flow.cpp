@@ -33,15 +33,6 @@ std::array<double, 4> own_force(double k, const StepCoefficients& s, double h) {
   return {s.vf1 / det, -s.qf1 / det, -s.vf0 / det, s.qf0 / det};
 }
 
-/// A force of motion on a mode by itself, which is then one of another stiffness and damping.
-bool acts_alone(const System& system, const CoupledBlock& block) {
-  if (block.modes.size() > 1 || !block.states.empty())
-    return false;
-  const Eigen::Index j = block.modes.front();
-  return system.stiffness(j) >= system.motion.stiffness(j, j) &&
-         system.damping(j) >= system.motion.damping(j, j);
-}
-
 } // namespace
 
 ModalFlow::ModalFlow(const Scene& scene, double step, const std::vector<int>& lengths)
@@ -62,18 +53,13 @@ ModalFlow::ModalFlow(const Scene& scene, double step, const std::vector<int>& le
   for (const CoupledBlock& block : blocks)
     for (const Eigen::Index j : block.modes)
       apart_[static_cast<std::size_t>(j)] = 0;
-  if (fed()) {
-    Scene diagonal = scene;
-    diagonal.system = system_;
-    diagonal_ = {diagonal, blocks, step, lengths};
-  }
   coupled_ = {system_, blocks, step};
   for (const int length : lengths)
     make_tables(length * step);
   const auto n = static_cast<std::size_t>(kernels::padded(static_cast<int>(system_.size())));
   for (kernels::Array* a : {&k_, &none_, &a_, &b_, &moved_, &rate_, &own0_, &own1_, &mean_})
     a->assign(n, 0.0);
-  states_.assign(diagonal_.size() + static_cast<std::size_t>(system_.motion.states()), 0.0);
+  states_.assign(static_cast<std::size_t>(system_.motion.states()), 0.0);
   std::copy_n(system_.stiffness.data(), system_.size(), k_.begin());
   per_force_.assign(n, 0.0);
   for (Eigen::Index j = 0; j < system_.size(); ++j) {
@@ -108,11 +94,6 @@ void ModalFlow::make_tables(double h) {
   }
 }
 
-void ModalFlow::start(State& state) const {
-  state.z.assign(states_.size(), 0.0);
-  diagonal_.start(state.q.data(), state.v.data(), state.z.data());
-}
-
 std::size_t ModalFlow::place(int length) const {
   return static_cast<std::size_t>(std::find(lengths_.begin(), lengths_.end(), length) - lengths_.begin());
 }
@@ -138,8 +119,8 @@ void ModalFlow::middle(int length, const State& from, const kernels::Array& load
     a_[i] = load0[i] + mean[i] - slope[i];
     b_[i] = 0.5 * (load0[i] + load1[i]) + mean[i];
   }
-  moved_ = from.q;
-  rate_ = from.v;
+  std::copy_n(from.q.begin(), moved_.size(), moved_.begin());
+  std::copy_n(from.v.begin(), rate_.size(), rate_.begin());
   (void)coupled_.advance(1, moved_.data(), rate_.data(), a_.data(), b_.data());
   for (Eigen::Index j = 0; j < system_.size(); ++j)
     if (coupled_.couples(j))
@@ -151,12 +132,16 @@ void ModalFlow::load_about(double time, kernels::Array& load) {
     loads_.corner(time, load.data());
 }
 
+void ModalFlow::copy_modes(const State& from, State& to) const {
+  std::copy_n(from.q.begin(), padded(), to.q.begin());
+  std::copy_n(from.v.begin(), padded(), to.v.begin());
+}
+
 ModalFlow::Sums ModalFlow::move(int length, const State& from, const kernels::Array& load0,
                                 const kernels::Array& load1, State& to) {
   const std::size_t at = place(length);
   if (!fed() && coupled_.empty()) {
-    to.q = from.q;
-    to.v = from.v;
+    copy_modes(from, to);
     const kernels::FlowSums s = loads_.empty()
                                     ? kernels::flow_free(padded(), tables_[at], to.q.data(), to.v.data())
                                     : kernels::flow_loaded(padded(), tables_[at], to.q.data(), to.v.data(),
@@ -169,15 +154,12 @@ ModalFlow::Sums ModalFlow::move(int length, const State& from, const kernels::Ar
     return sums;
   }
   to.z = from.z;
-  const bool loaded = !loads_.empty();
-  diagonal_.move(at, from.z.data(), loaded ? load0.data() : nullptr, loaded ? load1.data() : nullptr,
-                 to.z.data(), to.q.data(), to.v.data());
   move_remembering(length, load0, load1, none_, none_, to);
   return own_works(at, from, load0, load1, none_, none_, to);
 }
 
 ModalFlow::Sums ModalFlow::move(const State& from, const kernels::Array& load0, const kernels::Array& load1,
-                                const kernels::Array& constant, const RowForces& by_rows, State& to) {
+                                const kernels::Array& constant, State& to) {
   const std::size_t at = place(1);
   Sums sums = move_apart(at, from, load0, load1, constant, none_, to);
   if (!coupled_.empty() && !fed())
@@ -185,25 +167,19 @@ ModalFlow::Sums ModalFlow::move(const State& from, const kernels::Array& load0, 
   if (!fed())
     return sums;
   to.z = from.z;
-  const bool loaded = !loads_.empty();
-  diagonal_.move(at, from.z.data(), loaded ? load0.data() : nullptr, loaded ? load1.data() : nullptr,
-                 to.z.data(), to.q.data(), to.v.data());
-  diagonal_.push(by_rows, to.z.data(), to.q.data(), to.v.data());
   move_remembering(1, load0, load1, constant, none_, to);
   return own_works(at, from, load0, load1, constant, none_, to);
 }
 
 ModalFlow::Sums ModalFlow::push(const State& from, const kernels::Array& load0, const kernels::Array& load1,
-                                const ModalForce& force, const RowForces& by_rows, State& to) {
+                                const ModalForce& force, State& to) {
   const std::size_t at = place(1);
   Sums sums = move_apart(at, from, load0, load1, force.mean, force.slope, to);
   if (!coupled_.empty() && !fed())
     move_coupled(from, load0, load1, force.mean, force.slope, to, sums);
   if (!fed())
     return sums;
-  diagonal_.push(by_rows, to.z.data(), to.q.data(), to.v.data());
-  if (!coupled_.empty())
-    std::copy(from.z.begin() + static_cast<std::ptrdiff_t>(diagonal_.size()), from.z.end(), rest(to.z));
+  to.z = from.z;
   move_remembering(1, load0, load1, force.mean, force.slope, to);
   return own_works(at, from, load0, load1, force.mean, force.slope, to);
 }
@@ -211,14 +187,13 @@ ModalFlow::Sums ModalFlow::push(const State& from, const kernels::Array& load0, 
 ModalFlow::Sums ModalFlow::move_apart(std::size_t at, const State& from, const kernels::Array& load0,
                                       const kernels::Array& load1, const kernels::Array& mean,
                                       const kernels::Array& slope, State& to) {
-  to.q = from.q;
-  to.v = from.v;
+  copy_modes(from, to);
   const kernels::ForcedSums s = kernels::flow_forced(padded(), tables_[at], to.q.data(), to.v.data(),
                                                      load0.data(), load1.data(), mean.data(), slope.data());
   return {s.load_work, s.contact_work, 0.5 * s.twice_energy};
 }
 
-/// The blocks that are not diagonalised, with their states, step by step.
+/// The coupled modes with their states, step by step.
 void ModalFlow::move_remembering(int length, const kernels::Array& load0, const kernels::Array& load1,
                                  const kernels::Array& mean, const kernels::Array& slope, State& to) {
   if (coupled_.empty())
@@ -230,7 +205,7 @@ void ModalFlow::move_remembering(int length, const kernels::Array& load0, const 
       a_[i] = load0[i] + early * grows + mean[i] - slope[i];
       b_[i] = load0[i] + late * grows + mean[i] + slope[i];
     }
-    (void)coupled_.advance(0, to.q.data(), to.v.data(), a_.data(), b_.data(), rest(to.z));
+    (void)coupled_.advance(0, to.q.data(), to.v.data(), a_.data(), b_.data(), to.z.data());
   }
 }
 
@@ -302,10 +277,8 @@ void ModalFlow::inside(double time, double duration, const State& from, const ke
     q[j] = d.qq * from.q[i] + d.qv * from.v[i] + d.qf * a_[i] + d.qs * b_[i];
     v[j] = d.vq * from.q[i] + d.vv * from.v[i] + d.vf * a_[i] + d.vs * b_[i];
   }
-  if (fed())
-    diagonal_.inside(time, from.z.data(), a_.data(), b_.data(), q, v);
   coupled_.inside(time, from.q.data(), from.v.data(), a_.data(), b_.data(), q, v,
-                  fed() ? from.z.data() + diagonal_.size() : nullptr);
+                  fed() ? from.z.data() : nullptr);
   if (fed()) {
     std::copy_n(q, system_.size(), moved_.begin());
     std::copy_n(v, system_.size(), rate_.begin());
@@ -315,7 +288,6 @@ void ModalFlow::inside(double time, double duration, const State& from, const ke
 void ModalFlow::add_motion_forces(double* force) const {
   if (!fed())
     return;
-  diagonal_.add_forces(force);
   coupled_.add_forces(force);
   for (Eigen::Index j = 0; j < system_.size(); ++j)
     if (const auto i = static_cast<std::size_t>(j); apart_[i])
@@ -327,8 +299,7 @@ void ModalFlow::response(const double* force, double* moved) {
   std::fill(a_.begin(), a_.end(), 0.0);
   std::fill(b_.begin(), b_.end(), 0.0);
   std::fill(states_.begin(), states_.end(), 0.0);
-  (void)coupled_.advance(0, a_.data(), b_.data(), force, force, rest(states_));
-  diagonal_.response(force, a_.data());
+  (void)coupled_.advance(0, a_.data(), b_.data(), force, force, states_.data());
   for (std::size_t i = 0; i < apart_.size(); ++i)
     if (apart_[i])
       a_[i] = per_force_[i] * force[i];

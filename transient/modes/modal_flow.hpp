@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// The exact motion of the modes over a step of the splitting scheme, under loads and contact forces that are linear in time within it
-/// (oscillator.hpp; coupled_flow.hpp where a damping matrix couples modes, diagonal_flow.hpp where forces of motion do). Steps may have several
-/// lengths, whole multiples of the shortest.
+/// (oscillator.hpp; coupled_flow.hpp where a damping matrix or forces of motion couple modes; those that diagonal_flow.hpp moves are not among
+/// them, but for linear_flow.hpp). Steps may have several lengths, whole multiples of the shortest.
 ///
 /// Forces of motion: where such a force acts on one mode alone, that has another stiffness and damping. Their works, and displacements within a step
 /// for records, are those of the linear force in time that moves each mode by itself to where it is at the end: exact in the energy of the modes,
@@ -10,7 +10,6 @@
 #pragma once
 #include "core/state_archive.hpp"
 #include "transient/modes/coupled_flow.hpp"
-#include "transient/modes/diagonal_flow.hpp"
 #include "transient/modes/load_sum.hpp"
 
 namespace fretwork::transient {
@@ -26,10 +25,10 @@ struct ModalForce {
 
 class ModalFlow {
 public:
-  /// @param lengths  of steps in numbers of `step`, s; only 1 where a damping matrix couples modes
+  /// @param scene  its system, loads and duration   @param lengths  of steps in numbers of `step`, s; only 1 where a damping matrix couples modes
   ModalFlow(const Scene& scene, double step, const std::vector<int>& lengths);
 
-  /// Padded.
+  /// Padded; of arrays that are longer the modes are the first.
   struct State {
     kernels::Array q, v, z; ///< z: what forces of motion remember
     void visit(core::StateArchive& state) {
@@ -43,23 +42,25 @@ public:
     double energy = 0.0;                        ///< J, of the modes at its end
     double fluid_work = 0.0;                    ///< J, of forces that depend on the motion
   };
-  /// Sets z for the start of a run with the displacements and velocities of the state.
-  void start(State& state) const;
+  /// Sets z for the start of a run.
+  void start(State& state) const { state.z.assign(states_.size(), 0.0); }
   /// Modal force of the loads of the step about a time; `load` stays where there are none. No allocation.
   void load_about(double time, kernels::Array& load);
   /// The modes over `length` steps under the loads load0 to load1, alone. No allocation.
   Sums move(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
             State& to);
-  /// Over one step, with a constant force, on the modes and by the contacts that bear it.
+  /// Over one step, with a constant force.
   Sums move(const State& from, const kernels::Array& load0, const kernels::Array& load1,
-            const kernels::Array& constant, const RowForces& by_rows, State& to);
-  /// After `move` over this step: the same with another force, which changes.
+            const kernels::Array& constant, State& to);
+  /// The same with a force that changes.
   Sums push(const State& from, const kernels::Array& load0, const kernels::Array& load1,
-            const ModalForce& force, const RowForces& by_rows, State& to);
+            const ModalForce& force, State& to);
   /// Displacements in the middle of the step moved last (force null: none). No allocation.
   void middle(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
               const ModalForce* force, kernels::Array& q);
   [[nodiscard]] double energy(const State& state) const;
+  /// Numbers of modes, padded.
+  [[nodiscard]] int padded() const { return static_cast<int>(k_.size()); }
   /// State at a time after the start of a step of `duration`, as `move` with a force (null: none); n values each. No allocation.
   void inside(double time, double duration, const State& from, const kernels::Array& load0,
               const kernels::Array& load1, const ModalForce* force, double* q, double* v);
@@ -72,9 +73,9 @@ public:
 
 private:
   [[nodiscard]] std::size_t place(int length) const;
-  [[nodiscard]] int padded() const { return static_cast<int>(k_.size()); }
   [[nodiscard]] bool fed() const { return !system_.motion.empty(); }
   void make_tables(double h);
+  void copy_modes(const State& from, State& to) const;
   /// `to` follows: displacements and velocities of the modes that nothing couples, under the loads and a force.
   Sums move_apart(std::size_t place, const State& from, const kernels::Array& load0,
                   const kernels::Array& load1, const kernels::Array& mean, const kernels::Array& slope,
@@ -87,16 +88,13 @@ private:
                                const kernels::Array& load1, const kernels::Array& mean,
                                const kernels::Array& slope, const State& to);
   [[nodiscard]] double work_between_modes(const State& from, const State& to, double duration) const;
-  /// Of the states: those of blocks that are not diagonalised.
-  [[nodiscard]] double* rest(kernels::Array& z) const { return z.data() + diagonal_.size(); }
 
   System system_;
   double h_;
   LoadSum loads_;
   Eigen::VectorXd lone_k_, lone_c_; ///< n: stiffness and damping of modes by themselves
   std::vector<char> apart_;         ///< n: whether the mode moves with these
-  DiagonalFlow diagonal_;
-  CoupledFlow coupled_; ///< of blocks that are not diagonalised
+  CoupledFlow coupled_;
   std::vector<int> lengths_;
   std::vector<kernels::FlowTable> tables_;     ///< of the modes that nothing couples
   std::vector<kernels::FlowTable> own_;        ///< of all modes by themselves; with forces of motion

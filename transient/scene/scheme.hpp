@@ -98,6 +98,12 @@ struct Record {
   Energy energy;
 };
 
+/// What of a record takes work to find.
+struct RecordParts {
+  bool modes = true;    ///< q
+  bool energies = true; ///< in the terms of `energy`; the residual is right without
+};
+
 /// What a scheme has done so far.
 struct StepCounts {
   std::int64_t steps = 0;       ///< accepted
@@ -128,6 +134,9 @@ public:
   virtual ~Scheme() = default;
   /// Advances to the next record: the first call gives the first one.
   virtual const Record& advance() = 0;
+  /// Finds these parts of the record that `advance` has given last, where it left them out: q null, energies of modes that forces of motion couple
+  /// without damping and fluid. No allocation.
+  virtual void complete(const RecordParts& /*parts*/) {}
   /// Time of the record that `advance` will give, s; infinite after a failure.
   [[nodiscard]] virtual double next_time() const = 0;
   /// State at `time` between the last record and the next (before the first call: between 0 and the first).

@@ -272,6 +272,46 @@ FRETWORK_INLINE void scatter_on(int np, int rows, const double* const* row, cons
 FRETWORK_KERNEL(void, scatter, (int np, int rows, const double* const* row, const double* factor, double* v),
                 (np, rows, row, factor, v))
 
+/// Lanes i to i + vectors size_of<V> of all targets.
+template <class V, int targets, int vectors>
+FRETWORK_INLINE void scatter_here(int i, int rows, const double* const* row, const ScatterTarget* target) {
+  V s[targets][vectors];
+  for (int t = 0; t < targets; ++t)
+    for (int n = 0; n < vectors; ++n)
+      s[t][n] = at<V>(target[t].v + i + n * size_of<V>);
+  for (int r = 0; r < rows; ++r)
+#pragma GCC unroll 4
+    for (int n = 0; n < vectors; ++n) {
+      const V values = at<V>(row[r] + i + n * size_of<V>);
+#pragma GCC unroll 3
+      for (int t = 0; t < targets; ++t)
+        s[t][n] += target[t].factor[r] * values;
+    }
+  for (int t = 0; t < targets; ++t)
+    for (int n = 0; n < vectors; ++n)
+      at<V>(target[t].v + i + n * size_of<V>) = s[t][n];
+}
+template <class V, int targets>
+FRETWORK_INLINE void scatter_to(int np, int rows, const double* const* row, const ScatterTarget* target) {
+  constexpr int together = 4 * size_of<V>; // factors are read once for so many
+  int i = 0;
+  for (; i + together <= np; i += together)
+    scatter_here<V, targets, 4>(i, rows, row, target);
+  for (; i < np; i += size_of<V>)
+    scatter_here<V, targets, 1>(i, rows, row, target);
+}
+template <class V>
+FRETWORK_INLINE void scatter_several_on(int np, int rows, const double* const* row, int targets,
+                                        const ScatterTarget* target) {
+  if (targets == 2)
+    scatter_to<V, 2>(np, rows, row, target);
+  else
+    scatter_to<V, 3>(np, rows, row, target);
+}
+FRETWORK_KERNEL(void, scatter_several,
+                (int np, int rows, const double* const* row, int targets, const ScatterTarget* target),
+                (np, rows, row, targets, target))
+
 template <class V>
 FRETWORK_INLINE EulerSums euler_step_on(int np, double h, const double* c, const double* k,
                                         const double* load, const double* force, double* q, double* v) {

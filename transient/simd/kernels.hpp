@@ -228,6 +228,15 @@ extern const Kernel<void(const GatherTable& g, const double* q, double* u)> gath
 /// v += sum over r of factor[r] * row[r].
 extern const Kernel<void(int np, int rows, const double* const* row, const double* factor, double* v)>
     scatter;
+/// The same for two or three vectors v, each with factors of its own: rows are read once.
+inline constexpr int most_scattered = 3;
+struct ScatterTarget {
+  const double* factor;
+  double* v;
+};
+extern const Kernel<void(int np, int rows, const double* const* row, int targets,
+                         const ScatterTarget* target)>
+    scatter_several;
 /// One step of the semi-implicit Euler scheme: v1 = v + h (f - c v - k q), q1 = q + h v1, f including the
 /// contact forces. Returns the sums over modes with vm = (v + v1)/2.
 struct EulerSums {

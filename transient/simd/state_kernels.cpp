@@ -4,34 +4,141 @@
 
 namespace fretwork::transient::kernels {
 
-template <class V> FRETWORK_INLINE void decay_states_on(StateCount count, const double* decay, double* y) {
-  double* im = y + count.pairs;
-  for (int i = 0; i < count.pairs; i += size_of<V>) {
-    const V e = at<V>(decay + i), f = at<V>(decay + count.pairs + i), a = at<V>(y + i), b = at<V>(im + i);
-    at<V>(y + i) = e * a - f * b;
-    at<V>(im + i) = f * a + e * b;
-  }
-  for (int i = 2 * count.pairs; i < count.width(); i += size_of<V>)
-    at<V>(y + i) = at<V>(decay + i) * at<V>(y + i);
+/// Complex numbers, or real ones where `pair` is false: one of `lanes` in each place.
+template <class V, bool pair> struct Numbers { V re, im; };
+template <class V> struct Numbers<V, false> { V re; };
+template <class V, bool pair>
+FRETWORK_INLINE Numbers<V, pair> numbers_at(const double* array, int i, int pairs) {
+  if constexpr (pair)
+    return {at<V>(array + i), at<V>(array + pairs + i)};
+  else
+    return {at<V>(array + i)};
 }
-FRETWORK_KERNEL(void, decay_states, (StateCount count, const double* decay, double* y), (count, decay, y))
+/// c x; products are rounded where two of them meet, so that vectors of all sizes give the same bytes.
+template <class V, bool pair>
+FRETWORK_INLINE Numbers<V, pair> product(const Numbers<V, pair>& c, const Numbers<V, pair>& x) {
+  if constexpr (pair)
+    return {rounded(c.re * x.re) - c.im * x.im, rounded(c.re * x.im) + c.im * x.re};
+  else
+    return {rounded(c.re * x.re)};
+}
+/// s += c x.
+template <class V, bool pair>
+FRETWORK_INLINE void add_product(Numbers<V, pair>& s, const Numbers<V, pair>& c, const Numbers<V, pair>& x) {
+  s.re += c.re * x.re;
+  if constexpr (pair) {
+    s.re -= c.im * x.im;
+    s.im += c.re * x.im;
+    s.im += c.im * x.re;
+  }
+}
+/// s += row x, of real numbers.
+template <class V, bool pair>
+FRETWORK_INLINE void add_power(V& s, const Numbers<V, pair>& row, const Numbers<V, pair>& x) {
+  s += row.re * x.re;
+  if constexpr (pair)
+    s += row.im * x.im;
+}
+
+/// The inputs of a block at both ends of a step.
+template <class V, bool pair> struct InputEnds {
+  Numbers<V, pair> load0, load1, force0, force1;
+  /// @param array  which of the three
+  static __attribute__((always_inline)) InputEnds of(const StateInputs& x, StateCount count, int array,
+                                                     int i) {
+    const auto numbers = [&](const double* from) __attribute__((always_inline)) {
+      return numbers_at<V, pair>(from + array * count.width(), i, count.pairs);
+    };
+    const Numbers<V, pair> mean = numbers(x.mean), slope = numbers(x.slope);
+    InputEnds out{numbers(x.load0), numbers(x.load1), mean, mean};
+    out.force0.re -= slope.re;
+    out.force1.re += slope.re;
+    if constexpr (pair) {
+      out.force0.im -= slope.im;
+      out.force1.im += slope.im;
+    }
+    return out;
+  }
+  /// Load and contact force together.
+  static __attribute__((always_inline)) Numbers<V, pair> sum(const Numbers<V, pair>& a,
+                                                             const Numbers<V, pair>& b) {
+    if constexpr (pair)
+      return {a.re + b.re, a.im + b.im};
+    else
+      return {a.re + b.re};
+  }
+};
+
+/// step(i, part, pairs or not) for all vectors of a block.
+template <class V, class Step> FRETWORK_INLINE void for_states(StateCount count, const Step& step) {
+  for_vectors<V>(
+      count.pairs, [&](int pack, int part) __attribute__((always_inline)) {
+        step(pack + part * size_of<V>, part, std::true_type{});
+      });
+  for_vectors<V>(
+      count.reals, [&](int pack, int part) __attribute__((always_inline)) {
+        step(2 * count.pairs + pack + part * size_of<V>, part, std::false_type{});
+      });
+}
 
 template <class V>
-FRETWORK_INLINE void load_states_on(StateCount count, const double* answer, const double* g0,
-                                    const double* g1, double* y) {
-  const double* late = answer + count.width();
-  for (int i = 0, j = count.pairs; i < count.pairs; i += size_of<V>, j += size_of<V>) {
-    const V a = at<V>(answer + i), b = at<V>(answer + j), c = at<V>(late + i), d = at<V>(late + j);
-    const V re0 = at<V>(g0 + i), im0 = at<V>(g0 + j), re1 = at<V>(g1 + i), im1 = at<V>(g1 + j);
-    at<V>(y + i) += a * re0 - b * im0 + c * re1 - d * im1;
-    at<V>(y + j) += a * im0 + b * re0 + c * im1 + d * re1;
-  }
-  for (int i = 2 * count.pairs; i < count.width(); i += size_of<V>)
-    at<V>(y + i) += at<V>(answer + i) * at<V>(g0 + i) + at<V>(late + i) * at<V>(g1 + i);
+FRETWORK_INLINE void move_states_on(StateCount count, const double* table, const double* y0,
+                                    const StateInputs& inputs, double* y, double* rate) {
+  for_states<V>(
+      count, [&](int i, int, auto pair) __attribute__((always_inline)) {
+        using Ends = InputEnds<V, pair>;
+        const auto number = [&](int k) __attribute__((always_inline)) {
+          return numbers_at<V, pair>(table + k * count.width(), i, count.pairs);
+        };
+        const Ends g = Ends::of(inputs, count, 0, i);
+        auto to = product(number(StateTable::e), numbers_at<V, pair>(y0, i, count.pairs));
+        add_product(to, number(StateTable::a0), Ends::sum(g.load0, g.force0));
+        add_product(to, number(StateTable::a1), Ends::sum(g.load1, g.force1));
+        const auto moves = product(number(StateTable::l), to);
+        at<V>(y + i) = to.re;
+        at<V>(rate + i) = moves.re;
+        if constexpr (pair) {
+          at<V>(y + count.pairs + i) = to.im;
+          at<V>(rate + count.pairs + i) = moves.im;
+        }
+      });
 }
-FRETWORK_KERNEL(void, load_states,
-                (StateCount count, const double* answer, const double* g0, const double* g1, double* y),
-                (count, answer, g0, g1, y))
+FRETWORK_KERNEL(void, move_states,
+                (StateCount count, const double* table, const double* y0, const StateInputs& inputs,
+                 double* y, double* rate),
+                (count, table, y0, inputs, y, rate))
+
+template <class V>
+FRETWORK_INLINE StateWorks state_works_on(StateCount count, const double* table, const double* y0,
+                                          const StateInputs& inputs) {
+  Sums<V> load = {}, contact = {}, fluid = {};
+  for_states<V>(
+      count, [&](int i, int part, auto pair) __attribute__((always_inline)) {
+        using Ends = InputEnds<V, pair>;
+        const auto number = [&](int k) __attribute__((always_inline)) {
+          return numbers_at<V, pair>(table + k * count.width(), i, count.pairs);
+        };
+        const Ends g = Ends::of(inputs, count, 0, i), power = Ends::of(inputs, count, 1, i),
+                   fed = Ends::of(inputs, count, 2, i);
+        const auto from = numbers_at<V, pair>(y0, i, count.pairs), g0 = Ends::sum(g.load0, g.force0),
+                   g1 = Ends::sum(g.load1, g.force1);
+        auto early = product(number(StateTable::p), from), late = product(number(StateTable::r), from);
+        add_product(early, number(StateTable::p0), g0);
+        add_product(early, number(StateTable::p1), g1);
+        add_product(late, number(StateTable::r0), g0);
+        add_product(late, number(StateTable::r1), g1);
+        add_power(load[part], power.load0, early);
+        add_power(load[part], power.load1, late);
+        add_power(contact[part], power.force0, early);
+        add_power(contact[part], power.force1, late);
+        add_power(fluid[part], Ends::sum(fed.load0, fed.force0), early);
+        add_power(fluid[part], Ends::sum(fed.load1, fed.force1), late);
+      });
+  return {sum(load), sum(contact), sum(fluid)};
+}
+FRETWORK_KERNEL(StateWorks, state_works,
+                (StateCount count, const double* table, const double* y0, const StateInputs& inputs),
+                (count, table, y0, inputs))
 
 /// A tile of so many packs of rows, two columns at once: enough sums that none waits for another.
 template <class V, int packs>

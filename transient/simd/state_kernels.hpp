@@ -12,12 +12,31 @@ struct StateCount {
   [[nodiscard]] int width() const { return 2 * pairs + reals; }
 };
 
-/// y <- e y.   @param decay  e, as y
-extern const Kernel<void(StateCount count, const double* decay, double* y)> decay_states;
-/// y += a g0 + b g1.   @param answer  a, then b, each as y
-extern const Kernel<void(StateCount count, const double* answer, const double* g0, const double* g1,
-                         double* y)>
-    load_states;
+/// Numbers of a block for steps of one length t, arrays as y one after the other. With l the eigenvalues, phi_k of l t, inputs G0 and G1 at the start
+/// and at the end, linear between them:
+///     y1 = e y0 + a0 G0 + a1 G1,   y1' = l y1 (but for G1, which moves no displacement),
+///     int (1 - s) y dt = p y0 + p0 G0 + p1 G1,   int s y dt = r y0 + r0 G0 + r1 G1,   s the share of the step
+struct StateTable {
+  enum Number { e, a0, a1, l, p, p0, p1, r, r0, r1, numbers };
+};
+/// What a force on a block is: three numbers for each of y, one array after the other. Its input G; the row of y for its power, f^T v; and the row
+/// for what it adds to the fluid's work (modes/diagonal_flow.hpp).
+inline constexpr int numbers_of_input = 3;
+/// Inputs over a step: a load from load0 to load1 and a contact force from mean - slope to mean + slope.
+struct StateInputs {
+  const double *load0, *load1, *mean, *slope;
+};
+/// y1 and l y1.
+extern const Kernel<void(StateCount count, const double* table, const double* y0, const StateInputs& inputs,
+                         double* y, double* rate)>
+    move_states;
+/// J over the step: of the load, of the contact force, and of both by the third row.
+struct StateWorks {
+  double load = 0.0, contact = 0.0, fluid = 0.0;
+};
+extern const Kernel<StateWorks(StateCount count, const double* table, const double* y0,
+                               const StateInputs& inputs)>
+    state_works;
 
 /// Rows of a matrix whose columns follow each other, for `multiply`: two packs, or the last one.
 inline constexpr int tile = 2 * lanes;

@@ -85,6 +85,7 @@ public:
     return record;
   }
 
+  void complete(const RecordParts& parts) override { running_->complete(parts); }
   [[nodiscard]] double next_time() const override { return running_->next_time(); }
   void state_at(double time, double* q, double* v) override { running_->state_at(time, q, v); }
   bool forces_at(double time, std::span<ContactForce> forces) override {

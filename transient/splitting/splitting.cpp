@@ -13,13 +13,14 @@
 /// speeds times L.
 ///
 /// Energy: works of loads and contact forces on the modes are exact, modal damping is what the flow does not keep of them. The residual of the
-/// energy balance is what the contacts' laws, along their own path, made otherwise than the modes.
+/// energy balance is what the contacts' laws, along their own path, made otherwise than the modes. Where forces of motion couple modes their energy, the
+/// fluid's work (diagonal_flow.hpp) and with them modal damping are found for the records that are asked for them, exactly; the residual is right in all.
 ///
 /// A record stands for a step and for the forces in it, its positions are those in the middle.
 #include "transient/splitting/splitting.hpp"
 #include "transient/contacts/obstacle_motion.hpp"
 #include "transient/modes/mass_scaling.hpp"
-#include "transient/modes/modal_flow.hpp"
+#include "transient/splitting/block_balance.hpp"
 #include "transient/splitting/macro_steps.hpp"
 #include "transient/splitting/replays.hpp"
 #include "transient/splitting/step_forces.hpp"
@@ -27,6 +28,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace fretwork::transient {
@@ -51,15 +53,19 @@ public:
   /// @param scene  in the coordinates p of mass_scaling.hpp   @param mode_scales  n, q = mode_scales p; empty: all 1
   Splitting(const Scene& scene, double step, const Eigen::VectorXd& mode_scales, int longest, int parts)
       : h_(step), duration_(scene.duration), lengths_(lengths_up_to(longest)), modes_(scene, step, lengths_),
-        contacts_(scene.contacts, scene.system.size()), start_(contacts_), end_(contacts_),
+        mode_count_(static_cast<std::size_t>(scene.system.size())),
+        contacts_(modes_.outputs(scene.contacts), modes_.coordinates(), modes_.has_blocks()),
+        inputs_(inputs_of(scene)), start_(contacts_), end_(contacts_),
         obstacles_(scene, contacts_), imposed_{obstacles_.workspace(), obstacles_.workspace()},
-        forces_(contacts_),
-        sweeps_(make_sweeps(scene, parts)), steps_{Step(contacts_), Step(contacts_), Step(contacts_)} {
-    const auto n = static_cast<std::size_t>(contacts_.padded_modes);
+        forces_(inputs_ ? *inputs_ : contacts_),
+        sweeps_(make_sweeps(scene, parts)), steps_{Step(*this), Step(*this), Step(*this)} {
+    const auto n = static_cast<std::size_t>(kernels::padded(static_cast<int>(scene.system.size())));
     if (mode_scales.size() > 0) {
       mode_scales_.assign(n, 1.0);
       std::copy_n(mode_scales.data(), mode_scales.size(), mode_scales_.begin());
     }
+    if (modes_.has_blocks())
+      shown_.assign(n, 0.0);
     const auto count = static_cast<std::size_t>(contacts_.count);
     was_near_.assign(count, 1); // nothing is known yet
     near_.reserve(count);
@@ -70,13 +76,11 @@ public:
     window_ = convex ? 1.0 : 1.0 / 3.0;
 
     Step& first = steps_[0];
-    first.from.q = kernels::padded_copy(scene.q0);
-    first.from.v = kernels::padded_copy(scene.v0);
     for (Step& s : steps_)
-      modes_.start(s.from);
+      s.from = modes_.start(scene.q0, scene.v0);
     modes_.load_about(0.0, first.load);
     obstacles_.place(0.0, first.from.q.data(), first.from.v.data(), imposed_[1], end_);
-    moving_ = modes_.energy(first.from);
+    moving_ = modes_.energy_at_start(first.from);
     energy_.start(moving_ + end_.spring_energy());
     preload();
     make();
@@ -88,11 +92,25 @@ public:
     record_.time = now.start + 0.5 * now.length;
     record_.step = now.length;
     record_.energy = now.energy;
-    show(record_, contacts_, now.q.data(), now.u.data(), now.trial);
+    show(record_, contacts_, modes_.has_blocks() ? nullptr : now.q.data(), now.u.data(), now.trial);
     counts_.steps += now.steps;
     made_ = next(made_);
     make();
     return record_;
+  }
+
+  void complete(const RecordParts& parts) override {
+    if (!modes_.has_blocks())
+      return;
+    const Step &now = steps_[published_], &end = steps_[made_];
+    if (parts.energies)
+      record_.energy = now.blocks.whole(now.energy, modes_, end.from);
+    if (!parts.modes)
+      return;
+    modes_.modes_in_middle(now.steps, now.from, now.load, end.load, now.pushed ? &now.force : nullptr, now.q,
+                           shown_.data());
+    scale(shown_.data(), 1);
+    record_.q = shown_.data();
   }
 
   void state_at(double time, double* q, double* v) override {
@@ -128,6 +146,7 @@ public:
     near_ = other.near_;
     moving_ = other.moving_;
     energy_ = other.energy_;
+    blocks_ = other.blocks_;
     wait_ = other.wait_;
     forces_.assemble(sweeps_, near_, nullptr);
     make();
@@ -146,17 +165,18 @@ public:
 
   void visit(core::StateArchive& state) override {
     state(steps_, published_, made_, end_, was_near_, sweeps_, forces_);
-    state(imposed_[1].u, imposed_[1].w, done_, wait_, moving_, energy_, counts_);
+    state(imposed_[1].u, imposed_[1].w, done_, wait_, moving_, energy_, blocks_, counts_);
   }
 
 private:
   /// A step: where it starts, what acts in it and what its record shows.
   struct Step {
-    explicit Step(const PackedContacts& contacts) : trial(contacts.count) {
-      const auto n = static_cast<std::size_t>(contacts.padded_modes);
-      for (kernels::Array* a : {&from.q, &from.v, &load, &force.mean, &force.slope, &q})
+    explicit Step(const Splitting& of) : trial(of.contacts_.count) {
+      const auto n = static_cast<std::size_t>(of.modes_.force_numbers());
+      for (kernels::Array* a : {&load, &force.mean, &force.slope})
         a->assign(n, 0.0);
-      u.assign(static_cast<std::size_t>(contacts.stride()), 0.0);
+      q.assign(static_cast<std::size_t>(of.modes_.coordinates()), 0.0);
+      u.assign(static_cast<std::size_t>(of.contacts_.stride()), 0.0);
     }
     double start = 0.0, length = 0.0; ///< s
     int steps = 0;                    ///< of h
@@ -166,22 +186,29 @@ private:
     ModalForce force;
     kernels::Array q, u; ///< in its middle
     ContactTrial trial;
-    Energy energy; ///< at its end
+    Energy energy; ///< at its end; of modes in blocks without damping and fluid
+    BlockBalance blocks;
     void visit(core::StateArchive& state) {
-      state(start, length, steps, from, load, pushed, force, q, u, trial, energy);
+      state(start, length, steps, from, load, pushed, force, q, u, trial, energy, blocks);
     }
   };
   [[nodiscard]] static std::size_t next(std::size_t step) { return step == 2 ? 0 : step + 1; }
 
   ContactSweeps make_sweeps(const Scene& scene, int parts) {
     ContactBlocks blocks(scene);
-    auto mobility = step_mobility(scene, blocks, contacts_.components,
-                                  static_cast<std::size_t>(contacts_.padded_modes), modes_, h_);
+    auto mobility = step_mobility(scene, blocks, contacts_.components, modes_, h_);
     return {contacts_, std::move(blocks), std::move(mobility), h_, parts};
   }
 
+  [[nodiscard]] std::optional<PackedContacts> inputs_of(const Scene& scene) const {
+    if (!modes_.has_blocks())
+      return std::nullopt;
+    return std::optional<PackedContacts>(std::in_place, modes_.inputs(scene.contacts),
+                                         modes_.force_numbers());
+  }
+
   void scale(double* modal, int power) const {
-    for (std::size_t j = 0; j < std::min(mode_scales_.size(), static_cast<std::size_t>(contacts_.modes)); ++j)
+    for (std::size_t j = 0; j < std::min(mode_scales_.size(), mode_count_); ++j)
       modal[j] *= power > 0 ? mode_scales_[j] : 1.0 / mode_scales_[j];
   }
 
@@ -215,9 +242,9 @@ private:
     s.length = length * h_;
     to.start = static_cast<double>(done_ + length) * h_;
     modes_.load_about(to.start, to.load);
-    const ModalFlow::Sums sums = forces_.any_held() ? modes_.move(s.from, s.load, to.load, forces_.held(),
-                                                                  forces_.held_by_rows(), to.from)
-                                                    : modes_.move(length, s.from, s.load, to.load, to.from);
+    const ModalFlow::Sums sums = forces_.any_held()
+                                     ? modes_.move(s.from, s.load, to.load, forces_.held(), to.from)
+                                     : modes_.move(length, s.from, s.load, to.load, to.from);
     obstacles_.place(to.start, to.from.q.data(), to.from.v.data(), imposed_[1], end_);
     return sums;
   }
@@ -262,15 +289,15 @@ private:
     for (const int c : near_)
       was_near_[c] = end_.near(c) || sum_of_sizes(sweeps_.force(c).held) > 0.0;
     prepare_output(s, to);
-    balance_energy(s, sums, losses, brought);
+    modes_.add_works(s.steps, s.from, s.load, to.load, s.pushed ? &s.force : nullptr, sums, blocks_.works);
+    balance_energy(s, to.from, sums, losses, brought);
     done_ += s.steps;
   }
 
   /// The modes take the forces of the contacts.
   ModalFlow::Sums push(Step& s, Step& to) {
     forces_.assemble(sweeps_, near_, &s.force);
-    const ModalFlow::Sums sums =
-        modes_.push(s.from, s.load, to.load, s.force, forces_.found_by_rows(), to.from);
+    const ModalFlow::Sums sums = modes_.push(s.from, s.load, to.load, s.force, to.from);
     end_.gather(to.from.q.data(), to.from.v.data());
     imposed_[1].add_to(end_);
     return sums;
@@ -296,11 +323,12 @@ private:
     const double eighth = 0.125 * s.length; // of contacts: by the cubic through both ends
     for (std::size_t lane = 0; lane < s.u.size(); ++lane)
       s.u[lane] = 0.5 * (start_.u[lane] + end_.u[lane]) + eighth * (start_.w[lane] - end_.w[lane]);
-    for (std::size_t i = 0; i < mode_scales_.size(); ++i)
+    for (std::size_t i = 0; i < mode_scales_.size() && !modes_.has_blocks(); ++i)
       s.q[i] *= mode_scales_[i];
   }
 
-  void balance_energy(Step& s, const ModalFlow::Sums& sums, const ContactLosses& losses, double brought) {
+  void balance_energy(Step& s, const ModalFlow::State& end, const ModalFlow::Sums& sums,
+                      const ContactLosses& losses, double brought) {
     energy_.load_work += sums.load_work + brought;
     energy_.scale += std::abs(sums.load_work) + std::abs(brought);
     energy_.fluid_work += sums.fluid_work;
@@ -310,14 +338,20 @@ private:
     energy_.friction += losses.friction;
     moving_ = sums.energy;
     energy_.stored = moving_ + sweeps_.spring_energy();
+    if (modes_.has_blocks()) {
+      energy_.scale += blocks_.add_to_scale(modes_, end);
+      s.blocks = blocks_;
+    }
     s.energy = energy_;
   }
 
   double h_, duration_;
   std::vector<int> lengths_;
-  ModalFlow modes_;
-  PackedContacts contacts_;
-  ContactMotion start_, end_; ///< of the step that is made
+  LinearFlow modes_;
+  std::size_t mode_count_;
+  PackedContacts contacts_;              ///< rows over coordinates
+  std::optional<PackedContacts> inputs_; ///< over the numbers of a force, where these are others
+  ContactMotion start_, end_;            ///< of the step that is made
   ObstacleMotion obstacles_;
   std::array<ImposedMotion, 2> imposed_; ///< likewise
   StepForces forces_;
@@ -329,11 +363,13 @@ private:
   std::vector<int> near_;
   double window_;
   kernels::Array mode_scales_; ///< with scaled masses
+  kernels::Array shown_;       ///< modes of the record, with blocks
 
   std::int64_t done_ = 0; ///< steps of h up to the one that is made
   int wait_ = 0;          ///< steps until macro-steps are tried again
   double moving_ = 0.0;   ///< J, of the modes at the end of the last step
   Energy energy_;
+  BlockBalance blocks_;
   Record record_;
   StepCounts counts_;
 };

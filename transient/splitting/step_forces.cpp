@@ -6,10 +6,9 @@ namespace fretwork::transient {
 
 StepForces::StepForces(const PackedContacts& contacts)
     : components_(contacts.components), rows_(contacts),
-      numbers_(3 * static_cast<std::size_t>(contacts.count)),
       held_(static_cast<std::size_t>(contacts.padded_modes), 0.0) {
   for (auto& f : factors_)
-    f.resize(numbers_.size());
+    f.resize(3 * static_cast<std::size_t>(contacts.count));
 }
 
 void StepForces::add(int c, int component, double held, double mean, double slope) {
@@ -18,15 +17,9 @@ void StepForces::add(int c, int component, double held, double mean, double slop
   factors_[0][rows_.size()] = held;
   factors_[1][rows_.size()] = mean;
   factors_[2][rows_.size()] = slope;
-  numbers_[rows_.size()] = 3 * c + component;
   rows_.add(c, component);
   any_held_ = any_held_ || held != 0.0;
   any_slope_ = any_slope_ || slope != 0.0;
-}
-
-void StepForces::sum(std::size_t which, kernels::Array& to) {
-  std::fill(to.begin(), to.end(), 0.0);
-  rows_.add_to(factors_[which].data(), to.data());
 }
 
 void StepForces::assemble(const ContactSweeps& sweeps, const std::vector<int>& contacts, ModalForce* found) {
@@ -39,16 +32,21 @@ void StepForces::assemble(const ContactSweeps& sweeps, const std::vector<int>& c
     if (components_ == 3)
       add(c, 2, f.held.x, f.mean.x, f.slope.x);
   }
-  count_ = rows_.size();
+  RowScatter::Targets targets{};
+  std::size_t count = 0;
+  const auto sum = [&](std::size_t which, kernels::Array& to, bool any) {
+    std::fill(to.begin(), to.end(), 0.0);
+    if (any)
+      targets[count++] = {factors_[which].data(), to.data()};
+  };
   if (any_held_)
-    sum(0, held_);
-  if (!found)
-    return;
-  sum(1, found->mean);
-  if (any_slope_)
-    sum(2, found->slope);
-  else
-    std::fill(found->slope.begin(), found->slope.end(), 0.0);
+    sum(0, held_, true);
+  if (found) {
+    sum(1, found->mean, true);
+    sum(2, found->slope, any_slope_);
+  }
+  if (count > 0)
+    rows_.add_to(targets, static_cast<int>(count));
 }
 
 } // namespace fretwork::transient

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// The contact forces of a step of the splitting scheme as forces on the modes: those held from the last step, under which the modes are predicted, and
+/// The contact forces of a step of the splitting scheme as forces on the modes (numbers of linear_flow.hpp): those held from the last step, under which the modes are predicted, and
 /// those found, under which they move.
 #pragma once
 #include "core/state_archive.hpp"
@@ -13,7 +13,7 @@ namespace fretwork::transient {
 
 class StepForces {
 public:
-  /// @param contacts  must live longer
+  /// @param contacts  with rows over the numbers of a force; must live longer
   explicit StepForces(const PackedContacts& contacts);
 
   /// Takes the forces of these contacts. No allocation.   @param found  overwritten by those of the step; null: only those held are wanted
@@ -22,23 +22,14 @@ public:
   [[nodiscard]] bool any_held() const { return any_held_; }
   /// Modal force of those held, padded; only where there are any.
   [[nodiscard]] const kernels::Array& held() const { return held_; }
-  /// By the contacts that bear them: those held, constant, and those of the step.
-  [[nodiscard]] RowForces held_by_rows() const { return by_rows(0, nullptr); }
-  [[nodiscard]] RowForces found_by_rows() const { return by_rows(1, factors_[2].data()); }
-  void visit(core::StateArchive& state) { state(held_, any_held_, count_, numbers_, factors_[0]); }
+  void visit(core::StateArchive& state) { state(held_, any_held_); }
 
 private:
-  [[nodiscard]] RowForces by_rows(std::size_t which, const double* slope) const {
-    return {count_, numbers_.data(), factors_[which].data(), slope};
-  }
   void add(int c, int component, double held, double mean, double slope);
-  void sum(std::size_t which, kernels::Array& to);
 
   int components_;
   RowScatter rows_;
   std::array<std::vector<double>, 3> factors_; ///< N, held, mean, slope
-  std::vector<int> numbers_;                   ///< of the rows: 3 times the contact plus the component
-  std::size_t count_ = 0;
   kernels::Array held_;
   bool any_held_ = false, any_slope_ = false;
 };

@@ -24,15 +24,15 @@ void for_modes(const Scene& scene, const ContactBlocks& blocks, std::size_t bloc
 
 // Blocks share no mode: one motion of all modes is the response to a force in each of them.
 std::vector<std::vector<Mobility>> step_mobility(const Scene& scene, const ContactBlocks& blocks,
-                                                 int components, std::size_t padded_modes, ModalFlow& modes,
-                                                 double step) {
+                                                 int components, LinearFlow& modes, double step) {
   std::vector<std::vector<Mobility>> out;
   std::size_t most = 0;
   for (const auto& contacts : blocks.contacts) {
     out.emplace_back(contacts.size() * contacts.size());
     most = std::max(most, contacts.size());
   }
-  kernels::Array force(padded_modes), moved(force);
+  kernels::Array force(static_cast<std::size_t>(kernels::padded(static_cast<int>(scene.system.size())))),
+      moved(force);
   for (std::size_t from = 0; from < most; ++from)
     for (int component = 0; component < components; ++component) {
       std::fill(force.begin(), force.end(), 0.0);

@@ -4,16 +4,15 @@
 /// from rest under constant forces f.
 #pragma once
 #include "transient/contacts/contact_blocks.hpp"
-#include "transient/modes/modal_flow.hpp"
+#include "transient/modes/linear_flow.hpp"
 #include "transient/splitting/contact_interval.hpp"
 
 namespace fretwork::transient {
 
 /// By blocks: of the block's contact `to` by a force on its contact `from`, at from * contacts of the block + to.
-/// @param components  2, or 3 where friction acts along x_loc   @param padded_modes  size of the arrays of `modes`   @param step  h, s
+/// @param components  2, or 3 where friction acts along x_loc   @param step  h, s
 [[nodiscard]] std::vector<std::vector<Mobility>> step_mobility(const Scene& scene,
                                                                const ContactBlocks& blocks, int components,
-                                                               std::size_t padded_modes, ModalFlow& modes,
-                                                               double step);
+                                                               LinearFlow& modes, double step);
 
 } // namespace fretwork::transient

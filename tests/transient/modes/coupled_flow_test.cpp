@@ -244,45 +244,108 @@ TEST(DiagonalFlow, MovesAsTheMatrixExponential) {
   ASSERT_EQ(blocks.size(), 1u);
   constexpr double step = 1e-3;
   CoupledFlow exponential(scene.system, blocks, step);
-  DiagonalFlow diagonal(scene, blocks, step, {3, 1});
+  DiagonalFlow diagonal(scene.system, blocks, step, {3, 1});
   EXPECT_TRUE(blocks.empty());
-  kernels::Array q(8, 0.0), v(8, 0.0), f0(8, 0.0), f1(8, 0.0), y(diagonal.size());
+  kernels::Array q(8, 0.0), v(8, 0.0), f0(8, 0.0), f1(8, 0.0), y(diagonal.size()), rate(y);
   for (std::size_t i = 0; i < 4; ++i) {
     q[i] = 1e-3 * static_cast<double>(i + 1);
     v[i] = 0.1 - 0.07 * static_cast<double>(i);
     f0[i] = 3.0 - static_cast<double>(i);
     f1[i] = 1.0 + 2.0 * static_cast<double>(i);
   }
+  const kernels::Array none(kernels::numbers_of_input * y.size(), 0.0);
+  const auto input = [&](const kernels::Array& force) {
+    kernels::Array g(none);
+    diagonal.add_input(force.data(), g.data());
+    return g;
+  };
+  const kernels::Array g0 = input(f0), g1 = input(f1);
+  const kernels::StateInputs loads{g0.data(), g1.data(), none.data(), none.data()};
   diagonal.start(q.data(), v.data(), y.data());
-  kernels::Array q_e = q, v_e = v, z(4, 0.0), q_in(8, 0.0), v_in(8, 0.0), slope(8, 0.0);
-  for (int k = 0; k < 5; ++k) {
-    const kernels::Array y0 = y;
-    diagonal.move(1, y0.data(), f0.data(), f1.data(), y.data(), q.data(), v.data());
-    (void)exponential.advance(0, q_e.data(), v_e.data(), f0.data(), f1.data(), z.data());
+  kernels::Array q_e = q, v_e = v, z(4, 0.0);
+  const auto expect_same = [&](const kernels::Array& at) {
+    diagonal.modes_of(at.data(), q.data(), v.data());
     for (std::size_t i = 0; i < 4; ++i) {
-      EXPECT_NEAR(q[i], q_e[i], round_off * 0.01) << k << " " << i;
-      EXPECT_NEAR(v[i], v_e[i], round_off * 10.0) << k << " " << i;
+      EXPECT_NEAR(q[i], q_e[i], round_off * 0.01) << i;
+      EXPECT_NEAR(v[i], v_e[i], round_off * 10.0) << i;
     }
+  };
+  kernels::Array y0;
+  for (int k = 0; k < 5; ++k) {
+    y0 = y;
+    diagonal.move(1, y0.data(), loads, y.data(), rate.data());
+    (void)exponential.advance(0, q_e.data(), v_e.data(), f0.data(), f1.data(), z.data());
+    expect_same(y);
   }
-  // three steps at once under one line of the load
-  kernels::Array y3 = y, q3 = q, v3 = v;
-  diagonal.move(0, y.data(), f0.data(), f1.data(), y3.data(), q3.data(), v3.data());
+  // three steps at once under one line of the load, as a load or as a contact force
+  y0 = y;
+  diagonal.move(0, y0.data(), loads, y.data(), rate.data());
+  kernels::Array from(8, 0.0), to(8, 0.0), mean(8, 0.0), slope(8, 0.0), y3(y);
+  for (std::size_t i = 0; i < 4; ++i) {
+    mean[i] = 0.5 * (f0[i] + f1[i]);
+    slope[i] = 0.5 * (f1[i] - f0[i]);
+  }
+  const kernels::Array m = input(mean), s = input(slope);
+  diagonal.move(0, y0.data(), {none.data(), none.data(), m.data(), s.data()}, y3.data(), rate.data());
+  for (std::size_t i = 0; i < y.size(); ++i)
+    EXPECT_NEAR(y3[i], y[i], round_off * 10.0);
   for (int k = 0; k < 3; ++k) {
-    kernels::Array from(8, 0.0), to(8, 0.0);
     for (std::size_t i = 0; i < 4; ++i) {
       from[i] = f0[i] + k / 3.0 * (f1[i] - f0[i]);
       to[i] = f0[i] + (k + 1) / 3.0 * (f1[i] - f0[i]);
-      slope[i] = (f1[i] - f0[i]) / (3.0 * step);
     }
     (void)exponential.advance(0, q_e.data(), v_e.data(), from.data(), to.data(), z.data());
   }
-  diagonal.inside(3.0 * step, y.data(), f0.data(), slope.data(), q_in.data(), v_in.data());
-  for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_NEAR(q3[i], q_e[i], round_off * 0.01) << i;
-    EXPECT_NEAR(v3[i], v_e[i], round_off * 10.0) << i;
-    EXPECT_NEAR(q_in[i], q_e[i], round_off * 0.01) << i;
-    EXPECT_NEAR(v_in[i], v_e[i], round_off * 10.0) << i;
+  expect_same(y);
+  diagonal.inside(3.0 * step, y0.data(), loads, y3.data());
+  expect_same(y3);
+}
+
+/// Against Simpson's rule over instants inside a step.
+TEST(DiagonalFlow, KnowsTheWorksOfAllForces) {
+  const Scene scene = fed();
+  std::vector<CoupledBlock> blocks = coupled_blocks(scene.system);
+  constexpr double step = 2e-3;
+  DiagonalFlow diagonal(scene.system, blocks, step, {1});
+  const Eigen::Vector4d load0(3.0, -2.0, 1.0, 0.5), load1(1.0, 4.0, -2.0, 1.0), mean(-5.0, 2.0, 0.0, 7.0),
+      slope(1.0, -1.0, 3.0, 2.0);
+  const auto input = [&](const Eigen::Vector4d& force) {
+    kernels::Array g(kernels::numbers_of_input * diagonal.size(), 0.0);
+    diagonal.add_input(force.data(), g.data());
+    return g;
+  };
+  const kernels::Array l0 = input(load0), l1 = input(load1), m = input(mean), s = input(slope),
+                       none(l0.size(), 0.0);
+  kernels::Array y0(diagonal.size(), 0.0), y1(y0), y(y0), rate(y0);
+  Eigen::Vector4d q(1e-3, -2e-3, 0.0, 5e-4), v(0.1, 0.3, -0.2, 0.05);
+  diagonal.start(q.data(), v.data(), y0.data());
+  const kernels::StateInputs inputs{l0.data(), l1.data(), m.data(), s.data()};
+  diagonal.move(0, y0.data(), inputs, y1.data(), rate.data());
+  const kernels::StateWorks works = diagonal.works(0, y0.data(), inputs);
+  constexpr int intervals = 2000;
+  double load = 0.0, contact = 0.0, fluid = 0.0, damping = 0.0;
+  for (int k = 0; k <= intervals; ++k) {
+    const double share = static_cast<double>(k) / intervals;
+    const double weight = (k == 0 || k == intervals ? 1.0 : k % 2 == 0 ? 2.0 : 4.0) * step / intervals / 3.0;
+    const Eigen::Vector4d of_load = load0 + share * (load1 - load0),
+                          of_contact = mean + (2.0 * share - 1.0) * slope;
+    const kernels::Array start = input(load0 + mean - slope), now = input(of_load + of_contact);
+    diagonal.inside(share * step, y0.data(), {start.data(), now.data(), none.data(), none.data()}, y.data());
+    diagonal.modes_of(y.data(), q.data(), v.data());
+    Eigen::Vector4d of_fluid = Eigen::Vector4d::Zero();
+    diagonal.add_forces(y.data(), of_fluid.data());
+    load += weight * of_load.dot(v);
+    contact += weight * of_contact.dot(v);
+    fluid += weight * of_fluid.dot(v);
+    damping += weight * v.cwiseAbs2().dot(scene.system.damping);
   }
+  constexpr double digits = 1e-10; // of Simpson's rule and of P
+  const double found = works.fluid + diagonal.fluid_form(y0.data()) - diagonal.fluid_form(y1.data());
+  EXPECT_NEAR(works.load, load, digits * std::abs(load));
+  EXPECT_NEAR(works.contact, contact, digits * std::abs(contact));
+  EXPECT_NEAR(found, fluid, digits * std::abs(fluid));
+  EXPECT_NEAR(load + contact + fluid - damping, diagonal.energy(y1.data()) - diagonal.energy(y0.data()),
+              digits * damping);
 }
 
 TEST(CoupledFlow, TakesOnlyTheModesThatTheMatrixCouples) {

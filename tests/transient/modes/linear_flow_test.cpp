@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Runs in the coordinates of blocks that forces of motion couple: what they show of the modes, of the energies, and of loads and contacts.
+#include "transient/modes/linear_flow.hpp"
+#include "post/node_statistics.hpp"
+#include "post/power_balance.hpp"
+#include "scenes.hpp"
+#include "signals/sampled_forces.hpp"
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace linear_flow_test {
+
+using namespace fretwork;
+using namespace fretwork::tests;
+using namespace fretwork::transient;
+
+namespace {
+
+constexpr double h = 1e-4; // s
+constexpr Eigen::Index modes = 11;
+
+/// Of modes 0 to 4, of 6 and 9 with lags of complex rates, and of 8 alone, which is one of another stiffness and damping.
+core::MotionForces law() {
+  constexpr Eigen::Index states = 7;
+  core::MotionForces f;
+  f.stiffness = f.damping = Eigen::MatrixXd::Zero(modes, modes);
+  f.input = Eigen::MatrixXd::Zero(modes, states);
+  f.output = Eigen::MatrixXd::Zero(states, modes);
+  f.rates = Eigen::MatrixXd::Zero(states, states);
+  f.stiffness.topLeftCorner(5, 5) << -900, 300, 50, 0, 0, -300, -900, 0, 20, 0, 50, 10, -400, 0, 100, 0, -60, 0,
+      -500, 0, 0, 0, 90, 0, -100;
+  f.damping.topLeftCorner(5, 5).setConstant(0.4);
+  f.damping(0, 0) = 9.0;
+  for (Eigen::Index k = 0; k < 5; ++k) {
+    f.input(k, k) = 700.0;
+    f.input((k + 1) % 5, k) = -80.0;
+    f.output(k, k) = 1.0;
+    f.rates(k, k) = -40.0 - 9.0 * static_cast<double>(k);
+  }
+  f.stiffness(6, 9) = 200.0;
+  f.input.block(6, 5, 1, 2) << 500.0, -100.0;
+  f.input(9, 5) = 60.0;
+  f.output(5, 6) = f.output(6, 9) = 1.0;
+  f.rates.bottomRightCorner(2, 2) << -30.0, 25.0, -25.0, -30.0;
+  f.stiffness(8, 8) = -1500.0;
+  f.damping(8, 8) = -2.0;
+  return f;
+}
+
+/// Forces of motion that couple the modes of the same blocks and are nothing beside the others.
+core::MotionForces law_of_nothing() {
+  core::MotionForces f = law();
+  for (Eigen::MatrixXd* x : {&f.stiffness, &f.damping, &f.input})
+    *x *= 1e-30;
+  return f;
+}
+
+Scene rattling_tube(double duration) {
+  Scene scene = rattling(5, modes, duration);
+  scene.v0.setConstant(0.02);
+  return scene;
+}
+
+TEST(LinearFlow, IsThatOfTheAdaptiveSchemeThroughContacts) {
+  Scene scene = rattling_tube(0.02);
+  scene.system.motion = law();
+  ASSERT_TRUE(LinearFlow(scene, h, {1}).has_blocks());
+  StepOptions adaptive;
+  adaptive.scheme = SchemeKind::runge_kutta_54;
+  adaptive.tolerance = 1e-9;
+  const History ours = simulate(scene, splitting(5e-6), 1e-3), reference = simulate(scene, adaptive, 1e-3);
+  const Energy &a = ours.report.energy, &b = reference.report.energy;
+  EXPECT_GT(reference.statistics[0].impacts + reference.statistics[1].impacts, 0);
+  constexpr double of_step = 2e-3; // of steps with w_c h = 0.02, through impacts
+  EXPECT_LT((ours.q - reference.q).norm(), of_step * reference.q.norm());
+  EXPECT_GT(std::abs(b.fluid_work), 1e-3 * b.stored);
+  EXPECT_NEAR(a.fluid_work, b.fluid_work, 10.0 * of_step * std::abs(b.fluid_work));
+  EXPECT_NEAR(a.modal_damping, b.modal_damping, 10.0 * of_step * b.modal_damping);
+}
+
+/// With modes of a block and outside of it at each contact, macro-steps, sampled and other loads, nodes that are watched.
+TEST(LinearFlow, LeavesARunWithoutForcesOfMotionAsItIs) {
+  Scene scene = rattling_tube(0.05);
+  for (auto& c : scene.contacts)
+    c.support.normal.damping = 0.0; // macro-steps
+  scene.loads.push_back({Constant{1.0}, Eigen::VectorXd::Constant(modes, 0.3)});
+  scene.sampled_loads = {sampled_sines(std::vector<double>(modes, 2.0), 7e-4)};
+  Scene coupled = scene;
+  coupled.system.motion = law_of_nothing();
+  ASSERT_TRUE(LinearFlow(coupled, h, {1}).has_blocks());
+  StepChoice choice = choose_step(scene, splitting(2e-5));
+  choice.macro_steps = 8;
+  Eigen::MatrixXd node(3, modes);
+  for (Eigen::Index i = 0; i < modes; ++i)
+    node.col(i) << 1.0, std::cos(static_cast<double>(i)), std::sin(2.0 * static_cast<double>(i));
+  const auto observed = [&](const Scene& of, Report& report) {
+    post::NodeStatistics nodes({node}, 0.01);
+    post::ContactStatistics contacts(of.contacts, 0.01);
+    Observer* const observers[] = {&nodes, &contacts};
+    report = run(of, choice, observers, nullptr, {});
+    Eigen::VectorXd out(5);
+    const auto moments = nodes.summaries()[0].displacement;
+    out << moments[0].std, moments[1].std, moments[2].mean, contacts.summaries()[0].normal_rms,
+        contacts.summaries()[1].normal_rms;
+    return out;
+  };
+  Report a, b;
+  const Eigen::VectorXd plain = observed(scene, a);
+  const Eigen::VectorXd in_blocks = observed(coupled, b);
+  EXPECT_LT(a.counts.evaluations, a.counts.steps);
+  EXPECT_EQ(a.counts.evaluations, b.counts.evaluations);
+  constexpr double same = 1e-6; // round-off that impacts have amplified
+  for (Eigen::Index i = 0; i < plain.size(); ++i)
+    EXPECT_NEAR(in_blocks(i) / plain(i), 1.0, same) << i;
+  EXPECT_GT(plain(3), 0.0);
+  EXPECT_NEAR(b.energy.load_work, a.energy.load_work, same * a.energy.scale);
+  EXPECT_NEAR(b.energy.stored, a.energy.stored, same * a.energy.scale);
+  EXPECT_NEAR(b.energy.modal_damping, a.energy.modal_damping, same * a.energy.scale);
+  EXPECT_NEAR(b.energy.friction, a.energy.friction, same * a.energy.scale);
+  EXPECT_NEAR(b.energy.fluid_work, 0.0, same * a.energy.scale);
+}
+
+/// Asks for all of every record.
+struct Curious final : Observer {
+  void step(const Record& record) override {
+    EXPECT_NE(record.q, nullptr);
+    const Energy& e = record.energy;
+    worst = std::max(worst, std::abs(e.residual()));
+    least_damping = std::min(least_damping, e.modal_damping - last_damping);
+    last_damping = e.modal_damping;
+    EXPECT_GE(e.stored, 0.0);
+  }
+  void visit(core::StateArchive&) override {}
+  double worst = 0.0, last_damping = 0.0, least_damping = 0.0;
+};
+
+/// Energies are found where they are asked for, and are the same whoever asks.
+TEST(LinearFlow, EnergiesAreThoseOfTheRecordThatIsAskedFor) {
+  Scene scene = rattling_tube(0.3);
+  scene.system.motion = law();
+  const StepChoice choice = choose_step(scene, splitting(h));
+  const auto powers = [&](Observer* other, Report& report) {
+    post::PowerStatistics power(0.1);
+    std::vector<Observer*> observers{&power};
+    if (other)
+      observers.push_back(other);
+    report = run(scene, choice, observers, nullptr, {});
+    return power.balance();
+  };
+  Curious curious;
+  Report alone_report, watched_report;
+  const post::PowerBalance alone = powers(nullptr, alone_report), watched = powers(&curious, watched_report);
+  EXPECT_NE(alone.fluid.mean, 0.0);
+  EXPECT_EQ(alone.fluid.mean, watched.fluid.mean);
+  EXPECT_EQ(alone.fluid.error, watched.fluid.error);
+  EXPECT_EQ(alone.modal_damping.mean, watched.modal_damping.mean);
+  EXPECT_EQ(alone.stored.mean, watched.stored.mean);
+  EXPECT_EQ(alone_report.energy.fluid_work, watched_report.energy.fluid_work);
+  EXPECT_EQ(alone_report.energy.stored, watched_report.energy.stored);
+  EXPECT_GE(curious.least_damping, -1e-12 * curious.last_damping); // structural damping takes energy in every step
+  EXPECT_LT(curious.worst, 1e-2 * watched_report.energy.scale);
+}
+
+/// The fluid gives a mode what its damping takes: no end of y^T P y. The block moves by its matrix exponential.
+TEST(LinearFlow, AMotionThatIsKeptUpHasItsWorksToo) {
+  constexpr double k = 1e4, c = 4.0, speed = 0.1;
+  Scene scene = mass_point(1.0, Vec3(k, k, k), 0.5);
+  scene.system.damping.setConstant(c);
+  start(scene, 1.0, Vec3::Zero(), Vec3(0.0, speed, 0.0));
+  core::MotionForces& f = scene.system.motion;
+  f.stiffness = f.damping = Eigen::Matrix3d::Zero();
+  f.damping(1, 1) = c;
+  f.input = Eigen::MatrixXd::Zero(3, 1);
+  f.output = Eigen::MatrixXd::Zero(1, 3);
+  f.output(0, 1) = 1.0;
+  f.rates = Eigen::MatrixXd::Constant(1, 1, -20.0);
+  EXPECT_FALSE(LinearFlow(scene, 1e-3, {1}).has_blocks());
+  const Report report = simulate(scene, splitting(1e-3), 0.1).report;
+  const double t = 0.5, w = std::sqrt(k),
+               work = 0.5 * c * speed * speed * (t + std::sin(2.0 * w * t) / (2.0 * w)); // int c v^2 dt
+  constexpr double to_order_4 = 1e-6;                                                      // (w h)^4/720
+  EXPECT_NEAR(report.energy.fluid_work, work, to_order_4 * work);
+  EXPECT_NEAR(report.energy.modal_damping, work, to_order_4 * work);
+}
+
+} // namespace
+
+} // namespace linear_flow_test

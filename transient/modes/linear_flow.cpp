@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/modes/linear_flow.hpp"
+#include "transient/modes/moving_modes.hpp"
+#include <algorithm>
+
+namespace fretwork::transient {
+namespace {
+
+using Eigen::Index;
+
+DiagonalFlow blocks_of(const Scene& scene, double step, const std::vector<int>& lengths) {
+  if (scene.system.motion.empty())
+    return {};
+  const System system = with_diagonal(scene.system);
+  std::vector<CoupledBlock> blocks = coupled_blocks(system);
+  std::erase_if(blocks, [&](const CoupledBlock& block) { return acts_alone(system, block); });
+  return {system, blocks, step, lengths};
+}
+
+std::vector<Index> other_modes(const DiagonalFlow& blocks, Index modes) {
+  std::vector<char> taken(static_cast<std::size_t>(modes), 0);
+  for (std::size_t b = 0; b < blocks.blocks(); ++b)
+    for (const Index mode : blocks.modes(b))
+      taken[static_cast<std::size_t>(mode)] = 1;
+  std::vector<Index> out;
+  for (Index mode = 0; mode < modes; ++mode)
+    if (!taken[static_cast<std::size_t>(mode)])
+      out.push_back(mode);
+  return out;
+}
+
+/// The scene of the modes of no block.
+Scene front_of(const Scene& scene, const DiagonalFlow& blocks, const std::vector<Index>& modes) {
+  if (blocks.empty())
+    return scene;
+  Scene out = with_modes(scene, modes);
+  if (coupled_blocks(out.system).empty())
+    out.system.motion = {};
+  return out;
+}
+
+} // namespace
+
+LinearFlow::LinearFlow(const Scene& scene, double step, const std::vector<int>& lengths)
+    : blocks_(blocks_of(scene, step, lengths)), front_modes_(other_modes(blocks_, scene.system.size())),
+      front_(front_of(scene, blocks_, front_modes_), step, lengths), modes_(scene.system.size()),
+      lengths_(lengths) {
+  if (blocks_.empty())
+    return;
+  loads_.emplace(scene, step);
+  const auto numbers = static_cast<Index>(kernels::numbers_of_input * blocks_.size());
+  driven_.emplace(loads_on_blocks(scene.loads), numbers, scene.duration, step);
+  random_.emplace(std::vector<Load>(), modes_, scene.duration, step, scene.sampled_loads);
+  none_.assign(static_cast<std::size_t>(force_numbers()), 0.0);
+  a_ = b_ = none_;
+  y_.assign(blocks_.size(), 0.0);
+  q_.assign(static_cast<std::size_t>(kernels::padded(static_cast<int>(modes_))), 0.0);
+  v_ = q_;
+}
+
+std::vector<Load> LinearFlow::loads_on_blocks(const std::vector<Load>& loads) const {
+  std::vector<Load> out = loads;
+  for (Load& load : out) {
+    const Eigen::VectorXd modal = load.modal_force;
+    load.modal_force.resize(static_cast<Index>(kernels::numbers_of_input * blocks_.size()));
+    for (std::size_t b = 0; b < blocks_.blocks(); ++b)
+      load.modal_force.segment(kernels::numbers_of_input * blocks_.range(b).first,
+                               kernels::numbers_of_input * blocks_.range(b).size) =
+          blocks_.inputs(b) * modal(blocks_.modes(b));
+  }
+  return out;
+}
+
+/// @param numbers  of a block for each of its y   @param rows  rows(block, b): those of b over its modes as rows over its numbers
+template <class Rows>
+std::vector<ContactPoint> LinearFlow::over_coordinates(const std::vector<ContactPoint>& contacts, int numbers,
+                                                       const Rows& rows) const {
+  if (blocks_.empty())
+    return contacts;
+  Scene scene; // for the modes of no block
+  scene.system.stiffness = scene.system.damping = scene.q0 = scene.v0 = Eigen::VectorXd::Zero(modes_);
+  scene.contacts = contacts;
+  std::vector<ContactPoint> out = with_modes(scene, front_modes_).contacts;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    ContactPoint& to = out[c];
+    const Eigen::MatrixXd all = contacts[c].over_all(modes_);
+    if (to.modes.empty())
+      to.modes = {{0, to.b.cols()}};
+    for (std::size_t b = 0; b < blocks_.blocks(); ++b) {
+      const Eigen::MatrixXd of_block = all(Eigen::all, blocks_.modes(b));
+      if (of_block.isZero(0.0))
+        continue;
+      const auto [first, size] = blocks_.range(b);
+      to.modes.push_back({front_.padded() + numbers * first, numbers * size});
+      to.b.conservativeResize(Eigen::NoChange, to.b.cols() + numbers * size);
+      to.b.rightCols(numbers * size) = rows(b, of_block);
+    }
+  }
+  return out;
+}
+
+std::vector<ContactPoint> LinearFlow::outputs(const std::vector<ContactPoint>& contacts) const {
+  return over_coordinates(contacts, 1, [&](std::size_t block, const Eigen::MatrixXd& b) -> Eigen::MatrixXd {
+    return b * blocks_.displacements(block);
+  });
+}
+
+std::vector<ContactPoint> LinearFlow::inputs(const std::vector<ContactPoint>& contacts) const {
+  return over_coordinates(contacts, kernels::numbers_of_input,
+                          [&](std::size_t block, const Eigen::MatrixXd& b) -> Eigen::MatrixXd {
+                            return b * blocks_.inputs(block).transpose();
+                          });
+}
+
+std::size_t LinearFlow::place(int length) const {
+  return static_cast<std::size_t>(std::find(lengths_.begin(), lengths_.end(), length) - lengths_.begin());
+}
+
+void LinearFlow::to_front(const double* modes, double* front) const {
+  for (std::size_t i = 0; i < front_modes_.size(); ++i)
+    front[i] = modes[front_modes_[i]];
+}
+
+void LinearFlow::to_modes(const double* front, double* modes) const {
+  for (std::size_t i = 0; i < front_modes_.size(); ++i)
+    modes[front_modes_[i]] = front[i];
+}
+
+LinearFlow::State LinearFlow::start(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
+  State out;
+  out.q.assign(static_cast<std::size_t>(coordinates()), 0.0);
+  out.v = out.q;
+  front_.start(out);
+  to_front(q.data(), out.q.data());
+  to_front(v.data(), out.v.data());
+  if (blocks_.empty())
+    return out;
+  blocks_.start(q.data(), v.data(), y_.data());
+  start_ = {blocks_.energy(y_.data()), blocks_.fluid_form(y_.data())};
+  blocks_.inside(0.0, y_.data(), inputs_of(none_, none_, none_, none_), part(out.q), part(out.v));
+  return out;
+}
+
+void LinearFlow::load_about(double time, kernels::Array& load) {
+  front_.load_about(time, load);
+  if (blocks_.empty())
+    return;
+  if (!driven_->empty())
+    driven_->corner(time, part(load));
+  if (random_->empty())
+    return;
+  if (driven_->empty())
+    std::fill(load.begin() + front_.padded(), load.end(), 0.0);
+  random_->corner(time, q_.data());
+  blocks_.add_input(q_.data(), part(load));
+}
+
+void LinearFlow::move_blocks(std::size_t place, const State& from, const kernels::StateInputs& inputs,
+                             State& to) const {
+  if (!blocks_.empty())
+    blocks_.move(place, part(from.q), inputs, part(to.q), part(to.v));
+}
+
+ModalFlow::Sums LinearFlow::move(int length, const State& from, const kernels::Array& load0,
+                                 const kernels::Array& load1, State& to) {
+  const ModalFlow::Sums sums = front_.move(length, from, load0, load1, to);
+  move_blocks(place(length), from, inputs_of(load0, load1, none_, none_), to);
+  return sums;
+}
+
+ModalFlow::Sums LinearFlow::move(const State& from, const kernels::Array& load0, const kernels::Array& load1,
+                                 const kernels::Array& constant, State& to) {
+  const ModalFlow::Sums sums = front_.move(from, load0, load1, constant, to);
+  move_blocks(place(1), from, inputs_of(load0, load1, constant, none_), to);
+  return sums;
+}
+
+ModalFlow::Sums LinearFlow::push(const State& from, const kernels::Array& load0, const kernels::Array& load1,
+                                 const ModalForce& force, State& to) {
+  const ModalFlow::Sums sums = front_.push(from, load0, load1, force, to);
+  move_blocks(place(1), from, inputs_of(load0, load1, force.mean, force.slope), to);
+  return sums;
+}
+
+void LinearFlow::add_works(int length, const State& from, const kernels::Array& load0,
+                           const kernels::Array& load1, const ModalForce* force, ModalFlow::Sums& sums,
+                           BlockWorks& works) {
+  if (blocks_.empty())
+    return;
+  const kernels::StateWorks of =
+      blocks_.works(place(length), part(from.q),
+                    inputs_of(load0, load1, force ? force->mean : none_, force ? force->slope : none_));
+  sums.load_work += of.load;
+  sums.contact_work += of.contact;
+  works.forces += of.load + of.contact;
+  works.fluid += of.fluid;
+  sums.energy += undamped_energy(works);
+}
+
+LinearFlow::BlockEnergies LinearFlow::energies(const State& state, const BlockWorks& works) {
+  return {blocks_.energy(part(state.q)), works.fluid + start_.fluid_work - blocks_.fluid_form(part(state.q))};
+}
+
+void LinearFlow::modes_in_middle(int length, const State& from, const kernels::Array& load0,
+                                 const kernels::Array& load1, const ModalForce* force,
+                                 const kernels::Array& middle, double* q) {
+  blocks_.middle(place(length), part(from.q),
+                 inputs_of(load0, load1, force ? force->mean : none_, force ? force->slope : none_),
+                 y_.data());
+  blocks_.modes_of(y_.data(), q, v_.data());
+  to_modes(middle.data(), q);
+}
+
+void LinearFlow::inside(double time, double duration, const State& from, const kernels::Array& load0,
+                        const kernels::Array& load1, const ModalForce* force, double* q, double* v) {
+  if (blocks_.empty())
+    return front_.inside(time, duration, from, load0, load1, force, q, v);
+  front_.inside(time, duration, from, load0, load1, force, q_.data(), v_.data());
+  to_modes(q_.data(), q);
+  to_modes(v_.data(), v);
+  const double share = time / duration;
+  for (std::size_t i = 0; i < a_.size(); ++i) {
+    const double mean = force ? force->mean[i] : 0.0, slope = force ? force->slope[i] : 0.0;
+    a_[i] = load0[i] + mean - slope;
+    b_[i] = a_[i] + share * (load1[i] - load0[i] + 2.0 * slope);
+  }
+  blocks_.inside(time, part(from.q), inputs_of(a_, b_, none_, none_), y_.data(), nullptr);
+  blocks_.modes_of(y_.data(), q, v);
+}
+
+void LinearFlow::add_motion_forces(double* force) {
+  if (blocks_.empty())
+    return front_.add_motion_forces(force);
+  std::fill(q_.begin(), q_.end(), 0.0);
+  front_.add_motion_forces(q_.data());
+  for (std::size_t i = 0; i < front_modes_.size(); ++i)
+    force[front_modes_[i]] += q_[i];
+  blocks_.add_forces(y_.data(), force);
+}
+
+void LinearFlow::response(const double* force, double* moved) {
+  if (blocks_.empty())
+    return front_.response(force, moved);
+  std::fill(q_.begin(), q_.end(), 0.0);
+  to_front(force, q_.data());
+  front_.response(q_.data(), v_.data());
+  to_modes(v_.data(), moved);
+  blocks_.response(force, moved);
+}
+
+} // namespace fretwork::transient

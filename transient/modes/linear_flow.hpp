@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// The exact motion of all modes of a scene over a step, in coordinates in which it is cheap: modes that no forces of motion couple as they are
+/// (modal_flow.hpp), then the coordinates y of the blocks that such forces couple (diagonal_flow.hpp). Contacts know coordinates alone: their
+/// displacements by rows over them (`outputs`), their forces by rows over the numbers that a force has (`inputs`). Without forces of motion both are the
+/// modes themselves. Displacements and velocities of all modes, and the energies of blocks, take dense products: they are found where they are asked for.
+#pragma once
+#include "transient/modes/diagonal_flow.hpp"
+#include "transient/modes/modal_flow.hpp"
+#include <optional>
+
+namespace fretwork::transient {
+
+class LinearFlow {
+public:
+  /// Arrays of coordinates: q and their rates v.
+  using State = ModalFlow::State;
+  /// J, since the start: what the energies of the blocks follow from.
+  struct BlockWorks {
+    double forces = 0.0; ///< of loads and contact forces on them
+    double fluid = 0.0;  ///< the integral of diagonal_flow.hpp
+    void visit(core::StateArchive& state) { state(forces, fluid); }
+  };
+  /// J, at an instant; of the start where nothing has moved.
+  struct BlockEnergies {
+    double stored = 0.0, fluid_work = 0.0;
+  };
+
+  /// As ModalFlow.
+  LinearFlow(const Scene& scene, double step, const std::vector<int>& lengths);
+
+  /// Sizes of arrays, multiples of kernels::lanes: of a state, and of a force.
+  [[nodiscard]] int coordinates() const { return front_.padded() + static_cast<int>(blocks_.size()); }
+  [[nodiscard]] int force_numbers() const {
+    return front_.padded() + kernels::numbers_of_input * static_cast<int>(blocks_.size());
+  }
+  /// Whether coordinates are more than the modes.
+  [[nodiscard]] bool has_blocks() const { return !blocks_.empty(); }
+  /// Contacts with their rows over coordinates, and over the numbers of a force.
+  [[nodiscard]] std::vector<ContactPoint> outputs(const std::vector<ContactPoint>& contacts) const;
+  [[nodiscard]] std::vector<ContactPoint> inputs(const std::vector<ContactPoint>& contacts) const;
+
+  /// @param q, v  n
+  [[nodiscard]] State start(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
+  /// The loads of the step about a time as numbers of a force; stay where there are none. No allocation.
+  void load_about(double time, kernels::Array& load);
+  /// As ModalFlow; sums without the blocks. No allocation.
+  ModalFlow::Sums move(int length, const State& from, const kernels::Array& load0,
+                       const kernels::Array& load1, State& to);
+  ModalFlow::Sums move(const State& from, const kernels::Array& load0, const kernels::Array& load1,
+                       const kernels::Array& constant, State& to);
+  ModalFlow::Sums push(const State& from, const kernels::Array& load0, const kernels::Array& load1,
+                       const ModalForce& force, State& to);
+  /// Energy of the blocks as it would be without damping and fluid since the start, J.
+  [[nodiscard]] double undamped_energy(const BlockWorks& works) const { return start_.stored + works.forces; }
+  /// Adds those of the blocks over a step (force null: none), and the undamped energy. No allocation.
+  void add_works(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
+                 const ModalForce* force, ModalFlow::Sums& sums, BlockWorks& works);
+  /// After these works. No allocation.
+  [[nodiscard]] BlockEnergies energies(const State& state, const BlockWorks& works);
+  [[nodiscard]] double energy_at_start(const State& state) { return front_.energy(state) + start_.stored; }
+
+  /// Coordinates in the middle of the step moved last (force null: none), but for those of blocks. No allocation.
+  void middle(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
+              const ModalForce* force, kernels::Array& q) {
+    front_.middle(length, from, load0, load1, force, q);
+  }
+  /// The modes' displacements there, n values, by coordinates that `middle` gave. No allocation.
+  void modes_in_middle(int length, const State& from, const kernels::Array& load0,
+                       const kernels::Array& load1, const ModalForce* force, const kernels::Array& middle,
+                       double* q);
+  /// Modes a time after the start of a step of `duration`, as ModalFlow; n values each. No allocation.
+  void inside(double time, double duration, const State& from, const kernels::Array& load0,
+              const kernels::Array& load1, const ModalForce* force, double* q, double* v);
+  /// Modal force of the loads at an instant, n values.
+  void load_at(double time, double* force) {
+    loads_ ? loads_->observe(time, force) : front_.load_at(time, force);
+  }
+  /// Adds the forces of motion where `inside` was last, n values. No allocation.
+  void add_motion_forces(double* force);
+  /// As ModalFlow, of modes.
+  void response(const double* force, double* moved);
+
+private:
+  [[nodiscard]] std::size_t place(int length) const;
+  /// The part of the blocks in an array.
+  template <class Array> [[nodiscard]] auto* part(Array& of) const { return of.data() + front_.padded(); }
+  [[nodiscard]] kernels::StateInputs inputs_of(const kernels::Array& load0, const kernels::Array& load1,
+                                               const kernels::Array& mean,
+                                               const kernels::Array& slope) const {
+    return {part(load0), part(load1), part(mean), part(slope)};
+  }
+  void move_blocks(std::size_t place, const State& from, const kernels::StateInputs& inputs, State& to) const;
+  [[nodiscard]] std::vector<Load> loads_on_blocks(const std::vector<Load>& loads) const;
+  template <class Rows>
+  [[nodiscard]] std::vector<ContactPoint> over_coordinates(const std::vector<ContactPoint>& contacts,
+                                                           int numbers, const Rows& rows) const;
+  void to_front(const double* modes, double* front) const;
+  void to_modes(const double* front, double* modes) const;
+
+  DiagonalFlow blocks_;
+  std::vector<Eigen::Index> front_modes_; ///< those of no block; with blocks
+  ModalFlow front_;
+  Eigen::Index modes_;
+  std::vector<int> lengths_;
+  std::optional<LoadSum> loads_;  ///< on all modes; with blocks
+  std::optional<LoadSum> driven_; ///< on the blocks, but for sampled loads
+  std::optional<LoadSum> random_; ///< sampled loads on all modes
+  BlockEnergies start_;           ///< fluid_work: y^T P y
+  kernels::Array none_, a_, b_, y_, q_, v_;
+};
+
+} // namespace fretwork::transient
