@@ -90,7 +90,7 @@ class Crashes(unittest.TestCase):
 
     def test_a_process_that_ends_once_changes_nothing(self):
         directory = Path(self.folder.name) / "once"
-        shorter = ("--set", "sweep.variables.duration.values=[0.5, 5.0e4, 0.7]")  # of which the second takes some seconds
+        shorter = ("--set", "sweep.variables.duration.values=[0.5, 2.0e5, 0.7]")  # of which the second takes some seconds
         process = self.start(directory, 0, *shorter)
         ended = 0
         while process.poll() is None:

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Runs in the coordinates of blocks that forces of motion couple: what they show of the modes, of the energies, and of loads and contacts.
-#include "transient/modes/linear_flow.hpp"
 #include "post/node_statistics.hpp"
 #include "post/power_balance.hpp"
 #include "scenes.hpp"
 #include "signals/sampled_forces.hpp"
+#include "transient/modes/linear_flow.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -27,8 +27,8 @@ core::MotionForces law() {
   f.input = Eigen::MatrixXd::Zero(modes, states);
   f.output = Eigen::MatrixXd::Zero(states, modes);
   f.rates = Eigen::MatrixXd::Zero(states, states);
-  f.stiffness.topLeftCorner(5, 5) << -900, 300, 50, 0, 0, -300, -900, 0, 20, 0, 50, 10, -400, 0, 100, 0, -60, 0,
-      -500, 0, 0, 0, 90, 0, -100;
+  f.stiffness.topLeftCorner(5, 5) << -900, 300, 50, 0, 0, -300, -900, 0, 20, 0, 50, 10, -400, 0, 100, 0, -60,
+      0, -500, 0, 0, 0, 90, 0, -100;
   f.damping.topLeftCorner(5, 5).setConstant(0.4);
   f.damping(0, 0) = 9.0;
   for (Eigen::Index k = 0; k < 5; ++k) {
@@ -157,7 +157,8 @@ TEST(LinearFlow, EnergiesAreThoseOfTheRecordThatIsAskedFor) {
   EXPECT_EQ(alone.stored.mean, watched.stored.mean);
   EXPECT_EQ(alone_report.energy.fluid_work, watched_report.energy.fluid_work);
   EXPECT_EQ(alone_report.energy.stored, watched_report.energy.stored);
-  EXPECT_GE(curious.least_damping, -1e-12 * curious.last_damping); // structural damping takes energy in every step
+  EXPECT_GE(curious.least_damping,
+            -1e-12 * curious.last_damping); // structural damping takes energy in every step
   EXPECT_LT(curious.worst, 1e-2 * watched_report.energy.scale);
 }
 
@@ -178,7 +179,7 @@ TEST(LinearFlow, AMotionThatIsKeptUpHasItsWorksToo) {
   const Report report = simulate(scene, splitting(1e-3), 0.1).report;
   const double t = 0.5, w = std::sqrt(k),
                work = 0.5 * c * speed * speed * (t + std::sin(2.0 * w * t) / (2.0 * w)); // int c v^2 dt
-  constexpr double to_order_4 = 1e-6;                                                      // (w h)^4/720
+  constexpr double to_order_4 = 1e-6;                                                    // (w h)^4/720
   EXPECT_NEAR(report.energy.fluid_work, work, to_order_4 * work);
   EXPECT_NEAR(report.energy.modal_damping, work, to_order_4 * work);
 }
