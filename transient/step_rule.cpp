@@ -15,9 +15,9 @@ namespace {
 
 /// Of a run: with the most of them single impacts come out to 1e-4, with the fewest its statistics see the motion.
 constexpr double fewest_steps = 2000, most_least_steps = 20000;
-/// The cost of those between, in steps of one mode: some ten milliseconds; a contact costs as much as so many
-/// modes (instructions: 10 of short steps, 40 and more of long ones).
-constexpr double least_cost = 5e5, cost_of_contact = 20.0;
+/// Cost of a step, in modes, up to which the most of them take milliseconds. A contact costs as much as so many modes (instructions: 10 in
+/// short steps, 40 and more in long ones).
+constexpr double cheap_step = 100.0, cost_of_contact = 20.0;
 /// More steps than this are a mistake in a value rather than a wish: days of computing.
 constexpr double most_steps = 1e12;
 /// A run of an adaptive scheme has at least so many steps.
@@ -141,11 +141,12 @@ int longest_macro_step(const StepChoice& c, const Scene& scene, double fineness)
   return std::max(1, static_cast<int>(longest / c.step * (1.0 + 1e-9)));
 }
 
-/// Steps of a run that nothing asks to be resolved in: as many as cost next to nothing.
+/// Steps of a run in which nothing asks for more; fewer of dear ones, since motions with many contacts are rarely followed impact by impact.
 double least_steps(const Scene& scene) {
   const double cost =
       static_cast<double>(scene.system.size()) + cost_of_contact * static_cast<double>(scene.contacts.size());
-  return std::floor(std::clamp(least_cost / cost, fewest_steps, most_least_steps));
+  const double share = std::min(1.0, cheap_step / cost);
+  return std::max(fewest_steps, std::floor(most_least_steps * share * share));
 }
 
 /// The longest step that the terms allow, but for whole steps that cover the duration.

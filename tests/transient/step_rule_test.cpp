@@ -127,7 +127,9 @@ TEST(StepRule, TakesTwentyThousandStepsAtLeastAndTwoThousandWhereTheyAreDear) {
   expect_least(linear, "20000");
   expect_least(soft, "20000");
   soft.contacts.resize(4, soft.contacts.front());
-  expect_least(soft, "6024"); // 5e5/(3 + 80)
+  expect_least(soft, "20000"); // s = 83
+  soft.contacts.resize(10, soft.contacts.front());
+  expect_least(soft, "4853"); // 2e8/203^2
   soft.contacts.resize(100, soft.contacts.front());
   expect_least(soft, "2000");
 }
