@@ -87,7 +87,8 @@ struct Record {
   double time = 0.0;
   double step =
       0.0; ///< s, the length of time this record stands for; 0: an instant between two laws, for no time
-  const double* q = nullptr; ///< modal displacements, padded with zeros
+  const double* q =
+      nullptr; ///< modal displacements, padded with zeros; null where left out (Scheme::complete)
   int contacts = 0;
   const double* uy =
       nullptr; ///< displacement of contact i along y_loc, m; padded with zeros to a multiple of 8

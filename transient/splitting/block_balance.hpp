@@ -7,6 +7,7 @@
 #include "transient/modes/linear_flow.hpp"
 #include "transient/scene/scheme.hpp"
 #include <cmath>
+#include <cstdint>
 
 namespace fretwork::transient {
 
