@@ -14,12 +14,11 @@ constexpr double normally_damped = 2.0;
 /// w_c h that normal dampers never make the step shorter than: a damper that is faster leaves no rebound (e < 0.001), and resolving it costs
 /// without end.
 constexpr double finest_for_dampers = 0.03;
-/// w_c h, w_t h and r_t h at an accuracy of 0.01. Measured on rattling tubes (bench_statistics), work rates: with splitting within 1 % at
-/// w_c h = 1, with modes near w_c at 0.8 (up to 1.6 % high at 0.9), r_t h = 6.3; with collocation
+/// w_c h and w_t h at an accuracy of 0.01. Measured on rattling tubes (bench_statistics), work rates: with splitting within 1 % at
+/// w_c h = 1, with modes near w_c at 0.8 (up to 1.6 % high at 0.9); with collocation
 /// 2.8 % off at w_t h = 1, 1.4 % at 0.5: contacts start to slide inside steps, which only intervals follow.
-/// Of r_t h, where dampers are implicit: above 2 a step turns the speed of a sticking contact round, 0.52 of it at 6.3.
 struct Shares {
-  double contact, stick, damper;
+  double contact, stick;
 };
 /// w_c h of the longest automatic step, whatever the accuracy.
 constexpr double longest_contact_share = 1.0;
@@ -28,12 +27,16 @@ constexpr double slow_modes = 0.6;
 Shares shares(const StepChoice& c) {
   switch (c.scheme) {
   case SchemeKind::splitting:
-    return {c.highest_mode <= slow_modes * c.contact_frequency ? 1.0 : 0.8, 1.0, 6.3};
+    return {c.highest_mode <= slow_modes * c.contact_frequency ? 1.0 : 0.8, 1.0};
   case SchemeKind::collocation:
-    return {0.5, 0.5, 2.0};
+    return {0.5, 0.5};
   default:
-    return {0.3, 0.3, 2.0};
+    return {0.3, 0.3};
   }
+}
+/// Of a damper's rate times the step of schemes that take it explicitly.
+double explicit_share(SchemeKind scheme, double fineness) {
+  return scheme == SchemeKind::devogelaere ? std::min(0.5 * fineness, most_damped) : 0.5 * fineness;
 }
 /// With contacts: collocation needs none of it, splitting can take modes as heavier ones.
 bool may_go_past_modes(SchemeKind scheme) {
@@ -64,6 +67,13 @@ double most_implicit(SchemeKind scheme) { return scheme == SchemeKind::splitting
 
 double most_normally_damped(SchemeKind scheme) { return scheme == SchemeKind::splitting ? 2.0 : 4.0; }
 
+double damper_share(SchemeKind scheme, double fineness) {
+  if (!moves_exactly(scheme))
+    return explicit_share(scheme, fineness);
+  return std::min((scheme == SchemeKind::splitting ? most_implicit(scheme) : 2.0) * fineness,
+                  most_implicit(scheme));
+}
+
 StepLimit mode_limit(const StepChoice& c, bool contacts, double fineness) {
   const bool exact = moves_exactly(c.scheme);
   const double eps = 0.5 * fineness;
@@ -75,7 +85,6 @@ StepLimit mode_limit(const StepChoice& c, bool contacts, double fineness) {
 
 std::vector<StepLimit> step_limits(const StepChoice& c, const Scene& scene, double fineness) {
   const bool exact = moves_exactly(c.scheme), contacts = !scene.contacts.empty();
-  const double eps = 0.5 * fineness;
   std::vector<StepLimit> out;
   const auto add = [&](double factor, double rate, const std::string& reason) {
     if (rate > 0.0)
@@ -89,8 +98,6 @@ std::vector<StepLimit> step_limits(const StepChoice& c, const Scene& scene, doub
   if (c.table_interval > 0.0)
     out.push_back(
         {c.table_interval, fmt::format("the shortest interval of a table ({:.4g} s)", c.table_interval)});
-  const bool devogelaere = c.scheme == SchemeKind::devogelaere;
-  const double damped = devogelaere ? std::min(eps, most_damped) : eps;
   const Shares share = shares(c);
   const double resolved = most_resolved(c.scheme);
   add(std::min({share.contact * fineness, longest_contact_share, resolved}), c.contact_frequency,
@@ -99,14 +106,23 @@ std::vector<StepLimit> step_limits(const StepChoice& c, const Scene& scene, doub
     out.push_back({std::min(share.stick * fineness, resolved) / c.stick_frequency,
                    fmt::format("the frequency of sticking contacts {:.4g} rad/s", c.stick_frequency)});
   }
-  add(exact ? std::min(share.damper * fineness, most_implicit(c.scheme)) : damped, c.damper_rate,
-      fmt::format("the tangential dampers' rate {:.4g} 1/s", c.damper_rate));
+  if (c.damper_rate > 0.0) {
+    const bool splitting = c.scheme == SchemeKind::splitting;
+    const double intervals = splitting ? most_intervals : 1.0;
+    out.push_back({intervals * damper_share(c.scheme, fineness) / c.damper_rate,
+                   fmt::format("the tangential dampers' rate {:.4g} 1/s", c.damper_rate),
+                   splitting
+                       ? "; a smaller tangential_damping makes the step longer"
+                       : "; a smaller tangential_damping, or scheme = \"splitting\", which resolves the "
+                         "dampers within a step, makes it longer"});
+  }
   if (exact && c.normal_damper_rate > 0.0)
     out.push_back(
         {std::max(std::min(normally_damped * fineness, most_normally_damped(c.scheme)) / c.normal_damper_rate,
                   finest_for_dampers * fineness / c.contact_frequency),
          fmt::format("the normal dampers' rate {:.4g} 1/s", c.normal_damper_rate)});
-  add(damped, c.explicit_rate, fmt::format("the dampers' rate {:.4g} 1/s", c.explicit_rate));
+  add(explicit_share(c.scheme, fineness), c.explicit_rate,
+      fmt::format("the dampers' rate {:.4g} 1/s", c.explicit_rate));
   if (c.highest_mode > 0.0 && !(contacts && may_go_past_modes(c.scheme)))
     out.push_back(mode_limit(c, contacts, fineness));
   return out;

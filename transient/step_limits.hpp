@@ -10,6 +10,7 @@ namespace fretwork::transient {
 struct StepLimit {
   double limit; ///< s
   std::string reason;
+  std::string cure = {}; ///< what makes the step longer, after "resolved for an accuracy of 0.01"
 };
 
 /// What limits the step, the highest mode where contacts meet exact flows apart.
@@ -27,8 +28,13 @@ constexpr double points_per_period = 30.0;
 /// Largest w_c h and w_t h without a warning: above it an impact changes the energy by more than 1 % or the statistics are wrong, however
 /// stable the run (doc/schemes.md, Stability map).
 [[nodiscard]] double most_resolved(SchemeKind scheme);
-/// Largest r_t h where dampers are implicit: above it sticking contacts ring.
+/// Largest r_t h where dampers are implicit, with splitting r_t dt of its intervals: above it sticking contacts ring.
 [[nodiscard]] double most_implicit(SchemeKind scheme);
+/// Intervals that a step of splitting has at most.
+constexpr double most_intervals = 64.0;
+/// What r_t h, with splitting r_t dt of its intervals, is to be at most. Where dampers are implicit, above 2 the speed of a sticking contact
+/// turns round, 0.52 of it at 6.3. @param fineness  1 at an accuracy of 0.01, as its square root
+[[nodiscard]] double damper_share(SchemeKind scheme, double fineness);
 /// Largest r_n h of schemes that take normal dampers implicitly: above 2 the mean rate alone turns the speed of a mass round (splitting); with collocation a
 /// tenth of it is left at 4, where 0.02 is right.
 [[nodiscard]] double most_normally_damped(SchemeKind scheme);

@@ -22,9 +22,9 @@ constexpr double cheap_step = 100.0, cost_of_contact = 20.0;
 constexpr double most_steps = 1e12;
 /// A run of an adaptive scheme has at least so many steps.
 constexpr double least_adaptive_steps = 200;
-/// w_c dt and w_t dt of the intervals of splitting at an accuracy of 0.01, and how many a step has at most. Of contacts that mostly stick figures are
+/// w_c dt and w_t dt of the intervals of splitting at an accuracy of 0.01. Of contacts that mostly stick figures are
 /// up to 20 % off then, until replays (replays.hpp) have shown it: they move in up to 16 times as many intervals.
-constexpr double interval_share = 0.35, most_intervals = 64.0;
+constexpr double interval_share = 0.35;
 /// Length of a replay: w_c times it; in steps, at least; of the duration, at most.
 constexpr double contact_times = 30.0, least_replay = 8.0, longest_replay = 0.01;
 /// The step of an accuracy of 0.02 is the longest: no statistics are worth having above it.
@@ -76,7 +76,8 @@ void warn(StepChoice& c) {
   add(c.contact_frequency * c.step, resolved, "w_c h", "the contact frequency");
   add(c.stick_frequency * c.step, resolved, "w_t h", "the frequency of sticking contacts");
   const double damped = c.scheme == SchemeKind::devogelaere ? most_damped : 1.0;
-  add(c.damper_rate * c.step, exact ? most_implicit(c.scheme) : damped, "r_t h", "the tangential dampers");
+  add(c.damper_rate * c.step / c.parts, exact ? most_implicit(c.scheme) : damped,
+      c.scheme == SchemeKind::splitting ? "r_t dt" : "r_t h", "the tangential dampers");
   add(c.explicit_rate * c.step, damped, "r_e h", "the dampers");
   warn_of_normal_dampers(c, "take a smaller step or leave it out");
   if (!collocation)
@@ -111,8 +112,9 @@ double fineness_of(double accuracy) { return std::sqrt(std::min(accuracy, coarse
 int intervals_of_step(const StepChoice& c, double fineness) {
   if (c.scheme != SchemeKind::splitting)
     return 1;
-  const double needed =
-      std::max(c.contact_frequency, c.stick_frequency) * c.step / (interval_share * fineness);
+  const double rate = std::max(std::max(c.contact_frequency, c.stick_frequency) / (interval_share * fineness),
+                               c.damper_rate / damper_share(c.scheme, fineness));
+  const double needed = rate * c.step;
   return static_cast<int>(std::clamp(std::ceil(needed * (1.0 - 1e-9)), 1.0, most_intervals));
 }
 
@@ -159,7 +161,7 @@ void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
   const auto limit = [&](const StepLimit& term) {
     if (term.limit < c.step) {
       c.step = term.limit;
-      c.reason = fmt::format("{} resolved for an accuracy of {}", term.reason, accuracy);
+      c.reason = fmt::format("{} resolved for an accuracy of {}{}", term.reason, accuracy, term.cure);
     }
   };
   for (const StepLimit& term : step_limits(c, scene, fineness))

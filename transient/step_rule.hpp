@@ -5,7 +5,7 @@
 ///     h = min{ c/w_c, s/w_t, r/r_t, max(2/r_n, 0.03/w_c), m/w_max },  the shares at an accuracy of 0.01; others grow and fall with its square root
 ///
 ///                          c      s      r     m
-///     splitting            1      1      6.3   2.5 where modes cannot be made heavier (mass_scaling.hpp); c = 0.8 with modes above
+///     splitting            1      1      403   2.5 where modes cannot be made heavier (mass_scaling.hpp); c = 0.8 with modes above
 ///                                              0.6 w_c
 ///     collocation          0.5    0.5    2     -
 ///     energy_conserving    0.3    0.3    2     2.5
@@ -16,7 +16,8 @@
 /// above, splitting turns its speed round, whatever the step. So a damper that even 0.03/w_c does not resolve is warned about, also with the automatic
 /// step: of energy_conserving the rebounds are right (conserving_normal.hpp), the largest force at first touch is not.
 /// No accuracy makes a step longer than that of 0.02, nor w_c h than 1 (devogelaere: 0.75, energy_conserving: 0.5), above which impacts are wrong however
-/// stable the run (doc/schemes.md, Stability map), nor r_t h than 4, with splitting 6.3, where dampers are implicit. With contacts
+/// stable the run (doc/schemes.md, Stability map), nor r_t h than 4 where dampers are implicit, r_t dt than 6.3 in the intervals of
+/// splitting, of which a step has up to 64. With contacts
 /// splitting resonates with modes at w h = k pi: those above w h = m are made heavier (mass_scaling.hpp), or where they may not be, and
 /// with energy_conserving, the step stays below 2.5/w_max. The limits of explicit Euler are r_t h < 1 and w_max h < 2; it also takes the other dampers explicitly and
 /// resolves them by 0.5/r_e (its limit: r_e h < 2):

@@ -46,8 +46,20 @@ TEST(StepRule, ResolvesTheFrequencyOfStickingContacts) {
 
 TEST(StepRule, ResolvesTheTangentialDampers) {
   const Scene scene = scene_with({Circle{0.1}, {2.0}, {2.0, 4e3, 0.3, 0.3}});
-  expect_governed(scene, splitting(), 6.3 / 2000.0, "the tangential dampers' rate 2000 1/s");
   expect_governed(scene, euler(), eps / 2000.0, "the tangential dampers' rate 2000 1/s");
+  expect_governed(scene, collocation(), 2.0 / 2000.0, "the tangential dampers' rate 2000 1/s");
+  const std::string reason = choose_step(scene, collocation()).reason;
+  EXPECT_TRUE(mentions(reason, "a smaller tangential_damping, or scheme = \"splitting\"")) << reason;
+}
+
+TEST(StepRule, ResolvesTheTangentialDampersOfSplittingInItsIntervals) {
+  Scene scene = scene_with({Circle{0.1}, {8e4}, {2.0, 4e4, 0.3, 0.3}}); // r_t = 2e4 1/s
+  expect_governed(scene, splitting(), share / 200.0, "the contact frequency 200 rad/s");
+  EXPECT_EQ(choose_step(scene, splitting()).parts, 16); // r_t dt below 6.3
+  EXPECT_EQ(choose_step(scene, splitting(share / 400.0)).parts, 8);
+  scene = scene_with({Circle{0.1}, {2.0}, {2.0, 4e3, 0.3, 0.3}}, 1e5);
+  expect_governed(scene, splitting(), 64 * 6.3 / 2000.0, "the tangential dampers' rate 2000 1/s");
+  EXPECT_EQ(choose_step(scene, splitting()).parts, 64);
 }
 
 TEST(StepRule, ResolvesTheHighestModeWhereContactsAct) {

@@ -114,6 +114,36 @@ template <class Means> void expect_means_of_fine_steps(const Means& slide, doubl
 // Whole steps of sliding or sticking would miss h d/24 of the path, 0.6 %, in the mean over the phases at which slides end.
 TEST(Slides, TellSlidesThatEndInsideAStep) { expect_means_of_fine_steps(slide_to_rest, 1e-3); }
 
+namespace {
+
+/// Mean friction power and work rate of a mass pressed on a plane that a harmonic force moves to and fro: it slides and sticks in each period.
+/// @param h  s   @param damping  C_T, N s/m
+std::pair<double, double> powers_to_and_fro(double h, double damping) {
+  Scene scene = mass_point(mass, Vec3::Zero(), 5.0);
+  scene.contacts = {contact_of(mass, {contact::Stop{0.0, contact::PlaneAxis::y},
+                                      {stiffness},
+                                      {0.5 * stiffness, damping, friction, friction}})};
+  scene.loads = {force_on(mass, {0.0, pressure, 0.0}, Constant{1.0}),
+                 force_on(mass, {0.0, 0.0, 1.5 * friction * pressure}, Harmonic{1.0, 23.0})};
+  start(scene, mass, {0.0, pressure / stiffness, 0.0}, Vec3::Zero());
+  const auto statistics = simulate(scene, splitting(h), 1.0).statistics[0];
+  return {statistics.friction_power, statistics.work_rate};
+}
+
+} // namespace
+
+TEST(Slides, TellThemWhereDampersAreFarFasterThanTheStep) {
+  constexpr double h = 1.4e-3;                   // 30 in a period of the force
+  for (const double rate : {6.0, 60.0, 600.0}) { // r_t h
+    const double damping = rate * mass / h;
+    const auto [power, work] = powers_to_and_fro(h, damping);
+    const auto [fine_power, fine_work] = powers_to_and_fro(h / 200.0, damping);
+    constexpr double tolerance = 3e-3; // 0.15 %; the force is linear between steps
+    EXPECT_NEAR(power / fine_power, 1.0, tolerance) << rate;
+    EXPECT_NEAR(work / fine_work, 1.0, tolerance) << rate;
+  }
+}
+
 TEST(Slides, TellThemWhereAllForcesPushAlongTheTangent) { expect_means_of_fine_steps(slide_askew, 5e-3); }
 
 namespace {
