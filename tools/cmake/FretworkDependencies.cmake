@@ -13,6 +13,8 @@ find_package(tomlplusplus REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(fmt REQUIRED)
+# FMT_SHARED only makes fmt's symbols visible, which they are here anyway; precompiled headers serve targets with and without fmt.
+set_target_properties(fmt::fmt PROPERTIES INTERFACE_COMPILE_DEFINITIONS "")
 find_package(Boost 1.74 REQUIRED)   # Boost.Math, headers only
 find_path(GMSH_INCLUDE_DIR gmsh.h REQUIRED)
 find_library(GMSH_LIBRARY gmsh REQUIRED)

@@ -50,18 +50,17 @@ if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache" AND NOT CMAKE_DISABLE_PRECOMPILE
   list(PREPEND CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros)
 endif()
 
-# The headers of others that most files include, compiled once for each set of options, with a target that has no macros: neither fmt nor toml++, which
-# differ by the macros of the folders that link them, and a precompiled header fits no other macros than its own. Files include what they
-# use all the same: the preset dev builds without.
+# The headers of others that most files include, compiled once for each set of options. A precompiled header fits no other macros than its own: fmt's are
+# taken from its target (FretworkDependencies.cmake); toml++ is left out. Files include what they use all the same: the preset dev builds without.
 function(fretwork_precompiled_headers name)
   if(NOT TARGET ${name})
     file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/${name}.cpp CONTENT "")
     add_library(${name} STATIC ${CMAKE_BINARY_DIR}/${name}.cpp)
     fretwork_compile_options(${name})
     target_compile_options(${name} PRIVATE ${ARGN})
-    target_link_libraries(${name} PRIVATE Eigen3::Eigen)
-    target_precompile_headers(${name} PRIVATE <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <cmath> <functional> <map> <optional> <string>
-                              <variant> <vector>)
+    target_link_libraries(${name} PRIVATE Eigen3::Eigen fmt::fmt)
+    target_precompile_headers(${name} PRIVATE <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <cmath> <filesystem> <fmt/format.h> <fstream>
+                              <functional> <map> <memory> <optional> <span> <string> <variant> <vector>)
   endif()
 endfunction()
 
