@@ -68,7 +68,7 @@ private:
   std::size_t next_ = 0;
 };
 
-/// Half of an interval of one standard error on both sides.
+/// Half of an interval of one standard error on both sides (CaseRunner::prepare).
 double half(const results::Bounds& bounds) { return 0.5 * (bounds.high - bounds.low); }
 
 /// What numbers of tubes are found by.
@@ -200,6 +200,8 @@ CaseRunner::Case CaseRunner::prepare(const std::vector<std::string>& overrides) 
   study::Document document = document_;
   study::complete(document, overrides);
   Case out{study::read(document, {}), {}, {}, {}, {}, {}, {}};
+  for (study::Wear& entry : out.study.wear)
+    entry.confidence.reset(); // a table has standard errors
   if (!out.study.transient)
     throw core::Error("the study has no [transient]; a sweep needs it (doc/study-file.md)");
   if (out.study.gap_opening)

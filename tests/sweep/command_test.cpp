@@ -3,6 +3,7 @@
 #include "program.hpp"
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <map>
 #include <set>
 #include <sstream>
@@ -203,6 +204,25 @@ seeds = 7
   }
   EXPECT_EQ(rows[1].at("inner_bars[0].work_rate"), "nan");
   EXPECT_EQ(rows[1].at("turbulence.*.seed"), "8");
+}
+
+TEST_F(Sweeps, ErrorsAreStandardErrorsWhateverTheConfidenceOfWear) {
+  const std::string text = sweep_of("tube_study", R"(
+design = "grid"
+[[sweep.variables]]
+key = "contacts.inner_bars.gap"
+values = [1.0e-4]
+)");
+  std::vector<std::string> sure = short_tube;
+  for (const char* entry : {"plates", "bars"})
+    sure.insert(sure.end(), {"--set", fmt::format("wear.{}.confidence=0.95", entry)});
+  ASSERT_EQ(sweep(text, "plain", short_tube).status, 0);
+  ASSERT_EQ(sweep(text, "sure", sure).status, 0);
+  const auto plain = table_of(folder.path("plain")).at(0), confident = table_of(folder.path("sure")).at(0);
+  for (const char* output : {"worst.wear_depth.error", "worst.years.error"}) {
+    EXPECT_GT(std::stod(plain.at(output)), 0.0) << output;
+    EXPECT_EQ(confident.at(output), plain.at(output)) << output;
+  }
 }
 
 TEST_F(Sweeps, RanksAndShardsGiveTheSameBytes) {
