@@ -16,12 +16,17 @@ void add(Bounds& sum, const Bounds& of) {
   sum.high += of.high;
 }
 
-/// Ends of the extreme are extremes of the ends: an upper bound of its interval.
+/// Ends of the extreme are extremes of the ends: an upper bound of its interval. An end that one of them does not have, such as a depth beyond the
+/// geometry, the extreme does not have either.
 template <class Better> void take(Bounds& extreme, const Bounds& of, Better better) {
   if (std::isnan(of.value))
     return;
+  if (std::isnan(extreme.value)) {
+    extreme = of;
+    return;
+  }
   const auto one = [&](double& at, double candidate) {
-    if (std::isnan(at) || better(candidate, at))
+    if (std::isnan(candidate) || better(candidate, at))
       at = candidate;
   };
   one(extreme.value, of.value);

@@ -84,6 +84,18 @@ TEST(WearByTube, LeavesOutWhatHasNoDepthAndNoLife) {
   EXPECT_TRUE(std::isnan(tubes[0].volume.value)); // a sum without all its terms would be too small
 }
 
+TEST(WearByTube, HasNoEndThatOneOfItsSupportsDoesNotHave) {
+  auto beyond = with(0, "a", 4.0, 3.0, 9.0); // its upper work rate wears through the geometry
+  beyond.depth.high.back() = no_value;
+  for (const auto& supports :
+       {std::vector{beyond, with(0, "b", 4.0, 2.0, 8.0)}, std::vector{with(0, "b", 4.0, 2.0, 8.0), beyond}}) {
+    const auto tubes = wear_by_tube(supports);
+    EXPECT_EQ(tubes[0].depth.value, 3.0);
+    EXPECT_EQ(tubes[0].depth.low, 1.5);
+    EXPECT_TRUE(std::isnan(tubes[0].depth.high));
+  }
+}
+
 TEST(WearInTheSummary, HasEverySupportWithItsIntervals) {
   const auto summary = summary_of(worn(4));
   const auto& supports = summary["wear"]["supports"];
