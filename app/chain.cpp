@@ -107,6 +107,12 @@ private:
       if (first_rank_)
         lock_.emplace(inputs_.directory, inputs_.study.file.string());
     });
+    if (inputs_.study.varied && last_ != Stage::mesh) {
+      out_.notes.emplace_back(
+          "[sweep] varies keys of this study: fretwork sweep computes its cases, this run has the values of "
+          "the study (and of --set)");
+      say("note: " + out_.notes.back() + "\n");
+    }
     out_.timings.read = watch_.lap();
     progress_.stage("mesh");
     make_mesh_file(comm_, inputs_);
@@ -150,10 +156,6 @@ private:
       if (out_.modes_limit)
         limit_modes();
     });
-    if (inputs_.study.varied)
-      out_.notes.emplace_back(
-          "[sweep] varies keys of this study: the cases are computed by fretwork sweep, this run "
-          "has the values of the study (and of --set)");
     note_coincident_nodes(mesh_, out_);
     if (out_.modes_limit) // by the values that may be slips: before the time is spent
       for (const std::string& warning : out_.warnings)
