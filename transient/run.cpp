@@ -204,7 +204,7 @@ bool Run::advance(std::int64_t records) {
     for (Observer* observer : observers_)
       observer->step(record);
     diverged_records_ = residual <= divergence_threshold * largest_energy_scale_ ? 0 : diverged_records_ + 1;
-    if (!std::isfinite(residual) || diverged_records_ > passing) {
+    if (!std::isfinite(residual + record.energy.scale) || diverged_records_ > passing) {
       report_.outcome = Outcome::diverged;
       scheme_->complete({false, true});
     }

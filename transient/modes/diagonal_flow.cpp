@@ -15,8 +15,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double largest_condition = 1e6, largest_form = 1e6;
-constexpr double unseen = 1e-12;    ///< of what a velocity makes of scaled q and v
-constexpr double round_off = 1e-14; ///< of a power
+constexpr double negligible_participation = 1e-12; ///< of what a velocity makes of scaled q and v
+constexpr double round_off = 1e-14;                ///< of a power
 /// Blocks of fewer modes are put together: a pack of displacements and velocities takes no longer than one of them.
 constexpr std::size_t modes_of_pack = kernels::lanes / 2;
 
@@ -157,7 +157,8 @@ bool DiagonalFlow::add_block(const System& system, const CoupledBlock& of, doubl
   std::vector<Index> pairs, reals;
   for (Index k = 0; k < found.values.size(); ++k) {
     const bool pair = found.values(k).imag() != 0.0;
-    if (found.vectors.col(k).head(2 * m).norm() * found.inverse.row(k).head(2 * m).norm() > unseen)
+    if (found.vectors.col(k).head(2 * m).norm() * found.inverse.row(k).head(2 * m).norm() >
+        negligible_participation)
       (pair ? pairs : reals).push_back(k);
     k += pair ? 1 : 0;
   }

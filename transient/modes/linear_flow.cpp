@@ -30,7 +30,7 @@ std::vector<Index> other_modes(const DiagonalFlow& blocks, Index modes) {
 }
 
 /// The scene of the modes of no block.
-Scene front_of(const Scene& scene, const DiagonalFlow& blocks, const std::vector<Index>& modes) {
+Scene uncoupled_part(const Scene& scene, const DiagonalFlow& blocks, const std::vector<Index>& modes) {
   if (blocks.empty())
     return scene;
   Scene out = with_modes(scene, modes);
@@ -42,9 +42,9 @@ Scene front_of(const Scene& scene, const DiagonalFlow& blocks, const std::vector
 } // namespace
 
 LinearFlow::LinearFlow(const Scene& scene, double step, const std::vector<int>& lengths)
-    : blocks_(blocks_of(scene, step, lengths)), front_modes_(other_modes(blocks_, scene.system.size())),
-      front_(front_of(scene, blocks_, front_modes_), step, lengths), modes_(scene.system.size()),
-      lengths_(lengths) {
+    : blocks_(blocks_of(scene, step, lengths)), uncoupled_modes_(other_modes(blocks_, scene.system.size())),
+      uncoupled_(uncoupled_part(scene, blocks_, uncoupled_modes_), step, lengths),
+      modes_(scene.system.size()), lengths_(lengths) {
   if (blocks_.empty())
     return;
   loads_.emplace(scene, step);
@@ -80,7 +80,7 @@ std::vector<ContactPoint> LinearFlow::over_coordinates(const std::vector<Contact
   Scene scene; // for the modes of no block
   scene.system.stiffness = scene.system.damping = scene.q0 = scene.v0 = Eigen::VectorXd::Zero(modes_);
   scene.contacts = contacts;
-  std::vector<ContactPoint> out = with_modes(scene, front_modes_).contacts;
+  std::vector<ContactPoint> out = with_modes(scene, uncoupled_modes_).contacts;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     ContactPoint& to = out[c];
     const Eigen::MatrixXd all = contacts[c].over_all(modes_);
@@ -91,7 +91,7 @@ std::vector<ContactPoint> LinearFlow::over_coordinates(const std::vector<Contact
       if (of_block.isZero(0.0))
         continue;
       const auto [first, size] = blocks_.range(b);
-      to.modes.push_back({front_.padded() + numbers * first, numbers * size});
+      to.modes.push_back({uncoupled_.padded() + numbers * first, numbers * size});
       to.b.conservativeResize(Eigen::NoChange, to.b.cols() + numbers * size);
       to.b.rightCols(numbers * size) = rows(b, of_block);
     }
@@ -116,23 +116,23 @@ std::size_t LinearFlow::place(int length) const {
   return static_cast<std::size_t>(std::find(lengths_.begin(), lengths_.end(), length) - lengths_.begin());
 }
 
-void LinearFlow::to_front(const double* modes, double* front) const {
-  for (std::size_t i = 0; i < front_modes_.size(); ++i)
-    front[i] = modes[front_modes_[i]];
+void LinearFlow::to_uncoupled(const double* modes, double* uncoupled) const {
+  for (std::size_t i = 0; i < uncoupled_modes_.size(); ++i)
+    uncoupled[i] = modes[uncoupled_modes_[i]];
 }
 
-void LinearFlow::to_modes(const double* front, double* modes) const {
-  for (std::size_t i = 0; i < front_modes_.size(); ++i)
-    modes[front_modes_[i]] = front[i];
+void LinearFlow::to_modes(const double* uncoupled, double* modes) const {
+  for (std::size_t i = 0; i < uncoupled_modes_.size(); ++i)
+    modes[uncoupled_modes_[i]] = uncoupled[i];
 }
 
 LinearFlow::State LinearFlow::start(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
   State out;
   out.q.assign(static_cast<std::size_t>(coordinates()), 0.0);
   out.v = out.q;
-  front_.start(out);
-  to_front(q.data(), out.q.data());
-  to_front(v.data(), out.v.data());
+  uncoupled_.start(out);
+  to_uncoupled(q.data(), out.q.data());
+  to_uncoupled(v.data(), out.v.data());
   if (blocks_.empty())
     return out;
   blocks_.start(q.data(), v.data(), y_.data());
@@ -142,7 +142,7 @@ LinearFlow::State LinearFlow::start(const Eigen::VectorXd& q, const Eigen::Vecto
 }
 
 void LinearFlow::load_about(double time, kernels::Array& load) {
-  front_.load_about(time, load);
+  uncoupled_.load_about(time, load);
   if (blocks_.empty())
     return;
   if (!driven_->empty())
@@ -150,35 +150,36 @@ void LinearFlow::load_about(double time, kernels::Array& load) {
   if (random_->empty())
     return;
   if (driven_->empty())
-    std::fill(load.begin() + front_.padded(), load.end(), 0.0);
+    std::fill(load.begin() + uncoupled_.padded(), load.end(), 0.0);
   random_->corner(time, q_.data());
   blocks_.add_input(q_.data(), part(load));
 }
 
-void LinearFlow::move_blocks(std::size_t place, const State& from, const kernels::StateInputs& inputs,
-                             State& to) const {
+void LinearFlow::move_blocks(int length, const State& from, const kernels::Array& load0,
+                             const kernels::Array& load1, const kernels::Array& mean,
+                             const kernels::Array& slope, State& to) const {
   if (!blocks_.empty())
-    blocks_.move(place, part(from.q), inputs, part(to.q), part(to.v));
+    blocks_.move(place(length), part(from.q), inputs_of(load0, load1, mean, slope), part(to.q), part(to.v));
 }
 
 ModalFlow::Sums LinearFlow::move(int length, const State& from, const kernels::Array& load0,
                                  const kernels::Array& load1, State& to) {
-  const ModalFlow::Sums sums = front_.move(length, from, load0, load1, to);
-  move_blocks(place(length), from, inputs_of(load0, load1, none_, none_), to);
+  const ModalFlow::Sums sums = uncoupled_.move(length, from, load0, load1, to);
+  move_blocks(length, from, load0, load1, none_, none_, to);
   return sums;
 }
 
 ModalFlow::Sums LinearFlow::move(const State& from, const kernels::Array& load0, const kernels::Array& load1,
                                  const kernels::Array& constant, State& to) {
-  const ModalFlow::Sums sums = front_.move(from, load0, load1, constant, to);
-  move_blocks(place(1), from, inputs_of(load0, load1, constant, none_), to);
+  const ModalFlow::Sums sums = uncoupled_.move(from, load0, load1, constant, to);
+  move_blocks(1, from, load0, load1, constant, none_, to);
   return sums;
 }
 
 ModalFlow::Sums LinearFlow::push(const State& from, const kernels::Array& load0, const kernels::Array& load1,
                                  const ModalForce& force, State& to) {
-  const ModalFlow::Sums sums = front_.push(from, load0, load1, force, to);
-  move_blocks(place(1), from, inputs_of(load0, load1, force.mean, force.slope), to);
+  const ModalFlow::Sums sums = uncoupled_.push(from, load0, load1, force, to);
+  move_blocks(1, from, load0, load1, force.mean, force.slope, to);
   return sums;
 }
 
@@ -214,8 +215,8 @@ void LinearFlow::modes_in_middle(int length, const State& from, const kernels::A
 void LinearFlow::inside(double time, double duration, const State& from, const kernels::Array& load0,
                         const kernels::Array& load1, const ModalForce* force, double* q, double* v) {
   if (blocks_.empty())
-    return front_.inside(time, duration, from, load0, load1, force, q, v);
-  front_.inside(time, duration, from, load0, load1, force, q_.data(), v_.data());
+    return uncoupled_.inside(time, duration, from, load0, load1, force, q, v);
+  uncoupled_.inside(time, duration, from, load0, load1, force, q_.data(), v_.data());
   to_modes(q_.data(), q);
   to_modes(v_.data(), v);
   const double share = time / duration;
@@ -230,20 +231,20 @@ void LinearFlow::inside(double time, double duration, const State& from, const k
 
 void LinearFlow::add_motion_forces(double* force) {
   if (blocks_.empty())
-    return front_.add_motion_forces(force);
+    return uncoupled_.add_motion_forces(force);
   std::fill(q_.begin(), q_.end(), 0.0);
-  front_.add_motion_forces(q_.data());
-  for (std::size_t i = 0; i < front_modes_.size(); ++i)
-    force[front_modes_[i]] += q_[i];
+  uncoupled_.add_motion_forces(q_.data());
+  for (std::size_t i = 0; i < uncoupled_modes_.size(); ++i)
+    force[uncoupled_modes_[i]] += q_[i];
   blocks_.add_forces(y_.data(), force);
 }
 
 void LinearFlow::response(const double* force, double* moved) {
   if (blocks_.empty())
-    return front_.response(force, moved);
+    return uncoupled_.response(force, moved);
   std::fill(q_.begin(), q_.end(), 0.0);
-  to_front(force, q_.data());
-  front_.response(q_.data(), v_.data());
+  to_uncoupled(force, q_.data());
+  uncoupled_.response(q_.data(), v_.data());
   to_modes(v_.data(), moved);
   blocks_.response(force, moved);
 }

@@ -30,9 +30,9 @@ public:
   LinearFlow(const Scene& scene, double step, const std::vector<int>& lengths);
 
   /// Sizes of arrays, multiples of kernels::lanes: of a state, and of a force.
-  [[nodiscard]] int coordinates() const { return front_.padded() + static_cast<int>(blocks_.size()); }
+  [[nodiscard]] int coordinates() const { return uncoupled_.padded() + static_cast<int>(blocks_.size()); }
   [[nodiscard]] int force_numbers() const {
-    return front_.padded() + kernels::numbers_of_input * static_cast<int>(blocks_.size());
+    return uncoupled_.padded() + kernels::numbers_of_input * static_cast<int>(blocks_.size());
   }
   /// Whether coordinates are more than the modes.
   [[nodiscard]] bool has_blocks() const { return !blocks_.empty(); }
@@ -58,12 +58,14 @@ public:
                  const ModalForce* force, ModalFlow::Sums& sums, BlockWorks& works);
   /// After these works. No allocation.
   [[nodiscard]] BlockEnergies energies(const State& state, const BlockWorks& works);
-  [[nodiscard]] double energy_at_start(const State& state) { return front_.energy(state) + start_.stored; }
+  [[nodiscard]] double energy_at_start(const State& state) {
+    return uncoupled_.energy(state) + start_.stored;
+  }
 
   /// Coordinates in the middle of the step moved last (force null: none), but for those of blocks. No allocation.
   void middle(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
               const ModalForce* force, kernels::Array& q) {
-    front_.middle(length, from, load0, load1, force, q);
+    uncoupled_.middle(length, from, load0, load1, force, q);
   }
   /// The modes' displacements there, n values, by coordinates that `middle` gave. No allocation.
   void modes_in_middle(int length, const State& from, const kernels::Array& load0,
@@ -74,7 +76,7 @@ public:
               const kernels::Array& load1, const ModalForce* force, double* q, double* v);
   /// Modal force of the loads at an instant, n values.
   void load_at(double time, double* force) {
-    loads_ ? loads_->observe(time, force) : front_.load_at(time, force);
+    loads_ ? loads_->observe(time, force) : uncoupled_.load_at(time, force);
   }
   /// Adds the forces of motion where `inside` was last, n values. No allocation.
   void add_motion_forces(double* force);
@@ -84,23 +86,24 @@ public:
 private:
   [[nodiscard]] std::size_t place(int length) const;
   /// The part of the blocks in an array.
-  template <class Array> [[nodiscard]] auto* part(Array& of) const { return of.data() + front_.padded(); }
+  template <class Array> [[nodiscard]] auto* part(Array& of) const { return of.data() + uncoupled_.padded(); }
   [[nodiscard]] kernels::StateInputs inputs_of(const kernels::Array& load0, const kernels::Array& load1,
                                                const kernels::Array& mean,
                                                const kernels::Array& slope) const {
     return {part(load0), part(load1), part(mean), part(slope)};
   }
-  void move_blocks(std::size_t place, const State& from, const kernels::StateInputs& inputs, State& to) const;
+  void move_blocks(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
+                   const kernels::Array& mean, const kernels::Array& slope, State& to) const;
   [[nodiscard]] std::vector<Load> loads_on_blocks(const std::vector<Load>& loads) const;
   template <class Rows>
   [[nodiscard]] std::vector<ContactPoint> over_coordinates(const std::vector<ContactPoint>& contacts,
                                                            int numbers, const Rows& rows) const;
-  void to_front(const double* modes, double* front) const;
-  void to_modes(const double* front, double* modes) const;
+  void to_uncoupled(const double* modes, double* uncoupled) const;
+  void to_modes(const double* uncoupled, double* modes) const;
 
   DiagonalFlow blocks_;
-  std::vector<Eigen::Index> front_modes_; ///< those of no block; with blocks
-  ModalFlow front_;
+  std::vector<Eigen::Index> uncoupled_modes_; ///< those of no block; with blocks
+  ModalFlow uncoupled_;
   Eigen::Index modes_;
   std::vector<int> lengths_;
   std::optional<LoadSum> loads_;  ///< on all modes; with blocks

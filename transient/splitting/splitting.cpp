@@ -65,7 +65,7 @@ public:
       std::copy_n(mode_scales.data(), mode_scales.size(), mode_scales_.begin());
     }
     if (modes_.has_blocks())
-      shown_.assign(n, 0.0);
+      output_q_.assign(n, 0.0);
     const auto count = static_cast<std::size_t>(contacts_.count);
     was_near_.assign(count, 1); // nothing is known yet
     near_.reserve(count);
@@ -108,9 +108,9 @@ public:
     if (!parts.modes)
       return;
     modes_.modes_in_middle(now.steps, now.from, now.load, end.load, now.pushed ? &now.force : nullptr, now.q,
-                           shown_.data());
-    scale(shown_.data(), 1);
-    record_.q = shown_.data();
+                           output_q_.data());
+    scale(output_q_.data(), 1);
+    record_.q = output_q_.data();
   }
 
   void state_at(double time, double* q, double* v) override {
@@ -363,7 +363,7 @@ private:
   std::vector<int> near_;
   double window_;
   kernels::Array mode_scales_; ///< with scaled masses
-  kernels::Array shown_;       ///< modes of the record, with blocks
+  kernels::Array output_q_;    ///< modes of the record, with blocks
 
   std::int64_t done_ = 0; ///< steps of h up to the one that is made
   int wait_ = 0;          ///< steps until macro-steps are tried again

@@ -90,6 +90,7 @@ TEST(LinearFlow, LeavesARunWithoutForcesOfMotionAsItIs) {
   ASSERT_TRUE(LinearFlow(coupled, h, {1}).has_blocks());
   StepChoice choice = choose_step(scene, splitting(2e-5));
   choice.macro_steps = 8;
+  choice.replay = 1e-3;
   Eigen::MatrixXd node(3, modes);
   for (Eigen::Index i = 0; i < modes; ++i)
     node.col(i) << 1.0, std::cos(static_cast<double>(i)), std::sin(2.0 * static_cast<double>(i));
@@ -118,6 +119,18 @@ TEST(LinearFlow, LeavesARunWithoutForcesOfMotionAsItIs) {
   EXPECT_NEAR(b.energy.modal_damping, a.energy.modal_damping, same * a.energy.scale);
   EXPECT_NEAR(b.energy.friction, a.energy.friction, same * a.energy.scale);
   EXPECT_NEAR(b.energy.fluid_work, 0.0, same * a.energy.scale);
+}
+
+/// Without contacts nothing but the energies tells that a motion has grown out of all numbers.
+TEST(LinearFlow, EndsARunThatGrowsOutOfAllNumbers) {
+  Scene scene = rattling_tube(40.0);
+  scene.contacts.clear();
+  scene.system.motion = law();
+  scene.system.motion.damping.topLeftCorner(5, 5) += 100.0 * Eigen::MatrixXd::Identity(5, 5);
+  ASSERT_TRUE(LinearFlow(scene, h, {1}).has_blocks());
+  StepOptions options = splitting(2e-3);
+  const Report report = run(scene, choose_step(scene, options), {}, nullptr, {});
+  EXPECT_EQ(report.outcome, Outcome::diverged);
 }
 
 /// Asks for all of every record.
