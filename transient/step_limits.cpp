@@ -111,10 +111,9 @@ std::vector<StepLimit> step_limits(const StepChoice& c, const Scene& scene, doub
     const double intervals = splitting ? most_intervals : 1.0;
     out.push_back({intervals * damper_share(c.scheme, fineness) / c.damper_rate,
                    fmt::format("the tangential dampers' rate {:.4g} 1/s", c.damper_rate),
-                   splitting
-                       ? "; a smaller tangential_damping makes the step longer"
-                       : "; a smaller tangential_damping, or scheme = \"splitting\", which resolves the "
-                         "dampers within a step, makes it longer"});
+                   splitting ? "; a smaller tangential_damping makes the step longer"
+                             : "; a smaller tangential_damping makes the step longer (scheme = \"splitting\" "
+                               "resolves the dampers within a step)"});
   }
   if (exact && c.normal_damper_rate > 0.0)
     out.push_back(

@@ -143,7 +143,7 @@ int longest_macro_step(const StepChoice& c, const Scene& scene, double fineness)
   return std::max(1, static_cast<int>(longest / c.step * (1.0 + 1e-9)));
 }
 
-/// Steps of a run in which nothing asks for more; fewer of dear ones, since motions with many contacts are rarely followed impact by impact.
+/// Steps of a run in which nothing asks for more; fewer of expensive ones, since motions with many contacts are rarely followed impact by impact.
 double least_steps(const Scene& scene) {
   const double cost =
       static_cast<double>(scene.system.size()) + cost_of_contact * static_cast<double>(scene.contacts.size());

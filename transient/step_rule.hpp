@@ -29,7 +29,7 @@
 /// runge_kutta_54 chooses its steps by its tolerance: `step` is the longest, from the terms of the loads and duration/200.
 /// Never above 1/30 of the shortest period of the excitation at an accuracy of 0.01 (without contacts 1/200, and m = 0.3: statistics must
 /// see the modes), nor the shortest interval of a table (whose points runge_kutta_54 ends its steps at), nor duration/20000, where
-/// steps are dear, s = modes + 20 contacts above 100, duration/max(2000, 2e8/s^2): so many steps take milliseconds to some hundredths of a second.
+/// steps are expensive, s = modes + 20 contacts above 100, duration/max(2000, 2e8/s^2): so many steps take milliseconds to some hundredths of a second.
 ///
 /// Without a scheme given, collocation is taken where its predicted time (steps times the cost of one) is below 0.7 of that of splitting.
 #pragma once
