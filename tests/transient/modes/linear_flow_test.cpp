@@ -121,8 +121,8 @@ TEST(LinearFlow, LeavesARunWithoutForcesOfMotionAsItIs) {
   EXPECT_NEAR(b.energy.fluid_work, 0.0, same * a.energy.scale);
 }
 
-/// Without contacts nothing but the energies tells that a motion has grown out of all numbers.
-TEST(LinearFlow, EndsARunThatGrowsOutOfAllNumbers) {
+/// Without contacts the energies alone tell that a motion overflows.
+TEST(LinearFlow, EndsARunThatOverflows) {
   Scene scene = rattling_tube(40.0);
   scene.contacts.clear();
   scene.system.motion = law();
