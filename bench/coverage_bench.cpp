@@ -8,6 +8,7 @@
 //                wear/work_rate.hpp, of other figures value +- t(n - 1) error
 //     width      median over the runs of the half of the interval, over 1.96 standard deviations over the runs; 1 where the error is known
 // Printed as lowest / mean / highest over the contacts.
+#include "bench/rattling_mass.hpp"
 #include "bench/scenes.hpp"
 #include "core/error.hpp"
 #include "post/contact_statistics.hpp"
@@ -18,7 +19,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <numbers>
 
 namespace {
 
@@ -167,35 +167,22 @@ void judge(const std::string& name, const std::vector<Run>& runs) {
   std::fflush(stdout);
 }
 
-/// 1 kg on springs of 40 Hz in a hole, friction, band-limited forces in both planes: impacts from many to few, in windows from long to short.
+/// Impacts from many to few, in windows from long to short.
 std::vector<bench::NamedScene> masses() {
   struct Mass {
     const char* name;
-    double ratio, force, clearance; ///< of damping; N, rms; m
-    double duration;                ///< s
+    bench::RattlingMass mass; ///< of which the duration is that of the window
   };
   std::vector<bench::NamedScene> out;
-  for (const Mass& mass :
-       {Mass{"mass, 0.1 mm, 20 s", 0.05, 20.0, 1e-4, 20.0},
-        Mass{"mass, 0.1 mm, 0.5 s", 0.05, 20.0, 1e-4, 0.5}, Mass{"mass, 0.8 mm, 20 s", 0.05, 8.0, 8e-4, 20.0},
-        Mass{"mass, 0.8 mm, 2 s", 0.05, 8.0, 8e-4, 2.0}, Mass{"mass, 1 mm, 20 s", 0.05, 8.0, 1e-3, 20.0},
-        Mass{"mass, 1.3 mm, 20 s", 0.02, 8.0, 1.3e-3, 20.0},
-        Mass{"mass, 1.3 mm, 5 s", 0.02, 8.0, 1.3e-3, 5.0}}) {
-    constexpr double w = 2.0 * std::numbers::pi * 40.0; // rad/s
-    transient::Scene scene;
-    scene.duration = mass.duration / (1.0 - share_before);
-    scene.system.stiffness = Eigen::VectorXd::Constant(2, w * w);
-    scene.system.damping = Eigen::VectorXd::Constant(2, 2.0 * mass.ratio * w);
-    scene.q0 = scene.v0 = Eigen::VectorXd::Zero(2);
-    for (int plane = 0; plane < 2; ++plane)
-      scene.loads.push_back({transient::Random{mass.force, 2.0, 100.0, 1}, Eigen::VectorXd::Unit(2, plane)});
-    transient::ContactPoint hole;
-    hole.name = "hole";
-    hole.support = {contact::Circle{mass.clearance}, {1e5}, {5e4, 50.0, 0.3, 0.3}};
-    hole.b = Eigen::MatrixXd::Zero(3, 2);
-    hole.b(1, 0) = hole.b(2, 1) = 1.0;
-    scene.contacts = {hole};
-    out.push_back({mass.name, scene});
+  for (Mass one :
+       {Mass{"mass, 0.1 mm, 20 s", {20.0, 0.05, 20.0, 1e-4}},
+        Mass{"mass, 0.1 mm, 0.5 s", {0.5, 0.05, 20.0, 1e-4}},
+        Mass{"mass, 0.8 mm, 20 s", {20.0, 0.05, 8.0, 8e-4}},
+        Mass{"mass, 0.8 mm, 2 s", {2.0, 0.05, 8.0, 8e-4}}, Mass{"mass, 1 mm, 20 s", {20.0, 0.05, 8.0, 1e-3}},
+        Mass{"mass, 1.3 mm, 20 s", {20.0, 0.02, 8.0, 1.3e-3}},
+        Mass{"mass, 1.3 mm, 5 s", {5.0, 0.02, 8.0, 1.3e-3}}}) {
+    one.mass.duration /= 1.0 - share_before;
+    out.push_back({one.name, bench::rattling_mass(one.mass, 0)});
   }
   return out;
 }
