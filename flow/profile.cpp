@@ -17,9 +17,7 @@ constexpr double along_tube =
 constexpr double same_end = 1e-9; ///< of the tube's length: zones that share an end given in decimals
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-template <class AnyZone> std::string name_of(const AnyZone& zone) {
-  return fmt::format("zone \"{}\"", zone.name);
-}
+std::string name_of(const Extent& zone) { return fmt::format("zone \"{}\"", zone.name); }
 
 void require_above_zero(double value, const std::string& what, const char* unit) {
   if (!(value > 0.0) || !std::isfinite(value))
@@ -215,8 +213,7 @@ void set_velocity(FlowPoint& out, const Zone& zone, const TubePoint& point, doub
 Profile::Profile(std::vector<Zone> zones, double length, std::vector<Extent> dry)
     : zones_(std::move(zones)), dry_(std::move(dry)) {
   std::vector<Extent> extents = dry_;
-  for (const Zone& zone : zones_)
-    extents.push_back({zone.name, zone.from, zone.to});
+  extents.insert(extents.end(), zones_.begin(), zones_.end());
   for (const Extent& extent : extents)
     check_extent(extent, length);
   for (const Zone& zone : zones_) {

@@ -54,21 +54,19 @@ struct TwoPhase {
 };
 using OuterFluid = std::variant<SinglePhase, TwoPhase>;
 
-struct Zone {
+/// Where a zone is.
+struct Extent {
   std::string name;
   double from = 0.0, to = 0.0; ///< m
+};
+
+struct Zone : Extent {
   Velocity velocity;
   OuterFluid fluid;
   Table<double> inner_density = Table<double>::constant(0.0); ///< kg/m3, >= 0, of the fluid inside the tube
   Bundle bundle = {};
   std::vector<double> connors_constants =
       {}; ///< K > 0; several are tabulated, none: by P/D (connors_constant.hpp)
-};
-
-/// Where a zone is.
-struct Extent {
-  std::string name;
-  double from = 0.0, to = 0.0; ///< m
 };
 
 /// The fluid at a point of the tube.

@@ -121,10 +121,7 @@ flow::Extent read_extent(const TableReader& table, std::size_t number) {
 
 flow::Zone read_zone(const ZoneTable& zone, const flow::Extent& extent, flow::Phase phase) {
   const TableReader& table = zone.table;
-  flow::Zone out{};
-  out.name = extent.name;
-  out.from = extent.from;
-  out.to = extent.to;
+  flow::Zone out{extent, {}, {}};
   out.velocity = read_velocity(table, zone.folder);
   if (phase == flow::Phase::two_phase)
     out.fluid = read_two_phase(zone);

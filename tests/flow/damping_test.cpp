@@ -31,12 +31,9 @@ HandMade tube_of(const std::vector<double>& frequencies) {
 }
 
 Zone zone(double from, double to, OuterFluid fluid) {
-  return {.name = "z",
-          .from = from,
-          .to = to,
-          .velocity = ScalarVelocity{constant(1.0)},
-          .fluid = std::move(fluid),
-          .bundle = bundle};
+  Zone out{{"z", from, to}, ScalarVelocity{constant(1.0)}, std::move(fluid)};
+  out.bundle = bundle;
+  return out;
 }
 
 /// Eight supports, 30 mm long, nine spans of 1 m.

@@ -64,11 +64,7 @@ inline flow::SinglePhase liquid(double density, double viscosity = 1.23e-7) {
 
 inline flow::Zone liquid_zone(const std::string& name, double from, double to, double density,
                               double velocity) {
-  return {.name = name,
-          .from = from,
-          .to = to,
-          .velocity = flow::ScalarVelocity{constant(velocity), Vec3::UnitX()},
-          .fluid = liquid(density)};
+  return {{name, from, to}, flow::ScalarVelocity{constant(velocity), Vec3::UnitX()}, liquid(density)};
 }
 
 } // namespace fretwork::tests
