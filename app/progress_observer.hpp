@@ -11,15 +11,12 @@ namespace fretwork::app {
 using ProgressCallback = std::function<void(double share, double time)>;
 
 /// Tells the callback now and then how far a run is.
-class ProgressObserver final : public transient::Observer {
+class ProgressObserver final : public transient::ContactObserver {
 public:
   /// @param before    share of all steps of this rank that are done before this run   @param share  of the run itself
   /// @param duration  s, of the run
   ProgressObserver(const ProgressCallback& callback, double before, double share, double duration)
       : callback_(callback), before_(before), share_(share), duration_(duration) {}
-  [[nodiscard]] transient::RecordParts parts_of(const transient::Record&, double) const override {
-    return {false, false};
-  }
   void step(const transient::Record& record) override {
     if (++count_ % look_every == 0)
       callback_(before_ + share_ * record.time / duration_, record.time);

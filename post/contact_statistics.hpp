@@ -65,14 +65,11 @@ struct ContactSummary {
   SideWorks sides = {}; ///< `work_rate` by side of the contact point (contact/sides.hpp)
 };
 
-class ContactStatistics final : public transient::Observer {
+class ContactStatistics final : public transient::ContactObserver {
 public:
   /// @param contacts  of the scene   @param from  start of the window, s
   ContactStatistics(const std::vector<transient::ContactPoint>& contacts, double from);
   void step(const transient::Record& record) override;
-  [[nodiscard]] transient::RecordParts parts_of(const transient::Record&, double) const override {
-    return {false, false};
-  }
   void visit(core::StateArchive& state) override { state(time_, sums_, motion_, ends_); }
   [[nodiscard]] std::vector<ContactSummary> summaries() const;
   /// Of the sums over all contacts of work_rate, friction_power and impact_rate (contacts of one structure are not independent); the

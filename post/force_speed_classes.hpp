@@ -11,15 +11,12 @@
 
 namespace fretwork::post {
 
-class ForceSpeedClasses final : public transient::Observer {
+class ForceSpeedClasses final : public transient::ContactObserver {
 public:
   /// @param maxima  N and m/s, > 0, for each contact; nothing: the contact is not watched   @param from  start of the window, s
   /// @throws core::Error for maxima out of range
   ForceSpeedClasses(const std::vector<std::optional<wear::KwuMaxima>>& maxima, double from);
   void step(const transient::Record& record) override;
-  [[nodiscard]] transient::RecordParts parts_of(const transient::Record&, double) const override {
-    return {false, false};
-  }
   void visit(core::StateArchive& state) override {
     for (wear::KwuClasses& of_contact : classes_)
       state(of_contact);

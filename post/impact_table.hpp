@@ -40,16 +40,13 @@ struct ContactImpacts {
 };
 
 /// Impacts that start in the window; one under way at its start is none of them.
-class ImpactTable final : public transient::Observer {
+class ImpactTable final : public transient::ContactObserver {
 public:
   /// @param contacts   number of contacts   @param from  start of the window, s
   /// @param rest_time  s, >= 0; 0: no rebounds, every interval of force is an impact
   /// @param most       rows of each contact, reserved here; further impacts are counted
   ImpactTable(std::size_t contacts, double from, double rest_time, std::size_t most);
   void step(const transient::Record& record) override;
-  [[nodiscard]] transient::RecordParts parts_of(const transient::Record&, double) const override {
-    return {false, false};
-  }
   void visit(core::StateArchive& state) override { state(under_way_, out_); }
   /// One entry a contact; impacts under way end where the run stands.
   [[nodiscard]] std::vector<ContactImpacts> impacts() &&;

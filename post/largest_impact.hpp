@@ -17,16 +17,13 @@ struct ForcePoint {
   double tangential = 0.0; ///< N, length of the vector
 };
 
-class LargestImpact final : public transient::Observer {
+class LargestImpact final : public transient::ContactObserver {
 public:
   static constexpr std::size_t points = 256;
 
   /// @param contacts  number of contacts   @param from  start of the window, s
   LargestImpact(std::size_t contacts, double from);
   void step(const transient::Record& record) override;
-  [[nodiscard]] transient::RecordParts parts_of(const transient::Record&, double) const override {
-    return {false, false};
-  }
   void visit(core::StateArchive& state) override { state(contacts_); }
   /// Of every contact, in time; empty where there was no force.
   [[nodiscard]] std::vector<std::vector<ForcePoint>> histories() const;

@@ -12,7 +12,7 @@
 
 namespace fretwork::post {
 
-class SectorStatistics final : public transient::Observer {
+class SectorStatistics final : public transient::ContactObserver {
 public:
   /// @param sectors  number for each contact; 0: the contact is not watched   @param from  start of the window, s
   /// @param by_place  the contacts of the scene, where obstacles in parts have their work by the angle of the contact's place: the normals of
@@ -21,9 +21,6 @@ public:
   SectorStatistics(const std::vector<int>& sectors, double from,
                    std::span<const transient::ContactPoint> by_place = {});
   void step(const transient::Record& record) override;
-  [[nodiscard]] transient::RecordParts parts_of(const transient::Record&, double) const override {
-    return {false, false};
-  }
   void visit(core::StateArchive& state) override {
     state(time_);
     for (wear::SectorWork& of_contact : work_)

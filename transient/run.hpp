@@ -18,6 +18,11 @@ public:
   virtual void visit(core::StateArchive& state) = 0;
 };
 
+/// An observer of times and contacts alone.
+class ContactObserver : public Observer {
+  [[nodiscard]] RecordParts parts_of(const Record&, double) const final { return {false, false}; }
+};
+
 /// Receives the output instants 0, every, 2 every ... Must not allocate or throw.
 class Sampler {
 public:
