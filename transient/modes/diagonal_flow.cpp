@@ -127,13 +127,10 @@ MatrixXd work_form(const core::Diagonalised& found, const std::vector<Coordinate
 
 } // namespace
 
-DiagonalFlow::DiagonalFlow(const System& system, std::vector<CoupledBlock>& blocks, double step,
+DiagonalFlow::DiagonalFlow(const System& system, const std::vector<CoupledBlock>& blocks, double step,
                            const std::vector<int>& lengths) {
-  std::vector<CoupledBlock> left;
   for (const CoupledBlock& block : put_together(blocks))
-    if (!add_block(system, block, step, lengths))
-      left.push_back(block);
-  blocks = std::move(left);
+    add_block(system, block, step, lengths);
   std::size_t width = 0, modes = 0;
   for (const Block& b : blocks_) {
     width = std::max(width, static_cast<std::size_t>(b.width()));
@@ -144,14 +141,14 @@ DiagonalFlow::DiagonalFlow(const System& system, std::vector<CoupledBlock>& bloc
   table_.assign(kernels::StateTable::numbers * width, 0.0);
 }
 
-bool DiagonalFlow::add_block(const System& system, const CoupledBlock& of, double step,
+void DiagonalFlow::add_block(const System& system, const CoupledBlock& of, double step,
                              const std::vector<int>& lengths) {
   const auto m = static_cast<Index>(of.modes.size());
   const VectorXd scale = scales(system, of);
   const core::Diagonalised found =
       core::diagonalised(scale.asDiagonal() * state_matrix(system, of) * scale.cwiseInverse().asDiagonal());
   if (!(found.condition <= largest_condition))
-    return false;
+    return;
   const MatrixXcd vectors = scale.cwiseInverse().asDiagonal() * found.vectors,
                   inverse = found.inverse * scale.asDiagonal();
   std::vector<Index> pairs, reals;
@@ -195,7 +192,7 @@ bool DiagonalFlow::add_block(const System& system, const CoupledBlock& of, doubl
   const MatrixXd form =
       work_form(found, coordinates, width, vectors.middleRows(m, m), forces.cast<Complex>() * vectors);
   if (form.size() == 0)
-    return false;
+    return;
   b.forces = forces * state;
   b.state = state.topRows(2 * m);
   b.input.resize(kernels::numbers_of_input * width, m);
@@ -225,7 +222,6 @@ bool DiagonalFlow::add_block(const System& system, const CoupledBlock& of, doubl
     b.response.col(j) = b.state.topRows(m) * constant(b.start.col(m + j));
   size_ += static_cast<std::size_t>(width);
   blocks_.push_back(std::move(b));
-  return true;
 }
 
 void DiagonalFlow::set_table(const Block& b, double t, double* table) const {

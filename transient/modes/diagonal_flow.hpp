@@ -26,9 +26,9 @@ namespace fretwork::transient {
 class DiagonalFlow {
 public:
   DiagonalFlow() = default;
-  /// @param blocks  those of the system that are to be moved; those that cannot be diagonalised stay there, the others are taken out
+  /// @param blocks  those of the system that are to be moved; those that cannot be diagonalised are left out (`modes`)
   /// @param lengths  of steps in numbers of `step`, s
-  DiagonalFlow(const System& system, std::vector<CoupledBlock>& blocks, double step,
+  DiagonalFlow(const System& system, const std::vector<CoupledBlock>& blocks, double step,
                const std::vector<int>& lengths);
 
   [[nodiscard]] bool empty() const { return blocks_.empty(); }
@@ -89,8 +89,7 @@ private:
     [[nodiscard]] int width() const { return count.width(); }
     [[nodiscard]] int rows() const { return kernels::padded(2 * static_cast<int>(modes.size())); }
   };
-  [[nodiscard]] bool add_block(const System& system, const CoupledBlock& of, double step,
-                               const std::vector<int>& lengths);
+  void add_block(const System& system, const CoupledBlock& of, double step, const std::vector<int>& lengths);
   void set_table(const Block& b, double t, double* table) const;
   [[nodiscard]] const double* modes_of_block(const Block& b, const double* y);
 

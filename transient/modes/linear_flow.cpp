@@ -45,13 +45,13 @@ LinearFlow::LinearFlow(const Scene& scene, double step, const std::vector<int>& 
     : blocks_(blocks_of(scene, step, lengths)), uncoupled_modes_(other_modes(blocks_, scene.system.size())),
       uncoupled_(uncoupled_part(scene, blocks_, uncoupled_modes_), step, lengths),
       modes_(scene.system.size()), lengths_(lengths) {
+  none_.assign(static_cast<std::size_t>(force_numbers()), 0.0);
   if (blocks_.empty())
     return;
   loads_.emplace(scene, step);
   const auto numbers = static_cast<Index>(kernels::numbers_of_input * blocks_.size());
   driven_.emplace(loads_on_blocks(scene.loads), numbers, scene.duration, step);
   random_.emplace(std::vector<Load>(), modes_, scene.duration, step, scene.sampled_loads);
-  none_.assign(static_cast<std::size_t>(force_numbers()), 0.0);
   a_ = b_ = none_;
   y_.assign(blocks_.size(), 0.0);
   q_.assign(static_cast<std::size_t>(kernels::padded(static_cast<int>(modes_))), 0.0);
@@ -77,10 +77,7 @@ std::vector<ContactPoint> LinearFlow::over_coordinates(const std::vector<Contact
                                                        const Rows& rows) const {
   if (blocks_.empty())
     return contacts;
-  Scene scene; // for the modes of no block
-  scene.system.stiffness = scene.system.damping = scene.q0 = scene.v0 = Eigen::VectorXd::Zero(modes_);
-  scene.contacts = contacts;
-  std::vector<ContactPoint> out = with_modes(scene, uncoupled_modes_).contacts;
+  std::vector<ContactPoint> out = with_modes(contacts, uncoupled_modes_);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     ContactPoint& to = out[c];
     const Eigen::MatrixXd all = contacts[c].over_all(modes_);
@@ -169,17 +166,10 @@ ModalFlow::Sums LinearFlow::move(int length, const State& from, const kernels::A
   return sums;
 }
 
-ModalFlow::Sums LinearFlow::move(const State& from, const kernels::Array& load0, const kernels::Array& load1,
-                                 const kernels::Array& constant, State& to) {
-  const ModalFlow::Sums sums = uncoupled_.move(from, load0, load1, constant, to);
-  move_blocks(1, from, load0, load1, constant, none_, to);
-  return sums;
-}
-
 ModalFlow::Sums LinearFlow::push(const State& from, const kernels::Array& load0, const kernels::Array& load1,
-                                 const ModalForce& force, State& to) {
-  const ModalFlow::Sums sums = uncoupled_.push(from, load0, load1, force, to);
-  move_blocks(1, from, load0, load1, force.mean, force.slope, to);
+                                 const kernels::Array& mean, const kernels::Array& slope, State& to) {
+  const ModalFlow::Sums sums = uncoupled_.push(from, load0, load1, mean, slope, to);
+  move_blocks(1, from, load0, load1, mean, slope, to);
   return sums;
 }
 

@@ -47,10 +47,13 @@ public:
   /// As ModalFlow; sums without the blocks. No allocation.
   ModalFlow::Sums move(int length, const State& from, const kernels::Array& load0,
                        const kernels::Array& load1, State& to);
-  ModalFlow::Sums move(const State& from, const kernels::Array& load0, const kernels::Array& load1,
-                       const kernels::Array& constant, State& to);
   ModalFlow::Sums push(const State& from, const kernels::Array& load0, const kernels::Array& load1,
-                       const ModalForce& force, State& to);
+                       const kernels::Array& mean, const kernels::Array& slope, State& to);
+  /// Under a constant force.
+  ModalFlow::Sums push(const State& from, const kernels::Array& load0, const kernels::Array& load1,
+                       const kernels::Array& constant, State& to) {
+    return push(from, load0, load1, constant, none_, to);
+  }
   /// Energy of the blocks as it would be without damping and fluid since the start, J.
   [[nodiscard]] double undamped_energy(const BlockWorks& works) const { return start_.stored + works.forces; }
   /// Adds those of the blocks over a step (force null: none), and the undamped energy. No allocation.

@@ -158,30 +158,17 @@ ModalFlow::Sums ModalFlow::move(int length, const State& from, const kernels::Ar
   return own_works(at, from, load0, load1, none_, none_, to);
 }
 
-ModalFlow::Sums ModalFlow::move(const State& from, const kernels::Array& load0, const kernels::Array& load1,
-                                const kernels::Array& constant, State& to) {
-  const std::size_t at = place(1);
-  Sums sums = move_apart(at, from, load0, load1, constant, none_, to);
-  if (!coupled_.empty() && !fed())
-    move_coupled(from, load0, load1, constant, none_, to, sums);
-  if (!fed())
-    return sums;
-  to.z = from.z;
-  move_remembering(1, load0, load1, constant, none_, to);
-  return own_works(at, from, load0, load1, constant, none_, to);
-}
-
 ModalFlow::Sums ModalFlow::push(const State& from, const kernels::Array& load0, const kernels::Array& load1,
-                                const ModalForce& force, State& to) {
+                                const kernels::Array& mean, const kernels::Array& slope, State& to) {
   const std::size_t at = place(1);
-  Sums sums = move_apart(at, from, load0, load1, force.mean, force.slope, to);
+  Sums sums = move_apart(at, from, load0, load1, mean, slope, to);
   if (!coupled_.empty() && !fed())
-    move_coupled(from, load0, load1, force.mean, force.slope, to, sums);
+    move_coupled(from, load0, load1, mean, slope, to, sums);
   if (!fed())
     return sums;
   to.z = from.z;
-  move_remembering(1, load0, load1, force.mean, force.slope, to);
-  return own_works(at, from, load0, load1, force.mean, force.slope, to);
+  move_remembering(1, load0, load1, mean, slope, to);
+  return own_works(at, from, load0, load1, mean, slope, to);
 }
 
 ModalFlow::Sums ModalFlow::move_apart(std::size_t at, const State& from, const kernels::Array& load0,

@@ -49,12 +49,9 @@ public:
   /// The modes over `length` steps under the loads load0 to load1, alone. No allocation.
   Sums move(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
             State& to);
-  /// Over one step, with a constant force.
-  Sums move(const State& from, const kernels::Array& load0, const kernels::Array& load1,
-            const kernels::Array& constant, State& to);
-  /// The same with a force that changes.
+  /// Over one step, with the force of a mean and a slope (ModalForce). No allocation.
   Sums push(const State& from, const kernels::Array& load0, const kernels::Array& load1,
-            const ModalForce& force, State& to);
+            const kernels::Array& mean, const kernels::Array& slope, State& to);
   /// Displacements in the middle of the step moved last (force null: none). No allocation.
   void middle(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
               const ModalForce* force, kernels::Array& q);

@@ -38,26 +38,33 @@ std::vector<Eigen::Index> moving_modes(const Scene& scene) {
 namespace {
 
 /// The modes of a contact that are among some, by their numbers there.
-void restrict_modes(const ContactPoint& from, const std::vector<Eigen::Index>& modes, ContactPoint& to) {
-  if (from.modes.empty()) {
-    to.b = from.b(Eigen::all, modes);
+void restrict_modes(const std::vector<Eigen::Index>& modes, ContactPoint& point) {
+  if (point.modes.empty()) {
+    point.b = point.b(Eigen::all, modes).eval();
     return;
   }
   std::vector<Eigen::Index> columns;
   Eigen::Index before = 0;
-  for (std::size_t r = 0; r < from.modes.size(); ++r) {
-    const auto [first, size] = from.modes[r];
+  for (ModeRange& range : point.modes) {
+    const auto [first, size] = range;
     const auto begin = std::lower_bound(modes.begin(), modes.end(), first),
                end = std::lower_bound(begin, modes.end(), first + size);
     for (auto mode = begin; mode != end; ++mode)
       columns.push_back(before + *mode - first);
-    to.modes[r] = {begin - modes.begin(), end - begin};
+    range = {begin - modes.begin(), end - begin};
     before += size;
   }
-  to.b = from.b(Eigen::all, columns);
+  point.b = point.b(Eigen::all, columns).eval();
 }
 
 } // namespace
+
+std::vector<ContactPoint> with_modes(std::vector<ContactPoint> contacts,
+                                     const std::vector<Eigen::Index>& modes) {
+  for (ContactPoint& point : contacts)
+    restrict_modes(modes, point);
+  return contacts;
+}
 
 Scene with_modes(const Scene& scene, const std::vector<Eigen::Index>& modes) {
   Scene out = scene;
@@ -72,8 +79,7 @@ Scene with_modes(const Scene& scene, const std::vector<Eigen::Index>& modes) {
     out.loads[k].modal_force = scene.loads[k].modal_force(modes);
   for (SampledLoad& load : out.sampled_loads)
     load = load.of_modes(modes);
-  for (std::size_t c = 0; c < out.contacts.size(); ++c)
-    restrict_modes(scene.contacts[c], modes, out.contacts[c]);
+  out.contacts = with_modes(std::move(out.contacts), modes);
   out.q0 = scene.q0(modes);
   out.v0 = scene.v0(modes);
   return out;

@@ -16,5 +16,8 @@ namespace fretwork::transient {
 
 /// The scene with these modes alone. Where they are all that move, its motion is that of the whole scene.
 [[nodiscard]] Scene with_modes(const Scene& scene, const std::vector<Eigen::Index>& modes);
+/// The contacts over these modes.
+[[nodiscard]] std::vector<ContactPoint> with_modes(std::vector<ContactPoint> contacts,
+                                                   const std::vector<Eigen::Index>& modes);
 
 } // namespace fretwork::transient

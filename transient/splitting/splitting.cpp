@@ -243,7 +243,7 @@ private:
     to.start = static_cast<double>(done_ + length) * h_;
     modes_.load_about(to.start, to.load);
     const ModalFlow::Sums sums = forces_.any_held()
-                                     ? modes_.move(s.from, s.load, to.load, forces_.held(), to.from)
+                                     ? modes_.push(s.from, s.load, to.load, forces_.held(), to.from)
                                      : modes_.move(length, s.from, s.load, to.load, to.from);
     obstacles_.place(to.start, to.from.q.data(), to.from.v.data(), imposed_[1], end_);
     return sums;
@@ -297,7 +297,7 @@ private:
   /// The modes take the forces of the contacts.
   ModalFlow::Sums push(Step& s, Step& to) {
     forces_.assemble(sweeps_, near_, &s.force);
-    const ModalFlow::Sums sums = modes_.push(s.from, s.load, to.load, s.force, to.from);
+    const ModalFlow::Sums sums = modes_.push(s.from, s.load, to.load, s.force.mean, s.force.slope, to.from);
     end_.gather(to.from.q.data(), to.from.v.data());
     imposed_[1].add_to(end_);
     return sums;
