@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/describe.hpp"
-#include "transient/simd/kernels.hpp"
+#include "kernels/kernels.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <petscversion.h>
@@ -30,7 +30,7 @@ results::RunRecord make_record(const Inputs& inputs, int ranks) {
       {"PETSc", fmt::format("{}.{}.{}", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR)},
       {"SLEPc", fmt::format("{}.{}.{}", SLEPC_VERSION_MAJOR, SLEPC_VERSION_MINOR, SLEPC_VERSION_SUBMINOR)},
       {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
-  record.vector_width = transient::kernels::vector_width();
+  record.vector_width = kernels::vector_width();
   record.ranks = ranks;
   return record;
 }

@@ -203,7 +203,7 @@ void count_closed(Run& run, const transient::Scene& scene) {
 
 /// The projections of a step: displacements and velocities of all contacts, and impulses of `closed` of them.
 double projections(const transient::Scene& scene, double closed) {
-  using transient::kernels::Array;
+  using kernels::Array;
   const transient::PackedContacts contacts(scene.contacts, modes);
   const auto width = static_cast<std::size_t>(contacts.stride());
   const int np = contacts.padded_modes;
@@ -215,9 +215,9 @@ double projections(const transient::Scene& scene, double closed) {
   const std::vector<double> factors(rows.size(), 1e-9);
   return fastest(steps, [&] {
     for (int i = 0; i < steps; ++i) {
-      transient::kernels::gather_two(contacts.gather, q.data(), v.data(), u.data(), w.data());
+      kernels::gather_two(contacts.gather, q.data(), v.data(), u.data(), w.data());
       if (!rows.empty())
-        transient::kernels::scatter(np, static_cast<int>(rows.size()), rows.data(), factors.data(), v.data());
+        kernels::scatter(np, static_cast<int>(rows.size()), rows.data(), factors.data(), v.data());
       keep(u[0]);
     }
   });

@@ -7,8 +7,8 @@
 #include "bench/scenes.hpp"
 #include "bench/thread_time.hpp"
 #include "core/error.hpp"
+#include "kernels/kernels.hpp"
 #include "post/contact_statistics.hpp"
-#include "transient/simd/kernels.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -99,11 +99,11 @@ void write_reference(const char* file, const std::string& only) {
 }
 
 void limit_vectors(int doubles) {
-  using transient::kernels::VectorSize;
-  transient::kernels::limit_vectors(doubles >= 8   ? VectorSize::pack
-                                    : doubles >= 4 ? VectorSize::half
-                                                   : VectorSize::pair);
-  std::printf("%s. ", transient::kernels::vector_width());
+  using kernels::VectorSize;
+  kernels::limit_vectors(doubles >= 8   ? VectorSize::pack
+                         : doubles >= 4 ? VectorSize::half
+                                        : VectorSize::pair);
+  std::printf("%s. ", kernels::vector_width());
 }
 
 std::optional<transient::SchemeKind> scheme_named(const std::string& name) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "post/contact_statistics.hpp"
-#include "transient/simd/vector_lanes.hpp"
+#include "kernels/vector_lanes.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,7 +8,7 @@
 namespace fretwork::post {
 namespace {
 
-using namespace transient::kernels;
+using namespace kernels;
 
 /// Sums of a contact whose batches are kept: row of BatchEnds, contact after contact. Those of y and z are about their first values.
 enum Kept : std::size_t {

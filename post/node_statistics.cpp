@@ -8,8 +8,6 @@
 namespace fretwork::post {
 namespace {
 
-namespace kernels = transient::kernels;
-
 /// Sums whose batches are kept, of each direction of each node.
 enum Sum : std::size_t { first, squares, node_sums };
 

@@ -2,11 +2,11 @@
 /// @file
 /// Statistics of the displacement of observed nodes over every step of a window, each weighted by its length.
 #pragma once
+#include "kernels/kernels.hpp"
 #include "post/batch_means.hpp"
 #include "post/moments.hpp"
 #include "transient/run.hpp"
 #include "transient/signals/prescribed_motion.hpp"
-#include "transient/simd/kernels.hpp"
 #include <array>
 #include <vector>
 
@@ -38,13 +38,13 @@ private:
   void write_sums(double* row) const;
 
   double from_;
-  transient::kernels::GatherTable gather_;
-  transient::kernels::Array u_;
+  kernels::GatherTable gather_;
+  kernels::Array u_;
   std::vector<std::array<Accumulator, 3>> sums_;
   double time_ = 0.0; ///< length of the window so far, s
   BatchEnds ends_;
   std::vector<transient::MotionSignal> motions_;
-  transient::kernels::Array imposed_; ///< in lanes, motion after motion
+  kernels::Array imposed_; ///< in lanes, motion after motion
 };
 
 } // namespace fretwork::post

@@ -2,8 +2,8 @@
 /// @file
 /// Records of steps written by hand.
 #pragma once
+#include "kernels/kernels.hpp"
 #include "transient/run.hpp"
-#include "transient/simd/kernels.hpp"
 #include <algorithm>
 #include <vector>
 
@@ -32,7 +32,7 @@ public:
   transient::ContactState& contact(std::size_t c) { return states_[c]; }
   double& y(std::size_t c) { return uy_[c]; }
   double& z(std::size_t c) { return uz_[c]; }
-  transient::kernels::Array& q() { return q_; }
+  kernels::Array& q() { return q_; }
   /// At the end of the steps that follow.
   transient::Energy& energy() { return record_.energy; }
   /// One step; contacts with a normal force are active. The states are opened again.
@@ -79,7 +79,7 @@ private:
   transient::Observer& observer_;
   transient::Record record_;
   std::vector<transient::ContactState> states_;
-  transient::kernels::Array uy_, uz_, q_;
+  kernels::Array uy_, uz_, q_;
   std::vector<int> active_, opened_;
   bool in_full_ = false;
   double end_ = 0.0; ///< s: of the last step

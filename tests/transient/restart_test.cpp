@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A run that is left and gone on with, in objects made anew, gives the same bytes; so does one in vectors of 4 instead of 8 doubles.
+#include "kernels/kernels.hpp"
 #include "post/impact_table.hpp"
 #include "post/node_statistics.hpp"
 #include "post/recorder.hpp"
 #include "scenes.hpp"
-#include "transient/simd/kernels.hpp"
 #include "transient/splitting/splitting.hpp"
 #include <cmath>
 #include <gtest/gtest.h>

@@ -111,3 +111,9 @@ function(fretwork_folder folder)
   endif()
   fretwork_unity(${ARG_TARGET})
 endfunction()
+
+# The options of loops over vectors (kernels/vector_lanes.hpp).
+function(fretwork_kernel_sources)
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "-O3;-Wno-psabi;-fno-math-errno;-fno-trapping-math;-falign-functions=64"
+                              SKIP_PRECOMPILE_HEADERS ON)   # they fit no other mathematics
+endfunction()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/collocation/force_polynomial.hpp"
+#include "kernels/vector_lanes.hpp"
 #include "transient/modes/oscillator.hpp"
-#include "transient/simd/vector_lanes.hpp"
 #include <cmath>
 
 namespace fretwork::transient {

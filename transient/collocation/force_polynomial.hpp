@@ -11,9 +11,9 @@
 /// k >= 0 and c >= 0 are arbitrary (oscillator.hpp). Modes that a damping matrix couples: coupled_flow.hpp, of degree 2.
 #pragma once
 #include "core/state_archive.hpp"
+#include "kernels/kernels.hpp"
 #include "transient/modes/coupled_flow.hpp"
 #include "transient/scene/scene.hpp"
-#include "transient/simd/kernels.hpp"
 #include <array>
 
 namespace fretwork::transient {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/collocation/inner_path.hpp"
+#include "kernels/vector_lanes.hpp"
 #include "transient/collocation/force_polynomial.hpp"
 #include "transient/collocation/tangential.hpp"
-#include "transient/simd/vector_lanes.hpp"
 #include <algorithm>
 #include <cmath>
 

@@ -24,7 +24,7 @@ constexpr int paths = 2;
 
 /// Bound of contact::GapBound: false where the node is surely out of its obstacle.
 bool may_touch(const ReachLanes& reach, int c, double y, double z) {
-  const kernels::ReachNumbers& r = reach[c];
+  const ReachNumbers& r = reach[c];
   const int l = kernels::lane(c);
   y += r.rest_y[l];
   z += r.rest_z[l];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/collocation/swept_contact.hpp"
+#include "kernels/vector_lanes.hpp"
 #include "transient/collocation/nodal_contact.hpp"
-#include "transient/simd/vector_lanes.hpp"
 #include <Eigen/LU>
 #include <limits>
 

@@ -163,8 +163,8 @@ private:
       return t;
     t.length = std::ldexp(h_, -static_cast<int>(level));
     for (Eigen::Index j = 0; j < system_.size(); ++j) {
-      constexpr StepCoefficients none{1, 0, 0, 0, 0, 1,
-                                      0, 0, 1, 0, 0, 0}; // coupled: they follow by themselves
+      constexpr kernels::StepCoefficients none{1, 0, 0, 0, 0, 1,
+                                               0, 0, 1, 0, 0, 0}; // coupled: they follow by themselves
       const double k = system_.stiffness(j), c = system_.damping(j);
       t.half.set(j, k, coupled_.couples(j) ? none : step_coefficients(k, c, 0.5 * t.length));
     }
@@ -183,7 +183,8 @@ private:
     for (Eigen::Index j = 0; j < system_.size(); ++j)
       if (!coupled_.couples(j)) {
         const auto i = static_cast<std::size_t>(j);
-        const StepCoefficients s = step_coefficients(system_.stiffness(j), system_.damping(j), t.length);
+        const kernels::StepCoefficients s =
+            step_coefficients(system_.stiffness(j), system_.damping(j), t.length);
         moved_[i] = (s.qf0 + s.qf1) * force[i];
         slope_[i] = (s.vf0 + s.vf1) * force[i];
       }

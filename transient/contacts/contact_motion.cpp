@@ -21,7 +21,7 @@ void ContactMotion::locate_bounded() {
 }
 
 bool ContactMotion::moves_less(double time, double share) const {
-  return kernels::move_less(contacts_.reach, places.all, w.data(), time / share);
+  return move_less(contacts_.reach, places.all, w.data(), time / share);
 }
 
 double ContactMotion::spring_energy() const {

@@ -9,7 +9,7 @@ namespace fretwork::transient {
 
 /// Kinematics of the contacts of a scene. Normals are those of contact::Location; the tangent directions are x_loc and t = n x x_loc,
 /// and what a friction law bars (FrictionLaw::along) counts as no motion.
-class ContactMotion : public kernels::MotionLanes {
+class ContactMotion : public MotionLanes {
 public:
   /// @param contacts  must live longer
   explicit ContactMotion(const PackedContacts& contacts);
@@ -19,7 +19,7 @@ public:
   /// Marks the contacts that may have penetration > 0 now, or within `half_window` seconds at their present speed (>= 0), and finds
   /// `gaps`, `normal_y` and `normal_z` of these. Returns whether there is any.
   bool find_near(double half_window) {
-    (places.all.few() ? kernels::place_few : kernels::place_contacts)(contacts_.reach, half_window, *this);
+    (places.all.few() ? place_few : place_contacts)(contacts_.reach, half_window, *this);
     return any_near();
   }
   /// Whether no contact moves by more than `share` of its clearance within `time` seconds at its present speed.

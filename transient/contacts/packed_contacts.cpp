@@ -24,7 +24,7 @@ PackedContacts::PackedContacts(const std::vector<ContactPoint>& contacts, Eigen:
     in_plane.push_back(law.active() && law.along.x != 0.0 && moves);
   }
   components = std::any_of(in_plane.begin(), in_plane.end(), [](char x) { return x; }) ? 3 : 2;
-  reach = kernels::ReachLanes(width);
+  reach = ReachLanes(width);
   for (int c = 0; c < width; ++c)
     reach[c].limit[kernels::lane(c)] =
         std::numeric_limits<double>::infinity(); // a lane of padding is never near
@@ -34,7 +34,7 @@ PackedContacts::PackedContacts(const std::vector<ContactPoint>& contacts, Eigen:
     supports.push_back(point.support);
     const contact::ObstacleProperties obstacle = contact::properties_of(point.support.obstacle);
     const contact::GapBound& bound = obstacle.gap_bound;
-    kernels::ReachNumbers& r = reach[c];
+    ReachNumbers& r = reach[c];
     const int l = kernels::lane(c);
     r.rest_y[l] = point.rest.y();
     r.rest_z[l] = point.rest.z();

@@ -31,7 +31,7 @@ struct PackedContacts {
   };
   std::vector<std::vector<Span>>
       spans; ///< contact by contact, ascending; all padded modes where the contact names none
-  kernels::ReachLanes reach;
+  ReachLanes reach;
   std::vector<int> located;    ///< contacts whose gap the lanes of `reach` only bound: `locate` gives it
   std::vector<char> has_parts; ///< contact by contact: contact::ObstacleProperties::has_parts
 

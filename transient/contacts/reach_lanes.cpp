@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/contacts/reach_lanes.hpp"
-#include "transient/simd/vector_lanes.hpp"
+#include "kernels/vector_lanes.hpp"
 
-namespace fretwork::transient::kernels {
+namespace fretwork::transient {
+
+using namespace kernels;
 
 MotionLanes::MotionLanes(const LaneCount& contacts, int blocks) : places(contacts) {
   u.assign(static_cast<std::size_t>(contacts.width) * static_cast<std::size_t>(blocks), 0.0);
@@ -165,4 +167,4 @@ FRETWORK_KERNEL(bool, move_less,
                 (const ReachLanes& reach, const LaneCount& contacts, const double* v, double time),
                 (reach, contacts, v, time))
 
-} // namespace fretwork::transient::kernels
+} // namespace fretwork::transient

@@ -6,7 +6,7 @@
 ///     y = r_0 + theta (r_1 + (1 - theta)(r_2 + theta (r_3 + (1 - theta) r_4)))
 #pragma once
 #include "core/state_archive.hpp"
-#include "transient/simd/kernels.hpp"
+#include "kernels/kernels.hpp"
 #include <array>
 
 namespace fretwork::transient {

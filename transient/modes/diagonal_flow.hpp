@@ -16,8 +16,8 @@
 /// (a motion that neither grows nor decays, though the fluid feeds it) are left to coupled_flow.hpp: round-off of q and v, or of the fluid work, would
 /// exceed 1e-10. Eigenvalues that leave q and v alone to 1e-12 are left out.
 #pragma once
+#include "kernels/state_kernels.hpp"
 #include "transient/modes/coupled_blocks.hpp"
-#include "transient/simd/state_kernels.hpp"
 #include <complex>
 #include <vector>
 

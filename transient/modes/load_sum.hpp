@@ -3,8 +3,8 @@
 /// The loads of a scene as one modal force: loads that follow the same function of time are added before the
 /// run.
 #pragma once
+#include "kernels/kernels.hpp"
 #include "transient/scene/scene.hpp"
-#include "transient/simd/kernels.hpp"
 
 namespace fretwork::transient {
 

@@ -9,7 +9,7 @@ namespace fretwork::transient {
 
 namespace {
 /// Of a mode that another flow moves.
-constexpr StepCoefficients stays{1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0};
+constexpr kernels::StepCoefficients stays{1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0};
 } // namespace
 
 kernels::FlowTable flow_table(const System& system, const CoupledFlow& coupled, double h) {
@@ -25,7 +25,7 @@ namespace {
 
 /// The force of a mode's own, linear over the step, by what displacement and velocity at its end differ from without it; none where half a period
 /// is shorter than the step, which does not show it then.
-std::array<double, 4> own_force(double k, const StepCoefficients& s, double h) {
+std::array<double, 4> own_force(double k, const kernels::StepCoefficients& s, double h) {
   constexpr double longest = 3.0; // w h; the matrix is singular at 2 pi
   if (std::sqrt(k) * h > longest)
     return {};
@@ -63,7 +63,7 @@ ModalFlow::ModalFlow(const Scene& scene, double step, const std::vector<int>& le
   std::copy_n(system_.stiffness.data(), system_.size(), k_.begin());
   per_force_.assign(n, 0.0);
   for (Eigen::Index j = 0; j < system_.size(); ++j) {
-    const StepCoefficients s = step_coefficients(lone_k_(j), lone_c_(j), h_);
+    const kernels::StepCoefficients s = step_coefficients(lone_k_(j), lone_c_(j), h_);
     per_force_[static_cast<std::size_t>(j)] = s.qf0 + s.qf1;
   }
 }
@@ -76,7 +76,7 @@ void ModalFlow::make_tables(double h) {
   for (Eigen::Index j = 0; j < system_.size(); ++j) {
     const bool moves = apart_[static_cast<std::size_t>(j)] != 0;
     apart.set(j, system_.stiffness(j), moves ? step_coefficients(lone_k_(j), lone_c_(j), h) : stays);
-    const StepCoefficients s = step_coefficients(system_.stiffness(j), system_.damping(j), 0.5 * h);
+    const kernels::StepCoefficients s = step_coefficients(system_.stiffness(j), system_.damping(j), 0.5 * h);
     if (moves || fed()) // under a load that goes to the mean of both ends by then
       middle.set(j, {s.qq, s.qv, s.qf0 + 0.5 * s.qf1, 0.5 * s.qf1});
   }
@@ -86,7 +86,7 @@ void ModalFlow::make_tables(double h) {
   kernels::MiddleTable& inverse = inverses_.emplace_back(np);
   for (Eigen::Index j = 0; j < system_.size(); ++j) {
     const double k = system_.stiffness(j);
-    const StepCoefficients s = step_coefficients(k, system_.damping(j), h);
+    const kernels::StepCoefficients s = step_coefficients(k, system_.damping(j), h);
     own.set(j, k, s);
     const std::array<double, 4> by = own_force(k, s, h);
     if (!apart_[static_cast<std::size_t>(j)] || lone_k_(j) != k || lone_c_(j) != system_.damping(j))

@@ -129,10 +129,10 @@ Impulse impulse_response(double k, double c, double t) {
   return {(es - ef) / (2.0 * root), (fast * ef - slow * es) / (2.0 * root)};
 }
 
-StepCoefficients step_coefficients(double k, double c, double h) {
+kernels::StepCoefficients step_coefficients(double k, double c, double h) {
   const Impulse im = impulse_response(k, c, h);
   const LoadResponse r = load_response(k, c, h, im);
-  StepCoefficients s{};
+  kernels::StepCoefficients s{};
   s.qq = im.rate + c * im.g;
   s.qv = im.g;
   s.qf1 = r.r1 / h;

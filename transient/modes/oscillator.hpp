@@ -9,7 +9,7 @@
 /// k >= 0 and c >= 0 are arbitrary: under-, over- and critically damped, rigid (k = 0) with and without
 /// damping.
 #pragma once
-#include "transient/simd/kernels.hpp"
+#include "kernels/kernels.hpp"
 #include <Eigen/Core>
 
 namespace fretwork::transient {
@@ -21,7 +21,7 @@ struct Impulse {
 [[nodiscard]] Impulse impulse_response(double k, double c, double t);
 
 /// The coefficients of a step of length h.
-[[nodiscard]] StepCoefficients step_coefficients(double k, double c, double h);
+[[nodiscard]] kernels::StepCoefficients step_coefficients(double k, double c, double h);
 
 /// State at an instant inside a step, for output: as step_coefficients, cheap enough to be made for each
 /// instant (no quadrature).

@@ -64,7 +64,7 @@ Motion reference(const Turned& t, double time, const Vector3d& from, const Vecto
                  g = r.transpose() * to;
   Motion out{Vector3d::Zero(), Vector3d::Zero(), 0.0};
   for (int i = 0; i < 3; ++i) {
-    const StepCoefficients s = step_coefficients(t.k, t.c(i), time);
+    const kernels::StepCoefficients s = step_coefficients(t.k, t.c(i), time);
     out.q(i) = s.qq * a(i) + s.qv * b(i) + s.qf0 * f(i) + s.qf1 * g(i);
     out.v(i) = s.vq * a(i) + s.vv * b(i) + s.vf0 * f(i) + s.vf1 * g(i);
     const double mean = s.mq * a(i) + s.mv * b(i) + s.mf0 * f(i) + s.mf1 * g(i);

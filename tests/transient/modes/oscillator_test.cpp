@@ -8,6 +8,7 @@
 
 namespace oscillator_test {
 
+using namespace fretwork;
 using namespace fretwork::transient;
 
 namespace {
@@ -57,7 +58,7 @@ void expect_near(double value, long double exact, double bound, const Mode& mode
 TEST(StepCoefficients, AreThoseOfTheMatrixExponentialInEveryRegime) {
   for (const Mode& m : modes()) {
     constexpr double h = 1.0;
-    const StepCoefficients s = step_coefficients(m.k, m.c, h);
+    const kernels::StepCoefficients s = step_coefficients(m.k, m.c, h);
     const Matrix e = propagator(m.k, m.c, h);
     const double w = std::sqrt(m.k);
     expect_near(s.qq, e(0, 0), 1.0, m, "qq");
@@ -106,7 +107,7 @@ TEST(DenseCoefficients, AtTheStartAreTheStateItself) {
 
 TEST(StepCoefficients, LeaveTheEnergyOfAnUndampedModeAlone) {
   for (const double k : {1e-6, 1.0, 1e4, 1e8}) {
-    const StepCoefficients s = step_coefficients(k, 0.0, 0.01);
+    const kernels::StepCoefficients s = step_coefficients(k, 0.0, 0.01);
     double q = 1.0, v = 0.3 * std::sqrt(k);
     const double energy = v * v + k * q * q;
     for (int i = 0; i < 100000; ++i) {

@@ -7,6 +7,7 @@
 
 namespace time_function_test {
 
+using namespace fretwork;
 using namespace fretwork::transient;
 
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "transient/simd/state_kernels.hpp"
-#include "transient/simd/vector_lanes.hpp"
+#include "kernels/state_kernels.hpp"
+#include "kernels/vector_lanes.hpp"
 
-namespace fretwork::transient::kernels {
+namespace fretwork::kernels {
 
 /// Complex numbers, or real ones where `pair` is false: one of `lanes` in each place.
 template <class V, bool pair> struct Numbers { V re, im; };
@@ -207,4 +207,4 @@ FRETWORK_KERNEL(OwnWorks, own_works,
                  const double* slope, double* own0, double* own1, double* mean_q),
                 (np, table, inverse, q0, v0, q1, v1, l0, l1, mean, slope, own0, own1, mean_q))
 
-} // namespace fretwork::transient::kernels
+} // namespace fretwork::kernels

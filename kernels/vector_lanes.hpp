@@ -6,7 +6,7 @@
 /// A kernel is a template over the vector type: of one text over Packs GCC would make copies too (target_clones), but keep a Pack that lives
 /// from turn to turn of a loop in memory where no register holds it, two to ten times slower.
 #pragma once
-#include "transient/simd/kernels.hpp"
+#include "kernels/kernels.hpp"
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -32,7 +32,7 @@
 #endif
 #define FRETWORK_INLINE static inline __attribute__((always_inline))
 
-namespace fretwork::transient::kernels {
+namespace fretwork::kernels {
 
 typedef double Pack __attribute__((vector_size(64)));
 typedef double Half __attribute__((
@@ -158,4 +158,4 @@ template <class V> FRETWORK_INLINE V root(const V& x) {
 template <class V> FRETWORK_INLINE V clipped(const V& p) { return p > 0.0 ? p : V{}; }
 template <class V> FRETWORK_INLINE V magnitude(const V& p) { return p < 0.0 ? -p : p; }
 
-} // namespace fretwork::transient::kernels
+} // namespace fretwork::kernels

@@ -3,9 +3,9 @@
 /// Tables of numbers of contacts in vector lanes.
 #pragma once
 #include "core/state_archive.hpp"
-#include "transient/simd/kernels.hpp"
+#include "kernels/kernels.hpp"
 
-namespace fretwork::transient::kernels {
+namespace fretwork::kernels {
 
 /// One number of `lanes` contacts.
 using Numbers = double[lanes];
@@ -31,4 +31,4 @@ private:
   std::vector<Pack, AlignedAllocator<Pack>> packs_;
 };
 
-} // namespace fretwork::transient::kernels
+} // namespace fretwork::kernels

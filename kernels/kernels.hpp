@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace fretwork::transient {
+namespace fretwork::kernels {
 
 /// One mode over one step, loads given at its two ends: q1 = qq q + qv v + qf0 f0 + qf1 f1, v1 likewise; mean
 /// = the mean of q over the step.
@@ -22,10 +22,6 @@ struct StepCoefficients {
   double vq, vv, vf0, vf1;
   double mq, mv, mf0, mf1;
 };
-
-} // namespace fretwork::transient
-
-namespace fretwork::transient::kernels {
 
 inline constexpr int lanes = 8;
 inline constexpr std::size_t alignment = 64;
@@ -248,4 +244,4 @@ extern const Kernel<EulerSums(int np, double h, const double* c, const double* k
                               const double* force, double* q, double* v)>
     euler_step;
 
-} // namespace fretwork::transient::kernels
+} // namespace fretwork::kernels

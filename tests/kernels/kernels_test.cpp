@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The kernels that move the modes against plain loops.
+#include "kernels/kernels.hpp"
 #include "transient/modes/oscillator.hpp"
-#include "transient/simd/kernels.hpp"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -11,6 +11,7 @@
 
 namespace kernels_test {
 
+using namespace fretwork;
 using namespace fretwork::transient;
 
 namespace {
@@ -21,7 +22,7 @@ constexpr double step = 1e-3;
 struct Modes {
   int count, padded;
   std::vector<double> stiffness;
-  std::vector<StepCoefficients> coefficients;
+  std::vector<kernels::StepCoefficients> coefficients;
   kernels::FlowTable table;
   kernels::Array k, q, v, f0, f1;
 };
@@ -77,7 +78,7 @@ TEST_P(MovingKernels, FollowTheCoefficientsUnderLoadsAndSumTheirWorkAndTheEnergy
       kernels::flow_loaded(m.padded, m.table, m.q.data(), m.v.data(), m.f0.data(), m.f1.data());
   double work = 0.0, energy = 0.0, size = 0.0;
   for (std::size_t i = 0; i < m.coefficients.size(); ++i) {
-    const StepCoefficients& s = m.coefficients[i];
+    const kernels::StepCoefficients& s = m.coefficients[i];
     const double a = m.f0[i], b = m.f1[i];
     const double q = s.qq * q0[i] + s.qv * v0[i] + s.qf0 * a + s.qf1 * b;
     const double v = s.vq * q0[i] + s.vv * v0[i] + s.vf0 * a + s.vf1 * b;

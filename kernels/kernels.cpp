@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "transient/simd/kernels.hpp"
-#include "transient/simd/vector_lanes.hpp"
+#include "kernels/kernels.hpp"
+#include "kernels/vector_lanes.hpp"
 #include <algorithm>
 
-namespace fretwork::transient::kernels {
+namespace fretwork::kernels {
 namespace {
 
 VectorSize vector_size_here() {
@@ -336,4 +336,4 @@ FRETWORK_KERNEL(EulerSums, euler_step,
                  double* q, double* v),
                 (np, h, c, k, load, force, q, v))
 
-} // namespace fretwork::transient::kernels
+} // namespace fretwork::kernels

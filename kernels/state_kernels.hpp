@@ -2,9 +2,9 @@
 /// @file
 /// Kernels (kernels.hpp) of modes that forces of motion couple, in the coordinates in which they are apart (modes/diagonal_flow.hpp).
 #pragma once
-#include "transient/simd/kernels.hpp"
+#include "kernels/kernels.hpp"
 
-namespace fretwork::transient::kernels {
+namespace fretwork::kernels {
 
 /// Coordinates y of a block: the real parts of its pairs, their imaginary parts, its real ones; each padded to `lanes`, zero there.
 struct StateCount {
@@ -63,4 +63,4 @@ extern const Kernel<OwnWorks(int np, const FlowTable& table, const double* inver
                              double* own1, double* mean_q)>
     own_works;
 
-} // namespace fretwork::transient::kernels
+} // namespace fretwork::kernels
