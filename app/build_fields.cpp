@@ -17,11 +17,11 @@ using core::Vec3;
 /// Forces of the moved supports on what is left of the motion: the inertia of the static shape, and the dampers that it stretches.
 void support_loads(const study::SupportMotion& motion, double duration, const std::string& name,
                    const fem::Model& model, const SupportFields& fields, std::vector<Fields::Load>& loads) {
-  const transient::PrescribedMotion moved = prescribed(motion, duration);
+  const signals::PrescribedMotion moved = prescribed(motion, duration);
   loads.push_back(
       {name, moved.acceleration, -fem::mass_times(model, fields.shape), true, true, motion.by_displacement});
   if (!fields.dampers.isZero(0.0))
-    loads.push_back({name + ", dampers", transient::velocity_of(moved), fields.dampers, true, true});
+    loads.push_back({name + ", dampers", signals::velocity_of(moved), fields.dampers, true, true});
 }
 
 Eigen::VectorXd load_field(const study::Load& load, const std::string& what, const mesh::LineMesh& mesh,
@@ -103,10 +103,10 @@ Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh, const
     return fem::mass_times(model, fem::translation_field(model, direction));
   };
   if (study.gravity)
-    out.loads.push_back({"[gravity]", transient::Constant{1.0}, fem::weight(model, *study.gravity)});
+    out.loads.push_back({"[gravity]", signals::Constant{1.0}, fem::weight(model, *study.gravity)});
   for (const PlacedFlow& flow : flows)
     if (auto force = steady_force(study, flow, model))
-      out.loads.push_back({name_of(study.flows[flow.entry]), transient::Constant{1.0}, std::move(*force)});
+      out.loads.push_back({name_of(study.flows[flow.entry]), signals::Constant{1.0}, std::move(*force)});
   for (const auto& motion : study.base_motions)
     out.loads.push_back({"[[base_motion]]", motion.acceleration, -on_all_masses(motion.direction), true});
   for (std::size_t k = 0; k < supports.size(); ++k) {

@@ -8,8 +8,8 @@
 #include "core/motion_forces.hpp"
 #include "fem/model.hpp"
 #include "mesh/line_mesh.hpp"
+#include "signals/time_function.hpp"
 #include "study/study.hpp"
-#include "transient/signals/time_function.hpp"
 
 namespace fretwork::app {
 
@@ -24,7 +24,7 @@ struct FluidForces {
 struct Fields {
   struct Load {
     std::string name; ///< for messages
-    transient::TimeFunction function;
+    signals::TimeFunction function;
     Eigen::VectorXd force;
     bool inertial = false;   ///< as transient::Load
     bool of_support = false; ///< what a support motion does to the modes

@@ -244,7 +244,7 @@ void drop_round_off(transient::Scene& scene) {
   };
   for (transient::Load& load : scene.loads)
     drop(load.modal_force);
-  for (transient::SampledLoad& load : scene.sampled_loads) {
+  for (signals::SampledLoad& load : scene.sampled_loads) {
     drop(load.rms);
     load.scale = (load.rms.array() != 0.0).select(load.scale, 0.0).eval();
   }
@@ -335,7 +335,7 @@ std::vector<std::vector<std::size_t>> joined_structures(const std::vector<modal:
 }
 
 BuiltScene build_scene(const study::Study& study, const Fields& fields,
-                       std::vector<transient::SampledLoad> turbulence, const std::vector<modal::Basis>& all,
+                       std::vector<signals::SampledLoad> turbulence, const std::vector<modal::Basis>& all,
                        const std::vector<std::size_t>& structures, const std::vector<PlacedContact>& contacts,
                        const ContactFlexibility& flexibility, const std::vector<NamedNode>& nodes) {
   BuiltScene out;

@@ -54,7 +54,7 @@ joined_structures(const std::vector<modal::Basis>& bases, const std::vector<Plac
 /// @param turbulence   on its modes (sampled_loads)
 /// @param flexibility  of its contacts
 [[nodiscard]] BuiltScene
-build_scene(const study::Study& study, const Fields& fields, std::vector<transient::SampledLoad> turbulence,
+build_scene(const study::Study& study, const Fields& fields, std::vector<signals::SampledLoad> turbulence,
             const std::vector<modal::Basis>& bases, const std::vector<std::size_t>& structures,
             const std::vector<PlacedContact>& contacts, const ContactFlexibility& flexibility,
             const std::vector<NamedNode>& nodes);

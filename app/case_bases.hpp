@@ -30,7 +30,7 @@ struct CaseContacts {
   std::vector<FluidForces> fluid;
   std::vector<std::vector<std::size_t>> joined;
   std::vector<ContactFlexibility> flexibilities;
-  std::vector<std::vector<std::optional<transient::SampledLoad>>> turbulence; ///< by scenes and entries
+  std::vector<std::vector<std::optional<signals::SampledLoad>>> turbulence; ///< by scenes and entries
 };
 
 /// The last few things that were made, by key.

@@ -174,7 +174,7 @@ std::vector<BuiltScene> CaseRunner::scenes_of(const Case& c) {
   const WatchedWear watched = watched_wear(c.study, c.worn, c.placed.size());
   std::vector<BuiltScene> scenes;
   for (std::size_t i = 0; i < c.contacts->joined.size(); ++i) {
-    std::vector<transient::SampledLoad> turbulence;
+    std::vector<signals::SampledLoad> turbulence;
     for (std::size_t e = 0; e < c.study.turbulence.size(); ++e)
       if (const auto& load = c.contacts->turbulence[i][e])
         turbulence.push_back(with_seed(*load, c.study.turbulence[e].seed));

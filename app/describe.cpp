@@ -16,15 +16,15 @@ results::RunRecord make_record(const Inputs& inputs, int ranks) {
   record.overrides = inputs.study.overrides;
   record.input_sha256 = inputs.whole_key;
   for (const auto& load : inputs.study.loads)
-    if (const auto* random = std::get_if<transient::Random>(&load.function))
+    if (const auto* random = std::get_if<signals::Random>(&load.function))
       record.seeds.push_back(random->seed);
   for (const study::Turbulence& turbulence : inputs.study.turbulence)
     record.seeds.push_back(turbulence.seed);
   for (const auto& motion : inputs.study.base_motions)
-    if (const auto* random = std::get_if<transient::Random>(&motion.acceleration))
+    if (const auto* random = std::get_if<signals::Random>(&motion.acceleration))
       record.seeds.push_back(random->seed);
   for (const auto& motion : inputs.study.support_motions)
-    if (const auto* random = std::get_if<transient::Random>(&motion.function))
+    if (const auto* random = std::get_if<signals::Random>(&motion.function))
       record.seeds.push_back(random->seed);
   record.libraries = {
       {"PETSc", fmt::format("{}.{}.{}", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR)},

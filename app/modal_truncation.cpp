@@ -17,8 +17,8 @@ bool acts_on(const Fields::Load& load, const modal::Basis& basis) {
 }
 
 /// Share of the power of a load above a frequency, Hz; its highest frequency is above it.
-double share_above(const transient::TimeFunction& function, double frequency) {
-  const auto* random = std::get_if<transient::Random>(&function);
+double share_above(const signals::TimeFunction& function, double frequency) {
+  const auto* random = std::get_if<signals::Random>(&function);
   return random ? (random->high - std::max(random->low, frequency)) / (random->high - random->low) : 1.0;
 }
 
@@ -46,7 +46,7 @@ std::string load_band_warning(const study::Study& study, const std::vector<modal
   const Fields::Load* worst = nullptr;
   double highest = 0.0, reach = 0.0, beyond = 1.0;
   for (const Fields::Load& load : loads) {
-    const double frequency = transient::highest_frequency(load.function);
+    const double frequency = signals::highest_frequency(load.function);
     for (const modal::Basis& basis : bases)
       if (const double limit = end_of_modes(study.modes, basis);
           frequency > beyond * limit && acts_on(load, basis)) {

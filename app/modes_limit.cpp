@@ -5,7 +5,7 @@
 #include "fem/beam_constants.hpp"
 #include "modal/impact_modes.hpp"
 #include "modal/spans.hpp"
-#include "transient/signals/time_function.hpp"
+#include "signals/time_function.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -131,11 +131,11 @@ struct LoadsReach {
 LoadsReach reach_of_loads(const study::Study& study, const std::vector<TurbulentLoad>& turbulence) {
   double highest = 0.0; // Hz, of everything whose frequencies are known
   for (const study::Load& load : study.loads)
-    highest = std::max(highest, transient::highest_frequency(load.function));
+    highest = std::max(highest, signals::highest_frequency(load.function));
   for (const study::BaseMotion& motion : study.base_motions)
-    highest = std::max(highest, transient::highest_frequency(motion.acceleration));
+    highest = std::max(highest, signals::highest_frequency(motion.acceleration));
   for (const study::SupportMotion& motion : study.support_motions)
-    highest = std::max(highest, transient::highest_frequency(motion.function));
+    highest = std::max(highest, signals::highest_frequency(motion.function));
   LoadsReach reach{modes_above_loads * highest,
                    fmt::format("twice the highest frequency of loads and motions, {:.4g} Hz", highest)};
   for (const TurbulentLoad& load : turbulence)

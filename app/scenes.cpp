@@ -42,7 +42,7 @@ results::ContactFacts facts_of(const study::Contact& contact, const PlacedContac
 /// Of a table of accelerations that ends before the run and not at 0, which drives the base or support away; else empty.
 std::string goes_on_note(const Fields::Load& load, double duration) {
   constexpr double rest = 1e-3; // of the largest value: what a record is cut off at
-  const auto* table = std::get_if<transient::Table>(&load.function);
+  const auto* table = std::get_if<signals::Table>(&load.function);
   if (!load.inertial || !table || table->time.back() >= duration)
     return {};
   double largest = 0.0;
@@ -62,7 +62,7 @@ void note_loads(const Fields& fields, const std::vector<BuiltScene>& scenes, dou
   std::map<std::tuple<std::uint64_t, double, double>, std::string>
       signals; // seed and band: the first load with them
   for (const Fields::Load& load : fields.loads)
-    if (const auto* random = std::get_if<transient::Random>(&load.function)) {
+    if (const auto* random = std::get_if<signals::Random>(&load.function)) {
       const auto [first, is_new] = signals.try_emplace({random->seed, random->low, random->high}, load.name);
       if (!is_new)
         out.notes.push_back(

@@ -59,12 +59,12 @@ bool acts_on(const fem::Structure& structure, const Eigen::VectorXd& field) {
 }
 
 /// From rest at 0 where nothing is given, but for a random acceleration, which would carry it away.
-transient::PrescribedMotion accelerated(const transient::TimeFunction& acceleration,
-                                        std::optional<double> velocity0, std::optional<double> displacement0,
-                                        double duration) {
-  const auto* random = std::get_if<transient::Random>(&acceleration);
+signals::PrescribedMotion accelerated(const signals::TimeFunction& acceleration,
+                                      std::optional<double> velocity0, std::optional<double> displacement0,
+                                      double duration) {
+  const auto* random = std::get_if<signals::Random>(&acceleration);
   if (random && !velocity0 && !displacement0)
-    return transient::without_drift(*random, duration);
+    return signals::without_drift(*random, duration);
   return {acceleration, velocity0.value_or(0.0), displacement0.value_or(0.0)};
 }
 
@@ -79,13 +79,13 @@ Eigen::VectorXd static_shape(const fem::Model& model, const fem::Structure& stru
 
 } // namespace
 
-transient::PrescribedMotion prescribed(const study::SupportMotion& motion, double duration) {
+signals::PrescribedMotion prescribed(const study::SupportMotion& motion, double duration) {
   return motion.by_displacement
-             ? transient::motion_of_displacement(motion.function)
+             ? signals::motion_of_displacement(motion.function)
              : accelerated(motion.function, motion.velocity0, motion.displacement0, duration);
 }
 
-transient::PrescribedMotion prescribed(const study::BaseMotion& motion, double duration) {
+signals::PrescribedMotion prescribed(const study::BaseMotion& motion, double duration) {
   return accelerated(motion.acceleration, motion.velocity0, motion.displacement0, duration);
 }
 

@@ -12,13 +12,13 @@
 /// every dof, moved supports included, and is not pushed by them, r.K.psi = 0. Of psi it has no part, r.M.psi = 0: it starts at rest.
 #pragma once
 #include "app/build_model.hpp"
-#include "transient/signals/prescribed_motion.hpp"
+#include "signals/prescribed_motion.hpp"
 
 namespace fretwork::app {
 
 /// @param duration  s, of the run: a random acceleration without velocity0 and displacement0 is one without drift over it
-[[nodiscard]] transient::PrescribedMotion prescribed(const study::SupportMotion& motion, double duration);
-[[nodiscard]] transient::PrescribedMotion prescribed(const study::BaseMotion& motion, double duration);
+[[nodiscard]] signals::PrescribedMotion prescribed(const study::SupportMotion& motion, double duration);
+[[nodiscard]] signals::PrescribedMotion prescribed(const study::BaseMotion& motion, double duration);
 
 /// What a support motion does by 1 m, 6 values a node of the model.
 struct MovedSupport {

@@ -11,7 +11,7 @@ namespace {
 constexpr double most_bytes = 2147483648.0; ///< of one draw
 
 /// Samples of a draw that is made when the first of them is read.
-class DrawnForces final : public transient::ForceSamples {
+class DrawnForces final : public signals::ForceSamples {
 public:
   explicit DrawnForces(flow::ForceDraw draw) : draw_(std::move(draw)) {}
   [[nodiscard]] Eigen::Index rows() const override { return draw_.modes(); }
@@ -23,7 +23,7 @@ private:
 };
 
 /// Holds the shapes at the patches; blocks only while a run reads them.
-class DrawSource final : public transient::ForceSource {
+class DrawSource final : public signals::ForceSource {
 public:
   using Zones = std::shared_ptr<const std::vector<flow::TurbulentZone>>;
   DrawSource(Zones zones, const flow::DrawOptions& options) : zones_(std::move(zones)), options_(options) {}
@@ -32,8 +32,8 @@ public:
     options.seed = seed;
     return std::make_shared<DrawSource>(zones_, options);
   }
-  [[nodiscard]] std::shared_ptr<transient::ForceSamples> open() const override {
-    std::shared_ptr<transient::ForceSamples> samples = opened_.lock();
+  [[nodiscard]] std::shared_ptr<signals::ForceSamples> open() const override {
+    std::shared_ptr<signals::ForceSamples> samples = opened_.lock();
     if (!samples) {
       samples = std::make_shared<DrawnForces>(flow::ForceDraw(*zones_, {}, options_));
       opened_ = samples;
@@ -44,7 +44,7 @@ public:
 private:
   Zones zones_;
   flow::DrawOptions options_;
-  mutable std::weak_ptr<transient::ForceSamples> opened_;
+  mutable std::weak_ptr<signals::ForceSamples> opened_;
 };
 
 /// Shapes of modes within the band that turn within a few patches.
@@ -92,9 +92,9 @@ void note_modes_above(const TurbulentLoad& load, const std::vector<const modal::
 
 } // namespace
 
-std::optional<transient::SampledLoad> sampled_load(const TurbulentLoad& load,
-                                                   const std::vector<const modal::Basis*>& bases,
-                                                   std::vector<std::string>& notes) {
+std::optional<signals::SampledLoad> sampled_load(const TurbulentLoad& load,
+                                                 const std::vector<const modal::Basis*>& bases,
+                                                 std::vector<std::string>& notes) {
   std::vector<flow::TurbulentZone> zones = zones_on(load, bases);
   if (zones.empty())
     return std::nullopt;
@@ -105,7 +105,7 @@ std::optional<transient::SampledLoad> sampled_load(const TurbulentLoad& load,
                                   load.name, zones.front().modes(), 1e-9 * bytes, 1e-9 * most_bytes));
   note_coarse_patches(load, zones, bases, notes);
   note_modes_above(load, bases, notes);
-  transient::SampledLoad out;
+  signals::SampledLoad out;
   out.rms = flow::modal_mean_squares(zones, load.band).cwiseSqrt();
   const Eigen::Index modes = out.rms.size();
   for (Eigen::Index i = 0; i < modes; ++i)
@@ -118,21 +118,21 @@ std::optional<transient::SampledLoad> sampled_load(const TurbulentLoad& load,
   return out;
 }
 
-std::vector<transient::SampledLoad> sampled_loads(const std::vector<TurbulentLoad>& loads,
-                                                  const std::vector<modal::Basis>& all,
-                                                  const std::vector<std::size_t>& structures,
-                                                  std::vector<std::string>& notes) {
+std::vector<signals::SampledLoad> sampled_loads(const std::vector<TurbulentLoad>& loads,
+                                                const std::vector<modal::Basis>& all,
+                                                const std::vector<std::size_t>& structures,
+                                                std::vector<std::string>& notes) {
   std::vector<const modal::Basis*> bases;
   for (const std::size_t s : structures)
     bases.push_back(&all[s]);
-  std::vector<transient::SampledLoad> out;
+  std::vector<signals::SampledLoad> out;
   for (const TurbulentLoad& load : loads)
     if (auto sampled = sampled_load(load, bases, notes))
       out.push_back(std::move(*sampled));
   return out;
 }
 
-transient::SampledLoad with_seed(transient::SampledLoad load, std::uint32_t seed) {
+signals::SampledLoad with_seed(signals::SampledLoad load, std::uint32_t seed) {
   load.source = std::static_pointer_cast<const DrawSource>(load.source)->with_seed(seed);
   return load;
 }

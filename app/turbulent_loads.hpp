@@ -8,7 +8,7 @@
 #include "app/build_flow.hpp"
 #include "flow/load_band.hpp"
 #include "modal/basis.hpp"
-#include "transient/signals/sampled_load.hpp"
+#include "signals/sampled_load.hpp"
 
 namespace fretwork::app {
 
@@ -48,19 +48,19 @@ struct TurbulentLoad {
 /// The modal forces of a draw for a scene; none where the load acts on no structure of it.
 /// @param notes  takes shapes that the patches do not resolve
 /// @throws core::Error where the draw would take too much memory
-[[nodiscard]] std::optional<transient::SampledLoad>
-sampled_load(const TurbulentLoad& load, const std::vector<const modal::Basis*>& bases,
-             std::vector<std::string>& notes);
+[[nodiscard]] std::optional<signals::SampledLoad> sampled_load(const TurbulentLoad& load,
+                                                               const std::vector<const modal::Basis*>& bases,
+                                                               std::vector<std::string>& notes);
 
 /// The modal forces of all loads that act on a scene.
 /// @param all, structures  bases, and the numbers of those of the scene
-[[nodiscard]] std::vector<transient::SampledLoad> sampled_loads(const std::vector<TurbulentLoad>& loads,
-                                                                const std::vector<modal::Basis>& all,
-                                                                const std::vector<std::size_t>& structures,
-                                                                std::vector<std::string>& notes);
+[[nodiscard]] std::vector<signals::SampledLoad> sampled_loads(const std::vector<TurbulentLoad>& loads,
+                                                              const std::vector<modal::Basis>& all,
+                                                              const std::vector<std::size_t>& structures,
+                                                              std::vector<std::string>& notes);
 
 /// The same forces with the random numbers of another seed; nothing is projected again.
 /// @param load  of sampled_load
-[[nodiscard]] transient::SampledLoad with_seed(transient::SampledLoad load, std::uint32_t seed);
+[[nodiscard]] signals::SampledLoad with_seed(signals::SampledLoad load, std::uint32_t seed);
 
 } // namespace fretwork::app

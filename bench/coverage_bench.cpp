@@ -62,7 +62,7 @@ std::array<Estimate, 2> wear_of(const Estimate& work) {
 Run run_of(transient::Scene scene, std::uint64_t number) {
   bool random = false;
   for (std::size_t k = 0; k < scene.loads.size(); ++k)
-    if (auto* noise = std::get_if<transient::Random>(&scene.loads[k].function)) {
+    if (auto* noise = std::get_if<signals::Random>(&scene.loads[k].function)) {
       noise->seed = number * scene.loads.size() + k + 1;
       random = true;
     }

@@ -68,7 +68,7 @@ Scene friction_oscillator() {
                                 Eigen::Matrix3d::Identity()};
   floor.b.row(2).setZero();
   scene.contacts = {floor};
-  scene.loads = {{transient::Harmonic{100.0, 16.0}, Eigen::Vector3d::UnitY()}};
+  scene.loads = {{signals::Harmonic{100.0, 16.0}, Eigen::Vector3d::UnitY()}};
   return scene;
 }
 

@@ -145,17 +145,16 @@ Place draw_place(Draw& draw, double gap, double overlap, bool tube) {
   return out;
 }
 
-transient::TimeFunction draw_load(Draw& draw, double frequency, double ratio, double about,
-                                  double amplitude) {
+signals::TimeFunction draw_load(Draw& draw, double frequency, double ratio, double about, double amplitude) {
   const bool harmonic = draw.chance(0.45);
   if (harmonic) {
     const double f = about * draw.logarithmic(0.4, 3.0), r = f / frequency;
     const double gain = std::clamp(std::hypot(1.0 - r * r, 2.0 * ratio * r), 0.1, 3.0);
-    return transient::Harmonic{std::numbers::sqrt2 * amplitude * gain, f, draw.uniform(0.0, 2.0 * pi)};
+    return signals::Harmonic{std::numbers::sqrt2 * amplitude * gain, f, draw.uniform(0.0, 2.0 * pi)};
   }
   const double low = about * draw.uniform(0.2, 0.7), high = about * draw.logarithmic(2.0, 8.0);
   const double resonance = pi * frequency / (4.0 * ratio * (high - low));
-  return transient::Random{amplitude / std::sqrt(1.0 + resonance), low, high, draw.seed()};
+  return signals::Random{amplitude / std::sqrt(1.0 + resonance), low, high, draw.seed()};
 }
 
 RandomScene random_mass(Draw& draw) {
@@ -189,11 +188,11 @@ RandomScene random_mass(Draw& draw) {
     transient::Load load{draw_load(draw, frequency[i], ratio, lowest, size), Eigen::VectorXd::Zero(3)};
     load.modal_force(i) = std::sqrt(mass) * scene.system.stiffness(i);
     const bool none = i == 0 && draw.chance(0.15);
-    loads += none ? '-' : std::holds_alternative<transient::Harmonic>(load.function) ? 'h' : 'r';
+    loads += none ? '-' : std::holds_alternative<signals::Harmonic>(load.function) ? 'h' : 'r';
     if (!none)
       scene.loads.push_back(load);
     if (draw.chance(0.25)) {
-      load.function = transient::Constant{amplitude * draw.uniform(-1.0, 1.0)};
+      load.function = signals::Constant{amplitude * draw.uniform(-1.0, 1.0)};
       scene.loads.push_back(load);
       loads += 'c';
     }

@@ -73,8 +73,8 @@ struct Place {
 
 /// A load per unit of stiffness, m: harmonic, or noise in a band, such that an oscillator of a frequency (Hz) and damping ratio moves by
 /// some `amplitude` (rms, m). `about`: the frequency (Hz) about which it is.
-[[nodiscard]] transient::TimeFunction draw_load(Draw& draw, double frequency, double ratio, double about,
-                                                double amplitude);
+[[nodiscard]] signals::TimeFunction draw_load(Draw& draw, double frequency, double ratio, double about,
+                                              double amplitude);
 
 /// Of a mass, of one tube or of two (random_tubes.cpp).
 [[nodiscard]] RandomScene random_mass(Draw& draw);

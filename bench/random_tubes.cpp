@@ -105,12 +105,12 @@ void add_loads(Draw& draw, transient::Scene& scene, const Tube& tube, double rat
     transient::Load load{draw_load(draw, f, ratio, f, amplitude * draw.logarithmic(0.3, 1.0)),
                          Eigen::VectorXd::Zero(scene.system.size())};
     if (k > 1 && draw.chance(0.3))
-      load.function = transient::Constant{amplitude * draw.uniform(0.2, 1.0)};
+      load.function = signals::Constant{amplitude * draw.uniform(0.2, 1.0)};
     for (int j = 0; j < loaded; ++j)
       load.modal_force(tube.first + 2 * j + plane) = unit * draw.uniform(-1.0, 1.0) / std::sqrt(loaded / 3.0);
-    names += std::holds_alternative<transient::Harmonic>(load.function) ? 'h'
-             : std::holds_alternative<transient::Random>(load.function) ? 'r'
-                                                                        : 'c';
+    names += std::holds_alternative<signals::Harmonic>(load.function) ? 'h'
+             : std::holds_alternative<signals::Random>(load.function) ? 'r'
+                                                                      : 'c';
     scene.loads.push_back(load);
   }
 }

@@ -12,7 +12,7 @@ transient::Scene rattling_mass(const RattlingMass& mass, std::uint64_t draw) {
   scene.duration = mass.duration;
   for (int plane = 0; plane < 2; ++plane)
     scene.loads.push_back(
-        {transient::Random{mass.force, 2.0, 100.0, 2 * draw + static_cast<std::uint64_t>(plane)},
+        {signals::Random{mass.force, 2.0, 100.0, 2 * draw + static_cast<std::uint64_t>(plane)},
          Eigen::VectorXd::Unit(2, plane)});
   transient::ContactPoint hole;
   hole.name = "hole";

@@ -51,10 +51,10 @@ Matrix5 exponential(Matrix5 a) {
   return sum;
 }
 
-bool is_smooth(const transient::TimeFunction& function) {
-  return std::holds_alternative<transient::Random>(function) ||
-         std::holds_alternative<transient::Harmonic>(function) ||
-         std::holds_alternative<transient::Constant>(function);
+bool is_smooth(const signals::TimeFunction& function) {
+  return std::holds_alternative<signals::Random>(function) ||
+         std::holds_alternative<signals::Harmonic>(function) ||
+         std::holds_alternative<signals::Constant>(function);
 }
 
 } // namespace
@@ -88,7 +88,7 @@ ReferenceFlow::ReferenceFlow(const transient::Scene& scene, double step)
     if (!is_smooth(load.function))
       throw core::Error("the reference solution takes constant, harmonic and random loads only");
     signals_.emplace_back(load.function, scene.duration);
-    fastest = std::max(fastest, two_pi * transient::highest_frequency(load.function));
+    fastest = std::max(fastest, two_pi * signals::highest_frequency(load.function));
     auto& shape = shapes_.emplace_back();
     for (const Eigen::Index i : order_)
       shape.push_back(load.modal_force(i));

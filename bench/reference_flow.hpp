@@ -54,7 +54,7 @@ private:
   std::vector<Eigen::Index> order_;
   Range y_{}, z_{};
   std::vector<double> stiffness_, damping_;
-  std::vector<transient::Signal> signals_;
+  std::vector<signals::Signal> signals_;
   std::vector<std::vector<double>> shapes_; ///< modal forces
   std::vector<Table> flows_;
   std::vector<double> load_, slope_, middle_, last_;

@@ -68,7 +68,7 @@ transient::Scene scene_of(const Tube& tube) {
   for (int c = 0; c < tube.supports; ++c)
     scene.contacts.push_back(support(tube, scene.system, c));
   const auto noise = [&](std::uint64_t seed) {
-    return transient::Random{tube.force, 2.0, tube.highest_force, seed};
+    return signals::Random{tube.force, 2.0, tube.highest_force, seed};
   };
   scene.loads = {{noise(1), along(tube, 0, 0)},
                  {noise(2), along(tube, 1, 1)},

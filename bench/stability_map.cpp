@@ -8,6 +8,7 @@
 namespace fretwork::bench {
 namespace {
 
+using namespace signals;
 using namespace transient;
 
 constexpr double rate = 1000.0; ///< rad/s: w_c, w_t

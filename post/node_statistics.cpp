@@ -27,7 +27,7 @@ NodeStatistics::NodeStatistics(const std::vector<Eigen::MatrixXd>& rows, double 
 }
 
 void NodeStatistics::add_imposed_motion(const std::vector<Eigen::MatrixXd>& imposed,
-                                        const std::vector<transient::PrescribedMotion>& motions,
+                                        const std::vector<signals::PrescribedMotion>& motions,
                                         double duration) {
   const std::size_t width = u_.size();
   imposed_.assign(motions.size() * width, 0.0);
@@ -45,7 +45,7 @@ void NodeStatistics::step(const transient::Record& record) {
     return;
   kernels::gather(gather_, record.q, u_.data());
   const double* imposed = imposed_.data();
-  for (const transient::MotionSignal& motion : motions_) {
+  for (const signals::MotionSignal& motion : motions_) {
     const double s = motion(record.time).displacement;
     for (double& u : u_)
       u += s * *imposed++;

@@ -5,8 +5,8 @@
 #include "kernels/kernels.hpp"
 #include "post/batch_means.hpp"
 #include "post/moments.hpp"
+#include "signals/prescribed_motion.hpp"
 #include "transient/run.hpp"
-#include "transient/signals/prescribed_motion.hpp"
 #include <array>
 #include <vector>
 
@@ -26,7 +26,7 @@ public:
   NodeStatistics(const std::vector<Eigen::MatrixXd>& rows, double from);
   /// Imposed motions move the nodes too: u = rows q + imposed s, 3 x motions for each node, or empty.
   void add_imposed_motion(const std::vector<Eigen::MatrixXd>& imposed,
-                          const std::vector<transient::PrescribedMotion>& motions, double duration);
+                          const std::vector<signals::PrescribedMotion>& motions, double duration);
   void step(const transient::Record& record) override;
   [[nodiscard]] transient::RecordParts parts_of(const transient::Record& record, double) const override {
     return {record.time >= from_ && !sums_.empty(), false};
@@ -43,7 +43,7 @@ private:
   std::vector<std::array<Accumulator, 3>> sums_;
   double time_ = 0.0; ///< length of the window so far, s
   BatchEnds ends_;
-  std::vector<transient::MotionSignal> motions_;
+  std::vector<signals::MotionSignal> motions_;
   kernels::Array imposed_; ///< in lanes, motion after motion
 };
 

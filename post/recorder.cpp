@@ -172,13 +172,13 @@ TimeSeries Recorder::series() && {
 
 /// What carries contacts and nodes joins their displacements and velocities.
 void Recorder::add_motions() {
-  const auto add = [](auto& series, Eigen::Index i, const transient::MotionState& s, const auto& along) {
+  const auto add = [](auto& series, Eigen::Index i, const signals::MotionState& s, const auto& along) {
     series.displacement.row(i) += s.displacement * along;
     series.velocity.row(i) += s.velocity * along;
   };
   for (std::size_t k = 0; k < motions_.size(); ++k)
     for (Eigen::Index i = 0; i < out_.time.size(); ++i) {
-      const transient::MotionState s = motions_[k](out_.time(i));
+      const signals::MotionState s = motions_[k](out_.time(i));
       for (std::size_t c = 0; c < scene_.contacts.size(); ++c)
         if (const Eigen::MatrixXd& imposed = scene_.contacts[c].imposed; imposed.size() > 0)
           add(out_.contacts[c], i, s, imposed.col(static_cast<Eigen::Index>(k)).transpose());

@@ -2,8 +2,8 @@
 /// @file
 /// Time series at the output instants.
 #pragma once
+#include "signals/prescribed_motion.hpp"
 #include "transient/run.hpp"
-#include "transient/signals/prescribed_motion.hpp"
 #include <string>
 #include <vector>
 
@@ -67,9 +67,9 @@ private:
   const transient::Scene& scene_;
   std::vector<ObservedNode> nodes_;
   TimeSeries out_;
-  std::vector<transient::MotionSignal> motions_; ///< that carry contacts and nodes
-  Eigen::VectorXd masses_;                       ///< modal, empty: all 1
-  Eigen::VectorXd acceleration_;                 ///< modal
+  std::vector<signals::MotionSignal> motions_; ///< that carry contacts and nodes
+  Eigen::VectorXd masses_;                     ///< modal, empty: all 1
+  Eigen::VectorXd acceleration_;               ///< modal
   std::int64_t served_ = 0;
 };
 

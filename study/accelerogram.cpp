@@ -55,7 +55,7 @@ Sampling sampling_of(const std::string& line, const std::string& file) {
 
 bool is_accelerogram(const std::filesystem::path& file) { return lower(file.extension().string()) == ".at2"; }
 
-transient::Table read_accelerogram(const std::filesystem::path& file) {
+signals::Table read_accelerogram(const std::filesystem::path& file) {
   const std::string name = "file " + file.string();
   core::check_input_file(file, name);
   std::ifstream stream(file);
@@ -70,7 +70,7 @@ transient::Table read_accelerogram(const std::filesystem::path& file) {
     throw core::Error(name + ":3: \"" + header[2] +
                       "\": values IN UNITS OF G are expected; write other units as rows t,value");
   const Sampling sampling = sampling_of(header[3], file.string());
-  transient::Table table;
+  signals::Table table;
   for (std::string cell; stream >> cell;) {
     const auto value = to_real(cell);
     if (!value)

@@ -4,7 +4,7 @@
 /// G") and the fourth gives the number of points and the time between two (`NPTS= 4000, DT= .0050 SEC`, or `4000 .0050 NPTS, DT`); then
 /// the values, several a line, the first at t = 0.
 #pragma once
-#include "transient/signals/time_function.hpp"
+#include "signals/time_function.hpp"
 #include <filesystem>
 
 namespace fretwork::study {
@@ -14,6 +14,6 @@ namespace fretwork::study {
 
 /// m/s2: values in units of g are multiplied by 9.80665.
 /// @throws core::Error naming the file, for one that cannot be read, without this header, or with another number of values
-[[nodiscard]] transient::Table read_accelerogram(const std::filesystem::path& file);
+[[nodiscard]] signals::Table read_accelerogram(const std::filesystem::path& file);
 
 } // namespace fretwork::study

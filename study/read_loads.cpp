@@ -20,7 +20,7 @@ void check_smooth(const TableReader& table, const SupportMotion& motion) {
     if (table.has(key))
       table.fail_at(key, "a displacement says by itself how the support starts; leave it out, or give "
                          "quantity = \"acceleration\"");
-  const auto* rows = std::get_if<transient::Table>(&motion.function);
+  const auto* rows = std::get_if<signals::Table>(&motion.function);
   for (std::size_t i = 1; rows && i < rows->time.size(); ++i)
     if (rows->time[i] == rows->time[i - 1])
       table.fail_at("table", "a jump of displacement (two rows of equal time) would take an infinite force; "

@@ -9,10 +9,10 @@
 #include "fem/model.hpp"
 #include "mesh/read.hpp"
 #include "modal/damping.hpp"
+#include "signals/time_function.hpp"
 #include "study/flow.hpp"
 #include "study/turbulence.hpp"
 #include "study/wear.hpp"
-#include "transient/signals/time_function.hpp"
 #include <array>
 #include <filesystem>
 #include <map>
@@ -153,12 +153,12 @@ struct Load {
   bool per_length = false;
   bool moment = false;
   Vec3 direction; ///< unit
-  transient::TimeFunction function;
+  signals::TimeFunction function;
 };
 
 struct BaseMotion {
   Vec3 direction; ///< unit
-  transient::TimeFunction acceleration;
+  signals::TimeFunction acceleration;
   std::optional<double> velocity0, displacement0; ///< m/s and m, at t = 0
 };
 
@@ -167,7 +167,7 @@ struct SupportMotion {
   std::string group;
   Vec3 direction;                                 ///< unit
   bool by_displacement = false;                   ///< the time function gives m, otherwise m/s2
-  transient::TimeFunction function;               ///< a displacement is smooth: no random, no jump
+  signals::TimeFunction function;                 ///< a displacement is smooth: no random, no jump
   std::optional<double> velocity0, displacement0; ///< m/s and m, at t = 0, of an acceleration
 };
 

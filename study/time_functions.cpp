@@ -17,7 +17,7 @@ constexpr std::string_view acceleration_unit = "m/s2";
 
 /// Appends a row.
 /// @return what is wrong with its time, or an empty string
-std::string append_row(transient::Table& table, double time, double value) {
+std::string append_row(signals::Table& table, double time, double value) {
   const std::size_t n = table.time.size();
   if (n >= 1 && time < table.time[n - 1])
     return "the time decreases; sort the rows by time";
@@ -28,9 +28,9 @@ std::string append_row(transient::Table& table, double time, double value) {
   return {};
 }
 
-transient::Table rows_of(const Value& value, const std::string& path, const char* unit) {
+signals::Table rows_of(const Value& value, const std::string& path, const char* unit) {
   const Array& rows = to_array(value, path, "an array of rows [t, value]");
-  transient::Table table;
+  signals::Table table;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::string row_path = path + "[" + std::to_string(i) + "]";
     const auto row = to_numbers(rows[i], row_path, 2, {Range::any, unit});
@@ -40,8 +40,8 @@ transient::Table rows_of(const Value& value, const std::string& path, const char
   return table;
 }
 
-transient::Table table_of(const Value& value, const std::string& path, const std::filesystem::path& folder,
-                          const char* unit) {
+signals::Table table_of(const Value& value, const std::string& path, const std::filesystem::path& folder,
+                        const char* unit) {
   if (value.array())
     return rows_of(value, path, unit);
   if (!value.string())
@@ -61,20 +61,20 @@ transient::Table table_of(const Value& value, const std::string& path, const std
   }
 }
 
-transient::Table scaled(transient::Table table, double scale) {
+signals::Table scaled(signals::Table table, double scale) {
   for (double& value : table.value)
     value *= scale;
   return table;
 }
 
-transient::Harmonic read_harmonic(const TableReader& entry, const char* unit) {
+signals::Harmonic read_harmonic(const TableReader& entry, const char* unit) {
   const TableReader table(*entry.find("harmonic"), entry.path("harmonic"),
                           {{"amplitude", "frequency", "phase"}});
   return {table.number("amplitude", {Range::any, unit}), table.number("frequency", {Range::above_zero, "Hz"}),
           table.number_or("phase", 0.0, {Range::any, "rad"})};
 }
 
-transient::Random read_random(const TableReader& entry, const char* unit) {
+signals::Random read_random(const TableReader& entry, const char* unit) {
   const TableReader table(*entry.find("random"), entry.path("random"), {{"rms", "band", "seed"}});
   (void)table.required("band", "two frequencies [low, high] in Hz");
   const double rms = table.number("rms", {Range::at_least_zero, unit});
@@ -87,12 +87,12 @@ transient::Random read_random(const TableReader& entry, const char* unit) {
 
 } // namespace
 
-transient::Table read_time_table(const std::filesystem::path& file) {
+signals::Table read_time_table(const std::filesystem::path& file) {
   core::check_input_file(file, "file " + file.string());
   std::ifstream stream(file);
   if (!stream)
     throw core::Error("file " + file.string() + " cannot be read; check its permissions");
-  transient::Table table;
+  signals::Table table;
   constexpr int most_headers = 2; // names, units
   int headers = 0;
   std::string text;
@@ -121,8 +121,8 @@ transient::Table read_time_table(const std::filesystem::path& file) {
   return table;
 }
 
-transient::TimeFunction read_time_function(const TableReader& entry, const std::filesystem::path& folder,
-                                           const char* unit) {
+signals::TimeFunction read_time_function(const TableReader& entry, const std::filesystem::path& folder,
+                                         const char* unit) {
   std::vector<std::string> given;
   for (const std::string& key : time_function_keys)
     if (entry.has(key))
@@ -135,7 +135,7 @@ transient::TimeFunction read_time_function(const TableReader& entry, const std::
   if (key != "table" && entry.has("scale"))
     entry.fail_at("scale", "belongs to a table, whose values it multiplies; leave it out");
   if (key == "constant")
-    return transient::Constant{entry.number(key, {Range::any, unit})};
+    return signals::Constant{entry.number(key, {Range::any, unit})};
   if (key == "harmonic")
     return read_harmonic(entry, unit);
   if (key == "table")
@@ -151,7 +151,7 @@ void inline_time_table(Value& entry, const std::string& path, const std::filesys
   const auto at = keys->find("table");
   if (at == keys->end() || !at->second.string())
     return;
-  const transient::Table table = table_of(at->second, path + ".table", folder, "");
+  const signals::Table table = table_of(at->second, path + ".table", folder, "");
   Array rows;
   for (std::size_t i = 0; i < table.time.size(); ++i)
     rows.push_back({Array{{table.time[i], {}}, {table.value[i], {}}}, {}});

@@ -135,7 +135,7 @@ bool acts(const Load& load, const Scene& scene) {
 double table_interval(const Scene& scene) {
   double shortest = 0.0;
   for (const Load& load : scene.loads)
-    if (const auto* table = std::get_if<Table>(&load.function); table && acts(load, scene))
+    if (const auto* table = std::get_if<signals::Table>(&load.function); table && acts(load, scene))
       for (std::size_t i = 1; i < table->time.size(); ++i)
         if (const double interval = table->time[i] - table->time[i - 1];
             interval > finest_table * scene.duration && (shortest == 0.0 || interval < shortest))
@@ -163,8 +163,8 @@ SceneRates rates_of(const Scene& scene) {
     out.highest_mode = std::sqrt(scene.system.stiffness.maxCoeff());
   for (const Load& load : scene.loads)
     if (acts(load, scene))
-      out.excitation = std::max(out.excitation, highest_frequency(load.function));
-  for (const SampledLoad& load : scene.sampled_loads)
+      out.excitation = std::max(out.excitation, signals::highest_frequency(load.function));
+  for (const signals::SampledLoad& load : scene.sampled_loads)
     if (load.acts())
       out.excitation = std::max(out.excitation, load.highest);
   out.table_interval = table_interval(scene);

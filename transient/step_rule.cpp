@@ -133,7 +133,8 @@ int longest_macro_step(const StepChoice& c, const Scene& scene, double fineness)
   if (c.scheme != SchemeKind::splitting || c.scaled > 0 || !allows_macro_steps(scene))
     return 1;
   for (const Load& load : scene.loads)
-    if (std::holds_alternative<Table>(load.function) || std::holds_alternative<Integral>(load.function))
+    if (std::holds_alternative<signals::Table>(load.function) ||
+        std::holds_alternative<signals::Integral>(load.function))
       return 1;
   double longest = most_macro_steps * c.step;
   if (c.excitation > 0.0)

@@ -40,8 +40,8 @@ int main(int argc, char** argv) try {
   transient::Scene scene;
   scene.system = {basis.omega.cwiseAbs2(), Eigen::VectorXd::Zero(5), {}};
   scene.q0 = scene.v0 = Eigen::VectorXd::Zero(5);
-  scene.duration = 0.16;                                                                       // s
-  scene.loads = {{transient::Constant{1.0}, tip.transpose() * core::Vec3(0.0, -1000.0, 0.0)}}; // N
+  scene.duration = 0.16;                                                                     // s
+  scene.loads = {{signals::Constant{1.0}, tip.transpose() * core::Vec3(0.0, -1000.0, 0.0)}}; // N
   scene.contacts = {{"stop",
                      {contact::Circle{1e-4}, {.stiffness = 1e8}, {}},
                      core::Vec3::Zero(),

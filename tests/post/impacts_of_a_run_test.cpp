@@ -10,6 +10,7 @@
 namespace impacts_of_a_run_test {
 
 using namespace fretwork;
+using namespace fretwork::signals;
 using namespace fretwork::transient;
 using post::ContactStatistics;
 using post::ContactSummary;

@@ -5,6 +5,7 @@
 namespace recorder_test {
 
 using namespace fretwork;
+using namespace fretwork::signals;
 using namespace fretwork::transient;
 using post::Recorder;
 using post::TimeSeries;

@@ -70,7 +70,7 @@ TEST(Loads, HaveNames) {
       contact("[[loads]]\nname = \"turbulence\"\ngroup = \"p\"\ndirection = [1, 0, 0]\nconstant = 1\n");
   EXPECT_EQ(read_text(load).loads[0].name, "turbulence");
   EXPECT_EQ(read_text(load, {"loads.turbulence.constant=5"}).loads[0].function,
-            transient::TimeFunction(transient::Constant{5}));
+            signals::TimeFunction(signals::Constant{5}));
 }
 
 } // namespace

@@ -15,7 +15,7 @@ TEST(Override, AddressesAnEntryByItsGroup) {
 
 TEST(Override, AddressesAnEntryByItsIndex) {
   EXPECT_EQ(read_text(full_study, {"loads.2.random.rms=9"}).loads[2].function,
-            transient::TimeFunction(transient::Random{9, 5, 200, 7}));
+            signals::TimeFunction(signals::Random{9, 5, 200, 7}));
 }
 
 TEST(Override, AddressesATableOfATable) {

@@ -33,11 +33,11 @@ TEST(ReadSupportMotion, TakesAccelerationsAndDisplacements) {
   EXPECT_EQ(a.group, "plate");
   EXPECT_EQ(a.direction, Vec3(0, 0, 1));
   EXPECT_FALSE(a.by_displacement);
-  EXPECT_EQ(a.function, transient::TimeFunction(transient::Constant{1.5}));
+  EXPECT_EQ(a.function, signals::TimeFunction(signals::Constant{1.5}));
   EXPECT_EQ(a.velocity0, -0.5);
   EXPECT_EQ(a.displacement0, 0.25);
   EXPECT_TRUE(b.by_displacement);
-  EXPECT_EQ(b.function, transient::TimeFunction(transient::Table{{0, 1}, {0, 2}}));
+  EXPECT_EQ(b.function, signals::TimeFunction(signals::Table{{0, 1}, {0, 2}}));
 }
 
 TEST(ReadSupportMotion, CarriesObstacles) {

@@ -6,7 +6,7 @@
 namespace fretwork::study::time_table_test {
 namespace {
 
-transient::Table read_rows(const std::string& text) {
+signals::Table read_rows(const std::string& text) {
   const Folder folder;
   return read_time_table(folder.write("t.csv", text));
 }
@@ -22,15 +22,15 @@ std::string problem_of(const std::string& text) {
 
 TEST(TimeTable, PassesOverHeaderCommentsAndEmptyLines) {
   const auto table = read_rows("# force of the test\ntime (s),force (N)\n\n0, 1.5\r\n  # middle\n1e-1 ,+2\n");
-  EXPECT_EQ(table, (transient::Table{{0.0, 0.1}, {1.5, 2.0}}));
+  EXPECT_EQ(table, (signals::Table{{0.0, 0.1}, {1.5, 2.0}}));
 }
 
 TEST(TimeTable, TakesAJumpAndAMissingHeaderAndLineEnd) {
-  EXPECT_EQ(read_rows("0,1\n1,1\n1,-2"), (transient::Table{{0, 1, 1}, {1, 1, -2}}));
+  EXPECT_EQ(read_rows("0,1\n1,1\n1,-2"), (signals::Table{{0, 1, 1}, {1, 1, -2}}));
 }
 
 TEST(TimeTable, TakesOtherSeparatorsDecimalCommasAndARowOfUnits) {
-  const transient::Table expected{{0.0, 0.5}, {1.25, -2.0}};
+  const signals::Table expected{{0.0, 0.5}, {1.25, -2.0}};
   EXPECT_EQ(read_rows("time,force\ns,N\n0,1.25\n0.5,-2\n"), expected);
   EXPECT_EQ(read_rows("Zeit;Kraft\n[s];[N]\n0,0;1,25\n0,5;-2\n"), expected);
   EXPECT_EQ(read_rows("t\tF\n0\t1.25\n0.5\t-2\n"), expected);
@@ -43,7 +43,7 @@ TEST(TimeTable, IsScaled) {
     return read_text(contact("[[loads]]\ngroup = \"p\"\ndirection = [1, 0, 0]\n" + keys)).loads[0].function;
   };
   EXPECT_EQ(function("table = [[0, 1], [1, -3]]\nscale = 2.5\n"),
-            transient::TimeFunction(transient::Table{{0, 1}, {2.5, -7.5}}));
+            signals::TimeFunction(signals::Table{{0, 1}, {2.5, -7.5}}));
   EXPECT_NE(message_of(contact("[[loads]]\ngroup = \"p\"\ndirection = [1, 0, 0]\nconstant = 1\nscale = 2\n"))
                 .find("scale = 2: belongs to a table"),
             std::string::npos);
@@ -63,7 +63,7 @@ TEST(Accelerogram, IsReadInMetresPerSecondSquared) {
         .acceleration;
   };
   for (const char* sampling : {"NPTS=     5, DT=   .0050 SEC,", "    5    0.0050    NPTS, DT"}) {
-    const auto table = std::get<transient::Table>(motion(sampling));
+    const auto table = std::get<signals::Table>(motion(sampling));
     ASSERT_EQ(table.time.size(), 5u) << sampling;
     EXPECT_DOUBLE_EQ(table.time[4], 0.02);
     EXPECT_DOUBLE_EQ(table.value[1], -2.0 * 0.2 * 9.80665);
@@ -131,7 +131,7 @@ TEST(TimeTable, StartsFromTheFolderOfTheStudy) {
   folder.write("force.csv", "0,1\n2,3\n");
   const auto file = folder.write(
       "study.toml", contact("[[loads]]\ngroup = \"p\"\ndirection = [1, 0, 0]\ntable = \"force.csv\"\n"));
-  EXPECT_EQ(read(file).loads[0].function, transient::TimeFunction(transient::Table{{0, 2}, {1, 3}}));
+  EXPECT_EQ(read(file).loads[0].function, signals::TimeFunction(signals::Table{{0, 2}, {1, 3}}));
 }
 
 } // namespace

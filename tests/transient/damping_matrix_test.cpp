@@ -10,6 +10,7 @@ namespace damping_matrix_test {
 
 using namespace fretwork;
 using namespace fretwork::tests;
+using namespace fretwork::signals;
 using namespace fretwork::transient;
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;

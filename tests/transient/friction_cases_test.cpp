@@ -8,6 +8,7 @@ namespace friction_cases_test {
 
 using namespace fretwork;
 using namespace fretwork::tests;
+using namespace fretwork::signals;
 using namespace fretwork::transient;
 using contact::FrictionLaw;
 

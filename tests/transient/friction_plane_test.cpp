@@ -11,6 +11,7 @@ namespace friction_plane_test {
 
 using namespace fretwork;
 using namespace fretwork::tests;
+using namespace fretwork::signals;
 using namespace fretwork::transient;
 using contact::Circle;
 using contact::FrictionLaw;

@@ -9,6 +9,7 @@ namespace impacts_test {
 
 using namespace fretwork;
 using namespace fretwork::tests;
+using namespace fretwork::signals;
 using namespace fretwork::transient;
 using contact::PlaneAxis;
 using contact::PlanePair;

@@ -4,7 +4,7 @@
 // method.
 #include "contact/friction_law.hpp"
 #include "scenes.hpp"
-#include "transient/signals/prescribed_motion.hpp"
+#include "signals/prescribed_motion.hpp"
 #include <gtest/gtest.h>
 #include <numbers>
 
@@ -12,6 +12,7 @@ namespace orders_test {
 
 using namespace fretwork;
 using namespace fretwork::tests;
+using namespace fretwork::signals;
 using namespace fretwork::transient;
 using contact::Vec2;
 

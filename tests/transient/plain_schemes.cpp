@@ -6,6 +6,7 @@
 
 namespace fretwork::tests {
 
+using namespace signals;
 using namespace transient;
 using contact::Vec2;
 using core::Vec3;

@@ -7,6 +7,7 @@ namespace reference_memory_test {
 
 using namespace fretwork;
 using namespace fretwork::tests;
+using namespace fretwork::signals;
 using namespace fretwork::transient;
 
 namespace {

@@ -14,6 +14,7 @@ namespace restart_test {
 
 using namespace fretwork;
 using namespace fretwork::tests;
+using namespace fretwork::signals;
 using namespace fretwork::transient;
 
 namespace {

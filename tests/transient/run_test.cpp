@@ -9,6 +9,7 @@ namespace run_test {
 
 using namespace fretwork;
 using namespace fretwork::tests;
+using namespace fretwork::signals;
 using namespace fretwork::transient;
 
 namespace {

@@ -12,6 +12,7 @@ namespace scaling_test {
 
 using namespace fretwork;
 using namespace fretwork::tests;
+using namespace fretwork::signals;
 using namespace fretwork::transient;
 using contact::FrictionMemoryKind;
 using contact::PlaneAxis;

@@ -7,6 +7,7 @@
 
 namespace fretwork::tests {
 
+using namespace signals;
 using namespace transient;
 using contact::PlaneAxis;
 

@@ -12,6 +12,7 @@ namespace shown_motion_test {
 
 using namespace fretwork;
 using namespace fretwork::tests;
+using namespace fretwork::signals;
 using namespace fretwork::transient;
 
 // At the actions a mass that a steady load presses stands a = x^2/12 of its way to rest deeper: 4 % at x = 0.7. The mean leaves 3/5 a^2.

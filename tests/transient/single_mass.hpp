@@ -15,7 +15,7 @@ namespace fretwork::tests {
 struct SingleMass {
   double mass = 1.0;
   Vec3 stiffness = Vec3::Zero(), damping = Vec3::Zero(); ///< N/m, N s/m
-  std::array<transient::Harmonic, 3> load{};
+  std::array<signals::Harmonic, 3> load{};
   Vec3 velocity = Vec3::Zero(); ///< at the start
   double gap = 0.0;             ///< m, < 0: overlap
   contact::NormalLaw normal{};

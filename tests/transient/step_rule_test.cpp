@@ -9,6 +9,7 @@ namespace step_rule_test {
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::tests::step_rule;
+using namespace fretwork::signals;
 using namespace fretwork::transient;
 using contact::Circle;
 using contact::PlaneAxis;

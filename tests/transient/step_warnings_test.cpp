@@ -39,7 +39,7 @@ TEST(StepWarnings, WarnsWhereAFixedStepDoesNotResolve) {
   only(warnings(mode, euler(1.9e-3)), "the highest mode: w_max h = 1.9");
   only(warnings(scene_with({Circle{0.1}, {2.0, 4e3}, {}}), euler(0.6e-3)), "the dampers: r_e h = 1.2");
   Scene excited = mass_point(mass, Vec3::Zero(), 1.0);
-  excited.loads = {force_on(mass, Vec3(1, 0, 0), Harmonic{1.0, 25.0})};
+  excited.loads = {force_on(mass, Vec3(1, 0, 0), signals::Harmonic{1.0, 25.0})};
   only(warnings(excited, splitting(5e-3)), "the excitation: 20 f h = 2.5");
 }
 

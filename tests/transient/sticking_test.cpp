@@ -8,6 +8,7 @@
 namespace sticking_test {
 
 using namespace fretwork;
+using namespace fretwork::signals;
 using namespace fretwork::transient;
 
 namespace {

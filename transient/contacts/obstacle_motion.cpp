@@ -28,8 +28,8 @@ ImposedMotion ObstacleMotion::workspace() const {
 template <class Move> void ObstacleMotion::each(double time, const Move& move) const {
   const auto stride = static_cast<std::size_t>(contacts_.stride());
   const double* imposed = imposed_.data();
-  for (const MotionSignal& signal : signals_) {
-    const MotionState s = signal(time);
+  for (const signals::MotionSignal& signal : signals_) {
+    const signals::MotionState s = signal(time);
     move(imposed, s.displacement, s.velocity);
     imposed += stride;
   }

@@ -5,9 +5,9 @@
 /// from its obstacle, in the contact's local axes. An obstacle that stays in space while the base moves by s along d has
 /// imposed = d. What it does on the structure is work from outside: each second, with the force f on the node, -f.(imposed s').
 #pragma once
+#include "signals/prescribed_motion.hpp"
 #include "transient/contacts/contact_motion.hpp"
 #include "transient/contacts/contact_trial.hpp"
-#include "transient/signals/prescribed_motion.hpp"
 
 namespace fretwork::transient {
 
@@ -42,7 +42,7 @@ private:
   template <class Move> void each(double time, const Move& move) const;
 
   const PackedContacts& contacts_;
-  std::vector<MotionSignal> signals_;
+  std::vector<signals::MotionSignal> signals_;
   kernels::Array imposed_; ///< lanes of each motion, one after the other
 };
 

@@ -58,15 +58,15 @@ constexpr Part part[parts] = {{edge, 2.0 * edge, 2.0 * edge},
 /// Where tables have points within the run, and the end of the run, s, increasing.
 std::vector<double> stops_of(const Scene& scene) {
   std::vector<double> stops;
-  const auto add = [&](const TimeFunction& function) {
-    if (const auto* table = std::get_if<Table>(&function))
+  const auto add = [&](const signals::TimeFunction& function) {
+    if (const auto* table = std::get_if<signals::Table>(&function))
       std::copy_if(table->time.begin(), table->time.end(), std::back_inserter(stops),
                    [&](double t) { return t > 0.0 && t < scene.duration; });
   };
   for (const Load& load : scene.loads)
     if (!load.modal_force.isZero(0.0))
       add(load.function);
-  for (const PrescribedMotion& motion : scene.motions)
+  for (const signals::PrescribedMotion& motion : scene.motions)
     add(motion.acceleration);
   stops.push_back(scene.duration);
   std::sort(stops.begin(), stops.end());

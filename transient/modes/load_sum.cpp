@@ -15,10 +15,10 @@ constexpr double most_grid_steps = 5.0;
 } // namespace
 
 LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double duration, double step,
-                 const std::vector<SampledLoad>& sampled)
+                 const std::vector<signals::SampledLoad>& sampled)
     : modes_(modes), padded_modes_(kernels::padded(static_cast<int>(modes))), step_(step),
       observed_(static_cast<std::size_t>(padded_modes_)) {
-  std::vector<const TimeFunction*> functions;
+  std::vector<const signals::TimeFunction*> functions;
   for (const Load& load : loads) {
     if (load.modal_force.isZero(0.0))
       continue;
@@ -28,7 +28,7 @@ LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double dura
     if (same == functions.end()) {
       functions.push_back(&load.function);
       signals_.emplace_back(load.function, duration);
-      const auto* harmonic = std::get_if<Harmonic>(&load.function);
+      const auto* harmonic = std::get_if<signals::Harmonic>(&load.function);
       const double half_turn = harmonic ? std::numbers::pi * harmonic->frequency * step : 0.0;
       above_.push_back(
           half_turn > 0.0 && half_turn < most_corrected ? std::pow(half_turn / std::sin(half_turn), 2) : 1.0);
@@ -39,7 +39,7 @@ LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double dura
       shapes_[source * padded_modes_ + i] += load.modal_force(i);
   }
   values_.resize(signals_.size());
-  for (const SampledLoad& load : sampled)
+  for (const signals::SampledLoad& load : sampled)
     if (load.acts())
       sampled_.emplace_back(load);
   constant_ = constant_ && sampled_.empty();
@@ -47,10 +47,10 @@ LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double dura
 
 template <class Value, class Place>
 void LoadSum::combine(double time, const Place& place_on, const Value& value, double* force) {
-  const SampleGrid* grid = nullptr; // of the last random signal: those of a study mostly share one
-  SampleGrid::Place place{};
+  const signals::SampleGrid* grid = nullptr; // of the last random signal: those of a study mostly share one
+  signals::SampleGrid::Place place{};
   for (std::size_t k = 0; k < signals_.size(); ++k) {
-    const Signal& signal = signals_[k];
+    const signals::Signal& signal = signals_[k];
     if (!signal.is_random()) {
       values_[k] = value(k);
       continue;
@@ -64,21 +64,21 @@ void LoadSum::combine(double time, const Place& place_on, const Value& value, do
     std::fill_n(force, padded_modes_, 0.0);
   else
     kernels::combine(padded_modes_, static_cast<int>(signals_.size()), shapes_.data(), values_.data(), force);
-  for (SampledForce& sampled : sampled_)
+  for (signals::SampledForce& sampled : sampled_)
     sampled.add(time, force);
 }
 
-void LoadSum::at(double time, double* force) { at(time, Signal::window(time, step_), force); }
+void LoadSum::at(double time, double* force) { at(time, signals::Signal::window(time, step_), force); }
 
-void LoadSum::at(double time, Signal::Window window, double* force) {
+void LoadSum::at(double time, signals::Signal::Window window, double* force) {
   combine(
-      time, [&](const SampleGrid& grid) { return grid.place(time); },
+      time, [&](const signals::SampleGrid& grid) { return grid.place(time); },
       [&](std::size_t k) { return signals_[k].over_step(time, step_, window); }, force);
 }
 
 void LoadSum::instant(double time, double* force) {
   combine(
-      time, [&](const SampleGrid& grid) { return grid.place(time); },
+      time, [&](const signals::SampleGrid& grid) { return grid.place(time); },
       [&](std::size_t k) { return signals_[k](time); }, force);
 }
 
@@ -88,10 +88,10 @@ void LoadSum::observe(double time, double* force) {
 }
 
 void LoadSum::corner(double time, double* force) {
-  const Signal::Window window = Signal::window(time, step_);
+  const signals::Signal::Window window = signals::Signal::window(time, step_);
   combine(
       time,
-      [&](const SampleGrid& grid) {
+      [&](const signals::SampleGrid& grid) {
         return step_ * grid.per_step < most_grid_steps ? grid.corner(time, step_) : grid.place(time);
       },
       [&](std::size_t k) { return above_[k] * signals_[k].over_step(time, step_, window); }, force);

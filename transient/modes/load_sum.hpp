@@ -13,7 +13,7 @@ public:
   /// @param step  s: the force at a time stands for a step about it, so that what a table does inside a step keeps its impulse
   /// @param sampled  are added at the time itself, whatever the step: samples are far closer than the periods that carry their power
   LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double duration, double step,
-          const std::vector<SampledLoad>& sampled = {});
+          const std::vector<signals::SampledLoad>& sampled = {});
   LoadSum(const Scene& scene, double step)
       : LoadSum(scene.loads, scene.system.size(), scene.duration, step, scene.sampled_loads) {}
   [[nodiscard]] bool empty() const { return signals_.empty() && sampled_.empty(); }
@@ -25,7 +25,7 @@ public:
   /// between their values, by (w h)^2/12 for what moves with w. Of tables as `at`. Padded. No allocation.
   void corner(double time, double* force);
   /// Modal force at a time that stands for another window, padded. No allocation.
-  void at(double time, Signal::Window window, double* force);
+  void at(double time, signals::Signal::Window window, double* force);
   /// Modal force at an instant, padded. No allocation.
   void instant(double time, double* force);
   /// The same without padding: what observers see.
@@ -40,10 +40,10 @@ private:
   int padded_modes_;
   double step_;
   bool constant_ = true;
-  std::vector<Signal> signals_;
+  std::vector<signals::Signal> signals_;
   std::vector<double> above_; ///< a corner's height by the value there: above 1 of harmonic ones
   kernels::Array shapes_, values_, observed_;
-  std::vector<SampledForce> sampled_;
+  std::vector<signals::SampledForce> sampled_;
 };
 
 } // namespace fretwork::transient

@@ -8,9 +8,9 @@ namespace fretwork::transient {
 namespace {
 
 /// Shortest interval in which a table changes, s, 0 at a jump; infinite without a table.
-double shortest_change(const TimeFunction& function) {
+double shortest_change(const signals::TimeFunction& function) {
   double shortest = std::numeric_limits<double>::infinity();
-  if (const auto* table = std::get_if<Table>(&function))
+  if (const auto* table = std::get_if<signals::Table>(&function))
     for (std::size_t i = 1; i < table->time.size(); ++i)
       if (table->value[i] != table->value[i - 1])
         shortest = std::min(shortest, table->time[i] - table->time[i - 1]);
@@ -43,12 +43,12 @@ bool may_scale(const Scene& scene, double fastest, double accuracy) {
     if (scaled.select(square, 0.0).sum() > 0.0 &&
         shortest_change(load.function) * fastest < 2.0 * std::numbers::pi)
       return false;
-    if (const auto* random = std::get_if<Random>(&load.function)) // starts anywhere
+    if (const auto* random = std::get_if<signals::Random>(&load.function)) // starts anywhere
       noise += random->rms * random->rms * square;
     else
-      at_start += Signal(load.function, scene.duration)(0.0) * load.modal_force.array();
+      at_start += signals::Signal(load.function, scene.duration)(0.0) * load.modal_force.array();
   }
-  for (const SampledLoad& load : scene.sampled_loads) {
+  for (const signals::SampledLoad& load : scene.sampled_loads) {
     const Eigen::ArrayXd square = load.rms.array().square(), bent = square * flexibility;
     if (scaled.select(bent, 0.0).sum() > accuracy * bent.sum())
       return false;
@@ -75,7 +75,7 @@ Scene with_masses(const Scene& scene, const Eigen::VectorXd& masses) {
   }
   for (Load& load : out.loads)
     load.modal_force.array() *= s.array();
-  for (SampledLoad& load : out.sampled_loads)
+  for (signals::SampledLoad& load : out.sampled_loads)
     load.multiply(s);
   for (ContactPoint& point : out.contacts)
     if (point.modes.empty()) {

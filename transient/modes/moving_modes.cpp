@@ -12,7 +12,7 @@ std::vector<Eigen::Index> moving_modes(const Scene& scene) {
   if (const core::MotionForces& f = scene.system.motion; !f.empty())
     moves = moves || (f.stiffness.array() != 0.0).colwise().any().transpose() ||
             (f.output.array() != 0.0).colwise().any().transpose();
-  for (const SampledLoad& load : scene.sampled_loads)
+  for (const signals::SampledLoad& load : scene.sampled_loads)
     moves = moves || load.scale.array() != 0.0;
   for (const ContactPoint& point : scene.contacts)
     point.for_ranges([&](Eigen::Index first, const auto& part) {
@@ -77,7 +77,7 @@ Scene with_modes(const Scene& scene, const std::vector<Eigen::Index>& modes) {
                          f.rates, f.output(Eigen::all, modes)};
   for (std::size_t k = 0; k < out.loads.size(); ++k)
     out.loads[k].modal_force = scene.loads[k].modal_force(modes);
-  for (SampledLoad& load : out.sampled_loads)
+  for (signals::SampledLoad& load : out.sampled_loads)
     load = load.of_modes(modes);
   out.contacts = with_modes(std::move(out.contacts), modes);
   out.q0 = scene.q0(modes);

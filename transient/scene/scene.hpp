@@ -6,9 +6,9 @@
 #include "contact/support.hpp"
 #include "core/motion_forces.hpp"
 #include "core/types.hpp"
-#include "transient/signals/prescribed_motion.hpp"
-#include "transient/signals/sampled_load.hpp"
-#include "transient/signals/time_function.hpp"
+#include "signals/prescribed_motion.hpp"
+#include "signals/sampled_load.hpp"
+#include "signals/time_function.hpp"
 #include <Eigen/Core>
 #include <string>
 #include <vector>
@@ -29,7 +29,7 @@ struct System {
 };
 
 struct Load {
-  TimeFunction function;
+  signals::TimeFunction function;
   Eigen::VectorXd modal_force; ///< n: the load is modal_force * function(t)
   /// -M a of a base or support that accelerates, or the force of dampers that a support's velocity stretches: no part of a static equilibrium
   bool inertial = false;
@@ -83,9 +83,9 @@ struct ContactPoint {
 struct Scene {
   System system;
   std::vector<Load> loads;
-  std::vector<SampledLoad> sampled_loads; ///< random, of zero mean
+  std::vector<signals::SampledLoad> sampled_loads; ///< random, of zero mean
   std::vector<ContactPoint> contacts;
-  std::vector<PrescribedMotion>
+  std::vector<signals::PrescribedMotion>
       motions;            ///< that carry contacts; the forces they cause on the modes are among the loads
   Eigen::VectorXd q0, v0; ///< initial state, n
   double duration = 0.0;  ///< s, > 0

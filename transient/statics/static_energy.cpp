@@ -28,7 +28,7 @@ StaticEnergy::StaticEnergy(const Scene& scene) : scene_(scene) {
   load_.setZero(n);
   for (const Load& load : scene.loads)
     if (!load.inertial)
-      load_ += static_value(load.function, scene.duration) * load.modal_force;
+      load_ += signals::static_value(load.function, scene.duration) * load.modal_force;
   rows_.resize(2 * static_cast<Index>(scene.contacts.size()), n);
   VectorXd scale = scene.system.stiffness, by_contacts = VectorXd::Zero(n);
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {

@@ -8,6 +8,7 @@
 namespace nodal_contact_test {
 
 using namespace fretwork;
+using namespace fretwork::signals;
 using namespace fretwork::transient;
 using contact::FrictionMemoryKind;
 

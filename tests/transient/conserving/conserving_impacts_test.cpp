@@ -10,6 +10,7 @@ namespace conserving_impacts_test {
 
 using namespace fretwork;
 using namespace fretwork::tests;
+using namespace fretwork::signals;
 using namespace fretwork::transient;
 
 namespace {

@@ -8,6 +8,7 @@
 namespace discrete_gradient_test {
 
 using namespace fretwork;
+using namespace fretwork::signals;
 using namespace fretwork::transient;
 using contact::PlaneAxis;
 using contact::PlanePoint;

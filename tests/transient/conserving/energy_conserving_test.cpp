@@ -12,6 +12,7 @@ namespace energy_conserving_test {
 
 using namespace fretwork;
 using namespace fretwork::tests;
+using namespace fretwork::signals;
 using namespace fretwork::transient;
 using contact::FrictionLaw;
 using contact::FrictionMemoryKind;

@@ -2,7 +2,7 @@
 // Imposed motions are the exact double integrals of their acceleration, and obstacles that they carry act as obstacles at rest act on a
 // structure that is described in space.
 #include "scenes.hpp"
-#include "transient/signals/prescribed_motion.hpp"
+#include "signals/prescribed_motion.hpp"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -12,6 +12,7 @@ namespace obstacle_motion_test {
 
 using namespace fretwork;
 using namespace fretwork::tests;
+using namespace fretwork::signals;
 using namespace fretwork::transient;
 using contact::PlaneAxis;
 

@@ -7,6 +7,7 @@ namespace devogelaere_test {
 
 using namespace fretwork;
 using namespace fretwork::tests;
+using namespace fretwork::signals;
 using namespace fretwork::transient;
 using contact::PlaneAxis;
 using contact::Stop;

@@ -9,6 +9,7 @@ namespace runge_kutta_54_test {
 
 using namespace fretwork;
 using namespace fretwork::tests;
+using namespace fretwork::signals;
 using namespace fretwork::transient;
 using contact::PlaneAxis;
 using contact::Stop;

@@ -12,6 +12,7 @@ namespace linear_flow_test {
 
 using namespace fretwork;
 using namespace fretwork::tests;
+using namespace fretwork::signals;
 using namespace fretwork::transient;
 
 namespace {

@@ -9,6 +9,7 @@ namespace moving_modes_test {
 
 using namespace fretwork;
 using namespace fretwork::tests;
+using namespace fretwork::signals;
 using namespace fretwork::transient;
 using Eigen::Index;
 using Eigen::MatrixXd;

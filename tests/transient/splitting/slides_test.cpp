@@ -6,6 +6,7 @@
 
 namespace fretwork::tests::slides_test {
 
+using namespace signals;
 using namespace transient;
 
 namespace {

@@ -10,6 +10,7 @@ namespace static_start_test {
 
 using namespace fretwork;
 using namespace fretwork::tests;
+using namespace fretwork::signals;
 using namespace fretwork::transient;
 using contact::PlaneAxis;
 using Eigen::VectorXd;

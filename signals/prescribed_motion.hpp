@@ -5,10 +5,10 @@
 /// Constants and harmonics in closed form; tables (linear pieces) and random signals (the cubic pieces that the loads follow) piece by
 /// piece, from sums made before the run.
 #pragma once
-#include "transient/signals/time_function.hpp"
+#include "signals/time_function.hpp"
 #include <vector>
 
-namespace fretwork::transient {
+namespace fretwork::signals {
 
 /// A motion that is imposed: displacement s(t) with s'' = acceleration, s'(0) and s(0).
 struct PrescribedMotion {
@@ -67,4 +67,4 @@ private:
   std::vector<MotionState> at_grid_; ///< of a random signal, at the starts of its pieces
 };
 
-} // namespace fretwork::transient
+} // namespace fretwork::signals

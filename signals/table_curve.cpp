@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "transient/signals/table_curve.hpp"
+#include "signals/table_curve.hpp"
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
-namespace fretwork::transient {
+namespace fretwork::signals {
 namespace {
 
 /// A cubic is monotone where its slopes at both ends are at most so many times the chord's.
@@ -137,4 +137,4 @@ std::vector<double> shape_preserving_slopes(const Table& table) {
   return slope;
 }
 
-} // namespace fretwork::transient
+} // namespace fretwork::signals

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "transient/signals/sampled_load.hpp"
+#include "signals/sampled_load.hpp"
 #include <cassert>
 #include <cmath>
 #include <numbers>
 
-namespace fretwork::transient {
+namespace fretwork::signals {
 namespace {
 
 constexpr std::int64_t window = 64; ///< intervals between samples that are read together
@@ -49,4 +49,4 @@ void SampledForce::add(double time, double* force) {
       (start * (1.0 - share)) * forces_.col(column) + (start * share) * forces_.col(column + 1);
 }
 
-} // namespace fretwork::transient
+} // namespace fretwork::signals

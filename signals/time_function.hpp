@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-namespace fretwork::transient {
+namespace fretwork::signals {
 
 struct Constant {
   double value;
@@ -139,4 +139,4 @@ private:
   std::vector<double> samples_;
 };
 
-} // namespace fretwork::transient
+} // namespace fretwork::signals

@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-namespace fretwork::transient {
+namespace fretwork::signals {
 
 /// Samples of modal forces, by rows.
 class ForceSamples {
@@ -63,4 +63,4 @@ private:
   Eigen::MatrixXd window_, forces_; ///< a stretch of samples: rows; n, scaled
 };
 
-} // namespace fretwork::transient
+} // namespace fretwork::signals

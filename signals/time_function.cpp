@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "transient/signals/time_function.hpp"
+#include "signals/time_function.hpp"
 #include "core/error.hpp"
-#include "transient/signals/prescribed_motion.hpp"
+#include "signals/prescribed_motion.hpp"
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -13,7 +13,7 @@
 #include <optional>
 #include <random>
 
-namespace fretwork::transient {
+namespace fretwork::signals {
 namespace {
 
 /// Samples per period of the highest frequency: cubic Hermite interpolation between them errs by (2 pi /
@@ -268,4 +268,4 @@ double highest_frequency(const TimeFunction& function) {
   return 0.0;
 }
 
-} // namespace fretwork::transient
+} // namespace fretwork::signals

@@ -2,12 +2,12 @@
 /// @file
 /// Sampled loads of the tests: mode i has the force a_i sin(40 t + 1).
 #pragma once
-#include "transient/signals/sampled_load.hpp"
+#include "signals/sampled_load.hpp"
 #include <cmath>
 
 namespace fretwork::tests {
 
-class SineSamples final : public transient::ForceSamples {
+class SineSamples final : public signals::ForceSamples {
 public:
   SineSamples(Eigen::VectorXd amplitudes, double step) : amplitudes_(std::move(amplitudes)), step_(step) {}
   [[nodiscard]] static double value(double amplitude, double time) {
@@ -26,19 +26,19 @@ private:
   double step_;
 };
 
-class SineSource final : public transient::ForceSource {
+class SineSource final : public signals::ForceSource {
 public:
   SineSource(Eigen::VectorXd amplitudes, double step)
       : samples_(std::make_shared<SineSamples>(std::move(amplitudes), step)) {}
-  [[nodiscard]] std::shared_ptr<transient::ForceSamples> open() const override { return samples_; }
+  [[nodiscard]] std::shared_ptr<signals::ForceSamples> open() const override { return samples_; }
 
 private:
   std::shared_ptr<SineSamples> samples_;
 };
 
 /// Amplitudes are kept as `rms`; a mode of amplitude 0 is not moved.
-inline transient::SampledLoad sampled_sines(const std::vector<double>& amplitudes, double step) {
-  transient::SampledLoad load;
+inline signals::SampledLoad sampled_sines(const std::vector<double>& amplitudes, double step) {
+  signals::SampledLoad load;
   load.rms =
       Eigen::Map<const Eigen::VectorXd>(amplitudes.data(), static_cast<Eigen::Index>(amplitudes.size()));
   load.scale = (load.rms.array() != 0.0).cast<double>();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "transient/signals/prescribed_motion.hpp"
-#include "transient/signals/table_curve.hpp"
+#include "signals/prescribed_motion.hpp"
+#include "signals/table_curve.hpp"
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace fretwork::transient {
+namespace fretwork::signals {
 namespace {
 
 /// Constant: s = s0 + v0 t + a t^2/2.
@@ -177,4 +177,4 @@ MotionSignal::Piece MotionSignal::grid_piece(std::size_t number) const {
           at_grid_[number]};
 }
 
-} // namespace fretwork::transient
+} // namespace fretwork::signals

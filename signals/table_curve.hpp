@@ -17,13 +17,13 @@
 ///
 /// Order of the displacement: 4 through rows of a smooth curve that rests at both ends, 2 where rows are limited.
 #pragma once
-#include "transient/signals/time_function.hpp"
+#include "signals/time_function.hpp"
 #include <vector>
 
-namespace fretwork::transient {
+namespace fretwork::signals {
 
 /// @param table  at least two rows, times that increase
 /// @return the slope of the curve at each row, per second
 [[nodiscard]] std::vector<double> shape_preserving_slopes(const Table& table);
 
-} // namespace fretwork::transient
+} // namespace fretwork::signals

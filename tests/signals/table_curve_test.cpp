@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The curve through the rows of a displacement table: its shape, its smoothness, its order.
-#include "transient/signals/prescribed_motion.hpp"
-#include "transient/signals/table_curve.hpp"
+#include "signals/prescribed_motion.hpp"
+#include "signals/table_curve.hpp"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 namespace table_curve_test {
 
-using namespace fretwork::transient;
+using namespace fretwork::signals;
 
 namespace {
 

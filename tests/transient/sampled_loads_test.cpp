@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Modal forces given by samples: their values, what schemes and the step rule make of them.
-#include "sampled_forces.hpp"
+// Modal forces given by samples: what schemes and the step rule make of them.
 #include "scenes.hpp"
+#include "signals/sampled_forces.hpp"
 #include "transient/modes/load_sum.hpp"
 #include "transient/modes/mass_scaling.hpp"
 #include "transient/modes/moving_modes.hpp"
@@ -11,43 +11,13 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace fretwork::transient::sampled_load_test {
+namespace fretwork::transient::sampled_loads_test {
 namespace {
 
+using namespace signals;
 using tests::sampled_sines;
 using tests::SineSamples;
 constexpr double round_off = 1e-14;
-
-TEST(SampledLoad, IsLinearBetweenSamples) {
-  constexpr double step = 0.01;
-  const SampledLoad load = sampled_sines({2.0, 3.0}, step);
-  SampledForce force(load);
-  for (const double time :
-       {0.0, 0.004, 0.01, 0.637, 1.234, 0.31, 12.3456}) { // also back, and beyond a window
-    const double place = time / step, k = std::floor(place);
-    double f[2] = {1.0, -1.0}; // is added to
-    force.add(time, f);
-    for (int i = 0; i < 2; ++i) {
-      const auto at = [&](double sample) { return SineSamples::value(load.rms(i), sample * step); };
-      const double expected = (i == 0 ? 1.0 : -1.0) + (1.0 - place + k) * at(k) + (place - k) * at(k + 1.0);
-      EXPECT_NEAR(f[i], expected, 1e3 * round_off) << time;
-    }
-  }
-}
-
-TEST(SampledLoad, SetsInByItsRamp) {
-  SampledLoad load = sampled_sines({1.0}, 0.001);
-  SampledForce plain(load);
-  load.ramp = 0.5;
-  SampledForce ramped(load);
-  for (const double time : {0.0, 0.1, 0.25, 0.4, 0.5, 0.7}) {
-    double a = 0.0, b = 0.0;
-    plain.add(time, &a);
-    ramped.add(time, &b);
-    const double share = time < 0.5 ? 0.5 * (1.0 - std::cos(std::numbers::pi * time / 0.5)) : 1.0;
-    EXPECT_NEAR(b, share * a, round_off) << time;
-  }
-}
 
 TEST(SampledLoad, AddsToOtherLoadsAndIsSharedByAllThatReadIt) {
   const SampledLoad load = sampled_sines({1.0, 0.0}, 0.01);
@@ -113,4 +83,4 @@ TEST(SampledLoad, DrivesEverySchemeAlike) {
 }
 
 } // namespace
-} // namespace fretwork::transient::sampled_load_test
+} // namespace fretwork::transient::sampled_loads_test

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Loads as one modal force.
+#include "transient/modes/load_sum.hpp"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+namespace load_sum_test {
+
+using namespace fretwork;
+using namespace fretwork::signals;
+using namespace fretwork::transient;
+
+TEST(LoadSum, AddsLoadsWhateverTheyFollow) {
+  const Harmonic same{1.0, 3.0};
+  const std::vector<Load> loads = {{same, Eigen::Vector3d(1, 2, 3)},
+                                   {Constant{2.0}, Eigen::Vector3d(1, 0, 0)},
+                                   {same, Eigen::Vector3d(10, 20, 30)}};
+  LoadSum sum(loads, 3, 1.0, 1e-3);
+  kernels::Array force(8, -1.0);
+  sum.at(0.05, force.data());
+  const double s = std::sin(2.0 * std::numbers::pi * 3.0 * 0.05);
+  EXPECT_DOUBLE_EQ(force[0], 11.0 * s + 2.0);
+  EXPECT_DOUBLE_EQ(force[1], 22.0 * s);
+  EXPECT_DOUBLE_EQ(force[2], 33.0 * s);
+  for (std::size_t i = 3; i < 8; ++i)
+    EXPECT_EQ(force[i], 0.0); // padding
+  EXPECT_FALSE(sum.constant());
+  EXPECT_FALSE(sum.empty());
+}
+
+TEST(LoadSum, GivesEachRandomSignalItsOwnValueWhateverGridsTheyShare) {
+  const double duration = 2.0, h = 1e-3;
+  const std::vector<TimeFunction> functions = {Random{1.0, 5.0, 45.0, 1}, Random{2.0, 0.0, 45.0, 2},
+                                               Harmonic{1.0, 3.0}, Random{1.0, 5.0, 90.0, 3},
+                                               Random{3.0, 5.0, 45.0, 4}};
+  std::vector<Load> loads;
+  std::vector<Signal> signals;
+  for (std::size_t s = 0; s < functions.size(); ++s) {
+    loads.push_back({functions[s], Eigen::VectorXd::Unit(5, static_cast<Eigen::Index>(s))});
+    signals.emplace_back(functions[s], duration);
+  }
+  EXPECT_EQ(signals[0].grid(), signals[1].grid());
+  EXPECT_NE(signals[0].grid(), signals[3].grid());
+  LoadSum sum(loads, 5, duration, h);
+  kernels::Array at(8), instant(8);
+  for (const double time : {0.0, 0.4567, 1.1, 2.0}) {
+    sum.at(time, at.data());
+    sum.instant(time, instant.data());
+    for (std::size_t s = 0; s < signals.size(); ++s) {
+      EXPECT_EQ(at[s], signals[s].over_step(time, h, Signal::window(time, h))) << s;
+      EXPECT_EQ(instant[s], signals[s](time)) << s;
+    }
+  }
+}
+
+TEST(LoadSum, TakesAnInstantAsItIsAndAStepByItsMean) {
+  LoadSum sum({{Table{{0.0, 0.5, 0.5, 1.0}, {0.0, 0.0, 2.0, 2.0}}, Eigen::Vector2d(1, 0)}}, 2, 1.0, 0.2);
+  kernels::Array force(8);
+  sum.instant(0.45, force.data());
+  EXPECT_EQ(force[0], 0.0);
+  sum.at(0.45, force.data());
+  EXPECT_NEAR(force[0], 0.5, 1e-14); // a quarter of the step is past the jump
+}
+
+TEST(LoadSum, KnowsWhenItIsConstantOrNothing) {
+  const Load steady{Constant{2.0}, Eigen::Vector2d(1, 1)}, idle{Harmonic{1.0, 5.0}, Eigen::Vector2d::Zero()};
+  EXPECT_TRUE(LoadSum({steady}, 2, 1.0, 1e-3).constant());
+  EXPECT_TRUE(LoadSum({steady, idle}, 2, 1.0, 1e-3).constant()); // a load that moves no mode is left out
+  EXPECT_TRUE(LoadSum({idle}, 2, 1.0, 1e-3).empty());
+  EXPECT_TRUE(LoadSum({}, 2, 1.0, 1e-3).empty());
+  LoadSum opposite(
+      {{Harmonic{1.0, 5.0}, Eigen::Vector2d(1, 2)}, {Harmonic{1.0, 5.0}, Eigen::Vector2d(-1, -2)}}, 2, 1.0,
+      1e-3);
+  kernels::Array force(8);
+  opposite.at(0.01, force.data());
+  EXPECT_EQ(force[0], 0.0);
+  EXPECT_EQ(force[1], 0.0);
+}
+
+} // namespace load_sum_test
