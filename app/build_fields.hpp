@@ -26,7 +26,7 @@ struct Fields {
     std::string name; ///< for messages
     signals::TimeFunction function;
     Eigen::VectorXd force;
-    bool inertial = false;   ///< as transient::Load
+    bool inertial = false;   ///< as vibration::Load
     bool of_support = false; ///< what a support motion does to the modes
     bool of_curve =
         false; ///< by the curve through a table of its displacement, whose acceleration may jump at the rows

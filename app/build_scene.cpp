@@ -66,7 +66,7 @@ Eigen::VectorXd project(const Bases& bases, const Eigen::VectorXd& momentum, con
 }
 
 /// The modal equations of all structures of the scene, one after the other.
-void add_system(const Bases& bases, transient::System& system) {
+void add_system(const Bases& bases, vibration::System& system) {
   bool coupled = false;
   for (const modal::Basis* basis : bases) {
     const bool full = basis->damping_matrix.size() > 0;
@@ -106,7 +106,7 @@ std::vector<Eigen::Index> true_modes(const Bases& bases) {
 }
 
 /// Stiffness and damping of some of the modes, each alone.
-transient::System of_modes(const transient::System& system, const std::vector<Eigen::Index>& modes) {
+vibration::System of_modes(const vibration::System& system, const std::vector<Eigen::Index>& modes) {
   return {system.stiffness(modes), system.damping(modes), {}};
 }
 
@@ -179,8 +179,8 @@ Bases touched_by(const Bases& all, const PlacedContact& placed) {
 }
 
 /// Where the modes of some structures are among those of all.
-std::vector<transient::ModeRange> modes_of(const Bases& some, const Bases& all) {
-  std::vector<transient::ModeRange> out;
+std::vector<vibration::ModeRange> modes_of(const Bases& some, const Bases& all) {
+  std::vector<vibration::ModeRange> out;
   Eigen::Index first = 0;
   for (const modal::Basis* basis : all) {
     if (std::find(some.begin(), some.end(), basis) != some.end())
@@ -242,7 +242,7 @@ void drop_round_off(transient::Scene& scene) {
     const double largest = values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0;
     values = (meets || values.array().abs() > round_off_of_shapes * largest).select(values, 0.0).eval();
   };
-  for (transient::Load& load : scene.loads)
+  for (vibration::Load& load : scene.loads)
     drop(load.modal_force);
   for (signals::SampledLoad& load : scene.sampled_loads) {
     drop(load.rms);

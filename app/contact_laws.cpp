@@ -30,7 +30,7 @@ contact::NormalLaw normal_law(const study::Contact& contact, const PlacedContact
 /// R5.06.03 section 6.5 with the mode that moves the contact most along its tangents, in mass-normalised
 /// local quantities; of the directions in which friction acts.
 double automatic_damping(const study::Contact& contact, const std::string& name,
-                         const transient::System& system, const contact::Obstacle& obstacle,
+                         const vibration::System& system, const contact::Obstacle& obstacle,
                          const Eigen::MatrixXd& b) {
   const auto [ny, nz] = contact::normal_directions(obstacle);
   const bool round = ny && nz;
@@ -62,7 +62,7 @@ double automatic_damping(const study::Contact& contact, const std::string& name,
 }
 
 contact::FrictionLaw friction_law(const study::Contact& contact, const std::string& name,
-                                  const transient::System& system, const contact::Obstacle& obstacle,
+                                  const vibration::System& system, const contact::Obstacle& obstacle,
                                   const Eigen::MatrixXd& b) {
   if (!(contact.friction_static > 0.0))
     return {};
@@ -92,7 +92,7 @@ double normal_mass(const contact::Obstacle& obstacle, const Eigen::MatrixXd& b, 
 }
 
 contact::Support support_of(const study::Contact& contact, const PlacedContact& placed,
-                            const transient::System& system, const Eigen::MatrixXd& b) {
+                            const vibration::System& system, const Eigen::MatrixXd& b) {
   contact::Support support{placed.obstacle, {}, {}};
   support.normal = normal_law(contact, placed, support.obstacle, b);
   support.friction = friction_law(contact, placed.name, system, support.obstacle, b);

@@ -22,6 +22,6 @@ namespace fretwork::app {
 
 /// @throws core::Error where no mode moves the contact as a value to be found needs it
 [[nodiscard]] contact::Support support_of(const study::Contact& contact, const PlacedContact& placed,
-                                          const transient::System& system, const Eigen::MatrixXd& b);
+                                          const vibration::System& system, const Eigen::MatrixXd& b);
 
 } // namespace fretwork::app

@@ -79,7 +79,7 @@ void assess_laws(const TubesInFlow& tubes, const std::vector<modal::Basis>& base
 }
 
 void add_motion_forces(const std::vector<FluidForces>& by_laws, const std::vector<std::size_t>& structures,
-                       const std::vector<modal::Basis>& bases, transient::System& system) {
+                       const std::vector<modal::Basis>& bases, vibration::System& system) {
   std::vector<Eigen::Index> first(bases.size(), -1); // of the modes in the system
   Eigen::Index mode = 0;
   for (const std::size_t s : structures) {

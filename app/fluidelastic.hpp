@@ -24,6 +24,6 @@ void assess_laws(const TubesInFlow& tubes, const std::vector<modal::Basis>& base
 
 /// Adds the forces on the modes of some structures, which follow each other in the system.
 void add_motion_forces(const std::vector<FluidForces>& by_laws, const std::vector<std::size_t>& structures,
-                       const std::vector<modal::Basis>& bases, transient::System& system);
+                       const std::vector<modal::Basis>& bases, vibration::System& system);
 
 } // namespace fretwork::app

@@ -32,7 +32,7 @@ transient::Scene member_of(const RandomScene& random, double duration, int membe
   for (const transient::ContactPoint& point : scene.contacts)
     shape = std::max(shape, point.b.col(0).norm());
   scene.q0.head(3).array() += disturbance * random.gap * member / shape;
-  for (transient::Load& load : scene.loads)
+  for (vibration::Load& load : scene.loads)
     if (auto* noise = std::get_if<signals::Random>(&load.function))
       noise->seed += 7919U * static_cast<std::uint64_t>(member);
   return scene;

@@ -74,7 +74,7 @@ transient::Scene bundle_scene(const BundleScene& bundle) {
   scene.system.stiffness = single.system.stiffness.replicate(bundle.tubes, 1);
   scene.system.damping = single.system.damping.replicate(bundle.tubes, 1);
   scene.q0 = scene.v0 = Eigen::VectorXd::Zero(all);
-  for (const transient::Load& load : single.loads)
+  for (const vibration::Load& load : single.loads)
     scene.loads.push_back({load.function, Eigen::VectorXd::Zero(all)});
   const int side = static_cast<int>(std::ceil(std::sqrt(bundle.tubes)));
   for (int t = 0; t < bundle.tubes; ++t) {

@@ -162,8 +162,8 @@ transient::Scene scene_of(Motion motion, int number) {
   transient::Scene scene = bench::tube_scene(tube);
   scene.duration = 1.1 * steps * step;
   const double amplitude = motion == Motion::sticking ? 0.1 : 3.0; // of the friction bound
-  transient::Load hold{signals::Constant{preload}, Eigen::VectorXd::Zero(modes)};
-  transient::Load across{signals::Harmonic{amplitude * tube.friction * preload, 53.0},
+  vibration::Load hold{signals::Constant{preload}, Eigen::VectorXd::Zero(modes)};
+  vibration::Load across{signals::Harmonic{amplitude * tube.friction * preload, 53.0},
                          Eigen::VectorXd::Zero(modes)};
   for (auto& contact : scene.contacts) {
     if (motion == Motion::sticking || motion == Motion::sliding)

@@ -185,7 +185,7 @@ RandomScene random_mass(Draw& draw) {
   std::string loads;
   for (int i = 0; i < 3; ++i) {
     const double size = amplitude * (i == 0 ? tangential : draw.logarithmic(0.4, 1.6));
-    transient::Load load{draw_load(draw, frequency[i], ratio, lowest, size), Eigen::VectorXd::Zero(3)};
+    vibration::Load load{draw_load(draw, frequency[i], ratio, lowest, size), Eigen::VectorXd::Zero(3)};
     load.modal_force(i) = std::sqrt(mass) * scene.system.stiffness(i);
     const bool none = i == 0 && draw.chance(0.15);
     loads += none ? '-' : std::holds_alternative<signals::Harmonic>(load.function) ? 'h' : 'r';

@@ -102,7 +102,7 @@ void add_loads(Draw& draw, transient::Scene& scene, const Tube& tube, double rat
   const int loads = draw.integer(2, 4), loaded = std::min(tube.supports + 2, tube.modes / 2);
   for (int k = 0; k < loads; ++k) {
     const int plane = k % 2;
-    transient::Load load{draw_load(draw, f, ratio, f, amplitude * draw.logarithmic(0.3, 1.0)),
+    vibration::Load load{draw_load(draw, f, ratio, f, amplitude * draw.logarithmic(0.3, 1.0)),
                          Eigen::VectorXd::Zero(scene.system.size())};
     if (k > 1 && draw.chance(0.3))
       load.function = signals::Constant{amplitude * draw.uniform(0.2, 1.0)};

@@ -84,7 +84,7 @@ ReferenceFlow::ReferenceFlow(const transient::Scene& scene, double step)
   for (auto* a : {&load_, &slope_, &middle_, &last_, &far_q, &far_v})
     a->assign(n_, 0.0);
   double fastest = 0.0;
-  for (const transient::Load& load : scene.loads) {
+  for (const vibration::Load& load : scene.loads) {
     if (!is_smooth(load.function))
       throw core::Error("the reference solution takes constant, harmonic and random loads only");
     signals_.emplace_back(load.function, scene.duration);

@@ -25,7 +25,7 @@ double shape(const Tube& tube, int mode, double x) {
 }
 
 /// Places that no mode has as its nodes, gaps from 0.14 to 0.26 mm.
-transient::ContactPoint support(const Tube& tube, const transient::System& system, int c) {
+transient::ContactPoint support(const Tube& tube, const vibration::System& system, int c) {
   const double uneven = 0.13 * std::sin(2.4 * c + 1.0),
                x = tube.length * (c + 1 + uneven) / (tube.supports + 1);
   const double k_t = 0.5 * tube.normal_stiffness, mass = 0.5 * mass_per_length * tube.length;

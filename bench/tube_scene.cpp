@@ -44,8 +44,8 @@ transient::Scene tube_scene(const TubeScene& tube) {
       point.b(1 + i % 2, i) = shape(i, x);
     scene.contacts.push_back(point);
   }
-  transient::Load y{signals::Harmonic{20.0, 37.0}, Eigen::VectorXd::Zero(tube.modes)};
-  transient::Load z{signals::Harmonic{15.0, 53.0}, Eigen::VectorXd::Zero(tube.modes)};
+  vibration::Load y{signals::Harmonic{20.0, 37.0}, Eigen::VectorXd::Zero(tube.modes)};
+  vibration::Load z{signals::Harmonic{15.0, 53.0}, Eigen::VectorXd::Zero(tube.modes)};
   for (int span = 0; span <= tube.supports; ++span)
     for (int i = 0; i < bending; ++i) {
       const double force = shape(i, length * (span + 0.5) / (tube.supports + 1));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Kernels (kernels.hpp) of modes that forces of motion couple, in the coordinates in which they are apart (modes/diagonal_flow.hpp).
+/// Kernels (kernels.hpp) of modes that forces of motion couple, in the coordinates in which they are apart (vibration/diagonal_flow.hpp).
 #pragma once
 #include "kernels/kernels.hpp"
 
@@ -20,7 +20,7 @@ struct StateTable {
   enum Number { e, a0, a1, l, p, p0, p1, r, r0, r1, numbers };
 };
 /// What a force on a block is: three numbers for each of y, one array after the other. Its input G; the row of y for its power, f^T v; and the row
-/// for what it adds to the fluid's work (modes/diagonal_flow.hpp).
+/// for what it adds to the fluid's work (vibration/diagonal_flow.hpp).
 inline constexpr int numbers_of_input = 3;
 /// Inputs over a step: a load from load0 to load1 and a contact force from mean - slope to mean + slope.
 struct StateInputs {

@@ -7,7 +7,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 folders=("$@")
-[ ${#folders[@]} -gt 0 ] || folders=(core signals kernels mesh fem modal flow contact wear transient post study results)
+[ ${#folders[@]} -gt 0 ] || folders=(core signals kernels vibration mesh fem modal flow contact wear transient post study results)
 if [ "${folders[0]}" = all ]; then
   targets=(all)
   label=''

@@ -109,7 +109,7 @@ std::array<bool, 3> tangent_rows(const contact::Support& support) {
 }
 
 /// Largest rate of the structure's own damping, 1/s.
-double structure_rate(const System& system) {
+double structure_rate(const vibration::System& system) {
   if (system.size() == 0)
     return 0.0;
   if (system.damping_matrix.size() == 0)
@@ -125,7 +125,7 @@ double initial_overlap(const Scene& scene, const ContactPoint& point) {
 
 /// Whether a load has to do with the scene: it moves its modes, or may be that of a motion that carries its
 /// obstacles.
-bool acts(const Load& load, const Scene& scene) {
+bool acts(const vibration::Load& load, const Scene& scene) {
   return !load.modal_force.isZero(0.0) ||
          std::any_of(scene.contacts.begin(), scene.contacts.end(),
                      [](const ContactPoint& contact) { return contact.imposed.size() > 0; });
@@ -134,7 +134,7 @@ bool acts(const Load& load, const Scene& scene) {
 /// Shortest interval between points of the tables, s, those left out that are too fine to rule; 0 without tables.
 double table_interval(const Scene& scene) {
   double shortest = 0.0;
-  for (const Load& load : scene.loads)
+  for (const vibration::Load& load : scene.loads)
     if (const auto* table = std::get_if<signals::Table>(&load.function); table && acts(load, scene))
       for (std::size_t i = 1; i < table->time.size(); ++i)
         if (const double interval = table->time[i] - table->time[i - 1];
@@ -161,7 +161,7 @@ SceneRates rates_of(const Scene& scene) {
       scene, [](const ContactPoint& point) { return point.support.normal.damping; }, normal_rows);
   if (scene.system.size() > 0)
     out.highest_mode = std::sqrt(scene.system.stiffness.maxCoeff());
-  for (const Load& load : scene.loads)
+  for (const vibration::Load& load : scene.loads)
     if (acts(load, scene))
       out.excitation = std::max(out.excitation, signals::highest_frequency(load.function));
   for (const signals::SampledLoad& load : scene.sampled_loads)

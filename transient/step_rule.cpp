@@ -132,7 +132,7 @@ double replay_length(const StepChoice& c, const Scene& scene) {
 int longest_macro_step(const StepChoice& c, const Scene& scene, double fineness) {
   if (c.scheme != SchemeKind::splitting || c.scaled > 0 || !allows_macro_steps(scene))
     return 1;
-  for (const Load& load : scene.loads)
+  for (const vibration::Load& load : scene.loads)
     if (std::holds_alternative<signals::Table>(load.function) ||
         std::holds_alternative<signals::Integral>(load.function))
       return 1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The kernels that move the modes against plain loops.
 #include "kernels/kernels.hpp"
-#include "transient/modes/oscillator.hpp"
+#include "vibration/oscillator.hpp"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace kernels_test {
 
 using namespace fretwork;
-using namespace fretwork::transient;
+using namespace fretwork::vibration;
 
 namespace {
 

@@ -91,7 +91,7 @@ class Installation(unittest.TestCase):
     def test_every_header_compiles_without_mpi_and_petsc(self):
         source = self.prefix.work("consumer")
         headers = self.prefix.path / "include/fretwork"
-        known = [header.relative_to(headers) for folder in ("core", "contact", "kernels", "signals", "transient") for header in sorted((headers / folder).rglob("*.hpp"))]
+        known = [header.relative_to(headers) for folder in ("core", "contact", "kernels", "signals", "transient", "vibration") for header in sorted((headers / folder).rglob("*.hpp"))]
         (source / "CMakeLists.txt").write_text(CONSUMER)
         (source / "headers.cpp").write_text("".join(f'#include "{name}"\n' for name in known if name.name not in ("mpi.hpp", "mpi_counter.hpp", "petsc.hpp")))
         self.build(source)

@@ -9,6 +9,7 @@ using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::signals;
 using namespace fretwork::transient;
+using namespace fretwork::vibration;
 using contact::PlaneAxis;
 
 namespace {

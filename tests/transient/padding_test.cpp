@@ -11,6 +11,7 @@ namespace padding_test {
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
+using namespace fretwork::vibration;
 
 namespace {
 

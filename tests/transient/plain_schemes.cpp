@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plain_schemes.hpp"
 #include "contact/normal_law.hpp"
-#include "transient/modes/oscillator.hpp"
+#include "vibration/oscillator.hpp"
 #include <vector>
 
 namespace fretwork::tests {
 
 using namespace signals;
 using namespace transient;
+using namespace vibration;
 using contact::Vec2;
 using core::Vec3;
 

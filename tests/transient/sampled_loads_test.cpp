@@ -2,11 +2,11 @@
 // Modal forces given by samples: what schemes and the step rule make of them.
 #include "scenes.hpp"
 #include "signals/sampled_forces.hpp"
-#include "transient/modes/load_sum.hpp"
 #include "transient/modes/mass_scaling.hpp"
 #include "transient/modes/moving_modes.hpp"
 #include "transient/scene_rates.hpp"
 #include "transient/statics/static_start.hpp"
+#include "vibration/load_sum.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -15,6 +15,7 @@ namespace fretwork::transient::sampled_loads_test {
 namespace {
 
 using namespace signals;
+using namespace vibration;
 using tests::sampled_sines;
 using tests::SineSamples;
 constexpr double round_off = 1e-14;

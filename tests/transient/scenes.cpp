@@ -9,6 +9,7 @@ namespace fretwork::tests {
 
 using namespace signals;
 using namespace transient;
+using namespace vibration;
 using contact::PlaneAxis;
 
 Scene mass_point(double mass, const Vec3& stiffness, double duration) {

@@ -27,7 +27,7 @@ void start(transient::Scene& scene, double mass, const Vec3& displacement, const
                                               const contact::FrictionLaw& friction);
 
 /// A force on the mass point.
-[[nodiscard]] transient::Load force_on(double mass, const Vec3& amplitude,
+[[nodiscard]] vibration::Load force_on(double mass, const Vec3& amplitude,
                                        const signals::TimeFunction& function);
 
 /// A smooth path of 0.3 s: a node that stays pressed on a round obstacle (w_c about 40 rad/s), with four modes coupled by the contact.

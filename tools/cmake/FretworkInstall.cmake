@@ -26,8 +26,8 @@ install(CODE "
   COMPONENT program)
 
 # fretwork_<x> is exported as Fretwork::<x>, with the components of transient.
-set(folders core signals kernels mesh fem modal contact transient)
-set(libraries core core_mpi core_petsc mesh fem fem_petsc modal modal_slepc contact signals kernels)
+set(folders core signals kernels vibration mesh fem modal contact transient)
+set(libraries core core_mpi core_petsc mesh fem fem_petsc modal modal_slepc contact signals kernels vibration)
 get_property(components DIRECTORY transient PROPERTY SUBDIRECTORIES)
 foreach(component ${components})
   cmake_path(GET component FILENAME component)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// Collocation at the nodes 0, 1/2, 1 of a step (Lobatto): the modes move exactly under a force that is the quadratic through its
-/// values at the nodes (force_polynomial.hpp; coupled_flow.hpp where a damping matrix couples them), and the contact forces obey their laws at the nodes (nodal_solver.hpp, nodal_contact.hpp).
+/// values at the nodes (polynomial_flow.hpp; coupled_flow.hpp where a damping matrix couples them), and the contact forces obey their laws at the nodes (nodal_solver.hpp, nodal_contact.hpp).
 /// Loads are sampled at the nodes.
 ///
 /// Order 4 in displacement, velocity and force, with damping and friction, on a path along which the laws are smooth: the end of a
@@ -23,7 +23,7 @@
 #include "transient/collocation/nodal_solver.hpp"
 #include "transient/contacts/contact_trial.hpp"
 #include "transient/contacts/obstacle_motion.hpp"
-#include "transient/modes/load_sum.hpp"
+#include "vibration/load_sum.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,7 +41,7 @@ constexpr double to_end[3] = {1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0};
 class Collocation final : public Scheme {
 public:
   Collocation(const Scene& scene, double step)
-      : system_(with_diagonal(scene.system)), h_(step), loads_(scene, step),
+      : system_(vibration::with_diagonal(scene.system)), h_(step), loads_(scene, step),
         contacts_(scene.contacts, scene.system.size()), motion_(contacts_),
         obstacles_(scene, contacts_), obstacle_at_{obstacles_.workspace(), obstacles_.workspace(),
                                                    obstacles_.workspace()},
@@ -50,7 +50,7 @@ public:
         carried_(static_cast<std::size_t>(contacts_.count)) {
     closed_.reserve(static_cast<std::size_t>(contacts_.count));
     const auto n = static_cast<std::size_t>(contacts_.padded_modes);
-    for (Nodes* nodes : {&q_, &v_, &load_, &force_})
+    for (vibration::Nodes* nodes : {&q_, &v_, &load_, &force_})
       for (kernels::Array& a : nodes->at)
         a.assign(n, 0.0);
     q_.at[0] = kernels::padded_copy(scene.q0);
@@ -102,16 +102,16 @@ public:
         v[j] = v_.at[0][i];
         continue;
       }
-      const auto state = state_under(system_.stiffness(j), system_.damping(j), span(), t, q_.at[0][i],
-                                     v_.at[0][i], forces(i));
+      const auto state = vibration::state_under(system_.stiffness(j), system_.damping(j), span(), t,
+                                                q_.at[0][i], v_.at[0][i], forces(i));
       q[j] = state.q;
       v[j] = state.v;
     }
     if (t == 0.0 || counts_.steps == 0)
       return;
     const auto force = [&](Eigen::Index mode, int k, double from, double length) {
-      return part_of(forces(static_cast<std::size_t>(mode)), from / span(),
-                     length / span())[static_cast<std::size_t>(k)];
+      return vibration::part_of(forces(static_cast<std::size_t>(mode)), from / span(),
+                                length / span())[static_cast<std::size_t>(k)];
     };
     coupled_.inside(t, q_.at[0].data(), v_.at[0].data(), force, q, v);
   }
@@ -132,9 +132,10 @@ public:
 
 private:
   struct Level {
-    Level(const System& system, const PackedContacts& contacts, double h, CoupledFlow& coupled, int level)
+    Level(const vibration::System& system, const PackedContacts& contacts, double h,
+          vibration::CoupledFlow& coupled, int level)
         : flow(system, h, &coupled, level), tables(contacts, flow, h) {}
-    PolynomialFlow flow;
+    vibration::PolynomialFlow flow;
     NodalTables tables;
   };
 
@@ -159,7 +160,7 @@ private:
 
   /// The end of the step becomes the start of the next.
   void accept() {
-    for (Nodes* nodes : {&q_, &v_, &load_, &force_})
+    for (vibration::Nodes* nodes : {&q_, &v_, &load_, &force_})
       nodes->at[0].swap(nodes->at[2]);
     const std::size_t stride = motion_.stride;
     std::copy_n(motion_.u(2), stride, motion_.u(0));
@@ -228,7 +229,7 @@ private:
   }
 
   /// Energies at the nodes 1/2 and 1.
-  void balance_energy(const PolynomialFlow::Works& work) {
+  void balance_energy(const vibration::PolynomialFlow::Works& work) {
     const double before = modal_energy(0), h = span();
     Power to[2];
     for (const int c : solver_.alive()) {
@@ -307,19 +308,20 @@ private:
     transient::show(record_, contacts_, q_.at[node].data(), motion_.u(node), trial_);
   }
 
-  System system_;
+  vibration::System system_;
   double h_;
-  LoadSum loads_;
+  vibration::LoadSum loads_;
   PackedContacts contacts_;
   NodalMotion motion_;
   ObstacleMotion obstacles_;
   std::array<ImposedMotion, 3> obstacle_at_; ///< what carries the contacts at the nodes
   NodalSolver solver_;
   ContactTrial trial_;
-  CoupledFlow coupled_; ///< of modes that a damping matrix couples, over h
+  vibration::CoupledFlow coupled_; ///< of modes that a damping matrix couples, over h
   std::vector<Level> levels_;
   std::array<double, halvings + 1> spans_; ///< s, of their steps
-  Nodes q_, v_, load_, force_; ///< modes, their velocities, modal forces of loads and contacts at the nodes
+  vibration::Nodes q_, v_, load_,
+      force_; ///< modes, their velocities, modal forces of loads and contacts at the nodes
   kernels::Array k_;
 
   std::int64_t place_ = 0; ///< of node 0, in steps of h/1024

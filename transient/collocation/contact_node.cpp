@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/collocation/contact_node.hpp"
-#include "transient/collocation/force_polynomial.hpp"
+#include "vibration/polynomial_flow.hpp"
 #include <cmath>
 
 namespace fretwork::transient {
@@ -18,12 +18,12 @@ SpringTable spring_table(const contact::FrictionLaw& law, double h) {
   SpringTable table{};
   const bool set = law.kind == contact::FrictionMemoryKind::reference || !(law.damping > 0.0);
   const double x = set ? 0.0 : 0.5 * law.stiffness * h / law.damping;
-  const auto phi = decay_functions(x);
+  const auto phi = vibration::decay_functions(x);
   const double moments[3] = {x * phi[0], x * phi[1],
                              x * 2.0 * phi[2]}; // int x e^-x(1 - s) s^i ds over the half step
   table.keep = set ? 0.0 : std::exp(-x);
   const double part = x / SpringTable::parts;
-  const auto phi_part = decay_functions(part);
+  const auto phi_part = vibration::decay_functions(part);
   table.keep_part = set ? 0.0 : std::exp(-part);
   table.part_by_force = set ? 1.0 : part * phi_part[1];
   table.part_by_last = set ? 0.0 : part * (phi_part[0] - phi_part[1]);

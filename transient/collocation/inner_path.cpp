@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/collocation/inner_path.hpp"
 #include "kernels/vector_lanes.hpp"
-#include "transient/collocation/force_polynomial.hpp"
 #include "transient/collocation/tangential.hpp"
+#include "vibration/polynomial_flow.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -151,7 +151,7 @@ SpringTable part_of(const SpringTable& table, double share) {
   if (!(table.keep_part > 0.0)) // the spring is set
     return out;
   const double x = -share * std::log(table.keep_part);
-  const auto phi = decay_functions(x);
+  const auto phi = vibration::decay_functions(x);
   out.keep_part = std::exp(-x);
   out.part_by_force = x * phi[1];
   out.part_by_last = x * (phi[0] - phi[1]);

@@ -9,7 +9,7 @@ constexpr double no_answer = 1e-9;
 NodalMotion::NodalMotion(const PackedContacts& contacts)
     : stride(static_cast<std::size_t>(contacts.stride())), start(2 * stride), ends(4 * stride) {}
 
-NodalTables::NodalTables(const PackedContacts& contacts, const PolynomialFlow& flow, double h)
+NodalTables::NodalTables(const PackedContacts& contacts, const vibration::PolynomialFlow& flow, double h)
     : step(h), length(4 * static_cast<std::size_t>(contacts.stride())),
       width_(static_cast<std::size_t>(contacts.width)), stride_(static_cast<std::size_t>(contacts.stride())) {
   const auto modes = static_cast<std::size_t>(contacts.padded_modes);

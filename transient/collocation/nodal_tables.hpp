@@ -4,9 +4,9 @@
 ///     W = B diag(response of each mode) B^T
 /// for displacements and velocities, made once for a step.
 #pragma once
-#include "transient/collocation/force_polynomial.hpp"
 #include "transient/collocation/nodal_contact.hpp"
 #include "transient/contacts/packed_contacts.hpp"
+#include "vibration/polynomial_flow.hpp"
 
 namespace fretwork::transient {
 
@@ -27,7 +27,7 @@ struct NodalMotion {
 /// What contacts need of a step of length h, made once.
 class NodalTables {
 public:
-  NodalTables(const PackedContacts& contacts, const PolynomialFlow& flow, double h);
+  NodalTables(const PackedContacts& contacts, const vibration::PolynomialFlow& flow, double h);
   /// What unit forces of a contact at `node` along y, z, x do to NodalMotion::ends, 3 columns one after the other.
   [[nodiscard]] const double* columns(int contact, int node) const {
     return &columns_[static_cast<std::size_t>(2 * contact + node - 1) * 3 * length];

@@ -16,9 +16,9 @@
 #include "transient/conserving/energy_conserving.hpp"
 #include "transient/conserving/conserving_contacts.hpp"
 #include "transient/contacts/obstacle_motion.hpp"
-#include "transient/modes/coupled_flow.hpp"
-#include "transient/modes/load_sum.hpp"
-#include "transient/modes/oscillator.hpp"
+#include "vibration/coupled_flow.hpp"
+#include "vibration/load_sum.hpp"
+#include "vibration/oscillator.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -40,7 +40,7 @@ double dot(const kernels::Array& force, const kernels::Array& to, const kernels:
 class EnergyConserving final : public Scheme {
 public:
   EnergyConserving(const Scene& scene, double step)
-      : system_(with_diagonal(scene.system)), h_(step), loads_(scene, step),
+      : system_(vibration::with_diagonal(scene.system)), h_(step), loads_(scene, step),
         contacts_(scene.contacts, scene.system.size()), start_(contacts_), end_(contacts_),
         middle_(contacts_),
         obstacles_(scene, contacts_), imposed_{obstacles_.workspace(), obstacles_.workspace(),
@@ -85,7 +85,8 @@ public:
       if (coupled_.couples(j))
         continue;
       const auto i = static_cast<std::size_t>(j);
-      const DenseCoefficients d = dense_coefficients(system_.stiffness(j), system_.damping(j), t);
+      const vibration::DenseCoefficients d =
+          vibration::dense_coefficients(system_.stiffness(j), system_.damping(j), t);
       q[j] = d.qq * s.q[i] + d.qv * s.v[i] + d.qf * s.f0[i] + d.qs * slope_[i];
       v[j] = d.vq * s.q[i] + d.vv * s.v[i] + d.vf * s.f0[i] + d.vs * slope_[i];
     }
@@ -166,7 +167,7 @@ private:
       constexpr kernels::StepCoefficients none{1, 0, 0, 0, 0, 1,
                                                0, 0, 1, 0, 0, 0}; // coupled: they follow by themselves
       const double k = system_.stiffness(j), c = system_.damping(j);
-      t.half.set(j, k, coupled_.couples(j) ? none : step_coefficients(k, c, 0.5 * t.length));
+      t.half.set(j, k, coupled_.couples(j) ? none : vibration::step_coefficients(k, c, 0.5 * t.length));
     }
     for (int c = 0; c < contacts_.count; ++c)
       for (int k = 0; k < contacts_.components; ++k)
@@ -184,7 +185,7 @@ private:
       if (!coupled_.couples(j)) {
         const auto i = static_cast<std::size_t>(j);
         const kernels::StepCoefficients s =
-            step_coefficients(system_.stiffness(j), system_.damping(j), t.length);
+            vibration::step_coefficients(system_.stiffness(j), system_.damping(j), t.length);
         moved_[i] = (s.qf0 + s.qf1) * force[i];
         slope_[i] = (s.vf0 + s.vf1) * force[i];
       }
@@ -323,9 +324,9 @@ private:
     moving_ = moving_now;
   }
 
-  System system_;
+  vibration::System system_;
   double h_;
-  LoadSum loads_;
+  vibration::LoadSum loads_;
   PackedContacts contacts_;
   ContactMotion start_, end_, middle_; ///< of the step that is made
   ObstacleMotion obstacles_;
@@ -334,7 +335,7 @@ private:
   ConservingContacts solver_;
   ContactRows rows_;
   std::array<Tables, halvings + 1> tables_;
-  CoupledFlow coupled_;
+  vibration::CoupledFlow coupled_;
   kernels::Array q_, v_, k_, load_, next_load_, middle_load_, contact_, moved_, slope_;
 
   std::array<Step, 2> steps_; ///< that of the last record, and the next

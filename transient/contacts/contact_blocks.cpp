@@ -6,7 +6,7 @@ namespace fretwork::transient {
 namespace {
 
 /// Whether the damping matrix couples modes of different blocks.
-bool couples_blocks(const System& system, const std::vector<int>& block_of_mode) {
+bool couples_blocks(const vibration::System& system, const std::vector<int>& block_of_mode) {
   const Eigen::MatrixXd& c = system.damping_matrix;
   for (Eigen::Index j = 0; j < c.cols(); ++j)
     for (Eigen::Index i = 0; i < c.rows(); ++i)
@@ -20,14 +20,14 @@ bool couples_blocks(const System& system, const std::vector<int>& block_of_mode)
 
 ContactBlocks::ContactBlocks(const Scene& scene)
     : places(scene.contacts.size()), block_of_mode(static_cast<std::size_t>(scene.system.size()), -1) {
-  std::vector<ModeRange> ranges;
+  std::vector<vibration::ModeRange> ranges;
   for (const ContactPoint& point : scene.contacts)
     point.for_ranges([&](Eigen::Index first, const auto& part) { ranges.push_back({first, part.cols()}); });
   std::sort(ranges.begin(), ranges.end(),
-            [](const ModeRange& a, const ModeRange& b) { return a.first < b.first; });
+            [](const vibration::ModeRange& a, const vibration::ModeRange& b) { return a.first < b.first; });
   int blocks = 0;
   Eigen::Index end = -1; // of the last block: ranges that overlap are one
-  for (const ModeRange& range : ranges) {
+  for (const vibration::ModeRange& range : ranges) {
     if (range.size == 0)
       continue;
     blocks += range.first >= end || blocks == 0;

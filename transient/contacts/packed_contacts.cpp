@@ -61,7 +61,7 @@ void PackedContacts::add_rows(const ContactPoint& point) {
   if (point.modes.empty() || lane_count().few())
     own.push_back({0, padded_modes});
   else
-    for (const ModeRange& range : point.modes) {
+    for (const vibration::ModeRange& range : point.modes) {
       const int first = static_cast<int>(range.first) / kernels::lanes * kernels::lanes,
                 end = kernels::padded(static_cast<int>(range.first + range.size));
       if (!own.empty() && own.back().first + own.back().size >= first)

@@ -9,7 +9,7 @@
 #include "transient/contacts/obstacle_motion.hpp"
 #include "transient/explicit/euler_contacts.hpp"
 #include "transient/explicit/explicit_schemes.hpp"
-#include "transient/modes/load_sum.hpp"
+#include "vibration/load_sum.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -129,9 +129,9 @@ private:
     lost_.friction += all * contact.losses.friction;
   }
 
-  System system_;
+  vibration::System system_;
   double h_;
-  LoadSum loads_;
+  vibration::LoadSum loads_;
   PackedContacts contacts_;
   ContactMotion motion_;
   ObstacleMotion obstacles_;

@@ -20,7 +20,7 @@
 #include "transient/contacts/contact_motion.hpp"
 #include "transient/contacts/contact_trial.hpp"
 #include "transient/contacts/obstacle_motion.hpp"
-#include "transient/modes/load_sum.hpp"
+#include "vibration/load_sum.hpp"
 #include <cmath>
 #include <limits>
 
@@ -127,8 +127,8 @@ private:
   void rub(int c, contact::Vec2 spring, ContactState& state, double* rate) const;
   void set_spring(int c, double* s);
 
-  System system_;
-  LoadSum loads_;
+  vibration::System system_;
+  vibration::LoadSum loads_;
   double smeared_;
   double last_instant_ = std::numeric_limits<double>::infinity(); ///< s, of loads
   PackedContacts contacts_;

@@ -63,7 +63,7 @@ std::vector<double> stops_of(const Scene& scene) {
       std::copy_if(table->time.begin(), table->time.end(), std::back_inserter(stops),
                    [&](double t) { return t > 0.0 && t < scene.duration; });
   };
-  for (const Load& load : scene.loads)
+  for (const vibration::Load& load : scene.loads)
     if (!load.modal_force.isZero(0.0))
       add(load.function);
   for (const signals::PrescribedMotion& motion : scene.motions)

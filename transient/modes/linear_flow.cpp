@@ -8,16 +8,17 @@ namespace {
 
 using Eigen::Index;
 
-DiagonalFlow blocks_of(const Scene& scene, double step, const std::vector<int>& lengths) {
+vibration::DiagonalFlow blocks_of(const Scene& scene, double step, const std::vector<int>& lengths) {
   if (scene.system.motion.empty())
     return {};
-  const System system = with_diagonal(scene.system);
-  std::vector<CoupledBlock> blocks = coupled_blocks(system);
-  std::erase_if(blocks, [&](const CoupledBlock& block) { return acts_alone(system, block); });
+  const vibration::System system = vibration::with_diagonal(scene.system);
+  std::vector<vibration::CoupledBlock> blocks = vibration::coupled_blocks(system);
+  std::erase_if(blocks,
+                [&](const vibration::CoupledBlock& block) { return vibration::acts_alone(system, block); });
   return {system, blocks, step, lengths};
 }
 
-std::vector<Index> other_modes(const DiagonalFlow& blocks, Index modes) {
+std::vector<Index> other_modes(const vibration::DiagonalFlow& blocks, Index modes) {
   std::vector<char> taken(static_cast<std::size_t>(modes), 0);
   for (std::size_t b = 0; b < blocks.blocks(); ++b)
     for (const Index mode : blocks.modes(b))
@@ -30,11 +31,12 @@ std::vector<Index> other_modes(const DiagonalFlow& blocks, Index modes) {
 }
 
 /// The scene of the modes of no block.
-Scene uncoupled_part(const Scene& scene, const DiagonalFlow& blocks, const std::vector<Index>& modes) {
+Scene uncoupled_part(const Scene& scene, const vibration::DiagonalFlow& blocks,
+                     const std::vector<Index>& modes) {
   if (blocks.empty())
     return scene;
   Scene out = with_modes(scene, modes);
-  if (coupled_blocks(out.system).empty())
+  if (vibration::coupled_blocks(out.system).empty())
     out.system.motion = {};
   return out;
 }
@@ -51,16 +53,16 @@ LinearFlow::LinearFlow(const Scene& scene, double step, const std::vector<int>& 
   loads_.emplace(scene, step);
   const auto numbers = static_cast<Index>(kernels::numbers_of_input * blocks_.size());
   driven_.emplace(loads_on_blocks(scene.loads), numbers, scene.duration, step);
-  random_.emplace(std::vector<Load>(), modes_, scene.duration, step, scene.sampled_loads);
+  random_.emplace(std::vector<vibration::Load>(), modes_, scene.duration, step, scene.sampled_loads);
   a_ = b_ = none_;
   y_.assign(blocks_.size(), 0.0);
   q_.assign(static_cast<std::size_t>(kernels::padded(static_cast<int>(modes_))), 0.0);
   v_ = q_;
 }
 
-std::vector<Load> LinearFlow::loads_on_blocks(const std::vector<Load>& loads) const {
-  std::vector<Load> out = loads;
-  for (Load& load : out) {
+std::vector<vibration::Load> LinearFlow::loads_on_blocks(const std::vector<vibration::Load>& loads) const {
+  std::vector<vibration::Load> out = loads;
+  for (vibration::Load& load : out) {
     const Eigen::VectorXd modal = load.modal_force;
     load.modal_force.resize(static_cast<Index>(kernels::numbers_of_input * blocks_.size()));
     for (std::size_t b = 0; b < blocks_.blocks(); ++b)
@@ -159,23 +161,24 @@ void LinearFlow::move_blocks(int length, const State& from, const kernels::Array
     blocks_.move(place(length), part(from.q), inputs_of(load0, load1, mean, slope), part(to.q), part(to.v));
 }
 
-ModalFlow::Sums LinearFlow::move(int length, const State& from, const kernels::Array& load0,
-                                 const kernels::Array& load1, State& to) {
-  const ModalFlow::Sums sums = uncoupled_.move(length, from, load0, load1, to);
+vibration::ModalFlow::Sums LinearFlow::move(int length, const State& from, const kernels::Array& load0,
+                                            const kernels::Array& load1, State& to) {
+  const vibration::ModalFlow::Sums sums = uncoupled_.move(length, from, load0, load1, to);
   move_blocks(length, from, load0, load1, none_, none_, to);
   return sums;
 }
 
-ModalFlow::Sums LinearFlow::push(const State& from, const kernels::Array& load0, const kernels::Array& load1,
-                                 const kernels::Array& mean, const kernels::Array& slope, State& to) {
-  const ModalFlow::Sums sums = uncoupled_.push(from, load0, load1, mean, slope, to);
+vibration::ModalFlow::Sums LinearFlow::push(const State& from, const kernels::Array& load0,
+                                            const kernels::Array& load1, const kernels::Array& mean,
+                                            const kernels::Array& slope, State& to) {
+  const vibration::ModalFlow::Sums sums = uncoupled_.push(from, load0, load1, mean, slope, to);
   move_blocks(1, from, load0, load1, mean, slope, to);
   return sums;
 }
 
 void LinearFlow::add_works(int length, const State& from, const kernels::Array& load0,
-                           const kernels::Array& load1, const ModalForce* force, ModalFlow::Sums& sums,
-                           BlockWorks& works) {
+                           const kernels::Array& load1, const vibration::ModalForce* force,
+                           vibration::ModalFlow::Sums& sums, BlockWorks& works) {
   if (blocks_.empty())
     return;
   const kernels::StateWorks of =
@@ -193,7 +196,7 @@ LinearFlow::BlockEnergies LinearFlow::energies(const State& state, const BlockWo
 }
 
 void LinearFlow::modes_in_middle(int length, const State& from, const kernels::Array& load0,
-                                 const kernels::Array& load1, const ModalForce* force,
+                                 const kernels::Array& load1, const vibration::ModalForce* force,
                                  const kernels::Array& middle, double* q) {
   blocks_.middle(place(length), part(from.q),
                  inputs_of(load0, load1, force ? force->mean : none_, force ? force->slope : none_),
@@ -203,7 +206,8 @@ void LinearFlow::modes_in_middle(int length, const State& from, const kernels::A
 }
 
 void LinearFlow::inside(double time, double duration, const State& from, const kernels::Array& load0,
-                        const kernels::Array& load1, const ModalForce* force, double* q, double* v) {
+                        const kernels::Array& load1, const vibration::ModalForce* force, double* q,
+                        double* v) {
   if (blocks_.empty())
     return uncoupled_.inside(time, duration, from, load0, load1, force, q, v);
   uncoupled_.inside(time, duration, from, load0, load1, force, q_.data(), v_.data());

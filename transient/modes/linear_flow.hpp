@@ -5,8 +5,9 @@
 /// displacements by rows over them (`outputs`), their forces by rows over the numbers that a force has (`inputs`). Without forces of motion both are the
 /// modes themselves. Displacements and velocities of all modes, and the energies of blocks, take dense products: they are found where they are asked for.
 #pragma once
-#include "transient/modes/diagonal_flow.hpp"
-#include "transient/modes/modal_flow.hpp"
+#include "transient/scene/scene.hpp"
+#include "vibration/diagonal_flow.hpp"
+#include "vibration/modal_flow.hpp"
 #include <optional>
 
 namespace fretwork::transient {
@@ -14,7 +15,7 @@ namespace fretwork::transient {
 class LinearFlow {
 public:
   /// Arrays of coordinates: q and their rates v.
-  using State = ModalFlow::State;
+  using State = vibration::ModalFlow::State;
   /// J, since the start: what the energies of the blocks follow from.
   struct BlockWorks {
     double forces = 0.0; ///< of loads and contact forces on them
@@ -45,20 +46,20 @@ public:
   /// The loads of the step about a time as numbers of a force; stay where there are none. No allocation.
   void load_about(double time, kernels::Array& load);
   /// As ModalFlow; sums without the blocks. No allocation.
-  ModalFlow::Sums move(int length, const State& from, const kernels::Array& load0,
-                       const kernels::Array& load1, State& to);
-  ModalFlow::Sums push(const State& from, const kernels::Array& load0, const kernels::Array& load1,
-                       const kernels::Array& mean, const kernels::Array& slope, State& to);
+  vibration::ModalFlow::Sums move(int length, const State& from, const kernels::Array& load0,
+                                  const kernels::Array& load1, State& to);
+  vibration::ModalFlow::Sums push(const State& from, const kernels::Array& load0, const kernels::Array& load1,
+                                  const kernels::Array& mean, const kernels::Array& slope, State& to);
   /// Under a constant force.
-  ModalFlow::Sums push(const State& from, const kernels::Array& load0, const kernels::Array& load1,
-                       const kernels::Array& constant, State& to) {
+  vibration::ModalFlow::Sums push(const State& from, const kernels::Array& load0, const kernels::Array& load1,
+                                  const kernels::Array& constant, State& to) {
     return push(from, load0, load1, constant, none_, to);
   }
   /// Energy of the blocks as it would be without damping and fluid since the start, J.
   [[nodiscard]] double undamped_energy(const BlockWorks& works) const { return start_.stored + works.forces; }
   /// Adds those of the blocks over a step (force null: none), and the undamped energy. No allocation.
   void add_works(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
-                 const ModalForce* force, ModalFlow::Sums& sums, BlockWorks& works);
+                 const vibration::ModalForce* force, vibration::ModalFlow::Sums& sums, BlockWorks& works);
   /// After these works. No allocation.
   [[nodiscard]] BlockEnergies energies(const State& state, const BlockWorks& works);
   [[nodiscard]] double energy_at_start(const State& state) {
@@ -67,16 +68,16 @@ public:
 
   /// Coordinates in the middle of the step moved last (force null: none), but for those of blocks. No allocation.
   void middle(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
-              const ModalForce* force, kernels::Array& q) {
+              const vibration::ModalForce* force, kernels::Array& q) {
     uncoupled_.middle(length, from, load0, load1, force, q);
   }
   /// The modes' displacements there, n values, by coordinates that `middle` gave. No allocation.
   void modes_in_middle(int length, const State& from, const kernels::Array& load0,
-                       const kernels::Array& load1, const ModalForce* force, const kernels::Array& middle,
-                       double* q);
+                       const kernels::Array& load1, const vibration::ModalForce* force,
+                       const kernels::Array& middle, double* q);
   /// Modes a time after the start of a step of `duration`, as ModalFlow; n values each. No allocation.
   void inside(double time, double duration, const State& from, const kernels::Array& load0,
-              const kernels::Array& load1, const ModalForce* force, double* q, double* v);
+              const kernels::Array& load1, const vibration::ModalForce* force, double* q, double* v);
   /// Modal force of the loads at an instant, n values.
   void load_at(double time, double* force) {
     loads_ ? loads_->observe(time, force) : uncoupled_.load_at(time, force);
@@ -97,22 +98,22 @@ private:
   }
   void move_blocks(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
                    const kernels::Array& mean, const kernels::Array& slope, State& to) const;
-  [[nodiscard]] std::vector<Load> loads_on_blocks(const std::vector<Load>& loads) const;
+  [[nodiscard]] std::vector<vibration::Load> loads_on_blocks(const std::vector<vibration::Load>& loads) const;
   template <class Rows>
   [[nodiscard]] std::vector<ContactPoint> over_coordinates(const std::vector<ContactPoint>& contacts,
                                                            int numbers, const Rows& rows) const;
   void to_uncoupled(const double* modes, double* uncoupled) const;
   void to_modes(const double* uncoupled, double* modes) const;
 
-  DiagonalFlow blocks_;
+  vibration::DiagonalFlow blocks_;
   std::vector<Eigen::Index> uncoupled_modes_; ///< those of no block; with blocks
-  ModalFlow uncoupled_;
+  vibration::ModalFlow uncoupled_;
   Eigen::Index modes_;
   std::vector<int> lengths_;
-  std::optional<LoadSum> loads_;  ///< on all modes; with blocks
-  std::optional<LoadSum> driven_; ///< on the blocks, but for sampled loads
-  std::optional<LoadSum> random_; ///< sampled loads on all modes
-  BlockEnergies start_;           ///< fluid_work: y^T P y
+  std::optional<vibration::LoadSum> loads_;  ///< on all modes; with blocks
+  std::optional<vibration::LoadSum> driven_; ///< on the blocks, but for sampled loads
+  std::optional<vibration::LoadSum> random_; ///< sampled loads on all modes
+  BlockEnergies start_;                      ///< fluid_work: y^T P y
   kernels::Array none_, a_, b_, y_, q_, v_;
 };
 

@@ -36,7 +36,7 @@ bool may_scale(const Scene& scene, double fastest, double accuracy) {
   const Eigen::Array<bool, Eigen::Dynamic, 1> scaled = scaled_masses(scene, fastest).array() > 1.0;
   const Eigen::ArrayXd k = scene.system.stiffness.array(), flexibility = (k > 0.0).select(1.0 / k, 0.0);
   Eigen::ArrayXd at_start = Eigen::ArrayXd::Zero(k.size()), noise = at_start; // modal forces; (rms force)^2
-  for (const Load& load : scene.loads) {
+  for (const vibration::Load& load : scene.loads) {
     const Eigen::ArrayXd square = load.modal_force.array().square(), bent = square * flexibility;
     if (scaled.select(bent, 0.0).sum() > accuracy * bent.sum())
       return false;
@@ -73,7 +73,7 @@ Scene with_masses(const Scene& scene, const Eigen::VectorXd& masses) {
     f.input = s.asDiagonal() * f.input;
     f.output = f.output * s.asDiagonal();
   }
-  for (Load& load : out.loads)
+  for (vibration::Load& load : out.loads)
     load.modal_force.array() *= s.array();
   for (signals::SampledLoad& load : out.sampled_loads)
     load.multiply(s);
@@ -82,7 +82,7 @@ Scene with_masses(const Scene& scene, const Eigen::VectorXd& masses) {
       point.b = point.b * s.asDiagonal();
     } else {
       Eigen::Index column = 0;
-      for (const ModeRange& range : point.modes) {
+      for (const vibration::ModeRange& range : point.modes) {
         point.b.middleCols(column, range.size) *= s.segment(range.first, range.size).asDiagonal();
         column += range.size;
       }

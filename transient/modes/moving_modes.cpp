@@ -7,7 +7,7 @@ namespace fretwork::transient {
 std::vector<Eigen::Index> moving_modes(const Scene& scene) {
   using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
   Flags moves = scene.q0.array() != 0.0 || scene.v0.array() != 0.0;
-  for (const Load& load : scene.loads)
+  for (const vibration::Load& load : scene.loads)
     moves = moves || load.modal_force.array() != 0.0;
   if (const core::MotionForces& f = scene.system.motion; !f.empty())
     moves = moves || (f.stiffness.array() != 0.0).colwise().any().transpose() ||
@@ -45,7 +45,7 @@ void restrict_modes(const std::vector<Eigen::Index>& modes, ContactPoint& point)
   }
   std::vector<Eigen::Index> columns;
   Eigen::Index before = 0;
-  for (ModeRange& range : point.modes) {
+  for (vibration::ModeRange& range : point.modes) {
     const auto [first, size] = range;
     const auto begin = std::lower_bound(modes.begin(), modes.end(), first),
                end = std::lower_bound(begin, modes.end(), first + size);

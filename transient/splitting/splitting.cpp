@@ -21,7 +21,6 @@
 #include "transient/contacts/obstacle_motion.hpp"
 #include "transient/modes/mass_scaling.hpp"
 #include "transient/splitting/block_balance.hpp"
-#include "transient/splitting/macro_steps.hpp"
 #include "transient/splitting/replays.hpp"
 #include "transient/splitting/step_forces.hpp"
 #include "transient/splitting/step_mobility.hpp"
@@ -33,6 +32,9 @@
 
 namespace fretwork::transient {
 namespace {
+
+using vibration::ModalFlow;
+using vibration::ModalForce;
 
 /// Steps of one h after a macro-step that would have met a contact.
 constexpr int steps_after_meeting = 4;

@@ -22,7 +22,8 @@ void StepForces::add(int c, int component, double held, double mean, double slop
   any_slope_ = any_slope_ || slope != 0.0;
 }
 
-void StepForces::assemble(const ContactSweeps& sweeps, const std::vector<int>& contacts, ModalForce* found) {
+void StepForces::assemble(const ContactSweeps& sweeps, const std::vector<int>& contacts,
+                          vibration::ModalForce* found) {
   any_held_ = any_slope_ = false;
   rows_.clear();
   for (const int c : contacts) {

@@ -5,8 +5,8 @@
 #pragma once
 #include "core/state_archive.hpp"
 #include "transient/contacts/row_scatter.hpp"
-#include "transient/modes/modal_flow.hpp"
 #include "transient/splitting/contact_sweeps.hpp"
+#include "vibration/modal_flow.hpp"
 #include <array>
 
 namespace fretwork::transient {
@@ -17,7 +17,7 @@ public:
   explicit StepForces(const PackedContacts& contacts);
 
   /// Takes the forces of these contacts. No allocation.   @param found  overwritten by those of the step; null: only those held are wanted
-  void assemble(const ContactSweeps& sweeps, const std::vector<int>& contacts, ModalForce* found);
+  void assemble(const ContactSweeps& sweeps, const std::vector<int>& contacts, vibration::ModalForce* found);
   /// Whether any force is held.
   [[nodiscard]] bool any_held() const { return any_held_; }
   /// Modal force of those held, padded; only where there are any.

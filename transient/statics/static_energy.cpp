@@ -26,7 +26,7 @@ constexpr double carried_away = 1e6;
 StaticEnergy::StaticEnergy(const Scene& scene) : scene_(scene) {
   const Index n = scene.system.size();
   load_.setZero(n);
-  for (const Load& load : scene.loads)
+  for (const vibration::Load& load : scene.loads)
     if (!load.inertial)
       load_ += signals::static_value(load.function, scene.duration) * load.modal_force;
   rows_.resize(2 * static_cast<Index>(scene.contacts.size()), n);

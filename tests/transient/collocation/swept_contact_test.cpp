@@ -10,6 +10,7 @@ namespace swept_contact_test {
 using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::transient;
+using namespace fretwork::vibration;
 
 namespace {
 

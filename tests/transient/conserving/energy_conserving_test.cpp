@@ -14,6 +14,7 @@ using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::signals;
 using namespace fretwork::transient;
+using namespace fretwork::vibration;
 using contact::FrictionLaw;
 using contact::FrictionMemoryKind;
 using contact::PlaneAxis;

@@ -11,6 +11,7 @@ using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::signals;
 using namespace fretwork::transient;
+using namespace fretwork::vibration;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;

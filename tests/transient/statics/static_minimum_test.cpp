@@ -12,6 +12,7 @@ using namespace fretwork;
 using namespace fretwork::tests;
 using namespace fretwork::signals;
 using namespace fretwork::transient;
+using namespace fretwork::vibration;
 using contact::PlaneAxis;
 using Eigen::VectorXd;
 

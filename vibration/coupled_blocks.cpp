@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "transient/modes/coupled_blocks.hpp"
+#include "vibration/coupled_blocks.hpp"
 #include <algorithm>
 #include <utility>
 
-namespace fretwork::transient {
+namespace fretwork::vibration {
 namespace {
 
 using Eigen::Index;
@@ -74,4 +74,4 @@ System with_diagonal(System system) {
   return system;
 }
 
-} // namespace fretwork::transient
+} // namespace fretwork::vibration

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "transient/modes/coupled_flow.hpp"
+#include "vibration/coupled_flow.hpp"
 #include <algorithm>
 #include <cmath>
 
-namespace fretwork::transient {
+namespace fretwork::vibration {
 namespace {
 
 using Eigen::Index;
@@ -169,4 +169,4 @@ void CoupledFlow::add_forces(double* force) const {
       force[b.modes[static_cast<std::size_t>(i)]] += b.forces.row(i).dot(b.moved.head(b.unknowns()));
 }
 
-} // namespace fretwork::transient
+} // namespace fretwork::vibration

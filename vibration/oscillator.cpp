@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "transient/modes/oscillator.hpp"
+#include "vibration/oscillator.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace fretwork::transient {
+namespace fretwork::vibration {
 namespace {
 
 /// Below this value of sqrt(k) t and c t the closed forms of the load responses cancel; their power series is
@@ -155,4 +155,4 @@ DenseCoefficients dense_coefficients(double k, double c, double t) {
   return {im.rate + c * im.g, im.g, r.r0, r.r1, -k * im.g, im.rate, r.d0, r.d1};
 }
 
-} // namespace fretwork::transient
+} // namespace fretwork::vibration

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "transient/modes/diagonal_flow.hpp"
+#include "vibration/diagonal_flow.hpp"
 #include "core/general_eigenvalues.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace fretwork::transient {
+namespace fretwork::vibration {
 namespace {
 
 using Complex = std::complex<double>;
@@ -382,4 +382,4 @@ void DiagonalFlow::response(const double* force, double* moved) const {
   }
 }
 
-} // namespace fretwork::transient
+} // namespace fretwork::vibration

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The exact motion under a quadratic force, of modes of all kinds, against Runge and Kutta's method.
-#include "transient/collocation/force_polynomial.hpp"
+#include "vibration/polynomial_flow.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace force_polynomial_test {
+namespace polynomial_flow_test {
 
 using namespace fretwork;
-using namespace fretwork::transient;
+using namespace fretwork::vibration;
 
 namespace {
 
@@ -203,4 +203,4 @@ TEST(DecayFunctions, MeetBetweenSeriesAndClosedForm) {
   }
 }
 
-} // namespace force_polynomial_test
+} // namespace polynomial_flow_test

@@ -17,12 +17,12 @@
 /// A block (coupled_blocks.hpp) of m modes and r states costs ((2+d) m + r)((3+d) m + r) multiplications a step. Modes of no block are left to
 /// oscillator.hpp.
 #pragma once
-#include "transient/modes/coupled_blocks.hpp"
+#include "vibration/coupled_blocks.hpp"
 #include <array>
 #include <concepts>
 #include <vector>
 
-namespace fretwork::transient {
+namespace fretwork::vibration {
 
 class CoupledFlow {
 public:
@@ -125,4 +125,4 @@ private:
   std::vector<char> coupled_;
 };
 
-} // namespace fretwork::transient
+} // namespace fretwork::vibration

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "transient/collocation/force_polynomial.hpp"
+#include "vibration/polynomial_flow.hpp"
 #include "kernels/vector_lanes.hpp"
-#include "transient/modes/oscillator.hpp"
+#include "vibration/oscillator.hpp"
 #include <cmath>
 
-namespace fretwork::transient {
+namespace fretwork::vibration {
 namespace {
 
 using namespace kernels;
@@ -293,4 +293,4 @@ PolynomialState state_under(double k, double c, double h, double t, double q0, d
   return out;
 }
 
-} // namespace fretwork::transient
+} // namespace fretwork::vibration

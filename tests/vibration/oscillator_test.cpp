@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The coefficients of one mode against the exponential of a matrix in extended precision.
-#include "transient/modes/oscillator.hpp"
+#include "vibration/oscillator.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <unsupported/Eigen/MatrixFunctions>
@@ -9,7 +9,7 @@
 namespace oscillator_test {
 
 using namespace fretwork;
-using namespace fretwork::transient;
+using namespace fretwork::vibration;
 
 namespace {
 

@@ -12,7 +12,7 @@
 #include "kernels/kernels.hpp"
 #include <Eigen/Core>
 
-namespace fretwork::transient {
+namespace fretwork::vibration {
 
 /// Impulse response g and its derivative at time t.
 struct Impulse {
@@ -31,4 +31,4 @@ struct DenseCoefficients {
 };
 [[nodiscard]] DenseCoefficients dense_coefficients(double k, double c, double t);
 
-} // namespace fretwork::transient
+} // namespace fretwork::vibration

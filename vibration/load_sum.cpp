@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "transient/modes/load_sum.hpp"
+#include "vibration/load_sum.hpp"
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace fretwork::transient {
+namespace fretwork::vibration {
 namespace {
 
 /// pi f h up to which a polygon is taken to follow a harmonic load.
@@ -97,4 +97,4 @@ void LoadSum::corner(double time, double* force) {
       [&](std::size_t k) { return above_[k] * signals_[k].over_step(time, step_, window); }, force);
 }
 
-} // namespace fretwork::transient
+} // namespace fretwork::vibration

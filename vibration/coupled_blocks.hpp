@@ -2,10 +2,10 @@
 /// @file
 /// Which modes a damping matrix or forces of motion couple with each other.
 #pragma once
-#include "transient/scene/scene.hpp"
+#include "vibration/system.hpp"
 #include <vector>
 
-namespace fretwork::transient {
+namespace fretwork::vibration {
 
 /// Modes, and states of the forces of motion, that depend on each other, directly or through others.
 struct CoupledBlock {
@@ -21,4 +21,4 @@ struct CoupledBlock {
 /// The system for its modes that nothing couples: `damping` is the damping matrix's diagonal, where there is one.
 [[nodiscard]] System with_diagonal(System system);
 
-} // namespace fretwork::transient
+} // namespace fretwork::vibration

@@ -12,11 +12,10 @@
 #pragma once
 #include "core/state_archive.hpp"
 #include "kernels/kernels.hpp"
-#include "transient/modes/coupled_flow.hpp"
-#include "transient/scene/scene.hpp"
+#include "vibration/coupled_flow.hpp"
 #include <array>
 
-namespace fretwork::transient {
+namespace fretwork::vibration {
 
 /// g', and G_0 .. G_5 at time t.
 struct ImpulseChain {
@@ -79,4 +78,4 @@ struct PolynomialState {
 [[nodiscard]] PolynomialState state_under(double k, double c, double h, double t, double q0, double v0,
                                           const std::array<double, 3>& force);
 
-} // namespace fretwork::transient
+} // namespace fretwork::vibration

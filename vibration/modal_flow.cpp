@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "transient/modes/modal_flow.hpp"
-#include "transient/modes/oscillator.hpp"
+#include "vibration/modal_flow.hpp"
+#include "vibration/oscillator.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace fretwork::transient {
+namespace fretwork::vibration {
 
 namespace {
 /// Of a mode that another flow moves.
@@ -35,8 +35,8 @@ std::array<double, 4> own_force(double k, const kernels::StepCoefficients& s, do
 
 } // namespace
 
-ModalFlow::ModalFlow(const Scene& scene, double step, const std::vector<int>& lengths)
-    : system_(with_diagonal(scene.system)), h_(step), loads_(scene, step), lone_k_(system_.stiffness),
+ModalFlow::ModalFlow(const ForcedSystem& forced, double step, const std::vector<int>& lengths)
+    : system_(with_diagonal(forced.system)), h_(step), loads_(forced, step), lone_k_(system_.stiffness),
       lone_c_(system_.damping), lengths_(lengths) {
   std::vector<CoupledBlock> blocks = coupled_blocks(system_);
   apart_.assign(static_cast<std::size_t>(system_.size()), 1);
@@ -293,4 +293,4 @@ void ModalFlow::response(const double* force, double* moved) {
   std::copy(a_.begin(), a_.end(), moved);
 }
 
-} // namespace fretwork::transient
+} // namespace fretwork::vibration

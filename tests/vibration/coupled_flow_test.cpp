@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Modes that a damping matrix couples move exactly. Modes of equal stiffness are the reference: turned to the principal axes of the
 // damping matrix they are oscillators of their own.
-#include "scenes.hpp"
-#include "transient/collocation/force_polynomial.hpp"
-#include "transient/modes/coupled_flow.hpp"
-#include "transient/modes/diagonal_flow.hpp"
-#include "transient/modes/oscillator.hpp"
+#include "vibration/coupled_flow.hpp"
+#include "vibration/diagonal_flow.hpp"
+#include "vibration/oscillator.hpp"
+#include "vibration/polynomial_flow.hpp"
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
@@ -14,8 +13,7 @@
 namespace coupled_flow_test {
 
 using namespace fretwork;
-using namespace fretwork::tests;
-using namespace fretwork::transient;
+using namespace fretwork::vibration;
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
@@ -217,9 +215,9 @@ TEST(PolynomialFlow, IsKnownAtAnyInstantOfAStepInTurnedAxes) {
 }
 
 /// Four modes with a state each, all coupled, one of them growing.
-Scene fed() {
+ForcedSystem fed() {
   constexpr Eigen::Index n = 4;
-  Scene scene;
+  ForcedSystem scene;
   scene.duration = 1.0;
   scene.system.stiffness = Eigen::Vector4d(1e4, 4e4, 9e4, 4e6);
   scene.system.damping = Eigen::Vector4d(1.0, 4.0, 600.0, 40.0);
@@ -239,7 +237,7 @@ Scene fed() {
 }
 
 TEST(DiagonalFlow, MovesAsTheMatrixExponential) {
-  const Scene scene = fed();
+  const ForcedSystem scene = fed();
   const std::vector<CoupledBlock> blocks = coupled_blocks(scene.system);
   ASSERT_EQ(blocks.size(), 1u);
   constexpr double step = 1e-3;
@@ -303,7 +301,7 @@ TEST(DiagonalFlow, MovesAsTheMatrixExponential) {
 
 /// Against Simpson's rule over instants inside a step.
 TEST(DiagonalFlow, KnowsTheWorksOfAllForces) {
-  const Scene scene = fed();
+  const ForcedSystem scene = fed();
   const std::vector<CoupledBlock> blocks = coupled_blocks(scene.system);
   constexpr double step = 2e-3;
   DiagonalFlow diagonal(scene.system, blocks, step, {1});

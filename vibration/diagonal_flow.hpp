@@ -17,11 +17,11 @@
 /// exceed 1e-10. Eigenvalues that leave q and v alone to 1e-12 are left out.
 #pragma once
 #include "kernels/state_kernels.hpp"
-#include "transient/modes/coupled_blocks.hpp"
+#include "vibration/coupled_blocks.hpp"
 #include <complex>
 #include <vector>
 
-namespace fretwork::transient {
+namespace fretwork::vibration {
 
 class DiagonalFlow {
 public:
@@ -98,4 +98,4 @@ private:
   kernels::Array modes_, moved_, table_; ///< of the largest block
 };
 
-} // namespace fretwork::transient
+} // namespace fretwork::vibration

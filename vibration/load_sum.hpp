@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// The loads of a scene as one modal force: loads that follow the same function of time are added before the
+/// Loads as one modal force: loads that follow the same function of time are added before the
 /// run.
 #pragma once
 #include "kernels/kernels.hpp"
-#include "transient/scene/scene.hpp"
+#include "vibration/system.hpp"
 
-namespace fretwork::transient {
+namespace fretwork::vibration {
 
 class LoadSum {
 public:
@@ -14,8 +14,8 @@ public:
   /// @param sampled  are added at the time itself, whatever the step: samples are far closer than the periods that carry their power
   LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double duration, double step,
           const std::vector<signals::SampledLoad>& sampled = {});
-  LoadSum(const Scene& scene, double step)
-      : LoadSum(scene.loads, scene.system.size(), scene.duration, step, scene.sampled_loads) {}
+  LoadSum(const ForcedSystem& forced, double step)
+      : LoadSum(forced.loads, forced.system.size(), forced.duration, step, forced.sampled_loads) {}
   [[nodiscard]] bool empty() const { return signals_.empty() && sampled_.empty(); }
   /// True where the force never changes.
   [[nodiscard]] bool constant() const { return constant_; }
@@ -46,4 +46,4 @@ private:
   std::vector<signals::SampledForce> sampled_;
 };
 
-} // namespace fretwork::transient
+} // namespace fretwork::vibration

@@ -9,10 +9,10 @@
 /// to (w h)^4/720 in what of it the fluid has brought and what the damping taken; w the frequency of the mode, for w h < 3 (above it all is damping).
 #pragma once
 #include "core/state_archive.hpp"
-#include "transient/modes/coupled_flow.hpp"
-#include "transient/modes/load_sum.hpp"
+#include "vibration/coupled_flow.hpp"
+#include "vibration/load_sum.hpp"
 
-namespace fretwork::transient {
+namespace fretwork::vibration {
 
 /// The exact flow of the modes over h seconds; modes that a damping matrix couples stay where they are, for theirs follows.
 [[nodiscard]] kernels::FlowTable flow_table(const System& system, const CoupledFlow& coupled, double h);
@@ -25,8 +25,8 @@ struct ModalForce {
 
 class ModalFlow {
 public:
-  /// @param scene  its system, loads and duration   @param lengths  of steps in numbers of `step`, s; only 1 where a damping matrix couples modes
-  ModalFlow(const Scene& scene, double step, const std::vector<int>& lengths);
+  /// @param forced  its system, loads and duration   @param lengths  of steps in numbers of `step`, s; only 1 where a damping matrix couples modes
+  ModalFlow(const ForcedSystem& forced, double step, const std::vector<int>& lengths);
 
   /// Padded; of arrays that are longer the modes are the first.
   struct State {
@@ -103,4 +103,4 @@ private:
       mean_; ///< of the step moved last: force of its own on each mode, mean displacement
 };
 
-} // namespace fretwork::transient
+} // namespace fretwork::vibration

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Loads as one modal force.
-#include "transient/modes/load_sum.hpp"
+#include "vibration/load_sum.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -9,7 +9,7 @@ namespace load_sum_test {
 
 using namespace fretwork;
 using namespace fretwork::signals;
-using namespace fretwork::transient;
+using namespace fretwork::vibration;
 
 TEST(LoadSum, AddsLoadsWhateverTheyFollow) {
   const Harmonic same{1.0, 3.0};

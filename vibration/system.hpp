@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// A modal system under loads: q_i'' + c_i q_i' + k_i q_i = sum of loads.
+#pragma once
+#include "core/motion_forces.hpp"
+#include "signals/sampled_load.hpp"
+#include "signals/time_function.hpp"
+#include <Eigen/Core>
+#include <vector>
+
+namespace fretwork::vibration {
+
+/// Modes of unit modal mass.
+struct System {
+  Eigen::VectorXd stiffness;      ///< n, omega^2, 1/s2, >= 0
+  Eigen::VectorXd damping;        ///< n, 2 zeta omega, 1/s, >= 0
+  Eigen::MatrixXd damping_matrix; ///< n x n, 1/s, replaces `damping` where it is not empty
+  core::MotionForces motion = {}; ///< of the fluid; empty: none
+  [[nodiscard]] Eigen::Index size() const { return stiffness.size(); }
+  /// That of the modes one by one: none where the matrix has it.
+  [[nodiscard]] Eigen::VectorXd lone_damping() const {
+    return damping_matrix.size() == 0 ? damping : Eigen::VectorXd::Zero(size());
+  }
+};
+
+struct Load {
+  signals::TimeFunction function;
+  Eigen::VectorXd modal_force; ///< n: the load is modal_force * function(t)
+  /// -M a of a base or support that accelerates, or the force of dampers that a support's velocity stretches: no part of a static equilibrium
+  bool inertial = false;
+};
+
+/// Modes that follow each other, such as those of a structure.
+struct ModeRange {
+  Eigen::Index first = 0, size = 0;
+};
+
+struct ForcedSystem {
+  System system;
+  std::vector<Load> loads;
+  std::vector<signals::SampledLoad> sampled_loads; ///< random, of zero mean
+  Eigen::VectorXd q0, v0;                          ///< initial state, n
+  double duration = 0.0;                           ///< s, > 0
+};
+
+} // namespace fretwork::vibration
