@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Points and facets of a polygon in the local plane.
+/// Facets of a polygon in the local plane.
 #pragma once
+#include "contact/plane.hpp"
 #include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <limits>
 
 namespace fretwork::contact {
-
-/// A point of the local plane, m.
-struct PlanePoint {
-  double y, z;
-};
 
 /// From vertex a on, along the unit vector u.
 struct Facet {

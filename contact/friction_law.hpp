@@ -23,7 +23,7 @@
 /// direction as 0, so that force and memory stay exactly 0 there.
 /// The memory changes only when a step is accepted: every function here is pure.
 #pragma once
-#include "contact/vec2.hpp"
+#include "contact/plane.hpp"
 
 namespace fretwork::contact {
 

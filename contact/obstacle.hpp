@@ -21,11 +21,12 @@
 /// Source: R5.06.03 sections 4.1.1 and 4.1.2 (whose normals are opposite to each other), 4.2.1 (where the
 /// side follows the sign of c, so that bodies that pass through each other are pushed on), 4.2.2.
 #pragma once
-#include "contact/contact_axes.hpp"
+#include "contact/plane.hpp"
 #include "contact/profile.hpp"
 #include <array>
 #include <cmath>
 #include <variant>
+#include <vector>
 
 namespace fretwork::contact {
 

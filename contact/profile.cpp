@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/profile.hpp"
+#include "contact/facet_index.hpp"
 #include "contact/obstacle.hpp"
 #include "core/error.hpp"
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 namespace fretwork::contact {
 
@@ -133,6 +135,12 @@ bool at_end(const Facet& f, double along, double y, double z) {
 
 } // namespace
 
+struct Profile::Tables {
+  std::vector<PlanePoint> vertices;
+  FacetIndex index;
+  double inscribed;
+};
+
 Profile::Profile(std::span<const PolarPoint> points) {
   check_number(points.size());
   check_values(points);
@@ -150,6 +158,10 @@ Profile::Profile(std::span<const PolarPoint> points) {
   tables_ = tables;
   tables->inscribed = locate(0.0, 0.0).gap;
 }
+
+double Profile::inscribed() const { return tables_->inscribed; }
+
+std::span<const PlanePoint> Profile::vertices() const& { return tables_->vertices; }
 
 Location Profile::locate(double y, double z) const {
   const std::uint32_t k = tables_->index.nearest(y, z);

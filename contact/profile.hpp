@@ -18,10 +18,10 @@
 ///
 /// Source: R5.06.03 section 4.1.3, which leaves corners open.
 #pragma once
-#include "contact/facet_index.hpp"
+#include "contact/plane.hpp"
+#include <cstdint>
 #include <memory>
 #include <span>
-#include <vector>
 
 namespace fretwork::contact {
 
@@ -49,18 +49,14 @@ public:
   [[nodiscard]] double curvature(double y, double z) const;
 
   /// Gap at the origin, m, > 0: gap(y, z) >= inscribed() - sqrt(y^2 + z^2).
-  [[nodiscard]] double inscribed() const { return tables_->inscribed; }
+  [[nodiscard]] double inscribed() const;
 
   /// Corners by increasing angle, as long as the profile or a copy of it lives.
-  [[nodiscard]] std::span<const PlanePoint> vertices() const& { return tables_->vertices; }
+  [[nodiscard]] std::span<const PlanePoint> vertices() const&;
   std::span<const PlanePoint> vertices() && = delete;
 
 private:
-  struct Tables {
-    std::vector<PlanePoint> vertices;
-    FacetIndex index;
-    double inscribed;
-  };
+  struct Tables;
   [[nodiscard]] std::uint32_t corner_of(std::uint32_t k, double along) const;
   [[nodiscard]] Location locate_at_corner(std::uint32_t corner, double y, double z) const;
 

@@ -3,8 +3,8 @@
 /// Sides of a tube at which flat faces meet it, by the contact point (opposite to the normal of the contact): +y and +z are those of
 /// y_loc and z_loc. Each face has a scar of its own on the tube.
 #pragma once
-#include "contact/contact_axes.hpp"
 #include "contact/obstacle.hpp"
+#include "contact/plane.hpp"
 #include <array>
 #include <cmath>
 #include <cstddef>

@@ -2,7 +2,7 @@
 /// @file
 /// Random inputs of the tests, the same on every machine.
 #pragma once
-#include "contact/vec2.hpp"
+#include "contact/plane.hpp"
 #include <cmath>
 #include <numbers>
 #include <random>

@@ -3,7 +3,7 @@
 /// Vectors of the tangent plane of a contact with D directions: where nothing moves along x_loc (D = 2) they are numbers, along t, and
 /// need neither roots nor divisions.
 #pragma once
-#include "contact/vec2.hpp"
+#include "contact/plane.hpp"
 #include <cmath>
 #include <type_traits>
 

@@ -2,7 +2,7 @@
 /// @file
 /// What all time schemes share: the record of a step that observers see, the energy balance, the interface.
 #pragma once
-#include "contact/vec2.hpp"
+#include "contact/plane.hpp"
 #include "core/state_archive.hpp"
 #include "transient/scene/scene.hpp"
 #include "transient/scene/step_error.hpp"
