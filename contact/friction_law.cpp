@@ -67,12 +67,10 @@ Friction evaluate(const FrictionLaw& law, const FrictionMemory& memory, double n
   dx = law.masked(dx);
   velocity = law.masked(velocity);
   const Vec2 trial = law.trial(memory.spring - law.stiffness * dx, velocity);
-  const double bound = law.coefficient(memory.sliding) * normal_force;
-  if (norm(trial) <= bound)
-    return {trial, false};
-  const bool along_velocity = law.kind == FrictionMemoryKind::reference && norm(velocity) > 0.0;
-  const double slip_bound = law.mu_dynamic * normal_force;
-  return {along_velocity ? scaled_to(velocity, -slip_bound) : scaled_to(trial, slip_bound), true};
+  const auto [force, slides] = law.bounded(trial, law.coefficient(memory.sliding), normal_force);
+  if (slides && law.kind == FrictionMemoryKind::reference && norm(velocity) > 0.0)
+    return {scaled_to(velocity, -law.mu_dynamic * normal_force), true};
+  return {force, slides};
 }
 
 FrictionTable friction_table(const FrictionLaw& law, double h) {

@@ -29,6 +29,12 @@ namespace fretwork::contact {
 
 enum class FrictionMemoryKind { return_map, reference };
 
+/// Friction at an instant, N. V: Vec2, or a number along t.
+template <class V> struct BoundedForce {
+  V force;
+  bool slides;
+};
+
 struct FrictionLaw {
   double stiffness = 0.0;  ///< K_T, N/m, > 0 with friction
   double damping = 0.0;    ///< C_T, N s/m, >= 0
@@ -47,6 +53,14 @@ struct FrictionLaw {
   }
   /// N: what spring and damper would bear in stick, T the spring's force as the node has stretched it. V: Vec2, or a number along t.
   template <class V> [[nodiscard]] V trial(V spring, V velocity) const { return spring - damping * velocity; }
+  /// A trial within its bound, mu F_N: the trial itself, or in slip the bound mu_d F_N along it.   @param coefficient  mu
+  template <class V>
+  [[nodiscard]] BoundedForce<V> bounded(V trial, double coefficient, double normal_force) const {
+    const double length = norm(trial);
+    if (length <= coefficient * normal_force)
+      return {trial, false};
+    return {with_length(mu_dynamic * normal_force, trial, length), true};
+  }
   /// Energy of a spring that bears T, J.
   template <class V> [[nodiscard]] double spring_energy(V spring) const {
     return stiffness > 0.0 ? 0.5 * dot(spring, spring) / stiffness : 0.0;
@@ -85,11 +99,10 @@ struct Friction {
   dx *= law.along.t;
   velocity *= law.along.t;
   const double trial = law.trial(memory.spring.t - law.stiffness * dx, velocity);
-  const double bound = law.coefficient(memory.sliding) * normal_force;
-  if (std::abs(trial) <= bound)
-    return {{0.0, trial}, false};
-  const double along = law.kind == FrictionMemoryKind::reference && velocity != 0.0 ? -velocity : trial;
-  return {{0.0, std::copysign(law.mu_dynamic * normal_force, along)}, true};
+  const auto [force, slides] = law.bounded(trial, law.coefficient(memory.sliding), normal_force);
+  if (slides && law.kind == FrictionMemoryKind::reference && velocity != 0.0)
+    return {{0.0, std::copysign(force, -velocity)}, true};
+  return {{0.0, force}, slides};
 }
 
 /// What a law needs of a step of length h, made once.

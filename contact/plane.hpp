@@ -28,8 +28,8 @@ struct ContactAxes {
   }
 };
 
-/// A vector of the tangent plane, components along x_loc and t. Where nothing moves along x_loc it is a number, along t: `dot` and `norm` stand for
-/// either, so that laws are written once.
+/// A vector of the tangent plane, components along x_loc and t. Where nothing moves along x_loc it is a number, along t: `dot`, `norm` and
+/// `with_length` stand for either, so that laws are written once.
 struct Vec2 {
   double x = 0.0, t = 0.0;
 };
@@ -40,6 +40,10 @@ inline double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.t * b.t; }
 inline double norm(Vec2 a) { return std::sqrt(dot(a, a)); }
 inline double dot(double a, double b) { return a * b; }
 inline double norm(double a) { return std::abs(a); }
+
+/// v with another length than its own.
+inline double with_length(double length, double v, double) { return std::copysign(length, v); }
+inline Vec2 with_length(double length, Vec2 v, double own) { return (length / own) * v; }
 
 /// A symmetric matrix of the tangent plane.
 struct Sym2 {

@@ -181,10 +181,9 @@ public:
   Closing close(double closed, double at_touch, double normal, Vector slip) {
     spring_ = std::pow(table_.keep_part, 1.0 - closed) * spring_;
     slip_ = slip_ + (1.0 - closed) * (slip - slip_);
-    const Vector trial = law_.trial(spring_, slip_);
-    const double length = norm(trial);
-    slides_ = !(length <= bound_ * at_touch);
-    force_ = slides_ ? with_length(law_.mu_dynamic * at_touch, trial, length) : trial;
+    const auto touched = law_.bounded(law_.trial(spring_, slip_), bound_, at_touch);
+    slides_ = touched.slides;
+    force_ = touched.force;
     const SpringTable table = part_of(table_, closed);
     const Vector touching = force_, force = move(closed, table, normal, slip);
     return {force, (0.5 * closed) * (touching + force) - 0.5 * force};
@@ -212,18 +211,18 @@ private:
     slip_ = slip;
     last_ = force_;
     slid_ = slides_;
-    const Vector stuck = before - law_.stiffness * moved_, trial = law_.trial(stuck, slip);
-    const double length = norm(trial);
-    if (normal > 0.0 && length <= bound_ * normal) {
+    const Vector stuck = before - law_.stiffness * moved_;
+    const auto bounded = law_.bounded(law_.trial(stuck, slip), bound_, normal);
+    if (normal > 0.0 && !bounded.slides) {
       slides_ = false;
       bound_ = law_.mu_static;
-      force_ = trial;
+      force_ = bounded.force;
       spring_ = stuck;
       slider_ = 0.0;
     } else {
       slides_ = normal > 0.0;
       bound_ = slides_ ? law_.mu_dynamic : bound_;
-      force_ = slides_ ? with_length(law_.mu_dynamic * normal, trial, length) : Vector{};
+      force_ = slides_ ? bounded.force : Vector{};
       spring_ = table.keep_part * before + table.part_by_last * last_ + table.part_by_force * force_;
       slider_ = std::max(0.0, 0.5 * dot(force_ + last_, compliance_ * (before - spring_) - moved_));
     }

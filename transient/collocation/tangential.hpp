@@ -4,7 +4,6 @@
 /// need neither roots nor divisions.
 #pragma once
 #include "contact/plane.hpp"
-#include <cmath>
 #include <type_traits>
 
 namespace fretwork::transient {
@@ -21,8 +20,5 @@ inline contact::Vec2 in_plane(contact::Vec2 v) { return v; }
 
 using contact::dot;
 using contact::norm;
-/// v with another length than its own.
-inline double with_length(double length, double v, double) { return std::copysign(length, v); }
-inline contact::Vec2 with_length(double length, contact::Vec2 v, double own) { return (length / own) * v; }
 
 } // namespace fretwork::transient
