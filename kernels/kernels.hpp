@@ -151,6 +151,30 @@ struct LaneCount {
   [[nodiscard]] int together() const { return few() ? 1 : half() ? lanes / 2 : lanes; }
 };
 
+/// One number of `lanes` contacts.
+using Numbers = double[lanes];
+/// Where a contact stands among these.
+[[nodiscard]] constexpr int lane(int contact) {
+  return static_cast<int>(static_cast<unsigned>(contact) % lanes);
+}
+
+/// Numbers of contacts: those of `lanes` contacts lie together, at distances that compilers know.
+template <class Pack> class LaneTable {
+public:
+  LaneTable() = default;
+  /// All 0.   @param width  contacts, padded
+  explicit LaneTable(int width) : packs_(static_cast<std::size_t>(width / lanes)) {}
+  /// The pack in which a contact stands.
+  [[nodiscard]] Pack& operator[](int contact) { return packs_[static_cast<unsigned>(contact) / lanes]; }
+  [[nodiscard]] const Pack& operator[](int contact) const {
+    return packs_[static_cast<unsigned>(contact) / lanes];
+  }
+  template <class Archive> void visit(Archive& state) { state(packs_); }
+
+private:
+  std::vector<Pack, AlignedAllocator<Pack>> packs_;
+};
+
 /// Numbers with room for all from the start: a vector that could grow takes registers in the kernels that add to it.
 class PlaceList {
 public:

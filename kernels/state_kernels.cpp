@@ -5,10 +5,10 @@
 namespace fretwork::kernels {
 
 /// Complex numbers, or real ones where `pair` is false: one of `lanes` in each place.
-template <class V, bool pair> struct Numbers { V re, im; };
-template <class V> struct Numbers<V, false> { V re; };
+template <class V, bool pair> struct Complex { V re, im; };
+template <class V> struct Complex<V, false> { V re; };
 template <class V, bool pair>
-FRETWORK_INLINE Numbers<V, pair> numbers_at(const double* array, int i, int pairs) {
+FRETWORK_INLINE Complex<V, pair> numbers_at(const double* array, int i, int pairs) {
   if constexpr (pair)
     return {at<V>(array + i), at<V>(array + pairs + i)};
   else
@@ -16,7 +16,7 @@ FRETWORK_INLINE Numbers<V, pair> numbers_at(const double* array, int i, int pair
 }
 /// c x; products are rounded where two of them meet, so that vectors of all sizes give the same bytes.
 template <class V, bool pair>
-FRETWORK_INLINE Numbers<V, pair> product(const Numbers<V, pair>& c, const Numbers<V, pair>& x) {
+FRETWORK_INLINE Complex<V, pair> product(const Complex<V, pair>& c, const Complex<V, pair>& x) {
   if constexpr (pair)
     return {rounded(c.re * x.re) - c.im * x.im, rounded(c.re * x.im) + c.im * x.re};
   else
@@ -24,7 +24,7 @@ FRETWORK_INLINE Numbers<V, pair> product(const Numbers<V, pair>& c, const Number
 }
 /// s += c x.
 template <class V, bool pair>
-FRETWORK_INLINE void add_product(Numbers<V, pair>& s, const Numbers<V, pair>& c, const Numbers<V, pair>& x) {
+FRETWORK_INLINE void add_product(Complex<V, pair>& s, const Complex<V, pair>& c, const Complex<V, pair>& x) {
   s.re += c.re * x.re;
   if constexpr (pair) {
     s.re -= c.im * x.im;
@@ -34,7 +34,7 @@ FRETWORK_INLINE void add_product(Numbers<V, pair>& s, const Numbers<V, pair>& c,
 }
 /// s += row x, of real numbers.
 template <class V, bool pair>
-FRETWORK_INLINE void add_power(V& s, const Numbers<V, pair>& row, const Numbers<V, pair>& x) {
+FRETWORK_INLINE void add_power(V& s, const Complex<V, pair>& row, const Complex<V, pair>& x) {
   s += row.re * x.re;
   if constexpr (pair)
     s += row.im * x.im;
@@ -42,14 +42,14 @@ FRETWORK_INLINE void add_power(V& s, const Numbers<V, pair>& row, const Numbers<
 
 /// The inputs of a block at both ends of a step.
 template <class V, bool pair> struct InputEnds {
-  Numbers<V, pair> load0, load1, force0, force1;
+  Complex<V, pair> load0, load1, force0, force1;
   /// @param array  which of the three
   static __attribute__((always_inline)) InputEnds of(const StateInputs& x, StateCount count, int array,
                                                      int i) {
     const auto numbers = [&](const double* from) __attribute__((always_inline)) {
       return numbers_at<V, pair>(from + array * count.width(), i, count.pairs);
     };
-    const Numbers<V, pair> mean = numbers(x.mean), slope = numbers(x.slope);
+    const Complex<V, pair> mean = numbers(x.mean), slope = numbers(x.slope);
     InputEnds out{numbers(x.load0), numbers(x.load1), mean, mean};
     out.force0.re -= slope.re;
     out.force1.re += slope.re;
@@ -60,8 +60,8 @@ template <class V, bool pair> struct InputEnds {
     return out;
   }
   /// Load and contact force together.
-  static __attribute__((always_inline)) Numbers<V, pair> sum(const Numbers<V, pair>& a,
-                                                             const Numbers<V, pair>& b) {
+  static __attribute__((always_inline)) Complex<V, pair> sum(const Complex<V, pair>& a,
+                                                             const Complex<V, pair>& b) {
     if constexpr (pair)
       return {a.re + b.re, a.im + b.im};
     else

@@ -7,7 +7,6 @@
 /// from turn to turn of a loop in memory where no register holds it, two to ten times slower.
 #pragma once
 #include "kernels/kernels.hpp"
-#include <span>
 #include <type_traits>
 #include <utility>
 
@@ -113,13 +112,6 @@ template <class G, class Step> FRETWORK_INLINE void for_parts(const Step& step) 
     (step(std::integral_constant<int, part>{}), ...);
   }
   (std::make_integer_sequence<int, G::parts>{});
-}
-/// step(first lane, part) for all vectors of the places.
-template <class G, class Step>
-FRETWORK_INLINE void for_places(std::span<const int> places, const Step& step) {
-  for (const int place : places)
-    for_parts<G>([&](auto part)
-                     __attribute__((always_inline)) { step(place + part * size_of<typename G::V>, part); });
 }
 
 /// step(count), `count` known to the compiler where it is small: loops over it have no turns then.

@@ -14,10 +14,10 @@
 /// chapter 10) of the flow with its loads. Critical, overdamped, rigid and growing motions are no special cases. The flows
 /// of all h/2^l are kept: an instant inside a step is reached by whole halves and one short series.
 ///
-/// A block (coupled_blocks.hpp) of m modes and r states costs ((2+d) m + r)((3+d) m + r) multiplications a step. Modes of no block are left to
+/// A block (system.hpp) of m modes and r states costs ((2+d) m + r)((3+d) m + r) multiplications a step. Modes of no block are left to
 /// oscillator.hpp.
 #pragma once
-#include "vibration/coupled_blocks.hpp"
+#include "vibration/system.hpp"
 #include <array>
 #include <concepts>
 #include <vector>

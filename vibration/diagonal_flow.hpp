@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// The exact motion of modes under forces that depend on their motion (core/motion_forces.hpp), in coordinates in which it is apart. With
-/// X = (q, v, z) of a block (coupled_blocks.hpp), X' = A X + f on v, A = T diag(l) T^-1 and y = T^-1 X:
+/// X = (q, v, z) of a block (system.hpp), X' = A X + f on v, A = T diag(l) T^-1 and y = T^-1 X:
 ///     y' = l y + G,  G = Q f,  Q the columns of T^-1 for v
 /// over a step under G linear in time by phi functions, phi_0 = e^x, phi_(k+1) = (phi_k - 1/k!)/x, of l h. Growth and decay are no special cases:
 /// the flow does not limit the step. A step of m modes and r states costs some 30 (2m + r) multiplications, and contacts as many numbers a row as
@@ -17,7 +17,7 @@
 /// exceed 1e-10. Eigenvalues that leave q and v alone to 1e-12 are left out.
 #pragma once
 #include "kernels/state_kernels.hpp"
-#include "vibration/coupled_blocks.hpp"
+#include "vibration/system.hpp"
 #include <complex>
 #include <vector>
 

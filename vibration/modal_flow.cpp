@@ -10,18 +10,6 @@ namespace fretwork::vibration {
 namespace {
 /// Of a mode that another flow moves.
 constexpr kernels::StepCoefficients stays{1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0};
-} // namespace
-
-kernels::FlowTable flow_table(const System& system, const CoupledFlow& coupled, double h) {
-  kernels::FlowTable t(kernels::padded(static_cast<int>(system.size())));
-  for (Eigen::Index j = 0; j < system.size(); ++j) {
-    const double k = system.stiffness(j);
-    t.set(j, k, coupled.couples(j) ? stays : step_coefficients(k, system.damping(j), h));
-  }
-  return t;
-}
-
-namespace {
 
 /// The force of a mode's own, linear over the step, by what displacement and velocity at its end differ from without it; none where half a period
 /// is shorter than the step, which does not show it then.
@@ -139,45 +127,37 @@ void ModalFlow::copy_modes(const State& from, State& to) const {
 
 ModalFlow::Sums ModalFlow::move(int length, const State& from, const kernels::Array& load0,
                                 const kernels::Array& load1, State& to) {
-  const std::size_t at = place(length);
-  if (!fed() && coupled_.empty()) {
-    copy_modes(from, to);
-    const kernels::FlowSums s = loads_.empty()
-                                    ? kernels::flow_free(padded(), tables_[at], to.q.data(), to.v.data())
-                                    : kernels::flow_loaded(padded(), tables_[at], to.q.data(), to.v.data(),
-                                                           load0.data(), load1.data());
-    return {s.work, 0.0, 0.5 * s.twice_energy};
-  }
-  Sums sums = move_apart(at, from, load0, load1, none_, none_, to);
-  if (!fed()) {
-    move_coupled(from, load0, load1, none_, none_, to, sums);
-    return sums;
-  }
-  to.z = from.z;
-  move_remembering(length, load0, load1, none_, none_, to);
-  return own_works(at, from, load0, load1, none_, none_, to);
+  if (fed() || !coupled_.empty())
+    return move_all(length, from, load0, load1, none_, none_, to);
+  const kernels::FlowTable& table = tables_[place(length)];
+  copy_modes(from, to);
+  const kernels::FlowSums s = loads_.empty() ? kernels::flow_free(padded(), table, to.q.data(), to.v.data())
+                                             : kernels::flow_loaded(padded(), table, to.q.data(), to.v.data(),
+                                                                    load0.data(), load1.data());
+  return {s.work, 0.0, 0.5 * s.twice_energy};
 }
 
 ModalFlow::Sums ModalFlow::push(const State& from, const kernels::Array& load0, const kernels::Array& load1,
                                 const kernels::Array& mean, const kernels::Array& slope, State& to) {
-  const std::size_t at = place(1);
-  Sums sums = move_apart(at, from, load0, load1, mean, slope, to);
-  if (!coupled_.empty() && !fed())
-    move_coupled(from, load0, load1, mean, slope, to, sums);
-  if (!fed())
-    return sums;
-  to.z = from.z;
-  move_remembering(1, load0, load1, mean, slope, to);
-  return own_works(at, from, load0, load1, mean, slope, to);
+  return move_all(1, from, load0, load1, mean, slope, to);
 }
 
-ModalFlow::Sums ModalFlow::move_apart(std::size_t at, const State& from, const kernels::Array& load0,
-                                      const kernels::Array& load1, const kernels::Array& mean,
-                                      const kernels::Array& slope, State& to) {
+ModalFlow::Sums ModalFlow::move_all(int length, const State& from, const kernels::Array& load0,
+                                    const kernels::Array& load1, const kernels::Array& mean,
+                                    const kernels::Array& slope, State& to) {
+  const std::size_t at = place(length);
   copy_modes(from, to);
   const kernels::ForcedSums s = kernels::flow_forced(padded(), tables_[at], to.q.data(), to.v.data(),
                                                      load0.data(), load1.data(), mean.data(), slope.data());
-  return {s.load_work, s.contact_work, 0.5 * s.twice_energy};
+  Sums sums{s.load_work, s.contact_work, 0.5 * s.twice_energy};
+  if (!fed()) {
+    if (!coupled_.empty())
+      move_coupled(from, load0, load1, mean, slope, to, sums);
+    return sums;
+  }
+  to.z = from.z;
+  move_remembering(length, load0, load1, mean, slope, to);
+  return own_works(at, from, load0, load1, mean, slope, to);
 }
 
 /// The coupled modes with their states, step by step.

@@ -14,9 +14,6 @@
 
 namespace fretwork::vibration {
 
-/// The exact flow of the modes over h seconds; modes that a damping matrix couples stay where they are, for theirs follows.
-[[nodiscard]] kernels::FlowTable flow_table(const System& system, const CoupledFlow& coupled, double h);
-
 /// A force on the modes over a step, from mean - slope at its start to mean + slope at its end, padded. It is that of forces on contacts.
 struct ModalForce {
   kernels::Array mean, slope;
@@ -73,10 +70,9 @@ private:
   [[nodiscard]] bool fed() const { return !system_.motion.empty(); }
   void make_tables(double h);
   void copy_modes(const State& from, State& to) const;
-  /// `to` follows: displacements and velocities of the modes that nothing couples, under the loads and a force.
-  Sums move_apart(std::size_t place, const State& from, const kernels::Array& load0,
-                  const kernels::Array& load1, const kernels::Array& mean, const kernels::Array& slope,
-                  State& to);
+  /// Over `length` steps under the loads and a force.
+  Sums move_all(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
+                const kernels::Array& mean, const kernels::Array& slope, State& to);
   void move_coupled(const State& from, const kernels::Array& load0, const kernels::Array& load1,
                     const kernels::Array& mean, const kernels::Array& slope, State& to, Sums& sums);
   void move_remembering(int length, const kernels::Array& load0, const kernels::Array& load1,

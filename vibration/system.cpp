@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "vibration/coupled_blocks.hpp"
+#include "vibration/system.hpp"
 #include <algorithm>
 #include <utility>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// A modal system under loads: q_i'' + c_i q_i' + k_i q_i = sum of loads.
+/// A modal system under loads: q_i'' + c_i q_i' + k_i q_i = sum of loads; and which of its modes a damping matrix or forces of motion couple.
 #pragma once
 #include "core/motion_forces.hpp"
 #include "signals/sampled_load.hpp"
@@ -42,5 +42,19 @@ struct ForcedSystem {
   Eigen::VectorXd q0, v0;                          ///< initial state, n
   double duration = 0.0;                           ///< s, > 0
 };
+
+/// Modes, and states of the forces of motion, that depend on each other, directly or through others.
+struct CoupledBlock {
+  std::vector<Eigen::Index> modes, states; ///< ascending
+};
+
+/// All blocks, by their first modes. A mode by itself is one only where forces of motion act on it.
+[[nodiscard]] std::vector<CoupledBlock> coupled_blocks(const System& system);
+
+/// Whether forces of motion act on a mode by itself and without states: it is then one of another stiffness and damping.
+[[nodiscard]] bool acts_alone(const System& system, const CoupledBlock& block);
+
+/// The system for its modes that nothing couples: `damping` is the damping matrix's diagonal, where there is one.
+[[nodiscard]] System with_diagonal(System system);
 
 } // namespace fretwork::vibration

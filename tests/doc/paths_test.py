@@ -8,8 +8,8 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(sys.argv.pop(1))
-DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(ROOT.glob("doc/*.md")), *sorted(ROOT.glob("transient/**/README.md"))]
-FOLDERS = "app bench contact core doc examples fem flow mesh modal post python results study sweep tests tools transient wear".split()
+DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(ROOT.glob("doc/*.md")), *sorted(ROOT.glob("transient/**/README.md")), *sorted(ROOT.glob("[a-z]*/README.md"))]
+FOLDERS = "app bench contact core doc examples fem flow kernels mesh modal post python results signals study sweep tests tools transient vibration wear".split()
 # a path of the tree in code quotes: folder/.../file.ending, with {a,b} and * as in a shell
 PATH = re.compile(r"`((?:" + "|".join(FOLDERS) + r")/[\w./*-]*\.(?:cpp|hpp|py|sh|md|json|toml|geo|ipynb|txt|cmake|svg|png|\*))`")
 LINK = re.compile(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)")

@@ -3,7 +3,7 @@
 /// How far contacts are from their obstacles, all contacts in vector lanes. Arrays of a vector quantity have blocks of `width` lanes: y of
 /// all contacts, then z.
 #pragma once
-#include "kernels/lane_table.hpp"
+#include "kernels/kernels.hpp"
 
 namespace fretwork::transient {
 

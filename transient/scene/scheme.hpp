@@ -5,8 +5,9 @@
 #include "contact/plane.hpp"
 #include "core/state_archive.hpp"
 #include "transient/scene/scene.hpp"
-#include "transient/scene/step_error.hpp"
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -117,6 +118,26 @@ struct StepCounts {
     step_max = std::max(step_max, length);
     ++steps;
   }
+};
+
+/// Statistics whose errors by the step replays measure (splitting/replays.hpp), summed over time. Rms forces have half the relative error of their squares.
+enum ReplayedFigure : std::size_t {
+  replayed_work,        ///< J, integral of F_N |v_T| while the contact slides
+  replayed_friction,    ///< J, by the slider
+  replayed_square,      ///< N2 s, integral of F_N^2
+  replayed_impulse,     ///< N s, integral of F_N
+  replayed_closed_time, ///< s
+  replayed_impacts,
+  replayed_figures
+};
+
+/// Of one contact.
+struct StepError {
+  using Figures = std::array<double, replayed_figures>;
+  Figures sums{};    ///< over the run, by the times that were replayed, over their length
+  Figures errors{};  ///< of these sums, by the step
+  Figures spreads{}; ///< standard errors of `errors`
+  int parts = 0;     ///< intervals of a step at the end of the run
 };
 
 /// Why no further step can be made.

@@ -19,8 +19,8 @@
 /// A record stands for a step and for the forces in it, its positions are those in the middle.
 #include "transient/splitting/splitting.hpp"
 #include "transient/contacts/obstacle_motion.hpp"
+#include "transient/modes/linear_flow.hpp"
 #include "transient/modes/mass_scaling.hpp"
-#include "transient/splitting/block_balance.hpp"
 #include "transient/splitting/replays.hpp"
 #include "transient/splitting/step_forces.hpp"
 #include "transient/splitting/step_mobility.hpp"
