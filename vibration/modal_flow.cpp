@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vibration/modal_flow.hpp"
+#include "kernels/state_kernels.hpp"
 #include "vibration/oscillator.hpp"
 #include <algorithm>
 #include <array>
