@@ -35,6 +35,7 @@ struct ModeRange {
   Eigen::Index first = 0, size = 0;
 };
 
+/// A modal system, its loads and its initial state: what moves it where nothing touches it.
 struct ForcedSystem {
   System system;
   std::vector<Load> loads;
