@@ -273,6 +273,7 @@ private:
     const auto print_line = [&](const std::string& line) { // from whichever rank makes the run
       if (!request_.quiet)
         fmt::print("{}\n", line);
+      (void)std::fflush(stdout); // a process of its own may say it, or this one may soon be killed
     };
     Checkpoints checkpoints(
         {inputs_.directory,

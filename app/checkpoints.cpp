@@ -2,11 +2,15 @@
 #include "app/checkpoints.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
 #include <regex>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace fretwork::app {
 namespace {
@@ -79,11 +83,43 @@ void Checkpoints::look(std::size_t run, transient::Run& state) {
   };
   if (!(options_.every > 0.0) || !(ended_by != 0 || due()))
     return;
-  pending_.push_back({run, checkpoint_of(state)});
-  write();
-  if (ended_by != 0)
-    throw core::Interrupted(fmt::format("ended by {} at t = {:.6g} s; the same command goes on from there",
-                                        name_of_signal(ended_by), state.time()));
+  if (ended_by == 0) {
+    pending_.push_back({run, checkpoint_of(state)});
+    (void)write();
+    return;
+  }
+  const bool saved = write_apart(run, state);
+  throw core::Interrupted(
+      fmt::format("ended by {} at t = {:.6g} s{}", name_of_signal(ended_by), state.time(),
+                  saved ? "; the same command goes on from there" : ", without a checkpoint"));
+}
+
+bool Checkpoints::write_apart(std::size_t run, transient::Run& state) {
+  const auto save = [&] {
+    pending_.push_back({run, checkpoint_of(state)});
+    return write();
+  };
+  (void)std::fflush(nullptr); // what is not yet written would be written twice
+  const pid_t writer = ::fork();
+  if (writer < 0)
+    return save();
+  if (writer == 0) { // one thread, the memory as it was; nothing of MPI is used, and nothing of it ended
+    (void)::setsid();
+    int status = 1;
+    try {
+      status = save() ? 0 : 1;
+    } catch (const std::exception& error) { // out of memory
+      options_.tell(fmt::format("no checkpoint: {}", error.what()));
+    }
+    ::_exit(status);
+  }
+  options_.tell(fmt::format("{} at t = {:.6g} s: process {} saves the checkpoint", name_of_signal(ended_by),
+                            state.time(), writer));
+  int status = 0;
+  while (::waitpid(writer, &status, 0) < 0)
+    if (errno != EINTR)
+      return false;
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 void Checkpoints::ended(std::size_t run, transient::Run& state) {
@@ -91,7 +127,8 @@ void Checkpoints::ended(std::size_t run, transient::Run& state) {
     pending_.push_back({run, checkpoint_of(state)});
 }
 
-void Checkpoints::write() {
+bool Checkpoints::write() {
+  bool done = true;
   try {
     for (const Pending& p : pending_)
       results::write_checkpoint(file(p.run), identity(p.run), p.checkpoint);
@@ -99,9 +136,11 @@ void Checkpoints::write() {
     if (!failed_)
       options_.tell(fmt::format("no checkpoint: {}", error.what()));
     failed_ = true;
+    done = false;
   }
   pending_.clear();
   last_ = Clock::now(); // writing does not count: a run with huge series still gets on
+  return done;
 }
 
 fs::path Checkpoints::file(std::size_t run) const {

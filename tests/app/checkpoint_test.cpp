@@ -221,6 +221,46 @@ TEST(Checkpoint, IsWrittenOnCtrlC) {
   expect_same(folder, "whole", "results");
 }
 
+/// Sends SIGTERM after the first checkpoint, and SIGKILL to all processes of the program's group once it says that it saves, as Open MPI's
+/// mpirun does a second later. Then waits for the checkpoint, half a minute at most.
+void end_as_mpirun_does(const Workshop& folder, const std::vector<std::string>& arguments,
+                        const fs::path& file) {
+  static const std::string script = R"sh(
+    set -m # a group of its own
+    file=$1; told=$2; shift 2
+    "$@" >"$told" 2>&1 & program=$!
+    while [ ! -e "$file" ]; do sleep 0.002; done
+    sleep 0.1
+    rm "$file" # the next is due in 0.2 s
+    kill -TERM $program
+    while ! grep -q "saves the checkpoint" "$told"; do sleep 0.002; done
+    kill -KILL -$program
+    wait $program; status=$?
+    for (( i = 0; i < 3000; ++i )); do [ -e "$file" ] && break; sleep 0.01; done
+    exit $status)sh";
+  std::vector<std::string> all{"bash",
+                               "-c",
+                               script,
+                               "bash",
+                               file.string(),
+                               folder.path("told").string(),
+                               (test_paths::binary_dir() / "bin" / "fretwork").string()};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  EXPECT_EQ(core::run_child(all).status, killed);
+}
+
+TEST(Checkpoint, IsCompletedWhereALauncherKillsTheProgramWhileItSaves) {
+  const Workshop folder;
+  const std::vector<std::string> large = {"--set", "output.every=5e-6", // some 0.1 s to save
+                                          "--set", "output.checkpoint=0.3"};
+  (void)completed(folder, tube(folder, "whole", large));
+  const fs::path file = folder.path("results") / "checkpoint.h5";
+  end_as_mpirun_does(folder, tube(folder, "results", large), file);
+  EXPECT_TRUE(says(bytes_of(folder.path("told")), "SIGTERM at t = 0."));
+  EXPECT_TRUE(says(completed(folder, tube(folder, "results", large)), "going on from " + file.string()));
+  expect_same(folder, "whole", "results");
+}
+
 TEST(Checkpoint, IsWrittenOnSigtermDuringTheRunAtHalfTheStepToo) {
   const Workshop folder;
   const std::vector<std::string> verify = {"--set", "transient.verify=true"};
