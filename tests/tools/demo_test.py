@@ -15,6 +15,11 @@ SOURCE = Path(sys.argv.pop(1))
 CALLED = """#!/bin/sh
 echo "$(basename "$0") $*" >>"$CALLS"
 """
+APT = CALLED + """
+for percent in 0.5 7.25 13.1 19.9 100; do echo "dlstatus:1:$percent:Retrieving file"; done
+echo "Reading package lists..."
+for percent in 0.1 42.5; do echo "pmstatus:libfmt9:$percent:Installing libfmt9 (amd64)"; done
+"""
 FRETWORK = CALLED + 'echo "made-up results"\n'
 
 
@@ -30,8 +35,9 @@ class Demo(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
         shutil.copytree(SOURCE / "tools", self.folder / "tools")
-        for program in ("cmake", "apt-get", "ctest"):
+        for program in ("cmake", "ctest"):
             write(self.folder / "bin" / program, CALLED)
+        write(self.folder / "bin" / "apt-get", APT)
         write(self.folder / "bin" / "dpkg-query", "#!/bin/sh\nexit 1\n")  # nothing is installed
         write(self.folder / "bin" / "sudo", '#!/bin/sh\nexec "$@"\n')
         write(self.folder / "build" / "release" / "bin" / "fretwork", FRETWORK)
@@ -70,6 +76,12 @@ class Demo(unittest.TestCase):
         for step in ("1 of 3", "2 of 3", "3 of 3"):
             self.assertIn(step, said)
         self.assertIn("report.html", said[said.index("made-up results"):])
+
+    def test_the_installation_says_how_far_it_is_also_in_a_log(self):
+        said, _ = self.run_script("install_packages.sh")
+        told = [line.strip() for line in said.splitlines() if " % " in line]
+        self.assertEqual(told, ["0 % Retrieving file", "13 % Retrieving file", "100 % Retrieving file",
+                                "0 % Installing libfmt9 (amd64)", "42 % Installing libfmt9 (amd64)"])
 
     def test_the_tests_have_their_packages_and_targets(self):
         _, calls = self.run_script("test.sh")
