@@ -113,6 +113,15 @@ void fill(fem::Model& model, const flow::TubeFluid& fluid) {
   }
 }
 
+/// @throws core::Error with the name of the flow
+flow::TubeFluid fluid_of(const study::Flow& flow, const flow::Tube& tube, const flow::Profile& profile) {
+  try {
+    return flow::fluid_of_elements(tube, profile);
+  } catch (const core::Error& error) {
+    throw core::Error(fmt::format("{}: {}", name_of(flow), error.what()));
+  }
+}
+
 /// What one kind of limit says. @param value, bound  of the case that is farthest from its bound
 std::string limit_text(flow::LimitKind kind, double value, double bound) {
   switch (kind) {
@@ -157,7 +166,7 @@ std::vector<PlacedFlow> place_flows(const study::Study& study, const mesh::LineM
     const Index start = start_of(flow, mesh, ends_of(model, beams));
     const flow::Tube tube(model, beams, start, flow.name);
     PlacedFlow placed{e, beams, start, tube.length(), profile_of(flow, tube.length())};
-    const flow::TubeFluid fluid = flow::fluid_of_elements(tube, placed.profile);
+    const flow::TubeFluid fluid = fluid_of(flow, tube, placed.profile);
     for (std::string& note : limit_notes(name_of(flow), fluid.limits, placed.profile))
       notes.push_back(std::move(note));
     fill(model, fluid);

@@ -19,6 +19,15 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 std::string name_of(const Extent& zone) { return fmt::format("zone \"{}\"", zone.name); }
 
+/// @throws core::Error for tubes that nearly touch
+void check_pitch(const Zone& zone, double diameter) {
+  try {
+    (void)pitch_ratio(zone.bundle, diameter);
+  } catch (const core::Error& error) {
+    throw core::Error(fmt::format("{}: {}", name_of(zone), error.what()));
+  }
+}
+
 void require_above_zero(double value, const std::string& what, const char* unit) {
   if (!(value > 0.0) || !std::isfinite(value))
     throw core::Error(fmt::format("{} = {:g} {}; give a number > 0", what, value, unit));
@@ -242,7 +251,7 @@ FlowPoint Profile::at(const TubePoint& point) const {
     return out;
   const Zone& zone = zones_[static_cast<std::size_t>(out.zone)];
   if (!is_single(zone.bundle))
-    (void)pitch_ratio(zone.bundle, point.outer_diameter); // refuses tubes that nearly touch
+    check_pitch(zone, point.outer_diameter);
   out.inner_density = zone.inner_density.at(point.s);
   if (const auto* fluid = std::get_if<SinglePhase>(&zone.fluid))
     set_fluid(out, *fluid, point);

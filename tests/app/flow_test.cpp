@@ -123,7 +123,7 @@ TEST(Flow, RefusesWhatIsNoTube) {
       {of(flow_of(""), "\"tube\"", "\"tub\""), "flow \"tub\""},
       {of(flow_of(""), "tube_begin", "middle"), "from = \"middle\" has 0 of the 2 ends"},
       {flow_of("from = 0.5\nto = 1.5\n"), "flow \"tube\": zone \"water\""},
-      {flow_of("arrangement = \"square\"\npitch = 0.0191\n"), "P/D"}};
+      {flow_of("arrangement = \"square\"\npitch = 0.0191\n"), "flow \"tube\": zone \"water\": pitch = "}};
   for (const auto& [flow, expected] : cases)
     EXPECT_TRUE(says(message_of(folder, pinned_tube() + flow), expected));
 }
