@@ -53,6 +53,11 @@ std::string case_modes(const StabilityAssessment& assessment, std::size_t number
   for (std::size_t i = 0; i < std::min(most_rows, modes); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     const flow::ModeInFlow& mode = assessment.stability.modes[i];
+    if (one.ratio(k) == 0.0) { // it moves along the tube, or where nothing flows
+      text += fmt::format("  {:>5} {:>9.4g} {:>10} {:>10} {:>10} {:>9} {:>9}  not in the flow\n", i + 1,
+                          mode.frequency, "-", "-", "-", "-", "-");
+      continue;
+    }
     text +=
         fmt::format("  {:>5} {:>9.4g} {:>10.4f} {:>10.4g} {:>10.4g} {:>9.4f} {:>9.4f}{}\n", i + 1,
                     mode.frequency, 100.0 * mode.damping, mode.effective_velocity, one.critical_velocity(k),

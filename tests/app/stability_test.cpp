@@ -222,6 +222,14 @@ TEST(FlowDamping, IsPrintedByModes) {
     EXPECT_TRUE(says(outcome.out, part));
 }
 
+TEST(Stability, MarksModesThatTheFlowDoesNotMove) {
+  const Workshop folder;
+  const Outcome outcome =
+      folder.fretwork({"stability", example("tube_in_flow").string(), "-o", folder.path("out").string()});
+  EXPECT_TRUE(
+      says(outcome.out, " 1034          -          -          -         -         -  not in the flow"));
+}
+
 TEST(Stability, GivesTheSameBytesOnTwoRanks) {
   const Workshop folder;
   const std::string study = tube(across, modes(4) + flow() + contact("third", "obstacle = \"circle\"\n"));
