@@ -111,8 +111,10 @@ void judge_fluidelastic(const TubesInFlow& tubes, const std::vector<modal::Basis
     out.laws.push_back(std::move(now));
     const bool unstable = root.real() > 0.0;
     std::string crossing =
-        critical ? fmt::format("critical velocity {:.5g} m/s, factor {:.5g}", *critical * velocity, *critical)
-                 : fmt::format("stable up to {:g} times the velocity", largest_factor);
+        critical
+            ? fmt::format("critical velocity {:.5g} m/s, factor {:.5g}, with the damping of the transient",
+                          *critical * velocity, *critical)
+            : fmt::format("stable up to {:g} times the velocity", largest_factor);
     if (some)
       crossing +=
           fmt::format(" (of the {} lowest modes{})", most, of.structures.size() > 1 ? " of each tube" : "");

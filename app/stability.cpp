@@ -110,8 +110,8 @@ void report_law(const results::StabilityAssessment& found, results::RunResults& 
   }
   const double frequency = flow::frequency_of(critical->root);
   const std::string at =
-      fmt::format("{}: critical velocity {:.5g} m/s, factor {:.5g}, {}", what,
-                  critical->factor * law.velocity, critical->factor,
+      fmt::format("{}: critical velocity {:.5g} m/s, factor {:.5g}, with the damping of the assessment, {}",
+                  what, critical->factor * law.velocity, critical->factor,
                   frequency > 0.0 ? fmt::format("at {:.5g} Hz", frequency) : std::string("by divergence"));
   const bool unstable = law.diagram.factors.back() >= 1.0 && law.unstable_at(1.0);
   (unstable ? out.warnings : out.notes)

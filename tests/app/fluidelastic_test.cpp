@@ -148,6 +148,8 @@ TEST(FluidelasticStability, WarnsOutsideTheRangeOfTheLaw) {
       EXPECT_TRUE(says(warnings(range, command), "outside the law's range")) << command;
     EXPECT_FALSE(says(warnings("range = [0.5, 9.0]\n", command), "outside the law's range")) << command;
     EXPECT_TRUE(says(warnings("", command), "unstable")) << command;
+    EXPECT_TRUE(says(warnings("", command), std::string("with the damping of the ") +
+                                                (command == "run" ? "transient" : "assessment")));
   }
   EXPECT_TRUE(
       says(outcome_of(folder, tube(s1 + "range = [0.5, 2.0]\n" + flow("s1", uniform) + assessment(""))).out,

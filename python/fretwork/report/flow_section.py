@@ -92,7 +92,7 @@ def _law(law):
              else f"stable up to {short(last)} times the velocity")
     tubes = law.get("tubes", [])
     of = f" of {len(tubes)} tubes" if len(tubes) > 1 else ""
-    note = (f'<p class="soft">Fluidelastic law{of}: {found}. A line a mode, over the factor of {short(law["velocity_m_s"])} m/s; grey: the velocities given, '
+    note = (f'<p class="soft">Fluidelastic law{of}, with the damping of the assessment: {found}. A line a mode, over the factor of {short(law["velocity_m_s"])} m/s; grey: the velocities given, '
             "orange marks below: Connors’ critical factors of the modes, dots: zero damping.</p>")
     pictures = figure(flow_view.law_damping(law)) + figure(flow_view.law_frequencies(law))
     heads = ["factor", "velocity [m/s]", "frequency [Hz]", "V/(f D)", "mode", "becomes"]
@@ -129,7 +129,7 @@ def _laws_at_work(laws):
     heads = ["tubes", "growth [1/s]", "frequency [Hz]", "damping [%]", "V/(f D)", "critical velocity [m/s]", "critical factor"]
     rows = [[html.escape(", ".join(law["tubes"])), short(law["growth_per_s"], 4), short(law["frequency_hz"], 4), short(100 * law["damping"], 3),
              short(law["reduced_velocity"], 3), short(law["critical_velocity_m_s"], 4), short(law["critical_factor"], 4)] for law in laws]
-    note = '<p class="soft">The root that grows fastest, or the vibration of least damping, of the modes of the run without contacts at the velocities given.</p>'
+    note = '<p class="soft">The root that grows fastest, or the vibration of least damping, of the modes of the run without contacts at the velocities given, with the damping of the transient.</p>'
     return "<h3>Fluidelastic laws of the run</h3>" + note + table(heads, rows)
 
 
