@@ -280,6 +280,13 @@ void add_warnings(results::RunResults& out) {
                            100.0 * s.share_above);
       });
   warn(
+      out, [](const WearOfSupport& s) { return s.depth.last().value > s.wall; },
+      [](const WearOfSupport& s) {
+        return fmt::format("after {:.4g} years the depth is {:.3g} mm and the wall {:.3g} mm: the tube is "
+                           "worn through before; depths beyond the wall are those of a solid body",
+                           s.time.back() / wear::year, 1e3 * s.depth.last().value, 1e3 * s.wall);
+      });
+  warn(
       out, [](const WearOfSupport& s) { return s.outside.empty() && std::isnan(s.depth.last().value); },
       [](const WearOfSupport& s) {
         return fmt::format("{:.3g} m3 after {:.4g} years have no depth, the scar leaves what geometry \"{}\" "

@@ -251,6 +251,15 @@ TEST(Wear, OfNoWorkNeverReachesTheLimit) {
   EXPECT_EQ(support(run)["depth_m"]["value"], 0.0);
 }
 
+TEST(Wear, BeyondTheWallIsTold) {
+  const Workshop folder;
+  const auto warnings = [&](const char* rate) {
+    return with_given_rate(folder, archard, rate).summary["warnings"].dump();
+  };
+  EXPECT_TRUE(says(warnings("0.05"), "mm and the wall 1.09 mm: the tube is worn through before"));
+  EXPECT_FALSE(says(warnings("1e-4"), "worn through"));
+}
+
 TEST(Wear, BeyondTheGeometryIsTold) {
   const Workshop folder;
   const Results run = with_given_rate(folder, archard, "10");
