@@ -30,7 +30,6 @@
 #include "core/petsc.hpp"
 #include "core/printable.hpp"
 #include "results/figures.hpp"
-#include "results/grouped_messages.hpp"
 #include "results/summary_file.hpp"
 #include "results/totals.hpp"
 #include "results/write.hpp"
@@ -47,14 +46,6 @@ namespace fs = std::filesystem;
 /// `1 node`, `3 nodes`
 template <class Things> std::string counted(const Things& things, const char* what) {
   return results::counted(static_cast<std::int64_t>(things.size()), what);
-}
-
-/// A line a warning, for `check`.
-std::string told_warnings(const results::RunResults& out) {
-  std::string told;
-  for (const std::string& warning : results::grouped_messages(out.warnings))
-    told += "  warning: " + warning + "\n";
-  return told;
 }
 
 /// Of a file that may not be there.
@@ -157,10 +148,8 @@ private:
         limit_modes();
     });
     note_coincident_nodes(mesh_, out_);
-    if (out_.modes_limit) // by the values that may be slips: before the time is spent
-      for (const std::string& warning : out_.warnings)
-        if (warning.starts_with("units: ") || warning.starts_with("modes: "))
-          say("warning: " + warning + "\n");
+    if (out_.modes_limit)
+      say(early_warnings(out_));
     if (last_ == Stage::transient && !other_runs_.missing.empty()) // likewise
       say("warning: " + other_runs_.missing + "\n");
     out_.timings.assembly = watch_.lap();
@@ -261,7 +250,8 @@ private:
                     out_.model.mass_kg, counted(placed_, "contact"), counted(inputs_.study.loads, "load"),
                     counted(nodes_, "observed node"),
                     worn_.empty() ? "" : ", " + counted(worn_, "support") + " that wear",
-                    numbering_.empty() ? "" : "  " + numbering_ + "\n", forecast, told_warnings(out_)));
+                    numbering_.empty() ? "" : "  " + numbering_ + "\n", forecast,
+                    check_warnings(out_, out_.modes_limit.has_value())));
   }
 
   void run_transient() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/describe.hpp"
 #include "kernels/kernels.hpp"
+#include "results/grouped_messages.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <petscversion.h>
@@ -37,6 +38,10 @@ results::RunRecord make_record(const Inputs& inputs, int ranks) {
 
 namespace {
 
+bool is_told_early(const std::string& warning) {
+  return warning.starts_with("units: ") || warning.starts_with("modes: ");
+}
+
 /// What the beams are made of: elements that differ by their masses alone (of the flow) have one property.
 void describe_beams(const fem::Model& model, results::RunResults& out) {
   std::vector<core::Index> number;
@@ -71,6 +76,22 @@ void describe_model(const mesh::LineMesh& mesh, const fem::Model& model,
   for (const auto& structure : structures)
     out.model.dofs += structure.equations;
   out.model.mass_kg = fem::total_mass(model);
+}
+
+std::string early_warnings(const results::RunResults& out) {
+  std::string told;
+  for (const std::string& warning : out.warnings)
+    if (is_told_early(warning))
+      told += fmt::format("warning: {}\n", warning);
+  return told;
+}
+
+std::string check_warnings(const results::RunResults& out, bool early) {
+  std::string told;
+  for (const std::string& warning : results::grouped_messages(out.warnings))
+    if (!(early && is_told_early(warning)))
+      told += fmt::format("  warning: {}\n", warning);
+  return told;
 }
 
 } // namespace fretwork::app

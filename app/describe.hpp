@@ -13,4 +13,10 @@ namespace fretwork::app {
 void describe_model(const mesh::LineMesh& mesh, const fem::Model& model,
                     const std::vector<fem::Structure>& structures, results::RunResults& out);
 
+/// Lines of what is told before modes are computed: of values that may be slips, with which that can take long.
+[[nodiscard]] std::string early_warnings(const results::RunResults& out);
+
+/// Lines of all warnings, equal ones grouped, for `check`. @param early  those told early have been told
+[[nodiscard]] std::string check_warnings(const results::RunResults& out, bool early);
+
 } // namespace fretwork::app

@@ -86,6 +86,18 @@ TEST(UnitSlips, AreSaidByTheRunToo) {
       says(run.summary["warnings"].dump(), "friction = 30 of contact \\\"h0\\\" ... \\\"h14\\\" (15)"));
 }
 
+TEST(UnitSlips, AreSaidOnceByCheckWhateverLimitsTheModes) {
+  const Workshop folder;
+  const std::string study =
+      tubes(folder, 1) + supports("gap = 2.0e-4\nfriction = 30\ntangential_stiffness = 1.0e6\n");
+  const auto count = study.find("count = ");
+  ASSERT_NE(count, std::string::npos);
+  std::string by_accuracy = study;
+  by_accuracy.erase(count, study.find('\n', count) - count);
+  EXPECT_EQ(asked(folder, by_accuracy, {}).size(), 1u); // told before its modes are computed
+  EXPECT_EQ(asked(folder, study, {}).size(), 1u);
+}
+
 TEST(UnitSlips, OfLiquidsAreAskedAbout) {
   const Workshop folder;
   const std::string study = tubes(folder, 1);
