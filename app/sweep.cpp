@@ -29,6 +29,25 @@ namespace {
 namespace fs = std::filesystem;
 using sweep::Table;
 
+/// Of operating states of wear with work rates of other runs, or of the study, where contacts vary; empty: none.
+std::string states_that_do_not_vary(const SweepPlan& plan) {
+  std::vector<std::string> varied, states;
+  for (const study::SweepVariable& variable : plan.sweep.variables)
+    for (const std::string& key : variable.keys)
+      if (key.starts_with("contacts.") || key.starts_with("contact_defaults."))
+        varied.push_back(key);
+  for (const study::Wear& entry : plan.inputs.study.wear)
+    for (const study::WearState& state : entry.states)
+      if (state.results || state.given)
+        states.push_back(state.name);
+  if (varied.empty() || states.empty())
+    return {};
+  return fmt::format(
+      "{} varies in the cases, but not in the operating states {} of [[wear]]: their work rates are "
+      "those of other runs or of the study, with supports of their own",
+      core::list_names(varied, 3), core::list_names(states, 3));
+}
+
 /// Increments of the counter of ended cases: those without a result are counted in its upper half.
 constexpr std::int64_t one_case = 1, one_failure = (std::int64_t{1} << 32) + 1, cases_part = one_failure - 2;
 
@@ -122,7 +141,11 @@ public:
     for (std::int64_t blocks = 1;; blocks = next_blocks(blocks)) {
       draws_ = shared_design(comm_, plan_.sweep, blocks); // the first ones while the worker starts
       if (blocks == 1)
-        core::agree(comm_, [&] { facts_ = worker->facts(); });
+        core::agree(comm_, [&] {
+          facts_ = worker->facts();
+          if (std::string fixed = states_that_do_not_vary(plan_); !fixed.empty())
+            facts_.warnings.push_back(std::move(fixed));
+        });
       table_.outputs = facts_.columns;
       if (!request_.gather)
         compute_missing(*worker);

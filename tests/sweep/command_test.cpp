@@ -225,6 +225,23 @@ values = [7]
   }
 }
 
+TEST_F(Sweeps, WarnOfStatesOfWearThatDoNotVaryWithTheContacts) {
+  std::vector<std::string> states = short_tube;
+  states.insert(states.end(),
+                {"--set", "wear.bars.states=[{ name = \"startup\", share = 0.1, work_rate = 1e-3 }, "
+                          "{ name = \"normal\", share = 0.9 }]"});
+  const auto warnings = [&](const std::string& variable) {
+    const Outcome outcome =
+        sweep(sweep_of("tube_study", "design = \"grid\"\n[[sweep.variables]]\n" + variable), "out", states);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.out;
+  };
+  EXPECT_TRUE(says(
+      warnings("key = \"contacts.hot_plates.friction\"\nvalues = [0.2]\n"),
+      "\"contacts.hot_plates.friction\" varies in the cases, but not in the operating states \"startup\""));
+  EXPECT_FALSE(says(warnings("key = \"turbulence.*.seed\"\nvalues = [7]\n"), "varies in the cases"));
+}
+
 TEST_F(Sweeps, RanksAndShardsGiveTheSameBytes) {
   const std::vector<std::string> tables{"table.csv", "table.h5", "summary.json"};
   ASSERT_EQ(sweep(stops, "one").status, 0);
