@@ -43,6 +43,13 @@ class Comparison(unittest.TestCase):
         self.assertEqual(self.table("Inputs").rows[1], ["contacts.tsp2.bars", "-", "[0.1, 0.2]"])
         self.assertEqual(len(self.table("Inputs").rows), 3)
 
+    def test_overrides_by_number_are_those_of_the_entry(self):
+        change_summary(self.folders[1], lambda summary: summary.update(overrides=[{"key": "contacts.1.gap", "value": 5e-4}]))
+        self.assertEqual(self.table("Inputs").rows, [["contacts.tsp2.gap", "0.0003", "0.0005"]])
+
+    def test_large_changes_are_factors(self):
+        self.assertEqual([compare_data.change(value, 2.0) for value in (21.0, 30.0, 1e6, 0.0)], ["+950 %", "times 15", "times 500000", "-100 %"])
+
     def test_figures_are_written_in_full_and_lives_without_end_named(self):
         self.assertEqual([compare_data.number(v, 3) for v in (7062.4, 0.5, 2.5e-7, 3e6, None)], ["7060", "0.5", "2.5e-07", "3e+06", "-"])
         change_summary(self.folders[1], lambda summary: summary["wear"]["supports"][0].update(life_years={"end": "never", "value": None, "low": None, "high": None}))

@@ -12,6 +12,7 @@ from .drawing import ROUND_OFF, of_sum
 SIGNIFICANT = 3.0  # standard errors of a difference from which on it is none of scatter (0.3 % of the time by chance)
 FREQUENCIES = 10
 NO_CHANGE = 1e-6  # per cent
+LARGE_CHANGE = 1000  # per cent, above which it is told as a factor
 
 
 @dataclass
@@ -36,12 +37,14 @@ def with_error(value, error):
 
 
 def change(value, reference):
-    """Of a value against that of the first run, per cent."""
+    """Of a value against that of the first run, per cent; a large one as the factor."""
     if value is None or not reference:
         return "-"
     per_cent = 100 * (value / reference - 1)
     if abs(per_cent) < NO_CHANGE:
         return "0 %"
+    if per_cent > LARGE_CHANGE:
+        return f"times {number(value / reference, 3)}"
     return f"{per_cent:+.0f} %" if abs(per_cent) >= 10 else f"{per_cent:+.2g} %"
 
 
@@ -59,23 +62,47 @@ def significance(one, other):
     return f"{size:.2g} standard errors: " + ("significant" if size >= SIGNIFICANT else "within scatter")
 
 
+def _names(entries):
+    """Of the entries of an array of tables: name or group; the number where that is none of its own."""
+    names = [str(item.get("name", item.get("group", i))) for i, item in enumerate(entries)]
+    return [name if names.count(name) == 1 else str(i) for i, name in enumerate(names)]
+
+
+def _is_tables(value):
+    return isinstance(value, list) and bool(value) and all(isinstance(item, dict) for item in value)
+
+
+def _key(study, address):
+    """An address of --set as _flat names it: loads.0.direction is loads.tube.direction."""
+    parts, here = address.split("."), study
+    for k, part in enumerate(parts):
+        if _is_tables(here):
+            names = _names(here)
+            if part.isdecimal() and int(part) < len(here):
+                parts[k] = names[int(part)]
+            here = here[names.index(parts[k])] if parts[k] in names else None
+        else:
+            here = here.get(part) if isinstance(here, dict) else None
+    return ".".join(parts)
+
+
 def _flat(value, path=""):
-    """Keys and values of a study; entries of arrays of tables by their name or group."""
+    """Keys and values of a study; entries of arrays of tables by _names."""
     if isinstance(value, dict):
         return {key: item for name, inner in value.items() for key, item in _flat(inner, f"{path}.{name}" if path else name).items()}
-    if isinstance(value, list) and value and all(isinstance(item, dict) for item in value):
-        names = [str(item.get("name", item.get("group", i))) for i, item in enumerate(value)]
-        names = [name if names.count(name) == 1 else str(i) for i, name in enumerate(names)]
-        return {key: item for name, inner in zip(names, value) for key, item in _flat(inner, f"{path}.{name}").items()}
+    if _is_tables(value):
+        return {key: item for name, inner in zip(_names(value), value) for key, item in _flat(inner, f"{path}.{name}").items()}
     return {path: value}
 
 
 def inputs(run):
     """All keys of the study with overrides; what a sweep would vary is no input of a run."""
-    keys = _flat(tomllib.loads(run.attributes["study"]))
+    study = tomllib.loads(run.attributes["study"])
+    keys = _flat(study)
     for override in run.summary.get("overrides", []):
-        keys.pop(override["key"], None)
-        keys.update(_flat(override["value"], override["key"]))
+        key = _key(study, override["key"])
+        keys.pop(key, None)
+        keys.update(_flat(override["value"], key))
     return {key: value for key, value in keys.items() if not key.startswith("sweep.")}
 
 
