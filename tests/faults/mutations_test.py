@@ -121,7 +121,8 @@ def command(fretwork, *arguments):
 def first_message(text):
     found = re.search(r"fretwork: .*", text, re.S)
     message = found.group().strip() if found else text.strip()
-    return re.sub(r"would take \S+ (s|min|h),", "would take #,", message)  # measured: each time another
+    # measured: each time another, and of the first steps or, where these were about the limit, of those after them
+    return re.sub(r"transient: [^:]* would take \S+ (s|min|h),", "transient: a run would take #,", message)
 
 
 def is_about_the_limit(message):
