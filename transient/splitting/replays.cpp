@@ -17,9 +17,9 @@ constexpr int finer_parts = 2;
 constexpr double first_pause = 2.0, growth = 1.1, longest_pause = 40.0;
 /// Varies the pauses, so that no period of the loads is met again and again at one phase.
 constexpr double golden = 0.6180339887498949;
-/// Of the accuracy: an error that takes finer intervals, and by how many standard errors it is to stand out in how many replays.
-constexpr double tolerated = 0.5, significance = 2.0;
-constexpr int least_replays = 6;
+/// Of the accuracy: an error that takes finer intervals, and by how many standard errors it is to stand out. Six figures are looked at after each
+/// replay, so that chance alone makes 2 standard errors sooner or later; 3 take 9 replays at least.
+constexpr double tolerated = 0.5, significance = 3.0;
 
 /// Sums over replays, each with its weight.
 struct Evidence {
@@ -108,8 +108,8 @@ public:
     return out;
   }
   void visit(core::StateArchive& state) override {
-    state(*running_, *finer_, of_run_, whole_, recent_, parts_, replaying_, from_, last_, next_, pause_,
-          count_);
+    state(*running_, *finer_, of_run_, whole_, recent_, recent_sum_, parts_, replaying_, from_, last_, next_,
+          pause_, count_);
   }
 
 private:
@@ -122,13 +122,24 @@ private:
       now = record.time + 0.5 * record.step;
     }
     const double weight = (end - last_) / options_.length; // it stands for the time since the last one
+    Figures run{}, replayed{};
     for (std::size_t c = 0; c < whole_.size(); ++c)
       if (of_run_[c][replayed_impulse] > 0.0 || of_replay_[c][replayed_impulse] > 0.0) {
         whole_[c].add(of_run_[c], of_replay_[c], weight);
         recent_[c].add(of_run_[c], of_replay_[c], 1.0);
-        if (parts_[c] < options_.most_parts && is_coarse(recent_[c]))
+        for (std::size_t k = 0; k < replayed_figures; ++k) {
+          run[k] += of_run_[c][k];
+          replayed[k] += of_replay_[c][k];
+        }
+        if (is_coarse(recent_[c]))
           refine(c);
       }
+    recent_sum_.add(run, replayed, 1.0);
+    if (is_coarse(recent_sum_)) {
+      for (std::size_t c = 0; c < whole_.size(); ++c)
+        refine(c);
+      recent_sum_ = {};
+    }
     last_ = end;
     ++count_;
     const double place = golden * static_cast<double>(count_);
@@ -138,8 +149,6 @@ private:
   }
 
   [[nodiscard]] bool is_coarse(const Evidence& e) const {
-    if (e.replays < least_replays)
-      return false;
     for (std::size_t k = 0; k < replayed_figures; ++k)
       if (const double error = std::abs(e.error(k));
           error > tolerated * options_.accuracy * e.sums[k] && error > significance * e.spread(k))
@@ -148,6 +157,8 @@ private:
   }
 
   void refine(std::size_t c) {
+    if (parts_[c] >= options_.most_parts)
+      return;
     parts_[c] = std::min(2 * parts_[c], options_.most_parts);
     running_->divide(static_cast<int>(c), parts_[c]);
     finer_->divide(static_cast<int>(c), finer_parts * parts_[c]);
@@ -158,6 +169,7 @@ private:
   ReplayOptions options_;
   std::vector<Figures> of_run_, of_replay_; ///< by contact, of the replay that goes on
   std::vector<Evidence> whole_, recent_;    ///< of the run; since the contact was refined
+  Evidence recent_sum_;                     ///< of the sums over contacts, since all were refined
   std::vector<int> parts_;
   bool replaying_ = false;
   double from_ = 0.0, last_ = 0.0,
