@@ -22,12 +22,10 @@ struct Shares {
 };
 /// w_c h of the longest automatic step, whatever the accuracy.
 constexpr double longest_contact_share = 1.0;
-/// Up to this share of w_c modes move little while a contact is closed: splitting takes the rest of an impact as that of a mass.
-constexpr double slow_modes = 0.6;
 Shares shares(const StepChoice& c) {
   switch (c.scheme) {
   case SchemeKind::splitting:
-    return {c.highest_mode <= slow_modes * c.contact_frequency ? 1.0 : 0.8, 1.0};
+    return {0.8, 0.8};
   case SchemeKind::collocation:
     return {0.5, 0.5};
   default:
@@ -90,7 +88,10 @@ std::vector<StepLimit> step_limits(const StepChoice& c, const Scene& scene, doub
     if (rate > 0.0)
       out.push_back({factor / rate, reason});
   };
-  const double points = (contacts ? points_per_period : linear_points_per_period) / fineness;
+  const double points = (!contacts                           ? linear_points_per_period
+                         : c.scheme == SchemeKind::splitting ? corrected_points_per_period
+                                                             : points_per_period) /
+                        fineness;
   add(1.0 / points, c.excitation, fmt::format("the excitation ({:.4g} Hz)", c.excitation));
   // its steps follow its tolerance and end at the points of tables: it only must not step over what other loads do
   if (c.scheme == SchemeKind::runge_kutta_54)

@@ -15,18 +15,17 @@ namespace {
 
 /// Of a run: with the most of them single impacts come out to 1e-4, with the fewest its statistics see the motion.
 constexpr double fewest_steps = 2000, most_least_steps = 20000;
-/// Cost of a step, in modes, up to which the most of them take milliseconds. A contact costs as much as so many modes (instructions: 10 in
-/// short steps, 40 and more in long ones).
-constexpr double cheap_step = 100.0, cost_of_contact = 20.0;
+/// Cost of a step, in modes, up to which the most of them take milliseconds. A contact costs as much as so many modes (instructions).
+constexpr double cheap_step = 100.0, cost_of_contact = 40.0;
 /// More steps than this are a mistake in a value rather than a wish: days of computing.
 constexpr double most_steps = 1e12;
 /// A run of an adaptive scheme has at least so many steps.
 constexpr double least_adaptive_steps = 200;
 /// w_c dt and w_t dt of the intervals of splitting at an accuracy of 0.01. Of contacts that mostly stick figures are
 /// up to 20 % off then, until replays (replays.hpp) have shown it: they move in up to 16 times as many intervals.
-constexpr double interval_share = 0.35;
+constexpr double interval_share = 0.8;
 /// Length of a replay: w_c times it; in steps, at least; of the duration, at most.
-constexpr double contact_times = 30.0, least_replay = 8.0, longest_replay = 0.01;
+constexpr double contact_times = 15.0, least_replay = 8.0, longest_replay = 0.01;
 /// The step of an accuracy of 0.02 is the longest: no statistics are worth having above it.
 constexpr double coarsest_accuracy = 0.02;
 /// Steps of a macro-step. More gain little: its end, with displacements and velocities, costs as much as one step.

@@ -20,17 +20,10 @@ TEST(StepRule, ResolvesTheContactFrequency) {
                   "the contact frequency 200 rad/s");
 }
 
-TEST(StepRule, TakesShorterStepsWithModesNearTheContacts) {
-  for (const auto& [ratio, resolved] : {std::pair(0.59, share), std::pair(0.61, 0.8), std::pair(1.5, 0.8)})
-    expect_governed(vibrating(scene_with({Circle{0.1}, {8e4}, {}}, 1000.0,
-                                         Vec3(0, mass * std::pow(ratio * 200.0, 2), 0))),
-                    splitting(), resolved / 200.0, "the contact frequency 200 rad/s");
-}
-
 TEST(StepRule, TakesNoStepAboveTheContactFrequencyHoweverCoarse) {
   StepOptions coarse = splitting();
   coarse.accuracy = 0.5;
-  expect_governed(scene_with({Circle{0.1}, {8e4}, {}}), coarse, share / 200.0,
+  expect_governed(scene_with({Circle{0.1}, {8e4}, {}}), coarse, 1.0 / 200.0,
                   "the contact frequency 200 rad/s");
 }
 
@@ -41,8 +34,9 @@ TEST(StepRule, GivesCollocationALongerStepWhateverTheModes) {
 
 TEST(StepRule, ResolvesTheFrequencyOfStickingContacts) {
   Scene scene = scene_with({Circle{0.1}, {2.0}, {8e4, 0.0, 0.3, 0.3}});
-  expect_governed(scene, splitting(), 1.0 / 200.0, "the frequency of sticking contacts 200 rad/s");
-  EXPECT_EQ(choose_step(scene, splitting()).parts, 3); // w_t dt below 0.35
+  expect_governed(scene, splitting(), share / 200.0, "the frequency of sticking contacts 200 rad/s");
+  EXPECT_EQ(choose_step(scene, splitting()).parts, 1); // w_t dt up to 0.8
+  EXPECT_EQ(choose_step(scene, splitting(2.0 / 200.0)).parts, 3);
 }
 
 TEST(StepRule, ResolvesTheTangentialDampers) {
@@ -57,8 +51,8 @@ TEST(StepRule, ResolvesTheTangentialDampers) {
 TEST(StepRule, ResolvesTheTangentialDampersOfSplittingInItsIntervals) {
   Scene scene = scene_with({Circle{0.1}, {8e4}, {2.0, 4e4, 0.3, 0.3}}); // r_t = 2e4 1/s
   expect_governed(scene, splitting(), share / 200.0, "the contact frequency 200 rad/s");
-  EXPECT_EQ(choose_step(scene, splitting()).parts, 16); // r_t dt below 6.3
-  EXPECT_EQ(choose_step(scene, splitting(share / 400.0)).parts, 8);
+  EXPECT_EQ(choose_step(scene, splitting()).parts, 13); // r_t dt below 6.3
+  EXPECT_EQ(choose_step(scene, splitting(share / 400.0)).parts, 7);
   scene = scene_with({Circle{0.1}, {2.0}, {2.0, 4e3, 0.3, 0.3}}, 1e5);
   expect_governed(scene, splitting(), 64 * 6.3 / 2000.0, "the tangential dampers' rate 2000 1/s");
   EXPECT_EQ(choose_step(scene, splitting()).parts, 64);
@@ -88,12 +82,13 @@ TEST(StepRule, ResolvesWithEulerTheDamperOfAnOverlapAtTheStart) {
   expect_governed(scene, euler(), eps / 2000.0, "the dampers' rate 2000 1/s");
 }
 
-TEST(StepRule, GivesThirtyPointsAPeriodToTheExcitationAndTwoHundredWithoutContacts) {
+TEST(StepRule, GivesPointsAPeriodToTheExcitationByWhatLinesBetweenThemLose) {
   Scene linear = mass_point(mass, Vec3(2e6, 0, 0), 1000.0),
         soft = scene_with({Circle{0.1}, {2.0}, {}}, 1000.0);
   linear.loads = soft.loads = {force_on(mass, Vec3(1, 0, 0), Harmonic{1.0, 25.0})};
   expect_governed(linear, splitting(), 1.0 / (200.0 * 25.0), "excitation (25 Hz)");
-  expect_governed(soft, splitting(), 1.0 / (30.0 * 25.0), "excitation (25 Hz)");
+  expect_governed(soft, splitting(), 1.0 / (12.0 * 25.0), "excitation (25 Hz)");
+  expect_governed(soft, collocation(), 1.0 / (30.0 * 25.0), "excitation (25 Hz)");
   linear.loads = {force_on(mass, Vec3(1, 0, 0), Random{1.0, 1.0, 40.0})};
   expect_governed(linear, splitting(), 1.0 / (200.0 * 40.0), "excitation (40 Hz)");
 }
@@ -140,9 +135,9 @@ TEST(StepRule, TakesTwentyThousandStepsAtLeastAndTwoThousandWhereTheyAreExpensiv
   Scene soft = scene_with({Circle{0.1}, {2.0}, {}}, 3.0);
   expect_least(linear, "20000");
   expect_least(soft, "20000");
-  soft.contacts.resize(4, soft.contacts.front());
+  soft.contacts.resize(2, soft.contacts.front());
   expect_least(soft, "20000"); // s = 83
-  soft.contacts.resize(10, soft.contacts.front());
+  soft.contacts.resize(5, soft.contacts.front());
   expect_least(soft, "4853"); // 2e8/203^2
   soft.contacts.resize(100, soft.contacts.front());
   expect_least(soft, "2000");
