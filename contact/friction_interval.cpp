@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/friction_interval.hpp"
-#include "contact/normal_interval.hpp"
 #include <algorithm>
 #include <type_traits>
 
@@ -9,10 +8,15 @@ namespace {
 
 /// Changes between stick and slip that an interval is searched for: to slide, stick, slide and stick again.
 constexpr int most_events = 4;
+/// Where it begins or ends to slide: false position, and what may be left of the difference of both ends.
+constexpr int most_iterations = 8;
+constexpr double located = 1e-3;
 /// Of an interval: what is shorter is none.
 constexpr double shortest_piece = 1e-9;
+/// Of the bound: what is above it by less is at it.
+constexpr double round_off = 1e-9;
 /// K_T tau/C_T above which the damper is none, and below which e^-r is a series.
-constexpr double no_damper = 1e8, slow_damper = 1e-4;
+constexpr double no_damper = 1e8, slow_damper = 1e-2;
 
 double unit(double a) { return std::copysign(1.0, a); }
 Vec2 unit(Vec2 a) {
@@ -20,34 +24,41 @@ Vec2 unit(Vec2 a) {
   return length > 0.0 ? (1.0 / length) * a : Vec2{};
 }
 
-/// (1 + s A) f = b.
-double solve(double s, double a, double b) { return b / (1.0 + s * a); }
-Vec2 solve(double s, const Sym2& a, Vec2 b) {
-  const double xx = 1.0 + s * a.xx, xt = s * a.xt, tt = 1.0 + s * a.tt;
-  const double det = xx * tt - xt * xt;
-  return {(tt * b.x - xt * b.t) / det, (xx * b.t - xt * b.x) / det};
+double solve(double m, double b) { return b / m; }
+Vec2 solve(const Sym2& m, Vec2 b) {
+  const double det = m.xx * m.tt - m.xt * m.xt;
+  return {(m.tt * b.x - m.xt * b.t) / det, (m.xx * b.t - m.xt * b.x) / det};
+}
+/// 1 + s A.
+double one_and(double s, double a) { return 1.0 + s * a; }
+Sym2 one_and(double s, const Sym2& a) { return {1.0 + s * a.xx, s * a.xt, 1.0 + s * a.tt}; }
+/// M^2 + s A.
+double square_and(double m, double s, double a) { return m * m + s * a; }
+Sym2 square_and(const Sym2& m, double s, const Sym2& a) {
+  return {m.xx * m.xx + m.xt * m.xt + s * a.xx, m.xt * (m.xx + m.tt) + s * a.xt,
+          m.xt * m.xt + m.tt * m.tt + s * a.tt};
 }
 
 /// Direction of the f of a length with (1 + s A + l) f = b, l >= 0.
 Vec2 direction(double s, const Sym2& a, Vec2 b, double length) {
   if (!(length > 0.0) || (a.xt == 0.0 && a.xx == a.tt))
     return unit(b);
-  return unit(force_of_length(length, {1.0 + s * a.xx, s * a.xt, 1.0 + s * a.tt}, b));
+  return unit(force_of_length(length, one_and(s, a), b));
 }
 
 template <class V, class M> class Pieces {
 public:
   Pieces(const FrictionLaw& law, const PieceTable& usual, double mobility, V spring, bool sliding,
-         double length, double normal0, double normal1, const TangentialPath<V, M>& path)
-      : law_(law), usual_(usual), mobility_(mobility), path_(path), left_(length), normal_(normal0),
-        growth_((normal1 - normal0) / length) {
+         double length, const ParabolicForce& normal, const TangentialPath<V, M>& path)
+      : law_(law), usual_(usual), mobility_(mobility), path_(path), course_(normal),
+        acceleration_(path.acceleration), length_(length), left_(length), normal_(normal.first) {
     out_.spring = spring;
     out_.velocity = path.velocity;
     out_.sliding = sliding;
   }
 
   FrictionInterval<V> all() {
-    if (out_.sliding && slider_speed(unit(trial())) < 0.0)
+    if (out_.sliding && slider_speed(heading()) < 0.0)
       out_.sliding = false;
     for (int events = 0; left_ > 0.0; ++events)
       out_.sliding ? slip(events >= most_events) : stick(events >= most_events);
@@ -58,27 +69,95 @@ private:
   [[nodiscard]] PieceTable table(double time) const {
     return time == usual_.length ? usual_ : piece_table(law_, mobility_, time);
   }
+  /// Of the force, and where there is none yet of what builds it up.
+  [[nodiscard]] V heading() const {
+    const V force = trial();
+    return unit(norm(force) > 0.0 ? force : V(-1.0 * out_.velocity));
+  }
   [[nodiscard]] V trial() const { return law_.trial(out_.spring, out_.velocity); }
+
+  /// N, so many seconds after the piece begins.
+  [[nodiscard]] double normal_after(double time) const {
+    return course_.at((length_ - left_ + time) / length_);
+  }
+  /// N: mean over a piece.
+  [[nodiscard]] double mean_normal(double time, double normal1) const {
+    return (normal_ + 4.0 * normal_after(0.5 * time) + normal1) / 6.0;
+  }
+  /// s: until the normal force is lowest inside the interval; what is left of that where it is lowest at its ends.
+  [[nodiscard]] double lowest_after() const {
+    const double bow = course_.bow(), time = course_.slope() / (12.0 * bow) * length_ - (length_ - left_);
+    return bow < 0.0 && time > shortest_piece * length_ && time < left_ ? time : left_;
+  }
+  /// N: that of the normal force in a piece.
+  [[nodiscard]] double bow(const PieceTable& t) const {
+    const double share = t.length / length_;
+    return share * share * course_.bow();
+  }
+  /// N/s, so many seconds after the piece begins.
+  [[nodiscard]] double normal_rate(double time) const {
+    return (course_.slope() - 12.0 * course_.bow() * (length_ - left_ + time) / length_) / length_;
+  }
+  /// Shortens the piece to where a value is 0 that changes its sign in it, by false position (Illinois). `make` makes a piece and gives its
+  /// value at the end.   @return whether anything is left of it
+  template <class Make> bool cut(PieceTable& t, double at_start, double at_end, const Make& make) const {
+    const double enough = located * std::abs(at_end - at_start);
+    double from = 0.0, to = t.length;
+    bool was_before = false;
+    for (int i = 0; i < most_iterations; ++i) {
+      const double time = from + (to - from) * at_start / (at_start - at_end);
+      if (!(time > shortest_piece * length_))
+        return false;
+      t = table(time);
+      const double value = make();
+      if (std::abs(value) <= enough)
+        break;
+      const bool before = (value > 0.0) == (at_start > 0.0);
+      (before ? from : to) = time;
+      (before ? at_start : at_end) = value;
+      if (i > 0 && before == was_before)
+        (before ? at_end : at_start) *= 0.5;
+      was_before = before;
+    }
+    return true;
+  }
 
   /// A piece with its state at the end.
   struct Piece {
-    V force, by, velocity, spring, along;
+    V force, growth, by, velocity, spring, along;
+    double normal; ///< N, at the end
   };
-  /// Without its own force; `answer`: what an acceleration of 1 moves it, s2.
-  [[nodiscard]] V free_displacement(const PieceTable& t, double answer) const {
-    return t.length * out_.velocity + answer * path_.acceleration;
+  /// m/s2, mean over a piece.
+  [[nodiscard]] V acceleration(const PieceTable& t) const {
+    return acceleration_ + (0.5 * t.length) * path_.jerk;
   }
-  void move(const PieceTable& t, V free, double answer, Piece& p) const {
-    p.by = free + answer * (path_.mobility * p.force);
-    p.velocity = out_.velocity + t.length * (path_.acceleration + path_.mobility * p.force);
+  /// m: without friction, where a constant acceleration moves it by `answer` for each 1 m/s2.
+  [[nodiscard]] V free_displacement(const PieceTable& t, double answer) const {
+    return t.length * (out_.velocity - (t.length * t.length / 12.0) * path_.jerk) + answer * acceleration(t);
+  }
+  [[nodiscard]] V velocity_after(const PieceTable& t, V force) const {
+    return out_.velocity + t.length * (acceleration(t) + path_.mobility * force);
   }
 
+  void move_sticking(const PieceTable& t, V free, Piece& p) const {
+    p.by = solve(one_and(-t.lag, path_.mobility), V(free + t.answer * (path_.mobility * p.force)));
+    p.velocity = velocity_after(t, p.force);
+    p.spring = out_.spring - law_.stiffness * p.by;
+    p.growth = (-12.0 * t.lag / (t.length * t.length)) * p.by - t.growing * (p.velocity - out_.velocity);
+  }
   [[nodiscard]] Piece sticking(const PieceTable& t) const {
     Piece p;
+    const M straight = one_and(-t.lag, path_.mobility);
     const V free = free_displacement(t, t.answer);
-    p.force = solve(t.stick_gradient * t.answer, path_.mobility, out_.spring - t.stick_gradient * free);
-    move(t, free, t.answer, p);
-    p.spring = out_.spring - law_.stiffness * p.by;
+    const V pulled = straight * V(out_.spring + t.lag * acceleration(t));
+    p.force = solve(square_and(straight, t.stick_gradient * t.answer, path_.mobility),
+                    V(pulled - t.stick_gradient * free));
+    p.normal = normal_after(t.length);
+    const double bound = law_.mu_static * mean_normal(t.length, p.normal), length = norm(p.force);
+    if (length >
+        bound) // the mean: of what is undecided after many pieces, of a bound that is touched at both ends, or passed near the end
+      p.force = (bound / length) * p.force;
+    move_sticking(t, free, p);
     return p;
   }
   void stick(bool last) {
@@ -89,21 +168,23 @@ private:
     }
     PieceTable t = table(left_);
     Piece p = sticking(t);
-    const double over1 =
-        norm(law_.trial(p.spring, p.velocity)) - law_.mu_static * (normal_ + growth_ * left_);
-    if (over1 > 0.0 && !last) {
-      out_.sliding = true;
-      const double part = over0 < 0.0 ? over0 / (over0 - over1) : 0.0;
-      if (!(part > shortest_piece))
-        return;
-      t = table(left_ * part);
+    const auto over = [&] { return norm(law_.trial(p.spring, p.velocity)) - law_.mu_static * p.normal; };
+    double over1 = over();
+    if (const double time = lowest_after();
+        over1 <= 0.0 && time < left_ && !last &&
+        law_.mu_static * normal_after(time) <
+            std::max(norm(trial()), norm(law_.trial(p.spring, p.velocity)))) {
+      t = table(time);
       p = sticking(t);
+      over1 = over();
     }
-    const double bound = law_.mu_static * (normal_ + 0.5 * growth_ * t.length), length = norm(p.force);
-    if (length >
-        bound) { // the mean: of what `last` leaves undecided, of a bound that is touched at both ends, or passed near the end
-      p.force = (bound / length) * p.force;
-      move(t, free_displacement(t, t.answer), t.answer, p);
+    if (over1 > round_off * law_.mu_static * p.normal && !last) {
+      out_.sliding = true;
+      if (!(over0 < 0.0) || !cut(t, over0, over1, [&] {
+            p = sticking(t);
+            return over();
+          }))
+        return;
     }
     stands_ = false;
     pass(t, p);
@@ -111,67 +192,79 @@ private:
 
   /// Against the force, m/s.
   [[nodiscard]] double slider_speed(V along) const {
-    return slider_speed(along, out_.spring, out_.velocity, normal_);
+    return slider_speed(along, out_.spring, out_.velocity, normal_, normal_rate(0.0));
   }
-  [[nodiscard]] double slider_speed(V along, V spring, V velocity, double normal) const {
+  [[nodiscard]] double slider_speed(V along, V spring, V velocity, double normal, double rate) const {
     return law_.damping > 0.0
                ? (dot(law_.trial(spring, velocity), along) - law_.mu_dynamic * normal) / law_.damping
-               : -dot(velocity, along) - law_.mu_dynamic * growth_ / law_.stiffness;
+               : -dot(velocity, along) - law_.mu_dynamic * rate / law_.stiffness;
   }
   [[nodiscard]] Piece slipping(const PieceTable& t, V before) const {
     Piece p;
-    const double mu = law_.mu_dynamic, bound = mu * (normal_ + t.share * growth_ * t.length);
+    const double mu = law_.mu_dynamic;
+    const double bound = mu * (normal_after(t.share * t.length) - 6.0 * bow(t) * t.spread);
     const double answer = 0.5 * t.length * t.length;
     const V free = free_displacement(t, answer);
-    V mean = p.along = before;
+    V mean = before, goal = before; // F_s
+    p.along = before;
     if constexpr (std::is_same_v<V, Vec2>) {
-      p.along =
-          direction(t.slip_gradient * answer, path_.mobility, out_.spring - t.slip_gradient * free, bound);
-      mean = unit((1.0 - 0.5 / t.share) * before + (0.5 / t.share) * p.along);
+      goal = direction(t.slip_gradient * answer, path_.mobility, out_.spring - t.slip_gradient * free, bound);
+      const V turn = (1.0 / t.share) * (goal - before);
+      mean = unit(before + 0.5 * turn);
+      p.along = unit(before + turn);
     }
-    p.force = mu * (normal_ + 0.5 * growth_ * t.length) * mean;
-    move(t, free, answer, p);
-    p.spring = out_.spring + t.relaxed * (bound * p.along - out_.spring);
+    p.normal = normal_after(t.length);
+    p.force = mu * mean_normal(t.length, p.normal) * mean;
+    p.growth = mu * (p.normal * p.along - normal_ * before);
+    p.by = free + answer * (path_.mobility * V(p.force - (1.0 / 6.0) * p.growth));
+    p.velocity = velocity_after(t, p.force);
+    p.spring = out_.spring + t.relaxed * (bound * goal - out_.spring);
     return p;
   }
   void slip(bool last) {
-    const V before = unit(trial());
+    const V before = heading();
     PieceTable t = table(left_);
     Piece p = slipping(t, before);
-    const double speed1 = slider_speed(p.along, p.spring, p.velocity, normal_ + growth_ * left_);
-    if (speed1 < 0.0 && !last) {
+    const auto speed = [&] {
+      return slider_speed(p.along, p.spring, p.velocity, p.normal, normal_rate(t.length));
+    };
+    if (const double speed1 = speed(); speed1 < 0.0 && !last) {
       out_.sliding = false;
       stands_ = true;
       const double speed0 = slider_speed(before);
-      const double part = speed0 > 0.0 ? speed0 / (speed0 - speed1) : 0.0;
-      if (!(part > shortest_piece))
+      if (!(speed0 > 0.0) || !cut(t, speed0, speed1, [&] {
+            p = slipping(t, before);
+            return speed();
+          }))
         return;
-      t = table(left_ * part);
-      p = slipping(t, before);
     }
-    const double n1 = normal_ + growth_ * t.length;
-    const double v0 = norm(out_.velocity), twice = 2.0 * norm(p.by) / t.length,
-                 v1 = norm(p.velocity); // Simpson's rule
-    out_.slid += t.length * (v0 + 2.0 * twice + v1) / 6.0;
-    out_.wear_work += t.length * (normal_ * v0 + (normal_ + n1) * twice + n1 * v1) / 6.0;
+    // Simpson's rule, the velocity a parabola by its ends and its mean
+    const double n1 = p.normal, v0 = norm(out_.velocity), v1 = norm(p.velocity),
+                 middle = norm(V((1.5 / t.length) * p.by - 0.25 * (out_.velocity + p.velocity)));
+    out_.slid += t.length * (v0 + 4.0 * middle + v1) / 6.0;
+    out_.wear_work += t.length * (normal_ * v0 + 4.0 * normal_after(0.5 * t.length) * middle + n1 * v1) / 6.0;
     out_.sliding_time += t.length;
-    // The force is linear in time. The slider's speed is linear but for what is left of |T| - mu_d N at the start, which decays as e^-r: to the
-    // product of their means, by how much the motion of the slider lies before the middle of the piece.
-    const double mu = law_.mu_dynamic, growth = mu * (n1 - normal_);
-    const double before_middle = t.relaxed * (t.share - 0.5) / law_.stiffness;
+    // Force and speed of the slider are parabolas in time, the speed but for what is left of its start, which decays as e^-r: to the product of their means,
+    // what they grow together.
+    const double mu = law_.mu_dynamic, growth = mu * (n1 - normal_), b = mu * bow(t);
+    const double lag = law_.damping / (law_.stiffness * t.length); // 1/r
+    const double decaying =
+        dot(out_.spring, before) - mu * normal_ + lag * (growth + 6.0 * b + 12.0 * lag * b);
     out_.slider_work -= dot(p.force, V(p.by + (1.0 / law_.stiffness) * (p.spring - out_.spring)));
     out_.slider_work -= growth * (t.length / 12.0 * (dot(p.velocity, p.along) - dot(out_.velocity, before)) +
-                                  before_middle * (law_.damping / (law_.stiffness * t.length) * growth +
-                                                   dot(out_.spring, before) - mu * normal_));
+                                  (t.relaxed * (t.share - 0.5) * decaying - b) / law_.stiffness);
     pass(t, p);
   }
 
   void pass(const PieceTable& t, const Piece& p) {
+    const double done = length_ - left_, middle = done + 0.5 * t.length - 0.5 * length_;
     out_.impulse = out_.impulse + t.length * p.force;
+    out_.moment = out_.moment + t.length * (middle * p.force + t.length / 12.0 * p.growth);
     out_.displacement = out_.displacement + p.by;
     out_.velocity = p.velocity;
+    acceleration_ = acceleration_ + t.length * path_.jerk;
     out_.spring = p.spring;
-    normal_ += growth_ * t.length;
+    normal_ = p.normal;
     left_ = t.length < left_ ? left_ - t.length : 0.0;
   }
 
@@ -179,8 +272,10 @@ private:
   const PieceTable& usual_;
   double mobility_;
   const TangentialPath<V, M>& path_;
+  const ParabolicForce& course_;
+  V acceleration_; ///< m/s2, without friction
   FrictionInterval<V> out_;
-  double left_, normal_, growth_; ///< s, N, N/s
+  double length_, left_, normal_; ///< s, s, N
   bool stands_ = false; ///< the slider has just come to a stand: round-off may have it above the bound
 };
 
@@ -189,9 +284,18 @@ PieceTable piece_table(const FrictionLaw& law, double mobility, double length) {
   PieceTable t;
   const double c = law.damping / length, r = law.damping > 0.0 ? law.stiffness / c : no_damper;
   t.length = length;
-  t.answer = implicit_share(law.damping * mobility * length) * length * length;
+  const double z = law.damping * mobility * length;
+  const double share = implicit_share(z);
+  t.answer = share * length * length;
+  t.growing = growing_damping(law.damping, z, share);
+  t.lag = law.stiffness * length * length / 12.0;
+  if (t.lag * mobility > most_bent)
+    t.lag = most_bent / mobility;
   t.relaxed = r < no_damper ? -std::expm1(-r) : 1.0;
   t.share = r < slow_damper ? 0.5 + r / 12.0 : 1.0 / t.relaxed - (r < no_damper ? 1.0 / r : 0.0);
+  t.spread = r < slow_damper
+                 ? 1.0 / 12.0
+                 : (r < no_damper ? 1.0 / (r * r) : 0.0) - (1.0 - t.relaxed) / (t.relaxed * t.relaxed);
   t.stick_gradient = 0.5 * law.stiffness + c;
   t.slip_gradient = t.share * law.stiffness + c;
   return t;
@@ -199,15 +303,15 @@ PieceTable piece_table(const FrictionLaw& law, double mobility, double length) {
 
 FrictionInterval<double> friction_over_interval(const FrictionLaw& law, const PieceTable& usual,
                                                 double mobility, double spring, bool sliding, double length,
-                                                double normal0, double normal1,
+                                                const ParabolicForce& normal,
                                                 const TangentialPath<double, double>& path) {
-  return Pieces<double, double>(law, usual, mobility, spring, sliding, length, normal0, normal1, path).all();
+  return Pieces<double, double>(law, usual, mobility, spring, sliding, length, normal, path).all();
 }
 FrictionInterval<Vec2> friction_over_interval(const FrictionLaw& law, const PieceTable& usual,
                                               double mobility, Vec2 spring, bool sliding, double length,
-                                              double normal0, double normal1,
+                                              const ParabolicForce& normal,
                                               const TangentialPath<Vec2, Sym2>& path) {
-  return Pieces<Vec2, Sym2>(law, usual, mobility, spring, sliding, length, normal0, normal1, path).all();
+  return Pieces<Vec2, Sym2>(law, usual, mobility, spring, sliding, length, normal, path).all();
 }
 
 double spring_left(const FrictionLaw& law, double t) {

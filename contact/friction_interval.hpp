@@ -1,24 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Friction of one contact (friction_law.hpp, `return_map`) over an interval in which its normal force N is linear in time. The contact moves under
-/// the force F of friction, over a time tau from the velocity v, by
-///     dx = tau v + beta tau^2 (a + A F),    v1 = v + tau (a + A F)
-/// A its mobility, beta: implicit_share in stick, 1/2 in slip. The interval is made in pieces of stick and slip, each of which ends where the law says
-/// so:
-///     stick  F = T - (K_T/2 + C_T/tau) dx,   T1 = T - K_T dx;   until |T - C_T v| reaches mu_s N
-///     slip   F: mu_d times the mean of N;   T1 = T + (1 - e^-r)(F_s - T),  r = K_T tau/C_T;   until the slider stands
-/// F_s is the force at the share s = 1/(1 - e^-r) - 1/r of the piece, of length mu_d N there and along T - (s K_T + C_T/tau) dx; T1 is exact where F is linear in time,
-/// from slow dampers (s = 1/2) to none (s = 1: radial return). The slider's speed against F is (|T - C_T v| - mu_d N)/C_T, without damper -v - mu_d N'/K_T
-/// along F. Order 2, wherever in an interval the contact begins and ends to slide; directions of slip that turn without damper: order 1.
+/// Friction of one contact (friction_law.hpp, `return_map`) over an interval in which its normal force N is a parabola in time. The contact moves
+/// under a force of friction with the mean F and the growth G (normal_interval.hpp), over a time tau from the velocity v, by
+///     dx = tau v + tau^2 (a/2 + j tau/6 + A (F/2 - G/12)),    v1 = v + tau (a + j tau/2 + A F)
+/// A its mobility. The interval is made in pieces of stick and slip, each of which ends where the law says so:
+///     stick  F = T - K_T (dx/2 - tau (v1 - v)/12) - C_T dx/tau,   G = -K_T dx - c' (v1 - v);   T1 = T - K_T dx;
+///            until |T - C_T v| reaches mu_s N
+///     slip   F: mu_d times the mean of N, G: its growth;   T1 = T + (1 - e^-r)(F_s - T),  r = K_T tau/C_T;   until the slider stands
+/// F_s is the force at the share s = 1/(1 - e^-r) - 1/r of the piece, of length mu_d N there and along T - (s K_T + C_T/tau) dx; T1 is exact where F is a
+/// parabola, from slow dampers (s = 1/2) to none (s = 1: radial return). The slider's speed against F is (|T - C_T v| - mu_d N)/C_T, without damper
+/// -v - mu_d N'/K_T along F. Stick is of order 4, as the normal motion; where a contact begins and ends to slide is found to order 2; directions of slip
+/// that turn without damper: order 1.
 #pragma once
 #include "contact/friction_law.hpp"
+#include "contact/normal_interval.hpp"
 
 namespace fretwork::contact {
 
 /// Motion in the tangent plane (V = Vec2, M = Sym2), or on the line across x_loc (V = M = double).
 template <class V, class M> struct TangentialPath {
   V velocity;     ///< m/s, at the start
-  V acceleration; ///< m/s2, without friction
+  V acceleration; ///< m/s2, without friction, at the start
+  V jerk;         ///< m/s3, without friction
   M mobility;     ///< 1/kg
 };
 
@@ -26,9 +29,12 @@ template <class V, class M> struct TangentialPath {
 struct PieceTable {
   double length;         ///< tau, s
   double answer;         ///< beta tau^2, s2
+  double lag;            ///< K_T tau^2/12, kg, as far as most_bent allows
+  double growing;        ///< c', N s/m
   double stick_gradient; ///< K_T/2 + C_T/tau, N/m
   double slip_gradient;  ///< s K_T + C_T/tau, N/m
   double share;          ///< s
+  double spread;         ///< variance of the share of the piece that F_s stands for
   double relaxed;        ///< 1 - e^-r
 };
 /// @param mobility  1/kg, the largest along a tangent
@@ -36,6 +42,7 @@ struct PieceTable {
 
 template <class V> struct FrictionInterval {
   V impulse{};               ///< N s
+  V moment{};                ///< N s2, of the force about the middle of the interval
   V displacement{};          ///< m
   V spring{};                ///< N, T at the end
   V velocity{};              ///< m/s, at the end
@@ -47,14 +54,14 @@ template <class V> struct FrictionInterval {
 };
 
 /// @param usual  of the whole interval, if it is of the usual length
-/// @param length  s   @param normal0, normal1  N, at its ends   @param mobility  1/kg, as that of `usual`
+/// @param length  s   @param normal  N   @param mobility  1/kg, as that of `usual`
 [[nodiscard]] FrictionInterval<double> friction_over_interval(const FrictionLaw& law, const PieceTable& usual,
                                                               double mobility, double spring, bool sliding,
-                                                              double length, double normal0, double normal1,
+                                                              double length, const ParabolicForce& normal,
                                                               const TangentialPath<double, double>& path);
 [[nodiscard]] FrictionInterval<Vec2> friction_over_interval(const FrictionLaw& law, const PieceTable& usual,
                                                             double mobility, Vec2 spring, bool sliding,
-                                                            double length, double normal0, double normal1,
+                                                            double length, const ParabolicForce& normal,
                                                             const TangentialPath<Vec2, Sym2>& path);
 
 /// Share of the spring's force that is left of an open contact after t seconds.

@@ -4,49 +4,18 @@
 namespace fretwork::contact {
 namespace {
 
-/// x^2/12 of the longest interval that follows the contact's own frequency.
-constexpr double most_bent = 0.25;
-/// beta up to which the force of a contact that is closed at the start is taken for linear in the interval.
-constexpr double most_linear = 0.6;
+/// beta up to which the damper does not take the force down within the interval: above, its mean stands for it.
+constexpr double most_parabolic = 0.65;
 /// Newton's method on pieces of parabolas: three to four iterations are usual.
 constexpr int most_iterations = 20;
 constexpr double tolerance = 1e-13; ///< of the force
 
-/// The law with all that does not change while F is sought.
-struct MeanLaw {
-  double k, lag, c, d; ///< N/m, m, N/m, N/m2
-  double p0, n0;       ///< m, N: at the start
-  bool stiff;          ///< the damper takes the force down within the interval: it is not linear
-
-  /// Mean of the force, and its slope by p1.
-  struct Mean {
-    double force, slope;
-    double last; ///< N: where it is linear from n0 to the end of the interval, whatever its sign
-  };
-  [[nodiscard]] Mean at(double p1) const {
-    const double closed1 = std::max(p1, 0.0), damped = d * closed1;
-    const double by_end = c + 2.0 * damped;
-    if (p0 < 0.0) {
-      const double force = k * mean_penetration(p0, p1) + c * closed1 + damped * closed1;
-      return {force, p1 > 0.0 ? k * mean_slopes(p0, p1).by_p2 + by_end : 0.0, force};
-    }
-    const double s = closed_share(p0, p1);
-    const double linear =
-        k * (0.5 * (p0 + p1) - s * s * lag) + c * (p1 - p0) + damped * closed1 - d * p0 * p0;
-    const double last = stiff ? linear : 2.0 * linear - n0;
-    if (last >= 0.0 || stiff)
-      return {linear, 0.5 * k + by_end, last};
-    const double share = n0 / (n0 - last); // of the interval with a force
-    return {0.5 * n0 * share, share * share * (0.5 * k + by_end), last};
-  }
-};
-
-/// F = law(end - b F), F >= 0.
-double solve(const MeanLaw& law, double end, double b) {
+/// F = mean(F), F >= 0, by Newton's method: mean gives the mean force that F leads to, and its derivative.
+template <class Mean> double solve(const Mean& mean) {
   double force = 0.0;
   for (int i = 0; i < most_iterations; ++i) {
-    const MeanLaw::Mean mean = law.at(end - b * force);
-    const double next = std::max(0.0, force + (mean.force - force) / (1.0 + b * mean.slope));
+    const auto [value, slope] = mean(force);
+    const double next = std::max(0.0, force + (value - force) / (1.0 - slope));
     const double change = std::abs(next - force);
     force = next;
     if (change <= tolerance * force)
@@ -54,59 +23,101 @@ double solve(const MeanLaw& law, double end, double b) {
   }
   return force;
 }
+struct MeanForce {
+  double value, slope;
+};
 
-} // namespace
-
-NormalInterval normal_over_interval(const NormalLaw& law, double dt, double usual, double mobility,
-                                    double share, const NormalPath& path) {
+NormalInterval open_at_start(const NormalLaw& law, double dt, double mobility, double share,
+                             const NormalPath& path) {
+  const double p0 = path.start, b = share * mobility * dt * dt;
+  const double c = law.damping / dt, d = 0.5 * law.stiffness * law.dissipation / dt;
   NormalInterval out;
-  out.end = path.end;
-  const double p0 = path.start;
-  if (p0 <= 0.0 && path.end <= 0.0)
-    return out;
-  const double bent = std::min(most_bent, law.stiffness * mobility * usual * usual / 12.0);
-  const double k = law.stiffness / (1.0 - bent);
-  const double lag = mobility > 0.0 ? bent * path.acceleration / (law.stiffness * mobility) : 0.0;
-  // that of the mean law: with K_h and a
-  const double n0 = p0 >= 0.0 ? std::max(0.0, k * (p0 - lag) + law.damping_at(p0) * path.rate) : 0.0;
-  const MeanLaw mean_law{k,  lag, law.damping / dt,   0.5 * law.stiffness * law.dissipation / dt,
-                         p0, n0,  share > most_linear};
-  const double b = share * mobility * dt * dt;
-  if (p0 >= 0.0 && law.dissipation == 0.0) { // closed to the end, as in most intervals: linear
-    const double c = mean_law.c;
-    const double force =
-        std::max(0.0, (k * (0.5 * (p0 + path.end) - lag) + c * (path.end - p0)) / (1.0 + b * (0.5 * k + c)));
-    const double p1 = path.end - b * force, last = mean_law.stiff ? force : 2.0 * force - n0;
-    if (p1 > 0.0 && last >= 0.0)
-      return {force,
-              p1,
-              0.0,
-              1.0,
-              mean_law.stiff ? force : n0,
-              last,
-              (force + k * lag) * (p1 - p0) - 0.5 * k * (p1 * p1 - p0 * p0)};
-  }
-  out.force = solve(mean_law, path.end, b);
+  out.force = solve([&](double force) -> MeanForce {
+    const double p1 = path.end - b * force, closed = std::max(p1, 0.0);
+    const double slope = p1 > 0.0 ? law.stiffness * mean_slopes(p0, p1).by_p2 + c + 2.0 * d * closed : 0.0;
+    return {law.stiffness * mean_penetration(p0, p1) + (c + d * closed) * closed, -b * slope};
+  });
   const double p1 = out.end = path.end - b * out.force;
-  const double closed0 = std::max(p0, 0.0), closed1 = std::max(p1, 0.0), s = closed_share(p0, p1);
-  if (!(out.force > 0.0)) {
-    out.damper_work = law.spring_energy(p0) - law.spring_energy(p1);
+  if (!(out.force > 0.0))
     return out;
-  }
-  const double spring = p0 >= 0.0 ? out.force + k * s * s * lag : out.force;
-  out.damper_work = spring * (p1 - p0) - 0.5 * k * (closed1 * closed1 - closed0 * closed0);
-  if (p0 >= 0.0) {
-    const double last = mean_law.at(p1).last;
-    out.first = mean_law.stiff ? out.force : n0;
-    out.last = std::max(0.0, last);
-    out.to = last >= 0.0 ? 1.0 : n0 / (n0 - last);
-    return out;
-  }
+  out.damper_work = out.force * (p1 - p0) - law.spring_energy(p1);
   out.from = p0 / (p0 - p1);
   out.to = 1.0;
   const double mean = out.force / (1.0 - out.from);
-  out.first = std::min(2.0 * mean, law.damping * std::max(0.0, path.rate));
-  out.last = 2.0 * mean - out.first;
+  const double first = std::min(2.0 * mean, law.damping * std::max(0.0, path.rate));
+  out.course = {first, 2.0 * mean - first, mean};
+  return out;
+}
+
+} // namespace
+
+NormalInterval normal_over_interval(const NormalLaw& law, double dt, double mobility, double share,
+                                    const NormalPath& path) {
+  const double p0 = path.start, v0 = path.rate, k = law.stiffness;
+  NormalInterval out;
+  out.end = path.end;
+  if (p0 <= 0.0 && path.end <= 0.0)
+    return out;
+  if (p0 < 0.0)
+    return open_at_start(law, dt, mobility, share, path);
+  const double bent = std::min(most_bent, k * mobility * dt * dt / 12.0), straight = 1.0 - bent;
+  const double lag = mobility > 0.0 ? bent / mobility : 0.0; // K_N dt^2/12, kg
+  const double by_force = share * mobility * dt * dt, c = law.damping / dt;
+  const double n0 = std::max(0.0, k * p0 + law.damping_at(p0) * v0);
+  double p1 = 0.0, v1 = 0.0, growth = 0.0;
+  const auto move = [&](double force) {
+    p1 = p0 + (path.end - p0 - by_force * force) / straight;
+    v1 = v0 + dt * (path.acceleration - mobility * force);
+  };
+  const double free = k * p0 - lag * path.acceleration, gradient = 0.5 * k + c;
+  if (law.dissipation == 0.0) { // linear
+    out.force = (straight * free + gradient * (path.end - p0)) / (straight * straight + gradient * by_force);
+    move(out.force);
+  } else {
+    double damped = 0.0; // N, growth of the force of d
+    const double d = k * law.dissipation;
+    out.force = solve([&](double force) -> MeanForce {
+      move(force);
+      p1 += mobility * dt * dt / 12.0 * damped / straight;
+      damped = d * (p1 * v1 - p0 * v0);
+      return {(free + gradient * (p1 - p0) + 0.5 * d / dt * (p1 * p1 - p0 * p0)) / straight,
+              -(gradient + d / dt * p1) * by_force / (straight * straight)};
+    });
+    growth = damped;
+  }
+  const double c1 = growing_damping(law.damping, law.damping * mobility * dt, share);
+  growth += 12.0 * lag / (dt * dt) * (p1 - p0) + c1 * (v1 - v0);
+  const bool stiff = share > most_parabolic;
+  // The bend of the law's course alone: a gap that is no straight function of the position changes how the force grows.
+  const double bow = law.damping_at(0.5 * (p0 + p1)) * mobility * dt * growth / 12.0 -
+                     k * (v1 - v0) * (dt + 3.0 * law.dissipation * (p1 - p0)) / 12.0;
+  out.course = {n0, 2.0 * (out.force - bow) - n0, out.force};
+  out.to = 1.0;
+  if (stiff)
+    out.course = {out.force, out.force, out.force};
+  if (out.course.smallest() < 0.0) { // opens: the positive part of the parabola
+    const double slope = out.course.slope(), curve = -6.0 * out.course.bow();
+    const double root = std::sqrt(std::max(0.0, slope * slope - 4.0 * curve * n0)) - slope;
+    const double to = out.to = root > 0.0 ? std::min(1.0, 2.0 * n0 / root) : 0.0;
+    out.force = to * (n0 + to * (slope / 2.0 + to * curve / 3.0));
+    const double moment = to * to * (n0 / 2.0 + to * (slope / 3.0 + to * curve / 4.0)); // about the start
+    growth = 12.0 * moment - 6.0 * out.force;
+    out.course = {n0, 0.0, to > 0.0 ? out.force / to : 0.0};
+    p1 = path.end - (share - 0.5) * dt * dt * path.acceleration -
+         mobility * dt * dt * (0.5 * out.force - growth / 12.0);
+    v1 = v0 + dt * (path.acceleration - mobility * out.force);
+  }
+  out.end = p1;
+  if (!(out.force > 0.0)) {
+    out.force = out.to = 0.0;
+    out.course = {};
+    out.end = path.end;
+    out.damper_work = law.spring_energy(p0) - law.spring_energy(out.end);
+    return out;
+  }
+  out.growth = growth;
+  out.damper_work =
+      out.force * (p1 - p0) + growth * dt / 12.0 * (v1 - v0) + law.spring_energy(p0) - law.spring_energy(p1);
   return out;
 }
 

@@ -1,22 +1,47 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// The mean normal force of one contact over an interval dt, from its penetrations p0 and p1 at both ends, <p> = max(p, 0):
-///     closed at the start   F = mean of the positive part of a force that goes linearly from N0 to N1,
-///                           (N0 + N1)/2 = K_h ((p0 + p1)/2 - s^2 a dt^2/12) + (C_N (p1 - p0) + K_N d (<p1>^2 - p0^2)/2)/dt
-///     open at the start     F = <K_h M + (C_N <p1> + K_N d <p1>^2/2)/dt>+
-///     p1 = end - beta W dt^2 F,   1/K_h = (1/K_N)(1 - x^2/12),   x^2 = K_N W dt_u^2
-///     N0    force at the start, K_h (p0 - a dt^2/12) + c(p0) p'; M: mean of <p> along the straight line from p0 to p1, s: share of it that is closed
-///     a     p'' without this force; end: p1 without it
-///     W     mobility of the contact along its normal, 1/kg
-/// Spring: its work is -(V1 - V0), V = K_h <p>^2/2, so that an impact without losses keeps its energy wherever in an interval it begins and ends.
-/// K_h and a give the mean force of a motion that bends, p'' = a - W F: a closed contact has the frequency of K_N to -x^2/24 (measured: -0.06 % at
-/// x = 0.12), and rests where K_N lets it rest. Damper: the impulse of C_N p' over the time in which there is a force, which may begin with a jump.
-/// beta = 1/2, and up to 1 where the damper stops the contact within the interval: implicit_share.
-/// Order 2. Above x = 1.7, where nothing is resolved, K_h stays 4/3 K_N.
+/// The normal force of one contact over an interval dt, of its penetrations p0, p1 and their rates v0, v1 at both ends, <p> = max(p, 0).
+/// Closed at the start:
+///     mean      F = K_N P + (C_N (p1 - p0) + K_N d (<p1>^2 - p0^2)/2)/dt,   P = (p0 + p1)/2 - (v1 - v0) dt/12
+///     at ends   N0, N1 = K_N p + c(p) p';   the force is the parabola of N0, F, N1, and ends where that does
+///     growth    G = K_N (p1 - p0) + c' (v1 - v0) + K_N d (p1 v1 - p0 v0),   c' = C_N (beta - 1/2) 12/z: C_N of slow dampers, z = C_N W dt
+///     motion    p1 = p0 + v0 dt + a dt^2/2 - W dt^2 (F/2 - G/12),   v1 = v0 + (a - W F) dt
+/// Open at the start:
+///     F = <K_N M + (C_N <p1> + K_N d <p1>^2/2)/dt>+,   M: mean of <p> along the straight line from p0 to p1,   G = 0
+/// a: p'' without this force; W: mobility of the contact along its normal, 1/kg; beta: implicit_share.
+///
+/// P is the mean of a motion that bends, G the growth of a linear force that moves the contact as far: of order 4 in x = (K_N W)^1/2 dt and C_N W dt
+/// while the contact is closed (the frequency of K_N to -x^4/720, and e^-z by its diagonal Pade approximant of degree 2 of a damper alone). Without damper the energy v^2/2W +
+/// K_N p^2/2 stays the same to the last digit, a contact rests where K_N lets it rest, and neither depends on how the time is divided.
+/// Above x = 1.7, where nothing is resolved, the terms of x^2/12 stay what they are there: stable at any dt.
 #pragma once
 #include "contact/normal_law.hpp"
 
 namespace fretwork::contact {
+
+/// A force over some time, a parabola of it by its ends and its mean, N.
+struct ParabolicForce {
+  double first = 0.0, last = 0.0, mean = 0.0;
+  /// At a share of the time.
+  [[nodiscard]] double at(double share) const { return first + share * (slope() - 6.0 * bow() * share); }
+  /// d/d share at the start.
+  [[nodiscard]] double slope() const { return last - first + 6.0 * bow(); }
+  /// By how much the mean exceeds that of the straight line.
+  [[nodiscard]] double bow() const { return mean - 0.5 * (first + last); }
+  [[nodiscard]] double largest() const {
+    const double b = bow(), s = slope();
+    return 12.0 * b > s && s > 0.0 ? first + s * s / (24.0 * b) : std::max(first, last);
+  }
+  [[nodiscard]] double smallest() const {
+    const double b = bow(), s = slope();
+    return 12.0 * b < s && s < 0.0 ? first + s * s / (24.0 * b) : std::min(first, last);
+  }
+  /// Mean of the square, N2.
+  [[nodiscard]] double square() const {
+    const double b = bow();
+    return (first * first + first * last + last * last) / 3.0 + b * (first + last + 1.2 * b);
+  }
+};
 
 /// The penetration of a contact over an interval as it is without the contact's own normal force.
 struct NormalPath {
@@ -27,24 +52,30 @@ struct NormalPath {
 };
 
 struct NormalInterval {
-  double force = 0.0;             ///< N, mean over the interval
-  double end = 0.0;               ///< m, penetration
-  double from = 0.0, to = 0.0;    ///< shares of the interval between which there is a force,
-  double first = 0.0, last = 0.0; ///< N, then, linear between
-  double damper_work = 0.0;       ///< J, by the damper, and what the positive part cuts off the spring
+  double force = 0.0, growth = 0.0; ///< N, F and G
+  double end = 0.0;                 ///< m, penetration
+  double from = 0.0, to = 0.0;      ///< shares of the interval between which there is a force,
+  ParabolicForce course;            ///< then
+  double damper_work = 0.0;         ///< J, by the damper, and what the positive part cuts off the spring
   /// N2, mean over the interval.
-  [[nodiscard]] double square() const {
-    return (to - from) * (first * first + first * last + last * last) / 3.0;
-  }
+  [[nodiscard]] double square() const { return (to - from) * course.square(); }
 };
 
-/// beta: of a speed that a damper takes down at the rate r, its mean over dt is speed (1 - beta z), z = r dt: 1 - 1/z + 1/(e^z - 1), by a formula
-/// that is right to 0.01 and in both limits, 1/2 of slow dampers and 1 of those that stop the contact at once. With 1/2 throughout, the
-/// implicit midpoint, a stiff damper would turn the speed round.
-[[nodiscard]] inline double implicit_share(double z) { return 0.5 + 0.5 * z / std::sqrt(36.0 + z * z); }
+/// beta: of a speed that a damper takes down at the rate r, its mean over dt is speed/(1 + beta z), z = r dt: 1/2 of slow dampers, 1 of those that stop the
+/// contact at once. With 1/2 throughout, the implicit midpoint, a stiff damper would turn the speed round.
+[[nodiscard]] inline double implicit_share(double z) {
+  constexpr double slow = 0.05; // z^5/30240 is round-off
+  return z < slow ? 0.5 + z * (1.0 / 12.0 - z * z / 720.0) : 1.0 - 1.0 / z + 1.0 / std::expm1(z);
+}
+/// c' of a damper c.
+[[nodiscard]] inline double growing_damping(double c, double z, double share) {
+  return z > 0.0 ? 12.0 * c * (share - 0.5) / z : c;
+}
+/// x^2/12 of the longest interval that follows the frequency of its spring.
+inline constexpr double most_bent = 0.25;
 
-/// @param dt  s   @param usual  s: that of most intervals of the contact, >= dt   @param mobility  W, 1/kg   @param share  beta
-[[nodiscard]] NormalInterval normal_over_interval(const NormalLaw& law, double dt, double usual,
-                                                  double mobility, double share, const NormalPath& path);
+/// @param dt  s   @param mobility  W, 1/kg   @param share  beta
+[[nodiscard]] NormalInterval normal_over_interval(const NormalLaw& law, double dt, double mobility,
+                                                  double share, const NormalPath& path);
 
 } // namespace fretwork::contact

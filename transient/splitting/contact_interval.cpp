@@ -5,10 +5,10 @@
 namespace fretwork::transient {
 namespace {
 
-/// Of the usual length: intervals below it take the gap of the position for their rates.
-constexpr double short_interval = 0.3;
 /// Where normal and tangential motion are coupled an interval is made again until its force stands to this share.
 constexpr double repeat_tolerance = 1e-6;
+/// Likewise until what its force changes turns its normal by so little, rad.
+constexpr double turn_tolerance = 5e-3;
 constexpr int most_repeats = 20;
 
 /// Of the memory `reference`: one mean force over the interval.
@@ -18,10 +18,12 @@ reference_friction(const contact::FrictionLaw& law, const contact::FrictionTable
                    const contact::TangentialPath<contact::Vec2, contact::Sym2>& path) {
   const double half = 0.5 * length;
   const contact::Sym2 answer{half * path.mobility.xx, half * path.mobility.xt, half * path.mobility.tt};
-  const contact::Vec2 free = path.velocity + half * path.acceleration;
+  const contact::Vec2 acceleration = path.acceleration + half * path.jerk;
+  const contact::Vec2 free = path.velocity - (length * length / 12.0) * path.jerk + half * acceleration;
   const contact::Friction friction = contact::step_friction_plane(law, table, memory, normal, free, answer);
   contact::FrictionInterval<contact::Vec2> out;
   out.displacement = length * (free + answer * friction.force);
+  out.velocity = path.velocity + length * (acceleration + path.mobility * friction.force);
   const contact::FrictionStep step = contact::close_step(law, table, memory, friction, out.displacement);
   out.impulse = length * friction.force;
   out.spring = step.memory.spring;
@@ -83,37 +85,49 @@ double ContactIntervals::relax(ContactPast& past, double time) const {
 
 /// The gap is linear about where the force of the guess leads.
 void ContactIntervals::find_normal_force(const ContactPath& m, const Components& guessed,
-                                         const IntervalTable& of, IntervalForces& p) const {
+                                         const Components& growth, const IntervalTable& of,
+                                         IntervalForces& p) const {
   const double dt = of.length, half = 0.5 * dt * dt, share = of.normal_share;
-  const Components by_guess = w_ * guessed, a = m.a + 0.5 * dt * m.j + by_guess;
+  const Components bent = guessed - (1.0 / 6.0) * growth; // moves the contact as far where it is constant
+  const Components by_guess = w_ * bent, a = m.a + 0.5 * dt * m.j + w_ * guessed;
   const Components way = m.displacement(dt) + half * by_guess;
   const contact::Location there = locate(m.u + way);
-  const double turned = m.at.axes().normal(there.ny, there.nz);
+  p.turned = m.at.axes().normal(there.ny, there.nz);
+  const double along = tangent(m.at.axes(), way);
+  const double curvature = along != 0.0 ? m.at.axes().tangent(there.ny, there.nz) / along : 0.0;
+  p.curvature = std::abs(curvature);
   const auto find = [&](const contact::ContactAxes& axes, double start, double end, double rate) {
     const auto& w = w_.w;
     const auto [ny, nz] = axes;
     const double wnn = w[0][0] * ny * ny + (w[0][1] + w[1][0]) * ny * nz + w[1][1] * nz * nz;
-    const double guess = normal(axes, guessed), acceleration = wnn * guess - normal(axes, a);
+    const double acceleration = wnn * normal(axes, guessed) - normal(axes, a), jerk = -normal(axes, m.j);
+    const double free = end + half * wnn * normal(axes, bent);
+    // what the gap adds where the contact follows a curve, as v_t^2/R
+    const double curving = (free - start - rate * dt) / half - acceleration + jerk * dt / 6.0;
     p.axes = axes;
     p.normal = contact::normal_over_interval(
-        normal_, dt, usual_.length, wnn, share,
-        {start, end + half * wnn * guess + (share - 0.5) * dt * dt * acceleration, rate, acceleration});
+        normal_, dt, wnn, share,
+        {start, free + (share - 0.5) * dt * dt * (acceleration + curving), rate, acceleration + curving});
   };
   const double start = -m.at.gap, rate = -normal(m.at.axes(), m.v);
-  // The gap that the laws follow strays from that of the position, by curvature and where beta is not 1/2: over a short interval a damper would
-  // take that for a speed.
-  const double drift = dt < short_interval * usual_.length ? start + locate(m.u).gap : 0.0;
+  // The gap that the laws follow strays from that of the position: a damper would take that for a speed.
+  const double drift = start + locate(m.u).gap;
   p.to = there;
-  if (turned > 0.0) {
+  if (p.turned > 0.0) {
     contact::ContactAxes axes = m.at.axes();
-    if (there.gap < 0.0 && turned < 1.0) { // the mean of both; one that opens keeps its own
-      const double per = 1.0 / std::sqrt(2.0 * (1.0 + turned));
-      axes = {per * (axes.ny + there.ny), per * (axes.nz + there.nz)};
+    if (there.gap < 0.0 && p.turned < 1.0) { // the mean along the way; one that opens keeps its own
+      const double per = 1.0 / std::sqrt(2.0 * (1.0 + p.turned));
+      const contact::ContactAxes chord{per * (axes.ny + there.ny), per * (axes.nz + there.nz)};
+      const double bend = -(dt * dt / 12.0) * curvature * tangent(chord, a);
+      const double length = 1.0 / std::sqrt(1.0 + bend * bend);
+      axes = {length * chord.y(1.0, bend), length * chord.z(1.0, bend)};
+      p.turn = {there.ny - m.at.ny, there.nz - m.at.nz, 0.0};
     }
     find(axes, start, drift - there.gap, rate);
   } else { // another face lies ahead of the guess: does the contact stay on its own, or leave it before?
     find(m.at.axes(), start, start - normal(m.at.axes(), way), rate);
-    const Components by = w_ * (p.normal.force * Components{p.axes.ny, p.axes.nz, 0.0});
+    const Components by =
+        w_ * ((p.normal.force - p.normal.growth / 6.0) * Components{p.axes.ny, p.axes.nz, 0.0});
     const contact::Location then = locate(m.u + way + half * (by - by_guess));
     p.to = m.at;
     if (p.normal.to == 1.0 && then.gap < 0.0 && m.at.axes().normal(then.ny, then.nz) <= 0.0) {
@@ -145,13 +159,15 @@ void ContactIntervals::find_closed_friction(const ContactPath& m, const Interval
     }
   }
   // along t = (nz, -ny), with the mean of the normal force
-  const Components a = m.a + 0.5 * dt * m.j + w_ * Components{p.normal.force * ny, p.normal.force * nz, 0.0},
-                   v = m.v - (dt * dt / 12.0) * m.j + from * a;
+  const Components by_normal = w_ * Components{p.normal.force * ny, p.normal.force * nz, 0.0},
+                   a = m.a + from * m.j + by_normal, v = m.velocity(from) + from * by_normal;
   const auto& w = w_.w;
   const double wtt = w[0][0] * nz * nz - (w[0][1] + w[1][0]) * ny * nz + w[1][1] * ny * ny;
-  const double vt = tangent(p.axes, v), at = tangent(p.axes, a);
-  const auto close = [&](const auto& f, contact::Vec2 impulse, contact::Vec2 by, contact::Vec2 spring) {
+  const double vt = tangent(p.axes, v), at = tangent(p.axes, a), jt = tangent(p.axes, m.j);
+  const auto close = [&](const auto& f, contact::Vec2 impulse, contact::Vec2 moment, contact::Vec2 by,
+                         contact::Vec2 spring, contact::Vec2 faster) {
     p.friction = (1.0 / dt) * impulse;
+    p.friction_growth = (12.0 / (dt * dt)) * (moment + (from + 0.5 * (length - dt)) * impulse);
     p.displacement = by;
     p.memory = {spring, f.sliding};
     p.slider_work = f.slider_work;
@@ -159,30 +175,33 @@ void ContactIntervals::find_closed_friction(const ContactPath& m, const Interval
     p.slid = f.slid;
     p.sliding_time = f.sliding_time;
     // what goes into the element and is neither stored nor taken by the slider
-    p.damper_work +=
-        stored - friction_.spring_energy(spring) - p.slider_work - dot((1.0 / length) * impulse, by);
+    p.damper_work += stored - friction_.spring_energy(spring) - p.slider_work -
+                     dot((1.0 / length) * impulse, by) - dot((1.0 / length) * moment, faster);
   };
   if (in_plane_) {
     const double wxt = p.axes.tangent(w[0][2], w[1][2]);
     const contact::TangentialPath<contact::Vec2, contact::Sym2> path{
         law.masked(contact::Vec2{v.x, vt}), law.masked(contact::Vec2{a.x, at}),
-        law.masked(contact::Sym2{w[2][2], wxt, wtt})};
-    const auto f = by_reference ? reference_friction(law, of.table, p.memory, p.normal.force, length, path)
-                                : contact::friction_over_interval(law, of.piece, mobility_, p.memory.spring,
-                                                                  p.memory.sliding, length, p.normal.first,
-                                                                  p.normal.last, path);
-    close(f, f.impulse, f.displacement, f.spring);
+        law.masked(contact::Vec2{m.j.x, jt}), law.masked(contact::Sym2{w[2][2], wxt, wtt})};
+    const auto f = by_reference
+                       ? reference_friction(law, of.table, p.memory, p.normal.force, length, path)
+                       : contact::friction_over_interval(law, of.piece, mobility_, p.memory.spring,
+                                                         p.memory.sliding, length, p.normal.course, path);
+    close(f, f.impulse, f.moment, f.displacement, f.spring, f.velocity - path.velocity);
   } else if (by_reference) {
-    const auto f =
-        reference_friction(law, of.table, p.memory, p.normal.force, length,
-                           {{0.0, law.along.t * vt}, {0.0, law.along.t * at}, {0.0, 0.0, law.along.t * wtt}});
-    close(f, f.impulse, f.displacement, f.spring);
+    const contact::TangentialPath<contact::Vec2, contact::Sym2> path{{0.0, law.along.t * vt},
+                                                                     {0.0, law.along.t * at},
+                                                                     {0.0, law.along.t * jt},
+                                                                     {0.0, 0.0, law.along.t * wtt}};
+    const auto f = reference_friction(law, of.table, p.memory, p.normal.force, length, path);
+    close(f, f.impulse, f.moment, f.displacement, f.spring, f.velocity - path.velocity);
   } else {
-    const contact::TangentialPath<double, double> path{law.along.t * vt, law.along.t * at, law.along.t * wtt};
-    const auto f =
-        contact::friction_over_interval(law, of.piece, mobility_, p.memory.spring.t, p.memory.sliding, length,
-                                        p.normal.first, p.normal.last, path);
-    close(f, {0.0, f.impulse}, {0.0, f.displacement}, {0.0, f.spring});
+    const contact::TangentialPath<double, double> path{law.along.t * vt, law.along.t * at, law.along.t * jt,
+                                                       law.along.t * wtt};
+    const auto f = contact::friction_over_interval(law, of.piece, mobility_, p.memory.spring.t,
+                                                   p.memory.sliding, length, p.normal.course, path);
+    close(f, {0.0, f.impulse}, {0.0, f.moment}, {0.0, f.displacement}, {0.0, f.spring},
+          {0.0, f.velocity - path.velocity});
   }
   p.friction_square = dt / length * dot(p.friction, p.friction);
   if (p.normal.to < 1.0) {
@@ -208,19 +227,39 @@ void ContactIntervals::find_friction(const ContactPath& m, const ContactPast& pa
   p.memory = open.friction;
 }
 
-void ContactIntervals::find_forces(const ContactPath& m, const ContactPast& past, const IntervalTable& of,
-                                   IntervalForces& p) const {
-  Components guess = m.force;
+bool ContactIntervals::find_forces(const ContactPath& m, const ContactPast& past, const IntervalTable& of,
+                                   bool may_shorten, IntervalForces& p) const {
+  Components growth = of.length * m.rise, guess = m.force + 0.5 * growth;
+  if (normal(m.at.axes(), guess) <= 0.0)
+    guess = growth = {};
+  const auto along = [&p](double f) { return Components{p.axes.y(f, 0.0), p.axes.z(f, 0.0), 0.0}; };
+  // so much more force turns the normal less than the tolerance
+  const auto turns_little = [&](double force) {
+    return 0.5 * of.length * of.length * mobility_ * std::abs(p.curvature * force) <= turn_tolerance;
+  };
   for (int i = 0;; ++i) {
     p = {};
-    find_normal_force(m, guess, of, p);
+    find_normal_force(m, guess, growth, of, p);
+    if (const double more = p.normal.force - normal(p.axes, guess); !turns_little(more) && i < most_repeats) {
+      guess = guess + along(more);
+      growth = growth + along(p.normal.growth - normal(p.axes, growth));
+      continue;
+    }
+    if (may_shorten && (p.normal.to < 1.0 || p.turns_far()))
+      return false;
     if (friction_.active())
       find_friction(m, past, of, p);
     p.force = {p.axes.y(p.normal.force, p.friction.t), p.axes.z(p.normal.force, p.friction.t), p.friction.x};
+    p.growth = Components{p.axes.y(p.normal.growth, p.friction_growth.t),
+                          p.axes.z(p.normal.growth, p.friction_growth.t), p.friction_growth.x} +
+               p.normal.force * p.turn;
     const double changed = sum_of_sizes(p.force - guess);
-    if (of.apparent_mass * across_ * changed <= repeat_tolerance * sum_of_sizes(p.force) || i == most_repeats)
-      return;
+    if ((of.apparent_mass * across_ * changed <= repeat_tolerance * sum_of_sizes(p.force) &&
+         turns_little(changed)) ||
+        i == most_repeats)
+      return true;
     guess = p.force;
+    growth = p.growth;
   }
 }
 

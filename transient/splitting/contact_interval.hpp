@@ -46,21 +46,22 @@ struct ContactPast {
   bool closed = false;       ///< at the end of the last step
   bool before_run = false;   ///< it has been closed since before the run: its impact is still to be counted
   double spring_at_opening = 0.0; ///< N2, square of the spring's force
+  Components rise;                ///< N/s, of its force in its last interval
 };
 
 /// Where a contact is in a step and what acts on it. Without its own force it moves by u + v t + a t^2/2 + j t^3/6.
 struct ContactPath {
   double t = 0.0; ///< s, in the step
   Components u, v, a, j;
-  Components force;     ///< N, of the last interval: the first guess of the next
-  contact::Location at; ///< its gap is that of the laws while the contact is closed
+  Components force, rise; ///< N, N/s: at the end of the last interval; the first guess of the next goes on so
+  contact::Location at;   ///< its gap is that of the laws while the contact is closed
   [[nodiscard]] Components displacement(double time) const {
     return time * (v + 0.5 * time * (a + (time / 3.0) * j));
   }
   [[nodiscard]] Components velocity(double time) const { return v + time * (a + 0.5 * time * j); }
-  /// With a further constant acceleration.
-  void move(double time, const Components& by) {
-    u = u + displacement(time) + 0.5 * time * time * by;
+  /// With a further acceleration that is linear in time: its mean and its growth, m/s2.
+  void move(double time, const Components& by, const Components& growth) {
+    u = u + displacement(time) + (time * time) * (0.5 * by - (1.0 / 12.0) * growth);
     v = velocity(time) + time * by;
     a = a + time * j;
     t += time;
@@ -80,12 +81,17 @@ struct IntervalTable {
 struct IntervalForces {
   contact::ContactAxes axes; ///< of the interval
   contact::Location to;      ///< at its end
+  double turned = 1.0;       ///< cosine of the angle by which the normal turns
+  double curvature = 0.0;    ///< 1/m, by which it turns on the way
+  Components turn;           ///< of the normal, its change
   contact::NormalInterval normal;
-  contact::FrictionMemory memory; ///< at its end
-  contact::Vec2 friction, displacement;
+  contact::FrictionMemory memory;                        ///< at its end
+  contact::Vec2 friction, friction_growth, displacement; ///< N, N, m
   double friction_square = 0.0, slider_work = 0.0, damper_work = 0.0, wear_work = 0.0, slid = 0.0,
          sliding_time = 0.0;
-  Components force; ///< N
+  Components force, growth; ///< N: the mean, and how much a linear force with its mean and first moment grows
+  /// By more than 0.2 rad, as over an edge.
+  [[nodiscard]] bool turns_far() const { return turned < 0.98 && normal.force > 0.0; }
 };
 
 class ContactIntervals {
@@ -103,15 +109,17 @@ public:
     return contact::locate(obstacle_, u.y + rest_.y, u.z + rest_.z);
   }
   /// The forces of an interval. No allocation.
-  void find_forces(const ContactPath& m, const ContactPast& past, const IntervalTable& of,
+  /// @param may_shorten  friction is not looked for where the contact opens in the interval, or its normal turns far
+  /// @return whether all forces have been found
+  bool find_forces(const ContactPath& m, const ContactPast& past, const IntervalTable& of, bool may_shorten,
                    IntervalForces& p) const;
   /// An open contact forgets over `time`. Returns what its spring dissipates, J.
   double relax(ContactPast& past, double time) const;
   [[nodiscard]] const Mobility& mobility() const { return w_; }
 
 private:
-  void find_normal_force(const ContactPath& m, const Components& guessed, const IntervalTable& of,
-                         IntervalForces& p) const;
+  void find_normal_force(const ContactPath& m, const Components& guessed, const Components& growth,
+                         const IntervalTable& of, IntervalForces& p) const;
   void find_friction(const ContactPath& m, const ContactPast& past, const IntervalTable& of,
                      IntervalForces& p) const;
   void find_closed_friction(const ContactPath& m, const IntervalTable& of, IntervalForces& p) const;

@@ -19,6 +19,9 @@ constexpr double shortest_way_out = 1e-3;
 /// Touches and openings that are found in a step: more are none that a step could follow.
 constexpr int most_events = 200;
 
+/// Of the usual length: intervals in which the normal turns, as over an edge, down to which it is followed.
+constexpr double shortest_turn = 1.0 / 32.0;
+
 } // namespace
 
 ContactStep::ContactStep(const contact::Support& support, const Components& rest, const Mobility& mobility,
@@ -40,7 +43,7 @@ int ContactStep::gap_samples(const Components& velocity, double time) const {
 bool ContactStep::meets(const ContactPast& past, const FreePath& path) const {
   if (past.closed)
     return true;
-  const ContactPath m{0.0, path.u, path.v, path.a, path.j, {}, {}};
+  const ContactPath m{0.0, path.u, path.v, path.a, path.j, {}, {}, {}};
   const int count = gap_samples(path.v, h_);
   for (int i = count; i >= 0; --i)
     if (intervals_.locate(m.u + m.displacement(h_ * i / count)).gap <= 0.0)
@@ -70,7 +73,7 @@ bool ContactStep::find_touch(ContactPath& m, ContactAct& act) const {
   }
   if (gap_to > 0.0) {
     act.relaxed += intervals_.relax(act.past, left);
-    m.move(left, {});
+    m.move(left, {}, {});
     m.at.gap = gap_to;
     return false;
   }
@@ -100,7 +103,7 @@ bool ContactStep::find_touch(ContactPath& m, ContactAct& act) const {
       break;
   }
   act.relaxed += intervals_.relax(act.past, touch);
-  m.move(touch, {});
+  m.move(touch, {}, {});
   m.at = intervals_.locate(m.u);
   m.at.gap = 0.0;
   return true;
@@ -133,10 +136,10 @@ void ContactStep::finish_interval(ContactPath& m, const IntervalTable& of, const
     state.normal_force += share * p.normal.force;
     state.normal_square += share * p.normal.square();
     state.closed += share * closed;
-    state.peak = std::max({state.peak, p.normal.first, p.normal.last});
+    state.peak = std::max(state.peak, p.normal.course.largest());
     past.axes = state.axes = p.axes;
     act.mean = act.mean + share * p.force;
-    act.slope = act.slope + 6.0 * share * (middle - 0.5) * p.force;
+    act.slope = act.slope + share * (6.0 * (middle - 0.5) * p.force + 0.5 * share * p.growth);
     if (friction_.active()) {
       state.friction = state.friction + share * p.friction;
       state.friction_square += share * p.friction_square;
@@ -148,7 +151,7 @@ void ContactStep::finish_interval(ContactPath& m, const IntervalTable& of, const
       state.slides = p.sliding_time > 0.0;
     }
   }
-  m.move(of.length, intervals_.mobility() * p.force);
+  m.move(of.length, intervals_.mobility() * p.force, intervals_.mobility() * p.growth);
   m.at = p.to;
   if ((past.closed || pressed) && !stays) {
     const double to = pressed ? p.normal.to : 0.0, after = (1.0 - to) * of.length;
@@ -157,7 +160,9 @@ void ContactStep::finish_interval(ContactPath& m, const IntervalTable& of, const
     state.departure -= after * normal(p.axes, m.a);
   }
   past.closed = stays;
-  act.last = m.force = p.force;
+  act.last = m.force = p.force + 0.5 * p.growth;
+  past.rise = m.rise = (1.0 / of.length) * p.growth;
+
   if (!stays && p.to.gap >= 0.0)
     m.at = intervals_.locate(m.u);
   if (!friction_.active())
@@ -184,7 +189,7 @@ double ContactStep::pause(const ContactPath& m) const {
 void ContactStep::leave(ContactPath& m, double time, ContactAct& act) const {
   const double before = normal_.spring_energy(-m.at.gap);
   act.relaxed += intervals_.relax(act.past, time);
-  m.move(time, {});
+  m.move(time, {}, {});
   m.at = intervals_.locate(m.u);
   act.state.damper_work += before - normal_.spring_energy(-m.at.gap); // what the positive part cuts
 }
@@ -193,9 +198,10 @@ void ContactStep::make(const ContactPast& past, const FreePath& path, const Comp
                        ContactAct& act) const {
   act = {};
   act.past = past;
-  ContactPath m{0.0, path.u, path.v, path.a, path.j, guess, intervals_.locate(path.u)};
+  ContactPath m{0.0, path.u, path.v, path.a, path.j, guess, past.rise, intervals_.locate(path.u)};
   IntervalTable cut;
   IntervalForces p;
+  double longest = intervals_.usual().length;
   for (int events = 0; h_ - m.t > shortest * h_; ++events) {
     if (m.at.gap > 0.0) {
       if (act.past.closed)
@@ -209,22 +215,30 @@ void ContactStep::make(const ContactPast& past, const FreePath& path, const Comp
     const double left = h_ - m.t;
     if (!(left > shortest * h_))
       break;
-    const double length = left / std::ceil(left / intervals_.usual().length * (1.0 - shortest));
+    const double length = left / std::ceil(left / longest * (1.0 - shortest));
     const IntervalTable* of = &intervals_.usual();
     if (std::abs(length - intervals_.usual().length) > shortest * h_) {
       cut = intervals_.table(length);
       of = &cut;
     }
-    intervals_.find_forces(m, act.past, *of, p);
-    const double opens = p.normal.to * length;
-    if (p.normal.to < 1.0 && opens > shortest * h_ && events < most_events) { // to where it opens
-      cut = intervals_.table(opens);
-      of = &cut;
-      intervals_.find_forces(m, act.past, *of, p);
-    } else if (!(opens > shortest * h_) && act.past.closed) {
-      open(m, act);
-      continue;
+    const bool may_shorten = events < most_events;
+    if (!intervals_.find_forces(m, act.past, *of, may_shorten, p)) {
+      const double opens = p.normal.to * length;
+      if (p.turns_far() && length > shortest_turn * intervals_.usual().length) {
+        longest = 0.5 * length;
+        continue;
+      }
+      if (!(opens > shortest * h_) && act.past.closed) {
+        open(m, act);
+        continue;
+      }
+      if (opens > shortest * h_ && p.normal.to < 1.0) { // to where it opens
+        cut = intervals_.table(opens);
+        of = &cut;
+      }
+      intervals_.find_forces(m, act.past, *of, false, p);
     }
+    longest = std::min(intervals_.usual().length, 2.0 * length);
     finish_interval(m, *of, p, act);
   }
   act.end = m.u;

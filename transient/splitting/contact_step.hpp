@@ -19,7 +19,7 @@ struct FreePath {
 /// What a contact does in a step.
 struct ContactAct {
   Components mean, slope;  ///< N: its force is linear in time from mean - slope to mean + slope
-  Components last;         ///< N: in its last interval
+  Components last;         ///< N: at the end of its last interval
   Components end;          ///< m: where it is at the end
   bool penetrates = false; ///< there, though it may be free of force
   double relaxed = 0.0;    ///< J, given up by its tangential spring while it was open
