@@ -46,7 +46,7 @@ bool may_go_past_modes(SchemeKind scheme) {
 double most_resolved(SchemeKind scheme) {
   switch (scheme) {
   case SchemeKind::splitting:
-    return 1.05; // in intervals of a quarter of it
+    return 1.05; // in intervals of 0.8 of it
   case SchemeKind::devogelaere:
     return 0.75;
   case SchemeKind::energy_conserving:
