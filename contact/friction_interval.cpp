@@ -29,21 +29,11 @@ Vec2 solve(const Sym2& m, Vec2 b) {
   const double det = m.xx * m.tt - m.xt * m.xt;
   return {(m.tt * b.x - m.xt * b.t) / det, (m.xx * b.t - m.xt * b.x) / det};
 }
-/// 1 + s A.
-double one_and(double s, double a) { return 1.0 + s * a; }
-Sym2 one_and(double s, const Sym2& a) { return {1.0 + s * a.xx, s * a.xt, 1.0 + s * a.tt}; }
-/// M^2 + s A.
-double square_and(double m, double s, double a) { return m * m + s * a; }
-Sym2 square_and(const Sym2& m, double s, const Sym2& a) {
-  return {m.xx * m.xx + m.xt * m.xt + s * a.xx, m.xt * (m.xx + m.tt) + s * a.xt,
-          m.xt * m.xt + m.tt * m.tt + s * a.tt};
-}
-
 /// Direction of the f of a length with (1 + s A + l) f = b, l >= 0.
 Vec2 direction(double s, const Sym2& a, Vec2 b, double length) {
   if (!(length > 0.0) || (a.xt == 0.0 && a.xx == a.tt))
     return unit(b);
-  return unit(force_of_length(length, one_and(s, a), b));
+  return unit(force_of_length(length, plus(1.0, s * a), b));
 }
 
 template <class V, class M> class Pieces {
@@ -131,33 +121,36 @@ private:
   [[nodiscard]] V acceleration(const PieceTable& t) const {
     return acceleration_ + (0.5 * t.length) * path_.jerk;
   }
-  /// m: without friction, where a constant acceleration moves it by `answer` for each 1 m/s2.
-  [[nodiscard]] V free_displacement(const PieceTable& t, double answer) const {
-    return t.length * (out_.velocity - (t.length * t.length / 12.0) * path_.jerk) + answer * acceleration(t);
+  /// m: without friction, and without what a damper adds that answers the velocity.
+  [[nodiscard]] V free_displacement(const PieceTable& t) const {
+    return t.length * (out_.velocity - (t.length * t.length / 12.0) * path_.jerk) + t.half * acceleration(t);
   }
   [[nodiscard]] V velocity_after(const PieceTable& t, V force) const {
     return out_.velocity + t.length * (acceleration(t) + path_.mobility * force);
   }
 
-  void move_sticking(const PieceTable& t, V free, Piece& p) const {
-    p.by = solve(one_and(-t.lag, path_.mobility), V(free + t.answer * (path_.mobility * p.force)));
+  void move_sticking(const PieceTable& t, const M& straight, const M& answer, V free, Piece& p) const {
+    p.by = solve(straight, V(free + answer * (path_.mobility * p.force)));
     p.velocity = velocity_after(t, p.force);
     p.spring = out_.spring - law_.stiffness * p.by;
     p.growth = (-12.0 * t.lag / (t.length * t.length)) * p.by - t.growing * (p.velocity - out_.velocity);
   }
   [[nodiscard]] Piece sticking(const PieceTable& t) const {
     Piece p;
-    const M straight = one_and(-t.lag, path_.mobility);
-    const V free = free_displacement(t, t.answer);
+    const double damped = t.growing * t.length * t.half / 6.0; // c' tau^3/12
+    const M straight = plus(1.0, M(-t.lag * path_.mobility)),
+            answer = plus(t.half, M(damped * path_.mobility));
+    const V free = free_displacement(t) + damped * (path_.mobility * acceleration(t));
     const V pulled = straight * V(out_.spring + t.lag * acceleration(t));
-    p.force = solve(square_and(straight, t.stick_gradient * t.answer, path_.mobility),
-                    V(pulled - t.stick_gradient * free));
+    p.force = solve(
+        M(square(straight) + t.stick_gradient * (t.half * path_.mobility + damped * square(path_.mobility))),
+        V(pulled - t.stick_gradient * free));
     p.normal = normal_after(t.length);
     const double bound = law_.mu_static * mean_normal(t.length, p.normal), length = norm(p.force);
     if (length >
         bound) // the mean: of what is undecided after many pieces, of a bound that is touched at both ends, or passed near the end
       p.force = (bound / length) * p.force;
-    move_sticking(t, free, p);
+    move_sticking(t, straight, answer, free, p);
     return p;
   }
   void stick(bool last) {
@@ -203,12 +196,11 @@ private:
     Piece p;
     const double mu = law_.mu_dynamic;
     const double bound = mu * (normal_after(t.share * t.length) - 6.0 * bow(t) * t.spread);
-    const double answer = 0.5 * t.length * t.length;
-    const V free = free_displacement(t, answer);
+    const V free = free_displacement(t);
     V mean = before, goal = before; // F_s
     p.along = before;
     if constexpr (std::is_same_v<V, Vec2>) {
-      goal = direction(t.slip_gradient * answer, path_.mobility, out_.spring - t.slip_gradient * free, bound);
+      goal = direction(t.slip_gradient * t.half, path_.mobility, out_.spring - t.slip_gradient * free, bound);
       const V turn = (1.0 / t.share) * (goal - before);
       mean = unit(before + 0.5 * turn);
       p.along = unit(before + turn);
@@ -216,7 +208,7 @@ private:
     p.normal = normal_after(t.length);
     p.force = mu * mean_normal(t.length, p.normal) * mean;
     p.growth = mu * (p.normal * p.along - normal_ * before);
-    p.by = free + answer * (path_.mobility * V(p.force - (1.0 / 6.0) * p.growth));
+    p.by = free + t.half * (path_.mobility * V(p.force - (1.0 / 6.0) * p.growth));
     p.velocity = velocity_after(t, p.force);
     p.spring = out_.spring + t.relaxed * (bound * goal - out_.spring);
     return p;
@@ -250,9 +242,10 @@ private:
     const double lag = law_.damping / (law_.stiffness * t.length); // 1/r
     const double decaying =
         dot(out_.spring, before) - mu * normal_ + lag * (growth + 6.0 * b + 12.0 * lag * b);
-    out_.slider_work -= dot(p.force, V(p.by + (1.0 / law_.stiffness) * (p.spring - out_.spring)));
-    out_.slider_work -= growth * (t.length / 12.0 * (dot(p.velocity, p.along) - dot(out_.velocity, before)) +
+    const double work = -dot(p.force, V(p.by + (1.0 / law_.stiffness) * (p.spring - out_.spring))) -
+                        growth * (t.length / 12.0 * (dot(p.velocity, p.along) - dot(out_.velocity, before)) +
                                   (t.relaxed * (t.share - 0.5) * decaying - b) / law_.stiffness);
+    out_.slider_work += std::max(0.0, work); // below 0 only where nothing is resolved
     pass(t, p);
   }
 
@@ -284,10 +277,8 @@ PieceTable piece_table(const FrictionLaw& law, double mobility, double length) {
   PieceTable t;
   const double c = law.damping / length, r = law.damping > 0.0 ? law.stiffness / c : no_damper;
   t.length = length;
-  const double z = law.damping * mobility * length;
-  const double share = implicit_share(z);
-  t.answer = share * length * length;
-  t.growing = growing_damping(law.damping, z, share);
+  t.half = 0.5 * length * length;
+  t.growing = growing_damping(law.damping, law.damping * mobility * length);
   t.lag = law.stiffness * length * length / 12.0;
   if (t.lag * mobility > most_bent)
     t.lag = most_bent / mobility;

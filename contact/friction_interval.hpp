@@ -28,7 +28,7 @@ template <class V, class M> struct TangentialPath {
 /// What a law needs of a piece of a given length.
 struct PieceTable {
   double length;         ///< tau, s
-  double answer;         ///< beta tau^2, s2
+  double half;           ///< tau^2/2, s2
   double lag;            ///< K_T tau^2/12, kg, as far as most_bent allows
   double growing;        ///< c', N s/m
   double stick_gradient; ///< K_T/2 + C_T/tau, N/m
@@ -37,7 +37,7 @@ struct PieceTable {
   double spread;         ///< variance of the share of the piece that F_s stands for
   double relaxed;        ///< 1 - e^-r
 };
-/// @param mobility  1/kg, the largest along a tangent
+/// @param mobility  1/kg, about the largest along a tangent
 [[nodiscard]] PieceTable piece_table(const FrictionLaw& law, double mobility, double length);
 
 template <class V> struct FrictionInterval {

@@ -4,8 +4,8 @@
 namespace fretwork::contact {
 namespace {
 
-/// beta up to which the damper does not take the force down within the interval: above, its mean stands for it.
-constexpr double most_parabolic = 0.65;
+/// C_N W dt up to which the damper does not take the force down within the interval: above, its mean stands for it.
+constexpr double most_parabolic = 1.9;
 /// Newton's method on pieces of parabolas: three to four iterations are usual.
 constexpr int most_iterations = 20;
 constexpr double tolerance = 1e-13; ///< of the force
@@ -27,9 +27,8 @@ struct MeanForce {
   double value, slope;
 };
 
-NormalInterval open_at_start(const NormalLaw& law, double dt, double mobility, double share,
-                             const NormalPath& path) {
-  const double p0 = path.start, b = share * mobility * dt * dt;
+NormalInterval open_at_start(const NormalLaw& law, double dt, double mobility, const NormalPath& path) {
+  const double p0 = path.start, b = 0.5 * mobility * dt * dt;
   const double c = law.damping / dt, d = 0.5 * law.stiffness * law.dissipation / dt;
   NormalInterval out;
   out.force = solve([&](double force) -> MeanForce {
@@ -51,43 +50,52 @@ NormalInterval open_at_start(const NormalLaw& law, double dt, double mobility, d
 
 } // namespace
 
-NormalInterval normal_over_interval(const NormalLaw& law, double dt, double mobility, double share,
+NormalInterval normal_over_interval(const NormalLaw& law, double dt, double mobility, double growing,
                                     const NormalPath& path) {
   const double p0 = path.start, v0 = path.rate, k = law.stiffness;
   NormalInterval out;
   out.end = path.end;
-  if (p0 <= 0.0 && path.end <= 0.0)
+  if (path.end <= 0.0 && (p0 < 0.0 || (p0 == 0.0 && v0 <= 0.0)))
     return out;
   if (p0 < 0.0)
-    return open_at_start(law, dt, mobility, share, path);
+    return open_at_start(law, dt, mobility, path);
   const double bent = std::min(most_bent, k * mobility * dt * dt / 12.0), straight = 1.0 - bent;
-  const double lag = mobility > 0.0 ? bent / mobility : 0.0; // K_N dt^2/12, kg
-  const double by_force = share * mobility * dt * dt, c = law.damping / dt;
+  const double lag = mobility > 0.0 ? bent / mobility : 0.0;   // K_N dt^2/12, kg
+  const double growing_share = growing * mobility * dt / 12.0; // beta - 1/2
+  const double by_force = (0.5 + growing_share) * mobility * dt * dt, c = law.damping / dt;
+  const double free_end = path.end + growing_share * dt * dt * path.acceleration;
   const double n0 = std::max(0.0, k * p0 + law.damping_at(p0) * v0);
   double p1 = 0.0, v1 = 0.0, growth = 0.0;
-  const auto move = [&](double force) {
-    p1 = p0 + (path.end - p0 - by_force * force) / straight;
-    v1 = v0 + dt * (path.acceleration - mobility * force);
-  };
+  bool stiff = law.damping * mobility * dt > most_parabolic;
   const double free = k * p0 - lag * path.acceleration, gradient = 0.5 * k + c;
   if (law.dissipation == 0.0) { // linear
-    out.force = (straight * free + gradient * (path.end - p0)) / (straight * straight + gradient * by_force);
-    move(out.force);
+    out.force = (straight * free + gradient * (free_end - p0)) / (straight * straight + gradient * by_force);
+    p1 = p0 + (free_end - p0 - by_force * out.force) / straight;
+    v1 = v0 + dt * (path.acceleration - mobility * out.force);
   } else {
-    double damped = 0.0; // N, growth of the force of d
-    const double d = k * law.dissipation;
+    // p1 by the growth of the force of d, as far as it is resolved
+    const double d = k * law.dissipation,
+                 fastest = std::max(std::abs(v0), std::abs(v0 + dt * path.acceleration));
+    double bend = mobility * dt * dt * d / 12.0;
+    if (bend * fastest > most_bent) {
+      bend = 0.0;
+      stiff = true;
+    }
+    const auto move = [&](double force) {
+      v1 = v0 + dt * (path.acceleration - mobility * force);
+      const double bends = std::min(bend * v1, most_bent);
+      p1 = (straight * p0 + free_end - p0 - by_force * force - bend * p0 * v0) / (straight - bends);
+      return -(by_force + bend * p1 * mobility * dt) / (straight - bends); // dp1/dF
+    };
     out.force = solve([&](double force) -> MeanForce {
-      move(force);
-      p1 += mobility * dt * dt / 12.0 * damped / straight;
-      damped = d * (p1 * v1 - p0 * v0);
-      return {(free + gradient * (p1 - p0) + 0.5 * d / dt * (p1 * p1 - p0 * p0)) / straight,
-              -(gradient + d / dt * p1) * by_force / (straight * straight)};
+      const double by = move(force), closed = std::max(p1, 0.0);
+      return {(free + gradient * (p1 - p0) + 0.5 * d / dt * (closed * closed - p0 * p0)) / straight,
+              (gradient + d / dt * closed) * by / straight};
     });
-    growth = damped;
+    (void)move(out.force);
+    growth = bend > 0.0 ? d * (p1 * v1 - p0 * v0) : 0.0;
   }
-  const double c1 = growing_damping(law.damping, law.damping * mobility * dt, share);
-  growth += 12.0 * lag / (dt * dt) * (p1 - p0) + c1 * (v1 - v0);
-  const bool stiff = share > most_parabolic;
+  growth += 12.0 * lag / (dt * dt) * (p1 - p0) + growing * (v1 - v0);
   // The bend of the law's course alone: a gap that is no straight function of the position changes how the force grows.
   const double bow = law.damping_at(0.5 * (p0 + p1)) * mobility * dt * growth / 12.0 -
                      k * (v1 - v0) * (dt + 3.0 * law.dissipation * (p1 - p0)) / 12.0;
@@ -97,14 +105,16 @@ NormalInterval normal_over_interval(const NormalLaw& law, double dt, double mobi
     out.course = {out.force, out.force, out.force};
   if (out.course.smallest() < 0.0) { // opens: the positive part of the parabola
     const double slope = out.course.slope(), curve = -6.0 * out.course.bow();
-    const double root = std::sqrt(std::max(0.0, slope * slope - 4.0 * curve * n0)) - slope;
-    const double to = out.to = root > 0.0 ? std::min(1.0, 2.0 * n0 / root) : 0.0;
+    const double root = std::sqrt(std::max(0.0, slope * slope - 4.0 * curve * n0));
+    const double at = slope > 0.0    ? (slope + root) / (-2.0 * curve)
+                      : root > slope ? 2.0 * n0 / (root - slope)
+                                     : 0.0;
+    const double to = out.to = std::clamp(at, 0.0, 1.0);
     out.force = to * (n0 + to * (slope / 2.0 + to * curve / 3.0));
     const double moment = to * to * (n0 / 2.0 + to * (slope / 3.0 + to * curve / 4.0)); // about the start
     growth = 12.0 * moment - 6.0 * out.force;
     out.course = {n0, 0.0, to > 0.0 ? out.force / to : 0.0};
-    p1 = path.end - (share - 0.5) * dt * dt * path.acceleration -
-         mobility * dt * dt * (0.5 * out.force - growth / 12.0);
+    p1 = path.end - mobility * dt * dt * (0.5 * out.force - growth / 12.0);
     v1 = v0 + dt * (path.acceleration - mobility * out.force);
   }
   out.end = p1;

@@ -4,14 +4,14 @@
 /// Closed at the start:
 ///     mean      F = K_N P + (C_N (p1 - p0) + K_N d (<p1>^2 - p0^2)/2)/dt,   P = (p0 + p1)/2 - (v1 - v0) dt/12
 ///     at ends   N0, N1 = K_N p + c(p) p';   the force is the parabola of N0, F, N1, and ends where that does
-///     growth    G = K_N (p1 - p0) + c' (v1 - v0) + K_N d (p1 v1 - p0 v0),   c' = C_N (beta - 1/2) 12/z: C_N of slow dampers, z = C_N W dt
+///     growth    G = K_N (p1 - p0) + c' (v1 - v0) + K_N d (p1 v1 - p0 v0)
 ///     motion    p1 = p0 + v0 dt + a dt^2/2 - W dt^2 (F/2 - G/12),   v1 = v0 + (a - W F) dt
 /// Open at the start:
 ///     F = <K_N M + (C_N <p1> + K_N d <p1>^2/2)/dt>+,   M: mean of <p> along the straight line from p0 to p1,   G = 0
-/// a: p'' without this force; W: mobility of the contact along its normal, 1/kg; beta: implicit_share.
+/// a: p'' without this force; W: mobility of the contact along its normal, 1/kg; c': growing_damping.
 ///
 /// P is the mean of a motion that bends, G the growth of a linear force that moves the contact as far: of order 4 in x = (K_N W)^1/2 dt and C_N W dt
-/// while the contact is closed (the frequency of K_N to -x^4/720, and e^-z by its diagonal Pade approximant of degree 2 of a damper alone). Without damper the energy v^2/2W +
+/// while the contact is closed. The frequency is that of K_N to -x^4/720, a damper alone decays as e^(-C_N W dt). Without damper the energy v^2/2W +
 /// K_N p^2/2 stays the same to the last digit, a contact rests where K_N lets it rest, and neither depends on how the time is divided.
 /// Above x = 1.7, where nothing is resolved, the terms of x^2/12 stay what they are there: stable at any dt.
 #pragma once
@@ -46,7 +46,7 @@ struct ParabolicForce {
 /// The penetration of a contact over an interval as it is without the contact's own normal force.
 struct NormalPath {
   double start;        ///< m
-  double end;          ///< m, start + rate dt + beta acceleration dt^2
+  double end;          ///< m, start + rate dt + acceleration dt^2/2
   double rate;         ///< m/s, at the start
   double acceleration; ///< m/s2
 };
@@ -67,15 +67,16 @@ struct NormalInterval {
   constexpr double slow = 0.05; // z^5/30240 is round-off
   return z < slow ? 0.5 + z * (1.0 / 12.0 - z * z / 720.0) : 1.0 - 1.0 / z + 1.0 / std::expm1(z);
 }
-/// c' of a damper c.
-[[nodiscard]] inline double growing_damping(double c, double z, double share) {
-  return z > 0.0 ? 12.0 * c * (share - 0.5) / z : c;
+/// c' of a damper c over z = c W dt, N s/m: by it the mean velocity under a force that answers the velocity is beta of what it changes, less of c the faster it stops
+/// the contact.
+[[nodiscard]] inline double growing_damping(double c, double z) {
+  return z > 0.0 ? 12.0 * c * (implicit_share(z) - 0.5) / z : c;
 }
 /// x^2/12 of the longest interval that follows the frequency of its spring.
 inline constexpr double most_bent = 0.25;
 
-/// @param dt  s   @param mobility  W, 1/kg   @param share  beta
+/// @param dt  s   @param mobility  W, 1/kg   @param growing  c', N s/m: it may be that of another mobility than W, a larger one
 [[nodiscard]] NormalInterval normal_over_interval(const NormalLaw& law, double dt, double mobility,
-                                                  double share, const NormalPath& path);
+                                                  double growing, const NormalPath& path);
 
 } // namespace fretwork::contact

@@ -49,6 +49,15 @@ inline Vec2 with_length(double length, Vec2 v, double own) { return (length / ow
 struct Sym2 {
   double xx = 0.0, xt = 0.0, tt = 0.0;
 };
+inline Sym2 operator+(const Sym2& a, const Sym2& b) { return {a.xx + b.xx, a.xt + b.xt, a.tt + b.tt}; }
+inline Sym2 operator*(double s, const Sym2& a) { return {s * a.xx, s * a.xt, s * a.tt}; }
+/// s + A, s a multiple of the unit matrix; A^2.
+inline double plus(double s, double a) { return s + a; }
+inline Sym2 plus(double s, const Sym2& a) { return {s + a.xx, a.xt, s + a.tt}; }
+inline double square(double a) { return a * a; }
+inline Sym2 square(const Sym2& a) {
+  return {a.xx * a.xx + a.xt * a.xt, a.xt * (a.xx + a.tt), a.xt * a.xt + a.tt * a.tt};
+}
 inline Vec2 operator*(const Sym2& a, Vec2 b) { return {a.xx * b.x + a.xt * b.t, a.xt * b.x + a.tt * b.t}; }
 
 } // namespace fretwork::contact

@@ -162,11 +162,17 @@ SceneRates rates_of(const Scene& scene) {
   if (scene.system.size() > 0)
     out.highest_mode = std::sqrt(scene.system.stiffness.maxCoeff());
   for (const vibration::Load& load : scene.loads)
-    if (acts(load, scene))
-      out.excitation = std::max(out.excitation, signals::highest_frequency(load.function));
+    if (acts(load, scene)) {
+      const double highest = signals::highest_frequency(load.function);
+      out.excitation = std::max(out.excitation, highest);
+      if (std::holds_alternative<signals::Integral>(load.function))
+        out.sampled_excitation = std::max(out.sampled_excitation, highest);
+    }
   for (const signals::SampledLoad& load : scene.sampled_loads)
-    if (load.acts())
+    if (load.acts()) {
       out.excitation = std::max(out.excitation, load.highest);
+      out.sampled_excitation = std::max(out.sampled_excitation, load.highest);
+    }
   out.table_interval = table_interval(scene);
   return out;
 }

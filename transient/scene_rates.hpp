@@ -18,6 +18,8 @@ struct SceneRates {
            ///< Crossley's dampers, whose rate w_c bounds (step_rule.hpp)
   double highest_mode = 0.0; ///< rad/s
   double excitation = 0.0;   ///< Hz, the highest of the loads that act on the scene
+  double sampled_excitation =
+      0.0; ///< Hz, likewise of those whose polygons have no corrected corners (vibration/load_sum.hpp): sampled forces, integrals
   double table_interval =
       0.0; ///< s, the shortest between points of their tables, but those too close to rule a step
 };

@@ -14,8 +14,7 @@ constexpr double normally_damped = 2.0;
 /// w_c h that normal dampers never make the step shorter than: a damper that is faster leaves no rebound (e < 0.001), and resolving it costs
 /// without end.
 constexpr double finest_for_dampers = 0.03;
-/// w_c h and w_t h at an accuracy of 0.01. Measured on rattling tubes (bench_statistics), work rates: with splitting within 1 % at
-/// w_c h = 1, with modes near w_c at 0.8 (up to 1.6 % high at 0.9); with collocation
+/// w_c h and w_t h at an accuracy of 0.01: with splitting those of its intervals; with collocation work rates of rattling tubes are
 /// 2.8 % off at w_t h = 1, 1.4 % at 0.5: contacts start to slide inside steps, which only intervals follow.
 struct Shares {
   double contact, stick;
@@ -88,11 +87,17 @@ std::vector<StepLimit> step_limits(const StepChoice& c, const Scene& scene, doub
     if (rate > 0.0)
       out.push_back({factor / rate, reason});
   };
-  const double points = (!contacts                           ? linear_points_per_period
-                         : c.scheme == SchemeKind::splitting ? corrected_points_per_period
-                                                             : points_per_period) /
-                        fineness;
-  add(1.0 / points, c.excitation, fmt::format("the excitation ({:.4g} Hz)", c.excitation));
+  const auto resolve = [&](double points, double frequency) {
+    add(1.0 / std::max(points / fineness, fewest_points_per_period), frequency,
+        fmt::format("the excitation ({:.4g} Hz)", frequency));
+  };
+  const double by_lines = contacts ? points_per_period : linear_points_per_period;
+  if (contacts && c.scheme == SchemeKind::splitting) {
+    resolve(corrected_points_per_period, c.excitation);
+    resolve(by_lines, c.sampled_excitation);
+  } else {
+    resolve(by_lines, c.excitation);
+  }
   // its steps follow its tolerance and end at the points of tables: it only must not step over what other loads do
   if (c.scheme == SchemeKind::runge_kutta_54)
     return out;

@@ -117,7 +117,7 @@ int intervals_of_step(const StepChoice& c, double fineness) {
   return static_cast<int>(std::clamp(std::ceil(needed * (1.0 - 1e-9)), 1.0, most_intervals));
 }
 
-/// Length of replays: some five periods of closed contacts, sticking ones included.
+/// Length of replays: two or three periods of closed contacts, sticking ones included.
 double replay_length(const StepChoice& c, const Scene& scene) {
   if (c.scheme != SchemeKind::splitting || !(c.contact_frequency > 0.0))
     return 0.0;

@@ -21,10 +21,11 @@ double next_order(double x) { return 7e-3 * std::pow(x, 6) + 1e-6; }
 /// A free mass of 1 kg.
 struct Mass {
   double penetration = 0.0, rate = 1.0; ///< m, m/s
-  NormalInterval move(const NormalLaw& law, double dt, double load = 0.0) {
-    const double share = implicit_share(law.damping * dt);
-    const NormalInterval n = normal_over_interval(
-        law, dt, 1.0, share, {penetration, penetration + dt * (rate + share * dt * load), rate, load});
+  /// @param most_mobile  1/kg: of the damper's growth
+  NormalInterval move(const NormalLaw& law, double dt, double load = 0.0, double most_mobile = 1.0) {
+    const NormalInterval n =
+        normal_over_interval(law, dt, 1.0, growing_damping(law.damping, law.damping * most_mobile * dt),
+                             {penetration, penetration + dt * (rate + 0.5 * dt * load), rate, load});
     penetration = n.end;
     rate += dt * (load - n.force);
     return n;
@@ -147,6 +148,45 @@ TEST(NormalInterval, LosesWhatItsDampersTakeToOrderFour) {
   EXPECT_LT(std::abs(mean_impact(hunt_crossley, 0.4).speed / fine - 1.0), 3e-4);
 }
 
+TEST(NormalInterval, BouncesOffADamperOfHuntAndCrossleyHoweverFast) {
+  for (const double d : {2.0, 5.0, 15.0}) { // of 1 m/s
+    const double fine = impact({1.0, 0.0, d}, 1e-3 / (1.0 + d), 0.0).speed;
+    for (const double dt : {0.2, 0.8}) // the last is hardly resolved
+      EXPECT_NEAR(mean_impact({1.0, 0.0, d}, dt).speed, fine, dt * d < 10.0 ? 0.02 : 0.12) << d << " " << dt;
+  }
+  for (const double d : {60.0, 1000.0, 1e6}) // not resolved: no energy comes of it
+    for (const double dt : {0.2, 0.8})
+      EXPECT_LT(mean_impact({1.0, 0.0, d}, dt).speed, 1.0 + round_off) << d << " " << dt;
+}
+
+TEST(NormalInterval, IsOfOrderFourAlsoWhereTheDamperGrowsByALargerMobility) {
+  const NormalLaw law{1.0, 0.6};
+  const auto after = [&](double dt, double most_mobile) {
+    Mass mass{10.0, 0.5};
+    for (int i = 0; i < static_cast<int>(std::lround(4.0 / dt)); ++i)
+      (void)mass.move(law, dt, 10.0, most_mobile);
+    return mass.rate;
+  };
+  const double exact = after(1e-3, 1.0);
+  for (const double most_mobile : {0.5, 2.0, 4.0}) {
+    const double coarse = std::abs(after(0.4, most_mobile) - exact),
+                 fine = std::abs(after(0.2, most_mobile) - exact);
+    EXPECT_LT(coarse, 2e-3) << most_mobile;
+    EXPECT_GT(std::log2(coarse / fine), 3.0) << most_mobile;
+  }
+}
+
+TEST(NormalInterval, LosesNoTouchThatIsPulledOffAgain) {
+  // a touch without damper at 1 m/s under -2.4 m/s2: open again within the interval
+  Mass mass;
+  const NormalInterval n = mass.move({1.0}, 0.8, -2.4);
+  EXPECT_GT(n.to, 0.5);
+  EXPECT_LT(n.to, 1.0);
+  EXPECT_NEAR(0.8 * n.force, 0.105, 0.01);
+  Mass shorter;
+  EXPECT_GT(shorter.move({1.0}, 0.9, -2.4).force, 0.0) << "outside at the end";
+}
+
 TEST(NormalInterval, HasTheCourseOfItsForce) {
   // half a sine: its ends, its largest value, the mean of its square
   const NormalLaw law{1.0};
@@ -169,7 +209,7 @@ TEST(NormalInterval, HasTheCourseOfItsForce) {
 TEST(NormalInterval, OpensWhereItsForceEndsInside) {
   // pulled off and pressed again within the interval: a parabola with both ends above 0
   const NormalInterval n =
-      normal_over_interval({1.0}, 4.0, 0.05, 0.5, {1.0, 1.0 - 4.0 * 1.2 + 0.5 * 16.0 * 0.6, -1.2, 0.6});
+      normal_over_interval({1.0}, 4.0, 0.05, 0.0, {1.0, 1.0 - 4.0 * 1.2 + 0.5 * 16.0 * 0.6, -1.2, 0.6});
   EXPECT_LT(n.to, 1.0);
   EXPECT_GT(n.to, 0.1);
 }
@@ -367,6 +407,33 @@ TEST(FrictionInterval, SlidesWhereTheNormalForceIsLowestInside) {
   EXPECT_GT(f.slider_work, 0.0);
   EXPECT_NEAR(f.spring, 0.5, 1e-2) << "the lowest bound";
   EXPECT_FALSE(f.sliding);
+}
+
+TEST(FrictionInterval, SticksInThePlaneWhereItsDirectionsDiffer) {
+  const FrictionLaw sticking{1.0, 0.8, 10.0, 10.0};
+  const Sym2 mobility{0.3, 0.1, 1.0};
+  constexpr double most = 1.02, duration = 4.0; // 1/kg, its largest eigenvalue about; s
+  const auto after = [&](double dt) {
+    const PieceTable table = piece_table(sticking, most, dt);
+    Vec2 spring{0.3, -0.2}, velocity{1.0, 0.5};
+    for (int i = 0; i < static_cast<int>(std::lround(duration / dt)); ++i) {
+      const auto f = friction_over_interval(sticking, table, most, spring, false, dt, line(1.0, 1.0),
+                                            {velocity, {0.1, 0.05 * i * dt}, {0.0, 0.05}, mobility});
+      // what the mean and the moment of the force move is what the piece says
+      const Vec2 mean = (1.0 / dt) * f.impulse, growth = (12.0 / (dt * dt)) * f.moment;
+      const Vec2 moved = dt * velocity + (0.5 * dt * dt) * Vec2{0.1, 0.05 * i * dt} +
+                         (dt * dt * dt / 6.0) * Vec2{0.0, 0.05} +
+                         (0.5 * dt * dt) * (mobility * Vec2(mean - (1.0 / 6.0) * growth));
+      EXPECT_NEAR(norm(moved - f.displacement), 0.0, round_off) << dt;
+      spring = f.spring;
+      velocity = f.velocity;
+    }
+    return velocity;
+  };
+  const Vec2 exact = after(1e-3);
+  const double coarse = norm(after(0.8) - exact), fine = norm(after(0.4) - exact);
+  EXPECT_LT(coarse, 5e-3);
+  EXPECT_GT(std::log2(coarse / fine), 3.0);
 }
 
 } // namespace intervals_test

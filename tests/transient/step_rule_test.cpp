@@ -238,7 +238,7 @@ TEST(StepRule, FollowsModesNotFarAboveTheContacts) {
 TEST(StepRule, TakesSplittingWhereContactsLimitTheStep) {
   const StepChoice choice = choose_step(scene_with({Circle{0.1}, {8e4}, {}}), {});
   EXPECT_EQ(choice.scheme, SchemeKind::splitting);
-  EXPECT_TRUE(mentions(choice.scheme_reason, "splitting; collocation would take about 2 times as long"))
+  EXPECT_TRUE(mentions(choice.scheme_reason, "splitting; collocation would take about 1.6 times as long"))
       << choice.scheme_reason;
 }
 

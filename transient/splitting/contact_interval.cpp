@@ -59,8 +59,7 @@ IntervalTable ContactIntervals::table(double length) const {
   const double force = 0.5 * length * length * (normal_.stiffness + friction_.stiffness) +
                        length * (normal_.damping + friction_.damping);
   of.apparent_mass = force / (1.0 + force * mobility_);
-  of.normal_share =
-      normal_.damping > 0.0 ? contact::implicit_share(normal_.damping * mobility_ * length) : 0.5;
+  of.growing = contact::growing_damping(normal_.damping, normal_.damping * mobility_ * length);
   if (friction_.active()) {
     of.piece = contact::piece_table(friction_, mobility_, length);
     if (friction_.kind == contact::FrictionMemoryKind::reference)
@@ -87,7 +86,7 @@ double ContactIntervals::relax(ContactPast& past, double time) const {
 void ContactIntervals::find_normal_force(const ContactPath& m, const Components& guessed,
                                          const Components& growth, const IntervalTable& of,
                                          IntervalForces& p) const {
-  const double dt = of.length, half = 0.5 * dt * dt, share = of.normal_share;
+  const double dt = of.length, half = 0.5 * dt * dt;
   const Components bent = guessed - (1.0 / 6.0) * growth; // moves the contact as far where it is constant
   const Components by_guess = w_ * bent, a = m.a + 0.5 * dt * m.j + w_ * guessed;
   const Components way = m.displacement(dt) + half * by_guess;
@@ -100,14 +99,11 @@ void ContactIntervals::find_normal_force(const ContactPath& m, const Components&
     const auto& w = w_.w;
     const auto [ny, nz] = axes;
     const double wnn = w[0][0] * ny * ny + (w[0][1] + w[1][0]) * ny * nz + w[1][1] * nz * nz;
-    const double acceleration = wnn * normal(axes, guessed) - normal(axes, a), jerk = -normal(axes, m.j);
     const double free = end + half * wnn * normal(axes, bent);
-    // what the gap adds where the contact follows a curve, as v_t^2/R
-    const double curving = (free - start - rate * dt) / half - acceleration + jerk * dt / 6.0;
+    // with what the gap adds where the contact follows a curve, as v_t^2/R
+    const double acceleration = (free - start - rate * dt) / half - normal(axes, m.j) * dt / 6.0;
     p.axes = axes;
-    p.normal = contact::normal_over_interval(
-        normal_, dt, wnn, share,
-        {start, free + (share - 0.5) * dt * dt * (acceleration + curving), rate, acceleration + curving});
+    p.normal = contact::normal_over_interval(normal_, dt, wnn, of.growing, {start, free, rate, acceleration});
   };
   const double start = -m.at.gap, rate = -normal(m.at.axes(), m.v);
   // The gap that the laws follow strays from that of the position: a damper would take that for a speed.
@@ -159,14 +155,19 @@ void ContactIntervals::find_closed_friction(const ContactPath& m, const Interval
     }
   }
   // along t = (nz, -ny), with the mean of the normal force
-  const Components by_normal = w_ * Components{p.normal.force * ny, p.normal.force * nz, 0.0},
-                   a = m.a + from * m.j + by_normal, v = m.velocity(from) + from * by_normal;
+  const Components n{ny, nz, 0.0}, by_normal = w_ * (p.normal.force * n),
+                                   jerk = m.j + (1.0 / dt) * (w_ * (p.normal.growth * n)),
+                                   a = m.a + by_normal + from * m.j - (0.5 * dt - from) * (jerk - m.j),
+                                   v = m.velocity(from) + from * by_normal;
   const auto& w = w_.w;
   const double wtt = w[0][0] * nz * nz - (w[0][1] + w[1][0]) * ny * nz + w[1][1] * ny * ny;
-  const double vt = tangent(p.axes, v), at = tangent(p.axes, a), jt = tangent(p.axes, m.j);
+  const double vt = tangent(p.axes, v), at = tangent(p.axes, a), jt = tangent(p.axes, jerk);
+  double growth_square = 0.0; // N2, while it is closed
   const auto close = [&](const auto& f, contact::Vec2 impulse, contact::Vec2 moment, contact::Vec2 by,
                          contact::Vec2 spring, contact::Vec2 faster) {
     p.friction = (1.0 / dt) * impulse;
+    const contact::Vec2 growth = (12.0 / (length * length)) * moment;
+    growth_square = dot(growth, growth);
     p.friction_growth = (12.0 / (dt * dt)) * (moment + (from + 0.5 * (length - dt)) * impulse);
     p.displacement = by;
     p.memory = {spring, f.sliding};
@@ -182,7 +183,7 @@ void ContactIntervals::find_closed_friction(const ContactPath& m, const Interval
     const double wxt = p.axes.tangent(w[0][2], w[1][2]);
     const contact::TangentialPath<contact::Vec2, contact::Sym2> path{
         law.masked(contact::Vec2{v.x, vt}), law.masked(contact::Vec2{a.x, at}),
-        law.masked(contact::Vec2{m.j.x, jt}), law.masked(contact::Sym2{w[2][2], wxt, wtt})};
+        law.masked(contact::Vec2{jerk.x, jt}), law.masked(contact::Sym2{w[2][2], wxt, wtt})};
     const auto f = by_reference
                        ? reference_friction(law, of.table, p.memory, p.normal.force, length, path)
                        : contact::friction_over_interval(law, of.piece, mobility_, p.memory.spring,
@@ -203,7 +204,7 @@ void ContactIntervals::find_closed_friction(const ContactPath& m, const Interval
     close(f, {0.0, f.impulse}, {0.0, f.moment}, {0.0, f.displacement}, {0.0, f.spring},
           {0.0, f.velocity - path.velocity});
   }
-  p.friction_square = dt / length * dot(p.friction, p.friction);
+  p.friction_square = dt / length * dot(p.friction, p.friction) + length / (12.0 * dt) * growth_square;
   if (p.normal.to < 1.0) {
     const double rest = by_reference ? 0.0 : contact::spring_left(law, dt - from - length);
     p.damper_work += (1.0 - rest * rest) * friction_.spring_energy(p.memory.spring);

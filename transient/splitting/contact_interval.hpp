@@ -72,7 +72,7 @@ struct ContactPath {
 struct IntervalTable {
   double length = 0.0;            ///< s
   double apparent_mass = 0.0;     ///< kg: force for an acceleration of 1 m/s2 over it
-  double normal_share = 0.5;      ///< beta of normal_interval.hpp
+  double growing = 0.0;           ///< N s/m, c' of normal_interval.hpp
   contact::PieceTable piece{};    ///< of friction_interval.hpp
   contact::FrictionTable table{}; ///< of the memory `reference`
 };

@@ -16,7 +16,7 @@ constexpr double touch_tolerance = 1e-12;
 constexpr int most_iterations = 40;
 /// Of an interval: time in which a contact that has opened is out at least.
 constexpr double shortest_way_out = 1e-3;
-/// Touches and openings that are found in a step: more are none that a step could follow.
+/// Touches, openings and turns that are found in a step: more are none that a step could follow.
 constexpr int most_events = 200;
 
 /// Of the usual length: intervals in which the normal turns, as over an edge, down to which it is followed.
@@ -106,6 +106,7 @@ bool ContactStep::find_touch(ContactPath& m, ContactAct& act) const {
   m.move(touch, {}, {});
   m.at = intervals_.locate(m.u);
   m.at.gap = 0.0;
+  m.force = m.rise = {};
   return true;
 }
 
@@ -113,6 +114,7 @@ bool ContactStep::find_touch(ContactPath& m, ContactAct& act) const {
 void ContactStep::open(const ContactPath& m, ContactAct& act) const {
   act.opened = true;
   act.past.closed = false;
+  act.past.rise = {};
   act.state.opened_at = m.t / h_;
   act.state.departure = normal(m.at.axes(), m.v);
 }
@@ -202,14 +204,16 @@ void ContactStep::make(const ContactPast& past, const FreePath& path, const Comp
   IntervalTable cut;
   IntervalForces p;
   double longest = intervals_.usual().length;
-  for (int events = 0; h_ - m.t > shortest * h_; ++events) {
+  for (int events = 0; h_ - m.t > shortest * h_;) {
     if (m.at.gap > 0.0) {
       if (act.past.closed)
         open(m, act);
       if (!find_touch(m, act))
         break;
+      ++events;
     } else if (const double time = act.past.closed || events >= most_events ? 0.0 : pause(m); time > 0.0) {
       leave(m, time, act);
+      ++events;
       continue;
     }
     const double left = h_ - m.t;
@@ -223,6 +227,7 @@ void ContactStep::make(const ContactPast& past, const FreePath& path, const Comp
     }
     const bool may_shorten = events < most_events;
     if (!intervals_.find_forces(m, act.past, *of, may_shorten, p)) {
+      ++events;
       const double opens = p.normal.to * length;
       if (p.turns_far() && length > shortest_turn * intervals_.usual().length) {
         longest = 0.5 * length;

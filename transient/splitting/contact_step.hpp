@@ -4,7 +4,7 @@
 ///     u'' = a + j t + W F
 /// a + j t: its acceleration along y, z, x without its own force; W: its mobility; F: its force, of the laws over intervals (contact/normal_interval.hpp,
 /// contact/friction_interval.hpp). While the contact is open the time of its touch is found on that motion; from there to the end of the step it moves in
-/// equal intervals. The modes take the mean of F over the step and its first moment.
+/// intervals, equal ones but where the contact opens or its normal turns far. The modes take the mean of F over the step and its first moment.
 #pragma once
 #include "transient/scene/scheme.hpp"
 #include "transient/splitting/contact_interval.hpp"

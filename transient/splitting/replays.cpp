@@ -18,13 +18,12 @@ constexpr double first_pause = 2.0, growth = 1.1, longest_pause = 40.0;
 /// Varies the pauses, so that no period of the loads is met again and again at one phase.
 constexpr double golden = 0.6180339887498949;
 /// Of the accuracy: an error that takes finer intervals, and by how many standard errors it is to stand out. Six figures are looked at after each
-/// replay, so that chance alone makes 2 standard errors sooner or later; 3 take 9 replays at least.
+/// replay, so that chance alone makes 2 standard errors sooner or later; 3 take 10 replays at least.
 constexpr double tolerated = 0.5, significance = 3.0;
 
 /// Sums over replays, each with its weight.
 struct Evidence {
   Figures sums{}, differences{}, squares{};
-  int replays = 0; ///< in which the contact was closed
   void add(const Figures& run, const Figures& replay, double weight) {
     for (std::size_t k = 0; k < replayed_figures; ++k) {
       const double d = weight * (run[k] - replay[k]);
@@ -32,7 +31,6 @@ struct Evidence {
       differences[k] += d;
       squares[k] += d * d;
     }
-    ++replays;
   }
   [[nodiscard]] double error(std::size_t k) const { return whole_error * differences[k]; }
   [[nodiscard]] double spread(std::size_t k) const { return whole_error * std::sqrt(squares[k]); }
@@ -123,6 +121,7 @@ private:
     }
     const double weight = (end - last_) / options_.length; // it stands for the time since the last one
     Figures run{}, replayed{};
+    bool refined = false;
     for (std::size_t c = 0; c < whole_.size(); ++c)
       if (of_run_[c][replayed_impulse] > 0.0 || of_replay_[c][replayed_impulse] > 0.0) {
         whole_[c].add(of_run_[c], of_replay_[c], weight);
@@ -131,15 +130,19 @@ private:
           run[k] += of_run_[c][k];
           replayed[k] += of_replay_[c][k];
         }
-        if (is_coarse(recent_[c]))
+        if (is_coarse(recent_[c])) {
           refine(c);
+          refined = true;
+        }
       }
     recent_sum_.add(run, replayed, 1.0);
-    if (is_coarse(recent_sum_)) {
+    if (!refined && is_coarse(recent_sum_)) {
       for (std::size_t c = 0; c < whole_.size(); ++c)
         refine(c);
-      recent_sum_ = {};
+      refined = true;
     }
+    if (refined)
+      recent_sum_ = {};
     last_ = end;
     ++count_;
     const double place = golden * static_cast<double>(count_);
@@ -169,7 +172,7 @@ private:
   ReplayOptions options_;
   std::vector<Figures> of_run_, of_replay_; ///< by contact, of the replay that goes on
   std::vector<Evidence> whole_, recent_;    ///< of the run; since the contact was refined
-  Evidence recent_sum_;                     ///< of the sums over contacts, since all were refined
+  Evidence recent_sum_;                     ///< of the sums over contacts, since any was refined
   std::vector<int> parts_;
   bool replaying_ = false;
   double from_ = 0.0, last_ = 0.0,
