@@ -9,6 +9,8 @@ namespace {
 constexpr int most_sweeps = 40;
 /// Of the largest force of a step: what contacts may still have to answer when the sweeps stop.
 constexpr double sweep_tolerance = 3e-3;
+/// Of the answer of a contact that is closed throughout a step: that of one which is closed for a moment, at least.
+constexpr double least_answer = 0.2;
 
 } // namespace
 
@@ -181,8 +183,8 @@ bool ContactSweeps::sweep(int first, double largest) {
 
 /// N.
 double ContactSweeps::outstanding_force(const Moving& m) const {
-  return steps_[m.c].apparent_mass() *
-         (sum_of_sizes(m.mean - m.solved_for[0]) + sum_of_sizes(m.slope - m.solved_for[1]));
+  return std::max(least_answer, m.act.state.closed) * steps_[m.c].apparent_mass() *
+         (sum_of_sizes(m.mean - m.solved_for[0]) + sum_of_sizes(m.slope - m.solved_for[1]) / 3.0);
 }
 
 /// One contact with the forces of all others that share a block with it.
