@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/normal_interval.hpp"
+#include "contact/restitution.hpp"
+#include "uniform.hpp"
+#include <gtest/gtest.h>
+#include <numbers>
+
+namespace normal_interval_test {
+
+using namespace fretwork;
+using namespace fretwork::contact;
+
+namespace {
+
+constexpr double round_off = 1e-12;
+/// What the phase of ten periods may miss beyond x^4/720.
+double next_order(double x) { return 7e-3 * std::pow(x, 6) + 1e-6; }
+
+/// A free mass of 1 kg.
+struct Mass {
+  double penetration = 0.0, rate = 1.0; ///< m, m/s
+  /// @param most_mobile  1/kg: of the damper's growth
+  NormalInterval move(const NormalLaw& law, double dt, double load = 0.0, double most_mobile = 1.0) {
+    const NormalInterval n =
+        normal_over_interval(law, dt, 1.0, growing_damping(law.damping, law.damping * most_mobile * dt),
+                             {penetration, penetration + dt * (rate + 0.5 * dt * load), rate, load});
+    penetration = n.end;
+    rate += dt * (load - n.force);
+    return n;
+  }
+};
+
+/// An impact at 1 m/s, w_c = 1 rad/s.
+struct Impact {
+  double speed = 0.0, time = 0.0, lost = 0.0; ///< m/s, s, J: rebound, time with a force, by the damper
+};
+/// It touches at this share of an interval, and the interval in which it opens ends there.
+Impact impact(const NormalLaw& law, double dt, double phase) {
+  Impact out;
+  Mass mass;
+  for (double length = (1.0 - phase) * dt;; length = dt) {
+    const Mass before = mass;
+    NormalInterval n = mass.move(law, length);
+    const bool opens = n.to < 1.0;
+    if (opens) {
+      length *= n.to;
+      mass = before;
+      n = mass.move(law, length);
+    }
+    out.time += length;
+    out.lost += n.damper_work;
+    EXPECT_NEAR(n.course.mean * (n.to - n.from), n.force, round_off);
+    if (opens || out.time > 100.0)
+      break;
+  }
+  out.speed = -mass.rate;
+  return out;
+}
+
+constexpr int phases = 40;
+/// Mean over the places of the touch in an interval.
+Impact mean_impact(const NormalLaw& law, double dt) {
+  Impact out;
+  for (int i = 0; i < phases; ++i) {
+    const Impact one = impact(law, dt, (i + 0.5) / phases);
+    out.speed += one.speed / phases;
+    out.time += one.time / phases;
+    out.lost += one.lost / phases;
+  }
+  return out;
+}
+
+} // namespace
+
+TEST(NormalInterval, KeepsTheEnergyOfAClosedContactHoweverTimeIsDivided) {
+  tests::Uniform draw(3);
+  const NormalLaw law{1.0};
+  for (const double longest : {0.1, 0.8, 1.7, 5.0}) {
+    Mass mass{10.0, 0.5};
+    constexpr double load = 10.0;
+    const auto energy = [&] {
+      return 0.5 * mass.rate * mass.rate + law.spring_energy(mass.penetration) - load * mass.penetration;
+    };
+    const double before = energy();
+    double lost = 0.0;
+    for (int i = 0; i < 1000; ++i)
+      lost += mass.move(law, draw(0.01, 1.0) * longest, load).damper_work;
+    EXPECT_NEAR(energy(), before, 1e-10) << longest;
+    EXPECT_NEAR(lost, 0.0, 1e-10) << longest;
+  }
+}
+
+TEST(NormalInterval, KeepsTheEnergyOfAnImpactWithoutLosses) {
+  // but for what the spring bears where the parabola of its force ends
+  for (const double dt : {0.1, 0.4, 0.8})
+    for (int i = 0; i < phases; ++i)
+      EXPECT_NEAR(impact({1.0}, dt, (i + 0.5) / phases).speed, 1.0, 1e-3 * std::pow(dt, 4))
+          << dt << ", phase " << i;
+}
+
+TEST(NormalInterval, HasTheFrequencyOfTheContact) {
+  // -x^4/720 of it: the phase after ten periods
+  for (const double dt : {0.25, 0.5, 1.0}) {
+    Mass mass{10.0, 0.5};
+    const int count = static_cast<int>(std::lround(20.0 * std::numbers::pi / dt));
+    for (int i = 0; i < count; ++i)
+      (void)mass.move({1.0}, dt, 10.0);
+    const double phase = std::atan2(10.0 - mass.penetration, mass.rate); // behind
+    const double expected =
+        std::remainder(count * dt * (1.0 - std::pow(dt, 4) / 720.0), 2.0 * std::numbers::pi);
+    EXPECT_NEAR(std::remainder(-phase - expected, 2.0 * std::numbers::pi), 0.0, next_order(dt)) << dt;
+  }
+}
+
+TEST(NormalInterval, RestsWhereTheLawRests) {
+  constexpr double load = 0.3, stiffness = 2.0;
+  for (const double dt : {0.1, 1.0, 10.0})
+    for (const double damping : {0.0, 0.4, 50.0}) {
+      Mass mass{load / stiffness, 0.0};
+      const NormalInterval n = mass.move({stiffness, damping}, dt, load);
+      EXPECT_NEAR(n.force, load, 1e-10)
+          << dt << " " << damping; // of the way without force, which is large against the penetration
+      EXPECT_NEAR(n.growth, 0.0, 1e-8);
+      EXPECT_NEAR(n.end, load / stiffness, 1e-10 * load * dt * dt + round_off);
+    }
+}
+
+TEST(NormalInterval, FollowsADamperByItself) {
+  // a spring so soft that the speed decays as e^-z
+  for (const double z : {0.1, 1.0, 3.0, 30.0}) {
+    Mass mass;
+    (void)mass.move({1e-9, z}, 1.0);
+    EXPECT_NEAR(mass.rate, std::exp(-z), 1e-8) << z;
+  }
+}
+
+TEST(NormalInterval, LosesWhatItsDampersTakeToOrderFour) {
+  for (const NormalLaw& law : {NormalLaw{1.0, 0.1}, NormalLaw{1.0, 0.28}, NormalLaw{1.0, 0.6}}) {
+    const double e = restitution_of_ratio(0.5 * law.damping);
+    EXPECT_LT(std::abs(mean_impact(law, 0.8).speed / e - 1.0), 3e-3) << law.damping;
+    EXPECT_LT(std::abs(mean_impact(law, 0.4).speed / e - 1.0), 3e-4) << law.damping;
+  }
+  const NormalLaw hunt_crossley{1.0, 0.0, 0.4};
+  const double fine = mean_impact(hunt_crossley, 0.01).speed;
+  EXPECT_LT(std::abs(mean_impact(hunt_crossley, 0.8).speed / fine - 1.0), 3e-3);
+  EXPECT_LT(std::abs(mean_impact(hunt_crossley, 0.4).speed / fine - 1.0), 3e-4);
+}
+
+TEST(NormalInterval, BouncesOffADamperOfHuntAndCrossleyHoweverFast) {
+  for (const double d : {2.0, 5.0, 15.0}) { // of 1 m/s
+    const double fine = impact({1.0, 0.0, d}, 1e-3 / (1.0 + d), 0.0).speed;
+    for (const double dt : {0.2, 0.8}) // the last is hardly resolved
+      EXPECT_NEAR(mean_impact({1.0, 0.0, d}, dt).speed, fine, dt * d < 10.0 ? 0.02 : 0.12) << d << " " << dt;
+  }
+  for (const double d : {60.0, 1000.0, 1e6}) // not resolved: no energy comes of it
+    for (const double dt : {0.2, 0.8})
+      EXPECT_LT(mean_impact({1.0, 0.0, d}, dt).speed, 1.0 + round_off) << d << " " << dt;
+}
+
+TEST(NormalInterval, IsOfOrderFourAlsoWhereTheDamperGrowsByALargerMobility) {
+  const NormalLaw law{1.0, 0.6};
+  const auto after = [&](double dt, double most_mobile) {
+    Mass mass{10.0, 0.5};
+    for (int i = 0; i < static_cast<int>(std::lround(4.0 / dt)); ++i)
+      (void)mass.move(law, dt, 10.0, most_mobile);
+    return mass.rate;
+  };
+  const double exact = after(1e-3, 1.0);
+  for (const double most_mobile : {0.5, 2.0, 4.0}) {
+    const double coarse = std::abs(after(0.4, most_mobile) - exact),
+                 fine = std::abs(after(0.2, most_mobile) - exact);
+    EXPECT_LT(coarse, 2e-3) << most_mobile;
+    EXPECT_GT(std::log2(coarse / fine), 3.0) << most_mobile;
+  }
+}
+
+TEST(NormalInterval, LosesNoTouchThatIsPulledOffAgain) {
+  // a touch without damper at 1 m/s under -2.4 m/s2: open again within the interval
+  Mass mass;
+  const NormalInterval n = mass.move({1.0}, 0.8, -2.4);
+  EXPECT_GT(n.to, 0.5);
+  EXPECT_LT(n.to, 1.0);
+  EXPECT_NEAR(0.8 * n.force, 0.105, 0.01);
+  Mass shorter;
+  EXPECT_GT(shorter.move({1.0}, 0.9, -2.4).force, 0.0) << "outside at the end";
+}
+
+TEST(NormalInterval, HasTheCourseOfItsForce) {
+  // half a sine: its ends, its largest value, the mean of its square
+  const NormalLaw law{1.0};
+  Mass mass;
+  double square = 0.0, largest = 0.0, last = 0.0;
+  constexpr int count = 6;
+  constexpr double dt = std::numbers::pi / count;
+  for (int i = 0; i < count; ++i) {
+    const NormalInterval n = mass.move(law, dt);
+    square += n.square() / count;
+    largest = std::max(largest, n.course.largest());
+    EXPECT_NEAR(n.course.first, last, 2e-3) << i;
+    last = n.course.last;
+    EXPECT_NEAR(n.course.at(0.5), std::sin((i + 0.5) * dt), 2e-3) << i;
+  }
+  EXPECT_NEAR(square, 0.5, 1e-3);
+  EXPECT_NEAR(largest, 1.0, 2e-3);
+}
+
+TEST(NormalInterval, OpensWhereItsForceEndsInside) {
+  // pulled off and pressed again within the interval: a parabola with both ends above 0
+  const NormalInterval n =
+      normal_over_interval({1.0}, 4.0, 0.05, 0.0, {1.0, 1.0 - 4.0 * 1.2 + 0.5 * 16.0 * 0.6, -1.2, 0.6});
+  EXPECT_LT(n.to, 1.0);
+  EXPECT_GT(n.to, 0.1);
+}
+
+TEST(NormalInterval, TurnsNoSpeedRoundByAStiffDamper) {
+  // xi = 3.7 leaves 1.6 %, whatever dt; 1e4: nothing
+  for (const double dt : {0.01, 0.1, 0.5, 1.0})
+    EXPECT_NEAR(mean_impact({1.0, 7.4}, dt).speed, 0.0163, 4e-3) << dt;
+  for (const double dt : {0.01, 0.3})
+    EXPECT_LT(std::abs(impact({1.0, 2e4}, dt, 0.5).speed), 1e-3) << dt;
+}
+
+} // namespace normal_interval_test
