@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// The default scheme: exact modal flow between the impulses of contacts.
+/// The default scheme: exact motion of the modes under the forces of contacts, which move in intervals of a step.
 #pragma once
 #include "transient/scene/scheme.hpp"
 #include <memory>
