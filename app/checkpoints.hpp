@@ -38,7 +38,7 @@ public:
   [[nodiscard]] std::string found(std::size_t run) const;
   /// What was found does not fit the run, which starts at the beginning after all.
   void refuse(std::size_t run) const;
-  /// Saves the run, and those that have ended, when it is time to. What cannot be written is told, and the run goes on. After a signal
+  /// Saves the run, and those that have ended, when it is time to. Where that fails a line says so, and the run goes on. After a signal
   /// a process of its own saves them, in a session of its own: it completes the file also where a launcher kills the process group of
   /// this one soon after (Open MPI's mpirun: 1 s).
   /// @throws core::Interrupted after SIGTERM or SIGINT, when all is saved

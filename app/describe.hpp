@@ -13,7 +13,7 @@ namespace fretwork::app {
 void describe_model(const mesh::LineMesh& mesh, const fem::Model& model,
                     const std::vector<fem::Structure>& structures, results::RunResults& out);
 
-/// Lines of what is told before modes are computed: of values that may be slips, with which that can take long.
+/// Lines of the warnings that are printed before modes are computed: of values that may be slips, with which that can take long.
 [[nodiscard]] std::string early_warnings(const results::RunResults& out);
 
 /// Lines of all warnings, equal ones grouped, for `check`. @param early  those told early have been told

@@ -3,7 +3,7 @@
 /// The normal force of one contact over an interval dt, of its penetrations p0, p1 and their rates v0, v1 at both ends, <p> = max(p, 0).
 /// Closed at the start:
 ///     mean      F = K_N P + (C_N (p1 - p0) + K_N d (<p1>^2 - p0^2)/2)/dt,   P = (p0 + p1)/2 - (v1 - v0) dt/12
-///     at ends   N0, N1 = K_N p + c(p) p';   the force is the parabola of N0, F, N1, and ends where that does
+///     course    the parabola from N0 = K_N p0 + c(p0) v0 with the mean F and the bend of that law; the force ends where it does
 ///     growth    G = K_N (p1 - p0) + c' (v1 - v0) + K_N d (p1 v1 - p0 v0)
 ///     motion    p1 = p0 + v0 dt + a dt^2/2 - W dt^2 (F/2 - G/12),   v1 = v0 + (a - W F) dt
 /// Open at the start:
@@ -67,8 +67,7 @@ struct NormalInterval {
   constexpr double slow = 0.05; // z^5/30240 is round-off
   return z < slow ? 0.5 + z * (1.0 / 12.0 - z * z / 720.0) : 1.0 - 1.0 / z + 1.0 / std::expm1(z);
 }
-/// c' of a damper c over z = c W dt, N s/m: by it the mean velocity under a force that answers the velocity is beta of what it changes, less of c the faster it stops
-/// the contact.
+/// c' of a damper c, N s/m, z = c W dt: with it in G a speed that the damper alone takes down decays as e^-z; c of slow dampers, 6 c/z of fast ones.
 [[nodiscard]] inline double growing_damping(double c, double z) {
   return z > 0.0 ? 12.0 * c * (implicit_share(z) - 0.5) / z : c;
 }

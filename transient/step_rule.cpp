@@ -21,8 +21,7 @@ constexpr double cheap_step = 100.0, cost_of_contact = 40.0;
 constexpr double most_steps = 1e12;
 /// A run of an adaptive scheme has at least so many steps.
 constexpr double least_adaptive_steps = 200;
-/// w_c dt and w_t dt of the intervals of splitting at an accuracy of 0.01. Of contacts that mostly stick figures are
-/// up to 20 % off then, until replays (replays.hpp) have shown it: they move in up to 16 times as many intervals.
+/// w_c dt and w_t dt of the intervals of splitting at an accuracy of 0.01. Contacts whose error replays (replays.hpp) find above it move in up to 16 times as many.
 constexpr double interval_share = 0.8;
 /// Length of a replay: w_c times it; in steps, at least; of the duration, at most.
 constexpr double contact_times = 15.0, least_replay = 8.0, longest_replay = 0.01;

@@ -164,7 +164,6 @@ void ContactStep::finish_interval(ContactPath& m, const IntervalTable& of, const
   past.closed = stays;
   act.last = m.force = p.force + 0.5 * p.growth;
   past.rise = m.rise = (1.0 / of.length) * p.growth;
-
   if (!stays && p.to.gap >= 0.0)
     m.at = intervals_.locate(m.u);
   if (!friction_.active())

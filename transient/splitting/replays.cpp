@@ -130,16 +130,12 @@ private:
           run[k] += of_run_[c][k];
           replayed[k] += of_replay_[c][k];
         }
-        if (is_coarse(recent_[c])) {
-          refine(c);
-          refined = true;
-        }
+        refined = (is_coarse(recent_[c]) && refine(c)) || refined;
       }
     recent_sum_.add(run, replayed, 1.0);
     if (!refined && is_coarse(recent_sum_)) {
       for (std::size_t c = 0; c < whole_.size(); ++c)
-        refine(c);
-      refined = true;
+        refined = refine(c) || refined;
     }
     if (refined)
       recent_sum_ = {};
@@ -159,13 +155,15 @@ private:
     return false;
   }
 
-  void refine(std::size_t c) {
+  /// Returns whether there were finer intervals.
+  bool refine(std::size_t c) {
     if (parts_[c] >= options_.most_parts)
-      return;
+      return false;
     parts_[c] = std::min(2 * parts_[c], options_.most_parts);
     running_->divide(static_cast<int>(c), parts_[c]);
     finer_->divide(static_cast<int>(c), finer_parts * parts_[c]);
     recent_[c] = {};
+    return true;
   }
 
   std::unique_ptr<Replayable> running_, finer_;

@@ -12,7 +12,7 @@ from .drawing import ROUND_OFF, of_sum
 SIGNIFICANT = 3.0  # standard errors of a difference from which on it is none of scatter (0.3 % of the time by chance)
 FREQUENCIES = 10
 NO_CHANGE = 1e-6  # per cent
-LARGE_CHANGE = 1000  # per cent, above which it is told as a factor
+LARGE_CHANGE = 1000  # per cent, above which a change is given as a factor
 
 
 @dataclass
