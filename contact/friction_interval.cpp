@@ -36,9 +36,34 @@ Vec2 direction(double s, const Sym2& a, Vec2 b, double length) {
   return unit(force_of_length(length, plus(1.0, s * a), b));
 }
 
+StickTable stick_of(const FrictionLaw& law, double mobility, double length) {
+  StickTable t;
+  t.length = length;
+  t.half = 0.5 * length * length;
+  t.growing = growing_damping(law.damping, law.damping * mobility * length);
+  t.lag = law.stiffness * length * length / 12.0;
+  if (t.lag * mobility > most_bent)
+    t.lag = most_bent / mobility;
+  t.gradient = 0.5 * law.stiffness + law.damping / length;
+  return t;
+}
+SlipTable slip_of(const FrictionLaw& law, double length) {
+  SlipTable t;
+  const double c = law.damping / length, r = law.damping > 0.0 ? law.stiffness / c : no_damper;
+  t.length = length;
+  t.half = 0.5 * length * length;
+  t.relaxed = r < no_damper ? -std::expm1(-r) : 1.0;
+  t.share = r < slow_damper ? 0.5 + r / 12.0 : 1.0 / t.relaxed - (r < no_damper ? 1.0 / r : 0.0);
+  t.spread = r < slow_damper
+                 ? 1.0 / 12.0
+                 : (r < no_damper ? 1.0 / (r * r) : 0.0) - (1.0 - t.relaxed) / (t.relaxed * t.relaxed);
+  t.gradient = t.share * law.stiffness + c;
+  return t;
+}
+
 template <class V, class M> class Pieces {
 public:
-  Pieces(const FrictionLaw& law, const PieceTable& usual, double mobility, V spring, bool sliding,
+  Pieces(const FrictionLaw& law, const PieceTables& usual, double mobility, V spring, bool sliding,
          double length, const ParabolicForce& normal, const TangentialPath<V, M>& path)
       : law_(law), usual_(usual), mobility_(mobility), path_(path), course_(normal),
         acceleration_(path.acceleration), length_(length), left_(length), normal_(normal.first) {
@@ -56,8 +81,11 @@ public:
   }
 
 private:
-  [[nodiscard]] PieceTable table(double time) const {
-    return time == usual_.length ? usual_ : piece_table(law_, mobility_, time);
+  [[nodiscard]] StickTable stick_table(double time) const {
+    return time == usual_.stick.length ? usual_.stick : stick_of(law_, mobility_, time);
+  }
+  [[nodiscard]] SlipTable slip_table(double time) const {
+    return time == usual_.slip.length ? usual_.slip : slip_of(law_, time);
   }
   /// Of the force, and where there is none yet of what builds it up.
   [[nodiscard]] V heading() const {
@@ -80,7 +108,7 @@ private:
     return bow < 0.0 && time > shortest_piece * length_ && time < left_ ? time : left_;
   }
   /// N: that of the normal force in a piece.
-  [[nodiscard]] double bow(const PieceTable& t) const {
+  [[nodiscard]] double bow(const SlipTable& t) const {
     const double share = t.length / length_;
     return share * share * course_.bow();
   }
@@ -88,18 +116,17 @@ private:
   [[nodiscard]] double normal_rate(double time) const {
     return (course_.slope() - 12.0 * course_.bow() * (length_ - left_ + time) / length_) / length_;
   }
-  /// Shortens the piece to where a value is 0 that changes its sign in it, by false position (Illinois). `make` makes a piece and gives its
-  /// value at the end.   @return whether anything is left of it
-  template <class Make> bool cut(PieceTable& t, double at_start, double at_end, const Make& make) const {
+  /// Shortens a piece to where a value is 0 that changes its sign in it, by false position (Illinois). `make` makes a piece of a length and
+  /// gives its value at the end.   @return whether anything is left of it
+  template <class Make> bool cut(double length, double at_start, double at_end, const Make& make) const {
     const double enough = located * std::abs(at_end - at_start);
-    double from = 0.0, to = t.length;
+    double from = 0.0, to = length;
     bool was_before = false;
     for (int i = 0; i < most_iterations; ++i) {
       const double time = from + (to - from) * at_start / (at_start - at_end);
       if (!(time > shortest_piece * length_))
         return false;
-      t = table(time);
-      const double value = make();
+      const double value = make(time);
       if (std::abs(value) <= enough)
         break;
       const bool before = (value > 0.0) == (at_start > 0.0);
@@ -118,33 +145,31 @@ private:
     double normal; ///< N, at the end
   };
   /// m/s2, mean over a piece.
-  [[nodiscard]] V acceleration(const PieceTable& t) const {
-    return acceleration_ + (0.5 * t.length) * path_.jerk;
-  }
+  [[nodiscard]] V acceleration(double time) const { return acceleration_ + (0.5 * time) * path_.jerk; }
   /// m: without friction, and without what a damper adds that answers the velocity.
-  [[nodiscard]] V free_displacement(const PieceTable& t) const {
-    return t.length * (out_.velocity - (t.length * t.length / 12.0) * path_.jerk) + t.half * acceleration(t);
+  [[nodiscard]] V free_displacement(double time) const {
+    return time * (out_.velocity + (0.5 * time) * acceleration(time) - (time * time / 12.0) * path_.jerk);
   }
-  [[nodiscard]] V velocity_after(const PieceTable& t, V force) const {
-    return out_.velocity + t.length * (acceleration(t) + path_.mobility * force);
+  [[nodiscard]] V velocity_after(double time, V force) const {
+    return out_.velocity + time * (acceleration(time) + path_.mobility * force);
   }
 
-  void move_sticking(const PieceTable& t, const M& straight, const M& answer, V free, Piece& p) const {
+  void move_sticking(const StickTable& t, const M& straight, const M& answer, V free, Piece& p) const {
     p.by = solve(straight, V(free + answer * (path_.mobility * p.force)));
-    p.velocity = velocity_after(t, p.force);
+    p.velocity = velocity_after(t.length, p.force);
     p.spring = out_.spring - law_.stiffness * p.by;
     p.growth = (-12.0 * t.lag / (t.length * t.length)) * p.by - t.growing * (p.velocity - out_.velocity);
   }
-  [[nodiscard]] Piece sticking(const PieceTable& t) const {
+  [[nodiscard]] Piece sticking(const StickTable& t) const {
     Piece p;
     const double damped = t.growing * t.length * t.half / 6.0; // c' tau^3/12
     const M straight = plus(1.0, M(-t.lag * path_.mobility)),
             answer = plus(t.half, M(damped * path_.mobility));
-    const V free = free_displacement(t) + damped * (path_.mobility * acceleration(t));
-    const V pulled = straight * V(out_.spring + t.lag * acceleration(t));
-    p.force = solve(
-        M(square(straight) + t.stick_gradient * (t.half * path_.mobility + damped * square(path_.mobility))),
-        V(pulled - t.stick_gradient * free));
+    const V a = acceleration(t.length), free = free_displacement(t.length) + damped * (path_.mobility * a);
+    const V pulled = straight * V(out_.spring + t.lag * a);
+    p.force =
+        solve(M(square(straight) + t.gradient * (t.half * path_.mobility + damped * square(path_.mobility))),
+              V(pulled - t.gradient * free));
     p.normal = normal_after(t.length);
     const double bound = law_.mu_static * mean_normal(t.length, p.normal), length = norm(p.force);
     if (length >
@@ -159,7 +184,7 @@ private:
       out_.sliding = true;
       return;
     }
-    PieceTable t = table(left_);
+    StickTable t = stick_table(left_);
     Piece p = sticking(t);
     const auto over = [&] { return norm(law_.trial(p.spring, p.velocity)) - law_.mu_static * p.normal; };
     double over1 = over();
@@ -167,20 +192,21 @@ private:
         over1 <= 0.0 && time < left_ && !last &&
         law_.mu_static * normal_after(time) <
             std::max(norm(trial()), norm(law_.trial(p.spring, p.velocity)))) {
-      t = table(time);
+      t = stick_table(time);
       p = sticking(t);
       over1 = over();
     }
     if (over1 > round_off * law_.mu_static * p.normal && !last) {
       out_.sliding = true;
-      if (!(over0 < 0.0) || !cut(t, over0, over1, [&] {
+      if (!(over0 < 0.0) || !cut(t.length, over0, over1, [&](double time) {
+            t = stick_table(time);
             p = sticking(t);
             return over();
           }))
         return;
     }
     stands_ = false;
-    pass(t, p);
+    pass(t.length, p);
   }
 
   /// Against the force, m/s.
@@ -192,15 +218,15 @@ private:
                ? (dot(law_.trial(spring, velocity), along) - law_.mu_dynamic * normal) / law_.damping
                : -dot(velocity, along) - law_.mu_dynamic * rate / law_.stiffness;
   }
-  [[nodiscard]] Piece slipping(const PieceTable& t, V before) const {
+  [[nodiscard]] Piece slipping(const SlipTable& t, V before) const {
     Piece p;
     const double mu = law_.mu_dynamic;
     const double bound = mu * (normal_after(t.share * t.length) - 6.0 * bow(t) * t.spread);
-    const V free = free_displacement(t);
+    const V free = free_displacement(t.length);
     V mean = before, goal = before; // F_s
     p.along = before;
     if constexpr (std::is_same_v<V, Vec2>) {
-      goal = direction(t.slip_gradient * t.half, path_.mobility, out_.spring - t.slip_gradient * free, bound);
+      goal = direction(t.gradient * t.half, path_.mobility, out_.spring - t.gradient * free, bound);
       const V turn = (1.0 / t.share) * (goal - before);
       mean = unit(before + 0.5 * turn);
       p.along = unit(before + turn);
@@ -209,13 +235,13 @@ private:
     p.force = mu * mean_normal(t.length, p.normal) * mean;
     p.growth = mu * (p.normal * p.along - normal_ * before);
     p.by = free + t.half * (path_.mobility * V(p.force - (1.0 / 6.0) * p.growth));
-    p.velocity = velocity_after(t, p.force);
+    p.velocity = velocity_after(t.length, p.force);
     p.spring = out_.spring + t.relaxed * (bound * goal - out_.spring);
     return p;
   }
   void slip(bool last) {
     const V before = heading();
-    PieceTable t = table(left_);
+    SlipTable t = slip_table(left_);
     Piece p = slipping(t, before);
     const auto speed = [&] {
       return slider_speed(p.along, p.spring, p.velocity, p.normal, normal_rate(t.length));
@@ -224,7 +250,8 @@ private:
       out_.sliding = false;
       stands_ = true;
       const double speed0 = slider_speed(before);
-      if (!(speed0 > 0.0) || !cut(t, speed0, speed1, [&] {
+      if (!(speed0 > 0.0) || !cut(t.length, speed0, speed1, [&](double time) {
+            t = slip_table(time);
             p = slipping(t, before);
             return speed();
           }))
@@ -246,23 +273,23 @@ private:
                         growth * (t.length / 12.0 * (dot(p.velocity, p.along) - dot(out_.velocity, before)) +
                                   (t.relaxed * (t.share - 0.5) * decaying - b) / law_.stiffness);
     out_.slider_work += std::max(0.0, work); // below 0 only where nothing is resolved
-    pass(t, p);
+    pass(t.length, p);
   }
 
-  void pass(const PieceTable& t, const Piece& p) {
-    const double done = length_ - left_, middle = done + 0.5 * t.length - 0.5 * length_;
-    out_.impulse = out_.impulse + t.length * p.force;
-    out_.moment = out_.moment + t.length * (middle * p.force + t.length / 12.0 * p.growth);
+  void pass(double time, const Piece& p) {
+    const double done = length_ - left_, middle = done + 0.5 * time - 0.5 * length_;
+    out_.impulse = out_.impulse + time * p.force;
+    out_.moment = out_.moment + time * (middle * p.force + time / 12.0 * p.growth);
     out_.displacement = out_.displacement + p.by;
     out_.velocity = p.velocity;
-    acceleration_ = acceleration_ + t.length * path_.jerk;
+    acceleration_ = acceleration_ + time * path_.jerk;
     out_.spring = p.spring;
     normal_ = p.normal;
-    left_ = t.length < left_ ? left_ - t.length : 0.0;
+    left_ = time < left_ ? left_ - time : 0.0;
   }
 
   const FrictionLaw& law_;
-  const PieceTable& usual_;
+  const PieceTables& usual_;
   double mobility_;
   const TangentialPath<V, M>& path_;
   const ParabolicForce& course_;
@@ -273,32 +300,17 @@ private:
 };
 
 } // namespace
-PieceTable piece_table(const FrictionLaw& law, double mobility, double length) {
-  PieceTable t;
-  const double c = law.damping / length, r = law.damping > 0.0 ? law.stiffness / c : no_damper;
-  t.length = length;
-  t.half = 0.5 * length * length;
-  t.growing = growing_damping(law.damping, law.damping * mobility * length);
-  t.lag = law.stiffness * length * length / 12.0;
-  if (t.lag * mobility > most_bent)
-    t.lag = most_bent / mobility;
-  t.relaxed = r < no_damper ? -std::expm1(-r) : 1.0;
-  t.share = r < slow_damper ? 0.5 + r / 12.0 : 1.0 / t.relaxed - (r < no_damper ? 1.0 / r : 0.0);
-  t.spread = r < slow_damper
-                 ? 1.0 / 12.0
-                 : (r < no_damper ? 1.0 / (r * r) : 0.0) - (1.0 - t.relaxed) / (t.relaxed * t.relaxed);
-  t.stick_gradient = 0.5 * law.stiffness + c;
-  t.slip_gradient = t.share * law.stiffness + c;
-  return t;
+PieceTables piece_tables(const FrictionLaw& law, double mobility, double length) {
+  return {stick_of(law, mobility, length), slip_of(law, length)};
 }
 
-FrictionInterval<double> friction_over_interval(const FrictionLaw& law, const PieceTable& usual,
+FrictionInterval<double> friction_over_interval(const FrictionLaw& law, const PieceTables& usual,
                                                 double mobility, double spring, bool sliding, double length,
                                                 const ParabolicForce& normal,
                                                 const TangentialPath<double, double>& path) {
   return Pieces<double, double>(law, usual, mobility, spring, sliding, length, normal, path).all();
 }
-FrictionInterval<Vec2> friction_over_interval(const FrictionLaw& law, const PieceTable& usual,
+FrictionInterval<Vec2> friction_over_interval(const FrictionLaw& law, const PieceTables& usual,
                                               double mobility, Vec2 spring, bool sliding, double length,
                                               const ParabolicForce& normal,
                                               const TangentialPath<Vec2, Sym2>& path) {

@@ -25,20 +25,29 @@ template <class V, class M> struct TangentialPath {
   M mobility;     ///< 1/kg
 };
 
-/// What a law needs of a piece of a given length.
-struct PieceTable {
-  double length;         ///< tau, s
-  double half;           ///< tau^2/2, s2
-  double lag;            ///< K_T tau^2/12, kg, as far as most_bent allows
-  double growing;        ///< c', N s/m
-  double stick_gradient; ///< K_T/2 + C_T/tau, N/m
-  double slip_gradient;  ///< s K_T + C_T/tau, N/m
-  double share;          ///< s
-  double spread;         ///< variance of the share of the piece that F_s stands for
-  double relaxed;        ///< 1 - e^-r
+/// What the law needs of a piece of a given length in which the contact sticks.
+struct StickTable {
+  double length;   ///< tau, s
+  double half;     ///< tau^2/2, s2
+  double lag;      ///< K_T tau^2/12, kg, as far as most_bent allows
+  double growing;  ///< c', N s/m
+  double gradient; ///< K_T/2 + C_T/tau, N/m
+};
+/// Likewise of one in which it slips.
+struct SlipTable {
+  double length;   ///< tau, s
+  double half;     ///< tau^2/2, s2
+  double share;    ///< s
+  double spread;   ///< variance of the share of the piece that F_s stands for
+  double relaxed;  ///< 1 - e^-r
+  double gradient; ///< s K_T + C_T/tau, N/m
+};
+struct PieceTables {
+  StickTable stick;
+  SlipTable slip;
 };
 /// @param mobility  1/kg, about the largest along a tangent
-[[nodiscard]] PieceTable piece_table(const FrictionLaw& law, double mobility, double length);
+[[nodiscard]] PieceTables piece_tables(const FrictionLaw& law, double mobility, double length);
 
 template <class V> struct FrictionInterval {
   V impulse{};               ///< N s
@@ -55,11 +64,12 @@ template <class V> struct FrictionInterval {
 
 /// @param usual  of the whole interval, if it is of the usual length
 /// @param length  s   @param normal  N   @param mobility  1/kg, as that of `usual`
-[[nodiscard]] FrictionInterval<double> friction_over_interval(const FrictionLaw& law, const PieceTable& usual,
-                                                              double mobility, double spring, bool sliding,
-                                                              double length, const ParabolicForce& normal,
+[[nodiscard]] FrictionInterval<double> friction_over_interval(const FrictionLaw& law,
+                                                              const PieceTables& usual, double mobility,
+                                                              double spring, bool sliding, double length,
+                                                              const ParabolicForce& normal,
                                                               const TangentialPath<double, double>& path);
-[[nodiscard]] FrictionInterval<Vec2> friction_over_interval(const FrictionLaw& law, const PieceTable& usual,
+[[nodiscard]] FrictionInterval<Vec2> friction_over_interval(const FrictionLaw& law, const PieceTables& usual,
                                                             double mobility, Vec2 spring, bool sliding,
                                                             double length, const ParabolicForce& normal,
                                                             const TangentialPath<Vec2, Sym2>& path);

@@ -32,7 +32,7 @@ TEST(FrictionInterval, LeadsASpringWithoutDamperBackToTheBoundRadially) {
     Vec2 spring{bound, 0.0};
     const double dt = length / intervals;
     for (int i = 0; i < intervals; ++i) {
-      const PieceTable table = piece_table(law, 0.0, dt);
+      const PieceTables table = piece_tables(law, 0.0, dt);
       const auto f = friction_over_interval(law, table, 0.0, spring, true, dt, line(1.0, 1.0),
                                             driven<Vec2, Sym2>({0.0, speed}));
       spring = f.spring;
@@ -53,7 +53,7 @@ TEST(FrictionInterval, StaysWithinItsBoundOnTheMean) {
     const FrictionLaw any{draw.scale(0.01, 100.0), draw.scale(0.01, 100.0), 0.5, draw(0.2, 0.5)};
     const double dt = draw.scale(0.01, 2.0), normal0 = draw(0.0, 2.0), normal1 = draw(0.0, 2.0);
     const double bound = any.mu_static * 0.5 * (normal0 + normal1) * dt * (1.0 + round_off);
-    const PieceTable table = piece_table(any, 1.0, dt);
+    const PieceTables table = piece_tables(any, 1.0, dt);
     const Vec2 spring = draw.vector(any.mu_static * normal0), velocity = draw.vector(1.0),
                acceleration = draw.vector(1.0);
     const auto one = friction_over_interval(any, table, 1.0, spring.t, false, dt, line(normal0, normal1),
@@ -70,7 +70,7 @@ TEST(FrictionInterval, StartsToSlideInsideTheInterval) {
   constexpr double dt = 1.0, v = 0.5; // K v = 1 N/s
   for (const double growth : {0.0, 0.8}) {
     const double begin = 0.5 / (1.0 - 0.5 * growth);
-    const auto f = friction_over_interval(law, piece_table(law, 0.0, dt), 0.0, 0.0, false, dt,
+    const auto f = friction_over_interval(law, piece_tables(law, 0.0, dt), 0.0, 0.0, false, dt,
                                           line(1.0, 1.0 + growth), driven<double, double>(v));
     EXPECT_NEAR(f.sliding_time, dt - begin, round_off);
     EXPECT_NEAR(f.slid, v * (dt - begin), round_off);
@@ -83,7 +83,7 @@ TEST(FrictionInterval, StopsToSlideInsideTheInterval) {
   // a mass that friction brings to rest: after v/(mu N), whatever the interval
   constexpr double v = 0.2, stop = 0.4;
   const FrictionLaw stiff{1e6, 0.0, 0.5, 0.5};
-  const auto f = friction_over_interval(stiff, piece_table(stiff, 1.0, 1.0), 1.0, -0.5, true, 1.0,
+  const auto f = friction_over_interval(stiff, piece_tables(stiff, 1.0, 1.0), 1.0, -0.5, true, 1.0,
                                         line(1.0, 1.0), {v, 0.0, 0.0, 1.0});
   EXPECT_NEAR(f.sliding_time, stop, 1e-3); // the spring's stretch: mu N/K
   EXPECT_NEAR(f.slid, 0.5 * v * stop, 1e-3 * v * stop);
@@ -101,14 +101,14 @@ TEST(FrictionInterval, WorksAsMuchInOneIntervalAsInMany) {
     for (int i = 0; i < many; ++i) {
       const double n0 = normal0 + (normal1 - normal0) * i / many,
                    n1 = normal0 + (normal1 - normal0) * (i + 1) / many;
-      const auto f = friction_over_interval(slipping, piece_table(slipping, 0.0, dt / many), 0.0, spring,
+      const auto f = friction_over_interval(slipping, piece_tables(slipping, 0.0, dt / many), 0.0, spring,
                                             true, dt / many, line(n0, n1), driven<double, double>(v));
       EXPECT_TRUE(f.sliding);
       spring = f.spring;
       work += f.slider_work;
       slid += f.slid;
     }
-    const auto one = friction_over_interval(slipping, piece_table(slipping, 0.0, dt), 0.0, begin, true, dt,
+    const auto one = friction_over_interval(slipping, piece_tables(slipping, 0.0, dt), 0.0, begin, true, dt,
                                             line(normal0, normal1), driven<double, double>(v));
     EXPECT_NEAR(one.spring, spring, round_off) << damping;
     EXPECT_NEAR(one.slid, slid, round_off) << damping;
@@ -119,7 +119,7 @@ TEST(FrictionInterval, WorksAsMuchInOneIntervalAsInMany) {
 TEST(FrictionInterval, RestsUnderItsForce) {
   for (const double damping : {0.0, 0.3, 100.0}) {
     const FrictionLaw damped{2.0, damping, 0.5, 0.5};
-    const auto f = friction_over_interval(damped, piece_table(damped, 1.0, 0.7), 1.0, 0.2, false, 0.7,
+    const auto f = friction_over_interval(damped, piece_tables(damped, 1.0, 0.7), 1.0, 0.2, false, 0.7,
                                           line(1.0, 1.0), {0.0, -0.2, 0.0, 1.0});
     EXPECT_NEAR(f.displacement, 0.0, round_off) << damping;
     EXPECT_NEAR(f.spring, 0.2, round_off) << damping;
@@ -131,7 +131,7 @@ TEST(FrictionInterval, SticksWithTheFrequencyOfItsSpring) {
   const FrictionLaw sticking{1.0, 0.0, 10.0, 10.0};
   for (const double dt : {0.25, 0.5, 1.0}) {
     const int count = static_cast<int>(std::lround(20.0 * std::numbers::pi / dt));
-    const PieceTable table = piece_table(sticking, 1.0, dt);
+    const PieceTables table = piece_tables(sticking, 1.0, dt);
     double spring = 0.0, velocity = 1.0;
     Vec2 plane, rate{0.6, 0.8};
     for (int i = 0; i < count; ++i) {
@@ -162,13 +162,13 @@ TEST(FrictionInterval, TakesAParabolaOfTheNormalForceAsManyShortIntervals) {
     for (int i = 0; i < many; ++i) {
       const double from = static_cast<double>(i) / many, to = from + 1.0 / many;
       const auto f =
-          friction_over_interval(slipping, piece_table(slipping, 0.0, dt / many), 0.0, spring, true,
+          friction_over_interval(slipping, piece_tables(slipping, 0.0, dt / many), 0.0, spring, true,
                                  dt / many, line(normal.at(from), normal.at(to)), driven<double, double>(v));
       spring = f.spring;
       work += f.slider_work;
       wear += f.wear_work;
     }
-    const auto one = friction_over_interval(slipping, piece_table(slipping, 0.0, dt), 0.0, -1.0, true, dt,
+    const auto one = friction_over_interval(slipping, piece_tables(slipping, 0.0, dt), 0.0, -1.0, true, dt,
                                             normal, driven<double, double>(v));
     EXPECT_NEAR(one.spring, spring, 1e-5) << damping;
     EXPECT_NEAR(one.slider_work, work, 1e-2 * work)
@@ -183,7 +183,7 @@ TEST(FrictionInterval, SlidesAtOnceWhereNothingHoldsIt) {
   // a touch: no spring yet, and the bound grows more slowly than the spring would
   const FrictionLaw undamped{2.0, 0.0, 0.5, 0.5};
   constexpr double dt = 1.0, v = -1.0, growth = 1.0; // K_T |v| > mu N'
-  const auto f = friction_over_interval(undamped, piece_table(undamped, 0.0, dt), 0.0, 0.0, false, dt,
+  const auto f = friction_over_interval(undamped, piece_tables(undamped, 0.0, dt), 0.0, 0.0, false, dt,
                                         line(0.0, growth), driven<double, double>(v));
   EXPECT_NEAR(f.sliding_time, dt, round_off);
   EXPECT_NEAR(f.impulse, 0.25 * growth * dt, round_off);
@@ -193,7 +193,7 @@ TEST(FrictionInterval, SlidesAtOnceWhereNothingHoldsIt) {
 TEST(FrictionInterval, SlidesWhereTheNormalForceIsLowestInside) {
   // held at both ends, over the bound between them
   const FrictionLaw held{1.0, 0.0, 1.0, 1.0};
-  const auto f = friction_over_interval(held, piece_table(held, 0.0, 1.0), 0.0, 1.0, false, 1.0,
+  const auto f = friction_over_interval(held, piece_tables(held, 0.0, 1.0), 0.0, 1.0, false, 1.0,
                                         ParabolicForce{2.0, 2.0, 1.0}, driven<double, double>(0.0));
   EXPECT_GT(f.slider_work, 0.0);
   EXPECT_NEAR(f.spring, 0.5, 1e-2) << "the lowest bound";
@@ -205,7 +205,7 @@ TEST(FrictionInterval, SticksInThePlaneWhereItsDirectionsDiffer) {
   const Sym2 mobility{0.3, 0.1, 1.0};
   constexpr double most = 1.02, duration = 4.0; // 1/kg, its largest eigenvalue about; s
   const auto after = [&](double dt) {
-    const PieceTable table = piece_table(sticking, most, dt);
+    const PieceTables table = piece_tables(sticking, most, dt);
     Vec2 spring{0.3, -0.2}, velocity{1.0, 0.5};
     for (int i = 0; i < static_cast<int>(std::lround(duration / dt)); ++i) {
       const auto f = friction_over_interval(sticking, table, most, spring, false, dt, line(1.0, 1.0),

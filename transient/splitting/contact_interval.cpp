@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/splitting/contact_interval.hpp"
 #include <algorithm>
+#include <array>
 
 namespace fretwork::transient {
 namespace {
 
 /// Where normal and tangential motion are coupled an interval is made again until its force stands to this share.
 constexpr double repeat_tolerance = 1e-6;
-/// Likewise until what its force changes turns its normal by so little, rad.
-constexpr double turn_tolerance = 5e-3;
 constexpr int most_repeats = 20;
 
 /// Of the memory `reference`: one mean force over the interval.
@@ -154,14 +153,18 @@ void ContactIntervals::find_closed_friction(const ContactPath& m, const Interval
       stored *= rest * rest;
     }
   }
-  // along t = (nz, -ny), with the mean of the normal force
-  const Components n{ny, nz, 0.0}, by_normal = w_ * (p.normal.force * n),
-                                   jerk = m.j + (1.0 / dt) * (w_ * (p.normal.growth * n)),
-                                   a = m.a + by_normal + from * m.j - (0.5 * dt - from) * (jerk - m.j),
-                                   v = m.velocity(from) + from * by_normal;
+  // along t = (nz, -ny): with the mean of the normal force and its growth
   const auto& w = w_.w;
+  const Components by_n{w[0][0] * ny + w[0][1] * nz, w[1][0] * ny + w[1][1] * nz,
+                        w[2][0] * ny + w[2][1] * nz};
   const double wtt = w[0][0] * nz * nz - (w[0][1] + w[1][0]) * ny * nz + w[1][1] * ny * ny;
-  const double vt = tangent(p.axes, v), at = tangent(p.axes, a), jt = tangent(p.axes, jerk);
+  const double rise = p.normal.growth / dt, mean = p.normal.force - (0.5 * dt - from) * rise;
+  const auto start = [&](double u1, double u2, double u3, double w_n) { // velocity, acceleration, jerk
+    return std::array{u1 + from * (u2 + 0.5 * from * u3 + w_n * p.normal.force), u2 + from * u3 + w_n * mean,
+                      u3 + w_n * rise};
+  };
+  const auto [vt, at, jt] =
+      start(tangent(p.axes, m.v), tangent(p.axes, m.a), tangent(p.axes, m.j), tangent(p.axes, by_n));
   double growth_square = 0.0; // N2, while it is closed
   const auto close = [&](const auto& f, contact::Vec2 impulse, contact::Vec2 moment, contact::Vec2 by,
                          contact::Vec2 spring, contact::Vec2 faster) {
@@ -181,12 +184,13 @@ void ContactIntervals::find_closed_friction(const ContactPath& m, const Interval
   };
   if (in_plane_) {
     const double wxt = p.axes.tangent(w[0][2], w[1][2]);
+    const auto [vx, ax, jx] = start(m.v.x, m.a.x, m.j.x, by_n.x);
     const contact::TangentialPath<contact::Vec2, contact::Sym2> path{
-        law.masked(contact::Vec2{v.x, vt}), law.masked(contact::Vec2{a.x, at}),
-        law.masked(contact::Vec2{jerk.x, jt}), law.masked(contact::Sym2{w[2][2], wxt, wtt})};
+        law.masked(contact::Vec2{vx, vt}), law.masked(contact::Vec2{ax, at}),
+        law.masked(contact::Vec2{jx, jt}), law.masked(contact::Sym2{w[2][2], wxt, wtt})};
     const auto f = by_reference
                        ? reference_friction(law, of.table, p.memory, p.normal.force, length, path)
-                       : contact::friction_over_interval(law, of.piece, mobility_, p.memory.spring,
+                       : contact::friction_over_interval(law, of.pieces, mobility_, p.memory.spring,
                                                          p.memory.sliding, length, p.normal.course, path);
     close(f, f.impulse, f.moment, f.displacement, f.spring, f.velocity - path.velocity);
   } else if (by_reference) {
@@ -199,7 +203,7 @@ void ContactIntervals::find_closed_friction(const ContactPath& m, const Interval
   } else {
     const contact::TangentialPath<double, double> path{law.along.t * vt, law.along.t * at, law.along.t * jt,
                                                        law.along.t * wtt};
-    const auto f = contact::friction_over_interval(law, of.piece, mobility_, p.memory.spring.t,
+    const auto f = contact::friction_over_interval(law, of.pieces, mobility_, p.memory.spring.t,
                                                    p.memory.sliding, length, p.normal.course, path);
     close(f, {0.0, f.impulse}, {0.0, f.moment}, {0.0, f.displacement}, {0.0, f.spring},
           {0.0, f.velocity - path.velocity});
@@ -236,7 +240,7 @@ bool ContactIntervals::find_forces(const ContactPath& m, const ContactPast& past
   const auto along = [&p](double f) { return Components{p.axes.y(f, 0.0), p.axes.z(f, 0.0), 0.0}; };
   // so much more force turns the normal less than the tolerance
   const auto turns_little = [&](double force) {
-    return 0.5 * of.length * of.length * mobility_ * std::abs(p.curvature * force) <= turn_tolerance;
+    return 0.5 * of.length * of.length * mobility_ * std::abs(p.curvature * force) <= tolerance_;
   };
   for (int i = 0;; ++i) {
     p = {};

@@ -73,7 +73,7 @@ struct IntervalTable {
   double length = 0.0;            ///< s
   double apparent_mass = 0.0;     ///< kg: force for an acceleration of 1 m/s2 over it
   double growing = 0.0;           ///< N s/m, c' of normal_interval.hpp
-  contact::PieceTable piece{};    ///< of friction_interval.hpp
+  contact::PieceTables pieces{};  ///< of friction_interval.hpp
   contact::FrictionTable table{}; ///< of the memory `reference`
 };
 
