@@ -25,8 +25,8 @@ using Json = nlohmann::ordered_json;
 constexpr int runs = 16;
 constexpr double window_from = 0.2; ///< s
 constexpr double disturbed = 1e-7;  ///< m kg^1/2, of the first mode
-constexpr std::array figures = {"work_rate", "friction_power", "normal_rms", "impacts_per_second",
-                                "displacement_std"};
+constexpr std::array figures = {"work_rate",          "friction_power",   "normal_rms",
+                                "impacts_per_second", "displacement_std", "contact_time_ratio"};
 
 struct Ensemble {
   std::array<double, figures.size()> mean{}, error{}; ///< sums over contacts
@@ -38,8 +38,9 @@ struct Ensemble {
 std::array<double, figures.size()> sums(const post::ContactStatistics& statistics) {
   std::array<double, figures.size()> out{};
   for (const post::ContactSummary& c : statistics.summaries()) {
-    const double one[] = {c.work_rate, c.friction_power, c.normal_rms, c.impact_rate,
-                          std::hypot(c.y.std, c.z.std)};
+    const double one[] = {
+        c.work_rate,         c.friction_power, c.normal_rms, c.impact_rate, std::hypot(c.y.std, c.z.std),
+        c.contact_time_ratio};
     for (std::size_t k = 0; k < out.size(); ++k)
       out[k] += one[k];
   }
@@ -123,8 +124,8 @@ void compare(const char* file, const std::string& scheme, double factor, const s
               runs);
   std::printf("| scene | scheme | step, s | w_c h | w_max h | s | without statistics | work | friction | rms "
               "force | impacts | "
-              "motion | scatter |\n"
-              "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+              "motion | contact time | scatter |\n"
+              "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   for (const auto& [name, scene] : bench::rattling_tubes()) {
     if (!only.empty() && only != name)
       continue;

@@ -22,13 +22,19 @@ constexpr double least_part = 1.0 / 1024.0;
 
 /// Times as many intervals as the step rule gives that replays may ask for.
 constexpr int most_refined = 16;
+/// Of forces of contacts that depend on each other, whatever the accuracy.
+constexpr double loosest_tolerance = 0.02;
 
 std::unique_ptr<Scheme> make_splitting_of(const Scene& scene, const StepChoice& c) {
+  const SplittingOptions options{c.fastest, c.macro_steps, c.parts, std::min(c.accuracy, loosest_tolerance)};
   if (!(c.replay > 0.0))
-    return make_splitting(scene, c.step, c.fastest, c.macro_steps, c.parts);
+    return make_splitting(scene, c.step, options);
+  SplittingOptions finer = options;
+  finer.longest *= 2;
+  finer.tolerance *= 0.5;
   return make_replayed(
-      make_replayable_splitting(scene, c.step, c.fastest, c.macro_steps, c.parts),
-      make_replayable_splitting(scene, 0.5 * c.step, c.fastest, 2 * c.macro_steps, c.parts),
+      make_replayable_splitting(scene, c.step, options),
+      make_replayable_splitting(scene, 0.5 * c.step, finer),
       {c.accuracy, c.replay, static_cast<int>(scene.contacts.size()), c.parts, most_refined * c.parts});
 }
 

@@ -14,23 +14,20 @@ constexpr double normally_damped = 2.0;
 /// w_c h that normal dampers never make the step shorter than: a damper that is faster leaves no rebound (e < 0.001), and resolving it costs
 /// without end.
 constexpr double finest_for_dampers = 0.03;
-/// w_c h and w_t h at an accuracy of 0.01: with splitting those of its intervals; with collocation work rates of rattling tubes are
-/// 2.8 % off at w_t h = 1, 1.4 % at 0.5: contacts start to slide inside steps, which only intervals follow.
-struct Shares {
-  double contact, stick;
-};
-/// w_c h of the longest automatic step, whatever the accuracy.
-constexpr double longest_contact_share = 1.0;
-Shares shares(const StepChoice& c) {
-  switch (c.scheme) {
+/// w_c h and w_t h at an accuracy of 0.01. With collocation work rates of rattling tubes are 2.8 % off at w_t h = 1, 1.4 % at 0.5: contacts start to
+/// slide inside steps, which only intervals follow.
+double contact_share(SchemeKind scheme) {
+  switch (scheme) {
   case SchemeKind::splitting:
-    return {0.8, 0.8};
+    return 1.0;
   case SchemeKind::collocation:
-    return {0.5, 0.5};
+    return 0.5;
   default:
-    return {0.3, 0.3};
+    return 0.3;
   }
 }
+/// w_c h and w_t h of the longest automatic step, whatever the accuracy.
+constexpr double longest_contact_share = 1.0;
 /// Of a damper's rate times the step of schemes that take it explicitly.
 double explicit_share(SchemeKind scheme, double fineness) {
   return scheme == SchemeKind::devogelaere ? std::min(0.5 * fineness, most_damped) : 0.5 * fineness;
@@ -45,7 +42,7 @@ bool may_go_past_modes(SchemeKind scheme) {
 double most_resolved(SchemeKind scheme) {
   switch (scheme) {
   case SchemeKind::splitting:
-    return 1.05; // in intervals of 0.8 of it
+    return 1.05;
   case SchemeKind::devogelaere:
     return 0.75;
   case SchemeKind::energy_conserving:
@@ -104,14 +101,11 @@ std::vector<StepLimit> step_limits(const StepChoice& c, const Scene& scene, doub
   if (c.table_interval > 0.0)
     out.push_back(
         {c.table_interval, fmt::format("the shortest interval of a table ({:.4g} s)", c.table_interval)});
-  const Shares share = shares(c);
-  const double resolved = most_resolved(c.scheme);
-  add(std::min({share.contact * fineness, longest_contact_share, resolved}), c.contact_frequency,
-      fmt::format("the contact frequency {:.4g} rad/s", c.contact_frequency));
-  if (c.stick_frequency > 0.0) {
-    out.push_back({std::min(share.stick * fineness, resolved) / c.stick_frequency,
-                   fmt::format("the frequency of sticking contacts {:.4g} rad/s", c.stick_frequency)});
-  }
+  const double closed =
+      std::min({contact_share(c.scheme) * fineness, longest_contact_share, most_resolved(c.scheme)});
+  add(closed, c.contact_frequency, fmt::format("the contact frequency {:.4g} rad/s", c.contact_frequency));
+  add(closed, c.stick_frequency,
+      fmt::format("the frequency of sticking contacts {:.4g} rad/s", c.stick_frequency));
   if (c.damper_rate > 0.0) {
     const bool splitting = c.scheme == SchemeKind::splitting;
     const double intervals = splitting ? most_intervals : 1.0;

@@ -21,17 +21,18 @@ constexpr double cheap_step = 100.0, cost_of_contact = 40.0;
 constexpr double most_steps = 1e12;
 /// A run of an adaptive scheme has at least so many steps.
 constexpr double least_adaptive_steps = 200;
-/// w_c dt and w_t dt of the intervals of splitting at an accuracy of 0.01. Contacts whose error replays (replays.hpp) find above it move in up to 16 times as many.
-constexpr double interval_share = 0.8;
+/// w_c dt and w_t dt of the intervals of splitting at an accuracy of 0.01: two a step, which take the time of one, since they turn less and are found
+/// at once. Contacts whose error replays (replays.hpp) find above it move in up to 16 times as many.
+constexpr double interval_share = 0.5;
 /// Length of a replay: w_c times it; in steps, at least; of the duration, at most.
 constexpr double contact_times = 15.0, least_replay = 8.0, longest_replay = 0.01;
 /// The step of an accuracy of 0.02 is the longest: no statistics are worth having above it.
 constexpr double coarsest_accuracy = 0.02;
 /// Steps of a macro-step. More gain little: its end, with displacements and velocities, costs as much as one step.
 constexpr double most_macro_steps = 12.0;
-/// Steps of splitting that one of collocation takes the time of: measured 0.9 to 1.1 with 1 and 3 supports, 0.6 to 0.8 with 8 to 30; the same where a
-/// damping matrix couples the modes (0.4 to 0.9), and with friction in the plane.
-double collocation_cost(const Scene& scene) { return scene.contacts.size() > 3 ? 0.7 : 1.0; }
+/// Steps of splitting that one of collocation takes the time of: measured 0.5 to 1 with 1 to 20 supports, 1 to 2 where contacts are so stiff that most
+/// steps have none closed.
+constexpr double collocation_cost = 0.7;
 /// Of the time of splitting: below it collocation is taken, which does not measure its error (replays.hpp).
 constexpr double worth_changing = 0.7;
 
@@ -228,7 +229,7 @@ StepChoice cheapest(const Scene& scene, const SceneRates& rates, const StepOptio
     return splitting;
   }
   StepChoice collocation = choice_of(scene, rates, options, SchemeKind::collocation);
-  const double time = collocation_cost(scene) * static_cast<double>(collocation.steps) /
+  const double time = collocation_cost * static_cast<double>(collocation.steps) /
                       static_cast<double>(splitting.steps); // of that of splitting
   if (time < worth_changing) {
     collocation.scheme_reason =

@@ -5,8 +5,7 @@
 ///     h = min{ c/w_c, s/w_t, r/r_t, max(2/r_n, 0.03/w_c), m/w_max },  the shares at an accuracy of 0.01; others grow and fall with its square root
 ///
 ///                          c      s      r     m
-///     splitting            1      1      403   2.5 where modes cannot be made heavier (mass_scaling.hpp); c = 0.8 with modes above
-///                                              0.6 w_c
+///     splitting            1      1      403   2.5 where modes cannot be made heavier (mass_scaling.hpp)
 ///     collocation          0.5    0.5    2     -
 ///     energy_conserving    0.3    0.3    2     2.5
 ///     euler, devogelaere   0.3    0.3    0.5   0.5
@@ -29,7 +28,7 @@
 /// runge_kutta_54 chooses its steps by its tolerance: `step` is the longest, from the terms of the loads and duration/200.
 /// Never above 1/30 of the shortest period of the excitation at an accuracy of 0.01 (without contacts 1/200, and m = 0.3: statistics must
 /// see the modes), nor the shortest interval of a table (whose points runge_kutta_54 ends its steps at), nor duration/20000, where
-/// steps are expensive, s = modes + 20 contacts above 100, duration/max(2000, 2e8/s^2): so many steps take milliseconds to some hundredths of a second.
+/// steps are expensive, s = modes + 40 contacts above 100, duration/max(2000, 2e8/s^2): so many steps take milliseconds to some hundredths of a second.
 ///
 /// Without a scheme given, collocation is taken where its predicted time (steps times the cost of one) is below 0.7 of that of splitting.
 #pragma once

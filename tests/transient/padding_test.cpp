@@ -103,7 +103,7 @@ TEST(Padding, OfSplittingIsNotSeen) {
   constexpr int steps = 400;
   for (const Size& size : sizes) {
     const Scene scene = rattling(size.contacts, size.modes, h * steps), more = padded_scene(scene, 3, 6);
-    const auto plain = make_splitting(scene, h, 0.0, 1, 2), padded = make_splitting(more, h, 0.0, 1, 2);
+    const auto plain = make_splitting(scene, h, {.parts = 2}), padded = make_splitting(more, h, {.parts = 2});
     const PlainState a = last_state(*plain, scene, steps);
     PlainState b = last_state(*padded, more, steps);
     EXPECT_EQ(b.q.tail(3).norm(), 0.0);

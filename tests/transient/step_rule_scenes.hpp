@@ -12,7 +12,7 @@ using namespace fretwork::transient;
 
 constexpr double round_off = 1e-12;
 constexpr double eps = 0.5;   // at an accuracy of 1 %
-constexpr double share = 0.8; // w_c h and w_t h of splitting at 1 %
+constexpr double share = 1.0; // w_c h and w_t h of splitting at 1 %
 constexpr double mass = 2.0;
 
 inline Scene scene_with(const contact::Support& support, double duration = 1000.0,

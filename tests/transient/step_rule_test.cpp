@@ -35,8 +35,8 @@ TEST(StepRule, GivesCollocationALongerStepWhateverTheModes) {
 TEST(StepRule, ResolvesTheFrequencyOfStickingContacts) {
   Scene scene = scene_with({Circle{0.1}, {2.0}, {8e4, 0.0, 0.3, 0.3}});
   expect_governed(scene, splitting(), share / 200.0, "the frequency of sticking contacts 200 rad/s");
-  EXPECT_EQ(choose_step(scene, splitting()).parts, 1); // w_t dt up to 0.8
-  EXPECT_EQ(choose_step(scene, splitting(2.0 / 200.0)).parts, 3);
+  EXPECT_EQ(choose_step(scene, splitting()).parts, 2); // w_t dt up to 0.5
+  EXPECT_EQ(choose_step(scene, splitting(2.0 / 200.0)).parts, 4);
 }
 
 TEST(StepRule, ResolvesTheTangentialDampers) {
@@ -51,8 +51,8 @@ TEST(StepRule, ResolvesTheTangentialDampers) {
 TEST(StepRule, ResolvesTheTangentialDampersOfSplittingInItsIntervals) {
   Scene scene = scene_with({Circle{0.1}, {8e4}, {2.0, 4e4, 0.3, 0.3}}); // r_t = 2e4 1/s
   expect_governed(scene, splitting(), share / 200.0, "the contact frequency 200 rad/s");
-  EXPECT_EQ(choose_step(scene, splitting()).parts, 13); // r_t dt below 6.3
-  EXPECT_EQ(choose_step(scene, splitting(share / 400.0)).parts, 7);
+  EXPECT_EQ(choose_step(scene, splitting()).parts, 16); // r_t dt below 6.3
+  EXPECT_EQ(choose_step(scene, splitting(share / 400.0)).parts, 8);
   scene = scene_with({Circle{0.1}, {2.0}, {2.0, 4e3, 0.3, 0.3}}, 1e5);
   expect_governed(scene, splitting(), 64 * 6.3 / 2000.0, "the tangential dampers' rate 2000 1/s");
   EXPECT_EQ(choose_step(scene, splitting()).parts, 64);
@@ -211,7 +211,7 @@ TEST(StepRule, KeepsAwayFromTheResonanceOfSplitting) {
 
 TEST(StepRule, MakesModesHeavierThatOnlyContactsMove) {
   const Scene scene = scene_with({Circle{0.1}, {8e4}, {}}, 1000.0, Vec3(0, 8e8, 0));
-  expect_governed(scene, splitting(), 0.8 / 200.0, "1 of 3 modes, those above");
+  expect_governed(scene, splitting(), share / 200.0, "1 of 3 modes, those above");
   const StepChoice choice = choose_step(scene, splitting());
   EXPECT_NEAR(choice.fastest * choice.step, 2.5, round_off);
   EXPECT_NEAR(halved(choice).fastest * halved(choice).step, 2.5, round_off);
@@ -229,16 +229,16 @@ TEST(StepRule, FollowsModesNotFarAboveTheContacts) {
   const auto above = [](double times) {
     return scene_with({Circle{0.1}, {8e4}, {}}, 1000.0, Vec3(0, mass * std::pow(times * 200.0, 2), 0));
   };
-  expect_governed(above(3.0), splitting(), 0.8 / 200.0, "the contact frequency");
-  EXPECT_EQ(choose_step(above(3.0), splitting()).scaled, 0);
-  expect_governed(above(3.2), splitting(), 0.8 / 200.0, "1 of 3 modes, those above");
-  EXPECT_EQ(choose_step(above(3.2), splitting()).scaled, 1);
+  expect_governed(above(2.4), splitting(), share / 200.0, "the contact frequency");
+  EXPECT_EQ(choose_step(above(2.4), splitting()).scaled, 0);
+  expect_governed(above(2.6), splitting(), share / 200.0, "1 of 3 modes, those above");
+  EXPECT_EQ(choose_step(above(2.6), splitting()).scaled, 1);
 }
 
 TEST(StepRule, TakesSplittingWhereContactsLimitTheStep) {
   const StepChoice choice = choose_step(scene_with({Circle{0.1}, {8e4}, {}}), {});
   EXPECT_EQ(choice.scheme, SchemeKind::splitting);
-  EXPECT_TRUE(mentions(choice.scheme_reason, "splitting; collocation would take about 1.6 times as long"))
+  EXPECT_TRUE(mentions(choice.scheme_reason, "splitting; collocation would take about 1.4 times as long"))
       << choice.scheme_reason;
 }
 

@@ -39,9 +39,9 @@ reference_friction(const contact::FrictionLaw& law, const contact::FrictionTable
 } // namespace
 
 ContactIntervals::ContactIntervals(const contact::Support& support, const Components& rest,
-                                   const Mobility& mobility, bool in_plane, double usual)
+                                   const Mobility& mobility, bool in_plane, double usual, double tolerance)
     : obstacle_(support.obstacle), normal_(support.normal), friction_(support.friction), rest_(rest),
-      w_(mobility), in_plane_(in_plane), mobility_(0.0), across_(0.0) {
+      w_(mobility), in_plane_(in_plane), mobility_(0.0), across_(0.0), tolerance_(tolerance) {
   const auto& w = w_.w;
   for (int to = 0; to < 3; ++to) {
     mobility_ = std::max(mobility_, w[to][to]);
@@ -60,7 +60,7 @@ IntervalTable ContactIntervals::table(double length) const {
   of.apparent_mass = force / (1.0 + force * mobility_);
   of.growing = contact::growing_damping(normal_.damping, normal_.damping * mobility_ * length);
   if (friction_.active()) {
-    of.piece = contact::piece_table(friction_, mobility_, length);
+    of.pieces = contact::piece_tables(friction_, mobility_, length);
     if (friction_.kind == contact::FrictionMemoryKind::reference)
       of.table = contact::friction_table(friction_, length);
   }

@@ -98,8 +98,9 @@ class ContactIntervals {
 public:
   /// @param support  must live longer   @param rest  of the contact without displacement, m   @param in_plane  friction acts along x too
   /// @param usual  s, length of most intervals
+  /// @param tolerance  rad: an interval is made again until what its force changes turns its normal by so little
   ContactIntervals(const contact::Support& support, const Components& rest, const Mobility& mobility,
-                   bool in_plane, double usual);
+                   bool in_plane, double usual, double tolerance);
   /// From now on most intervals have this length. No allocation.
   void set_usual(double length) { usual_ = table(length); }
   [[nodiscard]] const IntervalTable& usual() const { return usual_; }
@@ -132,6 +133,7 @@ private:
   bool in_plane_;
   double mobility_; ///< 1/kg, the largest along any direction
   double across_;   ///< 1/kg: acceleration along one of its directions by a force along another
+  double tolerance_;
   IntervalTable usual_;
 };
 

@@ -25,9 +25,9 @@ constexpr double shortest_turn = 1.0 / 32.0;
 } // namespace
 
 ContactStep::ContactStep(const contact::Support& support, const Components& rest, const Mobility& mobility,
-                         bool in_plane, double step, int parts, double clearance)
+                         bool in_plane, double step, int parts, double clearance, double tolerance)
     : normal_(support.normal), friction_(support.friction), in_plane_(in_plane), h_(step),
-      clearance_(clearance), intervals_(support, rest, mobility, in_plane, step / parts),
+      clearance_(clearance), intervals_(support, rest, mobility, in_plane, step / parts, tolerance),
       apparent_mass_(intervals_.table(step).apparent_mass) {}
 
 void ContactStep::divide(int parts) { intervals_.set_usual(h_ / parts); }

@@ -32,9 +32,9 @@ class ContactStep {
 public:
   /// @param support  must live longer   @param rest  of the contact without displacement, m
   /// @param in_plane  friction acts along x too   @param step  h, s   @param parts  intervals of a step in which the contact is closed, >= 1
-  /// @param clearance  m, that is not to be passed unseen
+  /// @param clearance  m, that is not to be passed unseen   @param tolerance  of contact_interval.hpp
   ContactStep(const contact::Support& support, const Components& rest, const Mobility& mobility,
-              bool in_plane, double step, int parts, double clearance);
+              bool in_plane, double step, int parts, double clearance, double tolerance);
 
   /// From now on the contact moves in so many intervals, >= 1, where it is closed throughout a step. No allocation.
   void divide(int parts);
@@ -47,8 +47,6 @@ public:
   /// A spring that sticks is stretched by what the modes moved, not by what the step took them to move: it would creep.
   /// @param missed  m, what they moved further
   void stretch(ContactPast& past, const Components& missed) const;
-  /// Energy of the tangential spring, J.
-  [[nodiscard]] double spring_energy(const ContactPast& past) const;
   /// N: by how much its force can change for an acceleration of 1 m/s2 over the step.
   [[nodiscard]] double apparent_mass() const { return apparent_mass_; }
 

@@ -7,16 +7,16 @@ namespace fretwork::transient {
 namespace {
 
 constexpr int most_sweeps = 40;
-/// Of the largest force of a step: what contacts may still have to answer when the sweeps stop.
-constexpr double sweep_tolerance = 3e-3;
 /// Of the answer of a contact that is closed throughout a step: that of one which is closed for a moment, at least.
 constexpr double least_answer = 0.2;
 
 } // namespace
 
 ContactSweeps::ContactSweeps(const PackedContacts& contacts, ContactBlocks blocks,
-                             std::vector<std::vector<Mobility>> mobility, double step, int parts)
-    : contacts_(contacts), blocks_(std::move(blocks)), mobility_(std::move(mobility)), h_(step) {
+                             std::vector<std::vector<Mobility>> mobility, double step, int parts,
+                             double tolerance)
+    : contacts_(contacts), blocks_(std::move(blocks)), mobility_(std::move(mobility)), h_(step),
+      tolerance_(tolerance) {
   const auto count = static_cast<std::size_t>(contacts.count);
   pasts_.resize(count);
   forces_.resize(count);
@@ -40,7 +40,7 @@ ContactSweeps::ContactSweeps(const PackedContacts& contacts, ContactBlocks block
     }
     steps_.emplace_back(contacts.supports[c], Components{contacts.rest_y(c), contacts.rest_z(c), 0.0},
                         own_[c], contacts.in_plane[c] != 0, step, parts,
-                        contacts.reach[c].limit[kernels::lane(c)]);
+                        contacts.reach[c].limit[kernels::lane(c)], tolerance);
   }
 }
 
@@ -171,7 +171,7 @@ bool ContactSweeps::sweep(int first, double largest) {
   for (int sweep = 1; sweep < most_sweeps; ++sweep) {
     bool converged = true;
     for (int i = first; i >= 0; i = moving_[i].next)
-      if (outstanding_force(moving_[i]) > sweep_tolerance * largest) {
+      if (outstanding_force(moving_[i]) > tolerance_ * largest) {
         find(moving_[i]);
         converged = false;
       }

@@ -22,8 +22,9 @@ public:
   /// @param contacts  must live longer   @param mobility  W by blocks: of the block's contact `to` by a force on its contact `from` at
   ///   from * contacts of the block + to
   /// @param step  h, s   @param parts  of contact_step.hpp
+  /// @param tolerance  of the largest force of a step: what contacts may still have to answer when the sweeps stop; of contact_step.hpp
   ContactSweeps(const PackedContacts& contacts, ContactBlocks blocks,
-                std::vector<std::vector<Mobility>> mobility, double step, int parts);
+                std::vector<std::vector<Mobility>> mobility, double step, int parts, double tolerance);
 
   /// From now on contact c moves in so many intervals a step, >= 1. No allocation.
   void divide(int c, int parts);
@@ -81,7 +82,7 @@ private:
   ContactBlocks blocks_;
   std::vector<std::vector<Mobility>> mobility_; ///< by blocks
   std::vector<Mobility> own_;                   ///< of each contact by its own force
-  double h_;
+  double h_, tolerance_;
   std::vector<ContactStep> steps_;
   std::vector<int> parts_; ///< of each contact
   std::vector<ContactPast> pasts_;

@@ -8,13 +8,10 @@ namespace {
 
 using Figures = StepError::Figures;
 
-/// Of an error, in what a quarter of the interval takes away of it: order 1.
-constexpr double whole_error = 4.0 / 3.0;
-/// Intervals of the finer scheme, of half the step, over those of the running one.
-constexpr int finer_parts = 2;
-/// Times between replays over their length: the first, by how much it grows from one to the next, and the last. 2 % of a long run are replayed, which
-/// costs 6 to 8 % of its time; of runs of a few hundred lengths 12 to 40 %.
-constexpr double first_pause = 2.0, growth = 1.1, longest_pause = 40.0;
+/// Of an error, in what half the interval takes away of it: order 1.
+constexpr double whole_error = 2.0;
+/// Times between replays over their length: the first, by how much it grows from one to the next, and the last.
+constexpr double first_pause = 6.0, growth = 1.1, longest_pause = 40.0;
 /// Varies the pauses, so that no period of the loads is met again and again at one phase.
 constexpr double golden = 0.6180339887498949;
 /// Of the accuracy: an error that takes finer intervals, and by how many standard errors it is to stand out. Six figures are looked at after each
@@ -64,8 +61,6 @@ public:
     whole_.resize(count);
     recent_.resize(count);
     parts_.assign(count, options.parts);
-    for (int c = 0; c < options.contacts; ++c)
-      finer_->divide(c, finer_parts * options.parts);
   }
 
   const Record& advance() override {
@@ -161,7 +156,7 @@ private:
       return false;
     parts_[c] = std::min(2 * parts_[c], options_.most_parts);
     running_->divide(static_cast<int>(c), parts_[c]);
-    finer_->divide(static_cast<int>(c), finer_parts * parts_[c]);
+    finer_->divide(static_cast<int>(c), parts_[c]);
     recent_[c] = {};
     return true;
   }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// The error of a run by its step, measured while it goes on. From time to time a second scheme of half the step and a quarter of the interval takes
-/// over the state of the running one and replays what follows, over a few periods of the contacts: too short for both to part by chaos. Let s be what
-/// a statistic of a contact sums over the replayed times and d by how much a replay's part of it differs. Then
-///     error = 4/3 d/s +- 4/3 (sum of d^2)^1/2/s
+/// The error of a run by its step, measured while it goes on. From time to time a second scheme of half the step and interval takes over the state
+/// of the running one and replays what follows, over a few periods of the contacts: too short for both to part by chaos. Let s be what a statistic
+/// of a contact sums over the replayed times and d by how much a replay's part of it differs. Then
+///     error = 2 d/s +- 2 (sum of d^2)^1/2/s
 /// the error that the step makes in that time; statistics of long runs may keep less of it, for a contact that slips too far sticks the longer.
-/// 4/3: of intervals, whose errors are of order 1 at least, a quarter shows three quarters. Contacts whose error is significant and above half of the
-/// accuracy are moved in twice as many intervals from then on.
+/// 2: of errors of order 1 half the interval takes away a half; of higher orders more, and the error told is too large. Contacts whose error is
+/// significant and above half of the accuracy are moved in twice as many intervals from then on.
 #pragma once
-#include "transient/scene/scheme.hpp"
+#include "transient/splitting/splitting.hpp"
 
 namespace fretwork::transient {
 
@@ -32,7 +32,7 @@ struct ReplayOptions {
 
 /// As make_splitting.
 [[nodiscard]] std::unique_ptr<Replayable> make_replayable_splitting(const Scene& scene, double step,
-                                                                    double fastest, int longest, int parts);
+                                                                    const SplittingOptions& options);
 /// @param running  whose records are those of the whole   @param finer  of half its step
 [[nodiscard]] std::unique_ptr<Scheme> make_replayed(std::unique_ptr<Replayable> running,
                                                     std::unique_ptr<Replayable> finer,

@@ -53,14 +53,15 @@ std::vector<int> lengths_up_to(int longest) {
 class Splitting final : public Replayable {
 public:
   /// @param scene  in the coordinates p of mass_scaling.hpp   @param mode_scales  n, q = mode_scales p; empty: all 1
-  Splitting(const Scene& scene, double step, const Eigen::VectorXd& mode_scales, int longest, int parts)
-      : h_(step), duration_(scene.duration), lengths_(lengths_up_to(longest)), modes_(scene, step, lengths_),
-        mode_count_(static_cast<std::size_t>(scene.system.size())),
+  Splitting(const Scene& scene, double step, const Eigen::VectorXd& mode_scales,
+            const SplittingOptions& options)
+      : h_(step), duration_(scene.duration), lengths_(lengths_up_to(options.longest)),
+        modes_(scene, step, lengths_), mode_count_(static_cast<std::size_t>(scene.system.size())),
         contacts_(modes_.outputs(scene.contacts), modes_.coordinates(), modes_.has_blocks()),
         inputs_(inputs_of(scene)), start_(contacts_), end_(contacts_),
         obstacles_(scene, contacts_), imposed_{obstacles_.workspace(), obstacles_.workspace()},
         forces_(inputs_ ? *inputs_ : contacts_),
-        sweeps_(make_sweeps(scene, parts)), steps_{Step(*this), Step(*this), Step(*this)} {
+        sweeps_(make_sweeps(scene, options)), steps_{Step(*this), Step(*this), Step(*this)} {
     const auto n = static_cast<std::size_t>(kernels::padded(static_cast<int>(scene.system.size())));
     if (mode_scales.size() > 0) {
       mode_scales_.assign(n, 1.0);
@@ -196,10 +197,10 @@ private:
   };
   [[nodiscard]] static std::size_t next(std::size_t step) { return step == 2 ? 0 : step + 1; }
 
-  ContactSweeps make_sweeps(const Scene& scene, int parts) {
+  ContactSweeps make_sweeps(const Scene& scene, const SplittingOptions& options) {
     ContactBlocks blocks(scene);
     auto mobility = step_mobility(scene, blocks, contacts_.components, modes_, h_);
-    return {contacts_, std::move(blocks), std::move(mobility), h_, parts};
+    return {contacts_, std::move(blocks), std::move(mobility), h_, options.parts, options.tolerance};
   }
 
   [[nodiscard]] std::optional<PackedContacts> inputs_of(const Scene& scene) const {
@@ -378,18 +379,17 @@ private:
 
 } // namespace
 
-std::unique_ptr<Replayable> make_replayable_splitting(const Scene& scene, double step, double fastest,
-                                                      int longest, int parts) {
-  const Eigen::VectorXd masses = scaled_masses(scene, fastest);
+std::unique_ptr<Replayable> make_replayable_splitting(const Scene& scene, double step,
+                                                      const SplittingOptions& options) {
+  const Eigen::VectorXd masses = scaled_masses(scene, options.fastest);
   if ((masses.array() == 1.0).all())
-    return std::make_unique<Splitting>(scene, step, Eigen::VectorXd(), longest, parts);
+    return std::make_unique<Splitting>(scene, step, Eigen::VectorXd(), options);
   return std::make_unique<Splitting>(with_masses(scene, masses), step, masses.cwiseSqrt().cwiseInverse(),
-                                     longest, parts);
+                                     options);
 }
 
-std::unique_ptr<Scheme> make_splitting(const Scene& scene, double step, double fastest, int longest,
-                                       int parts) {
-  return make_replayable_splitting(scene, step, fastest, longest, parts);
+std::unique_ptr<Scheme> make_splitting(const Scene& scene, double step, const SplittingOptions& options) {
+  return make_replayable_splitting(scene, step, options);
 }
 
 } // namespace fretwork::transient

@@ -10,6 +10,7 @@ using namespace fretwork::transient;
 namespace {
 
 constexpr double usual = 1e-4; // s
+constexpr double tolerance = 0.01;
 
 Mobility isotropic(double w) {
   Mobility out;
@@ -25,7 +26,7 @@ Mobility isotropic(double w) {
 TEST(ContactIntervals, TakeNoDriftOfTheGapForASpeedInShortIntervals) {
   constexpr double stiffness = 1e6, damping = 500.0, speed = 0.1, penetration = 1e-5, drift = 1e-7;
   const contact::Support support{contact::Circle{1e-3}, {stiffness, damping}, {}};
-  const ContactIntervals intervals(support, {}, isotropic(1.0), false, usual);
+  const ContactIntervals intervals(support, {}, isotropic(1.0), false, usual, tolerance);
   ContactPath path;
   path.u = {1e-3 + penetration, 0.0, 0.0};
   path.v = {speed, 0.0, 0.0};
@@ -43,7 +44,7 @@ TEST(ContactIntervals, TakeNoDriftOfTheGapForASpeedInShortIntervals) {
 TEST(ContactIntervals, FollowTheLawOfTheGapOverUsualIntervals) {
   constexpr double stiffness = 1e6, penetration = 1e-5;
   const contact::Support support{contact::Circle{1e-3}, {stiffness}, {}};
-  const ContactIntervals intervals(support, {}, isotropic(1e-6), false, usual);
+  const ContactIntervals intervals(support, {}, isotropic(1e-6), false, usual, tolerance);
   ContactPath path;
   path.u = {0.0, 1e-3 + penetration, 0.0};
   path.at = intervals.locate(path.u);

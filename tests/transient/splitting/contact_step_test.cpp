@@ -15,7 +15,7 @@ TEST(ContactStep, EndsWhereTheForceIsAlwaysAboutToReturn) {
   for (int i = 0; i < 3; ++i)
     mobility.w[i][i] = 12.0;
   const contact::Support support{contact::Stop{0.0, contact::PlaneAxis::y}, {stiffness, damping}, {}};
-  const ContactStep contact(support, {}, mobility, false, step, 6, 1e-3);
+  const ContactStep contact(support, {}, mobility, false, step, 6, 1e-3, 1e-2);
   const double side = contact::locate(support.obstacle, penetration, 0.0).gap < 0.0 ? 1.0 : -1.0;
   const double pressing = stiffness * out / damping * (1.0 - 1e-14); // K_N p' = C_N p'' but for round-off
   const double falling = stiffness * pressing / damping;             // and so it stays

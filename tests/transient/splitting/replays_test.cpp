@@ -69,8 +69,8 @@ std::size_t digest(const Record& record, int modes) {
 TEST(Replayable, GoesOnFromAnotherSchemeAsThatDoes) {
   const Scene scene = rattling(12, 30, 0.05);
   const int modes = static_cast<int>(scene.system.size());
-  const auto running = make_replayable_splitting(scene, step, 0.0, 1, 2);
-  const auto other = make_replayable_splitting(scene, step, 0.0, 1, 2);
+  const auto running = make_replayable_splitting(scene, step, {.parts = 2});
+  const auto other = make_replayable_splitting(scene, step, {.parts = 2});
   for (const int steps : {700, 300, 41}) {
     for (int i = 0; i < steps; ++i)
       (void)running->advance();
@@ -84,8 +84,8 @@ TEST(Replayable, GoesOnFromAnotherSchemeAsThatDoes) {
 
 TEST(Replayable, OfHalfTheStepStaysBesideIt) {
   const Scene scene = rattling(12, 30, 0.05);
-  const auto running = make_replayable_splitting(scene, step, 0.0, 1, 2);
-  const auto finer = make_replayable_splitting(scene, 0.5 * step, 0.0, 1, 4);
+  const auto running = make_replayable_splitting(scene, step, {.parts = 2});
+  const auto finer = make_replayable_splitting(scene, 0.5 * step, {.parts = 4});
   for (int i = 0; i < 1000; ++i)
     (void)running->advance();
   const double from = finer->continue_from(*running);
@@ -124,7 +124,7 @@ TEST(Replays, ChangeNothingWhereTheAccuracyIsMet) {
 // Against a run of sixteen times as many intervals. Replays sum the errors of the step itself; what a run makes of them in the long term may be
 // less: a contact that slips too far sticks the longer.
 TEST(Replays, MeasureTheErrorOfTheRun) {
-  const Scene scene = mostly_sticking(300.0);
+  const Scene scene = mostly_sticking(1000.0);
   const Measured coarse = measured(scene, choice_of(scene, 1, 1e3));
   StepChoice fine_choice = choice_of(scene, 16, 1e3);
   fine_choice.replay = 0.0;
@@ -140,7 +140,7 @@ TEST(Replays, MeasureTheErrorOfTheRun) {
 }
 
 TEST(Replays, RefineTheIntervalsOfContactsUntilTheAccuracyIsMet) {
-  const Scene scene = mostly_sticking(60.0);
+  const Scene scene = mostly_sticking(400.0);
   StepChoice fine_choice = choice_of(scene, 32, 1e3);
   fine_choice.replay = 0.0;
   const double work = measured(scene, fine_choice).statistics.work_rate;
