@@ -111,11 +111,10 @@ void ContactIntervals::find_normal_force(const ContactPath& m, const Components&
   if (p.turned > 0.0) {
     contact::ContactAxes axes = m.at.axes();
     if (there.gap < 0.0 && p.turned < 1.0) { // the mean along the way; one that opens keeps its own
-      const double per = 1.0 / std::sqrt(2.0 * (1.0 + p.turned));
-      const contact::ContactAxes chord{per * (axes.ny + there.ny), per * (axes.nz + there.nz)};
+      const contact::ContactAxes chord{0.5 * (axes.ny + there.ny), 0.5 * (axes.nz + there.nz)};
       const double bend = -(dt * dt / 12.0) * curvature * tangent(chord, a);
-      const double length = 1.0 / std::sqrt(1.0 + bend * bend);
-      axes = {length * chord.y(1.0, bend), length * chord.z(1.0, bend)};
+      const double per_length = 1.0 / std::sqrt(0.5 * (1.0 + p.turned) * (1.0 + bend * bend));
+      axes = {per_length * chord.y(1.0, bend), per_length * chord.z(1.0, bend)};
       p.turn = {there.ny - m.at.ny, there.nz - m.at.nz, 0.0};
     }
     find(axes, start, drift - there.gap, rate);
