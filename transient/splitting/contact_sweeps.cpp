@@ -7,6 +7,11 @@ namespace fretwork::transient {
 namespace {
 
 constexpr int most_sweeps = 40;
+/// Of the tolerance times the largest change of a force in a step: what contacts may still have to answer when the sweeps stop. What a slow motion leaves
+/// unanswered is answered a step later, and such a delay adds up: at 1 the mean force of tubes that are jammed between bars came out 7 % low, at 0.3 1 %.
+constexpr double unanswered = 0.3;
+/// Of the largest force of a step: what need not be answered in any case.
+constexpr double negligible = 1e-6;
 /// Of the answer of a contact that is closed throughout a step: that of one which is closed for a moment, at least.
 constexpr double least_answer = 0.2;
 
@@ -108,15 +113,17 @@ bool ContactSweeps::make(const ContactMotion& start, const ContactMotion& end, c
     if (!moves_[c])
       losses.damping += steps_[c].relax(pasts_[c], h_);
   group();
-  double largest = 0.0;
+  double change = 0.0, force = 0.0; // N, the largest
   for (Moving& m : moving_) {
     find(m);
-    largest = std::max(largest, sum_of_sizes(m.act.mean));
+    change = std::max(change, sum_of_sizes(m.act.mean - forces_[m.c].held) + sum_of_sizes(m.act.slope));
+    force = std::max(force, sum_of_sizes(m.act.mean));
   }
+  const double enough = std::max(unanswered * tolerance_ * change, negligible * force);
   bool converged = true;
   for (const int b : touched_)
     if (moving_blocks_[b].parent == b)
-      converged = sweep(moving_blocks_[b].first, largest) && converged;
+      converged = sweep(moving_blocks_[b].first, enough) && converged;
   for (const Moving& m : moving_) {
     const ContactAct& act = m.act;
     pasts_[m.c] = act.past;
@@ -166,12 +173,12 @@ void ContactSweeps::group() {
   }
 }
 
-/// Further sweeps of a group, by its first contact and the largest force of the step. Returns whether none would answer what has changed since it was found by more than the tolerance.
-bool ContactSweeps::sweep(int first, double largest) {
+/// Further sweeps of a group, by its first contact. Returns whether none would answer what has changed since it was found by more than is enough, N.
+bool ContactSweeps::sweep(int first, double enough) {
   for (int sweep = 1; sweep < most_sweeps; ++sweep) {
     bool converged = true;
     for (int i = first; i >= 0; i = moving_[i].next)
-      if (outstanding_force(moving_[i]) > tolerance_ * largest) {
+      if (outstanding_force(moving_[i]) > enough) {
         find(moving_[i]);
         converged = false;
       }

@@ -8,7 +8,7 @@
 /// after a step under constant forces f. What rests stays at rest, whatever h: f = held then, and the path is constant.
 ///
 /// W is known block by block (contact_blocks.hpp). Contacts that may be closed and share a block, directly or through others, make a group;
-/// groups are swept apart, to a tolerance of the largest force of the step.
+/// groups are swept apart, to a tolerance of the largest change of a force in the step.
 #pragma once
 #include "transient/contacts/contact_blocks.hpp"
 #include "transient/contacts/contact_motion.hpp"
@@ -22,7 +22,7 @@ public:
   /// @param contacts  must live longer   @param mobility  W by blocks: of the block's contact `to` by a force on its contact `from` at
   ///   from * contacts of the block + to
   /// @param step  h, s   @param parts  of contact_step.hpp
-  /// @param tolerance  of the largest force of a step: what contacts may still have to answer when the sweeps stop; of contact_step.hpp
+  /// @param tolerance  by it the sweeps stop, relative to the changes of forces; of contact_step.hpp
   ContactSweeps(const PackedContacts& contacts, ContactBlocks blocks,
                 std::vector<std::vector<Mobility>> mobility, double step, int parts, double tolerance);
 
@@ -76,7 +76,7 @@ private:
   [[nodiscard]] FreePath path_of(int c, const ContactMotion& start, const ContactMotion& end) const;
   void find(Moving& m);
   [[nodiscard]] double outstanding_force(const Moving& m) const;
-  bool sweep(int first, double largest);
+  bool sweep(int first, double enough);
 
   const PackedContacts& contacts_;
   ContactBlocks blocks_;
