@@ -23,7 +23,7 @@ function(fretwork_compile_options target)
     target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized --param=ggc-min-heapsize=1500000)
   endif()
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-    # It would zero and copy structures of some hundred bytes by rep stos and rep movs, which take processors longer to begin than memset and memcpy to end.
+    # It would zero and copy structures of some hundred bytes by rep stos and rep movs instead of memset and memcpy: runs with contacts took 10 % longer.
     target_compile_options(${target} PRIVATE -mstringop-strategy=libcall)
   endif()
   if(FRETWORK_WARNINGS_AS_ERRORS)

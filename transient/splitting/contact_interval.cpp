@@ -111,6 +111,7 @@ void ContactIntervals::find_normal_force(const ContactPath& m, const Components&
   if (p.turned > 0.0) {
     contact::ContactAxes axes = m.at.axes();
     if (there.gap < 0.0 && p.turned < 1.0) { // the mean along the way; one that opens keeps its own
+      // of length 1 but for the square of the turn, near enough for what the way bends
       const contact::ContactAxes chord{0.5 * (axes.ny + there.ny), 0.5 * (axes.nz + there.nz)};
       const double bend = -(dt * dt / 12.0) * curvature * tangent(chord, a);
       const double per_length = 1.0 / std::sqrt(0.5 * (1.0 + p.turned) * (1.0 + bend * bend));

@@ -10,7 +10,7 @@ constexpr int most_sweeps = 40;
 /// Of the tolerance times the largest change of a force in a step: what contacts may still have to answer when the sweeps stop. What a slow motion leaves
 /// unanswered is answered a step later, and such a delay adds up: at 1 the mean force of tubes that are jammed between bars came out 7 % low, at 0.3 1 %.
 constexpr double unanswered = 0.3;
-/// Of the largest force of a step: what need not be answered in any case.
+/// Of the largest force of a step: what need not be answered in any case, such as the round-off of contacts at rest.
 constexpr double negligible = 1e-6;
 /// Of the answer of a contact that is closed throughout a step: that of one which is closed for a moment, at least.
 constexpr double least_answer = 0.2;
