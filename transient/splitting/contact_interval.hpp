@@ -109,6 +109,10 @@ public:
   [[nodiscard]] contact::Location locate(const Components& u) const {
     return contact::locate(obstacle_, u.y + rest_.y, u.z + rest_.z);
   }
+  /// 1/m, by which the normal turns towards t where the contact moves along t.
+  [[nodiscard]] double curvature(const Components& u) const {
+    return contact::curvature(obstacle_, u.y + rest_.y, u.z + rest_.z);
+  }
   /// The forces of an interval. No allocation.
   /// @param may_shorten  friction is not looked for where the contact opens in the interval, or its normal turns far
   /// @return whether all forces have been found

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/splitting/contact_step.hpp"
+#include "transient/splitting/force_answer.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -19,8 +20,22 @@ constexpr double shortest_way_out = 1e-3;
 /// Touches, openings and turns that are found in a step: more are none that a step could follow.
 constexpr int most_events = 200;
 
+/// Of a step: round-off of the share of it that is closed.
+constexpr double share_tolerance = 1e-6;
+/// Of the normal force: a change of it that is answered to first order.
+constexpr double small_change = 0.5;
+/// Of its bound: the mean force of friction of a contact that slides one way.
+constexpr double one_way = 0.98;
 /// Of the usual length: intervals in which the normal turns, as over an edge, down to which it is followed.
 constexpr double shortest_turn = 1.0 / 32.0;
+
+/// Shares of a step between which a contact was closed that was so once.
+struct ClosedSpan {
+  double from, to;
+  explicit ClosedSpan(const ContactAct& act)
+      : from(act.state.touches > 0 ? act.state.closed_at : 0.0),
+        to(act.past.closed ? 1.0 : act.state.opened_at) {}
+};
 
 } // namespace
 
@@ -247,6 +262,61 @@ void ContactStep::make(const ContactPast& past, const FreePath& path, const Comp
   }
   act.end = m.u;
   act.penetrates = m.at.gap < 0.0;
+}
+
+bool ContactStep::in_one_state(const ContactAct& act) const {
+  const ContactState& state = act.state;
+  const ClosedSpan span(act);
+  if (std::abs(span.to - span.from - state.closed) > share_tolerance)
+    return false;
+  if (!friction_.active() || !(state.sliding > 0.0))
+    return true;
+  const double bound = friction_.mu_dynamic * state.normal_force;
+  return state.sliding > state.closed - share_tolerance &&
+         dot(state.friction, state.friction) > one_way * one_way * bound * bound;
+}
+
+bool ContactStep::answer(const Components& mean, const Components& slope, ContactAct& act) const {
+  ContactState& state = act.state;
+  const ClosedSpan span(act);
+  const auto find = [&](double stiffness, double damping, double mobility, double by_mean, double by_slope) {
+    return answer_of({stiffness, damping, mobility}, h_, span.from, span.to, {by_mean, by_slope});
+  };
+  const contact::ContactAxes axes = state.axes;
+  const auto [ny, nz] = axes;
+  const auto& w = intervals_.mobility().w;
+  const double across = (w[0][1] + w[1][0]) * ny * nz, pressing = state.normal_force / state.closed;
+  const LinearInTime n =
+      find(normal_.stiffness, normal_.damping_at(pressing / normal_.stiffness),
+           w[0][0] * ny * ny + across + w[1][1] * nz * nz, normal(axes, mean), normal(axes, slope));
+  if (!(std::abs(n.mean) < small_change * state.normal_force))
+    return false;
+  // The normal force turns with its normal. Friction is that of an element while it sticks, in proportion to the normal force while it slides.
+  const double turning = std::max(0.0, -pressing * intervals_.curvature(act.end));
+  const double slides = std::min(1.0, state.sliding / state.closed), sticks = 1.0 - slides;
+  const double sticks_t = sticks * friction_.along.t, sticks_x = sticks * friction_.along.x;
+  const contact::Vec2 in_proportion = (slides / state.normal_force) * state.friction;
+  LinearInTime t = find(turning + sticks_t * friction_.stiffness, sticks_t * friction_.damping,
+                        w[0][0] * nz * nz - across + w[1][1] * ny * ny, tangent(axes, mean),
+                        tangent(axes, slope)),
+               x;
+  if (in_plane_)
+    x = find(sticks_x * friction_.stiffness, sticks_x * friction_.damping, w[2][2], mean.x, slope.x);
+  t.mean += in_proportion.t * n.mean;
+  t.slope += in_proportion.t * n.slope;
+  x.mean += in_proportion.x * n.mean;
+  x.slope += in_proportion.x * n.slope;
+  act.mean = act.mean + Components{axes.y(n.mean, t.mean), axes.z(n.mean, t.mean), x.mean};
+  act.slope = act.slope + Components{axes.y(n.slope, t.slope), axes.z(n.slope, t.slope), x.slope};
+  const double normal_grows = 1.0 + n.mean / state.normal_force,
+               friction_grows = 1.0 + slides * n.mean / state.normal_force;
+  state.normal_force *= normal_grows;
+  state.normal_square *= normal_grows * normal_grows;
+  state.friction = friction_grows * state.friction;
+  state.friction_square *= friction_grows * friction_grows;
+  state.friction_work *= normal_grows;
+  state.wear_work *= normal_grows;
+  return true;
 }
 
 } // namespace fretwork::transient

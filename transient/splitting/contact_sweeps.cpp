@@ -119,11 +119,10 @@ bool ContactSweeps::make(const ContactMotion& start, const ContactMotion& end, c
     change = std::max(change, sum_of_sizes(m.act.mean - forces_[m.c].held) + sum_of_sizes(m.act.slope));
     force = std::max(force, sum_of_sizes(m.act.mean));
   }
-  const double enough = std::max(unanswered * tolerance_ * change, negligible * force);
   bool converged = true;
   for (const int b : touched_)
     if (moving_blocks_[b].parent == b)
-      converged = sweep(moving_blocks_[b].first, enough) && converged;
+      converged = sweep(moving_blocks_[b].first, change, force) && converged;
   for (const Moving& m : moving_) {
     const ContactAct& act = m.act;
     pasts_[m.c] = act.past;
@@ -173,15 +172,22 @@ void ContactSweeps::group() {
   }
 }
 
-/// Further sweeps of a group, by its first contact. Returns whether none would answer what has changed since it was found by more than is enough, N.
-bool ContactSweeps::sweep(int first, double enough) {
+/// Further sweeps of a group, by its first contact, after sweeps with the largest change of a force and the largest force, N. Returns whether no contact
+/// would answer what has changed since it was found by more than is enough.
+bool ContactSweeps::sweep(int first, double change, double force) {
+  const double enough = std::max(unanswered * tolerance_ * change, negligible * force);
+  const double one_state = std::sqrt(tolerance_) * change, other = tolerance_ * change;
   for (int sweep = 1; sweep < most_sweeps; ++sweep) {
     bool converged = true;
-    for (int i = first; i >= 0; i = moving_[i].next)
-      if (outstanding_force(moving_[i]) > enough) {
-        find(moving_[i]);
-        converged = false;
-      }
+    for (int i = first; i >= 0; i = moving_[i].next) {
+      Moving& m = moving_[i];
+      const double outstanding = outstanding_force(m);
+      if (!(outstanding > enough))
+        continue;
+      converged = false;
+      if (!(outstanding < (steps_[m.c].in_one_state(m.act) ? one_state : other) && answer(m)))
+        find(m);
+    }
     if (converged)
       return true;
   }
@@ -201,6 +207,20 @@ void ContactSweeps::find(Moving& m) {
   path.j = path.j + (2.0 / h_) * m.slope;
   const Components mean = m.act.mean, slope = m.act.slope;
   steps_[m.c].make(pasts_[m.c], path, forces_[m.c].held, m.act);
+  pass_on(m, mean, slope);
+}
+
+/// To what has changed since it was found, to first order. Returns whether that is near.
+bool ContactSweeps::answer(Moving& m) {
+  const Components mean = m.act.mean, slope = m.act.slope;
+  if (!steps_[m.c].answer(m.mean - m.solved_for[0], m.slope - m.solved_for[1], m.act))
+    return false;
+  pass_on(m, mean, slope);
+  return true;
+}
+
+/// Its force was another before.
+void ContactSweeps::pass_on(Moving& m, const Components& mean, const Components& slope) {
   m.solved_for[0] = m.mean;
   m.solved_for[1] = m.slope;
   const Components by_mean = m.act.mean - mean, by_slope = m.act.slope - slope;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// The contacts over a step h of the splitting scheme: each moves through the step by itself (contact_step.hpp), one after the other, with the forces
-/// of the others as linear functions of time, until none would answer what has changed since (Gauss-Seidel sweeps). A contact moves by
+/// of the others as linear functions of time, until none would answer what has changed since (Gauss-Seidel sweeps). What has changed little is answered to
+/// first order (force_answer.hpp). A contact moves by
 ///     u(t) = path(t) + r(t),   r'' = W (f - held)
 /// path: of the modes, the cubic through displacements and velocities at both ends of the step as they are under the forces `held` of the contacts
 /// that were closed (constant over the step); r: what the change of forces adds, with the mobility W for which W f h^2/2 is the exact displacement
@@ -75,8 +76,10 @@ private:
   [[nodiscard]] Components of_lanes(const kernels::Array& lanes, int c) const;
   [[nodiscard]] FreePath path_of(int c, const ContactMotion& start, const ContactMotion& end) const;
   void find(Moving& m);
+  bool answer(Moving& m);
+  void pass_on(Moving& m, const Components& mean, const Components& slope);
   [[nodiscard]] double outstanding_force(const Moving& m) const;
-  bool sweep(int first, double enough);
+  bool sweep(int first, double change, double force);
 
   const PackedContacts& contacts_;
   ContactBlocks blocks_;
