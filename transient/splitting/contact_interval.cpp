@@ -42,13 +42,13 @@ ContactIntervals::ContactIntervals(const contact::Support& support, const Compon
                                    const Mobility& mobility, bool in_plane, double usual, double tolerance)
     : obstacle_(support.obstacle), normal_(support.normal), friction_(support.friction), rest_(rest),
       w_(mobility), in_plane_(in_plane), mobility_(0.0), across_(0.0), tolerance_(tolerance) {
-  const auto& w = w_.w;
+  const Mobility& w = w_;
   for (int to = 0; to < 3; ++to) {
-    mobility_ = std::max(mobility_, w[to][to]);
+    mobility_ = std::max(mobility_, w(to, to));
     for (int from = 0; from < to; ++from)
-      across_ = std::max({across_, std::abs(w[to][from]), std::abs(w[from][to])});
+      across_ = std::max({across_, std::abs(w(to, from)), std::abs(w(from, to))});
   }
-  across_ = std::max(across_, 0.5 * std::abs(w[1][1] - w[0][0]));
+  across_ = std::max(across_, 0.5 * std::abs(w(1, 1) - w(0, 0)));
   set_usual(usual);
 }
 
@@ -59,12 +59,15 @@ IntervalTable ContactIntervals::table(double length) const {
                        length * (normal_.damping + friction_.damping);
   of.apparent_mass = force / (1.0 + force * mobility_);
   of.growing = contact::growing_damping(normal_.damping, normal_.damping * mobility_ * length);
-  if (friction_.active()) {
-    of.pieces = contact::piece_tables(friction_, mobility_, length);
-    if (friction_.kind == contact::FrictionMemoryKind::reference)
-      of.table = contact::friction_table(friction_, length);
-  }
+  if (friction_.active() && friction_.kind == contact::FrictionMemoryKind::reference)
+    of.table = contact::friction_table(friction_, length);
   return of;
+}
+
+void ContactIntervals::set_usual(double length) {
+  usual_ = table(length);
+  if (friction_.active())
+    usual_pieces_ = contact::piece_tables(friction_, mobility_, length);
 }
 
 double ContactIntervals::relax(ContactPast& past, double time) const {
@@ -95,9 +98,9 @@ void ContactIntervals::find_normal_force(const ContactPath& m, const Components&
   const double curvature = along != 0.0 ? m.at.axes().tangent(there.ny, there.nz) / along : 0.0;
   p.curvature = std::abs(curvature);
   const auto find = [&](const contact::ContactAxes& axes, double start, double end, double rate) {
-    const auto& w = w_.w;
+    const Mobility& w = w_;
     const auto [ny, nz] = axes;
-    const double wnn = w[0][0] * ny * ny + (w[0][1] + w[1][0]) * ny * nz + w[1][1] * nz * nz;
+    const double wnn = w(0, 0) * ny * ny + (w(0, 1) + w(1, 0)) * ny * nz + w(1, 1) * nz * nz;
     const double free = end + half * wnn * normal(axes, bent);
     // with what the gap adds where the contact follows a curve, as v_t^2/R
     const double acceleration = (free - start - rate * dt) / half - normal(axes, m.j) * dt / 6.0;
@@ -154,10 +157,10 @@ void ContactIntervals::find_closed_friction(const ContactPath& m, const Interval
     }
   }
   // along t = (nz, -ny): with the mean of the normal force and its growth
-  const auto& w = w_.w;
-  const Components by_n{w[0][0] * ny + w[0][1] * nz, w[1][0] * ny + w[1][1] * nz,
-                        w[2][0] * ny + w[2][1] * nz};
-  const double wtt = w[0][0] * nz * nz - (w[0][1] + w[1][0]) * ny * nz + w[1][1] * ny * ny;
+  const Mobility& w = w_;
+  const Components by_n{w(0, 0) * ny + w(0, 1) * nz, w(1, 0) * ny + w(1, 1) * nz,
+                        w(2, 0) * ny + w(2, 1) * nz};
+  const double wtt = w(0, 0) * nz * nz - (w(0, 1) + w(1, 0)) * ny * nz + w(1, 1) * ny * ny;
   const double rise = p.normal.growth / dt, mean = p.normal.force - (0.5 * dt - from) * rise;
   const auto start = [&](double u1, double u2, double u3, double w_n) { // velocity, acceleration, jerk
     return std::array{u1 + from * (u2 + 0.5 * from * u3 + w_n * p.normal.force), u2 + from * u3 + w_n * mean,
@@ -183,14 +186,14 @@ void ContactIntervals::find_closed_friction(const ContactPath& m, const Interval
                      dot((1.0 / length) * impulse, by) - dot((1.0 / length) * moment, faster);
   };
   if (in_plane_) {
-    const double wxt = p.axes.tangent(w[0][2], w[1][2]);
+    const double wxt = p.axes.tangent(w(0, 2), w(1, 2));
     const auto [vx, ax, jx] = start(m.v.x, m.a.x, m.j.x, by_n.x);
     const contact::TangentialPath<contact::Vec2, contact::Sym2> path{
         law.masked(contact::Vec2{vx, vt}), law.masked(contact::Vec2{ax, at}),
-        law.masked(contact::Vec2{jx, jt}), law.masked(contact::Sym2{w[2][2], wxt, wtt})};
+        law.masked(contact::Vec2{jx, jt}), law.masked(contact::Sym2{w(2, 2), wxt, wtt})};
     const auto f = by_reference
                        ? reference_friction(law, of.table, p.memory, p.normal.force, length, path)
-                       : contact::friction_over_interval(law, of.pieces, mobility_, p.memory.spring,
+                       : contact::friction_over_interval(law, usual_pieces_, mobility_, p.memory.spring,
                                                          p.memory.sliding, length, p.normal.course, path);
     close(f, f.impulse, f.moment, f.displacement, f.spring, f.velocity - path.velocity);
   } else if (by_reference) {
@@ -203,7 +206,7 @@ void ContactIntervals::find_closed_friction(const ContactPath& m, const Interval
   } else {
     const contact::TangentialPath<double, double> path{law.along.t * vt, law.along.t * at, law.along.t * jt,
                                                        law.along.t * wtt};
-    const auto f = contact::friction_over_interval(law, of.pieces, mobility_, p.memory.spring.t,
+    const auto f = contact::friction_over_interval(law, usual_pieces_, mobility_, p.memory.spring.t,
                                                    p.memory.sliding, length, p.normal.course, path);
     close(f, {0.0, f.impulse}, {0.0, f.moment}, {0.0, f.displacement}, {0.0, f.spring},
           {0.0, f.velocity - path.velocity});

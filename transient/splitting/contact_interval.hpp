@@ -10,33 +10,46 @@
 
 namespace fretwork::transient {
 
-/// A vector along y z x.
+/// A vector along y z x. What moves in the plane of the contact is computed in pairs.
 struct Components {
-  double y = 0.0, z = 0.0, x = 0.0;
+  using Pair [[gnu::vector_size(16)]] = double;
+  Pair yz = {};
+  double x = 0.0;
+  Components() = default;
+  Components(double along_y, double along_z, double along_x) : yz{along_y, along_z}, x(along_x) {}
+  Components(Pair plane, double along_x) : yz(plane), x(along_x) {}
+  [[nodiscard]] double y() const { return yz[0]; }
+  [[nodiscard]] double z() const { return yz[1]; }
 };
-inline Components operator+(const Components& a, const Components& b) {
-  return {a.y + b.y, a.z + b.z, a.x + b.x};
-}
-inline Components operator-(const Components& a, const Components& b) {
-  return {a.y - b.y, a.z - b.z, a.x - b.x};
-}
-inline Components operator*(double s, const Components& a) { return {s * a.y, s * a.z, s * a.x}; }
+inline Components operator+(const Components& a, const Components& b) { return {a.yz + b.yz, a.x + b.x}; }
+inline Components operator-(const Components& a, const Components& b) { return {a.yz - b.yz, a.x - b.x}; }
+inline Components operator*(double s, const Components& a) { return {s * a.yz, s * a.x}; }
 /// Along n, and along t.
 [[nodiscard]] inline double normal(const contact::ContactAxes& axes, const Components& c) {
-  return axes.normal(c.y, c.z);
+  return axes.normal(c.y(), c.z());
 }
 [[nodiscard]] inline double tangent(const contact::ContactAxes& axes, const Components& c) {
-  return axes.tangent(c.y, c.z);
+  return axes.tangent(c.y(), c.z());
 }
-inline double sum_of_sizes(const Components& c) { return std::abs(c.y) + std::abs(c.z) + std::abs(c.x); }
+inline double sum_of_sizes(const Components& c) { return std::abs(c.y()) + std::abs(c.z()) + std::abs(c.x); }
 
 /// Acceleration of one contact by a force on another, or on itself: W, 1/kg, rows and columns y z x.
-struct Mobility {
-  double w[3][3] = {};
-  [[nodiscard]] Components operator*(const Components& f) const {
-    return {w[0][0] * f.y + w[0][1] * f.z + w[0][2] * f.x, w[1][0] * f.y + w[1][1] * f.z + w[1][2] * f.x,
-            w[2][0] * f.y + w[2][1] * f.z + w[2][2] * f.x};
+class Mobility {
+public:
+  [[nodiscard]] double operator()(int to, int from) const { return to < 2 ? yz_[from][to] : x_[from]; }
+  void add(int to, int from, double w) {
+    if (to < 2)
+      yz_[from][to] += w;
+    else
+      x_[from] += w;
   }
+  [[nodiscard]] Components operator*(const Components& f) const {
+    return {f.y() * yz_[0] + f.z() * yz_[1] + f.x * yz_[2], x_[0] * f.y() + x_[1] * f.z() + x_[2] * f.x};
+  }
+
+private:
+  Components::Pair yz_[3] = {}; ///< columns
+  double x_[3] = {};            ///< row
 };
 
 /// What is remembered of a contact from step to step.
@@ -73,7 +86,6 @@ struct IntervalTable {
   double length = 0.0;            ///< s
   double apparent_mass = 0.0;     ///< kg: force for an acceleration of 1 m/s2 over it
   double growing = 0.0;           ///< N s/m, c' of normal_interval.hpp
-  contact::PieceTables pieces{};  ///< of friction_interval.hpp
   contact::FrictionTable table{}; ///< of the memory `reference`
 };
 
@@ -102,16 +114,16 @@ public:
   ContactIntervals(const contact::Support& support, const Components& rest, const Mobility& mobility,
                    bool in_plane, double usual, double tolerance);
   /// From now on most intervals have this length. No allocation.
-  void set_usual(double length) { usual_ = table(length); }
+  void set_usual(double length);
   [[nodiscard]] const IntervalTable& usual() const { return usual_; }
   [[nodiscard]] IntervalTable table(double length) const;
 
   [[nodiscard]] contact::Location locate(const Components& u) const {
-    return contact::locate(obstacle_, u.y + rest_.y, u.z + rest_.z);
+    return contact::locate(obstacle_, u.y() + rest_.y(), u.z() + rest_.z());
   }
   /// 1/m, by which the normal turns towards t where the contact moves along t.
   [[nodiscard]] double curvature(const Components& u) const {
-    return contact::curvature(obstacle_, u.y + rest_.y, u.z + rest_.z);
+    return contact::curvature(obstacle_, u.y() + rest_.y(), u.z() + rest_.z());
   }
   /// The forces of an interval. No allocation.
   /// @param may_shorten  friction is not looked for where the contact opens in the interval, or its normal turns far
@@ -139,6 +151,7 @@ private:
   double across_;   ///< 1/kg: acceleration along one of its directions by a force along another
   double tolerance_;
   IntervalTable usual_;
+  contact::PieceTables usual_pieces_{}; ///< of an interval of the usual length
 };
 
 } // namespace fretwork::transient

@@ -49,7 +49,7 @@ void ContactStep::divide(int parts) { intervals_.set_usual(h_ / parts); }
 
 /// How often an open contact is to be looked at in so much time.
 int ContactStep::gap_samples(const Components& velocity, double time) const {
-  const double speed = std::sqrt(velocity.y * velocity.y + velocity.z * velocity.z);
+  const double speed = std::sqrt(velocity.y() * velocity.y() + velocity.z() * velocity.z());
   const double by_time = time / intervals_.usual().length;
   const double by_way = clearance_ > 0.0 ? speed * time / (longest_way * clearance_) : 0.0;
   return static_cast<int>(std::ceil(std::clamp(std::max(by_time, by_way), 1.0, 1.0 * most_looks)));
@@ -284,11 +284,11 @@ bool ContactStep::answer(const Components& mean, const Components& slope, Contac
   };
   const contact::ContactAxes axes = state.axes;
   const auto [ny, nz] = axes;
-  const auto& w = intervals_.mobility().w;
-  const double across = (w[0][1] + w[1][0]) * ny * nz, pressing = state.normal_force / state.closed;
+  const Mobility& w = intervals_.mobility();
+  const double across = (w(0, 1) + w(1, 0)) * ny * nz, pressing = state.normal_force / state.closed;
   const LinearInTime n =
       find(normal_.stiffness, normal_.damping_at(pressing / normal_.stiffness),
-           w[0][0] * ny * ny + across + w[1][1] * nz * nz, normal(axes, mean), normal(axes, slope));
+           w(0, 0) * ny * ny + across + w(1, 1) * nz * nz, normal(axes, mean), normal(axes, slope));
   if (!(std::abs(n.mean) < small_change * state.normal_force))
     return false;
   // The normal force turns with its normal. Friction is that of an element while it sticks, in proportion to the normal force while it slides.
@@ -297,11 +297,11 @@ bool ContactStep::answer(const Components& mean, const Components& slope, Contac
   const double sticks_t = sticks * friction_.along.t, sticks_x = sticks * friction_.along.x;
   const contact::Vec2 in_proportion = (slides / state.normal_force) * state.friction;
   LinearInTime t = find(turning + sticks_t * friction_.stiffness, sticks_t * friction_.damping,
-                        w[0][0] * nz * nz - across + w[1][1] * ny * ny, tangent(axes, mean),
+                        w(0, 0) * nz * nz - across + w(1, 1) * ny * ny, tangent(axes, mean),
                         tangent(axes, slope)),
                x;
   if (in_plane_)
-    x = find(sticks_x * friction_.stiffness, sticks_x * friction_.damping, w[2][2], mean.x, slope.x);
+    x = find(sticks_x * friction_.stiffness, sticks_x * friction_.damping, w(2, 2), mean.x, slope.x);
   t.mean += in_proportion.t * n.mean;
   t.slope += in_proportion.t * n.slope;
   x.mean += in_proportion.x * n.mean;

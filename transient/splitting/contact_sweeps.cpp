@@ -41,7 +41,7 @@ ContactSweeps::ContactSweeps(const PackedContacts& contacts, ContactBlocks block
           mobility_[block][static_cast<std::size_t>(local) * (blocks_.contacts[block].size() + 1)];
       for (int to = 0; to < 3; ++to)
         for (int from = 0; from < 3; ++from)
-          own_[c].w[to][from] += part.w[to][from];
+          own_[c].add(to, from, part(to, from));
     }
     steps_.emplace_back(contacts.supports[c], Components{contacts.rest_y(c), contacts.rest_z(c), 0.0},
                         own_[c], contacts.in_plane[c] != 0, step, parts,

@@ -314,7 +314,7 @@ private:
     const auto moved = [&](int lane) { return imposed_[1].u[lane] - imposed_[0].u[lane]; };
     for (const int c : near_) {
       const Components& mean = sweeps_.force(c).mean;
-      work -= mean.y * moved(c) + mean.z * moved(contacts_.width + c);
+      work -= mean.y() * moved(c) + mean.z() * moved(contacts_.width + c);
       if (contacts_.components == 3)
         work -= mean.x * moved(2 * contacts_.width + c);
     }

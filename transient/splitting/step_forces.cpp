@@ -28,8 +28,8 @@ void StepForces::assemble(const ContactSweeps& sweeps, const std::vector<int>& c
   rows_.clear();
   for (const int c : contacts) {
     const ContactSweeps::Force& f = sweeps.force(c);
-    add(c, 0, f.held.y, f.mean.y, f.slope.y);
-    add(c, 1, f.held.z, f.mean.z, f.slope.z);
+    add(c, 0, f.held.y(), f.mean.y(), f.slope.y());
+    add(c, 1, f.held.z(), f.mean.z(), f.slope.z());
     if (components_ == 3)
       add(c, 2, f.held.x, f.mean.x, f.slope.x);
   }

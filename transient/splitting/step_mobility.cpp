@@ -49,7 +49,7 @@ std::vector<std::vector<Mobility>> step_mobility(const Scene& scene, const Conta
             for_modes(scene, blocks, b, contacts[other], [&](std::size_t mode, const auto& column) {
               sum += moved[mode] * column(local_of(to));
             });
-            out[b][from * contacts.size() + other].w[to][component] = 2.0 / (step * step) * sum;
+            out[b][from * contacts.size() + other].add(to, component, 2.0 / (step * step) * sum);
           }
       }
     }

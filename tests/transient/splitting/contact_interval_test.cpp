@@ -15,7 +15,7 @@ constexpr double tolerance = 0.01;
 Mobility isotropic(double w) {
   Mobility out;
   for (int i = 0; i < 3; ++i)
-    out.w[i][i] = w;
+    out.add(i, i, w);
   return out;
 }
 
@@ -53,8 +53,8 @@ TEST(ContactIntervals, FollowTheLawOfTheGapOverUsualIntervals) {
   past.axes = path.at.axes();
   IntervalForces p;
   (void)intervals.find_forces(path, past, intervals.usual(), false, p);
-  EXPECT_NEAR(p.force.z, -stiffness * penetration, 1e-6 * stiffness * penetration); // towards the axis
-  EXPECT_NEAR(p.force.y, 0.0, 1e-9);
+  EXPECT_NEAR(p.force.z(), -stiffness * penetration, 1e-6 * stiffness * penetration); // towards the axis
+  EXPECT_NEAR(p.force.y(), 0.0, 1e-9);
 }
 
 } // namespace contact_interval_test

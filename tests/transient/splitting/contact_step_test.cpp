@@ -13,7 +13,7 @@ TEST(ContactStep, EndsWhereTheForceIsAlwaysAboutToReturn) {
   constexpr double step = 2e-5, stiffness = 1e8, damping = 1700.0, out = 8e-3, penetration = 1e-7;
   Mobility mobility;
   for (int i = 0; i < 3; ++i)
-    mobility.w[i][i] = 12.0;
+    mobility.add(i, i, 12.0);
   const contact::Support support{contact::Stop{0.0, contact::PlaneAxis::y}, {stiffness, damping}, {}};
   const ContactStep contact(support, {}, mobility, false, step, 6, 1e-3, 1e-2);
   const double side = contact::locate(support.obstacle, penetration, 0.0).gap < 0.0 ? 1.0 : -1.0;
@@ -26,7 +26,7 @@ TEST(ContactStep, EndsWhereTheForceIsAlwaysAboutToReturn) {
   ContactAct act;
   contact.make({}, path, {}, act);
   EXPECT_GE(act.state.normal_force, 0.0);
-  EXPECT_TRUE(std::isfinite(act.end.y));
+  EXPECT_TRUE(std::isfinite(act.end.y()));
 }
 
 } // namespace contact_step_test

@@ -76,7 +76,7 @@ TEST_P(ContactAnswer, IsWhatFindingItAgainAdds) {
   constexpr double step = 5e-4, radius = 2e-4, penetration = 3e-5, pressing = 20.0;
   Mobility mobility;
   for (int i = 0; i < 3; ++i)
-    mobility.w[i][i] = 3.0;
+    mobility.add(i, i, 3.0);
   const contact::Support support{contact::Circle{radius}, {1e6, 20.0}, {1e6, 100.0, 0.3, 0.3}};
   const ContactStep contact(support, {}, mobility, false, step, 4, radius, 1e-2);
   ContactPast past;
@@ -117,7 +117,7 @@ TEST_P(ContactAnswer, IsWhatFindingItAgainAdds) {
   }
   ContactAct unchanged = act;
   EXPECT_FALSE(contact.answer({-1e4, 0.0, 0.0}, {}, unchanged)); // it would open
-  EXPECT_EQ(unchanged.mean.y, act.mean.y);
+  EXPECT_EQ(unchanged.mean.y(), act.mean.y());
 }
 
 INSTANTIATE_TEST_SUITE_P(Contacts, ContactAnswer,
