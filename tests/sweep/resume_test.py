@@ -81,7 +81,7 @@ class Sweeps(unittest.TestCase):
         whole, damaged = (Path(self.folder.name) / name for name in ("whole", "damaged"))
         self.run_whole(whole, 1, "--set", "sweep.draws=20")
         self.run_whole(damaged, 2, "--set", "sweep.draws=20")
-        file = sorted(damaged.glob("shards/*/*.rows"))[0]
+        file = max(damaged.glob("shards/*/*.rows"), key=lambda rows: rows.stat().st_size)  # on a busy machine a rank may have one row
         lines = file.read_bytes().splitlines(keepends=True)
         lines[1] = lines[1].replace(b" done ", b" done 1", 1)
         lines[2] = lines[2][:40]  # and the end of one
