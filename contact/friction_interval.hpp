@@ -62,7 +62,7 @@ template <class V> struct FrictionInterval {
   double sliding_time = 0.0; ///< s
 };
 
-/// @param usual  of the whole interval, if it is of the usual length
+/// @param usual  of pieces of the length of most intervals; others are made
 /// @param length  s   @param normal  N   @param mobility  1/kg, as that of `usual`
 [[nodiscard]] FrictionInterval<double> friction_over_interval(const FrictionLaw& law,
                                                               const PieceTables& usual, double mobility,

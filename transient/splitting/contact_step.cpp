@@ -269,8 +269,10 @@ bool ContactStep::in_one_state(const ContactAct& act) const {
   const ClosedSpan span(act);
   if (std::abs(span.to - span.from - state.closed) > share_tolerance)
     return false;
-  if (!friction_.active() || !(state.sliding > 0.0))
+  if (!friction_.active())
     return true;
+  if (!(state.sliding > 0.0))
+    return span.from == 0.0; // the spring of one that sticks is stretched from its touch on
   const double bound = friction_.mu_dynamic * state.normal_force;
   return state.sliding > state.closed - share_tolerance &&
          dot(state.friction, state.friction) > one_way * one_way * bound * bound;
@@ -278,6 +280,9 @@ bool ContactStep::in_one_state(const ContactAct& act) const {
 
 bool ContactStep::answer(const Components& mean, const Components& slope, ContactAct& act) const {
   ContactState& state = act.state;
+  if (!(state.closed > 0.0) ||
+      (friction_.active() && friction_.kind == contact::FrictionMemoryKind::reference))
+    return false;
   const ClosedSpan span(act);
   const auto find = [&](double stiffness, double damping, double mobility, double by_mean, double by_slope) {
     return answer_of({stiffness, damping, mobility}, h_, span.from, span.to, {by_mean, by_slope});
@@ -286,13 +291,15 @@ bool ContactStep::answer(const Components& mean, const Components& slope, Contac
   const auto [ny, nz] = axes;
   const Mobility& w = intervals_.mobility();
   const double across = (w(0, 1) + w(1, 0)) * ny * nz, pressing = state.normal_force / state.closed;
-  const LinearInTime n =
-      find(normal_.stiffness, normal_.damping_at(pressing / normal_.stiffness),
-           w(0, 0) * ny * ny + across + w(1, 1) * nz * nz, normal(axes, mean), normal(axes, slope));
+  // at a touch a damper in proportion to the penetration has no force
+  const double damping = span.from > 0.0 ? normal_.damping : normal_.damping_at(pressing / normal_.stiffness);
+  const LinearInTime n = find(normal_.stiffness, damping, w(0, 0) * ny * ny + across + w(1, 1) * nz * nz,
+                              normal(axes, mean), normal(axes, slope));
   if (!(std::abs(n.mean) < small_change * state.normal_force))
     return false;
   // The normal force turns with its normal. Friction is that of an element while it sticks, in proportion to the normal force while it slides.
-  const double turning = std::max(0.0, -pressing * intervals_.curvature(act.end));
+  // At a corner the spring itself acts along the tangent; round bodies side by side, whose normal force turns away, are left out.
+  const double turning = std::clamp(-pressing * intervals_.curvature(act.end), 0.0, normal_.stiffness);
   const double slides = std::min(1.0, state.sliding / state.closed), sticks = 1.0 - slides;
   const double sticks_t = sticks * friction_.along.t, sticks_x = sticks * friction_.along.x;
   const contact::Vec2 in_proportion = (slides / state.normal_force) * state.friction;
@@ -306,11 +313,15 @@ bool ContactStep::answer(const Components& mean, const Components& slope, Contac
   t.slope += in_proportion.t * n.slope;
   x.mean += in_proportion.x * n.mean;
   x.slope += in_proportion.x * n.slope;
-  act.mean = act.mean + Components{axes.y(n.mean, t.mean), axes.z(n.mean, t.mean), x.mean};
-  act.slope = act.slope + Components{axes.y(n.slope, t.slope), axes.z(n.slope, t.slope), x.slope};
+  const Components by_mean{axes.y(n.mean, t.mean), axes.z(n.mean, t.mean), x.mean},
+      by_slope{axes.y(n.slope, t.slope), axes.z(n.slope, t.slope), x.slope};
+  act.mean = act.mean + by_mean;
+  act.slope = act.slope + by_slope;
+  if (act.past.closed)
+    act.last = act.last + by_mean + by_slope;
   const double normal_grows = 1.0 + n.mean / state.normal_force,
                friction_grows = 1.0 + slides * n.mean / state.normal_force;
-  state.normal_force *= normal_grows;
+  state.normal_force += n.mean;
   state.normal_square *= normal_grows * normal_grows;
   state.friction = friction_grows * state.friction;
   state.friction_square *= friction_grows * friction_grows;

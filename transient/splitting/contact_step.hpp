@@ -44,10 +44,10 @@ public:
   void make(const ContactPast& past, const FreePath& path, const Components& guess, ContactAct& act) const;
   /// Whether the contact was closed once at most, and stuck or slid one way while it was: such a contact answers changes in proportion.
   [[nodiscard]] bool in_one_state(const ContactAct& act) const;
-  /// The force of a contact that has been found, and the figures of its state that are means of it, where the others move it otherwise than it was found
-  /// for: to first order (force_answer.hpp). No allocation.
+  /// The force of a contact that has been found where the others move it otherwise than it was found for: to first order (force_answer.hpp), without what W
+  /// moves across. Of its state the normal force, friction in proportion to it and their squares and works follow; the rest stays as found. No allocation.
   /// @param mean, slope  m/s2, of what has changed since, linear in time from mean - slope to mean + slope
-  /// @return whether that is near: with false nothing has been changed
+  /// @return false: the change is too large for it, or friction has the memory `reference`; nothing has been changed
   [[nodiscard]] bool answer(const Components& mean, const Components& slope, ContactAct& act) const;
   /// An open contact forgets over `time`. Returns what its spring dissipates, J.
   double relax(ContactPast& past, double time) const { return intervals_.relax(past, time); }

@@ -10,6 +10,8 @@ constexpr int most_sweeps = 40;
 /// Of the tolerance times the largest change of a force in a step: what contacts may still have to answer when the sweeps stop. What a slow motion leaves
 /// unanswered is answered a step later, and such a delay adds up: at 1 the mean force of tubes that are jammed between bars came out 7 % low, at 0.3 1 %.
 constexpr double unanswered = 0.3;
+/// Tolerances of the largest change of a force up to which a contact in one state answers to first order, since it was found: such answers err by a share.
+constexpr double most_tolerances = 10.0;
 /// Of the largest force of a step: what need not be answered in any case, such as the round-off of contacts at rest.
 constexpr double negligible = 1e-6;
 /// Of the answer of a contact that is closed throughout a step: that of one which is closed for a moment, at least.
@@ -172,20 +174,22 @@ void ContactSweeps::group() {
   }
 }
 
-/// Further sweeps of a group, by its first contact, after sweeps with the largest change of a force and the largest force, N. Returns whether no contact
-/// would answer what has changed since it was found by more than is enough.
+/// Further sweeps of a group, by its first contact.
+/// @param change, force  N: the largest change of a force in the step, and the largest force
+/// @return whether no contact would answer what has changed since by more than is enough
 bool ContactSweeps::sweep(int first, double change, double force) {
   const double enough = std::max(unanswered * tolerance_ * change, negligible * force);
-  const double one_state = std::sqrt(tolerance_) * change, other = tolerance_ * change;
+  const double one_state = std::min(most_tolerances * tolerance_, std::sqrt(tolerance_)) * change,
+               other = tolerance_ * change;
   for (int sweep = 1; sweep < most_sweeps; ++sweep) {
     bool converged = true;
     for (int i = first; i >= 0; i = moving_[i].next) {
       Moving& m = moving_[i];
-      const double outstanding = outstanding_force(m);
-      if (!(outstanding > enough))
+      if (!(force_for(m, m.answered_for) > enough))
         continue;
       converged = false;
-      if (!(outstanding < (steps_[m.c].in_one_state(m.act) ? one_state : other) && answer(m)))
+      const double most = steps_[m.c].in_one_state(m.act) ? one_state : other;
+      if (!(force_for(m, m.found_for) < most) || !answer(m))
         find(m);
     }
     if (converged)
@@ -194,10 +198,10 @@ bool ContactSweeps::sweep(int first, double change, double force) {
   return false;
 }
 
-/// N.
-double ContactSweeps::outstanding_force(const Moving& m) const {
+/// N: about what a contact would answer to what has changed since.
+double ContactSweeps::force_for(const Moving& m, const Components (&since)[2]) const {
   return std::max(least_answer, m.act.state.closed) * steps_[m.c].apparent_mass() *
-         (sum_of_sizes(m.mean - m.solved_for[0]) + sum_of_sizes(m.slope - m.solved_for[1]) / 3.0);
+         (sum_of_sizes(m.mean - since[0]) + sum_of_sizes(m.slope - since[1]) / 3.0);
 }
 
 /// One contact with the forces of all others that share a block with it.
@@ -207,13 +211,15 @@ void ContactSweeps::find(Moving& m) {
   path.j = path.j + (2.0 / h_) * m.slope;
   const Components mean = m.act.mean, slope = m.act.slope;
   steps_[m.c].make(pasts_[m.c], path, forces_[m.c].held, m.act);
+  m.found_for[0] = m.mean;
+  m.found_for[1] = m.slope;
   pass_on(m, mean, slope);
 }
 
 /// To what has changed since it was found, to first order. Returns whether that is near.
 bool ContactSweeps::answer(Moving& m) {
   const Components mean = m.act.mean, slope = m.act.slope;
-  if (!steps_[m.c].answer(m.mean - m.solved_for[0], m.slope - m.solved_for[1], m.act))
+  if (!steps_[m.c].answer(m.mean - m.answered_for[0], m.slope - m.answered_for[1], m.act))
     return false;
   pass_on(m, mean, slope);
   return true;
@@ -221,8 +227,8 @@ bool ContactSweeps::answer(Moving& m) {
 
 /// Its force was another before.
 void ContactSweeps::pass_on(Moving& m, const Components& mean, const Components& slope) {
-  m.solved_for[0] = m.mean;
-  m.solved_for[1] = m.slope;
+  m.answered_for[0] = m.mean;
+  m.answered_for[1] = m.slope;
   const Components by_mean = m.act.mean - mean, by_slope = m.act.slope - slope;
   for (const auto& [block, local] : blocks_.places[m.c]) {
     const Mobility* w = &mobility_[block][static_cast<std::size_t>(local) * blocks_.contacts[block].size()];

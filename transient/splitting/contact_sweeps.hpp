@@ -61,9 +61,10 @@ private:
     FreePath path; ///< without its own force, the others with those held
     Components mean,
         slope; ///< m/s2: by what the others' forces differ from those held, linear in time from mean - slope to mean + slope
-    Components solved_for[2]; ///< these as they were when its force was found
-    ContactAct act;           ///< as it was found last
-    int next;                 ///< of its group; -1: none
+    Components found_for[2];    ///< these as they were when it was moved through the step
+    Components answered_for[2]; ///< and when its force was found or changed last
+    ContactAct act;             ///< as it was found last
+    int next;                   ///< of its group; -1: none
   };
   /// Of the contacts that move in a step those of a block, and the group that it is part of.
   struct MovingBlock {
@@ -78,7 +79,7 @@ private:
   void find(Moving& m);
   bool answer(Moving& m);
   void pass_on(Moving& m, const Components& mean, const Components& slope);
-  [[nodiscard]] double outstanding_force(const Moving& m) const;
+  [[nodiscard]] double force_for(const Moving& m, const Components (&since)[2]) const;
   bool sweep(int first, double change, double force);
 
   const PackedContacts& contacts_;

@@ -21,7 +21,7 @@ struct Element {
 };
 
 /// @param step  h, s   @param from, to  shares of the step between which the contact is closed   @param change  of the acceleration, m/s2
-/// @return  N, along the acceleration: against it
+/// @return  N, positive along the acceleration
 [[nodiscard]] LinearInTime answer_of(const Element& element, double step, double from, double to,
                                      const LinearInTime& change);
 

@@ -9,7 +9,7 @@ namespace force_answer_test {
 using namespace fretwork;
 using namespace fretwork::transient;
 
-/// Mean and slope of the force of an element over a step by the midpoint rule in many parts, after `mass` has begun to move by what `change` adds.
+/// Mean and slope of the force of an element over a step by the midpoint rule in many parts, moved by what `change` adds.
 LinearInTime by_parts(const Element& element, double step, double from, double to,
                       const LinearInTime& change) {
   constexpr int parts = 20000;
