@@ -27,27 +27,6 @@ struct MeanForce {
   double value, slope;
 };
 
-NormalInterval open_at_start(const NormalLaw& law, double dt, double mobility, const NormalPath& path) {
-  const double p0 = path.start, b = 0.5 * mobility * dt * dt;
-  const double c = law.damping / dt, d = 0.5 * law.stiffness * law.dissipation / dt;
-  NormalInterval out;
-  out.force = solve([&](double force) -> MeanForce {
-    const double p1 = path.end - b * force, closed = std::max(p1, 0.0);
-    const double slope = p1 > 0.0 ? law.stiffness * mean_slopes(p0, p1).by_p2 + c + 2.0 * d * closed : 0.0;
-    return {law.stiffness * mean_penetration(p0, p1) + (c + d * closed) * closed, -b * slope};
-  });
-  const double p1 = out.end = path.end - b * out.force;
-  if (!(out.force > 0.0))
-    return out;
-  out.damper_work = out.force * (p1 - p0) - law.spring_energy(p1);
-  out.from = p0 / (p0 - p1);
-  out.to = 1.0;
-  const double mean = out.force / (1.0 - out.from);
-  const double first = std::min(2.0 * mean, law.damping * std::max(0.0, path.rate));
-  out.course = {first, 2.0 * mean - first, mean};
-  return out;
-}
-
 } // namespace
 
 NormalInterval normal_over_interval(const NormalLaw& law, double dt, double mobility, double growing,
@@ -55,10 +34,8 @@ NormalInterval normal_over_interval(const NormalLaw& law, double dt, double mobi
   const double p0 = path.start, v0 = path.rate, k = law.stiffness;
   NormalInterval out;
   out.end = path.end;
-  if (path.end <= 0.0 && (p0 < 0.0 || (p0 == 0.0 && v0 <= 0.0)))
+  if (path.end <= 0.0 && p0 == 0.0 && v0 <= 0.0)
     return out;
-  if (p0 < 0.0)
-    return open_at_start(law, dt, mobility, path);
   const double bent = std::min(most_bent, k * mobility * dt * dt / 12.0), straight = 1.0 - bent;
   const double lag = mobility > 0.0 ? bent / mobility : 0.0;   // K_N dt^2/12, kg
   const double growing_share = growing * mobility * dt / 12.0; // beta - 1/2

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// The normal force of one contact over an interval dt, of its penetrations p0, p1 and their rates v0, v1 at both ends, <p> = max(p, 0).
-/// Closed at the start:
+/// The normal force of one contact over an interval dt at whose start it is closed, of its penetrations p0 >= 0, p1 and their rates v0, v1 at both
+/// ends, <p> = max(p, 0):
 ///     mean      F = K_N P + (C_N (p1 - p0) + K_N d (<p1>^2 - p0^2)/2)/dt,   P = (p0 + p1)/2 - (v1 - v0) dt/12
 ///     course    the parabola from N0 = K_N p0 + c(p0) v0 with the mean F and the bend of that law; the force ends where it does
 ///     growth    G = K_N (p1 - p0) + c' (v1 - v0) + K_N d (p1 v1 - p0 v0)
 ///     motion    p1 = p0 + v0 dt + a dt^2/2 - W dt^2 (F/2 - G/12),   v1 = v0 + (a - W F) dt
-/// Open at the start:
-///     F = <K_N M + (C_N <p1> + K_N d <p1>^2/2)/dt>+,   M: mean of <p> along the straight line from p0 to p1,   G = 0
 /// a: p'' without this force; W: mobility of the contact along its normal, 1/kg; c': growing_damping.
 ///
 /// P is the mean of a motion that bends, G the growth of a linear force that moves the contact as far: of order 4 in x = (K_N W)^1/2 dt and C_N W dt
@@ -45,7 +43,7 @@ struct ParabolicForce {
 
 /// The penetration of a contact over an interval as it is without the contact's own normal force.
 struct NormalPath {
-  double start;        ///< m
+  double start;        ///< m, >= 0
   double end;          ///< m, start + rate dt + acceleration dt^2/2
   double rate;         ///< m/s, at the start
   double acceleration; ///< m/s2
@@ -54,11 +52,11 @@ struct NormalPath {
 struct NormalInterval {
   double force = 0.0, growth = 0.0; ///< N, F and G
   double end = 0.0;                 ///< m, penetration
-  double from = 0.0, to = 0.0;      ///< shares of the interval between which there is a force,
-  ParabolicForce course;            ///< then
+  double to = 0.0;                  ///< share of the interval up to which there is a force,
+  ParabolicForce course;            ///< until then
   double damper_work = 0.0;         ///< J, by the damper, and what the positive part cuts off the spring
   /// N2, mean over the interval.
-  [[nodiscard]] double square() const { return (to - from) * course.square(); }
+  [[nodiscard]] double square() const { return to * course.square(); }
 };
 
 /// beta: of a speed that a damper takes down at the rate r, its mean over dt is speed/(1 + beta z), z = r dt: 1/2 of slow dampers, 1 of those that stop the

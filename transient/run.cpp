@@ -22,16 +22,13 @@ constexpr double least_part = 1.0 / 1024.0;
 
 /// Times as many intervals as the step rule gives that replays may ask for.
 constexpr int most_refined = 16;
-/// Of forces of contacts that depend on each other, whatever the accuracy.
-constexpr double loosest_tolerance = 0.02;
 
 std::unique_ptr<Scheme> make_splitting_of(const Scene& scene, const StepChoice& c) {
-  const SplittingOptions options{c.fastest, c.macro_steps, c.parts, std::min(c.accuracy, loosest_tolerance)};
+  const SplittingOptions options{c.fastest, c.macro_steps, c.parts};
   if (!(c.replay > 0.0))
     return make_splitting(scene, c.step, options);
   SplittingOptions finer = options;
   finer.longest *= 2;
-  finer.tolerance *= 0.5;
   return make_replayed(
       make_replayable_splitting(scene, c.step, options),
       make_replayable_splitting(scene, 0.5 * c.step, finer),

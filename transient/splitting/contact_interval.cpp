@@ -6,21 +6,27 @@
 namespace fretwork::transient {
 namespace {
 
-/// Where normal and tangential motion are coupled an interval is made again until its force stands to this share.
-constexpr double repeat_tolerance = 1e-6;
-constexpr int most_repeats = 20;
+using contact::dot;
+using contact::Vec2;
+
+/// Of its clearance, what a contact may move in an interval, and the most intervals of a step for its sake.
+constexpr double longest_way = 1.0;
+constexpr int most_for_speed = 64;
+/// Of an interval: what is shorter is none.
+constexpr double shortest = 1e-9;
 
 /// Of the memory `reference`: one mean force over the interval.
-contact::FrictionInterval<contact::Vec2>
-reference_friction(const contact::FrictionLaw& law, const contact::FrictionTable& table,
-                   const contact::FrictionMemory& memory, double normal, double length,
-                   const contact::TangentialPath<contact::Vec2, contact::Sym2>& path) {
+contact::FrictionInterval<Vec2> reference_friction(const contact::FrictionLaw& law,
+                                                   const contact::FrictionTable& table,
+                                                   const contact::FrictionMemory& memory, double normal,
+                                                   double length,
+                                                   const contact::TangentialPath<Vec2, contact::Sym2>& path) {
   const double half = 0.5 * length;
   const contact::Sym2 answer{half * path.mobility.xx, half * path.mobility.xt, half * path.mobility.tt};
-  const contact::Vec2 acceleration = path.acceleration + half * path.jerk;
-  const contact::Vec2 free = path.velocity - (length * length / 12.0) * path.jerk + half * acceleration;
+  const Vec2 acceleration = path.acceleration + half * path.jerk;
+  const Vec2 free = path.velocity - (length * length / 12.0) * path.jerk + half * acceleration;
   const contact::Friction friction = contact::step_friction_plane(law, table, memory, normal, free, answer);
-  contact::FrictionInterval<contact::Vec2> out;
+  contact::FrictionInterval<Vec2> out;
   out.displacement = length * (free + answer * friction.force);
   out.velocity = path.velocity + length * (acceleration + path.mobility * friction.force);
   const contact::FrictionStep step = contact::close_step(law, table, memory, friction, out.displacement);
@@ -36,42 +42,105 @@ reference_friction(const contact::FrictionLaw& law, const contact::FrictionTable
   return out;
 }
 
+Vec2 in_plane(Vec2 v) { return v; }
+Vec2 in_plane(double along_t) { return {0.0, along_t}; }
+
 } // namespace
 
-ContactIntervals::ContactIntervals(const contact::Support& support, const Components& rest,
-                                   const Mobility& mobility, bool in_plane, double usual, double tolerance)
-    : obstacle_(support.obstacle), normal_(support.normal), friction_(support.friction), rest_(rest),
-      w_(mobility), in_plane_(in_plane), mobility_(0.0), across_(0.0), tolerance_(tolerance) {
-  const Mobility& w = w_;
-  for (int to = 0; to < 3; ++to) {
-    mobility_ = std::max(mobility_, w(to, to));
-    for (int from = 0; from < to; ++from)
-      across_ = std::max({across_, std::abs(w(to, from)), std::abs(w(from, to))});
+/// How a contact moves over an interval without its own force, along the normal at its mean position and across.
+struct ContactIntervals::Motion {
+  contact::ContactAxes axes;
+  Components velocity;      ///< m/s, at the start
+  Components acceleration;  ///< m/s2, mean
+  Components jerk;          ///< m/s3
+  Components by_normal;     ///< 1/kg, W n
+  double mobility = 0.0;    ///< 1/kg, n W n
+  double penetration = 0.0; ///< m, at the start
+  double rate = 0.0;        ///< m/s
+  double pressing =
+      0.0;           ///< m/s2, mean of the second derivative of the penetration, under the friction expected
+  double bend = 0.0; ///< m: by its jerk at the end
+  double turning = 0.0; ///< rad/s, of the normal towards t
+  double sinking = 0.0; ///< m/s2, by which the speed along t grows as t turns
+  [[nodiscard]] double after(double time) const {
+    return penetration + time * (rate + 0.5 * time * pressing);
   }
-  across_ = std::max(across_, 0.5 * std::abs(w(1, 1) - w(0, 0)));
-  set_usual(usual);
-}
+};
 
-IntervalTable ContactIntervals::table(double length) const {
+/// Its normal force over an interval.
+struct ContactIntervals::Pressed {
+  double force = 0.0,
+         growth = 0.0; ///< N, mean over the interval, and growth of a linear force with its first moment
+  double from = 0.0, to = 0.0;            ///< s: it acts between,
+  contact::ParabolicForce course;         ///< so
+  bool opens = false;                     ///< in the interval
+  double approach = 0.0, departure = 0.0; ///< m/s, where it closes and opens
+  double damper_work = 0.0;               ///< J
+};
+
+ContactIntervals::ContactIntervals(const contact::Support& support, const Components& rest,
+                                   const Mobility& mobility, bool in_plane, double step, double clearance)
+    : obstacle_(support.obstacle), normal_(support.normal), friction_(support.friction), rest_(rest),
+      w_(mobility), in_plane_(in_plane), h_(step), clearance_(clearance),
+      mobility_(std::max({mobility(0, 0), mobility(1, 1), mobility(2, 2)})) {}
+
+IntervalTable ContactIntervals::table(int count) const {
   IntervalTable of;
-  of.length = length;
-  const double force = 0.5 * length * length * (normal_.stiffness + friction_.stiffness) +
-                       length * (normal_.damping + friction_.damping);
-  of.apparent_mass = force / (1.0 + force * mobility_);
-  of.growing = contact::growing_damping(normal_.damping, normal_.damping * mobility_ * length);
-  if (friction_.active() && friction_.kind == contact::FrictionMemoryKind::reference)
-    of.table = contact::friction_table(friction_, length);
+  of.count = count;
+  of.share = 1.0 / count;
+  of.length = of.share * h_;
+  of.growing = contact::growing_damping(normal_.damping, normal_.damping * mobility_ * of.length);
+  if (friction_.active()) {
+    of.pieces = contact::piece_tables(friction_, mobility_, of.length);
+    if (friction_.kind == contact::FrictionMemoryKind::reference)
+      of.reference = contact::friction_table(friction_, of.length);
+  }
   return of;
 }
 
-void ContactIntervals::set_usual(double length) {
-  usual_ = table(length);
-  if (friction_.active())
-    usual_pieces_ = contact::piece_tables(friction_, mobility_, length);
+int ContactIntervals::least_count(const Components& velocity) const {
+  if (!(clearance_ > 0.0))
+    return 1;
+  const double speed = std::sqrt(velocity.y() * velocity.y() + velocity.z() * velocity.z());
+  return static_cast<int>(
+      std::ceil(std::clamp(speed * h_ / (longest_way * clearance_), 1.0, 1.0 * most_for_speed)));
+}
+
+bool ContactIntervals::meets(const ContactPast& past, const FreePath& path, int count) const {
+  if (past.closed)
+    return true;
+  for (int i = count; i >= 0; --i)
+    if (locate(path.displacement(h_ * i / count)).gap <= 0.0)
+      return true;
+  return false;
+}
+
+void ContactIntervals::begin(MovingContact& m, const Components& held, const IntervalTable& of) const {
+  m.growth = of.length * m.past.rise;
+  m.force = held + 0.5 * m.growth;
+  m.by_held = w_ * held;
+  m.by_force = w_ * m.force;
+  m.by_growth = w_ * m.growth;
+}
+
+void ContactIntervals::move(MovingContact& m, const IntervalTable& of) const {
+  const double dt = of.length;
+  m.by_growth = w_ * m.growth;
+  const Components by = m.others + w_ * m.force - m.by_held, growth = m.others_growth + m.by_growth;
+  m.response = m.response + dt * (m.rate + dt * (0.5 * by - (1.0 / 12.0) * growth));
+  m.rate = m.rate + dt * by;
+  m.others = m.others + m.others_growth;
+}
+
+void ContactIntervals::expect(MovingContact& m) const {
+  if (!m.throughout)
+    m.growth = m.by_growth = {};
+  m.force = m.last + 0.5 * m.growth;
+  m.by_force = w_ * m.force;
 }
 
 double ContactIntervals::relax(ContactPast& past, double time) const {
-  contact::Vec2& spring = past.friction.spring;
+  Vec2& spring = past.friction.spring;
   past.friction.sliding = false;
   if (!(dot(spring, spring) > 0.0))
     return 0.0;
@@ -84,191 +153,238 @@ double ContactIntervals::relax(ContactPast& past, double time) const {
   return before - friction_.spring_energy(spring);
 }
 
-/// The gap is linear about where the force of the guess leads.
-void ContactIntervals::find_normal_force(const ContactPath& m, const Components& guessed,
-                                         const Components& growth, const IntervalTable& of,
-                                         IntervalForces& p) const {
-  const double dt = of.length, half = 0.5 * dt * dt;
-  const Components bent = guessed - (1.0 / 6.0) * growth; // moves the contact as far where it is constant
-  const Components by_guess = w_ * bent, a = m.a + 0.5 * dt * m.j + w_ * guessed;
-  const Components way = m.displacement(dt) + half * by_guess;
-  const contact::Location there = locate(m.u + way);
-  p.turned = m.at.axes().normal(there.ny, there.nz);
-  const double along = tangent(m.at.axes(), way);
-  const double curvature = along != 0.0 ? m.at.axes().tangent(there.ny, there.nz) / along : 0.0;
-  p.curvature = std::abs(curvature);
-  const auto find = [&](const contact::ContactAxes& axes, double start, double end, double rate) {
-    const Mobility& w = w_;
-    const auto [ny, nz] = axes;
-    const double wnn = w(0, 0) * ny * ny + (w(0, 1) + w(1, 0)) * ny * nz + w(1, 1) * nz * nz;
-    const double free = end + half * wnn * normal(axes, bent);
-    // with what the gap adds where the contact follows a curve, as v_t^2/R
-    const double acceleration = (free - start - rate * dt) / half - normal(axes, m.j) * dt / 6.0;
-    p.axes = axes;
-    p.normal = contact::normal_over_interval(normal_, dt, wnn, of.growing, {start, free, rate, acceleration});
-  };
-  const double start = -m.at.gap, rate = -normal(m.at.axes(), m.v);
-  // The gap that the laws follow strays from that of the position: a damper would take that for a speed.
-  const double drift = start + locate(m.u).gap;
-  p.to = there;
-  if (p.turned > 0.0) {
-    contact::ContactAxes axes = m.at.axes();
-    if (there.gap < 0.0 && p.turned < 1.0) { // the mean along the way; one that opens keeps its own
-      // of length 1 but for the square of the turn, near enough for what the way bends
-      const contact::ContactAxes chord{0.5 * (axes.ny + there.ny), 0.5 * (axes.nz + there.nz)};
-      const double bend = -(dt * dt / 12.0) * curvature * tangent(chord, a);
-      const double per_length = 1.0 / std::sqrt(0.5 * (1.0 + p.turned) * (1.0 + bend * bend));
-      axes = {per_length * chord.y(1.0, bend), per_length * chord.z(1.0, bend)};
-      p.turn = {there.ny - m.at.ny, there.nz - m.at.nz, 0.0};
-    }
-    find(axes, start, drift - there.gap, rate);
-  } else { // another face lies ahead of the guess: does the contact stay on its own, or leave it before?
-    find(m.at.axes(), start, start - normal(m.at.axes(), way), rate);
-    const Components by =
-        w_ * ((p.normal.force - p.normal.growth / 6.0) * Components{p.axes.ny, p.axes.nz, 0.0});
-    const contact::Location then = locate(m.u + way + half * (by - by_guess));
-    p.to = m.at;
-    if (p.normal.to == 1.0 && then.gap < 0.0 && m.at.axes().normal(then.ny, then.nz) <= 0.0) {
-      find(there.axes(), -there.gap + normal(there.axes(), way), -there.gap, -normal(there.axes(), m.v));
-      p.to = there;
-    }
-  }
-  p.damper_work = p.normal.damper_work;
-  p.to.gap = -p.normal.end;
-}
-
-void ContactIntervals::find_closed_friction(const ContactPath& m, const IntervalTable& of,
-                                            IntervalForces& p) const {
-  const contact::FrictionLaw& law = friction_;
-  const bool by_reference =
-      law.kind == contact::FrictionMemoryKind::reference; // which knows no parts of an interval
-  const bool whole = by_reference || (p.normal.from == 0.0 && p.normal.to == 1.0);
-  const auto [ny, nz] = p.axes;
-  const double dt = of.length, from = whole ? 0.0 : p.normal.from * dt;
-  const double length = whole ? dt : (p.normal.to - p.normal.from) * dt;
-  double stored = friction_.spring_energy(p.memory.spring);
-  if (from > 0.0) {
-    p.memory.sliding = false;
-    if (stored > 0.0) {
-      const double rest = contact::spring_left(law, from);
-      p.memory.spring = rest * p.memory.spring;
-      p.damper_work += (1.0 - rest * rest) * stored;
-      stored *= rest * rest;
-    }
-  }
-  // along t = (nz, -ny): with the mean of the normal force and its growth
-  const Mobility& w = w_;
-  const Components by_n{w(0, 0) * ny + w(0, 1) * nz, w(1, 0) * ny + w(1, 1) * nz,
-                        w(2, 0) * ny + w(2, 1) * nz};
-  const double wtt = w(0, 0) * nz * nz - (w(0, 1) + w(1, 0)) * ny * nz + w(1, 1) * ny * ny;
-  const double rise = p.normal.growth / dt, mean = p.normal.force - (0.5 * dt - from) * rise;
-  const auto start = [&](double u1, double u2, double u3, double w_n) { // velocity, acceleration, jerk
-    return std::array{u1 + from * (u2 + 0.5 * from * u3 + w_n * p.normal.force), u2 + from * u3 + w_n * mean,
-                      u3 + w_n * rise};
-  };
-  const auto [vt, at, jt] =
-      start(tangent(p.axes, m.v), tangent(p.axes, m.a), tangent(p.axes, m.j), tangent(p.axes, by_n));
-  double growth_square = 0.0; // N2, while it is closed
-  const auto close = [&](const auto& f, contact::Vec2 impulse, contact::Vec2 moment, contact::Vec2 by,
-                         contact::Vec2 spring, contact::Vec2 faster) {
-    p.friction = (1.0 / dt) * impulse;
-    const contact::Vec2 growth = (12.0 / (length * length)) * moment;
-    growth_square = dot(growth, growth);
-    p.friction_growth = (12.0 / (dt * dt)) * (moment + (from + 0.5 * (length - dt)) * impulse);
-    p.displacement = by;
-    p.memory = {spring, f.sliding};
-    p.slider_work = f.slider_work;
-    p.wear_work = f.wear_work;
-    p.slid = f.slid;
-    p.sliding_time = f.sliding_time;
-    // what goes into the element and is neither stored nor taken by the slider
-    p.damper_work += stored - friction_.spring_energy(spring) - p.slider_work -
-                     dot((1.0 / length) * impulse, by) - dot((1.0 / length) * moment, faster);
-  };
-  if (in_plane_) {
-    const double wxt = p.axes.tangent(w(0, 2), w(1, 2));
-    const auto [vx, ax, jx] = start(m.v.x, m.a.x, m.j.x, by_n.x);
-    const contact::TangentialPath<contact::Vec2, contact::Sym2> path{
-        law.masked(contact::Vec2{vx, vt}), law.masked(contact::Vec2{ax, at}),
-        law.masked(contact::Vec2{jx, jt}), law.masked(contact::Sym2{w(2, 2), wxt, wtt})};
-    const auto f = by_reference
-                       ? reference_friction(law, of.table, p.memory, p.normal.force, length, path)
-                       : contact::friction_over_interval(law, usual_pieces_, mobility_, p.memory.spring,
-                                                         p.memory.sliding, length, p.normal.course, path);
-    close(f, f.impulse, f.moment, f.displacement, f.spring, f.velocity - path.velocity);
-  } else if (by_reference) {
-    const contact::TangentialPath<contact::Vec2, contact::Sym2> path{{0.0, law.along.t * vt},
-                                                                     {0.0, law.along.t * at},
-                                                                     {0.0, law.along.t * jt},
-                                                                     {0.0, 0.0, law.along.t * wtt}};
-    const auto f = reference_friction(law, of.table, p.memory, p.normal.force, length, path);
-    close(f, f.impulse, f.moment, f.displacement, f.spring, f.velocity - path.velocity);
-  } else {
-    const contact::TangentialPath<double, double> path{law.along.t * vt, law.along.t * at, law.along.t * jt,
-                                                       law.along.t * wtt};
-    const auto f = contact::friction_over_interval(law, usual_pieces_, mobility_, p.memory.spring.t,
-                                                   p.memory.sliding, length, p.normal.course, path);
-    close(f, {0.0, f.impulse}, {0.0, f.moment}, {0.0, f.displacement}, {0.0, f.spring},
-          {0.0, f.velocity - path.velocity});
-  }
-  p.friction_square = dt / length * dot(p.friction, p.friction) + length / (12.0 * dt) * growth_square;
-  if (p.normal.to < 1.0) {
-    const double rest = by_reference ? 0.0 : contact::spring_left(law, dt - from - length);
-    p.damper_work += (1.0 - rest * rest) * friction_.spring_energy(p.memory.spring);
-    p.memory = {rest * p.memory.spring, false};
-  }
-}
-
-void ContactIntervals::find_friction(const ContactPath& m, const ContactPast& past, const IntervalTable& of,
-                                     IntervalForces& p) const {
-  p.memory = past.friction;
-  if (past.axes.opposite(p.axes) && p.normal.force > 0.0) { // another surface
-    p.memory = {};
-    p.damper_work += friction_.spring_energy(past.friction.spring);
-  }
-  if (p.normal.force > 0.0) {
-    find_closed_friction(m, of, p);
+void ContactIntervals::stretch(ContactPast& past, const Components& missed) const {
+  if (!past.closed || !friction_.active() || past.friction.sliding ||
+      friction_.kind == contact::FrictionMemoryKind::reference)
     return;
-  }
-  ContactPast open = past;
-  p.damper_work += relax(open, of.length);
-  p.memory = open.friction;
+  past.friction.spring.t -= friction_.along.t * friction_.stiffness * tangent(past.axes, missed);
+  if (in_plane_)
+    past.friction.spring.x -= friction_.along.x * friction_.stiffness * missed.x;
 }
 
-bool ContactIntervals::find_forces(const ContactPath& m, const ContactPast& past, const IntervalTable& of,
-                                   bool may_shorten, IntervalForces& p) const {
-  Components growth = of.length * m.rise, guess = m.force + 0.5 * growth;
-  if (normal(m.at.axes(), guess) <= 0.0)
-    guess = growth = {};
-  const auto along = [&p](double f) { return Components{p.axes.y(f, 0.0), p.axes.z(f, 0.0), 0.0}; };
-  // so much more force turns the normal less than the tolerance
-  const auto turns_little = [&](double force) {
-    return 0.5 * of.length * of.length * mobility_ * std::abs(p.curvature * force) <= tolerance_;
-  };
-  for (int i = 0;; ++i) {
-    p = {};
-    find_normal_force(m, guess, growth, of, p);
-    if (const double more = p.normal.force - normal(p.axes, guess); !turns_little(more) && i < most_repeats) {
-      guess = guess + along(more);
-      growth = growth + along(p.normal.growth - normal(p.axes, growth));
-      continue;
-    }
-    if (may_shorten && (p.normal.to < 1.0 || p.turns_far()))
-      return false;
-    if (friction_.active())
-      find_friction(m, past, of, p);
-    p.force = {p.axes.y(p.normal.force, p.friction.t), p.axes.z(p.normal.force, p.friction.t), p.friction.x};
-    p.growth = Components{p.axes.y(p.normal.growth, p.friction_growth.t),
-                          p.axes.z(p.normal.growth, p.friction_growth.t), p.friction_growth.x} +
-               p.normal.force * p.turn;
-    const double changed = sum_of_sizes(p.force - guess);
-    if ((of.apparent_mass * across_ * changed <= repeat_tolerance * sum_of_sizes(p.force) &&
-         turns_little(changed)) ||
-        i == most_repeats)
-      return true;
-    guess = p.force;
-    growth = p.growth;
+ContactIntervals::Motion ContactIntervals::motion_of(const MovingContact& m, const IntervalTable& of,
+                                                     int index) const {
+  Motion a;
+  const double dt = of.length, start = index * dt;
+  const Components of_path = m.path.a + (start + 0.5 * dt) * m.path.j;
+  const Components changed = m.others + m.by_force - m.by_held;
+  const Components now = of_path + changed; // under the force that is expected of it
+  a.velocity = m.path.velocity(start) + m.rate;
+  a.jerk = m.path.j + (1.0 / dt) * m.others_growth;
+  a.acceleration = now - m.by_force;
+  const Components grows = dt * a.jerk + m.by_growth;
+  const Components mean =
+      m.path.displacement(start) + m.response + (0.5 * dt) * (a.velocity + (dt / 3.0) * (now - 0.25 * grows));
+  const contact::Location at = locate(mean);
+  a.axes = at.axes();
+  const auto [ny, nz] = a.axes;
+  a.by_normal = w_ * Components{ny, nz, 0.0};
+  a.mobility = normal(a.axes, a.by_normal);
+  const Components half_way = a.velocity + (0.5 * dt) * now;
+  a.turning = curvature(mean) * tangent(a.axes, half_way);
+  const double outwards = a.turning * tangent(a.axes, half_way), pressed = -normal(a.axes, now) - outwards;
+  a.sinking = -a.turning * normal(a.axes, half_way);
+  a.rate = 0.5 * dt * outwards - normal(a.axes, a.velocity);
+  a.penetration = -at.gap - (0.5 * dt) * (a.rate + (dt / 3.0) * (pressed + 0.25 * normal(a.axes, grows)));
+  a.pressing = pressed + normal(a.axes, m.force) * a.mobility;
+  a.bend = dt * dt * dt / 12.0 * normal(a.axes, a.jerk);
+  return a;
+}
+
+/// s: from when on the contact has a force; dt and more: not in the interval.
+double ContactIntervals::time_of_closing(const Motion& a, bool closed, double dt) const {
+  if (a.penetration < 0.0) {
+    const double square = a.rate * a.rate - 2.0 * a.pressing * a.penetration;
+    const double speed = square > 0.0 ? a.rate + std::sqrt(square) : 0.0;
+    return speed > 0.0 ? std::min(dt, -2.0 * a.penetration / speed) : dt;
   }
+  if (closed)
+    return 0.0;
+  // It has opened before it is out: where its damper would pull, or as the normal turns.
+  const double end = a.after(dt);
+  const double first = normal_.spring_and_damper(a.penetration, a.rate);
+  const double last = end > 0.0 ? normal_.spring_and_damper(end, a.rate + dt * a.pressing) : 0.0;
+  if (a.rate < 0.0 && !(last > 0.0))
+    return dt;
+  if (first >= 0.0)
+    return 0.0;
+  return last > 0.0 ? dt * first / (first - last) : dt;
+}
+
+ContactIntervals::Pressed ContactIntervals::press(const Motion& a, bool closed,
+                                                  const IntervalTable& of) const {
+  Pressed out;
+  const double dt = of.length, closes = time_of_closing(a, closed, dt);
+  if (!(closes < (1.0 - shortest) * dt)) {
+    out.damper_work = normal_.spring_energy(a.penetration) - normal_.spring_energy(a.after(dt));
+    return out;
+  }
+  const double start = std::max(0.0, closes > 0.0 ? a.after(closes) : a.penetration);
+  const double rate = a.rate + closes * a.pressing;
+  const auto over = [&](double length) {
+    const bool whole = length == dt;
+    const double growing =
+        whole ? of.growing : contact::growing_damping(normal_.damping, normal_.damping * mobility_ * length);
+    const double end = start + length * (rate + 0.5 * length * a.pressing) + (whole ? a.bend : 0.0);
+    return contact::normal_over_interval(normal_, length, a.mobility, growing,
+                                         {start, end, rate, a.pressing});
+  };
+  double length = dt - closes;
+  contact::NormalInterval n = over(length);
+  out.opens = n.to < 1.0;
+  if (out.opens && n.to * length > shortest * dt) { // to where it opens
+    length *= n.to;
+    n = over(length);
+  }
+  const double share = length / dt, begin = closes / dt;
+  out.force = share * n.force;
+  out.growth = share * share * n.growth + (12.0 * begin + 6.0 * (share - 1.0)) * out.force;
+  out.from = closes;
+  out.to = closes + (out.opens ? n.to : 1.0) * length;
+  out.course = n.course;
+  out.approach = rate;
+  out.departure = -(rate + length * (a.pressing - a.mobility * n.force));
+  out.damper_work = n.damper_work;
+  if (closes > 0.0)
+    out.damper_work += normal_.spring_energy(a.penetration) - normal_.spring_energy(start);
+  if (out.opens) {
+    const double left = dt - closes - length;
+    const double end = n.end + left * (-out.departure + 0.5 * left * a.pressing);
+    out.damper_work += normal_.spring_energy(n.end) - normal_.spring_energy(end);
+  }
+  return out;
+}
+
+void ContactIntervals::act(MovingContact& m, const IntervalTable& of, int index) const {
+  const Motion a = motion_of(m, of, index);
+  const Pressed n = press(a, m.past.closed, of);
+  ContactState& state = m.state;
+  ContactPast& past = m.past;
+  const bool was_closed = past.closed;
+  const double start = index * of.share;
+  state.damper_work += n.damper_work;
+  m.force = m.growth = m.last = {};
+  past.closed = n.force > 0.0 && !n.opens;
+  if (n.force > 0.0) {
+    if (!was_closed || past.before_run) {
+      ++state.touches;
+      past.before_run = false;
+      state.closed_at = start + n.from / h_;
+      state.approach = n.approach;
+    }
+    const double share = (n.to - n.from) / h_;
+    state.normal_force += of.share * n.force;
+    state.normal_square += share * n.course.square();
+    state.closed += share;
+    state.peak = std::max(state.peak, n.course.largest());
+    if (friction_.active()) {
+      rub(a, n, of, m);
+    } else {
+      m.force = along(a.axes, n.force, {});
+      m.growth = along(a.axes, n.growth, {});
+    }
+    past.axes = state.axes = a.axes;
+    const double turn = a.turning * share * h_;
+    m.growth =
+        m.growth + along(a.axes, -turn * tangent(a.axes, m.force), {0.0, turn * normal(a.axes, m.force)});
+    if (past.closed)
+      m.last = n.from > 0.0 ? (n.course.last / n.force) * m.force : m.force + 0.5 * m.growth;
+    m.mean = m.mean + of.share * m.force;
+    m.slope =
+        m.slope + of.share * ((6.0 * (start + 0.5 * of.share) - 3.0) * m.force + (0.5 * of.share) * m.growth);
+  } else if (friction_.active()) {
+    m.relaxed += relax(past, of.length);
+  }
+  if ((was_closed || n.force > 0.0) && !past.closed) {
+    m.opened = true;
+    state.opened_at = start + n.to / h_;
+    state.departure = n.force > 0.0 ? n.departure : -a.rate;
+  }
+  m.throughout = past.closed && n.from == 0.0;
+  past.rise = m.throughout ? (1.0 / of.length) * m.growth : Components{};
+  m.penetrates = a.after(of.length) > 0.0 || past.closed;
+}
+
+/// Its friction over an interval.   @param f  a FrictionInterval<V>   @param velocity  m/s, at its start
+template <class V, class Friction>
+void ContactIntervals::take_friction(const Motion& a, const Pressed& n, const IntervalTable& of,
+                                     const Friction& f, V velocity, MovingContact& m) const {
+  ContactState& state = m.state;
+  const double dt = of.length, length = n.to - n.from;
+  const V mean = (1.0 / length) * f.impulse, growth = (12.0 / (length * length)) * f.moment;
+  const Vec2 force = in_plane(V((1.0 / dt) * f.impulse));
+  m.force = along(a.axes, n.force, force);
+  m.growth = along(a.axes, n.growth,
+                   (12.0 / (dt * dt)) * in_plane(V(f.moment + (n.from + 0.5 * (length - dt)) * f.impulse)));
+  // what goes into the element and is neither stored nor taken by the slider
+  state.damper_work += friction_.spring_energy(m.past.friction.spring) - friction_.spring_energy(f.spring) -
+                       f.slider_work - dot(mean, f.displacement) -
+                       dot(V((length / 12.0) * growth), V(f.velocity - velocity));
+  state.friction = state.friction + of.share * force;
+  state.friction_square += length / h_ * (dot(mean, mean) + dot(growth, growth) / 12.0);
+  state.displacement = state.displacement + in_plane(f.displacement);
+  state.slid += f.slid;
+  state.wear_work += f.wear_work;
+  state.friction_work += f.slider_work;
+  state.sliding += f.sliding_time / h_;
+  state.slides = f.sliding_time > 0.0;
+  m.past.friction = {in_plane(f.spring), f.sliding};
+}
+
+void ContactIntervals::rub(const Motion& a, const Pressed& n, const IntervalTable& of,
+                           MovingContact& m) const {
+  const double dt = of.length, length = n.to - n.from;
+  const bool by_reference = friction_.kind == contact::FrictionMemoryKind::reference;
+  ContactState& state = m.state;
+  contact::FrictionMemory& memory = m.past.friction;
+  const double before = friction_.spring_energy(memory.spring);
+  if (m.past.axes.opposite(a.axes)) // another surface
+    memory = {};
+  else if (n.from > 0.0)
+    memory = {by_reference ? Vec2{} : contact::spring_left(friction_, n.from) * memory.spring, false};
+  state.damper_work += before - friction_.spring_energy(memory.spring);
+  // along t: with the normal force, linear in time
+  const double rise = n.growth / dt, then = n.force + (n.from - 0.5 * dt) * rise;
+  const Components at_start = a.acceleration - (0.5 * dt) * a.jerk;
+  const auto start = [&](double velocity, double acceleration, double jerk, double by_n) {
+    return std::array{velocity + n.from * (acceleration + 0.5 * n.from * jerk + by_n * n.force),
+                      acceleration + n.from * jerk + by_n * then, jerk + by_n * rise};
+  };
+  const contact::ContactAxes& axes = a.axes;
+  const Components along_t{axes.nz, -axes.ny, 0.0}, by_t = w_ * along_t;
+  const double wtt = tangent(axes, by_t);
+  const auto [vt, at, jt] =
+      start(tangent(axes, a.velocity) - 0.5 * dt * a.sinking, tangent(axes, at_start) + a.sinking,
+            tangent(axes, a.jerk), tangent(axes, a.by_normal));
+  if (in_plane_ || by_reference) {
+    const auto [vx, ax, jx] = start(a.velocity.x, at_start.x, a.jerk.x, a.by_normal.x);
+    const contact::TangentialPath<Vec2, contact::Sym2> path{
+        friction_.masked(Vec2{in_plane_ ? vx : 0.0, vt}), friction_.masked(Vec2{in_plane_ ? ax : 0.0, at}),
+        friction_.masked(Vec2{in_plane_ ? jx : 0.0, jt}),
+        friction_.masked(in_plane_ ? contact::Sym2{w_(2, 2), by_t.x, wtt} : contact::Sym2{0.0, 0.0, wtt})};
+    if (by_reference) { // which knows no parts of an interval
+      Pressed whole = n;
+      whole.from = 0.0;
+      whole.to = dt;
+      take_friction(a, whole, of, reference_friction(friction_, of.reference, memory, n.force, dt, path),
+                    path.velocity, m);
+    } else {
+      take_friction(a, n, of,
+                    contact::friction_over_interval(friction_, of.pieces, mobility_, memory.spring,
+                                                    memory.sliding, length, n.course, path),
+                    path.velocity, m);
+    }
+  } else {
+    const contact::TangentialPath<double, double> path{friction_.along.t * vt, friction_.along.t * at,
+                                                       friction_.along.t * jt, friction_.along.t * wtt};
+    take_friction(a, n, of,
+                  contact::friction_over_interval(friction_, of.pieces, mobility_, memory.spring.t,
+                                                  memory.sliding, length, n.course, path),
+                  path.velocity, m);
+  }
+  m.past.spring_at_opening = dot(memory.spring, memory.spring);
+  if (n.opens)
+    state.damper_work += relax(m.past, dt - n.to);
 }
 
 } // namespace fretwork::transient

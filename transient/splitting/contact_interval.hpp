@@ -1,145 +1,110 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// One contact over an interval of a step of the splitting scheme: its normal force and friction by the laws over intervals
-/// (contact/normal_interval.hpp, contact/friction_interval.hpp), and where they take it.
+/// One contact over an interval dt of a step of the splitting scheme. It moves by
+///     u(t) = path(t) + r(t),   r'' = W (f - held) + what the others' forces differ from those held
+/// path: of the modes under the forces held; f: its force. At its mean position, under the force that is expected of it, stand its normal and the mean of its
+/// penetration, a parabola in time (doc/schemes.md, Turning normal). An open contact closes where this becomes positive, a closed one opens where
+/// its force ends; its laws (contact/normal_interval.hpp, contact/friction_interval.hpp) hold between.
 #pragma once
 #include "contact/friction_interval.hpp"
 #include "contact/normal_interval.hpp"
 #include "contact/support.hpp"
-#include <cmath>
+#include "transient/scene/scheme.hpp"
+#include "transient/splitting/components.hpp"
 
 namespace fretwork::transient {
 
-/// A vector along y z x. What moves in the plane of the contact is computed in pairs.
-struct Components {
-  using Pair [[gnu::vector_size(16)]] = double;
-  Pair yz = {};
-  double x = 0.0;
-  Components() = default;
-  Components(double along_y, double along_z, double along_x) : yz{along_y, along_z}, x(along_x) {}
-  Components(Pair plane, double along_x) : yz(plane), x(along_x) {}
-  [[nodiscard]] double y() const { return yz[0]; }
-  [[nodiscard]] double z() const { return yz[1]; }
-};
-inline Components operator+(const Components& a, const Components& b) { return {a.yz + b.yz, a.x + b.x}; }
-inline Components operator-(const Components& a, const Components& b) { return {a.yz - b.yz, a.x - b.x}; }
-inline Components operator*(double s, const Components& a) { return {s * a.yz, s * a.x}; }
-/// Along n, and along t.
-[[nodiscard]] inline double normal(const contact::ContactAxes& axes, const Components& c) {
-  return axes.normal(c.y(), c.z());
-}
-[[nodiscard]] inline double tangent(const contact::ContactAxes& axes, const Components& c) {
-  return axes.tangent(c.y(), c.z());
-}
-inline double sum_of_sizes(const Components& c) { return std::abs(c.y()) + std::abs(c.z()) + std::abs(c.x); }
-
-/// Acceleration of one contact by a force on another, or on itself: W, 1/kg, rows and columns y z x.
-class Mobility {
-public:
-  [[nodiscard]] double operator()(int to, int from) const { return to < 2 ? yz_[from][to] : x_[from]; }
-  void add(int to, int from, double w) {
-    if (to < 2)
-      yz_[from][to] += w;
-    else
-      x_[from] += w;
+/// Motion over a step: u + v t + a t^2/2 + j t^3/6.
+struct FreePath {
+  Components u, v, a, j;
+  [[nodiscard]] Components displacement(double time) const {
+    return u + time * (v + 0.5 * time * (a + (time / 3.0) * j));
   }
-  [[nodiscard]] Components operator*(const Components& f) const {
-    return {f.y() * yz_[0] + f.z() * yz_[1] + f.x * yz_[2], x_[0] * f.y() + x_[1] * f.z() + x_[2] * f.x};
-  }
-
-private:
-  Components::Pair yz_[3] = {}; ///< columns
-  double x_[3] = {};            ///< row
+  [[nodiscard]] Components velocity(double time) const { return v + time * (a + 0.5 * time * j); }
 };
 
 /// What is remembered of a contact from step to step.
 struct ContactPast {
   contact::FrictionMemory friction;
   contact::ContactAxes axes; ///< of its last force
-  bool closed = false;       ///< at the end of the last step
-  bool before_run = false;   ///< it has been closed since before the run: its impact is still to be counted
+  bool closed = false;
+  bool before_run = false; ///< it has been closed since before the run: its impact is still to be counted
   double spring_at_opening = 0.0; ///< N2, square of the spring's force
-  Components rise;                ///< N/s, of its force in its last interval
+  Components rise;                ///< N/s, of its force in its last interval, where it was closed throughout
 };
 
-/// Where a contact is in a step and what acts on it. Without its own force it moves by u + v t + a t^2/2 + j t^3/6.
-struct ContactPath {
-  double t = 0.0; ///< s, in the step
-  Components u, v, a, j;
-  Components force, rise; ///< N, N/s: at the end of the last interval; the first guess of the next goes on so
-  contact::Location at;   ///< its gap is that of the laws while the contact is closed
-  [[nodiscard]] Components displacement(double time) const {
-    return time * (v + 0.5 * time * (a + (time / 3.0) * j));
-  }
-  [[nodiscard]] Components velocity(double time) const { return v + time * (a + 0.5 * time * j); }
-  /// With a further acceleration that is linear in time: its mean and its growth, m/s2.
-  void move(double time, const Components& by, const Components& growth) {
-    u = u + displacement(time) + (time * time) * (0.5 * by - (1.0 / 12.0) * growth);
-    v = velocity(time) + time * by;
-    a = a + time * j;
-    t += time;
-  }
+/// A contact on its way through a step.
+struct MovingContact {
+  int number = 0;            ///< of the contact
+  FreePath path;             ///< of the modes, under the forces held
+  Components response, rate; ///< m, m/s: r and r' at the start of the next interval
+  Components others,
+      others_growth; ///< m/s2: by what the forces of the others differ from those held, mean and growth over an interval
+  /// N: of an interval, as they are expected or found: the mean, and how much a linear force with its mean and first moment grows
+  Components force, growth;
+  Components last;                         ///< N: its force at the end of an interval
+  bool throughout = false;                 ///< closed throughout that
+  Components by_force, by_growth, by_held; ///< m/s2: W force, W growth, W held
+  Components mean, slope;  ///< N: over the step its force is linear in time from mean - slope to mean + slope
+  ContactState state;      ///< over the step
+  ContactPast past;        ///< now
+  double relaxed = 0.0;    ///< J, given up by its tangential spring while it was open
+  bool opened = false;     ///< within the step
+  bool penetrates = false; ///< at its end, though it may be free of force
 };
 
 /// What the laws need of an interval of a given length.
 struct IntervalTable {
-  double length = 0.0;            ///< s
-  double apparent_mass = 0.0;     ///< kg: force for an acceleration of 1 m/s2 over it
-  double growing = 0.0;           ///< N s/m, c' of normal_interval.hpp
-  contact::FrictionTable table{}; ///< of the memory `reference`
-};
-
-/// An interval with its forces.
-struct IntervalForces {
-  contact::ContactAxes axes; ///< of the interval
-  contact::Location to;      ///< at its end
-  double turned = 1.0;       ///< cosine of the angle by which the normal turns
-  double curvature = 0.0;    ///< 1/m, by which it turns on the way
-  Components turn;           ///< of the normal, its change
-  contact::NormalInterval normal;
-  contact::FrictionMemory memory;                        ///< at its end
-  contact::Vec2 friction, friction_growth, displacement; ///< N, N, m
-  double friction_square = 0.0, slider_work = 0.0, damper_work = 0.0, wear_work = 0.0, slid = 0.0,
-         sliding_time = 0.0;
-  Components force, growth; ///< N: the mean, and how much a linear force with its mean and first moment grows
-  /// By more than 0.2 rad, as over an edge.
-  [[nodiscard]] bool turns_far() const { return turned < 0.98 && normal.force > 0.0; }
+  int count = 0;        ///< intervals of a step
+  double length = 0.0;  ///< dt, s
+  double share = 1.0;   ///< of a step
+  double growing = 0.0; ///< N s/m, c' of normal_interval.hpp
+  contact::PieceTables pieces{};
+  contact::FrictionTable reference{}; ///< of that memory
 };
 
 class ContactIntervals {
 public:
-  /// @param support  must live longer   @param rest  of the contact without displacement, m   @param in_plane  friction acts along x too
-  /// @param usual  s, length of most intervals
-  /// @param tolerance  rad: an interval is made again until what its force changes turns its normal by so little
+  /// @param support  must live longer   @param rest  of the contact without displacement, m
+  /// @param in_plane  friction acts along x too   @param step  h, s   @param clearance  m, that is not to be passed unseen
   ContactIntervals(const contact::Support& support, const Components& rest, const Mobility& mobility,
-                   bool in_plane, double usual, double tolerance);
-  /// From now on most intervals have this length. No allocation.
-  void set_usual(double length);
-  [[nodiscard]] const IntervalTable& usual() const { return usual_; }
-  [[nodiscard]] IntervalTable table(double length) const;
+                   bool in_plane, double step, double clearance);
 
+  [[nodiscard]] IntervalTable table(int count) const;
+  /// How many intervals of a step a contact that moves so fast needs at least.
+  [[nodiscard]] int least_count(const Components& velocity) const;
+  /// Whether it can have a force in the step.   @param count  of places at which it is looked for
+  [[nodiscard]] bool meets(const ContactPast& past, const FreePath& path, int count) const;
+  /// At the start of a step.   @param held  N
+  void begin(MovingContact& m, const Components& held, const IntervalTable& of) const;
+  /// Its forces over the interval `index` of the step, the others' given. No allocation.
+  void act(MovingContact& m, const IntervalTable& of, int index) const;
+  /// To the end of the interval, under all forces as they were found. Those of the others are expected to grow on.
+  void move(MovingContact& m, const IntervalTable& of) const;
+  /// What is expected of its force in the next interval: it grows on where the contact has been closed throughout, and stays else.
+  void expect(MovingContact& m) const;
+  /// An open contact forgets over `time`. Returns what its spring dissipates, J.
+  double relax(ContactPast& past, double time) const;
+  /// A spring that sticks is stretched by what the modes moved, not by what the step took them to move: it would creep.
+  /// @param missed  m, what they moved further
+  void stretch(ContactPast& past, const Components& missed) const;
+
+private:
+  struct Motion;
+  struct Pressed;
   [[nodiscard]] contact::Location locate(const Components& u) const {
     return contact::locate(obstacle_, u.y() + rest_.y(), u.z() + rest_.z());
   }
-  /// 1/m, by which the normal turns towards t where the contact moves along t.
   [[nodiscard]] double curvature(const Components& u) const {
     return contact::curvature(obstacle_, u.y() + rest_.y(), u.z() + rest_.z());
   }
-  /// The forces of an interval. No allocation.
-  /// @param may_shorten  friction is not looked for where the contact opens in the interval, or its normal turns far
-  /// @return whether all forces have been found
-  bool find_forces(const ContactPath& m, const ContactPast& past, const IntervalTable& of, bool may_shorten,
-                   IntervalForces& p) const;
-  /// An open contact forgets over `time`. Returns what its spring dissipates, J.
-  double relax(ContactPast& past, double time) const;
-  [[nodiscard]] const Mobility& mobility() const { return w_; }
-
-private:
-  void find_normal_force(const ContactPath& m, const Components& guessed, const Components& growth,
-                         const IntervalTable& of, IntervalForces& p) const;
-  void find_friction(const ContactPath& m, const ContactPast& past, const IntervalTable& of,
-                     IntervalForces& p) const;
-  void find_closed_friction(const ContactPath& m, const IntervalTable& of, IntervalForces& p) const;
+  [[nodiscard]] Motion motion_of(const MovingContact& m, const IntervalTable& of, int index) const;
+  [[nodiscard]] double time_of_closing(const Motion& a, bool closed, double dt) const;
+  [[nodiscard]] Pressed press(const Motion& a, bool closed, const IntervalTable& of) const;
+  void rub(const Motion& a, const Pressed& n, const IntervalTable& of, MovingContact& m) const;
+  template <class V, class Friction>
+  void take_friction(const Motion& a, const Pressed& n, const IntervalTable& of, const Friction& f,
+                     V velocity, MovingContact& m) const;
 
   const contact::Obstacle& obstacle_;
   const contact::NormalLaw normal_;
@@ -147,11 +112,8 @@ private:
   Components rest_;
   Mobility w_;
   bool in_plane_;
+  double h_, clearance_;
   double mobility_; ///< 1/kg, the largest along any direction
-  double across_;   ///< 1/kg: acceleration along one of its directions by a force along another
-  double tolerance_;
-  IntervalTable usual_;
-  contact::PieceTables usual_pieces_{}; ///< of an interval of the usual length
 };
 
 } // namespace fretwork::transient

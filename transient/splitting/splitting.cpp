@@ -3,7 +3,7 @@
 /// The splitting scheme: the exact motion of the modes over a step h, the motion of the contacts within it.
 /// 1. The modes move under the loads and the contact forces held from the last step (modal_flow.hpp).
 /// 2. Where no contact can be closed in the step that is their motion. Steps of several h are tried first: the contact-free macro-steps.
-/// 3. Otherwise the contacts near their obstacles move in shorter intervals along that motion (contact_sweeps.hpp), and the modes move
+/// 3. Otherwise the contacts near their obstacles move in shorter intervals along that motion (coupled_contacts.hpp), and the modes move
 ///    once more, under the mean and the first moment of the forces found.
 /// Order 2 in displacement, velocity and force, with dampers and friction, through impacts. Step 3 asks w_c dt to be resolved, dt the interval;
 /// h w_max below 2.5, in which the cubic that contacts follow between the ends of a step is the modes' motion to (w h)^4/384.
@@ -61,7 +61,7 @@ public:
         inputs_(inputs_of(scene)), start_(contacts_), end_(contacts_),
         obstacles_(scene, contacts_), imposed_{obstacles_.workspace(), obstacles_.workspace()},
         forces_(inputs_ ? *inputs_ : contacts_),
-        sweeps_(make_sweeps(scene, options)), steps_{Step(*this), Step(*this), Step(*this)} {
+        coupled_(make_coupled(scene, options)), steps_{Step(*this), Step(*this), Step(*this)} {
     const auto n = static_cast<std::size_t>(kernels::padded(static_cast<int>(scene.system.size())));
     if (mode_scales.size() > 0) {
       mode_scales_.assign(n, 1.0);
@@ -144,19 +144,19 @@ public:
     end_.u = other.end_.u;
     end_.w = other.end_.w;
     obstacles_.at(first.start, imposed_[1]);
-    sweeps_.continue_from(other.sweeps_);
+    coupled_.continue_from(other.coupled_);
     was_near_ = other.was_near_;
     near_ = other.near_;
     moving_ = other.moving_;
     energy_ = other.energy_;
     blocks_ = other.blocks_;
     wait_ = other.wait_;
-    forces_.assemble(sweeps_, near_, nullptr);
+    forces_.assemble(coupled_, near_, nullptr);
     make();
     return first.start;
   }
 
-  void divide(int contact, int parts) override { sweeps_.divide(contact, parts); }
+  void divide(int contact, int parts) override { coupled_.divide(contact, parts); }
 
   [[nodiscard]] double next_time() const override { return steps_[made_].start + 0.5 * steps_[made_].length; }
 
@@ -167,7 +167,7 @@ public:
   }
 
   void visit(core::StateArchive& state) override {
-    state(steps_, published_, made_, end_, was_near_, sweeps_, forces_);
+    state(steps_, published_, made_, end_, was_near_, coupled_, forces_);
     state(imposed_[1].u, imposed_[1].w, done_, wait_, moving_, energy_, blocks_, counts_);
   }
 
@@ -197,10 +197,10 @@ private:
   };
   [[nodiscard]] static std::size_t next(std::size_t step) { return step == 2 ? 0 : step + 1; }
 
-  ContactSweeps make_sweeps(const Scene& scene, const SplittingOptions& options) {
+  CoupledContacts make_coupled(const Scene& scene, const SplittingOptions& options) {
     ContactBlocks blocks(scene);
     auto mobility = step_mobility(scene, blocks, contacts_.components, modes_, h_);
-    return {contacts_, std::move(blocks), std::move(mobility), h_, options.parts, options.tolerance};
+    return {contacts_, std::move(blocks), std::move(mobility), h_, options.parts};
   }
 
   [[nodiscard]] std::optional<PackedContacts> inputs_of(const Scene& scene) const {
@@ -223,11 +223,11 @@ private:
       const double force =
           contact::normal_force(contacts_.supports[c].normal, -at.gap, end_.penetration_rate(c, at.axes()));
       if (at.gap < 0.0 && force > 0.0) {
-        sweeps_.preload(c, at, force);
+        coupled_.preload(c, at, force);
         near_.push_back(c);
       }
     }
-    forces_.assemble(sweeps_, near_, nullptr);
+    forces_.assemble(coupled_, near_, nullptr);
   }
 
   /// Contacts that may be closed in a step of so many h whose end is `end_`.
@@ -279,18 +279,18 @@ private:
     s.pushed = !near_.empty();
     if (s.pushed) {
       ++counts_.evaluations;
-      counts_.unconverged += !sweeps_.make(start_, end_, near_, s.trial, losses);
+      coupled_.make(start_, end_, near_, s.trial, losses);
       s.pushed = forces_.any_held() || !s.trial.active.empty();
       if (s.pushed)
         sums = push(s, to);
-      sweeps_.finish_step(end_);
+      coupled_.finish_step(end_);
       brought = work_of_obstacles(s);
     } else {
-      sweeps_.pass(s.steps, s.trial, losses);
+      coupled_.pass(s.steps, s.trial, losses);
     }
     std::fill(was_near_.begin(), was_near_.end(), 0);
     for (const int c : near_)
-      was_near_[c] = end_.near(c) || sum_of_sizes(sweeps_.force(c).held) > 0.0;
+      was_near_[c] = end_.near(c) || sum_of_sizes(coupled_.force(c).held) > 0.0;
     prepare_output(s, to);
     modes_.add_works(s.steps, s.from, s.load, to.load, s.pushed ? &s.force : nullptr, sums, blocks_.works);
     balance_energy(s, to.from, sums, losses, brought);
@@ -299,7 +299,7 @@ private:
 
   /// The modes take the forces of the contacts.
   ModalFlow::Sums push(Step& s, Step& to) {
-    forces_.assemble(sweeps_, near_, &s.force);
+    forces_.assemble(coupled_, near_, &s.force);
     const ModalFlow::Sums sums = modes_.push(s.from, s.load, to.load, s.force.mean, s.force.slope, to.from);
     end_.gather(to.from.q.data(), to.from.v.data());
     imposed_[1].add_to(end_);
@@ -313,7 +313,7 @@ private:
       return work;
     const auto moved = [&](int lane) { return imposed_[1].u[lane] - imposed_[0].u[lane]; };
     for (const int c : near_) {
-      const Components& mean = sweeps_.force(c).mean;
+      const Components& mean = coupled_.force(c).mean;
       work -= mean.y() * moved(c) + mean.z() * moved(contacts_.width + c);
       if (contacts_.components == 3)
         work -= mean.x * moved(2 * contacts_.width + c);
@@ -340,7 +340,7 @@ private:
     energy_.contact_damping += losses.damping;
     energy_.friction += losses.friction;
     moving_ = sums.energy;
-    energy_.stored = moving_ + sweeps_.spring_energy();
+    energy_.stored = moving_ + coupled_.spring_energy();
     if (modes_.has_blocks()) {
       energy_.scale += blocks_.add_to_scale(modes_, end);
       s.blocks = blocks_;
@@ -358,7 +358,7 @@ private:
   ObstacleMotion obstacles_;
   std::array<ImposedMotion, 2> imposed_; ///< likewise
   StepForces forces_;
-  ContactSweeps sweeps_;
+  CoupledContacts coupled_;
   std::array<Step, 3> steps_; ///< the one published, the one made, and where that ends
   std::size_t published_ = 0, made_ = 0;
 

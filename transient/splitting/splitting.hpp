@@ -10,9 +10,8 @@ namespace fretwork::transient {
 struct SplittingOptions {
   double fastest =
       0.0; ///< rad/s: faster modes that contacts move are made heavier (modes/mass_scaling.hpp); 0: none
-  int longest = 1;         ///< the most steps that are made at once while no contact can meet its obstacle
-  int parts = 1;           ///< intervals in which contacts move within a step
-  double tolerance = 0.01; ///< of forces that depend on each other in a step, relative
+  int longest = 1; ///< the most steps that are made at once while no contact can meet its obstacle
+  int parts = 1;   ///< intervals in which contacts move within a step
 };
 [[nodiscard]] std::unique_ptr<Scheme> make_splitting(const Scene& scene, double step,
                                                      const SplittingOptions& options = {});

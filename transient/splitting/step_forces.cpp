@@ -22,12 +22,12 @@ void StepForces::add(int c, int component, double held, double mean, double slop
   any_slope_ = any_slope_ || slope != 0.0;
 }
 
-void StepForces::assemble(const ContactSweeps& sweeps, const std::vector<int>& contacts,
+void StepForces::assemble(const CoupledContacts& coupled, const std::vector<int>& contacts,
                           vibration::ModalForce* found) {
   any_held_ = any_slope_ = false;
   rows_.clear();
   for (const int c : contacts) {
-    const ContactSweeps::Force& f = sweeps.force(c);
+    const CoupledContacts::Force& f = coupled.force(c);
     add(c, 0, f.held.y(), f.mean.y(), f.slope.y());
     add(c, 1, f.held.z(), f.mean.z(), f.slope.z());
     if (components_ == 3)

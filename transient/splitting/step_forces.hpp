@@ -5,7 +5,7 @@
 #pragma once
 #include "core/state_archive.hpp"
 #include "transient/contacts/row_scatter.hpp"
-#include "transient/splitting/contact_sweeps.hpp"
+#include "transient/splitting/coupled_contacts.hpp"
 #include "vibration/modal_flow.hpp"
 #include <array>
 
@@ -17,7 +17,8 @@ public:
   explicit StepForces(const PackedContacts& contacts);
 
   /// Takes the forces of these contacts. No allocation.   @param found  overwritten by those of the step; null: only those held are wanted
-  void assemble(const ContactSweeps& sweeps, const std::vector<int>& contacts, vibration::ModalForce* found);
+  void assemble(const CoupledContacts& coupled, const std::vector<int>& contacts,
+                vibration::ModalForce* found);
   /// Whether any force is held.
   [[nodiscard]] bool any_held() const { return any_held_; }
   /// Modal force of those held, padded; only where there are any.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Mobility of contacts over a step of the splitting scheme: W of contact_sweeps.hpp, for which W f h^2/2 is the exact displacement after one step
+/// Mobility of contacts over a step of the splitting scheme: W of coupled_contacts.hpp, for which W f h^2/2 is the exact displacement after one step
 /// from rest under constant forces f.
 #pragma once
 #include "transient/contacts/contact_blocks.hpp"
 #include "transient/modes/linear_flow.hpp"
-#include "transient/splitting/contact_interval.hpp"
+#include "transient/splitting/components.hpp"
 
 namespace fretwork::transient {
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/splitting/contact_interval.hpp"
+#include <cmath>
 #include <gtest/gtest.h>
+#include <numbers>
 
 namespace contact_interval_test {
 
@@ -9,8 +11,7 @@ using namespace fretwork::transient;
 
 namespace {
 
-constexpr double usual = 1e-4; // s
-constexpr double tolerance = 0.01;
+constexpr double step = 1e-4; // s
 
 Mobility isotropic(double w) {
   Mobility out;
@@ -19,42 +20,111 @@ Mobility isotropic(double w) {
   return out;
 }
 
-} // namespace
-
-// The gap that the laws follow strays from that of the position as the normal turns. A damper that took the difference, over an interval of 1e-4 of the
-// usual length, for a speed would give forces a hundred times too high.
-TEST(ContactIntervals, TakeNoDriftOfTheGapForASpeedInShortIntervals) {
-  constexpr double stiffness = 1e6, damping = 500.0, speed = 0.1, penetration = 1e-5, drift = 1e-7;
-  const contact::Support support{contact::Circle{1e-3}, {stiffness, damping}, {}};
-  const ContactIntervals intervals(support, {}, isotropic(1.0), false, usual, tolerance);
-  ContactPath path;
-  path.u = {1e-3 + penetration, 0.0, 0.0};
-  path.v = {speed, 0.0, 0.0};
-  path.at = intervals.locate(path.u);
-  path.at.gap += drift;
-  ContactPast past;
-  past.closed = true;
-  past.axes = path.at.axes();
-  IntervalForces p;
-  (void)intervals.find_forces(path, past, intervals.table(1e-4 * usual), false, p);
-  const double expected = stiffness * penetration + damping * speed;
-  EXPECT_NEAR(p.normal.force, expected, 0.02 * expected); // the spring is compressed by the drift less
+/// A contact through a step.
+MovingContact through(const contact::Support& support, const Mobility& mobility, double h, int count,
+                      const FreePath& path, const ContactPast& past, const Components& held = {}) {
+  const ContactIntervals intervals(support, {}, mobility, false, h, 1e-3);
+  const IntervalTable table = intervals.table(count);
+  MovingContact m;
+  m.path = path;
+  m.past = past;
+  intervals.begin(m, held, table);
+  for (int index = 0; index < count; ++index) {
+    intervals.act(m, table, index);
+    intervals.move(m, table);
+    intervals.expect(m);
+  }
+  return m;
 }
 
-TEST(ContactIntervals, FollowTheLawOfTheGapOverUsualIntervals) {
-  constexpr double stiffness = 1e6, penetration = 1e-5;
-  const contact::Support support{contact::Circle{1e-3}, {stiffness}, {}};
-  const ContactIntervals intervals(support, {}, isotropic(1e-6), false, usual, tolerance);
-  ContactPath path;
-  path.u = {0.0, 1e-3 + penetration, 0.0};
-  path.at = intervals.locate(path.u);
+ContactPast closed(contact::ContactAxes axes) {
   ContactPast past;
   past.closed = true;
-  past.axes = path.at.axes();
-  IntervalForces p;
-  (void)intervals.find_forces(path, past, intervals.usual(), false, p);
-  EXPECT_NEAR(p.force.z(), -stiffness * penetration, 1e-6 * stiffness * penetration); // towards the axis
-  EXPECT_NEAR(p.force.y(), 0.0, 1e-9);
+  past.axes = axes;
+  return past;
+}
+
+} // namespace
+
+TEST(ContactIntervals, LeaveWhatRestsAtRest) {
+  constexpr double stiffness = 1e6, penetration = 1e-5, w = 20.0; // w_c h = 0.45
+  const contact::Support support{contact::Circle{1e-3}, {stiffness}, {}};
+  const Components held{0.0, -stiffness * penetration, 0.0};
+  const MovingContact m = through(support, isotropic(w), step, 2,
+                                  {{0.0, 1e-3 + penetration, 0.0}, {}, {}, {}}, closed({0.0, -1.0}), held);
+  EXPECT_NEAR(m.mean.z() / held.z(), 1.0, 1e-12);
+  EXPECT_NEAR(m.slope.z() / held.z(), 0.0, 1e-12);
+  EXPECT_NEAR(m.response.z(), 0.0, 1e-12 * penetration);
+  EXPECT_TRUE(m.past.closed);
+  EXPECT_EQ(m.state.touches, 0);
+}
+
+// A mass on a stop follows its sine: impulse, times of touch and departure of an impact inside one step.
+TEST(ContactIntervals, HoldWholeImpactsOfAFreeMass) {
+  constexpr double stiffness = 1e6, w = 1.0, speed = 0.1, rate = 1e3; // K W = rate^2
+  constexpr double h = 5e-3, gap = 1e-5;
+  const double before = gap / speed, lasts = std::numbers::pi / rate;
+  const contact::Support support{contact::Stop{gap, contact::PlaneAxis::y}, {stiffness}, {}};
+  double worst = 0.0;
+  for (const int count : {10, 20}) { // w_c dt = 0.5, 0.25
+    const MovingContact m = through(support, isotropic(w), h, count, {{}, {speed, 0.0, 0.0}, {}, {}}, {});
+    const double error = std::abs(m.mean.y() * h * w / (-2.0 * speed) - 1.0);
+    EXPECT_LT(error, count == 10 ? 1e-3 : 1e-4);
+    EXPECT_EQ(m.state.touches, 1);
+    EXPECT_TRUE(m.opened);
+    EXPECT_NEAR(m.state.closed_at * h, before, 1e-9 * h);
+    EXPECT_NEAR((m.state.opened_at - m.state.closed_at) * h / lasts, 1.0, count == 10 ? 1e-3 : 1e-4);
+    EXPECT_NEAR(m.state.approach / speed, 1.0, 1e-12);
+    EXPECT_NEAR(m.state.departure / speed, 1.0, 1e-3);
+    EXPECT_NEAR(m.state.peak / (speed * stiffness / rate), 1.0, 2e-3);
+    EXPECT_NEAR(m.rate.y() / (-2.0 * speed), 1.0, 1e-3);
+    worst = std::max(worst, error);
+  }
+  EXPECT_GT(worst, 1e-12);
+}
+
+// A contact that leaves a damped obstacle while the forces of spring and damper, which would pull, stay balanced for good: the time until its force
+// returns is below what the time of the step can resolve. The step ends nevertheless, with no force that pulls.
+TEST(ContactIntervals, EndWhereTheForceIsAlwaysAboutToReturn) {
+  constexpr double h = 2e-5, stiffness = 1e8, damping = 1700.0, out = 8e-3, penetration = 1e-7;
+  const contact::Support support{contact::Stop{0.0, contact::PlaneAxis::y}, {stiffness, damping}, {}};
+  const double pressing = stiffness * out / damping * (1.0 - 1e-14); // K_N p' = C_N p'' but for round-off
+  const double falling = stiffness * pressing / damping;             // and so it stays
+  const FreePath path{{penetration, 0.0, 0.0}, {-out, 0.0, 0.0}, {pressing, 0.0, 0.0}, {-falling, 0.0, 0.0}};
+  const MovingContact m = through(support, isotropic(12.0), h, 6, path, {});
+  EXPECT_GE(m.state.normal_force, 0.0);
+  EXPECT_TRUE(std::isfinite(m.response.y()));
+}
+
+// A mass that is held in a hole by its centrifugal force runs round it: the normal turns by 0.3 rad an interval. Its contact neither opens nor loses its force.
+TEST(ContactIntervals, FollowTheWallOfAHole) {
+  constexpr double gap = 1e-3, w = 1.0, rate = 1e3, stiffness = 1e6, turning = 300.0, h = 2e-2; // rad/s
+  // K_N p = (gap + p) turning^2/W
+  const double penetration = gap * turning * turning / (rate * rate - turning * turning),
+               radius = gap + penetration;
+  const contact::Support support{contact::Circle{gap}, {stiffness}, {}};
+  const double force = stiffness * penetration;
+  for (const int count : {20, 40}) {
+    const ContactIntervals intervals(support, {}, isotropic(w), false, h, gap);
+    const IntervalTable table = intervals.table(count);
+    MovingContact m;
+    m.path = {{radius, 0.0, 0.0}, {0.0, radius * turning, 0.0}, {}, {}};
+    m.past = closed({-1.0, 0.0});
+    m.path.a = {-w * force, 0.0, 0.0}; // of the force held
+    intervals.begin(m, {-force, 0.0, 0.0}, table);
+    for (int index = 0; index < count; ++index) {
+      intervals.act(m, table, index);
+      intervals.move(m, table);
+      intervals.expect(m);
+      EXPECT_TRUE(m.past.closed) << index;
+    }
+    const double share = count == 20 ? 0.025 : 0.006; // of order 2
+    EXPECT_EQ(m.state.touches, 0);
+    EXPECT_NEAR(m.state.normal_force / force, 1.0, share);
+    EXPECT_NEAR(std::sqrt(m.state.normal_square) / force, 1.0, share);
+    const Components u = m.path.displacement(h) + m.response;
+    EXPECT_NEAR(std::hypot(u.y(), u.z()) / radius, 1.0, share);
+  }
 }
 
 } // namespace contact_interval_test

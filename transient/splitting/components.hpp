@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Vectors of a contact along its local axes, and what forces do to its motion.
+#pragma once
+#include "contact/plane.hpp"
+#include <cmath>
+
+namespace fretwork::transient {
+
+/// A vector along y z x. What moves in the plane of the contact is computed in pairs.
+struct Components {
+  using Pair [[gnu::vector_size(16)]] = double;
+  Pair yz = {};
+  double x = 0.0;
+  Components() = default;
+  Components(double along_y, double along_z, double along_x) : yz{along_y, along_z}, x(along_x) {}
+  Components(Pair plane, double along_x) : yz(plane), x(along_x) {}
+  [[nodiscard]] double y() const { return yz[0]; }
+  [[nodiscard]] double z() const { return yz[1]; }
+};
+inline Components operator+(const Components& a, const Components& b) { return {a.yz + b.yz, a.x + b.x}; }
+inline Components operator-(const Components& a, const Components& b) { return {a.yz - b.yz, a.x - b.x}; }
+inline Components operator*(double s, const Components& a) { return {s * a.yz, s * a.x}; }
+/// Along n, and along t.
+[[nodiscard]] inline double normal(const contact::ContactAxes& axes, const Components& c) {
+  return axes.normal(c.y(), c.z());
+}
+[[nodiscard]] inline double tangent(const contact::ContactAxes& axes, const Components& c) {
+  return axes.tangent(c.y(), c.z());
+}
+/// Along y z x of a vector along n, t and x.
+[[nodiscard]] inline Components along(const contact::ContactAxes& axes, double n, contact::Vec2 tangential) {
+  return {axes.y(n, tangential.t), axes.z(n, tangential.t), tangential.x};
+}
+inline double sum_of_sizes(const Components& c) { return std::abs(c.y()) + std::abs(c.z()) + std::abs(c.x); }
+
+/// Acceleration of one contact by a force on another, or on itself: W, 1/kg, rows and columns y z x.
+class Mobility {
+public:
+  [[nodiscard]] double operator()(int to, int from) const { return to < 2 ? yz_[from][to] : x_[from]; }
+  void add(int to, int from, double w) {
+    if (to < 2)
+      yz_[from][to] += w;
+    else
+      x_[from] += w;
+  }
+  [[nodiscard]] Components operator*(const Components& f) const {
+    return {f.y() * yz_[0] + f.z() * yz_[1] + f.x * yz_[2], x_[0] * f.y() + x_[1] * f.z() + x_[2] * f.x};
+  }
+
+private:
+  Components::Pair yz_[3] = {}; ///< columns
+  double x_[3] = {};            ///< row
+};
+
+} // namespace fretwork::transient

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "transient/splitting/coupled_contacts.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace fretwork::transient {
+
+CoupledContacts::CoupledContacts(const PackedContacts& contacts, ContactBlocks blocks,
+                                 std::vector<std::vector<Mobility>> mobility, double step, int parts)
+    : contacts_(contacts), blocks_(std::move(blocks)), mobility_(std::move(mobility)), h_(step) {
+  const auto count = static_cast<std::size_t>(contacts.count);
+  pasts_.resize(count);
+  forces_.resize(count);
+  tables_.resize(count);
+  parts_.assign(count, parts);
+  laws_.reserve(count);
+  moving_.reserve(count);
+  counts_.reserve(count);
+  next_.reserve(count);
+  loaded_.reserve(count);
+  moves_.assign(count, 0);
+  moving_blocks_.resize(blocks_.size());
+  touched_.reserve(blocks_.size());
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    moving_blocks_[b].contacts.reserve(blocks_.contacts[b].size());
+  for (int c = 0; c < contacts.count; ++c) {
+    Mobility own;
+    for (const auto& [block, local] : blocks_.places[c]) {
+      const Mobility& part =
+          mobility_[block][static_cast<std::size_t>(local) * (blocks_.contacts[block].size() + 1)];
+      for (int to = 0; to < 3; ++to)
+        for (int from = 0; from < 3; ++from)
+          own.add(to, from, part(to, from));
+    }
+    laws_.emplace_back(contacts.supports[c], Components{contacts.rest_y(c), contacts.rest_z(c), 0.0}, own,
+                       contacts.in_plane[c] != 0, step, contacts.reach[c].limit[kernels::lane(c)]);
+  }
+}
+
+void CoupledContacts::continue_from(const CoupledContacts& other) {
+  pasts_ = other.pasts_;
+  forces_ = other.forces_;
+  loaded_ = other.loaded_;
+  normal_springs_ = other.normal_springs_;
+  tangential_springs_ = other.tangential_springs_;
+}
+
+void CoupledContacts::visit(core::StateArchive& state) {
+  state(pasts_, forces_, parts_, loaded_, normal_springs_, tangential_springs_);
+}
+
+void CoupledContacts::preload(int c, const contact::Location& at, double normal_force) {
+  ContactPast& past = pasts_[c];
+  past.axes = at.axes();
+  past.closed = past.before_run = true;
+  forces_[c].held = {normal_force * at.ny, normal_force * at.nz, 0.0};
+}
+
+Components CoupledContacts::of_lanes(const kernels::Array& lanes, int c) const {
+  const auto width = static_cast<std::size_t>(contacts_.width), lane = static_cast<std::size_t>(c);
+  return {lanes[lane], lanes[width + lane], contacts_.components == 3 ? lanes[2 * width + lane] : 0.0};
+}
+
+FreePath CoupledContacts::path_of(int c, const ContactMotion& start, const ContactMotion& end) const {
+  const double per = 1.0 / h_;
+  const Components u0 = of_lanes(start.u, c), v0 = of_lanes(start.w, c), v1 = of_lanes(end.w, c),
+                   mean = per * (of_lanes(end.u, c) - u0);
+  return {u0, v0, per * (6.0 * mean - 4.0 * v0 - 2.0 * v1), (6.0 * per * per) * (v0 + v1 - 2.0 * mean)};
+}
+
+const IntervalTable& CoupledContacts::table_of(int c, int count) {
+  IntervalTable& of = tables_[c];
+  if (of.count != count)
+    of = laws_[c].table(count);
+  return of;
+}
+
+void CoupledContacts::make(const ContactMotion& start, const ContactMotion& end, const std::vector<int>& near,
+                           ContactTrial& trial, ContactLosses& losses) {
+  trial.clear();
+  for (const MovingContact& m : moving_)
+    moves_[m.number] = 0;
+  moving_.clear();
+  counts_.clear();
+  for (const int c : near) {
+    trial.states[c] = {}; // also of contacts that were near and open
+    Force& force = forces_[c];
+    force.mean = force.slope = {};
+    const FreePath path = path_of(c, start, end);
+    const int count = std::max(parts_[c], laws_[c].least_count(path.v));
+    if (!laws_[c].meets(pasts_[c], path, count))
+      continue;
+    moves_[c] = 1;
+    counts_.push_back(count);
+    MovingContact& m = moving_.emplace_back();
+    m.number = c;
+    m.path = path;
+    m.past = pasts_[c];
+  }
+  for (const int c : loaded_)
+    if (!moves_[c])
+      losses.damping += laws_[c].relax(pasts_[c], h_);
+  group();
+  for (const int b : touched_)
+    if (moving_blocks_[b].parent == b)
+      move(moving_blocks_[b].first);
+  for (const MovingContact& m : moving_) {
+    pasts_[m.number] = m.past;
+    forces_[m.number] = {m.mean, m.slope, m.past.closed ? m.last : Components{}};
+    trial.states[m.number] = m.state;
+    losses.damping += m.state.damper_work + m.relaxed;
+    losses.friction += m.state.friction_work;
+    if (m.state.normal_force > 0.0)
+      trial.active.push_back(m.number);
+    if (m.opened)
+      trial.opened.push_back(m.number);
+  }
+}
+
+/// The block that stands for the group of a block.
+int CoupledContacts::group_of(int block) {
+  while (moving_blocks_[block].parent != block)
+    block = moving_blocks_[block].parent = moving_blocks_[moving_blocks_[block].parent].parent;
+  return block;
+}
+
+/// The groups of the contacts that move.
+void CoupledContacts::group() {
+  for (const int b : touched_) {
+    moving_blocks_[b].contacts.clear();
+    moving_blocks_[b].first = moving_blocks_[b].last = -1;
+  }
+  touched_.clear();
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    const auto& places = blocks_.places[moving_[i].number];
+    for (const auto& [block, local] : places) {
+      if (moving_blocks_[block].contacts.empty()) {
+        touched_.push_back(block);
+        moving_blocks_[block].parent = block;
+      }
+      moving_blocks_[block].contacts.push_back({static_cast<int>(i), local});
+      moving_blocks_[group_of(block)].parent = group_of(places.front().block);
+    }
+  }
+  next_.assign(moving_.size(), -1);
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    MovingBlock& group = moving_blocks_[group_of(blocks_.places[moving_[i].number].front().block)];
+    (group.first < 0 ? group.first : next_[group.last]) = static_cast<int>(i);
+    group.last = static_cast<int>(i);
+  }
+}
+
+/// A group through the intervals of the step, by its first contact.
+void CoupledContacts::move(int first) {
+  int count = 1;
+  for (int i = first; i >= 0; i = next_[i])
+    count = std::max(count, counts_[i]);
+  const bool coupled = next_[first] >= 0;
+  for (int i = first; i >= 0; i = next_[i]) {
+    MovingContact& m = moving_[i];
+    const Components held = forces_[m.number].held;
+    laws_[m.number].begin(m, held, table_of(m.number, count));
+    if (coupled)
+      pass_on(m, m.force - held, m.growth);
+  }
+  for (int index = 0; index < count; ++index) {
+    for (int i = first; i >= 0; i = next_[i]) {
+      MovingContact& m = moving_[i];
+      const Components force = m.force, growth = m.growth;
+      laws_[m.number].act(m, tables_[m.number], index);
+      if (coupled)
+        pass_on(m, m.force - force, m.growth - growth);
+    }
+    for (int i = first; i >= 0; i = next_[i])
+      laws_[moving_[i].number].move(moving_[i], tables_[moving_[i].number]);
+    for (int i = first; i >= 0; i = next_[i]) { // the others take it that all forces grow on
+      MovingContact& m = moving_[i];
+      const Components grown = m.force + m.growth, growth = m.growth;
+      laws_[m.number].expect(m);
+      if (coupled && !m.throughout)
+        pass_on(m, m.force - grown, m.growth - growth);
+    }
+  }
+}
+
+/// To all others that share a block with it.
+void CoupledContacts::pass_on(const MovingContact& m, const Components& by_force,
+                              const Components& by_growth) {
+  if (!(sum_of_sizes(by_force) + sum_of_sizes(by_growth) > 0.0))
+    return;
+  for (const auto& [block, local] : blocks_.places[m.number]) {
+    const Mobility* w = &mobility_[block][static_cast<std::size_t>(local) * blocks_.contacts[block].size()];
+    for (const auto& [i, to] : moving_blocks_[block].contacts)
+      if (MovingContact& other = moving_[i]; &other != &m) {
+        other.others = other.others + w[to] * by_force;
+        other.others_growth = other.others_growth + w[to] * by_growth;
+      }
+  }
+}
+
+void CoupledContacts::finish_step(const ContactMotion& end) {
+  normal_springs_ = tangential_springs_ = 0.0;
+  for (const MovingContact& m : moving_) {
+    if (m.penetrates) // also where a damper holds the contact free of force
+      normal_springs_ += contacts_.supports[m.number].normal.spring_energy(-end.locate(m.number).gap);
+    laws_[m.number].stretch(pasts_[m.number],
+                            of_lanes(end.u, m.number) - m.path.displacement(h_) - m.response);
+  }
+  loaded_.clear();
+  for (int c = 0; c < contacts_.count; ++c)
+    if (const contact::Vec2 spring = pasts_[c].friction.spring; dot(spring, spring) > 0.0) {
+      loaded_.push_back(c);
+      tangential_springs_ += contacts_.supports[c].friction.spring_energy(spring);
+    }
+}
+
+void CoupledContacts::pass(int steps, ContactTrial& trial, ContactLosses& losses) {
+  trial.clear();
+  normal_springs_ = tangential_springs_ = 0.0;
+  auto kept = loaded_.begin();
+  for (const int c : loaded_) {
+    losses.damping += laws_[c].relax(pasts_[c], steps * h_);
+    const contact::Vec2 spring = pasts_[c].friction.spring;
+    if (dot(spring, spring) > 0.0) {
+      tangential_springs_ += contacts_.supports[c].friction.spring_energy(spring);
+      *kept++ = c;
+    }
+  }
+  loaded_.erase(kept, loaded_.end());
+}
+
+} // namespace fretwork::transient
