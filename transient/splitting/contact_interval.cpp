@@ -12,6 +12,8 @@ using contact::Vec2;
 /// Of its clearance, what a contact may move in an interval, and the most intervals of a step for its sake.
 constexpr double longest_way = 1.0;
 constexpr int most_for_speed = 64;
+/// rad: by which a normal turns in an interval at most, as far as the terms of the curvature know.
+constexpr double most_turned = 1.0;
 /// Of an interval: what is shorter is none.
 constexpr double shortest = 1e-9;
 
@@ -73,7 +75,7 @@ struct ContactIntervals::Pressed {
          growth = 0.0; ///< N, mean over the interval, and growth of a linear force with its first moment
   double from = 0.0, to = 0.0;            ///< s: it acts between,
   contact::ParabolicForce course;         ///< so
-  bool opens = false;                     ///< in the interval
+  bool touches = false, opens = false;    ///< in the interval
   double approach = 0.0, departure = 0.0; ///< m/s, where it closes and opens
   double damper_work = 0.0;               ///< J
 };
@@ -90,6 +92,12 @@ IntervalTable ContactIntervals::table(int count) const {
   of.share = 1.0 / count;
   of.length = of.share * h_;
   of.growing = contact::growing_damping(normal_.damping, normal_.damping * mobility_ * of.length);
+  const auto mass = [&](double stiffness, double damping) {
+    const double force = of.length * (stiffness * of.length / 6.0 + damping);
+    return force / (1.0 + force * mobility_);
+  };
+  of.sliding_mass = mass(normal_.stiffness, normal_.damping);
+  of.apparent_mass = std::max(of.sliding_mass, mass(friction_.stiffness, friction_.damping));
   if (friction_.active()) {
     of.pieces = contact::piece_tables(friction_, mobility_, of.length);
     if (friction_.kind == contact::FrictionMemoryKind::reference)
@@ -119,6 +127,10 @@ void ContactIntervals::begin(MovingContact& m, const Components& held, const Int
   m.growth = of.length * m.past.rise;
   m.force = held + 0.5 * m.growth;
   m.by_held = w_ * held;
+  follow(m);
+}
+
+void ContactIntervals::follow(MovingContact& m) const {
   m.by_force = w_ * m.force;
   m.by_growth = w_ * m.growth;
 }
@@ -132,11 +144,16 @@ void ContactIntervals::move(MovingContact& m, const IntervalTable& of) const {
   m.others = m.others + m.others_growth;
 }
 
+double ContactIntervals::answer(const MovingContact& m, const IntervalTable& of, const Components& by) const {
+  return m.past.closed ? (m.past.friction.sliding ? of.sliding_mass : of.apparent_mass) * sum_of_sizes(by)
+                       : 0.0;
+}
+
 void ContactIntervals::expect(MovingContact& m) const {
   if (!m.throughout)
-    m.growth = m.by_growth = {};
+    m.growth = {};
   m.force = m.last + 0.5 * m.growth;
-  m.by_force = w_ * m.force;
+  follow(m);
 }
 
 double ContactIntervals::relax(ContactPast& past, double time) const {
@@ -181,7 +198,8 @@ ContactIntervals::Motion ContactIntervals::motion_of(const MovingContact& m, con
   a.by_normal = w_ * Components{ny, nz, 0.0};
   a.mobility = normal(a.axes, a.by_normal);
   const Components half_way = a.velocity + (0.5 * dt) * now;
-  a.turning = curvature(mean) * tangent(a.axes, half_way);
+  // near a centre or a corner the normal turns at once: no more than the interval can follow
+  a.turning = std::clamp(curvature(mean) * tangent(a.axes, half_way), -most_turned / dt, most_turned / dt);
   const double outwards = a.turning * tangent(a.axes, half_way), pressed = -normal(a.axes, now) - outwards;
   a.sinking = -a.turning * normal(a.axes, half_way);
   a.rate = 0.5 * dt * outwards - normal(a.axes, a.velocity);
@@ -232,7 +250,11 @@ ContactIntervals::Pressed ContactIntervals::press(const Motion& a, bool closed,
   double length = dt - closes;
   contact::NormalInterval n = over(length);
   out.opens = n.to < 1.0;
-  if (out.opens && n.to * length > shortest * dt) { // to where it opens
+  if (!(n.to * length > shortest * dt)) {
+    out.damper_work = normal_.spring_energy(a.penetration) - normal_.spring_energy(a.after(dt));
+    return out;
+  }
+  if (out.opens) { // the force until then
     length *= n.to;
     n = over(length);
   }
@@ -240,6 +262,7 @@ ContactIntervals::Pressed ContactIntervals::press(const Motion& a, bool closed,
   out.force = share * n.force;
   out.growth = share * share * n.growth + (12.0 * begin + 6.0 * (share - 1.0)) * out.force;
   out.from = closes;
+  out.touches = !closed;
   out.to = closes + (out.opens ? n.to : 1.0) * length;
   out.course = n.course;
   out.approach = rate;
@@ -266,7 +289,8 @@ void ContactIntervals::act(MovingContact& m, const IntervalTable& of, int index)
   m.force = m.growth = m.last = {};
   past.closed = n.force > 0.0 && !n.opens;
   if (n.force > 0.0) {
-    if (!was_closed || past.before_run) {
+    if (n.touches ||
+        past.before_run) { // not where a closed contact rolls out by less than its path is known to
       ++state.touches;
       past.before_run = false;
       state.closed_at = start + n.from / h_;
@@ -284,7 +308,7 @@ void ContactIntervals::act(MovingContact& m, const IntervalTable& of, int index)
       m.growth = along(a.axes, n.growth, {});
     }
     past.axes = state.axes = a.axes;
-    const double turn = a.turning * share * h_;
+    const double turn = a.turning * share * h_ * share / of.share;
     m.growth =
         m.growth + along(a.axes, -turn * tangent(a.axes, m.force), {0.0, turn * normal(a.axes, m.force)});
     if (past.closed)
@@ -340,15 +364,16 @@ void ContactIntervals::rub(const Motion& a, const Pressed& n, const IntervalTabl
   const double before = friction_.spring_energy(memory.spring);
   if (m.past.axes.opposite(a.axes)) // another surface
     memory = {};
-  else if (n.from > 0.0)
+  else if (n.touches && n.from > 0.0)
     memory = {by_reference ? Vec2{} : contact::spring_left(friction_, n.from) * memory.spring, false};
   state.damper_work += before - friction_.spring_energy(memory.spring);
   // along t: with the normal force, linear in time
-  const double rise = n.growth / dt, then = n.force + (n.from - 0.5 * dt) * rise;
+  const double from = by_reference ? 0.0 : n.from; // it knows no parts of an interval
+  const double rise = n.growth / dt, then = n.force + (from - 0.5 * dt) * rise;
   const Components at_start = a.acceleration - (0.5 * dt) * a.jerk;
   const auto start = [&](double velocity, double acceleration, double jerk, double by_n) {
-    return std::array{velocity + n.from * (acceleration + 0.5 * n.from * jerk + by_n * n.force),
-                      acceleration + n.from * jerk + by_n * then, jerk + by_n * rise};
+    return std::array{velocity + from * (acceleration + 0.5 * from * jerk),
+                      acceleration + from * jerk + by_n * then, jerk + by_n * rise};
   };
   const contact::ContactAxes& axes = a.axes;
   const Components along_t{axes.nz, -axes.ny, 0.0}, by_t = w_ * along_t;
@@ -362,7 +387,7 @@ void ContactIntervals::rub(const Motion& a, const Pressed& n, const IntervalTabl
         friction_.masked(Vec2{in_plane_ ? vx : 0.0, vt}), friction_.masked(Vec2{in_plane_ ? ax : 0.0, at}),
         friction_.masked(Vec2{in_plane_ ? jx : 0.0, jt}),
         friction_.masked(in_plane_ ? contact::Sym2{w_(2, 2), by_t.x, wtt} : contact::Sym2{0.0, 0.0, wtt})};
-    if (by_reference) { // which knows no parts of an interval
+    if (by_reference) {
       Pressed whole = n;
       whole.from = 0.0;
       whole.to = dt;

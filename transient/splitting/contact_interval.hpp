@@ -33,8 +33,18 @@ struct ContactPast {
   Components rise;                ///< N/s, of its force in its last interval, where it was closed throughout
 };
 
+/// What a contact has done in a step so far.
+struct ContactCourse {
+  Components mean, slope;  ///< N: over the step its force is linear in time from mean - slope to mean + slope
+  ContactState state;      ///< over the step
+  ContactPast past;        ///< now
+  double relaxed = 0.0;    ///< J, given up by its tangential spring while it was open
+  bool opened = false;     ///< within the step
+  bool penetrates = false; ///< it may be in its obstacle at the end, free of force or not
+};
+
 /// A contact on its way through a step.
-struct MovingContact {
+struct MovingContact : ContactCourse {
   int number = 0;            ///< of the contact
   FreePath path;             ///< of the modes, under the forces held
   Components response, rate; ///< m, m/s: r and r' at the start of the next interval
@@ -45,12 +55,6 @@ struct MovingContact {
   Components last;                         ///< N: its force at the end of an interval
   bool throughout = false;                 ///< closed throughout that
   Components by_force, by_growth, by_held; ///< m/s2: W force, W growth, W held
-  Components mean, slope;  ///< N: over the step its force is linear in time from mean - slope to mean + slope
-  ContactState state;      ///< over the step
-  ContactPast past;        ///< now
-  double relaxed = 0.0;    ///< J, given up by its tangential spring while it was open
-  bool opened = false;     ///< within the step
-  bool penetrates = false; ///< at its end, though it may be free of force
 };
 
 /// What the laws need of an interval of a given length.
@@ -59,6 +63,8 @@ struct IntervalTable {
   double length = 0.0;  ///< dt, s
   double share = 1.0;   ///< of a step
   double growing = 0.0; ///< N s/m, c' of normal_interval.hpp
+  double apparent_mass = 0.0,
+         sliding_mass = 0.0; ///< kg: force for an acceleration of 1 m/s2 over it; where the contact slides
   contact::PieceTables pieces{};
   contact::FrictionTable reference{}; ///< of that memory
 };
@@ -77,10 +83,14 @@ public:
   [[nodiscard]] bool meets(const ContactPast& past, const FreePath& path, int count) const;
   /// At the start of a step.   @param held  N
   void begin(MovingContact& m, const Components& held, const IntervalTable& of) const;
+  /// It is where its force takes it, which has been found or is expected.
+  void follow(MovingContact& m) const;
   /// Its forces over the interval `index` of the step, the others' given. No allocation.
   void act(MovingContact& m, const IntervalTable& of, int index) const;
   /// To the end of the interval, under all forces as they were found. Those of the others are expected to grow on.
   void move(MovingContact& m, const IntervalTable& of) const;
+  /// N: about what its force would change by for a further acceleration, m/s2.
+  [[nodiscard]] double answer(const MovingContact& m, const IntervalTable& of, const Components& by) const;
   /// What is expected of its force in the next interval: it grows on where the contact has been closed throughout, and stays else.
   void expect(MovingContact& m) const;
   /// An open contact forgets over `time`. Returns what its spring dissipates, J.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// The contacts over a step h of the splitting scheme: all that may be closed move together through equal intervals of it (contact_interval.hpp). In each
-/// interval one after the other finds its forces from those of the others as they are known: of this interval, or of the last. Contact i moves by
+/// interval one after the other finds its forces from those of the others as they are known or expected, and again where what the others have done since
+/// would make it diverge. Contact i moves by
 ///     u_i(t) = path_i(t) + r_i(t),   r_i'' = sum over k of W_ik (f_k - held_k)
 /// path: of the modes, the cubic through displacements and velocities at both ends of the step as they are under the forces `held` of the contacts
 /// that were closed (constant over the step); r: what the change of forces adds, with the mobility W for which W f h^2/2 is the exact displacement
@@ -64,6 +65,8 @@ private:
   [[nodiscard]] FreePath path_of(int c, const ContactMotion& start, const ContactMotion& end) const;
   [[nodiscard]] const IntervalTable& table_of(int c, int count);
   void move(int first);
+  void act_together(int first, int index);
+  double act(MovingContact& m, int index, int place);
   void pass_on(const MovingContact& m, const Components& by_force, const Components& by_growth);
 
   const PackedContacts& contacts_;
@@ -76,9 +79,11 @@ private:
   std::vector<ContactPast> pasts_;
   std::vector<Force> forces_;
   std::vector<MovingContact> moving_;
-  std::vector<int> counts_; ///< of intervals that these ask for
-  std::vector<int> next_;   ///< of their group; -1: none
-  std::vector<char> moves_; ///< each contact: among moving_
+  std::vector<int> counts_;           ///< of intervals that these ask for
+  std::vector<int> next_;             ///< of their group; -1: none
+  std::vector<ContactCourse> before_; ///< of these before the interval
+  std::vector<Components> acted_for_; ///< m/s2: the others' changes when they acted
+  std::vector<char> moves_;           ///< each contact: among moving_
   std::vector<MovingBlock> moving_blocks_;
   std::vector<int> touched_; ///< blocks with contacts that move
   std::vector<int> loaded_;  ///< whose tangential spring bears a force

@@ -72,16 +72,69 @@ TEST(CoupledContacts, AreOfOrderTwo) {
   }
 }
 
-// Dampers that let nothing slip within an interval, in contacts that move each other: stable, and dissipative.
-TEST(CoupledContacts, AreStableWithDampersOfAnySize) {
-  for (const double damping : {1e3, 1e5, 1e7}) {
-    const Scene scene = coupled(150.0, {3e5, damping, 0.8, 0.8});
-    const History run = simulate(scene, splitting(4e-4), every);
-    EXPECT_EQ(run.report.outcome, Outcome::done) << damping;
-    EXPECT_LT(run.q.cwiseAbs().maxCoeff(), 1.0) << damping;
-    EXPECT_GE(run.report.energy.friction, 0.0) << damping;
-    EXPECT_LT(std::abs(run.report.energy.residual()) / run.report.energy.scale, 2e-2) << damping;
+namespace {
+
+/// So many equal contacts, each moved by the others by `share` of what it moves itself, held between stops by a bound that nothing reaches.
+Scene equal_contacts(int count, double share, double stiffness_n, const contact::FrictionLaw& friction) {
+  Scene s;
+  s.duration = 0.2;
+  const Eigen::MatrixXd w =
+      (1.0 - share) * Eigen::MatrixXd::Identity(count, count) + share * Eigen::MatrixXd::Ones(count, count);
+  const Eigen::MatrixXd b = w.llt().matrixL();
+  const Eigen::Index n = 2 * count; // modes along y, along z
+  s.system.stiffness = Eigen::VectorXd::Constant(n, 100.0);
+  s.system.damping = Eigen::VectorXd::Zero(n);
+  s.q0 = s.v0 = Eigen::VectorXd::Zero(n);
+  Eigen::VectorXd pressing = Eigen::VectorXd::Zero(n), rubbing = pressing;
+  for (int c = 0; c < count; ++c) {
+    ContactPoint point;
+    point.name = "c" + std::to_string(c);
+    point.support = {contact::Stop{0.0, contact::PlaneAxis::y}, {stiffness_n}, friction};
+    point.b = Eigen::MatrixXd::Zero(3, n);
+    point.b.row(1).head(count) = b.row(c);
+    point.b.row(2).tail(count) = b.row(c);
+    pressing += 100.0 * point.b.row(1).transpose();
+    rubbing += (c % 2 ? 10.0 : 30.0) * point.b.row(2).transpose();
+    s.contacts.push_back(point);
   }
+  s.loads = {{Constant{1.0}, pressing}, {Harmonic{1.0, 20.0}, rubbing}};
+  return s;
+}
+
+double rate_of(int count, double share) { return 1.0 + (count - 1) * share; } // the largest eigenvalue of W
+
+} // namespace
+
+// One after the other, once an interval, contacts that depend on each other by more than a tenth would diverge: they act again.
+TEST(CoupledContacts, AreStableWithDampersOfAnySize) {
+  constexpr double k = 1e5, step = 1e-3;
+  for (const int count : {2, 3, 6})
+    for (const double share : {0.3, 0.6, 0.9})
+      for (const double rate : {1.0, 6.3, 60.0}) { // r_t h
+        const double damping = rate / (step * rate_of(count, share));
+        const Scene scene = equal_contacts(count, share, k / rate_of(count, share), {k, damping, 50.0, 50.0});
+        const History run = simulate(scene, splitting(step), every);
+        const Energy& energy = run.report.energy;
+        const auto name = testing::Message() << count << ' ' << share << ' ' << rate;
+        EXPECT_EQ(run.report.outcome, Outcome::done) << name;
+        EXPECT_LT(run.along_t.cwiseAbs().maxCoeff(), 100.0) << name;
+        EXPECT_LT(std::abs(energy.residual()), 0.05 * energy.scale) << name;
+        EXPECT_GT(energy.contact_damping, -1e-3 * energy.scale) << name;
+      }
+}
+
+TEST(CoupledContacts, AreStableAtAnyStep) {
+  constexpr double step = 1e-3;
+  for (const int count : {2, 6})
+    for (const double share : {0.3, 0.9})
+      for (const double resolution : {1.0, 2.0, 6.0}) { // w_c h
+        const double k = resolution * resolution / (step * step * rate_of(count, share));
+        const Scene scene = equal_contacts(count, share, k, {});
+        const History run = simulate(scene, splitting(step), every);
+        const auto name = testing::Message() << count << ' ' << share << ' ' << resolution;
+        EXPECT_EQ(run.report.outcome, Outcome::done) << name;
+        EXPECT_LT(run.normal.maxCoeff(), 1000.0) << name;
+      }
 }
 
 // What all contacts hold stays where it is, whatever the step.
