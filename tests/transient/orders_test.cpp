@@ -157,7 +157,7 @@ constexpr double dissipation = 0.3; ///< s/m: the spring's force changes by up t
 const Vec3 slow(0.05, 0.1, 0.05), fast(1.5, 2.0, 0.0);
 
 // bounds of the measured order: the mean over five halvings, the coarsest step being w_c h = 0.2
-constexpr double second_low = 1.85, second_high = 2.35, second_final = 5e-5;
+constexpr double second_low = 1.85, second_high = 2.2, second_final = 5e-5;
 constexpr double first_low = 0.9, first_high = 1.2, first_final = 1e-2;
 
 // of order four and five: few steps, so that the error stays far above the oracle's 1e-10

@@ -59,18 +59,18 @@ struct ContactIntervals::Motion {
   double mobility = 0.0;    ///< 1/kg, n W n
   double penetration = 0.0; ///< m, at the start
   double rate = 0.0;        ///< m/s
-  double pressing =
+  double acceleration_inwards =
       0.0;           ///< m/s2, mean of the second derivative of the penetration, under the friction expected
   double bend = 0.0; ///< m: by its jerk at the end
-  double turning = 0.0; ///< rad/s, of the normal towards t
-  double sinking = 0.0; ///< m/s2, by which the speed along t grows as t turns
+  double turning = 0.0;              ///< rad/s, of the normal towards t
+  double turning_acceleration = 0.0; ///< m/s2, by which the speed along t grows as t turns
   [[nodiscard]] double after(double time) const {
-    return penetration + time * (rate + 0.5 * time * pressing);
+    return penetration + time * (rate + 0.5 * time * acceleration_inwards);
   }
 };
 
 /// Its normal force over an interval.
-struct ContactIntervals::Pressed {
+struct ContactIntervals::NormalForce {
   double force = 0.0,
          growth = 0.0; ///< N, mean over the interval, and growth of a linear force with its first moment
   double from = 0.0, to = 0.0;            ///< s: it acts between,
@@ -137,8 +137,8 @@ void ContactIntervals::follow(MovingContact& m) const {
 
 void ContactIntervals::move(MovingContact& m, const IntervalTable& of) const {
   const double dt = of.length;
-  m.by_growth = w_ * m.growth;
-  const Components by = m.others + w_ * m.force - m.by_held, growth = m.others_growth + m.by_growth;
+  follow(m);
+  const Components by = m.others + m.by_force - m.by_held, growth = m.others_growth + m.by_growth;
   m.response = m.response + dt * (m.rate + dt * (0.5 * by - (1.0 / 12.0) * growth));
   m.rate = m.rate + dt * by;
   m.others = m.others + m.others_growth;
@@ -200,11 +200,12 @@ ContactIntervals::Motion ContactIntervals::motion_of(const MovingContact& m, con
   const Components half_way = a.velocity + (0.5 * dt) * now;
   // near a centre or a corner the normal turns at once: no more than the interval can follow
   a.turning = std::clamp(curvature(mean) * tangent(a.axes, half_way), -most_turned / dt, most_turned / dt);
-  const double outwards = a.turning * tangent(a.axes, half_way), pressed = -normal(a.axes, now) - outwards;
-  a.sinking = -a.turning * normal(a.axes, half_way);
-  a.rate = 0.5 * dt * outwards - normal(a.axes, a.velocity);
-  a.penetration = -at.gap - (0.5 * dt) * (a.rate + (dt / 3.0) * (pressed + 0.25 * normal(a.axes, grows)));
-  a.pressing = pressed + normal(a.axes, m.force) * a.mobility;
+  const double centripetal = a.turning * tangent(a.axes, half_way),
+               inwards = -normal(a.axes, now) - centripetal;
+  a.turning_acceleration = -a.turning * normal(a.axes, half_way);
+  a.rate = 0.5 * dt * centripetal - normal(a.axes, a.velocity);
+  a.penetration = -at.gap - (0.5 * dt) * (a.rate + (dt / 3.0) * (inwards + 0.25 * normal(a.axes, grows)));
+  a.acceleration_inwards = inwards + normal(a.axes, m.force) * a.mobility;
   a.bend = dt * dt * dt / 12.0 * normal(a.axes, a.jerk);
   return a;
 }
@@ -212,7 +213,7 @@ ContactIntervals::Motion ContactIntervals::motion_of(const MovingContact& m, con
 /// s: from when on the contact has a force; dt and more: not in the interval.
 double ContactIntervals::time_of_closing(const Motion& a, bool closed, double dt) const {
   if (a.penetration < 0.0) {
-    const double square = a.rate * a.rate - 2.0 * a.pressing * a.penetration;
+    const double square = a.rate * a.rate - 2.0 * a.acceleration_inwards * a.penetration;
     const double speed = square > 0.0 ? a.rate + std::sqrt(square) : 0.0;
     return speed > 0.0 ? std::min(dt, -2.0 * a.penetration / speed) : dt;
   }
@@ -221,7 +222,7 @@ double ContactIntervals::time_of_closing(const Motion& a, bool closed, double dt
   // It has opened before it is out: where its damper would pull, or as the normal turns.
   const double end = a.after(dt);
   const double first = normal_.spring_and_damper(a.penetration, a.rate);
-  const double last = end > 0.0 ? normal_.spring_and_damper(end, a.rate + dt * a.pressing) : 0.0;
+  const double last = end > 0.0 ? normal_.spring_and_damper(end, a.rate + dt * a.acceleration_inwards) : 0.0;
   if (a.rate < 0.0 && !(last > 0.0))
     return dt;
   if (first >= 0.0)
@@ -229,29 +230,30 @@ double ContactIntervals::time_of_closing(const Motion& a, bool closed, double dt
   return last > 0.0 ? dt * first / (first - last) : dt;
 }
 
-ContactIntervals::Pressed ContactIntervals::press(const Motion& a, bool closed,
-                                                  const IntervalTable& of) const {
-  Pressed out;
+ContactIntervals::NormalForce ContactIntervals::find_normal_force(const Motion& a, bool closed,
+                                                                  const IntervalTable& of) const {
+  NormalForce out;
   const double dt = of.length, closes = time_of_closing(a, closed, dt);
   if (!(closes < (1.0 - shortest) * dt)) {
-    out.damper_work = normal_.spring_energy(a.penetration) - normal_.spring_energy(a.after(dt));
+    out.damper_work = released(a.penetration, a.after(dt));
     return out;
   }
   const double start = std::max(0.0, closes > 0.0 ? a.after(closes) : a.penetration);
-  const double rate = a.rate + closes * a.pressing;
+  const double rate = a.rate + closes * a.acceleration_inwards;
   const auto over = [&](double length) {
     const bool whole = length == dt;
     const double growing =
         whole ? of.growing : contact::growing_damping(normal_.damping, normal_.damping * mobility_ * length);
-    const double end = start + length * (rate + 0.5 * length * a.pressing) + (whole ? a.bend : 0.0);
+    const double end =
+        start + length * (rate + 0.5 * length * a.acceleration_inwards) + (whole ? a.bend : 0.0);
     return contact::normal_over_interval(normal_, length, a.mobility, growing,
-                                         {start, end, rate, a.pressing});
+                                         {start, end, rate, a.acceleration_inwards});
   };
   double length = dt - closes;
   contact::NormalInterval n = over(length);
   out.opens = n.to < 1.0;
   if (!(n.to * length > shortest * dt)) {
-    out.damper_work = normal_.spring_energy(a.penetration) - normal_.spring_energy(a.after(dt));
+    out.damper_work = released(a.penetration, a.after(dt));
     return out;
   }
   if (out.opens) { // the force until then
@@ -266,21 +268,21 @@ ContactIntervals::Pressed ContactIntervals::press(const Motion& a, bool closed,
   out.to = closes + (out.opens ? n.to : 1.0) * length;
   out.course = n.course;
   out.approach = rate;
-  out.departure = -(rate + length * (a.pressing - a.mobility * n.force));
+  out.departure = -(rate + length * (a.acceleration_inwards - a.mobility * n.force));
   out.damper_work = n.damper_work;
   if (closes > 0.0)
-    out.damper_work += normal_.spring_energy(a.penetration) - normal_.spring_energy(start);
+    out.damper_work += released(a.penetration, start);
   if (out.opens) {
     const double left = dt - closes - length;
-    const double end = n.end + left * (-out.departure + 0.5 * left * a.pressing);
-    out.damper_work += normal_.spring_energy(n.end) - normal_.spring_energy(end);
+    const double end = n.end + left * (-out.departure + 0.5 * left * a.acceleration_inwards);
+    out.damper_work += released(n.end, end);
   }
   return out;
 }
 
 void ContactIntervals::act(MovingContact& m, const IntervalTable& of, int index) const {
   const Motion a = motion_of(m, of, index);
-  const Pressed n = press(a, m.past.closed, of);
+  const NormalForce n = find_normal_force(a, m.past.closed, of);
   ContactState& state = m.state;
   ContactPast& past = m.past;
   const bool was_closed = past.closed;
@@ -302,7 +304,7 @@ void ContactIntervals::act(MovingContact& m, const IntervalTable& of, int index)
     state.closed += share;
     state.peak = std::max(state.peak, n.course.largest());
     if (friction_.active()) {
-      rub(a, n, of, m);
+      find_friction(a, n, of, m);
     } else {
       m.force = along(a.axes, n.force, {});
       m.growth = along(a.axes, n.growth, {});
@@ -331,7 +333,7 @@ void ContactIntervals::act(MovingContact& m, const IntervalTable& of, int index)
 
 /// Its friction over an interval.   @param f  a FrictionInterval<V>   @param velocity  m/s, at its start
 template <class V, class Friction>
-void ContactIntervals::take_friction(const Motion& a, const Pressed& n, const IntervalTable& of,
+void ContactIntervals::take_friction(const Motion& a, const NormalForce& n, const IntervalTable& of,
                                      const Friction& f, V velocity, MovingContact& m) const {
   ContactState& state = m.state;
   const double dt = of.length, length = n.to - n.from;
@@ -355,8 +357,8 @@ void ContactIntervals::take_friction(const Motion& a, const Pressed& n, const In
   m.past.friction = {in_plane(f.spring), f.sliding};
 }
 
-void ContactIntervals::rub(const Motion& a, const Pressed& n, const IntervalTable& of,
-                           MovingContact& m) const {
+void ContactIntervals::find_friction(const Motion& a, const NormalForce& n, const IntervalTable& of,
+                                     MovingContact& m) const {
   const double dt = of.length, length = n.to - n.from;
   const bool by_reference = friction_.kind == contact::FrictionMemoryKind::reference;
   ContactState& state = m.state;
@@ -378,9 +380,9 @@ void ContactIntervals::rub(const Motion& a, const Pressed& n, const IntervalTabl
   const contact::ContactAxes& axes = a.axes;
   const Components along_t{axes.nz, -axes.ny, 0.0}, by_t = w_ * along_t;
   const double wtt = tangent(axes, by_t);
-  const auto [vt, at, jt] =
-      start(tangent(axes, a.velocity) - 0.5 * dt * a.sinking, tangent(axes, at_start) + a.sinking,
-            tangent(axes, a.jerk), tangent(axes, a.by_normal));
+  const auto [vt, at, jt] = start(tangent(axes, a.velocity) - 0.5 * dt * a.turning_acceleration,
+                                  tangent(axes, at_start) + a.turning_acceleration, tangent(axes, a.jerk),
+                                  tangent(axes, a.by_normal));
   if (in_plane_ || by_reference) {
     const auto [vx, ax, jx] = start(a.velocity.x, at_start.x, a.jerk.x, a.by_normal.x);
     const contact::TangentialPath<Vec2, contact::Sym2> path{
@@ -388,7 +390,7 @@ void ContactIntervals::rub(const Motion& a, const Pressed& n, const IntervalTabl
         friction_.masked(Vec2{in_plane_ ? jx : 0.0, jt}),
         friction_.masked(in_plane_ ? contact::Sym2{w_(2, 2), by_t.x, wtt} : contact::Sym2{0.0, 0.0, wtt})};
     if (by_reference) {
-      Pressed whole = n;
+      NormalForce whole = n;
       whole.from = 0.0;
       whole.to = dt;
       take_friction(a, whole, of, reference_friction(friction_, of.reference, memory, n.force, dt, path),

@@ -101,19 +101,23 @@ public:
 
 private:
   struct Motion;
-  struct Pressed;
+  struct NormalForce;
   [[nodiscard]] contact::Location locate(const Components& u) const {
     return contact::locate(obstacle_, u.y() + rest_.y(), u.z() + rest_.z());
   }
   [[nodiscard]] double curvature(const Components& u) const {
     return contact::curvature(obstacle_, u.y() + rest_.y(), u.z() + rest_.z());
   }
+  /// J: what its normal spring gives up between two penetrations while no force acts.
+  [[nodiscard]] double released(double from, double to) const {
+    return normal_.spring_energy(from) - normal_.spring_energy(to);
+  }
   [[nodiscard]] Motion motion_of(const MovingContact& m, const IntervalTable& of, int index) const;
   [[nodiscard]] double time_of_closing(const Motion& a, bool closed, double dt) const;
-  [[nodiscard]] Pressed press(const Motion& a, bool closed, const IntervalTable& of) const;
-  void rub(const Motion& a, const Pressed& n, const IntervalTable& of, MovingContact& m) const;
+  [[nodiscard]] NormalForce find_normal_force(const Motion& a, bool closed, const IntervalTable& of) const;
+  void find_friction(const Motion& a, const NormalForce& n, const IntervalTable& of, MovingContact& m) const;
   template <class V, class Friction>
-  void take_friction(const Motion& a, const Pressed& n, const IntervalTable& of, const Friction& f,
+  void take_friction(const Motion& a, const NormalForce& n, const IntervalTable& of, const Friction& f,
                      V velocity, MovingContact& m) const;
 
   const contact::Obstacle& obstacle_;

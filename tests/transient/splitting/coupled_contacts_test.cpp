@@ -26,7 +26,7 @@ Scene coupled(double pressure, const contact::FrictionLaw& friction) {
                                          contact::Stop{0.0, contact::PlaneAxis::y}};
   const double along_y[][modes] = {{0.5, 0.2, 0.1, 0.0}, {0.4, 0.0, 0.2, 0.1}, {0.45, -0.2, 0.1, 0.1}};
   const double along_z[][modes] = {{0.1, 0.4, 0.0, 0.2}, {0.0, 0.3, 0.1, 0.2}, {0.1, 0.4, 0.1, 0.0}};
-  Eigen::VectorXd pressing = Eigen::VectorXd::Zero(modes), rubbing = pressing;
+  Eigen::VectorXd normal_load = Eigen::VectorXd::Zero(modes), tangential_load = normal_load;
   for (int c = 0; c < 3; ++c) {
     ContactPoint point;
     point.name = "c" + std::to_string(c);
@@ -36,11 +36,11 @@ Scene coupled(double pressure, const contact::FrictionLaw& friction) {
       point.b(1, i) = along_y[c][i];
       point.b(2, i) = along_z[c][i];
     }
-    pressing += pressure * point.b.row(1).transpose();
-    rubbing += 40.0 * (point.b.row(1) + point.b.row(2)).transpose();
+    normal_load += pressure * point.b.row(1).transpose();
+    tangential_load += 40.0 * (point.b.row(1) + point.b.row(2)).transpose();
     s.contacts.push_back(point);
   }
-  s.loads = {{Constant{1.0}, pressing}, {Harmonic{1.0, 31.0}, rubbing}};
+  s.loads = {{Constant{1.0}, normal_load}, {Harmonic{1.0, 31.0}, tangential_load}};
   return s;
 }
 
@@ -85,7 +85,7 @@ Scene equal_contacts(int count, double share, double stiffness_n, const contact:
   s.system.stiffness = Eigen::VectorXd::Constant(n, 100.0);
   s.system.damping = Eigen::VectorXd::Zero(n);
   s.q0 = s.v0 = Eigen::VectorXd::Zero(n);
-  Eigen::VectorXd pressing = Eigen::VectorXd::Zero(n), rubbing = pressing;
+  Eigen::VectorXd normal_load = Eigen::VectorXd::Zero(n), tangential_load = normal_load;
   for (int c = 0; c < count; ++c) {
     ContactPoint point;
     point.name = "c" + std::to_string(c);
@@ -93,11 +93,11 @@ Scene equal_contacts(int count, double share, double stiffness_n, const contact:
     point.b = Eigen::MatrixXd::Zero(3, n);
     point.b.row(1).head(count) = b.row(c);
     point.b.row(2).tail(count) = b.row(c);
-    pressing += 100.0 * point.b.row(1).transpose();
-    rubbing += (c % 2 ? 10.0 : 30.0) * point.b.row(2).transpose();
+    normal_load += 100.0 * point.b.row(1).transpose();
+    tangential_load += (c % 2 ? 10.0 : 30.0) * point.b.row(2).transpose();
     s.contacts.push_back(point);
   }
-  s.loads = {{Constant{1.0}, pressing}, {Harmonic{1.0, 20.0}, rubbing}};
+  s.loads = {{Constant{1.0}, normal_load}, {Harmonic{1.0, 20.0}, tangential_load}};
   return s;
 }
 

@@ -33,10 +33,10 @@ double missed(double resolution) {
 
 } // namespace
 
-// Of order 2.
+// Of order 2: 5.2e-3 and 3.3e-5 of the work of friction, a ratio of 12.5^2.
 TEST(Slides, BalanceTheEnergyOfATubeThatRocksInItsHole) {
-  EXPECT_LT(missed(0.25), 1.2e-2);
-  EXPECT_LT(missed(0.02), 5e-5);
+  EXPECT_LT(missed(0.25), 6e-3);
+  EXPECT_LT(missed(0.02), 4e-5);
 }
 
 namespace {
