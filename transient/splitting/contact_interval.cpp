@@ -62,8 +62,9 @@ struct ContactIntervals::Motion {
   double acceleration_inwards =
       0.0;           ///< m/s2, mean of the second derivative of the penetration, under the friction expected
   double bend = 0.0; ///< m: by its jerk at the end
-  double turning = 0.0;              ///< rad/s, of the normal towards t
-  double turning_acceleration = 0.0; ///< m/s2, by which the speed along t grows as t turns
+  double turning = 0.0;        ///< rad/s, of the normal towards t, half way
+  double turning_growth = 0.0; ///< rad/s2
+  double ahead = 0.0;          ///< rad, by which the axes, at the mean position, are ahead of those half way
   [[nodiscard]] double after(double time) const {
     return penetration + time * (rate + 0.5 * time * acceleration_inwards);
   }
@@ -197,16 +198,28 @@ ContactIntervals::Motion ContactIntervals::motion_of(const MovingContact& m, con
   const auto [ny, nz] = a.axes;
   a.by_normal = w_ * Components{ny, nz, 0.0};
   a.mobility = normal(a.axes, a.by_normal);
-  const Components half_way = a.velocity + (0.5 * dt) * now;
+  const Components half_way = a.velocity + (0.5 * dt) * (now - 0.25 * grows);
+  const double along_t = tangent(a.axes, half_way), along_n = normal(a.axes, half_way),
+               faster = tangent(a.axes, now);
   // near a centre or a corner the normal turns at once: no more than the interval can follow
-  a.turning = std::clamp(curvature(mean) * tangent(a.axes, half_way), -most_turned / dt, most_turned / dt);
-  const double centripetal = a.turning * tangent(a.axes, half_way),
-               inwards = -normal(a.axes, now) - centripetal;
-  a.turning_acceleration = -a.turning * normal(a.axes, half_way);
-  a.rate = 0.5 * dt * centripetal - normal(a.axes, a.velocity);
-  a.penetration = -at.gap - (0.5 * dt) * (a.rate + (dt / 3.0) * (inwards + 0.25 * normal(a.axes, grows)));
+  const double most = most_turned / (dt * (std::abs(along_t) + std::abs(along_n) + dt * std::abs(faster)));
+  const double bent = std::clamp(curvature(mean), -most, most); // it has its place on a parallel curve
+  a.turning = bent * along_t;
+  a.turning_growth = bent * (faster - 2.0 * a.turning * along_n);
+  a.ahead = dt * dt / 24.0 * bent * faster;
+  const double centripetal = a.turning * along_t, inwards = -normal(a.axes, now) - centripetal;
+  // m/s3: by which the penetration bends as the normal turns, without what turns of the acceleration
+  const double turns = a.turning * (faster - a.turning * along_n) + a.turning_growth * along_t;
+  const double angle = 0.5 * dt * a.turning, more = 0.125 * dt * dt * a.turning_growth - a.ahead;
+  a.rate =
+      (angle - more) * tangent(a.axes, a.velocity) - (1.0 - 0.5 * angle * angle) * normal(a.axes, a.velocity);
+  const double bends = normal(a.axes, grows) + dt * (turns + a.turning * faster);
+  // its mean over the interval, on a curved wall another than that of its mean position
+  const double mean_penetration = -at.gap - dt * dt / 24.0 * centripetal;
+  a.penetration = mean_penetration - (0.5 * dt) * (a.rate + (dt / 3.0) * (inwards + 0.25 * bends));
   a.acceleration_inwards = inwards + normal(a.axes, m.force) * a.mobility;
-  a.bend = dt * dt * dt / 12.0 * normal(a.axes, a.jerk);
+  a.bend =
+      dt * dt * dt / 12.0 * (normal(a.axes, a.jerk) + turns + a.turning * tangent(a.axes, a.acceleration));
   return a;
 }
 
@@ -280,6 +293,19 @@ ContactIntervals::NormalForce ContactIntervals::find_normal_force(const Motion& 
   return out;
 }
 
+/// A force along axes that turn, seen along those of the mean position.
+void ContactIntervals::turn(const Motion& a, const NormalForce& n, double dt, MovingContact& m) const {
+  const double place = 0.5 * (n.from + n.to - dt), acts = n.to - n.from,
+               square = place * place + acts * acts / 12.0; // s2, mean of the time since the middle, squared
+  const double fn = normal(a.axes, m.force), ft = tangent(a.axes, m.force);
+  const double by_growth = dt / 12.0 * a.turning, by_force = 0.5 * square * a.turning_growth - a.ahead,
+               less = 0.5 * square * a.turning * a.turning;
+  m.force = m.force + along(a.axes, -by_growth * tangent(a.axes, m.growth) - by_force * ft - less * fn,
+                            {0.0, by_growth * normal(a.axes, m.growth) + by_force * fn - less * ft});
+  const double grows = 12.0 / dt * square * a.turning;
+  m.growth = m.growth + along(a.axes, -grows * ft, {0.0, grows * fn});
+}
+
 void ContactIntervals::act(MovingContact& m, const IntervalTable& of, int index) const {
   const Motion a = motion_of(m, of, index);
   const NormalForce n = find_normal_force(a, m.past.closed, of);
@@ -310,9 +336,8 @@ void ContactIntervals::act(MovingContact& m, const IntervalTable& of, int index)
       m.growth = along(a.axes, n.growth, {});
     }
     past.axes = state.axes = a.axes;
-    const double turn = a.turning * share * h_ * share / of.share;
-    m.growth =
-        m.growth + along(a.axes, -turn * tangent(a.axes, m.force), {0.0, turn * normal(a.axes, m.force)});
+    if (a.turning != 0.0)
+      turn(a, n, of.length, m);
     if (past.closed)
       m.last = n.from > 0.0 ? (n.course.last / n.force) * m.force : m.force + 0.5 * m.growth;
     m.mean = m.mean + of.share * m.force;
@@ -371,20 +396,28 @@ void ContactIntervals::find_friction(const Motion& a, const NormalForce& n, cons
   state.damper_work += before - friction_.spring_energy(memory.spring);
   // along t: with the normal force, linear in time
   const double from = by_reference ? 0.0 : n.from; // it knows no parts of an interval
-  const double rise = n.growth / dt, then = n.force + (from - 0.5 * dt) * rise;
-  const Components at_start = a.acceleration - (0.5 * dt) * a.jerk;
-  const auto start = [&](double velocity, double acceleration, double jerk, double by_n) {
-    return std::array{velocity + from * (acceleration + 0.5 * from * jerk),
-                      acceleration + from * jerk + by_n * then, jerk + by_n * rise};
-  };
+  const double since_half = from - 0.5 * dt;
+  const double rise = n.growth / dt, then = n.force + since_half * rise;
+  const Components velocity = a.velocity + from * (a.acceleration + (0.5 * (from - dt)) * a.jerk);
+  const Components acceleration = a.acceleration + since_half * a.jerk;
   const contact::ContactAxes& axes = a.axes;
   const Components along_t{axes.nz, -axes.ny, 0.0}, by_t = w_ * along_t;
   const double wtt = tangent(axes, by_t);
-  const auto [vt, at, jt] = start(tangent(axes, a.velocity) - 0.5 * dt * a.turning_acceleration,
-                                  tangent(axes, at_start) + a.turning_acceleration, tangent(axes, a.jerk),
-                                  tangent(axes, a.by_normal));
+  const double by_t_of_n = tangent(axes, a.by_normal);
+  double vt = tangent(axes, velocity), at = tangent(axes, acceleration) + by_t_of_n * then,
+         jt = tangent(axes, a.jerk) + by_t_of_n * rise;
+  if (a.turning != 0.0) { // the speed along t as this turns: (v t)' = a t - turning v n
+    const double free = normal(axes, a.acceleration), angle = a.turning * since_half,
+                 outwards = -(a.rate + from * a.acceleration_inwards),
+                 grows = a.mobility * n.force * dt / length - a.acceleration_inwards;
+    vt -= 0.5 * angle * angle * vt +
+          (angle + 0.5 * since_half * since_half * a.turning_growth - a.ahead) * normal(axes, velocity);
+    at -= angle * free + (a.turning + a.turning_growth * since_half) * outwards;
+    jt -= a.turning * (free + grows) + a.turning_growth * (outwards - since_half * grows);
+  }
   if (in_plane_ || by_reference) {
-    const auto [vx, ax, jx] = start(a.velocity.x, at_start.x, a.jerk.x, a.by_normal.x);
+    const double vx = velocity.x, ax = acceleration.x + a.by_normal.x * then,
+                 jx = a.jerk.x + a.by_normal.x * rise;
     const contact::TangentialPath<Vec2, contact::Sym2> path{
         friction_.masked(Vec2{in_plane_ ? vx : 0.0, vt}), friction_.masked(Vec2{in_plane_ ? ax : 0.0, at}),
         friction_.masked(Vec2{in_plane_ ? jx : 0.0, jt}),

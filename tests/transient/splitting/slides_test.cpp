@@ -74,6 +74,51 @@ TEST(Slides, SwingInANarrowHoleAsLongAsTheyShould) {
 
 namespace {
 
+constexpr double hole = 12.5e-3; // m, where a mass of 1 m/s sinks 3.2 mm into its wall
+
+/// A mass that meets the wall of a round hole at 45 degrees, slides along it and leaves: it turns by half a radian. Means over phases of the intervals.
+struct Bounce {
+  double work = 0.0, energy = 0.0,
+         turned = 0.0; ///< J, of friction, and kinetic afterwards; m2/s, angular momentum by mass
+};
+/// @param length  of the intervals, s   @param coefficient  of friction
+Bounce bounce(double length, double coefficient) {
+  constexpr double speed = 1.0; // m/s
+  constexpr int phases = 16;
+  const double longest = 0.5 / contact_frequency;
+  Bounce out;
+  for (int i = 0; i < phases; ++i) {
+    const double before = longest * (0.5 + (0.5 + i) / phases); // s, and speeds of 1 m/s each
+    Scene scene = mass_point(mass, Vec3::Zero(), before + 5.0 / contact_frequency);
+    scene.contacts = {contact_of(
+        mass, {contact::Circle{hole}, {stiffness}, {0.1 * stiffness, 0.0, coefficient, coefficient}})};
+    scene.contacts[0].support.friction.damping = 2.0 * std::sqrt(0.1 * stiffness * mass);
+    start(scene, mass, {0.0, hole - speed * before, -speed * before}, {0.0, speed, speed});
+    const History run = simulate(scene, splitting(length), scene.duration);
+    const auto q = run.q.col(run.q.cols() - 1), v = run.v.col(run.v.cols() - 1); // of modes of mass 1
+    out.work += run.statistics[0].friction_work / phases;
+    out.energy += 0.5 * v.squaredNorm() / phases;
+    out.turned += (q(1) * v(2) - q(2) * v(1)) / phases;
+  }
+  return out;
+}
+
+} // namespace
+
+// Half a radian in six intervals. The tangent turns, and what the acceleration is along it; the force turns, and more where it is larger; the mean
+// penetration is not that of the mean position. With the middle of these alone 0.4 and 0.8 % of the work are missed.
+TEST(Slides, FollowTheWallOfAHole) {
+  const double longest = 0.5 / contact_frequency;
+  for (const double coefficient : {0.1, 0.3}) {
+    const Bounce fine = bounce(0.02 * longest, coefficient), coarse = bounce(longest, coefficient);
+    EXPECT_NEAR(coarse.work / fine.work, 1.0, 1e-3) << coefficient;
+    EXPECT_NEAR(coarse.energy / fine.energy, 1.0, 1e-3) << coefficient;
+    EXPECT_NEAR((coarse.turned - fine.turned) / hole, 0.0, 1e-3) << coefficient;
+  }
+}
+
+namespace {
+
 constexpr double friction = 0.3;
 constexpr int speeds = 64;
 
