@@ -145,7 +145,8 @@ private:
   [[nodiscard]] bool is_coarse(const Evidence& e) const {
     for (std::size_t k = 0; k < replayed_figures; ++k)
       if (const double error = std::abs(e.error(k));
-          error > tolerated * options_.accuracy * e.sums[k] && error > significance * e.spread(k))
+          error > (k == replayed_square ? 2.0 : 1.0) * tolerated * options_.accuracy * e.sums[k] &&
+          error > significance * e.spread(k)) // that of the rms force is half of its square's
         return true;
     return false;
   }
