@@ -55,8 +55,6 @@ struct NormalInterval {
   double to = 0.0;                  ///< share of the interval up to which there is a force,
   ParabolicForce course;            ///< until then
   double damper_work = 0.0;         ///< J, by the damper, and what the positive part cuts off the spring
-  /// N2, mean over the interval.
-  [[nodiscard]] double square() const { return to * course.square(); }
 };
 
 /// beta: of a speed that a damper takes down at the rate r, its mean over dt is speed/(1 + beta z), z = r dt: 1/2 of slow dampers, 1 of those that stop the

@@ -33,8 +33,6 @@ public:
   /// To restore from.
   explicit StateArchive(std::string bytes) : bytes_(std::move(bytes)), restores_(true) {}
 
-  [[nodiscard]] bool restores() const { return restores_; }
-
   /// Saves or restores, one after the other: objects with `visit`, plain values, and vectors and arrays of these.
   /// @throws StateMismatch
   template <class... T> void operator()(T&... values) { (visit(values), ...); }

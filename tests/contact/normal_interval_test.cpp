@@ -194,7 +194,7 @@ TEST(NormalInterval, HasTheCourseOfItsForce) {
   constexpr double dt = std::numbers::pi / count;
   for (int i = 0; i < count; ++i) {
     const NormalInterval n = mass.move(law, dt);
-    square += n.square() / count;
+    square += n.to * n.course.square() / count;
     largest = std::max(largest, n.course.largest());
     EXPECT_NEAR(n.course.first, last, 2e-3) << i;
     last = n.course.last;
