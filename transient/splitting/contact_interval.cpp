@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/splitting/contact_interval.hpp"
 #include <algorithm>
-#include <array>
 
 namespace fretwork::transient {
 namespace {
@@ -64,6 +63,7 @@ struct ContactIntervals::Motion {
   double bend = 0.0; ///< m: by its jerk at the end
   double turning = 0.0;        ///< rad/s, of the normal towards t, half way
   double turning_growth = 0.0; ///< rad/s2
+  bool curved = false;         ///< the normal turns
   double ahead = 0.0;          ///< rad, by which the axes, at the mean position, are ahead of those half way
   [[nodiscard]] double after(double time) const {
     return penetration + time * (rate + 0.5 * time * acceleration_inwards);
@@ -203,23 +203,25 @@ ContactIntervals::Motion ContactIntervals::motion_of(const MovingContact& m, con
                faster = tangent(a.axes, now);
   // near a centre or a corner the normal turns at once: no more than the interval can follow
   const double most = most_turned / (dt * (std::abs(along_t) + std::abs(along_n) + dt * std::abs(faster)));
-  const double bent = std::clamp(curvature(mean), -most, most); // it has its place on a parallel curve
-  a.turning = bent * along_t;
-  a.turning_growth = bent * (faster - 2.0 * a.turning * along_n);
-  a.ahead = dt * dt / 24.0 * bent * faster;
+  const double kappa = std::clamp(curvature(mean), -most, most); // 1/m
+  a.curved = kappa != 0.0;
+  a.turning = kappa * along_t;
+  a.turning_growth = kappa * (faster - 2.0 * a.turning * along_n);
+  a.ahead = dt * dt / 24.0 * kappa * faster;
   const double centripetal = a.turning * along_t, inwards = -normal(a.axes, now) - centripetal;
-  // m/s3: by which the penetration bends as the normal turns, without what turns of the acceleration
-  const double turns = a.turning * (faster - a.turning * along_n) + a.turning_growth * along_t;
+  // m/s3: of the penetration, by the centripetal acceleration that grows; m/s2: its change over the interval
+  const double jerk_by_turning = a.turning * (faster - a.turning * along_n) + a.turning_growth * along_t;
+  // rad, to the start
   const double angle = 0.5 * dt * a.turning, more = 0.125 * dt * dt * a.turning_growth - a.ahead;
   a.rate =
       (angle - more) * tangent(a.axes, a.velocity) - (1.0 - 0.5 * angle * angle) * normal(a.axes, a.velocity);
-  const double bends = normal(a.axes, grows) + dt * (turns + a.turning * faster);
+  const double change = normal(a.axes, grows) + dt * (jerk_by_turning + a.turning * faster);
   // its mean over the interval, on a curved wall another than that of its mean position
   const double mean_penetration = -at.gap - dt * dt / 24.0 * centripetal;
-  a.penetration = mean_penetration - (0.5 * dt) * (a.rate + (dt / 3.0) * (inwards + 0.25 * bends));
+  a.penetration = mean_penetration - (0.5 * dt) * (a.rate + (dt / 3.0) * (inwards + 0.25 * change));
   a.acceleration_inwards = inwards + normal(a.axes, m.force) * a.mobility;
-  a.bend =
-      dt * dt * dt / 12.0 * (normal(a.axes, a.jerk) + turns + a.turning * tangent(a.axes, a.acceleration));
+  a.bend = dt * dt * dt / 12.0 *
+           (normal(a.axes, a.jerk) + jerk_by_turning + a.turning * tangent(a.axes, a.acceleration));
   return a;
 }
 
@@ -336,7 +338,7 @@ void ContactIntervals::act(MovingContact& m, const IntervalTable& of, int index)
       m.growth = along(a.axes, n.growth, {});
     }
     past.axes = state.axes = a.axes;
-    if (a.turning != 0.0)
+    if (a.curved)
       turn(a, n, of.length, m);
     if (past.closed)
       m.last = n.from > 0.0 ? (n.course.last / n.force) * m.force : m.force + 0.5 * m.growth;
@@ -406,18 +408,25 @@ void ContactIntervals::find_friction(const Motion& a, const NormalForce& n, cons
   const double by_t_of_n = tangent(axes, a.by_normal);
   double vt = tangent(axes, velocity), at = tangent(axes, acceleration) + by_t_of_n * then,
          jt = tangent(axes, a.jerk) + by_t_of_n * rise;
-  if (a.turning != 0.0) { // the speed along t as this turns: (v t)' = a t - turning v n
-    const double free = normal(axes, a.acceleration), angle = a.turning * since_half,
-                 outwards = -(a.rate + from * a.acceleration_inwards),
-                 grows = a.mobility * n.force * dt / length - a.acceleration_inwards;
+  double turned_x = 0.0, turning_x = 0.0;             // m/s2, m/s3: along x, as the normal force turns
+  if (a.curved) {                                     // (v t)' = a t - turning v n
+    const double angle = a.turning * since_half;      // rad, since half way
+    const double free = normal(axes, a.acceleration); // m/s2, without the normal force
+    const double speed = -(a.rate + from * a.acceleration_inwards);        // m/s, along n
+    const double pressed = by_reference ? n.force : n.force * dt / length; // N, while it acts
+    const double faster = a.mobility * pressed - a.acceleration_inwards;   // m/s2, growth of that speed
+    const double unequal =
+        wtt - a.mobility; // 1/kg: the acceleration by a force that turns is not its own turned
     vt -= 0.5 * angle * angle * vt +
           (angle + 0.5 * since_half * since_half * a.turning_growth - a.ahead) * normal(axes, velocity);
-    at -= angle * free + (a.turning + a.turning_growth * since_half) * outwards;
-    jt -= a.turning * (free + grows) + a.turning_growth * (outwards - since_half * grows);
+    at += angle * (unequal * then - free) - (a.turning + a.turning_growth * since_half) * speed;
+    jt += a.turning * (unequal * n.force - free - faster) - a.turning_growth * (speed - since_half * faster);
+    turned_x = angle * by_t.x * then;
+    turning_x = a.turning * by_t.x * n.force;
   }
   if (in_plane_ || by_reference) {
-    const double vx = velocity.x, ax = acceleration.x + a.by_normal.x * then,
-                 jx = a.jerk.x + a.by_normal.x * rise;
+    const double vx = velocity.x, ax = acceleration.x + a.by_normal.x * then + turned_x,
+                 jx = a.jerk.x + a.by_normal.x * rise + turning_x;
     const contact::TangentialPath<Vec2, contact::Sym2> path{
         friction_.masked(Vec2{in_plane_ ? vx : 0.0, vt}), friction_.masked(Vec2{in_plane_ ? ax : 0.0, at}),
         friction_.masked(Vec2{in_plane_ ? jx : 0.0, jt}),
