@@ -158,6 +158,8 @@ const Vec3 slow(0.05, 0.1, 0.05), fast(1.5, 2.0, 0.0);
 
 // bounds of the measured order: the mean over five halvings, the coarsest step being w_c h = 0.2
 constexpr double second_low = 1.85, second_high = 2.2, second_final = 5e-5;
+// splitting: displacement and velocity without friction, of which the last errors are 1e-10, fall faster than the force
+constexpr double splitting_final = 5e-7, frictionless_high = 3.3;
 constexpr double first_low = 0.9, first_high = 1.2, first_final = 1e-2;
 
 // of order four and five: few steps, so that the error stays far above the oracle's 1e-10
@@ -229,30 +231,30 @@ TEST(MovingObstacle, IsFollowedInTheOrderOfEachScheme) {
 }
 
 TEST(Splitting, IsOfOrderTwoWithoutDampingAndFriction) {
-  expect_order(on_a_circle(0.0, 0.0, none, slow), SchemeKind::splitting, second_low, second_high,
-               second_final);
+  expect_order(on_a_circle(0.0, 0.0, none, slow), SchemeKind::splitting, second_low, frictionless_high,
+               splitting_final);
 }
 
 TEST(Splitting, IsOfOrderTwoWithNormalAndModalDamping) {
-  expect_order(on_a_circle(3.0, 1.0, none, slow), SchemeKind::splitting, second_low, second_high,
-               second_final);
+  expect_order(on_a_circle(3.0, 1.0, none, slow), SchemeKind::splitting, second_low, frictionless_high,
+               splitting_final);
 }
 
 TEST(Splitting, IsOfOrderTwoInStick) {
   expect_order(on_a_circle(3.0, 1.0, sticking, slow), SchemeKind::splitting, second_low, second_high,
-               second_final);
+               splitting_final);
 }
 
 TEST(Splitting, IsOfOrderTwoInSlip) {
   expect_order(on_a_circle(3.0, 1.0, slipping, fast), SchemeKind::splitting, second_low, second_high,
-               second_final);
+               splitting_final);
 }
 
 TEST(Splitting, IsOfOrderTwoWithHuntAndCrossleysDamper) {
   expect_order(on_a_circle(0.0, 1.0, none, slow, dissipation), SchemeKind::splitting, second_low, second_high,
-               second_final);
+               splitting_final);
   expect_order(on_a_circle(0.0, 1.0, slipping, fast, dissipation), SchemeKind::splitting, second_low,
-               second_high, second_final);
+               second_high, splitting_final);
 }
 
 TEST(Euler, IsOfOrderOneWithHuntAndCrossleysDamper) {
