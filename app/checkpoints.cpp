@@ -113,6 +113,8 @@ bool Checkpoints::write_apart(std::size_t run, transient::Run& state) {
     }
     ::_exit(status);
   }
+  // Before it is told of, and even where it has not begun: a signal to the group of this process finds it gone.
+  (void)::setpgid(writer, writer);
   options_.tell(fmt::format("{} at t = {:.6g} s: process {} saves the checkpoint", name_of_signal(ended_by),
                             state.time(), writer));
   int status = 0;
