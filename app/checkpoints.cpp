@@ -113,7 +113,7 @@ bool Checkpoints::write_apart(std::size_t run, transient::Run& state) {
     }
     ::_exit(status);
   }
-  // Before it is told of, and even where it has not begun: a signal to the group of this process finds it gone.
+  // Here too, before the message: a signal to the process group of this process misses it even where it has not yet started.
   (void)::setpgid(writer, writer);
   options_.tell(fmt::format("{} at t = {:.6g} s: process {} saves the checkpoint", name_of_signal(ended_by),
                             state.time(), writer));

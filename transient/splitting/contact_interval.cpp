@@ -296,7 +296,7 @@ ContactIntervals::NormalForce ContactIntervals::find_normal_force(const Motion& 
 }
 
 /// A force along axes that turn, seen along those of the mean position.
-void ContactIntervals::turn(const Motion& a, const NormalForce& n, double dt, MovingContact& m) const {
+void ContactIntervals::turn(const Motion& a, const NormalForce& n, double dt, MovingContact& m) {
   const double place = 0.5 * (n.from + n.to - dt), acts = n.to - n.from,
                square = place * place + acts * acts / 12.0; // s2, mean of the time since the middle, squared
   const double fn = normal(a.axes, m.force), ft = tangent(a.axes, m.force);

@@ -115,7 +115,7 @@ private:
   [[nodiscard]] Motion motion_of(const MovingContact& m, const IntervalTable& of, int index) const;
   [[nodiscard]] double time_of_closing(const Motion& a, bool closed, double dt) const;
   [[nodiscard]] NormalForce find_normal_force(const Motion& a, bool closed, const IntervalTable& of) const;
-  void turn(const Motion& a, const NormalForce& n, double dt, MovingContact& m) const;
+  static void turn(const Motion& a, const NormalForce& n, double dt, MovingContact& m);
   void find_friction(const Motion& a, const NormalForce& n, const IntervalTable& of, MovingContact& m) const;
   template <class V, class Friction>
   void take_friction(const Motion& a, const NormalForce& n, const IntervalTable& of, const Friction& f,

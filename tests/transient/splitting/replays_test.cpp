@@ -150,6 +150,7 @@ TEST(Replays, RefineTheIntervalsOfContactsUntilTheAccuracyIsMet) {
   EXPECT_GE(refined.error.parts, 2);
   EXPECT_GT(std::abs(unrefined.statistics.work_rate / work - 1.0), 0.3);
   EXPECT_LT(std::abs(refined.statistics.work_rate / work - 1.0), 0.015);
+  EXPECT_GE(measured(scene, choice_of(scene, 1, 0.003)).error.parts, 4);
 }
 
 TEST(Replays, RefineNoContactThatIsRightAsItIs) {

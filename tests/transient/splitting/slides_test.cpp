@@ -84,7 +84,7 @@ struct Bounce {
 struct Wall {
   bool is_hole;       ///< or a round body
   double coefficient; ///< of friction
-  double unequal; ///< share by which the contact moves more by a force along a line at 30 degrees than across
+  double unequal; ///< share by which the contact moves more by a force along a line at 0.5 rad than across
 };
 /// @param length  of the intervals, s
 Bounce bounce(double length, const Wall& wall) {
@@ -121,8 +121,8 @@ Bounce bounce(double length, const Wall& wall) {
 } // namespace
 
 // Half a radian in six intervals. The tangent turns, and what the acceleration is along it; the force turns, and more where it is larger; the mean
-// penetration is not that of the mean position. With the middle of these alone 0.4 and 0.8 % of the work in the hole are missed, and of unequal mobility 4e-4 without the
-// terms of that in half of the length.
+// penetration is not that of the mean position. With the middle of these alone 0.4 and 0.8 % of the work in the hole are missed.
+// Without the terms of unequal mobility 4e-4 are, in half of the length.
 TEST(Slides, FollowARoundWall) {
   const double longest = 0.5 / contact_frequency;
   for (const Wall& wall : {Wall{true, 0.1, 0.0}, Wall{true, 0.3, 0.0}, Wall{true, 0.2, 0.5},
