@@ -224,7 +224,10 @@ private:
       bound_ = slides_ ? law_.mu_dynamic : bound_;
       force_ = slides_ ? bounded.force : Vector{};
       spring_ = table.keep_part * before + table.part_by_last * last_ + table.part_by_force * force_;
-      slider_ = std::max(0.0, 0.5 * dot(force_ + last_, compliance_ * (before - spring_) - moved_));
+      slider_ = 0.5 * dot(force_ + last_, compliance_ * (before - spring_) - moved_);
+      if (slides_ && !slid_)
+        slider_ -= law_.damper_work_of_fall(normal);
+      slider_ = std::max(0.0, slider_);
     }
     work_ += 0.5 * dot(force_ + last_, moved_);
     friction_loss_ += slider_;

@@ -10,8 +10,8 @@
 ///                                                            quadratic through the nodes
 ///     slip and open  T_j = e^-x T_{j-1} + sum_l b_jl F_l     x = K_T h/(2 C_T): T' = -(K_T/C_T)(T - F) exactly, F quadratic through
 ///                                                            the nodes; `reference` and C_T = 0: T_j = F_j
-/// in components along x_loc and t, which turn with the normal; what the opposite face has loaded is lost. `sliding` is that of node 0
-/// in the whole step. Slip is along the trial with the relaxed T; where that is not beyond the bound (T has not followed yet), and with
+/// in components along x_loc and t, which turn with the normal; what the opposite face has loaded is lost. `sliding` is that of node
+/// j - 1. Slip is along the trial with the relaxed T; where that is not beyond the bound (T has not followed yet), and with
 /// C_T = 0, along the trial of stick, which is exact on a line and of order 1 in the plane. The slip of `reference` is opposite to v
 /// and bears any force within the bound where v = 0.
 #pragma once
@@ -161,7 +161,7 @@ template <int D> [[gnu::always_inline]] inline void NodalContact<D>::rub(int j) 
                trial = law.trial(stuck, slip_[j + 1]);
   const bool closed = node.normal > 0.0;
   node.slides = false;
-  if (closed && norm(trial) <= law.coefficient(node_[0].slides) * node.normal) {
+  if (closed && norm(trial) <= law.coefficient(before.slides) * node.normal) {
     out.tangent = TangentBranch::stick;
     node.friction = in_plane(trial);
     node.spring = in_plane(stuck);

@@ -105,6 +105,7 @@ private:
   struct Memory {
     contact::Vec2 spring;      ///< N, T at the last commit
     contact::ContactAxes axes; ///< when it was last closed
+    bool slid = false;         ///< then, at the last commit
     double forgotten = 0.0;    ///< J, of springs of opposite faces, part of the damper work
   };
   struct Normal {
