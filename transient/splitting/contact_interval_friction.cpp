@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The friction of a contact over an interval, under the normal force found.
+#include "transient/splitting/contact_interval_parts.hpp"
+
+namespace fretwork::transient {
+namespace {
+
+using contact::dot;
+using contact::Vec2;
+
+/// Of the memory `reference`: one mean force over the interval.
+contact::FrictionInterval<Vec2> reference_friction(const contact::FrictionLaw& law,
+                                                   const contact::FrictionTable& table,
+                                                   const contact::FrictionMemory& memory, double normal,
+                                                   double length,
+                                                   const contact::TangentialPath<Vec2, contact::Sym2>& path) {
+  const double half = 0.5 * length;
+  const contact::Sym2 answer{half * path.mobility.xx, half * path.mobility.xt, half * path.mobility.tt};
+  const Vec2 acceleration = path.acceleration + half * path.jerk;
+  const Vec2 free = path.velocity - (length * length / 12.0) * path.jerk + half * acceleration;
+  const contact::Friction friction = contact::step_friction_plane(law, table, memory, normal, free, answer);
+  contact::FrictionInterval<Vec2> out;
+  out.displacement = length * (free + answer * friction.force);
+  out.velocity = path.velocity + length * (acceleration + path.mobility * friction.force);
+  const contact::FrictionStep step = contact::close_step(law, table, memory, friction, out.displacement);
+  out.impulse = length * friction.force;
+  out.spring = step.memory.spring;
+  out.sliding = friction.slides;
+  out.slider_work = step.friction_work;
+  if (friction.slides) {
+    out.slid = norm(out.displacement);
+    out.wear_work = normal * out.slid;
+    out.sliding_time = length;
+  }
+  return out;
+}
+
+Vec2 in_plane(Vec2 v) { return v; }
+Vec2 in_plane(double along_t) { return {0.0, along_t}; }
+
+} // namespace
+
+/// Its friction over an interval.   @param f  a FrictionInterval<V>   @param velocity  m/s, at its start
+template <class V, class Friction>
+void ContactIntervals::take_friction(const Motion& a, const NormalForce& n, const IntervalTable& of,
+                                     const Friction& f, V velocity, MovingContact& m) const {
+  ContactState& state = m.state;
+  const double dt = of.length, length = n.to - n.from;
+  const V mean = (1.0 / length) * f.impulse, growth = (12.0 / (length * length)) * f.moment;
+  const Vec2 force = in_plane(V((1.0 / dt) * f.impulse));
+  m.force = along(a.axes, n.force, force);
+  m.growth = along(a.axes, n.growth,
+                   (12.0 / (dt * dt)) * in_plane(V(f.moment + (n.from + 0.5 * (length - dt)) * f.impulse)));
+  // what goes into the element and is neither stored nor taken by the slider
+  state.damper_work += friction_.spring_energy(m.past.friction.spring) - friction_.spring_energy(f.spring) -
+                       f.slider_work - dot(mean, f.displacement) -
+                       dot(V((length / 12.0) * growth), V(f.velocity - velocity));
+  state.friction = state.friction + of.share * force;
+  state.friction_square += length / h_ * (dot(mean, mean) + dot(growth, growth) / 12.0);
+  state.displacement = state.displacement + in_plane(f.displacement);
+  state.slid += f.slid;
+  state.wear_work += f.wear_work;
+  state.friction_work += f.slider_work;
+  state.sliding += f.sliding_time / h_;
+  state.slides = f.sliding_time > 0.0;
+  m.past.friction = {in_plane(f.spring), f.sliding};
+}
+
+void ContactIntervals::find_friction(const Motion& a, const NormalForce& n, const IntervalTable& of,
+                                     MovingContact& m) const {
+  const double dt = of.length, length = n.to - n.from;
+  const bool by_reference = friction_.kind == contact::FrictionMemoryKind::reference;
+  ContactState& state = m.state;
+  contact::FrictionMemory& memory = m.past.friction;
+  const double before = friction_.spring_energy(memory.spring);
+  if (m.past.axes.opposite(a.axes)) // another surface
+    memory = {};
+  else if (n.touches && n.from > 0.0)
+    memory = {by_reference ? Vec2{} : contact::spring_left(friction_, n.from) * memory.spring, false};
+  state.damper_work += before - friction_.spring_energy(memory.spring);
+  // along t: with the normal force, linear in time
+  const double from = by_reference ? 0.0 : n.from; // it knows no parts of an interval
+  const double since_half = from - 0.5 * dt;
+  const double rise = n.growth / dt, then = n.force + since_half * rise;
+  const Components velocity = a.velocity + from * (a.acceleration + (0.5 * (from - dt)) * a.jerk);
+  const Components acceleration = a.acceleration + since_half * a.jerk;
+  const contact::ContactAxes& axes = a.axes;
+  const Components along_t{axes.nz, -axes.ny, 0.0}, by_t = w_ * along_t;
+  const double wtt = tangent(axes, by_t);
+  const double by_t_of_n = tangent(axes, a.by_normal);
+  double vt = tangent(axes, velocity), at = tangent(axes, acceleration) + by_t_of_n * then,
+         jt = tangent(axes, a.jerk) + by_t_of_n * rise;
+  double turned_x = 0.0, turning_x = 0.0;             // m/s2, m/s3: along x, as the normal force turns
+  if (a.curved) {                                     // (v t)' = a t - turning v n
+    const double angle = a.turning * since_half;      // rad, since half way
+    const double free = normal(axes, a.acceleration); // m/s2, without the normal force
+    const double speed = -(a.rate + from * a.acceleration_inwards);        // m/s, along n
+    const double pressed = by_reference ? n.force : n.force * dt / length; // N, while it acts
+    const double speed_growth = a.mobility * pressed - a.acceleration_inwards;   // m/s2, growth of that speed
+    const double unequal =
+        wtt - a.mobility; // 1/kg: the acceleration by a force that turns is not its own turned
+    vt -= 0.5 * angle * angle * vt +
+          (angle + 0.5 * since_half * since_half * a.turning_growth - a.ahead) * normal(axes, velocity);
+    at += angle * (unequal * then - free) - (a.turning + a.turning_growth * since_half) * speed;
+    jt += a.turning * (unequal * n.force - free - speed_growth) - a.turning_growth * (speed - since_half * speed_growth);
+    turned_x = angle * by_t.x * then;
+    turning_x = a.turning * by_t.x * n.force;
+  }
+  if (in_plane_ || by_reference) {
+    const double vx = velocity.x, ax = acceleration.x + a.by_normal.x * then + turned_x,
+                 jx = a.jerk.x + a.by_normal.x * rise + turning_x;
+    const contact::TangentialPath<Vec2, contact::Sym2> path{
+        friction_.masked(Vec2{in_plane_ ? vx : 0.0, vt}), friction_.masked(Vec2{in_plane_ ? ax : 0.0, at}),
+        friction_.masked(Vec2{in_plane_ ? jx : 0.0, jt}),
+        friction_.masked(in_plane_ ? contact::Sym2{w_(2, 2), by_t.x, wtt} : contact::Sym2{0.0, 0.0, wtt})};
+    if (by_reference) {
+      NormalForce whole = n;
+      whole.from = 0.0;
+      whole.to = dt;
+      take_friction(a, whole, of, reference_friction(friction_, of.reference, memory, n.force, dt, path),
+                    path.velocity, m);
+    } else {
+      take_friction(a, n, of,
+                    contact::friction_over_interval(friction_, of.pieces, mobility_, memory.spring,
+                                                    memory.sliding, length, n.course, path),
+                    path.velocity, m);
+    }
+  } else {
+    const contact::TangentialPath<double, double> path{friction_.along.t * vt, friction_.along.t * at,
+                                                       friction_.along.t * jt, friction_.along.t * wtt};
+    take_friction(a, n, of,
+                  contact::friction_over_interval(friction_, of.pieces, mobility_, memory.spring.t,
+                                                  memory.sliding, length, n.course, path),
+                  path.velocity, m);
+  }
+  m.past.spring_at_opening = dot(memory.spring, memory.spring);
+  if (n.opens)
+    state.damper_work += relax(m.past, dt - n.to);
+}
+
+} // namespace fretwork::transient

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// What a contact does in an interval, in the order in which it is found: its motion without its own force, its normal force. For
+/// contact_interval.cpp and contact_interval_friction.cpp alone.
+#pragma once
+#include "transient/splitting/contact_interval.hpp"
+
+namespace fretwork::transient {
+
+/// How a contact moves over an interval without its own force, along the normal at its mean position and across.
+struct ContactIntervals::Motion {
+  contact::ContactAxes axes;
+  Components velocity;      ///< m/s, at the start
+  Components acceleration;  ///< m/s2, mean
+  Components jerk;          ///< m/s3
+  Components by_normal;     ///< 1/kg, W n
+  double mobility = 0.0;    ///< 1/kg, n W n
+  double penetration = 0.0; ///< m, at the start
+  double rate = 0.0;        ///< m/s
+  double acceleration_inwards =
+      0.0;           ///< m/s2, mean of the second derivative of the penetration, under the friction expected
+  double bend = 0.0; ///< m: by its jerk at the end
+  double turning = 0.0;        ///< rad/s, of the normal towards t, half way
+  double turning_growth = 0.0; ///< rad/s2
+  bool curved = false;         ///< the normal turns
+  double ahead = 0.0;          ///< rad, by which the axes, at the mean position, are ahead of those half way
+  [[nodiscard]] double after(double time) const {
+    return penetration + time * (rate + 0.5 * time * acceleration_inwards);
+  }
+};
+
+/// Its normal force over an interval.
+struct ContactIntervals::NormalForce {
+  double force = 0.0,
+         growth = 0.0; ///< N, mean over the interval, and growth of a linear force with its first moment
+  double from = 0.0, to = 0.0;            ///< s: it acts between,
+  contact::ParabolicForce course;         ///< so
+  bool touches = false, opens = false;    ///< in the interval
+  double approach = 0.0, departure = 0.0; ///< m/s, where it closes and opens
+  double damper_work = 0.0;               ///< J
+};
+
+} // namespace fretwork::transient
