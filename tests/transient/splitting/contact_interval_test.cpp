@@ -83,6 +83,45 @@ TEST(ContactIntervals, HoldWholeImpactsOfAFreeMass) {
   EXPECT_GT(worst, 1e-12);
 }
 
+// Impacts inside one step with a damper C_N, K_N p + C_N p', and with dissipation d, K_N p (1 + d p'): how fast the mass leaves, what is lost.
+TEST(ContactIntervals, LoseInAnImpactWhatItsDamperTakes) {
+  constexpr double stiffness = 1e6, w = 1.0, speed = 0.1, rate = 1e3, h = 5e-3, gap = 1e-5; // K W = rate^2
+  constexpr double ratio = 0.1, dissipation = 3.0; // C_N W/(2 rate), s/m
+  const double decay = std::sqrt(1.0 - ratio * ratio);
+  // the force ends where K_N p + C_N p' = 0
+  const double lasts =
+      (std::numbers::pi - std::atan2(2.0 * ratio * decay, 1.0 - 2.0 * ratio * ratio)) / (decay * rate);
+  const double left = std::exp(-ratio * rate * lasts); // of the speed
+  // v dv/dp = -rate^2 p (1 + d v): v/d - ln(1 + d v)/d^2 is as large at both ends
+  const auto height = [](double v) {
+    return v / dissipation - std::log1p(dissipation * v) / (dissipation * dissipation);
+  };
+  double low = 0.0, high = speed;
+  for (int i = 0; i < 60; ++i)
+    (height(-0.5 * (low + high)) < height(speed) ? low : high) = 0.5 * (low + high);
+  struct Case {
+    contact::NormalLaw law;
+    double leaves; // of the speed
+  };
+  for (const auto& [law, leaves] :
+       {Case{{stiffness, 2.0 * ratio * rate / w}, left}, Case{{stiffness, 0.0, dissipation}, low / speed}}) {
+    const contact::Support support{contact::Stop{gap, contact::PlaneAxis::y}, law, {}};
+    for (const int count : {8, 16}) { // w_c dt = 0.625, 0.31
+      const MovingContact m = through(support, isotropic(w), h, count, {{}, {speed, 0.0, 0.0}, {}, {}}, {});
+      const double tolerance = count == 8 ? 2e-3 : 4e-4,
+                   lost = 0.5 * speed * speed * (1.0 - leaves * leaves) / w;
+      EXPECT_EQ(m.state.touches, 1);
+      EXPECT_TRUE(m.opened);
+      EXPECT_NEAR(m.rate.y() / speed, -1.0 - leaves, tolerance);
+      EXPECT_NEAR(m.state.departure / speed, leaves, tolerance);
+      EXPECT_NEAR(m.state.damper_work / lost, 1.0, 5.0 * tolerance);
+      if (law.damping > 0.0) {
+        EXPECT_NEAR((m.state.opened_at - m.state.closed_at) * h / lasts, 1.0, tolerance);
+      }
+    }
+  }
+}
+
 // A contact that leaves a damped obstacle while the forces of spring and damper, which would pull, stay balanced for good: the time until its force
 // returns is below what the time of the step can resolve. The step ends nevertheless, with no force that pulls.
 TEST(ContactIntervals, EndWhereTheForceIsAlwaysAboutToReturn) {
