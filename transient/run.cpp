@@ -29,6 +29,8 @@ std::unique_ptr<Scheme> make_splitting_of(const Scene& scene, const StepChoice& 
     return make_splitting(scene, c.step, options);
   SplittingOptions finer = options;
   finer.longest *= 2;
+  if (scene.system.motion.empty()) // coupled modes are taken over as they are
+    finer.fastest *= 2.0;
   return make_replayed(
       make_replayable_splitting(scene, c.step, options),
       make_replayable_splitting(scene, 0.5 * c.step, finer),

@@ -139,6 +139,11 @@ public:
     Step& first = steps_[made_];
     first.start = from.start;
     first.from = from.from;
+    for (std::size_t j = 0; j < mode_count_ && !modes_.has_blocks(); ++j) {
+      const double share = other.mode_scale(j) / mode_scale(j);
+      first.from.q[j] *= share;
+      first.from.v[j] *= share;
+    }
     done_ = std::llround(from.start / h_);
     modes_.load_about(first.start, first.load);
     end_.u = other.end_.u;
@@ -208,6 +213,10 @@ private:
       return std::nullopt;
     return std::optional<PackedContacts>(std::in_place, modes_.inputs(scene.contacts),
                                          modes_.force_numbers());
+  }
+
+  [[nodiscard]] double mode_scale(std::size_t mode) const {
+    return mode_scales_.empty() ? 1.0 : mode_scales_[mode];
   }
 
   void scale(double* modal, int power) const {

@@ -29,6 +29,26 @@ Scene mostly_sticking(double duration) {
   return s;
 }
 
+/// The same with a mode at twice w_c that moves the contact too, with `share` of the point's mobility.
+Scene with_a_fast_mode(Scene s, double share) {
+  const Eigen::Index n = s.system.size();
+  const auto add = [&](Eigen::VectorXd& values, double value) {
+    values.conservativeResize(n + 1);
+    values(n) = value;
+  };
+  constexpr double fast = 2000.0, damping = 0.02;
+  add(s.system.stiffness, fast * fast);
+  add(s.system.damping, 2.0 * damping * fast);
+  add(s.q0, 0.0);
+  add(s.v0, 0.0);
+  for (vibration::Load& load : s.loads)
+    add(load.modal_force, 0.0);
+  Eigen::MatrixXd& b = s.contacts[0].b;
+  b.conservativeResize(b.rows(), n + 1);
+  b.col(n) = std::sqrt(share) * b.leftCols(n).rowwise().sum();
+  return s;
+}
+
 struct Measured {
   post::ContactSummary statistics;
   StepError error;
@@ -135,6 +155,23 @@ TEST(Replays, MeasureTheErrorOfTheRun) {
   const double told = e.errors[replayed_work] / e.sums[replayed_work],
                spread = e.spreads[replayed_work] / e.sums[replayed_work];
   ASSERT_GT(std::abs(error), 0.015) << "there is an error to be measured";
+  EXPECT_GT(std::abs(told), 3.0 * spread);
+  EXPECT_GT(told / error, 0.4); // of its sign
+  EXPECT_LT(told / error, 5.0);
+}
+
+// Modes that are made heavier leave an error that no finer interval shows: replays have modes of twice the frequency.
+TEST(Replays, MeasureWhatHeavierModesChange) {
+  const Scene scene = with_a_fast_mode(mostly_sticking(1000.0), 0.1);
+  constexpr double fine = 2e-4; // s
+  StepChoice choice = choice_of(scene, 2, 1e3, fine);
+  const double work = measured(scene, choice).statistics.work_rate;
+  choice.fastest = 1000.0;
+  const Measured heavier = measured(scene, choice);
+  const double error = heavier.statistics.work_rate / work - 1.0;
+  const double told = heavier.error.errors[replayed_work] / heavier.error.sums[replayed_work],
+               spread = heavier.error.spreads[replayed_work] / heavier.error.sums[replayed_work];
+  ASSERT_GT(std::abs(error), 0.02);
   EXPECT_GT(std::abs(told), 3.0 * spread);
   EXPECT_GT(told / error, 0.4); // of its sign
   EXPECT_LT(told / error, 5.0);
