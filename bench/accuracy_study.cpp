@@ -117,9 +117,9 @@ void judge(SceneResult& result, const Ensemble& ensemble, const StudyOptions& op
     e.fails = e.judged &&
               !(std::abs(e.ours - e.reference) <= options.tolerance() * e.reference + 2.0 * e.standard_error);
     if (const transient::StepError& of = result.step_error; k < judged_figures && of.sums[k] > 0.0) {
-      const double half = k == normal_rms ? 0.5 : 1.0; // of the square
-      e.measured = half * of.errors[k] / of.sums[k];
-      e.measured_spread = half * std::sqrt(of.spreads[k]) / of.sums[k];
+      const double per = transient::statistic_share(k) / of.sums[k];
+      e.measured = per * of.errors[k];
+      e.measured_spread = per * std::sqrt(of.spreads[k]);
     }
     result.figures.push_back(e);
   }

@@ -17,17 +17,16 @@ constexpr std::size_t most_named = 5;
 struct Figure {
   transient::ReplayedFigure of;
   const char* name;
-  double share; ///< of the relative error of what is summed: that of a root is half of it
 };
-constexpr Figure figures[] = {{transient::replayed_work, "work_rate", 1.0},
-                              {transient::replayed_friction, "friction_power", 1.0},
-                              {transient::replayed_square, "normal_force_rms", 0.5},
-                              {transient::replayed_impulse, "normal_force_mean", 1.0},
-                              {transient::replayed_closed_time, "contact_time_ratio", 1.0},
-                              {transient::replayed_impacts, "impacts_per_second", 1.0}};
+constexpr Figure figures[] = {{transient::replayed_work, "work_rate"},
+                              {transient::replayed_friction, "friction_power"},
+                              {transient::replayed_square, "normal_force_rms"},
+                              {transient::replayed_impulse, "normal_force_mean"},
+                              {transient::replayed_closed_time, "contact_time_ratio"},
+                              {transient::replayed_impacts, "impacts_per_second"}};
 
 RelativeError relative(const transient::StepError& e, const Figure& figure) {
-  const double per = figure.share / e.sums[figure.of];
+  const double per = transient::statistic_share(figure.of) / e.sums[figure.of];
   return {figure.name, per * e.errors[figure.of], per * e.spreads[figure.of]};
 }
 

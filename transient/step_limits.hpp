@@ -25,8 +25,8 @@ struct StepLimit {
 /// Points in a period of the excitation at an accuracy of 0.01, with contacts: loads linear between them lose (2 pi/30)^2/12 = 0.4 % of it.
 constexpr double points_per_period = 30.0;
 /// The same of single steps of splitting under loads whose polygons have the corners that give what lines take off (vibration/load_sum.hpp): harmonic loads lose
-/// nothing, random ones (2 pi/12)^4/240 = 0.03 %. And the fewest, whatever the accuracy.
-constexpr double corrected_points_per_period = 12.0, fewest_points_per_period = 10.0;
+/// nothing, random ones (2 pi/10)^4/240 = 0.07 % at the highest frequency. And the fewest, whatever the accuracy.
+constexpr double corrected_points_per_period = 10.0, fewest_points_per_period = 10.0;
 
 /// Largest w_c h and w_t h without a warning: above it an impact changes the energy by more than 1 % or the statistics are wrong, however
 /// stable the run (doc/schemes.md, Stability map).

@@ -23,7 +23,7 @@ constexpr double most_steps = 1e12;
 constexpr double least_adaptive_steps = 200;
 /// w_c dt and w_t dt of the intervals of splitting at an accuracy of 0.01: two a step, which take the time of one, since they turn less and are found
 /// at once. Contacts whose error replays (replays.hpp) find above it move in up to 16 times as many.
-constexpr double interval_share = 0.5;
+constexpr double interval_share = 0.625;
 /// Length of a replay: w_c times it; in steps, at least; of the duration, at most.
 constexpr double contact_times = 15.0, least_replay = 8.0, longest_replay = 0.01;
 /// The step of an accuracy of 0.02 is the longest: no statistics are worth having above it.

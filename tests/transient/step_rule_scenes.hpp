@@ -11,8 +11,8 @@ namespace fretwork::tests::step_rule {
 using namespace fretwork::transient;
 
 constexpr double round_off = 1e-12;
-constexpr double eps = 0.5;   // at an accuracy of 1 %
-constexpr double share = 1.0; // w_c h and w_t h of splitting at 1 %
+constexpr double eps = 0.5;    // at an accuracy of 1 %
+constexpr double share = 1.25; // w_c h and w_t h of splitting at 1 %
 constexpr double mass = 2.0;
 
 inline Scene scene_with(const contact::Support& support, double duration = 1000.0,

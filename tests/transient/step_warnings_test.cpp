@@ -28,7 +28,7 @@ TEST(StepWarnings, WarnsWhereAFixedStepDoesNotResolve) {
     EXPECT_TRUE(mentions(list[0], what)) << list[0];
     EXPECT_TRUE(mentions(list[0], "take a smaller step or leave it out"));
   };
-  only(warnings(scene_with({Circle{0.1}, {8e4}, {}}), splitting(6e-3)), "the contact frequency: w_c h = 1.2");
+  only(warnings(scene_with({Circle{0.1}, {8e4}, {}}), splitting(7e-3)), "the contact frequency: w_c h = 1.4");
   const Scene dampers = scene_with({Circle{0.1}, {2.0}, {2.0, 4e3, 0.3, 0.3}});
   only(warnings(dampers, splitting(0.25)), "the tangential dampers: r_t dt = 7.81"); // 64 intervals
   EXPECT_TRUE(warnings(dampers, splitting(3.25e-3)).empty());                        // 2

@@ -120,7 +120,7 @@ struct StepCounts {
   }
 };
 
-/// Statistics whose errors by the step replays measure (splitting/replays.hpp), summed over time. Rms forces have half the relative error of their squares.
+/// Statistics whose errors by the step replays measure (splitting/replays.hpp), summed over time.
 enum ReplayedFigure : std::size_t {
   replayed_work,        ///< J, integral of F_N |v_T| while the contact slides
   replayed_friction,    ///< J, by the slider
@@ -130,6 +130,8 @@ enum ReplayedFigure : std::size_t {
   replayed_impacts,
   replayed_figures
 };
+/// Relative error of the statistic over that of what it sums: the rms force is a root.
+constexpr double statistic_share(std::size_t figure) { return figure == replayed_square ? 0.5 : 1.0; }
 
 /// Of one contact.
 struct StepError {

@@ -94,15 +94,16 @@ void ContactIntervals::find_friction(const Motion& a, const NormalForce& n, cons
   if (a.curved) {                                     // (v t)' = a t - turning v n
     const double angle = a.turning * since_half;      // rad, since half way
     const double free = normal(axes, a.acceleration); // m/s2, without the normal force
-    const double speed = -(a.rate + from * a.acceleration_inwards);        // m/s, along n
-    const double pressed = by_reference ? n.force : n.force * dt / length; // N, while it acts
-    const double speed_growth = a.mobility * pressed - a.acceleration_inwards;   // m/s2, growth of that speed
+    const double speed = -(a.rate + from * a.acceleration_inwards);            // m/s, along n
+    const double pressed = by_reference ? n.force : n.force * dt / length;     // N, while it acts
+    const double speed_growth = a.mobility * pressed - a.acceleration_inwards; // m/s2, growth of that speed
     const double unequal =
         wtt - a.mobility; // 1/kg: the acceleration by a force that turns is not its own turned
     vt -= 0.5 * angle * angle * vt +
           (angle + 0.5 * since_half * since_half * a.turning_growth - a.ahead) * normal(axes, velocity);
     at += angle * (unequal * then - free) - (a.turning + a.turning_growth * since_half) * speed;
-    jt += a.turning * (unequal * n.force - free - speed_growth) - a.turning_growth * (speed - since_half * speed_growth);
+    jt += a.turning * (unequal * n.force - free - speed_growth) -
+          a.turning_growth * (speed - since_half * speed_growth);
     turned_x = angle * by_t.x * then;
     turning_x = a.turning * by_t.x * n.force;
   }

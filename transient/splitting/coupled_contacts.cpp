@@ -190,7 +190,7 @@ void CoupledContacts::move(int first) {
 }
 
 /// The contacts of a group in an interval: one after the other, and those again whose force what the others have done since would change by a
-/// share of all changes that would let them diverge. Without strong dampers, and at w_c dt = 0.5, there are none.
+/// share of all changes that would let them diverge. Without strong dampers, and up to w_c dt = 0.625, there are none.
 void CoupledContacts::act_together(int first, int index) {
   double change = 0.0; // N, the largest
   for (int i = first; i >= 0; i = next_[i]) {

@@ -7,7 +7,7 @@
 ///     error = 2 d/s +- 2 (sum of d^2)^1/2/s
 /// the error that the step makes in that time; statistics of long runs may keep less of it, for a contact that slips too far sticks the longer.
 /// 2: of errors of order 1 half the interval takes away a half; of higher orders more, and the error told is too large. Contacts whose error is
-/// significant and above half of the accuracy are moved in twice as many intervals from then on.
+/// significant and above three quarters of the accuracy are moved in twice as many intervals from then on.
 #pragma once
 #include "transient/splitting/splitting.hpp"
 

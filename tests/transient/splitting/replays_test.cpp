@@ -255,13 +255,13 @@ int refined_to(double of_square, double of_impulse) {
 
 } // namespace
 
-// Half of the accuracy, in what half the step takes away. The statistic is the rms force, whose error is half of that of its square.
+// Three quarters of the accuracy, a half in what half the step takes away. The statistic is the rms force, whose error is half of that of its square.
 TEST(Replays, RefineByTheErrorsOfStatistics) {
   EXPECT_EQ(refined_to(0.0, 0.0), 1);
-  EXPECT_EQ(refined_to(0.0, 0.0023), 1);
-  EXPECT_EQ(refined_to(0.0, 0.0027), 8);
-  EXPECT_EQ(refined_to(0.0047, 0.0), 1);
-  EXPECT_EQ(refined_to(-0.0055, 0.0), 8);
+  EXPECT_EQ(refined_to(0.0, 0.0036), 1);
+  EXPECT_EQ(refined_to(0.0, 0.0039), 8);
+  EXPECT_EQ(refined_to(0.0072, 0.0), 1);
+  EXPECT_EQ(refined_to(-0.0078, 0.0), 8);
 }
 
 TEST(Replays, GoOnAfterARestartBitForBit) {
