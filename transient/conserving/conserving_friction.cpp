@@ -139,13 +139,12 @@ ClosedStep close_part(const FrictionLaw& law, const contact::FrictionMemory& mem
     loss = work - (law.spring_energy(end) - held_at_start);
   }
   const double slider = -dot(force, dx - (1.0 / stiffness) * (start - end));
-  // with C_T = 0 only as the spring falls from mu_s F_N to mu_d F_N
-  const bool falls = friction.slides && !memory.sliding && law.mu_static > law.mu_dynamic;
-  const bool damper_moves = law.damping > 0.0 || falls;
+  const bool begins = friction.slides && !memory.sliding;
+  const double of_fall = begins ? law.damper_work_of_fall(normal / s) : 0.0;
   if (rests && !cut) // the slider stands
     out.friction_work = 0.0;
   else
-    out.friction_work = std::max(0.0, damper_moves ? std::min(slider, loss) : loss);
+    out.friction_work = std::max(0.0, law.damping > 0.0 ? std::min(slider, loss) : loss - of_fall);
   out.damper_work = loss - out.friction_work;
   out.spring = after * end;
   const double after_all = law.spring_energy(out.spring);
