@@ -65,9 +65,9 @@ struct FrictionLaw {
   template <class V> [[nodiscard]] double spring_energy(V spring) const {
     return stiffness > 0.0 ? 0.5 * dot(spring, spring) / stiffness : 0.0;
   }
-  /// J: what the damper takes of a spring that falls at once from mu_s F_N to mu_d F_N as its contact begins to slide, in the limit
-  /// C_T -> 0; the slider moves under mu_d F_N meanwhile. 0 with a damper, under which the spring does not fall at once.
-  [[nodiscard]] double damper_work_of_fall(double normal_force) const {
+  /// J: what the damper takes as a contact that stuck begins to slide and its spring drops from mu_s F_N to mu_d F_N, in the limit
+  /// C_T -> 0, at once; the slider moves under mu_d F_N meanwhile. 0 with a damper, under which the spring does not drop at once.
+  [[nodiscard]] double damper_work_at_slip_onset(double normal_force) const {
     return damping > 0.0 ? 0.0 : spring_energy((mu_static - mu_dynamic) * normal_force);
   }
 };

@@ -14,7 +14,7 @@ constexpr double normally_damped = 2.0;
 /// w_c h that normal dampers never make the step shorter than: a damper that is faster leaves no rebound (e < 0.001), and resolving it costs
 /// without end.
 constexpr double finest_for_dampers = 0.03;
-/// w_c h and w_t h of the longest automatic step, whatever the accuracy.
+/// w_c h and w_t h of the longest automatic step, whatever the accuracy: that of splitting, the only scheme that comes to it.
 constexpr double longest_contact_share = 1.25;
 /// w_c h and w_t h at an accuracy of 0.01. With collocation work rates of rattling tubes are 2.8 % off at w_t h = 1, 1.4 % at 0.5: contacts start to
 /// slide inside steps, which only intervals follow.

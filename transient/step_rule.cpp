@@ -168,9 +168,8 @@ void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
   double followed = 0.0; // w h of the fastest mode of splitting; 0: all are followed
   if (c.scheme == SchemeKind::splitting && !scene.contacts.empty() && c.highest_mode > 0.0) {
     const StepLimit modes = mode_limit(c, true, fineness);
-    const double most = modes.limit * c.highest_mode;
-    if (modes.limit < c.step && may_scale(scene, most / c.step, accuracy))
-      followed = most;
+    if (modes.limit < c.step && may_scale(scene, before_resonance / c.step, accuracy))
+      followed = before_resonance;
     else
       limit(modes);
   }

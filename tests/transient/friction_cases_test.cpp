@@ -103,25 +103,33 @@ TEST_P(FrictionCases, OscillatorHasDenHartogsAmplitude) {
   EXPECT_NEAR(run.q.row(1).tail(last).cwiseAbs().maxCoeff() / 2.50179, 1.0, asked);
 }
 
-TEST_P(FrictionCases, SpringFallsToTheDynamicCoefficientWithTheDampersShare) {
+TEST_P(FrictionCases, DamperTakesItsShareWhereASlideBegins) {
   // C_T = 0: stick x = F/K_T (1 - cos w t) up to mu_s F_N, then a uniform acceleration under mu_d F_N
   constexpr double kt = 1e4, normal = 10.0, mu_s = 0.5, mu_d = 0.2, duration = 0.03;
-  const double w = std::sqrt(kt), fall = 0.5 * std::pow((mu_s - mu_d) * normal, 2) / kt; // J, into the damper
-  for (const double force : {5.6, 5.8, 6.0, 6.2, 6.4}) { // begins to slide anywhere in a step
-    Scene s = mass_point(1.0, Vec3::Zero(), duration);
-    s.contacts = {pressed(1.0, normal, {kt, 0.0, mu_s, mu_d})};
-    s.loads = {force_on(1.0, Vec3(0.6 * force, 0.8 * force, 0), Constant{1.0})};
-    const double angle = std::acos(1.0 - mu_s * normal / force), left = duration - angle / w;
-    const double speed = force / w * std::sin(angle),
-                 slid = left * speed + 0.5 * left * left * (force - mu_d * normal),
-                 friction = mu_d * normal * (slid + (mu_s - mu_d) * normal / kt);
-    const History run = simulate(s, GetParam().options(1e-7), duration);
-    const double tolerance = GetParam().tolerance();
-    EXPECT_NEAR(run.report.energy.friction, friction, tolerance * friction) << force;
-    EXPECT_NEAR(run.report.energy.contact_damping, fall, 10.0 * tolerance * fall) << force;
-    EXPECT_NEAR(run.statistics[0].work_rate * duration, normal * slid, 5.0 * tolerance * normal * slid)
-        << force;
-  }
+  const double w = std::sqrt(kt), at_onset = 0.5 * std::pow((mu_s - mu_d) * normal, 2) / kt; // J
+  struct Line {
+    contact::Vec2 along;
+    Vec3 load; ///< its direction
+  };
+  for (const Line& line : {Line{{1.0, 1.0}, {0.6, 0.8, 0.0}}, Line{{1.0, 0.0}, {1.0, 0.0, 0.0}},
+                           Line{{0.0, 1.0}, {0.0, 1.0, 0.0}}})
+    for (const double force : {5.6, 5.8, 6.0, 6.2, 6.4}) { // begins to slide anywhere in a step
+      Scene s = mass_point(1.0, Vec3::Zero(), duration);
+      FrictionLaw law{kt, 0.0, mu_s, mu_d};
+      law.along = line.along;
+      s.contacts = {pressed(1.0, normal, law)};
+      s.loads = {force_on(1.0, force * line.load, Constant{1.0})};
+      const double angle = std::acos(1.0 - mu_s * normal / force), left = duration - angle / w;
+      const double speed = force / w * std::sin(angle),
+                   slid = left * speed + 0.5 * left * left * (force - mu_d * normal),
+                   friction = mu_d * normal * (slid + (mu_s - mu_d) * normal / kt);
+      const History run = simulate(s, GetParam().options(1e-7), duration);
+      const double tolerance = GetParam().tolerance();
+      EXPECT_NEAR(run.report.energy.friction, friction, tolerance * friction) << force;
+      EXPECT_NEAR(run.report.energy.contact_damping, at_onset, 10.0 * tolerance * at_onset) << force;
+      EXPECT_NEAR(run.statistics[0].work_rate * duration, normal * slid, 5.0 * tolerance * normal * slid)
+          << force;
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Schemes, FrictionCases, testing::ValuesIn(candidates), name_of_candidate);

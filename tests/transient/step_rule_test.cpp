@@ -20,7 +20,7 @@ TEST(StepRule, ResolvesTheContactFrequency) {
                   "the contact frequency 200 rad/s");
 }
 
-TEST(StepRule, TakesNoStepAboveTheContactFrequencyHoweverCoarse) {
+TEST(StepRule, TakesNoStepAboveTheLongestShareOfTheContactFrequency) {
   StepOptions coarse = splitting();
   coarse.accuracy = 0.5;
   expect_governed(scene_with({Circle{0.1}, {8e4}, {}}), coarse, share / 200.0,
@@ -217,9 +217,9 @@ TEST(StepRule, MakesModesHeavierThatOnlyContactsMove) {
   EXPECT_NEAR(halved(choice).fastest * halved(choice).step, 2.5, round_off);
   EXPECT_EQ(choose_step(vibrating(scene), splitting()).fastest, 0.0);
   StepOptions fine = splitting();
-  fine.accuracy = 0.0025; // half of the step, half of w h
+  fine.accuracy = 0.0025; // half of the step: twice the frequency
   EXPECT_NEAR(choose_step(scene, fine).step / choice.step, 0.5, 1e-4);
-  EXPECT_NEAR(choose_step(scene, fine).fastest * choose_step(scene, fine).step, 1.25, round_off);
+  EXPECT_NEAR(choose_step(scene, fine).fastest * choose_step(scene, fine).step, 2.5, round_off);
   EXPECT_EQ(choose_step(scene, splitting(choice.step)).fastest, 0.0) << "a given step is kept to the letter";
   EXPECT_EQ(choose_step(scene, collocation()).fastest, 0.0);
 }

@@ -221,12 +221,12 @@ private:
       slider_ = 0.0;
     } else {
       slides_ = normal > 0.0;
-      bound_ = slides_ ? law_.mu_dynamic : bound_;
+      bound_ = slides_ ? law_.mu_dynamic : law_.mu_static;
       force_ = slides_ ? bounded.force : Vector{};
       spring_ = table.keep_part * before + table.part_by_last * last_ + table.part_by_force * force_;
       slider_ = 0.5 * dot(force_ + last_, compliance_ * (before - spring_) - moved_);
       if (slides_ && !slid_)
-        slider_ -= law_.damper_work_of_fall(normal);
+        slider_ -= law_.damper_work_at_slip_onset(normal);
       slider_ = std::max(0.0, slider_);
     }
     work_ += 0.5 * dot(force_ + last_, moved_);

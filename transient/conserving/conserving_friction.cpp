@@ -139,12 +139,12 @@ ClosedStep close_part(const FrictionLaw& law, const contact::FrictionMemory& mem
     loss = work - (law.spring_energy(end) - held_at_start);
   }
   const double slider = -dot(force, dx - (1.0 / stiffness) * (start - end));
-  const bool begins = friction.slides && !memory.sliding;
-  const double of_fall = begins ? law.damper_work_of_fall(normal / s) : 0.0;
+  const bool stuck_before = !memory.sliding && !part.starts_open;
+  const double at_onset = friction.slides && stuck_before ? law.damper_work_at_slip_onset(normal / s) : 0.0;
   if (rests && !cut) // the slider stands
     out.friction_work = 0.0;
   else
-    out.friction_work = std::max(0.0, law.damping > 0.0 ? std::min(slider, loss) : loss - of_fall);
+    out.friction_work = std::max(0.0, law.damping > 0.0 ? std::min(slider, loss) : loss - at_onset);
   out.damper_work = loss - out.friction_work;
   out.spring = after * end;
   const double after_all = law.spring_energy(out.spring);

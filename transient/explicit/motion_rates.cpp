@@ -209,12 +209,12 @@ void MotionRates::set_spring(int c, double* s) {
       memory.forgotten += law.spring_energy(memory.spring) - law.spring_energy(kept);
       const bool by_slider = state.slides && law.kind == contact::FrictionMemoryKind::return_map;
       s[by_slider ? 2 : 3] -= law.spring_energy(spring) - law.spring_energy(kept);
-      if (by_slider &&
-          !memory.slid) { // at an event, where mu_s F_N is what the spring kept, or within a step
+      if (by_slider && !memory.slid && regimes_[c].closed) {
+        // at an event, where the spring kept mu_s F_N, or within a step
         const double normal = located_ ? norm(kept) / law.mu_static : state.normal_force;
-        const double fall = law.damper_work_of_fall(normal);
-        s[2] -= fall;
-        s[3] += fall;
+        const double work = law.damper_work_at_slip_onset(normal);
+        s[2] -= work;
+        s[3] += work;
       }
     }
     memory.slid = state.slides;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/splitting/contact_interval.hpp"
-#include "transient/splitting/contact_interval_parts.hpp"
+#include "transient/splitting/contact_interval_motion.hpp"
 #include <algorithm>
 
 namespace fretwork::transient {
@@ -148,7 +148,7 @@ ContactIntervals::Motion ContactIntervals::motion_of(const MovingContact& m, con
   a.turning_growth = kappa * (acceleration_along_t - 2.0 * a.turning * along_n);
   a.ahead = dt * dt / 24.0 * kappa * acceleration_along_t;
   const double centripetal = a.turning * along_t, inwards = -normal(a.axes, now) - centripetal;
-  // m/s3: of the penetration, by the centripetal acceleration that growth; m/s2: its change over the interval
+  // m/s3: of the penetration, by the centripetal acceleration that grows; m/s2: its change over the interval
   const double jerk_by_turning =
       a.turning * (acceleration_along_t - a.turning * along_n) + a.turning_growth * along_t;
   // rad, to the start

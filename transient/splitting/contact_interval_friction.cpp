@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The friction of a contact over an interval, under the normal force found.
-#include "transient/splitting/contact_interval_parts.hpp"
+#include "transient/splitting/contact_interval_motion.hpp"
 
 namespace fretwork::transient {
 namespace {

@@ -26,6 +26,7 @@
 #include "transient/splitting/step_mobility.hpp"
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -139,10 +140,13 @@ public:
     Step& first = steps_[made_];
     first.start = from.start;
     first.from = from.from;
-    for (std::size_t j = 0; j < mode_count_ && !modes_.has_blocks(); ++j) {
-      const double share = other.mode_scale(j) / mode_scale(j);
-      first.from.q[j] *= share;
-      first.from.v[j] *= share;
+    if (mode_scales_ != other.mode_scales_) {
+      assert(!modes_.has_blocks());
+      for (std::size_t j = 0; j < mode_count_; ++j) {
+        const double share = other.mode_scale(j) / mode_scale(j);
+        first.from.q[j] *= share;
+        first.from.v[j] *= share;
+      }
     }
     done_ = std::llround(from.start / h_);
     modes_.load_about(first.start, first.load);

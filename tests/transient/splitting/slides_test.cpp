@@ -67,6 +67,7 @@ Swing swings(double resolution) {
 TEST(Slides, SwingInANarrowHoleAsLongAsTheyShould) {
   const Swing fine = swings(0.01);
   ASSERT_GT(fine.time, 4.9);
+  EXPECT_NEAR(swings(0.625).time / fine.time, 1.0, 1e-2);
   EXPECT_NEAR(swings(0.5).time / fine.time, 1.0, 4e-3);
   EXPECT_NEAR(swings(0.25).time / fine.time, 1.0, 4e-4);
   EXPECT_LT(std::abs(swings(0.25).energy), 0.1);
