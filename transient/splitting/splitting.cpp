@@ -142,10 +142,9 @@ public:
     first.from = from.from;
     if (mode_scales_ != other.mode_scales_) {
       assert(!modes_.has_blocks());
-      for (std::size_t j = 0; j < mode_count_; ++j) {
-        const double share = other.mode_scale(j) / mode_scale(j);
-        first.from.q[j] *= share;
-        first.from.v[j] *= share;
+      for (kernels::Array* modal : {&first.from.q, &first.from.v}) {
+        other.scale(modal->data(), 1);
+        scale(modal->data(), -1);
       }
     }
     done_ = std::llround(from.start / h_);
@@ -217,10 +216,6 @@ private:
       return std::nullopt;
     return std::optional<PackedContacts>(std::in_place, modes_.inputs(scene.contacts),
                                          modes_.force_numbers());
-  }
-
-  [[nodiscard]] double mode_scale(std::size_t mode) const {
-    return mode_scales_.empty() ? 1.0 : mode_scales_[mode];
   }
 
   void scale(double* modal, int power) const {
