@@ -8,6 +8,7 @@
 #include "app/verification.hpp"
 #include "app/wear_of_run.hpp"
 #include "core/error.hpp"
+#include "results/grouped_messages.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -79,6 +80,14 @@ std::vector<modal::Basis> nodes_of(const std::vector<modal::Basis>& bases) {
   return out;
 }
 
+/// What warnings call the contacts.
+std::vector<results::ContactFacts> names_of(const std::vector<PlacedContact>& placed) {
+  std::vector<results::ContactFacts> out(placed.size());
+  for (std::size_t k = 0; k < placed.size(); ++k)
+    out[k].name = placed[k].name;
+  return out;
+}
+
 /// The run of one scene, its statistics at their places among those of the case.
 void run_scene(const study::Study& study, const BuiltScene& built, const transient::StepChoice& choice,
                results::RunResults& out) {
@@ -102,6 +111,9 @@ void run_scene(const study::Study& study, const BuiltScene& built, const transie
   const transient::Report report = run.finish();
   judge_run(study, built, choice, report, out);
   out.transients.push_back({choice, report});
+  const std::vector<transient::StepError> step_errors = run.step_errors();
+  if (!step_errors.empty())
+    out.step_errors.resize(out.contact_summaries.size());
   add_errors(out.errors_of_sums, contacts.errors_of_sums());
   const auto summaries = contacts.summaries();
   const auto rates = sectors.rates();
@@ -109,6 +121,8 @@ void run_scene(const study::Study& study, const BuiltScene& built, const transie
   std::size_t next = 0;
   for (std::size_t c = 0; c < built.contacts.size(); ++c) {
     out.contact_summaries[built.contacts[c]] = summaries[c];
+    if (!step_errors.empty())
+      out.step_errors[built.contacts[c]] = step_errors[c];
     if (c < rates.size())
       out.sector_rates[built.contacts[c]] = rates[c];
     if (c < built.watched_wear.maxima.size() && built.watched_wear.maxima[c])
@@ -159,8 +173,9 @@ void fill_wear(const results::Wear& wear, Filling& row) {
 /// A case before its first step.
 struct CaseRunner::Case {
   study::Study study;
+  std::vector<std::string> overrides;
   std::shared_ptr<const CaseStructure> structure;
-  std::shared_ptr<const CaseContacts> contacts;
+  std::shared_ptr<const CaseContacts> contacts; ///< none before with_bases
   std::vector<PlacedContact> placed, inactive;
   std::vector<WornPlace> worn;
   OtherRuns other_runs;
@@ -190,16 +205,17 @@ CaseRunner::CaseRunner(study::Document document, std::vector<std::string> base_o
     : document_(std::move(document)), base_overrides_(std::move(base_overrides)), bases_(nominal) {
   for (const std::string& text : base_overrides_)
     study::apply_override(document_.root, text);
-  const Case unvaried = prepare({});
-  name_columns(unvaried);
-  warnings_ = compare_with_other_runs(unvaried.other_runs, unvaried.study, unvaried.worn, unvaried.placed,
-                                      unvaried.structure->model);
+  const Case nominal_case = read_case({});
+  name_columns(nominal_case);
+  // refuses runs of another tube; its warnings are those of the run before its first step
+  (void)compare_with_other_runs(nominal_case.other_runs, nominal_case.study, nominal_case.worn,
+                                nominal_case.placed, nominal_case.structure->model);
 }
 
-CaseRunner::Case CaseRunner::prepare(const std::vector<std::string>& overrides) {
+CaseRunner::Case CaseRunner::read_case(const std::vector<std::string>& overrides) {
   study::Document document = document_;
   study::complete(document, overrides);
-  Case out{study::read(document, {}), {}, {}, {}, {}, {}, {}};
+  Case out{study::read(document, {}), overrides, {}, {}, {}, {}, {}, {}};
   for (study::Wear& entry : out.study.wear)
     entry.confidence.reset(); // a table has standard errors
   if (!out.study.transient)
@@ -211,7 +227,6 @@ CaseRunner::Case CaseRunner::prepare(const std::vector<std::string>& overrides) 
   out.structure = bases_.structure(out.study, overrides);
   out.placed = place_contacts(out.study, out.structure->mesh, out.structure->dry, warnings);
   out.inactive = take_inactive(out.placed);
-  out.contacts = bases_.contacts(out.study, overrides, *out.structure, out.placed, out.inactive);
   out.worn = worn_places(out.study, out.structure->model, out.placed);
   out.other_runs = read_other_runs(out.study, {}); // a case has no folder that a state could name
   if (!out.other_runs.missing.empty())
@@ -219,6 +234,15 @@ CaseRunner::Case CaseRunner::prepare(const std::vector<std::string>& overrides) 
   check_contacts_of(out.other_runs, out.study, out.worn, out.placed);
   return out;
 }
+
+CaseRunner::Case CaseRunner::with_bases(Case read) {
+  read.contacts = bases_.contacts(read.study, read.overrides, *read.structure, read.placed, read.inactive);
+  return read;
+}
+
+void CaseRunner::check(const std::vector<std::string>& overrides) { (void)read_case(overrides); }
+
+void CaseRunner::compute_bases() { (void)with_bases(read_case({})); }
 
 void CaseRunner::name_columns(const Case& nominal) {
   const auto add = [&](const std::string& name, const char* unit, bool has_error) {
@@ -257,11 +281,13 @@ void CaseRunner::name_columns(const Case& nominal) {
                       columns_[i].name));
 }
 
-std::vector<double> CaseRunner::operator()(const std::vector<std::string>& overrides) {
-  const Case c = prepare(overrides);
+sweep::CaseResult CaseRunner::operator()(const std::vector<std::string>& overrides) {
+  const Case c = with_bases(read_case(overrides));
   const std::vector<BuiltScene> scenes = scenes_of(c);
   const auto choices = choose_steps(MPI_COMM_SELF, c.study, scenes);
   results::RunResults out;
+  out.accuracy = c.study.transient->accuracy;
+  out.contacts = names_of(c.placed);
   out.contact_summaries.resize(c.placed.size());
   out.sector_rates.resize(c.placed.size());
   out.force_speed_classes.resize(c.placed.size());
@@ -273,7 +299,8 @@ std::vector<double> CaseRunner::operator()(const std::vector<std::string>& overr
   fill_contacts(c.placed, out, row);
   if (out.wear)
     fill_wear(*out.wear, row);
-  return std::move(row).values();
+  judge_step_errors(out);
+  return {std::move(row).values(), results::grouped_messages(out.warnings)};
 }
 
 } // namespace fretwork::app

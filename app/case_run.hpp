@@ -5,6 +5,7 @@
 #pragma once
 #include "app/case_bases.hpp"
 #include "study/document.hpp"
+#include "sweep/row.hpp"
 #include "sweep/table.hpp"
 
 namespace fretwork::app {
@@ -15,21 +16,27 @@ namespace fretwork::app {
 /// What is not there in a case, such as a contact that is inactive, is not a number.
 class CaseRunner {
 public:
-  /// Collective over nothing; computes what the nominal case needs.
-  /// @param document  the study as it stands   @param nominal  with `base_overrides`
+  /// Reads the nominal case: the study as it stands.
+  /// @param nominal  with `base_overrides`
+  /// @throws core::Error where it is refused
   CaseRunner(study::Document document, std::vector<std::string> base_overrides, const Inputs& nominal);
 
   [[nodiscard]] const std::vector<sweep::Column>& columns() const { return columns_; }
   /// Name and node of each contact, inactive ones included.
   [[nodiscard]] const std::vector<std::pair<std::string, core::Index>>& contacts() const { return contacts_; }
-  /// Of the nominal case.
-  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
-  /// @throws core::Error, core::ComputationError where the case has no result
-  [[nodiscard]] std::vector<double> operator()(const std::vector<std::string>& overrides);
+  /// Refuses a case as far as that takes no modes.
+  /// @throws core::Error
+  void check(const std::vector<std::string>& overrides);
+  /// Modes, flexibility and projections of the nominal case, which most cases share. PETSc must be running.
+  /// @throws core::Error, core::ComputationError where it has none
+  void compute_bases();
+  /// PETSc must be running. @throws core::Error, core::ComputationError where the case has no result
+  [[nodiscard]] sweep::CaseResult operator()(const std::vector<std::string>& overrides);
 
 private:
   struct Case;
-  [[nodiscard]] Case prepare(const std::vector<std::string>& overrides);
+  [[nodiscard]] Case read_case(const std::vector<std::string>& overrides);
+  [[nodiscard]] Case with_bases(Case read);
   [[nodiscard]] static std::vector<BuiltScene> scenes_of(const Case& of);
   void name_columns(const Case& nominal);
 
@@ -38,7 +45,6 @@ private:
   CaseBases bases_;
   std::vector<sweep::Column> columns_;
   std::vector<std::pair<std::string, core::Index>> contacts_;
-  std::vector<std::string> warnings_;
 };
 
 } // namespace fretwork::app

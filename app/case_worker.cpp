@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/case_worker.hpp"
 #include "app/case_run.hpp"
+#include "app/chain.hpp"
 #include "core/error.hpp"
 #include "core/mpi.hpp"
 #include "core/petsc.hpp"
@@ -25,11 +26,12 @@ std::string line_of(const json& message) {
 
 /// The facts, or why the nominal case has none, by the name of the outcome.
 json nominal_answer(const Request& request, Inputs& inputs, std::optional<CaseRunner>& runner) {
-  const sweep::Row row = sweep::evaluated(0, "", [&]() -> std::vector<double> {
+  const sweep::Row row = sweep::evaluated(0, "", [&]() -> sweep::CaseResult {
     inputs = read_inputs(request);
     use_made_mesh(inputs);
     make_keys(request, inputs);
     runner.emplace(study::parse(request.study), request.overrides, inputs);
+    runner->compute_bases();
     return {};
   });
   if (row.outcome != sweep::Outcome::done)
@@ -39,8 +41,18 @@ json nominal_answer(const Request& request, Inputs& inputs, std::optional<CaseRu
     out["columns"].push_back({column.name, column.unit});
   for (const auto& [name, node] : runner->contacts())
     out["contacts"].push_back({name, node});
-  out["warnings"] = runner->warnings();
   return out;
+}
+
+/// What concerns the nominal case alone stops no sweep.
+std::vector<std::string> warnings_of(const Request& request) {
+  try {
+    return warnings_before_run(request);
+  } catch (const core::Error& error) {
+    return {std::string("the study as it stands: ") + error.what()};
+  } catch (const core::ComputationError& error) {
+    return {std::string("the study as it stands: ") + error.what()};
+  }
 }
 
 SweepFacts facts_of(const json& answer) {
@@ -50,7 +62,7 @@ SweepFacts facts_of(const json& answer) {
     throw core::ComputationError(answer["failed"].get<std::string>());
   if (answer.contains("defect"))
     throw std::runtime_error(answer["defect"].get<std::string>());
-  SweepFacts out{answer.at("key").get<std::string>(), {}, {}, answer.at("warnings")};
+  SweepFacts out{answer.at("key").get<std::string>(), {}, {}};
   for (const json& column : answer.at("columns"))
     out.columns.push_back({column[0].get<std::string>(), column[1].get<std::string>()});
   for (const json& contact : answer.at("contacts"))
@@ -97,15 +109,28 @@ const SweepFacts& CaseWorker::facts() {
     start();
   const auto line = process_->read(between_);
   if (!line)
-    throw core::ComputationError(
-        fmt::format("the process that computes the cases ended before the first one ({}); try the study by "
-                    "fretwork run",
-                    process_->end()));
+    fail_before_cases();
   facts_ = facts_of(json::parse(*line));
   if (facts_->key != key_)
     throw core::Error(fmt::format("{} has been changed while its sweep runs; give the same command again",
                                   request_.study.string()));
   return *facts_;
+}
+
+void CaseWorker::fail_before_cases() {
+  throw core::ComputationError(
+      fmt::format("the process that computes the cases ended before the first one ({}); try the study by "
+                  "fretwork run",
+                  process_->end()));
+}
+
+std::vector<std::string> CaseWorker::warnings() {
+  (void)facts();
+  process_->write(line_of({{"warnings", true}}));
+  const auto line = process_->read(between_);
+  if (!line)
+    fail_before_cases();
+  return json::parse(*line).get<std::vector<std::string>>();
 }
 
 sweep::Row CaseWorker::operator()(std::int64_t number, const std::string& identity,
@@ -134,6 +159,10 @@ void serve_cases(const Request& request) {
   answers.write(line_of(nominal_answer(request, inputs, runner)) + "\n");
   for (std::string line; runner && std::getline(std::cin, line);) {
     const json asked = json::parse(line);
+    if (asked.contains("warnings")) {
+      answers.write(line_of(warnings_of(request)) + "\n");
+      continue;
+    }
     answers.write(sweep::line_of(
         sweep::evaluated(asked.at("case").get<std::int64_t>(), asked.at("identity").get<std::string>(),
                          [&] { return (*runner)(asked.at("overrides").get<std::vector<std::string>>()); })));

@@ -4,6 +4,7 @@
 /// MPI ends all ranks with any of them, so cases are computed outside of it.
 ///
 ///     rank -> {"case", "identity", "overrides"} -> process -> row -> rank
+///     rank -> {"warnings"}                      -> process -> texts -> rank
 ///
 /// The process computes what cases have in common once and keeps it in memory. Where it ends within a case, the case is tried once more in a
 /// new process: what an earlier case of the same process may have left behind is then no part of it. If that one ends too, the outcome of the
@@ -20,7 +21,6 @@ struct SweepFacts {
   std::string key; ///< of the study as the process read it: Inputs::whole_key
   std::vector<sweep::Column> columns;
   std::vector<std::pair<std::string, core::Index>> contacts; ///< name and node of each
-  std::vector<std::string> warnings;                         ///< of the nominal case
 };
 
 class CaseWorker {
@@ -35,6 +35,9 @@ public:
   /// Waits for the nominal case.
   /// @throws core::Error, core::ComputationError where it has no result, where its process crashes, where the study has been changed
   [[nodiscard]] const SweepFacts& facts();
+  /// What a run of the study as it stands would warn of before its first step (warnings_before_run).
+  /// @throws what facts() throws
+  [[nodiscard]] std::vector<std::string> warnings();
   /// The row of a case. @param overrides  `key=value`
   /// @throws what facts() throws, where a process is started again
   [[nodiscard]] sweep::Row operator()(std::int64_t number, const std::string& identity,
@@ -42,6 +45,7 @@ public:
 
 private:
   void start();
+  [[noreturn]] void fail_before_cases();
   Request request_;
   std::string key_;
   std::function<void()> between_;

@@ -23,12 +23,14 @@
 #include "app/stopwatch.hpp"
 #include "app/stored_results.hpp"
 #include "app/support_motion.hpp"
+#include "app/sweep_check.hpp"
 #include "app/transient_stage.hpp"
 #include "app/unit_slips.hpp"
 #include "core/error.hpp"
 #include "core/mpi.hpp"
 #include "core/petsc.hpp"
 #include "core/printable.hpp"
+#include "core/temporary_directory.hpp"
 #include "results/figures.hpp"
 #include "results/summary_file.hpp"
 #include "results/totals.hpp"
@@ -62,18 +64,8 @@ public:
         progress_(first_rank_ && !request.quiet) {}
 
   void run() {
-    read();
-    if (is_up_to_date() && last_ == Stage::transient)
-      return tell_up_to_date();
-    make_model();
-    if (last_ == Stage::mesh)
-      return say(fmt::format("{}, {}, groups: {}\n", counted(mesh_.nodes, "node"),
-                             counted(mesh_.lines, "line"), fmt::join(mesh::group_names(mesh_), ", ")));
-    make_modes();
-    if (scenes_wanted_)
-      core::agree(comm_, [&] {
-        scenes_ = build_scenes(inputs_.study, out_.bases, placed_, nodes_, at_contacts_, out_);
-      });
+    if (!build())
+      return;
     if (last_ == Stage::check)
       return tell_check();
     if (last_ == Stage::transient)
@@ -81,6 +73,30 @@ public:
     write();
     tell_results();
   }
+
+  /// All that comes before the first step. @return false: nothing comes after it
+  bool build() {
+    read();
+    if (is_up_to_date() && last_ == Stage::transient) {
+      tell_up_to_date();
+      return false;
+    }
+    make_model();
+    if (last_ == Stage::mesh) {
+      say(fmt::format("{}, {}, groups: {}\n", counted(mesh_.nodes, "node"), counted(mesh_.lines, "line"),
+                      fmt::join(mesh::group_names(mesh_), ", ")));
+      return false;
+    }
+    make_modes();
+    if (scenes_wanted_)
+      core::agree(comm_, [&] {
+        scenes_ = build_scenes(inputs_.study, out_.bases, placed_, nodes_, at_contacts_, out_);
+      });
+    return true;
+  }
+
+  [[nodiscard]] bool is_varied() const { return inputs_.study.varied; }
+  [[nodiscard]] std::vector<std::string> warnings() const { return results::all_warnings(out_); }
 
 private:
   void say(const std::string& text) const {
@@ -369,20 +385,24 @@ private:
 
 void run_chain(MPI_Comm comm, const Request& request, Stage last) { Chain(comm, request, last).run(); }
 
-void check(const Request& request) {
-  std::string folder = (fs::temp_directory_path() / "fretwork_check_XXXXXX").string();
-  if (!mkdtemp(folder.data()))
-    throw core::Error("no temporary folder can be made in " + fs::temp_directory_path().string());
-  struct Removed {
-    fs::path folder;
-    ~Removed() {
-      std::error_code ignored;
-      fs::remove_all(folder, ignored);
-    }
-  } const removed{folder};
+std::vector<std::string> warnings_before_run(const Request& request) {
+  const core::TemporaryDirectory folder;
   Request in_folder = request;
-  in_folder.scratch = folder;
-  run_chain(MPI_COMM_SELF, in_folder, Stage::check);
+  in_folder.scratch = folder.path();
+  in_folder.quiet = true;
+  Chain chain(MPI_COMM_SELF, in_folder, Stage::check);
+  chain.build();
+  return chain.warnings();
+}
+
+void check(const Request& request) {
+  const core::TemporaryDirectory folder;
+  Request in_folder = request;
+  in_folder.scratch = folder.path();
+  Chain chain(MPI_COMM_SELF, in_folder, Stage::check);
+  chain.run();
+  if (chain.is_varied())
+    fmt::print("{}", core::printable(sweep_check_text(in_folder), core::longest_message_line));
 }
 
 } // namespace fretwork::app

@@ -79,12 +79,22 @@ sweep::Draws shared_design(MPI_Comm comm, const study::Sweep& sweep, std::int64_
   return draws;
 }
 
-std::string corrupt_text(const sweep::FoundRows& found) {
-  return found.corrupt == 0
-             ? std::string()
-             : fmt::format("{} not as written ({}): the cases are computed again\n",
-                           found.corrupt == 1 ? "1 row is" : fmt::format("{} rows are", found.corrupt),
-                           core::list_names(found.where));
+/// `1 row is`, `3 rows are`
+std::string rows_are(std::size_t count) {
+  return results::counted(static_cast<std::int64_t>(count), "row") + (count == 1 ? " is" : " are");
+}
+
+/// Of the rows of earlier calls.
+std::string found_text(const sweep::FoundRows& found) {
+  std::string out;
+  if (!found.rows.empty())
+    out += fmt::format("{} there already (--force computes all cases)\n", rows_are(found.rows.size()));
+  if (found.of_others > 0)
+    out += fmt::format("{} of another state of the study: not used\n", rows_are(found.of_others));
+  if (found.corrupt > 0)
+    out += fmt::format("{} not as written ({}): the cases are computed again\n", rows_are(found.corrupt),
+                       core::list_names(found.where));
+  return out;
 }
 
 /// Collective: numbers of the cases of this shard that no file has.
@@ -143,12 +153,15 @@ public:
       if (blocks == 1)
         core::agree(comm_, [&] {
           facts_ = worker->facts();
+          sweep::check_outputs(plan_.sweep, facts_.columns);
+          if (first_rank_)
+            warnings_ = worker->warnings();
           if (std::string fixed = states_that_do_not_vary(plan_); !fixed.empty())
-            facts_.warnings.push_back(std::move(fixed));
+            warnings_.push_back(std::move(fixed));
         });
       table_.outputs = facts_.columns;
       if (!request_.gather)
-        compute_missing(*worker);
+        compute_missing(*worker, blocks == 1);
       gather();
       if (request_.shard || enough(blocks))
         return;
@@ -193,13 +206,14 @@ public:
     }
     for (const auto& [name, text] : record)
       summary_[name] = text;
-    summary_["warnings"] = facts_.warnings;
+    std::vector<std::string> warnings = warnings_;
+    for (const auto& of_cases : summary_["warnings"])
+      warnings.push_back(of_cases.get<std::string>());
+    summary_["warnings"] = warnings;
     results::save_summary(plan_.directory / "summary.json", summary_);
     std::string text =
         plan_.inputs.study.title.empty() ? "Sweep\n" : "Sweep: " + plan_.inputs.study.title + "\n";
     text += sweep::summary_text(summary_);
-    for (const std::string& warning : facts_.warnings)
-      text += fmt::format("  warning      {}\n", warning);
     for (const auto& number : summary_["worst"])
       text += fmt::format(
           "  kept         {}\n",
@@ -251,14 +265,14 @@ private:
                             [&](std::int64_t number) { return identity_of(plan_, draws_, number); });
   }
 
-  void compute_missing(CaseWorker& worker) {
+  void compute_missing(CaseWorker& worker, bool first_of_call) {
     sweep::FoundRows found;
     core::agree(comm_, [&] {
       if (first_rank_)
         found = read();
     });
-    if (const std::string text = corrupt_text(found); first_rank_ && !request_.request.quiet && !text.empty())
-      fmt::print("{}", core::printable(text, core::longest_message_line));
+    if (first_rank_ && !request_.request.quiet && first_of_call)
+      fmt::print("{}", core::printable(found_text(found), core::longest_message_line));
     const std::vector<std::int64_t> missing = missing_cases(comm_, plan_, draws_.rows(), found);
     found = {};
     progress_.stage("cases");
@@ -322,7 +336,8 @@ private:
   Progress progress_;
   sweep::Draws draws_;
   SweepFacts facts_;
-  Table table_; ///< rows on rank 0 only
+  std::vector<std::string> warnings_; ///< on rank 0: of the study as it stands
+  Table table_;                       ///< rows on rank 0 only
   nlohmann::json summary_;
   core::SharedCounters* counters_ = nullptr;
   std::int64_t to_do_ = 0;

@@ -31,6 +31,15 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
+/// The only candidate that begins with some letters, three at least; else an empty string.
+std::string completed(const std::string& beginning, const std::vector<std::string>& candidates) {
+  constexpr std::size_t least_letters = 3;
+  const auto fits = [&](const std::string& candidate) { return lower(candidate).starts_with(beginning); };
+  return beginning.size() >= least_letters && std::count_if(candidates.begin(), candidates.end(), fits) == 1
+             ? *std::find_if(candidates.begin(), candidates.end(), fits)
+             : std::string();
+}
+
 } // namespace
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
@@ -47,7 +56,7 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
       best = candidate;
     }
   }
-  return best;
+  return best.empty() ? completed(wanted, candidates) : best;
 }
 
 std::string list_names(const std::vector<std::string>& names, std::size_t most) {

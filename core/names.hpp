@@ -8,8 +8,8 @@
 
 namespace fretwork::core {
 
-/// The candidate nearest to `name` (edit distance, case ignored), or an empty string where none resembles it:
-/// more than a third of the characters would have to change.
+/// The candidate nearest to `name` (edit distance, case ignored), or the only one that `name` is the beginning of; an empty string where none
+/// resembles it: more than a third of the characters would have to change.
 [[nodiscard]] std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
 
 /// `"a", "b", "c"`, or `none` for an empty list; at most `most` names, then how many more there are.

@@ -6,7 +6,9 @@
 
 namespace fretwork::core {
 
-PetscSession::PetscSession() {
+PetscSession::PetscSession() : begun_(!SlepcInitializeCalled) {
+  if (!begun_)
+    return;
   // PETSc would take options, programs to start and files to write among them, from .petscrc of the current folder and from the environment
   for (const char* source : {"PETSC_OPTIONS", "PETSC_OPTIONS_YAML"})
     (void)unsetenv(source);
@@ -19,7 +21,10 @@ PetscSession::PetscSession() {
   FW_PETSC(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr)); // one message, ours
 }
 
-PetscSession::~PetscSession() { SlepcFinalize(); }
+PetscSession::~PetscSession() {
+  if (begun_)
+    SlepcFinalize();
+}
 
 void check_petsc(PetscErrorCode code, const char* call, const char* file, int line) {
   if (code == 0)

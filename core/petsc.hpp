@@ -18,6 +18,9 @@ public:
   ~PetscSession();
   PetscSession(const PetscSession&) = delete;
   PetscSession& operator=(const PetscSession&) = delete;
+
+private:
+  bool begun_; ///< here, not by a session around this one
 };
 
 /// Throws core::ComputationError with PETSc's text for the code, the call, the file and the line.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <set>
 #include <string_view>
 
 namespace fretwork::results {
@@ -92,8 +93,9 @@ Parts parts_of(const std::string& message) {
 /// All that stands at one place of alike messages.
 std::string together(std::vector<std::string> values) {
   std::vector<std::string> different;
+  std::set<std::string> seen;
   for (const std::string& value : values)
-    if (std::find(different.begin(), different.end(), value) == different.end())
+    if (seen.insert(value).second)
       different.push_back(value);
   if (different.size() == 1)
     return different.front();
@@ -114,40 +116,57 @@ std::string together(std::vector<std::string> values) {
   return fmt::format("{}{}{}", *least, between, *most);
 }
 
-std::string text_of(const std::vector<Parts>& group) {
-  const Parts& first = group.front();
-  std::string text = first.words.front();
-  for (std::size_t i = 0; i < first.values.size(); ++i) {
-    std::vector<std::string> values;
-    for (const Parts& parts : group)
-      values.push_back(parts.values[i]);
-    text += together(std::move(values)) + first.words[i + 1];
+/// Messages that are alike, with their numbers.
+struct Group {
+  std::vector<Parts> alike;
+  std::vector<std::size_t> members;
+
+  [[nodiscard]] std::string text() const {
+    const Parts& first = alike.front();
+    std::string text = first.words.front();
+    for (std::size_t i = 0; i < first.values.size(); ++i) {
+      std::vector<std::string> values;
+      for (const Parts& parts : alike)
+        values.push_back(parts.values[i]);
+      text += together(std::move(values)) + first.words[i + 1];
+    }
+    return text;
   }
-  return text;
+};
+
+std::vector<Group> groups_of(const std::vector<std::string>& messages) {
+  std::vector<Group> groups;
+  for (std::size_t k = 0; k < messages.size(); ++k) {
+    Parts parts = parts_of(messages[k]);
+    auto group = std::find_if(groups.begin(), groups.end(),
+                              [&](const Group& other) { return other.alike.front().alike(parts); });
+    if (group == groups.end())
+      group = groups.emplace(groups.end());
+    group->alike.push_back(std::move(parts));
+    group->members.push_back(k);
+  }
+  return groups;
 }
 
 } // namespace
 
+std::vector<AlikeMessages> alike_messages(const std::vector<std::string>& messages) {
+  std::vector<AlikeMessages> out;
+  for (const Group& group : groups_of(messages))
+    out.push_back({group.text(), group.members});
+  return out;
+}
+
 std::vector<std::string> grouped_messages(const std::vector<std::string>& messages) {
-  std::vector<std::vector<Parts>> groups;
-  for (const std::string& message : messages) {
-    Parts parts = parts_of(message);
-    const auto group = std::find_if(groups.begin(), groups.end(),
-                                    [&](const auto& other) { return other.front().alike(parts); });
-    if (group == groups.end())
-      groups.push_back({std::move(parts)});
-    else
-      group->push_back(std::move(parts));
-  }
   std::vector<std::string> out;
-  for (const auto& group : groups)
-    if (group.size() < least_alike)
-      for (const Parts& alone : group) {
+  for (const Group& group : groups_of(messages))
+    if (group.alike.size() < least_alike)
+      for (const Parts& alone : group.alike) {
         if (std::find(out.begin(), out.end(), alone.message) == out.end())
           out.push_back(alone.message);
       }
     else
-      out.push_back(text_of(group));
+      out.push_back(group.text());
   return out;
 }
 

@@ -107,7 +107,7 @@ Value& array_item(const Override& self, Array& array, std::size_t part) {
   const std::string indices =
       array.empty() ? "no entries" : "indices 0 to " + std::to_string(array.size() - 1);
   self.fail(self.path(part) + " has no entry \"" + wanted + "\"" +
-            core::name_help(wanted, addresses_of(array)) + "; " + indices);
+            core::name_help(wanted, addresses_of(array)) + "; " + indices + help_on_nodes(wanted));
 }
 
 Value& table_item(const Override& self, Value& parent, std::size_t part) {
@@ -141,6 +141,16 @@ std::vector<std::string> address_parts(const std::string& address) {
       parts.back() += c;
   }
   return quoted ? std::vector<std::string>{} : parts;
+}
+
+std::string help_on_nodes(const std::string& part) {
+  const auto bracket = part.find('[');
+  return bracket == 0 || bracket == std::string::npos || part.back() != ']'
+             ? ""
+             : "; " + toml_key(part.substr(0, bracket)) +
+                   " has one value for all nodes of its group: what is to differ between nodes needs entries "
+                   "of "
+                   "its own";
 }
 
 void apply_override(Value& root, const std::string& override_text) {

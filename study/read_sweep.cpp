@@ -6,6 +6,7 @@
 #include "study/table_reader.hpp"
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <numeric>
 
@@ -238,6 +239,12 @@ double probability(const TableReader& table, const std::string& key, double othe
   return value;
 }
 
+/// `study.toml:12: sweep.until.output`
+std::string place_of(const TableReader& table, const std::string& key) {
+  const Value* found = table.find(key);
+  return found ? fmt::format("{}: {}", found->where.text(), table.path(key)) : table.path(key);
+}
+
 std::vector<SweepLimit> read_limits(const TableReader& sweep) {
   std::vector<SweepLimit> out;
   const Value* found = sweep.find("limits");
@@ -250,8 +257,8 @@ std::vector<SweepLimit> read_limits(const TableReader& sweep) {
     if (table.has("above") == table.has("below"))
       table.fail_table("one of above and below is expected");
     const bool above = table.has("above");
-    out.push_back(
-        {table.text("output", "the name of an output"), table.number(above ? "above" : "below", {}), above});
+    out.push_back({table.text("output", "the name of an output"), table.number(above ? "above" : "below", {}),
+                   above, place_of(table, "output")});
   }
   return out;
 }
@@ -267,6 +274,7 @@ std::optional<SweepUntil> read_until(const TableReader& sweep, const Sweep& so_f
   SweepUntil out;
   out.relative_error = probability(table, "relative_error", out.relative_error);
   out.output = table.optional_text("output").value_or(out.output);
+  out.where = place_of(table, "output");
   out.quantile = probability(table, "quantile", out.quantile);
   out.most_draws = table.optional_integer("most_draws", so_far.draws).value_or(default_growth * so_far.draws);
   return out;

@@ -51,7 +51,8 @@ struct SweepCorrelation {
 struct SweepLimit {
   std::string output;
   double value = 0.0;
-  bool above = true; ///< of values above the limit; false: below
+  bool above = true;      ///< of values above the limit; false: below
+  std::string where = {}; ///< of the output, for messages: `study.toml:12: sweep.limits.0.output`
 };
 
 /// More draws until a quantile is known well enough.
@@ -60,6 +61,7 @@ struct SweepUntil {
   std::string output = "worst.work_rate"; ///< column
   double quantile = 0.5;
   std::int64_t most_draws = 0; ///< in the end
+  std::string where = {};      ///< of the output, as SweepLimit::where
 };
 
 struct Sweep {

@@ -73,8 +73,11 @@ std::vector<std::string> matching_keys(const Value& root, const Value& pattern, 
     return {text};
   std::vector<std::string> found;
   match(&root, parts, 0, "", found);
+  std::string help = "the pattern fits no key of the study; * stands for any characters, ? for one";
+  for (const std::string& part : parts)
+    help += help_on_nodes(part);
   if (found.empty())
-    fail(pattern, path, "the pattern fits no key of the study; * stands for any characters, ? for one");
+    fail(pattern, path, help);
   return found;
 }
 

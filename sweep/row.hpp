@@ -28,7 +28,13 @@ struct Row {
   std::string identity;    ///< digest of all that the case was computed from
   Outcome outcome = Outcome::done;
   std::vector<double> values = {}; ///< by columns; empty unless done
-  std::string message = {};        ///< why it is not done
+  std::string message = {};        ///< why it is not done; of a done one its warnings
+};
+
+/// What a case gives that has a result.
+struct CaseResult {
+  std::vector<double> values; ///< by columns
+  std::vector<std::string> warnings = {};
 };
 
 /// Digits of checksums and identities.

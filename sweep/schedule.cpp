@@ -2,6 +2,7 @@
 #include "sweep/schedule.hpp"
 #include "core/error.hpp"
 #include <algorithm>
+#include <fmt/format.h>
 #include <new>
 
 namespace fretwork::sweep {
@@ -21,15 +22,16 @@ std::vector<std::int64_t> guided_blocks(std::int64_t cases, int workers) {
   return ends;
 }
 
-Row evaluated(std::int64_t number, const std::string& identity,
-              const std::function<std::vector<double>()>& evaluate) {
+Row evaluated(std::int64_t number, const std::string& identity, const std::function<CaseResult()>& evaluate) {
   Row row{number, identity};
   const auto ended = [&](Outcome outcome, const char* message) {
     row.outcome = outcome;
     row.message = message;
   };
   try {
-    row.values = evaluate();
+    CaseResult result = evaluate();
+    row.values = std::move(result.values);
+    row.message = fmt::format("{}", fmt::join(result.warnings, "; "));
   } catch (const core::Error& error) {
     ended(Outcome::refused, error.what());
   } catch (const core::ComputationError& error) {

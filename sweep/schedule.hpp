@@ -12,10 +12,10 @@ namespace fretwork::sweep {
 /// Ends of the blocks of `cases` cases for so many workers: each block is a share of what is left.
 [[nodiscard]] std::vector<std::int64_t> guided_blocks(std::int64_t cases, int workers);
 
-/// The row of a case: the values that `evaluate` gives, or what it throws as the outcome: core::Error refused, core::ComputationError and
+/// The row of a case: what `evaluate` gives, or what it throws as the outcome: core::Error refused, core::ComputationError and
 /// std::bad_alloc failed, any other a defect.
 [[nodiscard]] Row evaluated(std::int64_t number, const std::string& identity,
-                            const std::function<std::vector<double>()>& evaluate);
+                            const std::function<CaseResult()>& evaluate);
 
 /// What a worker does: takes blocks until none is left, evaluates their cases, hands over the rows.
 /// @param numbers   of the cases to be done, the same for all workers

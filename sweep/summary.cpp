@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sweep/summary.hpp"
 #include "results/figures.hpp"
+#include "results/grouped_messages.hpp"
 #include "results/text_file.hpp"
 #include "sweep/openturns.hpp"
 #include <algorithm>
@@ -13,6 +14,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t most_failures = 100; ///< that the summary lists; the table has all
+constexpr std::size_t most_case_warnings = 10;
 constexpr std::size_t name_width = 24, cell_width = 31, shown_variables = 4;
 
 /// Inputs that are drawn and outputs, as numbers, of the rows that statistics are made from: the done ones; of a design whose estimator needs every case all.
@@ -43,12 +45,9 @@ json statistics_request(const study::Sweep& sweep, const Table& table) {
     out["inputs"].push_back(sweep.variables[v].name);
   for (const Column& column : table.outputs)
     out["outputs"].push_back(column.name);
-  for (const study::SweepLimit& limit : sweep.limits) {
-    (void)table.place(limit.output, "sweep.limits");
+  for (const study::SweepLimit& limit : sweep.limits)
     out["limits"].push_back({{"output", limit.output}, {"value", limit.value}, {"above", limit.above}});
-  }
   const study::SweepUntil until = sweep.until.value_or(study::SweepUntil{});
-  (void)table.place(until.output, "sweep.until");
   out["until"] = {
       {"output", until.output}, {"quantile", until.quantile}, {"relative_error", until.relative_error}};
   return out;
@@ -159,6 +158,7 @@ json summarize(const study::Sweep& sweep, const Draws& draws, const Table& table
     if (row.outcome != Outcome::done && out["failures"].size() < most_failures)
       out["failures"].push_back(
           {{"case", row.number}, {"outcome", name_of(row.outcome)}, {"message", row.message}});
+  out["warnings"] = case_warnings(table);
   if (sweep.design == study::SweepDesign::grid || table.done().empty())
     return out;
   json request = statistics_request(sweep, table);
@@ -166,11 +166,50 @@ json summarize(const study::Sweep& sweep, const Draws& draws, const Table& table
   const std::vector<double> values = values_of(sweep, draws, table, rows);
   request["rows"] = rows;
   out["statistics"] = ask_openturns(request, values).json;
+  if (const std::size_t done = table.done().size(); done < table.rows.size())
+    out["warnings"].push_back(fmt::format("{} of {} cases have no result: the statistics are those of the "
+                                          "others, as if the cases without one could not occur",
+                                          table.rows.size() - done, table.rows.size()));
   return out;
 }
 
+std::vector<std::string> case_warnings(const Table& table) {
+  std::vector<std::string> out;
+  for (const Outcome outcome :
+       {Outcome::refused, Outcome::failed, Outcome::crashed, Outcome::defect, Outcome::done}) {
+    std::vector<std::string> messages;
+    std::vector<std::int64_t> numbers;
+    for (const Row& row : table.rows)
+      if (row.outcome == outcome && !row.message.empty()) {
+        messages.push_back(row.message);
+        numbers.push_back(row.number);
+      }
+    const std::string what = outcome == Outcome::done ? "done with a warning" : name_of(outcome);
+    for (const results::AlikeMessages& alike : results::alike_messages(messages))
+      out.push_back(
+          alike.members.size() == 1
+              ? fmt::format("case {} {}: {}", numbers[alike.members.front()], what, alike.text)
+              : fmt::format("{} {}, the first is case {}: {}",
+                            results::counted(static_cast<std::int64_t>(alike.members.size()), "case"), what,
+                            numbers[alike.members.front()], alike.text));
+  }
+  if (out.size() > most_case_warnings) {
+    const std::size_t more = out.size() - most_case_warnings;
+    out.resize(most_case_warnings);
+    out.push_back(fmt::format("and {} more messages of cases: table.csv", more));
+  }
+  return out;
+}
+
+void check_outputs(const study::Sweep& sweep, const std::vector<Column>& outputs) {
+  for (const study::SweepLimit& limit : sweep.limits)
+    (void)place_of(outputs, limit.output, limit.where);
+  if (sweep.until)
+    (void)place_of(outputs, sweep.until->output, sweep.until->where);
+}
+
 std::vector<std::int64_t> worst_cases(const Table& table, const std::string& output, std::int64_t count) {
-  const std::size_t place = table.place(output, "the worst cases");
+  const std::size_t place = place_of(table.outputs, output, "the worst cases");
   std::vector<std::size_t> rows = table.done();
   std::erase_if(rows, [&](std::size_t i) { return std::isnan(table.rows[i].values[place]); });
   std::stable_sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) {
@@ -192,13 +231,8 @@ std::string summary_text(const json& summary) {
   if (cases > rows)
     out += fmt::format(", {} missing", results::grouped(cases - rows));
   out += "\n";
-  constexpr std::size_t shown = 3;
-  for (std::size_t i = 0; i < std::min(shown, summary["failures"].size()); ++i)
-    out += fmt::format("  case {} {}: {}\n", summary["failures"][i]["case"].get<std::int64_t>(),
-                       summary["failures"][i]["outcome"].get<std::string>(),
-                       summary["failures"][i]["message"].get<std::string>());
-  if (summary["failures"].size() > shown)
-    out += "  the others: table.csv\n";
+  for (const json& warning : summary["warnings"])
+    out += fmt::format("  warning      {}\n", warning.get<std::string>());
   if (!summary.contains("statistics"))
     return out;
   return out + quantile_lines(summary) + limit_lines(summary) + sensitivity_lines(summary) +

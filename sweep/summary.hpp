@@ -7,10 +7,15 @@
 
 namespace fretwork::sweep {
 
-/// Counts and failures; unless the design is a grid the statistics, by OpenTURNS.
-/// @param cases  of the sweep, in the table or not
+/// Counts, failures, warnings of the cases; unless the design is a grid the statistics, by OpenTURNS.
 /// @throws core::Error for an output that does not exist, or without OpenTURNS
 [[nodiscard]] nlohmann::json summarize(const study::Sweep& sweep, const Draws& draws, const Table& table);
+
+/// What the messages of the rows say, those that are alike together: of cases without a result, then of done ones.
+[[nodiscard]] std::vector<std::string> case_warnings(const Table& table);
+
+/// @throws core::Error where limits or `until` are asked of an output that there is not
+void check_outputs(const study::Sweep& sweep, const std::vector<Column>& outputs);
 
 /// Numbers of the done cases with the largest values of an output, the largest first.
 [[nodiscard]] std::vector<std::int64_t> worst_cases(const Table& table, const std::string& output,

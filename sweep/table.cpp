@@ -58,13 +58,14 @@ std::vector<std::size_t> Table::done() const {
   return out;
 }
 
-std::size_t Table::place(const std::string& output, const std::string& where) const {
-  const auto at = std::find_if(outputs.begin(), outputs.end(),
+std::size_t place_of(const std::vector<Column>& columns, const std::string& output,
+                     const std::string& where) {
+  const auto at = std::find_if(columns.begin(), columns.end(),
                                [&](const Column& column) { return column.name == output; });
-  if (at != outputs.end())
-    return static_cast<std::size_t>(at - outputs.begin());
+  if (at != columns.end())
+    return static_cast<std::size_t>(at - columns.begin());
   std::vector<std::string> names;
-  for (const Column& column : outputs)
+  for (const Column& column : columns)
     names.push_back(column.name);
   throw core::Error(fmt::format("{}: no output is called \"{}\"{}", where, output,
                                 core::name_help(output, names, "outputs")));

@@ -15,15 +15,17 @@ struct Column {
   [[nodiscard]] bool operator==(const Column&) const = default;
 };
 
+/// Place of an output among columns.
+/// @throws core::Error where there is none; `where` begins the message
+[[nodiscard]] std::size_t place_of(const std::vector<Column>& columns, const std::string& output,
+                                   const std::string& where);
+
 struct Table {
   std::vector<Column> outputs;
   std::vector<Row> rows; ///< by number of the case
 
   /// Numbers of the rows that are done.
   [[nodiscard]] std::vector<std::size_t> done() const;
-  /// Place of an output.
-  /// @throws core::Error where there is none; `where` begins the message
-  [[nodiscard]] std::size_t place(const std::string& output, const std::string& where) const;
 };
 
 /// table.csv: number, outcome, identity, inputs, outputs, message; a header with units.

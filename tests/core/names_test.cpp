@@ -14,6 +14,12 @@ TEST(NearestName, FindsASlipOfTheHand) {
   EXPECT_EQ(nearest_name("normal_stifness", names), "normal_stiffness");
 }
 
+TEST(NearestName, CompletesABeginning) {
+  EXPECT_EQ(nearest_name("trunc", {"truncated", "uniform"}), "truncated");
+  EXPECT_EQ(nearest_name("normal", {"normal_stiffness", "normal_damping"}), "");
+  EXPECT_EQ(nearest_name("g", {"gap", "offset"}), "");
+}
+
 TEST(NearestName, SaysNothingWhereNothingResembles) {
   EXPECT_EQ(nearest_name("friction", {"gap", "offset"}), "");
   EXPECT_EQ(nearest_name("x", {}), "");

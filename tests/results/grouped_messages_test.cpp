@@ -21,6 +21,14 @@ TEST(GroupedMessages, NameTheFirstAndTheLastOfMany) {
   EXPECT_THAT(grouped_messages(messages), ElementsAre("contact \"h1\" ... \"h12\" (12) starts in contact"));
 }
 
+TEST(AlikeMessages, AreTogetherWhateverTheirNumber) {
+  const auto alike = alike_messages({"gap = -1 m", "the mesh is coarse", "gap = -3 m", "gap = -2 m"});
+  ASSERT_EQ(alike.size(), 2u);
+  EXPECT_EQ(alike[0].text, "gap = -3 to -1 m");
+  EXPECT_THAT(alike[0].members, ElementsAre(0, 2, 3));
+  EXPECT_EQ(alike[1].text, "the mesh is coarse");
+}
+
 TEST(GroupedMessages, OfTwoStandByThemselves) {
   const std::vector<std::string> messages{"stability \"a\": margin 0.4 in mode 1",
                                           "stability \"b\": margin 0.1 in mode 2"};

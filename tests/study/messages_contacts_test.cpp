@@ -130,7 +130,8 @@ TEST(MessagesOfContacts, NormalLaw) {
        {"normal_stiffness = \"wal\"",
         "contacts.p.normal_stiffness = \"wal\": unknown; did you mean \"wall\"?"},
        {"normal_stiffness = 1\nnormal_law = \"hunt\"",
-        "contacts.p.normal_law = \"hunt\": unknown; available: \"reference\", \"hunt_crossley\""},
+        "contacts.p.normal_law = \"hunt\": unknown; did you mean \"hunt_crossley\"? available: "
+        "\"reference\", \"hunt_crossley\""},
        {hunt + "normal_damping = 1", "contacts.p.normal_damping = 1: belongs to normal_law = \"reference\"; "
                                      "give normal_dissipation (s/m)"},
        {"normal_stiffness = 1\nnormal_dissipation = 1",

@@ -76,6 +76,8 @@ TEST_F(Sweeps, AGridHasARowForEveryCaseAndAFailedOneStopsNoOther) {
   const Outcome outcome = sweep(stops, "out");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_TRUE(says(outcome.out, "12 (grid), 9 done, 3 without a result"));
+  EXPECT_TRUE(says(outcome.out, "3 cases refused, the first is case 6: "));
+  EXPECT_FALSE(says(outcome.out, "the statistics are those of the others")); // a grid has none
   const auto rows = table_of(folder.path("out"));
   ASSERT_EQ(rows.size(), 12u);
   EXPECT_EQ(rows[4].at("gap"), "0.001");
@@ -242,6 +244,77 @@ TEST_F(Sweeps, WarnOfStatesOfWearThatDoNotVaryWithTheContacts) {
   EXPECT_FALSE(says(warnings("key = \"turbulence.*.seed\"\nvalues = [7]\n"), "varies in the cases"));
 }
 
+TEST_F(Sweeps, WarnOfTheStudyAsItStandsAsItsRunDoes) {
+  const fs::path study = folder.write("few.toml", sweep_of("straight_tube", R"(
+draws = 2
+[[sweep.variables]]
+key = "contacts.support.gap"
+uniform = { from = 1.0e-4, to = 3.0e-4 }
+)"));
+  const std::vector<std::string> few{"--set", "modes.count=5",           "--set", "transient.duration=0.1",
+                                     "--set", "output.statistics_from=0"};
+  const auto call = [&](const char* command, std::vector<std::string> more) {
+    more.insert(more.begin(), {command, study.string()});
+    more.insert(more.end(), few.begin(), few.end());
+    const Outcome outcome = folder.fretwork(more);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.out;
+  };
+  const std::string text = "modal truncation: the modes lack flexibility at 8 of 8 contacts";
+  EXPECT_TRUE(says(call("check", {}), text));
+  EXPECT_TRUE(says(call("sweep", {"-o", folder.path("few").string()}), text));
+  const auto warnings = nlohmann::json::parse(bytes_of(folder.path("few/summary.json")))["warnings"];
+  EXPECT_TRUE(says(warnings.dump(), text));
+  EXPECT_TRUE(says(bytes_of(folder.path("few/report.html")), text));
+}
+
+TEST_F(Sweeps, WarnOfCasesThatTheirRunWarnsOf) {
+  const Outcome outcome = sweep(sweep_of("oscillator", R"(
+design = "grid"
+[[sweep.variables]]
+key = "transient.step"
+values = [1.0e-4, 0.02]
+)"),
+                                "long");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, "case 1 done with a warning: the step 0.02 s does not resolve"));
+  const auto rows = table_of(folder.path("long"));
+  EXPECT_FALSE(rows.at(0).contains("message")); // the last cell is empty
+  EXPECT_TRUE(says(rows.at(1).at("message"), "the step 0.02 s does not resolve"));
+}
+
+TEST_F(Sweeps, WarnWhereStatisticsAreThoseOfTheCasesThatAreLeft) {
+  const Outcome outcome = sweep(sweep_of("oscillator", R"(
+draws = 30
+[[sweep.variables]]
+key = "contacts.stop.gap"
+uniform = { from = -1.0e-3, to = 4.0e-3 }
+)"),
+                                "left");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, "of 30 cases have no result: the statistics are those of the others"));
+}
+
+TEST_F(Sweeps, CheckRefusesWhatNoCaseIsComputedFor) {
+  const auto check = [&](const std::string& text) {
+    return folder.fretwork({"check", folder.write("sweep.toml", sweep_of("oscillator", text)).string()});
+  };
+  const std::string variable = "[[sweep.variables]]\nkey = \"contacts.stop.gap\"\n";
+  const Outcome some = check("draws = 40\n" + variable + "uniform = { from = -1.0e-3, to = 4.0e-3 }\n");
+  EXPECT_EQ(some.status, 0) << some.err;
+  EXPECT_TRUE(says(some.out, "sweep: 40 cases (monte_carlo) of 1 variable"));
+  EXPECT_TRUE(says(some.out, "cases refused, the first is case "));
+  const Outcome unknown =
+      check("draws = 4\n[[sweep.variables]]\nkey = \"contacts.stop.gapp\"\nvalues = [1]\n");
+  EXPECT_EQ(unknown.status, 1);
+  EXPECT_TRUE(says(unknown.err, "no case of the sweep would be computed; case 0: "));
+  EXPECT_TRUE(says(unknown.err, "did you mean \"gap\""));
+  const Outcome limit =
+      check("draws = 4\nlimits = [{ output = \"stop.work\", above = 1 }]\n" + variable + "values = [1]\n");
+  EXPECT_EQ(limit.status, 1);
+  EXPECT_TRUE(says(limit.err, "sweep.toml:4: sweep.limits.0.output: no output is called \"stop.work\""));
+}
+
 TEST_F(Sweeps, RanksAndShardsGiveTheSameBytes) {
   const std::vector<std::string> tables{"table.csv", "table.h5", "summary.json"};
   ASSERT_EQ(sweep(stops, "one").status, 0);
@@ -292,7 +365,11 @@ uniform = { from = 0.0, to = 1.0e-3 }
 TEST_F(Sweeps, AChangedStudyKeepsNoRow) {
   ASSERT_EQ(sweep(stops, "out").status, 0);
   const double before = std::stod(table_of(folder.path("out"))[0].at("stop.normal_max"));
-  ASSERT_EQ(sweep(stops, "out", {"--set", "masses.0.mass=200"}).status, 0);
+  EXPECT_TRUE(says(sweep(stops, "out").out, "12 rows are there already (--force computes all cases)"));
+  const Outcome changed = sweep(stops, "out", {"--set", "masses.0.mass=200"});
+  ASSERT_EQ(changed.status, 0);
+  EXPECT_TRUE(says(changed.out, "12 rows are of another state of the study: not used"));
+  EXPECT_FALSE(says(changed.out, "there already"));
   EXPECT_GT(std::stod(table_of(folder.path("out"))[0].at("stop.normal_max")), 1.2 * before);
   const auto rows = [&] {
     const std::string bytes = bytes_of(folder.path("out/shards/1_of_1/rank_0.rows"));

@@ -47,7 +47,7 @@ nlohmann::json summary_of(const study::Sweep& sweep) {
         numbers, 2, [&] { return counter < last ? counter++ : blocks; },
         [&](std::int64_t number) {
           return evaluated(number, identity(number), [&] {
-            return std::vector{ishigami(draws(number, 0), draws(number, 1), draws(number, 2))};
+            return CaseResult{{ishigami(draws(number, 0), draws(number, 1), draws(number, 2))}};
           });
         },
         [&](const Row& row) { file.append(row); });

@@ -81,7 +81,7 @@ TEST(Schedule, EveryCaseIsDoneOnceByWhicheverWorker) {
 
 TEST(Schedule, WhatACaseThrowsIsItsOutcome) {
   const auto outcome_of = [](const auto& exception) {
-    return evaluated(7, "seven", [&]() -> std::vector<double> { throw exception; });
+    return evaluated(7, "seven", [&]() -> CaseResult { throw exception; });
   };
   const Row refused = outcome_of(core::Error("a gap below 0"));
   EXPECT_EQ(refused.outcome, Outcome::refused);
@@ -91,8 +91,9 @@ TEST(Schedule, WhatACaseThrowsIsItsOutcome) {
   EXPECT_EQ(outcome_of(core::ComputationError("diverged")).outcome, Outcome::failed);
   EXPECT_EQ(outcome_of(std::bad_alloc()).outcome, Outcome::failed);
   EXPECT_EQ(outcome_of(std::logic_error("ours")).outcome, Outcome::defect);
-  const Row done = evaluated(8, "eight", [] { return std::vector<double>{1.0}; });
+  const Row done = evaluated(8, "eight", [] { return CaseResult{{1.0}, {"few modes", "a long step"}}; });
   EXPECT_EQ(done.outcome, Outcome::done);
+  EXPECT_EQ(done.message, "few modes; a long step");
   EXPECT_EQ(done.values, std::vector<double>{1.0});
 }
 

@@ -60,11 +60,11 @@ def interval(entry):
 def key_figures(sweep):
     from . import page
 
-    entries = [("cases", sweep.summary["cases"]), ("done", sweep.summary["done"]), ("without a result", len(sweep.summary["failures"]))]
+    entries = [("cases", sweep.summary["cases"]), ("done", sweep.summary["done"]), ("without a result", sweep.summary["rows"] - sweep.summary["done"])]
     out = page.cards([(name, f"{value}") for name, value in entries] + [("design", html.escape(sweep.summary["design"]))])
     if sweep.summary["rows"] < sweep.summary["cases"]:
         out += page.warning(f"{sweep.summary['cases'] - sweep.summary['rows']} cases have not been computed: the same command goes on.")
-    return out
+    return out + "".join(page.warning(text) for text in sweep.summary["warnings"])
 
 
 def quantiles(sweep):
