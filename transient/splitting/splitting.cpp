@@ -40,7 +40,7 @@ using vibration::ModalForce;
 /// Steps of one h after a macro-step that would have met a contact.
 constexpr int steps_after_meeting = 4;
 /// Of a contact's clearance: what it moves in a macro-step at most, so that the middles of steps give deviations of displacements to 0.1 %.
-constexpr double longest_macro_step = 1.0 / 16.0;
+constexpr double longest_macro_step = 1.0 / 8.0;
 
 /// Numbers of steps that are made at once, the longest first.
 std::vector<int> lengths_up_to(int longest) {
