@@ -5,6 +5,7 @@
 #include "app/job.hpp"
 #include "app/jobs.hpp"
 #include "app/judge_run.hpp"
+#include "app/modal_truncation.hpp"
 #include "app/verification.hpp"
 #include "app/wear_of_run.hpp"
 #include "core/error.hpp"
@@ -13,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace fretwork::app {
 namespace {
@@ -69,7 +71,7 @@ private:
   std::size_t next_ = 0;
 };
 
-/// Half of an interval of one standard error on both sides (CaseRunner::prepare).
+/// Half of an interval of one standard error on both sides (CaseRunner::read_case).
 double half(const results::Bounds& bounds) { return 0.5 * (bounds.high - bounds.low); }
 
 /// What numbers of tubes are found by.
@@ -158,7 +160,10 @@ void fill_contacts(const std::vector<PlacedContact>& placed, const results::RunR
 
 void fill_wear(const results::Wear& wear, Filling& row) {
   for (const results::WearOfSupport& support : wear.supports) {
-    const results::Bounds depth = support.depth.last(), years = support.life.years;
+    const results::Bounds years = support.life.years;
+    results::Bounds depth = support.depth.last();
+    if (support.outside.empty() && std::isnan(depth.value)) // beyond the geometry
+      depth.value = std::numeric_limits<double>::infinity();
     row.set(support.name + ".wear_depth", depth.value);
     row.set(support.name + ".wear_depth.error", half(depth));
     row.set(support.name + ".years", years.value);
@@ -179,7 +184,17 @@ struct CaseRunner::Case {
   std::vector<PlacedContact> placed, inactive;
   std::vector<WornPlace> worn;
   OtherRuns other_runs;
+  std::vector<std::string> warnings; ///< of where the contacts are
 };
+
+std::vector<std::string> CaseRunner::warnings_of(const Case& c, const std::vector<BuiltScene>& scenes) {
+  std::vector<std::string> out = c.warnings;
+  for (const BuiltScene& built : scenes)
+    out.insert(out.end(), built.warnings.begin(), built.warnings.end());
+  if (std::string missing = missing_flexibility_warning(c.study, scenes); !missing.empty())
+    out.push_back(std::move(missing));
+  return out;
+}
 
 std::vector<BuiltScene> CaseRunner::scenes_of(const Case& c) {
   Fields fields = c.structure->fields;
@@ -215,7 +230,7 @@ CaseRunner::CaseRunner(study::Document document, std::vector<std::string> base_o
 CaseRunner::Case CaseRunner::read_case(const std::vector<std::string>& overrides) {
   study::Document document = document_;
   study::complete(document, overrides);
-  Case out{study::read(document, {}), overrides, {}, {}, {}, {}, {}, {}};
+  Case out{study::read(document, {}), overrides, {}, {}, {}, {}, {}, {}, {}};
   for (study::Wear& entry : out.study.wear)
     entry.confidence.reset(); // a table has standard errors
   if (!out.study.transient)
@@ -223,9 +238,8 @@ CaseRunner::Case CaseRunner::read_case(const std::vector<std::string>& overrides
   if (out.study.gap_opening)
     throw core::Error(
         "the study has [gap_opening]; a sweep computes wear at the gaps of each case: leave it out there");
-  std::vector<std::string> warnings;
   out.structure = bases_.structure(out.study, overrides);
-  out.placed = place_contacts(out.study, out.structure->mesh, out.structure->dry, warnings);
+  out.placed = place_contacts(out.study, out.structure->mesh, out.structure->dry, out.warnings);
   out.inactive = take_inactive(out.placed);
   out.worn = worn_places(out.study, out.structure->model, out.placed);
   out.other_runs = read_other_runs(out.study, {}); // a case has no folder that a state could name
@@ -242,7 +256,10 @@ CaseRunner::Case CaseRunner::with_bases(Case read) {
 
 void CaseRunner::check(const std::vector<std::string>& overrides) { (void)read_case(overrides); }
 
-void CaseRunner::compute_bases() { (void)with_bases(read_case({})); }
+void CaseRunner::compute_nominal() {
+  const Case nominal_case = with_bases(read_case({}));
+  known_ = warnings_of(nominal_case, scenes_of(nominal_case));
+}
 
 void CaseRunner::name_columns(const Case& nominal) {
   const auto add = [&](const std::string& name, const char* unit, bool has_error) {
@@ -286,6 +303,10 @@ sweep::CaseResult CaseRunner::operator()(const std::vector<std::string>& overrid
   const std::vector<BuiltScene> scenes = scenes_of(c);
   const auto choices = choose_steps(MPI_COMM_SELF, c.study, scenes);
   results::RunResults out;
+  out.warnings = warnings_of(c, scenes);
+  std::erase_if(out.warnings, [&](const std::string& warning) {
+    return std::find(known_.begin(), known_.end(), warning) != known_.end();
+  });
   out.accuracy = c.study.transient->accuracy;
   out.contacts = names_of(c.placed);
   out.contact_summaries.resize(c.placed.size());

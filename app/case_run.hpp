@@ -16,7 +16,7 @@ namespace fretwork::app {
 /// What is not there in a case, such as a contact that is inactive, is not a number.
 class CaseRunner {
 public:
-  /// Reads the nominal case: the study as it stands.
+  /// Reads the nominal case: the study as it stands. PETSc must be running, here and below.
   /// @param nominal  with `base_overrides`
   /// @throws core::Error where it is refused
   CaseRunner(study::Document document, std::vector<std::string> base_overrides, const Inputs& nominal);
@@ -27,10 +27,10 @@ public:
   /// Refuses a case as far as that takes no modes.
   /// @throws core::Error
   void check(const std::vector<std::string>& overrides);
-  /// Modes, flexibility and projections of the nominal case, which most cases share. PETSc must be running.
+  /// Modes, flexibility and projections of the nominal case, which most cases share. What it warns of is no longer said of cases.
   /// @throws core::Error, core::ComputationError where it has none
-  void compute_bases();
-  /// PETSc must be running. @throws core::Error, core::ComputationError where the case has no result
+  void compute_nominal();
+  /// @throws core::Error, core::ComputationError where the case has no result
   [[nodiscard]] sweep::CaseResult operator()(const std::vector<std::string>& overrides);
 
 private:
@@ -38,6 +38,8 @@ private:
   [[nodiscard]] Case read_case(const std::vector<std::string>& overrides);
   [[nodiscard]] Case with_bases(Case read);
   [[nodiscard]] static std::vector<BuiltScene> scenes_of(const Case& of);
+  [[nodiscard]] static std::vector<std::string> warnings_of(const Case& of,
+                                                            const std::vector<BuiltScene>& scenes);
   void name_columns(const Case& nominal);
 
   study::Document document_; ///< with the base overrides, not yet completed
@@ -45,6 +47,7 @@ private:
   CaseBases bases_;
   std::vector<sweep::Column> columns_;
   std::vector<std::pair<std::string, core::Index>> contacts_;
+  std::vector<std::string> known_; ///< warnings of the nominal case
 };
 
 } // namespace fretwork::app

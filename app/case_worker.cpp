@@ -25,13 +25,17 @@ std::string line_of(const json& message) {
 }
 
 /// The facts, or why the nominal case has none, by the name of the outcome.
-json nominal_answer(const Request& request, Inputs& inputs, std::optional<CaseRunner>& runner) {
+json nominal_answer(const Request& request, bool with_warnings, Inputs& inputs,
+                    std::optional<CaseRunner>& runner) {
+  std::vector<std::string> warnings;
   const sweep::Row row = sweep::evaluated(0, "", [&]() -> sweep::CaseResult {
     inputs = read_inputs(request);
     use_made_mesh(inputs);
     make_keys(request, inputs);
     runner.emplace(study::parse(request.study), request.overrides, inputs);
-    runner->compute_bases();
+    runner->compute_nominal();
+    if (with_warnings)
+      warnings = warnings_of_case(request);
     return {};
   });
   if (row.outcome != sweep::Outcome::done)
@@ -41,18 +45,8 @@ json nominal_answer(const Request& request, Inputs& inputs, std::optional<CaseRu
     out["columns"].push_back({column.name, column.unit});
   for (const auto& [name, node] : runner->contacts())
     out["contacts"].push_back({name, node});
+  out["warnings"] = warnings;
   return out;
-}
-
-/// What concerns the nominal case alone stops no sweep.
-std::vector<std::string> warnings_of(const Request& request) {
-  try {
-    return warnings_before_run(request);
-  } catch (const core::Error& error) {
-    return {std::string("the study as it stands: ") + error.what()};
-  } catch (const core::ComputationError& error) {
-    return {std::string("the study as it stands: ") + error.what()};
-  }
 }
 
 SweepFacts facts_of(const json& answer) {
@@ -62,7 +56,7 @@ SweepFacts facts_of(const json& answer) {
     throw core::ComputationError(answer["failed"].get<std::string>());
   if (answer.contains("defect"))
     throw std::runtime_error(answer["defect"].get<std::string>());
-  SweepFacts out{answer.at("key").get<std::string>(), {}, {}};
+  SweepFacts out{answer.at("key").get<std::string>(), {}, {}, answer.at("warnings")};
   for (const json& column : answer.at("columns"))
     out.columns.push_back({column[0].get<std::string>(), column[1].get<std::string>()});
   for (const json& contact : answer.at("contacts"))
@@ -88,16 +82,18 @@ private:
 
 } // namespace
 
-CaseWorker::CaseWorker(Request request, std::string key, std::function<void()> between)
+CaseWorker::CaseWorker(Request request, std::string key, bool with_warnings, std::function<void()> between)
     : request_(std::move(request)), key_(std::move(key)), between_(std::move(between)) {
-  start();
+  start(with_warnings);
 }
 
-void CaseWorker::start() {
+void CaseWorker::start(bool with_warnings) {
   std::vector<std::string> arguments{std::filesystem::read_symlink("/proc/self/exe").string(), "sweep-cases",
                                      request_.study.string(), "-o", request_.directory.value().string()};
   for (const std::string& text : request_.overrides)
     arguments.insert(arguments.end(), {"--set", text});
+  if (with_warnings)
+    arguments.emplace_back("--warnings");
   facts_.reset();
   process_.emplace(arguments, core::environment_without_launcher());
 }
@@ -106,31 +102,18 @@ const SweepFacts& CaseWorker::facts() {
   if (facts_)
     return *facts_;
   if (!process_)
-    start();
+    start(false);
   const auto line = process_->read(between_);
   if (!line)
-    fail_before_cases();
+    throw core::ComputationError(
+        fmt::format("the process that computes the cases ended before the first one ({}); try the study by "
+                    "fretwork run",
+                    process_->end()));
   facts_ = facts_of(json::parse(*line));
   if (facts_->key != key_)
     throw core::Error(fmt::format("{} has been changed while its sweep runs; give the same command again",
                                   request_.study.string()));
   return *facts_;
-}
-
-void CaseWorker::fail_before_cases() {
-  throw core::ComputationError(
-      fmt::format("the process that computes the cases ended before the first one ({}); try the study by "
-                  "fretwork run",
-                  process_->end()));
-}
-
-std::vector<std::string> CaseWorker::warnings() {
-  (void)facts();
-  process_->write(line_of({{"warnings", true}}));
-  const auto line = process_->read(between_);
-  if (!line)
-    fail_before_cases();
-  return json::parse(*line).get<std::vector<std::string>>();
 }
 
 sweep::Row CaseWorker::operator()(std::int64_t number, const std::string& identity,
@@ -149,20 +132,16 @@ sweep::Row CaseWorker::operator()(std::int64_t number, const std::string& identi
   return {number, identity, sweep::Outcome::crashed, {}, fmt::format("its process ended: {}", end)};
 }
 
-void serve_cases(const Request& request) {
+void serve_cases(const Request& request, bool with_warnings) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
     (void)std::signal(signal, SIG_IGN);
   const Answers answers;
-  const core::PetscSession petsc;
+  const core::PetscSession petsc(MPI_COMM_SELF);
   Inputs inputs;
   std::optional<CaseRunner> runner;
-  answers.write(line_of(nominal_answer(request, inputs, runner)) + "\n");
+  answers.write(line_of(nominal_answer(request, with_warnings, inputs, runner)) + "\n");
   for (std::string line; runner && std::getline(std::cin, line);) {
     const json asked = json::parse(line);
-    if (asked.contains("warnings")) {
-      answers.write(line_of(warnings_of(request)) + "\n");
-      continue;
-    }
     answers.write(sweep::line_of(
         sweep::evaluated(asked.at("case").get<std::int64_t>(), asked.at("identity").get<std::string>(),
                          [&] { return (*runner)(asked.at("overrides").get<std::vector<std::string>>()); })));

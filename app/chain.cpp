@@ -64,6 +64,9 @@ public:
         progress_(first_rank_ && !request.quiet) {}
 
   void run() {
+    read();
+    if (is_up_to_date() && last_ == Stage::transient)
+      return tell_up_to_date();
     if (!build())
       return;
     if (last_ == Stage::check)
@@ -74,13 +77,18 @@ public:
     tell_results();
   }
 
-  /// All that comes before the first step. @return false: nothing comes after it
-  bool build() {
+  /// What a case of a sweep would warn of: stability and response are not part of it.
+  std::vector<std::string> warnings_of_case() {
     read();
-    if (is_up_to_date() && last_ == Stage::transient) {
-      tell_up_to_date();
-      return false;
-    }
+    inputs_.study.stabilities.clear();
+    inputs_.study.responses.clear();
+    build();
+    return results::all_warnings(out_);
+  }
+
+private:
+  /// Of what has been read all that comes before the first step. @return false: nothing comes after it
+  bool build() {
     make_model();
     if (last_ == Stage::mesh) {
       say(fmt::format("{}, {}, groups: {}\n", counted(mesh_.nodes, "node"), counted(mesh_.lines, "line"),
@@ -95,10 +103,6 @@ public:
     return true;
   }
 
-  [[nodiscard]] bool is_varied() const { return inputs_.study.varied; }
-  [[nodiscard]] std::vector<std::string> warnings() const { return results::all_warnings(out_); }
-
-private:
   void say(const std::string& text) const {
     if (first_rank_ && !request_.quiet)
       fmt::print("{}", core::printable(text, core::longest_message_line));
@@ -110,6 +114,9 @@ private:
       inputs_ = read_inputs(request_);
       scenes_wanted_ = last_ == Stage::transient || (last_ == Stage::check && inputs_.study.transient);
       refuse_what_is_missing();
+      if (fs::exists(inputs_.directory / "table.h5") || fs::exists(inputs_.directory / "shards"))
+        throw core::Error(fmt::format("{} holds the results of a sweep; give another folder with -o",
+                                      inputs_.directory.string()));
       make_directory(inputs_.directory);
       if (first_rank_)
         lock_.emplace(inputs_.directory, inputs_.study.file.string());
@@ -206,7 +213,7 @@ private:
   /// Modes, stability and response in flow, and what scenes are built from.
   void make_modes() {
     progress_.stage("modes");
-    const core::PetscSession petsc;
+    const core::PetscSession petsc(comm_);
     ModesStage modes = modes_stage(comm_, inputs_, model_, out_.record, request_.force);
     describe_model(mesh_, model_, modes.structures, out_);
     out_.model.different_structures = static_cast<std::int64_t>(modes.different);
@@ -260,14 +267,15 @@ private:
     const std::string forecast =
         scenes_wanted_ ? forecast_text(comm_, inputs_.study, scenes_, placed_, out_)
                        : "  no [transient]: run would refuse it; modes, stability and response take it\n";
-    say(fmt::format("{}: fine\n  {}, {}, {} in {}, {:.6g} kg\n  {}, {}, {}{}\n{}{}{}",
+    const std::string sweep = inputs_.study.varied && scenes_wanted_ ? sweep_check_text(request_) : "";
+    say(fmt::format("{}: fine\n  {}, {}, {} in {}, {:.6g} kg\n  {}, {}, {}{}\n{}{}{}{}",
                     request_.study.string(), counted(mesh_.nodes, "node"), counted(model_.beams, "beam"),
                     results::counted(out_.model.dofs, "free dof"), counted(out_.bases, "structure"),
                     out_.model.mass_kg, counted(placed_, "contact"), counted(inputs_.study.loads, "load"),
                     counted(nodes_, "observed node"),
                     worn_.empty() ? "" : ", " + counted(worn_, "support") + " that wear",
                     numbering_.empty() ? "" : "  " + numbering_ + "\n", forecast,
-                    check_warnings(out_, out_.modes_limit.has_value())));
+                    check_warnings(out_, out_.modes_limit.has_value()), sweep));
   }
 
   void run_transient() {
@@ -385,24 +393,19 @@ private:
 
 void run_chain(MPI_Comm comm, const Request& request, Stage last) { Chain(comm, request, last).run(); }
 
-std::vector<std::string> warnings_before_run(const Request& request) {
+std::vector<std::string> warnings_of_case(const Request& request) {
   const core::TemporaryDirectory folder;
   Request in_folder = request;
   in_folder.scratch = folder.path();
   in_folder.quiet = true;
-  Chain chain(MPI_COMM_SELF, in_folder, Stage::check);
-  chain.build();
-  return chain.warnings();
+  return Chain(MPI_COMM_SELF, in_folder, Stage::check).warnings_of_case();
 }
 
 void check(const Request& request) {
   const core::TemporaryDirectory folder;
   Request in_folder = request;
   in_folder.scratch = folder.path();
-  Chain chain(MPI_COMM_SELF, in_folder, Stage::check);
-  chain.run();
-  if (chain.is_varied())
-    fmt::print("{}", core::printable(sweep_check_text(in_folder), core::longest_message_line));
+  run_chain(MPI_COMM_SELF, in_folder, Stage::check);
 }
 
 } // namespace fretwork::app

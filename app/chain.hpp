@@ -13,9 +13,10 @@ enum class Stage { mesh, modes, stability, response, check, transient };
 /// DIR/report.html. `check`: all that the transient needs, without its steps; nothing is written but the mesh and the modes.
 void run_chain(MPI_Comm comm, const Request& request, Stage last);
 
-/// What a run of the study would warn of before its first step, alike ones together. On this process alone; prints nothing.
-/// @throws core::Error, core::ComputationError for what the run would refuse before
-[[nodiscard]] std::vector<std::string> warnings_before_run(const Request& request);
+/// What the study as it stands warns of as a case of a sweep, before its steps are chosen; alike ones together. On this process alone; prints
+/// nothing.
+/// @throws core::Error, core::ComputationError for what a run would refuse before
+[[nodiscard]] std::vector<std::string> warnings_of_case(const Request& request);
 
 /// Refuses what a run would refuse, and says what it would be: the chain up to the first step of the transient, in a temporary folder, on
 /// this process alone.

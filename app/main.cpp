@@ -142,6 +142,8 @@ int main(int argc, char** argv) {
   CLI::App* cases =
       program.add_subcommand("sweep-cases", "the process that computes cases for a sweep")->group("");
   add_run_options(*cases, request);
+  bool with_warnings = false;
+  cases->add_flag("--warnings", with_warnings, "tell what the study as it stands warns of");
   CLI::App* report =
       program.add_subcommand("report", "report.html with its pictures, from the results in a folder");
   report->add_option("directory", directory, "folder of the results")->required();
@@ -215,7 +217,7 @@ int main(int argc, char** argv) {
       app::run_sweep(MPI_COMM_WORLD, {request, part, gather});
     });
   if (cases->parsed())
-    return guarded([&] { app::serve_cases(request); });
+    return guarded([&] { app::serve_cases(request, with_warnings); });
   request.report = request.report && run->parsed();
   const app::Stage last = mesh->parsed()        ? app::Stage::mesh
                           : modes->parsed()     ? app::Stage::modes

@@ -80,15 +80,16 @@ sweep::Draws shared_design(MPI_Comm comm, const study::Sweep& sweep, std::int64_
 }
 
 /// `1 row is`, `3 rows are`
-std::string rows_are(std::size_t count) {
-  return results::counted(static_cast<std::int64_t>(count), "row") + (count == 1 ? " is" : " are");
+std::string rows_are(std::int64_t count) {
+  return results::counted(count, "row") + (count == 1 ? " is" : " are");
 }
 
 /// Of the rows of earlier calls.
-std::string found_text(const sweep::FoundRows& found) {
+/// @param there  of this shard and these inputs, that this call has not computed
+std::string found_text(std::int64_t there, const sweep::FoundRows& found) {
   std::string out;
-  if (!found.rows.empty())
-    out += fmt::format("{} there already (--force computes all cases)\n", rows_are(found.rows.size()));
+  if (there > 0)
+    out += fmt::format("{} there already (--force computes all cases)\n", rows_are(there));
   if (found.of_others > 0)
     out += fmt::format("{} of another state of the study: not used\n", rows_are(found.of_others));
   if (found.corrupt > 0)
@@ -146,7 +147,8 @@ public:
     core::agree(comm_, [&] {
       Request nominal = request_.request;
       nominal.directory = plan_.inputs.directory;
-      worker.emplace(std::move(nominal), plan_.inputs.whole_key, [this] { look(); });
+      worker.emplace(std::move(nominal), plan_.inputs.whole_key, first_rank_ && !request_.shard,
+                     [this] { look(); });
     });
     for (std::int64_t blocks = 1;; blocks = next_blocks(blocks)) {
       draws_ = shared_design(comm_, plan_.sweep, blocks); // the first ones while the worker starts
@@ -154,14 +156,12 @@ public:
         core::agree(comm_, [&] {
           facts_ = worker->facts();
           sweep::check_outputs(plan_.sweep, facts_.columns);
-          if (first_rank_)
-            warnings_ = worker->warnings();
-          if (std::string fixed = states_that_do_not_vary(plan_); !fixed.empty())
-            warnings_.push_back(std::move(fixed));
+          if (first_rank_ && !request_.shard)
+            tell_warnings();
         });
       table_.outputs = facts_.columns;
       if (!request_.gather)
-        compute_missing(*worker, blocks == 1);
+        compute_missing(*worker);
       gather();
       if (request_.shard || enough(blocks))
         return;
@@ -177,6 +177,10 @@ public:
     MPI_Bcast(&count, 1, MPI_INT, 0, comm_);
     kept.resize(static_cast<std::size_t>(count));
     MPI_Bcast(kept.data(), count, MPI_INT64_T, 0, comm_);
+    core::agree(comm_, [&] {
+      if (first_rank_)
+        remove_runs_but(kept);
+    });
     for (const std::int64_t number : kept) {
       progress_.stage(fmt::format("case {}", number));
       Request run = request_.request;
@@ -206,14 +210,15 @@ public:
     }
     for (const auto& [name, text] : record)
       summary_[name] = text;
+    const std::string lines = sweep::summary_text(summary_); // warnings of the study have been told
     std::vector<std::string> warnings = warnings_;
-    for (const auto& of_cases : summary_["warnings"])
-      warnings.push_back(of_cases.get<std::string>());
+    for (const auto& later : summary_["warnings"])
+      warnings.push_back(later.get<std::string>());
     summary_["warnings"] = warnings;
     results::save_summary(plan_.directory / "summary.json", summary_);
     std::string text =
         plan_.inputs.study.title.empty() ? "Sweep\n" : "Sweep: " + plan_.inputs.study.title + "\n";
-    text += sweep::summary_text(summary_);
+    text += lines;
     for (const auto& number : summary_["worst"])
       text += fmt::format(
           "  kept         {}\n",
@@ -232,11 +237,11 @@ public:
   }
 
   [[nodiscard]] std::string shard_text() const {
-    return fmt::format("shard {}/{}: {} of {} cases are there; when all shards have ended: fretwork sweep "
-                       "{} --gather\n",
+    return fmt::format("shard {}/{}: {} of {} cases are there; when all shards have ended, the same command "
+                       "with --gather in place of --shard makes the table\n",
                        plan_.shard.index, plan_.shard.count,
                        results::grouped(static_cast<std::int64_t>(table_.rows.size())),
-                       results::grouped(draws_.rows()), request_.request.study.string());
+                       results::grouped(draws_.rows()));
   }
 
 private:
@@ -260,20 +265,37 @@ private:
     return enough == 1;
   }
 
+  /// Runs of an earlier state of the study, or of fewer cases, are not those of this table.
+  void remove_runs_but(const std::vector<std::int64_t>& kept) const {
+    std::vector<fs::path> stale;
+    std::error_code absent;
+    for (fs::directory_iterator at(plan_.directory / "runs", absent), end; at != end; at.increment(absent)) {
+      const std::string name = at->path().filename().string();
+      if (name.starts_with("case_") && std::none_of(kept.begin(), kept.end(), [&](std::int64_t number) {
+            return name == fmt::format("case_{}", number);
+          }))
+        stale.push_back(at->path());
+    }
+    for (const fs::path& folder : stale)
+      fs::remove_all(folder);
+  }
+
   [[nodiscard]] sweep::FoundRows read() const {
     return sweep::read_rows(plan_.directory / "shards", draws_.rows(),
                             [&](std::int64_t number) { return identity_of(plan_, draws_, number); });
   }
 
-  void compute_missing(CaseWorker& worker, bool first_of_call) {
+  void compute_missing(CaseWorker& worker) {
     sweep::FoundRows found;
     core::agree(comm_, [&] {
       if (first_rank_)
         found = read();
     });
-    if (first_rank_ && !request_.request.quiet && first_of_call)
-      fmt::print("{}", core::printable(found_text(found), core::longest_message_line));
     const std::vector<std::int64_t> missing = missing_cases(comm_, plan_, draws_.rows(), found);
+    const std::int64_t there = cases_of_shard() - static_cast<std::int64_t>(missing.size());
+    if (first_rank_)
+      say(found_text(there - known_, missing.empty() ? sweep::FoundRows{} : found));
+    known_ = cases_of_shard(); // after this stage
     found = {};
     progress_.stage("cases");
     core::SharedCounters counters(comm_);
@@ -296,6 +318,25 @@ private:
     counters_ = nullptr;
   }
 
+  [[nodiscard]] std::int64_t cases_of_shard() const {
+    return (draws_.rows() - plan_.shard.index + plan_.shard.count) / plan_.shard.count;
+  }
+
+  void say(const std::string& text) const {
+    if (!request_.request.quiet)
+      fmt::print("{}", core::printable(text, core::longest_message_line));
+  }
+
+  /// Before the first case: there may be hours of them.
+  void tell_warnings() {
+    warnings_ = facts_.warnings;
+    if (std::string fixed = states_that_do_not_vary(plan_); !fixed.empty())
+      warnings_.push_back(std::move(fixed));
+    progress_.stage("");
+    for (const std::string& warning : warnings_)
+      say(fmt::format("warning: {}\n", warning));
+  }
+
   void look() {
     if (!counters_ || !first_rank_)
       return;
@@ -312,6 +353,12 @@ private:
       if (!first_rank_)
         return;
       sweep::FoundRows found = read();
+      if (request_.gather && found.rows.empty())
+        throw core::Error(fmt::format(
+            "{}: no row of this sweep is there{}; give the -o and --set of its shards",
+            plan_.directory.string(),
+            found.of_others > 0 ? fmt::format(", {} of another state of the study", rows_are(found.of_others))
+                                : ""));
       table_.rows = std::move(found.rows);
       for (const sweep::Row& row : table_.rows)
         if (row.outcome == sweep::Outcome::done && row.values.size() != table_.outputs.size())
@@ -341,6 +388,7 @@ private:
   nlohmann::json summary_;
   core::SharedCounters* counters_ = nullptr;
   std::int64_t to_do_ = 0;
+  std::int64_t known_ = 0; ///< cases of the stages before
 };
 
 } // namespace
@@ -352,6 +400,9 @@ void run_sweep(MPI_Comm comm, const SweepRequest& request) {
   std::optional<FolderLock> lock;
   core::agree(comm, [&] {
     plan = read_sweep_plan(request);
+    if (fs::exists(plan.directory / "results.h5"))
+      throw core::Error(fmt::format("{} holds the results of a run; give the sweep another folder with -o",
+                                    plan.directory.string()));
     make_directory(plan.inputs.directory);
     if (first_rank)
       lock.emplace(plan.inputs.directory, request.request.study.string());

@@ -42,6 +42,9 @@ SweepPlan read_sweep_plan(const SweepRequest& request) {
   plan.inputs.directory =
       plan.directory / "shards" / fmt::format("{}_of_{}", plan.shard.index, plan.shard.count);
   plan.files = files_of(plan.sweep, plan.document.file.parent_path());
+  if (request.shard && request.gather)
+    throw core::Error(
+        "--shard computes a part of the cases, --gather makes the table of all parts; give one of them");
   if ((request.shard || request.gather) && plan.sweep.until)
     throw core::Error(
         "sweep.until decides by all cases, of which a shard has a part; leave until out and give "

@@ -2,6 +2,7 @@
 #include "core/names.hpp"
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <numeric>
 
 namespace fretwork::core {
@@ -31,13 +32,19 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
-/// The only candidate that begins with some letters, three at least; else an empty string.
+/// The shortest candidate that begins with some letters, three at least, where it begins all others that do; else an empty string.
 std::string completed(const std::string& beginning, const std::vector<std::string>& candidates) {
   constexpr std::size_t least_letters = 3;
-  const auto fits = [&](const std::string& candidate) { return lower(candidate).starts_with(beginning); };
-  return beginning.size() >= least_letters && std::count_if(candidates.begin(), candidates.end(), fits) == 1
-             ? *std::find_if(candidates.begin(), candidates.end(), fits)
-             : std::string();
+  if (beginning.size() < least_letters)
+    return {};
+  std::vector<std::string> found;
+  std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(found),
+               [&](const std::string& candidate) { return lower(candidate).starts_with(beginning); });
+  const auto shortest = std::min_element(found.begin(), found.end(),
+                                         [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  const bool begins_all = std::all_of(found.begin(), found.end(),
+                                      [&](const std::string& other) { return other.starts_with(*shortest); });
+  return shortest != found.end() && begins_all ? *shortest : std::string();
 }
 
 } // namespace

@@ -8,7 +8,8 @@
 
 namespace fretwork::core {
 
-/// The candidate nearest to `name` (edit distance, case ignored), or the only one that `name` is the beginning of; an empty string where none
+/// The candidate nearest to `name` (edit distance, case ignored), or the shortest that `name` is the beginning of, where
+/// all others go on from it; an empty string where none
 /// resembles it: more than a third of the characters would have to change.
 [[nodiscard]] std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
 

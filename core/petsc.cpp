@@ -6,7 +6,7 @@
 
 namespace fretwork::core {
 
-PetscSession::PetscSession() : begun_(!SlepcInitializeCalled) {
+PetscSession::PetscSession(MPI_Comm comm) : begun_(!SlepcInitializeCalled) {
   if (!begun_)
     return;
   // PETSc would take options, programs to start and files to write among them, from .petscrc of the current folder and from the environment
@@ -15,6 +15,7 @@ PetscSession::PetscSession() : begun_(!SlepcInitializeCalled) {
   char name[] = "fretwork", isolated[] = "-skip_petscrc";
   char* words[] = {name, isolated, nullptr};
   int count = 2;
+  PETSC_COMM_WORLD = comm;
   char** arguments = words;
   FW_PETSC(SlepcInitialize(&count, &arguments, nullptr, nullptr));
   FW_PETSC(PetscPopSignalHandler()); // a crash is ours to report, and Ctrl-C ours to take

@@ -10,11 +10,11 @@
 
 namespace fretwork::core {
 
-/// SlepcInitialize (and so PetscInitialize) for the life of the object; MPI must be running. Neither a .petscrc file nor PETSC_OPTIONS is read:
+/// SlepcInitialize (and so PetscInitialize) on all processes of `comm` for the life of the object; MPI must be running. Neither a .petscrc file nor PETSC_OPTIONS is read:
 /// nothing but the study says what is computed.
 class PetscSession {
 public:
-  PetscSession();
+  explicit PetscSession(MPI_Comm comm);
   ~PetscSession();
   PetscSession(const PetscSession&) = delete;
   PetscSession& operator=(const PetscSession&) = delete;

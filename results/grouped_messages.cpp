@@ -5,26 +5,29 @@
 #include <fmt/format.h>
 #include <set>
 #include <string_view>
+#include <unordered_map>
 
 namespace fretwork::results {
 namespace {
 
 constexpr std::size_t most_in_group = 3;
+constexpr std::size_t most_digits = 10; ///< characters of a number of a range
 /// Fewer messages than these stand by themselves.
 constexpr std::size_t least_alike = 3;
 
 /// A message as the words around its names and numbers, and these.
 struct Parts {
   std::string message;
-  std::vector<std::string> words;  ///< one more than values
-  std::vector<std::string> values; ///< a name with its quotes, a number, or a range of numbers
+  std::vector<std::string> words; ///< one more than values
+  std::vector<std::string>
+      values; ///< a name with its quotes, a list of such, a number, or a range of numbers
 
-  [[nodiscard]] bool alike(const Parts& other) const {
-    const auto same_kind = [](const std::string& a, const std::string& b) {
-      return (a.front() == '"') == (b.front() == '"');
-    };
-    return words == other.words &&
-           std::equal(values.begin(), values.end(), other.values.begin(), other.values.end(), same_kind);
+  /// The same of messages that are alike: the words, and which values are names.
+  [[nodiscard]] std::string kind() const {
+    std::string out = words.front();
+    for (std::size_t i = 0; i < values.size(); ++i)
+      out += (values[i].front() == '"' ? "\x01" : "\x02") + words[i + 1];
+    return out;
   }
 };
 
@@ -39,7 +42,8 @@ std::size_t after_digits(const std::string& text, std::size_t at) {
   return at;
 }
 
-constexpr std::string_view between = " to "; // of the ends of a range
+constexpr std::string_view between = " to ",
+                           between_names = ", "; // of the ends of a range, of names in a list
 
 /// The end of the number that begins at a place; the place itself where none does. A number that is part of a word (x_1, mm2) is none, nor is
 /// a minus a sign within one (pressure-3).
@@ -63,7 +67,10 @@ std::size_t end_of_number(const std::string& text, std::size_t at) {
 /// library need a stack as long as the name.
 std::size_t end_of_value(const std::string& text, std::size_t at) {
   if (text[at] == '"') {
-    const std::size_t end = text.find('"', at + 1);
+    std::size_t end = text.find('"', at + 1);
+    while (end != std::string::npos && text.compare(end + 1, between_names.size(), between_names) == 0 &&
+           text[end + 1 + between_names.size()] == '"') // a list
+      end = text.find('"', end + between_names.size() + 2);
     return end == std::string::npos ? at : end + 1;
   }
   const std::size_t end = end_of_number(text, at);
@@ -90,13 +97,31 @@ Parts parts_of(const std::string& message) {
   return parts;
 }
 
+/// The names of a list, with their quotes.
+std::vector<std::string> names_of(const std::string& list) {
+  std::vector<std::string> out;
+  for (std::size_t at = 0; at < list.size();) {
+    const std::size_t end = list.find('"', at + 1) + 1;
+    out.push_back(list.substr(at, end - at));
+    at = end + between_names.size();
+  }
+  return out;
+}
+
 /// All that stands at one place of alike messages.
 std::string together(std::vector<std::string> values) {
   std::vector<std::string> different;
   std::set<std::string> seen;
-  for (const std::string& value : values)
+  const auto add = [&](const std::string& value) {
     if (seen.insert(value).second)
       different.push_back(value);
+  };
+  for (const std::string& value : values)
+    if (value.front() == '"')
+      for (const std::string& name : names_of(value))
+        add(name);
+    else
+      add(value);
   if (different.size() == 1)
     return different.front();
   if (different.front().front() == '"')
@@ -113,7 +138,11 @@ std::string together(std::vector<std::string> values) {
   const auto [least, most] = std::minmax_element(ends.begin(), ends.end(), [](const auto& a, const auto& b) {
     return std::strtod(a.c_str(), nullptr) < std::strtod(b.c_str(), nullptr);
   });
-  return fmt::format("{}{}{}", *least, between, *most);
+  const auto shown = [](const std::string& number) { // drawn ones have all their digits
+    return number.size() <= most_digits ? number
+                                        : fmt::format("{:.6g}", std::strtod(number.c_str(), nullptr));
+  };
+  return fmt::format("{}{}{}", shown(*least), between, shown(*most));
 }
 
 /// Messages that are alike, with their numbers.
@@ -136,14 +165,14 @@ struct Group {
 
 std::vector<Group> groups_of(const std::vector<std::string>& messages) {
   std::vector<Group> groups;
+  std::unordered_map<std::string, std::size_t> by_kind;
   for (std::size_t k = 0; k < messages.size(); ++k) {
     Parts parts = parts_of(messages[k]);
-    auto group = std::find_if(groups.begin(), groups.end(),
-                              [&](const Group& other) { return other.alike.front().alike(parts); });
-    if (group == groups.end())
-      group = groups.emplace(groups.end());
-    group->alike.push_back(std::move(parts));
-    group->members.push_back(k);
+    const auto [place, is_new] = by_kind.try_emplace(parts.kind(), groups.size());
+    if (is_new)
+      groups.emplace_back();
+    groups[place->second].alike.push_back(std::move(parts));
+    groups[place->second].members.push_back(k);
   }
   return groups;
 }

@@ -93,7 +93,7 @@ std::string unmet_accuracy(const RunResults& results) {
     return {};
   return fmt::format(
       "the step changes statistics of {} by more than the accuracy of {:.2g} %, most of all {} of "
-      "{}: {:+.2g} +- {:.1g} %; set a smaller transient.accuracy or transient.step",
+      "\"{}\": {:+.2g} +- {:.1g} %; set a smaller transient.accuracy or transient.step",
       core::list_names(names, most_named), 100.0 * results.accuracy, worst.name, where, 100.0 * worst.value,
       100.0 * worst.standard_error);
 }

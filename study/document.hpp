@@ -40,8 +40,9 @@ enum class Lines { kept, none };
 /// The parts of an address, which dots outside double quotes separate; none where a quote is not closed.
 [[nodiscard]] std::vector<std::string> address_parts(const std::string& address);
 
-/// What a message adds where a part of an address is the name of one node's results, as `support[0]`; else empty.
-[[nodiscard]] std::string help_on_nodes(const std::string& part);
+/// What a message adds where a part of an address is the name of one node's results, as `support[0]` of an entry of [[contacts]] whose group
+/// has several nodes; else empty.
+[[nodiscard]] std::string help_on_nodes(const Array& contacts, const std::string& part);
 
 /// Apply one override to the tree. The address is split at dots; a part with dots in it is put between double
 /// quotes. An entry of an array of tables is found by its name, else its group, else its index from 0. The

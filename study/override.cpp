@@ -107,7 +107,8 @@ Value& array_item(const Override& self, Array& array, std::size_t part) {
   const std::string indices =
       array.empty() ? "no entries" : "indices 0 to " + std::to_string(array.size() - 1);
   self.fail(self.path(part) + " has no entry \"" + wanted + "\"" +
-            core::name_help(wanted, addresses_of(array)) + "; " + indices + help_on_nodes(wanted));
+            core::name_help(wanted, addresses_of(array)) + "; " + indices +
+            (self.path(part) == "contacts" ? help_on_nodes(array, wanted) : ""));
 }
 
 Value& table_item(const Override& self, Value& parent, std::size_t part) {
@@ -143,14 +144,15 @@ std::vector<std::string> address_parts(const std::string& address) {
   return quoted ? std::vector<std::string>{} : parts;
 }
 
-std::string help_on_nodes(const std::string& part) {
-  const auto bracket = part.find('[');
-  return bracket == 0 || bracket == std::string::npos || part.back() != ']'
+std::string help_on_nodes(const Array& contacts, const std::string& part) {
+  const std::string entry = part.substr(0, part.find('['));
+  const std::vector<std::string> entries = addresses_of(contacts);
+  return part == entry || std::find(entries.begin(), entries.end(), entry) == entries.end()
              ? ""
-             : "; " + toml_key(part.substr(0, bracket)) +
-                   " has one value for all nodes of its group: what is to differ between nodes needs entries "
-                   "of "
-                   "its own";
+             : "; \"" + entry +
+                   "\" has one value for all nodes of its group: what is to differ between nodes needs "
+                   "entries "
+                   "of its own";
 }
 
 void apply_override(Value& root, const std::string& override_text) {

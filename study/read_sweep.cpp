@@ -136,6 +136,9 @@ std::variant<SweepLevels, SweepDistribution, SweepSeeds> read_source(const Table
                         (given.empty() ? "" : ", not " + core::list_names(given)));
   if (given[0] != "values" && variable.has("probabilities"))
     variable.fail_at("probabilities", "belongs to values");
+  if ((given[0] == "values" || given[0] == "range" || given[0] == "seeds") && variable.has("truncated"))
+    variable.fail_at("truncated", "is for continuous distributions; leave it out, and out of " + given[0] +
+                                      " what is not to be");
   if (given[0] == "values")
     return read_values(variable);
   if (given[0] == "range")

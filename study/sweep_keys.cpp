@@ -73,12 +73,13 @@ std::vector<std::string> matching_keys(const Value& root, const Value& pattern, 
     return {text};
   std::vector<std::string> found;
   match(&root, parts, 0, "", found);
-  std::string help = "the pattern fits no key of the study; * stands for any characters, ? for one";
-  for (const std::string& part : parts)
-    help += help_on_nodes(part);
-  if (found.empty())
-    fail(pattern, path, help);
-  return found;
+  if (!found.empty())
+    return found;
+  std::string help;
+  if (const Table* tables = root.table(); parts.size() > 1 && tables->contains("contacts"))
+    if (const Array* contacts = tables->at("contacts").array(); contacts && parts.front() == "contacts")
+      help = help_on_nodes(*contacts, parts[1]);
+  fail(pattern, path, "the pattern fits no key of the study; * stands for any characters, ? for one" + help);
 }
 
 } // namespace fretwork::study

@@ -44,6 +44,7 @@ nlohmann::json request_of(const study::Sweep& sweep, std::int64_t blocks) {
   for (const std::size_t v : drawn) {
     column[v] = out["variables"].size();
     out["variables"].push_back(request_of(sweep.variables[v]));
+    out["variables"].back()["name"] = sweep.variables[v].name;
   }
   for (const study::SweepCorrelation& c : sweep.correlations)
     out["correlations"].push_back({column[c.first], column[c.second], c.value});

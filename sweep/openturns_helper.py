@@ -54,17 +54,17 @@ def correlated(points, correlations):
     ranks = np.identity(points.shape[1])
     for first, second, value in correlations:
         ranks[first, second] = ranks[second, first] = value
-    normal = np.array(ot.NormalCopula.GetCorrelationFromSpearmanCorrelation(ot.CorrelationMatrix(ranks.tolist())))
     try:
+        normal = np.array(ot.NormalCopula.GetCorrelationFromSpearmanCorrelation(ot.CorrelationMatrix(ranks.tolist())))
         factor = np.linalg.cholesky(normal)
-    except np.linalg.LinAlgError:
+    except (np.linalg.LinAlgError, RuntimeError):
         raise WrongInput("sweep.correlations: no variables can be correlated like this, the matrix is not positive definite; take smaller values")
     scores = np.column_stack([np.array(ot.Normal().computeQuantile(column.tolist()))[:, 0] for column in points.T])
     scores = scores @ factor.T
     return np.column_stack([np.array(ot.Normal().computeCDF(column.reshape(-1, 1)))[:, 0] for column in scores.T])
 
 
-def distribution(law, parameters, truncated):
+def distribution(name, law, parameters, truncated):
     laws = {
         "uniform": lambda a, b: ot.Uniform(a, b),
         "normal": lambda mean, deviation: ot.Normal(mean, deviation),
@@ -72,8 +72,16 @@ def distribution(law, parameters, truncated):
         "triangular": lambda a, mode, b: ot.Triangular(a, mode, b),
         "weibull": lambda scale, shape, start: ot.WeibullMin(scale, shape, start),
     }
-    found = laws[law](*parameters)
-    return ot.TruncatedDistribution(found, *truncated) if truncated else found
+    try:
+        found = laws[law](*parameters)
+    except (TypeError, RuntimeError) as error:
+        raise WrongInput(f'variable "{name}": {law} with {parameters} is refused by OpenTURNS: {str(error).strip()}')
+    if not truncated:
+        return found
+    low, high = found.getRange().getLowerBound()[0], found.getRange().getUpperBound()[0]
+    if truncated[1] <= low or truncated[0] >= high:
+        raise WrongInput(f'variable "{name}": truncated = {truncated} leaves nothing of its distribution, which lies between {low:.6g} and {high:.6g}; give other bounds')
+    return ot.TruncatedDistribution(found, *truncated)
 
 
 def values_of(variable, u):
@@ -88,7 +96,7 @@ def values_of(variable, u):
     if law == "measured":
         values = np.sort(np.array(parameters))
         return values[np.floor(u * len(values)).astype(int)]
-    return np.array(distribution(law, parameters, variable.get("truncated")).computeQuantile(u.tolist()))[:, 0]
+    return np.array(distribution(variable["name"], law, parameters, variable.get("truncated")).computeQuantile(u.tolist()))[:, 0]
 
 
 def draw(request, folder):
@@ -155,26 +163,27 @@ def sobol_indices(inputs, outputs, count, names, confidence):
     return out
 
 
-def finite_or_none(value):
-    """JSON has no infinity: a life that never ends is the text "never"."""
+def finite_or_none(value, infinite):
+    """JSON has no infinity: it is the text `infinite`."""
     if value is None or math.isnan(value):
         return None
-    return float(value) if math.isfinite(value) else "never"
+    return float(value) if math.isfinite(value) else infinite
 
 
-def of_output(values, errors, request):
+def of_output(name, values, errors, request):
+    infinite = "worn away" if name.endswith(".wear_depth") else "never"  # a depth beyond its geometry; a life
     present = values[~np.isnan(values)]
     finite = present[np.isfinite(present)]
     out = {"cases": len(present), "quantiles": []}
-    for name, figure in (("mean", np.mean), ("minimum", np.min), ("maximum", np.max)):
-        out[name] = finite_or_none(figure(finite)) if len(finite) else None
+    for key, figure in (("mean", np.mean), ("minimum", np.min), ("maximum", np.max)):
+        out[key] = float(figure(finite)) if len(finite) else None
     out["deviation"] = float(np.std(finite, ddof=1)) if len(finite) > 1 else None
     if errors is not None and len(finite) > 1 and out["deviation"] > 0.0:
         known = errors[np.isfinite(errors)]
         out["share_of_windows"] = float(np.mean(known**2) / out["deviation"] ** 2) if len(known) else None
     for probability in request["quantiles"]:
         found = quantile_interval(present, probability, request["confidence"])
-        out["quantiles"].append(dict(zip(("probability", "value", "low", "high"), (probability, *map(finite_or_none, found)))))
+        out["quantiles"].append(dict(zip(("probability", "value", "low", "high"), (probability, *(finite_or_none(x, infinite) for x in found)))))
     return out
 
 
@@ -216,7 +225,7 @@ def summarize(request, folder):
         if name.endswith(".error"):
             continue
         errors = column.get(name + ".error")
-        answer["outputs"][name] = of_output(column[name][:independent], None if errors is None else errors[:independent], request)
+        answer["outputs"][name] = of_output(name, column[name][:independent], None if errors is None else errors[:independent], request)
         if saltelli:
             found = sobol_indices(inputs, column[name], request["count"], request["inputs"], request["confidence"])
         else:

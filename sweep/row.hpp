@@ -24,8 +24,9 @@ enum class Outcome {
 [[nodiscard]] std::string name_of(Outcome outcome);
 
 struct Row {
-  std::int64_t number = 0; ///< of the case, from 0
-  std::string identity;    ///< digest of all that the case was computed from
+  static constexpr const char* between = " | "; ///< of warnings in a message
+  std::int64_t number = 0;                      ///< of the case, from 0
+  std::string identity;                         ///< digest of all that the case was computed from
   Outcome outcome = Outcome::done;
   std::vector<double> values = {}; ///< by columns; empty unless done
   std::string message = {};        ///< why it is not done; of a done one its warnings

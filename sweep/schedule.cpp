@@ -11,6 +11,12 @@ namespace {
 /// Of what is left, the part of a worker that it takes at once: the costs of cases may differ by as much.
 constexpr std::int64_t caution = 8;
 
+/// A message that begins with the override of the case, `--set key=value: `, which nobody has typed, names key and value after it too.
+std::string without_override(const std::string& message) {
+  const auto end = message.find(": ");
+  return message.starts_with("--set ") && end != std::string::npos ? message.substr(end + 2) : message;
+}
+
 } // namespace
 
 std::vector<std::int64_t> guided_blocks(std::int64_t cases, int workers) {
@@ -26,12 +32,12 @@ Row evaluated(std::int64_t number, const std::string& identity, const std::funct
   Row row{number, identity};
   const auto ended = [&](Outcome outcome, const char* message) {
     row.outcome = outcome;
-    row.message = message;
+    row.message = without_override(message);
   };
   try {
     CaseResult result = evaluate();
     row.values = std::move(result.values);
-    row.message = fmt::format("{}", fmt::join(result.warnings, "; "));
+    row.message = fmt::format("{}", fmt::join(result.warnings, Row::between));
   } catch (const core::Error& error) {
     ended(Outcome::refused, error.what());
   } catch (const core::ComputationError& error) {

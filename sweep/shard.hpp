@@ -38,8 +38,8 @@ private:
 /// What is in the files of a folder and its folders.
 struct FoundRows {
   std::vector<Row> rows;               ///< one for each case that is there, by number
-  std::size_t corrupt = 0;             ///< lines that are not as they were written
-  std::size_t of_others = 0;           ///< rows of other inputs: an earlier state of the study
+  std::int64_t corrupt = 0;            ///< lines that are not as they were written
+  std::int64_t of_others = 0;          ///< rows of other inputs: an earlier state of the study
   std::vector<std::string> where = {}; ///< file and line of the corrupt ones, the first few
 };
 

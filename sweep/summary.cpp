@@ -121,6 +121,20 @@ std::string sensitivity_lines(const json& summary) {
   return out + "\n";
 }
 
+/// Why a case has no result, or its warnings.
+std::vector<std::string> messages_of(const Row& row) {
+  constexpr std::string_view between = Row::between;
+  std::vector<std::string> out;
+  for (std::size_t from = 0; from < row.message.size();) {
+    const std::size_t end = row.outcome == Outcome::done
+                                ? std::min(row.message.find(between, from), row.message.size())
+                                : row.message.size();
+    out.push_back(row.message.substr(from, end - from));
+    from = end + between.size();
+  }
+  return out;
+}
+
 std::string convergence_line(const json& summary) {
   const json& c = summary["statistics"]["convergence"];
   const std::string quantile = fmt::format("{:g} % quantile of {}", 100.0 * c["quantile"].get<double>(),
@@ -147,6 +161,7 @@ std::string convergence_line(const json& summary) {
 } // namespace
 
 json summarize(const study::Sweep& sweep, const Draws& draws, const Table& table) {
+  check_outputs(sweep, table.outputs);
   json out{{"design", name_of(sweep.design)}, {"cases", draws.rows()},     {"rows", table.rows.size()},
            {"done", table.done().size()},     {"failures", json::array()}, {"units", json::object()},
            {"confidence", sweep.confidence}};
@@ -166,38 +181,54 @@ json summarize(const study::Sweep& sweep, const Draws& draws, const Table& table
   const std::vector<double> values = values_of(sweep, draws, table, rows);
   request["rows"] = rows;
   out["statistics"] = ask_openturns(request, values).json;
+  if (const auto missing = draws.rows() - static_cast<Eigen::Index>(table.rows.size()); missing > 0)
+    out["warnings"].push_back(fmt::format(
+        "{} of {} cases are missing: the statistics are those of the others", missing, draws.rows()));
   if (const std::size_t done = table.done().size(); done < table.rows.size())
-    out["warnings"].push_back(fmt::format("{} of {} cases have no result: the statistics are those of the "
-                                          "others, as if the cases without one could not occur",
-                                          table.rows.size() - done, table.rows.size()));
+    out["warnings"].push_back(
+        fmt::format("{} of {} cases have no result: {}", table.rows.size() - done, table.rows.size(),
+                    sweep.design == study::SweepDesign::saltelli
+                        ? "Sobol' indices need them all, there are none"
+                        : "the statistics are those of the others, as if these could not occur"));
   return out;
 }
 
 std::vector<std::string> case_warnings(const Table& table) {
-  std::vector<std::string> out;
+  struct Line {
+    std::size_t cases;
+    std::string text;
+  };
+  std::vector<Line> lines;
   for (const Outcome outcome :
        {Outcome::refused, Outcome::failed, Outcome::crashed, Outcome::defect, Outcome::done}) {
     std::vector<std::string> messages;
-    std::vector<std::int64_t> numbers;
+    std::vector<std::int64_t> numbers; // of their cases
     for (const Row& row : table.rows)
-      if (row.outcome == outcome && !row.message.empty()) {
-        messages.push_back(row.message);
-        numbers.push_back(row.number);
-      }
+      if (row.outcome == outcome)
+        for (std::string& message : messages_of(row)) {
+          messages.push_back(std::move(message));
+          numbers.push_back(row.number);
+        }
     const std::string what = outcome == Outcome::done ? "done with a warning" : name_of(outcome);
-    for (const results::AlikeMessages& alike : results::alike_messages(messages))
-      out.push_back(
-          alike.members.size() == 1
-              ? fmt::format("case {} {}: {}", numbers[alike.members.front()], what, alike.text)
-              : fmt::format("{} {}, the first is case {}: {}",
-                            results::counted(static_cast<std::int64_t>(alike.members.size()), "case"), what,
-                            numbers[alike.members.front()], alike.text));
+    for (const results::AlikeMessages& alike : results::alike_messages(messages)) {
+      const std::size_t cases = alike.members.size();
+      const std::int64_t first = numbers[alike.members.front()];
+      const std::string which =
+          cases == 1 ? fmt::format("case {} {}", first, what)
+                     : fmt::format("{} {}, the first is case {}",
+                                   results::counted(static_cast<std::int64_t>(cases), "case"), what, first);
+      lines.push_back({cases, which + ": " + alike.text});
+    }
   }
-  if (out.size() > most_case_warnings) {
-    const std::size_t more = out.size() - most_case_warnings;
-    out.resize(most_case_warnings);
-    out.push_back(fmt::format("and {} more messages of cases: table.csv", more));
+  std::vector<std::string> out;
+  if (lines.size() > most_case_warnings) {
+    std::stable_sort(lines.begin(), lines.end(),
+                     [](const Line& a, const Line& b) { return a.cases > b.cases; });
+    lines.resize(most_case_warnings);
+    out.push_back("cases have more kinds of messages than these:");
   }
+  for (Line& line : lines)
+    out.push_back(std::move(line.text));
   return out;
 }
 

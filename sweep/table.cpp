@@ -44,6 +44,10 @@ std::vector<Eigen::Index> columns_of(const study::Sweep& sweep) {
   return out;
 }
 
+bool is_of_wear(const std::string& output) {
+  return output.ends_with(".wear_depth") || output.ends_with(".years");
+}
+
 double drawn_at(const Draws& draws, std::int64_t number, Eigen::Index column) {
   return column < 0 ? 0.0 : draws(number, column);
 }
@@ -66,9 +70,15 @@ std::size_t place_of(const std::vector<Column>& columns, const std::string& outp
     return static_cast<std::size_t>(at - columns.begin());
   std::vector<std::string> names;
   for (const Column& column : columns)
-    names.push_back(column.name);
-  throw core::Error(fmt::format("{}: no output is called \"{}\"{}", where, output,
-                                core::name_help(output, names, "outputs")));
+    if (!column.name.ends_with(".error"))
+      names.push_back(column.name);
+  std::stable_partition(names.begin(), names.end(), [](const std::string& name) {
+    return name.starts_with("worst.") || name.starts_with("total.");
+  });
+  const bool wears = std::any_of(names.begin(), names.end(), is_of_wear);
+  throw core::Error(fmt::format("{}: no output is called \"{}\"{}{}", where, output,
+                                core::name_help(output, names, "outputs"),
+                                is_of_wear(output) && !wears ? "; wear needs [[wear]]" : ""));
 }
 
 void write_csv(const std::filesystem::path& file, const study::Sweep& sweep, const Draws& draws,

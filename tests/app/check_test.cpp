@@ -24,6 +24,14 @@ std::vector<std::string> with(const std::string& command, const fs::path& study,
   return all;
 }
 
+TEST(Check, EndsOnSeveralRanks) {
+  const Workshop folder;
+  const Outcome outcome = folder.fretwork(
+      {"check", folder.write("study.toml", tubes(folder, 1) + support + push(0, 200.0)).string()}, 2);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, ": fine"));
+}
+
 TEST(Check, RefusesWhatTheRunRefuses) {
   const Workshop folder;
   const fs::path study = folder.write("study.toml", tubes(folder, 1) + support + push(0, 200.0));

@@ -17,6 +17,8 @@ TEST(NearestName, FindsASlipOfTheHand) {
 TEST(NearestName, CompletesABeginning) {
   EXPECT_EQ(nearest_name("trunc", {"truncated", "uniform"}), "truncated");
   EXPECT_EQ(nearest_name("normal", {"normal_stiffness", "normal_damping"}), "");
+  EXPECT_EQ(nearest_name("stop.work", {"stop.work_rate", "stop.work_rate.error", "total.work_rate"}),
+            "stop.work_rate");
   EXPECT_EQ(nearest_name("g", {"gap", "offset"}), "");
 }
 

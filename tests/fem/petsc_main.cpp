@@ -7,6 +7,6 @@
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   const fretwork::core::MpiSession mpi(argc, argv);
-  const fretwork::core::PetscSession petsc;
+  const fretwork::core::PetscSession petsc(MPI_COMM_WORLD);
   return RUN_ALL_TESTS();
 }

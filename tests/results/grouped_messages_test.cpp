@@ -29,6 +29,18 @@ TEST(AlikeMessages, AreTogetherWhateverTheirNumber) {
   EXPECT_EQ(alike[1].text, "the mesh is coarse");
 }
 
+TEST(AlikeMessages, ListTheNamesOfAll) {
+  const auto alike =
+      alike_messages({"wear of \"a\", \"b\": deep", "wear of \"b\": deep", "wear of \"c\": deep"});
+  ASSERT_EQ(alike.size(), 1u);
+  EXPECT_EQ(alike[0].text, "wear of \"a\", \"b\", \"c\": deep");
+}
+
+TEST(AlikeMessages, ShortenDrawnNumbers) {
+  const auto alike = alike_messages({"gap = -7.277111634167311e-05 m", "gap = -1.4197483085923992e-05 m"});
+  EXPECT_EQ(alike.at(0).text, "gap = -7.27711e-05 to -1.41975e-05 m");
+}
+
 TEST(GroupedMessages, OfTwoStandByThemselves) {
   const std::vector<std::string> messages{"stability \"a\": margin 0.4 in mode 1",
                                           "stability \"b\": margin 0.1 in mode 2"};

@@ -62,7 +62,7 @@ TEST(StepErrors, ThatStandOutAboveTheAccuracyAreNamed) {
   results.step_errors = {work(2.0, 0.1, 0.02), work(2.0, 0.1, 0.1)}; // 5 +- 1 %, 5 +- 5 %
   const std::string said = unmet_accuracy(results);
   EXPECT_THAT(said, HasSubstr("\"" + results.contacts[0].name + "\""));
-  EXPECT_THAT(said, HasSubstr("work_rate of " + results.contacts[0].name + ": +5 +- 1 %"));
+  EXPECT_THAT(said, HasSubstr("work_rate of \"" + results.contacts[0].name + "\": +5 +- 1 %"));
   EXPECT_EQ(said.find("\"" + results.contacts[1].name + "\""), std::string::npos) << "may be chance";
   results.step_errors[0] = work(2.0, 0.015, 0.001); // 0.75 %
   EXPECT_EQ(unmet_accuracy(results), "");

@@ -73,7 +73,7 @@ TEST(Override, SaysWhatIsWrong) {
        {"contacts has no entry \"tsp9\"; did you mean \"tsp1\"? existing: \"tsp1\", \"tsp2\"",
         "indices 0 to 1"}},
       {"contacts.tsp1[0].gap=1",
-       {"contacts has no entry \"tsp1[0]\"", "tsp1 has one value for all nodes of its group"}},
+       {"contacts has no entry \"tsp1[0]\"", "\"tsp1\" has one value for all nodes of its group"}},
       {"contacts.7.gap=1", {"contacts has no entry \"7\"", "\"tsp1\", \"tsp2\"", "indices 0 to 1"}},
       {"contacts.-1.gap=1", {"contacts has no entry \"-1\""}},
       {"materials.inconl.density=1",

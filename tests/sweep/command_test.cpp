@@ -244,7 +244,7 @@ TEST_F(Sweeps, WarnOfStatesOfWearThatDoNotVaryWithTheContacts) {
   EXPECT_FALSE(says(warnings("key = \"turbulence.*.seed\"\nvalues = [7]\n"), "varies in the cases"));
 }
 
-TEST_F(Sweeps, WarnOfTheStudyAsItStandsAsItsRunDoes) {
+TEST_F(Sweeps, WarnOfTheStudyAsItStands) {
   const fs::path study = folder.write("few.toml", sweep_of("straight_tube", R"(
 draws = 2
 [[sweep.variables]]
@@ -253,19 +253,36 @@ uniform = { from = 1.0e-4, to = 3.0e-4 }
 )"));
   const std::vector<std::string> few{"--set", "modes.count=5",           "--set", "transient.duration=0.1",
                                      "--set", "output.statistics_from=0"};
-  const auto call = [&](const char* command, std::vector<std::string> more) {
+  const auto call = [&](const char* command, std::vector<std::string> more, int ranks = 0) {
     more.insert(more.begin(), {command, study.string()});
     more.insert(more.end(), few.begin(), few.end());
-    const Outcome outcome = folder.fretwork(more);
+    const Outcome outcome = folder.fretwork(more, ranks);
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     return outcome.out;
   };
   const std::string text = "modal truncation: the modes lack flexibility at 8 of 8 contacts";
   EXPECT_TRUE(says(call("check", {}), text));
   EXPECT_TRUE(says(call("sweep", {"-o", folder.path("few").string()}), text));
-  const auto warnings = nlohmann::json::parse(bytes_of(folder.path("few/summary.json")))["warnings"];
-  EXPECT_TRUE(says(warnings.dump(), text));
+  const std::string summary = bytes_of(folder.path("few/summary.json"));
+  const auto warnings = nlohmann::json::parse(summary)["warnings"];
+  EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(),
+                          [&](const std::string& warning) { return says(warning, text); }),
+            1); // and no case says it again
   EXPECT_TRUE(says(bytes_of(folder.path("few/report.html")), text));
+  (void)call("sweep", {"-o", folder.path("two").string()}, 2);
+  EXPECT_EQ(bytes_of(folder.path("two/summary.json")), summary);
+}
+
+TEST_F(Sweeps, LeaveOutStabilityAndItsWarnings) {
+  const std::string text = sweep_of("u_bend_flow", R"(
+design = "grid"
+[[sweep.variables]]
+key = "contacts.*.friction"
+values = [0.2]
+)");
+  ASSERT_EQ(sweep(text, "out", short_tube).status, 0);
+  const auto summary = nlohmann::json::parse(bytes_of(folder.path("out/summary.json")));
+  EXPECT_FALSE(says(summary["warnings"].dump(), "[[stability]]"));
 }
 
 TEST_F(Sweeps, WarnOfCasesThatTheirRunWarnsOf) {
@@ -283,6 +300,19 @@ values = [1.0e-4, 0.02]
   EXPECT_TRUE(says(rows.at(1).at("message"), "the step 0.02 s does not resolve"));
 }
 
+TEST_F(Sweeps, WarnOfModesThatAreTooFewForACase) {
+  const Outcome outcome = sweep(sweep_of("straight_tube", R"(
+design = "grid"
+[[sweep.variables]]
+key = "contacts.support.normal_stiffness"
+values = [1.0e3, 1.0e8]
+)"),
+                                "hard", short_tube);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(
+      says(table_of(folder.path("hard")).at(1).at("message"), "the modes lack flexibility at 8 of 8"));
+}
+
 TEST_F(Sweeps, WarnWhereStatisticsAreThoseOfTheCasesThatAreLeft) {
   const Outcome outcome = sweep(sweep_of("oscillator", R"(
 draws = 30
@@ -293,6 +323,21 @@ uniform = { from = -1.0e-3, to = 4.0e-3 }
                                 "left");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_TRUE(says(outcome.out, "of 30 cases have no result: the statistics are those of the others"));
+}
+
+TEST_F(Sweeps, CheckReadsCasesOfOtherStructuresAndMovingSupports) {
+  const std::string text = sweep_of("straight_tube", R"(
+draws = 3
+[[sweep.variables]]
+key = "sections.tube.thickness"
+uniform = { from = 1.0e-3, to = 1.2e-3 }
+)");
+  const Outcome outcome = folder.fretwork(
+      {"check", folder.write("sweep.toml", text).string(), "--set",
+       "support_motion=[{ group = \"ends\", direction = [0, 1, 0], quantity = \"displacement\", "
+       "harmonic = { amplitude = 1e-4, frequency = 5 } }]"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, "sweep: 3 cases (monte_carlo) of 1 variable\n"));
 }
 
 TEST_F(Sweeps, CheckRefusesWhatNoCaseIsComputedFor) {
@@ -307,6 +352,7 @@ TEST_F(Sweeps, CheckRefusesWhatNoCaseIsComputedFor) {
   const Outcome unknown =
       check("draws = 4\n[[sweep.variables]]\nkey = \"contacts.stop.gapp\"\nvalues = [1]\n");
   EXPECT_EQ(unknown.status, 1);
+  EXPECT_FALSE(says(unknown.out, "fine"));
   EXPECT_TRUE(says(unknown.err, "no case of the sweep would be computed; case 0: "));
   EXPECT_TRUE(says(unknown.err, "did you mean \"gap\""));
   const Outcome limit =
@@ -324,6 +370,7 @@ TEST_F(Sweeps, RanksAndShardsGiveTheSameBytes) {
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_FALSE(fs::exists(folder.path("shards/table.csv")));
   }
+  EXPECT_TRUE(says(sweep(stops, "shards", {"--shard", "2/3"}).out, "4 rows are there already"));
   ASSERT_EQ(sweep(stops, "shards", {"--gather"}).status, 0);
   for (const std::string& name : tables) {
     EXPECT_EQ(bytes_of(folder.path("one/" + name)), bytes_of(folder.path("three/" + name))) << name;
@@ -335,6 +382,10 @@ TEST_F(Sweeps, GatheringSaysWhatIsMissing) {
   ASSERT_EQ(sweep(stops, "part", {"--shard", "1/2"}).status, 0);
   const Outcome outcome = sweep(stops, "part", {"--gather"});
   EXPECT_TRUE(says(outcome.out, "6 missing"));
+  const Outcome none = sweep(stops, "part", {"--gather", "--set", "masses.0.mass=200"});
+  EXPECT_EQ(none.status, 1); // and the table stays
+  EXPECT_TRUE(says(none.err, "no row of this sweep is there, 6 rows are of another state of the study"));
+  EXPECT_TRUE(says(sweep(stops, "part", {"--gather", "--shard", "1/2"}).err, "give one of them"));
   EXPECT_EQ(table_of(folder.path("part")).size(), 6u);
 }
 
@@ -393,14 +444,55 @@ truncated = [0.1, 2.0]
   const Outcome outcome = sweep(text, "out", {}, 2);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_TRUE(says(outcome.out, "3 % are asked for: enough"));
+  EXPECT_FALSE(says(outcome.out, "there already")); // what this call has computed before
   const auto summary = nlohmann::json::parse(bytes_of(folder.path("out/summary.json")));
   const int cases = summary["cases"];
+  EXPECT_TRUE(says(sweep(text, "out").out, "20 rows are there already"));
   EXPECT_TRUE(cases == 160 || cases == 320 || cases == 640) << cases; // (2.0/0.03 0.2/sqrt(2/pi))^2 = 280
   // the force goes with the speed: half of the cases lie above that of 1 m/s
   const auto& limit = summary["statistics"]["limits"][0];
   EXPECT_LT(limit["low"], 0.5);
   EXPECT_GT(limit["high"], 0.5);
   EXPECT_GT(summary["statistics"]["sensitivities"]["stop.normal_max"]["initial.0.velocity.0"]["value"], 0.99);
+}
+
+TEST_F(Sweeps, AndRunsTakeNoFoldersOfEachOther) {
+  const std::string study = example("oscillator").string();
+  ASSERT_EQ(sweep(stops, "swept").status, 0);
+  const Outcome run = folder.fretwork({"run", study, "-o", folder.path("swept").string(), "--no-report"});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_TRUE(says(run.err, "holds the results of a sweep; give another folder"));
+  ASSERT_EQ(folder.fretwork({"run", study, "-o", folder.path("ran").string(), "--no-report"}).status, 0);
+  EXPECT_TRUE(says(sweep(stops, "ran").err, "holds the results of a run; give the sweep another folder"));
+}
+
+TEST_F(Sweeps, RemoveRunsOfAnEarlierState) {
+  const std::string text = sweep_of("oscillator", R"(
+draws = 6
+keep = "worst 1"
+[[sweep.variables]]
+key = "initial.0.velocity.0"
+uniform = { from = 0.5, to = 1.5 }
+)");
+  ASSERT_EQ(sweep(text, "out").status, 0);
+  fs::create_directories(folder.path("out/runs/case_999"));
+  ASSERT_EQ(sweep(text, "out", {"--set", "masses.0.mass=200"}).status, 0);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path("out/runs")), {}), 1);
+}
+
+TEST_F(Sweeps, DepthsBeyondTheGeometryAreInfinite) {
+  const Outcome outcome = sweep(sweep_of("tube_study", R"(
+draws = 4
+limits = [{ output = "worst.wear_depth", above = 1.0e-3 }]
+[[sweep.variables]]
+key = "wear.plates.coefficient"
+values = [1.0e-10]
+)"),
+                                "out", short_tube);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(table_of(folder.path("out")).at(0).at("worst.wear_depth"), "inf");
+  EXPECT_TRUE(says(outcome.out, "worn away"));
+  EXPECT_TRUE(says(outcome.out, "4 of 4 cases"));
 }
 
 TEST_F(Sweeps, WithoutAnyResultTheCommandFails) {
@@ -439,6 +531,11 @@ TEST_F(Sweeps, WrongInputIsRefusedWithItsCure) {
   EXPECT_TRUE(says(
       refusal(with("draws = 3\nuntil = { relative_error = 0.1 }\n" + variable + law), {"--shard", "1/2"}),
       "leave until out"));
+  EXPECT_TRUE(says(refusal(with("draws = 3\n" + variable + law + "truncated = [0, 1]\n")),
+                   "truncated = [0, 1]: is for continuous distributions"));
+  EXPECT_TRUE(
+      says(refusal(with("draws = 3\n" + variable + "uniform = { from = 0, to = 1 }\ntruncated = [2, 3]\n")),
+           "variable \"contacts.stop.gap\": truncated = [2.0, 3.0] leaves nothing of its distribution"));
   EXPECT_TRUE(
       says(refusal(with("draws = 3\n" + variable + law), {"--shard", "3/2"}), "i/n with 1 <= i <= n"));
   EXPECT_TRUE(

@@ -31,7 +31,7 @@ class Coverage(unittest.TestCase):
     def repetitions(self):
         for repetition in range(REPETITIONS):
             points = helper.uniforms("monte_carlo", CASES, 1, 1, repetition)
-            yield model(helper.values_of({"law": "normal", "parameters": [0.0, 1.0]}, points[:, 0]))
+            yield model(helper.values_of({"name": "x", "law": "normal", "parameters": [0.0, 1.0]}, points[:, 0]))
 
     def test_quantile_intervals_cover_as_often_as_they_say(self):
         probabilities = (0.1, 0.5, 0.9)
@@ -68,7 +68,7 @@ class Coverage(unittest.TestCase):
         values = np.array([1.0] * 50 + [math.inf] * 50)
         value, low, high = helper.quantile_interval(values, 0.95, CONFIDENCE)
         self.assertEqual((value, low), (math.inf, math.inf))
-        self.assertEqual(helper.finite_or_none(value), "never")
+        self.assertEqual(helper.finite_or_none(value, "never"), "never")
 
 
 if __name__ == "__main__":

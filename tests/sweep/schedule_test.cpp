@@ -93,7 +93,12 @@ TEST(Schedule, WhatACaseThrowsIsItsOutcome) {
   EXPECT_EQ(outcome_of(std::logic_error("ours")).outcome, Outcome::defect);
   const Row done = evaluated(8, "eight", [] { return CaseResult{{1.0}, {"few modes", "a long step"}}; });
   EXPECT_EQ(done.outcome, Outcome::done);
-  EXPECT_EQ(done.message, "few modes; a long step");
+  EXPECT_EQ(done.message, "few modes | a long step");
+  // the override of the case is nothing that the user has typed
+  EXPECT_EQ(
+      outcome_of(core::Error("--set contacts.stop.gap=-1: contacts.stop.gap = -1: must not be negative"))
+          .message,
+      "contacts.stop.gap = -1: must not be negative");
   EXPECT_EQ(done.values, std::vector<double>{1.0});
 }
 

@@ -63,7 +63,7 @@ def key_figures(sweep):
     entries = [("cases", sweep.summary["cases"]), ("done", sweep.summary["done"]), ("without a result", sweep.summary["rows"] - sweep.summary["done"])]
     out = page.cards([(name, f"{value}") for name, value in entries] + [("design", html.escape(sweep.summary["design"]))])
     if sweep.summary["rows"] < sweep.summary["cases"]:
-        out += page.warning(f"{sweep.summary['cases'] - sweep.summary['rows']} cases have not been computed: the same command goes on.")
+        out += page.warning(f"{sweep.summary['cases'] - sweep.summary['rows']} cases have not been computed: the same command without --gather goes on.")
     return out + "".join(page.warning(text) for text in sweep.summary["warnings"])
 
 
