@@ -20,7 +20,8 @@ TEST(CaseWarnings, AreTogetherByOutcome) {
   const Table table{{},
                     {row(0, Outcome::done, "a long step of 3 s"), row(1, Outcome::refused, "gap = -1 m"),
                      row(2, Outcome::done, ""), row(3, Outcome::refused, "gap = -3 m"),
-                     row(4, Outcome::done, "few modes | a long step of 5 s"), row(5, Outcome::failed, "diverged | at once")}};
+                     row(4, Outcome::done, "few modes | a long step of 5 s"),
+                     row(5, Outcome::failed, "diverged | at once")}};
   EXPECT_THAT(case_warnings(table),
               ElementsAre("2 cases refused, the first is case 1: gap = -3 to -1 m",
                           "case 5 failed: diverged | at once",
