@@ -53,7 +53,7 @@ BENCHMARK(modes_of_a_tube)
 
 int main(int argc, char** argv) {
   const core::MpiSession mpi(argc, argv);
-  const core::PetscSession petsc;
+  const core::PetscSession petsc(MPI_COMM_WORLD);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();

@@ -113,7 +113,7 @@ void run(const std::string& kind, double size, int modes, std::optional<bool> di
 
 int main(int argc, char** argv) {
   const core::MpiSession mpi(argc, argv);
-  const core::PetscSession petsc;
+  const core::PetscSession petsc(MPI_COMM_WORLD);
   if (argc < 4 || argc > 5) {
     std::fprintf(
         stderr, "bench_structures frame DOFS MODES | tubes COUNT MODES | copies COUNT MODES [distributed]\n");

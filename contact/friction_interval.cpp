@@ -66,14 +66,15 @@ public:
   Pieces(const FrictionLaw& law, const PieceTables& usual, double mobility, V spring, bool sliding,
          double length, const ParabolicForce& normal, const TangentialPath<V, M>& path)
       : law_(law), usual_(usual), mobility_(mobility), path_(path), course_(normal),
-        acceleration_(path.acceleration), length_(length), left_(length), normal_(normal.first) {
+        acceleration_(path.acceleration), length_(length), left_(length), normal_(normal.first),
+        lag_(law.stiffness * length < no_damper * law.damping ? law.damping / law.stiffness : 0.0) {
     out_.spring = spring;
     out_.velocity = path.velocity;
     out_.sliding = sliding;
   }
 
   FrictionInterval<V> all() {
-    if (out_.sliding && slider_speed(heading()) < 0.0)
+    if (const V along = heading(); out_.sliding && slider_speed(along) < 0.0 && settled_speed(along) < 0.0)
       out_.sliding = false;
     for (int events = 0; left_ > 0.0; ++events)
       out_.sliding ? slip(events >= most_events) : stick(events >= most_events);
@@ -116,11 +117,11 @@ private:
   [[nodiscard]] double normal_rate(double time) const {
     return (course_.slope() - 12.0 * course_.bow() * (length_ - left_ + time) / length_) / length_;
   }
-  /// Shortens a piece to where a value is 0 that changes its sign in it, by false position (Illinois). `make` makes a piece of a length and
-  /// gives its value at the end.   @return whether anything is left of it
-  template <class Make> bool cut(double length, double at_start, double at_end, const Make& make) const {
+  /// Shortens a piece to where a value is 0 that changes its sign in it from a time on, by false position (Illinois). `make` makes a piece of a
+  /// length and gives its value at the end.   @return whether anything is left of it
+  template <class Make>
+  bool cut(double from, double to, double at_start, double at_end, const Make& make) const {
     const double enough = located * std::abs(at_end - at_start);
-    double from = 0.0, to = length;
     bool was_before = false;
     for (int i = 0; i < most_iterations; ++i) {
       const double time = from + (to - from) * at_start / (at_start - at_end);
@@ -198,7 +199,7 @@ private:
     }
     if (over1 > round_off * law_.mu_static * p.normal && !last) {
       out_.sliding = true;
-      if (!(over0 < 0.0) || !cut(t.length, over0, over1, [&](double time) {
+      if (!(over0 < 0.0) || !cut(0.0, t.length, over0, over1, [&](double time) {
             t = stick_table(time);
             p = sticking(t);
             return over();
@@ -214,9 +215,15 @@ private:
     return slider_speed(along, out_.spring, out_.velocity, normal_, normal_rate(0.0));
   }
   [[nodiscard]] double slider_speed(V along, V spring, V velocity, double normal, double rate) const {
-    return law_.damping > 0.0
-               ? (dot(law_.trial(spring, velocity), along) - law_.mu_dynamic * normal) / law_.damping
-               : -dot(velocity, along) - law_.mu_dynamic * rate / law_.stiffness;
+    return lag_ > 0.0 ? (dot(law_.trial(spring, velocity), along) - law_.mu_dynamic * normal) / law_.damping
+                      : settled_speed(along, velocity, rate);
+  }
+  /// What that speed goes to, as e^(-t K_T/C_T): the spring then follows its bound.
+  [[nodiscard]] double settled_speed(V along) const {
+    return settled_speed(along, out_.velocity, normal_rate(0.0));
+  }
+  [[nodiscard]] double settled_speed(V along, V velocity, double rate) const {
+    return -dot(velocity, along) - law_.mu_dynamic * rate / law_.stiffness;
   }
   [[nodiscard]] Piece slipping(const SlipTable& t, V before) const {
     Piece p;
@@ -249,13 +256,25 @@ private:
     if (const double speed1 = speed(); speed1 < 0.0 && !last) {
       out_.sliding = false;
       stands_ = true;
-      const double speed0 = slider_speed(before);
-      if (!(speed0 > 0.0) || !cut(t.length, speed0, speed1, [&](double time) {
-            t = slip_table(time);
-            p = slipping(t, before);
-            return speed();
-          }))
+      const auto make = [&](double time) {
+        t = slip_table(time);
+        p = slipping(t, before);
+        return speed();
+      };
+      const double speed0 = slider_speed(before), settled = settled_speed(before), soon = 0.5 * left_;
+      if (settled > 0.0) {
+        const double settles = lag_ * std::log(std::max(1.0, std::abs(speed0 - settled) / settled));
+        const bool settled_soon = settles < soon;
+        const double at_start = settled_soon ? settled : speed0;
+        if (!(at_start > 0.0) || !cut(settled_soon ? settles : 0.0, left_, at_start, speed1, make))
+          return;
+      } else if (!(speed0 > 0.0)) {
         return;
+      } else if (const double stands = lag_ * std::log1p(speed0 / -settled); stands < soon) {
+        (void)make(stands);
+      } else if (!cut(0.0, left_, speed0, speed1, make)) {
+        return;
+      }
     }
     // Simpson's rule, the velocity a parabola by its ends and its mean
     const double n1 = p.normal, v0 = norm(out_.velocity), v1 = norm(p.velocity),
@@ -296,6 +315,7 @@ private:
   V acceleration_; ///< m/s2, without friction
   FrictionInterval<V> out_;
   double length_, left_, normal_; ///< s, s, N
+  double lag_;                    ///< s, C_T/K_T; 0: as without damper
   bool stands_ = false; ///< the slider has just come to a stand: round-off may have it above the bound
 };
 

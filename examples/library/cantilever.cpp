@@ -22,7 +22,7 @@ int main(int argc, char** argv) try {
   if (argc != 2)
     throw core::Error("the mesh is missing: cantilever beam.msh");
   const core::MpiSession mpi(argc, argv);
-  const core::PetscSession petsc;
+  const core::PetscSession petsc(MPI_COMM_WORLD);
   const mesh::LineMesh mesh = mesh::read({.file = argv[1]});
 
   fem::Model model;

@@ -91,6 +91,46 @@ TEST(FrictionInterval, StopsToSlideInsideTheInterval) {
   EXPECT_FALSE(f.sliding);
 }
 
+TEST(FrictionInterval, SlidesAsWithoutDamperWhereThatIsFast) {
+  // x = 2 t - 1.5 t^2: sticks up to mu_s N, the spring falls to mu_d N at once, it slides until it turns at 2/3 s, and sticks again
+  constexpr double dt = 1.0, turns = 2.0 / 3.0;
+  const double begins = (2.0 - std::sqrt(4.0 - 1.5)) / 3.0, back = 1.5 * (dt - turns) * (dt - turns);
+  for (const double damping : {0.0, 1e-12, 1e-9, 1e-6, 1e-4, 1e-3}) {
+    const FrictionLaw fast{2.0, damping, 0.5, 0.2};
+    const auto f =
+        friction_over_interval(fast, piece_tables(fast, 0.0, dt), 0.0, 0.0, false, dt, line(1.0, 1.0),
+                               TangentialPath<double, double>{2.0, -3.0, 0.0, 0.0});
+    const double tolerance = 2e-3 + 20.0 * damping;
+    EXPECT_NEAR(f.sliding_time, turns - begins, tolerance) << damping;
+    EXPECT_NEAR(f.spring, -0.2 + fast.stiffness * back, tolerance) << damping;
+    EXPECT_FALSE(f.sliding) << damping;
+  }
+}
+
+TEST(FrictionInterval, SlidesOnUnderANormalForceThatIsNotAsItWasExpected) {
+  constexpr double dt = 0.1;
+  for (const double damping : {0.0, 1e-9, 1e-4, 1e-3})
+    for (const double expected : {0.95, 1.0, 1.05}) { // of the interval before, 1 in this one
+      const FrictionLaw fast{2.0, damping, 0.5, 0.2};
+      const auto f = friction_over_interval(fast, piece_tables(fast, 0.0, dt), 0.0, -0.2 * expected, true, dt,
+                                            line(1.0, 1.0), driven<double, double>(0.5));
+      EXPECT_TRUE(f.sliding) << damping << " " << expected;
+      EXPECT_NEAR(f.sliding_time, dt, round_off) << damping << " " << expected;
+      EXPECT_NEAR(f.spring, -0.2, 20.0 * damping + round_off) << damping << " " << expected;
+    }
+}
+
+TEST(FrictionInterval, StandsWhenASpringAboveItsBoundHasFallen) {
+  constexpr double dt = 1.0, v = -0.1; // back, where it slid before
+  for (const double damping : {1e-7, 1e-6, 1e-4}) {
+    const FrictionLaw fast{2.0, damping, 0.5, 0.2};
+    const auto f = friction_over_interval(fast, piece_tables(fast, 0.0, dt), 0.0, -0.3, true, dt,
+                                          line(1.0, 1.0), driven<double, double>(v));
+    EXPECT_FALSE(f.sliding) << damping;
+    EXPECT_NEAR(f.spring, -0.2 - fast.stiffness * v * dt, 20.0 * damping) << damping;
+  }
+}
+
 TEST(FrictionInterval, WorksAsMuchInOneIntervalAsInMany) {
   // a slide that begins above the dynamic bound, under a falling normal force: the spring drops while that is still large
   constexpr double dt = 1.0, v = 0.4, normal0 = 2.0, normal1 = 0.2, begin = -1.6;
