@@ -46,6 +46,11 @@ struct FrictionLaw {
 
   [[nodiscard]] bool active() const { return mu_static > 0.0; }
   [[nodiscard]] double coefficient(bool sliding) const { return sliding ? mu_dynamic : mu_static; }
+  /// Of a contact that touches: its spring is slack, so that it slides at once where its damper bears more than the bound, and with it the
+  /// spring may grow to the dynamic bound alone. Without damper it sticks.   @param normal_force  N, at the touch   @param speed  m/s
+  [[nodiscard]] bool slides_at_touch(double normal_force, double speed) const {
+    return damping * speed > mu_static * normal_force;
+  }
   /// In the directions in which friction acts.
   [[nodiscard]] Vec2 masked(Vec2 v) const { return {along.x * v.x, along.t * v.t}; }
   [[nodiscard]] Sym2 masked(const Sym2& a) const {

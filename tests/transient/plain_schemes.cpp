@@ -106,16 +106,21 @@ PlainState plain_euler(const Scene& scene, double h, int steps) {
       p.normal = contact::normal_force(p.at.support.normal, depth, -p.n().dot(w));
       if (!(p.normal > 0.0)) {
         p.open();
+        p.was_closed = false;
         continue;
       }
       ++s.closed;
       if (p.at.support.friction.active()) {
         p.turn_memory();
         const Vec2 v{w.x(), w.dot(p.t())};
-        p.friction = contact::evaluate(p.at.support.friction, p.memory, p.normal, h * v, v);
+        const double deeper =
+            -h * p.n().dot(w); // m, in the step; its spring follows the node from the touch on
+        const Vec2 dx = (p.was_closed || !(deeper > depth) ? h : h * depth / deeper) * v;
+        p.friction = contact::evaluate(p.at.support.friction, p.memory, p.normal, dx, v);
         s.slid += p.friction.slides;
-        s.friction_work += p.commit(h * v);
+        s.friction_work += p.commit(dx);
       }
+      p.was_closed = true;
       f += p.at.b.transpose() * p.force();
     }
     s.v += h * f;

@@ -89,4 +89,33 @@ TEST(SmallDamper, MayBeShortBesideTheStep) {
     }
 }
 
+TEST(SmallDamper, DecidesOnWhatATouchBeginsWith) {
+  // m = 1 flies into a stop with 1 and 1.5 m/s. Without damper it sticks from the touch on, up to mu_s F_N; however small a damper bears more
+  // than the bound there, and then the spring, which grows by more than mu_d F_N, slides all along.
+  constexpr double kn = 1e5, kt = 2e4, mu_s = 0.5, mu_d = 0.2, vn = 1.0, vt = 1.5;
+  const double wn = std::sqrt(kn), wt = std::sqrt(kt);
+  double onset = 0.0; // s: where the spring of one that sticks is at mu_s F_N
+  while (kt / wt * vt * std::sin(wt * onset) < mu_s * kn / wn * vn * std::sin(wn * onset) + 1e-12)
+    onset += 1e-7;
+  const double sticks = vt * std::cos(wt * onset) - mu_d * vn * (1.0 + std::cos(wn * onset)),
+               slides = vt - 2.0 * mu_d * vn;
+  ASSERT_GT(slides - sticks, 0.2);
+  for (const double damping : {0.0, 0.02, 0.2})
+    for (const SchemeKind kind : {SchemeKind::splitting, SchemeKind::energy_conserving, SchemeKind::euler,
+                                  SchemeKind::devogelaere, SchemeKind::runge_kutta_54})
+      for (const double gap : {1e-3, 1.003e-3, 1.006e-3}) { // touches at other phases of the step
+        Scene s = mass_point(1.0, Vec3::Zero(), 0.02);
+        start(s, 1.0, Vec3::Zero(), {0.0, vt, vn});
+        s.contacts = {contact_of(
+            1.0, {contact::Stop{gap, contact::PlaneAxis::z}, {kn}, {kt, damping, mu_s, mu_d}}, {0, 0, 0})};
+        StepOptions options = kind == SchemeKind::runge_kutta_54 ? adaptive(1e-8) : at(kind, 1e-5);
+        if (kind == SchemeKind::devogelaere || kind == SchemeKind::euler)
+          options.step = damping > 0.0 ? 0.2 * damping / kt : 1e-6;
+        const History run = simulate(s, options, 1e-3);
+        const double end = run.v(1, run.v.cols() - 1);
+        EXPECT_NEAR(end, damping > 0.0 ? slides : sticks, 0.02)
+            << name_of(kind) << " " << damping << " " << gap;
+      }
+}
+
 } // namespace small_damper_test

@@ -292,7 +292,11 @@ void ConservingContacts::find_friction(const Setting& s, const ActiveContact& ac
   r.displacement = {law.along.x * place[2], law.along.t * r.axes.tangent(d[0], d[1])};
   const contact::FrictionMemory past = s.memory.at(active.contact, r.axes);
   const bool reference = law.kind == contact::FrictionMemoryKind::reference;
-  const bool dynamic = active.broken || past.sliding;
+  const double normal_damper = contacts_.supports[active.contact].normal.damping;
+  r.closed.slides_at_touch =
+      r.closed.starts_open &&
+      law.slides_at_touch(normal_damper * std::max(0.0, r.p1 - r.p0) / s.h, norm(r.displacement) / s.h);
+  const bool dynamic = active.broken || past.sliding || r.closed.slides_at_touch;
   const StepFriction f = reference && active.broken ? opposing(law, active.rho, r.normal, r.displacement,
                                                                {force[2], r.axes.tangent(force[0], force[1])})
                                                     : along_trial(law, past.spring, law.coefficient(dynamic),

@@ -123,7 +123,8 @@ ClosedStep close_part(const FrictionLaw& law, const contact::FrictionMemory& mem
       rests = true;
     }
   }
-  const double coefficient = law.coefficient(memory.sliding);
+  const bool slid = memory.sliding || part.slides_at_touch;
+  const double coefficient = law.coefficient(slid);
   const double end_bound = coefficient * end_normal, held = norm(end);
   const bool cut = rests && held > end_bound;
   if (cut)
@@ -153,7 +154,7 @@ ClosedStep close_part(const FrictionLaw& law, const contact::FrictionMemory& mem
 
   const double bound = coefficient * normal / s;
   out.slid = norm(dx) * sliding_share(norm(start - damped) - std::max(0.0, 2.0 * bound - end_bound),
-                                      norm(stuck - damped) - end_bound, memory.sliding, friction.slides);
+                                      norm(stuck - damped) - end_bound, slid, friction.slides);
   return out;
 }
 

@@ -25,8 +25,9 @@ namespace fretwork::transient {
 
 /// The part of a step in which a contact is closed.
 struct ClosedPart {
-  double share = 1.0;       ///< of the step, > 0, <= 1
-  bool starts_open = false; ///< closed at the end of the step only; else closed at its start
+  double share = 1.0;           ///< of the step, > 0, <= 1
+  bool starts_open = false;     ///< closed at the end of the step only; else closed at its start
+  bool slides_at_touch = false; ///< FrictionLaw::slides_at_touch, of one that starts open
 };
 
 /// Friction with its derivatives by displacement over the step, normal force and, where it is given by itself, force.

@@ -36,6 +36,8 @@ public:
     const Entry& e = entries_[static_cast<std::size_t>(c)];
     return e.axes.opposite(axes) ? contact::FrictionMemory{} : e.friction;
   }
+  /// At the end of the last step.
+  [[nodiscard]] bool was_closed(int c) const;
   /// Energy of all springs, J.
   [[nodiscard]] double spring_energy() const { return springs_; }
 
@@ -76,7 +78,6 @@ private:
   /// What a closed contact remembers; what the opposite face has loaded is lost.
   const contact::FrictionMemory& recall(int c, const contact::ContactAxes& axes, ContactLosses& losses);
   void keep(int c, const ClosedStep& step, ContactState& state, ContactLosses& losses);
-  [[nodiscard]] bool was_closed(int c) const;
   /// The contacts that have opened are handed to the trial with the speed at which they leave.
   void find_opened(const ContactMotion& end, ContactTrial& trial);
   void relax(int c, const contact::FrictionTable& table, ContactLosses& losses);

@@ -10,12 +10,13 @@ EulerContacts::EulerContacts(const PackedContacts& contacts, double step)
     tables_.push_back(contact::friction_table(support.friction, step));
 }
 
-void EulerContacts::add_friction(const ContactMotion& motion, int c, ContactState& state) const {
+void EulerContacts::add_friction(const ContactMotion& motion, int c, double closed,
+                                 ContactState& state) const {
   const contact::FrictionLaw& law = contacts_.supports[c].friction;
   const contact::FrictionMemory past = memory_.at(c, state.axes);
   const contact::Vec2 velocity = motion.slip(c, state.axes);
   state.displacement =
-      motion.tangential(c, state.axes, motion.u) - motion.tangential(c, state.axes, position_);
+      closed * (motion.tangential(c, state.axes, motion.u) - motion.tangential(c, state.axes, position_));
   const auto friction =
       contacts_.in_plane[c]
           ? contact::evaluate(law, past, state.normal_force, state.displacement, velocity)
@@ -50,7 +51,7 @@ void EulerContacts::evaluate(ContactMotion& motion, ContactTrial& trial) const {
     state.approach = rate;
     state.damper_work = loss;
     if (support.friction.active())
-      add_friction(motion, c, state);
+      add_friction(motion, c, memory_.was_closed(c) || !(rate * step_ > p) ? 1.0 : p / (rate * step_), state);
     trial.active.push_back(c);
   }
 }

@@ -25,7 +25,8 @@ public:
   void visit(core::StateArchive& state) { state(memory_, position_); }
 
 private:
-  void add_friction(const ContactMotion& motion, int c, ContactState& state) const;
+  /// @param closed  share of the step: the spring follows the node from the touch on
+  void add_friction(const ContactMotion& motion, int c, double closed, ContactState& state) const;
 
   const PackedContacts& contacts_;
   double step_; ///< s

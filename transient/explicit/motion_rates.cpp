@@ -145,7 +145,9 @@ bool MotionRates::press(int c, Vec2 spring, double* rate) {
 void MotionRates::rub(int c, Vec2 in_state, ContactState& state, double* rate) const {
   const contact::FrictionLaw& law = contacts_.supports[c].friction;
   const Vec2 velocity = motion_.slip(c, state.axes);
-  const Vec2 spring = used_spring(c, in_state, state.axes);
+  state.displacement =
+      motion_.tangential(c, state.axes, motion_.u) - motion_.tangential(c, state.axes, position_);
+  const Vec2 spring = touches(c) ? stretched_since_touch(c, state) : used_spring(c, in_state, state.axes);
   contact::Friction friction{law.trial(spring, velocity), regimes_[c].slides};
   if (!located_ || !locates_friction(c)) {
     friction = contact::evaluate(law, {spring, regimes_[c].slides}, state.normal_force, {}, velocity);
@@ -159,8 +161,6 @@ void MotionRates::rub(int c, Vec2 in_state, ContactState& state, double* rate) c
   }
   state.friction = friction.force;
   state.slides = friction.slides;
-  state.displacement =
-      motion_.tangential(c, state.axes, motion_.u) - motion_.tangential(c, state.axes, position_);
   state.slid = state.slides ? norm(state.displacement) : 0.0;
   const Vec2 stretching = rated(c) ? (1.0 / law.damping) * (spring - friction.force) : velocity;
   rate[0] = -law.stiffness * stretching.x;
@@ -204,7 +204,7 @@ void MotionRates::set_spring(int c, double* s) {
       memory.forgotten += law.spring_energy(spring) - law.spring_energy(loaded);
       spring = loaded;
     } else {
-      spring = state.slides ? state.friction : loaded;
+      spring = state.slides || touches(c) ? state.friction : loaded;
       s[3] += law.spring_energy(memory.spring) - law.spring_energy(kept);
       memory.forgotten += law.spring_energy(memory.spring) - law.spring_energy(kept);
       const bool by_slider = state.slides && law.kind == contact::FrictionMemoryKind::return_map;
@@ -316,6 +316,20 @@ Vec2 MotionRates::used_spring(int c, Vec2 spring, const contact::ContactAxes& ax
   return memory.axes.opposite(axes) ? spring - memory.spring : spring;
 }
 
+/// Whether a contact without damper has been open at the last commit: rates cannot tell its spring from when on it is stretched.
+bool MotionRates::touches(int c) const {
+  return !located_ && !regimes_[c].closed && locates_friction(c) && !rated(c);
+}
+
+Vec2 MotionRates::stretched_since_touch(int c, const ContactState& state) const {
+  const auto lane = static_cast<std::size_t>(c), z = static_cast<std::size_t>(contacts_.width) + lane;
+  const double deeper = -state.axes.normal(motion_.u[lane] - position_[lane],
+                                           motion_.u[z] - position_[z]); // m, since the commit
+  const double penetration = -motion_.locate(c).gap;
+  const double share = deeper > penetration ? penetration / deeper : 1.0;
+  return (-share * contacts_.supports[c].friction.stiffness) * state.displacement;
+}
+
 Margins MotionRates::margin(int c, const ContactMotion& motion, Vec2 in_state) const {
   const auto at = face_of(c, motion);
   const Normal normal = normal_of(c, motion, at);
@@ -325,7 +339,8 @@ Margins MotionRates::margin(int c, const ContactMotion& motion, Vec2 in_state) c
     margins.friction = regimes_[c].slides ? 1.0 : -1.0;
   } else if (law.active()) {
     const Vec2 trial = law.trial(used_spring(c, in_state, at.axes()), motion.slip(c, at.axes()));
-    margins.friction = norm(trial) - law.coefficient(regimes_[c].slides) * normal.force;
+    // at a touch the force is 0 up to round-off: a contact without damper, whose spring is 0 then, sticks
+    margins.friction = norm(trial) - law.coefficient(regimes_[c].slides) * std::max(0.0, normal.force);
   }
   return margins;
 }

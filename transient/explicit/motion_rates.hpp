@@ -113,6 +113,9 @@ private:
   };
   [[nodiscard]] const double* springs(const double* y) const { return y + 2 * modes(); }
   [[nodiscard]] bool rated(int c) const;
+  [[nodiscard]] bool touches(int c) const;
+  /// N, of a contact that touches.   @param state  with its axes and its displacement since the last commit
+  [[nodiscard]] contact::Vec2 stretched_since_touch(int c, const ContactState& state) const;
   [[nodiscard]] bool locates_friction(int c) const;
   [[nodiscard]] contact::Location face_of(int c, const ContactMotion& motion) const;
   [[nodiscard]] Normal normal_of(int c, const ContactMotion& motion, const contact::Location& at) const;
