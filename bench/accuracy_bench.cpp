@@ -12,6 +12,7 @@
 //   --against NAME        compares that scheme with another, at the same factor and tolerance, in place of the reference solution
 //   --resolution x        w_c h of the reference solution of masses (0.02; below an accuracy of 0.005 0.01), of tubes 1.5 times that
 //   --budget s (1)        times the usual processor time of the reference solution a scene
+//   --ct-factor x         times C_T of all contacts of random scenes
 //   --ct-ratio x          C_T of single impacts over 2 (K_T m)^1/2; else automatic
 //   --print all           every figure, not only those that fail
 //   --csv FILE            all figures
@@ -41,6 +42,7 @@ struct Arguments {
   std::uint64_t seed = 1;
   double budget = 1.0;
   std::optional<double> resolution, tangential_ratio;
+  double tangential_factor = 1.0;
   bench::StudyOptions study;
 };
 
@@ -74,6 +76,7 @@ Arguments parsed(int argc, char** argv) {
       {"--tolerance", [&](Text t) { out.study.step.tolerance = number(t); }},
       {"--resolution", [&](Text t) { out.resolution = number(t); }},
       {"--budget", [&](Text t) { out.budget = number(t); }},
+      {"--ct-factor", [&](Text t) { out.tangential_factor = number(t); }},
       {"--ct-ratio", [&](Text t) { out.tangential_ratio = number(t); }},
       {"--print", [&](Text t) { out.all = t == "all"; }},
       {"--csv", [&](Text t) { out.csv = t; }}};
@@ -111,6 +114,9 @@ std::vector<bench::RandomScene> scenes_of(const Arguments& arguments) {
     const SceneKind kind = order[static_cast<std::size_t>(i) % std::size(order)];
     out.push_back(bench::random_scene(kind, arguments.seed, numbers[kind]++));
   }
+  for (bench::RandomScene& scene : out)
+    for (transient::ContactPoint& contact : scene.scene.contacts)
+      contact.support.friction.damping *= arguments.tangential_factor;
   return out;
 }
 

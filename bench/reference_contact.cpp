@@ -75,9 +75,10 @@ void ReferenceContact::start(Local velocity) {
   }
 }
 
-ReferenceContact::Friction ReferenceContact::friction(double normal, Vec2 free, const Sym2& response) const {
+ReferenceContact::Friction ReferenceContact::friction(double normal, Vec2 free, const Sym2& response,
+                                                      bool slid) const {
   const contact::FrictionLaw& law = support_.friction;
-  const double bound = (slides_ ? law.mu_dynamic : law.mu_static) * normal, slip = law.mu_dynamic * normal;
+  const double bound = law.coefficient(slid) * normal, slip = law.mu_dynamic * normal;
   if (!(law.damping > 0.0)) {
     if (norm(loaded_) <= bound)
       return {loaded_, loaded_, false};
@@ -112,7 +113,10 @@ Local ReferenceContact::force(Local free, const Response& r) {
   const Sym2 tangent{along.x * r[0], along.x * along.t * (nz * r[1] - ny * r[2]),
                      along.t * (nz * nz * r[4] - ny * nz * (r[5] + r[7]) + ny * ny * r[8])};
   const Vec2 sliding_free = tangential(free + r * out, ny, nz);
-  friction_ = friction(normal_, sliding_free, tangent);
+  const bool slid =
+      slides_ ||
+      (!closed_ && support_.friction.slides_at_touch(law.damping * std::max(0.0, rate), norm(sliding_free)));
+  friction_ = friction(normal_, sliding_free, tangent, slid);
   velocity_ = sliding_free + tangent * friction_.force;
   friction_part_ = {friction_.force.x, friction_.force.t * nz, -friction_.force.t * ny};
   return out + friction_part_;

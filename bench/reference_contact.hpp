@@ -61,7 +61,9 @@ private:
     bool slides;
   };
   [[nodiscard]] contact::Vec2 tangential(Local v, double ny, double nz) const;
-  [[nodiscard]] Friction friction(double normal, contact::Vec2 free, const contact::Sym2& response) const;
+  /// @param slid  before, or from the touch on
+  [[nodiscard]] Friction friction(double normal, contact::Vec2 free, const contact::Sym2& response,
+                                  bool slid) const;
   void add(double weight);
   [[nodiscard]] double slip_began() const;
 

@@ -183,10 +183,10 @@ json summarize(const study::Sweep& sweep, const Draws& draws, const Table& table
   out["statistics"] = ask_openturns(request, values).json;
   if (const auto missing = draws.rows() - static_cast<Eigen::Index>(table.rows.size()); missing > 0)
     out["warnings"].push_back(fmt::format(
-        "{} of {} cases are missing: the statistics are those of the others", missing, draws.rows()));
+        "cases that are missing, {} of {}: the statistics are those of the others", missing, draws.rows()));
   if (const std::size_t done = table.done().size(); done < table.rows.size())
     out["warnings"].push_back(
-        fmt::format("{} of {} cases have no result: {}", table.rows.size() - done, table.rows.size(),
+        fmt::format("cases without a result, {} of {}: {}", table.rows.size() - done, table.rows.size(),
                     sweep.design == study::SweepDesign::saltelli
                         ? "Sobol' indices need them all, there are none"
                         : "the statistics are those of the others, as if these could not occur"));
