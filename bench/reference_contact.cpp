@@ -115,7 +115,8 @@ Local ReferenceContact::force(Local free, const Response& r) {
   const Vec2 sliding_free = tangential(free + r * out, ny, nz);
   const bool slid =
       slides_ ||
-      (!closed_ && support_.friction.slides_at_touch(law.damping * std::max(0.0, rate), norm(sliding_free)));
+      (!closed_ && support_.friction.slides_at_touch(law.damping * std::max(0.0, rate),
+                                                     norm(support_.friction.trial(spring_, sliding_free))));
   friction_ = friction(normal_, sliding_free, tangent, slid);
   velocity_ = sliding_free + tangent * friction_.force;
   friction_part_ = {friction_.force.x, friction_.force.t * nz, -friction_.force.t * ny};

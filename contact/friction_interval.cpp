@@ -74,6 +74,7 @@ public:
   }
 
   FrictionInterval<V> all() {
+    // below 0 and yet to be above: only where the normal force is not as it was expected
     if (const V along = heading(); out_.sliding && slider_speed(along) < 0.0 && settled_speed(along) < 0.0)
       out_.sliding = false;
     for (int events = 0; left_ > 0.0; ++events)
@@ -261,20 +262,19 @@ private:
         p = slipping(t, before);
         return speed();
       };
-      const double speed0 = slider_speed(before), settled = settled_speed(before), soon = 0.5 * left_;
-      if (settled > 0.0) {
-        const double settles = lag_ * std::log(std::max(1.0, std::abs(speed0 - settled) / settled));
-        const bool settled_soon = settles < soon;
-        const double at_start = settled_soon ? settled : speed0;
-        if (!(at_start > 0.0) || !cut(settled_soon ? settles : 0.0, left_, at_start, speed1, make))
-          return;
-      } else if (!(speed0 > 0.0)) {
-        return;
-      } else if (const double stands = lag_ * std::log1p(speed0 / -settled); stands < soon) {
-        (void)make(stands);
-      } else if (!cut(0.0, left_, speed0, speed1, make)) {
-        return;
+      const double speed0 = slider_speed(before), settled = settled_speed(before);
+      // past the fall of the spring false position would have nothing to go by but a speed that has gone
+      const double fall = settled > 0.0 ? lag_ * std::log(std::max(1.0, std::abs(speed0 - settled) / settled))
+                          : settled < 0.0 ? lag_ * std::log1p(std::max(0.0, speed0) / -settled)
+                                          : 0.0;
+      double from = 0.0, to = left_, at_start = speed0, at_end = speed1;
+      if (fall > shortest_piece * length_ && fall < 0.5 * left_) {
+        const double fallen = make(fall);
+        (fallen > 0.0 ? from : to) = fall;
+        (fallen > 0.0 ? at_start : at_end) = fallen;
       }
+      if (!(at_start > 0.0) || !cut(from, to, at_start, at_end, make))
+        return;
     }
     // Simpson's rule, the velocity a parabola by its ends and its mean
     const double n1 = p.normal, v0 = norm(out_.velocity), v1 = norm(p.velocity),

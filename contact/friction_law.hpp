@@ -46,10 +46,10 @@ struct FrictionLaw {
 
   [[nodiscard]] bool active() const { return mu_static > 0.0; }
   [[nodiscard]] double coefficient(bool sliding) const { return sliding ? mu_dynamic : mu_static; }
-  /// Of a contact that touches: its spring is slack, so that it slides at once where its damper bears more than the bound, and with it the
-  /// spring may grow to the dynamic bound alone. Without damper it sticks.   @param normal_force  N, at the touch   @param speed  m/s
-  [[nodiscard]] bool slides_at_touch(double normal_force, double speed) const {
-    return damping * speed > mu_static * normal_force;
+  /// Of a contact that touches: it slides at once where spring and damper would bear more than the bound, and then up to the dynamic bound.
+  /// Without damper its spring is slack: it sticks.   @param normal_force  N, at the touch   @param trial  N, the trial's size
+  [[nodiscard]] bool slides_at_touch(double normal_force, double trial) const {
+    return damping > 0.0 && trial > mu_static * normal_force;
   }
   /// In the directions in which friction acts.
   [[nodiscard]] Vec2 masked(Vec2 v) const { return {along.x * v.x, along.t * v.t}; }

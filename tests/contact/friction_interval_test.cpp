@@ -131,6 +131,37 @@ TEST(FrictionInterval, StandsWhenASpringAboveItsBoundHasFallen) {
   }
 }
 
+TEST(FrictionInterval, StopsUnderDampersOfAnySpeed) {
+  // slides that stop inside the interval, from r = K_T tau/C_T = 0.1 on: against a thousand intervals
+  constexpr double dt = 1.0;
+  constexpr int many = 1000;
+  tests::Uniform draw(3);
+  for (int i = 0; i < 2000; ++i) {
+    const double r = draw.scale(0.1, 1e4), growth = draw(-0.3, 0.3);
+    const FrictionLaw any{2.0, 2.0 * dt / r, 0.5, 0.2};
+    const double v = draw(0.05, 1.0), a = draw(-3.0, -0.1),
+                 spring = -0.2 + any.damping * v - any.damping * draw(0.05, 1.0);
+    const auto one =
+        friction_over_interval(any, piece_tables(any, 0.0, dt), 0.0, spring, true, dt,
+                               line(1.0, 1.0 + growth), TangentialPath<double, double>{v, a, 0.0, 0.0});
+    double in_parts = spring, slid = 0.0;
+    bool sliding = true;
+    for (int k = 0; k < many; ++k) {
+      const double t0 = k * dt / many, t1 = (k + 1) * dt / many;
+      const auto f = friction_over_interval(any, piece_tables(any, 0.0, dt / many), 0.0, in_parts, sliding,
+                                            dt / many, line(1.0 + growth * t0, 1.0 + growth * t1),
+                                            TangentialPath<double, double>{v + a * t0, a, 0.0, 0.0});
+      in_parts = f.spring;
+      sliding = f.sliding;
+      slid += f.sliding_time;
+    }
+    ASSERT_NEAR(one.spring, in_parts, 0.03)
+        << i << " r " << r << " v " << v << " a " << a << " T " << spring << " N' " << growth;
+    ASSERT_NEAR(one.sliding_time, slid, 0.06)
+        << i << " r " << r << " v " << v << " a " << a << " T " << spring << " N' " << growth;
+  }
+}
+
 TEST(FrictionInterval, WorksAsMuchInOneIntervalAsInMany) {
   // a slide that begins above the dynamic bound, under a falling normal force: the spring drops while that is still large
   constexpr double dt = 1.0, v = 0.4, normal0 = 2.0, normal1 = 0.2, begin = -1.6;

@@ -322,7 +322,8 @@ uniform = { from = -1.0e-3, to = 4.0e-3 }
 )"),
                                 "left");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_TRUE(says(outcome.out, " of 30: the statistics are those of the others, as if these could not occur"));
+  EXPECT_TRUE(
+      says(outcome.out, " of 30: the statistics are those of the others, as if these could not occur"));
 }
 
 TEST_F(Sweeps, CheckReadsCasesOfOtherStructuresAndMovingSupports) {

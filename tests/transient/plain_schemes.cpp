@@ -115,7 +115,8 @@ PlainState plain_euler(const Scene& scene, double h, int steps) {
         const Vec2 v{w.x(), w.dot(p.t())};
         const double deeper =
             -h * p.n().dot(w); // m, in the step; its spring follows the node from the touch on
-        const Vec2 dx = (p.was_closed || !(deeper > depth) ? h : h * depth / deeper) * v;
+        const bool damped = p.at.support.friction.damping > 0.0;
+        const Vec2 dx = (damped || p.was_closed || !(deeper > depth) ? h : h * depth / deeper) * v;
         p.friction = contact::evaluate(p.at.support.friction, p.memory, p.normal, dx, v);
         s.slid += p.friction.slides;
         s.friction_work += p.commit(dx);

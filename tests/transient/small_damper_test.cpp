@@ -103,19 +103,39 @@ TEST(SmallDamper, DecidesOnWhatATouchBeginsWith) {
   for (const double damping : {0.0, 0.02, 0.2})
     for (const SchemeKind kind : {SchemeKind::splitting, SchemeKind::energy_conserving, SchemeKind::euler,
                                   SchemeKind::devogelaere, SchemeKind::runge_kutta_54})
-      for (const double gap : {1e-3, 1.003e-3, 1.006e-3}) { // touches at other phases of the step
+      for (const double phase : {0.0, 0.3, 0.6}) { // of the step, at the touch
+        StepOptions options = kind == SchemeKind::runge_kutta_54 ? adaptive(1e-8) : at(kind, 1e-5);
+        if (kind == SchemeKind::devogelaere || kind == SchemeKind::euler)
+          options.step = damping > 0.0 ? 0.2 * damping / kt : 1e-6;
+        const double gap = 1e-3 + phase * vn * options.step.value_or(1e-5);
         Scene s = mass_point(1.0, Vec3::Zero(), 0.02);
         start(s, 1.0, Vec3::Zero(), {0.0, vt, vn});
         s.contacts = {contact_of(
             1.0, {contact::Stop{gap, contact::PlaneAxis::z}, {kn}, {kt, damping, mu_s, mu_d}}, {0, 0, 0})};
-        StepOptions options = kind == SchemeKind::runge_kutta_54 ? adaptive(1e-8) : at(kind, 1e-5);
-        if (kind == SchemeKind::devogelaere || kind == SchemeKind::euler)
-          options.step = damping > 0.0 ? 0.2 * damping / kt : 1e-6;
         const History run = simulate(s, options, 1e-3);
         const double end = run.v(1, run.v.cols() - 1);
         EXPECT_NEAR(end, damping > 0.0 ? slides : sticks, 0.02)
-            << name_of(kind) << " " << damping << " " << gap;
+            << name_of(kind) << " " << damping << " " << phase;
       }
+}
+
+TEST(SmallDamper, DecidesByTheNormalDamperToo) {
+  // F_N begins with C_N v_n = 20 N: tangential dampers of 5 and 20 N s/m bear 7.5 and 30 N there, mu_s F_N is 10 N
+  for (const double damping : {5.0, 20.0}) {
+    std::vector<double> ends;
+    for (const SchemeKind kind :
+         {SchemeKind::runge_kutta_54, SchemeKind::splitting, SchemeKind::energy_conserving}) {
+      Scene s = mass_point(1.0, Vec3::Zero(), 0.02);
+      start(s, 1.0, Vec3::Zero(), {0.0, 1.5, 1.0});
+      s.contacts = {
+          contact_of(1.0, {contact::Stop{1e-3, contact::PlaneAxis::z}, {1e5, 20.0}, {2e4, damping, 0.5, 0.2}},
+                     {0, 0, 0})};
+      const History run =
+          simulate(s, kind == SchemeKind::runge_kutta_54 ? adaptive(1e-8) : at(kind, 2e-5), 1e-3);
+      ends.push_back(run.v(1, run.v.cols() - 1));
+      EXPECT_NEAR(ends.back(), ends.front(), 5e-3) << name_of(kind) << " " << damping;
+    }
+  }
 }
 
 } // namespace small_damper_test

@@ -114,6 +114,11 @@ void ConservingContacts::activate(int c, const Setting& s, const ContactMotion& 
   active.rho = support.friction.active() && trace > 0.0 ? 1.0 / trace : 0.0;
   active.stiffness = support.normal.stiffness + support.friction.stiffness + active.rho +
                      (support.normal.damping + support.friction.damping) / s.h;
+  if (const contact::FrictionLaw& law = support.friction;
+      law.active() && law.kind == contact::FrictionMemoryKind::return_map)
+    active.slides_at_touch =
+        law.slides_at_touch(support.normal.damping * std::max(0.0, start.penetration_rate(c, active.axes)),
+                            norm(law.trial(s.memory.at(c, active.axes).spring, start.slip(c, active.axes))));
   for (std::size_t k = 0; k < size_; ++k)
     force_[size_ * i + k] = 0.0;
 }
@@ -292,10 +297,7 @@ void ConservingContacts::find_friction(const Setting& s, const ActiveContact& ac
   r.displacement = {law.along.x * place[2], law.along.t * r.axes.tangent(d[0], d[1])};
   const contact::FrictionMemory past = s.memory.at(active.contact, r.axes);
   const bool reference = law.kind == contact::FrictionMemoryKind::reference;
-  const double normal_damper = contacts_.supports[active.contact].normal.damping;
-  r.closed.slides_at_touch =
-      r.closed.starts_open &&
-      law.slides_at_touch(normal_damper * std::max(0.0, r.p1 - r.p0) / s.h, norm(r.displacement) / s.h);
+  r.closed.slides_at_touch = r.closed.starts_open && active.slides_at_touch;
   const bool dynamic = active.broken || past.sliding || r.closed.slides_at_touch;
   const StepFriction f = reference && active.broken ? opposing(law, active.rho, r.normal, r.displacement,
                                                                {force[2], r.axes.tangent(force[0], force[1])})

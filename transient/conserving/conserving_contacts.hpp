@@ -48,6 +48,7 @@ private:
   struct ActiveContact {
     int contact;
     bool in_plane, broken, is_held;
+    bool slides_at_touch; ///< FrictionLaw::slides_at_touch
     contact::PlanePoint x0, held;
     contact::Location from;
     double free[3];              ///< y, z from the obstacle's centre and x_loc, from where it started

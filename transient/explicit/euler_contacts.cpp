@@ -15,8 +15,9 @@ void EulerContacts::add_friction(const ContactMotion& motion, int c, double clos
   const contact::FrictionLaw& law = contacts_.supports[c].friction;
   const contact::FrictionMemory past = memory_.at(c, state.axes);
   const contact::Vec2 velocity = motion.slip(c, state.axes);
-  state.displacement =
-      closed * (motion.tangential(c, state.axes, motion.u) - motion.tangential(c, state.axes, position_));
+  const bool damped = law.damping > 0.0 || law.kind != contact::FrictionMemoryKind::return_map;
+  state.displacement = (damped ? 1.0 : closed) * (motion.tangential(c, state.axes, motion.u) -
+                                                  motion.tangential(c, state.axes, position_));
   const auto friction =
       contacts_.in_plane[c]
           ? contact::evaluate(law, past, state.normal_force, state.displacement, velocity)

@@ -25,7 +25,7 @@ public:
   void visit(core::StateArchive& state) { state(memory_, position_); }
 
 private:
-  /// @param closed  share of the step: the spring follows the node from the touch on
+  /// @param closed  share of the step: whether a contact without damper sticks is decided by a spring that follows the node from the touch on
   void add_friction(const ContactMotion& motion, int c, double closed, ContactState& state) const;
 
   const PackedContacts& contacts_;
