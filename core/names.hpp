@@ -8,9 +8,8 @@
 
 namespace fretwork::core {
 
-/// The candidate nearest to `name` (edit distance, case ignored), or the shortest that `name` is the beginning of, where
-/// all others go on from it; an empty string where none
-/// resembles it: more than a third of the characters would have to change.
+/// The candidate nearest to `name` (edit distance, case ignored) of which at most a third of the characters would have to change; else the shortest
+/// that begins with `name`, if it begins all others that do; else an empty string.
 [[nodiscard]] std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
 
 /// `"a", "b", "c"`, or `none` for an empty list; at most `most` names, then how many more there are.

@@ -10,8 +10,8 @@
 
 namespace fretwork::core {
 
-/// SlepcInitialize (and so PetscInitialize) on all processes of `comm` for the life of the object; MPI must be running. Neither a .petscrc file nor PETSC_OPTIONS is read:
-/// nothing but the study says what is computed.
+/// SlepcInitialize (and so PetscInitialize) on all processes of `comm` for the life of the object, or of the session around it; MPI must be
+/// running. Neither a .petscrc file nor PETSC_OPTIONS is read: nothing but the study says what is computed.
 class PetscSession {
 public:
   explicit PetscSession(MPI_Comm comm);

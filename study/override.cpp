@@ -151,8 +151,7 @@ std::string help_on_nodes(const Array& contacts, const std::string& part) {
              ? ""
              : "; \"" + entry +
                    "\" has one value for all nodes of its group: what is to differ between nodes needs "
-                   "entries "
-                   "of its own";
+                   "entries of its own";
 }
 
 void apply_override(Value& root, const std::string& override_text) {
