@@ -190,14 +190,6 @@ void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
         fmt::format("; up to {} of them at once while no contact can meet its obstacle", c.macro_steps);
 }
 
-/// Whether a contact has a static coefficient of its own.
-bool has_static_coefficient(const Scene& scene) {
-  return std::any_of(scene.contacts.begin(), scene.contacts.end(), [](const ContactPoint& point) {
-    const contact::FrictionLaw& law = point.support.friction;
-    return law.kind == contact::FrictionMemoryKind::return_map && law.mu_static > law.mu_dynamic;
-  });
-}
-
 StepChoice choice_of(const Scene& scene, const SceneRates& rates, const StepOptions& options,
                      SchemeKind scheme) {
   StepChoice c;
@@ -215,10 +207,6 @@ StepChoice choice_of(const Scene& scene, const SceneRates& rates, const StepOpti
     choose_automatic(c, scene, options.accuracy);
   c.parts = intervals_of_step(c, fineness_of(options.accuracy));
   c.replay = replay_length(c, scene);
-  if (scheme == SchemeKind::collocation && has_static_coefficient(scene))
-    c.warnings.emplace_back(
-        "collocation is not exact with a static coefficient above the dynamic one: work rates may be "
-        "off by tens of per cent, whatever the step; take scheme = \"splitting\"");
   if (!options.step)
     return c;
   c.reason = "given in the study";
@@ -236,11 +224,6 @@ StepChoice cheapest(const Scene& scene, const SceneRates& rates, const StepOptio
     return splitting;
   if (const std::string why = out_of_scope(scene, SchemeKind::collocation); !why.empty()) {
     splitting.scheme_reason = "splitting, because collocation " + why;
-    return splitting;
-  }
-  if (has_static_coefficient(scene)) {
-    splitting.scheme_reason =
-        "splitting, because collocation is not exact with a static coefficient above the dynamic one";
     return splitting;
   }
   StepChoice collocation = choice_of(scene, rates, options, SchemeKind::collocation);

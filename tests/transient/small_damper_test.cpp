@@ -101,8 +101,9 @@ TEST(SmallDamper, DecidesOnWhatATouchBeginsWith) {
                slides = vt - 2.0 * mu_d * vn;
   ASSERT_GT(slides - sticks, 0.2);
   for (const double damping : {0.0, 0.02, 0.2})
-    for (const SchemeKind kind : {SchemeKind::splitting, SchemeKind::energy_conserving, SchemeKind::euler,
-                                  SchemeKind::devogelaere, SchemeKind::runge_kutta_54})
+    for (const SchemeKind kind :
+         {SchemeKind::splitting, SchemeKind::energy_conserving, SchemeKind::collocation, SchemeKind::euler,
+          SchemeKind::devogelaere, SchemeKind::runge_kutta_54})
       for (const double phase : {0.0, 0.3, 0.6}) { // of the step, at the touch
         StepOptions options = kind == SchemeKind::runge_kutta_54 ? adaptive(1e-8) : at(kind, 1e-5);
         if (kind == SchemeKind::devogelaere || kind == SchemeKind::euler)
@@ -123,8 +124,8 @@ TEST(SmallDamper, DecidesByTheNormalDamperToo) {
   // F_N begins with C_N v_n = 20 N: tangential dampers of 5 and 20 N s/m bear 7.5 and 30 N there, mu_s F_N is 10 N
   for (const double damping : {5.0, 20.0}) {
     std::vector<double> ends;
-    for (const SchemeKind kind :
-         {SchemeKind::runge_kutta_54, SchemeKind::splitting, SchemeKind::energy_conserving}) {
+    for (const SchemeKind kind : {SchemeKind::runge_kutta_54, SchemeKind::splitting,
+                                  SchemeKind::energy_conserving, SchemeKind::collocation}) {
       Scene s = mass_point(1.0, Vec3::Zero(), 0.02);
       start(s, 1.0, Vec3::Zero(), {0.0, 1.5, 1.0});
       s.contacts = {
@@ -134,6 +135,27 @@ TEST(SmallDamper, DecidesByTheNormalDamperToo) {
           simulate(s, kind == SchemeKind::runge_kutta_54 ? adaptive(1e-8) : at(kind, 2e-5), 1e-3);
       ends.push_back(run.v(1, run.v.cols() - 1));
       EXPECT_NEAR(ends.back(), ends.front(), 5e-3) << name_of(kind) << " " << damping;
+    }
+  }
+}
+
+// A mass that sticks in an impact until F_N, with C_N, has fallen to |T|/mu_s, and then slides at mu_d F_N while its spring unwinds through
+// the slider and a damper slower or faster than a step: what is lost, and how far it has slid when the contact opens.
+TEST(SmallDamper, BreaksLooseAsAnImpactEnds) {
+  constexpr double mass = 0.2455, kt = 4.28e5, vn = 0.06, vt = 0.1;
+  for (const double damping : {0.0, 0.05, 0.5, 5.0}) {
+    Scene s = mass_point(mass, Vec3::Zero(), 6e-4);
+    start(s, mass, Vec3::Zero(), {0.0, vt, vn});
+    s.contacts = {contact_of(
+        mass, {contact::Stop{1e-5, contact::PlaneAxis::z}, {1.825e7, 583.0}, {kt, damping, 0.5, 0.2}},
+        {0, 0, 0})};
+    const History right = simulate(s, adaptive(1e-9), 1e-4);
+    const double lost = right.statistics[0].friction_power, worked = right.statistics[0].work_rate;
+    for (const double h : {1e-5, 4e-6, 1e-6}) {
+      const History run = simulate(s, at(SchemeKind::collocation, h), 1e-4);
+      EXPECT_NEAR(run.statistics[0].friction_power, lost, 4e-3 * lost) << damping << " " << h;
+      // of an impact that slides for 14e-6 s, which records sample
+      EXPECT_NEAR(run.statistics[0].work_rate, worked, 0.5 * h / 14e-6 * worked) << damping << " " << h;
     }
   }
 }

@@ -10,7 +10,9 @@ namespace fretwork::transient {
 /// What the path of a contact inside a step adds at a node to its laws there (inner_path.hpp).
 struct InnerForce {
   double y = 0.0, z = 0.0, x = 0.0; ///< N, on the node beside `normal` and `friction`, along the local axes
-  contact::Vec2 spring;             ///< N, of T
+  contact::Vec2 stuck, relaxed;     ///< N, of T in stick, and in slip and open
+  bool followed = false;            ///< the contact has such a path
+  bool slides = false;              ///< at its end at the node
 };
 
 /// One contact at one node.

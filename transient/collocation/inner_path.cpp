@@ -17,6 +17,8 @@ using kernels::Pair;
 namespace {
 
 constexpr int parts = SpringTable::parts, all_parts = 2 * parts;
+/// What a half step leaves at most of a spring's distance from its force, and that distance over the force, for a path to be followed.
+constexpr double fast = 0.5, far = 0.1;
 
 /// At the ends of the parts of a half step: the cubic by p and h p'/2 at its begin and its end, and the derivative of that times h/2.
 struct Cubics {
@@ -164,29 +166,33 @@ public:
   using Vector = Tangential<D>;
   Slider(const contact::FrictionLaw& law, const SpringTable& table, const ContactNode& start, double part)
       : law_(law), table_(table), compliance_(law.stiffness > 0.0 ? 1.0 / law.stiffness : 0.0),
-        bound_(law.coefficient(start.slides)), half_part_(0.5 * part), spring_(tangential<D>(start.spring)),
+        half_part_(0.5 * part), normal_(start.normal), spring_(tangential<D>(start.spring)),
         slip_(tangential<D>(start.slip)), force_(tangential<D>(start.friction)), held_(energy()),
         slides_(start.slides) {}
   void forget() {
     forgotten_ += energy();
     spring_ = {};
   }
-  /// The force at the end of a part, under the normal force and with the tangential velocity there.
-  Vector move(double normal, Vector slip) { return move(1.0, table_, normal, slip); }
-  /// The same of a part in which the contact closes, after which the spring follows the node, and of the force over the part.
-  /// @param closed  share of the part   @param at_touch  N, the normal force that it begins with
-  struct Closing {
-    Vector force, missing; ///< at the end; what the mean over the part has beyond half of that
+  /// The force over a part.
+  struct Passed {
+    Vector force, missing; ///< N, at the end; what the mean over the part has beyond that of begin and end
+    double before_end;     ///< where that stands, parts before the end
   };
-  Closing close(double closed, double at_touch, double normal, Vector slip) {
+  /// A part, under the normal force and with the tangential velocity at its end.
+  Passed move(double normal, Vector slip) { return move(1.0, table_, normal, slip); }
+  /// A part in which the contact closes, after which the spring follows the node.
+  /// @param closed  share of the part   @param at_touch  N, the normal force that it begins with
+  Passed close(double closed, double at_touch, double normal, Vector slip) {
     spring_ = std::pow(table_.keep_part, 1.0 - closed) * spring_;
     slip_ = slip_ + (1.0 - closed) * (slip - slip_);
-    const auto touched = law_.bounded(law_.trial(spring_, slip_), bound_, at_touch);
+    normal_ = at_touch;
+    const auto touched = law_.bounded(law_.trial(spring_, slip_), law_.mu_static, at_touch);
     slides_ = touched.slides;
     force_ = touched.force;
-    const SpringTable table = part_of(table_, closed);
-    const Vector touching = force_, force = move(closed, table, normal, slip);
-    return {force, (0.5 * closed) * (touching + force) - 0.5 * force};
+    const Passed passed = move(closed, part_of(table_, closed), normal, slip);
+    return {passed.force,
+            (0.5 * closed) * (touched.force + passed.force) - 0.5 * passed.force + passed.missing,
+            0.5 * closed};
   }
   /// More of the force in the mean over the last part, in which the contact opens, as a share of that at its begin. Returns it. What sticks
   /// goes without a jump.
@@ -197,7 +203,7 @@ public:
     jump_loss_ += std::max(-slider_, -dot(more, moved_));
     return more;
   }
-  [[nodiscard]] Vector spring() const { return spring_; }
+  [[nodiscard]] PathEnd end() const { return {in_plane(spring_), in_plane(stuck_), slides_}; }
   /// Up to now.
   [[nodiscard]] PathLoss loss() const {
     return {friction_loss_ + jump_loss_, held_ - energy() - work_ - friction_loss_, forgotten_};
@@ -205,39 +211,75 @@ public:
 
 private:
   /// Over a share of a part that the table is for.
-  Vector move(double share, const SpringTable& table, double normal, Vector slip) {
-    const Vector before = spring_;
-    moved_ = (share * half_part_) * (slip + slip_);
-    slip_ = slip;
+  Passed move(double share, const SpringTable& table, double normal, Vector slip) {
     last_ = force_;
     slid_ = slides_;
-    const Vector stuck = before - law_.stiffness * moved_;
-    const auto bounded = law_.bounded(law_.trial(stuck, slip), bound_, normal);
-    if (normal > 0.0 && !bounded.slides) {
-      slides_ = false;
-      bound_ = law_.mu_static;
-      force_ = bounded.force;
-      spring_ = stuck;
-      slider_ = 0.0;
-    } else {
-      slides_ = normal > 0.0;
-      bound_ = slides_ ? law_.mu_dynamic : law_.mu_static;
-      force_ = slides_ ? bounded.force : Vector{};
-      spring_ = table.keep_part * before + table.part_by_last * last_ + table.part_by_force * force_;
-      slider_ = 0.5 * dot(force_ + last_, compliance_ * (before - spring_) - moved_);
-      if (slides_ && !slid_)
-        slider_ -= law_.damper_work_at_slip_onset(normal);
-      slider_ = std::max(0.0, slider_);
-    }
-    work_ += 0.5 * dot(force_ + last_, moved_);
-    friction_loss_ += slider_;
-    return force_;
+    moved_ = way(share, slip);
+    stuck_ = spring_ - law_.stiffness * moved_;
+    const Vector trial = law_.trial(stuck_, slip);
+    const auto bounded = law_.bounded(trial, law_.coefficient(slides_), normal);
+    const bool closed = normal > 0.0;
+    Passed passed{};
+    slider_ = 0.0;
+    if (closed && !bounded.slides)
+      stick(share, slip);
+    else if (closed && !slides_ && law_.mu_static > law_.mu_dynamic)
+      passed = begin_to_slide(share, table, norm(trial), normal, slip, bounded.force);
+    else
+      slide(share, table, slip, closed ? bounded.force : Vector{});
+    slides_ = closed && bounded.slides;
+    normal_ = normal;
+    passed.force = force_;
+    return passed;
   }
+  /// The spring reaches the static bound inside the share, where the force falls to the dynamic one.
+  Passed begin_to_slide(double share, const SpringTable& table, double trial, double normal, Vector slip,
+                        Vector force) {
+    const double before = norm(law_.trial(spring_, slip_)) - law_.mu_static * normal_,
+                 after = trial - law_.mu_static * normal,
+                 stuck = before < 0.0 ? before / (before - after) : 0.0;
+    const Vector first = force_;
+    stick(stuck * share, slip_ + stuck * (slip - slip_));
+    const Vector borne = force_;
+    force_ = law_.bounded(borne, 0.0, normal_ + stuck * (normal - normal_)).force;
+    if (!(law_.damping >
+          0.0)) { // the spring at once too; what the slider does not lose meanwhile the damper takes
+      slider_ += dot(force_, compliance_ * (spring_ - force_));
+      friction_loss_ += slider_;
+      spring_ = force_;
+    }
+    const Vector fallen = force_;
+    slide((1.0 - stuck) * share, part_of(table, 1.0 - stuck), slip, force);
+    const Vector mean = (0.5 * stuck) * (first + borne) + (0.5 * (1.0 - stuck)) * (fallen + force);
+    return {force, share * (mean - 0.5 * (first + force)), (1.0 - stuck) * share};
+  }
+  void stick(double share, Vector slip) {
+    const Vector moved = way(share, slip), before = force_;
+    spring_ = spring_ - law_.stiffness * moved;
+    force_ = law_.trial(spring_, slip);
+    slip_ = slip;
+    work_ += 0.5 * dot(force_ + before, moved);
+  }
+  /// Or open.
+  void slide(double share, const SpringTable& table, Vector slip, Vector force) {
+    const Vector moved = way(share, slip), stretched = spring_;
+    const Vector mean = 0.5 * (force_ + force);
+    spring_ = table.keep_part * spring_ + table.part_by_last * force_ + table.part_by_force * force;
+    force_ = force;
+    slip_ = slip;
+    work_ += dot(mean, moved);
+    const double lost = std::max(0.0, dot(mean, compliance_ * (stretched - spring_) - moved));
+    slider_ += lost;
+    friction_loss_ += lost;
+  }
+  /// m
+  [[nodiscard]] Vector way(double share, Vector slip) const { return (share * half_part_) * (slip + slip_); }
   [[nodiscard]] double energy() const { return law_.spring_energy(spring_); }
   const contact::FrictionLaw& law_;
   const SpringTable& table_;
-  double compliance_, bound_, half_part_;
-  Vector spring_, slip_, force_, last_{}, moved_{};
+  double compliance_, half_part_;
+  double normal_; ///< N
+  Vector spring_, slip_, force_, stuck_{}, last_{}, moved_{};
   double held_;                                  ///< J, by the spring at the begin
   double slider_ = 0.0;                          ///< J, lost in the last part
   double forgotten_ = 0.0;                       ///< J, of springs of the opposite face
@@ -276,34 +318,31 @@ FRETWORK_INLINE InnerPath follow_on(const contact::Support& support, const Sprin
         slip = way.slip[0][i];
       else
         slip = {way.slip[1][i], way.slip[0][i]};
+      const auto rub = [&](const typename Slider<D>::Passed& passed) {
+        friction.add(q.s[i], q.weight[i] * passed.force);
+        friction.add(q.s[i] - passed.before_end / all_parts, (1.0 / all_parts) * passed.missing);
+      };
       if ((before.depth > 0.0) == (after.depth > 0.0)) {
         if (with_friction)
-          friction.add(q.s[i], q.weight[i] * slider.move(after.force, slip));
+          rub(slider.move(after.force, slip));
       } else {
         const Jump jump(law, before, after);
         const double at = q.s[i] - jump.before_end / all_parts;
         normal.add(at, jump.missing / all_parts);
         work += jump.missing * deeper;
         if (with_friction && closes(before, after)) {
-          const auto closing = slider.close(jump.closed, jump.at_touch, after.force, slip);
-          friction.add(q.s[i], q.weight[i] * closing.force);
-          friction.add(at, (1.0 / all_parts) * closing.missing);
+          rub(slider.close(jump.closed, jump.at_touch, after.force, slip));
         } else if (with_friction) {
-          friction.add(q.s[i], q.weight[i] * slider.move(after.force, slip));
+          rub(slider.move(after.force, slip));
           friction.add(at, (1.0 / all_parts) * slider.open(jump.share));
         }
       }
       before = after;
     }
     const PathLoss loss = slider.loss();
-    out.force[j].spring = in_plane(slider.spring()) - nodes[j + 1].spring;
+    out.end[j] = slider.end();
     out.loss[j] = {loss.slider, loss.damper + work + held - law.spring_energy(before.depth), loss.forgotten};
   }
-  // the node 1 has what the node 1/2 hands on
-  const double handed = nodes[1].face.opposite(nodes[2].face)   ? 0.0
-                        : branch_of(nodes[2]) == Branch::sticks ? 1.0
-                                                                : table.keep;
-  out.force[1].spring = out.force[1].spring - handed * out.force[0].spring;
   normal.leave({nodes[0].normal, nodes[1].normal, nodes[2].normal});
   friction.leave(
       {tangential<D>(nodes[0].friction), tangential<D>(nodes[1].friction), tangential<D>(nodes[2].friction)});
@@ -334,7 +373,7 @@ FRETWORK_KERNEL(InnerPath, follow_plane,
 
 } // namespace
 
-bool changes_inside(const contact::Support& support, const ContactNode* nodes) {
+bool changes_inside(const contact::Support& support, const SpringTable& table, const ContactNode* nodes) {
   const bool with_friction = support.friction.active();
   if (with_friction && support.friction.kind != contact::FrictionMemoryKind::return_map)
     return false;
@@ -344,7 +383,9 @@ bool changes_inside(const contact::Support& support, const ContactNode* nodes) {
         (branch == Branch::slides && dot(nodes[j].friction, nodes[j - 1].friction) < 0.0))
       return true;
   }
-  return false;
+  const ContactNode& start = nodes[0];
+  return branch_of(start) == Branch::slides && table.keep < fast &&
+         norm(start.spring - start.friction) > far * norm(start.friction);
 }
 
 template <>

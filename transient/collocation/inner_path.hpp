@@ -7,24 +7,32 @@
 /// p and p' at its ends, the tangential velocity the quadratic through the nodes. The forces F(s), s = t/h, leave the quadratic Q(s) by
 ///     D_0 = int (F - Q) ds,   D_1 = int s (F - Q) ds
 /// and the forces 3 (D_0 - D_1) at the node 1/2 and 12 D_1 - 6 D_0 at the node 1, whose quadratic is 0 at the node 0, add just these two
-/// moments to it. The spring's force T is taken from the path too. The motion answers: the forces at the nodes are found again with these
+/// moments to it. The spring's force T and whether the contact slides are taken from the path too. The motion answers: the forces at the nodes are found again with these
 /// (nodal_solver.hpp). Where a contact closes or opens in a part its force is taken over the share of the part
 /// that it is closed for (of C_N it jumps there). Friction begins at the touch: the spring follows the node from there on, and the force over
-/// that share is the mean of those at the touch and at the end of the part.
+/// that share is the mean of those at the touch and at the end of the part. Where the static coefficient is above the dynamic one the force falls
+/// where the contact breaks loose: the trial over its bound is linear in a part. A node at the end of a path sticks up to the static bound only where the
+/// path does.
 /// Errors of trajectories through impacts fall to a fifth to a fifteenth, without friction to a fiftieth (doc/benchmarks.md).
 #pragma once
 #include "transient/collocation/contact_node.hpp"
 
 namespace fretwork::transient {
 
-/// Whether a contact, its laws known at the nodes 0, 1/2, 1, is not in one branch of them all along. Never where friction has the memory
-/// `reference`, which steps set.
-[[nodiscard]] bool changes_inside(const contact::Support& support, const ContactNode* nodes);
+/// Whether a contact, its laws known at the nodes 0, 1/2, 1, is not in one branch of them all along, or slides with a spring that falls within
+/// the step. Never where friction has the memory `reference`, which steps set.
+[[nodiscard]] bool changes_inside(const contact::Support& support, const SpringTable& table,
+                                  const ContactNode* nodes);
 
 /// What its path inside the step adds at a node.
 struct PathForce {
-  double normal = 0.0;            ///< N
-  contact::Vec2 friction, spring; ///< N; of T, beside what it has had from a path already
+  double normal = 0.0;    ///< N
+  contact::Vec2 friction; ///< N
+};
+/// Its friction there.
+struct PathEnd {
+  contact::Vec2 spring, stuck; ///< N: T, and what it would be if the contact had stuck over the last part
+  bool slides = false;
 };
 /// What is lost on it from the node 0 on.
 struct PathLoss {
@@ -33,6 +41,7 @@ struct PathLoss {
 };
 struct InnerPath {
   PathForce force[2]; ///< at the nodes 1/2 and 1
+  PathEnd end[2];     ///< at them
   PathLoss loss[2];   ///< up to them
 };
 /// Of a contact with D directions.

@@ -11,7 +11,7 @@
 ///     slip and open  T_j = e^-x T_{j-1} + sum_l b_jl F_l     x = K_T h/(2 C_T): T' = -(K_T/C_T)(T - F) exactly, F quadratic through
 ///                                                            the nodes; `reference` and C_T = 0: T_j = F_j
 /// in components along x_loc and t, which turn with the normal; what the opposite face has loaded is lost. `sliding` is that of node
-/// j - 1. Slip is along the trial with the relaxed T; where that is not beyond the bound (T has not followed yet), and with
+/// j - 1, or where a path has been followed to node j (inner_path.hpp) that of the path; both T then are shifted onto that of the path. Slip is along the trial with the relaxed T; where that is not beyond the bound (T has not followed yet), and with
 /// C_T = 0, along the trial of stick, which is exact on a line and of order 1 in the plane. The slip of `reference` is opposite to v
 /// and bears any force within the bound where v = 0.
 #pragma once
@@ -54,6 +54,9 @@ public:
   /// At the node j + 1.
   [[nodiscard]] NormalBranch normal(int j) const { return law_[j].normal; }
   [[nodiscard]] TangentBranch tangent(int j) const { return law_[j].tangent; }
+  /// T at the node j + 1 in components along x_loc and t, N: in stick, and in slip and open.
+  [[nodiscard]] Tangential<D> stuck(int j) const;
+  [[nodiscard]] Tangential<D> relaxed(int j) const;
   /// d residual / d forces.
   [[nodiscard]] Jacobian jacobian(const Answer<D>& answer) const;
 
@@ -71,6 +74,7 @@ private:
   void rub(int j);
   [[nodiscard]] Vector slide(int j, Vector relaxed, Vector trial, double bound);
   [[nodiscard]] Vector tried(int j) const;
+  [[nodiscard]] Vector carried(int j) const;       ///< T of the node before
   [[nodiscard]] Vector masked(Vector force) const; ///< in the directions of friction
 
   const contact::Support& support_;
@@ -148,28 +152,39 @@ template <int D> [[gnu::always_inline]] inline void NodalContact<D>::press(int j
   node.face = node.normal > 0.0 ? node.axes : before.face;
 }
 
+template <int D>
+[[gnu::always_inline]] inline typename NodalContact<D>::Vector NodalContact<D>::carried(int j) const {
+  return law_[j].carries ? tangential<D>(node_[j].spring) : Vector{};
+}
+
+template <int D> [[gnu::always_inline]] inline Tangential<D> NodalContact<D>::stuck(int j) const {
+  const double* s = table_.by_slip[j];
+  return carried(j) + s[0] * slip_[0] + s[1] * slip_[1] + s[2] * slip_[2] +
+         tangential<D>(node_[j + 1].inner.stuck);
+}
+
+template <int D> [[gnu::always_inline]] inline Tangential<D> NodalContact<D>::relaxed(int j) const {
+  const double* f = table_.by_force[j];
+  return table_.keep * carried(j) + f[0] * tangential<D>(node_[0].friction) + f[1] * tried(0) +
+         f[2] * tried(1) + tangential<D>(node_[j + 1].inner.relaxed);
+}
+
 template <int D> [[gnu::always_inline]] inline void NodalContact<D>::rub(int j) {
   const contact::FrictionLaw& law = support_.friction;
   const ContactNode& before = node_[j];
   ContactNode& node = node_[j + 1];
   Law& out = law_[j];
   out.carries = !before.face.opposite(node.face);
-  const Vector carried = out.carries ? tangential<D>(before.spring) : Vector{},
-               inner = tangential<D>(node.inner.spring);
-  const double* s = table_.by_slip[j];
-  const Vector stuck = carried + s[0] * slip_[0] + s[1] * slip_[1] + s[2] * slip_[2] + inner,
-               trial = law.trial(stuck, slip_[j + 1]);
-  const bool closed = node.normal > 0.0;
+  const Vector stuck = this->stuck(j), trial = law.trial(stuck, slip_[j + 1]);
+  const bool closed = node.normal > 0.0, slid = node.inner.followed ? node.inner.slides : before.slides;
   node.slides = false;
-  if (closed && norm(trial) <= law.coefficient(before.slides) * node.normal) {
+  if (closed && norm(trial) <= law.coefficient(slid) * node.normal) {
     out.tangent = TangentBranch::stick;
     node.friction = in_plane(trial);
     node.spring = in_plane(stuck);
     return;
   }
-  const double* f = table_.by_force[j];
-  const Vector relaxed = table_.keep * carried + f[0] * tangential<D>(node_[0].friction) + f[1] * tried(0) +
-                         f[2] * tried(1) + inner;
+  const Vector relaxed = this->relaxed(j);
   node.spring = in_plane(relaxed);
   node.friction = {};
   if (!closed)

@@ -102,7 +102,7 @@ bool NodalSolver::settle_all(const NodalTables& tables, NodalMotion& motion, dou
 bool NodalSolver::follow_paths(NodalMotion& motion) {
   bool any = false;
   for (SweptContact* swept : active_) {
-    swept->has_path = swept->has_path || changes_inside(*swept->support, swept->node);
+    swept->has_path = swept->has_path || changes_inside(*swept->support, swept->springs(), swept->node);
     if (!swept->has_path)
       continue;
     any = true;

@@ -92,8 +92,7 @@ template <int D> FRETWORK_INLINE NodalContact<D> laws_of(SweptContact& a, NodalM
     if constexpr (D == 3)
       local[j * D + 2] = f[2];
   }
-  const auto c = static_cast<std::size_t>(a.contact);
-  return {*a.support, a.tables->springs[c], a.node, local, a.tables->scales[c]};
+  return {*a.support, a.springs(), a.node, local, a.tables->scales[static_cast<std::size_t>(a.contact)]};
 }
 
 /// A new matrix. Returns false where it is singular.
@@ -162,6 +161,36 @@ FRETWORK_INLINE void add_response_of_on(const SweptContact& a, const Forces& cha
 FRETWORK_KERNEL(void, add_response_of, (const SweptContact& a, const Forces& change, NodalMotion& motion),
                 (a, change, motion))
 
+template <int D> void follow_path_of(SweptContact& a, NodalMotion& motion) {
+  const NodalContact<D> laws = laws_of<D>(a, motion); // those of the last sweep are before its change
+  const SpringTable& table = a.springs();
+  const InnerPath path = inner_path<D>(*a.support, table, a.node, a.tables->step);
+  Tangential<D> handed{}; // what the spring of the node before gains
+  for (int j = 0; j < 2; ++j) {
+    ContactNode& at = a.node[j + 1];
+    const PathForce& by = path.force[j];
+    const PathEnd& end = path.end[j];
+    if (at.face.opposite(a.node[j].face))
+      handed = {};
+    const Tangential<D> spring = tangential<D>(end.spring),
+                        stuck = tangential<D>(end.stuck) - laws.stuck(j) - handed,
+                        relaxed = spring - laws.relaxed(j) - table.keep * handed;
+    handed = spring - tangential<D>(at.spring);
+    const InnerForce now{at.axes.y(by.normal, by.friction.t),
+                         at.axes.z(by.normal, by.friction.t),
+                         by.friction.x,
+                         at.inner.stuck + in_plane(stuck),
+                         at.inner.relaxed + in_plane(relaxed),
+                         true,
+                         end.slides};
+    a.path_change[j][0] = now.y - at.inner.y;
+    a.path_change[j][1] = now.z - at.inner.z;
+    a.path_change[j][2] = now.x - at.inner.x;
+    at.inner = now;
+  }
+  a.losses = {path.loss[0], path.loss[1]};
+}
+
 } // namespace
 
 SweptContact::SweptContact(const PackedContacts& contacts, int c)
@@ -201,23 +230,11 @@ void evaluate(SweptContact& a, NodalMotion& motion) {
 }
 
 void follow_path(SweptContact& a, NodalMotion& motion) {
-  evaluate(a, motion); // the laws of the last sweep are those before its change
   a.last_change = 0.0;
-  const InnerPath path =
-      (a.in_plane ? inner_path<3> : inner_path<2>)(*a.support,
-                                                   a.tables->springs[static_cast<std::size_t>(a.contact)],
-                                                   a.node, a.tables->step);
-  for (int j = 0; j < 2; ++j) {
-    ContactNode& at = a.node[j + 1];
-    const PathForce& by = path.force[j];
-    const InnerForce now{at.axes.y(by.normal, by.friction.t), at.axes.z(by.normal, by.friction.t),
-                         by.friction.x, at.inner.spring + by.spring};
-    a.path_change[j][0] = now.y - at.inner.y;
-    a.path_change[j][1] = now.z - at.inner.z;
-    a.path_change[j][2] = now.x - at.inner.x;
-    at.inner = now;
-  }
-  a.losses = {path.loss[0], path.loss[1]};
+  if (a.in_plane)
+    follow_path_of<3>(a, motion);
+  else
+    follow_path_of<2>(a, motion);
 }
 
 } // namespace fretwork::transient

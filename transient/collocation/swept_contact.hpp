@@ -12,6 +12,10 @@ struct SweptContact {
   SweptContact(const PackedContacts& contacts, int contact);
   /// Takes part in a step, without forces.
   void join(const NodalTables& of_step);
+  /// Of the step that it takes part in.
+  [[nodiscard]] const SpringTable& springs() const {
+    return tables->springs[static_cast<std::size_t>(contact)];
+  }
   void visit(core::StateArchive& state) { state(node, branches, inverse); }
 
   using Forces = double[2][3]; ///< at the nodes 1/2 and 1 along y, z, x, N

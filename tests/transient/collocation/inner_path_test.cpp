@@ -45,7 +45,7 @@ TEST(InnerPath, GivesTheImpulseOfAContactThatClosesOrOpens) {
       for (const double rate : {speed, -speed}) {
         const contact::Support support{contact::Stop{}, {stiffness, damping}, {}};
         const Straight path(support, touch, rate);
-        ASSERT_TRUE(changes_inside(support, path.nodes)) << touch;
+        ASSERT_TRUE(changes_inside(support, spring_table(support.friction, h), path.nodes)) << touch;
         const InnerPath inner = inner_path<2>(support, spring_table(support.friction, h), path.nodes, h);
         const Moments law = of_quadratic(path.nodes[0].normal, path.nodes[1].normal, path.nodes[2].normal),
                       more = of_quadratic(0.0, inner.force[0].normal, inner.force[1].normal);
@@ -101,7 +101,7 @@ TEST(InnerPath, FollowsASlideThatEndsAndTurnsRound) {
       nodes[j].friction.t = nodes[j].slip.t > 0.0 ? -bound : bound;
     }
     const InnerPath inner = inner_path<2>(support, spring_table(support.friction, h), nodes, h);
-    EXPECT_TRUE(changes_inside(support, nodes));
+    EXPECT_TRUE(changes_inside(support, spring_table(support.friction, h), nodes));
     // in many small parts
     double spring = -bound, impulse = 0.0, slider = 0.0;
     constexpr int parts = 200000;
@@ -119,10 +119,7 @@ TEST(InnerPath, FollowsASlideThatEndsAndTurnsRound) {
     const Moments law = of_quadratic(nodes[0].friction.t, nodes[1].friction.t, nodes[2].friction.t),
                   more = of_quadratic(0.0, inner.force[0].friction.t, inner.force[1].friction.t);
     EXPECT_NEAR(law.zeroth + more.zeroth, impulse, 5e-3 * bound) << turn;
-    EXPECT_NEAR(nodes[2].spring.t + inner.force[1].spring.t +
-                    inner.force[0].spring.t * spring_table(support.friction, h).keep,
-                spring, 0.02 * bound)
-        << turn;
+    EXPECT_NEAR(inner.end[1].spring.t, spring, 0.02 * bound) << turn;
     EXPECT_NEAR(inner.loss[1].slider, slider, 0.02 * bound * speed * h) << turn;
   }
 }
@@ -142,10 +139,10 @@ TEST(InnerPath, SlidesOnAtTheDynamicCoefficient) {
       nodes[j].friction.t = j > 0 ? -0.3 * press : -damping * 0.15;
       nodes[j].spring.t = j > 0 ? -0.3 * press : 0.0;
     }
-    ASSERT_TRUE(changes_inside(support, nodes));
+    ASSERT_TRUE(changes_inside(support, spring_table(support.friction, h), nodes));
     const InnerPath inner = inner_path<2>(support, spring_table(support.friction, h), nodes, h);
-    EXPECT_NEAR(inner.force[1].spring.t + spring_table(support.friction, h).keep * inner.force[0].spring.t,
-                0.0, 0.02 * press);
+    EXPECT_NEAR(inner.end[1].spring.t, -0.3 * press, 0.02 * press);
+    EXPECT_TRUE(inner.end[0].slides && inner.end[1].slides);
     double spring = 0.0, impulse = 0.0;
     bool slides = false;
     constexpr int parts = 100000;
@@ -160,7 +157,7 @@ TEST(InnerPath, SlidesOnAtTheDynamicCoefficient) {
     }
     const Moments law = of_quadratic(nodes[0].friction.t, nodes[1].friction.t, nodes[2].friction.t),
                   more = of_quadratic(0.0, inner.force[0].friction.t, inner.force[1].friction.t);
-    EXPECT_NEAR(law.zeroth + more.zeroth, impulse, 0.02 * press) << damping;
+    EXPECT_NEAR(law.zeroth + more.zeroth, impulse, 2e-3 * press) << damping;
   }
 }
 
