@@ -37,4 +37,16 @@ SpringTable spring_table(const contact::FrictionLaw& law, double h) {
   return table;
 }
 
+SpringTable part_of(const SpringTable& table, double share) {
+  SpringTable out = table;
+  if (!(table.keep_part > 0.0)) // the spring is set
+    return out;
+  const double x = -share * std::log(table.keep_part);
+  const auto phi = vibration::decay_functions(x);
+  out.keep_part = std::exp(-x);
+  out.part_by_force = x * phi[1];
+  out.part_by_last = x * (phi[0] - phi[1]);
+  return out;
+}
+
 } // namespace fretwork::transient

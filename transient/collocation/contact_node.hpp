@@ -47,6 +47,8 @@ struct SpringTable {
   double by_force[2][3];                          ///< b_jl
 };
 [[nodiscard]] SpringTable spring_table(const contact::FrictionLaw& law, double h);
+/// Of a share of a part.
+[[nodiscard]] SpringTable part_of(const SpringTable& table, double share);
 
 /// Scales of the jumps that are filled (nodal_contact.hpp).
 struct JumpScales {
