@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Cases of sweeps are runs.
+#include "sweep_command.hpp"
+
+namespace fretwork::app::test::sweep_cases_test {
+
+TEST_F(Sweeps, ARowIsARunWithTheSameOverridesBitForBit) {
+  const std::string text = sweep_of("straight_tube", R"(
+draws = 4
+keep = "worst 1"
+[[sweep.variables]]
+key = "contacts.support.gap"
+uniform = { from = 1.0e-4, to = 3.0e-4 }
+[[sweep.variables]]
+key = "contacts.support.friction"
+uniform = { from = 0.1, to = 0.5 }
+)");
+  ASSERT_EQ(sweep(text, "out", short_tube).status, 0);
+  double worst = 0.0;
+  std::size_t at = 0;
+  const auto rows = table_of(folder.path("out"));
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (const double value = std::stod(rows[i].at("worst.work_rate")); value > worst) {
+      worst = value;
+      at = i;
+    }
+  const Results run = read_results(folder.path("out/runs/case_" + std::to_string(at)));
+  double largest = 0.0;
+  for (const auto& contact : run.summary["contacts"]) {
+    const std::string name = contact["name"];
+    EXPECT_EQ(contact["work_rate"].get<double>(), std::stod(rows[at].at(name + ".work_rate"))) << name;
+    EXPECT_EQ(contact["normal_force"]["rms"].get<double>(), std::stod(rows[at].at(name + ".normal_rms")))
+        << name;
+    largest = std::max(largest, contact["work_rate"].get<double>());
+  }
+  EXPECT_EQ(largest, worst);
+  EXPECT_GT(worst, 0.0);
+}
+
+TEST_F(Sweeps, CasesOfOtherStructuresLoadsAndMeshesAreRunsToo) {
+  const std::string text = sweep_of("straight_tube", R"(
+design = "grid"
+keep = "worst 8"
+[[sweep.variables]]
+name = "thickness"
+key = "sections.tube.thickness"
+values = [1.0e-3, 1.2e-3]
+[[sweep.variables]]
+name = "amplitude"
+key = "loads.0.harmonic.amplitude"
+values = [20.0, 30.0]
+[[sweep.variables]]
+name = "scale"
+key = "mesh.scale"
+values = [1.0, 1.05]
+)");
+  ASSERT_EQ(sweep(text, "out", short_tube, 2).status, 0);
+  const auto rows = table_of(folder.path("out"));
+  ASSERT_EQ(rows.size(), 8u);
+  std::set<std::string> different;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Results run = read_results(folder.path("out/runs/case_" + std::to_string(i)));
+    for (const auto& contact : run.summary["contacts"])
+      EXPECT_EQ(contact["work_rate"].get<double>(),
+                std::stod(rows[i].at(contact["name"].get<std::string>() + ".work_rate")))
+          << i;
+    different.insert(rows[i].at("total.work_rate"));
+  }
+  EXPECT_EQ(different.size(), 8u); // what was kept in memory was that of the case
+}
+
+TEST_F(Sweeps, FluidelasticForcesAreThoseOfARun) {
+  const std::string text = sweep_of("u_bend_flow", R"(
+design = "grid"
+keep = "worst 2"
+[[sweep.variables]]
+name = "velocity"
+key = "flow.tube.zones.top.velocity"
+values = [5.0, 9.0]
+)");
+  ASSERT_EQ(sweep(text, "out", short_tube).status, 0);
+  const auto rows = table_of(folder.path("out"));
+  ASSERT_EQ(rows.size(), 2u);
+  std::set<std::string> different;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Results run = read_results(folder.path("out/runs/case_" + std::to_string(i)));
+    for (const auto& contact : run.summary["contacts"])
+      EXPECT_EQ(contact["work_rate"].get<double>(),
+                std::stod(rows[i].at(contact["name"].get<std::string>() + ".work_rate")))
+          << i;
+    EXPECT_NE(run.summary["energy"]["fluid_J"].get<double>(), 0.0);
+    different.insert(rows[i].at("total.work_rate"));
+  }
+  EXPECT_EQ(different.size(), 2u);
+}
+
+TEST_F(Sweeps, TurbulenceOfASeedAndAMissingSupportAreThoseOfARun) {
+  const std::string text = sweep_of("tube_study", R"(
+design = "grid"
+keep = "worst 2"
+[[sweep.variables]]
+key = "contacts.inner_bars.active"
+values = [true, false]
+[[sweep.variables]]
+key = "turbulence.*.seed"
+seeds = 7
+)");
+  ASSERT_EQ(sweep(text, "out", short_tube).status, 0);
+  const auto rows = table_of(folder.path("out"));
+  ASSERT_EQ(rows.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Results run = read_results(folder.path("out/runs/case_" + std::to_string(i)));
+    for (const auto& contact : run.summary["contacts"])
+      EXPECT_EQ(contact["work_rate"].get<double>(),
+                std::stod(rows[i].at(contact["name"].get<std::string>() + ".work_rate")))
+          << contact["name"];
+    EXPECT_EQ(run.summary["wear"]["tubes"][0]["depth_m"]["value"].get<double>(),
+              std::stod(rows[i].at("worst.wear_depth")));
+  }
+  EXPECT_EQ(rows[1].at("inner_bars[0].work_rate"), "nan");
+  EXPECT_EQ(rows[1].at("turbulence.*.seed"), "8");
+}
+
+TEST_F(Sweeps, ErrorsAreStandardErrorsWhateverTheConfidenceOfWear) {
+  const std::string text = sweep_of("tube_study", R"(
+design = "grid"
+[[sweep.variables]]
+key = "turbulence.*.seed"
+values = [7]
+)");
+  std::vector<std::string> sure = short_tube;
+  for (const char* entry : {"plates", "bars"})
+    sure.insert(sure.end(), {"--set", fmt::format("wear.{}.confidence=0.95", entry)});
+  ASSERT_EQ(sweep(text, "plain", short_tube).status, 0);
+  ASSERT_EQ(sweep(text, "sure", sure).status, 0);
+  const auto plain = table_of(folder.path("plain")).at(0), confident = table_of(folder.path("sure")).at(0);
+  for (const char* output : {"worst.wear_depth.error", "worst.years.error"}) {
+    EXPECT_GT(std::stod(plain.at(output)), 0.0) << output;
+    EXPECT_EQ(confident.at(output), plain.at(output)) << output;
+  }
+}
+
+TEST_F(Sweeps, DepthsBeyondTheGeometryAreInfinite) {
+  const Outcome outcome = sweep(sweep_of("tube_study", R"(
+draws = 4
+limits = [{ output = "worst.wear_depth", above = 1.0e-3 }]
+[[sweep.variables]]
+key = "wear.plates.coefficient"
+values = [1.0e-10]
+)"),
+                                "out", short_tube);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(table_of(folder.path("out")).at(0).at("worst.wear_depth"), "inf");
+  EXPECT_TRUE(says(outcome.out, "worn away"));
+  EXPECT_TRUE(says(outcome.out, "4 of 4 cases"));
+}
+
+TEST_F(Sweeps, TheExampleOfTheTubeRunsReduced) {
+  const std::string study = (example("tube_sweep")).string();
+  const Outcome outcome = folder.fretwork(
+      {"sweep", study, "-o", folder.path("out").string(), "--no-report", "--set", "sweep.draws=6", "--set",
+       "sweep.keep=\"worst 1\"", "--set", "transient.duration=0.2", "--set", "output.statistics_from=0"},
+      2);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, "6 (monte_carlo), 6 done"));
+  EXPECT_TRUE(says(outcome.out, "worst.years"));
+  EXPECT_EQ(table_of(folder.path("out")).size(), 6u);
+}
+
+} // namespace fretwork::app::test::sweep_cases_test
