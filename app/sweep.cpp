@@ -6,6 +6,7 @@
 #include "app/progress.hpp"
 #include "app/python_report.hpp"
 #include "app/sweep_plan.hpp"
+#include "app/sweep_rows.hpp"
 #include "core/error.hpp"
 #include "core/mpi.hpp"
 #include "core/mpi_counter.hpp"
@@ -51,18 +52,6 @@ std::string states_that_do_not_vary(const SweepPlan& plan) {
 /// Increments of the counter of ended cases: those without a result are counted in its upper half.
 constexpr std::int64_t one_case = 1, one_failure = (std::int64_t{1} << 32) + 1, cases_part = one_failure - 2;
 
-/// Rows of earlier calls: those of the shard, or all.
-void remove_rows(const SweepPlan& plan, bool all) {
-  std::vector<fs::path> files;
-  std::error_code absent;
-  const fs::path folder = all ? plan.directory / "shards" : plan.inputs.directory;
-  for (fs::recursive_directory_iterator at(folder, absent), end; at != end; at.increment(absent))
-    if (at->path().extension() == ".rows")
-      files.push_back(at->path());
-  for (const fs::path& file : files)
-    fs::remove(file);
-}
-
 /// Collective: the design of so many blocks, from rank 0.
 sweep::Draws shared_design(MPI_Comm comm, const study::Sweep& sweep, std::int64_t blocks) {
   sweep::Draws draws;
@@ -77,44 +66,6 @@ sweep::Draws shared_design(MPI_Comm comm, const study::Sweep& sweep, std::int64_
   for (Eigen::Index at = 0; at < draws.size(); at += part)
     MPI_Bcast(draws.data() + at, static_cast<int>(std::min(part, draws.size() - at)), MPI_DOUBLE, 0, comm);
   return draws;
-}
-
-/// `1 row is`, `3 rows are`
-std::string rows_are(std::int64_t count) {
-  return results::counted(count, "row") + (count == 1 ? " is" : " are");
-}
-
-/// Of the rows of earlier calls.
-/// @param there  of this shard and these inputs, that this call has not computed
-std::string found_text(std::int64_t there, const sweep::FoundRows& found) {
-  std::string out;
-  if (there > 0)
-    out += fmt::format("{} there already (--force computes all cases)\n", rows_are(there));
-  if (found.of_others > 0)
-    out += fmt::format("{} of another state of the study: not used\n", rows_are(found.of_others));
-  if (found.corrupt > 0)
-    out += fmt::format("{} not as written ({}): the cases are computed again\n", rows_are(found.corrupt),
-                       core::list_names(found.where));
-  return out;
-}
-
-/// Collective: numbers of the cases of this shard that no file has.
-std::vector<std::int64_t> missing_cases(MPI_Comm comm, const SweepPlan& plan, std::int64_t cases,
-                                        const sweep::FoundRows& found) {
-  std::vector<std::int64_t> missing;
-  if (core::rank(comm) == 0)
-    for (std::int64_t number = 0, next = 0; number < cases; ++number) {
-      const auto place = static_cast<std::size_t>(next);
-      const bool there = place < found.rows.size() && found.rows[place].number == number;
-      next += there ? 1 : 0;
-      if (!there && plan.shard.has(number))
-        missing.push_back(number);
-    }
-  auto count = static_cast<std::int64_t>(missing.size());
-  MPI_Bcast(&count, 1, MPI_INT64_T, 0, comm);
-  missing.resize(static_cast<std::size_t>(count));
-  MPI_Bcast(missing.data(), static_cast<int>(count), MPI_INT64_T, 0, comm);
-  return missing;
 }
 
 /// Of each node its length along the mesh, m, where that is one open chain; else empty.
