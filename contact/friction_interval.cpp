@@ -15,6 +15,9 @@ constexpr double located = 1e-3;
 constexpr double shortest_piece = 1e-9;
 /// Of the bound: what is above it by less is at it.
 constexpr double round_off = 1e-9;
+/// Of a usual interval, in which the spring of a contact that slides on is at its bound again. A contact that stood would be taken to slide for all of
+/// the interval where this is long, and one that slides to stick up to mu_s N where it is 0.
+constexpr double soon = 0.5;
 /// K_T tau/C_T above which the damper is none, and below which e^-r is a series.
 constexpr double no_damper = 1e8, slow_damper = 1e-2;
 
@@ -74,9 +77,12 @@ public:
   }
 
   FrictionInterval<V> all() {
-    // below 0 and yet to be above: only where the normal force is not as it was expected
-    if (const V along = heading(); out_.sliding && slider_speed(along) < 0.0 && settled_speed(along) < 0.0)
-      out_.sliding = false;
+    // Below its bound, as the normal force is not what it was expected to be: it slides on where its spring is at the bound again soon.
+    if (const V along = heading(); out_.sliding) {
+      const double below = law_.mu_dynamic * normal_ - dot(trial(), along);
+      if (below > 0.0 && law_.stiffness * soon * usual_.slip.length * settled_speed(along) < below)
+        out_.sliding = false;
+    }
     for (int events = 0; left_ > 0.0; ++events)
       out_.sliding ? slip(events >= most_events) : stick(events >= most_events);
     return out_;

@@ -10,15 +10,15 @@ constexpr double most_parabolic = 1.9;
 constexpr int most_iterations = 20;
 constexpr double tolerance = 1e-13; ///< of the force
 
-/// F = mean(F), F >= 0, by Newton's method: mean gives the mean force that F leads to, and its derivative.
+/// F = mean(F), below 0 where the contact opens early, by Newton's method: mean gives the mean force that F leads to, and its derivative.
 template <class Mean> double solve(const Mean& mean) {
   double force = 0.0;
   for (int i = 0; i < most_iterations; ++i) {
     const auto [value, slope] = mean(force);
-    const double next = std::max(0.0, force + (value - force) / (1.0 - slope));
+    const double next = force + (value - force) / (1.0 - slope);
     const double change = std::abs(next - force);
     force = next;
-    if (change <= tolerance * force)
+    if (change <= tolerance * std::abs(force))
       break;
   }
   return force;
@@ -65,9 +65,11 @@ NormalInterval normal_over_interval(const NormalLaw& law, double dt, double mobi
       return -(by_force + bend * p1 * mobility * dt) / (straight - bends); // dp1/dF
     };
     out.force = solve([&](double force) -> MeanForce {
-      const double by = move(force), closed = std::max(p1, 0.0);
-      return {(free + gradient * (p1 - p0) + 0.5 * d / dt * (closed * closed - p0 * p0)) / straight,
-              (gradient + d / dt * closed) * by / straight};
+      const double by = move(force),
+                   least = -0.25 * dt / law.dissipation; // the mean falls with the force above it
+      const double end = std::max(p1, least), falling = p1 > least ? d / dt * end : 0.0;
+      return {(free + gradient * (p1 - p0) + 0.5 * d / dt * (end * end - p0 * p0)) / straight,
+              (gradient + falling) * by / straight};
     });
     (void)move(out.force);
     growth = bend > 0.0 ? d * (p1 * v1 - p0 * v0) : 0.0;

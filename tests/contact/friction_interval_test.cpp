@@ -120,6 +120,18 @@ TEST(FrictionInterval, SlidesOnUnderANormalForceThatIsNotAsItWasExpected) {
     }
 }
 
+TEST(FrictionInterval, StandsFarBelowABoundThatWasNotExpected) {
+  constexpr double dt = 0.1, v = 0.5; // pulls the spring by 0.1 N in the interval, half of the bound
+  for (const double damping : {0.0, 1e-9, 1e-4}) {
+    const FrictionLaw fast{2.0, damping, 0.5, 0.2};
+    const auto f = friction_over_interval(fast, piece_tables(fast, 0.0, dt), 0.0, -0.1, true, dt,
+                                          line(1.0, 1.0), driven<double, double>(v));
+    EXPECT_FALSE(f.sliding) << damping;
+    EXPECT_EQ(f.wear_work, 0.0) << damping;
+    EXPECT_NEAR(f.spring, -0.1 - fast.stiffness * v * dt, round_off) << damping;
+  }
+}
+
 TEST(FrictionInterval, StandsWhenASpringAboveItsBoundHasFallen) {
   constexpr double dt = 1.0, v = -0.1; // back, where it slid before
   for (const double damping : {1e-7, 1e-6, 1e-4}) {
