@@ -32,6 +32,8 @@ double contact_share(SchemeKind scheme) {
 double explicit_share(SchemeKind scheme, double fineness) {
   return scheme == SchemeKind::devogelaere ? std::min(0.5 * fineness, most_damped) : 0.5 * fineness;
 }
+/// r_t h up to which tangential dampers leave contacts their velocity for the step, and w h of modes that are followed above it.
+constexpr double slow_dampers = 2.0, beside_dampers = 1.0;
 /// With contacts: collocation needs none of it, splitting can take modes as heavier ones.
 bool may_go_past_modes(SchemeKind scheme) {
   return scheme == SchemeKind::collocation || scheme == SchemeKind::splitting;
@@ -68,13 +70,22 @@ double damper_share(SchemeKind scheme, double fineness) {
                   most_implicit(scheme));
 }
 
+double followed_modes(const StepChoice& c, double step) {
+  return c.scheme == SchemeKind::splitting && c.damper_rate * step > slow_dampers ? beside_dampers
+                                                                                  : before_resonance;
+}
+
 StepLimit mode_limit(const StepChoice& c, bool contacts, double fineness) {
   const bool exact = moves_exactly(c.scheme);
   const double eps = 0.5 * fineness;
   // without contacts the flow of the splitting scheme is exact: only the statistics need to see the modes, in about 20 points a period
   const double mode = exact ? (contacts ? 5.0 : 0.6) : 1.0;
-  return {(exact && contacts ? std::min(eps * mode, before_resonance) : eps * mode) / c.highest_mode,
-          fmt::format("the highest mode {:.4g} rad/s", c.highest_mode)};
+  const double followed = followed_modes(c, before_resonance / c.highest_mode);
+  const bool damped = exact && contacts && followed < before_resonance;
+  return {(exact && contacts ? std::min(eps * mode, followed) : eps * mode) / c.highest_mode,
+          fmt::format("the highest mode {:.4g} rad/s{}", c.highest_mode,
+                      damped ? " beside tangential dampers" : ""),
+          damped ? "; a smaller tangential_damping makes the step longer" : ""};
 }
 
 std::vector<StepLimit> step_limits(const StepChoice& c, const Scene& scene, double fineness) {

@@ -78,12 +78,15 @@ void warn(StepChoice& c) {
       c.scheme == SchemeKind::splitting ? "r_t dt" : "r_t h", "the tangential dampers");
   add(c.explicit_rate * c.step, damped, "r_e h", "the dampers");
   warn_of_normal_dampers(c, "take a smaller step or leave it out");
-  if (!collocation)
+  if (!collocation) {
+    const double followed = followed_modes(c, c.step);
     add(c.highest_mode * c.step,
-        c.scheme == SchemeKind::splitting ? 2.75
+        c.scheme == SchemeKind::splitting ? 1.1 * followed
         : exact                           ? 3.0
                                           : 1.8,
-        "w_max h", "the highest mode");
+        "w_max h",
+        followed < before_resonance ? "the highest mode beside tangential dampers" : "the highest mode");
+  }
   if (c.table_interval > 0.0)
     add(c.step / c.table_interval * (1.0 - 1e-9), 1.0,
         "h/interval", // of equal ones round-off leaves a shorter
@@ -168,8 +171,9 @@ void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
   double followed = 0.0; // w h of the fastest mode of splitting; 0: all are followed
   if (c.scheme == SchemeKind::splitting && !scene.contacts.empty() && c.highest_mode > 0.0) {
     const StepLimit modes = mode_limit(c, true, fineness);
-    if (modes.limit < c.step && may_scale(scene, before_resonance / c.step, accuracy))
-      followed = before_resonance;
+    const double most = followed_modes(c, c.step);
+    if (modes.limit < c.step && may_scale(scene, most / c.step, accuracy))
+      followed = most;
     else
       limit(modes);
   }
