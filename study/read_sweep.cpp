@@ -188,8 +188,12 @@ std::vector<SweepVariable> read_variables(const TableReader& sweep, const Docume
     if (!each)
       out.push_back({variable.optional_text("name").value_or(*key.string()), found, source});
     else
-      for (const std::string& address : found)
-        out.push_back({address, {address}, source});
+      for (const std::string& address : found) {
+        auto own = source;
+        if (auto* seeds = std::get_if<SweepSeeds>(&own))
+          seeds->first += seeds_apart * (&address - found.data());
+        out.push_back({address, {address}, own});
+      }
   }
   for (std::size_t i = 0; i < out.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {

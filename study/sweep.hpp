@@ -27,14 +27,16 @@ struct SweepDistribution {
   std::optional<std::array<double, 2>> truncated; ///< between these
 };
 
-/// Case i has the seed first + i. It is no variable of the design: what it changes is scatter.
+/// Case i has the seed first + i, of the key number k that fits k seeds_apart more: loads of one seed would be one signal. It is no variable of
+/// the design: what it changes is scatter.
 struct SweepSeeds {
   std::int64_t first = 1;
 };
+inline constexpr std::int64_t seeds_apart = 1'000'000;
 
 struct SweepVariable {
   std::string name;              ///< column of the table
-  std::vector<std::string> keys; ///< addresses as of --set, all given the same value
+  std::vector<std::string> keys; ///< addresses as of --set, all given the same value, of seeds one each
   std::variant<SweepLevels, SweepDistribution, SweepSeeds> source;
 };
 

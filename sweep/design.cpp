@@ -123,9 +123,13 @@ std::vector<std::string> overrides_of(const study::Sweep& sweep, const Draws& dr
   std::vector<std::string> out;
   Eigen::Index column = 0;
   for (const study::SweepVariable& variable : sweep.variables) {
-    const bool seeds = std::holds_alternative<SweepSeeds>(variable.source);
-    const std::string value = value_text(variable, seeds ? 0.0 : draws(number, column), number);
-    column += seeds ? 0 : 1;
+    if (std::holds_alternative<SweepSeeds>(variable.source)) {
+      for (std::size_t k = 0; k < variable.keys.size(); ++k)
+        out.push_back(variable.keys[k] + "=" +
+                      value_text(variable, 0.0, number + study::seeds_apart * static_cast<std::int64_t>(k)));
+      continue;
+    }
+    const std::string value = value_text(variable, draws(number, column++), number);
     for (const std::string& key : variable.keys)
       out.push_back(key + "=" + value);
   }

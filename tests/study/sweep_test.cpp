@@ -64,6 +64,9 @@ TEST(Sweep, EachMakesAVariableOfEveryKey) {
       "[[sweep.variables]]\nkey = \"contacts.tsp*.gap\"\neach = true\nuniform = { from = 0, to = 1 }\n");
   ASSERT_EQ(sweep.variables.size(), 2u);
   EXPECT_EQ(sweep.variables[1].name, "contacts.tsp2.gap");
+  const Sweep seeds = sweep_of("[[sweep.variables]]\nkey = \"contacts.tsp*.gap\"\neach = true\nseeds = 5\n");
+  EXPECT_EQ(std::get<SweepSeeds>(seeds.variables[0].source).first, 5);
+  EXPECT_EQ(std::get<SweepSeeds>(seeds.variables[1].source).first, 1000005);
 }
 
 TEST(Sweep, MayBeOfAnotherStudy) {

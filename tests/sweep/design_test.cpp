@@ -28,6 +28,14 @@ TEST(Design, GridHasAllCombinations) {
   EXPECT_EQ(overrides_of(grid(), draws, 4), fifth);
 }
 
+TEST(Design, GivesEachLoadASeedOfItsOwn) {
+  study::Sweep sweep;
+  sweep.variables = {{"seeds", {"loads.x.random.seed", "loads.y.random.seed"}, study::SweepSeeds{7}}};
+  const std::vector<std::string> expected{"loads.x.random.seed=9", "loads.y.random.seed=1000009"};
+  EXPECT_EQ(overrides_of(sweep, Draws(3, 0), 2), expected);
+  EXPECT_EQ(value_number(sweep.variables[0], 0.0, 2), 9.0);
+}
+
 TEST(Design, NumbersAreWrittenSoThatTheyReadBack) {
   const study::SweepVariable gap{"gap", {"a"}, study::SweepDistribution{"normal", {0.0, 1.0}, {}}};
   const double drawn = 0.1 + 1e-17 / 3.0;

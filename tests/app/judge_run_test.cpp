@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Warnings of the energies that a run ends with.
+#include "app/judge_run.hpp"
+#include <gmock/gmock.h>
+
+namespace judge_run_test {
+
+using namespace fretwork;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+namespace {
+
+/// Of a run that was given 1 J and lost so much by friction, its residual relative to the scale.
+std::vector<std::string> warnings(double lost, double residual_relative) {
+  transient::Report report;
+  report.energy.load_work = 1.0;
+  report.energy.friction = lost;
+  report.residual_relative = residual_relative;
+  results::RunResults out;
+  app::judge_run({}, {}, {}, report, out);
+  return out.warnings;
+}
+
+} // namespace
+
+TEST(JudgeRun, WarnsOfEnergyThatNothingPutIn) {
+  EXPECT_THAT(warnings(1.0, 1e-9), IsEmpty());
+  EXPECT_THAT(warnings(1.05, 4e-3), IsEmpty());
+  EXPECT_THAT(warnings(2.5, 4e-3), ElementsAre(HasSubstr("60 % of the energy lost was put in by nothing")));
+  EXPECT_THAT(warnings(2.5, 4e-4), IsEmpty()); // next to what goes to and fro
+  EXPECT_THAT(warnings(2.5, 0.2), ElementsAre(HasSubstr("off by 20 % of the energy put in")));
+}
+
+} // namespace judge_run_test
