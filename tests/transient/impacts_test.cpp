@@ -207,4 +207,24 @@ TEST_P(Impacts, ThatSlideLoseTangentialSpeedByTheNormalImpulse) {
 INSTANTIATE_TEST_SUITE_P(Schemes, ImpactTables, testing::ValuesIn(with_fixed_steps), name_of_candidate);
 INSTANTIATE_TEST_SUITE_P(Schemes, Impacts, testing::ValuesIn(candidates), name_of_candidate);
 
+// Without a gap a mass goes from face to face without a time between: two impacts in a period, whatever the step.
+TEST(ImpactCounts, GoFromFaceToFaceWithoutAGap) {
+  for (const double gap : {0.0, 1e-8, 1e-6}) {
+    Scene s = mass_point(0.3, Vec3(1e4, 1.2e4, 1.4e4), 3.0);
+    s.system.damping.setConstant(8.0);
+    s.contacts = {contact_of(0.3, {PlanePair{gap, PlaneAxis::y}, {1e5}, {}})};
+    s.loads = {force_on(0.3, Vec3(0, 20.0, 0), Harmonic{1.0, 17.0, 0.0})};
+    for (const double step : {7e-4, 4e-4, 1e-4}) {
+      StepOptions options;
+      options.scheme = SchemeKind::splitting;
+      options.step = step;
+      const History run = simulate(s, options, 1.0);
+      EXPECT_NEAR(run.statistics[0].impact_rate, 34.0, 0.51) << gap << " " << step;
+      EXPECT_NEAR(run.statistics[0].departure_velocity_mean, run.statistics[0].impact_velocity_mean,
+                  0.05 * run.statistics[0].impact_velocity_mean)
+          << gap << " " << step;
+    }
+  }
+}
+
 } // namespace impacts_test

@@ -253,14 +253,19 @@ void ContactIntervals::act(MovingContact& m, const IntervalTable& of, int index)
   const NormalForce n = find_normal_force(a, m.past.closed, of);
   ContactState& state = m.state;
   ContactPast& past = m.past;
-  const bool was_closed = past.closed;
+  const bool was_closed = past.closed, crosses = was_closed && past.axes.opposite(a.axes);
   const double start = index * of.share;
   state.damper_work += n.damper_work;
   m.force = m.growth = m.last = {};
   past.closed = n.force > 0.0 && !n.opens;
   if (n.force > 0.0) {
-    if (n.touches ||
-        past.before_run) { // not where a closed contact rolls out by less than its path is known to
+    if (crosses) { // from face to face without a gap that the interval would see
+      m.opened = true;
+      state.opened_at = start + n.from / h_;
+      state.departure = n.approach;
+    }
+    // not where a closed contact rolls out by less than its path is known to
+    if (n.touches || crosses || past.before_run) {
       ++state.touches;
       past.before_run = false;
       state.closed_at = start + n.from / h_;
