@@ -12,8 +12,9 @@ namespace {
 /// Above this residual of the energy the results are not to be trusted, whatever they look like.
 constexpr double residual_warning = 0.05;
 
-/// Energy that nothing put in, over what is lost: above it, with more than the least share of the energy put in, motions may live of it.
-constexpr double made_warning = 0.1, least_made = 1e-3;
+/// Excess of the energies over what was put in, relative to the energy dissipated, above which a run is warned about; and of the energy scale, what
+/// counts.
+constexpr double excess_warning = 0.1, least_excess = 1e-3;
 
 /// Dampers of contacts that give back this share of the energy put in are no round-off.
 constexpr double given_by_dampers = 0.01;
@@ -52,13 +53,14 @@ void judge(const study::Study& study, const transient::StepChoice& choice, const
                     100.0 * report.residual_relative));
   // loads that push to and fro put in far more than what the motion loses
   const transient::Energy& e = report.energy;
-  const double made = -e.residual(), lost = e.modal_damping + e.contact_damping + e.friction;
-  if (report.residual_relative > least_made && report.residual_relative <= residual_warning &&
-      made > made_warning * lost)
+  const double excess = -e.residual(),
+               dissipated = e.modal_damping + e.contact_damping + e.friction + std::max(0.0, -e.fluid_work);
+  if (report.residual_relative > least_excess && report.residual_relative <= residual_warning &&
+      dissipated > least_excess * e.scale && excess > excess_warning * dissipated)
     out.warnings.push_back(fmt::format(
-        "{:.2g} % of the energy lost was put in by nothing, the energy balance is off by as much; take a "
-        "smaller step",
-        100.0 * made / lost));
+        "the energy balance has an excess of {:.2g} % of the energy dissipated, which nothing supplied; "
+        "take a smaller step",
+        100.0 * excess / dissipated));
   if (report.counts.unconverged > report.counts.steps / 1000)
     out.warnings.insert(out.warnings.begin(), unconverged_warning(report.counts));
 }

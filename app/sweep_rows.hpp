@@ -10,7 +10,7 @@ namespace fretwork::app {
 /// Removes those of the shard, or all.
 void remove_rows(const SweepPlan& plan, bool all);
 
-/// What is said of them.
+/// The message on them.
 /// @param there  of this shard and these inputs, that this call has not computed
 [[nodiscard]] std::string found_text(std::int64_t there, const sweep::FoundRows& found);
 

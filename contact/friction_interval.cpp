@@ -15,8 +15,8 @@ constexpr double located = 1e-3;
 constexpr double shortest_piece = 1e-9;
 /// Of the bound: what is above it by less is at it.
 constexpr double round_off = 1e-9;
-/// Of a usual interval, in which the spring of a contact that slides on is at its bound again. A contact that stood would be taken to slide for all of
-/// the interval where this is long, and one that slides to stick up to mu_s N where it is 0.
+/// Share of a usual interval within which the spring is to be at its bound again for the contact to slide on. Larger: contacts that have stopped slide on
+/// for an interval. 0: contacts that slide stick, up to mu_s N.
 constexpr double soon = 0.5;
 /// K_T tau/C_T above which the damper is none, and below which e^-r is a series.
 constexpr double no_damper = 1e8, slow_damper = 1e-2;
@@ -80,7 +80,8 @@ public:
     // Below its bound, as the normal force is not what it was expected to be: it slides on where its spring is at the bound again soon.
     if (const V along = heading(); out_.sliding) {
       const double below = law_.mu_dynamic * normal_ - dot(trial(), along);
-      if (below > 0.0 && law_.stiffness * soon * usual_.slip.length * settled_speed(along) < below)
+      if (below > -round_off * law_.mu_dynamic * normal_ &&
+          law_.stiffness * soon * usual_.slip.length * settled_speed(along) < below)
         out_.sliding = false;
     }
     for (int events = 0; left_ > 0.0; ++events)

@@ -12,13 +12,14 @@ constexpr double tolerance = 1e-13; ///< of the force
 
 /// F = mean(F), below 0 where the contact opens early, by Newton's method: mean gives the mean force that F leads to, and its derivative.
 template <class Mean> double solve(const Mean& mean) {
-  double force = 0.0;
+  double force = 0.0, first = 0.0;
   for (int i = 0; i < most_iterations; ++i) {
     const auto [value, slope] = mean(force);
     const double next = force + (value - force) / (1.0 - slope);
     const double change = std::abs(next - force);
     force = next;
-    if (change <= tolerance * std::abs(force))
+    first = i == 0 ? change : first;
+    if (change <= tolerance * std::max(std::abs(force), first))
       break;
   }
   return force;
@@ -66,7 +67,7 @@ NormalInterval normal_over_interval(const NormalLaw& law, double dt, double mobi
     };
     out.force = solve([&](double force) -> MeanForce {
       const double by = move(force),
-                   least = -0.25 * dt / law.dissipation; // the mean falls with the force above it
+                   least = -0.25 * dt / law.dissipation; // m: the mean force falls with p1 above twice of it
       const double end = std::max(p1, least), falling = p1 > least ? d / dt * end : 0.0;
       return {(free + gradient * (p1 - p0) + 0.5 * d / dt * (end * end - p0 * p0)) / straight,
               (gradient + falling) * by / straight};

@@ -188,11 +188,11 @@ std::vector<SweepVariable> read_variables(const TableReader& sweep, const Docume
     if (!each)
       out.push_back({variable.optional_text("name").value_or(*key.string()), found, source});
     else
-      for (const std::string& address : found) {
+      for (std::size_t k = 0; k < found.size(); ++k) {
         auto own = source;
         if (auto* seeds = std::get_if<SweepSeeds>(&own))
-          seeds->first += seeds_apart * (&address - found.data());
-        out.push_back({address, {address}, own});
+          seeds->first += seeds_apart * static_cast<std::int64_t>(k);
+        out.push_back({found[k], {found[k]}, own});
       }
   }
   for (std::size_t i = 0; i < out.size(); ++i)

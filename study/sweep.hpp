@@ -27,8 +27,8 @@ struct SweepDistribution {
   std::optional<std::array<double, 2>> truncated; ///< between these
 };
 
-/// Case i has the seed first + i, of the key number k that fits k seeds_apart more: loads of one seed would be one signal. It is no variable of
-/// the design: what it changes is scatter.
+/// Case i has the seed first + i, the k-th key of the pattern k * seeds_apart more, so that its loads are independent. It is no variable of the design:
+/// what it changes is scatter.
 struct SweepSeeds {
   std::int64_t first = 1;
 };

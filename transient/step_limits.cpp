@@ -80,11 +80,15 @@ StepLimit mode_limit(const StepChoice& c, bool contacts, double fineness) {
   const double eps = 0.5 * fineness;
   // without contacts the flow of the splitting scheme is exact: only the statistics need to see the modes, in about 20 points a period
   const double mode = exact ? (contacts ? 5.0 : 0.6) : 1.0;
-  const double followed = followed_modes(c, before_resonance / c.highest_mode);
+  // by dampers, or by a step in which they are slow
+  const double slow = c.damper_rate > 0.0 ? slow_dampers * c.highest_mode / c.damper_rate : before_resonance,
+               followed = c.scheme == SchemeKind::splitting
+                              ? std::clamp(slow, beside_dampers, before_resonance)
+                              : before_resonance;
   const bool damped = exact && contacts && followed < before_resonance;
   return {(exact && contacts ? std::min(eps * mode, followed) : eps * mode) / c.highest_mode,
           fmt::format("the highest mode {:.4g} rad/s{}", c.highest_mode,
-                      damped ? " beside tangential dampers" : ""),
+                      damped ? ", with tangential dampers" : ""),
           damped ? "; a smaller tangential_damping makes the step longer" : ""};
 }
 

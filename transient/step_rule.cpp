@@ -85,7 +85,7 @@ void warn(StepChoice& c) {
         : exact                           ? 3.0
                                           : 1.8,
         "w_max h",
-        followed < before_resonance ? "the highest mode beside tangential dampers" : "the highest mode");
+        followed < before_resonance ? "the highest mode, with tangential dampers" : "the highest mode");
   }
   if (c.table_interval > 0.0)
     add(c.step / c.table_interval * (1.0 - 1e-9), 1.0,
@@ -171,6 +171,10 @@ void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
   double followed = 0.0; // w h of the fastest mode of splitting; 0: all are followed
   if (c.scheme == SchemeKind::splitting && !scene.contacts.empty() && c.highest_mode > 0.0) {
     const StepLimit modes = mode_limit(c, true, fineness);
+    if (followed_modes(c, c.step) < before_resonance && modes.limit < c.step) // scaled ones stay at 2 w_c
+      limit({std::max(modes.limit, 0.5 * followed_modes(c, c.step) * fineness /
+                                       std::max(c.contact_frequency, c.stick_frequency)),
+             "modes heavier than those of twice the contact frequency, with tangential dampers", modes.cure});
     const double most = followed_modes(c, c.step);
     if (modes.limit < c.step && may_scale(scene, most / c.step, accuracy))
       followed = most;

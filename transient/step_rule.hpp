@@ -5,7 +5,7 @@
 ///     h = min{ c/w_c, s/w_t, r/r_t, max(2/r_n, 0.03/w_c), m/w_max },  the shares at an accuracy of 0.01; others grow and fall with its square root
 ///
 ///                          c      s      r     m
-///     splitting            1      1      403   2.5 where modes cannot be made heavier (mass_scaling.hpp)
+///     splitting            1      1      403   2.5 (1 above r_t h = 2) where modes cannot be made heavier (mass_scaling.hpp)
 ///     collocation          0.5    0.5    2     -
 ///     energy_conserving    0.3    0.3    2     2.5
 ///     euler, devogelaere   0.3    0.3    0.5   0.5

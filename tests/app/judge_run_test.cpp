@@ -13,10 +13,12 @@ using testing::IsEmpty;
 namespace {
 
 /// Of a run that was given 1 J and lost so much by friction, its residual relative to the scale.
-std::vector<std::string> warnings(double lost, double residual_relative) {
+std::vector<std::string> warnings(double lost, double residual_relative, double stored = 0.0) {
   transient::Report report;
   report.energy.load_work = 1.0;
   report.energy.friction = lost;
+  report.energy.stored = stored;
+  report.energy.scale = 200.0; // pushed to and fro
   report.residual_relative = residual_relative;
   results::RunResults out;
   app::judge_run({}, {}, {}, report, out);
@@ -28,8 +30,9 @@ std::vector<std::string> warnings(double lost, double residual_relative) {
 TEST(JudgeRun, WarnsOfEnergyThatNothingPutIn) {
   EXPECT_THAT(warnings(1.0, 1e-9), IsEmpty());
   EXPECT_THAT(warnings(1.05, 4e-3), IsEmpty());
-  EXPECT_THAT(warnings(2.5, 4e-3), ElementsAre(HasSubstr("60 % of the energy lost was put in by nothing")));
-  EXPECT_THAT(warnings(2.5, 4e-4), IsEmpty()); // next to what goes to and fro
+  EXPECT_THAT(warnings(2.5, 4e-3), ElementsAre(HasSubstr("an excess of 60 % of the energy dissipated")));
+  EXPECT_THAT(warnings(2.5, 4e-4), IsEmpty());      // next to what goes to and fro
+  EXPECT_THAT(warnings(0.0, 4e-3, 1.1), IsEmpty()); // without losses
   EXPECT_THAT(warnings(2.5, 0.2), ElementsAre(HasSubstr("off by 20 % of the energy put in")));
 }
 

@@ -214,20 +214,20 @@ TEST(NormalInterval, OpensWhereItsForceEndsInside) {
 
 TEST(NormalInterval, OpensEarlyInAnIntervalUnderAnyDissipation) {
   constexpr double dt = 0.6, leaving = -0.9;
-  for (const double dissipation : {0.0, 1e-9, 0.1, 0.4})
+  for (const double dissipation : {0.0, 1e-9, 0.1})
     for (const double start : {0.02, 0.1, 0.3}) {
       const NormalLaw law{1.0, 0.0, dissipation};
       Mass one{start, leaving}, many{start, leaving};
       const NormalInterval n = one.move(law, dt);
       double time = 0.0, impulse = 0.0;
-      for (double to = 1.0; to == 1.0;) {
+      for (double to = 1.0; to == 1.0 && time < dt;) {
         const NormalInterval part = many.move(law, 1e-3 * dt);
         to = part.to;
         time += to * 1e-3 * dt;
         impulse += part.force * 1e-3 * dt;
       }
       // the force of the law beyond the opening is no parabola
-      const double tolerance = 0.03 + 0.5 * dissipation;
+      const double tolerance = 0.03 + 0.2 * dissipation;
       EXPECT_NEAR(n.to * dt / time, 1.0, tolerance) << dissipation << " " << start;
       EXPECT_NEAR(n.force * dt / impulse, 1.0, tolerance) << dissipation << " " << start;
     }

@@ -16,7 +16,7 @@ using kernels::Pair;
 namespace {
 
 constexpr int parts = SpringTable::parts, all_parts = 2 * parts;
-/// What a half step leaves at most of a spring's distance from its force, and that distance over the force, for a path to be followed.
+/// A slide is followed where e^-x of a half step is below `fast` and |T - F| above `far` |F|.
 constexpr double fast = 0.5, far = 0.1;
 
 /// At the ends of the parts of a half step: the cubic by p and h p'/2 at its begin and its end, and the derivative of that times h/2.

@@ -25,8 +25,8 @@ public:
   }
   /// The force over a part.
   struct Passed {
-    Vector force, missing; ///< N, at the end; what the mean over the part has beyond that of begin and end
-    double before_end;     ///< where that stands, parts before the end
+    Vector force, missing; ///< N, at the end; the mean over the part less that of begin and end
+    double before_end;     ///< place of `missing`, in parts before the end
   };
   /// A part, under the normal force and with the tangential velocity at its end.
   Passed move(double normal, Vector slip) { return move(1.0, table_, normal, slip); }

@@ -261,7 +261,7 @@ void ContactIntervals::act(MovingContact& m, const IntervalTable& of, int index)
   if (n.force > 0.0) {
     if (crosses) { // from face to face without a gap that the interval would see
       m.opened = true;
-      state.opened_at = start + n.from / h_;
+      state.opened_at = start + (n.from - shortest * of.length) / h_; // before it closes again
       state.departure = n.approach;
     }
     // not where a closed contact rolls out by less than its path is known to
