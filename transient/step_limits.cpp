@@ -32,7 +32,7 @@ double contact_share(SchemeKind scheme) {
 double explicit_share(SchemeKind scheme, double fineness) {
   return scheme == SchemeKind::devogelaere ? std::min(0.5 * fineness, most_damped) : 0.5 * fineness;
 }
-/// r_t h up to which tangential dampers leave contacts their velocity for the step, and w h of modes that are followed above it.
+/// r_t h up to which tangential dampers do not stop contacts within the step, and w h of modes that are followed above it.
 constexpr double slow_dampers = 2.0, beside_dampers = 1.0;
 /// With contacts: collocation needs none of it, splitting can take modes as heavier ones.
 bool may_go_past_modes(SchemeKind scheme) {
@@ -80,7 +80,7 @@ StepLimit mode_limit(const StepChoice& c, bool contacts, double fineness) {
   const double eps = 0.5 * fineness;
   // without contacts the flow of the splitting scheme is exact: only the statistics need to see the modes, in about 20 points a period
   const double mode = exact ? (contacts ? 5.0 : 0.6) : 1.0;
-  // by dampers, or by a step in which they are slow
+  // with dampers that stop contacts, or in a step in which they do not
   const double slow = c.damper_rate > 0.0 ? slow_dampers * c.highest_mode / c.damper_rate : before_resonance,
                followed = c.scheme == SchemeKind::splitting
                               ? std::clamp(slow, beside_dampers, before_resonance)

@@ -19,8 +19,8 @@ struct StepLimit {
                                                  double fineness);
 /// What the highest mode asks of the step.
 [[nodiscard]] StepLimit mode_limit(const StepChoice& choice, bool contacts, double fineness);
-/// w h of modes that splitting follows in a step: fewer where tangential dampers stop contacts within it, as the mobility of (S1) then overrates their
-/// velocity and the motion of contacts that stick grows (doc/schemes.md, Limits).
+/// w h of modes that splitting follows in a step: fewer where tangential dampers stop contacts within it, as (S1) then overestimates their velocity and
+/// contacts that stick are unstable (doc/schemes.md, Limits).
 [[nodiscard]] double followed_modes(const StepChoice& choice, double step);
 
 /// The modes move exactly between the contact impulses.

@@ -174,7 +174,7 @@ void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
     if (followed_modes(c, c.step) < before_resonance && modes.limit < c.step) // scaled ones stay at 2 w_c
       limit({std::max(modes.limit, 0.5 * followed_modes(c, c.step) * fineness /
                                        std::max(c.contact_frequency, c.stick_frequency)),
-             "modes heavier than those of twice the contact frequency, with tangential dampers", modes.cure});
+             "modes up to twice the contact frequency, with tangential dampers", modes.cure});
     const double most = followed_modes(c, c.step);
     if (modes.limit < c.step && may_scale(scene, most / c.step, accuracy))
       followed = most;

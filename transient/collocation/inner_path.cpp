@@ -176,22 +176,22 @@ FRETWORK_INLINE InnerPath follow_on(const contact::Support& support, const Sprin
         slip = way.slip[0][i];
       else
         slip = {way.slip[1][i], way.slip[0][i]};
-      const auto rub = [&](const typename PathSlider<D>::Passed& passed) {
+      const auto add_friction = [&](const typename PathSlider<D>::Passed& passed) {
         friction.add(q.s[i], q.weight[i] * passed.force);
         friction.add(q.s[i] - passed.before_end / all_parts, (1.0 / all_parts) * passed.missing);
       };
       if ((before.depth > 0.0) == (after.depth > 0.0)) {
         if (with_friction)
-          rub(slider.move(after.force, slip));
+          add_friction(slider.move(after.force, slip));
       } else {
         const Jump jump(law, before, after);
         const double at = q.s[i] - jump.before_end / all_parts;
         normal.add(at, jump.missing / all_parts);
         work += jump.missing * deeper;
         if (with_friction && closes(before, after)) {
-          rub(slider.close(jump.closed, jump.at_touch, after.force, slip));
+          add_friction(slider.close(jump.closed, jump.at_touch, after.force, slip));
         } else if (with_friction) {
-          rub(slider.move(after.force, slip));
+          add_friction(slider.move(after.force, slip));
           friction.add(at, (1.0 / all_parts) * slider.open(jump.share));
         }
       }
