@@ -93,7 +93,7 @@ public:
     return next.progress;
   }
 
-  [[nodiscard]] std::vector<PlacedContact> opened(const study::Study& study) const {
+  [[nodiscard]] std::vector<PlacedContact> opened() const {
     std::vector<PlacedContact> out = placed_;
     for (std::size_t s = 0; s < worn_.size(); ++s) {
       const std::vector<PlaceState> worn = values(supports_[s]);
@@ -101,8 +101,7 @@ public:
         if (by_sector(worn_[s]))
           out[c].obstacle = contact::Profile(wear::opened_profile(worn));
         else if (worn_[s].sides.empty())
-          out[c].obstacle = opened_obstacle(study.contacts[placed_[c].entry], placed_[c].obstacle,
-                                            worn.front().depth.total());
+          out[c].obstacle = opened_obstacle(placed_[c].obstacle, worn.front().depth.total());
         else
           open_sides(growth_of(worn_[s].sides, worn), out[c]);
     }
@@ -301,7 +300,7 @@ void open_gaps(const study::Study& study, const std::vector<WornPlace>& places,
       progress = opening.advance(rates);
       if (progress != wear::Progress::go_on || stage == stages)
         break;
-      opened = opening.opened(study);
+      opened = opening.opened();
     } catch (const core::Error& error) { // the stages so far stand
       reason = error.what();
       end = "beyond_geometry";

@@ -29,7 +29,6 @@ contact::Profile opened_rectangle(const contact::Profile& profile, double growth
 }
 
 struct Opened {
-  const study::Contact& contact;
   double growth;
   contact::Obstacle operator()(contact::Circle shape) const { return contact::Circle{shape.gap + growth}; }
   contact::Obstacle operator()(contact::PlanePair shape) const {
@@ -50,22 +49,22 @@ struct Opened {
   contact::Obstacle operator()(const contact::Profile& shape) const {
     if (!contact::flat_sides(shape).empty())
       return opened_rectangle(shape, growth, growth);
-    if (!contact.broached)
-      return moved_profile(shape, [this](const contact::PlanePoint& corner) {
-        const double factor = 1.0 + growth / std::hypot(corner.y, corner.z);
-        return contact::PlanePoint{corner.y * factor, corner.z * factor};
-      });
-    contact::BroachedHole hole = *contact.broached;
+    return moved_profile(shape, [this](const contact::PlanePoint& corner) {
+      const double factor = 1.0 + growth / std::hypot(corner.y, corner.z);
+      return contact::PlanePoint{corner.y * factor, corner.z * factor};
+    });
+  }
+  contact::Obstacle operator()(const contact::BroachedSpace& shape) const {
+    contact::BroachedHole hole = shape.hole();
     hole.land_radius += growth;
-    return contact::broached_hole(*contact.tube_radius, hole);
+    return contact::BroachedSpace(shape.tube_radius(), hole);
   }
 };
 
 } // namespace
 
-contact::Obstacle opened_obstacle(const study::Contact& contact, const contact::Obstacle& obstacle,
-                                  double growth) {
-  return std::visit(Opened{contact, growth}, obstacle);
+contact::Obstacle opened_obstacle(const contact::Obstacle& obstacle, double growth) {
+  return std::visit(Opened{growth}, obstacle);
 }
 
 void open_sides(const SideGrowth& growth, PlacedContact& placed) {

@@ -22,8 +22,7 @@ namespace fretwork::app {
 
 /// @param growth  m, >= 0, of the gap as it was placed
 /// @throws core::Error where the obstacle does not exist any more (lands as wide as the lobes)
-[[nodiscard]] contact::Obstacle opened_obstacle(const study::Contact& contact,
-                                                const contact::Obstacle& obstacle, double growth);
+[[nodiscard]] contact::Obstacle opened_obstacle(const contact::Obstacle& obstacle, double growth);
 
 /// m, by number of a side (contact/sides.hpp).
 using SideGrowth = std::array<double, contact::side_names.size()>;

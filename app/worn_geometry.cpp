@@ -76,8 +76,6 @@ wear::Geometry geometry_of_obstacle(const study::Wear& entry, const study::Conta
                                     const PlacedContact& placed, const Sizes& sizes) {
   const bool crossing = std::holds_alternative<contact::RoundPair>(placed.obstacle);
   const wear::TubeInSupport tube{sizes.radius(), crossing ? 1.0 : sizes.length(), entry.inclination};
-  if (contact.broached)
-    return wear::geometry_of(*contact.broached, tube);
   if (contact.obstacle == study::ObstacleKind::egg_crate) // four flat faces
     return wear::FlatBar{tube.radius, tube.length, tube.inclination};
   return wear::geometry_of(placed.obstacle, tube);

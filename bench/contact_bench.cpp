@@ -131,8 +131,8 @@ void print_obstacles() {
       {"round pair", contact::RoundPair{2e-4}},
       {"facing planes", contact::FacingPlanes{2e-4, contact::PlaneAxis::y, 1.0}},
       {"egg crate", contact::egg_crate(t, t + 2e-4, t + 2e-4)},
-      {"trefoil", contact::broached_hole(t, {t + 2e-4, t + 3e-3, 3, third / 4.0})},
-      {"quatrefoil", contact::broached_hole(t, {t + 2e-4, t + 3e-3, 4, third / 5.0})}};
+      {"trefoil", contact::BroachedSpace(t, {t + 2e-4, t + 3e-3, 3, third / 4.0})},
+      {"quatrefoil", contact::BroachedSpace(t, {t + 2e-4, t + 3e-3, 4, third / 5.0})}};
   for (const auto& [name, obstacle] : obstacles) {
     Nodes nodes(1 << 14);
     for (auto& [y, z] : nodes) { // about the land or plane: what a node in reach meets

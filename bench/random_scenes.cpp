@@ -128,7 +128,7 @@ Place draw_place(Draw& draw, double gap, double overlap, bool tube) {
     out.name = "egg crate";
   } else if (shape < 0.75 && tube) {
     const int lands = draw.chance(0.5) ? 3 : 4;
-    out.obstacle = contact::broached_hole(
+    out.obstacle = contact::BroachedSpace(
         tube_radius, {tube_radius + gap, tube_radius + gap + 0.0025, lands, draw.uniform(0.25, 0.5), turn});
     out.name = lands == 3 ? "trefoil" : "quatrefoil";
   } else if (shape < 0.85 && tube) {

@@ -8,7 +8,7 @@ namespace fretwork::contact {
 
 namespace {
 
-constexpr int ellipse_points = 180; ///< of its outline
+constexpr int ellipse_points = 180, points_of_arc = 16; ///< of outlines
 
 /// -1/r or 1/r; 0 at the centre, where the normal is a choice that does not turn.
 double of_circle(double sign, double y, double z) {
@@ -77,6 +77,7 @@ double curvature(const Obstacle& obstacle, double y, double z) {
       const double from_centre = ab * ab / (h * h * h) - (h - y * m.y - z * m.z); // of curvature
       return from_centre > 0.0 ? -1.0 / from_centre : 0.0;
     }
+    double operator()(const BroachedSpace& space) const { return space.curvature(y, z); }
     double operator()(const Profile& profile) const { return profile.curvature(y, z); }
   };
   return std::visit(Visitor{y, z}, obstacle);
@@ -131,6 +132,13 @@ ObstacleProperties properties_of(const Obstacle& obstacle) {
               .is_concave = true,
               .has_parts = least * least < e.radius * largest};
     }
+    ObstacleProperties operator()(const BroachedSpace& s) const {
+      return {.extent = s.clearance(),
+              .gap_bound = {1.0, 1.0, s.clearance()},
+              .is_bound_gap = false,
+              .is_concave = false,
+              .has_parts = true};
+    }
     ObstacleProperties operator()(const Profile& p) const {
       return {.extent = p.inscribed(),
               .gap_bound = {1.0, 1.0, p.inscribed()},
@@ -144,6 +152,7 @@ ObstacleProperties properties_of(const Obstacle& obstacle) {
 
 std::vector<PlanePoint> outline_of(const Obstacle& obstacle) {
   struct Visitor {
+    std::vector<PlanePoint> operator()(const BroachedSpace& s) const { return s.outline(points_of_arc); }
     std::vector<PlanePoint> operator()(const Profile& p) const {
       return {p.vertices().begin(), p.vertices().end()};
     }

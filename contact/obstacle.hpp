@@ -11,6 +11,7 @@
 ///     stop         gap = g - c,            n = -e         one plane: contact where c exceeds g
 ///     round pair   gap = r - d,            n = e_r        two round bodies side by side, d = R_1 + R_2
 ///     profile      signed distance to a polygon round the origin (profile.hpp)
+///     broached     signed distance to the arcs of lands, corners and lobes (broached_space.hpp)
 ///     facing planes gap = s c - d,         n = s e        two flat bodies, d = D_1 + D_2, the first on
 ///                                                the side s = +-1 of the second
 ///     ellipse      gap = h(m) - p.m - R,   n = -m         a round body of radius R in an elliptic hole of
@@ -21,6 +22,7 @@
 /// Source: R5.06.03 sections 4.1.1 and 4.1.2 (whose normals are opposite to each other), 4.2.1 (where the
 /// side follows the sign of c, so that bodies that pass through each other are pushed on), 4.2.2.
 #pragma once
+#include "contact/broached_space.hpp"
 #include "contact/plane.hpp"
 #include "contact/profile.hpp"
 #include <array>
@@ -56,7 +58,8 @@ struct Ellipse {
   double
       radius; ///< m, >= 0, of the body; above the hole's least radius of curvature it touches at two places where it reaches farthest
 };
-using Obstacle = std::variant<Circle, PlanePair, Stop, RoundPair, FacingPlanes, Ellipse, Profile>;
+using Obstacle =
+    std::variant<Circle, PlanePair, Stop, RoundPair, FacingPlanes, Ellipse, BroachedSpace, Profile>;
 
 /// Where a node is against its obstacle; the contact's tangent directions are x_loc and t = n x x_loc = (0,
 /// nz, -ny).
@@ -105,6 +108,10 @@ inline constexpr Location centred(double gap) { return {gap, -1.0, 0.0}; }
 
 [[nodiscard]] Location locate(const Ellipse& ellipse, double y, double z);
 
+[[nodiscard]] inline Location locate(const BroachedSpace& space, double y, double z) {
+  return space.locate(y, z);
+}
+
 [[nodiscard]] inline Location locate(const Profile& profile, double y, double z) {
   return profile.locate(y, z);
 }
@@ -115,7 +122,7 @@ inline constexpr Location centred(double gap) { return {gap, -1.0, 0.0}; }
 
 /// kappa, 1/m, with which the normal turns as the node moves: dn = kappa t (t.du), so that the Hessian of the
 /// gap is kappa t t^T. Circle -1/r, round pair 1/r, planes 0, ellipse -1/(rho - distance from it) with the radius of curvature rho where it is
-/// nearest, profile: profile.hpp. Where the normal is a
+/// nearest, others: broached_space.hpp, profile.hpp. Where the normal is a
 /// choice (centred tube, coincident nodes, on the corner of a profile) 0, as the choice does not turn.
 [[nodiscard]] double curvature(const Obstacle& obstacle, double y, double z);
 

@@ -60,7 +60,7 @@ struct ContactFacts {
   std::vector<std::size_t>
       sides;       ///< of contact::side_names, where flat faces meet the tube on several; for summary.json
   core::Vec3 rest; ///< m, node at rest from the obstacle's centre, local axes
-  Eigen::MatrixXd outline; ///< m, n x 2: corners of a profile, local y z; empty for other obstacles
+  Eigen::MatrixXd outline; ///< m, n x 2: contact::outline_of, local y z; empty where the gap tells all
   double normal_stiffness = 0.0, normal_damping = 0.0, tangential_stiffness = 0.0, tangential_damping = 0.0;
   double normal_dissipation = 0.0; ///< s/m, Hunt and Crossley's
   double friction_static = 0.0, friction_dynamic = 0.0;

@@ -107,7 +107,7 @@ contact::Ellipse read_ellipse(const TableReader& table) {
   return made(table, "semi_axes", [&] { return contact::elliptic_hole(tube, axes[0], axes[1]); });
 }
 
-contact::Profile read_broached(const TableReader& table, Contact& contact) {
+contact::BroachedSpace read_broached(const TableReader& table) {
   const double tube = tube_radius(table);
   contact::BroachedHole hole{};
   hole.land_radius = table.number("land_radius", {Range::above_zero, "m"});
@@ -120,8 +120,7 @@ contact::Profile read_broached(const TableReader& table, Contact& contact) {
         fmt::format("{} lands of this angle leave no lobe between them; give less than {:g} degrees",
                     hole.lands, whole));
   hole.land_angle = land_angle * degree;
-  contact.broached = hole;
-  return made(table, "land_radius", [&] { return contact::broached_hole(tube, hole); });
+  return made(table, "land_radius", [&] { return contact::BroachedSpace(tube, hole); });
 }
 
 contact::Profile read_egg_crate(const TableReader& table) {
@@ -186,7 +185,7 @@ void read_fixed_obstacle(const TableReader& table, Contact& contact) {
     contact.shape = read_drilled(table);
     return;
   case ObstacleKind::broached:
-    contact.shape = read_broached(table, contact);
+    contact.shape = read_broached(table);
     return;
   case ObstacleKind::egg_crate:
     contact.shape = read_egg_crate(table);

@@ -119,7 +119,6 @@ struct Contact {
   std::optional<std::string> other; ///< group of the second nodes
   ObstacleKind obstacle = ObstacleKind::circle;
   contact::Obstacle shape; ///< flat bodies without `side`: it follows from the places of the two nodes
-  std::optional<contact::BroachedHole> broached; ///< what the profile of obstacle "broached" was made of
   std::optional<double> tube_radius; ///< m, of the obstacles that have it; the shape is made with it
   std::optional<double> side;        ///< two nodes, planes: +1 or -1
   std::optional<Vec3> axis;

@@ -27,10 +27,21 @@ struct OfObstacle {
                       "with the clearance where "
                       "the tube wears, flat_bar, or sectors");
   }
+  Geometry operator()(const contact::BroachedSpace& space) const {
+    const contact::BroachedHole& hole = space.hole();
+    if (!(hole.land_radius >= tube.radius))
+      throw core::Error(
+          fmt::format("lands of radius {:g} m do not hold a tube of radius {:g} m; give a larger "
+                      "land_radius",
+                      hole.land_radius, tube.radius));
+    return Lands{tube.radius, hole.land_radius - tube.radius,
+                 tube.length, 0.5 * hole.land_angle,
+                 hole.lands,  tube.inclination};
+  }
   Geometry operator()(const contact::Profile& profile) const {
     throw core::Error(
         fmt::format("a profile of {} points has no geometry of wear of its own; give the geometry: "
-                    "lands with their half-angle and the clearance there (broached hole), flat_bar "
+                    "lands with their half-angle and the clearance there, flat_bar "
                     "(egg crate), drilled_hole, or sectors",
                     profile.vertices().size()));
   }
@@ -42,17 +53,6 @@ struct OfObstacle {
 Geometry geometry_of(const contact::Obstacle& obstacle, const TubeInSupport& tube) {
   Geometry out = std::visit(OfObstacle{tube}, obstacle);
   check(out);
-  return out;
-}
-
-Lands geometry_of(const contact::BroachedHole& hole, const TubeInSupport& tube) {
-  if (!(hole.land_radius >= tube.radius))
-    throw core::Error(fmt::format("lands of radius {:g} m do not hold a tube of radius {:g} m; give a larger "
-                                  "land_radius",
-                                  hole.land_radius, tube.radius));
-  Lands out{tube.radius,     hole.land_radius - tube.radius, tube.length, 0.5 * hole.land_angle, hole.lands,
-            tube.inclination};
-  check(Geometry(out));
   return out;
 }
 

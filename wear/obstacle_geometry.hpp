@@ -24,7 +24,4 @@ struct TubeInSupport {
 /// @throws core::Error for an obstacle without a geometry of wear (what to give instead), and as `check`
 [[nodiscard]] Geometry geometry_of(const contact::Obstacle& obstacle, const TubeInSupport& tube);
 
-/// @throws core::Error where the tube does not fit, and as `check`
-[[nodiscard]] Lands geometry_of(const contact::BroachedHole& hole, const TubeInSupport& tube);
-
 } // namespace fretwork::wear

@@ -18,33 +18,24 @@ double gap_at(const contact::Obstacle& obstacle, double y, double z) {
   return contact::locate(obstacle, y, z).gap;
 }
 
-void expect_wider(const study::Contact& contact, const contact::Obstacle& obstacle, double y, double z) {
-  EXPECT_NEAR(gap_at(opened_obstacle(contact, obstacle, growth), y, z), gap_at(obstacle, y, z) + growth,
-              round_off)
+void expect_wider(const contact::Obstacle& obstacle, double y, double z) {
+  EXPECT_NEAR(gap_at(opened_obstacle(obstacle, growth), y, z), gap_at(obstacle, y, z) + growth, round_off)
       << y << ", " << z;
-}
-
-study::Contact of_kind(study::ObstacleKind kind) {
-  study::Contact contact;
-  contact.obstacle = kind;
-  contact.tube_radius = radius;
-  return contact;
 }
 
 } // namespace
 
 TEST(OpenedContacts, MoveEverySideAway) {
   using contact::PlaneAxis;
-  const study::Contact any = of_kind(study::ObstacleKind::circle);
   for (const auto& [y, z] : {std::pair(1e-4, 5e-5), std::pair(-2e-4, 0.0)}) {
-    expect_wider(any, contact::Circle{3e-4}, y, z);
-    expect_wider(any, contact::PlanePair{3e-4, PlaneAxis::y}, y, z);
-    expect_wider(any, contact::Stop{3e-4, PlaneAxis::y}, y, z);
-    expect_wider(any, contact::FacingPlanes{0.02, PlaneAxis::y, -1.0}, y - 0.02, z);
-    expect_wider(any, contact::RoundPair{0.02}, y, z + 0.03);
+    expect_wider(contact::Circle{3e-4}, y, z);
+    expect_wider(contact::PlanePair{3e-4, PlaneAxis::y}, y, z);
+    expect_wider(contact::Stop{3e-4, PlaneAxis::y}, y, z);
+    expect_wider(contact::FacingPlanes{0.02, PlaneAxis::y, -1.0}, y - 0.02, z);
+    expect_wider(contact::RoundPair{0.02}, y, z + 0.03);
   }
   const contact::Obstacle ellipse = contact::elliptic_hole(radius, radius + 2e-4, radius + 3e-4);
-  expect_wider(any, ellipse, 1e-5, 0.0); // along an axis of the hole
+  expect_wider(ellipse, 1e-5, 0.0); // along an axis of the hole
 }
 
 // Each face of two bars or of an egg crate moves by the wear of its own side.
@@ -71,17 +62,13 @@ TEST(OpenedContacts, MoveEachFaceByItsOwnSide) {
 TEST(OpenedContacts, MoveTheFacesOfAnEggCrate) {
   const contact::Profile crate = contact::egg_crate(radius, radius + 2e-4, radius + 5e-4);
   for (const auto& [y, z] : {std::pair(1e-4, 0.0), std::pair(0.0, -3e-4), std::pair(-3e-4, 1e-4)})
-    expect_wider(of_kind(study::ObstacleKind::egg_crate), crate, y, z);
+    expect_wider(crate, y, z);
 }
 
 TEST(OpenedContacts, WidenTheLandsOfABroachedHole) {
-  study::Contact contact = of_kind(study::ObstacleKind::broached);
-  contact.broached = contact::BroachedHole{radius + 2e-4, radius + 3e-3, 4, 0.3};
-  const contact::Obstacle hole = contact::broached_hole(radius, *contact.broached);
-  constexpr double chords = 2.0 * contact::default_chord_error;
-  EXPECT_NEAR(gap_at(opened_obstacle(contact, hole, growth), 1e-4, 0.0), gap_at(hole, 1e-4, 0.0) + growth,
-              chords);
-  EXPECT_THROW((void)opened_obstacle(contact, hole, 5e-3), core::Error); // no lobe is left
+  const contact::Obstacle hole = contact::BroachedSpace(radius, {radius + 2e-4, radius + 3e-3, 4, 0.3});
+  expect_wider(hole, 1e-4, 0.0);
+  EXPECT_THROW((void)opened_obstacle(hole, 5e-3), core::Error); // no lobe is left
 }
 
 TEST(OpenedContacts, MoveThePointsOfAProfileOutward) {
@@ -90,8 +77,7 @@ TEST(OpenedContacts, MoveThePointsOfAProfileOutward) {
   for (int k = 0; k < n; ++k)
     points.push_back({2.0 * std::numbers::pi * k / n - 2.5, 3e-4 + 1e-4 * std::cos(0.01745 * k)});
   const contact::Profile hole(points);
-  const auto wider =
-      std::get<contact::Profile>(opened_obstacle(of_kind(study::ObstacleKind::profile), hole, growth));
+  const auto wider = std::get<contact::Profile>(opened_obstacle(hole, growth));
   ASSERT_EQ(wider.vertices().size(), points.size());
   for (std::size_t k = 0; k < points.size(); ++k)
     EXPECT_NEAR(std::hypot(wider.vertices()[k].y, wider.vertices()[k].z),

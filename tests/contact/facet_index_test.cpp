@@ -31,8 +31,8 @@ std::vector<PlanePoint> polygon(int n, auto radius) {
 /// A quatrefoil hole of lands and lobes, facets of very different length, over the tube's room at the lands.
 std::vector<PlanePoint> broached() {
   const double t = 9.5e-3, room = 2e-4;
-  const auto profile = contact::broached_hole(t, {t + room, t + 3e-3, 4, turn / 20.0}, 1e-10);
-  std::vector<PlanePoint> vertices(profile.vertices().begin(), profile.vertices().end());
+  std::vector<PlanePoint> vertices =
+      contact::BroachedSpace(t, {t + room, t + 3e-3, 4, turn / 20.0}).outline(400);
   for (PlanePoint& v : vertices)
     v = {v.y / 3e-3, v.z / 3e-3};
   return vertices;

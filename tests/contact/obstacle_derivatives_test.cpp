@@ -3,6 +3,7 @@
 #include "contact/obstacle.hpp"
 #include "uniform.hpp"
 #include <gtest/gtest.h>
+#include <numbers>
 #include <string>
 
 namespace obstacle_derivatives_test {
@@ -51,6 +52,8 @@ std::vector<Named> every(double size = 1.0) {
           {"ellipse, higher than wide", Ellipse{1.1 * size, 1.2 * size, 0.9 * size}},
           {"ellipse, pointed for the body", Ellipse{1.8 * size, 1.2 * size, 1.0 * size}},
           {"circle as an ellipse", Ellipse{1.5 * size, 1.5 * size, 1.2 * size}},
+          {"trefoil", BroachedSpace(2.0 * size, {2.3 * size, 2.8 * size, 3, 0.35, 0.4})},
+          {"quatrefoil", BroachedSpace(2.0 * size, {2.3 * size, 2.5 * size, 4, 0.5, -0.4})},
           {"profile", star(size)}};
 }
 
@@ -181,6 +184,11 @@ TEST(ObstacleDerivatives, MirrorsWithItsObstacle) {
   const auto mirrored = [](Obstacle o, PlaneAxis axis) { // one-sided bodies change sides
     if (auto* planes = std::get_if<FacingPlanes>(&o); planes && planes->axis == axis)
       planes->side = -planes->side;
+    if (const auto* space = std::get_if<BroachedSpace>(&o)) {
+      BroachedHole hole = space->hole();
+      hole.orientation = (axis == PlaneAxis::y ? std::numbers::pi : 0.0) - hole.orientation;
+      return Obstacle(BroachedSpace(space->tube_radius(), hole));
+    }
     return o;
   };
   for (const auto& [name, o] : obstacles)

@@ -11,7 +11,6 @@ namespace support_shapes_test {
 
 using namespace fretwork;
 using contact::BarSides;
-using contact::BroachedHole;
 using contact::Location;
 using contact::PlaneAxis;
 using contact::Profile;
@@ -21,35 +20,6 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double tube = 9.525e-3;   // m, of 3/4 inch
 constexpr double round_off = 1e-17; // m: a few units in the last place of a radius
-constexpr double direction_error =
-    5e-3; // half the angle of the longest facet of a profile of default chord error
-
-const BroachedHole narrow_trefoil{9.725e-3, 12e-3, 3, 0.35, 0.2};
-const BroachedHole wide_trefoil{9.725e-3, 9.8e-3, 3, 0.35, -4.0};
-const BroachedHole quatrefoil{9.7e-3, 11.5e-3, 4, 0.3, 1.0};
-const BroachedHole two_lands{9.6e-3, 9.8e-3, 2, 0.8, 0.0};
-const BroachedHole all[] = {narrow_trefoil, wide_trefoil, quatrefoil, two_lands};
-
-/// Distance of a point to the plate round a broached hole, from the plate's arcs and walls themselves.
-double to_plate(const BroachedHole& hole, double y, double z) {
-  const double r = std::hypot(y, z), angle = std::atan2(z, y), half_land = 0.5 * hole.land_angle;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (int land = 0; land < hole.lands; ++land) {
-    const double pitch = 2.0 * pi / hole.lands;
-    const double from_land = std::remainder(angle - hole.orientation - land * pitch, 2.0 * pi);
-    const double from_lobe = std::remainder(angle - hole.orientation - (land + 0.5) * pitch, 2.0 * pi);
-    if (std::abs(from_land) <= half_land)
-      nearest = std::min(nearest, hole.land_radius - r);
-    if (std::abs(from_lobe) <= 0.5 * pitch - half_land)
-      nearest = std::min(nearest, hole.lobe_radius - r);
-    for (const double side : {-half_land, half_land}) { // a wall from the land's corner outwards
-      const double along = r * std::cos(from_land - side), across = r * std::sin(from_land - side);
-      nearest = std::min(nearest,
-                         std::hypot(along - std::clamp(along, hole.land_radius, hole.lobe_radius), across));
-    }
-  }
-  return nearest;
-}
 
 std::string message_of(const std::function<void()>& build) {
   try {
@@ -64,15 +34,6 @@ void expect_refused(const std::function<void()>& build, std::initializer_list<co
   for (const char* part : parts)
     EXPECT_NE(message.find(part), std::string::npos) << "\"" << part << "\" is not in: " << message;
 }
-void expect_refused(BroachedHole hole, std::initializer_list<const char*> parts, double error = 1e-8) {
-  expect_refused([&] { (void)contact::broached_hole(tube, hole, error); }, parts);
-}
-BroachedHole changed(const std::function<void(BroachedHole&)>& change) {
-  BroachedHole hole = narrow_trefoil;
-  change(hole);
-  return hole;
-}
-
 } // namespace
 
 TEST(DrilledHole, IsACircleOfItsClearance) {
@@ -122,99 +83,6 @@ TEST(EggCrate, IsTwoPairsOfPlanes) {
   }
 }
 
-TEST(BroachedHole, GapIsTheRoomBetweenTubeAndPlate) {
-  tests::Uniform uniform(22);
-  for (const BroachedHole& hole : all)
-    for (const double error : {1e-6, contact::default_chord_error, 1e-10}) {
-      const Profile profile = contact::broached_hole(tube, hole, error);
-      int inside = 0;
-      for (int i = 0; i < 3000; ++i) {
-        const double angle = uniform(0.0, 2.0 * pi), r = uniform(0.0, 6e-4);
-        const double y = r * std::cos(angle), z = r * std::sin(angle), room = to_plate(hole, y, z) - tube;
-        const double gap = profile.locate(y, z).gap;
-        if (room < error)
-          continue;
-        ASSERT_NEAR(gap, room, error) << y << " " << z;
-        ++inside;
-      }
-      EXPECT_GT(inside, 300);
-    }
-}
-
-TEST(BroachedHole, CornersOfTheProfileTouchThePlateExactly) {
-  for (const BroachedHole& hole : all) {
-    const Profile profile = contact::broached_hole(tube, hole);
-    for (const contact::PlanePoint& v : profile.vertices())
-      ASSERT_NEAR(to_plate(hole, v.y, v.z), tube, round_off);
-  }
-}
-
-TEST(BroachedHole, TouchesItsLandsFirst) {
-  for (const BroachedHole& hole : all) {
-    const Profile profile = contact::broached_hole(tube, hole);
-    const double clearance = hole.land_radius - tube;
-    EXPECT_NEAR(profile.inscribed(), clearance, contact::default_chord_error);
-    for (int land = 0; land < hole.lands; ++land) {
-      const double at_land = hole.orientation + 2.0 * pi * land / hole.lands,
-                   at_lobe = at_land + pi / hole.lands;
-      const double r = 1.05 * clearance;
-      const Location location = profile.locate(r * std::cos(at_land), r * std::sin(at_land));
-      EXPECT_NEAR(location.gap, clearance - r, contact::default_chord_error);
-      EXPECT_NEAR(location.ny, -std::cos(at_land), direction_error);
-      EXPECT_NEAR(location.nz, -std::sin(at_land), direction_error);
-      EXPECT_GT(profile.locate(r * std::cos(at_lobe), r * std::sin(at_lobe)).gap, 0.0);
-    }
-  }
-}
-
-TEST(BroachedHole, NormalAtACornerPointsFromItToTheTubesCentre) {
-  const Profile profile = contact::broached_hole(tube, narrow_trefoil);
-  const double corner = narrow_trefoil.orientation + 0.5 * narrow_trefoil.land_angle,
-               a = narrow_trefoil.land_radius;
-  for (const double x : {0.005, 0.01, 0.02}) { // about the corner, from its direction
-    const double distance = tube - 1e-6;       // overlapping it by 1e-6
-    const double along = a - distance * std::cos(x), across = distance * std::sin(x);
-    const Location at = profile.locate(along * std::cos(corner) - across * std::sin(corner),
-                                       along * std::sin(corner) + across * std::cos(corner));
-    EXPECT_NEAR(at.gap, -1e-6, contact::default_chord_error);
-    EXPECT_NEAR(at.ny, -std::cos(corner - x), direction_error);
-    EXPECT_NEAR(at.nz, -std::sin(corner - x), direction_error);
-  }
-}
-
-TEST(BroachedHole, OfAnySizeHasAFewThousandFacets) {
-  for (const double size : {1.0, 10.0, 1e3, 1e6}) { // of a hole of 10 mm: given in mm, by mistake, too
-    const Profile profile = contact::broached_hole(9.5e-3 * size, {9.7e-3 * size, 11e-3 * size, 4, pi / 9.0});
-    EXPECT_LT(profile.vertices().size(), 5000U) << size;
-    EXPECT_NEAR(profile.inscribed(), 2e-4 * size,
-                std::max(contact::default_chord_error, contact::default_chord_share * 2e-4 * size));
-  }
-}
-
-TEST(BroachedHole, IsTheSameFromLandToLandAndTurnsWithItsOrientation) {
-  tests::Uniform uniform(23);
-  const Profile profile = contact::broached_hole(tube, quatrefoil);
-  BroachedHole other = quatrefoil;
-  other.orientation += 0.37;
-  const Profile turned = contact::broached_hole(tube, other);
-  for (int i = 0; i < 1000; ++i) {
-    const double angle = uniform(0.0, 2.0 * pi), r = uniform(0.0, 1e-3);
-    const auto gap = [&](const Profile& p, double by) {
-      return p.locate(r * std::cos(angle + by), r * std::sin(angle + by)).gap;
-    };
-    ASSERT_NEAR(gap(profile, 0.5 * pi), gap(profile, 0.0), round_off);
-    ASSERT_NEAR(gap(turned, 0.37), gap(profile, 0.0), round_off);
-  }
-}
-
-TEST(BroachedHole, TakesPointsInInverseProportionToTheRootOfTheChordError) {
-  const auto number = [](double error) {
-    const Profile profile = contact::broached_hole(tube, narrow_trefoil, error);
-    return static_cast<double>(profile.vertices().size());
-  };
-  EXPECT_NEAR(number(1e-12) / number(1e-10), 10.0, 0.5);
-}
-
 TEST(EllipticHole, IsTheDistanceFromTheEllipseLessTheTube) {
   tests::Uniform uniform(71);
   for (const auto& [y_axis, z_axis] : {std::pair{9.9e-3, 9.8e-3}, {9.6e-3, 10.1e-3}, {9.8e-3, 9.8e-3}}) {
@@ -254,7 +122,6 @@ TEST(SupportShapes, RefuseSizesThatAreNoLength) {
   expect_refused([] { (void)contact::flat_bars(0.0, 1.0, PlaneAxis::y, BarSides::one); },
                  {"flat bars: tube radius = 0 m"});
   expect_refused([] { (void)contact::egg_crate(1.0, 2.0, 0.0); }, {"egg crate: half width along z = 0 m"});
-  expect_refused(changed([&](auto& h) { h.lobe_radius = nan; }), {"broached hole: lobe radius = nan m"});
 }
 
 TEST(SupportShapes, RefuseATubeThatDoesNotFit) {
@@ -269,28 +136,6 @@ TEST(SupportShapes, RefuseATubeThatDoesNotFit) {
   expect_refused([] { (void)contact::egg_crate(1.0, 0.9, 2.0); }, {"half width along y = 0.9 m is less"});
   expect_refused([] { (void)contact::egg_crate(1.0, 2.0, 1.0); },
                  {"half width along z = 1 m", "leaves no room"});
-  expect_refused(changed([](auto& h) { h.land_radius = 9e-3; }), {"land radius = 0.009 m is less"});
-  expect_refused(changed([](auto& h) { h.land_radius = tube; }),
-                 {"land radius = 0.009525 m", "leaves no room"});
-}
-
-TEST(SupportShapes, RefuseLandsThatMakeNoBroachedHole) {
-  expect_refused(changed([](auto& h) { h.lobe_radius = h.land_radius; }),
-                 {"lobe radius", "not larger than the land"});
-  expect_refused(changed([](auto& h) { h.lands = 1; }), {"lands = 1", "at least 2"});
-  expect_refused(changed([](auto& h) { h.land_angle = 0.0; }), {"land angle = 0 rad"});
-  expect_refused(changed([](auto& h) { h.land_angle = 2.1; }),
-                 {"land angle = 2.1 rad", "no lobe", "2.0944 rad"});
-  expect_refused(changed([](auto& h) { h.orientation = INFINITY; }), {"orientation = inf rad"});
-  expect_refused(BroachedHole{9.725e-3, 12e-3, 2, 0.1, 0.0},
-                 {"passes behind the corner", "smaller lobe radius"});
-}
-
-TEST(SupportShapes, RefuseChordErrorsTooLargeOrTooSmall) {
-  expect_refused(narrow_trefoil, {"chord error = 0 m"}, 0.0);
-  expect_refused(narrow_trefoil,
-                 {"chord error = 0.001 m", "not less than the clearance at the lands, 0.0002 m"}, 1e-3);
-  expect_refused(narrow_trefoil, {"chord error = 1e-18 m asks for", "points; give a larger one"}, 1e-18);
 }
 
 } // namespace support_shapes_test

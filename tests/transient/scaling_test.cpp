@@ -46,6 +46,11 @@ contact::Obstacle in_units(const contact::Obstacle& obstacle, double length) {
     contact::Obstacle operator()(const contact::Ellipse& o) const {
       return contact::Ellipse{l * o.semi_y, l * o.semi_z, l * o.radius};
     }
+    contact::Obstacle operator()(const contact::BroachedSpace& o) const {
+      contact::BroachedHole hole = o.hole();
+      hole.land_radius *= l, hole.lobe_radius *= l;
+      return contact::BroachedSpace(l * o.tube_radius(), hole);
+    }
     contact::Obstacle operator()(const contact::Profile& o) const {
       std::vector<contact::PolarPoint> points;
       for (const auto& vertex : o.vertices()) {

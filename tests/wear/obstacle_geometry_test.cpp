@@ -44,8 +44,8 @@ TEST(ObstacleGeometry, OfARoundPairIsTubeOnTube) {
 }
 
 TEST(ObstacleGeometry, OfABroachedHoleIsItsLands) {
-  const contact::BroachedHole hole{9.725e-3, 12e-3, 4, 0.35};
-  const Lands lands = geometry_of(hole, tube);
+  const contact::BroachedSpace space(9.525e-3, {9.725e-3, 12e-3, 4, 0.35});
+  const Lands lands = std::get<Lands>(geometry_of(space, tube));
   EXPECT_NEAR(lands.clearance, 2e-4, round_off);
   EXPECT_EQ(lands.half_angle, 0.175);
   EXPECT_EQ(lands.lands, 4);
@@ -53,7 +53,7 @@ TEST(ObstacleGeometry, OfABroachedHoleIsItsLands) {
   EXPECT_EQ(lands.middles, std::vector<double>{0.0});
   expect_refused(
       [&] {
-        (void)geometry_of(contact::BroachedHole{9e-3, 12e-3, 4, 0.35}, tube);
+        (void)geometry_of(contact::BroachedSpace(8.5e-3, {9e-3, 12e-3, 4, 0.35}), tube);
       },
       {"lands of radius 0.009 m do not hold a tube of radius 0.009525 m", "land_radius"});
 }

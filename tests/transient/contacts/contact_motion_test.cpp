@@ -30,6 +30,7 @@ protected:
                                            contact::RoundPair{1e-3},
                                            contact::FacingPlanes{2e-4, PlaneAxis::z, -1.0},
                                            contact::Ellipse{6.1e-3, 6e-3, 5e-3},
+                                           contact::BroachedSpace(9e-3, {9.9e-3, 1.1e-2, 3, 0.35}),
                                            contact::Profile(corners)};
     constexpr std::size_t kinds = std::size(obstacles);
     static_assert(kinds == std::variant_size_v<contact::Obstacle>); // one of each
