@@ -15,9 +15,9 @@ using core::Index;
 using core::Vec3;
 
 /// Forces of the moved supports on what is left of the motion: the inertia of the static shape, and the dampers that it stretches.
-void support_loads(const study::SupportMotion& motion, double duration, const std::string& name,
-                   const fem::Model& model, const SupportFields& fields, std::vector<Fields::Load>& loads) {
-  const signals::PrescribedMotion moved = prescribed(motion, duration);
+void support_loads(const study::SupportMotion& motion, const std::string& name, const fem::Model& model,
+                   const SupportFields& fields, std::vector<Fields::Load>& loads) {
+  const signals::PrescribedMotion moved = prescribed(motion);
   loads.push_back(
       {name, moved.acceleration, -fem::mass_times(model, fields.shape), true, true, motion.by_displacement});
   if (!fields.dampers.isZero(0.0))
@@ -111,8 +111,7 @@ Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh, const
     out.loads.push_back({"[[base_motion]]", motion.acceleration, -on_all_masses(motion.direction), true});
   for (std::size_t k = 0; k < supports.size(); ++k) {
     const study::SupportMotion& motion = study.support_motions[k];
-    support_loads(motion, study.transient->duration,
-                  fmt::format("[[support_motion]] entry {} of \"{}\"", k + 1, motion.group), model,
+    support_loads(motion, fmt::format("[[support_motion]] entry {} of \"{}\"", k + 1, motion.group), model,
                   supports[k], out.loads);
     out.supports.push_back(supports[k].shape);
   }

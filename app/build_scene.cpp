@@ -364,9 +364,9 @@ BuiltScene build_scene(const study::Study& study, const Fields& fields,
                                     [](const study::Contact& contact) { return contact.grounded; });
   if (grounded)
     for (const study::BaseMotion& motion : study.base_motions)
-      scene.motions.push_back(prescribed(motion, scene.duration));
+      scene.motions.push_back(prescribed(motion));
   for (const study::SupportMotion& motion : study.support_motions)
-    scene.motions.push_back(prescribed(motion, scene.duration));
+    scene.motions.push_back(prescribed(motion));
   out.contacts = flexibility.contacts;
   for (const std::size_t c : out.contacts)
     add_contact(study, study.contacts[contacts[c].entry], contacts[c], bases, fields, out);

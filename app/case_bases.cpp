@@ -21,26 +21,24 @@ std::vector<std::string> address_of(const std::string& override_text) {
 }
 
 /// True where what an override changes enters a case behind the structure.
-bool is_of_case(const study::Study& study, const std::string& override_text) {
-  constexpr std::array tables{"contacts", "contact_defaults", "output",  "wear",
-                              "title",    "stability",        "response"};
+bool is_of_case(const std::string& override_text) {
+  constexpr std::array tables{"contacts", "contact_defaults", "output",   "wear",
+                              "title",    "stability",        "response", "transient"};
   constexpr std::size_t of_entry = 2; // table, entry, key
   const std::vector<std::string> address = address_of(override_text);
   const std::string table = address.front(), key = address.size() > of_entry ? address[of_entry] : "";
   if (std::find(tables.begin(), tables.end(), table) != tables.end())
     return true;
-  if (table == "transient") // motions of supports without drift depend on the duration
-    return study.support_motions.empty();
   if (table == "turbulence")
     return key == "seed";
   const auto& functions = study::time_function_keys;
   return table == "loads" && std::find(functions.begin(), functions.end(), key) != functions.end();
 }
 
-std::string key_of_structure(const study::Study& study, const std::vector<std::string>& overrides) {
+std::string key_of_structure(const std::vector<std::string>& overrides) {
   std::string key;
   for (const std::string& text : overrides)
-    if (!is_of_case(study, text))
+    if (!is_of_case(text))
       key += text + "\n";
   return key;
 }
@@ -143,7 +141,7 @@ bool changes_mesh(const std::vector<std::string>& overrides) {
 
 std::shared_ptr<const CaseStructure> CaseBases::structure(const study::Study& study,
                                                           const std::vector<std::string>& overrides) {
-  return structures_.get(key_of_structure(study, overrides),
+  return structures_.get(key_of_structure(overrides),
                          [&] { return make_structure(nominal_, study, !changes_mesh(overrides)); });
 }
 
@@ -152,7 +150,7 @@ std::shared_ptr<const CaseContacts> CaseBases::contacts(study::Study& study,
                                                         const CaseStructure& structure,
                                                         const std::vector<PlacedContact>& placed,
                                                         const std::vector<PlacedContact>& inactive) {
-  std::string key = key_of_structure(study, overrides);
+  std::string key = key_of_structure(overrides);
   if (auto limit = take_modes_limit(study, structure.model, placed, structure.turbulence)) {
     static_cast<void>(cap_default_modes(study, structure.model, placed, *limit));
     key += fmt::format("up to {:.17g} Hz\n", limit->up_to);

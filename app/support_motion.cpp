@@ -58,16 +58,6 @@ bool acts_on(const fem::Structure& structure, const Eigen::VectorXd& field) {
   return false;
 }
 
-/// From rest at 0 where nothing is given, but for a random acceleration, which would carry it away.
-signals::PrescribedMotion accelerated(const signals::TimeFunction& acceleration,
-                                      std::optional<double> velocity0, std::optional<double> displacement0,
-                                      double duration) {
-  const auto* random = std::get_if<signals::Random>(&acceleration);
-  if (random && !velocity0 && !displacement0)
-    return signals::without_drift(*random, duration);
-  return {acceleration, velocity0.value_or(0.0), displacement0.value_or(0.0)};
-}
-
 Eigen::VectorXd static_shape(const fem::Model& model, const fem::Structure& structure,
                              const Eigen::VectorXd& force, const std::string& name) {
   try {
@@ -79,14 +69,14 @@ Eigen::VectorXd static_shape(const fem::Model& model, const fem::Structure& stru
 
 } // namespace
 
-signals::PrescribedMotion prescribed(const study::SupportMotion& motion, double duration) {
-  return motion.by_displacement
-             ? signals::motion_of_displacement(motion.function)
-             : accelerated(motion.function, motion.velocity0, motion.displacement0, duration);
+signals::PrescribedMotion prescribed(const study::SupportMotion& motion) {
+  if (motion.by_displacement)
+    return signals::motion_of_displacement(motion.function);
+  return {motion.function, motion.velocity0.value_or(0.0), motion.displacement0.value_or(0.0)};
 }
 
-signals::PrescribedMotion prescribed(const study::BaseMotion& motion, double duration) {
-  return accelerated(motion.acceleration, motion.velocity0, motion.displacement0, duration);
+signals::PrescribedMotion prescribed(const study::BaseMotion& motion) {
+  return {motion.acceleration, motion.velocity0.value_or(0.0), motion.displacement0.value_or(0.0)};
 }
 
 std::vector<MovedSupport> moved_supports(const study::Study& study, const mesh::LineMesh& mesh,

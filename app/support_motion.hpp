@@ -16,9 +16,8 @@
 
 namespace fretwork::app {
 
-/// @param duration  s, of the run: a random acceleration without velocity0 and displacement0 is one without drift over it
-[[nodiscard]] signals::PrescribedMotion prescribed(const study::SupportMotion& motion, double duration);
-[[nodiscard]] signals::PrescribedMotion prescribed(const study::BaseMotion& motion, double duration);
+[[nodiscard]] signals::PrescribedMotion prescribed(const study::SupportMotion& motion);
+[[nodiscard]] signals::PrescribedMotion prescribed(const study::BaseMotion& motion);
 
 /// What a support motion does by 1 m, 6 values a node of the model.
 struct MovedSupport {

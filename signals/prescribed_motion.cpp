@@ -2,7 +2,6 @@
 #include "signals/prescribed_motion.hpp"
 #include "signals/table_curve.hpp"
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -85,27 +84,6 @@ TimeFunction velocity_of(const PrescribedMotion& motion) {
       out.function = acceleration;
   };
   std::visit(take, motion.acceleration);
-  return out;
-}
-
-PrescribedMotion without_drift(const Random& acceleration, double duration) {
-  constexpr std::array<double, 4> at = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
-                                        0.8611363115940526};
-  constexpr std::array<double, 4> weight = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
-                                            0.3478548451374538}; // Abramowitz and Stegun, table 25.4
-  PrescribedMotion out{acceleration};
-  const MotionSignal from_rest(out, duration);
-  const double piece = from_rest.grid_step();
-  double m0 = 0.0, m1 = 0.0;
-  for (std::size_t j = 0; static_cast<double>(j) * piece < duration; ++j) {
-    const double start = static_cast<double>(j) * piece, half = 0.5 * std::min(piece, duration - start);
-    for (std::size_t k = 0; k < at.size(); ++k) {
-      const double t = start + half * (1.0 + at[k]), z = from_rest(t).displacement;
-      m0 += weight[k] * half * z / duration;
-      m1 += weight[k] * half * z * t / (duration * duration);
-    }
-  }
-  out.velocity0 = (6.0 * m0 - 12.0 * m1) / duration;
   return out;
 }
 

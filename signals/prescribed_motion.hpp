@@ -25,14 +25,6 @@ struct PrescribedMotion {
 /// s' as a function of time that loads may follow. The acceleration is one that a study gives, no integral.
 [[nodiscard]] TimeFunction velocity_of(const PrescribedMotion& motion);
 
-/// The motion of a random acceleration that goes nowhere: it starts at 0 with the velocity that leaves the displacement no linear trend
-/// over the run, of length T; it stays about a constant place. With z the double integral of the acceleration from rest at 0, and the least-squares line
-/// z ~ c0 + c1 t,
-///     m0 = 1/T int z dt,   m1 = 1/T^2 int z t dt,   c1 T = 12 m1 - 6 m0,   s(0) = 0,   s'(0) = -c1;
-/// the integrals over the signal's pieces are exact (four points of Gauss on polynomials of degree 6). The acceleration is as it was.
-/// @param duration  T, s
-[[nodiscard]] PrescribedMotion without_drift(const Random& acceleration, double duration);
-
 /// s and s' at an instant.
 struct MotionState {
   double displacement = 0.0, velocity = 0.0;

@@ -28,6 +28,8 @@ constexpr double periods_of_block = 1024.0;
 /// Of a block: fewer are no random signal. Fades smear an end of the band over two of them.
 constexpr double fewest_lines = 32.0;
 constexpr std::size_t fades_of_block = 8; ///< T_b/C
+/// Of motions: T_b in periods of the lower end of a band, and that end of a band from 0.
+constexpr double slow_periods_of_block = 64.0, lowest_of_motion = 1.0 / 256.0;
 /// Signals reach so many durations: the last steps stand for times beyond the end.
 constexpr double covered = 1.05;
 
@@ -76,12 +78,36 @@ void transform(std::size_t n, std::vector<double>& values) {
   (*synthesis)(values.data());
 }
 
+/// A weight of a block and its derivatives by the number of the sample.
+struct Weight {
+  double value = 1.0, first = 0.0, second = 0.0, third = 0.0;
+};
+
+/// Of the part x of a rise from 0 to 1 over so many samples: sin(pi x/2), value and slope.
+Weight quarter_sine(double x, double samples) {
+  const double half_pi = 0.5 * std::numbers::pi;
+  return {std::sin(half_pi * x), half_pi / samples * std::cos(half_pi * x)};
+}
+
+/// sin(g), g = pi/2 S(x).
+Weight smooth_rise(double x, double samples) {
+  const double half_pi = 0.5 * std::numbers::pi, rest = 1.0 - x;
+  const double g = half_pi * x * x * x * (10.0 + x * (6.0 * x - 15.0)),
+               g1 = half_pi * 30.0 * x * x * rest * rest / samples,
+               g2 = half_pi * 60.0 * x * rest * (rest - x) / (samples * samples),
+               g3 = half_pi * 60.0 * (1.0 - 6.0 * x * rest) / (samples * samples * samples);
+  const double s = std::sin(g), c = std::cos(g);
+  return {s, g1 * c, g2 * c - g1 * g1 * s, (g3 - g1 * g1 * g1) * c - 3.0 * g1 * g2 * s};
+}
+
 /// The blocks of a random signal (time_function.hpp).
 class RandomBlocks {
 public:
   explicit RandomBlocks(const Random& random)
       : random_(random),
-        period_(std::max(periods_of_block / random.high, fewest_lines / (random.high - random.low))),
+        low_(random.of_motion && random.low == 0.0 ? lowest_of_motion * random.high : random.low),
+        period_(std::max({periods_of_block / random.high, fewest_lines / (random.high - low_),
+                          random.of_motion ? slow_periods_of_block / low_ : 0.0})),
         size_(fast_length(samples_per_period * random.high * period_)) {}
 
   /// Samples of a block.
@@ -93,47 +119,89 @@ public:
   [[nodiscard]] std::vector<double> samples(std::size_t count) const {
     std::mt19937_64 generator(random_.seed);
     std::vector<double> out(2 * count, 0.0);
-    thread_local std::vector<double> block; // its pages are not asked for again
+    thread_local std::vector<double> block, displacement; // their pages are not asked for again
     const std::size_t fade = size_ / fades_of_block, hop = size_ - fade;
     for (std::size_t number = 0; number * hop < count + fade; ++number) {
-      fill(generator, block);
+      const std::vector<std::complex<double>> lines = draw(generator);
+      fill(lines, block);
+      if (random_.of_motion)
+        fill(integrated_twice(lines), displacement);
       for (std::size_t u = 0; u < size_; ++u) {
         const std::size_t shifted = number * hop + u; // sample + fade
         if (shifted < fade || shifted - fade >= count)
           continue;
-        const auto [weight, slope] = weight_at(u, fade, hop);
+        const Weight w = weight_at(number, u);
         double* to = out.data() + 2 * (shifted - fade);
-        to[0] += weight * block[2 * u];
-        to[1] += weight * block[2 * u + 1] + slope * block[2 * u];
+        const double* x = block.data() + 2 * u;
+        to[0] += w.value * x[0];
+        to[1] += w.value * x[1] + w.first * x[0];
+        if (!random_.of_motion)
+          continue;
+        const double* y = displacement.data() + 2 * u; // the second and third derivative of w y
+        to[0] += 2.0 * w.first * y[1] + w.second * y[0];
+        to[1] += 2.0 * w.first * x[0] + 3.0 * w.second * y[1] + w.third * y[0];
       }
     }
     return out;
   }
 
 private:
-  /// w and its slope times the step.
-  static std::pair<double, double> weight_at(std::size_t u, std::size_t fade, std::size_t hop) {
-    const double turn = 0.5 * std::numbers::pi / static_cast<double>(fade);
+  using Lines = std::vector<std::complex<double>>; ///< of the band
+
+  [[nodiscard]] Weight weight_at(std::size_t number, std::size_t u) const {
+    const std::size_t fade = size_ / fades_of_block, hop = size_ - fade;
+    const auto rise = [this](std::size_t of, std::size_t samples) {
+      const auto whole = static_cast<double>(samples);
+      return (random_.of_motion ? smooth_rise : quarter_sine)(static_cast<double>(of) / whole, whole);
+    };
+    if (random_.of_motion && number == 0) {
+      const auto start = static_cast<std::size_t>(std::ceil(per_step() / low_));
+      if (u < fade + start)
+        return rise(u - fade, start);
+    }
     if (u < fade)
-      return {std::sin(turn * static_cast<double>(u)), turn * std::cos(turn * static_cast<double>(u))};
+      return rise(u, fade);
     if (u < hop)
-      return {1.0, 0.0};
-    const double angle = turn * static_cast<double>(u - hop);
-    return {std::cos(angle), -turn * std::sin(angle)};
+      return {};
+    Weight w = rise(size_ - u, fade); // backwards
+    w.first = -w.first, w.third = -w.third;
+    return w;
+  }
+
+  /// Of the band; not 0, so that the mean is.
+  [[nodiscard]] std::size_t first_line() const {
+    return std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(low_ * period_)));
+  }
+  /// w of a line, times the grid's step.
+  [[nodiscard]] double turn(std::size_t line) const {
+    return two_pi * static_cast<double>(line) / static_cast<double>(size_);
+  }
+
+  /// c of the lines of a block.
+  Lines draw(std::mt19937_64& generator) const {
+    const auto last = static_cast<std::size_t>(std::floor(random_.high * period_));
+    Lines lines(last - first_line() + 1);
+    const double scale = random_.rms / std::sqrt(static_cast<double>(lines.size()));
+    for (std::complex<double>& c : lines)
+      c = scale * normal_pair(generator);
+    return lines;
+  }
+  /// By the number of the sample.
+  [[nodiscard]] Lines integrated_twice(Lines lines) const {
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      lines[i] /= -turn(first_line() + i) * turn(first_line() + i);
+    return lines;
   }
 
   /// One block. The signal x = sum over lines of Re(c exp(i w t)) and its slope x' make one complex signal x + i x', which one transform
   /// gives interleaved: x' has the lines i w c, so that z_k = c (1 - w)/2 and z_(n-k) = conj(c) (1 + w)/2; w times the grid's step.
-  void fill(std::mt19937_64& generator, std::vector<double>& block) const {
+  void fill(const Lines& lines, std::vector<double>& block) const {
     const std::size_t n = size_;
-    const auto first =
-        std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(random_.low * period_))); // zero mean
-    const auto last = static_cast<std::size_t>(std::floor(random_.high * period_));
-    const double scale = random_.rms / std::sqrt(static_cast<double>(last - first + 1));
     block.assign(2 * n, 0.0);
-    for (std::size_t k = first; k <= last; ++k) {
-      const std::complex<double> c = scale * normal_pair(generator);
-      const double w = two_pi * static_cast<double>(k) / static_cast<double>(n);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const std::size_t k = first_line() + i;
+      const std::complex<double> c = lines[i];
+      const double w = turn(k);
       block[2 * k] = 0.5 * (1.0 - w) * c.real();
       block[2 * k + 1] = 0.5 * (1.0 - w) * c.imag();
       block[2 * (n - k)] = 0.5 * (1.0 + w) * c.real();
@@ -143,6 +211,7 @@ private:
   }
 
   Random random_;
+  double low_;    ///< Hz, of the band
   double period_; ///< T_b, s
   std::size_t size_;
 };

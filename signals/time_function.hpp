@@ -42,10 +42,17 @@ struct Table {
 ///     w(u) = sin(pi u/2C) on [0, C], 1 up to H, cos(pi (u - H)/2C) up to T_b
 /// The squares of the weights add up to 1: the signal is Gaussian with the same variance at every instant. Fades smear the ends of the
 /// band by 2/T_b. T_b is 1024 periods of the upper end of the band, and has 32 lines in it at least.
+///
+/// Fades leave such a signal a little power below its band, to 0 Hz, and its double integral walks away. The acceleration of a motion is
+/// therefore the second derivative of a displacement made of blocks with the lines -c_n/w_n^2, faded by weights of three derivatives,
+///     w(u) = sin(pi/2 S(u/C)),   S(x) = 10 x^3 - 15 x^4 + 6 x^5,
+/// from rest at 0 over one period of the lower end of the band. T_b is then 64 periods of the lower end at least, so that fades change the
+/// variance of a line by 2 % at most. A displacement with frequencies down to 0 has no variance: a band from 0 begins at its 256th part.
 struct Random {
   double rms;       ///< of the ensemble
   double low, high; ///< Hz, 0 <= low < high
   std::uint64_t seed = 1;
+  bool of_motion = false; ///< the acceleration of a motion that stays about its place
   bool operator==(const Random&) const = default;
 };
 

@@ -27,6 +27,13 @@ void check_smooth(const TableReader& table, const SupportMotion& motion) {
                              "give the rows times of their own");
 }
 
+/// What moves a support: random, it stays about its place.
+signals::TimeFunction of_motion(signals::TimeFunction function) {
+  if (auto* random = std::get_if<signals::Random>(&function))
+    random->of_motion = true;
+  return function;
+}
+
 } // namespace
 
 std::vector<Load> read_loads(const TableReader& root, const std::filesystem::path& folder) {
@@ -64,7 +71,7 @@ std::vector<BaseMotion> read_base_motions(const TableReader& root, const std::fi
   for (const Entry& entry : array_entries(root, "base_motion")) {
     const TableReader table(*entry.value, entry.path,
                             with_time_function({"direction", "velocity0", "displacement0"}));
-    all.push_back({table.direction("direction"), read_time_function(table, folder, "m/s2"),
+    all.push_back({table.direction("direction"), of_motion(read_time_function(table, folder, "m/s2")),
                    table.optional_number("velocity0", {Range::any, "m/s"}),
                    table.optional_number("displacement0", {Range::any, "m"})});
   }
@@ -83,7 +90,7 @@ std::vector<SupportMotion> read_support_motions(const TableReader& root,
     motion.direction = table.direction("direction");
     motion.by_displacement =
         table.choice("quantity", false, Choices<bool>{{{"acceleration", false}, {"displacement", true}}});
-    motion.function = read_time_function(table, folder, motion.by_displacement ? "m" : "m/s2");
+    motion.function = of_motion(read_time_function(table, folder, motion.by_displacement ? "m" : "m/s2"));
     if (motion.by_displacement)
       check_smooth(table, motion);
     motion.velocity0 = table.optional_number("velocity0", {Range::any, "m/s"});

@@ -146,8 +146,8 @@ TEST(RandomSignal, IsFixedByItsSeed) {
 }
 
 TEST(RandomSignal, BeginsAlikeWhateverTheDurationOfItsRun) {
-  for (const Random& function :
-       {Random{2.0, 5.0, 60.0, 3}, Random{1.0, 0.0, 200.0, 1}, Random{1.0, 10.0, 10.5, 9}}) {
+  for (const Random& function : {Random{2.0, 5.0, 60.0, 3}, Random{1.0, 0.0, 200.0, 1},
+                                 Random{1.0, 10.0, 10.5, 9}, Random{1.0, 5.0, 60.0, 4, true}}) {
     const Signal longest(function, 40.0); // over several blocks
     for (const double duration : {0.05, 1.0, 7.0, 20.0}) {
       const Signal signal(function, duration);
@@ -165,6 +165,42 @@ TEST(RandomSignal, HasItsRmsInFadesToo) {
   for (int seed = 1; seed <= seeds; ++seed)
     squares += std::pow(Signal(Random{1.0, 5.0, 50.0, static_cast<std::uint64_t>(seed)}, middle)(middle), 2);
   EXPECT_NEAR(squares / seeds, 1.0, 4.0 * std::sqrt(2.0 / seeds)); // four standard errors
+}
+
+// Fades of a displacement change its acceleration by 2 w' v + w'' y: in the middle of a fade by 2 % at the lower end of the band.
+TEST(RandomSignal, OfAMotionHasItsRmsInFadesToo) {
+  constexpr int seeds = 2000;
+  constexpr double low = 10.0, high = 50.0, block = 1024.0 / high, middle = block * (1.0 - 3.0 / 16.0);
+  for (const double time : {1.0, middle, middle + block / 32.0}) {
+    double squares = 0.0;
+    for (int seed = 1; seed <= seeds; ++seed)
+      squares += std::pow(
+          Signal(Random{1.0, low, high, static_cast<std::uint64_t>(seed), true}, middle + 1.0)(time), 2);
+    EXPECT_NEAR(squares / seeds, 1.0, 4.0 * std::sqrt(2.0 / seeds)) << time; // four standard errors
+  }
+}
+
+TEST(RandomSignal, OfAMotionHasTheLinesOfItsSeedBetweenFades) {
+  const Random plain{1.0, 10.0, 100.0, 5};
+  Random moving = plain;
+  moving.of_motion = true;
+  const Signal a(plain, 2.0), b(moving, 2.0);
+  for (const double t : {0.11, 0.7, 1.9}) // after the rise from rest, one period of 10 Hz
+    EXPECT_EQ(a(t), b(t)) << t;
+}
+
+TEST(RandomSignal, OfAMotionHasTheSlopeOfItsValues) {
+  const Signal signal(Random{1.0, 10.0, 100.0, 5, true}, 12.0);
+  const std::span<const double> samples = signal.samples(); // values and slopes, through the start and a fade
+  double most = 0.0;
+  for (std::size_t i = 2; i + 6 < samples.size(); i += 2) {
+    // of order 4; where a third derivative of a weight jumps less
+    const double slope =
+        (8.0 * (samples[i + 2] - samples[i - 2]) - (i > 2 ? samples[i + 4] - samples[i - 4] : 0.0)) / 12.0;
+    if (i > 2)
+      most = std::max(most, std::abs(slope - samples[i + 1]));
+  }
+  EXPECT_LT(most, 5e-5); // (2 pi/32)^5/30 of the highest lines is 1e-5
 }
 
 TEST(StaticValue, IsThatAtTheStartButForRandomSignals) {
