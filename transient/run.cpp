@@ -28,7 +28,8 @@ std::unique_ptr<Scheme> make_splitting_of(const Scene& scene, const StepChoice& 
   if (!(c.replay > 0.0))
     return make_splitting(scene, c.step, options);
   SplittingOptions finer = options;
-  finer.longest *= 2;
+  if (options.longest > 1) // where the scene allows macro-steps
+    finer.longest *= 2;
   if (scene.system.motion.empty()) // coupled modes are taken over as they are
     finer.fastest *= 2.0;
   return make_replayed(

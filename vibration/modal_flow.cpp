@@ -4,6 +4,7 @@
 #include "vibration/oscillator.hpp"
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 namespace fretwork::vibration {
@@ -43,6 +44,7 @@ ModalFlow::ModalFlow(const ForcedSystem& forced, double step, const std::vector<
     for (const Eigen::Index j : block.modes)
       apart_[static_cast<std::size_t>(j)] = 0;
   coupled_ = {system_, blocks, step};
+  assert(fed() || coupled_.empty() || (lengths.size() == 1 && lengths.front() == 1));
   for (const int length : lengths)
     make_tables(length * step);
   const auto n = static_cast<std::size_t>(kernels::padded(static_cast<int>(system_.size())));

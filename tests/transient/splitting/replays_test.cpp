@@ -291,4 +291,18 @@ TEST(Replays, GoOnAfterARestartBitForBit) {
   }
 }
 
+// A mass that bounces, whose modes are coupled by a damper: steps of several h, which such modes do not take, would halve the motion of a replay.
+TEST(Replays, FollowModesThatDampersCouple) {
+  Scene s = mostly_sticking(20.0);
+  s.contacts[0].support.obstacle = contact::Stop{6e-2, contact::PlaneAxis::y};
+  s.loads = {force_on(1.0, {0.0, 9.0, 0.0}, Harmonic{1.0, 6.4})}; // of a mode
+  s.system.damping_matrix = s.system.damping.asDiagonal();
+  s.system.damping_matrix(1, 2) = s.system.damping_matrix(2, 1) = 0.5;
+  StepChoice choice = choose_step(s, splitting());
+  const Measured m = measured(s, choice);
+  ASSERT_GT(m.error.sums[replayed_impacts], 50.0);
+  for (const std::size_t figure : {replayed_impulse, replayed_impacts, replayed_closed_time})
+    EXPECT_LT(std::abs(m.error.errors[figure]), 0.02 * m.error.sums[figure]) << figure;
+}
+
 } // namespace replays_test
