@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/expected_time.hpp"
 #include "core/error.hpp"
+#include "post/contact_statistics.hpp"
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace fretwork::app {
@@ -19,16 +21,37 @@ std::string time_text(double seconds) {
                           : fmt::format("{:.3g} h", seconds / hour);
 }
 
-double trial_of(const transient::Scene& scene, const transient::StepChoice& choice,
-                std::chrono::duration<double> budget) {
+std::string time_text(const PilotTime& time) {
+  return time.contacts_open
+             ? fmt::format("at least {} (contacts are still open in the first steps)", time_text(time.seconds))
+             : "about " + time_text(time.seconds);
+}
+
+PilotTime pilot_time(const transient::Scene& scene, const transient::StepChoice& choice,
+                     std::chrono::duration<double> budget) {
   using Clock = std::chrono::steady_clock;
-  transient::Run trial(scene, choice, {}, nullptr, {});
+  post::ContactStatistics contacts(scene.contacts, 0.0);
+  transient::Observer* const observer = &contacts;
+  transient::Run pilot(scene, choice, {&observer, scene.contacts.empty() ? 0u : 1u}, nullptr, {});
   const auto begin = Clock::now(); // after what is made once
-  const auto spent = [&] { return std::chrono::duration<double>(Clock::now() - begin); };
-  bool more = trial.advance(records_between_looks);
-  while (more && spent() < budget)
-    more = trial.advance(records_between_looks);
-  return more ? spent().count() * scene.duration / trial.time() : spent().count();
+  const auto spent = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+  bool more = true;
+  const auto run_until = [&](double time) {
+    do
+      more = more && pilot.advance(records_between_looks);
+    while (more && spent() < time);
+  };
+  run_until(budget.count() / 3.0);
+  const double from = pilot.time(), spent_before = spent();
+  run_until(budget.count());
+  if (!more)
+    return {spent(), false};
+  const std::vector<post::ContactSummary> summaries = contacts.summaries();
+  const bool open = !summaries.empty() &&
+                    std::all_of(summaries.begin(), summaries.end(),
+                                [](const post::ContactSummary& of) { return of.contact_time_ratio == 0.0; });
+  const double pace = (spent() - spent_before) / (pilot.time() - from);
+  return {spent() + (scene.duration - pilot.time()) * pace, open};
 }
 
 void check_expected_time(double seconds, double most_hours) {

@@ -36,14 +36,21 @@ private:
   bool told_ = false;
 };
 
-/// s on the clock that a run of the scene would take, extrapolated from its first steps, of which so much time is spent (or the whole, if it takes less).
-/// The first impacts may be still to come: an estimate of the order.
-[[nodiscard]] double trial_of(const transient::Scene& scene, const transient::StepChoice& choice,
-                              std::chrono::duration<double> budget);
+/// Time that a run takes on the clock, from a pilot run.
+struct PilotTime {
+  double seconds = 0.0;
+  bool contacts_open = false; ///< none has closed in the pilot run: more from the first impact on
+};
+/// The pilot run is the beginning of the run, up to the budget (or the whole run). A third of it passes the first transient, the rest measures the
+/// time per simulated second. Output, and contacts that come to need finer intervals, are left out.
+[[nodiscard]] PilotTime pilot_time(const transient::Scene& scene, const transient::StepChoice& choice,
+                                   std::chrono::duration<double> budget);
 /// @throws core::Error where `seconds`, the forecast of a whole run, are more than `most_hours`
 void check_expected_time(double seconds, double most_hours);
 
 /// `0.62 s`, `12 min`, `3.4 h`
 [[nodiscard]] std::string time_text(double seconds);
+/// `about 12 min`, `at least 4.1 s (contacts are still open in the first steps)`
+[[nodiscard]] std::string time_text(const PilotTime& time);
 
 } // namespace fretwork::app

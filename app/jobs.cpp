@@ -18,8 +18,8 @@ namespace {
 /// Series and tables are held in memory until they are written; a study that asks for more than this has a slip in
 /// output.every or output.impacts.
 constexpr double most_series_bytes = 4294967296.0;
-/// On the clock: what `check` spends on the first steps of all scenes.
-constexpr std::chrono::duration<double> longest_trials{0.2};
+/// On the clock: what `check` spends on the pilot runs of all scenes.
+constexpr std::chrono::duration<double> longest_pilots{1.5};
 
 void check_size_of_series(const study::Study& study, const std::vector<BuiltScene>& scenes) {
   const double duration = study.transient->duration, every = output_interval(study);
@@ -256,10 +256,11 @@ Forecast check_jobs(MPI_Comm comm, const study::Study& study, const std::vector<
     out.steps += static_cast<double>(choice.steps);
     out.impact_rows.push_back(static_cast<double>(impact_rows(study, choice)));
     out.warnings.insert(out.warnings.end(), choice.warnings.begin(), choice.warnings.end());
-    const double seconds =
-        trial_of(scenes[s].scene, choice, longest_trials / static_cast<double>(scenes.size()));
-    check_expected_time(seconds, study.transient->max_hours);
-    out.seconds += with_verification * seconds;
+    const PilotTime time =
+        pilot_time(scenes[s].scene, choice, longest_pilots / static_cast<double>(scenes.size()));
+    check_expected_time(time.seconds, study.transient->max_hours);
+    out.time.seconds += with_verification * time.seconds;
+    out.time.contacts_open = out.time.contacts_open || time.contacts_open;
   }
   return out;
 }

@@ -4,6 +4,7 @@
 #pragma once
 #include "app/build_scene.hpp"
 #include "app/checkpoints.hpp"
+#include "app/expected_time.hpp"
 #include "app/progress_observer.hpp"
 #include "results/run_results.hpp"
 #include <mpi.h>
@@ -33,7 +34,7 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
 /// What a run of the scenes would be.
 struct Forecast {
   double steps = 0.0, outputs = 0.0; ///< of all scenes; instants
-  double seconds = 0.0; ///< on the clock, of all scenes one after the other: by a trial of a few steps
+  PilotTime time;                    ///< of all scenes one after the other
   std::vector<double> impact_rows;   ///< of one contact of each scene, at most
   std::vector<std::string> warnings; ///< of the choice of steps
 };
