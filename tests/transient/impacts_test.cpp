@@ -227,4 +227,21 @@ TEST(ImpactCounts, GoFromFaceToFaceWithoutAGap) {
   }
 }
 
+// In a ring without clearance a mass that passes beside the centre stays in contact, however fast the normal turns.
+TEST(ImpactCounts, AreNoneBesideTheCentreOfARing) {
+  for (const double across : {0.05, 0.5, 5.0}) {
+    Scene s = mass_point(0.3, Vec3(1e4, 1.2e4, 1.4e4), 3.0);
+    s.system.damping.setConstant(8.0);
+    s.contacts = {contact_of(0.3, {contact::Circle{0.0}, {1e5}, {}})};
+    s.loads = {force_on(0.3, Vec3(0, 20.0, 0), Harmonic{1.0, 17.0, 0.0}),
+               force_on(0.3, Vec3(0, 0, across), Harmonic{1.0, 17.0, 1.2})};
+    StepOptions options;
+    options.scheme = SchemeKind::splitting;
+    options.step = 7e-4;
+    const History run = simulate(s, options, 1.0);
+    EXPECT_LT(run.statistics[0].impact_rate, 1.5 / 3.0) << across; // that of the start
+    EXPECT_GT(run.statistics[0].contact_time_ratio, 0.9995) << across;
+  }
+}
+
 } // namespace impacts_test

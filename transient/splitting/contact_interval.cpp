@@ -133,11 +133,12 @@ ContactIntervals::Motion ContactIntervals::motion_of(const MovingContact& m, con
                           (0.5 * dt) * (a.velocity + (dt / 3.0) * (now - 0.25 * growth));
   const contact::Location at = locate(mean);
   a.axes = at.axes();
+  a.mean = mean + rest_;
   const auto [ny, nz] = a.axes;
   a.by_normal = w_ * Components{ny, nz, 0.0};
   a.mobility = normal(a.axes, a.by_normal);
-  const Components half_way = a.velocity + (0.5 * dt) * (now - 0.25 * growth);
-  const double along_t = tangent(a.axes, half_way), along_n = normal(a.axes, half_way),
+  a.half_way = a.velocity + (0.5 * dt) * (now - 0.25 * growth);
+  const double along_t = tangent(a.axes, a.half_way), along_n = normal(a.axes, a.half_way),
                acceleration_along_t = tangent(a.axes, now);
   // near a centre or a corner the normal turns at once: no more than the interval can follow
   const double most =
@@ -248,16 +249,29 @@ void ContactIntervals::turn(const Motion& a, const NormalForce& n, double dt, Mo
   m.growth = m.growth + along(a.axes, -growth_by_force * ft, {0.0, growth_by_force * fn});
 }
 
+/// In a round hole whose gap an interval crosses, past the centre by more than the gap: the contact stays closed while the normal turns.
+bool ContactIntervals::rounds(const Motion& a, double dt) const {
+  constexpr double round_off = 1e-9;
+  const auto* circle = std::get_if<contact::Circle>(&obstacle_);
+  if (!circle)
+    return false;
+  const Components &p = a.mean, &v = a.half_way;
+  const double gap = circle->gap, speed = std::hypot(v.y(), v.z());
+  return gap < speed * dt && std::abs(p.y() * v.z() - p.z() * v.y()) >
+                                 (gap + round_off * std::hypot(p.y(), p.z())) * speed;
+}
+
 void ContactIntervals::act(MovingContact& m, const IntervalTable& of, int index) const {
   const Motion a = motion_of(m, of, index);
   const NormalForce n = find_normal_force(a, m.past.closed, of);
   ContactState& state = m.state;
   ContactPast& past = m.past;
-  const bool was_closed = past.closed, crosses = was_closed && past.axes.opposite(a.axes);
+  const bool was_closed = past.closed, stays = was_closed && rounds(a, of.length),
+             crosses = was_closed && !stays && past.axes.opposite(a.axes);
   const double start = index * of.share;
   state.damper_work += n.damper_work;
   m.force = m.growth = m.last = {};
-  past.closed = n.force > 0.0 && !n.opens;
+  past.closed = stays || (n.force > 0.0 && !n.opens);
   if (n.force > 0.0) {
     if (crosses) { // from face to face without a gap that the interval would see
       m.opened = true;
@@ -274,7 +288,7 @@ void ContactIntervals::act(MovingContact& m, const IntervalTable& of, int index)
     const double share = (n.to - n.from) / h_;
     state.normal_force += of.share * n.force;
     state.normal_square += share * n.course.square();
-    state.closed += share;
+    state.closed += stays ? 0.0 : share;
     state.peak = std::max(state.peak, n.course.largest());
     if (friction_.active()) {
       find_friction(a, n, of, m);
@@ -298,6 +312,8 @@ void ContactIntervals::act(MovingContact& m, const IntervalTable& of, int index)
     state.opened_at = start + n.to / h_;
     state.departure = n.force > 0.0 ? n.departure : -a.rate;
   }
+  if (stays)
+    state.closed += of.share;
   m.throughout = past.closed && n.from == 0.0;
   past.rise = m.throughout ? (1.0 / of.length) * m.growth : Components{};
   m.penetrates = a.after(of.length) > 0.0 || past.closed;

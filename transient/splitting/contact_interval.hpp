@@ -105,6 +105,7 @@ private:
   [[nodiscard]] contact::Location locate(const Components& u) const {
     return contact::locate(obstacle_, u.y() + rest_.y(), u.z() + rest_.z());
   }
+  [[nodiscard]] bool rounds(const Motion& a, double dt) const;
   [[nodiscard]] double curvature(const Components& u) const {
     return contact::curvature(obstacle_, u.y() + rest_.y(), u.z() + rest_.z());
   }

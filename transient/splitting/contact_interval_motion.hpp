@@ -10,6 +10,7 @@ namespace fretwork::transient {
 /// How a contact moves over an interval without its own force, along the normal at its mean position and across.
 struct ContactIntervals::Motion {
   contact::ContactAxes axes;
+  Components mean, half_way; ///< m, position from the obstacle's centre; m/s, velocity half way
   Components velocity;      ///< m/s, at the start
   Components acceleration;  ///< m/s2, mean
   Components jerk;          ///< m/s3
