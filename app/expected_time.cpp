@@ -22,9 +22,9 @@ std::string time_text(double seconds) {
 }
 
 std::string time_text(const PilotTime& time) {
-  return time.contacts_open
-             ? fmt::format("at least {} (contacts are still open in the first steps)", time_text(time.seconds))
-             : "about " + time_text(time.seconds);
+  return time.contacts_open ? fmt::format("at least {} (contacts are still open in the first steps)",
+                                          time_text(time.seconds))
+                            : "about " + time_text(time.seconds);
 }
 
 PilotTime pilot_time(const transient::Scene& scene, const transient::StepChoice& choice,

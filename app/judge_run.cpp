@@ -95,6 +95,8 @@ void judge_run(const study::Study& study, const BuiltScene& built, const transie
 void judge_step_errors(results::RunResults& out) {
   if (std::string unmet = results::unmet_accuracy(out); !unmet.empty())
     out.warnings.push_back(std::move(unmet));
+  else if (std::string uncertain = results::uncertain_errors(out); !uncertain.empty())
+    out.warnings.push_back(std::move(uncertain));
 }
 
 void tell_impacts_left_out(std::int64_t kept, results::RunResults& out) {

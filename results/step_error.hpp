@@ -26,4 +26,8 @@ struct RelativeError {
 /// busiest one does are left out.
 [[nodiscard]] std::string unmet_accuracy(const RunResults& results);
 
+/// One line on the contacts of which the replays know the errors of work rate or friction power too little: their standard
+/// errors are three times the accuracy and three times the standard error of the statistic itself; empty: none. Contacts are left out as above.
+[[nodiscard]] std::string uncertain_errors(const RunResults& results);
+
 } // namespace fretwork::results

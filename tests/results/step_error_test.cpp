@@ -72,6 +72,24 @@ TEST(StepErrors, ThatStandOutAboveTheAccuracyAreNamed) {
   EXPECT_EQ(unmet_accuracy(results), "");
 }
 
+// Where the standard error of the window is as large, more replays would not help.
+TEST(StepErrors, ThatAreKnownTooLittleAreNamed) {
+  RunResults results = made_up({.contacts = 2});
+  results.accuracy = 0.01;
+  results.step_errors = {work(2.0, 0.1, 0.28), work(2.0, 0.0, 0.02)}; // 5 +- 14 %, 0 +- 1 %
+  for (auto& of : results.contact_summaries)
+    of.work_rate = 1.0, of.error.work_rate = 0.02;
+  EXPECT_EQ(unmet_accuracy(results), "");
+  const std::string said = uncertain_errors(results);
+  EXPECT_THAT(said, HasSubstr("known to 14 % only (work_rate of \"" + results.contacts[0].name + "\""));
+  EXPECT_EQ(said.find("\"" + results.contacts[1].name + "\""), std::string::npos);
+  results.contact_summaries[0].error.work_rate = 0.05;
+  EXPECT_EQ(uncertain_errors(results), "");
+  results.contact_summaries[0].error.work_rate =
+      std::numeric_limits<double>::quiet_NaN(); // too short a window
+  EXPECT_EQ(uncertain_errors(results), "");
+}
+
 TEST(StepErrors, ArePartOfTheErrorEstimate) {
   RunResults results = made_up({.contacts = 2});
   results.step_errors = {work(2.0, 0.1, 0.02), work(2.0, 0.1, 0.02)};

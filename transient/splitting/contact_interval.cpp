@@ -257,8 +257,8 @@ bool ContactIntervals::rounds(const Motion& a, double dt) const {
     return false;
   const Components &p = a.mean, &v = a.half_way;
   const double gap = circle->gap, speed = std::hypot(v.y(), v.z());
-  return gap < speed * dt && std::abs(p.y() * v.z() - p.z() * v.y()) >
-                                 (gap + round_off * std::hypot(p.y(), p.z())) * speed;
+  return gap < speed * dt &&
+         std::abs(p.y() * v.z() - p.z() * v.y()) > (gap + round_off * std::hypot(p.y(), p.z())) * speed;
 }
 
 void ContactIntervals::act(MovingContact& m, const IntervalTable& of, int index) const {

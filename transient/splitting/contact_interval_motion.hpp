@@ -11,13 +11,13 @@ namespace fretwork::transient {
 struct ContactIntervals::Motion {
   contact::ContactAxes axes;
   Components mean, half_way; ///< m, position from the obstacle's centre; m/s, velocity half way
-  Components velocity;      ///< m/s, at the start
-  Components acceleration;  ///< m/s2, mean
-  Components jerk;          ///< m/s3
-  Components by_normal;     ///< 1/kg, W n
-  double mobility = 0.0;    ///< 1/kg, n W n
-  double penetration = 0.0; ///< m, at the start
-  double rate = 0.0;        ///< m/s
+  Components velocity;       ///< m/s, at the start
+  Components acceleration;   ///< m/s2, mean
+  Components jerk;           ///< m/s3
+  Components by_normal;      ///< 1/kg, W n
+  double mobility = 0.0;     ///< 1/kg, n W n
+  double penetration = 0.0;  ///< m, at the start
+  double rate = 0.0;         ///< m/s
   double acceleration_inwards =
       0.0;           ///< m/s2, mean of the second derivative of the penetration, under the friction expected
   double bend = 0.0; ///< m: by its jerk at the end
