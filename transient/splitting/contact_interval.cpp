@@ -12,6 +12,9 @@ using contact::Vec2;
 /// Of its clearance, what a contact may move in an interval, and the most intervals of a step for its sake.
 constexpr double longest_way = 1.0;
 constexpr int most_for_speed = 64;
+/// Of a step in which a closed contact meets a corner: intervals at least; cosine of the angle by which its normal turns there in half a step.
+constexpr int for_corner = 32;
+constexpr double least_cosine = 0.9;
 /// rad: by which a normal turns in an interval at most, as far as the terms of the curvature know.
 constexpr double most_turned = 1.0;
 /// Of an interval: what is shorter is none.
@@ -22,7 +25,8 @@ constexpr double shortest = 1e-9;
 ContactIntervals::ContactIntervals(const contact::Support& support, const Components& rest,
                                    const Mobility& mobility, bool in_plane, double step, double clearance)
     : obstacle_(support.obstacle), normal_(support.normal), friction_(support.friction), rest_(rest),
-      w_(mobility), in_plane_(in_plane), h_(step), clearance_(clearance),
+      w_(mobility), in_plane_(in_plane), has_corners_(contact::properties_of(support.obstacle).has_parts),
+      h_(step), clearance_(clearance),
       mobility_(std::max({mobility(0, 0), mobility(1, 1), mobility(2, 2)})) {}
 
 IntervalTable ContactIntervals::table(int count) const {
@@ -45,12 +49,21 @@ IntervalTable ContactIntervals::table(int count) const {
   return of;
 }
 
-int ContactIntervals::least_count(const Components& velocity) const {
+int ContactIntervals::least_count(const ContactPast& past, const FreePath& path) const {
+  const int at_corner = past.closed && has_corners_ && meets_corner(path) ? for_corner : 1;
   if (!(clearance_ > 0.0))
-    return 1;
-  const double speed = std::sqrt(velocity.y() * velocity.y() + velocity.z() * velocity.z());
-  return static_cast<int>(
-      std::ceil(std::clamp(speed * h_ / (longest_way * clearance_), 1.0, 1.0 * most_for_speed)));
+    return at_corner;
+  const double speed = std::hypot(path.v.y(), path.v.z());
+  return std::max(at_corner, static_cast<int>(std::ceil(std::clamp(speed * h_ / (longest_way * clearance_), 1.0,
+                                                                   1.0 * most_for_speed))));
+}
+
+/// Whether the normal turns much on the way.
+bool ContactIntervals::meets_corner(const FreePath& path) const {
+  const contact::ContactAxes start = locate(path.displacement(0.0)).axes(),
+                             half = locate(path.displacement(0.5 * h_)).axes(),
+                             end = locate(path.displacement(h_)).axes();
+  return std::min(start.normal(half.ny, half.nz), half.normal(end.ny, end.nz)) < least_cosine;
 }
 
 bool ContactIntervals::meets(const ContactPast& past, const FreePath& path, int count) const {

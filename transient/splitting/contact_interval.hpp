@@ -77,8 +77,8 @@ public:
                    bool in_plane, double step, double clearance);
 
   [[nodiscard]] IntervalTable table(int count) const;
-  /// How many intervals of a step a contact that moves so fast needs at least.
-  [[nodiscard]] int least_count(const Components& velocity) const;
+  /// How many intervals of a step a contact needs at least: for its speed, and where it is closed and meets a corner.
+  [[nodiscard]] int least_count(const ContactPast& past, const FreePath& path) const;
   /// Whether it can have a force in the step.   @param count  of places at which it is looked for
   [[nodiscard]] bool meets(const ContactPast& past, const FreePath& path, int count) const;
   /// At the start of a step.   @param held  N
@@ -105,6 +105,7 @@ private:
   [[nodiscard]] contact::Location locate(const Components& u) const {
     return contact::locate(obstacle_, u.y() + rest_.y(), u.z() + rest_.z());
   }
+  [[nodiscard]] bool meets_corner(const FreePath& path) const;
   [[nodiscard]] bool rounds(const Motion& a, double dt) const;
   [[nodiscard]] double curvature(const Components& u) const {
     return contact::curvature(obstacle_, u.y() + rest_.y(), u.z() + rest_.z());
@@ -127,7 +128,7 @@ private:
   const contact::FrictionLaw friction_;
   Components rest_;
   Mobility w_;
-  bool in_plane_;
+  bool in_plane_, has_corners_;
   double h_, clearance_;
   double mobility_; ///< 1/kg, the largest along any direction
 };
