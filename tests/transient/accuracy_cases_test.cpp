@@ -77,10 +77,10 @@ TEST(AccuracyCases, SlidesIntoCornersOfAnEggCrate) {
   Scene s = mass_point(mass, Vec3(4800.0, 4800.0, 6200.0), duration);
   for (Eigen::Index i = 0; i < 3; ++i)
     s.system.damping(i) = 2.0 * 0.0075 * std::sqrt(s.system.stiffness(i));
-  s.contacts = {contact_of(mass, {contact::egg_crate(1e-2, 1e-2 + room, 1e-2 + room),
-                                  {1e7, 1771.0},
-                                  {5.8e6, 0.0, 0.3, 0.3}})};
-  s.loads = {force_on(mass, {0.0, 2.0, 0.0}, Harmonic{1.0, 5.3}), force_on(mass, {0.0, 1.5, 0.0}, Harmonic{1.0, 14.1, 1.0}),
+  s.contacts = {contact_of(
+      mass, {contact::egg_crate(1e-2, 1e-2 + room, 1e-2 + room), {1e7, 1771.0}, {5.8e6, 0.0, 0.3, 0.3}})};
+  s.loads = {force_on(mass, {0.0, 2.0, 0.0}, Harmonic{1.0, 5.3}),
+             force_on(mass, {0.0, 1.5, 0.0}, Harmonic{1.0, 14.1, 1.0}),
              force_on(mass, {0.0, 0.0, 3.0}, Harmonic{1.0, 9.7, 2.0})};
   StepOptions exact;
   exact.scheme = SchemeKind::runge_kutta_54;

@@ -26,8 +26,8 @@ ContactIntervals::ContactIntervals(const contact::Support& support, const Compon
                                    const Mobility& mobility, bool in_plane, double step, double clearance)
     : obstacle_(support.obstacle), normal_(support.normal), friction_(support.friction), rest_(rest),
       w_(mobility), in_plane_(in_plane), has_corners_(contact::properties_of(support.obstacle).has_parts),
-      h_(step), clearance_(clearance),
-      mobility_(std::max({mobility(0, 0), mobility(1, 1), mobility(2, 2)})) {}
+      h_(step), clearance_(clearance), mobility_(std::max({mobility(0, 0), mobility(1, 1), mobility(2, 2)})) {
+}
 
 IntervalTable ContactIntervals::table(int count) const {
   IntervalTable of;
@@ -54,8 +54,8 @@ int ContactIntervals::least_count(const ContactPast& past, const FreePath& path)
   if (!(clearance_ > 0.0))
     return at_corner;
   const double speed = std::hypot(path.v.y(), path.v.z());
-  return std::max(at_corner, static_cast<int>(std::ceil(std::clamp(speed * h_ / (longest_way * clearance_), 1.0,
-                                                                   1.0 * most_for_speed))));
+  return std::max(at_corner, static_cast<int>(std::ceil(std::clamp(speed * h_ / (longest_way * clearance_),
+                                                                   1.0, 1.0 * most_for_speed))));
 }
 
 /// Whether the normal turns much on the way.
