@@ -239,7 +239,8 @@ private:
       at_contacts_.turbulence = turbulence_;
       at_contacts_.joined = joined_structures(out_.bases, placed_, at_contacts_.fields.motion);
     });
-    warn_of_load_flexibility(comm_, inputs_.study, model_, modes.structures, out_.bases, at_contacts_.fields);
+    warn_of_load_flexibility(comm_, inputs_.study, model_, modes.structures, out_.bases, placed_,
+                             at_contacts_.fields);
     at_contacts_.flexibilities = contact_flexibilities(comm_, inputs_.study, model_, modes.structures,
                                                        out_.bases, at_contacts_.joined, placed_);
   }
