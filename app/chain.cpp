@@ -67,12 +67,18 @@ public:
     read();
     if (is_up_to_date() && last_ == Stage::transient)
       return tell_up_to_date();
-    if (!build())
-      return;
+    make_model();
+    if (last_ == Stage::mesh)
+      return tell_mesh();
+    asking_about_units(unit_slips_, [&] {
+      build();
+      if (last_ == Stage::check)
+        return tell_check();
+      if (last_ == Stage::transient)
+        run_transient();
+    });
     if (last_ == Stage::check)
-      return tell_check();
-    if (last_ == Stage::transient)
-      run_transient();
+      return;
     write();
     tell_results();
   }
@@ -82,25 +88,24 @@ public:
     read();
     inputs_.study.stabilities.clear();
     inputs_.study.responses.clear();
+    make_model();
     build();
     return results::all_warnings(out_);
   }
 
 private:
-  /// Of what has been read all that comes before the first step. @return false: nothing comes after it
-  bool build() {
-    make_model();
-    if (last_ == Stage::mesh) {
-      say(fmt::format("{}, {}, groups: {}\n", counted(mesh_.nodes, "node"), counted(mesh_.lines, "line"),
-                      fmt::join(mesh::group_names(mesh_), ", ")));
-      return false;
-    }
+  void tell_mesh() const {
+    say(fmt::format("{}, {}, groups: {}\n", counted(mesh_.nodes, "node"), counted(mesh_.lines, "line"),
+                    fmt::join(mesh::group_names(mesh_), ", ")));
+  }
+
+  /// Of the model all that comes before the first step.
+  void build() {
     make_modes();
     if (scenes_wanted_)
       core::agree(comm_, [&] {
         scenes_ = build_scenes(inputs_.study, out_.bases, placed_, nodes_, at_contacts_, out_);
       });
-    return true;
   }
 
   void say(const std::string& text) const {
@@ -164,8 +169,9 @@ private:
     out_.record = make_record(inputs_, core::size(comm_));
     core::agree(comm_, [&] {
       model_ = build_model(inputs_.study, mesh_);
-      out_.warnings = unit_slips(inputs_.study, mesh_, model_);
-      asking_about_units(out_.warnings, [&] { place_on_model(); });
+      unit_slips_ = unit_slips(inputs_.study, mesh_, model_);
+      out_.warnings = unit_slips_;
+      asking_about_units(unit_slips_, [&] { place_on_model(); });
       out_.modes_limit = take_modes_limit(inputs_.study, model_, placed_, turbulence_);
       if (out_.modes_limit)
         limit_modes();
@@ -383,7 +389,8 @@ private:
   std::vector<MovedSupport> moved_;
   std::vector<WornPlace> worn_;
   OtherRuns other_runs_;
-  std::string numbering_; ///< where supports of groups are
+  std::vector<std::string> unit_slips_; ///< questions about values in other units than those of the SI
+  std::string numbering_;               ///< where supports of groups are
   AtContacts at_contacts_;
   std::vector<BuiltScene> scenes_;
   results::RunResults out_;

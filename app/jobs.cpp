@@ -29,10 +29,11 @@ void check_size_of_series(const study::Study& study, const std::vector<BuiltScen
                9.0 * static_cast<double>(built.nodes.size());
   const double bytes = duration / every * columns * static_cast<double>(sizeof(double));
   if (bytes > most_series_bytes)
-    throw core::Error(fmt::format("output.every = {}: {:.3g} outputs of {} values would take {:.3g} GB, at "
-                                  "most {:.3g} are held; sample less often "
-                                  "(statistics see every step)",
-                                  every, duration / every, columns, bytes * 1e-9, most_series_bytes * 1e-9));
+    throw core::Error(fmt::format(
+        "output.every = {} over transient.duration = {} s: {:.3g} outputs of {} values would take {:.3g} GB, "
+        "at "
+        "most {:.3g} are held; sample less often (statistics see every step), or shorten the duration",
+        every, duration, duration / every, columns, bytes * 1e-9, most_series_bytes * 1e-9));
 }
 
 void check_size_of_impacts(const study::Study& study, const std::vector<BuiltScene>& scenes,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <numbers>
 
 namespace fretwork::app {
@@ -16,7 +17,12 @@ constexpr double least_density = 50.0, largest_density = 3e4;                   
 constexpr double largest_friction = 2.0;
 constexpr double largest_support = 1.0, largest_correlation = 10.0; // m
 constexpr double largest_damping = 0.3;
-constexpr double largest_viscosity = 2e-5; // m2/s
+constexpr double largest_viscosity = 2e-5;  // m2/s
+constexpr double largest_wear = 1e-10;      // m2/N
+constexpr double largest_slenderness = 2e4; // mesh over the largest size of its sections
+constexpr double largest_gravity = 100.0;   // m/s2
+constexpr double largest_speed = 100.0, largest_gas_speed = 1000.0; // m/s, in gaps
+constexpr double largest_added_mass = 100.0;                        // of the material's mass
 
 /// Sizes of a shape, m, by their keys.
 std::vector<std::pair<const char*, double>> sizes(const fem::Shape& shape) {
@@ -40,6 +46,27 @@ double gap_of(const contact::Obstacle& obstacle) {
   return 0.0;
 }
 
+/// m, from end to end of the box about the mesh along its longest side.
+double length_of(const mesh::LineMesh& mesh) {
+  if (mesh.nodes.empty())
+    return 0.0;
+  core::Vec3 low = mesh.nodes.front(), high = low;
+  for (const core::Vec3& node : mesh.nodes) {
+    low = low.cwiseMin(node);
+    high = high.cwiseMax(node);
+  }
+  return (high - low).maxCoeff();
+}
+
+/// m, the largest of all sections with sizes; infinite without one.
+double largest_size(const study::Study& study) {
+  double largest = 0.0;
+  for (const auto& [name, section] : study.sections)
+    for (const auto& [key, value] : sizes(section.shape))
+      largest = std::max(largest, value);
+  return largest > 0.0 ? largest : std::numeric_limits<double>::infinity();
+}
+
 /// Values that are too large for metres, each `key = value`.
 std::vector<std::string> too_long(const study::Study& study, const mesh::LineMesh& mesh) {
   std::vector<std::string> out;
@@ -49,9 +76,14 @@ std::vector<std::string> too_long(const study::Study& study, const mesh::LineMes
       for (const auto& [key, value] : all)
         out.push_back(fmt::format("sections.{}.{} = {:g} m", name, key, value));
   }
-  for (const study::Contact& contact : study.contacts)
+  for (const study::Contact& contact : study.contacts) {
     if (const double gap = gap_of(contact.shape); gap > largest_gap)
       out.push_back(fmt::format("gap = {:g} m of contact \"{}\"", gap, contact.name));
+    if (const auto& [y, z] = contact.offset; std::max(std::abs(y), std::abs(z)) > largest_gap)
+      out.push_back(fmt::format("offset = [{:g}, {:g}] m of contact \"{}\"", y, z, contact.name));
+    if (contact.thickness > largest_support)
+      out.push_back(fmt::format("thickness = {:g} m of contact \"{}\"", contact.thickness, contact.name));
+  }
   for (const study::Wear& wear : study.wear)
     if (wear.length && *wear.length > largest_support)
       out.push_back(fmt::format("{}.length = {:g} m", wear.path, *wear.length));
@@ -59,15 +91,11 @@ std::vector<std::string> too_long(const study::Study& study, const mesh::LineMes
     if (turbulence.correlation_length > largest_correlation)
       out.push_back(fmt::format("turbulence.{}.correlation_length = {:g} m", turbulence.name,
                                 turbulence.correlation_length));
-  if (!mesh.nodes.empty()) {
-    core::Vec3 low = mesh.nodes.front(), high = low;
-    for (const core::Vec3& node : mesh.nodes) {
-      low = low.cwiseMin(node);
-      high = high.cwiseMax(node);
-    }
-    if (const double length = (high - low).maxCoeff(); length > largest_mesh)
-      out.push_back(fmt::format("a mesh {:g} m long (mesh.scale = 1e-3 turns mm into m)", length));
-  }
+  const double length = length_of(mesh), section = largest_size(study);
+  if (length > std::min(largest_mesh, largest_slenderness * section))
+    out.push_back(
+        fmt::format("a mesh {:g} m long{} (mesh.scale = 1e-3 turns mm into m)", length,
+                    std::isfinite(section) ? fmt::format(", of sections up to {:g} m", section) : ""));
   return out;
 }
 
@@ -119,6 +147,55 @@ std::vector<std::string> odd_liquids(const study::Study& study) {
   return out;
 }
 
+/// Coefficients of wear in mm3/(N m), or without a unit.
+std::vector<std::string> odd_wear(const study::Study& study) {
+  std::vector<std::string> out;
+  const auto look = [&](const study::Wear& wear, const char* key, double value) {
+    if (value > largest_wear)
+      out.push_back(fmt::format("{}.{} = {:g} m2/N", wear.path, key, value));
+  };
+  for (const study::Wear& wear : study.wear) {
+    if (const auto* archard = std::get_if<wear::Archard>(&wear.law))
+      look(wear, "coefficient", archard->coefficient);
+    else if (const auto* kwu = std::get_if<wear::KwuEpri>(&wear.law))
+      look(wear, "coefficient", kwu->coefficient);
+    look(wear, "support_coefficient", wear.support_coefficient);
+  }
+  return out;
+}
+
+/// Accelerations and velocities of mm.
+std::vector<std::string> odd_motion(const study::Study& study) {
+  std::vector<std::string> out;
+  if (study.gravity && study.gravity->norm() > largest_gravity)
+    out.push_back(fmt::format("gravity.acceleration of {:g} m/s2 (weight: 9.81)", study.gravity->norm()));
+  for (const study::Flow& flow : study.flows)
+    for (const flow::Zone& zone : flow.zones) {
+      double speed = 0.0;
+      if (const auto* scalar = std::get_if<flow::ScalarVelocity>(&zone.velocity))
+        speed = *std::max_element(scalar->speed.values.begin(), scalar->speed.values.end());
+      else
+        for (const core::Vec3& value : std::get<flow::VectorVelocity>(zone.velocity).velocity.values)
+          speed = std::max(speed, value.norm());
+      const auto* single = std::get_if<flow::SinglePhase>(&zone.fluid);
+      if (speed > (single && single->phase == flow::Phase::gas ? largest_gas_speed : largest_speed))
+        out.push_back(fmt::format("flow.{}.zones.{}.velocity = {:g} m/s", flow.name, zone.name, speed));
+    }
+  return out;
+}
+
+/// Added masses far above that of the beams' own material.
+std::vector<std::string> odd_added_mass(const study::Study& study) {
+  std::vector<std::string> out;
+  for (const study::Beams& beams : study.beams) {
+    const double own = study.materials.at(beams.material).density * study.sections.at(beams.section).area;
+    if (own > 0.0 && beams.added_mass > largest_added_mass * own)
+      out.push_back(fmt::format("added_mass = {:g} kg/m of beams \"{}\" (their material: {:.3g} kg/m)",
+                                beams.added_mass, beams.group, own));
+  }
+  return out;
+}
+
 /// A fixed step beyond the longest period that a contact can have, that of all the mass on its spring; else empty.
 std::string long_step(const study::Study& study, const fem::Model& model) {
   if (!study.transient || !study.transient->step)
@@ -137,6 +214,10 @@ std::string long_step(const study::Study& study, const fem::Model& model) {
                    "{:.2g} s: is it ms? Leave step out to have it chosen",
                    step, period)
              : std::string();
+}
+
+std::string with_questions(const char* message, const std::vector<std::string>& questions) {
+  return fmt::format("{}; {}", message, fmt::join(questions, "; "));
 }
 
 /// `values` with a question; nothing without values. Equal ones of several contacts are one.
@@ -162,6 +243,12 @@ std::vector<std::string> unit_slips(const study::Study& study, const mesh::LineM
       "units are SI: kg/m3, and m2/s of the kinematic viscosity, which is the dynamic one (Pa s) over the "
       "density (water: 1e-7 to 2e-6)",
       out);
+  ask(odd_wear(study),
+      "are these mm3/(N m), or without a unit? Coefficients are m2/N (1/Pa), 1e-17 to 1e-12 most often: "
+      "1 mm3/(N m) is 1e-9 m2/N, and one without a unit is divided by the hardness in Pa",
+      out);
+  ask(odd_added_mass(study), "are these g/m? Masses are kg, added masses kg per metre of beam", out);
+  ask(odd_motion(study), "are these mm? Units are SI: m/s2 and m/s", out);
   if (std::string step = long_step(study, model); !step.empty())
     out.push_back("units: " + step);
   return out;
@@ -171,10 +258,16 @@ void asking_about_units(const std::vector<std::string>& slips, const std::functi
   const std::vector<std::string> questions = slips; // work may add to them
   try {
     work();
+  } catch (const core::Interrupted&) {
+    throw;
+  } catch (const core::ComputationError& error) {
+    if (questions.empty())
+      throw;
+    throw core::ComputationError(with_questions(error.what(), questions));
   } catch (const core::Error& error) {
     if (questions.empty())
       throw;
-    throw core::Error(fmt::format("{}; {}", error.what(), fmt::join(questions, "; ")));
+    throw core::Error(with_questions(error.what(), questions));
   }
 }
 

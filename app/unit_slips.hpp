@@ -10,6 +10,10 @@
 ///     supports of wear       up to 1 m long               correlation lengths   up to 10 m
 ///     modal damping          up to 0.3
 ///     liquids of flows       from 50 kg/m3         their kinematic viscosity   up to 2e-5 m2/s (ten times that of cold water)
+///     mesh over sections     up to 2e4             added mass           up to 100 times that of the material
+///     offsets of contacts    up to 0.1 m           thickness of supports  up to 1 m
+///     coefficients of wear   up to 1e-10 m2/N      gravity              up to 100 m/s2
+///     gap velocities         up to 100 m/s, of gas up to 1000 m/s
 ///     fixed time step        up to the period of the stiffest contact against the whole mass of the model
 #pragma once
 #include "fem/model.hpp"
@@ -25,8 +29,9 @@ namespace fretwork::app {
 [[nodiscard]] std::vector<std::string> unit_slips(const study::Study& study, const mesh::LineMesh& mesh,
                                                   const fem::Model& model);
 
-/// Runs `work`; what it refuses may follow from values in another unit, and its message then ends with the questions of unit_slips.
-/// @throws core::Error  what `work` throws
+/// Runs `work`; what it refuses or fails to compute may follow from values in another unit, and its message then ends with the questions of
+/// unit_slips.
+/// @throws core::Error, core::ComputationError  what `work` throws
 void asking_about_units(const std::vector<std::string>& slips, const std::function<void()>& work);
 
 } // namespace fretwork::app

@@ -248,6 +248,19 @@ TimeFunction widened(const decltype(Integral::function)& function) {
   return std::visit([](const auto& f) -> TimeFunction { return f; }, function);
 }
 
+/// Of a run that is too long, or of a band that is too narrow for its frequencies.
+std::string too_many_samples(const Random& random, const RandomBlocks& blocks, double duration,
+                             double needed) {
+  if (static_cast<double>(blocks.size()) > most_samples)
+    return fmt::format("a random signal from {:.6g} to {:.6g} Hz needs blocks of {:.4g} samples, more than "
+                       "{:.4g}; widen its band, or lower it",
+                       random.low, random.high, static_cast<double>(blocks.size()), most_samples);
+  return fmt::format(
+      "a duration of {:.4g} s is too long for a random signal up to {:.4g} Hz: {:.4g} samples, more than "
+      "{:.4g}; give a duration (transient.duration) of {:.2g} s at most, or lower the upper end of its band",
+      duration, random.high, needed, most_samples, 0.99 * most_samples / (covered * blocks.per_step()));
+}
+
 } // namespace
 
 Signal::Signal(const TimeFunction& function, double duration) : function_(function) {
@@ -261,10 +274,7 @@ Signal::Signal(const TimeFunction& function, double duration) : function_(functi
   const double needed =
       std::ceil(covered * duration * blocks.per_step()) + 2.0; // the ends of the first and the last interval
   if (std::max(needed, static_cast<double>(blocks.size())) > most_samples)
-    throw core::Error(fmt::format(
-        "a random signal up to {:.4g} Hz over {:.4g} s needs {:.4g} samples, in blocks of {}, more than "
-        "{:.4g}; lower the upper end of its band, widen the band, or shorten the run",
-        random->high, duration, needed, blocks.size(), most_samples));
+    throw core::Error(too_many_samples(*random, blocks, duration, needed));
   const auto intervals = static_cast<std::ptrdiff_t>(needed) - 1;
   thread_local RecentSamples recent;
   samples_ = recent.get(*random, blocks, static_cast<std::size_t>(needed));

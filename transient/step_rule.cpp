@@ -19,6 +19,9 @@ constexpr double fewest_steps = 2000, most_least_steps = 20000;
 constexpr double cheap_step = 100.0, cost_of_contact = 40.0;
 /// More steps than this are a mistake in a value rather than a wish: days of computing.
 constexpr double most_steps = 1e12;
+/// Whole numbers of the time loop end far above.
+constexpr double countable_steps = 1e18;
+constexpr double day = 86400.0; // s
 /// A run of an adaptive scheme has at least so many steps.
 constexpr double least_adaptive_steps = 200;
 /// w_c dt and w_t dt of the intervals of splitting at an accuracy of 0.01: two a step, which take the time of one, since they turn less and are found
@@ -35,15 +38,24 @@ constexpr double collocation_cost = 0.7;
 /// Of the time of splitting: below it collocation is taken, which does not measure its error (replays.hpp).
 constexpr double worth_changing = 0.7;
 
-/// @throws core::Error where there would be absurdly many
+/// At most as many as can be counted.
 std::int64_t count_steps(double duration, const StepChoice& c) {
-  const double steps = std::ceil(duration / c.step * (1.0 - 1e-12));
-  if (!(steps <= most_steps))
-    throw core::Error(fmt::format(
-        "the transient would take {:.3g} steps of {:.3g} s ({}); check the value that asks for them, "
-        "or the duration",
-        steps, c.step, c.reason));
-  return static_cast<std::int64_t>(steps);
+  return static_cast<std::int64_t>(std::min(std::ceil(duration / c.step * (1.0 - 1e-12)), countable_steps));
+}
+
+/// @throws core::Error where there would be absurdly many
+void check_steps(double duration, const StepChoice& c) {
+  if (static_cast<double>(c.steps) <= most_steps)
+    return;
+  const std::string steps =
+      fmt::format("{:.3g} steps of {:.3g} s, more than {:g}", duration / c.step, c.step, most_steps);
+  const std::string step = fmt::format("what the step follows from ({})", c.reason);
+  throw core::Error(
+      duration > day
+          ? fmt::format("transient.duration = {:g} s ({:.3g} days) would take {}; shorten it, or check {}",
+                        duration, duration / day, steps, step)
+          : fmt::format("the transient of {:g} s would take {}; check {}, or the duration", duration, steps,
+                        step));
 }
 
 /// What becomes of normal dampers that the step does not resolve.
@@ -252,7 +264,10 @@ StepChoice choose_step(const Scene& scene, const StepOptions& options) {
   const SchemeKind scheme = options.scheme.value_or(SchemeKind::splitting);
   check_scope(scene, scheme);
   const SceneRates rates = rates_of(scene);
-  return options.scheme ? choice_of(scene, rates, options, scheme) : cheapest(scene, rates, options);
+  StepChoice choice =
+      options.scheme ? choice_of(scene, rates, options, scheme) : cheapest(scene, rates, options);
+  check_steps(scene.duration, choice);
+  return choice;
 }
 
 StepChoice halved(StepChoice choice) {

@@ -78,6 +78,40 @@ TEST(UnitSlips, OfFrictionMaterialsAndStepAreAskedAbout) {
       says(step[0], "transient.step = 0.1 s is longer than the slowest vibration on a contact can be"));
 }
 
+TEST(UnitSlips, OfWearWeightAndOffsetsAreAskedAbout) {
+  const Workshop folder;
+  const std::string study =
+      tubes(folder, 1) + supports("gap = 2.0e-4\n") +
+      "[[wear]]\ncoefficient = 1.0e-14\nlength = 0.03\n[gravity]\nacceleration = [0, 0, -9.81]\n";
+  EXPECT_TRUE(asked(folder, study, {}).empty());
+  const auto only = [&](const char* key) {
+    const auto found = asked(folder, study, {key});
+    return found.size() == 1 ? found[0] : "";
+  };
+  EXPECT_TRUE(says(only("wear.0.coefficient=1e-5"),
+                   "wear.0.coefficient = 1e-05 m2/N: are these mm3/(N m), or without a unit?"));
+  EXPECT_TRUE(says(only("wear.0.support_coefficient=1e-5"), "wear.0.support_coefficient = 1e-05 m2/N: "));
+  EXPECT_TRUE(says(only("gravity.acceleration=[0, 0, -9810]"),
+                   "gravity.acceleration of 9810 m/s2 (weight: 9.81): are these mm?"));
+  EXPECT_TRUE(
+      says(only("contacts.h3.offset=[0.3, 0]"), "offset = [0.3, 0] m of contact \"h3\": are these mm?"));
+  EXPECT_TRUE(says(only("beams.0.added_mass=200"),
+                   "added_mass = 200 kg/m of beams \"tube0\" (their material: 0.492 kg/m): are these g/m?"));
+  EXPECT_TRUE(says(only("mesh.scale=500"), "a mesh 500 m long, of sections up to 0.01905 m (mesh.scale"));
+}
+
+// A tube in mm hardly resists its weight: no equilibrium of it is found.
+TEST(UnitSlips, EndTheMessageOfAComputationThatFails) {
+  const Workshop folder;
+  const Outcome outcome =
+      folder.fretwork({"check", example("straight_tube").string(), "--set", "mesh.scale=1000", "--set",
+                       "transient.start=static", "--set", "gravity.acceleration=[0,0,-9.81]"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_TRUE(says(outcome.err, "no equilibrium found"));
+  EXPECT_TRUE(says(outcome.err, "units: a mesh 9000 m long, of sections up to 0.01905 m (mesh.scale = 1e-3 "
+                                "turns mm into m): are these mm?"));
+}
+
 TEST(UnitSlips, AreSaidByTheRunToo) {
   const Workshop folder;
   const Results run = folder.run_text(
@@ -118,8 +152,8 @@ TEST(UnitSlips, EndTheMessageOfWhatIsRefused) {
   const Outcome outcome = folder.fretwork({"check", study.string(), "--set", "mesh.scale=5000"});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_TRUE(says(outcome.err, "zone \"z\" goes from"));
-  EXPECT_TRUE(
-      says(outcome.err, "units: a mesh 5000 m long (mesh.scale = 1e-3 turns mm into m): are these mm?"));
+  EXPECT_TRUE(says(outcome.err, "units: a mesh 5000 m long, of sections up to 0.01905 m (mesh.scale = 1e-3 "
+                                "turns mm into m): are these mm?"));
 }
 
 } // namespace fretwork::app::test::unit_slips_test

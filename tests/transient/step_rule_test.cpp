@@ -184,6 +184,26 @@ TEST(StepRule, RefusesStepsWithoutNumber) {
   EXPECT_THROW((void)choose_step(scene_with({Circle{0.1}, {2.0}, {}}), tiny), fretwork::core::Error);
 }
 
+/// The message of a scene that is refused.
+std::string refused(const Scene& scene) {
+  try {
+    (void)choose_step(scene, {});
+  } catch (const fretwork::core::Error& error) {
+    return error.what();
+  }
+  return "nothing is refused";
+}
+
+// Of the scheme that would be taken: collocation, whose steps tangential dampers make short, is only weighed.
+TEST(StepRule, NamesTheDurationThatIsTooLong) {
+  constexpr double ten_years = 3.15e8;
+  const std::string said = refused(scene_with({Circle{0.1}, {8e8}, {8e8, 3e6, 0.3, 0.3}}, ten_years));
+  EXPECT_TRUE(mentions(said, "transient.duration = 3.15e+08 s (3.65e+03 days) would take ")) << said;
+  EXPECT_FALSE(mentions(said, "splitting")) << said;
+  EXPECT_TRUE(mentions(refused(scene_with({Circle{0.1}, {1e40}, {}})),
+                       "check what the step follows from (the contact frequency"));
+}
+
 TEST(StepRule, FollowsTheAccuracyByItsSquareRoot) {
   const Scene scene = scene_with({Circle{0.1}, {8e4}, {}});
   StepOptions coarse = splitting(), fine = splitting();
