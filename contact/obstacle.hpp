@@ -67,8 +67,8 @@ struct Location {
   double gap;    ///< m
   double ny, nz; ///< unit normal in local axes
   [[nodiscard]] ContactAxes axes() const { return {ny, nz}; }
-  /// The same place from the opposite face.
-  [[nodiscard]] Location from_opposite() const { return {-gap, -ny, -nz}; }
+  /// The same place from the opposite face, which is farther away: open, by |gap| at least.
+  [[nodiscard]] Location from_opposite() const { return {std::abs(gap), -ny, -nz}; }
 };
 
 /// Direction taken for a node at the very centre of a circle, where every direction is as good.

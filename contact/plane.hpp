@@ -22,6 +22,7 @@ struct ContactAxes {
   /// Components along y and z of a vector along n, t.
   [[nodiscard]] constexpr double y(double normal, double tangent) const { return normal * ny + tangent * nz; }
   [[nodiscard]] constexpr double z(double normal, double tangent) const { return normal * nz - tangent * ny; }
+  [[nodiscard]] constexpr ContactAxes reversed() const { return {-ny, -nz}; }
   /// Whether the other normal is that of the opposite face: another surface.
   [[nodiscard]] constexpr bool opposite(const ContactAxes& other) const {
     return ny * other.ny + nz * other.nz < 0.0;

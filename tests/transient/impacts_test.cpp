@@ -244,4 +244,24 @@ TEST(ImpactCounts, AreNoneBesideTheCentreOfARing) {
   }
 }
 
+// The oracle counts alike, with steps that end where contacts close and open.
+TEST(ImpactCounts, OfTheOracleGoFromFaceToFaceWithoutAGap) {
+  for (const double gap : {0.0, 1e-8, 1e-6}) {
+    Scene s = mass_point(0.3, Vec3(1e4, 1.2e4, 1.4e4), 3.0);
+    s.system.damping.setConstant(8.0);
+    s.contacts = {contact_of(0.3, {PlanePair{gap, PlaneAxis::y}, {1e5}, {}})};
+    s.loads = {force_on(0.3, Vec3(0, 20.0, 0), Harmonic{1.0, 17.0, 0.0})};
+    for (const double tolerance : {1e-5, 1e-8}) {
+      StepOptions options;
+      options.scheme = SchemeKind::runge_kutta_54;
+      options.tolerance = tolerance;
+      const History run = simulate(s, options, 1.0);
+      EXPECT_NEAR(run.statistics[0].impact_rate, 34.0, 0.51) << gap << " " << tolerance;
+      EXPECT_NEAR(run.statistics[0].departure_velocity_mean, run.statistics[0].impact_velocity_mean,
+                  0.05 * run.statistics[0].impact_velocity_mean)
+          << gap;
+    }
+  }
+}
+
 } // namespace impacts_test

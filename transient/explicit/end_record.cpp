@@ -60,8 +60,8 @@ void EndRecord::prepare_contact(const MotionRates& rates, const double* until, i
   state = {};
   if (!was_active && !rates.regime(c).closed)
     return;
-  const auto at = rates.motion().locate(c);
-  const double rate = rates.motion().penetration_rate(c, at.axes());
+  const contact::ContactAxes here = rates.motion().locate(c).axes(), face = rates.regime(c).axes;
+  const double rate = rates.motion().penetration_rate(c, face.opposite(here) ? here.reversed() : here);
   if (was_active) {
     past.carried_friction = friction;
     past.carried_damper = damper;

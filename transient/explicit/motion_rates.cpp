@@ -183,9 +183,10 @@ void MotionRates::commit(double* y) {
     const bool closed = located_ ? regimes_[c].closed : state.normal_force > 0.0;
     if (!located_ || !locates_friction(c))
       set_regime(c, closed, closed && state.slides);
-    if (closed) {
+    if (closed)
       regimes_[c].axes = state.axes;
-    }
+    else if (regimes_[c].leaves)
+      regimes_[c].leaves = leaves(c, motion_, motion_.locate(c));
   }
   position_ = motion_.u;
 }
@@ -289,10 +290,36 @@ bool MotionRates::rated(int c) const {
 
 void MotionRates::set_regime(int c, bool closed, bool slides) {
   Regime& regime = regimes_[c];
-  if (closed && !regime.closed)
-    regime.axes = motion_.locate(c).axes();
+  if (closed && !regime.closed) {
+    const auto at = motion_.locate(c);
+    regime.axes = passes(c, at) ? at.axes().reversed() : at.axes();
+  }
+  regime.leaves = located_ && !closed && (regime.closed || regime.leaves);
   regime.closed = closed;
   regime.slides = slides;
+}
+
+/// Whether a contact that closes leaves its face for the opposite one, which is nearer than the state is exact: as far outside its face as it is
+/// inside it would be on the other.
+bool MotionRates::passes(int c, const contact::Location& at) {
+  if (!leaves(c, motion_, at))
+    return false;
+  double &y = motion_.u[static_cast<std::size_t>(c)],
+         &z = motion_.u[static_cast<std::size_t>(contacts_.width + c)];
+  const double y0 = y, z0 = z;
+  y -= 2.0 * at.gap * at.ny;
+  z -= 2.0 * at.gap * at.nz;
+  const auto there = motion_.locate(c);
+  y = y0;
+  z = z0;
+  return there.gap <= 0.0 && at.axes().opposite(there.axes());
+}
+
+/// Whether an open contact is still at the face on which it has opened, and goes away from it.
+bool MotionRates::leaves(int c, const ContactMotion& motion, const contact::Location& at) const {
+  const Regime& regime = regimes_[c];
+  return regime.leaves && at.gap <= 0.0 && !regime.axes.opposite(at.axes()) &&
+         motion.penetration_rate(c, at.axes()) < 0.0;
 }
 
 /// Where a contact is; of one that is closed, from its face.
@@ -335,6 +362,8 @@ Margins MotionRates::margin(int c, const ContactMotion& motion, Vec2 in_state) c
   const Normal normal = normal_of(c, motion, at);
   const contact::FrictionLaw& law = contacts_.supports[c].friction;
   Margins margins{std::min(contacts_.supports[c].normal.stiffness * normal.penetration, normal.force), -1.0};
+  if (located_ && leaves(c, motion, at))
+    margins.normal = -std::abs(margins.normal);
   if (law.active() && !locates_friction(c)) {
     margins.friction = regimes_[c].slides ? 1.0 : -1.0;
   } else if (law.active()) {

@@ -15,7 +15,8 @@
 ///
 /// Forces are those of the laws (normal_law.hpp, friction_law.hpp), or `located`: each contact keeps the branch of its regime (friction of `reference` excepted), smooth
 /// across its bounds, so that a scheme sees smooth rates and finds by `margin` where a regime ends. A closed contact keeps its face, too: where
-/// the opposite one is nearer, its penetration is negative and its regime over.
+/// the opposite one is nearer, its penetration is negative and its regime over. An open contact that still leaves its face does not close on
+/// it: what the state at the event has of a force there is an error of the step. Without a gap it closes on the opposite face.
 #pragma once
 #include "transient/contacts/contact_motion.hpp"
 #include "transient/contacts/contact_trial.hpp"
@@ -30,7 +31,9 @@ namespace fretwork::transient {
 struct Regime {
   bool closed = false; ///< with a normal force
   bool slides = false;
-  contact::ContactAxes axes; ///< of a closed contact: of its face
+  contact::ContactAxes axes; ///< of the face on which it is or was last closed
+  bool leaves =
+      false; ///< it has opened at an event, and no state that was accepted since has been clear of the face
 };
 
 /// How far a contact is inside its laws' branches, N. Regimes end where a margin passes zero.
@@ -89,7 +92,8 @@ public:
   // Regimes:
   void locate_regimes(bool located) { located_ = located; }
   [[nodiscard]] Regime regime(int c) const { return regimes_[c]; }
-  /// A contact that closes does so on the face where the state that `rate` was called for last has it.
+  /// A contact that closes does so on the face where the state that `rate` was called for last has it; on the opposite one where it
+  /// leaves that face and the gap between both is below the error of the state.
   void set_regime(int c, bool closed, bool slides);
   /// The margins of contact c where `motion` has it, `spring` the T of the state.
   [[nodiscard]] Margins margin(int c, const ContactMotion& motion, contact::Vec2 spring) const;
@@ -117,6 +121,8 @@ private:
   /// N, of a contact that touches.   @param state  with its axes and its displacement since the last commit
   [[nodiscard]] contact::Vec2 stretched_since_touch(int c, const ContactState& state) const;
   [[nodiscard]] bool locates_friction(int c) const;
+  [[nodiscard]] bool passes(int c, const contact::Location& at);
+  [[nodiscard]] bool leaves(int c, const ContactMotion& motion, const contact::Location& at) const;
   [[nodiscard]] contact::Location face_of(int c, const ContactMotion& motion) const;
   [[nodiscard]] Normal normal_of(int c, const ContactMotion& motion, const contact::Location& at) const;
   [[nodiscard]] contact::Vec2 used_spring(int c, contact::Vec2 spring,
