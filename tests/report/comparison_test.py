@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs compared."""
 
+import re
 import tempfile
 import unittest
 from pathlib import Path
@@ -72,6 +73,22 @@ class Comparison(unittest.TestCase):
 
     def test_shows_wear(self):
         self.assertEqual(len(self.table("Wear").rows), 3)
+
+    def test_two_runs_are_one_table_with_their_names(self):
+        runs, found = compare_data.tables(self.folders)
+        text = compare.as_texts(runs, ["a", "b"], found)
+        self.assertIn("change, b", text)
+        self.assertNotIn("run 1", text)
+
+    def test_tables_of_many_runs_fit_a_line(self):
+        runs, _ = compare_data.tables(self.folders)
+        runs, names = [runs[0], runs[1], runs[1], runs[1]], [f"a_folder_with_a_long_name_{k}.results" for k in range(1, 5)]
+        text = compare.as_texts(runs, names, compare_data.differences(runs, names))
+        self.assertLessEqual(max(map(len, text.splitlines())), compare.WIDTH)
+        self.assertIn("  run 1  a_folder_with_a_long_name_1.results, the reference\n", text)
+        for k in (2, 3, 4):
+            self.assertEqual(len(re.findall(f"change, run {k} +significance", text)), 1)
+        self.assertEqual(text.count("all contacts"), 3)  # parts, each with the reference
 
     def test_is_a_page_too(self):
         runs, found = compare_data.tables(self.folders)

@@ -7,7 +7,7 @@ import html
 import sys
 from pathlib import Path
 
-from . import contact_view, page, structure_view
+from . import compare_data, contact_view, page, structure_view
 from .build import write_whole
 from .compare_data import short_names, tables
 from .run_data import NoResults
@@ -15,13 +15,49 @@ from .run_data import NoResults
 MOST_ORBITS = 4  # contacts whose orbits are shown, those that wear most in the first run
 
 
+WIDTH = 100  # characters of a line on the terminal
+
+
+def _lines(table, columns):
+    rows = [[row[i] for i in columns] for row in [table.heads, *table.rows]]
+    widths = [max(map(len, column)) for column in zip(*rows)]
+    return [("  " + "  ".join(cell.ljust(width) if i == 0 else cell.rjust(width) for i, (cell, width) in enumerate(zip(row, widths)))).rstrip() for row in rows]
+
+
+def _fits(table, columns):
+    return max(map(len, _lines(table, columns))) <= WIDTH
+
+
+def _columns(table, runs):
+    """The first one, and those of some runs."""
+    return [0, *(i for i, run in enumerate(table.runs, 1) if run in runs)]
+
+
+def _blocks(table):
+    """Columns of the parts of a wide table: each has the reference and as many other runs as a line holds, one at least."""
+    blocks, held = [], []
+    for run in range(1, max(table.runs) + 1):
+        if held and not _fits(table, _columns(table, [0, *held, run])):
+            blocks.append(_columns(table, [0, *held]))
+            held = []
+        held.append(run)
+    return [*blocks, _columns(table, [0, *held])]
+
+
 def as_text(table):
     if not table.rows:
         return f"{table.title}: none\n"
-    widths = [max(len(row[i]) for row in [table.heads, *table.rows]) for i in range(len(table.heads))]
-    lines = ["  " + "  ".join(cell.ljust(width) if i == 0 else cell.rjust(width) for i, (cell, width) in enumerate(zip(row, widths)))
-             for row in [table.heads, *table.rows]]
-    return "\n".join([table.title, *(line.rstrip() for line in lines)]) + "\n"
+    parts = ["\n".join(_lines(table, columns)) for columns in _blocks(table)]
+    return "\n".join([table.title, "\n\n".join(parts)]) + "\n"
+
+
+def as_texts(runs, names, found):
+    """Of all tables. Where one is wider than a line, runs are numbered and tables come in parts."""
+    if all(_fits(table, range(len(table.heads))) for table in found if table.rows):
+        return "\n".join(map(as_text, found))
+    legend = "\n".join(f"  run {k}  {name}{', the reference' if k == 1 else ''}" for k, name in enumerate(names, 1))
+    numbered = compare_data.differences(runs, [f"run {k}" for k in range(1, len(names) + 1)])
+    return "\n".join([f"Runs\n{legend}\n", *map(as_text, numbered)])
 
 
 def _side_by_side(runs, names, picture):
@@ -61,7 +97,7 @@ def main():
         runs, found = tables(arguments.directories)
         if arguments.html:
             write_whole(arguments.html, as_page(runs, names, found))
-        print("\n".join(as_text(table) for table in found))
+        print(as_texts(runs, names, found))
         if arguments.html:
             print(f"written: {arguments.html}")
     except NoResults as error:

@@ -4,7 +4,7 @@
 import json
 import math
 import tomllib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from . import run_data
 from .drawing import ROUND_OFF, of_sum
@@ -20,6 +20,7 @@ class Table:
     title: str
     heads: list
     rows: list  # lists of texts
+    runs: list = field(default_factory=list)  # for each column but the first, the number of the run that it is of
 
 
 def number(value, digits=4):
@@ -59,7 +60,8 @@ def significance(one, other):
     if len(errors) < 2 or math.hypot(*errors) == 0:
         return "scatter unknown"
     size = abs(b - a) / math.hypot(*errors)
-    return f"{size:.2g} standard errors: " + ("significant" if size >= SIGNIFICANT else "within scatter")
+    errors = f"{size:.1f}" if size < 10 else f"{size:.0f}"
+    return ("significant" if size >= SIGNIFICANT else "within scatter") + f", {errors} std. errors"
 
 
 def _names(entries):
@@ -118,7 +120,7 @@ def differing_inputs(runs, names):
         values = [study.get(key) for study in studies]
         if any(value != values[0] for value in values):
             rows.append([key, *map(_as_written, values)])
-    return Table("Inputs that differ", ["key", *names], rows)
+    return Table("Inputs that differ", ["key", *names], rows, [*range(len(names))])
 
 
 def frequencies(runs, names):
@@ -127,7 +129,7 @@ def frequencies(runs, names):
     for i in range(min(FREQUENCIES, max(map(len, lists)))):
         values = [found[i] if i < len(found) else None for found in lists]
         rows.append([f"{i + 1}", *(number(v, 6) for v in values), *(change(v, values[0]) for v in values[1:])])
-    return Table("Frequencies, Hz", ["mode", *names, *(f"change, {name}" for name in names[1:])], rows)
+    return Table("Frequencies, Hz", ["mode", *names, *(f"change, {name}" for name in names[1:])], rows, [*range(len(names)), *range(1, len(names))])
 
 
 def _work(entry):
@@ -145,7 +147,7 @@ def work_rates(runs, names):
         rows.append([name, *(with_error(*value) for value in values)]
                     + [text for value in values[1:] for text in (change(value[0], values[0][0]), significance(values[0], value))])
     heads = ["contact", *names] + [text for name in names[1:] for text in (f"change, {name}", "significance")]
-    return Table("Work rates, W", heads, rows)
+    return Table("Work rates, W", heads, rows, [*range(len(names)), *(k for k in range(1, len(names)) for _ in range(2))])
 
 
 def _wear(run):
@@ -166,7 +168,7 @@ def wear(runs, names):
         depths = [None if depth is None else 1e3 * depth for depth, _ in values]
         rows.append([name, *(number(d, 3) for d in depths), *(change(d, depths[0]) for d in depths[1:]), *(number(life, 3) for _, life in values)])
     heads = ["support", *(f"depth mm, {n}" for n in names), *(f"change, {n}" for n in names[1:]), *(f"life years, {n}" for n in names)]
-    return Table("Wear", heads, rows)
+    return Table("Wear", heads, rows, [*range(len(names)), *range(1, len(names)), *range(len(names))])
 
 
 def short_names(directories):
@@ -181,6 +183,9 @@ def tables(directories):
     @param directories  pathlib.Path of each   @throws run_data.NoResults
     """
     runs = [run_data.load(directory) for directory in directories]
-    names = short_names(directories)
+    return runs, differences(runs, short_names(directories))
+
+
+def differences(runs, names):
     found = [compare(runs, names) for compare in (differing_inputs, frequencies, work_rates, wear)]
-    return runs, [table for table in found if table.rows or table.title == "Inputs that differ"]
+    return [table for table in found if table.rows or table.title == "Inputs that differ"]
