@@ -31,7 +31,8 @@ fem::BeamProperty property_of(const study::Study& study, const study::Beams& bea
                              beams.axial_force,
                              beams.fluid};
   if (beams.taper)
-    property.taper = {study.sections.at(beams.taper->section), beams.taper->added_mass, beams.taper->fluid};
+    property.taper = {study.sections.at(beams.taper->section), beams.taper->added_mass, beams.taper->fluid,
+                      beams.taper->axial_force};
   return property;
 }
 

@@ -26,6 +26,7 @@
 #include "app/sweep_check.hpp"
 #include "app/transient_stage.hpp"
 #include "app/unit_slips.hpp"
+#include "app/weight_stiffness.hpp"
 #include "core/error.hpp"
 #include "core/mpi.hpp"
 #include "core/petsc.hpp"
@@ -247,6 +248,7 @@ private:
     });
     warn_of_load_flexibility(comm_, inputs_.study, model_, modes.structures, out_.bases, placed_,
                              at_contacts_.fields);
+    note_weight_stiffness(comm_, inputs_.study, model_, modes.structures, out_.bases, placed_, out_);
     at_contacts_.flexibilities = contact_flexibilities(comm_, inputs_.study, model_, modes.structures,
                                                        out_.bases, at_contacts_.joined, placed_);
   }

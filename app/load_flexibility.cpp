@@ -38,17 +38,12 @@ struct Work {
   [[nodiscard]] double missing_share() const { return exact > 0.0 ? 1.0 - of_modes / exact : 0.0; }
 };
 
-/// phi^T of a unit force along the axis of a rod of the pinned model, at the node that it holds.
-Eigen::VectorXd modes_along(const modal::Basis& basis, core::Index node, const core::Vec3& direction) {
-  return basis.shapes.middleRows<3>(basis.row_of(node)).transpose() * direction;
-}
-
 /// Structures that can move rigidly, with their contacts closed: as springs of K_N and, with friction, K_T.
 class OnContacts {
 public:
   /// @param model  must live longer
   OnContacts(const study::Study& study, const fem::Model& model, const std::vector<PlacedContact>& contacts)
-      : beams_(model.beams.size()), pinned_(pinned_model(study, model, pins(model, contacts), {true, true})),
+      : model_(model), pinned_(pinned_model(study, model, that_can_pin(model, contacts), {true, true})),
         structures_(moving_structures(pinned_)), solvers_(pinned_, structures_) {}
 
   /// @param force  of the nodes of the model   @return zeros where the load accelerates the structure and strains next to nothing
@@ -60,23 +55,11 @@ public:
     Work out{here.dot(solver.solve(here).col(0)), 0.0};
     if (solver.rigid().cols() > 0 && out.exact * top * top <= negligible_strain * rigid)
       return {};
-    out.of_modes = work_of_modes(basis, s, solver.rigid().cols(), on_structure(force, basis.nodes));
+    out.of_modes = work_of_modes(basis, solver.rigid().cols(), on_structure(force, basis.nodes));
     return out;
   }
 
 private:
-  static std::vector<PlacedContact> pins(const fem::Model& model,
-                                         const std::vector<PlacedContact>& contacts) {
-    std::vector<PlacedContact> out;
-    for (const PlacedContact& contact : contacts)
-      if (can_pin(model, contact) &&
-          std::any_of(model.beams.begin(), model.beams.end(), [&](const fem::Beam& beam) {
-            return beam.a == contact.node || beam.b == contact.node;
-          }))
-        out.push_back(contact);
-    return out;
-  }
-
   [[nodiscard]] std::size_t structure_of(core::Index node) const {
     std::size_t s = 0;
     while (fem::position_of(structures_[s], node) < 0)
@@ -85,23 +68,16 @@ private:
   }
 
   /// By the modes of the structure on the springs, without its rigid motions: omega^2 and those springs, in modal coordinates.
-  double work_of_modes(const modal::Basis& basis, std::size_t s, Eigen::Index rigid,
-                       const Eigen::VectorXd& force) const {
-    Eigen::MatrixXd stiffness = basis.omega.array().square().matrix().asDiagonal();
-    for (const core::Index number : structures_[s].beams)
-      if (static_cast<std::size_t>(number) >= beams_) {
-        const fem::Beam& rod = pinned_.beams[static_cast<std::size_t>(number)];
-        const Eigen::VectorXd along = modes_along(basis, rod.a, pinned_.node(rod.b) - pinned_.node(rod.a));
-        stiffness += pinned_.properties[static_cast<std::size_t>(rod.property)].material.young_modulus *
-                     along * along.transpose();
-      }
-    const auto [values, vectors] = core::symmetric_eigenpairs(stiffness);
+  [[nodiscard]] double work_of_modes(const modal::Basis& basis, Eigen::Index rigid,
+                                     const Eigen::VectorXd& force) const {
+    const auto [values, vectors] =
+        core::symmetric_eigenpairs(stiffness_with_pins(basis, basis.size(), model_, pinned_));
     const Eigen::Index elastic = std::max<Eigen::Index>(values.size() - rigid, 0);
     const Eigen::VectorXd loads = vectors.rightCols(elastic).transpose() * (basis.shapes.transpose() * force);
     return (loads.array().square() / values.tail(elastic).array()).sum();
   }
 
-  std::size_t beams_; ///< of the model: those behind them are rods of pins
+  const fem::Model& model_;
   fem::Model pinned_;
   std::vector<fem::Structure> structures_;
   modal::StaticSolvers solvers_;

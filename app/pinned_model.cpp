@@ -67,6 +67,33 @@ bool can_pin(const fem::Model& model, const PlacedContact& contact) {
          (model.fixed[static_cast<std::size_t>(contact.other)] & translation_dofs) == translation_dofs;
 }
 
+std::vector<PlacedContact> that_can_pin(const fem::Model& model, const std::vector<PlacedContact>& contacts) {
+  std::set<Index> carrying;
+  for (const fem::Beam& beam : model.beams)
+    carrying.insert({beam.a, beam.b});
+  std::vector<PlacedContact> out;
+  for (const PlacedContact& contact : contacts)
+    if (can_pin(model, contact) && carrying.contains(contact.node))
+      out.push_back(contact);
+  return out;
+}
+
+Eigen::MatrixXd stiffness_with_pins(const modal::Basis& basis, Eigen::Index modes, const fem::Model& model,
+                                    const fem::Model& pinned) {
+  Eigen::MatrixXd stiffness = basis.omega.head(modes).array().square().matrix().asDiagonal();
+  for (std::size_t i = model.beams.size(); i < pinned.beams.size(); ++i) {
+    const fem::Beam& rod = pinned.beams[i];
+    const Eigen::Index row = basis.row_of(rod.a);
+    if (row < 0)
+      continue;
+    const Eigen::VectorXd along =
+        basis.shapes.block(row, 0, 3, modes).transpose() * (pinned.node(rod.b) - pinned.node(rod.a));
+    stiffness += pinned.properties[static_cast<std::size_t>(rod.property)].material.young_modulus * along *
+                 along.transpose(); // of 1 m and 1 m2
+  }
+  return stiffness;
+}
+
 fem::Model pinned_model(const study::Study& study, const fem::Model& model,
                         const std::vector<PlacedContact>& pins, const PinKind& kind) {
   fem::Model out = model;

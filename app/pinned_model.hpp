@@ -9,6 +9,7 @@
 /// the node: the node moves by some 1e-6 of what a span bends. An elastic pin has the normal or tangential stiffness of the contact.
 #pragma once
 #include "app/build_contacts.hpp"
+#include "modal/basis.hpp"
 
 namespace fretwork::app {
 
@@ -26,5 +27,15 @@ struct PinKind {
 /// @return the model with the nodes of the old one first, under their numbers
 [[nodiscard]] fem::Model pinned_model(const study::Study& study, const fem::Model& model,
                                       const std::vector<PlacedContact>& pins, const PinKind& kind);
+
+/// Those of some contacts that can pin, at nodes that carry a beam.
+[[nodiscard]] std::vector<PlacedContact> that_can_pin(const fem::Model& model,
+                                                      const std::vector<PlacedContact>& contacts);
+
+/// omega^2 of the first `modes` modes of a structure without pins and the stiffness of the pins at its nodes, 1/s2, in modal coordinates:
+///     omega^2 + sum over pins k b b^T,   b = phi^T n at the node
+/// @param model, pinned  without and with pins
+[[nodiscard]] Eigen::MatrixXd stiffness_with_pins(const modal::Basis& basis, Eigen::Index modes,
+                                                  const fem::Model& model, const fem::Model& pinned);
 
 } // namespace fretwork::app

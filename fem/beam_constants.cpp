@@ -41,9 +41,14 @@ BeamProperty property_at(const BeamProperty& property, double along) {
   const auto mix = [along](double a, double b) { return std::lerp(a, b, along); };
   here.section = between(property.section, far.section, along);
   here.added_mass = mix(property.added_mass, far.added_mass);
+  here.axial_force = mix(property.axial_force, far.axial_force.value_or(property.axial_force));
   here.fluid = {mix(property.fluid.inside, far.fluid.inside), mix(property.fluid.outside, far.fluid.outside),
                 mix(property.fluid.confinement, far.fluid.confinement)};
   return here;
+}
+
+double axial_force(const BeamProperty& property, const std::array<double, 2>& along) {
+  return property_at(property, 0.5 * (along[0] + along[1])).axial_force;
 }
 
 BeamConstants beam_constants(const BeamProperty& property, double along) {

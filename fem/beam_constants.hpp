@@ -26,4 +26,7 @@ struct BeamConstants {
 /// The same without a taper, as it is at `along`.
 [[nodiscard]] BeamProperty property_at(const BeamProperty& property, double along);
 
+/// N, of a beam: that at its middle.   @param along  of its ends
+[[nodiscard]] double axial_force(const BeamProperty& property, const std::array<double, 2>& along);
+
 } // namespace fretwork::fem

@@ -123,14 +123,15 @@ BeamElement::BeamElement(const Vec3& a, const Vec3& b, const BeamProperty& prope
   elastic_ = is_plain(axis_, property) ? uniform_stiffness(beam_constants(property), chord_)
                                        : flexible().stiffness();
   stiffness_ = elastic_;
-  if (property.axial_force == 0.0)
+  const double force = axial_force(property, along);
+  if (force == 0.0)
     return;
   if (!axis_.is_straight())
     throw core::Error(fmt::format("{}: axial_force = {:g} N in an arc, where a force along the axis is in no "
                                   "equilibrium; give it to straight beams only",
-                                  beam_text(a, b), property.axial_force));
-  stiffness_ += property.axial_force * flexible().slope_spread();
-  string_ = property.axial_force / chord_;
+                                  beam_text(a, b), force));
+  stiffness_ += force * flexible().slope_spread();
+  string_ = force / chord_;
 }
 
 BeamElement::BeamElement(const Model& model, const Beam& beam)

@@ -79,15 +79,15 @@ public:
       : property_(model.properties[static_cast<std::size_t>(beam.property)]),
         axis_(model.nodes[static_cast<std::size_t>(beam.a)], model.nodes[static_cast<std::size_t>(beam.b)],
               beam.middle),
-        k_(constants_of(axis_, property_, beam)), frame_a_(frame_at(0.0)),
-        frame_b_(frame_at(axis_.length())) {}
+        k_(constants_of(axis_, property_, beam)), force_(axial_force(property_, beam.along)),
+        frame_a_(frame_at(0.0)), frame_b_(frame_at(axis_.length())) {}
 
   [[nodiscard]] double energy(const Vector12& u, double lambda) const {
-    const double l = axis_.length(), curvature = axis_.angle() / l, force = property_.axial_force;
+    const double l = axis_.length(), curvature = axis_.angle() / l;
     const End a = end_of(frame_a_, curvature, u.segment<3>(0), u.segment<3>(3)),
               b = end_of(frame_b_, curvature, u.segment<3>(6), u.segment<3>(9));
-    const Plane y{k_.bending_z, k_.shear_y, k_.mass_transverse, force - lambda * k_.inertia_z},
-        z{k_.bending_y, k_.shear_z, k_.mass_transverse, force - lambda * k_.inertia_y};
+    const Plane y{k_.bending_z, k_.shear_y, k_.mass_transverse, force_ - lambda * k_.inertia_z},
+        z{k_.bending_y, k_.shear_z, k_.mass_transverse, force_ - lambda * k_.inertia_y};
     return bending_energy(y, l, lambda, a.displacement.y(), b.displacement.y(), a.slope_y, b.slope_y) +
            bending_energy(z, l, lambda, a.displacement.z(), b.displacement.z(), a.slope_z, b.slope_z) +
            axial_energy(k_.axial, l, lambda * k_.mass_axial, a.displacement.x(), b.displacement.x()) +
@@ -109,6 +109,7 @@ private:
   const BeamProperty& property_;
   BeamAxis axis_;
   BeamConstants k_;
+  double force_; ///< N, axial
   Eigen::Matrix3d frame_a_, frame_b_;
 };
 

@@ -66,6 +66,8 @@ void check_properties(const Model& model) {
     check_added(p.added_mass, p.fluid, p.section, what);
     if (!p.taper)
       continue;
+    require(true, what, "axial_force at the far end", p.taper->axial_force.value_or(0.0),
+            "a finite value (N)");
     check_section(p.taper->section, p.material.poisson_ratio, what);
     check_added(p.taper->added_mass, p.taper->fluid, p.taper->section, what);
     if (!same_kind(p.section, p.taper->section))

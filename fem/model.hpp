@@ -31,11 +31,12 @@ struct Material {
 enum class AddedMass { transverse, all };
 
 /// What a beam is made of at the far end of its group: from the one to the other end it changes linearly along
-/// the beams' axes (sizes of the section, densities and masses of fluid and added mass).
+/// the beams' axes (sizes of the section, densities and masses of fluid and added mass, axial force).
 struct Taper {
   Section section;
   double added_mass = 0.0;
   Fluid fluid = {};
+  std::optional<double> axial_force = std::nullopt; ///< N; none: that of the property
   bool operator==(const Taper&) const = default;
 };
 
@@ -46,9 +47,11 @@ struct BeamProperty {
   double added_mass = 0.0; ///< kg/m, >= 0, besides that of the fluid
   AddedMass added_mass_direction = AddedMass::transverse;
   std::optional<Vec3> orientation =
-      std::nullopt;         ///< a vector in the local x-y plane; required where iy != iz
-  double axial_force = 0.0; ///< N, of a static preload, tension > 0; straight beams only
-  Fluid fluid = {};         ///< in and around it; round sections only
+      std::nullopt; ///< a vector in the local x-y plane; required where iy != iz
+  double axial_force =
+      0.0;          ///< N, of a static preload, tension > 0; straight beams only; one that changes by a taper
+                    ///< is on each beam that at its middle
+  Fluid fluid = {}; ///< in and around it; round sections only
   std::optional<Taper> taper = std::nullopt;
   bool operator==(const BeamProperty&) const = default;
 };

@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "core/pivoted_columns.hpp"
 #include "core/symmetric.hpp"
+#include "fem/beam_constants.hpp"
 #include "fem/disjoint_sets.hpp"
 #include "fem/fields.hpp"
 #include <Eigen/Geometry>
@@ -190,9 +191,9 @@ private:
         forces(row, column) += force[d];
   }
 
-  [[nodiscard]] double axial_force(Index beam) const {
-    const Index property = model_.beams[static_cast<std::size_t>(beam)].property;
-    return model_.properties[static_cast<std::size_t>(property)].axial_force;
+  [[nodiscard]] double axial_force(Index number) const {
+    const Beam& beam = model_.beams[static_cast<std::size_t>(number)];
+    return fem::axial_force(model_.properties[static_cast<std::size_t>(beam.property)], beam.along);
   }
 
   [[nodiscard]] const RigidPart& part_at(Index model_node) const {

@@ -204,16 +204,19 @@ void read_ends(const TableReader& table, const Study& study, Beams& beams) {
                                               "\" has different iy and iz");
   const Ends<double> added = ends_or(table, table, "added_mass", 0.0, {at_least_zero, "kg/m"});
   const Ends<fem::Fluid> fluid = read_fluid(table, sections, study);
+  const Ends<double> force = ends_or(table, table, "axial_force", 0.0, {any, "N"});
   beams.section = sections[0];
   beams.added_mass = added[0];
   beams.fluid = fluid[0];
-  const bool changes = sections[0] != sections[1] || added[0] != added[1] || fluid[0] != fluid[1];
+  beams.axial_force = force[0];
+  const bool changes =
+      sections[0] != sections[1] || added[0] != added[1] || fluid[0] != fluid[1] || force[0] != force[1];
   if (table.has(near_end) && !changes)
-    table.fail_at(near_end, "nothing changes along the group: give two values [a, b] of section, added_mass "
-                            "or a fluid, or leave it out");
+    table.fail_at(near_end, "nothing changes along the group: give two values [a, b] of section, added_mass, "
+                            "axial_force or a fluid, or leave it out");
   if (table.has(near_end))
-    beams.taper =
-        Taper{table.text(near_end, "the name of a physical point"), sections[1], added[1], fluid[1]};
+    beams.taper = Taper{table.text(near_end, "the name of a physical point"), sections[1], added[1], fluid[1],
+                        force[1]};
 }
 
 } // namespace
@@ -254,7 +257,6 @@ std::vector<Beams> read_beams(const TableReader& root, const Study& study) {
     beams.added_mass_direction = table.choice(
         "added_mass_direction", fem::AddedMass::transverse,
         Choices<fem::AddedMass>{{{"transverse", fem::AddedMass::transverse}, {"all", fem::AddedMass::all}}});
-    beams.axial_force = table.number_or("axial_force", 0.0, {any, "N"});
     all.push_back(beams);
   }
   return all;

@@ -30,6 +30,7 @@ struct Taper {
   std::string section;
   double added_mass; ///< kg/m
   fem::Fluid fluid;
+  double axial_force = 0.0; ///< N
 };
 
 struct Beams {

@@ -188,6 +188,25 @@ TEST(AxialForce, ChangesTheFrequenciesOfAPinnedSpan) {
   }
 }
 
+// Daniel Bernoulli's hanging chain: omega = j/2 (g/L)^(1/2), j the zeros of J0. Its bending stiffness is next to none.
+TEST(AxialForce, ThatGrowsLinearlyIsThatOfAHangingChain) {
+  constexpr double zeros[] = {2.404825557695773, 5.520078110286311, 8.653727912911013}, g = 9.81;
+  constexpr double of_the_mesh =
+      4e-3; // the force of each element is that at its middle: of order 1 at the free end of a chain
+  auto p = tube_property();
+  p.material.young_modulus = 2e4;
+  p.axial_force = p.material.density * p.section.area * g * length;
+  p.taper = fem::Taper{p.section, 0.0, {}, 0.0};
+  double error[2];
+  for (const int refined : {0, 1}) {
+    const modal::Basis basis = modes(span(p, refined ? 80 : 40, uy, 0).model, 3);
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR(basis.omega[i] / (0.5 * zeros[i] * std::sqrt(g / length)), 1.0, of_the_mesh) << i;
+    error[refined] = basis.omega[2] / (0.5 * zeros[2] * std::sqrt(g / length)) - 1.0;
+  }
+  EXPECT_LT(std::abs(error[1]), 0.6 * std::abs(error[0]));
+}
+
 TEST(AxialForce, ThatBucklesIsRefused) {
   const auto refused = [](fem::BeamProperty p, double force, int elements) {
     p.axial_force = -force;

@@ -58,6 +58,15 @@ TEST(ReadSections, TellsWhatMakesNoShear) {
 
 TEST(ReadBeams, TakesAnAxialForce) { EXPECT_EQ(beams(plain + "axial_force = -250\n").axial_force, -250.0); }
 
+TEST(ReadBeams, TakesAnAxialForceThatChangesAlongTheGroup) {
+  const Beams read = beams(plain + "axial_force = [-250, 40]\nfrom = \"root\"\n");
+  EXPECT_EQ(read.axial_force, -250.0);
+  ASSERT_TRUE(read.taper);
+  EXPECT_EQ(read.taper->axial_force, 40.0);
+  EXPECT_EQ(read.taper->section, read.section);
+  expect_message(with("", plain + "axial_force = [-250, 40]\n"), {"axial_force", "two values need from"});
+}
+
 TEST(ReadBeams, TakesPairsFromAnEnd) {
   const Beams read = beams("section = [\"s\", \"thin\"]\nadded_mass = [0.1, 0.3]\nfluid_inside = [0, 700]\n"
                            "fluid_outside = { density = [1000, 900], confinement = 2 }\nfrom = \"root\"\n");
