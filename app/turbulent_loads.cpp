@@ -128,6 +128,20 @@ flow::Spectrum spectrum_of(const study::Turbulence& entry, const flow::Zone& zon
   return flow::TwoPhaseSpectrum{mixture->phases.liquid_density};
 }
 
+/// Of a zone whose velocity is along the tube everywhere.
+std::string axial_flow_text(const study::Turbulence& entry, const flow::Zone& zone, const std::string& tube) {
+  double speed = 0.0;
+  if (const auto* vector = std::get_if<flow::VectorVelocity>(&zone.velocity))
+    for (const core::Vec3& value : vector->velocity.values)
+      speed = std::max(speed, value.norm());
+  return fmt::format(
+      "turbulence \"{}\": the velocity in zone \"{}\" of flow \"{}\", up to {:g} m/s, is along the tube "
+      "everywhere: spectra are those of cross flow and act by the velocity across the tube. Name "
+      "the zones with cross flow in zones; for axial flow give the forces by [[loads]], with per_length "
+      "= true and random = {{ rms, band }}, in two directions across the tube",
+      entry.name, zone.name, tube, speed);
+}
+
 PatchedZone patched(const study::Turbulence& entry, const PlacedFlow& placed, std::size_t number,
                     const flow::Tube& tube) {
   const flow::Zone& zone = placed.profile.zones()[number];
@@ -164,6 +178,8 @@ PatchedZone patched(const study::Turbulence& entry, const PlacedFlow& placed, st
     out.axes[0].col(k) = fluid.drag;
     out.axes[1].col(k) = fluid.lift;
   }
+  if (z.velocity.isZero(0.0))
+    throw core::Error(axial_flow_text(entry, zone, tube.name()));
   const Eigen::MatrixXd ones = Eigen::MatrixXd::Ones(1, n);
   z.axes = {{ones, entry.drag}, {ones, entry.lift}};
   return out;

@@ -310,6 +310,8 @@ TEST(Turbulence, IsRefusedWhereItCannotAct) {
   refused(with("zones = \"water\"\n" + entry + "zones = \"water\"\n"), "would double it", "mesh");
   refused(with(entry + "zones = \"water\"\n"), "acts on no zone", "mesh");
   refused(instead("velocity = [0, 0, 1]", "velocity = 1.0"), "no direction of drag", "mesh");
+  refused(instead("[0, 0, 1]", "[5, 0, 0]"),
+          "up to 5 m/s, is along the tube everywhere: spectra are those of cross flow", "mesh");
   refused(instead("cor_3", "two_phase"), "has one phase", "mesh");
   refused(instead("0.06", "1e-5"), "correlation_length", "mesh");
   refused(tubes(folder, 1, in_one_plane, ""), "no [[turbulence]]", "response");
