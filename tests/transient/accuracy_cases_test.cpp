@@ -91,4 +91,25 @@ TEST(AccuracyCases, SlidesIntoCornersOfAnEggCrate) {
   EXPECT_NEAR(c.work_rate / of.work_rate, 1.0, 0.01);                    // and 1.6 %
 }
 
+// Without clearance a mass that slides goes from face to face within an interval.
+TEST(AccuracyCases, SlidesBetweenFacesWithoutAGap) {
+  constexpr double mass = 0.38, duration = 40.0;
+  Scene s = mass_point(mass, Vec3(7000.0, 1000.0, 11000.0), duration);
+  for (Eigen::Index i = 0; i < 3; ++i)
+    s.system.damping(i) = 2.0 * 0.03 * std::sqrt(s.system.stiffness(i));
+  s.contacts = {
+      contact_of(mass, {contact::PlanePair{0.0, PlaneAxis::z}, {4.1e4, 1.8}, {3900.0, 2.3, 2.0, 0.8}})};
+  s.loads = {force_on(mass, {0.0, 33.0, 0.0}, Harmonic{1.0, 19.7}),
+             force_on(mass, {0.0, 33.0, 0.0}, Harmonic{1.0, 36.3, 1.0}),
+             force_on(mass, {0.0, 0.0, 34.0}, Harmonic{1.0, 13.5}),
+             force_on(mass, {0.0, 0.0, 34.0}, Harmonic{1.0, 18.6, 2.0})};
+  StepOptions exact;
+  exact.scheme = SchemeKind::runge_kutta_54;
+  exact.tolerance = 1e-7;
+  const post::ContactSummary c = statistics(s), of = simulate(s, exact, duration).statistics[0];
+  EXPECT_NEAR(c.work_rate / of.work_rate, 1.0, 0.01); // in two intervals a step -5 and -1.7 %
+  EXPECT_NEAR(c.friction_power / of.friction_power, 1.0, 0.005);
+  EXPECT_GT(c.contact_time_ratio, 0.995);
+}
+
 } // namespace accuracy_cases_test

@@ -12,9 +12,10 @@ using contact::Vec2;
 /// Of its clearance, what a contact may move in an interval, and the most intervals of a step for its sake.
 constexpr double longest_way = 1.0;
 constexpr int most_for_speed = 64;
-/// Of a step in which a closed contact meets a corner: intervals at least; cosine of the angle by which its normal turns there in half a step.
+/// Of a step in which a closed contact meets a corner, or another side of its obstacle: intervals at least; cosine of the angle by which its
+/// normal turns there in half a step; way in the clearance without which a round hole or two planes have no such turn.
 constexpr int for_corner = 32;
-constexpr double least_cosine = 0.9;
+constexpr double least_cosine = 0.9, least_way = 0.4;
 /// rad: by which a normal turns in an interval at most, as far as the terms of the curvature know.
 constexpr double most_turned = 1.0;
 /// Of an interval: what is shorter is none.
@@ -26,6 +27,8 @@ ContactIntervals::ContactIntervals(const contact::Support& support, const Compon
                                    const Mobility& mobility, bool in_plane, double step, double clearance)
     : obstacle_(support.obstacle), normal_(support.normal), friction_(support.friction), rest_(rest),
       w_(mobility), in_plane_(in_plane), has_corners_(contact::properties_of(support.obstacle).has_parts),
+      has_sides_(std::holds_alternative<contact::Circle>(support.obstacle) ||
+                 std::holds_alternative<contact::PlanePair>(support.obstacle)),
       h_(step), clearance_(clearance), mobility_(std::max({mobility(0, 0), mobility(1, 1), mobility(2, 2)})) {
 }
 
@@ -50,15 +53,16 @@ IntervalTable ContactIntervals::table(int count) const {
 }
 
 int ContactIntervals::least_count(const ContactPast& past, const FreePath& path) const {
-  const int at_corner = past.closed && has_corners_ && meets_corner(path) ? for_corner : 1;
+  const double way = h_ * std::hypot(path.v.y(), path.v.z());
+  if (past.closed)
+    return (has_corners_ || (has_sides_ && way > least_way * clearance_)) && meets_corner(path) ? for_corner
+                                                                                                : 1;
   if (!(clearance_ > 0.0))
-    return at_corner;
-  const double speed = std::hypot(path.v.y(), path.v.z());
-  return std::max(at_corner, static_cast<int>(std::ceil(std::clamp(speed * h_ / (longest_way * clearance_),
-                                                                   1.0, 1.0 * most_for_speed))));
+    return 1;
+  return static_cast<int>(std::ceil(std::clamp(way / (longest_way * clearance_), 1.0, 1.0 * most_for_speed)));
 }
 
-/// Whether the normal turns much on the way.
+/// Whether the normal turns much on the way, or is that of another side at its end.
 bool ContactIntervals::meets_corner(const FreePath& path) const {
   const contact::ContactAxes start = locate(path.displacement(0.0)).axes(),
                              half = locate(path.displacement(0.5 * h_)).axes(),

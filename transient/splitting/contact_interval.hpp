@@ -77,7 +77,8 @@ public:
                    bool in_plane, double step, double clearance);
 
   [[nodiscard]] IntervalTable table(int count) const;
-  /// How many intervals of a step a contact needs at least: for its speed, and where it is closed and meets a corner.
+  /// How many intervals of a step a contact needs at least: for its speed, and where it is closed and meets a
+  /// corner or another side.
   [[nodiscard]] int least_count(const ContactPast& past, const FreePath& path) const;
   /// Whether it can have a force in the step.   @param count  of places at which it is looked for
   [[nodiscard]] bool meets(const ContactPast& past, const FreePath& path, int count) const;
@@ -128,7 +129,7 @@ private:
   const contact::FrictionLaw friction_;
   Components rest_;
   Mobility w_;
-  bool in_plane_, has_corners_;
+  bool in_plane_, has_corners_, has_sides_;
   double h_, clearance_;
   double mobility_; ///< 1/kg, the largest along any direction
 };
