@@ -35,7 +35,8 @@ def _columns(table, runs):
 
 def _blocks(table):
     """Columns of the parts of a wide table: each has the reference and as many other runs as a line holds, one at least."""
-    blocks, held = [], []
+    blocks: list[list[int]] = []
+    held: list[int] = []
     for run in range(1, max(table.runs) + 1):
         if held and not _fits(table, _columns(table, [0, *held, run])):
             blocks.append(_columns(table, [0, *held]))

@@ -60,8 +60,8 @@ def significance(one, other):
     if len(errors) < 2 or math.hypot(*errors) == 0:
         return "scatter unknown"
     size = abs(b - a) / math.hypot(*errors)
-    errors = f"{size:.1f}" if size < 10 else f"{size:.0f}"
-    return ("significant" if size >= SIGNIFICANT else "within scatter") + f", {errors} std. errors"
+    times = f"{size:.1f}" if size < 10 else f"{size:.0f}"
+    return ("significant" if size >= SIGNIFICANT else "within scatter") + f", {times} std. errors"
 
 
 def _names(entries):
