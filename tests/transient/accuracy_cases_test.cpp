@@ -112,4 +112,24 @@ TEST(AccuracyCases, SlidesBetweenFacesWithoutAGap) {
   EXPECT_GT(c.contact_time_ratio, 0.995);
 }
 
+// Impacts of Hunt and Crossley that leave next to nothing of the speed, d v up to 20: the force rises far faster than the spring alone makes it.
+TEST(AccuracyCases, NearlyPlasticImpactsThatSlide) {
+  constexpr double mass = 0.3, duration = 3.0;
+  Scene s = mass_point(mass, Vec3(1e4, 1.2e4, 1.4e4), duration);
+  for (Eigen::Index i = 0; i < 3; ++i)
+    s.system.damping(i) = 2.0 * 0.02 * std::sqrt(s.system.stiffness(i));
+  s.contacts = {
+      contact_of(mass, {contact::Stop{1e-4, PlaneAxis::y}, {1e6, 0.0, 40.0}, {3e5, 1.0, 0.3, 0.3}})};
+  s.loads = {force_on(mass, {0.0, 20.0, 0.0}, Harmonic{1.0, 17.0}),
+             force_on(mass, {0.0, 9.0, 0.0}, Harmonic{1.0, 26.18, 1.0}),
+             force_on(mass, {0.0, 0.0, 6.0}, Harmonic{1.0, 29.0, 0.3}),
+             force_on(mass, {5.0, 0.0, 0.0}, Harmonic{1.0, 13.0, 0.3})};
+  StepOptions exact;
+  exact.scheme = SchemeKind::runge_kutta_54;
+  exact.tolerance = 1e-7;
+  const post::ContactSummary c = statistics(s), of = simulate(s, exact, duration).statistics[0];
+  EXPECT_NEAR(c.work_rate / of.work_rate, 1.0, 0.02); // in two intervals a step +4 and +128 %
+  EXPECT_NEAR(c.friction_power / of.friction_power, 1.0, 0.02);
+}
+
 } // namespace accuracy_cases_test

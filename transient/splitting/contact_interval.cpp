@@ -15,6 +15,8 @@ constexpr int most_for_speed = 64;
 /// Of a step in which a closed contact meets a corner, or another side of its obstacle: intervals at least; cosine of the angle by which its
 /// normal turns there in half a step; way in the clearance without which a round hole or two planes have no such turn.
 constexpr int for_corner = 32;
+/// d v of Hunt and Crossley's damper that leaves intervals as they are.
+constexpr double least_stiffer = 1.0;
 constexpr double least_cosine = 0.9, least_way = 0.4;
 /// rad: by which a normal turns in an interval at most, as far as the terms of the curvature know.
 constexpr double most_turned = 1.0;
@@ -52,8 +54,15 @@ IntervalTable ContactIntervals::table(int count) const {
   return of;
 }
 
-int ContactIntervals::least_count(const ContactPast& past, const FreePath& path) const {
-  const double way = h_ * std::hypot(path.v.y(), path.v.z());
+int ContactIntervals::least_count(int parts, const ContactPast& past, const FreePath& path) const {
+  const double speed = std::hypot(path.v.y(), path.v.z()), way = h_ * speed;
+  // Hunt and Crossley's damper makes a spring of K (1 + d v) where it closes
+  if (const double stiffer = normal_.dissipation * speed; stiffer > least_stiffer)
+    parts = static_cast<int>(std::min(std::round(parts * std::sqrt(1.0 + stiffer)), 1.0 * most_for_speed));
+  return std::max(parts, least_for_way(past, path, way));
+}
+
+int ContactIntervals::least_for_way(const ContactPast& past, const FreePath& path, double way) const {
   if (past.closed)
     return (has_corners_ || (has_sides_ && way > least_way * clearance_)) && meets_corner(path) ? for_corner
                                                                                                 : 1;
@@ -266,11 +275,12 @@ void ContactIntervals::turn(const Motion& a, const NormalForce& n, double dt, Mo
   m.growth = m.growth + along(a.axes, -growth_by_force * ft, {0.0, growth_by_force * fn});
 }
 
-/// In a round hole whose gap an interval crosses, past the centre by more than the gap: the contact stays closed while the normal turns.
+/// In a round hole whose gap an interval crosses, past the centre by more than the gap: without a damper that could hold it free of force the
+/// contact stays closed while the normal turns.
 bool ContactIntervals::rounds(const Motion& a, double dt) const {
   constexpr double round_off = 1e-9;
   const auto* circle = std::get_if<contact::Circle>(&obstacle_);
-  if (!circle)
+  if (!circle || normal_.damps())
     return false;
   const Components &p = a.mean, &v = a.half_way;
   const double gap = circle->gap, speed = std::hypot(v.y(), v.z());

@@ -96,7 +96,7 @@ void CoupledContacts::make(const ContactMotion& start, const ContactMotion& end,
     Force& force = forces_[c];
     force.mean = force.slope = {};
     const FreePath path = path_of(c, start, end);
-    const int count = std::max(parts_[c], laws_[c].least_count(pasts_[c], path));
+    const int count = laws_[c].least_count(parts_[c], pasts_[c], path);
     if (!laws_[c].meets(pasts_[c], path, count))
       continue;
     moves_[c] = 1;
