@@ -30,6 +30,8 @@ constexpr double fewest_lines = 32.0;
 constexpr std::size_t fades_of_block = 8; ///< T_b/C
 /// Of motions: T_b in periods of the lower end of a band, and that end of a band from 0.
 constexpr double slow_periods_of_block = 64.0, lowest_of_motion = 1.0 / 256.0;
+/// Of the upper end, at least in the rise from rest: cubics through its samples leave next to no velocity.
+constexpr double periods_of_start = 8.0;
 /// Signals reach so many durations: the last steps stand for times beyond the end.
 constexpr double covered = 1.05;
 
@@ -100,12 +102,16 @@ Weight smooth_rise(double x, double samples) {
   return {s, g1 * c, g2 * c - g1 * g1 * s, (g3 - g1 * g1 * g1) * c - 3.0 * g1 * g2 * s};
 }
 
+/// Hz, of the band that a signal has.
+double lower_end(const Random& random) {
+  return random.of_motion && random.low == 0.0 ? lowest_of_motion * random.high : random.low;
+}
+
 /// The blocks of a random signal (time_function.hpp).
 class RandomBlocks {
 public:
   explicit RandomBlocks(const Random& random)
-      : random_(random),
-        low_(random.of_motion && random.low == 0.0 ? lowest_of_motion * random.high : random.low),
+      : random_(random), low_(lower_end(random)),
         period_(std::max({periods_of_block / random.high, fewest_lines / (random.high - low_),
                           random.of_motion ? slow_periods_of_block / low_ : 0.0})),
         size_(fast_length(samples_per_period * random.high * period_)) {}
@@ -155,7 +161,7 @@ private:
       return (random_.of_motion ? smooth_rise : quarter_sine)(static_cast<double>(of) / whole, whole);
     };
     if (random_.of_motion && number == 0) {
-      const auto start = static_cast<std::size_t>(std::ceil(per_step() / low_));
+      const auto start = static_cast<std::size_t>(std::ceil(per_step() * rise_time(random_)));
       if (u < fade + start)
         return rise(u - fade, start);
     }
@@ -253,8 +259,11 @@ std::string too_many_samples(const Random& random, const RandomBlocks& blocks, d
                              double needed) {
   if (static_cast<double>(blocks.size()) > most_samples)
     return fmt::format("a random signal from {:.6g} to {:.6g} Hz needs blocks of {:.4g} samples, more than "
-                       "{:.4g}; widen its band, or lower it",
-                       random.low, random.high, static_cast<double>(blocks.size()), most_samples);
+                       "{:.4g}; {}",
+                       random.low, random.high, static_cast<double>(blocks.size()), most_samples,
+                       random.of_motion && random.low < lowest_of_motion * random.high
+                           ? "raise the lower end of its band, or lower the upper one"
+                           : "widen its band, or lower it");
   return fmt::format(
       "a duration of {:.4g} s is too long for a random signal up to {:.4g} Hz: {:.4g} samples, more than "
       "{:.4g}; give a duration (transient.duration) of {:.2g} s at most, or lower the upper end of its band",
@@ -262,6 +271,10 @@ std::string too_many_samples(const Random& random, const RandomBlocks& blocks, d
 }
 
 } // namespace
+
+double rise_time(const Random& motion) {
+  return std::max(1.0 / lower_end(motion), periods_of_start / motion.high);
+}
 
 Signal::Signal(const TimeFunction& function, double duration) : function_(function) {
   if (const auto* integral = std::get_if<Integral>(&function))

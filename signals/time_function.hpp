@@ -46,7 +46,7 @@ struct Table {
 /// Fades leave such a signal a little power below its band, to 0 Hz, and its double integral walks away. The acceleration of a motion is
 /// therefore the second derivative of a displacement made of blocks with the lines -c_n/w_n^2, faded by weights of three derivatives,
 ///     w(u) = sin(pi/2 S(u/C)),   S(x) = 10 x^3 - 15 x^4 + 6 x^5,
-/// from rest at 0 over one period of the lower end of the band. T_b is then 64 periods of the lower end at least, so that fades change the
+/// from rest at 0 over one period of the lower end of the band, and 8 of the upper end. T_b is then 64 periods of the lower end at least, so that fades change the
 /// variance of a line by 2 % at most. A displacement with frequencies down to 0 has no variance: a band from 0 begins at its 256th part.
 struct Random {
   double rms;       ///< of the ensemble
@@ -55,6 +55,9 @@ struct Random {
   bool of_motion = false; ///< the acceleration of a motion that stays about its place
   bool operator==(const Random&) const = default;
 };
+
+/// s, in which the acceleration of a motion rises from rest.
+[[nodiscard]] double rise_time(const Random& motion);
 
 /// at_start + the integral of a function from 0 to t: the velocity of what moves with that acceleration.
 struct Integral {

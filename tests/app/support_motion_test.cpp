@@ -315,6 +315,25 @@ TEST(SupportMotion, OfARandomAccelerationStaysAboutItsPlace) {
   EXPECT_NEAR(y.head(half).mean(), y.tail(half).mean(), 0.2 * of_the_band);
 }
 
+TEST(SupportMotion, ThatRisesForMuchOfTheRunIsWarnedAbout) {
+  const Workshop folder;
+  folder.write("mesh.msh", lone_points({"mass", "foot"}).text());
+  const auto warned = [&](const std::string& band) {
+    const auto study =
+        folder.write("study.toml", oscillator("[[springs]]\ngroup = \"mass\"\nother = \"foot\"\n"
+                                              "stiffness = [0.0, 2.0e4, 0.0, 0.0, 0.0, 0.0]\n" +
+                                              restrained("foot") +
+                                              moved("foot", "direction = [0.0, 1.0, 0.0]\n"
+                                                            "random = { rms = 5.0, band = " +
+                                                                band + " }\n")));
+    const Outcome outcome = folder.fretwork({"check", study.string(), "--set", "transient.duration=4.0"});
+    EXPECT_EQ(outcome.status, 0) << outcome.out;
+    return outcome.out.find("rises from rest") != std::string::npos;
+  };
+  EXPECT_TRUE(warned("[1.0, 50.0]"));
+  EXPECT_FALSE(warned("[2.0, 50.0]"));
+}
+
 TEST(SupportMotion, TellsWhatIsWrong) {
   const Workshop folder;
   write_tube(folder);
