@@ -65,23 +65,25 @@ void judge(const study::Study& study, const transient::StepChoice& choice, const
     out.warnings.insert(out.warnings.begin(), unconverged_warning(report.counts));
 }
 
-/// The spring of `reference` is set by every slip, and no work pays for it.
-void judge_memory(const BuiltScene& built, const transient::Report& report, results::RunResults& out) {
+/// Dampers that give energy: of friction that steps do not resolve, or of `reference`, whose spring is set by every slip and no work pays for it.
+void judge_dampers(const BuiltScene& built, const transient::Report& report, results::RunResults& out) {
   const auto jumps = [](const transient::ContactPoint& point) {
     const contact::FrictionLaw& law = point.support.friction;
     return law.active() && law.kind == contact::FrictionMemoryKind::reference;
   };
   const auto& points = built.scene.contacts;
   const double input = std::abs(report.energy.initial + report.energy.load_work);
-  if (std::any_of(points.begin(), points.end(), jumps) &&
-      report.energy.contact_damping < -given_by_dampers * input)
-    out.warnings.push_back(fmt::format(
-        "friction_memory = \"reference\": the dampers of the contacts gave "
-        "{:.2g} % of the energy put in instead "
-        "of taking some, because that memory's springs jump in a slip; the "
-        "energies of friction are not to be "
-        "trusted, and the motion depends on scheme and step; take friction_memory = \"return_map\"",
-        -100.0 * report.energy.contact_damping / input));
+  if (!(report.energy.contact_damping < -given_by_dampers * input))
+    return;
+  const std::string given =
+      fmt::format("the dampers of the contacts gave {:.2g} % of the energy put in instead of taking some",
+                  -100.0 * report.energy.contact_damping / input);
+  out.warnings.push_back(
+      std::any_of(points.begin(), points.end(), jumps)
+          ? "friction_memory = \"reference\": " + given +
+                ", because that memory's springs jump in a slip; the energies of friction are not to be "
+                "trusted, and the motion depends on scheme and step; take friction_memory = \"return_map\""
+          : given + ": the friction power is too high by as much; take a smaller step or transient.accuracy");
 }
 
 } // namespace
@@ -89,7 +91,7 @@ void judge_memory(const BuiltScene& built, const transient::Report& report, resu
 void judge_run(const study::Study& study, const BuiltScene& built, const transient::StepChoice& choice,
                const transient::Report& report, results::RunResults& out) {
   judge(study, choice, report, out);
-  judge_memory(built, report, out);
+  judge_dampers(built, report, out);
 }
 
 transient::StepError without_round_off(transient::StepError error, const post::ContactSummary& of) {

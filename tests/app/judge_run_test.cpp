@@ -13,11 +13,13 @@ using testing::IsEmpty;
 namespace {
 
 /// Of a run that was given 1 J and lost so much by friction, its residual relative to the scale.
-std::vector<std::string> warnings(double lost, double residual_relative, double stored = 0.0) {
+std::vector<std::string> warnings(double lost, double residual_relative, double stored = 0.0,
+                                  double contact_damping = 0.0) {
   transient::Report report;
   report.energy.load_work = 1.0;
   report.energy.friction = lost;
   report.energy.stored = stored;
+  report.energy.contact_damping = contact_damping;
   report.energy.scale = 200.0; // pushed to and fro
   report.residual_relative = residual_relative;
   results::RunResults out;
@@ -34,6 +36,11 @@ TEST(JudgeRun, WarnsOfEnergyThatNothingPutIn) {
   EXPECT_THAT(warnings(2.5, 4e-4), IsEmpty());      // next to what goes to and fro
   EXPECT_THAT(warnings(0.0, 4e-3, 1.1), IsEmpty()); // without losses
   EXPECT_THAT(warnings(2.5, 0.2), ElementsAre(HasSubstr("off by 20 % of the energy put in")));
+}
+
+TEST(JudgeRun, WarnsOfDampersThatGiveEnergy) {
+  EXPECT_THAT(warnings(1.005, 1e-9, 0.0, -0.005), IsEmpty());
+  EXPECT_THAT(warnings(1.2, 1e-9, 0.0, -0.2), ElementsAre(HasSubstr("gave 20 % of the energy put in")));
 }
 
 } // namespace judge_run_test
