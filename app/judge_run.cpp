@@ -83,7 +83,8 @@ void judge_dampers(const BuiltScene& built, const transient::Report& report, res
           ? "friction_memory = \"reference\": " + given +
                 ", because that memory's springs jump in a slip; the energies of friction are not to be "
                 "trusted, and the motion depends on scheme and step; take friction_memory = \"return_map\""
-          : given + ": the friction power is too high by as much; take a smaller step or transient.accuracy");
+          : given + ": steps do not resolve their friction, whose energies are not to be trusted; set a "
+                    "smaller transient.accuracy or transient.step");
 }
 
 } // namespace

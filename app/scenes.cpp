@@ -74,10 +74,11 @@ void note_loads(const Fields& fields, const std::vector<BuiltScene>& scenes, dou
   for (const Fields::Load& load : fields.loads)
     if (const auto* random = std::get_if<signals::Random>(&load.function);
         random && random->of_motion && signals::rise_time(*random) > long_rise * duration)
-      out.warnings.push_back(fmt::format(
-          "{}: the random acceleration rises from rest over {:.2g} s, a period of the lower end of its band; "
-          "the run of {:g} s has less than its rms: raise the lower end, or run longer",
-          load.name, signals::rise_time(*random), duration));
+      out.warnings.push_back(
+          fmt::format("{}: the random acceleration rises from rest over {:.2g} s, a period of the lower end "
+                      "of its band or 8 of the upper; "
+                      "the run of {:g} s has less than its rms: raise the lower end, or run longer",
+                      load.name, signals::rise_time(*random), duration));
   for (const Fields::Load& load : fields.loads)
     if (const std::string note = goes_on_note(load, duration); !note.empty())
       out.notes.push_back(note);

@@ -19,6 +19,14 @@ post::ContactSummary statistics(const Scene& scene) {
   return simulate(scene, splitting(), scene.duration).statistics[0];
 }
 
+/// With every event located.
+post::ContactSummary located(const Scene& scene) {
+  StepOptions options;
+  options.scheme = SchemeKind::runge_kutta_54;
+  options.tolerance = 1e-7;
+  return simulate(scene, options, scene.duration).statistics[0];
+}
+
 Load random_on(double mass, const Vec3& direction, double rms, double low, double high, std::uint64_t seed) {
   return force_on(mass, direction, Random{rms, low, high, seed});
 }
@@ -82,10 +90,7 @@ TEST(AccuracyCases, SlidesIntoCornersOfAnEggCrate) {
   s.loads = {force_on(mass, {0.0, 2.0, 0.0}, Harmonic{1.0, 5.3}),
              force_on(mass, {0.0, 1.5, 0.0}, Harmonic{1.0, 14.1, 1.0}),
              force_on(mass, {0.0, 0.0, 3.0}, Harmonic{1.0, 9.7, 2.0})};
-  StepOptions exact;
-  exact.scheme = SchemeKind::runge_kutta_54;
-  exact.tolerance = 1e-7;
-  const post::ContactSummary c = statistics(s), of = simulate(s, exact, duration).statistics[0];
+  const post::ContactSummary c = statistics(s), of = located(s);
   EXPECT_NEAR(c.contact_time_ratio / of.contact_time_ratio, 1.0, 0.012); // 0.6, 0.4 and 0.3 %;
   EXPECT_NEAR(c.normal_rms / of.normal_rms, 1.0, 0.01);                  // in two intervals a step 2.3, 2.6
   EXPECT_NEAR(c.work_rate / of.work_rate, 1.0, 0.01);                    // and 1.6 %
@@ -103,10 +108,7 @@ TEST(AccuracyCases, SlidesBetweenFacesWithoutAGap) {
              force_on(mass, {0.0, 33.0, 0.0}, Harmonic{1.0, 36.3, 1.0}),
              force_on(mass, {0.0, 0.0, 34.0}, Harmonic{1.0, 13.5}),
              force_on(mass, {0.0, 0.0, 34.0}, Harmonic{1.0, 18.6, 2.0})};
-  StepOptions exact;
-  exact.scheme = SchemeKind::runge_kutta_54;
-  exact.tolerance = 1e-7;
-  const post::ContactSummary c = statistics(s), of = simulate(s, exact, duration).statistics[0];
+  const post::ContactSummary c = statistics(s), of = located(s);
   EXPECT_NEAR(c.work_rate / of.work_rate, 1.0, 0.01); // in two intervals a step -5 and -1.7 %
   EXPECT_NEAR(c.friction_power / of.friction_power, 1.0, 0.005);
   EXPECT_GT(c.contact_time_ratio, 0.995);
@@ -124,10 +126,7 @@ TEST(AccuracyCases, NearlyPlasticImpactsThatSlide) {
              force_on(mass, {0.0, 9.0, 0.0}, Harmonic{1.0, 26.18, 1.0}),
              force_on(mass, {0.0, 0.0, 6.0}, Harmonic{1.0, 29.0, 0.3}),
              force_on(mass, {5.0, 0.0, 0.0}, Harmonic{1.0, 13.0, 0.3})};
-  StepOptions exact;
-  exact.scheme = SchemeKind::runge_kutta_54;
-  exact.tolerance = 1e-7;
-  const post::ContactSummary c = statistics(s), of = simulate(s, exact, duration).statistics[0];
+  const post::ContactSummary c = statistics(s), of = located(s);
   EXPECT_NEAR(c.work_rate / of.work_rate, 1.0, 0.02); // in two intervals a step +4 and +128 %
   EXPECT_NEAR(c.friction_power / of.friction_power, 1.0, 0.02);
 }

@@ -55,7 +55,7 @@ IntervalTable ContactIntervals::table(int count) const {
 }
 
 int ContactIntervals::least_count(int parts, const ContactPast& past, const FreePath& path) const {
-  const double speed = std::hypot(path.v.y(), path.v.z()), way = h_ * speed;
+  const double speed = std::sqrt(path.v.y() * path.v.y() + path.v.z() * path.v.z()), way = h_ * speed;
   // Hunt and Crossley's damper makes a spring of K (1 + d v) where it closes
   if (const double stiffer = normal_.dissipation * speed; stiffer > least_stiffer)
     parts = static_cast<int>(std::min(std::round(parts * std::sqrt(1.0 + stiffer)), 1.0 * most_for_speed));
@@ -283,7 +283,7 @@ bool ContactIntervals::rounds(const Motion& a, double dt) const {
   if (!circle || normal_.damps())
     return false;
   const Components &p = a.mean, &v = a.half_way;
-  const double gap = circle->gap, speed = std::hypot(v.y(), v.z());
+  const double gap = circle->gap, speed = std::sqrt(v.y() * v.y() + v.z() * v.z());
   return gap < speed * dt &&
          std::abs(p.y() * v.z() - p.z() * v.y()) > (gap + round_off * std::hypot(p.y(), p.z())) * speed;
 }
