@@ -124,7 +124,7 @@ void run_scene(const study::Study& study, const BuiltScene& built, const transie
   for (std::size_t c = 0; c < built.contacts.size(); ++c) {
     out.contact_summaries[built.contacts[c]] = summaries[c];
     if (!step_errors.empty())
-      out.step_errors[built.contacts[c]] = step_errors[c];
+      out.step_errors[built.contacts[c]] = without_round_off(step_errors[c], summaries[c]);
     if (c < rates.size())
       out.sector_rates[built.contacts[c]] = rates[c];
     if (c < built.watched_wear.maxima.size() && built.watched_wear.maxima[c])

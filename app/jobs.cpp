@@ -69,7 +69,7 @@ void merge(const BuiltScene& built, JobResult&& job, const transient::StepChoice
   for (std::size_t c = 0; c < built.contacts.size(); ++c) {
     out.contact_summaries[built.contacts[c]] = job.contacts[c];
     if (!job.step_errors.empty())
-      out.step_errors[built.contacts[c]] = job.step_errors[c];
+      out.step_errors[built.contacts[c]] = without_round_off(job.step_errors[c], job.contacts[c]);
     out.series.contacts[built.contacts[c]] = std::move(job.series.contacts[c]);
     out.largest_impacts[built.contacts[c]] = std::move(job.largest_impacts[c]);
     if (!job.impacts.empty())

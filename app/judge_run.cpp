@@ -95,6 +95,13 @@ void judge_run(const study::Study& study, const BuiltScene& built, const transie
   judge_dampers(built, report, out);
 }
 
+transient::StepError without_round_off(transient::StepError error, const post::ContactSummary& of) {
+  if (of.work_rate == 0.0)
+    for (const std::size_t k : {transient::replayed_work, transient::replayed_friction})
+      error.sums[k] = error.errors[k] = error.spreads[k] = 0.0;
+  return error;
+}
+
 void judge_step_errors(results::RunResults& out) {
   if (std::string unmet = results::unmet_accuracy(out); !unmet.empty())
     out.warnings.push_back(std::move(unmet));

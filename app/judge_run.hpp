@@ -15,6 +15,9 @@ void judge_run(const study::Study& study, const BuiltScene& built, const transie
 
 /// Adds a warning where the step changes statistics by more than the accuracy.
 void judge_step_errors(results::RunResults& out);
+/// Without the work of a contact that does not slide in its statistics.
+[[nodiscard]] transient::StepError without_round_off(transient::StepError error,
+                                                     const post::ContactSummary& of);
 
 /// A table that ends early never does so silently: a note where impacts have no row.
 /// @param kept  output.impacts

@@ -172,7 +172,23 @@ void ContactStatistics::write_sums(double* row) const {
 }
 
 BatchSums ContactStatistics::batch_sums() const {
-  return ends_.batches(time_, [this](double* row) { write_sums(row); });
+  BatchSums out = ends_.batches(time_, [this](double* row) { write_sums(row); });
+  for (std::size_t c = 0; c < sums_.size(); ++c)
+    if (!slides(c))
+      for (const Kept which : {slid, friction})
+        std::fill(out.sums[contact_sums * c + which].begin(), out.sums[contact_sums * c + which].end(), 0.0);
+  return out;
+}
+
+/// Whether a contact slides by more than round-off of its displacement, as one does across a plane motion.
+bool ContactStatistics::slides(std::size_t contact) const {
+  constexpr double round_off = 1e-9;
+  const auto variance = [this](double sum, double squares) {
+    return std::max(0.0, squares / time_ - (sum / time_) * (sum / time_));
+  };
+  const double y = variance(motion_.y[contact], motion_.y2[contact]),
+               z = variance(motion_.z[contact], motion_.z2[contact]);
+  return sums_[contact].distance > round_off * std::sqrt(y + z);
 }
 
 StandardErrors ContactStatistics::errors_of(const BatchSums& batches, std::size_t contact,
@@ -202,7 +218,7 @@ SideWorks ContactStatistics::sides_of(const BatchSums& batches, std::size_t cont
   SideWorks out;
   for (std::size_t side = 0; side < out.size(); ++side) {
     const double work = sums_[contact].slid_at[side];
-    if (!(work > 0.0))
+    if (!(work > 0.0) || !slides(contact))
       continue;
     const BatchEstimate estimate =
         batch_means(batches.lengths, batches.sums[contact_sums * contact + slid_at + side]);
@@ -264,12 +280,13 @@ std::vector<ContactSummary> ContactStatistics::summaries() const {
     o.radial_max = std::sqrt(m.r2_max[c]);
     const contact::NormalLaw& law = supports_[c].normal;
     o.penetration_max = law.damps() ? s.deepest : s.normal_max / law.stiffness;
-    o.work_rate = s.slid / time_;
-    o.friction_power = s.friction / time_;
+    const bool slides = this->slides(c);
+    o.work_rate = slides ? s.slid / time_ : 0.0;
+    o.friction_power = slides ? s.friction / time_ : 0.0;
     o.impulse = s.impulse;
-    o.sliding_distance = s.distance;
+    o.sliding_distance = slides ? s.distance : 0.0;
     o.damping_work = s.damping;
-    o.friction_work = s.friction;
+    o.friction_work = slides ? s.friction : 0.0;
     if (s.impacts > 0) {
       o.impact_velocity_mean = s.speed / static_cast<double>(s.impacts);
       o.impact_velocity_max = s.speed_max;

@@ -104,6 +104,7 @@ private:
   void watch_penetration(const transient::Record& record, std::size_t contact);
   void write_sums(double* row) const;
   [[nodiscard]] BatchSums batch_sums() const;
+  [[nodiscard]] bool slides(std::size_t contact) const;
   [[nodiscard]] StandardErrors errors_of(const BatchSums& batches, std::size_t contact,
                                          const ContactSummary& o) const;
   [[nodiscard]] SideWorks sides_of(const BatchSums& batches, std::size_t contact) const;

@@ -80,10 +80,10 @@ random = {{ rms = 20.0, band = [5.0, 200.0], seed = {1} }}
   return study;
 }
 
-std::string across(const std::string& group) {
+std::string across(const std::string& group, double rms) {
   return fmt::format("[[loads]]\ngroup = \"{}\"\ndirection = [0.0, 0.5, -1.0]\n"
-                     "random = {{ rms = 20.0, band = [5.0, 200.0], seed = 5 }}\n",
-                     group);
+                     "random = {{ rms = {}, band = [5.0, 200.0], seed = 5 }}\n",
+                     group, rms);
 }
 
 } // namespace fretwork::app::test

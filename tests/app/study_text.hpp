@@ -23,6 +23,7 @@ class Workshop;
 [[nodiscard]] std::string bundle(const Workshop& folder, int tubes, const std::string& run);
 
 /// A random load across the one of the bundle: the tube then slides round its support instead of bouncing along one line.
-[[nodiscard]] std::string across(const std::string& group);
+/// @param rms  N
+[[nodiscard]] std::string across(const std::string& group, double rms = 20.0);
 
 } // namespace fretwork::app::test

@@ -24,10 +24,13 @@ constexpr double coefficient = 2e-14; // m2/N
 const std::string short_run =
     "[transient]\nduration = 0.3\n[output]\nevery = 1.0e-3\nstatistics_from = 0.05\n";
 
-/// Tubes that rattle in holes, and [[wear]].
+/// Tubes that rattle and slide a little in holes, and [[wear]].
 std::string worn_bundle(const Workshop& folder, int tubes, const std::string& wear,
                         const std::string& run = short_run) {
-  return bundle(folder, tubes, run) + "[[wear]]\n" + wear;
+  std::string study = bundle(folder, tubes, run);
+  for (int i = 0; i < tubes; ++i)
+    study += across(fmt::format("drive{}", i), 0.1);
+  return study + "[[wear]]\n" + wear;
 }
 
 const std::string archard = "coefficient = 2.0e-14\nlength = 0.02\n";
@@ -132,7 +135,7 @@ TEST(Wear, HasTheIntervalOfTheConfidenceThatIsAskedFor) {
 
 TEST(Wear, OfPointsAlongAThicknessIsThatOfOneSupport) {
   const Workshop folder;
-  std::string study = bundle(folder, 1, short_run);
+  std::string study = bundle(folder, 1, short_run) + across("drive0", 0.1);
   study.replace(study.find("gap = 1.0e-5"), 12, "gap = 1.0e-5\nthickness = 0.03");
   const Results run = folder.run_text(study + "[[wear]]\ncontacts = \"support*\"\ncoefficient = 2.0e-14\n");
   ASSERT_EQ(run.summary["wear"]["supports"].size(), 1u);

@@ -114,6 +114,29 @@ TEST(ContactStatistics, CountTheWorkRateOnlyWhileTheContactSlides) {
   EXPECT_NEAR(s.tangential_max, 3.0, round_off);
 }
 
+// A motion along y slides across it by round-off alone.
+TEST(ContactStatistics, TakeSlidingOfRoundOffAsNone) {
+  for (const double slid : {1e-20, 1e-6}) {
+    ContactStatistics statistics(centred(1), 0.0);
+    HandMade run(statistics, 1, h);
+    for (int k = 0; k < 200; ++k) {
+      auto& state = run.contact(0);
+      run.y(0) = std::sin(0.3 * k);
+      state.normal_force = 10.0;
+      state.slides = k % 5 != 0;
+      state.slid = state.slides ? slid : 0.0;
+      state.friction_work = state.slid;
+      run.step();
+    }
+    const ContactSummary s = statistics.summaries()[0];
+    const post::StandardErrors sums = statistics.errors_of_sums();
+    EXPECT_EQ(s.work_rate > 0.0, slid > 1e-9) << slid;
+    EXPECT_EQ(s.friction_power > 0.0, slid > 1e-9) << slid;
+    EXPECT_EQ(s.error.work_rate > 0.0, slid > 1e-9) << slid;
+    EXPECT_EQ(sums.work_rate > 0.0, slid > 1e-9) << slid;
+  }
+}
+
 // Work in bursts on one side, evenly on the other: each side has the error of its own batches.
 TEST(ContactStatistics, HaveTheWorkRateOfEachSideWithItsError) {
   ContactStatistics statistics(centred(1), 0.0);
