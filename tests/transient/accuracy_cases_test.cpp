@@ -96,6 +96,23 @@ TEST(AccuracyCases, SlidesIntoCornersOfAnEggCrate) {
   EXPECT_NEAR(c.work_rate / of.work_rate, 1.0, 0.01);                    // and 1.6 %
 }
 
+// It bounces from face to face in a corner until friction has taken what it began with: in two intervals a step it gains as much, on and on.
+TEST(AccuracyCases, BouncesInACornerOfAnEggCrate) {
+  constexpr double mass = 0.45, room = 2.2e-5, duration = 34.0;
+  Scene s = mass_point(mass, mass * Vec3(3910.0, 7860.0, 1340.0), duration);
+  for (Eigen::Index i = 0; i < 3; ++i)
+    s.system.damping(i) = 2.0 * 0.0051 * std::sqrt(s.system.stiffness(i));
+  s.contacts = {contact_of(
+      mass, {contact::egg_crate(1e-2, 1e-2 + room, 1e-2 + room), {1.16e6}, {3.67e4, 17.5, 0.18, 0.18}})};
+  s.contacts[0].rest = {0.0, 4.53e-5, 4.52e-5};
+  s.loads = {force_on(mass, {0.02, 0.0, 0.0}, Harmonic{1.0, 4.9}),
+             force_on(mass, {0.0, 0.01, 0.0}, Harmonic{1.0, 13.0}),
+             force_on(mass, {0.0, 0.0, 0.002}, Harmonic{1.0, 8.0, 1.0})};
+  const post::ContactSummary c = statistics(s), of = located(s);
+  EXPECT_NEAR(c.normal_rms / of.normal_rms, 1.0, 0.05);
+  EXPECT_NEAR(c.work_rate / of.work_rate, 1.0, 0.1);
+}
+
 // Without clearance a mass that slides goes from face to face within an interval.
 TEST(AccuracyCases, SlidesBetweenFacesWithoutAGap) {
   constexpr double mass = 0.38, duration = 40.0;

@@ -12,12 +12,12 @@ using contact::Vec2;
 /// Of its clearance, what a contact may move in an interval, and the most intervals of a step for its sake.
 constexpr double longest_way = 1.0;
 constexpr int most_for_speed = 64;
-/// Of a step in which a closed contact meets a corner, or another side of its obstacle: intervals at least; cosine of the angle by which its
-/// normal turns there in half a step; way in the clearance without which a round hole or two planes have no such turn.
-constexpr int for_corner = 32;
+/// Of a step in which a contact meets a corner, or another side of its obstacle: times as many intervals, the fewest and the most of them; cosine
+/// of the angle by which its normal turns there in half a step; way in the clearance without which a round hole or two planes have no such turn.
+constexpr int at_corner = 16, least_at_corner = 32, most_at_corner = 128;
+constexpr double least_cosine = 0.9, least_way = 0.4;
 /// d v of Hunt and Crossley's damper that leaves intervals as they are.
 constexpr double least_stiffer = 1.0;
-constexpr double least_cosine = 0.9, least_way = 0.4;
 /// rad: by which a normal turns in an interval at most, as far as the terms of the curvature know.
 constexpr double most_turned = 1.0;
 /// Of an interval: what is shorter is none.
@@ -59,16 +59,18 @@ int ContactIntervals::least_count(int parts, const ContactPast& past, const Free
   // Hunt and Crossley's damper makes a spring of K (1 + d v) where it closes
   if (const double stiffer = normal_.dissipation * speed; stiffer > least_stiffer)
     parts = static_cast<int>(std::min(std::round(parts * std::sqrt(1.0 + stiffer)), 1.0 * most_for_speed));
-  return std::max(parts, least_for_way(past, path, way));
+  if (may_turn(past, path, way) && meets_corner(path))
+    return std::clamp(at_corner * parts, least_at_corner, most_at_corner);
+  if (past.closed || !(clearance_ > 0.0))
+    return parts;
+  return std::max(
+      parts, static_cast<int>(std::ceil(std::min(way / (longest_way * clearance_), 1.0 * most_for_speed))));
 }
 
-int ContactIntervals::least_for_way(const ContactPast& past, const FreePath& path, double way) const {
+bool ContactIntervals::may_turn(const ContactPast& past, const FreePath& path, double way) const {
   if (past.closed)
-    return (has_corners_ || (has_sides_ && way > least_way * clearance_)) && meets_corner(path) ? for_corner
-                                                                                                : 1;
-  if (!(clearance_ > 0.0))
-    return 1;
-  return static_cast<int>(std::ceil(std::clamp(way / (longest_way * clearance_), 1.0, 1.0 * most_for_speed)));
+    return has_corners_ || (has_sides_ && way > least_way * clearance_);
+  return has_corners_ && locate(path.displacement(h_)).gap <= 0.0;
 }
 
 /// Whether the normal turns much on the way, or is that of another side at its end.

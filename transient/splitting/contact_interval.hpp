@@ -77,8 +77,8 @@ public:
                    bool in_plane, double step, double clearance);
 
   [[nodiscard]] IntervalTable table(int count) const;
-  /// How many intervals of a step a contact needs at least: for its speed, and where it is closed and meets a
-  /// corner or another side.
+  /// How many intervals of a step a contact needs at least: for its speed, and where it meets a corner or
+  /// another side.
   /// @param parts  that it has anyway
   [[nodiscard]] int least_count(int parts, const ContactPast& past, const FreePath& path) const;
   /// Whether it can have a force in the step.   @param count  of places at which it is looked for
@@ -107,7 +107,7 @@ private:
   [[nodiscard]] contact::Location locate(const Components& u) const {
     return contact::locate(obstacle_, u.y() + rest_.y(), u.z() + rest_.z());
   }
-  [[nodiscard]] int least_for_way(const ContactPast& past, const FreePath& path, double way) const;
+  [[nodiscard]] bool may_turn(const ContactPast& past, const FreePath& path, double way) const;
   [[nodiscard]] bool meets_corner(const FreePath& path) const;
   [[nodiscard]] bool rounds(const Motion& a, double dt) const;
   [[nodiscard]] double curvature(const Components& u) const {
