@@ -3,7 +3,6 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <fmt/format.h>
 #include <fstream>
@@ -18,13 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* file_start = "checkpoint";
-
-volatile std::sig_atomic_t ended_by = 0; ///< the signal that ends the run; 0: none
-
-void end_run(int signal) { ended_by = signal; }
-
-/// What the user calls the signal.
-std::string name_of_signal(int signal) { return signal == SIGINT ? "Ctrl-C (SIGINT)" : "SIGTERM"; }
 
 results::Checkpoint checkpoint_of(transient::Run& run) {
   core::StateArchive state;
@@ -45,19 +37,8 @@ const std::string& build() {
 } // namespace
 
 Checkpoints::Checkpoints(CheckpointOptions options) : options_(std::move(options)) {
-  if (!(options_.every > 0.0))
-    return;
-  on_terminate_ = std::signal(SIGTERM, end_run);
-  on_interrupt_ = std::signal(SIGINT, end_run);
-  if (on_interrupt_ == SIG_IGN)
-    (void)std::signal(SIGINT, SIG_IGN);
-}
-
-Checkpoints::~Checkpoints() {
-  if (!(options_.every > 0.0))
-    return;
-  (void)std::signal(SIGTERM, on_terminate_);
-  (void)std::signal(SIGINT, on_interrupt_);
+  if (options_.every > 0.0)
+    signal_.emplace();
 }
 
 std::string Checkpoints::found(std::size_t run) const {
@@ -81,16 +62,19 @@ void Checkpoints::look(std::size_t run, transient::Run& state) {
   const auto due = [&] {
     return std::chrono::duration<double>(Clock::now() - last_).count() >= options_.every;
   };
-  if (!(options_.every > 0.0) || !(ended_by != 0 || due()))
+  if (!(options_.every > 0.0))
     return;
-  if (ended_by == 0) {
+  const std::string ended_by = EndSignal::came();
+  if (ended_by.empty() && !due())
+    return;
+  if (ended_by.empty()) {
     pending_.push_back({run, checkpoint_of(state)});
     (void)write();
     return;
   }
   const bool saved = write_apart(run, state);
   throw core::Interrupted(
-      fmt::format("ended by {} at t = {:.6g} s{}", name_of_signal(ended_by), state.time(),
+      fmt::format("ended by {} at t = {:.6g} s{}", ended_by, state.time(),
                   saved ? "; the same command goes on from there" : ", without a checkpoint"));
 }
 
@@ -115,7 +99,7 @@ bool Checkpoints::write_apart(std::size_t run, transient::Run& state) {
   }
   // Here too, before the message: a signal to the process group of this process misses it even where it has not yet started.
   (void)::setpgid(writer, writer);
-  options_.tell(fmt::format("{} at t = {:.6g} s: process {} saves the checkpoint", name_of_signal(ended_by),
+  options_.tell(fmt::format("{} at t = {:.6g} s: process {} saves the checkpoint", EndSignal::came(),
                             state.time(), writer));
   int status = 0;
   while (::waitpid(writer, &status, 0) < 0)

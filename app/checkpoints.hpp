@@ -2,11 +2,13 @@
 /// @file
 /// The checkpoints of a study's runs: DIR/checkpoint.h5 of the first, DIR/checkpoint-2.h5 of the second ...
 #pragma once
+#include "app/end_signal.hpp"
 #include "app/expected_time.hpp"
 #include "results/checkpoint.hpp"
 #include "transient/run.hpp"
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace fretwork::app {
@@ -23,10 +25,8 @@ struct CheckpointOptions {
 /// What the runs of one rank keep, one run after the other: after an interruption at most `every` seconds of their work are lost.
 class Checkpoints {
 public:
-  /// While it lives SIGTERM and SIGINT (Ctrl-C) end the run at its next look, where checkpoints are written at all. A SIGINT that the
-  /// program was started to ignore stays ignored.
+  /// While it lives SIGTERM and SIGINT (Ctrl-C) end the run at its next look, where checkpoints are written at all.
   explicit Checkpoints(CheckpointOptions options);
-  ~Checkpoints();
   Checkpoints(const Checkpoints&) = delete;
   Checkpoints& operator=(const Checkpoints&) = delete;
 
@@ -68,8 +68,7 @@ private:
   std::vector<Pending> pending_; ///< of runs that have ended since the last writing
   Clock::time_point last_ = Clock::now();
   bool failed_ = false;
-  void (*on_terminate_)(int) = nullptr; ///< what SIGTERM did before
-  void (*on_interrupt_)(int) = nullptr; ///< what SIGINT did before
+  std::optional<EndSignal> signal_;
 };
 
 } // namespace fretwork::app

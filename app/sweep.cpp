@@ -2,6 +2,7 @@
 #include "app/sweep.hpp"
 #include "app/case_worker.hpp"
 #include "app/chain.hpp"
+#include "app/end_signal.hpp"
 #include "app/folder_lock.hpp"
 #include "app/progress.hpp"
 #include "app/python_report.hpp"
@@ -23,6 +24,7 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 namespace fretwork::app {
 namespace {
@@ -243,15 +245,18 @@ private:
         found = read();
     });
     const std::vector<std::int64_t> missing = missing_cases(comm_, plan_, draws_.rows(), found);
-    const std::int64_t there = cases_of_shard() - static_cast<std::int64_t>(missing.size());
+    there_ = cases_of_shard() - static_cast<std::int64_t>(missing.size());
     if (first_rank_)
-      say(found_text(there - known_, missing.empty() ? sweep::FoundRows{} : found));
+      say(found_text(there_ - known_, missing.empty() ? sweep::FoundRows{} : found));
     known_ = cases_of_shard(); // after this stage
     found = {};
     progress_.stage("cases");
     core::SharedCounters counters(comm_);
     counters_ = &counters;
     to_do_ = static_cast<std::int64_t>(missing.size());
+    std::optional<EndSignal> signal;
+    if (core::size(comm_) == 1) // a launcher ends its ranks by itself
+      signal.emplace();
     core::agree(comm_, [&] {
       sweep::ShardFile file(plan_.inputs.directory / fmt::format("rank_{}.rows", core::rank(comm_)));
       sweep::work(
@@ -288,7 +293,10 @@ private:
       say(fmt::format("warning: {}\n", warning));
   }
 
+  /// @throws core::Interrupted after SIGTERM or SIGINT
   void look() {
+    if (const std::string signal = EndSignal::came(); !signal.empty())
+      throw core::Interrupted(ended_text(signal));
     if (!counters_ || !first_rank_)
       return;
     counters_->progress();
@@ -296,6 +304,12 @@ private:
       return;
     const std::int64_t ended = counters_->add(1, 0);
     progress_.update_cases(ended & cases_part, to_do_, ended >> 32);
+  }
+
+  [[nodiscard]] std::string ended_text(const std::string& signal) const {
+    const std::int64_t there = there_ + (counters_ ? counters_->add(1, 0) & cases_part : 0);
+    return fmt::format("ended by {}: {} of {} cases are there; the same command goes on with the others",
+                       signal, results::grouped(there), results::grouped(draws_.rows()));
   }
 
   /// On rank 0: the table of what the files have.
@@ -339,6 +353,7 @@ private:
   nlohmann::json summary_;
   core::SharedCounters* counters_ = nullptr;
   std::int64_t to_do_ = 0;
+  std::int64_t there_ = 0; ///< cases that this stage has found
   std::int64_t known_ = 0; ///< cases of the stages before
 };
 
