@@ -320,6 +320,7 @@ sweep::CaseResult CaseRunner::operator()(const std::vector<std::string>& overrid
   fill_contacts(c.placed, out, row);
   if (out.wear)
     fill_wear(*out.wear, row);
+  judge_restitution(c.study, c.placed, out);
   judge_step_errors(out);
   return {std::move(row).values(), results::grouped_messages(out.warnings)};
 }

@@ -86,6 +86,7 @@ void ContactStatistics::step(const transient::Record& record) {
       if (inside) {
         s.impacts += state.touches;
         s.speed += state.touches * state.approach;
+        s.speed2 += state.touches * state.approach * state.approach;
         s.speed_max = std::max(s.speed_max, state.approach);
       }
     }
@@ -289,6 +290,7 @@ std::vector<ContactSummary> ContactStatistics::summaries() const {
     o.friction_work = slides ? s.friction : 0.0;
     if (s.impacts > 0) {
       o.impact_velocity_mean = s.speed / static_cast<double>(s.impacts);
+      o.impact_velocity_rms = std::sqrt(s.speed2 / static_cast<double>(s.impacts));
       o.impact_velocity_max = s.speed_max;
       o.contact_duration_mean = s.impact_time / static_cast<double>(s.impacts);
       o.contact_duration_max = s.longest;

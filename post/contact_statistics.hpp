@@ -50,7 +50,7 @@ struct ContactSummary {
   double penetration_max = 0.0;              ///< m, >= 0
   double work_rate = 0.0;      ///< W: mean over time of F_N |v_T| while the contact slides (Archard's input)
   double friction_power = 0.0; ///< W: dissipated by the Coulomb slider
-  double impact_velocity_mean = 0.0,
+  double impact_velocity_mean = 0.0, impact_velocity_rms = 0.0,
          impact_velocity_max = 0.0; ///< m/s, normal approach at the start of impacts
   double contact_duration_mean = 0.0, contact_duration_max = 0.0; ///< s
   double departure_velocity_mean = 0.0,
@@ -80,7 +80,7 @@ private:
   struct Sums {
     std::int64_t impacts = 0;
     double closed_time = 0.0, normal2 = 0.0, normal_max = 0.0, tangential2 = 0.0, tangential_max = 0.0;
-    double slid = 0.0, friction = 0.0, speed = 0.0, speed_max = 0.0;
+    double slid = 0.0, friction = 0.0, speed = 0.0, speed2 = 0.0, speed_max = 0.0;
     double impulse = 0.0, distance = 0.0, sliding_time = 0.0, damping = 0.0;
     double leaving = 0.0, leaving_max = 0.0;
     std::int64_t departures = 0;

@@ -117,33 +117,35 @@ Json sides(const ContactFacts& facts, const post::SideWorks& works) {
 Json contact(const ContactFacts& facts, const post::ContactSummary& c) {
   const ContactPosition position = position_of(facts, c);
   const Json radial{{"rms", number(c.radial_rms)}, {"max", number(c.radial_max)}};
-  Json out{
-      {"name", facts.name},
-      {"impacts", c.impacts},
-      {"impacts_per_second", number(c.impact_rate)},
-      {"contact_time_ratio", number(c.contact_time_ratio)},
-      {"normal_force",
-       {{"mean", number(c.normal_mean)}, {"rms", number(c.normal_rms)}, {"max", number(c.normal_max)}}},
-      {"normal_force_in_contact",
-       {{"mean", number(c.normal_in_contact_mean)}, {"rms", number(c.normal_in_contact_rms)}}},
-      {"tangential_force", {{"rms", number(c.tangential_rms)}, {"max", number(c.tangential_max)}}},
-      {"displacement", {{"y", moments(c.y)}, {"z", moments(c.z)}, {"radial", radial}}},
-      {"position", {{"y", moments(position.y)}, {"z", moments(position.z)}, {"radial", radial}}},
-      {"penetration", {{"max", number(c.penetration_max)}}},
-      {"work_rate", number(c.work_rate)},
-      {"friction_power", number(c.friction_power)},
-      {"impact_velocity", {{"mean", number(c.impact_velocity_mean)}, {"max", number(c.impact_velocity_max)}}},
-      {"contact_duration",
-       {{"mean", number(c.contact_duration_mean)}, {"max", number(c.contact_duration_max)}}},
-      {"departure_velocity",
-       {{"mean", number(c.departure_velocity_mean)}, {"max", number(c.departure_velocity_max)}}},
-      {"energy", {{"damping_J", number(c.damping_work)}, {"friction_J", number(c.friction_work)}}},
-      {"sliding_distance_m", number(c.sliding_distance)},
-      {"impulse_Ns", number(c.impulse)},
-      // nothing sticks or slides where there is no friction
-      {"sticking_ratio", facts.friction_static > 0.0 ? number(c.sticking_ratio) : Json(nullptr)},
-      {"standard_error", standard_error(c.error)},
-      {"static_flexibility", flexibility(facts.static_flexibility)}};
+  Json out{{"name", facts.name},
+           {"impacts", c.impacts},
+           {"impacts_per_second", number(c.impact_rate)},
+           {"contact_time_ratio", number(c.contact_time_ratio)},
+           {"normal_force",
+            {{"mean", number(c.normal_mean)}, {"rms", number(c.normal_rms)}, {"max", number(c.normal_max)}}},
+           {"normal_force_in_contact",
+            {{"mean", number(c.normal_in_contact_mean)}, {"rms", number(c.normal_in_contact_rms)}}},
+           {"tangential_force", {{"rms", number(c.tangential_rms)}, {"max", number(c.tangential_max)}}},
+           {"displacement", {{"y", moments(c.y)}, {"z", moments(c.z)}, {"radial", radial}}},
+           {"position", {{"y", moments(position.y)}, {"z", moments(position.z)}, {"radial", radial}}},
+           {"penetration", {{"max", number(c.penetration_max)}}},
+           {"work_rate", number(c.work_rate)},
+           {"friction_power", number(c.friction_power)},
+           {"impact_velocity",
+            {{"mean", number(c.impact_velocity_mean)},
+             {"rms", number(c.impact_velocity_rms)},
+             {"max", number(c.impact_velocity_max)}}},
+           {"contact_duration",
+            {{"mean", number(c.contact_duration_mean)}, {"max", number(c.contact_duration_max)}}},
+           {"departure_velocity",
+            {{"mean", number(c.departure_velocity_mean)}, {"max", number(c.departure_velocity_max)}}},
+           {"energy", {{"damping_J", number(c.damping_work)}, {"friction_J", number(c.friction_work)}}},
+           {"sliding_distance_m", number(c.sliding_distance)},
+           {"impulse_Ns", number(c.impulse)},
+           // nothing sticks or slides where there is no friction
+           {"sticking_ratio", facts.friction_static > 0.0 ? number(c.sticking_ratio) : Json(nullptr)},
+           {"standard_error", standard_error(c.error)},
+           {"static_flexibility", flexibility(facts.static_flexibility)}};
   if (!facts.sides.empty())
     out["sides"] = sides(facts, c.sides);
   return out;

@@ -22,7 +22,7 @@ const json contract = json::parse(R"({
   "/contacts/0/displacement/y": ["mean", "std", "min", "max"],
   "/contacts/0/displacement/z": ["mean", "std", "min", "max"],
   "/contacts/0/displacement/radial": ["rms", "max"],
-  "/contacts/0/impact_velocity": ["mean", "max"],
+  "/contacts/0/impact_velocity": ["mean", "rms", "max"],
   "/contacts/0/contact_duration": ["mean", "max"],
   "/nodes/0": ["name", "displacement"],
   "/nodes/0/displacement/x": ["mean", "std", "min", "max"],

@@ -155,6 +155,28 @@ TEST(Restitution, IsWhatAMassComesBackWith) {
   }
 }
 
+// The law loses more at 0.1 m/s than at the velocity that the study names: the warning has the restitution of the run.
+TEST(Restitution, OfHuntAndCrossleyAtAnotherVelocityIsWarnedOf) {
+  const auto run = [](const std::string& velocity) {
+    const Workshop folder;
+    return folder.run_text(flying_mass(
+        folder,
+        "normal_law = \"hunt_crossley\"\nrestitution = 0.7\nrestitution_velocity = " + velocity + "\n"));
+  };
+  const Results fast = run("0.02");
+  const auto& stop = fast.statistics("stop");
+  constexpr double two_digits = 0.005;
+  EXPECT_NEAR(stop["departure_velocity"]["mean"].get<double>() / stop["impact_velocity"]["rms"].get<double>(),
+              0.29, two_digits);
+  EXPECT_TRUE(
+      says(fast.summary["warnings"].dump(),
+           "contact \\\"stop\\\": the rms impact velocity is 0.1 m/s, 5 times restitution_velocity = "
+           "0.02 m/s: the restitution of hunt_crossley there is 0.29, not 0.7, and an impact loses 91 % "
+           "of its energy, not 51 %; set restitution_velocity = 0.1"));
+  EXPECT_TRUE(says(run("0.3").summary["warnings"].dump(), "there is 0.88, not 0.7"));
+  EXPECT_FALSE(says(run("0.09").summary["warnings"].dump(), "restitution"));
+}
+
 /// Notes that say this.
 std::vector<std::string> notes_with(const Results& run, const std::string& part) {
   std::vector<std::string> out;

@@ -29,6 +29,7 @@ TEST(ContactStatistics, CountMaximalIntervalsOfForceAsImpacts) {
   EXPECT_EQ(s.impacts, 2);
   EXPECT_NEAR(s.contact_time_ratio, 4.0 / 20.0, round_off);
   EXPECT_NEAR(s.impact_velocity_mean, 0.4, round_off);
+  EXPECT_NEAR(s.impact_velocity_rms, std::sqrt(0.2), round_off); // of 0.2 and 0.6
   EXPECT_NEAR(s.impact_velocity_max, 0.6, round_off);
   EXPECT_NEAR(s.contact_duration_mean, 2.0 * h, round_off);
   EXPECT_NEAR(s.contact_duration_max, 3.0 * h, round_off);
@@ -194,6 +195,7 @@ TEST(ContactStatistics, SumWhatTheStepsTell) {
   EXPECT_NEAR(s.sticking_ratio, 0.5, round_off);
   EXPECT_NEAR(s.tangential_rms, std::sqrt(40.0 / 10.0), round_off);
   EXPECT_NEAR(s.impact_velocity_mean, 0.3, round_off);
+  EXPECT_NEAR(s.impact_velocity_rms, std::sqrt(0.1), round_off); // of 0.2 and 0.4
 }
 
 TEST(ContactStatistics, DescribeTheMotionOverAllSteps) {
@@ -360,6 +362,7 @@ std::vector<double> numbers(const ContactSummary& s) {
           s.work_rate,
           s.friction_power,
           s.impact_velocity_mean,
+          s.impact_velocity_rms,
           s.impact_velocity_max,
           s.contact_duration_mean,
           s.contact_duration_max,

@@ -104,7 +104,7 @@ TEST(Summary, HasTheKeysOfTheContractForAContactAndANode) {
   EXPECT_EQ(keys(c["position"]), (Keys{"y", "z", "radial"}));
   EXPECT_EQ(keys(c["position"]["y"]), (Keys{"mean", "std", "min", "max"}));
   EXPECT_EQ(keys(c["penetration"]), (Keys{"max"}));
-  EXPECT_EQ(keys(c["impact_velocity"]), (Keys{"mean", "max"}));
+  EXPECT_EQ(keys(c["impact_velocity"]), (Keys{"mean", "rms", "max"}));
   EXPECT_EQ(keys(c["contact_duration"]), (Keys{"mean", "max"}));
   EXPECT_EQ(keys(s["nodes"][0]), (Keys{"name", "displacement", "standard_error"}));
   EXPECT_EQ(keys(s["nodes"][0]["displacement"]), (Keys{"x", "y", "z"}));
@@ -119,6 +119,7 @@ TEST(Summary, PutsEachStatisticUnderItsName) {
   c.work_rate = 18;
   c.friction_power = 18.5;
   c.impact_velocity_mean = 19;
+  c.impact_velocity_rms = 19.5;
   c.impact_velocity_max = 20;
   c.contact_duration_mean = 21;
   c.contact_duration_max = 22;
@@ -141,7 +142,7 @@ TEST(Summary, PutsEachStatisticUnderItsName) {
     "position": {"y": {"mean": 108.0, "std": 9.0, "min": 110.0, "max": 111.0},
                  "z": {"mean": -188.0, "std": 13.0, "min": -186.0, "max": -185.0}, "radial": {"rms": 16.0, "max": 17.0}},
     "penetration": {"max": 40.0},
-    "work_rate": 18.0, "friction_power": 18.5, "impact_velocity": {"mean": 19.0, "max": 20.0},
+    "work_rate": 18.0, "friction_power": 18.5, "impact_velocity": {"mean": 19.0, "rms": 19.5, "max": 20.0},
     "contact_duration": {"mean": 21.0, "max": 22.0}, "departure_velocity": {"mean": 23.0, "max": 24.0},
     "impulse_Ns": 25.0, "sliding_distance_m": 26.0, "sticking_ratio": 0.125,
     "energy": {"damping_J": 27.0, "friction_J": 28.0},

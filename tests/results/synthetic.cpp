@@ -135,6 +135,7 @@ post::ContactSummary summary(int c) {
   s.work_rate = 0.0123 * (1.0 + std::sin(0.7 * c));
   s.friction_power = 0.29 * s.work_rate;
   s.impact_velocity_mean = 0.021;
+  s.impact_velocity_rms = 0.027;
   s.impact_velocity_max = 0.055;
   s.contact_duration_mean = 1.4e-3;
   s.contact_duration_max = 3.3e-3;
