@@ -131,7 +131,8 @@ private:
       out_.notes.emplace_back(
           "[sweep] varies keys of this study: fretwork sweep computes its cases, this run has the values of "
           "the study (and of --set)");
-      say("note: " + out_.notes.back() + "\n");
+      if (last_ != Stage::check) // which prints all notes once
+        say("note: " + out_.notes.back() + "\n");
     }
     out_.timings.read = watch_.lap();
     progress_.stage("mesh");
@@ -199,9 +200,9 @@ private:
     other_runs_ = read_other_runs(study, inputs_.run_directory);
     check_contacts_of(other_runs_, study, worn_, placed_);
     warn(compare_with_other_runs(other_runs_, study, worn_, placed_, model_));
-    numbering_ = numbering_text(study, model_, together(placed_, inactive_), flows_);
-    if (!numbering_.empty())
-      out_.notes.push_back(numbering_);
+    if (std::string numbering = numbering_text(study, model_, together(placed_, inactive_), flows_);
+        !numbering.empty())
+      out_.notes.push_back(std::move(numbering));
     note_other_runs(other_runs_, out_);
   }
 
@@ -277,14 +278,13 @@ private:
         scenes_wanted_ ? forecast_text(comm_, inputs_.study, scenes_, placed_, out_)
                        : "  no [transient]: run would refuse it; modes, stability and response take it\n";
     const std::string sweep = inputs_.study.varied && scenes_wanted_ ? sweep_check_text(request_) : "";
-    say(fmt::format("{}: fine\n  {}, {}, {} in {}, {:.6g} kg\n  {}, {}, {}{}\n{}{}{}{}",
+    say(fmt::format("{}: fine\n  {}, {}, {} in {}, {:.6g} kg\n  {}, {}, {}{}\n{}{}{}",
                     request_.study.string(), counted(mesh_.nodes, "node"), counted(model_.beams, "beam"),
                     results::counted(out_.model.dofs, "free dof"), counted(out_.bases, "structure"),
                     out_.model.mass_kg, counted(placed_, "contact"), counted(inputs_.study.loads, "load"),
                     counted(nodes_, "observed node"),
-                    worn_.empty() ? "" : ", " + counted(worn_, "support") + " that wear",
-                    numbering_.empty() ? "" : "  " + numbering_ + "\n", forecast,
-                    check_warnings(out_, out_.modes_limit.has_value()), sweep));
+                    worn_.empty() ? "" : ", " + counted(worn_, "support") + " that wear", forecast,
+                    check_messages(out_, out_.modes_limit.has_value()), sweep));
   }
 
   void run_transient() {
@@ -392,7 +392,6 @@ private:
   std::vector<WornPlace> worn_;
   OtherRuns other_runs_;
   std::vector<std::string> unit_slips_; ///< questions about values in other units than those of the SI
-  std::string numbering_;               ///< where supports of groups are
   AtContacts at_contacts_;
   std::vector<BuiltScene> scenes_;
   results::RunResults out_;

@@ -2,6 +2,7 @@
 #include "app/describe.hpp"
 #include "kernels/kernels.hpp"
 #include "results/grouped_messages.hpp"
+#include "results/totals.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <petscversion.h>
@@ -86,11 +87,13 @@ std::string early_warnings(const results::RunResults& out) {
   return told;
 }
 
-std::string check_warnings(const results::RunResults& out, bool early) {
+std::string check_messages(const results::RunResults& out, bool early) {
   std::string told;
   for (const std::string& warning : results::grouped_messages(out.warnings))
     if (!(early && is_told_early(warning)))
       told += fmt::format("  warning: {}\n", warning);
+  for (const std::string& note : results::all_notes(out))
+    told += fmt::format("  note: {}\n", note);
   return told;
 }
 

@@ -16,7 +16,7 @@ void describe_model(const mesh::LineMesh& mesh, const fem::Model& model,
 /// Lines of the warnings that are printed before modes are computed: of values that may be slips, with which that can take long.
 [[nodiscard]] std::string early_warnings(const results::RunResults& out);
 
-/// Lines of all warnings, equal ones grouped, for `check`. @param early  those told early have been told
-[[nodiscard]] std::string check_warnings(const results::RunResults& out, bool early);
+/// Lines of all warnings and notes as a run tells them, equal ones grouped, for `check`. @param early  the warnings told early have been told
+[[nodiscard]] std::string check_messages(const results::RunResults& out, bool early);
 
 } // namespace fretwork::app

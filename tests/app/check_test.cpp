@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `check` refuses what `run` refuses, and says what a run would be.
+#include "mesh_text.hpp"
 #include "paths.hpp"
 #include "study_text.hpp"
 #include "tubes.hpp"
@@ -48,6 +49,40 @@ TEST(Check, RefusesWhatTheRunRefuses) {
     EXPECT_EQ(checked.err, run.err);
   }
   EXPECT_EQ(folder.fretwork(with("check", study, {})).status, 0);
+}
+
+TEST(Check, TellsTheWarningsAndNotesOfARun) {
+  const Workshop folder;
+  MeshText mesh = straight_line("tube", {0, 0, 0}, {1, 0, 0}, 8);
+  for (const int node : {2, 4, 6})
+    mesh.points.emplace_back("plate", node);
+  folder.write("mesh.msh", mesh.text());
+  const fs::path study = folder.write(
+      "study.toml",
+      steel_pipe("mesh.msh") + tube_between("tube") +
+          "[[contacts]]\ngroup = \"plate\"\naxis = [1, 0, 0]\ngap = 2e-4\nnormal_stiffness = 1e6\n"
+          "restitution = 0.7\n[modes]\ncount = 8\n[transient]\nduration = 0.02\n"
+          "[sweep]\ndesign = \"grid\"\n[[sweep.variables]]\nkey = \"contacts.plate.gap\"\nvalues = [1e-4, "
+          "2e-4]\n");
+  const Outcome check = folder.fretwork(with("check", study, {}));
+  const Results run = folder.run(study, "results");
+  ASSERT_EQ(check.status, 0) << check.err;
+  const auto count = [&](const std::string& line) {
+    std::size_t found = 0;
+    for (std::size_t at = check.out.find(line); at != std::string::npos; at = check.out.find(line, at + 1))
+      ++found;
+    return found;
+  };
+  const auto expect = [&](const char* key, const char* label) {
+    for (const std::string message : run.summary[key])
+      EXPECT_EQ(count(fmt::format("{}: {}\n", label, message)), 1u) << message << "\n" << check.out;
+  };
+  expect("warnings", "warning");
+  expect("notes", "note");
+  const std::string notes = run.summary["notes"].dump();
+  for (const char* part : {"for restitution 0.7", "supports of groups are numbered", "fretwork sweep"})
+    EXPECT_TRUE(says(notes, part));
+  EXPECT_EQ(count("supports of groups are numbered along them"), 1u);
 }
 
 TEST(Check, SaysThatAStudyWithoutTransientIsForModesAlone) {
