@@ -61,6 +61,17 @@ std::string scatter_text(const RunResults& results, double scatter) {
          (scatter > says_little ? ", which is too short for statistics or holds no stationary motion" : "");
 }
 
+/// The largest error that replays resolve, and the bound of one that may be larger.
+std::string step_text(const ErrorsOfSums& errors) {
+  std::string out;
+  if (const auto& e = errors.largest)
+    out = fmt::format("{} by {} +- {} %", e->name, percent(std::abs(e->value)), percent(e->standard_error));
+  if (const auto& e = errors.least_known)
+    out +=
+        fmt::format("{}{} by less than {} %", out.empty() ? "" : " and ", e->name, percent(e->upper_bound()));
+  return out;
+}
+
 } // namespace
 
 std::string name_of(ErrorKind kind) {
@@ -98,11 +109,10 @@ ErrorEstimate error_estimate(const RunResults& results) {
     return {ErrorKind::none, nan,
             "none: no impacts in the window of the statistics, or steps too few for batches; "
             "transient.verify = true compares with half the step"};
-  if (const auto of_step = largest_error_of_sums(results))
-    return {ErrorKind::measured, std::hypot(relative, of_step->value),
-            fmt::format("{}; the step changes sums over contacts by {} +- {} % (replays)",
-                        scatter_text(results, relative), percent(std::abs(of_step->value)),
-                        percent(of_step->standard_error))};
+  if (const ErrorsOfSums of_step = errors_of_sums(results); of_step.measured())
+    return {ErrorKind::measured, std::hypot(relative, of_step.size()),
+            scatter_text(results, relative) + "; the step changes " + step_text(of_step) +
+                " over all contacts (replays)"};
   return {ErrorKind::statistical, relative,
           scatter_text(results, relative) + "; that of the step is unknown (transient.verify)"};
 }

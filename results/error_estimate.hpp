@@ -18,8 +18,9 @@ enum class ErrorKind {
 
 struct ErrorEstimate {
   ErrorKind kind = ErrorKind::none;
-  /// The largest of work rate, friction power and impacts per second, each summed over the contacts: standard error and, where replays measure it or the run
-  /// was compared with one at half the step, the error by the step that its difference stands for (post/verification.hpp), over the figure. Not a number where there is none.
+  /// The largest of work rate, friction power and impacts per second, each summed over the contacts: standard error and, where replays measure it, the
+  /// error by the step or, if larger, its standard error (ErrorsOfSums::size), or, where the run was compared with one at half the step, the
+  /// error that its difference stands for (post/verification.hpp), over the figure. Not a number where there is none.
   double relative;
   std::string text; ///< what it is, or why there is none
 };

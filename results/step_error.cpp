@@ -9,8 +9,6 @@
 namespace fretwork::results {
 namespace {
 
-/// By how many standard errors an error is to stand out.
-constexpr double significance = 2.0;
 /// Of what the busiest contact does: below, the error of a contact matters to nobody.
 constexpr double negligible = 0.01;
 constexpr std::size_t most_named = 5;
@@ -102,13 +100,34 @@ transient::StepError sum_of(const std::vector<transient::StepError>& contacts) {
   return out;
 }
 
-std::optional<RelativeError> largest_error_of_sums(const RunResults& results) {
-  std::optional<RelativeError> out;
+bool RelativeError::is_resolved() const { // nor is one that is 0 in every replay uncertain
+  return std::abs(value) >= significance * standard_error;
+}
+
+double RelativeError::upper_bound() const { return std::abs(value) + significance * standard_error; }
+
+double ErrorsOfSums::size() const {
+  double out = 0.0;
+  for (const auto& e : {largest, least_known})
+    if (e)
+      out = std::max({out, std::abs(e->value), e->standard_error});
+  return out;
+}
+
+ErrorsOfSums errors_of_sums(const RunResults& results) {
+  ErrorsOfSums out;
   for (const RelativeError& e : relative_errors(sum_of(results.step_errors))) {
-    const bool summed = e.name == "work_rate" || e.name == "friction_power" || e.name == "impacts_per_second";
-    if (summed && (!out || std::abs(e.value) > std::abs(out->value)))
-      out = e;
+    if (e.name != "work_rate" && e.name != "friction_power" && e.name != "impacts_per_second")
+      continue;
+    if (e.is_resolved() && (!out.largest || std::abs(e.value) > std::abs(out.largest->value)))
+      out.largest = e;
+    if (!e.is_resolved() && (!out.least_known || e.upper_bound() > out.least_known->upper_bound()))
+      out.least_known = e;
   }
+  if (out.largest && out.least_known && out.least_known->upper_bound() <= out.largest->upper_bound())
+    out.least_known.reset();
+  if (out.least_known && out.largest && out.largest->value == 0.0)
+    out.largest.reset();
   return out;
 }
 
@@ -138,11 +157,12 @@ std::string uncertain_errors(const RunResults& results) {
       [](const RelativeError& e) { return e.standard_error; });
   if (named.contacts.empty())
     return {};
-  return fmt::format("of {} the error by the step is known to {:.2g} % only ({} of \"{}\", by replays): it "
-                     "may exceed the accuracy of "
-                     "{:.2g} %; run longer, or set a smaller transient.accuracy",
-                     core::list_names(named.contacts, most_named), 100.0 * named.worst.standard_error,
-                     named.worst.name, named.where, 100.0 * results.accuracy);
+  return fmt::format(
+      "replays do not resolve the error by the step of {}: {} of \"{}\" {:+.2g} +- {:.2g} %; it "
+      "may exceed the accuracy of "
+      "{:.2g} %; run longer, or set a smaller transient.accuracy",
+      core::list_names(named.contacts, most_named), named.worst.name, named.where, 100.0 * named.worst.value,
+      100.0 * named.worst.standard_error, 100.0 * results.accuracy);
 }
 
 } // namespace fretwork::results

@@ -81,7 +81,8 @@ TEST(StepErrors, ThatAreKnownTooLittleAreNamed) {
     of.work_rate = 1.0, of.error.work_rate = 0.02;
   EXPECT_EQ(unmet_accuracy(results), "");
   const std::string said = uncertain_errors(results);
-  EXPECT_THAT(said, HasSubstr("known to 14 % only (work_rate of \"" + results.contacts[0].name + "\""));
+  EXPECT_THAT(said, HasSubstr("do not resolve the error by the step of \"" + results.contacts[0].name +
+                              "\": work_rate of \"" + results.contacts[0].name + "\" +5 +- 14 %;"));
   EXPECT_EQ(said.find("\"" + results.contacts[1].name + "\""), std::string::npos);
   results.contact_summaries[0].error.work_rate = 0.05;
   EXPECT_EQ(uncertain_errors(results), "");
@@ -95,8 +96,54 @@ TEST(StepErrors, ArePartOfTheErrorEstimate) {
   results.step_errors = {work(2.0, 0.1, 0.02), work(2.0, 0.1, 0.02)};
   const ErrorEstimate e = error_estimate(results);
   EXPECT_EQ(e.kind, ErrorKind::measured);
-  EXPECT_THAT(e.text, HasSubstr("the step changes sums over contacts by 5 +- 0.71 % (replays)"));
+  EXPECT_THAT(e.text, HasSubstr("the step changes work_rate by 5 +- 0.71 % over all contacts (replays)"));
   EXPECT_GT(e.relative, 0.05);
+}
+
+namespace {
+
+/// Of one contact: work and impacts, relative, with their standard errors.
+ErrorEstimate estimate_of(double of_work, double work_spread, double of_impacts, double impacts_spread) {
+  RunResults results = made_up({.contacts = 1});
+  results.errors_of_sums = {};
+  StepError of = work(1.0, of_work, work_spread);
+  of.sums[transient::replayed_impacts] = 1.0;
+  of.errors[transient::replayed_impacts] = of_impacts;
+  of.spreads[transient::replayed_impacts] = impacts_spread;
+  results.step_errors = {of};
+  return error_estimate(results);
+}
+
+} // namespace
+
+TEST(StepErrors, ThatReplaysResolveComeFirstAndOthersAreBounds) {
+  const auto ends_with = [](const std::string& text) {
+    return testing::EndsWith("; the step changes " + text + " over all contacts (replays)");
+  };
+  // of two that are resolved the larger, though another scatters by more than it
+  EXPECT_THAT(estimate_of(-0.03, 0.001, 0.02, 0.001).text, ends_with("work_rate by 3 +- 0.1 %"));
+  EXPECT_THAT(estimate_of(0.005, 0.001, 0.004, 0.0025).text,
+              ends_with("work_rate by 0.5 +- 0.1 % and impacts_per_second by less than 0.9 %"));
+  EXPECT_THAT(estimate_of(0.005, 0.001, 0.001, 0.001).text, ends_with("work_rate by 0.5 +- 0.1 %"))
+      << "a bound of 0.3 %";
+  EXPECT_THAT(estimate_of(0.01, 0.02, 0.015, 0.01).text, ends_with("work_rate by less than 5 %"));
+  EXPECT_THAT(estimate_of(0.0, 0.0, 0.001, 0.001).text, ends_with("impacts_per_second by less than 0.3 %"));
+  EXPECT_THAT(estimate_of(0.0, 0.0, 0.0, 0.0).text, ends_with("work_rate by 0 +- 0 %"));
+  // an error counts as what is known of it at least
+  EXPECT_DOUBLE_EQ(estimate_of(0.01, 0.02, 0.015, 0.01).relative, 0.02);
+  EXPECT_DOUBLE_EQ(estimate_of(-0.03, 0.001, 0.02, 0.001).relative, 0.03);
+}
+
+// What exceeds the accuracy for the warning is resolved on the line of the error.
+TEST(StepErrors, OfWarningsAreResolved) {
+  for (const double of : {0.01, 0.03, 0.05, 0.2})
+    for (const double spread : {0.0, 0.01, 0.02, 0.1}) {
+      RunResults results = made_up({.contacts = 1});
+      results.step_errors = {work(1.0, of, spread)};
+      if (!unmet_accuracy(results).empty()) {
+        EXPECT_TRUE(errors_of_sums(results).largest) << of << " " << spread;
+      }
+    }
 }
 
 } // namespace step_error_test
