@@ -53,4 +53,15 @@ Eigen::VectorXd weight(const Model& model, const Vec3& gravity) {
   return out;
 }
 
+Vector12 weight(const Model& model, const Beam& beam, const Vec3& gravity) {
+  const BeamProperty& whole = model.properties[static_cast<std::size_t>(beam.property)];
+  Vector12 fall;
+  fall << gravity, Vec3::Zero(), gravity, Vec3::Zero();
+  const auto of = [&](const BeamProperty& property) -> Vector12 {
+    return BeamElement(model.node(beam.a), model.node(beam.b), property, beam.middle, beam.along).mass() *
+           fall;
+  };
+  return in_vacuum(whole) ? of(without_fluid(whole)) : of(without_fluid(whole)) + of(fluid_alone(whole));
+}
+
 } // namespace fretwork::fem

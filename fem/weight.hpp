@@ -12,6 +12,7 @@
 /// Source: Sparks, The influence of tension, pressure and weight on pipe and riser deformations and stresses, Journal of
 /// Energy Resources Technology 106 (1984) 46.
 #pragma once
+#include "fem/beam_element.hpp"
 #include "fem/fields.hpp"
 
 namespace fretwork::fem {
@@ -19,5 +20,7 @@ namespace fretwork::fem {
 /// @param gravity  m/s2, acceleration, global axes
 /// @return N and N m over the whole model, 6 values a node
 [[nodiscard]] Eigen::VectorXd weight(const Model& model, const Vec3& gravity);
+/// That of one beam. @return N and N m at its 12 dofs
+[[nodiscard]] Vector12 weight(const Model& model, const Beam& beam, const Vec3& gravity);
 
 } // namespace fretwork::fem

@@ -117,5 +117,71 @@ TEST(Weight, ThatWouldBuckleATubeIsAWarning) {
   EXPECT_EQ(said(4.0, true).find("[gravity]"), std::string::npos); // a grid holds its end
 }
 
+/// Arcs of a circle of radius R in the plane y = 0, and what follows of the study.
+std::string arcs(const Workshop& folder, const std::string& curves, const std::string& restraints,
+                 double gravity_z) {
+  folder.write("bend.geo", curves);
+  return "[mesh]\nfile = \"bend.geo\"\norder = 2\n" +
+         steel_pipe("bend.geo").substr(steel_pipe("bend.geo").find("[materials")) +
+         "[[beams]]\ngroup = \"tube\"\nmaterial = \"steel\"\nsection = \"tube\"\n" + restraints +
+         fmt::format(
+             "[modes]\ncount = 6\n[gravity]\nacceleration = [0, 0, {}]\n[transient]\nduration = 0.01\n",
+             gravity_z);
+}
+
+/// Half a circle of radius R below its apex.
+std::string half_circle(double radius, int arcs_a_quarter) {
+  return fmt::format("R = {}; Point(1) = {{-R, 0, -R}}; Point(2) = {{0, 0, 0}}; Point(3) = {{R, 0, -R}};\n"
+                     "Point(4) = {{0, 0, -R}}; Circle(1) = {{1, 4, 2}}; Circle(2) = {{2, 4, 3}};\n"
+                     "Transfinite Curve {{1, 2}} = {};\n"
+                     "Physical Curve(\"tube\") = {{1, 2}}; Physical Point(\"apex\") = {{2}};\n",
+                     radius, arcs_a_quarter + 1);
+}
+
+/// Warnings of half a circle that is restrained at its apex.
+std::string of_half_circle(double radius, int arcs_a_quarter, const std::string& fixed, double gravity_z) {
+  const Workshop folder;
+  const Results run =
+      folder.run_text(arcs(folder, half_circle(radius, arcs_a_quarter),
+                           "[[restraints]]\ngroup = \"apex\"\nfixed = " + fixed + "\n", gravity_z));
+  return run.summary["warnings"].dump();
+}
+
+// It turns as a ring does: w^2 = g R (1 - 2/pi)/(2 R^2 (1 - 2/pi)) = g/(2 R), 0.352 Hz for 1 m.
+// The largest axial force is that of w R (pi/2 - a) sin a, at tan a = pi/2 - a: 0.5611 w R, 2.71 N.
+TEST(Weight, OfABendThatHangsFromAHingeMakesItAPendulum) {
+  const std::string hinge = R"(["ux", "uy", "uz", "rx", "rz"])",
+                    fine = of_half_circle(1.0, 40, hinge, -gravity);
+  EXPECT_TRUE(says(fine, "the weight makes axial forces of 0 to 2.71 N in the beams"));
+  EXPECT_TRUE(says(fine,
+                   "with them a motion without strain is a pendulum of 0.352 Hz; axial_force = [a, b] and "
+                   "from of [[beams]] give those of straight beams; arcs cannot have any"));
+  EXPECT_TRUE(says(of_half_circle(1.0, 2, hinge, -gravity), "pendulum of 0.353 Hz")) << "two arcs a quarter";
+  EXPECT_TRUE(says(of_half_circle(1.0, 40, hinge, gravity), "a motion without strain falls over"));
+}
+
+TEST(Weight, OfABendThatFallsMakesNoForces) {
+  const std::string falls = R"(["ux", "uy", "rx", "ry", "rz"])", held = R"("all")";
+  EXPECT_TRUE(says(of_half_circle(10.0, 2, held, -gravity), "[gravity]"));
+  EXPECT_FALSE(says(of_half_circle(10.0, 2, falls, -gravity), "[gravity]"));
+}
+
+// An arc of 400 m radius: the figures of the straight tube above; the top of its first chord has 19.3 N.
+TEST(Weight, AlongAFlatArcIsThatOfAStraightTube) {
+  const Workshop folder;
+  const double radius = 400.0, angle = 4.0 / radius;
+  const std::string flat =
+      fmt::format("Point(1) = {{0, 0, 0}}; Point(2) = {{{:.12g}, 0, {:.12g}}}; Point(3) = {{{}, 0, 0}};\n"
+                  "Circle(1) = {{1, 3, 2}}; Transfinite Curve {{1}} = 41;\n"
+                  "Physical Curve(\"tube\") = {{1}}; Physical Point(\"top\") = {{1}};\n",
+                  radius * (1.0 - std::cos(angle)), -radius * std::sin(angle), radius);
+  const std::string notes =
+      folder.run_text(arcs(folder, flat, "[[restraints]]\ngroup = \"top\"\nfixed = \"all\"\n", -gravity))
+          .summary["notes"]
+          .dump();
+  EXPECT_TRUE(says(notes, "the weight makes axial forces of 0 to 19.3 N"));
+  EXPECT_TRUE(says(notes, "they change the frequency of 1.112 Hz by +3.9 %"));
+}
+
 } // namespace
 } // namespace fretwork::app::test::sag_test

@@ -58,6 +58,21 @@ TEST(Weight, OfAnElementIsALineForce) {
   EXPECT_LT((fem::weight(in_water, gravity) - expected).norm(), round_off * expected.norm());
 }
 
+TEST(Weight, OfBeamsAddsUp) {
+  ModelBuilder b;
+  const auto wet = b.property(tube_in(900.0, 1000.0, 2.3)), dry = b.property(tube_in(0.0, 0.0, 1.0));
+  b.line({0, 0, 0}, {0.0, 0.0, 2.0}, 2, wet);
+  b.line({1, 0, 0}, {1.0, 2.0, 0.0}, 1, dry);
+  b.model.beams[1].middle = Vec3(0.1, 0.0, 1.5); // an arc
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(6 * static_cast<Eigen::Index>(b.model.nodes.size()));
+  for (const fem::Beam& beam : b.model.beams) {
+    const fem::Vector12 of = fem::weight(b.model, beam, gravity);
+    sum.segment<6>(6 * Eigen::Index{beam.a}) += of.head<6>();
+    sum.segment<6>(6 * Eigen::Index{beam.b}) += of.tail<6>();
+  }
+  EXPECT_LT((sum - fem::weight(b.model, gravity)).norm(), round_off * sum.norm());
+}
+
 TEST(Weight, InAirIsMassTimesGravity) {
   ModelBuilder b;
   fem::BeamProperty property = tube_in(0.0, 0.0, 1.0);
