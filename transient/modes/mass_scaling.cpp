@@ -17,6 +17,23 @@ double shortest_change(const signals::TimeFunction& function) {
   return shortest;
 }
 
+/// N, on the modes: of contacts that overlap at t = 0, without their dampers.
+Eigen::VectorXd normal_forces_at_start(const Scene& scene) {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(scene.system.size());
+  for (const ContactPoint& point : scene.contacts) {
+    const core::Vec3 place = scene.place_at_start(point) + point.moved_by(scene.q0);
+    const contact::Location at = contact::locate(point.support.obstacle, place.y(), place.z());
+    if (!(at.gap < 0.0))
+      continue;
+    const double force = -point.support.normal.stiffness * at.gap;
+    const core::Vec3 along(0.0, force * at.ny, force * at.nz);
+    point.for_ranges([&](Eigen::Index first, const auto& part) {
+      out.segment(first, part.cols()) += part.transpose() * along;
+    });
+  }
+  return out;
+}
+
 } // namespace
 
 Eigen::VectorXd scaled_masses(const Scene& scene, double fastest) {
@@ -55,7 +72,10 @@ bool may_scale(const Scene& scene, double fastest, double accuracy) {
     noise += square;
   }
   const Eigen::ArrayXd moving = scene.v0.array().square(), spring = k * scene.q0.array();
-  const Eigen::ArrayXd vibrates = moving + ((spring - at_start).square() + noise) * flexibility,
+  // what contacts hold bent at the start does not vibrate; what they bend from then on, they make vibrate
+  const Eigen::ArrayXd unbalanced =
+      (spring - at_start).square().min((spring - at_start - normal_forces_at_start(scene).array()).square());
+  const Eigen::ArrayXd vibrates = moving + (unbalanced + noise) * flexibility,
                        all = moving + (spring.square() + at_start.square() + noise) * flexibility;
   return scaled.select(vibrates, 0.0).sum() <= 0.1 * accuracy * all.sum();
 }

@@ -21,7 +21,7 @@ constexpr double before_resonance = 2.5;
 [[nodiscard]] Eigen::VectorXd scaled_masses(const Scene& scene, double fastest);
 
 /// True where nothing but contacts makes scaled modes vibrate to speak of, at their own frequency or the lower one: of the energy with which
-/// modes start to vibrate (initial state, loads that set in) they have a share below `accuracy`/10, of what loads bend statically one below
+/// modes start to vibrate (initial state but for what contacts hold bent, loads that set in) they have a share below `accuracy`/10, of what loads bend statically one below
 /// `accuracy`, and no table of a load that acts on them changes in less than the period 2 pi / fastest (jumps, pulses).
 [[nodiscard]] bool may_scale(const Scene& scene, double fastest, double accuracy);
 

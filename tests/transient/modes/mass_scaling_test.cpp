@@ -176,6 +176,20 @@ TEST(MassScaling, IsNotForModesThatMoveByThemselves) {
   EXPECT_TRUE(allowed(scene)); // 0.09 %
 }
 
+// A preload bends them at the start, and goes on to: a contact that pushes with f bends each mode by f b/k.
+TEST(MassScaling, IsForModesThatContactsHoldBent) {
+  const double fastest = 5e3, force = 400.0;
+  Scene scene = two_modes_on_a_stop(1.0);
+  scene.v0.setZero();
+  scene.q0 << -force / 1e4, -force / 4e8, 0.0;
+  EXPECT_FALSE(may_scale(scene, fastest, 1e-4)) << "nothing holds them";
+  const double penetration = force / 1e6;
+  scene.contacts[0].rest.y() = 1e-3 + penetration - scene.q0.sum();
+  EXPECT_TRUE(may_scale(scene, fastest, 1e-4));
+  scene.q0.setZero();
+  EXPECT_TRUE(may_scale(scene, fastest, 1e-4)) << "the contact makes it vibrate";
+}
+
 TEST(MassScaling, IsNotForModesThatJumpsAndPulsesShake) {
   Scene scene = two_modes_on_a_stop(1.0);
   const auto allowed = [&](const Table& table, double on_stiff) {
