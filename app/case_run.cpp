@@ -4,6 +4,7 @@
 #include "app/expected_time.hpp"
 #include "app/job.hpp"
 #include "app/jobs.hpp"
+#include "app/judge_contacts.hpp"
 #include "app/judge_run.hpp"
 #include "app/modal_truncation.hpp"
 #include "app/verification.hpp"
@@ -321,6 +322,7 @@ sweep::CaseResult CaseRunner::operator()(const std::vector<std::string>& overrid
   if (out.wear)
     fill_wear(*out.wear, row);
   judge_restitution(c.study, c.placed, out);
+  judge_stuck_dampers(c.study, c.placed, scenes, out);
   judge_step_errors(out);
   return {std::move(row).values(), results::grouped_messages(out.warnings)};
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/judge_run.hpp"
-#include "contact/restitution.hpp"
 #include "core/error.hpp"
 #include "results/step_error.hpp"
 #include <algorithm>
@@ -16,9 +15,6 @@ constexpr double residual_warning = 0.05;
 /// Excess of the energies over what was put in, relative to the energy dissipated, above which a run is warned about; and of the energy scale, what
 /// counts.
 constexpr double excess_warning = 0.1, least_excess = 1e-3;
-
-/// Of the busiest entry's sum of squared impact velocities: what matters to nobody.
-constexpr double negligible_impacts = 0.01;
 
 /// Dampers of contacts that give back this share of the energy put in are no round-off.
 constexpr double given_by_dampers = 0.01;
@@ -91,42 +87,6 @@ void judge_dampers(const BuiltScene& built, const transient::Report& report, res
                     "smaller transient.accuracy or transient.step");
 }
 
-/// Of an entry of [[contacts]].
-struct Impacts {
-  double number = 0.0, squares = 0.0; ///< squares: m2/s2, sum of squared velocities
-  [[nodiscard]] double rms() const { return std::sqrt(squares / number); }
-};
-
-std::vector<Impacts> impacts_by_entry(const study::Study& study, const std::vector<PlacedContact>& placed,
-                                      const results::RunResults& out) {
-  std::vector<Impacts> impacts(study.contacts.size());
-  for (std::size_t c = 0; c < placed.size(); ++c) {
-    const post::ContactSummary& of = out.contact_summaries[c];
-    const auto number = static_cast<double>(of.impacts);
-    impacts[placed[c].entry].number += number;
-    impacts[placed[c].entry].squares += number * of.impact_velocity_rms * of.impact_velocity_rms;
-  }
-  return impacts;
-}
-
-/// Empty where the restitution is as asked for. That of Kelvin and Voigt's law is the same at every velocity.
-std::string restitution_warning(const study::Contact& entry, double velocity) {
-  if (!entry.restitution || entry.normal_damper != study::NormalDamper::hunt_crossley)
-    return {};
-  const auto [asked, mass, asked_at] = *entry.restitution;
-  const double reached =
-      contact::restitution_of_dissipation(contact::dissipation_of_restitution(asked, asked_at) * velocity);
-  if (!(std::abs(reached - asked) > restitution_tolerance))
-    return {};
-  const auto lost = [](double restitution) { return 100.0 * (1.0 - restitution * restitution); };
-  return fmt::format(
-      "contact \"{}\": the rms impact velocity is {:.3g} m/s, {:.2g} times restitution_velocity = "
-      "{:g} m/s: the restitution of hunt_crossley there is {:.2f}, not {:g}, and an impact loses "
-      "{:.2g} % of its energy, not {:.2g} %; set restitution_velocity = {:.2g}",
-      entry.name, velocity, velocity / asked_at, asked_at, reached, asked, lost(reached), lost(asked),
-      velocity);
-}
-
 } // namespace
 
 void judge_run(const study::Study& study, const BuiltScene& built, const transient::StepChoice& choice,
@@ -140,18 +100,6 @@ transient::StepError without_round_off(transient::StepError error, const post::C
     for (const std::size_t k : {transient::replayed_work, transient::replayed_friction})
       error.sums[k] = error.errors[k] = error.spreads[k] = 0.0;
   return error;
-}
-
-void judge_restitution(const study::Study& study, const std::vector<PlacedContact>& placed,
-                       results::RunResults& out) {
-  const std::vector<Impacts> impacts = impacts_by_entry(study, placed, out);
-  double busiest = 0.0;
-  for (const Impacts& of : impacts)
-    busiest = std::max(busiest, of.squares);
-  for (std::size_t e = 0; e < impacts.size(); ++e)
-    if (impacts[e].squares > negligible_impacts * busiest)
-      if (std::string warning = restitution_warning(study.contacts[e], impacts[e].rms()); !warning.empty())
-        out.warnings.push_back(std::move(warning));
 }
 
 void judge_step_errors(results::RunResults& out) {

@@ -13,16 +13,6 @@ namespace fretwork::app {
 void judge_run(const study::Study& study, const BuiltScene& built, const transient::StepChoice& choice,
                const transient::Report& report, results::RunResults& out);
 
-/// By how much the restitution at the rms impact velocity may differ from that asked for.
-constexpr double restitution_tolerance = 0.05;
-
-/// Hunt and Crossley's law has `restitution` e at `restitution_velocity` only: a warning for each entry of [[contacts]] where the restitution at the
-/// rms velocity of its impacts (of all its points) differs from e by more than `restitution_tolerance`. Entries whose impacts bring less than a
-/// hundredth of the kinetic energy (sum of squared velocities) of the busiest entry are left out.
-/// @param placed  as out.contact_summaries
-void judge_restitution(const study::Study& study, const std::vector<PlacedContact>& placed,
-                       results::RunResults& out);
-
 /// Adds a warning where the step changes statistics by more than the accuracy.
 void judge_step_errors(results::RunResults& out);
 /// Without the work of a contact that does not slide in its statistics.

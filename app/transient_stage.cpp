@@ -2,7 +2,7 @@
 #include "app/transient_stage.hpp"
 #include "app/gap_opening.hpp"
 #include "app/jobs.hpp"
-#include "app/judge_run.hpp"
+#include "app/judge_contacts.hpp"
 #include "app/watched_wear.hpp"
 #include <fmt/format.h>
 
@@ -26,8 +26,10 @@ void run_scenes(const AroundTransient& around, const study::Study& study, std::v
            {progress, around.checkpoints, runs * static_cast<std::size_t>(stage - 1),
             study.gap_opening.has_value()},
            out);
-  if (stage == 1)
+  if (stage == 1) {
     judge_restitution(study, around.placed, out);
+    judge_stuck_dampers(study, around.placed, scenes, out);
+  }
   const std::size_t said = out.warnings.size();
   core::agree(around.comm, [&] { add_wear(study, around.worn, around.placed, around.other_runs, out); });
   if (stage > 1)

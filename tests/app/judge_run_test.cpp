@@ -27,55 +27,7 @@ std::vector<std::string> warnings(double lost, double residual_relative, double 
   return out.warnings;
 }
 
-/// An entry of Hunt and Crossley's law with a restitution of 0.7 at 0.1 m/s.
-study::Contact entry(const std::string& name) {
-  study::Contact out;
-  out.name = name;
-  out.normal_damper = study::NormalDamper::hunt_crossley;
-  out.restitution = study::Restitution{0.7, std::nullopt, 0.1};
-  return out;
-}
-
-post::ContactSummary impacts(std::int64_t number, double rms) {
-  post::ContactSummary out;
-  out.impacts = number;
-  out.impact_velocity_rms = rms;
-  return out;
-}
-
-/// Of one contact of each entry.
-std::vector<std::string> of_restitution(const study::Study& study, const std::vector<std::size_t>& entries,
-                                        std::vector<post::ContactSummary> summaries) {
-  results::RunResults out;
-  out.contact_summaries = std::move(summaries);
-  std::vector<app::PlacedContact> placed(entries.size());
-  for (std::size_t c = 0; c < entries.size(); ++c)
-    placed[c].entry = entries[c];
-  app::judge_restitution(study, placed, out);
-  return out.warnings;
-}
-
 } // namespace
-
-TEST(JudgeRun, WarnsOfAnotherRestitutionThanAskedFor) {
-  study::Study study;
-  study.contacts = {entry("a"), entry("b")};
-  const std::string of_a = "contact \"a\": the rms impact velocity is 0.5 m/s, 5 times",
-                    of_b = "contact \"b\"";
-  EXPECT_THAT(of_restitution(study, {0, 1}, {impacts(10, 0.5), impacts(10, 0.11)}),
-              ElementsAre(HasSubstr(of_a)));
-  EXPECT_THAT(of_restitution(study, {0, 1}, {impacts(10, 0.5), impacts(10, 0.5)}),
-              ElementsAre(HasSubstr(of_a), HasSubstr(of_b)));
-  EXPECT_THAT(of_restitution(study, {0, 1}, {impacts(10, 0.5), impacts(10, 0.01)}),
-              ElementsAre(HasSubstr(of_a)))
-      << "4e-4 of the energy of the impacts";
-  EXPECT_THAT(of_restitution(study, {0, 0}, {impacts(10, 0.0), impacts(10, 0.5)}),
-              ElementsAre(HasSubstr("is 0.354 m/s"))); // over both points
-  EXPECT_THAT(of_restitution(study, {0, 1}, {{}, {}}), IsEmpty()) << "without impacts";
-  study.contacts[0].normal_damper = study::NormalDamper::reference;
-  study.contacts[1].restitution->value = 1.0; // elastic at every velocity
-  EXPECT_THAT(of_restitution(study, {0, 1}, {impacts(10, 0.5), impacts(10, 0.5)}), IsEmpty());
-}
 
 TEST(JudgeRun, WarnsOfEnergyThatNothingPutIn) {
   EXPECT_THAT(warnings(1.0, 1e-9), IsEmpty());
