@@ -13,6 +13,7 @@
 #include "app/mode_notes.hpp"
 #include "app/modes_limit.hpp"
 #include "app/numbering.hpp"
+#include "app/pinned_modes.hpp"
 #include "app/progress.hpp"
 #include "app/python_report.hpp"
 #include "app/run_spectra.hpp"
@@ -236,6 +237,8 @@ private:
       out_.notes.push_back(static_modes_note(inputs_.study, out_.bases));
     }
     judge_in_flow();
+    if (last_ == Stage::modes)
+      out_.closed_frequencies = closed_frequencies(comm_, inputs_.study, model_, placed_);
     out_.timings.modes = watch_.lap();
     if (!scenes_wanted_)
       return;

@@ -6,6 +6,8 @@
 #include "modal/slepc_structures.hpp"
 #include <algorithm>
 #include <fmt/format.h>
+#include <numbers>
+#include <optional>
 
 namespace fretwork::app {
 namespace {
@@ -74,6 +76,33 @@ PinnedModes pinned_modes(MPI_Comm comm, const PinsAsked& asked, const TubesInFlo
   });
   out.bases =
       modal::solve_structures(comm, pinned, structures, {modes.count, modes.up_to_hz}, modes.distributed);
+  return out;
+}
+
+std::vector<double> closed_frequencies(MPI_Comm comm, const study::Study& study, const fem::Model& model,
+                                       const std::vector<PlacedContact>& contacts) {
+  constexpr int most = 20;
+  constexpr double without_strain = 1e-4; // of the highest: what the rods of the pins leave of a rotation
+  fem::Model pinned;
+  std::vector<fem::Structure> structures;
+  std::vector<PlacedContact> held;
+  core::agree(comm, [&] {
+    held = that_can_pin(model, contacts);
+    pinned = pinned_model(study, model, held, {true, true});
+    structures = moving_structures(pinned);
+  });
+  std::vector<double> out;
+  if (held.empty())
+    return out;
+  for (const modal::Basis& basis :
+       modal::solve_structures(comm, pinned, structures, {most, std::nullopt}, study.modes.distributed))
+    for (Eigen::Index mode = 0; mode < basis.true_modes(); ++mode)
+      out.push_back(basis.omega(mode) / (2.0 * std::numbers::pi));
+  std::sort(out.begin(), out.end());
+  out.resize(std::min(out.size(), std::size_t{most}));
+  for (double& hz : out)
+    if (hz < without_strain * out.back())
+      hz = 0.0;
   return out;
 }
 

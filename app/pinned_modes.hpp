@@ -40,4 +40,10 @@ struct PinnedModes {
                                        const std::vector<PlacedContact>& contacts,
                                        std::vector<std::string>& notes);
 
+/// Collective. Hz, the lowest of all structures, ascending: with the contacts closed, as springs of K_N and, with friction, K_T; empty where none
+/// of them can pin.
+[[nodiscard]] std::vector<double> closed_frequencies(MPI_Comm comm, const study::Study& study,
+                                                     const fem::Model& model,
+                                                     const std::vector<PlacedContact>& contacts);
+
 } // namespace fretwork::app

@@ -108,11 +108,12 @@ struct RunResults {
       properties; ///< of the beams, without masses of fluids and added masses; none is there twice
   std::map<std::string, std::vector<core::Index>> groups; ///< nodes of the named groups of the mesh
   std::vector<modal::Basis> bases;                        ///< by structure
-  std::vector<TubeDamping> flow_damping;                  ///< by tubes, where modes.damping = "flow"
-  std::vector<StabilityAssessment> stability;             ///< by assessments and tubes
-  std::vector<LawAtWork> laws;                            ///< of fluidelastic forces, of a run
-  std::vector<LinearResponse> responses;                  ///< to turbulence, on pinned modes
-  std::optional<ModesLimit> modes_limit;                  ///< where the study asks for an accuracy of them
+  std::vector<double> closed_frequencies;     ///< Hz, ascending, with all contacts closed; of `modes` only
+  std::vector<TubeDamping> flow_damping;      ///< by tubes, where modes.damping = "flow"
+  std::vector<StabilityAssessment> stability; ///< by assessments and tubes
+  std::vector<LawAtWork> laws;                ///< of fluidelastic forces, of a run
+  std::vector<LinearResponse> responses;      ///< to turbulence, on pinned modes
+  std::optional<ModesLimit> modes_limit;      ///< where the study asks for an accuracy of them
   std::vector<ContactFacts> contacts;
   std::vector<post::ContactSummary> contact_summaries; ///< as `contacts`; empty without a transient
   post::StandardErrors errors_of_sums; ///< over all contacts: work_rate, friction_power, impact_rate

@@ -61,6 +61,13 @@ std::string modes_text(const std::vector<modal::Basis>& bases) {
   return text + fmt::format(" Hz (largest residual {:.0e})", residual);
 }
 
+std::string closed_text(const std::vector<double>& frequencies) {
+  std::string text;
+  for (std::size_t k = 0; k < std::min(most_frequencies, frequencies.size()); ++k)
+    text += fmt::format("{:.5g} ", frequencies[k]);
+  return text + "Hz with all contacts closed (springs of K_N and, with friction, K_T)";
+}
+
 /// Contacts whose modes lack flexibility beside their own, the worst first.
 void add_flexibility(Lines& lines, const RunResults& results) {
   std::vector<std::pair<double, const ContactFacts*>> lacking;
@@ -184,6 +191,8 @@ std::string terminal_table(const RunResults& results, const std::filesystem::pat
   lines.add("model", fmt::format("{}, {}, {}, {:.4g} kg", counted(m.nodes, "node"),
                                  counted(m.elements, "beam"), counted(m.dofs, "free dof"), m.mass_kg));
   lines.add("modes", modes_text(results.bases));
+  if (!results.closed_frequencies.empty())
+    lines.add("on contacts", closed_text(results.closed_frequencies));
   if (!results.transients.empty())
     add_transient(lines, results);
   add_messages(lines, "warning", all_warnings(results), most_warnings);
