@@ -91,7 +91,10 @@ std::vector<StuckDampers> stuck_dampers(const study::Study& study, const std::ve
 }
 
 std::string range(double least, double most) {
-  const std::string low = fmt::format("{:.3g}", least), high = fmt::format("{:.3g}", most);
+  const auto without_exponent = [](double x) {
+    return x < 1000.0 ? fmt::format("{:.3g}", x) : fmt::format("{:.0f}", x);
+  };
+  const std::string low = without_exponent(least), high = without_exponent(most);
   return low == high ? low : low + " to " + high;
 }
 
