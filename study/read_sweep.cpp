@@ -17,6 +17,9 @@ constexpr std::int64_t most_draws = 100'000'000;
 /// Times its first draws that `until` goes on to without a limit of its own.
 constexpr std::int64_t default_growth = 16;
 constexpr double same_sum = 1e-9;
+/// Of equidistant values, relative to the larger end: decimals of a number that was meant, and what round-off changes.
+constexpr int round_digits = 14;
+constexpr double round_off = 4.0 * std::numeric_limits<double>::epsilon();
 
 const Choices<SweepDesign> designs{{{"grid", SweepDesign::grid},
                                     {"monte_carlo", SweepDesign::monte_carlo},
@@ -79,7 +82,7 @@ SweepDistribution read_measured(const TableReader& variable, const std::filesyst
 SweepLevels read_values(const TableReader& variable) {
   SweepLevels out;
   for (const Value& value : to_array(*variable.find("values"), variable.path("values"), "an array of values"))
-    out.values.push_back(toml_text(value, Digits::seventeen));
+    out.values.push_back(toml_text(value, Digits::shortest_or_whole));
   const auto count = static_cast<double>(out.values.size());
   out.probabilities.assign(out.values.size(), 1.0 / count);
   if (const auto given =
@@ -91,6 +94,21 @@ SweepLevels read_values(const TableReader& variable) {
   return out;
 }
 
+/// Value i of `count` equidistant ones. The ends are as given; what round-off leaves of a decimal number is removed.
+double equidistant(double from, double to, std::int64_t i, std::int64_t count) {
+  if (i == 0 || from == to)
+    return from;
+  if (i + 1 == count)
+    return to;
+  const double value = from + (to - from) * static_cast<double>(i) / static_cast<double>(count - 1);
+  const double scale = std::max(std::abs(from), std::abs(to));
+  const int decimals = round_digits - 1 - static_cast<int>(std::floor(std::log10(scale)));
+  if (decimals < 0 || decimals > std::numeric_limits<double>::max_exponent10)
+    return value;
+  const double decimal = std::stod(fmt::format("{:.{}f}", value, decimals));
+  return std::abs(decimal - value) <= round_off * scale ? decimal : value;
+}
+
 SweepLevels read_range(const TableReader& variable) {
   const TableReader table(*variable.find("range"), variable.path("range"), {{"from", "to", "count"}});
   const double from = table.number("from", {}), to = table.number("to", {});
@@ -99,8 +117,8 @@ SweepLevels read_range(const TableReader& variable) {
     table.fail_table("count, the number of values, is needed: 2 at least");
   SweepLevels out;
   for (std::int64_t i = 0; i < *count; ++i) {
-    const double share = static_cast<double>(i) / static_cast<double>(*count - 1);
-    out.values.push_back(toml_text({from + share * (to - from), {}}, Digits::seventeen));
+    const Value value{equidistant(from, to, i, *count), {}};
+    out.values.push_back(toml_text(value, Digits::shortest_or_whole));
   }
   out.probabilities.assign(out.values.size(), 1.0 / static_cast<double>(*count));
   return out;

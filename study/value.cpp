@@ -28,12 +28,18 @@ std::string quoted(const std::string& text) {
 std::string real_text(double value, Digits digits) {
   if (!std::isfinite(value)) // the C library may print a sign in front of nan
     return std::isnan(value) ? "nan" : (value > 0 ? "inf" : "-inf");
+  if (value == 0.0 && digits != Digits::shortest)
+    return "0"; // so is -0
   char buffer[40];
   if (digits == Digits::seventeen) {
-    std::snprintf(buffer, sizeof buffer, "%.17g", value == 0.0 ? 0.0 : value); // -0 is 0
+    std::snprintf(buffer, sizeof buffer, "%.17g", value);
     return buffer;
   }
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general).ptr;
+  constexpr double below_all_are_exact = 9007199254740992.0; // 2^53
+  const bool whole = value == std::round(value) && std::abs(value) < below_all_are_exact;
+  const auto format =
+      digits == Digits::shortest_or_whole && whole ? std::chars_format::fixed : std::chars_format::general;
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, format).ptr;
   return std::string(buffer, end);
 }
 

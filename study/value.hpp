@@ -41,8 +41,9 @@ struct Value {
 /// `a number`, `a string` ...: what the value is, for messages.
 [[nodiscard]] std::string kind_of(const Value& value);
 
-/// How real numbers are written: as short as possible (messages), or with 17 digits (canonical text).
-enum class Digits { shortest, seventeen };
+/// How real numbers are written: as short as possible (messages), with 17 digits (canonical text), or as short as possible with whole numbers
+/// like integers, so that a key of integers takes them (values of a sweep). All read back as the same number.
+enum class Digits { shortest, seventeen, shortest_or_whole };
 
 /// The value as TOML on one line, keys sorted. A real number without fraction is written like an integer, so
 /// that 2 and 2.0 are the same.

@@ -59,6 +59,41 @@ seeds = 5
   EXPECT_EQ(sweep.variables[2].name, "loads.2.random.seed");
 }
 
+std::vector<std::string> values_of(const std::string& source) {
+  const Sweep sweep = sweep_of("[[sweep.variables]]\nkey = \"contacts.tsp1.gap\"\n" + source + "\n");
+  return std::get<SweepLevels>(sweep.variables.at(0).source).values;
+}
+
+TEST(Sweep, RangesOfWholeNumbersAreIntegers) {
+  for (const int count : {2, 3, 24, 30, 49, 98, 1000}) {
+    const std::string n = std::to_string(count);
+    const auto values = values_of("range = { from = 1, to = " + n + ", count = " + n + " }");
+    ASSERT_EQ(values.size(), static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i)
+      EXPECT_EQ(values[static_cast<std::size_t>(i)], std::to_string(i + 1)) << n;
+  }
+  EXPECT_EQ(values_of("range = { from = 0, to = 2e8, count = 3 }"),
+            (std::vector<std::string>{"0", "100000000", "200000000"}));
+  EXPECT_EQ(values_of("range = { from = -1, to = 1, count = 3 }"),
+            (std::vector<std::string>{"-1", "0", "1"}));
+}
+
+TEST(Sweep, RangesOfDecimalsAreThoseDecimals) {
+  EXPECT_EQ(values_of("range = { from = 0.1, to = 0.7, count = 7 }"),
+            (std::vector<std::string>{"0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7"}));
+  EXPECT_EQ(values_of("range = { from = -0.3, to = 0.3, count = 7 }"),
+            (std::vector<std::string>{"-0.3", "-0.2", "-0.1", "0", "0.1", "0.2", "0.3"}));
+  EXPECT_EQ(std::stod(values_of("range = { from = 0, to = 1, count = 4 }").at(1)), 1.0 / 3.0);
+  EXPECT_EQ(std::stod(values_of("range = { from = 0.12345678901234567, to = 1, count = 2 }").at(0)),
+            0.12345678901234567); // an end is what is given
+  EXPECT_EQ(values_of("range = { from = 0, to = 0, count = 2 }"), (std::vector<std::string>{"0", "0"}));
+}
+
+TEST(Sweep, ValuesHaveTheFewestDigitsThatReadBackTheSame) {
+  EXPECT_EQ(values_of("values = [0.15e-3, 0.30e-3, 1e8, 2.0, 7]"),
+            (std::vector<std::string>{"0.00015", "0.0003", "100000000", "2", "7"}));
+}
+
 TEST(Sweep, EachMakesAVariableOfEveryKey) {
   const Sweep sweep = sweep_of(
       "[[sweep.variables]]\nkey = \"contacts.tsp*.gap\"\neach = true\nuniform = { from = 0, to = 1 }\n");
