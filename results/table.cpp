@@ -93,15 +93,22 @@ void add_flexibility(Lines& lines, const RunResults& results) {
   lines.plain("");
 }
 
+/// Of the input: an energy at the start that is told apart.
+constexpr double least_initial = 1e-3;
+
 std::string energy_text(const EnergyTotals& e) {
   const auto shown = [&](double part) {
     return fmt::format("{:.4g}", without_round_off(part, std::max(std::abs(e.input), std::abs(e.stored))));
   };
+  const bool apart = std::abs(e.initial) > least_initial * std::max(std::abs(e.input), std::abs(e.stored));
+  const std::string start =
+      apart ? fmt::format("loads {} J + at the start {}", shown(e.input - e.initial), shown(e.initial))
+            : "input " + shown(e.input);
   const std::string fluid = e.fluid == 0.0 ? "" : " + fluid " + shown(e.fluid);
   return fmt::format(
-      "input {} J{} = stored {} + modal damping {} + contact damping {} + friction {}; balanced to {:.1e}",
-      shown(e.input), fluid, shown(e.stored), shown(e.modal_damping), shown(e.contact_damping),
-      shown(e.friction), e.residual_relative);
+      "{} J{} = stored {} + modal damping {} + contact damping {} + friction {}; balanced to {:.1e}", start,
+      fluid, shown(e.stored), shown(e.modal_damping), shown(e.contact_damping), shown(e.friction),
+      e.residual_relative);
 }
 
 /// The sums over contacts, and the one figure that differs most where one does.
