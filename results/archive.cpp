@@ -268,6 +268,11 @@ RunResults read_archive(const fs::path& directory) {
   const fs::path archive = directory / archive_name;
   const bool whole = fs::exists(archive);
   const fs::path file = whole ? archive : directory / "modes.h5";
+  if (!fs::exists(file) && (fs::exists(directory / "table.h5") || fs::exists(directory / "shards")))
+    throw core::Error(fmt::format(
+        "{} holds the results of a sweep, whose table is table.csv; give the folder of a case that it kept "
+        "({}), or run the study with the values of a case (--set)",
+        directory.string(), (directory / "runs" / "case_N").string()));
   if (!fs::exists(file))
     throw core::Error(
         fmt::format("{}: there are no results here (neither results.h5 nor modes.h5); give the folder that "

@@ -281,6 +281,14 @@ TEST(Archive, TellsAFolderWithoutResults) {
   EXPECT_THAT(refusal(folder.path()), HasSubstr(folder.path().string() + ": there are no results here"));
 }
 
+TEST(Archive, TellsAFolderOfASweep) {
+  const Folder folder;
+  write_bytes(folder / "table.h5", "");
+  EXPECT_THAT(refusal(folder.path()),
+              AllOf(HasSubstr("holds the results of a sweep, whose table is table.csv"),
+                    HasSubstr((folder / "runs/case_N").string())));
+}
+
 TEST(Archive, TellsADamagedFile) {
   const Folder folder;
   write_archive(folder / "results.h5", made_up());
