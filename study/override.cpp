@@ -112,7 +112,8 @@ Value& array_item(const Override& self, Array& array, std::size_t part) {
 }
 
 Value& table_item(const Override& self, Value& parent, std::size_t part) {
-  constexpr std::array optional_tables{"mesh", "modes", "contact_defaults", "gravity", "transient", "output"};
+  constexpr std::array optional_tables{"mesh",      "modes",  "contact_defaults", "gravity",
+                                       "transient", "output", "gap_opening"};
   Table& table = std::get<Table>(parent.data);
   const std::string& key = self.address[part];
   const auto at = table.find(key);

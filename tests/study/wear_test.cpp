@@ -203,6 +203,7 @@ TEST(GapOpening, HasTheYearsOfTheWear) {
   EXPECT_EQ(study.gap_opening->wall_share, 0.05);
   EXPECT_EQ(study.gap_opening->least_wall_share, 0.005);
   EXPECT_FALSE(read_text(wear_entry(wear)).gap_opening);
+  EXPECT_EQ(read_text(wear_entry(wear), {"gap_opening.stages=7"}).gap_opening->stages, 7);
   const Study given = read_text(wear_entry(
       wear +
       "[gap_opening]\nstages = 5\nyears = 10\ngap_share = 0.2\nwall_share = 0.1\nleast_wall_share = 0.01"));
