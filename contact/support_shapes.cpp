@@ -7,6 +7,13 @@
 #include <numbers>
 
 namespace fretwork::contact {
+namespace {
+
+constexpr const char* how_to_press = ". Bars that press on the tube are two contacts of one bar each: in "
+                                     "both bars = tube_radius and a negative "
+                                     "offset along the normal of the bar, in the second also angle = 180";
+
+} // namespace
 
 Circle drilled_hole(double tube_radius, double hole_radius) {
   check_room("drilled hole", tube_radius, "hole radius", hole_radius);
@@ -20,7 +27,7 @@ Ellipse elliptic_hole(double tube_radius, double semi_y, double semi_z) {
 }
 
 Obstacle flat_bars(double tube_radius, double distance, PlaneAxis axis, BarSides sides) {
-  check_room("flat bars", tube_radius, "distance", distance);
+  check_room("flat bars", tube_radius, "distance", distance, how_to_press);
   if (sides == BarSides::one)
     return Stop{distance - tube_radius, axis};
   return PlanePair{distance - tube_radius, axis};
@@ -34,7 +41,7 @@ OffsetPlanes flat_bars_between(double tube_radius, double negative_side, double 
                     "the positive one leave nothing between the bars; give two distances > 0",
                     negative_side, positive_side));
   check_room("flat bars", tube_radius, "half the distance between the bars",
-             0.5 * (negative_side + positive_side));
+             0.5 * (negative_side + positive_side), how_to_press);
   return {{0.5 * (negative_side + positive_side) - tube_radius, axis}, 0.5 * (positive_side - negative_side)};
 }
 

@@ -11,13 +11,14 @@ void check_size(std::string_view object, std::string_view name, double value) {
     throw core::Error(fmt::format("{}: {} = {:g} m makes no sense; give a length > 0", object, name, value));
 }
 
-void check_room(std::string_view object, double tube_radius, std::string_view name, double room) {
+void check_room(std::string_view object, double tube_radius, std::string_view name, double room,
+                std::string_view otherwise) {
   check_size(object, "tube radius", tube_radius);
   check_size(object, name, room);
   if (room < tube_radius)
     throw core::Error(
-        fmt::format("{}: {} = {:g} m is less than the tube radius, {:g} m; give at least the tube radius",
-                    object, name, room, tube_radius));
+        fmt::format("{}: {} = {:g} m is less than the tube radius, {:g} m; give at least the tube radius{}",
+                    object, name, room, tube_radius, otherwise));
 }
 
 void check_clearance(std::string_view object, double tube_radius, std::string_view name, double room) {

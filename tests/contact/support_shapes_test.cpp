@@ -127,10 +127,11 @@ TEST(SupportShapes, RefuseSizesThatAreNoLength) {
 TEST(SupportShapes, RefuseATubeThatDoesNotFit) {
   expect_refused([] { (void)contact::drilled_hole(1.0, 0.9); },
                  {"hole radius = 0.9 m is less than the tube radius, 1 m", "give at least"});
-  expect_refused([] { (void)contact::flat_bars(1.0, 0.9, PlaneAxis::y, BarSides::two); },
-                 {"distance = 0.9 m is less"});
+  expect_refused(
+      [] { (void)contact::flat_bars(1.0, 0.9, PlaneAxis::y, BarSides::two); },
+      {"distance = 0.9 m is less", "Bars that press on the tube are two contacts of one bar each"});
   expect_refused([] { (void)contact::flat_bars_between(1.0, 0.9, 1.0, PlaneAxis::y); },
-                 {"half the distance between the bars = 0.95 m is less"});
+                 {"half the distance between the bars = 0.95 m is less", "negative offset"});
   expect_refused([] { (void)contact::flat_bars_between(1.0, -1.1, 1.1, PlaneAxis::y); },
                  {"flat bars: -1.1 m", "leave nothing between the bars; give two distances > 0"});
   expect_refused([] { (void)contact::egg_crate(1.0, 0.9, 2.0); }, {"half width along y = 0.9 m is less"});
