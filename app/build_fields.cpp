@@ -89,14 +89,20 @@ void initial_field(const study::Study& study, const mesh::LineMesh& mesh, const 
 
 } // namespace
 
+std::string name_of_load(const study::Load& load, std::size_t entry) {
+  return load.name.empty() ? fmt::format("[[loads]] entry {} on \"{}\"", entry + 1, load.group)
+                           : fmt::format("load \"{}\"", load.name);
+}
+
+std::string name_of_support_motion(const study::SupportMotion& motion, std::size_t entry) {
+  return fmt::format("[[support_motion]] entry {} of \"{}\"", entry + 1, motion.group);
+}
+
 Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh, const fem::Model& model,
                     const std::vector<PlacedFlow>& flows, const std::vector<SupportFields>& supports) {
   Fields out;
   for (std::size_t e = 0; e < study.loads.size(); ++e) {
-    const study::Load& load = study.loads[e];
-    const std::string name = load.name.empty()
-                                 ? fmt::format("[[loads]] entry {} on \"{}\"", e + 1, load.group)
-                                 : fmt::format("load \"{}\"", load.name);
+    const std::string name = name_of_load(study.loads[e], e);
     out.loads.push_back({name, study.loads[e].function, load_field(study.loads[e], name, mesh, model)});
   }
   const auto on_all_masses = [&](const core::Vec3& direction) {
@@ -111,8 +117,7 @@ Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh, const
     out.loads.push_back({"[[base_motion]]", motion.acceleration, -on_all_masses(motion.direction), true});
   for (std::size_t k = 0; k < supports.size(); ++k) {
     const study::SupportMotion& motion = study.support_motions[k];
-    support_loads(motion, fmt::format("[[support_motion]] entry {} of \"{}\"", k + 1, motion.group), model,
-                  supports[k], out.loads);
+    support_loads(motion, name_of_support_motion(motion, k), model, supports[k], out.loads);
     out.supports.push_back(supports[k].shape);
   }
   initial_field(study, mesh, model, out);

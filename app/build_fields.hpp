@@ -39,6 +39,10 @@ struct Fields {
   Eigen::VectorXd displacement, velocity;                   ///< where moves_at_start
   Eigen::VectorXd displacement_momentum, velocity_momentum; ///< M times them
 };
+/// What messages call a load, and a moved support. @param entry  from 0
+[[nodiscard]] std::string name_of_load(const study::Load& load, std::size_t entry);
+[[nodiscard]] std::string name_of_support_motion(const study::SupportMotion& motion, std::size_t entry);
+
 /// @param supports  of the study's support motions; none where only the study is checked
 [[nodiscard]] Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh,
                                   const fem::Model& model, const std::vector<PlacedFlow>& flows,

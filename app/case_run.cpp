@@ -7,6 +7,7 @@
 #include "app/judge_contacts.hpp"
 #include "app/judge_run.hpp"
 #include "app/modal_truncation.hpp"
+#include "app/shared_signals.hpp"
 #include "app/verification.hpp"
 #include "app/wear_of_run.hpp"
 #include "core/error.hpp"
@@ -222,6 +223,7 @@ CaseRunner::CaseRunner(study::Document document, std::vector<std::string> base_o
   for (const std::string& text : base_overrides_)
     study::apply_override(document_.root, text);
   const Case nominal_case = read_case({});
+  shared_signals_ = shared_signals(nominal_case.study).size();
   name_columns(nominal_case);
   // refuses runs of another tube; its warnings are those of the run before its first step
   (void)compare_with_other_runs(nominal_case.other_runs, nominal_case.study, nominal_case.worn,
@@ -255,7 +257,19 @@ CaseRunner::Case CaseRunner::with_bases(Case read) {
   return read;
 }
 
-void CaseRunner::check(const std::vector<std::string>& overrides) { (void)read_case(overrides); }
+std::vector<std::string> CaseRunner::check(const std::vector<std::string>& overrides) {
+  const Case read = read_case(overrides);
+  const auto& contacts = read.study.contacts;
+  const std::vector<SharedSignal> shared = shared_signals(read.study);
+  if (shared.size() <= shared_signals_ ||
+      std::none_of(contacts.begin(), contacts.end(),
+                   [](const study::Contact& contact) { return contact.friction_dynamic > 0.0; }))
+    return {};
+  return {
+      text_of(shared.back()) +
+      ", which may move the structure along one line, without sliding; give each a seed of its own (seeds, "
+      "or each = true)"};
+}
 
 void CaseRunner::compute_nominal() {
   const Case nominal_case = with_bases(read_case({}));
@@ -323,6 +337,7 @@ sweep::CaseResult CaseRunner::operator()(const std::vector<std::string>& overrid
     fill_wear(*out.wear, row);
   judge_restitution(c.study, c.placed, out);
   judge_stuck_dampers(c.study, c.placed, scenes, out);
+  judge_sliding(c.study, c.placed, out);
   judge_step_errors(out);
   return {std::move(row).values(), results::grouped_messages(out.warnings)};
 }

@@ -24,9 +24,9 @@ public:
   [[nodiscard]] const std::vector<sweep::Column>& columns() const { return columns_; }
   /// Name and node of each contact, inactive ones included.
   [[nodiscard]] const std::vector<std::pair<std::string, core::Index>>& contacts() const { return contacts_; }
-  /// Refuses a case as far as that takes no modes.
+  /// Refuses a case as far as that takes no modes. What it warns of: random loads that follow one signal, where the nominal case's do not.
   /// @throws core::Error
-  void check(const std::vector<std::string>& overrides);
+  [[nodiscard]] std::vector<std::string> check(const std::vector<std::string>& overrides);
   /// Modes, flexibility and projections of the nominal case, which most cases share. What it warns of is no longer said of cases.
   /// @throws core::Error, core::ComputationError where it has none
   void compute_nominal();
@@ -48,6 +48,7 @@ private:
   std::vector<sweep::Column> columns_;
   std::vector<std::pair<std::string, core::Index>> contacts_;
   std::vector<std::string> known_; ///< warnings of the nominal case
+  std::size_t shared_signals_ = 0; ///< of the nominal case
 };
 
 } // namespace fretwork::app

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/judge_contacts.hpp"
+#include "app/shared_signals.hpp"
 #include "contact/restitution.hpp"
 #include "core/names.hpp"
 #include "results/totals.hpp"
@@ -137,6 +138,26 @@ void judge_stuck_dampers(const study::Study& study, const std::vector<PlacedCont
       "set tangential_damping (that of a loss factor eta at f Hz is eta K_T/(2 pi f))",
       core::list_names(names, most_named), 100.0 * share, range(all.least, all.most),
       range(all.lowest, all.highest)));
+}
+
+void judge_sliding(const study::Study& study, const std::vector<PlacedContact>& placed,
+                   results::RunResults& out) {
+  bool touches = false;
+  for (std::size_t c = 0; c < placed.size(); ++c) {
+    const post::ContactSummary& of = out.contact_summaries[c];
+    if (!(study.contacts[placed[c].entry].friction_dynamic > 0.0))
+      continue;
+    if (of.work_rate != 0.0)
+      return;
+    touches = touches || of.normal_rms > 0.0;
+  }
+  const std::vector<SharedSignal> shared = touches ? shared_signals(study) : std::vector<SharedSignal>{};
+  if (!shared.empty())
+    out.warnings.push_back(fmt::format(
+        "no contact slides, though contacts have friction: {}, which may move the structure along "
+        "one line, with impacts but without sliding; give each another seed (in a sweep by seeds, or each = "
+        "true)",
+        text_of(shared.front())));
 }
 
 } // namespace fretwork::app

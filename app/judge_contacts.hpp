@@ -29,4 +29,10 @@ constexpr double taken_by_stuck = 0.1;
 void judge_stuck_dampers(const study::Study& study, const std::vector<PlacedContact>& placed,
                          const std::vector<BuiltScene>& scenes, results::RunResults& out);
 
+/// Impacts of contacts with friction of which none slides, under loads that follow one random signal: a motion along one line. A warning with
+/// the first two of the loads, which `note_loads` (scenes.cpp) notes of every run.
+/// @param placed  as out.contact_summaries
+void judge_sliding(const study::Study& study, const std::vector<PlacedContact>& placed,
+                   results::RunResults& out);
+
 } // namespace fretwork::app

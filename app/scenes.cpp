@@ -3,11 +3,10 @@
 #include "app/contact_notes.hpp"
 #include "app/missing_flexibility.hpp"
 #include "app/modal_truncation.hpp"
+#include "app/shared_signals.hpp"
 #include "core/error.hpp"
 #include <algorithm>
 #include <fmt/format.h>
-#include <map>
-#include <tuple>
 
 namespace fretwork::app {
 namespace {
@@ -57,19 +56,11 @@ std::string goes_on_note(const Fields::Load& load, double duration) {
 }
 
 /// What the user should know of the loads.
-void note_loads(const Fields& fields, const std::vector<BuiltScene>& scenes, double duration,
+void note_loads(const study::Study& study, const Fields& fields, const std::vector<BuiltScene>& scenes,
                 results::RunResults& out) {
-  std::map<std::tuple<std::uint64_t, double, double>, std::string>
-      signals; // seed and band: the first load with them
-  for (const Fields::Load& load : fields.loads)
-    if (const auto* random = std::get_if<signals::Random>(&load.function)) {
-      const auto [first, is_new] = signals.try_emplace({random->seed, random->low, random->high}, load.name);
-      if (!is_new)
-        out.notes.push_back(
-            fmt::format("{} and {} follow one random signal: they have the same seed {} and band; give one "
-                        "another seed if they are independent",
-                        first->second, load.name, random->seed));
-    }
+  const double duration = study.transient->duration;
+  for (const SharedSignal& shared : shared_signals(study))
+    out.notes.push_back(text_of(shared) + "; give one another seed if they are independent");
   constexpr double long_rise = 0.2; // of the run
   for (const Fields::Load& load : fields.loads)
     if (const auto* random = std::get_if<signals::Random>(&load.function);
@@ -126,7 +117,7 @@ std::vector<BuiltScene> build_scenes(const study::Study& study, const std::vecto
        {missing_flexibility_warning(study, scenes), load_band_warning(study, bases, fields.loads)})
     if (!warning.empty()) // what makes forces wrong by factors comes first
       out.warnings.insert(out.warnings.begin(), warning);
-  note_loads(fields, scenes, study.transient->duration, out);
+  note_loads(study, fields, scenes, out);
   for (const NamedNode& node : nodes) {
     const auto has = [&](const modal::Basis& basis) { return basis.row_of(node.node) >= 0; };
     if (std::none_of(bases.begin(), bases.end(), has))

@@ -210,6 +210,11 @@ private:
         return;
       progress_.stage("statistics");
       summary_ = sweep::summarize(plan_.sweep, draws_, table_);
+      const auto& contacts = plan_.inputs.study.contacts;
+      const auto has_friction = [](const study::Contact& contact) { return contact.friction_dynamic > 0.0; };
+      if (std::any_of(contacts.begin(), contacts.end(), has_friction))
+        if (std::string warning = sweep::no_sliding_warning(table_); !warning.empty())
+          summary_["warnings"].push_back(std::move(warning));
       const bool reached = !plan_.sweep.until || !summary_.contains("statistics") ||
                            summary_["statistics"]["convergence"]["reached"].get<bool>();
       enough = reached || next_blocks(blocks) <= blocks ? 1 : 0;

@@ -23,8 +23,7 @@ sweep::Table read_cases(CaseRunner& runner, const study::Sweep& sweep, const swe
   const auto begin = Clock::now();
   for (std::int64_t number = 0; number < draws.rows() && Clock::now() - begin < longest_reading; ++number)
     table.rows.push_back(sweep::evaluated(number, "", [&]() -> sweep::CaseResult {
-      runner.check(sweep::overrides_of(sweep, draws, number));
-      return {};
+      return {{}, runner.check(sweep::overrides_of(sweep, draws, number))};
     }));
   return table;
 }
@@ -54,7 +53,7 @@ std::string sweep_check_text(const Request& request) {
       results::counted(static_cast<std::int64_t>(plan.sweep.variables.size()), "variable"),
       plan.sweep.until ? ", more of them until a quantile is known" : "",
       read < draws.rows() ? fmt::format("; the first {} have been read", results::grouped(read)) : "");
-  for (const std::string& line : sweep::case_warnings(table))
+  for (const std::string& line : sweep::case_warnings(table, "with a warning"))
     out += "  warning: " + line + "\n";
   return out;
 }

@@ -193,7 +193,22 @@ json summarize(const study::Sweep& sweep, const Draws& draws, const Table& table
   return out;
 }
 
-std::vector<std::string> case_warnings(const Table& table) {
+std::string no_sliding_warning(const Table& table) {
+  const std::size_t work = place_of(table.outputs, "total.work_rate", "no sliding"),
+                    force = place_of(table.outputs, "worst.normal_rms", "no sliding");
+  bool acts = false;
+  for (const std::size_t i : table.done()) {
+    if (table.rows[i].values[work] != 0.0)
+      return {};
+    acts = acts || table.rows[i].values[force] > 0.0;
+  }
+  return acts ? "no contact slides in any case, though contacts have friction: work rates and wear are 0. A "
+                "motion "
+                "along one line does so: see whether loads have one direction, or random loads one seed"
+              : "";
+}
+
+std::vector<std::string> case_warnings(const Table& table, const std::string& done) {
   struct Line {
     std::size_t cases;
     std::string text;
@@ -209,7 +224,7 @@ std::vector<std::string> case_warnings(const Table& table) {
           messages.push_back(std::move(message));
           numbers.push_back(row.number);
         }
-    const std::string what = outcome == Outcome::done ? "done with a warning" : name_of(outcome);
+    const std::string what = outcome == Outcome::done ? done : name_of(outcome);
     for (const results::AlikeMessages& alike : results::alike_messages(messages)) {
       const std::size_t cases = alike.members.size();
       const std::int64_t first = numbers[alike.members.front()];

@@ -12,7 +12,12 @@ namespace fretwork::sweep {
 [[nodiscard]] nlohmann::json summarize(const study::Sweep& sweep, const Draws& draws, const Table& table);
 
 /// What the messages of the rows say, those that are alike together: of cases without a result, then of done ones.
-[[nodiscard]] std::vector<std::string> case_warnings(const Table& table);
+/// @param done  what lines call a done case with a warning
+[[nodiscard]] std::vector<std::string> case_warnings(const Table& table,
+                                                     const std::string& done = "done with a warning");
+
+/// Of a sweep whose contacts have friction: a warning where contacts act in its cases and slide in none; else empty.
+[[nodiscard]] std::string no_sliding_warning(const Table& table);
 
 /// @throws core::Error where limits or `until` are asked of an output that there is not
 void check_outputs(const study::Sweep& sweep, const std::vector<Column>& outputs);

@@ -73,7 +73,35 @@ struct Pressed {
   }
 };
 
+/// Of a contact with friction under two random base motions.
+std::vector<std::string> of_sliding(std::uint64_t seed, double normal_rms, double work_rate,
+                                    double friction = 0.3) {
+  study::Study study;
+  study.contacts = {entry("a")};
+  study.contacts[0].friction_dynamic = friction;
+  study.base_motions = {{{1, 0, 0}, signals::Random{1, 5, 50, 1}, {}, {}},
+                        {{0, 1, 0}, signals::Random{1, 5, 50, seed}, {}, {}}};
+  post::ContactSummary summary;
+  summary.normal_rms = normal_rms;
+  summary.work_rate = work_rate;
+  results::RunResults out;
+  out.contact_summaries = {summary};
+  app::judge_sliding(study, std::vector<app::PlacedContact>(1), out);
+  return out.warnings;
+}
+
 } // namespace
+
+TEST(JudgeContacts, WarnsOfImpactsAlongOneLineUnderOneSignal) {
+  EXPECT_THAT(of_sliding(1, 5.0, 0.0),
+              ElementsAre(AllOf(HasSubstr("no contact slides, though contacts have friction"),
+                                HasSubstr("[[base_motion]] entry 1 and [[base_motion]] entry 2 follow one "
+                                          "random signal: they have the same seed 1 and band"))));
+  EXPECT_THAT(of_sliding(2, 5.0, 0.0), IsEmpty()) << "two signals";
+  EXPECT_THAT(of_sliding(1, 5.0, 1e-9), IsEmpty()) << "it slides";
+  EXPECT_THAT(of_sliding(1, 0.0, 0.0), IsEmpty()) << "nothing touches";
+  EXPECT_THAT(of_sliding(1, 5.0, 0.0, 0.0), IsEmpty()) << "without friction";
+}
 
 TEST(JudgeContacts, WarnsOfAnotherRestitutionThanAskedFor) {
   study::Study study;

@@ -1,8 +1,41 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What sweeps warn of and refuse.
+#include "mesh_text.hpp"
+#include "study_text.hpp"
 #include "sweep_command.hpp"
 
 namespace fretwork::app::test::sweep_warnings_test {
+namespace {
+
+/// A tube in a hole with friction, shaken along y and z by random accelerations of two seeds.
+std::string shaken_tube(const Workshop& folder) {
+  MeshText mesh = straight_line("tube", core::Vec3::Zero(), core::Vec3(1.0, 0, 0), 12);
+  mesh.points.emplace_back("support", 6);
+  folder.write("tube.msh", mesh.text());
+  return steel_pipe("tube.msh") + tube_between("tube") + R"([modes]
+count = 8
+damping = 0.01
+[[contacts]]
+name = "hole"
+group = "support"
+obstacle = "circle"
+axis = [1, 0, 0]
+gap = 1.0e-5
+normal_stiffness = 1.0e5
+tangential_stiffness = 1.0e5
+friction = 0.3
+[[base_motion]]
+direction = [0, 1, 0]
+random = { rms = 5.0, band = [20.0, 200.0], seed = 1 }
+[[base_motion]]
+direction = [0, 0, 1]
+random = { rms = 5.0, band = [20.0, 200.0], seed = 2 }
+[transient]
+duration = 1.0
+)";
+}
+
+} // namespace
 
 TEST_F(Sweeps, WarnOfStatesOfWearThatDoNotVaryWithTheContacts) {
   std::vector<std::string> states = short_tube;
@@ -137,6 +170,32 @@ TEST_F(Sweeps, CheckRefusesWhatNoCaseIsComputedFor) {
       check("draws = 4\nlimits = [{ output = \"stop.work\", above = 1 }]\n" + variable + "values = [1]\n");
   EXPECT_EQ(limit.status, 1);
   EXPECT_TRUE(says(limit.err, "sweep.toml:4: sweep.limits.0.output: no output is called \"stop.work\""));
+}
+
+TEST_F(Sweeps, WarnOfSeedsThatMakeOneSignalOfLoadsAcross) {
+  folder.write("study.toml", shaken_tube(folder));
+  const std::string head = "[sweep]\nstudy = \"study.toml\"\ndesign = \"grid\"\n[[sweep.variables]]\n"
+                           "key = \"base_motion.*.random.seed\"\n",
+                    one = head + "values = [5, 6]\n",
+                    own = head + "values = [5, 6]\neach = true\n"; // grid: equal in 2 of 4 cases
+  const std::string text = "[[base_motion]] entry 1 and [[base_motion]] entry 2 follow one random signal";
+  const Outcome check = folder.fretwork({"check", folder.write("sweep.toml", one).string()});
+  EXPECT_EQ(check.status, 0) << check.err;
+  EXPECT_TRUE(says(check.out, "2 cases with a warning, the first is case 0: " + text));
+  EXPECT_TRUE(says(folder.fretwork({"check", folder.write("own.toml", own).string()}).out,
+                   "2 cases with a warning, the first is case 0: " + text));
+
+  ASSERT_EQ(sweep(one, "one").status, 0);
+  const auto warnings_of = [&](const std::string& output) {
+    return nlohmann::json::parse(bytes_of(folder.path(output) / "summary.json"))["warnings"].dump();
+  };
+  EXPECT_TRUE(
+      says(warnings_of("one"), "2 cases done with a warning, the first is case 0: no contact slides"));
+  EXPECT_TRUE(says(warnings_of("one"), "no contact slides in any case, though contacts have friction"));
+  ASSERT_EQ(sweep(own, "own").status, 0);
+  EXPECT_TRUE(
+      says(warnings_of("own"), "2 cases done with a warning, the first is case 0: no contact slides"));
+  EXPECT_FALSE(says(warnings_of("own"), "slides in any case")); // it does in the two others
 }
 
 TEST_F(Sweeps, WrongInputIsRefusedWithItsCure) {
