@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/scenes.hpp"
+#include "app/build_up.hpp"
 #include "app/contact_notes.hpp"
 #include "app/missing_flexibility.hpp"
 #include "app/modal_truncation.hpp"
@@ -118,6 +119,9 @@ std::vector<BuiltScene> build_scenes(const study::Study& study, const std::vecto
     if (!warning.empty()) // what makes forces wrong by factors comes first
       out.warnings.insert(out.warnings.begin(), warning);
   note_loads(study, fields, scenes, out);
+  if (const std::string note = build_up_note(study, scenes);
+      !note.empty() && (!placed.empty() || !nodes.empty()))
+    out.notes.push_back(note);
   for (const NamedNode& node : nodes) {
     const auto has = [&](const modal::Basis& basis) { return basis.row_of(node.node) >= 0; };
     if (std::none_of(bases.begin(), bases.end(), has))
