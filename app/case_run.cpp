@@ -73,8 +73,10 @@ private:
   std::size_t next_ = 0;
 };
 
-/// Half of an interval of one standard error on both sides (CaseRunner::read_case).
-double half(const results::Bounds& bounds) { return 0.5 * (bounds.high - bounds.low); }
+/// Half of an interval of one standard error on both sides (CaseRunner::read_case); not a number of lives without end.
+double half(const results::Bounds& bounds) {
+  return std::isinf(bounds.low) ? std::numeric_limits<double>::quiet_NaN() : 0.5 * (bounds.high - bounds.low);
+}
 
 /// What numbers of tubes are found by.
 std::vector<modal::Basis> nodes_of(const std::vector<modal::Basis>& bases) {

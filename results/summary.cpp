@@ -309,7 +309,7 @@ void write_summary(const std::filesystem::path& file, const RunResults& results)
   out["model"] = model(results.model);
   out["modes"] = modes(results.bases);
   if (!results.closed_frequencies.empty())
-    out["modes"]["closed_contacts_hz"] = results.closed_frequencies;
+    out["closed_contacts_hz"] = results.closed_frequencies;
   if (const auto& limit = results.modes_limit)
     out["modes"]["limit"] = {{"accuracy", number(limit->accuracy)},
                              {"up_to_hz", number(limit->up_to)},
