@@ -40,18 +40,20 @@ IntervalTable ContactIntervals::table(int count) const {
   of.share = 1.0 / count;
   of.length = of.share * h_;
   of.growing = contact::growing_damping(normal_.damping, normal_.damping * mobility_ * of.length);
-  const auto mass = [&](double stiffness, double damping) {
-    const double force = of.length * (stiffness * of.length / 6.0 + damping);
-    return force / (1.0 + force * mobility_);
-  };
-  of.sliding_mass = mass(normal_.stiffness, normal_.damping);
-  of.apparent_mass = std::max(of.sliding_mass, mass(friction_.stiffness, friction_.damping));
+  of.sliding_mass = apparent_mass(of.length, normal_.stiffness, normal_.damping);
+  of.apparent_mass =
+      std::max(of.sliding_mass, apparent_mass(of.length, friction_.stiffness, friction_.damping));
   if (friction_.active()) {
     of.pieces = contact::piece_tables(friction_, mobility_, of.length);
     if (friction_.kind == contact::FrictionMemoryKind::reference)
       of.reference = contact::friction_table(friction_, of.length);
   }
   return of;
+}
+
+double ContactIntervals::apparent_mass(double length, double stiffness, double damping) const {
+  const double force = length * (stiffness * length / 6.0 + damping);
+  return force / (1.0 + force * mobility_);
 }
 
 int ContactIntervals::least_count(int parts, const ContactPast& past, const FreePath& path) const {
@@ -112,8 +114,12 @@ void ContactIntervals::move(MovingContact& m, const IntervalTable& of) const {
 }
 
 double ContactIntervals::answer(const MovingContact& m, const IntervalTable& of, const Components& by) const {
-  return m.past.closed ? (m.past.friction.sliding ? of.sliding_mass : of.apparent_mass) * sum_of_sizes(by)
-                       : 0.0;
+  if (!m.past.closed)
+    return 0.0;
+  double mass = m.past.friction.sliding ? of.sliding_mass : of.apparent_mass;
+  if (normal_.dissipation > 0.0)
+    mass = std::max(mass, apparent_mass(of.length, normal_.stiffness, normal_.damping_at(m.penetration)));
+  return mass * sum_of_sizes(by);
 }
 
 void ContactIntervals::expect(MovingContact& m) const {
@@ -345,7 +351,8 @@ void ContactIntervals::act(MovingContact& m, const IntervalTable& of, int index)
     state.closed += of.share;
   m.throughout = past.closed && n.from == 0.0;
   past.rise = m.throughout ? (1.0 / of.length) * m.growth : Components{};
-  m.penetrates = a.after(of.length) > 0.0 || past.closed;
+  m.penetration = std::max({0.0, a.penetration, a.after(of.length)});
+  m.penetrates = m.penetration > 0.0 || past.closed;
 }
 
 } // namespace fretwork::transient

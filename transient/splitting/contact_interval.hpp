@@ -54,6 +54,7 @@ struct MovingContact : ContactCourse {
   Components force, growth;
   Components last;                         ///< N: its force at the end of an interval
   bool throughout = false;                 ///< closed throughout that
+  double penetration = 0.0;                ///< m, the largest at the ends of an interval
   Components by_force, by_growth, by_held; ///< m/s2: W force, W growth, W held
 };
 
@@ -107,6 +108,8 @@ private:
   [[nodiscard]] contact::Location locate(const Components& u) const {
     return contact::locate(obstacle_, u.y() + rest_.y(), u.z() + rest_.z());
   }
+  /// kg: force of a spring and a damper for an acceleration of 1 m/s2 over an interval
+  [[nodiscard]] double apparent_mass(double length, double stiffness, double damping) const;
   [[nodiscard]] bool may_turn(const ContactPast& past, const FreePath& path, double way) const;
   [[nodiscard]] bool meets_corner(const FreePath& path) const;
   [[nodiscard]] bool rounds(const Motion& a, double dt) const;

@@ -123,6 +123,23 @@ TEST(CoupledContacts, AreStableWithDampersOfAnySize) {
       }
 }
 
+// Hunt and Crossley's damper grows with the penetration: what a contact answers the others does too.
+TEST(CoupledContacts, GainNoEnergyByDissipation) {
+  constexpr double step = 1e-4, pressed = 100.0; // N
+  for (const int count : {2, 6})
+    for (const double share : {0.6, 0.9})
+      for (const double rate : {3.0, 20.0, 100.0}) { // d F W h, of all where they are pressed
+        const double mobility = rate_of(count, share), k = 0.09 / (step * step * mobility);
+        Scene scene = equal_contacts(count, share, k, {});
+        for (ContactPoint& point : scene.contacts)
+          point.support.normal.dissipation = rate / (pressed * mobility * step);
+        const History run = simulate(scene, splitting(step), every);
+        const Energy& energy = run.report.energy;
+        const auto name = testing::Message() << count << ' ' << share << ' ' << rate;
+        EXPECT_LT(std::abs(energy.residual()), 1e-5 * energy.scale) << name; // 1e-3 where it is left out
+      }
+}
+
 TEST(CoupledContacts, AreStableAtAnyStep) {
   constexpr double step = 1e-3;
   for (const int count : {2, 6})
