@@ -114,7 +114,7 @@ void ContactIntervals::move(MovingContact& m, const IntervalTable& of) const {
 }
 
 double ContactIntervals::answer(const MovingContact& m, const IntervalTable& of, const Components& by) const {
-  if (!m.past.closed)
+  if (!m.penetrates) // one that its damper holds free of force answers too
     return 0.0;
   double mass = m.past.friction.sliding ? of.sliding_mass : of.apparent_mass;
   if (normal_.dissipation > 0.0)
