@@ -133,8 +133,8 @@ void judge_stuck_dampers(const study::Study& study, const std::vector<PlacedCont
       names.push_back(study.contacts[e].name);
   out.warnings.push_back(fmt::format(
       "the automatic tangential_damping of {} takes {:.2g} % of the energy dissipated, in contacts that "
-      "stick: "
-      "its {} N s/m are stiffer than tangential_stiffness above {} Hz, and motion and wear follow from them; "
+      "stick: its {} N s/m are stiffer than tangential_stiffness above {} Hz, and motion and wear follow "
+      "from them; "
       "set tangential_damping (that of a loss factor eta at f Hz is eta K_T/(2 pi f))",
       core::list_names(names, most_named), 100.0 * share, range(all.least, all.most),
       range(all.lowest, all.highest)));

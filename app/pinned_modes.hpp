@@ -40,7 +40,7 @@ struct PinnedModes {
                                        const std::vector<PlacedContact>& contacts,
                                        std::vector<std::string>& notes);
 
-/// Collective. Hz, the lowest of all structures, ascending: with the contacts closed, as springs of K_N and, with friction, K_T; empty where none
+/// Collective. Hz, the lowest of all structures, ascending: with the contacts on fixed obstacles closed, as springs of K_N and, with friction, K_T; empty where none
 /// of them can pin.
 [[nodiscard]] std::vector<double> closed_frequencies(MPI_Comm comm, const study::Study& study,
                                                      const fem::Model& model,

@@ -108,7 +108,8 @@ struct RunResults {
       properties; ///< of the beams, without masses of fluids and added masses; none is there twice
   std::map<std::string, std::vector<core::Index>> groups; ///< nodes of the named groups of the mesh
   std::vector<modal::Basis> bases;                        ///< by structure
-  std::vector<double> closed_frequencies;     ///< Hz, ascending, with all contacts closed; of `modes` only
+  std::vector<double>
+      closed_frequencies; ///< Hz, ascending, contacts on fixed obstacles closed; of `modes` only
   std::vector<TubeDamping> flow_damping;      ///< by tubes, where modes.damping = "flow"
   std::vector<StabilityAssessment> stability; ///< by assessments and tubes
   std::vector<LawAtWork> laws;                ///< of fluidelastic forces, of a run

@@ -65,7 +65,7 @@ std::string closed_text(const std::vector<double>& frequencies) {
   std::string text;
   for (std::size_t k = 0; k < std::min(most_frequencies, frequencies.size()); ++k)
     text += fmt::format("{:.5g} ", frequencies[k]);
-  return text + "Hz with all contacts closed (springs of K_N and, with friction, K_T)";
+  return text + "Hz with the contacts on fixed obstacles closed (springs of K_N and, with friction, K_T)";
 }
 
 /// Contacts whose modes lack flexibility beside their own, the worst first.
@@ -93,7 +93,7 @@ void add_flexibility(Lines& lines, const RunResults& results) {
   lines.plain("");
 }
 
-/// Of the input: an energy at the start that is told apart.
+/// Of the input: an energy at the start that is given separately.
 constexpr double least_initial = 1e-3;
 
 std::string energy_text(const EnergyTotals& e) {
