@@ -14,8 +14,11 @@ constexpr double longest_way = 1.0;
 constexpr int most_for_speed = 64;
 /// Of a step in which a contact meets a corner, or another side of its obstacle: times as many intervals, the fewest and the most of them; cosine
 /// of the angle by which its normal turns there in half a step; way in the clearance without which a round hole or two planes have no such turn.
-constexpr int at_corner = 16, least_at_corner = 32, most_at_corner = 128;
+constexpr int at_corner = 16, least_at_corner = 32, most_at_corner = 128, at_side = 8, least_at_side = 16,
+              most_at_side = 64;
 constexpr double least_cosine = 0.9, least_way = 0.4;
+/// r_t h above which a tangential damper stops its contact early in a step.
+constexpr double stopping = 2.0;
 /// d v of Hunt and Crossley's damper that leaves intervals as they are.
 constexpr double least_stiffer = 1.0;
 /// rad: by which a normal turns in an interval at most, as far as the terms of the curvature know.
@@ -31,8 +34,8 @@ ContactIntervals::ContactIntervals(const contact::Support& support, const Compon
       w_(mobility), in_plane_(in_plane), has_corners_(contact::properties_of(support.obstacle).has_parts),
       has_sides_(std::holds_alternative<contact::Circle>(support.obstacle) ||
                  std::holds_alternative<contact::PlanePair>(support.obstacle)),
-      h_(step), clearance_(clearance), mobility_(std::max({mobility(0, 0), mobility(1, 1), mobility(2, 2)})) {
-}
+      h_(step), clearance_(clearance), mobility_(std::max({mobility(0, 0), mobility(1, 1), mobility(2, 2)})),
+      stops_(friction_.active() && friction_.damping * mobility_ * step > stopping) {}
 
 IntervalTable ContactIntervals::table(int count) const {
   IntervalTable of;
@@ -62,7 +65,8 @@ int ContactIntervals::least_count(int parts, const ContactPast& past, const Free
   if (const double stiffer = normal_.dissipation * speed; stiffer > least_stiffer)
     parts = static_cast<int>(std::min(std::round(parts * std::sqrt(1.0 + stiffer)), 1.0 * most_for_speed));
   if (may_turn(past, path, way) && meets_corner(path))
-    return std::clamp(at_corner * parts, least_at_corner, most_at_corner);
+    return has_corners_ ? std::clamp(at_corner * parts, least_at_corner, most_at_corner)
+                        : std::clamp(at_side * parts, least_at_side, most_at_side);
   if (past.closed || !(clearance_ > 0.0))
     return parts;
   return std::max(
@@ -127,6 +131,11 @@ void ContactIntervals::expect(MovingContact& m) const {
     m.growth = {};
   m.force = m.last + 0.5 * m.growth;
   follow(m);
+}
+
+Components ContactIntervals::with_mean_friction(const MovingContact& m) {
+  const contact::ContactAxes& axes = m.past.axes;
+  return along(axes, normal(axes, m.last), {m.mean.x, tangent(axes, m.mean)});
 }
 
 double ContactIntervals::relax(ContactPast& past, double time) const {

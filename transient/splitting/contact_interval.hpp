@@ -94,6 +94,13 @@ public:
   void move(MovingContact& m, const IntervalTable& of) const;
   /// N: about what its force would change by for a further acceleration, m/s2.
   [[nodiscard]] double answer(const MovingContact& m, const IntervalTable& of, const Components& by) const;
+  /// N: what the modes bear of its force over the next step before its forces there are found: it goes on as it ends. Of friction that holds a contact
+  /// the mean does where a damper stops it early in a step: the linear force of that impulse ends opposite to it.
+  [[nodiscard]] Components held(const MovingContact& m) const {
+    if (!m.past.closed)
+      return {};
+    return stops_ && !m.past.friction.sliding ? with_mean_friction(m) : m.last;
+  }
   /// What is expected of its force in the next interval: it grows on where the contact has been closed throughout, and stays else.
   void expect(MovingContact& m) const;
   /// An open contact forgets over `time`. Returns what its spring dissipates, J.
@@ -110,6 +117,7 @@ private:
   }
   /// kg: force of a spring and a damper for an acceleration of 1 m/s2 over an interval
   [[nodiscard]] double apparent_mass(double length, double stiffness, double damping) const;
+  [[nodiscard]] static Components with_mean_friction(const MovingContact& m);
   [[nodiscard]] bool may_turn(const ContactPast& past, const FreePath& path, double way) const;
   [[nodiscard]] bool meets_corner(const FreePath& path) const;
   [[nodiscard]] bool rounds(const Motion& a, double dt) const;
@@ -137,6 +145,7 @@ private:
   bool in_plane_, has_corners_, has_sides_;
   double h_, clearance_;
   double mobility_; ///< 1/kg, the largest along any direction
+  bool stops_;      ///< its tangential damper, early in a step
 };
 
 } // namespace fretwork::transient

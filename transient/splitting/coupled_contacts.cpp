@@ -115,7 +115,7 @@ void CoupledContacts::make(const ContactMotion& start, const ContactMotion& end,
       move(moving_blocks_[b].first);
   for (const MovingContact& m : moving_) {
     pasts_[m.number] = m.past;
-    forces_[m.number] = {m.mean, m.slope, m.past.closed ? m.last : Components{}};
+    forces_[m.number] = {m.mean, m.slope, laws_[m.number].held(m)};
     trial.states[m.number] = m.state;
     losses.damping += m.state.damper_work + m.relaxed;
     losses.friction += m.state.friction_work;
