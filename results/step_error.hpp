@@ -30,7 +30,8 @@ struct RelativeError {
 /// What replays know of the errors of work rate, friction power and impacts per second over all contacts.
 struct ErrorsOfSums {
   std::optional<RelativeError> largest; ///< of those resolved; 0 only where all are
-  /// Of those that are not resolved, that with the largest upper bound; none where that of `largest` is above it.
+  /// Of those that are not resolved, that with the largest upper bound; none where that of `largest` is above it. Impacts are left out where there
+  /// is another: no run has replays of so many that their bound is small.
   std::optional<RelativeError> least_known;
 
   [[nodiscard]] bool measured() const { return largest || least_known; }

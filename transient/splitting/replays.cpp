@@ -21,7 +21,10 @@ constexpr double tolerated = 0.75, significance = 3.0;
 /// Sums over replays, each with its weight.
 struct Evidence {
   Figures sums{}, differences{}, squares{};
+  double weights = 0.0, count = 0.0; ///< squares of the weights; replays
   void add(const Figures& run, const Figures& replay, double weight) {
+    weights += weight * weight;
+    count += 1.0;
     for (std::size_t k = 0; k < replayed_figures; ++k) {
       const double d = weight * (run[k] - replay[k]);
       sums[k] += weight * run[k];
@@ -30,7 +33,11 @@ struct Evidence {
     }
   }
   [[nodiscard]] double error(std::size_t k) const { return whole_error * differences[k]; }
-  [[nodiscard]] double spread(std::size_t k) const { return whole_error * std::sqrt(squares[k]); }
+  /// Impacts are counted: that no replay differs by one does not say that the next would not.
+  [[nodiscard]] double spread(std::size_t k) const {
+    const double one_more = k == replayed_impacts && count > 0.0 ? weights / count : 0.0;
+    return whole_error * std::sqrt(squares[k] + one_more);
+  }
 };
 
 /// Adds what the contacts do in a record.

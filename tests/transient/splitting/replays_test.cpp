@@ -303,6 +303,10 @@ TEST(Replays, FollowModesThatDampersCouple) {
   ASSERT_GT(m.error.sums[replayed_impacts], 50.0);
   for (const std::size_t figure : {replayed_impulse, replayed_impacts, replayed_closed_time})
     EXPECT_LT(std::abs(m.error.errors[figure]), 0.02 * m.error.sums[figure]) << figure;
+  // no replay has another number of impacts: so it is known to one of the few in them
+  EXPECT_EQ(m.error.errors[replayed_impacts], 0.0);
+  EXPECT_GT(m.error.spreads[replayed_impacts], 0.1 * m.error.sums[replayed_impacts]);
+  EXPECT_LT(m.error.spreads[replayed_impacts], 0.5 * m.error.sums[replayed_impacts]);
 }
 
 } // namespace replays_test
