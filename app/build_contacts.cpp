@@ -63,8 +63,13 @@ Vec3 oriented(const Vec3& axis) {
 contact::Frame frame_of(const study::Contact& contact, const fem::Model& model, Index node,
                         const std::string& name) {
   const Vec3 axis = contact.axis ? *contact.axis : oriented(mean_tangent(model, node, name));
-  if (contact.y_axis)
-    return contact::frame_from_y(axis, *contact.y_axis);
+  if (contact.y_axis) {
+    try {
+      return contact::frame_from_y(axis, *contact.y_axis);
+    } catch (const core::Error& e) {
+      throw core::Error(fmt::format("contact \"{}\": {}", name, e.what()));
+    }
+  }
   return contact::nautical_frame(axis, contact.angle * std::numbers::pi / 180.0);
 }
 

@@ -13,7 +13,7 @@ constexpr double patches_per_correlation_length = 5.0; ///< a modal force spectr
 constexpr double patches_per_half_wavelength = 10.0;
 constexpr double same_width = 1e-9; ///< of widths
 constexpr double negligible_share =
-    1e-6; ///< of the largest velocity, and of the largest displacement of a shape
+    1e-6; ///< of the largest velocity, and of the largest displacement of all shapes
 constexpr std::uint32_t most_zones = std::uint32_t{1} << 24;
 constexpr std::size_t most_axes = 256;
 
@@ -131,8 +131,8 @@ double required_patch_width(double correlation_length, double shortest_half_wave
 double shortest_half_wavelength(const Eigen::VectorXd& positions, const Eigen::MatrixXd& shapes) {
   const Eigen::Index n = positions.size();
   double shortest = n > 1 ? positions[n - 1] - positions[0] : 0.0;
+  const double small = shapes.size() > 0 ? negligible_share * shapes.cwiseAbs().maxCoeff() : 0.0;
   for (Eigen::Index mode = 0; mode < shapes.rows(); ++mode) {
-    const double small = negligible_share * shapes.row(mode).cwiseAbs().maxCoeff();
     std::optional<double> last_zero;
     Eigen::Index last = -1; // position of the last displacement that is not zero
     for (Eigen::Index k = 0; k < n; ++k) {

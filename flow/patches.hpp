@@ -61,7 +61,7 @@ void check(const std::vector<TurbulentZone>& zones);
 [[nodiscard]] double required_patch_width(double correlation_length, double shortest_half_wavelength);
 
 /// Shortest distance between neighbouring zeros of the shapes, m; the length of the positions where a shape has fewer than two.
-/// Displacements below 1e-6 of a shape's largest count as zero.
+/// Displacements below 1e-6 of the largest of all shapes count as zero: modes that move across the axis have round-off along it.
 /// @param positions  m, ascending   @param shapes  modes x positions
 [[nodiscard]] double shortest_half_wavelength(const Eigen::VectorXd& positions,
                                               const Eigen::MatrixXd& shapes);

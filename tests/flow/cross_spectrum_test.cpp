@@ -220,6 +220,10 @@ TEST(Patches, KnowTheShortestHalfWavelengthOfTheShapes) {
   EXPECT_NEAR(shortest_half_wavelength(s, shapes), 0.4, of_interpolation);
   EXPECT_NEAR(shortest_half_wavelength(s, shapes.topRows(1)), 2.0 / 3.0, of_interpolation);
   EXPECT_EQ(shortest_half_wavelength(s, Eigen::MatrixXd::Ones(1, s.size())), 2.0);
+  // round-off of a mode that moves across has no wavelength
+  for (Eigen::Index k = 0; k < s.size(); ++k)
+    shapes(1, k) = (k % 2 == 0 ? 1e-9 : -1e-9) * static_cast<double>(1 + k % 3);
+  EXPECT_NEAR(shortest_half_wavelength(s, shapes), 2.0 / 3.0, of_interpolation);
 }
 
 TEST(Patches, RefuseWrongInput) {
