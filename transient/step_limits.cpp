@@ -33,7 +33,7 @@ double explicit_share(SchemeKind scheme, double fineness) {
   return scheme == SchemeKind::devogelaere ? std::min(0.5 * fineness, most_damped) : 0.5 * fineness;
 }
 /// r_t h up to which tangential dampers do not stop contacts within the step, and w h of modes that are followed above it.
-constexpr double slow_dampers = 4.0, beside_dampers = 1.8;
+constexpr double slow_dampers = 3.0, beside_dampers = 1.5;
 /// With contacts: collocation needs none of it, splitting can take modes as heavier ones.
 bool may_go_past_modes(SchemeKind scheme) {
   return scheme == SchemeKind::collocation || scheme == SchemeKind::splitting;

@@ -63,9 +63,9 @@ TEST(StepRule, ResolvesTheHighestModeWhereContactsAct) {
   expect_governed(scene, splitting(), eps * 5.0 / 1000.0, "the highest mode 1000 rad/s");
   Scene damped = scene; // r_t = 2000 1/s: r_t h = 5 in a step by the modes alone
   damped.contacts.front().support.friction = {1.0, 2000.0 * mass, 0.3, 0.3};
+  expect_governed(damped, splitting(), 1.5 / 1000.0, "the highest mode 1000 rad/s, with tangential dampers");
+  damped.contacts.front().support.friction.damping *= 0.75;
   expect_governed(damped, splitting(), 2.0 / 1000.0, "the highest mode 1000 rad/s, with tangential dampers");
-  damped.contacts.front().support.friction.damping *= 10.0;
-  expect_governed(damped, splitting(), 1.8 / 1000.0, "the highest mode 1000 rad/s, with tangential dampers");
   expect_governed(scene, euler(), eps / 1000.0, "the highest mode 1000 rad/s");
 }
 

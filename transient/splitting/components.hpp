@@ -3,6 +3,7 @@
 /// Vectors of a contact along its local axes, and what forces do to its motion.
 #pragma once
 #include "contact/plane.hpp"
+#include <algorithm>
 #include <cmath>
 
 namespace fretwork::transient {
@@ -38,6 +39,14 @@ inline double sum_of_sizes(const Components& c) { return std::abs(c.y()) + std::
 class Mobility {
 public:
   [[nodiscard]] double operator()(int to, int from) const { return to < 2 ? yz_[from][to] : x_[from]; }
+  /// The largest component by size.
+  [[nodiscard]] double largest() const {
+    double out = 0.0;
+    for (int to = 0; to < 3; ++to)
+      for (int from = 0; from < 3; ++from)
+        out = std::max(out, std::abs((*this)(to, from)));
+    return out;
+  }
   void add(int to, int from, double w) {
     if (to < 2)
       yz_[from][to] += w;

@@ -17,8 +17,8 @@ constexpr int most_for_speed = 64;
 constexpr int at_corner = 16, least_at_corner = 32, most_at_corner = 128, at_side = 8, least_at_side = 16,
               most_at_side = 64;
 constexpr double least_cosine = 0.9, least_way = 0.4;
-/// r_t h above which a tangential damper stops its contact early in a step.
-constexpr double stopping = 2.0;
+/// r_t h above which tangential dampers stop a contact early in a step.
+constexpr double stopping = 1.0;
 /// d v of Hunt and Crossley's damper that leaves intervals as they are.
 constexpr double least_stiffer = 1.0;
 /// rad: by which a normal turns in an interval at most, as far as the terms of the curvature know.
@@ -29,13 +29,14 @@ constexpr double shortest = 1e-9;
 } // namespace
 
 ContactIntervals::ContactIntervals(const contact::Support& support, const Components& rest,
-                                   const Mobility& mobility, bool in_plane, double step, double clearance)
+                                   const Mobility& mobility, bool in_plane, double step, double clearance,
+                                   double damper_rate)
     : obstacle_(support.obstacle), normal_(support.normal), friction_(support.friction), rest_(rest),
       w_(mobility), in_plane_(in_plane), has_corners_(contact::properties_of(support.obstacle).has_parts),
       has_sides_(std::holds_alternative<contact::Circle>(support.obstacle) ||
                  std::holds_alternative<contact::PlanePair>(support.obstacle)),
       h_(step), clearance_(clearance), mobility_(std::max({mobility(0, 0), mobility(1, 1), mobility(2, 2)})),
-      stops_(friction_.active() && friction_.damping * mobility_ * step > stopping) {}
+      stops_(damper_rate * step > stopping) {}
 
 IntervalTable ContactIntervals::table(int count) const {
   IntervalTable of;

@@ -74,8 +74,9 @@ class ContactIntervals {
 public:
   /// @param support  must live longer   @param rest  of the contact without displacement, m
   /// @param in_plane  friction acts along x too   @param step  h, s   @param clearance  m, that is not to be passed unseen
+  /// @param damper_rate  1/s: tangential damping times mobility, of all contacts whose forces move it
   ContactIntervals(const contact::Support& support, const Components& rest, const Mobility& mobility,
-                   bool in_plane, double step, double clearance);
+                   bool in_plane, double step, double clearance, double damper_rate);
 
   [[nodiscard]] IntervalTable table(int count) const;
   /// How many intervals of a step a contact needs at least: for its speed, and where it meets a corner or
@@ -95,7 +96,7 @@ public:
   /// N: about what its force would change by for a further acceleration, m/s2.
   [[nodiscard]] double answer(const MovingContact& m, const IntervalTable& of, const Components& by) const;
   /// N: what the modes bear of its force over the next step before its forces there are found: it goes on as it ends. Of friction that holds a contact
-  /// the mean does where a damper stops it early in a step: the linear force of that impulse ends opposite to it.
+  /// with a damper, or several together, the mean does: they may stop it early in a step, and the linear force of that impulse ends opposite to it.
   [[nodiscard]] Components held(const MovingContact& m) const {
     if (!m.past.closed)
       return {};
@@ -145,7 +146,7 @@ private:
   bool in_plane_, has_corners_, has_sides_;
   double h_, clearance_;
   double mobility_; ///< 1/kg, the largest along any direction
-  bool stops_;      ///< its tangential damper, early in a step
+  bool stops_;      ///< tangential dampers stop it, early in a step
 };
 
 } // namespace fretwork::transient

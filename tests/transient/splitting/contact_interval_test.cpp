@@ -23,7 +23,7 @@ Mobility isotropic(double w) {
 /// A contact through a step.
 MovingContact through(const contact::Support& support, const Mobility& mobility, double h, int count,
                       const FreePath& path, const ContactPast& past, const Components& held = {}) {
-  const ContactIntervals intervals(support, {}, mobility, false, h, 1e-3);
+  const ContactIntervals intervals(support, {}, mobility, false, h, 1e-3, 0.0);
   const IntervalTable table = intervals.table(count);
   MovingContact m;
   m.path = path;
@@ -145,7 +145,7 @@ TEST(ContactIntervals, FollowTheWallOfAHole) {
   const contact::Support support{contact::Circle{gap}, {stiffness}, {}};
   const double force = stiffness * penetration;
   for (const int count : {20, 40}) {
-    const ContactIntervals intervals(support, {}, isotropic(w), false, h, gap);
+    const ContactIntervals intervals(support, {}, isotropic(w), false, h, gap, 0.0);
     const IntervalTable table = intervals.table(count);
     MovingContact m;
     m.path = {{radius, 0.0, 0.0}, {0.0, radius * turning, 0.0}, {}, {}};
