@@ -29,8 +29,7 @@ private:
 };
 
 /// At rest but for the velocities of its modes. @param damper_rate  of contacts, over the frequency of the highest mode
-/// @param pairs  of stops at each node: across y, or across y and z
-Scene held_between_stops(unsigned seed, double damper_rate, int pairs = 1) {
+Scene held_between_stops(unsigned seed, double damper_rate) {
   Draw draw(seed);
   const int nodes = 1 + static_cast<int>(draw.uniform(0.0, 6.0)),
             each = static_cast<int>(draw.uniform(8.0, 24.0)), modes = 3 * each;
@@ -55,15 +54,9 @@ Scene held_between_stops(unsigned seed, double damper_rate, int pairs = 1) {
     for (int i = 0; i < modes; ++i)
       point.b((i + 1) % 3, i) = std::sin((1 + i / 3) * std::numbers::pi * x);
     mobility = std::max(mobility, point.b.row(1).squaredNorm());
-    for (int side = 0; side < 2 * pairs; ++side) {
-      scene.contacts.push_back(point);
-      if (side == 1) { // the next two a quarter of a turn further
-        const Eigen::MatrixXd across = point.b.bottomRows(2);
-        point.b.row(1) = across.row(1);
-        point.b.row(2) = -across.row(0);
-      }
-      point.b.bottomRows(2) *= -1.0;
-    }
+    scene.contacts.push_back(point);
+    point.b.bottomRows(2) *= -1.0;
+    scene.contacts.push_back(point);
   }
   const double normal = 0.5 * contact_frequency * contact_frequency / mobility,
                tangential = normal * draw.logarithmic(0.05, 1.0);
@@ -93,12 +86,6 @@ TEST(StickingContacts, LoseEnergyAtTheAutomaticStep) {
   for (unsigned seed = 0; seed < 8; ++seed)
     for (const double damper_rate : {0.3, 3.0, 30.0, 150.0})
       EXPECT_LT(growth(held_between_stops(seed, damper_rate)), 1.0) << seed << " " << damper_rate;
-}
-
-TEST(StickingContacts, LoseEnergyWhereStopsPressFromAllSides) {
-  for (unsigned seed = 0; seed < 8; ++seed)
-    for (const double damper_rate : {0.1, 0.3, 1.0, 3.0})
-      EXPECT_LT(growth(held_between_stops(seed, damper_rate, 2)), 1.0) << seed << " " << damper_rate;
 }
 
 } // namespace sticking_contacts_test
