@@ -61,14 +61,15 @@ std::string scatter_text(const RunResults& results, double scatter) {
          (scatter > says_little ? ", which is too short for statistics or holds no stationary motion" : "");
 }
 
-/// The largest error that replays resolve, and the bound of one that may be larger.
+/// The largest error that replays resolve, and bounds of those that may be larger.
 std::string step_text(const ErrorsOfSums& errors) {
   std::string out;
   if (const auto& e = errors.largest)
     out = fmt::format("{} by {} +- {} %", e->name, percent(std::abs(e->value)), percent(e->standard_error));
-  if (const auto& e = errors.least_known)
-    out +=
-        fmt::format("{}{} by less than {} %", out.empty() ? "" : " and ", e->name, percent(e->upper_bound()));
+  for (const auto& e : {errors.least_known, errors.impacts})
+    if (e)
+      out += fmt::format("{}{} by less than {} %", out.empty() ? "" : " and ", e->name,
+                         percent(e->upper_bound()));
   return out;
 }
 

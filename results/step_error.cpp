@@ -108,7 +108,7 @@ double RelativeError::upper_bound() const { return std::abs(value) + significanc
 
 double ErrorsOfSums::size() const {
   double out = 0.0;
-  for (const auto& e : {largest, least_known})
+  for (const auto& e : {largest, least_known, impacts})
     if (e)
       out = std::max({out, std::abs(e->value), e->standard_error});
   return out;
@@ -121,14 +121,19 @@ ErrorsOfSums errors_of_sums(const RunResults& results) {
       continue;
     if (e.is_resolved() && (!out.largest || std::abs(e.value) > std::abs(out.largest->value)))
       out.largest = e;
-    const bool counted = e.name == "impacts_per_second"; // of few nothing is known; it comes last
-    if (!e.is_resolved() && !(counted && out.measured()) &&
-        (!out.least_known || e.upper_bound() > out.least_known->upper_bound()))
+    if (e.is_resolved())
+      continue;
+    if (e.name == "impacts_per_second")
+      out.impacts = e;
+    else if (!out.least_known || e.upper_bound() > out.least_known->upper_bound())
       out.least_known = e;
   }
   if (out.largest && out.least_known && out.least_known->upper_bound() <= out.largest->upper_bound())
     out.least_known.reset();
-  if (out.least_known && out.largest && out.largest->value == 0.0)
+  for (const auto& other : {out.largest, out.least_known})
+    if (other && out.impacts && out.impacts->upper_bound() <= other->upper_bound())
+      out.impacts.reset();
+  if ((out.least_known || out.impacts) && out.largest && out.largest->value == 0.0)
     out.largest.reset();
   return out;
 }

@@ -30,11 +30,12 @@ struct RelativeError {
 /// What replays know of the errors of work rate, friction power and impacts per second over all contacts.
 struct ErrorsOfSums {
   std::optional<RelativeError> largest; ///< of those resolved; 0 only where all are
-  /// Of those that are not resolved, that with the largest upper bound; none where that of `largest` is above it. Impacts are left out where there
-  /// is another: no run has replays of so many that their bound is small.
+  /// Of work rate and friction power, where they are not resolved, that with the larger upper bound; none where that of `largest` is above it.
   std::optional<RelativeError> least_known;
+  /// Where they are not resolved and may err by more than the others: replays have few of them, and each counts.
+  std::optional<RelativeError> impacts;
 
-  [[nodiscard]] bool measured() const { return largest || least_known; }
+  [[nodiscard]] bool measured() const { return largest || least_known || impacts; }
   /// The largest error, or standard error of one where that is larger; 0 where nothing was measured.
   [[nodiscard]] double size() const;
 };
