@@ -14,12 +14,39 @@ namespace {
 using core::Index;
 using core::Vec3;
 
+using AlongBeam = std::function<fem::Vector12(const fem::Model&, core::Index)>;
+
+const fem::Beam& beam_of(const fem::Model& model, core::Index beam) {
+  return model.beams[static_cast<std::size_t>(beam)];
+}
+
+/// Of the inertia of all masses that move as a field over the model.
+AlongBeam inertia_along(Eigen::VectorXd field) {
+  return [field = std::move(field)](const fem::Model& model, core::Index number) {
+    const fem::Beam& beam = beam_of(model, number);
+    fem::Vector12 moved;
+    moved << field.segment<6>(core::dofs_per_node * static_cast<Eigen::Index>(beam.a)),
+        field.segment<6>(core::dofs_per_node * static_cast<Eigen::Index>(beam.b));
+    return fem::Vector12(-(fem::BeamElement(model, beam).mass() * moved));
+  };
+}
+
+/// Of a force per length on some beams.
+AlongBeam line_force_along(std::vector<core::Index> beams, const Vec3& force) {
+  std::sort(beams.begin(), beams.end());
+  return [beams = std::move(beams), force](const fem::Model& model, core::Index number) {
+    return std::binary_search(beams.begin(), beams.end(), number)
+               ? fem::BeamElement(model, beam_of(model, number)).line_force(force)
+               : fem::Vector12(fem::Vector12::Zero());
+  };
+}
+
 /// Forces of the moved supports on what is left of the motion: the inertia of the static shape, and the dampers that it stretches.
 void support_loads(const study::SupportMotion& motion, const std::string& name, const fem::Model& model,
                    const SupportFields& fields, std::vector<Fields::Load>& loads) {
   const signals::PrescribedMotion moved = prescribed(motion);
-  loads.push_back(
-      {name, moved.acceleration, -fem::mass_times(model, fields.shape), true, true, motion.by_displacement});
+  loads.push_back({name, moved.acceleration, -fem::mass_times(model, fields.shape), true, true,
+                   motion.by_displacement, inertia_along(fields.shape)});
   if (!fields.dampers.isZero(0.0))
     loads.push_back({name + ", dampers", signals::velocity_of(moved), fields.dampers, true, true});
 }
@@ -103,18 +130,28 @@ Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh, const
   Fields out;
   for (std::size_t e = 0; e < study.loads.size(); ++e) {
     const std::string name = name_of_load(study.loads[e], e);
-    out.loads.push_back({name, study.loads[e].function, load_field(study.loads[e], name, mesh, model)});
+    const study::Load& load = study.loads[e];
+    out.loads.push_back({name, load.function, load_field(load, name, mesh, model)});
+    if (load.per_length)
+      out.loads.back().along_beam =
+          line_force_along(mesh::group_lines(mesh, load.group, name), load.direction);
   }
   const auto on_all_masses = [&](const core::Vec3& direction) {
     return fem::mass_times(model, fem::translation_field(model, direction));
   };
-  if (study.gravity)
+  if (study.gravity) {
     out.loads.push_back({"[gravity]", signals::Constant{1.0}, fem::weight(model, *study.gravity)});
+    out.loads.back().along_beam = [gravity = *study.gravity](const fem::Model& of, core::Index beam) {
+      return fem::weight(of, beam_of(of, beam), gravity);
+    };
+  }
   for (const PlacedFlow& flow : flows)
     if (auto force = steady_force(study, flow, model))
       out.loads.push_back({name_of(study.flows[flow.entry]), signals::Constant{1.0}, std::move(*force)});
-  for (const auto& motion : study.base_motions)
+  for (const auto& motion : study.base_motions) {
     out.loads.push_back({"[[base_motion]]", motion.acceleration, -on_all_masses(motion.direction), true});
+    out.loads.back().along_beam = inertia_along(fem::translation_field(model, motion.direction));
+  }
   for (std::size_t k = 0; k < supports.size(); ++k) {
     const study::SupportMotion& motion = study.support_motions[k];
     support_loads(motion, name_of_support_motion(motion, k), model, supports[k], out.loads);

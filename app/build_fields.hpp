@@ -6,10 +6,12 @@
 #include "app/support_motion.hpp"
 #include "app/turbulent_loads.hpp"
 #include "core/motion_forces.hpp"
+#include "fem/beam_element.hpp"
 #include "fem/model.hpp"
 #include "mesh/line_mesh.hpp"
 #include "signals/time_function.hpp"
 #include "study/study.hpp"
+#include <functional>
 
 namespace fretwork::app {
 
@@ -30,6 +32,8 @@ struct Fields {
     bool of_support = false; ///< what a support motion does to the modes
     bool of_curve =
         false; ///< by the curve through a table of its displacement, whose acceleration may jump at the rows
+    /// Its part that acts along a beam, N and N m at the dofs of its ends; none: it acts at nodes.
+    std::function<fem::Vector12(const fem::Model& model, core::Index beam)> along_beam = {};
   };
   std::vector<Load> loads;
   std::vector<std::string> warnings;

@@ -28,15 +28,6 @@ constexpr double round_off_of_shapes = 1e-11;
 /// Couplings of a projected damping matrix below this share of its diagonal are round-off.
 constexpr double negligible_coupling = 1e-12;
 
-/// Part of a field over the model that belongs to the structure of a basis.
-Eigen::VectorXd restricted(const modal::Basis& basis, const Eigen::VectorXd& field) {
-  Eigen::VectorXd out(basis.shapes.rows());
-  for (std::size_t i = 0; i < basis.nodes.size(); ++i)
-    out.segment<6>(static_cast<Eigen::Index>(6 * i)) =
-        field.segment<6>(static_cast<Eigen::Index>(basis.nodes[i]) * 6);
-  return out;
-}
-
 void append(Eigen::VectorXd& all, const Eigen::VectorXd& part) {
   const Eigen::Index before = all.size();
   all.conservativeResize(before + part.size());
@@ -275,6 +266,14 @@ void leave_out_still_modes(BuiltScene& out) {
 }
 
 } // namespace
+
+Eigen::VectorXd restricted(const modal::Basis& basis, const Eigen::VectorXd& field) {
+  Eigen::VectorXd out(basis.shapes.rows());
+  for (std::size_t i = 0; i < basis.nodes.size(); ++i)
+    out.segment<6>(static_cast<Eigen::Index>(6 * i)) =
+        field.segment<6>(static_cast<Eigen::Index>(basis.nodes[i]) * 6);
+  return out;
+}
 
 TrueModes true_modes_of(const transient::ContactPoint& point, const std::vector<Eigen::Index>& true_modes) {
   TrueModes out;

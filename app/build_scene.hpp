@@ -7,6 +7,7 @@
 #include "app/contact_flexibility.hpp"
 #include "app/watched_wear.hpp"
 #include "modal/basis.hpp"
+#include "post/force_statistics.hpp"
 #include "post/recorder.hpp"
 #include "transient/scene/scene.hpp"
 
@@ -21,8 +22,10 @@ struct BuiltScene {
       structures;                    ///< numbers of its structures, ascending; their modes follow each other
   std::vector<std::size_t> contacts; ///< numbers of its contacts among the placed ones
   WatchedWear watched_wear;          ///< of its contacts
-  std::vector<post::ObservedNode> nodes; ///< observed nodes of these structures
-  std::vector<std::size_t> node_numbers; ///< their numbers among all observed nodes
+  std::vector<post::ObservedNode> nodes;   ///< observed nodes of these structures
+  std::vector<std::size_t> node_numbers;   ///< their numbers among all observed nodes
+  std::vector<post::FollowedForce> forces; ///< of these structures (force_sites.hpp)
+  std::vector<std::size_t> force_numbers;  ///< their numbers among all force sites
   double lacking = 0.0;   ///< largest missing flexibility times stiffness (missing_flexibility.hpp)
   std::string lacking_at; ///< name of the contact
   std::vector<std::string> truncated; ///< names of the contacts where it is much (modal_truncation.hpp)
@@ -44,6 +47,9 @@ struct NamedNode {
   core::Index node;
 };
 [[nodiscard]] std::vector<NamedNode> observed_nodes(const study::Study& study, const mesh::LineMesh& mesh);
+
+/// Of 6 values a node of the model those of the nodes of a structure.
+[[nodiscard]] Eigen::VectorXd restricted(const modal::Basis& basis, const Eigen::VectorXd& field);
 
 /// Groups of structures that contacts between two nodes, or a fluid, join, by their lowest member; a structure that meets
 /// no other is a group by itself. A second node that belongs to no structure is fixed.

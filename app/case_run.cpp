@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/case_run.hpp"
+#include "app/case_row.hpp"
 #include "app/checkpoints.hpp"
 #include "app/expected_time.hpp"
+#include "app/force_sites.hpp"
 #include "app/job.hpp"
 #include "app/jobs.hpp"
 #include "app/judge_contacts.hpp"
@@ -13,69 +15,19 @@
 #include "core/error.hpp"
 #include "results/grouped_messages.hpp"
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <fmt/format.h>
-#include <limits>
 
 namespace fretwork::app {
 namespace {
 
-constexpr double no_number = results::no_value;
-
-/// A figure of contacts.
-struct Figure {
-  const char *name, *unit;
-  double post::ContactSummary::*value;
-  double post::StandardErrors::*error; ///< nullptr: none
-};
-constexpr std::array figures{
-    Figure{"work_rate", "W", &post::ContactSummary::work_rate, &post::StandardErrors::work_rate},
-    Figure{"normal_rms", "N", &post::ContactSummary::normal_rms, &post::StandardErrors::normal_rms},
-    Figure{"normal_max", "N", &post::ContactSummary::normal_max, nullptr},
-    Figure{"impact_rate", "1/s", &post::ContactSummary::impact_rate, &post::StandardErrors::impact_rate},
-    Figure{"contact_time_ratio", "", &post::ContactSummary::contact_time_ratio, nullptr}};
-constexpr std::size_t worst_figures = 3; ///< the first ones are given of the worst contact too
-
-/// A row while it is filled.
-class Filling {
-public:
-  explicit Filling(const std::vector<sweep::Column>& columns)
-      : columns_(columns), values_(columns.size(), no_number) {}
-
-  /// @throws core::Error for an output that the nominal case does not have
-  void set(const std::string& name, double value) { values_[place(name)] = value; }
-  /// Keeps the worst, with its error. @param largest  is worst; false: the smallest
-  void worsen(const std::string& name, double value, double error, bool largest) {
-    const std::size_t at = place(name);
-    if (std::isnan(value) || (largest ? value <= values_[at] : value >= values_[at]))
-      return;
-    values_[at] = value;
-    if (at + 1 < columns_.size() && columns_[at + 1].name == name + ".error")
-      values_[at + 1] = error;
-  }
-  [[nodiscard]] std::vector<double> values() && { return std::move(values_); }
-
-private:
-  [[nodiscard]] std::size_t place(const std::string& name) {
-    // rows are filled in the order of the columns
-    for (std::size_t i = 0; i < columns_.size(); ++i, ++next_) {
-      next_ = next_ < columns_.size() ? next_ : 0;
-      if (columns_[next_].name == name)
-        return next_;
-    }
-    throw core::Error(fmt::format("the case has an output \"{}\" that the study without its sweep has not; "
-                                  "let the study have all contacts, and make some inactive in cases",
-                                  name));
-  }
-  const std::vector<sweep::Column>& columns_;
-  std::vector<double> values_;
-  std::size_t next_ = 0;
-};
-
-/// Half of an interval of one standard error on both sides (CaseRunner::read_case); not a number of lives without end.
-double half(const results::Bounds& bounds) {
-  return std::isinf(bounds.low) ? std::numeric_limits<double>::quiet_NaN() : 0.5 * (bounds.high - bounds.low);
+/// What is followed besides contacts.
+void observe(const std::vector<NamedNode>& nodes, const std::vector<results::ForceSite>& sites,
+             results::RunResults& out) {
+  for (const NamedNode& node : nodes)
+    out.node_names.push_back(node.name);
+  out.node_summaries.resize(nodes.size());
+  out.force_sites = sites;
+  out.force_summaries.resize(sites.size());
 }
 
 /// What numbers of tubes are found by.
@@ -101,6 +53,8 @@ void run_scene(const study::Study& study, const BuiltScene& built, const transie
   post::ContactStatistics contacts(built.scene.contacts, from);
   post::SectorStatistics sectors(built.watched_wear.sectors, from);
   post::ForceSpeedClasses classes(built.watched_wear.maxima, from);
+  post::NodeStatistics nodes = node_statistics(study, built);
+  post::ForceStatistics forces = force_statistics(study, built);
   std::vector<transient::Observer*> observers;
   if (!built.scene.contacts.empty())
     observers.push_back(&contacts);
@@ -108,6 +62,10 @@ void run_scene(const study::Study& study, const BuiltScene& built, const transie
     observers.push_back(&sectors);
   if (built.watched_wear.counts_forces())
     observers.push_back(&classes);
+  if (!built.nodes.empty())
+    observers.push_back(&nodes);
+  if (!built.forces.empty())
+    observers.push_back(&forces);
   transient::Run run(built.scene, choice, observers, nullptr,
                      transient::output_grid(study.transient->duration, output_interval(study)));
   const TimeLimit limit{study.transient->duration, study.transient->max_hours, [](const std::string&) {}};
@@ -121,6 +79,12 @@ void run_scene(const study::Study& study, const BuiltScene& built, const transie
   if (!step_errors.empty())
     out.step_errors.resize(out.contact_summaries.size());
   add_errors(out.errors_of_sums, contacts.errors_of_sums());
+  const auto of_nodes = nodes.summaries();
+  for (std::size_t k = 0; k < of_nodes.size(); ++k)
+    out.node_summaries[built.node_numbers[k]] = of_nodes[k];
+  const auto of_forces = forces.summaries();
+  for (std::size_t k = 0; k < of_forces.size(); ++k)
+    out.force_summaries[built.force_numbers[k]] = of_forces[k];
   const auto summaries = contacts.summaries();
   const auto rates = sectors.rates();
   const auto counted = classes.classes();
@@ -136,47 +100,6 @@ void run_scene(const study::Study& study, const BuiltScene& built, const transie
   }
 }
 
-void fill_contacts(const std::vector<PlacedContact>& placed, const results::RunResults& run, Filling& row) {
-  double work = 0.0, impacts = 0.0, residual = 0.0;
-  for (std::size_t k = 0; k < placed.size(); ++k) {
-    const post::ContactSummary& statistics = run.contact_summaries[k];
-    for (std::size_t f = 0; f < figures.size(); ++f) {
-      const double value = statistics.*figures[f].value,
-                   error = figures[f].error ? statistics.error.*figures[f].error : no_number;
-      const std::string name = fmt::format("{}.{}", placed[k].name, figures[f].name);
-      row.set(name, value);
-      if (figures[f].error)
-        row.set(name + ".error", error);
-      if (f < worst_figures)
-        row.worsen(fmt::format("worst.{}", figures[f].name), value, error, true);
-    }
-    work += statistics.work_rate;
-    impacts += statistics.impact_rate;
-  }
-  for (const results::TransientFacts& transient : run.transients)
-    residual = std::max(residual, transient.report.residual_relative);
-  row.set("total.work_rate", work);
-  row.set("total.work_rate.error", run.errors_of_sums.work_rate);
-  row.set("total.impact_rate", impacts);
-  row.set("total.impact_rate.error", run.errors_of_sums.impact_rate);
-  row.set("total.energy_residual", residual);
-}
-
-void fill_wear(const results::Wear& wear, Filling& row) {
-  for (const results::WearOfSupport& support : wear.supports) {
-    const results::Bounds years = support.life.years;
-    results::Bounds depth = support.depth.last();
-    if (support.outside.empty() && std::isnan(depth.value)) // beyond the geometry
-      depth.value = std::numeric_limits<double>::infinity();
-    row.set(support.name + ".wear_depth", depth.value);
-    row.set(support.name + ".wear_depth.error", half(depth));
-    row.set(support.name + ".years", years.value);
-    row.set(support.name + ".years.error", half(years));
-    row.worsen("worst.wear_depth", depth.value, half(depth), true);
-    row.worsen("worst.years", years.value, half(years), false);
-  }
-}
-
 } // namespace
 
 /// A case before its first step.
@@ -187,6 +110,8 @@ struct CaseRunner::Case {
   std::shared_ptr<const CaseContacts> contacts; ///< none before with_bases
   std::vector<PlacedContact> placed, inactive;
   std::vector<WornPlace> worn;
+  std::vector<NamedNode> nodes;
+  std::vector<results::ForceSite> force_sites;
   OtherRuns other_runs;
   std::vector<std::string> warnings; ///< of where the contacts are
 };
@@ -206,6 +131,8 @@ std::vector<BuiltScene> CaseRunner::scenes_of(const Case& c) {
   for (std::size_t e = 0; e < c.study.loads.size(); ++e)
     fields.loads[e].function = c.study.loads[e].function;
   const WatchedWear watched = watched_wear(c.study, c.worn, c.placed.size());
+  const std::vector<Eigen::MatrixXd> lacking =
+      lacking_forces(c.force_sites, c.structure->model, c.structure->structures, c.contacts->bases, fields);
   std::vector<BuiltScene> scenes;
   for (std::size_t i = 0; i < c.contacts->joined.size(); ++i) {
     std::vector<signals::SampledLoad> turbulence;
@@ -213,7 +140,8 @@ std::vector<BuiltScene> CaseRunner::scenes_of(const Case& c) {
       if (const auto& load = c.contacts->turbulence[i][e])
         turbulence.push_back(with_seed(*load, c.study.turbulence[e].seed));
     scenes.push_back(build_scene(c.study, fields, std::move(turbulence), c.contacts->bases,
-                                 c.contacts->joined[i], c.placed, c.contacts->flexibilities[i], {}));
+                                 c.contacts->joined[i], c.placed, c.contacts->flexibilities[i], c.nodes));
+    follow_forces(c.force_sites, lacking, c.structure->model, c.contacts->bases, fields, scenes.back());
     scenes.back().watched_wear = watched.at(scenes.back().contacts);
   }
   return scenes;
@@ -226,7 +154,12 @@ CaseRunner::CaseRunner(study::Document document, std::vector<std::string> base_o
     study::apply_override(document_.root, text);
   const Case nominal_case = read_case({});
   shared_signals_ = shared_signals(nominal_case.study).size();
-  name_columns(nominal_case);
+  const std::vector<PlacedContact> all = together(nominal_case.placed, nominal_case.inactive);
+  for (const PlacedContact& contact : all)
+    contacts_.emplace_back(contact.name, contact.node);
+  results::RunResults facts;
+  observe(nominal_case.nodes, nominal_case.force_sites, facts);
+  columns_ = case_columns(all, worn_places(nominal_case.study, nominal_case.structure->model, all), facts);
   // refuses runs of another tube; its warnings are those of the run before its first step
   (void)compare_with_other_runs(nominal_case.other_runs, nominal_case.study, nominal_case.worn,
                                 nominal_case.placed, nominal_case.structure->model);
@@ -235,7 +168,7 @@ CaseRunner::CaseRunner(study::Document document, std::vector<std::string> base_o
 CaseRunner::Case CaseRunner::read_case(const std::vector<std::string>& overrides) {
   study::Document document = document_;
   study::complete(document, overrides);
-  Case out{study::read(document, {}), overrides, {}, {}, {}, {}, {}, {}, {}};
+  Case out{study::read(document, {}), overrides, {}, {}, {}, {}, {}, {}, {}, {}, {}};
   for (study::Wear& entry : out.study.wear)
     entry.confidence.reset(); // a table has standard errors
   if (!out.study.transient)
@@ -247,6 +180,8 @@ CaseRunner::Case CaseRunner::read_case(const std::vector<std::string>& overrides
   out.placed = place_contacts(out.study, out.structure->mesh, out.structure->dry, out.warnings);
   out.inactive = take_inactive(out.placed);
   out.worn = worn_places(out.study, out.structure->model, out.placed);
+  out.nodes = observed_nodes(out.study, out.structure->mesh);
+  out.force_sites = force_sites(out.study, out.structure->mesh, out.structure->model);
   out.other_runs = read_other_runs(out.study, {}); // a case has no folder that a state could name
   if (!out.other_runs.missing.empty())
     throw core::Error(out.other_runs.missing);
@@ -278,43 +213,6 @@ void CaseRunner::compute_nominal() {
   known_ = warnings_of(nominal_case, scenes_of(nominal_case));
 }
 
-void CaseRunner::name_columns(const Case& nominal) {
-  const auto add = [&](const std::string& name, const char* unit, bool has_error) {
-    columns_.push_back({name, unit});
-    if (has_error)
-      columns_.push_back({name + ".error", unit});
-  };
-  const std::vector<PlacedContact> all = together(nominal.placed, nominal.inactive);
-  if (all.empty())
-    throw core::Error("the study has no [[contacts]]; a sweep gives their statistics");
-  for (const PlacedContact& contact : all) {
-    contacts_.emplace_back(contact.name, contact.node);
-    for (const Figure& figure : figures)
-      add(fmt::format("{}.{}", contact.name, figure.name), figure.unit, figure.error != nullptr);
-  }
-  const std::vector<WornPlace> worn = worn_places(nominal.study, nominal.structure->model, all);
-  for (const WornPlace& place : worn) {
-    add(place.name + ".wear_depth", "m", true);
-    add(place.name + ".years", "a", true);
-  }
-  add("total.work_rate", "W", true);
-  add("total.impact_rate", "1/s", true);
-  add("total.energy_residual", "", false);
-  for (std::size_t f = 0; f < worst_figures; ++f)
-    add(fmt::format("worst.{}", figures[f].name), figures[f].unit, figures[f].error != nullptr);
-  if (!worn.empty()) {
-    add("worst.wear_depth", "m", true);
-    add("worst.years", "a", true);
-  }
-  for (std::size_t i = 0; i < columns_.size(); ++i)
-    if (std::find(columns_.begin(), columns_.begin() + static_cast<std::ptrdiff_t>(i), columns_[i]) !=
-        columns_.begin() + static_cast<std::ptrdiff_t>(i))
-      throw core::Error(
-          fmt::format("two outputs of the sweep are called \"{}\"; rename the contact (\"total\" "
-                      "and \"worst\" are all contacts together, and the worst)",
-                      columns_[i].name));
-}
-
 sweep::CaseResult CaseRunner::operator()(const std::vector<std::string>& overrides) {
   const Case c = with_bases(read_case(overrides));
   const std::vector<BuiltScene> scenes = scenes_of(c);
@@ -329,19 +227,16 @@ sweep::CaseResult CaseRunner::operator()(const std::vector<std::string>& overrid
   out.contact_summaries.resize(c.placed.size());
   out.sector_rates.resize(c.placed.size());
   out.force_speed_classes.resize(c.placed.size());
+  observe(c.nodes, c.force_sites, out);
   for (std::size_t i = 0; i < scenes.size(); ++i)
     run_scene(c.study, scenes[i], choices[i], out);
   out.bases = nodes_of(c.contacts->bases);
   add_wear(c.study, c.worn, c.placed, c.other_runs, out);
-  Filling row(columns_);
-  fill_contacts(c.placed, out, row);
-  if (out.wear)
-    fill_wear(*out.wear, row);
   judge_restitution(c.study, c.placed, out);
   judge_stuck_dampers(c.study, c.placed, scenes, out);
   judge_sliding(c.study, c.placed, out);
   judge_step_errors(out);
-  return {std::move(row).values(), results::grouped_messages(out.warnings)};
+  return {case_row(columns_, c.placed, out), results::grouped_messages(out.warnings)};
 }
 
 } // namespace fretwork::app

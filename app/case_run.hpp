@@ -10,10 +10,7 @@
 
 namespace fretwork::app {
 
-/// The outputs of a sweep, the same for all its cases: by contact (work_rate, normal_rms, normal_max, impact_rate, contact_time_ratio), by
-/// support that wears (wear_depth, years), of all contacts together (total.work_rate, total.impact_rate, total.energy_residual), of the worst one
-/// (worst.work_rate, worst.normal_rms, worst.normal_max, worst.wear_depth, worst.years).
-/// What is not there in a case, such as a contact that is inactive, is not a number.
+/// Runs the cases of a sweep; their outputs are those of case_row.hpp.
 class CaseRunner {
 public:
   /// Reads the nominal case: the study as it stands. PETSc must be running, here and below.
@@ -40,7 +37,6 @@ private:
   [[nodiscard]] static std::vector<BuiltScene> scenes_of(const Case& of);
   [[nodiscard]] static std::vector<std::string> warnings_of(const Case& of,
                                                             const std::vector<BuiltScene>& scenes);
-  void name_columns(const Case& nominal);
 
   study::Document document_; ///< with the base overrides, not yet completed
   std::vector<std::string> base_overrides_;

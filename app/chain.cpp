@@ -5,6 +5,7 @@
 #include "app/flow_coverage.hpp"
 #include "app/fluidelastic.hpp"
 #include "app/folder_lock.hpp"
+#include "app/force_sites.hpp"
 #include "app/gap_opening.hpp"
 #include "app/judge_fluidelastic.hpp"
 #include "app/law_motion.hpp"
@@ -107,6 +108,8 @@ private:
     if (scenes_wanted_)
       core::agree(comm_, [&] {
         scenes_ = build_scenes(inputs_.study, out_.bases, placed_, nodes_, at_contacts_, out_);
+        for (BuiltScene& scene : scenes_)
+          follow_forces(out_.force_sites, lacking_forces_, model_, out_.bases, at_contacts_.fields, scene);
       });
   }
 
@@ -195,6 +198,7 @@ private:
     warn(parts_without_fluid(study, model_, flows_));
     turbulence_ = turbulent_loads(study, model_, flows_, out_.notes);
     nodes_ = observed_nodes(study, mesh_);
+    out_.force_sites = force_sites(study, mesh_, model_);
     moved_ = moved_supports(study, mesh_, model_);
     worn_ = worn_places(study, model_, placed_);
     check_gap_opening(study, worn_, placed_);
@@ -247,6 +251,8 @@ private:
       at_contacts_.fields = build_fields(inputs_.study, mesh_, model_, flows_,
                                          support_fields(moved_, model_, modes.structures));
       at_contacts_.fields.motion = fluidelastic_forces({inputs_.study, mesh_, model_, flows_}, out_.bases);
+      lacking_forces_ =
+          lacking_forces(out_.force_sites, model_, modes.structures, out_.bases, at_contacts_.fields);
       at_contacts_.turbulence = turbulence_;
       at_contacts_.joined = joined_structures(out_.bases, placed_, at_contacts_.fields.motion);
     });
@@ -391,6 +397,7 @@ private:
   std::vector<PlacedFlow> flows_;
   std::vector<TurbulentLoad> turbulence_;
   std::vector<NamedNode> nodes_;
+  std::vector<Eigen::MatrixXd> lacking_forces_; ///< by force sites
   std::vector<MovedSupport> moved_;
   std::vector<WornPlace> worn_;
   OtherRuns other_runs_;

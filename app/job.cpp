@@ -59,12 +59,38 @@ void broadcast(MPI_Comm comm, int root, const BuiltScene& built, post::TimeSerie
     core::broadcast(comm, root, series.velocity);
     core::broadcast(comm, root, series.acceleration);
   }
+  std::size_t reaction = 0;
+  for (const post::FollowedForce& force : built.forces)
+    if (!force.section) {
+      all.reactions.resize(reaction + 1);
+      all.reactions[reaction].name = force.name;
+      core::broadcast(comm, root, all.reactions[reaction++].force);
+    }
 }
 
 } // namespace
 
 double output_interval(const study::Study& study) {
   return study.output.every.value_or(study.transient->duration / default_outputs);
+}
+
+post::NodeStatistics node_statistics(const study::Study& study, const BuiltScene& built) {
+  post::NodeStatistics out(rows_of(built.nodes), study.output.statistics_from);
+  if (study.support_motions.empty())
+    return out;
+  std::vector<Eigen::MatrixXd> imposed;
+  for (const auto& node : built.nodes)
+    imposed.push_back(node.imposed);
+  out.add_imposed_motion(imposed, built.scene.motions, built.scene.duration);
+  return out;
+}
+
+post::ForceStatistics force_statistics(const study::Study& study, const BuiltScene& built) {
+  post::ForceStatistics out(built.forces, study.output.statistics_from);
+  out.add_loads(built.forces, built.scene.loads, built.scene.duration);
+  if (!study.support_motions.empty())
+    out.add_imposed_motion(built.forces, built.scene.motions, built.scene.duration);
+  return out;
 }
 
 std::int64_t impact_rows(const study::Study& study, const transient::StepChoice& choice) {
@@ -99,6 +125,7 @@ void broadcast(MPI_Comm comm, int root, const BuiltScene& built, JobResult& job)
   MPI_Bcast(job.classes.data(), static_cast<int>(job.classes.size() * sizeof(wear::KwuClasses)), MPI_BYTE,
             root, comm);
   broadcast_plain(comm, root, job.nodes);
+  broadcast_plain(comm, root, job.forces);
   broadcast(comm, root, built, job.series);
 }
 
@@ -112,16 +139,11 @@ Job::Job(const study::Study& study, const BuiltScene& built, const transient::St
                built.watched_wear.by_place ? std::span(built.scene.contacts)
                                            : std::span<const transient::ContactPoint>()),
       classes_(built.watched_wear.maxima, study.output.statistics_from),
-      nodes_(rows_of(built.nodes), study.output.statistics_from), powers_(study.output.statistics_from),
-      grid_(grid_of(study)),
+      nodes_(node_statistics(study, built)), forces_(force_statistics(study, built)),
+      powers_(study.output.statistics_from), grid_(grid_of(study)),
       recorder_(built.scene, built.nodes, grid_, transient::scaled_masses(built.scene, choice.fastest)),
       observers_(watching(study, built, progress)), run_(built.scene, choice, observers_, &recorder_, grid_) {
-  if (study.support_motions.empty())
-    return;
-  std::vector<Eigen::MatrixXd> imposed;
-  for (const auto& node : built.nodes)
-    imposed.push_back(node.imposed);
-  nodes_.add_imposed_motion(imposed, built.scene.motions, built.scene.duration);
+  recorder_.add_reactions(built.forces);
 }
 
 JobResult Job::result() && {
@@ -135,6 +157,7 @@ JobResult Job::result() && {
   out.sector_rates = sectors_.rates();
   out.classes = classes_.classes();
   out.nodes = nodes_.summaries();
+  out.forces = forces_.summaries();
   out.power = powers_.balance();
   out.series = std::move(recorder_).series();
   return out;
@@ -156,6 +179,8 @@ std::vector<transient::Observer*> Job::watching(const study::Study& study, const
     observers.push_back(&classes_);
   if (!built.nodes.empty())
     observers.push_back(&nodes_);
+  if (!built.forces.empty())
+    observers.push_back(&forces_);
   if (!built.scene.system.motion.empty())
     observers.push_back(&powers_);
   if (progress)

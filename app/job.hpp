@@ -6,6 +6,7 @@
 #include "app/progress_observer.hpp"
 #include "post/contact_statistics.hpp"
 #include "post/force_speed_classes.hpp"
+#include "post/force_statistics.hpp"
 #include "post/impact_table.hpp"
 #include "post/largest_impact.hpp"
 #include "post/node_statistics.hpp"
@@ -24,6 +25,10 @@ namespace fretwork::app {
 /// Rows of the table of impacts of a contact: an impact takes a step, and an open one parts it from the next.
 [[nodiscard]] std::int64_t impact_rows(const study::Study& study, const transient::StepChoice& choice);
 
+/// Of the observed nodes and the forces of a scene, over the window of the study.
+[[nodiscard]] post::NodeStatistics node_statistics(const study::Study& study, const BuiltScene& built);
+[[nodiscard]] post::ForceStatistics force_statistics(const study::Study& study, const BuiltScene& built);
+
 /// What one run gives.
 struct JobResult {
   transient::Report report{};
@@ -35,6 +40,7 @@ struct JobResult {
   std::vector<std::vector<double>> sector_rates;              ///< W, by contact; empty where nothing wears
   std::vector<wear::KwuClasses> classes;                      ///< of the contacts under the law kwu_epri
   std::vector<post::NodeSummary> nodes;
+  std::vector<post::ForceSummary> forces;
   post::PowerBalance power; ///< under a fluidelastic law, else 0
   post::TimeSeries series;
 };
@@ -62,6 +68,7 @@ private:
   post::SectorStatistics sectors_;
   post::ForceSpeedClasses classes_;
   post::NodeStatistics nodes_;
+  post::ForceStatistics forces_;
   post::PowerStatistics powers_;
   transient::OutputGrid grid_;
   post::Recorder recorder_;

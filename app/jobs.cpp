@@ -59,6 +59,17 @@ void merge_wear(const BuiltScene& built, const JobResult& job, results::RunResul
   }
 }
 
+void merge_forces(const BuiltScene& built, JobResult& job, results::RunResults& out) {
+  const std::size_t sections = out.force_sites.size() - out.series.reactions.size();
+  std::size_t reaction = 0;
+  for (std::size_t k = 0; k < built.force_numbers.size(); ++k) {
+    const std::size_t number = built.force_numbers[k];
+    out.force_summaries[number] = job.forces[k];
+    if (number >= sections)
+      out.series.reactions[number - sections] = std::move(job.series.reactions[reaction++]);
+  }
+}
+
 /// Puts the result of a job at its places among those of the study.
 void merge(const BuiltScene& built, JobResult&& job, const transient::StepChoice& choice,
            results::RunResults& out) {
@@ -80,6 +91,7 @@ void merge(const BuiltScene& built, JobResult&& job, const transient::StepChoice
     out.node_summaries[built.node_numbers[k]] = job.nodes[k];
     out.series.nodes[built.node_numbers[k]] = std::move(job.series.nodes[k]);
   }
+  merge_forces(built, job, out);
   // the modes of all structures are stacked in the order of the bases, whichever run they belong to
   Eigen::Index modes = 0;
   std::vector<Eigen::Index> first;
@@ -222,6 +234,10 @@ void resize_results(const study::Study& study, std::size_t contacts, std::size_t
   out.rest_time = study.output.rest_time;
   out.node_summaries.resize(nodes);
   out.series.nodes.resize(nodes);
+  out.force_summaries.resize(out.force_sites.size());
+  out.series.reactions.resize(static_cast<std::size_t>(
+      std::count_if(out.force_sites.begin(), out.force_sites.end(),
+                    [](const results::ForceSite& site) { return !site.is_section(); })));
 }
 
 } // namespace

@@ -218,6 +218,14 @@ Vector6 BeamElement::section_forces(const Vector12& displacement, double share) 
   return forces;
 }
 
+Vector6 BeamElement::end_forces(const Vector12& held, bool at_b) const {
+  const Eigen::Matrix3d axes = section_axes(at_b ? 1.0 : 0.0);
+  const Eigen::Index first = at_b ? 6 : 0;
+  Vector6 forces;
+  forces << axes * held.segment<3>(first), axes * held.segment<3>(first + 3);
+  return at_b ? forces : Vector6(-forces); // the element is the part beyond a
+}
+
 Vector12 BeamElement::line_force(const Vec3& force_per_length) const {
   Vector12 result = Vector12::Zero();
   for (const auto& [share, weight] : gauss_points)

@@ -58,6 +58,10 @@ public:
   /// constant along the element and My, Mz linear; exact for loads at the nodes, of order 2 in the length for loads between them. The
   /// preload axial_force is not in N.
   [[nodiscard]] Vector6 section_forces(const Vector12& displacement, double share) const;
+  /// The same at an end, of what its nodes exert on the element (global axes). With `held` = (K - omega^2 M) u of a mode they are
+  /// equal on both sides of a node that nothing loads, and of order 4 in the length in bending; an axial_force N adds N v' and N w'
+  /// to Vy and Vz.
+  [[nodiscard]] Vector6 end_forces(const Vector12& held, bool at_b) const;
   /// Consistent forces and moments at the dofs of a uniform line force (N/m along the axis, global direction).
   [[nodiscard]] Vector12 line_force(const Vec3& force_per_length) const;
 

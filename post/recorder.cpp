@@ -28,6 +28,12 @@ Recorder::Recorder(const transient::Scene& scene, std::vector<ObservedNode> node
     out_.nodes.push_back({node.name, {}, {}, Eigen::MatrixXd::Zero(nt, 3)});
 }
 
+void Recorder::add_reactions(const std::vector<FollowedForce>& forces) {
+  for (const FollowedForce& force : forces)
+    if (!force.section)
+      reactions_.push_back(force);
+}
+
 void Recorder::state(std::int64_t index, double time, const double* q, const double* v) {
   out_.time(index) = time;
   std::copy_n(q, scene_.system.size(), out_.modal_displacement.col(index).data());
@@ -167,7 +173,28 @@ TimeSeries Recorder::series() && {
   distribute(out_.modal_displacement, &ContactSeries::displacement, &NodeSeries::displacement);
   distribute(out_.modal_velocity, &ContactSeries::velocity, &NodeSeries::velocity);
   add_motions();
+  set_reactions();
   return std::move(out_);
+}
+
+void Recorder::set_reactions() {
+  if (reactions_.empty())
+    return;
+  std::vector<signals::Signal> loads;
+  for (const vibration::Load& load : scene_.loads)
+    loads.emplace_back(load.function, scene_.duration);
+  for (const FollowedForce& reaction : reactions_) {
+    out_.reactions.push_back({reaction.name, (reaction.rows * out_.modal_displacement).transpose()});
+    Eigen::MatrixXd& force = out_.reactions.back().force;
+    for (Eigen::Index l = 0; l < reaction.by_loads.cols(); ++l)
+      for (Eigen::Index i = 0; i < out_.time.size(); ++i)
+        force.row(i) +=
+            loads[static_cast<std::size_t>(l)](out_.time(i)) * reaction.by_loads.col(l).transpose();
+    for (Eigen::Index k = 0; k < reaction.imposed.cols(); ++k)
+      for (Eigen::Index i = 0; i < out_.time.size(); ++i)
+        force.row(i) += motions_[static_cast<std::size_t>(k)](out_.time(i)).displacement *
+                        reaction.imposed.col(k).transpose();
+  }
 }
 
 /// What carries contacts and nodes joins their displacements and velocities.

@@ -2,6 +2,7 @@
 /// @file
 /// Time series at the output instants.
 #pragma once
+#include "post/force_statistics.hpp"
 #include "signals/prescribed_motion.hpp"
 #include "transient/run.hpp"
 #include <string>
@@ -30,10 +31,17 @@ struct NodeSeries {
   Eigen::MatrixXd displacement, velocity, acceleration; ///< nt x 3
 };
 
+/// Of a restraint, on the structure.
+struct ReactionSeries {
+  std::string name;
+  Eigen::MatrixXd force; ///< nt x 6, N and N m, global axes
+};
+
 struct TimeSeries {
   Eigen::VectorXd time; ///< nt, s
   std::vector<ContactSeries> contacts;
   std::vector<NodeSeries> nodes;
+  std::vector<ReactionSeries> reactions;
   Eigen::MatrixXd modal_displacement, modal_velocity; ///< n x nt (one output a column)
 };
 
@@ -50,6 +58,8 @@ public:
   /// @param masses  n, modal masses of the run (transient/modes/mass_scaling.hpp); empty: all 1
   Recorder(const transient::Scene& scene, std::vector<ObservedNode> nodes, const transient::OutputGrid& grid,
            Eigen::VectorXd masses = {});
+  /// Those of `forces` that are no sections get a series.
+  void add_reactions(const std::vector<FollowedForce>& forces);
   void state(std::int64_t index, double time, const double* q, const double* v) override;
   void forces(std::int64_t index, double time, const double* load,
               std::span<const transient::ContactForce> contacts) override;
@@ -61,11 +71,13 @@ public:
 
 private:
   void add_motions();
+  void set_reactions();
   [[nodiscard]] core::Vec3 place(std::size_t contact, std::int64_t index, double time) const;
   void set_gap(std::size_t contact, std::int64_t index, const core::Vec3& place);
 
   const transient::Scene& scene_;
   std::vector<ObservedNode> nodes_;
+  std::vector<FollowedForce> reactions_;
   TimeSeries out_;
   std::vector<signals::MotionSignal> motions_; ///< that carry contacts and nodes
   Eigen::VectorXd masses_;                     ///< modal, empty: all 1

@@ -3,7 +3,9 @@
 #include "results/basis_file.hpp"
 #include "results/beam_file.hpp"
 #include "results/contact_file.hpp"
+#include "results/force_file.hpp"
 #include "results/impact_columns.hpp"
+#include "results/named_groups.hpp"
 #include "results/stability_file.hpp"
 #include "results/text_file.hpp"
 #include "results/wear_file.hpp"
@@ -82,27 +84,6 @@ void write_series(const h5::Group& group, const post::NodeSeries& s, Eigen::Inde
   write_matrix(group, "displacement", s.displacement.topRows(nt), "m");
   write_matrix(group, "velocity", s.velocity.topRows(nt), "m/s");
   write_matrix(group, "acceleration", s.acceleration.topRows(nt), "m/s2");
-}
-
-/// A child group that carries its name and its place among its like: HDF5 lists groups by name, with "/" as a
-/// separator.
-h5::Group create_named(const h5::Group& parent, const std::string& name, std::size_t index) {
-  h5::Group group = parent.create(path_name(name));
-  group.set("name", name);
-  group.set("index", static_cast<std::int64_t>(index));
-  return group;
-}
-
-/// The children in the order in which they were written.
-std::vector<h5::Group> in_order(const h5::Group& parent) {
-  std::vector<std::pair<std::int64_t, std::string>> order;
-  for (const std::string& name : parent.children())
-    order.emplace_back(parent.open(name).integer("index"), name);
-  std::sort(order.begin(), order.end());
-  std::vector<h5::Group> groups;
-  for (const auto& entry : order)
-    groups.push_back(parent.open(entry.second));
-  return groups;
 }
 
 /// mesh/groups: the nodes of each named group.
@@ -217,6 +198,9 @@ void check_sizes(const RunResults& results) {
     if (!fits(s.displacement, results, 3) || !fits(s.velocity, results, 3) ||
         !fits(s.acceleration, results, 3))
       throw h5::Failure("series of node " + s.name + " of unequal length");
+  for (const post::ReactionSeries& s : results.series.reactions)
+    if (!fits(s.force, results, 6))
+      throw h5::Failure("series of reaction " + s.name + " of unequal length");
   for (const Eigen::MatrixXd* series : {&results.series.modal_displacement, &results.series.modal_velocity})
     if (series->size() > 0 && (series->rows() != modes || series->cols() != results.series.time.size()))
       throw h5::Failure("series of the modes of another size");
@@ -249,6 +233,8 @@ void write_archive(const fs::path& file, const RunResults& results) {
     write_contacts(root, results);
     if (!results.transients.empty())
       write_transient(root, results);
+    if (!results.transients.empty())
+      write_forces(root, results);
     if (results.wear)
       write_wear(root, *results.wear);
   });
@@ -295,6 +281,7 @@ RunResults read_archive(const fs::path& directory) {
     read_contacts(root, results);
     if (root.has("time"))
       read_transient(root, results);
+    read_forces(root, results);
     if (root.has("wear"))
       results.wear = read_wear(root);
     check_sizes(results);

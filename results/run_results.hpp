@@ -5,6 +5,7 @@
 #include "fem/beam_point.hpp"
 #include "modal/basis.hpp"
 #include "post/contact_statistics.hpp"
+#include "post/force_statistics.hpp"
 #include "post/impact_table.hpp"
 #include "post/largest_impact.hpp"
 #include "post/node_statistics.hpp"
@@ -66,6 +67,17 @@ struct ContactFacts {
   double friction_static = 0.0, friction_dynamic = 0.0;
   std::array<double, 2> friction_along{1.0, 1.0};      ///< 1 where friction acts: along x_loc, across it
   std::optional<StaticFlexibility> static_flexibility; ///< none where there is no static solution
+};
+
+/// Where a run follows forces: a section at an end of a beam, or a restrained node.
+struct ForceSite {
+  std::string name; ///< the group; of a restraint with [i] where its group has several nodes
+  core::Index node;
+  core::Index beam = -1;  ///< of a section; -1: a restraint
+  bool at_b = false;      ///< the section is at the end b of the beam
+  double s = 0.0;         ///< m, of a section: length of the group's beams from the start of their curve
+  std::uint8_t fixed = 0; ///< of a restraint, the dofs that it holds: bit d set = dof d
+  [[nodiscard]] bool is_section() const { return beam >= 0; }
 };
 
 /// How far modes reach for an accuracy of contact forces.
@@ -132,8 +144,10 @@ struct RunResults {
   std::optional<Wear> wear; ///< where the study asks for it and the run has ended
   std::vector<std::string> node_names;
   std::vector<post::NodeSummary> node_summaries;
-  std::vector<TransientFacts> transients;       ///< by structure that was run
-  double statistics_from = 0.0, duration = 0.0; ///< s
+  std::vector<ForceSite> force_sites;              ///< sections, group after group, then restraints
+  std::vector<post::ForceSummary> force_summaries; ///< as `force_sites`
+  std::vector<TransientFacts> transients;          ///< by structure that was run
+  double statistics_from = 0.0, duration = 0.0;    ///< s
   post::TimeSeries series; ///< of all structures; modal series stacked in the order of `bases`
   Timings timings;
   std::vector<std::string> warnings; ///< what makes the results doubtful

@@ -2,6 +2,7 @@
 #include "results/contact_position.hpp"
 #include "results/error_estimate.hpp"
 #include "results/flow_json.hpp"
+#include "results/force_results.hpp"
 #include "results/json_number.hpp"
 #include "results/step_error.hpp"
 #include "results/summary_file.hpp"
@@ -16,10 +17,6 @@ namespace fretwork::results {
 namespace {
 
 Json triple(const core::Vec3& v) { return {number(v.x()), number(v.y()), number(v.z())}; }
-
-Json moments(const post::Moments& m) {
-  return {{"mean", number(m.mean)}, {"std", number(m.std)}, {"min", number(m.min)}, {"max", number(m.max)}};
-}
 
 Json model(const ModelFacts& m) {
   return {{"nodes", m.nodes},
@@ -293,6 +290,7 @@ void add_transient(Json& out, const RunResults& results) {
   out["nodes"] = Json::array();
   for (std::size_t n = 0; n < results.node_names.size(); ++n)
     out["nodes"].push_back(node(results.node_names[n], results.node_summaries[n]));
+  add_forces(out, results);
   out["energy"] = energy(totals.energy);
   out["transient"] = transient(totals, results);
 }

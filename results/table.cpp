@@ -3,6 +3,7 @@
 #include "results/error_estimate.hpp"
 #include "results/figures.hpp"
 #include "results/flow_text.hpp"
+#include "results/force_results.hpp"
 #include "results/text_file.hpp"
 #include "results/totals.hpp"
 #include "results/wear_json.hpp"
@@ -150,6 +151,12 @@ void add_transient(Lines& lines, const RunResults& results) {
     for (const std::string& line : contact_lines(results))
       lines.plain(line);
     lines.plain("");
+  }
+  for (const auto& table : {node_lines(results), force_lines(results)}) {
+    for (const std::string& line : table)
+      lines.plain(line);
+    if (!table.empty())
+      lines.plain("");
   }
   add_flexibility(lines, results);
   if (results.wear) {

@@ -86,6 +86,21 @@ void read_number_of_modes(const TableReader& root, const TableReader& table, Mod
         "there are no [[contacts]] whose forces would say which modes matter; give count or up_to_hz");
 }
 
+/// An array of names of groups, each named once; none where the key is not there.
+std::vector<std::string> read_groups(const TableReader& table, const char* key) {
+  std::vector<std::string> groups;
+  const Value* found = table.find(key);
+  if (!found)
+    return groups;
+  for (const Value& group : to_array(*found, table.path(key), "an array of group names")) {
+    const std::string name = to_text(group, table.path(key));
+    if (std::find(groups.begin(), groups.end(), name) != groups.end())
+      fail(group, table.path(key), "named twice; name each group once");
+    groups.push_back(name);
+  }
+  return groups;
+}
+
 } // namespace
 
 Modes read_modes(const TableReader& root) {
@@ -151,20 +166,15 @@ Output read_output(const TableReader& root, const std::optional<Transient>& tran
   const Value* found = root.find("output");
   if (!found)
     return output;
-  const TableReader table(
-      *found, "output",
-      {{"every", "nodes", "modal", "statistics_from", "impacts", "rest_time", "checkpoint"}});
+  const TableReader table(*found, "output",
+                          {{"every", "nodes", "section_forces", "reactions", "modal", "statistics_from",
+                            "impacts", "rest_time", "checkpoint"}});
   output.every = table.optional_number("every", {Range::above_zero, "s"});
   if (transient && output.every && *output.every > transient->duration)
     table.fail_at("every", "longer than transient.duration; give the time between two samples");
-  if (const Value* nodes = table.find("nodes")) {
-    for (const Value& node : to_array(*nodes, table.path("nodes"), "an array of group names")) {
-      const std::string name = to_text(node, table.path("nodes"));
-      if (std::find(output.nodes.begin(), output.nodes.end(), name) != output.nodes.end())
-        fail(node, table.path("nodes"), "named twice; name each group once");
-      output.nodes.push_back(name);
-    }
-  }
+  output.nodes = read_groups(table, "nodes");
+  output.section_forces = read_groups(table, "section_forces");
+  output.reactions = read_groups(table, "reactions");
   output.modal = table.optional_flag("modal").value_or(true);
   output.statistics_from = table.number_or("statistics_from", 0.0, {Range::at_least_zero, "s"});
   if (transient && output.statistics_from >= transient->duration)

@@ -206,6 +206,8 @@ struct Output {
   std::optional<double> every; ///< s; default duration / 5000
   bool modal = true;           ///< keep the series of the modes
   std::vector<std::string> nodes;
+  std::vector<std::string> section_forces; ///< groups of beams whose section forces are followed
+  std::vector<std::string> reactions;      ///< groups of restrained nodes
   double statistics_from = 0.0;
   std::int64_t impacts = 10000; ///< rows kept of the table of impacts of each contact; 0: no table
   double checkpoint = 60.0;     ///< s on the clock between checkpoints; 0: none. No result depends on it

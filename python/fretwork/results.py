@@ -20,13 +20,16 @@ if TYPE_CHECKING:
 
 _UNITS = {"work_rate": "W", "friction_power": "W", "normal_force": "N", "normal_force_in_contact": "N", "tangential_force": "N", "displacement": "m",
           "position": "m", "penetration": "m", "impact_velocity": "m/s", "departure_velocity": "m/s", "contact_duration": "s", "energy": "J",
-          "static_flexibility": "m/N", "years": "a", "life_years": "a", "support_life_years": "a"}
+          "static_flexibility": "m/N", "force": "N", "moment": "N m", "largest_force": "N", "largest_moment": "N m", "years": "a", "life_years": "a", "support_life_years": "a"}
 _SUFFIXES = {"m2_per_N": "m2/N", "m_s": "m/s", "m3": "m3", "per_second": "1/s", "per_s": "1/s",
              "hz": "Hz", "rad": "rad", "Ns": "N s", "kg": "kg", "J": "J", "W": "W", "m": "m", "s": "s"}
 _SUFFIX = re.compile(f"_({'|'.join(_SUFFIXES)})$")
 _NO_QUANTITY = ("has_interval", "low_at_zero", "end", "batches", "work_rate_batches")  # beside values with a unit
 _AXES = {"displacement": ("x_loc", "y_loc", "z_loc"), "velocity": ("x_loc", "y_loc", "z_loc"), "tangential_force": ("axis", "in_plane"),
          "normal": ("y_loc", "z_loc")}
+
+
+_COMPONENTS = ("N", "Vy", "Vz", "T", "My", "Mz")
 
 
 def _text(value: Any) -> Any:
@@ -108,6 +111,35 @@ class Results:
         return self._table(self.summary.get("nodes", []))
 
     @cached_property
+    def reactions(self) -> pandas.DataFrame:
+        """Statistics of the reactions on the structure (N, N m), a row a restrained node; NaN of components that are free."""
+        return self._table(self.summary.get("reactions", []))
+
+    def section_forces(self, group: str) -> pandas.DataFrame:
+        """Statistics of the sections of a group, both ends of each beam a row: s (m), largest_stress, stress_std (Pa), largest_moment (N m), and
+        mean, std, min and max of N, Vy, Vz (N), T, My and Mz (N m).
+
+        Raises KeyError, which lists the groups, if there is none of this name."""
+        import pandas
+
+        with self._file() as file:
+            groups = {_text(item.attrs["name"]): item for item in self._in_order(file["sections"])} if "sections" in file else {}
+            if group not in groups:
+                raise KeyError(f"no section forces of {group!r}; there are: {', '.join(groups) or 'none'}")
+            columns, units = {}, {}
+            first = ("s", "node", "beam", "end", "largest_stress", "largest_stress_time", "stress_std", "stress_std_error", "largest_moment", "largest_shear_force")
+            for name in (*first, "mean", "std", "std_error", "min", "max"):
+                item = groups[group][name]
+                if item.ndim == 1:
+                    columns[name], units[name] = item[...], _text(item.attrs.get("units", "")) if name not in ("node", "beam", "end") else ""
+                else:
+                    for k, component in enumerate(_COMPONENTS):
+                        columns[f"{component}.{name}"], units[f"{component}.{name}"] = item[:, k], "N" if k < 3 else "N m"
+        table = pandas.DataFrame(columns)
+        table.attrs["units"] = units
+        return table
+
+    @cached_property
     def impacts(self) -> pandas.DataFrame:
         """All rows of the tables of impacts; the column `contact` names the contact."""
         import pandas
@@ -127,17 +159,17 @@ class Results:
     def _in_order(group: h5py.Group) -> list[h5py.Group]:
         return sorted(group.values(), key=lambda item: int(item.attrs["index"]))
 
-    def series(self, name: str, kind: Literal["contact", "node"] | None = None) -> xarray.Dataset:
-        """Series of a contact or an observed node at the output instants.
+    def series(self, name: str, kind: Literal["contact", "node", "reaction"] | None = None) -> xarray.Dataset:
+        """Series of a contact, an observed node or a reaction at the output instants.
 
-        kind: "contact" or "node"; without it the contact, where both have this name.
+        kind: "contact", "node" or "reaction"; without it the first of these that has this name.
         Raises KeyError, which lists the names, if there is none of this name."""
         import xarray
 
-        if kind not in (None, "contact", "node"):
-            raise ValueError(f'kind = {kind!r}: "contact" or "node" is expected')
+        if kind not in (None, "contact", "node", "reaction"):
+            raise ValueError(f'kind = {kind!r}: "contact", "node" or "reaction" is expected')
         with self._file() as file:
-            kinds = (kind,) if kind else ("contact", "node")
+            kinds = (kind,) if kind else ("contact", "node", "reaction")
             groups: dict[str, h5py.Group] = {}
             for group in (group for each in kinds if f"{each}s" in file for group in self._in_order(file[f"{each}s"])):
                 groups.setdefault(_text(group.attrs["name"]), group)
@@ -145,14 +177,14 @@ class Results:
                 raise KeyError(f"no series of {f'the {kind} ' if kind else ''}{name!r}; there are: {', '.join(groups) or 'none'}")
             time = file["time"][...]
             found, group = {}, groups[name]
-            of_node = group.parent.name == "/nodes"
+            of = {"/contacts": "contact", "/nodes": "node", "/reactions": "reaction"}[group.parent.name]
             for key, item in group.items():
                 if isinstance(item, h5py.Dataset) and len(item.shape) and item.shape[0] == len(time) and key != "static_flexibility":
-                    axes = ("x", "y", "z") if of_node else _AXES.get(key)
+                    axes = _AXES.get(key) if of == "contact" else ("x", "y", "z", "about_x", "about_y", "about_z")
                     dims = ("time",) if item.ndim == 1 else ("time", f"{key}_axis")
                     coords = {} if item.ndim == 1 or not axes else {dims[1]: list(axes[: item.shape[1]])}
                     found[key] = xarray.DataArray(item[...], dims=dims, coords=coords, attrs={"units": _text(item.attrs.get("units", ""))})
-        data = xarray.Dataset(found, coords={"time": ("time", time, {"units": "s"})}, attrs={"name": name, "kind": "node" if of_node else "contact"})
+        data = xarray.Dataset(found, coords={"time": ("time", time, {"units": "s"})}, attrs={"name": name, "kind": of})
         return data
 
     @cached_property

@@ -137,6 +137,11 @@ testing::AssertionResult same_numbers(const results::RunResults& a, const result
         !same(x.acceleration, y.acceleration))
       return differ("series of node " + x.name);
   }
+  if (s.reactions.size() != t.reactions.size())
+    return differ("numbers of reactions");
+  for (std::size_t k = 0; k < s.reactions.size(); ++k)
+    if (s.reactions[k].name != t.reactions[k].name || !same(s.reactions[k].force, t.reactions[k].force))
+      return differ("series of reaction " + s.reactions[k].name);
   for (std::size_t i = 0; i < a.bases.size(); ++i)
     if (!same(a.bases[i].omega, b.bases[i].omega) || !same(a.bases[i].shapes, b.bases[i].shapes))
       return differ("modes of structure " + std::to_string(i));

@@ -75,8 +75,31 @@ class Package(unittest.TestCase):
         self.assertEqual((node.attrs["kind"], "acceleration" in node, "normal_force" in node), ("node", True, False))
         with self.assertRaisesRegex(KeyError, "no series of the node 'x'; there are: "):
             results.series("x", "node")
-        with self.assertRaisesRegex(ValueError, '"contact" or "node" is expected'):
+        with self.assertRaisesRegex(ValueError, '"contact", "node" or "reaction" is expected'):
             results.series("x", "nodes")
+
+    def test_gives_section_forces_and_reactions(self):
+        folder = self.folder.parent / "forces"
+        shutil.copytree(Path(EXAMPLES) / "straight_tube", folder, ignore=shutil.ignore_patterns("*.results"))
+        study = fretwork.read_study(folder / "study.toml")
+        study["output"] = {"section_forces": ["tube"], "reactions": ["ends"]}
+        study["transient"]["duration"] = 0.5
+        results = fretwork.run(fretwork.write_study(study, folder / "study.toml"), progress=False)
+        sections, summary = results.section_forces("tube"), results.summary["section_forces"][0]
+        self.assertEqual(sections["largest_stress"].max(), summary["stress"]["largest"])
+        self.assertEqual(sections["stress_std"].max(), summary["stress"]["std"]["largest"])
+        self.assertEqual([sections.attrs["units"][column] for column in ("s", "largest_stress", "Vy.std", "Mz.max")], ["m", "Pa", "N", "N m"])
+        reactions = results.reactions
+        self.assertEqual(list(reactions.index), ["ends[0]", "ends[1]"])
+        self.assertEqual([reactions.attrs["units"][column] for column in ("force.y.std", "largest_moment")], ["N", "N m"])
+        series = results.series("ends[1]")["force"]
+        self.assertEqual((series.sizes["time"], list(series.coords["force_axis"].values[:3])), (5001, ["x", "y", "z"]))
+        self.assertLessEqual(float(np.abs(series.sel(force_axis="y")).max()), 1.001 * max(-reactions["force.y.min"].iloc[1], reactions["force.y.max"].iloc[1]))
+        with self.assertRaisesRegex(KeyError, "no section forces of 'x'; there are: tube"):
+            results.section_forces("x")
+        page = results.report().read_text(encoding="utf-8")
+        self.assertIn('aria-label="stress [MPa] along tube"', page)
+        self.assertIn("<td class=\"text\">ends[1]</td><td class=\"text\">force y [N]</td>", page)
 
     def test_completes_its_names(self):
         self.assertLessEqual({"Results", "run", "read_study", "write_study", "plots"}, set(dir(fretwork)))

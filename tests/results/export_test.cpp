@@ -98,7 +98,7 @@ TEST(ExportCsv, NeedsSeries) {
   RunResults results = made_up();
   results.series.contacts.clear();
   results.series.nodes.clear();
-  EXPECT_THAT(refusal(export_csv, results), HasSubstr("no contacts and no observed nodes"));
+  EXPECT_THAT(refusal(export_csv, results), HasSubstr("no contacts, observed nodes or forces"));
 }
 
 TEST(ExportVtu, NeedsAMesh) {

@@ -28,8 +28,8 @@ public:
   Watched(const Scene& scene, const StepChoice& choice)
       : node_(Eigen::MatrixXd::Constant(3, scene.system.size(), 0.3)), contacts_(scene.contacts, from),
         impacts_(scene.contacts.size(), from, 2e-3, 1000), nodes_({node_}, from),
-        grid_(output_grid(scene.duration, every)), recorder_(scene, {{"node", node_}}, grid_),
-        run_(scene, choice, observers_, &recorder_, grid_) {}
+        forces_(forces_of(node_), from), grid_(output_grid(scene.duration, every)),
+        recorder_(scene, {{"node", node_}}, grid_), run_(scene, choice, observers_, &recorder_, grid_) {}
 
   Run& run() { return run_; }
 
@@ -42,7 +42,8 @@ public:
     auto contacts = contacts_.summaries();
     auto impacts = std::move(impacts_).impacts();
     auto nodes = nodes_.summaries();
-    out(contacts, impacts, nodes);
+    auto forces = forces_.summaries();
+    out(contacts, impacts, nodes, forces);
     post::TimeSeries series = std::move(recorder_).series();
     const auto add = [&](auto& m) { out.block(m.data(), static_cast<std::size_t>(m.size())); };
     add(series.time);
@@ -64,13 +65,20 @@ public:
   }
 
 private:
+  static std::vector<post::FollowedForce> forces_of(const Eigen::MatrixXd& node) {
+    Eigen::MatrixXd rows(6, node.cols());
+    rows << node, -2.0 * node;
+    return {{"section", rows, {}, {}, true, post::OuterFibre{true, 1.0, 2.0, 2.0}}};
+  }
+
   Eigen::MatrixXd node_;
   post::ContactStatistics contacts_;
   post::ImpactTable impacts_;
   post::NodeStatistics nodes_;
+  post::ForceStatistics forces_;
   OutputGrid grid_;
   post::Recorder recorder_;
-  Observer* observers_[3] = {&contacts_, &impacts_, &nodes_};
+  Observer* observers_[4] = {&contacts_, &impacts_, &nodes_, &forces_};
   Run run_;
 };
 

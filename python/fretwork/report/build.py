@@ -18,12 +18,12 @@ def missing_packages():
 
 def build(directory):
     """The report as HTML text."""
-    from . import flow_section, page, run_data, sections, wear_section
+    from . import flow_section, forces_section, page, run_data, sections, wear_section
 
     run = run_data.load(directory)
     parts = [sections.key_figures, sections.structure, sections.modes, flow_section.profiles, flow_section.stability,
              flow_section.response, sections.along_the_tube, sections.contacts,
-             sections.contact_table, sections.nodes, wear_section.wear, sections.impacts, flow_section.spectra, sections.energy, sections.computation, sections.study]
+             sections.contact_table, sections.nodes, forces_section.forces, wear_section.wear, sections.impacts, flow_section.spectra, sections.energy, sections.computation, sections.study]
     title = run.summary["study"] or Path(directory).resolve().stem
     subtitle = f"Impact, friction and wear: results of Fretwork {html.escape(run.summary['version'])}"
     return page.page(title, subtitle, "".join(part(run) for part in parts))

@@ -58,6 +58,17 @@ class Node:
 
 
 @dataclass
+class Sections:
+    """Sections of a group of beams, both ends of each beam."""
+
+    name: str
+    s: np.ndarray  # m, along each curve
+    stress: np.ndarray  # Pa, largest; NaN where the outline is not known
+    stress_std: np.ndarray  # Pa
+    moment: np.ndarray  # N m, largest
+
+
+@dataclass
 class Run:
     summary: dict
     attributes: dict
@@ -69,6 +80,7 @@ class Run:
     structures: int = 1
     window: float = field(default=0.0)  # s, start of the statistics
     nodes_observed: list = field(default_factory=list)
+    sections: list = field(default_factory=list)
     flows: list = field(default_factory=list)  # flow_data.TubeFlow
     spectra: list = field(default_factory=list)  # flow_data.Spectrum
     groups: dict = field(default_factory=dict)  # nodes of each named group of the mesh
@@ -267,6 +279,9 @@ def load(directory):
             for entry in summary.get("nodes", []):
                 group = series.get(entry["name"])
                 run.nodes_observed.append(Node(entry["name"], entry, group["displacement"][...] if group is not None else None))
+            for group in sorted(file.get("sections", {}).values(), key=lambda group: int(group.attrs["index"])):
+                columns = (group[key][...] for key in ("s", "largest_stress", "stress_std", "largest_moment"))
+                run.sections.append(Sections(_attributes(group)["name"], *columns))
             if "time" in file:
                 run.time = file["time"][...]
                 run.window = float(file.attrs["statistics_from"])

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// Forces of sections and restraints that a run follows (`[output] section_forces`, `reactions`), made from the modes.
+///
+/// A mode of frequency omega holds the nodes of a beam by f = (K - omega^2 M) u, as static modes and supports that move do by K u. The forces
+/// of a section are those at the end of its beam (fem/beam_element.hpp); the reaction of a restraint, which acts on the structure, is the sum
+/// of f over the beams of its node and the springs to other nodes, less what loads put on the node itself.
+/// Modes converge slowly to the statics of shear forces: what they lack under a load of amplitude g(t) follows it, F = rows q + rest g, with
+///     rest = S(G l) - sum over elastic modes of S_i (phi_i . l)/omega_i^2,
+/// S the forces of a static motion (K u, less what the load puts along the beam), G l the static deflection under the load l (modal/static_solvers.hpp): the method of mode
+/// acceleration (Craig and Kurdila, Fundamentals of Structural Dynamics, 2nd ed. 2006, section 11.4). Turbulence and contact forces have the
+/// modes only.
+#pragma once
+#include "app/build_scene.hpp"
+
+namespace fretwork::app {
+
+/// @throws core::Error for a group without beams, and for a group of reactions with a node that nothing restrains
+[[nodiscard]] std::vector<results::ForceSite>
+force_sites(const study::Study& study, const mesh::LineMesh& mesh, const fem::Model& model);
+
+/// What the modes lack of the static force under each load, by sites 6 x loads; zero where a structure has no static solution. Serial; needs
+/// PETSc where there are sites.
+[[nodiscard]] std::vector<Eigen::MatrixXd> lacking_forces(const std::vector<results::ForceSite>& sites,
+                                                          const fem::Model& model,
+                                                          const std::vector<fem::Structure>& structures,
+                                                          const std::vector<modal::Basis>& bases,
+                                                          const Fields& fields);
+
+/// Gives a scene the forces at its structures. @param lacking  of lacking_forces()
+void follow_forces(const std::vector<results::ForceSite>& sites, const std::vector<Eigen::MatrixXd>& lacking,
+                   const fem::Model& model, const std::vector<modal::Basis>& bases, const Fields& fields,
+                   BuiltScene& built);
+
+} // namespace fretwork::app

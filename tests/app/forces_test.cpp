@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Section forces, stresses and reactions of runs: statics and single modes in closed form, supports that move, springs, sweeps and ranks.
+#include "mesh_text.hpp"
+#include "program.hpp"
+#include "study_text.hpp"
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace fretwork::app::test::forces_test {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double length = 2.0, outer = 0.01905, inner = outer - 2 * 0.00109, young = 2.0e11;
+const double inertia = pi * (std::pow(outer, 4) - std::pow(inner, 4)) / 64.0;
+const double stiffness = young * inertia; // N m2
+constexpr int elements = 16;
+constexpr const char* pinned = "[\"ux\", \"uy\", \"uz\", \"rx\"]";
+
+/// A tube along x.
+void write_tube(const Workshop& folder) {
+  MeshText mesh = straight_line("tube", {0.0, 0.0, 0.0}, {length, 0.0, 0.0}, elements);
+  mesh.points.emplace_back("middle", elements / 2);
+  folder.write("mesh.msh", mesh.text());
+}
+
+std::string study(const std::string& begin, const std::string& end, int modes, const std::string& more,
+                  double duration = 0.2) {
+  return steel_pipe("mesh.msh") + tube_between("tube", begin, end) + more +
+         fmt::format("[modes]\ncount = {}\n[transient]\nduration = {}\n[output]\nevery = 1.0e-3\n"
+                     "section_forces = [\"tube\"]\nreactions = [\"tube_begin\", \"tube_end\"]\n",
+                     modes, duration);
+}
+
+const nlohmann::json& reaction(const Results& run, std::size_t number) {
+  return run.summary["reactions"].at(number);
+}
+
+/// A mode of pins, A sin(pi x/L) cos(w t), of amplitude 1 mm.
+TEST(Forces, OfAModeAreThoseOfItsCurvature) {
+  const Workshop folder;
+  write_tube(folder);
+  constexpr double amplitude = 1e-3;
+  // the field of the study is given at nodes: one at the middle starts other modes too, so the first is left alone
+  const Results run = folder.run_text(
+      study(pinned, pinned, 1, fmt::format("[[initial]]\ngroup = \"middle\"\nvelocity = [0.0, 1.0, 0.0]\n")));
+  const Eigen::MatrixXd& q = run.archive.series.modal_displacement;
+  const modal::Basis& basis = run.archive.bases.at(0);
+  const double in_middle = basis.shapes.col(0).segment<3>(6 * (elements / 2)).norm();
+  const double largest = in_middle * q.cwiseAbs().maxCoeff();
+  EXPECT_GT(largest, 0.01 * amplitude);
+  const double wave = pi / length;
+  const auto& forces = run.summary["section_forces"].at(0);
+  constexpr double of_mesh = 2e-5; // (wave h)^4 / 720 and more of its like
+  constexpr double sampled = 2e-3; // the largest output, 1 ms apart, is below that of every step
+  const double moment = stiffness * wave * wave * largest, shear = stiffness * std::pow(wave, 3) * largest;
+  EXPECT_TRUE(close_to(forces["moment"]["largest"], moment, sampled));
+  EXPECT_TRUE(close_to(forces["moment"]["s"], 0.5 * length, 1e-9));
+  EXPECT_TRUE(close_to(forces["shear_force"]["largest"], shear, sampled));
+  EXPECT_TRUE(close_to(forces["stress"]["largest"],
+                       forces["moment"]["largest"].get<double>() * 0.5 * outer / inertia, 1e-12));
+  // ratios know nothing of time
+  EXPECT_TRUE(
+      close_to(forces["shear_force"]["largest"].get<double>() / forces["moment"]["largest"].get<double>(),
+               wave, of_mesh));
+  for (const std::size_t end : {0u, 1u}) {
+    EXPECT_TRUE(
+        close_to(reaction(run, end)["largest_force"], forces["shear_force"]["largest"].get<double>(), 1e-9));
+    EXPECT_TRUE(reaction(run, end)["moment"]["z"].is_null()) << "a pin turns";
+  }
+  // the series: the pins pull the tube back where it is
+  const Eigen::MatrixXd& series = run.archive.series.reactions.at(0).force;
+  ASSERT_EQ(series.rows(), q.cols());
+  const Eigen::VectorXd middle = q.row(0).transpose() * basis.shapes(6 * (elements / 2) + 1, 0);
+  EXPECT_LT((series.col(1) + stiffness * std::pow(wave, 3) * middle).norm(), of_mesh * series.col(1).norm());
+}
+
+/// The weight w of a tube between clamps: w L/2 and w L^2/12 at each, w L^2/24 in the middle. The static start moves nothing after it.
+TEST(Forces, OfTheWeightAreThoseOfStatics) {
+  const Workshop folder;
+  write_tube(folder);
+  std::string text = study("\"all\"", "\"all\"", 8, "[gravity]\nacceleration = [0.0, -9.81, 0.0]\n", 0.01);
+  text.replace(text.find("[transient]"), 11, "[transient]\nstart = \"static\"");
+  const Results run = folder.run_text(text);
+  const double weight = 9.81 * 8000.0 * pi * (outer * outer - inner * inner) / 4.0;
+  constexpr double statics = 1e-7; // few modes: what they lack follows the loads
+  for (const std::size_t end : {0u, 1u}) {
+    const auto& held = reaction(run, end);
+    EXPECT_TRUE(close_to(held["force"]["y"]["mean"], 0.5 * weight * length, statics)) << end;
+    EXPECT_TRUE(close_to(held["moment"]["z"]["mean"],
+                         (end == 0 ? 1.0 : -1.0) * weight * length * length / 12.0, statics))
+        << end;
+    EXPECT_LT(held["force"]["y"]["std"].get<double>(), 1e-6 * weight);
+  }
+  const auto& moment = run.summary["section_forces"].at(0)["moment"];
+  EXPECT_TRUE(close_to(moment["largest"], weight * length * length / 12.0, statics));
+  const auto& sites = run.archive.force_sites;
+  for (std::size_t k = 0; k < sites.size(); ++k)
+    if (sites[k].is_section()) {
+      const auto& there = run.archive.force_summaries[k].components;
+      const double x = sites[k].s;
+      EXPECT_NEAR(there[1].mean, -weight * (0.5 * length - x), statics * weight * length);
+      EXPECT_NEAR(there[5].mean, -weight * (length * length / 12.0 - 0.5 * x * (length - x)),
+                  statics * weight * length * length);
+    }
+}
+
+/// 12 EI d/L^3 and 6 EI d/L^2 of clamps of which one has moved by d, and nothing of a base that moves all.
+TEST(Forces, ContainThoseOfSupportsThatMove) {
+  const Workshop folder;
+  write_tube(folder);
+  const double moved = 1e-3;
+  const std::string ramp =
+      "quantity = \"displacement\"\ntable = [[0.0, 0.0], [2.0, 1.0e-3], [3.0, 1.0e-3]]\n";
+  const std::string one = "[[support_motion]]\ngroup = \"tube_end\"\ndirection = [0.0, 0.0, 1.0]\n" + ramp;
+  std::string text = study("\"all\"", "\"all\"", 10, one, 3.0);
+  text += "statistics_from = 2.9\n";
+  text.replace(text.find("[modes]"), 7, "[modes]\ndamping = 0.1");
+  const Results run = folder.run_text(text);
+  const double shear = 12.0 * stiffness * moved / std::pow(length, 3),
+               moment = 6.0 * stiffness * moved / (length * length);
+  constexpr double at_rest = 1e-6;
+  EXPECT_TRUE(close_to(reaction(run, 1)["force"]["z"]["mean"], shear, at_rest));
+  EXPECT_TRUE(close_to(reaction(run, 0)["force"]["z"]["mean"], -shear, at_rest));
+  EXPECT_TRUE(close_to(reaction(run, 0)["largest_moment"], moment, at_rest));
+  EXPECT_TRUE(close_to(run.summary["section_forces"].at(0)["moment"]["largest"], moment, at_rest));
+  EXPECT_TRUE(close_to(run.archive.series.reactions.at(1).force.bottomRows<1>()(2), shear, at_rest));
+  std::string both = one;
+  both.replace(both.find("tube_end"), 8, "tube_begin");
+  text.insert(text.find("[[support_motion]]"), both);
+  EXPECT_LT(folder.run_text(text).summary["section_forces"].at(0)["moment"]["largest"].get<double>(),
+            at_rest * moment);
+}
+
+/// A spring to another node pulls at the restrained one: R = k (0 - u).
+TEST(Forces, OfARestraintContainItsSprings) {
+  const Workshop folder;
+  write_tube(folder);
+  const std::string spring = "[[springs]]\ngroup = \"middle\"\nother = \"tube_end\"\n"
+                             "stiffness = [0.0, 5.0e3, 0.0, 0.0, 0.0, 0.0]\n";
+  const std::string push = "[[initial]]\ngroup = \"middle\"\nvelocity = [0.0, 1.0, 0.0]\n";
+  const Results run = folder.run_text(study(pinned, pinned, 8, spring + push));
+  const Eigen::MatrixXd &begin = run.archive.series.reactions.at(0).force,
+                        &end = run.archive.series.reactions.at(1).force;
+  const modal::Basis& basis = run.archive.bases.at(0);
+  const Eigen::VectorXd middle = run.archive.series.modal_displacement.transpose() *
+                                 basis.shapes.row(6 * (elements / 2) + 1).transpose();
+  EXPECT_GT((end.col(1) - begin.col(1)).norm(), 0.1 * begin.col(1).norm());
+  // the beam pulls at both pins alike
+  EXPECT_LT((end.col(1) - begin.col(1) + 5.0e3 * middle).norm(), 1e-6 * begin.col(1).norm());
+}
+
+TEST(Forces, AreTheSameInSweepsAndOnAllRanks) {
+  const Workshop folder;
+  const std::string text = bundle(folder, 3, R"([transient]
+duration = 0.3
+[output]
+nodes = ["drive1"]
+section_forces = ["tube0", "tube2"]
+reactions = ["tube1_begin", "tube0_end"]
+)");
+  const Results run = folder.run_text(text);
+  ASSERT_EQ(run.summary["section_forces"].size(), 2u);
+  EXPECT_EQ(run.summary["section_forces"].at(1)["group"], "tube2");
+  EXPECT_GT(run.summary["section_forces"].at(1)["stress"]["largest"].get<double>(), 1e3);
+  EXPECT_GT(run.summary["reactions"].at(0)["largest_moment"].get<double>(), 0.0);
+  for (const int ranks : {2, 3}) {
+    const Results many = folder.run(folder.path("study.toml"), fmt::format("ranks{}", ranks), {}, ranks);
+    EXPECT_TRUE(same_numbers(many.archive, run.archive)) << ranks;
+    for (const char* key : {"section_forces", "reactions"})
+      EXPECT_EQ(many.summary[key], run.summary[key]) << ranks;
+  }
+  folder.write("sweep.toml", text + "[sweep]\ndesign = \"grid\"\n[[sweep.variables]]\n"
+                                    "key = \"modes.damping\"\nvalues = [0.01]\n");
+  ASSERT_EQ(folder.fretwork({"sweep", folder.path("sweep.toml").string(), "--no-report"}).status, 0);
+  const std::string table = bytes_of(folder.path("sweep.sweep") / "table.csv");
+  const std::string row =
+      table.substr(table.find('\n', table.rfind("nr", 0) == 0 ? 0 : table.find("tube0.stress")));
+  for (const nlohmann::json& value : {run.summary["section_forces"].at(0)["stress"]["largest"],
+                                      run.summary["section_forces"].at(1)["moment"]["largest"],
+                                      run.summary["reactions"].at(0)["largest_force"],
+                                      run.summary["nodes"].at(0)["displacement"]["y"]["std"]})
+    EXPECT_TRUE(says(row, fmt::format(",{},", value.get<double>())));
+}
+
+TEST(Forces, AreRefusedWhereThereAreNone) {
+  const Workshop folder;
+  write_tube(folder);
+  const std::string text =
+      steel_pipe("mesh.msh") + tube_between("tube") + "[transient]\nduration = 0.1\n[output]\n";
+  const auto refused = [&](const std::string& output, const std::string& why) {
+    folder.write("study.toml", text + output);
+    const Outcome outcome = folder.fretwork({"run", folder.path("study.toml").string()});
+    EXPECT_NE(outcome.status, 0);
+    EXPECT_TRUE(says(outcome.err, why));
+  };
+  refused("reactions = [\"middle\"]\n", "[output] reactions: no [[restraints]] hold \"middle\"");
+  refused("section_forces = [\"middle\"]\n", "\"middle\"");
+  refused("reactions = [\"tube_end\", \"tube_end\"]\n", "named twice");
+}
+
+} // namespace
+} // namespace fretwork::app::test::forces_test
