@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/scene_rates.hpp"
 #include "core/symmetric.hpp"
+#include "signals/record.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace fretwork::transient {
 namespace {
@@ -131,16 +133,32 @@ bool acts(const vibration::Load& load, const Scene& scene) {
                      [](const ContactPoint& contact) { return contact.imposed.size() > 0; });
 }
 
-/// Shortest interval between points of the tables, s, those left out that are too fine to rule; 0 without tables.
-double table_interval(const Scene& scene) {
-  double shortest = 0.0;
-  for (const vibration::Load& load : scene.loads)
-    if (const auto* table = std::get_if<signals::Table>(&load.function); table && acts(load, scene))
-      for (std::size_t i = 1; i < table->time.size(); ++i)
-        if (const double interval = table->time[i] - table->time[i - 1];
-            interval > finest_table * scene.duration && (shortest == 0.0 || interval < shortest))
-          shortest = interval;
+/// Shortest interval between the points of a table, s, those left out that are too fine to rule; infinite without any.
+double shortest_interval(const signals::Table& table, double duration) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < table.time.size(); ++i)
+    if (const double interval = table.time[i] - table.time[i - 1]; interval > finest_table * duration)
+      shortest = std::min(shortest, interval);
   return shortest;
+}
+
+void add_tables(const Scene& scene, SceneRates& out) {
+  const double highest = std::max({out.highest_mode, out.contact_frequency, out.stick_frequency});
+  const auto shorten = [](double& interval, double other) {
+    if (std::isfinite(other) && (interval == 0.0 || other < interval))
+      interval = other;
+  };
+  for (const vibration::Load& load : scene.loads) {
+    const auto* table = std::get_if<signals::Table>(&load.function);
+    if (!table || !acts(load, scene))
+      continue;
+    if (!(highest > 0.0 && signals::is_record(*table))) {
+      shorten(out.table_interval, shortest_interval(*table, scene.duration));
+      continue;
+    }
+    out.record_rate = std::max(out.record_rate, signals::rate_of_record(*table, highest));
+    shorten(out.record_interval, signals::mean_interval(*table));
+  }
 }
 
 } // namespace
@@ -173,7 +191,7 @@ SceneRates rates_of(const Scene& scene) {
       out.excitation = std::max(out.excitation, load.highest);
       out.sampled_excitation = std::max(out.sampled_excitation, load.highest);
     }
-  out.table_interval = table_interval(scene);
+  add_tables(scene, out);
   return out;
 }
 

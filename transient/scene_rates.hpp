@@ -21,7 +21,9 @@ struct SceneRates {
   double sampled_excitation =
       0.0; ///< Hz, likewise of those whose polygons have no corrected corners (vibration/load_sum.hpp): sampled forces, integrals
   double table_interval =
-      0.0; ///< s, the shortest between points of their tables, but those too close to rule a step
+      0.0; ///< s, the shortest between points of their tables, but those too close to rule a step; not of records
+  double record_rate = 0.0;     ///< rad/s, how fast the fastest of their records changes (signals/record.hpp)
+  double record_interval = 0.0; ///< s, the shortest mean interval of their records
 };
 [[nodiscard]] SceneRates rates_of(const Scene& scene);
 

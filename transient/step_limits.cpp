@@ -2,7 +2,9 @@
 #include "transient/step_limits.hpp"
 #include "transient/modes/mass_scaling.hpp"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
+#include <numbers>
 
 namespace fretwork::transient {
 namespace {
@@ -37,6 +39,17 @@ constexpr double slow_dampers = 3.0, beside_dampers = 1.5;
 /// With contacts: collocation needs none of it, splitting can take modes as heavier ones.
 bool may_go_past_modes(SchemeKind scheme) {
   return scheme == SchemeKind::collocation || scheme == SchemeKind::splitting;
+}
+
+/// Of single steps of splitting: the polygon nearest to a record loses (w h)^4/720 of what moves with w, 0.14 % at an accuracy of 0.01, 0.01 %
+/// without contacts. Other schemes have lines between values, and none where their steps are no longer than its intervals.
+double record_step(const StepChoice& c, bool contacts, double fineness) {
+  if (c.scheme == SchemeKind::splitting)
+    return (contacts ? 1.0 : 0.5) * std::sqrt(fineness) / c.record_rate;
+  const double points = contacts ? points_per_period : linear_points_per_period;
+  return std::max(c.record_interval,
+                  2.0 * std::numbers::pi /
+                      (std::max(points / fineness, fewest_points_per_period) * c.record_rate));
 }
 
 } // namespace
@@ -116,6 +129,10 @@ std::vector<StepLimit> step_limits(const StepChoice& c, const Scene& scene, doub
   if (c.table_interval > 0.0)
     out.push_back(
         {c.table_interval, fmt::format("the shortest interval of a table ({:.4g} s)", c.table_interval)});
+  if (c.record_rate > 0.0)
+    out.push_back(
+        {record_step(c, contacts, fineness), fmt::format("what the modes see of a record ({:.4g} Hz)",
+                                                         c.record_rate / (2.0 * std::numbers::pi))});
   const double closed =
       std::min({contact_share(c.scheme) * fineness, longest_contact_share, most_resolved(c.scheme)});
   add(closed, c.contact_frequency, fmt::format("the contact frequency {:.4g} rad/s", c.contact_frequency));

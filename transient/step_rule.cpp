@@ -103,6 +103,9 @@ void warn(StepChoice& c) {
     add(c.step / c.table_interval * (1.0 - 1e-9), 1.0,
         "h/interval", // of equal ones round-off leaves a shorter
         "the shortest interval of a table");
+  if (c.step > c.record_interval * (1.0 + 1e-9))
+    add(c.record_rate * c.step, c.scheme == SchemeKind::splitting ? 1.5 : 0.6, "w h",
+        "what the modes see of a record");
   add(c.excitation * c.step * 20.0, 2.0, "20 f h", "the excitation");
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vibration/load_sum.hpp"
+#include "signals/record.hpp"
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,6 +12,17 @@ namespace {
 constexpr double most_corrected = 0.5;
 /// Likewise a random one, in intervals of its samples, of which there are 32 a period.
 constexpr double most_grid_steps = 5.0;
+
+/// Steps beyond the end of a run that may be asked for.
+constexpr std::size_t corners_beyond = 64;
+
+std::vector<double> polygon_of(const signals::TimeFunction& function, double duration, double step) {
+  const auto* table = std::get_if<signals::Table>(&function);
+  if (!table || !signals::is_record(*table) || !(signals::mean_interval(*table) < step))
+    return {};
+  return signals::nearest_polygon(*table, step,
+                                  static_cast<std::size_t>(std::ceil(duration / step)) + corners_beyond);
+}
 
 } // namespace
 
@@ -32,6 +44,7 @@ LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double dura
       const double half_turn = harmonic ? std::numbers::pi * harmonic->frequency * step : 0.0;
       above_.push_back(
           half_turn > 0.0 && half_turn < most_corrected ? std::pow(half_turn / std::sin(half_turn), 2) : 1.0);
+      polygons_.push_back(polygon_of(load.function, duration, step));
       shapes_.resize(shapes_.size() + static_cast<std::size_t>(padded_modes_), 0.0);
       constant_ = constant_ && signals_.back().is_constant();
     }
@@ -89,12 +102,17 @@ void LoadSum::observe(double time, double* force) {
 
 void LoadSum::corner(double time, double* force) {
   const signals::Signal::Window window = signals::Signal::window(time, step_);
+  const auto corner = static_cast<std::size_t>(std::llround(time / step_));
   combine(
       time,
       [&](const signals::SampleGrid& grid) {
         return step_ * grid.per_step < most_grid_steps ? grid.corner(time, step_) : grid.place(time);
       },
-      [&](std::size_t k) { return above_[k] * signals_[k].over_step(time, step_, window); }, force);
+      [&](std::size_t k) {
+        return polygons_[k].empty() ? above_[k] * signals_[k].over_step(time, step_, window)
+                                    : polygons_[k][std::min(corner, polygons_[k].size() - 1)];
+      },
+      force);
 }
 
 } // namespace fretwork::vibration

@@ -22,7 +22,9 @@ public:
   /// Modal force of the step about a time, at the start of the half step after it, padded. No allocation.
   void at(double time, double* force);
   /// Modal force at a corner of the polygon, with corners a step apart, that has the amplitudes of the loads: it is above that of straight lines
-  /// between their values, by (w h)^2/12 for what moves with w. Of tables as `at`. Padded. No allocation.
+  /// between their values, by (w h)^2/12 for what moves with w. Of records whose points are closer than a step (signals/record.hpp) the nearest polygon, of other
+  /// tables as `at`. Padded. No allocation.
+  /// @param time  s, a multiple of the step
   void corner(double time, double* force);
   /// Modal force at a time that stands for another window, padded. No allocation.
   void at(double time, signals::Signal::Window window, double* force);
@@ -41,6 +43,7 @@ private:
   double step_;
   bool constant_ = true;
   std::vector<signals::Signal> signals_;
+  std::vector<std::vector<double>> polygons_; ///< of `signals_`: corners a step apart of records; empty: none
   std::vector<double> above_; ///< a corner's height by the value there: above 1 of harmonic ones
   kernels::Array shapes_, values_, observed_;
   std::vector<signals::SampledForce> sampled_;

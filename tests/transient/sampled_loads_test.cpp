@@ -10,6 +10,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <random>
 
 namespace fretwork::transient::sampled_loads_test {
 namespace {
@@ -81,6 +82,35 @@ TEST(SampledLoad, DrivesEverySchemeAlike) {
   for (const SchemeKind kind : {SchemeKind::splitting, SchemeKind::collocation, SchemeKind::energy_conserving,
                                 SchemeKind::devogelaere, SchemeKind::runge_kutta_54})
     EXPECT_LT((end_of(kind, 5e-4) - exact).norm(), of_step * exact.norm()) << static_cast<int>(kind);
+}
+
+/// Noise whose points are closer than a millionth of the run, on a mass beside an obstacle that it never meets: its motion at steps of the points.
+TEST(Records, DriveModesAsTheyAreHoweverCloseTheirPoints) {
+  constexpr double interval = 2e-5, duration = 25.0, w = 1000.0, mass = 2.0;
+  Table noise;
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  for (int k = 0; interval * k <= duration; ++k) {
+    noise.time.push_back(interval * k);
+    noise.value.push_back(normal(random));
+  }
+  Scene scene = tests::mass_point(mass, core::Vec3(w * w * mass, 0.25 * w * w * mass, 4.0), duration);
+  scene.system.damping = Eigen::Vector3d(20.0, 20.0, 1.0);
+  scene.contacts = {tests::contact_of(mass, {contact::Circle{10.0}, {10.0}, {}})};
+  scene.loads = {tests::force_on(mass, core::Vec3(1.0, 1.0, 0.0), noise)};
+  const auto deviations = [&](const StepOptions& options) {
+    const Eigen::MatrixXd q = tests::simulate(scene, options, 0.5e-3).q;
+    return Eigen::VectorXd((q.rowwise().squaredNorm() / static_cast<double>(q.cols())).cwiseSqrt());
+  };
+  const Eigen::VectorXd exact = deviations(tests::splitting(interval));
+  for (const SchemeKind kind : {SchemeKind::splitting, SchemeKind::collocation}) {
+    StepOptions automatic;
+    automatic.scheme = kind;
+    const Eigen::VectorXd found = deviations(automatic);
+    for (const int mode : {0, 1})
+      EXPECT_NEAR(found(mode), exact(mode), 0.01 * exact(mode)) << name_of(kind) << " " << mode;
+  }
+  EXPECT_GT(choose_step(scene, tests::splitting()).step, 10.0 * interval);
 }
 
 } // namespace

@@ -162,20 +162,46 @@ TEST(StepRule, FollowsTheIntervalsOfATableButNotItsJumps) {
   EXPECT_TRUE(mentions(choose_step(scene, splitting()).reason, "at least 20000 steps"));
 }
 
+/// Sampled evenly: differences of its times are shorter and longer than the interval by round-off.
+Table sine_record(double interval, double angle) {
+  Table table;
+  for (int k = 0; k <= 1000; ++k) {
+    table.time.push_back(interval * k);
+    table.value.push_back(std::sin(angle * k));
+  }
+  return table;
+}
+
+TEST(StepRule, ResolvesWhatTheModesSeeOfARecordHoweverCloseItsPoints) {
+  Scene scene = scene_with({Circle{0.1}, {2e6}, {}}); // w_c = 1000 rad/s
+  const auto choice = [&](const StepOptions& options) { return choose_step(scene, options); };
+  scene.loads = {force_on(mass, Vec3(1, 0, 0), sine_record(1e-3, 0.5))}; // 500 rad/s
+  EXPECT_NEAR(choice(splitting()).record_rate, 500.0, 15.0);
+  EXPECT_TRUE(mentions(choice(splitting()).reason, "the contact frequency"));
+  scene.loads = {force_on(mass, Vec3(1, 0, 0), sine_record(1e-5, 0.02))}; // 2000 rad/s
+  const StepChoice fast = choice(splitting());
+  EXPECT_TRUE(mentions(fast.reason, "what the modes see of a record")) << fast.reason;
+  EXPECT_EQ(fast.record_rate, fast.contact_frequency) << "faster ones move no mode and no contact";
+  EXPECT_NEAR(fast.step, 1e-3, 1e-8);
+  EXPECT_NEAR(choice(energy_conserving()).step, 2e-3 * 3.14159265 / 30.0, 1e-8) << "lines between values";
+}
+
 TEST(StepRule, TakesGivenStepsOfTheIntervalsOfATable) {
   Scene scene = scene_with({Circle{0.1}, {2.0}, {}}, 1.0);
   constexpr double interval = 1e-3;
-  Table
-      table; // sampled evenly: differences of its times are shorter and longer than the interval by round-off
-  for (int k = 0; k <= 1000; ++k) {
-    table.time.push_back(interval * k);
-    table.value.push_back(std::sin(0.1 * k));
-  }
-  scene.loads = {force_on(mass, Vec3(1, 0, 0), table)};
-  EXPECT_TRUE(choose_step(scene, splitting(interval)).warnings.empty());
-  const auto warnings = choose_step(scene, splitting(1.01 * interval)).warnings;
-  ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_TRUE(mentions(warnings[0], "the shortest interval of a table"));
+  const auto warnings = [&](double step) { return choose_step(scene, splitting(step)).warnings; };
+  Table few = sine_record(interval, 0.1);
+  few.time.resize(20);
+  few.value.resize(20);
+  scene.loads = {force_on(mass, Vec3(1, 0, 0), few)};
+  EXPECT_TRUE(warnings(interval * (1.0 - 1e-12)).empty());
+  ASSERT_EQ(warnings(1.01 * interval).size(), 1u);
+  EXPECT_TRUE(mentions(warnings(1.01 * interval)[0], "the shortest interval of a table"));
+  scene = scene_with({Circle{0.1}, {2e6}, {}}, 1.0);
+  scene.loads = {force_on(mass, Vec3(1, 0, 0), sine_record(interval, 0.9))};
+  EXPECT_TRUE(warnings(interval).empty() || !mentions(warnings(interval)[0], "record"));
+  ASSERT_FALSE(warnings(2.0 * interval).empty());
+  EXPECT_TRUE(mentions(warnings(2.0 * interval).back(), "what the modes see of a record"));
 }
 
 TEST(StepRule, RefusesStepsWithoutNumber) {
