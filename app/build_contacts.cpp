@@ -33,6 +33,11 @@ std::string without_beam(const fem::Model& model, Index node) {
       fem::place(model.nodes[static_cast<std::size_t>(node)]));
 }
 
+bool has_beam(const fem::Model& model, Index node) {
+  return std::any_of(model.beams.begin(), model.beams.end(),
+                     [node](const fem::Beam& beam) { return beam.a == node || beam.b == node; });
+}
+
 /// Beams are walked along their chain, so that the tangents before and after a node point the same way.
 Vec3 mean_tangent(const fem::Model& model, Index node, const std::string& name) {
   Vec3 sum = Vec3::Zero();
@@ -95,6 +100,30 @@ std::string radius_warning(const study::Contact& contact, const fem::Model& mode
                : std::string();
 }
 
+/// A given axis far from the beam, about which an obstacle that surrounds the tube is round; empty where it is along it, and of flat
+/// obstacles, which may stop a beam at its end.
+std::string axis_warning(const study::Contact& contact, const fem::Model& model, Index node,
+                         const std::string& name) {
+  constexpr double widest = 30.0; // degrees
+  using enum study::ObstacleKind;
+  const study::ObstacleKind kind = contact.obstacle;
+  if (!contact.axis || kind == plane_y || kind == plane_z || kind == stop_y || kind == stop_z)
+    return {};
+  double least = 90.0;
+  for (const fem::Beam& beam : model.beams)
+    if (beam.a == node || beam.b == node)
+      least =
+          std::min(least, std::acos(std::min(1.0, std::abs(contact.axis->normalized().dot(
+                                                      fem::tangent_at(model, beam, node).normalized())))) *
+                              180.0 / std::numbers::pi);
+  return has_beam(model, node) && least > widest
+             ? fmt::format(
+                   "contact \"{}\": its axis is {:.0f} degrees off the beam at its node, and holds it "
+                   "in the plane across the axis only; give the direction of the tube, or leave axis out",
+                   name, least)
+             : std::string();
+}
+
 /// Stiffness of the tube's wall at a node, N/m.
 double wall_at(const study::Study& study, const fem::Model& model, Index node, const std::string& name) {
   std::optional<double> stiffness;
@@ -143,11 +172,6 @@ bool is_held(const fem::Model& model, const fem::BeamPoint& point) {
       if (!share.weights.col(d).isZero(0.0) && !model.is_fixed(share.node, d))
         return false;
   return true;
-}
-
-bool has_beam(const fem::Model& model, Index node) {
-  return std::any_of(model.beams.begin(), model.beams.end(),
-                     [node](const fem::Beam& beam) { return beam.a == node || beam.b == node; });
 }
 
 void check_moves(const fem::Model& model, const PlacedContact& placed, const fem::BeamPoint& point) {
@@ -304,7 +328,7 @@ std::vector<PlacedContact> place_contacts(const study::Study& study, const mesh:
       warnings.push_back(what +
                          ": origin moves nothing between two nodes, where only their relative position "
                          "counts; leave it out, or shift the obstacle by offset");
-    std::string radius_said; // of the first node of the group that it is true of
+    std::string radius_said, axis_said; // of the first node of the group that it is true of
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       PlacedContact placed{};
       placed.name = placed.support =
@@ -314,10 +338,13 @@ std::vector<PlacedContact> place_contacts(const study::Study& study, const mesh:
       placed.other = others[i];
       if (contact.tube_radius && radius_said.empty())
         radius_said = radius_warning(contact, model, nodes[i], placed.name);
+      if (axis_said.empty())
+        axis_said = axis_warning(contact, model, nodes[i], placed.name);
       place(study, model, std::move(placed), out, warnings);
     }
-    if (!radius_said.empty())
-      warnings.push_back(radius_said);
+    for (const std::string& said : {radius_said, axis_said})
+      if (!said.empty())
+        warnings.push_back(said);
   }
   check_names(study, out);
   deactivate(study, out);

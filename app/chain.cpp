@@ -13,6 +13,7 @@
 #include "app/load_flexibility.hpp"
 #include "app/mode_notes.hpp"
 #include "app/modes_limit.hpp"
+#include "app/motion_facts.hpp"
 #include "app/numbering.hpp"
 #include "app/pinned_modes.hpp"
 #include "app/progress.hpp"
@@ -194,6 +195,8 @@ private:
     const study::Study& study = inputs_.study;
     placed_ = place_contacts(study, mesh_, model_, out_.warnings);
     inactive_ = take_inactive(placed_);
+    if (scenes_wanted_)
+      describe_motions(study, out_);
     flows_ = place_flows(study, mesh_, model_, out_.notes);
     warn(parts_without_fluid(study, model_, flows_));
     turbulence_ = turbulent_loads(study, model_, flows_, out_.notes);
@@ -205,9 +208,7 @@ private:
     other_runs_ = read_other_runs(study, inputs_.run_directory);
     check_contacts_of(other_runs_, study, worn_, placed_);
     warn(compare_with_other_runs(other_runs_, study, worn_, placed_, model_));
-    if (std::string numbering = numbering_text(study, model_, together(placed_, inactive_), flows_);
-        !numbering.empty())
-      out_.notes.push_back(std::move(numbering));
+    numbering_ = numbering_text(study, model_, together(placed_, inactive_), flows_);
     note_other_runs(other_runs_, out_);
   }
 
@@ -283,6 +284,7 @@ private:
 
   void tell_check() {
     progress_.stage("");
+    note_numbering();
     const std::string forecast =
         scenes_wanted_ ? forecast_text(comm_, inputs_.study, scenes_, placed_, out_)
                        : "  no [transient]: run would refuse it; modes, stability and response take it\n";
@@ -322,8 +324,15 @@ private:
     out_.timings.transient = watch_.lap();
   }
 
+  /// After all notes that may tell of something wrong.
+  void note_numbering() {
+    if (!numbering_.empty())
+      out_.notes.push_back(numbering_);
+  }
+
   void write() {
     progress_.stage("results");
+    note_numbering();
     core::agree(comm_, [&] {
       if (!first_rank_)
         return;
@@ -397,6 +406,7 @@ private:
   std::vector<PlacedFlow> flows_;
   std::vector<TurbulentLoad> turbulence_;
   std::vector<NamedNode> nodes_;
+  std::string numbering_;                       ///< of supports along tubes
   std::vector<Eigen::MatrixXd> lacking_forces_; ///< by force sites
   std::vector<MovedSupport> moved_;
   std::vector<WornPlace> worn_;

@@ -31,10 +31,13 @@ Point at_start(const PlacedContact& placed, std::size_t k, const BuiltScene& bui
           contact::normal_force(contact.support.normal, -at.gap, penetration_rate)};
 }
 
+/// m: a smaller overlap is round-off of places.
+constexpr double least_overlap = 1e-12;
+
 /// Empty where nothing overlaps.
 std::string overlap_note(const std::string& name, const std::vector<Point>& points) {
   const auto overlapping =
-      std::count_if(points.begin(), points.end(), [](const Point& p) { return p.gap < 0.0; });
+      std::count_if(points.begin(), points.end(), [](const Point& p) { return p.gap < -least_overlap; });
   if (overlapping == 0)
     return {};
   const Point& deepest = *std::min_element(points.begin(), points.end(),

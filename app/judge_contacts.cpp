@@ -160,4 +160,12 @@ void judge_sliding(const study::Study& study, const std::vector<PlacedContact>& 
         text_of(shared.front())));
 }
 
+void judge_reach(results::RunResults& out) {
+  const auto closed = [](const post::ContactSummary& c) { return c.normal_rms > 0.0; };
+  const auto& all = out.contact_summaries;
+  if (!all.empty() && std::none_of(all.begin(), all.end(), closed))
+    out.notes.push_back(
+        "no contact closes in the window of the statistics: the motion does not cross the gaps");
+}
+
 } // namespace fretwork::app

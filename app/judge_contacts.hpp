@@ -35,4 +35,7 @@ void judge_stuck_dampers(const study::Study& study, const std::vector<PlacedCont
 void judge_sliding(const study::Study& study, const std::vector<PlacedContact>& placed,
                    results::RunResults& out);
 
+/// A note where no contact closes.
+void judge_reach(results::RunResults& out);
+
 } // namespace fretwork::app

@@ -26,9 +26,9 @@ constexpr std::size_t most_loads = 100;
 /// Share of the deflection that a load may lack before it is warned about.
 constexpr double much_deflection = 0.05;
 
-/// Collective; needs PETSc. Adds a warning of those [[loads]] that lack more than `much_deflection`, with the largest share; none where none does,
+/// Collective; needs PETSc. Adds a warning of those [[loads]] and [[base_motion]] that lack more than `much_deflection`, with the largest share; none where none does,
 /// and where a static solution fails.
-/// @param contacts  the active ones   @param fields  of the study: its loads come first
+/// @param contacts  the active ones   @param fields  of the study
 void warn_of_load_flexibility(MPI_Comm comm, const study::Study& study, const fem::Model& model,
                               const std::vector<fem::Structure>& structures,
                               const std::vector<modal::Basis>& bases,

@@ -46,6 +46,24 @@ std::string overdamped_note(const std::vector<modal::Basis>& bases) {
                       : std::string();
 }
 
+/// Of structures that nothing but contacts holds; empty where all are held.
+std::string free_note(const std::vector<modal::Basis>& bases) {
+  std::size_t structures = 0;
+  Eigen::Index ways = 0;
+  for (const modal::Basis& basis : bases)
+    if (const Eigen::Index free = (basis.omega.array() == 0.0).count(); free > 0) {
+      ++structures;
+      ways += free;
+    }
+  if (structures == 0)
+    return {};
+  const std::string what = bases.size() == 1
+                               ? "the structure moves"
+                               : fmt::format("{} of {} structures move", structures, bases.size());
+  return fmt::format("{} freely in {} way{} (modes of 0 Hz): no restraint or spring holds {}, contacts may",
+                     what, ways, ways == 1 ? "" : "s", bases.size() == 1 || structures == 1 ? "it" : "them");
+}
+
 } // namespace
 
 void note_modes(const study::Study& study, results::RunResults& out) {
@@ -61,6 +79,8 @@ void note_modes(const study::Study& study, results::RunResults& out) {
                                        *study.modes.count,
                                        split > 1 ? fmt::format(" of {} structures", split) : ""));
   note_mesh_error(out);
+  if (const std::string note = free_note(out.bases); !note.empty())
+    out.notes.push_back(note);
   if (const std::string note = overdamped_note(out.bases); !note.empty())
     out.notes.push_back(note);
   if (const auto all = static_cast<std::int64_t>(out.bases.size()); out.model.different_structures < all)

@@ -56,10 +56,29 @@ std::string goes_on_note(const Fields::Load& load, double duration) {
              : std::string();
 }
 
+/// Whether anything moves the scene: loads, motions, an initial state, or a contact that is pressed at the start.
+bool is_moved(const transient::Scene& scene) {
+  const auto acts = [](const vibration::Load& load) { return !load.modal_force.isZero(0.0); };
+  const auto pressed = [&](const transient::ContactPoint& contact) {
+    const core::Vec3 u = scene.place_at_start(contact) + contact.moved_by(scene.q0);
+    return contact::locate(contact.support.obstacle, u.y(), u.z()).gap < 0.0;
+  };
+  return std::any_of(scene.loads.begin(), scene.loads.end(), acts) || !scene.motions.empty() ||
+         std::any_of(scene.sampled_loads.begin(), scene.sampled_loads.end(),
+                     [](const signals::SampledLoad& load) { return load.acts(); }) ||
+         !scene.q0.isZero(0.0) || !scene.v0.isZero(0.0) ||
+         std::any_of(scene.contacts.begin(), scene.contacts.end(), pressed);
+}
+
 /// What the user should know of the loads.
 void note_loads(const study::Study& study, const Fields& fields, const std::vector<BuiltScene>& scenes,
                 results::RunResults& out) {
   const double duration = study.transient->duration;
+  if (std::none_of(scenes.begin(), scenes.end(),
+                   [](const BuiltScene& built) { return is_moved(built.scene); }))
+    out.warnings.push_back(
+        "nothing moves: no load, motion, turbulence or initial state acts on the modes, and "
+        "no contact is pressed at the start");
   for (const SharedSignal& shared : shared_signals(study))
     out.notes.push_back(text_of(shared) + "; give one another seed if they are independent");
   constexpr double long_rise = 0.2; // of the run

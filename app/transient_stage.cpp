@@ -30,6 +30,7 @@ void run_scenes(const AroundTransient& around, const study::Study& study, std::v
     judge_restitution(study, around.placed, out);
     judge_stuck_dampers(study, around.placed, scenes, out);
     judge_sliding(study, around.placed, out);
+    judge_reach(out);
   }
   const std::size_t said = out.warnings.size();
   core::agree(around.comm, [&] { add_wear(study, around.worn, around.placed, around.other_runs, out); });

@@ -79,9 +79,12 @@ std::vector<std::string> contact_lines(const RunResults& results) {
   const auto& all = results.contact_summaries;
   std::vector<std::size_t> shown(all.size());
   std::iota(shown.begin(), shown.end(), std::size_t{0});
+  const bool slide =
+      std::any_of(all.begin(), all.end(), [](const post::ContactSummary& c) { return c.work_rate > 0.0; });
+  const auto rank = [&](std::size_t c) { return slide ? all[c].work_rate : all[c].normal_max; };
   if (all.size() > most_contacts) {
     std::stable_sort(shown.begin(), shown.end(),
-                     [&](std::size_t a, std::size_t b) { return all[a].work_rate > all[b].work_rate; });
+                     [&](std::size_t a, std::size_t b) { return rank(a) > rank(b); });
     shown.resize(10);
   }
   std::vector<std::string> lines{row("contact", "impacts", "closed%", "FN rms N", "FNmax N", "FTmax N",
@@ -89,7 +92,8 @@ std::vector<std::string> contact_lines(const RunResults& results) {
   for (const std::size_t c : shown)
     lines.push_back(contact_row(results.contacts[c], all[c]));
   if (shown.size() < all.size())
-    lines.push_back(fmt::format("  the 10 of {} contacts with the largest work rate", all.size()));
+    lines.push_back(fmt::format("  the 10 of {} contacts with the largest {}", all.size(),
+                                slide ? "work rate" : "normal force, where none slides"));
   if (all.size() > 1)
     lines.push_back(sums_row(results));
   const std::vector<std::string> flat = flat_lines(results, shown);

@@ -7,7 +7,7 @@
 namespace fretwork::results {
 
 /// A line a contact with its impacts, forces, position and powers, their sums; flat obstacles (contact_position.hpp) once more, normal
-/// position and sliding apart. Of many contacts those with the largest work rates. r and penetration in micrometres, r from the
+/// position and sliding apart. Of many contacts those with the largest work rates, or, where none slides, forces. r and penetration in micrometres, r from the
 /// obstacle's centre.
 [[nodiscard]] std::vector<std::string> contact_lines(const RunResults& results);
 

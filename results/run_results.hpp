@@ -80,6 +80,15 @@ struct ForceSite {
   [[nodiscard]] bool is_section() const { return beam >= 0; }
 };
 
+/// An imposed motion in figures, within the run.
+struct MotionFacts {
+  std::string name;
+  double largest = 0.0, time = 0.0;          ///< m/s2, of the acceleration, and s, when
+  double displacement = 0.0;                 ///< m, the largest from where it starts
+  std::int64_t rows = 0;                     ///< of its table; 0: none
+  double record_from = 0.0, record_to = 0.0; ///< s, of the table
+};
+
 /// How far modes reach for an accuracy of contact forces.
 struct ModesLimit {
   double accuracy = 0.0;
@@ -126,6 +135,7 @@ struct RunResults {
   std::vector<StabilityAssessment> stability; ///< by assessments and tubes
   std::vector<LawAtWork> laws;                ///< of fluidelastic forces, of a run
   std::vector<LinearResponse> responses;      ///< to turbulence, on pinned modes
+  std::vector<MotionFacts> motions;           ///< of the run
   std::optional<ModesLimit> modes_limit;      ///< where the study asks for an accuracy of them
   std::vector<ContactFacts> contacts;
   std::vector<post::ContactSummary> contact_summaries; ///< as `contacts`; empty without a transient

@@ -291,6 +291,13 @@ void add_transient(Json& out, const RunResults& results) {
   for (std::size_t n = 0; n < results.node_names.size(); ++n)
     out["nodes"].push_back(node(results.node_names[n], results.node_summaries[n]));
   add_forces(out, results);
+  for (const MotionFacts& m : results.motions)
+    out["motions"].push_back({{"name", m.name},
+                              {"largest_acceleration_m_s2", number(m.largest)},
+                              {"largest_at_s", number(m.time)},
+                              {"largest_displacement_m", number(m.displacement)},
+                              {"rows", m.rows},
+                              {"record_s", m.rows > 0 ? Json{m.record_from, m.record_to} : Json(nullptr)}});
   out["energy"] = energy(totals.energy);
   out["transient"] = transient(totals, results);
 }

@@ -24,6 +24,7 @@ constexpr double least_missing = 1e-3; // flexibility times stiffness of a conta
 constexpr std::size_t most_frequencies = 8;
 constexpr std::size_t most_warnings = 5;
 constexpr std::size_t most_notes = 3;
+constexpr std::size_t most_motions = 6;
 
 /// Lines with a label in the first column: `  label      text`.
 class Lines {
@@ -130,7 +131,21 @@ void add_verification(Lines& lines, const RunResults& results) {
                               f.difference(), f.error, f.agrees ? "" : "  differs"));
 }
 
+constexpr double standard_gravity = 9.80665; // m/s2
+
+std::string motion_text(const MotionFacts& m) {
+  std::string text = fmt::format(
+      "{}: largest acceleration {} m/s2 ({} g) at {:.4g} s, largest displacement {} m", m.name,
+      figure(m.largest, 4), figure(m.largest / standard_gravity, 3), m.time, figure(m.displacement, 3));
+  if (m.rows > 1)
+    text += fmt::format("; table of {} rows from {:.4g} to {:.4g} s", grouped(m.rows), m.record_from,
+                        m.record_to);
+  return text;
+}
+
 void add_transient(Lines& lines, const RunResults& results) {
+  for (std::size_t k = 0; k < std::min(most_motions, results.motions.size()); ++k)
+    lines.add(k == 0 ? "motion" : "", motion_text(results.motions[k]));
   const TransientTotals t = add_up(results.transients);
   const std::string step = t.step_max > t.step_min ? fmt::format("{:.3g} to {:.3g}", t.step_min, t.step_max)
                                                    : fmt::format("{:.3g}", t.step_min);

@@ -61,7 +61,8 @@ TEST(Check, TellsTheWarningsAndNotesOfARun) {
       "study.toml",
       steel_pipe("mesh.msh") + tube_between("tube") +
           "[[contacts]]\ngroup = \"plate\"\naxis = [1, 0, 0]\ngap = 2e-4\nnormal_stiffness = 1e6\n"
-          "restitution = 0.7\n[modes]\ncount = 8\n[transient]\nduration = 0.02\n"
+          "restitution = 0.7\n[[initial]]\ngroup = \"plate\"\nvelocity = [0.0, 1.0, 0.0]\n[modes]\ncount = "
+          "8\n[transient]\nduration = 0.02\n"
           "[sweep]\ndesign = \"grid\"\n[[sweep.variables]]\nkey = \"contacts.plate.gap\"\nvalues = [1e-4, "
           "2e-4]\n");
   const Outcome check = folder.fretwork(with("check", study, {}));
