@@ -222,6 +222,24 @@ contact::Obstacle obstacle_of(const study::Contact& contact, const fem::Model& m
   return shape;
 }
 
+/// Bodies of two nodes whose clearance at rest is given: as large as leaves it.
+contact::Obstacle with_gap(contact::Obstacle shape, double gap, const PlacedContact& placed) {
+  const auto distance_at = [&](double between) {
+    if (!(between - gap > 0.0))
+      throw core::Error(
+          fmt::format("contact \"{}\": gap = {:g} m, but its nodes are {:.4g} m from each other across "
+                      "the contact: nothing is left for the bodies; give a smaller gap",
+                      placed.name, gap, std::max(between, 0.0)));
+    return between - gap;
+  };
+  if (auto* round = std::get_if<contact::RoundPair>(&shape))
+    round->distance = distance_at(std::hypot(placed.rest.y(), placed.rest.z()));
+  if (auto* planes = std::get_if<contact::FacingPlanes>(&shape))
+    planes->distance = distance_at(
+        planes->side * (planes->axis == contact::PlaneAxis::y ? placed.rest.y() : placed.rest.z()));
+  return shape;
+}
+
 /// The points of a support of one node: the node, or points from edge to edge of a thickness.
 std::vector<fem::BeamPoint> points_of(const study::Contact& contact, const fem::Model& model,
                                       const PlacedContact& placed) {
@@ -283,6 +301,8 @@ void place(const study::Study& study, const fem::Model& model, PlacedContact con
     placed.rest = placed.frame.rotation() * (points[k].place - centre);
     placed.rest.y() -= entry.offset[0];
     placed.rest.z() -= entry.offset[1];
+    if (entry.pair_gap)
+      placed.obstacle = with_gap(placed.obstacle, *entry.pair_gap, placed);
     placed.order = out.size();
     out.push_back(std::move(placed));
   }

@@ -10,7 +10,9 @@ namespace {
 const std::vector<std::vector<std::string>> alternatives{
     {"normal_damping", "normal_dissipation", "restitution", "restitution_mass", "restitution_velocity"},
     {"angle", "y_axis"},
-    {"hole_radius", "clearance"}};
+    {"hole_radius", "clearance"},
+    {"gap", "distance_1"},
+    {"gap", "distance_2"}};
 
 bool gives(const Table& contact, const std::string& key) {
   if (contact.contains(key))

@@ -206,12 +206,21 @@ void read_moving_obstacle(const TableReader& table, Contact& contact) {
   if (!joins_nodes(contact.obstacle))
     table.fail_at("obstacle", "an obstacle fixed in space; between two nodes take circle, circle_inside, "
                               "plane_y or plane_z");
+  const bool ring = contact.obstacle == ObstacleKind::circle_inside;
   for (const std::string& key : size_keys)
-    if (table.has(key))
-      table.fail_at(key, "between two nodes the gap follows from their places, distance_1 and distance_2; "
-                         "leave it out");
-  const double first = table.number("distance_1", {Range::at_least_zero, "m"});
-  const double second = table.number("distance_2", {Range::at_least_zero, "m"});
+    if (table.has(key) && (key != "gap" || ring))
+      table.fail_at(key,
+                    ring && key == "gap"
+                        ? "the clearance of a ring is distance_2 - distance_1; leave it out"
+                        : "between two nodes bodies have distance_1 and distance_2, or a gap; leave it out");
+  contact.pair_gap = table.optional_number("gap", {Range::at_least_zero, "m"});
+  for (const char* key : {"distance_1", "distance_2"})
+    if (contact.pair_gap && table.has(key))
+      table.fail_at(key, "the gap at rest says how large the bodies are; leave one of them out");
+  const auto distance = [&](const char* key) {
+    return contact.pair_gap ? 0.0 : table.number(key, {Range::at_least_zero, "m"});
+  };
+  const double first = distance("distance_1"), second = distance("distance_2");
   contact.side = table.optional_number("side", {});
   if (contact.side && is_round(contact.obstacle))
     table.fail_at("side", "round bodies meet on any side; leave it out");
@@ -223,7 +232,7 @@ void read_moving_obstacle(const TableReader& table, Contact& contact) {
                                   "radius of at least distance_1");
     contact.shape = contact::Circle{second - first};
   } else if (contact.obstacle == ObstacleKind::circle) {
-    if (!(first + second > 0.0))
+    if (!contact.pair_gap && !(first + second > 0.0))
       table.fail_at("distance_1", "two bodies without size never meet; give a radius > 0 to one");
     contact.shape = contact::RoundPair{first + second};
   } else {

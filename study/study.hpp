@@ -122,6 +122,8 @@ struct Contact {
   contact::Obstacle shape; ///< flat bodies without `side`: it follows from the places of the two nodes
   std::optional<double> tube_radius; ///< m, of the obstacles that have it; the shape is made with it
   std::optional<double> side;        ///< two nodes, planes: +1 or -1
+  std::optional<double>
+      pair_gap; ///< m, two nodes: their clearance at rest, from which the shape's distance follows
   std::optional<Vec3> axis;
   std::optional<Vec3> y_axis; ///< instead of angle
   double angle = 0.0;         ///< degrees

@@ -232,5 +232,30 @@ TEST(Origin, BetweenTwoNodesIsToldToMoveNothing) {
   EXPECT_EQ(without.summary["warnings"].dump().find("origin"), std::string::npos);
 }
 
+TEST(Structures, MeetAtTheGapThatTheyHaveWhereTheyAreDrawn) {
+  const Workshop folder;
+  const std::string study = tubes(folder, 2) + push(0, 200.0), contact = meeting(0, 1);
+  const auto with_sizes = [&](const std::string& sizes) {
+    std::string text = contact;
+    const std::size_t from = text.find("distance_1"), to = text.find("normal_stiffness");
+    return study + text.replace(from, to - from, sizes);
+  };
+  const Results run = folder.run_text(study + contact);
+  const double gap = facts(run, "meet01").gap;
+  EXPECT_GT(gap, 0.0);
+  EXPECT_GT(run.statistics("meet01")["impacts"].get<int>(), 0);
+  const Results same = folder.run_text(with_sizes(fmt::format("gap = {:.17g}\n", gap)), {"--force"});
+  EXPECT_TRUE(close_to(facts(same, "meet01").gap, gap, 1e-9));
+  EXPECT_TRUE(close_to(same.statistics("meet01")["normal_force"]["max"],
+                       run.statistics("meet01")["normal_force"]["max"].get<double>(), 1e-6));
+  const Results flat = folder.run_text(
+      with_sizes(fmt::format("obstacle = \"plane_y\"\ngap = {:.17g}\noffset = [1.0e-5, 0.0]\n", gap)),
+      {"--force"});
+  EXPECT_TRUE(close_to(facts(flat, "meet01").gap, gap, 1e-9)) << "offset included";
+  folder.write("wide.toml", with_sizes("gap = 0.5\n"));
+  EXPECT_TRUE(says(folder.fretwork({"run", folder.path("wide.toml").string()}).err,
+                   "nothing is left for the bodies"));
+}
+
 } // namespace
 } // namespace fretwork::app::test::meeting_structures_test

@@ -140,6 +140,14 @@ TEST(ReadObstacle, BetweenTwoNodes) {
   EXPECT_EQ(sided.side, -1.0);
 }
 
+TEST(ReadObstacle, BetweenTwoNodesTakesTheirGapAtRest) {
+  for (const char* kind : {"circle", "plane_y", "plane_z"}) {
+    const Contact pair = contact_with(std::string("other = \"q\"\ngap = 2e-4\nobstacle = \"") + kind + "\"");
+    EXPECT_EQ(pair.pair_gap, 2e-4) << kind;
+  }
+  EXPECT_FALSE(contact_with("gap = 2e-4").pair_gap) << "of one node the obstacle has it";
+}
+
 TEST(ReadObstacle, TellsItsNameInTheFile) {
   for (const char* name : {"circle", "plane_y", "plane_z", "stop_y", "stop_z"})
     EXPECT_EQ(name_of(contact_with(std::string("gap = 1\nobstacle = \"") + name + "\"").obstacle), name);

@@ -97,7 +97,10 @@ TEST(MessagesOfContacts, KeysOfAnotherObstacle) {
        {"gap = 0\nside = 1", "contacts.p.side = 1: belongs to a contact between two nodes"},
        {"obstacle = \"circle_inside\"", "contacts.p.obstacle = \"circle_inside\": a ring that moves with a "
                                         "second node; name that node in other"},
-       {"other = \"q\"\ngap = 0", "contacts.p.gap = 0: between two nodes the gap follows from their places"},
+       {"other = \"q\"\ngap = 0\ndistance_1 = 1",
+        "contacts.p.distance_1 = 1: the gap at rest says how large"},
+       {"other = \"q\"\nobstacle = \"circle_inside\"\ngap = 0",
+        "contacts.p.gap = 0: the clearance of a ring is distance_2 - distance_1"},
        {"other = \"q\"\ntube_radius = 1", "contacts.p.tube_radius = 1: between two nodes"},
        {"other = \"q\"\ndistance_1 = 1\ndistance_2 = 1\nside = 1",
         "contacts.p.side = 1: round bodies meet on any side; leave it out"}},
