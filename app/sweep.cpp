@@ -124,8 +124,11 @@ public:
   /// Collective: the worst cases once more with all their results.
   void keep_worst() {
     std::vector<std::int64_t> kept;
-    if (first_rank_ && plan_.sweep.keep > 0)
-      kept = sweep::worst_cases(table_, "worst.work_rate", plan_.sweep.keep);
+    if (first_rank_ && plan_.sweep.keep > 0) {
+      const std::string by = plan_.sweep.keep_by.empty() ? sweep::measure_of(table_) : plan_.sweep.keep_by;
+      kept = sweep::worst_cases(table_, by, plan_.sweep.keep);
+      summary_["worst_by"] = by;
+    }
     auto count = static_cast<int>(kept.size());
     MPI_Bcast(&count, 1, MPI_INT, 0, comm_);
     kept.resize(static_cast<std::size_t>(count));
@@ -172,6 +175,8 @@ public:
     std::string text =
         plan_.inputs.study.title.empty() ? "Sweep\n" : "Sweep: " + plan_.inputs.study.title + "\n";
     text += lines;
+    if (plan_.sweep.design == study::SweepDesign::grid)
+      text += sweep::range_lines(table_);
     for (const auto& number : summary_["worst"])
       text += fmt::format(
           "  kept         {}\n",

@@ -312,7 +312,8 @@ std::int64_t read_keep(const TableReader& sweep) {
     return 0;
   const auto count = text->starts_with("worst ") ? to_real(std::string_view(*text).substr(6)) : std::nullopt;
   if (!count || !(*count >= 1.0) || *count != std::round(*count))
-    sweep.fail_at("keep", "\"worst 5\" is expected: the cases with the largest work rates");
+    sweep.fail_at("keep",
+                  "\"worst 5\" is expected: the cases with the largest work rates, or outputs keep_by");
   return static_cast<std::int64_t>(*count);
 }
 
@@ -352,7 +353,7 @@ Sweep read_sweep(const Document& document) {
                       " has no [sweep]; add what varies between the cases (doc/sweep.md)");
   const TableReader sweep(found->second, "sweep",
                           {{"study", "design", "draws", "seed", "variables", "correlations", "quantiles",
-                            "confidence", "limits", "until", "keep"}});
+                            "confidence", "limits", "until", "keep", "keep_by"}});
   Sweep out;
   out.design = sweep.choice("design", out.design, designs);
   const auto draws = sweep.optional_integer("draws", 1);
@@ -382,6 +383,12 @@ Sweep read_sweep(const Document& document) {
                             "take a design that draws");
   out.until = read_until(sweep, out);
   out.keep = read_keep(sweep);
+  if (const auto output = sweep.optional_text("keep_by")) {
+    if (out.keep == 0)
+      sweep.fail_at("keep_by", "says which cases keep = \"worst n\" keeps; give keep, or leave keep_by out");
+    out.keep_by = *output;
+    out.keep_by_where = place_of(sweep, "keep_by");
+  }
   check_design(sweep, out);
   return out;
 }

@@ -59,8 +59,8 @@ struct SweepLimit {
 
 /// More draws until a quantile is known well enough.
 struct SweepUntil {
-  double relative_error = 0.05;           ///< half width of the interval over the quantile
-  std::string output = "worst.work_rate"; ///< column
+  double relative_error = 0.05; ///< half width of the interval over the quantile
+  std::string output = {};      ///< column; empty: sweep::measure_of its table
   double quantile = 0.5;
   std::int64_t most_draws = 0; ///< in the end
   std::string where = {};      ///< of the output, as SweepLimit::where
@@ -77,6 +77,9 @@ struct Sweep {
   std::vector<SweepLimit> limits;
   std::optional<SweepUntil> until;
   std::int64_t keep = 0; ///< worst cases that are run again with all their results
+  std::string keep_by = {},
+              keep_by_where =
+                  {}; ///< output that is largest there, as SweepUntil::output; as SweepLimit::where
 };
 
 /// `[sweep]` of a document, completed or not.

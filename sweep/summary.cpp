@@ -15,6 +15,8 @@ using nlohmann::json;
 
 constexpr std::size_t most_failures = 100; ///< that the summary lists; the table has all
 constexpr std::size_t most_case_warnings = 10;
+constexpr std::size_t most_ranges = 16; ///< lines of outputs
+constexpr double round_off = 1e-12;     ///< of displacements, m, and forces, N: nothing moves so little
 constexpr std::size_t name_width = 24, cell_width = 31, shown_variables = 4;
 
 /// Inputs that are drawn and outputs, as numbers, of the rows that statistics are made from: the done ones; of a design whose estimator needs every case all.
@@ -47,7 +49,9 @@ json statistics_request(const study::Sweep& sweep, const Table& table) {
     out["outputs"].push_back(column.name);
   for (const study::SweepLimit& limit : sweep.limits)
     out["limits"].push_back({{"output", limit.output}, {"value", limit.value}, {"above", limit.above}});
-  const study::SweepUntil until = sweep.until.value_or(study::SweepUntil{});
+  study::SweepUntil until = sweep.until.value_or(study::SweepUntil{});
+  if (until.output.empty())
+    until.output = measure_of(table);
   out["until"] = {
       {"output", until.output}, {"quantile", until.quantile}, {"relative_error", until.relative_error}};
   return out;
@@ -79,8 +83,11 @@ std::string quantile_lines(const json& summary) {
   for (const json& quantile : outputs.front()["quantiles"])
     heads.push_back(fmt::format("{:g} %", 100.0 * quantile["probability"].get<double>()));
   std::string out = line_of_cells("quantile", heads);
+  const bool contacts = std::any_of(outputs.items().begin(), outputs.items().end(),
+                                    [](const auto& item) { return item.key().starts_with("worst."); });
+  std::size_t lines = 0;
   for (const auto& [name, output] : outputs.items()) {
-    if (!is_of_all(name))
+    if (contacts ? !is_of_all(name) : name.ends_with(".error") || ++lines > most_ranges)
       continue;
     std::vector<std::string> cells;
     for (const json& quantile : output["quantiles"])
@@ -193,7 +200,65 @@ json summarize(const study::Sweep& sweep, const Draws& draws, const Table& table
   return out;
 }
 
+std::string measure_of(const Table& table) {
+  for (const char* output : {"worst.work_rate", "worst.normal_max"}) {
+    const auto found = std::find_if(table.outputs.begin(), table.outputs.end(),
+                                    [&](const Column& column) { return column.name == output; });
+    const auto place = static_cast<std::size_t>(found - table.outputs.begin());
+    const auto differs = [&](std::size_t row) { return table.rows[row].values[place] > 0.0; };
+    const std::vector<std::size_t> done = table.done();
+    if (found != table.outputs.end() && std::any_of(done.begin(), done.end(), differs))
+      return output;
+  }
+  const bool contacts = std::any_of(table.outputs.begin(), table.outputs.end(),
+                                    [](const Column& column) { return column.name == "worst.work_rate"; });
+  if (contacts)
+    return "worst.work_rate";
+  const std::vector<std::size_t> done = table.done();
+  for (std::size_t place = 0; place < table.outputs.size(); ++place)
+    if (std::any_of(done.begin(), done.end(),
+                    [&](std::size_t row) { return std::abs(table.rows[row].values[place]) > round_off; }))
+      return table.outputs[place].name;
+  return table.outputs.front().name;
+}
+
+std::string range_lines(const Table& table) {
+  const std::vector<std::size_t> done = table.done();
+  const bool contacts = std::any_of(table.outputs.begin(), table.outputs.end(),
+                                    [](const Column& column) { return column.name.starts_with("worst."); });
+  const std::string head = line_of_cells("range", {"least", "largest"});
+  std::string out;
+  std::size_t lines = 0;
+  for (std::size_t place = 0; place < table.outputs.size(); ++place) {
+    const Column& column = table.outputs[place];
+    if (column.name.ends_with(".error") || column.name == "total.energy_residual" ||
+        (contacts && !is_of_all(column.name)))
+      continue;
+    const Row *least = nullptr, *largest = nullptr;
+    for (const std::size_t i : done) {
+      const Row& row = table.rows[i];
+      if (std::isnan(row.values[place]))
+        continue;
+      least = !least || row.values[place] < least->values[place] ? &row : least;
+      largest = !largest || row.values[place] > largest->values[place] ? &row : largest;
+    }
+    if (!least || std::abs(largest->values[place]) < round_off)
+      continue;
+    if (++lines > most_ranges)
+      return head + out + "  and more in table.csv\n";
+    const auto text = [&](const Row& row) {
+      return fmt::format("{} (case {})", figure(json(row.values[place])), row.number);
+    };
+    out += line_of_cells(column.unit.empty() ? column.name : column.name + " " + column.unit,
+                         {text(*least), text(*largest)});
+  }
+  return out.empty() ? out : head + out;
+}
+
 std::string no_sliding_warning(const Table& table) {
+  if (std::none_of(table.outputs.begin(), table.outputs.end(),
+                   [](const Column& column) { return column.name == "total.work_rate"; }))
+    return {}; // a study without contacts
   const std::size_t work = place_of(table.outputs, "total.work_rate", "no sliding"),
                     force = place_of(table.outputs, "worst.normal_rms", "no sliding");
   bool acts = false;
@@ -250,7 +315,9 @@ std::vector<std::string> case_warnings(const Table& table, const std::string& do
 void check_outputs(const study::Sweep& sweep, const std::vector<Column>& outputs) {
   for (const study::SweepLimit& limit : sweep.limits)
     (void)place_of(outputs, limit.output, limit.where);
-  if (sweep.until)
+  if (!sweep.keep_by.empty())
+    (void)place_of(outputs, sweep.keep_by, sweep.keep_by_where);
+  if (sweep.until && !sweep.until->output.empty())
     (void)place_of(outputs, sweep.until->output, sweep.until->where);
 }
 

@@ -22,9 +22,16 @@ namespace fretwork::sweep {
 /// @throws core::Error where limits or `until` are asked of an output that there is not
 void check_outputs(const study::Sweep& sweep, const std::vector<Column>& outputs);
 
+/// The output that cases are compared by where the study names none: worst.work_rate, or, where nothing slides in any of them, worst.normal_max; of a
+/// study without contacts the first that is no round-off.
+[[nodiscard]] std::string measure_of(const Table& table);
+
 /// Numbers of the done cases with the largest values of an output, the largest first.
 [[nodiscard]] std::vector<std::int64_t> worst_cases(const Table& table, const std::string& output,
                                                     std::int64_t count);
+
+/// Of a grid: the least and the largest value of each output of all contacts, and in which case; of a study without contacts of each output.
+[[nodiscard]] std::string range_lines(const Table& table);
 
 /// The summary in lines for the terminal.
 [[nodiscard]] std::string summary_text(const nlohmann::json& summary);

@@ -94,6 +94,32 @@ values = [5.0, 9.0]
   EXPECT_EQ(different.size(), 2u);
 }
 
+TEST_F(Sweeps, KeepTheWorstByAnOutputAndNeedNoContacts) {
+  std::string text = sweep_of("straight_tube", R"(
+design = "grid"
+keep = "worst 1"
+keep_by = "tube.stress"
+[[sweep.variables]]
+key = "loads.1.harmonic.amplitude"
+values = [5.0, 40.0, 10.0]
+)");
+  const std::vector<std::string> short_run = {"--set", "transient.duration=0.3", "--set",
+                                              "output.section_forces=[\"tube\"]"};
+  ASSERT_EQ(sweep(text, "out", short_run).status, 0);
+  EXPECT_TRUE(fs::exists(folder.path("out/runs/case_1")));
+  std::string free = bytes_of(example("straight_tube"));
+  free.erase(free.find("[[contacts]]"), free.find("[[loads]]") - free.find("[[contacts]]"));
+  fs::copy_file(example("straight_tube").parent_path() / "tube.geo", folder.path("tube.geo"));
+  const Outcome outcome = sweep(free + "[sweep]\n" + text.substr(text.find("design")), "free", short_run);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, "(case 1)"));
+  const auto rows = table_of(folder.path("free"));
+  EXPECT_GT(std::stod(rows[1].at("tube.stress")), std::stod(rows[0].at("tube.stress")));
+  EXPECT_EQ(rows[0].count("total.work_rate"), 0u);
+  text.replace(text.find("tube.stress"), 11, "tube.strain");
+  EXPECT_TRUE(says(sweep(text, "none", short_run).err, "no output is called \"tube.strain\""));
+}
+
 TEST_F(Sweeps, TurbulenceOfASeedAndAMissingSupportAreThoseOfARun) {
   const std::string text = sweep_of("tube_study", R"(
 design = "grid"

@@ -73,5 +73,31 @@ TEST(Design, WorstCasesAreTheLargestThatAreDone) {
   EXPECT_THROW((void)worst_cases(table, "works", 1), core::Error);
 }
 
+TEST(Design, CasesAreComparedByWorkOrWhereNothingSlidesByForce) {
+  Table table;
+  table.outputs = {{"a.work_rate", "W"}, {"worst.work_rate", "W"}, {"worst.normal_max", "N"}};
+  table.rows = {{0, "", Outcome::done, {0.0, 0.0, 5.0}}, {1, "", Outcome::done, {0.0, 0.0, 7.0}}};
+  EXPECT_EQ(measure_of(table), "worst.normal_max");
+  table.rows[1].values[1] = 1e-3;
+  EXPECT_EQ(measure_of(table), "worst.work_rate");
+  table.rows.clear();
+  EXPECT_EQ(measure_of(table), "worst.work_rate");
+  table.outputs = {{"tube.stress", "Pa"}, {"tube.stress_std", "Pa"}};
+  EXPECT_EQ(measure_of(table), "tube.stress") << "without contacts";
+}
+
+TEST(Design, RangesOfAGridSayInWhichCase) {
+  Table table;
+  table.outputs = {{"a.normal_max", "N"}, {"worst.normal_max", "N"}, {"worst.work_rate", "W"}};
+  table.rows = {{3, "", Outcome::done, {1.0, 5.0, 0.0}},
+                {4, "", Outcome::failed, {}},
+                {7, "", Outcome::done, {2.0, 4.0, 0.0}}};
+  const std::string lines = range_lines(table);
+  EXPECT_NE(lines.find("worst.normal_max N"), std::string::npos) << lines;
+  EXPECT_LT(lines.find("4 (case 7)"), lines.find("5 (case 3)")) << lines;
+  EXPECT_EQ(lines.find("a.normal_max"), std::string::npos) << "of all contacts only";
+  EXPECT_EQ(lines.find("work_rate"), std::string::npos) << "nothing slides";
+}
+
 } // namespace
 } // namespace fretwork::sweep::design_test

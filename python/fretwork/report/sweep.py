@@ -8,6 +8,9 @@ from pathlib import Path
 
 PRINCIPAL = ("total.work_rate", "worst.work_rate", "worst.wear_depth", "worst.years", "worst.normal_rms", "worst.normal_max")
 
+MOST_PRINCIPAL = 8
+ROUND_OFF = 1e-12  # of displacements, m, and forces, N
+
 
 class Sweep:
     """What the folder holds: summary, columns of inputs and outputs by name."""
@@ -28,7 +31,7 @@ class Sweep:
 
     def abscissae(self):
         """m along the tube of each contact; none where one has none: the mesh is no open chain."""
-        places = [contact.get("abscissa_m") for contact in self.summary["contacts"]]
+        places = [contact.get("abscissa_m") for contact in self.summary.get("contacts", [])]
         return None if None in places else places
 
     @property
@@ -44,7 +47,8 @@ class Sweep:
         return html.escape(self.names[name][int(number)].strip('"')) if name in self.names else figure_of(number)
 
     def principal(self):
-        return [name for name in PRINCIPAL if name in self.outputs]
+        found = [name for name in PRINCIPAL if name in self.outputs]
+        return found or [name for name, values in self.outputs.items() if not name.endswith(".error") and (abs(values) > ROUND_OFF).any()][:MOST_PRINCIPAL]  # without contacts
 
 
 def figure_of(value):
@@ -126,8 +130,11 @@ def distributions(sweep):
 
 
 def measure(sweep):
-    """The output that pictures are about."""
-    return sweep.statistics["convergence"]["output"] if sweep.statistics else sweep.principal()[0]
+    """The output that pictures are about: where nothing slides the largest force, of a study without contacts the first one."""
+    if sweep.statistics:
+        return sweep.statistics["convergence"]["output"]
+    moving = [name for name in (*sweep.principal()[:2], "worst.normal_max") if name in sweep.outputs and (sweep.outputs[name] > 0).any()]
+    return moving[0] if moving else (sweep.principal() or list(sweep.outputs))[0]
 
 
 def sensitivities(sweep):
@@ -151,7 +158,9 @@ def along(sweep):
     from . import page, sweep_view
 
     suffix = ".work_rate"
-    names = [contact["name"] for contact in sweep.summary["contacts"]]
+    names = [contact["name"] for contact in sweep.summary.get("contacts", [])]
+    if not names:
+        return ""
     values = np.column_stack([sweep.outputs[name + suffix] for name in names])
     if not np.isfinite(values).any():
         return ""
@@ -170,7 +179,7 @@ def worst(sweep):
 
     from . import page
 
-    of = "worst.work_rate" if "worst.work_rate" in sweep.outputs else measure(sweep)
+    of = sweep.summary.get("worst_by") or measure(sweep)
     values = sweep.outputs[of]
     order = [i for i in np.argsort(-np.nan_to_num(values, nan=-np.inf), kind="stable") if np.isfinite(values[i])][:10]
     rows = []
