@@ -258,6 +258,24 @@ template <class V> FRETWORK_INLINE void gather_on(const GatherTable& g, const do
 FRETWORK_KERNEL(void, gather, (const GatherTable& g, const double* q, double* u), (g, q, u))
 
 template <class V>
+FRETWORK_INLINE void gather_together_on(const GatherTable& g, const double* q, int q_stride, double* u,
+                                        int u_stride) {
+  const double* from[gathered_together];
+  double* to[gathered_together];
+  for (int n = 0; n < gathered_together; ++n) {
+    from[n] = q + n * q_stride;
+    to[n] = u + n * u_stride;
+  }
+  const int packs = static_cast<int>(g.begin.size()) - 1;
+  for (int p = 0; p < packs; ++p)
+    gather_one<V, gathered_together>(g, p, from, to);
+  gather_parts<V, gathered_together>(g, from, to);
+}
+FRETWORK_KERNEL(void, gather_together,
+                (const GatherTable& g, const double* q, int q_stride, double* u, int u_stride),
+                (g, q, q_stride, u, u_stride))
+
+template <class V>
 FRETWORK_INLINE void scatter_on(int np, int rows, const double* const* row, const double* factor, double* v) {
   for_count(
       rows, [&](auto count) __attribute__((always_inline)) {

@@ -245,6 +245,12 @@ extern const Kernel<void(const GatherTable& g, const double* q, const double* v,
 /// u = G q.
 extern const Kernel<void(const GatherTable& g, const double* q, double* u)> gather;
 
+/// u = G q of `gathered_together` vectors: the table, which may be larger than the caches, is read once. q and u follow each other, `q_stride` and
+/// `u_stride` doubles apart, both multiples of `lanes`.
+inline constexpr int gathered_together = 8;
+extern const Kernel<void(const GatherTable& g, const double* q, int q_stride, double* u, int u_stride)>
+    gather_together;
+
 /// v += sum over r of factor[r] * row[r].
 extern const Kernel<void(int np, int rows, const double* const* row, const double* factor, double* v)>
     scatter;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <utility>
 
 namespace fretwork::post {
 namespace {
@@ -22,7 +23,7 @@ constexpr int directions = 720;
 
 double stress_of(const OuterFibre& fibre, double normal, double about_y, double about_z) {
   const double y = about_y * fibre.e_z, z = about_z * fibre.e_y;
-  return std::abs(normal) / fibre.area + (fibre.round ? std::hypot(y, z) : std::abs(y) + std::abs(z));
+  return std::abs(normal) / fibre.area + (fibre.round ? std::sqrt(y * y + z * z) : std::abs(y) + std::abs(z));
 }
 
 /// What each of N, My and Mz adds to the stress of a fibre.
@@ -56,10 +57,14 @@ ForceStatistics::ForceStatistics(const std::vector<FollowedForce>& forces, doubl
     : from_(from), width_(static_cast<std::size_t>(kernels::padded(static_cast<int>(forces.size())))),
       products_(pairs.size() * width_), force_(width_), moment_(width_), stress_(width_),
       stress_time_(width_), ends_(force_sums * forces.size()) {
-  for (kernels::Array* of_components : {&values_, &first_, &sums_, &squares_, &min_, &max_})
+  for (kernels::Array* of_components : {&first_, &sums_, &squares_, &min_, &max_})
     of_components->assign(force_components * width_, 0.0);
-  for (const FollowedForce& force : forces)
+  values_.assign(together * first_.size(), 0.0);
+  for (const FollowedForce& force : forces) {
     kinds_.push_back({force.section, force.fibre});
+    modes_count_ = static_cast<std::size_t>(kernels::padded(static_cast<int>(force.rows.cols())));
+  }
+  modes_.assign(together * modes_count_, 0.0);
   for (std::size_t c = 0; c < force_components; ++c)
     for (std::size_t begin = 0; begin < width_; begin += kernels::lanes) {
       std::map<int, std::array<double, kernels::lanes>> pack;
@@ -74,7 +79,7 @@ ForceStatistics::ForceStatistics(const std::vector<FollowedForce>& forces, doubl
 void ForceStatistics::add_loads(const std::vector<FollowedForce>& forces,
                                 const std::vector<vibration::Load>& loads, double duration) {
   for (std::size_t l = 0; l < loads.size(); ++l) {
-    kernels::Array values(values_.size(), 0.0);
+    kernels::Array values(first_.size(), 0.0);
     for (std::size_t k = 0; k < forces.size(); ++k)
       for (std::size_t c = 0; c < force_components && forces[k].by_loads.size() > 0; ++c)
         values[c * width_ + k] =
@@ -89,12 +94,12 @@ void ForceStatistics::add_loads(const std::vector<FollowedForce>& forces,
 void ForceStatistics::add_imposed_motion(const std::vector<FollowedForce>& forces,
                                          const std::vector<signals::PrescribedMotion>& motions,
                                          double duration) {
-  imposed_.assign(motions.size() * values_.size(), 0.0);
+  imposed_.assign(motions.size() * first_.size(), 0.0);
   for (std::size_t m = 0; m < motions.size(); ++m) {
     motions_.emplace_back(motions[m], duration);
     for (std::size_t k = 0; k < forces.size(); ++k)
       for (std::size_t c = 0; c < force_components && forces[k].imposed.size() > 0; ++c)
-        imposed_[m * values_.size() + c * width_ + k] =
+        imposed_[m * first_.size() + c * width_ + k] =
             forces[k].imposed(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(m));
   }
 }
@@ -102,34 +107,53 @@ void ForceStatistics::add_imposed_motion(const std::vector<FollowedForce>& force
 void ForceStatistics::step(const transient::Record& record) {
   if (record.time < from_ || kinds_.empty())
     return;
-  kernels::gather(gather_, record.q, values_.data());
-  const auto add = [&](double factor, const double* values) {
-    for (std::size_t i = 0; i < values_.size(); ++i)
-      values_[i] += factor * values[i];
+  std::copy_n(record.q, modes_count_, modes_.data() + static_cast<std::size_t>(waiting_) * modes_count_);
+  instants_[static_cast<std::size_t>(waiting_)] = {record.time, record.step};
+  if (++waiting_ == together)
+    look_at_waiting();
+}
+
+void ForceStatistics::look_at_waiting() {
+  if (waiting_ == 0)
+    return;
+  const std::size_t size = first_.size();
+  kernels::gather_together(gather_, modes_.data(), static_cast<int>(modes_count_), values_.data(),
+                           static_cast<int>(size));
+  const int count = std::exchange(waiting_, 0);
+  for (int k = 0; k < count; ++k)
+    add(instants_[static_cast<std::size_t>(k)], values_.data() + static_cast<std::size_t>(k) * size);
+}
+
+void ForceStatistics::add(const Instant& instant, double* values) {
+  const std::size_t size = first_.size();
+  const auto add = [&](double factor, const double* of) {
+    for (std::size_t i = 0; i < size; ++i)
+      values[i] += factor * of[i];
   };
   for (std::size_t l = 0; l < loads_.size(); ++l)
-    add(loads_[l](record.time), of_loads_.data() + l * values_.size());
+    add(loads_[l](instant.time), of_loads_.data() + l * size);
   for (std::size_t m = 0; m < motions_.size(); ++m)
-    add(motions_[m](record.time).displacement, imposed_.data() + m * values_.size());
+    add(motions_[m](instant.time).displacement, imposed_.data() + m * size);
   if (!(time_ > 0.0))
-    first_ = min_ = max_ = values_;
-  const double weight = record.step;
-  for (std::size_t i = 0; i < values_.size(); ++i) {
-    const double value = values_[i], d = value - first_[i];
+    for (kernels::Array* of : {&first_, &min_, &max_})
+      std::copy_n(values, size, of->begin());
+  const double weight = instant.step;
+  for (std::size_t i = 0; i < size; ++i) {
+    const double value = values[i], d = value - first_[i];
     sums_[i] += weight * d;
     squares_[i] += weight * d * d;
     min_[i] = std::min(min_[i], value);
     max_[i] = std::max(max_[i], value);
   }
-  add_products(weight);
-  add_magnitudes(record.time);
+  add_products(weight, values);
+  add_magnitudes(instant.time, values);
   time_ += weight;
   ends_.watch(time_, [this](double* row) { write_sums(row); });
 }
 
-void ForceStatistics::add_products(double weight) {
+void ForceStatistics::add_products(double weight, const double* values) {
   for (std::size_t p = 0; p < pairs.size(); ++p) {
-    const double *a = values_.data() + pairs[p][0] * width_, *b = values_.data() + pairs[p][1] * width_,
+    const double *a = values + pairs[p][0] * width_, *b = values + pairs[p][1] * width_,
                  *a0 = first_.data() + pairs[p][0] * width_, *b0 = first_.data() + pairs[p][1] * width_;
     double* sum = products_.data() + p * width_;
     for (std::size_t k = 0; k < width_; ++k)
@@ -137,8 +161,8 @@ void ForceStatistics::add_products(double weight) {
   }
 }
 
-void ForceStatistics::add_magnitudes(double time) {
-  const auto value = [&](std::size_t component, std::size_t k) { return values_[component * width_ + k]; };
+void ForceStatistics::add_magnitudes(double time, const double* values) {
+  const auto value = [&](std::size_t component, std::size_t k) { return values[component * width_ + k]; };
   const auto square = [&](std::size_t component, std::size_t k) {
     return value(component, k) * value(component, k);
   };
@@ -200,7 +224,8 @@ void ForceStatistics::add_stress_deviation(const BatchSums& batches, std::size_t
   out.batches = std::min(out.batches, estimate.batches);
 }
 
-std::vector<ForceSummary> ForceStatistics::summaries() const {
+std::vector<ForceSummary> ForceStatistics::summaries() {
+  look_at_waiting();
   std::vector<ForceSummary> out(kinds_.size());
   if (!(time_ > 0.0))
     return out;

@@ -68,17 +68,24 @@ public:
   }
   void visit(core::StateArchive& state) override {
     state(first_, sums_, squares_, products_, min_, max_, force_, moment_, stress_, stress_time_, time_,
-          ends_);
+          ends_, waiting_, modes_, instants_);
   }
-  [[nodiscard]] std::vector<ForceSummary> summaries() const;
+  [[nodiscard]] std::vector<ForceSummary> summaries();
 
 private:
   struct Kind {
     bool section;
     std::optional<OuterFibre> fibre;
   };
-  void add_magnitudes(double time);
-  void add_products(double weight);
+  /// Of a record that waits.
+  struct Instant {
+    double time = 0.0, step = 0.0; ///< s
+  };
+  static constexpr int together = kernels::gathered_together;
+  void look_at_waiting();
+  void add(const Instant& instant, double* values);
+  void add_magnitudes(double time, const double* values);
+  void add_products(double weight, const double* values);
   void write_sums(double* row) const;
   void add_stress_deviation(const BatchSums& batches, std::size_t site, ForceSummary& out) const;
 
@@ -86,12 +93,16 @@ private:
   std::vector<Kind> kinds_;
   std::size_t width_; ///< forces, padded; arrays of components are component after component
   kernels::GatherTable gather_;
-  kernels::Array values_, first_, sums_, squares_, min_,
-      max_;                             ///< 6 x width; sums of w d and w d^2 from the first
-  kernels::Array products_;             ///< 3 x width: sums of w d_i d_j of N My, N Mz, My Mz
-  kernels::Array force_, moment_;       ///< width: squares of the largest magnitudes
-  kernels::Array stress_, stress_time_; ///< width
-  double time_ = 0.0;                   ///< length of the window so far, s
+  std::size_t modes_count_ = 0; ///< padded
+  int waiting_ = 0;             ///< records whose forces are not made yet: together the table is read once
+  std::array<Instant, together> instants_{};          ///< of them
+  kernels::Array modes_;                              ///< their modal displacements, one after the other
+  kernels::Array values_;                             ///< 6 x width for each of them
+  kernels::Array first_, sums_, squares_, min_, max_; ///< 6 x width; sums of w d and w d^2 from the first
+  kernels::Array products_;                           ///< 3 x width: sums of w d_i d_j of N My, N Mz, My Mz
+  kernels::Array force_, moment_;                     ///< width: squares of the largest magnitudes
+  kernels::Array stress_, stress_time_;               ///< width
+  double time_ = 0.0;                                 ///< length of the window so far, s
   BatchEnds ends_;
   std::vector<signals::Signal> loads_; ///< that add something
   kernels::Array of_loads_;            ///< 6 x width, load after load
