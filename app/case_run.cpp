@@ -131,8 +131,9 @@ std::vector<BuiltScene> CaseRunner::scenes_of(const Case& c) {
   for (std::size_t e = 0; e < c.study.loads.size(); ++e)
     fields.loads[e].function = c.study.loads[e].function;
   const WatchedWear watched = watched_wear(c.study, c.worn, c.placed.size());
-  const std::vector<Eigen::MatrixXd> lacking =
-      lacking_forces(c.force_sites, c.structure->model, c.structure->structures, c.contacts->bases, fields);
+  std::vector<std::string> notes; // those of the study are told
+  const std::vector<Eigen::MatrixXd> lacking = lacking_forces(
+      c.force_sites, c.structure->model, c.structure->structures, c.contacts->bases, fields, notes);
   std::vector<BuiltScene> scenes;
   for (std::size_t i = 0; i < c.contacts->joined.size(); ++i) {
     std::vector<signals::SampledLoad> turbulence;

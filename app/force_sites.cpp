@@ -161,7 +161,15 @@ std::vector<results::ForceSite> force_sites(const study::Study& study, const mes
 std::vector<Eigen::MatrixXd> lacking_forces(const std::vector<results::ForceSite>& sites,
                                             const fem::Model& model,
                                             const std::vector<fem::Structure>& structures,
-                                            const std::vector<modal::Basis>& bases, const Fields& fields) {
+                                            const std::vector<modal::Basis>& bases, const Fields& fields,
+                                            std::vector<std::string>& notes) {
+  for (const results::ForceSite& site : sites)
+    if (std::none_of(bases.begin(), bases.end(),
+                     [&](const modal::Basis& basis) { return basis.row_of(site.node) >= 0; }))
+      throw core::Error(
+          fmt::format("[output] {}: \"{}\" belongs to no structure that moves; name {}",
+                      site.is_section() ? "section_forces" : "reactions", site.name,
+                      site.is_section() ? "beams of one" : "the node of a beam, as the one tied to it"));
   const auto loads = static_cast<Eigen::Index>(fields.loads.size());
   std::vector<Eigen::MatrixXd> out(sites.size(), Eigen::MatrixXd::Zero(6, loads));
   if (sites.empty() || loads == 0)
@@ -178,9 +186,9 @@ std::vector<Eigen::MatrixXd> lacking_forces(const std::vector<results::ForceSite
     Eigen::MatrixXd deflection;
     try {
       deflection = solvers.of(s).solve(forces);
-    } catch (const core::Error&) { // the run does without
-      continue;
-    } catch (const core::ComputationError&) {
+    } catch (const std::exception& failure) { // the run does without
+      notes.push_back(fmt::format("section forces and reactions of structure {} have the modes only: {}",
+                                  s + 1, failure.what()));
       continue;
     }
     const Eigen::MatrixXd pushed = basis.shapes.transpose() * forces;
@@ -198,7 +206,9 @@ std::vector<Eigen::MatrixXd> lacking_forces(const std::vector<results::ForceSite
           out[k].col(l) -= following.held(forces.col(l).segment<6>(basis.row_of(sites[k].node)));
       }
       for (Eigen::Index i = 0; i < basis.size(); ++i)
-        if (basis.omega(i) > 0.0)
+        if (basis.omega(i) == 0.0)
+          out[k] += following.force(at_nodes(basis, basis.shapes.col(i)), -1.0) * pushed.row(i);
+        else
           out[k] -= following.force(at_nodes(basis, basis.shapes.col(i)), square_of_frequency(basis, i)) *
                     pushed.row(i) / (basis.omega(i) * basis.omega(i));
       drop_round_off_of_forces(out[k]);

@@ -19,13 +19,13 @@ namespace fretwork::app {
 [[nodiscard]] std::vector<results::ForceSite>
 force_sites(const study::Study& study, const mesh::LineMesh& mesh, const fem::Model& model);
 
-/// What the modes lack of the static force under each load, by sites 6 x loads; zero where a structure has no static solution. Serial; needs
-/// PETSc where there are sites.
-[[nodiscard]] std::vector<Eigen::MatrixXd> lacking_forces(const std::vector<results::ForceSite>& sites,
-                                                          const fem::Model& model,
-                                                          const std::vector<fem::Structure>& structures,
-                                                          const std::vector<modal::Basis>& bases,
-                                                          const Fields& fields);
+/// What the modes lack of the static force under each load, by sites 6 x loads; zero, with a note, where a structure has no static solution.
+/// A structure that is free to move accelerates as well: of modes of 0 Hz it has M phi_i (phi_i . l). Serial; needs PETSc where there are sites.
+/// @throws core::Error for a site that belongs to no structure
+[[nodiscard]] std::vector<Eigen::MatrixXd>
+lacking_forces(const std::vector<results::ForceSite>& sites, const fem::Model& model,
+               const std::vector<fem::Structure>& structures, const std::vector<modal::Basis>& bases,
+               const Fields& fields, std::vector<std::string>& notes);
 
 /// Gives a scene the forces at its structures. @param lacking  of lacking_forces()
 void follow_forces(const std::vector<results::ForceSite>& sites, const std::vector<Eigen::MatrixXd>& lacking,

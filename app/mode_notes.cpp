@@ -58,10 +58,10 @@ std::string free_note(const std::vector<modal::Basis>& bases) {
   if (structures == 0)
     return {};
   const std::string what = bases.size() == 1
-                               ? "the structure moves"
-                               : fmt::format("{} of {} structures move", structures, bases.size());
-  return fmt::format("{} freely in {} way{} (modes of 0 Hz): no restraint or spring holds {}, contacts may",
-                     what, ways, ways == 1 ? "" : "s", bases.size() == 1 || structures == 1 ? "it" : "them");
+                               ? "the structure has"
+                               : fmt::format("{} of {} structures have", structures, bases.size());
+  return fmt::format("{} {} rigid-body mode{} (0 Hz): no restraint or spring holds {}, contacts may", what,
+                     ways, ways == 1 ? "" : "s", bases.size() == 1 || structures == 1 ? "it" : "them");
 }
 
 } // namespace

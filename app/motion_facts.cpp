@@ -10,8 +10,8 @@
 namespace fretwork::app {
 namespace {
 
-/// Instants of a run at which a motion is looked at, besides the rows of a table.
-constexpr int instants = 20000;
+/// Instants of a run at which a motion is looked at, besides the rows of a table: in all, and in a period of its highest frequency.
+constexpr double fewest_instants = 20000, most_instants = 4e6, in_a_period = 40.0;
 constexpr double far_away = 1.0; // m: no structure follows obstacles so far
 constexpr double much_longer = 1.001;
 
@@ -27,8 +27,13 @@ results::MotionFacts facts_of(std::string name, const signals::PrescribedMotion&
     out.displacement =
         std::max(out.displacement, std::abs(signal(time).displacement - signal(0.0).displacement));
   };
+  const auto instants = static_cast<int>(
+      std::clamp(in_a_period * signals::highest_frequency(given) * duration, fewest_instants, most_instants));
   for (int i = 0; i <= instants; ++i)
     look(duration * i / instants);
+  if (const auto* harmonic = std::get_if<signals::Harmonic>(&motion.acceleration);
+      harmonic && harmonic->frequency * duration > 1.0)
+    out.largest = std::abs(harmonic->amplitude);
   if (const auto* table = std::get_if<signals::Table>(&given)) {
     for (const double time : table->time)
       if (time >= 0.0 && time <= duration)

@@ -74,10 +74,11 @@ bool is_record(const Table& table) {
   return true;
 }
 
-double rate_of_record(const Table& record, double highest) {
-  const double window = std::max(1.0 / highest, 0.5 * mean_interval(record)), first = record.time.front();
+double rate_of_record(const Table& record, double highest, double duration) {
+  const double window = std::max(1.0 / highest, 0.5 * mean_interval(record)),
+               first = std::max(0.0, record.time.front()), last = std::min(duration, record.time.back());
   const auto windows =
-      static_cast<std::size_t>(std::ceil((record.time.back() - first) / window * (1.0 - 1e-9)));
+      static_cast<std::size_t>(std::floor(std::max(0.0, last - first) / window * (1.0 + 1e-9)));
   Walk walk(record);
   walk.to(first, [](double, double, double, double) {});
   double before = 0.0, difference_before = 0.0, squares = 0.0, first_squares = 0.0, second_squares = 0.0;

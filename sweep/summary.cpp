@@ -325,8 +325,10 @@ std::vector<std::int64_t> worst_cases(const Table& table, const std::string& out
   const std::size_t place = place_of(table.outputs, output, "the worst cases");
   std::vector<std::size_t> rows = table.done();
   std::erase_if(rows, [&](std::size_t i) { return std::isnan(table.rows[i].values[place]); });
+  const bool smallest = output.ends_with(".years");
   std::stable_sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) {
-    return table.rows[a].values[place] > table.rows[b].values[place];
+    const double first = table.rows[a].values[place], second = table.rows[b].values[place];
+    return smallest ? first < second : first > second;
   });
   std::vector<std::int64_t> out;
   for (std::size_t i = 0; i < rows.size() && static_cast<std::int64_t>(i) < count; ++i)

@@ -26,7 +26,7 @@ void check_outputs(const study::Sweep& sweep, const std::vector<Column>& outputs
 /// study without contacts the first that is no round-off.
 [[nodiscard]] std::string measure_of(const Table& table);
 
-/// Numbers of the done cases with the largest values of an output, the largest first.
+/// Numbers of the done cases with the largest values of an output, the largest first; of years the smallest.
 [[nodiscard]] std::vector<std::int64_t> worst_cases(const Table& table, const std::string& output,
                                                     std::int64_t count);
 

@@ -156,7 +156,7 @@ void add_tables(const Scene& scene, SceneRates& out) {
       shorten(out.table_interval, shortest_interval(*table, scene.duration));
       continue;
     }
-    out.record_rate = std::max(out.record_rate, signals::rate_of_record(*table, highest));
+    out.record_rate = std::max(out.record_rate, signals::rate_of_record(*table, highest, scene.duration));
     shorten(out.record_interval, signals::mean_interval(*table));
   }
 }

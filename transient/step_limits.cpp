@@ -130,9 +130,9 @@ std::vector<StepLimit> step_limits(const StepChoice& c, const Scene& scene, doub
     out.push_back(
         {c.table_interval, fmt::format("the shortest interval of a table ({:.4g} s)", c.table_interval)});
   if (c.record_rate > 0.0)
-    out.push_back(
-        {record_step(c, contacts, fineness), fmt::format("what the modes see of a record ({:.4g} Hz)",
-                                                         c.record_rate / (2.0 * std::numbers::pi))});
+    out.push_back({record_step(c, contacts, fineness),
+                   fmt::format("the band of a record below the highest mode ({:.4g} Hz)",
+                               c.record_rate / (2.0 * std::numbers::pi))});
   const double closed =
       std::min({contact_share(c.scheme) * fineness, longest_contact_share, most_resolved(c.scheme)});
   add(closed, c.contact_frequency, fmt::format("the contact frequency {:.4g} rad/s", c.contact_frequency));

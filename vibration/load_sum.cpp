@@ -13,21 +13,22 @@ constexpr double most_corrected = 0.5;
 /// Likewise a random one, in intervals of its samples, of which there are 32 a period.
 constexpr double most_grid_steps = 5.0;
 
-/// Steps beyond the end of a run that may be asked for.
+/// Steps beyond the end of a run, or of a record, after which the last value stays.
 constexpr std::size_t corners_beyond = 64;
 
 std::vector<double> polygon_of(const signals::TimeFunction& function, double duration, double step) {
   const auto* table = std::get_if<signals::Table>(&function);
   if (!table || !signals::is_record(*table) || !(signals::mean_interval(*table) < step))
     return {};
+  const double end = std::clamp(table->time.back(), 0.0, duration);
   return signals::nearest_polygon(*table, step,
-                                  static_cast<std::size_t>(std::ceil(duration / step)) + corners_beyond);
+                                  static_cast<std::size_t>(std::ceil(end / step)) + corners_beyond);
 }
 
 } // namespace
 
 LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double duration, double step,
-                 const std::vector<signals::SampledLoad>& sampled)
+                 const std::vector<signals::SampledLoad>& sampled, Corners corners)
     : modes_(modes), padded_modes_(kernels::padded(static_cast<int>(modes))), step_(step),
       observed_(static_cast<std::size_t>(padded_modes_)) {
   std::vector<const signals::TimeFunction*> functions;
@@ -44,7 +45,8 @@ LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double dura
       const double half_turn = harmonic ? std::numbers::pi * harmonic->frequency * step : 0.0;
       above_.push_back(
           half_turn > 0.0 && half_turn < most_corrected ? std::pow(half_turn / std::sin(half_turn), 2) : 1.0);
-      polygons_.push_back(polygon_of(load.function, duration, step));
+      polygons_.push_back(corners == Corners::used ? polygon_of(load.function, duration, step)
+                                                   : std::vector<double>());
       shapes_.resize(shapes_.size() + static_cast<std::size_t>(padded_modes_), 0.0);
       constant_ = constant_ && signals_.back().is_constant();
     }

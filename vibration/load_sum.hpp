@@ -10,12 +10,14 @@ namespace fretwork::vibration {
 
 class LoadSum {
 public:
+  /// Whether corner() is asked for: records then have their polygons, 8 bytes a step.
+  enum class Corners { unused, used };
   /// @param step  s: the force at a time stands for a step about it, so that what a table does inside a step keeps its impulse
   /// @param sampled  are added at the time itself, whatever the step: samples are far closer than the periods that carry their power
   LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double duration, double step,
-          const std::vector<signals::SampledLoad>& sampled = {});
-  LoadSum(const ForcedSystem& forced, double step)
-      : LoadSum(forced.loads, forced.system.size(), forced.duration, step, forced.sampled_loads) {}
+          const std::vector<signals::SampledLoad>& sampled = {}, Corners corners = Corners::unused);
+  LoadSum(const ForcedSystem& forced, double step, Corners corners = Corners::unused)
+      : LoadSum(forced.loads, forced.system.size(), forced.duration, step, forced.sampled_loads, corners) {}
   [[nodiscard]] bool empty() const { return signals_.empty() && sampled_.empty(); }
   /// True where the force never changes.
   [[nodiscard]] bool constant() const { return constant_; }

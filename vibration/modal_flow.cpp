@@ -26,8 +26,8 @@ std::array<double, 4> own_force(double k, const kernels::StepCoefficients& s, do
 } // namespace
 
 ModalFlow::ModalFlow(const ForcedSystem& forced, double step, const std::vector<int>& lengths)
-    : system_(with_diagonal(forced.system)), h_(step), loads_(forced, step), lone_k_(system_.stiffness),
-      lone_c_(system_.damping), lengths_(lengths) {
+    : system_(with_diagonal(forced.system)), h_(step), loads_(forced, step, LoadSum::Corners::used),
+      lone_k_(system_.stiffness), lone_c_(system_.damping), lengths_(lengths) {
   std::vector<CoupledBlock> blocks = coupled_blocks(system_);
   apart_.assign(static_cast<std::size_t>(system_.size()), 1);
   if (fed()) {

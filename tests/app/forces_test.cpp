@@ -183,6 +183,35 @@ reactions = ["tube1_begin", "tube0_end"]
     EXPECT_TRUE(says(row, fmt::format(",{},", value.get<double>())));
 }
 
+/// A slow harmonic force in the middle, and its like of another entry: halves of it at the pins, whatever the modes.
+TEST(Forces, FollowLoadsThatVary) {
+  const Workshop folder;
+  write_tube(folder);
+  const std::string push = "[[loads]]\ngroup = \"middle\"\ndirection = [0.0, 1.0, 0.0]\n"
+                           "harmonic = { amplitude = 6.0, frequency = 0.05 }\n";
+  const Results run = folder.run_text(study(pinned, pinned, 4, push + push, 5.0) + "statistics_from = 4.0\n",
+                                      {"--set", "modes.damping=0.5"});
+  constexpr double slow = 2e-4; // (f/f1)^2 of what inertia and damping add
+  for (const std::size_t end : {0u, 1u}) {
+    EXPECT_TRUE(close_to(reaction(run, end)["force"]["y"]["min"], -6.0, slow)) << end;
+    EXPECT_TRUE(close_to(run.archive.series.reactions.at(end).force.bottomRows<1>()(1), -6.0, slow)) << end;
+  }
+  EXPECT_TRUE(close_to(run.summary["section_forces"].at(0)["shear_force"]["largest"], 6.0, slow));
+  EXPECT_TRUE(close_to(run.summary["section_forces"].at(0)["moment"]["largest"], 6.0 * 0.5 * length, slow));
+}
+
+/// Nothing strains a tube in free fall.
+TEST(Forces, OfAFreeStructureAreThoseInItsOwnFrame) {
+  const Workshop folder;
+  write_tube(folder);
+  const std::string free = steel_pipe("mesh.msh") + tube_between("tube", "", "") +
+                           "[gravity]\nacceleration = [0.0, -9.81, 0.0]\n[modes]\ncount = 12\n"
+                           "[transient]\nduration = 0.05\n[output]\nsection_forces = [\"tube\"]\n";
+  const auto forces = folder.run_text(free).summary["section_forces"].at(0);
+  EXPECT_LT(forces["shear_force"]["largest"].get<double>(), 1e-6);
+  EXPECT_LT(forces["moment"]["largest"].get<double>(), 1e-6);
+}
+
 TEST(Forces, AreRefusedWhereThereAreNone) {
   const Workshop folder;
   write_tube(folder);
@@ -197,6 +226,15 @@ TEST(Forces, AreRefusedWhereThereAreNone) {
   refused("reactions = [\"middle\"]\n", "[output] reactions: no [[restraints]] hold \"middle\"");
   refused("section_forces = [\"middle\"]\n", "\"middle\"");
   refused("reactions = [\"tube_end\", \"tube_end\"]\n", "named twice");
+  MeshText mesh = straight_line("tube", {0.0, 0.0, 0.0}, {length, 0.0, 0.0}, elements);
+  mesh.points.emplace_back("wall", static_cast<int>(mesh.nodes.size()));
+  mesh.nodes.emplace_back(0.0, 1.0, 0.0);
+  folder.write("mesh.msh", mesh.text());
+  folder.write("study.toml", steel_pipe("mesh.msh") + tube_between("tube") +
+                                 "[[restraints]]\ngroup = \"wall\"\nfixed = \"all\"\n[transient]\nduration = "
+                                 "0.1\n[output]\nreactions = [\"wall\"]\n");
+  EXPECT_TRUE(says(folder.fretwork({"check", folder.path("study.toml").string()}).err,
+                   "\"wall\" belongs to no structure that moves"));
 }
 
 } // namespace

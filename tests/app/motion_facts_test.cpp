@@ -56,6 +56,19 @@ TEST(MotionFacts, AreThoseOfTheRecordWithinTheRun) {
   EXPECT_TRUE(says(notes_of(half), "the run of 0.2 s ends before the record, which goes on to 0.5 s"));
 }
 
+TEST(MotionFacts, OfAHarmonicMotionAreItsAmplitudeHoweverManyItsPeriods) {
+  const Workshop folder;
+  write_tube(folder);
+  for (const char* frequency : {"100.0", "1000.0"}) { // whole numbers of periods between 20 000 instants
+    const Results run =
+        folder.run_text(study(std::string("[[base_motion]]\ndirection = [0.0, 1.0, 0.0]\nvelocity0 = 0.0\n"
+                                          "harmonic = { amplitude = 5.0, frequency = ") +
+                              frequency + " }\n"),
+                        {"--force", "--set", "transient.duration=10.0"});
+    EXPECT_TRUE(close_to(run.summary["motions"].at(0)["largest_acceleration_m_s2"], 5.0, 1e-12)) << frequency;
+  }
+}
+
 TEST(MotionFacts, OfABaseThatLeavesItsObstaclesAreAWarning) {
   const Workshop folder;
   write_tube(folder);
@@ -99,8 +112,8 @@ TEST(Motion, OfAFreeStructureIsANote) {
   const std::string sliding = "[\"ux\", \"uz\", \"rx\", \"ry\", \"rz\"]"; // both ends slide along y
   std::string text = steel_pipe("mesh.msh") + tube_between("tube", sliding, sliding) + push +
                      hole("gap = 1.0e-3\n") + "[modes]\ncount = 10\n[transient]\nduration = 0.1\n";
-  EXPECT_TRUE(says(notes_of(folder.run_text(text)), "the structure moves freely in 1 way (modes of 0 Hz)"));
-  EXPECT_EQ(notes_of(folder.run_text(study(push), {"--force"})).find("freely"), std::string::npos);
+  EXPECT_TRUE(says(notes_of(folder.run_text(text)), "the structure has 1 rigid-body mode (0 Hz)"));
+  EXPECT_EQ(notes_of(folder.run_text(study(push), {"--force"})).find("rigid-body"), std::string::npos);
 }
 
 TEST(Contacts, AcrossTheirBeamAreAWarning) {

@@ -54,16 +54,24 @@ TEST(Record, IsATableOfManyPointsAtNearlyEqualIntervals) {
 TEST(Record, ChangesAsFastAsItsSines) {
   constexpr double highest = 1e4;
   for (const double w : {10.0, 300.0, 3000.0})
-    EXPECT_NEAR(rate_of_record(sine(2e-5, 2.0, w), highest), w, 0.02 * w);
-  EXPECT_EQ(rate_of_record(sine(2e-5, 2.0, 3e4), highest), highest) << "faster than the modes";
-  EXPECT_EQ(rate_of_record(record(1e-3, 100, [](double) { return 3.0; }), highest), 0.0);
+    EXPECT_NEAR(rate_of_record(sine(2e-5, 2.0, w), highest, 10.0), w, 0.02 * w);
+  EXPECT_EQ(rate_of_record(sine(2e-5, 2.0, 3e4), highest, 10.0), highest) << "faster than the modes";
+  EXPECT_EQ(rate_of_record(record(1e-3, 100, [](double) { return 3.0; }), highest, 10.0), 0.0);
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
-  EXPECT_EQ(rate_of_record(record(1e-5, 100000, [&](double) { return normal(random); }), highest), highest);
+  EXPECT_EQ(rate_of_record(record(1e-5, 100000, [&](double) { return normal(random); }), highest, 10.0),
+            highest);
+  // rows before the run and after it do not count
+  Table early = record(
+      1e-3, 20000, [](double t) { return 5.0 + std::sin(10.0 * t) + (t < 9.0 ? std::sin(900.0 * t) : 0.0); });
+  for (double& time : early.time)
+    time -= 10.0;
+  EXPECT_NEAR(rate_of_record(early, highest, 10.0), 10.0, 0.5);
+  EXPECT_NEAR(rate_of_record(early, highest, 5.0), 10.0, 0.5);
   // a small fast part on a large slow one counts by its velocity
   const double both = rate_of_record(
       record(2e-5, 100000, [](double t) { return 100.0 * std::sin(3.0 * t) + std::sin(3000.0 * t); }),
-      highest);
+      highest, 10.0);
   EXPECT_GT(both, 2900.0);
 }
 

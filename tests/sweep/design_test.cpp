@@ -71,6 +71,8 @@ TEST(Design, WorstCasesAreTheLargestThatAreDone) {
   EXPECT_EQ(worst_cases(table, "work", 2), (std::vector<std::int64_t>{2, 4}));
   EXPECT_EQ(worst_cases(table, "work", 9).size(), 3u);
   EXPECT_THROW((void)worst_cases(table, "works", 1), core::Error);
+  table.outputs = {{"worst.years", "a"}};
+  EXPECT_EQ(worst_cases(table, "worst.years", 1), (std::vector<std::int64_t>{table.rows[0].number}));
 }
 
 TEST(Design, CasesAreComparedByWorkOrWhereNothingSlidesByForce) {

@@ -52,7 +52,8 @@ LinearFlow::LinearFlow(const Scene& scene, double step, const std::vector<int>& 
     return;
   loads_.emplace(scene, step);
   const auto numbers = static_cast<Index>(kernels::numbers_of_input * blocks_.size());
-  driven_.emplace(loads_on_blocks(scene.loads), numbers, scene.duration, step);
+  driven_.emplace(loads_on_blocks(scene.loads), numbers, scene.duration, step,
+                  std::vector<signals::SampledLoad>(), vibration::LoadSum::Corners::used);
   random_.emplace(std::vector<vibration::Load>(), modes_, scene.duration, step, scene.sampled_loads);
   a_ = b_ = none_;
   y_.assign(blocks_.size(), 0.0);
