@@ -59,13 +59,15 @@ void broadcast(MPI_Comm comm, int root, const BuiltScene& built, post::TimeSerie
     core::broadcast(comm, root, series.velocity);
     core::broadcast(comm, root, series.acceleration);
   }
-  std::size_t reaction = 0;
+  std::vector<std::string> reactions;
   for (const post::FollowedForce& force : built.forces)
-    if (!force.section) {
-      all.reactions.resize(reaction + 1);
-      all.reactions[reaction].name = force.name;
-      core::broadcast(comm, root, all.reactions[reaction++].force);
-    }
+    if (!force.section)
+      reactions.push_back(force.name);
+  all.reactions.resize(reactions.size());
+  for (std::size_t k = 0; k < reactions.size(); ++k) {
+    all.reactions[k].name = reactions[k];
+    core::broadcast(comm, root, all.reactions[k].force);
+  }
 }
 
 } // namespace

@@ -157,13 +157,15 @@ duration = 0.3
 [output]
 nodes = ["drive1"]
 section_forces = ["tube0", "tube2"]
-reactions = ["tube1_begin", "tube0_end"]
+reactions = ["tube1_begin", "tube0_end", "tube1_end"]
 )");
   const Results run = folder.run_text(text);
   ASSERT_EQ(run.summary["section_forces"].size(), 2u);
   EXPECT_EQ(run.summary["section_forces"].at(1)["group"], "tube2");
   EXPECT_GT(run.summary["section_forces"].at(1)["stress"]["largest"].get<double>(), 1e3);
   EXPECT_GT(run.summary["reactions"].at(0)["largest_moment"].get<double>(), 0.0);
+  for (const post::ReactionSeries& series : run.archive.series.reactions)
+    EXPECT_EQ(series.force.rows(), run.archive.series.time.size()) << series.name;
   for (const int ranks : {2, 3}) {
     const Results many = folder.run(folder.path("study.toml"), fmt::format("ranks{}", ranks), {}, ranks);
     EXPECT_TRUE(same_numbers(many.archive, run.archive)) << ranks;
