@@ -15,6 +15,8 @@ constexpr std::size_t label_width = 18;
 constexpr std::size_t most_lines = 12; // of a kind
 constexpr double mega = 1e-6;          // MPa in a pascal
 constexpr double micro = 1e6;          // um in a metre
+/// Of the largest force, moment or stress beside it: the round-off of sums over modes.
+constexpr double round_off_of_modes = 1e-10;
 
 /// 1.23 at 0.5: a figure and where it is.
 std::string at(double value, double s, int digits) {
@@ -35,14 +37,17 @@ std::string section_line(const RunResults& results, const SectionGroup& group) {
   const LargestOfGroup scatter =
       largest_of(results, group, [](const ForceSummary& force) { return force.stress_std; });
   const ForceSummary& there = results.force_summaries[scatter.site];
+  const LargestOfGroup stress =
+      largest_of(results, group, [](const ForceSummary& force) { return force.stress; });
+  const bool still = scatter.value < round_off_of_modes * stress.value;
   return fmt::format("  {:<18} {:>14} {:>20} {:>14} {:>14} {:>8} {:>8}",
                      shortened(results.force_sites[group.first].name, label_width),
                      of([](const ForceSummary& force) { return mega * force.stress; }),
-                     std::isnan(scatter.value)
-                         ? "-"
-                         : fmt::format("{} at {:.4g}",
-                                       with_error(mega * scatter.value, mega * there.stress_std_error),
-                                       results.force_sites[scatter.site].s),
+                     std::isnan(scatter.value) ? "-"
+                     : still                   ? "0"
+                                               : fmt::format("{} at {:.4g}",
+                                                             with_error(mega * scatter.value, mega * there.stress_std_error),
+                                                             results.force_sites[scatter.site].s),
                      of([](const ForceSummary& force) { return force.moment; }),
                      of([](const ForceSummary& force) { return force.force; }), component(0), component(3));
 }
@@ -66,7 +71,7 @@ double largest_component(const ForceSummary& force, std::size_t component) {
   };
   const std::size_t first = component < 3 ? 0 : 3;
   const double beside = std::max({size(first), size(first + 1), size(first + 2)});
-  return without_round_off(size(component), beside);
+  return size(component) < round_off_of_modes * beside ? 0.0 : size(component);
 }
 
 std::vector<std::string> force_lines(const RunResults& results) {
