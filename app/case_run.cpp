@@ -131,7 +131,7 @@ std::vector<BuiltScene> CaseRunner::scenes_of(const Case& c) {
   for (std::size_t e = 0; e < c.study.loads.size(); ++e)
     fields.loads[e].function = c.study.loads[e].function;
   const WatchedWear watched = watched_wear(c.study, c.worn, c.placed.size());
-  std::vector<std::string> notes; // those of the study are told
+  std::vector<std::string> notes; // cases have none
   const std::vector<Eigen::MatrixXd> lacking = lacking_forces(
       c.force_sites, c.structure->model, c.structure->structures, c.contacts->bases, fields, notes);
   std::vector<BuiltScene> scenes;

@@ -59,7 +59,7 @@ void add_restraints(const std::string& group, const mesh::LineMesh& mesh, const 
   }
 }
 
-/// An element and the forces that it takes part in.
+/// The beams and springs whose forces make up that of a site.
 class Following {
 public:
   Following(const results::ForceSite& site, const fem::Model& model) : site_(site), model_(model) {
@@ -174,6 +174,10 @@ std::vector<Eigen::MatrixXd> lacking_forces(const std::vector<results::ForceSite
   std::vector<Eigen::MatrixXd> out(sites.size(), Eigen::MatrixXd::Zero(6, loads));
   if (sites.empty() || loads == 0)
     return out;
+  const auto do_without = [&](std::size_t structure, const std::exception& failure) {
+    notes.push_back(fmt::format("section forces and reactions of structure {} have the modes only: {}",
+                                structure + 1, failure.what()));
+  };
   modal::StaticSolvers solvers(model, structures);
   for (std::size_t s = 0; s < bases.size(); ++s) {
     const modal::Basis& basis = bases[s];
@@ -186,9 +190,11 @@ std::vector<Eigen::MatrixXd> lacking_forces(const std::vector<results::ForceSite
     Eigen::MatrixXd deflection;
     try {
       deflection = solvers.of(s).solve(forces);
-    } catch (const std::exception& failure) { // the run does without
-      notes.push_back(fmt::format("section forces and reactions of structure {} have the modes only: {}",
-                                  s + 1, failure.what()));
+    } catch (const core::Error& failure) {
+      do_without(s, failure);
+      continue;
+    } catch (const core::ComputationError& failure) {
+      do_without(s, failure);
       continue;
     }
     const Eigen::MatrixXd pushed = basis.shapes.transpose() * forces;

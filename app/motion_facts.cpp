@@ -19,13 +19,13 @@ results::MotionFacts facts_of(std::string name, const signals::PrescribedMotion&
                               const signals::TimeFunction& given, double duration) {
   results::MotionFacts out{std::move(name)};
   const signals::MotionSignal signal(motion, duration);
+  const double start = signal(0.0).displacement;
   const auto look = [&](double time) {
     if (const double a = std::abs(signal.acceleration(time)); a > out.largest) {
       out.largest = a;
       out.time = time;
     }
-    out.displacement =
-        std::max(out.displacement, std::abs(signal(time).displacement - signal(0.0).displacement));
+    out.displacement = std::max(out.displacement, std::abs(signal(time).displacement - start));
   };
   const auto instants = static_cast<int>(
       std::clamp(in_a_period * signals::highest_frequency(given) * duration, fewest_instants, most_instants));

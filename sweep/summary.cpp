@@ -69,6 +69,12 @@ std::string interval(const json& entry) {
 
 bool is_of_all(const std::string& name) { return name.starts_with("worst.") || name.starts_with("total."); }
 
+/// Whether the study has any: else there are no outputs of all of them.
+bool has_contacts(const Table& table) {
+  return std::any_of(table.outputs.begin(), table.outputs.end(),
+                     [](const Column& column) { return column.name == "worst.work_rate"; });
+}
+
 /// A line of right-aligned cells behind a name.
 std::string line_of_cells(const std::string& head, const std::vector<std::string>& cells) {
   std::string out = fmt::format("  {:<{}}", results::shortened(head, name_width), name_width);
@@ -201,20 +207,17 @@ json summarize(const study::Sweep& sweep, const Draws& draws, const Table& table
 }
 
 std::string measure_of(const Table& table) {
+  const std::vector<std::size_t> done = table.done();
   for (const char* output : {"worst.work_rate", "worst.normal_max"}) {
     const auto found = std::find_if(table.outputs.begin(), table.outputs.end(),
                                     [&](const Column& column) { return column.name == output; });
     const auto place = static_cast<std::size_t>(found - table.outputs.begin());
     const auto differs = [&](std::size_t row) { return table.rows[row].values[place] > 0.0; };
-    const std::vector<std::size_t> done = table.done();
     if (found != table.outputs.end() && std::any_of(done.begin(), done.end(), differs))
       return output;
   }
-  const bool contacts = std::any_of(table.outputs.begin(), table.outputs.end(),
-                                    [](const Column& column) { return column.name == "worst.work_rate"; });
-  if (contacts)
+  if (has_contacts(table))
     return "worst.work_rate";
-  const std::vector<std::size_t> done = table.done();
   for (std::size_t place = 0; place < table.outputs.size(); ++place)
     if (std::any_of(done.begin(), done.end(),
                     [&](std::size_t row) { return std::abs(table.rows[row].values[place]) > round_off; }))
@@ -224,8 +227,7 @@ std::string measure_of(const Table& table) {
 
 std::string range_lines(const Table& table) {
   const std::vector<std::size_t> done = table.done();
-  const bool contacts = std::any_of(table.outputs.begin(), table.outputs.end(),
-                                    [](const Column& column) { return column.name.starts_with("worst."); });
+  const bool contacts = has_contacts(table);
   const std::string head = line_of_cells("range", {"least", "largest"});
   std::string out;
   std::size_t lines = 0;
@@ -256,9 +258,8 @@ std::string range_lines(const Table& table) {
 }
 
 std::string no_sliding_warning(const Table& table) {
-  if (std::none_of(table.outputs.begin(), table.outputs.end(),
-                   [](const Column& column) { return column.name == "total.work_rate"; }))
-    return {}; // a study without contacts
+  if (!has_contacts(table))
+    return {};
   const std::size_t work = place_of(table.outputs, "total.work_rate", "no sliding"),
                     force = place_of(table.outputs, "worst.normal_rms", "no sliding");
   bool acts = false;
