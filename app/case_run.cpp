@@ -132,8 +132,8 @@ std::vector<BuiltScene> CaseRunner::scenes_of(const Case& c) {
     fields.loads[e].function = c.study.loads[e].function;
   const WatchedWear watched = watched_wear(c.study, c.worn, c.placed.size());
   std::vector<std::string> notes; // cases have none
-  const std::vector<Eigen::MatrixXd> lacking = lacking_forces(
-      c.force_sites, c.structure->model, c.structure->structures, c.contacts->bases, fields, notes);
+  const std::vector<LackingForce> lacking = lacking_forces(
+      c.force_sites, c.structure->model, c.structure->structures, c.contacts->bases, fields, c.placed, notes);
   std::vector<BuiltScene> scenes;
   for (std::size_t i = 0; i < c.contacts->joined.size(); ++i) {
     std::vector<signals::SampledLoad> turbulence;

@@ -253,7 +253,7 @@ private:
                                          support_fields(moved_, model_, modes.structures));
       at_contacts_.fields.motion = fluidelastic_forces({inputs_.study, mesh_, model_, flows_}, out_.bases);
       lacking_forces_ = lacking_forces(out_.force_sites, model_, modes.structures, out_.bases,
-                                       at_contacts_.fields, out_.notes);
+                                       at_contacts_.fields, placed_, out_.notes);
       at_contacts_.turbulence = turbulence_;
       at_contacts_.joined = joined_structures(out_.bases, placed_, at_contacts_.fields.motion);
     });
@@ -406,8 +406,8 @@ private:
   std::vector<PlacedFlow> flows_;
   std::vector<TurbulentLoad> turbulence_;
   std::vector<NamedNode> nodes_;
-  std::string numbering_;                       ///< of supports along tubes
-  std::vector<Eigen::MatrixXd> lacking_forces_; ///< by force sites
+  std::string numbering_;                    ///< of supports along tubes
+  std::vector<LackingForce> lacking_forces_; ///< by force sites
   std::vector<MovedSupport> moved_;
   std::vector<WornPlace> worn_;
   OtherRuns other_runs_;

@@ -12,41 +12,6 @@ using Eigen::MatrixXd;
 /// Below this share of the largest, how modes move a contact is the eigensolver's round-off.
 constexpr double unmoved = 1e-11;
 
-/// The unit forces along x_loc y_loc z_loc of contacts that act on a structure, 6 n rows: numbers of their columns among all, and these columns.
-StructureLoads forces_on(const std::vector<PlacedContact>& placed, const std::vector<std::size_t>& contacts,
-                         const modal::Basis& basis) {
-  std::vector<std::size_t> here; // those that have a node of the structure
-  for (std::size_t k = 0; k < contacts.size(); ++k) {
-    const PlacedContact& contact = placed[contacts[k]];
-    const auto has = [&](const fem::NodeShare& share) { return basis.row_of(share.node) >= 0; };
-    if (std::any_of(contact.motion.begin(), contact.motion.end(), has) ||
-        (contact.other >= 0 && basis.row_of(contact.other) >= 0))
-      here.push_back(k);
-  }
-  MatrixXd all = MatrixXd::Zero(basis.shapes.rows(), static_cast<Eigen::Index>(3 * here.size()));
-  for (std::size_t i = 0; i < here.size(); ++i) {
-    const PlacedContact& contact = placed[contacts[here[i]]];
-    const Eigen::Matrix3d axes = contact.frame.rotation().transpose();
-    const auto column = static_cast<Eigen::Index>(3 * i);
-    for (const fem::NodeShare& share : contact.motion)
-      if (const Eigen::Index row = basis.row_of(share.node); row >= 0)
-        all.block<6, 3>(row, column) += share.weights.transpose() * axes;
-    if (contact.other < 0)
-      continue;
-    if (const Eigen::Index row = basis.row_of(contact.other); row >= 0)
-      all.block<3, 3>(row, column) -= axes;
-  }
-  StructureLoads out;
-  std::vector<Eigen::Index> columns;
-  for (Eigen::Index j = 0; j < all.cols(); ++j)
-    if (!all.col(j).isZero(0.0)) {
-      columns.push_back(j);
-      out.among.push_back(static_cast<Eigen::Index>(3 * here[static_cast<std::size_t>(j / 3)]) + j % 3);
-    }
-  out.forces = all(Eigen::all, columns);
-  return out;
-}
-
 /// @param moved  how far the true modes move each column
 std::vector<Eigen::Index> loaded_directions(const study::Study& study,
                                             const std::vector<PlacedContact>& placed,
@@ -111,6 +76,40 @@ std::vector<std::size_t> contacts_of(const std::vector<modal::Basis>& bases,
   return out;
 }
 
+StructureLoads unit_forces(const std::vector<PlacedContact>& placed, const std::vector<std::size_t>& contacts,
+                           const modal::Basis& basis) {
+  std::vector<std::size_t> here; // those that have a node of the structure
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const PlacedContact& contact = placed[contacts[k]];
+    const auto has = [&](const fem::NodeShare& share) { return basis.row_of(share.node) >= 0; };
+    if (std::any_of(contact.motion.begin(), contact.motion.end(), has) ||
+        (contact.other >= 0 && basis.row_of(contact.other) >= 0))
+      here.push_back(k);
+  }
+  MatrixXd all = MatrixXd::Zero(basis.shapes.rows(), static_cast<Eigen::Index>(3 * here.size()));
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    const PlacedContact& contact = placed[contacts[here[i]]];
+    const Eigen::Matrix3d axes = contact.frame.rotation().transpose();
+    const auto column = static_cast<Eigen::Index>(3 * i);
+    for (const fem::NodeShare& share : contact.motion)
+      if (const Eigen::Index row = basis.row_of(share.node); row >= 0)
+        all.block<6, 3>(row, column) += share.weights.transpose() * axes;
+    if (contact.other < 0)
+      continue;
+    if (const Eigen::Index row = basis.row_of(contact.other); row >= 0)
+      all.block<3, 3>(row, column) -= axes;
+  }
+  StructureLoads out;
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index j = 0; j < all.cols(); ++j)
+    if (!all.col(j).isZero(0.0)) {
+      columns.push_back(j);
+      out.among.push_back(static_cast<Eigen::Index>(3 * here[static_cast<std::size_t>(j / 3)]) + j % 3);
+    }
+  out.forces = all(Eigen::all, columns);
+  return out;
+}
+
 ContactLoads contact_loads(const study::Study& study, const std::vector<modal::Basis>& bases,
                            const std::vector<std::size_t>& structures,
                            const std::vector<PlacedContact>& placed,
@@ -118,7 +117,7 @@ ContactLoads contact_loads(const study::Study& study, const std::vector<modal::B
   ContactLoads out;
   Eigen::VectorXd moved = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * contacts.size()));
   for (const std::size_t s : structures) {
-    const StructureLoads& all = out.on.emplace_back(forces_on(placed, contacts, bases[s]));
+    const StructureLoads& all = out.on.emplace_back(unit_forces(placed, contacts, bases[s]));
     const MatrixXd b = all.forces.transpose() * bases[s].shapes.leftCols(bases[s].true_modes());
     moved(all.among) = moved(all.among).cwiseMax(b.cwiseAbs().rowwise().maxCoeff());
   }

@@ -29,6 +29,11 @@ struct ContactLoads {
                                                    const std::vector<std::size_t>& structures,
                                                    const std::vector<PlacedContact>& placed);
 
+/// The unit forces along x_loc y_loc z_loc of contacts that act on a structure, loaded or not.
+/// @param contacts  numbers among the placed ones   @return `among`: 3 k + d for the k-th of them
+[[nodiscard]] StructureLoads unit_forces(const std::vector<PlacedContact>& placed,
+                                         const std::vector<std::size_t>& contacts, const modal::Basis& basis);
+
 /// @param structures, contacts  numbers of those of the scene
 [[nodiscard]] ContactLoads contact_loads(const study::Study& study, const std::vector<modal::Basis>& bases,
                                          const std::vector<std::size_t>& structures,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/force_sites.hpp"
+#include "app/contact_loads.hpp"
 #include "core/error.hpp"
 #include "fem/beam_axis.hpp"
 #include "fem/beam_element.hpp"
@@ -7,6 +8,7 @@
 #include "modal/static_solvers.hpp"
 #include <algorithm>
 #include <fmt/format.h>
+#include <numeric>
 
 namespace fretwork::app {
 namespace {
@@ -158,11 +160,12 @@ std::vector<results::ForceSite> force_sites(const study::Study& study, const mes
   return out;
 }
 
-std::vector<Eigen::MatrixXd> lacking_forces(const std::vector<results::ForceSite>& sites,
-                                            const fem::Model& model,
-                                            const std::vector<fem::Structure>& structures,
-                                            const std::vector<modal::Basis>& bases, const Fields& fields,
-                                            std::vector<std::string>& notes) {
+std::vector<LackingForce> lacking_forces(const std::vector<results::ForceSite>& sites,
+                                         const fem::Model& model,
+                                         const std::vector<fem::Structure>& structures,
+                                         const std::vector<modal::Basis>& bases, const Fields& fields,
+                                         const std::vector<PlacedContact>& placed,
+                                         std::vector<std::string>& notes) {
   for (const results::ForceSite& site : sites)
     if (std::none_of(bases.begin(), bases.end(),
                      [&](const modal::Basis& basis) { return basis.row_of(site.node) >= 0; }))
@@ -170,10 +173,14 @@ std::vector<Eigen::MatrixXd> lacking_forces(const std::vector<results::ForceSite
           fmt::format("[output] {}: \"{}\" belongs to no structure that moves; name {}",
                       site.is_section() ? "section_forces" : "reactions", site.name,
                       site.is_section() ? "beams of one" : "the node of a beam, as the one tied to it"));
-  const auto loads = static_cast<Eigen::Index>(fields.loads.size());
-  std::vector<Eigen::MatrixXd> out(sites.size(), Eigen::MatrixXd::Zero(6, loads));
-  if (sites.empty() || loads == 0)
+  const auto loads = static_cast<Eigen::Index>(fields.loads.size()),
+             directions = static_cast<Eigen::Index>(3 * placed.size());
+  std::vector<LackingForce> out(sites.size(),
+                                {Eigen::MatrixXd::Zero(6, loads), Eigen::MatrixXd::Zero(6, directions)});
+  if (sites.empty() || loads + directions == 0)
     return out;
+  std::vector<std::size_t> contacts(placed.size());
+  std::iota(contacts.begin(), contacts.end(), std::size_t{0});
   const auto do_without = [&](std::size_t structure, const std::exception& failure) {
     notes.push_back(fmt::format("section forces and reactions of structure {} have the modes only: {}",
                                 structure + 1, failure.what()));
@@ -184,12 +191,14 @@ std::vector<Eigen::MatrixXd> lacking_forces(const std::vector<results::ForceSite
     if (std::none_of(sites.begin(), sites.end(),
                      [&](const results::ForceSite& site) { return basis.row_of(site.node) >= 0; }))
       continue;
-    Eigen::MatrixXd forces(basis.shapes.rows(), loads);
+    const StructureLoads by_contacts = unit_forces(placed, contacts, basis);
+    Eigen::MatrixXd forces(basis.shapes.rows(), loads + by_contacts.forces.cols());
     for (Eigen::Index l = 0; l < loads; ++l)
       forces.col(l) = restricted(basis, fields.loads[static_cast<std::size_t>(l)].force);
-    Eigen::MatrixXd deflection;
+    forces.rightCols(by_contacts.forces.cols()) = by_contacts.forces;
+    Eigen::MatrixXd deflections;
     try {
-      deflection = solvers.of(s).solve(forces);
+      deflections = solvers.of(s).solve(forces);
     } catch (const core::Error& failure) {
       do_without(s, failure);
       continue;
@@ -202,34 +211,41 @@ std::vector<Eigen::MatrixXd> lacking_forces(const std::vector<results::ForceSite
       if (basis.row_of(sites[k].node) < 0)
         continue;
       const Following following(sites[k], model);
-      for (Eigen::Index l = 0; l < loads; ++l) {
-        const Fields::Load& load = fields.loads[static_cast<std::size_t>(l)];
-        const bool along = sites[k].is_section() && load.along_beam;
-        out[k].col(l) =
-            following.force(at_nodes(basis, deflection.col(l)), 0.0,
-                            along ? load.along_beam(model, sites[k].beam) : fem::Vector12::Zero());
+      Eigen::MatrixXd lacking(6, forces.cols());
+      for (Eigen::Index l = 0; l < lacking.cols(); ++l) {
+        fem::Vector12 along = fem::Vector12::Zero();
+        if (l < loads && sites[k].is_section())
+          if (const auto& of_load = fields.loads[static_cast<std::size_t>(l)].along_beam)
+            along = of_load(model, sites[k].beam);
+        lacking.col(l) = following.force(at_nodes(basis, deflections.col(l)), 0.0, along);
         if (!sites[k].is_section())
-          out[k].col(l) -= following.held(forces.col(l).segment<6>(basis.row_of(sites[k].node)));
+          lacking.col(l) -= following.held(forces.col(l).segment<6>(basis.row_of(sites[k].node)));
       }
       for (Eigen::Index i = 0; i < basis.size(); ++i)
         if (basis.omega(i) == 0.0)
-          out[k] += following.force(at_nodes(basis, basis.shapes.col(i)), -1.0) * pushed.row(i);
+          lacking += following.force(at_nodes(basis, basis.shapes.col(i)), -1.0) * pushed.row(i);
         else
-          out[k] -= following.force(at_nodes(basis, basis.shapes.col(i)), square_of_frequency(basis, i)) *
-                    pushed.row(i) / (basis.omega(i) * basis.omega(i));
-      drop_round_off_of_forces(out[k]);
+          lacking -= following.force(at_nodes(basis, basis.shapes.col(i)), square_of_frequency(basis, i)) *
+                     pushed.row(i) / (basis.omega(i) * basis.omega(i));
+      drop_round_off_of_forces(lacking);
+      out[k].of_loads = lacking.leftCols(loads);
+      out[k].of_contacts(Eigen::all, by_contacts.among) = lacking.rightCols(by_contacts.forces.cols());
     }
   }
   return out;
 }
 
-void follow_forces(const std::vector<results::ForceSite>& sites, const std::vector<Eigen::MatrixXd>& lacking,
+void follow_forces(const std::vector<results::ForceSite>& sites, const std::vector<LackingForce>& lacking,
                    const fem::Model& model, const std::vector<modal::Basis>& bases, const Fields& fields,
                    BuiltScene& built) {
   Eigen::Index modes = 0, first = 0;
   for (const std::size_t s : built.structures)
     modes += bases[s].size();
   const auto supports = static_cast<Eigen::Index>(fields.supports.size());
+  std::vector<Eigen::Index> directions; // of the scene's contacts
+  for (const std::size_t c : built.contacts)
+    for (Eigen::Index d = 0; d < 3; ++d)
+      directions.push_back(static_cast<Eigen::Index>(3 * c) + d);
   for (const std::size_t s : built.structures) {
     const modal::Basis& basis = bases[s];
     for (std::size_t k = 0; k < sites.size(); ++k) {
@@ -242,7 +258,8 @@ void follow_forces(const std::vector<results::ForceSite>& sites, const std::vect
             following.force(at_nodes(basis, basis.shapes.col(i)), square_of_frequency(basis, i));
       drop_round_off_of_forces(rows);
       post::FollowedForce force{sites[k].name, rows(Eigen::all, built.moving)};
-      force.by_loads = lacking[k];
+      force.by_loads = lacking[k].of_loads;
+      force.by_contacts = lacking[k].of_contacts(Eigen::all, directions);
       force.section = sites[k].is_section();
       force.fibre = following.fibre();
       if (supports > 0)

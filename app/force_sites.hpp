@@ -5,11 +5,11 @@
 /// A mode of frequency omega holds the nodes of a beam by f = (K - omega^2 M) u, as static modes and supports that move do by K u. The forces
 /// of a section are those at the end of its beam (fem/beam_element.hpp); the reaction of a restraint, which acts on the structure, is the sum
 /// of f over the beams of its node and the springs to other nodes, less what loads put on the node itself.
-/// Modes converge slowly to the statics of shear forces: what they lack under a load of amplitude g(t) follows it, F = rows q + rest g, with
+/// Modes converge slowly to the statics of shear forces: what they lack under a load, or a contact force, of amplitude g(t) follows it, F = rows q + rest g, with
 ///     rest = S(G l) - sum over elastic modes of S_i (phi_i . l)/omega_i^2,
 /// S the forces of a static motion (K u, less what the load puts along the beam), G l the static deflection under the load l (modal/static_solvers.hpp): the method of mode
-/// acceleration (Craig and Kurdila, Fundamentals of Structural Dynamics, 2nd ed. 2006, section 11.4). Turbulence and contact forces have the
-/// modes only.
+/// acceleration (Craig and Kurdila, Fundamentals of Structural Dynamics, 2nd ed. 2006, section 11.4). Turbulence has the modes
+/// only.
 #pragma once
 #include "app/build_scene.hpp"
 
@@ -19,16 +19,23 @@ namespace fretwork::app {
 [[nodiscard]] std::vector<results::ForceSite>
 force_sites(const study::Study& study, const mesh::LineMesh& mesh, const fem::Model& model);
 
-/// What the modes lack of the static force under each load, by sites 6 x loads; zero, with a note, where a structure has no static solution.
+/// What the modes lack of the static force at a site.
+struct LackingForce {
+  Eigen::MatrixXd of_loads;    ///< 6 x loads, under each at an amplitude of 1
+  Eigen::MatrixXd of_contacts; ///< 6 x 3 placed contacts, under 1 N along their x_loc y_loc z_loc
+};
+
+/// Of each site; zero, with a note, where a structure has no static solution.
 /// A structure that is free to move accelerates as well: of modes of 0 Hz it has M phi_i (phi_i . l). Serial; needs PETSc where there are sites.
 /// @throws core::Error for a site that belongs to no structure
-[[nodiscard]] std::vector<Eigen::MatrixXd>
+[[nodiscard]] std::vector<LackingForce>
 lacking_forces(const std::vector<results::ForceSite>& sites, const fem::Model& model,
                const std::vector<fem::Structure>& structures, const std::vector<modal::Basis>& bases,
-               const Fields& fields, std::vector<std::string>& notes);
+               const Fields& fields, const std::vector<PlacedContact>& placed,
+               std::vector<std::string>& notes);
 
 /// Gives a scene the forces at its structures. @param lacking  of lacking_forces()
-void follow_forces(const std::vector<results::ForceSite>& sites, const std::vector<Eigen::MatrixXd>& lacking,
+void follow_forces(const std::vector<results::ForceSite>& sites, const std::vector<LackingForce>& lacking,
                    const fem::Model& model, const std::vector<modal::Basis>& bases, const Fields& fields,
                    BuiltScene& built);
 

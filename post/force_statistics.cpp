@@ -62,16 +62,23 @@ ForceStatistics::ForceStatistics(const std::vector<FollowedForce>& forces, doubl
   values_.assign(together * first_.size(), 0.0);
   for (const FollowedForce& force : forces) {
     kinds_.push_back({force.section, force.fibre});
-    modes_count_ = static_cast<std::size_t>(kernels::padded(static_cast<int>(force.rows.cols())));
+    modes_ = static_cast<std::size_t>(kernels::padded(static_cast<int>(force.rows.cols())));
+    inputs_of_record_ =
+        modes_ + static_cast<std::size_t>(kernels::padded(static_cast<int>(force.by_contacts.cols())));
   }
-  modes_.assign(together * modes_count_, 0.0);
+  inputs_.assign(together * inputs_of_record_, 0.0);
   for (std::size_t c = 0; c < force_components; ++c)
     for (std::size_t begin = 0; begin < width_; begin += kernels::lanes) {
       std::map<int, std::array<double, kernels::lanes>> pack;
-      for (std::size_t k = begin; k < std::min(begin + kernels::lanes, forces.size()); ++k)
-        for (int i = 0; i < forces[k].rows.cols(); ++i)
-          if (const double value = forces[k].rows(static_cast<Eigen::Index>(c), i); value != 0.0)
-            pack[i][k - begin] = value;
+      for (std::size_t k = begin; k < std::min(begin + kernels::lanes, forces.size()); ++k) {
+        const auto add = [&](const Eigen::MatrixXd& of, std::size_t first) {
+          for (Eigen::Index i = 0; i < of.cols(); ++i)
+            if (const double value = of(static_cast<Eigen::Index>(c), i); value != 0.0)
+              pack[static_cast<int>(first) + static_cast<int>(i)][k - begin] = value;
+        };
+        add(forces[k].rows, 0);
+        add(forces[k].by_contacts, modes_);
+      }
       gather_.add_pack(pack);
     }
 }
@@ -115,7 +122,18 @@ void ForceStatistics::add_imposed_motion(const std::vector<FollowedForce>& force
 void ForceStatistics::step(const transient::Record& record) {
   if (record.time < from_ || kinds_.empty())
     return;
-  std::copy_n(record.q, modes_count_, modes_.data() + static_cast<std::size_t>(waiting_) * modes_count_);
+  double* inputs = inputs_.data() + static_cast<std::size_t>(waiting_) * inputs_of_record_;
+  double* forces = std::copy_n(record.q, modes_, inputs);
+  if (inputs_of_record_ > modes_) {
+    std::fill(forces, inputs + inputs_of_record_, 0.0);
+    for (const int c : record.active) {
+      const transient::ContactState& state = record.states[static_cast<std::size_t>(c)];
+      double* force = forces + 3 * c;
+      force[0] = state.friction.x;
+      force[1] = state.force_y();
+      force[2] = state.force_z();
+    }
+  }
   instants_[static_cast<std::size_t>(waiting_)] = {record.time, record.step};
   if (++waiting_ == together)
     look_at_waiting();
@@ -125,7 +143,7 @@ void ForceStatistics::look_at_waiting() {
   if (waiting_ == 0)
     return;
   const std::size_t size = first_.size();
-  kernels::gather_together(gather_, modes_.data(), static_cast<int>(modes_count_), values_.data(),
+  kernels::gather_together(gather_, inputs_.data(), static_cast<int>(inputs_of_record_), values_.data(),
                            static_cast<int>(size));
   const int count = std::exchange(waiting_, 0);
   for (int k = 0; k < count; ++k)

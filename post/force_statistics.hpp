@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// Statistics of forces that follow from the modes, those of sections of beams and of restraints, over every step of a window, each
-/// weighted by its length. A force has six components, F = rows q + by_loads g + imposed s, with g the amplitudes of loads and s imposed motions; of
-/// a section they are N Vy Vz T My Mz.
+/// weighted by its length. A force has six components, F = rows q + by_contacts f + by_loads g + imposed s, with f the contact forces on the nodes, g
+/// the amplitudes of loads and s imposed motions; of a section they are N Vy Vz T My Mz.
 ///
 /// The normal stress of a section is the largest |N/A + a My e_z + b Mz e_y| on its outline,
 ///   of a pipe or circle  a = cos p, b = sin p,  e_z = R/Iy,        e_y = R/Iz,
@@ -33,7 +33,9 @@ struct OuterFibre {
 /// A force that a run follows.
 struct FollowedForce {
   std::string name;
-  Eigen::MatrixXd rows;          ///< 6 x n
+  Eigen::MatrixXd rows; ///< 6 x n
+  Eigen::MatrixXd by_contacts =
+      {};                        ///< 6 x 3 contacts of the scene, over their x_loc y_loc z_loc; empty: none
   Eigen::MatrixXd by_loads = {}; ///< 6 x loads of the scene; empty: none
   Eigen::MatrixXd imposed = {};  ///< 6 x motions of the scene; empty: none
   /// Of a section: force and moment are those across it, (Vy, Vz) and (My, Mz). Else both have three components.
@@ -68,7 +70,7 @@ public:
   }
   void visit(core::StateArchive& state) override {
     state(first_, sums_, squares_, products_, min_, max_, force_, moment_, stress_, stress_time_, time_,
-          ends_, waiting_, modes_, instants_);
+          ends_, waiting_, inputs_, instants_);
   }
   [[nodiscard]] std::vector<ForceSummary> summaries();
 
@@ -93,10 +95,10 @@ private:
   std::vector<Kind> kinds_;
   std::size_t width_; ///< forces, padded; arrays of components are component after component
   kernels::GatherTable gather_;
-  std::size_t modes_count_ = 0; ///< padded
-  int waiting_ = 0;             ///< records whose forces are not made yet: together the table is read once
+  std::size_t modes_ = 0, inputs_of_record_ = 0; ///< padded
+  int waiting_ = 0; ///< records whose forces are not made yet: together the table is read once
   std::array<Instant, together> instants_{};          ///< of them
-  kernels::Array modes_;                              ///< their modal displacements, one after the other
+  kernels::Array inputs_;                             ///< q and f of each, one record after the other
   kernels::Array values_;                             ///< 6 x width for each of them
   kernels::Array first_, sums_, squares_, min_, max_; ///< 6 x width; sums of w d and w d^2 from the first
   kernels::Array products_;                           ///< 3 x width: sums of w d_i d_j of N My, N Mz, My Mz

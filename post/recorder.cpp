@@ -5,6 +5,12 @@
 
 namespace fretwork::post {
 
+core::Vec3 ContactSeries::force(Eigen::Index index) const {
+  const contact::ContactAxes axes{normal(index, 0), normal(index, 1)};
+  const double n = normal_force(index), t = tangential_force(index, 1);
+  return {tangential_force(index, 0), axes.y(n, t), axes.z(n, t)};
+}
+
 Recorder::Recorder(const transient::Scene& scene, std::vector<ObservedNode> nodes,
                    const transient::OutputGrid& grid, Eigen::VectorXd masses)
     : scene_(scene), nodes_(std::move(nodes)), masses_(std::move(masses)),
@@ -186,6 +192,11 @@ void Recorder::set_reactions() {
   for (const FollowedForce& reaction : reactions_) {
     out_.reactions.push_back({reaction.name, (reaction.rows * out_.modal_displacement).transpose()});
     Eigen::MatrixXd& force = out_.reactions.back().force;
+    for (Eigen::Index c = 0; 3 * c < reaction.by_contacts.cols(); ++c) {
+      const ContactSeries& contact = out_.contacts[static_cast<std::size_t>(c)];
+      for (Eigen::Index i = 0; i < out_.time.size(); ++i)
+        force.row(i) += contact.force(i).transpose() * reaction.by_contacts.middleCols<3>(3 * c).transpose();
+    }
     for (Eigen::Index l = 0; l < reaction.by_loads.cols(); ++l)
       for (Eigen::Index i = 0; i < out_.time.size(); ++i)
         force.row(i) +=

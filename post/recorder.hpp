@@ -23,6 +23,9 @@ struct ContactSeries {
   std::vector<std::uint8_t> state;        ///< nt, ContactMode; open where the normal force is 0
   Eigen::MatrixXd
       normal; ///< nt x 2, unit normal along y_loc, z_loc: of the forces, where there are none of the place
+
+  /// N, on the node along x_loc y_loc z_loc.
+  [[nodiscard]] core::Vec3 force(Eigen::Index index) const;
 };
 
 /// Global axes.

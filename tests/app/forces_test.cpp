@@ -202,6 +202,43 @@ TEST(Forces, FollowLoadsThatVary) {
   EXPECT_TRUE(close_to(run.summary["section_forces"].at(0)["moment"]["largest"], 6.0 * 0.5 * length, slow));
 }
 
+/// A tube that its weight presses on a stop: reactions, stop and weight are in equilibrium with few modes, and the moments they make are those
+/// of its sections; and on two stops alone.
+TEST(Forces, BesideContactsAreThoseOfStatics) {
+  const Workshop folder;
+  MeshText mesh = straight_line("tube", {0.0, 0.0, 0.0}, {length, 0.0, 0.0}, elements);
+  mesh.points.emplace_back("quarter", elements / 4);
+  mesh.points.emplace_back("other_quarter", 3 * elements / 4);
+  folder.write("mesh.msh", mesh.text());
+  const double weight = 9.81 * 8000.0 * pi * (outer * outer - inner * inner) / 4.0 * length;
+  const auto stop = [](const char* group) {
+    return fmt::format("[[contacts]]\ngroup = \"{}\"\naxis = [1.0, 0.0, 0.0]\ny_axis = [0.0, -1.0, 0.0]\n"
+                       "obstacle = \"stop_y\"\ngap = 0.0\nnormal_stiffness = 1.0e6\n",
+                       group);
+  };
+  const std::string gravity = "[gravity]\nacceleration = [0.0, -9.81, 0.0]\n";
+  constexpr double statics = 1e-7;
+  std::string text = study("\"all\"", pinned, 6, gravity + stop("quarter"), 0.01);
+  text.replace(text.find("[transient]"), 11, "[transient]\nstart = \"static\"");
+  const Results held = folder.run_text(text);
+  const double by_stop = held.summary["contacts"].at(0)["normal_force"]["mean"],
+               left = reaction(held, 0)["force"]["y"]["mean"],
+               right = reaction(held, 1)["force"]["y"]["mean"];
+  EXPECT_GT(by_stop, 0.2 * weight);
+  EXPECT_NEAR(left + right + by_stop, weight, statics * weight);
+  EXPECT_NEAR(reaction(held, 0)["moment"]["z"]["mean"].get<double>() + right * length +
+                  by_stop * 0.25 * length,
+              0.5 * weight * length, statics * weight * length);
+  EXPECT_NEAR(held.archive.series.reactions.at(1).force.bottomRows<1>()(1), right, 1e-4 * right);
+  // on two stops: w (L/4)^2/2 above them, as much below in the middle
+  std::string loose = steel_pipe("mesh.msh") + tube_between("tube", "", "") + gravity + stop("quarter") +
+                      stop("other_quarter") +
+                      "[modes]\ncount = 12\n[transient]\nduration = 0.01\nstart = \"static\"\n"
+                      "[output]\nsection_forces = [\"tube\"]\n";
+  const auto moment = folder.run_text(loose).summary["section_forces"].at(0)["moment"];
+  EXPECT_TRUE(close_to(moment["largest"], weight * length / 32.0, statics));
+}
+
 /// Nothing strains a tube in free fall.
 TEST(Forces, OfAFreeStructureAreThoseInItsOwnFrame) {
   const Workshop folder;

@@ -17,7 +17,7 @@ constexpr double round_off = 1e-12;
 constexpr double of_directions = 2e-5; // of a deviation that is looked for in 720 directions
 
 /// Its components are the modes themselves.
-post::FollowedForce force(bool section) { return {"", Eigen::MatrixXd::Identity(6, 6), {}, {}, section}; }
+post::FollowedForce force(bool section) { return {"", Eigen::MatrixXd::Identity(6, 6), {}, {}, {}, section}; }
 
 using Values = std::array<double, 6>;
 

@@ -69,13 +69,15 @@ long allocations_of_a_run(const Scene& scene, const StepOptions& options) {
   post::Recorder recorder(scene, {{"node", node}}, grid);
   post::ContactStatistics contacts(scene.contacts, 0.1);
   post::NodeStatistics nodes({node}, 0.1);
-  post::ForceStatistics forces({{"section",
-                                 Eigen::MatrixXd::Random(6, scene.system.size()),
-                                 {},
-                                 {},
-                                 true,
-                                 post::OuterFibre{true, 1.0, 2.0, 2.0}}},
-                               0.1);
+  post::ForceStatistics forces(
+      {{"section",
+        Eigen::MatrixXd::Random(6, scene.system.size()),
+        Eigen::MatrixXd::Random(6, 3 * static_cast<Eigen::Index>(scene.contacts.size())),
+        {},
+        {},
+        true,
+        post::OuterFibre{true, 1.0, 2.0, 2.0}}},
+      0.1);
   Gate gate(choice.steps);
   Observer* const observers[] = {&gate, &contacts, &nodes, &forces};
   allocations = 0;

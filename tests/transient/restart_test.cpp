@@ -28,7 +28,7 @@ public:
   Watched(const Scene& scene, const StepChoice& choice)
       : node_(Eigen::MatrixXd::Constant(3, scene.system.size(), 0.3)), contacts_(scene.contacts, from),
         impacts_(scene.contacts.size(), from, 2e-3, 1000), nodes_({node_}, from),
-        forces_(forces_of(node_), from), grid_(output_grid(scene.duration, every)),
+        forces_(forces_of(node_, scene.contacts.size()), from), grid_(output_grid(scene.duration, every)),
         recorder_(scene, {{"node", node_}}, grid_), run_(scene, choice, observers_, &recorder_, grid_) {}
 
   Run& run() { return run_; }
@@ -65,10 +65,11 @@ public:
   }
 
 private:
-  static std::vector<post::FollowedForce> forces_of(const Eigen::MatrixXd& node) {
+  static std::vector<post::FollowedForce> forces_of(const Eigen::MatrixXd& node, std::size_t contacts) {
     Eigen::MatrixXd rows(6, node.cols());
     rows << node, -2.0 * node;
-    return {{"section", rows, {}, {}, true, post::OuterFibre{true, 1.0, 2.0, 2.0}}};
+    const Eigen::MatrixXd by_contacts = Eigen::MatrixXd::Ones(6, 3 * static_cast<Eigen::Index>(contacts));
+    return {{"section", rows, by_contacts, {}, {}, true, post::OuterFibre{true, 1.0, 2.0, 2.0}}};
   }
 
   Eigen::MatrixXd node_;
