@@ -38,8 +38,8 @@ NormalInterval normal_over_interval(const NormalLaw& law, double dt, double mobi
   if (path.end <= 0.0 && p0 == 0.0 && v0 <= 0.0)
     return out;
   const double bent = std::min(most_bent, k * mobility * dt * dt / 12.0), straight = 1.0 - bent;
-  const double lag = mobility > 0.0 ? bent / mobility : 0.0;   // K_N dt^2/12, kg
-  const double growing_share = growing * mobility * dt / 12.0; // beta - 1/2
+  const double lag = mobility > 0.0 ? bent / mobility : k * dt * dt / 12.0; // K_N dt^2/12, kg
+  const double growing_share = growing * mobility * dt / 12.0;              // beta - 1/2
   const double by_force = (0.5 + growing_share) * mobility * dt * dt, c = law.damping / dt;
   const double free_end = path.end + growing_share * dt * dt * path.acceleration;
   const double n0 = std::max(0.0, k * p0 + law.damping_at(p0) * v0);

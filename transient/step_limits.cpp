@@ -11,7 +11,7 @@ namespace {
 
 /// Without contacts little else limits the step: linear interpolation then errs by (2 pi/200)^2/12 = 8e-5.
 constexpr double linear_points_per_period = 200.0;
-/// Of r_n h of schemes that take normal dampers implicitly, at an accuracy of 0.01.
+/// Of r_n h of collocation and energy_conserving, at an accuracy of 0.01.
 constexpr double normally_damped = 2.0;
 /// w_c h that normal dampers never make the step shorter than: a damper that is faster leaves no rebound (e < 0.001), and resolving it costs
 /// without end.
@@ -74,7 +74,9 @@ bool moves_exactly(SchemeKind scheme) {
 
 double most_implicit(SchemeKind scheme) { return scheme == SchemeKind::splitting ? 6.3 : 4.0; }
 
-double most_normally_damped(SchemeKind scheme) { return scheme == SchemeKind::splitting ? 2.0 : 4.0; }
+double most_normally_damped(SchemeKind scheme) {
+  return scheme == SchemeKind::splitting ? most_intervals * normal_damper_share : 4.0;
+}
 
 double damper_share(SchemeKind scheme, double fineness) {
   if (!moves_exactly(scheme))
@@ -147,11 +149,14 @@ std::vector<StepLimit> step_limits(const StepChoice& c, const Scene& scene, doub
                              : "; a smaller tangential_damping makes the step longer (scheme = \"splitting\" "
                                "resolves the dampers within a step)"});
   }
-  if (exact && c.normal_damper_rate > 0.0)
+  if (exact && c.normal_damper_rate > 0.0) {
+    const double most = most_normally_damped(c.scheme),
+                 share =
+                     c.scheme == SchemeKind::splitting ? most : std::min(normally_damped * fineness, most);
     out.push_back(
-        {std::max(std::min(normally_damped * fineness, most_normally_damped(c.scheme)) / c.normal_damper_rate,
-                  finest_for_dampers * fineness / c.contact_frequency),
+        {std::max(share / c.normal_damper_rate, finest_for_dampers * fineness / c.contact_frequency),
          fmt::format("the normal dampers' rate {:.4g} 1/s", c.normal_damper_rate)});
+  }
   add(explicit_share(c.scheme, fineness), c.explicit_rate,
       fmt::format("the dampers' rate {:.4g} 1/s", c.explicit_rate));
   if (c.highest_mode > 0.0 && !(contacts && may_go_past_modes(c.scheme)))

@@ -41,8 +41,11 @@ constexpr double most_intervals = 64.0;
 /// What r_t h, with splitting r_t dt of its intervals, is to be at most. Where dampers are implicit, above 2 the speed of a sticking contact
 /// turns round, 0.52 of it at 6.3. @param fineness  1 at an accuracy of 0.01, as its square root
 [[nodiscard]] double damper_share(SchemeKind scheme, double fineness);
-/// Largest r_n h of schemes that take normal dampers implicitly: above 2 the mean rate alone turns the speed of a mass round (splitting); with collocation a
-/// tenth of it is left at 4, where 0.02 is right.
+/// r_n dt of the intervals of splitting: the force of an impact then falls within one as a parabola (contact/normal_interval.cpp) that has its
+/// largest value; above 1.9 only its mean is right.
+constexpr double normal_damper_share = 1.8;
+/// Largest r_n h of schemes that take normal dampers implicitly: of splitting in all intervals of a step; with collocation a tenth of the speed of a
+/// mass is left at 4, where 0.02 is right.
 [[nodiscard]] double most_normally_damped(SchemeKind scheme);
 /// Of a damper's rate times the step of devogelaere, whose limit is 0.59.
 constexpr double most_damped = 0.5;

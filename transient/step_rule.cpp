@@ -61,15 +61,15 @@ void check_steps(double duration, const StepChoice& c) {
 /// What becomes of normal dampers that the step does not resolve.
 void warn_of_normal_dampers(StepChoice& c, const char* cure) {
   const double rate = c.normal_damper_rate * c.step, most = most_normally_damped(c.scheme);
-  if (!moves_exactly(c.scheme) || !(rate > most))
+  if (!moves_exactly(c.scheme) || !(rate > most * (1.0 + 1e-9)))
     return;
-  const bool keeps = c.scheme == SchemeKind::energy_conserving;
+  const char* what = c.scheme == SchemeKind::splitting ? "largest and rms forces that can be trusted"
+                     : c.scheme == SchemeKind::energy_conserving ? "largest forces that can be trusted "
+                                                                   "(rebounds are right at any step)"
+                                                                 : "rebounds that can be trusted";
   c.warnings.push_back(fmt::format(
-      "the step {:.3g} s does not resolve the normal dampers: r_n h = {:.3g}, at most {} for {}; {}", c.step,
-      rate, most,
-      keeps ? "largest forces that can be trusted (rebounds are right at any step)"
-            : "rebounds that can be trusted",
-      cure));
+      "the step {:.3g} s does not resolve the normal dampers: r_n h = {:.3g}, at most {:g} for {}; {}",
+      c.step, rate, most, what, cure));
 }
 
 /// Largest w_r h of a record without a warning: polygons then lose 0.7 % of it, lines between values 2 (w h)^2/8 = 9 % of its power.
@@ -131,8 +131,9 @@ double fineness_of(double accuracy) { return std::sqrt(std::min(accuracy, coarse
 int intervals_of_step(const StepChoice& c, double fineness) {
   if (c.scheme != SchemeKind::splitting)
     return 1;
-  const double rate = std::max(std::max(c.contact_frequency, c.stick_frequency) / (interval_share * fineness),
-                               c.damper_rate / damper_share(c.scheme, fineness));
+  const double rate = std::max(
+      {std::max(c.contact_frequency, c.stick_frequency) / (interval_share * fineness),
+       c.damper_rate / damper_share(c.scheme, fineness), c.normal_damper_rate / normal_damper_share});
   const double needed = rate * c.step;
   return static_cast<int>(std::clamp(std::ceil(needed * (1.0 - 1e-9)), 1.0, most_intervals));
 }

@@ -2,21 +2,22 @@
 /// @file
 /// The time step and its reason.
 ///
-///     h = min{ c/w_c, s/w_t, r/r_t, max(2/r_n, 0.03/w_c), m/w_max },  the shares at an accuracy of 0.01; others grow and fall with its square root
+///     h = min{ c/w_c, s/w_t, r/r_t, max(n/r_n, 0.03/w_c), m/w_max },  the shares at an accuracy of 0.01; others grow and fall with its square root
 ///
-///                          c      s      r     m
-///     splitting            1      1      403   2.5 (1 above r_t h = 2) where modes cannot be made heavier (mass_scaling.hpp)
-///     collocation          0.5    0.5    2     -
-///     energy_conserving    0.3    0.3    2     2.5
-///     euler, devogelaere   0.3    0.3    0.5   0.5
+///                          c      s      r     n     m
+///     splitting            1.25   1.25   403   115   2.5 (down to 1.5 where r_t h is above 3) where modes cannot be made heavier (mass_scaling.hpp)
+///     collocation          0.5    0.5    2     2     -
+///     energy_conserving    0.3    0.3    2     2     2.5
+///     euler, devogelaere   0.3    0.3    0.5   -     0.5
 /// over the terms that exist, with:
 ///     w_c, w_t, r_t, r_n, w_max   scene_rates.hpp
-/// r_n counts for splitting, collocation and energy_conserving, which take normal dampers implicitly. A damper of r_n h = 2 stops a mass in one step;
-/// above, splitting turns its speed round, whatever the step. So a damper that even 0.03/w_c does not resolve is warned about, also with the automatic
-/// step: of energy_conserving the rebounds are right (conserving_normal.hpp), the largest force at first touch is not.
-/// No accuracy makes a step longer than that of 0.02, nor w_c h than 1 (devogelaere: 0.75, energy_conserving: 0.5), above which impacts are wrong however
-/// stable the run (doc/schemes.md, Stability map), nor r_t h than 4 where dampers are implicit, r_t dt than 6.3 in the intervals of
-/// splitting, of which a step has up to 64. With contacts
+/// r_n counts for splitting, collocation and energy_conserving, which take normal dampers implicitly. splitting resolves them, as tangential ones, in its
+/// intervals, of which a step has up to 64: r_t dt = 6.3, r_n dt = 1.8 whatever the accuracy. With collocation a damper of r_n h = 2 stops a mass in
+/// one step. A damper that even 0.03/w_c does not resolve is warned about, also with the automatic step: of energy_conserving the rebounds are right
+/// (conserving_normal.hpp), the largest force at first touch is not.
+/// No accuracy makes a step longer than that of 0.02, nor w_c h than 1.25 with splitting and 1 with collocation (devogelaere: 0.75,
+/// energy_conserving: 0.5), above which impacts are wrong however stable the run (doc/schemes.md, Stability map), nor r_t h than 4 where dampers are
+/// implicit, r_t dt than 6.3 in the intervals of splitting. With contacts
 /// splitting resonates with modes at w h = k pi: those above w h = m are made heavier (mass_scaling.hpp), or where they may not be, and
 /// with energy_conserving, the step stays below 2.5/w_max. The limits of explicit Euler are r_t h < 1 and w_max h < 2; it also takes the other dampers explicitly and
 /// resolves them by 0.5/r_e (its limit: r_e h < 2):

@@ -48,9 +48,12 @@ TEST(StepWarnings, WarnsWhereAFixedStepDoesNotResolve) {
 
 TEST(StepWarnings, ResolvesNormalDampersThatActImplicitly) {
   // w_c = 200 rad/s, r_n = C_N/m
-  for (const auto scheme : {SchemeKind::splitting, SchemeKind::collocation, SchemeKind::energy_conserving})
-    expect_governed(scene_with({Circle{0.1}, {8e4, 3200.0 * mass}, {}}), {scheme, {}}, 2.0 / 3200.0,
-                    "the normal dampers' rate 3200 1/s");
+  const Scene damped = scene_with({Circle{0.1}, {8e4, 3200.0 * mass}, {}});
+  for (const auto scheme : {SchemeKind::collocation, SchemeKind::energy_conserving})
+    expect_governed(damped, {scheme, {}}, 2.0 / 3200.0, "the normal dampers' rate 3200 1/s");
+  expect_governed(damped, splitting(), share / 200.0, "the contact frequency 200 rad/s");
+  const StepChoice intervals = choose_step(damped, splitting());
+  EXPECT_EQ(intervals.parts, std::ceil(3200.0 * intervals.step / 1.8));
   expect_governed(scene_with({Circle{0.1}, {8e4, 20.0}, {}}), splitting(), share / 200.0,
                   "the contact frequency 200 rad/s");
   EXPECT_EQ(choose_step(scene_with({Circle{0.1}, {8e4, 0.0, 5.0}, {}}), splitting()).normal_damper_rate, 0.0);

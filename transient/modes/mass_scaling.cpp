@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/modes/mass_scaling.hpp"
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <numbers>
 
@@ -51,6 +52,8 @@ Eigen::VectorXd scaled_masses(const Scene& scene, double fastest) {
 
 bool may_scale(const Scene& scene, double fastest, double accuracy) {
   const Eigen::Array<bool, Eigen::Dynamic, 1> scaled = scaled_masses(scene, fastest).array() > 1.0;
+  if (!scene.system.motion.empty())
+    return false;
   const Eigen::ArrayXd k = scene.system.stiffness.array(), flexibility = (k > 0.0).select(1.0 / k, 0.0);
   Eigen::ArrayXd at_start = Eigen::ArrayXd::Zero(k.size()), noise = at_start; // modal forces; (rms force)^2
   for (const vibration::Load& load : scene.loads) {
@@ -81,18 +84,13 @@ bool may_scale(const Scene& scene, double fastest, double accuracy) {
 }
 
 Scene with_masses(const Scene& scene, const Eigen::VectorXd& masses) {
+  assert(scene.system.motion.empty());
   const Eigen::VectorXd s = masses.cwiseSqrt().cwiseInverse();
   Scene out = scene;
   out.system.stiffness.array() /= masses.array();
   out.system.damping.array() /= masses.array();
   if (out.system.damping_matrix.size() > 0)
     out.system.damping_matrix = s.asDiagonal() * scene.system.damping_matrix * s.asDiagonal();
-  if (core::MotionForces& f = out.system.motion; !f.empty()) {
-    f.stiffness = s.asDiagonal() * f.stiffness * s.asDiagonal();
-    f.damping = s.asDiagonal() * f.damping * s.asDiagonal();
-    f.input = s.asDiagonal() * f.input;
-    f.output = f.output * s.asDiagonal();
-  }
   for (vibration::Load& load : out.loads)
     load.modal_force.array() *= s.array();
   for (signals::SampledLoad& load : out.sampled_loads)

@@ -64,14 +64,15 @@ int ContactIntervals::least_count(int parts, const ContactPast& past, const Free
   const double speed = std::sqrt(path.v.y() * path.v.y() + path.v.z() * path.v.z()), way = h_ * speed;
   // Hunt and Crossley's damper makes a spring of K (1 + d v) where it closes
   if (const double stiffer = normal_.dissipation * speed; stiffer > least_stiffer)
-    parts = static_cast<int>(std::min(std::round(parts * std::sqrt(1.0 + stiffer)), 1.0 * most_for_speed));
+    parts = std::max(parts, static_cast<int>(std::min(std::round(parts * std::sqrt(1.0 + stiffer)),
+                                                      1.0 * most_for_speed)));
   if (may_turn(past, path, way) && meets_corner(path))
-    return has_corners_ ? std::clamp(at_corner * parts, least_at_corner, most_at_corner)
-                        : std::clamp(at_side * parts, least_at_side, most_at_side);
+    return std::max(parts, has_corners_ ? std::clamp(at_corner * parts, least_at_corner, most_at_corner)
+                                        : std::clamp(at_side * parts, least_at_side, most_at_side));
   if (past.closed || !(clearance_ > 0.0))
     return parts;
   return std::max(
-      parts, static_cast<int>(std::ceil(std::min(way / (longest_way * clearance_), 1.0 * most_for_speed))));
+      parts, static_cast<int>(std::ceil(std::min(1.0 * most_for_speed, way / (longest_way * clearance_)))));
 }
 
 bool ContactIntervals::may_turn(const ContactPast& past, const FreePath& path, double way) const {

@@ -28,6 +28,8 @@ CoupledContacts::CoupledContacts(const PackedContacts& contacts, ContactBlocks b
   acted_for_.resize(count);
   loaded_.reserve(count);
   moves_.assign(count, 0);
+  pushed_in_.reserve(count);
+  before_step_.reserve(count);
   moving_blocks_.resize(blocks_.size());
   touched_.reserve(blocks_.size());
   for (std::size_t b = 0; b < blocks_.size(); ++b)
@@ -94,7 +96,27 @@ const IntervalTable& CoupledContacts::table_of(int c, int count) {
 
 void CoupledContacts::make(const ContactMotion& start, const ContactMotion& end, const std::vector<int>& near,
                            ContactTrial& trial, ContactLosses& losses) {
+  pushed_in_.clear();
+  find_forces(start, end, near, trial, losses);
+}
+
+void CoupledContacts::make_again(const ContactMotion& start, const ContactMotion& end,
+                                 const std::vector<int>& near, const std::vector<int>& pushed_in,
+                                 ContactTrial& trial, ContactLosses& losses) {
+  for (const Before& before : before_step_) {
+    pasts_[before.number] = before.past;
+    forces_[before.number].held = before.held;
+  }
+  pushed_in_.insert(pushed_in_.end(), pushed_in.begin(), pushed_in.end());
+  losses = {};
+  find_forces(start, end, near, trial, losses);
+}
+
+void CoupledContacts::find_forces(const ContactMotion& start, const ContactMotion& end,
+                                  const std::vector<int>& near, ContactTrial& trial, ContactLosses& losses) {
   trial.clear();
+  before_step_.clear();
+  converged_ = true;
   for (const MovingContact& m : moving_)
     moves_[m.number] = 0;
   moving_.clear();
@@ -105,7 +127,8 @@ void CoupledContacts::make(const ContactMotion& start, const ContactMotion& end,
     force.mean = force.slope = {};
     const FreePath path = path_of(c, start, end);
     const int count = laws_[c].least_count(parts_[c], pasts_[c], path);
-    if (!laws_[c].meets(pasts_[c], path, count))
+    if (!laws_[c].meets(pasts_[c], path, count) &&
+        std::find(pushed_in_.begin(), pushed_in_.end(), c) == pushed_in_.end())
       continue;
     moves_[c] = 1;
     counts_.push_back(count);
@@ -115,13 +138,16 @@ void CoupledContacts::make(const ContactMotion& start, const ContactMotion& end,
     m.past = pasts_[c];
   }
   for (const int c : loaded_)
-    if (!moves_[c])
+    if (!moves_[c]) {
+      keep(c);
       losses.damping += laws_[c].relax(pasts_[c], h_);
+    }
   group();
   for (const int b : touched_)
     if (moving_blocks_[b].parent == b)
       move(moving_blocks_[b].first);
   for (const MovingContact& m : moving_) {
+    keep(m.number);
     pasts_[m.number] = m.past;
     forces_[m.number] = {m.mean, m.slope, laws_[m.number].held(m)};
     trial.states[m.number] = m.state;
@@ -219,8 +245,9 @@ void CoupledContacts::act_together(int first, int index) {
       (void)act(m, index, i);
     }
     if (!again)
-      break;
+      return;
   }
+  converged_ = false;
 }
 
 /// One of them. Returns by how much its force is another than it was, N.

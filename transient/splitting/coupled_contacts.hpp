@@ -37,6 +37,12 @@ public:
   ///   with a force held among them, by increasing number   @param trial  overwritten
   void make(const ContactMotion& start, const ContactMotion& end, const std::vector<int>& near,
             ContactTrial& trial, ContactLosses& losses);
+  /// Whether contact c moved in the step; else it was taken to stay open.
+  [[nodiscard]] bool moved(int c) const { return moves_[c] != 0; }
+  /// The forces of that step once more, with contacts that stayed open in it and that the forces of the others have taken into their obstacles.
+  /// No allocation.   @param pushed_in  these, which did not move   @param start, end, near  as of `make`, with these
+  void make_again(const ContactMotion& start, const ContactMotion& end, const std::vector<int>& near,
+                  const std::vector<int>& pushed_in, ContactTrial& trial, ContactLosses& losses);
   /// After `make`, when the modes have taken the forces: the contacts stand here.
   void finish_step(const ContactMotion& end);
   /// Steps in which all contacts stay open. No allocation.
@@ -48,6 +54,8 @@ public:
     Components held; ///< for the next step: 0 where it is open at the end
   };
   [[nodiscard]] const Force& force(int c) const { return forces_[c]; }
+  /// Whether the forces of all contacts were found in the last step; else those of some kept on changing.
+  [[nodiscard]] bool converged() const { return converged_; }
   /// Energy of all springs, J.
   [[nodiscard]] double spring_energy() const { return normal_springs_ + tangential_springs_; }
   void visit(core::StateArchive& state);
@@ -59,6 +67,15 @@ private:
     int parent = 0;            ///< a block of the same group; the block itself: it stands for the group
     int first = -1, last = -1; ///< contacts of the group that it stands for, among moving_
   };
+  /// What a step changed of a contact.
+  struct Before {
+    int number;
+    ContactPast past;
+    Components held;
+  };
+  void find_forces(const ContactMotion& start, const ContactMotion& end, const std::vector<int>& near,
+                   ContactTrial& trial, ContactLosses& losses);
+  void keep(int c) { before_step_.push_back({c, pasts_[c], forces_[c].held}); }
   [[nodiscard]] int group_of(int block);
   void group();
   [[nodiscard]] Components of_lanes(const kernels::Array& lanes, int c) const;
@@ -84,10 +101,13 @@ private:
   std::vector<ContactCourse> before_; ///< of these before the interval
   std::vector<Components> acted_for_; ///< m/s2: the others' changes when they acted
   std::vector<char> moves_;           ///< each contact: among moving_
+  std::vector<int> pushed_in_;        ///< of the step
+  std::vector<Before> before_step_;
   std::vector<MovingBlock> moving_blocks_;
   std::vector<int> touched_; ///< blocks with contacts that move
   std::vector<int> loaded_;  ///< whose tangential spring bears a force
   double normal_springs_ = 0.0, tangential_springs_ = 0.0;
+  bool converged_ = true;
 };
 
 } // namespace fretwork::transient

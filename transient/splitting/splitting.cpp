@@ -4,13 +4,14 @@
 /// 1. The modes move under the loads and the contact forces held from the last step (modal_flow.hpp).
 /// 2. Where no contact can be closed in the step that is their motion. Steps of several h are tried first: the contact-free macro-steps.
 /// 3. Otherwise the contacts near their obstacles move in shorter intervals along that motion (coupled_contacts.hpp), and the modes move
-///    once more, under the mean and the first moment of the forces found.
+///    once more, under the mean and the first moment of the forces found. Where these push an open contact into its obstacle, step 3 is made
+///    again with it.
 /// Order 2 in displacement, velocity and force, with dampers and friction, through impacts. Step 3 asks w_c dt to be resolved, dt the interval;
 /// h w_max below 2.5, in which the cubic that contacts follow between the ends of a step is the modes' motion to (w h)^4/384.
 ///
 /// No contact is closed in a step of length L where its gaps at both ends exceed a third of its speeds there times L: its path is in the hull of u0,
 /// u0 + w0 L/3, u1 - w1 L/3, u1, and gaps are concave functions of it; of round bodies side by side, whose gap is convex, where they exceed the
-/// speeds times L.
+/// speeds times L. That is the path under the forces held: a contact that others push in and out again within a step is not seen.
 ///
 /// Energy: works of loads and contact forces on the modes are exact, modal damping is what the flow does not keep of them. The residual of the
 /// energy balance is what the contacts' laws, along their own path, made otherwise than the modes. Where forces of motion couple modes their energy, the
@@ -59,7 +60,7 @@ public:
       : h_(step), duration_(scene.duration), lengths_(lengths_up_to(options.longest)),
         modes_(scene, step, lengths_), mode_count_(static_cast<std::size_t>(scene.system.size())),
         contacts_(modes_.outputs(scene.contacts), modes_.coordinates(), modes_.has_blocks()),
-        inputs_(inputs_of(scene)), start_(contacts_), end_(contacts_),
+        inputs_(inputs_of(scene)), start_(contacts_), end_(contacts_), predicted_(contacts_),
         obstacles_(scene, contacts_), imposed_{obstacles_.workspace(), obstacles_.workspace()},
         forces_(inputs_ ? *inputs_ : contacts_),
         coupled_(make_coupled(scene, options)), steps_{Step(*this), Step(*this), Step(*this)} {
@@ -73,6 +74,7 @@ public:
     const auto count = static_cast<std::size_t>(contacts_.count);
     was_near_.assign(count, 1); // nothing is known yet
     near_.reserve(count);
+    pushed_in_.reserve(count);
     const bool convex =
         std::any_of(contacts_.supports.begin(), contacts_.supports.end(), [](const contact::Support& s) {
           return contact::properties_of(s.obstacle).gap_bound.radial < 0.0;
@@ -124,14 +126,14 @@ public:
     const Step& s = steps_[of];
     modes_.inside(time - s.start, s.length, s.from, s.load, steps_[next(of)].load,
                   s.pushed ? &s.force : nullptr, q, v);
-    scale(q, 1.0);
-    scale(v, 1.0);
+    scale(q, 1);
+    scale(v, 1);
   }
 
   void load_at(double time, double* force) override {
     modes_.load_at(time, force);
     modes_.add_motion_forces(force);
-    scale(force, -1.0);
+    scale(force, -1);
   }
 
   double continue_from(const Replayable& running) override {
@@ -290,28 +292,50 @@ private:
       coupled_.make(start_, end_, near_, s.trial, losses);
       s.pushed = forces_.any_held() || !s.trial.active.empty();
       if (s.pushed)
-        sums = push(s, to);
+        sums = push(s, to, losses);
+      counts_.unconverged += coupled_.converged() ? 0 : 1;
       coupled_.finish_step(end_);
       brought = work_of_obstacles(s);
     } else {
       coupled_.pass(s.steps, s.trial, losses);
     }
-    std::fill(was_near_.begin(), was_near_.end(), 0);
+    for (int c = 0; c < contacts_.count; ++c)
+      was_near_[c] = end_.near(c);
     for (const int c : near_)
-      was_near_[c] = end_.near(c) || sum_of_sizes(coupled_.force(c).held) > 0.0;
+      was_near_[c] = was_near_[c] || sum_of_sizes(coupled_.force(c).held) > 0.0;
     prepare_output(s, to);
     modes_.add_works(s.steps, s.from, s.load, to.load, s.pushed ? &s.force : nullptr, sums, blocks_.works);
     balance_energy(s, to.from, sums, losses, brought);
     done_ += s.steps;
   }
 
-  /// The modes take the forces of the contacts.
-  ModalFlow::Sums push(Step& s, Step& to) {
-    forces_.assemble(coupled_, near_, &s.force);
-    const ModalFlow::Sums sums = modes_.push(s.from, s.load, to.load, s.force.mean, s.force.slope, to.from);
-    end_.gather(to.from.q.data(), to.from.v.data());
-    imposed_[1].add_to(end_);
-    return sums;
+  /// The modes take the forces of the contacts, found again with those that these push into their obstacles.
+  ModalFlow::Sums push(Step& s, Step& to, ContactLosses& losses) {
+    std::copy(end_.u.begin(), end_.u.end(), predicted_.u.begin());
+    std::copy(end_.w.begin(), end_.w.end(), predicted_.w.begin());
+    for (;;) {
+      forces_.assemble(coupled_, near_, &s.force);
+      const ModalFlow::Sums sums = modes_.push(s.from, s.load, to.load, s.force.mean, s.force.slope, to.from);
+      end_.gather(to.from.q.data(), to.from.v.data());
+      imposed_[1].add_to(end_);
+      if (!find_pushed_in())
+        return sums;
+      coupled_.make_again(start_, predicted_, near_, pushed_in_, s.trial, losses);
+    }
+  }
+
+  /// Contacts that stayed open under the forces held, and are in their obstacles under those found. Marks those near the end of the step.
+  bool find_pushed_in() {
+    pushed_in_.clear();
+    if (!end_.find_near(window_ * h_))
+      return false;
+    for (int c = 0; c < contacts_.count; ++c)
+      if (end_.near(c) && end_.gaps[c] < 0.0 && !coupled_.moved(c)) {
+        pushed_in_.push_back(c);
+        if (const auto at = std::lower_bound(near_.begin(), near_.end(), c); at == near_.end() || *at != c)
+          near_.insert(at, c);
+      }
+    return !pushed_in_.empty();
   }
 
   /// By obstacles that move, on the structure, J.
@@ -363,6 +387,7 @@ private:
   PackedContacts contacts_;              ///< rows over coordinates
   std::optional<PackedContacts> inputs_; ///< over the numbers of a force, where these are others
   ContactMotion start_, end_;            ///< of the step that is made
+  ContactMotion predicted_;              ///< its end under the forces held
   ObstacleMotion obstacles_;
   std::array<ImposedMotion, 2> imposed_; ///< likewise
   StepForces forces_;
@@ -372,6 +397,7 @@ private:
 
   std::vector<char> was_near_; ///< at the end of the last step
   std::vector<int> near_;
+  std::vector<int> pushed_in_; ///< open contacts that the forces of others take into their obstacles
   double window_;
   kernels::Array mode_scales_; ///< with scaled masses
   kernels::Array output_q_;    ///< modes of the record, with blocks

@@ -12,7 +12,7 @@ StepForces::StepForces(const PackedContacts& contacts)
 }
 
 void StepForces::add(int c, int component, double held, double mean, double slope) {
-  if (mean == 0.0 && held == 0.0)
+  if (mean == 0.0 && slope == 0.0 && held == 0.0)
     return;
   factors_[0][rows_.size()] = held;
   factors_[1][rows_.size()] = mean;

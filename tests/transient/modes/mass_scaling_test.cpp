@@ -86,6 +86,19 @@ TEST(MassScaling, KeepsFlexibilityAndEnergyAndMovesWithTheFrequencyAsked) {
               1e-3);
 }
 
+// A force that depends on the motion damps a mode by its frequency: none is moved.
+TEST(MassScaling, LeavesModesUnderForcesOfMotion) {
+  Scene scene = two_modes_on_a_stop(1.0);
+  EXPECT_TRUE(may_scale(scene, 5e3, 0.01));
+  core::MotionForces& law = scene.system.motion;
+  law.stiffness = Eigen::Matrix3d::Zero();
+  law.damping = 1e-3 * Eigen::Matrix3d::Identity();
+  law.input = Eigen::MatrixXd::Zero(3, 0);
+  law.output = Eigen::MatrixXd::Zero(0, 3);
+  ASSERT_FALSE(law.empty());
+  EXPECT_FALSE(may_scale(scene, 5e3, 0.01));
+}
+
 TEST(MassScaling, GivesTheImpactOfTheExactModes) {
   Scene scene = two_modes_on_a_stop(6e-3); // one impact
   scene.contacts[0].b(1, 1) = 3.0;         // w_c = 3162 rad/s with the stiff mode
