@@ -47,35 +47,6 @@ private:
   mutable std::weak_ptr<signals::ForceSamples> opened_;
 };
 
-/// Shapes of modes within the band that turn within a few patches.
-void note_coarse_patches(const TurbulentLoad& load, const std::vector<flow::TurbulentZone>& zones,
-                         const std::vector<const modal::Basis*>& bases, std::vector<std::string>& notes) {
-  std::vector<Eigen::Index> driven; // modes in the band
-  Eigen::Index first = 0;
-  for (const modal::Basis* basis : bases) {
-    for (Eigen::Index i = 0; i < basis->true_modes(); ++i)
-      if (basis->omega(i) <= 2.0 * std::numbers::pi * load.band.high)
-        driven.push_back(first + i);
-    first += basis->size();
-  }
-  for (const flow::TurbulentZone& zone : zones)
-    for (const flow::LoadAxis& axis : zone.axes) {
-      if (driven.empty())
-        return;
-      const double half = flow::shortest_half_wavelength(zone.s, axis.shapes(driven, Eigen::all)),
-                   width = zone.ds.maxCoeff();
-      if (width <= flow::required_patch_width(zone.correlation_length, half) * (1.0 + 1e-9))
-        continue;
-      const double turn = std::numbers::pi * width / half;
-      notes.push_back(
-          fmt::format("{}, zone \"{}\": patches of {:.3g} m are more than a tenth of the shortest "
-                      "half-wavelength of modes in the band, {:.3g} m; its force spectrum is up to {:.2g} % "
-                      "too large",
-                      load.name, zone.name, width, half, 100.0 * turn * turn / 12.0));
-      break;
-    }
-}
-
 /// Modes above the band move by contacts and other loads alone.
 void note_modes_above(const TurbulentLoad& load, const std::vector<const modal::Basis*>& bases,
                       std::vector<std::string>& notes) {
@@ -103,7 +74,6 @@ std::optional<signals::SampledLoad> sampled_load(const TurbulentLoad& load,
                                   "{:.3g}; take a longer correlation "
                                   "length, fewer modes, or a lower end of band",
                                   load.name, zones.front().modes(), 1e-9 * bytes, 1e-9 * most_bytes));
-  note_coarse_patches(load, zones, bases, notes);
   note_modes_above(load, bases, notes);
   signals::SampledLoad out;
   out.rms = flow::modal_mean_squares(zones, load.band).cwiseSqrt();

@@ -13,8 +13,9 @@
 namespace fretwork::app {
 namespace {
 
-constexpr double patches_per_correlation_length =
-    5.0;                                 ///< the widest that spectra are right with (flow/patches.hpp)
+/// The widest that spectra are right with (flow/patches.hpp), and the fewest of a zone: of one shorter than its correlation length L/(3 lambda n^2) is
+/// what n patches add to a modal force spectrum.
+constexpr double patches_per_correlation_length = 5.0, fewest_patches = 10.0;
 constexpr double most_patches = 20000.0; ///< of a zone: a correlation length that is shorter is a slip
 constexpr std::size_t digits_of_id = 6;  ///< hexadecimal: numbers of zones are below 2^24
 
@@ -106,7 +107,8 @@ std::vector<std::vector<int>> owners_of_zones(const study::Study& study) {
 
 flow::PatchGrid patches_of(const study::Turbulence& entry, const flow::Zone& zone, double length) {
   const double to = std::min(zone.to, length),
-               width = entry.correlation_length / patches_per_correlation_length;
+               width = std::min(entry.correlation_length / patches_per_correlation_length,
+                                (to - zone.from) / fewest_patches);
   if ((to - zone.from) / width > most_patches)
     throw core::Error(fmt::format("turbulence \"{}\": correlation_length = {:g} m is too short for zone "
                                   "\"{}\" of {:g} m: more than {:g} "
@@ -185,7 +187,9 @@ PatchedZone patched(const study::Turbulence& entry, const PlacedFlow& placed, st
   return out;
 }
 
-std::string percent(double share) { return fmt::format("{:.2g} %", 100.0 * share); }
+std::string percent(double share) {
+  return share < 0.1 ? fmt::format("{:.2g} %", 100.0 * share) : fmt::format("{:.0f} %", 100.0 * share);
+}
 
 std::string band_note(const TurbulentLoad& load) {
   Eigen::Index patches = 0;
@@ -285,7 +289,9 @@ std::vector<flow::TurbulentZone> zones_on(const TurbulentLoad& load,
         for (flow::LoadAxis& axis : zone.axes)
           axis.shapes = Eigen::MatrixXd::Zero(modes, zone.patches());
         for (Eigen::Index k = 0; k < zone.patches(); ++k) {
-          const Eigen::Matrix3Xd shapes = patched.tube.shapes(*basis, zone.s(k));
+          const double half = 0.5 * zone.ds(k);
+          const Eigen::Matrix3Xd shapes =
+              patched.tube.mean_shapes(*basis, zone.s(k) - half, zone.s(k) + half);
           for (std::size_t a = 0; a < zone.axes.size(); ++a)
             zone.axes[a].shapes.col(k).segment(first, basis->size()) =
                 shapes.transpose() * patched.axes[a].col(k);

@@ -7,8 +7,8 @@
 ///
 /// r_kl = exp(-|s_k - s_l|/lambda) is the correlation of a Markov sequence, r_kl = r_k+1 ... r_l: with the running sums
 ///     b_jk = r_k b_j,k-1 + a_jk      G = A B^T + B A^T - A A^T
-/// modes x patches operations for B in place of modes x patches^2. Midpoint rule: error of order ds^2, (ds/lambda)^2/6 of a power
-/// spectrum at most where shapes have ten patches a half-wavelength.
+/// modes x patches operations for B in place of modes x patches^2. Error of order ds^2, (ds/lambda)^2/6 of a power
+/// spectrum at most (patches.hpp).
 #pragma once
 #include "flow/patches.hpp"
 #include <Eigen/Core>

@@ -10,10 +10,8 @@ namespace fretwork::flow {
 namespace {
 
 constexpr double patches_per_correlation_length = 5.0; ///< a modal force spectrum is at most 0.7 % too large
-constexpr double patches_per_half_wavelength = 10.0;
-constexpr double same_width = 1e-9; ///< of widths
-constexpr double negligible_share =
-    1e-6; ///< of the largest velocity, and of the largest displacement of all shapes
+constexpr double same_width = 1e-9;                    ///< of widths
+constexpr double negligible_share = 1e-6;              ///< of the largest velocity
 constexpr std::uint32_t most_zones = std::uint32_t{1} << 24;
 constexpr std::size_t most_axes = 256;
 
@@ -121,41 +119,6 @@ void check(const std::vector<TurbulentZone>& zones) {
       throw core::Error(fmt::format("zone '{}' has {} modes, zone '{}' {}; give all the same modes",
                                     zone.name, zone.modes(), zones.front().name, zones.front().modes()));
   }
-}
-
-double required_patch_width(double correlation_length, double shortest_half_wavelength) {
-  return std::min(correlation_length / patches_per_correlation_length,
-                  shortest_half_wavelength / patches_per_half_wavelength);
-}
-
-double shortest_half_wavelength(const Eigen::VectorXd& positions, const Eigen::MatrixXd& shapes) {
-  const Eigen::Index n = positions.size();
-  double shortest = n > 1 ? positions[n - 1] - positions[0] : 0.0;
-  const double small = shapes.size() > 0 ? negligible_share * shapes.cwiseAbs().maxCoeff() : 0.0;
-  for (Eigen::Index mode = 0; mode < shapes.rows(); ++mode) {
-    std::optional<double> last_zero;
-    Eigen::Index last = -1; // position of the last displacement that is not zero
-    for (Eigen::Index k = 0; k < n; ++k) {
-      const double y = shapes(mode, k);
-      if (!(std::abs(y) > small))
-        continue;
-      const double before = last >= 0 ? shapes(mode, last) : 0.0;
-      std::optional<double> zero;
-      if (before * y < 0.0) // between two positions, or in the middle of a stretch at rest
-        zero = last + 1 == k ? positions[last] + (positions[k] - positions[last]) * before / (before - y)
-                             : 0.5 * (positions[last + 1] + positions[k - 1]);
-      else if (last < 0 && k > 0)
-        zero = positions[k - 1];
-      if (zero && last_zero)
-        shortest = std::min(shortest, *zero - *last_zero);
-      if (zero)
-        last_zero = zero;
-      last = k;
-    }
-    if (last_zero && last >= 0 && last + 1 < n)
-      shortest = std::min(shortest, positions[last + 1] - *last_zero);
-  }
-  return shortest;
 }
 
 PatchGrid cut_into_patches(double from, double to, double width) {

@@ -4,8 +4,9 @@
 ///
 /// Patch k has its midpoint at s_k and the width ds_k; its force is F_k = ds_k f(s_k), f the force per length. Within a zone
 ///     G(s, s', f) = sqrt(G(s,f) G(s',f)) exp(-|s - s'|/lambda)
-/// real; zones and axes (lift, drag) are independent of each other. The midpoint rule adds (ds/lambda)^2/6 to a modal force spectrum at
-/// most: 0.7 % for ds = lambda/5, the widest that is accepted. Shapes need ds <= a tenth of the shortest half-wavelength.
+/// real; zones and axes (lift, drag) are independent of each other. A patch moves by the mean of the shapes over it, so that a force with a
+/// long correlation length is exact. What is taken as fully correlated within a patch adds (ds/lambda)^2/6 to a modal force spectrum at
+/// most: 0.7 % for ds = lambda/5, the widest that is accepted; of a zone of n patches that is shorter than lambda L/(3 lambda n^2).
 ///
 /// Scaling of G by the velocity:
 /// - local: by V, rho, D and nu of each patch;
@@ -29,7 +30,7 @@ enum class Scaling { local, zone_mean };
 /// Mode shapes projected on a direction of the force.
 struct LoadAxis {
   Eigen::MatrixXd
-      shapes; ///< modes x patches: displacement along the axis at the midpoints, in any normalisation
+      shapes; ///< modes x patches: displacement along the axis, mean over the patch, in any normalisation
   double weight = 1.0; ///< of the spectrum, >= 0
 };
 
@@ -56,15 +57,6 @@ struct TurbulentZone {
 void check(const TurbulentZone& zone);
 /// Also that all have the same number of modes and different numbers.
 void check(const std::vector<TurbulentZone>& zones);
-
-/// Largest width of a patch, m: min(lambda/5, half-wavelength/10).
-[[nodiscard]] double required_patch_width(double correlation_length, double shortest_half_wavelength);
-
-/// Shortest distance between neighbouring zeros of the shapes, m; the length of the positions where a shape has fewer than two.
-/// Displacements below 1e-6 of the largest of all shapes count as zero: modes that move across the axis have round-off along it.
-/// @param positions  m, ascending   @param shapes  modes x positions
-[[nodiscard]] double shortest_half_wavelength(const Eigen::VectorXd& positions,
-                                              const Eigen::MatrixXd& shapes);
 
 struct PatchGrid {
   Eigen::VectorXd s, ds; ///< midpoints and widths, m

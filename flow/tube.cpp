@@ -164,4 +164,17 @@ Eigen::Matrix3Xd Tube::shapes(const modal::Basis& basis, double s) const {
          moved.rightCols<6>() * basis.shapes.middleRows<6>(b);
 }
 
+Eigen::Matrix3Xd Tube::mean_shapes(const modal::Basis& basis, double from, double to) const {
+  static const double gauss = 0.5 / std::sqrt(3.0); // two points: exact for cubics
+  Eigen::Matrix3Xd sum = Eigen::Matrix3Xd::Zero(3, basis.size());
+  auto element = std::upper_bound(elements_.begin(), elements_.end(), from,
+                                  [](double at, const Element& e) { return at < e.to; });
+  for (; element != elements_.end() && element->from < to; ++element) {
+    const double a = std::max(from, element->from), b = std::min(to, element->to), middle = 0.5 * (a + b);
+    for (const double way : {-gauss, gauss})
+      sum += 0.5 * (b - a) * shapes(basis, middle + way * (b - a));
+  }
+  return sum / (to - from);
+}
+
 } // namespace fretwork::flow

@@ -56,6 +56,8 @@ public:
   /// Translation shapes at s, 3 x basis.size(), global axes, in the units of the basis.
   /// @throws core::Error for s outside, or where the basis is that of another structure
   [[nodiscard]] Eigen::Matrix3Xd shapes(const modal::Basis& basis, double s) const;
+  /// Their mean over an interval of it, m, from < to: exact on straight uniform beams.
+  [[nodiscard]] Eigen::Matrix3Xd mean_shapes(const modal::Basis& basis, double from, double to) const;
 
 private:
   /// What an element is made of.

@@ -55,8 +55,8 @@ std::string run(double duration, const std::string& output, const std::string& k
 
 /// Of mode m under the white lift: f, Hz, and the variance of the middle, m^2 (W7 and W8 of closed forms).
 double frequency(int m) { return pi / 2.0 * m * m * std::sqrt(bending / mass); }
-double variance_of_middle(int m) {
-  const double a = 1.0 / correlation, n = m * pi, even = 1.0 - (m % 2 == 0 ? 1.0 : -1.0) * std::exp(-a);
+double variance_of_middle(int m, double lambda = correlation) {
+  const double a = 1.0 / lambda, n = m * pi, even = 1.0 - (m % 2 == 0 ? 1.0 : -1.0) * std::exp(-a);
   const double acceptance = a / (a * a + n * n) + 2.0 * n * n * even / std::pow(a * a + n * n, 2);
   const double modal_mass = 0.5 * mass, w = 2.0 * pi * frequency(m);
   return std::pow(std::sin(0.5 * n), 2) * level * acceptance /
@@ -253,6 +253,23 @@ TEST(LinearResponse, IsThatOfTheClosedForm) {
   std::getline(table, first);
   EXPECT_TRUE(header.starts_with("response,name,direction,rms [m]"));
   EXPECT_TRUE(first.starts_with("\"all contacts pinned\",\"middle0\",x,"));
+}
+
+// From forces that a tenth of the tube shares to one that all of it does: the shape of a mode counts, not that at a few places.
+TEST(LinearResponse, IsThatOfAnyCorrelationLength) {
+  const Workshop folder;
+  for (const double lambda : {0.1, 1.0, 2.0, 5.0, 100.0}) {
+    std::string study = tubes(folder, 1, in_one_plane,
+                              white("band = [0.1, 2000]\n") + modes(1) + "[output]\nnodes = [\"middle0\"]\n");
+    const std::string key = fmt::format("correlation_length = {}", correlation);
+    study.replace(study.find(key), key.size(), fmt::format("correlation_length = {}", lambda));
+    ASSERT_EQ(outcome_of(folder, study, "response").status, 0);
+    const json summary = json::parse(bytes_of(folder.path("out") / "summary.json"));
+    constexpr double of_patches = 4e-3; // half of (1/5)^2/6
+    EXPECT_TRUE(close_to(rms_of(summary["response"][0]["points"], "middle0", "y"),
+                         std::sqrt(variance_of_middle(1, lambda)), of_patches))
+        << lambda;
+  }
 }
 
 // Its modes move along the tube by round-off alone: no up-crossings and no maximum follow from that.

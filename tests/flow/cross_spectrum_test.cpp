@@ -198,9 +198,7 @@ TEST(Patches, WithoutFlowCarryNothing) {
             "zone 'span': the velocity is 0 all along; give its profile or leave the zone out");
 }
 
-TEST(Patches, AreAsNarrowAsRequired) {
-  EXPECT_DOUBLE_EQ(required_patch_width(0.1, 1.0), 0.02);
-  EXPECT_DOUBLE_EQ(required_patch_width(1.0, 1.0), 0.1);
+TEST(Patches, AreEqualAndAsNarrowAsRequired) {
   const PatchGrid grid = cut_into_patches(1.0, 2.0, 0.3);
   ASSERT_EQ(grid.s.size(), 4);
   EXPECT_DOUBLE_EQ(grid.s[0], 1.125);
@@ -209,21 +207,6 @@ TEST(Patches, AreAsNarrowAsRequired) {
   EXPECT_EQ(message_of([] { (void)cut_into_patches(1.0, 1.0, 0.1); }),
             "a zone from s = 1 m to 1 m cannot be cut into patches of 0.1 m; give an end beyond its start "
             "and a width > 0");
-}
-
-TEST(Patches, KnowTheShortestHalfWavelengthOfTheShapes) {
-  const Eigen::VectorXd s = Eigen::VectorXd::LinSpaced(401, 0.0, 2.0);
-  Eigen::MatrixXd shapes(2, s.size());
-  shapes.row(0) = (s.array() * (3.0 * pi / 2.0)).sin();
-  shapes.row(1) = (s.array() * (5.0 * pi / 2.0)).sin();
-  constexpr double of_interpolation = 1e-4;
-  EXPECT_NEAR(shortest_half_wavelength(s, shapes), 0.4, of_interpolation);
-  EXPECT_NEAR(shortest_half_wavelength(s, shapes.topRows(1)), 2.0 / 3.0, of_interpolation);
-  EXPECT_EQ(shortest_half_wavelength(s, Eigen::MatrixXd::Ones(1, s.size())), 2.0);
-  // round-off of a mode that moves across has no wavelength
-  for (Eigen::Index k = 0; k < s.size(); ++k)
-    shapes(1, k) = (k % 2 == 0 ? 1e-9 : -1e-9) * static_cast<double>(1 + k % 3);
-  EXPECT_NEAR(shortest_half_wavelength(s, shapes), 2.0 / 3.0, of_interpolation);
 }
 
 TEST(Patches, RefuseWrongInput) {

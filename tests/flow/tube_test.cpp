@@ -138,6 +138,25 @@ TEST(Tube, ShapesAreHermiteCubicsOnStraightBeams) {
   }
 }
 
+TEST(Tube, MeanShapesAreThoseOfTheCubics) {
+  ModelBuilder builder;
+  const auto nodes = builder.line({0, 0, 0}, {0, 0, 2.0}, 2, builder.property(tests::tube_property()));
+  HandMade hand{builder, nodes, {}};
+  hand.set_frequencies({1.0});
+  const auto at = [](double z) { return z * z * z - 2.0 * z; }; // one cubic over both beams
+  const auto integral = [](double z) { return std::pow(z, 4) / 4.0 - z * z; };
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const double z = static_cast<double>(k);
+    hand.set_shape(0, nodes[k], {at(z), 0, 0}, {0, 3.0 * z * z - 2.0, 0});
+  }
+  const Tube tube = hand.tube();
+  for (const auto& [from, to] :
+       {std::pair(0.0, 2.0), std::pair(0.3, 0.4), std::pair(0.7, 1.0), std::pair(0.9, 1.6)})
+    EXPECT_NEAR(tube.mean_shapes(hand.basis, from, to)(0, 0), (integral(to) - integral(from)) / (to - from),
+                round_off)
+        << from;
+}
+
 TEST(Tube, SaysWhichBeamsFormNoChain) {
   UTube u;
   const auto make = [&](std::vector<Index> beams, Index start) {
