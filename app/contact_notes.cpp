@@ -2,8 +2,10 @@
 #include "app/contact_notes.hpp"
 #include "app/contact_laws.hpp"
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <map>
 
 namespace fretwork::app {
 namespace {
@@ -129,6 +131,49 @@ std::vector<std::string> contact_notes(const study::Study& study, const std::vec
   overlaps.insert(overlaps.end(), laws.begin(), laws.end());
   std::erase(overlaps, std::string());
   return overlaps;
+}
+
+namespace {
+
+/// Gaps tell obstacles apart; m from the place at rest, along y_loc and z_loc.
+bool same_obstacle(const PlacedContact& a, const PlacedContact& b) {
+  constexpr double probe = 1e-3;
+  constexpr std::array<std::array<double, 2>, 5> probes{{{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+  return a.obstacle.index() == b.obstacle.index() &&
+         std::all_of(probes.begin(), probes.end(), [&](const std::array<double, 2>& at) {
+           const auto gap = [&](const PlacedContact& contact) {
+             return contact::locate(contact.obstacle, contact.rest.y() + probe * at[0],
+                                    contact.rest.z() + probe * at[1])
+                 .gap;
+           };
+           return gap(a) == gap(b);
+         });
+}
+
+bool same(const PlacedContact& a, const PlacedContact& b) {
+  return a.other == b.other && a.place == b.place && a.rest == b.rest &&
+         a.frame.rotation() == b.frame.rotation() && same_obstacle(a, b);
+}
+
+} // namespace
+
+std::string twice_placed(const std::vector<PlacedContact>& placed) {
+  std::multimap<core::Index, const PlacedContact*> by_node;
+  std::string first;
+  int pairs = 0;
+  for (const PlacedContact& contact : placed) {
+    const auto [begin, end] = by_node.equal_range(contact.node);
+    const auto found =
+        std::find_if(begin, end, [&](const auto& other) { return same(*other.second, contact); });
+    if (found != end && pairs++ == 0)
+      first = fmt::format("contacts \"{}\" and \"{}\"", found->second->name, contact.name);
+    by_node.emplace(contact.node, &contact);
+  }
+  if (pairs == 0)
+    return {};
+  return first + (pairs > 1 ? fmt::format(" and {} more pairs", pairs - 1) : "") +
+         " are at one node with the same axes and obstacle: they share its force, work rate and wear; leave "
+         "one out";
 }
 
 } // namespace fretwork::app

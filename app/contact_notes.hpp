@@ -13,4 +13,7 @@ namespace fretwork::app {
                                                      const std::vector<PlacedContact>& placed,
                                                      const std::vector<BuiltScene>& scenes);
 
+/// A warning where two contacts are one and the same: node, axes and obstacle. Empty where none are.
+[[nodiscard]] std::string twice_placed(const std::vector<PlacedContact>& placed);
+
 } // namespace fretwork::app

@@ -48,9 +48,12 @@ void judge(const study::Study& study, const transient::StepChoice& choice, const
                                              report.end_time, transient::name_of(choice.scheme),
                                              transient::name_of(report.failure)));
   if (report.residual_relative > residual_warning)
-    out.warnings.push_back(
-        fmt::format("the energy balance is off by {:.2g} % of the energy put in; take a smaller step",
-                    100.0 * report.residual_relative));
+    out.warnings.insert( // what makes all figures wrong comes first
+        out.warnings.begin(),
+        fmt::format(
+            "the energy balance is off by {:.2g} % of the energy put in: no figure of this run can be "
+            "trusted; take a smaller step",
+            100.0 * report.residual_relative));
   // loads that push to and fro put in far more than what the motion loses
   const transient::Energy& e = report.energy;
   const double excess = -e.residual(),

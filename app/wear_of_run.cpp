@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "core/names.hpp"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <functional>
@@ -295,6 +296,26 @@ void add_warnings(results::RunResults& out) {
       });
 }
 
+/// The contact without an entry of [[wear]] that works most, where none with one works as much.
+void warn_of_unworn(const std::vector<WornPlace>& places, results::RunResults& out) {
+  std::vector<bool> wears(out.contact_summaries.size(), false);
+  for (const WornPlace& place : places)
+    for (const std::size_t c : place.contacts)
+      wears[c] = true;
+  std::array<std::size_t, 2> most{}; // without an entry, with one
+  std::array<double, 2> rate{-1.0, -1.0};
+  for (std::size_t c = 0; c < wears.size(); ++c)
+    if (const double of = out.contact_summaries[c].work_rate; of > rate[wears[c]]) {
+      rate[wears[c]] = of;
+      most[wears[c]] = c;
+    }
+  if (rate[0] > rate[1])
+    out.warnings.push_back(
+        fmt::format("no [[wear]] names \"{}\", whose work rate of {:.3g} mW is above that of all supports "
+                    "that wear ({:.3g} mW at \"{}\"): their shortest life need not be that of the tube",
+                    out.contacts[most[0]].name, 1e3 * rate[0], 1e3 * rate[1], out.contacts[most[1]].name));
+}
+
 } // namespace
 
 void add_wear(const study::Study& study, const std::vector<WornPlace>& places,
@@ -321,6 +342,7 @@ void add_wear(const study::Study& study, const std::vector<WornPlace>& places,
   }
   out.wear->tubes = results::wear_by_tube(out.wear->supports);
   add_warnings(out);
+  warn_of_unworn(places, out);
 }
 
 } // namespace fretwork::app

@@ -101,6 +101,7 @@ void combine_sides(WearOfSupport& support) {
 
 std::vector<WearOfTube> wear_by_tube(const std::vector<WearOfSupport>& supports) {
   std::map<std::int64_t, WearOfTube> tubes;
+  std::map<std::int64_t, const WearOfSupport*> beyond; // the largest scar beyond its geometry
   for (const WearOfSupport& support : supports) {
     const auto [at, is_new] = tubes.try_emplace(support.tube);
     WearOfTube& tube = at->second;
@@ -115,9 +116,16 @@ std::vector<WearOfTube> wear_by_tube(const std::vector<WearOfSupport>& supports)
     if (!std::isnan(depth.value) && !(depth.value <= tube.depth.value))
       tube.deepest = support.name;
     take(tube.depth, depth, std::greater<>());
+    if (const double volume = support.volume.last().value; std::isnan(depth.value) && volume > 0.0)
+      if (const WearOfSupport*& of = beyond[support.tube]; !of || volume > of->volume.last().value)
+        of = &support;
     if (!std::isnan(support.life.years.value) && !(support.life.years.value >= tube.years.value))
       tube.first = support.name;
     take(tube.years, support.life.years, std::less<>());
+  }
+  for (const auto& [tube, support] : beyond) {
+    tubes.at(tube).depth = {};
+    tubes.at(tube).deepest = support->name;
   }
   std::vector<WearOfTube> out;
   for (auto& entry : tubes)

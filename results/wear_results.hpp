@@ -97,8 +97,8 @@ struct WearOfTube {
   std::int64_t supports = 0;
   wear::WorkRate work_rate{}; ///< W, sum over its supports
   Bounds volume; ///< m3, sum over supports at the years asked for; not a number where a law does not apply
-  Bounds depth;  ///< m, the largest
-  std::string deepest; ///< the support where it is
+  Bounds depth;  ///< m, the largest; not a number where a scar is beyond its geometry
+  std::string deepest; ///< the support where it is, or of the largest of these scars
   Bounds years;        ///< the shortest life
   std::string first;   ///< the support that ends it
 };

@@ -97,6 +97,15 @@ void add_sources(std::vector<std::string>& lines, const Wear& wear) {
   lines.insert(lines.end(), distinct.begin(), distinct.end());
 }
 
+/// Which support ends the life of a tube, and whose scar has no depth.
+std::string remark_of(const WearOfTube& tube) {
+  std::string out = tube.first.empty() ? "" : "first: " + shortened(tube.first, support_width);
+  if (std::isnan(tube.depth.value) && !tube.deepest.empty())
+    out += fmt::format("{}beyond its geometry: {}", out.empty() ? "" : "; ",
+                       shortened(tube.deepest, support_width));
+  return out;
+}
+
 /// Tubes of several supports, the shortest lives where there are many.
 void add_tubes(std::vector<Row>& rows, const Wear& wear) {
   std::vector<WearOfTube> tubes;
@@ -111,8 +120,7 @@ void add_tubes(std::vector<Row>& rows, const Wear& wear) {
   for (const WearOfTube& t : tubes)
     rows.push_back({wear.tubes.size() > 1 ? fmt::format("tube {}", t.tube) : "all supports",
                     figure_of_wear(t.work_rate.value), with_bounds({t.volume.value}, cubic_millimetre),
-                    with_bounds(t.depth, millimetre), "", with_bounds(t.years, 1.0),
-                    t.first.empty() ? "" : "first: " + shortened(t.first, support_width)});
+                    with_bounds(t.depth, millimetre), "", with_bounds(t.years, 1.0), remark_of(t)});
 }
 
 std::string end_text(const GapOpening& opening) {

@@ -201,6 +201,21 @@ TEST(Overlap, IsToldOfTheInitialState) {
   EXPECT_EQ(notes_with(damped, "presses with 600 N").size(), 1u);
 }
 
+// The same support twice, under another name, shares force and wear: half of each.
+TEST(Warnings, NameAContactThatIsThereTwice) {
+  const Workshop folder;
+  const std::string hole = "gap = 2.0e-4\nnormal_stiffness = 1.0e6\n", again = support(hole);
+  const auto with = [&](const std::string& second) {
+    return folder.run_text(tubes(folder, 1) + support(hole) + second).summary["warnings"].dump();
+  };
+  const auto named = [&](std::string text, const std::string& more) {
+    return text.replace(text.find("\"plate\""), 7, "\"again\"") + more;
+  };
+  EXPECT_TRUE(says(with(named(again, "")), "contacts \\\"plate\\\" and \\\"again\\\" are at one node"));
+  EXPECT_FALSE(says(with(named(again, "offset = [0.0, 1.0e-5]\n")), "are at one node"));
+  EXPECT_FALSE(says(with(named(support("gap = 3.0e-4\nnormal_stiffness = 1.0e6\n"), "")), "are at one node"));
+}
+
 TEST(Notes, AreOneLineAContactOfTheStudyOverlapsFirst) {
   const Workshop folder;
   const std::string plate = "gap = 0.0\noffset = [0.0, -2.0e-4]\nthickness = 0.03\nthickness_points = 3\n"

@@ -272,6 +272,23 @@ TEST(Wear, BeyondTheGeometryIsTold) {
   EXPECT_TRUE(says(run.summary["warnings"].dump(), "have no depth, the scar leaves what geometry"));
 }
 
+// A life that leaves out the support that works most is not that of the tube.
+TEST(Wear, WarnsOfAContactWithoutAnEntryThatWorksMost) {
+  const Workshop folder;
+  const auto warned = [&](const std::string& worn) {
+    const Results run = folder.run_text(worn_bundle(folder, 2, archard + "contacts = \"" + worn + "\"\n"),
+                                        {"--set", "contacts.support1.friction=0.1"});
+    const double other = run.statistics(worn == "support0" ? "support1" : "support0")["work_rate"],
+                 own = run.statistics(worn)["work_rate"];
+    const bool says_so = says(run.summary["warnings"].dump(), "no [[wear]] names \\\"support");
+    EXPECT_EQ(says_so, other > own) << worn;
+    return says_so;
+  };
+  EXPECT_NE(warned("support0"), warned("support1"));
+  EXPECT_FALSE(
+      says(folder.run_text(worn_bundle(folder, 2, archard)).summary["warnings"].dump(), "no [[wear]]"));
+}
+
 TEST(Wear, OfKwuEpriTakesForcesAndSpeedsOfTheRun) {
   const Workshop folder;
   const std::string law =

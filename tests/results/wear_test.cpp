@@ -96,6 +96,16 @@ TEST(WearByTube, HasNoEndThatOneOfItsSupportsDoesNotHave) {
   }
 }
 
+// The deepest scar may be the one that has no depth.
+TEST(WearByTube, NamesTheLargestScarBeyondItsGeometry) {
+  const auto tubes = wear_by_tube({with(0, "a", 1.0, 3.0, 9.0), with(0, "small", 4.0, no_value, 2.0),
+                                   with(0, "large", 5.0, no_value, 1.0), with(1, "b", 1.0, 2.0, 3.0)});
+  EXPECT_TRUE(std::isnan(tubes[0].depth.value));
+  EXPECT_EQ(tubes[0].deepest, "large");
+  EXPECT_EQ(tubes[0].first, "large");
+  EXPECT_EQ(tubes[1].depth.value, 2.0);
+}
+
 TEST(WearInTheSummary, HasEverySupportWithItsIntervals) {
   const auto summary = summary_of(worn(4));
   const auto& supports = summary["wear"]["supports"];

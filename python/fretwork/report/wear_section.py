@@ -59,8 +59,12 @@ def _supports(supports):
         return [html.escape(name), _bounds(s["work_rate"], 1e3), _bounds(s["volume"][-1], 1e9), _bounds(s["depth"][-1], 1e3),
                 _bounds(s["support_depth"][-1], 1e3), _scar(s), _life(s)]
 
+    def by_life(s):
+        years = s["life_years"][0]
+        return (math.isnan(years), years, -s["work_rate"][0])
+
     rows = []
-    for s in supports:
+    for s in sorted(supports, key=by_life):
         rows.append(scar(s["name"], s) + [short(1e3 * s["limit"], 3), _law(s), html.escape(s["geometry"])] + ([_states(s)] if several else []))
         rows += [scar(f"{s['name']}, side {side}", own) + [""] * (3 + several) for side, own in s["sides"].items()]
     return table(heads + (["operating states"] if several else []), rows, (0, 8, 9, 10))
