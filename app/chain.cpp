@@ -7,6 +7,7 @@
 #include "app/folder_lock.hpp"
 #include "app/force_sites.hpp"
 #include "app/gap_opening.hpp"
+#include "app/held_damping.hpp"
 #include "app/judge_fluidelastic.hpp"
 #include "app/law_motion.hpp"
 #include "app/linear_response.hpp"
@@ -260,6 +261,7 @@ private:
     warn_of_load_flexibility(comm_, inputs_.study, model_, modes.structures, out_.bases, placed_,
                              at_contacts_.fields);
     note_weight_stiffness(comm_, inputs_.study, model_, modes.structures, out_.bases, placed_, out_);
+    note_held_damping(inputs_.study, model_, out_.bases, placed_, out_);
     at_contacts_.flexibilities = contact_flexibilities(comm_, inputs_.study, model_, modes.structures,
                                                        out_.bases, at_contacts_.joined, placed_);
   }

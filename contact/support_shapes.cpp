@@ -11,7 +11,8 @@ namespace {
 
 constexpr const char* how_to_press = ". Bars that press on the tube are two contacts of one bar each: in "
                                      "both bars = tube_radius and a negative "
-                                     "offset along the normal of the bar, in the second also angle = 180";
+                                     "offset along the normal of the bar, in the second also the opposite "
+                                     "y_axis (or, without y_axis, angle = 180)";
 
 } // namespace
 
