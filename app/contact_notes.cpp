@@ -171,7 +171,7 @@ std::string twice_placed(const std::vector<PlacedContact>& placed) {
   }
   if (pairs == 0)
     return {};
-  return first + (pairs > 1 ? fmt::format(" and {} more pairs", pairs - 1) : "") +
+  return first + (pairs > 1 ? fmt::format(" (and {} more pair{})", pairs - 1, pairs > 2 ? "s" : "") : "") +
          " are at one node with the same axes and obstacle: they share its force, work rate and wear; leave "
          "one out";
 }

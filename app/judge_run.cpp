@@ -19,12 +19,12 @@ constexpr double excess_warning = 0.1, least_excess = 1e-3;
 /// Dampers of contacts that give back this share of the energy put in are no round-off.
 constexpr double given_by_dampers = 0.01;
 
-/// Of steps whose coupled contact forces missed their tolerance.
+/// Of steps in which forces of contacts that move each other kept on changing.
 std::string unconverged_warning(const transient::StepCounts& counts) {
-  return fmt::format(
-      "in {} of {} steps ({:.2g} %) the coupled contact forces missed their tolerance; take a smaller step",
-      counts.unconverged, counts.steps,
-      100.0 * static_cast<double>(counts.unconverged) / static_cast<double>(counts.steps));
+  return fmt::format("in {} of {} steps ({:.2g} %) the forces of contacts that move each other kept on "
+                     "changing; take a smaller step",
+                     counts.unconverged, counts.steps,
+                     100.0 * static_cast<double>(counts.unconverged) / static_cast<double>(counts.steps));
 }
 
 std::string cure_of_divergence(const study::Study& study, const transient::Report& report) {

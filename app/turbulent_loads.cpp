@@ -14,8 +14,8 @@ namespace fretwork::app {
 namespace {
 
 /// The widest that spectra are right with (flow/patches.hpp), and the fewest of a zone: of one shorter than its correlation length L/(3 lambda n^2) is
-/// what n patches add to a modal force spectrum.
-constexpr double patches_per_correlation_length = 5.0, fewest_patches = 10.0;
+/// what n patches add to a modal force spectrum. None is wider than the beams of the tube, which follow the modes, of a fine mesh than 1/500 of the zone.
+constexpr double patches_per_correlation_length = 5.0, fewest_patches = 10.0, fine_mesh = 500.0;
 constexpr double most_patches = 20000.0; ///< of a zone: a correlation length that is shorter is a slip
 constexpr std::size_t digits_of_id = 6;  ///< hexadecimal: numbers of zones are below 2^24
 
@@ -105,10 +105,13 @@ std::vector<std::vector<int>> owners_of_zones(const study::Study& study) {
   return owner;
 }
 
-flow::PatchGrid patches_of(const study::Turbulence& entry, const flow::Zone& zone, double length) {
+flow::PatchGrid patches_of(const study::Turbulence& entry, const flow::Zone& zone, const flow::Tube& tube,
+                           double length) {
   const double to = std::min(zone.to, length),
-               width = std::min(entry.correlation_length / patches_per_correlation_length,
-                                (to - zone.from) / fewest_patches);
+               beam = tube.length() / static_cast<double>(tube.elements().size()),
+               width = std::min({entry.correlation_length / patches_per_correlation_length,
+                                 (to - zone.from) / fewest_patches,
+                                 std::max(beam, (to - zone.from) / fine_mesh)});
   if ((to - zone.from) / width > most_patches)
     throw core::Error(fmt::format("turbulence \"{}\": correlation_length = {:g} m is too short for zone "
                                   "\"{}\" of {:g} m: more than {:g} "
@@ -149,7 +152,7 @@ PatchedZone patched(const study::Turbulence& entry, const PlacedFlow& placed, st
   const flow::Zone& zone = placed.profile.zones()[number];
   PatchedZone out{{}, tube, placed.start, {}, tube.name()};
   flow::TurbulentZone& z = out.zone;
-  const flow::PatchGrid grid = patches_of(entry, zone, placed.length);
+  const flow::PatchGrid grid = patches_of(entry, zone, tube, placed.length);
   z.name = zone.name;
   z.id = id_of(tube.name(), zone.name);
   z.s = grid.s;

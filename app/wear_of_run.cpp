@@ -3,10 +3,10 @@
 #include "core/error.hpp"
 #include "core/names.hpp"
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <functional>
+#include <map>
 
 namespace fretwork::app {
 namespace {
@@ -296,24 +296,40 @@ void add_warnings(results::RunResults& out) {
       });
 }
 
-/// The contact without an entry of [[wear]] that works most, where none with one works as much.
-void warn_of_unworn(const std::vector<WornPlace>& places, results::RunResults& out) {
-  std::vector<bool> wears(out.contact_summaries.size(), false);
+/// A support without an entry of [[wear]] that works more than all of its tube that have one: their shortest life need not be that of the tube.
+/// Nothing where entries combine operating states, of which this run is one.
+void warn_of_unworn(const study::Study& study, const std::vector<WornPlace>& places,
+                    const std::vector<PlacedContact>& placed, results::RunResults& out) {
+  if (std::any_of(study.wear.begin(), study.wear.end(), [](const study::Wear& entry) {
+        return entry.states.size() > 1 || entry.states.front().given || entry.states.front().results;
+      }))
+    return;
+  std::vector<bool> wears(placed.size(), false);
   for (const WornPlace& place : places)
     for (const std::size_t c : place.contacts)
       wears[c] = true;
-  std::array<std::size_t, 2> most{}; // without an entry, with one
-  std::array<double, 2> rate{-1.0, -1.0};
-  for (std::size_t c = 0; c < wears.size(); ++c)
-    if (const double of = out.contact_summaries[c].work_rate; of > rate[wears[c]]) {
-      rate[wears[c]] = of;
-      most[wears[c]] = c;
-    }
-  if (rate[0] > rate[1])
+  std::map<std::int64_t, double> worn; // W, the largest, by tubes
+  for (const results::WearOfSupport& support : out.wear->supports)
+    worn[support.tube] = std::max(worn[support.tube], support.work_rate.value);
+  std::map<std::string, double> left_out; // W, of supports: all points of a thickness
+  for (std::size_t c = 0; c < placed.size(); ++c)
+    if (!wears[c])
+      left_out[placed[c].support] += out.contact_summaries[c].work_rate;
+  const std::string* name = nullptr;
+  double rate = 0.0, of_tube = 0.0;
+  for (std::size_t c = 0; c < placed.size(); ++c)
+    for (const core::Index node : {placed[c].node, placed[c].other})
+      if (const auto tube = worn.find(tube_of(out.bases, node)); !wears[c] && tube != worn.end())
+        if (const double own = left_out.at(placed[c].support); own > std::max(tube->second, rate)) {
+          name = &placed[c].support;
+          rate = own;
+          of_tube = tube->second;
+        }
+  if (name)
     out.warnings.push_back(
-        fmt::format("no [[wear]] names \"{}\", whose work rate of {:.3g} mW is above that of all supports "
-                    "that wear ({:.3g} mW at \"{}\"): their shortest life need not be that of the tube",
-                    out.contacts[most[0]].name, 1e3 * rate[0], 1e3 * rate[1], out.contacts[most[1]].name));
+        fmt::format("no [[wear]] names \"{}\", whose work rate of {:.3g} mW is above that of all supports of "
+                    "its tube that wear ({:.3g} mW): the shortest life of these need not be that of the tube",
+                    *name, 1e3 * rate, 1e3 * of_tube));
 }
 
 } // namespace
@@ -342,7 +358,7 @@ void add_wear(const study::Study& study, const std::vector<WornPlace>& places,
   }
   out.wear->tubes = results::wear_by_tube(out.wear->supports);
   add_warnings(out);
-  warn_of_unworn(places, out);
+  warn_of_unworn(study, places, placed, out);
 }
 
 } // namespace fretwork::app

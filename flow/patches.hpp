@@ -4,8 +4,8 @@
 ///
 /// Patch k has its midpoint at s_k and the width ds_k; its force is F_k = ds_k f(s_k), f the force per length. Within a zone
 ///     G(s, s', f) = sqrt(G(s,f) G(s',f)) exp(-|s - s'|/lambda)
-/// real; zones and axes (lift, drag) are independent of each other. A patch moves by the mean of the shapes over it, so that a force with a
-/// long correlation length is exact. What is taken as fully correlated within a patch adds (ds/lambda)^2/6 to a modal force spectrum at
+/// real; zones and axes (lift, drag) are independent of each other. A patch moves by the mean of the shapes over it, along its axis at the
+/// midpoint; modes are to have a patch and a half a half-wavelength at least. What is taken as fully correlated within a patch adds (ds/lambda)^2/6 to a modal force spectrum at
 /// most: 0.7 % for ds = lambda/5, the widest that is accepted; of a zone of n patches that is shorter than lambda L/(3 lambda n^2).
 ///
 /// Scaling of G by the velocity:

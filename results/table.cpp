@@ -159,7 +159,7 @@ void add_transient(Lines& lines, const RunResults& results) {
     lines.add("DIVERGED",
               fmt::format("at {:.6g} s: the numbers below are of no use; take a smaller step", t.end_time));
   if (t.unconverged > 0)
-    lines.add("contacts", fmt::format("{} of {} steps missed the tolerance of the contact forces",
+    lines.add("contacts", fmt::format("{} of {} steps left contact forces that kept on changing",
                                       grouped(t.unconverged), grouped(t.steps)));
   if (!results.contact_summaries.empty()) {
     lines.plain("");

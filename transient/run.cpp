@@ -30,8 +30,7 @@ std::unique_ptr<Scheme> make_splitting_of(const Scene& scene, const StepChoice& 
   SplittingOptions finer = options;
   if (options.longest > 1) // where the scene allows macro-steps
     finer.longest *= 2;
-  if (scene.system.motion.empty()) // coupled modes are taken over as they are
-    finer.fastest *= 2.0;
+  finer.fastest *= 2.0;
   return make_replayed(
       make_replayable_splitting(scene, c.step, options),
       make_replayable_splitting(scene, 0.5 * c.step, finer),

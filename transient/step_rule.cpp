@@ -206,9 +206,9 @@ void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
     return;
   c.steps = count_steps(scene.duration, c);
   c.step = scene.duration / static_cast<double>(c.steps);
-  warn_of_normal_dampers(c, c.scheme == SchemeKind::energy_conserving
-                                ? "give a smaller damper where these matter"
-                                : "take scheme = \"energy_conserving\", or a smaller damper");
+  warn_of_normal_dampers(c, c.scheme == SchemeKind::collocation
+                                ? "take scheme = \"energy_conserving\", or a smaller damper"
+                                : "give a smaller damper where these matter");
   if (followed > 0.0)
     scale_modes(c, scene, followed / c.step);
   c.macro_steps = longest_macro_step(c, scene, fineness);

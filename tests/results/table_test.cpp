@@ -238,7 +238,7 @@ TEST(TerminalTable, SaysWhenARunDivergedOrDidNotConverge) {
   results.transients[0].report.counts.unconverged = 1234;
   const std::string text = terminal_table(results);
   EXPECT_THAT(text, HasSubstr("DIVERGED    at 0.5 s"));
-  EXPECT_THAT(text, HasSubstr("1 234 of 80 000 steps missed the tolerance"));
+  EXPECT_THAT(text, HasSubstr("1 234 of 80 000 steps left contact forces"));
 }
 
 TEST(TerminalTable, IsShortWithModesOnly) {

@@ -51,9 +51,9 @@ Eigen::VectorXd scaled_masses(const Scene& scene, double fastest) {
 }
 
 bool may_scale(const Scene& scene, double fastest, double accuracy) {
-  const Eigen::Array<bool, Eigen::Dynamic, 1> scaled = scaled_masses(scene, fastest).array() > 1.0;
   if (!scene.system.motion.empty())
     return false;
+  const Eigen::Array<bool, Eigen::Dynamic, 1> scaled = scaled_masses(scene, fastest).array() > 1.0;
   const Eigen::ArrayXd k = scene.system.stiffness.array(), flexibility = (k > 0.0).select(1.0 / k, 0.0);
   Eigen::ArrayXd at_start = Eigen::ArrayXd::Zero(k.size()), noise = at_start; // modal forces; (rms force)^2
   for (const vibration::Load& load : scene.loads) {

@@ -111,7 +111,7 @@ struct StepCounts {
   std::int64_t steps = 0;       ///< accepted
   std::int64_t rejected = 0;    ///< tried and made again with a smaller step
   std::int64_t evaluations = 0; ///< of the contact forces
-  std::int64_t unconverged = 0; ///< accepted though the coupled contact forces missed their tolerance
+  std::int64_t unconverged = 0; ///< in which forces of contacts that move each other kept on changing
   double step_min = 0.0, step_max = 0.0; ///< s, of the accepted ones
   void add(double length) {
     step_min = steps == 0 ? length : std::min(step_min, length);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// The error of a run by its step, measured while it goes on. From time to time a second scheme of half the step and interval, with heavier modes
-/// (modes/mass_scaling.hpp) at twice the frequency where no forces of motion couple modes, takes over the state of the running one and replays what follows, over a few periods of the
+/// (modes/mass_scaling.hpp) at twice the frequency, takes over the state of the running one and replays what follows, over a few periods of the
 /// contacts: too short for both to part by chaos. Let s be what a statistic of a contact sums over the replayed times and d by how much a
 /// replay's part of it differs. Then
 ///     error = 2 d/s +- 2 (sum of d^2)^1/2/s
@@ -17,7 +17,7 @@ namespace fretwork::transient {
 class Replayable : public Scheme {
 public:
   /// Goes on after the last step that `running` has made, which is of the same class and has a whole multiple of this one's step; its modes may have
-  /// other masses where no forces of motion couple them; energies then are not those of the record. No allocation.
+  /// other masses; energies then are not those of the record. No allocation.
   /// Returns the time from which on its records are to come, s.
   virtual double continue_from(const Replayable& running) = 0;
   /// From now on a contact moves in so many intervals a step, >= 1. No allocation.

@@ -320,6 +320,7 @@ private:
       imposed_[1].add_to(end_);
       if (!find_pushed_in())
         return sums;
+      ++counts_.evaluations;
       coupled_.make_again(start_, predicted_, near_, pushed_in_, s.trial, losses);
     }
   }

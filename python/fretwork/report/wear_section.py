@@ -61,7 +61,7 @@ def _supports(supports):
 
     def by_life(s):
         years = s["life_years"][0]
-        return (math.isnan(years), years, -s["work_rate"][0])
+        return (1, 0.0, -s["work_rate"][0]) if math.isnan(years) else (0, years, -s["work_rate"][0])
 
     rows = []
     for s in sorted(supports, key=by_life):
