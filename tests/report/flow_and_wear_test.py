@@ -167,9 +167,9 @@ class FlowAndWear(ReportCase):
         self.assertEqual(list(supports[0]["sides"]), ["-y"])
         self.assertEqual(supports[1]["sides"], {})
         rows = [re.findall(r"<td[^>]*>(.*?)</td>", row) for row in re.findall(r"<tr>(.*?)</tr>", wear_section._supports(supports))[1:]]
-        self.assertEqual([row[0] for row in rows], ["tsp1", "tsp1, side -y", "tsp2"])
-        self.assertEqual(rows[1][1:7], rows[2][1:7])
-        self.assertEqual(len(rows[1]), len(rows[2]))
+        self.assertEqual([row[0] for row in rows], ["tsp2", "tsp1", "tsp1, side -y"])  # by life
+        self.assertEqual(rows[0][1:7], rows[2][1:7])
+        self.assertEqual(len(rows[0]), len(rows[2]))
 
     def test_shows_wear(self):
         made_up(self.folder, 5, 200, wear=True)
@@ -179,8 +179,9 @@ class FlowAndWear(ReportCase):
         years, name = min(life for life in lives if life[0] == life[0])  # not the one outside the law
         self.assertIn(f"<b>{drawing.short(years, 3)}</b><span>years to the limit of wear, {name} (1 of 5 supports have no figure)</span>", text)
         wear = text[text.index("<h2>Wear</h2>"):text.index("<h2>Impacts</h2>")]
-        first = re.search(r"<tbody><tr>(.*?)</tr>", wear).group(1)
-        cells = re.findall(r"<td[^>]*>(.*?)</td>", first)
+        rows = [re.findall(r"<td[^>]*>(.*?)</td>", row) for row in re.findall(r"<tr>(.*?)</tr>", wear[wear.index("<tbody>"):wear.index("</tbody>")])]
+        self.assertEqual(rows[0][0], name)  # the shortest life first
+        cells = next(row for row in rows if row[0] == "tsp1")
         self.assertEqual(cells[:2], ["tsp1", "0.1 (0.085 – 0.115)"])  # mW
         self.assertEqual(cells[2], "2.52 (2.14 – 2.9)")  # 2e-14 m2/N x 1e-4 W x 40 years in mm3
         self.assertEqual(cells[6], "500 (435 – 588)")
