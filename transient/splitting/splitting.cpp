@@ -66,6 +66,7 @@ public:
         coupled_(make_coupled(scene, options)), steps_{Step(*this), Step(*this), Step(*this)} {
     const auto n = static_cast<std::size_t>(kernels::padded(static_cast<int>(scene.system.size())));
     if (mode_scales.size() > 0) {
+      assert(!modes_.has_blocks()); // none is scaled under forces of motion
       mode_scales_.assign(n, 1.0);
       std::copy_n(mode_scales.data(), mode_scales.size(), mode_scales_.begin());
     }
@@ -115,7 +116,6 @@ public:
       return;
     modes_.modes_in_middle(now.steps, now.from, now.load, end.load, now.pushed ? &now.force : nullptr, now.q,
                            output_q_.data());
-    scale(output_q_.data(), 1);
     record_.q = output_q_.data();
   }
 
@@ -143,7 +143,6 @@ public:
     first.start = from.start;
     first.from = from.from;
     if (mode_scales_ != other.mode_scales_) {
-      assert(!modes_.has_blocks());
       for (kernels::Array* modal : {&first.from.q, &first.from.v}) {
         other.scale(modal->data(), 1);
         scale(modal->data(), -1);
@@ -359,7 +358,7 @@ private:
     const double eighth = 0.125 * s.length; // of contacts: by the cubic through both ends
     for (std::size_t lane = 0; lane < s.u.size(); ++lane)
       s.u[lane] = 0.5 * (start_.u[lane] + end_.u[lane]) + eighth * (start_.w[lane] - end_.w[lane]);
-    for (std::size_t i = 0; i < mode_scales_.size() && !modes_.has_blocks(); ++i)
+    for (std::size_t i = 0; i < mode_scales_.size(); ++i)
       s.q[i] *= mode_scales_[i];
   }
 
