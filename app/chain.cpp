@@ -72,6 +72,7 @@ public:
     read();
     if (is_up_to_date() && last_ == Stage::transient)
       return tell_up_to_date();
+    keep_a_run();
     make_model();
     if (last_ == Stage::mesh)
       return tell_mesh();
@@ -161,6 +162,20 @@ private:
     int current = first_rank_ && !request_.force && up_to_date(inputs_, tell) ? 1 : 0;
     MPI_Bcast(&current, 1, MPI_INT, 0, comm_);
     return up_to_date_ = current != 0;
+  }
+
+  /// A stage before the transient does not take the place of a run of other inputs.
+  void keep_a_run() const {
+    if (up_to_date_ || request_.force || last_ == Stage::mesh || last_ == Stage::check ||
+        last_ == Stage::transient)
+      return;
+    core::agree(comm_, [&] {
+      if (first_rank_ && has_run(inputs_.directory))
+        throw core::Error(
+            fmt::format("{} holds the results of a run with other inputs; give another folder with -o, "
+                        "or --force to replace them",
+                        inputs_.directory.string()));
+    });
   }
 
   void tell_up_to_date() const {
@@ -350,8 +365,9 @@ private:
 
   void write_tables() {
     const fs::path& folder = inputs_.directory;
-    if (!up_to_date_) // of an earlier state of the study
-      for (const char* file : {"flow.csv", "spectra.csv"})
+    if (!up_to_date_) // of an earlier state of the study, or of another command
+      for (const char* file :
+           {"flow.csv", "spectra.csv", "stability.csv", "stability_diagram.csv", "response.csv"})
         remove_file(folder / file);
     if (!out_.stability.empty())
       results::write_stability_csv(folder, out_);
@@ -385,7 +401,7 @@ private:
     if (last_ == Stage::modes)
       say(results::modes_table(out_));
     if (last_ != Stage::transient)
-      say(results::flow_damping_table(out_) + results::stability_table(out_) + results::response_table(out_));
+      say(results::stability_table(out_) + results::response_table(out_) + results::flow_damping_table(out_));
     std::error_code absent;
     const auto bytes = static_cast<double>(fs::file_size(inputs_.directory / "results.h5", absent));
     const std::string size = absent ? "" : fmt::format(" ({} of series and modes)", size_text(bytes));

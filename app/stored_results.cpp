@@ -29,4 +29,9 @@ bool up_to_date(const Inputs& inputs, const std::function<void(const std::string
   return refusal.empty();
 }
 
+bool has_run(const fs::path& folder) {
+  const nlohmann::json summary = results::read_summary(folder / "summary.json").summary;
+  return summary.is_object() && summary.contains("transient") && fs::exists(folder / "results.h5");
+}
+
 } // namespace fretwork::app

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
+#include <numeric>
 
 namespace fretwork::results {
 namespace {
 
-constexpr std::size_t most_rows = 60, most_cases = 20, most_names = 8;
+constexpr std::size_t most_rows = 20, most_cases = 20, most_names = 8;
+constexpr std::size_t widest_name = 32; // of an assessment and its tube
 
 /// K of the zones that have one: `water 3, steam 2.4`.
 std::string constants_text(const flow::StabilityCase& one, const StabilityAssessment& assessment,
@@ -44,27 +46,83 @@ std::string cases_table(const StabilityAssessment& assessment) {
   return text;
 }
 
+/// The modes nearest to instability, by their numbers.
+std::vector<std::size_t> nearest_modes(const flow::StabilityCase& one) {
+  std::vector<std::size_t> modes(static_cast<std::size_t>(one.ratio.size()));
+  std::iota(modes.begin(), modes.end(), std::size_t{0});
+  std::stable_sort(modes.begin(), modes.end(), [&](std::size_t a, std::size_t b) {
+    return one.ratio(static_cast<Eigen::Index>(a)) > one.ratio(static_cast<Eigen::Index>(b));
+  });
+  modes.resize(std::min(most_rows, modes.size()));
+  std::sort(modes.begin(), modes.end());
+  return modes;
+}
+
+/// Ratios to critical as a row of %: of each term, and of their sum as the set of stability has it.
+std::string terms_text(const flow::DampingTerms& t) {
+  return fmt::format(" {:>8.4f} {:>9.4f} {:>8.4f} {:>8.4f} {:>8.4f}", 100.0 * t.viscous, 100.0 * t.two_phase,
+                     100.0 * t.squeeze_film, 100.0 * t.friction, 100.0 * t.gas);
+}
+
+const std::string heads_of_terms =
+    fmt::format(" {:>8} {:>9} {:>8} {:>8} {:>8}", "viscous", "two-phase", "squeeze", "friction", "gas");
+
 std::string case_modes(const StabilityAssessment& assessment, std::size_t number) {
   const flow::StabilityCase& one = assessment.stability.cases[number];
-  std::string text =
-      fmt::format("  modes of case {}\n  {:>5} {:>9} {:>10} {:>10} {:>10} {:>9} {:>9}\n", number + 1, "mode",
-                  "Hz", "damping %", "V_eff m/s", "V_c m/s", "V/Vc", "margin");
+  const bool by_flow = !assessment.damping_given;
   const auto modes = static_cast<std::size_t>(one.ratio.size());
-  for (std::size_t i = 0; i < std::min(most_rows, modes); ++i) {
+  const std::vector<std::size_t> shown = nearest_modes(one);
+  std::string text = fmt::format(
+      "  modes of case {}{}\n  {:>5} {:>9} {:>10} {:>10} {:>9} {:>10}{}\n", number + 1,
+      shown.size() < modes ? fmt::format(", the {} nearest to instability", most_rows) : std::string(),
+      "mode", "Hz", "V_eff m/s", "V_c m/s", "V/Vc", "damping %", by_flow ? heads_of_terms : std::string());
+  for (const std::size_t i : shown) {
     const auto k = static_cast<Eigen::Index>(i);
     const flow::ModeInFlow& mode = assessment.stability.modes[i];
     if (one.ratio(k) == 0.0) { // it moves along the tube, or where nothing flows
-      text += fmt::format("  {:>5} {:>9.4g} {:>10} {:>10} {:>10} {:>9} {:>9}  not in the flow\n", i + 1,
-                          mode.frequency, "-", "-", "-", "-", "-");
+      text += fmt::format("  {:>5} {:>9.4g} {:>10} {:>10} {:>9} {:>10}  not in the flow\n", i + 1,
+                          mode.frequency, "-", "-", "-", "-");
       continue;
     }
     text +=
-        fmt::format("  {:>5} {:>9.4g} {:>10.4f} {:>10.4g} {:>10.4g} {:>9.4f} {:>9.4f}{}\n", i + 1,
-                    mode.frequency, 100.0 * mode.damping, mode.effective_velocity, one.critical_velocity(k),
-                    one.ratio(k), 1.0 - one.ratio(k), one.ratio(k) >= 1.0 ? "  UNSTABLE" : "");
+        fmt::format("  {:>5} {:>9.4g} {:>10.4g} {:>10.4g} {:>9.4f} {:>10.4f}{}{}\n", i + 1, mode.frequency,
+                    mode.effective_velocity, one.critical_velocity(k), one.ratio(k), 100.0 * mode.damping,
+                    by_flow ? terms_text(assessment.damping.damping.modes[i].sum) : std::string(),
+                    one.ratio(k) >= 1.0 ? "  UNSTABLE" : "");
   }
-  if (modes > most_rows)
-    text += fmt::format("  ... {} more in stability.csv\n", modes - most_rows);
+  if (shown.size() < modes)
+    text += fmt::format("  ... {} more in stability.csv\n", modes - shown.size());
+  return text;
+}
+
+/// A row for the worst case of each assessment, the nearest to instability first; empty of a single one.
+std::string assessments_table(const std::vector<StabilityAssessment>& assessments) {
+  std::vector<std::pair<double, std::string>> rows;
+  for (const StabilityAssessment& one : assessments) {
+    if (one.stability.modes.empty())
+      continue;
+    const flow::StabilityCase& worst = one.stability.cases[worst_case(one.stability)];
+    if (worst.critical_mode < 0)
+      continue;
+    const flow::ModeInFlow& mode = one.stability.modes[static_cast<std::size_t>(worst.critical_mode)];
+    std::string name = one.name + ", " + one.damping.tube;
+    if (name.size() > widest_name)
+      name = name.substr(0, widest_name - 3) + "...";
+    rows.emplace_back(worst.critical_scale(),
+                      fmt::format("  {:<{}} {:>5} {:>9.4g} {:>10.4f} {:>9.4f} {:>9.4f}{}\n", name,
+                                  widest_name, worst.critical_mode + 1, mode.frequency, 100.0 * mode.damping,
+                                  1.0 - worst.margin(), worst.margin(),
+                                  worst.margin() <= 0.0 ? "  UNSTABLE" : ""));
+  }
+  if (rows.size() < 2)
+    return {};
+  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::string text =
+      fmt::format("Stability by Connors: the critical mode of each assessment and tube\n  {:<{}} {:>5} {:>9} "
+                  "{:>10} {:>9} {:>9}\n",
+                  "assessment, tube", widest_name, "mode", "Hz", "damping %", "V/Vc", "margin");
+  for (const auto& [scale, row] : rows)
+    text += row;
   return text;
 }
 
@@ -109,19 +167,18 @@ std::string quoted(std::string text) {
 std::string flow_damping_table(const RunResults& results) {
   std::string text;
   for (const TubeDamping& tube : results.flow_damping) {
+    text += fmt::format(
+        "Damping of tube \"{}\" by its flow, %: {} spans, the longest of {:.4g} m on average; modes of "
+        "the transient, with its contacts open\n",
+        tube.tube, tube.damping.layout.spans, tube.damping.layout.mean_span);
     text +=
-        fmt::format("Damping of tube \"{}\" by its flow, %: {} spans, the longest of {:.4g} m on average\n",
-                    tube.tube, tube.damping.layout.spans, tube.damping.layout.mean_span);
-    text += fmt::format("  {:>5} {:>9} {:>8} {:>9} {:>8} {:>8} {:>8} {:>9} {:>9}\n", "mode", "Hz", "viscous",
-                        "two-phase", "squeeze", "friction", "gas", "stability", "transient");
+        fmt::format("  {:>5} {:>9}{} {:>9} {:>9}\n", "mode", "Hz", heads_of_terms, "stability", "transient");
     const auto& modes = tube.damping.modes;
     for (std::size_t i = 0; i < std::min(most_rows, modes.size()); ++i) {
-      const flow::DampingTerms& t = modes[i].sum;
-      text += fmt::format(
-          "  {:>5} {:>9.4g} {:>8.4f} {:>9.4f} {:>8.4f} {:>8.4f} {:>8.4f} {:>9.4f} {:>9.4f}{}\n", i + 1,
-          tube.frequency(static_cast<Eigen::Index>(i)), 100.0 * t.viscous, 100.0 * t.two_phase,
-          100.0 * t.squeeze_film, 100.0 * t.friction, 100.0 * t.gas, 100.0 * modes[i].stability,
-          100.0 * modes[i].transient, modes[i].assessed ? "" : "  not across the tube");
+      text += fmt::format("  {:>5} {:>9.4g}{} {:>9.4f} {:>9.4f}{}\n", i + 1,
+                          tube.frequency(static_cast<Eigen::Index>(i)), terms_text(modes[i].sum),
+                          100.0 * modes[i].stability, 100.0 * modes[i].transient,
+                          modes[i].assessed ? "" : "  not across the tube");
     }
     if (modes.size() > most_rows)
       text += fmt::format("  ... {} more in summary.json\n", modes.size() - most_rows);
@@ -130,7 +187,7 @@ std::string flow_damping_table(const RunResults& results) {
 }
 
 std::string stability_table(const RunResults& results) {
-  std::string text;
+  std::string text = assessments_table(results.stability);
   for (const StabilityAssessment& assessment : results.stability) {
     text += fmt::format("Stability \"{}\" of tube \"{}\", {}{}{}\n", assessment.name, assessment.damping.tube,
                         pinned_text(assessment.pinned), assessment.elastic ? ", elastic" : "",
@@ -149,18 +206,23 @@ std::string stability_table(const RunResults& results) {
 void write_stability_csv(const std::filesystem::path& folder, const RunResults& results) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(
-      out, "assessment,tube,case,connors_constants,mode,frequency [Hz],damping [1],decrement [1],"
-           "effective_velocity [m/s],critical_velocity [m/s],ratio [1],margin [1],critical_scale [1]\n");
+  fmt::format_to(out,
+                 "assessment,tube,case,connors_constants,mode,frequency [Hz],damping [1],decrement [1],"
+                 "effective_velocity [m/s],critical_velocity [m/s],ratio [1],margin [1],critical_scale [1],"
+                 "viscous_damping [1],two_phase_damping [1],squeeze_film_damping [1],friction_damping [1],"
+                 "gas_damping [1]\n");
   for (const StabilityAssessment& assessment : results.stability)
     for (std::size_t c = 0; c < assessment.stability.cases.size(); ++c) {
       const flow::StabilityCase& one = assessment.stability.cases[c];
       for (Eigen::Index i = 0; i < one.ratio.size(); ++i) {
         const flow::ModeInFlow& mode = assessment.stability.modes[static_cast<std::size_t>(i)];
-        fmt::format_to(out, "{},{},{},{},{},{},{},{},{},{},{},{},{}\n", quoted(assessment.name),
-                       quoted(assessment.damping.tube), c + 1, quoted(constants_text(one, assessment, "; ")),
-                       i + 1, mode.frequency, mode.damping, mode.decrement, mode.effective_velocity,
-                       one.critical_velocity(i), one.ratio(i), 1.0 - one.ratio(i), 1.0 / one.ratio(i));
+        const flow::DampingTerms& t = assessment.damping.damping.modes[static_cast<std::size_t>(i)].sum;
+        fmt::format_to(out, "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+                       quoted(assessment.name), quoted(assessment.damping.tube), c + 1,
+                       quoted(constants_text(one, assessment, "; ")), i + 1, mode.frequency, mode.damping,
+                       mode.decrement, mode.effective_velocity, one.critical_velocity(i), one.ratio(i),
+                       1.0 - one.ratio(i), 1.0 / one.ratio(i), t.viscous, t.two_phase, t.squeeze_film,
+                       t.friction, t.gas);
       }
     }
   write_text(folder / "stability.csv", {text.data(), text.size()});

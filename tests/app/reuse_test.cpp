@@ -120,6 +120,29 @@ TEST(Reuse, ForceComputesTheSameBytesAgain) {
   EXPECT_EQ(lasting(read_results(folder.path("results")).summary), lasting(summary));
 }
 
+TEST(Reuse, ModesAloneDoNotReplaceARunOfOtherInputs) {
+  const Workshop folder;
+  (void)tube(folder, "results");
+  const std::string series = file(folder, "results", "results.h5"),
+                    summary = file(folder, "results", "summary.json");
+  const auto modes = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all{"modes", example("straight_tube").string(), "-o",
+                                 folder.path("results").string()};
+    all.insert(all.end(), more.begin(), more.end());
+    return folder.fretwork(all);
+  };
+  const Outcome same = modes({"--set", "transient.duration=0.2", "--set", "output.statistics_from=0"});
+  EXPECT_EQ(same.status, 0) << same.err;
+  EXPECT_EQ(file(folder, "results", "summary.json"), summary);
+  const Outcome other = modes({});
+  EXPECT_EQ(other.status, 1);
+  EXPECT_TRUE(says(other.err, "results of a run with other inputs; give another folder with -o, or --force"));
+  EXPECT_EQ(file(folder, "results", "results.h5"), series);
+  EXPECT_EQ(file(folder, "results", "summary.json"), summary);
+  EXPECT_EQ(modes({"--force"}).status, 0);
+  EXPECT_FALSE(read_results(folder.path("results")).summary.contains("transient"));
+}
+
 TEST(Reuse, SeesAChangeInAFileThatAGeometryIncludes) {
   const Workshop folder;
   (void)folder.write("length.geo", "L = 1.0;\n");

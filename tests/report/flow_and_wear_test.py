@@ -55,6 +55,8 @@ class FlowAndWear(ReportCase):
         self.assertIn("<b>−0.2</b><span>smallest stability margin by Connors, 1 − V/Vc</span>", text)
         for word in ("all &lt;bars&gt;", "the worst of 2: bend 2.4", "unstable by Connors: V/Vc = 1.2", "Bars: critical velocity", "apex</td>", ">15<", ">21<"):
             self.assertIn(word, text)
+        self.change(lambda summary: summary["stability"].insert(0, {**summary["stability"][0], "name": "safe", "cases": summary["stability"][0]["cases"][:1]}))
+        self.assertIn("<span>smallest stability margin by Connors, 1 − V/Vc, of all &lt;bars&gt;</span>", self.report())
 
     def test_shows_the_stability_diagram_of_a_law(self):
         made_up(self.folder, 2, 100)

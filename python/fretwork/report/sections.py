@@ -55,9 +55,12 @@ def _verdicts(run):
         where = f", {html.escape(name)}" if math.isfinite(years) else ""
         unknown = f" ({len(run.wear) - len(lives)} of {len(run.wear)} supports have no figure)" if len(lives) < len(run.wear) else ""
         out.append((f"years to the limit of wear{where}{unknown}", short(years, 3) if math.isfinite(years) else "never"))
-    margins = [case["margin"] for one in run.summary.get("stability", []) for case in one["cases"] if case["margin"] is not None]
+    assessments = run.summary.get("stability", [])
+    margins = [(case["margin"], one["name"]) for one in assessments for case in one["cases"] if case["margin"] is not None]
     if margins:
-        out.append(("smallest stability margin by Connors, 1 − V/Vc", short(min(margins), 3)))
+        margin, name = min(margins)
+        of_which = f", of {html.escape(name)}" if len(assessments) > 1 else ""
+        out.append((f"smallest stability margin by Connors, 1 − V/Vc{of_which}", short(margin, 3)))
     return out
 
 
