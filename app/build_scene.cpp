@@ -380,7 +380,7 @@ BuiltScene build_scene(const study::Study& study, const Fields& fields,
       out.node_numbers.push_back(k);
     }
   if (study.transient->start == study::Start::equilibrium)
-    start_in_equilibrium(bases, out);
+    start_in_equilibrium(bases, contacts, out);
   leave_out_still_modes(out);
   return out;
 }

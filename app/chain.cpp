@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/chain.hpp"
 #include "app/build_flow.hpp"
+#include "app/contact_notes.hpp"
 #include "app/describe.hpp"
 #include "app/flow_coverage.hpp"
 #include "app/fluidelastic.hpp"
@@ -211,11 +212,15 @@ private:
     const study::Study& study = inputs_.study;
     placed_ = place_contacts(study, mesh_, model_, out_.warnings);
     inactive_ = take_inactive(placed_);
+    warn(inside_obstacles(study, model_, placed_));
     if (scenes_wanted_)
       describe_motions(study, out_);
     flows_ = place_flows(study, mesh_, model_, out_.notes);
     warn(parts_without_fluid(study, model_, flows_));
+    for (std::string& note : supports_without_length({study, mesh_, model_, flows_}, placed_))
+      out_.notes.push_back(std::move(note));
     turbulence_ = turbulent_loads(study, model_, flows_, out_.notes);
+    warn(spectra_of_one_phase(study, turbulence_));
     nodes_ = observed_nodes(study, mesh_);
     out_.force_sites = force_sites(study, mesh_, model_);
     moved_ = moved_supports(study, mesh_, model_);

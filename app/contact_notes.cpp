@@ -157,6 +157,34 @@ bool same(const PlacedContact& a, const PlacedContact& b) {
 
 } // namespace
 
+std::vector<std::string> inside_obstacles(const study::Study& study, const fem::Model& model,
+                                          const std::vector<PlacedContact>& placed) {
+  std::vector<double> radius(model.nodes.size(), 0.0); // m, the largest at a node
+  for (const fem::Beam& beam : model.beams)
+    for (const core::Index node : {beam.a, beam.b})
+      if (const auto here =
+              fem::outer_radius(fem::property_at(model.properties[static_cast<std::size_t>(beam.property)],
+                                                 beam.along[node == beam.b])
+                                    .section)) {
+        double& most = radius[static_cast<std::size_t>(node)];
+        most = std::max(most, *here);
+      }
+  std::vector<std::string> out;
+  std::size_t said = study.contacts.size(); // entry of the last warning
+  for (const PlacedContact& contact : placed) {
+    const double most = radius[static_cast<std::size_t>(contact.node)];
+    const double overlap = -contact::locate(contact.obstacle, contact.rest.y(), contact.rest.z()).gap;
+    if (contact.entry == said || most == 0.0 || overlap <= most)
+      continue;
+    said = contact.entry;
+    out.push_back(
+        fmt::format("contact \"{}\": the tube, of radius {:g} m, rests {:.4g} m inside its obstacle; look at "
+                    "origin, offset, axes and sizes of the obstacle",
+                    contact.name, most, overlap));
+  }
+  return out;
+}
+
 std::string twice_placed(const std::vector<PlacedContact>& placed) {
   std::multimap<core::Index, const PlacedContact*> by_node;
   std::string first;

@@ -87,6 +87,28 @@ std::vector<flow::TubeSupport> supports_of(const TubesInFlow& tubes, const Place
                        : supports_by_contacts(tubes.study, tube, contacts);
 }
 
+std::vector<std::string> supports_without_length(const TubesInFlow& tubes,
+                                                 const std::vector<PlacedContact>& contacts) {
+  std::vector<std::string> out;
+  if (!tubes.study.modes.flow_damping && tubes.study.stabilities.empty())
+    return out;
+  for (const PlacedFlow& placed : tubes.flows) {
+    const study::Flow& flow = tubes.study.flows[placed.entry];
+    if (flow.supports)
+      continue;
+    const auto supports =
+        supports_by_contacts(tubes.study, tube_of(tubes.study, placed, tubes.model), contacts);
+    const auto without = std::count_if(supports.begin(), supports.end(),
+                                       [](const flow::TubeSupport& one) { return one.length == 0.0; });
+    if (without > 0)
+      out.push_back(
+          fmt::format("{}: {} of {} supports have no length, so that their squeeze film and friction damp "
+                      "nothing; give it supports, or contacts a thickness",
+                      name_of(flow), without, supports.size()));
+  }
+  return out;
+}
+
 std::size_t structure_of(const PlacedFlow& placed, const std::string& name,
                          const std::vector<modal::Basis>& bases) {
   const auto found = std::find_if(bases.begin(), bases.end(),

@@ -151,30 +151,44 @@ void respond(const study::Response& asked, const std::vector<TurbulentLoad>& loa
   }
 }
 
-void damp(const TubesInFlow& tubes, const study::Response& asked, PinnedModes& modes) {
-  if (asked.damping)
-    for (modal::Basis& basis : modes.bases)
-      modal::apply_damping(basis, *asked.damping);
-  else if (tubes.study.modes.flow_damping)
+/// Returns whether by the flow.
+bool damp(const TubesInFlow& tubes, const study::Response& asked, PinnedModes& modes) {
+  if (!asked.damping && tubes.study.modes.flow_damping) {
     static_cast<void>(
         damp_by_flow(tubes, DampingSet::stability, modes.pins.held, modes.pins.left_out, modes.bases));
-  else
-    for (modal::Basis& basis : modes.bases)
+    return true;
+  }
+  for (modal::Basis& basis : modes.bases)
+    if (asked.damping)
+      modal::apply_damping(basis, *asked.damping);
+    else
       modal::apply_damping(basis, tubes.study.modes.damping);
+  return false;
+}
+
+/// Keeps the lowest mode of all structures.
+void find_lowest(const modal::Basis& basis, results::LinearResponse& out) {
+  for (Eigen::Index mode = 0; mode < basis.true_modes(); ++mode)
+    if (const double hz = basis.omega(mode) / (2.0 * std::numbers::pi);
+        hz > 0.0 && (out.frequency == 0.0 || hz < out.frequency)) {
+      out.frequency = hz;
+      out.damping = basis.damping(mode);
+    }
 }
 
 results::LinearResponse response_of(const TubesInFlow& tubes, const study::Response& asked,
                                     const std::vector<TurbulentLoad>& loads,
                                     const std::vector<NamedNode>& nodes, PinnedModes& modes,
                                     std::vector<std::string>& notes) {
-  damp(tubes, asked, modes);
   results::LinearResponse out;
+  out.by_flow = damp(tubes, asked, modes);
   out.name = asked.name;
   out.pinned = names_of(tubes.study, modes.pins);
   out.duration = asked.duration;
   out.probability = asked.probability;
   for (const modal::Basis& basis : modes.bases) {
     out.modes += basis.true_modes();
+    find_lowest(basis, out);
     std::vector<Watched> watched;
     watch_nodes(basis, nodes, watched);
     watch_contacts(basis, modes.pins.left_out, watched);

@@ -46,9 +46,32 @@ std::string words_for(const Eigen::VectorXd& motion, const std::vector<const mod
   return turns || largest == 0.0 ? "turn about " + text(about) : "move along " + text(along);
 }
 
+/// Where a contact overlaps its obstacle before anything has moved, the deepest: `contact "card" overlaps ...; `.
+/// @param numbers  of the scene's contacts among `contacts`
+std::string deepest_overlap(const transient::Scene& at_start, const std::vector<std::size_t>& numbers,
+                            const std::vector<PlacedContact>& contacts) {
+  double least = 0.0;
+  std::size_t deepest = 0;
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const transient::ContactPoint& point = at_start.contacts[k];
+    if (const double gap = contact::locate(point.support.obstacle, point.rest.y(), point.rest.z()).gap;
+        gap < least) {
+      least = gap;
+      deepest = k;
+    }
+  }
+  return least < 0.0
+             ? fmt::format(
+                   "contact \"{}\" overlaps its obstacle most, by {:.4g} m: look at its origin, offset "
+                   "and stiffness; or ",
+                   contacts[numbers[deepest]].name, -least)
+             : std::string();
+}
+
 } // namespace
 
-void start_in_equilibrium(const std::vector<const modal::Basis*>& bases, BuiltScene& built) {
+void start_in_equilibrium(const std::vector<const modal::Basis*>& bases,
+                          const std::vector<PlacedContact>& contacts, BuiltScene& built) {
   transient::Scene& scene = built.scene;
   transient::Scene at_start = scene;
   for (transient::ContactPoint& point : at_start.contacts)
@@ -68,9 +91,9 @@ void start_in_equilibrium(const std::vector<const modal::Basis*>& bases, BuiltSc
   case transient::Balance::not_converged:
     throw core::ComputationError(
         fmt::format("transient.start = \"static\": no equilibrium found in {} iterations, its residual is "
-                    "{:.2g} of the forces; "
+                    "{:.2g} of the forces; {}"
                     "take start = \"rest\" with damping until the structure has settled",
-                    e.iterations, e.residual));
+                    e.iterations, e.residual, deepest_overlap(at_start, built.contacts, contacts)));
   }
   scene.q0 = e.q;
   const auto closed = (e.normal_force.array() > 0.0).count();

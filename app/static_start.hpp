@@ -9,6 +9,7 @@ namespace fretwork::app {
 /// Sets the initial displacements of a scene and notes what presses; initial velocities stay.
 /// @param bases  of its structures, in their order
 /// @throws core::Error naming the motion that nothing holds; core::ComputationError where no equilibrium was found
-void start_in_equilibrium(const std::vector<const modal::Basis*>& bases, BuiltScene& built);
+void start_in_equilibrium(const std::vector<const modal::Basis*>& bases,
+                          const std::vector<PlacedContact>& contacts, BuiltScene& built);
 
 } // namespace fretwork::app

@@ -147,6 +147,17 @@ std::string axial_flow_text(const study::Turbulence& entry, const flow::Zone& zo
       entry.name, zone.name, tube, speed);
 }
 
+/// Whether the fluid of a zone goes across the tube somewhere.
+bool crosses(const PlacedFlow& placed, std::size_t number, const flow::Tube& tube) {
+  constexpr int points = 32;
+  const flow::Zone& zone = placed.profile.zones()[number];
+  const double length = std::min(zone.to, placed.length) - zone.from;
+  for (int k = 0; k < points; ++k)
+    if (placed.profile.at(tube.at(zone.from + length * (k + 0.5) / points)).velocity > 0.0)
+      return true;
+  return false;
+}
+
 PatchedZone patched(const study::Turbulence& entry, const PlacedFlow& placed, std::size_t number,
                     const flow::Tube& tube) {
   const flow::Zone& zone = placed.profile.zones()[number];
@@ -247,9 +258,11 @@ std::vector<TurbulentLoad> turbulent_loads(const study::Study& study, const fem:
       const int e = owner[placed.entry][z];
       if (e < 0) {
         if (const flow::Zone& left = study.flows[placed.entry].zones[z]; has_velocity(left))
-          notes.push_back(fmt::format("{}, zone \"{}\": it has a velocity and no [[turbulence]] names it: no "
-                                      "random forces act there",
-                                      name_of(study.flows[placed.entry]), left.name));
+          notes.push_back(fmt::format("{}, zone \"{}\": {}: no random forces act there",
+                                      name_of(study.flows[placed.entry]), left.name,
+                                      crosses(placed, z, tube)
+                                          ? "it has a velocity and no [[turbulence]] names it"
+                                          : "its velocity is along the tube"));
         continue;
       }
       const auto entry = static_cast<std::size_t>(e);
@@ -271,6 +284,24 @@ std::vector<TurbulentLoad> turbulent_loads(const study::Study& study, const fem:
     out.push_back(load_of(study.turbulence[e], std::move(zones[e])));
     notes.push_back(band_note(out.back()));
   }
+  return out;
+}
+
+std::vector<std::string> spectra_of_one_phase(const study::Study& study,
+                                              const std::vector<TurbulentLoad>& loads) {
+  constexpr double bubbles = 0.1; // mean void fraction up to which a liquid with some gas counts as one phase
+  std::vector<std::string> out;
+  for (std::size_t e = 0; e < loads.size(); ++e)
+    for (const PatchedZone& patched : loads[e].zones) {
+      const flow::TurbulentZone& zone = patched.zone;
+      const std::string_view spectrum = flow::name_of(zone.spectrum);
+      if (const double mean = zone.void_fraction.mean();
+          mean > bubbles && spectrum != "cor_4" && spectrum != "two_phase" && spectrum != "table")
+        out.push_back(
+            fmt::format("turbulence \"{}\": spectrum {} is of flow of one phase, and zone \"{}\" has a void "
+                        "fraction of {:.2g}: forces may be many times too small; take two_phase or cor_4",
+                        study.turbulence[e].name, spectrum, zone.name, mean));
+    }
   return out;
 }
 

@@ -37,6 +37,10 @@ struct TurbulentLoad {
                                                          const std::vector<PlacedFlow>& flows,
                                                          std::vector<std::string>& notes);
 
+/// Warnings of spectra of one phase in zones of two, by entries.
+[[nodiscard]] std::vector<std::string> spectra_of_one_phase(const study::Study& study,
+                                                            const std::vector<TurbulentLoad>& loads);
+
 /// How many true modes of a basis lie above the band of a load, on which it does not act.
 [[nodiscard]] Eigen::Index modes_above(const flow::LoadBand& band, const modal::Basis& basis);
 

@@ -216,8 +216,9 @@ std::string long_step(const study::Study& study, const fem::Model& model) {
              : std::string();
 }
 
+/// The questions first: a message of what follows from them may be long.
 std::string with_questions(const char* message, const std::vector<std::string>& questions) {
-  return fmt::format("{}; {}", message, fmt::join(questions, "; "));
+  return fmt::format("{}; {}", fmt::join(questions, "; "), message);
 }
 
 /// `values` with a question; nothing without values. Equal ones of several contacts are one.
@@ -232,7 +233,8 @@ std::vector<std::string> unit_slips(const study::Study& study, const mesh::LineM
                                     const fem::Model& model) {
   std::vector<std::string> out;
   ask(too_long(study, mesh),
-      fmt::format("are these mm? Lengths are metres; the model weighs {:.3g} kg", fem::total_mass(model))
+      fmt::format("are these mm? Lengths are metres; the structure without fluid weighs {:.3g} kg",
+                  fem::total_mass(model))
           .c_str(),
       out);
   ask(odd_materials(study), "units are SI: Pa and kg/m3", out);

@@ -202,8 +202,14 @@ Json response(const LinearResponse& r) {
                       {"maximum_m", p.maximum ? number(*p.maximum) : Json(nullptr)},
                       {"share_outside", number(p.share_outside)},
                       {"share_above", number(p.share_above)}});
-  return {{"name", r.name},           {"pinned", r.pinned},           {"modes", r.modes},
-          {"duration_s", r.duration}, {"probability", r.probability}, {"points", points}};
+  return {{"name", r.name},
+          {"pinned", r.pinned},
+          {"modes", r.modes},
+          {"lowest_mode", {{"frequency_hz", number(r.frequency)}, {"damping", number(r.damping)}}},
+          {"damping_set", r.by_flow ? Json("stability") : Json(nullptr)},
+          {"duration_s", r.duration},
+          {"probability", r.probability},
+          {"points", points}};
 }
 
 } // namespace

@@ -24,6 +24,9 @@ struct LinearResponse {
   std::string name;
   std::vector<std::string> pinned; ///< names of the contacts at which the modes are held
   Eigen::Index modes = 0;
+  double frequency = 0.0, damping = 0.0; ///< of the lowest mode: Hz, ratio to critical
+  bool by_flow =
+      false; ///< damping is that of tubes which their supports hold (flow/damping.hpp, set of stability)
   double duration = 0.0, probability = 0.0; ///< s; of the expected maxima
   std::vector<ResponsePoint> points;
 };

@@ -22,6 +22,12 @@ std::string response_table(const RunResults& results) {
                         "probability {:g}\n",
                         response.name, response.modes, pinned_text(response.pinned), response.duration,
                         response.probability);
+    text += fmt::format("  lowest mode {:.4g} Hz with {:.3g} % of critical damping{}\n", response.frequency,
+                        100.0 * response.damping,
+                        response.by_flow
+                            ? ", by the flow and the supports (set of stability); in a transient closed "
+                              "contacts take the part of the supports"
+                            : "");
     text += fmt::format("  {:<24} {:>6} {:>10} {:>12} {:>12} {:>10}\n", "node or contact", "along", "rms um",
                         "rms mm/s", "crossings/s", "max um");
     for (std::size_t k = 0; k < std::min(most_points, response.points.size()); ++k) {

@@ -216,6 +216,18 @@ TEST(Warnings, NameAContactThatIsThereTwice) {
   EXPECT_FALSE(says(with(named(support("gap = 3.0e-4\nnormal_stiffness = 1.0e6\n"), "")), "are at one node"));
 }
 
+// An origin in mm, or of another support.
+TEST(Warnings, NameATubeThatRestsInsideItsObstacle) {
+  const Workshop folder;
+  const std::string hole = "gap = 2.0e-4\nnormal_stiffness = 1.0e6\n";
+  const auto with = [&](const std::string& keys) {
+    return folder.run_text(tubes(folder, 1) + support(hole + keys)).summary["warnings"].dump();
+  };
+  const std::string warning = "rests 0.0198 m inside its obstacle; look at origin";
+  EXPECT_TRUE(says(with("offset = [0.0, 0.02]\n"), warning));
+  EXPECT_FALSE(says(with("offset = [0.0, 0.005]\n"), "inside its obstacle"));
+}
+
 TEST(Notes, AreOneLineAContactOfTheStudyOverlapsFirst) {
   const Workshop folder;
   const std::string plate = "gap = 0.0\noffset = [0.0, -2.0e-4]\nthickness = 0.03\nthickness_points = 3\n"

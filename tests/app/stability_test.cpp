@@ -146,6 +146,17 @@ TEST(Stability, ListsTheAssessmentsByWhatIsNearestToInstability) {
   EXPECT_TRUE(says(bytes_of(folder.path("out") / "stability.csv"), fmt::format(",{},0,0,0,0\n", viscous)));
 }
 
+TEST(Stability, NotesSupportsWithoutLength) {
+  const Workshop folder;
+  const auto notes = [&](const std::string& keys) {
+    return summary_of(folder, tube(across, modes(4) + flow() + "[[stability]]\n" +
+                                               contact("third", "obstacle = \"circle\"\n" + keys)))["notes"]
+        .dump();
+  };
+  EXPECT_TRUE(says(notes(""), "flow \\\"T1\\\": 1 of 1 supports have no length"));
+  EXPECT_FALSE(says(notes("thickness = 0.02\n"), "have no length"));
+}
+
 TEST(Stability, ShowsTheModesNearestToInstability) {
   const Workshop folder;
   const Outcome outcome =

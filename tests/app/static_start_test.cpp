@@ -146,6 +146,17 @@ nodes = ["block"]
   }
 }
 
+// A tube in mm hardly resists its weight: no equilibrium of it is found.
+TEST(StaticStart, NamesTheDeepestOverlapWhereItFindsNoEquilibrium) {
+  const Workshop folder;
+  const Outcome outcome =
+      folder.fretwork({"check", example("straight_tube").string(), "--set", "mesh.scale=1000", "--set",
+                       "transient.start=static", "--set", "gravity.acceleration=[0,0,-9.81]", "--set",
+                       "contacts.support.offset=[0.002, 0]"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_TRUE(says(outcome.err, "contact \"support[0]\" overlaps its obstacle most, by 0.0"));
+}
+
 TEST(StaticStart, NamesTheMotionThatNothingHolds) {
   const Workshop folder;
   folder.write("points.msh", lone_points({"block", "wall"}).text());

@@ -139,6 +139,43 @@ TEST(Turbulence, TellsZonesWithVelocityThatItLeavesOut) {
   EXPECT_EQ(notes.find("flow \\\"tube0\\\", zone"), std::string::npos);
 }
 
+TEST(Turbulence, IsNotAskedForWhereTheFlowIsAlongTheTube) {
+  const Workshop folder;
+  std::string study =
+      tubes(folder, 2, across, white("band = [1, 300]\nflow = \"tube0\"\n") + modes(3) + run(0.01, "", ""));
+  study.replace(study.rfind("[0, 0, 1]"), 9, "[1, 0, 0]");
+  const Outcome outcome = outcome_of(folder, study, "modes");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string notes = json::parse(bytes_of(folder.path("out") / "summary.json"))["notes"].dump();
+  EXPECT_TRUE(says(notes, "its velocity is along the tube: no random forces act there"));
+  EXPECT_FALSE(says(notes, "no [[turbulence]] names it"));
+}
+
+TEST(Turbulence, OfOnePhaseInTwoIsWarnedOf) {
+  const Workshop folder;
+  const auto warnings_with = [&](const char* spectrum, double void_fraction) {
+    std::string study = tubes(folder, 1, across,
+                              fmt::format("[[turbulence]]\nname = \"t\"\nspectrum = \"{}\"\n"
+                                          "correlation_length = {}\n",
+                                          spectrum, correlation) +
+                                  modes(3) + run(0.01, "", ""));
+    const std::string water = "density = 740\nviscosity = 1.23e-7\n";
+    study.replace(
+        study.find(water), water.size(),
+        fmt::format("phase = \"two_phase\"\nvoid_fraction = {}\nliquid = {{ density = 740, viscosity = "
+                    "1.23e-7 }}\ngas = {{ density = 40, viscosity = 5e-7 }}\n",
+                    void_fraction));
+    const Outcome outcome = outcome_of(folder, study, "modes", {"--force"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return json::parse(bytes_of(folder.path("out") / "summary.json"))["warnings"].dump();
+  };
+  EXPECT_TRUE(says(warnings_with("axisa", 0.6),
+                   "spectrum axisa is of flow of one phase, and zone \\\"water\\\" "
+                   "has a void fraction of 0.6"));
+  EXPECT_FALSE(says(warnings_with("axisa", 0.05), "of one phase"));
+  EXPECT_FALSE(says(warnings_with("two_phase", 0.6), "of one phase"));
+}
+
 TEST(Turbulence, GivesModesToTheEndOfItsBandByDefault) {
   const Workshop folder;
   const Results results = folder.run_text(tubes(folder, 1, across, white() + run(0.1, "", "step = 5e-4\n")));
@@ -300,6 +337,10 @@ TEST(LinearResponse, PinsContactsAndLeavesOthersFree) {
   ASSERT_EQ(responses.size(), 2u);
   EXPECT_EQ(responses[0]["pinned"], json({"support"}));
   EXPECT_TRUE(responses[1]["pinned"].empty());
+  EXPECT_TRUE(close_to(responses[1]["lowest_mode"]["frequency_hz"], frequency(1), 1e-3));
+  EXPECT_EQ(responses[0]["lowest_mode"]["damping"], 0.05);
+  EXPECT_TRUE(close_to(responses[1]["lowest_mode"]["damping"], ratio, 1e-12));
+  EXPECT_TRUE(says(outcome.out, "with 5 % of critical damping\n"));
   const double held = rms_of(responses[0]["points"], "tube0[10]", "y"),
                free = rms_of(responses[1]["points"], "tube0[10]", "y");
   EXPECT_LT(held, 1e-3 * free);
