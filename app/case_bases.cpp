@@ -3,6 +3,7 @@
 #include "app/flow_damping.hpp"
 #include "app/fluidelastic.hpp"
 #include "app/modes_limit.hpp"
+#include "app/stability.hpp"
 #include "app/static_modes.hpp"
 #include "core/temporary_directory.hpp"
 #include "results/whole_file.hpp"
@@ -76,6 +77,17 @@ std::string key_of_contacts(const study::Study& study, const std::vector<PlacedC
   for (const PlacedContact& contact : inactive) {
     append(key, contact.node);
     append(key, contact.other);
+  }
+  return key;
+}
+
+/// All that modes with pins at contacts depend on. @param all  inactive ones included
+std::string key_of_pins(const study::Study& study, const std::vector<PlacedContact>& all) {
+  std::string key = key_of_contacts(study, all, {});
+  for (const PlacedContact& contact : all) {
+    append(key, contact.active);
+    append(key, contact.normal_stiffness);
+    append(key, study.contacts[contact.entry].tangential_stiffness);
   }
   return key;
 }
@@ -159,6 +171,17 @@ std::shared_ptr<const CaseContacts> CaseBases::contacts(study::Study& study,
       key, [&] { return compute_modes(MPI_COMM_SELF, study.modes, structure.model, structure.structures); });
   return contacts_.get(key + key_of_contacts(study, placed, inactive),
                        [&] { return make_contacts(study, structure, *modes, placed, inactive); });
+}
+
+std::shared_ptr<const std::vector<results::StabilityAssessment>>
+CaseBases::stability(const study::Study& study, const std::vector<std::string>& overrides,
+                     const CaseStructure& structure, const std::vector<PlacedContact>& all) {
+  std::string key = key_of_structure(overrides) + key_of_pins(study, all);
+  for (const std::string& text : overrides)
+    if (address_of(text).front() == "stability")
+      key += text + "\n";
+  const TubesInFlow tubes{study, structure.mesh, structure.model, structure.flows};
+  return stabilities_.get(key, [&] { return connors_stability(MPI_COMM_SELF, tubes, all); });
 }
 
 } // namespace fretwork::app

@@ -6,6 +6,7 @@
 /// What depends on what:
 ///     structure   every key but those of contacts, of the transient and its output, of wear, the time functions of loads, seeds of turbulence
 ///     modes       the structure; with modes.accuracy their limit, which follows from the contacts
+///     stability   the structure; of each contact what a pin takes of it, whether it is active, its stiffnesses; [[stability]] itself
 ///     contacts    the modes; of each contact its node, its axes, the directions in which it acts, whether it has friction, its thickness
 /// Gaps, offsets, stiffnesses, dampers and coefficients of friction enter a case after that.
 #pragma once
@@ -67,11 +68,19 @@ public:
   contacts(study::Study& study, const std::vector<std::string>& overrides, const CaseStructure& structure,
            const std::vector<PlacedContact>& placed, const std::vector<PlacedContact>& inactive);
 
+  /// The [[stability]] entries, by Connors.
+  /// @throws core::Error where one cannot be assessed
+  /// @param all  contacts, inactive ones included
+  [[nodiscard]] std::shared_ptr<const std::vector<results::StabilityAssessment>>
+  stability(const study::Study& study, const std::vector<std::string>& overrides,
+            const CaseStructure& structure, const std::vector<PlacedContact>& all);
+
 private:
   const Inputs& nominal_;
   Recent<CaseStructure> structures_;
   Recent<std::vector<modal::Basis>> modes_;
   Recent<CaseContacts> contacts_;
+  Recent<std::vector<results::StabilityAssessment>> stabilities_;
 };
 
 } // namespace fretwork::app

@@ -146,6 +146,27 @@ void fill_forces(const results::RunResults& run, Filling& row) {
     }
 }
 
+/// The name of the tube where there are several.
+std::string velocity_ratio_of(const results::StabilityAssessment& assessment,
+                              const std::vector<results::StabilityAssessment>& all) {
+  const bool several = std::any_of(all.begin(), all.end(), [&](const results::StabilityAssessment& other) {
+    return other.damping.tube != assessment.damping.tube;
+  });
+  return fmt::format("stability.{}{}.velocity_ratio", assessment.name,
+                     several ? "." + assessment.damping.tube : std::string());
+}
+
+void fill_stability(const std::vector<results::StabilityAssessment>& all, Filling& row) {
+  for (const results::StabilityAssessment& one : all) {
+    double largest = 0.0; // without modes that the flow moves
+    for (const flow::StabilityCase& of : one.stability.cases)
+      if (of.critical_mode >= 0)
+        largest = std::max(largest, 1.0 - of.margin());
+    row.set(velocity_ratio_of(one, all), largest);
+    row.worsen("worst.velocity_ratio", largest, no_number, true);
+  }
+}
+
 } // namespace
 
 std::vector<sweep::Column> case_columns(const std::vector<PlacedContact>& contacts,
@@ -181,9 +202,11 @@ std::vector<sweep::Column> case_columns(const std::vector<PlacedContact>& contac
       add(site.name + ".force", "N", false);
       add(site.name + ".moment", "N m", false);
     }
+  for (const results::StabilityAssessment& one : facts.stability)
+    add(velocity_ratio_of(one, facts.stability), "", false);
   if (columns.empty())
-    throw core::Error("the study has nothing that a sweep gives statistics of: no [[contacts]], and no "
-                      "nodes, section_forces or reactions in [output]");
+    throw core::Error("the study has nothing that a sweep gives statistics of: no [[contacts]], no "
+                      "[[stability]], and no nodes, section_forces or reactions in [output]");
   if (!contacts.empty()) {
     add("total.work_rate", "W", true);
     add("total.impact_rate", "1/s", true);
@@ -196,6 +219,8 @@ std::vector<sweep::Column> case_columns(const std::vector<PlacedContact>& contac
     add("worst.wear_depth", "m", true);
     add("worst.years", "a", true);
   }
+  if (!facts.stability.empty())
+    add("worst.velocity_ratio", "", false);
   for (auto column = columns.begin(); column != columns.end(); ++column)
     if (std::find(columns.begin(), column, *column) != column)
       throw core::Error(
@@ -213,6 +238,7 @@ std::vector<double> case_row(const std::vector<sweep::Column>& columns,
     fill_wear(*run.wear, row);
   fill_nodes(run, row);
   fill_forces(run, row);
+  fill_stability(run.stability, row);
   double residual = 0.0;
   for (const results::TransientFacts& transient : run.transients)
     residual = std::max(residual, transient.report.residual_relative);

@@ -10,11 +10,11 @@
 namespace fretwork::app {
 
 /// By contact (work_rate, normal_rms, normal_max, tangential_max, impact_rate, contact_time_ratio), by support that wears (wear_depth, years),
-/// by observed node (std_x, largest_x ...), by group of section forces (stress, stress_std, moment, shear_force), by restraint (force, moment),
+/// by observed node (std_x, largest_x ...), by group of section forces (stress, stress_std, moment, shear_force), by restraint (force, moment), by assessment of stability (velocity_ratio: V/Vc),
 /// of all contacts together (total.work_rate, total.impact_rate, total.energy_residual), of the worst one (worst.work_rate, worst.normal_rms,
-/// worst.normal_max, worst.wear_depth, worst.years).
+/// worst.normal_max, worst.wear_depth, worst.years, worst.velocity_ratio).
 /// @param contacts  inactive ones included
-/// @param facts  node_names and force_sites
+/// @param facts  node_names, force_sites, and of stability the names of assessments and tubes
 /// @throws core::Error where two have the same name, or there are none
 [[nodiscard]] std::vector<sweep::Column> case_columns(const std::vector<PlacedContact>& contacts,
                                                       const std::vector<WornPlace>& worn,

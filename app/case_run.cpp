@@ -30,6 +30,19 @@ void observe(const std::vector<NamedNode>& nodes, const std::vector<results::For
   out.force_summaries.resize(sites.size());
 }
 
+/// Names of what is assessed, in the order of connors_stability.
+std::vector<results::StabilityAssessment> assessments_named(const study::Study& study,
+                                                            const std::vector<PlacedFlow>& flows) {
+  std::vector<results::StabilityAssessment> out;
+  for (const study::Stability& one : study.stabilities)
+    for (const PlacedFlow& placed : flows) {
+      out.emplace_back();
+      out.back().name = one.name;
+      out.back().damping.tube = study.flows[placed.entry].name;
+    }
+  return out;
+}
+
 /// What numbers of tubes are found by.
 std::vector<modal::Basis> nodes_of(const std::vector<modal::Basis>& bases) {
   std::vector<modal::Basis> out(bases.size());
@@ -160,6 +173,7 @@ CaseRunner::CaseRunner(study::Document document, std::vector<std::string> base_o
     contacts_.emplace_back(contact.name, contact.node);
   results::RunResults facts;
   observe(nominal_case.nodes, nominal_case.force_sites, facts);
+  facts.stability = assessments_named(nominal_case.study, nominal_case.structure->flows);
   columns_ = case_columns(all, worn_places(nominal_case.study, nominal_case.structure->model, all), facts);
   // refuses runs of another tube; its warnings are those of the run before its first step
   (void)compare_with_other_runs(nominal_case.other_runs, nominal_case.study, nominal_case.worn,
@@ -195,6 +209,12 @@ CaseRunner::Case CaseRunner::with_bases(Case read) {
   return read;
 }
 
+std::vector<results::StabilityAssessment> CaseRunner::stability_of(const Case& of) {
+  if (of.study.stabilities.empty())
+    return {};
+  return *bases_.stability(of.study, of.overrides, *of.structure, together(of.placed, of.inactive));
+}
+
 std::vector<std::string> CaseRunner::check(const std::vector<std::string>& overrides) {
   const Case read = read_case(overrides);
   const auto& contacts = read.study.contacts;
@@ -212,6 +232,7 @@ std::vector<std::string> CaseRunner::check(const std::vector<std::string>& overr
 void CaseRunner::compute_nominal() {
   const Case nominal_case = with_bases(read_case({}));
   known_ = warnings_of(nominal_case, scenes_of(nominal_case));
+  (void)stability_of(nominal_case);
 }
 
 sweep::CaseResult CaseRunner::operator()(const std::vector<std::string>& overrides) {
@@ -229,6 +250,7 @@ sweep::CaseResult CaseRunner::operator()(const std::vector<std::string>& overrid
   out.sector_rates.resize(c.placed.size());
   out.force_speed_classes.resize(c.placed.size());
   observe(c.nodes, c.force_sites, out);
+  out.stability = stability_of(c);
   for (std::size_t i = 0; i < scenes.size(); ++i)
     run_scene(c.study, scenes[i], choices[i], out);
   out.bases = nodes_of(c.contacts->bases);

@@ -156,6 +156,22 @@ PinsAsked pins_asked(const study::Stability& assessment) {
           {assessment.elastic, assessment.sticking}};
 }
 
+std::vector<results::StabilityAssessment> connors_stability(MPI_Comm comm, const TubesInFlow& tubes,
+                                                            const std::vector<PlacedContact>& contacts) {
+  results::RunResults out; // of its notes and warnings nothing is said
+  for (study::Stability assessment : tubes.study.stabilities) {
+    assessment.strouhal.reset();
+    const PinnedModes modes = pinned_modes(comm, pins_asked(assessment), tubes, contacts, out.notes);
+    core::agree(comm, [&] {
+      for (const PlacedFlow& placed : tubes.flows) {
+        Eigen::VectorXd ratios;
+        out.stability.push_back(assess(tubes, placed, assessment, modes, ratios, out));
+      }
+    });
+  }
+  return std::move(out.stability);
+}
+
 void assess_stability(MPI_Comm comm, const TubesInFlow& tubes, const std::vector<PlacedContact>& contacts,
                       results::RunResults& out) {
   for (const study::Stability& assessment : assessments_of(tubes.study)) {

@@ -69,6 +69,19 @@ values = [1.0, 1.05]
   EXPECT_EQ(different.size(), 8u); // what was kept in memory was that of the case
 }
 
+/// V/Vc of each assessment and the worst of them, as in the run of the case.
+void expect_velocity_ratios(const Results& run, const std::map<std::string, std::string>& row) {
+  double largest = 0.0;
+  ASSERT_FALSE(run.summary["stability"].empty());
+  for (const auto& assessment : run.summary["stability"]) {
+    const std::string name = assessment["name"];
+    const double ratio = 1.0 - assessment["cases"][0]["margin"].get<double>();
+    EXPECT_NEAR(ratio, std::stod(row.at("stability." + name + ".velocity_ratio")), 1e-9) << name;
+    largest = std::max(largest, ratio);
+  }
+  EXPECT_NEAR(largest, std::stod(row.at("worst.velocity_ratio")), 1e-9);
+}
+
 TEST_F(Sweeps, FluidelasticForcesAreThoseOfARun) {
   const std::string text = sweep_of("u_bend_flow", R"(
 design = "grid"
@@ -89,6 +102,7 @@ values = [5.0, 9.0]
                 std::stod(rows[i].at(contact["name"].get<std::string>() + ".work_rate")))
           << i;
     EXPECT_NE(run.summary["energy"]["fluid_J"].get<double>(), 0.0);
+    expect_velocity_ratios(run, rows[i]);
     different.insert(rows[i].at("total.work_rate"));
   }
   EXPECT_EQ(different.size(), 2u);
@@ -142,7 +156,10 @@ seeds = 7
           << contact["name"];
     EXPECT_EQ(run.summary["wear"]["tubes"][0]["depth_m"]["value"].get<double>(),
               std::stod(rows[i].at("worst.wear_depth")));
+    expect_velocity_ratios(run, rows[i]);
   }
+  EXPECT_GT(std::stod(rows[1].at("stability.all supports.velocity_ratio")), // without inner bars
+            1.1 * std::stod(rows[0].at("stability.all supports.velocity_ratio")));
   EXPECT_EQ(rows[1].at("inner_bars[0].work_rate"), "nan");
   EXPECT_EQ(rows[1].at("turbulence.*.seed"), "8");
 }
