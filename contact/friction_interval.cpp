@@ -18,6 +18,8 @@ constexpr double round_off = 1e-9;
 /// Share of a usual interval within which the spring is to be at its bound again for the contact to slide on. Larger: contacts that have stopped slide on
 /// for an interval. 0: contacts that slide stick, up to mu_s N.
 constexpr double soon = 0.5;
+/// Cosine of the turn of a slip from which it is a stop and a start the other way: the slider stands in between.
+constexpr double turned_round = -0.9;
 /// K_T tau/C_T above which the damper is none, and below which e^-r is a series.
 constexpr double no_damper = 1e8, slow_damper = 1e-2;
 
@@ -207,10 +209,14 @@ private:
     }
     if (over1 > round_off * law_.mu_static * p.normal && !last) {
       out_.sliding = true;
-      if (!(over0 < 0.0) || !cut(0.0, t.length, over0, over1, [&](double time) {
+      // One that has just come to a stand is at its bound, but for what locating it leaves: the bound is looked for in the direction of the end.
+      const V end = unit(law_.trial(p.spring, p.velocity));
+      const bool inside = over0 < -located * (over1 - over0);
+      const double start = inside ? over0 : dot(trial(), end) - law_.mu_static * normal_;
+      if (!(start < 0.0) || !cut(0.0, t.length, start, over1, [&](double time) {
             t = stick_table(time);
             p = sticking(t);
-            return over();
+            return inside ? over() : dot(law_.trial(p.spring, p.velocity), end) - law_.mu_static * p.normal;
           }))
         return;
     }
@@ -242,6 +248,8 @@ private:
     p.along = before;
     if constexpr (std::is_same_v<V, Vec2>) {
       goal = direction(t.gradient * t.half, path_.mobility, out_.spring - t.gradient * free, bound);
+      if (dot(goal, before) < turned_round)
+        goal = before;
       const V turn = (1.0 / t.share) * (goal - before);
       mean = unit(before + 0.5 * turn);
       p.along = unit(before + turn);

@@ -174,6 +174,47 @@ TEST(FrictionInterval, StopsUnderDampersOfAnySpeed) {
   }
 }
 
+/// Of a mass of 1 kg under a normal force of 1 N, in so many intervals of one second together.
+template <class V, class M>
+FrictionInterval<V> in_intervals(int count, const FrictionLaw& any, V spring, V velocity, V acceleration,
+                                 const M& mobility) {
+  FrictionInterval<V> out;
+  out.spring = spring;
+  out.velocity = velocity;
+  out.sliding = true;
+  double slid = 0.0, work = 0.0;
+  for (int i = 0; i < count; ++i) {
+    const double dt = 1.0 / count;
+    out = friction_over_interval(any, piece_tables(any, 1.0, dt), 1.0, out.spring, out.sliding, dt,
+                                 line(1.0, 1.0), {out.velocity, acceleration, V{}, mobility});
+    slid += out.slid;
+    work += out.slider_work;
+  }
+  out.slid = slid;
+  out.slider_work = work;
+  return out;
+}
+
+TEST(FrictionInterval, SticksWhileItTurnsRound) {
+  // decelerated, stopped and pushed back: the damper turns the force round while the contact sticks, for 2 mu N/(C_T a)
+  for (const double damping : {0.3, 1.0, 1.5, 3.0, 6.0, 30.0})
+    for (const double v : {0.1, 0.2, 0.5, 0.9})
+      for (const double a : {-1.0, -1.5, -3.0}) {
+        SCOPED_TRACE(testing::Message() << "C_T " << damping << ", v " << v << ", a " << a);
+        const FrictionLaw any{2.0, damping, 0.5, 0.5};
+        const auto exact = in_intervals<double, double>(2000, any, -0.5, v, a, 1.0),
+                   one = in_intervals<double, double>(1, any, -0.5, v, a, 1.0);
+        EXPECT_NEAR(one.velocity, exact.velocity, 0.01);
+        EXPECT_NEAR(one.slid, exact.slid, 0.01);
+        EXPECT_NEAR(one.slider_work, exact.slider_work, 0.005);
+        const Vec2 along{0.6, 0.8};
+        const auto plane =
+            in_intervals<Vec2, Sym2>(1, any, -0.5 * along, v * along, a * along, {1.0, 0.0, 1.0});
+        EXPECT_NEAR(dot(plane.velocity, along), one.velocity, 1e-6);
+        EXPECT_NEAR(plane.slid, one.slid, 1e-6);
+      }
+}
+
 TEST(FrictionInterval, WorksAsMuchInOneIntervalAsInMany) {
   // a slide that begins above the dynamic bound, under a falling normal force: the spring drops while that is still large
   constexpr double dt = 1.0, v = 0.4, normal0 = 2.0, normal1 = 0.2, begin = -1.6;
