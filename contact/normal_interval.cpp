@@ -4,8 +4,6 @@
 namespace fretwork::contact {
 namespace {
 
-/// C_N W dt up to which the damper does not take the force down within the interval: above, its mean stands for it.
-constexpr double most_parabolic = 1.9;
 /// Newton's method on pieces of parabolas: three to four iterations are usual.
 constexpr int most_iterations = 20;
 constexpr double tolerance = 1e-13; ///< of the force

@@ -17,6 +17,9 @@
 
 namespace fretwork::contact {
 
+/// C_N W dt up to which the damper does not take the force down within the interval: above, its mean stands for it.
+constexpr double most_parabolic = 1.9;
+
 /// A force over some time, a parabola of it by its ends and its mean, N.
 struct ParabolicForce {
   double first = 0.0, last = 0.0, mean = 0.0;

@@ -2,9 +2,9 @@
 #include "transient/step_rule.hpp"
 #include "core/error.hpp"
 #include "transient/modes/mass_scaling.hpp"
+#include "transient/scene/scheme_limits.hpp"
 #include "transient/scheme_scope.hpp"
 #include "transient/splitting/macro_steps.hpp"
-#include "transient/step_limits.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -24,15 +24,17 @@ constexpr double countable_steps = 1e18;
 constexpr double day = 86400.0; // s
 /// A run of an adaptive scheme has at least so many steps.
 constexpr double least_adaptive_steps = 200;
-/// w_c dt and w_t dt of the intervals of splitting at an accuracy of 0.01: two a step, which take the time of one, since they turn less and are found
-/// at once. Contacts whose error replays (replays.hpp) find above it move in up to 16 times as many.
-constexpr double interval_share = 0.625;
 /// Length of a replay: w_c times it; in steps, at least; of the duration, at most.
 constexpr double contact_times = 15.0, least_replay = 8.0, longest_replay = 0.01;
-/// The step of an accuracy of 0.02 is the longest: no statistics are worth having above it.
-constexpr double coarsest_accuracy = 0.02;
 /// Steps of a macro-step. More gain little: its end, with displacements and velocities, costs as much as one step.
 constexpr double most_macro_steps = 12.0;
+/// w_max times a macro-step, at an accuracy of 0.01: a dozen points a period of the highest mode, which statistics are to see.
+constexpr double macro_step_mode = 0.5;
+/// Of what follows from times that are given in decimal numbers.
+constexpr double round_off = 1e-9;
+/// A step given with three digits of the longest is no reason for a warning.
+constexpr double rounded = 1.01;
+constexpr double two_pi = 2.0 * std::numbers::pi;
 /// Steps of splitting that one of collocation takes the time of: measured 0.5 to 0.8 with 1 to 20 supports of 1e5 to 3e7 N/m, 0.8 to 2.1 with stiffer ones.
 constexpr double collocation_cost = 0.7;
 /// Of the time of splitting: below it collocation is taken, which does not measure its error (replays.hpp).
@@ -58,58 +60,151 @@ void check_steps(double duration, const StepChoice& c) {
                         step));
 }
 
-/// What becomes of normal dampers that the step does not resolve.
-void warn_of_normal_dampers(StepChoice& c, const char* cure) {
-  const double rate = c.normal_damper_rate * c.step, most = most_normally_damped(c.scheme);
-  if (!moves_exactly(c.scheme) || !(rate > most * (1.0 + 1e-9)))
-    return;
-  const char* what = c.scheme == SchemeKind::splitting ? "largest and rms forces that can be trusted"
-                     : c.scheme == SchemeKind::energy_conserving ? "largest forces that can be trusted "
-                                                                   "(rebounds are right at any step)"
-                                                                 : "rebounds that can be trusted";
-  c.warnings.push_back(fmt::format(
-      "the step {:.3g} s does not resolve the normal dampers: r_n h = {:.3g}, at most {:g} for {}; {}",
-      c.step, rate, most, what, cure));
+/// A rate of the scene that the step has to resolve.
+struct Term {
+  const char *name, *symbol; ///< symbol: of the rate times the step
+  double rate;               ///< 0: there is none
+  const char* unit;
+  StepBound bound;
+  const char* condition = "";      ///< of the bound
+  const char* cure = "";           ///< what makes the step longer, after "resolved for an accuracy of 0.01"
+  const char* spoiled = "results"; ///< what cannot be trusted above the bound
+  double shortest = 0.0;           ///< s, at an accuracy of 0.01: step that the term asks for at least
+};
+
+/// w h of modes that splitting follows in a step: fewer where tangential dampers stop contacts within it.
+double followed_modes(const StepChoice& c, double step) {
+  return c.damper_rate * step > fast_damper ? mode_with_fast_damper
+                                            : limits_of(SchemeKind::splitting).highest_mode.largest;
 }
 
-/// Largest w_r h of a record without a warning: polygons then lose 0.7 % of it, lines between values 2 (w h)^2/8 = 9 % of its power.
-double most_of_record(SchemeKind scheme) { return scheme == SchemeKind::splitting ? 1.5 : 0.6; }
-
-void warn(StepChoice& c) {
-  const auto add = [&](double value, double limit, const char* name, const char* what) {
-    if (value > limit)
-      c.warnings.push_back(fmt::format(
-          "the step {:.3g} s does not resolve {}: {} = {:.3g}, at most {} for results that can be "
-          "trusted; take a smaller step or leave it out",
-          c.step, what, name, value, limit));
-  };
-  const bool exact = moves_exactly(c.scheme);
-  const bool collocation = c.scheme == SchemeKind::collocation;
-  const double resolved = most_resolved(c.scheme);
-  add(c.contact_frequency * c.step, resolved, "w_c h", "the contact frequency");
-  add(c.stick_frequency * c.step, resolved, "w_t h", "the frequency of sticking contacts");
-  const double damped = c.scheme == SchemeKind::devogelaere ? most_damped : 1.0;
-  add(c.damper_rate * c.step / c.parts, exact ? most_implicit(c.scheme) : damped,
-      c.scheme == SchemeKind::splitting ? "r_t dt" : "r_t h", "the tangential dampers");
-  add(c.explicit_rate * c.step, damped, "r_e h", "the dampers");
-  warn_of_normal_dampers(c, "take a smaller step or leave it out");
-  if (!collocation) {
-    const double followed = followed_modes(c, c.step);
-    add(c.highest_mode * c.step,
-        c.scheme == SchemeKind::splitting ? 1.1 * followed
-        : exact                           ? 3.0
-                                          : 1.8,
-        "w_max h",
-        followed < before_resonance ? "the highest mode, with tangential dampers" : "the highest mode");
+/// @param followed  w h of modes that splitting follows
+Term mode_term(const StepChoice& c, bool contacts, double followed) {
+  const SchemeLimits& limits = limits_of(c.scheme);
+  Term out{"the highest mode", "w_max h", c.highest_mode, "rad/s", limits.highest_mode};
+  if (limits.exact_modes && !contacts)
+    out.bound.share = mode_without_contacts;
+  if (c.scheme == SchemeKind::splitting && followed < out.bound.largest) {
+    out.bound.largest = followed;
+    out.condition = ", with tangential dampers";
+    out.cure = "; a smaller tangential_damping makes the step longer";
   }
+  return out;
+}
+
+/// Of the longest step that the modes allow: with fewer of them, or without dampers that stop contacts within it.
+Term mode_term(const StepChoice& c, bool contacts) {
+  const double most = limits_of(SchemeKind::splitting).highest_mode.largest,
+               slow = c.damper_rate > 0.0 ? fast_damper * c.highest_mode / c.damper_rate : most;
+  return mode_term(c, contacts, std::clamp(slow, mode_with_fast_damper, most));
+}
+
+Term normal_damper_term(const StepChoice& c) {
+  const SchemeLimits& limits = limits_of(c.scheme);
+  return {.name = "the normal dampers' rate",
+          .symbol = "r_n h",
+          .rate = c.normal_damper_rate,
+          .unit = "1/s",
+          .bound = limits.normal_damper.times(limits.intervals),
+          .spoiled = limits.by_normal_damper,
+          .shortest = finest_for_normal_dampers / c.contact_frequency};
+}
+
+std::vector<Term> contact_terms(const StepChoice& c) {
+  const SchemeLimits& limits = limits_of(c.scheme);
+  return {{"the contact frequency", "w_c h", c.contact_frequency, "rad/s", limits.contact},
+          {"the frequency of sticking contacts", "w_t h", c.stick_frequency, "rad/s", limits.contact},
+          {"the tangential dampers' rate", "r_t h", c.damper_rate, "1/s",
+           limits.tangential_damper.times(limits.intervals), "",
+           limits.intervals > 1 ? "; a smaller tangential_damping makes the step longer"
+                                : "; a smaller tangential_damping makes the step longer (scheme = "
+                                  "\"splitting\" resolves the dampers within a step)"},
+          normal_damper_term(c),
+          {"the dampers' rate", "r_e h", c.explicit_rate, "1/s", limits.tangential_damper}};
+}
+
+constexpr const char* smaller_step = "take a smaller step or leave it out";
+
+void add_warning(StepChoice& c, const std::string& what, const char* spoiled = "results",
+                 const char* cure = smaller_step) {
+  c.warnings.push_back(fmt::format("the step {:.3g} s does not resolve {} for {} that can be trusted; {}",
+                                   c.step, what, spoiled, cure));
+}
+
+void warn_of(StepChoice& c, const Term& term, const char* cure = smaller_step) {
+  if (const double product = term.rate * c.step; product > term.bound.largest * rounded)
+    add_warning(c,
+                fmt::format("{}{}: {} = {:.3g}, at most {:.4g}", term.name, term.condition, term.symbol,
+                            product, term.bound.largest),
+                term.spoiled, cure);
+}
+
+void warn_of_points(StepChoice& c, const char* name, double frequency, double fewest) {
+  if (const double points = 1.0 / (frequency * c.step); points * rounded < fewest)
+    add_warning(c, fmt::format("{}: {:.3g} steps a period, at least {:g}", name, points, fewest));
+}
+
+/// What a given step does not resolve.
+void warn(StepChoice& c) {
+  for (const Term& term : contact_terms(c))
+    warn_of(c, term);
+  warn_of(c, mode_term(c, true, followed_modes(c, c.step)));
+  if (c.table_interval > 0.0 && c.step > c.table_interval * (1.0 + round_off))
+    add_warning(c, fmt::format("the shortest interval of a table ({:.4g} s)", c.table_interval));
+  if (c.step > c.record_interval * (1.0 + round_off))
+    warn_of_points(c, "the band of a record below the highest mode", c.record_rate / two_pi,
+                   c.scheme == SchemeKind::splitting ? fewest_points_of_records : fewest_points);
+  warn_of_points(c, "the excitation", c.excitation, fewest_points);
+}
+
+/// A limit of the step and where it comes from.
+struct Limit {
+  double step; ///< s
+  std::string reason;
+  const char* cure = "";
+};
+
+/// @param fineness  1 at an accuracy of 0.01, as its square root
+Limit limit_of(const Term& term, double fineness) {
+  return {std::max(term.bound.at(fineness) / term.rate, term.shortest * fineness),
+          fmt::format("{} {:.4g} {}{}", term.name, term.rate, term.unit, term.condition), term.cure};
+}
+
+std::vector<Limit> load_limits(const StepChoice& c, bool contacts, double fineness) {
+  std::vector<Limit> out;
+  const auto points = [&](double wanted) { return std::max(wanted / fineness, fewest_points); };
+  const auto resolve = [&](double wanted, double frequency) {
+    if (frequency > 0.0)
+      out.push_back({1.0 / points(wanted) / frequency, fmt::format("the excitation ({:.4g} Hz)", frequency)});
+  };
+  const double by_lines = contacts ? points_of_lines : points_without_contacts;
+  resolve(contacts ? limits_of(c.scheme).points_per_period : by_lines, c.excitation);
+  resolve(by_lines, c.sampled_excitation);
+  // its steps follow its tolerance and end at the points of tables: it only must not step over what other loads do
+  if (c.scheme == SchemeKind::runge_kutta_54)
+    return out;
   if (c.table_interval > 0.0)
-    add(c.step / c.table_interval * (1.0 - 1e-9), 1.0,
-        "h/interval", // of equal ones round-off leaves a shorter
-        "the shortest interval of a table");
-  if (c.step > c.record_interval * (1.0 + 1e-9))
-    add(c.record_rate * c.step, most_of_record(c.scheme), "w h",
-        "the band of a record below the highest mode");
-  add(c.excitation * c.step * 20.0, 2.0, "20 f h", "the excitation");
+    out.push_back(
+        {c.table_interval, fmt::format("the shortest interval of a table ({:.4g} s)", c.table_interval)});
+  if (c.record_rate > 0.0)
+    out.push_back(
+        {c.scheme == SchemeKind::splitting
+             ? (contacts ? record_share : record_share_without_contacts) * std::sqrt(fineness) / c.record_rate
+             : std::max(c.record_interval, two_pi / (points(by_lines) * c.record_rate)),
+         fmt::format("the band of a record below the highest mode ({:.4g} Hz)", c.record_rate / two_pi)});
+  return out;
+}
+
+/// What limits the step, but for the modes of splitting beside contacts.
+std::vector<Limit> step_limits(const StepChoice& c, bool contacts, double fineness) {
+  std::vector<Limit> out = load_limits(c, contacts, fineness);
+  std::vector<Term> terms = contact_terms(c);
+  if (c.scheme != SchemeKind::splitting || !contacts)
+    terms.push_back(mode_term(c, contacts));
+  for (const Term& term : terms)
+    if (term.rate > 0.0)
+      out.push_back(limit_of(term, fineness));
+  return out;
 }
 
 /// Makes modes heavier that the step does not follow: those above `fastest`.
@@ -122,20 +217,24 @@ void scale_modes(StepChoice& c, const Scene& scene, double fastest) {
   c.reason +=
       fmt::format("; {} of {} modes, those above {:.4g} Hz, are made heavier and move as modes of that "
                   "frequency (mass scaling)",
-                  scaled, scene.system.size(), fastest / (2.0 * std::numbers::pi));
+                  scaled, scene.system.size(), fastest / two_pi);
 }
 
-double fineness_of(double accuracy) { return std::sqrt(std::min(accuracy, coarsest_accuracy) / 0.01); }
+double fineness_of(double accuracy) {
+  return std::sqrt(std::min(accuracy, coarsest_accuracy) / accuracy_of_shares);
+}
 
 /// Intervals in which splitting moves contacts within a step.
 int intervals_of_step(const StepChoice& c, double fineness) {
-  if (c.scheme != SchemeKind::splitting)
+  const SchemeLimits& limits = limits_of(c.scheme);
+  if (limits.intervals == 1)
     return 1;
-  const double rate = std::max(
-      {std::max(c.contact_frequency, c.stick_frequency) / (interval_share * fineness),
-       c.damper_rate / damper_share(c.scheme, fineness), c.normal_damper_rate / normal_damper_share});
+  const double rate =
+      std::max({std::max(c.contact_frequency, c.stick_frequency) / (contact_interval * fineness),
+                c.damper_rate / limits.tangential_damper.at(fineness),
+                c.normal_damper_rate / limits.normal_damper.at(fineness)});
   const double needed = rate * c.step;
-  return static_cast<int>(std::clamp(std::ceil(needed * (1.0 - 1e-9)), 1.0, most_intervals));
+  return static_cast<int>(std::clamp(std::ceil(needed * (1.0 - round_off)), 1.0, 1.0 * limits.intervals));
 }
 
 /// Length of replays: two or three periods of closed contacts, sticking ones included.
@@ -148,7 +247,7 @@ double replay_length(const StepChoice& c, const Scene& scene) {
 }
 
 /// Steps that splitting may make at once where no contact can meet its obstacle: the flow is exact, but loads are linear over them and
-/// statistics are to see the modes (a dozen points a period of the highest). Tables may change inside.
+/// statistics are to see the modes. Tables may change inside.
 int longest_macro_step(const StepChoice& c, const Scene& scene, double fineness) {
   if (c.scheme != SchemeKind::splitting || c.scaled > 0 || !allows_macro_steps(scene))
     return 1;
@@ -158,10 +257,10 @@ int longest_macro_step(const StepChoice& c, const Scene& scene, double fineness)
       return 1;
   double longest = most_macro_steps * c.step;
   if (c.excitation > 0.0)
-    longest = std::min(longest, fineness / (points_per_period * c.excitation));
+    longest = std::min(longest, fineness / (points_of_lines * c.excitation));
   if (c.highest_mode > 0.0)
-    longest = std::min(longest, 0.5 * fineness / c.highest_mode);
-  return std::max(1, static_cast<int>(longest / c.step * (1.0 + 1e-9)));
+    longest = std::min(longest, macro_step_mode * fineness / c.highest_mode);
+  return std::max(1, static_cast<int>(longest / c.step * (1.0 + round_off)));
 }
 
 /// Steps of a run in which nothing asks for more; fewer of expensive ones, since motions with many contacts are rarely followed impact by impact.
@@ -175,27 +274,28 @@ double least_steps(const Scene& scene) {
 /// The longest step that the terms allow, but for whole steps that cover the duration.
 void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
   const double accuracy = std::min(asked, coarsest_accuracy), fineness = fineness_of(asked);
-  const bool adaptive = c.scheme == SchemeKind::runge_kutta_54;
+  const bool adaptive = c.scheme == SchemeKind::runge_kutta_54, contacts = !scene.contacts.empty();
   const double least = adaptive ? least_adaptive_steps : least_steps(scene);
   c.step = scene.duration / least;
   c.reason = fmt::format("a run has at least {} steps", least);
-  const auto limit = [&](const StepLimit& term) {
-    if (term.limit < c.step) {
-      c.step = term.limit;
-      c.reason = fmt::format("{} resolved for an accuracy of {}{}", term.reason, accuracy, term.cure);
+  const auto limit = [&](const Limit& one) {
+    if (one.step < c.step) {
+      c.step = one.step;
+      c.reason = fmt::format("{} resolved for an accuracy of {}{}", one.reason, accuracy, one.cure);
     }
   };
-  for (const StepLimit& term : step_limits(c, scene, fineness))
-    limit(term);
+  for (const Limit& one : step_limits(c, contacts, fineness))
+    limit(one);
   double followed = 0.0; // w h of the fastest mode of splitting; 0: all are followed
-  if (c.scheme == SchemeKind::splitting && !scene.contacts.empty() && c.highest_mode > 0.0) {
-    const StepLimit modes = mode_limit(c, true, fineness);
-    if (followed_modes(c, c.step) < before_resonance && modes.limit < c.step) // scaled ones stay at 2 w_c
-      limit({std::max(modes.limit, 0.5 * followed_modes(c, c.step) * fineness /
-                                       std::max(c.contact_frequency, c.stick_frequency)),
+  if (c.scheme == SchemeKind::splitting && contacts && c.highest_mode > 0.0) {
+    const Limit modes = limit_of(mode_term(c, contacts), fineness);
+    if (const double slow = followed_modes(c, c.step);
+        slow < limits_of(c.scheme).highest_mode.largest && modes.step < c.step)
+      limit({std::max(modes.step,
+                      slow * fineness / (scaled_above * std::max(c.contact_frequency, c.stick_frequency))),
              "modes up to twice the contact frequency, with tangential dampers", modes.cure});
     const double most = followed_modes(c, c.step);
-    if (modes.limit < c.step && may_scale(scene, most / c.step, accuracy))
+    if (modes.step < c.step && may_scale(scene, most / c.step, accuracy))
       followed = most;
     else
       limit(modes);
@@ -206,9 +306,9 @@ void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
     return;
   c.steps = count_steps(scene.duration, c);
   c.step = scene.duration / static_cast<double>(c.steps);
-  warn_of_normal_dampers(c, c.scheme == SchemeKind::collocation
-                                ? "take scheme = \"energy_conserving\", or a smaller damper"
-                                : "give a smaller damper where these matter");
+  warn_of(c, normal_damper_term(c),
+          c.scheme == SchemeKind::collocation ? "take scheme = \"energy_conserving\", or a smaller damper"
+                                              : "give a smaller damper where these matter");
   if (followed > 0.0)
     scale_modes(c, scene, followed / c.step);
   c.macro_steps = longest_macro_step(c, scene, fineness);

@@ -1,34 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// The time step and its reason.
+/// The time step and its reason. Names of bounds are those of the table in scene/scheme_limits.hpp, a row for each scheme, with their values and sources.
 ///
-///     h = min{ c/w_c, s/w_t, r/r_t, max(n/r_n, 0.03/w_c), m/w_max },  the shares at an accuracy of 0.01; others grow and fall with its square root
-///
-///                          c      s      r     n     m
-///     splitting            1.25   1.25   403   115   2.5 (down to 1.5 where r_t h is above 3) where modes cannot be made heavier (mass_scaling.hpp)
-///     collocation          0.5    0.5    2     2     -
-///     energy_conserving    0.3    0.3    2     2     2.5
-///     euler, devogelaere   0.3    0.3    0.5   -     0.5
+///     h = min{ contact/w_c, contact/w_t, intervals tangential_damper/r_t, tangential_damper/r_e, highest_mode/w_max,
+///              max(intervals normal_damper/r_n, f finest_for_normal_dampers/w_c) },
+///     each bound min(f share, largest), f = (min(accuracy, coarsest_accuracy)/accuracy_of_shares)^1/2
 /// over the terms that exist, with:
 ///     w_c, w_t, r_t, r_n, w_max   scene_rates.hpp
-/// r_n counts for splitting, collocation and energy_conserving, which take normal dampers implicitly. splitting resolves them, as tangential ones, in its
-/// intervals, of which a step has up to 64: r_t dt = 6.3, r_n dt = 1.8 whatever the accuracy. With collocation a damper of r_n h = 2 stops a mass in
-/// one step. A damper that even 0.03/w_c does not resolve is warned about, also with the automatic step: of energy_conserving the rebounds are right
-/// (conserving_normal.hpp), the largest force at first touch is not.
-/// No accuracy makes a step longer than that of 0.02, nor w_c h than 1.25 with splitting and 1 with collocation (devogelaere: 0.75,
-/// energy_conserving: 0.5), above which impacts are wrong however stable the run (doc/schemes.md, Stability map), nor r_t h than 4 where dampers are
-/// implicit, r_t dt than 6.3 in the intervals of splitting. With contacts
-/// splitting resonates with modes at w h = k pi: those above w h = m are made heavier (mass_scaling.hpp), or where they may not be, and
-/// with energy_conserving, the step stays below 2.5/w_max. The limits of explicit Euler are r_t h < 1 and w_max h < 2; it also takes the other dampers explicitly and
-/// resolves them by 0.5/r_e (its limit: r_e h < 2):
-///     r_e    explicit_damper_rate
+///     r_e                         explicit_damper_rate; of devogelaere also the largest K_T/C_T of a sliding spring
+/// Dampers of contacts are resolved by the intervals of splitting, the least number that keeps them, and contact_interval for w_c and w_t, in the step. A normal damper
+/// that even finest_for_normal_dampers does not resolve is warned about, also with the automatic step.
+///
+/// With contacts splitting follows modes to highest_mode/h; where r_t h > fast_damper to mode_with_fast_damper/h. Faster ones are made heavier
+/// (mass_scaling.hpp), or where they may not be, the step is shorter. Without contacts exact flows have mode_without_contacts/w_max.
+///
 /// Hunt and Crossley's damper c(p) = K_N d p grows with a penetration that is not known beforehand, but w_c bounds its rate: an impact
 /// at the speed v has p <= min(1, sqrt(2/x)) v/w_c with x = d v (spring alone; damper alone), so that h c W <= 0.5 min(x, sqrt(2 x)).
 /// Euler's limit 2 is met up to x = 8 (which leaves less than 1/8 of the speed); the splitting takes the damper implicitly.
-/// devogelaere has Euler's terms, r_e also the largest K_T/C_T of a sliding spring, and never more than 0.5 for all dampers (its limit: 0.59).
-/// runge_kutta_54 chooses its steps by its tolerance: `step` is the longest, from the terms of the loads and duration/200.
-/// Never above 1/30 of the shortest period of the excitation at an accuracy of 0.01 (without contacts 1/200, and m = 0.3: statistics must
-/// see the modes), nor the shortest interval of a table (whose points runge_kutta_54 ends its steps at), nor duration/20000, where
+/// runge_kutta_54 chooses its steps by its tolerance: `step` is the longest, from the excitation and duration/200.
+///
+/// Loads: max(points/f, fewest_points) steps in the shortest period of the excitation, points_per_period of the table (points_of_lines for sampled
+/// forces, points_without_contacts); never above the shortest interval of a table (whose points runge_kutta_54 ends its steps at); records by
+/// record_share, with others than splitting by points. Nor is a step above duration/20000, where
 /// steps are expensive, s = modes + 40 contacts above 100, duration/max(2000, 2e8/s^2): so many steps take milliseconds to some hundredths of a second.
 ///
 /// Without a scheme given, collocation is taken where its predicted time (steps times the cost of one) is below 0.7 of that of splitting.

@@ -3,6 +3,7 @@
 /// Scenes of one mass whose step is known, and what is expected of the choice.
 #pragma once
 #include "scenes.hpp"
+#include "transient/scene/scheme_limits.hpp"
 #include <gtest/gtest.h>
 #include <string>
 
@@ -11,8 +12,8 @@ namespace fretwork::tests::step_rule {
 using namespace fretwork::transient;
 
 constexpr double round_off = 1e-12;
-constexpr double eps = 0.5;    // at an accuracy of 1 %
-constexpr double share = 1.25; // w_c h and w_t h of splitting at 1 %
+constexpr double eps = 0.5;                                              // at an accuracy of 1 %
+constexpr double share = limits_of(SchemeKind::splitting).contact.share; // w_c h and w_t h at 1 %
 constexpr double mass = 2.0;
 
 inline Scene scene_with(const contact::Support& support, double duration = 1000.0,

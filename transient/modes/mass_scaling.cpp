@@ -8,6 +8,9 @@
 namespace fretwork::transient {
 namespace {
 
+/// Of the accuracy: share of scaled modes in the energy with which modes start to vibrate.
+constexpr double vibrating_share = 0.1;
+
 /// Shortest interval in which a table changes, s, 0 at a jump; infinite without a table.
 double shortest_change(const signals::TimeFunction& function) {
   double shortest = std::numeric_limits<double>::infinity();
@@ -80,7 +83,7 @@ bool may_scale(const Scene& scene, double fastest, double accuracy) {
       (spring - at_start).square().min((spring - at_start - normal_forces_at_start(scene).array()).square());
   const Eigen::ArrayXd vibrates = moving + (unbalanced + noise) * flexibility,
                        all = moving + (spring.square() + at_start.square() + noise) * flexibility;
-  return scaled.select(vibrates, 0.0).sum() <= 0.1 * accuracy * all.sum();
+  return scaled.select(vibrates, 0.0).sum() <= vibrating_share * accuracy * all.sum();
 }
 
 Scene with_masses(const Scene& scene, const Eigen::VectorXd& masses) {

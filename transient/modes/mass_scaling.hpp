@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// Selective mass scaling: modes too fast for a step of splitting, which resonates with them at w h = pi, are made heavier. Stiffness,
-/// shape, damper and forces stay, so that their flexibility at the contacts stays; their frequency falls to `fastest` = 2.5/h (down to 1.5/h with tangential
-/// dampers), 2.5/(w_c h) times the frequency of the contacts (twice at an accuracy of 0.01; step_rule.hpp): they go on following the contact forces statically.
+/// shape, damper and forces stay, so that their flexibility at the contacts stays; their frequency falls to `fastest`, what splitting
+/// follows (step_rule.hpp), which is above that of the contacts: they go on following the contact forces statically.
 /// (L. Olovsson, K. Simonsson, M. Unosson, Int. J. Numer. Meth. Engng 63 (2005) 1436, for meshes.)
 ///
 ///     m q'' + c q' + w^2 q = f, m = (w/fastest)^2;   q = s p, s = m^-1/2:   p'' + s^2 c p' + fastest^2 p = s f
@@ -12,9 +12,6 @@
 #include "transient/scene/scene.hpp"
 
 namespace fretwork::transient {
-
-/// w h of splitting above which modes are scaled (with tangential dampers: followed_modes).
-constexpr double before_resonance = 2.5;
 
 /// Modal masses, n, >= 1. Modes that no contact moves are followed at any frequency: 1.
 /// @param fastest  rad/s; 0: none is scaled

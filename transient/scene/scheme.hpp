@@ -182,6 +182,7 @@ public:
 };
 
 enum class SchemeKind { splitting, collocation, euler, energy_conserving, devogelaere, runge_kutta_54 };
+constexpr std::size_t scheme_count = static_cast<std::size_t>(SchemeKind::runge_kutta_54) + 1; ///< the last
 [[nodiscard]] std::string name_of(SchemeKind kind);
 
 } // namespace fretwork::transient

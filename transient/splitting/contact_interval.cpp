@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/splitting/contact_interval.hpp"
+#include "transient/scene/scheme_limits.hpp"
 #include "transient/splitting/contact_interval_motion.hpp"
 #include <algorithm>
 
@@ -9,13 +10,15 @@ namespace {
 using contact::dot;
 using contact::Vec2;
 
-/// Of its clearance, what a contact may move in an interval, and the most intervals of a step for its sake.
+/// Intervals of a step that dampers, speeds and other sides ask for at most.
+constexpr int most_intervals = limits_of(SchemeKind::splitting).intervals;
+static_assert(limits_of(SchemeKind::splitting).normal_damper.largest < contact::most_parabolic,
+              "forces of impacts that dampers stop fall within an interval as parabolas");
+/// Of its clearance, what a contact may move in an interval.
 constexpr double longest_way = 1.0;
-constexpr int most_for_speed = 64;
 /// Of a step in which a contact meets a corner, or another side of its obstacle: times as many intervals, the fewest and the most of them; cosine
 /// of the angle by which its normal turns there in half a step; way in the clearance without which a round hole or two planes have no such turn.
-constexpr int at_corner = 16, least_at_corner = 32, most_at_corner = 128, at_side = 8, least_at_side = 16,
-              most_at_side = 64;
+constexpr int at_corner = 16, least_at_corner = 32, most_at_corner = 128, at_side = 8, least_at_side = 16;
 constexpr double least_cosine = 0.9, least_way = 0.4;
 /// r_t h above which tangential dampers stop a contact early in a step.
 constexpr double stopping = 1.0;
@@ -65,14 +68,14 @@ int ContactIntervals::least_count(int parts, const ContactPast& past, const Free
   // Hunt and Crossley's damper makes a spring of K (1 + d v) where it closes
   if (const double stiffer = normal_.dissipation * speed; stiffer > least_stiffer)
     parts = std::max(parts, static_cast<int>(std::min(std::round(parts * std::sqrt(1.0 + stiffer)),
-                                                      1.0 * most_for_speed)));
+                                                      1.0 * most_intervals)));
   if (may_turn(past, path, way) && meets_corner(path))
     return std::max(parts, has_corners_ ? std::clamp(at_corner * parts, least_at_corner, most_at_corner)
-                                        : std::clamp(at_side * parts, least_at_side, most_at_side));
+                                        : std::clamp(at_side * parts, least_at_side, most_intervals));
   if (past.closed || !(clearance_ > 0.0))
     return parts;
   return std::max(
-      parts, static_cast<int>(std::ceil(std::min(1.0 * most_for_speed, way / (longest_way * clearance_)))));
+      parts, static_cast<int>(std::ceil(std::min(1.0 * most_intervals, way / (longest_way * clearance_)))));
 }
 
 bool ContactIntervals::may_turn(const ContactPast& past, const FreePath& path, double way) const {

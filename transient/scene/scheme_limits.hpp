@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// What the step of each scheme has to resolve: one row for each, by which the automatic step is chosen and given ones are warned about
+/// (transient/step_rule.hpp: the formula). doc/schemes.md has the same table (tests/transient/scheme_limits_test.cpp compares them).
+#pragma once
+#include "transient/scene/scheme.hpp"
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace fretwork::transient {
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+/// Of a rate times the step.
+struct StepBound {
+  /// At an accuracy of 0.01; goes with its square root. Unbounded: `largest` at any accuracy.
+  double share = unbounded;
+  double largest = unbounded; ///< at any accuracy; a given step above it is warned about
+  /// @param fineness  1 at an accuracy of 0.01, as its square root
+  [[nodiscard]] constexpr double at(double fineness) const { return std::min(share * fineness, largest); }
+  [[nodiscard]] constexpr StepBound times(double n) const { return {n * share, n * largest}; }
+};
+
+/// The accuracy that shares are of, and the coarsest: no statistics are worth having in longer steps.
+constexpr double accuracy_of_shares = 0.01, coarsest_accuracy = 0.02;
+
+/// Steps in a period of a load. Lines between their ends lose (2 pi/n)^2/12: 3 % of n = 10, the fewest whatever the accuracy; 0.4 % of 30, at an
+/// accuracy of 0.01 with contacts; 8e-5 of 200, without contacts, where little else limits the step.
+constexpr double fewest_points = 10.0, points_of_lines = 30.0, points_without_contacts = 200.0;
+/// w_max h at an accuracy of 0.01 without contacts, where flows are exact: statistics see the modes in 20 points a period.
+constexpr double mode_without_contacts = 0.3;
+/// w_c h at an accuracy of 0.01 that normal dampers never make the step shorter than: a faster one leaves no rebound (e < 0.001), and resolving
+/// it costs without end.
+constexpr double finest_for_normal_dampers = 0.03;
+
+struct SchemeLimits {
+  SchemeKind scheme;
+  /// The modes move exactly between the contact impulses; their highest frequency then limits the step only where contacts excite it.
+  bool exact_modes = false;
+  /// That a step has at most for the dampers of contacts, whose bounds are those of an interval. 64: where more are needed, the step is made shorter.
+  int intervals = 1;
+  /// w_c h, w_t h: a closed, a sticking contact. `share`: impacts and slides are as accurate as statistics are to be (doc/schemes.md; the intervals of
+  /// splitting have half of it). `largest`: above it an impact changes the energy by more than 1 %, or (energy_conserving) the largest force is
+  /// 4 % low and more, however stable the run (bench/stability_map.hpp).
+  StepBound contact = {};
+  /// r_t dt: a contact that its tangential damper stops; of Euler and devogelaere r_e h too, all dampers that they have explicitly, whose limits of stability are 1
+  /// (r_e h: 2) and 0.59. Implicit ones leave (1 - x/2)/(1 + x/2) of the speed of a sticking contact at x = r_t h: it turns round above 2. Above 6.3 in an
+  /// interval of splitting the work of a damper can come out below 0 (doc/schemes.md, Tangential dampers).
+  StepBound tangential_damper = {};
+  /// r_n dt: a contact that its normal damper stops, of schemes that have it implicitly; others have it in r_e. With splitting the force falls within an
+  /// interval as a parabola up to contact::most_parabolic; collocation leaves a tenth of the speed of a mass at 4, where 0.02 is right.
+  StepBound normal_damper = {};
+  /// w_max h, with contacts. splitting resonates with modes at pi, and its cubic follows them to 2.5; energy_conserving has the same resonance; Euler's limit of stability
+  /// is 2, that of devogelaere 2.8.
+  StepBound highest_mode = {};
+  /// In a period of harmonic and random loads on contacts, at an accuracy of 0.01. splitting gives their polygons corners that make up for what lines lose (vibration/load_sum.hpp):
+  /// nothing of harmonic loads, (2 pi/10)^4/240 = 0.07 % of the highest frequency of random ones. Others: (2 pi/30)^2/12 = 0.4 %.
+  double points_per_period = points_of_lines;
+  /// What a normal damper beyond its bound makes wrong, for messages.
+  const char* by_normal_damper = "";
+};
+
+inline constexpr std::array<SchemeLimits, scheme_count> scheme_limits{{
+    {.scheme = SchemeKind::splitting,
+     .exact_modes = true,
+     .intervals = 64,
+     .contact = {1.25, 1.25},
+     .tangential_damper = {6.3, 6.3},
+     .normal_damper = {unbounded, 1.8},
+     .highest_mode = {2.5, 2.5},
+     .points_per_period = fewest_points,
+     .by_normal_damper = "largest and rms forces"},
+    {.scheme = SchemeKind::collocation,
+     .exact_modes = true,
+     .contact = {0.5, 1.0},
+     .tangential_damper = {2.0, 4.0},
+     .normal_damper = {2.0, 4.0},
+     .by_normal_damper = "rebounds"},
+    {.scheme = SchemeKind::euler,
+     .contact = {0.3, 1.0},
+     .tangential_damper = {0.5, 1.0},
+     .highest_mode = {0.5, 1.8}},
+    {.scheme = SchemeKind::energy_conserving,
+     .exact_modes = true,
+     .contact = {0.3, 0.5},
+     .tangential_damper = {2.0, 4.0},
+     .normal_damper = {2.0, 4.0},
+     .highest_mode = {2.5, 2.5},
+     .by_normal_damper = "largest forces (rebounds are right at any step)"},
+    {.scheme = SchemeKind::devogelaere,
+     .contact = {0.3, 0.75},
+     .tangential_damper = {0.5, 0.5},
+     .highest_mode = {0.5, 1.8}},
+    {.scheme = SchemeKind::runge_kutta_54}, // by its tolerance
+}};
+
+/// Of splitting alone. w_c dt and w_t dt of its intervals at an accuracy of 0.01: two a step, which take the time of one, since they turn less and are found
+/// at once. Contacts whose error replays (splitting/replays.hpp) find above it move in up to 16 times as many.
+constexpr double contact_interval = 0.625;
+/// r_t h above which tangential dampers stop contacts within the step, and w h of modes that are followed then: (S1) overestimates their velocity, and
+/// contacts that stick are unstable (doc/schemes.md, Limits; tests/transient/sticking_contacts_test.cpp).
+constexpr double fast_damper = 3.0, mode_with_fast_damper = 1.5;
+/// Modes from so many times w_c and w_t on are made heavier at an accuracy of 0.01 (modes/mass_scaling.hpp), whatever the tangential dampers: 2.5/1.25.
+constexpr double scaled_above = 2.0;
+/// w_r h of records: the polygon nearest to one loses (w h)^4/720 of what moves with w, 0.14 % at an accuracy of 0.01 (0.01 % without contacts), and the
+/// fewest steps in its period: 0.8 %.
+constexpr double record_share = 1.0, record_share_without_contacts = 0.5, fewest_points_of_records = 4.0;
+
+[[nodiscard]] constexpr const SchemeLimits& limits_of(SchemeKind scheme) {
+  return scheme_limits[static_cast<std::size_t>(scheme)];
+}
+static_assert(
+    [] {
+      for (std::size_t i = 0; i < scheme_count; ++i)
+        if (static_cast<std::size_t>(scheme_limits[i].scheme) != i)
+          return false;
+      return true;
+    }(),
+    "a row for each scheme, in their order");
+static_assert(limits_of(SchemeKind::splitting).highest_mode.share ==
+              scaled_above * limits_of(SchemeKind::splitting).contact.share);
+
+} // namespace fretwork::transient
