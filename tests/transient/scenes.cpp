@@ -121,8 +121,12 @@ struct Keeper final : Sampler {
 } // namespace
 
 History simulate(const Scene& scene, const StepOptions& options, double every, double from) {
+  return simulate_with(scene, choose_step(scene, options), every, from);
+}
+
+History simulate_with(const Scene& scene, const StepChoice& choice, double every, double from) {
   History run;
-  run.choice = choose_step(scene, options);
+  run.choice = choice;
   const OutputGrid grid = output_grid(scene.duration, every);
   const auto contacts = static_cast<Eigen::Index>(scene.contacts.size());
   run.time.setZero(grid.count);

@@ -48,6 +48,8 @@ struct History {
   std::vector<post::ContactSummary> statistics;
 };
 /// @param every  s, between outputs   @param from  s, start of the window of the statistics
+[[nodiscard]] History simulate_with(const transient::Scene& scene, const transient::StepChoice& choice,
+                                    double every, double from = 0.0);
 [[nodiscard]] History simulate(const transient::Scene& scene, const transient::StepOptions& options,
                                double every, double from = 0.0);
 

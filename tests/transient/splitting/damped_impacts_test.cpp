@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Impacts without rebound at long steps: the force jumps to C_N v at the touch and falls within a small part of the step.
 #include "single_mass.hpp"
+#include "transient/scene/scheme_limits.hpp"
 #include <gtest/gtest.h>
 
 namespace fretwork::tests::damped_impacts_test {
 namespace {
 
 constexpr double contact_frequency = 100.0, speed = 1.0, gap = 2.3e-3; // rad/s, m/s, m
-constexpr double longest = 1.25 / contact_frequency;                   // s
+constexpr transient::SchemeLimits limits = transient::limits_of(transient::SchemeKind::splitting);
+constexpr double longest = limits.contact.largest / contact_frequency;            // s
+constexpr double most_resolved = limits.intervals * limits.normal_damper.largest; // r_n h
 
-/// @param rate  r_n, 1/s
-SingleMass damped(double rate) {
+/// @param rate  r_n, 1/s   @param frequency  w_c, rad/s
+SingleMass damped(double rate, double frequency = contact_frequency) {
   SingleMass out;
   out.velocity = {0.0, 0.0, speed};
   out.gap = gap;
-  out.normal = {contact_frequency * contact_frequency, rate};
+  out.normal = {frequency * frequency, rate};
   out.duration = 0.2;
   return out;
 }
@@ -23,7 +26,7 @@ SingleMass damped(double rate) {
 
 // To r_n h = 115 in up to 64 intervals a step. One interval of r_n dt = 2 had half the largest force.
 TEST(DampedImpacts, HaveTheirLargestAndRmsForceAtTheLongestStep) {
-  for (const double resolution : {2.0, 20.0, 50.0, 110.0})
+  for (const double resolution : {2.0, 20.0, 50.0, most_resolved})
     for (const int steps : {16, 17, 18, 19}) { // they touch elsewhere in one
       const SingleMass mass = damped(resolution / longest);
       const History run = simulate(scene_of(mass), splitting(mass.duration / steps), mass.duration);
@@ -37,6 +40,22 @@ TEST(DampedImpacts, HaveTheirLargestAndRmsForceAtTheLongestStep) {
       EXPECT_NEAR(found.normal_rms / exact.normal_rms, 1.0, 0.01) << resolution << " " << steps;
       EXPECT_NEAR(found.normal_max / exact.normal_max, 1.0, 5e-3) << resolution << " " << steps;
     }
+}
+
+// The shortest step that a damper asks for, of a contact that the spring hardly moves back.
+TEST(DampedImpacts, HaveTheirLargestAndRmsForceWhereTheDamperLimitsTheStep) {
+  for (const int steps : {16, 17, 18, 19}) {
+    SingleMass mass = damped(0.0);
+    const double step = mass.duration / steps;
+    mass = damped(most_resolved / step, transient::finest_for_normal_dampers / step);
+    const History run = simulate(scene_of(mass), splitting(step), mass.duration);
+    EXPECT_TRUE(run.choice.warnings.empty());
+    EXPECT_EQ(simulate(scene_of(mass), splitting(1.03 * step), mass.duration).choice.warnings.size(), 1u);
+    const MassFigures exact = integrate(mass, 1e-7);
+    EXPECT_NEAR(run.statistics.at(0).normal_rms / exact.normal_rms, 1.0, 0.012)
+        << steps; // parabolas for e^-1.8
+    EXPECT_NEAR(run.statistics.at(0).normal_max / exact.normal_max, 1.0, 5e-3) << steps;
+  }
 }
 
 } // namespace fretwork::tests::damped_impacts_test

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What results of splitting are worth in the longest steps that its limits allow (transient/scene/scheme_limits.hpp): small scenes at each limit against
+// runge_kutta_54. The limit of normal dampers: damped_impacts_test.cpp; stability beside tangential ones: sticking_contacts_test.cpp; macro-steps: macro_steps_test.cpp.
+#include "scenes.hpp"
+#include "transient/scene/scheme_limits.hpp"
+#include <numbers>
+
+namespace splitting_limits_test {
+
+using namespace fretwork;
+using namespace fretwork::tests;
+using namespace fretwork::signals;
+using namespace fretwork::transient;
+using contact::PlaneAxis;
+using contact::Stop;
+
+namespace {
+
+constexpr SchemeLimits limits = limits_of(SchemeKind::splitting);
+constexpr double step = 1e-3;                           // s: the longest of each scene
+constexpr double contact = limits.contact.share / step; // rad/s, w_c or w_t at its limit
+constexpr double fastest_damper = limits.intervals * limits.tangential_damper.share / step; // 1/s
+constexpr double phases[] = {0.0, 0.3, 0.6}; // of a step: where an impact begins in one
+
+/// Of contact 0, and the speed of mode 0 at the end, m/s.
+struct Figures {
+  double rms, largest, mean, rebound, friction_power, work_rate, tangential_rms;
+};
+
+Figures figures_of(const Scene& scene, const StepChoice& choice) {
+  const History run = simulate_with(scene, choice, scene.duration);
+  const post::ContactSummary& s = run.statistics.at(0);
+  return {s.normal_rms,     s.normal_max, s.normal_mean,   run.v(0, run.v.cols() - 1),
+          s.friction_power, s.work_rate,  s.tangential_rms};
+}
+
+Figures reference(const Scene& scene) {
+  StepOptions options;
+  options.scheme = SchemeKind::runge_kutta_54;
+  options.tolerance = 1e-10;
+  return figures_of(scene, choose_step(scene, options));
+}
+
+/// Errors allowed: relative ones of forces, friction power and work rate; of the rebound in m/s.
+struct Allowed {
+  double rms, largest, mean, rebound;
+};
+void expect_impact(const Figures& found, const Figures& exact, const Allowed& allowed) {
+  EXPECT_NEAR(found.rms / exact.rms, 1.0, allowed.rms);
+  EXPECT_NEAR(found.largest / exact.largest, 1.0, allowed.largest);
+  EXPECT_NEAR(found.mean / exact.mean, 1.0, allowed.mean);
+  EXPECT_NEAR(found.rebound, exact.rebound, allowed.rebound);
+}
+void expect_friction(const Scene& scene, double power, double force) {
+  const Figures found = figures_of(scene, choose_step(scene, splitting(step))), exact = reference(scene);
+  EXPECT_NEAR(found.friction_power / exact.friction_power, 1.0, power);
+  EXPECT_NEAR(found.work_rate / exact.work_rate, 1.0, power);
+  EXPECT_NEAR(found.tangential_rms / exact.tangential_rms, 1.0, force);
+}
+
+/// A longer step is warned about, this one is not.
+void expect_at_limit(const Scene& scene) {
+  EXPECT_TRUE(choose_step(scene, splitting(step)).warnings.empty());
+  EXPECT_EQ(choose_step(scene, splitting(1.03 * step)).warnings.size(), 1u);
+}
+
+/// A mode that is free and one of w h = `fast` move a node at 1 m/s to a stop that both give way to.
+/// @param share  of the fast mode at the node over that of the free one; 0: a mass alone   @param phase  of the first step with a force
+Scene impact(double frequency, double damping_ratio, double fast, double share, double phase) {
+  Scene scene;
+  const double mobility = 1.0 + share * share, mode = fast / step;
+  scene.system.stiffness = Eigen::Vector2d(0.0, mode * mode);
+  scene.system.damping = Eigen::Vector2d(0.0, 0.02 * mode);
+  scene.contacts = {{"stop",
+                     {Stop{0.0, PlaneAxis::y},
+                      {frequency * frequency / mobility, 2.0 * damping_ratio * frequency / mobility},
+                      {}},
+                     Vec3(0.0, -(3.0 + phase) * step, 0.0),
+                     Eigen::MatrixXd::Zero(3, 2)}};
+  scene.contacts[0].b.row(1) << 1.0, share;
+  scene.q0 = Eigen::Vector2d::Zero();
+  scene.v0 = Eigen::Vector2d(1.0, 0.0);
+  scene.duration = 20.0 * step;
+  return scene;
+}
+
+/// Such a node, pressed on a plane with 10 N, on which a force of `amplitude` times the friction bound moves it to and fro, 50 steps a period. The fast
+/// mode begins with a vibration.
+Scene rubbing(double stick, double damper, double amplitude, double fast = 0.1, double share = 0.0) {
+  constexpr double mu = 0.3, normal = 10.0, stiffness = 1e3, vibration = 3e-3;
+  const double mobility = 1.0 + share * share, mode = fast / step;
+  Scene scene;
+  scene.system.stiffness = Eigen::Vector2d(share > 0.0 ? 1e4 : 0.0, mode * mode);
+  scene.system.damping = Eigen::Vector2d(share > 0.0 ? 2.0 : 0.0, 0.02 * mode);
+  scene.contacts = {
+      {"plane",
+       {Stop{0.0, PlaneAxis::z}, {stiffness}, {stick * stick / mobility, damper / mobility, mu, mu}},
+       Vec3(0.0, 0.0, normal / stiffness),
+       Eigen::MatrixXd::Zero(3, 2)}};
+  scene.contacts[0].b.row(0) << 1.0, share;
+  scene.q0 = Eigen::Vector2d::Zero();
+  scene.v0 = Eigen::Vector2d(0.0, share > 0.0 ? vibration : 0.0);
+  scene.loads = {{Harmonic{amplitude * mu * normal, 1.0 / (50.0 * step)}, Eigen::Vector2d(1.0, share)}};
+  scene.duration = 250.0 * step;
+  return scene;
+}
+
+/// A damped mass that a force and a load of 10 N press on a stop.
+Scene driven(const TimeFunction& load, double frequency = contact) {
+  Scene scene = mass_point(1.0, Vec3::Zero(), 400.0 * step);
+  scene.system.damping.setConstant(0.1 / step);
+  const double k = frequency * frequency;
+  scene.contacts = {contact_of(1.0, {Stop{0.0, PlaneAxis::z}, {k}, {}}, Vec3(0.0, 0.0, 10.0 / k))};
+  scene.loads = {force_on(1.0, Vec3(0, 0, 1), load), force_on(1.0, Vec3(0, 0, 1), Constant{10.0})};
+  return scene;
+}
+void expect_driven(const TimeFunction& load, const Allowed& allowed) {
+  const Scene scene = driven(load);
+  expect_impact(figures_of(scene, choose_step(scene, splitting(step))), reference(scene), allowed);
+}
+
+} // namespace
+
+TEST(SplittingLimits, OfTheContactFrequencyGivesImpacts) {
+  constexpr Allowed allowed{1e-3, 2e-3, 3e-4, 3e-4}, stopped{6e-3, 3e-3, 3e-4, 1e-4};
+  for (const double ratio : {0.0, 0.05, 0.2, 0.7, 3.0})
+    for (const double phase : phases) {
+      SCOPED_TRACE(testing::Message() << "damping ratio " << ratio << ", phase " << phase);
+      const Scene scene = impact(contact, ratio, 0.1, 0.0, phase);
+      expect_at_limit(scene);
+      expect_impact(figures_of(scene, choose_step(scene, splitting(step))), reference(scene),
+                    ratio > 1.0 ? stopped : allowed);
+    }
+}
+
+TEST(SplittingLimits, OfTheHighestModeGivesImpactsThatItHasAPartIn) {
+  constexpr Allowed part{1e-3, 4e-3, 1e-3, 2e-3}, half{4e-3, 8e-3, 6e-3, 1.2e-2};
+  for (const double frequency : {0.25 * contact, 0.5 * contact, contact})
+    for (const double share : {0.3, 1.0})
+      for (const double phase : phases) {
+        SCOPED_TRACE(testing::Message() << frequency << " rad/s, share " << share << ", phase " << phase);
+        const Scene scene = impact(frequency, 0.0, limits.highest_mode.share, share, phase);
+        expect_impact(figures_of(scene, choose_step(scene, splitting(step))), reference(scene),
+                      share < 1.0 ? part : half);
+      }
+  expect_at_limit(impact(0.5 * contact, 0.0, limits.highest_mode.share, 0.3, 0.0));
+}
+
+TEST(SplittingLimits, OfScaledModesGiveImpactsThatTheyHaveAPartIn) {
+  constexpr Allowed far{1e-3, 3e-3, 4e-4, 6e-4}, near{8e-3, 5e-2, 5e-3, 1e-2};
+  for (const double times : {3.0, 14.0}) // w_c
+    for (const double share : {0.3, 1.0})
+      for (const double phase : phases) {
+        SCOPED_TRACE(testing::Message() << times << " w_c, share " << share << ", phase " << phase);
+        const Scene scene = impact(contact, 0.0, times * limits.contact.share, share, phase);
+        StepChoice scaled = choose_step(scene, splitting(step));
+        scaled.fastest = limits.highest_mode.share / step;
+        expect_impact(figures_of(scene, scaled), reference(scene), times > 10.0 ? far : near);
+      }
+}
+
+TEST(SplittingLimits, OfStickingContactsGiveFriction) {
+  for (const double amplitude : {1.5, 3.0, 10.0})
+    for (const double damper : {0.0, 0.2 * contact}) {
+      SCOPED_TRACE(testing::Message() << "amplitude " << amplitude << ", damper " << damper);
+      const Scene scene = rubbing(contact, damper, amplitude);
+      expect_at_limit(scene);
+      expect_friction(scene, 1e-3, 5e-3);
+    }
+}
+
+// A mass that turns round sticks for less than an interval meanwhile. Where it slid on in the new direction at once, friction powers were up to 1.7 % low.
+TEST(SplittingLimits, OfTangentialDampersGiveFriction) {
+  for (const double amplitude : {1.5, 2.5, 3.0, 10.0})
+    for (const double damper : {fastest_damper, limits.tangential_damper.share / step, fast_damper / step}) {
+      SCOPED_TRACE(testing::Message() << "amplitude " << amplitude << ", damper " << damper);
+      expect_friction(rubbing(contact, damper, amplitude), 1e-3, 5e-3);
+      expect_friction(rubbing(0.2 * contact, damper, amplitude), 1e-3, 5e-3);
+    }
+  expect_at_limit(rubbing(0.2 * contact, fastest_damper, 3.0));
+}
+
+// The velocity that a force gives a mode of w h = 1.5 is overestimated by 24 % (doc/schemes.md, Limits).
+TEST(SplittingLimits, OfModesBesideTangentialDampersGiveFriction) {
+  for (const double share : {0.5, 1.0})
+    for (const double amplitude : {1.2, 3.0}) {
+      SCOPED_TRACE(testing::Message() << "share " << share << ", amplitude " << amplitude);
+      for (const double damper : {fastest_damper, 1.01 * fast_damper / step})
+        expect_friction(rubbing(contact, damper, amplitude, mode_with_fast_damper, share),
+                        share < 1.0 ? 8e-3 : 4e-2, 6e-3);
+      expect_friction(rubbing(contact, fast_damper / step, amplitude, limits.highest_mode.share, share), 8e-3,
+                      2e-3);
+    }
+  expect_at_limit(rubbing(0.5 * contact, 30.0 / step, 3.0, mode_with_fast_damper, 0.5));
+  expect_at_limit(rubbing(0.5 * contact, 0.9 * fast_damper / step, 3.0, limits.highest_mode.share, 0.5));
+}
+
+TEST(SplittingLimits, OfTheExcitationGiveForces) {
+  const double frequency = 1.0 / (limits.points_per_period * step);
+  expect_driven(Harmonic{5.0, frequency}, {1e-4, 1e-3, 1e-5, 1e-5});
+  expect_driven(Random{3.0, 0.2 * frequency, frequency, 3}, {3e-4, 2e-3, 1e-5, 1e-4});
+  expect_at_limit(driven(Harmonic{5.0, frequency}, 0.9 * contact));
+}
+
+/// @param interval  s
+Table sine(double rate, double interval) {
+  Table table;
+  for (int i = 0; table.time.empty() || table.time.back() < 401.0 * step; ++i) {
+    table.time.push_back(i * interval);
+    table.value.push_back(5.0 * std::sin(rate * table.time.back()));
+  }
+  return table;
+}
+
+TEST(SplittingLimits, OfRecordsGiveForces) {
+  for (const double interval : {step / 3.3, step / 20.0}) {
+    const Table record = sine(record_share / step, interval);
+    EXPECT_NEAR(choose_step(driven(record), splitting(step)).record_rate * step, record_share, 0.03);
+    expect_driven(record, {3e-4, 2e-3, 1e-4, 1e-4});
+  }
+}
+
+// Values that change by their whole size from point to point of a table, which lie anywhere in steps: lines between the ends of steps cut their tips.
+TEST(SplittingLimits, OfTablesGiveForces) {
+  Table table{{0.0}, {0.0}};
+  for (int i = 1; i < 60; ++i) {
+    table.time.push_back(table.time.back() + (i % 3 > 0 ? 1.0 : 17.3) * step);
+    table.value.push_back(6.0 * std::sin(1.7 * i));
+  }
+  expect_driven(table, {3e-2, 4e-2, 1e-3, 1e-3});
+}
+
+} // namespace splitting_limits_test
