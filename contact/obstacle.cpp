@@ -94,35 +94,40 @@ ObstacleProperties properties_of(const Obstacle& obstacle) {
               .gap_bound = {1.0, 1.0, c.gap},
               .is_bound_gap = true,
               .is_concave = true,
-              .has_parts = false};
+              .has_parts = false,
+              .has_opposite_sides = true};
     }
     ObstacleProperties operator()(const PlanePair& p) const {
       return {.extent = p.gap,
               .gap_bound = plane(p.axis, p.gap, 1.0, 0.0),
               .is_bound_gap = true,
               .is_concave = true,
-              .has_parts = false};
+              .has_parts = false,
+              .has_opposite_sides = true};
     }
     ObstacleProperties operator()(const Stop& s) const {
       return {.extent = std::abs(s.gap),
               .gap_bound = plane(s.axis, s.gap, 0.0, 1.0),
               .is_bound_gap = true,
               .is_concave = true,
-              .has_parts = false};
+              .has_parts = false,
+              .has_opposite_sides = false};
     }
     ObstacleProperties operator()(const RoundPair& p) const {
       return {.extent = p.distance,
               .gap_bound = {1.0, 1.0, -p.distance, -1.0},
               .is_bound_gap = true,
               .is_concave = false,
-              .has_parts = false};
+              .has_parts = false,
+              .has_opposite_sides = false};
     }
     ObstacleProperties operator()(const FacingPlanes& p) const {
       return {.extent = p.distance,
               .gap_bound = plane(p.axis, -p.distance, 0.0, -p.side),
               .is_bound_gap = true,
               .is_concave = true,
-              .has_parts = false};
+              .has_parts = false,
+              .has_opposite_sides = false};
     }
     ObstacleProperties operator()(const Ellipse& e) const {
       const double least = std::min(e.semi_y, e.semi_z), largest = std::max(e.semi_y, e.semi_z);
@@ -130,24 +135,50 @@ ObstacleProperties properties_of(const Obstacle& obstacle) {
               .gap_bound = {1.0, 1.0, least - e.radius},
               .is_bound_gap = false,
               .is_concave = true,
-              .has_parts = least * least < e.radius * largest};
+              .has_parts = least * least < e.radius * largest,
+              .has_opposite_sides = false};
     }
     ObstacleProperties operator()(const BroachedSpace& s) const {
       return {.extent = s.clearance(),
               .gap_bound = {1.0, 1.0, s.clearance()},
               .is_bound_gap = false,
               .is_concave = false,
-              .has_parts = true};
+              .has_parts = true,
+              .has_opposite_sides = true};
     }
     ObstacleProperties operator()(const Profile& p) const {
       return {.extent = p.inscribed(),
               .gap_bound = {1.0, 1.0, p.inscribed()},
               .is_bound_gap = false,
               .is_concave = false,
-              .has_parts = true};
+              .has_parts = true,
+              .has_opposite_sides = true};
     }
   };
   return std::visit(Visitor{}, obstacle);
+}
+
+bool rolls_round(const Obstacle& obstacle, PlanePoint position, PlanePoint velocity, double dt) {
+  constexpr double round_off = 1e-9; // of a distance from the centre
+  struct Visitor {
+    PlanePoint p, v;
+    double dt;
+    bool operator()(const Circle& c) const {
+      const double speed = std::sqrt(v.y * v.y + v.z * v.z);
+      return c.gap < speed * dt &&
+             std::abs(p.y * v.z - p.z * v.y) > (c.gap + round_off * std::hypot(p.y, p.z)) * speed;
+    }
+    bool operator()(const Ellipse&) const { return false; }
+    // their walls turn at corners alone, which a shorter interval resolves
+    bool operator()(const BroachedSpace&) const { return false; }
+    bool operator()(const Profile&) const { return false; }
+    // no hole
+    bool operator()(const PlanePair&) const { return false; }
+    bool operator()(const Stop&) const { return false; }
+    bool operator()(const RoundPair&) const { return false; }
+    bool operator()(const FacingPlanes&) const { return false; }
+  };
+  return std::visit(Visitor{position, velocity, dt}, obstacle);
 }
 
 std::vector<PlanePoint> outline_of(const Obstacle& obstacle) {

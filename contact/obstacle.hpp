@@ -142,8 +142,13 @@ struct ObstacleProperties {
       is_bound_gap; ///< it is this, and the normal its gradient: both are found in vector lanes; else by `locate`
   bool is_concave; ///< the gap bends nowhere upwards: the energy of a spring on the penetration is convex
   bool has_parts;  ///< deeper or farther on another part may be the nearest one, and the normal jump
+  bool has_opposite_sides; ///< a node that crosses the free space meets a wall with the opposite normal
 };
 [[nodiscard]] ObstacleProperties properties_of(const Obstacle& obstacle);
+
+/// Whether a node that is closed rolls round the wall of a hole over a time dt: it moves by more than the clearance, and its straight path misses
+/// the free space, so that no time of the interval has it open.   @param position  y, z, m   @param velocity  y, z, m/s
+[[nodiscard]] bool rolls_round(const Obstacle& obstacle, PlanePoint position, PlanePoint velocity, double dt);
 
 /// Points of its surface, m, closed; none where its gap and kind tell all.
 [[nodiscard]] std::vector<PlanePoint> outline_of(const Obstacle& obstacle);

@@ -36,9 +36,8 @@ ContactIntervals::ContactIntervals(const contact::Support& support, const Compon
                                    double damper_rate)
     : obstacle_(support.obstacle), normal_(support.normal), friction_(support.friction), rest_(rest),
       w_(mobility), in_plane_(in_plane), has_corners_(contact::properties_of(support.obstacle).has_parts),
-      has_sides_(std::holds_alternative<contact::Circle>(support.obstacle) ||
-                 std::holds_alternative<contact::PlanePair>(support.obstacle)),
-      h_(step), clearance_(clearance), mobility_(std::max({mobility(0, 0), mobility(1, 1), mobility(2, 2)})),
+      has_sides_(contact::properties_of(support.obstacle).has_opposite_sides), h_(step),
+      clearance_(clearance), mobility_(std::max({mobility(0, 0), mobility(1, 1), mobility(2, 2)})),
       stops_(damper_rate * step > stopping) {}
 
 IntervalTable ContactIntervals::table(int count) const {
@@ -297,17 +296,10 @@ void ContactIntervals::turn(const Motion& a, const NormalForce& n, double dt, Mo
   m.growth = m.growth + along(a.axes, -growth_by_force * ft, {0.0, growth_by_force * fn});
 }
 
-/// In a round hole whose gap an interval crosses, past the centre by more than the gap: without a damper that could hold it free of force the
-/// contact stays closed while the normal turns.
-bool ContactIntervals::rounds(const Motion& a, double dt) const {
-  constexpr double round_off = 1e-9;
-  const auto* circle = std::get_if<contact::Circle>(&obstacle_);
-  if (!circle || normal_.damps())
-    return false;
-  const Components &p = a.mean, &v = a.half_way;
-  const double gap = circle->gap, speed = std::sqrt(v.y() * v.y() + v.z() * v.z());
-  return gap < speed * dt &&
-         std::abs(p.y() * v.z() - p.z() * v.y()) > (gap + round_off * std::hypot(p.y(), p.z())) * speed;
+/// Without a damper that could hold it free of force a contact that rolls round stays closed while the normal turns.
+bool ContactIntervals::rolls_round(const Motion& a, double dt) const {
+  return !normal_.damps() &&
+         contact::rolls_round(obstacle_, {a.mean.y(), a.mean.z()}, {a.half_way.y(), a.half_way.z()}, dt);
 }
 
 void ContactIntervals::act(MovingContact& m, const IntervalTable& of, int index) const {
@@ -315,7 +307,7 @@ void ContactIntervals::act(MovingContact& m, const IntervalTable& of, int index)
   const NormalForce n = find_normal_force(a, m.past.closed, of);
   ContactState& state = m.state;
   ContactPast& past = m.past;
-  const bool was_closed = past.closed, stays = was_closed && rounds(a, of.length),
+  const bool was_closed = past.closed, stays = was_closed && rolls_round(a, of.length),
              crosses = was_closed && !stays && past.axes.opposite(a.axes);
   const double start = index * of.share;
   state.damper_work += n.damper_work;

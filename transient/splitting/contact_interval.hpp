@@ -121,7 +121,7 @@ private:
   [[nodiscard]] static Components with_mean_friction(const MovingContact& m);
   [[nodiscard]] bool may_turn(const ContactPast& past, const FreePath& path, double way) const;
   [[nodiscard]] bool meets_corner(const FreePath& path) const;
-  [[nodiscard]] bool rounds(const Motion& a, double dt) const;
+  [[nodiscard]] bool rolls_round(const Motion& a, double dt) const;
   [[nodiscard]] double curvature(const Components& u) const {
     return contact::curvature(obstacle_, u.y() + rest_.y(), u.z() + rest_.z());
   }
