@@ -136,7 +136,7 @@ ObstacleProperties properties_of(const Obstacle& obstacle) {
               .is_bound_gap = false,
               .is_concave = true,
               .has_parts = least * least < e.radius * largest,
-              .has_opposite_sides = false};
+              .has_opposite_sides = true};
     }
     ObstacleProperties operator()(const BroachedSpace& s) const {
       return {.extent = s.clearance(),
@@ -163,12 +163,19 @@ bool rolls_round(const Obstacle& obstacle, PlanePoint position, PlanePoint veloc
   struct Visitor {
     PlanePoint p, v;
     double dt;
-    bool operator()(const Circle& c) const {
-      const double speed = std::sqrt(v.y * v.y + v.z * v.z);
-      return c.gap < speed * dt &&
-             std::abs(p.y * v.z - p.z * v.y) > (c.gap + round_off * std::hypot(p.y, p.z)) * speed;
+    double speed;
+    /// @param ahead  m, clearance along the path   @param across  m, from the centre to the tangents of the free space along it
+    [[nodiscard]] bool misses(double ahead, double across) const {
+      return ahead < speed * dt &&
+             std::abs(p.y * v.z - p.z * v.y) > (across + round_off * std::hypot(p.y, p.z)) * speed;
     }
-    bool operator()(const Ellipse&) const { return false; }
+    bool operator()(const Circle& c) const { return misses(c.gap, c.gap); }
+    bool operator()(const Ellipse& e) const {
+      if (!(speed > 0.0))
+        return false;
+      const PlanePoint along{v.y / speed, v.z / speed}, across{along.z, -along.y};
+      return misses(support_of(e, along) - e.radius, support_of(e, across) - e.radius);
+    }
     // their walls turn at corners alone, which a shorter interval resolves
     bool operator()(const BroachedSpace&) const { return false; }
     bool operator()(const Profile&) const { return false; }
@@ -178,7 +185,9 @@ bool rolls_round(const Obstacle& obstacle, PlanePoint position, PlanePoint veloc
     bool operator()(const RoundPair&) const { return false; }
     bool operator()(const FacingPlanes&) const { return false; }
   };
-  return std::visit(Visitor{position, velocity, dt}, obstacle);
+  return std::visit(
+      Visitor{position, velocity, dt, std::sqrt(velocity.y * velocity.y + velocity.z * velocity.z)},
+      obstacle);
 }
 
 std::vector<PlanePoint> outline_of(const Obstacle& obstacle) {

@@ -74,22 +74,27 @@ TEST(Obstacle, NormalTakesEveryDirectionOfACircleAndOneOfAPlane) {
 TEST(Obstacle, HasOppositeSidesWhereFreeSpaceLiesBetweenWalls) {
   for (const Obstacle& obstacle : all)
     EXPECT_EQ(contact::properties_of(obstacle).has_opposite_sides, !std::holds_alternative<Stop>(obstacle));
+  EXPECT_TRUE(contact::properties_of(contact::Ellipse{1.0 + gap, 1.0 + 1.1 * gap, 1.0}).has_opposite_sides);
   EXPECT_FALSE(contact::properties_of(contact::RoundPair{gap}).has_opposite_sides);
   EXPECT_FALSE(contact::properties_of(contact::FacingPlanes{gap, PlaneAxis::y, 1.0}).has_opposite_sides);
 }
 
 TEST(Obstacle, IsRolledRoundByANodeWhosePathMissesTheFreeSpace) {
   constexpr double dt = 0.1, fast = 1.1 * gap / dt, slow = 0.9 * gap / dt;
-  for (const contact::PlanePoint& along : {contact::PlanePoint{0.6, 0.8}, {0.0, -1.0}}) {
-    const auto rolls = [&](double past_centre, double speed) {
-      return contact::rolls_round(Circle{gap}, {along.z * past_centre, -along.y * past_centre},
-                                  {along.y * speed, along.z * speed}, dt);
-    };
-    EXPECT_TRUE(rolls(1.01 * gap, fast));
-    EXPECT_TRUE(rolls(-1.01 * gap, fast));
-    EXPECT_FALSE(rolls(0.99 * gap, fast)) << "crosses the free space";
-    EXPECT_FALSE(rolls(1.01 * gap, slow)) << "the interval resolves the clearance";
-  }
+  for (const Obstacle& hole : {Obstacle(Circle{gap}), Obstacle(contact::Ellipse{1.0 + gap, 1.0 + gap, 1.0})})
+    for (const contact::PlanePoint& along : {contact::PlanePoint{0.6, 0.8}, {0.0, -1.0}}) {
+      const auto rolls = [&](double past_centre, double speed) {
+        return contact::rolls_round(hole, {along.z * past_centre, -along.y * past_centre},
+                                    {along.y * speed, along.z * speed}, dt);
+      };
+      EXPECT_TRUE(rolls(1.01 * gap, fast));
+      EXPECT_TRUE(rolls(-1.01 * gap, fast));
+      EXPECT_FALSE(rolls(0.99 * gap, fast)) << "crosses the free space";
+      EXPECT_FALSE(rolls(1.01 * gap, slow)) << "the interval resolves the clearance";
+    }
+  const contact::Ellipse oval{1.0 + gap, 1.0 + 1.1 * gap, 1.0};
+  EXPECT_TRUE(contact::rolls_round(oval, {1.05 * gap, 0.0}, {0.0, 1.2 * fast}, dt));
+  EXPECT_FALSE(contact::rolls_round(oval, {0.0, 1.05 * gap}, {1.2 * fast, 0.0}, dt));
   for (const Obstacle& flat : {Obstacle(PlanePair{gap, PlaneAxis::y}), Obstacle(Stop{gap, PlaneAxis::y})})
     EXPECT_FALSE(contact::rolls_round(flat, {1.01 * gap, 0.0}, {0.0, fast}, dt));
 }

@@ -167,4 +167,19 @@ TEST(ContactIntervals, FollowTheWallOfAHole) {
   }
 }
 
+// A contact that crosses a hole to the opposite side, of a circle or of an ellipse near one, resolves it in shorter intervals.
+TEST(ContactIntervals, AreShorterWhereAHoleIsCrossed) {
+  constexpr double radius = 1e-2, gap = 1e-4, speed = 2.2 * gap / step;
+  const FreePath across{{1.01 * gap, 0.0, 0.0}, {-speed, 0.0, 0.0}, {}, {}},
+      short_way{{1.01 * gap, 0.0, 0.0}, {-0.1 * speed, 0.0, 0.0}, {}, {}};
+  for (const contact::Obstacle& hole :
+       {contact::Obstacle(contact::Circle{gap}),
+        contact::Obstacle(contact::Ellipse{radius + gap, radius + 1.01 * gap, radius})}) {
+    const contact::Support support{hole, {1e6}, {}};
+    const ContactIntervals intervals(support, {}, isotropic(1.0), false, step, gap, 0.0);
+    EXPECT_EQ(intervals.least_count(1, closed({-1.0, 0.0}), across), 16);
+    EXPECT_EQ(intervals.least_count(1, closed({-1.0, 0.0}), short_way), 1);
+  }
+}
+
 } // namespace contact_interval_test
