@@ -41,20 +41,20 @@ ContactIntervals::ContactIntervals(const contact::Support& support, const Compon
       stops_(damper_rate * step > stopping) {}
 
 IntervalTable ContactIntervals::table(int count) const {
-  IntervalTable of;
-  of.count = count;
-  of.share = 1.0 / count;
-  of.length = of.share * h_;
-  of.growing = contact::growing_damping(normal_.damping, normal_.damping * mobility_ * of.length);
-  of.sliding_mass = apparent_mass(of.length, normal_.stiffness, normal_.damping);
-  of.apparent_mass =
-      std::max(of.sliding_mass, apparent_mass(of.length, friction_.stiffness, friction_.damping));
+  IntervalTable table;
+  table.count = count;
+  table.share = 1.0 / count;
+  table.length = table.share * h_;
+  table.growing = contact::growing_damping(normal_.damping, normal_.damping * mobility_ * table.length);
+  table.sliding_mass = apparent_mass(table.length, normal_.stiffness, normal_.damping);
+  table.apparent_mass =
+      std::max(table.sliding_mass, apparent_mass(table.length, friction_.stiffness, friction_.damping));
   if (friction_.active()) {
-    of.pieces = contact::piece_tables(friction_, mobility_, of.length);
+    table.pieces = contact::piece_tables(friction_, mobility_, table.length);
     if (friction_.kind == contact::FrictionMemoryKind::reference)
-      of.reference = contact::friction_table(friction_, of.length);
+      table.reference = contact::friction_table(friction_, table.length);
   }
-  return of;
+  return table;
 }
 
 double ContactIntervals::apparent_mass(double length, double stiffness, double damping) const {
@@ -91,7 +91,7 @@ bool ContactIntervals::meets_corner(const FreePath& path) const {
   return std::min(start.normal(half.ny, half.nz), half.normal(end.ny, end.nz)) < least_cosine;
 }
 
-bool ContactIntervals::meets(const ContactPast& past, const FreePath& path, int count) const {
+bool ContactIntervals::may_close(const ContactPast& past, const FreePath& path, int count) const {
   if (past.closed)
     return true;
   for (int i = count; i >= 0; --i)
@@ -100,41 +100,42 @@ bool ContactIntervals::meets(const ContactPast& past, const FreePath& path, int 
   return false;
 }
 
-void ContactIntervals::begin(MovingContact& m, const Components& held, const IntervalTable& of) const {
-  m.growth = of.length * m.past.rise;
+void ContactIntervals::begin(MovingContact& m, const Components& held, const IntervalTable& table) const {
+  m.growth = table.length * m.past.rise;
   m.force = held + 0.5 * m.growth;
   m.by_held = w_ * held;
-  follow(m);
+  apply_own_force(m);
 }
 
-void ContactIntervals::follow(MovingContact& m) const {
+void ContactIntervals::apply_own_force(MovingContact& m) const {
   m.by_force = w_ * m.force;
   m.by_growth = w_ * m.growth;
 }
 
-void ContactIntervals::move(MovingContact& m, const IntervalTable& of) const {
-  const double dt = of.length;
-  follow(m);
+void ContactIntervals::move(MovingContact& m, const IntervalTable& table) const {
+  const double dt = table.length;
+  apply_own_force(m);
   const Components by = m.others + m.by_force - m.by_held, growth = m.others_growth + m.by_growth;
   m.response = m.response + dt * (m.rate + dt * (0.5 * by - (1.0 / 12.0) * growth));
   m.rate = m.rate + dt * by;
   m.others = m.others + m.others_growth;
 }
 
-double ContactIntervals::answer(const MovingContact& m, const IntervalTable& of, const Components& by) const {
+double ContactIntervals::force_change(const MovingContact& m, const IntervalTable& table,
+                                      const Components& by) const {
   if (!m.penetrates) // one that its damper holds free of force answers too
     return 0.0;
-  double mass = m.past.friction.sliding ? of.sliding_mass : of.apparent_mass;
+  double mass = m.past.friction.sliding ? table.sliding_mass : table.apparent_mass;
   if (normal_.dissipation > 0.0)
-    mass = std::max(mass, apparent_mass(of.length, normal_.stiffness, normal_.damping_at(m.penetration)));
+    mass = std::max(mass, apparent_mass(table.length, normal_.stiffness, normal_.damping_at(m.penetration)));
   return mass * sum_of_sizes(by);
 }
 
-void ContactIntervals::expect(MovingContact& m) const {
+void ContactIntervals::extrapolate(MovingContact& m) const {
   if (!m.throughout)
     m.growth = {};
   m.force = m.last + 0.5 * m.growth;
-  follow(m);
+  apply_own_force(m);
 }
 
 Components ContactIntervals::with_mean_friction(const MovingContact& m) {
@@ -156,7 +157,7 @@ double ContactIntervals::relax(ContactPast& past, double time) const {
   return before - friction_.spring_energy(spring);
 }
 
-void ContactIntervals::stretch(ContactPast& past, const Components& missed) const {
+void ContactIntervals::correct_spring_drift(ContactPast& past, const Components& missed) const {
   if (!past.closed || !friction_.active() || past.friction.sliding ||
       friction_.kind == contact::FrictionMemoryKind::reference)
     return;
@@ -165,10 +166,10 @@ void ContactIntervals::stretch(ContactPast& past, const Components& missed) cons
     past.friction.spring.x -= friction_.along.x * friction_.stiffness * missed.x;
 }
 
-ContactIntervals::Motion ContactIntervals::motion_of(const MovingContact& m, const IntervalTable& of,
+ContactIntervals::Motion ContactIntervals::motion_of(const MovingContact& m, const IntervalTable& table,
                                                      int index) const {
   Motion a;
-  const double dt = of.length, start = index * dt;
+  const double dt = table.length, start = index * dt;
   const Components of_path = m.path.a + (start + 0.5 * dt) * m.path.j;
   const Components changed = m.others + m.by_force - m.by_held;
   const Components now = of_path + changed; // under the force that is expected of it
@@ -234,9 +235,10 @@ double ContactIntervals::time_of_closing(const Motion& a, bool closed, double dt
 }
 
 ContactIntervals::NormalForce ContactIntervals::find_normal_force(const Motion& a, bool closed,
-                                                                  const IntervalTable& of) const {
+                                                                  const IntervalTable& table) const {
   NormalForce out;
-  const double dt = of.length, closes = time_of_closing(a, closed, dt);
+  out.departure = -a.rate;
+  const double dt = table.length, closes = time_of_closing(a, closed, dt);
   if (!(closes < (1.0 - shortest) * dt)) {
     out.damper_work = released(a.penetration, a.after(dt));
     return out;
@@ -246,7 +248,8 @@ ContactIntervals::NormalForce ContactIntervals::find_normal_force(const Motion& 
   const auto over = [&](double length) {
     const bool whole = length == dt;
     const double growing =
-        whole ? of.growing : contact::growing_damping(normal_.damping, normal_.damping * mobility_ * length);
+        whole ? table.growing
+              : contact::growing_damping(normal_.damping, normal_.damping * mobility_ * length);
     const double end =
         start + length * (rate + 0.5 * length * a.acceleration_inwards) + (whole ? a.bend : 0.0);
     return contact::normal_over_interval(normal_, length, a.mobility, growing,
@@ -267,24 +270,25 @@ ContactIntervals::NormalForce ContactIntervals::find_normal_force(const Motion& 
   out.force = share * n.force;
   out.growth = share * share * n.growth + (12.0 * begin + 6.0 * (share - 1.0)) * out.force;
   out.from = closes;
-  out.touches = !closed;
   out.to = closes + (out.opens ? n.to : 1.0) * length;
   out.course = n.course;
   out.approach = rate;
-  out.departure = -(rate + length * (a.acceleration_inwards - a.mobility * n.force));
+  const double last_rate = rate + length * (a.acceleration_inwards - a.mobility * n.force);
+  if (n.force > 0.0)
+    out.departure = -last_rate;
   out.damper_work = n.damper_work;
   if (closes > 0.0)
     out.damper_work += released(a.penetration, start);
   if (out.opens) {
     const double left = dt - closes - length;
-    const double end = n.end + left * (-out.departure + 0.5 * left * a.acceleration_inwards);
+    const double end = n.end + left * (last_rate + 0.5 * left * a.acceleration_inwards);
     out.damper_work += released(n.end, end);
   }
   return out;
 }
 
 /// A force along axes that turn, seen along those of the mean position.
-void ContactIntervals::turn(const Motion& a, const NormalForce& n, double dt, MovingContact& m) {
+void ContactIntervals::rotate_force(const Motion& a, const NormalForce& n, double dt, MovingContact& m) {
   const double place = 0.5 * (n.from + n.to - dt), acts = n.to - n.from,
                square = place * place + acts * acts / 12.0; // s2, mean of the time since the middle, squared
   const double fn = normal(a.axes, m.force), ft = tangent(a.axes, m.force);
@@ -302,63 +306,73 @@ bool ContactIntervals::rolls_round(const Motion& a, double dt) const {
          contact::rolls_round(obstacle_, {a.mean.y(), a.mean.z()}, {a.half_way.y(), a.half_way.z()}, dt);
 }
 
-void ContactIntervals::act(MovingContact& m, const IntervalTable& of, int index) const {
-  const Motion a = motion_of(m, of, index);
-  const NormalForce n = find_normal_force(a, m.past.closed, of);
-  ContactState& state = m.state;
+void ContactIntervals::find_force(MovingContact& m, const IntervalTable& table, int index) const {
+  const Motion motion = motion_of(m, table, index);
   ContactPast& past = m.past;
-  const bool was_closed = past.closed, stays = was_closed && rolls_round(a, of.length),
-             crosses = was_closed && !stays && past.axes.opposite(a.axes);
-  const double start = index * of.share;
-  state.damper_work += n.damper_work;
+  const NormalForce n = find_normal_force(motion, past.closed, table);
+  const Passage passage = passage_of({.was_closed = past.closed,
+                                      .rolls_round = past.closed && rolls_round(motion, table.length),
+                                      .crosses = past.axes.opposite(motion.axes),
+                                      .has_force = n.force > 0.0,
+                                      .force_ends = n.opens});
+  record(passage, n, table, index, m);
+  past.closed = ends_closed(passage);
   m.force = m.growth = m.last = {};
-  past.closed = stays || (n.force > 0.0 && !n.opens);
-  if (n.force > 0.0) {
-    if (crosses) { // from face to face without a gap that the interval would see
-      m.opened = true;
-      state.opened_at = start + (n.from - shortest * of.length) / h_; // before it closes again
-      state.departure = n.approach;
-    }
-    // not where a closed contact rolls out by less than its path is known to
-    if (n.touches || crosses || past.before_run) {
-      ++state.touches;
-      past.before_run = false;
-      state.closed_at = start + n.from / h_;
-      state.approach = n.approach;
-    }
-    const double share = (n.to - n.from) / h_;
-    state.normal_force += of.share * n.force;
-    state.normal_square += share * n.course.square();
-    state.closed += stays ? 0.0 : share;
-    state.peak = std::max(state.peak, n.course.largest());
-    if (friction_.active()) {
-      find_friction(a, n, of, m);
-    } else {
-      m.force = along(a.axes, n.force, {});
-      m.growth = along(a.axes, n.growth, {});
-    }
-    past.axes = state.axes = a.axes;
-    if (a.curved)
-      turn(a, n, of.length, m);
-    if (past.closed)
-      m.last = n.from > 0.0 ? (n.course.last / n.force) * m.force : m.force + 0.5 * m.growth;
-    m.mean = m.mean + of.share * m.force;
-    m.slope =
-        m.slope + of.share * ((6.0 * (start + 0.5 * of.share) - 3.0) * m.force + (0.5 * of.share) * m.growth);
-  } else if (friction_.active()) {
-    m.relaxed += relax(past, of.length);
+  if (n.force > 0.0)
+    add_force(passage, motion, n, table, index, m);
+  else if (friction_.active())
+    m.relaxed += relax(past, table.length);
+  m.throughout = past.closed && n.from == 0.0;
+  past.rise = m.throughout ? (1.0 / table.length) * m.growth : Components{};
+  m.penetration = std::max({0.0, motion.penetration, motion.after(table.length)});
+  m.penetrates = m.penetration > 0.0 || past.closed;
+}
+
+/// When and how fast it touches and departs, and its normal force.
+void ContactIntervals::record(Passage passage, const NormalForce& n, const IntervalTable& table, int index,
+                              MovingContact& m) const {
+  ContactState& state = m.state;
+  const double start = index * table.share, acts = (n.to - n.from) / h_; // shares of the step
+  if (crosses(passage)) {
+    m.opened = true;
+    state.opened_at = start + (n.from - shortest * table.length) / h_; // before it closes again
+    state.departure = n.approach;
   }
-  if ((was_closed || n.force > 0.0) && !past.closed) {
+  if (touches(passage) || (m.past.before_run && n.force > 0.0)) {
+    ++state.touches;
+    m.past.before_run = false;
+    state.closed_at = start + n.from / h_;
+    state.approach = n.approach;
+  }
+  if (departs(passage)) {
     m.opened = true;
     state.opened_at = start + n.to / h_;
-    state.departure = n.force > 0.0 ? n.departure : -a.rate;
+    state.departure = n.departure;
   }
-  if (stays)
-    state.closed += of.share;
-  m.throughout = past.closed && n.from == 0.0;
-  past.rise = m.throughout ? (1.0 / of.length) * m.growth : Components{};
-  m.penetration = std::max({0.0, a.penetration, a.after(of.length)});
-  m.penetrates = m.penetration > 0.0 || past.closed;
+  state.closed += passage == Passage::rolls_round ? table.share : acts;
+  state.normal_force += table.share * n.force;
+  state.normal_square += acts * n.course.square();
+  state.peak = std::max(state.peak, n.course.largest());
+  state.damper_work += n.damper_work;
+}
+
+/// Its force with its friction, along axes that turn; and its part of the linear force over the step.
+void ContactIntervals::add_force(Passage passage, const Motion& motion, const NormalForce& n,
+                                 const IntervalTable& table, int index, MovingContact& m) const {
+  if (friction_.active()) {
+    find_friction(passage, motion, n, table, m);
+  } else {
+    m.force = along(motion.axes, n.force, {});
+    m.growth = along(motion.axes, n.growth, {});
+  }
+  m.past.axes = m.state.axes = motion.axes;
+  if (motion.curved)
+    rotate_force(motion, n, table.length, m);
+  if (m.past.closed)
+    m.last = n.from > 0.0 ? (n.course.last / n.force) * m.force : m.force + 0.5 * m.growth;
+  const double middle = index * table.share + 0.5 * table.share; // share of the step
+  m.mean = m.mean + table.share * m.force;
+  m.slope = m.slope + table.share * ((6.0 * middle - 3.0) * m.force + (0.5 * table.share) * m.growth);
 }
 
 } // namespace fretwork::transient

@@ -11,6 +11,7 @@
 #include "contact/support.hpp"
 #include "transient/scene/scheme.hpp"
 #include "transient/splitting/components.hpp"
+#include "transient/splitting/passage.hpp"
 
 namespace fretwork::transient {
 
@@ -84,17 +85,18 @@ public:
   /// @param parts  that it has anyway
   [[nodiscard]] int least_count(int parts, const ContactPast& past, const FreePath& path) const;
   /// Whether it can have a force in the step.   @param count  of places at which it is looked for
-  [[nodiscard]] bool meets(const ContactPast& past, const FreePath& path, int count) const;
+  [[nodiscard]] bool may_close(const ContactPast& past, const FreePath& path, int count) const;
   /// At the start of a step.   @param held  N
-  void begin(MovingContact& m, const Components& held, const IntervalTable& of) const;
-  /// It is where its force takes it, which has been found or is expected.
-  void follow(MovingContact& m) const;
-  /// Its forces over the interval `index` of the step, the others' given. No allocation.
-  void act(MovingContact& m, const IntervalTable& of, int index) const;
+  void begin(MovingContact& m, const Components& held, const IntervalTable& table) const;
+  /// The accelerations by its own force, which has been found or is expected.
+  void apply_own_force(MovingContact& m) const;
+  /// Its force over the interval `index` of the step, the others' given. No allocation.
+  void find_force(MovingContact& m, const IntervalTable& table, int index) const;
   /// To the end of the interval, under all forces as they were found. Those of the others are expected to grow on.
-  void move(MovingContact& m, const IntervalTable& of) const;
+  void move(MovingContact& m, const IntervalTable& table) const;
   /// N: about what its force would change by for a further acceleration, m/s2.
-  [[nodiscard]] double answer(const MovingContact& m, const IntervalTable& of, const Components& by) const;
+  [[nodiscard]] double force_change(const MovingContact& m, const IntervalTable& table,
+                                    const Components& by) const;
   /// N: what the modes bear of its force over the next step before its forces there are found: it goes on as it ends. Of friction that holds a contact
   /// with a damper, or several together, the mean does: they may stop it early in a step, and the linear force of that impulse ends opposite to it.
   [[nodiscard]] Components held(const MovingContact& m) const {
@@ -103,12 +105,12 @@ public:
     return stops_ && !m.past.friction.sliding ? with_mean_friction(m) : m.last;
   }
   /// What is expected of its force in the next interval: it grows on where the contact has been closed throughout, and stays else.
-  void expect(MovingContact& m) const;
+  void extrapolate(MovingContact& m) const;
   /// An open contact forgets over `time`. Returns what its spring dissipates, J.
   double relax(ContactPast& past, double time) const;
   /// A spring that sticks is stretched by what the modes moved, not by what the step took them to move: it would creep.
   /// @param missed  m, what they moved further
-  void stretch(ContactPast& past, const Components& missed) const;
+  void correct_spring_drift(ContactPast& past, const Components& missed) const;
 
 private:
   struct Motion;
@@ -129,14 +131,19 @@ private:
   [[nodiscard]] double released(double from, double to) const {
     return normal_.spring_energy(from) - normal_.spring_energy(to);
   }
-  [[nodiscard]] Motion motion_of(const MovingContact& m, const IntervalTable& of, int index) const;
+  [[nodiscard]] Motion motion_of(const MovingContact& m, const IntervalTable& table, int index) const;
   [[nodiscard]] double time_of_closing(const Motion& a, bool closed, double dt) const;
-  [[nodiscard]] NormalForce find_normal_force(const Motion& a, bool closed, const IntervalTable& of) const;
-  static void turn(const Motion& a, const NormalForce& n, double dt, MovingContact& m);
-  void find_friction(const Motion& a, const NormalForce& n, const IntervalTable& of, MovingContact& m) const;
+  [[nodiscard]] NormalForce find_normal_force(const Motion& a, bool closed, const IntervalTable& table) const;
+  void record(Passage passage, const NormalForce& n, const IntervalTable& table, int index,
+              MovingContact& m) const;
+  void add_force(Passage passage, const Motion& motion, const NormalForce& n, const IntervalTable& table,
+                 int index, MovingContact& m) const;
+  static void rotate_force(const Motion& a, const NormalForce& n, double dt, MovingContact& m);
+  void find_friction(Passage passage, const Motion& a, const NormalForce& n, const IntervalTable& table,
+                     MovingContact& m) const;
   template <class V, class Friction>
-  void take_friction(const Motion& a, const NormalForce& n, const IntervalTable& of, const Friction& f,
-                     V velocity, MovingContact& m) const;
+  void add_friction(const Motion& a, const NormalForce& n, const IntervalTable& table, const Friction& f,
+                    V velocity, MovingContact& m) const;
 
   const contact::Obstacle& obstacle_;
   const contact::NormalLaw normal_;

@@ -42,10 +42,10 @@ Vec2 in_plane(double along_t) { return {0.0, along_t}; }
 
 /// Its friction over an interval.   @param f  a FrictionInterval<V>   @param velocity  m/s, at its start
 template <class V, class Friction>
-void ContactIntervals::take_friction(const Motion& a, const NormalForce& n, const IntervalTable& of,
-                                     const Friction& f, V velocity, MovingContact& m) const {
+void ContactIntervals::add_friction(const Motion& a, const NormalForce& n, const IntervalTable& table,
+                                    const Friction& f, V velocity, MovingContact& m) const {
   ContactState& state = m.state;
-  const double dt = of.length, length = n.to - n.from;
+  const double dt = table.length, length = n.to - n.from;
   const V mean = (1.0 / length) * f.impulse, growth = (12.0 / (length * length)) * f.moment;
   const Vec2 force = in_plane(V((1.0 / dt) * f.impulse));
   m.force = along(a.axes, n.force, force);
@@ -55,7 +55,7 @@ void ContactIntervals::take_friction(const Motion& a, const NormalForce& n, cons
   state.damper_work += friction_.spring_energy(m.past.friction.spring) - friction_.spring_energy(f.spring) -
                        f.slider_work - dot(mean, f.displacement) -
                        dot(V((length / 12.0) * growth), V(f.velocity - velocity));
-  state.friction = state.friction + of.share * force;
+  state.friction = state.friction + table.share * force;
   state.friction_square += length / h_ * (dot(mean, mean) + dot(growth, growth) / 12.0);
   state.displacement = state.displacement + in_plane(f.displacement);
   state.slid += f.slid;
@@ -66,16 +66,16 @@ void ContactIntervals::take_friction(const Motion& a, const NormalForce& n, cons
   m.past.friction = {in_plane(f.spring), f.sliding};
 }
 
-void ContactIntervals::find_friction(const Motion& a, const NormalForce& n, const IntervalTable& of,
-                                     MovingContact& m) const {
-  const double dt = of.length, length = n.to - n.from;
+void ContactIntervals::find_friction(Passage passage, const Motion& a, const NormalForce& n,
+                                     const IntervalTable& table, MovingContact& m) const {
+  const double dt = table.length, length = n.to - n.from;
   const bool by_reference = friction_.kind == contact::FrictionMemoryKind::reference;
   ContactState& state = m.state;
   contact::FrictionMemory& memory = m.past.friction;
   const double before = friction_.spring_energy(memory.spring);
   if (m.past.axes.opposite(a.axes)) // another surface
     memory = {};
-  else if (n.touches && n.from > 0.0)
+  else if (touches(passage) && n.from > 0.0)
     memory = {by_reference ? Vec2{} : contact::spring_left(friction_, n.from) * memory.spring, false};
   state.damper_work += before - friction_.spring_energy(memory.spring);
   // along t: with the normal force, linear in time
@@ -118,21 +118,21 @@ void ContactIntervals::find_friction(const Motion& a, const NormalForce& n, cons
       NormalForce whole = n;
       whole.from = 0.0;
       whole.to = dt;
-      take_friction(a, whole, of, reference_friction(friction_, of.reference, memory, n.force, dt, path),
-                    path.velocity, m);
+      add_friction(a, whole, table, reference_friction(friction_, table.reference, memory, n.force, dt, path),
+                   path.velocity, m);
     } else {
-      take_friction(a, n, of,
-                    contact::friction_over_interval(friction_, of.pieces, mobility_, memory.spring,
-                                                    memory.sliding, length, n.course, path),
-                    path.velocity, m);
+      add_friction(a, n, table,
+                   contact::friction_over_interval(friction_, table.pieces, mobility_, memory.spring,
+                                                   memory.sliding, length, n.course, path),
+                   path.velocity, m);
     }
   } else {
     const contact::TangentialPath<double, double> path{friction_.along.t * vt, friction_.along.t * at,
                                                        friction_.along.t * jt, friction_.along.t * wtt};
-    take_friction(a, n, of,
-                  contact::friction_over_interval(friction_, of.pieces, mobility_, memory.spring.t,
-                                                  memory.sliding, length, n.course, path),
-                  path.velocity, m);
+    add_friction(a, n, table,
+                 contact::friction_over_interval(friction_, table.pieces, mobility_, memory.spring.t,
+                                                 memory.sliding, length, n.course, path),
+                 path.velocity, m);
   }
   m.past.spring_at_opening = dot(memory.spring, memory.spring);
   if (n.opens)

@@ -36,7 +36,7 @@ struct ContactIntervals::NormalForce {
          growth = 0.0; ///< N, mean over the interval, and growth of a linear force with its first moment
   double from = 0.0, to = 0.0;            ///< s: it acts between,
   contact::ParabolicForce course;         ///< so
-  bool touches = false, opens = false;    ///< in the interval
+  bool opens = false;                     ///< it ends in the interval
   double approach = 0.0, departure = 0.0; ///< m/s, where it closes and opens
   double damper_work = 0.0;               ///< J
 };

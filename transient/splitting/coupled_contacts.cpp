@@ -7,7 +7,7 @@ namespace fretwork::transient {
 namespace {
 
 /// Of the largest change of a force in an interval: what a contact may leave unanswered of the others' changes after its turn.
-constexpr double most_unanswered = 0.1;
+constexpr double most_left_out = 0.1;
 constexpr int most_passes = 40;
 
 } // namespace
@@ -25,7 +25,7 @@ CoupledContacts::CoupledContacts(const PackedContacts& contacts, ContactBlocks b
   counts_.reserve(count);
   next_.reserve(count);
   before_.resize(count);
-  acted_for_.resize(count);
+  found_for_.resize(count);
   loaded_.reserve(count);
   moves_.assign(count, 0);
   pushed_in_.reserve(count);
@@ -127,7 +127,7 @@ void CoupledContacts::find_forces(const ContactMotion& start, const ContactMotio
     force.mean = force.slope = {};
     const FreePath path = path_of(c, start, end);
     const int count = laws_[c].least_count(parts_[c], pasts_[c], path);
-    if (!laws_[c].meets(pasts_[c], path, count) &&
+    if (!laws_[c].may_close(pasts_[c], path, count) &&
         std::find(pushed_in_.begin(), pushed_in_.end(), c) == pushed_in_.end())
       continue;
     moves_[c] = 1;
@@ -208,15 +208,15 @@ void CoupledContacts::move(int first) {
   }
   for (int index = 0; index < count; ++index) {
     if (coupled)
-      act_together(first, index);
+      find_forces_together(first, index);
     else
-      laws_[moving_[first].number].act(moving_[first], tables_[moving_[first].number], index);
+      laws_[moving_[first].number].find_force(moving_[first], tables_[moving_[first].number], index);
     for (int i = first; i >= 0; i = next_[i])
       laws_[moving_[i].number].move(moving_[i], tables_[moving_[i].number]);
     for (int i = first; i >= 0; i = next_[i]) { // the others take it that all forces grow on
       MovingContact& m = moving_[i];
       const Components grown = m.force + m.growth, growth = m.growth;
-      laws_[m.number].expect(m);
+      laws_[m.number].extrapolate(m);
       if (coupled && !m.throughout)
         pass_on(m, m.force - grown, m.growth - growth);
     }
@@ -225,24 +225,24 @@ void CoupledContacts::move(int first) {
 
 /// The contacts of a group in an interval: one after the other, and those again whose force what the others have done since would change by a
 /// share of all changes that would let them diverge. Without strong dampers, and up to w_c dt = 0.625, there are none.
-void CoupledContacts::act_together(int first, int index) {
+void CoupledContacts::find_forces_together(int first, int index) {
   double change = 0.0; // N, the largest
   for (int i = first; i >= 0; i = next_[i]) {
     MovingContact& m = moving_[i];
     before_[i] = m;
-    change = std::max(change, act(m, index, i));
+    change = std::max(change, find_force(m, index, i));
   }
   for (int pass = 1; pass < most_passes; ++pass) {
     bool again = false;
     for (int i = first; i >= 0; i = next_[i]) {
       MovingContact& m = moving_[i];
-      if (!(laws_[m.number].answer(m, tables_[m.number], m.others - acted_for_[i]) >
-            most_unanswered * change))
+      if (!(laws_[m.number].force_change(m, tables_[m.number], m.others - found_for_[i]) >
+            most_left_out * change))
         continue;
       again = true;
       static_cast<ContactCourse&>(m) = before_[i];
-      laws_[m.number].follow(m);
-      (void)act(m, index, i);
+      laws_[m.number].apply_own_force(m);
+      (void)find_force(m, index, i);
     }
     if (!again)
       return;
@@ -251,10 +251,10 @@ void CoupledContacts::act_together(int first, int index) {
 }
 
 /// One of them. Returns by how much its force is another than it was, N.
-double CoupledContacts::act(MovingContact& m, int index, int place) {
+double CoupledContacts::find_force(MovingContact& m, int index, int place) {
   const Components force = m.force, growth = m.growth;
-  acted_for_[place] = m.others;
-  laws_[m.number].act(m, tables_[m.number], index);
+  found_for_[place] = m.others;
+  laws_[m.number].find_force(m, tables_[m.number], index);
   pass_on(m, m.force - force, m.growth - growth);
   return sum_of_sizes(m.force - force);
 }
@@ -279,8 +279,8 @@ void CoupledContacts::finish_step(const ContactMotion& end) {
   for (const MovingContact& m : moving_) {
     if (m.penetrates) // also where a damper holds the contact free of force
       normal_springs_ += contacts_.supports[m.number].normal.spring_energy(-end.locate(m.number).gap);
-    laws_[m.number].stretch(pasts_[m.number],
-                            of_lanes(end.u, m.number) - m.path.displacement(h_) - m.response);
+    laws_[m.number].correct_spring_drift(pasts_[m.number],
+                                         of_lanes(end.u, m.number) - m.path.displacement(h_) - m.response);
   }
   loaded_.clear();
   for (int c = 0; c < contacts_.count; ++c)

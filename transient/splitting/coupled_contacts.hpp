@@ -82,8 +82,8 @@ private:
   [[nodiscard]] FreePath path_of(int c, const ContactMotion& start, const ContactMotion& end) const;
   [[nodiscard]] const IntervalTable& table_of(int c, int count);
   void move(int first);
-  void act_together(int first, int index);
-  double act(MovingContact& m, int index, int place);
+  void find_forces_together(int first, int index);
+  double find_force(MovingContact& m, int index, int place);
   void pass_on(const MovingContact& m, const Components& by_force, const Components& by_growth);
 
   const PackedContacts& contacts_;
@@ -99,7 +99,7 @@ private:
   std::vector<int> counts_;           ///< of intervals that these ask for
   std::vector<int> next_;             ///< of their group; -1: none
   std::vector<ContactCourse> before_; ///< of these before the interval
-  std::vector<Components> acted_for_; ///< m/s2: the others' changes when they acted
+  std::vector<Components> found_for_; ///< m/s2: the others' changes for which their forces were found
   std::vector<char> moves_;           ///< each contact: among moving_
   std::vector<int> pushed_in_;        ///< of the step
   std::vector<Before> before_step_;

@@ -30,9 +30,9 @@ MovingContact through(const contact::Support& support, const Mobility& mobility,
   m.past = past;
   intervals.begin(m, held, table);
   for (int index = 0; index < count; ++index) {
-    intervals.act(m, table, index);
+    intervals.find_force(m, table, index);
     intervals.move(m, table);
-    intervals.expect(m);
+    intervals.extrapolate(m);
   }
   return m;
 }
@@ -153,9 +153,9 @@ TEST(ContactIntervals, FollowTheWallOfAHole) {
     m.path.a = {-w * force, 0.0, 0.0}; // of the force held
     intervals.begin(m, {-force, 0.0, 0.0}, table);
     for (int index = 0; index < count; ++index) {
-      intervals.act(m, table, index);
+      intervals.find_force(m, table, index);
       intervals.move(m, table);
-      intervals.expect(m);
+      intervals.extrapolate(m);
       EXPECT_TRUE(m.past.closed) << index;
     }
     const double share = count == 20 ? 0.025 : 0.006; // of order 2
