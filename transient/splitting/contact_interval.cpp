@@ -101,7 +101,7 @@ bool ContactIntervals::may_close(const ContactPast& past, const FreePath& path, 
 }
 
 void ContactIntervals::begin(MovingContact& m, const Components& held, const IntervalTable& table) const {
-  m.growth = table.length * m.past.rise;
+  m.growth = table.length * m.course.past.rise;
   m.force = held + 0.5 * m.growth;
   m.by_held = w_ * held;
   apply_own_force(m);
@@ -123,9 +123,9 @@ void ContactIntervals::move(MovingContact& m, const IntervalTable& table) const 
 
 double ContactIntervals::force_change(const MovingContact& m, const IntervalTable& table,
                                       const Components& by) const {
-  if (!m.penetrates) // one that its damper holds free of force answers too
+  if (!m.course.penetrates) // one that its damper holds free of force answers too
     return 0.0;
-  double mass = m.past.friction.sliding ? table.sliding_mass : table.apparent_mass;
+  double mass = m.course.past.friction.sliding ? table.sliding_mass : table.apparent_mass;
   if (normal_.dissipation > 0.0)
     mass = std::max(mass, apparent_mass(table.length, normal_.stiffness, normal_.damping_at(m.penetration)));
   return mass * sum_of_sizes(by);
@@ -139,8 +139,8 @@ void ContactIntervals::extrapolate(MovingContact& m) const {
 }
 
 Components ContactIntervals::with_mean_friction(const MovingContact& m) {
-  const contact::ContactAxes& axes = m.past.axes;
-  return along(axes, normal(axes, m.last), {m.mean.x, tangent(axes, m.mean)});
+  const contact::ContactAxes& axes = m.course.past.axes;
+  return along(axes, normal(axes, m.last), {m.course.mean.x, tangent(axes, m.course.mean)});
 }
 
 double ContactIntervals::relax(ContactPast& past, double time) const {
@@ -308,44 +308,44 @@ bool ContactIntervals::rolls_round(const Motion& a, double dt) const {
 
 void ContactIntervals::find_force(MovingContact& m, const IntervalTable& table, int index) const {
   const Motion motion = motion_of(m, table, index);
-  ContactPast& past = m.past;
+  ContactPast& past = m.course.past;
   const NormalForce n = find_normal_force(motion, past.closed, table);
   const Passage passage = passage_of({.was_closed = past.closed,
                                       .rolls_round = past.closed && rolls_round(motion, table.length),
                                       .crosses = past.axes.opposite(motion.axes),
                                       .has_force = n.force > 0.0,
                                       .force_ends = n.opens});
-  record(passage, n, table, index, m);
+  record(passage, n, table, index, m.course);
   past.closed = ends_closed(passage);
   m.force = m.growth = m.last = {};
   if (n.force > 0.0)
     add_force(passage, motion, n, table, index, m);
   else if (friction_.active())
-    m.relaxed += relax(past, table.length);
+    m.course.relaxed += relax(past, table.length);
   m.throughout = past.closed && n.from == 0.0;
   past.rise = m.throughout ? (1.0 / table.length) * m.growth : Components{};
   m.penetration = std::max({0.0, motion.penetration, motion.after(table.length)});
-  m.penetrates = m.penetration > 0.0 || past.closed;
+  m.course.penetrates = m.penetration > 0.0 || past.closed;
 }
 
 /// When and how fast it touches and departs, and its normal force.
 void ContactIntervals::record(Passage passage, const NormalForce& n, const IntervalTable& table, int index,
-                              MovingContact& m) const {
-  ContactState& state = m.state;
+                              ContactCourse& course) const {
+  ContactState& state = course.state;
   const double start = index * table.share, acts = (n.to - n.from) / h_; // shares of the step
   if (crosses(passage)) {
-    m.opened = true;
+    course.opened = true;
     state.opened_at = start + (n.from - shortest * table.length) / h_; // before it closes again
     state.departure = n.approach;
   }
-  if (touches(passage) || (m.past.before_run && n.force > 0.0)) {
+  if (touches(passage) || (course.past.before_run && n.force > 0.0)) {
     ++state.touches;
-    m.past.before_run = false;
+    course.past.before_run = false;
     state.closed_at = start + n.from / h_;
     state.approach = n.approach;
   }
   if (departs(passage)) {
-    m.opened = true;
+    course.opened = true;
     state.opened_at = start + n.to / h_;
     state.departure = n.departure;
   }
@@ -359,20 +359,22 @@ void ContactIntervals::record(Passage passage, const NormalForce& n, const Inter
 /// Its force with its friction, along axes that turn; and its part of the linear force over the step.
 void ContactIntervals::add_force(Passage passage, const Motion& motion, const NormalForce& n,
                                  const IntervalTable& table, int index, MovingContact& m) const {
+  ContactCourse& course = m.course;
   if (friction_.active()) {
     find_friction(passage, motion, n, table, m);
   } else {
     m.force = along(motion.axes, n.force, {});
     m.growth = along(motion.axes, n.growth, {});
   }
-  m.past.axes = m.state.axes = motion.axes;
+  course.past.axes = course.state.axes = motion.axes;
   if (motion.curved)
     rotate_force(motion, n, table.length, m);
-  if (m.past.closed)
+  if (course.past.closed)
     m.last = n.from > 0.0 ? (n.course.last / n.force) * m.force : m.force + 0.5 * m.growth;
   const double middle = index * table.share + 0.5 * table.share; // share of the step
-  m.mean = m.mean + table.share * m.force;
-  m.slope = m.slope + table.share * ((6.0 * middle - 3.0) * m.force + (0.5 * table.share) * m.growth);
+  course.mean = course.mean + table.share * m.force;
+  course.slope =
+      course.slope + table.share * ((6.0 * middle - 3.0) * m.force + (0.5 * table.share) * m.growth);
 }
 
 } // namespace fretwork::transient

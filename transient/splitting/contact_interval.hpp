@@ -34,7 +34,8 @@ struct ContactPast {
   Components rise;                ///< N/s, of its force in its last interval, where it was closed throughout
 };
 
-/// What a contact has done in a step so far.
+/// What a contact has done in a step so far: all that ContactIntervals::find_force adds to from interval to interval. Whoever puts it back finds the
+/// forces of the interval again.
 struct ContactCourse {
   Components mean, slope;  ///< N: over the step its force is linear in time from mean - slope to mean + slope
   ContactState state;      ///< over the step
@@ -45,9 +46,10 @@ struct ContactCourse {
 };
 
 /// A contact on its way through a step.
-struct MovingContact : ContactCourse {
-  int number = 0;            ///< of the contact
-  FreePath path;             ///< of the modes, under the forces held
+struct MovingContact {
+  int number = 0; ///< of the contact
+  FreePath path;  ///< of the modes, under the forces held
+  ContactCourse course;
   Components response, rate; ///< m, m/s: r and r' at the start of the next interval
   Components others,
       others_growth; ///< m/s2: by what the forces of the others differ from those held, mean and growth over an interval
@@ -100,9 +102,9 @@ public:
   /// N: what the modes bear of its force over the next step before its forces there are found: it goes on as it ends. Of friction that holds a contact
   /// with a damper, or several together, the mean does: they may stop it early in a step, and the linear force of that impulse ends opposite to it.
   [[nodiscard]] Components held(const MovingContact& m) const {
-    if (!m.past.closed)
+    if (!m.course.past.closed)
       return {};
-    return stops_ && !m.past.friction.sliding ? with_mean_friction(m) : m.last;
+    return stops_ && !m.course.past.friction.sliding ? with_mean_friction(m) : m.last;
   }
   /// What is expected of its force in the next interval: it grows on where the contact has been closed throughout, and stays else.
   void extrapolate(MovingContact& m) const;
@@ -135,7 +137,7 @@ private:
   [[nodiscard]] double time_of_closing(const Motion& a, bool closed, double dt) const;
   [[nodiscard]] NormalForce find_normal_force(const Motion& a, bool closed, const IntervalTable& table) const;
   void record(Passage passage, const NormalForce& n, const IntervalTable& table, int index,
-              MovingContact& m) const;
+              ContactCourse& course) const;
   void add_force(Passage passage, const Motion& motion, const NormalForce& n, const IntervalTable& table,
                  int index, MovingContact& m) const;
   static void rotate_force(const Motion& a, const NormalForce& n, double dt, MovingContact& m);

@@ -44,7 +44,7 @@ Vec2 in_plane(double along_t) { return {0.0, along_t}; }
 template <class V, class Friction>
 void ContactIntervals::add_friction(const Motion& a, const NormalForce& n, const IntervalTable& table,
                                     const Friction& f, V velocity, MovingContact& m) const {
-  ContactState& state = m.state;
+  ContactState& state = m.course.state;
   const double dt = table.length, length = n.to - n.from;
   const V mean = (1.0 / length) * f.impulse, growth = (12.0 / (length * length)) * f.moment;
   const Vec2 force = in_plane(V((1.0 / dt) * f.impulse));
@@ -52,8 +52,8 @@ void ContactIntervals::add_friction(const Motion& a, const NormalForce& n, const
   m.growth = along(a.axes, n.growth,
                    (12.0 / (dt * dt)) * in_plane(V(f.moment + (n.from + 0.5 * (length - dt)) * f.impulse)));
   // what goes into the element and is neither stored nor taken by the slider
-  state.damper_work += friction_.spring_energy(m.past.friction.spring) - friction_.spring_energy(f.spring) -
-                       f.slider_work - dot(mean, f.displacement) -
+  state.damper_work += friction_.spring_energy(m.course.past.friction.spring) -
+                       friction_.spring_energy(f.spring) - f.slider_work - dot(mean, f.displacement) -
                        dot(V((length / 12.0) * growth), V(f.velocity - velocity));
   state.friction = state.friction + table.share * force;
   state.friction_square += length / h_ * (dot(mean, mean) + dot(growth, growth) / 12.0);
@@ -63,17 +63,17 @@ void ContactIntervals::add_friction(const Motion& a, const NormalForce& n, const
   state.friction_work += f.slider_work;
   state.sliding += f.sliding_time / h_;
   state.slides = f.sliding_time > 0.0;
-  m.past.friction = {in_plane(f.spring), f.sliding};
+  m.course.past.friction = {in_plane(f.spring), f.sliding};
 }
 
 void ContactIntervals::find_friction(Passage passage, const Motion& a, const NormalForce& n,
                                      const IntervalTable& table, MovingContact& m) const {
   const double dt = table.length, length = n.to - n.from;
   const bool by_reference = friction_.kind == contact::FrictionMemoryKind::reference;
-  ContactState& state = m.state;
-  contact::FrictionMemory& memory = m.past.friction;
+  ContactState& state = m.course.state;
+  contact::FrictionMemory& memory = m.course.past.friction;
   const double before = friction_.spring_energy(memory.spring);
-  if (m.past.axes.opposite(a.axes)) // another surface
+  if (m.course.past.axes.opposite(a.axes)) // another surface
     memory = {};
   else if (touches(passage) && n.from > 0.0)
     memory = {by_reference ? Vec2{} : contact::spring_left(friction_, n.from) * memory.spring, false};
@@ -134,9 +134,9 @@ void ContactIntervals::find_friction(Passage passage, const Motion& a, const Nor
                                                  memory.sliding, length, n.course, path),
                  path.velocity, m);
   }
-  m.past.spring_at_opening = dot(memory.spring, memory.spring);
+  m.course.past.spring_at_opening = dot(memory.spring, memory.spring);
   if (n.opens)
-    state.damper_work += relax(m.past, dt - n.to);
+    state.damper_work += relax(m.course.past, dt - n.to);
 }
 
 } // namespace fretwork::transient

@@ -135,7 +135,7 @@ void CoupledContacts::find_forces(const ContactMotion& start, const ContactMotio
     MovingContact& m = moving_.emplace_back();
     m.number = c;
     m.path = path;
-    m.past = pasts_[c];
+    m.course.past = pasts_[c];
   }
   for (const int c : loaded_)
     if (!moves_[c]) {
@@ -148,14 +148,14 @@ void CoupledContacts::find_forces(const ContactMotion& start, const ContactMotio
       move(moving_blocks_[b].first);
   for (const MovingContact& m : moving_) {
     keep(m.number);
-    pasts_[m.number] = m.past;
-    forces_[m.number] = {m.mean, m.slope, laws_[m.number].held(m)};
-    trial.states[m.number] = m.state;
-    losses.damping += m.state.damper_work + m.relaxed;
-    losses.friction += m.state.friction_work;
-    if (m.state.normal_force > 0.0)
+    pasts_[m.number] = m.course.past;
+    forces_[m.number] = {m.course.mean, m.course.slope, laws_[m.number].held(m)};
+    trial.states[m.number] = m.course.state;
+    losses.damping += m.course.state.damper_work + m.course.relaxed;
+    losses.friction += m.course.state.friction_work;
+    if (m.course.state.normal_force > 0.0)
       trial.active.push_back(m.number);
-    if (m.opened)
+    if (m.course.opened)
       trial.opened.push_back(m.number);
   }
 }
@@ -229,7 +229,7 @@ void CoupledContacts::find_forces_together(int first, int index) {
   double change = 0.0; // N, the largest
   for (int i = first; i >= 0; i = next_[i]) {
     MovingContact& m = moving_[i];
-    before_[i] = m;
+    before_[i] = m.course;
     change = std::max(change, find_force(m, index, i));
   }
   for (int pass = 1; pass < most_passes; ++pass) {
@@ -240,7 +240,7 @@ void CoupledContacts::find_forces_together(int first, int index) {
             most_left_out * change))
         continue;
       again = true;
-      static_cast<ContactCourse&>(m) = before_[i];
+      m.course = before_[i];
       laws_[m.number].apply_own_force(m);
       (void)find_force(m, index, i);
     }
@@ -277,7 +277,7 @@ void CoupledContacts::pass_on(const MovingContact& m, const Components& by_force
 void CoupledContacts::finish_step(const ContactMotion& end) {
   normal_springs_ = tangential_springs_ = 0.0;
   for (const MovingContact& m : moving_) {
-    if (m.penetrates) // also where a damper holds the contact free of force
+    if (m.course.penetrates) // also where a damper holds the contact free of force
       normal_springs_ += contacts_.supports[m.number].normal.spring_energy(-end.locate(m.number).gap);
     laws_[m.number].correct_spring_drift(pasts_[m.number],
                                          of_lanes(end.u, m.number) - m.path.displacement(h_) - m.response);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <vector>
 
 namespace contact_interval_test {
 
@@ -27,7 +28,7 @@ MovingContact through(const contact::Support& support, const Mobility& mobility,
   const IntervalTable table = intervals.table(count);
   MovingContact m;
   m.path = path;
-  m.past = past;
+  m.course.past = past;
   intervals.begin(m, held, table);
   for (int index = 0; index < count; ++index) {
     intervals.find_force(m, table, index);
@@ -52,11 +53,11 @@ TEST(ContactIntervals, LeaveWhatRestsAtRest) {
   const Components held{0.0, -stiffness * penetration, 0.0};
   const MovingContact m = through(support, isotropic(w), step, 2,
                                   {{0.0, 1e-3 + penetration, 0.0}, {}, {}, {}}, closed({0.0, -1.0}), held);
-  EXPECT_NEAR(m.mean.z() / held.z(), 1.0, 1e-12);
-  EXPECT_NEAR(m.slope.z() / held.z(), 0.0, 1e-12);
+  EXPECT_NEAR(m.course.mean.z() / held.z(), 1.0, 1e-12);
+  EXPECT_NEAR(m.course.slope.z() / held.z(), 0.0, 1e-12);
   EXPECT_NEAR(m.response.z(), 0.0, 1e-12 * penetration);
-  EXPECT_TRUE(m.past.closed);
-  EXPECT_EQ(m.state.touches, 0);
+  EXPECT_TRUE(m.course.past.closed);
+  EXPECT_EQ(m.course.state.touches, 0);
 }
 
 // A mass on a stop follows its sine: impulse, times of touch and departure of an impact inside one step.
@@ -69,15 +70,15 @@ TEST(ContactIntervals, HoldWholeImpactsOfAFreeMass) {
   for (const auto& [count, tolerance] :
        {std::pair(8, 2.5e-3), std::pair(10, 1e-3), std::pair(20, 1e-4)}) { // w_c dt = 0.625, 0.5, 0.25
     const MovingContact m = through(support, isotropic(w), h, count, {{}, {speed, 0.0, 0.0}, {}, {}}, {});
-    const double error = std::abs(m.mean.y() * h * w / (-2.0 * speed) - 1.0);
+    const double error = std::abs(m.course.mean.y() * h * w / (-2.0 * speed) - 1.0);
     EXPECT_LT(error, tolerance);
-    EXPECT_EQ(m.state.touches, 1);
-    EXPECT_TRUE(m.opened);
-    EXPECT_NEAR(m.state.closed_at * h, before, 1e-9 * h);
-    EXPECT_NEAR((m.state.opened_at - m.state.closed_at) * h / lasts, 1.0, tolerance);
-    EXPECT_NEAR(m.state.approach / speed, 1.0, 1e-12);
-    EXPECT_NEAR(m.state.departure / speed, 1.0, 1e-3);
-    EXPECT_NEAR(m.state.peak / (speed * stiffness / rate), 1.0, 2e-3);
+    EXPECT_EQ(m.course.state.touches, 1);
+    EXPECT_TRUE(m.course.opened);
+    EXPECT_NEAR(m.course.state.closed_at * h, before, 1e-9 * h);
+    EXPECT_NEAR((m.course.state.opened_at - m.course.state.closed_at) * h / lasts, 1.0, tolerance);
+    EXPECT_NEAR(m.course.state.approach / speed, 1.0, 1e-12);
+    EXPECT_NEAR(m.course.state.departure / speed, 1.0, 1e-3);
+    EXPECT_NEAR(m.course.state.peak / (speed * stiffness / rate), 1.0, 2e-3);
     EXPECT_NEAR(m.rate.y() / (-2.0 * speed), 1.0, 1e-3);
     worst = std::max(worst, error);
   }
@@ -111,13 +112,13 @@ TEST(ContactIntervals, LoseInAnImpactWhatItsDamperTakes) {
       const MovingContact m = through(support, isotropic(w), h, count, {{}, {speed, 0.0, 0.0}, {}, {}}, {});
       const double tolerance = count == 8 ? 2e-3 : 4e-4,
                    lost = 0.5 * speed * speed * (1.0 - leaves * leaves) / w;
-      EXPECT_EQ(m.state.touches, 1);
-      EXPECT_TRUE(m.opened);
+      EXPECT_EQ(m.course.state.touches, 1);
+      EXPECT_TRUE(m.course.opened);
       EXPECT_NEAR(m.rate.y() / speed, -1.0 - leaves, tolerance);
-      EXPECT_NEAR(m.state.departure / speed, leaves, tolerance);
-      EXPECT_NEAR(m.state.damper_work / lost, 1.0, 5.0 * tolerance);
+      EXPECT_NEAR(m.course.state.departure / speed, leaves, tolerance);
+      EXPECT_NEAR(m.course.state.damper_work / lost, 1.0, 5.0 * tolerance);
       if (law.damping > 0.0) {
-        EXPECT_NEAR((m.state.opened_at - m.state.closed_at) * h / lasts, 1.0, tolerance);
+        EXPECT_NEAR((m.course.state.opened_at - m.course.state.closed_at) * h / lasts, 1.0, tolerance);
       }
     }
   }
@@ -132,7 +133,7 @@ TEST(ContactIntervals, EndWhereTheForceIsAlwaysAboutToReturn) {
   const double falling = stiffness * pressing / damping;             // and so it stays
   const FreePath path{{penetration, 0.0, 0.0}, {-out, 0.0, 0.0}, {pressing, 0.0, 0.0}, {-falling, 0.0, 0.0}};
   const MovingContact m = through(support, isotropic(12.0), h, 6, path, {});
-  EXPECT_GE(m.state.normal_force, 0.0);
+  EXPECT_GE(m.course.state.normal_force, 0.0);
   EXPECT_TRUE(std::isfinite(m.response.y()));
 }
 
@@ -149,21 +150,85 @@ TEST(ContactIntervals, FollowTheWallOfAHole) {
     const IntervalTable table = intervals.table(count);
     MovingContact m;
     m.path = {{radius, 0.0, 0.0}, {0.0, radius * turning, 0.0}, {}, {}};
-    m.past = closed({-1.0, 0.0});
+    m.course.past = closed({-1.0, 0.0});
     m.path.a = {-w * force, 0.0, 0.0}; // of the force held
     intervals.begin(m, {-force, 0.0, 0.0}, table);
     for (int index = 0; index < count; ++index) {
       intervals.find_force(m, table, index);
       intervals.move(m, table);
       intervals.extrapolate(m);
-      EXPECT_TRUE(m.past.closed) << index;
+      EXPECT_TRUE(m.course.past.closed) << index;
     }
     const double share = count == 20 ? 0.025 : 0.006; // of order 2
-    EXPECT_EQ(m.state.touches, 0);
-    EXPECT_NEAR(m.state.normal_force / force, 1.0, share);
-    EXPECT_NEAR(std::sqrt(m.state.normal_square) / force, 1.0, share);
+    EXPECT_EQ(m.course.state.touches, 0);
+    EXPECT_NEAR(m.course.state.normal_force / force, 1.0, share);
+    EXPECT_NEAR(std::sqrt(m.course.state.normal_square) / force, 1.0, share);
     const Components u = m.path.displacement(h) + m.response;
     EXPECT_NEAR(std::hypot(u.y(), u.z()) / radius, 1.0, share);
+  }
+}
+
+// What find_force adds to is the course alone: put back, it gives the same force again, whatever was found in between.
+TEST(ContactIntervals, FindTheSameForceAgainFromTheSameCourse) {
+  constexpr double h = 1e-3, gap = 1e-4;
+  const contact::Support support{contact::Circle{gap}, {1e6, 50.0}, {1e6, 20.0, 0.3, 0.3}};
+  const ContactIntervals intervals(support, {}, isotropic(1.0), true, h, gap, 0.0);
+  const IntervalTable table = intervals.table(2);
+  for (const bool was_closed : {false, true}) {
+    MovingContact m;
+    m.path = {{was_closed ? 1.02 * gap : 0.98 * gap, 0.0, 0.0}, {0.05, 0.1, 0.02}, {}, {}};
+    if (was_closed)
+      m.course.past = closed({-1.0, 0.0});
+    intervals.begin(m, {}, table);
+    const ContactCourse before = m.course;
+    const auto find = [&](double others) {
+      m.course = before;
+      m.others = {others, 0.0, 0.0};
+      m.force = m.growth = {};
+      intervals.apply_own_force(m);
+      intervals.find_force(m, table, 0);
+      const ContactState& s = m.course.state;
+      const ContactPast& past = m.course.past;
+      return std::vector<double>{m.force.y(),
+                                 m.force.z(),
+                                 m.force.x,
+                                 m.growth.y(),
+                                 m.growth.z(),
+                                 m.last.y(),
+                                 m.penetration,
+                                 m.course.mean.y(),
+                                 m.course.slope.z(),
+                                 m.course.relaxed,
+                                 1.0 * m.throughout,
+                                 1.0 * m.course.opened,
+                                 1.0 * m.course.penetrates,
+                                 s.normal_force,
+                                 s.normal_square,
+                                 s.peak,
+                                 s.closed,
+                                 s.approach,
+                                 s.closed_at,
+                                 s.departure,
+                                 s.opened_at,
+                                 1.0 * s.touches,
+                                 s.friction.t,
+                                 s.friction_work,
+                                 s.damper_work,
+                                 s.slid,
+                                 s.sliding,
+                                 s.displacement.x,
+                                 past.friction.spring.x,
+                                 past.friction.spring.t,
+                                 1.0 * past.closed,
+                                 past.rise.z(),
+                                 past.spring_at_opening};
+    };
+    const std::vector<double> once = find(0.0);
+    EXPECT_GT(once[0] * once[0] + once[1] * once[1], 0.0);
+    for (const double others : {-1e4, 100.0}) { // open; pressed
+      EXPECT_NE(find(others), once);
+      EXPECT_EQ(find(0.0), once);
+    }
   }
 }
 
