@@ -24,8 +24,6 @@ constexpr double least_cosine = 0.9, least_way = 0.4;
 constexpr double stopping = 1.0;
 /// d v of Hunt and Crossley's damper that leaves intervals as they are.
 constexpr double least_stiffer = 1.0;
-/// rad: by which a normal turns in an interval at most, as far as the terms of the curvature know.
-constexpr double most_turned = 1.0;
 /// Of an interval: what is shorter is none.
 constexpr double shortest = 1e-9;
 
@@ -166,51 +164,36 @@ void ContactIntervals::correct_spring_drift(ContactPast& past, const Components&
     past.friction.spring.x -= friction_.along.x * friction_.stiffness * missed.x;
 }
 
+/// Along the normal, doc/schemes.md, (S6) to (S9): under the force that is expected of it, whose normal part is then taken away.
 ContactIntervals::Motion ContactIntervals::motion_of(const MovingContact& m, const IntervalTable& table,
                                                      int index) const {
   Motion a;
   const double dt = table.length, start = index * dt;
   const Components of_path = m.path.a + (start + 0.5 * dt) * m.path.j;
-  const Components changed = m.others + m.by_force - m.by_held;
-  const Components now = of_path + changed; // under the force that is expected of it
+  const Components expected = of_path + (m.others + m.by_force - m.by_held);
   a.velocity = m.path.velocity(start) + m.rate;
   a.jerk = m.path.j + (1.0 / dt) * m.others_growth;
-  a.acceleration = now - m.by_force;
+  a.acceleration = expected - m.by_force;
   const Components growth = dt * a.jerk + m.by_growth;
   const Components mean = m.path.displacement(start) + m.response +
-                          (0.5 * dt) * (a.velocity + (dt / 3.0) * (now - 0.25 * growth));
+                          (0.5 * dt) * (a.velocity + (dt / 3.0) * (expected - 0.25 * growth));
+  a.half_way = a.velocity + (0.5 * dt) * (expected - 0.25 * growth);
   const contact::Location at = locate(mean);
   a.axes = at.axes();
   a.mean = mean + rest_;
-  const auto [ny, nz] = a.axes;
-  a.by_normal = w_ * Components{ny, nz, 0.0};
+  a.by_normal = w_ * Components{at.ny, at.nz, 0.0};
   a.mobility = normal(a.axes, a.by_normal);
-  a.half_way = a.velocity + (0.5 * dt) * (now - 0.25 * growth);
-  const double along_t = tangent(a.axes, a.half_way), along_n = normal(a.axes, a.half_way),
-               acceleration_along_t = tangent(a.axes, now);
-  // near a centre or a corner the normal turns at once: no more than the interval can follow
-  const double most =
-      most_turned / (dt * (std::abs(along_t) + std::abs(along_n) + dt * std::abs(acceleration_along_t)));
-  const double kappa = std::clamp(curvature(mean), -most, most); // 1/m
-  a.curved = kappa != 0.0;
-  a.turning = kappa * along_t;
-  a.turning_growth = kappa * (acceleration_along_t - 2.0 * a.turning * along_n);
-  a.ahead = dt * dt / 24.0 * kappa * acceleration_along_t;
-  const double centripetal = a.turning * along_t, inwards = -normal(a.axes, now) - centripetal;
-  // m/s3: of the penetration, by the centripetal acceleration that grows; m/s2: its change over the interval
-  const double jerk_by_turning =
-      a.turning * (acceleration_along_t - a.turning * along_n) + a.turning_growth * along_t;
-  // rad, to the start
-  const double angle = 0.5 * dt * a.turning, more = 0.125 * dt * dt * a.turning_growth - a.ahead;
-  a.rate =
-      (angle - more) * tangent(a.axes, a.velocity) - (1.0 - 0.5 * angle * angle) * normal(a.axes, a.velocity);
-  const double change = normal(a.axes, growth) + dt * (jerk_by_turning + a.turning * acceleration_along_t);
-  // its mean over the interval, on a curved wall another than that of its mean position
-  const double mean_penetration = -at.gap - dt * dt / 24.0 * centripetal;
-  a.penetration = mean_penetration - (0.5 * dt) * (a.rate + (dt / 3.0) * (inwards + 0.25 * change));
-  a.acceleration_inwards = inwards + normal(a.axes, m.force) * a.mobility;
+  const auto of = [&](const Components& c) {
+    return contact::AlongAxes{normal(a.axes, c), tangent(a.axes, c)};
+  };
+  const contact::NormalKinematics p = contact::normal_kinematics(
+      dt, at.gap, curvature(mean), {of(a.velocity), of(a.half_way), of(expected), of(growth)});
+  a.turn = p.turn;
+  a.penetration = p.penetration;
+  a.rate = p.rate;
+  a.acceleration_inwards = p.acceleration + normal(a.axes, m.force) * a.mobility;
   a.bend = dt * dt * dt / 12.0 *
-           (normal(a.axes, a.jerk) + jerk_by_turning + a.turning * tangent(a.axes, a.acceleration));
+           (normal(a.axes, a.jerk) + p.jerk_by_turning + a.turn.omega * tangent(a.axes, a.acceleration));
   return a;
 }
 
@@ -287,16 +270,17 @@ ContactIntervals::NormalForce ContactIntervals::find_normal_force(const Motion& 
   return out;
 }
 
-/// A force along axes that turn, seen along those of the mean position.
+/// A force along axes that turn has other components along those of the mean position: doc/schemes.md, (S10).
 void ContactIntervals::rotate_force(const Motion& a, const NormalForce& n, double dt, MovingContact& m) {
-  const double place = 0.5 * (n.from + n.to - dt), acts = n.to - n.from,
-               square = place * place + acts * acts / 12.0; // s2, mean of the time since the middle, squared
+  const double middle = 0.5 * (n.from + n.to - dt), acts = n.to - n.from,
+               s2 = middle * middle + acts * acts / 12.0; // s2, mean of tau^2 while it acts
+  const auto& [turns, omega, omega_dot, delta] = a.turn;
   const double fn = normal(a.axes, m.force), ft = tangent(a.axes, m.force);
-  const double by_growth = dt / 12.0 * a.turning, by_force = 0.5 * square * a.turning_growth - a.ahead,
-               less = 0.5 * square * a.turning * a.turning;
-  m.force = m.force + along(a.axes, -by_growth * tangent(a.axes, m.growth) - by_force * ft - less * fn,
-                            {0.0, by_growth * normal(a.axes, m.growth) + by_force * fn - less * ft});
-  const double growth_by_force = 12.0 / dt * square * a.turning;
+  const double by_growth = dt / 12.0 * omega, by_force = 0.5 * s2 * omega_dot - delta,
+               lost = 0.5 * s2 * omega * omega;
+  m.force = m.force + along(a.axes, -by_growth * tangent(a.axes, m.growth) - by_force * ft - lost * fn,
+                            {0.0, by_growth * normal(a.axes, m.growth) + by_force * fn - lost * ft});
+  const double growth_by_force = 12.0 / dt * s2 * omega;
   m.growth = m.growth + along(a.axes, -growth_by_force * ft, {0.0, growth_by_force * fn});
 }
 
@@ -367,7 +351,7 @@ void ContactIntervals::add_force(Passage passage, const Motion& motion, const No
     m.growth = along(motion.axes, n.growth, {});
   }
   course.past.axes = course.state.axes = motion.axes;
-  if (motion.curved)
+  if (motion.turn.turns)
     rotate_force(motion, n, table.length, m);
   if (course.past.closed)
     m.last = n.from > 0.0 ? (n.course.last / n.force) * m.force : m.force + 0.5 * m.growth;

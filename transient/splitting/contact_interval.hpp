@@ -9,6 +9,7 @@
 #include "contact/friction_interval.hpp"
 #include "contact/normal_interval.hpp"
 #include "contact/support.hpp"
+#include "contact/turning_normal.hpp"
 #include "transient/scene/scheme.hpp"
 #include "transient/splitting/components.hpp"
 #include "transient/splitting/passage.hpp"

@@ -78,41 +78,35 @@ void ContactIntervals::find_friction(Passage passage, const Motion& a, const Nor
   else if (touches(passage) && n.from > 0.0)
     memory = {by_reference ? Vec2{} : contact::spring_left(friction_, n.from) * memory.spring, false};
   state.damper_work += before - friction_.spring_energy(memory.spring);
-  // along t: with the normal force, linear in time
+  // along t and x, at the start: doc/schemes.md, (S11) and (S12), with the normal force linear in time
   const double from = by_reference ? 0.0 : n.from; // it knows no parts of an interval
-  const double since_half = from - 0.5 * dt;
-  const double rise = n.growth / dt, then = n.force + since_half * rise;
+  const double tau = from - 0.5 * dt;
+  const double force_dot = n.growth / dt, force = n.force + tau * force_dot;
   const Components velocity = a.velocity + from * (a.acceleration + (0.5 * (from - dt)) * a.jerk);
-  const Components acceleration = a.acceleration + since_half * a.jerk;
+  const Components acceleration = a.acceleration + tau * a.jerk;
   const contact::ContactAxes& axes = a.axes;
-  const Components along_t{axes.nz, -axes.ny, 0.0}, by_t = w_ * along_t;
-  const double wtt = tangent(axes, by_t);
-  const double by_t_of_n = tangent(axes, a.by_normal);
-  double vt = tangent(axes, velocity), at = tangent(axes, acceleration) + by_t_of_n * then,
-         jt = tangent(axes, a.jerk) + by_t_of_n * rise;
-  double turned_x = 0.0, turning_x = 0.0;             // m/s2, m/s3: along x, as the normal force turns
-  if (a.curved) {                                     // (v t)' = a t - turning v n
-    const double angle = a.turning * since_half;      // rad, since half way
-    const double free = normal(axes, a.acceleration); // m/s2, without the normal force
-    const double speed = -(a.rate + from * a.acceleration_inwards);            // m/s, along n
-    const double pressed = by_reference ? n.force : n.force * dt / length;     // N, while it acts
-    const double speed_growth = a.mobility * pressed - a.acceleration_inwards; // m/s2, growth of that speed
-    const double unequal =
-        wtt - a.mobility; // 1/kg: the acceleration by a force that turns is not its own turned
-    vt -= 0.5 * angle * angle * vt +
-          (angle + 0.5 * since_half * since_half * a.turning_growth - a.ahead) * normal(axes, velocity);
-    at += angle * (unequal * then - free) - (a.turning + a.turning_growth * since_half) * speed;
-    jt += a.turning * (unequal * n.force - free - speed_growth) -
-          a.turning_growth * (speed - since_half * speed_growth);
-    turned_x = angle * by_t.x * then;
-    turning_x = a.turning * by_t.x * n.force;
+  const Components by_t = w_ * Components{axes.nz, -axes.ny, 0.0};
+  const double wtt = tangent(axes, by_t), wtn = tangent(axes, a.by_normal), wnn = a.mobility;
+  double vt = tangent(axes, velocity), at = tangent(axes, acceleration) + wtn * force,
+         jt = tangent(axes, a.jerk) + wtn * force_dot;
+  const auto& [turns, omega, omega_dot, delta] = a.turn;
+  const double turned = omega * tau; // rad
+  if (turns) {
+    const double theta = turned + 0.5 * tau * tau * omega_dot - delta;    // rad
+    const double free = normal(axes, a.acceleration);                     // m/s2, without the normal force
+    const double vn = -(a.rate + from * a.acceleration_inwards);          // m/s
+    const double acting = by_reference ? n.force : n.force * dt / length; // N, mean while it acts
+    const double vn_dot = wnn * acting - a.acceleration_inwards;          // m/s2
+    vt -= 0.5 * turned * turned * vt + theta * normal(axes, velocity);
+    at += turned * ((wtt - wnn) * force - free) - (omega + omega_dot * tau) * vn;
+    jt += omega * ((wtt - wnn) * n.force - free - vn_dot) - omega_dot * (vn - tau * vn_dot);
   }
   if (in_plane_ || by_reference) {
-    const double vx = velocity.x, ax = acceleration.x + a.by_normal.x * then + turned_x,
-                 jx = a.jerk.x + a.by_normal.x * rise + turning_x;
+    const double ax = acceleration.x + a.by_normal.x * force + turned * by_t.x * force,
+                 jx = a.jerk.x + a.by_normal.x * force_dot + omega * by_t.x * n.force;
     const contact::TangentialPath<Vec2, contact::Sym2> path{
-        friction_.masked(Vec2{in_plane_ ? vx : 0.0, vt}), friction_.masked(Vec2{in_plane_ ? ax : 0.0, at}),
-        friction_.masked(Vec2{in_plane_ ? jx : 0.0, jt}),
+        friction_.masked(Vec2{in_plane_ ? velocity.x : 0.0, vt}),
+        friction_.masked(Vec2{in_plane_ ? ax : 0.0, at}), friction_.masked(Vec2{in_plane_ ? jx : 0.0, jt}),
         friction_.masked(in_plane_ ? contact::Sym2{w_(2, 2), by_t.x, wtt} : contact::Sym2{0.0, 0.0, wtt})};
     if (by_reference) {
       NormalForce whole = n;

@@ -21,10 +21,7 @@ struct ContactIntervals::Motion {
   double acceleration_inwards =
       0.0;           ///< m/s2, mean of the second derivative of the penetration, under the friction expected
   double bend = 0.0; ///< m: by its jerk at the end
-  double turning = 0.0;        ///< rad/s, of the normal towards t, half way
-  double turning_growth = 0.0; ///< rad/s2
-  bool curved = false;         ///< the normal turns
-  double ahead = 0.0;          ///< rad, by which the axes, at the mean position, are ahead of those half way
+  contact::AxesTurn turn;
   [[nodiscard]] double after(double time) const {
     return penetration + time * (rate + 0.5 * time * acceleration_inwards);
   }
