@@ -290,31 +290,9 @@ bool ContactIntervals::rolls_round(const Motion& a, double dt) const {
          contact::rolls_round(obstacle_, {a.mean.y(), a.mean.z()}, {a.half_way.y(), a.half_way.z()}, dt);
 }
 
-void ContactIntervals::find_force(MovingContact& m, const IntervalTable& table, int index) const {
-  const Motion motion = motion_of(m, table, index);
-  ContactPast& past = m.course.past;
-  const NormalForce n = find_normal_force(motion, past.closed, table);
-  const Passage passage = passage_of({.was_closed = past.closed,
-                                      .rolls_round = past.closed && rolls_round(motion, table.length),
-                                      .crosses = past.axes.opposite(motion.axes),
-                                      .has_force = n.force > 0.0,
-                                      .force_ends = n.opens});
-  record(passage, n, table, index, m.course);
-  past.closed = ends_closed(passage);
-  m.force = m.growth = m.last = {};
-  if (n.force > 0.0)
-    add_force(passage, motion, n, table, index, m);
-  else if (friction_.active())
-    m.course.relaxed += relax(past, table.length);
-  m.throughout = past.closed && n.from == 0.0;
-  past.rise = m.throughout ? (1.0 / table.length) * m.growth : Components{};
-  m.penetration = std::max({0.0, motion.penetration, motion.after(table.length)});
-  m.course.penetrates = m.penetration > 0.0 || past.closed;
-}
-
 /// When and how fast it touches and departs, and its normal force.
-void ContactIntervals::record(Passage passage, const NormalForce& n, const IntervalTable& table, int index,
-                              ContactCourse& course) const {
+inline void ContactIntervals::record(Passage passage, const NormalForce& n, const IntervalTable& table,
+                                     int index, ContactCourse& course) const {
   ContactState& state = course.state;
   const double start = index * table.share, acts = (n.to - n.from) / h_; // shares of the step
   if (crosses(passage)) {
@@ -341,8 +319,8 @@ void ContactIntervals::record(Passage passage, const NormalForce& n, const Inter
 }
 
 /// Its force with its friction, along axes that turn; and its part of the linear force over the step.
-void ContactIntervals::add_force(Passage passage, const Motion& motion, const NormalForce& n,
-                                 const IntervalTable& table, int index, MovingContact& m) const {
+inline void ContactIntervals::add_force(Passage passage, const Motion& motion, const NormalForce& n,
+                                        const IntervalTable& table, int index, MovingContact& m) const {
   ContactCourse& course = m.course;
   if (friction_.active()) {
     find_friction(passage, motion, n, table, m);
@@ -359,6 +337,28 @@ void ContactIntervals::add_force(Passage passage, const Motion& motion, const No
   course.mean = course.mean + table.share * m.force;
   course.slope =
       course.slope + table.share * ((6.0 * middle - 3.0) * m.force + (0.5 * table.share) * m.growth);
+}
+
+void ContactIntervals::find_force(MovingContact& m, const IntervalTable& table, int index) const {
+  const Motion motion = motion_of(m, table, index);
+  ContactPast& past = m.course.past;
+  const NormalForce n = find_normal_force(motion, past.closed, table);
+  const Passage passage = passage_of({.was_closed = past.closed,
+                                      .rolls_round = past.closed && rolls_round(motion, table.length),
+                                      .crosses = past.axes.opposite(motion.axes),
+                                      .has_force = n.force > 0.0,
+                                      .force_ends = n.opens});
+  record(passage, n, table, index, m.course);
+  past.closed = ends_closed(passage);
+  m.force = m.growth = m.last = {};
+  if (n.force > 0.0)
+    add_force(passage, motion, n, table, index, m);
+  else if (friction_.active())
+    m.course.relaxed += relax(past, table.length);
+  m.throughout = past.closed && n.from == 0.0;
+  past.rise = m.throughout ? (1.0 / table.length) * m.growth : Components{};
+  m.penetration = std::max({0.0, motion.penetration, motion.after(table.length)});
+  m.course.penetrates = m.penetration > 0.0 || past.closed;
 }
 
 } // namespace fretwork::transient

@@ -48,8 +48,10 @@ struct ContactCourse {
 
 /// A contact on its way through a step.
 struct MovingContact {
-  int number = 0; ///< of the contact
-  FreePath path;  ///< of the modes, under the forces held
+  int number = 0;           ///< of the contact
+  bool throughout = false;  ///< it has been closed throughout the interval
+  double penetration = 0.0; ///< m, the largest at the ends of the interval
+  FreePath path;            ///< of the modes, under the forces held
   ContactCourse course;
   Components response, rate; ///< m, m/s: r and r' at the start of the next interval
   Components others,
@@ -57,8 +59,6 @@ struct MovingContact {
   /// N: of an interval, as they are expected or found: the mean, and how much a linear force with its mean and first moment grows
   Components force, growth;
   Components last;                         ///< N: its force at the end of an interval
-  bool throughout = false;                 ///< closed throughout that
-  double penetration = 0.0;                ///< m, the largest at the ends of an interval
   Components by_force, by_growth, by_held; ///< m/s2: W force, W growth, W held
 };
 
