@@ -72,10 +72,15 @@ struct Term {
   double shortest = 0.0;           ///< s, at an accuracy of 0.01: step that the term asks for at least
 };
 
-/// w h of modes that splitting follows in a step: fewer where tangential dampers stop contacts within it.
+constexpr const char* smaller_tangential = "; a smaller tangential_damping makes the step longer";
+
+/// 1/s: at which the dampers of contacts stop them.
+double stopping_rate(const StepChoice& c) { return std::max(c.damper_rate, c.normal_damper_rate); }
+
+/// w h of modes that splitting follows in a step: fewer where dampers stop contacts within it.
 double followed_modes(const StepChoice& c, double step) {
-  return c.damper_rate * step > fast_damper ? mode_with_fast_damper
-                                            : limits_of(SchemeKind::splitting).highest_mode.largest;
+  return stopping_rate(c) * step > fast_damper ? mode_with_fast_damper
+                                               : limits_of(SchemeKind::splitting).highest_mode.largest;
 }
 
 /// @param followed  w h of modes that splitting follows
@@ -86,16 +91,17 @@ Term mode_term(const StepChoice& c, bool contacts, double followed) {
     out.bound.share = mode_without_contacts;
   if (c.scheme == SchemeKind::splitting && followed < out.bound.largest) {
     out.bound.largest = followed;
-    out.condition = ", with tangential dampers";
-    out.cure = "; a smaller tangential_damping makes the step longer";
+    const bool normal = c.normal_damper_rate > c.damper_rate;
+    out.condition = normal ? ", with normal dampers" : ", with tangential dampers";
+    out.cure = normal ? "; a smaller normal_damping makes the step longer" : smaller_tangential;
   }
   return out;
 }
 
 /// Of the longest step that the modes allow: with fewer of them, or without dampers that stop contacts within it.
 Term mode_term(const StepChoice& c, bool contacts) {
-  const double most = limits_of(SchemeKind::splitting).highest_mode.largest,
-               slow = c.damper_rate > 0.0 ? fast_damper * c.highest_mode / c.damper_rate : most;
+  const double most = limits_of(SchemeKind::splitting).highest_mode.largest, stopping = stopping_rate(c),
+               slow = stopping > 0.0 ? fast_damper * c.highest_mode / stopping : most;
   return mode_term(c, contacts, std::clamp(slow, mode_with_fast_damper, most));
 }
 
@@ -116,7 +122,7 @@ std::vector<Term> contact_terms(const StepChoice& c) {
           {"the frequency of sticking contacts", "w_t h", c.stick_frequency, "rad/s", limits.contact},
           {"the tangential dampers' rate", "r_t h", c.damper_rate, "1/s",
            limits.tangential_damper.times(limits.intervals), "",
-           limits.intervals > 1 ? "; a smaller tangential_damping makes the step longer"
+           limits.intervals > 1 ? smaller_tangential
                                 : "; a smaller tangential_damping makes the step longer (scheme = "
                                   "\"splitting\" resolves the dampers within a step)"},
           normal_damper_term(c),
@@ -271,6 +277,20 @@ double least_steps(const Scene& scene) {
   return std::max(fewest_steps, std::floor(most_least_steps * share * share));
 }
 
+/// Of the longest step in which dampers that stop contacts leave modes to be made heavier: beside tangential ones those above twice the contact
+/// frequency; beside normal ones none, for the force of an impact without rebound begins with a jump. Of slow dampers any.
+Limit limit_of_scaled_modes(const StepChoice& c, double fineness) {
+  Limit out{c.step, ""};
+  if (c.damper_rate * c.step > fast_damper)
+    out = {mode_with_fast_damper * fineness /
+               (scaled_above * std::max(c.contact_frequency, c.stick_frequency)),
+           "modes up to twice the contact frequency, with tangential dampers", smaller_tangential};
+  if (const double slow = (1.0 - round_off) * fast_damper / c.normal_damper_rate; slow < out.step)
+    out = {slow, "modes that are made heavier beside normal dampers",
+           "; a smaller normal_damping makes the step longer"};
+  return out;
+}
+
 /// The longest step that the terms allow, but for whole steps that cover the duration.
 void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
   const double accuracy = std::min(asked, coarsest_accuracy), fineness = fineness_of(asked);
@@ -289,11 +309,8 @@ void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
   double followed = 0.0; // w h of the fastest mode of splitting; 0: all are followed
   if (c.scheme == SchemeKind::splitting && contacts && c.highest_mode > 0.0) {
     const Limit modes = limit_of(mode_term(c, contacts), fineness);
-    if (const double slow = followed_modes(c, c.step);
-        slow < limits_of(c.scheme).highest_mode.largest && modes.step < c.step)
-      limit({std::max(modes.step,
-                      slow * fineness / (scaled_above * std::max(c.contact_frequency, c.stick_frequency))),
-             "modes up to twice the contact frequency, with tangential dampers", modes.cure});
+    if (const Limit scaled = limit_of_scaled_modes(c, fineness); scaled.step < c.step)
+      limit(scaled.step > modes.step ? scaled : modes);
     const double most = followed_modes(c, c.step);
     if (modes.step < c.step && may_scale(scene, most / c.step, accuracy))
       followed = most;

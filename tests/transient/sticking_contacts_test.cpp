@@ -28,8 +28,8 @@ private:
   std::mt19937 generator_;
 };
 
-/// At rest but for the velocities of its modes. @param damper_rate  of contacts, over the frequency of the highest mode
-Scene held_between_stops(unsigned seed, double damper_rate) {
+/// At rest but for the velocities of its modes. @param damper_rate, normal_rate  of contacts, over the frequency of the highest mode
+Scene held_between_stops(unsigned seed, double damper_rate, double normal_rate = 0.0) {
   Draw draw(seed);
   const int nodes = 1 + static_cast<int>(draw.uniform(0.0, 6.0)),
             each = static_cast<int>(draw.uniform(8.0, 24.0)), modes = 3 * each;
@@ -61,8 +61,9 @@ Scene held_between_stops(unsigned seed, double damper_rate) {
   const double normal = 0.5 * contact_frequency * contact_frequency / mobility,
                tangential = normal * draw.logarithmic(0.05, 1.0);
   for (ContactPoint& point : scene.contacts)
-    point.support = {
-        point.support.obstacle, {normal}, {tangential, 0.5 * damper_rate * highest / mobility, 10.0, 10.0}};
+    point.support = {point.support.obstacle,
+                     {normal, 0.5 * normal_rate * highest / mobility},
+                     {tangential, 0.5 * damper_rate * highest / mobility, 10.0, 10.0}};
   scene.q0 = Eigen::VectorXd::Zero(modes);
   scene.v0 = Eigen::VectorXd::NullaryExpr(
       modes, [&] { return 1e-5 * highest / std::sqrt(modes) * draw.uniform(-1.0, 1.0); });
@@ -86,6 +87,14 @@ TEST(StickingContacts, LoseEnergyAtTheAutomaticStep) {
   for (unsigned seed = 0; seed < 8; ++seed)
     for (const double damper_rate : {0.3, 3.0, 30.0, 150.0})
       EXPECT_LT(growth(held_between_stops(seed, damper_rate)), 1.0) << seed << " " << damper_rate;
+}
+
+TEST(PressedContacts, LoseEnergyAtTheAutomaticStepBesideNormalDampers) {
+  for (unsigned seed = 0; seed < 8; ++seed)
+    for (const double normal_rate : {0.3, 3.0, 15.0})
+      for (const double damper_rate : {0.0, 30.0})
+        EXPECT_LT(growth(held_between_stops(seed, damper_rate, normal_rate)), 1.0)
+            << seed << " " << normal_rate << " " << damper_rate;
 }
 
 } // namespace sticking_contacts_test

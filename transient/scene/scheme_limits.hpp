@@ -98,10 +98,10 @@ inline constexpr std::array<SchemeLimits, scheme_count> scheme_limits{{
 /// Of splitting alone. w_c dt and w_t dt of its intervals at an accuracy of 0.01: two a step, which take the time of one, since they turn less and are found
 /// at once. Contacts whose error replays (splitting/replays.hpp) find above it move in up to 16 times as many.
 constexpr double contact_interval = 0.625;
-/// r_t h above which tangential dampers stop contacts within the step, and w h of modes that are followed then: (S1) overestimates their velocity, and
+/// r_t h, r_n h above which dampers stop contacts within the step, and w h of modes that are followed then: (S1) overestimates their velocity, and
 /// contacts that stick are unstable (doc/schemes.md, Limits; tests/transient/sticking_contacts_test.cpp).
 constexpr double fast_damper = 3.0, mode_with_fast_damper = 1.5;
-/// Modes from so many times w_c and w_t on are made heavier at an accuracy of 0.01 (modes/mass_scaling.hpp), whatever the tangential dampers: 2.5/1.25.
+/// Modes from so many times w_c and w_t on are made heavier at an accuracy of 0.01 (modes/mass_scaling.hpp), whatever the tangential dampers: 2.5/1.25. Beside fast normal dampers none.
 constexpr double scaled_above = 2.0;
 /// w_r h of records: the polygon nearest to one loses (w h)^4/720 of what moves with w, 0.14 % at an accuracy of 0.01 (0.01 % without contacts), and the
 /// fewest steps in its period: 0.8 %.

@@ -20,7 +20,7 @@ constexpr double longest_way = 1.0;
 /// of the angle by which its normal turns there in half a step; way in the clearance without which a round hole or two planes have no such turn.
 constexpr int at_corner = 16, least_at_corner = 32, most_at_corner = 128, at_side = 8, least_at_side = 16;
 constexpr double least_cosine = 0.9, least_way = 0.4;
-/// r_t h above which tangential dampers stop a contact early in a step.
+/// r_n h, r_t h above which dampers stop a contact early in a step.
 constexpr double stopping = 1.0;
 /// d v of Hunt and Crossley's damper that leaves intervals as they are.
 constexpr double least_stiffer = 1.0;
@@ -31,12 +31,12 @@ constexpr double shortest = 1e-9;
 
 ContactIntervals::ContactIntervals(const contact::Support& support, const Components& rest,
                                    const Mobility& mobility, bool in_plane, double step, double clearance,
-                                   double damper_rate)
+                                   const DamperRates& rates)
     : obstacle_(support.obstacle), normal_(support.normal), friction_(support.friction), rest_(rest),
       w_(mobility), in_plane_(in_plane), has_corners_(contact::properties_of(support.obstacle).has_parts),
       has_sides_(contact::properties_of(support.obstacle).has_opposite_sides), h_(step),
       clearance_(clearance), mobility_(std::max({mobility(0, 0), mobility(1, 1), mobility(2, 2)})),
-      stops_(damper_rate * step > stopping) {}
+      normal_stops_(rates.normal * step > stopping), friction_stops_(rates.tangential * step > stopping) {}
 
 IntervalTable ContactIntervals::table(int count) const {
   IntervalTable table;
@@ -136,9 +136,11 @@ void ContactIntervals::extrapolate(MovingContact& m) const {
   apply_own_force(m);
 }
 
-Components ContactIntervals::with_mean_friction(const MovingContact& m) {
+Components ContactIntervals::with_means(const MovingContact& m, bool of_normal, bool of_friction) {
   const contact::ContactAxes& axes = m.course.past.axes;
-  return along(axes, normal(axes, m.last), {m.course.mean.x, tangent(axes, m.course.mean)});
+  const Components &along_normal = of_normal ? m.course.mean : m.last,
+                   &tangential = of_friction ? m.course.mean : m.last;
+  return along(axes, normal(axes, along_normal), {tangential.x, tangent(axes, tangential)});
 }
 
 double ContactIntervals::relax(ContactPast& past, double time) const {

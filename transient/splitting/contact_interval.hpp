@@ -73,14 +73,18 @@ struct IntervalTable {
   contact::PieceTables pieces{};
   contact::FrictionTable reference{}; ///< of that memory
 };
+/// 1/s: damping times mobility, along the normal and tangential.
+struct DamperRates {
+  double normal = 0.0, tangential = 0.0;
+};
 
 class ContactIntervals {
 public:
   /// @param support  must live longer   @param rest  of the contact without displacement, m
   /// @param in_plane  friction acts along x too   @param step  h, s   @param clearance  m, that is not to be passed unseen
-  /// @param damper_rate  1/s: tangential damping times mobility, of all contacts whose forces move it
+  /// @param rates  of all contacts whose forces move it
   ContactIntervals(const contact::Support& support, const Components& rest, const Mobility& mobility,
-                   bool in_plane, double step, double clearance, double damper_rate);
+                   bool in_plane, double step, double clearance, const DamperRates& rates);
 
   [[nodiscard]] IntervalTable table(int count) const;
   /// How many intervals of a step a contact needs at least: for its speed, and where it meets a corner or
@@ -100,12 +104,13 @@ public:
   /// N: about what its force would change by for a further acceleration, m/s2.
   [[nodiscard]] double force_change(const MovingContact& m, const IntervalTable& table,
                                     const Components& by) const;
-  /// N: what the modes bear of its force over the next step before its forces there are found: it goes on as it ends. Of friction that holds a contact
-  /// with a damper, or several together, the mean does: they may stop it early in a step, and the linear force of that impulse ends opposite to it.
+  /// N: what the modes bear of its force over the next step before its forces there are found: it goes on as it ends. Of forces of dampers that stop contacts,
+  /// normal ones and those of friction that sticks, the mean does: they stop them early in a step, and the linear force of that impulse ends opposite to it.
   [[nodiscard]] Components held(const MovingContact& m) const {
     if (!m.course.past.closed)
       return {};
-    return stops_ && !m.course.past.friction.sliding ? with_mean_friction(m) : m.last;
+    const bool friction_stops = friction_stops_ && !m.course.past.friction.sliding;
+    return friction_stops || normal_stops_ ? with_means(m, normal_stops_, friction_stops) : m.last;
   }
   /// What is expected of its force in the next interval: it grows on where the contact has been closed throughout, and stays else.
   void extrapolate(MovingContact& m) const;
@@ -123,7 +128,8 @@ private:
   }
   /// kg: force of a spring and a damper for an acceleration of 1 m/s2 over an interval
   [[nodiscard]] double apparent_mass(double length, double stiffness, double damping) const;
-  [[nodiscard]] static Components with_mean_friction(const MovingContact& m);
+  /// N: its last force, the normal part and friction at their means where asked for.
+  [[nodiscard]] static Components with_means(const MovingContact& m, bool of_normal, bool of_friction);
   [[nodiscard]] bool may_turn(const ContactPast& past, const FreePath& path, double way) const;
   [[nodiscard]] bool meets_corner(const FreePath& path) const;
   [[nodiscard]] bool rolls_round(const Motion& a, double dt) const;
@@ -155,8 +161,8 @@ private:
   Mobility w_;
   bool in_plane_, has_corners_, has_sides_;
   double h_, clearance_;
-  double mobility_; ///< 1/kg, the largest along any direction
-  bool stops_;      ///< tangential dampers stop it, early in a step
+  double mobility_;                    ///< 1/kg, the largest along any direction
+  bool normal_stops_, friction_stops_; ///< normal, tangential dampers stop it, early in a step
 };
 
 } // namespace fretwork::transient

@@ -36,14 +36,15 @@ CoupledContacts::CoupledContacts(const PackedContacts& contacts, ContactBlocks b
     moving_blocks_[b].contacts.reserve(blocks_.contacts[b].size());
   for (int c = 0; c < contacts.count; ++c) {
     Mobility own;
-    double damper_rate = 0.0;
+    DamperRates rates;
     for (const auto& [block, local] : blocks_.places[c]) {
       const auto size = blocks_.contacts[block].size();
       for (std::size_t from = 0; from < size; ++from) {
-        const contact::FrictionLaw& friction = contacts.supports[blocks_.contacts[block][from]].friction;
-        if (friction.active())
-          damper_rate +=
-              friction.damping * mobility_[block][from * size + static_cast<std::size_t>(local)].largest();
+        const contact::Support& other = contacts.supports[blocks_.contacts[block][from]];
+        const double coupling = mobility_[block][from * size + static_cast<std::size_t>(local)].largest();
+        rates.normal += other.normal.damping * coupling;
+        if (other.friction.active())
+          rates.tangential += other.friction.damping * coupling;
       }
       const Mobility& part = mobility_[block][static_cast<std::size_t>(local) * (size + 1)];
       for (int to = 0; to < 3; ++to)
@@ -51,8 +52,7 @@ CoupledContacts::CoupledContacts(const PackedContacts& contacts, ContactBlocks b
           own.add(to, from, part(to, from));
     }
     laws_.emplace_back(contacts.supports[c], Components{contacts.rest_y(c), contacts.rest_z(c), 0.0}, own,
-                       contacts.in_plane[c] != 0, step, contacts.reach[c].limit[kernels::lane(c)],
-                       damper_rate);
+                       contacts.in_plane[c] != 0, step, contacts.reach[c].limit[kernels::lane(c)], rates);
   }
 }
 

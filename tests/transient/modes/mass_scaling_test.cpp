@@ -100,6 +100,18 @@ TEST(MassScaling, LeavesModesUnderForcesOfMotion) {
   EXPECT_FALSE(may_scale(scene, 5e3, 0.01));
 }
 
+// The force of an impact without rebound begins with a jump, which moves all modes.
+TEST(MassScaling, LeavesModesBesideFastNormalDampers) {
+  Scene scene = two_modes_on_a_stop(100.0); // the step is that of the contact
+  const StepChoice without = choose_step(scene, splitting());
+  ASSERT_EQ(without.scaled, 1);
+  scene.contacts[0].support.normal.damping = 100.0 * without.contact_frequency;
+  const StepChoice fast = choose_step(scene, splitting());
+  EXPECT_EQ(fast.scaled, 0);
+  EXPECT_LE(fast.highest_mode * fast.step, 1.5);
+  EXPECT_GT(fast.normal_damper_rate * without.step, 3.0);
+}
+
 TEST(MassScaling, GivesTheImpactOfTheExactModes) {
   Scene scene = two_modes_on_a_stop(6e-3); // one impact
   scene.contacts[0].b(1, 1) = 3.0;         // w_c = 3162 rad/s with the stiff mode

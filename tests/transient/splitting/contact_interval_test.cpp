@@ -24,7 +24,7 @@ Mobility isotropic(double w) {
 /// A contact through a step.
 MovingContact through(const contact::Support& support, const Mobility& mobility, double h, int count,
                       const FreePath& path, const ContactPast& past, const Components& held = {}) {
-  const ContactIntervals intervals(support, {}, mobility, false, h, 1e-3, 0.0);
+  const ContactIntervals intervals(support, {}, mobility, false, h, 1e-3, {});
   const IntervalTable table = intervals.table(count);
   MovingContact m;
   m.path = path;
@@ -146,7 +146,7 @@ TEST(ContactIntervals, FollowTheWallOfAHole) {
   const contact::Support support{contact::Circle{gap}, {stiffness}, {}};
   const double force = stiffness * penetration;
   for (const int count : {20, 40}) {
-    const ContactIntervals intervals(support, {}, isotropic(w), false, h, gap, 0.0);
+    const ContactIntervals intervals(support, {}, isotropic(w), false, h, gap, {});
     const IntervalTable table = intervals.table(count);
     MovingContact m;
     m.path = {{radius, 0.0, 0.0}, {0.0, radius * turning, 0.0}, {}, {}};
@@ -172,7 +172,7 @@ TEST(ContactIntervals, FollowTheWallOfAHole) {
 TEST(ContactIntervals, FindTheSameForceAgainFromTheSameCourse) {
   constexpr double h = 1e-3, gap = 1e-4;
   const contact::Support support{contact::Circle{gap}, {1e6, 50.0}, {1e6, 20.0, 0.3, 0.3}};
-  const ContactIntervals intervals(support, {}, isotropic(1.0), true, h, gap, 0.0);
+  const ContactIntervals intervals(support, {}, isotropic(1.0), true, h, gap, {});
   const IntervalTable table = intervals.table(2);
   for (const bool was_closed : {false, true}) {
     MovingContact m;
@@ -241,7 +241,7 @@ TEST(ContactIntervals, AreShorterWhereAHoleIsCrossed) {
        {contact::Obstacle(contact::Circle{gap}),
         contact::Obstacle(contact::Ellipse{radius + gap, radius + 1.01 * gap, radius})}) {
     const contact::Support support{hole, {1e6}, {}};
-    const ContactIntervals intervals(support, {}, isotropic(1.0), false, step, gap, 0.0);
+    const ContactIntervals intervals(support, {}, isotropic(1.0), false, step, gap, {});
     EXPECT_EQ(intervals.least_count(1, closed({-1.0, 0.0}), across), 16);
     EXPECT_EQ(intervals.least_count(1, closed({-1.0, 0.0}), short_way), 1);
   }
