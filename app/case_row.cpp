@@ -110,6 +110,11 @@ void fill_wear(const results::Wear& wear, Filling& row) {
     row.set(support.name + ".wear_depth.error", half(depth));
     row.set(support.name + ".years", years.value);
     row.set(support.name + ".years.error", half(years));
+    if (const results::WearLife& own = support.support_life; !own.end.empty()) {
+      row.set(support.name + ".support_years", own.years.value);
+      row.set(support.name + ".support_years.error", half(own.years));
+      row.worsen("worst.years", own.years.value, half(own.years), false);
+    }
     row.worsen("worst.wear_depth", depth.value, half(depth), true);
     row.worsen("worst.years", years.value, half(years), false);
   }
@@ -184,6 +189,8 @@ std::vector<sweep::Column> case_columns(const std::vector<PlacedContact>& contac
   for (const WornPlace& place : worn) {
     add(place.name + ".wear_depth", "m", true);
     add(place.name + ".years", "a", true);
+    if (place.worn.support_limit)
+      add(place.name + ".support_years", "a", true);
   }
   for (const std::string& node : facts.node_names)
     for (const char* axis : axes) {

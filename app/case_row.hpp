@@ -9,8 +9,10 @@
 
 namespace fretwork::app {
 
-/// By contact (work_rate, normal_rms, normal_max, tangential_max, impact_rate, contact_time_ratio), by support that wears (wear_depth, years),
-/// by observed node (std_x, largest_x ...), by group of section forces (stress, stress_std, moment, shear_force), by restraint (force, moment), by assessment of stability (velocity_ratio: V/Vc),
+/// By contact (work_rate, normal_rms, normal_max, tangential_max, impact_rate, contact_time_ratio), by support that wears (wear_depth, years, support_years where it
+/// has a limit of its own),
+/// by observed node (std_x, largest_x ...), by group of section forces (stress, stress_std, moment, shear_force), by restraint (force, moment), by assessment of
+/// stability (velocity_ratio: V/Vc),
 /// of all contacts together (total.work_rate, total.impact_rate, total.energy_residual), of the worst one (worst.work_rate, worst.normal_rms,
 /// worst.normal_max, worst.wear_depth, worst.years, worst.velocity_ratio).
 /// @param contacts  inactive ones included

@@ -59,11 +59,15 @@ public:
           const std::vector<PlacedContact>& placed, const std::vector<results::ContactFacts>& facts)
       : options_(*study.gap_opening), worn_(worn), placed_(placed) {
     for (const WornPlace& place : worn) {
+      const auto of_contact = [&](std::size_t c) {
+        return wear::Place{place.worn, std::max(0.0, facts[c].gap), place.name};
+      };
       const std::size_t count = by_sector(place) ? static_cast<std::size_t>(study.wear[place.entry].sectors)
                                                  : std::max<std::size_t>(1, place.sides.size());
       supports_.push_back({places_.size(), count});
-      places_.insert(places_.end(), count,
-                     {place.worn, std::max(0.0, facts[place.contacts.front()].gap), place.name});
+      places_.insert(places_.end(), count, of_contact(place.contacts.front()));
+      for (std::size_t k = 0; k < place.sides.size(); ++k)
+        places_[supports_.back().first + k] = of_contact(place.sides[k].parts.front().contact);
     }
     for (const wear::Place& place : places_)
       states_.push_back({new_place(place), new_place(place), new_place(place)});
@@ -103,7 +107,7 @@ public:
         else if (worn_[s].sides.empty())
           out[c].obstacle = opened_obstacle(placed_[c].obstacle, worn.front().depth.total());
         else
-          open_sides(growth_of(worn_[s].sides, worn), out[c]);
+          open_contact(c, worn_[s].sides, worn, out[c]);
     }
     return out;
   }
@@ -131,13 +135,21 @@ private:
     return out;
   }
 
-  /// m, by number of a side.
-  [[nodiscard]] static SideGrowth growth_of(const std::vector<std::size_t>& sides,
-                                            const std::vector<PlaceState>& worn) {
-    SideGrowth out{};
+  /// Each side of a contact by its own depth. @param worn  as `sides`
+  static void open_contact(std::size_t contact, const std::vector<WornSide>& sides,
+                           const std::vector<PlaceState>& worn, PlacedContact& placed) {
+    SideGrowth growth{};
     for (std::size_t k = 0; k < sides.size(); ++k)
-      out[sides[k]] = worn[k].depth.total();
-    return out;
+      for (const WornSide::Part& part : sides[k].parts) {
+        if (part.contact != contact)
+          continue;
+        if (!part.side) { // its only one
+          placed.obstacle = opened_obstacle(placed.obstacle, worn[k].depth.total());
+          return;
+        }
+        growth[*part.side] = worn[k].depth.total();
+      }
+    open_sides(growth, placed);
   }
 
   void set_loads(const results::Wear& stage) {

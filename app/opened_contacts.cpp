@@ -47,7 +47,7 @@ struct Opened {
     return contact::Ellipse{shape.semi_y + growth, shape.semi_z + growth, shape.radius};
   }
   contact::Obstacle operator()(const contact::Profile& shape) const {
-    if (!contact::flat_sides(shape).empty())
+    if (!contact::sides_of(shape).empty())
       return opened_rectangle(shape, growth, growth);
     return moved_profile(shape, [this](const contact::PlanePoint& corner) {
       const double factor = 1.0 + growth / std::hypot(corner.y, corner.z);
@@ -61,6 +61,15 @@ struct Opened {
   }
 };
 
+void open_lands(const SideGrowth& growth, contact::Obstacle& obstacle) {
+  const auto& space = std::get<contact::BroachedSpace>(obstacle);
+  contact::BroachedHole hole = space.hole();
+  hole.land_growth.resize(static_cast<std::size_t>(hole.lands), 0.0);
+  for (std::size_t land = 0; land < hole.land_growth.size(); ++land)
+    hole.land_growth[land] += growth[land];
+  obstacle = contact::BroachedSpace(space.tube_radius(), hole);
+}
+
 } // namespace
 
 contact::Obstacle opened_obstacle(const contact::Obstacle& obstacle, double growth) {
@@ -68,6 +77,8 @@ contact::Obstacle opened_obstacle(const contact::Obstacle& obstacle, double grow
 }
 
 void open_sides(const SideGrowth& growth, PlacedContact& placed) {
+  if (std::holds_alternative<contact::BroachedSpace>(placed.obstacle))
+    return open_lands(growth, placed.obstacle);
   // of two opposite sides
   const auto mean = [&](std::size_t side) { return 0.5 * (growth[side] + growth[side + 2]); };
   const auto shift = [&](std::size_t side) { return 0.5 * (growth[side] - growth[side + 2]); };

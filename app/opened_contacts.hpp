@@ -3,11 +3,11 @@
 /// Obstacles of contacts after wear.
 ///
 /// Flat faces on several sides of the tube, of planes, bars and egg crates, move away from it each by p_t + p_s of its own side: the
-/// obstacle grows by the mean of two opposite sides, and its centre moves by half their difference. All of any other obstacle moves by
-/// p_t + p_s of its support: the sum of the clearances of two sides is an upper bound.
+/// obstacle grows by the mean of two opposite sides, and its centre moves by half their difference. The radius of each land grows by
+/// p_t + p_s of its own. All of any other obstacle moves by p_t + p_s of its support: the sum of the clearances of two sides is an upper bound.
 ///     circle, planes, stop      gap + growth
 ///     ellipse                   semi-axes + growth
-///     broached                  radius of the lands + growth
+///     broached                  radius of the lands + growth, of each land its own
 ///     rectangle (egg crate)     half widths + growth
 ///     profile                   radius of each point + growth
 ///     two nodes                 the bodies are smaller by growth: distances - growth, the gap of circle_inside + growth
@@ -25,9 +25,9 @@ namespace fretwork::app {
 [[nodiscard]] contact::Obstacle opened_obstacle(const contact::Obstacle& obstacle, double growth);
 
 /// m, by number of a side (contact/sides.hpp).
-using SideGrowth = std::array<double, contact::side_names.size()>;
+using SideGrowth = std::array<double, contact::most_sides>;
 
-/// Of an obstacle of flat faces on several sides.
+/// Of an obstacle of several sides.
 void open_sides(const SideGrowth& growth, PlacedContact& placed);
 
 /// Whether its gap can open by angle: a circle round one node, of gap > 0.

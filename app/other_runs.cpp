@@ -57,9 +57,9 @@ std::optional<std::map<std::string, ContactRates>> read_run(const std::string& w
   for (const auto& contact : contacts) {
     ContactRates rates{stated(contact), {}};
     const nlohmann::json sides = entry(contact, "sides");
-    for (std::size_t side = 0; side < rates.sides.size(); ++side)
-      if (const nlohmann::json own = entry(sides, contact::side_names[side]); own.is_object())
-        rates.sides[side] = stated(own);
+    for (const auto& [name, own] : sides.items())
+      if (const auto side = contact::side_number(name))
+        rates.sides[*side] = stated(own);
     out[results::text_of(contact, "name")] = rates;
   }
   return out;
@@ -205,12 +205,14 @@ void check_contacts_of(const OtherRuns& others, const study::Study& study,
         if (found == rates->end())
           refuse(fmt::format("has no contact \"{}\"{}; name its contacts alike", placed[c].name,
                              core::name_help(placed[c].name, names)));
-        for (const std::size_t side : place.sides)
-          if (!found->second.sides[side])
-            refuse(fmt::format(
-                "has no work of contact \"{}\" on its side {}; make it from this study, with this version",
-                placed[c].name, contact::side_names[side]));
       }
+      for (const WornSide& side : place.sides)
+        for (const WornSide::Part& part : side.parts)
+          if (const PlacedContact& contact = placed[part.contact];
+              part.side && !rates->at(contact.name).sides[*part.side])
+            refuse(fmt::format("has no work of contact \"{}\" on its {}; make it from this study, with this "
+                               "version",
+                               contact.name, results::text_of_side(side.name)));
     }
 }
 

@@ -23,8 +23,7 @@ struct StatedRate {
 /// Of a contact.
 struct ContactRates {
   StatedRate total;
-  std::array<std::optional<StatedRate>, contact::side_names.size()>
-      sides; ///< of obstacles of several flat faces
+  std::array<std::optional<StatedRate>, contact::most_sides> sides; ///< of obstacles that have several
   /// @param side  nothing: the total
   [[nodiscard]] const StatedRate& at(std::optional<std::size_t> side) const {
     return side ? sides[*side].value() : total;

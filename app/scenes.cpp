@@ -22,7 +22,8 @@ results::ContactFacts facts_of(const study::Contact& contact, const PlacedContac
   facts.axes = placed.frame.rotation();
   facts.obstacle = study::name_of(contact.obstacle);
   facts.gap = gap_of(placed, support.obstacle);
-  facts.sides = contact::flat_sides(support.obstacle);
+  if (auto sides = contact::sides_of(support.obstacle); sides.size() > 1)
+    facts.sides = std::move(sides);
   facts.rest = placed.rest;
   const auto outline = contact::outline_of(support.obstacle);
   facts.outline.resize(static_cast<Eigen::Index>(outline.size()), 2);

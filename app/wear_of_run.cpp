@@ -42,13 +42,15 @@ wear::WorkRate mean_of_states(const std::vector<results::WearStateRate>& states)
   return wear::sum_of_points(weighted);
 }
 
-/// Work of this run by angular sector, sum over the contacts of a support.
-std::vector<double> sum_of_sectors(const results::RunResults& run, const std::vector<std::size_t>& contacts) {
+/// Work of this run by angular sector in the axes of the first contact, sum over the contacts of a support. A quarter turn that is no whole
+/// number of sectors goes to the next one.
+std::vector<double> sum_of_sectors(const results::RunResults& run, const WornPlace& place) {
   std::vector<double> sum;
-  for (const std::size_t c : contacts) {
-    sum.resize(run.sector_rates[c].size(), 0.0);
+  for (std::size_t c = 0; c < place.contacts.size(); ++c) {
+    const std::vector<double>& own = run.sector_rates[place.contacts[c]];
+    sum.resize(own.size(), 0.0);
     for (std::size_t k = 0; k < sum.size(); ++k)
-      sum[k] += run.sector_rates[c][k];
+      sum[(k + (place.turns[c] * sum.size() + 2) / 4) % sum.size()] += own[k];
   }
   return sum;
 }
@@ -170,8 +172,8 @@ public:
       : entry_(study.wear[place.entry]), place_(place), placed_(placed), others_(others.rates[place.entry]),
         run_(run) {}
 
-  /// @param side  nothing: all of the support
-  [[nodiscard]] std::vector<results::WearStateRate> of(std::optional<std::size_t> side) const {
+  /// @param side  null: all of the support
+  [[nodiscard]] std::vector<results::WearStateRate> of(const WornSide* side) const {
     std::vector<results::WearStateRate> out;
     for (std::size_t j = 0; j < entry_.states.size(); ++j) {
       const study::WearState& state = entry_.states[j];
@@ -182,27 +184,33 @@ public:
   }
 
 private:
-  [[nodiscard]] wear::WorkRate of_state(std::size_t j, std::optional<std::size_t> side) const {
+  [[nodiscard]] wear::WorkRate of_state(std::size_t j, const WornSide* side) const {
     std::vector<wear::WorkRate> points;
-    for (const std::size_t c : place_.contacts)
-      points.push_back((others_[j] ? others_[j]->at(placed_[c].name) : rates_of_contact(run_, c))
-                           .at(side)
-                           .with(entry_.confidence));
+    const auto add = [&](const WornSide::Part& part) {
+      const ContactRates rates =
+          others_[j] ? others_[j]->at(placed_[part.contact].name) : rates_of_contact(run_, part.contact);
+      points.push_back(rates.at(part.side).with(entry_.confidence));
+    };
+    if (side)
+      std::for_each(side->parts.begin(), side->parts.end(), add);
+    else
+      for (const std::size_t c : place_.contacts)
+        add({c, {}});
     return wear::sum_of_points(points);
   }
 
   /// A rate that the study gives has the shares of this run; where nothing slides in it, one side bears all.
-  [[nodiscard]] wear::WorkRate of_given(const wear::WorkRate& given, std::optional<std::size_t> side) const {
+  [[nodiscard]] wear::WorkRate of_given(const wear::WorkRate& given, const WornSide* side) const {
     if (!side)
       return given;
     double own = 0.0, sum = 0.0;
-    for (const std::size_t other : place_.sides)
-      for (const std::size_t c : place_.contacts) {
-        const double rate = run_.contact_summaries[c].sides[other].work_rate;
+    for (const WornSide& other : place_.sides)
+      for (const WornSide::Part& part : other.parts) {
+        const double rate = rates_of_contact(run_, part.contact).at(part.side).value;
         sum += rate;
-        own += other == *side ? rate : 0.0;
+        own += &other == side ? rate : 0.0;
       }
-    return scaled(given, sum > 0.0 ? own / sum : *side == place_.sides.front() ? 1.0 : 0.0);
+    return scaled(given, sum > 0.0 ? own / sum : side == &place_.sides.front() ? 1.0 : 0.0);
   }
 
   const study::Wear& entry_;
@@ -220,10 +228,10 @@ bool is_at_rest(const std::vector<results::WearStateRate>& states) {
 /// The scar of each side, and the support from them. A side at which nothing slides does not wear, by any law.
 void add_sides(const WornPlace& place, const StateRates& rates,
                const std::optional<wear::ImpactSliding>& indices, results::WearOfSupport& support) {
-  for (const std::size_t number : place.sides) {
+  for (const WornSide& worn_side : place.sides) {
     results::WearOfSide side;
-    side.name = contact::side_names[number];
-    side.states = rates.of(number);
+    side.name = worn_side.name;
+    side.states = rates.of(&worn_side);
     side.work_rate = mean_of_states(side.states);
     wear::WornSupport worn = place.worn;
     if (is_at_rest(side.states))
@@ -346,9 +354,9 @@ void add_wear(const study::Study& study, const std::vector<WornPlace>& places,
     support.tube = tube_of(out.bases, placed[place.contacts.front()].node);
     const auto indices = indices_of(entry, out, place.contacts, support);
     const StateRates rates(study, place, placed, others, out);
-    support.states = rates.of({});
+    support.states = rates.of(nullptr);
     support.work_rate = mean_of_states(support.states);
-    support.sector_rates = sum_of_sectors(out, place.contacts);
+    support.sector_rates = sum_of_sectors(out, place);
     support.time = times_over(entry.years);
     if (place.sides.empty())
       add_scar(place, indices, support);

@@ -5,8 +5,12 @@
 #include "core/error.hpp"
 #include "core/names.hpp"
 #include "wear/coefficients.hpp"
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
+#include <map>
+#include <numbers>
 #include <set>
 #include <tuple>
 
@@ -116,28 +120,85 @@ void set_facts(const study::Wear& entry, WornPlace& place) {
   facts.support_limit = place.worn.support_limit.value_or(results::no_value);
 }
 
-/// Angles are counted in local axes, which contacts of one support must share.
-void check_axes(const std::vector<PlacedContact>& placed, const std::vector<std::size_t>& contacts) {
-  const auto& first = placed[contacts.front()];
-  for (const std::size_t c : contacts)
-    if (!placed[c].frame.rotation().isApprox(first.frame.rotation(), same_axes))
-      throw core::Error(fmt::format(
-          "\"{}\" and \"{}\" have different local axes, in which the angles of one support are counted; give "
-          "them the same axis and y_axis, or leave one_support out",
-          first.name, placed[c].name));
+/// Quarter turns about x_loc, 0 to 3, by which the local axes of a contact are turned from those of another; nothing: by something else.
+std::optional<std::size_t> quarter_turns(const PlacedContact& from, const PlacedContact& to) {
+  const auto turned = (from.frame.rotation() * to.frame.rotation().transpose()).eval();
+  const double angle = std::atan2(turned(2, 1), turned(1, 1)), quarter = 0.5 * std::numbers::pi;
+  const auto turns = static_cast<int>(std::nearbyint(angle / quarter));
+  const Eigen::Matrix3d exact =
+      Eigen::AngleAxisd(turns * quarter, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  if (!turned.isApprox(exact, same_axes))
+    return {};
+  return static_cast<std::size_t>((turns + 4) % 4);
 }
 
-/// Sides of flat bars on which all contacts of a support have faces.
-std::vector<std::size_t> sides_of(const wear::Pairing& pairing, const std::vector<PlacedContact>& placed,
+/// Angles are counted in the local axes of the first contact of a support, which the others share or, at flat faces, have turned by quarters
+/// about x_loc: bars on several sides, one a contact. @return the quarter turns of each contact
+std::vector<std::size_t> turns_of(const wear::Pairing& pairing, const std::vector<PlacedContact>& placed,
                                   const std::vector<std::size_t>& contacts) {
   const auto* shared = std::get_if<wear::SharedScar>(&pairing);
-  if (!shared || !std::holds_alternative<wear::FlatBar>(shared->geometry))
-    return {};
-  std::vector<std::size_t> sides = contact::flat_sides(placed[contacts.front()].obstacle);
-  for (const std::size_t c : contacts)
-    if (contact::flat_sides(placed[c].obstacle) != sides)
+  const bool flat = shared && std::holds_alternative<wear::FlatBar>(shared->geometry);
+  const PlacedContact& first = placed[contacts.front()];
+  const auto has_sides = [&](std::size_t c) { return !contact::sides_of(placed[c].obstacle).empty(); };
+  const bool all_sides = std::all_of(contacts.begin(), contacts.end(), has_sides);
+  std::vector<std::size_t> out;
+  for (const std::size_t c : contacts) {
+    const std::optional<std::size_t> turns = quarter_turns(first, placed[c]);
+    if (!turns || (*turns != 0 && !(flat && all_sides)))
+      throw core::Error(fmt::format(
+          "\"{}\" and \"{}\" have different local axes, in which the angles of one support are counted; give "
+          "them the same axis and y_axis (flat bars and planes: or turned by 90, 180 or 270 degrees), or "
+          "leave "
+          "one_support out",
+          first.name, placed[c].name));
+    out.push_back(*turns);
+  }
+  return out;
+}
+
+/// Whether two holes have their lands at the same angles.
+bool same_lands(const contact::BroachedHole& a, const contact::BroachedHole& b) {
+  return a.lands == b.lands && a.orientation == b.orientation;
+}
+
+/// Whether a contact has surfaces of the kind that the geometry wears one by one: flat faces, or lands at the same angles as the first. The
+/// reference form of lands is that of all lands together.
+bool wears_by_side(const wear::Pairing& pairing, const contact::Obstacle& obstacle,
+                   const contact::Obstacle& first) {
+  const auto* shared = std::get_if<wear::SharedScar>(&pairing);
+  if (!shared)
+    return false;
+  const auto *hole = std::get_if<contact::BroachedSpace>(&obstacle),
+             *first_hole = std::get_if<contact::BroachedSpace>(&first);
+  if (std::holds_alternative<wear::FlatBar>(shared->geometry))
+    return !hole;
+  return std::holds_alternative<wear::Lands>(shared->geometry) && shared->form == wear::Form::exact && hole &&
+         first_hole && same_lands(hole->hole(), first_hole->hole());
+}
+
+/// The sides of a support that wear each by itself, where there are several.
+/// @param turns  quarter turns of each contact from the axes of the first
+std::vector<WornSide> sides_of(const wear::Pairing& pairing, const std::vector<PlacedContact>& placed,
+                               const std::vector<std::size_t>& contacts,
+                               const std::vector<std::size_t>& turns) {
+  std::map<std::size_t, WornSide> sides; // by number
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const std::size_t c = contacts[k];
+    const contact::Obstacle& obstacle = placed[c].obstacle;
+    const std::vector<contact::Side> own = contact::sides_of(obstacle);
+    if (own.empty() || !wears_by_side(pairing, obstacle, placed[contacts.front()].obstacle))
       return {};
-  return sides;
+    for (const contact::Side& side : own) {
+      const std::size_t number = turns[k] == 0 ? side.number : (side.number + turns[k]) % 4;
+      WornSide& worn = sides[number];
+      worn.name = turns[k] == 0 ? side.name : contact::flat_side_names[number];
+      worn.parts.push_back({c, own.size() > 1 ? std::optional(side.number) : std::nullopt});
+    }
+  }
+  std::vector<WornSide> out;
+  for (auto& side : sides)
+    out.push_back(std::move(side.second));
+  return out.size() > 1 ? out : std::vector<WornSide>{};
 }
 
 /// Results are filed under the names of supports.
@@ -154,14 +215,13 @@ WornPlace place_of(const study::Study& study, const fem::Model& model,
                    const std::vector<std::size_t>& contacts) {
   const study::Wear& entry = study.wear[e];
   try {
-    check_axes(placed, contacts);
     const PlacedContact& first = placed[contacts.front()];
     const study::Contact& contact = study.contacts[first.entry];
     const WornGeometry geometry = worn_geometry(entry, contact, first, model);
-    WornPlace place{name, e, contacts, {}, {}, {}, {}};
+    WornPlace place{name, e, contacts, {}, {}, {}, {}, turns_of(geometry.pairing, placed, contacts)};
     place.worn.pairing = geometry.pairing;
     place.worn.wall = geometry.wall;
-    place.sides = sides_of(place.worn.pairing, placed, contacts);
+    place.sides = sides_of(place.worn.pairing, placed, contacts, place.turns);
     place.worn.limit = entry.limit;
     place.worn.support_limit = entry.support_limit;
     std::tie(place.worn.tube, place.source) = law_of(entry, place.worn.pairing);

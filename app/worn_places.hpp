@@ -13,18 +13,30 @@
 
 namespace fretwork::app {
 
+/// A side of a support (contact/sides.hpp), named as of its first contact.
+struct WornSide {
+  struct Part {
+    std::size_t contact;             ///< among the placed ones
+    std::optional<std::size_t> side; ///< number among the sides of this contact; nothing: its only one
+  };
+  std::string name;
+  std::vector<Part> parts; ///< whose work rates are summed
+};
+
 struct WornPlace {
   std::string name;
   std::size_t entry;                 ///< in study.wear
   std::vector<std::size_t> contacts; ///< numbers among the placed ones
   wear::WornSupport worn;
-  std::vector<std::size_t> sides; ///< of contact::side_names, each with a scar of its own; empty: one scar
-  std::string source;             ///< of the tube's coefficient
-  results::WearOfSupport facts;   ///< name, contacts, law, geometry and sizes, ready for the results
+  std::vector<WornSide> sides;  ///< each with a scar of its own; empty: one scar
+  std::string source;           ///< of the tube's coefficient
+  results::WearOfSupport facts; ///< name, contacts, law, geometry and sizes, ready for the results
+  std::vector<std::size_t> turns =
+      {}; ///< quarter turns of each contact about x_loc from the axes of the first, 0 to 3
 };
 
 /// @throws core::Error for a name that fits no contact, a contact that two entries name, a size that nothing gives, an obstacle without a
-///         geometry of wear, a coefficient that the bank does not have, contacts of one support with different local axes
+///         geometry of wear, a coefficient that the bank does not have, contacts of one support with different local axes, but for bars on several sides
 [[nodiscard]] std::vector<WornPlace> worn_places(const study::Study& study, const fem::Model& model,
                                                  const std::vector<PlacedContact>& placed);
 

@@ -3,6 +3,7 @@
 #include "contact/obstacle.hpp"
 #include "contact/support_sizes.hpp"
 #include "core/error.hpp"
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -29,6 +30,9 @@ void check(double tube_radius, const BroachedHole& hole) {
     throw core::Error(fmt::format("broached hole: land angle = {:g} rad times {} lands leaves no lobe in a "
                                   "turn of 2 pi; give one between 0 and {:g} rad",
                                   hole.land_angle, hole.lands, 2.0 * pi / hole.lands));
+  if (!hole.land_growth.empty() && hole.land_growth.size() != static_cast<std::size_t>(hole.lands))
+    throw core::Error(fmt::format("broached hole: growth of {} lands of {}; give that of each, or none",
+                                  hole.land_growth.size(), hole.lands));
   if (!std::isfinite(hole.orientation))
     throw core::Error(
         fmt::format("broached hole: orientation = {:g} rad makes no sense; give the angle of the first land",
@@ -63,16 +67,43 @@ double edge_about_corner(double t, const BroachedHole& hole, double half_lobe) {
                                 t, a, b, 2.0 * half_lobe));
 }
 
+/// From a point, `from` away from the middle and by `turned` from the direction of a node at r: distance and direction, in those of the
+/// node (e_r, e_angle); on it, inwards.
+struct FromPoint {
+  double distance, along, across;
+};
+FromPoint from_point(double from, double turned, double r, double from_land) {
+  const double s = std::sin(0.5 * turned), along = (r - from) + 2.0 * from * s * s,
+               across = -std::copysign(from, from_land) * std::sin(turned);
+  const double distance = std::sqrt(along * along + across * across);
+  return distance > 0.0 ? FromPoint{distance, along / distance, across / distance}
+                        : FromPoint{0.0, -1.0, 0.0};
+}
+
 } // namespace
 
 BroachedSpace::BroachedSpace(double tube_radius, const BroachedHole& hole) : hole_(hole), tube_(tube_radius) {
   check(tube_radius, hole);
   half_lobe_ = pi / hole.lands - 0.5 * hole.land_angle;
-  edge_x_ = edge_about_corner(tube_radius, hole, half_lobe_);
-  sin_edge_ = std::sin(edge_x_), cos_edge_ = std::cos(edge_x_);
-  const Seen edge = touching_corner(tube_radius, hole.land_radius, edge_x_);
-  edge_angle_ = half_lobe_ - edge.angle < no_arc ? half_lobe_ : edge.angle;
-  edge_radius_ = edge.radius;
+  if (hole.land_growth.empty())
+    halves_.push_back(half_of(hole.land_radius));
+  for (const double growth : hole.land_growth)
+    halves_.push_back(half_of(hole.land_radius + growth));
+  clearance_ = std::min_element(halves_.begin(), halves_.end(),
+                                [](const Half& a, const Half& b) { return a.radius < b.radius; })
+                   ->radius -
+               tube_radius;
+}
+
+BroachedSpace::Half BroachedSpace::half_of(double land_radius) const {
+  BroachedHole alike = hole_; // all lands of this radius
+  alike.land_radius = land_radius;
+  check(tube_, alike);
+  const double x = edge_about_corner(tube_, alike, half_lobe_);
+  const Seen edge = touching_corner(tube_, land_radius, x);
+  return {
+      land_radius, x, std::sin(x), std::cos(x), half_lobe_ - edge.angle < no_arc ? half_lobe_ : edge.angle,
+      edge.radius};
 }
 
 /// What is nearest: its gap, and its normal and curvature in the directions e_r and e_angle of the node.
@@ -82,46 +113,51 @@ struct BroachedSpace::Nearest {
 };
 
 BroachedSpace::Nearest BroachedSpace::nearest(double y, double z) const {
-  const double r = std::sqrt(y * y + z * z), a = hole_.land_radius;
+  const double r = std::sqrt(y * y + z * z);
   if (!(r > 0.0))
     return {clearance(), -1.0, 0.0, 0.0};
   const double from_first = std::atan2(z, y) - hole_.orientation, pitch = 2.0 * pi / hole_.lands;
-  const double from_land = from_first - pitch * std::nearbyint(from_first / pitch);
+  const double land = std::nearbyint(from_first / pitch), from_land = from_first - pitch * land;
+  if (halves_.size() == 1)
+    return nearest_in(halves_.front(), r, from_land);
+  const int own = (static_cast<int>(land) % hole_.lands + hole_.lands) % hole_.lands;
+  Nearest out = nearest_in(halves_[static_cast<std::size_t>(own)], r, from_land);
+  for (int k = 1; k < hole_.lands; ++k) { // corners of the others
+    const double from_other = std::remainder(from_land - k * pitch, 2.0 * pi);
+    const double angle = std::abs(from_other) - 0.5 * hole_.land_angle;
+    const FromPoint corner =
+        from_point(halves_[static_cast<std::size_t>((own + k) % hole_.lands)].radius, -angle, r, from_other);
+    if (const double gap = corner.distance - tube_; gap < out.gap && corner.distance > 0.0)
+      out = {gap, corner.along, corner.across, 1.0 / corner.distance};
+  }
+  return out;
+}
+
+BroachedSpace::Nearest BroachedSpace::nearest_in(const Half& half, double r, double from_land) const {
+  const double a = half.radius, land_clearance = a - tube_;
   const double angle = std::abs(from_land) - 0.5 * hole_.land_angle; // from the corner
   const auto on_circle = [&](double radius) { return Nearest{radius - r, -1.0, 0.0, -1.0 / r}; };
-  /// From a point, `from` away from the middle and by `turned` from the node's direction: distance and direction; on it, inwards.
-  struct FromPoint {
-    double distance, along, across;
-  };
-  const auto from_point = [&](double from, double turned) {
-    const double s = std::sin(0.5 * turned), along = (r - from) + 2.0 * from * s * s,
-                 across = -std::copysign(from, from_land) * std::sin(turned);
-    const double distance = std::sqrt(along * along + across * across);
-    return distance > 0.0 ? FromPoint{distance, along / distance, across / distance}
-                          : FromPoint{0.0, -1.0, 0.0};
-  };
   const auto at_edge = [&] {
-    const FromPoint edge = from_point(edge_radius_, edge_angle_ - angle);
+    const FromPoint edge = from_point(half.edge_radius, half.edge_angle - angle, r, from_land);
     return edge.distance > 0.0 ? Nearest{-edge.distance, -edge.along, -edge.across, -1.0 / edge.distance}
                                : Nearest{0.0, edge.along, edge.across, 0.0};
   };
   if (angle <= 0.0) {
-    const Nearest land = on_circle(clearance());
+    const Nearest land = on_circle(land_clearance);
     if (r <= a)
       return land;
     const Nearest edge = at_edge(); // deeper than the land is thick
     return edge.gap > land.gap ? edge : land;
   }
   const double s = std::sin(0.5 * angle);
-  const bool has_corner =
-      std::sin(edge_x_) * ((a - r) + 2.0 * r * s * s) >= std::cos(edge_x_) * r * std::sin(angle);
-  const bool has_lobe = angle >= edge_angle_ && edge_angle_ < half_lobe_;
+  const bool has_corner = half.sin_x * ((a - r) + 2.0 * r * s * s) >= half.cos_x * r * std::sin(angle);
+  const bool has_lobe = angle >= half.edge_angle && half.edge_angle < half_lobe_;
   if (!has_corner && !has_lobe)
     return at_edge();
   const Nearest lobe = on_circle(hole_.lobe_radius - tube_);
   if (!has_corner)
     return lobe;
-  const FromPoint corner = from_point(a, -angle);
+  const FromPoint corner = from_point(a, -angle, r, from_land);
   const double gap = corner.distance - tube_;
   if (has_lobe && lobe.gap < gap)
     return lobe;
@@ -146,20 +182,22 @@ std::vector<PlanePoint> BroachedSpace::outline(int arc_points) const {
   };
   const double pitch = 2.0 * pi / hole_.lands, half_land = 0.5 * hole_.land_angle;
   for (int land = 0; land < hole_.lands; ++land) {
+    const Half &half = halves_[static_cast<std::size_t>(land) % halves_.size()],
+               &beyond = halves_[static_cast<std::size_t>(land + 1) % hole_.lands % halves_.size()];
     const double middle = hole_.orientation + land * pitch, next = middle + pitch;
     for (int k = 0; k < arc_points; ++k)
-      add(middle - half_land + k * hole_.land_angle / arc_points, clearance());
-    const auto corner_at = [&](int k) {
-      return touching_corner(tube_, hole_.land_radius, k * edge_x_ / arc_points);
+      add(middle - half_land + k * hole_.land_angle / arc_points, half.radius - tube_);
+    const auto corner_at = [&](const Half& of, int k) {
+      return touching_corner(tube_, of.radius, k * of.edge_x / arc_points);
     };
     for (int k = 0; k < arc_points; ++k)
-      add(middle + half_land + corner_at(k).angle, corner_at(k).radius);
-    if (edge_angle_ < half_lobe_)
+      add(middle + half_land + corner_at(half, k).angle, corner_at(half, k).radius);
+    const double arc = 2.0 * half_lobe_ - half.edge_angle - beyond.edge_angle;
+    if (half.edge_angle < half_lobe_)
       for (int k = 0; k < arc_points; ++k)
-        add(middle + half_land + edge_angle_ + 2.0 * k * (half_lobe_ - edge_angle_) / arc_points,
-            edge_radius_);
+        add(middle + half_land + half.edge_angle + k * arc / arc_points, half.edge_radius);
     for (int k = arc_points; k > 0; --k)
-      add(next - half_land - corner_at(k).angle, corner_at(k).radius);
+      add(next - half_land - corner_at(beyond, k).angle, corner_at(beyond, k).radius);
   }
   return points;
 }

@@ -1,26 +1,54 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Sides of a tube at which flat faces meet it, by the contact point (opposite to the normal of the contact): +y and +z are those of
-/// y_loc and z_loc. Each face has a scar of its own on the tube.
+/// Sides of a tube: surfaces of an obstacle that touch it at places of their own, by the contact point (opposite to the normal of the
+/// contact). Each has a scar of its own on the tube.
+///     flat faces   +y and +z, those of y_loc and z_loc, -y and -z: the larger component of the normal
+///     lands        of a broached hole, "land 1" the first, the others by increasing angle from y_loc to z_loc: the nearest land
 #pragma once
 #include "contact/obstacle.hpp"
 #include "contact/plane.hpp"
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace fretwork::contact {
 
-inline constexpr std::array<const char*, 4> side_names{"+y", "+z", "-y", "-z"};
+inline constexpr std::size_t most_sides = 8; ///< that are told apart; a hole of more lands is one surface
+inline constexpr std::array<const char*, 4> flat_side_names{"+y", "+z", "-y", "-z"};
 
-/// Number of the side in `side_names`: that of the larger component of the normal.
-[[nodiscard]] inline std::size_t side_of(const ContactAxes& axes) {
+struct Side {
+  std::size_t number; ///< in `flat_side_names`, or of the land, from 0
+  std::string name;
+};
+
+/// Of planes, bars, stops (one), rectangles (egg crates, four) and broached holes. Empty for other obstacles, which are one surface.
+[[nodiscard]] std::vector<Side> sides_of(const Obstacle& obstacle);
+
+/// The number of a name; nothing where no side is called so.
+[[nodiscard]] std::optional<std::size_t> side_number(const std::string& name);
+
+/// Number of the flat face.
+[[nodiscard]] inline std::size_t flat_side_of(const ContactAxes& axes) {
   const bool along_y = std::abs(axes.ny) >= std::abs(axes.nz);
   return (along_y ? 0u : 1u) + ((along_y ? axes.ny : axes.nz) > 0.0 ? 2u : 0u);
 }
 
-/// Sides that an obstacle of several flat faces touches: two of a plane pair, four of a rectangle (egg crate). Empty for others.
-[[nodiscard]] std::vector<std::size_t> flat_sides(const Obstacle& obstacle);
+/// The side of an obstacle at a normal.
+class SideFinder {
+public:
+  explicit SideFinder(const Obstacle& obstacle);
+  /// Number of the side, < most_sides; without a meaning for obstacles that have none.
+  [[nodiscard]] std::size_t operator()(const ContactAxes& axes) const {
+    return lands_ == 0 ? flat_side_of(axes) : land_of(axes);
+  }
+
+private:
+  [[nodiscard]] std::size_t land_of(const ContactAxes& axes) const;
+  int lands_ = 0;            ///< 0: flat faces
+  double orientation_ = 0.0; ///< rad, of the first land
+};
 
 } // namespace fretwork::contact

@@ -21,7 +21,7 @@ enum Kept : std::size_t {
   z1,
   z2,
   slid_at,
-  contact_sums = slid_at + contact::side_names.size()
+  contact_sums = slid_at + contact::most_sides
 };
 
 // No array overlaps another: the compiler takes as many contacts at once as a vector has numbers.
@@ -67,6 +67,7 @@ ContactStatistics::ContactStatistics(const std::vector<transient::ContactPoint>&
     : from_(from), sums_(contacts.size()), ends_(contact_sums * contacts.size()) {
   for (const transient::ContactPoint& contact : contacts) {
     supports_.push_back(contact.support);
+    side_of_.emplace_back(contact.support.obstacle);
     rest_y_.push_back(contact.rest.y());
     rest_z_.push_back(contact.rest.z());
   }
@@ -97,7 +98,7 @@ void ContactStatistics::step(const transient::Record& record) {
       s.longest = std::max(s.longest, s.duration);
     }
     if (inside) {
-      s.add(state, record.step);
+      s.add(state, record.step, side_of_[static_cast<std::size_t>(c)]);
       watch_penetration(record, static_cast<std::size_t>(c));
     }
   }
@@ -117,7 +118,8 @@ void ContactStatistics::step(const transient::Record& record) {
   ends_.watch(time_, [this](double* row) { write_sums(row); });
 }
 
-void ContactStatistics::Sums::add(const transient::ContactState& state, double step) {
+void ContactStatistics::Sums::add(const transient::ContactState& state, double step,
+                                  const contact::SideFinder& side_of) {
   closed_time += state.closed * step;
   impulse += state.normal_force * step;
   normal2 += state.normal_square * step;
@@ -126,7 +128,7 @@ void ContactStatistics::Sums::add(const transient::ContactState& state, double s
   tangential_max = std::max(tangential_max, dot(state.friction, state.friction));
   slid += state.wear_work;
   if (state.wear_work > 0.0)
-    slid_at[contact::side_of(state.axes)] += state.wear_work;
+    slid_at[side_of(state.axes)] += state.wear_work;
   distance += state.slid;
   sliding_time += state.sliding * step;
   friction += state.friction_work;

@@ -28,14 +28,14 @@ struct StandardErrors {
   double work_rate_batches = 0.0; ///< that behind the error of the work rate
 };
 
-/// Work rate at one side of the tube.
+/// Work rate at one side of the tube, or on one land.
 struct SideWork {
   double work_rate = 0.0; ///< W
   double error = std::numeric_limits<
       double>::quiet_NaN(); ///< W, standard error; not a number: nothing slides, or a short window
   double batches = 0.0;     ///< effective number behind the error
 };
-using SideWorks = std::array<SideWork, contact::side_names.size()>;
+using SideWorks = std::array<SideWork, contact::most_sides>;
 
 /// Over the window. An impact is a maximal interval of normal force > 0; those that start in the window
 /// count.
@@ -62,7 +62,7 @@ struct ContactSummary {
   double friction_work = 0.0;          ///< J, by the Coulomb slider
   double impact_rate = 0.0;            ///< 1/s, impacts over the length of the window
   StandardErrors error = {};
-  SideWorks sides = {}; ///< `work_rate` by side of the contact point (contact/sides.hpp)
+  SideWorks sides = {}; ///< `work_rate` by number of the side of the contact point (contact/sides.hpp)
 };
 
 class ContactStatistics final : public transient::ContactObserver {
@@ -84,13 +84,13 @@ private:
     double impulse = 0.0, distance = 0.0, sliding_time = 0.0, damping = 0.0;
     double leaving = 0.0, leaving_max = 0.0;
     std::int64_t departures = 0;
-    double duration = 0.0, longest = 0.0;                     ///< of the impact under way; of all
-    double impact_time = 0.0;                                 ///< of impacts that started in the window
-    double deepest = 0.0;                                     ///< m, penetration at the records
-    bool counted = false;                                     ///< the impact under way started in the window
-    std::array<double, contact::side_names.size()> slid_at{}; ///< `slid` by side
+    double duration = 0.0, longest = 0.0;              ///< of the impact under way; of all
+    double impact_time = 0.0;                          ///< of impacts that started in the window
+    double deepest = 0.0;                              ///< m, penetration at the records
+    bool counted = false;                              ///< the impact under way started in the window
+    std::array<double, contact::most_sides> slid_at{}; ///< `slid` by side
     /// A step with force, in the window.
-    void add(const transient::ContactState& state, double step);
+    void add(const transient::ContactState& state, double step, const contact::SideFinder& side_of);
   };
   /// Sums of displacements, weighted by the step, contact by contact in vector lanes (padded as the record's
   /// arrays); radii are those of positions.
@@ -110,6 +110,7 @@ private:
   [[nodiscard]] SideWorks sides_of(const BatchSums& batches, std::size_t contact) const;
 
   std::vector<contact::Support> supports_;
+  std::vector<contact::SideFinder> side_of_;
   std::vector<double> rest_y_, rest_z_; ///< m, from the obstacle's centre
   double from_;
   double time_ = 0.0; ///< length of the window so far, s

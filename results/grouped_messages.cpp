@@ -20,7 +20,7 @@ struct Parts {
   std::string message;
   std::vector<std::string> words; ///< one more than values
   std::vector<std::string>
-      values; ///< a name with its quotes, a list of such, a number, or a range of numbers
+      values; ///< a name with its quotes, a list of such (with how many more), a number, or a range of numbers
 
   /// The same of messages that are alike: the words, and which values are names.
   [[nodiscard]] std::string kind() const {
@@ -44,6 +44,16 @@ std::size_t after_digits(const std::string& text, std::size_t at) {
 
 constexpr std::string_view between = " to ",
                            between_names = ", "; // of the ends of a range, of names in a list
+constexpr std::string_view before_rest = " and ", after_rest = " more"; // of a list that is not in full
+
+/// The end of ` and 12 more` at a place; the place itself where it is not.
+std::size_t end_of_rest(const std::string& text, std::size_t at) {
+  if (text.compare(at, before_rest.size(), before_rest) != 0)
+    return at;
+  const std::size_t first = at + before_rest.size(), last = after_digits(text, first);
+  return last > first && text.compare(last, after_rest.size(), after_rest) == 0 ? last + after_rest.size()
+                                                                                : at;
+}
 
 /// The end of the number that begins at a place; the place itself where none does. A number that is part of a word (x_1, mm2) is none, nor is
 /// a minus a sign within one (pressure-3).
@@ -71,7 +81,7 @@ std::size_t end_of_value(const std::string& text, std::size_t at) {
     while (end != std::string::npos && text.compare(end + 1, between_names.size(), between_names) == 0 &&
            text[end + 1 + between_names.size()] == '"') // a list
       end = text.find('"', end + between_names.size() + 2);
-    return end == std::string::npos ? at : end + 1;
+    return end == std::string::npos ? at : end_of_rest(text, end + 1);
   }
   const std::size_t end = end_of_number(text, at);
   if (end == at || text.compare(end, between.size(), between) != 0)
@@ -97,10 +107,10 @@ Parts parts_of(const std::string& message) {
   return parts;
 }
 
-/// The names of a list, with their quotes.
+/// The names that a list shows, with their quotes.
 std::vector<std::string> names_of(const std::string& list) {
   std::vector<std::string> out;
-  for (std::size_t at = 0; at < list.size();) {
+  for (std::size_t at = 0; at < list.size() && list[at] == '"';) {
     const std::size_t end = list.find('"', at + 1) + 1;
     out.push_back(list.substr(at, end - at));
     at = end + between_names.size();
@@ -110,6 +120,12 @@ std::vector<std::string> names_of(const std::string& list) {
 
 /// All that stands at one place of alike messages.
 std::string together(std::vector<std::string> values) {
+  const bool in_full = std::none_of(values.begin(), values.end(), [](const std::string& value) {
+    return value.front() == '"' && value.back() != '"';
+  });
+  if (!in_full &&
+      std::all_of(values.begin(), values.end(), [&](const auto& value) { return value == values.front(); }))
+    return values.front();
   std::vector<std::string> different;
   std::set<std::string> seen;
   const auto add = [&](const std::string& value) {
@@ -126,8 +142,9 @@ std::string together(std::vector<std::string> values) {
     return different.front();
   if (different.front().front() == '"')
     return different.size() <= most_in_group
-               ? fmt::format("{}", fmt::join(different, ", "))
-               : fmt::format("{} ... {} ({})", different.front(), different.back(), different.size());
+               ? fmt::format("{}{}", fmt::join(different, ", "), in_full ? "" : " and more")
+               : fmt::format("{} ... {} ({}{})", different.front(), different.back(), different.size(),
+                             in_full ? "" : " or more");
   std::vector<std::string> ends;
   for (const std::string& value : different) {
     const std::size_t split = value.find(between);

@@ -52,15 +52,14 @@ struct StaticFlexibility {
 /// A contact as it was set up.
 struct ContactFacts {
   std::string name;
-  core::Index node = 0;   ///< of the model
-  core::Index other = -1; ///< the second node; -1: the obstacle is fixed
-  fem::BeamPoint point;   ///< that meets the obstacle: the node, or a point of a beam near it
-  Eigen::Matrix3d axes;   ///< rows x_loc y_loc z_loc
-  std::string obstacle;   ///< as in the study file
-  double gap = 0.0;       ///< m
-  std::vector<std::size_t>
-      sides;       ///< of contact::side_names, where flat faces meet the tube on several; for summary.json
-  core::Vec3 rest; ///< m, node at rest from the obstacle's centre, local axes
+  core::Index node = 0;             ///< of the model
+  core::Index other = -1;           ///< the second node; -1: the obstacle is fixed
+  fem::BeamPoint point;             ///< that meets the obstacle: the node, or a point of a beam near it
+  Eigen::Matrix3d axes;             ///< rows x_loc y_loc z_loc
+  std::string obstacle;             ///< as in the study file
+  double gap = 0.0;                 ///< m
+  std::vector<contact::Side> sides; ///< where the obstacle has several; for summary.json
+  core::Vec3 rest;                  ///< m, node at rest from the obstacle's centre, local axes
   Eigen::MatrixXd outline; ///< m, n x 2: contact::outline_of, local y z; empty where the gap tells all
   double normal_stiffness = 0.0, normal_damping = 0.0, tangential_stiffness = 0.0, tangential_damping = 0.0;
   double normal_dissipation = 0.0; ///< s/m, Hunt and Crossley's

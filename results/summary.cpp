@@ -99,12 +99,12 @@ Json flexibility(const std::optional<StaticFlexibility>& f) {
   return {{"exact", number(f->exact)}, {"basis", number(f->basis)}, {"missing", number(f->missing)}};
 }
 
-/// By name of the side, of obstacles of several flat faces.
+/// By name of the side, of obstacles of several.
 Json sides(const ContactFacts& facts, const post::SideWorks& works) {
   Json out = Json::object();
-  for (const std::size_t side : facts.sides) {
-    const post::SideWork& w = works[side];
-    out[contact::side_names[side]] = {
+  for (const contact::Side& side : facts.sides) {
+    const post::SideWork& w = works[side.number];
+    out[side.name] = {
         {"work_rate", number(w.work_rate)},
         {"standard_error", {{"work_rate", number(w.error)}, {"work_rate_batches", number(w.batches)}}}};
   }

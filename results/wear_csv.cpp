@@ -33,18 +33,20 @@ struct ScarCells {
 };
 
 ScarCells cells_of(const WornScar& s) {
-  return {
-      value_and_bounds({s.work_rate.value, s.work_rate.low, s.work_rate.high}),
-      fmt::format("{},{},{},{}", value_and_bounds(s.volume.last()), value_and_bounds(s.depth.last()),
-                  value_and_bounds(s.support_volume.last()), value_and_bounds(s.support_depth.last())),
-      fmt::format("{},{},{},{}", s.scar_width, s.scar_length, s.life.end, value_and_bounds(s.life.years))};
+  return {value_and_bounds({s.work_rate.value, s.work_rate.low, s.work_rate.high}),
+          fmt::format("{},{},{},{}", value_and_bounds(s.volume.last()), value_and_bounds(s.depth.last()),
+                      value_and_bounds(s.support_volume.last()), value_and_bounds(s.support_depth.last())),
+          fmt::format("{},{},{},{},{},{}", s.scar_width, s.scar_length, s.life.end,
+                      value_and_bounds(s.life.years), s.support_life.end,
+                      value_and_bounds(s.support_life.years))};
 }
 
 ScarCells scar_heads() {
   return {bounds_head("work_rate", "W"),
           fmt::format("{},{},{},{}", bounds_head("volume", "m3"), bounds_head("depth", "m"),
                       bounds_head("support_volume", "m3"), bounds_head("support_depth", "m")),
-          "scar_width [m],scar_length [m],life_end," + bounds_head("life", "years")};
+          fmt::format("scar_width [m],scar_length [m],life_end,{},support_life_end,{}",
+                      bounds_head("life", "years"), bounds_head("support_life", "years"))};
 }
 
 std::string sides_text(const WearOfSupport& s) {

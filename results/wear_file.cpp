@@ -202,13 +202,18 @@ WearOfSupport read_support(const h5::Group& group) {
       s.*list.value = group.read<double>(list.name);
   check_lengths(s);
   read_scar(group, s.time.size(), s);
-  if (group.has("sides"))
-    for (const char* name : contact::side_names)
-      if (const h5::Group sides = group.open("sides"); sides.has(name)) {
-        WearOfSide& side = s.sides.emplace_back();
-        side.name = name;
-        read_scar(sides.open(name), s.time.size(), side);
-      }
+  if (!group.has("sides"))
+    return s;
+  const h5::Group sides = group.open("sides");
+  std::vector<std::string> names = sides.children();
+  std::sort(names.begin(), names.end(), [](const std::string& a, const std::string& b) {
+    return contact::side_number(a) < contact::side_number(b);
+  });
+  for (const std::string& name : names) {
+    WearOfSide& side = s.sides.emplace_back();
+    side.name = name;
+    read_scar(sides.open(name), s.time.size(), side);
+  }
   return s;
 }
 

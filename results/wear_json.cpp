@@ -122,7 +122,8 @@ Json tube(const WearOfTube& t) {
           {"depth_m", bounds(t.depth)},
           {"deepest_support", t.deepest.empty() ? Json(nullptr) : Json(t.deepest)},
           {"life_years", bounds(t.years)},
-          {"first_support", t.first.empty() ? Json(nullptr) : Json(t.first)}};
+          {"first_support", t.first.empty() ? Json(nullptr) : Json(t.first)},
+          {"first_body", t.body.empty() ? Json(nullptr) : Json(t.body)}};
 }
 
 Json by_stage(const WearCurves& c) {

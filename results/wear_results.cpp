@@ -72,6 +72,10 @@ WearLife first_life(const std::vector<WearOfSide>& sides, WearLife WornScar::*li
 
 } // namespace
 
+std::string text_of_side(const std::string& name) {
+  return name.starts_with("land ") ? name : "side " + name;
+}
+
 void combine_sides(WearOfSupport& support) {
   const auto& sides = support.sides;
   support.volume = support.support_volume = support.depth = support.support_depth = {};
@@ -89,7 +93,7 @@ void combine_sides(WearOfSupport& support) {
   for (const WearOfSide& side : sides) {
     if (!side.outside.empty())
       support.outside +=
-          fmt::format("{}side {}: {}", support.outside.empty() ? "" : "; ", side.name, side.outside);
+          fmt::format("{}{}: {}", support.outside.empty() ? "" : "; ", text_of_side(side.name), side.outside);
     if (const double depth = side.depth.last().value; depth > deepest) {
       deepest = depth;
       support.scar_width = side.scar_width;
@@ -97,6 +101,12 @@ void combine_sides(WearOfSupport& support) {
       support.scar_half_angle = side.scar_half_angle;
     }
   }
+}
+
+Bounds first_life(const WornScar& scar) {
+  Bounds out = scar.life.years;
+  take(out, scar.support_life.years, std::less<>());
+  return out;
 }
 
 std::vector<WearOfTube> wear_by_tube(const std::vector<WearOfSupport>& supports) {
@@ -119,9 +129,15 @@ std::vector<WearOfTube> wear_by_tube(const std::vector<WearOfSupport>& supports)
     if (const double volume = support.volume.last().value; std::isnan(depth.value) && volume > 0.0)
       if (const WearOfSupport*& of = beyond[support.tube]; !of || volume > of->volume.last().value)
         of = &support;
-    if (!std::isnan(support.life.years.value) && !(support.life.years.value >= tube.years.value))
-      tube.first = support.name;
-    take(tube.years, support.life.years, std::less<>());
+    for (const auto& [life, body] :
+         {std::pair(&support.life, "tube"), std::pair(&support.support_life, "support")}) {
+      const double years = life->years.value;
+      if (std::isfinite(years) && !(years >= tube.years.value)) {
+        tube.first = support.name;
+        tube.body = body;
+      }
+      take(tube.years, life->years, std::less<>());
+    }
   }
   for (const auto& [tube, support] : beyond) {
     tubes.at(tube).depth = {};

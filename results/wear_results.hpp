@@ -57,12 +57,12 @@ struct WornScar {
   WearLife life, support_life;       ///< an empty end: the support has no limit
 };
 
-/// The scar of one flat face.
+/// The scar of one flat face, or on one land.
 struct WearOfSide : WornScar {
-  std::string name; ///< of contact::side_names
+  std::string name; ///< contact/sides.hpp
 };
 
-/// A support, all points of it: one scar, or where flat faces meet the tube on several sides the sum of their volumes, the deepest of their
+/// A support, all points of it: one scar, or where flat faces or lands meet the tube on several sides the sum of their volumes, the deepest of their
 /// depths and the first of their lives.
 struct WearOfSupport : WornScar {
   std::string name;
@@ -86,7 +86,7 @@ struct WearOfSupport : WornScar {
   double share_above = no_value; ///< of the time in contact that is above the maxima of kwu_epri's classes
 
   std::vector<double> time;         ///< s, from 0 to the years asked for
-  std::vector<WearOfSide> sides;    ///< scars of several flat faces; else empty
+  std::vector<WearOfSide> sides;    ///< scars of several flat faces or lands; else empty
   std::vector<double> sector_rates; ///< W, of this run by angular sector of the contact point, from -pi on
   std::vector<double> sector_depth, sector_support_depth; ///< m, at the last time; geometry "sectors" only
 };
@@ -99,8 +99,9 @@ struct WearOfTube {
   Bounds volume; ///< m3, sum over supports at the years asked for; not a number where a law does not apply
   Bounds depth;  ///< m, the largest; not a number where a scar is beyond its geometry
   std::string deepest; ///< the support where it is, or of the largest of these scars
-  Bounds years;        ///< the shortest life
-  std::string first;   ///< the support that ends it
+  Bounds years;        ///< the shortest life, of the tube or of a support that has a limit
+  std::string first;   ///< the support that ends it; empty: none
+  std::string body;    ///< what reaches its limit there, "tube" or "support"; empty: nothing
 };
 
 /// One support through the stages of gap opening; lists by stage.
@@ -127,9 +128,15 @@ struct Wear {
   std::optional<GapOpening> opening; ///< where the study asks for it
 };
 
+/// "side +y", "land 1", from the name of a side.
+[[nodiscard]] std::string text_of_side(const std::string& name);
+
 /// Volumes, depths, scar and lives of a support from its sides, at each end of the intervals. Sides that are outside their law count only
 /// where all are.
 void combine_sides(WearOfSupport& support);
+
+/// The life of what reaches its limit first, tube or support.
+[[nodiscard]] Bounds first_life(const WornScar& scar);
 
 /// Sums and extremes over the supports of each tube, by the number of the tube.
 [[nodiscard]] std::vector<WearOfTube> wear_by_tube(const std::vector<WearOfSupport>& supports);

@@ -53,21 +53,48 @@ std::string law_text(const WearOfSupport& s) {
   return std::isnan(s.coefficient) ? s.law : fmt::format("{} {:.3g}", s.law, s.coefficient);
 }
 
+std::string years_text(const WearLife& life) {
+  return life.end == "outside_law" ? "outside the law" : with_bounds(life.years, 1.0);
+}
+
 Row row(const std::string& name, const WornScar& s, const std::string& law) {
   return {name,
           figure_of_wear(s.work_rate.value),
           with_bounds({s.volume.last().value}, cubic_millimetre),
           with_bounds(s.depth.last(), millimetre),
           with_bounds({s.scar_width}, millimetre),
-          s.life.end == "outside_law" ? "outside the law" : with_bounds(s.life.years, 1.0),
+          years_text(s.life),
           law};
 }
 
-/// A support, and below it the scars of its sides.
+/// A support, and below it the scars of its sides that have a share of its volume worth a row.
 void add_support(std::vector<Row>& rows, const WearOfSupport& s) {
+  constexpr double least_share = 0.05;
   rows.push_back(row(shortened(s.name, support_width), s, law_text(s)));
   for (const WearOfSide& side : s.sides)
-    rows.push_back(row("  side " + side.name, side, ""));
+    if (!(side.volume.last().value < least_share * s.volume.last().value))
+      rows.push_back(row("  " + text_of_side(side.name), side, ""));
+}
+
+/// What the supports themselves lose, and when they reach their limits, of those that wear.
+void add_supports_themselves(std::vector<std::string>& lines, const Wear& wear,
+                             const std::vector<std::size_t>& shown) {
+  std::vector<Row> rows{
+      {"the supports themselves", "K m2/N", "worn mm3", "depth mm", "years to their limit", "limit mm", ""}};
+  for (const std::size_t number : shown) {
+    const WearOfSupport& s = wear.supports[number];
+    const bool limited = !s.support_life.end.empty();
+    if (s.support_coefficient > 0.0 || limited)
+      rows.push_back({shortened(s.name, support_width), fmt::format("{:.3g}", s.support_coefficient),
+                      with_bounds({s.support_volume.last().value}, cubic_millimetre),
+                      with_bounds(s.support_depth.last(), millimetre),
+                      limited ? years_text(s.support_life) : "no limit",
+                      limited ? fmt::format("{:.3g}", millimetre * s.support_limit) : "", ""});
+  }
+  if (rows.size() == 1)
+    return;
+  const std::vector<std::string> own = aligned(rows);
+  lines.insert(lines.end(), own.begin(), own.end());
 }
 
 /// What the intervals of depth and years are; nothing where there is none.
@@ -100,6 +127,8 @@ void add_sources(std::vector<std::string>& lines, const Wear& wear) {
 /// Which support ends the life of a tube, and whose scar has no depth.
 std::string remark_of(const WearOfTube& tube) {
   std::string out = tube.first.empty() ? "" : "first: " + shortened(tube.first, support_width);
+  if (tube.body == "support")
+    out += " (the support)";
   if (std::isnan(tube.depth.value) && !tube.deepest.empty())
     out += fmt::format("{}beyond its geometry: {}", out.empty() ? "" : "; ",
                        shortened(tube.deepest, support_width));
@@ -163,7 +192,7 @@ std::vector<std::string> wear_lines(const Wear& wear) {
   std::vector<std::size_t> shown(wear.supports.size());
   std::iota(shown.begin(), shown.end(), std::size_t{0});
   const auto life = [&](std::size_t s) {
-    const double years = wear.supports[s].life.years.value;
+    const double years = first_life(wear.supports[s]).value;
     return std::isnan(years) ? std::numeric_limits<double>::infinity() : years;
   };
   if (shown.size() > most_supports) {
@@ -192,6 +221,7 @@ std::vector<std::string> wear_lines(const Wear& wear) {
   add_sources(lines, wear);
   if (wear.opening)
     add_opening(lines, wear, shown);
+  add_supports_themselves(lines, wear, shown);
   return lines;
 }
 

@@ -197,6 +197,24 @@ def of_limit(limit, values, confidence):
     return out
 
 
+BODIES = {".support_years": "support", ".years": "tube"}  # of outputs of lives, the longer ending first
+
+
+def first_supports(lives, values, confidence):
+    """Shares of the cases by what reaches its limit first, the largest first. lives: names of the columns of values, a; NaN: not in the case."""
+    values = np.where(np.isnan(values), math.inf, values)[~np.isnan(values).all(axis=1)]
+    first = np.where(np.isfinite(values.min(axis=1)), values.argmin(axis=1), -1) if len(values) else np.zeros(0, int)
+    out = []
+    for number, name in enumerate(lives):
+        hits = int(np.sum(first == number))
+        if not hits:
+            continue
+        ending = next(ending for ending in BODIES if name.endswith(ending))
+        low, high = share_interval(hits, len(first), confidence)
+        out.append({"support": name[: -len(ending)], "body": BODIES[ending], "hits": hits, "share": hits / len(first), "low": low, "high": high})
+    return {"cases": len(first), "never": int(np.sum(first == -1)), "supports": sorted(out, key=lambda entry: -entry["hits"])}
+
+
 def convergence(values, until, confidence):
     """Half width of the interval of a quantile over its value, and how many cases would halve it as asked for."""
     present = values[~np.isnan(values)]
@@ -235,6 +253,10 @@ def summarize(request, folder):
         if found:
             answer["sensitivities"][name] = found
     answer["limits"] = [of_limit(limit, column[limit["output"]][:independent], request["confidence"]) for limit in request["limits"]]
+    lives = request["lives"]
+    if len(lives) > 1:
+        values = np.column_stack([column[name][:independent] for name in lives])
+        answer["first_support"] = first_supports(lives, values, request["confidence"])
     answer["convergence"] = convergence(column[request["until"]["output"]][:independent], request["until"], request["confidence"])
     return answer
 

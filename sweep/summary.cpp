@@ -5,8 +5,10 @@
 #include "results/text_file.hpp"
 #include "sweep/openturns.hpp"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <numeric>
 
 namespace fretwork::sweep {
 namespace {
@@ -17,7 +19,7 @@ constexpr std::size_t most_failures = 100; ///< that the summary lists; the tabl
 constexpr std::size_t most_case_warnings = 10;
 constexpr std::size_t most_ranges = 16; ///< lines of outputs
 constexpr double round_off = 1e-12;     ///< of displacements, m, and forces, N: nothing moves so little
-constexpr std::size_t name_width = 24, cell_width = 31, shown_variables = 4;
+constexpr std::size_t name_width = 24, cell_width = 31, shown_variables = 4, shown_firsts = 4;
 
 /// Inputs that are drawn and outputs, as numbers, of the rows that statistics are made from: the done ones; of a design whose estimator needs every case all.
 std::vector<double> values_of(const study::Sweep& sweep, const Draws& draws, const Table& table,
@@ -39,14 +41,44 @@ std::vector<double> values_of(const study::Sweep& sweep, const Draws& draws, con
   return out;
 }
 
+/// Of a support: of its tube, or its own.
+bool is_life(const std::string& name) {
+  return (name.ends_with(".years") || name.ends_with(".support_years")) && name != "worst.years";
+}
+
+/// Places of the columns in the order in which they are read: lives and depths, work rates, forces, the others, round-off last.
+std::vector<std::size_t> reading_order(const std::vector<std::string>& columns) {
+  constexpr std::array first{"worst.years",      "worst.wear_depth", "worst.work_rate",  "total.work_rate",
+                             "worst.normal_rms", "worst.normal_max", "total.impact_rate"};
+  const auto rank = [&](std::size_t place) {
+    const auto found = std::find(first.begin(), first.end(), columns[place]) - first.begin();
+    return columns[place] == "total.energy_residual" ? static_cast<std::ptrdiff_t>(first.size()) + 1 : found;
+  };
+  std::vector<std::size_t> out(columns.size());
+  std::iota(out.begin(), out.end(), std::size_t{0});
+  std::stable_sort(out.begin(), out.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+  return out;
+}
+
+std::vector<std::string> names_of(const std::vector<Column>& columns) {
+  std::vector<std::string> out;
+  for (const Column& column : columns)
+    out.push_back(column.name);
+  return out;
+}
+
 json statistics_request(const study::Sweep& sweep, const Table& table) {
   json out{{"operation", "summarize"},     {"design", name_of(sweep.design)}, {"count", sweep.draws},
            {"quantiles", sweep.quantiles}, {"confidence", sweep.confidence},  {"limits", json::array()},
            {"inputs", json::array()},      {"outputs", json::array()}};
   for (const std::size_t v : drawn_variables(sweep))
     out["inputs"].push_back(sweep.variables[v].name);
-  for (const Column& column : table.outputs)
+  out["lives"] = json::array();
+  for (const Column& column : table.outputs) {
     out["outputs"].push_back(column.name);
+    if (is_life(column.name))
+      out["lives"].push_back(column.name);
+  }
   for (const study::SweepLimit& limit : sweep.limits)
     out["limits"].push_back({{"output", limit.output}, {"value", limit.value}, {"above", limit.above}});
   study::SweepUntil until = sweep.until.value_or(study::SweepUntil{});
@@ -92,7 +124,13 @@ std::string quantile_lines(const json& summary) {
   const bool contacts = std::any_of(outputs.items().begin(), outputs.items().end(),
                                     [](const auto& item) { return item.key().starts_with("worst."); });
   std::size_t lines = 0;
-  for (const auto& [name, output] : outputs.items()) {
+  const std::vector<std::string> columns = summary["columns"];
+  for (const std::size_t place : reading_order(columns)) {
+    const std::string& name = columns[place];
+    const auto found = outputs.find(name);
+    if (found == outputs.end()) // an error
+      continue;
+    const json& output = *found;
     if (contacts ? !is_of_all(name) : name.ends_with(".error") || ++lines > most_ranges)
       continue;
     std::vector<std::string> cells;
@@ -114,6 +152,28 @@ std::string limit_lines(const json& summary) {
                          limit["low"].get<double>(), limit["high"].get<double>(), limit["hits"].get<int>(),
                          limit["cases"].get<int>());
   return out;
+}
+
+/// Which support is first, by shares of the cases.
+std::string first_lines(const json& summary) {
+  const auto found = summary["statistics"].find("first_support");
+  if (found == summary["statistics"].end() || (*found)["supports"].empty())
+    return {};
+  const json& supports = (*found)["supports"];
+  std::string out = "  first to its limit  ";
+  for (std::size_t i = 0; i < std::min(supports.size(), shown_firsts); ++i) {
+    const json& first = supports[i];
+    const auto percent = [&](const char* key) { return 100.0 * first[key].get<double>(); };
+    out +=
+        fmt::format("{}{}{} {:.0f} % ({:.0f} to {:.0f})", i ? ", " : "", first["support"].get<std::string>(),
+                    first["body"] == "support" ? " (the support)" : "", percent("share"), percent("low"),
+                    percent("high"));
+  }
+  if (supports.size() > shown_firsts)
+    out += fmt::format(" and {} more", supports.size() - shown_firsts);
+  if (const int never = (*found)["never"]; never > 0)
+    out += fmt::format(", none {:.0f} %", 100.0 * never / (*found)["cases"].get<double>());
+  return out + fmt::format(" of {}\n", results::counted((*found)["cases"].get<std::int64_t>(), "case"));
 }
 
 std::string sensitivity_lines(const json& summary) {
@@ -231,7 +291,7 @@ std::string range_lines(const Table& table) {
   const std::string head = line_of_cells("range", {"least", "largest"});
   std::string out;
   std::size_t lines = 0;
-  for (std::size_t place = 0; place < table.outputs.size(); ++place) {
+  for (const std::size_t place : reading_order(names_of(table.outputs))) {
     const Column& column = table.outputs[place];
     if (column.name.ends_with(".error") || column.name == "total.energy_residual" ||
         (contacts && !is_of_all(column.name)))
@@ -326,7 +386,7 @@ std::vector<std::int64_t> worst_cases(const Table& table, const std::string& out
   const std::size_t place = place_of(table.outputs, output, "the worst cases");
   std::vector<std::size_t> rows = table.done();
   std::erase_if(rows, [&](std::size_t i) { return std::isnan(table.rows[i].values[place]); });
-  const bool smallest = output.ends_with(".years");
+  const bool smallest = is_life(output) || output == "worst.years";
   std::stable_sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) {
     const double first = table.rows[a].values[place], second = table.rows[b].values[place];
     return smallest ? first < second : first > second;
@@ -351,8 +411,8 @@ std::string summary_text(const json& summary) {
     out += fmt::format("  warning      {}\n", warning.get<std::string>());
   if (!summary.contains("statistics"))
     return out;
-  return out + quantile_lines(summary) + limit_lines(summary) + sensitivity_lines(summary) +
-         convergence_line(summary);
+  return out + quantile_lines(summary) + first_lines(summary) + limit_lines(summary) +
+         sensitivity_lines(summary) + convergence_line(summary);
 }
 
 } // namespace fretwork::sweep

@@ -306,7 +306,7 @@ class Results:
 
     @cached_property
     def wear_sides(self) -> pandas.DataFrame | None:
-        """Wear of each side (+y, -y, +z, -z) of supports with flat faces on several sides; columns as of `wear`. None where there are none."""
+        """Wear of each side of supports with several: flat faces (+y, -y, +z, -z), lands (land 1 ...); columns as of `wear`. None where there are none."""
         supports = (self.summary.get("wear") or {}).get("supports", [])
         rows = [{"name": entry["name"], "side": side["name"], **{key: value for key, value in side.items() if key != "name"}}
                 for entry in supports for side in entry.get("sides", [])]
@@ -314,7 +314,7 @@ class Results:
 
     def wear_series(self, support: str, side: str | None = None) -> xarray.Dataset:
         """Volume (m3) and depth (m) against time (s) as (time, bound): value, low, high; sector_work_rate (W) and, with this geometry, sector depths (m)
-        over the angle of the contact point (degrees, middle of the sector). side: of flat faces on several sides.
+        over the angle of the contact point (degrees, middle of the sector). side: of flat faces on several sides, or a land.
 
         Raises KeyError, which lists the names, if there is no wear of this name."""
         import xarray

@@ -71,6 +71,29 @@ TEST(OpenedContacts, WidenTheLandsOfABroachedHole) {
   EXPECT_THROW((void)opened_obstacle(hole, 5e-3), core::Error); // no lobe is left
 }
 
+// At the middle of each land the tube has the clearance of its own scar more, also after a second stage.
+TEST(OpenedContacts, MoveEachLandByItsOwnScar) {
+  const SideGrowth growth_of{1e-4, 0.0, 4e-5, 9e-5};
+  for (const int lands : {3, 4}) {
+    PlacedContact placed{};
+    placed.rest = {0.0, 5e-5, -2e-5};
+    placed.obstacle = contact::BroachedSpace(radius, {radius + 2e-4, radius + 3e-3, lands, 0.3, 0.7});
+    for (int stage = 1; stage <= 2; ++stage) {
+      open_sides(growth_of, placed);
+      for (int k = 0; k < lands; ++k) {
+        const double angle = 0.7 + 2.0 * std::numbers::pi * k / lands;
+        const double r = 2e-4 + stage * growth_of[static_cast<std::size_t>(k)];
+        EXPECT_NEAR(gap_at(placed.obstacle, r * std::cos(angle), r * std::sin(angle)), 0.0, 1e-17)
+            << lands << " lands, " << k << ", stage " << stage;
+      }
+    }
+    EXPECT_EQ(placed.rest.y(), 5e-5);
+    const contact::Obstacle wider = opened_obstacle(placed.obstacle, growth); // of worn lands, all alike
+    const double r = 3e-4 + 2.0 * growth_of[0];
+    EXPECT_NEAR(gap_at(wider, r * std::cos(0.7), r * std::sin(0.7)), 0.0, 1e-17);
+  }
+}
+
 TEST(OpenedContacts, MoveThePointsOfAProfileOutward) {
   std::vector<contact::PolarPoint> points;
   constexpr int n = 720;

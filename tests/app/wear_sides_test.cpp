@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A tube between flat faces wears a scar at each.
+// A tube between flat faces, or lands, wears a scar at each.
 #include "mesh_text.hpp"
 #include "program.hpp"
 #include "study_text.hpp"
@@ -7,6 +7,7 @@
 #include "wear/laws.hpp"
 #include <cmath>
 #include <fmt/format.h>
+#include <numbers>
 
 namespace fretwork::app::test::wear_sides_test {
 namespace {
@@ -82,6 +83,54 @@ TEST(WearSides, OfAnEggCrateAreFour) {
   EXPECT_GT(rate_of(run, "+z"), 0.0);
 }
 
+// Of a broached hole whose tube works on several lands each wears its share: by the sectors of the work, and less deep than one scar.
+TEST(WearSides, OfABroachedHoleAreItsLands) {
+  const Workshop folder;
+  const std::string study =
+      between_bars(folder, archard + "support_coefficient = 1e-14\nyears = 0.1\nsectors = 36\n",
+                   "obstacle = \"broached\"\ntube_radius = 9.525e-3\nland_radius = 9.535e-3\nlobe_radius = "
+                   "0.012\nland_angle = 20");
+  const Results run = folder.run_text(study);
+  const auto& sides = support(run)["sides"];
+  ASSERT_EQ(sides.size(), 3u);
+  const wear::Lands land{radius, 1e-5, 0.02, 10.0 * std::numbers::pi / 180.0};
+  double work = 0.0, deepest = 0.0, volume = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::string name = fmt::format("land {}", k + 1);
+    EXPECT_EQ(sides[k]["name"], name);
+    const double w = rate_of(run, name.c_str());
+    EXPECT_EQ(sides[k]["work_rate"]["value"], w);
+    double of_sectors = 0.0; // the 12 sectors about the middle of the land, from -180 degrees on
+    for (int s = -6; s < 6; ++s)
+      of_sectors +=
+          support(
+              run)["sectors"]["work_rate"][static_cast<std::size_t>((18 + 12 * static_cast<int>(k) + s) % 36)]
+              .get<double>();
+    EXPECT_TRUE(close_to(w, of_sectors, of_sums)) << name;
+    const double own = coefficient * w * 0.1 * wear::year, depth = wear::depth(land, 1.5 * own).value() / 1.5;
+    EXPECT_TRUE(close_to(sides[k]["volume_m3"]["value"], own, round_off));
+    EXPECT_TRUE(close_to(sides[k]["depth_m"]["value"], depth, bracketed));
+    work += w;
+    volume += own;
+    deepest = std::max(deepest, depth);
+  }
+  EXPECT_TRUE(close_to(work, support(run)["work_rate"]["value"], of_sums));
+  EXPECT_TRUE(close_to(support(run)["volume_m3"]["value"], volume, of_sums));
+  EXPECT_TRUE(close_to(support(run)["depth_m"]["value"], deepest, bracketed));
+  EXPECT_LT(deepest, 0.9 * wear::depth(land, 1.5 * volume).value() / 1.5);
+  EXPECT_TRUE(says(run.summary["contacts"].dump(), "land 2"));
+}
+
+// The reference form of lands is a formula of all of them together.
+TEST(WearSides, AreNotThoseOfTheReferenceFormOfLands) {
+  const Workshop folder;
+  const Results run = folder.run_text(
+      between_bars(folder, archard + "form = \"reference\"\n",
+                   "obstacle = \"broached\"\ntube_radius = 9.525e-3\nland_radius = 9.535e-3\nlobe_radius = "
+                   "0.012\nland_angle = 20"));
+  EXPECT_FALSE(support(run).contains("sides"));
+}
+
 TEST(WearSides, AreThoseOfFlatBarsOnly) {
   const Workshop folder;
   const Results named = folder.run_text(between_bars(folder, archard + "geometry = \"ring\"\n"));
@@ -146,6 +195,58 @@ TEST(WearSides, OpenEachByItsOwnDepth) {
   const Results alone = folder.run_text(opened);
   EXPECT_TRUE(close_to(stages["work_rate"][1]["value"], alone.statistics("support0")["work_rate"], 1e-3));
   EXPECT_NE(plus, minus);
+}
+
+// Two contacts of one bar each that press on the tube from opposite sides: one sum, and the work of each contact on its side.
+TEST(WearSides, OfBarsInTwoContactsAreThoseOfOneSupport) {
+  const Workshop folder;
+  const auto bar_at = [](const char* name, int angle) {
+    return fmt::format(
+        "[[contacts]]\nname = \"{}\"\ngroup = \"support0\"\nobstacle = \"bars_y\"\ntube_radius = "
+        "9.525e-3\nbars = 9.525e-3\noffset = [-2.0e-6, 0]\naxis = [1, 0, 0]\nangle = {}\n"
+        "normal_stiffness = 1.0e6\nfriction = 0.3\ntangential_stiffness = 1.0e6\n",
+        name, angle);
+  };
+  std::string study = between_bars(
+      folder, archard + "years = 0.1\nname = \"bars\"\ncontacts = \"bar_*\"\none_support = true\n");
+  study += bar_at("bar_up", 90) + bar_at("bar_down", 270);
+  const Results run = folder.run_text(study);
+  const auto& bars = run.summary["wear"]["supports"].back();
+  ASSERT_EQ(bars["sides"].size(), 2u);
+  const double up = run.statistics("bar_up")["work_rate"], down = run.statistics("bar_down")["work_rate"];
+  ASSERT_GT(std::min(up, down), 0.0);
+  EXPECT_EQ(bars["sides"][0]["name"], "+y");
+  EXPECT_EQ(bars["sides"][0]["work_rate"]["value"], up);
+  EXPECT_EQ(bars["sides"][1]["name"], "-y");
+  EXPECT_EQ(bars["sides"][1]["work_rate"]["value"], down);
+  EXPECT_TRUE(close_to(bars["work_rate"]["value"], up + down, round_off));
+  const double years = 0.1 * wear::year;
+  EXPECT_TRUE(close_to(bars["depth_m"]["value"],
+                       wear::depth(bar, coefficient * std::max(up, down) * years).value(), bracketed));
+  const auto& sectors = bars["sectors"]["work_rate"]; // from -180 degrees on
+  const auto work_at = [&](std::size_t middle) {
+    return sectors[middle - 1].get<double>() + sectors[middle].get<double>();
+  };
+  EXPECT_TRUE(close_to(work_at(18), up, of_sums));
+  EXPECT_TRUE(close_to(sectors[0].get<double>() + sectors[35].get<double>(), down, of_sums));
+}
+
+TEST(WearSides, OpenEachLandByItsOwnDepth) {
+  const Workshop folder;
+  const Results run =
+      folder.run_text(between_bars(folder, archard + "[gap_opening]\nstages = 2\n",
+                                   "obstacle = \"broached\"\ntube_radius = 9.525e-3\nland_radius = "
+                                   "9.535e-3\nlobe_radius = 0.012\nland_angle = 20"));
+  const auto& stages = run.summary["wear"]["gap_opening"]["supports"][0];
+  ASSERT_EQ(stages["work_rate"].size(), 2u);
+  const double time = run.summary["wear"]["gap_opening"]["years"][0].get<double>() * wear::year;
+  const wear::Lands land{radius, 1e-5, 0.02, 10.0 * std::numbers::pi / 180.0};
+  double deepest = 0.0;
+  for (const char* name : {"land 1", "land 2", "land 3"})
+    deepest = std::max(deepest, wear::depth(land, coefficient * rate_of(run, name) * time).value());
+  EXPECT_TRUE(close_to(stages["depth_m"][0]["value"], deepest, bracketed));
+  EXPECT_TRUE(close_to(stages["gap_m"][1], 1e-5 + deepest, bracketed));
+  EXPECT_NE(stages["work_rate"][0]["value"], stages["work_rate"][1]["value"]);
 }
 
 } // namespace fretwork::app::test::wear_sides_test

@@ -254,6 +254,37 @@ TEST(Wear, OfNoWorkNeverReachesTheLimit) {
   EXPECT_EQ(support(run)["depth_m"]["value"], 0.0);
 }
 
+// A part that is replaced: the tube does not wear, the support by Archard's volume and the segment of the tube.
+TEST(Wear, OfTheSupportHasItsOwnLifeAndEndsThatOfAll) {
+  const Workshop folder;
+  const fs::path study = folder.write(
+      "study.toml",
+      bundle(folder, 1, "[transient]\nduration = 0.01\n") +
+          "[[wear]]\ncoefficient = 0\nsupport_coefficient = 1e-14\nsupport_limit = 1e-3\nlength = 0.02\n"
+          "geometry = \"flat_bar\"\nstates = [{ share = 1, work_rate = [1e-3, 2e-3, 4e-3] }]\n");
+  const Outcome outcome =
+      folder.fretwork({"run", study.string(), "--no-report", "-o", folder.path("out").string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Results run = read_results(folder.path("out"));
+  constexpr double radius = 9.525e-3, p = 1e-3;
+  const double segment = radius * radius * std::acos(1.0 - p / radius) -
+                         (radius - p) * std::sqrt(2.0 * radius * p - p * p),
+               years = 0.02 * segment / (1e-14 * 2e-3) / year;
+  EXPECT_EQ(support(run)["life_years"]["end"], "never");
+  EXPECT_TRUE(close_to(support(run)["support_life_years"]["value"], years, 1e-9));
+  const auto& tube = run.summary["wear"]["tubes"][0];
+  EXPECT_EQ(tube["first_support"], "support0");
+  EXPECT_EQ(tube["first_body"], "support");
+  EXPECT_EQ(tube["life_years"], [&] {
+    nlohmann::json all = support(run)["support_life_years"];
+    all.erase("end");
+    return all;
+  }());
+  EXPECT_TRUE(says(outcome.out, "the supports themselves"));
+  EXPECT_TRUE(says(outcome.out, fmt::format("{:.3g} ({:.3g} to {:.3g})", years, 0.5 * years, 2.0 * years)));
+  EXPECT_TRUE(says(outcome.out, "first: support0 (the support)") || !says(outcome.out, "all supports"));
+}
+
 TEST(Wear, BeyondTheWallIsTold) {
   const Workshop folder;
   const auto warnings = [&](const char* rate) {

@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "uniform.hpp"
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
 #include <limits>
@@ -28,6 +29,15 @@ const BroachedHole wide_trefoil{9.725e-3, 9.8e-3, 3, 0.35, -4.0};
 const BroachedHole quatrefoil{9.7e-3, 11.5e-3, 4, 0.3, 1.0};
 const BroachedHole two_lands{9.6e-3, 9.8e-3, 2, 0.8, 0.0};
 const BroachedHole all[] = {narrow_trefoil, wide_trefoil, quatrefoil, two_lands};
+const BroachedHole worn[] = {{9.725e-3, 12e-3, 3, 0.35, 0.2, {3e-4, 0.0, 1e-4}},
+                             {9.6e-3, 12e-3, 4, 0.3, 1.0, {0.0, 5e-4, 4e-4, 1e-5}},
+                             {9.6e-3, 10.4e-3, 2, 0.8, 0.0, {6e-5, 2e-4}},
+                             {9.725e-3, 9.85e-3, 3, 0.35, 0.0, {0.0, 0.0, 8e-5}}};
+
+double land_radius(const BroachedHole& hole, int land) {
+  return hole.land_radius +
+         (hole.land_growth.empty() ? 0.0 : hole.land_growth[static_cast<std::size_t>(land)]);
+}
 
 /// Distance of a point to the plate round a broached hole, from the plate's arcs and walls themselves.
 double to_plate(const BroachedHole& hole, double y, double z) {
@@ -38,13 +48,13 @@ double to_plate(const BroachedHole& hole, double y, double z) {
     const double from_land = std::remainder(angle - hole.orientation - land * pitch, 2.0 * pi);
     const double from_lobe = std::remainder(angle - hole.orientation - (land + 0.5) * pitch, 2.0 * pi);
     if (std::abs(from_land) <= half_land)
-      nearest = std::min(nearest, hole.land_radius - r);
+      nearest = std::min(nearest, land_radius(hole, land) - r);
     if (std::abs(from_lobe) <= 0.5 * pitch - half_land)
       nearest = std::min(nearest, hole.lobe_radius - r);
     for (const double side : {-half_land, half_land}) { // a wall from the land's corner outwards
       const double along = r * std::cos(from_land - side), across = r * std::sin(from_land - side);
-      nearest = std::min(nearest,
-                         std::hypot(along - std::clamp(along, hole.land_radius, hole.lobe_radius), across));
+      nearest = std::min(
+          nearest, std::hypot(along - std::clamp(along, land_radius(hole, land), hole.lobe_radius), across));
     }
   }
   return nearest;
@@ -74,25 +84,59 @@ PlanePoint polar(double r, double angle) { return {r * std::cos(angle), r * std:
 
 } // namespace
 
+namespace {
+
+void expect_the_room(const BroachedHole& hole, tests::Uniform& uniform) {
+  const BroachedSpace space(tube, hole);
+  int inside = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const auto [y, z] = polar(uniform(0.0, 6e-4), uniform(0.0, 2.0 * pi));
+    const double room = to_plate(hole, y, z) - tube;
+    if (room < 0.0)
+      continue;
+    ASSERT_NEAR(space.locate(y, z).gap, room, round_off) << y << " " << z;
+    ++inside;
+  }
+  EXPECT_GT(inside, 1000);
+}
+
+} // namespace
+
 TEST(BroachedSpace, GapIsTheRoomBetweenTubeAndPlate) {
   tests::Uniform uniform(22);
-  for (const BroachedHole& hole : all) {
+  for (const BroachedHole& hole : all)
+    expect_the_room(hole, uniform);
+}
+
+// Lands of their own radii: gap, gap bound, and normals as differences of the gap.
+TEST(BroachedSpace, HasLandsOfUnequalRadii) {
+  tests::Uniform uniform(23);
+  for (const BroachedHole& hole : worn) {
+    expect_the_room(hole, uniform);
     const BroachedSpace space(tube, hole);
-    int inside = 0;
-    for (int i = 0; i < 10000; ++i) {
-      const auto [y, z] = polar(uniform(0.0, 6e-4), uniform(0.0, 2.0 * pi));
-      const double room = to_plate(hole, y, z) - tube;
-      if (room < 0.0)
-        continue;
-      ASSERT_NEAR(space.locate(y, z).gap, room, round_off) << y << " " << z;
-      ++inside;
+    EXPECT_EQ(space.clearance(), space.locate(0.0, 0.0).gap);
+    for (int i = 0; i < 1000; ++i) {
+      const double r = uniform(0.0, 6e-4);
+      const auto [y, z] = polar(r, uniform(0.0, 2.0 * pi));
+      EXPECT_GE(space.locate(y, z).gap, space.clearance() - r - round_off);
     }
-    EXPECT_GT(inside, 1000);
+    for (std::size_t land = 0; land < hole.land_growth.size(); ++land) {
+      const double angle = hole.orientation + 2.0 * pi * static_cast<double>(land) / hole.lands;
+      const double clear = land_radius(hole, static_cast<int>(land)) - tube;
+      const auto [y, z] = polar(clear, angle);
+      EXPECT_NEAR(space.locate(y, z).gap, 0.0, round_off);
+      EXPECT_NEAR(space.locate(y, z).ny, -std::cos(angle), 1e-12);
+    }
   }
+  expect_refused(changed([](BroachedHole& hole) { hole.land_growth = {1e-4}; }), {"growth of 1 lands of 3"});
+  expect_refused(changed([](BroachedHole& hole) { hole.land_growth = {0.0, 0.0, 5e-3}; }), {"lobe radius"});
 }
 
 TEST(BroachedSpace, OutlineIsWhereTheTubeTouchesThePlate) {
   for (const BroachedHole& hole : all)
+    for (const PlanePoint& v : BroachedSpace(tube, hole).outline(7))
+      ASSERT_NEAR(to_plate(hole, v.y, v.z), tube, round_off);
+  for (const BroachedHole& hole : {worn[0], worn[1]}) // their lobes have arcs left
     for (const PlanePoint& v : BroachedSpace(tube, hole).outline(7))
       ASSERT_NEAR(to_plate(hole, v.y, v.z), tube, round_off);
 }

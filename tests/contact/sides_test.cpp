@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sides of a tube at which flat faces meet it.
+// Sides of a tube at which flat faces or lands meet it.
 #include "contact/sides.hpp"
 #include "contact/support_shapes.hpp"
+#include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <string>
@@ -9,12 +10,25 @@
 namespace fretwork::contact::sides_test {
 namespace {
 
-using Sides = std::vector<std::size_t>;
+using Names = std::vector<std::string>;
+
+Names names_of(const Obstacle& obstacle) {
+  Names out;
+  for (const Side& side : sides_of(obstacle)) {
+    EXPECT_EQ(side_number(side.name), side.number);
+    out.push_back(side.name);
+  }
+  return out;
+}
 
 /// The name of the side of a contact point at an angle.
 std::string side_at(double degrees) {
   const double angle = degrees * std::numbers::pi / 180.0;
-  return side_names[side_of({-std::cos(angle), -std::sin(angle)})];
+  return flat_side_names[flat_side_of({-std::cos(angle), -std::sin(angle)})];
+}
+
+BroachedSpace broached(int lands, double first) {
+  return {9e-3, {9.2e-3, 9.3e-3, lands, 0.3, first * std::numbers::pi / 180.0}};
 }
 
 } // namespace
@@ -28,22 +42,45 @@ TEST(Sides, AreOppositeToTheNormal) {
   }
 }
 
-TEST(Sides, AreThoseOfPlanesAndEggCrates) {
-  EXPECT_EQ(flat_sides(PlanePair{1e-4, PlaneAxis::y}), (Sides{0, 2}));
-  EXPECT_EQ(flat_sides(PlanePair{0.0, PlaneAxis::z}), (Sides{1, 3}));
-  EXPECT_EQ(flat_sides(egg_crate(9e-3, 9.2e-3, 9.5e-3)), (Sides{0, 1, 2, 3}));
+TEST(Sides, AreThoseOfPlanesStopsAndEggCrates) {
+  EXPECT_EQ(names_of(PlanePair{1e-4, PlaneAxis::y}), (Names{"+y", "-y"}));
+  EXPECT_EQ(names_of(PlanePair{0.0, PlaneAxis::z}), (Names{"+z", "-z"}));
+  EXPECT_EQ(names_of(Stop{1e-4, PlaneAxis::z}), (Names{"+z"}));
+  EXPECT_EQ(names_of(egg_crate(9e-3, 9.2e-3, 9.5e-3)), (Names{"+y", "+z", "-y", "-z"}));
 }
 
-TEST(Sides, AreNotThoseOfRoundObstaclesAndOfOneFace) {
-  EXPECT_TRUE(flat_sides(Circle{1e-4}).empty());
-  EXPECT_TRUE(flat_sides(Stop{1e-4, PlaneAxis::y}).empty());
-  EXPECT_TRUE(flat_sides(FacingPlanes{1e-3, PlaneAxis::y, 1.0}).empty());
+TEST(Sides, AreNotThoseOfRoundObstacles) {
+  EXPECT_TRUE(names_of(Circle{1e-4}).empty());
+  EXPECT_TRUE(names_of(FacingPlanes{1e-3, PlaneAxis::y, 1.0}).empty());
   const double turn = std::numbers::pi / 2.0; // a square on its corner, and three facets
   EXPECT_TRUE(
-      flat_sides(Profile(std::vector<PolarPoint>{{0.0, 1.0}, {turn, 1.0}, {2 * turn, 1.0}, {3 * turn, 1.0}}))
+      names_of(Profile(std::vector<PolarPoint>{{0.0, 1.0}, {turn, 1.0}, {2 * turn, 1.0}, {3 * turn, 1.0}}))
           .empty());
   EXPECT_TRUE(
-      flat_sides(Profile(std::vector<PolarPoint>{{0.0, 1.0}, {1.5 * turn, 1.0}, {2.5 * turn, 1.0}})).empty());
+      names_of(Profile(std::vector<PolarPoint>{{0.0, 1.0}, {1.5 * turn, 1.0}, {2.5 * turn, 1.0}})).empty());
+}
+
+// Every place of a turn belongs to the land within half a pitch of it.
+TEST(Sides, OfABroachedHoleAreItsLands) {
+  EXPECT_EQ(names_of(broached(3, 20.0)), (Names{"land 1", "land 2", "land 3"}));
+  EXPECT_TRUE(names_of(broached(9, 0.0)).empty());
+  for (const int lands : {2, 3, 4, 8})
+    for (const double first : {0.0, 20.0, -170.0, 500.0}) {
+      const SideFinder side_of(broached(lands, first));
+      const double pitch = 360.0 / lands;
+      for (int k = 0; k < lands; ++k)
+        for (const double off : {-0.49, 0.0, 0.49}) {
+          const double angle = (first + (k + off) * pitch) * std::numbers::pi / 180.0;
+          EXPECT_EQ(side_of({-std::cos(angle), -std::sin(angle)}), static_cast<std::size_t>(k))
+              << lands << " from " << first << ", " << k << " + " << off;
+        }
+    }
+}
+
+TEST(Sides, HaveNumbersByTheirNames) {
+  EXPECT_EQ(side_number("land 8"), 7u);
+  EXPECT_FALSE(side_number("land 9"));
+  EXPECT_FALSE(side_number("y"));
 }
 
 } // namespace fretwork::contact::sides_test

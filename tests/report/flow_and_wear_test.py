@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the report shows of flow, stability and wear."""
 
+import math
 import re
+import types
 import unittest
 
 from report_case import ReportCase, made_up  # first: it makes the package known
 
 import h5py
 
-from fretwork.report import drawing, run_data, wear_section
+from fretwork.report import drawing, run_data, sections, wear_section, wear_view
 from made_up_tables import change_summary
 
 
@@ -173,13 +175,33 @@ class FlowAndWear(ReportCase):
         self.assertEqual(rows[0][1:7], rows[2][1:7])
         self.assertEqual(len(rows[0]), len(rows[2]))
 
+    def test_shows_the_wear_of_supports_beside_the_tubes(self):
+        made_up(self.folder, 5, 200, wear=True)
+        supports = run_data.load(self.folder).wear
+        table = wear_section._supports_themselves(supports)
+        rows = {row[0]: row for row in (re.findall(r"<td[^>]*>(.*?)</td>", row) for row in re.findall(r"<tr>(.*?)</tr>", table)[1:])}
+        self.assertEqual(rows["tsp1"][2], "1.26 (1.07 – 1.45)")  # half of the tube's
+        self.assertEqual(rows["tsp1"][4:], ["–", "–"])
+        self.assertEqual(rows["tsp4"][4:], ["77 (66 – 88)", "1"])
+        tsp4 = next(s for s in supports if s["name"] == "tsp4")  # its tube never reaches its limit
+        self.assertEqual((wear_view.first_life(tsp4)[0][0], wear_view.first_life(tsp4)[1]), (77.0, "support"))
+        for s in supports:
+            s["support_volume"][:] = 0.0
+            s["support_limit"] = math.nan
+        self.assertEqual(wear_section._supports_themselves(supports), "")
+        for s in supports:
+            s["life_years"][:] = 100.0
+        run = types.SimpleNamespace(wear=supports, summary={})
+        self.assertEqual(sections._verdicts(run)[0], ("years to the limit of wear, tsp4 (the support)", "77"))
+
     def test_shows_wear(self):
         made_up(self.folder, 5, 200, wear=True)
         text = self.report()
         self.assertEqual(self.headings(text)[4:7], ["Table of contacts", "Observed nodes", "Wear"])
-        lives = [(s["life_years"][0], s["name"]) for s in run_data.load(self.folder).wear]
+        lives = [(s[life][0], s["name"]) for s in run_data.load(self.folder).wear for life in ("life_years", "support_life_years")]
         years, name = min(life for life in lives if life[0] == life[0])  # not the one outside the law
-        self.assertIn(f"<b>{drawing.short(years, 3)}</b><span>years to the limit of wear, {name} (1 of 5 supports have no figure)</span>", text)
+        self.assertEqual(name, "tsp4")  # whose tube never loses its limit
+        self.assertIn(f"<b>{drawing.short(years, 3)}</b><span>years to the limit of wear, {name} (the support) (1 of 5 supports have no figure)</span>", text)
         wear = text[text.index("<h2>Wear</h2>"):text.index("<h2>Impacts</h2>")]
         rows = [re.findall(r"<td[^>]*>(.*?)</td>", row) for row in re.findall(r"<tr>(.*?)</tr>", wear[wear.index("<tbody>"):wear.index("</tbody>")])]
         self.assertEqual(rows[0][0], name)  # the shortest life first

@@ -36,6 +36,18 @@ TEST(AlikeMessages, ListTheNamesOfAll) {
   EXPECT_EQ(alike[0].text, "wear of \"a\", \"b\", \"c\": deep");
 }
 
+// How many names a list shows does not make another message.
+TEST(AlikeMessages, TakeListsThatAreNotInFull) {
+  const auto alike = alike_messages(
+      {"wear of \"a\", \"b\": 2 mm", "wear of \"b\", \"c\", \"d\" and 2 more: 3 mm", "wear of \"b\": 4 mm"});
+  ASSERT_EQ(alike.size(), 1u);
+  EXPECT_EQ(alike[0].text, "wear of \"a\" ... \"d\" (4 or more): 2 to 4 mm");
+  const std::string alone = "wear of \"a\", \"b\", \"c\" and 1 more: 2 mm";
+  EXPECT_EQ(alike_messages({alone, alone}).at(0).text, alone);
+  EXPECT_EQ(alike_messages({"\"a\" and 1 more", "\"b\" and 3 more"}).at(0).text, "\"a\", \"b\" and more");
+  EXPECT_EQ(alike_messages({"\"a\" and 1 other", "\"b\" and more"}).size(), 2u);
+}
+
 TEST(AlikeMessages, ShortenDrawnNumbers) {
   const auto alike = alike_messages({"gap = -7.277111634167311e-05 m", "gap = -1.4197483085923992e-05 m"});
   EXPECT_EQ(alike.at(0).text, "gap = -7.27711e-05 to -1.41975e-05 m");

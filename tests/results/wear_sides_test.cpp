@@ -50,7 +50,7 @@ WearOfSupport support(std::vector<WearOfSide> sides) {
 /// Made up results whose second support has two scars.
 RunResults worn() {
   RunResults results = made_up({.contacts = 2, .outputs = 20});
-  results.contacts[1].sides = {0, 2};
+  results.contacts[1].sides = {{0, "+y"}, {2, "-y"}};
   results.contact_summaries[1].sides[2] = {3e-4, 1e-5, 12.0};
   results.wear = made_up_wear(results);
   results.wear->opening.reset();

@@ -5,6 +5,7 @@
 #include "results/wear_json.hpp"
 #include "results/write.hpp"
 #include "synthetic.hpp"
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <gmock/gmock.h>
@@ -72,6 +73,41 @@ TEST(WearByTube, SumsVolumesAndTakesTheDeepestAndTheShortestLife) {
   EXPECT_EQ(tubes[1].first, "c");
   EXPECT_EQ(tubes[1].years.value, 5.0);
   EXPECT_EQ(tubes[1].years.low, 2.5);
+}
+
+TEST(WearByTube, EndsWithTheFirstOfTubesAndSupports) {
+  const double never = std::numeric_limits<double>::infinity();
+  auto card = with(0, "card", 4.0, 0.0, never), plate = with(0, "plate", 4.0, 9.0, 20.0);
+  card.life = {"never", {never, never, never}};
+  card.support_life = {"reached", {10.0, 8.0, 12.0}};
+  plate.support_life = {"reached", {15.0, 14.0, 16.0}};
+  const auto tubes = wear_by_tube({plate, card});
+  EXPECT_EQ(tubes[0].first, "card");
+  EXPECT_EQ(tubes[0].body, "support");
+  EXPECT_EQ(tubes[0].years.value, 10.0);
+  EXPECT_EQ(tubes[0].years.low, 8.0);
+  EXPECT_EQ(first_life(card).value, 10.0);
+  EXPECT_EQ(first_life(plate).value, 15.0);
+  card.support_life = {};
+  plate.support_life.years = {30.0, 25.0, 35.0};
+  EXPECT_EQ(wear_by_tube({plate, card})[0].body, "tube");
+  plate.life = card.life;
+  plate.support_life = {};
+  const auto nothing = wear_by_tube({plate, card});
+  EXPECT_EQ(nothing[0].first + nothing[0].body, "");
+  EXPECT_EQ(nothing[0].years.value, never);
+}
+
+TEST(WearOnTheTerminal, HasTheWearOfSupportsBelow) {
+  const std::vector<std::string> lines = wear_lines(*worn(4).wear);
+  const auto head = std::find_if(lines.begin(), lines.end(), [](const std::string& line) {
+    return line.starts_with("  the supports themselves");
+  });
+  ASSERT_EQ(lines.end() - head, 5);
+  // half of the tube's 2e-14 m2/N x 1e-4 W x 40 years; no limit but of the last
+  EXPECT_THAT(head[1], MatchesRegex("  tsp1 +1e-14 +1.26 .*no limit *"));
+  EXPECT_THAT(head[4], MatchesRegex("  tsp4 .* 77 \\(66 to 88\\) +1"));
+  EXPECT_THAT(lines[5], HasSubstr("first: tsp4 (the support)"));
 }
 
 TEST(WearByTube, LeavesOutWhatHasNoDepthAndNoLife) {
@@ -205,7 +241,8 @@ TEST(WearInTheArchive, IsThereOnlyWhereTheStudyAsksForIt) {
 
 TEST(WearOnTheTerminal, FitsItsWidthAndShowsTheShortestLives) {
   const auto lines = wear_lines(*worn(20).wear);
-  EXPECT_EQ(lines.size(), 1u + 10u + 1u + 1u + 1u + 1u + 2u + 10u); // the last ones of gap opening
+  EXPECT_EQ(lines.size(), 1u + 10u + 1u + 1u + 1u + 1u + 2u + 10u + 1u +
+                              10u); // the last ones of gap opening, and of the supports
   for (const std::string& line : lines)
     EXPECT_LE(line.size(), widest) << line;
   EXPECT_THAT(lines[0], HasSubstr("in 40 years"));

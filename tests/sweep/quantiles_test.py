@@ -64,6 +64,20 @@ class Coverage(unittest.TestCase):
         self.assertIsNone(helper.quantile_interval(values, 0.95, 0.90)[2])  # Wilks: 59 for 95 % at 95 %, one-sided
         self.assertEqual(helper.quantile_interval(np.arange(59.0), 0.95, 0.90)[2], 58.0)
 
+    def test_the_first_support_is_counted_by_case(self):
+        never, absent = math.inf, math.nan
+        lives = ["a.years", "a.support_years", "b.years"]
+        cases = [[3.0, 2.0, 4.0], [1.0, 2.0, 4.0], [3.0, never, absent], [never, never, never], [absent] * 3, [never, never, 9.0], [5.0, 6.0, 7.0]]
+        found = helper.first_supports(lives, np.array(cases), CONFIDENCE)
+        self.assertEqual((found["cases"], found["never"]), (6, 1))
+        self.assertEqual([(s["support"], s["body"], s["hits"]) for s in found["supports"]], [("a", "tube", 3), ("a", "support", 1), ("b", "tube", 1)])
+        first = found["supports"][0]
+        self.assertEqual(first["share"], 0.5)
+        # Clopper and Pearson of 3 of 6: the binomial tails at the ends are 2.5 %
+        for end, hits in (("low", range(3, 7)), ("high", range(4))):
+            tail = sum(math.comb(6, k) * first[end] ** k * (1.0 - first[end]) ** (6 - k) for k in hits)
+            self.assertAlmostEqual(tail, 0.025, 9)
+
     def test_never_is_a_value(self):
         values = np.array([1.0] * 50 + [math.inf] * 50)
         value, low, high = helper.quantile_interval(values, 0.95, CONFIDENCE)

@@ -90,6 +90,22 @@ class Report(unittest.TestCase):
         for i, contact in enumerate(contacts):
             self.assertAlmostEqual(contact["abscissa_m"], 1.0 + i)  # one each metre
 
+    def test_shares_of_the_support_that_is_first(self):
+        tube = Path(STUDY).parent.parent / "tube_study/study.toml"
+        variables = '[[sweep.variables]]\nkey = "turbulence.*.seed"\nseeds = 1\n'
+        self.report_of("draws = 6\n", tube, variables, "transient.duration=0.1", "output.statistics_from=0")
+        self.assertIn("<h2>First to its limit</h2>", self.page)
+        found = json.loads((self.directory / "summary.json").read_text())["statistics"]["first_support"]
+        self.assertEqual(found["cases"], 6)
+        rows = [line.split(",") for line in (self.directory / "table.csv").read_text().splitlines()]
+        lives = [i for i, head in enumerate(rows[0]) if head.split(" ")[0].endswith(".years") and not head.startswith("worst.")]
+        firsts = [min(lives, key=lambda i: float(row[i])) for row in rows[1:] if any(float(row[i]) < float("inf") for i in lives)]
+        for first in found["supports"]:
+            place = next(i for i in lives if rows[0][i].startswith(first["support"] + ".years"))
+            self.assertEqual((first["hits"], first["body"]), (firsts.count(place), "tube"))
+            self.assertIn(f'<td class="text">{first["support"]}</td>', self.page)
+        self.assertEqual(sum(first["hits"] for first in found["supports"]) + found["never"], 6)
+
     def test_contacts_at_one_place_are_taken_together(self):
         nan = float("nan")
         values = np.array([[1.0, 2.0, nan], [1.0, nan, nan]])

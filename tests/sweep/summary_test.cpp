@@ -41,5 +41,45 @@ TEST(CaseWarnings, OfManyKindsAreThoseOfMostCases) {
   EXPECT_EQ(warnings[1], "3 cases done with a warning, the first is case 20: few modes");
 }
 
+TEST(SummaryText, HasTheOutputsInTheirReadingOrder) {
+  nlohmann::json summary{{"design", "monte_carlo"},
+                         {"cases", 2},
+                         {"rows", 2},
+                         {"done", 2},
+                         {"warnings", nlohmann::json::array()}};
+  for (const char* name : {"a.work_rate", "total.work_rate", "total.energy_residual", "worst.work_rate",
+                           "worst.work_rate.error", "worst.years"}) {
+    summary["columns"].push_back(name);
+    summary["units"][name] = "";
+    if (!std::string(name).ends_with(".error"))
+      summary["statistics"]["outputs"][name]["quantiles"] = {
+          {{"probability", 0.5}, {"value", 1.0}, {"low", 0.5}, {"high", 2.0}}};
+  }
+  summary["statistics"]["limits"] = nlohmann::json::array();
+  summary["statistics"]["sensitivities"] = nlohmann::json::object();
+  summary["statistics"]["method"] = "spearman";
+  summary["statistics"]["convergence"] = {
+      {"output", "worst.years"}, {"quantile", 0.5}, {"relative_error", 0.05}, {"error", 0.1}, {"cases", 2},
+      {"cases_needed", 8},       {"reached", false}};
+  summary["statistics"]["first_support"] = {
+      {"cases", 8},
+      {"never", 2},
+      {"supports",
+       {{{"support", "plate"}, {"body", "tube"}, {"share", 0.5}, {"low", 0.2}, {"high", 0.8}},
+        {{"support", "card"}, {"body", "support"}, {"share", 0.25}, {"low", 0.05}, {"high", 0.6}}}}};
+  const std::string text = summary_text(summary);
+  std::size_t before = 0;
+  for (const char* line :
+       {"\n  worst.years", "\n  worst.work_rate", "\n  total.work_rate", "\n  total.energy_residual"}) {
+    const std::size_t at = text.find(line);
+    ASSERT_NE(at, std::string::npos) << line << " is not in " << text;
+    EXPECT_GT(at, before) << line;
+    before = at;
+  }
+  EXPECT_THAT(text, HasSubstr("first to its limit  plate 50 % (20 to 80), card (the support) 25 % (5 to 60), "
+                              "none 25 % of 8 cases"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("a.work_rate")));
+}
+
 } // namespace
 } // namespace fretwork::sweep::summary_test

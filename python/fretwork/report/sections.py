@@ -4,7 +4,7 @@
 import html
 import math
 
-from . import contact_view, live, node_view, structure_view
+from . import contact_view, live, node_view, structure_view, wear_view
 from .drawing import of_sum, short, unit_for
 from .page import cards, count, figure, section, table, warning
 
@@ -49,10 +49,11 @@ def _work(contact):
 def _verdicts(run):
     """The shortest time to a limit of wear and the smallest stability margin, where the run has them."""
     out = []
-    lives = [(s["life_years"][0], s["name"]) for s in run.wear if not math.isnan(s["life_years"][0])]
+    firsts = [(*wear_view.first_life(s), s["name"]) for s in run.wear]
+    lives = [(years[0], body, name) for years, body, name in firsts if not math.isnan(years[0])]
     if lives:
-        years, name = min(lives)
-        where = f", {html.escape(name)}" if math.isfinite(years) else ""
+        years, body, name = min(lives, key=lambda life: life[0])
+        where = f", {html.escape(name)}{' (the support)' if body == 'support' else ''}" if math.isfinite(years) else ""
         unknown = f" ({len(run.wear) - len(lives)} of {len(run.wear)} supports have no figure)" if len(lives) < len(run.wear) else ""
         out.append((f"years to the limit of wear{where}{unknown}", short(years, 3) if math.isfinite(years) else "never"))
     assessments = run.summary.get("stability", [])

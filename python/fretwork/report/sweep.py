@@ -6,7 +6,8 @@ import json
 import sys
 from pathlib import Path
 
-PRINCIPAL = ("total.work_rate", "worst.work_rate", "worst.wear_depth", "worst.years", "worst.normal_rms", "worst.normal_max")
+PRINCIPAL = ("worst.years", "worst.wear_depth", "worst.work_rate", "total.work_rate", "worst.normal_rms", "worst.normal_max")
+MEASURES = ("total.work_rate", "worst.work_rate", "worst.normal_max")  # that pictures are about
 
 MOST_PRINCIPAL = 8
 ROUND_OFF = 1e-12  # of displacements, m, and forces, N
@@ -90,7 +91,28 @@ def quantiles(sweep):
         "between the quantiles is the uncertain input, which draws do not change. Windows: the part of the variance that the finite duration of the runs makes; "
         "longer runs would reduce it; at 100 % and more all that is seen is the finite duration.</p>"
     )
-    return page.section("Quantiles", page.table(heads, rows), note, limits(sweep), convergence(sweep))
+    return page.section("Quantiles", page.table(heads, rows), note, limits(sweep), convergence(sweep)) + first_supports(sweep)
+
+
+def first_supports(sweep):
+    """Which support is first, by shares of the cases."""
+    from . import page
+
+    found = sweep.statistics.get("first_support")
+    if not found or not found["supports"]:
+        return ""
+    percent = round(100 * sweep.summary["confidence"], 6)
+    rows = [
+        [html.escape(first["support"]), html.escape(first["body"]), f"{first['hits']}",
+         f"{100 * first['share']:.0f} % ({100 * first['low']:.0f} to {100 * first['high']:.0f})"]
+        for first in found["supports"]
+    ]
+    never = f" In {found['never']} of them nothing does." if found["never"] else ""
+    note = (
+        f"<p class=soft>Where a limit of wear is reached first, over {found['cases']} cases.{never} In brackets the interval of the share at {percent:g} % "
+        "confidence. The body is the tube, or the support itself.</p>"
+    )
+    return page.section("First to its limit", page.table(["support", "body", "cases", "share"], rows, (0, 1)), note)
 
 
 def limits(sweep):
@@ -133,7 +155,8 @@ def measure(sweep):
     """The output that pictures are about: where nothing slides the largest force, of a study without contacts the first one."""
     if sweep.statistics:
         return sweep.statistics["convergence"]["output"]
-    moving = [name for name in (*sweep.principal()[:2], "worst.normal_max") if name in sweep.outputs and (sweep.outputs[name] > 0).any()]
+    known = [name for name in MEASURES if name in sweep.outputs] or sweep.principal()[:2]
+    moving = [name for name in known if (sweep.outputs[name] > 0).any()]
     return moving[0] if moving else (sweep.principal() or list(sweep.outputs))[0]
 
 

@@ -12,6 +12,7 @@ from .page import figure, section, table, warning
 
 MANY_SUPPORTS = 12  # above, pictures are shown of a few
 PICTURES_OF_MANY = 6
+LEAST_SHARE = 0.05  # of the volume of a support, of a side worth a row
 
 
 def _bounds(bounds, factor=1.0, digits=3):
@@ -28,10 +29,12 @@ def _one(value, factor, digits):
     return "never" if value > 1 / ROUND_OFF else short(of_sum(factor * value), digits)
 
 
-def _life(support):
-    if support["life_end"] == "outside_law":
-        return "outside the law"
-    return _bounds(support["life_years"])
+def _life(support, of=""):
+    """Of the tube, or with of="support_" of the support."""
+    end = support[f"{of}life_end"]
+    if end in ("outside_law", ""):
+        return "outside the law" if end else "–"
+    return _bounds(support[f"{of}life_years"])
 
 
 def _law(support):
@@ -51,23 +54,36 @@ def _states(support):
 
 
 def _supports(supports):
-    heads = ["support", "work rate [mW]", "worn volume [mm³]", "depth [mm]", "support's depth [mm]", "scar width × length [mm]",
-             "years to the limit", "limit [mm]", "law", "geometry"]
     several = any(len(support["states"]) > 1 for support in supports)
+    heads = ["support", "work rate [mW]", "worn volume [mm³]", "depth [mm]", "support's depth [mm]", "scar width × length [mm]",
+             "years to the limit", "limit [mm]", "law", "geometry"] + (["operating states"] if several else [])
 
     def scar(name, s):
         return [html.escape(name), _bounds(s["work_rate"], 1e3), _bounds(s["volume"][-1], 1e9), _bounds(s["depth"][-1], 1e3),
                 _bounds(s["support_depth"][-1], 1e3), _scar(s), _life(s)]
 
+    def of_study(s):
+        return [short(1e3 * s["limit"], 3), _law(s), html.escape(s["geometry"])] + ([_states(s)] if several else [])
+
     def by_life(s):
-        years = s["life_years"][0]
+        years = wear_view.first_life(s)[0][0]
         return (1, 0.0, -s["work_rate"][0]) if math.isnan(years) else (0, years, -s["work_rate"][0])
 
     rows = []
     for s in sorted(supports, key=by_life):
-        rows.append(scar(s["name"], s) + [short(1e3 * s["limit"], 3), _law(s), html.escape(s["geometry"])] + ([_states(s)] if several else []))
-        rows += [scar(f"{s['name']}, side {side}", own) + [""] * (3 + several) for side, own in s["sides"].items()]
-    return table(heads + (["operating states"] if several else []), rows, (0, 8, 9, 10))
+        rows.append(scar(s["name"], s) + of_study(s))
+        rows += [scar(f"{s['name']}, {side if side.startswith('land ') else 'side ' + side}", one) + [""] * (3 + several)
+                 for side, one in s["sides"].items() if not one["volume"][-1, 0] < LEAST_SHARE * s["volume"][-1, 0]]
+    return table(heads, rows, (0, 8, 9, *((10,) if several else ())))
+
+
+def _supports_themselves(supports):
+    """What supports lose that wear or have a limit."""
+    worn = [s for s in supports if s["support_volume"][-1, 0] > 0 or math.isfinite(s["support_limit"])]
+    rows = [[html.escape(s["name"]), f"{short(s['support_coefficient'], 3)}", _bounds(s["support_volume"][-1], 1e9), _bounds(s["support_depth"][-1], 1e3),
+             _life(s, "support_"), short(1e3 * s["support_limit"], 3) if math.isfinite(s["support_limit"]) else "–"] for s in worn]
+    heads = ["the support itself", "K [m²/N]", "worn volume [mm³]", "depth [mm]", "years to its limit", "limit [mm]"]
+    return table(heads, rows) if rows else ""
 
 
 def _tubes(run):
@@ -77,10 +93,13 @@ def _tubes(run):
     def life(tube):  # summary.json has no infinity
         return _bounds(bounds(tube["life_years"])) if tube["life_years"]["value"] is not None else "–"
 
+    def _first(tube):
+        return html.escape(tube["first_support"] or "–") + (" (the support)" if tube.get("first_body") == "support" else "")
+
     tubes = run.summary.get("wear", {}).get("tubes", [])
     rows = [
         [f"{t['tube']}", f"{t['supports']}", _bounds(bounds(t["work_rate"]), 1e3), _bounds(bounds(t["volume_m3"]), 1e9),
-         _bounds(bounds(t["depth_m"]), 1e3), html.escape(t["deepest_support"] or "–"), life(t), html.escape(t["first_support"] or "–")]
+         _bounds(bounds(t["depth_m"]), 1e3), html.escape(t["deepest_support"] or "–"), life(t), _first(t)]
         for t in tubes
     ]
     heads = ["tube", "supports", "work rate [mW]", "worn volume [mm³]", "largest depth [mm]", "at", "shortest life [years]", "of"]
@@ -141,11 +160,15 @@ def _place(run, support):
 def _shown(supports):
     if len(supports) <= MANY_SUPPORTS:
         return supports
-    return sorted(supports, key=lambda s: s["life_years"][0] if not math.isnan(s["life_years"][0]) else math.inf)[:PICTURES_OF_MANY]
+    def life(support):
+        years = wear_view.first_life(support)[0][0]
+        return math.inf if math.isnan(years) else years
+
+    return sorted(supports, key=life)[:PICTURES_OF_MANY]
 
 
 _EXPLANATION = (
-    '<p class="soft">Left: depth of the tube (blue; band: interval of the work rate; orange: depth of the support) and its limit (red). Middle: the '
+    '<p class="soft">Left: depth of the tube (blue; band: interval of the work rate; orange: depth of the support) and their limits (red). Middle: the '
     "wall of the tube across the scar, orange what is worn off. Right: contact point by angle from y_loc to z_loc; blue areas: work of sliding by "
     "sector, over every step; orange: time in contact at the output instants; the largest sector of each reaches the rim.</p>"
 )
@@ -169,4 +192,4 @@ def wear(run):
     outside = "".join(warning(f"{s['name']}: {s['outside_law']}") for s in run.wear if s["outside_law"])
     panels = [_panel(run, support) for support in _shown(run.wear)]
     left = f'<p class="soft">The {PICTURES_OF_MANY} of {len(run.wear)} supports with the shortest lives.</p>' if len(panels) < len(run.wear) else ""
-    return section("Wear", note, outside, _supports(run.wear), _tubes(run), _gap_opening(run), along, left + _EXPLANATION, *panels)
+    return section("Wear", note, outside, _supports(run.wear), _supports_themselves(run.wear), _tubes(run), _gap_opening(run), along, left + _EXPLANATION, *panels)

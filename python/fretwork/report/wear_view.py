@@ -11,6 +11,15 @@ MILLI = 1e3
 YEAR = 31536000.0  # s
 
 
+def first_life(support):
+    """Years (value, low, high) of what reaches its limit first, "tube" or "support", and which; the value is no number where neither has a figure."""
+    own = support.get("support_life_years", np.full(3, math.nan))
+    tube = support["life_years"]
+    if math.isnan(tube[0]) or own[0] < tube[0]:
+        return (own, "support") if not math.isnan(own[0]) else (tube, "tube")
+    return tube, "tube"
+
+
 def _area(plot, x, y, kind):
     """A closed region; points that are no numbers are left out."""
     x, y = np.asarray(x, float), np.asarray(y, float)
@@ -39,6 +48,8 @@ def depth_history(support, size=(330, 220)):
     plot.line(years, value, "moved")
     if np.any(support["support_depth"][:, 0] > 0):
         plot.line(years, MILLI * support["support_depth"][:, 0], "friction")
+    if MILLI * support["support_limit"] <= top:  # not where there is none
+        plot.line(years, [MILLI * support["support_limit"]] * len(years), "limit")
     return plot.svg(f"Depth of wear of {support['name']}")
 
 
