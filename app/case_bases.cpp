@@ -83,11 +83,21 @@ std::string key_of_contacts(const study::Study& study, const std::vector<PlacedC
 
 /// All that modes with pins at contacts depend on. @param all  inactive ones included
 std::string key_of_pins(const study::Study& study, const std::vector<PlacedContact>& all) {
-  std::string key = key_of_contacts(study, all, {});
+  const bool elastic = std::any_of(study.stabilities.begin(), study.stabilities.end(),
+                                   [](const study::Stability& one) { return one.elastic; });
+  std::string key = fmt::format("{} modes, up to {:.17g} Hz\n", study.modes.count.value_or(0),
+                                study.modes.up_to_hz.value_or(0.0)) +
+                    key_of_contacts(study, all, {});
   for (const PlacedContact& contact : all) {
+    const study::Contact& entry = study.contacts[contact.entry];
     append(key, contact.active);
-    append(key, contact.normal_stiffness);
-    append(key, study.contacts[contact.entry].tangential_stiffness);
+    append(key, entry.friction_along.x);
+    append(key, entry.friction_along.t);
+    append(key, entry.tangential_stiffness > 0.0);
+    if (elastic) {
+      append(key, contact.normal_stiffness);
+      append(key, entry.tangential_stiffness);
+    }
   }
   return key;
 }
@@ -173,9 +183,10 @@ std::shared_ptr<const CaseContacts> CaseBases::contacts(study::Study& study,
                        [&] { return make_contacts(study, structure, *modes, placed, inactive); });
 }
 
-std::shared_ptr<const std::vector<results::StabilityAssessment>>
-CaseBases::stability(const study::Study& study, const std::vector<std::string>& overrides,
-                     const CaseStructure& structure, const std::vector<PlacedContact>& all) {
+std::shared_ptr<const ConnorsStability> CaseBases::stability(const study::Study& study,
+                                                             const std::vector<std::string>& overrides,
+                                                             const CaseStructure& structure,
+                                                             const std::vector<PlacedContact>& all) {
   std::string key = key_of_structure(overrides) + key_of_pins(study, all);
   for (const std::string& text : overrides)
     if (address_of(text).front() == "stability")

@@ -11,6 +11,7 @@
 /// Gaps, offsets, stiffnesses, dampers and coefficients of friction enter a case after that.
 #pragma once
 #include "app/build_scene.hpp"
+#include "app/stability.hpp"
 #include "app/stages.hpp"
 #include <list>
 #include <memory>
@@ -71,16 +72,17 @@ public:
   /// The [[stability]] entries, by Connors.
   /// @throws core::Error where one cannot be assessed
   /// @param all  contacts, inactive ones included
-  [[nodiscard]] std::shared_ptr<const std::vector<results::StabilityAssessment>>
-  stability(const study::Study& study, const std::vector<std::string>& overrides,
-            const CaseStructure& structure, const std::vector<PlacedContact>& all);
+  [[nodiscard]] std::shared_ptr<const ConnorsStability> stability(const study::Study& study,
+                                                                  const std::vector<std::string>& overrides,
+                                                                  const CaseStructure& structure,
+                                                                  const std::vector<PlacedContact>& all);
 
 private:
   const Inputs& nominal_;
   Recent<CaseStructure> structures_;
   Recent<std::vector<modal::Basis>> modes_;
   Recent<CaseContacts> contacts_;
-  Recent<std::vector<results::StabilityAssessment>> stabilities_;
+  Recent<ConnorsStability> stabilities_;
 };
 
 } // namespace fretwork::app

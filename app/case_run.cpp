@@ -209,10 +209,14 @@ CaseRunner::Case CaseRunner::with_bases(Case read) {
   return read;
 }
 
-std::vector<results::StabilityAssessment> CaseRunner::stability_of(const Case& of) {
+ConnorsStability CaseRunner::stability_of(const Case& of) {
   if (of.study.stabilities.empty())
     return {};
-  return *bases_.stability(of.study, of.overrides, *of.structure, together(of.placed, of.inactive));
+  try {
+    return *bases_.stability(of.study, of.overrides, *of.structure, together(of.placed, of.inactive));
+  } catch (const core::Error& error) {
+    return {{}, {fmt::format("{}; the case has no V/Vc", error.what())}};
+  }
 }
 
 std::vector<std::string> CaseRunner::check(const std::vector<std::string>& overrides) {
@@ -232,7 +236,6 @@ std::vector<std::string> CaseRunner::check(const std::vector<std::string>& overr
 void CaseRunner::compute_nominal() {
   const Case nominal_case = with_bases(read_case({}));
   known_ = warnings_of(nominal_case, scenes_of(nominal_case));
-  (void)stability_of(nominal_case);
 }
 
 sweep::CaseResult CaseRunner::operator()(const std::vector<std::string>& overrides) {
@@ -250,7 +253,9 @@ sweep::CaseResult CaseRunner::operator()(const std::vector<std::string>& overrid
   out.sector_rates.resize(c.placed.size());
   out.force_speed_classes.resize(c.placed.size());
   observe(c.nodes, c.force_sites, out);
-  out.stability = stability_of(c);
+  ConnorsStability stability = stability_of(c);
+  out.stability = std::move(stability.assessments);
+  out.warnings.insert(out.warnings.end(), stability.warnings.begin(), stability.warnings.end());
   for (std::size_t i = 0; i < scenes.size(); ++i)
     run_scene(c.study, scenes[i], choices[i], out);
   out.bases = nodes_of(c.contacts->bases);

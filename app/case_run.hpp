@@ -35,7 +35,8 @@ private:
   [[nodiscard]] Case read_case(const std::vector<std::string>& overrides);
   [[nodiscard]] Case with_bases(Case read);
   [[nodiscard]] static std::vector<BuiltScene> scenes_of(const Case& of);
-  [[nodiscard]] std::vector<results::StabilityAssessment> stability_of(const Case& of);
+  /// A study that cannot be assessed warns.
+  [[nodiscard]] ConnorsStability stability_of(const Case& of);
   [[nodiscard]] static std::vector<std::string> warnings_of(const Case& of,
                                                             const std::vector<BuiltScene>& scenes);
 

@@ -132,8 +132,12 @@ private:
         throw core::Error(fmt::format("{} holds the results of a sweep; give another folder with -o",
                                       inputs_.directory.string()));
       make_directory(inputs_.directory);
-      if (first_rank_)
+      if (first_rank_) {
         lock_.emplace(inputs_.directory, inputs_.study.file.string());
+        const bool before_transient =
+            last_ == Stage::modes || last_ == Stage::stability || last_ == Stage::response;
+        inputs_.keeps_run = before_transient && !request_.force && has_run(inputs_.directory);
+      }
     });
     if (inputs_.study.varied && last_ != Stage::mesh) {
       out_.notes.emplace_back(
@@ -159,7 +163,10 @@ private:
   }
 
   [[nodiscard]] bool is_up_to_date() {
-    const auto tell = [&](const std::string& line) { say(line + "\n"); };
+    const auto tell = [&](const std::string& line) {
+      if (!inputs_.keeps_run) // else it is refused
+        say(line + "\n");
+    };
     int current = first_rank_ && !request_.force && up_to_date(inputs_, tell) ? 1 : 0;
     MPI_Bcast(&current, 1, MPI_INT, 0, comm_);
     return up_to_date_ = current != 0;
@@ -167,15 +174,9 @@ private:
 
   /// A stage before the transient does not take the place of a run of other inputs.
   void keep_a_run() const {
-    if (up_to_date_ || request_.force || last_ == Stage::mesh || last_ == Stage::check ||
-        last_ == Stage::transient)
-      return;
     core::agree(comm_, [&] {
-      if (first_rank_ && has_run(inputs_.directory))
-        throw core::Error(
-            fmt::format("{} holds the results of a run with other inputs; give another folder with -o, "
-                        "or --force to replace them",
-                        inputs_.directory.string()));
+      if (first_rank_ && !up_to_date_)
+        refuse_to_replace_run(inputs_);
     });
   }
 
@@ -217,7 +218,8 @@ private:
       describe_motions(study, out_);
     flows_ = place_flows(study, mesh_, model_, out_.notes);
     warn(parts_without_fluid(study, model_, flows_));
-    for (std::string& note : supports_without_length({study, mesh_, model_, flows_}, placed_))
+    for (std::string& note :
+         supports_without_length({study, mesh_, model_, flows_}, placed_, last_ == Stage::stability))
       out_.notes.push_back(std::move(note));
     turbulence_ = turbulent_loads(study, model_, flows_, out_.notes);
     warn(spectra_of_one_phase(study, turbulence_));

@@ -173,8 +173,10 @@ std::vector<std::string> inside_obstacles(const study::Study& study, const fem::
   std::size_t said = study.contacts.size(); // entry of the last warning
   for (const PlacedContact& contact : placed) {
     const double most = radius[static_cast<std::size_t>(contact.node)];
+    // a clearance below 0 is meant
+    const double meant = std::max(0.0, -contact::locate(contact.obstacle, 0.0, 0.0).gap);
     const double overlap = -contact::locate(contact.obstacle, contact.rest.y(), contact.rest.z()).gap;
-    if (contact.entry == said || most == 0.0 || overlap <= most)
+    if (contact.entry == said || contact.other >= 0 || most == 0.0 || overlap - meant <= most)
       continue;
     said = contact.entry;
     out.push_back(

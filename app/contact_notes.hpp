@@ -16,7 +16,7 @@ namespace fretwork::app {
 /// A warning where two contacts are one and the same: node, axes and obstacle. Empty where none are.
 [[nodiscard]] std::string twice_placed(const std::vector<PlacedContact>& placed);
 
-/// Warnings of tubes that lie in their obstacle by more than their outer radius where they rest, one an entry; of nodes without beams nothing is known.
+/// Warnings of tubes that lie in their fixed obstacle by more than their outer radius where they rest, one an entry; of nodes without beams nothing is known.
 [[nodiscard]] std::vector<std::string> inside_obstacles(const study::Study& study, const fem::Model& model,
                                                         const std::vector<PlacedContact>& placed);
 

@@ -88,9 +88,13 @@ std::vector<flow::TubeSupport> supports_of(const TubesInFlow& tubes, const Place
 }
 
 std::vector<std::string> supports_without_length(const TubesInFlow& tubes,
-                                                 const std::vector<PlacedContact>& contacts) {
+                                                 const std::vector<PlacedContact>& contacts, bool assessed) {
   std::vector<std::string> out;
-  if (!tubes.study.modes.flow_damping && tubes.study.stabilities.empty())
+  const auto& stabilities = tubes.study.stabilities;
+  const bool by_flow = std::any_of(stabilities.begin(), stabilities.end(), [](const study::Stability& one) {
+    return !one.damping && one.pinned != study::Pinned::none;
+  });
+  if (!tubes.study.modes.flow_damping && !by_flow && !(assessed && stabilities.empty()))
     return out;
   for (const PlacedFlow& placed : tubes.flows) {
     const study::Flow& flow = tubes.study.flows[placed.entry];
@@ -101,10 +105,9 @@ std::vector<std::string> supports_without_length(const TubesInFlow& tubes,
     const auto without = std::count_if(supports.begin(), supports.end(),
                                        [](const flow::TubeSupport& one) { return one.length == 0.0; });
     if (without > 0)
-      out.push_back(
-          fmt::format("{}: {} of {} supports have no length, so that their squeeze film and friction damp "
-                      "nothing; give it supports, or contacts a thickness",
-                      name_of(flow), without, supports.size()));
+      out.push_back(fmt::format("{}: {} of {} supports have no length, and so no damping by squeeze film and "
+                                "friction; give it supports, or contacts a thickness",
+                                name_of(flow), without, supports.size()));
   }
   return out;
 }

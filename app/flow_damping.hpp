@@ -31,8 +31,9 @@ struct TubesInFlow {
 
 /// Notes of tubes whose supports have no length, so that squeeze film and friction damp nothing: contacts without thickness where the flow
 /// lists no supports, in a study whose damping or stability asks for them.
-[[nodiscard]] std::vector<std::string> supports_without_length(const TubesInFlow& tubes,
-                                                               const std::vector<PlacedContact>& contacts);
+/// @param assessed  for stability, also without entries
+[[nodiscard]] std::vector<std::string>
+supports_without_length(const TubesInFlow& tubes, const std::vector<PlacedContact>& contacts, bool assessed);
 
 /// @param bases  of the structures of a model with the nodes of tubes.model
 /// @return number of the one that the tube belongs to

@@ -85,7 +85,9 @@ void add_run_options(CLI::App& command, app::Request& request) {
   command.add_option(
       "-o,--output", request.directory,
       "folder of the results (default: the study's name with .results, of a sweep .sweep, beside it)");
-  command.add_flag("--force", request.force, "compute every stage again, also where nothing has changed");
+  command.add_flag("--force", request.force,
+                   "compute every stage again, also where nothing has changed; replace a run by what another "
+                   "command gives");
   command.add_flag("-q,--quiet", request.quiet, "nothing on the terminal but errors");
 }
 

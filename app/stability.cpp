@@ -156,9 +156,9 @@ PinsAsked pins_asked(const study::Stability& assessment) {
           {assessment.elastic, assessment.sticking}};
 }
 
-std::vector<results::StabilityAssessment> connors_stability(MPI_Comm comm, const TubesInFlow& tubes,
-                                                            const std::vector<PlacedContact>& contacts) {
-  results::RunResults out; // of its notes and warnings nothing is said
+ConnorsStability connors_stability(MPI_Comm comm, const TubesInFlow& tubes,
+                                   const std::vector<PlacedContact>& contacts) {
+  results::RunResults out; // its notes are those of the study
   for (study::Stability assessment : tubes.study.stabilities) {
     assessment.strouhal.reset();
     const PinnedModes modes = pinned_modes(comm, pins_asked(assessment), tubes, contacts, out.notes);
@@ -166,10 +166,11 @@ std::vector<results::StabilityAssessment> connors_stability(MPI_Comm comm, const
       for (const PlacedFlow& placed : tubes.flows) {
         Eigen::VectorXd ratios;
         out.stability.push_back(assess(tubes, placed, assessment, modes, ratios, out));
+        report(out.stability.back(), tubes.study.flows[placed.entry].law.has_value(), out);
       }
     });
   }
-  return std::move(out.stability);
+  return {std::move(out.stability), std::move(out.warnings)};
 }
 
 void assess_stability(MPI_Comm comm, const TubesInFlow& tubes, const std::vector<PlacedContact>& contacts,

@@ -13,9 +13,15 @@ namespace fretwork::app {
 /// What an assessment pins the tubes at.
 [[nodiscard]] PinsAsked pins_asked(const study::Stability& assessment);
 
-/// Collective. The entries of the study by Connors alone, of every tube, without notes and warnings.
-[[nodiscard]] std::vector<results::StabilityAssessment>
-connors_stability(MPI_Comm comm, const TubesInFlow& tubes, const std::vector<PlacedContact>& contacts);
+/// What a study's [[stability]] gives of a case of a sweep.
+struct ConnorsStability {
+  std::vector<results::StabilityAssessment> assessments;
+  std::vector<std::string> warnings; ///< of what is unstable
+};
+
+/// Collective. The entries of the study by Connors alone, of every tube.
+[[nodiscard]] ConnorsStability connors_stability(MPI_Comm comm, const TubesInFlow& tubes,
+                                                 const std::vector<PlacedContact>& contacts);
 
 /// Collective. Every assessment of every tube, with as many modes as `[modes]` asks for; damping of the set `stability`
 /// unless the study gives a ratio. Notes limits.

@@ -67,6 +67,14 @@ void make_directory(const fs::path& directory) {
                                   directory.string(), failure.message()));
 }
 
+void refuse_to_replace_run(const Inputs& inputs) {
+  if (inputs.keeps_run)
+    throw core::Error(
+        fmt::format("{} holds the results of a run that is not of this study as it stands (or of another "
+                    "version, or damaged); give another folder with -o, or --force to replace it",
+                    inputs.directory.string()));
+}
+
 void use_made_mesh(Inputs& inputs) {
   if (!mesh::is_msh(inputs.study.mesh.file))
     inputs.mesh_file = inputs.directory / "mesh.msh";
@@ -80,8 +88,10 @@ void make_mesh_file(MPI_Comm comm, Inputs& inputs) {
     if (core::rank(comm) != 0)
       return;
     const std::string fresh = mesh::as_msh(inputs.study.mesh);
-    if (fresh != file_bytes(inputs.mesh_file))
-      results::write_whole(inputs.mesh_file, {fresh}); // else nothing has changed: the file keeps its date
+    if (fresh == file_bytes(inputs.mesh_file)) // nothing has changed: the file keeps its date
+      return;
+    refuse_to_replace_run(inputs);
+    results::write_whole(inputs.mesh_file, {fresh});
   });
 }
 

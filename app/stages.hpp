@@ -28,6 +28,7 @@ struct Inputs {
   std::filesystem::path run_directory; ///< of the results of `run`
   std::filesystem::path directory;     ///< the same, or request.scratch
   std::filesystem::path mesh_file;     ///< the .msh that is read
+  bool keeps_run = false;              ///< the folder holds a run that this command is not to replace
   std::string modes_key;               ///< hash of the mesh and of all that the modes depend on
   std::string whole_key;               ///< and of everything else: input_sha256
 };
@@ -35,6 +36,9 @@ struct Inputs {
 /// The study; keys not yet made.
 /// @throws core::Error if the study, its mesh file or a table cannot be read
 [[nodiscard]] Inputs read_inputs(const Request& request);
+
+/// @throws core::Error where the folder holds a run that stays
+void refuse_to_replace_run(const Inputs& inputs);
 
 /// @throws core::Error if it cannot be made
 void make_directory(const std::filesystem::path& directory);

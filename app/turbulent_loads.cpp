@@ -298,7 +298,7 @@ std::vector<std::string> spectra_of_one_phase(const study::Study& study,
       if (const double mean = zone.void_fraction.mean();
           mean > bubbles && spectrum != "cor_4" && spectrum != "two_phase" && spectrum != "table")
         out.push_back(
-            fmt::format("turbulence \"{}\": spectrum {} is of flow of one phase, and zone \"{}\" has a void "
+            fmt::format("turbulence \"{}\": spectrum {} is a single-phase one, and zone \"{}\" has a void "
                         "fraction of {:.2g}: forces may be many times too small; take two_phase or cor_4",
                         study.turbulence[e].name, spectrum, zone.name, mean));
     }

@@ -37,7 +37,7 @@ struct TurbulentLoad {
                                                          const std::vector<PlacedFlow>& flows,
                                                          std::vector<std::string>& notes);
 
-/// Warnings of spectra of one phase in zones of two, by entries.
+/// Warnings of single-phase spectra in two-phase zones, by entries.
 [[nodiscard]] std::vector<std::string> spectra_of_one_phase(const study::Study& study,
                                                             const std::vector<TurbulentLoad>& loads);
 

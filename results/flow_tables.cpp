@@ -11,7 +11,7 @@ namespace fretwork::results {
 namespace {
 
 constexpr std::size_t most_rows = 20, most_cases = 20, most_names = 8;
-constexpr std::size_t widest_name = 32; // of an assessment and its tube
+constexpr std::size_t widest_name = 40, widest_tube = 12; // of an assessment and its tube; of a tube
 
 /// K of the zones that have one: `water 3, steam 2.4`.
 std::string constants_text(const flow::StabilityCase& one, const StabilityAssessment& assessment,
@@ -105,9 +105,8 @@ std::string assessments_table(const std::vector<StabilityAssessment>& assessment
     if (worst.critical_mode < 0)
       continue;
     const flow::ModeInFlow& mode = one.stability.modes[static_cast<std::size_t>(worst.critical_mode)];
-    std::string name = one.name + ", " + one.damping.tube;
-    if (name.size() > widest_name)
-      name = name.substr(0, widest_name - 3) + "...";
+    const std::string tube = shortened(one.damping.tube, widest_tube);
+    const std::string name = shortened(one.name, widest_name - 2 - tube.size()) + ", " + tube;
     rows.emplace_back(worst.critical_scale(),
                       fmt::format("  {:<{}} {:>5} {:>9.4g} {:>10.4f} {:>9.4f} {:>9.4f}{}\n", name,
                                   widest_name, worst.critical_mode + 1, mode.frequency, 100.0 * mode.damping,

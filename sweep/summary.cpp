@@ -121,8 +121,7 @@ std::string quantile_lines(const json& summary) {
   for (const json& quantile : outputs.front()["quantiles"])
     heads.push_back(fmt::format("{:g} %", 100.0 * quantile["probability"].get<double>()));
   std::string out = line_of_cells("quantile", heads);
-  const bool contacts = std::any_of(outputs.items().begin(), outputs.items().end(),
-                                    [](const auto& item) { return item.key().starts_with("worst."); });
+  const bool contacts = outputs.contains("worst.work_rate");
   std::size_t lines = 0;
   const std::vector<std::string> columns = summary["columns"];
   for (const std::size_t place : reading_order(columns)) {

@@ -136,9 +136,13 @@ TEST(Reuse, ModesAloneDoNotReplaceARunOfOtherInputs) {
   EXPECT_EQ(file(folder, "results", "summary.json"), summary);
   const Outcome other = modes({});
   EXPECT_EQ(other.status, 1);
-  EXPECT_TRUE(says(other.err, "results of a run with other inputs; give another folder with -o, or --force"));
+  EXPECT_TRUE(says(other.err, "a run that is not of this study as it stands"));
   EXPECT_EQ(file(folder, "results", "results.h5"), series);
   EXPECT_EQ(file(folder, "results", "summary.json"), summary);
+  const std::string mesh = file(folder, "results", "mesh.msh");
+  const Outcome finer = modes({"--set", "mesh.element_size=0.2"});
+  EXPECT_EQ(finer.status, 1);
+  EXPECT_EQ(file(folder, "results", "mesh.msh"), mesh);
   EXPECT_EQ(modes({"--force"}).status, 0);
   EXPECT_FALSE(read_results(folder.path("results")).summary.contains("transient"));
 }

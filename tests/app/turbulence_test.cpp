@@ -170,10 +170,10 @@ TEST(Turbulence, OfOnePhaseInTwoIsWarnedOf) {
     return json::parse(bytes_of(folder.path("out") / "summary.json"))["warnings"].dump();
   };
   EXPECT_TRUE(says(warnings_with("axisa", 0.6),
-                   "spectrum axisa is of flow of one phase, and zone \\\"water\\\" "
+                   "spectrum axisa is a single-phase one, and zone \\\"water\\\" "
                    "has a void fraction of 0.6"));
-  EXPECT_FALSE(says(warnings_with("axisa", 0.05), "of one phase"));
-  EXPECT_FALSE(says(warnings_with("two_phase", 0.6), "of one phase"));
+  EXPECT_FALSE(says(warnings_with("axisa", 0.05), "a single-phase one"));
+  EXPECT_FALSE(says(warnings_with("two_phase", 0.6), "a single-phase one"));
 }
 
 TEST(Turbulence, GivesModesToTheEndOfItsBandByDefault) {

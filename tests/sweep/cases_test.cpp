@@ -164,6 +164,35 @@ seeds = 7
   EXPECT_EQ(rows[1].at("turbulence.*.seed"), "8");
 }
 
+// Pins that stick hold along the friction of their contacts, which a case may change; others do not.
+TEST_F(Sweeps, VelocityRatiosFollowWhatPinsTake) {
+  const std::string text = sweep_of("u_bend_flow", R"(
+design = "grid"
+[[sweep.variables]]
+name = "friction"
+key = "contacts.bars.friction"
+values = [0.0, 0.3]
+[[sweep.variables]]
+name = "velocity"
+key = "flow.tube.zones.top.velocity"
+values = [5.0, 60.0]
+)");
+  const Outcome outcome = sweep(text, "out", short_tube);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  std::map<std::string, std::map<std::string, double>> held, loose; // by velocity and friction
+  for (const auto& row : table_of(folder.path("out"))) {
+    held[row.at("velocity")][row.at("friction")] = std::stod(row.at("stability.bars hold.velocity_ratio"));
+    loose[row.at("velocity")][row.at("friction")] = std::stod(row.at("stability.loose bars.velocity_ratio"));
+  }
+  ASSERT_EQ(held.size(), 2u);
+  for (auto& [velocity, ratios] : held) {
+    ASSERT_EQ(ratios.size(), 2u);
+    EXPECT_GT(ratios.begin()->second, 1.01 * ratios.rbegin()->second) << velocity;
+    EXPECT_EQ(loose[velocity].begin()->second, loose[velocity].rbegin()->second);
+  }
+  EXPECT_TRUE(says(outcome.out, "fluid-elastically unstable")) << outcome.out;
+}
+
 TEST_F(Sweeps, ErrorsAreStandardErrorsWhateverTheConfidenceOfWear) {
   const std::string text = sweep_of("tube_study", R"(
 design = "grid"

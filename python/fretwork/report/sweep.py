@@ -6,7 +6,7 @@ import json
 import sys
 from pathlib import Path
 
-PRINCIPAL = ("worst.years", "worst.wear_depth", "worst.work_rate", "total.work_rate", "worst.normal_rms", "worst.normal_max")
+PRINCIPAL = ("worst.years", "worst.wear_depth", "worst.velocity_ratio", "worst.work_rate", "total.work_rate", "worst.normal_rms", "worst.normal_max")
 MEASURES = ("total.work_rate", "worst.work_rate", "worst.normal_max")  # that pictures are about
 
 MOST_PRINCIPAL = 8
