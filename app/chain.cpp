@@ -372,9 +372,11 @@ private:
 
   void write_tables() {
     const fs::path& folder = inputs_.directory;
-    if (!up_to_date_) // of an earlier state of the study, or of another command
-      for (const char* file :
-           {"flow.csv", "spectra.csv", "stability.csv", "stability_diagram.csv", "response.csv"})
+    if (!up_to_date_) // of an earlier state of the study
+      for (const char* file : {"flow.csv", "spectra.csv"})
+        remove_file(folder / file);
+    if (!up_to_date_ && last_ != Stage::modes) // or of another command that assesses
+      for (const char* file : {"stability.csv", "stability_diagram.csv", "response.csv"})
         remove_file(folder / file);
     if (!out_.stability.empty())
       results::write_stability_csv(folder, out_);
