@@ -16,7 +16,7 @@
 
 namespace fretwork::contact {
 
-inline constexpr std::size_t most_sides = 8; ///< that are told apart; a hole of more lands is one surface
+inline constexpr std::size_t most_sides = 8; ///< of an obstacle; a hole with more lands counts as one surface
 inline constexpr std::array<const char*, 4> flat_side_names{"+y", "+z", "-y", "-z"};
 
 struct Side {

@@ -193,6 +193,24 @@ values = [5.0, 60.0]
   EXPECT_TRUE(says(outcome.out, "fluid-elastically unstable")) << outcome.out;
 }
 
+TEST_F(Sweeps, CasesThatCannotBeAssessedHaveTheirOtherOutputs) {
+  const std::string text = sweep_of("u_bend_flow", R"(
+design = "grid"
+[[sweep.variables]]
+name = "phase"
+key = "flow.tube.zones.top.phase"
+values = ["liquid", "gas"]
+)");
+  const Outcome outcome = sweep(text, "out", short_tube);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto rows = table_of(folder.path("out"));
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_GT(std::stod(rows[0].at("worst.velocity_ratio")), 0.0);
+  EXPECT_EQ(rows[1].at("worst.velocity_ratio"), "nan");
+  EXPECT_EQ(rows[1].at("outcome"), "done");
+  EXPECT_TRUE(says(bytes_of(folder.path("out") / "table.csv"), "the case has no V/Vc"));
+}
+
 TEST_F(Sweeps, ErrorsAreStandardErrorsWhateverTheConfidenceOfWear) {
   const std::string text = sweep_of("tube_study", R"(
 design = "grid"

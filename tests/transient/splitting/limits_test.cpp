@@ -64,7 +64,7 @@ void expect_at_limit(const Scene& scene) {
   EXPECT_EQ(choose_step(scene, splitting(1.03 * step)).warnings.size(), 1u);
 }
 
-/// A mode that is free and one of w h = `fast` move a node at 1 m/s to a stop that both give way to.
+/// A mode that is free and one of w h = `fast` move a node at 1 m/s to a stop that deflects both.
 /// @param share  of the fast mode at the node over that of the free one; 0: a mass alone   @param phase  of the first step with a force
 Scene impact(double frequency, double damping_ratio, double fast, double share, double phase) {
   Scene scene;
@@ -86,7 +86,7 @@ Scene impact(double frequency, double damping_ratio, double fast, double share, 
 
 /// Such a node, pressed on a plane with 10 N, on which a force of `amplitude` times the friction bound moves it to and fro, 50 steps a period. The fast
 /// mode begins with a vibration.
-Scene rubbing(double stick, double damper, double amplitude, double fast = 0.1, double share = 0.0) {
+Scene pressed_mass(double stick, double damper, double amplitude, double fast = 0.1, double share = 0.0) {
   constexpr double mu = 0.3, normal = 10.0, stiffness = 1e3, vibration = 3e-3;
   const double mobility = 1.0 + share * share, mode = fast / step;
   Scene scene;
@@ -163,7 +163,7 @@ TEST(SplittingLimits, OfStickingContactsGiveFriction) {
   for (const double amplitude : {1.5, 3.0, 10.0})
     for (const double damper : {0.0, 0.2 * contact}) {
       SCOPED_TRACE(testing::Message() << "amplitude " << amplitude << ", damper " << damper);
-      const Scene scene = rubbing(contact, damper, amplitude);
+      const Scene scene = pressed_mass(contact, damper, amplitude);
       expect_at_limit(scene);
       expect_friction(scene, 1e-3, 5e-3);
     }
@@ -174,10 +174,10 @@ TEST(SplittingLimits, OfTangentialDampersGiveFriction) {
   for (const double amplitude : {1.5, 2.5, 3.0, 10.0})
     for (const double damper : {fastest_damper, limits.tangential_damper.share / step, fast_damper / step}) {
       SCOPED_TRACE(testing::Message() << "amplitude " << amplitude << ", damper " << damper);
-      expect_friction(rubbing(contact, damper, amplitude), 1e-3, 5e-3);
-      expect_friction(rubbing(0.2 * contact, damper, amplitude), 1e-3, 5e-3);
+      expect_friction(pressed_mass(contact, damper, amplitude), 1e-3, 5e-3);
+      expect_friction(pressed_mass(0.2 * contact, damper, amplitude), 1e-3, 5e-3);
     }
-  expect_at_limit(rubbing(0.2 * contact, fastest_damper, 3.0));
+  expect_at_limit(pressed_mass(0.2 * contact, fastest_damper, 3.0));
 }
 
 // The velocity that a force gives a mode of w h = 1.5 is overestimated by 24 % (doc/schemes.md, Limits).
@@ -186,13 +186,13 @@ TEST(SplittingLimits, OfModesBesideTangentialDampersGiveFriction) {
     for (const double amplitude : {1.2, 3.0}) {
       SCOPED_TRACE(testing::Message() << "share " << share << ", amplitude " << amplitude);
       for (const double damper : {fastest_damper, 1.01 * fast_damper / step})
-        expect_friction(rubbing(contact, damper, amplitude, mode_with_fast_damper, share),
+        expect_friction(pressed_mass(contact, damper, amplitude, mode_with_fast_damper, share),
                         share < 1.0 ? 8e-3 : 4e-2, 6e-3);
-      expect_friction(rubbing(contact, fast_damper / step, amplitude, limits.highest_mode.share, share), 8e-3,
-                      2e-3);
+      expect_friction(pressed_mass(contact, fast_damper / step, amplitude, limits.highest_mode.share, share),
+                      8e-3, 2e-3);
     }
-  expect_at_limit(rubbing(0.5 * contact, 30.0 / step, 3.0, mode_with_fast_damper, 0.5));
-  expect_at_limit(rubbing(0.5 * contact, 0.9 * fast_damper / step, 3.0, limits.highest_mode.share, 0.5));
+  expect_at_limit(pressed_mass(0.5 * contact, 30.0 / step, 3.0, mode_with_fast_damper, 0.5));
+  expect_at_limit(pressed_mass(0.5 * contact, 0.9 * fast_damper / step, 3.0, limits.highest_mode.share, 0.5));
 }
 
 TEST(SplittingLimits, OfTheExcitationGiveForces) {
