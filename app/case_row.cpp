@@ -186,11 +186,17 @@ std::vector<sweep::Column> case_columns(const std::vector<PlacedContact>& contac
   for (const PlacedContact& contact : contacts)
     for (const Figure& figure : figures)
       add(fmt::format("{}.{}", contact.name, figure.name), figure.unit, figure.error != nullptr);
+  const auto add_life = [&](const WornPlace& place, const char* which) {
+    columns.push_back({place.name + which, "a", {}});
+    for (const std::size_t c : place.contacts)
+      columns.back().contacts.push_back(contacts[c].name);
+    columns.push_back({place.name + which + ".error", "a"});
+  };
   for (const WornPlace& place : worn) {
     add(place.name + ".wear_depth", "m", true);
-    add(place.name + ".years", "a", true);
+    add_life(place, ".years");
     if (place.worn.support_limit)
-      add(place.name + ".support_years", "a", true);
+      add_life(place, ".support_years");
   }
   for (const std::string& node : facts.node_names)
     for (const char* axis : axes) {

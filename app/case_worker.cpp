@@ -42,7 +42,7 @@ json nominal_answer(const Request& request, bool with_warnings, Inputs& inputs,
     return {{name_of(row.outcome), row.message}};
   json out{{"key", inputs.whole_key}, {"columns", json::array()}, {"contacts", json::array()}};
   for (const sweep::Column& column : runner->columns())
-    out["columns"].push_back({column.name, column.unit});
+    out["columns"].push_back({column.name, column.unit, column.contacts});
   for (const auto& [name, node] : runner->contacts())
     out["contacts"].push_back({name, node});
   out["warnings"] = warnings;
@@ -58,7 +58,8 @@ SweepFacts facts_of(const json& answer) {
     throw std::runtime_error(answer["defect"].get<std::string>());
   SweepFacts out{answer.at("key").get<std::string>(), {}, {}, answer.at("warnings")};
   for (const json& column : answer.at("columns"))
-    out.columns.push_back({column[0].get<std::string>(), column[1].get<std::string>()});
+    out.columns.push_back({column[0].get<std::string>(), column[1].get<std::string>(),
+                           column[2].get<std::vector<std::string>>()});
   for (const json& contact : answer.at("contacts"))
     out.contacts.emplace_back(contact[0].get<std::string>(), contact[1].get<core::Index>());
   return out;

@@ -123,7 +123,8 @@ Json tube(const WearOfTube& t) {
           {"deepest_support", t.deepest.empty() ? Json(nullptr) : Json(t.deepest)},
           {"life_years", bounds(t.years)},
           {"first_support", t.first.empty() ? Json(nullptr) : Json(t.first)},
-          {"first_body", t.body.empty() ? Json(nullptr) : Json(t.body)}};
+          {"first_body", t.body.empty() ? Json(nullptr) : Json(t.body)},
+          {"unknown_lives", t.unknown_lives}};
 }
 
 Json by_stage(const WearCurves& c) {

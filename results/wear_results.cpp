@@ -132,6 +132,8 @@ std::vector<WearOfTube> wear_by_tube(const std::vector<WearOfSupport>& supports)
     for (const auto& [life, body] :
          {std::pair(&support.life, "tube"), std::pair(&support.support_life, "support")}) {
       const double years = life->years.value;
+      if (!life->end.empty() && std::isnan(years))
+        ++tube.unknown_lives;
       if (std::isfinite(years) && !(years >= tube.years.value)) {
         tube.first = support.name;
         tube.body = body;

@@ -102,6 +102,8 @@ struct WearOfTube {
   Bounds years;        ///< the shortest life, of the tube or of a support that has a limit
   std::string first;   ///< the support that ends it; empty: none
   std::string body;    ///< what reaches its limit there, "tube" or "support"; empty: nothing
+  std::int64_t unknown_lives =
+      0; ///< that have no value, outside their law or beyond their geometry: one may be shorter
 };
 
 /// One support through the stages of gap opening; lists by stage.

@@ -129,9 +129,11 @@ std::string remark_of(const WearOfTube& tube) {
   std::string out = tube.first.empty() ? "" : "first: " + shortened(tube.first, support_width);
   if (tube.body == "support")
     out += " (the support)";
+  const auto add = [&](const std::string& text) { out += (out.empty() ? "" : "; ") + text; };
+  if (tube.unknown_lives > 0)
+    add(fmt::format("{} unknown", tube.unknown_lives));
   if (std::isnan(tube.depth.value) && !tube.deepest.empty())
-    out += fmt::format("{}beyond its geometry: {}", out.empty() ? "" : "; ",
-                       shortened(tube.deepest, support_width));
+    add("beyond its geometry: " + shortened(tube.deepest, support_width));
   return out;
 }
 

@@ -200,19 +200,29 @@ def of_limit(limit, values, confidence):
 BODIES = {".support_years": "support", ".years": "tube"}  # of outputs of lives, the longer ending first
 
 
-def first_supports(lives, values, confidence):
-    """Shares of the cases by what reaches its limit first, the largest first. lives: names of the columns of values, a; NaN: not in the case."""
-    values = np.where(np.isnan(values), math.inf, values)[~np.isnan(values).all(axis=1)]
+def first_supports(lives, values, confidence, present=None):
+    """Shares of the cases by what reaches its limit first, the largest first. lives: names of the columns of values, a; NaN: no value.
+
+    present: where the support is in the case; default: where it has a value. A case with a support that has no value is not judged. It is in the upper
+    end of the share of what may be first in it: these supports, and the first of the others."""
+    known = ~np.isnan(values)
+    unknown = (np.zeros_like(known) if present is None else present) & ~known
+    there = (known | unknown).any(axis=1)
+    unknown, values = unknown[there], np.where(known, values, math.inf)[there]
+    judged = ~unknown.any(axis=1)
     first = np.where(np.isfinite(values.min(axis=1)), values.argmin(axis=1), -1) if len(values) else np.zeros(0, int)
-    out = []
+    supports, without = [], []
     for number, name in enumerate(lives):
-        hits = int(np.sum(first == number))
-        if not hits:
-            continue
         ending = next(ending for ending in BODIES if name.endswith(ending))
-        low, high = share_interval(hits, len(first), confidence)
-        out.append({"support": name[: -len(ending)], "body": BODIES[ending], "hits": hits, "share": hits / len(first), "low": low, "high": high})
-    return {"cases": len(first), "never": int(np.sum(first == -1)), "supports": sorted(out, key=lambda entry: -entry["hits"])}
+        life = {"support": name[: -len(ending)], "body": BODIES[ending]}
+        hits, possible = int(np.sum(judged & (first == number))), int(np.sum(unknown[:, number] | (first == number)))
+        if hits:
+            low, high = share_interval(hits, len(first), confidence)[0], share_interval(possible, len(first), confidence)[1]
+            supports.append({**life, "hits": hits, "share": hits / len(first), "low": low, "high": high})
+        if unknown[:, number].any():
+            without.append({**life, "cases": int(unknown[:, number].sum())})
+    return {"cases": len(first), "never": int(np.sum(judged & (first == -1))), "not_judged": int(np.sum(~judged)),
+            "supports": sorted(supports, key=lambda entry: -entry["hits"]), "unknown": sorted(without, key=lambda entry: -entry["cases"])}  # fmt: skip
 
 
 def convergence(values, until, confidence):
@@ -255,8 +265,9 @@ def summarize(request, folder):
     answer["limits"] = [of_limit(limit, column[limit["output"]][:independent], request["confidence"]) for limit in request["limits"]]
     lives = request["lives"]
     if len(lives) > 1:
-        values = np.column_stack([column[name][:independent] for name in lives])
-        answer["first_support"] = first_supports(lives, values, request["confidence"])
+        values = np.column_stack([column[life["output"]][:independent] for life in lives])
+        present = np.column_stack([np.any([~np.isnan(column[of][:independent]) for of in life["contacts"]], axis=0) for life in lives])
+        answer["first_support"] = first_supports([life["output"] for life in lives], values, request["confidence"], present)
     answer["convergence"] = convergence(column[request["until"]["output"]][:independent], request["until"], request["confidence"])
     return answer
 

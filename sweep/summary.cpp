@@ -76,8 +76,11 @@ json statistics_request(const study::Sweep& sweep, const Table& table) {
   out["lives"] = json::array();
   for (const Column& column : table.outputs) {
     out["outputs"].push_back(column.name);
-    if (is_life(column.name))
-      out["lives"].push_back(column.name);
+    if (is_life(column.name)) {
+      out["lives"].push_back({{"output", column.name}, {"contacts", json::array()}});
+      for (const std::string& contact : column.contacts)
+        out["lives"].back()["contacts"].push_back(contact + ".work_rate");
+    }
   }
   for (const study::SweepLimit& limit : sweep.limits)
     out["limits"].push_back({{"output", limit.output}, {"value", limit.value}, {"above", limit.above}});
@@ -153,26 +156,51 @@ std::string limit_lines(const json& summary) {
   return out;
 }
 
+std::string name_of_life(const json& life) {
+  return life["support"].get<std::string>() + (life["body"] == "support" ? " (the support)" : "");
+}
+
+/// Lives that have no value in some case: these cases are not judged.
+std::string unknown_lines(const json& unknown) {
+  std::string names;
+  for (std::size_t i = 0; i < std::min(unknown.size(), shown_firsts); ++i)
+    names += fmt::format("{}{} in {}", i ? ", " : "", name_of_life(unknown[i]),
+                         results::counted(unknown[i]["cases"].get<std::int64_t>(), "case"));
+  if (unknown.size() > shown_firsts)
+    names += fmt::format(" and {} more", unknown.size() - shown_firsts);
+  return fmt::format("    not judged: no life (outside its law, or beyond its geometry) of {}; upper ends of "
+                     "the intervals include these cases\n",
+                     names);
+}
+
 /// Which support is first, by shares of the cases.
 std::string first_lines(const json& summary) {
   const auto found = summary["statistics"].find("first_support");
-  if (found == summary["statistics"].end() || (*found)["supports"].empty())
+  if (found == summary["statistics"].end())
     return {};
   const json& supports = (*found)["supports"];
+  const auto not_judged = found->value("not_judged", std::int64_t{0});
+  if (supports.empty() && not_judged == 0)
+    return {};
   std::string out = "  first to its limit  ";
   for (std::size_t i = 0; i < std::min(supports.size(), shown_firsts); ++i) {
     const json& first = supports[i];
     const auto percent = [&](const char* key) { return 100.0 * first[key].get<double>(); };
-    out +=
-        fmt::format("{}{}{} {:.0f} % ({:.0f} to {:.0f})", i ? ", " : "", first["support"].get<std::string>(),
-                    first["body"] == "support" ? " (the support)" : "", percent("share"), percent("low"),
-                    percent("high"));
+    out += fmt::format("{}{} {:.0f} % ({:.0f} to {:.0f})", i ? ", " : "", name_of_life(first),
+                       percent("share"), percent("low"), percent("high"));
   }
   if (supports.size() > shown_firsts)
     out += fmt::format(" and {} more", supports.size() - shown_firsts);
-  if (const int never = (*found)["never"]; never > 0)
-    out += fmt::format(", none {:.0f} %", 100.0 * never / (*found)["cases"].get<double>());
-  return out + fmt::format(" of {}\n", results::counted((*found)["cases"].get<std::int64_t>(), "case"));
+  const auto cases = (*found)["cases"].get<std::int64_t>();
+  const auto add_share = [&](const char* what, std::int64_t of) {
+    if (of > 0)
+      out += fmt::format("{}{} {:.0f} %", out.ends_with("  ") ? "" : ", ", what,
+                         100.0 * static_cast<double>(of) / static_cast<double>(cases));
+  };
+  add_share("none", (*found)["never"].get<std::int64_t>());
+  add_share("not judged", not_judged);
+  out += fmt::format(" of {}\n", results::counted(cases, "case"));
+  return not_judged > 0 ? out + unknown_lines((*found)["unknown"]) : out;
 }
 
 std::string sensitivity_lines(const json& summary) {

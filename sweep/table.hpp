@@ -12,6 +12,8 @@ namespace fretwork::sweep {
 /// An output. Its standard error, where there is one, is the column `name.error`.
 struct Column {
   std::string name, unit;
+  std::vector<std::string> contacts =
+      {}; ///< of a life: those of its support, which is in a case where one of them is
   [[nodiscard]] bool operator==(const Column&) const = default;
 };
 

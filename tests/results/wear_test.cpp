@@ -98,6 +98,29 @@ TEST(WearByTube, EndsWithTheFirstOfTubesAndSupports) {
   EXPECT_EQ(nothing[0].years.value, never);
 }
 
+TEST(WearByTube, CountsLivesThatHaveNoValue) {
+  auto plate = with(0, "plate", 4.0, 9.0, 20.0), card = plate, bar = plate;
+  plate.life = {"reached", {20.0, 18.0, 22.0}};
+  card.name = "card";
+  card.life = {"outside_law", {}};
+  bar.name = "bar";
+  bar.life = {"never", {no_value, no_value, no_value}};
+  bar.life.years.value = std::numeric_limits<double>::infinity();
+  bar.support_life = {"beyond_geometry", {}};
+  Wear wear{{plate, card, bar}, wear_by_tube({plate, card, bar}), {}};
+  EXPECT_EQ(wear.tubes[0].unknown_lives, 2);
+  EXPECT_EQ(wear.tubes[0].first, "plate");
+  EXPECT_EQ(wear_json(wear, {"c"})["tubes"][0]["unknown_lives"], 2);
+  for (WearOfSupport& support : wear.supports)
+    support.time = {0.0};
+  const std::vector<std::string> lines = wear_lines(wear);
+  EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [](const std::string& line) {
+    return line.ends_with("first: plate; 2 unknown");
+  })) << testing::PrintToString(lines);
+  EXPECT_EQ(wear_by_tube({plate})[0].unknown_lives,
+            0); // supports without a limit of their own have no life to know
+}
+
 TEST(WearOnTheTerminal, HasTheWearOfSupportsBelow) {
   const std::vector<std::string> lines = wear_lines(*worn(4).wear);
   const auto head = std::find_if(lines.begin(), lines.end(), [](const std::string& line) {

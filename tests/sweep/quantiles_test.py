@@ -78,6 +78,20 @@ class Coverage(unittest.TestCase):
             tail = sum(math.comb(6, k) * first[end] ** k * (1.0 - first[end]) ** (6 - k) for k in hits)
             self.assertAlmostEqual(tail, 0.025, 9)
 
+    def test_cases_with_an_unknown_life_are_not_judged(self):
+        never, none = math.inf, math.nan
+        lives = ["a.years", "a.support_years", "b.years"]
+        cases = [[3.0, 2.0, 4.0], [1.0, none, 4.0], [3.0, never, none], [never, never, none], [none] * 3, [5.0, 6.0, 4.0]]
+        present = np.array([[True] * 3] * 2 + [[True, True, False]] + [[True] * 3] + [[False] * 3] + [[True] * 3])
+        found = helper.first_supports(lives, np.array(cases), CONFIDENCE, present)
+        self.assertEqual((found["cases"], found["never"], found["not_judged"]), (5, 0, 2))
+        self.assertEqual(sorted((s["support"], s["body"], s["hits"]) for s in found["supports"]), [("a", "support", 1), ("a", "tube", 1), ("b", "tube", 1)])
+        self.assertEqual([(s["support"], s["body"], s["cases"]) for s in found["unknown"]], [("a", "support", 1), ("b", "tube", 1)])
+        # of five cases, each: one judged, and one in which it may be first; b has the shortest known life of none of them
+        for first in found["supports"]:
+            self.assertEqual(first["share"], 0.2)
+            self.assertEqual((first["low"], first["high"]), (helper.share_interval(1, 5, CONFIDENCE)[0], helper.share_interval(2, 5, CONFIDENCE)[1]))
+
     def test_never_is_a_value(self):
         values = np.array([1.0] * 50 + [math.inf] * 50)
         value, low, high = helper.quantile_interval(values, 0.95, CONFIDENCE)

@@ -106,6 +106,27 @@ class Report(unittest.TestCase):
             self.assertIn(f'<td class="text">{first["support"]}</td>', self.page)
         self.assertEqual(sum(first["hits"] for first in found["supports"]) + found["never"], 6)
 
+    def test_cases_whose_lives_are_not_all_known_are_not_judged(self):
+        """support[1] wears outside of its law; where support[0] is inactive it has no life, which leaves nothing unknown."""
+        tube = Path(STUDY).parent.parent / "straight_tube/study.toml"
+        own = tempfile.TemporaryDirectory(prefix="fretwork_sweep_")
+        self.addCleanup(own.cleanup)
+        study = Path(own.name) / "tube.toml"
+        wears = "".join(f'[[wear]]\nname = "{number}"\ncontacts = ["support[{number}]"]\nlength = 0.02\n{law}\n'
+                        for number, law in enumerate(("coefficient = 1e-13", 'law = "edf_mz"\nstates = [{ share = 1, work_rate = 1e-4 }]', "coefficient = 2e-13")))
+        study.write_text(re.sub(r'file = "(.*)"', rf'file = "{tube.parent}/\1"', tube.read_text()) + wears)
+        variables = '[[sweep.variables]]\nname = "out"\nkey = "contacts.support.inactive"\nvalues = [["support[0]"], ["support[1]"], ["support[0]", "support[1]"]]\n'
+        self.report_of("draws = 12\nseed = 3\n", study, variables, "transient.duration=0.1", "output.statistics_from=0")
+        table = [line.split(",") for line in (self.directory / "table.csv").read_text().splitlines()]
+        place = next(i for i, head in enumerate(table[0]) if head.startswith("support[1].work_rate"))
+        acting = sum(row[place] != "nan" for row in table[1:])
+        self.assertTrue(0 < acting < 12)
+        found = json.loads((self.directory / "summary.json").read_text())["statistics"]["first_support"]
+        self.assertEqual((found["cases"], found["not_judged"]), (12, acting))
+        self.assertEqual(found["unknown"], [{"support": "support[1]", "body": "tube", "cases": acting}])
+        self.assertEqual(sum(first["hits"] for first in found["supports"]) + found["never"], 12 - acting)
+        self.assertIn(f"{acting} of them are not judged", self.page)
+
     def test_contacts_at_one_place_are_taken_together(self):
         nan = float("nan")
         values = np.array([[1.0, 2.0, nan], [1.0, nan, nan]])

@@ -81,5 +81,37 @@ TEST(SummaryText, HasTheOutputsInTheirReadingOrder) {
   EXPECT_THAT(text, testing::Not(HasSubstr("a.work_rate")));
 }
 
+TEST(SummaryText, SaysWhichCasesCannotBeJudged) {
+  nlohmann::json summary{{"design", "monte_carlo"}, {"cases", 8}, {"rows", 8}, {"done", 8}};
+  summary["warnings"] = nlohmann::json::array();
+  summary["columns"] = {"a.years"};
+  summary["units"]["a.years"] = "a";
+  summary["statistics"] = {{"limits", nlohmann::json::array()}, {"sensitivities", nlohmann::json::object()}};
+  summary["statistics"]["outputs"]["a.years"]["quantiles"] = {
+      {{"probability", 0.5}, {"value", 1.0}, {"low", 0.5}, {"high", 2.0}}};
+  summary["statistics"]["convergence"] = {{"output", "a.years"}, {"quantile", 0.5}, {"relative_error", 0.05},
+                                          {"error", 0.1},        {"cases", 8},      {"cases_needed", 8},
+                                          {"reached", false}};
+  auto& first = summary["statistics"]["first_support"];
+  first = {
+      {"cases", 8},
+      {"never", 1},
+      {"not_judged", 2},
+      {"supports", {{{"support", "plate"}, {"body", "tube"}, {"share", 0.5}, {"low", 0.2}, {"high", 0.8}}}},
+      {"unknown",
+       {{{"support", "card"}, {"body", "support"}, {"cases", 2}},
+        {{"support", "plate"}, {"body", "tube"}, {"cases", 1}}}}};
+  const std::string head = "  first to its limit  ";
+  const std::string why =
+      "    not judged: no life (outside its law, or beyond its geometry) of card (the support) "
+      "in 2 cases, plate in 1 case; upper ends of the intervals include these cases\n";
+  EXPECT_THAT(summary_text(summary),
+              HasSubstr(head + "plate 50 % (20 to 80), none 12 %, not judged 25 % of 8 cases\n" + why));
+  first["supports"] = nlohmann::json::array();
+  first["never"] = 0;
+  first["not_judged"] = 8;
+  EXPECT_THAT(summary_text(summary), HasSubstr(head + "not judged 100 % of 8 cases\n" + why));
+}
+
 } // namespace
 } // namespace fretwork::sweep::summary_test

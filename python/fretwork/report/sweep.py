@@ -99,7 +99,7 @@ def first_supports(sweep):
     from . import page
 
     found = sweep.statistics.get("first_support")
-    if not found or not found["supports"]:
+    if not found or not found["supports"] and not found.get("not_judged"):
         return ""
     percent = round(100 * sweep.summary["confidence"], 6)
     rows = [
@@ -108,6 +108,12 @@ def first_supports(sweep):
         for first in found["supports"]
     ]
     never = f" In {found['never']} of them nothing does." if found["never"] else ""
+    if found.get("not_judged"):
+        names = ", ".join(f"{html.escape(life['support'])}{' (the support)' if life['body'] == 'support' else ''} in {life['cases']}" for life in found["unknown"])
+        never += (
+            f" {found['not_judged']} of them are not judged: a life has no value there, outside its law or beyond its geometry ({names}). The upper ends of "
+            "the intervals include these cases."
+        )
     note = (
         f"<p class=soft>Where a limit of wear is reached first, over {found['cases']} cases.{never} In brackets the interval of the share at {percent:g} % "
         "confidence. The body is the tube, or the support itself.</p>"

@@ -94,7 +94,9 @@ def _tubes(run):
         return _bounds(bounds(tube["life_years"])) if tube["life_years"]["value"] is not None else "–"
 
     def _first(tube):
-        return html.escape(tube["first_support"] or "–") + (" (the support)" if tube.get("first_body") == "support" else "")
+        unknown = tube.get("unknown_lives", 0)
+        return (html.escape(tube["first_support"] or "–") + (" (the support)" if tube.get("first_body") == "support" else "")
+                + (f"; {unknown} without a life" if unknown else ""))
 
     tubes = run.summary.get("wear", {}).get("tubes", [])
     rows = [
