@@ -17,6 +17,7 @@ namespace {
 using results::no_value;
 using wear::OperatingState;
 using wear::PlaceState;
+using wear::WornBody;
 
 /// The work rate and the two ends of its interval.
 enum class End : std::size_t { value, low, high };
@@ -71,7 +72,8 @@ public:
     }
     for (const wear::Place& place : places_)
       states_.push_back({new_place(place), new_place(place), new_place(place)});
-    lives_.assign(places_.size(), {no_life, no_life, no_life});
+    for (auto& lives : lives_)
+      lives.assign(places_.size(), {no_life, no_life, no_life});
     outside_.assign(worn.size(), false);
     out_.supports.resize(worn.size());
   }
@@ -115,20 +117,23 @@ public:
   [[nodiscard]] results::GapOpening result(const std::string& end, const std::string& reason) && {
     out_.end = end;
     out_.reason = reason;
-    for (std::size_t s = 0; s < worn_.size(); ++s)
-      out_.supports[s].life = life_of(s);
+    for (std::size_t s = 0; s < worn_.size(); ++s) {
+      out_.supports[s].life = life_of(s, WornBody::tube);
+      if (worn_[s].worn.support_limit)
+        out_.supports[s].support_life = life_of(s, WornBody::support);
+    }
     return std::move(out_);
   }
 
 private:
   static constexpr double no_life = std::numeric_limits<double>::infinity();
 
-  [[nodiscard]] results::WearLife life_of(std::size_t s) const {
+  [[nodiscard]] results::WearLife life_of(std::size_t s, WornBody body) const {
     if (outside_[s])
       return {"outside_law", {no_value, no_value, no_value}};
     results::WearLife out;
     for (const End which : ends)
-      out.years.*life_at[at(which)] = life_of(supports_[s], which) / wear::year;
+      out.years.*life_at[at(which)] = life_of(supports_[s], body, which) / wear::year;
     out.end = std::isnan(out.years.value)   ? "beyond_geometry"
               : std::isinf(out.years.value) ? "never"
                                             : "reached";
@@ -180,24 +185,29 @@ private:
     if (!state)
       return;
     auto after = state_after(places_[k], *state, loads_[k][at(end)], time);
-    const wear::WornSupport& worn = places_[k].support;
-    if (!after || after->depth.tube >= worn.limit * worn.wall)
-      lives_[k][at(end)] = std::min(lives_[k][at(end)], life_from_here(k, end));
+    for (const WornBody body : {WornBody::tube, WornBody::support})
+      if (!after || depth_of(after->depth, body) >= limit_of(places_[k].support, body))
+        life_at_place(k, body, end) = std::min(life_at_place(k, body, end), life_from_here(k, body, end));
     state = std::move(after);
   }
 
+  [[nodiscard]] double& life_at_place(std::size_t k, WornBody body, End end) {
+    return lives_[static_cast<std::size_t>(body)][k][at(end)];
+  }
+
   /// s, at the present work rates; infinity: never.
-  [[nodiscard]] double life_from_here(std::size_t k, End end) const {
-    return time_ + time_to_limit(places_[k], *states_[k][at(end)], loads_[k][at(end)]);
+  [[nodiscard]] double life_from_here(std::size_t k, WornBody body, End end) const {
+    return time_ + time_to_limit(places_[k], *states_[k][at(end)], loads_[k][at(end)], body);
   }
 
   /// That of its first sector, s; infinity: never; not a number: the wear leaves its geometry before.
-  [[nodiscard]] double life_of(const OpenedPlaces& support, End end) const {
+  [[nodiscard]] double life_of(const OpenedPlaces& support, WornBody body, End end) const {
     double first = no_life;
     bool beyond = false;
     for (std::size_t k = support.first; k < support.first + support.count; ++k) {
       beyond = beyond || !states_[k][at(end)];
-      first = std::min({first, lives_[k][at(end)], states_[k][at(end)] ? life_from_here(k, end) : no_life});
+      first = std::min({first, lives_[static_cast<std::size_t>(body)][k][at(end)],
+                        states_[k][at(end)] ? life_from_here(k, body, end) : no_life});
     }
     return beyond && std::isinf(first) ? no_value : first;
   }
@@ -252,9 +262,9 @@ private:
   std::vector<std::array<std::optional<PlaceState>, 3>>
       states_; ///< by place and end; nothing: beyond its geometry
   std::vector<std::array<std::vector<OperatingState>, 3>> loads_;
-  std::vector<std::array<double, 3>> lives_; ///< s
-  std::vector<bool> outside_;                ///< supports to which their law did not apply in a stage
-  double time_ = 0.0;                        ///< s
+  std::array<std::vector<std::array<double, 3>>, 2> lives_; ///< s, by body, place and end
+  std::vector<bool> outside_; ///< supports to which their law did not apply in a stage
+  double time_ = 0.0;         ///< s
   results::GapOpening out_;
 };
 

@@ -240,6 +240,7 @@ void write_opening(const h5::Group& root, const Wear& wear) {
     for (const OpenedCurves& which : opened_curves)
       write_curves(group, which.name, which.unit, opened.*which.value);
     write_life(group, "life", opened.life);
+    write_life(group, "support_life", opened.support_life);
   }
 }
 
@@ -253,6 +254,7 @@ GapOpening read_opening(const h5::Group& root, const Wear& wear) {
     for (const OpenedCurves& which : opened_curves)
       opened.*which.value = read_curves(group, which.name);
     opened.life = read_life(group, "life");
+    opened.support_life = read_life(group, "support_life");
     for (const OpenedCurves& which : opened_curves)
       if ((opened.*which.value).value.size() != out.time.size() || opened.gap.size() != out.time.size())
         throw h5::Failure("stages of gap opening of unequal length");

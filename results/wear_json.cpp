@@ -146,7 +146,8 @@ Json gap_opening(const Wear& wear) {
                         {"work_rate", by_stage(opened.work_rate)},
                         {"depth_m", by_stage(opened.depth)},
                         {"support_depth_m", by_stage(opened.support_depth)},
-                        {"life_years", life(opened.life)}});
+                        {"life_years", life(opened.life)},
+                        {"support_life_years", life(opened.support_life)}});
   }
   return {{"end", opening.end},
           {"reason", opening.reason.empty() ? Json(nullptr) : Json(opening.reason)},

@@ -108,11 +108,12 @@ struct WearOfTube {
 
 /// One support through the stages of gap opening; lists by stage.
 struct OpenedSupport {
-  std::vector<double> gap;  ///< m, during the stage, in the direction of wear
-  WearCurves work_rate;     ///< W, mean over its states, at that gap
-  WearCurves depth;         ///< m, of the tube at the end of the stage; not a number beyond the geometry
-  WearCurves support_depth; ///< m
-  WearLife life;            ///< beyond the last stage at its work rates
+  std::vector<double> gap;    ///< m, during the stage, in the direction of wear
+  WearCurves work_rate;       ///< W, mean over its states, at that gap
+  WearCurves depth;           ///< m, of the tube at the end of the stage; not a number beyond the geometry
+  WearCurves support_depth;   ///< m
+  WearLife life;              ///< beyond the last stage at its work rates
+  WearLife support_life = {}; ///< likewise; an empty end: the support has no limit
 };
 
 /// The run repeated at the gaps that its wear has opened (wear/gap_opening.hpp). The wear of supports above is that of the first stage alone.

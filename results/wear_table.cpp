@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <numeric>
+#include <utility>
 
 namespace fretwork::results {
 namespace {
@@ -168,6 +169,22 @@ std::string end_text(const GapOpening& opening) {
   return opening.end == "stages_used" ? "no more stages" : "beyond the geometry";
 }
 
+/// Below the tube's: the lives of supports that have a limit.
+void add_opened_supports(std::vector<std::string>& lines, const Wear& wear,
+                         const std::vector<std::size_t>& shown) {
+  bool any = false;
+  for (const std::size_t s : shown) {
+    const OpenedSupport& o = wear.opening->supports[s];
+    if (o.support_life.end.empty())
+      continue;
+    if (!std::exchange(any, true))
+      lines.push_back(fmt::format("  {:<60} {:>22} {:>22}", "lives of the supports, with opened gaps",
+                                  "depth mm", "years to their limit"));
+    lines.push_back(fmt::format("  {:<60} {:>22} {:>22}", shortened(wear.supports[s].name, support_width),
+                                with_bounds(o.support_depth.last(), millimetre), years_text(o.support_life)));
+  }
+}
+
 /// Gap and work rate from the first stage to the last, depth at the end, life.
 void add_opening(std::vector<std::string>& lines, const Wear& wear, const std::vector<std::size_t>& shown) {
   const GapOpening& opening = *wear.opening;
@@ -184,8 +201,9 @@ void add_opening(std::vector<std::string>& lines, const Wear& wear, const std::v
         fmt::format("  {:<16} {:>18} {:>22} {:>22} {:>22}", shortened(wear.supports[s].name, support_width),
                     fmt::format("{:.3g} -> {:.3g}", millimetre * o.gap.front(), millimetre * o.gap.back()),
                     fmt::format("{:.3g} -> {:.3g}", o.work_rate.value.front(), o.work_rate.value.back()),
-                    with_bounds(o.depth.last(), millimetre), with_bounds(o.life.years, 1.0)));
+                    with_bounds(o.depth.last(), millimetre), years_text(o.life)));
   }
+  add_opened_supports(lines, wear, shown);
 }
 
 } // namespace

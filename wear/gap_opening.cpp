@@ -79,7 +79,7 @@ void limit_by(const Wearing& at, std::size_t place, const AdvanceOptions& option
     out.place = place;
     out.progress = Progress::go_on;
   }
-  const double limit = at.place.support.limit * at.place.support.wall;
+  const double limit = limit_of(at.place.support, WornBody::tube);
   const auto life = [&](double time) {
     const auto depth = at.depth(time);
     return depth ? depth->tube - limit : -limit;
@@ -218,17 +218,23 @@ std::optional<PlaceState> state_after(const Place& place, const PlaceState& stat
   return state_after(wearing_at(place, state, loads, 0, outside), time);
 }
 
-double time_to_limit(const Place& place, const PlaceState& state, std::span<const OperatingState> loads) {
+double limit_of(const WornSupport& place, WornBody body) {
+  return body == WornBody::tube ? place.limit * place.wall
+                                : place.support_limit.value_or(std::numeric_limits<double>::infinity());
+}
+
+double time_to_limit(const Place& place, const PlaceState& state, std::span<const OperatingState> loads,
+                     WornBody body) {
   std::vector<PlaceOutside> outside;
   const Wearing at = wearing_at(place, state, loads, 0, outside);
-  const double limit = place.support.limit * place.support.wall;
+  const double limit = limit_of(place.support, body);
   const auto lost = [&](double time) {
     const auto depth = at.depth(time);
-    return depth ? depth->tube - limit : limit; // beyond the geometry: the root is then checked
+    return depth ? depth_of(*depth, body) - limit : limit; // beyond the geometry: the root is then checked
   };
   if (lost(0.0) >= 0.0)
     return 0.0;
-  if (!at.wears())
+  if (!at.wears() || std::isinf(limit))
     return std::numeric_limits<double>::infinity();
   double before = 0.0;
   for (double time = first_look; time < last_look; time *= look_factor) {

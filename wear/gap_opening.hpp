@@ -30,7 +30,7 @@
 namespace fretwork::wear {
 
 struct Place {
-  WornSupport support;   ///< its `support_limit` does not count here
+  WornSupport support;   ///< its `support_limit` does not end an advance
   double initial_gap;    ///< m, >= 0: of new tube and support, in the direction of wear
   std::string name = {}; ///< in messages; empty: the number of the place
 };
@@ -90,10 +90,17 @@ struct Advance {
 /// @throws core::Error for input out of range
 [[nodiscard]] std::optional<PlaceState> state_after(const Place& place, const PlaceState& state,
                                                     std::span<const OperatingState> loads, double time);
-/// s from the state until the tube has lost its limit at constant work rates; infinity: never, or beyond the geometry.
+/// One of the two that wear at a place.
+enum class WornBody { tube, support };
+/// Depth that it may lose, m; infinity: it has no limit.
+[[nodiscard]] double limit_of(const WornSupport& place, WornBody body);
+[[nodiscard]] inline double depth_of(const PairDepth& depth, WornBody body) {
+  return body == WornBody::tube ? depth.tube : depth.support;
+}
+/// s from the state until a body has lost its limit at constant work rates; infinity: never, or beyond the geometry.
 /// @throws core::Error for input out of range
 [[nodiscard]] double time_to_limit(const Place& place, const PlaceState& state,
-                                   std::span<const OperatingState> loads);
+                                   std::span<const OperatingState> loads, WornBody body = WornBody::tube);
 
 /// Polar points (rad, m) of the free space of the tube's centre, one at the middle of each sector of sectors.hpp, for
 /// contact::Profile. Facets join them: between two middles of gap g the free space is narrower by up to

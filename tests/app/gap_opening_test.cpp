@@ -51,6 +51,26 @@ TEST(GapOpening, WithWorkRatesThatDoNotChangeKeepsTheLife) {
   EXPECT_TRUE(close_to(stages["gap_m"][1], gap + 0.1 * wall, bracketed)); // of both bodies together
 }
 
+TEST(GapOpening, GivesTheLivesOfSupports) {
+  const Workshop folder;
+  const auto stages_of = [&](const std::string& keys) {
+    const Results run = folder.run_text(bundle(folder, 1, "[transient]\nduration = 0.01\n") + archard +
+                                        "support_coefficient = 1e-14\n" + keys +
+                                        "states = [{ share = 1, work_rate = [1e-3, 2e-3, 4e-3] }]\n" +
+                                        opening("wall_share = 0.1\nleast_wall_share = 0.1\nyears = 10000\n"));
+    return std::pair(run.summary["wear"]["supports"][0]["support_life_years"],
+                     opened(run)["supports"][0]["support_life_years"]);
+  };
+  // the support loses half of what the tube does: 0.218 mm until the tube has lost its limit, which ends the stages
+  for (const char* limit : {"5e-5", "4e-4"}) {
+    const auto [alone, stages] = stages_of(fmt::format("support_limit = {}\n", limit));
+    EXPECT_EQ(stages["end"], "reached");
+    for (const char* end : {"value", "low", "high"})
+      EXPECT_TRUE(close_to(stages[end], alone[end], bracketed)) << limit << ", " << end;
+  }
+  EXPECT_TRUE(stages_of("").second.is_null());
+}
+
 TEST(GapOpening, RunsEachStageAtItsGap) {
   const Workshop folder;
   const std::string study = sliding_bundle(folder, 1);

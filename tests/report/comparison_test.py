@@ -74,6 +74,20 @@ class Comparison(unittest.TestCase):
     def test_shows_wear(self):
         self.assertEqual(len(self.table("Wear").rows), 3)
 
+    def test_shows_the_wear_of_supports_themselves(self):
+        def change(summary):
+            for support, (value, life) in zip(summary["wear"]["supports"], ((1e-4, {"end": "reached", "value": 12.5}), (2e-4, None), (0.0, None))):
+                support["support_depth_m"]["value"], support["support_life_years"] = value, life
+
+        for folder, factor in zip(self.folders, (1.0, 2.0)):
+            change_summary(folder, change)
+            change_summary(folder, lambda summary, factor=factor: summary["wear"]["supports"][0]["support_depth_m"].update(value=factor * 1e-4))
+        change_summary(self.folders[1], lambda summary: summary["wear"]["supports"][0].update(support_life_years={"end": "never", "value": None}))
+        rows = self.table("Wear of the supports").rows
+        self.assertEqual([row[0] for row in rows], ["tsp1", "tsp2"])  # the third loses nothing and has no limit
+        self.assertEqual(rows[0][1:], ["0.1", "0.2", "+100 %", "12.5", "never"])
+        self.assertEqual(rows[1][-2:], ["-", "-"])
+
     def test_two_runs_are_one_table_with_their_names(self):
         runs, found = compare_data.tables(self.folders)
         text = compare.as_texts(runs, ["a", "b"], found)

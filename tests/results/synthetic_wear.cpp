@@ -104,6 +104,8 @@ Wear made_up_wear(const RunResults& results) {
          {"reached",
           {12.5 / (static_cast<double>(c) + 1.0), 10.0 / (static_cast<double>(c) + 1.0),
            15.0 / (static_cast<double>(c) + 1.0)}}});
+    if (c == 3)
+      opening.supports.back().support_life = {"reached", {55.0, 44.0, 66.0}};
   }
   return wear;
 }

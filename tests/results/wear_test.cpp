@@ -199,6 +199,8 @@ TEST(WearInTheSummary, HasEverySupportWithItsIntervals) {
   EXPECT_EQ(opening["supports"][1]["gap_m"], (std::vector<double>{2e-4, 2.5e-4}));
   EXPECT_EQ(opening["supports"][1]["depth_m"][1]["high"], 1.2 * 3e-4);
   EXPECT_EQ(opening["supports"][1]["life_years"]["low"], 5.0);
+  EXPECT_TRUE(opening["supports"][1]["support_life_years"].is_null());
+  EXPECT_EQ(opening["supports"][3]["support_life_years"]["low"], 44.0);
 }
 
 TEST(WearInTheSummary, IsThereOnlyWhereTheStudyAsksForIt) {
@@ -253,6 +255,8 @@ TEST(WearInTheArchive, IsReadBackBitForBit) {
                   same((a.supports[i].*which).high, (b.supports[i].*which).high));
     EXPECT_EQ(a.supports[i].life.end, "reached");
     EXPECT_EQ(a.supports[i].life.years.high, b.supports[i].life.years.high);
+    EXPECT_EQ(a.supports[i].support_life.end, i == 3 ? "reached" : "");
+    EXPECT_TRUE(same({a.supports[i].support_life.years.low}, {b.supports[i].support_life.years.low}));
   }
 }
 
@@ -279,6 +283,16 @@ TEST(WearOnTheTerminal, FitsItsWidthAndShowsTheShortestLives) {
   EXPECT_EQ(lines[15], "  gaps opened in 2 stages up to 12.5 years: a tube has lost its limit");
   EXPECT_THAT(lines[17],
               HasSubstr("tsp20                   0.2 -> 0.25         0.002 -> 0.003     0.3 (0.24 to 0.36)"));
+}
+
+TEST(WearOnTheTerminal, HasTheLivesOfSupportsWithOpenedGaps) {
+  const auto lines = wear_lines(*worn(4).wear);
+  const auto head = std::find_if(lines.begin(), lines.end(), [](const std::string& line) {
+    return line.starts_with("  lives of the supports, with opened gaps");
+  });
+  ASSERT_GT(lines.end() - head, 2);
+  EXPECT_THAT(head[1], MatchesRegex("  tsp4 +0.15 \\(0.12 to 0.18\\) +55 \\(44 to 66\\)"));
+  EXPECT_THAT(head[2], HasSubstr("K m2/N")); // of the others nothing
 }
 
 TEST(WearOnTheTerminal, SaysWhatItsIntervalsAre) {

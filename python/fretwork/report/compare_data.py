@@ -150,17 +150,30 @@ def work_rates(runs, names):
     return Table("Work rates, W", heads, rows, [*range(len(names)), *(k for k in range(1, len(names)) for _ in range(2))])
 
 
-def _wear(run):
+def _wear(run, of=""):
+    """Depth, m, and life by support; of: "support_", what the supports themselves lose, of those that wear."""
+
     def life(support):
-        life = support["life_years"] or {"end": None, "value": None}
+        life = support[f"{of}life_years"] or {"end": None, "value": None}
         years = life["value"]
         return math.inf if life["end"] == "never" or (years is not None and years > 1 / ROUND_OFF) else years
 
-    return {s["name"]: (of_sum(s["depth_m"]["value"]) if s["depth_m"] else None, life(s)) for s in run.summary.get("wear", {}).get("supports", [])}
+    def wears(support):
+        return not of or (support["support_depth_m"] or {}).get("value") or support["support_life_years"]
+
+    depth = f"{of}depth_m"
+    return {s["name"]: (of_sum(s[depth]["value"]) if s[depth] else None, life(s)) for s in run.summary.get("wear", {}).get("supports", []) if wears(s)}
 
 
 def wear(runs, names):
-    tables = [_wear(run) for run in runs]
+    return _worn("Wear", [_wear(run) for run in runs], names)
+
+
+def wear_of_supports(runs, names):
+    return _worn("Wear of the supports themselves", [_wear(run, "support_") for run in runs], names)
+
+
+def _worn(title, tables, names):
     order = list(dict.fromkeys(name for found in tables for name in found))
     rows = []
     for name in order:
@@ -168,7 +181,7 @@ def wear(runs, names):
         depths = [None if depth is None else 1e3 * depth for depth, _ in values]
         rows.append([name, *(number(d, 3) for d in depths), *(change(d, depths[0]) for d in depths[1:]), *(number(life, 3) for _, life in values)])
     heads = ["support", *(f"depth mm, {n}" for n in names), *(f"change, {n}" for n in names[1:]), *(f"life years, {n}" for n in names)]
-    return Table("Wear", heads, rows, [*range(len(names)), *range(1, len(names)), *range(len(names))])
+    return Table(title, heads, rows, [*range(len(names)), *range(1, len(names)), *range(len(names))])
 
 
 def short_names(directories):
@@ -187,5 +200,5 @@ def tables(directories):
 
 
 def differences(runs, names):
-    found = [compare(runs, names) for compare in (differing_inputs, frequencies, work_rates, wear)]
+    found = [compare(runs, names) for compare in (differing_inputs, frequencies, work_rates, wear, wear_of_supports)]
     return [table for table in found if table.rows or table.title == "Inputs that differ"]

@@ -132,11 +132,17 @@ def _gap_opening(run):
          life(s["life_years"])]
         for s in opening["supports"]
     ]
+    worn = [
+        [html.escape(s["name"]), _bounds(bounds(s["support_depth_m"][-1]), 1e3), life(s["support_life_years"]) if s.get("support_life_years") else "no limit"]
+        for s in opening["supports"]
+        if s.get("support_life_years") or (s["support_depth_m"][-1]["value"] or 0) > 0
+    ]
     note = (
         f'<p class="soft">Gaps opened by wear in {len(opening["years"])} stages up to {short(opening["years"][-1])} years: {_ENDS[opening["end"]]}. '
         "From the first stage to the last; all else of this section is the first stage.</p>"
     )
-    return note + table(["support", "gap [mm]", "work rate [mW]", "depth at the end [mm]", "years to the limit"], rows, (0,))
+    supports = table(["the support itself", "depth at the end [mm]", "years to its limit"], worn, (0,)) if worn else ""
+    return note + table(["support", "gap [mm]", "work rate [mW]", "depth at the end [mm]", "years to the limit"], rows, (0,)) + supports
 
 
 def _angles(run, support):
