@@ -98,8 +98,17 @@ std::string figure(const json& value) {
   return value.is_string() ? value.get<std::string>() : fmt::format("{:.3g}", value.get<double>());
 }
 
+/// With its interval: "3.2 (2.9 to 3.6)", with one end "3.2 (above 2.9)". An end that is a text (never) leaves the other side without a bound.
 std::string interval(const json& entry) {
-  return fmt::format("{} ({} to {})", figure(entry["value"]), figure(entry["low"]), figure(entry["high"]));
+  const json &low = entry["low"], &high = entry["high"];
+  const std::string value = figure(entry["value"]);
+  if (!low.is_null() && !high.is_null())
+    return fmt::format("{} ({} to {})", value, figure(low), figure(high));
+  if (low.is_number())
+    return fmt::format("{} (above {})", value, figure(low));
+  if (high.is_number())
+    return fmt::format("{} (below {})", value, figure(high));
+  return low.is_string() ? value : value + " (no interval)";
 }
 
 bool is_of_all(const std::string& name) { return name.starts_with("worst.") || name.starts_with("total."); }

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "python"))
-from fretwork.report import sweep_view  # noqa: E402
+from fretwork.report import sweep, sweep_view  # noqa: E402
 
 FRETWORK, STUDY = sys.argv.pop(1), sys.argv.pop(1)
 HOSTILE = "<script>alert(1)</script>&"
@@ -126,6 +126,16 @@ class Report(unittest.TestCase):
         self.assertEqual(found["unknown"], [{"support": "support[1]", "body": "tube", "cases": acting}])
         self.assertEqual(sum(first["hits"] for first in found["supports"]) + found["never"], 12 - acting)
         self.assertIn(f"{acting} of them are not judged", self.page)
+
+    def test_intervals_of_one_end_are_in_words(self):
+        self.assertEqual(sweep.interval({"value": 3.0, "low": None, "high": 5.97}), "3 (below 5.97)")
+        self.assertEqual(sweep.interval({"value": 3.0, "low": 1.5, "high": None}), "3 (above 1.5)")
+        self.assertEqual(sweep.interval({"value": "never", "low": "never", "high": None}), "never")
+        self.assertEqual(sweep.interval({"value": 3.0, "low": None, "high": "never"}), "3 (no interval)")
+        self.report_of("draws = 8\nquantiles = [0.1, 0.5, 0.95]\n")
+        self.assertNotIn("(– to", self.page)
+        self.assertIn("(below ", self.page)
+        self.assertIn("(above ", self.page)
 
     def test_contacts_at_one_place_are_taken_together(self):
         nan = float("nan")

@@ -81,6 +81,30 @@ TEST(SummaryText, HasTheOutputsInTheirReadingOrder) {
   EXPECT_THAT(text, testing::Not(HasSubstr("a.work_rate")));
 }
 
+TEST(SummaryText, SaysIntervalsOfOneEndInWords) {
+  nlohmann::json summary{{"design", "monte_carlo"}, {"cases", 8}, {"rows", 8}, {"done", 8}};
+  summary["warnings"] = nlohmann::json::array();
+  summary["columns"] = {"a.years", "b.years"};
+  summary["units"] = nlohmann::json::object();
+  summary["statistics"] = {{"limits", nlohmann::json::array()}, {"sensitivities", nlohmann::json::object()}};
+  const auto quantile = [](const nlohmann::json& value, const nlohmann::json& low,
+                           const nlohmann::json& high) {
+    return nlohmann::json{{"probability", 0.5}, {"value", value}, {"low", low}, {"high", high}};
+  };
+  const nlohmann::json none;
+  summary["statistics"]["outputs"]["a.years"]["quantiles"] = {
+      quantile(3.0, none, 5.97), quantile(3.0, 1.5, none), quantile(3.0, none, none)};
+  summary["statistics"]["outputs"]["b.years"]["quantiles"] = {
+      quantile(3.0, none, "never"), quantile("never", "never", none), quantile(3.0, 2.0, "never")};
+  summary["statistics"]["convergence"] = {{"output", "a.years"}, {"quantile", 0.5}, {"relative_error", 0.05},
+                                          {"error", 0.1},        {"cases", 8},      {"cases_needed", 8},
+                                          {"reached", false}};
+  EXPECT_THAT(summary_text(summary),
+              testing::ContainsRegex("a.years +3 .below 5.97. +3 .above 1.5. +3 .no interval.\n"));
+  EXPECT_THAT(summary_text(summary),
+              testing::ContainsRegex("b.years +3 .no interval. +never +3 .2 to never.\n"));
+}
+
 TEST(SummaryText, SaysWhichCasesCannotBeJudged) {
   nlohmann::json summary{{"design", "monte_carlo"}, {"cases", 8}, {"rows", 8}, {"done", 8}};
   summary["warnings"] = nlohmann::json::array();

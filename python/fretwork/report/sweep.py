@@ -59,7 +59,15 @@ def figure_of(value):
 
 
 def interval(entry):
-    return f"{figure_of(entry['value'])} ({figure_of(entry['low'])} to {figure_of(entry['high'])})"
+    """With its interval: "3.2 (2.9 to 3.6)", with one end "3.2 (above 2.9)". An end that is a text (never) leaves the other side without a bound."""
+    value, low, high = figure_of(entry["value"]), entry["low"], entry["high"]
+    if low is not None and high is not None:
+        return f"{value} ({figure_of(low)} to {figure_of(high)})"
+    if low is not None and not isinstance(low, str):
+        return f"{value} (above {figure_of(low)})"
+    if high is not None and not isinstance(high, str):
+        return f"{value} (below {figure_of(high)})"
+    return value if isinstance(low, str) else f"{value} (no interval)"
 
 
 def key_figures(sweep):
