@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs compared."""
 
+import math
 import re
 import tempfile
 import unittest
 from pathlib import Path
+
+import numpy as np
 
 from report_case import Checker, archive_to_change, made_up  # first: it makes the package known
 
@@ -65,11 +68,54 @@ class Comparison(unittest.TestCase):
         self.assertEqual(said["tsp1"], "equal")
         self.assertIn("within scatter", said["tsp2"])
         self.assertIn("significant", said["tsp3"])
-        self.assertEqual(compare_data.significance((1.0, None), (2.0, 0.1)), "scatter unknown")
+        self.assertEqual(compare_data.significance(compare_data.chance((1.0, None, None), (2.0, 0.1, 20))), "scatter unknown")
 
     def test_round_off_does_not_differ(self):
         one, other = (compare_data._work({"work_rate": rate, "standard_error": {"work_rate": 1e-46}}) for rate in (5e-46, 1.5e-45))
-        self.assertEqual(compare_data.significance(one, other), "equal")
+        self.assertEqual(compare_data.significance(compare_data.chance(one, other)), "equal")
+
+    def test_chances_are_those_of_student_with_welch_s_degrees_of_freedom(self):
+        for freedom in (2.0, 4.0):  # closed forms
+            for t in (0.0, 0.1, 1.0, 4.0, 30.0):
+                x = t / math.sqrt(t * t + freedom)
+                tail = 1.0 - x if freedom == 2.0 else (1.0 - x) ** 2 * (1.0 + 0.5 * x)
+                self.assertAlmostEqual(compare_data.outside_student(t, freedom) / tail, 1.0, 9)
+        self.assertAlmostEqual(compare_data.outside_student(2.085963, 20.0), 0.05, 6)  # tables
+        self.assertAlmostEqual(compare_data.outside_student(1.959964, 1e6), 0.05, 6)
+        self.assertAlmostEqual(compare_data.outside_student(2.0, 900.0), compare_data.outside_student(2.0, 1e6), 3)
+        # two alike: twice the degrees of freedom of one, which are those of its batches and of its own relative error (doc/wear.md, 3.2)
+        one, other = (1.0, 0.05, 21), (1.2, 0.05 * 1.2, 21)
+        freedom = 1.0 / (1.0 / 20.0 + 0.5 * 0.05**2)
+        expected = (0.05**2 + 0.06**2) ** 2 / ((0.05**4 + 0.06**4) / freedom)
+        self.assertAlmostEqual(compare_data.chance(one, other), compare_data.outside_student(0.2 / math.hypot(0.05, 0.06), expected), 12)
+        self.assertEqual(compare_data.chance(one, (1.2, None, None)), "scatter unknown")
+
+    def test_many_differences_are_judged_together(self):
+        chances = [0.04, 0.3, 0.01, 0.9]
+        self.assertEqual(compare_data.holm(chances), 0.01)  # 0.05/4, but not 0.04: above 0.05/3
+        self.assertEqual(compare_data.holm([0.04]), 0.04)
+        self.assertLess(compare_data.holm([0.04] * 2), 0.0)
+        self.assertEqual(compare_data.holm([0.04, 0.001]), 0.04)
+        self.assertEqual((compare_data.significance(0.04, 0.01), compare_data.significance(1e-12, 0.01)), ("within scatter, p = 0.04", "significant, p < 1e-09"))
+        # of alike runs with a hundred contacts one pair in twenty has a significant difference, where five contacts of each would be beyond 5 %
+        rng, false, single = np.random.default_rng(1), 0, 0
+        for _ in range(200):
+            a, b = rng.normal(1.0, 0.05, (2, 100))
+            found = [compare_data.chance((x, 0.05, None), (y, 0.05, None)) for x, y in zip(a, b)]
+            false += compare_data.holm(found) >= 0.0
+            single += sum(p <= 0.05 for p in found)
+        self.assertLessEqual(false, 0.05 * 200 + 3 * math.sqrt(0.05 * 0.95 * 200))
+        self.assertGreater(single, 4 * 200)
+
+    def test_the_table_says_how_it_judges(self):
+        table = self.table("Work rates")
+        judged = [row[-1] for row in table.rows if ", p " in row[-1]]
+        self.assertEqual(len(judged), 2)  # tsp2 and tsp3; the others are equal
+        self.assertIn("any of 2 differences in at most 5 % of comparisons (Holm)", table.note)
+        runs, found = compare_data.tables(self.folders)
+        self.assertIn(f"Work rates, W\n  {table.note}\n", compare.as_texts(runs, ["a", "b"], found))
+        self.assertIn(table.note, compare.as_page(runs, ["a", "b"], found))
+        self.assertLessEqual(len(table.note) + 2, compare.WIDTH)
 
     def test_shows_wear(self):
         self.assertEqual(len(self.table("Wear").rows), 3)

@@ -49,7 +49,7 @@ def as_text(table):
     if not table.rows:
         return f"{table.title}: none\n"
     parts = ["\n".join(_lines(table, columns)) for columns in _blocks(table)]
-    return "\n".join([table.title, "\n\n".join(parts)]) + "\n"
+    return "\n".join([table.title, *([f"  {table.note}"] if table.note else []), "\n\n".join(parts)]) + "\n"
 
 
 def as_texts(runs, names, found):
@@ -72,10 +72,11 @@ def _orbit(run, name):
 
 
 def as_page(runs, names, found):
-    body = "".join(
-        page.section(t.title, page.table([html.escape(h) for h in t.heads], [[html.escape(cell).replace("+-", "±") for cell in row] for row in t.rows]) if t.rows else "<p>none</p>")
-        for t in found
-    )
+    def as_table(t):
+        cells = [[html.escape(cell).replace("+-", "±") for cell in row] for row in t.rows]
+        return (f'<p class="soft">{html.escape(t.note)}</p>' if t.note else "") + page.table([html.escape(h) for h in t.heads], cells)
+
+    body = "".join(page.section(t.title, as_table(t) if t.rows else "<p>none</p>") for t in found)
     body += page.section("Structure", _side_by_side(runs, names, lambda run: structure_view.structure(run, 480)[0]))
     worn = sorted((c for c in runs[0].contacts if c.summary), key=lambda c: -(c.summary["work_rate"] or 0))[:MOST_ORBITS]
     for contact in worn:

@@ -6,10 +6,15 @@ import math
 import tomllib
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from . import run_data
 from .drawing import ROUND_OFF, of_sum
 
-SIGNIFICANT = 3.0  # standard errors of a difference from which on it is none of scatter (0.3 % of the time by chance)
+FAMILY = 0.05  # chance that scatter makes any of the differences of a table significant
+NORMAL = 1000.0  # degrees of freedom above which Student's distribution is the normal one
+LEAST_FREEDOM = 2.0
+SMALLEST_P = 1e-9  # that is shown
 FREQUENCIES = 10
 NO_CHANGE = 1e-6  # per cent
 LARGE_CHANGE = 1000  # per cent, above which a change is given as a factor
@@ -21,6 +26,7 @@ class Table:
     heads: list
     rows: list  # lists of texts
     runs: list = field(default_factory=list)  # for each column but the first, the number of the run that it is of
+    note: str = ""
 
 
 def number(value, digits=4):
@@ -49,9 +55,28 @@ def change(value, reference):
     return f"{per_cent:+.0f} %" if abs(per_cent) >= 10 else f"{per_cent:+.2g} %"
 
 
-def significance(one, other):
-    """What the difference of two (value, standard error) means."""
-    (a, a_error), (b, b_error) = one, other
+def outside_student(t, freedom):
+    """Chance that a variable of Student's distribution leaves +-t; with t = sqrt(freedom) cot(angle) it is the integral of sin(angle)^(freedom - 1)."""
+    if freedom > NORMAL:
+        return math.erfc(t / math.sqrt(2.0))
+    half = 0.5 * math.atan2(math.sqrt(freedom), t)
+    nodes, weights = np.polynomial.legendre.leggauss(64)
+    integral = half * float(weights @ np.sin(half * (nodes + 1.0)) ** (freedom - 1.0))
+    return 2.0 / math.sqrt(math.pi) * math.exp(math.lgamma(0.5 * freedom + 0.5) - math.lgamma(0.5 * freedom)) * integral
+
+
+def _freedom(value, error, batches):
+    """Degrees of freedom of a standard error (doc/wear.md, 3.2)."""
+    if value == 0.0:
+        return LEAST_FREEDOM
+    inverse = (1.0 / (batches - 1.0) if batches else 0.0) + 0.5 * (error / value) ** 2
+    return max(LEAST_FREEDOM, 1.0 / inverse) if inverse > 0.0 else math.inf
+
+
+def chance(one, other):
+    """p: the chance of a difference as large by scatter (B. L. Welch, Biometrika 34 (1947) 28), of two (value, standard error, batches behind it);
+    a text where it is not known."""
+    (a, a_error, a_batches), (b, b_error, b_batches) = one, other
     if None in (a, b):
         return "-"
     if a == b:
@@ -59,9 +84,26 @@ def significance(one, other):
     errors = [error for error in (a_error, b_error) if error is not None and math.isfinite(error)]
     if len(errors) < 2 or math.hypot(*errors) == 0:
         return "scatter unknown"
-    size = abs(b - a) / math.hypot(*errors)
-    times = f"{size:.1f}" if size < 10 else f"{size:.0f}"
-    return ("significant" if size >= SIGNIFICANT else "within scatter") + f", {times} std. errors"
+    parts = [(error * error / sum(e * e for e in errors), _freedom(value, error, batches)) for value, error, batches in (one, other) if error > 0.0]
+    inverse = sum(share * share / freedom for share, freedom in parts)
+    return outside_student(abs(b - a) / math.hypot(*errors), 1.0 / inverse if inverse > 0.0 else math.inf)
+
+
+def holm(chances):
+    """The largest p that is significant among those of differences that are judged at once; below 0: none is (S. Holm, Scand. J. Stat. 6 (1979) 65)."""
+    found = -1.0
+    for number, p in enumerate(sorted(chances)):
+        if p > FAMILY / (len(chances) - number):
+            break
+        found = p
+    return found
+
+
+def significance(p, largest=FAMILY):
+    """In words. largest: the p up to which differences are significant."""
+    if isinstance(p, str):
+        return p
+    return ("significant" if p <= largest else "within scatter") + (f", p = {p:.1g}" if p >= SMALLEST_P else f", p < {SMALLEST_P:.0e}")
 
 
 def _names(entries):
@@ -133,7 +175,9 @@ def frequencies(runs, names):
 
 
 def _work(entry):
-    return of_sum(entry["work_rate"]), of_sum(entry.get("standard_error", {}).get("work_rate"))
+    """Value, standard error and the batches behind it."""
+    error = entry.get("standard_error", {})
+    return of_sum(entry["work_rate"]), of_sum(error.get("work_rate")), error.get("work_rate_batches")
 
 
 def work_rates(runs, names):
@@ -141,13 +185,18 @@ def work_rates(runs, names):
     tables = [{"all contacts": run.summary["contact_sums"], **{c["name"]: c for c in run.summary["contacts"]}}
               if "contact_sums" in run.summary else {} for run in runs]
     order = list(dict.fromkeys(name for found in tables for name in found))
+    works = {name: [_work(found[name]) if name in found else (None, None, None) for found in tables] for name in order}
+    chances = {name: [chance(values[0], value) for value in values[1:]] for name, values in works.items()}
+    judged = [p for ps in chances.values() for p in ps if not isinstance(p, str)]
+    largest = holm(judged)
     rows = []
-    for name in order:
-        values = [_work(found[name]) if name in found else (None, None) for found in tables]
-        rows.append([name, *(with_error(*value) for value in values)]
-                    + [text for value in values[1:] for text in (change(value[0], values[0][0]), significance(values[0], value))])
+    for name, values in works.items():
+        rows.append([name, *(with_error(value, error) for value, error, _ in values)]
+                    + [text for value, p in zip(values[1:], chances[name]) for text in (change(value[0], values[0][0]), significance(p, largest))])
     heads = ["contact", *names] + [text for name in names[1:] for text in (f"change, {name}", "significance")]
-    return Table("Work rates, W", heads, rows, [*range(len(names)), *(k for k in range(1, len(names)) for _ in range(2))])
+    counted = f"{len(judged)} difference{'s' if len(judged) > 1 else ''}"
+    note = f"significant: by scatter any of {counted} in at most {100 * FAMILY:g} % of comparisons (Holm); p: of one alone" if judged else ""
+    return Table("Work rates, W", heads, rows, [*range(len(names)), *(k for k in range(1, len(names)) for _ in range(2))], note)
 
 
 def _wear(run, of=""):
