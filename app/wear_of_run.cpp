@@ -253,6 +253,48 @@ void add_scar(const WornPlace& place, const std::optional<wear::ImpactSliding>& 
     set_sector_depths(place.worn, shares, support);
 }
 
+/// The place with its scars about a corner of their lands, where they are those of broached holes.
+std::optional<WornPlace> about_corners(const WornPlace& place, const std::vector<PlacedContact>& placed) {
+  WornPlace out = place;
+  auto* shared = std::get_if<wear::SharedScar>(&out.worn.pairing);
+  auto* lands =
+      shared && shared->form == wear::Form::exact ? std::get_if<wear::Lands>(&shared->geometry) : nullptr;
+  if (!lands || !std::all_of(place.contacts.begin(), place.contacts.end(), [&](std::size_t c) {
+        return std::holds_alternative<contact::BroachedSpace>(placed[c].obstacle);
+      }))
+    return {};
+  lands->middles = {lands->half_angle};
+  return out;
+}
+
+/// Volume, depth and life of all scars of a support, which has its states and times.
+void add_scars(const WornPlace& place, const StateRates& rates,
+               const std::optional<wear::ImpactSliding>& indices, results::WearOfSupport& support) {
+  if (place.sides.empty())
+    add_scar(place, indices, support);
+  else
+    add_sides(place, rates, indices, support);
+}
+
+/// How much of the work of this run is at corners of lands, and what a scar about a corner would be.
+void set_corners(const WornPlace& place, const std::vector<PlacedContact>& placed, const StateRates& rates,
+                 const std::optional<wear::ImpactSliding>& indices, const results::RunResults& run,
+                 results::WearOfSupport& support) {
+  double work = 0.0, at_corners = 0.0;
+  for (const std::size_t c : place.contacts) {
+    work += run.contact_summaries[c].work_rate;
+    at_corners += run.contact_summaries[c].corner_work_rate;
+  }
+  const std::optional<WornPlace> corners = about_corners(place, placed);
+  if (!corners || !(work > 0.0))
+    return;
+  support.corner_share = at_corners / work;
+  results::WearOfSupport about = support; // without scars yet
+  add_scars(*corners, rates, indices, about);
+  support.corner_depth = about.depth.last().value;
+  support.corner_years = about.life.years.value;
+}
+
 /// Number of the structure that a node belongs to; -1: none.
 std::int64_t tube_of(const std::vector<modal::Basis>& bases, core::Index node) {
   for (std::size_t s = 0; s < bases.size(); ++s)
@@ -274,6 +316,34 @@ void warn(results::RunResults& out, True is_true,
     }
   if (first)
     out.warnings.push_back(fmt::format("wear of {}: {}", core::list_names(names, most_names), text(*first)));
+}
+
+/// Where depths at corners of lands are no matter of digits, with the deepest of these scars.
+void add_corner_note(results::RunResults& out) {
+  constexpr double least_share = 0.05, least_excess = 1.05; // of the work, of the depth
+  std::vector<std::string> names;
+  const results::WearOfSupport* deepest = nullptr;
+  for (const results::WearOfSupport& s : out.wear->supports)
+    if (s.corner_share > least_share && s.corner_depth > least_excess * s.depth.last().value) {
+      names.push_back(s.name);
+      deepest = !deepest || s.corner_depth > deepest->corner_depth ? &s : deepest;
+    }
+  if (!deepest)
+    return;
+  const auto years = [](double value) {
+    return std::isnan(value)   ? std::string("unknown years")
+           : std::isinf(value) ? std::string("never")
+                               : fmt::format("{:.3g} years", value);
+  };
+  out.notes.push_back(fmt::format("wear of {}: work at corners of lands, of \"{}\" {:.0f} %, where scars are "
+                                  "deeper than about the middles of "
+                                  "lands, as depths and years are: if all its work were there, {:.3g} mm "
+                                  "after {:.4g} years instead of {:.3g} "
+                                  "mm, {} to its limit instead of {}",
+                                  core::list_names(names, most_names), deepest->name,
+                                  100.0 * deepest->corner_share, 1e3 * deepest->corner_depth,
+                                  deepest->time.back() / wear::year, 1e3 * deepest->depth.last().value,
+                                  years(deepest->corner_years), years(deepest->life.years.value)));
 }
 
 void add_warnings(results::RunResults& out) {
@@ -358,14 +428,13 @@ void add_wear(const study::Study& study, const std::vector<WornPlace>& places,
     support.work_rate = mean_of_states(support.states);
     support.sector_rates = sum_of_sectors(out, place);
     support.time = times_over(entry.years);
-    if (place.sides.empty())
-      add_scar(place, indices, support);
-    else
-      add_sides(place, rates, indices, support);
+    set_corners(place, placed, rates, indices, out, support);
+    add_scars(place, rates, indices, support);
     out.wear->supports.push_back(std::move(support));
   }
   out.wear->tubes = results::wear_by_tube(out.wear->supports);
   add_warnings(out);
+  add_corner_note(out);
   warn_of_unworn(study, places, placed, out);
 }
 

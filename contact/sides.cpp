@@ -72,6 +72,7 @@ SideFinder::SideFinder(const Obstacle& obstacle) {
     return;
   lands_ = space->hole().lands;
   orientation_ = space->hole().orientation;
+  half_land_ = 0.5 * space->hole().land_angle;
 }
 
 std::size_t SideFinder::land_of(const ContactAxes& axes) const {

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,11 +45,21 @@ public:
   [[nodiscard]] std::size_t operator()(const ContactAxes& axes) const {
     return lands_ == 0 ? flat_side_of(axes) : land_of(axes);
   }
+  /// Whether a tube that touches, its centre at a place (m, from the middle of the hole), is at the corner of a land, the end of its width: seen
+  /// from the middle, the centre is beside the land. Never true of other obstacles.
+  [[nodiscard]] bool at_corner(double y, double z) const {
+    return lands_ != 0 && std::abs(from_land(std::atan2(z, y))) > half_land_;
+  }
 
 private:
   [[nodiscard]] std::size_t land_of(const ContactAxes& axes) const;
+  /// rad, of an angle from the middle of the nearest land.
+  [[nodiscard]] double from_land(double angle) const {
+    return std::remainder(angle - orientation_, 2.0 * std::numbers::pi / lands_);
+  }
   int lands_ = 0;            ///< 0: flat faces
   double orientation_ = 0.0; ///< rad, of the first land
+  double half_land_ = 0.0;   ///< rad, half the angle of a land
 };
 
 } // namespace fretwork::contact

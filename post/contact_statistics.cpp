@@ -98,7 +98,11 @@ void ContactStatistics::step(const transient::Record& record) {
       s.longest = std::max(s.longest, s.duration);
     }
     if (inside) {
-      s.add(state, record.step, side_of_[static_cast<std::size_t>(c)]);
+      const contact::SideFinder& side_of = side_of_[static_cast<std::size_t>(c)];
+      s.add(state, record.step, side_of);
+      if (state.wear_work > 0.0 && side_of.at_corner(rest_y_[static_cast<std::size_t>(c)] + record.uy[c],
+                                                     rest_z_[static_cast<std::size_t>(c)] + record.uz[c]))
+        s.slid_at_corners += state.wear_work;
       watch_penetration(record, static_cast<std::size_t>(c));
     }
   }
@@ -285,6 +289,7 @@ std::vector<ContactSummary> ContactStatistics::summaries() const {
     o.penetration_max = law.damps() ? s.deepest : s.normal_max / law.stiffness;
     const bool slides = this->slides(c);
     o.work_rate = slides ? s.slid / time_ : 0.0;
+    o.corner_work_rate = slides ? s.slid_at_corners / time_ : 0.0;
     o.friction_power = slides ? s.friction / time_ : 0.0;
     o.impulse = s.impulse;
     o.sliding_distance = slides ? s.distance : 0.0;

@@ -63,6 +63,7 @@ struct ContactSummary {
   double impact_rate = 0.0;            ///< 1/s, impacts over the length of the window
   StandardErrors error = {};
   SideWorks sides = {}; ///< `work_rate` by number of the side of the contact point (contact/sides.hpp)
+  double corner_work_rate = 0.0; ///< W, the part of `work_rate` at corners of lands
 };
 
 class ContactStatistics final : public transient::ContactObserver {
@@ -89,6 +90,7 @@ private:
     double deepest = 0.0;                              ///< m, penetration at the records
     bool counted = false;                              ///< the impact under way started in the window
     std::array<double, contact::most_sides> slid_at{}; ///< `slid` by side
+    double slid_at_corners = 0.0;                      ///< of `slid`
     /// A step with force, in the window.
     void add(const transient::ContactState& state, double step, const contact::SideFinder& side_of);
   };

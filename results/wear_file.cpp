@@ -22,7 +22,10 @@ constexpr NumberOf figures[] = {{"coefficient", &WearOfSupport::coefficient},
                                 {"support_limit", &WearOfSupport::support_limit},
                                 {"impact_index", &WearOfSupport::impact_index},
                                 {"sliding_index", &WearOfSupport::sliding_index},
-                                {"share_above", &WearOfSupport::share_above}};
+                                {"share_above", &WearOfSupport::share_above},
+                                {"corner_share", &WearOfSupport::corner_share},
+                                {"corner_depth", &WearOfSupport::corner_depth},
+                                {"corner_years", &WearOfSupport::corner_years}};
 struct SizeOf {
   const char* name;
   double WornScar::*value;
@@ -33,7 +36,8 @@ constexpr SizeOf scar_sizes[] = {{"scar_width", &WornScar::scar_width},
 constexpr const char* units =
     "coefficient, support_coefficient: m2/N; radius, wall, length, clearance, limit, support_limit, "
     "scar_width, "
-    "scar_length: m; inclination, scar_half_angle: rad; work_rate (value, low, high): W; life_years, "
+    "scar_length, corner_depth: m; corner_years: years; inclination, scar_half_angle: rad; work_rate (value, "
+    "low, high): W; life_years, "
     "support_life_years (value, low, high): years, infinity: never";
 
 struct TextOf {

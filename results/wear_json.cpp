@@ -104,6 +104,10 @@ Json support(const WearOfSupport& s, const std::vector<std::string>& contacts) {
   out.update(scar(s));
   if (!s.sides.empty())
     out["sides"] = sides(s);
+  if (!std::isnan(s.corner_share))
+    out["corners"] = {{"work_share", number(s.corner_share)},
+                      {"depth_m", number(s.corner_depth)},
+                      {"life_years", number(s.corner_years)}};
   out["sectors"] = sectors(s);
   if (s.confidence)
     out["confidence"] = *s.confidence;

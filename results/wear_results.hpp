@@ -85,8 +85,12 @@ struct WearOfSupport : WornScar {
   double impact_index = no_value, sliding_index = no_value; ///< Si, Sg of kwu_epri
   double share_above = no_value; ///< of the time in contact that is above the maxima of kwu_epri's classes
 
-  std::vector<double> time;         ///< s, from 0 to the years asked for
-  std::vector<WearOfSide> sides;    ///< scars of several flat faces or lands; else empty
+  std::vector<double> time;      ///< s, from 0 to the years asked for
+  std::vector<WearOfSide> sides; ///< scars of several flat faces or lands; else empty
+  double corner_share =
+      no_value; ///< of the work of this run, at corners of lands; not a number: no lands, or no work
+  double corner_depth = no_value,
+         corner_years = no_value;   ///< m at the last time and a, of the tube, were all scars about corners
   std::vector<double> sector_rates; ///< W, of this run by angular sector of the contact point, from -pi on
   std::vector<double> sector_depth, sector_support_depth; ///< m, at the last time; geometry "sectors" only
 };

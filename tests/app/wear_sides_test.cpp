@@ -121,6 +121,37 @@ TEST(WearSides, OfABroachedHoleAreItsLands) {
   EXPECT_TRUE(says(run.summary["contacts"].dump(), "land 2"));
 }
 
+// A scar about the corner of a land loses half of its width; the note says how much deeper that is.
+TEST(WearSides, OfLandsSayWhichShareOfTheWorkIsAtCorners) {
+  const Workshop folder;
+  const Results run = folder.run_text(
+      between_bars(folder, archard + "years = 1e-7\n",
+                   "obstacle = \"broached\"\ntube_radius = 9.525e-3\nland_radius = 9.535e-3\nlobe_radius = "
+                   "0.012\nlands = 4\nland_angle = 20"));
+  const auto& corners = support(run)["corners"];
+  const double share = corners["work_share"];
+  EXPECT_GT(share, 0.05);
+  EXPECT_LT(share, 1.0);
+  const double half = 10.0 * std::numbers::pi / 180.0;
+  const wear::Lands middle{radius, 1e-5, 0.02, half};
+  wear::Lands corner = middle;
+  corner.middles = {half};
+  double deepest = 0.0, about_corner = 0.0;
+  for (const auto& side : support(run)["sides"]) {
+    const double volume = side["volume_m3"]["value"];
+    deepest = std::max(deepest, wear::depth(middle, volume).value());
+    about_corner = std::max(about_corner, wear::depth(corner, volume).value());
+  }
+  EXPECT_TRUE(close_to(support(run)["depth_m"]["value"], deepest, bracketed));
+  EXPECT_TRUE(close_to(corners["depth_m"], about_corner, bracketed));
+  EXPECT_GT(about_corner, 1.1 * deepest);
+  EXPECT_LT(corners["life_years"].get<double>(), support(run)["life_years"]["value"].get<double>());
+  EXPECT_TRUE(says(run.summary["notes"].dump(),
+                   "wear of \\\"support0\\\": work at corners of lands, of \\\"support0\\\" " +
+                       fmt::format("{:.0f} %", 100.0 * share)));
+  EXPECT_FALSE(support(folder.run_text(between_bars(folder, archard))).contains("corners"));
+}
+
 // The reference form of lands is a formula of all of them together.
 TEST(WearSides, AreNotThoseOfTheReferenceFormOfLands) {
   const Workshop folder;

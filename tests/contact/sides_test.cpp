@@ -77,6 +77,19 @@ TEST(Sides, OfABroachedHoleAreItsLands) {
     }
 }
 
+TEST(Sides, AreLeftAtTheCornersOfLands) {
+  const double half = 0.15, turn = 2.0 * std::numbers::pi, first = 20.0 * std::numbers::pi / 180.0;
+  const SideFinder side_of(broached(4, 20.0));
+  for (int land = 0; land < 4; ++land)
+    for (const double off : {-0.5, -0.16, -0.14, 0.0, 0.14, 0.16, 0.5}) {
+      const double angle = first + land * turn / 4.0 + off;
+      EXPECT_EQ(side_of.at_corner(2e-4 * std::cos(angle), 2e-4 * std::sin(angle)), std::abs(off) > half)
+          << off;
+    }
+  EXPECT_FALSE(SideFinder(Circle{1e-4}).at_corner(1e-4, 1e-4));
+  EXPECT_FALSE(SideFinder(broached(9, 0.0)).at_corner(1e-4, 1e-4)); // one surface
+}
+
 TEST(Sides, HaveNumbersByTheirNames) {
   EXPECT_EQ(side_number("land 8"), 7u);
   EXPECT_FALSE(side_number("land 9"));
