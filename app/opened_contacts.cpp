@@ -3,15 +3,21 @@
 #include "contact/support_shapes.hpp"
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 
 namespace fretwork::app {
 namespace {
 
-/// The corners moved away from the origin by a function of their place.
+/// The corners moved away from the origin by a function of their place, or of that and their number.
 template <class Moved> contact::Profile moved_profile(const contact::Profile& profile, Moved moved) {
   std::vector<contact::PolarPoint> points;
   for (const contact::PlanePoint& corner : profile.vertices()) {
-    const auto [y, z] = moved(corner);
+    const auto [y, z] = [&] {
+      if constexpr (std::is_invocable_v<Moved, contact::PlanePoint, std::size_t>)
+        return moved(corner, points.size());
+      else
+        return moved(corner);
+    }();
     points.push_back({std::atan2(z, y), std::hypot(y, z)});
   }
   // the first corner keeps its place: angles increase from it on, within one turn
@@ -25,6 +31,18 @@ contact::Profile opened_rectangle(const contact::Profile& profile, double growth
   return moved_profile(profile, [&](const contact::PlanePoint& corner) {
     return contact::PlanePoint{corner.y + std::copysign(growth_y, corner.y),
                                corner.z + std::copysign(growth_z, corner.z)};
+  });
+}
+
+/// Each facet moved along its normal: corners are where neighbours then meet.
+contact::Profile opened_facets(const contact::Profile& profile,
+                               const std::vector<contact::PlanePoint>& normals, const SideGrowth& growth) {
+  return moved_profile(profile, [&](const contact::PlanePoint& corner, std::size_t i) {
+    const std::size_t before = (i + normals.size() - 1) % normals.size();
+    const contact::PlanePoint &a = normals[before], &b = normals[i];
+    const double sine = a.y * b.z - a.z * b.y;
+    return contact::PlanePoint{corner.y + (growth[before] * b.z - growth[i] * a.z) / sine,
+                               corner.z + (growth[i] * a.y - growth[before] * b.y) / sine};
   });
 }
 
@@ -47,6 +65,11 @@ struct Opened {
     return contact::Ellipse{shape.semi_y + growth, shape.semi_z + growth, shape.radius};
   }
   contact::Obstacle operator()(const contact::Profile& shape) const {
+    if (const auto normals = contact::facet_normals(shape); !normals.empty()) {
+      SideGrowth all;
+      all.fill(growth);
+      return opened_facets(shape, normals, all);
+    }
     if (!contact::sides_of(shape).empty())
       return opened_rectangle(shape, growth, growth);
     return moved_profile(shape, [this](const contact::PlanePoint& corner) {
@@ -79,6 +102,10 @@ contact::Obstacle opened_obstacle(const contact::Obstacle& obstacle, double grow
 void open_sides(const SideGrowth& growth, PlacedContact& placed) {
   if (std::holds_alternative<contact::BroachedSpace>(placed.obstacle))
     return open_lands(growth, placed.obstacle);
+  if (const auto normals = contact::facet_normals(placed.obstacle); !normals.empty()) {
+    placed.obstacle = opened_facets(std::get<contact::Profile>(placed.obstacle), normals, growth);
+    return;
+  }
   // of two opposite sides
   const auto mean = [&](std::size_t side) { return 0.5 * (growth[side] + growth[side + 2]); };
   const auto shift = [&](std::size_t side) { return 0.5 * (growth[side] - growth[side + 2]); };

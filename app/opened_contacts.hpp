@@ -3,12 +3,13 @@
 /// Obstacles of contacts after wear.
 ///
 /// Flat faces on several sides of the tube, of planes, bars and egg crates, move away from it each by p_t + p_s of its own side: the
-/// obstacle grows by the mean of two opposite sides, and its centre moves by half their difference. The radius of each land grows by
-/// p_t + p_s of its own. All of any other obstacle moves by p_t + p_s of its support: the sum of the clearances of two sides is an upper bound.
+/// obstacle grows by the mean of two opposite sides, and its centre moves by half their difference. Each facet of a convex polygon moves
+/// along its normal, and the radius of each land grows, by p_t + p_s of its own. All of any other obstacle moves by p_t + p_s of its support: the sum of the clearances of two sides is an upper bound.
 ///     circle, planes, stop      gap + growth
 ///     ellipse                   semi-axes + growth
 ///     broached                  radius of the lands + growth, of each land its own
 ///     rectangle (egg crate)     half widths + growth
+///     convex polygon            each facet along its normal
 ///     profile                   radius of each point + growth
 ///     two nodes                 the bodies are smaller by growth: distances - growth, the gap of circle_inside + growth
 /// A circle that wears by angular sectors becomes the profile of its sectors (wear::opened_profile).

@@ -139,7 +139,10 @@ std::vector<std::size_t> turns_of(const wear::Pairing& pairing, const std::vecto
   const auto* shared = std::get_if<wear::SharedScar>(&pairing);
   const bool flat = shared && std::holds_alternative<wear::FlatBar>(shared->geometry);
   const PlacedContact& first = placed[contacts.front()];
-  const auto has_sides = [&](std::size_t c) { return !contact::sides_of(placed[c].obstacle).empty(); };
+  const auto has_sides = [&](std::size_t c) { // of the names that quarter turns permute
+    const contact::Obstacle& obstacle = placed[c].obstacle;
+    return !contact::sides_of(obstacle).empty() && contact::facet_normals(obstacle).empty();
+  };
   const bool all_sides = std::all_of(contacts.begin(), contacts.end(), has_sides);
   std::vector<std::size_t> out;
   for (const std::size_t c : contacts) {
@@ -161,7 +164,16 @@ bool same_lands(const contact::BroachedHole& a, const contact::BroachedHole& b) 
   return a.lands == b.lands && a.orientation == b.orientation;
 }
 
-/// Whether a contact has surfaces of the kind that the geometry wears one by one: flat faces, or lands at the same angles as the first. The
+/// Whether two polygons have the same facets, or neither has any.
+bool same_facets(const contact::Obstacle& a, const contact::Obstacle& b) {
+  constexpr double same_direction = 1e-6; // rad
+  const auto ours = contact::facet_normals(a), theirs = contact::facet_normals(b);
+  return std::equal(
+      ours.begin(), ours.end(), theirs.begin(), theirs.end(),
+      [&](const auto& n, const auto& m) { return std::hypot(n.y - m.y, n.z - m.z) < same_direction; });
+}
+
+/// Whether a contact has surfaces of the kind that the geometry wears one by one: flat faces, or facets or lands at the angles of the first. The
 /// reference form of lands is that of all lands together.
 bool wears_by_side(const wear::Pairing& pairing, const contact::Obstacle& obstacle,
                    const contact::Obstacle& first) {
@@ -171,7 +183,7 @@ bool wears_by_side(const wear::Pairing& pairing, const contact::Obstacle& obstac
   const auto *hole = std::get_if<contact::BroachedSpace>(&obstacle),
              *first_hole = std::get_if<contact::BroachedSpace>(&first);
   if (std::holds_alternative<wear::FlatBar>(shared->geometry))
-    return !hole;
+    return !hole && same_facets(obstacle, first);
   return std::holds_alternative<wear::Lands>(shared->geometry) && shared->form == wear::Form::exact && hole &&
          first_hole && same_lands(hole->hole(), first_hole->hole());
 }

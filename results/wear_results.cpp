@@ -73,7 +73,7 @@ WearLife first_life(const std::vector<WearOfSide>& sides, WearLife WornScar::*li
 } // namespace
 
 std::string text_of_side(const std::string& name) {
-  return name.starts_with("land ") ? name : "side " + name;
+  return name.starts_with("land ") || name.starts_with("facet ") ? name : "side " + name;
 }
 
 void combine_sides(WearOfSupport& support) {

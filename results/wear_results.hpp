@@ -135,7 +135,7 @@ struct Wear {
   std::optional<GapOpening> opening; ///< where the study asks for it
 };
 
-/// "side +y", "land 1", from the name of a side.
+/// "side +y", "facet 1", "land 1", from the name of a side.
 [[nodiscard]] std::string text_of_side(const std::string& name);
 
 /// Volumes, depths, scar and lives of a support from its sides, at each end of the intervals. Sides that are outside their law count only

@@ -306,7 +306,7 @@ class Results:
 
     @cached_property
     def wear_sides(self) -> pandas.DataFrame | None:
-        """Wear of each side of supports with several: flat faces (+y, -y, +z, -z), lands (land 1 ...); columns as of `wear`. None where there are none."""
+        """Wear of each side of supports with several: flat faces (+y, -y, +z, -z; facet 1 ...), lands (land 1 ...); columns as of `wear`. None where there are none."""
         supports = (self.summary.get("wear") or {}).get("supports", [])
         rows = [{"name": entry["name"], "side": side["name"], **{key: value for key, value in side.items() if key != "name"}}
                 for entry in supports for side in entry.get("sides", [])]

@@ -94,6 +94,32 @@ TEST(OpenedContacts, MoveEachLandByItsOwnScar) {
   }
 }
 
+// Where the tube touches a facet it has the clearance of its own scar more, also after a second stage.
+TEST(OpenedContacts, MoveEachFacetByItsOwnScar) {
+  const SideGrowth growth_of{1e-5, 0.0, 4e-5, 2e-5, 0.0, 3e-5};
+  for (const int n : {3, 6}) {
+    std::vector<contact::PolarPoint> points;
+    for (int k = 0; k < n; ++k)
+      points.push_back({0.2 + 2.0 * std::numbers::pi * k / n, 5e-4});
+    PlacedContact placed{};
+    placed.obstacle = contact::Profile(points);
+    const double inscribed = 5e-4 * std::cos(std::numbers::pi / n);
+    const auto expect_at_facet = [&](const contact::Obstacle& obstacle, int k, double r) {
+      const double angle = 0.2 + 2.0 * std::numbers::pi * (k + 0.5) / n;
+      EXPECT_NEAR(gap_at(obstacle, r * std::cos(angle), r * std::sin(angle)), 0.0, 1e-17) << n << ", " << k;
+    };
+    for (int stage = 1; stage <= 2; ++stage) {
+      open_sides(growth_of, placed);
+      for (int k = 0; k < n; ++k)
+        expect_at_facet(placed.obstacle, k, inscribed + stage * growth_of[static_cast<std::size_t>(k)]);
+    }
+    for (int k = 0; k < n; ++k) // all alike
+      expect_at_facet(opened_obstacle(placed.obstacle, growth), k,
+                      inscribed + growth + 2.0 * growth_of[static_cast<std::size_t>(k)]);
+    EXPECT_EQ(placed.rest.y(), 0.0);
+  }
+}
+
 TEST(OpenedContacts, MoveThePointsOfAProfileOutward) {
   std::vector<contact::PolarPoint> points;
   constexpr int n = 720;

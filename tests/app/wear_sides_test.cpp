@@ -83,6 +83,32 @@ TEST(WearSides, OfAnEggCrateAreFour) {
   EXPECT_GT(rate_of(run, "+z"), 0.0);
 }
 
+TEST(WearSides, OfAConvexPolygonAreItsFacets) {
+  const Workshop folder;
+  const std::string square = "obstacle = \"profile\"\nprofile = [[45, 1.4e-5], [165, 1.4e-5], [285, 1.4e-5]]";
+  const Results run =
+      folder.run_text(between_bars(folder, archard + "geometry = \"flat_bar\"\nyears = 0.1\n", square));
+  const auto& sides = support(run)["sides"];
+  ASSERT_EQ(sides.size(), 3u);
+  double work = 0.0, deepest = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::string name = fmt::format("facet {}", k + 1);
+    EXPECT_EQ(sides[k]["name"], name);
+    const double w = rate_of(run, name.c_str());
+    EXPECT_EQ(sides[k]["work_rate"]["value"], w);
+    work += w;
+    deepest = std::max(deepest, wear::depth(bar, coefficient * w * 0.1 * wear::year).value());
+  }
+  EXPECT_TRUE(close_to(work, support(run)["work_rate"]["value"], of_sums));
+  EXPECT_TRUE(close_to(support(run)["depth_m"]["value"], deepest, bracketed));
+  EXPECT_FALSE(support(folder.run_text(between_bars(
+                           folder, archard + "geometry = \"drilled_hole\"\nclearance = 1e-5\n", square)))
+                   .contains("sides"));
+  const Results opened = folder.run_text(between_bars(
+      folder, archard + "geometry = \"flat_bar\"\nyears = 0.1\n[gap_opening]\nstages = 2\n", square));
+  EXPECT_EQ(opened.summary["wear"]["gap_opening"]["years"].size(), 2u);
+}
+
 // Of a broached hole whose tube works on several lands each wears its share: by the sectors of the work, and less deep than one scar.
 TEST(WearSides, OfABroachedHoleAreItsLands) {
   const Workshop folder;

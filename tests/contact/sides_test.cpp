@@ -27,6 +27,14 @@ std::string side_at(double degrees) {
   return flat_side_names[flat_side_of({-std::cos(angle), -std::sin(angle)})];
 }
 
+/// Regular, the first corner at y_loc.
+Profile polygon(int corners) {
+  std::vector<PolarPoint> points;
+  for (int k = 0; k < corners; ++k)
+    points.push_back({2.0 * std::numbers::pi * k / corners, 1.0});
+  return Profile(points);
+}
+
 BroachedSpace broached(int lands, double first) {
   return {9e-3, {9.2e-3, 9.3e-3, lands, 0.3, first * std::numbers::pi / 180.0}};
 }
@@ -52,12 +60,30 @@ TEST(Sides, AreThoseOfPlanesStopsAndEggCrates) {
 TEST(Sides, AreNotThoseOfRoundObstacles) {
   EXPECT_TRUE(names_of(Circle{1e-4}).empty());
   EXPECT_TRUE(names_of(FacingPlanes{1e-3, PlaneAxis::y, 1.0}).empty());
-  const double turn = std::numbers::pi / 2.0; // a square on its corner, and three facets
-  EXPECT_TRUE(
-      names_of(Profile(std::vector<PolarPoint>{{0.0, 1.0}, {turn, 1.0}, {2 * turn, 1.0}, {3 * turn, 1.0}}))
-          .empty());
-  EXPECT_TRUE(
-      names_of(Profile(std::vector<PolarPoint>{{0.0, 1.0}, {1.5 * turn, 1.0}, {2.5 * turn, 1.0}})).empty());
+  EXPECT_TRUE(names_of(polygon(9)).empty());
+  const double turn = std::numbers::pi / 2.0; // a corner that protrudes, and one that is none
+  for (const double middle : {0.3, std::numbers::sqrt2 / 2.0})
+    EXPECT_TRUE(
+        names_of(Profile(std::vector<PolarPoint>{
+                     {0.0, 1.0}, {0.5 * turn, middle}, {turn, 1.0}, {2 * turn, 1.0}, {3 * turn, 1.0}}))
+            .empty());
+}
+
+// A square on its corner and other convex polygons, by the normals of their facets, which are in the middle between two corners.
+TEST(Sides, OfAConvexPolygonAreItsFacets) {
+  EXPECT_EQ(names_of(polygon(3)), (Names{"facet 1", "facet 2", "facet 3"}));
+  EXPECT_EQ(names_of(polygon(4)).size(), 4u);
+  for (const int n : {3, 4, 6, 8}) {
+    const SideFinder side_of(polygon(n));
+    for (int k = 0; k < n; ++k)
+      for (const double off : {-0.49, 0.0, 0.49}) {
+        const double angle = (k + 0.5 + off) * 2.0 * std::numbers::pi / n;
+        EXPECT_EQ(side_of({-std::cos(angle), -std::sin(angle)}), static_cast<std::size_t>(k))
+            << n << ", " << off;
+      }
+  }
+  EXPECT_TRUE(facet_normals(egg_crate(9e-3, 9.2e-3, 9.5e-3)).empty()); // of names of their own
+  EXPECT_EQ(side_number("facet 8"), 7u);
 }
 
 // Every place of a turn belongs to the land within half a pitch of it.

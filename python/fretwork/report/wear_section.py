@@ -72,7 +72,7 @@ def _supports(supports):
     rows = []
     for s in sorted(supports, key=by_life):
         rows.append(scar(s["name"], s) + of_study(s))
-        rows += [scar(f"{s['name']}, {side if side.startswith('land ') else 'side ' + side}", one) + [""] * (3 + several)
+        rows += [scar(f"{s['name']}, {side if side.startswith(('land ', 'facet ')) else 'side ' + side}", one) + [""] * (3 + several)
                  for side, one in s["sides"].items() if not one["volume"][-1, 0] < LEAST_SHARE * s["volume"][-1, 0]]
     return table(heads, rows, (0, 8, 9, *((10,) if several else ())))
 
