@@ -7,6 +7,9 @@
 
 namespace fretwork::sweep {
 
+inline constexpr double round_off_of_outputs =
+    1e-12; ///< displacements, m, and forces, N: nothing moves so little
+
 /// Counts, failures, warnings of the cases; unless the design is a grid the statistics, by OpenTURNS.
 /// @throws core::Error for an output that does not exist, or without OpenTURNS
 [[nodiscard]] nlohmann::json summarize(const study::Sweep& sweep, const Draws& draws, const Table& table);

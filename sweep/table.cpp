@@ -62,6 +62,11 @@ std::vector<std::size_t> Table::done() const {
   return out;
 }
 
+bool Table::has_contacts() const {
+  return std::any_of(outputs.begin(), outputs.end(),
+                     [](const Column& column) { return column.name == "worst.work_rate"; });
+}
+
 std::size_t place_of(const std::vector<Column>& columns, const std::string& output,
                      const std::string& where) {
   const auto at = std::find_if(columns.begin(), columns.end(),

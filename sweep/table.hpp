@@ -28,6 +28,8 @@ struct Table {
 
   /// Numbers of the rows that are done.
   [[nodiscard]] std::vector<std::size_t> done() const;
+  /// Whether the study has any: else there are no outputs of all of them.
+  [[nodiscard]] bool has_contacts() const;
 };
 
 /// table.csv: number, outcome, identity, inputs, outputs, message; a header with units.
