@@ -3,7 +3,7 @@
 #include "app/case_run.hpp"
 #include "app/chain.hpp"
 #include "core/error.hpp"
-#include "core/mpi.hpp"
+#include "core/launcher.hpp"
 #include "core/petsc.hpp"
 #include "sweep/schedule.hpp"
 #include <csignal>

@@ -13,7 +13,6 @@
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <iostream>
@@ -25,11 +24,8 @@ using namespace fretwork;
 
 constexpr int input_is_wrong = 1, computation_failed = 2, program_defect = 3;
 
-/// Under mpirun only the first process speaks, also where MPI is not started.
-bool speaks() {
-  const char* rank = std::getenv("OMPI_COMM_WORLD_RANK");
-  return !rank || std::string(rank) == "0";
-}
+/// Of an MPI job only the first process speaks, also where MPI is not initialised.
+bool speaks() { return core::is_first_process(); }
 
 /// What the input holds may be repeated in a message: it is not obeyed by the terminal, and does not fill it.
 void complain(const std::string& message) {

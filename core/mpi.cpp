@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/mpi.hpp"
 #include "core/error.hpp"
-#include <algorithm>
-#include <array>
+#include "core/launcher.hpp"
 #include <cstdint>
 #include <cstdlib>
-#include <unistd.h>
 
 namespace fretwork::core {
 
@@ -14,23 +12,12 @@ void set_mpi_defaults() {
   setenv("OPENBLAS_NUM_THREADS", "1", 0);
   setenv("OMPI_MCA_pml", "ob1", 0);
   setenv("OMPI_MCA_btl", "self,vader,tcp", 0);
-  if (!std::getenv("OMPI_COMM_WORLD_SIZE")) {
+  if (!launched_rank()) {
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
     // isolated processes would all use one folder below the temporary one, and the first to end removes it
     // under the others
     setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
   }
-}
-
-std::vector<std::string> environment_without_launcher() {
-  constexpr std::array prefixes{"OMPI_", "ORTE_",  "PRTE_", "PMIX_", "PMI_",
-                                "MPI_",  "HYDRA_", "HYDI_", "SLURM_"};
-  std::vector<std::string> out;
-  for (char** entry = environ; *entry; ++entry)
-    if (const std::string text = *entry;
-        std::none_of(prefixes.begin(), prefixes.end(), [&](const char* p) { return text.starts_with(p); }))
-      out.push_back(text);
-  return out;
 }
 
 MpiSession::MpiSession(int& argc, char**& argv) {
@@ -46,6 +33,13 @@ MpiSession::MpiSession(int& argc, char**& argv) {
 MpiSession::~MpiSession() {
   if (owner_)
     MPI_Finalize();
+}
+
+bool is_first_process() {
+  int running = 0, ended = 0;
+  MPI_Initialized(&running);
+  MPI_Finalized(&ended);
+  return running && !ended ? rank(MPI_COMM_WORLD) == 0 : launched_rank().value_or(0) == 0;
 }
 
 int rank(MPI_Comm comm) {

@@ -6,7 +6,6 @@
 #include <functional>
 #include <mpi.h>
 #include <string>
-#include <vector>
 
 namespace fretwork::core {
 
@@ -14,10 +13,6 @@ namespace fretwork::core {
 /// user gave: the shared-memory transport without probing of network fabrics, no helper daemon for a run
 /// without mpirun, one thread in BLAS.
 void set_mpi_defaults();
-
-/// The environment of this process (`NAME=value`) without what mpirun, srun and other launchers put there: for a program that is to start MPI
-/// for itself alone.
-[[nodiscard]] std::vector<std::string> environment_without_launcher();
 
 /// MPI_Init for the life of the object (nothing where MPI is running already).
 class MpiSession {
@@ -30,6 +25,9 @@ public:
 private:
   bool owner_ = false;
 };
+
+/// Whether this process is the first of its MPI job, or the only one: by MPI while it is initialised, else by the launcher's environment.
+[[nodiscard]] bool is_first_process();
 
 [[nodiscard]] int rank(MPI_Comm comm);
 [[nodiscard]] int size(MPI_Comm comm);
