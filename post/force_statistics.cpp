@@ -85,20 +85,16 @@ ForceStatistics::ForceStatistics(const std::vector<FollowedForce>& forces, doubl
 
 void ForceStatistics::add_loads(const std::vector<FollowedForce>& forces,
                                 const std::vector<vibration::Load>& loads, double duration) {
-  std::vector<bool> added(loads.size(), false);
+  const std::vector<std::size_t> first = vibration::first_with_function(loads);
   for (std::size_t l = 0; l < loads.size(); ++l) {
-    if (added[l])
+    if (first[l] != l)
       continue;
     kernels::Array values(first_.size(), 0.0);
-    for (std::size_t same = l; same < loads.size(); ++same) {
-      if (!(loads[same].function == loads[l].function))
-        continue;
-      added[same] = true;
-      for (std::size_t k = 0; k < forces.size(); ++k)
+    for (std::size_t same = l; same < loads.size(); ++same)
+      for (std::size_t k = 0; k < forces.size() && first[same] == l; ++k)
         for (std::size_t c = 0; c < force_components && forces[k].by_loads.size() > 0; ++c)
           values[c * width_ + k] +=
               forces[k].by_loads(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(same));
-    }
     if (std::all_of(values.begin(), values.end(), [](double value) { return value == 0.0; }))
       continue;
     loads_.emplace_back(loads[l].function, duration);

@@ -186,9 +186,6 @@ TimeSeries Recorder::series() && {
 void Recorder::set_reactions() {
   if (reactions_.empty())
     return;
-  std::vector<signals::Signal> loads;
-  for (const vibration::Load& load : scene_.loads)
-    loads.emplace_back(load.function, scene_.duration);
   for (const FollowedForce& reaction : reactions_) {
     out_.reactions.push_back({reaction.name, (reaction.rows * out_.modal_displacement).transpose()});
     Eigen::MatrixXd& force = out_.reactions.back().force;
@@ -197,14 +194,35 @@ void Recorder::set_reactions() {
       for (Eigen::Index i = 0; i < out_.time.size(); ++i)
         force.row(i) += contact.force(i).transpose() * reaction.by_contacts.middleCols<3>(3 * c).transpose();
     }
-    for (Eigen::Index l = 0; l < reaction.by_loads.cols(); ++l)
-      for (Eigen::Index i = 0; i < out_.time.size(); ++i)
-        force.row(i) +=
-            loads[static_cast<std::size_t>(l)](out_.time(i)) * reaction.by_loads.col(l).transpose();
     for (Eigen::Index k = 0; k < reaction.imposed.cols(); ++k)
       for (Eigen::Index i = 0; i < out_.time.size(); ++i)
         force.row(i) += motions_[static_cast<std::size_t>(k)](out_.time(i)).displacement *
                         reaction.imposed.col(k).transpose();
+  }
+  add_loads_to_reactions();
+}
+
+/// Each function of time is evaluated once an output, for all loads and reactions.
+void Recorder::add_loads_to_reactions() {
+  const std::vector<std::size_t> first = vibration::first_with_function(scene_.loads);
+  for (std::size_t l = 0; l < first.size(); ++l) {
+    if (first[l] != l)
+      continue;
+    Eigen::MatrixXd together =
+        Eigen::MatrixXd::Zero(force_components, static_cast<Eigen::Index>(reactions_.size()));
+    for (std::size_t same = l; same < first.size(); ++same)
+      for (std::size_t k = 0; k < reactions_.size() && first[same] == l; ++k)
+        if (reactions_[k].by_loads.size() > 0)
+          together.col(static_cast<Eigen::Index>(k)) +=
+              reactions_[k].by_loads.col(static_cast<Eigen::Index>(same));
+    if (together.isZero(0.0))
+      continue;
+    const signals::Signal load(scene_.loads[l].function, scene_.duration);
+    for (Eigen::Index i = 0; i < out_.time.size(); ++i) {
+      const double value = load(out_.time(i));
+      for (std::size_t k = 0; k < reactions_.size(); ++k)
+        out_.reactions[k].force.row(i) += value * together.col(static_cast<Eigen::Index>(k)).transpose();
+    }
   }
 }
 

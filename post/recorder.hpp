@@ -75,6 +75,7 @@ public:
 private:
   void add_motions();
   void set_reactions();
+  void add_loads_to_reactions();
   [[nodiscard]] core::Vec3 place(std::size_t contact, std::int64_t index, double time) const;
   void set_gap(std::size_t contact, std::int64_t index, const core::Vec3& place);
 

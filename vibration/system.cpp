@@ -36,6 +36,17 @@ Eigen::MatrixX<char> dependences(const System& system) {
 
 } // namespace
 
+std::vector<std::size_t> first_with_function(const std::vector<Load>& loads) {
+  std::vector<std::size_t> out;
+  for (const Load& load : loads) {
+    const auto first = std::find_if(loads.begin(), loads.end(), [&](const Load& other) {
+      return &other == &load || other.function == load.function;
+    });
+    out.push_back(static_cast<std::size_t>(first - loads.begin()));
+  }
+  return out;
+}
+
 std::vector<CoupledBlock> coupled_blocks(const System& system) {
   if (system.motion.empty() && system.damping_matrix.size() == 0)
     return {};

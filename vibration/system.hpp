@@ -30,6 +30,9 @@ struct Load {
   bool inertial = false;
 };
 
+/// Of each load the number of the first that follows the same function of time: itself, or one before it.
+[[nodiscard]] std::vector<std::size_t> first_with_function(const std::vector<Load>& loads);
+
 /// Modes that follow each other, such as those of a structure.
 struct ModeRange {
   Eigen::Index first = 0, size = 0;

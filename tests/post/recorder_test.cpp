@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "post/recorder.hpp"
+#include <cmath>
 #include <gtest/gtest.h>
 
 namespace recorder_test {
@@ -198,6 +199,42 @@ TEST(Recorder, SeesTheBlockOfARunComeToRest) {
   EXPECT_EQ(kinds[post::open], 0);
   EXPECT_GT(kinds[post::sticks], 10);
   EXPECT_GT(kinds[post::slides], 10);
+}
+
+// Loads of one function of time are one: what they add to a reaction is the sum of what each does.
+TEST(Recorder, AddsTheLoadsToReactions) {
+  Scene scene = pressed_node();
+  scene.loads = {{Harmonic{30.0, 2.0}, Eigen::Vector3d(1, 0.5, 0)},
+                 {Constant{20.0}, Eigen::Vector3d(0, 0, 1)},
+                 {Harmonic{30.0, 2.0}, Eigen::Vector3d(0, 0, 2)},
+                 {Harmonic{30.0, 3.0}, Eigen::Vector3d(0, 1, 0)}};
+  const Eigen::MatrixXd rows = Eigen::MatrixXd::Constant(6, 3, 0.5);
+  Eigen::MatrixXd by_loads(6, 4);
+  for (Eigen::Index i = 0; i < by_loads.size(); ++i)
+    by_loads.data()[i] = std::cos(static_cast<double>(i));
+  const OutputGrid grid = output_grid(scene.duration, 1e-2);
+  Recorder recorder(scene, {}, grid);
+  const auto reaction = [&](const std::string& name, const Eigen::MatrixXd& of_loads) {
+    post::FollowedForce out{name, rows};
+    out.by_loads = of_loads;
+    out.section = false;
+    return out;
+  };
+  recorder.add_reactions(
+      {reaction("one", by_loads), reaction("other", -2.0 * by_loads), reaction("none", {})});
+  (void)run(scene, choose_step(scene, {SchemeKind::splitting, 1e-4}), {}, &recorder, grid);
+  const TimeSeries s = std::move(recorder).series();
+  ASSERT_EQ(s.reactions.size(), 3u);
+  constexpr double rounding = 1e-12; // N
+  for (Eigen::Index i = 0; i < s.time.size(); ++i) {
+    Eigen::Vector4d values;
+    for (Eigen::Index l = 0; l < 4; ++l)
+      values(l) = Signal(scene.loads[static_cast<std::size_t>(l)].function, scene.duration)(s.time(i));
+    const Eigen::VectorXd of_modes = rows * s.modal_displacement.col(i), of_loads = by_loads * values;
+    EXPECT_LT((s.reactions[0].force.row(i).transpose() - of_modes - of_loads).norm(), rounding);
+    EXPECT_LT((s.reactions[1].force.row(i).transpose() - of_modes + 2.0 * of_loads).norm(), rounding);
+    EXPECT_LT((s.reactions[2].force.row(i).transpose() - of_modes).norm(), rounding);
+  }
 }
 
 TEST(Recorder, CutsTheSeriesOfARunThatEndedEarly) {
