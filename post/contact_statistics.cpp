@@ -20,6 +20,7 @@ enum Kept : std::size_t {
   y2,
   z1,
   z2,
+  contact_time,
   slid_at,
   contact_sums = slid_at + contact::most_sides
 };
@@ -64,7 +65,7 @@ FRETWORK_KERNEL(void, watch_radius,
 } // namespace
 
 ContactStatistics::ContactStatistics(const std::vector<transient::ContactPoint>& contacts, double from)
-    : from_(from), sums_(contacts.size()), ends_(contact_sums * contacts.size()) {
+    : from_(from), sums_(contacts.size()), ends_(contact_sums * contacts.size()), maxima_(contacts.size()) {
   for (const transient::ContactPoint& contact : contacts) {
     supports_.push_back(contact.support);
     side_of_.emplace_back(contact.support.obstacle);
@@ -103,6 +104,7 @@ void ContactStatistics::step(const transient::Record& record) {
       if (state.wear_work > 0.0 && side_of.at_corner(rest_y_[static_cast<std::size_t>(c)] + record.uy[c],
                                                      rest_z_[static_cast<std::size_t>(c)] + record.uz[c]))
         s.slid_at_corners += state.wear_work;
+        maxima_.watch(static_cast<std::size_t>(c), state.peak);
       watch_penetration(record, static_cast<std::size_t>(c));
     }
   }
@@ -119,7 +121,10 @@ void ContactStatistics::step(const transient::Record& record) {
     return;
   watch_motion(record);
   time_ += record.step;
-  ends_.watch(time_, [this](double* row) { write_sums(row); });
+  ends_.watch(time_, [this](double* row) {
+    write_sums(row);
+    maxima_.end_batch();
+  });
 }
 
 void ContactStatistics::Sums::add(const transient::ContactState& state, double step,
@@ -174,6 +179,7 @@ void ContactStatistics::write_sums(double* row) const {
     row[y2] = motion_.y2[c];
     row[z1] = motion_.z[c];
     row[z2] = motion_.z2[c];
+    row[contact_time] = s.closed_time;
     std::copy(s.slid_at.begin(), s.slid_at.end(), row + slid_at);
   }
 }
@@ -215,6 +221,8 @@ StandardErrors ContactStatistics::errors_of(const BatchSums& batches, std::size_
   out.work_rate_batches = out.batches;
   out.friction_power = of_mean(friction);
   out.impact_rate = of_mean(impacts);
+  out.contact_time_ratio = of_mean(contact_time);
+  out.normal_max = maxima_.error(contact);
   out.normal_rms = of_deviation(normal2, normal2, 0.0, o.normal_rms); // about 0
   out.y_std = of_deviation(y1, y2, motion_.y[contact] / time_, o.y.std);
   out.z_std = of_deviation(z1, z2, motion_.z[contact] / time_, o.z.std);

@@ -8,6 +8,7 @@
 /// along the normal, else the largest -gap of the records with a normal force.
 #pragma once
 #include "contact/sides.hpp"
+#include "post/batch_maxima.hpp"
 #include "post/batch_means.hpp"
 #include "post/moments.hpp"
 #include "transient/run.hpp"
@@ -17,8 +18,8 @@
 
 namespace fretwork::post {
 
-/// Standard errors of figures of a window, in their units: the scatter of one run, from batch means. Not numbers where the window is too
-/// short for 8 batches.
+/// Standard errors of figures of a window, in their units: the scatter of one run, from batch means, of the largest force from the largest of
+/// batches. Not numbers where the window is too short for 8 batches.
 struct StandardErrors {
   double work_rate = 0.0, friction_power = 0.0; ///< W
   double normal_rms = 0.0;                      ///< N, over all time
@@ -26,6 +27,8 @@ struct StandardErrors {
   double y_std = 0.0, z_std = 0.0;              ///< m
   double batches = 0.0;           ///< the smallest effective number behind one of them (batch_means.hpp)
   double work_rate_batches = 0.0; ///< that behind the error of the work rate
+  double contact_time_ratio = 0.0;
+  double normal_max = 0.0; ///< N
 };
 
 /// Work rate at one side of the tube, or on one land.
@@ -71,7 +74,7 @@ public:
   /// @param contacts  of the scene   @param from  start of the window, s
   ContactStatistics(const std::vector<transient::ContactPoint>& contacts, double from);
   void step(const transient::Record& record) override;
-  void visit(core::StateArchive& state) override { state(time_, sums_, motion_, ends_); }
+  void visit(core::StateArchive& state) override { state(time_, sums_, motion_, ends_, maxima_); }
   [[nodiscard]] std::vector<ContactSummary> summaries() const;
   /// Of the sums over all contacts of work_rate, friction_power and impact_rate (contacts of one structure are not independent); the
   /// other errors stay 0.
@@ -119,6 +122,7 @@ private:
   std::vector<Sums> sums_;
   Motion motion_;
   BatchEnds ends_;
+  BatchMaxima maxima_; ///< of normal forces
 };
 
 } // namespace fretwork::post

@@ -29,6 +29,10 @@ double critical_factor(std::size_t figures) {
   return figures == 1 ? factor_of_sums : 0.5 * (low + high);
 }
 
+double factor_of_largest(double k) {
+  return std::numbers::sqrt3 / std::numbers::pi * std::log(2.0 / outside(k) - 1.0);
+}
+
 std::vector<ComparedFigure> compare(const ContactSummary& run, const ContactSummary& half,
                                     const Criterion& criterion) {
   const StandardErrors &a = run.error, &b = half.error;
@@ -39,7 +43,11 @@ std::vector<ComparedFigure> compare(const ContactSummary& run, const ContactSumm
       figure("work_rate", run.work_rate, a.work_rate, half.work_rate, b.work_rate),
       figure("friction_power", run.friction_power, a.friction_power, half.friction_power, b.friction_power),
       figure("impacts_per_second", run.impact_rate, a.impact_rate, half.impact_rate, b.impact_rate),
+      figure("contact_time_ratio", run.contact_time_ratio, a.contact_time_ratio, half.contact_time_ratio,
+             b.contact_time_ratio),
       figure("normal_force.rms", run.normal_rms, a.normal_rms, half.normal_rms, b.normal_rms),
+      compared("normal_force.max", run.normal_max, a.normal_max, half.normal_max, b.normal_max,
+               {criterion.accuracy, factor_of_largest(criterion.factor)}),
       figure("displacement.y.std", run.y.std, a.y_std, half.y.std, b.y_std),
       figure("displacement.z.std", run.z.std, a.z_std, half.z.std, b.z_std)};
 }

@@ -9,6 +9,7 @@
 ///     |a - b| <= k sqrt(s_a^2 + s_b^2) + accuracy/2 max(|a|, |b|)
 /// with the standard errors s of batch_means.hpp. k = 2 for the sums over contacts, which chance alone exceeds with p = 0.0455. For the N figures
 /// of single contacts k is such that any of them exceeds it with that p at most (Bonferroni: p/N each), so that many contacts are no reason to warn.
+/// The largest force, whose difference has a logistic distribution (batch_maxima.hpp), has the k of the same p there.
 /// Without standard errors (a window too short) s = 0: a single event is compared as it is.
 #pragma once
 #include "post/contact_statistics.hpp"
@@ -25,11 +26,13 @@ struct ComparedFigure {
   [[nodiscard]] double difference() const { return value - at_half; }
 };
 
-constexpr std::size_t compared_of_a_contact = 6; ///< figures, as below
+constexpr std::size_t compared_of_a_contact = 8; ///< figures, as below
 constexpr double factor_of_sums = 2.0;
 
 /// k for so many figures, at least 1.
 [[nodiscard]] double critical_factor(std::size_t figures);
+/// Standard errors that the difference of two largest values exceeds with the same chance as a normal variable exceeds k.
+[[nodiscard]] double factor_of_largest(double k);
 
 constexpr double least_share_shown = 0.5; ///< of the run's error, by the difference from half the step: p = 1
 
@@ -39,7 +42,8 @@ struct Criterion {
   double factor = factor_of_sums;
 };
 
-/// work_rate, friction_power, impacts_per_second, normal_force.rms, displacement.y.std and displacement.z.std of a contact.
+/// work_rate, friction_power, impacts_per_second, contact_time_ratio, normal_force.rms, normal_force.max, displacement.y.std and
+/// displacement.z.std of a contact.
 [[nodiscard]] std::vector<ComparedFigure> compare(const ContactSummary& run, const ContactSummary& half,
                                                   const Criterion& criterion);
 

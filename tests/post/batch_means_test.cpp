@@ -171,7 +171,7 @@ TEST(ContactStatistics, HaveStandardErrorsThatAreTheScatterOfManyRuns) {
   constexpr std::size_t ensemble = 200;
   std::mt19937_64 generator(13);
   std::normal_distribution<double> noise;
-  std::vector<std::array<double, 6>> values, errors;
+  std::vector<std::array<double, 7>> values, errors;
   for (std::size_t run = 0; run < ensemble; ++run) {
     ContactStatistics statistics(tests::centred(1), 0.0);
     tests::HandMade steps(statistics, 1, 0.01);
@@ -191,13 +191,15 @@ TEST(ContactStatistics, HaveStandardErrorsThatAreTheScatterOfManyRuns) {
     }
     const ContactSummary s = statistics.summaries()[0];
     const StandardErrors& e = s.error;
-    values.push_back({s.work_rate, s.friction_power, s.normal_rms, s.impact_rate, s.y.std, s.z.std});
-    errors.push_back({e.work_rate, e.friction_power, e.normal_rms, e.impact_rate, e.y_std, e.z_std});
+    values.push_back(
+        {s.work_rate, s.friction_power, s.normal_rms, s.impact_rate, s.y.std, s.z.std, s.contact_time_ratio});
+    errors.push_back(
+        {e.work_rate, e.friction_power, e.normal_rms, e.impact_rate, e.y_std, e.z_std, e.contact_time_ratio});
     const StandardErrors sums = statistics.errors_of_sums(); // of one contact: its own
     EXPECT_EQ(sums.work_rate, e.work_rate);
     EXPECT_EQ(sums.impact_rate, e.impact_rate);
   }
-  for (std::size_t k = 0; k < 6; ++k) {
+  for (std::size_t k = 0; k < 7; ++k) {
     double mean = 0.0, scatter = 0.0, estimated = 0.0;
     for (const auto& v : values)
       mean += v[k] / ensemble;

@@ -2,6 +2,7 @@
 /// Intervals that single runs state, against the scatter of many: a mass that rattles with friction in a hole under random forces.
 #include "bench/rattling_mass.hpp"
 #include "post/contact_statistics.hpp"
+#include "post/verification.hpp"
 #include "transient/run.hpp"
 #include "wear/life.hpp"
 #include "wear/student.hpp"
@@ -59,6 +60,8 @@ constexpr std::array figures{
            &post::StandardErrors::friction_power},
     Figure{"rms force", [](const auto& c) { return c.normal_rms; }, &post::StandardErrors::normal_rms},
     Figure{"impact rate", [](const auto& c) { return c.impact_rate; }, &post::StandardErrors::impact_rate},
+    Figure{"contact time ratio", [](const auto& c) { return c.contact_time_ratio; },
+           &post::StandardErrors::contact_time_ratio},
     Figure{"y std", [](const auto& c) { return c.y.std; }, &post::StandardErrors::y_std},
     Figure{"z std", [](const auto& c) { return c.z.std; }, &post::StandardErrors::z_std}};
 
@@ -90,6 +93,21 @@ TEST(Coverage, OfTheTruthByTheIntervalsOfSingleRunsIsTheirConfidence) {
       EXPECT_GE(std::sqrt(stated / scatter), 0.8) << f.name << " in " << window << " decay times";
       EXPECT_LE(std::sqrt(stated / scatter), largest_ratio) << f.name << " in " << window << " decay times";
     }
+}
+
+// Two runs that differ by chance alone.
+TEST(Coverage, OfTheLargestForceLeavesFewFalseAlarms) {
+  for (const double window : windows) {
+    const auto& all = ensemble(window);
+    int differ = 0;
+    for (std::size_t run = 0; run < runs; ++run) {
+      const auto figures = post::compare(all[run], all[(run + 1) % runs], {0.0});
+      EXPECT_EQ(figures[5].name, "normal_force.max");
+      differ += !figures[5].agrees;
+    }
+    EXPECT_LE(differ, 10) << window
+                          << " decay times"; // of 100 of p = 0.0455: with probability 0.99 (binomial)
+  }
 }
 
 TEST(Coverage, HoldsForWorkRatesOfFewImpacts) {

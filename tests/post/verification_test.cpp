@@ -67,19 +67,41 @@ TEST(Verification, AllowsMoreToTheWorstOfManyFigures) {
   EXPECT_NEAR(critical_factor(100), 3.5062, of_tables); // p = 0.000455
 }
 
+TEST(Verification, AllowsTheLargestForceTheScatterOfLargestValues) {
+  constexpr double of_tables = 1e-3;
+  EXPECT_NEAR(factor_of_largest(2.0), 2.0738, of_tables);    // sqrt(3)/pi ln(2/p - 1), p = 0.0455
+  EXPECT_NEAR(factor_of_largest(3.5062), 4.6251, of_tables); // p = 0.000455
+  const auto agree = [](double other, double error) {
+    ContactSummary run, half;
+    run.normal_max = 100.0;
+    half.normal_max = other;
+    run.error.normal_max = half.error.normal_max = error;
+    const auto figures = compare(run, half, criterion);
+    EXPECT_EQ(figures[5].name, "normal_force.max");
+    return figures[5].agrees;
+  };
+  const double noise = factor_of_largest(2.0) * std::sqrt(2.0) * 10.0;
+  EXPECT_TRUE(agree(100.0 - noise, 10.0));
+  EXPECT_FALSE(agree(100.0 - noise - 1.0, 10.0));
+  EXPECT_FALSE(agree(99.0, not_a_number)); // a single impact
+  EXPECT_TRUE(agree(99.6, not_a_number));
+}
+
 TEST(Verification, PutsEachFigureUnderItsName) {
   ContactSummary run, half;
   run.work_rate = 1;
   run.friction_power = 2;
   run.impact_rate = 3;
-  run.normal_rms = 4;
-  run.y.std = 5;
-  run.z.std = 6;
-  run.error = {0.1, 0.2, 0.4, 0.3, 0.5, 0.6, 32.0};
+  run.contact_time_ratio = 4;
+  run.normal_rms = 5;
+  run.normal_max = 6;
+  run.y.std = 7;
+  run.z.std = 8;
+  run.error = {0.1, 0.2, 0.5, 0.3, 0.7, 0.8, 32.0, 32.0, 0.4, 0.6};
   const auto figures = compare(run, half, criterion);
   ASSERT_EQ(figures.size(), compared_of_a_contact);
-  const char* names[] = {"work_rate",        "friction_power",     "impacts_per_second",
-                         "normal_force.rms", "displacement.y.std", "displacement.z.std"};
+  const char* names[] = {"work_rate",        "friction_power",   "impacts_per_second", "contact_time_ratio",
+                         "normal_force.rms", "normal_force.max", "displacement.y.std", "displacement.z.std"};
   for (std::size_t k = 0; k < figures.size(); ++k) {
     EXPECT_EQ(figures[k].name, names[k]);
     EXPECT_EQ(figures[k].value, static_cast<double>(k) + 1.0);
