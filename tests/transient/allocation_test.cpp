@@ -138,6 +138,13 @@ TEST(Allocation, NeverHappensWhereOnlyNearContactsAreLookedAt) {
   EXPECT_EQ(allocations_of_a_run(scene, splitting(1e-4)), 0);
 }
 
+TEST(Allocation, NeverHappensWhereContactsPushOthersIn) {
+  const Scene bar = turning_bar(1.0);
+  constexpr double step = 7e-3; // w_c h = 0.57
+  EXPECT_TRUE(closes_at_both_ends_at_once(bar, step));
+  EXPECT_EQ(allocations_of_a_run(bar, splitting(step)), 0);
+}
+
 TEST(Allocation, NeverHappensUnderTablesAndNoise) {
   Scene scene = rattling(3, 12, 1.0);
   scene.loads[0].function = Random{4.0, 5.0, 60.0, 1};

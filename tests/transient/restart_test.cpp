@@ -266,6 +266,13 @@ TEST(Restart, WithContactsThatTheStartPresses) {
   expect_restarts(scene, {splitting(1e-4)});
 }
 
+TEST(Restart, WhereContactsPushOthersIn) {
+  const Scene bar = turning_bar(1.0);
+  constexpr double step = 7e-3; // w_c h = 0.57
+  EXPECT_TRUE(closes_at_both_ends_at_once(bar, step));
+  expect_restarts(bar, {splitting(step)});
+}
+
 TEST(Restart, UnderTablesAndNoise) {
   Scene scene = pushed(2, 6);
   scene.loads[0].function = Random{4.0, 5.0, 60.0, 1};

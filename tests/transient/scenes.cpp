@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scenes.hpp"
+#include "transient/splitting/splitting.hpp"
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace fretwork::tests {
 
@@ -95,6 +97,34 @@ Scene rattling(int contacts, int modes, double duration) {
   scene.q0 = scene.v0 = Eigen::VectorXd::Zero(modes);
   scene.duration = duration;
   return scene;
+}
+
+Scene turning_bar(double duration) {
+  constexpr double mass = 60.0, inertia = mass / 3.0; // kg, kg m2: of a length of 2 m
+  Scene scene;
+  scene.duration = duration;
+  scene.system.stiffness = Eigen::Vector4d::Zero();
+  scene.system.damping = Eigen::Vector4d::Constant(0.2);
+  for (const auto& [x, gap] : {std::pair(-1.0, 1e-5), std::pair(0.0, 0.03), std::pair(1.0, 0.037)}) { // m
+    ContactPoint point;
+    point.name = std::to_string(scene.contacts.size());
+    point.support = {contact::PlanePair{gap, PlaneAxis::y}, {1e5, 1e3}, {1e5, 2e3, 0.3, 0.3}};
+    point.b = Eigen::MatrixXd::Zero(3, 4);
+    for (const int d : {0, 1}) // moves along y, then along z
+      point.b.block<1, 2>(1 + d, 2 * d) << 1.0 / std::sqrt(mass), x / std::sqrt(inertia);
+    scene.contacts.push_back(point);
+  }
+  scene.q0 = Eigen::Vector4d::Zero();
+  scene.v0 = Eigen::Vector4d(0.5 * std::sqrt(mass), 0.5 * std::sqrt(inertia), 0.1, 0.05);
+  return scene;
+}
+
+bool closes_at_both_ends_at_once(const Scene& bar, double step) {
+  const auto scheme = make_splitting(bar, step);
+  while (scheme->next_time() < bar.duration)
+    if (const Record& record = scheme->advance(); !record.active.empty())
+      return record.active.size() == 2 && record.active.front() == 0 && record.active.back() == 2;
+  return false;
 }
 
 namespace {

@@ -39,6 +39,12 @@ void start(transient::Scene& scene, double mass, const Vec3& displacement, const
 /// A tube between stops of all kinds, with damping and friction: every branch of a step is met.
 [[nodiscard]] transient::Scene rattling(int contacts, int modes, double duration);
 
+/// A rigid bar between pairs of planes at both ends and in the middle, with dampers and friction. It turns about the first end, which is at rest close to its
+/// planes, until the other end hits: this pushes the first into its plane within the step, and splitting finds the forces of the step again.
+[[nodiscard]] transient::Scene turning_bar(double duration);
+/// Whether the first contacts of the bar that close in a run of splitting are those of both ends, in one step: that of the first end would stay at rest.
+[[nodiscard]] bool closes_at_both_ends_at_once(const transient::Scene& bar, double step);
+
 struct History {
   transient::StepChoice choice;
   transient::Report report;
