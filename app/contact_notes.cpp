@@ -155,6 +155,25 @@ bool same(const PlacedContact& a, const PlacedContact& b) {
          a.frame.rotation() == b.frame.rotation() && same_obstacle(a, b);
 }
 
+/// The contact of the same two nodes, given from the other of them: where the first moves by p, the second is as far off as where itself
+/// moves by -p. Axes and places are each those of their own node: to round-off.
+bool same_reversed(const PlacedContact& a, const PlacedContact& b) {
+  constexpr double probe = 1e-3, tolerance = 1e-9; // m
+  constexpr double parallel = 1.0 - 1e-8;
+  if (a.other < 0 || a.other != b.node || a.node != b.other || a.obstacle.index() != b.obstacle.index() ||
+      std::abs(a.frame.x.dot(b.frame.x)) < parallel)
+    return false;
+  const auto gap = [](const PlacedContact& contact, const core::Vec3& moved) {
+    const core::Vec3 place = contact.rest + contact.frame.rotation() * moved;
+    return contact::locate(contact.obstacle, place.y(), place.z()).gap;
+  };
+  const core::Vec3 y = probe * a.frame.y, z = probe * a.frame.z;
+  const std::array<core::Vec3, 5> probes{core::Vec3::Zero(), y, z, -y, -z};
+  return std::all_of(probes.begin(), probes.end(), [&](const core::Vec3& moved) {
+    return std::abs(gap(a, moved) - gap(b, -moved)) < tolerance;
+  });
+}
+
 } // namespace
 
 std::vector<std::string> inside_obstacles(const study::Study& study, const fem::Model& model,
@@ -189,21 +208,32 @@ std::vector<std::string> inside_obstacles(const study::Study& study, const fem::
 
 std::string twice_placed(const std::vector<PlacedContact>& placed) {
   std::multimap<core::Index, const PlacedContact*> by_node;
-  std::string first;
+  std::string first, where;
   int pairs = 0;
+  const auto note = [&](const PlacedContact& a, const PlacedContact& b, const char* how) {
+    if (pairs++ > 0)
+      return;
+    first = fmt::format("contacts \"{}\" and \"{}\"", a.name, b.name);
+    where = how;
+  };
   for (const PlacedContact& contact : placed) {
-    const auto [begin, end] = by_node.equal_range(contact.node);
-    const auto found =
-        std::find_if(begin, end, [&](const auto& other) { return same(*other.second, contact); });
-    if (found != end && pairs++ == 0)
-      first = fmt::format("contacts \"{}\" and \"{}\"", found->second->name, contact.name);
+    const auto found_at = [&](core::Index node, bool (*is_same)(const PlacedContact&, const PlacedContact&)) {
+      const auto [begin, end] = by_node.equal_range(node);
+      const auto found =
+          std::find_if(begin, end, [&](const auto& other) { return is_same(*other.second, contact); });
+      return found == end ? nullptr : found->second;
+    };
+    if (const PlacedContact* other = found_at(contact.node, same))
+      note(*other, contact, "are at one node with the same axes and obstacle");
+    else if (const PlacedContact* reversed = found_at(contact.other, same_reversed))
+      note(*reversed, contact, "join the same two nodes with the same obstacle, group and other exchanged");
     by_node.emplace(contact.node, &contact);
   }
   if (pairs == 0)
     return {};
-  return first + (pairs > 1 ? fmt::format(" (and {} more pair{})", pairs - 1, pairs > 2 ? "s" : "") : "") +
-         " are at one node with the same axes and obstacle: they share its force, work rate and wear; leave "
-         "one out";
+  return fmt::format("{}{} {}: they share its force, work rate and wear; leave one out", first,
+                     pairs > 1 ? fmt::format(" (and {} more pair{})", pairs - 1, pairs > 2 ? "s" : "") : "",
+                     where);
 }
 
 } // namespace fretwork::app

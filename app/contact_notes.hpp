@@ -13,7 +13,8 @@ namespace fretwork::app {
                                                      const std::vector<PlacedContact>& placed,
                                                      const std::vector<BuiltScene>& scenes);
 
-/// A warning where two contacts are one and the same: node, axes and obstacle. Empty where none are.
+/// A warning where two contacts are one and the same: node, axes and obstacle, or the same two nodes given in the other order. Empty
+/// where none are.
 [[nodiscard]] std::string twice_placed(const std::vector<PlacedContact>& placed);
 
 /// Warnings of tubes that lie in their fixed obstacle by more than their outer radius where they rest, one an entry; of nodes without beams nothing is known.

@@ -157,6 +157,41 @@ TEST(Sides, AreThoseOfTheNodesWhateverTheOffset) {
     }
 }
 
+/// The contact of `study` again, with its nodes exchanged, under the name "again".
+std::string exchanged(std::string contact, const std::string& name, const std::string& group,
+                      const std::string& other) {
+  const auto put = [&](const std::string& what, const std::string& by) {
+    contact.replace(contact.find(what), what.size(), by);
+  };
+  put("name = \"" + name + "\"\n", "name = \"again\"\n");
+  put("group = \"" + group + "\"\nother = \"" + other + "\"\n",
+      "group = \"" + other + "\"\nother = \"" + group + "\"\n");
+  return contact;
+}
+
+// The same pair again from its other node shares force and wear, like a contact that is there twice.
+TEST(Warnings, NameAPairThatIsThereFromBothSides) {
+  const Workshop folder;
+  const auto warnings = [&](const std::string& study) {
+    return folder.run_text(study).summary["warnings"].dump();
+  };
+  const std::string warning = " join the same two nodes with the same obstacle, group and other exchanged";
+  const auto round = [&](const std::string& keys) {
+    return warnings(tubes(folder, 2) + meeting(0, 1) + exchanged(meeting(0, 1), "meet01", "mid0", "mid1") +
+                    keys);
+  };
+  EXPECT_TRUE(says(round(""), "contacts \\\"meet01\\\" and \\\"again\\\"" + warning));
+  EXPECT_TRUE(says(round("angle = 30.0\n"), warning)) << "round bodies have no side";
+  EXPECT_FALSE(says(round("offset = [0.0, 1.0e-5]\n"), warning)) << "bodies beside each other";
+  const auto planes = [&](const std::string& first, const std::string& keys) {
+    return warnings(two_masses(folder, {0.0, 0.315, 0.0}, {0.0, 0.3, 0.0}) + flat(along_x + first) +
+                    exchanged(flat(along_x + keys), "c", "first", "second"));
+  };
+  EXPECT_TRUE(says(planes("", ""), warning));
+  EXPECT_TRUE(says(planes("offset = [1.0e-3, 0.0]\n", "offset = [-1.0e-3, 0.0]\n"), warning));
+  EXPECT_FALSE(says(planes("offset = [1.0e-3, 0.0]\n", "offset = [1.0e-3, 0.0]\n"), warning));
+}
+
 TEST(Sides, ThatContradictThePlacesAreTold) {
   const Workshop folder;
   const auto warned = [&](const std::string& keys, double second) {
