@@ -147,6 +147,38 @@ TEST(Reuse, ModesAloneDoNotReplaceARunOfOtherInputs) {
   EXPECT_FALSE(read_results(folder.path("results")).summary.contains("transient"));
 }
 
+// The first rank alone looks at the folder: the other ends with it, and says nothing.
+TEST(Reuse, ModesAloneDoNotReplaceARunOnTwoRanks) {
+  const Workshop folder;
+  (void)tube(folder, "results");
+  const auto kept = [&] {
+    std::vector<std::string> out;
+    for (const char* name : {"results.h5", "summary.json", "modes.h5", "mesh.msh"})
+      out.push_back(file(folder, "results", name));
+    return out;
+  };
+  const std::vector<std::string> before = kept();
+  const auto command = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> all{name, example("straight_tube").string(), "-o",
+                                 folder.path("results").string()};
+    all.insert(all.end(), more.begin(), more.end());
+    return folder.fretwork(all, 2);
+  };
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{}, {"--set", "mesh.element_size=0.2"}}) {
+    const Outcome refused = command("modes", more);
+    EXPECT_NE(refused.status, 0);
+    EXPECT_NE(refused.status, 124) << "still running";
+    const std::string why = "a run that is not of this study as it stands";
+    const std::size_t at = refused.err.find(why);
+    ASSERT_NE(at, std::string::npos) << refused.err;
+    EXPECT_EQ(refused.err.find(why, at + 1), std::string::npos) << refused.err;
+    EXPECT_EQ(kept(), before);
+  }
+  EXPECT_EQ(command("modes", {"--force"}).status, 0);
+  EXPECT_FALSE(read_results(folder.path("results")).summary.contains("transient"));
+}
+
 TEST(Reuse, SeesAChangeInAFileThatAGeometryIncludes) {
   const Workshop folder;
   (void)folder.write("length.geo", "L = 1.0;\n");
