@@ -70,11 +70,15 @@ values = [1.0, 1.05]
 }
 
 /// V/Vc of each assessment and the worst of them, as in the run of the case.
-void expect_velocity_ratios(const Results& run, const std::map<std::string, std::string>& row) {
+/// @param several  flows: the names of outputs then have that of the flow
+void expect_velocity_ratios(const Results& run, const std::map<std::string, std::string>& row,
+                            bool several = false) {
   double largest = 0.0;
   ASSERT_FALSE(run.summary["stability"].empty());
   for (const auto& assessment : run.summary["stability"]) {
-    const std::string name = assessment["name"];
+    const std::string tube = assessment["tube"],
+                      name = assessment["name"].get<std::string>() + (several ? "." + tube : "");
+    ASSERT_EQ(row.count("stability." + name + ".velocity_ratio"), 1u) << name;
     const double ratio = 1.0 - assessment["cases"][0]["margin"].get<double>();
     EXPECT_NEAR(ratio, std::stod(row.at("stability." + name + ".velocity_ratio")), 1e-9) << name;
     largest = std::max(largest, ratio);
@@ -191,6 +195,36 @@ values = [5.0, 60.0]
     EXPECT_EQ(loose[velocity].begin()->second, loose[velocity].rbegin()->second);
   }
   EXPECT_TRUE(says(outcome.out, "fluid-elastically unstable")) << outcome.out;
+}
+
+// Each flow has its own V/Vc, and a case of one flow leaves those of the others.
+TEST_F(Sweeps, VelocityRatiosOfSeveralFlowsHaveTheirNames) {
+  fs::copy_file(example("bundle_flow").parent_path() / "tube.geo", folder.path("tube.geo"));
+  const std::string text = bytes_of(example("bundle_flow")) + R"(
+[sweep]
+design = "grid"
+keep = "worst 2"
+[[sweep.variables]]
+name = "void"
+key = "flow.tube_2.zones.0.void_fraction"
+values = [0.8, 0.6]
+)";
+  const Outcome outcome =
+      sweep(text, "out", {"--set", "transient.duration=0.01", "--set", "output.statistics_from=0"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto rows = table_of(folder.path("out"));
+  ASSERT_EQ(rows.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Results run = read_results(folder.path("out/runs/case_" + std::to_string(i)));
+    EXPECT_EQ(run.summary["stability"].size(), 10u);
+    expect_velocity_ratios(run, rows[i], true);
+    EXPECT_EQ(rows[i].count("stability.free bends.velocity_ratio"), 0u);
+  }
+  const auto ratio = [&](std::size_t row, const std::string& flow) {
+    return std::stod(rows[row].at("stability.free bends." + flow + ".velocity_ratio"));
+  };
+  EXPECT_EQ(ratio(1, "tube_1"), ratio(0, "tube_1"));
+  EXPECT_GT(std::abs(ratio(1, "tube_2") / ratio(0, "tube_2") - 1.0), 0.01);
 }
 
 TEST_F(Sweeps, CasesThatCannotBeAssessedHaveTheirOtherOutputs) {
