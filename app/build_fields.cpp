@@ -156,6 +156,7 @@ Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh, const
     const study::SupportMotion& motion = study.support_motions[k];
     support_loads(motion, name_of_support_motion(motion, k), model, supports[k], out.loads);
     out.supports.push_back(supports[k].shape);
+    out.grounds.push_back(supports[k].ground);
   }
   initial_field(study, mesh, model, out);
   return out;

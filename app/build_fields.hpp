@@ -38,6 +38,7 @@ struct Fields {
   std::vector<Load> loads;
   std::vector<std::string> warnings;
   std::vector<Eigen::VectorXd> supports; ///< shapes of the study's support motions (support_motion.hpp)
+  std::vector<Eigen::VectorXd> grounds;  ///< of springs and dampers, moved by them
   std::vector<FluidForces> motion;       ///< by laws; empty: none
   bool moves_at_start = false;
   Eigen::VectorXd displacement, velocity;                   ///< where moves_at_start

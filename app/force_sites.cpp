@@ -47,23 +47,38 @@ void add_sections(const std::string& group, const mesh::LineMesh& mesh, const fe
   }
 }
 
+/// The free dofs of a node that springs or dampers hold to the ground, bit d set = dof d.
+std::uint8_t grounded_dofs(const fem::Model& model, Index node) {
+  unsigned out = 0;
+  for (const fem::Spring& spring : model.springs)
+    for (std::size_t d = 0; spring.other < 0 && spring.node == node && d < spring.stiffness.size(); ++d)
+      if (!model.is_fixed(node, static_cast<int>(d)) &&
+          (spring.stiffness[d] > 0.0 || spring.damping[d] > 0.0))
+        out |= 1u << d;
+  return static_cast<std::uint8_t>(out);
+}
+
 void add_restraints(const std::string& group, const mesh::LineMesh& mesh, const fem::Model& model,
                     std::vector<results::ForceSite>& out) {
   const std::vector<Index> nodes = mesh::group_nodes(mesh, group, "[output] reactions");
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     results::ForceSite site{nodes.size() == 1 ? group : fmt::format("{}[{}]", group, i), nodes[i]};
-    site.fixed = model.fixed[static_cast<std::size_t>(nodes[i])];
+    site.fixed = model.fixed[static_cast<std::size_t>(nodes[i])] | grounded_dofs(model, nodes[i]);
     if (site.fixed == 0)
-      throw core::Error(fmt::format("[output] reactions: no [[restraints]] hold \"{}\", at {}; name a group "
-                                    "that is restrained",
-                                    site.name, fem::place(model.node(nodes[i]))));
+      throw core::Error(
+          fmt::format("[output] reactions: neither [[restraints]] nor [[springs]] to the ground hold \"{}\", "
+                      "at {}; name a group that is held",
+                      site.name, fem::place(model.node(nodes[i]))));
     out.push_back(std::move(site));
   }
 }
 
-/// The beams and springs whose forces make up that of a site.
+/// The beams, springs and dampers whose forces make up that of a site: of a restraint at the dofs that it fixes those of beams and springs to
+/// other nodes, at the others those of springs to the ground.
 class Following {
 public:
+  using Coefficients = std::array<double, 6> fem::Spring::*;
+
   Following(const results::ForceSite& site, const fem::Model& model) : site_(site), model_(model) {
     const auto add = [&](const fem::Beam& beam, bool at_b) {
       const fem::BeamElement element(model, beam);
@@ -78,7 +93,7 @@ public:
         if ((at_b ? beam.b : beam.a) == site.node)
           add(beam, at_b);
     for (const fem::Spring& spring : model.springs)
-      if (spring.other >= 0 && (spring.node == site.node || spring.other == site.node))
+      if (spring.node == site.node || spring.other == site.node)
         springs_.push_back(spring);
   }
 
@@ -96,16 +111,33 @@ public:
         return end.element.end_forces(held - along, end.at_b);
       sum += held.segment<6>(end.at_b ? 6 : 0);
     }
-    for (const fem::Spring& spring : springs_)
-      sum.array() += fem::Vector6::Map(spring.stiffness.data()).array() *
-                     (at(site_.node) - at(spring.node == site_.node ? spring.other : spring.node)).array();
-    return held(sum);
+    return held(sum) + by_springs(at, &fem::Spring::stiffness);
   }
 
-  /// Of a force on the node of a restraint what the restraint holds.
+  /// N for values of nodes in m/s: what dampers add. @param at  the six values of a node
+  template <class At> [[nodiscard]] fem::Vector6 damper_force(At at) const {
+    return by_springs(at, &fem::Spring::damping);
+  }
+
+  /// What springs (or dampers) add where their ground moves.
+  [[nodiscard]] fem::Vector6 by_ground(const fem::Vector6& ground, Coefficients of) const {
+    fem::Vector6 sum = fem::Vector6::Zero();
+    for (const fem::Spring& spring : springs_)
+      if (spring.other < 0)
+        sum += fem::Vector6::Map((spring.*of).data()).cwiseProduct(ground);
+    return sum - held(sum);
+  }
+
+  [[nodiscard]] bool has_dampers() const {
+    return std::any_of(springs_.begin(), springs_.end(), [](const fem::Spring& spring) {
+      return std::any_of(spring.damping.begin(), spring.damping.end(), [](double c) { return c > 0.0; });
+    });
+  }
+
+  /// Of a force on the node of a restraint what the restraint holds, springs left out.
   [[nodiscard]] fem::Vector6 held(fem::Vector6 force) const {
     for (int d = 0; d < core::dofs_per_node; ++d)
-      if (!((site_.fixed >> d) & 1u))
+      if (!model_.is_fixed(site_.node, d))
         force(d) = 0.0;
     return force;
   }
@@ -126,6 +158,20 @@ public:
   }
 
 private:
+  template <class At> [[nodiscard]] fem::Vector6 by_springs(At at, Coefficients of) const {
+    fem::Vector6 to_nodes = fem::Vector6::Zero(), to_ground = to_nodes;
+    for (const fem::Spring& spring : springs_) {
+      const fem::Vector6 here = at(site_.node);
+      const auto coefficients = fem::Vector6::Map((spring.*of).data());
+      if (spring.other < 0)
+        to_ground -= coefficients.cwiseProduct(here);
+      else
+        to_nodes +=
+            coefficients.cwiseProduct(here - at(spring.node == site_.node ? spring.other : spring.node));
+    }
+    return held(to_nodes) + to_ground - held(to_ground);
+  }
+
   struct End {
     std::array<Index, 2> nodes;
     bool at_b;
@@ -264,13 +310,29 @@ void follow_forces(const std::vector<results::ForceSite>& sites, const std::vect
       force.fibre = following.fibre();
       if (supports > 0)
         force.imposed = Eigen::MatrixXd::Zero(6, static_cast<Eigen::Index>(built.scene.motions.size()));
-      for (Eigen::Index m = 0; m < supports; ++m)
-        force.imposed.col(force.imposed.cols() - supports + m) = following.force(
-            [&](Index node) {
-              return fields.supports[static_cast<std::size_t>(m)].segment<6>(static_cast<Eigen::Index>(node) *
-                                                                             core::dofs_per_node);
-            },
-            0.0);
+      const bool damped = !force.section && following.has_dampers();
+      if (damped) {
+        Eigen::MatrixXd rate = Eigen::MatrixXd::Zero(6, modes);
+        for (Eigen::Index i = 0; i < basis.size(); ++i)
+          rate.col(first + i) = following.damper_force(at_nodes(basis, basis.shapes.col(i)));
+        force.by_velocity = rate(Eigen::all, built.moving);
+        force.imposed_velocity = Eigen::MatrixXd::Zero(6, force.imposed.cols());
+      }
+      for (Eigen::Index m = 0; m < supports; ++m) {
+        const Eigen::Index motion = force.imposed.cols() - supports + m;
+        const auto at = [&](Index node) -> fem::Vector6 {
+          return fields.supports[static_cast<std::size_t>(m)].segment<6>(static_cast<Eigen::Index>(node) *
+                                                                         core::dofs_per_node);
+        };
+        const fem::Vector6 ground = fields.grounds[static_cast<std::size_t>(m)].segment<6>(
+            static_cast<Eigen::Index>(sites[k].node) * core::dofs_per_node);
+        force.imposed.col(motion) =
+            following.force(at, 0.0) + (force.section ? fem::Vector6(fem::Vector6::Zero())
+                                                      : following.by_ground(ground, &fem::Spring::stiffness));
+        if (damped)
+          force.imposed_velocity.col(motion) =
+              following.damper_force(at) + following.by_ground(ground, &fem::Spring::damping);
+      }
       built.forces.push_back(std::move(force));
       built.force_numbers.push_back(k);
     }

@@ -4,7 +4,8 @@
 ///
 /// A mode of frequency omega holds the nodes of a beam by f = (K - omega^2 M) u, as static modes and supports that move do by K u. The forces
 /// of a section are those at the end of its beam (fem/beam_element.hpp); the reaction of a restraint, which acts on the structure, is the sum
-/// of f over the beams of its node and the springs to other nodes, less what loads put on the node itself.
+/// of f over the beams of its node and the springs to other nodes, less what loads put on the node itself. Dampers to other nodes add theirs. At dofs that
+/// are free the reaction is that of springs and dampers to the ground, -k u - c u'.
 /// Modes converge slowly to the statics of shear forces: what they lack under a load, or a contact force, of amplitude g(t) follows it, F = rows q + rest g, with
 ///     rest = S(G l) - sum over elastic modes of S_i (phi_i . l)/omega_i^2,
 /// S the forces of a static motion (K u, less what the load puts along the beam), G l the static deflection under the load l (modal/static_solvers.hpp): the method of mode

@@ -125,7 +125,7 @@ std::vector<SupportFields> support_fields(const std::vector<MovedSupport>& suppo
       if (acts_on(structure, force))
         shape += static_shape(model, structure, force, support.name);
     Eigen::VectorXd dampers = damper_forces(model, shape, support.ground);
-    out.push_back({std::move(shape), std::move(dampers)});
+    out.push_back({std::move(shape), std::move(dampers), support.ground});
   }
   return out;
 }

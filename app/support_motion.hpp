@@ -36,6 +36,7 @@ struct MovedSupport {
 struct SupportFields {
   Eigen::VectorXd shape;   ///< psi
   Eigen::VectorXd dampers; ///< N for 1 m/s of the support: forces of the dampers on what follows psi
+  Eigen::VectorXd ground;  ///< displacement of the ground of springs and dampers
 };
 /// Of each support motion. Serial; needs PETSc.
 /// @throws core::ComputationError naming the entry, where a stiffness is singular to working precision

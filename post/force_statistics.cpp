@@ -51,10 +51,19 @@ double quadratic(const Weights& w, const std::array<double, 3>& squares,
   return sum;
 }
 
+std::vector<std::size_t> with_dampers(const std::vector<FollowedForce>& forces) {
+  std::vector<std::size_t> out;
+  for (std::size_t k = 0; k < forces.size(); ++k)
+    if (forces[k].by_velocity.size() > 0)
+      out.push_back(k);
+  return out;
+}
+
 } // namespace
 
 ForceStatistics::ForceStatistics(const std::vector<FollowedForce>& forces, double from)
-    : from_(from), width_(static_cast<std::size_t>(kernels::padded(static_cast<int>(forces.size())))),
+    : from_(from), damped_(with_dampers(forces)), before_(2 * force_components * damped_.size()),
+      width_(static_cast<std::size_t>(kernels::padded(static_cast<int>(forces.size() + damped_.size())))),
       products_(pairs.size() * width_), force_(width_), moment_(width_), stress_(width_),
       stress_time_(width_), ends_(force_sums * forces.size()) {
   for (kernels::Array* of_components : {&first_, &sums_, &squares_, &min_, &max_})
@@ -70,12 +79,16 @@ ForceStatistics::ForceStatistics(const std::vector<FollowedForce>& forces, doubl
   for (std::size_t c = 0; c < force_components; ++c)
     for (std::size_t begin = 0; begin < width_; begin += kernels::lanes) {
       std::map<int, std::array<double, kernels::lanes>> pack;
-      for (std::size_t k = begin; k < std::min(begin + kernels::lanes, forces.size()); ++k) {
+      for (std::size_t k = begin; k < std::min(begin + kernels::lanes, forces.size() + damped_.size()); ++k) {
         const auto add = [&](const Eigen::MatrixXd& of, std::size_t first) {
           for (Eigen::Index i = 0; i < of.cols(); ++i)
             if (const double value = of(static_cast<Eigen::Index>(c), i); value != 0.0)
               pack[static_cast<int>(first) + static_cast<int>(i)][k - begin] = value;
         };
+        if (k >= forces.size()) {
+          add(forces[damped_[k - forces.size()]].by_velocity, 0);
+          continue;
+        }
         add(forces[k].rows, 0);
         add(forces[k].by_contacts, modes_);
       }
@@ -112,6 +125,10 @@ void ForceStatistics::add_imposed_motion(const std::vector<FollowedForce>& force
       for (std::size_t c = 0; c < force_components && forces[k].imposed.size() > 0; ++c)
         imposed_[m * first_.size() + c * width_ + k] =
             forces[k].imposed(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(m));
+    for (std::size_t i = 0; i < damped_.size(); ++i)
+      for (std::size_t c = 0; c < force_components && forces[damped_[i]].imposed_velocity.size() > 0; ++c)
+        imposed_[m * first_.size() + c * width_ + forces.size() + i] =
+            forces[damped_[i]].imposed_velocity(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(m));
   }
 }
 
@@ -156,6 +173,7 @@ void ForceStatistics::add(const Instant& instant, double* values) {
     add(loads_[l](instant.time), of_loads_.data() + l * size);
   for (std::size_t m = 0; m < motions_.size(); ++m)
     add(motions_[m](instant.time).displacement, imposed_.data() + m * size);
+  add_dampers(instant.time, values);
   if (!(time_ > 0.0))
     for (kernels::Array* of : {&first_, &min_, &max_})
       std::copy_n(values, size, of->begin());
@@ -171,6 +189,22 @@ void ForceStatistics::add(const Instant& instant, double* values) {
   add_magnitudes(instant.time, values);
   time_ += weight;
   ends_.watch(time_, [this](double* row) { write_sums(row); });
+}
+
+void ForceStatistics::add_dampers(double time, double* values) {
+  const double passed = time - time_before_;
+  for (std::size_t i = 0; i < damped_.size(); ++i)
+    for (std::size_t c = 0; c < force_components; ++c) {
+      double& force = values[c * width_ + damped_[i]];
+      const double dampers = values[c * width_ + kinds_.size() + i];
+      double* before = before_.data() + 2 * (i * force_components + c);
+      const double here = force;
+      if (time_ > 0.0 && passed > 0.0)
+        force = 0.5 * (here + before[0]) + (dampers - before[1]) / passed;
+      before[0] = here;
+      before[1] = dampers;
+    }
+  time_before_ = time;
 }
 
 void ForceStatistics::add_products(double weight, const double* values) {

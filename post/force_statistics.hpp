@@ -2,7 +2,10 @@
 /// @file
 /// Statistics of forces that follow from the modes, those of sections of beams and of restraints, over every step of a window, each
 /// weighted by its length. A force has six components, F = rows q + by_contacts f + by_loads g + imposed s, with f the contact forces on the nodes, g
-/// the amplitudes of loads and s imposed motions; of a section they are N Vy Vz T My Mz.
+/// the amplitudes of loads and s imposed motions; of a section they are N Vy Vz T My Mz. Dampers add by_velocity q' + imposed_velocity s'. Records have no
+/// velocities: a force with dampers is that of the middle of a step,
+///     (F_k + F_{k-1})/2 + (D_k - D_{k-1})/(t_k - t_{k-1}),   D = by_velocity q + imposed_velocity s,
+/// whose error is of order 2 in the step; of the first record without dampers.
 ///
 /// The normal stress of a section is the largest |N/A + a My e_z + b Mz e_y| on its outline,
 ///   of a pipe or circle  a = cos p, b = sin p,  e_z = R/Iy,        e_y = R/Iz,
@@ -38,6 +41,8 @@ struct FollowedForce {
       {};                        ///< 6 x 3 contacts of the scene, over their x_loc y_loc z_loc; empty: none
   Eigen::MatrixXd by_loads = {}; ///< 6 x loads of the scene; empty: none
   Eigen::MatrixXd imposed = {};  ///< 6 x motions of the scene; empty: none
+  Eigen::MatrixXd by_velocity = {};      ///< of dampers, 6 x n, over q'; empty: none
+  Eigen::MatrixXd imposed_velocity = {}; ///< of dampers, 6 x motions of the scene, over s'
   /// Of a section: force and moment are those across it, (Vy, Vz) and (My, Mz). Else both have three components.
   bool section = true;
   std::optional<OuterFibre> fibre = std::nullopt; ///< of sections whose outline is known
@@ -70,7 +75,7 @@ public:
   }
   void visit(core::StateArchive& state) override {
     state(first_, sums_, squares_, products_, min_, max_, force_, moment_, stress_, stress_time_, time_,
-          ends_, waiting_, inputs_, instants_);
+          ends_, waiting_, inputs_, instants_, before_, time_before_);
   }
   [[nodiscard]] std::vector<ForceSummary> summaries();
 
@@ -86,6 +91,7 @@ private:
   static constexpr int together = kernels::gathered_together;
   void look_at_waiting();
   void add(const Instant& instant, double* values);
+  void add_dampers(double time, double* values);
   void add_magnitudes(double time, const double* values);
   void add_products(double weight, const double* values);
   void write_sums(double* row) const;
@@ -93,7 +99,12 @@ private:
 
   double from_;
   std::vector<Kind> kinds_;
-  std::size_t width_; ///< forces, padded; arrays of components are component after component
+  std::vector<std::size_t>
+      damped_;               ///< forces with dampers: D of the i-th is that of a force kinds_.size() + i
+  kernels::Array before_;    ///< F and D of each at the record before, 12 x damped_
+  double time_before_ = 0.0; ///< s
+  std::size_t
+      width_; ///< forces, with those of dampers, padded; arrays of components are component after component
   kernels::GatherTable gather_;
   std::size_t modes_ = 0, inputs_of_record_ = 0; ///< padded
   int waiting_ = 0; ///< records whose forces are not made yet: together the table is read once

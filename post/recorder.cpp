@@ -194,10 +194,16 @@ void Recorder::set_reactions() {
       for (Eigen::Index i = 0; i < out_.time.size(); ++i)
         force.row(i) += contact.force(i).transpose() * reaction.by_contacts.middleCols<3>(3 * c).transpose();
     }
+    const bool damped = reaction.by_velocity.size() > 0;
+    if (damped)
+      force += (reaction.by_velocity * out_.modal_velocity).transpose();
     for (Eigen::Index k = 0; k < reaction.imposed.cols(); ++k)
-      for (Eigen::Index i = 0; i < out_.time.size(); ++i)
-        force.row(i) += motions_[static_cast<std::size_t>(k)](out_.time(i)).displacement *
-                        reaction.imposed.col(k).transpose();
+      for (Eigen::Index i = 0; i < out_.time.size(); ++i) {
+        const signals::MotionState state = motions_[static_cast<std::size_t>(k)](out_.time(i));
+        force.row(i) += state.displacement * reaction.imposed.col(k).transpose();
+        if (damped)
+          force.row(i) += state.velocity * reaction.imposed_velocity.col(k).transpose();
+      }
   }
   add_loads_to_reactions();
 }

@@ -72,10 +72,11 @@ struct ContactFacts {
 struct ForceSite {
   std::string name; ///< the group; of a restraint with [i] where its group has several nodes
   core::Index node;
-  core::Index beam = -1;  ///< of a section; -1: a restraint
-  bool at_b = false;      ///< the section is at the end b of the beam
-  double s = 0.0;         ///< m, of a section: length of the group's beams from the start of their curve
-  std::uint8_t fixed = 0; ///< of a restraint, the dofs that it holds: bit d set = dof d
+  core::Index beam = -1; ///< of a section; -1: a restraint
+  bool at_b = false;     ///< the section is at the end b of the beam
+  double s = 0.0;        ///< m, of a section: length of the group's beams from the start of their curve
+  std::uint8_t fixed =
+      0; ///< of a restraint, the dofs that it holds, or springs and dampers to the ground: bit d set = dof d
   [[nodiscard]] bool is_section() const { return beam >= 0; }
 };
 

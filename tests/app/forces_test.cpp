@@ -105,6 +105,69 @@ TEST(Forces, OfTheWeightAreThoseOfStatics) {
     }
 }
 
+/// A mass on a spring and a damper to the ground.
+constexpr double mass = 2.0, spring = 2.0e4, damper = 40.0;
+Results on_spring_and_damper(const Workshop& folder, const std::string& more) {
+  folder.write("mesh.msh", lone_points({"mass"}).text());
+  return folder.run_text(R"([mesh]
+file = "mesh.msh"
+[[masses]]
+group = "mass"
+mass = 2.0
+[[restraints]]
+group = "mass"
+fixed = ["ux", "uz", "rx", "ry", "rz"]
+[[springs]]
+group = "mass"
+stiffness = [0.0, 2.0e4, 0.0, 0.0, 0.0, 0.0]
+damping = [0.0, 40.0, 0.0, 0.0, 0.0, 0.0]
+[modes]
+count = 1
+)" + more + R"([transient]
+duration = 4.0
+[output]
+every = 1.0e-3
+nodes = ["mass"]
+reactions = ["mass"]
+statistics_from = 3.0
+)");
+}
+
+/// Equilibrium at every output, F + R = m a; of the statistics the amplitude of the steady state.
+TEST(Forces, OfSpringsAndDampersToTheGroundAreReactions) {
+  const Workshop folder;
+  constexpr double force = 40.0, omega = 2.0 * pi * 10.0;
+  const Results run =
+      on_spring_and_damper(folder, "[[loads]]\ngroup = \"mass\"\ndirection = [0.0, 1.0, 0.0]\nharmonic = { "
+                                   "amplitude = 40.0, frequency = 10.0 }\n");
+  const Eigen::VectorXd& time = run.archive.series.time;
+  const Eigen::VectorXd load = force * (omega * time.array()).sin();
+  const Eigen::VectorXd inertia_force = mass * run.node("mass").acceleration.col(1);
+  const Eigen::VectorXd held = run.archive.series.reactions.at(0).force.col(1);
+  EXPECT_LT((load + held - inertia_force).cwiseAbs().maxCoeff(), 1e-9 * force);
+  const double amplitude =
+      force * std::hypot(spring, damper * omega) / std::hypot(spring - mass * omega * omega, damper * omega);
+  constexpr double of_step = 1e-3; // (w h)^2/8 of 200 steps a period, and outputs between them
+  const auto& statistics = reaction(run, 0);
+  EXPECT_TRUE(close_to(statistics["force"]["y"]["std"], amplitude / std::sqrt(2.0), of_step));
+  EXPECT_TRUE(close_to(statistics["largest_force"], amplitude, of_step));
+  EXPECT_TRUE(statistics["force"]["x"].is_object()) << "restrained";
+}
+
+/// Of a mass that follows its ground: what accelerates it, m s'', where k s would be 5.6 kN and c s' 5.5 N at 3.5 s. The curve through two rows of displacement, at rest at
+/// both, is s = 3 (t/T)^2 - 2 (t/T)^3 for T = 10 s.
+TEST(Forces, OfSpringsAndDampersWhoseGroundMovesKnowItsMotion) {
+  const Workshop folder;
+  const Results run =
+      on_spring_and_damper(folder, "[[support_motion]]\ngroup = \"mass\"\ndirection = [0.0, 1.0, 0.0]\n"
+                                   "quantity = \"displacement\"\ntable = [[0.0, 0.0], [10.0, 1.0]]\n");
+  const auto accelerating = [](double time) { return mass * (0.06 - 0.012 * time); };
+  constexpr double of_window = 2e-4; // from a step after 3 s on; the spring follows c/k later
+  EXPECT_TRUE(close_to(reaction(run, 0)["force"]["y"]["mean"], accelerating(3.5), of_window));
+  EXPECT_TRUE(
+      close_to(run.archive.series.reactions.at(0).force.bottomRows(1)(0, 1), accelerating(4.0), of_window));
+}
+
 /// 12 EI d/L^3 and 6 EI d/L^2 of clamps of which one has moved by d, and nothing of a base that moves all.
 TEST(Forces, ContainThoseOfSupportsThatMove) {
   const Workshop folder;
@@ -262,7 +325,8 @@ TEST(Forces, AreRefusedWhereThereAreNone) {
     EXPECT_NE(outcome.status, 0);
     EXPECT_TRUE(says(outcome.err, why));
   };
-  refused("reactions = [\"middle\"]\n", "[output] reactions: no [[restraints]] hold \"middle\"");
+  refused("reactions = [\"middle\"]\n",
+          "[output] reactions: neither [[restraints]] nor [[springs]] to the ground hold \"middle\"");
   refused("section_forces = [\"middle\"]\n", "\"middle\"");
   refused("reactions = [\"tube_end\", \"tube_end\"]\n", "named twice");
   MeshText mesh = straight_line("tube", {0.0, 0.0, 0.0}, {length, 0.0, 0.0}, elements);
