@@ -11,6 +11,8 @@ namespace {
 
 /// Above this residual of the energy the results are not to be trusted, whatever they look like.
 constexpr double residual_warning = 0.05;
+/// What sound runs are balanced to: the accuracy that the automatic step aims at.
+constexpr double residual_of_sound = 0.01;
 
 /// Excess of the energies over what was put in, relative to the energy dissipated, above which a run is warned about; and of the energy scale, what
 /// counts.
@@ -47,13 +49,17 @@ void judge(const study::Study& study, const transient::StepChoice& choice, const
     throw core::ComputationError(fmt::format("the transient stopped at t = {:.6g} s (scheme {}): {}",
                                              report.end_time, transient::name_of(choice.scheme),
                                              transient::name_of(report.failure)));
-  if (report.residual_relative > residual_warning)
-    out.warnings.insert( // what makes all figures wrong comes first
-        out.warnings.begin(),
-        fmt::format(
-            "the energy balance is off by {:.2g} % of the energy put in: no figure of this run can be "
-            "trusted; take a smaller step",
-            100.0 * report.residual_relative));
+  const std::string balance = fmt::format("the energy balance is off by {:.2g} % of the energy put in",
+                                          100.0 * report.residual_relative);
+  const char* cure = choice.scheme == transient::SchemeKind::runge_kutta_54
+                         ? "set a smaller transient.tolerance"
+                         : "take a smaller step";
+  if (report.residual_relative > residual_warning) // what makes all figures wrong comes first
+    out.warnings.insert(out.warnings.begin(),
+                        fmt::format("{}: no figure of this run can be trusted; {}", balance, cure));
+  else if (report.residual_relative > residual_of_sound)
+    out.warnings.push_back(fmt::format("{}, that of a sound run by {:g} % at most; {}", balance,
+                                       100.0 * residual_of_sound, cure));
   // loads that push to and fro put in far more than what the motion loses
   const transient::Energy& e = report.energy;
   const double excess = -e.residual(),
