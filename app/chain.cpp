@@ -265,6 +265,7 @@ private:
       out_.notes.push_back(static_modes_note(inputs_.study, out_.bases));
     }
     judge_in_flow();
+    note_weight_stiffness(comm_, inputs_.study, model_, modes.structures, out_.bases, placed_, out_);
     if (last_ == Stage::modes)
       out_.closed_frequencies = closed_frequencies(comm_, inputs_.study, model_, placed_);
     out_.timings.modes = watch_.lap();
@@ -282,7 +283,6 @@ private:
     });
     warn_of_load_flexibility(comm_, inputs_.study, model_, modes.structures, out_.bases, placed_,
                              at_contacts_.fields);
-    note_weight_stiffness(comm_, inputs_.study, model_, modes.structures, out_.bases, placed_, out_);
     note_held_damping(inputs_.study, model_, out_.bases, placed_, out_);
     at_contacts_.flexibilities = contact_flexibilities(comm_, inputs_.study, model_, modes.structures,
                                                        out_.bases, at_contacts_.joined, placed_);

@@ -106,6 +106,36 @@ TEST(Weight, AlongATubeIsNotedWithWhatItWouldChange) {
   EXPECT_EQ(given.summary["notes"].dump().find("[gravity]"), std::string::npos);
 }
 
+// Modes, stability and response of a tube are as wrong without it as a run is.
+TEST(Weight, AlongATubeIsNotedWithItsModesToo) {
+  const Workshop folder;
+  const fs::path study = folder.write("study.toml", hanging(folder, 4.0, -9.81, "", false));
+  const Outcome modes = folder.fretwork({"modes", study.string(), "-o", folder.path("modes").string()});
+  ASSERT_EQ(modes.status, 0) << modes.err;
+  const std::string change = "they change the frequency of 1.112 Hz by +3.9 %";
+  EXPECT_TRUE(says(modes.out, change));
+  EXPECT_TRUE(
+      says(nlohmann::json::parse(bytes_of(folder.path("modes") / "summary.json"))["notes"].dump(), change));
+}
+
+// Greenhill, Proc. Camb. Phil. Soc. 4 (1881) 65: a column buckles under its own weight from w L^3/EI = 7.837 on.
+TEST(Weight, GivenAsAxialForceBucklesAColumnAtGreenhillsLength) {
+  constexpr double by_steps = 1e-3; // of the length: 40 elements, each with the force of its middle
+  const Workshop folder;
+  const double weight = 8000.0 * (displaced - bore_area) * gravity,
+               critical = std::cbrt(7.837347 * stiffness / weight);
+  const auto modes = [&](double length) {
+    const std::string keys =
+        fmt::format("axial_force = [{}, 0.0]\nfrom = \"tube_begin\"\n", -weight * length);
+    const fs::path study = folder.write("study.toml", hanging(folder, length, gravity, keys, false));
+    return folder.fretwork({"modes", study.string(), "-o", folder.path("modes").string(), "--force"});
+  };
+  EXPECT_EQ(modes((1.0 - by_steps) * critical).status, 0);
+  const Outcome longer = modes((1.0 + by_steps) * critical);
+  EXPECT_EQ(longer.status, 1);
+  EXPECT_TRUE(says(longer.err, "buckles under the compression of its beams"));
+}
+
 TEST(Weight, ThatWouldBuckleATubeIsAWarning) {
   const Workshop folder;
   const auto said = [&](double length, bool grid) {
