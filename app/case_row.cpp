@@ -30,6 +30,15 @@ constexpr std::array figures{
     Figure{"contact_time_ratio", "", &post::ContactSummary::contact_time_ratio, nullptr}};
 constexpr std::size_t worst_figures = 3; ///< the first ones are given of the worst contact too
 
+/// Outputs of the components of section forces, in the order of post::ForceSummary.
+constexpr std::array<std::array<const char*, 2>, post::force_components> section_components{
+    {{"axial_force", "N"},
+     {"shear_y", "N"},
+     {"shear_z", "N"},
+     {"torsion", "N m"},
+     {"moment_y", "N m"},
+     {"moment_z", "N m"}}};
+
 /// A row while it is filled.
 class Filling {
 public:
@@ -143,6 +152,9 @@ void fill_forces(const results::RunResults& run, Filling& row) {
     row.set(name + ".stress_std.error", run.force_summaries[scatter.site].stress_std_error);
     row.set(name + ".moment", largest([](const ForceSummary& force) { return force.moment; }).value);
     row.set(name + ".shear_force", largest([](const ForceSummary& force) { return force.force; }).value);
+    for (std::size_t c = 0; c < section_components.size(); ++c)
+      row.set(fmt::format("{}.{}", name, section_components[c][0]),
+              largest([c](const ForceSummary& force) { return results::largest_component(force, c); }).value);
   }
   for (std::size_t k = 0; k < run.force_sites.size(); ++k)
     if (!run.force_sites[k].is_section()) {
@@ -209,6 +221,8 @@ std::vector<sweep::Column> case_columns(const std::vector<PlacedContact>& contac
     add(name + ".stress_std", "Pa", true);
     add(name + ".moment", "N m", false);
     add(name + ".shear_force", "N", false);
+    for (const auto& [component, unit] : section_components)
+      add(fmt::format("{}.{}", name, component), unit, false);
   }
   for (const results::ForceSite& site : facts.force_sites)
     if (!site.is_section()) {

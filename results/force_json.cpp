@@ -44,7 +44,11 @@ Json sections(const RunResults& results, const SectionGroup& group) {
           {"moment", of([](const ForceSummary& force) { return force.moment; })},
           {"shear_force", of([](const ForceSummary& force) { return force.force; })},
           {"axial_force", component(0)},
-          {"torsion", component(3)}};
+          {"torsion", component(3)},
+          {"shear_y", component(1)},
+          {"shear_z", component(2)},
+          {"moment_y", component(4)},
+          {"moment_z", component(5)}};
 }
 
 Json reaction(const ForceSite& site, const ForceSummary& force) {

@@ -243,6 +243,8 @@ reactions = ["tube1_begin", "tube0_end", "tube1_end"]
       table.substr(table.find('\n', table.rfind("nr", 0) == 0 ? 0 : table.find("tube0.stress")));
   for (const nlohmann::json& value : {run.summary["section_forces"].at(0)["stress"]["largest"],
                                       run.summary["section_forces"].at(1)["moment"]["largest"],
+                                      run.summary["section_forces"].at(0)["shear_y"]["largest"],
+                                      run.summary["section_forces"].at(1)["moment_z"]["largest"],
                                       run.summary["reactions"].at(0)["largest_force"],
                                       run.summary["nodes"].at(0)["displacement"]["y"]["std"]})
     EXPECT_TRUE(says(row, fmt::format(",{},", value.get<double>())));
@@ -262,7 +264,12 @@ TEST(Forces, FollowLoadsThatVary) {
     EXPECT_TRUE(close_to(run.archive.series.reactions.at(end).force.bottomRows<1>()(1), -6.0, slow)) << end;
   }
   EXPECT_TRUE(close_to(run.summary["section_forces"].at(0)["shear_force"]["largest"], 6.0, slow));
-  EXPECT_TRUE(close_to(run.summary["section_forces"].at(0)["moment"]["largest"], 6.0 * 0.5 * length, slow));
+  const auto& forces = run.summary["section_forces"].at(0);
+  EXPECT_TRUE(close_to(forces["moment"]["largest"], 6.0 * 0.5 * length, slow));
+  EXPECT_TRUE(close_to(forces["shear_y"]["largest"], 6.0, slow));
+  EXPECT_TRUE(close_to(forces["moment_z"]["largest"], 6.0 * 0.5 * length, slow));
+  for (const char* across : {"shear_z", "moment_y"})
+    EXPECT_EQ(forces[across]["largest"], 0.0) << across;
 }
 
 /// A tube that its weight presses on a stop: reactions, stop and weight are in equilibrium with few modes, and the moments they make are those
