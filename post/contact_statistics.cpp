@@ -104,7 +104,7 @@ void ContactStatistics::step(const transient::Record& record) {
       if (state.wear_work > 0.0 && side_of.at_corner(rest_y_[static_cast<std::size_t>(c)] + record.uy[c],
                                                      rest_z_[static_cast<std::size_t>(c)] + record.uz[c]))
         s.slid_at_corners += state.wear_work;
-        maxima_.watch(static_cast<std::size_t>(c), state.peak);
+      maxima_.watch(static_cast<std::size_t>(c), state.peak);
       watch_penetration(record, static_cast<std::size_t>(c));
     }
   }

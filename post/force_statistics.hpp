@@ -41,11 +41,11 @@ struct FollowedForce {
       {};                        ///< 6 x 3 contacts of the scene, over their x_loc y_loc z_loc; empty: none
   Eigen::MatrixXd by_loads = {}; ///< 6 x loads of the scene; empty: none
   Eigen::MatrixXd imposed = {};  ///< 6 x motions of the scene; empty: none
-  Eigen::MatrixXd by_velocity = {};      ///< of dampers, 6 x n, over q'; empty: none
-  Eigen::MatrixXd imposed_velocity = {}; ///< of dampers, 6 x motions of the scene, over s'
   /// Of a section: force and moment are those across it, (Vy, Vz) and (My, Mz). Else both have three components.
   bool section = true;
   std::optional<OuterFibre> fibre = std::nullopt; ///< of sections whose outline is known
+  Eigen::MatrixXd by_velocity = {};      ///< of dampers, 6 x n, over q'; empty: none
+  Eigen::MatrixXd imposed_velocity = {}; ///< of dampers, 6 x motions of the scene, over s'
 };
 
 struct ForceSummary {
