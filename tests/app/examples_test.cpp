@@ -50,9 +50,9 @@ TEST(Examples, EveryFolderOfExamplesIsRunHere) {
   for (const auto& entry : fs::directory_iterator(test_paths::source_dir() / "examples"))
     if (fs::exists(entry.path() / "study.toml"))
       found.insert(entry.path().filename());
-  EXPECT_EQ(found, (std::set<std::string>{"bundle", "bundle_flow", "cantilever_stop", "oscillator",
-                                          "straight_tube", "tube_in_flow", "tube_study", "tube_sweep",
-                                          "two_tubes", "u_bend", "u_bend_flow"}));
+  EXPECT_EQ(found, (std::set<std::string>{"bundle", "bundle_flow", "cantilever_stop", "fuel_rod",
+                                          "oscillator", "straight_tube", "tube_in_flow", "tube_study",
+                                          "tube_sweep", "two_tubes", "u_bend", "u_bend_flow"}));
 }
 
 TEST(Examples, BundleOfUBendsTouchesAtItsTops) {
@@ -122,6 +122,24 @@ TEST(Examples, CantileverReachesThePublishedForce) {
   // the density of the published case is none of any metal
   ASSERT_EQ(run.summary["warnings"].size(), 1u) << run.summary["warnings"];
   EXPECT_TRUE(says(run.summary["warnings"][0], "units are SI"));
+}
+
+/// Springs press the rod on two dimples each with what their overlap leaves; the grid without springs lets it rattle.
+TEST(Examples, FuelRodIsPressedByItsGrids) {
+  const Workshop folder;
+  const Results run = example_run(folder, "fuel_rod", "results");
+  constexpr double spring = 1e5, dimple = 5e5, overlap = 3.5e-5;              // N/m, m
+  constexpr double pressed = overlap / (1.0 / spring + 1.0 / (2.0 * dimple)); // N; dimples that open add 1 %
+  for (const char* name : {"springs_x[2]", "springs_y[2]", "springs_x[4]", "springs_y[4]"})
+    EXPECT_NEAR(run.statistics(name)["normal_force"]["mean"].get<double>(), pressed, 0.03 * pressed) << name;
+  for (const char* name : {"lost_x", "lost_y"})
+    EXPECT_LT(run.statistics(name)["contact_time_ratio"].get<double>(), 0.5) << name;
+  for (const char* name : {"below_x[0]", "above_x[0]", "below_y[0]", "above_y[0]"})
+    EXPECT_GT(run.statistics(name)["impacts"].get<int>(), 20) << name;
+  EXPECT_GT(run.summary["wear"]["tubes"][0]["life_years"]["value"].get<double>(), 2.0);
+  EXPECT_LT(run.summary["wear"]["tubes"][0]["life_years"]["value"].get<double>(), 15.0);
+  EXPECT_LT(run.summary["energy"]["residual_relative"].get<double>(), trusted_balance);
+  EXPECT_TRUE(run.summary["warnings"].empty()) << run.summary["warnings"];
 }
 
 TEST(Examples, TubeInFlowIsStableWithAndWithoutItsSecondPlate) {

@@ -31,7 +31,7 @@ from fretwork import write_study  # noqa: E402
 
 LONGEST = 60  # s of processor time: a command that takes more hangs; max_hours ends the transient after some seconds
 PATIENCE = 1200  # s on the clock, on a loaded machine
-EXAMPLES = ["bundle", "bundle_flow", "cantilever_stop", "oscillator", "straight_tube", "tube_in_flow", "tube_study", "two_tubes", "u_bend", "u_bend_flow"]
+EXAMPLES = ["bundle", "bundle_flow", "cantilever_stop", "fuel_rod", "oscillator", "straight_tube", "tube_in_flow", "tube_study", "two_tubes", "u_bend", "u_bend_flow"]
 MISSPELT, WORDS = ["x", "", "tub", "0", "a b", "ends"], ["auto", "all", "none", "circle", "plane_y", "stop_z", "splitting", "euler", "flow", "wall", "static", "rest"]
 NUMBERS = [0, 0.0, -1.0, 1, -1, 1e-300, 1e300, 1e12, 1e-12, float("nan"), float("inf"), 7, 0.5, 2**62]
 TYPES = ["text", True, [], [1.0], [1.0, 2.0, 3.0], [[0.0, 1.0], [1.0, 2.0]], {}, {"rms": 1.0}, 3, 2.5]
