@@ -44,8 +44,8 @@ struct FollowedForce {
   /// Of a section: force and moment are those across it, (Vy, Vz) and (My, Mz). Else both have three components.
   bool section = true;
   std::optional<OuterFibre> fibre = std::nullopt; ///< of sections whose outline is known
-  Eigen::MatrixXd by_velocity = {};      ///< of dampers, 6 x n, over q'; empty: none
-  Eigen::MatrixXd imposed_velocity = {}; ///< of dampers, 6 x motions of the scene, over s'
+  Eigen::MatrixXd by_velocity = {};               ///< of dampers, 6 x n, over q'; empty: none
+  Eigen::MatrixXd imposed_velocity = {};          ///< of dampers, 6 x motions of the scene, over s'
 };
 
 struct ForceSummary {

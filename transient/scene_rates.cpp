@@ -177,6 +177,9 @@ SceneRates rates_of(const Scene& scene) {
   out.damper_rate = largest_of(scene, damping_t, tangent_rows);
   out.normal_damper_rate = largest_of(
       scene, [](const ContactPoint& point) { return point.support.normal.damping; }, normal_rows);
+  out.hunt_crossley =
+      std::any_of(scene.contacts.begin(), scene.contacts.end(),
+                  [](const ContactPoint& point) { return point.support.normal.dissipation > 0.0; });
   if (scene.system.size() > 0)
     out.highest_mode = std::sqrt(scene.system.stiffness.maxCoeff());
   for (const vibration::Load& load : scene.loads)

@@ -15,7 +15,9 @@ struct SceneRates {
   double damper_rate = 0.0;     ///< r_t, 1/s, the largest eigenvalue of C_T^1/2 W C_T^1/2
   double normal_damper_rate =
       0.0; ///< r_n, 1/s, the largest eigenvalue of C_N^1/2 W C_N^1/2 over the normal directions; not of Hunt and
-           ///< Crossley's dampers, whose rate w_c bounds (step_rule.hpp)
+           ///< Crossley's dampers
+  bool hunt_crossley =
+      false; ///< there are dampers of theirs, whose rate grows with penetrations that no one knows before the run
   double highest_mode = 0.0; ///< rad/s
   double excitation = 0.0;   ///< Hz, the highest of the loads that act on the scene
   double sampled_excitation =

@@ -39,6 +39,8 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 constexpr double collocation_cost = 0.7;
 /// Of the time of splitting: below it collocation is taken, which does not measure its error (replays.hpp).
 constexpr double worth_changing = 0.7;
+/// Beside Hunt and Crossley's dampers, of whose strong impacts collocation has largest forces up to a quarter too high.
+constexpr double worth_changing_hunt_crossley = 0.2;
 
 /// At most as many as can be counted.
 std::int64_t count_steps(double duration, const StepChoice& c) {
@@ -74,8 +76,10 @@ struct Term {
 
 constexpr const char* smaller_tangential = "; a smaller tangential_damping makes the step longer";
 
-/// 1/s: at which the dampers of contacts stop them.
-double stopping_rate(const StepChoice& c) { return std::max(c.damper_rate, c.normal_damper_rate); }
+/// 1/s: at which the dampers of contacts stop them; those of Hunt and Crossley at any rate.
+double stopping_rate(const StepChoice& c) {
+  return c.hunt_crossley ? unbounded : std::max(c.damper_rate, c.normal_damper_rate);
+}
 
 /// w h of modes that splitting follows in a step: fewer where dampers stop contacts within it.
 double followed_modes(const StepChoice& c, double step) {
@@ -92,8 +96,12 @@ Term mode_term(const StepChoice& c, bool contacts, double followed) {
   if (c.scheme == SchemeKind::splitting && followed < out.bound.largest) {
     out.bound.largest = followed;
     const bool normal = c.normal_damper_rate > c.damper_rate;
-    out.condition = normal ? ", with normal dampers" : ", with tangential dampers";
-    out.cure = normal ? "; a smaller normal_damping makes the step longer" : smaller_tangential;
+    out.condition = c.hunt_crossley ? ", with Hunt and Crossley's dampers"
+                    : normal        ? ", with normal dampers"
+                                    : ", with tangential dampers";
+    out.cure = c.hunt_crossley ? ""
+               : normal        ? "; a smaller normal_damping makes the step longer"
+                               : smaller_tangential;
   }
   return out;
 }
@@ -278,8 +286,10 @@ double least_steps(const Scene& scene) {
 }
 
 /// Of the longest step in which dampers that stop contacts leave modes to be made heavier: beside tangential ones those above twice the contact
-/// frequency; beside normal ones none, for the force of an impact without rebound begins with a jump. Of slow dampers any.
+/// frequency; beside normal ones none, for the force of an impact without rebound begins with a jump, nor beside those of Hunt and Crossley, at no step. Of slow dampers any.
 Limit limit_of_scaled_modes(const StepChoice& c, double fineness) {
+  if (c.hunt_crossley)
+    return {0.0, ""};
   Limit out{c.step, ""};
   if (c.damper_rate * c.step > fast_damper)
     out = {mode_with_fast_damper * fineness /
@@ -373,7 +383,7 @@ StepChoice cheapest(const Scene& scene, const SceneRates& rates, const StepOptio
   StepChoice collocation = choice_of(scene, rates, options, SchemeKind::collocation);
   const double time = collocation_cost * static_cast<double>(collocation.steps) /
                       static_cast<double>(splitting.steps); // of that of splitting
-  if (time < worth_changing) {
+  if (time < (rates.hunt_crossley ? worth_changing_hunt_crossley : worth_changing)) {
     collocation.scheme_reason =
         fmt::format("collocation, which takes about {:.2g} of the time of splitting", time);
     return collocation;

@@ -14,9 +14,10 @@
 /// With contacts splitting follows modes to highest_mode/h; where r_t h or r_n h > fast_damper to mode_with_fast_damper/h. Faster ones are made heavier
 /// (mass_scaling.hpp), or where they may not be, the step is shorter. Without contacts exact flows have mode_without_contacts/w_max.
 ///
-/// Hunt and Crossley's damper c(p) = K_N d p grows with a penetration that is not known beforehand, but w_c bounds its rate: an impact
-/// at the speed v has p <= min(1, sqrt(2/x)) v/w_c with x = d v (spring alone; damper alone), so that h c W <= 0.5 min(x, sqrt(2 x)).
-/// Euler's limit 2 is met up to x = 8 (which leaves less than 1/8 of the speed); the splitting takes the damper implicitly.
+/// Hunt and Crossley's damper c(p) = K_N d p grows with a penetration that is not known beforehand. In an impact at the speed v w_c bounds its rate:
+/// p <= min(1, sqrt(2/x)) v/w_c with x = d v (spring alone; damper alone), so that h c W <= 0.5 min(x, sqrt(2 x)).
+/// Euler's limit 2 is met up to x = 8 (which leaves less than 1/8 of the speed). Where loads press the contact nothing bounds it: splitting
+/// follows modes beside such dampers as beside fast ones, at any step, and its intervals resolve them at the penetration that is ahead.
 /// runge_kutta_54 chooses its steps by its tolerance: `step` is the longest, from the excitation and duration/200.
 ///
 /// Loads: max(points/f, fewest_points) steps in the shortest period of the excitation, points_per_period of the table (points_of_lines for sampled

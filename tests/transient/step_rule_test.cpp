@@ -304,6 +304,13 @@ TEST(StepRule, TakesCollocationWhereOnlyModesFarAboveTheContactsLimitSplitting) 
   EXPECT_EQ(far.scheme, SchemeKind::collocation);
   EXPECT_TRUE(mentions(far.scheme_reason, "collocation, which takes about 0.0")) << far.scheme_reason;
   EXPECT_TRUE(mentions(far.reason, "the contact frequency"));
+  const auto beside_hunt_crossley = [](double times) {
+    return choose_step(
+        vibrating(scene_with({Circle{0.1}, {8e4, 0.0, 5.0}, {}}, 1000.0, Vec3(0, 8e4 * times * times, 0))),
+        {});
+  };
+  EXPECT_EQ(beside_hunt_crossley(5.0).scheme, SchemeKind::splitting);
+  EXPECT_EQ(beside_hunt_crossley(100.0).scheme, SchemeKind::collocation);
 }
 
 TEST(StepRule, TakesSplittingWhereCollocationCannotTakeTheScene) {

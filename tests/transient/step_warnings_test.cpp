@@ -59,6 +59,18 @@ TEST(StepWarnings, ResolvesNormalDampersThatActImplicitly) {
   EXPECT_EQ(choose_step(scene_with({Circle{0.1}, {8e4, 0.0, 5.0}, {}}), splitting()).normal_damper_rate, 0.0);
 }
 
+// Their rate grows with penetrations that no one knows before the run: they count as fast at any step.
+TEST(StepWarnings, FollowModesBesideHuntAndCrossleysDampersAsBesideFastOnes) {
+  Scene scene = scene_with({Circle{0.1}, {8e4, 0.0, 5.0}, {}});
+  scene.system.stiffness.setConstant(1e6); // 1000 rad/s, above twice w_c = 200
+  expect_governed(scene, splitting(), 1.5e-3,
+                  "the highest mode 1000 rad/s, with Hunt and Crossley's dampers");
+  EXPECT_EQ(choose_step(scene, splitting()).scaled, 0);
+  const StepChoice given = choose_step(scene, splitting(2e-3));
+  ASSERT_EQ(given.warnings.size(), 1u);
+  EXPECT_TRUE(mentions(given.warnings[0], "the highest mode, with Hunt and Crossley's dampers: w_max h = 2"));
+}
+
 TEST(StepWarnings, NamesNormalDampersThatNoStepResolves) {
   // one that leaves no rebound does not ask for steps without end
   const Scene scene = scene_with({Circle{0.1}, {8e4, 1e9}, {}}, 1.0);

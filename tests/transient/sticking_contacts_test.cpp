@@ -29,7 +29,8 @@ private:
 };
 
 /// At rest but for the velocities of its modes. @param damper_rate, normal_rate  of contacts, over the frequency of the highest mode
-Scene held_between_stops(unsigned seed, double damper_rate, double normal_rate = 0.0) {
+Scene held_between_stops(unsigned seed, double damper_rate, double normal_rate = 0.0,
+                         bool hunt_crossley = false) {
   Draw draw(seed);
   const int nodes = 1 + static_cast<int>(draw.uniform(0.0, 6.0)),
             each = static_cast<int>(draw.uniform(8.0, 24.0)), modes = 3 * each;
@@ -59,11 +60,14 @@ Scene held_between_stops(unsigned seed, double damper_rate, double normal_rate =
     scene.contacts.push_back(point);
   }
   const double normal = 0.5 * contact_frequency * contact_frequency / mobility,
-               tangential = normal * draw.logarithmic(0.05, 1.0);
+               tangential = normal * draw.logarithmic(0.05, 1.0),
+               damping = 0.5 * normal_rate * highest / mobility;
+  contact::NormalLaw law{normal, damping};
+  if (hunt_crossley)
+    law = {normal, 0.0, damping / (normal * overlap)};
   for (ContactPoint& point : scene.contacts)
-    point.support = {point.support.obstacle,
-                     {normal, 0.5 * normal_rate * highest / mobility},
-                     {tangential, 0.5 * damper_rate * highest / mobility, 10.0, 10.0}};
+    point.support = {
+        point.support.obstacle, law, {tangential, 0.5 * damper_rate * highest / mobility, 10.0, 10.0}};
   scene.q0 = Eigen::VectorXd::Zero(modes);
   scene.v0 = Eigen::VectorXd::NullaryExpr(
       modes, [&] { return 1e-5 * highest / std::sqrt(modes) * draw.uniform(-1.0, 1.0); });
@@ -95,6 +99,12 @@ TEST(PressedContacts, LoseEnergyAtTheAutomaticStepBesideNormalDampers) {
       for (const double damper_rate : {0.0, 30.0})
         EXPECT_LT(growth(held_between_stops(seed, damper_rate, normal_rate)), 1.0)
             << seed << " " << normal_rate << " " << damper_rate;
+}
+
+TEST(PressedContacts, LoseEnergyAtTheAutomaticStepBesideHuntAndCrossleysDampers) {
+  for (unsigned seed = 0; seed < 8; ++seed)
+    for (const double normal_rate : {0.3, 3.0, 15.0})
+      EXPECT_LT(growth(held_between_stops(seed, 0.0, normal_rate, true)), 1.0) << seed << " " << normal_rate;
 }
 
 } // namespace sticking_contacts_test

@@ -20,8 +20,6 @@ constexpr double longest_way = 1.0;
 /// of the angle by which its normal turns there in half a step; way in the clearance without which a round hole or two planes have no such turn.
 constexpr int at_corner = 16, least_at_corner = 32, most_at_corner = 128, at_side = 8, least_at_side = 16;
 constexpr double least_cosine = 0.9, least_way = 0.4;
-/// r_n h, r_t h above which dampers stop a contact early in a step.
-constexpr double stopping = 1.0;
 /// d v of Hunt and Crossley's damper that leaves intervals as they are.
 constexpr double least_stiffer = 1.0;
 /// Of an interval: what is shorter is none.
@@ -36,7 +34,7 @@ ContactIntervals::ContactIntervals(const contact::Support& support, const Compon
       w_(mobility), in_plane_(in_plane), has_corners_(contact::properties_of(support.obstacle).has_parts),
       has_sides_(contact::properties_of(support.obstacle).has_opposite_sides), h_(step),
       clearance_(clearance), mobility_(std::max({mobility(0, 0), mobility(1, 1), mobility(2, 2)})),
-      normal_stops_(rates.normal * step > stopping), friction_stops_(rates.tangential * step > stopping) {}
+      rates_(rates) {}
 
 IntervalTable ContactIntervals::table(int count) const {
   IntervalTable table;
@@ -66,6 +64,8 @@ int ContactIntervals::least_count(int parts, const ContactPast& past, const Free
   if (const double stiffer = normal_.dissipation * speed; stiffer > least_stiffer)
     parts = std::max(parts, static_cast<int>(std::min(std::round(parts * std::sqrt(1.0 + stiffer)),
                                                       1.0 * most_intervals)));
+  if (rates_.by_penetration > 0.0)
+    parts = std::max(parts, intervals_for_dampers(path));
   if (may_turn(past, path, way) && meets_corner(path))
     return std::max(parts, has_corners_ ? std::clamp(at_corner * parts, least_at_corner, most_at_corner)
                                         : std::clamp(at_side * parts, least_at_side, most_intervals));
@@ -73,6 +73,15 @@ int ContactIntervals::least_count(int parts, const ContactPast& past, const Free
     return parts;
   return std::max(
       parts, static_cast<int>(std::ceil(std::min(1.0 * most_intervals, way / (longest_way * clearance_)))));
+}
+
+/// For dampers of Hunt and Crossley, at the largest penetration that is ahead under the forces held.
+int ContactIntervals::intervals_for_dampers(const FreePath& path) const {
+  const double deepest =
+      std::max({0.0, -locate(path.displacement(0.0)).gap, -locate(path.displacement(h_)).gap});
+  const double needed =
+      rates_.normal_at(deepest) * h_ / limits_of(SchemeKind::splitting).normal_damper.largest;
+  return static_cast<int>(std::ceil(std::min(needed, 1.0 * most_intervals)));
 }
 
 bool ContactIntervals::may_turn(const ContactPast& past, const FreePath& path, double way) const {

@@ -76,6 +76,8 @@ struct IntervalTable {
 /// 1/s: damping times mobility, along the normal and tangential.
 struct DamperRates {
   double normal = 0.0, tangential = 0.0;
+  double by_penetration = 0.0; ///< 1/(m s): of Hunt and Crossley's dampers, K_N d times mobility
+  [[nodiscard]] double normal_at(double penetration) const { return normal + by_penetration * penetration; }
 };
 
 class ContactIntervals {
@@ -87,7 +89,7 @@ public:
                    bool in_plane, double step, double clearance, const DamperRates& rates);
 
   [[nodiscard]] IntervalTable table(int count) const;
-  /// How many intervals of a step a contact needs at least: for its speed, and where it meets a corner or
+  /// How many intervals of a step a contact needs at least: for its speed, for a damper that grows with the penetration, and where it meets a corner or
   /// another side.
   /// @param parts  that it has anyway
   [[nodiscard]] int least_count(int parts, const ContactPast& past, const FreePath& path) const;
@@ -109,8 +111,9 @@ public:
   [[nodiscard]] Components held(const MovingContact& m) const {
     if (!m.course.past.closed)
       return {};
-    const bool friction_stops = friction_stops_ && !m.course.past.friction.sliding;
-    return friction_stops || normal_stops_ ? with_means(m, normal_stops_, friction_stops) : m.last;
+    const bool friction_stops = stops(rates_.tangential) && !m.course.past.friction.sliding,
+               normal_stops = stops(rates_.normal_at(m.penetration));
+    return friction_stops || normal_stops ? with_means(m, normal_stops, friction_stops) : m.last;
   }
   /// What is expected of its force in the next interval: it grows on where the contact has been closed throughout, and stays else.
   void extrapolate(MovingContact& m) const;
@@ -121,8 +124,12 @@ public:
   void correct_spring_drift(ContactPast& past, const Components& missed) const;
 
 private:
+  /// r h of dampers that stop a contact early in a step, above.
+  static constexpr double stopping = 1.0;
+
   struct Motion;
   struct NormalForce;
+  [[nodiscard]] bool stops(double rate) const { return rate * h_ > stopping; }
   [[nodiscard]] contact::Location locate(const Components& u) const {
     return contact::locate(obstacle_, u.y() + rest_.y(), u.z() + rest_.z());
   }
@@ -130,6 +137,7 @@ private:
   [[nodiscard]] double apparent_mass(double length, double stiffness, double damping) const;
   /// N: its last force, the normal part and friction at their means where asked for.
   [[nodiscard]] static Components with_means(const MovingContact& m, bool of_normal, bool of_friction);
+  [[nodiscard]] int intervals_for_dampers(const FreePath& path) const;
   [[nodiscard]] bool may_turn(const ContactPast& past, const FreePath& path, double way) const;
   [[nodiscard]] bool meets_corner(const FreePath& path) const;
   [[nodiscard]] bool rolls_round(const Motion& a, double dt) const;
@@ -161,8 +169,8 @@ private:
   Mobility w_;
   bool in_plane_, has_corners_, has_sides_;
   double h_, clearance_;
-  double mobility_;                    ///< 1/kg, the largest along any direction
-  bool normal_stops_, friction_stops_; ///< normal, tangential dampers stop it, early in a step
+  double mobility_; ///< 1/kg, the largest along any direction
+  DamperRates rates_;
 };
 
 } // namespace fretwork::transient

@@ -43,6 +43,7 @@ CoupledContacts::CoupledContacts(const PackedContacts& contacts, ContactBlocks b
         const contact::Support& other = contacts.supports[blocks_.contacts[block][from]];
         const double coupling = mobility_[block][from * size + static_cast<std::size_t>(local)].largest();
         rates.normal += other.normal.damping * coupling;
+        rates.by_penetration += other.normal.stiffness * other.normal.dissipation * coupling;
         if (other.friction.active())
           rates.tangential += other.friction.damping * coupling;
       }

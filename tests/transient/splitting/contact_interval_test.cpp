@@ -247,4 +247,20 @@ TEST(ContactIntervals, AreShorterWhereAHoleIsCrossed) {
   }
 }
 
+TEST(ContactIntervals, AreShorterForDampersThatGrowWithThePenetration) {
+  constexpr double stiffness = 1e6, d = 100.0, w = 20.0, gap = 1e-3;
+  const contact::Support support{contact::Stop{gap, contact::PlaneAxis::y}, {stiffness, 0.0, d}, {}};
+  const ContactIntervals intervals(support, {}, isotropic(w), false, step, gap,
+                                   {.by_penetration = stiffness * d * w});
+  const auto count = [&](double start, double end) {
+    const FreePath path{{gap + start, 0.0, 0.0}, {(end - start) / step, 0.0, 0.0}, {}, {}};
+    return intervals.least_count(1, closed({-1.0, 0.0}), path);
+  };
+  EXPECT_EQ(count(1e-6, 1e-6), 1);
+  EXPECT_EQ(count(1e-4, 1e-4), 12); // r h = 20, r dt at most 1.8
+  EXPECT_EQ(count(9e-5, 1e-4), 12);
+  EXPECT_EQ(count(1e-4, 9e-5), 12);
+  EXPECT_EQ(count(1e-2, 1e-2), 64);
+}
+
 } // namespace contact_interval_test
