@@ -249,7 +249,7 @@ std::vector<sweep::Column> case_columns(const std::vector<PlacedContact>& contac
   if (!facts.stability.empty())
     add("worst.velocity_ratio", "", false);
   for (auto column = columns.begin(); column != columns.end(); ++column)
-    if (std::find(columns.begin(), column, *column) != column)
+    if (std::any_of(columns.begin(), column, [&](const auto& other) { return other.name == column->name; }))
       throw core::Error(
           fmt::format("two outputs of the sweep are called \"{}\"; rename the contact or group (\"total\" "
                       "and \"worst\" are all contacts together, and the worst)",

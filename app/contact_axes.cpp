@@ -17,6 +17,7 @@ using core::Vec3;
 constexpr double negligible = 1e-8;
 /// Tangents of two beams that meet at a node give a mean this long at least; shorter: they turn back.
 constexpr double shortest_mean = 0.1;
+
 /// Beams are walked along their chain, so that the tangents before and after a node point the same way.
 Vec3 mean_tangent(const fem::Model& model, Index node, const std::string& name) {
   Vec3 sum = Vec3::Zero();

@@ -57,9 +57,6 @@ void judge(const study::Study& study, const transient::StepChoice& choice, const
   if (report.residual_relative > residual_warning) // what makes all figures wrong comes first
     out.warnings.insert(out.warnings.begin(),
                         fmt::format("{}: no figure of this run can be trusted; {}", balance, cure));
-  else if (report.residual_relative > residual_of_sound)
-    out.warnings.push_back(fmt::format("{}, that of a sound run by {:g} % at most; {}", balance,
-                                       100.0 * residual_of_sound, cure));
   // loads that push to and fro put in far more than what the motion loses
   const transient::Energy& e = report.energy;
   const double excess = -e.residual(),
@@ -70,6 +67,9 @@ void judge(const study::Study& study, const transient::StepChoice& choice, const
         "the energy balance has an excess of {:.2g} % of the energy dissipated, which nothing supplied; "
         "take a smaller step",
         100.0 * excess / dissipated));
+  else if (report.residual_relative > residual_of_sound && report.residual_relative <= residual_warning)
+    out.warnings.push_back(
+        fmt::format("{}; a sound run is balanced to {:g} %; {}", balance, 100.0 * residual_of_sound, cure));
   if (report.counts.unconverged > report.counts.steps / 1000)
     out.warnings.insert(out.warnings.begin(), unconverged_warning(report.counts));
 }

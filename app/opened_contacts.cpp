@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/opened_contacts.hpp"
 #include "contact/support_shapes.hpp"
+#include "core/error.hpp"
 #include <cmath>
+#include <fmt/format.h>
 #include <numbers>
 #include <type_traits>
 
@@ -35,15 +37,28 @@ contact::Profile opened_rectangle(const contact::Profile& profile, double growth
 }
 
 /// Each facet moved along its normal: corners are where neighbours then meet.
+/// @throws core::Error where they meet before a facet between them: it is worn away
 contact::Profile opened_facets(const contact::Profile& profile,
                                const std::vector<contact::PlanePoint>& normals, const SideGrowth& growth) {
-  return moved_profile(profile, [&](const contact::PlanePoint& corner, std::size_t i) {
-    const std::size_t before = (i + normals.size() - 1) % normals.size();
+  const std::size_t n = normals.size();
+  const auto opened = [&](const contact::PlanePoint& corner, std::size_t i) {
+    const std::size_t before = (i + n - 1) % n;
     const contact::PlanePoint &a = normals[before], &b = normals[i];
     const double sine = a.y * b.z - a.z * b.y;
     return contact::PlanePoint{corner.y + (growth[before] * b.z - growth[i] * a.z) / sine,
                                corner.z + (growth[i] * a.y - growth[before] * b.y) / sine};
-  });
+  };
+  const auto corners = profile.vertices();
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t next = (i + 1) % n;
+    const contact::PlanePoint from = opened(corners[i], i), to = opened(corners[next], next);
+    if (!((to.y - from.y) * (corners[next].y - corners[i].y) +
+              (to.z - from.z) * (corners[next].z - corners[i].z) >
+          0.0))
+      throw core::Error(
+          fmt::format("facet {} of the profile is worn away: its neighbours meet before it", i + 1));
+  }
+  return moved_profile(profile, opened);
 }
 
 struct Opened {

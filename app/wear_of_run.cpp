@@ -208,9 +208,9 @@ private:
       for (const WornSide::Part& part : other.parts) {
         const double rate = rates_of_contact(run_, part.contact).at(part.side).value;
         sum += rate;
-        own += &other == side ? rate : 0.0;
+        own += other.name == side->name ? rate : 0.0;
       }
-    return scaled(given, sum > 0.0 ? own / sum : side == &place_.sides.front() ? 1.0 : 0.0);
+    return scaled(given, sum > 0.0 ? own / sum : side->name == place_.sides.front().name ? 1.0 : 0.0);
   }
 
   const study::Wear& entry_;
@@ -260,7 +260,8 @@ std::optional<WornPlace> about_corners(const WornPlace& place, const std::vector
   auto* lands =
       shared && shared->form == wear::Form::exact ? std::get_if<wear::Lands>(&shared->geometry) : nullptr;
   if (!lands || !std::all_of(place.contacts.begin(), place.contacts.end(), [&](std::size_t c) {
-        return std::holds_alternative<contact::BroachedSpace>(placed[c].obstacle);
+        return std::holds_alternative<contact::BroachedSpace>(placed[c].obstacle) &&
+               !contact::sides_of(placed[c].obstacle).empty();
       }))
     return {};
   lands->middles = {lands->half_angle};
@@ -324,9 +325,11 @@ void add_corner_note(results::RunResults& out) {
   std::vector<std::string> names;
   const results::WearOfSupport* deepest = nullptr;
   for (const results::WearOfSupport& s : out.wear->supports)
-    if (s.corner_share > least_share && s.corner_depth > least_excess * s.depth.last().value) {
+    if (const double depth = s.depth.last().value;
+        s.corner_share > least_share && // a depth that is no number is beyond the geometry
+        (s.corner_depth > least_excess * depth || (std::isnan(s.corner_depth) && !std::isnan(depth)))) {
       names.push_back(s.name);
-      deepest = !deepest || s.corner_depth > deepest->corner_depth ? &s : deepest;
+      deepest = !deepest || !(s.corner_depth <= deepest->corner_depth) ? &s : deepest;
     }
   if (!deepest)
     return;
@@ -335,15 +338,16 @@ void add_corner_note(results::RunResults& out) {
            : std::isinf(value) ? std::string("never")
                                : fmt::format("{:.3g} years", value);
   };
-  out.notes.push_back(fmt::format("wear of {}: work at corners of lands, of \"{}\" {:.0f} %, where scars are "
-                                  "deeper than about the middles of "
-                                  "lands, as depths and years are: if all its work were there, {:.3g} mm "
-                                  "after {:.4g} years instead of {:.3g} "
-                                  "mm, {} to its limit instead of {}",
-                                  core::list_names(names, most_names), deepest->name,
-                                  100.0 * deepest->corner_share, 1e3 * deepest->corner_depth,
-                                  deepest->time.back() / wear::year, 1e3 * deepest->depth.last().value,
-                                  years(deepest->corner_years), years(deepest->life.years.value)));
+  const auto mm = [](double depth) {
+    return std::isnan(depth) ? std::string("beyond its geometry") : fmt::format("{:.3g} mm", 1e3 * depth);
+  };
+  out.notes.push_back(fmt::format(
+      "wear of {}: {:.0f} % of the work of \"{}\" is at corners of lands, where scars are deeper. Its depth "
+      "after {:.4g} years is {} about the middles of lands and at most {} about corners, its life {} and at "
+      "least {}",
+      core::list_names(names, most_names), 100.0 * deepest->corner_share, deepest->name,
+      deepest->time.back() / wear::year, mm(deepest->depth.last().value), mm(deepest->corner_depth),
+      years(deepest->life.years.value), years(deepest->corner_years)));
 }
 
 void add_warnings(results::RunResults& out) {

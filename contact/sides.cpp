@@ -66,7 +66,7 @@ struct SidesOf {
     if (is_rectangle(profile))
       return flat({0, 1, 2, 3});
     std::vector<Side> out;
-    for (std::size_t number = 0; number < normals_of(profile).size(); ++number)
+    for (std::size_t number = 0, count = normals_of(profile).size(); number < count; ++number)
       out.push_back({number, name_of_facet(number)});
     return out;
   }

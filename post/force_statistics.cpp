@@ -59,6 +59,13 @@ std::vector<std::size_t> with_dampers(const std::vector<FollowedForce>& forces) 
   return out;
 }
 
+/// Whether a damper acts in a component of a force.
+bool damps(const FollowedForce& force, std::size_t component) {
+  const auto row = static_cast<Eigen::Index>(component);
+  return !force.by_velocity.row(row).isZero(0.0) ||
+         (force.imposed_velocity.size() > 0 && !force.imposed_velocity.row(row).isZero(0.0));
+}
+
 } // namespace
 
 ForceStatistics::ForceStatistics(const std::vector<FollowedForce>& forces, double from)
@@ -76,6 +83,9 @@ ForceStatistics::ForceStatistics(const std::vector<FollowedForce>& forces, doubl
         modes_ + static_cast<std::size_t>(kernels::padded(static_cast<int>(force.by_contacts.cols())));
   }
   inputs_.assign(together * inputs_of_record_, 0.0);
+  for (const std::size_t k : damped_)
+    for (std::size_t c = 0; c < force_components; ++c)
+      damps_.push_back(damps(forces[k], c));
   for (std::size_t c = 0; c < force_components; ++c)
     for (std::size_t begin = 0; begin < width_; begin += kernels::lanes) {
       std::map<int, std::array<double, kernels::lanes>> pack;
@@ -195,6 +205,8 @@ void ForceStatistics::add_dampers(double time, double* values) {
   const double passed = time - time_before_;
   for (std::size_t i = 0; i < damped_.size(); ++i)
     for (std::size_t c = 0; c < force_components; ++c) {
+      if (!damps_[i * force_components + c])
+        continue;
       double& force = values[c * width_ + damped_[i]];
       const double dampers = values[c * width_ + kinds_.size() + i];
       double* before = before_.data() + 2 * (i * force_components + c);

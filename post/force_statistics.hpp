@@ -101,6 +101,7 @@ private:
   std::vector<Kind> kinds_;
   std::vector<std::size_t>
       damped_;               ///< forces with dampers: D of the i-th is that of a force kinds_.size() + i
+  std::vector<char> damps_;  ///< whether a damper acts in a component of each of these, 6 x damped_
   kernels::Array before_;    ///< F and D of each at the record before, 12 x damped_
   double time_before_ = 0.0; ///< s
   std::size_t

@@ -36,9 +36,11 @@ TEST(JudgeRun, WarnsOfEnergyThatNothingPutIn) {
   EXPECT_THAT(warnings(2.5, 4e-4), IsEmpty());      // next to what goes to and fro
   EXPECT_THAT(warnings(0.0, 4e-3, 1.1), IsEmpty()); // without losses
   EXPECT_THAT(warnings(1.0, 0.0099), IsEmpty());
-  EXPECT_THAT(warnings(1.0, 0.012),
-              ElementsAre("the energy balance is off by 1.2 % of the energy put in, that of a sound "
-                          "run by 1 % at most; take a smaller step"));
+  EXPECT_THAT(
+      warnings(1.0, 0.012),
+      ElementsAre("the energy balance is off by 1.2 % of the energy put in; a sound run is balanced to "
+                  "1 %; take a smaller step"));
+  EXPECT_THAT(warnings(2.5, 0.02), ElementsAre(HasSubstr("an excess of 60 % of the energy dissipated")));
   EXPECT_THAT(warnings(2.5, 0.2), ElementsAre(HasSubstr("off by 20 % of the energy put in")));
 }
 

@@ -120,6 +120,24 @@ TEST(OpenedContacts, MoveEachFacetByItsOwnScar) {
   }
 }
 
+// The chamfer of a corner, 0.14 mm long, ends where its neighbours meet: when it has moved by half of that.
+TEST(OpenedContacts, SayWhichFacetIsWornAway) {
+  const std::vector<std::pair<double, double>> corners{
+      {-1e-3, -1e-3}, {1e-3, -1e-3}, {1e-3, 0.9e-3}, {0.9e-3, 1e-3}, {-1e-3, 1e-3}};
+  std::vector<contact::PolarPoint> points;
+  for (const auto& [y, z] : corners)
+    points.push_back({std::atan2(z, y), std::hypot(y, z)});
+  PlacedContact placed{};
+  placed.obstacle = contact::Profile(points);
+  open_sides({0.0, 0.0, 6e-5, 0.0, 0.0}, placed);
+  try {
+    open_sides({0.0, 0.0, 2e-5, 0.0, 0.0}, placed);
+    ADD_FAILURE() << "a facet of no length";
+  } catch (const core::Error& error) {
+    EXPECT_STREQ(error.what(), "facet 3 of the profile is worn away: its neighbours meet before it");
+  }
+}
+
 TEST(OpenedContacts, MoveThePointsOfAProfileOutward) {
   std::vector<contact::PolarPoint> points;
   constexpr int n = 720;

@@ -208,7 +208,8 @@ def _wear(run, of=""):
         return math.inf if life["end"] == "never" or (years is not None and years > 1 / ROUND_OFF) else years
 
     def wears(support):
-        return not of or (support["support_depth_m"] or {}).get("value") or support["support_life_years"]
+        worn = support["support_depth_m"]  # its value is none beyond the geometry
+        return not of or support["support_life_years"] or (worn and worn["value"] != 0)
 
     depth = f"{of}depth_m"
     return {s["name"]: (of_sum(s[depth]["value"]) if s[depth] else None, life(s)) for s in run.summary.get("wear", {}).get("supports", []) if wears(s)}

@@ -96,7 +96,7 @@ def _tubes(run):
     def _first(tube):
         unknown = tube.get("unknown_lives", 0)
         return (html.escape(tube["first_support"] or "–") + (" (the support)" if tube.get("first_body") == "support" else "")
-                + (f"; {unknown} without a life" if unknown else ""))
+                + (f"; {unknown} {'life' if unknown == 1 else 'lives'} unknown" if unknown else ""))
 
     tubes = run.summary.get("wear", {}).get("tubes", [])
     rows = [
@@ -135,7 +135,7 @@ def _gap_opening(run):
     worn = [
         [html.escape(s["name"]), _bounds(bounds(s["support_depth_m"][-1]), 1e3), life(s["support_life_years"]) if s.get("support_life_years") else "no limit"]
         for s in opening["supports"]
-        if s.get("support_life_years") or (s["support_depth_m"][-1]["value"] or 0) > 0
+        if s.get("support_life_years") or s["support_depth_m"][-1]["value"] != 0
     ]
     note = (
         f'<p class="soft">Gaps opened by wear in {len(opening["years"])} stages up to {short(opening["years"][-1])} years: {_ENDS[opening["end"]]}. '
