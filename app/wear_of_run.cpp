@@ -324,12 +324,17 @@ void add_corner_note(results::RunResults& out) {
   constexpr double least_share = 0.05, least_excess = 1.05; // of the work, of the depth
   std::vector<std::string> names;
   const results::WearOfSupport* deepest = nullptr;
+  double deepest_corner = 0.0; // m
   for (const results::WearOfSupport& s : out.wear->supports)
     if (const double depth = s.depth.last().value;
         s.corner_share > least_share && // a depth that is no number is beyond the geometry
         (s.corner_depth > least_excess * depth || (std::isnan(s.corner_depth) && !std::isnan(depth)))) {
       names.push_back(s.name);
-      deepest = !deepest || !(s.corner_depth <= deepest->corner_depth) ? &s : deepest;
+      if (const double corner = std::isnan(s.corner_depth) ? HUGE_VAL : s.corner_depth;
+          corner > deepest_corner) {
+        deepest = &s;
+        deepest_corner = corner;
+      }
     }
   if (!deepest)
     return;

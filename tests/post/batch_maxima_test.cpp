@@ -78,7 +78,7 @@ TEST(BatchMaxima, OfAContactAreThoseOfItsPeaks) {
 }
 
 // Forces whose tail is exponential, as that of a normal variable (speeds of impacts), or bounded: what a run says of its scatter against that over
-// runs, and how often chance alone is told as a difference.
+// runs, and how often chance alone is reported as a difference.
 TEST(BatchMaxima, GiveTheScatterOfTheLargestForceOfManyRuns) {
   std::mt19937_64 generator(5);
   std::exponential_distribution<double> exponential;
