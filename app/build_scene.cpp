@@ -309,18 +309,11 @@ std::vector<NamedNode> observed_nodes(const study::Study& study, const mesh::Lin
 std::vector<std::vector<std::size_t>> joined_structures(const std::vector<modal::Basis>& bases,
                                                         const std::vector<PlacedContact>& contacts,
                                                         const std::vector<FluidForces>& fluid) {
-  const auto structure_of = [&](Index node) {
-    const auto has = [&](const modal::Basis& basis) { return basis.row_of(node) >= 0; };
-    return std::find_if(bases.begin(), bases.end(), has) - bases.begin();
-  };
-  const auto count = static_cast<std::ptrdiff_t>(bases.size());
   fem::DisjointSets sets(bases.size());
   for (const PlacedContact& contact : contacts) {
-    if (contact.other < 0)
-      continue;
-    const auto a = structure_of(contact.node), b = structure_of(contact.other);
-    if (a < count && b < count)
-      sets.join(static_cast<Index>(a), static_cast<Index>(b));
+    const auto a = modal::structure_of(bases, contact.node), b = modal::structure_of(bases, contact.other);
+    if (a && b)
+      sets.join(static_cast<Index>(*a), static_cast<Index>(*b));
   }
   for (const FluidForces& law : fluid)
     for (const std::size_t s : law.structures)

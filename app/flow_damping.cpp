@@ -114,11 +114,10 @@ std::vector<std::string> supports_without_length(const TubesInFlow& tubes,
 
 std::size_t structure_of(const PlacedFlow& placed, const std::string& name,
                          const std::vector<modal::Basis>& bases) {
-  const auto found = std::find_if(bases.begin(), bases.end(),
-                                  [&](const modal::Basis& basis) { return basis.row_of(placed.start) >= 0; });
-  if (found == bases.end())
+  const auto found = modal::structure_of(bases, placed.start);
+  if (!found)
     throw core::Error(fmt::format("flow \"{}\": the tube cannot move; release it in [[restraints]]", name));
-  return static_cast<std::size_t>(found - bases.begin());
+  return *found;
 }
 
 results::TubeDamping damping_of_tube(const TubesInFlow& tubes, const PlacedFlow& placed,

@@ -213,8 +213,7 @@ std::vector<LackingForce> lacking_forces(const std::vector<results::ForceSite>& 
                                          const std::vector<PlacedContact>& placed,
                                          std::vector<std::string>& notes) {
   for (const results::ForceSite& site : sites)
-    if (std::none_of(bases.begin(), bases.end(),
-                     [&](const modal::Basis& basis) { return basis.row_of(site.node) >= 0; }))
+    if (!modal::structure_of(bases, site.node))
       throw core::Error(
           fmt::format("[output] {}: \"{}\" belongs to no structure that moves; name {}",
                       site.is_section() ? "section_forces" : "reactions", site.name,

@@ -144,12 +144,10 @@ std::vector<BuiltScene> build_scenes(const study::Study& study, const std::vecto
   if (const std::string note = build_up_note(study, scenes);
       !note.empty() && (!placed.empty() || !nodes.empty()))
     out.notes.push_back(note);
-  for (const NamedNode& node : nodes) {
-    const auto has = [&](const modal::Basis& basis) { return basis.row_of(node.node) >= 0; };
-    if (std::none_of(bases.begin(), bases.end(), has))
+  for (const NamedNode& node : nodes)
+    if (!modal::structure_of(bases, node.node))
       throw core::Error(fmt::format(
           "[output] nodes: \"{}\" belongs to no structure that moves; observe another node", node.name));
-  }
   return scenes;
 }
 

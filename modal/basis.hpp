@@ -6,6 +6,7 @@
 #pragma once
 #include "core/types.hpp"
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 namespace fretwork::modal {
@@ -39,5 +40,8 @@ struct Basis {
   /// Row of `node` in `shapes` (6 rows from there), or -1 where the structure does not have it.
   [[nodiscard]] Eigen::Index row_of(core::Index node) const;
 };
+
+/// Number of the structure that has `node`, among `bases`; nothing: none has it, such as a negative number that stands for no node.
+[[nodiscard]] std::optional<std::size_t> structure_of(const std::vector<Basis>& bases, core::Index node);
 
 } // namespace fretwork::modal
