@@ -8,6 +8,7 @@
 #include "app/jobs.hpp"
 #include "app/judge_contacts.hpp"
 #include "app/judge_run.hpp"
+#include "app/judge_wear.hpp"
 #include "app/modal_truncation.hpp"
 #include "app/shared_signals.hpp"
 #include "app/verification.hpp"
@@ -260,6 +261,7 @@ sweep::CaseResult CaseRunner::operator()(const std::vector<std::string>& overrid
     run_scene(c.study, scenes[i], choices[i], out);
   out.bases = nodes_of(c.contacts->bases);
   add_wear(c.study, c.worn, c.placed, c.other_runs, out);
+  judge_wear(c.study, c.worn, c.placed, out);
   judge_restitution(c.study, c.placed, out);
   judge_stuck_dampers(c.study, c.placed, scenes, out);
   judge_sliding(c.study, c.placed, out);

@@ -3,6 +3,7 @@
 #include "app/gap_opening.hpp"
 #include "app/jobs.hpp"
 #include "app/judge_contacts.hpp"
+#include "app/judge_wear.hpp"
 #include "app/watched_wear.hpp"
 #include <fmt/format.h>
 
@@ -26,16 +27,14 @@ void run_scenes(const AroundTransient& around, const study::Study& study, std::v
            {progress, around.checkpoints, runs * static_cast<std::size_t>(stage - 1),
             study.gap_opening.has_value()},
            out);
-  if (stage == 1) {
-    judge_restitution(study, around.placed, out);
-    judge_stuck_dampers(study, around.placed, scenes, out);
-    judge_sliding(study, around.placed, out);
-    judge_reach(out);
-  }
-  const std::size_t said = out.warnings.size();
   core::agree(around.comm, [&] { add_wear(study, around.worn, around.placed, around.other_runs, out); });
   if (stage > 1)
-    out.warnings.resize(said); // of wear at work rates that stay for years; open_gaps warns of its own
+    return; // work rates that stay for years are those of the first stage; open_gaps warns of the others
+  judge_restitution(study, around.placed, out);
+  judge_stuck_dampers(study, around.placed, scenes, out);
+  judge_sliding(study, around.placed, out);
+  judge_reach(out);
+  judge_wear(study, around.worn, around.placed, out);
 }
 
 /// A later stage of gap opening.

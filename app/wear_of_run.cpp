@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/wear_of_run.hpp"
-#include "core/error.hpp"
-#include "core/names.hpp"
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
-#include <functional>
 #include <map>
 
 namespace fretwork::app {
 namespace {
 
-constexpr int history_steps = 40;     ///< of depth against time
-constexpr std::size_t most_names = 3; ///< in a warning
+constexpr int history_steps = 40; ///< of depth against time
 
 /// Work rates of a contact in this run.
 ContactRates rates_of_contact(const results::RunResults& run, std::size_t contact) {
@@ -296,129 +291,6 @@ void set_corners(const WornPlace& place, const std::vector<PlacedContact>& place
   support.corner_years = about.life.years.value;
 }
 
-/// Number of the structure that a node belongs to; -1: none.
-std::int64_t tube_of(const std::vector<modal::Basis>& bases, core::Index node) {
-  for (std::size_t s = 0; s < bases.size(); ++s)
-    if (bases[s].row_of(node) >= 0)
-      return static_cast<std::int64_t>(s);
-  return -1;
-}
-
-/// One warning for all supports of which something is true.
-template <class True>
-void warn(results::RunResults& out, True is_true,
-          const std::function<std::string(const results::WearOfSupport&)>& text) {
-  std::vector<std::string> names;
-  const results::WearOfSupport* first = nullptr;
-  for (const auto& support : out.wear->supports)
-    if (is_true(support)) {
-      names.push_back(support.name);
-      first = first ? first : &support;
-    }
-  if (first)
-    out.warnings.push_back(fmt::format("wear of {}: {}", core::list_names(names, most_names), text(*first)));
-}
-
-/// Where depths at corners of lands are no matter of digits, with the deepest of these scars.
-void add_corner_note(results::RunResults& out) {
-  constexpr double least_share = 0.05, least_excess = 1.05; // of the work, of the depth
-  std::vector<std::string> names;
-  const results::WearOfSupport* deepest = nullptr;
-  double deepest_corner = 0.0; // m
-  for (const results::WearOfSupport& s : out.wear->supports)
-    if (const double depth = s.depth.last().value;
-        s.corner_share > least_share && // a depth that is no number is beyond the geometry
-        (s.corner_depth > least_excess * depth || (std::isnan(s.corner_depth) && !std::isnan(depth)))) {
-      names.push_back(s.name);
-      if (const double corner = std::isnan(s.corner_depth) ? HUGE_VAL : s.corner_depth;
-          corner > deepest_corner) {
-        deepest = &s;
-        deepest_corner = corner;
-      }
-    }
-  if (!deepest)
-    return;
-  const auto years = [](double value) {
-    return std::isnan(value)   ? std::string("unknown years")
-           : std::isinf(value) ? std::string("never")
-                               : fmt::format("{:.3g} years", value);
-  };
-  const auto mm = [](double depth) {
-    return std::isnan(depth) ? std::string("beyond its geometry") : fmt::format("{:.3g} mm", 1e3 * depth);
-  };
-  out.notes.push_back(fmt::format(
-      "wear of {}: {:.0f} % of the work of \"{}\" is at corners of lands, where scars are deeper. Its depth "
-      "after {:.4g} years is {} about the middles of lands and at most {} about corners, its life {} and at "
-      "least {}",
-      core::list_names(names, most_names), 100.0 * deepest->corner_share, deepest->name,
-      deepest->time.back() / wear::year, mm(deepest->depth.last().value), mm(deepest->corner_depth),
-      years(deepest->life.years.value), years(deepest->corner_years)));
-}
-
-void add_warnings(results::RunResults& out) {
-  using results::WearOfSupport;
-  warn(
-      out, [](const WearOfSupport& s) { return !s.outside.empty(); },
-      [](const WearOfSupport& s) { return s.outside; });
-  warn(
-      out, [](const WearOfSupport& s) { return s.share_above > 0.0; },
-      [](const WearOfSupport& s) {
-        return fmt::format("{:.3g} % of the time in contact is above force_max or speed_max and in no class "
-                           "of kwu_epri; give larger ones",
-                           100.0 * s.share_above);
-      });
-  warn(
-      out, [](const WearOfSupport& s) { return s.depth.last().value > s.wall; },
-      [](const WearOfSupport& s) {
-        return fmt::format("after {:.4g} years the depth is {:.3g} mm and the wall {:.3g} mm: the tube is "
-                           "worn through before; depths beyond the wall are those of a solid body",
-                           s.time.back() / wear::year, 1e3 * s.depth.last().value, 1e3 * s.wall);
-      });
-  warn(
-      out, [](const WearOfSupport& s) { return s.outside.empty() && std::isnan(s.depth.last().value); },
-      [](const WearOfSupport& s) {
-        return fmt::format("{:.3g} m3 after {:.4g} years have no depth, the scar leaves what geometry \"{}\" "
-                           "describes; give fewer years",
-                           s.volume.last().value, s.time.back() / wear::year, s.geometry);
-      });
-}
-
-/// A support without an entry of [[wear]] that works more than all of its tube that have one: their shortest life need not be that of the tube.
-/// Nothing where entries combine operating states, of which this run is one.
-void warn_of_unworn(const study::Study& study, const std::vector<WornPlace>& places,
-                    const std::vector<PlacedContact>& placed, results::RunResults& out) {
-  if (std::any_of(study.wear.begin(), study.wear.end(), [](const study::Wear& entry) {
-        return entry.states.size() > 1 || entry.states.front().given || entry.states.front().results;
-      }))
-    return;
-  std::vector<bool> wears(placed.size(), false);
-  for (const WornPlace& place : places)
-    for (const std::size_t c : place.contacts)
-      wears[c] = true;
-  std::map<std::int64_t, double> worn; // W, the largest, by tubes
-  for (const results::WearOfSupport& support : out.wear->supports)
-    worn[support.tube] = std::max(worn[support.tube], support.work_rate.value);
-  std::map<std::string, double> left_out; // W, of supports: all points of a thickness
-  for (std::size_t c = 0; c < placed.size(); ++c)
-    if (!wears[c])
-      left_out[placed[c].support] += out.contact_summaries[c].work_rate;
-  const std::string* name = nullptr;
-  double rate = 0.0, of_tube = 0.0;
-  for (std::size_t c = 0; c < placed.size(); ++c)
-    for (const core::Index node : {placed[c].node, placed[c].other})
-      if (const auto tube = worn.find(tube_of(out.bases, node)); !wears[c] && tube != worn.end())
-        if (const double own = left_out.at(placed[c].support); own > std::max(tube->second, rate)) {
-          name = &placed[c].support;
-          rate = own;
-          of_tube = tube->second;
-        }
-  if (name)
-    out.warnings.push_back(
-        fmt::format("no [[wear]] names \"{}\", whose work rate of {:.3g} mW is above that of all supports of "
-                    "its tube that wear ({:.3g} mW): the shortest life of these need not be that of the tube",
-                    *name, 1e3 * rate, 1e3 * of_tube));
-}
-
 } // namespace
 
 void add_wear(const study::Study& study, const std::vector<WornPlace>& places,
@@ -430,7 +302,8 @@ void add_wear(const study::Study& study, const std::vector<WornPlace>& places,
     const study::Wear& entry = study.wear[place.entry];
     results::WearOfSupport support = place.facts;
     support.confidence = entry.confidence;
-    support.tube = tube_of(out.bases, placed[place.contacts.front()].node);
+    const auto structure = modal::structure_of(out.bases, placed[place.contacts.front()].node);
+    support.tube = structure ? static_cast<std::int64_t>(*structure) : -1;
     const auto indices = indices_of(entry, out, place.contacts, support);
     const StateRates rates(study, place, placed, others, out);
     support.states = rates.of(nullptr);
@@ -442,9 +315,6 @@ void add_wear(const study::Study& study, const std::vector<WornPlace>& places,
     out.wear->supports.push_back(std::move(support));
   }
   out.wear->tubes = results::wear_by_tube(out.wear->supports);
-  add_warnings(out);
-  add_corner_note(out);
-  warn_of_unworn(study, places, placed, out);
 }
 
 } // namespace fretwork::app

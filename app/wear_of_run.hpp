@@ -12,8 +12,9 @@
 
 namespace fretwork::app {
 
-/// Fills `out.wear` from its statistics of contacts. Laws that do not apply and scars beyond their geometry become warnings.
-/// Without wear where the other runs are not complete.
+/// Fills `out.wear` from its statistics of contacts, without warnings (judge_wear.hpp). Nothing where no support wears, or the other runs are not
+/// complete.
+/// @param placed  as out.contact_summaries
 void add_wear(const study::Study& study, const std::vector<WornPlace>& places,
               const std::vector<PlacedContact>& placed, const OtherRuns& others, results::RunResults& out);
 
