@@ -10,8 +10,8 @@
 #include "app/judge_run.hpp"
 #include "app/judge_wear.hpp"
 #include "app/modal_truncation.hpp"
+#include "app/scene_statistics.hpp"
 #include "app/shared_signals.hpp"
-#include "app/verification.hpp"
 #include "app/wear_of_run.hpp"
 #include "core/error.hpp"
 #include "results/grouped_messages.hpp"
@@ -26,9 +26,7 @@ void observe(const std::vector<NamedNode>& nodes, const std::vector<results::For
              results::RunResults& out) {
   for (const NamedNode& node : nodes)
     out.node_names.push_back(node.name);
-  out.node_summaries.resize(nodes.size());
   out.force_sites = sites;
-  out.force_summaries.resize(sites.size());
 }
 
 /// Names of what is assessed, in the order of connors_stability.
@@ -63,23 +61,8 @@ std::vector<results::ContactFacts> names_of(const std::vector<PlacedContact>& pl
 /// The run of one scene, its statistics at their places among those of the case.
 void run_scene(const study::Study& study, const BuiltScene& built, const transient::StepChoice& choice,
                results::RunResults& out) {
-  const double from = study.output.statistics_from;
-  post::ContactStatistics contacts(built.scene.contacts, from);
-  post::SectorStatistics sectors(built.watched_wear.sectors, from);
-  post::ForceSpeedClasses classes(built.watched_wear.maxima, from);
-  post::NodeStatistics nodes = node_statistics(study, built);
-  post::ForceStatistics forces = force_statistics(study, built);
-  std::vector<transient::Observer*> observers;
-  if (!built.scene.contacts.empty())
-    observers.push_back(&contacts);
-  if (!built.watched_wear.sectors.empty())
-    observers.push_back(&sectors);
-  if (built.watched_wear.counts_forces())
-    observers.push_back(&classes);
-  if (!built.nodes.empty())
-    observers.push_back(&nodes);
-  if (!built.forces.empty())
-    observers.push_back(&forces);
+  SceneStatistics statistics(study, built);
+  const std::vector<transient::Observer*> observers = statistics.observers();
   transient::Run run(built.scene, choice, observers, nullptr,
                      transient::output_grid(study.transient->duration, output_interval(study)));
   const TimeLimit limit{study.transient->duration, study.transient->max_hours, [](const std::string&) {}};
@@ -89,29 +72,7 @@ void run_scene(const study::Study& study, const BuiltScene& built, const transie
   const transient::Report report = run.finish();
   judge_run(study, built, choice, report, out);
   out.transients.push_back({choice, report});
-  const std::vector<transient::StepError> step_errors = run.step_errors();
-  if (!step_errors.empty())
-    out.step_errors.resize(out.contact_summaries.size());
-  add_errors(out.errors_of_sums, contacts.errors_of_sums());
-  const auto of_nodes = nodes.summaries();
-  for (std::size_t k = 0; k < of_nodes.size(); ++k)
-    out.node_summaries[built.node_numbers[k]] = of_nodes[k];
-  const auto of_forces = forces.summaries();
-  for (std::size_t k = 0; k < of_forces.size(); ++k)
-    out.force_summaries[built.force_numbers[k]] = of_forces[k];
-  const auto summaries = contacts.summaries();
-  const auto rates = sectors.rates();
-  const auto counted = classes.classes();
-  std::size_t next = 0;
-  for (std::size_t c = 0; c < built.contacts.size(); ++c) {
-    out.contact_summaries[built.contacts[c]] = summaries[c];
-    if (!step_errors.empty())
-      out.step_errors[built.contacts[c]] = without_round_off(step_errors[c], summaries[c]);
-    if (c < rates.size())
-      out.sector_rates[built.contacts[c]] = rates[c];
-    if (c < built.watched_wear.maxima.size() && built.watched_wear.maxima[c])
-      out.force_speed_classes[built.contacts[c]] = counted[next++];
-  }
+  merge_summaries(built, statistics.summaries(run), out);
 }
 
 } // namespace
@@ -250,10 +211,8 @@ sweep::CaseResult CaseRunner::operator()(const std::vector<std::string>& overrid
   });
   out.accuracy = c.study.transient->accuracy;
   out.contacts = names_of(c.placed);
-  out.contact_summaries.resize(c.placed.size());
-  out.sector_rates.resize(c.placed.size());
-  out.force_speed_classes.resize(c.placed.size());
   observe(c.nodes, c.force_sites, out);
+  resize_summaries(out);
   ConnorsStability stability = stability_of(c);
   out.stability = std::move(stability.assessments);
   out.warnings.insert(out.warnings.end(), stability.warnings.begin(), stability.warnings.end());
@@ -262,9 +221,7 @@ sweep::CaseResult CaseRunner::operator()(const std::vector<std::string>& overrid
   out.bases = nodes_of(c.contacts->bases);
   add_wear(c.study, c.worn, c.placed, c.other_runs, out);
   judge_wear(c.study, c.worn, c.placed, out);
-  judge_restitution(c.study, c.placed, out);
-  judge_stuck_dampers(c.study, c.placed, scenes, out);
-  judge_sliding(c.study, c.placed, out);
+  judge_contacts(c.study, c.placed, scenes, out);
   judge_step_errors(out);
   return {case_row(columns_, c.placed, out), results::grouped_messages(out.warnings)};
 }

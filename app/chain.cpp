@@ -343,7 +343,7 @@ private:
          {inputs_.study.transient->duration, inputs_.study.transient->max_hours, print_line}});
     app::run_transient(
         {comm_, inputs_.study, placed_, worn_, other_runs_, at_contacts_, progress_, checkpoints}, scenes_,
-        nodes_.size(), out_);
+        out_);
     core::agree(comm_, [&] { judge_motion({inputs_.study, mesh_, model_, flows_}, placed_, nodes_, out_); });
     out_.timings.transient = watch_.lap();
   }

@@ -50,48 +50,29 @@ void check_size_of_impacts(const study::Study& study, const std::vector<BuiltSce
         study.output.impacts, rows, bytes * 1e-9, most_series_bytes * 1e-9));
 }
 
-void merge_wear(const BuiltScene& built, const JobResult& job, results::RunResults& out) {
-  std::size_t counted = 0;
-  for (std::size_t c = 0; c < job.sector_rates.size(); ++c) {
-    out.sector_rates[built.contacts[c]] = job.sector_rates[c];
-    if (built.watched_wear.maxima[c])
-      out.force_speed_classes[built.contacts[c]] = job.classes[counted++];
-  }
-}
-
-void merge_forces(const BuiltScene& built, JobResult& job, results::RunResults& out) {
+/// Series of the reactions of a job.
+void merge_reactions(const BuiltScene& built, JobResult& job, results::RunResults& out) {
   const std::size_t sections = out.force_sites.size() - out.series.reactions.size();
   std::size_t reaction = 0;
-  for (std::size_t k = 0; k < built.force_numbers.size(); ++k) {
-    const std::size_t number = built.force_numbers[k];
-    out.force_summaries[number] = job.forces[k];
+  for (const std::size_t number : built.force_numbers)
     if (number >= sections)
       out.series.reactions[number - sections] = std::move(job.series.reactions[reaction++]);
-  }
 }
 
 /// Puts the result of a job at its places among those of the study.
 void merge(const BuiltScene& built, JobResult&& job, const transient::StepChoice& choice,
            results::RunResults& out) {
   out.transients.push_back({choice, job.report, built.structures, job.power});
-  add_errors(out.errors_of_sums, job.errors_of_sums);
-  if (!job.step_errors.empty())
-    out.step_errors.resize(out.contact_summaries.size());
+  merge_summaries(built, job.summaries, out);
   for (std::size_t c = 0; c < built.contacts.size(); ++c) {
-    out.contact_summaries[built.contacts[c]] = job.contacts[c];
-    if (!job.step_errors.empty())
-      out.step_errors[built.contacts[c]] = without_round_off(job.step_errors[c], job.contacts[c]);
     out.series.contacts[built.contacts[c]] = std::move(job.series.contacts[c]);
     out.largest_impacts[built.contacts[c]] = std::move(job.largest_impacts[c]);
     if (!job.impacts.empty())
       out.impacts[built.contacts[c]] = std::move(job.impacts[c]);
   }
-  merge_wear(built, job, out);
-  for (std::size_t k = 0; k < built.node_numbers.size(); ++k) {
-    out.node_summaries[built.node_numbers[k]] = job.nodes[k];
+  for (std::size_t k = 0; k < built.node_numbers.size(); ++k)
     out.series.nodes[built.node_numbers[k]] = std::move(job.series.nodes[k]);
-  }
-  merge_forces(built, job, out);
+  merge_reactions(built, job, out);
   // the modes of all structures are stacked in the order of the bases, whichever run they belong to
   Eigen::Index modes = 0;
   std::vector<Eigen::Index> first;
@@ -189,52 +170,58 @@ struct Outcomes {
   std::vector<HalfRun> halves; ///< empty without verification
 };
 
-/// Collective: runs the scenes of this rank, those of `mine`.
-Outcomes run_own(MPI_Comm comm, const study::Study& study, const std::vector<BuiltScene>& scenes,
-                 const std::vector<transient::StepChoice>& choices, const std::vector<std::size_t>& mine,
-                 bool verified, const AroundRuns& around) {
-  Outcomes out{std::vector<JobResult>(scenes.size()), std::vector<HalfRun>(verified ? scenes.size() : 0)};
-  const auto half_steps = [&](std::size_t s) {
-    return verified ? transient::halved(choices[s]).steps : std::int64_t{0};
+/// Of all scenes; their numbers on this rank.
+struct PlannedRuns {
+  const std::vector<BuiltScene>& scenes;
+  std::vector<transient::StepChoice> choices;
+  std::vector<std::size_t> mine;
+  bool verified; ///< each again at half the step
+};
+
+/// Collective: runs the scenes of this rank.
+Outcomes run_own(MPI_Comm comm, const study::Study& study, const PlannedRuns& planned,
+                 const AroundRuns& around) {
+  const std::size_t count = planned.scenes.size();
+  Outcomes out{std::vector<JobResult>(count), std::vector<HalfRun>(planned.verified ? count : 0)};
+  const auto half_steps = [&planned](std::size_t s) {
+    return planned.verified ? transient::halved(planned.choices[s]).steps : std::int64_t{0};
   };
   std::int64_t all_steps = 0;
-  for (const std::size_t s : mine)
-    all_steps += choices[s].steps + half_steps(s);
+  for (const std::size_t s : planned.mine)
+    all_steps += planned.choices[s].steps + half_steps(s);
   const ProgressCallback& progress = around.progress;
   SharedProgress shared(progress, all_steps, study.transient->duration);
   core::agree(comm, [&] {
-    for (const std::size_t s : mine) {
-      ProgressObserver observer = shared.next(choices[s].steps);
+    for (const std::size_t s : planned.mine) {
+      const BuiltScene& built = planned.scenes[s];
+      const transient::StepChoice& choice = planned.choices[s];
+      ProgressObserver observer = shared.next(choice.steps);
       const auto make = [&] {
-        return std::make_unique<Job>(study, scenes[s], choices[s], progress ? &observer : nullptr);
+        return std::make_unique<Job>(study, built, choice, progress ? &observer : nullptr);
       };
-      const bool others = s != mine.back() || around.others_follow;
-      const std::size_t number = around.first_checkpoint + s;
-      out.jobs[s] = std::move(*resumed_run(make, number, around.checkpoints, others || verified)).result();
-      if (verified) {
+      const bool others = s != planned.mine.back() || around.others_follow;
+      const OwnCheckpoint of_run{around.checkpoints, around.first_checkpoint + s, others || planned.verified};
+      out.jobs[s] = std::move(*resumed_run(make, of_run)).result();
+      if (planned.verified) {
         ProgressObserver at_half = shared.next(half_steps(s));
         out.halves[s] =
-            run_at_half(scenes[s].scene, choices[s], study.output.statistics_from,
-                        progress ? &at_half : nullptr, scenes.size() + number, around.checkpoints, others);
+            run_at_half(built.scene, choice, study.output.statistics_from, progress ? &at_half : nullptr,
+                        {around.checkpoints, count + of_run.number, others});
       }
     }
   });
   return out;
 }
 
-void resize_results(const study::Study& study, std::size_t contacts, std::size_t nodes,
-                    results::RunResults& out) {
+void resize_results(const study::Study& study, results::RunResults& out) {
+  const std::size_t contacts = out.contacts.size();
+  resize_summaries(out);
   out.accuracy = study.transient->accuracy;
-  out.contact_summaries.resize(contacts);
   out.series.contacts.resize(contacts);
   out.impacts.resize(study.output.impacts > 0 ? contacts : 0);
   out.largest_impacts.resize(contacts);
-  out.sector_rates.resize(contacts);
-  out.force_speed_classes.resize(contacts);
   out.rest_time = study.output.rest_time;
-  out.node_summaries.resize(nodes);
-  out.series.nodes.resize(nodes);
-  out.force_summaries.resize(out.force_sites.size());
+  out.series.nodes.resize(out.node_names.size());
   out.series.reactions.resize(static_cast<std::size_t>(
       std::count_if(out.force_sites.begin(), out.force_sites.end(),
                     [](const results::ForceSite& site) { return !site.is_section(); })));
@@ -283,28 +270,27 @@ Forecast check_jobs(MPI_Comm comm, const study::Study& study, const std::vector<
 }
 
 void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltScene>& scenes,
-              std::size_t contacts, std::size_t nodes, const AroundRuns& around, results::RunResults& out) {
+              const AroundRuns& around, results::RunResults& out) {
   check_size_of_series(study, scenes);
-  const std::vector<transient::StepChoice> choices = choose_steps(comm, study, scenes);
+  // statistics of contacts are what is compared
+  PlannedRuns planned{
+      scenes, choose_steps(comm, study, scenes), {}, study.transient->verify && !out.contacts.empty()};
   const int ranks = core::size(comm);
-  const std::vector<int> owner = owners(scenes, choices, ranks);
-  std::vector<std::size_t> mine;
+  const std::vector<int> owner = owners(scenes, planned.choices, ranks);
   for (std::size_t s = 0; s < scenes.size(); ++s)
     if (owner[s] == core::rank(comm))
-      mine.push_back(s);
-  const bool verified =
-      study.transient->verify && contacts > 0; // statistics of contacts are what is compared
-  Outcomes outcomes = run_own(comm, study, scenes, choices, mine, verified, around);
-  resize_results(study, contacts, nodes, out);
+      planned.mine.push_back(s);
+  Outcomes outcomes = run_own(comm, study, planned, around);
+  resize_results(study, out);
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     if (ranks > 1)
       broadcast(comm, owner[s], scenes[s], outcomes.jobs[s]);
-    if (ranks > 1 && verified)
+    if (ranks > 1 && planned.verified)
       broadcast(comm, owner[s], scenes[s].scene.contacts.size(), outcomes.halves[s]);
-    judge_run(study, scenes[s], choices[s], outcomes.jobs[s].report, out);
-    merge(scenes[s], std::move(outcomes.jobs[s]), choices[s], out);
+    judge_run(study, scenes[s], planned.choices[s], outcomes.jobs[s].report, out);
+    merge(scenes[s], std::move(outcomes.jobs[s]), planned.choices[s], out);
   }
-  if (verified)
+  if (planned.verified)
     compare_with_half(scenes, outcomes.halves, out);
   judge_step_errors(out);
   tell_impacts_left_out(study.output.impacts, out);

@@ -27,9 +27,10 @@ struct AroundRuns {
 
 /// Collective. Runs every scene and fills contact_summaries, node_summaries, transients and series of `out`,
 /// complete on rank 0. Each goes on from its checkpoint, if there is one.
+/// @param out  its contacts, node_names and force_sites are those of the scenes
 /// @throws core::Error where the series would not fit in memory, core::ComputationError where a run diverged
 void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltScene>& scenes,
-              std::size_t contacts, std::size_t nodes, const AroundRuns& around, results::RunResults& out);
+              const AroundRuns& around, results::RunResults& out);
 
 /// What a run of the scenes would be.
 struct Forecast {

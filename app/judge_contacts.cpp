@@ -160,6 +160,13 @@ void judge_sliding(const study::Study& study, const std::vector<PlacedContact>& 
         text_of(shared.front())));
 }
 
+void judge_contacts(const study::Study& study, const std::vector<PlacedContact>& placed,
+                    const std::vector<BuiltScene>& scenes, results::RunResults& out) {
+  judge_restitution(study, placed, out);
+  judge_stuck_dampers(study, placed, scenes, out);
+  judge_sliding(study, placed, out);
+}
+
 void judge_reach(results::RunResults& out) {
   const auto closed = [](const post::ContactSummary& c) { return c.normal_rms > 0.0; };
   const auto& all = out.contact_summaries;

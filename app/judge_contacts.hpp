@@ -35,6 +35,10 @@ void judge_stuck_dampers(const study::Study& study, const std::vector<PlacedCont
 void judge_sliding(const study::Study& study, const std::vector<PlacedContact>& placed,
                    results::RunResults& out);
 
+/// All of these, in this order, of a run or the case of a sweep.
+void judge_contacts(const study::Study& study, const std::vector<PlacedContact>& placed,
+                    const std::vector<BuiltScene>& scenes, results::RunResults& out);
+
 /// A note where no contact closes.
 void judge_reach(results::RunResults& out);
 

@@ -22,13 +22,18 @@ template <class Job> bool restore(Job& job, std::string bytes) {
   }
 }
 
-/// @param make          makes the job, a unique_ptr to what has run() -> transient::Run&
-/// @param number        of the run among those of the study, which names its checkpoint
-/// @param others_follow runs of this rank: an interruption of theirs must not lose this one
-/// @return              the job, its run advanced to the end
+/// The checkpoint of one of the runs of a study.
+struct OwnCheckpoint {
+  Checkpoints& checkpoints;
+  std::size_t number; ///< of the run among those of the study, which names its checkpoint
+  bool others_follow; ///< runs of this rank: an interruption of theirs must not lose this one
+};
+
+/// @param make  makes the job, a unique_ptr to what has run() -> transient::Run&
+/// @return      the job, its run advanced to the end
 /// @throws core::Interrupted after SIGTERM or SIGINT, when all is saved; core::Error where the run would take too long
-template <class MakeJob>
-auto resumed_run(const MakeJob& make, std::size_t number, Checkpoints& checkpoints, bool others_follow) {
+template <class MakeJob> auto resumed_run(const MakeJob& make, const OwnCheckpoint& own) {
+  const auto& [checkpoints, number, others_follow] = own;
   auto job = make();
   if (std::string state = checkpoints.found(number); !state.empty() && !restore(*job, std::move(state))) {
     checkpoints.refuse(number);

@@ -13,7 +13,7 @@ namespace {
 /// The runs of the scenes and their wear.
 /// @param stage  of gap opening, from 1 on
 void run_scenes(const AroundTransient& around, const study::Study& study, std::vector<BuiltScene>& scenes,
-                std::size_t nodes, std::int64_t stage, results::RunResults& out) {
+                std::int64_t stage, results::RunResults& out) {
   WatchedWear watched = watched_wear(study, around.worn, around.placed.size());
   watched.by_place = stage > 1;
   for (BuiltScene& scene : scenes)
@@ -23,16 +23,14 @@ void run_scenes(const AroundTransient& around, const study::Study& study, std::v
           ? ProgressCallback([&](double share, double time) { around.progress.update(share, time); })
           : ProgressCallback();
   const std::size_t runs = 2 * scenes.size(); // of a stage at most: one may be verified
-  run_jobs(around.comm, study, scenes, around.placed.size(), nodes,
+  run_jobs(around.comm, study, scenes,
            {progress, around.checkpoints, runs * static_cast<std::size_t>(stage - 1),
             study.gap_opening.has_value()},
            out);
   core::agree(around.comm, [&] { add_wear(study, around.worn, around.placed, around.other_runs, out); });
   if (stage > 1)
     return; // work rates that stay for years are those of the first stage; open_gaps warns of the others
-  judge_restitution(study, around.placed, out);
-  judge_stuck_dampers(study, around.placed, scenes, out);
-  judge_sliding(study, around.placed, out);
+  judge_contacts(study, around.placed, scenes, out);
   judge_reach(out);
   judge_wear(study, around.worn, around.placed, out);
 }
@@ -48,16 +46,15 @@ results::RunResults run_opened(const AroundTransient& around, const study::Study
               [&] { scenes = build_scenes(study, bases, opened, {}, around.at_contacts, built); });
   out.bases = bases;
   out.contacts = std::move(built.contacts);
-  run_scenes(around, study, scenes, 0, stage, out);
+  run_scenes(around, study, scenes, stage, out);
   return out;
 }
 
 } // namespace
 
-void run_transient(const AroundTransient& around, std::vector<BuiltScene>& scenes, std::size_t nodes,
-                   results::RunResults& out) {
+void run_transient(const AroundTransient& around, std::vector<BuiltScene>& scenes, results::RunResults& out) {
   around.progress.stage("transient");
-  run_scenes(around, around.study, scenes, nodes, 1, out);
+  run_scenes(around, around.study, scenes, 1, out);
   const study::Study later = without_series(around.study);
   open_gaps(
       around.study, around.worn, around.placed,

@@ -22,9 +22,8 @@ struct AroundTransient {
   Checkpoints& checkpoints;
 };
 
-/// Collective. Runs the scenes and fills the statistics, series, wear and warnings of `out`, whose bases and contacts are those of the scenes.
-/// @param nodes  how many are observed
-void run_transient(const AroundTransient& around, std::vector<BuiltScene>& scenes, std::size_t nodes,
-                   results::RunResults& out);
+/// Collective. Runs the scenes and fills the statistics, series, wear and warnings of `out`, whose bases, contacts,
+/// node_names and force_sites are those of the scenes.
+void run_transient(const AroundTransient& around, std::vector<BuiltScene>& scenes, results::RunResults& out);
 
 } // namespace fretwork::app

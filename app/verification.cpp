@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/verification.hpp"
-#include "app/resumed_run.hpp"
 #include "results/error_estimate.hpp"
 #include <algorithm>
 #include <cmath>
@@ -39,11 +38,10 @@ private:
 } // namespace
 
 HalfRun run_at_half(const transient::Scene& scene, const transient::StepChoice& choice, double from,
-                    ProgressObserver* progress, std::size_t number, Checkpoints& checkpoints,
-                    bool others_follow) {
+                    ProgressObserver* progress, const OwnCheckpoint& own) {
   const transient::StepChoice half = transient::halved(choice);
   const auto make = [&] { return std::make_unique<HalfJob>(scene, half, from, progress); };
-  return resumed_run(make, number, checkpoints, others_follow)->result();
+  return resumed_run(make, own)->result();
 }
 
 void broadcast(MPI_Comm comm, int root, std::size_t contacts, HalfRun& half) {

@@ -3,8 +3,8 @@
 /// `verify = true`: every run again at half the step (half the tolerance), its statistics beside those of the run.
 #pragma once
 #include "app/build_scene.hpp"
-#include "app/checkpoints.hpp"
 #include "app/progress_observer.hpp"
+#include "app/resumed_run.hpp"
 #include "results/run_results.hpp"
 #include <mpi.h>
 
@@ -19,10 +19,9 @@ struct HalfRun {
 
 /// @param choice  of the run itself   @param from  s, start of the window of the statistics
 /// @param progress  tells how far it is, or null
-/// @param number, checkpoints, others_follow  as of resumed_run: it goes on from a checkpoint of its own
+/// @param own  it goes on from a checkpoint of its own
 [[nodiscard]] HalfRun run_at_half(const transient::Scene& scene, const transient::StepChoice& choice,
-                                  double from, ProgressObserver* progress, std::size_t number,
-                                  Checkpoints& checkpoints, bool others_follow);
+                                  double from, ProgressObserver* progress, const OwnCheckpoint& own);
 
 /// Collective.
 void broadcast(MPI_Comm comm, int root, std::size_t contacts, HalfRun& half);
