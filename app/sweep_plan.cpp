@@ -2,6 +2,7 @@
 #include "app/sweep_plan.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "core/names.hpp"
 #include <filesystem>
 #include <fmt/format.h>
 
@@ -63,6 +64,24 @@ std::string identity_of(const SweepPlan& plan, const sweep::Draws& draws, std::i
       text += " " + file->second;
   }
   return sweep::short_digest(text);
+}
+
+std::string states_that_do_not_vary(const SweepPlan& plan) {
+  std::vector<std::string> varied, states;
+  for (const study::SweepVariable& variable : plan.sweep.variables)
+    for (const std::string& key : variable.keys)
+      if (key.starts_with("contacts.") || key.starts_with("contact_defaults."))
+        varied.push_back(key);
+  for (const study::Wear& entry : plan.inputs.study.wear)
+    for (const study::WearState& state : entry.states)
+      if (state.results || state.given)
+        states.push_back(state.name);
+  if (varied.empty() || states.empty())
+    return {};
+  return fmt::format(
+      "{} varies in the cases, but not in the operating states {} of [[wear]]: their work rates are "
+      "those of other runs or of the study, with supports of their own",
+      core::list_names(varied, 3), core::list_names(states, 3));
 }
 
 } // namespace fretwork::app

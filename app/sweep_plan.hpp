@@ -24,4 +24,7 @@ struct SweepPlan {
 /// The same for the same study, files and drawn values, whatever the number of cases.
 [[nodiscard]] std::string identity_of(const SweepPlan& plan, const sweep::Draws& draws, std::int64_t number);
 
+/// The warning of operating states of wear with work rates of other runs, or of the study, where contacts vary; empty: none.
+[[nodiscard]] std::string states_that_do_not_vary(const SweepPlan& plan);
+
 } // namespace fretwork::app

@@ -9,15 +9,21 @@ namespace fretwork::app {
 
 namespace fs = std::filesystem;
 
-void remove_rows(const SweepPlan& plan, bool all) {
+fs::path folder_of_rows(const SweepPlan& plan) { return plan.directory / "shards"; }
+
+void remove_rows(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code absent;
-  const fs::path folder = all ? plan.directory / "shards" : plan.inputs.directory;
   for (fs::recursive_directory_iterator at(folder, absent), end; at != end; at.increment(absent))
     if (at->path().extension() == ".rows")
       files.push_back(at->path());
   for (const fs::path& file : files)
     fs::remove(file);
+}
+
+sweep::FoundRows read_rows(const SweepPlan& plan, const sweep::Draws& draws) {
+  return sweep::read_rows(folder_of_rows(plan), draws.rows(),
+                          [&](std::int64_t number) { return identity_of(plan, draws, number); });
 }
 
 std::string rows_are(std::int64_t count) {

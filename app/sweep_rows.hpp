@@ -7,8 +7,14 @@
 
 namespace fretwork::app {
 
-/// Removes those of the shard, or all.
-void remove_rows(const SweepPlan& plan, bool all);
+/// Removes those that lie in a folder and its folders: that of the shard (plan.inputs.directory), or of all (folder_of_rows).
+void remove_rows(const std::filesystem::path& folder);
+
+/// The folder of the rows of all shards.
+[[nodiscard]] std::filesystem::path folder_of_rows(const SweepPlan& plan);
+
+/// All of them, whatever the shard, that are of these inputs.
+[[nodiscard]] sweep::FoundRows read_rows(const SweepPlan& plan, const sweep::Draws& draws);
 
 /// The message on them.
 /// @param there  of this shard and these inputs, that this call has not computed
