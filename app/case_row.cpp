@@ -24,10 +24,11 @@ struct Figure {
 constexpr std::array figures{
     Figure{"work_rate", "W", &post::ContactSummary::work_rate, &post::StandardErrors::work_rate},
     Figure{"normal_rms", "N", &post::ContactSummary::normal_rms, &post::StandardErrors::normal_rms},
-    Figure{"normal_max", "N", &post::ContactSummary::normal_max, nullptr},
+    Figure{"normal_max", "N", &post::ContactSummary::normal_max, &post::StandardErrors::normal_max},
     Figure{"tangential_max", "N", &post::ContactSummary::tangential_max, nullptr},
     Figure{"impact_rate", "1/s", &post::ContactSummary::impact_rate, &post::StandardErrors::impact_rate},
-    Figure{"contact_time_ratio", "", &post::ContactSummary::contact_time_ratio, nullptr}};
+    Figure{"contact_time_ratio", "", &post::ContactSummary::contact_time_ratio,
+           &post::StandardErrors::contact_time_ratio}};
 constexpr std::size_t worst_figures = 3; ///< the first ones are given of the worst contact too
 
 /// Outputs of the components of section forces, in the order of post::ForceSummary.
@@ -47,14 +48,17 @@ public:
 
   /// @throws core::Error for an output that the nominal case does not have
   void set(const std::string& name, double value) { values_[place(name)] = value; }
-  /// Keeps the worst, with its error. @param largest  is worst; false: the smallest
-  void worsen(const std::string& name, double value, double error, bool largest) {
+  /// Keeps the largest value, with its error.
+  void set_largest(const std::string& name, double value, double error) {
     const std::size_t at = place(name);
-    if (std::isnan(value) || (largest ? value <= values_[at] : value >= values_[at]))
-      return;
-    values_[at] = value;
-    if (at + 1 < columns_.size() && columns_[at + 1].name == name + ".error")
-      values_[at + 1] = error;
+    if (!std::isnan(value) && !(value <= values_[at]))
+      set_with_error(at, value, error);
+  }
+  /// Keeps the smallest value, with its error.
+  void set_smallest(const std::string& name, double value, double error) {
+    const std::size_t at = place(name);
+    if (!std::isnan(value) && !(value >= values_[at]))
+      set_with_error(at, value, error);
   }
   [[nodiscard]] bool has(const std::string& name) const {
     return std::any_of(columns_.begin(), columns_.end(),
@@ -63,6 +67,11 @@ public:
   [[nodiscard]] std::vector<double> values() && { return std::move(values_); }
 
 private:
+  void set_with_error(std::size_t at, double value, double error) {
+    values_[at] = value;
+    if (at + 1 < columns_.size() && columns_[at + 1].name == columns_[at].name + ".error")
+      values_[at + 1] = error;
+  }
   [[nodiscard]] std::size_t place(const std::string& name) {
     // rows are filled in the order of the columns
     for (std::size_t i = 0; i < columns_.size(); ++i, ++next_) {
@@ -96,7 +105,7 @@ void fill_contacts(const std::vector<PlacedContact>& placed, const results::RunR
       if (figures[f].error)
         row.set(name + ".error", error);
       if (f < worst_figures)
-        row.worsen(fmt::format("worst.{}", figures[f].name), value, error, true);
+        row.set_largest(fmt::format("worst.{}", figures[f].name), value, error);
     }
     work += statistics.work_rate;
     impacts += statistics.impact_rate;
@@ -122,10 +131,10 @@ void fill_wear(const results::Wear& wear, Filling& row) {
     if (const results::WearLife& own = support.support_life; !own.end.empty()) {
       row.set(support.name + ".support_years", own.years.value);
       row.set(support.name + ".support_years.error", half(own.years));
-      row.worsen("worst.years", own.years.value, half(own.years), false);
+      row.set_smallest("worst.years", own.years.value, half(own.years));
     }
-    row.worsen("worst.wear_depth", depth.value, half(depth), true);
-    row.worsen("worst.years", years.value, half(years), false);
+    row.set_largest("worst.wear_depth", depth.value, half(depth));
+    row.set_smallest("worst.years", years.value, half(years));
   }
 }
 
@@ -180,7 +189,7 @@ void fill_stability(const std::vector<results::StabilityAssessment>& all, Fillin
       if (of.critical_mode >= 0)
         largest = std::max(largest, 1.0 - of.margin());
     row.set(velocity_ratio_of(one, all), largest);
-    row.worsen("worst.velocity_ratio", largest, no_number, true);
+    row.set_largest("worst.velocity_ratio", largest, no_number);
   }
 }
 

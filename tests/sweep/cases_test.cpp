@@ -31,6 +31,18 @@ uniform = { from = 0.1, to = 0.5 }
     EXPECT_EQ(contact["work_rate"].get<double>(), std::stod(rows[at].at(name + ".work_rate"))) << name;
     EXPECT_EQ(contact["normal_force"]["rms"].get<double>(), std::stod(rows[at].at(name + ".normal_rms")))
         << name;
+    const auto& errors = contact["standard_error"];
+    for (const auto& [column, error] : {std::pair("work_rate", errors["work_rate"]),
+                                        {"normal_rms", errors["normal_force"]["rms"]},
+                                        {"normal_max", errors["normal_force"]["max"]},
+                                        {"impact_rate", errors["impacts_per_second"]},
+                                        {"contact_time_ratio", errors["contact_time_ratio"]}}) {
+      const std::string& cell = rows[at].at(fmt::format("{}.{}.error", name, column));
+      if (error.is_null()) // a window too short, or nothing slides
+        EXPECT_EQ(cell, "nan") << name << column;
+      else
+        EXPECT_EQ(error.get<double>(), std::stod(cell)) << name << column;
+    }
     largest = std::max(largest, contact["work_rate"].get<double>());
   }
   EXPECT_EQ(largest, worst);
