@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <iostream>
+#include <optional>
 #include <system_error>
 
 namespace {
@@ -62,9 +63,10 @@ int guarded(const std::function<void()>& work) {
 
 /// The status of a command line that asked for nothing but text (help, version), or is wrong.
 int ended_by(const CLI::App& program, const CLI::ParseError& reason) {
-  const bool good = program.exit(reason) == 0;
+  if (speaks())
+    (void)program.exit(reason); // prints the text
   if (std::cout.flush())
-    return good ? 0 : input_is_wrong;
+    return reason.get_exit_code() == 0 ? 0 : input_is_wrong;
   complain("the output cannot be written");
   return computation_failed;
 }
@@ -87,141 +89,185 @@ void add_run_options(CLI::App& command, app::Request& request) {
   command.add_flag("-q,--quiet", request.quiet, "nothing on the terminal but errors");
 }
 
-} // namespace
+/// The commands and their options, and what they do.
+class CommandLine {
+public:
+  CommandLine() {
+    program_.name("fretwork");
+    program_.set_version_flag("--version", FRETWORK_VERSION);
+    program_.require_subcommand(
+        0, 1); // that there is one is checked by parse: a word that is no command is then named
+    program_.footer(
+        "Exit status: 0 done, 1 the input is wrong, 2 the computation failed, 3 a defect of the program.");
+    add_stages();
+    add_sweeps();
+    add_commands_on_results();
+  }
 
-int main(int argc, char** argv) {
-  std::setvbuf(stdout, nullptr, _IOLBF,
-               0); // each line is seen when it is written, also in a log or by Python
-  CLI::App program{
+  /// @return the status where there is nothing to be done: help, version, a wrong command line
+  [[nodiscard]] std::optional<int> parse(int argc, char** argv) {
+    try {
+      program_.parse(argc, argv);
+    } catch (const CLI::ExtrasError& error) {
+      if (const std::string word = argv[1]; program_.get_subcommands().empty() && !word.starts_with("-"))
+        return unknown_command(word);
+      return ended_by(program_, error);
+    } catch (const CLI::ParseError& error) {
+      return ended_by(program_, error);
+    }
+    if (!program_.get_subcommands().empty())
+      return {};
+    if (speaks())
+      fmt::print(stderr,
+                 "fretwork: a command is missing; give one of run, sweep, mesh, modes, stability, response, "
+                 "transient, check, report, export, compare (--help explains them)\n");
+    return input_is_wrong;
+  }
+
+  [[nodiscard]] bool is_on_results() const {
+    return report_->parsed() || export_->parsed() || compare_->parsed();
+  }
+
+  /// The status of report, export or compare, which one process does without MPI: it writes the files.
+  [[nodiscard]] int work_on_results() {
+    if (!speaks())
+      return 0;
+    if (compare_->parsed())
+      return guarded([&] { fmt::print("{}", app::compare_results(compared_, comparison_page_)); });
+    if (export_->parsed())
+      return guarded([&] { fmt::print("{}", app::export_results(exported_)); });
+    return guarded([&] {
+      if (std::filesystem::exists(directory_ / "table.h5"))
+        app::write_sweep_report(directory_);
+      else
+        app::write_report(directory_);
+      fmt::print("written: {}\n", (directory_ / "report.html").string());
+    });
+  }
+
+  /// Collective, with MPI: the status of the other commands.
+  [[nodiscard]] int work_on_study() {
+    request_.report = !no_report_;
+    if (check_->parsed())
+      return speaks() ? guarded([&] { app::check(request_); }) : 0;
+    if (sweep_->parsed())
+      return guarded([&] {
+        const auto part = shard_.empty() ? std::nullopt : std::optional(sweep::shard_of(shard_));
+        app::run_sweep(MPI_COMM_WORLD, {request_, part, gather_});
+      });
+    if (cases_->parsed())
+      return guarded([&] { app::serve_cases(request_, with_warnings_); });
+    request_.report = request_.report && run_->parsed();
+    return guarded([&] { app::run_chain(MPI_COMM_WORLD, request_, last_stage()); });
+  }
+
+private:
+  /// The chain, to its end or to one of its stages.
+  void add_stages() {
+    const auto add = [&](const char* name, const char* text) {
+      CLI::App* command = program_.add_subcommand(name, text);
+      add_run_options(*command, request_);
+      return command;
+    };
+    run_ = add("run", "the whole chain: mesh, modes, transient, results, report");
+    run_->add_flag("--no-report", no_report_, "do not write report.html");
+    mesh_ = add("mesh", "read or make the mesh");
+    modes_ = add("modes", "up to the modes of vibration");
+    stability_ =
+        add("stability", "fluid-elastic stability of tubes in their flow, on modes pinned at supports");
+    response_ =
+        add("response",
+            "linear response to turbulence by spectra, on modes pinned at supports, without a transient");
+    (void)add("transient", "up to the results of the transient, without report");
+    check_ =
+        program_.add_subcommand("check", "all that a run does before its first step: what it would refuse, "
+                                         "how long it would be, what it would write");
+    add_study_options(*check_, request_);
+  }
+
+  void add_sweeps() {
+    sweep_ = program_.add_subcommand("sweep", "the cases of [sweep]: draws of what is uncertain, their "
+                                              "table, quantiles and sensitivities");
+    add_run_options(*sweep_, request_);
+    sweep_->add_flag("--no-report", no_report_, "do not write report.html");
+    sweep_->add_option("--shard", shard_, "i/n: part i of n of the cases only, without table (job arrays)");
+    sweep_->add_flag("--gather", gather_, "no case: the table of what the shards have");
+    cases_ = program_.add_subcommand("sweep-cases", "the process that computes cases for a sweep")->group("");
+    add_run_options(*cases_, request_);
+    cases_->add_flag("--warnings", with_warnings_, "tell what the study as it stands warns of");
+  }
+
+  void add_commands_on_results() {
+    report_ =
+        program_.add_subcommand("report", "report.html with its pictures, from the results in a folder");
+    report_->add_option("directory", directory_, "folder of the results")->required();
+    export_ = program_.add_subcommand("export", "results in other formats: DIR/export-<format>/");
+    export_->add_option("directory", exported_.directory, "folder of the results")->required();
+    export_
+        ->add_option(
+            "--format", exported_.format,
+            "csv: time series and wear; vtu: modes, moving structure and contact forces for ParaView; "
+            "msh: mode shapes for gmsh")
+        ->check(CLI::IsMember({"csv", "vtu", "msh"}));
+    export_->add_option("--from", exported_.window.from,
+                        "of vtu: the first time, s (default: the first output)");
+    export_->add_option("--to", exported_.window.to, "of vtu: the last time, s (default: the last output)");
+    export_->add_option("--every", exported_.window.every,
+                        "of vtu: every n-th output (default: 200 outputs at most, evenly spread)");
+    compare_ = program_.add_subcommand(
+        "compare", "what differs between runs: inputs, frequencies, work rates with significance, wear");
+    compare_->add_option("directories", compared_, "folders of the results; the first is the reference")
+        ->required();
+    compare_->add_option("--html", comparison_page_, "write the comparison with pictures to this file too");
+  }
+
+  [[nodiscard]] int unknown_command(const std::string& word) const {
+    std::vector<std::string> commands;
+    for (const CLI::App* known :
+         program_.get_subcommands([](const CLI::App* listed) { return !listed->get_group().empty(); }))
+      commands.push_back(known->get_name());
+    if (speaks())
+      fmt::print(stderr, "fretwork: there is no command \"{}\"{}\n", word,
+                 core::name_help(word, commands, "commands"));
+    return input_is_wrong;
+  }
+
+  [[nodiscard]] app::Stage last_stage() const {
+    return mesh_->parsed()        ? app::Stage::mesh
+           : modes_->parsed()     ? app::Stage::modes
+           : stability_->parsed() ? app::Stage::stability
+           : response_->parsed()  ? app::Stage::response
+                                  : app::Stage::transient;
+  }
+
+  CLI::App program_{
       "Fretwork: from a line mesh of a vibrating structure to its impacts, friction and wear.\n\n"
       "A study is one TOML file (doc/study-file.md). Start from an example:\n"
       "  fretwork run examples/tube_study/study.toml\n"
       "  fretwork check study.toml\n"
       "  mpirun -n 2 fretwork run study.toml --set transient.duration=1"};
-  program.name("fretwork");
-  program.set_version_flag("--version", FRETWORK_VERSION);
-  program.require_subcommand(
-      0, 1); // that there is one is checked below: a word that is no command is then named
-  program.footer(
-      "Exit status: 0 done, 1 the input is wrong, 2 the computation failed, 3 a defect of the program.");
+  CLI::App *run_ = nullptr, *mesh_ = nullptr, *modes_ = nullptr, *stability_ = nullptr, *response_ = nullptr,
+           *check_ = nullptr, *sweep_ = nullptr, *cases_ = nullptr, *report_ = nullptr, *export_ = nullptr,
+           *compare_ = nullptr;
+  app::Request request_;
+  bool no_report_ = false, gather_ = false, with_warnings_ = false;
+  std::string shard_;
+  std::filesystem::path directory_; ///< of report
+  app::ExportRequest exported_;
+  std::vector<std::filesystem::path> compared_;
+  std::string comparison_page_;
+};
 
-  app::Request request;
-  bool no_report = false;
-  CLI::App* run = program.add_subcommand("run", "the whole chain: mesh, modes, transient, results, report");
-  add_run_options(*run, request);
-  run->add_flag("--no-report", no_report, "do not write report.html");
-  CLI::App* mesh = program.add_subcommand("mesh", "read or make the mesh");
-  add_run_options(*mesh, request);
-  CLI::App* modes = program.add_subcommand("modes", "up to the modes of vibration");
-  add_run_options(*modes, request);
-  CLI::App* stability = program.add_subcommand(
-      "stability", "fluid-elastic stability of tubes in their flow, on modes pinned at supports");
-  add_run_options(*stability, request);
-  CLI::App* response = program.add_subcommand(
-      "response",
-      "linear response to turbulence by spectra, on modes pinned at supports, without a transient");
-  add_run_options(*response, request);
-  CLI::App* transient =
-      program.add_subcommand("transient", "up to the results of the transient, without report");
-  add_run_options(*transient, request);
-  CLI::App* check =
-      program.add_subcommand("check", "all that a run does before its first step: what it would refuse, how "
-                                      "long it would be, what it would write");
-  add_study_options(*check, request);
-  std::filesystem::path directory;
-  CLI::App* sweep = program.add_subcommand(
-      "sweep", "the cases of [sweep]: draws of what is uncertain, their table, quantiles and sensitivities");
-  add_run_options(*sweep, request);
-  sweep->add_flag("--no-report", no_report, "do not write report.html");
-  std::string shard;
-  sweep->add_option("--shard", shard, "i/n: part i of n of the cases only, without table (job arrays)");
-  bool gather = false;
-  sweep->add_flag("--gather", gather, "no case: the table of what the shards have");
-  CLI::App* cases =
-      program.add_subcommand("sweep-cases", "the process that computes cases for a sweep")->group("");
-  add_run_options(*cases, request);
-  bool with_warnings = false;
-  cases->add_flag("--warnings", with_warnings, "tell what the study as it stands warns of");
-  CLI::App* report =
-      program.add_subcommand("report", "report.html with its pictures, from the results in a folder");
-  report->add_option("directory", directory, "folder of the results")->required();
-  CLI::App* exporting = program.add_subcommand("export", "results in other formats: DIR/export-<format>/");
-  app::ExportRequest exported;
-  exporting->add_option("directory", exported.directory, "folder of the results")->required();
-  exporting
-      ->add_option("--format", exported.format,
-                   "csv: time series and wear; vtu: modes, moving structure and contact forces for ParaView; "
-                   "msh: mode shapes for gmsh")
-      ->check(CLI::IsMember({"csv", "vtu", "msh"}));
-  exporting->add_option("--from", exported.window.from,
-                        "of vtu: the first time, s (default: the first output)");
-  exporting->add_option("--to", exported.window.to, "of vtu: the last time, s (default: the last output)");
-  exporting->add_option("--every", exported.window.every,
-                        "of vtu: every n-th output (default: 200 outputs at most, evenly spread)");
+} // namespace
 
-  CLI::App* compare = program.add_subcommand(
-      "compare", "what differs between runs: inputs, frequencies, work rates with significance, wear");
-  std::vector<std::filesystem::path> compared;
-  std::string comparison_page;
-  compare->add_option("directories", compared, "folders of the results; the first is the reference")
-      ->required();
-  compare->add_option("--html", comparison_page, "write the comparison with pictures to this file too");
-
-  try {
-    program.parse(argc, argv);
-  } catch (const CLI::ExtrasError& error) {
-    if (const std::string command = argv[1]; program.get_subcommands().empty() && !command.starts_with("-")) {
-      std::vector<std::string> commands;
-      for (const CLI::App* known :
-           program.get_subcommands([](const CLI::App* listed) { return !listed->get_group().empty(); }))
-        commands.push_back(known->get_name());
-      if (speaks())
-        fmt::print(stderr, "fretwork: there is no command \"{}\"{}\n", command,
-                   core::name_help(command, commands, "commands"));
-      return input_is_wrong;
-    }
-    return ended_by(program, error);
-  } catch (const CLI::ParseError& error) {
-    return ended_by(program, error);
-  }
-  if (program.get_subcommands().empty()) {
-    fmt::print(stderr,
-               "fretwork: a command is missing; give one of run, sweep, mesh, modes, stability, response, "
-               "transient, check, report, export, compare (--help explains them)\n");
-    return input_is_wrong;
-  }
-  request.report = !no_report;
-  if ((report->parsed() || exporting->parsed() || compare->parsed()) && !speaks())
-    return 0; // one process writes the files
-  if (report->parsed())
-    return guarded([&] {
-      if (std::filesystem::exists(directory / "table.h5"))
-        app::write_sweep_report(directory);
-      else
-        app::write_report(directory);
-      fmt::print("written: {}\n", (directory / "report.html").string());
-    });
-  if (compare->parsed())
-    return guarded([&] { fmt::print("{}", app::compare_results(compared, comparison_page)); });
-  if (exporting->parsed())
-    return guarded([&] { fmt::print("{}", app::export_results(exported)); });
-
+int main(int argc, char** argv) {
+  std::setvbuf(stdout, nullptr, _IOLBF,
+               0); // each line is seen when it is written, also in a log or by Python
+  CommandLine line;
+  if (const std::optional<int> status = line.parse(argc, argv))
+    return *status;
+  if (line.is_on_results())
+    return line.work_on_results();
   const core::MpiSession mpi(argc, argv);
-  if (check->parsed())
-    return speaks() ? guarded([&] { app::check(request); }) : 0;
-  if (sweep->parsed())
-    return guarded([&] {
-      const auto part = shard.empty() ? std::nullopt : std::optional(sweep::shard_of(shard));
-      app::run_sweep(MPI_COMM_WORLD, {request, part, gather});
-    });
-  if (cases->parsed())
-    return guarded([&] { app::serve_cases(request, with_warnings); });
-  request.report = request.report && run->parsed();
-  const app::Stage last = mesh->parsed()        ? app::Stage::mesh
-                          : modes->parsed()     ? app::Stage::modes
-                          : stability->parsed() ? app::Stage::stability
-                          : response->parsed()  ? app::Stage::response
-                                                : app::Stage::transient;
-  static_cast<void>(transient);
-  return guarded([&] { app::run_chain(MPI_COMM_WORLD, request, last); });
+  return line.work_on_study();
 }

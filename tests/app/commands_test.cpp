@@ -62,9 +62,8 @@ TEST(Commands, APythonThatIsMissingIsSaidByTheReport) {
   const Workshop folder;
   const fs::path results = folder.path("results");
   ASSERT_EQ(folder.fretwork({"transient", example("oscillator").string(), "-o", results.string()}).status, 0);
-  setenv("FRETWORK_PYTHON", "/nowhere/python", 1);
+  const EnvironmentVariable missing("FRETWORK_PYTHON", "/nowhere/python");
   const Outcome report = folder.fretwork({"report", results.string()});
-  unsetenv("FRETWORK_PYTHON");
   EXPECT_EQ(report.status, 1);
   EXPECT_TRUE(says(report.err, "/nowhere/python cannot be started"));
   EXPECT_FALSE(fs::exists(results / "report.html"));
@@ -255,9 +254,8 @@ TEST(Commands, QuietSaysNothing) {
 TEST(Commands, RunsBesideEachOtherShareNoFolder) {
   const Workshop folder;
   // a temporary folder that cannot be used: a run that wanted one, as others at the same time would, fails
-  setenv("TMPDIR", folder.write("file", "").c_str(), 1);
+  const EnvironmentVariable unusable("TMPDIR", folder.write("file", "").string());
   (void)folder.run(example("oscillator"), "results");
-  unsetenv("TMPDIR");
 }
 
 TEST(Commands, ReportIsWrittenFromResults) {

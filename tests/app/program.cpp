@@ -41,6 +41,20 @@ const nlohmann::json& Results::statistics(const std::string& name) const {
   throw std::runtime_error("no contact " + name);
 }
 
+EnvironmentVariable::EnvironmentVariable(std::string name, const std::string& value)
+    : name_(std::move(name)) {
+  if (const char* before = std::getenv(name_.c_str()))
+    before_ = before;
+  setenv(name_.c_str(), value.c_str(), 1);
+}
+
+EnvironmentVariable::~EnvironmentVariable() {
+  if (before_)
+    setenv(name_.c_str(), before_->c_str(), 1);
+  else
+    unsetenv(name_.c_str());
+}
+
 Workshop::Workshop() {
   std::string pattern = (fs::temp_directory_path() / "fretwork_app_XXXXXX").string();
   if (!mkdtemp(pattern.data()))

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,19 @@ struct Results {
   [[nodiscard]] const post::NodeSeries& node(const std::string& name) const;
   /// Summary of a contact.
   [[nodiscard]] const nlohmann::json& statistics(const std::string& name) const;
+};
+
+/// A variable of the environment of this process and its children, as before at the end.
+class EnvironmentVariable {
+public:
+  EnvironmentVariable(std::string name, const std::string& value);
+  ~EnvironmentVariable();
+  EnvironmentVariable(const EnvironmentVariable&) = delete;
+  EnvironmentVariable& operator=(const EnvironmentVariable&) = delete;
+
+private:
+  std::string name_;
+  std::optional<std::string> before_;
 };
 
 /// A temporary folder, removed at the end.

@@ -69,9 +69,8 @@ TEST_F(Strange, DamagedModesAreComputedAgainAndTold) {
 
 TEST_F(Strange, PetscTakesNoOptions) {
   (void)folder_.write(".petscrc", "-log_view :" + folder_.path("made").string() + "\n");
-  setenv("PETSC_OPTIONS", ("-log_view :" + folder_.path("made").string()).c_str(), 1);
+  const EnvironmentVariable options("PETSC_OPTIONS", "-log_view :" + folder_.path("made").string());
   const Outcome outcome = tube();
-  unsetenv("PETSC_OPTIONS");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_FALSE(fs::exists("made"));
 }
