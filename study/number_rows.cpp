@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 
 namespace fretwork::study {
 namespace {
@@ -13,6 +12,11 @@ namespace {
 constexpr std::string_view blanks = " \t";
 
 bool has(std::string_view line, char separator) { return line.find(separator) != std::string_view::npos; }
+
+/// Whether none of the cells is a number.
+bool is_header(const std::vector<std::string>& cells) {
+  return std::none_of(cells.begin(), cells.end(), [](const std::string& cell) { return to_real(cell); });
+}
 
 } // namespace
 
@@ -30,10 +34,6 @@ std::vector<std::string> cells_of(std::string_view line) {
       at = std::max(at, std::min(line.find_first_not_of(blanks, std::min(at, line.size())), line.size() + 1));
   }
   return cells;
-}
-
-bool is_header(const std::vector<std::string>& cells) {
-  return std::none_of(cells.begin(), cells.end(), [](const std::string& cell) { return to_real(cell); });
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -54,43 +54,55 @@ std::optional<double> to_real(std::string_view cell) {
   return number;
 }
 
-NumberRows read_number_rows(const std::filesystem::path& file) {
+CellRows::CellRows(const std::filesystem::path& file, std::size_t fewest_cells)
+    : file_(file), fewest_cells_(fewest_cells) {
   core::check_input_file(file, "file " + file.string());
-  std::ifstream stream(file);
-  if (!stream)
+  stream_.open(file);
+  if (!stream_)
     throw core::Error("file " + file.string() + " cannot be read; check its permissions");
+}
+
+bool CellRows::next() {
   constexpr int most_headers = 2; // names, units
-  int headers = 0;
-  NumberRows out;
-  std::string text;
-  for (int number = 1; std::getline(stream, text); ++number) {
-    const std::string_view line = trimmed(text);
+  while (std::getline(stream_, text_)) {
+    ++number_;
+    const std::string_view line = trimmed(text_);
     if (line.empty() || line.front() == '#')
       continue;
-    const auto refuse = [&](const std::string& problem) {
-      throw core::Error(file.string() + ":" + std::to_string(number) + ": \"" + std::string(line) +
-                        "\": " + problem);
-    };
-    const std::vector<std::string> cells = cells_of(line);
-    if (is_header(cells) && out.rows.empty() && headers < most_headers) {
-      if (headers++ == 0)
-        out.columns = cells;
-      continue;
-    }
+    cells_ = cells_of(line);
+    in_rows_ = in_rows_ || headers_ == most_headers || cells_.size() < fewest_cells_ || !is_header(cells_);
+    if (in_rows_)
+      return true;
+    if (headers_++ == 0)
+      columns_ = cells_;
+  }
+  return false;
+}
+
+void CellRows::refuse(const std::string& problem) const {
+  throw core::Error(file_.string() + ":" + std::to_string(number_) + ": \"" + std::string(trimmed(text_)) +
+                    "\": " + problem);
+}
+
+NumberRows read_number_rows(const std::filesystem::path& file) {
+  NumberRows out;
+  CellRows rows(file, 1);
+  while (rows.next()) {
     std::vector<double> row;
-    for (const std::string& cell : cells)
+    for (const std::string& cell : rows.cells())
       if (const auto value = to_real(cell))
         row.push_back(*value);
       else
-        refuse("a row of finite numbers is expected");
-    const std::size_t wanted = !out.columns.empty() ? out.columns.size()
-                               : out.rows.empty()   ? row.size()
-                                                    : out.rows.front().size();
+        rows.refuse("a row of finite numbers is expected");
+    const std::size_t wanted = !rows.columns().empty() ? rows.columns().size()
+                               : out.rows.empty()      ? row.size()
+                                                       : out.rows.front().size();
     if (row.size() != wanted)
-      refuse(std::to_string(row.size()) + " numbers, the others have " + std::to_string(wanted) +
-             "; give every row as many");
+      rows.refuse(std::to_string(row.size()) + " numbers, the others have " + std::to_string(wanted) +
+                  "; give every row as many");
     out.rows.push_back(std::move(row));
   }
+  out.columns = rows.columns();
   if (out.rows.empty())
     throw core::Error("file " + file.string() + " has no row; give rows of numbers");
   return out;

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "study/time_functions.hpp"
 #include "core/error.hpp"
-#include "core/input_file.hpp"
 #include "core/names.hpp"
 #include "study/accelerogram.hpp"
 #include "study/number_rows.hpp"
-#include <fstream>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -88,33 +86,16 @@ signals::Random read_random(const TableReader& entry, const char* unit) {
 } // namespace
 
 signals::Table read_time_table(const std::filesystem::path& file) {
-  core::check_input_file(file, "file " + file.string());
-  std::ifstream stream(file);
-  if (!stream)
-    throw core::Error("file " + file.string() + " cannot be read; check its permissions");
   signals::Table table;
-  constexpr int most_headers = 2; // names, units
-  int headers = 0;
-  std::string text;
-  for (int number = 1; std::getline(stream, text); ++number) {
-    const std::string_view line = trimmed(text);
-    if (line.empty() || line.front() == '#')
-      continue;
-    const std::vector<std::string> cells = cells_of(line);
-    if (table.time.empty() && cells.size() > 1 && headers < most_headers && is_header(cells)) {
-      ++headers;
-      continue;
-    }
-    const auto refuse = [&](const std::string& problem) {
-      throw core::Error(file.string() + ":" + std::to_string(number) + ": \"" + std::string(line) +
-                        "\": " + problem);
-    };
+  CellRows rows(file, 2);
+  while (rows.next()) {
+    const std::vector<std::string>& cells = rows.cells();
     const auto time = to_real(cells[0]);
     const auto value = cells.size() == 2 ? to_real(cells[1]) : std::nullopt;
     if (!time || !value)
-      refuse("a row is two finite numbers, t,value");
+      rows.refuse("a row is two finite numbers, t,value");
     if (const auto problem = append_row(table, *time, *value); !problem.empty())
-      refuse(problem);
+      rows.refuse(problem);
   }
   if (table.time.empty())
     throw core::Error("file " + file.string() + " has no row; give rows t,value");
