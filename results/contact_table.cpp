@@ -15,22 +15,29 @@ constexpr std::size_t most_contacts = 12; // shown one by one; of more, the ten 
 constexpr std::size_t most_flat = 4;      // of those shown
 constexpr double micro = 1e6;             // um in a metre
 
-std::string row(const std::string& name, const std::string& impacts, const std::string& closed,
-                const std::string& normal_rms, const std::string& normal_max,
-                const std::string& tangential_max, const std::string& radius, const std::string& penetration,
-                const std::string& work, const std::string& friction) {
-  return fmt::format("  {:<18} {:>7} {:>7} {:>11} {:>7} {:>7} {:>8} {:>6} {:>13} {:>13}", name, impacts,
-                     closed, normal_rms, normal_max, tangential_max, radius, penetration, work, friction);
+/// The cells of a row, as text.
+struct Cells {
+  std::string name, impacts, closed, normal_rms, normal_max, tangential_max, radius, penetration, work,
+      friction;
+};
+
+std::string row(const Cells& c) {
+  return fmt::format("  {:<18} {:>7} {:>7} {:>11} {:>7} {:>7} {:>8} {:>6} {:>13} {:>13}", c.name, c.impacts,
+                     c.closed, c.normal_rms, c.normal_max, c.tangential_max, c.radius, c.penetration, c.work,
+                     c.friction);
 }
 
 std::string contact_row(const ContactFacts& facts, const post::ContactSummary& c) {
-  return row(shortened(facts.name, contact_width), grouped(c.impacts),
-             fmt::format("{:.2f}", 100.0 * c.contact_time_ratio),
-             with_error(c.normal_rms, c.error.normal_rms), figure(c.normal_max, 3),
-             figure(without_round_off(c.tangential_max, c.normal_max), 3),
-             flat_position_of(facts, c) ? "flat" : figure(micro * c.radial_max, 4),
-             figure(micro * c.penetration_max, 3), with_error(c.work_rate, c.error.work_rate),
-             with_error(c.friction_power, c.error.friction_power));
+  return row({.name = shortened(facts.name, contact_width),
+              .impacts = grouped(c.impacts),
+              .closed = fmt::format("{:.2f}", 100.0 * c.contact_time_ratio),
+              .normal_rms = with_error(c.normal_rms, c.error.normal_rms),
+              .normal_max = figure(c.normal_max, 3),
+              .tangential_max = figure(without_round_off(c.tangential_max, c.normal_max), 3),
+              .radius = flat_position_of(facts, c) ? "flat" : figure(micro * c.radial_max, 4),
+              .penetration = figure(micro * c.penetration_max, 3),
+              .work = with_error(c.work_rate, c.error.work_rate),
+              .friction = with_error(c.friction_power, c.error.friction_power)});
 }
 
 std::string sums_row(const RunResults& results) {
@@ -42,8 +49,12 @@ std::string sums_row(const RunResults& results) {
     friction += c.friction_power;
   }
   const post::StandardErrors& e = results.errors_of_sums;
-  return row("all contacts", grouped(impacts), "", "", "", "", "", "", with_error(work, e.work_rate),
-             with_error(friction, e.friction_power));
+  Cells cells;
+  cells.name = "all contacts";
+  cells.impacts = grouped(impacts);
+  cells.work = with_error(work, e.work_rate);
+  cells.friction = with_error(friction, e.friction_power);
+  return row(cells);
 }
 
 /// Normal position and sliding of the flat obstacles among those shown.
@@ -87,8 +98,8 @@ std::vector<std::string> contact_lines(const RunResults& results) {
                      [&](std::size_t a, std::size_t b) { return rank(a) > rank(b); });
     shown.resize(10);
   }
-  std::vector<std::string> lines{row("contact", "impacts", "closed%", "FN rms N", "FNmax N", "FTmax N",
-                                     "r max um", "pen um", "work W", "friction W")};
+  std::vector<std::string> lines{row({"contact", "impacts", "closed%", "FN rms N", "FNmax N", "FTmax N",
+                                      "r max um", "pen um", "work W", "friction W"})};
   for (const std::size_t c : shown)
     lines.push_back(contact_row(results.contacts[c], all[c]));
   if (shown.size() < all.size())

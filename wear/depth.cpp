@@ -18,20 +18,23 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double degree = pi / 180.0;
 
-void check_angle(std::string_view where, std::string_view name, double value, double low, bool low_is_allowed,
-                 double high, bool high_is_allowed) {
-  const bool above = low_is_allowed ? value >= low : value > low;
-  const bool below = high_is_allowed ? value <= high : value < high;
+/// Where angles end, rad, from 0 on.
+enum class AngleRange { zero_to_below_right, above_zero_to_below_right, above_zero_to_turn };
+
+void check_angle(std::string_view where, std::string_view name, double value, AngleRange range) {
+  const bool with_zero = range == AngleRange::zero_to_below_right,
+             with_end = range == AngleRange::above_zero_to_turn;
+  const double end = with_end ? 2.0 * pi : 0.5 * pi;
+  const bool above = with_zero ? value >= 0.0 : value > 0.0, below = with_end ? value <= end : value < end;
   if (!above || !below) // not a number is neither
-    throw core::Error(
-        fmt::format("{}: {} = {:g} rad ({:g} degrees) makes no sense; give a number {} {:g} and "
-                    "{} {:.4g} rad ({:g} degrees)",
-                    where, name, value, value / degree, low_is_allowed ? ">=" : ">", low,
-                    high_is_allowed ? "<=" : "<", high, high / degree));
+    throw core::Error(fmt::format("{}: {} = {:g} rad ({:g} degrees) makes no sense; give a number {} 0 and "
+                                  "{} {:.4g} rad ({:g} degrees)",
+                                  where, name, value, value / degree, with_zero ? ">=" : ">",
+                                  with_end ? "<=" : "<", end, end / degree));
 }
 
 void check_inclination(std::string_view where, double inclination) {
-  check_angle(where, "inclination", inclination, 0.0, true, 0.5 * pi, false);
+  check_angle(where, "inclination", inclination, AngleRange::zero_to_below_right);
 }
 
 void check_tube(std::string_view where, double radius, double length) {
@@ -62,7 +65,7 @@ struct Checked {
   void operator()(const Lands& g) const {
     check_tube("lands", g.radius, g.length);
     check_clearance("lands", g.clearance);
-    check_angle("lands", "half-angle of a land", g.half_angle, 0.0, false, 0.5 * pi, false);
+    check_angle("lands", "half-angle of a land", g.half_angle, AngleRange::above_zero_to_below_right);
     check_inclination("lands", g.inclination);
     if (form == Form::reference) {
       if (g.lands != 3 && g.lands != 4)
@@ -89,16 +92,16 @@ struct Checked {
           "tube on tube: crossing angle = 0 degrees: parallel tubes touch over a length that the "
           "formula does not know; give the angle between the tubes (inclination), > 0, or leave the contact "
           "out");
-    check_angle("tube on tube", "crossing angle", g.crossing, 0.0, false, 0.5 * pi, false);
+    check_angle("tube on tube", "crossing angle", g.crossing, AngleRange::above_zero_to_below_right);
   }
   void operator()(const TubeSector& g) const {
     check_tube("tube sector", g.radius, g.length);
-    check_angle("tube sector", "angle", g.angle, 0.0, false, 2.0 * pi, true);
+    check_angle("tube sector", "angle", g.angle, AngleRange::above_zero_to_turn);
   }
   void operator()(const SupportSector& g) const {
     check_positive("support sector", "hole radius", g.hole_radius, "m");
     check_positive("support sector", "length of the support", g.length, "m");
-    check_angle("support sector", "angle", g.angle, 0.0, false, 2.0 * pi, true);
+    check_angle("support sector", "angle", g.angle, AngleRange::above_zero_to_turn);
   }
 };
 
