@@ -2,7 +2,6 @@
 #include "flow/cross_spectrum.hpp"
 #include "core/error.hpp"
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -28,12 +27,6 @@ Eigen::MatrixXd markov_sum(const Eigen::MatrixXd& a, const Eigen::VectorXd& r) {
 }
 
 } // namespace
-
-Eigen::MatrixXd correlated_sum(const Eigen::MatrixXd& a, const Eigen::VectorXd& s,
-                               double correlation_length) {
-  assert(a.cols() == s.size());
-  return markov_sum(a, correlations(s, correlation_length));
-}
 
 double pinned_joint_acceptance(int m, int n, double relative_length) {
   const double a = 1.0 / relative_length, pi = std::numbers::pi;

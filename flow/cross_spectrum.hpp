@@ -66,11 +66,6 @@ private:
   std::vector<std::vector<Eigen::MatrixXd>> ratio_; ///< R of each zone; empty of separable ones
 };
 
-/// Sum over k, l of a_ik a_jl exp(-|s_k - s_l|/lambda), modes x modes.
-/// @param a  modes x patches   @param s  m, ascending   @param correlation_length  m, > 0
-[[nodiscard]] Eigen::MatrixXd correlated_sum(const Eigen::MatrixXd& a, const Eigen::VectorXd& s,
-                                             double correlation_length);
-
 /// Joint acceptance of two modes sin(m pi s/L), sin(n pi s/L) of a pinned tube under a uniform load of correlation exp(-|s - s'|/lambda):
 ///     I_mn/L^2 = a d_mn/(a^2 + n^2 pi^2) + m n pi^2 (1 - (-1)^m e^-a)(1 + (-1)^(m+n))/[(a^2 + m^2 pi^2)(a^2 + n^2 pi^2)],   a = L/lambda
 /// @param m, n  >= 1   @param relative_length  lambda/L, > 0

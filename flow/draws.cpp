@@ -13,7 +13,6 @@ namespace {
 
 constexpr double periods_per_block =
     32.0; ///< of the lowest mode: spectra err by 0.44 % at its frequency at most
-constexpr double frequency_margin = 1.2; ///< of lines above the highest mode
 
 } // namespace
 
@@ -23,8 +22,6 @@ double block_period(double lowest_frequency) {
                                   lowest_frequency));
   return std::exp2(std::ceil(std::log2(periods_per_block / lowest_frequency)));
 }
-
-double highest_line(double highest_frequency) { return frequency_margin * highest_frequency; }
 
 double faded_density(const std::function<double(double)>& g, double f, double block_period) {
   const double shift = static_cast<double>(fades_per_block) / (4.0 * block_period); // 1/(4 C)

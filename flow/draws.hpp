@@ -40,7 +40,7 @@ namespace fretwork::flow {
 struct DrawOptions {
   std::uint32_t seed = 1, draw = 0;
   double f_min = 0.0;               ///< Hz, >= 0: lines below carry nothing
-  double f_max = 0.0;               ///< Hz, > f_min: lines above carry nothing (`highest_line`)
+  double f_max = 0.0;               ///< Hz, > f_min: lines above carry nothing (load_band.hpp)
   double block_period = 0.0;        ///< T_b, s, > 0 (`block_period`); at least 8 lines up to f_max
   double samples_per_period = 20.0; ///< of f_max, >= 4
   bool phase_only = false; ///< lines of fixed amplitude and random phase: not Gaussian where few lines count
@@ -48,8 +48,6 @@ struct DrawOptions {
 
 /// 32/f as the next power of 2, s.  @param lowest_frequency  of the modes whose response counts, Hz, > 0
 [[nodiscard]] double block_period(double lowest_frequency);
-/// 1.2 times the highest frequency of the modes, Hz.
-[[nodiscard]] double highest_line(double highest_frequency);
 /// Mean spectrum of a draw for the spectrum G, at f, Hz.
 [[nodiscard]] double faded_density(const std::function<double(double)>& g, double f, double block_period);
 

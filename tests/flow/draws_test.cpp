@@ -315,7 +315,6 @@ TEST(Draw, TakesItsOptionsFromTheModes) {
   EXPECT_EQ(block_period(32.0), 1.0);
   EXPECT_EQ(block_period(31.0), 2.0);
   EXPECT_EQ(block_period(5.0), 8.0);
-  EXPECT_DOUBLE_EQ(highest_line(100.0), 120.0);
   EXPECT_EQ(message_of([] { (void)block_period(0.0); }),
             "a lowest frequency of 0 Hz gives no period of blocks; give one > 0");
 }
