@@ -132,15 +132,18 @@ TEST(Check, ForecastsTheSizeOfTheResults) {
 
 TEST(Check, FindsNothingWrongWithTheExamples) {
   const Workshop folder;
+  int checked = 0;
   for (const auto& entry : fs::recursive_directory_iterator(test_paths::source_dir() / "examples")) {
     if (entry.path().filename() != "study.toml")
       continue;
-    const Outcome outcome = folder.fretwork({"check", entry.path().string()});
     if (says(bytes_of(entry.path()), "[sweep]"))
       continue; // of a sweep there is no run to check
+    const Outcome outcome = folder.fretwork({"check", entry.path().string()});
     EXPECT_EQ(outcome.status, 0) << entry.path() << outcome.err;
     EXPECT_FALSE(says(outcome.out, "inf h")) << entry.path();
+    ++checked;
   }
+  EXPECT_GT(checked, 5);
 }
 
 // Of a pilot run: the same order as the run takes, however busy the machine.
