@@ -170,8 +170,13 @@ std::vector<std::string> case_warnings(const Table& table, const std::string& do
         }
     const std::string what = outcome == Outcome::done ? done : name_of(outcome);
     for (const results::AlikeMessages& alike : results::alike_messages(messages)) {
-      const std::size_t cases = alike.members.size();
-      const std::int64_t first = numbers[alike.members.front()];
+      std::vector<std::int64_t> of_cases; // one may have several alike
+      for (const std::size_t member : alike.members)
+        of_cases.push_back(numbers[member]);
+      std::sort(of_cases.begin(), of_cases.end());
+      of_cases.erase(std::unique(of_cases.begin(), of_cases.end()), of_cases.end());
+      const std::size_t cases = of_cases.size();
+      const std::int64_t first = of_cases.front();
       const std::string which =
           cases == 1 ? fmt::format("case {} {}", first, what)
                      : fmt::format("{} {}, the first is case {}",

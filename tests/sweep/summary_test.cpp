@@ -29,6 +29,15 @@ TEST(CaseWarnings, AreTogetherByOutcome) {
                           "case 4 done with a warning: few modes"));
 }
 
+TEST(CaseWarnings, CountCasesWhoseMessagesAreAlikeOnce) {
+  const Table table{{},
+                    {row(0, Outcome::done, "\"all\" is unstable | \"no bars\" is unstable"),
+                     row(1, Outcome::done, "\"all\" is unstable | \"no bars\" is unstable")}};
+  EXPECT_THAT(
+      case_warnings(table),
+      ElementsAre("2 cases done with a warning, the first is case 0: \"all\", \"no bars\" is unstable"));
+}
+
 TEST(CaseWarnings, OfManyKindsAreThoseOfMostCases) {
   Table table;
   for (std::int64_t k = 0; k < 20; ++k)
