@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/chain.hpp"
 #include "app/build_flow.hpp"
+#include "app/contact_directions.hpp"
 #include "app/contact_notes.hpp"
 #include "app/describe.hpp"
 #include "app/flow_coverage.hpp"
@@ -41,9 +42,12 @@
 #include "results/summary_file.hpp"
 #include "results/totals.hpp"
 #include "results/write.hpp"
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <functional>
+#include <iterator>
 #include <optional>
 
 namespace fretwork::app {
@@ -231,7 +235,8 @@ private:
     other_runs_ = read_other_runs(study, inputs_.run_directory);
     check_contacts_of(other_runs_, study, worn_, placed_);
     warn(compare_with_other_runs(other_runs_, study, worn_, placed_, model_));
-    numbering_ = numbering_text(study, model_, together(placed_, inactive_), flows_);
+    places_ = {directions_text(study, model_, placed_),
+               numbering_text(study, model_, together(placed_, inactive_), flows_)};
     note_other_runs(other_runs_, out_);
   }
 
@@ -308,7 +313,7 @@ private:
 
   void tell_check() {
     progress_.stage("");
-    note_numbering();
+    note_places();
     const std::string forecast =
         scenes_wanted_ ? forecast_text(comm_, inputs_.study, scenes_, placed_, out_)
                        : "  no [transient]: run would refuse it; modes, stability and response take it\n";
@@ -349,14 +354,14 @@ private:
   }
 
   /// After all notes that may tell of something wrong.
-  void note_numbering() {
-    if (!numbering_.empty())
-      out_.notes.push_back(numbering_);
+  void note_places() {
+    std::copy_if(places_.begin(), places_.end(), std::back_inserter(out_.notes),
+                 [](const std::string& note) { return !note.empty(); });
   }
 
   void write() {
     progress_.stage("results");
-    note_numbering();
+    note_places();
     core::agree(comm_, [&] {
       if (!first_rank_)
         return;
@@ -433,7 +438,7 @@ private:
   std::vector<PlacedFlow> flows_;
   std::vector<TurbulentLoad> turbulence_;
   std::vector<NamedNode> nodes_;
-  std::string numbering_;                    ///< of supports along tubes
+  std::array<std::string, 2> places_; ///< directions of flat obstacles, numbers of supports along tubes
   std::vector<LackingForce> lacking_forces_; ///< by force sites
   std::vector<MovedSupport> moved_;
   std::vector<WornPlace> worn_;
