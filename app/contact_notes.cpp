@@ -142,6 +142,22 @@ bool same_obstacle(const PlacedContact& a, const PlacedContact& b) {
   return a.obstacle.index() == b.obstacle.index() &&
          std::all_of(probes.begin(), probes.end(), [&](const std::array<double, 2>& at) {
            const auto gap = [&](const PlacedContact& contact) {
+/// Of an entry: its points with an overlap that the static start has opened.
+struct LostPreload {
+  std::size_t points = 0, lost = 0;
+  std::string name;                ///< of the point with the largest overlap of these
+  double overlap = 0.0, gap = 0.0; ///< m, at its rest and at the start
+};
+
+std::string lost_preload_warning(const LostPreload& of) {
+  return fmt::format(
+      "contact \"{}\": placed with an overlap of {:.4g} m, it is open by {:.4g} m in the static start{}: "
+      "what acts at "
+      "t = 0 takes its preload; look at the sign of offset and y_axis, or give a larger overlap",
+      of.name, of.overlap, of.gap,
+      of.points > 1 ? fmt::format(" ({} of {} points of its entry are so)", of.lost, of.points) : "");
+}
+
              return contact::locate(contact.obstacle, contact.rest.y() + probe * at[0],
                                     contact.rest.z() + probe * at[1])
                  .gap;
@@ -183,6 +199,36 @@ std::vector<std::string> inside_obstacles(const study::Study& study, const fem::
     for (const core::Index node : {beam.a, beam.b})
       if (const auto here =
               fem::outer_radius(fem::property_at(model.properties[static_cast<std::size_t>(beam.property)],
+std::vector<std::string> lost_preloads(const study::Study& study, const std::vector<PlacedContact>& placed,
+                                       const std::vector<BuiltScene>& scenes) {
+  std::vector<std::string> out;
+  if (!study.transient || study.transient->start != study::Start::equilibrium)
+    return out;
+  std::vector<LostPreload> of_entry(study.contacts.size());
+  for (const BuiltScene& built : scenes)
+    for (std::size_t k = 0; k < built.contacts.size(); ++k) {
+      const PlacedContact& at = placed[built.contacts[k]];
+      const transient::ContactPoint& contact = built.scene.contacts[k];
+      const core::Vec3 place = built.scene.place_at_start(contact);
+      const double overlap = -contact::locate(contact.support.obstacle, place.y(), place.z()).gap,
+                   gap = at_start(at, k, built).gap;
+      LostPreload& entry = of_entry[at.entry];
+      ++entry.points;
+      if (!(overlap > least_overlap) || !(gap > least_overlap))
+        continue;
+      ++entry.lost;
+      if (overlap > entry.overlap) {
+        entry.name = at.name;
+        entry.overlap = overlap;
+        entry.gap = gap;
+      }
+    }
+  for (const LostPreload& entry : of_entry)
+    if (entry.lost > 0)
+      out.push_back(lost_preload_warning(entry));
+  return out;
+}
+
                                                  beam.along[node == beam.b])
                                     .section)) {
         double& most = radius[static_cast<std::size_t>(node)];

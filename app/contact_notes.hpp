@@ -13,6 +13,12 @@ namespace fretwork::app {
                                                      const std::vector<PlacedContact>& placed,
                                                      const std::vector<BuiltScene>& scenes);
 
+/// Warnings of contacts that overlap their obstacle where nothing acts, as of a preload, and are open in the static start: one an entry. Empty
+/// where the run does not start so.
+[[nodiscard]] std::vector<std::string> lost_preloads(const study::Study& study,
+                                                     const std::vector<PlacedContact>& placed,
+                                                     const std::vector<BuiltScene>& scenes);
+
 /// A warning where two contacts are one and the same: node, axes and obstacle, or the same two nodes given in the other order. Empty
 /// where none are.
 [[nodiscard]] std::string twice_placed(const std::vector<PlacedContact>& placed);

@@ -133,6 +133,8 @@ std::vector<BuiltScene> build_scenes(const study::Study& study, const std::vecto
   if (std::string twice = twice_placed(placed); !twice.empty())
     out.warnings.push_back(std::move(twice));
   const auto of_contacts = contact_notes(study, placed, scenes);
+  for (std::string& lost : lost_preloads(study, placed, scenes))
+    out.warnings.push_back(std::move(lost));
   out.notes.insert(out.notes.end(), of_contacts.begin(), of_contacts.end());
   if (const std::string note = flexibility_note(scenes); !note.empty())
     out.notes.insert(out.notes.begin(), note);

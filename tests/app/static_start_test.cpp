@@ -100,6 +100,18 @@ TEST(StaticStart, TellsTheForceOfAContactInSeriesWithTheModes) {
   EXPECT_TRUE(says(start.summary["notes"].dump(), fmt::format("it presses with {:.4g} N", force)));
 }
 
+TEST(StaticStart, WarnsOfAPreloadThatTheLoadsTake) {
+  const Workshop folder;
+  const std::string pull = "[[loads]]\ngroup = \"support\"\ndirection = [0.0, -1.0, 0.0]\nconstant = 100.0\n";
+  const auto warnings = [&](const char* start, const std::string& more) {
+    return run(folder, start, more).summary["warnings"].dump();
+  };
+  EXPECT_TRUE(says(warnings("static", pull),
+                   "contact \\\"bar\\\": placed with an overlap of 0.0002 m, it is open by "));
+  EXPECT_FALSE(says(warnings("static", ""), "placed with an overlap"));
+  EXPECT_FALSE(says(warnings("rest", pull), "placed with an overlap")); // pressed at t = 0
+}
+
 TEST(StaticStart, GivesTheSameBytesOnTwoRanks) {
   const Workshop folder;
   folder.write("tube.msh", tube().text());
