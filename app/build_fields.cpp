@@ -59,6 +59,17 @@ Eigen::VectorXd load_field(const study::Load& load, const std::string& what, con
   return fem::line_forces(model, mesh::group_lines(mesh, load.group, what), load.direction);
 }
 
+/// Of a force on each node of a curve, as that of a force per length is often meant; else empty.
+std::string on_curve_note(const study::Load& load, const std::string& name, const mesh::LineMesh& mesh) {
+  if (load.per_length || load.moment || !mesh.curves.contains(load.group) || mesh.points.contains(load.group))
+    return {};
+  const std::size_t nodes = mesh::group_nodes(mesh, load.group, name).size();
+  return fmt::format(
+      "{} acts in full at each of the {} nodes of the curve \"{}\", {} times its value in all; "
+      "per_length = true makes it a force per metre",
+      name, nodes, load.group, nodes);
+}
+
 void follow_ties(const fem::Model& model, const char* what, const std::vector<bool>& given,
                  Eigen::VectorXd& field) {
   try {
@@ -132,6 +143,8 @@ Fields build_fields(const study::Study& study, const mesh::LineMesh& mesh, const
     const std::string name = name_of_load(study.loads[e], e);
     const study::Load& load = study.loads[e];
     out.loads.push_back({name, load.function, load_field(load, name, mesh, model)});
+    if (std::string note = on_curve_note(load, name, mesh); !note.empty())
+      out.notes.push_back(std::move(note));
     if (load.per_length)
       out.loads.back().along_beam =
           line_force_along(mesh::group_lines(mesh, load.group, name), load.direction);

@@ -36,7 +36,7 @@ struct Fields {
     std::function<fem::Vector12(const fem::Model& model, core::Index beam)> along_beam = {};
   };
   std::vector<Load> loads;
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings, notes;
   std::vector<Eigen::VectorXd> supports; ///< shapes of the study's support motions (support_motion.hpp)
   std::vector<Eigen::VectorXd> grounds;  ///< of springs and dampers, moved by them
   std::vector<FluidForces> motion;       ///< by laws; empty: none

@@ -56,6 +56,20 @@ TEST(MotionFacts, AreThoseOfTheRecordWithinTheRun) {
   EXPECT_TRUE(says(notes_of(half), "the run of 0.2 s ends before the record, which goes on to 0.5 s"));
 }
 
+TEST(MotionFacts, SayThatALoadOnACurveActsAtEachOfItsNodes) {
+  const Workshop folder;
+  write_tube(folder);
+  const auto notes = [&](const std::string& keys) {
+    return notes_of(folder.run_text(
+        study("[[loads]]\nname = \"wind\"\ndirection = [0.0, 1.0, 0.0]\nconstant = 1.0\n" + keys),
+        {"--force"}));
+  };
+  EXPECT_TRUE(says(notes("group = \"tube\"\n"), "load \\\"wind\\\" acts in full at each of the 11 nodes of "
+                                                "the curve \\\"tube\\\", 11 times its value"));
+  EXPECT_FALSE(says(notes("group = \"tube\"\nper_length = true\n"), "acts in full"));
+  EXPECT_FALSE(says(notes("group = \"middle\"\n"), "acts in full"));
+}
+
 TEST(MotionFacts, OfAHarmonicMotionAreItsAmplitudeHoweverManyItsPeriods) {
   const Workshop folder;
   write_tube(folder);
