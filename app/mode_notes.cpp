@@ -64,6 +64,36 @@ std::string free_note(const std::vector<modal::Basis>& bases) {
                      ways, ways == 1 ? "" : "s", bases.size() == 1 || structures == 1 ? "it" : "them");
 }
 
+/// Of a list of ratios that differ between modes of equal frequency; else empty. How two such modes share their motion is round-off: in the two
+/// planes of a straight tube the ratios then belong to arbitrary directions.
+std::string unequal_ratios_warning(const study::Study& study, const std::vector<modal::Basis>& bases) {
+  constexpr double equal_frequencies = 1e-6; // relative
+  if (study.modes.flow_damping || !std::holds_alternative<std::vector<double>>(study.modes.damping))
+    return {};
+  std::string first;
+  int pairs = 0;
+  for (std::size_t s = 0; s < bases.size(); ++s)
+    for (Eigen::Index i = 0; i + 1 < bases[s].true_modes(); ++i) {
+      const modal::Basis& basis = bases[s];
+      if (basis.omega(i) == 0.0 || basis.omega(i + 1) > (1.0 + equal_frequencies) * basis.omega(i) ||
+          basis.damping(i) == basis.damping(i + 1) || pairs++ > 0)
+        continue;
+      first =
+          fmt::format("{:g} to mode {} and {:g} to mode {}{}, both at {:.5g} Hz", basis.damping(i), i + 1,
+                      basis.damping(i + 1), i + 2, bases.size() > 1 ? fmt::format(" of structure {}", s) : "",
+                      basis.omega(i) / (2.0 * std::numbers::pi));
+    }
+  return pairs == 0
+             ? std::string()
+             : fmt::format(
+                   "modes.damping: the list gives {}{}: modes of equal frequency have no directions of "
+                   "their own, which of them has which ratio is arbitrary; give them one ratio, or "
+                   "ratios by frequency (table)",
+                   first,
+                   pairs > 1 ? fmt::format(" (and {} more such pair{})", pairs - 1, pairs > 2 ? "s" : "")
+                             : "");
+}
+
 } // namespace
 
 void note_modes(const study::Study& study, results::RunResults& out) {
@@ -79,6 +109,8 @@ void note_modes(const study::Study& study, results::RunResults& out) {
                                        *study.modes.count,
                                        split > 1 ? fmt::format(" of {} structures", split) : ""));
   note_mesh_error(out);
+  if (std::string unequal = unequal_ratios_warning(study, out.bases); !unequal.empty())
+    out.warnings.push_back(std::move(unequal));
   if (const std::string note = free_note(out.bases); !note.empty())
     out.notes.push_back(note);
   if (const std::string note = overdamped_note(out.bases); !note.empty())

@@ -8,7 +8,7 @@
 
 namespace fretwork::app {
 
-/// Groups of equal frequencies that are cut, a mesh that is too coarse, damping ratios given as per cent, copies, fewer modes than asked for.
+/// Groups of equal frequencies that are cut, a mesh that is too coarse, damping ratios given as per cent, lists of ratios that differ between modes of equal frequency, copies, fewer modes than asked for.
 void note_modes(const study::Study& study, results::RunResults& out);
 
 /// Nodes at the same place that are not joined.

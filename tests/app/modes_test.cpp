@@ -27,6 +27,22 @@ nlohmann::json summary_of(const Workshop& folder) {
   return nlohmann::json::parse(bytes_of(folder.path("study.results") / "summary.json"));
 }
 
+TEST(ModesCommand, WarnsOfAListWithUnequalRatiosOfModesOfOneFrequency) {
+  const Workshop folder;
+  const std::string study = tubes(folder, {1.0, 1.1}, 20, 4); // two planes each
+  const auto warnings = [&](const char* damping) {
+    const Outcome outcome =
+        folder.fretwork({"modes", study, "--force", "--set", std::string("modes.damping=") + damping});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return summary_of(folder)["warnings"].dump();
+  };
+  const std::string unequal = warnings("[0.01, 0.02, 0.03, 0.03]");
+  EXPECT_TRUE(says(unequal, "the list gives 0.01 to mode 1 and 0.02 to mode 2 of structure 0, both at "));
+  EXPECT_TRUE(says(unequal, "(and 1 more such pair)")); // of the second tube, where the list begins anew
+  EXPECT_FALSE(says(warnings("[0.01, 0.01, 0.03, 0.03]"), "the list gives"));
+  EXPECT_FALSE(says(warnings("{ table = [[10, 0.01], [100, 0.02]] }"), "the list gives"));
+}
+
 TEST(ModesCommand, NamesAStructureWithoutModes) {
   const Workshop folder;
   const std::string study = tubes(folder, {1.0, 0.1}, 20, 6);
