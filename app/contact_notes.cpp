@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <map>
+#include <numbers>
 
 namespace fretwork::app {
 namespace {
@@ -99,8 +100,14 @@ std::string laws_note(const study::Contact& entry, const std::vector<Point>& poi
     found.push_back(restitution_text(entry, points));
   if (entry.friction_static > 0.0 && !entry.tangential_damping)
     found.push_back(fmt::format(
-        "automatic tangential damping {} N s/m (tangential_damping gives another)",
-        range(points, [](const Point& p) { return p.contact->support.friction.damping / p.placed->share; })));
+        "automatic tangential damping {} N s/m, stiffer than tangential_stiffness above {} Hz "
+        "(tangential_damping "
+        "gives another)",
+        range(points, [](const Point& p) { return p.contact->support.friction.damping / p.placed->share; }),
+        range(points, [](const Point& p) {
+          const contact::FrictionLaw& law = p.contact->support.friction;
+          return law.stiffness / law.damping / (2.0 * std::numbers::pi);
+        })));
   if (entry.friction_static == 0.0 && entry.tangential_stiffness > 0.0)
     found.push_back("tangential_stiffness without friction: nothing tangential is computed");
   if (found.empty())
@@ -135,13 +142,6 @@ std::vector<std::string> contact_notes(const study::Study& study, const std::vec
 
 namespace {
 
-/// Gaps tell obstacles apart; m from the place at rest, along y_loc and z_loc.
-bool same_obstacle(const PlacedContact& a, const PlacedContact& b) {
-  constexpr double probe = 1e-3;
-  constexpr std::array<std::array<double, 2>, 5> probes{{{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-  return a.obstacle.index() == b.obstacle.index() &&
-         std::all_of(probes.begin(), probes.end(), [&](const std::array<double, 2>& at) {
-           const auto gap = [&](const PlacedContact& contact) {
 /// Of an entry: its points with an overlap that the static start has opened.
 struct LostPreload {
   std::size_t points = 0, lost = 0;
@@ -158,6 +158,13 @@ std::string lost_preload_warning(const LostPreload& of) {
       of.points > 1 ? fmt::format(" ({} of {} points of its entry are so)", of.lost, of.points) : "");
 }
 
+/// Gaps tell obstacles apart; m from the place at rest, along y_loc and z_loc.
+bool same_obstacle(const PlacedContact& a, const PlacedContact& b) {
+  constexpr double probe = 1e-3;
+  constexpr std::array<std::array<double, 2>, 5> probes{{{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+  return a.obstacle.index() == b.obstacle.index() &&
+         std::all_of(probes.begin(), probes.end(), [&](const std::array<double, 2>& at) {
+           const auto gap = [&](const PlacedContact& contact) {
              return contact::locate(contact.obstacle, contact.rest.y() + probe * at[0],
                                     contact.rest.z() + probe * at[1])
                  .gap;
@@ -192,13 +199,6 @@ bool same_reversed(const PlacedContact& a, const PlacedContact& b) {
 
 } // namespace
 
-std::vector<std::string> inside_obstacles(const study::Study& study, const fem::Model& model,
-                                          const std::vector<PlacedContact>& placed) {
-  std::vector<double> radius(model.nodes.size(), 0.0); // m, the largest at a node
-  for (const fem::Beam& beam : model.beams)
-    for (const core::Index node : {beam.a, beam.b})
-      if (const auto here =
-              fem::outer_radius(fem::property_at(model.properties[static_cast<std::size_t>(beam.property)],
 std::vector<std::string> lost_preloads(const study::Study& study, const std::vector<PlacedContact>& placed,
                                        const std::vector<BuiltScene>& scenes) {
   std::vector<std::string> out;
@@ -229,6 +229,13 @@ std::vector<std::string> lost_preloads(const study::Study& study, const std::vec
   return out;
 }
 
+std::vector<std::string> inside_obstacles(const study::Study& study, const fem::Model& model,
+                                          const std::vector<PlacedContact>& placed) {
+  std::vector<double> radius(model.nodes.size(), 0.0); // m, the largest at a node
+  for (const fem::Beam& beam : model.beams)
+    for (const core::Index node : {beam.a, beam.b})
+      if (const auto here =
+              fem::outer_radius(fem::property_at(model.properties[static_cast<std::size_t>(beam.property)],
                                                  beam.along[node == beam.b])
                                     .section)) {
         double& most = radius[static_cast<std::size_t>(node)];

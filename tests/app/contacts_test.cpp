@@ -5,6 +5,7 @@
 #include "tubes.hpp"
 #include <cmath>
 #include <fmt/format.h>
+#include <numbers>
 
 namespace fretwork::app::test::contacts_test {
 namespace {
@@ -259,6 +260,10 @@ TEST(Restitution, TakesTheMassThatTheModesGive) {
 }
 
 /// A block on a plane, dragged to and fro on a soft tangential spring with a strong damper.
+  EXPECT_TRUE(says(notes[1], ", stiffer than tangential_stiffness above "));
+  const results::ContactFacts& point = facts(run, "plate@2");
+  EXPECT_TRUE(says(notes[1], fmt::format(" {:.4g} Hz", point.tangential_stiffness / point.tangential_damping /
+                                                           (2.0 * std::numbers::pi))));
 std::string dragged_block(const Workshop& folder, const std::string& memory) {
   folder.write("mesh.msh", lone_points({"block"}).text());
   return R"([mesh]
