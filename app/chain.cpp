@@ -60,6 +60,8 @@ template <class Things> std::string counted(const Things& things, const char* wh
   return results::counted(static_cast<std::int64_t>(things.size()), what);
 }
 
+constexpr std::size_t most_motions = 8; ///< that check shows
+
 /// Of a file that may not be there.
 void remove_file(const fs::path& file) {
   std::error_code ignored;
@@ -317,13 +319,16 @@ private:
     const std::string forecast =
         scenes_wanted_ ? forecast_text(comm_, inputs_.study, scenes_, placed_, out_)
                        : "  no [transient]: run would refuse it; modes, stability and response take it\n";
+    std::string motions;
+    for (std::size_t k = 0; k < std::min(most_motions, out_.motions.size()); ++k)
+      motions += fmt::format("  {}\n", results::motion_text(out_.motions[k]));
     const std::string sweep = inputs_.study.varied && scenes_wanted_ ? sweep_check_text(request_) : "";
     say(fmt::format("{}: fine\n  {}, {}, {} in {}, {:.6g} kg\n  {}, {}, {}{}\n{}{}{}",
                     request_.study.string(), counted(mesh_.nodes, "node"), counted(model_.beams, "beam"),
                     results::counted(out_.model.dofs, "free dof"), counted(out_.bases, "structure"),
                     out_.model.mass_kg, counted(placed_, "contact"), counted(inputs_.study.loads, "load"),
                     counted(nodes_, "observed node"),
-                    worn_.empty() ? "" : ", " + counted(worn_, "support") + " that wear", forecast,
+                    worn_.empty() ? "" : ", " + counted(worn_, "support") + " that wear", motions + forecast,
                     check_messages(out_, out_.modes_limit.has_value()), sweep));
   }
 

@@ -21,6 +21,7 @@ constexpr double largest_viscosity = 2e-5;  // m2/s
 constexpr double largest_wear = 1e-10;      // m2/N
 constexpr double largest_slenderness = 2e4; // mesh over the largest size of its sections
 constexpr double largest_gravity = 100.0;   // m/s2
+constexpr double largest_shake = 500.0;     // m/s2, 51 g: of bases and supports
 constexpr double largest_speed = 100.0, largest_gas_speed = 1000.0; // m/s, in gaps
 constexpr double largest_added_mass = 100.0;                        // of the material's mass
 
@@ -164,11 +165,35 @@ std::vector<std::string> odd_wear(const study::Study& study) {
   return out;
 }
 
+/// Of given functions: the largest magnitude, of a random one its rms.
+double largest_magnitude(const signals::TimeFunction& function) {
+  if (const auto* constant = std::get_if<signals::Constant>(&function))
+    return std::abs(constant->value);
+  if (const auto* harmonic = std::get_if<signals::Harmonic>(&function))
+    return std::abs(harmonic->amplitude);
+  if (const auto* random = std::get_if<signals::Random>(&function))
+    return random->rms;
+  double largest = 0.0;
+  if (const auto* table = std::get_if<signals::Table>(&function))
+    for (const double value : table->value)
+      largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
 /// Accelerations and velocities of mm.
 std::vector<std::string> odd_motion(const study::Study& study) {
   std::vector<std::string> out;
   if (study.gravity && study.gravity->norm() > largest_gravity)
     out.push_back(fmt::format("gravity.acceleration of {:g} m/s2 (weight: 9.81)", study.gravity->norm()));
+  const auto look = [&](const std::string& keys, const signals::TimeFunction& acceleration) {
+    if (const double largest = largest_magnitude(acceleration); largest > largest_shake)
+      out.push_back(fmt::format("acceleration of {:.4g} m/s2 in {} (earthquakes: below 30)", largest, keys));
+  };
+  for (std::size_t k = 0; k < study.base_motions.size(); ++k)
+    look(fmt::format("[[base_motion]] entry {}", k + 1), study.base_motions[k].acceleration);
+  for (std::size_t k = 0; k < study.support_motions.size(); ++k)
+    if (!study.support_motions[k].by_displacement)
+      look(fmt::format("[[support_motion]] entry {}", k + 1), study.support_motions[k].function);
   for (const study::Flow& flow : study.flows)
     for (const flow::Zone& zone : flow.zones) {
       double speed = 0.0;

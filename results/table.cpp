@@ -133,6 +133,8 @@ void add_verification(Lines& lines, const RunResults& results) {
 
 constexpr double standard_gravity = 9.80665; // m/s2
 
+} // namespace
+
 std::string motion_text(const MotionFacts& m) {
   std::string text = fmt::format(
       "{}: largest acceleration {} m/s2 ({} g) at {:.4g} s, largest displacement {} m", m.name,
@@ -142,6 +144,8 @@ std::string motion_text(const MotionFacts& m) {
                         m.record_to);
   return text;
 }
+
+namespace {
 
 void add_transient(Lines& lines, const RunResults& results) {
   for (std::size_t k = 0; k < std::min(most_motions, results.motions.size()); ++k)

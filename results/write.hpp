@@ -23,6 +23,9 @@ void write_summary(const std::filesystem::path& file, const RunResults& results)
 [[nodiscard]] std::string terminal_table(const RunResults& results,
                                          const std::filesystem::path& directory = {});
 
+/// A prescribed motion: its largest acceleration and displacement, its record.
+[[nodiscard]] std::string motion_text(const MotionFacts& motion);
+
 /// A line a mode, at most 60: frequency, damping, estimated error of the mesh, effective mass by direction as
 /// a share of the moving mass; their sum over all modes.
 [[nodiscard]] std::string modes_table(const RunResults& results);

@@ -53,6 +53,22 @@ TEST(UnitSlips, OfSizesAreOneQuestion) {
     EXPECT_TRUE(says(found[0], part));
 }
 
+TEST(UnitSlips, OfAccelerationsAreAskedAboutAndCheckSaysTheLargest) {
+  const Workshop folder;
+  const std::string study =
+      tubes(folder, 1) +
+      "[[base_motion]]\ndirection = [0.0, 1.0, 0.0]\ntable = [[0, 0], [0.01, 3], [0.02, 0]]\n";
+  EXPECT_TRUE(asked(folder, study, {}).empty());
+  const auto found = asked(folder, study, {"base_motion.0.scale=1000"});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(
+      says(found[0],
+           "acceleration of 3000 m/s2 in [[base_motion]] entry 1 (earthquakes: below 30): are these mm?"));
+  const Outcome check = folder.fretwork({"check", folder.path("study.toml").string()});
+  EXPECT_TRUE(says(check.out, "[[base_motion]] along (0, 1, 0): largest acceleration 3 m/s2 (0.306 g) at "
+                              "0.01 s, largest displacement "));
+}
+
 TEST(UnitSlips, OfFrictionMaterialsAndStepAreAskedAbout) {
   const Workshop folder;
   const std::string study =
