@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/flow_damping.hpp"
 #include "core/error.hpp"
+#include "core/names.hpp"
 #include "modal/damping.hpp"
 #include <algorithm>
 #include <fmt/format.h>
@@ -21,6 +22,8 @@ std::optional<double> abscissa_of(const flow::Tube& tube, Index node) {
 }
 
 namespace {
+
+constexpr std::size_t most_named_supports = 6;
 
 bool has_contact(const std::vector<PlacedContact>& contacts, Index node) {
   return std::any_of(contacts.begin(), contacts.end(), [node](const PlacedContact& contact) {
@@ -64,6 +67,24 @@ std::vector<flow::TubeSupport> supports_by_contacts(const study::Study& study, c
   return out;
 }
 
+/// Names of the entries of [[contacts]] at supports without a length.
+std::vector<std::string> entries_at(const study::Study& study, const flow::Tube& tube,
+                                    const std::vector<flow::TubeSupport>& supports,
+                                    const std::vector<PlacedContact>& contacts) {
+  const auto is_without = [&](double s) {
+    return std::any_of(supports.begin(), supports.end(),
+                       [&](const flow::TubeSupport& one) { return one.s == s && one.length == 0.0; });
+  };
+  std::vector<std::string> out;
+  for (const PlacedContact& contact : contacts)
+    for (const Index node : {contact.node, contact.other})
+      if (const auto s = node >= 0 ? abscissa_of(tube, node) : std::nullopt;
+          s && is_without(*s) &&
+          std::find(out.begin(), out.end(), study.contacts[contact.entry].name) == out.end())
+        out.push_back(study.contacts[contact.entry].name);
+  return out;
+}
+
 /// Ratios of one structure, from the tubes in it.
 struct Mixture {
   Eigen::VectorXd weighted, shares;
@@ -100,14 +121,16 @@ std::vector<std::string> supports_without_length(const TubesInFlow& tubes,
     const study::Flow& flow = tubes.study.flows[placed.entry];
     if (flow.supports)
       continue;
-    const auto supports =
-        supports_by_contacts(tubes.study, tube_of(tubes.study, placed, tubes.model), contacts);
+    const flow::Tube tube = tube_of(tubes.study, placed, tubes.model);
+    const auto supports = supports_by_contacts(tubes.study, tube, contacts);
     const auto without = std::count_if(supports.begin(), supports.end(),
                                        [](const flow::TubeSupport& one) { return one.length == 0.0; });
     if (without > 0)
-      out.push_back(fmt::format("{}: {} of {} supports have no length, and so no damping by squeeze film and "
-                                "friction; give it supports, or contacts a thickness",
-                                name_of(flow), without, supports.size()));
+      out.push_back(fmt::format(
+          "{}: {} of {} supports have no length ({}), and so no damping by squeeze film and "
+          "friction; give the flow supports = [{{ group, length }}, ...], or these contacts a thickness",
+          name_of(flow), without, supports.size(),
+          core::list_names(entries_at(tubes.study, tube, supports, contacts), most_named_supports)));
   }
   return out;
 }

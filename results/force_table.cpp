@@ -40,7 +40,7 @@ std::string section_line(const RunResults& results, const SectionGroup& group) {
   const LargestOfGroup stress =
       largest_of(results, group, [](const ForceSummary& force) { return force.stress; });
   const bool still = scatter.value < round_off_of_modes * stress.value;
-  return fmt::format("  {:<18} {:>14} {:>20} {:>14} {:>14} {:>8} {:>8}",
+  return fmt::format("  {:<18} {:>14} {:>20} {:>14} {:>14} {:>8} {:>11}",
                      shortened(results.force_sites[group.first].name, label_width),
                      of([](const ForceSummary& force) { return mega * force.stress; }),
                      std::isnan(scatter.value) ? "-"
@@ -78,8 +78,9 @@ std::vector<std::string> force_lines(const RunResults& results) {
   std::vector<std::string> lines;
   const std::vector<SectionGroup> groups = section_groups(results);
   if (!groups.empty())
-    lines.push_back(fmt::format("  {:<18} {:>14} {:>20} {:>14} {:>14} {:>8} {:>8}", "largest in beams",
-                                "stress MPa", "its std MPa", "moment N m", "shear N", "axial N", "torsion"));
+    lines.push_back(fmt::format("  {:<18} {:>14} {:>20} {:>14} {:>14} {:>8} {:>11}", "largest, at s in m",
+                                "stress MPa", "its std MPa", "moment N m", "shear N", "axial N",
+                                "torsion N m"));
   for (std::size_t g = 0; g < std::min(most_lines, groups.size()); ++g)
     lines.push_back(section_line(results, groups[g]));
   if (groups.size() > most_lines)

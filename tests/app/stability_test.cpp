@@ -75,7 +75,8 @@ TEST(Stability, NotesSupportsWithoutLength) {
                                               contact("third", "obstacle = \"circle\"\n" + keys)))["notes"]
         .dump();
   };
-  EXPECT_TRUE(says(notes(""), "flow \\\"T1\\\": 1 of 1 supports have no length"));
+  EXPECT_TRUE(
+      says(notes(""), "flow \\\"T1\\\": 1 of 1 supports have no length (\\\"third\\\"), and so no damping"));
   EXPECT_FALSE(says(notes("thickness = 0.02\n"), "have no length"));
 }
 
