@@ -248,6 +248,22 @@ std::vector<std::string> inside_obstacles(const study::Study& study, const fem::
     // a clearance below 0 is meant
     const double meant = std::max(0.0, -contact::locate(contact.obstacle, 0.0, 0.0).gap);
     const double overlap = -contact::locate(contact.obstacle, contact.rest.y(), contact.rest.z()).gap;
+    // in radii of the tube: of a radius given as a gap, or a diameter given as a radius
+    constexpr double like_a_radius = 0.9, like_a_diameter = 2.2;
+    const double clearance = gap_of(contact, contact.obstacle);
+    using enum study::ObstacleKind;
+    const study::ObstacleKind kind = study.contacts[contact.entry].obstacle;
+    if (contact.entry != said && contact.other < 0 && most > 0.0 && kind != stop_y && kind != stop_z &&
+        clearance > like_a_radius * most && clearance < like_a_diameter * most) {
+      said = contact.entry;
+      out.push_back(fmt::format(
+          "contact \"{}\": its clearance of {:g} m is of the size of the tube, whose radius is {:g} m; a "
+          "clearance is radial, and sizes of obstacles are radii and distances from the centre: is one a "
+          "diameter, "
+          "or gap a radius?",
+          contact.name, clearance, most));
+      continue;
+    }
     if (contact.entry == said || contact.other >= 0 || most == 0.0 || overlap - meant <= most)
       continue;
     said = contact.entry;

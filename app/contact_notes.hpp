@@ -23,7 +23,7 @@ namespace fretwork::app {
 /// where none are.
 [[nodiscard]] std::string twice_placed(const std::vector<PlacedContact>& placed);
 
-/// Warnings of tubes that lie in their fixed obstacle by more than their outer radius where they rest, one an entry; of nodes without beams nothing is known.
+/// Warnings of tubes that lie in their fixed obstacle by more than their outer radius where they rest, and of clearances of the size of the tube, one an entry; of nodes without beams nothing is known.
 [[nodiscard]] std::vector<std::string> inside_obstacles(const study::Study& study, const fem::Model& model,
                                                         const std::vector<PlacedContact>& placed);
 

@@ -229,6 +229,21 @@ TEST(Warnings, NameATubeThatRestsInsideItsObstacle) {
   EXPECT_FALSE(says(with("offset = [0.0, 0.005]\n"), "inside its obstacle"));
 }
 
+TEST(Contacts, WithAClearanceOfTheSizeOfTheTubeAreAWarning) {
+  const Workshop folder;
+  const auto with = [&](const std::string& size) {
+    return folder.run_text(tubes(folder, 1) + support(size + "normal_stiffness = 1.0e6\n"), {"--force"})
+        .summary["warnings"]
+        .dump();
+  };
+  const std::string warning = "is of the size of the tube, whose radius is 0.009525 m";
+  EXPECT_TRUE(says(with("gap = 0.009725\n"), warning)); // the radius of the hole
+  const std::string bars = "obstacle = \"bars_y\"\ny_axis = [0, 0, 1]\ntube_radius = 0.009525\nbars = ";
+  EXPECT_TRUE(says(with(bars + "[0.01925, 0.01925]\n"), warning)); // diameters
+  EXPECT_FALSE(says(with(bars + "[0.009625, 0.009625]\n"), "of the size of the tube"));
+  EXPECT_FALSE(says(with("gap = 2.0e-3\n"), "of the size of the tube"));
+}
+
 TEST(Notes, AreOneLineAContactOfTheStudyOverlapsFirst) {
   const Workshop folder;
   const std::string plate = "gap = 0.0\noffset = [0.0, -2.0e-4]\nthickness = 0.03\nthickness_points = 3\n"
@@ -245,6 +260,10 @@ TEST(Notes, AreOneLineAContactOfTheStudyOverlapsFirst) {
   EXPECT_TRUE(
       says(notes[1], " N s/m for restitution 0.7 with a mass of 2 kg, automatic tangential damping "));
   EXPECT_TRUE(says(notes[1], "(of the whole support: each point has 0.3333 of it)"));
+  EXPECT_TRUE(says(notes[1], ", stiffer than tangential_stiffness above "));
+  const results::ContactFacts& point = facts(run, "plate@2");
+  EXPECT_TRUE(says(notes[1], fmt::format(" {:.4g} Hz", point.tangential_stiffness / point.tangential_damping /
+                                                           (2.0 * std::numbers::pi))));
 }
 
 TEST(Restitution, TakesTheMassThatTheModesGive) {
@@ -260,10 +279,6 @@ TEST(Restitution, TakesTheMassThatTheModesGive) {
 }
 
 /// A block on a plane, dragged to and fro on a soft tangential spring with a strong damper.
-  EXPECT_TRUE(says(notes[1], ", stiffer than tangential_stiffness above "));
-  const results::ContactFacts& point = facts(run, "plate@2");
-  EXPECT_TRUE(says(notes[1], fmt::format(" {:.4g} Hz", point.tangential_stiffness / point.tangential_damping /
-                                                           (2.0 * std::numbers::pi))));
 std::string dragged_block(const Workshop& folder, const std::string& memory) {
   folder.write("mesh.msh", lone_points({"block"}).text());
   return R"([mesh]
