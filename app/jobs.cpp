@@ -227,6 +227,27 @@ void resize_results(const study::Study& study, results::RunResults& out) {
                     [](const results::ForceSite& site) { return !site.is_section(); })));
 }
 
+/// Of a fixed step that is far below the automatic one; else empty.
+std::string short_step_warning(const transient::Scene& scene, const transient::StepChoice& fixed,
+                               transient::StepOptions options) {
+  constexpr double far_below = 100.0;
+  if (!options.step || fixed.steps == 0) // adaptive
+    return {};
+  options.step.reset();
+  options.scheme = fixed.scheme;
+  double automatic = 0.0; // s
+  try {
+    automatic = transient::choose_step(scene, options).step;
+  } catch (const core::Error&) { // of absurdly many steps, which a fixed one may avoid
+    return {};
+  }
+  return automatic > far_below * fixed.step ? fmt::format("transient.step = {:.3g} s is {:.2g} times shorter "
+                                                          "than the automatic step, {:.3g} s, and the "
+                                                          "run takes as many times longer; leave step out",
+                                                          fixed.step, automatic / fixed.step, automatic)
+                                            : std::string();
+}
+
 } // namespace
 
 std::vector<transient::StepChoice> choose_steps(MPI_Comm comm, const study::Study& study,
@@ -234,8 +255,11 @@ std::vector<transient::StepChoice> choose_steps(MPI_Comm comm, const study::Stud
   const transient::StepOptions options = step_options(*study.transient);
   std::vector<transient::StepChoice> choices;
   core::agree(comm, [&] {
-    for (const BuiltScene& built : scenes)
+    for (const BuiltScene& built : scenes) {
       choices.push_back(transient::choose_step(built.scene, options));
+      if (std::string wasteful = short_step_warning(built.scene, choices.back(), options); !wasteful.empty())
+        choices.back().warnings.push_back(std::move(wasteful));
+    }
   });
   core::agree(comm, [&] {
     for (const auto& choice : choices)

@@ -173,4 +173,15 @@ TEST(UnitSlips, EndTheMessageOfWhatIsRefused) {
                                 "turns mm into m): are these mm?"));
 }
 
+TEST(Check, WarnsOfAStepFarBelowTheAutomaticOne) {
+  const Workshop folder;
+  const std::string study =
+      folder.write("study.toml", tubes(folder, 1) + supports("gap = 2.0e-4\n")).string();
+  const auto checked = [&](const char* step) {
+    return folder.fretwork({"check", study, "--set", std::string("transient.step=") + step}).out;
+  };
+  EXPECT_TRUE(says(checked("1e-9"), "times shorter than the automatic step, "));
+  EXPECT_FALSE(says(checked("2e-5"), "times shorter than"));
+}
+
 } // namespace fretwork::app::test::unit_slips_test
