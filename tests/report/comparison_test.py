@@ -59,6 +59,29 @@ class Comparison(unittest.TestCase):
         change_summary(self.folders[1], lambda summary: summary["wear"]["supports"][0].update(life_years={"end": "never", "value": None, "low": None, "high": None}))
         self.assertEqual(self.table("Wear").rows[0][-1], "never")
 
+    def test_shows_damping_where_it_differs(self):
+        _, found = compare_data.tables(self.folders)
+        self.assertFalse([table for table in found if table.title.startswith("Damping")])
+
+        def change(summary):
+            summary["modes"]["damping"][1] = 0.03
+
+        change_summary(self.folders[0], lambda summary: summary["modes"]["damping"].__setitem__(1, 0.02))
+        change_summary(self.folders[1], change)
+        self.assertEqual(self.table("Damping").rows[1][1:], ["2", "3", "+50 %"])
+
+    def test_shows_the_stability_of_both_runs(self):
+        def case(margin):
+            return {"margin": margin, "critical_mode": 1}
+
+        entry = {"name": "all", "tube": "a", "cases": [case(0.5), case(0.2)]}
+        change_summary(self.folders[0], lambda summary: summary.update(stability=[entry]))
+        change_summary(self.folders[1], lambda summary: summary.update(stability=[{**entry, "cases": [case(-0.2)]}, {**entry, "name": "none", "cases": []}]))
+        self.assertEqual(self.table("Stability").rows, [["all", "0.8", "1.2", "+50 %"], ["none", "-", "-", "-"]])
+
+    def test_says_after_how_many_years_the_wear_is(self):
+        self.assertEqual(self.table("Wear").title, "Wear after 40 years")
+
     def test_shows_changes_of_frequencies(self):
         rows = self.table("Frequencies").rows
         self.assertEqual([rows[0][3], rows[1][3]], ["+1 %", "0 %"])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What differs between runs: inputs, frequencies, work rates, wear; each as rows of a table, the first run being the reference."""
+"""What differs between runs: inputs, frequencies, damping, stability, work rates, wear; each as rows of a table, the first run being the reference."""
 
 import json
 import math
@@ -174,6 +174,37 @@ def frequencies(runs, names):
     return Table("Frequencies, Hz", ["mode", *names, *(f"change, {name}" for name in names[1:])], rows, [*range(len(names)), *range(1, len(names))])
 
 
+def damping(runs, names):
+    """Ratios of the lowest modes, where those of some runs differ."""
+    lists = [[math.inf if ratio is None else 100 * ratio for ratio in run.summary["modes"]["damping"]] for run in runs]
+    rows = []
+    for i in range(min(FREQUENCIES, max(map(len, lists)))):
+        values = [found[i] if i < len(found) else None for found in lists]
+        rows.append([f"{i + 1}", *(number(v) for v in values), *(change(v, values[0]) for v in values[1:])])
+    differ = any(len(set(row[1 : 1 + len(names)])) > 1 for row in rows)
+    return Table("Damping of the modes, % of critical", ["mode", *names, *(f"change, {name}" for name in names[1:])], rows if differ else [],
+                 [*range(len(names)), *range(1, len(names))])
+
+
+def _velocity_ratios(run):
+    """By assessment, the largest V/Vc over its modes and constants; with several tubes by tube too."""
+    found = run.summary.get("stability", [])
+    several = len({entry["tube"] for entry in found}) > 1
+    return {entry["name"] + (f", {entry['tube']}" if several else ""): max((1 - case["margin"] for case in entry["cases"] if case["margin"] is not None), default=None)
+            for entry in found}
+
+
+def stability(runs, names):
+    """V/Vc by Connors of the assessments of each run."""
+    tables = [_velocity_ratios(run) for run in runs]
+    rows = []
+    for name in dict.fromkeys(name for found in tables for name in found):
+        values = [found.get(name) for found in tables]
+        rows.append([name, *(number(v) for v in values), *(change(v, values[0]) for v in values[1:])])
+    return Table("Stability, V/Vc (1 and above: unstable)", ["assessment", *names, *(f"change, {name}" for name in names[1:])], rows,
+                 [*range(len(names)), *range(1, len(names))])
+
+
 def _work(entry):
     """Value, standard error and the batches behind it."""
     error = entry.get("standard_error", {})
@@ -216,7 +247,8 @@ def _wear(run, of=""):
 
 
 def wear(runs, names):
-    return _worn("Wear", [_wear(run) for run in runs], names)
+    years = {support["years"] for run in runs for support in run.summary.get("wear", {}).get("supports", [])}
+    return _worn(f"Wear after {number(years.pop())} years" if len(years) == 1 else "Wear", [_wear(run) for run in runs], names)
 
 
 def wear_of_supports(runs, names):
@@ -250,5 +282,5 @@ def tables(directories):
 
 
 def differences(runs, names):
-    found = [compare(runs, names) for compare in (differing_inputs, frequencies, work_rates, wear, wear_of_supports)]
+    found = [compare(runs, names) for compare in (differing_inputs, frequencies, damping, stability, work_rates, wear, wear_of_supports)]
     return [table for table in found if table.rows or table.title == "Inputs that differ"]
