@@ -12,7 +12,10 @@
 ///                                                            the nodes; `reference` and C_T = 0: T_j = F_j
 /// in components along x_loc and t, which turn with the normal; what the opposite face has loaded is lost. `sliding` is that of node
 /// j - 1, or where a path has been followed to node j (inner_path.hpp) that of the path; both T then are shifted onto that of the path. Slip is along the trial with the relaxed T; where that is not beyond the bound (T has not followed yet), and with
-/// C_T = 0, along the trial of stick, which is exact on a line and of order 1 in the plane. The slip of `reference` is opposite to v
+/// C_T = 0, along the trial of stick, which is exact on a line and of order 1 in the plane.
+/// So it is where T falls to less than `slow_fall` of itself in a part of a path, and the contact has not slid from the node 0 on or a path has been
+/// followed to the node: there T - F is of the order of F/x, and what the quadratic misses of F would turn the slip x times as far. The parts of a
+/// path slip along the trial of stick, too. The slip of `reference` is opposite to v
 /// and bears any force within the bound where v = 0.
 #pragma once
 #include "transient/collocation/contact_node.hpp"
@@ -30,6 +33,9 @@ template <int D> struct Answer {
   using Row = Eigen::Array<double, size, 1>;
   Row u[2][D], v[2][D];
 };
+
+/// What springs keep in a part of a path where their fall is slow beside it.
+inline constexpr double slow_fall = 0.5;
 
 /// Which law holds.
 enum class NormalBranch { open, closed, limited };
@@ -211,7 +217,9 @@ NodalContact<D>::slide(int j, Vector relaxed, Vector trial, double bound) {
   } else {
     out.tangent = TangentBranch::trial;
     const Vector candidate = law.trial(relaxed, slip_[j + 1]);
-    if (table_.keep > 0.0 && norm(candidate) > bound && dot(candidate, trial) > 0.0) {
+    const bool slid = node_[0].slides && node_[1].slides && !node_[j + 1].inner.followed;
+    if (table_.keep > 0.0 && (slid || table_.keep_part > slow_fall) && norm(candidate) > bound &&
+        dot(candidate, trial) > 0.0) {
       trial = candidate;
       out.tangent = TangentBranch::relaxed;
     }

@@ -72,6 +72,47 @@ TEST(SweptContact, KeepsItsMatrixFromStepToStep) {
   EXPECT_NEAR(pressed.swept.force[0][0], force, 1e-5 * std::abs(force));
 }
 
+/// Along x_loc and z_loc, with a damper that relaxes the spring in 1/600 of the step.
+TEST(SweptContact, SlidesAgainstItsMotionWhereItBreaksLooseInTheStep) {
+  constexpr double press = 100.0, stiffness = 1e6, bound = 0.3 * press;
+  for (const double turn : {-1.0, -0.5, 0.5, 1.0}) {
+    Pressed pressed;
+    pressed.contacts.supports[0].friction = {stiffness, stiffness * h / 600.0, 0.3, 0.3};
+    SweptContact& swept = pressed.swept;
+    NodalTables tables{pressed.contacts, pressed.flow, h};
+    for (int node = 0; node <= 2; ++node) {
+      pressed.motion.u(node)[swept.y] = 1e-3 + press / stiffness;
+      pressed.motion.v(node)[swept.y] = 0.0;
+      pressed.motion.v(node)[swept.z] = 0.3;
+      pressed.motion.v(node)[swept.x] = turn * 0.3 * node;
+    }
+    meet_start(swept, pressed.motion);
+    ContactNode& start = swept.node[0];
+    start.normal = press;
+    start.face = start.axes;
+    start.spring = start.friction = {0.0, -0.9 * bound}; // just before it slides
+    swept.join(tables);
+    for (int path = 0; path < 3; ++path) {
+      double change = 1.0;
+      for (int i = 0; i < 40 && change > 1e-9; ++i)
+        change = pressed.improve();
+      EXPECT_LE(change, 1e-9) << turn << " " << path;
+      if (path == 2)
+        break;
+      follow_path(swept, pressed.motion);
+      add_response(swept, swept.path_change, pressed.motion);
+    }
+    evaluate(swept, pressed.motion);
+    for (int j = 1; j <= 2; ++j) {
+      const ContactNode& node = swept.node[j];
+      EXPECT_TRUE(node.slides) << turn << " " << j;
+      EXPECT_LT(contact::dot(node.friction, node.slip),
+                -0.99 * contact::norm(node.friction) * contact::norm(node.slip))
+          << turn << " " << j;
+    }
+  }
+}
+
 TEST(SweptContact, ForgetsAMatrixThatIsNoGood) {
   Pressed pressed;
   for (int i = 0; i < 4; ++i)
