@@ -25,6 +25,11 @@ std::vector<double> polygon_of(const signals::TimeFunction& function, double dur
                                   static_cast<std::size_t>(std::ceil(end / step)) + corners_beyond);
 }
 
+/// @param half_turn  pi f times the distance of corners
+double height_of_corner(double half_turn) {
+  return half_turn > 0.0 && half_turn < most_corrected ? std::pow(half_turn / std::sin(half_turn), 2) : 1.0;
+}
+
 } // namespace
 
 LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double duration, double step,
@@ -42,9 +47,8 @@ LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double dura
       functions.push_back(&load.function);
       signals_.emplace_back(load.function, duration);
       const auto* harmonic = std::get_if<signals::Harmonic>(&load.function);
-      const double half_turn = harmonic ? std::numbers::pi * harmonic->frequency * step : 0.0;
-      above_.push_back(
-          half_turn > 0.0 && half_turn < most_corrected ? std::pow(half_turn / std::sin(half_turn), 2) : 1.0);
+      half_rates_.push_back(harmonic ? std::numbers::pi * harmonic->frequency : 0.0);
+      above_.push_back(height_of_corner(half_rates_.back() * step));
       polygons_.push_back(corners == Corners::used ? polygon_of(load.function, duration, step)
                                                    : std::vector<double>());
       shapes_.resize(shapes_.size() + static_cast<std::size_t>(padded_modes_), 0.0);
@@ -102,16 +106,20 @@ void LoadSum::observe(double time, double* force) {
   std::copy_n(observed_.begin(), modes_, force);
 }
 
-void LoadSum::corner(double time, double* force) {
+double LoadSum::above(std::size_t signal, double length) const {
+  return length == step_ ? above_[signal] : height_of_corner(half_rates_[signal] * length);
+}
+
+void LoadSum::corner(double time, double length, double* force) {
   const signals::Signal::Window window = signals::Signal::window(time, step_);
   const auto corner = static_cast<std::size_t>(std::llround(time / step_));
   combine(
       time,
       [&](const signals::SampleGrid& grid) {
-        return step_ * grid.per_step < most_grid_steps ? grid.corner(time, step_) : grid.place(time);
+        return length * grid.per_step < most_grid_steps ? grid.corner(time, length) : grid.place(time);
       },
       [&](std::size_t k) {
-        return polygons_[k].empty() ? above_[k] * signals_[k].over_step(time, step_, window)
+        return polygons_[k].empty() ? above(k, length) * signals_[k].over_step(time, step_, window)
                                     : polygons_[k][std::min(corner, polygons_[k].size() - 1)];
       },
       force);

@@ -23,11 +23,11 @@ public:
   [[nodiscard]] bool constant() const { return constant_; }
   /// Modal force of the step about a time, at the start of the half step after it, padded. No allocation.
   void at(double time, double* force);
-  /// Modal force at a corner of the polygon, with corners a step apart, that has the amplitudes of the loads: it is above that of straight lines
-  /// between their values, by (w h)^2/12 for what moves with w. Of records whose points are closer than a step (signals/record.hpp) the nearest polygon, of other
-  /// tables as `at`. Padded. No allocation.
-  /// @param time  s, a multiple of the step
-  void corner(double time, double* force);
+  /// Modal force at a corner of the polygon, with corners `length` apart, that has the amplitudes of the loads: it is above that of straight lines
+  /// between their values, by (w length)^2/12 for what moves with w. Of records whose points are closer than a step (signals/record.hpp) the nearest polygon with corners
+  /// a step apart, of other tables as `at`. Padded. No allocation.
+  /// @param time  s, a multiple of the step   @param length  s, of one step or, beside loads without tables, of several
+  void corner(double time, double length, double* force);
   /// Modal force at a time that stands for another window, padded. No allocation.
   void at(double time, signals::Signal::Window window, double* force);
   /// Modal force at an instant, padded. No allocation.
@@ -39,6 +39,8 @@ private:
   /// The force at a time by the values of the signals: those that are not random as value(k) has them, the others at place(grid).
   template <class Value, class Place>
   void combine(double time, const Place& place, const Value& value, double* force);
+  /// A corner's height by the value there, of corners so far apart: above 1 of harmonic ones.
+  [[nodiscard]] double above(std::size_t signal, double length) const;
 
   Eigen::Index modes_;
   int padded_modes_;
@@ -46,7 +48,8 @@ private:
   bool constant_ = true;
   std::vector<signals::Signal> signals_;
   std::vector<std::vector<double>> polygons_; ///< of `signals_`: corners a step apart of records; empty: none
-  std::vector<double> above_; ///< a corner's height by the value there: above 1 of harmonic ones
+  std::vector<double> half_rates_;            ///< rad/s: half of those of harmonic ones, else 0
+  std::vector<double> above_;                 ///< of corners a step apart
   kernels::Array shapes_, values_, observed_;
   std::vector<signals::SampledForce> sampled_;
 };

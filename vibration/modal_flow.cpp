@@ -118,9 +118,9 @@ void ModalFlow::middle(int length, const State& from, const kernels::Array& load
       q[static_cast<std::size_t>(j)] = moved_[static_cast<std::size_t>(j)];
 }
 
-void ModalFlow::load_about(double time, kernels::Array& load) {
+void ModalFlow::load_about(double time, double length, kernels::Array& load) {
   if (!loads_.empty())
-    loads_.corner(time, load.data());
+    loads_.corner(time, length, load.data());
 }
 
 void ModalFlow::copy_modes(const State& from, State& to) const {

@@ -41,8 +41,8 @@ public:
   };
   /// Sets z for the start of a run.
   void start(State& state) const { state.z.assign(states_.size(), 0.0); }
-  /// Modal force of the loads of the step about a time; `load` stays where there are none. No allocation.
-  void load_about(double time, kernels::Array& load);
+  /// Modal force of the loads about a time, an end of a step of `length` s (LoadSum::corner); `load` stays where there are none. No allocation.
+  void load_about(double time, double length, kernels::Array& load);
   /// The modes over `length` steps under the loads load0 to load1, alone. No allocation.
   Sums move(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
             State& to);

@@ -141,17 +141,17 @@ LinearFlow::State LinearFlow::start(const Eigen::VectorXd& q, const Eigen::Vecto
   return out;
 }
 
-void LinearFlow::load_about(double time, kernels::Array& load) {
-  uncoupled_.load_about(time, load);
+void LinearFlow::load_about(double time, double length, kernels::Array& load) {
+  uncoupled_.load_about(time, length, load);
   if (blocks_.empty())
     return;
   if (!driven_->empty())
-    driven_->corner(time, part(load));
+    driven_->corner(time, length, part(load));
   if (random_->empty())
     return;
   if (driven_->empty())
     std::fill(load.begin() + uncoupled_.padded(), load.end(), 0.0);
-  random_->corner(time, q_.data());
+  random_->corner(time, length, q_.data());
   blocks_.add_input(q_.data(), part(load));
 }
 

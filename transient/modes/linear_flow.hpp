@@ -45,8 +45,8 @@ public:
 
   /// @param q, v  n
   [[nodiscard]] State start(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
-  /// The loads of the step about a time as numbers of a force; stay where there are none. No allocation.
-  void load_about(double time, kernels::Array& load);
+  /// The loads about a time, an end of a step of `length` s, as numbers of a force; stay where there are none. No allocation.
+  void load_about(double time, double length, kernels::Array& load);
   /// As ModalFlow; sums without the blocks. No allocation.
   vibration::ModalFlow::Sums move(int length, const State& from, const kernels::Array& load0,
                                   const kernels::Array& load1, State& to);

@@ -85,7 +85,7 @@ public:
     Step& first = steps_[0];
     for (Step& s : steps_)
       s.from = modes_.start(scene.q0, scene.v0);
-    modes_.load_about(0.0, first.load);
+    modes_.load_about(0.0, h_, first.load);
     obstacles_.place(0.0, first.from.q.data(), first.from.v.data(), imposed_[1], end_);
     moving_ = modes_.energy_at_start(first.from);
     energy_.start(moving_ + end_.spring_energy());
@@ -114,8 +114,8 @@ public:
       record_.energy = now.blocks.whole(now.energy, modes_, end.from);
     if (!parts.modes)
       return;
-    modes_.modes_in_middle(now.steps, now.from, now.load, end.load, now.pushed ? &now.force : nullptr, now.q,
-                           output_q_.data());
+    modes_.modes_in_middle(now.steps, now.from, now.load, load_at_end(published_),
+                           now.pushed ? &now.force : nullptr, now.q, output_q_.data());
     record_.q = output_q_.data();
   }
 
@@ -124,8 +124,8 @@ public:
     const bool inside = counts_.steps > 0 && time <= last.start + last.length;
     const std::size_t of = inside ? published_ : made_;
     const Step& s = steps_[of];
-    modes_.inside(time - s.start, s.length, s.from, s.load, steps_[next(of)].load,
-                  s.pushed ? &s.force : nullptr, q, v);
+    modes_.inside(time - s.start, s.length, s.from, s.load, load_at_end(of), s.pushed ? &s.force : nullptr, q,
+                  v);
     scale(q, 1);
     scale(v, 1);
   }
@@ -149,7 +149,8 @@ public:
       }
     }
     done_ = std::llround(from.start / h_);
-    modes_.load_about(first.start, first.load);
+    modes_.load_about(first.start, h_, first.load);
+    first.load_of = 1;
     end_.u = other.end_.u;
     end_.w = other.end_.w;
     obstacles_.at(first.start, imposed_[1]);
@@ -185,7 +186,7 @@ private:
   struct Step {
     explicit Step(const Splitting& of) : trial(of.contacts_.count) {
       const auto n = static_cast<std::size_t>(of.modes_.force_numbers());
-      for (kernels::Array* a : {&load, &force.mean, &force.slope})
+      for (kernels::Array* a : {&load, &load_end, &force.mean, &force.slope})
         a->assign(n, 0.0);
       q.assign(static_cast<std::size_t>(of.modes_.coordinates()), 0.0);
       u.assign(static_cast<std::size_t>(of.contacts_.stride()), 0.0);
@@ -193,7 +194,11 @@ private:
     double start = 0.0, length = 0.0; ///< s
     int steps = 0;                    ///< of h
     ModalFlow::State from;
-    kernels::Array load; ///< at its start; that at its end is the next step's
+    kernels::Array load; ///< at its start, of a polygon with corners `load_of` steps apart
+    int load_of = 1;
+    kernels::Array
+        load_end; ///< at its end, where the next step has another length; else that is the next step's `load`
+    bool next_differs = false;
     bool pushed = false; ///< contacts act in it, with the force
     ModalForce force;
     kernels::Array q, u; ///< in its middle
@@ -201,10 +206,14 @@ private:
     Energy energy; ///< at its end; of modes in blocks without damping and fluid
     BlockBalance blocks;
     void visit(core::StateArchive& state) {
-      state(start, length, steps, from, load, pushed, force, q, u, trial, energy, blocks);
+      state(start, length, steps, from, load, load_of, load_end, next_differs, pushed, force, q, u, trial,
+            energy, blocks);
     }
   };
   [[nodiscard]] static std::size_t next(std::size_t step) { return step == 2 ? 0 : step + 1; }
+  [[nodiscard]] const kernels::Array& load_at_end(std::size_t step) const {
+    return steps_[step].next_differs ? steps_[step].load_end : steps_[next(step)].load;
+  }
 
   CoupledContacts make_coupled(const Scene& scene, const SplittingOptions& options) {
     ContactBlocks blocks(scene);
@@ -248,12 +257,27 @@ private:
         near_.push_back(c);
   }
 
+  /// The load at the start of a step as that of a polygon with corners so many h apart.
+  void load_start(Step& s, int length) {
+    if (s.load_of == length)
+      return;
+    if (Step& before = steps_[next(next(made_))]; !before.next_differs) {
+      before.load_end = s.load;
+      before.next_differs = true;
+    }
+    modes_.load_about(s.start, length * h_, s.load);
+    s.load_of = length;
+  }
+
   /// The modes to the end of a step of so many h, under the forces held.
   ModalFlow::Sums predict(Step& s, int length, Step& to) {
     s.steps = length;
     s.length = length * h_;
     to.start = static_cast<double>(done_ + length) * h_;
-    modes_.load_about(to.start, to.load);
+    load_start(s, length);
+    modes_.load_about(to.start, s.length, to.load);
+    to.load_of = length;
+    s.next_differs = false;
     const ModalFlow::Sums sums = forces_.any_held()
                                      ? modes_.push(s.from, s.load, to.load, forces_.held(), to.from)
                                      : modes_.move(length, s.from, s.load, to.load, to.from);
