@@ -34,7 +34,7 @@ ContactIntervals::ContactIntervals(const contact::Support& support, const Compon
       w_(mobility), in_plane_(in_plane), has_corners_(contact::properties_of(support.obstacle).has_parts),
       has_sides_(contact::properties_of(support.obstacle).has_opposite_sides), h_(step),
       clearance_(clearance), mobility_(std::max({mobility(0, 0), mobility(1, 1), mobility(2, 2)})),
-      rates_(rates) {}
+      spring_left_(spring_left(step)), rates_(rates) {}
 
 IntervalTable ContactIntervals::table(int count) const {
   IntervalTable table;
@@ -46,6 +46,7 @@ IntervalTable ContactIntervals::table(int count) const {
   table.apparent_mass =
       std::max(table.sliding_mass, apparent_mass(table.length, friction_.stiffness, friction_.damping));
   if (friction_.active()) {
+    table.spring_left = spring_left(table.length);
     table.pieces = contact::piece_tables(friction_, mobility_, table.length);
     if (friction_.kind == contact::FrictionMemoryKind::reference)
       table.reference = contact::friction_table(friction_, table.length);
@@ -152,18 +153,28 @@ Components ContactIntervals::with_means(const MovingContact& m, bool of_normal, 
   return along(axes, normal(axes, along_normal), {tangential.x, tangent(axes, tangential)});
 }
 
-double ContactIntervals::relax(ContactPast& past, double time) const {
+double ContactIntervals::relax(ContactPast& past, int steps) const {
+  double left = spring_left_;
+  for (int step = 1; step < steps; ++step)
+    left *= spring_left_;
+  return leave(past, left);
+}
+
+double ContactIntervals::leave(ContactPast& past, double share) const {
   Vec2& spring = past.friction.spring;
   past.friction.sliding = false;
   if (!(dot(spring, spring) > 0.0))
     return 0.0;
-  const double left =
-      friction_.kind == contact::FrictionMemoryKind::return_map ? contact::spring_left(friction_, time) : 0.0;
   const double before = friction_.spring_energy(spring);
-  spring = left * spring;
+  spring = share * spring;
   if (dot(spring, spring) <= contact::forgotten * contact::forgotten * past.spring_at_opening)
     spring = {};
   return before - friction_.spring_energy(spring);
+}
+
+double ContactIntervals::spring_left(double time) const {
+  return friction_.kind == contact::FrictionMemoryKind::return_map ? contact::spring_left(friction_, time)
+                                                                   : 0.0;
 }
 
 void ContactIntervals::correct_spring_drift(ContactPast& past, const Components& missed) const {
@@ -365,7 +376,7 @@ void ContactIntervals::find_force(MovingContact& m, const IntervalTable& table, 
   if (n.force > 0.0)
     add_force(passage, motion, n, table, index, m);
   else if (friction_.active())
-    m.course.relaxed += relax(past, table.length);
+    m.course.relaxed += leave(past, table.spring_left);
   m.throughout = past.closed && n.from == 0.0;
   past.rise = m.throughout ? (1.0 / table.length) * m.growth : Components{};
   m.penetration = std::max({0.0, motion.penetration, motion.after(table.length)});

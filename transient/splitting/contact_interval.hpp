@@ -70,6 +70,7 @@ struct IntervalTable {
   double growing = 0.0; ///< N s/m, c' of normal_interval.hpp
   double apparent_mass = 0.0,
          sliding_mass = 0.0; ///< kg: force for an acceleration of 1 m/s2 over it; where the contact slides
+  double spring_left = 0.0;  ///< share of an open contact's spring after the interval
   contact::PieceTables pieces{};
   contact::FrictionTable reference{}; ///< of that memory
 };
@@ -117,8 +118,8 @@ public:
   }
   /// What is expected of its force in the next interval: it grows on where the contact has been closed throughout, and stays else.
   void extrapolate(MovingContact& m) const;
-  /// An open contact forgets over `time`. Returns what its spring dissipates, J.
-  double relax(ContactPast& past, double time) const;
+  /// An open contact forgets over so many whole steps. Returns what its spring dissipates, J.
+  double relax(ContactPast& past, int steps) const;
   /// A spring that sticks is stretched by what the modes moved, not by what the step took them to move: it would creep.
   /// @param missed  m, what they moved further
   void correct_spring_drift(ContactPast& past, const Components& missed) const;
@@ -148,6 +149,10 @@ private:
   [[nodiscard]] double released(double from, double to) const {
     return normal_.spring_energy(from) - normal_.spring_energy(to);
   }
+  /// J: dissipated by the spring of an open contact of which this share is left.
+  double leave(ContactPast& past, double share) const;
+  /// Share of the spring of a contact that has been open for so long, s.
+  [[nodiscard]] double spring_left(double time) const;
   [[nodiscard]] Motion motion_of(const MovingContact& m, const IntervalTable& table, int index) const;
   [[nodiscard]] double time_of_closing(const Motion& a, bool closed, double dt) const;
   [[nodiscard]] NormalForce find_normal_force(const Motion& a, bool closed, const IntervalTable& table) const;
@@ -169,7 +174,8 @@ private:
   Mobility w_;
   bool in_plane_, has_corners_, has_sides_;
   double h_, clearance_;
-  double mobility_; ///< 1/kg, the largest along any direction
+  double mobility_;    ///< 1/kg, the largest along any direction
+  double spring_left_; ///< share of an open contact's spring after a step
   DamperRates rates_;
 };
 

@@ -26,7 +26,6 @@ CoupledContacts::CoupledContacts(const PackedContacts& contacts, ContactBlocks b
   next_.reserve(count);
   before_.resize(count);
   found_for_.resize(count);
-  loaded_.reserve(count);
   moves_.assign(count, 0);
   pushed_in_.reserve(count);
   before_step_.reserve(count);
@@ -60,13 +59,12 @@ CoupledContacts::CoupledContacts(const PackedContacts& contacts, ContactBlocks b
 void CoupledContacts::continue_from(const CoupledContacts& other) {
   pasts_ = other.pasts_;
   forces_ = other.forces_;
-  loaded_ = other.loaded_;
   normal_springs_ = other.normal_springs_;
   tangential_springs_ = other.tangential_springs_;
 }
 
 void CoupledContacts::visit(core::StateArchive& state) {
-  state(pasts_, forces_, parts_, loaded_, normal_springs_, tangential_springs_);
+  state(pasts_, forces_, parts_, normal_springs_, tangential_springs_);
 }
 
 void CoupledContacts::preload(int c, const contact::Location& at, double normal_force) {
@@ -74,11 +72,6 @@ void CoupledContacts::preload(int c, const contact::Location& at, double normal_
   past.axes = at.axes();
   past.closed = past.before_run = true;
   forces_[c].held = {normal_force * at.ny, normal_force * at.nz, 0.0};
-}
-
-Components CoupledContacts::of_lanes(const kernels::Array& lanes, int c) const {
-  const auto width = static_cast<std::size_t>(contacts_.width), lane = static_cast<std::size_t>(c);
-  return {lanes[lane], lanes[width + lane], contacts_.components == 3 ? lanes[2 * width + lane] : 0.0};
 }
 
 FreePath CoupledContacts::path_of(int c, const ContactMotion& start, const ContactMotion& end) const {
@@ -118,9 +111,7 @@ void CoupledContacts::find_forces(const ContactMotion& start, const ContactMotio
   trial.clear();
   before_step_.clear();
   converged_ = true;
-  for (const MovingContact& m : moving_)
-    moves_[m.number] = 0;
-  moving_.clear();
+  none_moves();
   counts_.clear();
   for (const int c : near) {
     trial.states[c] = {}; // also of contacts that were near and open
@@ -138,17 +129,12 @@ void CoupledContacts::find_forces(const ContactMotion& start, const ContactMotio
     m.path = path;
     m.course.past = pasts_[c];
   }
-  for (const int c : loaded_)
-    if (!moves_[c]) {
-      keep(c);
-      losses.damping += laws_[c].relax(pasts_[c], h_);
-    }
   group();
   for (const int b : touched_)
     if (moving_blocks_[b].parent == b)
       move(moving_blocks_[b].first);
   for (const MovingContact& m : moving_) {
-    keep(m.number);
+    before_step_.push_back({m.number, pasts_[m.number], forces_[m.number].held});
     pasts_[m.number] = m.course.past;
     forces_[m.number] = {m.course.mean, m.course.slope, laws_[m.number].held(m)};
     trial.states[m.number] = m.course.state;
@@ -275,35 +261,41 @@ void CoupledContacts::pass_on(const MovingContact& m, const Components& by_force
   }
 }
 
-void CoupledContacts::finish_step(const ContactMotion& end) {
-  normal_springs_ = tangential_springs_ = 0.0;
+void CoupledContacts::finish_step(const ContactMotion& end, ContactLosses& losses) {
+  normal_springs_ = 0.0;
   for (const MovingContact& m : moving_) {
     if (m.course.penetrates) // also where a damper holds the contact free of force
       normal_springs_ += contacts_.supports[m.number].normal.spring_energy(-end.locate(m.number).gap);
     laws_[m.number].correct_spring_drift(pasts_[m.number],
                                          of_lanes(end.u, m.number) - m.path.displacement(h_) - m.response);
   }
-  loaded_.clear();
-  for (int c = 0; c < contacts_.count; ++c)
-    if (const contact::Vec2 spring = pasts_[c].friction.spring; dot(spring, spring) > 0.0) {
-      loaded_.push_back(c);
-      tangential_springs_ += contacts_.supports[c].friction.spring_energy(spring);
-    }
+  relax_open(1, losses);
 }
 
 void CoupledContacts::pass(int steps, ContactTrial& trial, ContactLosses& losses) {
   trial.clear();
-  normal_springs_ = tangential_springs_ = 0.0;
-  auto kept = loaded_.begin();
-  for (const int c : loaded_) {
-    losses.damping += laws_[c].relax(pasts_[c], steps * h_);
-    const contact::Vec2 spring = pasts_[c].friction.spring;
-    if (dot(spring, spring) > 0.0) {
-      tangential_springs_ += contacts_.supports[c].friction.spring_energy(spring);
-      *kept++ = c;
-    }
+  none_moves();
+  normal_springs_ = 0.0;
+  relax_open(steps, losses);
+}
+
+void CoupledContacts::none_moves() {
+  for (const MovingContact& m : moving_)
+    moves_[m.number] = 0;
+  moving_.clear();
+}
+
+/// The tangential springs of the contacts that stayed open.
+void CoupledContacts::relax_open(int steps, ContactLosses& losses) {
+  tangential_springs_ = 0.0;
+  for (int c = 0; c < contacts_.count; ++c) {
+    const contact::Vec2& spring = pasts_[c].friction.spring;
+    if (!(dot(spring, spring) > 0.0))
+      continue;
+    if (!moves_[c])
+      losses.damping += laws_[c].relax(pasts_[c], steps);
+    tangential_springs_ += contacts_.supports[c].friction.spring_energy(spring);
   }
-  loaded_.erase(kept, loaded_.end());
 }
 
 } // namespace fretwork::transient

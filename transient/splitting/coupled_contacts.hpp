@@ -43,8 +43,8 @@ public:
   /// No allocation.   @param pushed_in  these, which did not move   @param start, end, near  as of `make`, with these
   void make_again(const ContactMotion& start, const ContactMotion& end, const std::vector<int>& near,
                   const std::vector<int>& pushed_in, ContactTrial& trial, ContactLosses& losses);
-  /// After `make`, when the modes have taken the forces: the contacts stand here.
-  void finish_step(const ContactMotion& end);
+  /// After `make`, when the modes have taken the forces: the contacts stand here. The springs of those that stayed open relax.
+  void finish_step(const ContactMotion& end, ContactLosses& losses);
   /// Steps in which all contacts stay open. No allocation.
   void pass(int steps, ContactTrial& trial, ContactLosses& losses);
 
@@ -75,10 +75,14 @@ private:
   };
   void find_forces(const ContactMotion& start, const ContactMotion& end, const std::vector<int>& near,
                    ContactTrial& trial, ContactLosses& losses);
-  void keep(int c) { before_step_.push_back({c, pasts_[c], forces_[c].held}); }
+  void none_moves();
+  void relax_open(int steps, ContactLosses& losses);
   [[nodiscard]] int group_of(int block);
   void group();
-  [[nodiscard]] Components of_lanes(const kernels::Array& lanes, int c) const;
+  [[nodiscard]] Components of_lanes(const kernels::Array& lanes, int c) const {
+    const auto width = static_cast<std::size_t>(contacts_.width), lane = static_cast<std::size_t>(c);
+    return {lanes[lane], lanes[width + lane], contacts_.components == 3 ? lanes[2 * width + lane] : 0.0};
+  }
   [[nodiscard]] FreePath path_of(int c, const ContactMotion& start, const ContactMotion& end) const;
   [[nodiscard]] const IntervalTable& table_of(int c, int count);
   void move(int first);
@@ -105,7 +109,6 @@ private:
   std::vector<Before> before_step_;
   std::vector<MovingBlock> moving_blocks_;
   std::vector<int> touched_; ///< blocks with contacts that move
-  std::vector<int> loaded_;  ///< whose tangential spring bears a force
   double normal_springs_ = 0.0, tangential_springs_ = 0.0;
   bool converged_ = true;
 };

@@ -317,7 +317,7 @@ private:
       if (s.pushed)
         sums = push(s, to, losses);
       counts_.unconverged += coupled_.converged() ? 0 : 1;
-      coupled_.finish_step(end_);
+      coupled_.finish_step(end_, losses);
       brought = work_of_obstacles(s);
     } else {
       coupled_.pass(s.steps, s.trial, losses);
