@@ -67,9 +67,16 @@ results::StabilityAssessment assess(const TubesInFlow& tubes, const PlacedFlow& 
     throw core::Error(fmt::format("{}: {}{}", what, error.what(),
                                   of_ratio ? " (a ratio may be given by [[stability]] damping)" : ""));
   }
+  out.directions = flow::mode_directions(sampling);
   if (assessment.strouhal)
     screen_shedding(what, placed, sampling, *assessment.strouhal, all);
   return out;
+}
+
+/// ", out of plane", ", 71% y".
+std::string moves_text(const flow::ModeDirection& direction) {
+  return direction.kind == flow::ModeDirection::Kind::none ? std::string()
+                                                           : ", " + flow::short_text(direction);
 }
 
 /// The worst case in words, as a warning where it is unstable. @param has_law  of fluidelastic forces
@@ -83,8 +90,9 @@ void report(const results::StabilityAssessment& found, bool has_law, results::Ru
   const auto& mode = found.stability.modes[static_cast<std::size_t>(worst->critical_mode)];
   const char* stands_for = has_law ? ", by Connors" : ", which no force of the transient stands for";
   const std::string text = fmt::format(
-      "stability \"{}\" of flow \"{}\": V/Vc = {:.4g} in mode {} at {:.4g} Hz, margin {:.4g}{}{}", found.name,
-      found.damping.tube, 1.0 - worst->margin(), worst->critical_mode + 1, mode.frequency, worst->margin(),
+      "stability \"{}\" of flow \"{}\": V/Vc = {:.4g} in mode {} at {:.4g} Hz{}, margin {:.4g}{}{}",
+      found.name, found.damping.tube, 1.0 - worst->margin(), worst->critical_mode + 1, mode.frequency,
+      moves_text(found.directions[static_cast<std::size_t>(worst->critical_mode)]), worst->margin(),
       unstable ? ": fluid-elastically unstable" : "", unstable ? stands_for : "");
   if (unstable)
     out.warnings.push_back(text);

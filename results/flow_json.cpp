@@ -169,7 +169,11 @@ Json stability(const StabilityAssessment& assessment) {
   Json modes = Json::array(), cases = Json::array();
   for (std::size_t i = 0; i < assessment.stability.modes.size(); ++i) {
     const flow::ModeInFlow& mode = assessment.stability.modes[i];
+    const flow::ModeDirection& direction = assessment.directions[i];
+    const char* along = flow::key_of(direction.kind);
     modes.push_back({{"frequency_hz", number(mode.frequency)},
+                     {"direction", along ? Json(along) : Json(nullptr)},
+                     {"direction_share", number(along ? direction.share : no_value)},
                      {"damping", number(mode.damping)},
                      {"decrement", number(mode.decrement)},
                      {"effective_velocity_m_s", number(mode.effective_velocity)}});

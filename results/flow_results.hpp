@@ -3,6 +3,7 @@
 /// What the flow along tubes gives: damping of the modes and stability, as plain data.
 #pragma once
 #include "flow/damping.hpp"
+#include "flow/mode_direction.hpp"
 #include "flow/stability.hpp"
 #include "flow/stability_diagram.hpp"
 #include "post/growth.hpp"
@@ -111,7 +112,8 @@ struct StabilityAssessment {
   bool damping_given = false;             ///< by the study: then not of `damping`
   TubeDamping damping;                    ///< on the pinned modes
   flow::Stability stability;
-  std::vector<double> sweep;       ///< factors of all velocities
+  std::vector<flow::ModeDirection> directions; ///< of its modes
+  std::vector<double> sweep;                   ///< factors of all velocities
   std::optional<LawStability> law; ///< where the flow has a fluidelastic law, of several tubes with the first
 };
 

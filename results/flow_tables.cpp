@@ -11,6 +11,7 @@ namespace fretwork::results {
 namespace {
 
 constexpr std::size_t most_rows = 20, most_cases = 20, most_names = 8;
+constexpr int widest_direction = 12;
 constexpr std::size_t widest_name = 40, widest_tube = 12; // of an assessment and its tube; of a tube
 
 /// K of the zones that have one: `water 3, steam 2.4`.
@@ -73,22 +74,24 @@ std::string case_modes(const StabilityAssessment& assessment, std::size_t number
   const auto modes = static_cast<std::size_t>(one.ratio.size());
   const std::vector<std::size_t> shown = nearest_modes(one);
   std::string text = fmt::format(
-      "  modes of case {}{}\n  {:>5} {:>9} {:>10} {:>10} {:>9} {:>10}{}\n", number + 1,
+      "  modes of case {}{}\n  {:>5} {:>9} {:>{}} {:>10} {:>10} {:>9} {:>10}{}\n", number + 1,
       shown.size() < modes ? fmt::format(", the {} nearest to instability", most_rows) : std::string(),
-      "mode", "Hz", "V_eff m/s", "V_c m/s", "V/Vc", "damping %", by_flow ? heads_of_terms : std::string());
+      "mode", "Hz", "moves", widest_direction, "V_eff m/s", "V_c m/s", "V/Vc", "damping %",
+      by_flow ? heads_of_terms : std::string());
   for (const std::size_t i : shown) {
     const auto k = static_cast<Eigen::Index>(i);
     const flow::ModeInFlow& mode = assessment.stability.modes[i];
     if (one.ratio(k) == 0.0) { // it moves along the tube, or where nothing flows
-      text += fmt::format("  {:>5} {:>9.4g} {:>10} {:>10} {:>9} {:>10}  not in the flow\n", i + 1,
-                          mode.frequency, "-", "-", "-", "-");
+      text += fmt::format("  {:>5} {:>9.4g} {:>{}} {:>10} {:>10} {:>9} {:>10}  not in the flow\n", i + 1,
+                          mode.frequency, flow::short_text(assessment.directions[i]), widest_direction, "-",
+                          "-", "-", "-");
       continue;
     }
-    text +=
-        fmt::format("  {:>5} {:>9.4g} {:>10.4g} {:>10.4g} {:>9.4f} {:>10.4f}{}{}\n", i + 1, mode.frequency,
-                    mode.effective_velocity, one.critical_velocity(k), one.ratio(k), 100.0 * mode.damping,
-                    by_flow ? terms_text(assessment.damping.damping.modes[i].sum) : std::string(),
-                    one.ratio(k) >= 1.0 ? "  UNSTABLE" : "");
+    text += fmt::format("  {:>5} {:>9.4g} {:>{}} {:>10.4g} {:>10.4g} {:>9.4f} {:>10.4f}{}{}\n", i + 1,
+                        mode.frequency, flow::short_text(assessment.directions[i]), widest_direction,
+                        mode.effective_velocity, one.critical_velocity(k), one.ratio(k), 100.0 * mode.damping,
+                        by_flow ? terms_text(assessment.damping.damping.modes[i].sum) : std::string(),
+                        one.ratio(k) >= 1.0 ? "  UNSTABLE" : "");
   }
   if (shown.size() < modes)
     text += fmt::format("  ... {} more in stability.csv\n", modes - shown.size());
@@ -107,19 +110,22 @@ std::string assessments_table(const std::vector<StabilityAssessment>& assessment
     const flow::ModeInFlow& mode = one.stability.modes[static_cast<std::size_t>(worst.critical_mode)];
     const std::string tube = shortened(one.damping.tube, widest_tube);
     const std::string name = shortened(one.name, widest_name - 2 - tube.size()) + ", " + tube;
-    rows.emplace_back(worst.critical_scale(),
-                      fmt::format("  {:<{}} {:>5} {:>9.4g} {:>10.4f} {:>9.4f} {:>9.4f}{}\n", name,
-                                  widest_name, worst.critical_mode + 1, mode.frequency, 100.0 * mode.damping,
-                                  1.0 - worst.margin(), worst.margin(),
-                                  worst.margin() <= 0.0 ? "  UNSTABLE" : ""));
+    rows.emplace_back(
+        worst.critical_scale(),
+        fmt::format("  {:<{}} {:>5} {:>9.4g} {:>{}} {:>10.4f} {:>9.4f} {:>9.4f}{}\n", name, widest_name,
+                    worst.critical_mode + 1, mode.frequency,
+                    flow::short_text(one.directions[static_cast<std::size_t>(worst.critical_mode)]),
+                    widest_direction, 100.0 * mode.damping, 1.0 - worst.margin(), worst.margin(),
+                    worst.margin() <= 0.0 ? "  UNSTABLE" : ""));
   }
   if (rows.size() < 2)
     return {};
   std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::string text =
       fmt::format("Stability by Connors: the critical mode of each assessment and tube\n  {:<{}} {:>5} {:>9} "
-                  "{:>10} {:>9} {:>9}\n",
-                  "assessment, tube", widest_name, "mode", "Hz", "damping %", "V/Vc", "margin");
+                  "{:>{}} {:>10} {:>9} {:>9}\n",
+                  "assessment, tube", widest_name, "mode", "Hz", "moves", widest_direction, "damping %",
+                  "V/Vc", "margin");
   for (const auto& [scale, row] : rows)
     text += row;
   return text;
@@ -206,7 +212,8 @@ void write_stability_csv(const std::filesystem::path& folder, const RunResults& 
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
   fmt::format_to(out,
-                 "assessment,tube,case,connors_constants,mode,frequency [Hz],damping [1],decrement [1],"
+                 "assessment,tube,case,connors_constants,mode,frequency [Hz],direction,direction_share "
+                 "[1],damping [1],decrement [1],"
                  "effective_velocity [m/s],critical_velocity [m/s],ratio [1],margin [1],critical_scale [1],"
                  "viscous_damping [1],two_phase_damping [1],squeeze_film_damping [1],friction_damping [1],"
                  "gas_damping [1]\n");
@@ -216,12 +223,14 @@ void write_stability_csv(const std::filesystem::path& folder, const RunResults& 
       for (Eigen::Index i = 0; i < one.ratio.size(); ++i) {
         const flow::ModeInFlow& mode = assessment.stability.modes[static_cast<std::size_t>(i)];
         const flow::DampingTerms& t = assessment.damping.damping.modes[static_cast<std::size_t>(i)].sum;
-        fmt::format_to(out, "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+        const flow::ModeDirection& direction = assessment.directions[static_cast<std::size_t>(i)];
+        const char* along = flow::key_of(direction.kind);
+        fmt::format_to(out, "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
                        quoted(assessment.name), quoted(assessment.damping.tube), c + 1,
-                       quoted(constants_text(one, assessment, "; ")), i + 1, mode.frequency, mode.damping,
-                       mode.decrement, mode.effective_velocity, one.critical_velocity(i), one.ratio(i),
-                       1.0 - one.ratio(i), 1.0 / one.ratio(i), t.viscous, t.two_phase, t.squeeze_film,
-                       t.friction, t.gas);
+                       quoted(constants_text(one, assessment, "; ")), i + 1, mode.frequency,
+                       along ? along : "", direction.share, mode.damping, mode.decrement,
+                       mode.effective_velocity, one.critical_velocity(i), one.ratio(i), 1.0 - one.ratio(i),
+                       1.0 / one.ratio(i), t.viscous, t.two_phase, t.squeeze_film, t.friction, t.gas);
       }
     }
   write_text(folder / "stability.csv", {text.data(), text.size()});

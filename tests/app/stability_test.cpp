@@ -140,7 +140,8 @@ TEST(Stability, MarksModesThatTheFlowDoesNotMove) {
   const Workshop folder;
   const Outcome outcome =
       folder.fretwork({"stability", example("tube_in_flow").string(), "-o", folder.path("out").string()});
-  EXPECT_TRUE(says(outcome.out, " 1034          -          -         -          -  not in the flow"));
+  EXPECT_TRUE(
+      says(outcome.out, " 1034            -          -          -         -          -  not in the flow"));
 }
 
 TEST(Stability, GivesTheSameBytesOnTwoRanks) {

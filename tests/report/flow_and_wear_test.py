@@ -45,6 +45,9 @@ class FlowAndWear(ReportCase):
                     "critical_velocities_m_s": [2.0, 1.1, None], "sweep": []}
             stable = {**case, "margin": 0.5, "ratios": [0.4, 0.5, None]}
             modes = [{"frequency_hz": f, "damping": 0.02, "decrement": 0.12, "effective_velocity_m_s": 1.0} for f in (10, 20, 30)]
+            modes[0].update(direction="out_of_plane", direction_share=0.99)
+            modes[1].update(direction="in_plane", direction_share=0.8)
+            modes[2].update(direction=None, direction_share=None)
             summary["stability"] = [{"name": "all <bars>", "tube": "T1", "pinned": ["tsp1"], "modes": modes, "cases": [stable, case]}]
             point = {"name": "apex", "direction": "y", "rms_m": 1.5e-5, "rms_velocity_m_s": 2e-3, "up_crossings_per_second": 21.0, "irregularity": 0.9,
                      "maximum_m": None, "share_outside": 0.0, "share_above": 0.0}
@@ -55,7 +58,7 @@ class FlowAndWear(ReportCase):
         self.assertIn("Fluid-elastic stability", self.headings(text))
         self.assertIn("Linear response to turbulence", self.headings(text))
         self.assertIn("<b>−0.2</b><span>smallest stability margin by Connors, 1 − V/Vc</span>", text)
-        for word in ("all &lt;bars&gt;", "the worst of 2: bend 2.4", "unstable by Connors: V/Vc = 1.2", "Bars: critical velocity", "apex</td>", ">15<", ">21<"):
+        for word in ("all &lt;bars&gt;", "the worst of 2: bend 2.4", "unstable by Connors: V/Vc = 1.2", "Bars: critical velocity", "out of plane<", "in plane (80 %)<", "apex</td>", ">15<", ">21<"):
             self.assertIn(word, text)
         self.change(lambda summary: summary["stability"].insert(0, {**summary["stability"][0], "name": "safe", "cases": summary["stability"][0]["cases"][:1]}))
         self.assertIn("<span>smallest stability margin by Connors, 1 − V/Vc, of all &lt;bars&gt;</span>", self.report())

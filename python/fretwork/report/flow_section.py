@@ -40,10 +40,18 @@ def _constants(case):
     return ", ".join(f"{html.escape(zone)} {short(k)}" for zone, k in case["connors_constants"].items())
 
 
+def _direction(mode):
+    """Along what a mode moves the tube, with its share where that is below 95 %."""
+    along, share = mode.get("direction"), mode.get("direction_share")
+    if along is None:
+        return "–"
+    return along.replace("_", " ") + (f" ({100 * share:.0f} %)" if share < 0.95 else "")
+
+
 def _mode_rows(assessment, case):
     rows = zip(assessment["modes"], case["critical_velocities_m_s"], case["ratios"])
     return [
-        [f"{i}", short(m["frequency_hz"]), short(100 * m["damping"], 3), short(m["effective_velocity_m_s"], 3), short(v, 3), short(r, 3),
+        [f"{i}", short(m["frequency_hz"]), _direction(m), short(100 * m["damping"], 3), short(m["effective_velocity_m_s"], 3), short(v, 3), short(r, 3),
          short(None if r is None else 1 - r, 3)]
         for i, (m, v, r) in enumerate(rows, 1)
     ]
@@ -112,7 +120,7 @@ def _assessment(assessment):
     pictures = (figure(flow_view.ratios(case), "V/Vc of the modes; unstable above the red line.")
                 + figure(flow_view.critical_velocities(assessment, case), "Bars: critical velocity Vc, cut where it is far above; dots: effective velocity V.")
                 + figure(flow_view.damping(assessment)))
-    heads = ["mode", "frequency [Hz]", "damping [%]", "effective velocity [m/s]", "critical velocity [m/s]", "V/Vc", "margin"]
+    heads = ["mode", "frequency [Hz]", "moves", "damping [%]", "effective velocity [m/s]", "critical velocity [m/s]", "V/Vc", "margin"]
     rows = _mode_rows(assessment, case)
     connors = f'<div class="grid2">{pictures}</div>' + table(heads, rows[:MOST_MODE_ROWS]) + _first(MOST_MODE_ROWS, rows, "modes", "stability.csv")
     law = assessment.get("law")
