@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/contact_position.hpp"
+#include <cmath>
 
 namespace fretwork::results {
 namespace {
@@ -21,6 +22,17 @@ std::optional<FlatPosition> flat_position_of(const ContactFacts& facts, const po
   if (facts.obstacle.ends_with("_z"))
     return FlatPosition{position.z, position.y};
   return {};
+}
+
+std::optional<Clearances> unequal_clearances_of(const ContactFacts& facts) {
+  constexpr double equal = 1e-3; // of the gap
+  const bool along_y = facts.obstacle.ends_with("_y");
+  if (facts.sides.size() != 2 || !(along_y || facts.obstacle.ends_with("_z")))
+    return {};
+  const double rest = along_y ? facts.rest.y() : facts.rest.z();
+  if (std::abs(rest) <= equal * facts.gap)
+    return {};
+  return Clearances{facts.gap + rest, facts.gap - rest};
 }
 
 } // namespace fretwork::results

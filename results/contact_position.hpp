@@ -22,4 +22,11 @@ struct FlatPosition {
 [[nodiscard]] std::optional<FlatPosition> flat_position_of(const ContactFacts& facts,
                                                            const post::ContactSummary& summary);
 
+/// Clearances at rest between two faces, m: on the negative and the positive side, below 0 where a face overlaps.
+struct Clearances {
+  double negative, positive;
+};
+/// Of planes and bars on both sides; none of other obstacles, or where both are the gap to 0.1 % of it.
+[[nodiscard]] std::optional<Clearances> unequal_clearances_of(const ContactFacts& facts);
+
 } // namespace fretwork::results

@@ -57,6 +57,14 @@ std::string sums_row(const RunResults& results) {
   return row(cells);
 }
 
+/// Of a flat obstacle, um: "100"; where the two sides differ at rest "60 and 140", the negative one first.
+std::string gap_text(const ContactFacts& facts) {
+  const auto unequal = unequal_clearances_of(facts);
+  return unequal ? fmt::format("{} and {}", figure(micro * unequal->negative, 3),
+                               figure(micro * unequal->positive, 3))
+                 : figure(micro * facts.gap, 4);
+}
+
 /// Normal position and sliding of the flat obstacles among those shown.
 std::vector<std::string> flat_lines(const RunResults& results, const std::vector<std::size_t>& shown) {
   std::vector<std::string> lines;
@@ -71,8 +79,7 @@ std::vector<std::string> flat_lines(const RunResults& results, const std::vector
       continue;
     }
     lines.push_back(fmt::format(
-        "  {:<18} {:>14} {:>23} {:>23} {:>23}", shortened(facts.name, contact_width),
-        figure(micro * facts.gap, 4),
+        "  {:<18} {:>14} {:>23} {:>23} {:>23}", shortened(facts.name, contact_width), gap_text(facts),
         fmt::format("{} to {}", figure(micro * flat->normal.min, 4), figure(micro * flat->normal.max, 4)),
         figure(micro * flat->normal.std, 3), figure(micro * (flat->sliding.max - flat->sliding.min), 4)));
   }

@@ -92,7 +92,14 @@ class Report(ReportCase):
             file["contacts/tsp1"].attrs["obstacle"] = "circle"
             file["contacts/tsp1"].attrs["normal_stiffness"] = 1e6
             file["contacts/tsp2"].attrs["obstacle"] = "bars_z"
+            gap, rest = 1e6 * float(file["contacts/tsp2"].attrs["gap"]), file["contacts/tsp2"].attrs["rest"]
+            rest[2] = 3e-5
+            file["contacts/tsp2"].attrs["rest"] = rest
         text = self.report()
+        self.assertIn(f">{gap:g}</td><td>−125", text)  # one bar
+        sides = {"work_rate": 0.0, "standard_error": {"work_rate": None, "work_rate_batches": None}}
+        self.change(lambda summary: summary["contacts"][1].update(sides={"+z": sides, "-z": sides}))
+        self.assertIn(f">{gap + 30:g} and {gap - 30:g}</td><td>−125", self.report())
         self.assertEqual(text.count("<td>7770</td>"), 1)  # flat obstacles have no radius
         self.assertIn("<td>−125 – 75</td>", text)
         self.assertIn("<td>700</td>", text)

@@ -113,6 +113,12 @@ TEST(TerminalTable, ShowsNormalPositionAndSlidingOfFlatObstaclesApart) {
   const std::string text = terminal_table(results);
   EXPECT_THAT(text, testing::ContainsRegex("tsp1 +100 +-105 to 95 +30 +700\n"));
   EXPECT_THAT(text, testing::ContainsRegex(" flat +5 "));
+  results.contacts[0].sides = {{1, "+z"}, {3, "-z"}}; // two bars, the node 20 um above their middle
+  EXPECT_THAT(terminal_table(results), testing::ContainsRegex("tsp1 +120 and 80 +-105 to 95 +30 +700\n"));
+  results.contacts[0].rest.z() = 1.4e-4; // beyond the upper bar
+  EXPECT_THAT(terminal_table(results), testing::ContainsRegex("tsp1 +240 and -40 "));
+  results.contacts[0].rest.z() = 5e-8;
+  EXPECT_THAT(terminal_table(results), testing::ContainsRegex("tsp1 +100 "));
   EXPECT_THAT(text, Not(HasSubstr("5400")));
   results.contacts[0].obstacle = "circle";
   EXPECT_THAT(terminal_table(results), testing::ContainsRegex(" 5400 +5 "));

@@ -216,6 +216,15 @@ def _flat_axes(contact):
     return {"_y": ("y", "z"), "_z": ("z", "y")}.get(contact.facts["obstacle"][-2:])
 
 
+def _gaps(contact, normal):
+    """In um; where both sides of planes or bars differ at rest the negative and the positive one. @param normal  key of the axis"""
+    gap = float(contact.facts["gap"])
+    rest = float(contact.facts["rest"]["xyz".index(normal)])
+    if len(contact.summary.get("sides", {})) != 2 or abs(rest) <= 1e-3 * gap:
+        return short(1e6 * gap)
+    return f"{short(1e6 * (gap + rest))} and {short(1e6 * (gap - rest))}"
+
+
 def _flat(run):
     """Table of flat obstacles: position along the normal and sliding across it, apart."""
     heads = ["flat obstacle", "kind", "gap [µm]", "normal position from – to [µm]", "its deviation [µm]", "range of sliding [µm]", "its deviation [µm]"]
@@ -227,7 +236,7 @@ def _flat(run):
         normal, across = (c.summary["position"][axis] for axis in axes)
         span = None if None in (across["max"], across["min"]) else across["max"] - across["min"]
         rows.append([
-            html.escape(c.name), html.escape(c.facts["obstacle"]), short(1e6 * float(c.facts["gap"])),
+            html.escape(c.name), html.escape(c.facts["obstacle"]), _gaps(c, axes[0]),
             f"{_times(normal['min'], 1e6)} – {_times(normal['max'], 1e6)}", _times(normal["std"], 1e6, 3), _times(span, 1e6), _times(across["std"], 1e6, 3),
         ])
     return table(heads, rows, (0, 1)) if rows else ""
