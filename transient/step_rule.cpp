@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
+#include <string_view>
 
 namespace fretwork::transient {
 namespace {
@@ -137,38 +138,76 @@ std::vector<Term> contact_terms(const StepChoice& c) {
           {"the dampers' rate", "r_e h", c.explicit_rate, "1/s", limits.tangential_damper}};
 }
 
-constexpr const char* smaller_step = "take a smaller step or leave it out";
+/// What a step does not resolve.
+struct Unresolved {
+  std::string what;                ///< with its figure and bound
+  double longest;                  ///< s, step that would resolve it
+  const char* spoiled = "results"; ///< what cannot be trusted
+};
+using AllUnresolved = std::vector<Unresolved>;
 
-void add_warning(StepChoice& c, const std::string& what, const char* spoiled = "results",
-                 const char* cure = smaller_step) {
-  c.warnings.push_back(fmt::format("the step {:.3g} s does not resolve {} for {} that can be trusted; {}",
-                                   c.step, what, spoiled, cure));
-}
-
-void warn_of(StepChoice& c, const Term& term, const char* cure = smaller_step) {
+void look_at(AllUnresolved& out, const StepChoice& c, const Term& term) {
   if (const double product = term.rate * c.step; product > term.bound.largest * rounded)
-    add_warning(c,
-                fmt::format("{}{}: {} = {:.3g}, at most {:.4g}", term.name, term.condition, term.symbol,
-                            product, term.bound.largest),
-                term.spoiled, cure);
+    out.push_back({fmt::format("{}{}: {} = {:.3g}, at most {:.4g}", term.name, term.condition, term.symbol,
+                               product, term.bound.largest),
+                   term.bound.largest / term.rate, term.spoiled});
 }
 
-void warn_of_points(StepChoice& c, const char* name, double frequency, double fewest) {
+void look_at_points(AllUnresolved& out, const StepChoice& c, const char* name, double frequency,
+                    double fewest) {
   if (const double points = 1.0 / (frequency * c.step); points * rounded < fewest)
-    add_warning(c, fmt::format("{}: {:.3g} steps a period, at least {:g}", name, points, fewest));
+    out.push_back({fmt::format("{}: {:.3g} steps a period, at least {:g}", name, points, fewest),
+                   1.0 / (frequency * fewest)});
 }
 
-/// What a given step does not resolve.
-void warn(StepChoice& c) {
+AllUnresolved unresolved(const StepChoice& c) {
+  AllUnresolved out;
   for (const Term& term : contact_terms(c))
-    warn_of(c, term);
-  warn_of(c, mode_term(c, true, followed_modes(c, c.step)));
+    look_at(out, c, term);
+  look_at(out, c, mode_term(c, true, followed_modes(c, c.step)));
   if (c.table_interval > 0.0 && c.step > c.table_interval * (1.0 + round_off))
-    add_warning(c, fmt::format("the shortest interval of a table ({:.4g} s)", c.table_interval));
+    out.push_back(
+        {fmt::format("the shortest interval of a table ({:.4g} s)", c.table_interval), c.table_interval});
   if (c.step > c.record_interval * (1.0 + round_off))
-    warn_of_points(c, "the band of a record below the highest mode", c.record_rate / two_pi,
+    look_at_points(out, c, "the band of a record below the highest mode", c.record_rate / two_pi,
                    c.scheme == SchemeKind::splitting ? fewest_points_of_records : fewest_points);
-  warn_of_points(c, "the excitation", c.excitation, fewest_points);
+  look_at_points(out, c, "the excitation", c.excitation, fewest_points);
+  return out;
+}
+
+/// s, a step that resolves everything, to three digits. The highest mode asks for less beside dampers that are slow in a shorter step.
+double resolving_step(StepChoice c) {
+  for (AllUnresolved left = unresolved(c); !left.empty(); left = unresolved(c)) {
+    const auto worst =
+        std::min_element(left.begin(), left.end(), [](const Unresolved& one, const Unresolved& other) {
+          return one.longest < other.longest;
+        });
+    c.step = worst->longest * (1.0 - round_off);
+  }
+  const double digit = std::pow(10.0, std::floor(std::log10(c.step)) - 2.0);
+  return std::floor(c.step / digit * (1.0 + 10.0 * round_off)) * digit;
+}
+
+/// One warning of all that the step does not resolve; none where that is nothing.
+void add_warning(StepChoice& c, const AllUnresolved& all, const std::string& cure) {
+  if (all.empty())
+    return;
+  std::string what;
+  for (const Unresolved& one : all)
+    what += (what.empty() ? "" : "; ") + one.what;
+  const std::string_view spoiled = all.front().spoiled;
+  const bool alike =
+      std::all_of(all.begin(), all.end(), [&](const Unresolved& one) { return one.spoiled == spoiled; });
+  c.warnings.push_back(fmt::format("the step {:.3g} s does not resolve {} for {} that can be trusted; {}",
+                                   c.step, what, alike ? spoiled : "results", cure));
+}
+
+/// Of a given step.
+void warn(StepChoice& c) {
+  if (const AllUnresolved all = unresolved(c); !all.empty())
+    add_warning(c, all,
+                fmt::format("take a smaller step or leave it out; {:.3g} s would do{}", resolving_step(c),
+                            all.size() > 1 ? " for all of them" : ""));
 }
 
 /// A limit of the step and where it comes from.
@@ -333,9 +372,11 @@ void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
     return;
   c.steps = count_steps(scene.duration, c);
   c.step = scene.duration / static_cast<double>(c.steps);
-  warn_of(c, normal_damper_term(c),
-          c.scheme == SchemeKind::collocation ? "take scheme = \"energy_conserving\", or a smaller damper"
-                                              : "give a smaller damper where these matter");
+  AllUnresolved dampers;
+  look_at(dampers, c, normal_damper_term(c));
+  add_warning(c, dampers,
+              c.scheme == SchemeKind::collocation ? "take scheme = \"energy_conserving\", or a smaller damper"
+                                                  : "give a smaller damper where these matter");
   if (followed > 0.0)
     scale_modes(c, scene, followed / c.step);
   c.macro_steps = longest_macro_step(c, scene, fineness);

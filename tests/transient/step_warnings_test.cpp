@@ -46,6 +46,32 @@ TEST(StepWarnings, WarnsWhereAFixedStepDoesNotResolve) {
   only(warnings(excited, splitting(5e-3)), "the excitation: 8 steps a period, at least 10 for results");
 }
 
+// A step that is too long is so for much at once: one message, with the step that would do.
+TEST(StepWarnings, SayOnceWhichStepResolvesEverything) {
+  const auto given = [](const Scene& scene, double step) { return choose_step(scene, splitting(step)); };
+  Scene scene = scene_with({Circle{0.1}, {8e4}, {8e4, 0.0, 0.3, 0.3}}, 1.0, Vec3(0, 2.0 * 1e6, 0));
+  scene.loads = {force_on(mass, Vec3(1, 0, 0), signals::Harmonic{1.0, 25.0})};
+  const StepChoice choice = given(scene, 0.01);
+  ASSERT_EQ(choice.warnings.size(), 1u);
+  EXPECT_EQ(choice.warnings[0].find(
+                "the step 0.01 s does not resolve the contact frequency: w_c h = 2, at most 1.25; "),
+            0u)
+      << choice.warnings[0];
+  for (const char* part :
+       {"; the frequency of sticking contacts: w_t h = ", "; the highest mode: w_max h = 10, at most 2.5; ",
+        "the excitation: 4 steps a period, at least 10 for results that can be trusted; ",
+        "take a smaller step or leave it out; 0.0025 s would do for all of them"})
+    EXPECT_TRUE(mentions(choice.warnings[0], part)) << part << " in " << choice.warnings[0];
+  EXPECT_TRUE(given(scene, 0.0025).warnings.empty());
+  // modes beside dampers: w h of 2.5 once these are slow in the step
+  const Scene damped = scene_with({Circle{0.1}, {2.0}, {2.0, 4e3, 0.3, 0.3}}, 1.0, Vec3(0, 2.0 * 1e6, 0));
+  const StepChoice beside = given(damped, 2.2e-3);
+  ASSERT_EQ(beside.warnings.size(), 1u);
+  EXPECT_TRUE(mentions(beside.warnings[0], "leave it out; 0.0015 s would do")) << beside.warnings[0];
+  EXPECT_FALSE(mentions(beside.warnings[0], "of them"));
+  EXPECT_TRUE(given(damped, 1.5e-3).warnings.empty());
+}
+
 TEST(StepWarnings, ResolvesNormalDampersThatActImplicitly) {
   // w_c = 200 rad/s, r_n = C_N/m
   const Scene damped = scene_with({Circle{0.1}, {8e4, 3200.0 * mass}, {}});
