@@ -61,16 +61,27 @@ std::string scatter_text(const RunResults& results, double scatter) {
          (scatter > says_little ? ", which is too short for statistics or holds no stationary motion" : "");
 }
 
-/// The largest error that replays resolve, and bounds of those that may be larger.
+/// The largest error that replays resolve, and bounds of those that may be larger; a bound above the figure itself is none.
 std::string step_text(const ErrorsOfSums& errors) {
-  std::string out;
+  constexpr double no_bound = 1.0;
+  std::string known, unknown;
+  const auto join = [](std::string& text, const std::string& more) {
+    text += (text.empty() ? "" : " and ") + more;
+  };
   if (const auto& e = errors.largest)
-    out = fmt::format("{} by {} +- {} %", e->name, percent(std::abs(e->value)), percent(e->standard_error));
+    join(known,
+         fmt::format("{} by {} +- {} %", e->name, percent(std::abs(e->value)), percent(e->standard_error)));
   for (const auto& e : {errors.least_known, errors.impacts})
-    if (e)
-      out += fmt::format("{}{} by less than {} %", out.empty() ? "" : " and ", e->name,
-                         percent(e->upper_bound()));
-  return out;
+    if (e && e->upper_bound() > no_bound)
+      join(unknown, e->name);
+    else if (e)
+      join(known, fmt::format("{} by less than {} %", e->name, percent(e->upper_bound())));
+  if (!known.empty())
+    known = "; the step changes " + known + " over all contacts (replays)";
+  if (!unknown.empty())
+    known += "; by how much the step changes " + unknown +
+             " is unknown (replays scatter by more than the figure itself)";
+  return known;
 }
 
 } // namespace
@@ -101,8 +112,9 @@ ErrorEstimate error_estimate(const RunResults& results) {
                         found.compared,
                         std::isnan(of_step)
                             ? ""
-                            : fmt::format(", the step changes sums over contacts by at most {} %{}",
-                                          percent(of_step),
+                            : fmt::format(", the step changes sums over contacts {}{}",
+                                          of_step > 1.0 ? "by more than their size"
+                                                        : "by at most " + percent(of_step) + " %",
                                           std::isnan(scatter) ? "" : ", " + scatter_text(results, scatter)))};
   }
   const double relative = relative_scatter(results);
@@ -112,8 +124,7 @@ ErrorEstimate error_estimate(const RunResults& results) {
             "transient.verify = true compares with half the step"};
   if (const ErrorsOfSums of_step = errors_of_sums(results); of_step.measured())
     return {ErrorKind::measured, std::hypot(relative, of_step.size()),
-            scatter_text(results, relative) + "; the step changes " + step_text(of_step) +
-                " over all contacts (replays)"};
+            scatter_text(results, relative) + step_text(of_step)};
   return {ErrorKind::statistical, relative,
           scatter_text(results, relative) + "; that of the step is unknown (transient.verify)"};
 }

@@ -86,6 +86,10 @@ TEST(ErrorEstimate, OfAVerifiedRunIsItsDifferenceFromHalfTheStepAndTheScatter) {
   EXPECT_THAT(
       error_estimate(results).text,
       HasSubstr("the step changes sums over contacts by at most 40 %, 5 % standard error of this window"));
+  results.errors_of_sums.work_rate = results.errors_of_sums.friction_power = 0.02;
+  results.verification->sums[0].at_half = 0.1 * results.verification->sums[0].value;
+  EXPECT_THAT(error_estimate(results).text,
+              HasSubstr("the step changes sums over contacts by more than their size, "));
   results.verification->failure = "the run at half the step stopped";
   EXPECT_NE(error_estimate(results).kind, ErrorKind::verified);
 }

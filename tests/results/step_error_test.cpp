@@ -131,6 +131,17 @@ TEST(StepErrors, ThatReplaysResolveComeFirstAndOthersAreBounds) {
               ends_with("work_rate by less than 5 % and impacts_per_second by less than 20 %"));
   EXPECT_THAT(estimate_of(0.0, 0.0, 0.001, 0.001).text, ends_with("impacts_per_second by less than 0.3 %"));
   EXPECT_THAT(estimate_of(0.0, 0.0, 0.0, 0.0).text, ends_with("work_rate by 0 +- 0 %"));
+  // a bound that is above the figure itself says nothing
+  const auto unknown = [](const std::string& name) {
+    return "; by how much the step changes " + name +
+           " is unknown (replays scatter by more than the figure itself)";
+  };
+  EXPECT_THAT(estimate_of(0.01, 0.001, 0.0, 1.635).text,
+              testing::EndsWith("; the step changes work_rate by 1 +- 0.1 % over all contacts (replays)" +
+                                unknown("impacts_per_second")));
+  EXPECT_THAT(
+      estimate_of(0.01, 0.6, 0.0, 1.635).text,
+      testing::EndsWith("standard error of this window" + unknown("work_rate and impacts_per_second")));
   // an error counts as what is known of it at least
   EXPECT_DOUBLE_EQ(estimate_of(0.01, 0.02, 0.015, 0.01).relative, 0.02);
   EXPECT_DOUBLE_EQ(estimate_of(-0.03, 0.001, 0.02, 0.001).relative, 0.03);
