@@ -2,7 +2,9 @@
 #include "app/linear_response.hpp"
 #include "core/error.hpp"
 #include "core/mpi.hpp"
+#include "flow/mode_direction.hpp"
 #include "flow/response.hpp"
+#include "flow/stability.hpp"
 #include "modal/damping.hpp"
 #include <algorithm>
 #include <fmt/format.h>
@@ -176,6 +178,40 @@ void find_lowest(const modal::Basis& basis, results::LinearResponse& out) {
     }
 }
 
+/// A warning of each tube that is unstable by Connors on the modes of the response, with their damping: the flow has it move by more than
+/// its turbulence does. Zones without a constant K are not judged.
+void warn_of_instability(const TubesInFlow& tubes, const std::string& name,
+                         const std::vector<modal::Basis>& bases, std::vector<std::string>& warnings) {
+  for (const PlacedFlow& placed : tubes.flows) {
+    const auto structure = modal::structure_of(bases, placed.start);
+    if (!structure)
+      continue;
+    const modal::Basis& basis = bases[*structure];
+    const flow::Sampling sampling =
+        flow::sample(tube_of(tubes.study, placed, tubes.model), placed.profile, basis);
+    flow::Stability found;
+    try {
+      found = flow::stability(placed.profile, sampling, basis.damping.head(basis.true_modes()));
+    } catch (const core::Error&) {
+      continue;
+    }
+    const auto worst = std::max_element(found.cases.begin(), found.cases.end(),
+                                        [](const auto& a, const auto& b) { return a.margin() > b.margin(); });
+    if (worst == found.cases.end() || worst->critical_mode < 0 || worst->margin() > 0.0)
+      continue;
+    const auto mode = static_cast<std::size_t>(worst->critical_mode);
+    warnings.push_back(
+        fmt::format("response \"{}\": {} is fluid-elastically unstable on its modes, V/Vc = {:.4g} in mode "
+                    "{} at {:.4g} Hz ({}) by "
+                    "Connors, with the damping of the response, {:.3g} %: the tube moves by more than its "
+                    "turbulence makes it, and this "
+                    "response is no bound; take a transient with its supports, or more supports in pinned",
+                    name, name_of(tubes.study.flows[placed.entry]), 1.0 - worst->margin(), mode + 1,
+                    found.modes[mode].frequency, flow::short_text(flow::mode_directions(sampling)[mode]),
+                    100.0 * found.modes[mode].damping));
+  }
+}
+
 results::LinearResponse response_of(const TubesInFlow& tubes, const study::Response& asked,
                                     const std::vector<TurbulentLoad>& loads,
                                     const std::vector<NamedNode>& nodes, PinnedModes& modes,
@@ -246,6 +282,7 @@ void linear_responses(MPI_Comm comm, const TubesInFlow& tubes, const std::vector
             fmt::format("response \"{}\": nothing is observed: name groups in [output] nodes, or leave "
                         "contacts unpinned",
                         one.name));
+      warn_of_instability(tubes, one.name, modes.bases, out.warnings);
       note_losses(out.responses.back(), out.notes);
     });
   }

@@ -324,6 +324,30 @@ TEST(LinearResponse, AlongATubeThatTheFlowCrossesIsNone) {
   EXPECT_EQ(point["up_crossings_per_second"], 0.0);
 }
 
+// The turbulence alone does not say how a tube moves that the flow makes unstable.
+TEST(LinearResponse, WarnsOfATubePastItsCriticalVelocity) {
+  const Workshop folder;
+  const double decrement = 2.0 * pi * ratio / std::sqrt(1.0 - ratio * ratio),
+               critical = 3.0 * frequency(1) * std::sqrt(mass * decrement / 740.0); // Connors, K = 3
+  const auto said = [&](double share, const std::string& constant = "connors_constant = 3\n") {
+    std::string study =
+        tubes(folder, 1, in_one_plane, white() + modes(3) + "[output]\nnodes = [\"middle0\"]\n");
+    const auto replace = [&study](const std::string& old, const std::string& by) {
+      study.replace(study.find(old), old.size(), by);
+    };
+    replace("velocity = [0, 0, 1]", fmt::format("velocity = [0, 0, {}]", share * critical));
+    replace("connors_constant = 3\n", constant);
+    const Outcome outcome = outcome_of(folder, study, "response");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return json::parse(bytes_of(folder.path("out") / "summary.json"))["warnings"].dump();
+  };
+  EXPECT_TRUE(says(
+      said(1.2), "response \\\"all contacts pinned\\\": flow \\\"tube0\\\" is fluid-elastically unstable on "
+                 "its modes, V/Vc = 1.2 in mode 1 at "));
+  EXPECT_FALSE(says(said(0.95), "unstable"));
+  EXPECT_FALSE(says(said(1.2, ""), "unstable")); // without a constant nothing is judged
+}
+
 TEST(LinearResponse, PinsContactsAndLeavesOthersFree) {
   const Workshop folder;
   const std::string contact =
