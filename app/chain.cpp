@@ -3,6 +3,7 @@
 #include "app/build_flow.hpp"
 #include "app/contact_directions.hpp"
 #include "app/contact_notes.hpp"
+#include "app/cross_flow.hpp"
 #include "app/describe.hpp"
 #include "app/flow_coverage.hpp"
 #include "app/fluidelastic.hpp"
@@ -224,6 +225,8 @@ private:
       describe_motions(study, out_);
     flows_ = place_flows(study, mesh_, model_, out_.notes);
     warn(parts_without_fluid(study, model_, flows_));
+    for (std::string& note : cross_flow_in_legs(study, model_, flows_, placed_))
+      out_.notes.push_back(std::move(note));
     for (std::string& note :
          supports_without_length({study, mesh_, model_, flows_}, placed_, last_ == Stage::stability))
       out_.notes.push_back(std::move(note));

@@ -154,6 +154,38 @@ TEST(Flow, WarnsOfPartsOfTheTubeInNoZone) {
   EXPECT_EQ(warnings("to = 0.996\n").find("no zone has"), std::string::npos); // as tables may end early
 }
 
+/// A leg of 1 m along x, and a quarter of a circle, 0.5 m long, of chords; contacts at 0.5 m and 0.9 m.
+TEST(Flow, NotesVelocitiesAcrossTheTubeThatReachFarIntoALeg) {
+  const Workshop folder;
+  MeshText mesh = straight_line("tube", {0, 0, 0}, {1.5, 0, 0}, 30);
+  const double radius = 1.0 / pi;
+  for (int k = 21; k <= 30; ++k) {
+    const double angle = 0.05 * (k - 20) / radius;
+    mesh.nodes[static_cast<std::size_t>(k)] = {1.0 + radius * std::sin(angle), 0.0,
+                                               radius * (1.0 - std::cos(angle))};
+  }
+  for (const int node : {10, 18})
+    mesh.points.emplace_back("plates", node);
+  const std::string contacts = "[[contacts]]\ngroup = \"plates\"\ngap = 1e-4\nnormal_stiffness = 1e6\n";
+  const auto notes = [&](const std::string& zone) {
+    folder.write("mesh.msh", mesh.text());
+    folder.write("study.toml", steel_pipe("mesh.msh") + tube_between("tube") + flow_of(zone) + contacts +
+                                   "[modes]\ncount = 3\n[transient]\nduration = 0.01\n");
+    const Outcome outcome = folder.fretwork({"check", folder.path("study.toml").string()});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.out;
+  };
+  EXPECT_TRUE(
+      says(notes("velocity = 1\n"),
+           "note: flow \"tube\", zone \"water\": its velocity is across the tube in the straight leg "
+           "too, past the first contact beside the bend: s = 0 to 0.9 m. Where the flow is along the leg, "
+           "give velocity as a vector"));
+  EXPECT_TRUE(says(notes("velocity = 1\nfrom = 0.8\n"), "the bend: s = 0.8 to 0.9 m"));
+  for (const char* zone : {"velocity = 1\nfrom = 0.92\n", "velocity = 1\nto = 0.9\n",
+                           "velocity = [0, 0, 1]\n", "velocity = [[0, 0], [0.8, 0.5], [1.5, 1]]\n", ""})
+    EXPECT_FALSE(says(notes(zone), "straight leg")) << zone;
+}
+
 TEST(Flow, WarnsOfBeamsThatGoOnBeyondItsGroup) {
   const Workshop folder;
   MeshText mesh = straight_line("tube", {0, 0, 0}, {1, 0, 0}, 10);
