@@ -3,6 +3,7 @@
 #include "app/build_flow.hpp"
 #include "app/contact_directions.hpp"
 #include "app/contact_notes.hpp"
+#include "app/contact_questions.hpp"
 #include "app/cross_flow.hpp"
 #include "app/describe.hpp"
 #include "app/flow_coverage.hpp"
@@ -221,6 +222,9 @@ private:
     placed_ = place_contacts(study, mesh_, model_, out_.warnings);
     inactive_ = take_inactive(placed_);
     warn(inside_obstacles(study, model_, placed_));
+    warn(contact_questions(study, model_, placed_));
+    if (std::string few = few_outputs(study); !few.empty() && scenes_wanted_)
+      out_.notes.push_back(std::move(few));
     if (scenes_wanted_)
       describe_motions(study, out_);
     flows_ = place_flows(study, mesh_, model_, out_.notes);

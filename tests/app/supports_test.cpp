@@ -101,5 +101,52 @@ TEST_F(Supports, ThatAGroupDoesNotHaveAreRefused) {
   EXPECT_TRUE(says(outcome("\"bars\"\ninactive = [\"bars[2]\"]\n", "").err, there_are));
 }
 
+// The bars are 0.3 m apart.
+TEST_F(Supports, AskWhetherAThicknessThatReachesTheNextOneIsMeant) {
+  const auto said = [&](const std::string& bars, const std::string& more) {
+    const Outcome found = outcome(bars, more, "check");
+    EXPECT_EQ(found.status, 0) << found.err;
+    return found.out;
+  };
+  const std::string group = "\"bars\"\n",
+                    alone = "[[contacts]]\nnormal_stiffness = 1e6\ngap = 1e-3\ngroup = \"first\"\n";
+  EXPECT_TRUE(says(said(group + "thickness = 0.32\n", ""),
+                   "warning: contact \"bars[0]\": a thickness of 0.32 m reaches \"bars[1]\", which is 0.3 m "
+                   "away along the tube and "
+                   "0.32 m thick; thickness is the length of one support"));
+  EXPECT_FALSE(says(said(group + "thickness = 0.29\n", ""), "reaches"));
+  EXPECT_TRUE(says(said(group, alone + "thickness = 0.61\n"),
+                   "warning: contact \"first\": a thickness of 0.61 m reaches \"bars[1]\", which is 0.3 m "
+                   "away along the tube;"));
+  EXPECT_FALSE(says(said(group, alone + "thickness = 0.1\n"),
+                    "reaches")); // two at one node may be two sides of a support
+}
+
+TEST_F(Supports, AskAboutStiffTangentialSprings) {
+  const auto said = [&](double tangential, const char* friction) {
+    return outcome("\"bars\"\n",
+                   fmt::format("tangential_stiffness = {}\nfriction = {}\n", tangential, friction), "check")
+        .out;
+  };
+  EXPECT_TRUE(
+      says(said(2e7, "0.3"),
+           "warning: contact \"bars\": its tangential stiffness of 2e+07 N/m is 20 times the normal one, "
+           "1e+06 N/m, and of elastic bodies 0.7 to 1 times it: are they exchanged?"));
+  EXPECT_FALSE(says(said(1e7, "0.3"), "exchanged"));
+  EXPECT_FALSE(says(said(2e7, "0"), "exchanged")); // nothing tangential is computed
+}
+
+TEST_F(Supports, NoteOutputsThatAreFew) {
+  const auto said = [&](double every) {
+    return outcome("\"bars\"\n", fmt::format("[transient]\nduration = 0.01\n[output]\nevery = {}\n", every),
+                   "check")
+        .out;
+  };
+  EXPECT_TRUE(says(said(0.004), "note: output.every = 0.004 s keeps 2 outputs of a run of 0.01 s: orbits, "
+                                "spectra and pictures need some "
+                                "thousand, as the default, 2e-06 s, keeps"));
+  EXPECT_FALSE(says(said(0.0005), "keeps"));
+}
+
 } // namespace
 } // namespace fretwork::app::test::supports_test
