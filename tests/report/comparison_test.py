@@ -93,6 +93,45 @@ class Comparison(unittest.TestCase):
         self.assertIn("significant", said["tsp3"])
         self.assertEqual(compare_data.significance(compare_data.chance((1.0, None, None), (2.0, 0.1, 20))), "scatter unknown")
 
+    def test_shows_impacts_and_forces_with_what_is_more_than_scatter(self):
+        def change(summary):
+            for contact, factor in zip(summary["contacts"], (1.0, 1.001, 3.0)):
+                contact["impacts_per_second"] *= factor
+                contact["normal_force"]["rms"] *= factor
+                contact["normal_force"]["max"] *= factor
+
+        change_summary(self.folders[1], change)
+        for title in ("Impacts per second", "Normal force, rms"):
+            changes = [row[-1] for row in self.table(title).rows]
+            self.assertEqual(changes, ["0 %", "+0.1 %", "+200 %, significant"])
+        self.assertEqual(self.table("Normal force, largest").rows[2][0], "tsp3")
+        self.assertEqual(self.table("Normal force, largest").rows[2][-1][:6], "+200 %")
+        self.assertRegex(self.table("Impacts per second").rows[0][1], r"^[0-9.]+ \+- [0-9.]+$")
+
+    def test_shows_the_contacts_with_the_largest_work_rates_of_many(self):
+        def many(summary):
+            entry = summary["contacts"][0]
+            summary["contacts"] = [{**entry, "name": f"c{i}", "work_rate": float(i)} for i in range(30)]
+
+        for folder in self.folders:
+            change_summary(folder, many)
+        table = self.table("Impacts per second")
+        self.assertEqual([row[0] for row in table.rows], [f"c{i}" for i in range(10, 30)])
+        self.assertEqual(table.note, "the 20 of 30 contacts with the largest work rates")
+
+    def test_shows_the_intervals_of_wear(self):
+        supports = [{"value": 1e-4, "low": 0.9e-4, "high": 1.1e-4}, {"value": 1e-4, "low": 1e-4, "high": 1e-4}, None]
+        lives = [{"end": "reached", "value": 12.5, "low": 11.0, "high": None}, {"end": "never", "value": None, "low": None, "high": None}, None]
+
+        def change(summary):
+            for support, depth, life in zip(summary["wear"]["supports"], supports, lives):
+                support.update(depth_m=depth, life_years=life)
+
+        change_summary(self.folders[1], change)
+        rows = self.table("Intervals of wear").rows
+        self.assertEqual([[row[2], row[4]] for row in rows], [["0.09 to 0.11", "above 11"], ["-", "-"], ["-", "-"]])
+        self.assertRegex(rows[0][1], r"^[0-9.]+ to [0-9.]+$")
+
     def test_round_off_does_not_differ(self):
         one, other = (compare_data._work({"work_rate": rate, "standard_error": {"work_rate": 1e-46}}) for rate in (5e-46, 1.5e-45))
         self.assertEqual(compare_data.significance(compare_data.chance(one, other)), "equal")

@@ -16,6 +16,7 @@ NORMAL = 1000.0  # degrees of freedom above which Student's distribution is the 
 LEAST_FREEDOM = 2.0
 SMALLEST_P = 1e-9  # that is shown
 FREQUENCIES = 10
+MOST_CONTACTS = 20  # in a table of impacts or forces
 NO_CHANGE = 1e-6  # per cent
 LARGE_CHANGE = 1000  # per cent, above which a change is given as a factor
 
@@ -41,6 +42,18 @@ def with_error(value, error):
     if value is None or error is None or not math.isfinite(error):
         return number(value)
     return f"{number(value, 3)} +- {number(error, 1)}"
+
+
+def _interval(figure, scale=1.0):
+    """Ends of a figure of wear, {value, low, high}: "0.522 to 0.59"; an end without value is open."""
+    low, high = ((None, None) if figure is None else (figure.get("low"), figure.get("high")))
+    if figure is not None and figure.get("end") == "never" or (low is None and high is None):
+        return "-"
+    if low == high:
+        return "-"
+    if high is None:
+        return f"above {number(scale * low, 3)}"
+    return f"{number(scale * low, 3)} to {number(scale * high, 3)}" if low is not None else f"below {number(scale * high, 3)}"
 
 
 def change(value, reference):
@@ -230,6 +243,42 @@ def work_rates(runs, names):
     return Table("Work rates, W", heads, rows, [*range(len(names)), *(k for k in range(1, len(names)) for _ in range(2))], note)
 
 
+def _statistic(contact, *keys):
+    """Value, standard error and the batches behind it."""
+    value, error = contact, contact.get("standard_error", {})
+    for key in keys:
+        value, error = value[key], error.get(key) if isinstance(error, dict) else None
+    return of_sum(value), of_sum(error), contact.get("standard_error", {}).get("batches")
+
+
+def _statistics(runs, names, title, *keys):
+    """Of contacts by name, those with the largest work rates in any run; a change that is more than scatter is called significant (as work rates are judged)."""
+    tables = [{c["name"]: c for c in run.summary.get("contacts", [])} for run in runs]
+    every = list(dict.fromkeys(name for found in tables for name in found))
+    shown = sorted(every, key=lambda name: -max(found[name]["work_rate"] or 0.0 for found in tables if name in found))[:MOST_CONTACTS]
+    figures = {name: [_statistic(found[name], *keys) if name in found else (None, None, None) for found in tables] for name in every if name in shown}
+    chances = {name: [chance(values[0], value) for value in values[1:]] for name, values in figures.items()}
+    largest = holm([p for ps in chances.values() for p in ps if not isinstance(p, str)])
+    rows = []
+    for name, values in figures.items():
+        changes = [change(value[0], values[0][0]) + (", significant" if not isinstance(p, str) and p <= largest else "") for value, p in zip(values[1:], chances[name])]
+        rows.append([name, *(with_error(value, error) for value, error, _ in values), *changes])
+    note = f"the {len(shown)} of {len(every)} contacts with the largest work rates" if len(shown) < len(every) else ""
+    return Table(title, ["contact", *names, *(f"change, {name}" for name in names[1:])], rows, [*range(len(names)), *range(1, len(names))], note)
+
+
+def impact_rates(runs, names):
+    return _statistics(runs, names, "Impacts per second", "impacts_per_second")
+
+
+def rms_forces(runs, names):
+    return _statistics(runs, names, "Normal force, rms, N", "normal_force", "rms")
+
+
+def largest_forces(runs, names):
+    return _statistics(runs, names, "Normal force, largest, N", "normal_force", "max")
+
+
 def _wear(run, of=""):
     """Depth, m, and life by support; of: "support_", what the supports themselves lose, of those that wear."""
 
@@ -253,6 +302,29 @@ def wear(runs, names):
 
 def wear_of_supports(runs, names):
     return _worn("Wear of the supports themselves", [_wear(run, "support_") for run in runs], names)
+
+
+def _intervals(runs, names, title, of=""):
+    """Of depth and life, of the supports whose wear is compared; none where no run has intervals."""
+    tables = []
+    for run in runs:
+        found = {s["name"]: s for s in run.summary.get("wear", {}).get("supports", [])}
+        tables.append({name: found[name] for name in _wear(run, of)})
+    rows = []
+    for name in dict.fromkeys(name for found in tables for name in found):
+        entries = [found.get(name, {}) for found in tables]
+        rows.append([name, *(_interval(entry.get(f"{of}depth_m"), 1e3) for entry in entries), *(_interval(entry.get(f"{of}life_years")) for entry in entries)])
+    if all(cell == "-" for row in rows for cell in row[1:]):
+        rows = []
+    return Table(title, ["support", *(f"depth mm, {n}" for n in names), *(f"life years, {n}" for n in names)], rows, [*range(len(names)), *range(len(names))])
+
+
+def wear_intervals(runs, names):
+    return _intervals(runs, names, "Intervals of wear")
+
+
+def wear_intervals_of_supports(runs, names):
+    return _intervals(runs, names, "Intervals of wear of the supports themselves", "support_")
 
 
 def _worn(title, tables, names):
@@ -282,5 +354,5 @@ def tables(directories):
 
 
 def differences(runs, names):
-    found = [compare(runs, names) for compare in (differing_inputs, frequencies, damping, stability, work_rates, wear, wear_of_supports)]
+    found = [compare(runs, names) for compare in (differing_inputs, frequencies, damping, stability, work_rates, impact_rates, rms_forces, largest_forces, wear, wear_intervals, wear_of_supports, wear_intervals_of_supports)]
     return [table for table in found if table.rows or table.title == "Inputs that differ"]
