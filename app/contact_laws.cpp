@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include <cmath>
 #include <fmt/format.h>
+#include <numbers>
 
 namespace fretwork::app {
 namespace {
@@ -54,10 +55,12 @@ double automatic_damping(const study::Contact& contact, const std::string& name,
   const double damping =
       contact::automatic_tangential_damping(contact.tangential_stiffness, omega * omega * mass, mass, ratio);
   if (damping < 0.0)
-    throw core::Error(fmt::format(
-        "contact \"{}\": the automatic tangential damping is {:.4g} N s/m, below 0, because the mode that "
-        "moves it most is overdamped (ratio {:.3g}); give tangential_damping a value",
-        name, damping, ratio));
+    throw core::Error(fmt::format("modes.damping: the mode at {:.4g} Hz has a ratio of {:.3g} and does not "
+                                  "oscillate (0.02 is 2 % of critical damping); it "
+                                  "moves contact \"{}\" most, whose automatic tangential damping would be "
+                                  "{:.4g} N s/m, below 0: lower the "
+                                  "ratio, or give tangential_damping a value",
+                                  omega / (2.0 * std::numbers::pi), ratio, name, damping));
   return damping;
 }
 

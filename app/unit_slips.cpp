@@ -121,9 +121,18 @@ std::vector<std::string> odd_friction(const study::Study& study) {
 }
 
 std::vector<std::string> odd_damping(const study::Study& study) {
-  const double* ratio = study.modes.flow_damping ? nullptr : std::get_if<double>(&study.modes.damping);
-  return ratio && *ratio > largest_damping ? std::vector{fmt::format("modes.damping = {:g}", *ratio)}
-                                           : std::vector<std::string>();
+  if (study.modes.flow_damping)
+    return {};
+  const modal::Damping& given = study.modes.damping;
+  if (const auto* ratio = std::get_if<double>(&given); ratio && *ratio > largest_damping)
+    return {fmt::format("modes.damping = {:g}", *ratio)};
+  // fast modes may be meant to be damped so
+  if (const auto* list = std::get_if<std::vector<double>>(&given); list && list->front() > largest_damping)
+    return {fmt::format("modes.damping = [{:g}, ...]", list->front())};
+  if (const auto* table = std::get_if<modal::DampingTable>(&given);
+      table && table->rows.front().ratio > largest_damping)
+    return {fmt::format("modes.damping table of {:g} and more", table->rows.front().ratio)};
+  return {};
 }
 
 /// Liquids of g/cm3, and dynamic viscosities.

@@ -85,6 +85,15 @@ TEST(UnitSlips, OfFrictionMaterialsAndStepAreAskedAbout) {
   const auto damping = asked(folder, study, {"modes.damping=0.5"});
   ASSERT_EQ(damping.size(), 1u);
   EXPECT_TRUE(says(damping[0], "modes.damping = 0.5: is this per cent?"));
+  for (const auto& [given, question] :
+       {std::pair("modes.damping=[2.0, 1.5]", "modes.damping = [2, ...]: is this per cent?"),
+        std::pair("modes.damping={ table = [[1, 2.0], [1000, 1.0]] }",
+                  "modes.damping table of 2 and more: is this per cent?")}) {
+    const auto ratios = asked(folder, study, {given, "modes.count=2"});
+    ASSERT_EQ(ratios.size(), 1u) << given;
+    EXPECT_TRUE(says(ratios[0], question));
+  }
+  EXPECT_TRUE(asked(folder, study, {"modes.damping={ table = [[1, 0.02], [1000, 1.0]] }"}).empty());
   const auto length = asked(folder, study + "[[wear]]\ncoefficient = 1.0e-14\nlength = 30\n", {});
   ASSERT_EQ(length.size(), 1u);
   EXPECT_TRUE(says(length[0], "wear.0.length = 30 m: are these mm?"));
@@ -92,6 +101,29 @@ TEST(UnitSlips, OfFrictionMaterialsAndStepAreAskedAbout) {
   ASSERT_EQ(step.size(), 1u);
   EXPECT_TRUE(
       says(step[0], "transient.step = 0.1 s is longer than the slowest vibration on a contact can be"));
+}
+
+// The ratio is the cause, the damper what follows from it.
+TEST(UnitSlips, OfDampingComeBeforeTheAutomaticTangentialDamperThatTheySpoil) {
+  const Workshop folder;
+  const std::string study =
+      tubes(folder, 1) + supports("gap = 2.0e-4\nfriction = 0.3\ntangential_stiffness = 1.0e4\n");
+  folder.write("study.toml", study);
+  const auto refused = [&](const std::string& damping) {
+    const Outcome outcome =
+        folder.fretwork({"check", folder.path("study.toml").string(), "--set", "modes.damping=" + damping});
+    EXPECT_EQ(outcome.status, 1);
+    return outcome.err;
+  };
+  const std::string percent = refused("5.0");
+  EXPECT_TRUE(percent.starts_with("fretwork: units: modes.damping = 5: is this per cent?")) << percent;
+  EXPECT_TRUE(says(percent, "modes.damping: the mode at "));
+  const std::string rayleigh = refused("{ mass = 1e4 }"); // no per cent
+  EXPECT_TRUE(rayleigh.starts_with("fretwork: modes.damping: the mode at ")) << rayleigh;
+  EXPECT_TRUE(says(rayleigh, " and does not oscillate (0.02 is 2 % of critical damping); it moves contact "
+                             "\"h0\" most, whose automatic "
+                             "tangential damping would be -"));
+  EXPECT_TRUE(says(rayleigh, "lower the ratio, or give tangential_damping a value"));
 }
 
 TEST(UnitSlips, OfWearWeightAndOffsetsAreAskedAbout) {
