@@ -45,6 +45,44 @@ results::MotionFacts facts_of(std::string name, const signals::PrescribedMotion&
   return out;
 }
 
+/// Of a record whose baseline goes away, with numbers; else empty. Judged by means over quarters, for a record may be cut off while it moves;
+/// a displacement that goes one way is meant.
+/// @param consequence  of the drift, in words
+std::string drift_text(const std::string& name, const signals::PrescribedMotion& motion,
+                       const signals::TimeFunction& given, bool by_displacement, double duration,
+                       const char* consequence) {
+  constexpr std::size_t fewest_rows = 64;         // of a record
+  constexpr double moving = 0.2, displaced = 0.4; // of the largest velocity and displacement
+  constexpr double one_way = 1.5;                 // path over the way from start to end
+  const auto* table = std::get_if<signals::Table>(&given);
+  if (!table || table->time.size() < fewest_rows || !(table->time.back() > 0.0) ||
+      table->time.back() > much_longer * duration)
+    return {};
+  const signals::MotionSignal signal(motion, duration);
+  const double end = std::min(table->time.back(), duration), start = signal(0.0).displacement,
+               away = signal(end).displacement - start;
+  constexpr int places = 4000; // of a quarter: a thousand
+  double fastest = 0.0, farthest = 0.0, path = 0.0, last = start, first_quarter = 0.0, last_quarter = 0.0;
+  for (int i = 0; i < places; ++i) {
+    const auto [displacement, velocity] = signal((i + 0.5) * end / places);
+    fastest = std::max(fastest, std::abs(velocity));
+    farthest = std::max(farthest, std::abs(displacement - start));
+    path += std::abs(displacement - last);
+    last = displacement;
+    (i < places / 4 ? first_quarter : last_quarter) +=
+        i < places / 4 || i >= 3 * places / 4 ? 4.0 * displacement / places : 0.0;
+  }
+  const double velocity = (signal(end).displacement - signal(0.75 * end).displacement) / (0.25 * end);
+  if ((std::abs(velocity) <= moving * fastest &&
+       std::abs(last_quarter - first_quarter) <= displaced * farthest) ||
+      (by_displacement && path <= one_way * std::abs(away)))
+    return {};
+  return fmt::format(
+      "{}: its record moves by {:.3g} m/s on the average of its last quarter (largest velocity {:.3g} m/s) "
+      "and ends {:.3g} m from where it starts (largest {:.3g} m): its baseline drifts{}",
+      name, velocity, fastest, away, farthest, consequence);
+}
+
 /// Whether obstacles stay in space while bases move.
 bool has_grounded(const study::Study& study) {
   return std::any_of(study.contacts.begin(), study.contacts.end(),
@@ -78,12 +116,23 @@ void describe_motions(const study::Study& study, results::RunResults& out) {
                              fem::place(motion.direction)),
                  prescribed(motion), motion.acceleration, duration));
     judge(out.motions.back(), has_grounded(study), duration, out);
+    if (std::string drift =
+            drift_text(out.motions.back().name, prescribed(motion), motion.acceleration, false, duration,
+                       has_grounded(study) ? "; correct the record, for obstacles stay in space"
+                                           : ", of no effect on results, which are relative to the base");
+        !drift.empty())
+      (has_grounded(study) ? out.warnings : out.notes).push_back(std::move(drift));
   }
   for (std::size_t k = 0; k < study.support_motions.size(); ++k) {
     const study::SupportMotion& motion = study.support_motions[k];
     out.motions.push_back(
         facts_of(name_of_support_motion(motion, k), prescribed(motion), motion.function, duration));
     judge(out.motions.back(), !study.contacts.empty() && !motion.by_displacement, duration, out);
+    if (std::string drift =
+            drift_text(out.motions.back().name, prescribed(motion), motion.function, motion.by_displacement,
+                       duration, "; correct the record: supports that drift apart strain what they hold");
+        !drift.empty())
+      out.warnings.push_back(std::move(drift));
   }
 }
 

@@ -94,6 +94,40 @@ TEST(MotionFacts, OfABaseThatLeavesItsObstaclesAreAWarning) {
       << "obstacles move along";
 }
 
+// 3 sin(w t) from rest drifts with 3/w m/s on the average; from -3/w m/s it stays about its place, though it moves at its end.
+TEST(MotionFacts, OfRecordsWhoseBaselineDriftsHaveNumbers) {
+  const Workshop folder;
+  write_tube(folder);
+  const double w = 20.0 * std::numbers::pi;
+  const std::string base = "[[base_motion]]\ndirection = [0.0, 1.0, 0.0]\n",
+                    support = "[[support_motion]]\ngroup = \"tube_end\"\ndirection = [0.0, 1.0, 0.0]\n";
+  const Results still = folder.run_text(study(base + record(3.0, w, 0.0)));
+  EXPECT_TRUE(says(notes_of(still), "[[base_motion]] along (0, 1, 0): its record moves by 0.0"));
+  EXPECT_TRUE(says(notes_of(still), " m from where it starts"));
+  EXPECT_TRUE(
+      says(notes_of(still), "its baseline drifts, of no effect on results, which are relative to the base"));
+  const auto warned = [&](const std::string& motion) {
+    return warnings_of(folder.run_text(study(motion), {"--force"}));
+  };
+  const std::string offset = warned(support + record(0.0, w, 1.0)); // v = t: 0.4375 m/s, and 0.125 m away
+  EXPECT_TRUE(says(
+      offset,
+      "its record moves by 0.438 m/s on the average of its last quarter (largest velocity 0.5 m/s) and ends "
+      "0.125 m from where it starts (largest 0.125 m): its baseline drifts; correct the record"))
+      << offset;
+  const std::string start = fmt::format("velocity0 = {:.17g}\n", -3.0 / w);
+  EXPECT_EQ(warned(support + start + record(3.0, w, 0.0)).find("drifts"), std::string::npos);
+  const std::string by = "quantity = \"displacement\"\n";
+  EXPECT_EQ(warned(support + by + record(1e-3, w, 0.0)).find("drifts"), std::string::npos);
+  std::string away = "table = [", ramp = away; // to and fro about a baseline that goes away; a settlement
+  for (int k = 0; k <= 100; ++k) {
+    away += fmt::format("[{:.17g}, {:.17g}],", 0.005 * k, 2e-5 * k + 1e-3 * std::sin(w * 0.005 * k));
+    ramp += fmt::format("[{:.17g}, {:.17g}],", 0.005 * k, 2e-5 * k);
+  }
+  EXPECT_TRUE(says(warned(support + by + away + "]\n"), "and ends 0.002 m from where it starts"));
+  EXPECT_EQ(warned(support + by + ramp + "]\n").find("drifts"), std::string::npos);
+}
+
 TEST(MotionFacts, SayWhereTheModesDoNotFollow) {
   const Workshop folder;
   write_tube(folder);
