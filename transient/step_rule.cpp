@@ -6,6 +6,7 @@
 #include "transient/scheme_scope.hpp"
 #include "transient/splitting/macro_steps.hpp"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -125,17 +126,30 @@ Term normal_damper_term(const StepChoice& c) {
           .shortest = finest_for_normal_dampers / c.contact_frequency};
 }
 
-std::vector<Term> contact_terms(const StepChoice& c) {
+/// Closed and sticking contacts.
+std::array<Term, 2> contact_frequencies(const StepChoice& c, const StepBound& bound,
+                                        const char* condition = "") {
+  return {{{"the contact frequency", "w_c h", c.contact_frequency, "rad/s", bound, condition},
+           {"the frequency of sticking contacts", "w_t h", c.stick_frequency, "rad/s", bound, condition}}};
+}
+
+/// Of splitting: beside modes that are fast in a step; a step in which none is may be longer.
+std::array<Term, 2> contacts_beside_modes(const StepChoice& c) {
+  std::array<Term, 2> out = contact_frequencies(c, contact_beside_modes, ", with fast modes");
+  for (Term& term : out)
+    term.shortest = fast_mode / c.highest_mode;
+  return out;
+}
+
+std::array<Term, 3> damper_terms(const StepChoice& c) {
   const SchemeLimits& limits = limits_of(c.scheme);
-  return {{"the contact frequency", "w_c h", c.contact_frequency, "rad/s", limits.contact},
-          {"the frequency of sticking contacts", "w_t h", c.stick_frequency, "rad/s", limits.contact},
-          {"the tangential dampers' rate", "r_t h", c.damper_rate, "1/s",
-           limits.tangential_damper.times(limits.intervals), "",
-           limits.intervals > 1 ? smaller_tangential
-                                : "; a smaller tangential_damping makes the step longer (scheme = "
-                                  "\"splitting\" resolves the dampers within a step)"},
-          normal_damper_term(c),
-          {"the dampers' rate", "r_e h", c.explicit_rate, "1/s", limits.tangential_damper}};
+  return {{{"the tangential dampers' rate", "r_t h", c.damper_rate, "1/s",
+            limits.tangential_damper.times(limits.intervals), "",
+            limits.intervals > 1 ? smaller_tangential
+                                 : "; a smaller tangential_damping makes the step longer (scheme = "
+                                   "\"splitting\" resolves the dampers within a step)"},
+           normal_damper_term(c),
+           {"the dampers' rate", "r_e h", c.explicit_rate, "1/s", limits.tangential_damper}}};
 }
 
 /// What a step does not resolve.
@@ -162,7 +176,11 @@ void look_at_points(AllUnresolved& out, const StepChoice& c, const char* name, d
 
 AllUnresolved unresolved(const StepChoice& c) {
   AllUnresolved out;
-  for (const Term& term : contact_terms(c))
+  const bool fast = c.scheme == SchemeKind::splitting && c.highest_mode * c.step > fast_mode * rounded;
+  for (const Term& term :
+       fast ? contacts_beside_modes(c) : contact_frequencies(c, limits_of(c.scheme).contact))
+    look_at(out, c, term);
+  for (const Term& term : damper_terms(c))
     look_at(out, c, term);
   look_at(out, c, mode_term(c, true, followed_modes(c, c.step)));
   if (c.table_interval > 0.0 && c.step > c.table_interval * (1.0 + round_off))
@@ -251,12 +269,17 @@ std::vector<Limit> load_limits(const StepChoice& c, bool contacts, double finene
 /// What limits the step, but for the modes of splitting beside contacts.
 std::vector<Limit> step_limits(const StepChoice& c, bool contacts, double fineness) {
   std::vector<Limit> out = load_limits(c, contacts, fineness);
-  std::vector<Term> terms = contact_terms(c);
+  const auto add = [&](const auto& terms) {
+    for (const Term& term : terms)
+      if (term.rate > 0.0)
+        out.push_back(limit_of(term, fineness));
+  };
+  add(contact_frequencies(c, limits_of(c.scheme).contact));
+  add(damper_terms(c));
   if (c.scheme != SchemeKind::splitting || !contacts)
-    terms.push_back(mode_term(c, contacts));
-  for (const Term& term : terms)
-    if (term.rate > 0.0)
-      out.push_back(limit_of(term, fineness));
+    add(std::array{mode_term(c, contacts)});
+  else if (c.highest_mode > 0.0)
+    add(contacts_beside_modes(c));
   return out;
 }
 
@@ -283,7 +306,7 @@ int intervals_of_step(const StepChoice& c, double fineness) {
   if (limits.intervals == 1)
     return 1;
   const double rate =
-      std::max({std::max(c.contact_frequency, c.stick_frequency) / (contact_interval * fineness),
+      std::max({std::max(c.contact_frequency, c.stick_frequency) / contact_interval.at(fineness),
                 c.damper_rate / limits.tangential_damper.at(fineness),
                 c.normal_damper_rate / limits.normal_damper.at(fineness)});
   const double needed = rate * c.step;

@@ -28,7 +28,8 @@ TEST(StepWarnings, WarnsWhereAFixedStepDoesNotResolve) {
     EXPECT_TRUE(mentions(list[0], what)) << list[0];
     EXPECT_TRUE(mentions(list[0], "take a smaller step or leave it out"));
   };
-  only(warnings(scene_with({Circle{0.1}, {8e4}, {}}), splitting(7e-3)), "the contact frequency: w_c h = 1.4");
+  only(warnings(scene_with({Circle{0.1}, {8e4}, {}}), splitting(9.5e-3)),
+       "the contact frequency: w_c h = 1.9");
   const Scene dampers = scene_with({Circle{0.1}, {2.0}, {2.0, 4e3, 0.3, 0.3}});
   only(warnings(dampers, splitting(0.25)), "the tangential dampers' rate: r_t h = 500, at most 403.2");
   EXPECT_TRUE(warnings(dampers, splitting(3.25e-3)).empty()); // 2
@@ -54,13 +55,14 @@ TEST(StepWarnings, SayOnceWhichStepResolvesEverything) {
   const StepChoice choice = given(scene, 0.01);
   ASSERT_EQ(choice.warnings.size(), 1u);
   EXPECT_EQ(choice.warnings[0].find(
-                "the step 0.01 s does not resolve the contact frequency: w_c h = 2, at most 1.25; "),
+                "the step 0.01 s does not resolve the contact frequency, with fast modes: w_c h = 2, at "
+                "most 1.25; "),
             0u)
       << choice.warnings[0];
-  for (const char* part :
-       {"; the frequency of sticking contacts: w_t h = ", "; the highest mode: w_max h = 10, at most 2.5; ",
-        "the excitation: 4 steps a period, at least 10 for results that can be trusted; ",
-        "take a smaller step or leave it out; 0.0025 s would do for all of them"})
+  for (const char* part : {"; the frequency of sticking contacts, with fast modes: w_t h = ",
+                           "; the highest mode: w_max h = 10, at most 2.5; ",
+                           "the excitation: 4 steps a period, at least 10 for results that can be trusted; ",
+                           "take a smaller step or leave it out; 0.0025 s would do for all of them"})
     EXPECT_TRUE(mentions(choice.warnings[0], part)) << part << " in " << choice.warnings[0];
   EXPECT_TRUE(given(scene, 0.0025).warnings.empty());
   // modes beside dampers: w h of 2.5 once these are slow in the step

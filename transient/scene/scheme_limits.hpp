@@ -65,7 +65,7 @@ inline constexpr std::array<SchemeLimits, scheme_count> scheme_limits{{
     {.scheme = SchemeKind::splitting,
      .exact_modes = true,
      .intervals = 64,
-     .contact = {1.25, 1.25},
+     .contact = {1.75, 1.75},
      .tangential_damper = {6.3, 6.3},
      .normal_damper = {unbounded, 1.8},
      .highest_mode = {2.5, 2.5},
@@ -95,9 +95,13 @@ inline constexpr std::array<SchemeLimits, scheme_count> scheme_limits{{
     {.scheme = SchemeKind::runge_kutta_54}, // by its tolerance
 }};
 
-/// Of splitting alone. w_c dt and w_t dt of its intervals at an accuracy of 0.01: two a step, which take the time of one, since they turn less and are found
-/// at once. Contacts whose error replays (splitting/replays.hpp) find above it move in up to 16 times as many.
-constexpr double contact_interval = 0.625;
+/// Of splitting alone. w_c dt and w_t dt of its intervals, by accuracy as w_c h: two in the longest step. Contacts whose error replays
+/// (splitting/replays.hpp) find above the accuracy move in up to 16 times as many.
+constexpr StepBound contact_interval{0.875, 0.875};
+/// w_c h and w_t h beside fast modes: those above w h = `fast_mode`, which follow a force within the step otherwise than contacts take it (mobility of
+/// splitting/coupled_contacts.hpp).
+constexpr StepBound contact_beside_modes{1.25, 1.25};
+constexpr double fast_mode = 1.25;
 /// r_t h, r_n h above which dampers stop contacts within the step, and w h of modes that are followed then: (S1) overestimates their velocity, and
 /// contacts that stick are unstable (doc/schemes.md, Limits; tests/transient/sticking_contacts_test.cpp).
 constexpr double fast_damper = 3.0, mode_with_fast_damper = 1.5;
@@ -119,6 +123,5 @@ static_assert(
     }(),
     "a row for each scheme, in their order");
 static_assert(limits_of(SchemeKind::splitting).highest_mode.share ==
-              scaled_above * limits_of(SchemeKind::splitting).contact.share);
-
+              scaled_above * contact_beside_modes.share);
 } // namespace fretwork::transient
