@@ -244,8 +244,8 @@ private:
     other_runs_ = read_other_runs(study, inputs_.run_directory);
     check_contacts_of(other_runs_, study, worn_, placed_);
     warn(compare_with_other_runs(other_runs_, study, worn_, placed_, model_));
-    places_ = {directions_text(study, model_, placed_),
-               numbering_text(study, model_, together(placed_, inactive_), flows_)};
+    placement_notes_ = {directions_text(study, model_, placed_),
+                        numbering_text(study, model_, together(placed_, inactive_), flows_)};
     note_other_runs(other_runs_, out_);
   }
 
@@ -367,7 +367,7 @@ private:
 
   /// After all notes that may tell of something wrong.
   void note_places() {
-    std::copy_if(places_.begin(), places_.end(), std::back_inserter(out_.notes),
+    std::copy_if(placement_notes_.begin(), placement_notes_.end(), std::back_inserter(out_.notes),
                  [](const std::string& note) { return !note.empty(); });
   }
 
@@ -450,7 +450,8 @@ private:
   std::vector<PlacedFlow> flows_;
   std::vector<TurbulentLoad> turbulence_;
   std::vector<NamedNode> nodes_;
-  std::array<std::string, 2> places_; ///< directions of flat obstacles, numbers of supports along tubes
+  std::array<std::string, 2>
+      placement_notes_; ///< directions of flat obstacles, numbers of supports along tubes
   std::vector<LackingForce> lacking_forces_; ///< by force sites
   std::vector<MovedSupport> moved_;
   std::vector<WornPlace> worn_;

@@ -73,6 +73,7 @@ void broadcast(MPI_Comm comm, int root, const BuiltScene& built, SceneSummaries&
   for (const auto& maxima : built.watched_wear.maxima)
     if (maxima && core::rank(comm) != root)
       of.classes.emplace_back(maxima->force, maxima->speed);
+  static_assert(std::is_trivially_copyable_v<wear::KwuClasses>);
   MPI_Bcast(of.classes.data(), static_cast<int>(of.classes.size() * sizeof(wear::KwuClasses)), MPI_BYTE, root,
             comm);
   broadcast_plain(comm, root, of.nodes);

@@ -37,7 +37,7 @@ std::vector<std::pair<const char*, double>> sizes(const fem::Shape& shape) {
 }
 
 /// The clearance of a shape that has one, m; 0 for others.
-double gap_of(const contact::Obstacle& obstacle) {
+double given_gap(const contact::Obstacle& obstacle) {
   if (const auto* circle = std::get_if<contact::Circle>(&obstacle))
     return circle->gap;
   if (const auto* planes = std::get_if<contact::PlanePair>(&obstacle))
@@ -78,7 +78,7 @@ std::vector<std::string> too_long(const study::Study& study, const mesh::LineMes
         out.push_back(fmt::format("sections.{}.{} = {:g} m", name, key, value));
   }
   for (const study::Contact& contact : study.contacts) {
-    if (const double gap = gap_of(contact.shape); gap > largest_gap)
+    if (const double gap = given_gap(contact.shape); gap > largest_gap)
       out.push_back(fmt::format("gap = {:g} m of contact \"{}\"", gap, contact.name));
     if (const auto& [y, z] = contact.offset; std::max(std::abs(y), std::abs(z)) > largest_gap)
       out.push_back(fmt::format("offset = [{:g}, {:g}] m of contact \"{}\"", y, z, contact.name));

@@ -14,7 +14,7 @@
 /// j - 1, or where a path has been followed to node j (inner_path.hpp) that of the path; both T then are shifted onto that of the path. Slip is along the trial with the relaxed T; where that is not beyond the bound (T has not followed yet), and with
 /// C_T = 0, along the trial of stick, which is exact on a line and of order 1 in the plane.
 /// So it is where T falls to less than `slow_fall` of itself in a part of a path, and the contact has not slid from the node 0 on or a path has been
-/// followed to the node: there T - F is of the order of F/x, and what the quadratic misses of F would turn the slip x times as far. The parts of a
+/// followed to the node: there, with x = K_T/C_T times the length of the part, T - F is of the order of F/x, and what the quadratic misses of F would turn the slip x times as far. The parts of a
 /// path slip along the trial of stick, too. The slip of `reference` is opposite to v
 /// and bears any force within the bound where v = 0.
 #pragma once
@@ -34,7 +34,7 @@ template <int D> struct Answer {
   Row u[2][D], v[2][D];
 };
 
-/// What springs keep in a part of a path where their fall is slow beside it.
+/// What springs keep in a part of a path where their fall is slow beside it: K_T h/C_T up to 16 ln 2 = 11, h/16 being a part.
 inline constexpr double slow_fall = 0.5;
 
 /// Which law holds.

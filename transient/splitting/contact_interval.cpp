@@ -157,10 +157,10 @@ double ContactIntervals::relax(ContactPast& past, int steps) const {
   double left = spring_left_;
   for (int step = 1; step < steps; ++step)
     left *= spring_left_;
-  return leave(past, left);
+  return relax_to(past, left);
 }
 
-double ContactIntervals::leave(ContactPast& past, double share) const {
+double ContactIntervals::relax_to(ContactPast& past, double share) const {
   Vec2& spring = past.friction.spring;
   past.friction.sliding = false;
   if (!(dot(spring, spring) > 0.0))
@@ -376,7 +376,7 @@ void ContactIntervals::find_force(MovingContact& m, const IntervalTable& table, 
   if (n.force > 0.0)
     add_force(passage, motion, n, table, index, m);
   else if (friction_.active())
-    m.course.relaxed += leave(past, table.spring_left);
+    m.course.relaxed += relax_to(past, table.spring_left);
   m.throughout = past.closed && n.from == 0.0;
   past.rise = m.throughout ? (1.0 / table.length) * m.growth : Components{};
   m.penetration = std::max({0.0, motion.penetration, motion.after(table.length)});

@@ -149,8 +149,8 @@ private:
   [[nodiscard]] double released(double from, double to) const {
     return normal_.spring_energy(from) - normal_.spring_energy(to);
   }
-  /// J: dissipated by the spring of an open contact of which this share is left.
-  double leave(ContactPast& past, double share) const;
+  /// The spring of an open contact keeps this share. Returns what it dissipates, J.
+  double relax_to(ContactPast& past, double share) const;
   /// Share of the spring of a contact that has been open for so long, s.
   [[nodiscard]] double spring_left(double time) const;
   [[nodiscard]] Motion motion_of(const MovingContact& m, const IntervalTable& table, int index) const;

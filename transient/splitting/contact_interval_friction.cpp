@@ -130,7 +130,7 @@ void ContactIntervals::find_friction(Passage passage, const Motion& a, const Nor
   }
   m.course.past.spring_at_opening = dot(memory.spring, memory.spring);
   if (n.opens)
-    state.damper_work += leave(m.course.past, spring_left(dt - n.to));
+    state.damper_work += relax_to(m.course.past, spring_left(dt - n.to));
 }
 
 } // namespace fretwork::transient

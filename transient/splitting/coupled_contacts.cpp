@@ -111,7 +111,7 @@ void CoupledContacts::find_forces(const ContactMotion& start, const ContactMotio
   trial.clear();
   before_step_.clear();
   converged_ = true;
-  none_moves();
+  clear_moving();
   counts_.clear();
   for (const int c : near) {
     trial.states[c] = {}; // also of contacts that were near and open
@@ -211,7 +211,7 @@ void CoupledContacts::move(int first) {
 }
 
 /// The contacts of a group in an interval: one after the other, and those again whose force what the others have done since would change by a
-/// share of all changes that would let them diverge. Without strong dampers, and up to w_c dt = 0.625, there are none.
+/// share of all changes that would let them diverge. Without strong dampers, and up to w_c dt = 0.875, there are few.
 void CoupledContacts::find_forces_together(int first, int index) {
   double change = 0.0; // N, the largest
   for (int i = first; i >= 0; i = next_[i]) {
@@ -269,24 +269,24 @@ void CoupledContacts::finish_step(const ContactMotion& end, ContactLosses& losse
     laws_[m.number].correct_spring_drift(pasts_[m.number],
                                          of_lanes(end.u, m.number) - m.path.displacement(h_) - m.response);
   }
-  relax_open(1, losses);
+  finish_tangential_springs(1, losses);
 }
 
 void CoupledContacts::pass(int steps, ContactTrial& trial, ContactLosses& losses) {
   trial.clear();
-  none_moves();
+  clear_moving();
   normal_springs_ = 0.0;
-  relax_open(steps, losses);
+  finish_tangential_springs(steps, losses);
 }
 
-void CoupledContacts::none_moves() {
+void CoupledContacts::clear_moving() {
   for (const MovingContact& m : moving_)
     moves_[m.number] = 0;
   moving_.clear();
 }
 
-/// The tangential springs of the contacts that stayed open.
-void CoupledContacts::relax_open(int steps, ContactLosses& losses) {
+/// Those of contacts that stayed open relax; the energy of all.
+void CoupledContacts::finish_tangential_springs(int steps, ContactLosses& losses) {
   tangential_springs_ = 0.0;
   for (int c = 0; c < contacts_.count; ++c) {
     const contact::Vec2& spring = pasts_[c].friction.spring;

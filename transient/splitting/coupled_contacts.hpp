@@ -75,8 +75,8 @@ private:
   };
   void find_forces(const ContactMotion& start, const ContactMotion& end, const std::vector<int>& near,
                    ContactTrial& trial, ContactLosses& losses);
-  void none_moves();
-  void relax_open(int steps, ContactLosses& losses);
+  void clear_moving();
+  void finish_tangential_springs(int steps, ContactLosses& losses);
   [[nodiscard]] int group_of(int block);
   void group();
   [[nodiscard]] Components of_lanes(const kernels::Array& lanes, int c) const {
