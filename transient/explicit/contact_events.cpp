@@ -40,8 +40,8 @@ void ContactEvents::follow(const DormandPrince& step, int c, std::optional<Conta
     const bool friction = regime.closed && (now.friction > 0.0) != regime.slides;
     for (const bool kind : {false, true})
       if (kind ? friction : normal)
-        if (const double share = zero(step, c, kind, from, to); !best || share < best->share)
-          best = ContactEvent{share, c, kind};
+        if (const ContactEvent event = zero(step, c, kind, from, to); !best || event.share < best->share)
+          best = event;
     if (normal || friction)
       return;
     from = to;
@@ -67,11 +67,12 @@ Margins ContactEvents::margins(const DormandPrince& step, int c, double share) {
 }
 
 /// The far end of the bracket of the zero, so that the regime behind it has begun; `from` where it has been passed already.
-double ContactEvents::zero(const DormandPrince& step, int c, bool friction, double from, double to) {
+ContactEvent ContactEvents::zero(const DormandPrince& step, int c, bool friction, double from, double to) {
   double a = from, b = to;
   double fa = of(margins(step, c, a), friction), fb = of(margins(step, c, b), friction);
+  contact::ContactAxes face = probe_.locate(c).axes(); // at b
   if ((fa > 0.0) == (fb > 0.0))
-    return from;
+    return {from, c, friction, face};
   double weight_a = fa, weight_b = fb;
   for (int i = 0; i < most_iterations && b - a > instant_round_off; ++i) {
     double x = i % 3 == 2 ? 0.5 * (a + b) : b - weight_b * (b - a) / (weight_b - weight_a);
@@ -79,9 +80,10 @@ double ContactEvents::zero(const DormandPrince& step, int c, bool friction, doub
       x = 0.5 * (a + b);
     const double fx = of(margins(step, c, x), friction);
     if (fx == 0.0)
-      return x;
+      return {x, c, friction, face};
     if ((fx > 0.0) == (fb > 0.0)) {
       b = x;
+      face = probe_.locate(c).axes();
       weight_b = fx;
       weight_a *= 0.5;
     } else {
@@ -90,7 +92,7 @@ double ContactEvents::zero(const DormandPrince& step, int c, bool friction, doub
       weight_b *= 0.5;
     }
   }
-  return b;
+  return {b, c, friction, face};
 }
 
 void ContactEvents::apply(const ContactEvent& event, MotionRates& rates, const double* y) {
@@ -101,7 +103,7 @@ void ContactEvents::apply(const ContactEvent& event, MotionRates& rates, const d
   } else if (regime.closed) {
     rates.set_regime(c, false, false);
   } else {
-    rates.set_regime(c, true, false);
+    rates.close(c, event.face);
     rates.set_regime(c, true, rates.margin(c, rates.motion(), rates.spring(y, c)).friction > 0.0);
   }
 }

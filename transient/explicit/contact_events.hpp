@@ -14,7 +14,8 @@ namespace fretwork::transient {
 struct ContactEvent {
   double share; ///< of the step, 0 to 1
   int contact;
-  bool friction; ///< sliding starts or ends; otherwise the contact closes or opens
+  bool friction;               ///< sliding starts or ends; otherwise the contact closes or opens
+  contact::ContactAxes face{}; ///< where it closes, just behind the event
 };
 
 class ContactEvents {
@@ -27,7 +28,7 @@ public:
 
 private:
   [[nodiscard]] Margins margins(const DormandPrince& step, int c, double share);
-  [[nodiscard]] double zero(const DormandPrince& step, int c, bool friction, double from, double to);
+  [[nodiscard]] ContactEvent zero(const DormandPrince& step, int c, bool friction, double from, double to);
   void follow(const DormandPrince& step, int c, std::optional<ContactEvent>& best);
 
   const MotionRates& rates_;

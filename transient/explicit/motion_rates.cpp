@@ -185,8 +185,8 @@ void MotionRates::commit(double* y) {
       set_regime(c, closed, closed && state.slides);
     if (closed)
       regimes_[c].axes = state.axes;
-    else if (regimes_[c].leaves)
-      regimes_[c].leaves = leaves(c, motion_, motion_.locate(c));
+    else if (double& excess = regimes_[c].excess; excess > 0.0)
+      excess = std::clamp(closing_force(c, motion_, motion_.locate(c)), 0.0, excess);
   }
   position_ = motion_.u;
 }
@@ -288,38 +288,28 @@ bool MotionRates::rated(int c) const {
   return law.active() && law.kind == contact::FrictionMemoryKind::return_map && law.damping > 0.0;
 }
 
+void MotionRates::close(int c, const contact::ContactAxes& face) {
+  const auto here = motion_.locate(c).axes();
+  set_regime(c, true, false);
+  regimes_[c].axes = here.opposite(face) ? here.reversed() : here;
+}
+
 void MotionRates::set_regime(int c, bool closed, bool slides) {
   Regime& regime = regimes_[c];
-  if (closed && !regime.closed) {
-    const auto at = motion_.locate(c);
-    regime.axes = passes(c, at) ? at.axes().reversed() : at.axes();
-  }
-  regime.leaves = located_ && !closed && (regime.closed || regime.leaves);
+  if (closed && !regime.closed)
+    regime.axes = motion_.locate(c).axes();
+  if (closed || !located_)
+    regime.excess = 0.0;
+  else if (regime.closed)
+    regime.excess = std::max(0.0, closing_force(c, motion_, face_of(c, motion_)));
   regime.closed = closed;
   regime.slides = slides;
 }
 
-/// Whether a contact that closes leaves its face for the opposite one, which is nearer than the state is exact: as far outside its face as it is
-/// inside it would be on the other.
-bool MotionRates::passes(int c, const contact::Location& at) {
-  if (!leaves(c, motion_, at))
-    return false;
-  double &y = motion_.u[static_cast<std::size_t>(c)],
-         &z = motion_.u[static_cast<std::size_t>(contacts_.width + c)];
-  const double y0 = y, z0 = z;
-  y -= 2.0 * at.gap * at.ny;
-  z -= 2.0 * at.gap * at.nz;
-  const auto there = motion_.locate(c);
-  y = y0;
-  z = z0;
-  return there.gap <= 0.0 && at.axes().opposite(there.axes());
-}
-
-/// Whether an open contact is still at the face on which it has opened, and goes away from it.
-bool MotionRates::leaves(int c, const ContactMotion& motion, const contact::Location& at) const {
-  const Regime& regime = regimes_[c];
-  return regime.leaves && at.gap <= 0.0 && !regime.axes.opposite(at.axes()) &&
-         motion.penetration_rate(c, at.axes()) < 0.0;
+/// What has to be positive for contact c to be closed, N.
+double MotionRates::closing_force(int c, const ContactMotion& motion, const contact::Location& at) const {
+  const Normal normal = normal_of(c, motion, at);
+  return std::min(contacts_.supports[c].normal.stiffness * normal.penetration, normal.force);
 }
 
 /// Where a contact is; of one that is closed, from its face.
@@ -361,15 +351,16 @@ Margins MotionRates::margin(int c, const ContactMotion& motion, Vec2 in_state) c
   const auto at = face_of(c, motion);
   const Normal normal = normal_of(c, motion, at);
   const contact::FrictionLaw& law = contacts_.supports[c].friction;
-  Margins margins{std::min(contacts_.supports[c].normal.stiffness * normal.penetration, normal.force), -1.0};
-  if (located_ && leaves(c, motion, at))
-    margins.normal = -std::abs(margins.normal);
+  const Regime& regime = regimes_[c];
+  Margins margins{closing_force(c, motion, at), -1.0};
+  if (located_ && !regime.axes.opposite(at.axes()))
+    margins.normal -= regime.excess;
   if (law.active() && !locates_friction(c)) {
-    margins.friction = regimes_[c].slides ? 1.0 : -1.0;
+    margins.friction = regime.slides ? 1.0 : -1.0;
   } else if (law.active()) {
     const Vec2 trial = law.trial(used_spring(c, in_state, at.axes()), motion.slip(c, at.axes()));
     // at a touch the force is 0 up to round-off: a contact without damper, whose spring is 0 then, sticks
-    margins.friction = norm(trial) - law.coefficient(regimes_[c].slides) * std::max(0.0, normal.force);
+    margins.friction = norm(trial) - law.coefficient(regime.slides) * std::max(0.0, normal.force);
   }
   return margins;
 }

@@ -15,8 +15,8 @@
 ///
 /// Forces are those of the laws (normal_law.hpp, friction_law.hpp), or `located`: each contact keeps the branch of its regime (friction of `reference` excepted), smooth
 /// across its bounds, so that a scheme sees smooth rates and finds by `margin` where a regime ends. A closed contact keeps its face, too: where
-/// the opposite one is nearer, its penetration is negative and its regime over. An open contact that still leaves its face does not close on
-/// it: what the state at the event has of a force there is an error of the step. Without a gap it closes on the opposite face.
+/// the opposite one is nearer, its penetration is negative and its regime over. A contact that opens does so at the force 0: what the state
+/// at the event has above it is an error of the step, and does not count as a force that closes the contact again.
 #pragma once
 #include "transient/contacts/contact_motion.hpp"
 #include "transient/contacts/contact_trial.hpp"
@@ -32,13 +32,13 @@ struct Regime {
   bool closed = false; ///< with a normal force
   bool slides = false;
   contact::ContactAxes axes; ///< of the face on which it is or was last closed
-  bool leaves =
-      false; ///< it has opened at an event, and no state that was accepted since has been clear of the face
+  double excess =
+      0.0; ///< N: the least margin, if positive, of the accepted states since it has opened at an event
 };
 
 /// How far a contact is inside its laws' branches, N. Regimes end where a margin passes zero.
 struct Margins {
-  double normal; ///< > 0: closed; min(K_N p, K_N p + c p')
+  double normal; ///< > 0: closed; min(K_N p, K_N p + c p'), of an open contact less Regime::excess
   double
       friction; ///< > 0: slides; |trial| - bound. Without friction, and in stick of `reference`, -1; in its slip 1.
 };
@@ -92,8 +92,9 @@ public:
   // Regimes:
   void locate_regimes(bool located) { located_ = located; }
   [[nodiscard]] Regime regime(int c) const { return regimes_[c]; }
-  /// A contact that closes does so on the face where the state that `rate` was called for last has it; on the opposite one where it
-  /// leaves that face and the gap between both is below the error of the state.
+  /// For the state that `rate` was called for last, as `set_regime`: contact c closes on a face, which without a gap need not be where the
+  /// error of that state has it.
+  void close(int c, const contact::ContactAxes& face);
   void set_regime(int c, bool closed, bool slides);
   /// The margins of contact c where `motion` has it, `spring` the T of the state.
   [[nodiscard]] Margins margin(int c, const ContactMotion& motion, contact::Vec2 spring) const;
@@ -121,8 +122,7 @@ private:
   /// N, of a contact that touches.   @param state  with its axes and its displacement since the last commit
   [[nodiscard]] contact::Vec2 stretched_since_touch(int c, const ContactState& state) const;
   [[nodiscard]] bool locates_friction(int c) const;
-  [[nodiscard]] bool passes(int c, const contact::Location& at);
-  [[nodiscard]] bool leaves(int c, const ContactMotion& motion, const contact::Location& at) const;
+  [[nodiscard]] double closing_force(int c, const ContactMotion& motion, const contact::Location& at) const;
   [[nodiscard]] contact::Location face_of(int c, const ContactMotion& motion) const;
   [[nodiscard]] Normal normal_of(int c, const ContactMotion& motion, const contact::Location& at) const;
   [[nodiscard]] contact::Vec2 used_spring(int c, contact::Vec2 spring,

@@ -59,6 +59,39 @@ Scene driven_between_planes() {
   return s;
 }
 
+/// Of a free mass of 1 kg that starts inside a stop and moves outwards, until it comes to rest or leaves the stop.
+struct Rebound {
+  contact::NormalLaw law;
+  double penetration, speed; ///< m, m/s outwards
+  Harmonic load;             ///< N, into the stop
+  double duration;
+  contact::Obstacle obstacle;
+};
+
+struct ForceMeans {
+  double force = 0.0, closed = 0.0; ///< N, share of the time
+};
+
+/// By the laws, with Heun's method.
+ForceMeans integrate(const Rebound& r, int steps) {
+  const double h = r.duration / steps;
+  double p = r.penetration, rate = -r.speed;
+  ForceMeans means;
+  const auto load = [&](double t) {
+    return r.load.amplitude * std::sin(2.0 * std::numbers::pi * r.load.frequency * t + r.load.phase);
+  };
+  const auto force = [&](double at, double by) { return contact::normal_force(r.law, at, by); };
+  for (int i = 0; i < steps; ++i) {
+    const double now = force(p, rate), a = load(i * h) - now, p1 = p + h * rate, v1 = rate + h * a,
+                 next = force(p1, v1), b = load((i + 1) * h) - next;
+    means.force += 0.5 * (now + next) / steps;
+    means.closed += 0.5 * ((now > 0.0) + (next > 0.0)) / steps;
+    p += 0.5 * h * (rate + v1);
+    rate += 0.5 * h * (a + b);
+  }
+  return means;
+}
+
 double largest_difference(const History& a, const History& b) { return (a.q - b.q).cwiseAbs().maxCoeff(); }
 
 } // namespace
@@ -269,6 +302,30 @@ TEST(RungeKutta54, KeepsFrictionWithinItsBoundWhereTheNormalTurns) {
   for (Eigen::Index j = 0; j < run.time.size(); ++j)
     EXPECT_LE(std::hypot(run.along_x(0, j), run.along_t(0, j)), friction * run.normal(0, j) + allowed)
         << run.time(j);
+}
+
+// The forces of spring and damper, K p + c p', end while the mass penetrates, and are back before it moves inwards again. Between planes without
+// clearance, too, it is not on the opposite one then.
+TEST(RungeKutta54, ClosesAContactWhoseForceIsBackWhileItStillLeaves) {
+  const contact::Obstacle stop = Stop{0.0, PlaneAxis::y}, planes = contact::PlanePair{0.0, PlaneAxis::y};
+  const Harmonic steady{30.0, 1e-6, 0.5 * std::numbers::pi}, turning{60.0, 100.0, -0.5 * std::numbers::pi};
+  const contact::NormalLaw kelvin_voigt{1e4, 100.0}, hunt_crossley{1e4, 0.0, 2.0};
+  for (const Rebound& r : {Rebound{kelvin_voigt, 0.00452, 0.45, steady, 0.02, stop},
+                           Rebound{kelvin_voigt, 0.00452, 0.45, steady, 0.02, planes},
+                           Rebound{hunt_crossley, 0.0045, 0.4, turning, 0.006, stop},
+                           Rebound{hunt_crossley, 0.0045, 0.4, turning, 0.006, planes}}) {
+    Scene scene = mass_point(1.0, Vec3::Zero(), r.duration);
+    start(scene, 1.0, Vec3(0, r.penetration, 0), Vec3(0, -r.speed, 0));
+    scene.contacts = {contact_of(1.0, {r.obstacle, r.law, {}})};
+    scene.loads = {force_on(1.0, Vec3(0, 1.0, 0), r.load)};
+    const ForceMeans exact = integrate(r, 200000);
+    for (const double tolerance : {1e-6, 1e-8, 1e-10}) {
+      const auto found = simulate(scene, adaptive(tolerance), r.duration).statistics[0];
+      const double allowed = 1e-5 + 30.0 * tolerance; // of the integration, and of the steps
+      EXPECT_NEAR(found.normal_mean, exact.force, allowed * exact.force) << tolerance;
+      EXPECT_NEAR(found.contact_time_ratio, exact.closed, allowed) << tolerance;
+    }
+  }
 }
 
 } // namespace runge_kutta_54_test
