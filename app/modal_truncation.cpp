@@ -31,12 +31,10 @@ std::string asked_for(const study::Modes& modes) {
 } // namespace
 
 double end_of_modes(const study::Modes& modes, const modal::Basis& basis) {
-  if (modes.up_to_hz)
-    return *modes.up_to_hz;
-  const Eigen::Index found = basis.true_modes();
-  if (found == 0 || found < *modes.count)
+  if (basis.complete)
     return std::numeric_limits<double>::infinity();
-  return basis.omega.head(found).maxCoeff() / (2.0 * std::numbers::pi);
+  return modes.up_to_hz ? *modes.up_to_hz
+                        : basis.omega.head(basis.true_modes()).maxCoeff() / (2.0 * std::numbers::pi);
 }
 
 std::string load_band_warning(const study::Study& study, const std::vector<modal::Basis>& bases,

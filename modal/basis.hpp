@@ -33,6 +33,7 @@ struct Basis {
                                                ///< add up to, but for the share of restrained dofs
   double orthogonality = 0.0;                  ///< max |Phi^T M Phi - I|
   bool splits_group = false; ///< the last mode has others of the same frequency that were not kept
+  bool complete = false;     ///< the structure has no more modes
   bool distributed = false;  ///< solved over all ranks
 
   [[nodiscard]] Eigen::Index size() const { return omega.size(); }

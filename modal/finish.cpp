@@ -184,6 +184,7 @@ Basis finish(const fem::Model& model, const fem::Structure& structure, const Eig
   const auto kept_places = std::span(places).first(static_cast<std::size_t>(kept));
   basis.shapes = basis.shapes(Eigen::all, kept_places).eval();
   basis.splits_group = cuts_group(squares, kept);
+  basis.complete = kept == squares.size();
   basis.omega = squares.head(kept).cwiseSqrt();
   describe(model, structure, lambda(kept_places), basis);
   basis.error += 0.5 * refused(kept_places);

@@ -21,6 +21,7 @@ struct Cut {
 /// the digits that the round-off of K takes from the eigensolver. Modes of a cluster share their mean lambda and get
 /// their canonical form. Then omega^2 is that with the motion inside the beams (fem/inner_motion.hpp), by which modes
 /// are put in order and cut; those that are equal in it share its mean.
+/// `complete`: all that are given are kept.
 /// @param rigid M-orthonormal motions without strain, @param pairs elastic modes, clusters complete
 /// @throws core::ComputationError where round-off makes the solver's lambda differ from the Rayleigh quotient
 /// by per cents

@@ -76,6 +76,7 @@ Basis solve_modes(MPI_Comm comm, const fem::Model& model, const fem::Structure& 
   if (structure.equations == 0) {
     basis.shapes.resize(static_cast<Eigen::Index>(structure.nodes.size()) * core::dofs_per_node, 0);
     basis.participation.resize(0, 3);
+    basis.complete = true;
     return basis;
   }
   const Cut cut = cut_of(wanted);
@@ -95,8 +96,10 @@ Basis solve_modes(MPI_Comm comm, const fem::Model& model, const fem::Structure& 
                     "fewer modes",
                     structure.equations));
   core::agree(comm, [&] {
-    if (core::rank(comm) == 0)
-      basis = finish(model, structure, rigid, dense ? dense_modes(model, structure, rigid) : pairs, cut);
+    if (core::rank(comm) != 0)
+      return;
+    basis = finish(model, structure, rigid, dense ? dense_modes(model, structure, rigid) : pairs, cut);
+    basis.complete = basis.complete && dense; // iteration finds some of them
   });
   broadcast(comm, 0, basis);
   basis.nodes = structure.nodes;
@@ -116,6 +119,7 @@ void broadcast(MPI_Comm comm, int root, Basis& basis) {
   MPI_Bcast(&basis.static_modes, 1, MPI_INT64_T, root, comm);
   MPI_Bcast(&basis.orthogonality, 1, MPI_DOUBLE, root, comm);
   MPI_Bcast(&basis.splits_group, 1, MPI_CXX_BOOL, root, comm);
+  MPI_Bcast(&basis.complete, 1, MPI_CXX_BOOL, root, comm);
   MPI_Bcast(&basis.distributed, 1, MPI_CXX_BOOL, root, comm);
 }
 

@@ -34,6 +34,7 @@ void write_basis(const h5::Group& group, const modal::Basis& basis) {
   group.set("static_modes", std::int64_t{basis.static_modes});
   group.set("orthogonality", basis.orthogonality);
   group.set("splits_group", std::int64_t{basis.splits_group});
+  group.set("complete", std::int64_t{basis.complete});
   group.set("distributed", std::int64_t{basis.distributed});
 }
 
@@ -65,6 +66,7 @@ modal::Basis read_basis(const h5::Group& group) {
     throw h5::Failure("more static modes than modes");
   basis.orthogonality = group.number("orthogonality");
   basis.splits_group = group.integer("splits_group") != 0;
+  basis.complete = group.integer("complete") != 0;
   basis.distributed = group.integer("distributed") != 0;
   return basis;
 }

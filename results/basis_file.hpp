@@ -5,7 +5,8 @@
 ///     /modes (one structure) or /modes/0, /modes/1 ...: frequency [k] Hz, angular_frequency [k] rad/s,
 ///     damping [k], mass [k] kg,
 ///         residuals [k], shapes [k, nodes, 6] (ux uy uz rx ry rz), nodes [nodes], damping_matrix [k, k] 1/s
-///         where it is not diagonal; attributes orthogonality, distributed, static_modes (so many last ones)
+///         where it is not diagonal; attributes orthogonality, complete (there are no more), distributed, static_modes (so many
+///         last ones)
 #pragma once
 #include "results/hdf5.hpp"
 #include "results/run_results.hpp"

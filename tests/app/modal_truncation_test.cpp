@@ -46,6 +46,37 @@ TEST(ModalTruncation, ALoadAboveTheModesIsWarnedAboutWithItsShareAndTheCure) {
             std::string::npos);
 }
 
+// A mass that moves along x and y, with 1.6 and 3.2 Hz.
+TEST(ModalTruncation, AStructureWithoutMoreModesIsNotWarnedAbout) {
+  const Workshop folder;
+  folder.write("mesh.msh", lone_points({"mass"}).text());
+  const std::string study = R"([mesh]
+file = "mesh.msh"
+[[masses]]
+group = "mass"
+mass = 1.0
+[[springs]]
+group = "mass"
+stiffness = [100.0, 400.0, 0, 0, 0, 0]
+[[restraints]]
+group = "mass"
+fixed = ["uz", "rx", "ry", "rz"]
+[[loads]]
+group = "mass"
+direction = [1.0, 1.0, 0.0]
+harmonic = { amplitude = 1.0, frequency = 10.0 }
+[transient]
+duration = 1.0
+)";
+  const auto warned = [&](const char* modes) {
+    return says(folder.run_text(study, {"--set", modes}).summary["warnings"].dump(), "excites no mode");
+  };
+  for (const char* all : {"modes.count=2", "modes.count=3", "modes.up_to_hz=4"})
+    EXPECT_FALSE(warned(all)) << all;
+  for (const char* first : {"modes.count=1", "modes.up_to_hz=2"})
+    EXPECT_TRUE(warned(first)) << first;
+}
+
 TEST(ModalTruncation, FlexibilityThatTheModesLackIsAWarningWithItsFactor) {
   const Workshop folder;
   const std::string study = supported(folder, "", 100.0);

@@ -22,6 +22,7 @@ std::vector<modal::Basis> bases() {
   out[1].damping_matrix = Eigen::MatrixXd::NullaryExpr(
       6, 6, [](Eigen::Index i, Eigen::Index j) { return double(i) + 10.0 * double(j); });
   out[1].distributed = true;
+  out[1].complete = true;
   out[1].static_modes = 2;
   modal::Basis none;
   none.nodes = {50};
@@ -54,6 +55,7 @@ TEST(Bases, ComeBackBitForBit) {
     EXPECT_EQ(a.moving_mass, b.moving_mass);
     EXPECT_EQ(a.orthogonality, b.orthogonality);
     EXPECT_EQ(a.static_modes, b.static_modes);
+    EXPECT_EQ(a.complete, b.complete);
     EXPECT_EQ(a.distributed, b.distributed);
   }
 }
