@@ -3,7 +3,9 @@
 #include "post/impact_table.hpp"
 #include "post/node_statistics.hpp"
 #include "scenes.hpp"
+#include "transient/splitting/splitting.hpp"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -115,6 +117,41 @@ TEST(MacroSteps, TakeNothingOffHarmonicLoads) {
     EXPECT_NEAR(result.node.displacement[1].std / std::abs(amplitude / std::numbers::sqrt2), 1.0, 1e-4)
         << macro_steps;
   }
+}
+
+// A band that ends at 30 macro-steps a period, below the frequency of the mass.
+TEST(MacroSteps, TakeNothingOffRandomLoads) {
+  constexpr double force = 2.0;
+  const double f = 1.0 / (30.0 * 12.0 * h);
+  Scene scene = mass_point(mass, Vec3(0.0, stiffness / 100.0, stiffness / 100.0), 200.0 / f);
+  scene.contacts = {contact_of(mass, {contact::Circle{1.0}, {stiffness}, {}})};
+  scene.loads = {force_on(mass, Vec3(0.0, force, 0.0), Random{1.0, 0.7 * f, f, 3})};
+  const Result single = simulate_with(scene, 1), by_macro_steps = simulate_with(scene, 12);
+  EXPECT_LE(by_macro_steps.report.counts.evaluations, 1); // the first step
+  EXPECT_NEAR(by_macro_steps.node.displacement[1].std / single.node.displacement[1].std, 1.0, 1e-4);
+}
+
+// Steps of one length meet those of another with the loads that these have there.
+TEST(MacroSteps, EndWhereTheNextStepStarts) {
+  Scene scene = swinging(0.1);
+  scene.loads = {force_on(mass, Vec3(0.0, 1.0, 0.5), Harmonic{1.0, 60.0})};
+  const auto scheme = make_splitting(scene, h, {.longest = 12});
+  const double instant = 1e-9 * h;
+  int changes = 0;
+  for (double before = h, end = 0.0; end < 0.09;) {
+    const Record& record = scheme->advance();
+    end = record.time + 0.5 * record.step;
+    changes += record.step > 1.5 * before || record.step < before / 1.5;
+    before = record.step;
+    std::array<double, 3> q{}, v{}, next_q{}, next_v{};
+    scheme->state_at(end - instant, q.data(), v.data());
+    scheme->state_at(end + instant, next_q.data(), next_v.data());
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      EXPECT_NEAR(next_q[i], q[i], 1e-9 * gap) << end;
+      EXPECT_NEAR(next_v[i], v[i], 1e-9) << end; // m/s
+    }
+  }
+  EXPECT_GT(changes, 20);
 }
 
 // The record at its end is the first of the window, and weighs half of it too much or too little.
