@@ -187,7 +187,8 @@ private:
     auto after = state_after(places_[k], *state, loads_[k][at(end)], time);
     for (const WornBody body : {WornBody::tube, WornBody::support})
       if (!after || depth_of(after->depth, body) >= limit_of(places_[k].support, body))
-        life_at_place(k, body, end) = std::min(life_at_place(k, body, end), life_from_here(k, body, end));
+        if (const double life = life_from_here(k, body, end); !std::isnan(life))
+          life_at_place(k, body, end) = std::min(life_at_place(k, body, end), life);
     state = std::move(after);
   }
 
@@ -195,7 +196,7 @@ private:
     return lives_[static_cast<std::size_t>(body)][k][at(end)];
   }
 
-  /// s, at the present work rates; infinity: never.
+  /// s, at the present work rates; infinity: never; not a number: the wear leaves its geometry before.
   [[nodiscard]] double life_from_here(std::size_t k, WornBody body, End end) const {
     return time_ + time_to_limit(places_[k], *states_[k][at(end)], loads_[k][at(end)], body);
   }
@@ -205,9 +206,10 @@ private:
     double first = no_life;
     bool beyond = false;
     for (std::size_t k = support.first; k < support.first + support.count; ++k) {
-      beyond = beyond || !states_[k][at(end)];
+      const double from_here = states_[k][at(end)] ? life_from_here(k, body, end) : no_value;
+      beyond = beyond || std::isnan(from_here);
       first = std::min({first, lives_[static_cast<std::size_t>(body)][k][at(end)],
-                        states_[k][at(end)] ? life_from_here(k, body, end) : no_life});
+                        std::isnan(from_here) ? no_life : from_here});
     }
     return beyond && std::isinf(first) ? no_value : first;
   }

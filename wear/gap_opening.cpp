@@ -14,6 +14,7 @@ namespace fretwork::wear {
 namespace {
 
 constexpr double root_error = 1e-12; ///< of a depth from a bracketed root
+constexpr double limit_error = 1e-9; ///< of the depth at the time to the limit
 /// A time to the limit is looked for between these, s, in steps of a factor.
 constexpr double first_look = 0.01 * year, last_look = 1e9 * year, look_factor = 1.05;
 
@@ -234,13 +235,16 @@ double time_to_limit(const Place& place, const PlaceState& state, std::span<cons
   };
   if (lost(0.0) >= 0.0)
     return 0.0;
-  if (!at.wears() || std::isinf(limit))
+  const WornVolume& own = body == WornBody::tube ? at.tube : at.support;
+  if (!(own.initial_rate > 0.0) || std::isinf(limit))
     return std::numeric_limits<double>::infinity();
   double before = 0.0;
   for (double time = first_look; time < last_look; time *= look_factor) {
     if (lost(time) >= 0.0) {
       const double found = root(lost, before, time);
-      return at.depth(found) ? found : std::numeric_limits<double>::infinity();
+      const auto depth = at.depth(found); // at the end of the geometry `lost` jumps from below 0 to the limit
+      const bool reached = depth && depth_of(*depth, body) >= (1.0 - limit_error) * limit;
+      return reached ? found : std::numeric_limits<double>::quiet_NaN();
     }
     before = time;
   }

@@ -97,7 +97,7 @@ enum class WornBody { tube, support };
 [[nodiscard]] inline double depth_of(const PairDepth& depth, WornBody body) {
   return body == WornBody::tube ? depth.tube : depth.support;
 }
-/// s from the state until a body has lost its limit at constant work rates; infinity: never, or beyond the geometry.
+/// s from the state until a body has lost its limit at constant work rates; infinity: never; not a number: the wear leaves its geometry before.
 /// @throws core::Error for input out of range
 [[nodiscard]] double time_to_limit(const Place& place, const PlaceState& state,
                                    std::span<const OperatingState> loads, WornBody body = WornBody::tube);

@@ -71,6 +71,21 @@ TEST(GapOpening, GivesTheLivesOfSupports) {
   EXPECT_TRUE(stages_of("").second.is_null());
 }
 
+TEST(GapOpening, HasNoLifeWhereTheWearLeavesItsGeometry) {
+  const Workshop folder;
+  const Results run = folder.run_text(
+      bundle(folder, 1, "[transient]\nduration = 0.01\n") +
+      "[[wear]]\ncoefficient = 2.0e-14\nsupport_coefficient = 1e-13\nlength = 0.03\nform = \"reference\"\n"
+      "inclination = 1.0\nstates = [{ share = 1, work_rate = [1e-3, 2e-3, 4e-3] }]\n" +
+      opening("wall_share = 0.1\nleast_wall_share = 0.1\nyears = 10000\n"));
+  EXPECT_EQ(opened(run)["end"], "beyond_geometry");
+  for (const auto& life :
+       {run.summary["wear"]["supports"][0]["life_years"], opened(run)["supports"][0]["life_years"]}) {
+    EXPECT_EQ(life["end"], "beyond_geometry");
+    EXPECT_TRUE(life["value"].is_null());
+  }
+}
+
 TEST(GapOpening, RunsEachStageAtItsGap) {
   const Workshop folder;
   const std::string study = sliding_bundle(folder, 1);

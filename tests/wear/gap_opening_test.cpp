@@ -230,6 +230,40 @@ TEST(GapOpening, OfSectorsIsAProfile) {
                  {"2 sectors do not enclose a hole"});
 }
 
+// An inclined scar of the reference form is described up to B theta = 0.3 mm for both bodies together, the limit of the tube alone is 0.28 mm.
+TEST(GapOpening, LifeIsReachedAtTheLimitOnly) {
+  constexpr double thin = 7e-4, limit = 0.4 * thin, deepest = 0.03 * 0.01;
+  int reached = 0, beyond = 0;
+  for (int k = 0; k < 60; ++k) {
+    const double tube = 1e-14 * std::pow(1.2, k), support = 3e-14;
+    const Place place{{SharedScar{DrilledHole{radius, clearance, 0.03, 0.01}, Form::reference}, Archard{tube},
+                       thin, Archard{support}},
+                      clearance};
+    const std::vector<OperatingState> loads{{1.0, 5e-3}};
+    const double time = time_to_limit(place, new_place(place), loads);
+    if (limit * (tube + support) / tube > deepest) { // p_t = p K_t/(K_t + K_s)
+      EXPECT_TRUE(std::isnan(time)) << tube << ": " << time / year << " years";
+      ++beyond;
+      continue;
+    }
+    ++reached;
+    const auto then = state_after(place, new_place(place), loads, time);
+    ASSERT_TRUE(then) << tube;
+    EXPECT_NEAR(then->depth.tube / limit, 1.0, bracketed) << tube;
+  }
+  EXPECT_GT(beyond, 10);
+  EXPECT_GT(reached, 10);
+}
+
+TEST(GapOpening, HasNoLifeWhereTheTubeDoesNotWear) {
+  Place place = hole_place();
+  place.support.tube = Archard{0.0};
+  const std::vector<OperatingState> loads{{1.0, 5e-3}};
+  EXPECT_TRUE(std::isinf(time_to_limit(place, new_place(place), loads)));
+  EXPECT_TRUE(std::isinf(
+      time_to_limit(hole_place(), new_place(hole_place()), std::vector<OperatingState>{{1.0, 0.0}})));
+}
+
 TEST(GapOpening, RefusesWhatMakesNoSense) {
   const std::array place{hole_place()};
   const std::array state{new_place(place[0])};
