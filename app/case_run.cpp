@@ -195,9 +195,12 @@ std::vector<std::string> CaseRunner::check(const std::vector<std::string>& overr
       "or each = true)"};
 }
 
-void CaseRunner::compute_nominal() {
+void CaseRunner::compute_nominal(bool keeps_cases) {
   const Case nominal_case = with_bases(read_case({}));
-  known_ = warnings_of(nominal_case, scenes_of(nominal_case));
+  const std::vector<BuiltScene> scenes = scenes_of(nominal_case);
+  if (keeps_cases)
+    check_size_of_series(nominal_case.study, scenes);
+  known_ = warnings_of(nominal_case, scenes);
 }
 
 sweep::CaseResult CaseRunner::operator()(const std::vector<std::string>& overrides) {

@@ -25,8 +25,9 @@ public:
   /// @throws core::Error
   [[nodiscard]] std::vector<std::string> check(const std::vector<std::string>& overrides);
   /// Modes, flexibility and projections of the nominal case, which most cases share. What it warns of is no longer said of cases.
+  /// @param keeps_cases  refuses series that would not fit in memory, before the first case
   /// @throws core::Error, core::ComputationError where it has none
-  void compute_nominal();
+  void compute_nominal(bool keeps_cases);
   /// @throws core::Error, core::ComputationError where the case has no result
   [[nodiscard]] sweep::CaseResult operator()(const std::vector<std::string>& overrides);
 

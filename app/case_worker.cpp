@@ -33,7 +33,7 @@ json nominal_answer(const Request& request, bool with_warnings, Inputs& inputs,
     use_made_mesh(inputs);
     make_keys(request, inputs);
     runner.emplace(study::parse(request.study), request.overrides, inputs);
-    runner->compute_nominal();
+    runner->compute_nominal(study::read_sweep(study::load(request.study, request.overrides)).keep > 0);
     if (with_warnings)
       warnings = warnings_of_case(request);
     return {};

@@ -21,21 +21,6 @@ constexpr double most_series_bytes = 4294967296.0;
 /// On the clock: what `check` spends on the pilot runs of all scenes.
 constexpr std::chrono::duration<double> longest_pilots{1.5};
 
-void check_size_of_series(const study::Study& study, const std::vector<BuiltScene>& scenes) {
-  const double duration = study.transient->duration, every = output_interval(study);
-  double columns = 1.0; // values at an output: modal and of contacts and nodes, as in results.h5
-  for (const BuiltScene& built : scenes)
-    columns += 2.0 * static_cast<double>(built.modes) + 10.0 * static_cast<double>(built.contacts.size()) +
-               9.0 * static_cast<double>(built.nodes.size());
-  const double bytes = duration / every * columns * static_cast<double>(sizeof(double));
-  if (bytes > most_series_bytes)
-    throw core::Error(fmt::format(
-        "output.every = {} over transient.duration = {} s: {:.3g} outputs of {} values would take {:.3g} GB, "
-        "at "
-        "most {:.3g} are held; sample less often (statistics see every step), or shorten the duration",
-        every, duration, duration / every, columns, bytes * 1e-9, most_series_bytes * 1e-9));
-}
-
 void check_size_of_impacts(const study::Study& study, const std::vector<BuiltScene>& scenes,
                            const std::vector<transient::StepChoice>& choices) {
   double rows = 0.0;
@@ -249,6 +234,21 @@ std::string short_step_warning(const transient::Scene& scene, const transient::S
 }
 
 } // namespace
+
+void check_size_of_series(const study::Study& study, const std::vector<BuiltScene>& scenes) {
+  const double duration = study.transient->duration, every = output_interval(study);
+  double columns = 1.0; // values at an output: modal and of contacts and nodes, as in results.h5
+  for (const BuiltScene& built : scenes)
+    columns += 2.0 * static_cast<double>(built.modes) + 10.0 * static_cast<double>(built.contacts.size()) +
+               9.0 * static_cast<double>(built.nodes.size());
+  const double bytes = duration / every * columns * static_cast<double>(sizeof(double));
+  if (bytes > most_series_bytes)
+    throw core::Error(fmt::format(
+        "output.every = {} over transient.duration = {} s: {:.3g} outputs of {} values would take {:.3g} GB, "
+        "at "
+        "most {:.3g} are held; sample less often (statistics see every step), or shorten the duration",
+        every, duration, duration / every, columns, bytes * 1e-9, most_series_bytes * 1e-9));
+}
 
 std::vector<transient::StepChoice> choose_steps(MPI_Comm comm, const study::Study& study,
                                                 const std::vector<BuiltScene>& scenes) {

@@ -16,6 +16,9 @@ namespace fretwork::app {
 [[nodiscard]] std::vector<transient::StepChoice> choose_steps(MPI_Comm comm, const study::Study& study,
                                                               const std::vector<BuiltScene>& scenes);
 
+/// @throws core::Error where the series of a run would not fit in memory
+void check_size_of_series(const study::Study& study, const std::vector<BuiltScene>& scenes);
+
 /// What watches and keeps the runs.
 struct AroundRuns {
   const ProgressCallback& progress;

@@ -87,16 +87,11 @@ public:
       if (first_rank_)
         remove_runs_but(kept);
     });
-    for (const std::int64_t number : kept) {
-      progress_.stage(fmt::format("case {}", number));
-      Request run = request_.request;
-      for (const std::string& text : sweep::overrides_of(plan_.sweep, results_.draws, number))
-        run.overrides.push_back(text);
-      run.directory = folder_of_case(plan_, number);
-      run.quiet = true;
-      run_chain(comm_, run, Stage::transient);
-    }
-    results_.summary["worst"] = kept;
+    std::vector<std::int64_t> with_results;
+    for (const std::int64_t number : kept)
+      if (keep(number))
+        with_results.push_back(number);
+    results_.summary["worst"] = with_results;
   }
 
   /// On rank 0: table, summary, report; the text for the terminal.
@@ -126,6 +121,31 @@ public:
   }
 
 private:
+  /// Collective: runs a case with all its results. @return whether it has them; if not, a warning says why
+  [[nodiscard]] bool keep(std::int64_t number) {
+    progress_.stage(fmt::format("case {}", number));
+    Request run = request_.request;
+    for (const std::string& text : sweep::overrides_of(plan_.sweep, results_.draws, number))
+      run.overrides.push_back(text);
+    run.directory = folder_of_case(plan_, number);
+    run.quiet = true;
+    const auto refused = [&](const std::exception& error) { // alike on all ranks
+      results_.summary["warnings"].push_back(
+          fmt::format("case {} could not be kept: {}", number, error.what()));
+      return false;
+    };
+    try {
+      run_chain(comm_, run, Stage::transient);
+    } catch (const core::Interrupted&) {
+      throw;
+    } catch (const core::ComputationError& error) {
+      return refused(error);
+    } catch (const core::Error& error) {
+      return refused(error);
+    }
+    return true;
+  }
+
   [[nodiscard]] std::int64_t next_blocks(std::int64_t blocks) const {
     return std::min(2 * blocks, plan_.sweep.until->most_draws / plan_.sweep.draws);
   }

@@ -153,6 +153,35 @@ values = [5.0, 40.0, 10.0]
   EXPECT_TRUE(says(sweep(text, "none", short_run).err, "no output is called \"tube.strain\""));
 }
 
+TEST_F(Sweeps, TheTableStandsWhereACaseCannotBeKept) {
+  const std::string text = sweep_of("straight_tube", R"(
+design = "grid"
+keep = "worst 2"
+[[sweep.variables]]
+name = "every"
+key = "output.every"
+values = [1.0e-3, 1.0e-9]
+)");
+  const Outcome outcome = sweep(text, "out", short_tube);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, "case 1 could not be kept: output.every = 1e-09 over")) << outcome.out;
+  EXPECT_FALSE(says(outcome.out, "case_1")) << outcome.out;
+  EXPECT_EQ(table_of(folder.path("out")).size(), 2u);
+  const auto summary = nlohmann::json::parse(bytes_of(folder.path("out/summary.json")));
+  EXPECT_EQ(summary["worst"], nlohmann::json({0}));
+  EXPECT_TRUE(fs::exists(folder.path("out/runs/case_0/results.h5")));
+  // of all cases: before the first one
+  const auto with_every = [&](const std::string& keep) {
+    return sweep_of("straight_tube",
+                    "design = \"grid\"\n" + keep +
+                        "[[sweep.variables]]\nkey = \"contacts.support.gap\"\nvalues = [1e-4]\n");
+  };
+  std::vector<std::string> dense = short_tube;
+  dense.insert(dense.end(), {"--set", "output.every=1e-9"});
+  EXPECT_TRUE(says(refusal(with_every("keep = \"worst 1\"\n"), dense), "sample less often"));
+  EXPECT_EQ(sweep(with_every(""), "none", dense).status, 0); // a table has no series
+}
+
 TEST_F(Sweeps, TurbulenceOfASeedAndAMissingSupportAreThoseOfARun) {
   const std::string text = sweep_of("tube_study", R"(
 design = "grid"
