@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/mpi.hpp"
 #include "core/share_out.hpp"
+#include "results/figures.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
@@ -226,11 +227,13 @@ std::string short_step_warning(const transient::Scene& scene, const transient::S
   } catch (const core::Error&) { // of absurdly many steps, which a fixed one may avoid
     return {};
   }
-  return automatic > far_below * fixed.step ? fmt::format("transient.step = {:.3g} s is {:.2g} times shorter "
-                                                          "than the automatic step, {:.3g} s, and the "
-                                                          "run takes as many times longer; leave step out",
-                                                          fixed.step, automatic / fixed.step, automatic)
-                                            : std::string();
+  if (!(automatic > far_below * fixed.step))
+    return {};
+  constexpr int digits = 2;
+  return fmt::format(
+      "transient.step = {:.3g} s is {} times shorter than the automatic step, {:.3g} s, and the "
+      "run takes as many times longer; leave step out",
+      fixed.step, results::without_exponent(automatic / fixed.step, digits), automatic);
 }
 
 } // namespace

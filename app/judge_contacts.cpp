@@ -3,6 +3,7 @@
 #include "app/shared_signals.hpp"
 #include "contact/restitution.hpp"
 #include "core/names.hpp"
+#include "results/figures.hpp"
 #include "results/totals.hpp"
 #include <algorithm>
 #include <cmath>
@@ -92,10 +93,9 @@ std::vector<StuckDampers> stuck_dampers(const study::Study& study, const std::ve
 }
 
 std::string range(double least, double most) {
-  const auto without_exponent = [](double x) {
-    return x < 1000.0 ? fmt::format("{:.3g}", x) : fmt::format("{:.0f}", x);
-  };
-  const std::string low = without_exponent(least), high = without_exponent(most);
+  constexpr int digits = 3;
+  const std::string low = results::without_exponent(least, digits),
+                    high = results::without_exponent(most, digits);
   return low == high ? low : low + " to " + high;
 }
 

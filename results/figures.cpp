@@ -9,6 +9,7 @@ namespace fretwork::results {
 namespace {
 
 constexpr int most_decimals = 7;
+constexpr double most_in_full = 1e15; ///< of a sentence; all digits of an integer below
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
@@ -35,6 +36,14 @@ std::string figure(double value, int digits) {
   if (size < shown_as_zero)
     return "0";
   return size >= 1e3 && size < 1e6 ? fmt::format("{:.0f}", value) : fmt::format("{:.{}g}", value, digits);
+}
+
+std::string without_exponent(double value, int digits) {
+  const double full = std::pow(10.0, digits);
+  if (value >= most_in_full || !(value >= full - 0.5)) // those below are shorter than their digits
+    return fmt::format("{:.{}g}", value, digits);
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) + 1.0 - digits);
+  return grouped(static_cast<std::int64_t>(std::llround(std::round(value / unit) * unit)));
 }
 
 double without_round_off(double value, double beside) {

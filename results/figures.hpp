@@ -21,6 +21,9 @@ inline constexpr double shown_as_zero = 1e-15;
 /// 12 345 678
 [[nodiscard]] std::string grouped(std::int64_t count);
 
+/// A figure for a sentence, 0 or from 1e-4 on, of `digits` digits: 0.0123, 4.7, 62 000.
+[[nodiscard]] std::string without_exponent(double value, int digits);
+
 /// `1 node`, `1 234 nodes`: the plural by "s".
 [[nodiscard]] std::string counted(std::int64_t count, const std::string& what);
 

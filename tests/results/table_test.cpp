@@ -30,6 +30,18 @@ std::vector<std::string> lines(const std::string& text) {
   return out;
 }
 
+TEST(Figures, OfSentencesHaveNoExponent) {
+  EXPECT_EQ(without_exponent(62'345.0, 2), "62 000");
+  EXPECT_EQ(without_exponent(99.7, 2), "100");
+  EXPECT_EQ(without_exponent(99.2, 2), "99");
+  EXPECT_EQ(without_exponent(4.71, 2), "4.7");
+  EXPECT_EQ(without_exponent(0.0, 3), "0");
+  EXPECT_EQ(without_exponent(0.01234, 3), "0.0123");
+  EXPECT_EQ(without_exponent(999.6, 3), "1 000");
+  EXPECT_EQ(without_exponent(47'123.0, 3), "47 100");
+  EXPECT_EQ(without_exponent(3e9, 3), "3 000 000 000");
+}
+
 TEST(TerminalTable, FitsAScreen) {
   RunResults results = made_up({.contacts = 60, .structures = 20, .modes = 40});
   results.warnings.assign(1, std::string(30, 'w') + " " + std::string(70, 'x') + " " + std::string(60, 'y'));
