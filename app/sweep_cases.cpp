@@ -35,7 +35,7 @@ std::string SweepCases::find_missing(const sweep::Draws& draws) {
       found = read_rows(plan_, draws);
   });
   missing_ = missing_cases(comm_, plan_, draws.rows(), found);
-  all_ = draws.rows();
+  all_ = cases_of_shard(draws);
   there_ = cases_of_shard(draws) - static_cast<std::int64_t>(missing_.size());
   const std::int64_t earlier = there_ - known_;
   known_ = cases_of_shard(draws);

@@ -44,7 +44,7 @@ private:
   std::optional<CaseWorker> worker_;
   core::SharedCounters* counters_ = nullptr; ///< blocks that were handed out; cases that have ended
   std::vector<std::int64_t> missing_;
-  std::int64_t all_ = 0;   ///< cases of the sweep
+  std::int64_t all_ = 0;   ///< cases of the shard
   std::int64_t there_ = 0; ///< cases that find_missing has found
   std::int64_t known_ = 0; ///< cases of the calls before
 };

@@ -79,16 +79,17 @@ class Sweeps(unittest.TestCase):
         self.assert_same(whole, killed)
 
     def test_a_sweep_that_is_ended_says_how_far_it_came(self):
-        for by, name in ((signal.SIGTERM, "SIGTERM"), (signal.SIGINT, "Ctrl-C (SIGINT)")):
-            directory = Path(self.folder.name) / name
-            command = [FRETWORK, "sweep", str(self.study), "-o", str(directory), "--no-report", "--set", "sweep.draws=100000"]
+        for by, name, more, cases in ((signal.SIGTERM, "SIGTERM", [], "100 000"), (signal.SIGINT, "Ctrl-C (SIGINT)", [], "100 000"),
+                                      (signal.SIGTERM, "SIGTERM", ["--shard", "2/4"], "25 000")):
+            directory = Path(self.folder.name) / f"{name} of {cases}"
+            command = [FRETWORK, "sweep", str(self.study), "-o", str(directory), "--no-report", "--set", "sweep.draws=100000", *more]
             process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
             while self.rows(directory) < 5 and process.poll() is None:
                 time.sleep(0.01)
             process.send_signal(by)
             out, _ = process.communicate(timeout=60)
             self.assertEqual(process.returncode, 2, out)
-            self.assertRegex(out, f"ended by {re.escape(name)}: [0-9 ]+ of 100 000 cases are there; the same command goes on")
+            self.assertRegex(out, f"ended by {re.escape(name)}: [0-9 ]+ of {cases} cases are there; the same command goes on")
             said = int(re.search(r": ([0-9 ]+) of", out)[1].replace(" ", ""))
             self.assertLessEqual(abs(self.rows(directory) - said), 1)
 
