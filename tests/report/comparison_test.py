@@ -79,8 +79,22 @@ class Comparison(unittest.TestCase):
         change_summary(self.folders[1], lambda summary: summary.update(stability=[{**entry, "cases": [case(-0.2)]}, {**entry, "name": "none", "cases": []}]))
         self.assertEqual(self.table("Stability").rows, [["all", "0.8", "1.2", "+50 %"], ["none", "-", "-", "-"]])
 
+    def test_has_no_velocity_ratio_where_the_flow_moves_no_mode(self):
+        entry = {"name": "all", "tube": "a", "cases": [{"margin": 1.0, "critical_mode": None}]}
+        change_summary(self.folders[0], lambda summary: summary.update(stability=[{**entry, "cases": [{"margin": 0.5, "critical_mode": 1}]}]))
+        change_summary(self.folders[1], lambda summary: summary.update(stability=[entry]))
+        self.assertEqual(self.table("Stability").rows, [["all", "0.5", "-", "-"]])
+
     def test_says_after_how_many_years_the_wear_is(self):
+        def change(summary):
+            for support, years in zip(summary["wear"]["supports"], (10, 10, 40)):
+                support["years"] = years
+
         self.assertEqual(self.table("Wear").title, "Wear after 40 years")
+        self.assertEqual(self.table("Wear of the supports").title, "Wear of the supports themselves after 40 years")
+        change_summary(self.folders[0], change)
+        self.assertEqual(self.table("Wear").title, "Wear after 10 and 40 years")
+        self.assertEqual(self.table("Wear of the supports").title, "Wear of the supports themselves after 10 and 40 years")
 
     def test_shows_changes_of_frequencies(self):
         rows = self.table("Frequencies").rows

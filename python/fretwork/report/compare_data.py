@@ -200,10 +200,10 @@ def damping(runs, names):
 
 
 def _velocity_ratios(run):
-    """By assessment, the largest V/Vc over its modes and constants; with several tubes by tube too."""
+    """By assessment, the largest V/Vc over its modes and constants, none where the flow moves no mode; with several tubes by tube too."""
     found = run.summary.get("stability", [])
     several = len({entry["tube"] for entry in found}) > 1
-    return {entry["name"] + (f", {entry['tube']}" if several else ""): max((1 - case["margin"] for case in entry["cases"] if case["margin"] is not None), default=None)
+    return {entry["name"] + (f", {entry['tube']}" if several else ""): max((1 - case["margin"] for case in entry["cases"] if case["margin"] is not None and case["critical_mode"] is not None), default=None)
             for entry in found}
 
 
@@ -295,13 +295,19 @@ def _wear(run, of=""):
     return {s["name"]: (of_sum(s[depth]["value"]) if s[depth] else None, life(s)) for s in run.summary.get("wear", {}).get("supports", []) if wears(s)}
 
 
+def _after(runs, of=""):
+    """The years of the depths compared: " after 10 and 40 years"."""
+    years = sorted({support["years"] for run in runs for support in run.summary.get("wear", {}).get("supports", []) if support["name"] in _wear(run, of)})
+    figures = [number(value) for value in years]
+    return f" after {' and '.join(filter(None, [', '.join(figures[:-1]), figures[-1]]))} years" if figures else ""
+
+
 def wear(runs, names):
-    years = {support["years"] for run in runs for support in run.summary.get("wear", {}).get("supports", [])}
-    return _worn(f"Wear after {number(years.pop())} years" if len(years) == 1 else "Wear", [_wear(run) for run in runs], names)
+    return _worn("Wear" + _after(runs), [_wear(run) for run in runs], names)
 
 
 def wear_of_supports(runs, names):
-    return _worn("Wear of the supports themselves", [_wear(run, "support_") for run in runs], names)
+    return _worn("Wear of the supports themselves" + _after(runs, "support_"), [_wear(run, "support_") for run in runs], names)
 
 
 def _intervals(runs, names, title, of=""):
