@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/mode_notes.hpp"
+#include "modal/canonical.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
@@ -64,10 +65,9 @@ std::string free_note(const std::vector<modal::Basis>& bases) {
                      ways, ways == 1 ? "" : "s", bases.size() == 1 || structures == 1 ? "it" : "them");
 }
 
-/// Of a list of ratios that differ between modes of equal frequency; else empty. How two such modes share their motion is round-off: in the two
-/// planes of a straight tube the ratios then belong to arbitrary directions.
+/// Of a list of ratios that differ between modes of equal frequency; else empty. Such modes have the directions of modal/canonical.hpp, in which their
+/// ratios then differ.
 std::string unequal_ratios_warning(const study::Study& study, const std::vector<modal::Basis>& bases) {
-  constexpr double equal_frequencies = 1e-6; // relative
   if (study.modes.flow_damping || !std::holds_alternative<std::vector<double>>(study.modes.damping))
     return {};
   std::string first;
@@ -75,7 +75,8 @@ std::string unequal_ratios_warning(const study::Study& study, const std::vector<
   for (std::size_t s = 0; s < bases.size(); ++s)
     for (Eigen::Index i = 0; i + 1 < bases[s].true_modes(); ++i) {
       const modal::Basis& basis = bases[s];
-      if (basis.omega(i) == 0.0 || basis.omega(i + 1) > (1.0 + equal_frequencies) * basis.omega(i) ||
+      const double lambda = basis.omega(i) * basis.omega(i), next = basis.omega(i + 1) * basis.omega(i + 1);
+      if (lambda == 0.0 || next - lambda > modal::cluster_gap * next ||
           basis.damping(i) == basis.damping(i + 1) || pairs++ > 0)
         continue;
       first =
@@ -86,9 +87,10 @@ std::string unequal_ratios_warning(const study::Study& study, const std::vector<
   return pairs == 0
              ? std::string()
              : fmt::format(
-                   "modes.damping: the list gives {}{}: modes of equal frequency have no directions of "
-                   "their own, which of them has which ratio is arbitrary; give them one ratio, or "
-                   "ratios by frequency (table)",
+                   "modes.damping: the list gives {}{}: modes of equal frequency lie along fixed axes (of a "
+                   "straight tube along x along y, then z), and a ratio is that of its direction; look at "
+                   "the "
+                   "effective masses of the modes, or give them one ratio, or ratios by frequency (table)",
                    first,
                    pairs > 1 ? fmt::format(" (and {} more such pair{})", pairs - 1, pairs > 2 ? "s" : "")
                              : "");

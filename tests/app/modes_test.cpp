@@ -38,6 +38,7 @@ TEST(ModesCommand, WarnsOfAListWithUnequalRatiosOfModesOfOneFrequency) {
   };
   const std::string unequal = warnings("[0.01, 0.02, 0.03, 0.03]");
   EXPECT_TRUE(says(unequal, "the list gives 0.01 to mode 1 and 0.02 to mode 2 of structure 0, both at "));
+  EXPECT_TRUE(says(unequal, "lie along fixed axes (of a straight tube along x along y, then z)"));
   EXPECT_TRUE(says(unequal, "(and 1 more such pair)")); // of the second tube, where the list begins anew
   EXPECT_FALSE(says(warnings("[0.01, 0.01, 0.03, 0.03]"), "the list gives"));
   EXPECT_FALSE(says(warnings("{ table = [[10, 0.01], [100, 0.02]] }"), "the list gives"));
