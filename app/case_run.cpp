@@ -2,6 +2,7 @@
 #include "app/case_run.hpp"
 #include "app/case_row.hpp"
 #include "app/checkpoints.hpp"
+#include "app/contact_notes.hpp"
 #include "app/expected_time.hpp"
 #include "app/force_sites.hpp"
 #include "app/job.hpp"
@@ -95,6 +96,8 @@ std::vector<std::string> CaseRunner::warnings_of(const Case& c, const std::vecto
   std::vector<std::string> out = c.warnings;
   for (const BuiltScene& built : scenes)
     out.insert(out.end(), built.warnings.begin(), built.warnings.end());
+  for (std::string& warning : start_warnings(c.study, c.placed, scenes))
+    out.push_back(std::move(warning));
   if (std::string missing = missing_flexibility_warning(c.study, scenes); !missing.empty())
     out.push_back(std::move(missing));
   return out;
@@ -156,6 +159,8 @@ CaseRunner::Case CaseRunner::read_case(const std::vector<std::string>& overrides
   out.structure = bases_.structure(out.study, overrides);
   out.placed = place_contacts(out.study, out.structure->mesh, out.structure->dry, out.warnings);
   out.inactive = take_inactive(out.placed);
+  for (std::string& warning : placement_warnings(out.study, out.structure->dry, out.placed))
+    out.warnings.push_back(std::move(warning));
   out.worn = worn_places(out.study, out.structure->model, out.placed);
   out.nodes = observed_nodes(out.study, out.structure->mesh);
   out.force_sites = force_sites(out.study, out.structure->mesh, out.structure->model);

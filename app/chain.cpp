@@ -221,8 +221,7 @@ private:
     const study::Study& study = inputs_.study;
     placed_ = place_contacts(study, mesh_, model_, out_.warnings);
     inactive_ = take_inactive(placed_);
-    warn(inside_obstacles(study, model_, placed_));
-    warn(contact_questions(study, model_, placed_));
+    warn(placement_warnings(study, model_, placed_));
     if (std::string few = few_outputs(study); !few.empty() && scenes_wanted_)
       out_.notes.push_back(std::move(few));
     if (scenes_wanted_)

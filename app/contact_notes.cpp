@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/contact_notes.hpp"
 #include "app/contact_laws.hpp"
+#include "app/contact_questions.hpp"
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
@@ -197,8 +198,6 @@ bool same_reversed(const PlacedContact& a, const PlacedContact& b) {
   });
 }
 
-} // namespace
-
 std::vector<std::string> lost_preloads(const study::Study& study, const std::vector<PlacedContact>& placed,
                                        const std::vector<BuiltScene>& scenes) {
   std::vector<std::string> out;
@@ -303,6 +302,26 @@ std::string twice_placed(const std::vector<PlacedContact>& placed) {
   return fmt::format("{}{} {}: they share its force, work rate and wear; leave one out", first,
                      pairs > 1 ? fmt::format(" (and {} more pair{})", pairs - 1, pairs > 2 ? "s" : "") : "",
                      where);
+}
+
+} // namespace
+
+std::vector<std::string> placement_warnings(const study::Study& study, const fem::Model& model,
+                                            const std::vector<PlacedContact>& placed) {
+  std::vector<std::string> out = inside_obstacles(study, model, placed);
+  for (std::string& question : contact_questions(study, model, placed))
+    out.push_back(std::move(question));
+  return out;
+}
+
+std::vector<std::string> start_warnings(const study::Study& study, const std::vector<PlacedContact>& placed,
+                                        const std::vector<BuiltScene>& scenes) {
+  std::vector<std::string> out;
+  if (std::string twice = twice_placed(placed); !twice.empty())
+    out.push_back(std::move(twice));
+  for (std::string& lost : lost_preloads(study, placed, scenes))
+    out.push_back(std::move(lost));
+  return out;
 }
 
 } // namespace fretwork::app

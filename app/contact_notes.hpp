@@ -13,18 +13,15 @@ namespace fretwork::app {
                                                      const std::vector<PlacedContact>& placed,
                                                      const std::vector<BuiltScene>& scenes);
 
-/// Warnings of contacts that overlap their obstacle where nothing acts, as of a preload, and are open in the static start: one an entry. Empty
-/// where the run does not start so.
-[[nodiscard]] std::vector<std::string> lost_preloads(const study::Study& study,
-                                                     const std::vector<PlacedContact>& placed,
-                                                     const std::vector<BuiltScene>& scenes);
+/// Warnings of where contacts are, of a run and of a case of a sweep alike: tubes that rest in their fixed obstacle by more than their outer
+/// radius, clearances of the size of the tube (both of nodes with beams), and the questions of contact_questions.hpp; one an entry.
+[[nodiscard]] std::vector<std::string> placement_warnings(const study::Study& study, const fem::Model& model,
+                                                          const std::vector<PlacedContact>& placed);
 
-/// A warning where two contacts are one and the same: node, axes and obstacle, or the same two nodes given in the other order. Empty
-/// where none are.
-[[nodiscard]] std::string twice_placed(const std::vector<PlacedContact>& placed);
-
-/// Warnings of tubes that lie in their fixed obstacle by more than their outer radius where they rest, and of clearances of the size of the tube, one an entry; of nodes without beams nothing is known.
-[[nodiscard]] std::vector<std::string> inside_obstacles(const study::Study& study, const fem::Model& model,
-                                                        const std::vector<PlacedContact>& placed);
+/// Likewise of contacts at the start: two that are one and the same (node, axes and obstacle, or the same two nodes given in the other order),
+/// and, one an entry, of those that overlap their obstacle where nothing acts, as of a preload, and are open in the static start.
+[[nodiscard]] std::vector<std::string> start_warnings(const study::Study& study,
+                                                      const std::vector<PlacedContact>& placed,
+                                                      const std::vector<BuiltScene>& scenes);
 
 } // namespace fretwork::app

@@ -131,10 +131,8 @@ std::vector<BuiltScene> build_scenes(const study::Study& study, const std::vecto
   }
   out.warnings.insert(out.warnings.end(), fields.warnings.begin(), fields.warnings.end());
   out.notes.insert(out.notes.end(), fields.notes.begin(), fields.notes.end());
-  if (std::string twice = twice_placed(placed); !twice.empty())
-    out.warnings.push_back(std::move(twice));
-  for (std::string& lost : lost_preloads(study, placed, scenes))
-    out.warnings.push_back(std::move(lost));
+  for (std::string& warning : start_warnings(study, placed, scenes))
+    out.warnings.push_back(std::move(warning));
   const auto of_contacts = contact_notes(study, placed, scenes);
   out.notes.insert(out.notes.end(), of_contacts.begin(), of_contacts.end());
   if (const std::string note = flexibility_note(scenes); !note.empty())

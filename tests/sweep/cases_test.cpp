@@ -289,6 +289,22 @@ values = ["liquid", "gas"]
   EXPECT_TRUE(says(bytes_of(folder.path("out") / "table.csv"), "the case has no V/Vc"));
 }
 
+TEST_F(Sweeps, CasesWarnOfWhereTheirContactsAre) {
+  const std::string text = sweep_of("straight_tube", R"(
+design = "grid"
+[[sweep.variables]]
+key = "contacts.support.gap"
+values = [1.0e-4, 1.2e-2]
+)");
+  const Outcome outcome = sweep(text, "out", short_tube);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string table = bytes_of(folder.path("out/table.csv"));
+  const std::size_t first = table.find("its clearance of 0.012 m is of the size of the tube");
+  EXPECT_NE(first, std::string::npos) << table;
+  EXPECT_GT(first, table.find("\n1,")); // of case 1 only
+  EXPECT_TRUE(says(outcome.out, "is one a diameter")) << outcome.out;
+}
+
 TEST_F(Sweeps, ErrorsAreStandardErrorsWhateverTheConfidenceOfWear) {
   const std::string text = sweep_of("tube_study", R"(
 design = "grid"
