@@ -370,8 +370,10 @@ void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
   const double least = adaptive ? least_adaptive_steps : least_steps(scene);
   c.step = scene.duration / least;
   c.reason = fmt::format("a run has at least {} steps", least);
+  bool by_least = true;
   const auto limit = [&](const Limit& one) {
     if (one.step < c.step) {
+      by_least = false;
       c.step = one.step;
       c.reason = fmt::format("{} resolved for an accuracy of {}{}", one.reason, accuracy, one.cure);
     }
@@ -389,6 +391,8 @@ void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
     else
       limit(modes);
   }
+  if (by_least && accuracy < accuracy_of_shares)
+    c.reason += fmt::format("; an accuracy of {} asks for no shorter ones", accuracy);
   if (accuracy < asked)
     c.reason += fmt::format(" (no step is longer than that of {})", accuracy);
   if (adaptive)

@@ -241,6 +241,18 @@ TEST(StepRule, FollowsTheAccuracyByItsSquareRoot) {
   EXPECT_NEAR(choose_step(scene, coarse).step / choose_step(scene, fine).step, 4.0, 1e-4); // to whole steps
 }
 
+TEST(StepRule, SaysWhereASmallerAccuracyChangesNothing) {
+  const Scene scene = scene_with({Circle{0.1}, {2.0}, {}}, 1.0); // w_c = 1 rad/s
+  StepOptions fine = splitting();
+  EXPECT_FALSE(mentions(choose_step(scene, fine).reason, "accuracy"));
+  fine.accuracy = 1e-3;
+  EXPECT_TRUE(
+      mentions(choose_step(scene, fine).reason, "steps; an accuracy of 0.001 asks for no shorter ones"))
+      << choose_step(scene, fine).reason;
+  fine.accuracy = 1e-14;
+  EXPECT_FALSE(mentions(choose_step(scene, fine).reason, "no shorter ones"));
+}
+
 TEST(StepRule, TakesNoLongerStepThanThatOfTwoPercent) {
   const Scene scene = scene_with({Circle{0.1}, {8e4}, {}});
   StepOptions two = splitting(), fifty = splitting();
