@@ -129,7 +129,7 @@ TEST(JudgeContacts, WarnsOfAutomaticDampersThatHoldWhatSticks) {
   EXPECT_THAT(run.warnings(0.5),
               ElementsAre(HasSubstr("tangential_damping of \"grid\" takes 50 % of the energy")));
   EXPECT_THAT(run.warnings(0.5),
-              ElementsAre(HasSubstr("its 1000 N s/m are stiffer than tangential_stiffness above 15.9 Hz")));
+              ElementsAre(HasSubstr("its 1 000 N s/m are stiffer than tangential_stiffness above 15.9 Hz")));
   run.out.contact_summaries[0].sticking_ratio = 0.4;
   EXPECT_THAT(run.warnings(0.5), IsEmpty()) << "it slides";
   run.out.contact_summaries[0].sticking_ratio = 1.0;
