@@ -211,7 +211,7 @@ void CoupledContacts::move(int first) {
 }
 
 /// The contacts of a group in an interval: one after the other, and those again whose force what the others have done since would change by a
-/// share of all changes that would let them diverge. Without strong dampers, and up to w_c dt = 0.875, there are few.
+/// share of all changes that would let them diverge. Without strong dampers, and up to w_c dt = 0.875, that is so in at most 2 % of the intervals (tubes of bench_statistics).
 void CoupledContacts::find_forces_together(int first, int index) {
   double change = 0.0; // N, the largest
   for (int i = first; i >= 0; i = next_[i]) {
