@@ -16,9 +16,11 @@ static_assert(limits_of(SchemeKind::splitting).normal_damper.largest < contact::
               "forces of impacts that dampers stop fall within an interval as parabolas");
 /// Of its clearance, what a contact may move in an interval.
 constexpr double longest_way = 1.0;
-/// Of a step in which a contact meets a corner, or another side of its obstacle: times as many intervals, the fewest and the most of them; cosine
-/// of the angle by which its normal turns there in half a step; way in the clearance without which a round hole or two planes have no such turn.
-constexpr int at_corner = 16, least_at_corner = 32, most_at_corner = 128, at_side = 8, least_at_side = 16;
+/// Of a step in which a contact meets a corner of its obstacle: times as many intervals, the fewest and the most of them.
+constexpr int at_corner = 16, least_at_corner = 32, most_at_corner = 128;
+/// Of one in which it meets another side: times as many as the clearances that it moves by, so many at most; the fewest intervals.
+constexpr int most_at_side = 16, least_at_side = 4;
+/// Cosine of the angle by which its normal turns there in half a step; way in the clearance without which a round hole or two planes have no such turn.
 constexpr double least_cosine = 0.9, least_way = 0.4;
 /// d v of Hunt and Crossley's damper that leaves intervals as they are.
 constexpr double least_stiffer = 1.0;
@@ -69,11 +71,18 @@ int ContactIntervals::least_count(int parts, const ContactPast& past, const Free
     parts = std::max(parts, intervals_for_dampers(path));
   if (may_turn(past, path, way) && meets_corner(path))
     return std::max(parts, has_corners_ ? std::clamp(at_corner * parts, least_at_corner, most_at_corner)
-                                        : std::clamp(at_side * parts, least_at_side, most_intervals));
+                                        : intervals_at_side(parts, way));
   if (past.closed || !(clearance_ > 0.0))
     return parts;
   return std::max(
       parts, static_cast<int>(std::ceil(std::min(1.0 * most_intervals, way / (longest_way * clearance_)))));
+}
+
+/// @param way  m, in the step
+int ContactIntervals::intervals_at_side(int parts, double way) const {
+  const int times =
+      way < most_at_side * clearance_ ? static_cast<int>(std::ceil(way / clearance_)) : most_at_side;
+  return std::clamp(times * parts, least_at_side, most_intervals);
 }
 
 /// For dampers of Hunt and Crossley, at the largest penetration that is ahead under the forces held.

@@ -138,6 +138,7 @@ private:
   [[nodiscard]] double apparent_mass(double length, double stiffness, double damping) const;
   /// N: its last force, the normal part and friction at their means where asked for.
   [[nodiscard]] static Components with_means(const MovingContact& m, bool of_normal, bool of_friction);
+  [[nodiscard]] int intervals_at_side(int parts, double way) const;
   [[nodiscard]] int intervals_for_dampers(const FreePath& path) const;
   [[nodiscard]] bool may_turn(const ContactPast& past, const FreePath& path, double way) const;
   [[nodiscard]] bool meets_corner(const FreePath& path) const;

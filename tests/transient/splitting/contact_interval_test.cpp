@@ -232,18 +232,22 @@ TEST(ContactIntervals, FindTheSameForceAgainFromTheSameCourse) {
   }
 }
 
-// A contact that crosses a hole to the opposite side, of a circle or of an ellipse near one, resolves it in shorter intervals.
+// A contact that crosses a hole to the opposite side, of a circle or of an ellipse near one, resolves it in shorter intervals, the more the faster.
 TEST(ContactIntervals, AreShorterWhereAHoleIsCrossed) {
-  constexpr double radius = 1e-2, gap = 1e-4, speed = 2.2 * gap / step;
-  const FreePath across{{1.01 * gap, 0.0, 0.0}, {-speed, 0.0, 0.0}, {}, {}},
-      short_way{{1.01 * gap, 0.0, 0.0}, {-0.1 * speed, 0.0, 0.0}, {}, {}};
+  constexpr double radius = 1e-2, gap = 1e-4;
+  const auto path = [](double clearances) {
+    return FreePath{{1.01 * gap, 0.0, 0.0}, {-clearances * gap / step, 0.0, 0.0}, {}, {}};
+  };
   for (const contact::Obstacle& hole :
        {contact::Obstacle(contact::Circle{gap}),
         contact::Obstacle(contact::Ellipse{radius + gap, radius + 1.01 * gap, radius})}) {
     const contact::Support support{hole, {1e6}, {}};
     const ContactIntervals intervals(support, {}, isotropic(1.0), false, step, gap, {});
-    EXPECT_EQ(intervals.least_count(1, closed({-1.0, 0.0}), across), 16);
-    EXPECT_EQ(intervals.least_count(1, closed({-1.0, 0.0}), short_way), 1);
+    EXPECT_EQ(intervals.least_count(1, closed({-1.0, 0.0}), path(0.2)), 1);
+    EXPECT_EQ(intervals.least_count(1, closed({-1.0, 0.0}), path(2.2)), 4);
+    EXPECT_EQ(intervals.least_count(1, closed({-1.0, 0.0}), path(8.8)), 9);
+    EXPECT_EQ(intervals.least_count(2, closed({-1.0, 0.0}), path(8.8)), 18);
+    EXPECT_EQ(intervals.least_count(2, closed({-1.0, 0.0}), path(80.0)), 32);
   }
 }
 
