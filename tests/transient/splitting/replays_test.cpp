@@ -129,6 +129,29 @@ TEST(Replayable, OfHalfTheStepStaysBesideIt) {
   EXPECT_NEAR(of_finer / impulse, 1.0, agreement);
 }
 
+// An oscillator of little damping gains in each impact, in one interval a step, up to 1 % of its energy: a third of what its mode dissipates.
+TEST(Replays, RefineContactsThatGainEnergy) {
+  constexpr double mass = 1.0, stiffness = 1e6, ratio = 0.003, duration = 40.0;
+  Scene s = mass_point(mass, Vec3::Constant(stiffness), duration);
+  s.system.damping = 2.0 * ratio * s.system.stiffness.cwiseSqrt();
+  s.contacts = {contact_of(mass, {contact::Stop{1e-3, contact::PlaneAxis::y}, {4.0 * stiffness}, {}})};
+  s.loads = {force_on(mass, {0.0, 1.0, 0.0}, Random{175.0, 16.0, 229.0, 1})};
+  StepChoice choice = choice_of(s, 1, 0.01, 0.87 / 2000.0);
+  const auto gain = [&] { // of what is dissipated; and the intervals of the contact
+    transient::Run run(s, choice, {}, nullptr, {});
+    run.advance(std::numeric_limits<std::int64_t>::max());
+    const Energy e = run.finish().energy;
+    const auto errors = run.step_errors();
+    return std::pair{-e.residual() / e.modal_damping, errors.empty() ? choice.parts : errors[0].parts};
+  };
+  ASSERT_GT(choice.replay, 0.0);
+  const auto [refined, intervals] = gain();
+  EXPECT_EQ(intervals, 2);
+  EXPECT_LT(std::abs(refined), 0.005);
+  choice.replay = 0.0;
+  EXPECT_GT(gain().first, 0.05);
+}
+
 TEST(Replays, ChangeNothingWhereTheAccuracyIsMet) {
   const Scene scene = mostly_sticking(60.0);
   StepChoice choice = choice_of(scene, 2, 1e3);
