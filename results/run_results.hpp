@@ -15,7 +15,7 @@
 #include "results/flow_results.hpp"
 #include "results/response_results.hpp"
 #include "results/wear_results.hpp"
-#include "transient/step_rule.hpp"
+#include "transient/step_choice.hpp"
 #include "wear/kwu_epri.hpp"
 #include <map>
 #include <optional>

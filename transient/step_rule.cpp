@@ -2,15 +2,15 @@
 #include "transient/step_rule.hpp"
 #include "core/error.hpp"
 #include "transient/modes/mass_scaling.hpp"
-#include "transient/scene/scheme_limits.hpp"
 #include "transient/scheme_scope.hpp"
 #include "transient/splitting/macro_steps.hpp"
+#include "transient/step_terms.hpp"
+#include "transient/step_warnings.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
-#include <string_view>
 
 namespace fretwork::transient {
 namespace {
@@ -32,10 +32,6 @@ constexpr double contact_times = 15.0, least_replay = 8.0, longest_replay = 0.01
 constexpr double most_macro_steps = 12.0;
 /// w_max times a macro-step, at an accuracy of 0.01: a dozen points a period of the highest mode, which statistics are to see.
 constexpr double macro_step_mode = 0.5;
-/// Of what follows from times that are given in decimal numbers.
-constexpr double round_off = 1e-9;
-/// A step given with three digits of the longest is no reason for a warning.
-constexpr double rounded = 1.01;
 constexpr double two_pi = 2.0 * std::numbers::pi;
 /// Steps of splitting that one of collocation takes the time of: measured 0.5 to 0.8 with 1 to 20 supports of 1e5 to 3e7 N/m, 0.8 to 2.1 with stiffer ones.
 constexpr double collocation_cost = 0.7;
@@ -64,170 +60,6 @@ void check_steps(double duration, const StepChoice& c) {
                         step));
 }
 
-/// A rate of the scene that the step has to resolve.
-struct Term {
-  const char *name, *symbol; ///< symbol: of the rate times the step
-  double rate;               ///< 0: there is none
-  const char* unit;
-  StepBound bound;
-  const char* condition = "";      ///< of the bound
-  const char* cure = "";           ///< what makes the step longer, after "resolved for an accuracy of 0.01"
-  const char* spoiled = "results"; ///< what cannot be trusted above the bound
-  double shortest = 0.0;           ///< s, at an accuracy of 0.01: step that the term asks for at least
-};
-
-constexpr const char* smaller_tangential = "; a smaller tangential_damping makes the step longer";
-
-/// 1/s: at which the dampers of contacts stop them; those of Hunt and Crossley at any rate.
-double stopping_rate(const StepChoice& c) {
-  return c.hunt_crossley ? unbounded : std::max(c.damper_rate, c.normal_damper_rate);
-}
-
-/// w h of modes that splitting follows in a step: fewer where dampers stop contacts within it.
-double followed_modes(const StepChoice& c, double step) {
-  return stopping_rate(c) * step > fast_damper ? mode_with_fast_damper
-                                               : limits_of(SchemeKind::splitting).highest_mode.largest;
-}
-
-/// @param followed  w h of modes that splitting follows
-Term mode_term(const StepChoice& c, bool contacts, double followed) {
-  const SchemeLimits& limits = limits_of(c.scheme);
-  Term out{"the highest mode", "w_max h", c.highest_mode, "rad/s", limits.highest_mode};
-  if (limits.exact_modes && !contacts)
-    out.bound.share = mode_without_contacts;
-  if (c.scheme == SchemeKind::splitting && followed < out.bound.largest) {
-    out.bound.largest = followed;
-    const bool normal = c.normal_damper_rate > c.damper_rate;
-    out.condition = c.hunt_crossley ? ", with Hunt and Crossley's dampers"
-                    : normal        ? ", with normal dampers"
-                                    : ", with tangential dampers";
-    out.cure = c.hunt_crossley ? ""
-               : normal        ? "; a smaller normal_damping makes the step longer"
-                               : smaller_tangential;
-  }
-  return out;
-}
-
-/// Of the longest step that the modes allow: with fewer of them, or without dampers that stop contacts within it.
-Term mode_term(const StepChoice& c, bool contacts) {
-  const double most = limits_of(SchemeKind::splitting).highest_mode.largest, stopping = stopping_rate(c),
-               slow = stopping > 0.0 ? fast_damper * c.highest_mode / stopping : most;
-  return mode_term(c, contacts, std::clamp(slow, mode_with_fast_damper, most));
-}
-
-Term normal_damper_term(const StepChoice& c) {
-  const SchemeLimits& limits = limits_of(c.scheme);
-  return {.name = "the normal dampers' rate",
-          .symbol = "r_n h",
-          .rate = c.normal_damper_rate,
-          .unit = "1/s",
-          .bound = limits.normal_damper.times(limits.intervals),
-          .spoiled = limits.by_normal_damper,
-          .shortest = finest_for_normal_dampers / c.contact_frequency};
-}
-
-/// Closed and sticking contacts.
-std::array<Term, 2> contact_frequencies(const StepChoice& c, const StepBound& bound,
-                                        const char* condition = "") {
-  return {{{"the contact frequency", "w_c h", c.contact_frequency, "rad/s", bound, condition},
-           {"the frequency of sticking contacts", "w_t h", c.stick_frequency, "rad/s", bound, condition}}};
-}
-
-/// Of splitting: beside modes that are fast in a step; a step in which none is may be longer.
-std::array<Term, 2> contacts_beside_modes(const StepChoice& c) {
-  std::array<Term, 2> out = contact_frequencies(c, contact_beside_modes, ", with fast modes");
-  for (Term& term : out)
-    term.shortest = fast_mode / c.highest_mode;
-  return out;
-}
-
-std::array<Term, 3> damper_terms(const StepChoice& c) {
-  const SchemeLimits& limits = limits_of(c.scheme);
-  return {{{"the tangential dampers' rate", "r_t h", c.damper_rate, "1/s",
-            limits.tangential_damper.times(limits.intervals), "",
-            limits.intervals > 1 ? smaller_tangential
-                                 : "; a smaller tangential_damping makes the step longer (scheme = "
-                                   "\"splitting\" resolves the dampers within a step)"},
-           normal_damper_term(c),
-           {"the dampers' rate", "r_e h", c.explicit_rate, "1/s", limits.tangential_damper}}};
-}
-
-/// What a step does not resolve.
-struct Unresolved {
-  std::string what;                ///< with its figure and bound
-  double longest;                  ///< s, step that would resolve it
-  const char* spoiled = "results"; ///< what cannot be trusted
-};
-using AllUnresolved = std::vector<Unresolved>;
-
-void look_at(AllUnresolved& out, const StepChoice& c, const Term& term) {
-  if (const double product = term.rate * c.step; product > term.bound.largest * rounded)
-    out.push_back({fmt::format("{}{}: {} = {:.3g}, at most {:.4g}", term.name, term.condition, term.symbol,
-                               product, term.bound.largest),
-                   term.bound.largest / term.rate, term.spoiled});
-}
-
-void look_at_points(AllUnresolved& out, const StepChoice& c, const char* name, double frequency,
-                    double fewest) {
-  if (const double points = 1.0 / (frequency * c.step); points * rounded < fewest)
-    out.push_back({fmt::format("{}: {:.3g} steps a period, at least {:g}", name, points, fewest),
-                   1.0 / (frequency * fewest)});
-}
-
-AllUnresolved unresolved(const StepChoice& c) {
-  AllUnresolved out;
-  const bool fast = c.scheme == SchemeKind::splitting && c.highest_mode * c.step > fast_mode * rounded;
-  for (const Term& term :
-       fast ? contacts_beside_modes(c) : contact_frequencies(c, limits_of(c.scheme).contact))
-    look_at(out, c, term);
-  for (const Term& term : damper_terms(c))
-    look_at(out, c, term);
-  look_at(out, c, mode_term(c, true, followed_modes(c, c.step)));
-  if (c.table_interval > 0.0 && c.step > c.table_interval * (1.0 + round_off))
-    out.push_back(
-        {fmt::format("the shortest interval of a table ({:.4g} s)", c.table_interval), c.table_interval});
-  if (c.step > c.record_interval * (1.0 + round_off))
-    look_at_points(out, c, "the band of a record below the highest mode", c.record_rate / two_pi,
-                   c.scheme == SchemeKind::splitting ? fewest_points_of_records : fewest_points);
-  look_at_points(out, c, "the excitation", c.excitation, fewest_points);
-  return out;
-}
-
-/// s, a step that resolves everything, to three digits. The highest mode asks for less beside dampers that are slow in a shorter step.
-double resolving_step(StepChoice c) {
-  for (AllUnresolved left = unresolved(c); !left.empty(); left = unresolved(c)) {
-    const auto worst =
-        std::min_element(left.begin(), left.end(), [](const Unresolved& one, const Unresolved& other) {
-          return one.longest < other.longest;
-        });
-    c.step = worst->longest * (1.0 - round_off);
-  }
-  const double digit = std::pow(10.0, std::floor(std::log10(c.step)) - 2.0);
-  return std::floor(c.step / digit * (1.0 + 10.0 * round_off)) * digit;
-}
-
-/// One warning of all that the step does not resolve; none where that is nothing.
-void add_warning(StepChoice& c, const AllUnresolved& all, const std::string& cure) {
-  if (all.empty())
-    return;
-  std::string what;
-  for (const Unresolved& one : all)
-    what += (what.empty() ? "" : "; ") + one.what;
-  const std::string_view spoiled = all.front().spoiled;
-  const bool alike =
-      std::all_of(all.begin(), all.end(), [&](const Unresolved& one) { return one.spoiled == spoiled; });
-  c.warnings.push_back(fmt::format("the step {:.3g} s does not resolve {} for {} that can be trusted; {}",
-                                   c.step, what, alike ? spoiled : "results", cure));
-}
-
-/// Of a given step.
-void warn(StepChoice& c) {
-  if (const AllUnresolved all = unresolved(c); !all.empty())
-    add_warning(c, all,
-                fmt::format("take a smaller step or leave it out; {:.3g} s would do{}", resolving_step(c),
-                            all.size() > 1 ? " for all of them" : ""));
-}
-
 /// A limit of the step and where it comes from.
 struct Limit {
   double step; ///< s
@@ -236,7 +68,7 @@ struct Limit {
 };
 
 /// @param fineness  1 at an accuracy of 0.01, as its square root
-Limit limit_of(const Term& term, double fineness) {
+Limit limit_of(const StepTerm& term, double fineness) {
   return {std::max(term.bound.at(fineness) / term.rate, term.shortest * fineness),
           fmt::format("{} {:.4g} {}{}", term.name, term.rate, term.unit, term.condition), term.cure};
 }
@@ -246,7 +78,8 @@ std::vector<Limit> load_limits(const StepChoice& c, bool contacts, double finene
   const auto points = [&](double wanted) { return std::max(wanted / fineness, fewest_points); };
   const auto resolve = [&](double wanted, double frequency) {
     if (frequency > 0.0)
-      out.push_back({1.0 / points(wanted) / frequency, fmt::format("the excitation ({:.4g} Hz)", frequency)});
+      out.push_back(
+          {1.0 / points(wanted) / frequency, fmt::format("{} ({:.4g} Hz)", name_of_excitation, frequency)});
   };
   const double by_lines = contacts ? points_of_lines : points_without_contacts;
   resolve(contacts ? limits_of(c.scheme).points_per_period : by_lines, c.excitation);
@@ -255,14 +88,13 @@ std::vector<Limit> load_limits(const StepChoice& c, bool contacts, double finene
   if (c.scheme == SchemeKind::runge_kutta_54)
     return out;
   if (c.table_interval > 0.0)
-    out.push_back(
-        {c.table_interval, fmt::format("the shortest interval of a table ({:.4g} s)", c.table_interval)});
+    out.push_back({c.table_interval, fmt::format("{} ({:.4g} s)", name_of_table_interval, c.table_interval)});
   if (c.record_rate > 0.0)
     out.push_back(
         {c.scheme == SchemeKind::splitting
              ? (contacts ? record_share : record_share_without_contacts) * std::sqrt(fineness) / c.record_rate
              : std::max(c.record_interval, two_pi / (points(by_lines) * c.record_rate)),
-         fmt::format("the band of a record below the highest mode ({:.4g} Hz)", c.record_rate / two_pi)});
+         fmt::format("{} ({:.4g} Hz)", name_of_record_band, c.record_rate / two_pi)});
   return out;
 }
 
@@ -270,16 +102,16 @@ std::vector<Limit> load_limits(const StepChoice& c, bool contacts, double finene
 std::vector<Limit> step_limits(const StepChoice& c, bool contacts, double fineness) {
   std::vector<Limit> out = load_limits(c, contacts, fineness);
   const auto add = [&](const auto& terms) {
-    for (const Term& term : terms)
+    for (const StepTerm& term : terms)
       if (term.rate > 0.0)
         out.push_back(limit_of(term, fineness));
   };
-  add(contact_frequencies(c, limits_of(c.scheme).contact));
+  add(contact_terms(c));
   add(damper_terms(c));
   if (c.scheme != SchemeKind::splitting || !contacts)
     add(std::array{mode_term(c, contacts)});
   else if (c.highest_mode > 0.0)
-    add(contacts_beside_modes(c));
+    add(contact_terms_beside_modes(c));
   return out;
 }
 
@@ -310,7 +142,8 @@ int intervals_of_step(const StepChoice& c, double fineness) {
                 c.damper_rate / limits.tangential_damper.at(fineness),
                 c.normal_damper_rate / limits.normal_damper.at(fineness)});
   const double needed = rate * c.step;
-  return static_cast<int>(std::clamp(std::ceil(needed * (1.0 - round_off)), 1.0, 1.0 * limits.intervals));
+  return static_cast<int>(
+      std::clamp(std::ceil(needed * (1.0 - time_round_off)), 1.0, 1.0 * limits.intervals));
 }
 
 /// Length of replays: two or three periods of closed contacts, sticking ones included.
@@ -336,7 +169,7 @@ int longest_macro_step(const StepChoice& c, const Scene& scene, double fineness)
     longest = std::min(longest, fineness / (points_of_lines * c.excitation));
   if (c.highest_mode > 0.0)
     longest = std::min(longest, macro_step_mode * fineness / c.highest_mode);
-  return std::max(1, static_cast<int>(longest / c.step * (1.0 + round_off)));
+  return std::max(1, static_cast<int>(longest / c.step * (1.0 + time_round_off)));
 }
 
 /// Steps of a run in which nothing asks for more; fewer of expensive ones, since motions with many contacts are rarely followed impact by impact.
@@ -357,7 +190,7 @@ Limit limit_of_scaled_modes(const StepChoice& c, double fineness) {
     out = {mode_with_fast_damper * fineness /
                (scaled_above * std::max(c.contact_frequency, c.stick_frequency)),
            "modes up to twice the contact frequency, with tangential dampers", smaller_tangential};
-  if (const double slow = (1.0 - round_off) * fast_damper / c.normal_damper_rate; slow < out.step)
+  if (const double slow = (1.0 - time_round_off) * fast_damper / c.normal_damper_rate; slow < out.step)
     out = {slow, "modes that are made heavier beside normal dampers",
            "; a smaller normal_damping makes the step longer"};
   return out;
@@ -399,11 +232,6 @@ void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
     return;
   c.steps = count_steps(scene.duration, c);
   c.step = scene.duration / static_cast<double>(c.steps);
-  AllUnresolved dampers;
-  look_at(dampers, c, normal_damper_term(c));
-  add_warning(c, dampers,
-              c.scheme == SchemeKind::collocation ? "take scheme = \"energy_conserving\", or a smaller damper"
-                                                  : "give a smaller damper where these matter");
   if (followed > 0.0)
     scale_modes(c, scene, followed / c.step);
   c.macro_steps = longest_macro_step(c, scene, fineness);
@@ -432,10 +260,8 @@ StepChoice choice_of(const Scene& scene, const SceneRates& rates, const StepOpti
   if (!options.step)
     return c;
   c.reason = "given in the study";
-  if (c.scheme != SchemeKind::runge_kutta_54) {
+  if (c.scheme != SchemeKind::runge_kutta_54)
     c.steps = count_steps(scene.duration, c);
-    warn(c);
-  }
   return c;
 }
 
@@ -469,6 +295,8 @@ StepChoice choose_step(const Scene& scene, const StepOptions& options) {
   StepChoice choice =
       options.scheme ? choice_of(scene, rates, options, scheme) : cheapest(scene, rates, options);
   check_steps(scene.duration, choice);
+  if (choice.steps > 0)
+    choice.warnings = options.step ? warnings_of_given_step(choice) : warnings_of_automatic_step(choice);
   return choice;
 }
 

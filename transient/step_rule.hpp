@@ -5,11 +5,11 @@
 ///     h = min{ contact/w_c, contact/w_t, intervals tangential_damper/r_t, tangential_damper/r_e, highest_mode/w_max,
 ///              max(intervals normal_damper/r_n, f finest_for_normal_dampers/w_c) },
 ///     each bound min(f share, largest), f = (min(accuracy, coarsest_accuracy)/accuracy_of_shares)^1/2
-/// over the terms that exist, with:
+/// over the terms that exist (step_terms.hpp), with:
 ///     w_c, w_t, r_t, r_n, w_max   scene_rates.hpp
 ///     r_e                         explicit_damper_rate; of devogelaere also the largest K_T/C_T of a sliding spring
 /// Dampers of contacts are resolved by the intervals of splitting, the least number that keeps them, and contact_interval for w_c and w_t, in the step. A normal damper
-/// that even finest_for_normal_dampers does not resolve is warned about, also with the automatic step.
+/// that even finest_for_normal_dampers does not resolve is warned about, also with the automatic step (step_warnings.hpp).
 ///
 /// Of splitting the bound of w_c and w_t is contact_beside_modes where a step of that length would have modes above w h = fast_mode, but the step need not be
 /// shorter than the one in which none is above.
@@ -30,11 +30,8 @@
 ///
 /// Without a scheme given, collocation is taken where its predicted time (steps times the cost of one) is below 0.7 of that of splitting.
 #pragma once
-#include "transient/scene/scheme.hpp"
-#include "transient/scene_rates.hpp"
+#include "transient/step_choice.hpp"
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace fretwork::transient {
 
@@ -43,27 +40,6 @@ struct StepOptions {
   std::optional<double> step;       ///< s: fixed
   double accuracy = 0.01;           ///< target relative error of statistics
   double tolerance = 1e-6;          ///< of a step's error in the energy norm: adaptive schemes
-};
-
-struct StepChoice : SceneRates {
-  SchemeKind scheme = SchemeKind::splitting;
-  double step = 0.0;       ///< s; of an adaptive scheme the longest
-  std::int64_t steps = 0;  ///< that cover the duration; 0: adaptive
-  double tolerance = 1e-6; ///< of an adaptive scheme
-  double fastest =
-      0.0; ///< rad/s: of the automatic step of splitting: faster modes are made heavier (mass_scaling.hpp); 0: none
-  int scaled = 0; ///< how many modes that are
-  int parts = 1;  ///< intervals in which splitting moves contacts within a step
-  double replay =
-      0.0; ///< s, length of the replays that measure the error of the step and refine `parts` (replays.hpp); 0: none
-  double accuracy = 0.01; ///< asked for
-  int macro_steps = 1;    ///< steps that splitting makes at once while no contact can meet its obstacle
-  double explicit_rate =
-      0.0; ///< r_e, 1/s: of the dampers that only Euler and devogelaere have to resolve; 0 with others
-  std::string reason;        ///< one line for the user
-  std::string scheme_reason; ///< why this scheme; empty where it was given
-  std::vector<std::string>
-      warnings; ///< what a fixed step does not resolve, and normal dampers that no automatic one does
 };
 
 /// @throws core::Error where there would be absurdly many steps, or where the scheme cannot take the scene

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file
+/// What the step of a scene has to resolve: each rate with its bound in the scheme of the choice (scene/scheme_limits.hpp) and its names in messages. The automatic step
+/// is the longest within the bounds (step_rule.hpp); a step beyond one is warned about (step_warnings.hpp).
+#pragma once
+#include "transient/scene/scheme_limits.hpp"
+#include "transient/step_choice.hpp"
+#include <array>
+
+namespace fretwork::transient {
+
+/// A rate of the scene that the step has to resolve.
+struct StepTerm {
+  const char *name, *symbol; ///< symbol: of the rate times the step
+  double rate;               ///< 0: there is none
+  const char* unit;
+  StepBound bound;
+  const char* condition = "";      ///< of the bound
+  const char* cure = "";           ///< what makes the step longer, after "resolved for an accuracy of 0.01"
+  const char* spoiled = "results"; ///< what cannot be trusted above the bound
+  double shortest = 0.0;           ///< s, at an accuracy of 0.01: step that the term asks for at least
+};
+
+/// Relative, of what follows from times that are given in decimal numbers.
+constexpr double time_round_off = 1e-9;
+/// Names of loads in messages.
+constexpr const char *name_of_excitation = "the excitation",
+                     *name_of_record_band = "the band of a record below the highest mode",
+                     *name_of_table_interval = "the shortest interval of a table";
+constexpr const char* smaller_tangential = "; a smaller tangential_damping makes the step longer";
+
+/// w h of modes that splitting follows in a step of so many seconds: fewer where dampers stop contacts within it.
+[[nodiscard]] double followed_modes(const StepChoice& c, double step);
+
+/// @param followed  w h of modes that splitting follows
+[[nodiscard]] StepTerm mode_term(const StepChoice& c, bool contacts, double followed);
+/// Of the longest step that the modes allow: with fewer of them, or without dampers that stop contacts within it.
+[[nodiscard]] StepTerm mode_term(const StepChoice& c, bool contacts);
+
+/// Closed and sticking contacts.
+[[nodiscard]] std::array<StepTerm, 2> contact_terms(const StepChoice& c);
+/// Of splitting: beside modes that are fast in a step; a step in which none is may be longer.
+[[nodiscard]] std::array<StepTerm, 2> contact_terms_beside_modes(const StepChoice& c);
+
+[[nodiscard]] StepTerm normal_damper_term(const StepChoice& c);
+/// Of contacts, and all that only explicit schemes have to resolve.
+[[nodiscard]] std::array<StepTerm, 3> damper_terms(const StepChoice& c);
+
+} // namespace fretwork::transient
