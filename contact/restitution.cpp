@@ -60,8 +60,6 @@ double excess(double u) {
 
 } // namespace
 
-double restitution_of_ratio(double xi) { return std::exp(-loss_exponent(xi)); }
-
 double ratio_of_restitution(double e) {
   check_restitution(e);
   // pi/2 >= phi >= 1 for xi <= 1; above, with xi = cosh s, the exponent 2 s/tanh s lies between 2 s and 2 s +

@@ -13,8 +13,6 @@
 
 namespace fretwork::contact {
 
-/// e of xi >= 0.
-[[nodiscard]] double restitution_of_ratio(double xi);
 /// xi of 0 < e <= 1, exact to round-off. @throws core::Error for e outside
 [[nodiscard]] double ratio_of_restitution(double e);
 /// C_N, N s/m, of a mass m (kg) on K_N (N/m) that comes back with e. @throws core::Error for e, K_N or m

@@ -28,14 +28,6 @@ Eigen::MatrixXd markov_sum(const Eigen::MatrixXd& a, const Eigen::VectorXd& r) {
 
 } // namespace
 
-double pinned_joint_acceptance(int m, int n, double relative_length) {
-  const double a = 1.0 / relative_length, pi = std::numbers::pi;
-  const double am = a * a + m * m * pi * pi, an = a * a + n * n * pi * pi;
-  const double sign_m = m % 2 == 0 ? 1.0 : -1.0, sign_sum = (m + n) % 2 == 0 ? 1.0 : -1.0;
-  return (m == n ? a / an : 0.0) +
-         m * n * pi * pi * (1.0 - sign_m * std::exp(-a)) * (1.0 + sign_sum) / (am * an);
-}
-
 CrossSpectrum::CrossSpectrum(const std::vector<TurbulentZone>& zones, Part part) : part_(part) {
   if (zones.empty())
     throw core::Error("a cross-spectrum of turbulence without a zone; give one at least");

@@ -66,9 +66,4 @@ private:
   std::vector<std::vector<Eigen::MatrixXd>> ratio_; ///< R of each zone; empty of separable ones
 };
 
-/// Joint acceptance of two modes sin(m pi s/L), sin(n pi s/L) of a pinned tube under a uniform load of correlation exp(-|s - s'|/lambda):
-///     I_mn/L^2 = a d_mn/(a^2 + n^2 pi^2) + m n pi^2 (1 - (-1)^m e^-a)(1 + (-1)^(m+n))/[(a^2 + m^2 pi^2)(a^2 + n^2 pi^2)],   a = L/lambda
-/// @param m, n  >= 1   @param relative_length  lambda/L, > 0
-[[nodiscard]] double pinned_joint_acceptance(int m, int n, double relative_length);
-
 } // namespace fretwork::flow

@@ -23,12 +23,6 @@ double block_period(double lowest_frequency) {
   return std::exp2(std::ceil(std::log2(periods_per_block / lowest_frequency)));
 }
 
-double faded_density(const std::function<double(double)>& g, double f, double block_period) {
-  const double shift = static_cast<double>(fades_per_block) / (4.0 * block_period); // 1/(4 C)
-  const double share = 1.0 / (fades_per_block - 1.0);                               // C/H
-  return (1.0 - share) * g(f) + 0.5 * share * (g(f + shift) + g(std::abs(f - shift)));
-}
-
 /// Two blocks, cross-faded.
 class ForceDraw::Synthesis {
 public:

@@ -17,7 +17,7 @@
 /// instants between fades it is R. So G is exact between fades, and in a fade it is
 ///     [G(f + 1/4C) + G(f - 1/4C)]/2,   1/4C = 2 df
 /// for every G_ij alike: coherence and phase have no other error. Averaged over time (fades last C/H = 1/7 of it)
-///     G_drawn = (6/7) G(f) + (1/14) [G(f + 2 df) + G(|f - 2 df|)]                                          (`faded_density`)
+///     G_drawn = (6/7) G(f) + (1/14) [G(f + 2 df) + G(|f - 2 df|)]
 /// which errs by (2/7) G'' df^2: for G ~ f^-3.5, the steepest slope, by 4.5/(f T_b)^2, that is 0.44 % of G at f = 32/T_b and less above.
 /// The corners of w add 0.23 S/(T_b^3 f^4) of a variance S at frequencies far below f: 1e-3 of G where S lies at 32/T_b.
 /// The end of a block and its start, correlated by its period, meet where the weights of both tend to 0.
@@ -31,7 +31,6 @@
 #include "flow/spectral_matrix.hpp"
 #include <Eigen/Core>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -48,8 +47,6 @@ struct DrawOptions {
 
 /// 32/f as the next power of 2, s.  @param lowest_frequency  of the modes whose response counts, Hz, > 0
 [[nodiscard]] double block_period(double lowest_frequency);
-/// Mean spectrum of a draw for the spectrum G, at f, Hz.
-[[nodiscard]] double faded_density(const std::function<double(double)>& g, double f, double block_period);
 
 class ForceDraw {
 public:

@@ -202,12 +202,4 @@ Eigen::VectorXd share_outside(const LinearModes& modes, const std::vector<Turbul
   return out;
 }
 
-double white_noise_covariance(const LinearModes& modes, Eigen::Index i, Eigen::Index j, double g12) {
-  const double w1 = modes.omega[i], w2 = modes.omega[j], x1 = modes.damping[i], x2 = modes.damping[j];
-  const double difference = w1 * w1 - w2 * w2;
-  const double k = difference * difference + 4.0 * x1 * x2 * w1 * w2 * (w1 * w1 + w2 * w2) +
-                   4.0 * (x1 * x1 + x2 * x2) * w1 * w1 * w2 * w2;
-  return g12 * (x1 * w1 + x2 * w2) / (modes.mass[i] * modes.mass[j] * k);
-}
-
 } // namespace fretwork::flow

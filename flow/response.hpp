@@ -81,11 +81,4 @@ private:
 [[nodiscard]] Eigen::VectorXd share_outside(const LinearModes& modes, const std::vector<TurbulentZone>& zones,
                                             double low, double high, const Eigen::MatrixXd& shapes);
 
-/// Covariance of two modal coordinates under white noise of constant cross-spectrum g12 (real), N^2/Hz, from 0 to infinity:
-///     E[q1 q2] = g12 (xi1 w1 + xi2 w2)/(M1 M2 K),
-///     K = (w1^2 - w2^2)^2 + 4 xi1 xi2 w1 w2 (w1^2 + w2^2) + 4 (xi1^2 + xi2^2) w1^2 w2^2
-/// For one mode g/(8 xi w^3 M^2).  @param i, j  modes
-[[nodiscard]] double white_noise_covariance(const LinearModes& modes, Eigen::Index i, Eigen::Index j,
-                                            double g12);
-
 } // namespace fretwork::flow

@@ -92,15 +92,6 @@ std::vector<Sampling> sample_beside(std::span<const TubeToSample> tubes) {
   return out;
 }
 
-std::vector<Station> stations_at(const Tube& tube, const Profile& profile, const modal::Basis& basis,
-                                 std::span<const double> abscissae) {
-  std::vector<Station> out;
-  out.reserve(abscissae.size());
-  for (const double s : abscissae)
-    out.push_back(station_at(tube, profile, basis, s, 0.0));
-  return out;
-}
-
 Eigen::VectorXd transverse_share(const Sampling& sampling) {
   Eigen::VectorXd share = Eigen::VectorXd::Zero(sampling.modes());
   for (const Station& station : sampling.stations)

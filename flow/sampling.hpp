@@ -15,7 +15,7 @@
 namespace fretwork::flow {
 
 struct Station {
-  double weight = 0.0; ///< m, w; 0 where stations were asked for at given abscissae
+  double weight = 0.0; ///< m, w
   TubePoint tube;
   FlowPoint flow;
   Eigen::Matrix3Xd shapes; ///< 3 x modes: phi_i less its part along the tangent, global axes
@@ -46,10 +46,6 @@ struct TubeToSample {
 };
 /// Tubes beside each other: the k-th stations of all are at the same share of their lengths, with intervals between the nodes, ends and rows of all.
 [[nodiscard]] std::vector<Sampling> sample_beside(std::span<const TubeToSample> tubes);
-
-/// The same at given abscissae (m, 0 to the tube's length), in their order, weights 0.
-[[nodiscard]] std::vector<Station> stations_at(const Tube& tube, const Profile& profile,
-                                               const modal::Basis& basis, std::span<const double> abscissae);
 
 /// int m |phi_n|^2 ds over the tube, divided by M_i: the share of a mode that moves this tube across its axis. Near 0 for
 /// torsion, motion along the axis, and modes of another tube.

@@ -26,12 +26,7 @@ struct Wearing {
 
   /// Depths of volumes since both were new.
   [[nodiscard]] std::optional<PairDepth> depth_of(double tube_volume, double support_volume) const {
-    if (std::holds_alternative<SectorPair>(place.support.pairing))
-      return depths(place.support.pairing, tube_volume, support_volume);
-    auto depth = depths(place.support.pairing, tube_volume, support_volume - state.earlier_volume);
-    if (depth)
-      depth->support += state.earlier_depth;
-    return depth;
+    return depths(place.support.pairing, tube_volume, support_volume);
   }
   [[nodiscard]] double tube_volume(double time) const {
     return state.tube_volume + tube.at(state.tube_age + time) - tube.at(state.tube_age);
@@ -170,16 +165,6 @@ PlaceState new_place(const Place& place) {
   check_not_negative("gap opening", "initial gap", place.initial_gap, "m");
   PlaceState out;
   out.gap = place.initial_gap;
-  return out;
-}
-
-PlaceState with_new_tube(const Place& place, const PlaceState& worn) {
-  PlaceState out = worn;
-  out.tube_volume = out.tube_age = 0.0;
-  out.depth.tube = 0.0;
-  out.gap = place.initial_gap + worn.depth.support;
-  out.earlier_volume = worn.support_volume;
-  out.earlier_depth = worn.depth.support;
   return out;
 }
 

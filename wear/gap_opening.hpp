@@ -15,8 +15,6 @@
 /// The least advance keeps a gap near 0 from asking for advances without end. Which of the limits acted, and where, is
 /// returned. A law that does not apply at a place wears nothing there, which is returned too.
 /// edf_mz has the age of the body as its clock, at the present V0.
-/// A new tube: volume, depth and age of the tube start again; the support keeps its own. In a shared scar the new tube
-/// begins a new scar on the support, whose depth goes on from what it was: no depth is lost or gained by the exchange.
 /// Pure functions: equal input, equal result.
 #pragma once
 #include "contact/profile.hpp"
@@ -40,14 +38,10 @@ struct PlaceState {
   double tube_age = 0.0, support_age = 0.0;       ///< s
   PairDepth depth{0.0, 0.0};                      ///< p_t, p_s, m
   double gap = 0.0;                               ///< m
-  double earlier_volume = 0.0,
-         earlier_depth = 0.0; ///< of the support when its tube was last replaced, m3 and m
 };
 
 /// New tube, new support.
 [[nodiscard]] PlaceState new_place(const Place& place);
-/// New tube, the support as it is.
-[[nodiscard]] PlaceState with_new_tube(const Place& place, const PlaceState& worn);
 
 struct AdvanceOptions {
   double horizon;                  ///< s, > 0: time that is left

@@ -50,24 +50,6 @@ ImpactSliding KwuClasses::indices(const KwuConstants& constants) const {
   return out;
 }
 
-KwuClasses count_classes(std::span<const double> forces, std::span<const double> speeds) {
-  if (forces.size() != speeds.size())
-    throw core::Error(fmt::format("kwu_epri: {} forces and {} speeds; give one speed for each force",
-                                  forces.size(), speeds.size()));
-  KwuMaxima maxima;
-  for (std::size_t k = 0; k < forces.size(); ++k)
-    maxima.add(forces[k], speeds[k]);
-  if (!(maxima.force > 0.0))
-    throw core::Error(
-        fmt::format("kwu_epri: none of the {} samples has a normal force > 0; a contact that never "
-                    "closes has no classes",
-                    forces.size()));
-  KwuClasses classes(maxima.force, maxima.speed);
-  for (std::size_t k = 0; k < forces.size(); ++k)
-    classes.add(forces[k], speeds[k]);
-  return classes;
-}
-
 double combined_index(const ImpactSliding& indices) {
   const double sum = indices.sliding + indices.impact;
   return sum > 0.0 ? indices.sliding * (indices.sliding / sum) : 0.0;

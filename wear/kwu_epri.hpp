@@ -83,11 +83,6 @@ struct KwuMaxima {
   }
 };
 
-/// Two passes over samples of equal time.
-/// @param forces, speeds  N, m/s, of the same length
-/// @throws core::Error for spans of different lengths, no force > 0, or no speed > 0 in contact
-[[nodiscard]] KwuClasses count_classes(std::span<const double> forces, std::span<const double> speeds);
-
 /// I; 0 where both indices are 0.
 [[nodiscard]] double combined_index(const ImpactSliding& indices);
 

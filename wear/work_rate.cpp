@@ -60,21 +60,6 @@ WorkRate work_rate_between(double low, double value, double high) {
   return {value, low, high, false, true};
 }
 
-WorkRate mean_of_draws(std::span<const double> draws) {
-  if (draws.empty())
-    throw core::Error("work rate: there is no draw to average; give at least one");
-  const auto n = static_cast<double>(draws.size());
-  double mean = 0.0, squares = 0.0;
-  for (const double draw : draws) {
-    check_not_negative("work rate", "draw", draw, "W");
-    mean += draw / n;
-  }
-  for (const double draw : draws)
-    squares += (draw - mean) * (draw - mean);
-  return draws.size() > 1 ? work_rate_with_error(mean, std::sqrt(squares / (n * (n - 1.0))))
-                          : work_rate(mean);
-}
-
 WorkRate sum_of_points(std::span<const WorkRate> points) {
   if (points.empty())
     throw core::Error("work rate: a support without contact points has none; name at least one contact");
@@ -85,32 +70,6 @@ WorkRate sum_of_points(std::span<const WorkRate> points) {
     out.high += point.high;
     out.low_at_zero = out.low_at_zero || point.low_at_zero;
     out.has_interval = out.has_interval || point.has_interval;
-  }
-  return out;
-}
-
-std::vector<double> quantiles(std::vector<double> samples, std::span<const double> probabilities) {
-  if (samples.empty())
-    throw core::Error("quantiles: there is no sample; give at least one");
-  for (std::size_t k = 0; k < samples.size(); ++k)
-    if (std::isnan(samples[k]))
-      throw core::Error(
-          fmt::format("quantiles: sample {} is not a number; leave out cases outside their law and say "
-                      "how many",
-                      k + 1));
-  std::sort(samples.begin(), samples.end());
-  std::vector<double> out;
-  for (const double p : probabilities) {
-    if (!(p >= 0.0 && p <= 1.0))
-      throw core::Error(
-          fmt::format("quantiles: probability {:g} makes no sense; give a number from 0 to 1", p));
-    const double h = static_cast<double>(samples.size() - 1) * p, whole = std::floor(h);
-    const double below = samples[static_cast<std::size_t>(whole)], share = h - whole;
-    if (share == 0.0 || std::isinf(below)) {
-      out.push_back(below);
-      continue;
-    }
-    out.push_back(below + share * (samples[static_cast<std::size_t>(whole) + 1] - below));
   }
   return out;
 }

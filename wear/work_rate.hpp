@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// A work rate with the interval in which it is known, and the quantiles of what is computed from many.
+/// A work rate with the interval in which it is known.
 ///
 /// Interval: value +- standard error of a run (post::StandardErrors), that of a given confidence, or bounds. A lower end below 0 becomes 0,
 /// which is returned as `low_at_zero`.
@@ -12,12 +12,8 @@
 /// batches (F. E. Satterthwaite, Biometrics Bulletin 2 (1946) 110: the sum is 2/d).
 /// Points of one support (nodes along it) wear one scar: values, lower and upper ends are summed.
 /// Ends are summed linearly since contacts of one tube are not independent: an upper bound of the interval.
-/// Quantile at p of n sorted samples x_1..x_n: with h = (n - 1) p + 1, x_[h] + (h - [h])(x_[h]+1 - x_[h])  (type 7 of
-/// R. J. Hyndman and Y. Fan, The American Statistician 50 (1996) 361). An infinite sample ("never") is the largest;
-/// between a finite and an infinite one the quantile is infinite.
 #pragma once
 #include <span>
-#include <vector>
 
 namespace fretwork::wear {
 
@@ -39,16 +35,7 @@ struct WorkRate {
 /// @throws core::Error unless 0 <= low <= value <= high, finite
 [[nodiscard]] WorkRate work_rate_between(double low, double value, double high);
 
-/// Mean over random draws of one state, +- s/sqrt(n), s their standard deviation (n - 1); of one draw without an interval.
-/// @param draws  W, each >= 0   @throws core::Error for no draw
-[[nodiscard]] WorkRate mean_of_draws(std::span<const double> draws);
-
 /// Of one support. @throws core::Error for no point
 [[nodiscard]] WorkRate sum_of_points(std::span<const WorkRate> points);
-
-/// @param samples  any order; infinity allowed   @param probabilities  0..1
-/// @throws core::Error for no sample, one that is not a number, or a probability outside
-[[nodiscard]] std::vector<double> quantiles(std::vector<double> samples,
-                                            std::span<const double> probabilities);
 
 } // namespace fretwork::wear

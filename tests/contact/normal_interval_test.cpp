@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/normal_interval.hpp"
 #include "contact/restitution.hpp"
+#include "restitution_of_ratio.hpp"
 #include "uniform.hpp"
 #include <gtest/gtest.h>
 #include <numbers>
@@ -136,7 +137,7 @@ TEST(NormalInterval, FollowsADamperByItself) {
 
 TEST(NormalInterval, LosesWhatItsDampersTakeToOrderFour) {
   for (const NormalLaw& law : {NormalLaw{1.0, 0.1}, NormalLaw{1.0, 0.28}, NormalLaw{1.0, 0.6}}) {
-    const double e = restitution_of_ratio(0.5 * law.damping);
+    const double e = tests::restitution_of_ratio(0.5 * law.damping);
     EXPECT_LT(std::abs(mean_impact(law, 0.8).speed / e - 1.0), 3e-3) << law.damping;
     EXPECT_LT(std::abs(mean_impact(law, 0.4).speed / e - 1.0), 3e-4) << law.damping;
   }

@@ -3,6 +3,7 @@
 #include "contact/normal_law.hpp"
 #include "contact/restitution.hpp"
 #include "core/error.hpp"
+#include "restitution_of_ratio.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <string>
@@ -11,6 +12,7 @@ namespace restitution_test {
 
 using namespace fretwork;
 using namespace fretwork::contact;
+using tests::restitution_of_ratio;
 
 namespace {
 
@@ -47,27 +49,35 @@ double simulated(const NormalLaw& law, double mass, double speed) {
   return -v / speed;
 }
 
+/// -de/dxi of the reference's law, by central differences.
+double slope_of_restitution(double xi) {
+  const double step = 1e-4 * xi;
+  return (restitution_of_ratio(xi - step) - restitution_of_ratio(xi + step)) / (2.0 * step);
+}
+
 } // namespace
 
 TEST(Restitution, OfTheReferencesLawHasItsKnownValues) {
   constexpr double printed = 5e-9; // half the last digit of the source
-  EXPECT_EQ(restitution_of_ratio(0.0), 1.0);
+  EXPECT_EQ(ratio_of_restitution(1.0), 0.0);
   EXPECT_NEAR(restitution_of_ratio(0.1), 0.74407940, printed);
-  EXPECT_NEAR(restitution_of_ratio(1.0), std::exp(-2.0), round_off);
-  EXPECT_NEAR(restitution_of_ratio(1e8) * 4e16, 1.0, 1e-13); // 1/(2 xi)^2 far above 1: an exponent of 38
+  EXPECT_NEAR(ratio_of_restitution(0.74407940), 0.1, printed / slope_of_restitution(0.1));
+  EXPECT_NEAR(ratio_of_restitution(std::exp(-2.0)), 1.0, round_off);
+  EXPECT_NEAR(ratio_of_restitution(0.25e-16) / 1e8, 1.0, 1e-13); // 1/(2 xi)^2 far above 1: an exponent of 38
 }
 
 TEST(Restitution, IsSmoothAcrossCriticalDamping) {
   // -ln e = 2 + (4/3) d - (2/5) d^2 + (16/105) d^3 ... at xi = 1 + d
   for (const double d : {1e-1, 1e-3, 1e-6, 1e-9, 1e-12, -1e-12, -1e-9, -1e-6, -1e-3, -1e-1})
-    EXPECT_NEAR(-std::log(restitution_of_ratio(1.0 + d)), 2.0 + 4.0 / 3.0 * d - 0.4 * d * d,
+    EXPECT_NEAR(ratio_of_restitution(std::exp(-2.0 - 4.0 / 3.0 * d + 0.4 * d * d)), 1.0 + d,
                 0.2 * std::abs(d * d * d) + round_off);
 }
 
 TEST(Restitution, OfTheReferencesLawIsWhatAnImpactLeaves) {
   for (const double xi : {0.01, 0.1, 0.5, 0.9, 1.0, 1.2, 3.0}) {
     const double m = 2.0, k = 5e5;
-    EXPECT_NEAR(simulated({k, 2.0 * xi * std::sqrt(k * m)}, m, 1.5), restitution_of_ratio(xi), integrated);
+    EXPECT_NEAR(ratio_of_restitution(simulated({k, 2.0 * xi * std::sqrt(k * m)}, m, 1.5)), xi,
+                integrated / slope_of_restitution(xi));
   }
 }
 

@@ -19,6 +19,17 @@ Eigen::MatrixXd direct_sum(const Eigen::MatrixXd& a, const Eigen::VectorXd& s, d
   return a * r * a.transpose();
 }
 
+/// Joint acceptance of two modes sin(m pi s/L), sin(n pi s/L) of a pinned tube under a uniform load of correlation exp(-|s - s'|/lambda):
+///     I_mn/L^2 = a d_mn/(a^2 + n^2 pi^2) + m n pi^2 (1 - (-1)^m e^-a)(1 + (-1)^(m+n))/[(a^2 + m^2 pi^2)(a^2 + n^2 pi^2)],   a = L/lambda
+/// @param m, n  >= 1   @param relative_length  lambda/L, > 0
+double pinned_joint_acceptance(int m, int n, double relative_length) {
+  const double a = 1.0 / relative_length;
+  const double am = a * a + m * m * pi * pi, an = a * a + n * n * pi * pi;
+  const double sign_m = m % 2 == 0 ? 1.0 : -1.0, sign_sum = (m + n) % 2 == 0 ? 1.0 : -1.0;
+  return (m == n ? a / an : 0.0) +
+         m * n * pi * pi * (1.0 - sign_m * std::exp(-a)) * (1.0 + sign_sum) / (am * an);
+}
+
 /// G for a spectrum of 1 and L = 1: the joint acceptance I_mn/L^2.
 Eigen::MatrixXd acceptance(double relative_length, Eigen::Index patches, int modes) {
   TurbulentZone zone = pinned_zone(1.0, relative_length, patches, modes);

@@ -73,18 +73,6 @@ struct ClampedTube {
 
 } // namespace
 
-TEST(WhiteNoise, GivesTwoModesTheirReferenceCovariances) {
-  const LinearModes m = two_modes();
-  const auto expect = [](double value, double reference) {
-    EXPECT_NEAR(value, reference, seven_digits * reference);
-  };
-  expect(white_noise_covariance(m, 0, 0, 1e-3), 6.750609e-9);
-  expect(white_noise_covariance(m, 1, 1, 2e-3), 4.921194e-9);
-  expect(white_noise_covariance(m, 0, 1, 4e-4), 1.170296e-10);
-  EXPECT_NEAR(white_noise_covariance(m, 0, 0, 1.0), 1.0 / (8.0 * 0.01 * std::pow(m.omega[0], 3.0) * 0.16),
-              1e-18);
-}
-
 TEST(LinearResponse, HasTheClosedFormsUnderWhiteNoise) {
   const LinearResponse r(two_modes(), constant(two_by_two(1e-3, 4e-4, 2e-3)), 0.0, 1e5);
   constexpr double of_the_end = 2e-5; // of velocities 4 xi f/(pi 1e5 Hz) lies above 1e5 Hz: 1e-5

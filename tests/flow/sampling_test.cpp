@@ -73,16 +73,15 @@ TEST(FlowSampling, LeavesStaticModesOut) {
   EXPECT_NEAR(sampling.frequency(1), 80.0, 80.0 * round_off);
 }
 
-TEST(FlowSampling, IsThatOfAbscissaeAskedFor) {
+TEST(FlowSampling, HasTheFlowAndTheShapesAtItsAbscissae) {
   const HandMade hand = tests::pinned_tube(tests::tube_property(), 1.0, 40, {40.0});
-  const Profile profile({liquid_zone("a", 0.5, 1.0, 740, 1.5)}, 1.0);
-  const std::vector<double> where{0.75, 0.25};
-  const auto stations = stations_at(hand.tube(), profile, hand.basis, where);
-  ASSERT_EQ(stations.size(), 2u);
-  EXPECT_EQ(stations[0].flow.velocity, 1.5);
-  EXPECT_EQ(stations[1].flow.velocity, 0.0);
+  const Sampling sampling =
+      sample(hand.tube(), Profile({liquid_zone("a", 0.5, 1.0, 740, 1.5)}, 1.0), hand.basis);
   constexpr double interpolated = 1e-7; // (pi/40)^4/384
-  EXPECT_NEAR(stations[0].shapes(0, 0), std::sin(0.75 * pi), interpolated);
+  for (const Station& station : sampling.stations) {
+    EXPECT_EQ(station.flow.velocity, station.tube.s > 0.5 ? 1.5 : 0.0) << station.tube.s;
+    EXPECT_NEAR(station.shapes(0, 0), std::sin(station.tube.s * pi), interpolated) << station.tube.s;
+  }
 }
 
 TEST(FlowSampling, RefusesModalMassesWithoutSense) {

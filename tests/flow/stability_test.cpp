@@ -220,21 +220,6 @@ TEST(Stability, TakesTheConstantOfThePitch) {
   EXPECT_EQ(default_connors_constant({Arrangement::triangle, 0.02}, 0.01), 3.0);
 }
 
-TEST(Stability, KnowsMeasuredConstantsByArrangement) {
-  const auto expect = [](Arrangement arrangement, double mean, double bound) {
-    EXPECT_EQ(measured_connors_constant(arrangement).mean, mean);
-    EXPECT_EQ(measured_connors_constant(arrangement).bound, bound);
-  };
-  expect(Arrangement::triangle, 4.5, 2.8);
-  expect(Arrangement::rotated_triangle, 4.0, 2.3);
-  expect(Arrangement::rotated_square, 5.8, 3.5);
-  expect(Arrangement::square, 3.4, 2.4);
-  EXPECT_EQ(all_arrangements.mean, 4.0);
-  EXPECT_EQ(all_arrangements.bound, 2.4);
-  tests::expect_error([] { (void)measured_connors_constant(Arrangement::single); },
-                      {"a single tube", "give K"});
-}
-
 TEST(Stability, SweepsTheVelocity) {
   const Stability found = stability_of(reference_tube(100), {first_zone()});
   const std::vector<double> factors{0.0, 1.0, 2.5};

@@ -2,6 +2,7 @@
 // The parts that schemes share: motion, forces, memory. Only a commit changes what lasts.
 #include "contact/restitution.hpp"
 #include "scenes.hpp"
+#include "tests/contact/restitution_of_ratio.hpp"
 #include "transient/explicit/euler_contacts.hpp"
 #include <cstring>
 #include <gtest/gtest.h>
@@ -202,7 +203,7 @@ TEST(NormalDamper, TakesItsShareOfAnImpactWhateverThePhaseOfTheSteps) {
       const History run = simulate(scene, splitting(step), scene.duration);
       left += run.report.energy.stored / run.report.energy.initial / phases;
     }
-    const double e = contact::restitution_of_ratio(xi);
+    const double e = restitution_of_ratio(xi);
     EXPECT_NEAR(left / (e * e), 1.0, asked) << xi;
   }
 }

@@ -183,30 +183,6 @@ TEST(GapOpening, SaysWhereALawDoesNotApply) {
   EXPECT_GT(next.states[1].support_volume, 0.0);
 }
 
-TEST(GapOpening, KeepsTheSupportWhenTheTubeIsReplaced) {
-  for (const Place& place : {hole_place(), sector_place()}) {
-    int advances = 0;
-    const auto worn = worn_to_the_end(
-                          place, {horizon}, [](double) { return 2e-3; }, advances)
-                          .first;
-    const PlaceState fresh = with_new_tube(place, worn);
-    EXPECT_EQ(fresh.tube_volume, 0.0);
-    EXPECT_EQ(fresh.tube_age, 0.0);
-    EXPECT_EQ(fresh.depth.tube, 0.0);
-    EXPECT_EQ(fresh.depth.support, worn.depth.support);
-    EXPECT_EQ(fresh.support_volume, worn.support_volume);
-    EXPECT_EQ(fresh.support_age, worn.support_age);
-    EXPECT_EQ(fresh.gap, place.initial_gap + worn.depth.support);
-    // depths go on from there
-    const Advance little = advance(std::array{place}, std::array{fresh}, std::array{2e-3}, {1.0});
-    EXPECT_NEAR(little.states[0].depth.support, worn.depth.support, 1e-3 * worn.depth.support);
-    EXPECT_GT(little.states[0].depth.tube, 0.0);
-    const Advance on = advance(std::array{place}, std::array{fresh}, std::array{2e-3}, {horizon});
-    EXPECT_GT(on.states[0].depth.support, worn.depth.support);
-    EXPECT_NEAR(on.states[0].gap, place.initial_gap + on.states[0].depth.total(), 1e-18);
-  }
-}
-
 TEST(GapOpening, OfSectorsIsAProfile) {
   constexpr std::size_t n = 36;
   const std::vector<Place> places(n, sector_place());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "kwu_counts.hpp"
 #include "refusal.hpp"
-#include "wear/kwu_epri.hpp"
 #include <random>
 
 namespace kwu_epri_test {
@@ -69,7 +69,7 @@ TEST(KwuClasses, WeighSamplesByTheirTime) {
   EXPECT_NEAR(a.sliding, 0.75 * 40.0 * 3.0 * 0.0625, 10.0 * round_off);
 }
 
-TEST(KwuClasses, OfTwoPassesAreThoseOfKnownMaxima) {
+TEST(KwuClasses, OfTheirOwnMaximaHoldEverySampleInContact) {
   std::mt19937_64 generator(3);
   std::uniform_real_distribution<double> uniform(-0.5, 1.0);
   std::vector<double> forces, speeds;
@@ -77,21 +77,13 @@ TEST(KwuClasses, OfTwoPassesAreThoseOfKnownMaxima) {
     forces.push_back(50.0 * uniform(generator));
     speeds.push_back(0.1 * std::abs(uniform(generator)));
   }
-  KwuMaxima maxima;
-  for (std::size_t k = 0; k < forces.size(); ++k)
-    maxima.add(forces[k], speeds[k]);
-  KwuClasses streamed(maxima.force, maxima.speed);
-  for (std::size_t k = 0; k < forces.size(); ++k)
-    streamed.add(forces[k], speeds[k]);
-  const KwuClasses counted = count_classes(forces, speeds);
+  const KwuClasses classes = counted(forces, speeds);
   double sum = 0.0;
   for (int i = 0; i < kwu_classes; ++i)
-    for (int j = 0; j < kwu_classes; ++j) {
-      EXPECT_EQ(counted.share(i, j), streamed.share(i, j));
-      sum += counted.share(i, j);
-    }
+    for (int j = 0; j < kwu_classes; ++j)
+      sum += classes.share(i, j);
   EXPECT_NEAR(sum, 1.0, round_off);
-  EXPECT_EQ(counted.share_above(), 0.0);
+  EXPECT_EQ(classes.share_above(), 0.0);
 }
 
 TEST(KwuClasses, ScaleWithTheUnits) {
@@ -102,8 +94,8 @@ TEST(KwuClasses, ScaleWithTheUnits) {
     kilo.push_back(1e-3 * forces[k]);
     milli.push_back(1e3 * speeds[k]);
   }
-  const ImpactSliding a = count_classes(forces, speeds).indices({4.0, 40.0});
-  const ImpactSliding b = count_classes(kilo, milli).indices({4.0, 40.0 * 1e3 * 1e-6, 5.0, 1e-2});
+  const ImpactSliding a = counted(forces, speeds).indices({4.0, 40.0});
+  const ImpactSliding b = counted(kilo, milli).indices({4.0, 40.0 * 1e3 * 1e-6, 5.0, 1e-2});
   EXPECT_NEAR(a.impact / b.impact, 1.0, round_off * 10.0);
   EXPECT_NEAR(a.sliding / b.sliding, 1.0, round_off * 10.0);
 }
@@ -116,10 +108,6 @@ TEST(KwuClasses, RefuseWhatMakesNoSense) {
   expect_refused([&] { (void)classes.indices({1.0, 0.0}); }, {"k2 = 0 s2/N/m2"});
   expect_refused([&] { (void)classes.indices({1.0, 1.0, -5.0}); }, {"k = -5"});
   expect_refused([&] { (void)classes.indices({1.0, 1.0, 5.0, 0.0}); }, {"force C = 0 N"});
-  const std::vector<double> one{1.0}, two{1.0, 2.0}, none{0.0, -1.0};
-  expect_refused([&] { (void)count_classes(two, one); }, {"2 forces and 1 speeds"});
-  expect_refused([&] { (void)count_classes(none, two); }, {"none of the 2 samples", "never closes"});
-  expect_refused([&] { (void)count_classes(one, std::vector<double>{0.0}); }, {"largest sliding speed = 0"});
 }
 
 } // namespace kwu_epri_test

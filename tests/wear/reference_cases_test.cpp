@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Printed values: Code_Aster's test ZZZZ405, and values derived independently of this code.
-#include "wear/kwu_epri.hpp"
+#include "kwu_counts.hpp"
 #include "wear/life.hpp"
 #include <array>
 #include <gtest/gtest.h>
@@ -142,7 +142,7 @@ TEST(ReferenceCases, Zzzz405FourLands) {
 TEST(ReferenceCases, KwuEpri) {
   const std::array forces{0.0, 2.0, 9.0, 18.0, 27.0, 36.0, 45.0, 50.0, 12.0, 6.0};
   const std::array speeds{.01, .002, .004, .03, .05, .01, .001, .02, .045, .048};
-  const ImpactSliding indices = count_classes(forces, speeds).indices({4.0, 40.0});
+  const ImpactSliding indices = counted(forces, speeds).indices({4.0, 40.0});
   expect_printed(indices.impact, 298.333333, 9);
   expect_printed(indices.sliding, 0.492777778, 9);
   expect_printed(combined_index(indices), 8.12612852e-4, 9);

@@ -70,17 +70,7 @@ TEST(WorkRate, OfASupportIsTheSumOverItsPoints) {
   EXPECT_FALSE(sum_of_points(std::array{work_rate(1.0)}).has_interval);
 }
 
-TEST(WorkRate, OfDrawsIsTheirMean) {
-  const WorkRate rate = mean_of_draws(std::array{1.0, 2.0, 3.0, 6.0}); // s^2 = 14/3
-  EXPECT_NEAR(rate.value, 3.0, 4.0 * round_off);
-  EXPECT_NEAR(rate.high - rate.value, std::sqrt(14.0 / 3.0 / 4.0), 4.0 * round_off);
-  EXPECT_TRUE(rate.has_interval);
-  EXPECT_FALSE(mean_of_draws(std::array{1.0}).has_interval);
-}
-
 TEST(WorkRate, RefusesWhatMakesNoSense) {
-  expect_refused([] { (void)mean_of_draws({}); }, {"no draw"});
-  expect_refused([] { (void)mean_of_draws(std::array{1.0, -1.0}); }, {"draw = -1 W"});
   expect_refused([] { (void)work_rate(-1.0); }, {"work rate: value = -1 W"});
   expect_refused([] { (void)work_rate_with_error(1.0, -1.0); }, {"standard error = -1 W"});
   expect_refused([] { (void)work_rate_with_error(infinity, 1.0); }, {"value = inf W"});
@@ -89,30 +79,6 @@ TEST(WorkRate, RefusesWhatMakesNoSense) {
   expect_refused([] { (void)work_rate_between(1.0, 3.0, 2.0); }, {"3 W is not between its ends 1 and 2 W"});
   expect_refused([] { (void)work_rate_between(1.0, -3.0, 2.0); }, {"value = -3 W"});
   expect_refused([] { (void)sum_of_points({}); }, {"without contact points"});
-}
-
-TEST(Quantiles, InterpolateBetweenSortedSamples) {
-  const std::array p{0.0, 0.25, 0.5, 0.9, 1.0};
-  const auto q = quantiles({4.0, 1.0, 2.0, 3.0}, p);
-  const double expected[] = {1.0, 1.75, 2.5, 3.7, 4.0};
-  for (std::size_t k = 0; k < p.size(); ++k)
-    EXPECT_NEAR(q[k], expected[k], 4.0 * round_off) << p[k];
-  EXPECT_EQ(quantiles({7.0}, p), std::vector<double>(5, 7.0));
-}
-
-TEST(Quantiles, TakeNeverAsTheLargest) {
-  const auto q = quantiles({infinity, 1.0, infinity, 3.0, 2.0}, std::array{0.0, 0.5, 0.51, 0.75, 1.0});
-  EXPECT_EQ(q[0], 1.0);
-  EXPECT_EQ(q[1], 3.0);
-  EXPECT_EQ(q[2], infinity);
-  EXPECT_EQ(q[3], infinity);
-  EXPECT_EQ(q[4], infinity);
-}
-
-TEST(Quantiles, RefuseWhatMakesNoSense) {
-  expect_refused([] { (void)quantiles({}, std::array{0.5}); }, {"no sample"});
-  expect_refused([] { (void)quantiles({1.0, not_a_number}, std::array{0.5}); }, {"sample 2 is not a number"});
-  expect_refused([] { (void)quantiles({1.0}, std::array{1.5}); }, {"probability 1.5", "from 0 to 1"});
 }
 
 } // namespace work_rate_test
