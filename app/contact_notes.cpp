@@ -25,11 +25,10 @@ struct Point {
 Point at_start(const PlacedContact& placed, std::size_t k, const BuiltScene& built) {
   const transient::Scene& scene = built.scene;
   const transient::ContactPoint& contact = scene.contacts[k];
-  const core::Vec3 place = scene.place_at_start(contact) + contact.moved_by(scene.q0);
   core::Vec3 speed = contact.moved_by(scene.v0);
   for (Eigen::Index m = 0; m < contact.imposed.cols(); ++m)
     speed += scene.motions[static_cast<std::size_t>(m)].velocity0 * contact.imposed.col(m);
-  const contact::Location at = contact::locate(contact.support.obstacle, place.y(), place.z());
+  const contact::Location at = scene.location_at_start(contact);
   const double penetration_rate = -(at.ny * speed.y() + at.nz * speed.z());
   return {&placed, &contact, &built.true_modes, at.gap,
           contact::normal_force(contact.support.normal, -at.gap, penetration_rate)};
@@ -208,9 +207,8 @@ std::vector<std::string> lost_preloads(const study::Study& study, const std::vec
     for (std::size_t k = 0; k < built.contacts.size(); ++k) {
       const PlacedContact& at = placed[built.contacts[k]];
       const transient::ContactPoint& contact = built.scene.contacts[k];
-      const core::Vec3 place = built.scene.place_at_start(contact);
-      const double overlap = -contact::locate(contact.support.obstacle, place.y(), place.z()).gap,
-                   gap = at_start(at, k, built).gap;
+      const double overlap = -built.scene.location_undeformed(contact).gap,
+                   gap = built.scene.location_at_start(contact).gap;
       LostPreload& entry = of_entry[at.entry];
       ++entry.points;
       if (!(overlap > least_overlap) || !(gap > least_overlap))

@@ -61,8 +61,7 @@ std::string goes_on_note(const Fields::Load& load, double duration) {
 bool is_moved(const transient::Scene& scene) {
   const auto acts = [](const vibration::Load& load) { return !load.modal_force.isZero(0.0); };
   const auto pressed = [&](const transient::ContactPoint& contact) {
-    const core::Vec3 u = scene.place_at_start(contact) + contact.moved_by(scene.q0);
-    return contact::locate(contact.support.obstacle, u.y(), u.z()).gap < 0.0;
+    return scene.location_at_start(contact).gap < 0.0;
   };
   return std::any_of(scene.loads.begin(), scene.loads.end(), acts) || !scene.motions.empty() ||
          std::any_of(scene.sampled_loads.begin(), scene.sampled_loads.end(),

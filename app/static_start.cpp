@@ -48,14 +48,12 @@ std::string words_for(const Eigen::VectorXd& motion, const std::vector<const mod
 
 /// Where a contact overlaps its obstacle before anything has moved, the deepest: `contact "card" overlaps ...; `.
 /// @param numbers  of the scene's contacts among `contacts`
-std::string deepest_overlap(const transient::Scene& at_start, const std::vector<std::size_t>& numbers,
+std::string deepest_overlap(const transient::Scene& scene, const std::vector<std::size_t>& numbers,
                             const std::vector<PlacedContact>& contacts) {
   double least = 0.0;
   std::size_t deepest = 0;
   for (std::size_t k = 0; k < numbers.size(); ++k) {
-    const transient::ContactPoint& point = at_start.contacts[k];
-    if (const double gap = contact::locate(point.support.obstacle, point.rest.y(), point.rest.z()).gap;
-        gap < least) {
+    if (const double gap = scene.location_undeformed(scene.contacts[k]).gap; gap < least) {
       least = gap;
       deepest = k;
     }
@@ -93,7 +91,7 @@ void start_in_equilibrium(const std::vector<const modal::Basis*>& bases,
         fmt::format("transient.start = \"static\": no equilibrium found in {} iterations, its residual is "
                     "{:.2g} of the forces; {}"
                     "take start = \"rest\" with damping until the structure has settled",
-                    e.iterations, e.residual, deepest_overlap(at_start, built.contacts, contacts)));
+                    e.iterations, e.residual, deepest_overlap(scene, built.contacts, contacts)));
   }
   scene.q0 = e.q;
   const auto closed = (e.normal_force.array() > 0.0).count();

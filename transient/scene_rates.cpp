@@ -121,8 +121,7 @@ double structure_rate(const vibration::System& system) {
 
 /// Penetration of a contact at t = 0, m, 0 where it is open.
 double initial_overlap(const Scene& scene, const ContactPoint& point) {
-  const core::Vec3 u = scene.place_at_start(point) + point.moved_by(scene.q0);
-  return std::max(0.0, -contact::locate(point.support.obstacle, u.y(), u.z()).gap);
+  return std::max(0.0, -scene.location_at_start(point).gap);
 }
 
 /// Whether a load has to do with the scene: it moves its modes, or may be that of a motion that carries its

@@ -25,8 +25,7 @@ double shortest_change(const signals::TimeFunction& function) {
 Eigen::VectorXd normal_forces_at_start(const Scene& scene) {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(scene.system.size());
   for (const ContactPoint& point : scene.contacts) {
-    const core::Vec3 place = scene.place_at_start(point) + point.moved_by(scene.q0);
-    const contact::Location at = contact::locate(point.support.obstacle, place.y(), place.z());
+    const contact::Location at = scene.location_at_start(point);
     if (!(at.gap < 0.0))
       continue;
     const double force = -point.support.normal.stiffness * at.gap;

@@ -66,6 +66,16 @@ struct Scene : vibration::ForcedSystem {
       place += motions[static_cast<std::size_t>(k)].displacement0 * point.imposed.col(k);
     return place;
   }
+  /// Of its obstacle at t = 0 for q = 0: gap and normal.
+  [[nodiscard]] contact::Location location_undeformed(const ContactPoint& point) const {
+    const core::Vec3 place = place_at_start(point);
+    return contact::locate(point.support.obstacle, place.y(), place.z());
+  }
+  /// Of its obstacle at t = 0, q = q0.
+  [[nodiscard]] contact::Location location_at_start(const ContactPoint& point) const {
+    const core::Vec3 place = place_at_start(point) + point.moved_by(q0);
+    return contact::locate(point.support.obstacle, place.y(), place.z());
+  }
 };
 
 /// The same scene, its contacts over all modes.
