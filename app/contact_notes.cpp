@@ -226,48 +226,66 @@ std::vector<std::string> lost_preloads(const study::Study& study, const std::vec
   return out;
 }
 
-std::vector<std::string> inside_obstacles(const study::Study& study, const fem::Model& model,
-                                          const std::vector<PlacedContact>& placed) {
-  std::vector<double> radius(model.nodes.size(), 0.0); // m, the largest at a node
+/// m, of each node of the model: the largest outer radius of the beams at it, 0 without any.
+std::vector<double> outer_radii(const fem::Model& model) {
+  std::vector<double> out(model.nodes.size(), 0.0);
   for (const fem::Beam& beam : model.beams)
     for (const core::Index node : {beam.a, beam.b})
       if (const auto here =
               fem::outer_radius(fem::property_at(model.properties[static_cast<std::size_t>(beam.property)],
                                                  beam.along[node == beam.b])
                                     .section)) {
-        double& most = radius[static_cast<std::size_t>(node)];
+        double& most = out[static_cast<std::size_t>(node)];
         most = std::max(most, *here);
       }
+  return out;
+}
+
+/// A clearance of the size of the tube: of a radius given as a gap, or a diameter given as a radius. Empty where it is not.
+std::string clearance_warning(const PlacedContact& contact, study::ObstacleKind kind, double radius) {
+  constexpr double like_a_radius = 0.9, like_a_diameter = 2.2; // in radii of the tube
+  const double clearance = gap_of(contact, contact.obstacle);
+  using enum study::ObstacleKind;
+  if (kind == stop_y || kind == stop_z || !(clearance > like_a_radius * radius) ||
+      !(clearance < like_a_diameter * radius))
+    return {};
+  return fmt::format(
+      "contact \"{}\": its clearance of {:g} m is of the size of the tube, whose radius is {:g} m; a "
+      "clearance is radial, and sizes of obstacles are radii and distances from the centre: is one a "
+      "diameter, "
+      "or gap a radius?",
+      contact.name, clearance, radius);
+}
+
+/// A tube that rests in its obstacle by more than its radius, beyond a clearance below 0, which is meant. Empty where it does not.
+std::string inside_warning(const PlacedContact& contact, double radius) {
+  const double meant = std::max(0.0, -contact::locate(contact.obstacle, 0.0, 0.0).gap);
+  const double overlap = -contact::locate(contact.obstacle, contact.rest.y(), contact.rest.z()).gap;
+  if (overlap - meant <= radius)
+    return {};
+  return fmt::format(
+      "contact \"{}\": the tube, of radius {:g} m, rests {:.4g} m inside its obstacle; look at "
+      "origin, offset, axes and sizes of the obstacle",
+      contact.name, radius, overlap);
+}
+
+/// Of contacts of beams with fixed obstacles, one warning an entry.
+std::vector<std::string> misplaced_obstacles(const study::Study& study, const fem::Model& model,
+                                             const std::vector<PlacedContact>& placed) {
+  const std::vector<double> radii = outer_radii(model);
   std::vector<std::string> out;
   std::size_t said = study.contacts.size(); // entry of the last warning
   for (const PlacedContact& contact : placed) {
-    const double most = radius[static_cast<std::size_t>(contact.node)];
-    // a clearance below 0 is meant
-    const double meant = std::max(0.0, -contact::locate(contact.obstacle, 0.0, 0.0).gap);
-    const double overlap = -contact::locate(contact.obstacle, contact.rest.y(), contact.rest.z()).gap;
-    // in radii of the tube: of a radius given as a gap, or a diameter given as a radius
-    constexpr double like_a_radius = 0.9, like_a_diameter = 2.2;
-    const double clearance = gap_of(contact, contact.obstacle);
-    using enum study::ObstacleKind;
-    const study::ObstacleKind kind = study.contacts[contact.entry].obstacle;
-    if (contact.entry != said && contact.other < 0 && most > 0.0 && kind != stop_y && kind != stop_z &&
-        clearance > like_a_radius * most && clearance < like_a_diameter * most) {
-      said = contact.entry;
-      out.push_back(fmt::format(
-          "contact \"{}\": its clearance of {:g} m is of the size of the tube, whose radius is {:g} m; a "
-          "clearance is radial, and sizes of obstacles are radii and distances from the centre: is one a "
-          "diameter, "
-          "or gap a radius?",
-          contact.name, clearance, most));
+    const double radius = radii[static_cast<std::size_t>(contact.node)];
+    if (contact.entry == said || contact.other >= 0 || radius == 0.0)
       continue;
-    }
-    if (contact.entry == said || contact.other >= 0 || most == 0.0 || overlap - meant <= most)
+    std::string warning = clearance_warning(contact, study.contacts[contact.entry].obstacle, radius);
+    if (warning.empty())
+      warning = inside_warning(contact, radius);
+    if (warning.empty())
       continue;
     said = contact.entry;
-    out.push_back(
-        fmt::format("contact \"{}\": the tube, of radius {:g} m, rests {:.4g} m inside its obstacle; look at "
-                    "origin, offset, axes and sizes of the obstacle",
-                    contact.name, most, overlap));
+    out.push_back(std::move(warning));
   }
   return out;
 }
@@ -306,7 +324,7 @@ std::string twice_placed(const std::vector<PlacedContact>& placed) {
 
 std::vector<std::string> placement_warnings(const study::Study& study, const fem::Model& model,
                                             const std::vector<PlacedContact>& placed) {
-  std::vector<std::string> out = inside_obstacles(study, model, placed);
+  std::vector<std::string> out = misplaced_obstacles(study, model, placed);
   for (std::string& question : contact_questions(study, model, placed))
     out.push_back(std::move(question));
   return out;
