@@ -230,9 +230,10 @@ private:
     warn(parts_without_fluid(study, model_, flows_));
     for (std::string& note : cross_flow_in_legs(study, model_, flows_, placed_))
       out_.notes.push_back(std::move(note));
-    for (std::string& note :
-         supports_without_length({study, mesh_, model_, flows_}, placed_, last_ == Stage::stability))
-      out_.notes.push_back(std::move(note));
+    // without entries, stability assesses tubes with their supports
+    if (are_damped_by_supports(study) || (last_ == Stage::stability && study.stabilities.empty()))
+      for (std::string& note : supports_without_length({study, mesh_, model_, flows_}, placed_))
+        out_.notes.push_back(std::move(note));
     turbulence_ = turbulent_loads(study, model_, flows_, out_.notes);
     warn(spectra_of_one_phase(study, turbulence_));
     nodes_ = observed_nodes(study, mesh_);

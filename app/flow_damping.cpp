@@ -108,15 +108,16 @@ std::vector<flow::TubeSupport> supports_of(const TubesInFlow& tubes, const Place
                        : supports_by_contacts(tubes.study, tube, contacts);
 }
 
+bool are_damped_by_supports(const study::Study& study) {
+  return study.modes.flow_damping ||
+         std::any_of(study.stabilities.begin(), study.stabilities.end(), [](const study::Stability& one) {
+           return !one.damping && one.pinned != study::Pinned::none;
+         });
+}
+
 std::vector<std::string> supports_without_length(const TubesInFlow& tubes,
-                                                 const std::vector<PlacedContact>& contacts, bool assessed) {
+                                                 const std::vector<PlacedContact>& contacts) {
   std::vector<std::string> out;
-  const auto& stabilities = tubes.study.stabilities;
-  const bool by_flow = std::any_of(stabilities.begin(), stabilities.end(), [](const study::Stability& one) {
-    return !one.damping && one.pinned != study::Pinned::none;
-  });
-  if (!tubes.study.modes.flow_damping && !by_flow && !(assessed && stabilities.empty()))
-    return out;
   for (const PlacedFlow& placed : tubes.flows) {
     const study::Flow& flow = tubes.study.flows[placed.entry];
     if (flow.supports)

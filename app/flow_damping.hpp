@@ -29,11 +29,13 @@ struct TubesInFlow {
                                                          const std::vector<PlacedContact>& contacts,
                                                          const std::vector<PlacedContact>& left_out);
 
+/// Whether modes of the study or its entries of stability are damped by supports of tubes.
+[[nodiscard]] bool are_damped_by_supports(const study::Study& study);
+
 /// Notes of tubes whose supports have no length, so that squeeze film and friction damp nothing: contacts without thickness where the flow
-/// lists no supports, in a study whose damping or stability asks for them.
-/// @param assessed  for stability, also without entries
-[[nodiscard]] std::vector<std::string>
-supports_without_length(const TubesInFlow& tubes, const std::vector<PlacedContact>& contacts, bool assessed);
+/// lists no supports.
+[[nodiscard]] std::vector<std::string> supports_without_length(const TubesInFlow& tubes,
+                                                               const std::vector<PlacedContact>& contacts);
 
 /// @param bases  of the structures of a model with the nodes of tubes.model
 /// @return number of the one that the tube belongs to
