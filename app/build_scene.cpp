@@ -326,10 +326,11 @@ std::vector<std::vector<std::size_t>> joined_structures(const std::vector<modal:
   return groups;
 }
 
-BuiltScene build_scene(const study::Study& study, const Fields& fields,
-                       std::vector<signals::SampledLoad> turbulence, const std::vector<modal::Basis>& all,
-                       const std::vector<std::size_t>& structures, const std::vector<PlacedContact>& contacts,
-                       const ContactFlexibility& flexibility, const std::vector<NamedNode>& nodes) {
+BuiltScene build_scene(const study::Study& study, const std::vector<modal::Basis>& all,
+                       const std::vector<PlacedContact>& contacts, const std::vector<NamedNode>& nodes,
+                       const Fields& fields, CoupledStructures coupled) {
+  const std::vector<std::size_t>& structures = coupled.structures;
+  const ContactFlexibility& flexibility = coupled.flexibility;
   BuiltScene out;
   out.structures = structures;
   Bases bases;
@@ -346,7 +347,7 @@ BuiltScene build_scene(const study::Study& study, const Fields& fields,
       append(force, basis->shapes.transpose() * restricted(*basis, load.force));
     scene.loads.push_back({load.function, force, load.inertial});
   }
-  scene.sampled_loads = std::move(turbulence);
+  scene.sampled_loads = std::move(coupled.turbulence);
   scene.q0 = scene.v0 = Eigen::VectorXd::Zero(scene.system.size());
   if (fields.moves_at_start) {
     scene.q0 = project(bases, fields.displacement_momentum, fields.displacement, "displacement", out);

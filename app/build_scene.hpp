@@ -57,12 +57,17 @@ struct NamedNode {
 joined_structures(const std::vector<modal::Basis>& bases, const std::vector<PlacedContact>& contacts,
                   const std::vector<FluidForces>& fluid);
 
-/// @param turbulence   on its modes (sampled_loads)
-/// @param flexibility  of its contacts
-[[nodiscard]] BuiltScene
-build_scene(const study::Study& study, const Fields& fields, std::vector<signals::SampledLoad> turbulence,
-            const std::vector<modal::Basis>& bases, const std::vector<std::size_t>& structures,
-            const std::vector<PlacedContact>& contacts, const ContactFlexibility& flexibility,
-            const std::vector<NamedNode>& nodes);
+/// Structures that move together: those of one scene.
+struct CoupledStructures {
+  const std::vector<std::size_t>& structures;   ///< one group of joined_structures()
+  const ContactFlexibility& flexibility;        ///< of their contacts
+  std::vector<signals::SampledLoad> turbulence; ///< on their modes (sampled_loads)
+};
+
+/// @param bases, contacts, nodes  of the whole model: those of the scene are taken from them
+[[nodiscard]] BuiltScene build_scene(const study::Study& study, const std::vector<modal::Basis>& bases,
+                                     const std::vector<PlacedContact>& contacts,
+                                     const std::vector<NamedNode>& nodes, const Fields& fields,
+                                     CoupledStructures coupled);
 
 } // namespace fretwork::app

@@ -110,16 +110,18 @@ std::vector<BuiltScene> CaseRunner::scenes_of(const Case& c) {
     fields.loads[e].function = c.study.loads[e].function;
   const WatchedWear watched = watched_wear(c.study, c.worn, c.placed.size());
   std::vector<std::string> notes; // cases have none
-  const std::vector<LackingForce> lacking = lacking_forces(
-      c.force_sites, c.structure->model, c.structure->structures, c.contacts->bases, fields, c.placed, notes);
+  const std::vector<LackingForce> lacking =
+      lacking_forces(c.force_sites, {c.structure->model, c.structure->structures, c.contacts->bases}, fields,
+                     c.placed, notes);
   std::vector<BuiltScene> scenes;
   for (std::size_t i = 0; i < c.contacts->joined.size(); ++i) {
     std::vector<signals::SampledLoad> turbulence;
     for (std::size_t e = 0; e < c.study.turbulence.size(); ++e)
       if (const auto& load = c.contacts->turbulence[i][e])
         turbulence.push_back(with_seed(*load, c.study.turbulence[e].seed));
-    scenes.push_back(build_scene(c.study, fields, std::move(turbulence), c.contacts->bases,
-                                 c.contacts->joined[i], c.placed, c.contacts->flexibilities[i], c.nodes));
+    scenes.push_back(
+        build_scene(c.study, c.contacts->bases, c.placed, c.nodes, fields,
+                    {c.contacts->joined[i], c.contacts->flexibilities[i], std::move(turbulence)}));
     follow_forces(c.force_sites, lacking, c.structure->model, c.contacts->bases, fields, scenes.back());
     scenes.back().watched_wear = watched.at(scenes.back().contacts);
   }

@@ -290,7 +290,7 @@ private:
       at_contacts_.fields = build_fields(inputs_.study, mesh_, model_, flows_,
                                          support_fields(moved_, model_, modes.structures));
       at_contacts_.fields.motion = fluidelastic_forces({inputs_.study, mesh_, model_, flows_}, out_.bases);
-      lacking_forces_ = lacking_forces(out_.force_sites, model_, modes.structures, out_.bases,
+      lacking_forces_ = lacking_forces(out_.force_sites, {model_, modes.structures, out_.bases},
                                        at_contacts_.fields, placed_, out_.notes);
       at_contacts_.turbulence = turbulence_;
       at_contacts_.joined = joined_structures(out_.bases, placed_, at_contacts_.fields.motion);

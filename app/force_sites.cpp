@@ -206,12 +206,10 @@ std::vector<results::ForceSite> force_sites(const study::Study& study, const mes
   return out;
 }
 
-std::vector<LackingForce> lacking_forces(const std::vector<results::ForceSite>& sites,
-                                         const fem::Model& model,
-                                         const std::vector<fem::Structure>& structures,
-                                         const std::vector<modal::Basis>& bases, const Fields& fields,
-                                         const std::vector<PlacedContact>& placed,
+std::vector<LackingForce> lacking_forces(const std::vector<results::ForceSite>& sites, const ModelInModes& of,
+                                         const Fields& fields, const std::vector<PlacedContact>& placed,
                                          std::vector<std::string>& notes) {
+  const auto& [model, structures, bases] = of;
   for (const results::ForceSite& site : sites)
     if (!modal::structure_of(bases, site.node))
       throw core::Error(

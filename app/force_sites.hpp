@@ -26,14 +26,20 @@ struct LackingForce {
   Eigen::MatrixXd of_contacts; ///< 6 x 3 placed contacts, under 1 N along their x_loc y_loc z_loc
 };
 
+/// A model and the modes of its structures.
+struct ModelInModes {
+  const fem::Model& model;
+  const std::vector<fem::Structure>& structures; ///< that can move
+  const std::vector<modal::Basis>& bases;        ///< of each
+};
+
 /// Of each site; zero, with a note, where a structure has no static solution.
 /// A structure that is free to move accelerates as well: of modes of 0 Hz it has M phi_i (phi_i . l). Serial; needs PETSc where there are sites.
 /// @throws core::Error for a site that belongs to no structure
-[[nodiscard]] std::vector<LackingForce>
-lacking_forces(const std::vector<results::ForceSite>& sites, const fem::Model& model,
-               const std::vector<fem::Structure>& structures, const std::vector<modal::Basis>& bases,
-               const Fields& fields, const std::vector<PlacedContact>& placed,
-               std::vector<std::string>& notes);
+[[nodiscard]] std::vector<LackingForce> lacking_forces(const std::vector<results::ForceSite>& sites,
+                                                       const ModelInModes& of, const Fields& fields,
+                                                       const std::vector<PlacedContact>& placed,
+                                                       std::vector<std::string>& notes);
 
 /// Gives a scene the forces at its structures. @param lacking  of lacking_forces()
 void follow_forces(const std::vector<results::ForceSite>& sites, const std::vector<LackingForce>& lacking,

@@ -114,8 +114,9 @@ std::vector<BuiltScene> build_scenes(const study::Study& study, const std::vecto
   out.contacts.resize(placed.size());
   for (std::size_t i = 0; i < joined.size(); ++i) {
     const ContactFlexibility& flexibility = flexibilities[i];
-    scenes.push_back(build_scene(study, fields, sampled_loads(turbulence, bases, joined[i], out.notes), bases,
-                                 joined[i], placed, flexibility, nodes));
+    scenes.push_back(
+        build_scene(study, bases, placed, nodes, fields,
+                    {joined[i], flexibility, sampled_loads(turbulence, bases, joined[i], out.notes)}));
     const BuiltScene& scene = scenes.back();
     for (std::size_t k = 0; k < scene.contacts.size(); ++k) {
       const std::size_t c = scene.contacts[k];
