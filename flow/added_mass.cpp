@@ -4,7 +4,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <numbers>
 
 namespace fretwork::flow {
 namespace {
@@ -44,11 +43,6 @@ double confinement_ratio(const Bundle& bundle, double diameter) {
 double added_mass_coefficient(double confinement_ratio) {
   const double blockage = 1.0 / (confinement_ratio * confinement_ratio);
   return (1.0 + blockage) / (1.0 - blockage);
-}
-
-double added_mass(const Bundle& bundle, double diameter, double density) {
-  return added_mass_coefficient(confinement_ratio(bundle, diameter)) * density * std::numbers::pi / 4.0 *
-         diameter * diameter;
 }
 
 } // namespace fretwork::flow

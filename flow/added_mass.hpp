@@ -44,9 +44,4 @@ inline constexpr double correlated_confinement = 2.0;
 /// C_m of a tube in the middle of a circle, q > 1 (infinite: 1).
 [[nodiscard]] double added_mass_coefficient(double confinement_ratio);
 
-/// m_a, kg/m.
-/// @param density  kg/m3 of the fluid outside, of the homogeneous mixture in two-phase flow
-/// @throws core::Error for P/D <= 1.05
-[[nodiscard]] double added_mass(const Bundle& bundle, double diameter, double density);
-
 } // namespace fretwork::flow

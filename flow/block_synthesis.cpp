@@ -178,17 +178,6 @@ void BlockSynthesis::add(const MatrixLoad& load) {
                       std::move(table)});
 }
 
-std::size_t BlockSynthesis::bytes() const {
-  std::size_t numbers = lines_.size() + sums_.size() + transform_->lines.size() + transform_->samples.size();
-  std::set<const AlignedArray*> tables;
-  for (const Source& s : sources_) {
-    numbers += s.shapes.size();
-    if (tables.insert(s.table.get()).second)
-      numbers += s.table->size();
-  }
-  return numbers * sizeof(double);
-}
-
 void BlockSynthesis::draw_patches(const Source& source, LineSequence sequence, std::uint32_t group) {
   alignas(64) double z[group_size] = {};
   const double* amplitude = source.table->data() + std::int64_t{group} * source.points * group_lines;

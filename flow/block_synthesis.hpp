@@ -52,7 +52,6 @@ public:
   [[nodiscard]] std::int64_t samples() const { return samples_; }
   /// Between samples, s.
   [[nodiscard]] double step() const { return step_; }
-  [[nodiscard]] std::size_t bytes() const;
   /// Block `number`.  @param out  rows() x samples()
   void compute(std::uint32_t number, Eigen::MatrixXd& out);
 

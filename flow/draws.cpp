@@ -9,19 +9,6 @@
 #include <numbers>
 
 namespace fretwork::flow {
-namespace {
-
-constexpr double periods_per_block =
-    32.0; ///< of the lowest mode: spectra err by 0.44 % at its frequency at most
-
-} // namespace
-
-double block_period(double lowest_frequency) {
-  if (!(lowest_frequency > 0.0) || !std::isfinite(lowest_frequency))
-    throw core::Error(fmt::format("a lowest frequency of {:g} Hz gives no period of blocks; give one > 0",
-                                  lowest_frequency));
-  return std::exp2(std::ceil(std::log2(periods_per_block / lowest_frequency)));
-}
 
 /// Two blocks, cross-faded.
 class ForceDraw::Synthesis {
@@ -91,10 +78,6 @@ ForceDraw::~ForceDraw() = default;
 Eigen::Index ForceDraw::modes() const { return synthesis_->blocks.modes(); }
 double ForceDraw::step() const { return synthesis_->blocks.step(); }
 std::int64_t ForceDraw::hop() const { return synthesis_->hop; }
-std::size_t ForceDraw::bytes() const {
-  return synthesis_->blocks.bytes() +
-         2 * sizeof(double) * static_cast<std::size_t>(synthesis_->held[0].samples.size());
-}
 
 void ForceDraw::fill(std::int64_t first, Eigen::Ref<Eigen::MatrixXd> forces) {
   assert(first >= 0 && forces.rows() == modes());

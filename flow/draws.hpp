@@ -22,8 +22,7 @@
 /// The corners of w add 0.23 S/(T_b^3 f^4) of a variance S at frequencies far below f: 1e-3 of G where S lies at 32/T_b.
 /// The end of a block and its start, correlated by its period, meet where the weights of both tend to 0.
 /// What T_b has to resolve is G, which is smooth; the damping of modes does not matter, however long they remember: they add up the
-/// forces of independent blocks as those of one series. `block_period`: 32 periods of the lowest mode, as a power of 2 s, so that a small
-/// change of that mode does not change the draw. Below 2 df forces are too small (f = 0 carries nothing).
+/// forces of independent blocks as those of one series. Below 2 df forces are too small (f = 0 carries nothing). The band of the spectra gives T_b (load_band.hpp).
 ///
 /// Samples: 20 periods of f_max and linear between: 0.8 % of the amplitude lost at f_max, 0.1 % at a third of it.
 #pragma once
@@ -40,13 +39,10 @@ struct DrawOptions {
   std::uint32_t seed = 1, draw = 0;
   double f_min = 0.0;               ///< Hz, >= 0: lines below carry nothing
   double f_max = 0.0;               ///< Hz, > f_min: lines above carry nothing (load_band.hpp)
-  double block_period = 0.0;        ///< T_b, s, > 0 (`block_period`); at least 8 lines up to f_max
+  double block_period = 0.0;        ///< T_b, s, > 0; at least 8 lines up to f_max
   double samples_per_period = 20.0; ///< of f_max, >= 4
   bool phase_only = false; ///< lines of fixed amplitude and random phase: not Gaussian where few lines count
 };
-
-/// 32/f as the next power of 2, s.  @param lowest_frequency  of the modes whose response counts, Hz, > 0
-[[nodiscard]] double block_period(double lowest_frequency);
 
 class ForceDraw {
 public:
@@ -62,8 +58,6 @@ public:
   [[nodiscard]] double step() const;
   /// Samples between the starts of blocks.
   [[nodiscard]] std::int64_t hop() const;
-  /// What two blocks and the tables of lines take.
-  [[nodiscard]] std::size_t bytes() const;
 
   /// Modal forces at the instants first step, (first + 1) step, ... The same whatever has been asked before; blocks are computed once where
   /// instants do not go back. Nothing is allocated but what FFTW's transform does.

@@ -264,11 +264,6 @@ core::MotionForces motion_forces(const std::vector<TubeOfLaw>& tubes, const Flui
   return out;
 }
 
-core::MotionForces motion_forces(const Sampling& sampling, const FluidelasticLaw& law, Eigen::Index modes,
-                                 double largest_factor) {
-  return motion_forces(std::vector<TubeOfLaw>{{sampling, 0}}, law, modes, largest_factor);
-}
-
 core::MotionForces scaled(core::MotionForces forces, double factor) {
   forces.stiffness *= factor * factor;
   forces.damping *= factor;

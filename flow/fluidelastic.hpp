@@ -37,9 +37,6 @@ struct TubeOfLaw {
 [[nodiscard]] core::MotionForces motion_forces(const std::vector<TubeOfLaw>& tubes,
                                                const FluidelasticLaw& law, Eigen::Index modes,
                                                double largest_factor);
-/// Of one tube.
-[[nodiscard]] core::MotionForces motion_forces(const Sampling& sampling, const FluidelasticLaw& law,
-                                               Eigen::Index modes, double largest_factor);
 
 /// The same at `factor` > 0 times all velocities: q goes with its square, the rates of the lags with itself.
 [[nodiscard]] core::MotionForces scaled(core::MotionForces forces, double factor);

@@ -265,7 +265,7 @@ TEST(Draw, GivesTwoModesTheirVariancesUnderWhiteNoise) {
   g << 1e-3, 4e-4, 4e-4, 2e-3;
   double q1 = 0, q2 = 0, v1 = 0, v2 = 0, count = 0;
   for (int n = 0; n < draws; ++n) {
-    DrawOptions o = options(160.0, block_period(36.0));
+    DrawOptions o = options(160.0, 1.0);
     o.draw = static_cast<std::uint32_t>(n);
     ForceDraw draw({}, {white_forces(g)}, o);
     const double start = 3.0 / (xi1 * w1); // 5 % of the amplitude at the start is left
@@ -295,8 +295,7 @@ TEST(Draw, GivesTwoModesTheirVariancesUnderWhiteNoise) {
 TEST(Draw, GivesModesThatRememberManyBlocksTheirVariance) {
   // damping ratio 0.001: the mode remembers 8 s, blocks last 2 s; its frequency lies midway between lines
   constexpr double f = 20.25, w = 2.0 * pi * f, xi = 0.001, duration = 12000.0, g = 1e-3;
-  DrawOptions o = options(50.0, block_period(f));
-  ASSERT_EQ(o.block_period, 2.0);
+  const DrawOptions o = options(50.0, 2.0);
   ForceDraw draw({}, {white_forces(Eigen::MatrixXd::Constant(1, 1, g))}, o);
   ExactMode mode(1.0, w, xi, draw.step());
   Eigen::MatrixXd forces(1, draw.hop() + 1);
@@ -312,15 +311,6 @@ TEST(Draw, GivesModesThatRememberManyBlocksTheirVariance) {
     }
   }
   EXPECT_NEAR(sum / count / (g / (8.0 * xi * w * w * w)), 1.0, 3.0 * mean_square_scatter(xi, w, duration, 1));
-}
-
-TEST(Draw, TakesItsOptionsFromTheModes) {
-  EXPECT_EQ(block_period(36.0), 1.0);
-  EXPECT_EQ(block_period(32.0), 1.0);
-  EXPECT_EQ(block_period(31.0), 2.0);
-  EXPECT_EQ(block_period(5.0), 8.0);
-  EXPECT_EQ(message_of([] { (void)block_period(0.0); }),
-            "a lowest frequency of 0 Hz gives no period of blocks; give one > 0");
 }
 
 TEST(Draw, RefusesWrongInput) {

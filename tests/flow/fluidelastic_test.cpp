@@ -19,6 +19,12 @@ namespace {
 
 constexpr double digits = 1e-9; // of the reference values, relative
 
+/// Of one tube.
+core::MotionForces motion_forces(const Sampling& sampling, const FluidelasticLaw& law, Eigen::Index modes,
+                                 double largest_factor) {
+  return flow::motion_forces(std::vector<TubeOfLaw>{{sampling, 0}}, law, modes, largest_factor);
+}
+
 Eigen::VectorXcd roots(const Sampling& sampling, const FluidelasticLaw& law, double damping, double factor) {
   const Eigen::VectorXd w = 2.0 * std::numbers::pi * sampling.frequency;
   return core::general_eigenvalues(
