@@ -69,7 +69,7 @@ struct Limit {
 
 /// @param fineness  1 at an accuracy of 0.01, as its square root
 Limit limit_of(const StepTerm& term, double fineness) {
-  return {std::max(term.bound.at(fineness) / term.rate, term.shortest * fineness),
+  return {std::max(term.bound.at(fineness) / term.rate, term.shortest.at(fineness)),
           fmt::format("{} {:.4g} {}{}", term.name, term.rate, term.unit, term.condition), term.cure};
 }
 

@@ -55,7 +55,7 @@ StepTerm normal_damper_term(const StepChoice& c) {
           .unit = "1/s",
           .bound = limits.normal_damper.times(limits.intervals),
           .spoiled = limits.by_normal_damper,
-          .shortest = finest_for_normal_dampers / c.contact_frequency};
+          .shortest = {finest_for_normal_dampers / c.contact_frequency, unbounded}};
 }
 
 std::array<StepTerm, 2> contact_terms(const StepChoice& c) {
@@ -65,7 +65,7 @@ std::array<StepTerm, 2> contact_terms(const StepChoice& c) {
 std::array<StepTerm, 2> contact_terms_beside_modes(const StepChoice& c) {
   std::array<StepTerm, 2> out = contact_terms_within(c, contact_beside_modes, ", with fast modes");
   for (StepTerm& term : out)
-    term.shortest = fast_mode / c.highest_mode;
+    term.shortest = {fast_mode / c.highest_mode, fast_mode / c.highest_mode};
   return out;
 }
 

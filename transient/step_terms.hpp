@@ -18,7 +18,7 @@ struct StepTerm {
   const char* condition = "";      ///< of the bound
   const char* cure = "";           ///< what makes the step longer, after "resolved for an accuracy of 0.01"
   const char* spoiled = "results"; ///< what cannot be trusted above the bound
-  double shortest = 0.0;           ///< s, at an accuracy of 0.01: step that the term asks for at least
+  StepBound shortest{0.0, 0.0};    ///< s: step that the term asks for at least
 };
 
 /// Relative, of what follows from times that are given in decimal numbers.

@@ -305,6 +305,20 @@ TEST(StepRule, FollowsModesNotFarAboveTheContacts) {
                   "the contact frequency 200 rad/s, with fast modes");
 }
 
+/// No automatic step is one that is warned about where it is given, whatever the accuracy.
+TEST(StepRule, TakesNoStepBesideFastModesThatIsWarnedAbout) {
+  for (const double times : {0.75, 0.9, 1.0, 1.5, 1.9}) {
+    const Scene scene =
+        scene_with({Circle{0.1}, {8e4}, {}}, 1000.0, Vec3(0, mass * std::pow(times * 200.0, 2), 0));
+    for (const double accuracy : {0.001, 0.01, 0.02, 0.5}) {
+      SCOPED_TRACE(testing::Message() << times << " w_c, accuracy " << accuracy);
+      StepOptions options = splitting();
+      options.accuracy = accuracy;
+      EXPECT_TRUE(choose_step(scene, splitting(choose_step(scene, options).step)).warnings.empty());
+    }
+  }
+}
+
 TEST(StepRule, TakesSplittingWhereContactsLimitTheStep) {
   const StepChoice choice = choose_step(scene_with({Circle{0.1}, {8e4}, {}}), {});
   EXPECT_EQ(choice.scheme, SchemeKind::splitting);
