@@ -17,8 +17,8 @@ constexpr double golden = 0.6180339887498949;
 /// Of the accuracy: an error that takes finer intervals (of order 2 it is half of the accuracy), and by how many standard errors it is to stand out. Six figures are looked at after each
 /// replay, so that chance alone makes 2 standard errors sooner or later; 3 take 10 replays at least.
 constexpr double tolerated = 0.75, significance = 3.0;
-/// Of the accuracy: the energy gained that takes finer intervals, over what has been dissipated; over what has been moved, what is round-off.
-constexpr double tolerated_gain = 0.25, round_off = 1e-9;
+/// Of the accuracy: the energy gained that takes finer intervals, over what has been dissipated and is stored.
+constexpr double tolerated_gain = 0.25;
 
 /// Sums over replays, each with its weight.
 struct Evidence {
@@ -164,7 +164,7 @@ private:
   /// times as much as in two. Replays do not see it: it is little of an impact, and much of what the modes dissipate between two.
   [[nodiscard]] bool gains_energy(const Energy& e) const {
     const double dissipated = e.modal_damping + e.contact_damping + e.friction;
-    return -e.residual() > tolerated_gain * options_.accuracy * dissipated + round_off * e.scale;
+    return -e.residual() > tolerated_gain * options_.accuracy * (dissipated + e.stored);
   }
 
   /// All contacts whose intervals a step `concerns` says so of. Returns whether any had finer ones.
