@@ -2,6 +2,7 @@
 #include "transient/step_rule.hpp"
 #include "core/error.hpp"
 #include "transient/modes/mass_scaling.hpp"
+#include "transient/scene/scheme_limits.hpp"
 #include "transient/scheme_scope.hpp"
 #include "transient/splitting/macro_steps.hpp"
 #include "transient/step_terms.hpp"

@@ -12,7 +12,7 @@
 /// that even finest_for_normal_dampers does not resolve is warned about, also with the automatic step (step_warnings.hpp).
 ///
 /// Of splitting the bound of w_c and w_t is contact_beside_modes where a step of that length would have modes above w h = fast_mode, but the step need not be
-/// shorter than the one in which none is above.
+/// shorter than min(f, 1) fast_mode/w_max.
 ///
 /// With contacts splitting follows modes to highest_mode/h; where r_t h or r_n h > fast_damper to mode_with_fast_damper/h. Faster ones are made heavier
 /// (mass_scaling.hpp), or where they may not be, the step is shorter. Without contacts exact flows have mode_without_contacts/w_max.

@@ -18,7 +18,8 @@ struct StepTerm {
   const char* condition = "";      ///< of the bound
   const char* cure = "";           ///< what makes the step longer, after "resolved for an accuracy of 0.01"
   const char* spoiled = "results"; ///< what cannot be trusted above the bound
-  StepBound shortest{0.0, 0.0};    ///< s: step that the term asks for at least
+  StepBound shortest{
+      0.0, 0.0}; ///< s, a time: no step need be shorter for this term (nothing is warned about by it)
 };
 
 /// Relative, of what follows from times that are given in decimal numbers.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/step_warnings.hpp"
+#include "transient/scene/scheme_limits.hpp"
 #include "transient/step_terms.hpp"
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "exact_mode.hpp"
+#include "flow/block_synthesis.hpp"
 #include "flow/cross_spectrum.hpp"
 #include "flow/draws.hpp"
 #include "flow/welch.hpp"
@@ -170,7 +171,8 @@ TEST(Draw, HasTheCrossSpectrumOfItsZones) {
 
 TEST(Draw, HasTheSpectrumThatItStates) {
   // mean spectrum of the faded blocks without approximation: sum of the lines' powers times |W(f - f_n)|^2/H, W of the fades
-  constexpr double period = 1.0, fade = period / 8.0, hop = period - fade;
+  constexpr double period = 1.0, fade = period / fades_per_block, hop = period - fade;
+  static_assert(fades_per_block == 8, "the shares of lines below are those of such fades");
   const auto window = [&](double f) { // transform of w: even about the middle of the block
     constexpr int points = 4000;
     double sum = 0.0;

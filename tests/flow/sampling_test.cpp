@@ -78,6 +78,8 @@ TEST(FlowSampling, HasTheFlowAndTheShapesAtItsAbscissae) {
   const Sampling sampling =
       sample(hand.tube(), Profile({liquid_zone("a", 0.5, 1.0, 740, 1.5)}, 1.0), hand.basis);
   constexpr double interpolated = 1e-7; // (pi/40)^4/384
+  ASSERT_LT(sampling.stations.front().tube.s, 0.5);
+  ASSERT_GT(sampling.stations.back().tube.s, 0.5);
   for (const Station& station : sampling.stations) {
     EXPECT_EQ(station.flow.velocity, station.tube.s > 0.5 ? 1.5 : 0.0) << station.tube.s;
     EXPECT_NEAR(station.shapes(0, 0), std::sin(station.tube.s * pi), interpolated) << station.tube.s;

@@ -2,7 +2,9 @@
 // Scenes that the automatic step of splitting was not made on, at an accuracy of 0.01, against converged values of independent integrators.
 #include "contact/support_shapes.hpp"
 #include "scenes.hpp"
+#include <cmath>
 #include <gtest/gtest.h>
+#include <numbers>
 
 namespace accuracy_cases_test {
 

@@ -78,7 +78,7 @@ public:
     if (replaying_ && record.time - half > from_ - tolerance) {
       add(of_run_, record);
       if (const double end = record.time + half; end > from_ + options_.length - tolerance)
-        replay(end - tolerance, record.energy);
+        replay(end - tolerance);
     } else if (!replaying_ && record.time > next_) {
       std::fill(of_run_.begin(), of_run_.end(), Figures{});
       from_ = finer_->continue_from(*running_);
@@ -116,7 +116,7 @@ public:
 
 private:
   /// The replay of what has run since `from_`, up to `end`.
-  void replay(double end, const Energy& energy) {
+  void replay(double end) {
     std::fill(of_replay_.begin(), of_replay_.end(), Figures{});
     for (double now = from_; now < end;) {
       const Record& record = finer_->advance();
@@ -139,7 +139,7 @@ private:
     recent_sum_.add(run, replayed, 1.0);
     if (!refined && is_coarse(recent_sum_))
       refined = refine_all([](int) { return true; });
-    if (gains_energy(energy))
+    if (gains_energy(running_->energy()))
       refined = refine_all([](int parts) { return parts == 1; }) || refined;
     if (refined)
       recent_sum_ = {};
@@ -163,8 +163,9 @@ private:
   /// Energy that nothing brings: beside modes of little damping contacts gain it in each impact where they move in one interval a step, 10 to 30
   /// times as much as in two. Replays do not see it: it is little of an impact, and much of what the modes dissipate between two.
   [[nodiscard]] bool gains_energy(const Energy& e) const {
-    const double dissipated = e.modal_damping + e.contact_damping + e.friction;
-    return -e.residual() > tolerated_gain * options_.accuracy * (dissipated + e.stored);
+    const double dissipated = e.modal_damping + e.contact_damping + e.friction + std::max(0.0, -e.fluid_work);
+    const double gain = -e.residual();
+    return gain > 0.0 && gain > tolerated_gain * options_.accuracy * (dissipated + e.stored);
   }
 
   /// All contacts whose intervals a step `concerns` says so of. Returns whether any had finer ones.

@@ -109,14 +109,19 @@ public:
   void complete(const RecordParts& parts) override {
     if (!modes_.has_blocks())
       return;
-    const Step &now = steps_[published_], &end = steps_[made_];
     if (parts.energies)
-      record_.energy = now.blocks.whole(now.energy, modes_, end.from);
+      record_.energy = energy();
     if (!parts.modes)
       return;
+    const Step& now = steps_[published_];
     modes_.modes_in_middle(now.steps, now.from, now.load, load_at_end(published_),
                            now.pushed ? &now.force : nullptr, now.q, output_q_.data());
     record_.q = output_q_.data();
+  }
+
+  Energy energy() override {
+    const Step& now = steps_[published_];
+    return modes_.has_blocks() ? now.blocks.whole(now.energy, modes_, steps_[made_].from) : now.energy;
   }
 
   void state_at(double time, double* q, double* v) override {

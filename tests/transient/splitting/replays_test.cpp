@@ -5,6 +5,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
+#include <utility>
 
 namespace replays_test {
 
@@ -230,8 +231,8 @@ namespace {
 /// Its one contact has the same forces in all steps.
 class Unchanging final : public Replayable {
 public:
-  Unchanging(double step, const ContactState& state, int* parts)
-      : step_(step), state_(state), parts_(parts) {}
+  Unchanging(double step, const ContactState& state, int* parts, const Energy& energy = {})
+      : step_(step), state_(state), parts_(parts), energy_(energy) {}
   const Record& advance() override {
     time_ += step_;
     record_.time = time_ - 0.5 * step_;
@@ -244,6 +245,7 @@ public:
   double continue_from(const Replayable& running) override {
     return time_ = dynamic_cast<const Unchanging&>(running).time_;
   }
+  Energy energy() override { return energy_; }
   void divide(int, int parts) override { *parts_ = parts; }
   [[nodiscard]] double next_time() const override { return time_ + step_; }
   void state_at(double, double*, double*) override {}
@@ -255,12 +257,13 @@ private:
   double step_, time_ = 0.0;
   ContactState state_;
   int* parts_;
+  Energy energy_;
   const int number_ = 0;
   Record record_;
 };
 
 /// Intervals a step of a run whose steps, by their size, are off by these shares of what the replays have.
-int refined_to(double of_square, double of_impulse) {
+int refined_to(double of_square, double of_impulse, const Energy& energy = {}) {
   int parts = 1;
   ContactState replayed;
   replayed.normal_force = replayed.normal_square = replayed.closed = 1.0;
@@ -268,7 +271,7 @@ int refined_to(double of_square, double of_impulse) {
   run.normal_square += of_square;
   run.normal_force += of_impulse;
   const auto scheme =
-      make_replayed(std::make_unique<Unchanging>(2.0 * step, run, &parts),
+      make_replayed(std::make_unique<Unchanging>(2.0 * step, run, &parts, energy),
                     std::make_unique<Unchanging>(step, replayed, &parts),
                     {.accuracy = 0.01, .length = 20.0 * step, .contacts = 1, .parts = 1, .most_parts = 8});
   for (int i = 0; i < 20'000; ++i)
@@ -285,6 +288,21 @@ TEST(Replays, RefineByTheErrorsOfStatistics) {
   EXPECT_EQ(refined_to(0.0, 0.0039), 8);
   EXPECT_EQ(refined_to(0.0072, 0.0), 1);
   EXPECT_EQ(refined_to(-0.0078, 0.0), 8);
+}
+
+// To two intervals a step, by a quarter of the accuracy of what is dissipated, by a fluid too, and stored.
+TEST(Replays, RefineByTheEnergyGained) {
+  const auto with_gain = [](double gain, Energy e) { // J
+    e.load_work = e.stored + e.modal_damping + e.contact_damping + e.friction - e.fluid_work - gain;
+    return refined_to(0.0, 0.0, e);
+  };
+  EXPECT_EQ(with_gain(0.2, {.modal_damping = 40.0, .contact_damping = 20.0, .friction = 40.0}), 1);
+  EXPECT_EQ(with_gain(0.3, {.modal_damping = 40.0, .contact_damping = 20.0, .friction = 40.0}), 2);
+  EXPECT_EQ(with_gain(-10.0, {.modal_damping = 100.0}), 1);
+  EXPECT_EQ(with_gain(0.2, {.stored = 100.0}), 1);
+  EXPECT_EQ(with_gain(0.3, {.stored = 100.0}), 2);
+  EXPECT_EQ(with_gain(0.2, {.fluid_work = -100.0}), 1); // a fluid that damps
+  EXPECT_EQ(with_gain(0.2, {.fluid_work = 100.0}), 2);
 }
 
 TEST(Replays, GoOnAfterARestartBitForBit) {
