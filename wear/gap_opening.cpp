@@ -29,10 +29,10 @@ struct Wearing {
     return depths(place.support.pairing, tube_volume, support_volume);
   }
   [[nodiscard]] double tube_volume(double time) const {
-    return state.tube_volume + tube.at(state.tube_age + time) - tube.at(state.tube_age);
+    return state.tube_volume + tube.at(state.age + time) - tube.at(state.age);
   }
   [[nodiscard]] double support_volume(double time) const {
-    return state.support_volume + support.at(state.support_age + time) - support.at(state.support_age);
+    return state.support_volume + support.at(state.age + time) - support.at(state.age);
   }
   [[nodiscard]] std::optional<PairDepth> depth(double time) const {
     return depth_of(tube_volume(time), support_volume(time));
@@ -139,8 +139,7 @@ std::optional<PlaceState> state_after(const Wearing& at, double time) {
   PlaceState out = at.state;
   out.tube_volume = at.tube_volume(time);
   out.support_volume = at.support_volume(time);
-  out.tube_age += time;
-  out.support_age += time;
+  out.age += time;
   const auto depth = at.depth_of(out.tube_volume, out.support_volume);
   if (!depth)
     return {};

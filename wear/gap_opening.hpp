@@ -35,7 +35,7 @@ struct Place {
 
 struct PlaceState {
   double tube_volume = 0.0, support_volume = 0.0; ///< V_t, V_s, m3, since each was new
-  double tube_age = 0.0, support_age = 0.0;       ///< s
+  double age = 0.0;                               ///< s, of both
   PairDepth depth{0.0, 0.0};                      ///< p_t, p_s, m
   double gap = 0.0;                               ///< m
 };

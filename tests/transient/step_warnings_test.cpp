@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Fixed steps, and what is said of rates that a step does not resolve.
 #include "step_rule_scenes.hpp"
+#include <cmath>
 
 namespace step_warnings_test {
 
@@ -65,6 +66,12 @@ TEST(StepWarnings, SayOnceWhichStepResolvesEverything) {
                            "take a smaller step or leave it out; 0.0025 s would do for all of them"})
     EXPECT_TRUE(mentions(choice.warnings[0], part)) << part << " in " << choice.warnings[0];
   EXPECT_TRUE(given(scene, 0.0025).warnings.empty());
+  // a mode of 160 rad/s that is fast in the step, w_c = 200 rad/s: it is not in one of w h = 1.25, which is longer than that of w_c h = 1.25
+  const Scene near = scene_with({Circle{0.1}, {8e4}, {}}, 1.0, Vec3(0, mass * std::pow(0.8 * 200.0, 2), 0));
+  const StepChoice fast = given(near, 9e-3);
+  ASSERT_EQ(fast.warnings.size(), 1u);
+  EXPECT_TRUE(mentions(fast.warnings[0], "leave it out; 0.00781 s would do")) << fast.warnings[0];
+  EXPECT_TRUE(given(near, 7.81e-3).warnings.empty());
   // modes beside dampers: w h of 2.5 once these are slow in the step
   const Scene damped = scene_with({Circle{0.1}, {2.0}, {2.0, 4e3, 0.3, 0.3}}, 1.0, Vec3(0, 2.0 * 1e6, 0));
   const StepChoice beside = given(damped, 2.2e-3);

@@ -82,7 +82,7 @@ TEST(GapOpening, SumsToTheLawWithoutFeedback) {
     EXPECT_NEAR(state.tube_volume / depth.tube_volume, 1.0, bracketed);
     EXPECT_NEAR(state.support_volume / depth.support_volume, 1.0, bracketed);
     EXPECT_NEAR(state.depth.tube / (0.4 * wall), 1.0, bracketed);
-    EXPECT_NEAR(state.tube_age / time, 1.0, bracketed);
+    EXPECT_NEAR(state.age / time, 1.0, bracketed);
     EXPECT_NEAR(state.gap, clearance + depth.depth->total(), bracketed * wall);
   }
 }
