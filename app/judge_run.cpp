@@ -59,8 +59,7 @@ void judge(const study::Study& study, const transient::StepChoice& choice, const
                         fmt::format("{}: no figure of this run can be trusted; {}", balance, cure));
   // loads that push to and fro put in far more than what the motion loses
   const transient::Energy& e = report.energy;
-  const double excess = -e.residual(),
-               dissipated = e.modal_damping + e.contact_damping + e.friction + std::max(0.0, -e.fluid_work);
+  const double excess = -e.residual(), dissipated = e.dissipated();
   if (report.residual_relative > least_excess && report.residual_relative <= residual_warning &&
       dissipated > least_excess * e.scale && excess > excess_warning * dissipated)
     out.warnings.push_back(fmt::format(

@@ -77,6 +77,10 @@ struct Energy {
   double friction = 0.0;        ///< Coulomb sliders
   double scale = 0.0;           ///< initial + integral of |load power|: what the residual is measured against
   void start(double energy) { initial = scale = stored = energy; }
+  /// By modes, contacts and a fluid that damps.
+  [[nodiscard]] double dissipated() const {
+    return modal_damping + contact_damping + friction + std::max(0.0, -fluid_work);
+  }
   [[nodiscard]] double residual() const {
     return initial + load_work + fluid_work - stored - modal_damping - contact_damping - friction;
   }

@@ -163,9 +163,8 @@ private:
   /// Energy that nothing brings: beside modes of little damping contacts gain it in each impact where they move in one interval a step, 10 to 30
   /// times as much as in two. Replays do not see it: it is little of an impact, and much of what the modes dissipate between two.
   [[nodiscard]] bool gains_energy(const Energy& e) const {
-    const double dissipated = e.modal_damping + e.contact_damping + e.friction + std::max(0.0, -e.fluid_work);
     const double gain = -e.residual();
-    return gain > 0.0 && gain > tolerated_gain * options_.accuracy * (dissipated + e.stored);
+    return gain > 0.0 && gain > tolerated_gain * options_.accuracy * (e.dissipated() + e.stored);
   }
 
   /// All contacts whose intervals a step `concerns` says so of. Returns whether any had finer ones.
