@@ -222,31 +222,41 @@ private:
   std::size_t size_;
 };
 
-/// The samples of the signals made last: a run and its replays load the same structure, and cases of a sweep share the loads that they do not vary.
-/// The synthesis takes a hundred times as long as a copy.
+using SharedSamples = std::shared_ptr<const std::vector<double>>;
+
+/// The samples of the signals that are in use, and of those made last: a run and its replays share those of their loads, and so do cases of a sweep
+/// that do not vary them. The synthesis takes a hundred times as long as a copy.
 class RecentSamples {
 public:
-  [[nodiscard]] std::vector<double> get(const Random& random, const RandomBlocks& blocks, std::size_t count) {
-    for (const Entry& entry : entries_)
-      if (entry.random == random && entry.samples.size() == 2 * count)
-        return entry.samples;
-    std::vector<double> samples = blocks.samples(count);
-    if (samples.size() > most) // a long run: its steps take longer by far
-      return samples;
-    for (kept_ += samples.size(); kept_ > most; entries_.pop_front())
-      kept_ -= entries_.front().samples.size();
-    entries_.push_back({random, samples});
+  [[nodiscard]] SharedSamples get(const Random& random, const RandomBlocks& blocks, std::size_t count) {
+    std::erase_if(used_, [](const Entry& entry) { return entry.samples.expired(); });
+    for (const Entry& entry : used_)
+      if (SharedSamples samples = entry.samples.lock();
+          samples && entry.random == random && samples->size() == 2 * count)
+        return samples;
+    auto samples = std::make_shared<const std::vector<double>>(blocks.samples(count));
+    used_.push_back({random, samples});
+    keep(samples);
     return samples;
   }
 
 private:
-  static constexpr std::size_t most = std::size_t{1} << 19; ///< numbers: 4 MB
+  static constexpr std::size_t most = std::size_t{1} << 19; ///< numbers that are kept unused: 4 MB
   struct Entry {
     Random random;
-    std::vector<double> samples;
+    std::weak_ptr<const std::vector<double>> samples;
   };
-  std::deque<Entry> entries_;
-  std::size_t kept_ = 0;
+  void keep(const SharedSamples& samples) {
+    if (samples->size() > most) // a long run: its steps take longer by far
+      return;
+    for (size_ += samples->size(); size_ > most; last_.pop_front())
+      size_ -= last_.front()->size();
+    last_.push_back(samples);
+  }
+
+  std::vector<Entry> used_;
+  std::deque<SharedSamples> last_;
+  std::size_t size_ = 0; ///< numbers in `last_`
 };
 
 /// The same function as one of all kinds.
@@ -290,7 +300,8 @@ Signal::Signal(const TimeFunction& function, double duration) : function_(functi
     throw core::Error(too_many_samples(*random, blocks, duration, needed));
   const auto intervals = static_cast<std::ptrdiff_t>(needed) - 1;
   thread_local RecentSamples recent;
-  samples_ = recent.get(*random, blocks, static_cast<std::size_t>(needed));
+  shared_ = recent.get(*random, blocks, static_cast<std::size_t>(needed));
+  samples_ = *shared_;
   grid_ = {1.0 / blocks.per_step(), blocks.per_step(), intervals};
 }
 

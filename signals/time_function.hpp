@@ -146,7 +146,8 @@ private:
   TimeFunction function_;
   std::shared_ptr<const MotionSignal> motion_; ///< of an integral: what moves with that velocity
   SampleGrid grid_;
-  std::vector<double> samples_;
+  std::shared_ptr<const std::vector<double>> shared_; ///< by signals of the same function
+  std::span<const double> samples_;                   ///< these
 };
 
 } // namespace fretwork::signals

@@ -145,6 +145,16 @@ TEST(RandomSignal, IsFixedByItsSeed) {
   EXPECT_NE(a, sampled(Signal(other, 1.0), 1.0, 100));
 }
 
+TEST(RandomSignal, SharesItsSamplesWithThoseInUseOfTheSameFunction) {
+  constexpr double duration = 300.0; // of more samples than are kept when no signal uses them
+  const Random function{1.0, 0.0, 100.0, 7};
+  const Signal run(function, duration), other(Random{1.0, 0.0, 100.0, 8}, duration),
+      replay(function, duration), longer(function, 2.0 * duration);
+  EXPECT_EQ(run.samples().data(), replay.samples().data());
+  EXPECT_NE(run.samples().data(), other.samples().data());
+  EXPECT_NE(run.samples().data(), longer.samples().data());
+}
+
 TEST(RandomSignal, BeginsAlikeWhateverTheDurationOfItsRun) {
   for (const Random& function : {Random{2.0, 5.0, 60.0, 3}, Random{1.0, 0.0, 200.0, 1},
                                  Random{1.0, 10.0, 10.5, 9}, Random{1.0, 5.0, 60.0, 4, true}}) {
