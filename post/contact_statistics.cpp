@@ -15,6 +15,7 @@ enum Kept : std::size_t {
   impacts,
   slid,
   friction,
+  normal1,
   normal2,
   y1,
   y2,
@@ -174,6 +175,7 @@ void ContactStatistics::write_sums(double* row) const {
     row[impacts] = static_cast<double>(s.impacts);
     row[slid] = s.slid;
     row[friction] = s.friction;
+    row[normal1] = s.impulse;
     row[normal2] = s.normal2;
     row[y1] = motion_.y[c];
     row[y2] = motion_.y2[c];
@@ -223,6 +225,7 @@ StandardErrors ContactStatistics::errors_of(const BatchSums& batches, std::size_
   out.impact_rate = of_mean(impacts);
   out.contact_time_ratio = of_mean(contact_time);
   out.normal_max = maxima_.error(contact);
+  out.normal_mean = of_mean(normal1);
   out.normal_rms = of_deviation(normal2, normal2, 0.0, o.normal_rms); // about 0
   out.y_std = of_deviation(y1, y2, motion_.y[contact] / time_, o.y.std);
   out.z_std = of_deviation(z1, z2, motion_.z[contact] / time_, o.z.std);

@@ -28,7 +28,7 @@ struct StandardErrors {
   double batches = 0.0;           ///< the smallest effective number behind one of them (batch_means.hpp)
   double work_rate_batches = 0.0; ///< that behind the error of the work rate
   double contact_time_ratio = 0.0;
-  double normal_max = 0.0; ///< N
+  double normal_max = 0.0, normal_mean = 0.0; ///< N
 };
 
 /// Work rate at one side of the tube, or on one land.

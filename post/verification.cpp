@@ -45,6 +45,7 @@ std::vector<ComparedFigure> compare(const ContactSummary& run, const ContactSumm
       figure("impacts_per_second", run.impact_rate, a.impact_rate, half.impact_rate, b.impact_rate),
       figure("contact_time_ratio", run.contact_time_ratio, a.contact_time_ratio, half.contact_time_ratio,
              b.contact_time_ratio),
+      figure("normal_force.mean", run.normal_mean, a.normal_mean, half.normal_mean, b.normal_mean),
       figure("normal_force.rms", run.normal_rms, a.normal_rms, half.normal_rms, b.normal_rms),
       compared("normal_force.max", run.normal_max, a.normal_max, half.normal_max, b.normal_max,
                {criterion.accuracy, factor_of_largest(criterion.factor)}),

@@ -26,7 +26,7 @@ struct ComparedFigure {
   [[nodiscard]] double difference() const { return value - at_half; }
 };
 
-constexpr std::size_t compared_of_a_contact = 8; ///< figures, as below
+constexpr std::size_t compared_of_a_contact = 9; ///< figures, as below
 constexpr double factor_of_sums = 2.0;
 
 /// k for so many figures, at least 1.
@@ -42,8 +42,8 @@ struct Criterion {
   double factor = factor_of_sums;
 };
 
-/// work_rate, friction_power, impacts_per_second, contact_time_ratio, normal_force.rms, normal_force.max, displacement.y.std and
-/// displacement.z.std of a contact.
+/// work_rate, friction_power, impacts_per_second, contact_time_ratio, normal_force.mean, normal_force.rms, normal_force.max, displacement.y.std
+/// and displacement.z.std of a contact.
 [[nodiscard]] std::vector<ComparedFigure> compare(const ContactSummary& run, const ContactSummary& half,
                                                   const Criterion& criterion);
 

@@ -78,7 +78,8 @@ Json standard_error(const post::StandardErrors& e) {
           {"friction_power", number(e.friction_power)},
           {"impacts_per_second", number(e.impact_rate)},
           {"contact_time_ratio", number(e.contact_time_ratio)},
-          {"normal_force", {{"rms", number(e.normal_rms)}, {"max", number(e.normal_max)}}},
+          {"normal_force",
+           {{"mean", number(e.normal_mean)}, {"rms", number(e.normal_rms)}, {"max", number(e.normal_max)}}},
           {"displacement", {{"y", {{"std", number(e.y_std)}}}, {"z", {{"std", number(e.z_std)}}}}},
           {"batches", number(e.batches)},
           {"work_rate_batches", number(e.work_rate_batches)}};

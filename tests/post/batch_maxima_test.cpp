@@ -107,7 +107,7 @@ TEST(BatchMaxima, GiveTheScatterOfTheLargestForceOfManyRuns) {
     EXPECT_LT(std::sqrt(stated / scatter), tail.most) << tail.name;
     int differ = 0;
     for (int run = 0; run + 1 < runs; ++run)
-      differ += !compare(all[static_cast<std::size_t>(run)], all[static_cast<std::size_t>(run) + 1], {0.0})[5]
+      differ += !compare(all[static_cast<std::size_t>(run)], all[static_cast<std::size_t>(run) + 1], {0.0})[6]
                      .agrees;
     EXPECT_LT(differ, 0.08 * runs) << tail.name; // 0.0455 asked for
   }

@@ -131,7 +131,7 @@ TEST(Summary, PutsEachStatisticUnderItsName) {
   c.damping_work = 27;
   c.friction_work = 28;
   c.impact_rate = 29;
-  c.error = {30, 31, 32, 33, 34, 35, 36, 41, 42, 43};
+  c.error = {30, 31, 32, 33, 34, 35, 36, 41, 42, 43, 44};
   results.contacts[1].static_flexibility = {37, 38, 39};
   EXPECT_EQ(summary_of(results)["contacts"][1], Json::parse(R"({
     "name": "tsp2", "impacts": 5, "impacts_per_second": 29.0, "contact_time_ratio": 0.5,
@@ -147,7 +147,7 @@ TEST(Summary, PutsEachStatisticUnderItsName) {
     "impulse_Ns": 25.0, "sliding_distance_m": 26.0, "sticking_ratio": 0.125,
     "energy": {"damping_J": 27.0, "friction_J": 28.0},
     "standard_error": {"work_rate": 30.0, "friction_power": 31.0, "impacts_per_second": 33.0,
-                       "contact_time_ratio": 42.0, "normal_force": {"rms": 32.0, "max": 43.0},
+                       "contact_time_ratio": 42.0, "normal_force": {"mean": 44.0, "rms": 32.0, "max": 43.0},
                        "displacement": {"y": {"std": 34.0}, "z": {"std": 35.0}}, "batches": 36.0, "work_rate_batches": 41.0},
     "step_error": null, "static_flexibility": {"exact": 37.0, "basis": 38.0, "missing": 39.0}})"));
   EXPECT_TRUE(summary_of(results)["contacts"][0]["static_flexibility"].is_null()) << "there is none";
