@@ -12,6 +12,7 @@ namespace fretwork::app {
 namespace {
 
 constexpr double largest_section = 3.0, largest_gap = 0.1, largest_mesh = 1000.0; // m
+constexpr double least_stiffness = 5e3;                                           // N/m, of a contact
 constexpr double least_modulus = 1e7;                                             // Pa
 constexpr double least_density = 50.0, largest_density = 3e4;                     // kg/m3
 constexpr double largest_friction = 2.0;
@@ -68,6 +69,14 @@ double largest_size(const study::Study& study) {
   return largest > 0.0 ? largest : std::numeric_limits<double>::infinity();
 }
 
+/// m, of the clearance of a contact: that about a tube is of its size at most, one to a stop may be longer. @param section  the largest size of all
+double most_gap(const study::Contact& contact, double section) {
+  constexpr double of_section =
+      1.1; // up to which a clearance is a mistaken radius or diameter (contact_notes.cpp)
+  const bool about_the_tube = !contact.other && !std::holds_alternative<contact::Stop>(contact.shape);
+  return about_the_tube ? std::min(largest_gap, of_section * section) : largest_gap;
+}
+
 /// Values that are too large for metres, each `key = value`.
 std::vector<std::string> too_long(const study::Study& study, const mesh::LineMesh& mesh) {
   std::vector<std::string> out;
@@ -77,8 +86,9 @@ std::vector<std::string> too_long(const study::Study& study, const mesh::LineMes
       for (const auto& [key, value] : all)
         out.push_back(fmt::format("sections.{}.{} = {:g} m", name, key, value));
   }
+  const double section = largest_size(study);
   for (const study::Contact& contact : study.contacts) {
-    if (const double gap = given_gap(contact.shape); gap > largest_gap)
+    if (const double gap = given_gap(contact.shape); gap > most_gap(contact, section))
       out.push_back(fmt::format("gap = {:g} m of contact \"{}\"", gap, contact.name));
     if (const auto& [y, z] = contact.offset; std::max(std::abs(y), std::abs(z)) > largest_gap)
       out.push_back(fmt::format("offset = [{:g}, {:g}] m of contact \"{}\"", y, z, contact.name));
@@ -92,7 +102,7 @@ std::vector<std::string> too_long(const study::Study& study, const mesh::LineMes
     if (turbulence.correlation_length > largest_correlation)
       out.push_back(fmt::format("turbulence.{}.correlation_length = {:g} m", turbulence.name,
                                 turbulence.correlation_length));
-  const double length = length_of(mesh), section = largest_size(study);
+  const double length = length_of(mesh);
   if (length > std::min(largest_mesh, largest_slenderness * section))
     out.push_back(
         fmt::format("a mesh {:g} m long{} (mesh.scale = 1e-3 turns mm into m)", length,
@@ -154,6 +164,18 @@ std::vector<std::string> odd_liquids(const study::Study& study) {
         look(keys, *std::max_element(single.density.values.begin(), single.density.values.end()),
              single.viscosity);
     }
+  return out;
+}
+
+/// Stiffnesses of contacts in N/mm.
+std::vector<std::string> odd_stiffness(const study::Study& study) {
+  std::vector<std::string> out;
+  if (study.beams.empty())
+    return out;
+  for (const study::Contact& contact : study.contacts)
+    if (const double stiffness = contact.normal_stiffness.value_or(least_stiffness);
+        contact.active && stiffness < least_stiffness)
+      out.push_back(fmt::format("normal_stiffness = {:g} N/m of contact \"{}\"", stiffness, contact.name));
   return out;
 }
 
@@ -272,6 +294,10 @@ std::vector<std::string> unit_slips(const study::Study& study, const mesh::LineM
           .c_str(),
       out);
   ask(odd_materials(study), "units are SI: Pa and kg/m3", out);
+  ask(odd_stiffness(study),
+      "are these N/mm? Stiffnesses are N/m: 1e4 to 1e6 of springs of fuel rods, 1e5 to 1e8 of supports of "
+      "tubes",
+      out);
   ask(odd_friction(study), "is this per cent? Coefficients of friction lie between 0 and 2", out);
   ask(odd_damping(study), "is this per cent? It is the share of critical damping, 0.002 to 0.05 of tubes",
       out);

@@ -53,6 +53,27 @@ TEST(UnitSlips, OfSizesAreOneQuestion) {
     EXPECT_TRUE(says(found[0], part));
 }
 
+// 0.05 mm about a tube of 19 mm.
+TEST(UnitSlips, OfGapsAreAskedAboutFromTheSizeOfTheTubeOn) {
+  const Workshop folder;
+  const auto found = [&](const std::string& keys) {
+    const auto all = asked(folder, tubes(folder, 1) + supports(keys), {});
+    return all.size() == 1 ? all[0] : "";
+  };
+  EXPECT_TRUE(says(found("gap = 0.05\n"), "gap = 0.05 m of contact \"h0\" ... \"h14\" (15): are these mm?"));
+  EXPECT_TRUE(says(found("obstacle = \"plane_y\"\ny_axis = [0, 0, 1]\ngap = 0.05\n"), "gap = 0.05 m"));
+  EXPECT_EQ(found("obstacle = \"stop_y\"\ny_axis = [0, 0, 1]\ngap = 0.05\n"), ""); // far from the tube
+  EXPECT_EQ(found("gap = 5e-4\n"), "");
+}
+
+TEST(UnitSlips, OfStiffnessesOfContactsAreAskedAbout) {
+  const Workshop folder;
+  const std::string study = tubes(folder, 1) + supports("gap = 2.0e-4\n");
+  const auto found = asked(folder, study, {"contacts.h3.normal_stiffness=1000"});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(says(found[0], "normal_stiffness = 1000 N/m of contact \"h3\": are these N/mm?"));
+}
+
 TEST(UnitSlips, OfAccelerationsAreAskedAboutAndCheckSaysTheLargest) {
   const Workshop folder;
   const std::string study =
