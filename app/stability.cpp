@@ -84,8 +84,15 @@ void report(const results::StabilityAssessment& found, bool has_law, results::Ru
   const auto& cases = found.stability.cases;
   const auto worst = std::max_element(cases.begin(), cases.end(),
                                       [](const auto& a, const auto& b) { return a.margin() > b.margin(); });
-  if (worst == cases.end() || worst->critical_mode < 0)
+  if (worst == cases.end() || worst->ratio.size() == 0)
     return;
+  if (worst->critical_mode < 0) {
+    out.notes.push_back(fmt::format(
+        "stability \"{}\" of flow \"{}\": not assessed, because no mode moves in a velocity across the tube; "
+        "Connors' criterion is not one of axial flow",
+        found.name, found.damping.tube));
+    return;
+  }
   const bool unstable = worst->margin() <= 0.0;
   const auto& mode = found.stability.modes[static_cast<std::size_t>(worst->critical_mode)];
   const char* stands_for = has_law ? ", by Connors" : ", which no force of the transient stands for";

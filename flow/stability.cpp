@@ -147,9 +147,9 @@ StabilityCase stability_case(const Sampling& sampling, const std::vector<ModeInF
       out.ratio(i) =
           std::sqrt(sum / (mode.frequency * mode.frequency * mode.decrement * sampling.modal_mass(i)));
       out.critical_velocity(i) = mode.effective_velocity / out.ratio(i);
+      if (out.critical_mode < 0 || out.ratio(i) > out.ratio(out.critical_mode))
+        out.critical_mode = i;
     }
-    if (out.critical_mode < 0 || out.ratio(i) > out.ratio(out.critical_mode))
-      out.critical_mode = i;
   }
   return out;
 }

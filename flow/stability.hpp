@@ -40,7 +40,8 @@ struct StabilityCase {
   std::vector<double> constants; ///< K_z by zones; 0 of a zone without velocity, which needs none
   Eigen::VectorXd ratio; ///< R_i; 0 where the flow does not meet the mode, infinite of a rigid-body mode
   Eigen::VectorXd critical_velocity; ///< m/s, V_c,i; 0 where R_i = 0
-  Eigen::Index critical_mode = -1;   ///< of the largest R_i; -1 without modes
+  Eigen::Index critical_mode =
+      -1; ///< of the largest R_i; -1 where no mode moves in a velocity across the tube
 
   /// 1/R of the critical mode: the factor of all velocities at which the tube becomes unstable; infinite where R = 0.
   [[nodiscard]] double critical_scale() const;

@@ -28,7 +28,7 @@ std::string constants_text(const flow::StabilityCase& one, const StabilityAssess
 std::string case_row(std::size_t number, const flow::StabilityCase& one,
                      const StabilityAssessment& assessment) {
   if (one.critical_mode < 0)
-    return fmt::format("  {:>5}   no mode\n", number + 1);
+    return fmt::format("  {:>5}   not assessed: no mode moves in a velocity across the tube\n", number + 1);
   const double scale = one.critical_scale();
   return fmt::format("  {:>5} {:>9} {:>9.4g} {:>9.4f} {:>9.4f} {:>9.4g}   {}\n", number + 1,
                      one.critical_mode + 1,

@@ -166,6 +166,19 @@ TEST(Stability, WarnsOfATubeThatIsUnstable) {
   EXPECT_EQ(warnings("0.1"), "[]");
 }
 
+TEST(Stability, SaysThatAxialFlowIsNotAssessed) {
+  const Workshop folder;
+  const std::string study = tube(in_two_planes, modes(4) + flow({}, "velocity = [5.0, 0.0, 0.0]\n"));
+  const Outcome outcome = outcome_of(folder, study);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, "1   not assessed: no mode moves in a velocity across the tube"));
+  EXPECT_FALSE(says(outcome.out, "margin           1"));
+  const std::string notes = summary_of(folder, study)["notes"].dump();
+  EXPECT_TRUE(says(notes, "not assessed, because no mode moves in a velocity across the tube; Connors' "
+                          "criterion is not one of axial flow"));
+  EXPECT_FALSE(says(notes, "V/Vc = 0"));
+}
+
 TEST(Stability, ScreensForVortexShedding) {
   const Workshop folder;
   const double f = pi / 2.0 * std::sqrt(bending / mass), coincident = f * outer / velocity;

@@ -63,6 +63,15 @@ class FlowAndWear(ReportCase):
         self.change(lambda summary: summary["stability"].insert(0, {**summary["stability"][0], "name": "safe", "cases": summary["stability"][0]["cases"][:1]}))
         self.assertIn("<span>smallest stability margin by Connors, 1 − V/Vc, of all &lt;bars&gt;</span>", self.report())
 
+    def test_says_that_axial_flow_is_not_assessed(self):
+        made_up(self.folder, 2, 100)
+        case = {"connors_constants": {}, "critical_mode": None, "margin": None, "critical_scale": None, "ratios": [0.0], "critical_velocities_m_s": [None], "sweep": []}
+        modes = [{"frequency_hz": 10, "damping": 0.02, "decrement": 0.12, "effective_velocity_m_s": 0.0}]
+        self.change(lambda summary: summary.update(stability=[{"name": "all", "tube": "T1", "pinned": [], "modes": modes, "cases": [case]}]))
+        text = self.report()
+        self.assertIn("Not assessed by Connors: no mode moves in a velocity across the tube.", text)
+        self.assertNotIn("smallest stability margin", text)
+
     def test_shows_the_stability_diagram_of_a_law(self):
         made_up(self.folder, 2, 100)
         case = {"connors_constants": {}, "critical_mode": 1, "margin": 0.5, "critical_scale": 2.0, "ratios": [0.5, 0.1], "critical_velocities_m_s": [2.0, 9.0],

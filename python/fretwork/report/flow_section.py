@@ -113,6 +113,8 @@ def _assessment(assessment):
     if not assessment["modes"]:
         return title + "<p>No modes.</p>"
     case = _worst(assessment)
+    if case["critical_mode"] is None:
+        return title + "<p>Not assessed by Connors: no mode moves in a velocity across the tube.</p>" + _verdict(case, assessment.get("law")) + _law(assessment.get("law"))
     pinned = ", ".join(map(html.escape, assessment["pinned"])) or "nothing"
     pinned += "".join(f", {word}" for word in ("elastic", "sticking") if assessment.get(word))
     facts = (f'<p class="soft">Pinned at: {pinned}. Constants K of the case shown, the worst of {len(assessment["cases"])}: {_constants(case)}. '
