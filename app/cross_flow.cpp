@@ -58,6 +58,7 @@ std::vector<std::string> cross_flow_in_legs(const study::Study& study, const fem
                                             const std::vector<PlacedFlow>& flows,
                                             const std::vector<PlacedContact>& contacts) {
   constexpr double least_reach = 0.005; // of the tube, as zones and tables may differ
+  constexpr double least_share = 0.1;   // of a bend: a zone of a leg ends about where the bend begins
   std::vector<std::string> out;
   for (const PlacedFlow& placed : flows) {
     const flow::Tube tube = tube_of(study, placed, model);
@@ -74,7 +75,7 @@ std::vector<std::string> cross_flow_in_legs(const study::Study& study, const fem
       };
       for (std::size_t b = 0; b < bends.size(); ++b) {
         const auto [begin, end] = bends[b];
-        if (zone.from >= end || to <= begin)
+        if (std::min(to, end) - std::max(zone.from, begin) <= least_share * (end - begin))
           continue;
         const double before = b > 0 ? bends[b - 1][1] : 0.0,
                      after = b + 1 < bends.size() ? bends[b + 1][0] : placed.length;
