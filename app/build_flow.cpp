@@ -126,11 +126,13 @@ flow::TubeFluid fluid_of(const study::Flow& flow, const flow::Tube& tube, const 
 std::string limit_text(flow::LimitKind kind, double value, double bound) {
   switch (kind) {
   case flow::LimitKind::damping_floor:
-    return fmt::format("damping of {:.3g} % raised to {:.3g} %, the least that is measured in liquid",
-                       100.0 * value, 100.0 * bound);
+    return fmt::format(
+        "damping of the stability set, {:.3g} %, raised to {:.3g} %, the least that is measured in liquid",
+        100.0 * value, 100.0 * bound);
   case flow::LimitKind::damping_ceiling:
-    return fmt::format("damping of {:.3g} % lowered to {:.3g} %, the most that is assumed", 100.0 * value,
-                       100.0 * bound);
+    return fmt::format(
+        "damping of the stability set, {:.3g} %, lowered to {:.3g} %, the most that is assumed",
+        100.0 * value, 100.0 * bound);
   case flow::LimitKind::stokes_number:
     return fmt::format("viscous damping is correlated for pi f D^2/(2 nu) above {:g}, here {:.3g}", bound,
                        value);

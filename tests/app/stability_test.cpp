@@ -166,6 +166,13 @@ TEST(Stability, WarnsOfATubeThatIsUnstable) {
   EXPECT_EQ(warnings("0.1"), "[]");
 }
 
+// The damping of the transient has no least value.
+TEST(Stability, NotesLimitsAsThoseOfItsOwnSet) {
+  const Workshop folder;
+  EXPECT_TRUE(says(summary_of(folder, tube(in_one_plane, modes(2) + flow()))["notes"].dump(),
+                   "damping of the stability set, "));
+}
+
 TEST(Stability, SaysThatAxialFlowIsNotAssessed) {
   const Workshop folder;
   const std::string study = tube(in_two_planes, modes(4) + flow({}, "velocity = [5.0, 0.0, 0.0]\n"));
