@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/names.hpp"
 #include "study/readers.hpp"
 #include <algorithm>
 
@@ -45,6 +46,8 @@ std::vector<Restraint> read_restraints(const TableReader& root) {
     Restraint restraint{table.text("group", "the name of a physical point or curve of the mesh"), 0};
     const Value& fixed = table.required("fixed", expected);
     if (fixed.string()) {
+      if (core::nearest_name(*fixed.string(), {"all"}).empty()) // a component without brackets
+        fail(fixed, table.path("fixed"), expected + " is expected");
       (void)to_choice(fixed, table.path("fixed"), {"all"});
       restraint.fixed = all_dofs;
     } else {
