@@ -58,5 +58,14 @@ TEST(GroupLines, RefusePointsMissingAndEmptyCurves) {
   EXPECT_TRUE(says(message("void"), "the group \"void\" is empty"));
 }
 
+TEST(GroupLines, OfAMeshWithoutNamedCurvesSayHowToNameThem) {
+  LineMesh mesh = three_lines();
+  mesh.curves.clear();
+  EXPECT_TRUE(
+      says(message_of([&] { static_cast<void>(group_lines(mesh, "tube", "[[beams]] entry 1")); }),
+           "[[beams]] entry 1: the mesh has no curve \"tube\", and no other named one; in gmsh, put its "
+           "lines into Physical Curve(\"tube\")"));
+}
+
 } // namespace
 } // namespace fretwork::mesh::test::line_mesh_test
