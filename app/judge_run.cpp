@@ -11,12 +11,11 @@ namespace {
 
 /// Above this residual of the energy the results are not to be trusted, whatever they look like.
 constexpr double residual_warning = 0.05;
-/// What sound runs are balanced to: the accuracy that the automatic step aims at.
+/// What sound runs are balanced to, of the energy put in and of that dissipated and stored: the accuracy that the automatic step aims at. The 840 runs of
+/// 60 random scenes (bench_accuracy, seed 90210) are so to 0.7 %.
 constexpr double residual_of_sound = 0.01;
-
-/// Excess of the energies over what was put in, relative to the energy dissipated, above which a run is warned about; and of the energy scale, what
-/// counts.
-constexpr double excess_warning = 0.1, least_excess = 1e-3;
+/// Of the energy put in, what counts.
+constexpr double least_residual = 1e-3;
 
 /// Dampers of contacts that give back this share of the energy put in are no round-off.
 constexpr double given_by_dampers = 0.01;
@@ -36,6 +35,33 @@ std::string cure_of_divergence(const study::Study& study, const transient::Repor
                                : "take a smaller step than this automatic one";
 }
 
+/// Of energy that is gained or lost without a cause: contacts then move otherwise than the laws say.
+void judge_balance(const transient::StepChoice& choice, const transient::Report& report,
+                   std::vector<std::string>& warnings) {
+  const char* cure = choice.scheme == transient::SchemeKind::runge_kutta_54
+                         ? "set a smaller transient.tolerance"
+                         : "take a smaller step";
+  const std::string balance = fmt::format("the energy balance is off by {:.2g} % of the energy put in",
+                                          100.0 * report.residual_relative);
+  if (report.residual_relative > residual_warning) { // what makes all figures wrong comes first
+    warnings.insert(warnings.begin(),
+                    fmt::format("{}: no figure of this run can be trusted; {}", balance, cure));
+    return;
+  }
+  // loads that push to and fro put in far more than what the motion loses
+  const transient::Energy& e = report.energy;
+  const double lost = e.residual(), kept = e.dissipated() + e.stored;
+  const std::string sound =
+      fmt::format("a sound run is balanced to {:g} %; {}", 100.0 * residual_of_sound, cure);
+  if (report.residual_relative > least_residual && kept > least_residual * e.scale &&
+      std::abs(lost) > residual_of_sound * kept)
+    warnings.push_back(fmt::format(
+        "of the energy dissipated and stored {:.2g} % {}; {}", 100.0 * std::abs(lost) / kept,
+        lost > 0.0 ? "is missing, which nothing took" : "is in excess, which nothing supplied", sound));
+  else if (report.residual_relative > residual_of_sound)
+    warnings.push_back(fmt::format("{}; {}", balance, sound));
+}
+
 void judge(const study::Study& study, const transient::StepChoice& choice, const transient::Report& report,
            results::RunResults& out) {
   for (const std::string& warning : choice.warnings)
@@ -49,26 +75,7 @@ void judge(const study::Study& study, const transient::StepChoice& choice, const
     throw core::ComputationError(fmt::format("the transient stopped at t = {:.6g} s (scheme {}): {}",
                                              report.end_time, transient::name_of(choice.scheme),
                                              transient::name_of(report.failure)));
-  const std::string balance = fmt::format("the energy balance is off by {:.2g} % of the energy put in",
-                                          100.0 * report.residual_relative);
-  const char* cure = choice.scheme == transient::SchemeKind::runge_kutta_54
-                         ? "set a smaller transient.tolerance"
-                         : "take a smaller step";
-  if (report.residual_relative > residual_warning) // what makes all figures wrong comes first
-    out.warnings.insert(out.warnings.begin(),
-                        fmt::format("{}: no figure of this run can be trusted; {}", balance, cure));
-  // loads that push to and fro put in far more than what the motion loses
-  const transient::Energy& e = report.energy;
-  const double excess = -e.residual(), dissipated = e.dissipated();
-  if (report.residual_relative > least_excess && report.residual_relative <= residual_warning &&
-      dissipated > least_excess * e.scale && excess > excess_warning * dissipated)
-    out.warnings.push_back(fmt::format(
-        "the energy balance has an excess of {:.2g} % of the energy dissipated, which nothing supplied; "
-        "take a smaller step",
-        100.0 * excess / dissipated));
-  else if (report.residual_relative > residual_of_sound && report.residual_relative <= residual_warning)
-    out.warnings.push_back(
-        fmt::format("{}; a sound run is balanced to {:g} %; {}", balance, 100.0 * residual_of_sound, cure));
+  judge_balance(choice, report, out.warnings);
   if (report.counts.unconverged > report.counts.steps / 1000)
     out.warnings.insert(out.warnings.begin(), unconverged_warning(report.counts));
 }

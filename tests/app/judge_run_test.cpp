@@ -31,17 +31,27 @@ std::vector<std::string> warnings(double lost, double residual_relative, double 
 
 TEST(JudgeRun, WarnsOfEnergyThatNothingPutIn) {
   EXPECT_THAT(warnings(1.0, 1e-9), IsEmpty());
-  EXPECT_THAT(warnings(1.05, 4e-3), IsEmpty());
-  EXPECT_THAT(warnings(2.5, 4e-3), ElementsAre(HasSubstr("an excess of 60 % of the energy dissipated")));
-  EXPECT_THAT(warnings(2.5, 4e-4), IsEmpty());      // next to what goes to and fro
-  EXPECT_THAT(warnings(0.0, 4e-3, 1.1), IsEmpty()); // without losses
+  EXPECT_THAT(warnings(1.009, 4e-3), IsEmpty());
+  EXPECT_THAT(warnings(2.5, 4e-3),
+              ElementsAre("of the energy dissipated and stored 60 % is in excess, which nothing supplied; a "
+                          "sound run is balanced to 1 %; take a smaller step"));
+  EXPECT_THAT(warnings(2.5, 4e-4), IsEmpty()); // next to what goes to and fro
+  EXPECT_THAT(warnings(0.0, 4e-3, 1.25), ElementsAre(HasSubstr("stored 20 % is in excess")));
+  EXPECT_THAT(warnings(0.1, 4e-3), IsEmpty()); // of what goes to and fro nothing is left to judge by
   EXPECT_THAT(warnings(1.0, 0.0099), IsEmpty());
   EXPECT_THAT(
       warnings(1.0, 0.012),
       ElementsAre("the energy balance is off by 1.2 % of the energy put in; a sound run is balanced to "
                   "1 %; take a smaller step"));
-  EXPECT_THAT(warnings(2.5, 0.02), ElementsAre(HasSubstr("an excess of 60 % of the energy dissipated")));
+  EXPECT_THAT(warnings(2.5, 0.02), ElementsAre(HasSubstr("stored 60 % is in excess")));
   EXPECT_THAT(warnings(2.5, 0.2), ElementsAre(HasSubstr("off by 20 % of the energy put in")));
+}
+
+TEST(JudgeRun, WarnsOfEnergyThatNothingTook) {
+  EXPECT_THAT(warnings(0.5, 4e-3, 0.495), IsEmpty());
+  EXPECT_THAT(warnings(0.5, 4e-3, 0.48),
+              ElementsAre("of the energy dissipated and stored 2 % is missing, which nothing took; a sound "
+                          "run is balanced to 1 %; take a smaller step"));
 }
 
 TEST(JudgeRun, WarnsOfDampersThatGiveEnergy) {
