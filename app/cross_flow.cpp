@@ -8,13 +8,13 @@
 namespace fretwork::app {
 namespace {
 
-/// Abscissae of the ends of bends, in the order of s: elements that are arcs, or chords at an angle.
+/// Abscissae of the ends of bends, in the order of s: elements that are arcs, or chords at an angle, from the first corner to the last.
 std::vector<std::array<double, 2>> bends_of(const flow::Tube& tube) {
   constexpr double turn = 1e-3;   // rad, of the tangent
   constexpr double inside = 1e-6; // of an element, from its ends
   std::vector<std::array<double, 2>> out;
-  const auto bent = [&](double from, double to) {
-    if (!out.empty() && from <= out.back()[1])
+  const auto bent = [&](double from, double to, double joined) {
+    if (!out.empty() && joined <= out.back()[1])
       out.back()[1] = to;
     else
       out.push_back({from, to});
@@ -26,9 +26,9 @@ std::vector<std::array<double, 2>> bends_of(const flow::Tube& tube) {
     const core::Vec3 first = tube.at(elements[e].from + margin).tangent,
                      second = tube.at(elements[e].to - margin).tangent;
     if (e > 0 && before.cross(first).norm() > turn)
-      bent(elements[e - 1].from, elements[e].to);
-    else if (first.cross(second).norm() > turn)
-      bent(elements[e].from, elements[e].to);
+      bent(elements[e].from, elements[e].from, elements[e - 1].from);
+    if (first.cross(second).norm() > turn)
+      bent(elements[e].from, elements[e].to, elements[e].from);
     before = second;
   }
   return out;
@@ -58,7 +58,6 @@ std::vector<std::string> cross_flow_in_legs(const study::Study& study, const fem
                                             const std::vector<PlacedFlow>& flows,
                                             const std::vector<PlacedContact>& contacts) {
   constexpr double least_reach = 0.005; // of the tube, as zones and tables may differ
-  constexpr double least_share = 0.1;   // of a bend: a zone of a leg ends about where the bend begins
   std::vector<std::string> out;
   for (const PlacedFlow& placed : flows) {
     const flow::Tube tube = tube_of(study, placed, model);
@@ -75,7 +74,8 @@ std::vector<std::string> cross_flow_in_legs(const study::Study& study, const fem
       };
       for (std::size_t b = 0; b < bends.size(); ++b) {
         const auto [begin, end] = bends[b];
-        if (std::min(to, end) - std::max(zone.from, begin) <= least_share * (end - begin))
+        const double reach = least_reach * placed.length;
+        if (zone.from > end - reach || to < begin + reach) // a leg of its own
           continue;
         const double before = b > 0 ? bends[b - 1][1] : 0.0,
                      after = b + 1 < bends.size() ? bends[b + 1][0] : placed.length;
