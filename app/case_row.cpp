@@ -184,10 +184,10 @@ std::string velocity_ratio_of(const results::StabilityAssessment& assessment,
 
 void fill_stability(const std::vector<results::StabilityAssessment>& all, Filling& row) {
   for (const results::StabilityAssessment& one : all) {
-    double largest = 0.0; // without modes that the flow moves
+    double largest = no_number; // not assessed
     for (const flow::StabilityCase& of : one.stability.cases)
-      if (of.critical_mode >= 0)
-        largest = std::max(largest, 1.0 - of.margin());
+      if (of.margin())
+        largest = std::fmax(largest, 1.0 - *of.margin());
     row.set(velocity_ratio_of(one, all), largest);
     row.set_largest("worst.velocity_ratio", largest, no_number);
   }

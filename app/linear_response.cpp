@@ -195,9 +195,11 @@ void warn_of_instability(const TubesInFlow& tubes, const std::string& name,
     } catch (const core::Error&) {
       continue;
     }
-    const auto worst = std::max_element(found.cases.begin(), found.cases.end(),
-                                        [](const auto& a, const auto& b) { return a.margin() > b.margin(); });
-    if (worst == found.cases.end() || worst->critical_mode < 0 || worst->margin() > 0.0)
+    const auto worst =
+        std::max_element(found.cases.begin(), found.cases.end(), [](const auto& a, const auto& b) {
+          return a.margin().value_or(1.0) > b.margin().value_or(1.0);
+        });
+    if (worst == found.cases.end() || !worst->margin() || *worst->margin() > 0.0)
       continue;
     const auto mode = static_cast<std::size_t>(worst->critical_mode);
     warnings.push_back(
@@ -206,7 +208,7 @@ void warn_of_instability(const TubesInFlow& tubes, const std::string& name,
                     "Connors, with the damping of the response, {:.3g} %: the tube moves by more than its "
                     "turbulence makes it, and this "
                     "response is no bound; take a transient with its supports, or more supports in pinned",
-                    name, name_of(tubes.study.flows[placed.entry]), 1.0 - worst->margin(), mode + 1,
+                    name, name_of(tubes.study.flows[placed.entry]), 1.0 - *worst->margin(), mode + 1,
                     found.modes[mode].frequency, flow::short_text(flow::mode_directions(sampling)[mode]),
                     100.0 * found.modes[mode].damping));
   }

@@ -161,7 +161,11 @@ double StabilityCase::critical_scale() const {
   return largest > 0.0 ? 1.0 / largest : std::numeric_limits<double>::infinity();
 }
 
-double StabilityCase::margin() const { return critical_mode < 0 ? 1.0 : 1.0 - ratio(critical_mode); }
+std::optional<double> StabilityCase::margin() const {
+  if (critical_mode < 0)
+    return std::nullopt;
+  return 1.0 - ratio(critical_mode);
+}
 
 Stability stability(const Profile& profile, const Sampling& sampling, const Eigen::VectorXd& damping,
                     const Component& component) {

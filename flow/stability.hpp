@@ -45,8 +45,8 @@ struct StabilityCase {
 
   /// 1/R of the critical mode: the factor of all velocities at which the tube becomes unstable; infinite where R = 0.
   [[nodiscard]] double critical_scale() const;
-  /// 1 - R of the critical mode.
-  [[nodiscard]] double margin() const;
+  /// 1 - R of the critical mode; none where no mode moves in a velocity across the tube: nothing is assessed.
+  [[nodiscard]] std::optional<double> margin() const;
 };
 
 struct Stability {

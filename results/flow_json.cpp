@@ -54,7 +54,7 @@ Json stability_case(const flow::StabilityCase& one, const StabilityAssessment& a
       constants[assessment.damping.zones[z]] = one.constants[z];
   Json out{{"connors_constants", constants},
            {"critical_mode", one.critical_mode < 0 ? Json(nullptr) : Json(one.critical_mode + 1)},
-           {"margin", one.critical_mode < 0 ? Json(nullptr) : number(one.margin())},
+           {"margin", one.margin() ? number(*one.margin()) : Json(nullptr)},
            {"critical_scale", number(one.critical_scale())},
            {"ratios", list(one.ratio)},
            {"critical_velocities_m_s", list(one.critical_velocity)}};

@@ -27,13 +27,13 @@ std::string constants_text(const flow::StabilityCase& one, const StabilityAssess
 
 std::string case_row(std::size_t number, const flow::StabilityCase& one,
                      const StabilityAssessment& assessment) {
-  if (one.critical_mode < 0)
+  if (!one.margin())
     return fmt::format("  {:>5}   not assessed: no mode moves in a velocity across the tube\n", number + 1);
   const double scale = one.critical_scale();
   return fmt::format("  {:>5} {:>9} {:>9.4g} {:>9.4f} {:>9.4f} {:>9.4g}   {}\n", number + 1,
                      one.critical_mode + 1,
                      assessment.stability.modes[static_cast<std::size_t>(one.critical_mode)].frequency,
-                     1.0 - one.margin(), one.margin(), scale, constants_text(one, assessment));
+                     1.0 - *one.margin(), *one.margin(), scale, constants_text(one, assessment));
 }
 
 std::string cases_table(const StabilityAssessment& assessment) {
@@ -105,18 +105,23 @@ std::string assessments_table(const std::vector<StabilityAssessment>& assessment
     if (one.stability.modes.empty())
       continue;
     const flow::StabilityCase& worst = one.stability.cases[worst_case(one.stability)];
-    if (worst.critical_mode < 0)
-      continue;
-    const flow::ModeInFlow& mode = one.stability.modes[static_cast<std::size_t>(worst.critical_mode)];
     const std::string tube = shortened(one.damping.tube, widest_tube);
     const std::string name = shortened(one.name, widest_name - 2 - tube.size()) + ", " + tube;
+    if (!worst.margin()) {
+      rows.emplace_back(
+          std::numeric_limits<double>::infinity(),
+          fmt::format("  {:<{}} not assessed: no velocity across the tube\n", name, widest_name));
+      continue;
+    }
+    const double margin = *worst.margin();
+    const flow::ModeInFlow& mode = one.stability.modes[static_cast<std::size_t>(worst.critical_mode)];
     rows.emplace_back(
         worst.critical_scale(),
         fmt::format("  {:<{}} {:>5} {:>9.4g} {:>{}} {:>10.4f} {:>9.4f} {:>9.4f}{}\n", name, widest_name,
                     worst.critical_mode + 1, mode.frequency,
                     flow::short_text(one.directions[static_cast<std::size_t>(worst.critical_mode)]),
-                    widest_direction, 100.0 * mode.damping, 1.0 - worst.margin(), worst.margin(),
-                    worst.margin() <= 0.0 ? "  UNSTABLE" : ""));
+                    widest_direction, 100.0 * mode.damping, 1.0 - margin, margin,
+                    margin <= 0.0 ? "  UNSTABLE" : ""));
   }
   if (rows.size() < 2)
     return {};
@@ -132,6 +137,8 @@ std::string assessments_table(const std::vector<StabilityAssessment>& assessment
 }
 
 std::string sweep_line(const StabilityAssessment& assessment, std::size_t number) {
+  if (!assessment.stability.cases[number].margin())
+    return {};
   const Eigen::MatrixXd sweep = flow::velocity_sweep(assessment.stability.cases[number], assessment.sweep);
   std::string text = "  velocities times";
   for (Eigen::Index k = 0; k < sweep.rows() && sweep.cols() > 0; ++k)
