@@ -230,10 +230,14 @@ class RecentSamples {
 public:
   [[nodiscard]] SharedSamples get(const Random& random, const RandomBlocks& blocks, std::size_t count) {
     std::erase_if(used_, [](const Entry& entry) { return entry.samples.expired(); });
-    for (const Entry& entry : used_)
-      if (SharedSamples samples = entry.samples.lock();
-          samples && entry.random == random && samples->size() == 2 * count)
+    for (const Entry& entry : used_) {
+      if (!(entry.random == random))
+        continue;
+      if (SharedSamples samples = entry.samples.lock(); samples && samples->size() == 2 * count) {
+        keep(samples);
         return samples;
+      }
+    }
     auto samples = std::make_shared<const std::vector<double>>(blocks.samples(count));
     used_.push_back({random, samples});
     keep(samples);
@@ -249,6 +253,7 @@ private:
   void keep(const SharedSamples& samples) {
     if (samples->size() > most) // a long run: its steps take longer by far
       return;
+    size_ -= samples->size() * std::erase(last_, samples);
     for (size_ += samples->size(); size_ > most; last_.pop_front())
       size_ -= last_.front()->size();
     last_.push_back(samples);

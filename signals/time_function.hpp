@@ -130,7 +130,7 @@ public:
   [[nodiscard]] std::span<const double> samples() const { return samples_; }
   [[nodiscard]] const SampleGrid& grid() const { return grid_; }
   [[nodiscard]] double grid_step() const { return grid_.step; }
-  [[nodiscard]] bool is_random() const { return !samples_.empty(); }
+  [[nodiscard]] bool is_random() const { return shared_ != nullptr; }
   /// Of a random signal, at a place on its grid. No allocation.
   [[nodiscard]] double at(const SampleGrid::Place& place) const {
     const double* p = samples_.data() + 2 * place.interval;
