@@ -55,11 +55,10 @@ std::vector<Index> group_lines(const LineMesh& mesh, const std::string& group, c
     std::vector<std::string> curves;
     for (const auto& [name, lines] : mesh.curves)
       curves.push_back(name);
-    throw core::Error(
-        what + ": the mesh has no curve \"" + group + "\"" +
-        (curves.empty()
-             ? ", and no other named one; in gmsh, put its lines into Physical Curve(\"" + group + "\")"
-             : core::name_help(group, curves, "curves of the mesh")));
+    throw core::Error(what + ": the mesh has no curve \"" + group + "\"" +
+                      (curves.empty()
+                           ? ", for it names no curves; in gmsh: Physical Curve(\"" + group + "\") = {...};"
+                           : core::name_help(group, curves, "curves of the mesh")));
   }
   if (curve->second.empty())
     fail_empty(group, what);
